@@ -1,0 +1,78 @@
+/* Results, errors and the version: what every other header of Aureole uses. */
+#ifndef AUREOLE_CORE_H
+#define AUREOLE_CORE_H
+
+#include <stddef.h>
+#include <stdint.h>
+
+#if defined(__GNUC__)
+#define AUR_API __attribute__((visibility("default")))
+#define AUR_NONNULL(...) __attribute__((nonnull(__VA_ARGS__)))
+#else
+#define AUR_API
+#define AUR_NONNULL(...)
+#endif
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* What a function that can fail returns: 0 is success, negative is failure. The numbers never change. */
+typedef enum aur_result {
+    AUR_OK = 0,
+    AUR_ERROR_INTERNAL = -1,     /* a defect of the library or of one that it uses */
+    AUR_ERROR_MEMORY = -2,       /* an allocation failed */
+    AUR_ERROR_CANCELLED = -3,    /* the progress callback asked to stop */
+    AUR_ERROR_ARGUMENT = -10,    /* an argument is out of its range */
+    AUR_ERROR_CAPACITY = -11,    /* an output buffer is too small */
+    AUR_ERROR_NAME = -12,        /* no such set, plugin, metric or key */
+    AUR_ERROR_UNSUPPORTED = -13, /* the combination is valid but has no meaning or no implementation */
+    AUR_ERROR_FORMAT = -20,      /* a file or text is not what it should be */
+    AUR_ERROR_OPEN = -30,        /* a file cannot be opened or read */
+    AUR_ERROR_WRITE = -31        /* a file cannot be written */
+} aur_result;
+
+/* The result's name in a few words: static storage, never NULL. */
+AUR_API const char *aur_result_string(aur_result result);
+
+enum { AUR_ERROR_FILE_CAPACITY = 1024, AUR_ERROR_MESSAGE_CAPACITY = 1024 };
+
+/* What went wrong, for a person. `file` is empty when no file is concerned; line and column count from 1 and
+ * are 0 when unknown. A caller may pass NULL wherever an aur_error pointer is asked for. */
+typedef struct aur_error {
+    aur_result result;
+    size_t line;
+    size_t column;
+    char file[AUR_ERROR_FILE_CAPACITY];
+    char message[AUR_ERROR_MESSAGE_CAPACITY];
+} aur_error;
+
+/* Writes "FILE:LINE:COLUMN: message" (or as much of it as is known) into text[capacity], always terminated.
+ * Returns the length that the whole text has, as snprintf does. */
+AUR_API size_t aur_error_format(const aur_error *error, char *text, size_t capacity) AUR_NONNULL(1);
+
+/* Called now and then, from any thread but never from two at once, with 0 <= done <= total. A non-zero return
+ * asks the work to stop; it then ends with AUR_ERROR_CANCELLED. */
+typedef int (*aur_progress_function)(void *user, const char *what, uint64_t done, uint64_t total);
+
+typedef struct aur_progress {
+    aur_progress_function function; /* NULL: no reports */
+    void *user;
+} aur_progress;
+
+/* Called for each thing that is worth saying and is not an error; `where` may be empty. */
+typedef void (*aur_warning_function)(void *user, const char *message);
+
+typedef struct aur_warnings {
+    aur_warning_function function; /* NULL: warnings are dropped */
+    void *user;
+} aur_warnings;
+
+/* "major.minor.patch" of the library in use. */
+AUR_API const char *aur_version(void);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

@@ -1,0 +1,86 @@
+/* Point sets on the unit cube [0,1)^d, their scramblings, and files of points.
+ *
+ * A set is named by one text everywhere: NAME[:key=value[,key=value...]], or file:PATH. Points are random
+ * access: point i is computed from i, so any part of a set can be asked for in any order from any thread. */
+#ifndef AUREOLE_POINTSET_H
+#define AUREOLE_POINTSET_H
+
+#include <aureole/core.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* Where points live. The disk is the unit disk; hemisphere and sphere have z up, polar angle theta from +z,
+ * azimuth phi from +x towards +y, and unit radius. AUR_DOMAIN_CUBE is [0,1)^d with d other than 2. */
+typedef enum aur_domain {
+    AUR_DOMAIN_SQUARE,
+    AUR_DOMAIN_CUBE,
+    AUR_DOMAIN_DISK,
+    AUR_DOMAIN_HEMISPHERE,
+    AUR_DOMAIN_SPHERE
+} aur_domain;
+
+/* How a set is randomised. DIGIT: Kollig-Keller, one XOR word a dimension; OWEN: nested uniform scrambling;
+ * SHIFT: Cranley-Patterson, addition modulo 1; ROTATE: a random rotation about z (on the square: a shift of
+ * the azimuth coordinate, which is the second); ROTATE3D: a uniformly random rotation of the sphere. */
+typedef enum aur_scramble {
+    AUR_SCRAMBLE_NONE,
+    AUR_SCRAMBLE_DIGIT,
+    AUR_SCRAMBLE_OWEN,
+    AUR_SCRAMBLE_SHIFT,
+    AUR_SCRAMBLE_ROTATE,
+    AUR_SCRAMBLE_ROTATE3D
+} aur_scramble;
+
+/* "none", "digit", "owen", "shift", "rotate", "rotate3d" to the value and back; NULL for a value out of
+ * range. */
+AUR_API aur_result aur_scramble_from_name(const char *name, aur_scramble *scramble, aur_error *error)
+    AUR_NONNULL(1, 2);
+AUR_API const char *aur_scramble_name(aur_scramble scramble);
+
+/* A set made ready: an immutable table or rule that any number of threads may read. */
+typedef struct aur_pointset aur_pointset;
+
+typedef struct aur_pointset_options {
+    uint64_t count;        /* the size of the set: at least 1 */
+    size_t dimension;      /* 0 stands for 2 */
+    aur_scramble scramble; /* NONE, DIGIT, OWEN, SHIFT or ROTATE */
+    uint64_t seed;         /* of scrambling and of random sets */
+    aur_warnings warnings; /* "n is not a power of two", ... */
+} aur_pointset_options;
+
+/* Makes the set that `set` names ready. Errors: NAME for an unknown set or key, FORMAT, ARGUMENT for a count
+ * or dimension that the set does not have, UNSUPPORTED for a scrambling that has no meaning there, MEMORY. */
+AUR_API aur_result aur_pointset_create(const char *set, const aur_pointset_options *options,
+                                       aur_pointset **pointset, aur_error *error) AUR_NONNULL(1, 2, 3);
+AUR_API void aur_pointset_destroy(aur_pointset *pointset); /* NULL is allowed */
+
+AUR_API size_t aur_pointset_dimension(const aur_pointset *pointset) AUR_NONNULL(1);
+AUR_API uint64_t aur_pointset_size(const aur_pointset *pointset) AUR_NONNULL(1);
+
+/* Points first .. first+count-1, one after another, into points[count * dimension]; `capacity` counts
+ * doubles. Every coordinate is in [0,1). Errors: ARGUMENT for a range beyond the set, CAPACITY. */
+AUR_API aur_result aur_pointset_points(const aur_pointset *pointset, uint64_t first, size_t count,
+                                       size_t capacity, double *points) AUR_NONNULL(1, 5);
+
+/* Points as they stand in a file. */
+typedef struct aur_points {
+    aur_domain domain;
+    size_t count;
+    size_t
+        dimension; /* coordinates a point: d on the cube, 2 on square and disk, 3 on hemisphere and sphere */
+    double *coordinates; /* count * dimension, one point after another */
+    double *weights;     /* count, or NULL */
+} aur_points;
+
+/* Reads CSV (header u,v or x,y,z, and w where there are weights; without a header two columns are u,v and
+ * three are x,y,z) or NPY. Errors name the line. Free with aur_points_release. */
+AUR_API aur_result aur_points_read(const char *path, aur_points *points, aur_error *error) AUR_NONNULL(1, 2);
+AUR_API void aur_points_release(aur_points *points);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

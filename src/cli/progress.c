@@ -1,0 +1,109 @@
+/* The progress bar and warnings. The only state of the program that outlives a function: the terminal has one
+ * bar. */
+#include <inttypes.h>
+#include <math.h>
+#include <signal.h>
+#include <stdio.h>
+#include <string.h>
+#include <time.h>
+#include <unistd.h>
+
+#include "cli/cli.h"
+
+static volatile sig_atomic_t interrupted;
+
+typedef struct progress_bar {
+    bool shown;
+    const char *what;
+    double start, last;
+} progress_bar;
+
+static progress_bar bar;
+
+static double now(void) {
+    struct timespec time;
+    clock_gettime(CLOCK_MONOTONIC, &time);
+    return (double)time.tv_sec + 1e-9 * (double)time.tv_nsec;
+}
+
+static void on_interrupt(int signal_number) {
+    (void)signal_number;
+    interrupted = 1;
+}
+
+void cli_progress_clear(void) {
+    if (!bar.shown)
+        return;
+    fputs("\r\033[K", stderr);
+    fflush(stderr);
+    bar.shown = false;
+}
+
+static void format_seconds(double seconds, char text[72]) {
+    const uint64_t whole = seconds < 0 ? 0 : seconds > 359999 ? 359999 : (uint64_t)llround(seconds);
+    if (whole >= 3600)
+        snprintf(text, 72, "%" PRIu64 ":%02" PRIu64 ":%02" PRIu64, whole / 3600, whole / 60 % 60, whole % 60);
+    else
+        snprintf(text, 72, "%" PRIu64 ":%02" PRIu64, whole / 60, whole % 60);
+}
+
+static void draw(const char *what, double fraction, double elapsed) {
+    enum { WIDTH = 30 };
+    char cells[WIDTH + 1];
+    const int filled = (int)(fraction * WIDTH);
+    for (int i = 0; i < WIDTH; ++i)
+        cells[i] = i < filled ? '#' : '.';
+    cells[WIDTH] = '\0';
+    char spent[72], left[72] = "?";
+    format_seconds(elapsed, spent);
+    if (fraction > 0.01)
+        format_seconds(elapsed * (1 - fraction) / fraction, left);
+    fprintf(stderr, "\r\033[K%s [%s] %3.0f %%  %s, %s left", what, cells, 100 * fraction, spent, left);
+    fflush(stderr);
+    bar.shown = true;
+}
+
+static int report(void *user, const char *what, uint64_t done, uint64_t total) {
+    if (interrupted)
+        return 1;
+    if (user == NULL)
+        return 0;
+    const double time = now();
+    if (what == NULL)
+        what = "working";
+    if (bar.what == NULL || strcmp(bar.what, what) != 0)
+        bar = (progress_bar){.shown = bar.shown, .what = what, .start = time, .last = time};
+    /* The bar's refresh backs off: ten a second at first, one a second after a minute. */
+    const double elapsed = time - bar.start;
+    const double pause = elapsed < 10 ? 0.1 : elapsed < 60 ? 0.3 : 1.0;
+    if (done < total && time - bar.last < pause)
+        return 0;
+    bar.last = time;
+    if (done >= total) {
+        cli_progress_clear();
+        bar.what = NULL;
+    } else {
+        draw(what, (double)done / (double)total, elapsed);
+    }
+    return 0;
+}
+
+aur_progress cli_progress(bool quiet) {
+    struct sigaction action;
+    memset(&action, 0, sizeof action);
+    action.sa_handler = on_interrupt;
+    action.sa_flags = (int)SA_RESETHAND; /* a second interrupt kills */
+    sigaction(SIGINT, &action, NULL);
+    const bool draws = !quiet && isatty(STDERR_FILENO);
+    return (aur_progress){.function = report, .user = draws ? &bar : NULL};
+}
+
+static void warn(void *user, const char *message) {
+    (void)user;
+    cli_progress_clear();
+    fprintf(stderr, "aureole: warning: %s\n", message);
+}
+
+aur_warnings cli_warnings(bool quiet) {
+    return (aur_warnings){.function = quiet ? NULL : warn};
+}

@@ -1,0 +1,28 @@
+/* Filling aur_error: each returns the result that it was given, so that `return aur_fail(...)` reads well. */
+#ifndef AUR_CORE_ERROR_H
+#define AUR_CORE_ERROR_H
+
+#include <aureole/core.h>
+
+/* Where in a file something stands; file may be NULL, line and column 0 when unknown. */
+typedef struct aur_location {
+    const char *file;
+    size_t line;
+    size_t column;
+} aur_location;
+
+aur_result aur_fail(aur_error *error, aur_result result, const char *format, ...)
+    __attribute__((format(printf, 3, 4)));
+
+aur_result aur_fail_at(aur_error *error, aur_location location, aur_result result, const char *format, ...)
+    __attribute__((format(printf, 4, 5)));
+
+/* Sends one formatted warning, if anyone listens; a location is put before it as in aur_error_format. */
+void aur_warn_at(const aur_warnings *warnings, aur_location location, const char *format, ...)
+    __attribute__((format(printf, 3, 4)));
+
+/* The name nearest to `wanted` among `count` names by edit distance, or NULL when none is near enough to
+ * suggest. */
+const char *aur_nearest_name(const char *wanted, size_t count, const char *const *names);
+
+#endif

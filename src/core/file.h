@@ -1,0 +1,31 @@
+/* Files that are replaced whole or not at all, and reading a whole file. */
+#ifndef AUR_CORE_FILE_H
+#define AUR_CORE_FILE_H
+
+#include <stdio.h>
+
+#include "core/error.h"
+
+/* A file that is being written beside its destination. "-" is standard output. */
+typedef struct aur_file_writer {
+    FILE *stream;    /* write here; buffered */
+    char *temporary; /* the path that is written; NULL for standard output */
+    char *path;
+} aur_file_writer;
+
+/* Opens `path` for replacement. On failure nothing is left behind and *writer is zero. */
+aur_result aur_file_open(const char *path, aur_file_writer *writer, aur_error *error);
+
+/* Flushes, syncs and renames. On any failure (a full disk, say) the temporary file is removed, the
+ * destination is as it was, and AUR_ERROR_WRITE is returned with the path and the reason. Ends the writer in
+ * every case. */
+aur_result aur_file_commit(aur_file_writer *writer, aur_error *error);
+
+/* Removes the temporary file. Safe on a zero writer and after a commit. */
+void aur_file_abandon(aur_file_writer *writer);
+
+/* Reads all of `path` ("-": standard input) into *data, allocated with malloc and followed by a zero byte
+ * that is not counted. Refuses files beyond `limit` bytes. */
+aur_result aur_file_read(const char *path, size_t limit, char **data, size_t *size, aur_error *error);
+
+#endif

@@ -1,0 +1,341 @@
+#include "core/parameters.h"
+
+#include <ctype.h>
+#include <errno.h>
+#include <inttypes.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <strings.h>
+
+static aur_result fail_memory(aur_error *error) {
+    return aur_fail(error, AUR_ERROR_MEMORY, "out of memory");
+}
+
+aur_result aur_parameters_init(aur_parameters *parameters, const char *kind, const char *plugin,
+                               aur_location location, aur_error *error) {
+    *parameters = (aur_parameters){.location = location};
+    parameters->kind = strdup(kind);
+    parameters->plugin = strdup(plugin);
+    if (parameters->kind != NULL && parameters->plugin != NULL)
+        return AUR_OK;
+    aur_parameters_release(parameters);
+    return fail_memory(error);
+}
+
+void aur_parameters_release(aur_parameters *parameters) {
+    for (size_t i = 0; i < parameters->count; ++i) {
+        free(parameters->items[i].name);
+        free(parameters->items[i].text);
+    }
+    free(parameters->items);
+    free(parameters->kind);
+    free(parameters->plugin);
+    *parameters = (aur_parameters){0};
+}
+
+static aur_result add(aur_parameters *parameters, aur_parameter item, const char *name, const char *text,
+                      aur_error *error) {
+    for (size_t i = 0; i < parameters->count; ++i) {
+        if (strcmp(parameters->items[i].name, name) != 0)
+            continue;
+        const size_t line = parameters->items[i].location.line;
+        if (line == 0)
+            return aur_fail_at(error, item.location, AUR_ERROR_FORMAT, "%s '%s': '%s' is given twice",
+                               parameters->kind, parameters->plugin, name);
+        return aur_fail_at(error, item.location, AUR_ERROR_FORMAT,
+                           "%s '%s': '%s' is given twice, first in line %zu", parameters->kind,
+                           parameters->plugin, name, line);
+    }
+    if (parameters->count == parameters->capacity) {
+        const size_t capacity = parameters->capacity == 0 ? 8 : parameters->capacity * 2;
+        aur_parameter *const larger = realloc(parameters->items, capacity * sizeof *larger);
+        if (larger == NULL)
+            return fail_memory(error);
+        parameters->items = larger;
+        parameters->capacity = capacity;
+    }
+    item.name = strdup(name);
+    item.text = text != NULL ? strdup(text) : NULL;
+    if (item.name == NULL || (text != NULL && item.text == NULL)) {
+        free(item.name);
+        free(item.text);
+        return fail_memory(error);
+    }
+    parameters->items[parameters->count++] = item;
+    return AUR_OK;
+}
+
+aur_result aur_parameters_add_text(aur_parameters *parameters, aur_parameter_kind kind, const char *name,
+                                   const char *text, aur_location location, aur_error *error) {
+    return add(parameters, (aur_parameter){.kind = kind, .location = location}, name, text, error);
+}
+
+aur_result aur_parameters_add_transform(aur_parameters *parameters, const char *name,
+                                        const double transform[16], aur_location location, aur_error *error) {
+    aur_parameter item = {.kind = AUR_PARAMETER_TRANSFORM, .location = location};
+    memcpy(item.transform, transform, sizeof item.transform);
+    return add(parameters, item, name, NULL, error);
+}
+
+aur_result aur_parameters_add_object(aur_parameters *parameters, const char *name, const char *object_kind,
+                                     const void *object, aur_location location, aur_error *error) {
+    const aur_parameter item = {
+        .kind = AUR_PARAMETER_OBJECT, .location = location, .object = object, .object_kind = object_kind};
+    return add(parameters, item, name, NULL, error);
+}
+
+aur_result aur_parameters_copy(const aur_parameters *parameters, aur_parameters *copy, aur_error *error) {
+    aur_result result =
+        aur_parameters_init(copy, parameters->kind, parameters->plugin, parameters->location, error);
+    for (size_t i = 0; i < parameters->count && result == AUR_OK; ++i) {
+        aur_parameter item = parameters->items[i];
+        item.used = false;
+        result = add(copy, item, item.name, item.text, error);
+    }
+    if (result != AUR_OK)
+        aur_parameters_release(copy);
+    return result;
+}
+
+aur_result aur_parameters_parse(aur_parameters *parameters, const char *kind, const char *text,
+                                aur_error *error) {
+    *parameters = (aur_parameters){0};
+    char *const copy = strdup(text);
+    if (copy == NULL)
+        return fail_memory(error);
+    char *rest = strchr(copy, ':');
+    if (rest != NULL)
+        *rest++ = '\0';
+    aur_result result = aur_parameters_init(parameters, kind, copy, (aur_location){0}, error);
+    while (result == AUR_OK && rest != NULL) {
+        char *const next = strchr(rest, ',');
+        if (next != NULL)
+            *next = '\0';
+        char *const value = strchr(rest, '=');
+        if (value == NULL || value == rest) {
+            result = aur_fail(error, AUR_ERROR_FORMAT, "%s '%s': '%s' is not of the form key=value", kind,
+                              copy, rest);
+            break;
+        }
+        *value = '\0';
+        result = aur_parameters_add_text(parameters, AUR_PARAMETER_TEXT, rest, value + 1, (aur_location){0},
+                                         error);
+        rest = next != NULL ? next + 1 : NULL;
+    }
+    free(copy);
+    if (result != AUR_OK)
+        aur_parameters_release(parameters);
+    return result;
+}
+
+const aur_parameter *aur_parameters_find(aur_parameters *parameters, const char *name) {
+    if (parameters->known_count < AUR_PARAMETERS_KNOWN_CAPACITY)
+        parameters->known[parameters->known_count++] = name;
+    for (size_t i = 0; i < parameters->count; ++i) {
+        if (strcmp(parameters->items[i].name, name) == 0) {
+            parameters->items[i].used = true;
+            return &parameters->items[i];
+        }
+    }
+    return NULL;
+}
+
+bool aur_parse_double(const char *text, double *value) {
+    char *end;
+    const double parsed = strtod(text, &end);
+    if (end == text || isnan(parsed))
+        return false;
+    while (isspace((unsigned char)*end))
+        ++end;
+    if (*end != '\0')
+        return false;
+    *value = parsed;
+    return true;
+}
+
+size_t aur_parse_doubles(const char *text, double *values, size_t capacity) {
+    size_t count = 0;
+    for (;;) {
+        while (isspace((unsigned char)*text) || *text == ',')
+            ++text;
+        if (*text == '\0')
+            return count;
+        char *end;
+        const double parsed = strtod(text, &end);
+        if (end == text || isnan(parsed) || (*end != '\0' && *end != ',' && !isspace((unsigned char)*end)))
+            return SIZE_MAX;
+        if (count < capacity)
+            values[count] = parsed;
+        ++count;
+        text = end;
+    }
+}
+
+static aur_result fail_value(aur_error *error, const aur_parameters *parameters, const aur_parameter *item,
+                             const char *expected) {
+    return aur_fail_at(error, item->location, AUR_ERROR_FORMAT, "%s '%s': '%s' must be %s, not '%s'",
+                       parameters->kind, parameters->plugin, item->name, expected,
+                       item->text != NULL                      ? item->text
+                       : item->kind == AUR_PARAMETER_TRANSFORM ? "a transform"
+                       : item->object_kind != NULL             ? item->object_kind
+                                                               : "an object");
+}
+
+static aur_result fail_range(aur_error *error, const aur_parameters *parameters, const aur_parameter *item,
+                             double minimum, double maximum) {
+    char expected[128];
+    if (isinf(maximum))
+        snprintf(expected, sizeof expected, "at least %g", minimum);
+    else if (isinf(minimum))
+        snprintf(expected, sizeof expected, "at most %g", maximum);
+    else
+        snprintf(expected, sizeof expected, "between %g and %g", minimum, maximum);
+    return fail_value(error, parameters, item, expected);
+}
+
+/* Whether a value of this kind may be read as `wanted`: text may be anything, an integer may be a float. */
+static bool kind_fits(const aur_parameter *item, aur_parameter_kind wanted) {
+    return item->kind == wanted || item->kind == AUR_PARAMETER_TEXT ||
+           (wanted == AUR_PARAMETER_FLOAT && item->kind == AUR_PARAMETER_INTEGER);
+}
+
+aur_result aur_parameters_float(aur_parameters *parameters, const char *name, double minimum, double maximum,
+                                double *value, aur_error *error) {
+    const aur_parameter *const item = aur_parameters_find(parameters, name);
+    if (item == NULL)
+        return AUR_OK;
+    double parsed;
+    if (!kind_fits(item, AUR_PARAMETER_FLOAT) || !aur_parse_double(item->text, &parsed))
+        return fail_value(error, parameters, item, "a number");
+    if (parsed < minimum || parsed > maximum)
+        return fail_range(error, parameters, item, minimum, maximum);
+    *value = parsed;
+    return AUR_OK;
+}
+
+aur_result aur_parameters_integer(aur_parameters *parameters, const char *name, int64_t minimum,
+                                  int64_t maximum, int64_t *value, aur_error *error) {
+    const aur_parameter *const item = aur_parameters_find(parameters, name);
+    if (item == NULL)
+        return AUR_OK;
+    if (!kind_fits(item, AUR_PARAMETER_INTEGER))
+        return fail_value(error, parameters, item, "an integer");
+    char *end;
+    errno = 0;
+    const long long parsed = strtoll(item->text, &end, 10);
+    const bool overflow = errno == ERANGE;
+    while (isspace((unsigned char)*end))
+        ++end;
+    if (end == item->text || *end != '\0')
+        return fail_value(error, parameters, item, "an integer");
+    if (overflow || parsed < minimum || parsed > maximum) {
+        char expected[96];
+        if (maximum == INT64_MAX)
+            snprintf(expected, sizeof expected, "at least %" PRId64, minimum);
+        else
+            snprintf(expected, sizeof expected, "between %" PRId64 " and %" PRId64, minimum, maximum);
+        return fail_value(error, parameters, item, expected);
+    }
+    *value = parsed;
+    return AUR_OK;
+}
+
+aur_result aur_parameters_boolean(aur_parameters *parameters, const char *name, bool *value,
+                                  aur_error *error) {
+    const aur_parameter *const item = aur_parameters_find(parameters, name);
+    if (item == NULL)
+        return AUR_OK;
+    if (kind_fits(item, AUR_PARAMETER_BOOLEAN) && strcasecmp(item->text, "true") == 0)
+        *value = true;
+    else if (kind_fits(item, AUR_PARAMETER_BOOLEAN) && strcasecmp(item->text, "false") == 0)
+        *value = false;
+    else
+        return fail_value(error, parameters, item, "true or false");
+    return AUR_OK;
+}
+
+aur_result aur_parameters_string(aur_parameters *parameters, const char *name, const char **value,
+                                 aur_error *error) {
+    const aur_parameter *const item = aur_parameters_find(parameters, name);
+    if (item == NULL)
+        return AUR_OK;
+    if (!kind_fits(item, AUR_PARAMETER_STRING))
+        return fail_value(error, parameters, item, "a string");
+    *value = item->text;
+    return AUR_OK;
+}
+
+aur_result aur_parameters_choice(aur_parameters *parameters, const char *name, size_t count,
+                                 const char *const *choices, size_t *value, aur_error *error) {
+    const aur_parameter *const item = aur_parameters_find(parameters, name);
+    if (item == NULL)
+        return AUR_OK;
+    char expected[256] = "one of";
+    for (size_t i = 0; i < count; ++i) {
+        if (kind_fits(item, AUR_PARAMETER_STRING) && strcmp(item->text, choices[i]) == 0) {
+            *value = i;
+            return AUR_OK;
+        }
+        const size_t used = strlen(expected);
+        snprintf(expected + used, sizeof expected - used, "%s %s", i > 0 ? "," : "", choices[i]);
+    }
+    return fail_value(error, parameters, item, expected);
+}
+
+aur_result aur_parameters_triple(aur_parameters *parameters, const char *name, double minimum, double maximum,
+                                 double value[3], aur_error *error) {
+    const aur_parameter *const item = aur_parameters_find(parameters, name);
+    if (item == NULL)
+        return AUR_OK;
+    double parsed[3];
+    const bool fits = kind_fits(item, AUR_PARAMETER_VECTOR) || kind_fits(item, AUR_PARAMETER_COLOR) ||
+                      kind_fits(item, AUR_PARAMETER_FLOAT);
+    const size_t count = fits ? aur_parse_doubles(item->text, parsed, 3) : 0;
+    if (count == 1)
+        parsed[2] = parsed[1] = parsed[0];
+    else if (count != 3)
+        return fail_value(error, parameters, item, "one or three numbers");
+    for (size_t i = 0; i < 3; ++i)
+        if (parsed[i] < minimum || parsed[i] > maximum)
+            return fail_range(error, parameters, item, minimum, maximum);
+    memcpy(value, parsed, sizeof parsed);
+    return AUR_OK;
+}
+
+aur_result aur_parameters_transform(aur_parameters *parameters, const char *name, double value[16],
+                                    aur_error *error) {
+    const aur_parameter *const item = aur_parameters_find(parameters, name);
+    if (item == NULL)
+        return AUR_OK;
+    if (item->kind != AUR_PARAMETER_TRANSFORM)
+        return fail_value(error, parameters, item, "a transform");
+    memcpy(value, item->transform, sizeof item->transform);
+    return AUR_OK;
+}
+
+aur_result aur_parameters_finish(const aur_parameters *parameters, aur_error *error) {
+    for (size_t i = 0; i < parameters->count; ++i) {
+        const aur_parameter *const item = &parameters->items[i];
+        if (item->used)
+            continue;
+        const char *const nearest = aur_nearest_name(item->name, parameters->known_count, parameters->known);
+        if (nearest != NULL)
+            return aur_fail_at(error, item->location, AUR_ERROR_NAME,
+                               "%s '%s' has no '%s'; did you mean '%s'?", parameters->kind,
+                               parameters->plugin, item->name, nearest);
+        char known[512] = "";
+        for (size_t k = 0; k < parameters->known_count; ++k) {
+            const size_t used = strlen(known);
+            snprintf(known + used, sizeof known - used, "%s%s", k > 0 ? ", " : "", parameters->known[k]);
+        }
+        if (known[0] == '\0')
+            return aur_fail_at(error, item->location, AUR_ERROR_NAME,
+                               "%s '%s' has no '%s': it takes no parameters", parameters->kind,
+                               parameters->plugin, item->name);
+        return aur_fail_at(error, item->location, AUR_ERROR_NAME, "%s '%s' has no '%s'; it has: %s",
+                           parameters->kind, parameters->plugin, item->name, known);
+    }
+    return AUR_OK;
+}

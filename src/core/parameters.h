@@ -1,0 +1,100 @@
+/* Named, typed values with the place they came from: what a plugin of a scene, an `--integrator
+ * NAME:key=value` and a SET are built from. A getter parses, checks the range, marks the value as used and
+ * remembers that the name is known; aur_parameters_finish then refuses what nobody asked for, with the
+ * nearest known name. */
+#ifndef AUR_CORE_PARAMETERS_H
+#define AUR_CORE_PARAMETERS_H
+
+#include <stdbool.h>
+
+#include "core/error.h"
+
+typedef enum aur_parameter_kind {
+    AUR_PARAMETER_TEXT, /* from key=value: the getter decides what it is */
+    AUR_PARAMETER_BOOLEAN,
+    AUR_PARAMETER_INTEGER,
+    AUR_PARAMETER_FLOAT,
+    AUR_PARAMETER_STRING,
+    AUR_PARAMETER_VECTOR,
+    AUR_PARAMETER_COLOR,
+    AUR_PARAMETER_TRANSFORM,
+    AUR_PARAMETER_OBJECT
+} aur_parameter_kind;
+
+typedef struct aur_parameter {
+    char *name;
+    aur_parameter_kind kind;
+    bool used;
+    aur_location location;
+    char *text;              /* every kind but the last two */
+    double transform[16];    /* row major, world = M * local */
+    const void *object;      /* not owned */
+    const char *object_kind; /* static storage: "texture", "bsdf", ... */
+} aur_parameter;
+
+enum { AUR_PARAMETERS_KNOWN_CAPACITY = 64 };
+
+typedef struct aur_parameters {
+    char *kind;   /* "bsdf", "integrator", "set", ...: for messages */
+    char *plugin; /* "diffuse", "path", "sobol", ... */
+    aur_location location;
+    size_t count, capacity;
+    aur_parameter *items;
+    size_t known_count;
+    const char *known[AUR_PARAMETERS_KNOWN_CAPACITY]; /* names that were asked for; string literals */
+} aur_parameters;
+
+/* `location.file` must outlive the parameters; the other strings are copied. */
+aur_result aur_parameters_init(aur_parameters *parameters, const char *kind, const char *plugin,
+                               aur_location location, aur_error *error);
+void aur_parameters_release(aur_parameters *parameters);
+/* A copy in which nothing is used yet. */
+aur_result aur_parameters_copy(const aur_parameters *parameters, aur_parameters *copy, aur_error *error);
+
+/* Parses "NAME[:key=value[,key=value...]]" into initialised parameters. */
+aur_result aur_parameters_parse(aur_parameters *parameters, const char *kind, const char *text,
+                                aur_error *error);
+
+/* A second value of one name is an error that names both places. */
+aur_result aur_parameters_add_text(aur_parameters *parameters, aur_parameter_kind kind, const char *name,
+                                   const char *text, aur_location location, aur_error *error);
+aur_result aur_parameters_add_transform(aur_parameters *parameters, const char *name,
+                                        const double transform[16], aur_location location, aur_error *error);
+aur_result aur_parameters_add_object(aur_parameters *parameters, const char *name, const char *object_kind,
+                                     const void *object, aur_location location, aur_error *error);
+
+/* The value of a name if it is there, marked as used; else NULL. `name` must be a string literal. */
+const aur_parameter *aur_parameters_find(aur_parameters *parameters, const char *name);
+
+/* Getters: *value keeps what it holds (the default) when the name is absent. Names and choices are string
+ * literals. Infinite ends of a range are allowed; NaN never is, an infinite value only where the range
+ * includes it. */
+aur_result aur_parameters_float(aur_parameters *parameters, const char *name, double minimum, double maximum,
+                                double *value, aur_error *error);
+aur_result aur_parameters_integer(aur_parameters *parameters, const char *name, int64_t minimum,
+                                  int64_t maximum, int64_t *value, aur_error *error);
+aur_result aur_parameters_boolean(aur_parameters *parameters, const char *name, bool *value,
+                                  aur_error *error);
+/* *value stays owned by the parameters. */
+aur_result aur_parameters_string(aur_parameters *parameters, const char *name, const char **value,
+                                 aur_error *error);
+/* One of `count` names; *value is its index. */
+aur_result aur_parameters_choice(aur_parameters *parameters, const char *name, size_t count,
+                                 const char *const *choices, size_t *value, aur_error *error);
+/* Three numbers, split by spaces or commas; a single number stands for three equal ones. */
+aur_result aur_parameters_triple(aur_parameters *parameters, const char *name, double minimum, double maximum,
+                                 double value[3], aur_error *error);
+aur_result aur_parameters_transform(aur_parameters *parameters, const char *name, double value[16],
+                                    aur_error *error);
+
+/* An error for the first value that no getter asked for. */
+aur_result aur_parameters_finish(const aur_parameters *parameters, aur_error *error);
+
+/* Parses one number that fills all of `text` but for spaces around it; `e-008` and `inf` are numbers, NaN is
+ * not. */
+bool aur_parse_double(const char *text, double *value);
+/* Parses up to `capacity` numbers split by spaces or commas; returns how many there are, or SIZE_MAX when a
+ * piece is not a number. */
+size_t aur_parse_doubles(const char *text, double *values, size_t capacity);
+
+#endif

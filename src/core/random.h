@@ -1,0 +1,42 @@
+/* Counter-based random numbers: every number is a hash of what it is for, so nothing is consumed in an order.
+ *
+ * The mixer is the 64-bit finalizer of SplitMix (Steele, Lea, Flood 2014, with Stafford's "Mix13" constants).
+ */
+#ifndef AUR_CORE_RANDOM_H
+#define AUR_CORE_RANDOM_H
+
+#include <stdint.h>
+
+static inline uint64_t aur_mix64(uint64_t x) {
+    x ^= x >> 30;
+    x *= UINT64_C(0xbf58476d1ce4e5b9);
+    x ^= x >> 27;
+    x *= UINT64_C(0x94d049bb133111eb);
+    x ^= x >> 31;
+    return x;
+}
+
+/* A hash of a pair. Chain it for more: aur_hash2(aur_hash2(a, b), c). The order matters. */
+static inline uint64_t aur_hash2(uint64_t a, uint64_t b) {
+    return aur_mix64(aur_mix64(a + UINT64_C(0x9e3779b97f4a7c15)) ^ (b * UINT64_C(0xd6e8feb86659fd93)));
+}
+
+static inline uint64_t aur_hash3(uint64_t a, uint64_t b, uint64_t c) {
+    return aur_hash2(aur_hash2(a, b), c);
+}
+
+static inline uint64_t aur_hash4(uint64_t a, uint64_t b, uint64_t c, uint64_t d) {
+    return aur_hash2(aur_hash3(a, b, c), d);
+}
+
+/* The top 53 bits as a double in [0,1). */
+static inline double aur_unit_double(uint64_t hash) {
+    return (double)(hash >> 11) * 0x1p-53;
+}
+
+/* 24 bits as a float in [0,1). */
+static inline float aur_unit_float(uint32_t bits) {
+    return (float)(bits >> 8) * 0x1p-24f;
+}
+
+#endif

@@ -1,0 +1,80 @@
+/* Materials: how a surface scatters light. One BSDF a file (bsdf_*.c), with one line in the table of bsdf.c.
+ *
+ * Directions are unit vectors in the local shading frame, z along the shading normal on the side that the
+ * shape's normal points to. `view` points to where light goes (the eye), `light` to where it comes from. */
+#ifndef AUR_MATERIAL_BSDF_H
+#define AUR_MATERIAL_BSDF_H
+
+#include <stdbool.h>
+
+#include "core/parameters.h"
+#include "core/vector.h"
+
+typedef struct aur_bsdf aur_bsdf;
+
+/* Where on a surface a BSDF is asked. */
+typedef struct aur_bsdf_point {
+    float u, v; /* texture coordinates */
+} aur_bsdf_point;
+
+typedef struct aur_bsdf_sample {
+    aur_vector light;
+    aur_vector weight; /* BSDF * |cos| / pdf, RGB */
+    float pdf;         /* a steradian; of no meaning when specular */
+    bool specular;     /* a Dirac direction: evaluate and pdf are 0 there */
+} aur_bsdf_sample;
+
+typedef enum aur_lobe_shape {
+    AUR_LOBE_SHAPE_COSINE_POWER, /* coefficient * max(0, axis . light)^exponent [* light.z] */
+    AUR_LOBE_SHAPE_SPECULAR      /* coefficient of a Dirac direction `axis` */
+} aur_lobe_shape;
+
+/* One part of BSDF * cos, as final gathering wants it: sum of the lobes = aur_bsdf_evaluate where light.z >
+ * 0. */
+typedef struct aur_bsdf_lobe {
+    aur_lobe_shape shape;
+    bool diffuse;      /* about the normal: gathered by the diffuse rule */
+    bool times_cosine; /* the factor light.z stands beside the power */
+    float exponent;
+    aur_vector axis; /* unit, local */
+    aur_vector coefficient;
+} aur_bsdf_lobe;
+
+enum { AUR_BSDF_LOBE_CAPACITY = 4 };
+
+typedef struct aur_bsdf_descriptor {
+    const char *name;
+    const char *summary;
+    const char *source;
+    /* Reads its parameters (aur_parameters_finish is called by aur_bsdf_create) and sets bsdf->data. */
+    aur_result (*create)(aur_parameters *parameters, aur_bsdf *bsdf, aur_error *error);
+    void (*release)(aur_bsdf *bsdf); /* frees bsdf->data */
+    /* BSDF * |light.z|, RGB; 0 where nothing scatters. */
+    aur_vector (*evaluate)(const aur_bsdf *bsdf, aur_bsdf_point point, aur_vector view, aur_vector light);
+    /* The density with which `sample` draws `light`, a steradian. */
+    float (*pdf)(const aur_bsdf *bsdf, aur_bsdf_point point, aur_vector view, aur_vector light);
+    /* u[0] chooses among lobes, u[1], u[2] a direction; false when the sample is absorbed. */
+    bool (*sample)(const aur_bsdf *bsdf, aur_bsdf_point point, aur_vector view, const float u[3],
+                   aur_bsdf_sample *sample);
+    /* Fills lobes[AUR_BSDF_LOBE_CAPACITY] and returns how many. */
+    size_t (*lobes)(const aur_bsdf *bsdf, aur_bsdf_point point, aur_vector view, aur_bsdf_lobe *lobes);
+    /* The part of the diffuse reflectance that a photon's irradiance is multiplied by: radiance = E * albedo
+     * / pi. `side` is the local z of the direction that it is seen from. */
+    aur_vector (*diffuse_albedo)(const aur_bsdf *bsdf, aur_bsdf_point point, float side);
+} aur_bsdf_descriptor;
+
+struct aur_bsdf {
+    const aur_bsdf_descriptor *descriptor;
+    void *data;
+    bool scatters_from_behind; /* twosided or transmissive: view.z < 0 is not black */
+};
+
+/* The table; NULL beyond it. */
+const aur_bsdf_descriptor *aur_bsdf_descriptor_at(size_t index);
+
+/* Builds the material that parameters->plugin names; errors name the file and line. Nested BSDFs are
+ * parameters of kind AUR_PARAMETER_OBJECT with object_kind "bsdf", and outlive the one that uses them. */
+aur_result aur_bsdf_create(aur_parameters *parameters, aur_bsdf **bsdf, aur_error *error);
+void aur_bsdf_destroy(aur_bsdf *bsdf);
+
+#endif

@@ -1,0 +1,2 @@
+/* Placeholder translation unit until the room is filled. */
+#include <aureole/pointset.h>

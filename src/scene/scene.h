@@ -1,0 +1,111 @@
+/* What transport sees of a scene: rays and what they hit, lights, the camera, and the film's settings. */
+#ifndef AUR_SCENE_SCENE_H
+#define AUR_SCENE_SCENE_H
+
+#include <aureole/scene.h>
+
+#include "material/bsdf.h"
+
+/* `direction` is of unit length. Hits are accepted for nearest < distance < farthest. */
+typedef struct aur_ray {
+    aur_vector origin;
+    float nearest;
+    aur_vector direction;
+    float farthest;
+} aur_ray;
+
+typedef struct aur_hit {
+    float distance;
+    float u, v; /* barycentric: (1-u-v) a + u b + v c */
+    uint32_t shape;
+    uint32_t primitive; /* triangle of the shape */
+} aur_hit;
+
+/* A point on a surface with all that shading needs. */
+typedef struct aur_surface {
+    aur_vector position;
+    aur_vector geometric_normal; /* unit, on the side the shape's winding and flip_normals give */
+    aur_frame frame;             /* frame.z is the shading normal, on the side of geometric_normal */
+    aur_bsdf_point texture;      /* texture coordinates */
+    const aur_bsdf *bsdf;        /* never NULL */
+    uint32_t shape, primitive;
+    uint32_t emitter; /* index of the light that the shape is, or AUR_NO_EMITTER */
+} aur_surface;
+
+#define AUR_NO_EMITTER UINT32_MAX
+
+/* The nearest hit; false when there is none. */
+bool aur_scene_intersect(const aur_scene *scene, const aur_ray *ray, aur_hit *hit);
+/* Whether anything lies between. */
+bool aur_scene_occluded(const aur_scene *scene, const aur_ray *ray);
+
+/* The surface at a hit. */
+void aur_scene_surface(const aur_scene *scene, const aur_ray *ray, const aur_hit *hit, aur_surface *surface);
+
+/* A ray that leaves the surface without meeting it again; farthest is infinite. */
+aur_ray aur_surface_ray(const aur_surface *surface, aur_vector direction);
+/* A ray from the surface that stops just short of the point `target`; *distance is the whole way. */
+aur_ray aur_surface_ray_to(const aur_surface *surface, aur_vector target, float *distance);
+
+/* --- lights
+ * ---------------------------------------------------------------------------------------------------- */
+
+typedef struct aur_light_sample {
+    aur_vector position;  /* on the light */
+    aur_vector normal;    /* of the light there */
+    aur_vector direction; /* unit, from the reference point to the light */
+    float distance;
+    aur_vector radiance; /* RGB, towards the reference point, before visibility; 0 behind the light */
+    float pdf;           /* a steradian at the reference point, the choice of the light included */
+} aur_light_sample;
+
+/* Draws a point on a light seen from `reference`: u[0] chooses the light in proportion to its power, u[1],
+ * u[2] the point. False when the scene has no light or the point cannot be seen from there (pdf 0). */
+bool aur_light_sample_direct(const aur_scene *scene, aur_vector reference, const float u[3],
+                             aur_light_sample *sample);
+/* The pdf with which aur_light_sample_direct would draw the point `surface` of a light, from `reference`. */
+float aur_light_pdf_direct(const aur_scene *scene, aur_vector reference, const aur_surface *surface);
+/* Radiance that `surface` emits towards the unit direction `view` (world); 0 when it is no light or seen from
+ * behind. */
+aur_vector aur_surface_emission(const aur_scene *scene, const aur_surface *surface, aur_vector view);
+
+/* A particle that leaves a light: u[0] chooses the light by power, u[1], u[2] the point, u[3], u[4] a cosine
+ * distributed direction. *power is RGB watts that one of `n` particles would carry times n. False: no light.
+ */
+bool aur_light_emit(const aur_scene *scene, const float u[5], aur_ray *ray, aur_vector *power);
+
+size_t aur_scene_emitter_count(const aur_scene *scene);
+
+/* --- camera and film
+ * ------------------------------------------------------------------------------------------- */
+
+/* The ray through the film point (x, y) in pixels, (0, 0) the top left corner of the picture; width and
+ * height are those of the picture being rendered. lens[2] in [0,1) for cameras that have one. */
+void aur_camera_ray(const aur_scene *scene, size_t width, size_t height, float x, float y,
+                    const float lens[2], aur_ray *ray);
+
+/* Reconstruction filters, by name: box (radius 0.5), tent (1), gaussian (stddev 0.5, radius 2, as Mitsuba 3).
+ * Samples are drawn in proportion to the filter, so a pixel is the plain mean of its samples. */
+typedef struct aur_filter aur_filter;
+const aur_filter *aur_filter_find(const char *name); /* NULL: unknown */
+const char *aur_filter_name(const aur_filter *filter);
+/* The offset from the pixel's centre, in pixels, that u in [0,1) stands for. */
+float aur_filter_sample(const aur_filter *filter, float u);
+
+typedef struct aur_film {
+    size_t width, height;
+    const aur_filter *filter;
+} aur_film;
+
+const aur_film *aur_scene_film(const aur_scene *scene);
+size_t aur_scene_samples_per_pixel(const aur_scene *scene);
+const char *aur_scene_sampler(const aur_scene *scene); /* SET syntax */
+/* The integrator as the scene has it; its plugin may be one that Aureole does not know. */
+const aur_parameters *aur_scene_integrator(const aur_scene *scene);
+
+/* --- geometry, for photon maps and radiosity
+ * ------------------------------------------------------------------- */
+
+void aur_scene_bounds(const aur_scene *scene, aur_vector *lower, aur_vector *upper);
+
+#endif

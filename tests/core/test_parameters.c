@@ -1,0 +1,72 @@
+#include "check.h"
+
+#include <string.h>
+
+#include "core/parameters.h"
+
+static void parses_a_specification(void **state) {
+    (void)state;
+    aur_parameters parameters;
+    aur_error error = {0};
+    assert_int_equal(aur_parameters_parse(&parameters, "set", "esfg:base=64,levels=3,shift=final", &error),
+                     AUR_OK);
+    assert_string_equal(parameters.plugin, "esfg");
+    int64_t base = 0, levels = 0;
+    static const char *const shifts[] = {"per-level", "final"};
+    size_t shift = 0;
+    assert_int_equal(aur_parameters_integer(&parameters, "base", 1, 100, &base, &error), AUR_OK);
+    assert_int_equal(aur_parameters_integer(&parameters, "levels", 0, 10, &levels, &error), AUR_OK);
+    assert_int_equal(aur_parameters_choice(&parameters, "shift", 2, shifts, &shift, &error), AUR_OK);
+    assert_int_equal(base, 64);
+    assert_int_equal(levels, 3);
+    assert_int_equal(shift, 1);
+    assert_int_equal(aur_parameters_finish(&parameters, &error), AUR_OK);
+    aur_parameters_release(&parameters);
+}
+
+static void refuses_what_is_wrong(void **state) {
+    (void)state;
+    static const char *const texts[] = {"x:a=1e3x", "x:a=nan", "x:a=", "x:a=11", "x:b=3", "x:aa=1"};
+    for (size_t i = 0; i < sizeof texts / sizeof texts[0]; ++i) {
+        aur_parameters parameters;
+        aur_error error = {0};
+        assert_int_equal(aur_parameters_parse(&parameters, "set", texts[i], &error), AUR_OK);
+        double value = 0;
+        aur_result result = aur_parameters_float(&parameters, "a", 0, 10, &value, &error);
+        if (result == AUR_OK)
+            result = aur_parameters_finish(&parameters, &error);
+        assert_int_not_equal(result, AUR_OK);
+        assert_true(strlen(error.message) > 0);
+        aur_parameters_release(&parameters);
+    }
+    aur_parameters parameters;
+    aur_error error = {0};
+    assert_int_equal(aur_parameters_parse(&parameters, "set", "x:a=1,a=2", &error), AUR_ERROR_FORMAT);
+    assert_int_equal(aur_parameters_parse(&parameters, "set", "x:nothing", &error), AUR_ERROR_FORMAT);
+}
+
+static void suggests_the_nearest_name(void **state) {
+    (void)state;
+    static const char *const names[] = {"reflectance", "radiance", "exponent"};
+    assert_string_equal(aur_nearest_name("reflectence", 3, names), "reflectance");
+    assert_null(aur_nearest_name("zzz", 3, names));
+}
+
+static void splits_numbers(void **state) {
+    (void)state;
+    double values[4];
+    assert_int_equal(aur_parse_doubles(" 1, 2e-008\t3 ", values, 4), 3);
+    assert_near(values[1], 2e-8, 0);
+    assert_true(aur_parse_doubles("1, two", values, 4) == SIZE_MAX);
+    assert_true(aur_parse_doubles("1, nan", values, 4) == SIZE_MAX);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(parses_a_specification),
+        cmocka_unit_test(refuses_what_is_wrong),
+        cmocka_unit_test(suggests_the_nearest_name),
+        cmocka_unit_test(splits_numbers),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

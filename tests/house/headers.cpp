@@ -1,0 +1,14 @@
+// Every public header compiles as C++, alone and together.
+#include <aureole/core.h>
+#include <aureole/image.h>
+#include <aureole/pointset.h>
+#include <aureole/quality.h>
+#include <aureole/render.h>
+#include <aureole/scene.h>
+#include <aureole/sphere.h>
+
+extern const char *aureole_headers_compile_as_cxx();
+
+const char *aureole_headers_compile_as_cxx() {
+    return aur_version();
+}
