@@ -1,0 +1,47 @@
+/* The two-dimensional Sobol net and nested uniform scrambling on 32-bit words, a few instructions each and
+ * without a table: for the inner loops of rendering, and as the scalar form that wider code is tested
+ * against. A word x stands for the coordinate x / 2^32. */
+#ifndef AUR_POINTSET_NET_2D_H
+#define AUR_POINTSET_NET_2D_H
+
+#include <stdint.h>
+
+static inline uint32_t aur_reverse_bits(uint32_t x) {
+    x = __builtin_bswap32(x);
+    x = (x >> 4 & 0x0f0f0f0fu) | (x & 0x0f0f0f0fu) << 4;
+    x = (x >> 2 & 0x33333333u) | (x & 0x33333333u) << 2;
+    return (x >> 1 & 0x55555555u) | (x & 0x55555555u) << 1;
+}
+
+/* Sobol's first dimension: the radical inverse in base 2 (van der Corput). */
+static inline uint32_t aur_sobol_first(uint32_t index) {
+    return aur_reverse_bits(index);
+}
+
+/* Sobol's second dimension: its generator matrix is Pascal's triangle modulo 2. By Lucas' theorem the entry
+ * (i, j) is 1 exactly when the bits of i are among those of j, so the product is a superset sum over the five
+ * bits of a bit's position: five masked steps in place of up to 32 rows. */
+static inline uint32_t aur_sobol_second(uint32_t index) {
+    uint32_t x = index;
+    x ^= x >> 1 & 0x55555555u;
+    x ^= x >> 2 & 0x33333333u;
+    x ^= x >> 4 & 0x0f0f0f0fu;
+    x ^= x >> 8 & 0x00ff00ffu;
+    x ^= x >> 16;
+    return aur_reverse_bits(x);
+}
+
+/* Nested uniform (Owen) scrambling by hashing: every bit is flipped by a hash of the bits above it. The hash
+ * of the reversed word is one whose low bits influence higher ones only (Laine and Karras 2011, with the
+ * constants that Burley 2020 tells how to judge). */
+static inline uint32_t aur_owen_scramble(uint32_t x, uint32_t seed) {
+    x = aur_reverse_bits(x);
+    x ^= x * 0x3d20adeau;
+    x += seed;
+    x *= (seed >> 16) | 1u;
+    x ^= x * 0x05526c56u;
+    x ^= x * 0x53a22864u;
+    return aur_reverse_bits(x);
+}
+
+#endif
