@@ -1,6 +1,93 @@
+/* aureole-bench list | NAME... [--quick]. Adding a bench is one file and one line here. */
+#include <getopt.h>
 #include <stdio.h>
+#include <string.h>
 
-int main(void) {
-    puts("no benches yet");
+#include "bench.h"
+#include "core/parallel.h"
+#include "core/simd.h"
+
+extern const bench bench_limits;
+extern const bench bench_parallel;
+
+static const bench *const benches[] = {
+    &bench_limits,
+    &bench_parallel,
+};
+
+enum { BENCH_COUNT = sizeof benches / sizeof benches[0] };
+
+static const bench *find(const char *name) {
+    for (size_t i = 0; i < BENCH_COUNT; ++i)
+        if (strcmp(benches[i]->name, name) == 0)
+            return benches[i];
+    return NULL;
+}
+
+static void print_list(void) {
+    for (size_t i = 0; i < BENCH_COUNT; ++i)
+        printf("%-12s %s\n", benches[i]->name, benches[i]->summary);
+}
+
+static void print_help(void) {
+    puts("usage: aureole-bench list\n"
+         "       aureole-bench all|NAME... [--quick]\n"
+         "Rates are units a CPU second; [low, high] are the quartiles of a ratio over the pairs.");
+}
+
+/* The processor as Linux names it; without a name the line is left out. */
+static void print_machine(const bench_options *options) {
+    FILE *const file = fopen("/proc/cpuinfo", "r");
+    char line[256];
+    while (file != NULL && fgets(line, sizeof line, file) != NULL) {
+        const char *const colon = strchr(line, ':');
+        if (strncmp(line, "model name", 10) == 0 && colon != NULL) {
+            printf("%s", colon + 2);
+            break;
+        }
+    }
+    if (file != NULL)
+        fclose(file);
+    printf("%zu threads, our own kernels with %s instructions%s\n", options->threads,
+           aur_isa_name(aur_isa_available()), options->quick ? "; quick: figures of no worth" : "");
+}
+
+int main(int argc, char **argv) {
+    static const struct option long_options[] = {
+        {"quick", no_argument, NULL, 'q'}, {"help", no_argument, NULL, 'h'}, {NULL, 0, NULL, 0}};
+    bench_options options = {.pairs = 15, .seconds = 0.05, .threads = aur_parallel_threads(0)};
+    for (int option; (option = getopt_long(argc, argv, "", long_options, NULL)) != -1;) {
+        if (option == 'h') {
+            print_help();
+            return 0;
+        }
+        if (option != 'q')
+            return 2;
+        options.quick = true;
+        options.pairs = 3;
+        options.seconds = 0.002;
+    }
+    if (optind == argc) {
+        print_help();
+        return 2;
+    }
+    if (strcmp(argv[optind], "list") == 0) {
+        print_list();
+        return 0;
+    }
+    const bool all = strcmp(argv[optind], "all") == 0;
+    for (int i = optind; i < argc && !all; ++i)
+        if (find(argv[i]) == NULL) {
+            bench_fail("no bench is named '%s': 'aureole-bench list' names them", argv[i]);
+            return 2;
+        }
+    print_machine(&options);
+    const size_t count = all ? BENCH_COUNT : (size_t)(argc - optind);
+    for (size_t i = 0; i < count; ++i) {
+        const bench *const chosen = all ? benches[i] : find(argv[optind + (int)i]);
+        printf("%s: %s\n", chosen->name, chosen->summary);
+        if (!chosen->run(&options))
+            return 3;
+    }
     return 0;
 }
