@@ -1,4 +1,8 @@
-/* Figures of merit of point sets: how even they are. */
+/* Figures of merit of point sets: how even they are.
+ *
+ * A measure is named NAME[:PARAMETER] everywhere (energy, riesz:1, ...). Coordinates are read as aur_points
+ * says; directions within 1e-6 of unit length are scaled to it, others are refused. Weights, where there are
+ * any, stand for masses and are divided by their sum; without weights each point has the mass 1/N. */
 #ifndef AUREOLE_QUALITY_H
 #define AUREOLE_QUALITY_H
 
@@ -11,23 +15,35 @@ extern "C" {
 /* One row of the table of measures. */
 typedef struct aur_measure_description {
     const char *name;
-    const char *parameter; /* "S" for riesz:S, empty for none */
+    const char *parameter; /* "S" for riesz:S, "[B]" where it may be left out, empty for none */
     const char *summary;
-    const char *domains;
-    const char *source;
+    const char *domains; /* "sphere, hemisphere": the first is the one to take when nothing is said */
+    const char *source;  /* author year, equation */
+    int bound;           /* the value is a lower bound of what is measured */
+    int series;          /* a table rather than one value: ask aur_measure_series */
 } aur_measure_description;
 
 AUR_API size_t aur_measure_count(void);
 AUR_API const aur_measure_description *aur_measure_at(size_t index); /* NULL beyond the table */
 
+/* The row of NAME[:PARAMETER], and the number of measure in the table; the parameter's value is not looked
+ * at. Errors: NAME, with the nearest known name; ARGUMENT for a parameter that is missing or not wanted. */
+AUR_API aur_result aur_measure_find(const char *metric, const aur_measure_description **description,
+                                    aur_error *error) AUR_NONNULL(1, 2);
+
 typedef struct aur_measure_options {
     size_t threads; /* 0: all */
+    int fast;       /* sums over pairs to 2e-14 relative instead of the last bit, in half the time */
+    uint64_t seed;  /* of the measures that search at random */
     aur_progress progress;
     aur_warnings warnings;
 } aur_measure_options;
 
-/* One measure, by name, of points with optional weights. The result does not depend on the number of threads.
- */
+/* One measure, by name, of points with optional weights. `options` may be NULL. The result does not depend on
+ * the number of threads. The value is finite but for riesz:S with S >= 0 and mesh-ratio of points that
+ * coincide, which are infinite. Errors: NAME, ARGUMENT (a parameter, a point or a weight that is out of
+ * range, too few points), UNSUPPORTED for a measure that has no meaning on the points' domain, CANCELLED,
+ * MEMORY. When one point is at fault, the message counts points from 1. */
 AUR_API aur_result aur_measure(const char *metric, const aur_points *points,
                                const aur_measure_options *options, double *value, aur_error *error)
     AUR_NONNULL(1, 2, 4);

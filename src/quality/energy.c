@@ -1,0 +1,102 @@
+/* The distance energy and the names under which it is published. */
+#include <math.h>
+
+#include "core/error.h"
+#include "quality/hemisphere.h"
+#include "quality/pair_sum.h"
+
+static aur_twofold mass_of(const aur_axes *axes) {
+    aur_twofold mass = {(double)axes->count, 0.0};
+    if (axes->weights == NULL)
+        return mass;
+    mass.high = 0.0;
+    for (size_t i = 0; i < axes->count; ++i)
+        mass = aur_twofold_add(mass, (aur_twofold){axes->weights[i], 0.0});
+    return mass;
+}
+
+/* Twice the mass times the sum of w_i P(x_i), less mass^2 times the mean distance of two points. */
+static aur_twofold hemisphere_means(const aur_axes *axes, aur_twofold mass) {
+    aur_twofold potential = {0.0, 0.0};
+    for (size_t i = 0; i < axes->count; ++i) {
+        const double weight = axes->weights != NULL ? axes->weights[i] : 1.0;
+        potential = aur_twofold_add(potential, aur_two_product(weight, aur_hemisphere_potential(axes->z[i])));
+    }
+    const aur_twofold first = aur_twofold_scale(aur_twofold_multiply(mass, potential), 2.0);
+    const aur_twofold second = aur_twofold_scale(
+        aur_twofold_multiply(aur_twofold_multiply(mass, mass), aur_hemisphere_mean_distance()), -1.0);
+    return aur_twofold_add(first, second);
+}
+
+/* E^2: on the sphere 4/3 - S/N^2, on the hemisphere 2 mean_i P(x_i) - 32/(9 pi) - S/N^2. */
+static aur_result square_energy(const aur_measure_request *request, double *square, aur_error *error) {
+    aur_axes axes;
+    aur_result result = aur_axes_create(request->points, &axes, error);
+    if (result != AUR_OK)
+        return result;
+    aur_twofold sum;
+    result = aur_distance_sum(&axes, &request->options, &sum, error);
+    if (result == AUR_OK) {
+        const aur_twofold mass = mass_of(&axes);
+        const aur_twofold mean =
+            request->points->domain == AUR_DOMAIN_HEMISPHERE
+                ? hemisphere_means(&axes, mass)
+                : aur_twofold_multiply(aur_twofold_multiply(mass, mass), aur_twofold_ratio(4.0, 3.0));
+        const aur_twofold difference = aur_twofold_add(mean, aur_twofold_scale(sum, -2.0));
+        *square = fmax((difference.high + difference.low) / (mass.high * mass.high), 0.0);
+    }
+    aur_axes_release(&axes);
+    return result;
+}
+
+static aur_result scaled_energy(const aur_measure_request *request, double divisor, double *value,
+                                aur_error *error) {
+    double square = 0.0;
+    const aur_result result = square_energy(request, &square, error);
+    *value = sqrt(square / divisor);
+    return result;
+}
+
+static aur_result energy(const aur_measure_request *request, double *value, aur_error *error) {
+    return scaled_energy(request, 1.0, value, error);
+}
+
+static aur_result scd(const aur_measure_request *request, double *value, aur_error *error) {
+    return scaled_energy(request, 2.0, value, error);
+}
+
+static aur_result l2_cap(const aur_measure_request *request, double *value, aur_error *error) {
+    return scaled_energy(request, 4.0, value, error);
+}
+
+static aur_result l2_cap_mean(const aur_measure_request *request, double *value, aur_error *error) {
+    return scaled_energy(request, 8.0, value, error);
+}
+
+const aur_measure_row aur_measure_energy = {
+    {"energy", "", "distance energy E_N: the worst-case error for the kernel of distances",
+     "sphere, hemisphere", "Marques 2013 eq. 3; on the hemisphere with the mean-distance potential", 0, 0},
+    1,
+    0,
+    energy};
+
+const aur_measure_row aur_measure_scd = {{"scd", "",
+                                          "spherical cap discrepancy as E-SFG has it: energy / sqrt 2",
+                                          "sphere, hemisphere", "Marques 2019 eq. 57", 0, 0},
+                                         1,
+                                         0,
+                                         scd};
+
+const aur_measure_row aur_measure_l2_cap = {{"l2-cap", "",
+                                             "L2 discrepancy of spherical caps, heights by dt: energy / 2",
+                                             "sphere, hemisphere", "Stolarsky 1973", 0, 0},
+                                            1,
+                                            0,
+                                            l2_cap};
+
+const aur_measure_row aur_measure_l2_cap_mean = {
+    {"l2-cap-mean", "", "root mean square discrepancy of caps, heights by dt/2: energy / sqrt 8",
+     "sphere, hemisphere", "Stolarsky 1973", 0, 0},
+    1,
+    0,
+    l2_cap_mean};

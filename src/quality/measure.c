@@ -1,0 +1,230 @@
+#include "quality/measure.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "core/parameters.h"
+
+static const aur_measure_row *const rows[] = {
+    &aur_measure_energy,      &aur_measure_scd,   &aur_measure_l2_cap,
+    &aur_measure_l2_cap_mean, &aur_measure_riesz, &aur_measure_min_distance,
+};
+
+enum { ROW_COUNT = sizeof rows / sizeof rows[0] };
+
+static const double unit_tolerance = 1e-6;
+
+size_t aur_measure_count(void) {
+    return ROW_COUNT;
+}
+
+const aur_measure_description *aur_measure_at(size_t index) {
+    return index < ROW_COUNT ? &rows[index]->description : NULL;
+}
+
+static aur_result find_row(const char *metric, const aur_measure_row **row, const char **parameter,
+                           aur_error *error) {
+    const size_t length = strcspn(metric, ":");
+    *parameter = metric[length] == ':' ? metric + length + 1 : NULL;
+    const char *names[ROW_COUNT];
+    for (size_t i = 0; i < ROW_COUNT; ++i) {
+        const aur_measure_description *const description = &rows[i]->description;
+        names[i] = description->name;
+        if (strlen(names[i]) != length || strncmp(names[i], metric, length) != 0)
+            continue;
+        *row = rows[i];
+        if (*parameter != NULL && description->parameter[0] == '\0')
+            return aur_fail(error, AUR_ERROR_ARGUMENT, "measure '%s' takes no parameter, not '%s'", names[i],
+                            *parameter);
+        const int required = description->parameter[0] != '\0' && description->parameter[0] != '[';
+        if (required && (*parameter == NULL || (*parameter)[0] == '\0'))
+            return aur_fail(error, AUR_ERROR_ARGUMENT, "measure '%s' needs a parameter: %s:%s", names[i],
+                            names[i], description->parameter);
+        return AUR_OK;
+    }
+    char wanted[64] = "";
+    strncpy(wanted, metric, length < sizeof wanted ? length : sizeof wanted - 1);
+    const char *const nearest = aur_nearest_name(wanted, ROW_COUNT, names);
+    if (nearest != NULL)
+        return aur_fail(error, AUR_ERROR_NAME, "no measure is called '%s': did you mean '%s'?", wanted,
+                        nearest);
+    return aur_fail(error, AUR_ERROR_NAME, "no measure is called '%s'", wanted);
+}
+
+aur_result aur_measure_find(const char *metric, const aur_measure_description **description,
+                            aur_error *error) {
+    const aur_measure_row *row = NULL;
+    const char *parameter;
+    const aur_result result = find_row(metric, &row, &parameter, error);
+    if (result == AUR_OK)
+        *description = &row->description;
+    return result;
+}
+
+aur_result aur_measure_number(const aur_measure_request *request, double minimum, double maximum,
+                              double missing, double *value, aur_error *error) {
+    *value = missing;
+    if (request->parameter == NULL)
+        return AUR_OK;
+    if (!aur_parse_double(request->parameter, value))
+        return aur_fail(error, AUR_ERROR_ARGUMENT, "the parameter '%s' is not a number", request->parameter);
+    if (!(*value >= minimum && *value <= maximum))
+        return aur_fail(error, AUR_ERROR_ARGUMENT, "the parameter must be between %g and %g, not %s", minimum,
+                        maximum, request->parameter);
+    return AUR_OK;
+}
+
+static const char *domain_name(aur_domain domain) {
+    switch (domain) {
+    case AUR_DOMAIN_SQUARE:
+        return "square";
+    case AUR_DOMAIN_CUBE:
+        return "cube";
+    case AUR_DOMAIN_DISK:
+        return "disk";
+    case AUR_DOMAIN_HEMISPHERE:
+        return "hemisphere";
+    case AUR_DOMAIN_SPHERE:
+        return "sphere";
+    }
+    return "unknown";
+}
+
+/* Whether `name` is one of the comma-separated words of `list`. */
+static int lists(const char *list, const char *name) {
+    const size_t length = strlen(name);
+    while (*list != '\0') {
+        list += strspn(list, ", ");
+        const size_t word = strcspn(list, ", ");
+        if (word == length && strncmp(list, name, length) == 0)
+            return 1;
+        list += word;
+    }
+    return 0;
+}
+
+static aur_result check_point(const aur_points *points, size_t index, aur_error *error) {
+    const double *const x = points->coordinates + index * points->dimension;
+    for (size_t d = 0; d < points->dimension; ++d)
+        if (!isfinite(x[d]))
+            return aur_fail(error, AUR_ERROR_ARGUMENT, "point %zu has a coordinate that is not finite",
+                            index + 1);
+    if (points->domain == AUR_DOMAIN_SQUARE || points->domain == AUR_DOMAIN_CUBE) {
+        for (size_t d = 0; d < points->dimension; ++d)
+            if (!(x[d] >= 0.0 && x[d] <= 1.0))
+                return aur_fail(error, AUR_ERROR_ARGUMENT, "point %zu: coordinate %.17g is not in [0,1]",
+                                index + 1, x[d]);
+        return AUR_OK;
+    }
+    if (points->domain == AUR_DOMAIN_DISK) {
+        const double radius = hypot(x[0], x[1]);
+        if (radius > 1.0 + unit_tolerance)
+            return aur_fail(error, AUR_ERROR_ARGUMENT, "point %zu is at radius %.17g, outside the unit disk",
+                            index + 1, radius);
+        return AUR_OK;
+    }
+    const double length = sqrt(x[0] * x[0] + x[1] * x[1] + x[2] * x[2]);
+    if (!(fabs(length - 1.0) <= unit_tolerance))
+        return aur_fail(error, AUR_ERROR_ARGUMENT,
+                        "point %zu has the length %.9g: directions must be unit vectors within 1e-6",
+                        index + 1, length);
+    if (points->domain == AUR_DOMAIN_HEMISPHERE && x[2] < -unit_tolerance)
+        return aur_fail(error, AUR_ERROR_ARGUMENT, "point %zu has z = %.9g, below the hemisphere z >= 0",
+                        index + 1, x[2]);
+    return AUR_OK;
+}
+
+static aur_result check_weights(const aur_measure_row *row, const aur_points *points, aur_error *error) {
+    double sum = 0.0;
+    for (size_t i = 0; i < points->count; ++i) {
+        const double weight = points->weights[i];
+        if (!isfinite(weight))
+            return aur_fail(error, AUR_ERROR_ARGUMENT, "point %zu has a weight that is not finite", i + 1);
+        if (row->masses && weight < 0.0)
+            return aur_fail(error, AUR_ERROR_ARGUMENT,
+                            "point %zu has the weight %.9g: '%s' needs weights that are not negative", i + 1,
+                            weight, row->description.name);
+        sum += weight;
+    }
+    if (!(sum > 0.0))
+        return aur_fail(error, AUR_ERROR_ARGUMENT, "the weights add up to %.9g: the sum must be positive",
+                        sum);
+    return AUR_OK;
+}
+
+static size_t expected_dimension(aur_domain domain) {
+    switch (domain) {
+    case AUR_DOMAIN_SQUARE:
+    case AUR_DOMAIN_DISK:
+        return 2;
+    case AUR_DOMAIN_HEMISPHERE:
+    case AUR_DOMAIN_SPHERE:
+        return 3;
+    case AUR_DOMAIN_CUBE:
+        break;
+    }
+    return 0;
+}
+
+static aur_result check(const aur_measure_row *row, const aur_points *points, aur_error *error) {
+    const char *const name = row->description.name;
+    const char *const domain = domain_name(points->domain);
+    if (!lists(row->description.domains, domain))
+        return aur_fail(error, AUR_ERROR_UNSUPPORTED, "measure '%s' is for the %s, not for the %s", name,
+                        row->description.domains, domain);
+    const size_t dimension = expected_dimension(points->domain);
+    if (points->dimension == 0 || (dimension != 0 && dimension != points->dimension))
+        return aur_fail(error, AUR_ERROR_ARGUMENT, "points of the %s cannot have %zu coordinates", domain,
+                        points->dimension);
+    const size_t minimum = row->minimum_count > 0 ? row->minimum_count : 1;
+    if (points->count < minimum)
+        return aur_fail(error, AUR_ERROR_ARGUMENT, "measure '%s' needs at least %zu point%s, not %zu", name,
+                        minimum, minimum == 1 ? "" : "s", points->count);
+    for (size_t i = 0; i < points->count; ++i) {
+        const aur_result result = check_point(points, i, error);
+        if (result != AUR_OK)
+            return result;
+    }
+    return points->weights != NULL ? check_weights(row, points, error) : AUR_OK;
+}
+
+/* A copy whose directions have unit length to the last bit, so that seven-digit files are measured as meant.
+ */
+static double *unit_copy(const aur_points *points) {
+    double *const copy = malloc(points->count * 3 * sizeof *copy);
+    for (size_t i = 0; i < points->count && copy != NULL; ++i) {
+        const double *const x = points->coordinates + 3 * i;
+        const double square = x[0] * x[0] + x[1] * x[1] + x[2] * x[2];
+        /* A vector that is unit to rounding stays as it is. */
+        const double scale = fabs(square - 1.0) <= 1e-15 ? 1.0 : 1.0 / sqrt(square);
+        for (size_t d = 0; d < 3; ++d)
+            copy[3 * i + d] = x[d] * scale;
+    }
+    return copy;
+}
+
+aur_result aur_measure(const char *metric, const aur_points *points, const aur_measure_options *options,
+                       double *value, aur_error *error) {
+    const aur_measure_row *row = NULL;
+    aur_measure_request request = {.points = points};
+    aur_result result = find_row(metric, &row, &request.parameter, error);
+    if (result == AUR_OK)
+        result = check(row, points, error);
+    if (result != AUR_OK)
+        return result;
+    if (options != NULL)
+        request.options = *options;
+    aur_points copy = *points;
+    double *unit = NULL;
+    if (expected_dimension(points->domain) == 3) {
+        unit = unit_copy(points);
+        if (unit == NULL)
+            return aur_fail(error, AUR_ERROR_MEMORY, "out of memory");
+        copy.coordinates = unit;
+        request.points = &copy;
+    }
+    result = row->compute(&request, value, error);
+    free(unit);
+    return result;
+}

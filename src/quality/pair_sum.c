@@ -1,0 +1,126 @@
+#include "quality/pair_sum.h"
+
+#include <stdlib.h>
+
+#include "core/parallel.h"
+#include "core/simd.h"
+#include "quality/distance_tile.h"
+
+static double *axis(size_t padded) {
+    double *const values = aligned_alloc(64, padded * sizeof *values);
+    for (size_t i = 0; i < padded && values != NULL; ++i)
+        values[i] = 0.0;
+    return values;
+}
+
+aur_result aur_axes_create(const aur_points *points, aur_axes *axes, aur_error *error) {
+    const size_t padded = (points->count + 7) / 8 * 8;
+    *axes = (aur_axes){.count = points->count, .x = axis(padded), .y = axis(padded), .z = axis(padded)};
+    if (points->weights != NULL)
+        axes->weights = axis(padded);
+    if (axes->x == NULL || axes->y == NULL || axes->z == NULL ||
+        (points->weights != NULL && axes->weights == NULL)) {
+        aur_axes_release(axes);
+        return aur_fail(error, AUR_ERROR_MEMORY, "out of memory");
+    }
+    for (size_t i = 0; i < points->count; ++i) {
+        axes->x[i] = points->coordinates[3 * i];
+        axes->y[i] = points->coordinates[3 * i + 1];
+        axes->z[i] = points->coordinates[3 * i + 2];
+        if (axes->weights != NULL)
+            axes->weights[i] = points->weights[i];
+    }
+    return AUR_OK;
+}
+
+void aur_axes_release(aur_axes *axes) {
+    free(axes->x);
+    free(axes->y);
+    free(axes->z);
+    free(axes->weights);
+    *axes = (aur_axes){0};
+}
+
+aur_twofold aur_distance_tile(const aur_axes *axes, aur_tile tile, double parameter) {
+    (void)parameter;
+    return aur_distance_tile_body(axes, tile);
+}
+
+aur_twofold aur_distance_tile_plain(const aur_axes *axes, aur_tile tile, double parameter) {
+    (void)parameter;
+    const int diagonal = tile.first_row == tile.first_column;
+    aur_twofold total = {0.0, 0.0};
+    for (size_t i = tile.first_row; i < tile.last_row; ++i) {
+        const size_t last = diagonal ? i : tile.last_column;
+        double lanes[AUR_LANES] = {0};
+        size_t j = tile.first_column;
+        for (; j + AUR_LANES <= last; j += AUR_LANES) {
+            for (int l = 0; l < AUR_LANES; ++l) {
+                const double dx = axes->x[i] - axes->x[j + (size_t)l];
+                const double dy = axes->y[i] - axes->y[j + (size_t)l];
+                const double dz = axes->z[i] - axes->z[j + (size_t)l];
+                lanes[l] += sqrt(dx * dx + dy * dy + dz * dz);
+            }
+        }
+        for (int l = 0; j < last; ++j, ++l)
+            lanes[l] += aur_distance_between(axes, i, j);
+        for (int l = 0; l < AUR_LANES; ++l)
+            total = aur_twofold_add(total, (aur_twofold){lanes[l], 0.0});
+    }
+    return total;
+}
+
+/* The tiles of the lower triangle, row by row: tile (r, c) with c <= r has the number r (r + 1) / 2 + c. */
+typedef struct tiles {
+    const aur_axes *axes;
+    aur_tile_function function;
+    double parameter;
+    aur_twofold *sums;
+} tiles;
+
+static size_t least(size_t a, size_t b) {
+    return a < b ? a : b;
+}
+
+static aur_result sum_tile(void *context, size_t index) {
+    const tiles *const work = context;
+    size_t row = (size_t)((sqrt(8.0 * (double)index + 1.0) - 1.0) / 2.0);
+    while (row * (row + 1) / 2 > index)
+        --row;
+    while ((row + 1) * (row + 2) / 2 <= index)
+        ++row;
+    const size_t column = index - row * (row + 1) / 2;
+    const size_t count = work->axes->count;
+    const aur_tile tile = {row * AUR_TILE_POINTS, least((row + 1) * AUR_TILE_POINTS, count),
+                           column * AUR_TILE_POINTS, least((column + 1) * AUR_TILE_POINTS, count)};
+    work->sums[index] = work->function(work->axes, tile, work->parameter);
+    return AUR_OK;
+}
+
+aur_result aur_pair_sum(const aur_axes *axes, aur_tile_function function, double parameter,
+                        const aur_measure_options *options, aur_twofold *sum, aur_error *error) {
+    const size_t side = (axes->count + AUR_TILE_POINTS - 1) / AUR_TILE_POINTS;
+    const size_t count = side * (side + 1) / 2;
+    tiles work = {axes, function, parameter, malloc(count * sizeof *work.sums)};
+    if (work.sums == NULL)
+        return aur_fail(error, AUR_ERROR_MEMORY, "out of memory");
+    const aur_parallel_options parallel = {options->threads, "summing pairs", options->progress};
+    const aur_result result = aur_parallel_for(&parallel, count, sum_tile, &work);
+    *sum = (aur_twofold){0.0, 0.0};
+    for (size_t i = 0; i < count && result == AUR_OK; ++i)
+        *sum = aur_twofold_add(*sum, work.sums[i]);
+    free(work.sums);
+    return result == AUR_OK ? AUR_OK
+                            : aur_fail(error, result, "summing pairs: %s", aur_result_string(result));
+}
+
+aur_result aur_distance_sum(const aur_axes *axes, const aur_measure_options *options, aur_twofold *sum,
+                            aur_error *error) {
+    aur_tile_function function = aur_distance_tile;
+#if defined(__x86_64__)
+    if (aur_isa_available() == AUR_ISA_AVX512)
+        function =
+            options->fast && axes->weights == NULL ? aur_distance_tile_fast_avx512 : aur_distance_tile_avx512;
+#endif
+    return aur_pair_sum(axes, function, 0.0, options, sum, error);
+}

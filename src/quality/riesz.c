@@ -1,0 +1,72 @@
+/* Riesz energies for any exponent. */
+#include <math.h>
+
+#include "core/error.h"
+#include "quality/pair_sum.h"
+
+static double kernel(double square, double exponent) {
+    if (exponent == 0.0)
+        return -0.5 * log(square);
+    if (exponent == 1.0)
+        return 1.0 / sqrt(square);
+    if (exponent == 2.0)
+        return 1.0 / square;
+    if (exponent == -1.0)
+        return sqrt(square);
+    return pow(square, -0.5 * exponent);
+}
+
+static aur_twofold riesz_tile(const aur_axes *axes, aur_tile tile, double exponent) {
+    const int diagonal = tile.first_row == tile.first_column;
+    aur_twofold total = {0.0, 0.0};
+    for (size_t i = tile.first_row; i < tile.last_row; ++i) {
+        const size_t last = diagonal ? i : tile.last_column;
+        for (size_t j = tile.first_column; j < last; ++j) {
+            const double dx = axes->x[i] - axes->x[j];
+            const double dy = axes->y[i] - axes->y[j];
+            const double dz = axes->z[i] - axes->z[j];
+            const double square = dx * dx + dy * dy + dz * dz;
+            const double weight = axes->weights != NULL ? axes->weights[i] * axes->weights[j] : 1.0;
+            if (square == 0.0 && exponent >= 0.0) /* an infinity must not meet the error terms */
+                return (aur_twofold){weight == 0.0 ? 0.0 : INFINITY, 0.0};
+            total = aur_twofold_add(total, aur_two_product(weight, kernel(square, exponent)));
+        }
+    }
+    return total;
+}
+
+static aur_result riesz(const aur_measure_request *request, double *value, aur_error *error) {
+    double exponent;
+    aur_result result = aur_measure_number(request, -64.0, 64.0, 0.0, &exponent, error);
+    aur_axes axes;
+    if (result == AUR_OK)
+        result = aur_axes_create(request->points, &axes, error);
+    if (result != AUR_OK)
+        return result;
+    aur_twofold sum = {0.0, 0.0};
+    result = aur_pair_sum(&axes, riesz_tile, exponent, &request->options, &sum, error);
+    if (result == AUR_OK) {
+        double scale = 2.0;
+        if (axes.weights != NULL) {
+            double mass = 0.0;
+            for (size_t i = 0; i < axes.count; ++i)
+                mass += axes.weights[i];
+            const double unit = (double)axes.count / mass;
+            scale *= unit * unit;
+        }
+        *value = isfinite(sum.high) ? scale * (sum.high + sum.low) : INFINITY;
+        if (isinf(*value))
+            aur_warn_at(&request->options.warnings, (aur_location){0},
+                        "points coincide: the Riesz energy is infinite");
+    }
+    aur_axes_release(&axes);
+    return result;
+}
+
+const aur_measure_row aur_measure_riesz = {
+    {"riesz", "S",
+     "Riesz energy: the sum of |x_i - x_j|^-S over ordered pairs, S = 0 the logarithm of 1/|x_i - x_j|",
+     "sphere, hemisphere", "Hardin and Saff 2004", 0, 0},
+    1,
+    0,
+    riesz};

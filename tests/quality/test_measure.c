@@ -1,0 +1,134 @@
+#include "check.h"
+
+#include <stdio.h>
+#include <string.h>
+
+#include "sphere_sets.h"
+
+static void the_table_is_consistent(void **state) {
+    (void)state;
+    for (size_t i = 0; i < aur_measure_count(); ++i) {
+        const aur_measure_description *const row = aur_measure_at(i);
+        assert_true(strlen(row->name) > 0 && strlen(row->summary) > 0 && strlen(row->domains) > 0 &&
+                    strlen(row->source) > 0);
+        const aur_measure_description *found = NULL;
+        char name[64];
+        snprintf(name, sizeof name, "%s%s", row->name,
+                 row->parameter[0] != '\0' && row->parameter[0] != '[' ? ":1" : "");
+        assert_int_equal(aur_measure_find(name, &found, NULL), AUR_OK);
+        assert_ptr_equal(found, row);
+    }
+    assert_null(aur_measure_at(aur_measure_count()));
+}
+
+static void refused(const char *metric, const aur_points *points, aur_result expected, const char *words) {
+    double value = 0.0;
+    aur_error error = {0};
+    assert_int_equal(aur_measure(metric, points, NULL, &value, &error), expected);
+    if (strstr(error.message, words) == NULL) {
+        print_error("'%s' does not say '%s'\n", error.message, words);
+        fail();
+    }
+}
+
+static void bad_input_is_refused_with_the_reason(void **state) {
+    (void)state;
+    aur_points points = spherical_fibonacci(5, AUR_DOMAIN_SPHERE);
+    refused("enrgy", &points, AUR_ERROR_NAME, "energy");
+    refused("qqqqqqqqq", &points, AUR_ERROR_NAME, "qqqqqqqqq");
+    refused("energy:2", &points, AUR_ERROR_ARGUMENT, "no parameter");
+    refused("riesz", &points, AUR_ERROR_ARGUMENT, "riesz:S");
+    refused("riesz:x", &points, AUR_ERROR_ARGUMENT, "not a number");
+    refused("riesz:nan", &points, AUR_ERROR_ARGUMENT, "not a number");
+    points.count = 1;
+    refused("min-distance", &points, AUR_ERROR_ARGUMENT, "at least 2");
+    points.count = 0;
+    refused("energy", &points, AUR_ERROR_ARGUMENT, "at least 1");
+    points.count = 5;
+    points.coordinates[7] = NAN;
+    refused("energy", &points, AUR_ERROR_ARGUMENT, "point 3");
+    points.coordinates[7] = 2.0;
+    refused("energy", &points, AUR_ERROR_ARGUMENT, "point 3 has the length");
+    release_points(&points);
+    points = spherical_fibonacci(5, AUR_DOMAIN_SPHERE);
+    points.domain = AUR_DOMAIN_HEMISPHERE;
+    refused("energy", &points, AUR_ERROR_ARGUMENT, "point 4 has z");
+    points.domain = AUR_DOMAIN_SQUARE;
+    points.dimension = 2;
+    refused("energy", &points, AUR_ERROR_UNSUPPORTED, "sphere, hemisphere");
+    points.domain = AUR_DOMAIN_SPHERE;
+    refused("energy", &points, AUR_ERROR_ARGUMENT, "2 coordinates");
+    points.dimension = 3;
+    double weights[5] = {1, 1, INFINITY, 1, 1};
+    points.weights = weights;
+    refused("energy", &points, AUR_ERROR_ARGUMENT, "point 3 has a weight");
+    for (size_t i = 0; i < 5; ++i)
+        weights[i] = i == 0 ? 4.0 : -1.0;
+    refused("energy", &points, AUR_ERROR_ARGUMENT, "add up to 0");
+    points.weights = NULL;
+    release_points(&points);
+}
+
+/* Points of seven digits are scaled to the sphere: the energy is right to their rounding, squared. */
+static void nearly_unit_points_are_scaled(void **state) {
+    (void)state;
+    aur_points points = spherical_fibonacci(100, AUR_DOMAIN_SPHERE);
+    double exact = 0.0, scaled = 0.0;
+    assert_int_equal(aur_measure("energy", &points, NULL, &exact, NULL), AUR_OK);
+    for (size_t i = 0; i < 300; ++i)
+        points.coordinates[i] *= 1.0 + 9e-7 * (double)(i / 3 % 3) - 9e-7;
+    assert_int_equal(aur_measure("energy", &points, NULL, &scaled, NULL), AUR_OK);
+    assert_relative(scaled, exact, 1e-12);
+    release_points(&points);
+}
+
+static int stop(void *user, const char *what, uint64_t done, uint64_t total) {
+    (void)user;
+    assert_non_null(what);
+    assert_true(done <= total);
+    return 1;
+}
+
+static void work_can_be_cancelled(void **state) {
+    (void)state;
+    aur_points points = random_directions(4000, 1);
+    const aur_measure_options options = {.progress = {stop, NULL}};
+    double value = 0.0;
+    aur_error error = {0};
+    assert_int_equal(aur_measure("energy", &points, &options, &value, &error), AUR_ERROR_CANCELLED);
+    assert_true(strlen(error.message) > 0);
+    release_points(&points);
+}
+
+static void count_warning(void *user, const char *message) {
+    (void)message;
+    ++*(int *)user;
+}
+
+static void coincident_points_have_infinite_riesz_energy(void **state) {
+    (void)state;
+    aur_points points = spherical_fibonacci(5, AUR_DOMAIN_SPHERE);
+    memcpy(points.coordinates, points.coordinates + 3, 3 * sizeof(double));
+    int warnings = 0;
+    const aur_measure_options options = {.warnings = {count_warning, &warnings}};
+    double value = 0.0;
+    assert_int_equal(aur_measure("riesz:0", &points, &options, &value, NULL), AUR_OK);
+    assert_true(isinf(value) && value > 0.0);
+    assert_int_equal(warnings, 1);
+    assert_int_equal(aur_measure("riesz:-2", &points, &options, &value, NULL), AUR_OK);
+    assert_true(isfinite(value));
+    assert_int_equal(aur_measure("min-distance", &points, &options, &value, NULL), AUR_OK);
+    assert_near(value, 0.0, 0.0);
+    release_points(&points);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(the_table_is_consistent),
+        cmocka_unit_test(bad_input_is_refused_with_the_reason),
+        cmocka_unit_test(nearly_unit_points_are_scaled),
+        cmocka_unit_test(work_can_be_cancelled),
+        cmocka_unit_test(coincident_points_have_infinite_riesz_energy),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
