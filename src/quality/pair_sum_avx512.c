@@ -42,7 +42,7 @@ static inline aur_twofold four_rows(const aur_axes *axes, size_t row, size_t fir
         sum[r] = _mm512_setzero_pd();
     }
     for (size_t j = first; j < last; j += 8) {
-        const __mmask8 mask = last - j >= 8 ? 0xff : (__mmask8)((1u << (last - j)) - 1u);
+        const __mmask8 mask = (__mmask8)(last - j >= 8 ? 0xffu : (1u << (last - j)) - 1u);
         const __m512d xs = _mm512_load_pd(axes->x + j);
         const __m512d ys = _mm512_load_pd(axes->y + j);
         const __m512d zs = _mm512_load_pd(axes->z + j);
