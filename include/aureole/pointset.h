@@ -39,6 +39,17 @@ AUR_API aur_result aur_scramble_from_name(const char *name, aur_scramble *scramb
     AUR_NONNULL(1, 2);
 AUR_API const char *aur_scramble_name(aur_scramble scramble);
 
+/* One row of the table of sets. */
+typedef struct aur_set_description {
+    const char *name;
+    const char *keys;    /* "offset=0.5": key=default, comma separated; empty where there are none */
+    const char *summary; /* one line */
+    const char *domains; /* "square", "cube, square", "sphere, hemisphere", ... */
+    const char *sizes;   /* "any", "1..2^32", "base*4^levels", ... */
+    int extensible;      /* the first n points of a larger set are the smaller set */
+    const char *source;  /* author year */
+} aur_set_description;
+
 /* A set made ready: an immutable table or rule that any number of threads may read. */
 typedef struct aur_pointset aur_pointset;
 

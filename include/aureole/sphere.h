@@ -60,17 +60,7 @@ AUR_API uint64_t aur_directions_size(const aur_directions *directions) AUR_NONNU
 AUR_API aur_result aur_directions_points(const aur_directions *directions, uint64_t first, size_t count,
                                          size_t capacity, double *xyz, double *weights) AUR_NONNULL(1, 5);
 
-/* One row of the table of all sets. */
-typedef struct aur_set_description {
-    const char *name;
-    const char *keys;    /* "offset=0.5": key=default, comma separated; empty where there are none */
-    const char *summary; /* one line */
-    const char *domains; /* "square", "cube, square", "sphere, hemisphere", ... */
-    const char *sizes;   /* "any", "1..2^32", "base*4^levels", ... */
-    int extensible;      /* the first n points of a larger set are the smaller set */
-    const char *source;  /* author year */
-} aur_set_description;
-
+/* The table of all sets, of the square and of the sphere. */
 AUR_API size_t aur_set_count(void);
 AUR_API const aur_set_description *aur_set_at(size_t index); /* NULL beyond the table */
 

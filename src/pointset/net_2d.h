@@ -31,17 +31,20 @@ static inline uint32_t aur_sobol_second(uint32_t index) {
     return aur_reverse_bits(x);
 }
 
-/* Nested uniform (Owen) scrambling by hashing: every bit is flipped by a hash of the bits above it. The hash
- * of the reversed word is one whose low bits influence higher ones only (Laine and Karras 2011, with the
+/* A permutation of words in which a bit depends on the lower bits only (Laine and Karras 2011, with the
  * constants that Burley 2020 tells how to judge). */
-static inline uint32_t aur_owen_scramble(uint32_t x, uint32_t seed) {
-    x = aur_reverse_bits(x);
+static inline uint32_t aur_nested_hash(uint32_t x, uint32_t seed) {
     x ^= x * 0x3d20adeau;
     x += seed;
     x *= (seed >> 16) | 1u;
     x ^= x * 0x05526c56u;
     x ^= x * 0x53a22864u;
-    return aur_reverse_bits(x);
+    return x;
+}
+
+/* Nested uniform (Owen) scrambling by hashing: every bit is flipped by a hash of the bits above it. */
+static inline uint32_t aur_owen_scramble(uint32_t x, uint32_t seed) {
+    return aur_reverse_bits(aur_nested_hash(aur_reverse_bits(x), seed));
 }
 
 #endif

@@ -1,0 +1,153 @@
+/* What the columns of a file of points mean, and whether the points are on their domain. */
+#include "pointset/points_file.h"
+
+#include <math.h>
+#include <stdint.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "core/error.h"
+#include "core/file.h"
+
+/* Points on the sphere that are written with the precision of floats are still on it. */
+static const double radius_tolerance = 1e-5;
+
+static const size_t file_limit = (size_t)1 << 34;
+
+/* "v" of "u,v": the columns after the prefix u1,u2,... are counted by the reader. */
+static bool is_cube_header(const char *header, size_t columns) {
+    const char *at = header;
+    for (size_t c = 1; c <= columns; ++c) {
+        char *end;
+        if (*at != 'u' || strtoul(at + 1, &end, 10) != c || end == at + 1)
+            return false;
+        at = *end == ',' ? end + 1 : end;
+    }
+    return *at == '\0' || strcmp(at, "w") == 0;
+}
+
+static bool unit_length(const double *v) {
+    return fabs(v[0] * v[0] + v[1] * v[1] + v[2] * v[2] - 1.0) <= 2.0 * radius_tolerance;
+}
+
+/* Domain, coordinates a point, and whether a column of weights follows them. */
+typedef struct meaning {
+    aur_domain domain;
+    size_t dimension;
+    bool weights;
+} meaning;
+
+static aur_result by_header(const char *path, const aur_matrix *matrix, meaning *m, aur_error *error) {
+    char header[sizeof matrix->header];
+    memcpy(header, matrix->header, sizeof header);
+    const size_t length = strlen(header);
+    m->weights = length >= 2 && strcmp(header + length - 2, ",w") == 0;
+    if (m->weights)
+        header[length - 2] = '\0';
+    m->dimension = matrix->column_count - m->weights;
+    if (strcmp(header, "u,v") == 0)
+        m->domain = AUR_DOMAIN_SQUARE;
+    else if (strcmp(header, "x,y,z") == 0)
+        m->domain = AUR_DOMAIN_SPHERE;
+    else if (strcmp(header, "x,y") == 0)
+        m->domain = AUR_DOMAIN_DISK;
+    else if (strcmp(header, "u") == 0 || is_cube_header(header, m->dimension))
+        m->domain = m->dimension == 2 ? AUR_DOMAIN_SQUARE : AUR_DOMAIN_CUBE;
+    else
+        return aur_fail_at(error, (aur_location){.file = path, .line = 1}, AUR_ERROR_FORMAT,
+                           "the header '%s' must be u,v (square), x,y (disk), x,y,z (sphere) or u1,u2,... "
+                           "(cube), and w for weights after it",
+                           matrix->header);
+    return AUR_OK;
+}
+
+/* Without names: two columns are u,v, three unit vectors, four unit vectors with weights; any other number
+ * are coordinates on the cube, and so are the three or four columns of an array that are no unit vectors. */
+static void by_columns(const aur_matrix *matrix, meaning *m) {
+    const size_t columns = matrix->column_count;
+    *m = (meaning){AUR_DOMAIN_CUBE, columns, false};
+    if (columns == 2)
+        m->domain = AUR_DOMAIN_SQUARE;
+    const bool unit = columns >= 3 && matrix->row_count > 0 && unit_length(matrix->values);
+    if ((columns == 3 && (unit || matrix->lines != NULL)) || (columns == 4 && unit))
+        *m = (meaning){AUR_DOMAIN_SPHERE, 3, columns == 4};
+}
+
+static const char *off_domain(const meaning *m, const double *row) {
+    if (m->domain == AUR_DOMAIN_SPHERE)
+        return unit_length(row) ? NULL : "a direction must have length 1";
+    if (m->domain == AUR_DOMAIN_DISK)
+        return row[0] * row[0] + row[1] * row[1] <= 1.0 ? NULL
+                                                        : "a point of the disk must have x^2 + y^2 <= 1";
+    for (size_t d = 0; d < m->dimension; ++d)
+        if (!(row[d] >= 0.0 && row[d] < 1.0))
+            return "a coordinate must be at least 0 and below 1";
+    return NULL;
+}
+
+static aur_result interpret(const char *path, const aur_matrix *matrix, aur_points *points,
+                            aur_error *error) {
+    const aur_location file = {.file = path};
+    if (matrix->row_count == 0)
+        return aur_fail_at(error, file, AUR_ERROR_FORMAT, "no points");
+    meaning m = {0};
+    if (matrix->header[0] == '\0')
+        by_columns(matrix, &m);
+    else {
+        const aur_result result = by_header(path, matrix, &m, error);
+        if (result != AUR_OK)
+            return result;
+    }
+    points->count = matrix->row_count;
+    points->dimension = m.dimension;
+    points->coordinates = malloc(points->count * m.dimension * sizeof *points->coordinates);
+    points->weights = m.weights ? malloc(points->count * sizeof *points->weights) : NULL;
+    if (points->coordinates == NULL || (m.weights && points->weights == NULL))
+        return aur_fail(error, AUR_ERROR_MEMORY, "out of memory");
+    bool below_horizon = false;
+    for (size_t r = 0; r < matrix->row_count; ++r) {
+        const double *const row = matrix->values + r * matrix->column_count;
+        const char *const wrong = off_domain(&m, row);
+        if (wrong != NULL && matrix->lines != NULL)
+            return aur_fail_at(error, (aur_location){.file = path, .line = matrix->lines[r]},
+                               AUR_ERROR_FORMAT, "%s", wrong);
+        if (wrong != NULL)
+            return aur_fail_at(error, file, AUR_ERROR_FORMAT, "point %zu: %s", r, wrong);
+        memcpy(points->coordinates + r * m.dimension, row, m.dimension * sizeof *row);
+        if (m.weights)
+            points->weights[r] = row[m.dimension];
+        below_horizon |= m.domain == AUR_DOMAIN_SPHERE && row[2] < 0.0;
+    }
+    points->domain = m.domain == AUR_DOMAIN_SPHERE && !below_horizon ? AUR_DOMAIN_HEMISPHERE : m.domain;
+    return AUR_OK;
+}
+
+aur_result aur_points_read(const char *path, aur_points *points, aur_error *error) {
+    *points = (aur_points){0};
+    char *data;
+    size_t size;
+    aur_result result = aur_file_read(path, file_limit, &data, &size, error);
+    if (result != AUR_OK)
+        return result;
+    aur_matrix matrix;
+    if (aur_npy_recognize(data, size))
+        result = aur_npy_parse(path, data, size, &matrix, error);
+    else
+        result = aur_csv_parse(path, data, size, &matrix, error);
+    free(data);
+    if (result == AUR_OK)
+        result = interpret(path, &matrix, points, error);
+    free(matrix.values);
+    free(matrix.lines);
+    if (result != AUR_OK)
+        aur_points_release(points);
+    return result;
+}
+
+void aur_points_release(aur_points *points) {
+    if (points == NULL)
+        return;
+    free(points->coordinates);
+    free(points->weights);
+    *points = (aur_points){0};
+}

@@ -1,0 +1,22 @@
+/* A file of points as a matrix of numbers, before anyone has said what its columns mean. */
+#ifndef AUR_POINTSET_POINTS_FILE_H
+#define AUR_POINTSET_POINTS_FILE_H
+
+#include <aureole/pointset.h>
+#include <stdbool.h>
+
+typedef struct aur_matrix {
+    size_t row_count, column_count;
+    double *values;   /* row by row; free with free() */
+    size_t *lines;    /* the line of each row; NULL when the file has no lines; free with free() */
+    char header[256]; /* column names with commas between them; empty when there are none */
+} aur_matrix;
+
+/* `text` is changed and ends with a zero byte. `path` is for messages. */
+aur_result aur_csv_parse(const char *path, char *text, size_t size, aur_matrix *matrix, aur_error *error);
+aur_result aur_npy_parse(const char *path, const char *data, size_t size, aur_matrix *matrix,
+                         aur_error *error);
+/* Whether the data begins as NPY files do. */
+int aur_npy_recognize(const char *data, size_t size);
+
+#endif

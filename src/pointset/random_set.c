@@ -1,0 +1,30 @@
+/* Independent random points, each coordinate a hash of (seed, dimension, index): error N^-1/2. */
+#include "pointset/set.h"
+
+static void fill(const aur_pointset *set, const aur_block *block) {
+    for (size_t d = 0; d < block->dimension_count; ++d) {
+        const size_t dimension = block->first_dimension + d;
+        const uint64_t stream = aur_hash3(UINT64_C(0x72616e646f6d), set->seed, dimension);
+        const uint64_t key = aur_scramble_key(block->seed, dimension);
+        double *const out = block->data + d * block->coordinate_stride;
+        for (size_t i = 0; i < block->count; ++i) {
+            const uint64_t word = aur_hash2(stream, block->first + i);
+            out[i * block->point_stride] = aur_word_to_double(aur_scramble_word(set->scramble, word, key));
+        }
+    }
+}
+
+const aur_square_set aur_set_random = {
+    .description = {.name = "random",
+                    .keys = "",
+                    .summary = "independent uniform random points, counter-based",
+                    .domains = "square, cube",
+                    .sizes = "any",
+                    .extensible = 1,
+                    .source = "Salmon 2011 (counter-based generation)"},
+    .minimum_dimension = 1,
+    .maximum_dimension = SIZE_MAX,
+    .maximum_size = UINT64_MAX,
+    .scramblings = AUR_SCRAMBLES_ALL,
+    .fill = fill,
+};

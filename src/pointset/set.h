@@ -1,0 +1,70 @@
+/* The inside of a point set: what each generator's file offers to the table in pointset.c. */
+#ifndef AUR_POINTSET_SET_H
+#define AUR_POINTSET_SET_H
+
+#include <aureole/pointset.h>
+#include <stdbool.h>
+
+#include "core/parameters.h"
+#include "pointset/words.h"
+
+/* Which coordinates of which points, and where they go: coordinate first_dimension + d of point first + i is
+ * written to data[i * point_stride + d * coordinate_stride]. */
+typedef struct aur_block {
+    uint64_t first;
+    size_t count;
+    size_t first_dimension, dimension_count;
+    size_t point_stride, coordinate_stride;
+    uint64_t seed; /* of the scrambling */
+    double *data;
+} aur_block;
+
+/* Sets that count in 64-bit integers with a power of a base to spare end here. */
+#define AUR_INDEX_LIMIT (UINT64_C(1) << 48)
+
+enum {
+    AUR_SCRAMBLES_SHIFT = 1 << AUR_SCRAMBLE_NONE | 1 << AUR_SCRAMBLE_SHIFT | 1 << AUR_SCRAMBLE_ROTATE,
+    AUR_SCRAMBLES_ALL = AUR_SCRAMBLES_SHIFT | 1 << AUR_SCRAMBLE_DIGIT | 1 << AUR_SCRAMBLE_OWEN
+};
+
+/* One row of the table of square sets. */
+typedef struct aur_square_set {
+    aur_set_description description;
+    size_t minimum_dimension, maximum_dimension;
+    uint64_t maximum_size;
+    unsigned scramblings; /* bit 1 << aur_scramble: what has a meaning here */
+    /* Reads the keys and makes set->data ready (NULL: there are none and nothing is to be made ready). Size,
+     * dimension, scrambling and seed are set and within the limits above; a file's own may change them. */
+    aur_result (*prepare)(aur_pointset *set, aur_parameters *keys, const aur_pointset_options *options,
+                          aur_error *error);
+    /* Coordinates in [0,1) with NONE, DIGIT and OWEN applied; SHIFT and ROTATE are added by the caller. */
+    void (*fill)(const aur_pointset *set, const aur_block *block);
+} aur_square_set;
+
+struct aur_pointset {
+    const aur_square_set *kind;
+    uint64_t size;
+    size_t dimension;
+    aur_scramble scramble;
+    uint64_t seed;
+    void *data; /* the generator's own, one allocation; NULL when it needs none */
+};
+
+/* The table, for the listing of all sets. */
+size_t aur_square_set_count(void);
+const aur_square_set *aur_square_set_at(size_t index);
+
+/* Generators, one file each. */
+extern const aur_square_set aur_set_random, aur_set_halton, aur_set_hammersley, aur_set_sobol,
+    aur_set_larcher_pillichshammer;
+
+/* The coordinates of a block with every scrambling applied. The block must be within the set. */
+void aur_pointset_fill(const aur_pointset *set, const aur_block *block);
+
+/* A warning when the size is not a power of the base: the points are then no complete net. */
+void aur_warn_incomplete_net(const aur_pointset *set, const aur_pointset_options *options, uint64_t base);
+
+/* The coordinate i/N of coordinate `d` of the block, with DIGIT and OWEN as in base 2. */
+void aur_fill_fraction(const aur_pointset *set, const aur_block *block, size_t d);
+
+#endif
