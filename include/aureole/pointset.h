@@ -90,6 +90,36 @@ typedef struct aur_points {
 AUR_API aur_result aur_points_read(const char *path, aur_points *points, aur_error *error) AUR_NONNULL(1, 2);
 AUR_API void aur_points_release(aur_points *points);
 
+/* How points are written. CSV: a header (u,v on the square, x,y on the disk, x,y,z on hemisphere and sphere,
+ * u1,u2,... on the cube, and w where there are weights), 17 significant digits. JSON: an object with "points"
+ * and, where there are, "weights". NPY: float64, a row a point, the weight in the last column. PLY: binary,
+ * up to three coordinates, the weight as `quality`. */
+typedef enum aur_points_format {
+    AUR_POINTS_CSV,
+    AUR_POINTS_JSON,
+    AUR_POINTS_NPY,
+    AUR_POINTS_PLY
+} aur_points_format;
+
+/* "csv", "json", "npy", "ply" to the value and back; NULL for a value out of range. */
+AUR_API aur_result aur_points_format_from_name(const char *name, aur_points_format *format, aur_error *error)
+    AUR_NONNULL(1, 2);
+AUR_API const char *aur_points_format_name(aur_points_format format);
+
+/* Where points come from: kept in the formats that have a place for it (JSON, PLY). */
+typedef struct aur_points_origin {
+    const char *set;
+    uint64_t size;  /* of the set, of which the points may be a part */
+    uint64_t first; /* the index of the first one */
+    aur_scramble scramble;
+    uint64_t seed;
+} aur_points_origin;
+
+/* Writes points to `path`, "-" for standard output; the file is replaced whole or not at all. `origin` may be
+ * NULL. Errors: UNSUPPORTED for a ply file of more than three coordinates, WRITE. */
+AUR_API aur_result aur_points_write(const char *path, aur_points_format format, const aur_points *points,
+                                    const aur_points_origin *origin, aur_error *error) AUR_NONNULL(1, 3);
+
 #ifdef __cplusplus
 }
 #endif

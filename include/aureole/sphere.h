@@ -1,6 +1,8 @@
-/* Directions: maps from the square, lobes, sets that are native to the sphere, and the table of all sets.
+/* Directions: maps from the square, lobes, rotations, sets that are native to the sphere, and the table of
+ * all sets.
  *
- * Angle convention: z up, polar angle theta from +z, azimuth phi from +x towards +y. */
+ * Angle convention: z up, polar angle theta from +z, azimuth phi from +x towards +y. A direction is a unit
+ * vector x,y,z; densities are per steradian. */
 #ifndef AUREOLE_SPHERE_H
 #define AUREOLE_SPHERE_H
 
@@ -10,38 +12,92 @@
 extern "C" {
 #endif
 
-/* LAMBERT: the cylindrical equal-area map, z = 1 - u (hemisphere) or 1 - 2u (sphere), phi = 2 pi v.
- * CONCENTRIC: Shirley-Chiu square to disk, then z = 1 - r^2 (sphere 1 - 2 r^2). AZIMUTHAL: Lambert's
- * azimuthal equal-area map by polar coordinates, r = sqrt u. POLAR: Schretter 2012 fig. 3, r = u, phi = 2 pi
- * v, no square root. */
+/* Maps from the unit square. Every one but POLAR preserves area, so that uniform points stay uniform.
+ * LAMBERT: the cylindrical equal-area map, z = 1 - u (hemisphere) or 1 - 2u (sphere), phi = 2 pi v.
+ * CONCENTRIC: Shirley and Chiu 1997, square to disk, then z = 1 - r^2 (sphere 1 - 2 r^2).
+ * AZIMUTHAL: Lambert's azimuthal equal-area map by polar coordinates, r = sqrt u; once lifted it is LAMBERT.
+ * POLAR: Schretter 2012 fig. 3, r = u, phi = 2 pi v, no square root; points crowd about the pole and carry
+ * the weight aur_map_weight. */
 typedef enum aur_map { AUR_MAP_LAMBERT, AUR_MAP_CONCENTRIC, AUR_MAP_AZIMUTHAL, AUR_MAP_POLAR } aur_map;
 
 AUR_API aur_result aur_map_from_name(const char *name, aur_map *map, aur_error *error) AUR_NONNULL(1, 2);
-AUR_API const char *aur_map_name(aur_map map);
+AUR_API const char *aur_map_name(aur_map map); /* NULL for a value out of range */
+
+/* u,v in [0,1) to the unit disk, and back. The inverses return coordinates in [0,1), so that a point on the
+ * rim comes back as the greatest number below 1; the azimuth of the centre is 0. Round trips are good to
+ * 1e-15 of the domain's size. */
+AUR_API void aur_map_to_disk(aur_map map, const double square[2], double disk[2]) AUR_NONNULL(2, 3);
+AUR_API void aur_map_from_disk(aur_map map, const double disk[2], double square[2]) AUR_NONNULL(2, 3);
+/* u,v in [0,1) to the unit directions with z >= 0, to all of them, and back. */
+AUR_API void aur_map_to_hemisphere(aur_map map, const double square[2], double direction[3])
+    AUR_NONNULL(2, 3);
+AUR_API void aur_map_from_hemisphere(aur_map map, const double direction[3], double square[2])
+    AUR_NONNULL(2, 3);
+AUR_API void aur_map_to_sphere(aur_map map, const double square[2], double direction[3]) AUR_NONNULL(2, 3);
+AUR_API void aur_map_from_sphere(aur_map map, const double direction[3], double square[2]) AUR_NONNULL(2, 3);
+/* The same for the cap z >= 1 - height about +z, height in (0,2]: 1 is the hemisphere and 2 the sphere. A
+ * direction outside the cap comes back as the nearest one on its rim. */
+AUR_API void aur_map_to_cap(aur_map map, double height, const double square[2], double direction[3])
+    AUR_NONNULL(3, 4);
+AUR_API void aur_map_from_cap(aur_map map, double height, const double direction[3], double square[2])
+    AUR_NONNULL(3, 4);
+/* The uniform density over the map's own: 1, and 2u for POLAR. Its mean over the square is 1. */
+AUR_API double aur_map_weight(aur_map map, const double square[2]) AUR_NONNULL(2);
 
 typedef enum aur_lobe_kind { AUR_LOBE_COSINE_POWER, AUR_LOBE_GGX } aur_lobe_kind;
 
-/* A density on the hemisphere about +z. COSINE_POWER: (M+1)/(2 pi) cos^M theta with M = exponent >= 0; M = 0
- * is uniform. GGX: the reflection of a view direction at `view_degrees` from +z (towards +x) by visible
- * normals. */
+/* A density about +z. COSINE_POWER: (M+1)/(2 pi) cos^M theta on the hemisphere with M = exponent >= 0; M = 0
+ * is uniform. GGX: the reflection of a view direction at `view_degrees` from +z (towards +x) by the visible
+ * normals of a surface of roughness `alpha`; part of it lies below the horizon, z < 0, where it carries no
+ * light. A zero lobe is uniform. */
 typedef struct aur_lobe {
     aur_lobe_kind kind;
-    double exponent;
-    double alpha;
-    double view_degrees;
+    double exponent;     /* M in [0, 1e9] */
+    double alpha;        /* in [1e-4, 1] */
+    double view_degrees; /* in [0, 90) */
 } aur_lobe;
 
 /* "uniform", "cosine", "phong:M", "ggx:ALPHA[:VIEW_DEGREES]". */
 AUR_API aur_result aur_lobe_parse(const char *text, aur_lobe *lobe, aur_error *error) AUR_NONNULL(1, 2);
+/* ARGUMENT when a member is out of the range given above. */
+AUR_API aur_result aur_lobe_check(const aur_lobe *lobe, aur_error *error) AUR_NONNULL(1);
+
+/* A uniform direction of the hemisphere to one that follows the lobe, at the same azimuth about +z (GGX:
+ * about the normal of the stretched space): z' = z^{1/(M+1)}; GGX by spherical caps (Dupuy and Benyoub 2023).
+ * And back: the inverse of a direction that the lobe never takes is some direction of the hemisphere. The
+ * arrays may be one and the same. */
+AUR_API void aur_lobe_warp(const aur_lobe *lobe, const double uniform[3], double direction[3])
+    AUR_NONNULL(1, 2, 3);
+AUR_API void aur_lobe_unwarp(const aur_lobe *lobe, const double direction[3], double uniform[3])
+    AUR_NONNULL(1, 2, 3);
+/* The density in 1/steradian; its integral over the sphere is 1. 0 below the horizon for COSINE_POWER. */
+AUR_API double aur_lobe_pdf(const aur_lobe *lobe, const double direction[3]) AUR_NONNULL(1, 2);
+/* The density to draw points from when they are weighted optimally, p^{2/(s+1)} normalised, for smoothness s
+ * in (1,2): cos^M becomes cos^{2M/(s+1)}. UNSUPPORTED for GGX, which has no closed form. */
+AUR_API aur_result aur_lobe_optimal(const aur_lobe *lobe, double smoothness, aur_lobe *density,
+                                    aur_error *error) AUR_NONNULL(1, 3);
+
+/* A rotation, row by row: rotated[i] = sum over k of m[3 i + k] v[k]. */
+typedef struct aur_rotation {
+    double m[9];
+} aur_rotation;
+
+/* About +z by an angle that is uniform over seeds, and a uniformly random rotation (Shoemake 1992). Rotating
+ * one set many times randomises it without generating it again. */
+AUR_API void aur_rotation_axial(uint64_t seed, aur_rotation *rotation) AUR_NONNULL(2);
+AUR_API void aur_rotation_uniform(uint64_t seed, aur_rotation *rotation) AUR_NONNULL(2);
+/* Rotates xyz[3 * count] in place. */
+AUR_API void aur_rotation_apply(const aur_rotation *rotation, size_t count, double *xyz) AUR_NONNULL(1, 3);
 
 /* A set of directions made ready: immutable, for any number of threads. */
 typedef struct aur_directions aur_directions;
 
 typedef struct aur_directions_options {
-    uint64_t count;      /* the size of the set: at least 1 */
+    uint64_t count;      /* the size of the set: at least 1; 0 for a file: all of its points */
     aur_domain domain;   /* HEMISPHERE or SPHERE */
+    double cap_degrees;  /* 0: all of the domain; else the cap of that polar angle about +z within it */
     aur_map map;         /* for sets of the square; native sets ignore it */
-    aur_lobe lobe;       /* hemisphere only; zero is uniform */
+    aur_lobe lobe;       /* whole hemisphere only; zero is uniform */
     int optimal_density; /* draw from lobe^{2/(s+1)} and weigh by p/q */
     double smoothness;   /* s of the optimal density, in (1,2); 0 stands for 1.5 */
     aur_scramble scramble;
@@ -49,16 +105,44 @@ typedef struct aur_directions_options {
     aur_warnings warnings;
 } aur_directions_options;
 
-/* Makes the directions of a set of the square or of the sphere ready; `set` as in aur_pointset_create. */
+/* Makes the directions of a set of the square or of the sphere ready; `set` as in aur_pointset_create. A file
+ * of directions is taken as it stands. Sets native to the sphere know the scramblings ROTATE and, on the
+ * sphere, ROTATE3D; sets of the square know these after the map and the others before it. */
 AUR_API aur_result aur_directions_create(const char *set, const aur_directions_options *options,
                                          aur_directions **directions, aur_error *error) AUR_NONNULL(1, 2, 3);
 AUR_API void aur_directions_destroy(aur_directions *directions); /* NULL is allowed */
 AUR_API uint64_t aur_directions_size(const aur_directions *directions) AUR_NONNULL(1);
 
 /* Unit vectors first .. first+count-1 as x,y,z triples into xyz[3 * count] (`capacity` counts doubles), and
- * their weights into weights[count] unless NULL: 1/N, or p/(q N) with the optimal density. */
+ * their weights into weights[count] unless NULL: those of a rule for integrals against the lobe (uniform:
+ * against 1/area), 1/N each where the density is the lobe itself, p/(q N) where it is not, 0 below the
+ * horizon of a GGX lobe. Errors: ARGUMENT for a range beyond the set, CAPACITY. */
 AUR_API aur_result aur_directions_points(const aur_directions *directions, uint64_t first, size_t count,
                                          size_t capacity, double *xyz, double *weights) AUR_NONNULL(1, 5);
+/* The same rounded to float, and as separate arrays of `capacity` numbers each. */
+AUR_API aur_result aur_directions_points_float(const aur_directions *directions, uint64_t first, size_t count,
+                                               size_t capacity, float *xyz, float *weights) AUR_NONNULL(1, 5);
+AUR_API aur_result aur_directions_arrays(const aur_directions *directions, uint64_t first, size_t count,
+                                         size_t capacity, double *x, double *y, double *z, double *weights)
+    AUR_NONNULL(1, 5, 6, 7);
+AUR_API aur_result aur_directions_arrays_float(const aur_directions *directions, uint64_t first, size_t count,
+                                               size_t capacity, float *x, float *y, float *z, float *weights)
+    AUR_NONNULL(1, 5, 6, 7);
+
+/* Points of any set on any domain, for programs that want them all at once. */
+typedef struct aur_points_request {
+    aur_directions_options options; /* .domain may be any; .map lifts to the disk too */
+    int natural_domain;             /* non-zero: the set's own domain instead (a file's: what it holds) */
+    size_t dimension;               /* 0 stands for 2; otherwise CUBE, or SQUARE with 2 */
+    uint64_t first;                 /* of the set's points */
+    size_t count;                   /* 0: all from `first` on */
+} aur_points_request;
+
+/* Fills *points: release it with aur_points_release. Weights are there where they are not all equal. Native
+ * sets come to the disk by the azimuthal map from the hemisphere. Errors: as aur_directions_create and
+ * aur_pointset_create; UNSUPPORTED for a native set on the square. */
+AUR_API aur_result aur_points_generate(const char *set, const aur_points_request *request, aur_points *points,
+                                       aur_error *error) AUR_NONNULL(1, 2, 3);
 
 /* The table of all sets, of the square and of the sphere. */
 AUR_API size_t aur_set_count(void);

@@ -4,9 +4,11 @@
 
 #include "cli/cli.h"
 
-extern const cli_verb cli_verb_help;
+extern const cli_verb cli_verb_help, cli_verb_points, cli_verb_sets;
 
 static const cli_verb *const verbs[] = {
+    &cli_verb_sets,
+    &cli_verb_points,
     &cli_verb_help,
 };
 

@@ -1,0 +1,124 @@
+/* Lobes: densities on the hemisphere, and the warps that carry uniform points to them and back. */
+#include <math.h>
+#include <string.h>
+
+#include <aureole/sphere.h>
+
+#include "core/error.h"
+#include "core/parameters.h"
+#include "core/vector.h"
+#include "sphere/lobe_ggx.h"
+
+enum { MAXIMUM_EXPONENT = 1000000000 };
+
+aur_result aur_lobe_check(const aur_lobe *lobe, aur_error *error) {
+    if (lobe->kind == AUR_LOBE_COSINE_POWER) {
+        if (!(lobe->exponent >= 0.0 && lobe->exponent <= MAXIMUM_EXPONENT))
+            return aur_fail(error, AUR_ERROR_ARGUMENT, "a lobe's exponent must be between 0 and 1e9, not %g",
+                            lobe->exponent);
+        return AUR_OK;
+    }
+    if (lobe->kind != AUR_LOBE_GGX)
+        return aur_fail(error, AUR_ERROR_ARGUMENT, "unknown kind of lobe %d", (int)lobe->kind);
+    if (!(lobe->alpha >= 1e-4 && lobe->alpha <= 1.0))
+        return aur_fail(error, AUR_ERROR_ARGUMENT, "a ggx lobe's alpha must be between 0.0001 and 1, not %g",
+                        lobe->alpha);
+    if (!(lobe->view_degrees >= 0.0 && lobe->view_degrees < 90.0))
+        return aur_fail(error, AUR_ERROR_ARGUMENT,
+                        "a ggx lobe's view angle must be at least 0 and below 90 degrees, not %g",
+                        lobe->view_degrees);
+    return AUR_OK;
+}
+
+/* "A" or "A:B" into values; returns how many there are, 0 for anything else. */
+static size_t parse_pair(const char *text, double values[2]) {
+    char first[64];
+    const char *const colon = strchr(text, ':');
+    const size_t length = colon != NULL ? (size_t)(colon - text) : strlen(text);
+    if (length >= sizeof first)
+        return 0;
+    memcpy(first, text, length);
+    first[length] = '\0';
+    if (!aur_parse_double(first, &values[0]))
+        return 0;
+    if (colon == NULL)
+        return 1;
+    return aur_parse_double(colon + 1, &values[1]) ? 2 : 0;
+}
+
+aur_result aur_lobe_parse(const char *text, aur_lobe *lobe, aur_error *error) {
+    *lobe = (aur_lobe){0};
+    double values[2] = {0.0, 0.0};
+    if (strcmp(text, "uniform") == 0)
+        return AUR_OK;
+    if (strcmp(text, "cosine") == 0) {
+        lobe->exponent = 1.0;
+        return AUR_OK;
+    }
+    if (strncmp(text, "phong:", 6) == 0 && parse_pair(text + 6, values) == 1) {
+        lobe->exponent = values[0];
+        return aur_lobe_check(lobe, error);
+    }
+    if (strncmp(text, "ggx:", 4) == 0 && parse_pair(text + 4, values) != 0) {
+        *lobe = (aur_lobe){.kind = AUR_LOBE_GGX, .alpha = values[0], .view_degrees = values[1]};
+        return aur_lobe_check(lobe, error);
+    }
+    return aur_fail(error, AUR_ERROR_NAME,
+                    "'%s' is no lobe; it must be uniform, cosine, phong:M or ggx:ALPHA[:VIEW_DEGREES]", text);
+}
+
+/* ln z of a unit vector of the upper hemisphere, to full relative precision about the pole too. */
+static double log_cosine(const double direction[3], double across) {
+    return direction[2] > 0.5 ? log1p(-across / (1.0 + direction[2])) : log(fmax(direction[2], 0.0));
+}
+
+/* z becomes z^power at the same azimuth. */
+static void raise_cosine(double power, const double from[3], double to[3]) {
+    const double x = from[0];
+    const double y = from[1];
+    const double across = x * x + y * y;
+    const double logarithm = power * log_cosine(from, across);
+    const double scale = across > 0.0 ? sqrt(-expm1(2.0 * logarithm) / across) : 0.0;
+    to[2] = exp(logarithm);
+    to[0] = x * scale;
+    to[1] = y * scale;
+}
+
+void aur_lobe_warp(const aur_lobe *lobe, const double uniform[3], double direction[3]) {
+    if (lobe->kind == AUR_LOBE_GGX)
+        aur_ggx_warp(lobe, uniform, direction);
+    else if (lobe->exponent != 0.0)
+        raise_cosine(1.0 / (lobe->exponent + 1.0), uniform, direction);
+    else
+        memmove(direction, uniform, 3 * sizeof *direction);
+}
+
+void aur_lobe_unwarp(const aur_lobe *lobe, const double direction[3], double uniform[3]) {
+    if (lobe->kind == AUR_LOBE_GGX)
+        aur_ggx_unwarp(lobe, direction, uniform);
+    else if (lobe->exponent != 0.0)
+        raise_cosine(lobe->exponent + 1.0, direction, uniform);
+    else
+        memmove(uniform, direction, 3 * sizeof *uniform);
+}
+
+double aur_lobe_pdf(const aur_lobe *lobe, const double direction[3]) {
+    if (lobe->kind == AUR_LOBE_GGX)
+        return aur_ggx_pdf(lobe, direction);
+    if (direction[2] < 0.0)
+        return 0.0;
+    const double m = lobe->exponent;
+    return (m + 1.0) / (2.0 * AUR_PI) * (m != 0.0 ? pow(direction[2], m) : 1.0);
+}
+
+aur_result aur_lobe_optimal(const aur_lobe *lobe, double smoothness, aur_lobe *density, aur_error *error) {
+    if (!(smoothness > 1.0 && smoothness < 2.0))
+        return aur_fail(error, AUR_ERROR_ARGUMENT, "the smoothness must be above 1 and below 2, not %g",
+                        smoothness);
+    if (lobe->kind == AUR_LOBE_GGX)
+        return aur_fail(error, AUR_ERROR_UNSUPPORTED,
+                        "the optimal density of a ggx lobe has no closed form: use density same");
+    *density = *lobe;
+    density->exponent *= 2.0 / (smoothness + 1.0);
+    return AUR_OK;
+}

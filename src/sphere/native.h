@@ -1,0 +1,39 @@
+/* The inside of a set that is native to the sphere: what each generator's file offers to the table in
+ * directions.c. */
+#ifndef AUR_SPHERE_NATIVE_H
+#define AUR_SPHERE_NATIVE_H
+
+#include <aureole/sphere.h>
+
+#include "core/parameters.h"
+
+/* What a native set fills: `count` points spread uniformly over the cap z >= 1 - height (1 hemisphere, 2
+ * sphere).
+ */
+typedef struct aur_native_request {
+    uint64_t count;
+    double height;
+    const aur_warnings *warnings;
+} aur_native_request;
+
+typedef struct aur_native_set {
+    aur_set_description description;
+    uint64_t maximum_size;
+    /* Reads the keys and makes *data, one allocation, ready. */
+    aur_result (*prepare)(aur_parameters *keys, const aur_native_request *request, void **data,
+                          aur_error *error);
+    /* Unit vectors first .. first+count-1, which are within the set. */
+    void (*fill)(const void *data, uint64_t first, size_t count, double *xyz);
+} aur_native_set;
+
+/* The native set that a SET's text names, or NULL. */
+const aur_native_set *aur_native_find(const char *set);
+/* Whether a SET's text is file:PATH, whose path starts at set + 5. */
+int aur_set_is_file(const char *set);
+/* Whether the points of a rule are not all worth the same. */
+int aur_directions_weighted(const aur_directions *directions);
+
+/* Generators, one file each. */
+extern const aur_native_set aur_native_fibonacci;
+
+#endif

@@ -1,0 +1,46 @@
+/* Azimuths in 64-bit fixed point: a phase counts 2^-64 turns and wraps by itself, so that neither adding nor
+ * multiplying by an index ever loses a digit. */
+#ifndef AUR_SPHERE_PHASE_H
+#define AUR_SPHERE_PHASE_H
+
+#include <stdint.h>
+
+/* 1/Phi = (sqrt 5 - 1)/2 turns, the golden angle. */
+#define AUR_GOLDEN_PHASE UINT64_C(0x9e3779b97f4a7c15)
+
+/* The fraction of `turns`, exact to 2^-64 turn. Any finite number is allowed. */
+static inline uint64_t aur_phase_from_turns(double turns) {
+    const double fraction = turns - __builtin_floor(turns);
+    return fraction < 1.0 ? (uint64_t)(fraction * 0x1p64) : 0;
+}
+
+/* Sine and cosine of a phase to 2e-16: exact reduction to an eighth of a turn, then polynomials (minimax,
+ * fitted on t in [-1,1] for sin(pi t/4)/t and cos(pi t/4)) in plain multiplications and additions, so that
+ * scalar and SIMD code agree bit for bit. */
+static inline void aur_phase_sincos(uint64_t phase, double *sine, double *cosine) {
+    const uint64_t quadrant = (phase + (UINT64_C(1) << 61)) >> 62;
+    const double t = (double)(int64_t)(phase - (quadrant << 62)) * 0x1p-61;
+    const double q = t * t;
+    double s = 0x1.e4a9d9166f052p-38;
+    s = s * q - 0x1.e3027dea82bd7p-30;
+    s = s * q + 0x1.50783208843ebp-22;
+    s = s * q - 0x1.32d2cce500387p-15;
+    s = s * q + 0x1.466bc6775a476p-9;
+    s = s * q - 0x1.4abbce625be52p-4;
+    s = s * q + 0x1.921fb54442d18p-1;
+    s = s * t;
+    double c = -0x1.b2f3eb054afcdp-42;
+    c = c * q + 0x1.f9ce245cada0bp-34;
+    c = c * q - 0x1.a6d1eef479be1p-26;
+    c = c * q + 0x1.e1f5068688d5bp-19;
+    c = c * q - 0x1.55d3c7e3cb241p-12;
+    c = c * q + 0x1.03c1f081b5ac0p-6;
+    c = c * q - 0x1.3bd3cc9be45dep-2;
+    c = c * q + 1.0;
+    const double turned_sine = (quadrant & 1) != 0 ? c : s;
+    const double turned_cosine = (quadrant & 1) != 0 ? s : c;
+    *sine = (quadrant & 2) != 0 ? -turned_sine : turned_sine;
+    *cosine = ((quadrant + 1) & 2) != 0 ? -turned_cosine : turned_cosine;
+}
+
+#endif
