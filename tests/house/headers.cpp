@@ -2,6 +2,7 @@
 #include <aureole/core.h>
 #include <aureole/image.h>
 #include <aureole/pointset.h>
+#include <aureole/quadrature.h>
 #include <aureole/quality.h>
 #include <aureole/render.h>
 #include <aureole/scene.h>

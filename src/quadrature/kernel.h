@@ -1,0 +1,44 @@
+/* The generalised distance kernel of the Sobolev space H^s of the sphere (Marques 2018 eq. 3). */
+#ifndef AUR_QUADRATURE_KERNEL_H
+#define AUR_QUADRATURE_KERNEL_H
+
+#include <stddef.h>
+
+/* Directions as three arrays, so that a row of the kernel is one vector loop. */
+typedef struct aur_columns {
+    const double *x, *y, *z;
+} aur_columns;
+
+/* K = top - (squared chord)^power. */
+typedef struct aur_kernel_rule {
+    double smoothness;
+    double top;   /* 2^{2s-1}/s */
+    double power; /* s - 1 */
+    /* The row for s = 3/2 on this machine. */
+    void (*row)(double top, const double point[3], size_t count, aur_columns columns, double *row);
+} aur_kernel_rule;
+
+/* `smoothness` must lie in (1,2). */
+aur_kernel_rule aur_kernel_rule_make(double smoothness);
+
+/* row[j] = K(point, columns[j]), 0 <= j < count. The same bits on every instruction set. */
+void aur_kernel_row(const aur_kernel_rule *rule, const double point[3], size_t count, aur_columns columns,
+                    double *row);
+
+/* sum of weights[j] K(point, columns[j]), in an order that depends on count only. */
+double aur_kernel_sum(const aur_kernel_rule *rule, const double point[3], size_t count, aur_columns columns,
+                      const double *weights);
+
+/* Legendre coefficients: K = sum of coefficients[l] P_l(u.v), 0 <= l < count. */
+void aur_kernel_coefficients(double smoothness, size_t count, double *coefficients);
+
+/* Splits count x,y,z triples into x[count], y[count], z[count] at `storage` (3 * count). */
+aur_columns aur_columns_split(size_t count, const double *xyz, double *storage);
+
+/* The row for smoothness 3/2, once for each instruction set: entered through aur_kernel_row only. */
+void aur_kernel_row_portable(double top, const double point[3], size_t count, aur_columns columns,
+                             double *row);
+void aur_kernel_row_avx2(double top, const double point[3], size_t count, aur_columns columns, double *row);
+void aur_kernel_row_avx512(double top, const double point[3], size_t count, aur_columns columns, double *row);
+
+#endif

@@ -1,0 +1,23 @@
+/* The body of the kernel's row for s = 3/2, compiled once for each instruction set. It is plain arithmetic
+ * without contraction, so every set gives the same bits. Differences, not the dot product: near samples keep
+ * their distance. */
+#ifndef AUR_QUADRATURE_KERNEL_ROW_H
+#define AUR_QUADRATURE_KERNEL_ROW_H
+
+#include <math.h>
+
+#include "quadrature/kernel.h"
+
+static inline void kernel_row(double top, const double point[3], size_t count, aur_columns columns,
+                              double *restrict row) {
+    const double *restrict x = columns.x;
+    const double *restrict y = columns.y;
+    const double *restrict z = columns.z;
+    const double px = point[0], py = point[1], pz = point[2];
+    for (size_t j = 0; j < count; ++j) {
+        const double dx = x[j] - px, dy = y[j] - py, dz = z[j] - pz;
+        row[j] = top - sqrt(dx * dx + dy * dy + dz * dz);
+    }
+}
+
+#endif

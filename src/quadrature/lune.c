@@ -1,0 +1,116 @@
+#include "quadrature/lune.h"
+
+#include <math.h>
+
+#include "core/vector.h"
+#include "quadrature/direction.h"
+#include "quadrature/gauss.h"
+
+static const double negligible = 1e-13;
+
+static double lesser(double a, double b) {
+    return a < b ? a : b;
+}
+
+/* A rule on [from, to] for cos^exponent. */
+static void lobe_rule(double from, double to, double exponent, size_t count, double *angle, double *weight) {
+    double node[AUR_LUNE_ACROSS], share[AUR_LUNE_ACROSS];
+    aur_gauss_legendre(count, node, share);
+    for (size_t i = 0; i < count; ++i) {
+        angle[i] = 0.5 * (from + to) + 0.5 * (to - from) * node[i];
+        weight[i] = 0.5 * (to - from) * share[i] * pow(cos(angle[i]), exponent);
+    }
+}
+
+/* (m+1)/(2 pi): the peak of the normalised lobe. */
+static double peak(const aur_lune *lune) {
+    return (lune->exponent + 1.0) / (2.0 * AUR_PI);
+}
+
+/* The integral over beta of cos^{m+1}(beta). */
+static double aside_integral(double m) {
+    return sqrt(AUR_PI) * exp(lgamma(0.5 * m + 1.0) - lgamma(0.5 * m + 1.5));
+}
+
+void aur_lune_init(aur_lune *lune, const double axis[3], double exponent) {
+    const double cosine = fmin(axis[2], 1.0);
+    const double sine = hypot(axis[0], axis[1]);
+    *lune = (aur_lune){.exponent = exponent, .horizon = 0.5 * AUR_PI - atan2(sine, cosine)};
+    for (int i = 0; i < 3; ++i)
+        lune->axis[i] = axis[i];
+    if (sine > 0.0) {
+        lune->down[0] = axis[0] * cosine / sine;
+        lune->down[1] = axis[1] * cosine / sine;
+        lune->aside[0] = -axis[1] / sine;
+        lune->aside[1] = axis[0] / sine;
+    } else {
+        lune->down[0] = 1.0;
+        lune->aside[1] = 1.0;
+    }
+    lune->down[2] = -sine;
+    lune->psi_reach = exponent > 0.0 ? acos(pow(negligible, 1.0 / exponent)) : 0.5 * AUR_PI;
+    lune->beta_reach = acos(pow(negligible, 1.0 / (exponent + 1.0)));
+    aur_gauss_legendre(AUR_LUNE_SIDE, lune->side, lune->side_weight);
+    if (lune->horizon >= lune->psi_reach)
+        return;
+    double psi[AUR_LUNE_ACROSS];
+    lobe_rule(lune->horizon, lune->psi_reach, exponent, AUR_LUNE_ACROSS, psi, lune->across_weight);
+    double sum = 0.0;
+    for (size_t i = 0; i < AUR_LUNE_ACROSS; ++i) {
+        lune->cosine[i] = cos(psi[i]);
+        lune->sine[i] = sin(psi[i]);
+        sum += lune->across_weight[i];
+    }
+    lune->fraction = lesser(1.0, peak(lune) * aside_integral(exponent) * sum);
+}
+
+double aur_lune_potential(const aur_lune *lune, const aur_kernel_rule *rule, const double u[3]) {
+    enum { ASIDE = 2 * AUR_LUNE_SIDE, COUNT = ASIDE * AUR_LUNE_ACROSS };
+    if (lune->fraction <= 0.0)
+        return 0.0;
+    const double local[3] = {aur_dot3(u, lune->axis), aur_dot3(u, lune->down), aur_dot3(u, lune->aside)};
+    /* The kernel is sharp at u itself: the intervals meet at its beta, where Gauss nodes crowd. */
+    double middle = asin(fmax(-1.0, fmin(1.0, local[2])));
+    if (fabs(middle) >= 0.98 * lune->beta_reach)
+        middle = 0.0;
+    double cosine[ASIDE], sine[ASIDE], aside_weight[ASIDE];
+    for (size_t side = 0; side < 2; ++side) {
+        const double end = side == 0 ? -lune->beta_reach : lune->beta_reach;
+        for (size_t i = 0; i < AUR_LUNE_SIDE; ++i) {
+            const size_t at = side * AUR_LUNE_SIDE + i;
+            const double beta = 0.5 * (middle + end) + 0.5 * (end - middle) * lune->side[i];
+            cosine[at] = cos(beta);
+            sine[at] = sin(beta);
+            aside_weight[at] =
+                0.5 * fabs(end - middle) * lune->side_weight[i] * pow(cosine[at], lune->exponent + 1.0);
+        }
+    }
+    double x[COUNT], y[COUNT], z[COUNT], weight[COUNT];
+    for (size_t j = 0; j < AUR_LUNE_ACROSS; ++j) {
+        for (size_t i = 0; i < ASIDE; ++i) {
+            const size_t at = j * ASIDE + i;
+            x[at] = cosine[i] * lune->cosine[j];
+            y[at] = cosine[i] * lune->sine[j];
+            z[at] = sine[i];
+            weight[at] = lune->across_weight[j] * aside_weight[i];
+        }
+    }
+    return peak(lune) * aur_kernel_sum(rule, local, COUNT, (aur_columns){x, y, z}, weight);
+}
+
+void aur_lune_visible(const aur_lune *lune, double *xyz, double *weights) {
+    double psi[AUR_LUNE_ACROSS], psi_weight[AUR_LUNE_ACROSS], beta[AUR_LUNE_SIDE], beta_weight[AUR_LUNE_SIDE];
+    lobe_rule(-lune->psi_reach, lesser(lune->horizon, lune->psi_reach), lune->exponent, AUR_LUNE_ACROSS, psi,
+              psi_weight);
+    lobe_rule(0.0, lune->beta_reach, lune->exponent + 1.0, AUR_LUNE_SIDE, beta, beta_weight);
+    size_t at = 0;
+    for (size_t j = 0; j < AUR_LUNE_ACROSS; ++j) {
+        for (size_t i = 0; i < 2 * AUR_LUNE_SIDE; ++i, ++at) {
+            const double angle = i % 2 == 0 ? beta[i / 2] : -beta[i / 2];
+            for (int k = 0; k < 3; ++k)
+                xyz[3 * at + k] = cos(angle) * (cos(psi[j]) * lune->axis[k] + sin(psi[j]) * lune->down[k]) +
+                                  sin(angle) * lune->aside[k];
+            weights[at] = peak(lune) * psi_weight[j] * beta_weight[i / 2];
+        }
+    }
+}

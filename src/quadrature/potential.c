@@ -1,0 +1,251 @@
+#include "quadrature/potential.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+#include "core/error.h"
+#include "core/vector.h"
+#include "quadrature/direction.h"
+
+enum { NODES_DEFAULT = 4096, NODES_MOST = 1 << 24 };
+
+static aur_result check_lobe(const aur_density *density, aur_error *error) {
+    if (!(density->exponent >= 0.0 && density->exponent <= AUR_EXPONENT_MAXIMUM))
+        return aur_fail(error, AUR_ERROR_ARGUMENT, "the exponent of a lobe must be between 0 and %g, not %g",
+                        AUR_EXPONENT_MAXIMUM, density->exponent);
+    if (!aur_is_unit(density->axis))
+        return aur_fail(error, AUR_ERROR_ARGUMENT, "the axis (%g, %g, %g) of a lobe is not a unit vector",
+                        density->axis[0], density->axis[1], density->axis[2]);
+    return AUR_OK;
+}
+
+static aur_result create_lobe(aur_potential *potential, aur_error *error) {
+    const aur_density *const density = &potential->density;
+    const aur_result result = check_lobe(density, error);
+    if (result != AUR_OK)
+        return result;
+    potential->mass = 2.0 * AUR_PI / (density->exponent + 1.0);
+    if (density->clipped) {
+        if (!(density->axis[2] >= 0.0))
+            return aur_fail(error, AUR_ERROR_ARGUMENT,
+                            "the axis of a clipped lobe must not point below the surface (z = %g)",
+                            density->axis[2]);
+        aur_lune_init(&potential->lune, density->axis, density->exponent);
+        potential->mass *= 1.0 - potential->lune.fraction;
+    }
+    return aur_zonal_create(density->exponent, potential->rule.smoothness, &potential->zonal, error);
+}
+
+static aur_result copy_nodes(const aur_density *density, double *columns, double *masses, aur_error *error) {
+    const size_t count = density->node_count;
+    const aur_result result = aur_check_directions(count, density->nodes, error);
+    if (result != AUR_OK)
+        return result;
+    aur_columns_split(count, density->nodes, columns);
+    for (size_t i = 0; i < count; ++i) {
+        if (!(density->masses[i] >= 0.0 && isfinite(density->masses[i])))
+            return aur_fail(error, AUR_ERROR_ARGUMENT,
+                            "the mass of node %zu is %g: it must be finite and not negative", i,
+                            density->masses[i]);
+        masses[i] = density->masses[i];
+    }
+    return AUR_OK;
+}
+
+static aur_result create_nodes(aur_potential *potential, aur_error *error) {
+    aur_density *const density = &potential->density;
+    if (density->kind != AUR_DENSITY_NODES && density->node_count == 0)
+        density->node_count = NODES_DEFAULT;
+    const size_t count = density->node_count;
+    if (count == 0 || count > NODES_MOST)
+        return aur_fail(error, AUR_ERROR_ARGUMENT, "a density needs 1 to %d nodes, not %zu", NODES_MOST,
+                        count);
+    potential->storage = malloc(4 * count * sizeof *potential->storage);
+    if (potential->storage == NULL)
+        return aur_fail(error, AUR_ERROR_MEMORY, "out of memory");
+    double *const masses = potential->storage + 3 * count;
+    aur_result result = AUR_OK;
+    if (density->kind == AUR_DENSITY_FUNCTION)
+        result = check_lobe(density, error);
+    if (result == AUR_OK) {
+        if (density->kind == AUR_DENSITY_FUNCTION)
+            result = aur_nodes_function(density, potential->storage, masses, error);
+        else if (density->kind == AUR_DENSITY_GGX)
+            result = aur_fail(error, AUR_ERROR_UNSUPPORTED, "GGX has no potential of its own yet");
+        else
+            result = copy_nodes(density, potential->storage, masses, error);
+    }
+    if (result != AUR_OK)
+        return result;
+    potential->nodes =
+        (aur_columns){potential->storage, potential->storage + count, potential->storage + 2 * count};
+    potential->node_masses = masses;
+    density->nodes = NULL;
+    density->masses = NULL;
+    for (size_t i = 0; i < count; ++i)
+        potential->mass += masses[i];
+    if (!(potential->mass > 0.0 && isfinite(potential->mass)))
+        return aur_fail(error, AUR_ERROR_ARGUMENT, "the density is zero at every node");
+    for (size_t i = 0; i < count; ++i)
+        masses[i] /= potential->mass;
+    return AUR_OK;
+}
+
+static aur_result create(aur_potential *potential, aur_error *error) {
+    switch (potential->density.kind) {
+    case AUR_DENSITY_COSINE_POWER:
+        return create_lobe(potential, error);
+    case AUR_DENSITY_SPHERE:
+        potential->mass = 4.0 * AUR_PI;
+        return AUR_OK;
+    case AUR_DENSITY_GGX:
+    case AUR_DENSITY_FUNCTION:
+    case AUR_DENSITY_NODES:
+        return create_nodes(potential, error);
+    }
+    return aur_fail(error, AUR_ERROR_ARGUMENT, "no such kind of density: %d", (int)potential->density.kind);
+}
+
+aur_result aur_potential_create(const aur_density *density, double smoothness, aur_potential **potential,
+                                aur_error *error) {
+    *potential = NULL;
+    if (smoothness == 0.0)
+        smoothness = 1.5;
+    if (!(smoothness > 1.0 && smoothness < 2.0))
+        return aur_fail(error, AUR_ERROR_ARGUMENT,
+                        "the smoothness must be between 1 and 2 (exclusive), not %g", smoothness);
+    aur_potential *const created = calloc(1, sizeof *created);
+    if (created == NULL)
+        return aur_fail(error, AUR_ERROR_MEMORY, "out of memory");
+    created->density = *density;
+    created->rule = aur_kernel_rule_make(smoothness);
+    if (density->axis[0] == 0.0 && density->axis[1] == 0.0 && density->axis[2] == 0.0)
+        created->density.axis[2] = 1.0;
+    const aur_result result = create(created, error);
+    if (result != AUR_OK) {
+        aur_potential_destroy(created);
+        return result;
+    }
+    *potential = created;
+    return AUR_OK;
+}
+
+void aur_potential_destroy(aur_potential *potential) {
+    if (potential == NULL)
+        return;
+    aur_zonal_release(&potential->zonal);
+    free(potential->storage);
+    free(potential);
+}
+
+double aur_potential_smoothness(const aur_potential *potential) {
+    return potential->rule.smoothness;
+}
+
+double aur_potential_mass(const aur_potential *potential) {
+    return potential->mass;
+}
+
+/* The constant that the sphere's potential is: k_0. */
+static double sphere_potential(const aur_potential *potential) {
+    double constant;
+    aur_kernel_coefficients(potential->rule.smoothness, 1, &constant);
+    return constant;
+}
+
+static void evaluate_lobe(const aur_potential *potential, size_t count, const double *xyz, double *z) {
+    for (size_t i = 0; i < count; ++i)
+        z[i] = aur_dot3(xyz + 3 * i, potential->density.axis);
+    enum { BLOCK = 256 };
+    double cosine[BLOCK];
+    for (size_t first = 0; first < count; first += BLOCK) {
+        const size_t size = count - first < BLOCK ? count - first : BLOCK;
+        for (size_t i = 0; i < size; ++i)
+            cosine[i] = z[first + i];
+        aur_zonal_evaluate(&potential->zonal, size, cosine, z + first);
+    }
+    if (!aur_potential_hides(potential) || potential->lune.fraction <= 0.0)
+        return;
+    const double visible = 1.0 - potential->lune.fraction;
+    for (size_t i = 0; i < count; ++i)
+        z[i] = (z[i] - aur_lune_potential(&potential->lune, &potential->rule, xyz + 3 * i)) / visible;
+}
+
+void aur_potential_evaluate(const aur_potential *potential, size_t count, const double *xyz, double *z) {
+    if (potential->density.kind == AUR_DENSITY_COSINE_POWER) {
+        evaluate_lobe(potential, count, xyz, z);
+        return;
+    }
+    const double constant = potential->density.kind == AUR_DENSITY_SPHERE ? sphere_potential(potential) : 0.0;
+    for (size_t i = 0; i < count; ++i)
+        z[i] = potential->node_masses == NULL
+                   ? constant
+                   : aur_kernel_sum(&potential->rule, xyz + 3 * i, potential->density.node_count,
+                                    potential->nodes, potential->node_masses);
+}
+
+static double clipped_self_energy(const aur_potential *potential) {
+    double xyz[3 * AUR_LUNE_VISIBLE], weights[AUR_LUNE_VISIBLE], z[AUR_LUNE_VISIBLE];
+    aur_lune_visible(&potential->lune, xyz, weights);
+    aur_potential_evaluate(potential, AUR_LUNE_VISIBLE, xyz, z);
+    double energy = 0.0;
+    for (size_t i = 0; i < AUR_LUNE_VISIBLE; ++i)
+        energy += weights[i] * z[i];
+    return energy / (1.0 - potential->lune.fraction);
+}
+
+double aur_potential_self_energy(const aur_potential *potential) {
+    switch (potential->density.kind) {
+    case AUR_DENSITY_COSINE_POWER:
+        return aur_potential_hides(potential) && potential->lune.fraction > 0.0
+                   ? clipped_self_energy(potential)
+                   : potential->zonal.self_energy;
+    case AUR_DENSITY_SPHERE:
+        return sphere_potential(potential);
+    default:
+        break;
+    }
+    double energy = 0.0;
+    for (size_t i = 0; i < potential->density.node_count; ++i) {
+        const double point[3] = {potential->nodes.x[i], potential->nodes.y[i], potential->nodes.z[i]};
+        energy +=
+            potential->node_masses[i] * aur_kernel_sum(&potential->rule, point, potential->density.node_count,
+                                                       potential->nodes, potential->node_masses);
+    }
+    return energy;
+}
+
+aur_result aur_check_directions(size_t count, const double *xyz, aur_error *error) {
+    for (size_t i = 0; i < count; ++i) {
+        const double *const u = xyz + 3 * i;
+        if (!aur_is_unit(u))
+            return aur_fail(error, AUR_ERROR_ARGUMENT, "point %zu, (%g, %g, %g), is not a unit vector", i,
+                            u[0], u[1], u[2]);
+    }
+    return AUR_OK;
+}
+
+aur_result aur_density_from_lobe(const aur_lobe *lobe, aur_domain domain, aur_density *density,
+                                 aur_error *error) {
+    *density = (aur_density){0};
+    const int uniform = lobe->kind == AUR_LOBE_COSINE_POWER && lobe->exponent == 0.0;
+    if (domain == AUR_DOMAIN_SPHERE) {
+        density->kind = AUR_DENSITY_SPHERE;
+        return uniform ? AUR_OK
+                       : aur_fail(error, AUR_ERROR_UNSUPPORTED,
+                                  "on the sphere the lobe must be uniform: others live on the hemisphere");
+    }
+    if (domain != AUR_DOMAIN_HEMISPHERE)
+        return aur_fail(
+            error, AUR_ERROR_UNSUPPORTED,
+            "densities are on the hemisphere or the sphere: points of the square need a map first");
+    if (lobe->kind == AUR_LOBE_GGX) {
+        density->kind = AUR_DENSITY_GGX;
+        density->alpha = lobe->alpha;
+        density->view_degrees = lobe->view_degrees;
+        return AUR_OK;
+    }
+    density->kind = AUR_DENSITY_COSINE_POWER;
+    density->exponent = lobe->exponent;
+    return AUR_OK;
+}

@@ -1,0 +1,35 @@
+/* What a potential holds. */
+#ifndef AUR_QUADRATURE_POTENTIAL_H
+#define AUR_QUADRATURE_POTENTIAL_H
+
+#include <aureole/quadrature.h>
+#include <stdbool.h>
+
+#include "quadrature/kernel.h"
+#include "quadrature/lune.h"
+#include "quadrature/zonal.h"
+
+struct aur_potential {
+    aur_density density; /* its axis a unit vector, node_count what it stands for */
+    aur_kernel_rule rule;
+    double mass;
+    aur_zonal zonal; /* COSINE_POWER */
+    aur_lune lune;   /* COSINE_POWER, clipped */
+    double *storage; /* NODES, FUNCTION, GGX: x, y, z and masses of sum 1, node_count each */
+    aur_columns nodes;
+    const double *node_masses;
+};
+
+/* Whether samples below the surface are hidden. */
+static inline bool aur_potential_hides(const aur_potential *potential) {
+    return potential->density.kind == AUR_DENSITY_COSINE_POWER && potential->density.clipped;
+}
+
+/* Unnormalised densities as nodes: fill columns x, y, z and masses, node_count each. */
+aur_result aur_nodes_function(const aur_density *density, double *columns, double *masses, aur_error *error);
+aur_result aur_nodes_ggx(const aur_density *density, double *columns, double *masses, aur_error *error);
+
+/* An error for the first of `count` vectors that is not of unit length. */
+aur_result aur_check_directions(size_t count, const double *xyz, aur_error *error);
+
+#endif

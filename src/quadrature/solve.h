@@ -1,0 +1,19 @@
+/* Symmetric positive definite systems by LAPACK, on one thread. */
+#ifndef AUR_QUADRATURE_SOLVE_H
+#define AUR_QUADRATURE_SOLVE_H
+
+#include <stddef.h>
+
+#include "core/error.h"
+
+/* Solves matrix * X = right, in place. `matrix` (size * size, row major) is read on and below its diagonal
+ * and destroyed there; `right` holds `columns` vectors one after another. *condition, unless NULL, gets an
+ * estimate of the 1-norm condition number. INTERNAL when the matrix is not positive definite, MEMORY. */
+aur_result aur_solve_positive(size_t size, double *matrix, size_t columns, double *right, double *condition,
+                              aur_error *error);
+
+/* Refuses a system of that size when its matrix is larger than the machine's memory, saying how much it
+ * takes. */
+aur_result aur_check_system_size(size_t size, aur_error *error);
+
+#endif
