@@ -1,0 +1,33 @@
+# What `cmake --install` lays down: libraries, program, headers, and how other projects find them (CMake and pkg-config).
+include(GNUInstallDirs)
+include(CMakePackageConfigHelpers)
+
+add_library(Aureole::aureole ALIAS aureole)
+add_library(Aureole::render ALIAS aureole-render)
+set_target_properties(aureole-render PROPERTIES EXPORT_NAME render)
+
+# Program and libraries find each other wherever the tree is moved to.
+file(RELATIVE_PATH bin_to_lib "/${CMAKE_INSTALL_BINDIR}" "/${CMAKE_INSTALL_LIBDIR}")
+set_target_properties(aureole-program PROPERTIES INSTALL_RPATH "$ORIGIN/${bin_to_lib}")
+set_target_properties(aureole-render PROPERTIES INSTALL_RPATH "$ORIGIN")
+
+install(TARGETS aureole aureole-render EXPORT aureole-targets INCLUDES DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
+install(TARGETS aureole-program)
+install(DIRECTORY include/aureole DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
+
+# A static build would have to hand on its own dependencies, so only the shared one is a package.
+if(BUILD_SHARED_LIBS)
+    set(package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/aureole)
+    install(EXPORT aureole-targets NAMESPACE Aureole:: DESTINATION ${package_dir})
+    configure_package_config_file(cmake/aureole-config.cmake.in aureole-config.cmake INSTALL_DESTINATION ${package_dir})
+    write_basic_package_version_file(aureole-config-version.cmake COMPATIBILITY SameMinorVersion)
+    install(FILES "${PROJECT_BINARY_DIR}/aureole-config.cmake" "${PROJECT_BINARY_DIR}/aureole-config-version.cmake"
+            DESTINATION ${package_dir})
+
+    # pkg-config files name the prefix, which `cmake --install --prefix` may change, so they say it by their own place.
+    file(RELATIVE_PATH AUREOLE_PC_PREFIX "/${CMAKE_INSTALL_LIBDIR}/pkgconfig" "/")
+    foreach(name aureole aureole-render)
+        configure_file(cmake/${name}.pc.in ${name}.pc @ONLY)
+        install(FILES "${PROJECT_BINARY_DIR}/${name}.pc" DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig)
+    endforeach()
+endif()

@@ -1,0 +1,42 @@
+#!/usr/bin/env bash
+# Another project links the installed tree: by CMake's find_package and by pkg-config.
+set -eu
+build=$(dirname "$1")
+rm -rf prefix moved consumer
+cmake --install "$build" --prefix "$PWD/prefix" >install.log || { cat install.log; exit 1; }
+# The tree may be moved after it was installed.
+mv prefix moved
+prefix=$PWD/moved
+version=$("$prefix/bin/aureole" --version)
+
+mkdir consumer
+cat >consumer/consumer.c <<'C'
+#include <aureole/render.h>
+#include <aureole/sphere.h>
+#include <stdio.h>
+
+int main(void) {
+    printf("aureole %s\n", aur_version());
+    return aur_set_at(aur_set_count()) != NULL;
+}
+C
+cat >consumer/CMakeLists.txt <<'CMAKE'
+cmake_minimum_required(VERSION 3.22)
+project(consumer LANGUAGES C)
+find_package(aureole 0.1 REQUIRED)
+add_executable(consumer consumer.c)
+target_link_libraries(consumer PRIVATE Aureole::render)
+CMAKE
+cmake -S consumer -B consumer/build -G Ninja -DCMAKE_PREFIX_PATH="$prefix" >cmake.log 2>&1 || { cat cmake.log; exit 1; }
+cmake --build consumer/build >cmake.log 2>&1 || { cat cmake.log; exit 1; }
+[ "$(consumer/build/consumer)" = "$version" ] || { echo "the CMake consumer does not run"; exit 1; }
+
+export PKG_CONFIG_PATH
+PKG_CONFIG_PATH=$(dirname "$(find "$prefix" -name aureole-render.pc)")
+[ "aureole $(pkg-config --modversion aureole-render)" = "$version" ]
+sanitizers=()
+nm -D "$(find "$prefix" -name 'libaureole.so.0')" | grep -q __asan_init && sanitizers=(-fsanitize=address,undefined)
+libraries=$(pkg-config --variable=libdir aureole)
+# shellcheck disable=SC2046 # the flags are words
+cc "${sanitizers[@]}" consumer/consumer.c -o consumer/by-pkg-config $(pkg-config --cflags --libs aureole-render)
+[ "$(LD_LIBRARY_PATH=$libraries consumer/by-pkg-config)" = "$version" ] || { echo "the pkg-config consumer does not run"; exit 1; }
