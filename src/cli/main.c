@@ -4,11 +4,12 @@
 
 #include "cli/cli.h"
 
-extern const cli_verb cli_verb_help, cli_verb_points, cli_verb_sets;
+extern const cli_verb cli_verb_help, cli_verb_measure, cli_verb_points, cli_verb_sets;
 
 static const cli_verb *const verbs[] = {
     &cli_verb_sets,
     &cli_verb_points,
+    &cli_verb_measure,
     &cli_verb_help,
 };
 

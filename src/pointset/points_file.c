@@ -10,7 +10,7 @@
 #include "core/file.h"
 
 /* Points on the sphere that are written with the precision of floats are still on it. */
-static const double radius_tolerance = 1e-5;
+static const double radius_tolerance = 1e-6;
 
 static const size_t file_limit = (size_t)1 << 34;
 

@@ -7,8 +7,16 @@
 #include "core/parameters.h"
 
 static const aur_measure_row *const rows[] = {
-    &aur_measure_energy,      &aur_measure_scd,   &aur_measure_l2_cap,
-    &aur_measure_l2_cap_mean, &aur_measure_riesz, &aur_measure_min_distance,
+    &aur_measure_energy,       //
+    &aur_measure_scd,          //
+    &aur_measure_l2_cap,       //
+    &aur_measure_l2_cap_mean,  //
+    &aur_measure_riesz,        //
+    &aur_measure_min_distance, //
+    &aur_measure_star,         //
+    &aur_measure_l2_star,      //
+    &aur_measure_centered,     //
+    &aur_measure_wraparound,   //
 };
 
 enum { ROW_COUNT = sizeof rows / sizeof rows[0] };

@@ -1,0 +1,384 @@
+/* aureole measure: quality figures of points. */
+#include "cli/measure.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+static const char help[] =
+    "  -n, --count N[,N...]      sizes of the sets; files are measured whole\n"
+    "  -m, --metric NAME[,...]   the figures (--list names them)\n"
+    "      --list                list the measures with their domains and sources\n"
+    "      --domain DOMAIN       square, cube, hemisphere or sphere; else what the first measure is for,\n"
+    "                            or what a file holds\n"
+    "      --dim D               dimension, for sets on the cube\n"
+    "      --map MAP             lambert, concentric, azimuthal or polar, for sets of the square on the "
+    "sphere\n"
+    "      --lobe LOBE           uniform, cosine, phong:M or ggx:ALPHA[:VIEW_DEGREES], on the hemisphere\n"
+    "      --density same|optimal, --smoothness S\n"
+    "                            the density that the points follow, as for 'aureole points'\n"
+    "      --scramble SCRAMBLE   none, digit, owen, shift, rotate or rotate3d\n"
+    "      --seed S              of scrambling and of random sets\n"
+    "      --seeds K             mean, spread and root mean square over K seeds from S\n"
+    "      --fast                sums over pairs to 2e-14 instead of the last bit\n"
+    "      --format FORMAT       table, csv or json\n"
+    "      --plot FILE.svg       draw the figures against N with fitted slopes (needs gnuplot)\n"
+    "  -t, --threads T           0: all\n"
+    "  -q, --quiet               no progress bar and no warnings\n"
+    "\n"
+    "A SET is NAME[:key=value,...] ('aureole sets' lists them), a FILE CSV or NPY; '-' is standard input.\n"
+    "Directions within 1e-6 of unit length are scaled to it; weights are divided by their sum.\n";
+
+enum {
+    OPTION_DOMAIN = 256,
+    OPTION_DIM,
+    OPTION_MAP,
+    OPTION_LOBE,
+    OPTION_DENSITY,
+    OPTION_SMOOTHNESS,
+    OPTION_SCRAMBLE,
+    OPTION_SEED,
+    OPTION_SEEDS,
+    OPTION_FAST,
+    OPTION_FORMAT,
+    OPTION_PLOT,
+    OPTION_LIST
+};
+
+static const struct option long_options[] = {{"count", required_argument, NULL, 'n'},
+                                             {"metric", required_argument, NULL, 'm'},
+                                             {"domain", required_argument, NULL, OPTION_DOMAIN},
+                                             {"dim", required_argument, NULL, OPTION_DIM},
+                                             {"map", required_argument, NULL, OPTION_MAP},
+                                             {"lobe", required_argument, NULL, OPTION_LOBE},
+                                             {"density", required_argument, NULL, OPTION_DENSITY},
+                                             {"smoothness", required_argument, NULL, OPTION_SMOOTHNESS},
+                                             {"scramble", required_argument, NULL, OPTION_SCRAMBLE},
+                                             {"seed", required_argument, NULL, OPTION_SEED},
+                                             {"seeds", required_argument, NULL, OPTION_SEEDS},
+                                             {"fast", no_argument, NULL, OPTION_FAST},
+                                             {"format", required_argument, NULL, OPTION_FORMAT},
+                                             {"plot", required_argument, NULL, OPTION_PLOT},
+                                             {"list", no_argument, NULL, OPTION_LIST},
+                                             {"threads", required_argument, NULL, 't'},
+                                             {"quiet", no_argument, NULL, 'q'},
+                                             {NULL, 0, NULL, 0}};
+
+static bool parsed(aur_result result, const aur_error *error) {
+    if (result != AUR_OK)
+        cli_fail(error);
+    return result == AUR_OK;
+}
+
+static bool parse_metrics(cli_measure_arguments *arguments, const char *text) {
+    size_t count = 1;
+    for (const char *c = text; *c != '\0'; ++c)
+        count += *c == ',';
+    free(arguments->metric_text);
+    free(arguments->metrics);
+    arguments->metric_text = strdup(text);
+    arguments->metrics = malloc(count * sizeof *arguments->metrics);
+    arguments->metric_count = 0;
+    if (arguments->metric_text == NULL || arguments->metrics == NULL)
+        return false;
+    char *rest = arguments->metric_text;
+    while (rest != NULL) {
+        char *const comma = strchr(rest, ',');
+        if (comma != NULL)
+            *comma = '\0';
+        arguments->metrics[arguments->metric_count++] = rest;
+        const aur_measure_description *description;
+        aur_error error = {0};
+        if (!parsed(aur_measure_find(rest, &description, &error), &error))
+            return false;
+        rest = comma != NULL ? comma + 1 : NULL;
+    }
+    return true;
+}
+
+static bool parse_density(const char *text, int *optimal) {
+    static const char *const words[] = {"same", "optimal"};
+    size_t index;
+    if (!cli_parse_word("--density", text, 2, words, &index))
+        return false;
+    *optimal = index == 1;
+    return true;
+}
+
+static bool parse_option(int option, cli_measure_arguments *arguments) {
+    cli_point_options *const points = &arguments->points;
+    aur_error error = {0};
+    switch (option) {
+    case 'n':
+        free(arguments->sizes);
+        return cli_parse_sizes("-n", optarg, &arguments->size_count, &arguments->sizes);
+    case 'm':
+        return parse_metrics(arguments, optarg);
+    case 't':
+        return cli_parse_size("-t", optarg, 0, 4096, &arguments->options.threads);
+    case 'q':
+        arguments->quiet = true;
+        return true;
+    case OPTION_DOMAIN:
+        points->domain_given = cli_parse_domain(optarg, &points->domain);
+        return points->domain_given;
+    case OPTION_DIM:
+        return cli_parse_size("--dim", optarg, 1, 1u << 20, &points->dimension);
+    case OPTION_MAP:
+        return parsed(aur_map_from_name(optarg, &points->map, &error), &error);
+    case OPTION_LOBE:
+        return parsed(aur_lobe_parse(optarg, &points->lobe, &error), &error);
+    case OPTION_DENSITY:
+        return parse_density(optarg, &points->optimal_density);
+    case OPTION_SMOOTHNESS:
+        return cli_parse_number("--smoothness", optarg, 1.0, 2.0, &points->smoothness);
+    case OPTION_SCRAMBLE:
+        return parsed(aur_scramble_from_name(optarg, &points->scramble, &error), &error);
+    case OPTION_SEED:
+        return cli_parse_u64("--seed", optarg, &points->seed);
+    case OPTION_SEEDS:
+        return cli_parse_size("--seeds", optarg, 2, 1u << 20, &arguments->seed_count);
+    case OPTION_FAST:
+        arguments->options.fast = 1;
+        return true;
+    case OPTION_FORMAT:
+        return cli_parse_format(optarg, &arguments->format);
+    case OPTION_PLOT:
+        arguments->plot = optarg;
+        return true;
+    case OPTION_LIST:
+        arguments->list = true;
+        return true;
+    default:
+        return false;
+    }
+}
+
+/* The domain that the first word of the first measure's list names, or the one that the dimension asks for.
+ */
+static void choose_domain(cli_measure_arguments *arguments) {
+    cli_point_options *const points = &arguments->points;
+    if (points->domain_given)
+        return;
+    const aur_measure_description *description = NULL;
+    points->domain = AUR_DOMAIN_SPHERE;
+    if (points->dimension > 0)
+        points->domain = AUR_DOMAIN_CUBE;
+    else if (aur_measure_find(arguments->metrics[0], &description, NULL) == AUR_OK) {
+        char first[32] = "";
+        snprintf(first, sizeof first, "%.*s", (int)strcspn(description->domains, ","), description->domains);
+        cli_parse_domain(first, &points->domain);
+    }
+}
+
+static bool check_arguments(cli_measure_arguments *arguments) {
+    if (arguments->source_count == 0)
+        return cli_bad_usage("measure: a file or a set is missing: try 'aureole help measure'"), false;
+    if (arguments->metric_count == 0)
+        return cli_bad_usage("measure: --metric is missing: 'aureole measure --list' lists them"), false;
+    for (size_t i = 0; i < arguments->source_count; ++i)
+        if (arguments->size_count == 0 && !cli_is_file(arguments->sources[i]) &&
+            strncmp(arguments->sources[i], "file:", 5) != 0)
+            return cli_bad_usage("measure: -n is missing for the set '%s' (there is no such file)",
+                                 arguments->sources[i]),
+                   false;
+    choose_domain(arguments);
+    return true;
+}
+
+static int print_list(cli_format format) {
+    static const char *const columns[] = {"name", "domains", "summary", "source"};
+    cli_table *const table = cli_table_create(4, columns);
+    for (size_t i = 0; i < aur_measure_count(); ++i) {
+        const aur_measure_description *const row = aur_measure_at(i);
+        char name[64];
+        snprintf(name, sizeof name, "%s%s%s", row->name, row->parameter[0] != '\0' ? ":" : "",
+                 row->parameter);
+        cli_table_text(table, name);
+        cli_table_text(table, row->domains);
+        cli_table_text(table, row->summary);
+        cli_table_text(table, row->source);
+    }
+    const int status = cli_table_print(table, format);
+    cli_table_destroy(table);
+    return status;
+}
+
+/* All metrics of one set of points into values[metric_count]; messages name the file. */
+static aur_result measure_points(const cli_measure_arguments *arguments, const char *source, size_t count,
+                                 uint64_t seed, cli_measure_row *row, double *values, aur_error *error) {
+    cli_point_options options = arguments->points;
+    options.seed = seed;
+    aur_points points;
+    aur_result result = cli_load_points(source, &options, count, &points, error);
+    if (result != AUR_OK)
+        return result;
+    row->count = points.count;
+    row->domain = points.domain;
+    for (size_t m = 0; m < arguments->metric_count && result == AUR_OK; ++m)
+        result = aur_measure(arguments->metrics[m], &points, &arguments->options, &values[m], error);
+    if (result != AUR_OK && error->file[0] == '\0')
+        snprintf(error->file, sizeof error->file, "%s", source);
+    aur_points_release(&points);
+    return result;
+}
+
+/* Mean, spread (the sample's standard deviation) and root mean square over seeds. */
+static aur_result measure_seeds(const cli_measure_arguments *arguments, const char *source, size_t count,
+                                cli_measure_row *row, double *values, aur_error *error) {
+    const size_t metrics = arguments->metric_count;
+    double *const means = row->figures;
+    memset(row->figures, 0, 3 * metrics * sizeof *row->figures);
+    aur_result result = AUR_OK;
+    for (size_t k = 0; k < arguments->seed_count && result == AUR_OK; ++k) {
+        result = measure_points(arguments, source, count, arguments->points.seed + k, row, values, error);
+        for (size_t m = 0; m < metrics && result == AUR_OK; ++m) {
+            /* Welford's update of mean and sum of squares. */
+            double *const figure = means + 3 * m;
+            const double difference = values[m] - figure[0];
+            figure[0] += difference / (double)(k + 1);
+            figure[1] += difference * (values[m] - figure[0]);
+        }
+    }
+    for (size_t m = 0; m < metrics; ++m) {
+        double *const figure = means + 3 * m;
+        const double squares = figure[1];
+        figure[2] = sqrt(figure[0] * figure[0] + squares / (double)arguments->seed_count);
+        figure[1] = sqrt(squares / (double)(arguments->seed_count - 1));
+    }
+    return result;
+}
+
+static cli_measure_row *append(cli_measure_rows *rows) {
+    if (rows->count == rows->capacity) {
+        const size_t capacity = rows->capacity == 0 ? 16 : 2 * rows->capacity;
+        cli_measure_row *const larger = realloc(rows->items, capacity * sizeof *larger);
+        if (larger == NULL)
+            return NULL;
+        rows->items = larger;
+        rows->capacity = capacity;
+    }
+    return &rows->items[rows->count];
+}
+
+/* Appends the row when it is complete. */
+static aur_result measure_row(const cli_measure_arguments *arguments, const char *source, size_t count,
+                              cli_measure_rows *rows, aur_error *error) {
+    const size_t metrics = arguments->metric_count;
+    cli_measure_row *const row = append(rows);
+    double *const values = malloc(metrics * sizeof *values);
+    double *const figures = malloc(metrics * cli_figures_per_metric(arguments) * sizeof *figures);
+    aur_result result = AUR_ERROR_MEMORY;
+    if (row != NULL && values != NULL && figures != NULL) {
+        *row = (cli_measure_row){.source = source, .figures = figures};
+        if (arguments->seed_count > 0 && !cli_is_file(source))
+            result = measure_seeds(arguments, source, count, row, values, error);
+        else
+            result = measure_points(arguments, source, count, arguments->points.seed, row, values, error);
+    }
+    if (result == AUR_OK) {
+        for (size_t m = 0; m < metrics && (arguments->seed_count == 0 || cli_is_file(source)); ++m) {
+            double *const figure = figures + m * cli_figures_per_metric(arguments);
+            figure[0] = values[m];
+            if (arguments->seed_count > 0) {
+                figure[1] = 0.0;
+                figure[2] = fabs(values[m]);
+            }
+        }
+        ++rows->count;
+    } else {
+        free(figures);
+    }
+    free(values);
+    return result;
+}
+
+static int print_rows(const cli_measure_arguments *arguments, const cli_measure_rows *rows) {
+    const size_t per = cli_figures_per_metric(arguments);
+    const size_t columns = 3 + arguments->metric_count * per;
+    static const char *const suffixes[] = {"", "-spread", "-rms"};
+    enum { NAME_CAPACITY = 96 };
+    char(*const names)[NAME_CAPACITY] = malloc(columns * sizeof *names);
+    const char **const texts = malloc(columns * sizeof *texts);
+    cli_table *table = NULL;
+    if (names != NULL && texts != NULL) {
+        texts[0] = "set";
+        texts[1] = "n";
+        texts[2] = "domain";
+        for (size_t c = 3; c < columns; ++c) {
+            snprintf(names[c], NAME_CAPACITY, "%s%s", arguments->metrics[(c - 3) / per],
+                     suffixes[(c - 3) % per]);
+            texts[c] = names[c];
+        }
+        table = cli_table_create(columns, texts);
+    }
+    for (size_t r = 0; r < rows->count; ++r) {
+        const cli_measure_row *const row = &rows->items[r];
+        cli_table_text(table, row->source);
+        cli_table_integer(table, row->count);
+        cli_table_text(table, cli_domain_name(row->domain));
+        for (size_t f = 0; f < columns - 3; ++f)
+            cli_table_number(table, row->figures[f], 6);
+    }
+    free(names);
+    free(texts);
+    const int status = cli_table_print(table, arguments->format);
+    cli_table_destroy(table);
+    return status;
+}
+
+static int measure_all(const cli_measure_arguments *arguments) {
+    cli_measure_rows rows = {0};
+    aur_error error = {0};
+    aur_result result = AUR_OK;
+    for (size_t s = 0; s < arguments->source_count && result == AUR_OK; ++s) {
+        const char *const source = arguments->sources[s];
+        const bool whole = cli_is_file(source) || arguments->size_count == 0;
+        for (size_t i = 0; i < (whole ? 1 : arguments->size_count) && result == AUR_OK; ++i)
+            result = measure_row(arguments, source, whole ? 1 : arguments->sizes[i], &rows, &error);
+    }
+    cli_progress_clear();
+    int status = CLI_SUCCESS;
+    /* Rows that are finished are kept when the work ends early. */
+    if (result == AUR_OK || rows.count > 0)
+        status = print_rows(arguments, &rows);
+    if (result == AUR_ERROR_CANCELLED)
+        snprintf(error.message, sizeof error.message, "interrupted after %zu finished row%s", rows.count,
+                 rows.count == 1 ? "" : "s");
+    if (result != AUR_OK) {
+        error.result = result;
+        status = cli_fail(&error);
+    }
+    for (size_t r = 0; r < rows.count; ++r)
+        free(rows.items[r].figures);
+    free(rows.items);
+    return status;
+}
+
+static int run(int argc, char **argv) {
+    cli_measure_arguments arguments = {0};
+    int status = CLI_BAD_INPUT;
+    bool good = true;
+    optind = 0;
+    for (int option; good && (option = cli_next_option(argc, argv, "n:m:t:q", long_options)) != -1;)
+        good = option != '?' && parse_option(option, &arguments);
+    arguments.source_count = (size_t)(argc - optind);
+    arguments.sources = argv + optind;
+    arguments.points.warnings = cli_warnings(arguments.quiet);
+    arguments.options.warnings = arguments.points.warnings;
+    arguments.options.seed = arguments.points.seed;
+    if (good && arguments.list) {
+        status = print_list(arguments.format);
+    } else if (good && check_arguments(&arguments)) {
+        arguments.options.progress = cli_progress(arguments.quiet);
+        status = measure_all(&arguments);
+    }
+    free(arguments.sizes);
+    free(arguments.metrics);
+    free(arguments.metric_text);
+    return status;
+}
+
+const cli_verb cli_verb_measure = {"measure", "FILE|SET... [-n N[,N...]] --metric NAME[,NAME...]",
+                                   "quality figures of points", help, run};

@@ -1,0 +1,156 @@
+/* L2 discrepancies on the cube in any dimension: constant - 2 mean p(x_i) + mean k(x_i, x_j), where p and k
+ * are products over dimensions. */
+#include <math.h>
+#include <stdlib.h>
+
+#include "core/error.h"
+#include "core/parallel.h"
+#include "quality/measure.h"
+#include "quality/twofold.h"
+
+typedef struct product_kernel {
+    double (*constant)(double dimension);
+    double (*point)(double x);
+    double (*pair)(double x, double y);
+} product_kernel;
+
+typedef struct double_sum {
+    const product_kernel *kernel;
+    const aur_points *points;
+    aur_twofold *rows; /* 2 * tile_count: sums of pairs and of points */
+} double_sum;
+
+enum { ROWS_PER_ITEM = 64 };
+
+static double weight_of(const aur_points *points, size_t i) {
+    return points->weights != NULL ? points->weights[i] : 1.0;
+}
+
+/* Rows of the lower triangle: pairs below the diagonal count twice. */
+static aur_result sum_rows(void *context, size_t index) {
+    const double_sum *const work = context;
+    const aur_points *const points = work->points;
+    const size_t dimension = points->dimension;
+    const size_t first = index * ROWS_PER_ITEM;
+    const size_t last = first + ROWS_PER_ITEM < points->count ? first + ROWS_PER_ITEM : points->count;
+    aur_twofold pairs = {0.0, 0.0}, singles = {0.0, 0.0};
+    for (size_t i = first; i < last; ++i) {
+        const double *const x = points->coordinates + i * dimension;
+        const double weight = weight_of(points, i);
+        double single = weight;
+        for (size_t d = 0; d < dimension; ++d)
+            single *= work->kernel->point(x[d]);
+        singles = aur_twofold_add(singles, (aur_twofold){single, 0.0});
+        for (size_t j = 0; j <= i; ++j) {
+            const double *const y = points->coordinates + j * dimension;
+            double pair = weight * weight_of(points, j) * (j < i ? 2.0 : 1.0);
+            for (size_t d = 0; d < dimension; ++d)
+                pair *= work->kernel->pair(x[d], y[d]);
+            pairs = aur_twofold_add(pairs, (aur_twofold){pair, 0.0});
+        }
+    }
+    work->rows[2 * index] = pairs;
+    work->rows[2 * index + 1] = singles;
+    return AUR_OK;
+}
+
+static aur_result discrepancy(const product_kernel *kernel, const aur_measure_request *request, double *value,
+                              aur_error *error) {
+    const aur_points *const points = request->points;
+    const size_t items = (points->count + ROWS_PER_ITEM - 1) / ROWS_PER_ITEM;
+    double_sum work = {kernel, points, malloc(2 * items * sizeof *work.rows)};
+    if (work.rows == NULL)
+        return aur_fail(error, AUR_ERROR_MEMORY, "out of memory");
+    const aur_parallel_options parallel = {request->options.threads, "summing pairs",
+                                           request->options.progress};
+    const aur_result result = aur_parallel_for(&parallel, items, sum_rows, &work);
+    aur_twofold pairs = {0.0, 0.0}, singles = {0.0, 0.0}, mass = {0.0, 0.0};
+    for (size_t i = 0; i < items && result == AUR_OK; ++i) {
+        pairs = aur_twofold_add(pairs, work.rows[2 * i]);
+        singles = aur_twofold_add(singles, work.rows[2 * i + 1]);
+    }
+    free(work.rows);
+    if (result != AUR_OK)
+        return aur_fail(error, result, "summing pairs: %s", aur_result_string(result));
+    for (size_t i = 0; i < points->count; ++i)
+        mass = aur_twofold_add(mass, (aur_twofold){weight_of(points, i), 0.0});
+    const aur_twofold constant =
+        aur_twofold_scale(aur_twofold_multiply(mass, mass), kernel->constant((double)points->dimension));
+    const aur_twofold cross = aur_twofold_scale(aur_twofold_multiply(mass, singles), -2.0);
+    const aur_twofold square = aur_twofold_add(aur_twofold_add(constant, pairs), cross);
+    *value = sqrt(fmax(square.high, 0.0)) / mass.high;
+    return AUR_OK;
+}
+
+static double star_constant(double dimension) {
+    return pow(3.0, -dimension);
+}
+
+static double star_point(double x) {
+    return 0.5 * (1.0 - x * x);
+}
+
+static double star_pair(double x, double y) {
+    return 1.0 - fmax(x, y);
+}
+
+static double centered_constant(double dimension) {
+    return pow(13.0 / 12.0, dimension);
+}
+
+static double centered_point(double x) {
+    const double a = fabs(x - 0.5);
+    return 1.0 + 0.5 * a - 0.5 * a * a;
+}
+
+static double centered_pair(double x, double y) {
+    return 1.0 + 0.5 * (fabs(x - 0.5) + fabs(y - 0.5) - fabs(x - y));
+}
+
+static double wraparound_constant(double dimension) {
+    return -pow(4.0 / 3.0, dimension);
+}
+
+static double wraparound_point(double x) {
+    (void)x;
+    return 0.0;
+}
+
+static double wraparound_pair(double x, double y) {
+    const double a = fabs(x - y);
+    return 1.5 - a * (1.0 - a);
+}
+
+static aur_result l2_star(const aur_measure_request *request, double *value, aur_error *error) {
+    static const product_kernel kernel = {star_constant, star_point, star_pair};
+    return discrepancy(&kernel, request, value, error);
+}
+
+static aur_result centered(const aur_measure_request *request, double *value, aur_error *error) {
+    static const product_kernel kernel = {centered_constant, centered_point, centered_pair};
+    return discrepancy(&kernel, request, value, error);
+}
+
+static aur_result wraparound(const aur_measure_request *request, double *value, aur_error *error) {
+    static const product_kernel kernel = {wraparound_constant, wraparound_point, wraparound_pair};
+    return discrepancy(&kernel, request, value, error);
+}
+
+const aur_measure_row aur_measure_l2_star = {
+    {"l2-star", "", "L2 star discrepancy, the root mean square over boxes at the origin", "square, cube",
+     "Warnock 1972", 0, 0},
+    1,
+    0,
+    l2_star};
+
+const aur_measure_row aur_measure_centered = {
+    {"centered", "", "centred L2 discrepancy (its root)", "square, cube", "Hickernell 1998", 0, 0},
+    1,
+    0,
+    centered};
+
+const aur_measure_row aur_measure_wraparound = {
+    {"wraparound", "", "wrap-around L2 discrepancy (its root)", "square, cube", "Hickernell 1998", 0, 0},
+    1,
+    0,
+    wraparound};
