@@ -12,7 +12,7 @@
 #include "pointset/set.h"
 #include "sphere/native.h"
 
-static const aur_native_set *const natives[] = {&aur_native_fibonacci};
+static const aur_native_set *const natives[] = {&aur_native_fibonacci, &aur_native_grid};
 enum { NATIVE_COUNT = sizeof natives / sizeof natives[0], CHUNK = 128 };
 
 struct aur_directions {

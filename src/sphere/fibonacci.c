@@ -21,7 +21,7 @@ void aur_fibonacci_points(const aur_fibonacci *set, uint64_t first, size_t count
         const double depth = ((double)j + set->offset) * set->step;
         const double radius = sqrt(depth * (2.0 - depth));
         double sine, cosine;
-        aur_phase_sincos(j * AUR_GOLDEN_PHASE, &sine, &cosine);
+        aur_phase_sincos(set->phase + j * AUR_GOLDEN_PHASE, &sine, &cosine);
         xyz[3 * i] = radius * cosine;
         xyz[3 * i + 1] = radius * sine;
         xyz[3 * i + 2] = 1.0 - depth;

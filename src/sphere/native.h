@@ -34,6 +34,6 @@ int aur_set_is_file(const char *set);
 int aur_directions_weighted(const aur_directions *directions);
 
 /* Generators, one file each. */
-extern const aur_native_set aur_native_fibonacci;
+extern const aur_native_set aur_native_fibonacci, aur_native_grid;
 
 #endif

@@ -1,0 +1,20 @@
+/* Extensible spherical Fibonacci grids: the choice of the order in which sub-grids are added. */
+#ifndef AUR_SPHERE_GRID_H
+#define AUR_SPHERE_GRID_H
+
+#include <stddef.h>
+#include <stdint.h>
+
+/* The index of the shortest basis vector b_k = (F_k/N, (-1)^{k-1}/Phi^k) of a planar grid of N points, whose
+ * y is stretched by `stretch` (Marques 2019 eq. 22 by comparison: the closed form of eq. 23 is wrong at N =
+ * 5, 34, 233, 1597, ...). */
+size_t aur_grid_shortest_vector(uint64_t base, double stretch);
+/* Which of the shifts b_0/2, b_1/2, b_2/2 doubles a grid best: s = g mod 3 with g the longest of the three
+ * vectors that make the Voronoi cell (eq. 56); 1 is the paper's stretch. */
+size_t aur_grid_first_shift(uint64_t base, double stretch);
+/* The same by trying all three on a cap of height `height` (1 hemisphere, 2 sphere) and keeping the doubled
+ * grid of the lowest energy; grids of more than 2048 points are judged by the stretch that a cap has on
+ * average. */
+size_t aur_grid_best_shift(uint64_t base, double height);
+
+#endif
