@@ -40,3 +40,14 @@ libraries=$(pkg-config --variable=libdir aureole)
 # shellcheck disable=SC2046 # the flags are words
 cc "${sanitizers[@]}" consumer/consumer.c -o consumer/by-pkg-config $(pkg-config --cflags --libs aureole-render)
 [ "$(LD_LIBRARY_PATH=$libraries consumer/by-pkg-config)" = "$version" ] || { echo "the pkg-config consumer does not run"; exit 1; }
+
+# The README's example is compiled as it stands, and prints what the README says.
+block() { awk -v mark="$1" '$0 == "```" { inside = 0 } inside { print } $0 == "```" mark { inside = 1 }' "$2/README.md"; }
+block c "$2" >consumer/example.c
+block text "$2" >consumer/expected
+[ -s consumer/example.c ] && [ -s consumer/expected ] || { echo "README.md has lost its example"; exit 1; }
+# shellcheck disable=SC2046
+cc -std=c17 -Wall -Wextra -Wpedantic -Werror "${sanitizers[@]}" consumer/example.c -o consumer/example \
+  $(pkg-config --cflags --libs aureole)
+LD_LIBRARY_PATH=$libraries consumer/example >consumer/printed
+diff consumer/expected consumer/printed || { echo "README.md's example prints something else"; exit 1; }
