@@ -8,7 +8,24 @@
 
 /* The table of square sets: one line for each file. */
 static const aur_square_set *const sets[] = {
-    &aur_set_random, &aur_set_halton, &aur_set_hammersley, &aur_set_sobol, &aur_set_larcher_pillichshammer,
+    &aur_set_random,
+    &aur_set_lcg,
+    &aur_set_icg,
+    &aur_set_jittered,
+    &aur_set_van_der_corput,
+    &aur_set_halton,
+    &aur_set_hammersley,
+    &aur_set_faure,
+    &aur_set_sobol,
+    &aur_set_niederreiter,
+    &aur_set_larcher_pillichshammer,
+    &aur_set_matrices,
+    &aur_set_fibonacci_lattice,
+    &aur_set_rank1,
+    &aur_set_r2,
+    &aur_set_golden,
+    &aur_set_golden_set,
+    &aur_set_file,
 };
 
 enum { SET_COUNT = sizeof sets / sizeof sets[0] };
@@ -52,15 +69,10 @@ void aur_warn_incomplete_net(const aur_pointset *set, const aur_pointset_options
 
 void aur_fill_fraction(const aur_pointset *set, const aur_block *block, size_t d) {
     const uint64_t key = aur_scramble_key(block->seed, block->first_dimension + d);
-    const bool by_words = set->scramble == AUR_SCRAMBLE_DIGIT || set->scramble == AUR_SCRAMBLE_OWEN;
     double *const out = block->data + d * block->coordinate_stride;
-    for (size_t i = 0; i < block->count; ++i) {
-        const uint64_t index = block->first + i;
-        const uint64_t word = by_words ? aur_fraction_word(index, set->size) : 0;
-        out[i * block->point_stride] = by_words
-                                           ? aur_word_to_double(aur_scramble_word(set->scramble, word, key))
-                                           : aur_fraction(index, set->size);
-    }
+    for (size_t i = 0; i < block->count; ++i)
+        out[i * block->point_stride] =
+            aur_scrambled_fraction(set->scramble, block->first + i, set->size, key);
 }
 
 static aur_result find_set(const char *name, const aur_square_set **kind, aur_error *error) {
@@ -83,7 +95,8 @@ static aur_result find_set(const char *name, const aur_square_set **kind, aur_er
 static aur_result check(const aur_pointset *set, aur_error *error) {
     const aur_square_set *const kind = set->kind;
     const char *const name = kind->description.name;
-    if (set->size == 0)
+    const bool own_size = kind == &aur_set_file;
+    if (set->size == 0 && !own_size)
         return aur_fail(error, AUR_ERROR_ARGUMENT, "set '%s': the number of points must be at least 1", name);
     if (set->size > kind->maximum_size)
         return aur_fail(error, AUR_ERROR_ARGUMENT, "set '%s' has at most %" PRIu64 " points, not %" PRIu64,
@@ -110,6 +123,8 @@ static aur_result check(const aur_pointset *set, aur_error *error) {
 static aur_result make(aur_pointset *set, aur_parameters *keys, const aur_pointset_options *options,
                        aur_error *error) {
     aur_result result = find_set(keys->plugin, &set->kind, error);
+    if (result == AUR_OK && options->dimension == 0)
+        set->dimension = set->kind->maximum_dimension < 2 ? set->kind->maximum_dimension : 2;
     if (result == AUR_OK)
         result = check(set, error);
     if (result == AUR_OK && set->kind->prepare != NULL)
@@ -119,11 +134,27 @@ static aur_result make(aur_pointset *set, aur_parameters *keys, const aur_points
     return result;
 }
 
+/* What follows "file:" is a path, whatever characters it has. */
+static aur_result parse(const char *text, aur_parameters *keys, aur_error *error) {
+    static const char prefix[] = "file:";
+    if (strncmp(text, prefix, sizeof prefix - 1) != 0)
+        return aur_parameters_parse(keys, "set", text, error);
+    const aur_location nowhere = {0};
+    aur_result result = aur_parameters_init(keys, "set", "file", nowhere, error);
+    if (result != AUR_OK)
+        return result;
+    result =
+        aur_parameters_add_text(keys, AUR_PARAMETER_TEXT, "path", text + sizeof prefix - 1, nowhere, error);
+    if (result != AUR_OK)
+        aur_parameters_release(keys);
+    return result;
+}
+
 aur_result aur_pointset_create(const char *text, const aur_pointset_options *options, aur_pointset **pointset,
                                aur_error *error) {
     *pointset = NULL;
     aur_parameters keys;
-    aur_result result = aur_parameters_parse(&keys, "set", text, error);
+    aur_result result = parse(text, &keys, error);
     if (result != AUR_OK)
         return result;
     aur_pointset *const set = calloc(1, sizeof *set);
@@ -132,7 +163,7 @@ aur_result aur_pointset_create(const char *text, const aur_pointset_options *opt
         return aur_fail(error, AUR_ERROR_MEMORY, "out of memory");
     }
     set->size = options->count;
-    set->dimension = options->dimension != 0 ? options->dimension : 2;
+    set->dimension = options->dimension;
     set->scramble = options->scramble;
     set->seed = options->seed;
     result = make(set, &keys, options, error);

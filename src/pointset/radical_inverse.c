@@ -10,46 +10,46 @@ static uint32_t permute(uint32_t digit, uint32_t base, uint64_t hash) {
     return (uint32_t)((factor * digit + below(hash, base)) % base);
 }
 
-static double ratio(uint64_t reversed, uint64_t power) {
-    const double x = (double)reversed / (double)power;
-    return x < 1.0 ? x : AUR_BELOW_ONE;
+void aur_digit_sum_put(aur_digit_sum *sum, uint32_t digit) {
+    const uint32_t base = sum->base;
+    uint32_t changed = digit;
+    if (sum->digits == AUR_DIGITS_SHIFT) {
+        changed = (digit + below(aur_hash2(sum->key, sum->place), base)) % base;
+    } else if (sum->digits == AUR_DIGITS_PERMUTE) {
+        changed = permute(digit, base, aur_hash2(sum->key, sum->place));
+    } else if (sum->digits == AUR_DIGITS_NESTED) {
+        changed = permute(digit, base, sum->prefix);
+        sum->prefix = aur_hash2(sum->prefix, digit);
+    }
+    ++sum->place;
+    sum->numerator = sum->numerator * base + changed;
+    sum->denominator *= base;
 }
 
-static double plain_inverse(uint32_t base, uint64_t index) {
-    uint64_t reversed = 0;
-    uint64_t power = 1;
-    while (index > 0) {
-        reversed = reversed * base + index % base;
-        index /= base;
-        power *= base;
-    }
-    return ratio(reversed, power);
+double aur_digit_sum_value(const aur_digit_sum *sum) {
+    return aur_fraction(sum->numerator, sum->denominator);
+}
+
+size_t aur_digit_sum_places(uint32_t base) {
+    aur_digit_sum sum = aur_digit_sum_begin(base, AUR_DIGITS_PLAIN, 0);
+    while (aur_digit_sum_has_room(&sum))
+        aur_digit_sum_put(&sum, 0);
+    return sum.place;
 }
 
 double aur_radical_inverse(uint32_t base, uint64_t index, aur_digits digits, uint64_t key) {
-    if (digits == AUR_DIGITS_PLAIN)
-        return plain_inverse(base, index);
-    /* The index's endless leading zeros are digits too: go on until a double has no room for more. */
-    const uint64_t room = UINT64_MAX / base;
-    uint64_t reversed = 0;
-    uint64_t power = 1;
-    uint64_t prefix = key;
-    for (uint32_t place = 0; power <= room && power < UINT64_C(1) << 53; ++place) {
-        const uint32_t digit = (uint32_t)(index % base);
-        index /= base;
-        uint32_t changed;
-        if (digits == AUR_DIGITS_SHIFT) {
-            changed = (digit + below(aur_hash2(key, place), base)) % base;
-        } else if (digits == AUR_DIGITS_PERMUTE) {
-            changed = permute(digit, base, aur_hash2(key, place));
-        } else {
-            changed = permute(digit, base, prefix);
-            prefix = aur_hash2(prefix, digit);
+    aur_digit_sum sum = aur_digit_sum_begin(base, digits, key);
+    if (digits == AUR_DIGITS_PLAIN) {
+        for (; index > 0; index /= base) {
+            sum.numerator = sum.numerator * base + index % base;
+            sum.denominator *= base;
         }
-        reversed = reversed * base + changed;
-        power *= base;
+    } else {
+        /* The index's endless leading zeros are digits too. */
+        for (; aur_digit_sum_has_room(&sum); index /= base)
+            aur_digit_sum_put(&sum, (uint32_t)(index % base));
     }
-    return ratio(reversed, power);
+    return aur_digit_sum_value(&sum);
 }
 
 void aur_fill_radical_inverse(const aur_pointset *set, const aur_block *block, size_t d, uint32_t base,
@@ -68,13 +68,20 @@ void aur_fill_radical_inverse(const aur_pointset *set, const aur_block *block, s
     }
 }
 
+bool aur_is_prime(uint32_t n) {
+    if (n < 4)
+        return n >= 2;
+    for (uint32_t k = 2; k <= n / k; ++k)
+        if (n % k == 0)
+            return false;
+    return true;
+}
+
 void aur_primes(size_t count, uint32_t *primes) {
-    size_t found = 0;
-    for (uint32_t candidate = 2; found < count; ++candidate) {
-        bool prime = true;
-        for (size_t k = 0; k < found && primes[k] * primes[k] <= candidate && prime; ++k)
-            prime = candidate % primes[k] != 0;
-        if (prime)
-            primes[found++] = candidate;
+    for (uint32_t candidate = 2; count > 0; ++candidate) {
+        if (!aur_is_prime(candidate))
+            continue;
+        *primes++ = candidate;
+        --count;
     }
 }

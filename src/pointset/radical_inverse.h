@@ -1,12 +1,12 @@
-/* Radical inverses in any prime base below 2^16, plain or with scrambled digits. */
+/* Numbers from digits in a prime base, plain or scrambled: radical inverses and digital sequences. */
 #ifndef AUR_POINTSET_RADICAL_INVERSE_H
 #define AUR_POINTSET_RADICAL_INVERSE_H
 
 #include "pointset/set.h"
 
-enum { AUR_RADICAL_PRIMES = 6542 }; /* primes below 2^16 */
+enum { AUR_RADICAL_PRIMES = 6542, AUR_RADICAL_BASE_LIMIT = 1 << 16 }; /* primes below the limit */
 
-/* How the digits of a radical inverse change, in the order from the coarse digit to the fine one. */
+/* How digits change, in the order from the coarse digit to the fine one. */
 typedef enum aur_digits {
     AUR_DIGITS_PLAIN,
     AUR_DIGITS_SHIFT,   /* a random digit is added at each place, modulo the base */
@@ -21,9 +21,38 @@ static inline aur_digits aur_digits_of(aur_scramble scramble) {
                                            : AUR_DIGITS_PLAIN;
 }
 
-/* In [0,1). `index` below AUR_INDEX_LIMIT, base at least 2 and below 2^16. Permutations are affine in the
+/* The fraction whose digits are put one after another, the coarse one first. Permutations are affine in the
  * digit (a d + c modulo the base, a not 0): pairs of digits then go to pairs as under uniformly random
  * permutations, and no more than pairs enters the variance of an estimate. */
+typedef struct aur_digit_sum {
+    uint32_t base; /* a prime below AUR_RADICAL_BASE_LIMIT */
+    aur_digits digits;
+    uint32_t place;
+    uint64_t key;
+    uint64_t prefix; /* a hash of the digits so far */
+    uint64_t numerator, denominator;
+} aur_digit_sum;
+
+static inline aur_digit_sum aur_digit_sum_begin(uint32_t base, aur_digits digits, uint64_t key) {
+    return (aur_digit_sum){
+        .base = base, .digits = digits, .key = key, .prefix = key, .numerator = 0, .denominator = 1};
+}
+
+/* Whether a double has room for another digit. */
+static inline bool aur_digit_sum_has_room(const aur_digit_sum *sum) {
+    return sum->denominator < UINT64_C(1) << 53 && sum->denominator <= UINT64_MAX / sum->base;
+}
+
+/* To be called while there is room. */
+void aur_digit_sum_put(aur_digit_sum *sum, uint32_t digit);
+
+/* In [0,1). */
+double aur_digit_sum_value(const aur_digit_sum *sum);
+
+/* How many digits fit. */
+size_t aur_digit_sum_places(uint32_t base);
+
+/* In [0,1). `index` is below AUR_INDEX_LIMIT. */
 double aur_radical_inverse(uint32_t base, uint64_t index, aur_digits digits, uint64_t key);
 
 /* The same for points of a block, coordinate `d` of it, with base 2 by bits. */
@@ -32,5 +61,6 @@ void aur_fill_radical_inverse(const aur_pointset *set, const aur_block *block, s
 
 /* Writes the first `count` primes. */
 void aur_primes(size_t count, uint32_t *primes);
+bool aur_is_prime(uint32_t n);
 
 #endif

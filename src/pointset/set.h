@@ -55,14 +55,19 @@ size_t aur_square_set_count(void);
 const aur_square_set *aur_square_set_at(size_t index);
 
 /* Generators, one file each. */
-extern const aur_square_set aur_set_random, aur_set_halton, aur_set_hammersley, aur_set_sobol,
-    aur_set_larcher_pillichshammer;
+extern const aur_square_set aur_set_random, aur_set_lcg, aur_set_icg, aur_set_jittered,
+    aur_set_van_der_corput, aur_set_halton, aur_set_hammersley, aur_set_faure, aur_set_sobol,
+    aur_set_niederreiter, aur_set_larcher_pillichshammer, aur_set_matrices, aur_set_fibonacci_lattice,
+    aur_set_rank1, aur_set_r2, aur_set_golden, aur_set_golden_set, aur_set_file;
 
 /* The coordinates of a block with every scrambling applied. The block must be within the set. */
 void aur_pointset_fill(const aur_pointset *set, const aur_block *block);
 
 /* A warning when the size is not a power of the base: the points are then no complete net. */
 void aur_warn_incomplete_net(const aur_pointset *set, const aur_pointset_options *options, uint64_t base);
+
+/* Fills a block from set->data, size * dimension doubles. */
+void aur_fill_table(const aur_pointset *set, const aur_block *block);
 
 /* The coordinate i/N of coordinate `d` of the block, with DIGIT and OWEN as in base 2. */
 void aur_fill_fraction(const aur_pointset *set, const aur_block *block, size_t d);

@@ -3,20 +3,18 @@
  * 2^53, any dimension: beyond the 1024 of the table the dimensions repeat, at an index that is shuffled
  * within its net and Owen-scrambled, both by hashes that depend on the repeat (Burley 2020). n that is not a
  * power of two leaves a net incomplete: a warning. Error O(log^d N / N). */
-#include "pointset/sobol.h"
-
 #include <stdlib.h>
 
-#include "pointset/set.h"
+#include "pointset/digital.h"
 #include "pointset/sobol_table.h"
 
 static unsigned degree_of(uint16_t polynomial) {
     return 31u - (unsigned)__builtin_clz(polynomial);
 }
 
-void aur_sobol_matrix(size_t dimension, uint64_t columns[AUR_SOBOL_COLUMNS]) {
+static void make_matrix(size_t dimension, uint64_t columns[AUR_DIGITAL_COLUMNS]) {
     if (dimension == 0) {
-        for (unsigned k = 0; k < AUR_SOBOL_COLUMNS; ++k)
+        for (unsigned k = 0; k < AUR_DIGITAL_COLUMNS; ++k)
             columns[k] = UINT64_C(1) << (63 - k);
         return;
     }
@@ -25,7 +23,7 @@ void aur_sobol_matrix(size_t dimension, uint64_t columns[AUR_SOBOL_COLUMNS]) {
         start += degree_of(aur_sobol_polynomials[j]);
     const unsigned polynomial = aur_sobol_polynomials[dimension - 1];
     const unsigned degree = degree_of((uint16_t)polynomial);
-    for (unsigned k = 0; k < AUR_SOBOL_COLUMNS; ++k) {
+    for (unsigned k = 0; k < AUR_DIGITAL_COLUMNS; ++k) {
         if (k < degree) {
             columns[k] = (uint64_t)aur_sobol_numbers[start + k] << (63 - k);
             continue;
@@ -35,13 +33,6 @@ void aur_sobol_matrix(size_t dimension, uint64_t columns[AUR_SOBOL_COLUMNS]) {
             if (polynomial >> (degree - j) & 1u)
                 columns[k] ^= columns[k - j];
     }
-}
-
-static uint64_t word_at(const uint64_t columns[AUR_SOBOL_COLUMNS], uint64_t index) {
-    uint64_t word = 0;
-    for (; index != 0; index &= index - 1)
-        word ^= columns[__builtin_ctzll(index)];
-    return word;
 }
 
 /* Nested uniform scrambling of an index whose lowest bit counts last: blocks of 2^m go to blocks of 2^m. */
@@ -63,33 +54,18 @@ static void fill_repeat(const aur_pointset *set, const uint64_t *columns, const 
     const uint64_t key = aur_scramble_key(block->seed, dimension);
     double *const out = block->data + d * block->coordinate_stride;
     for (size_t i = 0; i < block->count; ++i) {
-        const uint64_t word = aur_owen_word(word_at(columns, shuffle_index(block->first + i, repeat)), fixed);
+        const uint64_t word =
+            aur_owen_word(aur_digital_word(columns, shuffle_index(block->first + i, repeat)), fixed);
         out[i * block->point_stride] = aur_word_to_double(aur_scramble_word(set->scramble, word, key));
-    }
-}
-
-static void fill_dimension(const aur_pointset *set, const uint64_t *columns, const aur_block *block,
-                           size_t d) {
-    const uint64_t key = aur_scramble_key(block->seed, block->first_dimension + d);
-    double *const out = block->data + d * block->coordinate_stride;
-    /* From one index to the next the lowest bits flip, as many as trailing ones and one more. */
-    uint64_t flips[AUR_SOBOL_COLUMNS];
-    flips[0] = columns[0];
-    for (unsigned k = 1; k < AUR_SOBOL_COLUMNS; ++k)
-        flips[k] = flips[k - 1] ^ columns[k];
-    uint64_t word = word_at(columns, block->first);
-    for (size_t i = 0; i < block->count; ++i) {
-        out[i * block->point_stride] = aur_word_to_double(aur_scramble_word(set->scramble, word, key));
-        word ^= flips[__builtin_ctzll(block->first + i + 1)];
     }
 }
 
 static void fill(const aur_pointset *set, const aur_block *block) {
-    const uint64_t(*const matrices)[AUR_SOBOL_COLUMNS] = set->data;
+    const uint64_t(*const matrices)[AUR_DIGITAL_COLUMNS] = set->data;
     for (size_t d = 0; d < block->dimension_count; ++d) {
         const size_t dimension = block->first_dimension + d;
         if (dimension < AUR_SOBOL_DIMENSIONS)
-            fill_dimension(set, matrices[dimension], block, d);
+            aur_fill_digital(set, matrices[dimension], block, d);
         else
             fill_repeat(set, matrices[dimension % AUR_SOBOL_DIMENSIONS], block, d);
     }
@@ -99,11 +75,11 @@ static aur_result prepare(aur_pointset *set, aur_parameters *keys, const aur_poi
                           aur_error *error) {
     (void)keys;
     const size_t count = set->dimension < AUR_SOBOL_DIMENSIONS ? set->dimension : AUR_SOBOL_DIMENSIONS;
-    uint64_t(*const matrices)[AUR_SOBOL_COLUMNS] = malloc(count * sizeof *matrices);
+    uint64_t(*const matrices)[AUR_DIGITAL_COLUMNS] = malloc(count * sizeof *matrices);
     if (matrices == NULL)
         return aur_fail(error, AUR_ERROR_MEMORY, "out of memory");
     for (size_t d = 0; d < count; ++d)
-        aur_sobol_matrix(d, matrices[d]);
+        make_matrix(d, matrices[d]);
     set->data = matrices;
     aur_warn_incomplete_net(set, options, 2);
     return AUR_OK;

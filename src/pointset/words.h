@@ -63,4 +63,12 @@ static inline uint64_t aur_fraction_word(uint64_t index, uint64_t count) {
     return (uint64_t)(((wide)index << 64) / count);
 }
 
+/* index / count with DIGIT and OWEN applied as in base 2. */
+static inline double aur_scrambled_fraction(aur_scramble scramble, uint64_t index, uint64_t count,
+                                            uint64_t key) {
+    if (scramble != AUR_SCRAMBLE_DIGIT && scramble != AUR_SCRAMBLE_OWEN)
+        return aur_fraction(index, count);
+    return aur_word_to_double(aur_scramble_word(scramble, aur_fraction_word(index, count), key));
+}
+
 #endif

@@ -1,0 +1,62 @@
+/* A user's own points as a set: file:PATH, CSV or NPY, points of the square or the cube. Their weights, if
+ * there are any, are no part of the set. */
+#include <stdlib.h>
+#include <string.h>
+
+#include "pointset/set.h"
+
+static aur_result prepare(aur_pointset *set, aur_parameters *keys, const aur_pointset_options *options,
+                          aur_error *error) {
+    const aur_parameter *const item = aur_parameters_find(keys, "path");
+    if (item == NULL || item->text[0] == '\0')
+        return aur_fail(error, AUR_ERROR_FORMAT, "a file of points is named by file:PATH");
+    const char *const path = item->text;
+    aur_points points;
+    aur_result result = aur_points_read(path, &points, error);
+    if (result != AUR_OK)
+        return result;
+    const aur_location where = {.file = path};
+    if (options->count == 0)
+        set->size = points.count;
+    if (options->dimension == 0)
+        set->dimension = points.dimension;
+    if (points.domain != AUR_DOMAIN_SQUARE && points.domain != AUR_DOMAIN_CUBE)
+        result = aur_fail_at(error, where, AUR_ERROR_UNSUPPORTED,
+                             "these points are directions or on the disk, not on the square or cube");
+    else if (set->size > points.count)
+        result = aur_fail_at(error, where, AUR_ERROR_ARGUMENT, "the file has only %zu points", points.count);
+    else if (set->dimension != points.dimension)
+        result = aur_fail_at(error, where, AUR_ERROR_ARGUMENT, "the points have %zu coordinates, not %zu",
+                             points.dimension, set->dimension);
+    if (result == AUR_OK) {
+        set->data = points.coordinates;
+        points.coordinates = NULL;
+    }
+    aur_points_release(&points);
+    return result;
+}
+
+void aur_fill_table(const aur_pointset *set, const aur_block *block) {
+    const double *const table = set->data;
+    for (size_t i = 0; i < block->count; ++i) {
+        const double *const point = table + (block->first + i) * set->dimension + block->first_dimension;
+        for (size_t d = 0; d < block->dimension_count; ++d)
+            block->data[i * block->point_stride + d * block->coordinate_stride] = point[d];
+    }
+}
+
+const aur_square_set aur_set_file = {
+    .description = {.name = "file",
+                    .keys = "file:PATH",
+                    .summary = "points from a CSV or NPY file",
+                    .domains = "square, cube",
+                    .sizes = "up to the file's",
+                    .extensible = 1,
+                    .source = "the user"},
+    .minimum_dimension = 1,
+    .maximum_dimension = SIZE_MAX,
+    .maximum_size = UINT64_MAX,
+    .scramblings = AUR_SCRAMBLES_SHIFT,
+    .prepare = prepare,
+    .fill = aur_fill_table,
+};

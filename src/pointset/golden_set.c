@@ -1,0 +1,99 @@
+/* Golden point sets (Schretter 2012, sec. 3 and appendix): the golden ratio sequence beside the same sequence
+ * in ascending order, found without sorting. One coordinate is looked up, so the ordered one is made ready in
+ * a table of N indices; n up to 2^32. form=one-seed: (G_s(i), sorted G_s) for i = 1..N; form=two-seeds:
+ * (sorted G_s, G_r(i)) as in the appendix, r drawn from the options' seed. Error about O(log N / N)
+ * (measured). */
+#include <stdlib.h>
+
+#include "pointset/golden.h"
+#include "pointset/set.h"
+
+typedef struct golden_set {
+    bool two_seeds;
+    uint64_t seed_word, second_word;
+    uint32_t order[];
+} golden_set;
+
+aur_golden_order aur_golden_order_of(uint64_t seed_word, uint64_t count) {
+    /* Gaps between the values of indices that are Fibonacci numbers apart: one of even and one of odd rank,
+     * so that one goes up and the other down (1/Phi is above 1/2, so 1, 3, 8, ... go down from above). */
+    uint64_t larger = 1;
+    uint64_t smaller = 1;
+    bool odd = false;
+    while (larger + smaller < count) {
+        const uint64_t sum = larger + smaller;
+        smaller = larger;
+        larger = sum;
+        odd = !odd;
+    }
+    aur_golden_order order = {.count = count, .increment = odd ? larger : smaller};
+    order.decrement = odd ? smaller : larger;
+    uint64_t smallest = seed_word;
+    for (uint64_t i = 1; i < count; ++i) {
+        const uint64_t word = seed_word + aur_phase(aur_golden_fraction, i);
+        if (word < smallest) {
+            smallest = word;
+            order.first = i;
+        }
+    }
+    return order;
+}
+
+static aur_result prepare(aur_pointset *set, aur_parameters *keys, const aur_pointset_options *options,
+                          aur_error *error) {
+    static const char *const choices[] = {"one-seed", "two-seeds"};
+    size_t form = 0;
+    double seed = 0.0;
+    aur_result result = aur_parameters_choice(keys, "form", 2, choices, &form, error);
+    if (result == AUR_OK)
+        result = aur_parameters_float(keys, "seed", 0.0, AUR_BELOW_ONE, &seed, error);
+    if (result != AUR_OK)
+        return result;
+    golden_set *const data = malloc(sizeof *data + set->size * sizeof data->order[0]);
+    if (data == NULL)
+        return aur_fail(error, AUR_ERROR_MEMORY, "out of memory");
+    data->two_seeds = form == 1;
+    data->seed_word = aur_seed_word(seed);
+    if (!data->two_seeds)
+        data->seed_word += aur_phase(aur_golden_fraction, 1);
+    data->second_word = aur_hash2(UINT64_C(0x676f6c64656e), options->seed);
+    const aur_golden_order order = aur_golden_order_of(data->seed_word, set->size);
+    uint64_t index = order.first;
+    for (uint64_t i = 0; i < set->size; ++i) {
+        data->order[i] = (uint32_t)index;
+        if (i + 1 < set->size)
+            index = aur_golden_next(&order, index);
+    }
+    set->data = data;
+    return AUR_OK;
+}
+
+static void fill(const aur_pointset *set, const aur_block *block) {
+    const golden_set *const data = set->data;
+    for (size_t d = 0; d < block->dimension_count; ++d) {
+        const bool sorted = (block->first_dimension + d == 0) == data->two_seeds;
+        const uint64_t start = !sorted && data->two_seeds ? data->second_word : data->seed_word;
+        double *const out = block->data + d * block->coordinate_stride;
+        for (size_t i = 0; i < block->count; ++i) {
+            const uint64_t index = block->first + i;
+            const uint64_t rank = sorted ? data->order[index] : index;
+            out[i * block->point_stride] = aur_word_to_double(start + aur_phase(aur_golden_fraction, rank));
+        }
+    }
+}
+
+const aur_square_set aur_set_golden_set = {
+    .description = {.name = "golden-set",
+                    .keys = "form=one-seed, seed=0",
+                    .summary = "golden ratio sequence beside itself sorted; form=one-seed|two-seeds",
+                    .domains = "square",
+                    .sizes = "1..2^32",
+                    .extensible = 0,
+                    .source = "Schretter 2012"},
+    .minimum_dimension = 2,
+    .maximum_dimension = 2,
+    .maximum_size = UINT64_C(1) << 32,
+    .scramblings = AUR_SCRAMBLES_SHIFT,
+    .prepare = prepare,
+    .fill = fill,
+};

@@ -1,0 +1,22 @@
+/* Phases i a modulo 1 of irrational a, exact to a double: the constants are 128-bit fractions. */
+#ifndef AUR_POINTSET_PHASE_H
+#define AUR_POINTSET_PHASE_H
+
+#include <stdint.h>
+
+/* high / 2^64 + low / 2^128 */
+typedef struct aur_fraction128 {
+    uint64_t high, low;
+} aur_fraction128;
+
+/* 1/Phi, the golden ratio less one, cut after 128 bits. */
+static const aur_fraction128 aur_golden_fraction = {UINT64_C(0x9e3779b97f4a7c15),
+                                                    UINT64_C(0xf39cc0605cedc834)};
+
+/* floor(index fraction 2^64) modulo 2^64, as a 64-bit word; at most one too small. */
+static inline uint64_t aur_phase(aur_fraction128 fraction, uint64_t index) {
+    __extension__ typedef unsigned __int128 wide;
+    return index * fraction.high + (uint64_t)((wide)index * fraction.low >> 64);
+}
+
+#endif
