@@ -315,6 +315,27 @@ aur_result aur_parameters_transform(aur_parameters *parameters, const char *name
     return AUR_OK;
 }
 
+/* "a, b, c" into text[capacity]. */
+static void join_names(char *text, size_t capacity, size_t count, const char *const *names) {
+    text[0] = '\0';
+    for (size_t k = 0; k < count; ++k) {
+        const size_t used = strlen(text);
+        snprintf(text + used, capacity - used, "%s%s", k > 0 ? ", " : "", names[k]);
+    }
+}
+
+aur_result aur_fail_unknown_plugin(aur_error *error, const aur_parameters *parameters, size_t count,
+                                   const char *const *names) {
+    const char *const nearest = aur_nearest_name(parameters->plugin, count, names);
+    if (nearest != NULL)
+        return aur_fail_at(error, parameters->location, AUR_ERROR_NAME, "unknown %s '%s'; did you mean '%s'?",
+                           parameters->kind, parameters->plugin, nearest);
+    char known[512];
+    join_names(known, sizeof known, count, names);
+    return aur_fail_at(error, parameters->location, AUR_ERROR_NAME, "unknown %s '%s'; there are: %s",
+                       parameters->kind, parameters->plugin, known);
+}
+
 aur_result aur_parameters_finish(const aur_parameters *parameters, aur_error *error) {
     for (size_t i = 0; i < parameters->count; ++i) {
         const aur_parameter *const item = &parameters->items[i];
@@ -325,11 +346,8 @@ aur_result aur_parameters_finish(const aur_parameters *parameters, aur_error *er
             return aur_fail_at(error, item->location, AUR_ERROR_NAME,
                                "%s '%s' has no '%s'; did you mean '%s'?", parameters->kind,
                                parameters->plugin, item->name, nearest);
-        char known[512] = "";
-        for (size_t k = 0; k < parameters->known_count; ++k) {
-            const size_t used = strlen(known);
-            snprintf(known + used, sizeof known - used, "%s%s", k > 0 ? ", " : "", parameters->known[k]);
-        }
+        char known[512];
+        join_names(known, sizeof known, parameters->known_count, parameters->known);
         if (known[0] == '\0')
             return aur_fail_at(error, item->location, AUR_ERROR_NAME,
                                "%s '%s' has no '%s': it takes no parameters", parameters->kind,

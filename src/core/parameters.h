@@ -90,6 +90,10 @@ aur_result aur_parameters_transform(aur_parameters *parameters, const char *name
 /* An error for the first value that no getter asked for. */
 aur_result aur_parameters_finish(const aur_parameters *parameters, aur_error *error);
 
+/* NAME error for a plugin that is none of `count` names: says the nearest one, or all of them. */
+aur_result aur_fail_unknown_plugin(aur_error *error, const aur_parameters *parameters, size_t count,
+                                   const char *const *names);
+
 /* Parses one number that fills all of `text` but for spaces around it; `e-008` and `inf` are numbers, NaN is
  * not. */
 bool aur_parse_double(const char *text, double *value);

@@ -25,16 +25,16 @@ typedef struct aur_bsdf_sample {
 } aur_bsdf_sample;
 
 typedef enum aur_lobe_shape {
-    AUR_LOBE_SHAPE_COSINE_POWER, /* coefficient * max(0, axis . light)^exponent [* light.z] */
+    AUR_LOBE_SHAPE_COSINE_POWER, /* coefficient * max(0, axis . light)^exponent [* |light.z|] */
     AUR_LOBE_SHAPE_SPECULAR      /* coefficient of a Dirac direction `axis` */
 } aur_lobe_shape;
 
-/* One part of BSDF * cos, as final gathering wants it: sum of the lobes = aur_bsdf_evaluate where light.z >
- * 0. */
+/* One part of BSDF * cos, as final gathering wants it: the sum of the lobes is `evaluate` wherever light is
+ * on the side of view (and what a lobe has on the other side is to be left out). */
 typedef struct aur_bsdf_lobe {
     aur_lobe_shape shape;
     bool diffuse;      /* about the normal: gathered by the diffuse rule */
-    bool times_cosine; /* the factor light.z stands beside the power */
+    bool times_cosine; /* the factor |light.z| stands beside the power */
     float exponent;
     aur_vector axis; /* unit, local */
     aur_vector coefficient;
@@ -67,6 +67,7 @@ struct aur_bsdf {
     const aur_bsdf_descriptor *descriptor;
     void *data;
     bool scatters_from_behind; /* twosided or transmissive: view.z < 0 is not black */
+    bool transmits;            /* light may leave on the other side */
 };
 
 /* The table; NULL beyond it. */
@@ -76,5 +77,16 @@ const aur_bsdf_descriptor *aur_bsdf_descriptor_at(size_t index);
  * parameters of kind AUR_PARAMETER_OBJECT with object_kind "bsdf", and outlive the one that uses them. */
 aur_result aur_bsdf_create(aur_parameters *parameters, aur_bsdf **bsdf, aur_error *error);
 void aur_bsdf_destroy(aur_bsdf *bsdf);
+
+/* --- for the files of the table */
+
+/* bsdf->data = `size` zero bytes. */
+aur_result aur_bsdf_allocate(const aur_parameters *parameters, aur_bsdf *bsdf, size_t size, aur_error *error);
+/* A `release` for data that owns nothing else. */
+void aur_bsdf_release_data(aur_bsdf *bsdf);
+/* The nested BSDF of that name ("bsdf", "bsdf2" when the file gives none); *bsdf keeps its value when absent.
+ */
+aur_result aur_parameters_nested_bsdf(aur_parameters *parameters, const char *name, const aur_bsdf **bsdf,
+                                      aur_error *error);
 
 #endif

@@ -51,12 +51,14 @@ aur_ray aur_surface_ray_to(const aur_surface *surface, aur_vector target, float 
  * ---------------------------------------------------------------------------------------------------- */
 
 typedef struct aur_light_sample {
-    aur_vector position;  /* on the light */
+    aur_vector position;  /* on the light; beyond the scene for lights that are infinitely far */
     aur_vector normal;    /* of the light there */
     aur_vector direction; /* unit, from the reference point to the light */
     float distance;
     aur_vector radiance; /* RGB, towards the reference point, before visibility; 0 behind the light */
     float pdf;           /* a steradian at the reference point, the choice of the light included */
+    bool delta; /* a point or one direction: no ray finds the light, so nothing is to be weighed against it;
+                   radiance / pdf is the light's irradiance on a surface that faces it */
 } aur_light_sample;
 
 /* Draws a point on a light seen from `reference`: u[0] chooses the light in proportion to its power, u[1],
@@ -68,6 +70,13 @@ float aur_light_pdf_direct(const aur_scene *scene, aur_vector reference, const a
 /* Radiance that `surface` emits towards the unit direction `view` (world); 0 when it is no light or seen from
  * behind. */
 aur_vector aur_surface_emission(const aur_scene *scene, const aur_surface *surface, aur_vector view);
+
+/* Light from beyond the scene, for rays that hit nothing: the radiance that arrives from the unit `direction`
+ * (which points out of the scene), 0 without an environment; and the pdf with which aur_light_sample_direct
+ * would draw that direction. */
+bool aur_scene_has_environment(const aur_scene *scene);
+aur_vector aur_scene_environment(const aur_scene *scene, aur_vector direction);
+float aur_environment_pdf_direct(const aur_scene *scene, aur_vector direction);
 
 /* A particle that leaves a light: u[0] chooses the light by power, u[1], u[2] the point, u[3], u[4] a cosine
  * distributed direction. *power is RGB watts that one of `n` particles would carry times n. False: no light.

@@ -1,0 +1,89 @@
+#include "material/bsdf.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+extern const aur_bsdf_descriptor aur_bsdf_diffuse;
+extern const aur_bsdf_descriptor aur_bsdf_phong;
+extern const aur_bsdf_descriptor aur_bsdf_phong_lobe;
+extern const aur_bsdf_descriptor aur_bsdf_twosided;
+
+static const aur_bsdf_descriptor *const table[] = {
+    &aur_bsdf_diffuse,
+    &aur_bsdf_twosided,
+    &aur_bsdf_phong,
+    &aur_bsdf_phong_lobe,
+};
+
+enum { TABLE_SIZE = sizeof table / sizeof table[0] };
+
+const aur_bsdf_descriptor *aur_bsdf_descriptor_at(size_t index) {
+    return index < TABLE_SIZE ? table[index] : NULL;
+}
+
+static aur_result find_descriptor(const aur_parameters *parameters, const aur_bsdf_descriptor **descriptor,
+                                  aur_error *error) {
+    const char *names[TABLE_SIZE];
+    for (size_t i = 0; i < TABLE_SIZE; ++i) {
+        names[i] = table[i]->name;
+        if (strcmp(names[i], parameters->plugin) == 0) {
+            *descriptor = table[i];
+            return AUR_OK;
+        }
+    }
+    return aur_fail_unknown_plugin(error, parameters, TABLE_SIZE, names);
+}
+
+aur_result aur_bsdf_create(aur_parameters *parameters, aur_bsdf **bsdf, aur_error *error) {
+    *bsdf = NULL;
+    const aur_bsdf_descriptor *descriptor = NULL;
+    aur_result result = find_descriptor(parameters, &descriptor, error);
+    if (result != AUR_OK)
+        return result;
+    aur_bsdf *const made = calloc(1, sizeof *made);
+    if (made == NULL)
+        return aur_fail_at(error, parameters->location, AUR_ERROR_MEMORY, "out of memory");
+    made->descriptor = descriptor;
+    result = descriptor->create(parameters, made, error);
+    if (result == AUR_OK)
+        result = aur_parameters_finish(parameters, error);
+    if (result != AUR_OK) {
+        aur_bsdf_destroy(made);
+        return result;
+    }
+    *bsdf = made;
+    return AUR_OK;
+}
+
+void aur_bsdf_destroy(aur_bsdf *bsdf) {
+    if (bsdf == NULL)
+        return;
+    if (bsdf->data != NULL)
+        bsdf->descriptor->release(bsdf);
+    free(bsdf);
+}
+
+void aur_bsdf_release_data(aur_bsdf *bsdf) {
+    free(bsdf->data);
+    bsdf->data = NULL;
+}
+
+aur_result aur_bsdf_allocate(const aur_parameters *parameters, aur_bsdf *bsdf, size_t size,
+                             aur_error *error) {
+    bsdf->data = calloc(1, size);
+    if (bsdf->data == NULL)
+        return aur_fail_at(error, parameters->location, AUR_ERROR_MEMORY, "out of memory");
+    return AUR_OK;
+}
+
+aur_result aur_parameters_nested_bsdf(aur_parameters *parameters, const char *name, const aur_bsdf **bsdf,
+                                      aur_error *error) {
+    const aur_parameter *const item = aur_parameters_find(parameters, name);
+    if (item == NULL)
+        return AUR_OK;
+    if (item->kind != AUR_PARAMETER_OBJECT || strcmp(item->object_kind, "bsdf") != 0)
+        return aur_fail_at(error, item->location, AUR_ERROR_FORMAT, "%s '%s': '%s' must be a bsdf",
+                           parameters->kind, parameters->plugin, name);
+    *bsdf = item->object;
+    return AUR_OK;
+}

@@ -1,0 +1,102 @@
+#include "material/phong.h"
+
+#include "material/sampling.h"
+
+aur_result aur_phong_create(aur_parameters *parameters, aur_bsdf *bsdf, aur_error *error) {
+    aur_result result = aur_bsdf_allocate(parameters, bsdf, sizeof(aur_phong), error);
+    if (result != AUR_OK)
+        return result;
+    aur_phong *const self = bsdf->data;
+    self->diffuse.constant = (aur_vector){0.5f, 0.5f, 0.5f};
+    self->specular.constant = (aur_vector){0.2f, 0.2f, 0.2f};
+    double exponent = 30.0;
+    result = aur_parameters_color(parameters, "diffuse_reflectance", 1.0, &self->diffuse, error);
+    if (result == AUR_OK)
+        result = aur_parameters_color(parameters, "specular_reflectance", 1.0, &self->specular, error);
+    if (result == AUR_OK)
+        result = aur_parameters_float(parameters, "exponent", 0.0, 1e6, &exponent, error);
+    if (result != AUR_OK)
+        return result;
+    self->exponent = (float)exponent;
+    if (self->diffuse.texture != NULL || self->specular.texture != NULL)
+        return AUR_OK;
+    const float most = aur_vector_max(aur_vector_add(self->diffuse.constant, self->specular.constant));
+    if (most > 1.0f + 1e-5f)
+        return aur_fail_at(
+            error, parameters->location, AUR_ERROR_FORMAT,
+            "bsdf '%s': diffuse_reflectance + specular_reflectance must not exceed 1, but adds to %g",
+            parameters->plugin, (double)most);
+    return AUR_OK;
+}
+
+aur_phong_point aur_phong_at(const aur_bsdf *bsdf, aur_bsdf_point point) {
+    const aur_phong *const self = bsdf->data;
+    aur_phong_point at = {aur_color_at(&self->diffuse, point), aur_color_at(&self->specular, point), 0.0f};
+    const float diffuse = aur_luminance(at.diffuse);
+    const float specular = aur_luminance(at.specular);
+    if (diffuse + specular > 0.0f)
+        at.specular_probability = specular / (diffuse + specular);
+    return at;
+}
+
+static float density(const aur_bsdf *bsdf, const aur_phong_point *at, aur_vector view, aur_vector light) {
+    const aur_phong *const self = bsdf->data;
+    if (view.z <= 0.0f || light.z <= 0.0f)
+        return 0.0f;
+    const float cosine = aur_vector_dot(aur_mirror(view), light);
+    return at->specular_probability * aur_cosine_power_pdf(cosine, self->exponent) +
+           (1.0f - at->specular_probability) * light.z / AUR_PI_F;
+}
+
+float aur_phong_pdf(const aur_bsdf *bsdf, aur_bsdf_point point, aur_vector view, aur_vector light) {
+    const aur_phong_point at = aur_phong_at(bsdf, point);
+    return density(bsdf, &at, view, light);
+}
+
+bool aur_phong_sample(const aur_bsdf *bsdf, aur_bsdf_point point, aur_vector view, const float u[3],
+                      aur_bsdf_sample *drawn) {
+    const aur_phong *const self = bsdf->data;
+    if (view.z <= 0.0f)
+        return false;
+    const aur_phong_point at = aur_phong_at(bsdf, point);
+    aur_vector light;
+    if (u[0] < at.specular_probability) {
+        const aur_frame frame = aur_frame_about(aur_mirror(view));
+        light = aur_frame_to_world(&frame, aur_sample_cosine_power(u[1], u[2], self->exponent));
+    } else {
+        light = aur_sample_cosine(u[1], u[2]);
+    }
+    const float pdf = density(bsdf, &at, view, light);
+    if (!(pdf > 0.0f))
+        return false;
+    const aur_vector value = bsdf->descriptor->evaluate(bsdf, point, view, light);
+    *drawn = (aur_bsdf_sample){light, aur_vector_scale(value, 1.0f / pdf), pdf, false};
+    return aur_vector_max(value) > 0.0f;
+}
+
+size_t aur_phong_lobes(const aur_bsdf *bsdf, aur_bsdf_point point, aur_vector view, float scale,
+                       bool times_cosine, aur_bsdf_lobe *lobe) {
+    const aur_phong *const self = bsdf->data;
+    if (view.z <= 0.0f)
+        return 0;
+    const aur_phong_point at = aur_phong_at(bsdf, point);
+    size_t count = 0;
+    if (aur_vector_max(at.diffuse) > 0.0f)
+        lobe[count++] = (aur_bsdf_lobe){.shape = AUR_LOBE_SHAPE_COSINE_POWER,
+                                        .diffuse = true,
+                                        .exponent = 1.0f,
+                                        .axis = {0.0f, 0.0f, 1.0f},
+                                        .coefficient = aur_vector_scale(at.diffuse, 1.0f / AUR_PI_F)};
+    if (aur_vector_max(at.specular) > 0.0f)
+        lobe[count++] = (aur_bsdf_lobe){.shape = AUR_LOBE_SHAPE_COSINE_POWER,
+                                        .times_cosine = times_cosine,
+                                        .exponent = self->exponent,
+                                        .axis = aur_mirror(view),
+                                        .coefficient = aur_vector_scale(at.specular, scale)};
+    return count;
+}
+
+aur_vector aur_phong_diffuse_albedo(const aur_bsdf *bsdf, aur_bsdf_point point, float side) {
+    const aur_phong *const self = bsdf->data;
+    return side > 0.0f ? aur_color_at(&self->diffuse, point) : (aur_vector){0};
+}

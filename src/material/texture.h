@@ -1,0 +1,53 @@
+/* Values that vary over a surface. One texture a file (texture_*.c), with one line in the table of texture.c.
+ */
+#ifndef AUR_MATERIAL_TEXTURE_H
+#define AUR_MATERIAL_TEXTURE_H
+
+#include "material/bsdf.h"
+
+typedef struct aur_texture aur_texture;
+
+typedef struct aur_texture_descriptor {
+    const char *name;
+    const char *summary;
+    /* Reads its parameters and sets texture->data and texture->mean. */
+    aur_result (*create)(aur_parameters *parameters, aur_texture *texture, aur_error *error);
+    void (*release)(aur_texture *texture);
+    aur_vector (*evaluate)(const aur_texture *texture, float u, float v);
+} aur_texture_descriptor;
+
+struct aur_texture {
+    const aur_texture_descriptor *descriptor;
+    void *data;
+    aur_vector mean; /* over the unit square */
+    float maximum;   /* of any channel anywhere */
+};
+
+/* The table; NULL beyond it. */
+const aur_texture_descriptor *aur_texture_descriptor_at(size_t index);
+
+/* Builds the texture that parameters->plugin names. A bitmap's `filename` must already be a path that opens.
+ */
+aur_result aur_texture_create(aur_parameters *parameters, aur_texture **texture, aur_error *error);
+void aur_texture_destroy(aur_texture *texture);
+
+/* A colour of a material or light: one for the whole surface, or a texture. */
+typedef struct aur_color {
+    aur_vector constant;
+    const aur_texture *texture; /* NULL: constant */
+} aur_color;
+
+static inline aur_vector aur_color_at(const aur_color *color, aur_bsdf_point point) {
+    return color->texture == NULL ? color->constant
+                                  : color->texture->descriptor->evaluate(color->texture, point.u, point.v);
+}
+
+static inline aur_vector aur_color_mean(const aur_color *color) {
+    return color->texture == NULL ? color->constant : color->texture->mean;
+}
+
+/* Reads a colour or texture whose values lie in [0, maximum]; *color keeps its default when absent. */
+aur_result aur_parameters_color(aur_parameters *parameters, const char *name, double maximum,
+                                aur_color *color, aur_error *error);
+
+#endif

@@ -1,0 +1,18 @@
+/* Memory that is freed all at once: nodes and strings of an XML document. */
+#ifndef AUR_SCENE_ARENA_H
+#define AUR_SCENE_ARENA_H
+
+#include <stddef.h>
+
+typedef struct aur_arena_block aur_arena_block;
+
+typedef struct aur_arena {
+    aur_arena_block *blocks;
+} aur_arena;
+
+/* `size` zero bytes, aligned for anything; NULL when memory is out. */
+void *aur_arena_allocate(aur_arena *arena, size_t size);
+char *aur_arena_copy(aur_arena *arena, const char *text, size_t length);
+void aur_arena_release(aur_arena *arena);
+
+#endif

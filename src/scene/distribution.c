@@ -1,0 +1,41 @@
+#include "scene/distribution.h"
+
+#include <stdlib.h>
+
+aur_result aur_distribution_create(aur_distribution *distribution, size_t count, const double *weights,
+                                   aur_error *error) {
+    distribution->count = count;
+    distribution->sums = malloc((count + 1) * sizeof *distribution->sums);
+    if (distribution->sums == NULL)
+        return aur_fail(error, AUR_ERROR_MEMORY, "out of memory");
+    distribution->sums[0] = 0.0;
+    for (size_t i = 0; i < count; ++i)
+        distribution->sums[i + 1] = distribution->sums[i] + weights[i];
+    distribution->total = distribution->sums[count];
+    return AUR_OK;
+}
+
+void aur_distribution_release(aur_distribution *distribution) {
+    free(distribution->sums);
+    *distribution = (aur_distribution){0};
+}
+
+size_t aur_distribution_choose(const aur_distribution *distribution, float *u) {
+    const double target = (double)*u * distribution->total;
+    size_t low = 0;
+    size_t high = distribution->count;
+    while (high - low > 1) {
+        const size_t middle = (low + high) / 2;
+        if (distribution->sums[middle] <= target)
+            low = middle;
+        else
+            high = middle;
+    }
+    /* Rounding may lead to an item of weight 0 at the end. */
+    while (low > 0 && distribution->sums[low + 1] <= distribution->sums[low])
+        --low;
+    const double width = distribution->sums[low + 1] - distribution->sums[low];
+    const float rest = (float)((target - distribution->sums[low]) / width);
+    *u = rest < 0.0f ? 0.0f : rest < 0x1.fffffep-1f ? rest : 0x1.fffffep-1f;
+    return low;
+}

@@ -1,0 +1,26 @@
+/* Choosing among things in proportion to their weights. */
+#ifndef AUR_SCENE_DISTRIBUTION_H
+#define AUR_SCENE_DISTRIBUTION_H
+
+#include "core/error.h"
+
+typedef struct aur_distribution {
+    size_t count;
+    double total;
+    double *sums; /* count + 1: running sums, the last one `total` */
+} aur_distribution;
+
+/* Copies the weights (>= 0, finite); a total of 0 is allowed. */
+aur_result aur_distribution_create(aur_distribution *distribution, size_t count, const double *weights,
+                                   aur_error *error);
+void aur_distribution_release(aur_distribution *distribution);
+
+/* The item that u in [0,1) falls on, never one of weight 0; *u becomes what is left, again in [0,1). The
+ * total must not be 0. */
+size_t aur_distribution_choose(const aur_distribution *distribution, float *u);
+
+static inline double aur_distribution_probability(const aur_distribution *distribution, size_t index) {
+    return (distribution->sums[index + 1] - distribution->sums[index]) / distribution->total;
+}
+
+#endif

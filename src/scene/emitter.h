@@ -1,0 +1,45 @@
+/* Lights. One plugin a file (emitter_*.c), with one line in the table of emitter.c. */
+#ifndef AUR_SCENE_EMITTER_H
+#define AUR_SCENE_EMITTER_H
+
+#include "material/texture.h"
+#include "scene/scene.h"
+
+typedef struct aur_emitter aur_emitter;
+
+typedef struct aur_emitter_descriptor {
+    const char *name;
+    const char *summary;
+    bool needs_shape; /* stands inside a <shape> */
+    aur_result (*create)(aur_parameters *parameters, aur_emitter *emitter, aur_error *error);
+    /* Called when all shapes are there: makes tables and sets emitter->power. */
+    aur_result (*prepare)(const aur_scene *scene, aur_emitter *emitter, aur_error *error);
+    /* As aur_light_sample_direct for this light alone: u[0] is what is left of it after the choice. */
+    bool (*sample)(const aur_scene *scene, const aur_emitter *emitter, aur_vector reference, const float u[3],
+                   aur_light_sample *drawn);
+    /* As aur_light_emit for this light alone. */
+    bool (*emit)(const aur_scene *scene, const aur_emitter *emitter, const float u[5], aur_ray *ray,
+                 aur_vector *power);
+    void (*release)(aur_emitter *emitter);
+    /* For environments only: the radiance from a direction, and the density with which `sample` draws it. */
+    aur_vector (*radiance_from)(const aur_emitter *emitter, aur_vector direction);
+    float (*pdf_from)(const aur_emitter *emitter, aur_vector direction);
+} aur_emitter_descriptor;
+
+struct aur_emitter {
+    const aur_emitter_descriptor *descriptor;
+    aur_location location;
+    uint32_t shape; /* for lights that are shapes */
+    aur_color radiance;
+    double power;      /* luminance of the watts it gives: lights are chosen in proportion */
+    float probability; /* that the light is chosen */
+    void *data;
+};
+
+/* The table; NULL beyond it. */
+const aur_emitter_descriptor *aur_emitter_descriptor_at(size_t index);
+
+aur_result aur_emitter_create(aur_parameters *parameters, aur_emitter **emitter, aur_error *error);
+void aur_emitter_destroy(aur_emitter *emitter);
+
+#endif

@@ -1,0 +1,105 @@
+#include "scene/filter.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "core/parameters.h"
+
+static const aur_filter filters[] = {
+    {AUR_FILTER_BOX, 0.5f},
+    {AUR_FILTER_TENT, 1.0f},
+    {AUR_FILTER_GAUSSIAN, 0.5f},
+};
+
+static const char *const names[] = {"box", "tent", "gaussian"};
+
+enum { FILTER_COUNT = sizeof filters / sizeof filters[0] };
+
+const aur_filter *aur_filter_find(const char *name) {
+    for (size_t i = 0; i < FILTER_COUNT; ++i)
+        if (strcmp(names[i], name) == 0)
+            return &filters[i];
+    return NULL;
+}
+
+const char *aur_filter_name(const aur_filter *filter) {
+    return names[filter->kind];
+}
+
+/* The gaussian reaches 4 standard deviations, where it is lowered to 0: density ~ exp(-x^2/2) - exp(-8). */
+static const float cut = 4.0f;
+static const float level = 3.3546262790251185e-4f; /* exp(-8) */
+
+/* Integral of the lowered gaussian from 0 to x. */
+static float gaussian_mass(float x) {
+    return 1.2533141373155003f * erff(x * 0.70710678118654752f) - level * x;
+}
+
+/* erf^-1 (Giles 2012, single precision): where Newton starts. */
+static float inverse_erf(float x) {
+    float w = -logf((1.0f - x) * (1.0f + x));
+    if (w < 5.0f) {
+        static const float c[] = {2.81022636e-08f,  3.43273939e-07f, -3.5233877e-06f,
+                                  -4.39150654e-06f, 0.00021858087f,  -0.00125372503f,
+                                  -0.00417768164f,  0.246640727f,    1.50140941f};
+        w -= 2.5f;
+        float p = c[0];
+        for (size_t i = 1; i < 9; ++i)
+            p = c[i] + p * w;
+        return p * x;
+    }
+    static const float c[] = {-0.000200214257f, 0.000100950558f, 0.00134934322f,
+                              -0.00367342844f,  0.00573950773f,  -0.0076224613f,
+                              0.00943887047f,   1.00167406f,     2.83297682f};
+    w = sqrtf(w) - 3.0f;
+    float p = c[0];
+    for (size_t i = 1; i < 9; ++i)
+        p = c[i] + p * w;
+    return p * x;
+}
+
+/* Standard deviations from the centre. */
+static float sample_gaussian(float u) {
+    const float side = u < 0.5f ? -1.0f : 1.0f;
+    const float t = fabsf(2.0f * u - 1.0f);
+    const float total = gaussian_mass(cut);
+    float x = fminf(1.41421356f * inverse_erf(fminf(t, 0.9999f)), cut);
+    for (size_t i = 0; i < 3; ++i) {
+        const float density = expf(-0.5f * x * x) - level;
+        if (!(density > 1e-6f))
+            break;
+        x = fminf(fmaxf(x - (gaussian_mass(x) - t * total) / density, 0.0f), cut);
+    }
+    return side * x;
+}
+
+float aur_filter_sample(const aur_filter *filter, float u) {
+    switch (filter->kind) {
+    case AUR_FILTER_TENT: {
+        const float side = u < 0.5f ? -1.0f : 1.0f;
+        const float t = u < 0.5f ? 2.0f * u : 2.0f - 2.0f * u;
+        return side * filter->scale * (1.0f - sqrtf(t));
+    }
+    case AUR_FILTER_GAUSSIAN:
+        return filter->scale * sample_gaussian(u);
+    case AUR_FILTER_BOX:
+        break;
+    }
+    return 2.0f * filter->scale * (u - 0.5f);
+}
+
+aur_result aur_filter_create(aur_parameters *parameters, aur_filter *filter, aur_error *error) {
+    const aur_filter *const known = aur_filter_find(parameters->plugin);
+    if (known == NULL)
+        return aur_fail_unknown_plugin(error, parameters, FILTER_COUNT, names);
+    *filter = *known;
+    double scale = filter->scale;
+    aur_result result = AUR_OK;
+    if (filter->kind == AUR_FILTER_TENT)
+        result = aur_parameters_float(parameters, "radius", 1e-3, 100.0, &scale, error);
+    if (filter->kind == AUR_FILTER_GAUSSIAN)
+        result = aur_parameters_float(parameters, "stddev", 1e-3, 25.0, &scale, error);
+    filter->scale = (float)scale;
+    return result != AUR_OK ? result : aur_parameters_finish(parameters, error);
+}

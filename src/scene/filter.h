@@ -1,0 +1,18 @@
+/* Reconstruction filters; aur_filter_find and aur_filter_sample are in scene.h. */
+#ifndef AUR_SCENE_FILTER_H
+#define AUR_SCENE_FILTER_H
+
+#include "core/parameters.h"
+#include "scene/scene.h"
+
+typedef enum aur_filter_kind { AUR_FILTER_BOX, AUR_FILTER_TENT, AUR_FILTER_GAUSSIAN } aur_filter_kind;
+
+struct aur_filter {
+    aur_filter_kind kind;
+    float scale; /* pixels: box and tent their radius, gaussian its standard deviation */
+};
+
+/* The filter that parameters->plugin names, with its parameters. */
+aur_result aur_filter_create(aur_parameters *parameters, aur_filter *filter, aur_error *error);
+
+#endif

@@ -1,0 +1,67 @@
+/* Choosing lights, and points and directions on them. */
+#include "scene/scene_data.h"
+
+static const aur_emitter *choose(const aur_scene *scene, float *u) {
+    if (!(scene->lights.total > 0.0))
+        return NULL;
+    return scene->emitters[aur_distribution_choose(&scene->lights, u)];
+}
+
+bool aur_light_sample_direct(const aur_scene *scene, aur_vector reference, const float u[3],
+                             aur_light_sample *sample) {
+    float rest[3] = {u[0], u[1], u[2]};
+    const aur_emitter *const emitter = choose(scene, &rest[0]);
+    if (emitter == NULL)
+        return false;
+    *sample = (aur_light_sample){0};
+    if (!emitter->descriptor->sample(scene, emitter, reference, rest, sample))
+        return false;
+    sample->pdf *= emitter->probability;
+    return true;
+}
+
+float aur_light_pdf_direct(const aur_scene *scene, aur_vector reference, const aur_surface *surface) {
+    if (surface->emitter == AUR_NO_EMITTER)
+        return 0.0f;
+    const aur_emitter *const emitter = scene->emitters[surface->emitter];
+    const aur_vector way = aur_vector_subtract(surface->position, reference);
+    const float squared = aur_vector_dot(way, way);
+    const float cosine = -aur_vector_dot(way, surface->geometric_normal) / sqrtf(squared);
+    if (!(cosine > 0.0f))
+        return 0.0f;
+    const float pdf = emitter->probability * squared / (cosine * (float)scene->shapes[surface->shape]->area);
+    return isfinite(pdf) ? pdf : 0.0f;
+}
+
+aur_vector aur_surface_emission(const aur_scene *scene, const aur_surface *surface, aur_vector view) {
+    if (surface->emitter == AUR_NO_EMITTER || !(aur_vector_dot(view, surface->geometric_normal) > 0.0f))
+        return (aur_vector){0};
+    return aur_color_at(&scene->emitters[surface->emitter]->radiance, surface->texture);
+}
+
+bool aur_light_emit(const aur_scene *scene, const float u[5], aur_ray *ray, aur_vector *power) {
+    float rest[5] = {u[0], u[1], u[2], u[3], u[4]};
+    const aur_emitter *const emitter = choose(scene, &rest[0]);
+    if (emitter == NULL || !emitter->descriptor->emit(scene, emitter, rest, ray, power))
+        return false;
+    *power = aur_vector_scale(*power, 1.0f / emitter->probability);
+    return true;
+}
+
+bool aur_scene_has_environment(const aur_scene *scene) {
+    return scene->environment != NULL;
+}
+
+aur_vector aur_scene_environment(const aur_scene *scene, aur_vector direction) {
+    const aur_emitter *const emitter = scene->environment;
+    return emitter != NULL ? emitter->descriptor->radiance_from(emitter, direction) : (aur_vector){0};
+}
+
+float aur_environment_pdf_direct(const aur_scene *scene, aur_vector direction) {
+    const aur_emitter *const emitter = scene->environment;
+    return emitter != NULL ? emitter->probability * emitter->descriptor->pdf_from(emitter, direction) : 0.0f;
+}
+
+size_t aur_scene_emitter_count(const aur_scene *scene) {
+    return scene->emitter_count;
+}

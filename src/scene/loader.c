@@ -1,0 +1,445 @@
+/* From the tree of elements to the objects of a scene. An object is built when the walk meets it or when
+ * something refers to it, whichever is first. */
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "scene/properties.h"
+#include "scene/scene_data.h"
+
+typedef struct loader {
+    aur_scene *scene;
+    const aur_warnings *warnings;
+    const aur_bsdf *default_bsdf;
+    aur_error *error;
+} loader;
+
+/* Builds the object that a node is; `parameters` holds its properties and nested objects. */
+typedef aur_result (*builder)(loader *self, aur_xml_node *node, aur_parameters *parameters, void **object);
+
+typedef struct object_kind {
+    const char *tag;
+    builder build;
+} object_kind;
+
+static const object_kind *find_kind(const char *tag);
+static aur_result build_node(loader *self, aur_xml_node *node);
+
+/* Appends to one of the scene's arrays of pointers. */
+static aur_result append(loader *self, size_t *count, size_t *capacity, void ***items, void *item) {
+    if (*count == *capacity) {
+        const size_t larger_capacity = *capacity == 0 ? 16 : 2 * *capacity;
+        void **const larger = realloc(*items, larger_capacity * sizeof *larger);
+        if (larger == NULL)
+            return aur_fail(self->error, AUR_ERROR_MEMORY, "out of memory");
+        *items = larger;
+        *capacity = larger_capacity;
+    }
+    (*items)[(*count)++] = item;
+    return AUR_OK;
+}
+
+/* The name under which a nested object is asked for: textures have names, the rest are called by what they
+ * are
+ * ("bsdf", "bsdf2", ...). */
+static aur_result nested_name(loader *self, const aur_xml_node *child, const char *tag,
+                              const aur_parameters *parameters, char *name, size_t capacity) {
+    const char *const given = aur_xml_attribute_value(child, "name");
+    if (strcmp(tag, "texture") == 0) {
+        if (given == NULL)
+            return aur_fail_at(self->error, child->location, AUR_ERROR_FORMAT,
+                               "a texture inside an object needs a 'name': what it is for");
+        snprintf(name, capacity, "%s", given);
+        return AUR_OK;
+    }
+    size_t count = 1;
+    for (size_t i = 0; i < parameters->count; ++i)
+        count += parameters->items[i].kind == AUR_PARAMETER_OBJECT &&
+                 strcmp(parameters->items[i].object_kind, tag) == 0;
+    if (count == 1)
+        snprintf(name, capacity, "%s", tag);
+    else
+        snprintf(name, capacity, "%s%zu", tag, count);
+    return AUR_OK;
+}
+
+static aur_result find_reference(loader *self, const aur_xml_node *node, aur_xml_node **target) {
+    static const char *const names[] = {"id", "name"};
+    const char *id;
+    aur_result result = aur_xml_check_attributes(node, 2, names, self->error);
+    if (result == AUR_OK)
+        result = aur_xml_require(node, "id", &id, self->error);
+    if (result != AUR_OK)
+        return result;
+    const aur_xml_document *const document = &self->scene->document;
+    const aur_xml_id *const known = aur_xml_find_id(document, id);
+    if (known != NULL) {
+        *target = known->node;
+        return AUR_OK;
+    }
+    const char **const ids = malloc((document->id_count + 1) * sizeof *ids);
+    for (size_t i = 0; ids != NULL && i < document->id_count; ++i)
+        ids[i] = document->ids[i].id;
+    const char *const nearest = ids != NULL ? aur_nearest_name(id, document->id_count, ids) : NULL;
+    if (nearest != NULL)
+        result = aur_fail_at(self->error, node->location, AUR_ERROR_NAME,
+                             "there is no object with the id '%s'; did you mean '%s'?", id, nearest);
+    else
+        result = aur_fail_at(self->error, node->location, AUR_ERROR_NAME,
+                             "there is no object with the id '%s'", id);
+    free(ids);
+    return result;
+}
+
+static aur_result add_nested(loader *self, const aur_xml_node *child, aur_parameters *parameters) {
+    aur_xml_node *target = (aur_xml_node *)(uintptr_t)child;
+    aur_result result = AUR_OK;
+    if (strcmp(child->tag, "ref") == 0)
+        result = find_reference(self, child, &target);
+    if (result != AUR_OK)
+        return result;
+    const object_kind *const kind = find_kind(target->tag);
+    if (kind == NULL)
+        return aur_fail_at(self->error, child->location, AUR_ERROR_FORMAT, "<%s> is no object to refer to",
+                           target->tag);
+    if (target->state == AUR_XML_BUILDING)
+        return aur_fail_at(self->error, child->location, AUR_ERROR_FORMAT,
+                           "this refers to the object at %s:%zu:%zu, which contains it: a cycle",
+                           target->location.file, target->location.line, target->location.column);
+    char name[96];
+    result = nested_name(self, child, kind->tag, parameters, name, sizeof name);
+    if (result == AUR_OK)
+        result = build_node(self, target);
+    return result != AUR_OK ? result
+                            : aur_parameters_add_object(parameters, name, kind->tag, target->object,
+                                                        child->location, self->error);
+}
+
+/* All that stands inside a node becomes parameters. */
+static aur_result collect(loader *self, const aur_xml_node *node, aur_parameters *parameters) {
+    for (const aur_xml_node *child = node->first_child; child != NULL; child = child->next) {
+        aur_result result;
+        if (aur_xml_is_property(child->tag)) {
+            result = aur_xml_add_property(child, parameters, self->error);
+        } else if (strcmp(child->tag, "ref") == 0 || find_kind(child->tag) != NULL) {
+            result = add_nested(self, child, parameters);
+        } else {
+            static const char *const names[] = {"integer", "float",      "boolean",  "string",    "point",
+                                                "vector",  "rgb",        "spectrum", "transform", "ref",
+                                                "bsdf",    "texture",    "emitter",  "film",      "rfilter",
+                                                "sampler", "integrator", "sensor",   "shape"};
+            result = aur_xml_fail_tag(child, sizeof names / sizeof names[0], names, self->error);
+        }
+        if (result != AUR_OK)
+            return result;
+    }
+    return AUR_OK;
+}
+
+static aur_result build_node(loader *self, aur_xml_node *node) {
+    static const char *const names[] = {"type", "id", "name"};
+    if (node->state == AUR_XML_BUILT)
+        return AUR_OK;
+    const char *type;
+    aur_result result = aur_xml_check_attributes(node, 3, names, self->error);
+    if (result == AUR_OK)
+        result = aur_xml_require(node, "type", &type, self->error);
+    if (result != AUR_OK)
+        return result;
+    node->state = AUR_XML_BUILDING;
+    aur_parameters parameters;
+    result = aur_parameters_init(&parameters, node->tag, type, node->location, self->error);
+    if (result != AUR_OK)
+        return result;
+    result = collect(self, node, &parameters);
+    if (result == AUR_OK)
+        result = find_kind(node->tag)->build(self, node, &parameters, &node->object);
+    aur_parameters_release(&parameters);
+    node->state = AUR_XML_BUILT;
+    return result;
+}
+
+static aur_result build_bsdf(loader *self, aur_xml_node *node, aur_parameters *parameters, void **object) {
+    (void)node;
+    aur_scene *const scene = self->scene;
+    aur_bsdf *bsdf;
+    aur_result result = aur_bsdf_create(parameters, &bsdf, self->error);
+    if (result != AUR_OK)
+        return result;
+    result = append(self, &scene->bsdf_count, &scene->bsdf_capacity, (void ***)&scene->bsdfs, bsdf);
+    if (result != AUR_OK)
+        aur_bsdf_destroy(bsdf);
+    *object = bsdf;
+    return result;
+}
+
+static aur_result build_texture(loader *self, aur_xml_node *node, aur_parameters *parameters, void **object) {
+    (void)node;
+    aur_scene *const scene = self->scene;
+    aur_texture *texture;
+    aur_result result = aur_texture_create(parameters, &texture, self->error);
+    if (result != AUR_OK)
+        return result;
+    result =
+        append(self, &scene->texture_count, &scene->texture_capacity, (void ***)&scene->textures, texture);
+    if (result != AUR_OK)
+        aur_texture_destroy(texture);
+    *object = texture;
+    return result;
+}
+
+static aur_result build_emitter(loader *self, aur_xml_node *node, aur_parameters *parameters, void **object) {
+    (void)node;
+    aur_scene *const scene = self->scene;
+    aur_emitter *emitter;
+    aur_result result = aur_emitter_create(parameters, &emitter, self->error);
+    if (result != AUR_OK)
+        return result;
+    result =
+        append(self, &scene->emitter_count, &scene->emitter_capacity, (void ***)&scene->emitters, emitter);
+    if (result != AUR_OK)
+        aur_emitter_destroy(emitter);
+    *object = emitter;
+    return result;
+}
+
+/* A nested object of one kind, or NULL when it is absent. */
+static void *nested(aur_parameters *parameters, const char *name) {
+    const aur_parameter *const item = aur_parameters_find(parameters, name);
+    return item != NULL ? (void *)(uintptr_t)item->object : NULL;
+}
+
+static aur_result make_default_bsdf(loader *self) {
+    if (self->default_bsdf != NULL)
+        return AUR_OK;
+    aur_parameters parameters;
+    aur_result result = aur_parameters_init(&parameters, "bsdf", "diffuse", (aur_location){0}, self->error);
+    if (result != AUR_OK)
+        return result;
+    void *object;
+    result = build_bsdf(self, NULL, &parameters, &object);
+    if (result == AUR_OK)
+        self->default_bsdf = object;
+    aur_parameters_release(&parameters);
+    return result;
+}
+
+static aur_result build_shape(loader *self, aur_xml_node *node, aur_parameters *parameters, void **object) {
+    (void)node;
+    aur_scene *const scene = self->scene;
+    aur_shape *shape;
+    const aur_bsdf *bsdf = nested(parameters, "bsdf");
+    aur_emitter *const emitter = nested(parameters, "emitter");
+    aur_result result = AUR_OK;
+    if (bsdf == NULL) {
+        result = make_default_bsdf(self);
+        bsdf = self->default_bsdf;
+    }
+    if (result == AUR_OK && emitter != NULL && !emitter->descriptor->needs_shape)
+        result = aur_fail_at(self->error, emitter->location, AUR_ERROR_FORMAT,
+                             "emitter '%s' cannot stand inside a shape", emitter->descriptor->name);
+    if (result == AUR_OK && emitter != NULL && emitter->shape != UINT32_MAX)
+        result = aur_fail_at(self->error, parameters->location, AUR_ERROR_FORMAT,
+                             "the emitter of this shape already belongs to another one");
+    if (result == AUR_OK)
+        result = aur_shape_create(parameters, &scene->document, self->warnings, &shape, self->error);
+    if (result != AUR_OK)
+        return result;
+    result = append(self, &scene->shape_count, &scene->shape_capacity, (void ***)&scene->shapes, shape);
+    if (result != AUR_OK) {
+        aur_shape_destroy(shape);
+        return result;
+    }
+    shape->bsdf = bsdf;
+    if (emitter != NULL) {
+        emitter->shape = (uint32_t)(scene->shape_count - 1);
+        for (size_t i = 0; i < scene->emitter_count; ++i)
+            if (scene->emitters[i] == emitter)
+                shape->emitter = (uint32_t)i;
+    }
+    *object = shape;
+    return AUR_OK;
+}
+
+static aur_result build_filter(loader *self, aur_xml_node *node, aur_parameters *parameters, void **object) {
+    (void)node;
+    *object = &self->scene->filter;
+    return aur_filter_create(parameters, &self->scene->filter, self->error);
+}
+
+/* Tells that a parameter is known and has no effect. */
+static void warn_unused(loader *self, aur_parameters *parameters, const char *name, const char *why) {
+    const aur_parameter *const item = aur_parameters_find(parameters, name);
+    if (item != NULL)
+        aur_warn_at(self->warnings, item->location, "%s '%s': '%s' has no effect: %s", parameters->kind,
+                    parameters->plugin, name, why);
+}
+
+static aur_result build_film(loader *self, aur_xml_node *node, aur_parameters *parameters, void **object) {
+    (void)node;
+    static const char *const films[] = {"hdrfilm", "ldrfilm"};
+    aur_film *const film = &self->scene->film;
+    *object = film;
+    if (strcmp(parameters->plugin, "ldrfilm") == 0)
+        aur_warn_at(self->warnings, parameters->location,
+                    "film 'ldrfilm' is read as 'hdrfilm': write to a .png file for 8 bits");
+    else if (strcmp(parameters->plugin, "hdrfilm") != 0)
+        return aur_fail_unknown_plugin(self->error, parameters, 2, films);
+    int64_t width = (int64_t)film->width, height = (int64_t)film->height;
+    aur_result result = aur_parameters_integer(parameters, "width", 1, 65536, &width, self->error);
+    if (result == AUR_OK)
+        result = aur_parameters_integer(parameters, "height", 1, 65536, &height, self->error);
+    if (result != AUR_OK)
+        return result;
+    film->width = (size_t)width;
+    film->height = (size_t)height;
+    if (nested(parameters, "rfilter") != NULL)
+        film->filter = &self->scene->filter;
+    /* The output file's name says these. */
+    aur_parameters_find(parameters, "file_format");
+    aur_parameters_find(parameters, "pixel_format");
+    aur_parameters_find(parameters, "component_format");
+    warn_unused(self, parameters, "banner", "pictures carry none");
+    warn_unused(self, parameters, "high_quality_edges", "all edges are");
+    warn_unused(self, parameters, "sample_border", "samples are drawn by the filter");
+    warn_unused(self, parameters, "compensate", "sums are exact enough");
+    warn_unused(self, parameters, "gamma", "pictures are linear, PNG is sRGB");
+    return aur_parameters_finish(parameters, self->error);
+}
+
+/* Samplers by other names, and the point sets that take their place. */
+static const char *set_for_sampler(const char *plugin) {
+    static const char *const others[][2] = {{"independent", "random"},
+                                            {"stratified", "sobol"},
+                                            {"multijitter", "sobol"},
+                                            {"orthogonal", "sobol"},
+                                            {"ldsampler", "sobol"}};
+    for (size_t i = 0; i < sizeof others / sizeof others[0]; ++i)
+        if (strcmp(others[i][0], plugin) == 0)
+            return others[i][1];
+    return plugin;
+}
+
+static aur_result build_sampler(loader *self, aur_xml_node *node, aur_parameters *parameters, void **object) {
+    (void)node;
+    aur_scene *const scene = self->scene;
+    int64_t samples = (int64_t)scene->samples_per_pixel;
+    aur_result result =
+        aur_parameters_integer(parameters, "sample_count", 1, INT64_C(1) << 32, &samples, self->error);
+    if (result != AUR_OK)
+        return result;
+    scene->samples_per_pixel = (size_t)samples;
+    warn_unused(self, parameters, "seed", "give it on the command line");
+    /* The rest are the set's own keys. */
+    char text[1024];
+    const char *const set = set_for_sampler(parameters->plugin);
+    int used = snprintf(text, sizeof text, "%s", set);
+    for (size_t i = 0, keys = 0; i < parameters->count && used < (int)sizeof text; ++i) {
+        aur_parameter *const item = &parameters->items[i];
+        if (item->used || item->text == NULL)
+            continue;
+        if (set != parameters->plugin) {
+            if (strcmp(item->name, "jitter") != 0 && strcmp(item->name, "dimension") != 0 &&
+                strcmp(item->name, "strength") != 0)
+                break;
+            aur_warn_at(self->warnings, item->location, "sampler '%s': '%s' has no effect: it is read as %s",
+                        parameters->plugin, item->name, set);
+        } else {
+            used += snprintf(text + used, sizeof text - (size_t)used, "%c%s=%s", keys++ == 0 ? ':' : ',',
+                             item->name, item->text);
+        }
+        item->used = true;
+    }
+    result = aur_parameters_finish(parameters, self->error);
+    if (result != AUR_OK)
+        return result;
+    if (used >= (int)sizeof text)
+        return aur_fail_at(self->error, parameters->location, AUR_ERROR_FORMAT,
+                           "the sampler's keys are too long");
+    free(scene->sampler);
+    scene->sampler = strdup(text);
+    *object = scene->sampler;
+    return scene->sampler != NULL ? AUR_OK : aur_fail(self->error, AUR_ERROR_MEMORY, "out of memory");
+}
+
+static aur_result build_sensor(loader *self, aur_xml_node *node, aur_parameters *parameters, void **object) {
+    (void)node;
+    aur_scene *const scene = self->scene;
+    *object = &scene->sensor;
+    /* Nested film and sampler have set the scene's own. */
+    nested(parameters, "film");
+    nested(parameters, "sampler");
+    scene->has_sensor = true;
+    warn_unused(self, parameters, "shutter_open", "nothing moves");
+    warn_unused(self, parameters, "shutter_close", "nothing moves");
+    return aur_sensor_create(parameters, &scene->sensor, self->error);
+}
+
+static aur_result build_integrator(loader *self, aur_xml_node *node, aur_parameters *parameters,
+                                   void **object) {
+    aur_scene *const scene = self->scene;
+    *object = &scene->integrator;
+    if (scene->has_integrator) {
+        aur_warn_at(self->warnings, node->location, "a second integrator is left out");
+        return AUR_OK;
+    }
+    scene->has_integrator = true;
+    return aur_parameters_copy(parameters, &scene->integrator, self->error);
+}
+
+static const object_kind kinds[] = {
+    {"shape", build_shape},     {"bsdf", build_bsdf},       {"texture", build_texture},
+    {"emitter", build_emitter}, {"sensor", build_sensor},   {"film", build_film},
+    {"rfilter", build_filter},  {"sampler", build_sampler}, {"integrator", build_integrator},
+};
+
+static const object_kind *find_kind(const char *tag) {
+    for (size_t i = 0; i < sizeof kinds / sizeof kinds[0]; ++i)
+        if (strcmp(kinds[i].tag, tag) == 0)
+            return &kinds[i];
+    return NULL;
+}
+
+static aur_result build_top(loader *self, aur_xml_node *node) {
+    static const char *const names[] = {"integrator", "sensor", "shape",   "bsdf", "emitter", "texture",
+                                        "default",    "alias",  "include", "path", "ref"};
+    static const char *const inner[] = {"film", "rfilter", "sampler"};
+    for (size_t i = 0; i < 3; ++i)
+        if (strcmp(node->tag, inner[i]) == 0)
+            return aur_fail_at(self->error, node->location, AUR_ERROR_FORMAT,
+                               "<%s> cannot stand here: it belongs inside a <%s>", node->tag,
+                               i == 1 ? "film" : "sensor");
+    if (find_kind(node->tag) == NULL)
+        return aur_xml_fail_tag(node, sizeof names / sizeof names[0], names, self->error);
+    if (strcmp(node->tag, "sensor") == 0 && self->scene->has_sensor) {
+        aur_warn_at(self->warnings, node->location, "a second sensor is left out");
+        return AUR_OK;
+    }
+    const aur_result result = build_node(self, node);
+    if (result != AUR_OK || strcmp(node->tag, "emitter") != 0)
+        return result;
+    const aur_emitter *const emitter = node->object;
+    if (!emitter->descriptor->needs_shape)
+        return AUR_OK;
+    return aur_fail_at(self->error, node->location, AUR_ERROR_FORMAT,
+                       "emitter '%s' must stand inside a <shape>", emitter->descriptor->name);
+}
+
+aur_result aur_scene_build(aur_scene *scene, const aur_warnings *warnings, aur_error *error) {
+    loader self = {.scene = scene, .warnings = warnings, .error = error};
+    scene->film = (aur_film){768, 576, aur_filter_find("gaussian")};
+    scene->samples_per_pixel = 4;
+    aur_xml_node *const root = scene->document.root;
+    for (aur_xml_node *node = root->first_child; node != NULL; node = node->next) {
+        const aur_result result = build_top(&self, node);
+        if (result != AUR_OK)
+            return result;
+    }
+    if (!scene->has_sensor)
+        return aur_fail_at(error, root->location, AUR_ERROR_FORMAT, "the scene has no <sensor>");
+    if (scene->sampler == NULL && (scene->sampler = strdup("random")) == NULL)
+        return aur_fail(error, AUR_ERROR_MEMORY, "out of memory");
+    if (scene->has_integrator)
+        return AUR_OK;
+    return aur_parameters_init(&scene->integrator, "integrator", "path", root->location, error);
+}

@@ -1,0 +1,128 @@
+#include "scene/mesh.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+aur_result aur_mesh_allocate(aur_mesh *mesh, size_t vertex_count, size_t triangle_count, unsigned parts,
+                             aur_location location, aur_error *error) {
+    *mesh = (aur_mesh){0};
+    if (vertex_count > UINT32_MAX - 1 || triangle_count > UINT32_MAX - 1)
+        return aur_fail_at(error, location, AUR_ERROR_FORMAT,
+                           "a mesh of %zu vertices and %zu triangles is too large: the limit is 2^32 - 2",
+                           vertex_count, triangle_count);
+    mesh->vertex_count = vertex_count;
+    mesh->triangle_count = triangle_count;
+    mesh->positions = calloc(3 * vertex_count + 1, sizeof(float));
+    mesh->indices = calloc(3 * triangle_count + 1, sizeof(uint32_t));
+    if (parts & AUR_MESH_NORMALS)
+        mesh->normals = calloc(3 * vertex_count + 1, sizeof(float));
+    if (parts & AUR_MESH_UVS)
+        mesh->uvs = calloc(2 * vertex_count + 1, sizeof(float));
+    if (mesh->positions != NULL && mesh->indices != NULL &&
+        (mesh->normals != NULL || !(parts & AUR_MESH_NORMALS)) &&
+        (mesh->uvs != NULL || !(parts & AUR_MESH_UVS)))
+        return AUR_OK;
+    aur_mesh_release(mesh);
+    return aur_fail_at(error, location, AUR_ERROR_MEMORY, "out of memory for %zu vertices and %zu triangles",
+                       vertex_count, triangle_count);
+}
+
+void aur_mesh_release(aur_mesh *mesh) {
+    free(mesh->positions);
+    free(mesh->normals);
+    free(mesh->uvs);
+    free(mesh->indices);
+    *mesh = (aur_mesh){0};
+}
+
+static void turn_winding(aur_mesh *mesh) {
+    for (size_t i = 0; i < mesh->triangle_count; ++i) {
+        const uint32_t second = mesh->indices[3 * i + 1];
+        mesh->indices[3 * i + 1] = mesh->indices[3 * i + 2];
+        mesh->indices[3 * i + 2] = second;
+    }
+}
+
+void aur_mesh_transform(aur_mesh *mesh, const aur_transform *to_world, const aur_transform *to_local) {
+    for (size_t i = 0; i < mesh->vertex_count; ++i) {
+        float *const p = &mesh->positions[3 * i];
+        double moved[3];
+        aur_transform_point(to_world, (double[3]){p[0], p[1], p[2]}, moved);
+        for (size_t k = 0; k < 3; ++k)
+            p[k] = (float)moved[k];
+    }
+    for (size_t i = 0; mesh->normals != NULL && i < mesh->vertex_count; ++i) {
+        float *const p = &mesh->normals[3 * i];
+        const aur_vector n =
+            aur_vector_normalize(aur_transform_normal_f(to_local, (aur_vector){p[0], p[1], p[2]}));
+        p[0] = n.x;
+        p[1] = n.y;
+        p[2] = n.z;
+    }
+    if (aur_transform_determinant(to_world) < 0.0)
+        turn_winding(mesh);
+}
+
+void aur_mesh_flip(aur_mesh *mesh) {
+    turn_winding(mesh);
+    for (size_t i = 0; mesh->normals != NULL && i < 3 * mesh->vertex_count; ++i)
+        mesh->normals[i] = -mesh->normals[i];
+}
+
+/* The angle between two edges, safe for thin triangles (Kahan's formula). */
+static float angle_between(aur_vector a, aur_vector b) {
+    a = aur_vector_normalize(a);
+    b = aur_vector_normalize(b);
+    return 2.0f *
+           atan2f(aur_vector_length(aur_vector_subtract(a, b)), aur_vector_length(aur_vector_add(a, b)));
+}
+
+aur_result aur_mesh_smooth(aur_mesh *mesh, aur_location location, aur_error *error) {
+    free(mesh->normals);
+    mesh->normals = calloc(3 * mesh->vertex_count + 1, sizeof(float));
+    if (mesh->normals == NULL)
+        return aur_fail_at(error, location, AUR_ERROR_MEMORY, "out of memory");
+    for (size_t i = 0; i < mesh->triangle_count; ++i) {
+        aur_vector corner[3];
+        aur_mesh_corners(mesh, i, corner);
+        const aur_vector normal = aur_vector_normalize(aur_vector_cross(
+            aur_vector_subtract(corner[1], corner[0]), aur_vector_subtract(corner[2], corner[0])));
+        for (size_t k = 0; k < 3; ++k) {
+            const aur_vector here = corner[k];
+            const float angle = angle_between(aur_vector_subtract(corner[(k + 1) % 3], here),
+                                              aur_vector_subtract(corner[(k + 2) % 3], here));
+            float *const sum = &mesh->normals[3 * (size_t)mesh->indices[3 * i + k]];
+            sum[0] += angle * normal.x;
+            sum[1] += angle * normal.y;
+            sum[2] += angle * normal.z;
+        }
+    }
+    for (size_t i = 0; i < mesh->vertex_count; ++i) {
+        float *const n = &mesh->normals[3 * i];
+        const aur_vector unit = aur_vector_normalize((aur_vector){n[0], n[1], n[2]});
+        n[0] = unit.x;
+        n[1] = unit.y;
+        n[2] = unit.z;
+    }
+    return AUR_OK;
+}
+
+aur_result aur_mesh_check(const aur_mesh *mesh, aur_location location, aur_error *error) {
+    for (size_t i = 0; i < 3 * mesh->vertex_count; ++i)
+        if (!isfinite(mesh->positions[i]))
+            return aur_fail_at(error, location, AUR_ERROR_FORMAT, "vertex %zu is not finite", i / 3);
+    for (size_t i = 0; i < 3 * mesh->triangle_count; ++i)
+        if (mesh->indices[i] >= mesh->vertex_count)
+            return aur_fail_at(error, location, AUR_ERROR_FORMAT,
+                               "triangle %zu: index %u is beyond the %zu vertices", i / 3,
+                               (unsigned)mesh->indices[i], mesh->vertex_count);
+    return AUR_OK;
+}
+
+double aur_mesh_triangle_area(const aur_mesh *mesh, size_t triangle) {
+    aur_vector corner[3];
+    aur_mesh_corners(mesh, triangle, corner);
+    const aur_vector a = aur_vector_subtract(corner[1], corner[0]);
+    const aur_vector b = aur_vector_subtract(corner[2], corner[0]);
+    return 0.5 * (double)aur_vector_length(aur_vector_cross(a, b));
+}

@@ -1,0 +1,50 @@
+/* Triangle meshes as they are rendered: in world coordinates, counter-clockwise about the outside. */
+#ifndef AUR_SCENE_MESH_H
+#define AUR_SCENE_MESH_H
+
+#include "core/error.h"
+#include "core/vector.h"
+#include "scene/transform.h"
+
+#include <stdbool.h>
+
+typedef struct aur_mesh {
+    size_t vertex_count, triangle_count;
+    float *positions;  /* 3 * vertex_count, and 4 bytes more that Embree may read */
+    float *normals;    /* 3 * vertex_count of unit length, or NULL: flat triangles */
+    float *uvs;        /* 2 * vertex_count, or NULL */
+    uint32_t *indices; /* 3 * triangle_count */
+} aur_mesh;
+
+enum { AUR_MESH_POSITIONS_ONLY = 0, AUR_MESH_NORMALS = 1, AUR_MESH_UVS = 2 };
+
+/* Allocates; all is zero. Refuses what 32 bits cannot index. */
+aur_result aur_mesh_allocate(aur_mesh *mesh, size_t vertex_count, size_t triangle_count, unsigned parts,
+                             aur_location location, aur_error *error);
+void aur_mesh_release(aur_mesh *mesh);
+
+/* Moves positions by the affine map and normals with them. A map that mirrors turns the winding, so that
+ * what was outside stays outside. */
+void aur_mesh_transform(aur_mesh *mesh, const aur_transform *to_world, const aur_transform *to_local);
+/* Exchanges inside and outside. */
+void aur_mesh_flip(aur_mesh *mesh);
+/* Normals at vertices: those of the triangles around, by their angle there (Thuermer and Wuethrich 1998). */
+aur_result aur_mesh_smooth(aur_mesh *mesh, aur_location location, aur_error *error);
+
+/* An error when an index is no vertex or a coordinate is not finite. */
+aur_result aur_mesh_check(const aur_mesh *mesh, aur_location location, aur_error *error);
+
+static inline aur_vector aur_mesh_position(const aur_mesh *mesh, uint32_t vertex) {
+    const float *const p = &mesh->positions[3 * (size_t)vertex];
+    return (aur_vector){p[0], p[1], p[2]};
+}
+
+/* The three corners of a triangle. */
+static inline void aur_mesh_corners(const aur_mesh *mesh, size_t triangle, aur_vector corner[3]) {
+    for (size_t i = 0; i < 3; ++i)
+        corner[i] = aur_mesh_position(mesh, mesh->indices[3 * triangle + i]);
+}
+
+double aur_mesh_triangle_area(const aur_mesh *mesh, size_t triangle);
+
+#endif

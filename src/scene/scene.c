@@ -1,0 +1,129 @@
+/* Loading a scene, and asking it about itself. */
+#include <stdlib.h>
+#include <string.h>
+
+#include "scene/scene_data.h"
+
+static aur_result prepare_lights(aur_scene *scene, aur_error *error) {
+    double *const powers = malloc((scene->emitter_count + 1) * sizeof *powers);
+    if (powers == NULL)
+        return aur_fail(error, AUR_ERROR_MEMORY, "out of memory");
+    aur_result result = AUR_OK;
+    for (size_t i = 0; i < scene->emitter_count && result == AUR_OK; ++i) {
+        aur_emitter *const emitter = scene->emitters[i];
+        result = emitter->descriptor->prepare(scene, emitter, error);
+        powers[i] = emitter->power;
+        if (emitter->descriptor->radiance_from != NULL)
+            scene->environment = emitter;
+    }
+    if (result == AUR_OK)
+        result = aur_distribution_create(&scene->lights, scene->emitter_count, powers, error);
+    for (size_t i = 0; i < scene->emitter_count && result == AUR_OK && scene->lights.total > 0.0; ++i)
+        scene->emitters[i]->probability = (float)aur_distribution_probability(&scene->lights, i);
+    free(powers);
+    return result;
+}
+
+aur_result aur_scene_load(const char *path, const aur_scene_options *options, aur_scene **scene,
+                          aur_error *error) {
+    *scene = NULL;
+    aur_scene *const made = calloc(1, sizeof *made);
+    if (made == NULL)
+        return aur_fail(error, AUR_ERROR_MEMORY, "out of memory");
+    aur_result result = aur_xml_read(path, options, &made->document, error);
+    if (result == AUR_OK)
+        result = aur_scene_build(made, options != NULL ? &options->warnings : NULL, error);
+    if (result == AUR_OK)
+        result = aur_scene_build_accel(made, error);
+    if (result == AUR_OK)
+        result = prepare_lights(made, error);
+    if (result != AUR_OK) {
+        aur_scene_destroy(made);
+        return result;
+    }
+    *scene = made;
+    return AUR_OK;
+}
+
+void aur_scene_destroy(aur_scene *scene) {
+    if (scene == NULL)
+        return;
+    aur_scene_release_accel(scene);
+    for (size_t i = 0; i < scene->shape_count; ++i)
+        aur_shape_destroy(scene->shapes[i]);
+    for (size_t i = 0; i < scene->emitter_count; ++i)
+        aur_emitter_destroy(scene->emitters[i]);
+    for (size_t i = 0; i < scene->bsdf_count; ++i)
+        aur_bsdf_destroy(scene->bsdfs[i]);
+    for (size_t i = 0; i < scene->texture_count; ++i)
+        aur_texture_destroy(scene->textures[i]);
+    free(scene->shapes);
+    free(scene->emitters);
+    free(scene->bsdfs);
+    free(scene->textures);
+    free(scene->sampler);
+    aur_distribution_release(&scene->lights);
+    aur_parameters_release(&scene->integrator);
+    aur_xml_release(&scene->document);
+    free(scene);
+}
+
+void aur_scene_describe(const aur_scene *scene, aur_scene_description *description) {
+    *description = (aur_scene_description){
+        .shapes = scene->shape_count,
+        .emitters = scene->emitter_count,
+        .materials = scene->bsdf_count,
+        .width = scene->film.width,
+        .height = scene->film.height,
+        .samples_per_pixel = scene->samples_per_pixel,
+        .lower = {scene->lower.x, scene->lower.y, scene->lower.z},
+        .upper = {scene->upper.x, scene->upper.y, scene->upper.z},
+        .integrator = scene->integrator.plugin,
+        .sampler = scene->sampler,
+        .filter = aur_filter_name(scene->film.filter),
+    };
+    for (size_t i = 0; i < scene->shape_count; ++i)
+        description->triangles += scene->shapes[i]->mesh.triangle_count;
+}
+
+static aur_vector to_world_direction(const float m[12], aur_vector v) {
+    return (aur_vector){m[0] * v.x + m[1] * v.y + m[2] * v.z, m[4] * v.x + m[5] * v.y + m[6] * v.z,
+                        m[8] * v.x + m[9] * v.y + m[10] * v.z};
+}
+
+void aur_camera_ray(const aur_scene *scene, size_t width, size_t height, float x, float y,
+                    const float lens[2], aur_ray *ray) {
+    const aur_sensor *const sensor = &scene->sensor;
+    const float aspect = (float)width / (float)height;
+    aur_ray local;
+    sensor->descriptor->ray(sensor, aspect, x / (float)width, y / (float)height, lens, &local);
+    const aur_vector origin = to_world_direction(sensor->to_world, local.origin);
+    ray->origin =
+        aur_vector_add(origin, (aur_vector){sensor->to_world[3], sensor->to_world[7], sensor->to_world[11]});
+    /* The clip depths are along local z. */
+    const float depth = local.direction.z / aur_vector_length(local.direction);
+    ray->direction = aur_vector_normalize(to_world_direction(sensor->to_world, local.direction));
+    ray->nearest = sensor->near_clip / depth;
+    ray->farthest = sensor->far_clip / depth;
+}
+
+const aur_film *aur_scene_film(const aur_scene *scene) {
+    return &scene->film;
+}
+
+size_t aur_scene_samples_per_pixel(const aur_scene *scene) {
+    return scene->samples_per_pixel;
+}
+
+const char *aur_scene_sampler(const aur_scene *scene) {
+    return scene->sampler;
+}
+
+const aur_parameters *aur_scene_integrator(const aur_scene *scene) {
+    return &scene->integrator;
+}
+
+void aur_scene_bounds(const aur_scene *scene, aur_vector *lower, aur_vector *upper) {
+    *lower = scene->lower;
+    *upper = scene->upper;
+}

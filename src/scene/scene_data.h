@@ -1,0 +1,45 @@
+/* What a loaded scene is made of. */
+#ifndef AUR_SCENE_SCENE_DATA_H
+#define AUR_SCENE_SCENE_DATA_H
+
+#include "scene/distribution.h"
+#include "scene/emitter.h"
+#include "scene/filter.h"
+#include "scene/sensor.h"
+#include "scene/shape.h"
+#include "scene/xml.h"
+
+typedef struct RTCDeviceTy *aur_embree_device;
+typedef struct RTCSceneTy *aur_embree_scene;
+
+struct aur_scene {
+    aur_xml_document document; /* owns the file names that locations point to */
+    size_t bsdf_count, bsdf_capacity;
+    aur_bsdf **bsdfs;
+    size_t texture_count, texture_capacity;
+    aur_texture **textures;
+    size_t shape_count, shape_capacity;
+    aur_shape **shapes;
+    size_t emitter_count, emitter_capacity;
+    aur_emitter **emitters;
+    aur_distribution lights;        /* the emitters by their power */
+    const aur_emitter *environment; /* one of them, or NULL */
+    bool has_sensor, has_integrator;
+    aur_sensor sensor;
+    aur_filter filter;
+    aur_film film;
+    char *sampler;
+    size_t samples_per_pixel;
+    aur_parameters integrator;
+    aur_embree_device device;
+    aur_embree_scene accel;
+    aur_vector lower, upper;
+};
+
+/* Builds the objects of the document into the empty scene (loader.c). */
+aur_result aur_scene_build(aur_scene *scene, const aur_warnings *warnings, aur_error *error);
+/* Hands the shapes to Embree (accel.c). */
+aur_result aur_scene_build_accel(aur_scene *scene, aur_error *error);
+void aur_scene_release_accel(aur_scene *scene);
+
+#endif

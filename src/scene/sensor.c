@@ -1,0 +1,123 @@
+#include "scene/sensor.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+extern const aur_sensor_descriptor aur_sensor_perspective;
+
+static const aur_sensor_descriptor *const table[] = {
+    &aur_sensor_perspective,
+};
+
+enum { TABLE_SIZE = sizeof table / sizeof table[0] };
+
+const aur_sensor_descriptor *aur_sensor_descriptor_at(size_t index) {
+    return index < TABLE_SIZE ? table[index] : NULL;
+}
+
+static aur_result read_common(aur_parameters *parameters, aur_sensor *sensor, aur_error *error) {
+    aur_transform to_world = aur_transform_identity();
+    double near_clip = 1e-2, far_clip = 1e4;
+    aur_result result = aur_parameters_transform(parameters, "to_world", to_world.m, error);
+    if (result == AUR_OK)
+        result = aur_parameters_float(parameters, "near_clip", 0.0, 1e30, &near_clip, error);
+    if (result == AUR_OK)
+        result = aur_parameters_float(parameters, "far_clip", 0.0, INFINITY, &far_clip, error);
+    if (result != AUR_OK)
+        return result;
+    if (!(near_clip < far_clip))
+        return aur_fail_at(error, parameters->location, AUR_ERROR_FORMAT,
+                           "sensor '%s': near_clip (%g) must be less than far_clip (%g)", parameters->plugin,
+                           near_clip, far_clip);
+    if (!aur_transform_is_affine(&to_world))
+        return aur_fail_at(error, parameters->location, AUR_ERROR_FORMAT,
+                           "sensor '%s': 'to_world' must be affine: its last row is 0 0 0 1",
+                           parameters->plugin);
+    for (size_t i = 0; i < 12; ++i)
+        sensor->to_world[i] = (float)to_world.m[i];
+    sensor->near_clip = (float)near_clip;
+    sensor->far_clip = (float)far_clip;
+    return AUR_OK;
+}
+
+aur_result aur_sensor_create(aur_parameters *parameters, aur_sensor *sensor, aur_error *error) {
+    *sensor = (aur_sensor){0};
+    const char *names[TABLE_SIZE];
+    for (size_t i = 0; i < TABLE_SIZE; ++i) {
+        names[i] = table[i]->name;
+        if (strcmp(names[i], parameters->plugin) == 0)
+            sensor->descriptor = table[i];
+    }
+    if (sensor->descriptor == NULL)
+        return aur_fail_unknown_plugin(error, parameters, TABLE_SIZE, names);
+    aur_result result = read_common(parameters, sensor, error);
+    if (result == AUR_OK)
+        result = sensor->descriptor->create(parameters, sensor, error);
+    return result != AUR_OK ? result : aur_parameters_finish(parameters, error);
+}
+
+/* "50mm" on 35 mm film, whose diagonal is that of 36 mm by 24 mm. */
+static aur_result read_focal_length(const aur_parameters *parameters, const aur_parameter *item,
+                                    aur_sensor *sensor, aur_error *error) {
+    char *end = NULL;
+    const double length = item->text != NULL ? strtod(item->text, &end) : 0.0;
+    if (end == NULL || !(length > 0.0) || !isfinite(length) || (*end != '\0' && strcmp(end, "mm") != 0))
+        return aur_fail_at(error, item->location, AUR_ERROR_FORMAT,
+                           "sensor '%s': 'focal_length' must be millimetres such as 50mm",
+                           parameters->plugin);
+    sensor->axis = AUR_FOV_DIAGONAL;
+    sensor->tangent = (float)(sqrt(36.0 * 36.0 + 24.0 * 24.0) / (2.0 * length));
+    return AUR_OK;
+}
+
+aur_result aur_sensor_read_lens(aur_parameters *parameters, aur_sensor *sensor, aur_error *error) {
+    static const char *const axes[] = {"x", "y", "diagonal", "smaller", "larger"};
+    double fov = 0.0, offset_x = 0.0, offset_y = 0.0;
+    size_t axis = AUR_FOV_X;
+    aur_result result = aur_parameters_float(parameters, "fov", 1e-6, 180.0 - 1e-6, &fov, error);
+    if (result == AUR_OK)
+        result = aur_parameters_choice(parameters, "fov_axis", 5, axes, &axis, error);
+    if (result == AUR_OK)
+        result = aur_parameters_float(parameters, "principal_point_offset_x", -1e3, 1e3, &offset_x, error);
+    if (result == AUR_OK)
+        result = aur_parameters_float(parameters, "principal_point_offset_y", -1e3, 1e3, &offset_y, error);
+    if (result != AUR_OK)
+        return result;
+    sensor->offset_x = (float)offset_x;
+    sensor->offset_y = (float)offset_y;
+    const aur_parameter *const focal = aur_parameters_find(parameters, "focal_length");
+    if (fov > 0.0 && focal != NULL)
+        return aur_fail_at(error, focal->location, AUR_ERROR_FORMAT,
+                           "sensor '%s': give 'fov' or 'focal_length', not both", parameters->plugin);
+    if (focal != NULL)
+        return read_focal_length(parameters, focal, sensor, error);
+    if (fov == 0.0)
+        return read_focal_length(parameters, &(aur_parameter){.text = (char[]){"50mm"}}, sensor, error);
+    sensor->axis = (aur_fov_axis)axis;
+    sensor->tangent = (float)tan(0.5 * fov * AUR_PI / 180.0);
+    return AUR_OK;
+}
+
+/* Half the film's width at z = 1. */
+static float half_width(const aur_sensor *sensor, float aspect) {
+    switch (sensor->axis) {
+    case AUR_FOV_X:
+        break;
+    case AUR_FOV_Y:
+        return sensor->tangent * aspect;
+    case AUR_FOV_DIAGONAL:
+        return sensor->tangent * aspect / sqrtf(1.0f + aspect * aspect);
+    case AUR_FOV_SMALLER:
+        return aspect > 1.0f ? sensor->tangent * aspect : sensor->tangent;
+    case AUR_FOV_LARGER:
+        return aspect > 1.0f ? sensor->tangent : sensor->tangent * aspect;
+    }
+    return sensor->tangent;
+}
+
+aur_vector aur_sensor_direction(const aur_sensor *sensor, float aspect, float x, float y) {
+    const float half = half_width(sensor, aspect);
+    /* +x is the left of the picture. */
+    return (aur_vector){(1.0f - 2.0f * (x + sensor->offset_x)) * half,
+                        (1.0f - 2.0f * (y + sensor->offset_y)) * half / aspect, 1.0f};
+}

@@ -1,0 +1,49 @@
+/* Cameras. One plugin a file (sensor_*.c), with one line in the table of sensor.c. */
+#ifndef AUR_SCENE_SENSOR_H
+#define AUR_SCENE_SENSOR_H
+
+#include "core/parameters.h"
+#include "scene/scene.h"
+#include "scene/transform.h"
+
+typedef enum aur_fov_axis {
+    AUR_FOV_X,
+    AUR_FOV_Y,
+    AUR_FOV_DIAGONAL,
+    AUR_FOV_SMALLER,
+    AUR_FOV_LARGER
+} aur_fov_axis;
+
+typedef struct aur_sensor aur_sensor;
+
+typedef struct aur_sensor_descriptor {
+    const char *name;
+    const char *summary;
+    aur_result (*create)(aur_parameters *parameters, aur_sensor *sensor, aur_error *error);
+    /* The ray in camera space through the film point; `aspect` is width over height and x, y are in [0, 1], y
+     * downwards. The direction is of any length, and nearest and farthest are depths along +z. */
+    void (*ray)(const aur_sensor *sensor, float aspect, float x, float y, const float lens[2], aur_ray *ray);
+} aur_sensor_descriptor;
+
+struct aur_sensor {
+    const aur_sensor_descriptor *descriptor;
+    float to_world[12]; /* row major 3x4 */
+    float near_clip, far_clip;
+    float offset_x, offset_y; /* principal point, as a share of the film */
+    aur_fov_axis axis;
+    float tangent; /* of half the field of view, along `axis` */
+    float aperture_radius, focus_distance;
+};
+
+/* The table; NULL beyond it. */
+const aur_sensor_descriptor *aur_sensor_descriptor_at(size_t index);
+
+/* Builds the sensor that parameters->plugin names. */
+aur_result aur_sensor_create(aur_parameters *parameters, aur_sensor *sensor, aur_error *error);
+
+/* What perspective cameras share: fov or focal_length, fov_axis and principal point offsets. */
+aur_result aur_sensor_read_lens(aur_parameters *parameters, aur_sensor *sensor, aur_error *error);
+/* The direction with z = 1 through the film point. */
+aur_vector aur_sensor_direction(const aur_sensor *sensor, float aspect, float x, float y);
+
+#endif

@@ -1,0 +1,34 @@
+/* Walks through the text of a mesh file: lines, words and numbers, fast enough for millions of them. */
+#ifndef AUR_SCENE_TEXT_SCANNER_H
+#define AUR_SCENE_TEXT_SCANNER_H
+
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+
+/* The text ends with a zero byte at `end`, which no number crosses. */
+typedef struct aur_scanner {
+    const char *at;
+    const char *end;
+    size_t line;
+} aur_scanner;
+
+static inline bool aur_is_blank(char c) {
+    return c == ' ' || c == '\t' || c == '\r';
+}
+
+/* Skips blanks, and line ends that a backslash hides. */
+void aur_scan_blanks(aur_scanner *scanner);
+/* Skips the rest of the line and its end. */
+void aur_scan_next_line(aur_scanner *scanner);
+/* Whether nothing but a comment is left in the line. */
+bool aur_scan_line_done(aur_scanner *scanner);
+/* The next word of the line; its length is 0 at the end. */
+size_t aur_scan_word(aur_scanner *scanner, const char **word);
+/* A number, right to the last bit of a float; false leaves the scanner where it was. inf and nan are numbers
+ * here: the caller refuses them. */
+bool aur_scan_double(aur_scanner *scanner, double *value);
+/* A whole number that fits 64 bits. */
+bool aur_scan_integer(aur_scanner *scanner, int64_t *value);
+
+#endif

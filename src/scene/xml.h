@@ -1,0 +1,71 @@
+/* Reads a scene's XML files into one tree: includes are spliced in, $names substituted, legacy names renamed.
+ *
+ * Rules (as Mitsuba 3's parser has them): `version` stands on the root; <default> gives a value unless -D
+ * does; $name is replaced in every attribute, the longest name first, and \$ is a dollar; <include> goes 15
+ * deep and is looked for beside the including file; <path> adds a folder; <alias> gives an object a second
+ * id. */
+#ifndef AUR_SCENE_XML_H
+#define AUR_SCENE_XML_H
+
+#include <aureole/scene.h>
+
+#include "core/error.h"
+#include "scene/arena.h"
+
+#include <stdbool.h>
+
+typedef struct aur_xml_attribute {
+    const char *name;
+    const char *value;
+} aur_xml_attribute;
+
+typedef enum aur_xml_state { AUR_XML_UNBUILT, AUR_XML_BUILDING, AUR_XML_BUILT } aur_xml_state;
+
+typedef struct aur_xml_node aur_xml_node;
+struct aur_xml_node {
+    const char *tag;
+    aur_location location;
+    size_t attribute_count;
+    aur_xml_attribute *attributes;
+    aur_xml_node *first_child, *last_child, *next;
+    /* The loader's: what the node has become. */
+    aur_xml_state state;
+    void *object;
+};
+
+typedef struct aur_xml_folder {
+    const char *path;
+    struct aur_xml_folder *next;
+} aur_xml_folder;
+
+typedef struct aur_xml_id {
+    const char *id;
+    aur_xml_node *node;
+    aur_location location;
+    size_t order;
+} aur_xml_id;
+
+typedef struct aur_xml_document {
+    aur_arena arena; /* holds all that follows */
+    aur_xml_node *root;
+    aur_xml_folder *folders; /* of <path> */
+    size_t id_count;
+    aur_xml_id *ids; /* sorted; malloc */
+} aur_xml_document;
+
+/* On failure *document needs no release. `options` may be NULL. */
+aur_result aur_xml_read(const char *path, const aur_scene_options *options, aur_xml_document *document,
+                        aur_error *error);
+void aur_xml_release(aur_xml_document *document);
+
+/* NULL when absent. */
+const char *aur_xml_attribute_value(const aur_xml_node *node, const char *name);
+/* NULL when there is none. */
+const aur_xml_id *aur_xml_find_id(const aur_xml_document *document, const char *id);
+
+/* The path under which an asset named in `location.file` can be read: beside that file, beside the scene, or
+ * in a <path>. `found` is allocated with malloc. The error names the places. */
+aur_result aur_xml_find_asset(const aur_xml_document *document, aur_location location, const char *name,
+                              char **found, aur_error *error);
+
+#endif

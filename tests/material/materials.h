@@ -1,0 +1,84 @@
+/* The materials that every test of this room runs through, made from text. */
+#ifndef AUR_TESTS_MATERIALS_H
+#define AUR_TESTS_MATERIALS_H
+
+#include "check.h"
+
+#include <string.h>
+
+#include "core/random.h"
+#include "material/bsdf.h"
+
+typedef struct material_row {
+    const char *text;   /* PLUGIN:key=value,... */
+    const char *nested; /* the same for a nested bsdf, or NULL */
+    int flags;
+} material_row;
+
+enum { NOT_RECIPROCAL = 1 };
+
+static const material_row material_rows[] = {
+    {"diffuse:reflectance=0.7", NULL, 0},
+    {"phong:exponent=0,diffuse_reflectance=0.1,specular_reflectance=0.6", NULL, 0},
+    {"phong:exponent=7.5,diffuse_reflectance=0.3,specular_reflectance=0.5", NULL, 0},
+    {"phong:exponent=300,diffuse_reflectance=0,specular_reflectance=1", NULL, 0},
+    {"phong_lobe:exponent=20,diffuse_reflectance=0.4,specular_reflectance=0.6", NULL, NOT_RECIPROCAL},
+    {"phong_lobe:exponent=200,diffuse_reflectance=0,specular_reflectance=0.9", NULL, NOT_RECIPROCAL},
+    {"twosided", "diffuse:reflectance=0.6", 0},
+    {"twosided", "phong:exponent=12", 0},
+};
+
+enum { MATERIAL_COUNT = sizeof material_rows / sizeof material_rows[0] };
+
+typedef struct material {
+    aur_bsdf *bsdf, *nested;
+} material;
+
+static inline aur_bsdf *make_bsdf(const char *text, const aur_bsdf *nested) {
+    aur_parameters parameters;
+    aur_error error = {0};
+    aur_bsdf *bsdf = NULL;
+    assert_int_equal(aur_parameters_parse(&parameters, "bsdf", text, &error), AUR_OK);
+    if (nested != NULL)
+        assert_int_equal(
+            aur_parameters_add_object(&parameters, "bsdf", "bsdf", nested, (aur_location){0}, &error),
+            AUR_OK);
+    if (aur_bsdf_create(&parameters, &bsdf, &error) != AUR_OK)
+        fail_msg("%s: %s", text, error.message);
+    aur_parameters_release(&parameters);
+    return bsdf;
+}
+
+static inline material make_material(const material_row *row) {
+    material made = {NULL, NULL};
+    if (row->nested != NULL)
+        made.nested = make_bsdf(row->nested, NULL);
+    made.bsdf = make_bsdf(row->text, made.nested);
+    return made;
+}
+
+static inline void drop_material(material *made) {
+    aur_bsdf_destroy(made->bsdf);
+    aur_bsdf_destroy(made->nested);
+}
+
+static inline float unit(uint64_t a, uint64_t b, uint64_t c) {
+    return aur_unit_float((uint32_t)(aur_hash3(a, b, c) >> 32));
+}
+
+/* View directions from straight above to grazing, and from behind where the material scatters there. */
+enum { VIEW_COUNT = 12 };
+
+static inline bool view_at(const aur_bsdf *bsdf, size_t index, aur_vector *view) {
+    static const float angles[6] = {0.0f, 15.0f, 40.0f, 60.0f, 75.0f, 87.0f};
+    if (index >= 6 && !bsdf->scatters_from_behind)
+        return false;
+    const float theta = angles[index % 6] * AUR_PI_F / 180.0f;
+    const float phi = 1.0f + (float)index;
+    *view = (aur_vector){sinf(theta) * cosf(phi), sinf(theta) * sinf(phi), cosf(theta)};
+    if (index >= 6)
+        view->z = -view->z;
+    return true;
+}
+
+#endif

@@ -1,0 +1,238 @@
+#include "materials.h"
+
+#include "material/sampling.h"
+
+static const aur_bsdf_point point = {0.3f, 0.6f};
+
+/* Integral of pdf over the whole sphere, cell by cell. */
+enum { CELLS_Z = 20, CELLS_PHI = 24, PARTS = 10, CELL_COUNT = CELLS_Z * CELLS_PHI };
+
+static size_t cell_of(aur_vector d) {
+    double phi = atan2((double)d.y, (double)d.x) / (2.0 * AUR_PI);
+    phi -= floor(phi);
+    const size_t i = (size_t)(0.5 * ((double)d.z + 1.0) * CELLS_Z), j = (size_t)(phi * CELLS_PHI);
+    return (i < CELLS_Z ? i : CELLS_Z - 1) * CELLS_PHI + (j < CELLS_PHI ? j : CELLS_PHI - 1);
+}
+
+/* Two Gauss points in z and one in phi for each of parts^2 pieces of a cell. */
+static void integrate_pdf(const aur_bsdf *bsdf, aur_vector view, size_t parts, double *mass) {
+    for (size_t cell = 0; cell < CELL_COUNT; ++cell) {
+        const double cell_z = (double)(cell / CELLS_PHI), cell_phi = (double)(cell % CELLS_PHI);
+        mass[cell] = 0.0;
+        for (size_t k = 0; k < 2 * parts * parts; ++k) {
+            const double offset_z =
+                (double)(k / 2 / parts) + (k % 2 == 0 ? 0.21132486540518713 : 0.78867513459481287);
+            const double offset_phi = (double)(k / 2 % parts) + 0.5;
+            const double z = -1.0 + 2.0 * (cell_z + offset_z / (double)parts) / CELLS_Z;
+            const double phi = (cell_phi + offset_phi / (double)parts) / CELLS_PHI;
+            mass[cell] +=
+                (double)bsdf->descriptor->pdf(bsdf, point, view, aur_direction_at((float)z, (float)phi));
+        }
+        mass[cell] *= 4.0 * AUR_PI / (CELL_COUNT * (double)(2 * parts * parts));
+    }
+}
+
+/* The normal deviate of a chi-square sum (Wilson and Hilferty 1931). */
+static double chi_square_deviate(double sum, double freedom) {
+    const double variance = 2.0 / (9.0 * freedom);
+    return (cbrt(sum / freedom) - (1.0 - variance)) / sqrt(variance);
+}
+
+/* Counts of drawn directions against the density, for every material and view. A deviate beyond 5 has a
+ * chance of 3e-7 each, below 1e-4 over all of them; the draws are fixed. */
+static void draws_by_the_density(void **state) {
+    (void)state;
+    enum { DRAWS = 40000 };
+    for (size_t m = 0; m < MATERIAL_COUNT; ++m) {
+        material made = make_material(&material_rows[m]);
+        aur_vector view;
+        for (size_t v = 0; v < VIEW_COUNT && view_at(made.bsdf, v, &view); ++v) {
+            double mass[CELL_COUNT], total = 0.0;
+            size_t counts[CELL_COUNT] = {0}, drawn = 0;
+            integrate_pdf(made.bsdf, view, strstr(material_rows[m].text, "00") != NULL ? 3 * PARTS : PARTS,
+                          mass);
+            for (size_t i = 0; i < DRAWS; ++i) {
+                const float u[3] = {unit(v, 1, i), unit(v, 2, i), unit(v, 3, i)};
+                aur_bsdf_sample sample;
+                if (!made.bsdf->descriptor->sample(made.bsdf, point, view, u, &sample) || sample.specular)
+                    continue;
+                ++counts[cell_of(sample.light)];
+                ++drawn;
+            }
+            double sum = 0.0, rest_mass = 0.0, rest_count = 0.0, cells = 0.0;
+            for (size_t cell = 0; cell < CELL_COUNT; ++cell) {
+                total += mass[cell];
+                const double expected = mass[cell] * DRAWS;
+                if (expected < 10.0) {
+                    rest_mass += expected;
+                    rest_count += (double)counts[cell];
+                    continue;
+                }
+                sum += ((double)counts[cell] - expected) * ((double)counts[cell] - expected) / expected;
+                ++cells;
+            }
+            const double lost = DRAWS - total * DRAWS; /* absorbed or specular */
+            if (lost > 10.0) {
+                const double seen = (double)(DRAWS - drawn);
+                sum += (seen - lost) * (seen - lost) / lost;
+                ++cells;
+            }
+            if (rest_mass > 10.0) {
+                sum += (rest_count - rest_mass) * (rest_count - rest_mass) / rest_mass;
+                ++cells;
+            }
+            assert_true(total < 1.0 + 2e-3);
+            const double deviate = cells > 1.0 ? chi_square_deviate(sum, cells - 1.0) : 0.0;
+            if (!(deviate < 5.0))
+                fail_msg("%s, view %zu: chi-square %g in %g cells", material_rows[m].text, v, sum, cells);
+        }
+        drop_material(&made);
+    }
+}
+
+/* A sample says the pdf and the weight that asking says. */
+static void samples_agree_with_evaluation(void **state) {
+    (void)state;
+    for (size_t m = 0; m < MATERIAL_COUNT; ++m) {
+        material made = make_material(&material_rows[m]);
+        aur_vector view;
+        for (size_t v = 0; v < VIEW_COUNT && view_at(made.bsdf, v, &view); ++v) {
+            for (size_t i = 0; i < 500; ++i) {
+                const float u[3] = {unit(v, 1, i), unit(v, 2, i), unit(v, 3, i)};
+                aur_bsdf_sample sample;
+                if (!made.bsdf->descriptor->sample(made.bsdf, point, view, u, &sample))
+                    continue;
+                assert_near(aur_vector_length(sample.light), 1.0, 1e-5);
+                if (sample.specular)
+                    continue;
+                const aur_vector value =
+                    made.bsdf->descriptor->evaluate(made.bsdf, point, view, sample.light);
+                assert_relative(sample.pdf, made.bsdf->descriptor->pdf(made.bsdf, point, view, sample.light),
+                                1e-3);
+                assert_relative(sample.weight.y * sample.pdf, value.y, 1e-3);
+                assert_true(sample.weight.y >= 0.0f && isfinite(sample.weight.y));
+            }
+        }
+        drop_material(&made);
+    }
+}
+
+static void is_reciprocal(void **state) {
+    (void)state;
+    for (size_t m = 0; m < MATERIAL_COUNT; ++m) {
+        if (material_rows[m].flags & NOT_RECIPROCAL)
+            continue;
+        material made = make_material(&material_rows[m]);
+        for (size_t i = 0; i < 2000; ++i) {
+            const aur_vector a = aur_sample_sphere(unit(m, 1, i), unit(m, 2, i));
+            aur_vector b = aur_sample_sphere(unit(m, 3, i), unit(m, 4, i));
+            if (i % 2 == 0) { /* near the mirror direction, where lobes are */
+                const aur_frame frame = aur_frame_about(aur_mirror(a));
+                b = aur_frame_to_world(&frame, aur_sample_cosine_power(unit(m, 3, i), unit(m, 4, i), 100.0f));
+            }
+            if (fabsf(a.z) < 1e-3f || fabsf(b.z) < 1e-3f)
+                continue;
+            const float there = made.bsdf->descriptor->evaluate(made.bsdf, point, a, b).x / fabsf(b.z);
+            const float back = made.bsdf->descriptor->evaluate(made.bsdf, point, b, a).x / fabsf(a.z);
+            assert_near(there, back, 2e-3 * fabs((double)there) + 1e-6);
+        }
+        drop_material(&made);
+    }
+}
+
+/* No material gives back more than it gets, from any side, and weights are the estimate of what it gives. */
+static void conserves_energy(void **state) {
+    (void)state;
+    for (size_t m = 0; m < MATERIAL_COUNT; ++m) {
+        material made = make_material(&material_rows[m]);
+        aur_vector view;
+        for (size_t v = 0; v < VIEW_COUNT && view_at(made.bsdf, v, &view); ++v) {
+            double sum = 0.0, squares = 0.0;
+            enum { DRAWS = 20000 };
+            for (size_t i = 0; i < DRAWS; ++i) {
+                const float u[3] = {unit(v, 4, i), unit(v, 5, i), unit(v, 6, i)};
+                aur_bsdf_sample sample;
+                const double weight = made.bsdf->descriptor->sample(made.bsdf, point, view, u, &sample)
+                                          ? (double)sample.weight.x
+                                          : 0.0;
+                sum += weight;
+                squares += weight * weight;
+            }
+            const double mean = sum / DRAWS;
+            const double sigma = sqrt(fmax(squares / DRAWS - mean * mean, 0.0) / DRAWS);
+            if (!(mean <= 1.0 + 5.0 * sigma + 1e-6))
+                fail_msg("%s, view %zu: albedo %g +- %g", material_rows[m].text, v, mean, sigma);
+        }
+        drop_material(&made);
+    }
+}
+
+static aur_vector lobe_value(const aur_bsdf_lobe *lobe, aur_vector light) {
+    const float cosine = aur_vector_dot(lobe->axis, light);
+    const float power = cosine > 0.0f ? powf(cosine, lobe->exponent) : 0.0f;
+    return aur_vector_scale(lobe->coefficient, power * (lobe->times_cosine ? fabsf(light.z) : 1.0f));
+}
+
+/* The lobes that final gathering is told of are the material; and the diffuse ones have the albedo that
+ * photons are told of. */
+static void lobes_are_the_material(void **state) {
+    (void)state;
+    for (size_t m = 0; m < MATERIAL_COUNT; ++m) {
+        material made = make_material(&material_rows[m]);
+        aur_vector view;
+        for (size_t v = 0; v < VIEW_COUNT && view_at(made.bsdf, v, &view); ++v) {
+            aur_bsdf_lobe lobes[AUR_BSDF_LOBE_CAPACITY];
+            const size_t count = made.bsdf->descriptor->lobes(made.bsdf, point, view, lobes);
+            double diffuse = 0.0;
+            for (size_t k = 0; k < count; ++k)
+                diffuse += lobes[k].diffuse ? AUR_PI * (double)lobes[k].coefficient.x : 0.0;
+            assert_near(diffuse, made.bsdf->descriptor->diffuse_albedo(made.bsdf, point, view.z).x, 1e-6);
+            for (size_t i = 0; i < 300; ++i) {
+                const aur_vector light = aur_sample_sphere(unit(m, 1, i), unit(m, 2, i));
+                if (light.z * view.z <= 0.0f)
+                    continue;
+                double sum = 0.0;
+                for (size_t k = 0; k < count; ++k)
+                    sum += (double)lobe_value(&lobes[k], light).x;
+                const double value = made.bsdf->descriptor->evaluate(made.bsdf, point, view, light).x;
+                assert_near(sum, value, 1e-4 * value + 1e-7);
+            }
+        }
+        drop_material(&made);
+    }
+}
+
+/* The glossy part of phong_lobe is k_s times the part of its lobe above the surface: all of it seen from
+ * above, and half of it (by symmetry) seen at grazing angles. */
+static void lobe_reflectance_is_its_parameter(void **state) {
+    (void)state;
+    static const material_row row = {"phong_lobe:exponent=50,diffuse_reflectance=0,specular_reflectance=0.8",
+                                     NULL, 0};
+    material made = make_material(&row);
+    static const struct {
+        double cosine, expected, tolerance;
+    } views[] = {{1.0, 0.8, 1e-5}, {1e-4, 0.4, 2e-3}};
+    for (size_t v = 0; v < 2; ++v) {
+        const float z = (float)views[v].cosine;
+        const aur_vector view = {sqrtf(1.0f - z * z), 0.0f, z};
+        double sum = 0.0;
+        enum { SIDE = 512 };
+        for (size_t i = 0; i < (size_t)SIDE * SIDE; ++i) {
+            const float u[3] = {0.5f, ((float)(i / SIDE) + 0.5f) / SIDE, ((float)(i % SIDE) + 0.5f) / SIDE};
+            aur_bsdf_sample sample;
+            if (made.bsdf->descriptor->sample(made.bsdf, point, view, u, &sample))
+                sum += (double)sample.weight.x;
+        }
+        assert_near(sum / ((double)SIDE * SIDE), views[v].expected, views[v].tolerance);
+    }
+    drop_material(&made);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(draws_by_the_density),   cmocka_unit_test(samples_agree_with_evaluation),
+        cmocka_unit_test(is_reciprocal),          cmocka_unit_test(conserves_energy),
+        cmocka_unit_test(lobes_are_the_material), cmocka_unit_test(lobe_reflectance_is_its_parameter),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

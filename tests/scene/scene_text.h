@@ -1,0 +1,70 @@
+/* Loading scenes and meshes that stand as text in a test. */
+#ifndef AUR_TESTS_SCENE_TEXT_H
+#define AUR_TESTS_SCENE_TEXT_H
+
+#include "check.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#include "scene/scene.h"
+
+/* A folder of its own for a test program; removed by leave_folder. */
+static char scene_folder[64];
+
+static inline int enter_folder(void **state) {
+    (void)state;
+    strcpy(scene_folder, "/tmp/aureole-test-XXXXXX");
+    return mkdtemp(scene_folder) == NULL;
+}
+
+static inline int leave_folder(void **state) {
+    (void)state;
+    char command[128];
+    snprintf(command, sizeof command, "rm -r '%s'", scene_folder);
+    return system(command);
+}
+
+static inline const char *write_file(const char *name, const void *data, size_t size) {
+    static char path[256];
+    snprintf(path, sizeof path, "%s/%s", scene_folder, name);
+    FILE *const file = fopen(path, "wb");
+    assert_non_null(file);
+    assert_int_equal(fwrite(data, 1, size, file), size);
+    assert_int_equal(fclose(file), 0);
+    return path;
+}
+
+static inline const char *write_text(const char *name, const char *text) {
+    return write_file(name, text, strlen(text));
+}
+
+/* <scene version="3.0.0"> + body + a sensor + </scene>. */
+static inline aur_result load_body(const char *body, const aur_scene_options *options, aur_scene **scene,
+                                   aur_error *error) {
+    static const char *const head = "<scene version=\"3.0.0\">\n";
+    static const char *const tail =
+        "\n<sensor type=\"perspective\"><float name=\"fov\" value=\"45\"/></sensor></scene>";
+    char *const text = malloc(strlen(head) + strlen(body) + strlen(tail) + 1);
+    strcpy(text, head);
+    strcat(text, body);
+    strcat(text, tail);
+    const aur_result result = aur_scene_load(write_text("scene.xml", text), options, scene, error);
+    free(text);
+    return result;
+}
+
+static inline aur_scene *must_load_body(const char *body) {
+    aur_scene *scene = NULL;
+    aur_error error = {0};
+    if (load_body(body, NULL, &scene, &error) != AUR_OK) {
+        char text[1024];
+        aur_error_format(&error, text, sizeof text);
+        fail_msg("%s", text);
+    }
+    return scene;
+}
+
+#endif

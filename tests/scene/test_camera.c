@@ -1,0 +1,123 @@
+#include "scene_text.h"
+
+#include "core/random.h"
+
+static aur_scene *load_camera(const char *sensor) {
+    char text[1024];
+    snprintf(text, sizeof text, "<scene version='3.0.0'><sensor type='perspective'>%s</sensor></scene>",
+             sensor);
+    aur_scene *scene;
+    aur_error error;
+    if (aur_scene_load(write_text("camera.xml", text), NULL, &scene, &error) != AUR_OK)
+        fail_msg("%s", error.message);
+    return scene;
+}
+
+static aur_vector direction_at(const char *sensor, size_t width, size_t height, float x, float y) {
+    aur_scene *const scene = load_camera(sensor);
+    const float lens[2] = {0.5f, 0.5f};
+    aur_ray ray;
+    aur_camera_ray(scene, width, height, x, y, lens, &ray);
+    aur_scene_destroy(scene);
+    assert_near(aur_vector_length(ray.direction), 1.0, 1e-6);
+    return ray.direction;
+}
+
+/* The picture's left edge is +x of the camera, its top +y; `fov` spans the named axis. */
+static void frames_the_picture(void **state) {
+    (void)state;
+    static const struct {
+        const char *axis;
+        size_t width, height;
+        double x, y; /* tangents of the left edge and the top edge, in units of tan(fov / 2) */
+    } rows[] = {
+        {"x", 200, 100, 1.0, 0.5},        {"y", 200, 100, 2.0, 1.0},      {"smaller", 200, 100, 2.0, 1.0},
+        {"smaller", 100, 200, 1.0, 2.0},  {"larger", 200, 100, 1.0, 0.5}, {"larger", 100, 200, 0.5, 1.0},
+        {"diagonal", 400, 300, 0.8, 0.6},
+    };
+    for (size_t i = 0; i < sizeof rows / sizeof rows[0]; ++i) {
+        char sensor[256];
+        snprintf(sensor, sizeof sensor, "<float name='fov' value='40'/><string name='fov_axis' value='%s'/>",
+                 rows[i].axis);
+        const float w = (float)rows[i].width, h = (float)rows[i].height;
+        const double tangent = tan(20.0 * AUR_PI / 180.0);
+        const aur_vector left = direction_at(sensor, rows[i].width, rows[i].height, 0.0f, 0.5f * h);
+        assert_near(left.x / left.z, rows[i].x * tangent, 1e-6);
+        assert_near(left.y, 0.0, 1e-7);
+        const aur_vector top = direction_at(sensor, rows[i].width, rows[i].height, 0.5f * w, 0.0f);
+        assert_near(top.y / top.z, rows[i].y * tangent, 1e-6);
+        assert_near(top.x, 0.0, 1e-7);
+    }
+    /* 50 mm on 36 x 24: the picture of that shape spans 36 mm. */
+    const aur_vector edge =
+        direction_at("<string name='focal_length' value='50mm'/>", 360, 240, 0.0f, 120.0f);
+    assert_near(edge.x / edge.z, 18.0 / 50.0, 1e-6);
+    /* A principal point half a film to the side looks where the edge was. */
+    const aur_vector shifted =
+        direction_at("<float name='fov' value='40'/><float name='principal_point_offset_x' value='-0.5'/>",
+                     10, 10, 5.0f, 5.0f);
+    assert_near(shifted.x / shifted.z, tan(20.0 * AUR_PI / 180.0), 1e-6);
+}
+
+static void moves_and_clips(void **state) {
+    (void)state;
+    aur_scene *const scene = load_camera(
+        "<float name='fov' value='90'/><float name='near_clip' value='2'/><float name='far_clip' value='8'/>"
+        "<transform name='to_world'><lookat origin='1,2,3' target='4,2,3' up='0,0,1'/></transform>");
+    aur_ray ray;
+    const float lens[2] = {0, 0};
+    aur_camera_ray(scene, 100, 100, 50, 50, lens, &ray);
+    assert_near(ray.origin.x, 1.0, 0.0);
+    assert_near(ray.origin.y, 2.0, 0.0);
+    assert_near(ray.origin.z, 3.0, 0.0);
+    assert_near(ray.direction.x, 1.0, 1e-6);
+    assert_near(ray.nearest, 2.0, 1e-6);
+    assert_near(ray.farthest, 8.0, 1e-5);
+    /* At the left edge, 45 degrees aside, the same depths are sqrt 2 farther. Left of +x with z up is +y. */
+    aur_camera_ray(scene, 100, 100, 0, 50, lens, &ray);
+    assert_near(ray.direction.y, sqrt(0.5), 1e-6);
+    assert_near(ray.nearest, 2.0 * sqrt(2.0), 1e-5);
+    assert_near(ray.farthest, 8.0 * sqrt(2.0), 1e-5);
+    aur_scene_destroy(scene);
+}
+
+/* Distribution functions of the filters, in their own units. */
+static double filter_mass(const char *name, double x) {
+    if (strcmp(name, "box") == 0)
+        return x + 0.5;
+    if (strcmp(name, "tent") == 0)
+        return x < 0.0 ? 0.5 * (1.0 + x) * (1.0 + x) : 1.0 - 0.5 * (1.0 - x) * (1.0 - x);
+    const double level = exp(-8.0);
+    const double t = x / 0.5;
+    const double total = 2.0 * (sqrt(AUR_PI / 2.0) * erf(4.0 / sqrt(2.0)) - level * 4.0);
+    return 0.5 + (sqrt(AUR_PI / 2.0) * erf(t / sqrt(2.0)) - level * t) / total;
+}
+
+static void samples_filters(void **state) {
+    (void)state;
+    static const char *const names[] = {"box", "tent", "gaussian"};
+    for (size_t f = 0; f < 3; ++f) {
+        const aur_filter *const filter = aur_filter_find(names[f]);
+        assert_string_equal(aur_filter_name(filter), names[f]);
+        float previous = -INFINITY;
+        for (size_t i = 0; i < 10000; ++i) {
+            const float u = ((float)i + 0.25f) / 10000.0f;
+            const float x = aur_filter_sample(filter, u);
+            assert_near(filter_mass(names[f], x), u, 2e-6);
+            assert_true(x >= previous);
+            previous = x;
+        }
+        assert_true(isfinite(aur_filter_sample(filter, 0.0f)));
+        assert_true(isfinite(aur_filter_sample(filter, 0x1.fffffep-1f)));
+    }
+    assert_null(aur_filter_find("sinc"));
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(frames_the_picture),
+        cmocka_unit_test(moves_and_clips),
+        cmocka_unit_test(samples_filters),
+    };
+    return cmocka_run_group_tests(tests, enter_folder, leave_folder);
+}

@@ -1,0 +1,295 @@
+#include "scene_text.h"
+
+static void loads_a_small_scene(void **state) {
+    (void)state;
+    aur_scene *const scene = must_load_body(
+        "<integrator type=\"path\"><integer name=\"max_depth\" value=\"6\"/></integrator>"
+        "<shape type=\"rectangle\"><ref id=\"red\"/></shape>"
+        "<shape type='cube'><transform name='to_world'><translate z='5'/></transform></shape>"
+        "<bsdf type=\"diffuse\" id=\"red\"><rgb name=\"reflectance\" value=\"0.5 0 0\"/></bsdf>");
+    aur_scene_description description;
+    aur_scene_describe(scene, &description);
+    assert_int_equal(description.shapes, 2);
+    assert_int_equal(description.triangles, 14);
+    assert_int_equal(description.emitters, 0);
+    assert_int_equal(description.materials, 2); /* red and the default */
+    assert_int_equal(description.width, 768);
+    assert_int_equal(description.height, 576);
+    assert_int_equal(description.samples_per_pixel, 4);
+    assert_string_equal(description.integrator, "path");
+    assert_string_equal(description.sampler, "random");
+    assert_string_equal(description.filter, "gaussian");
+    assert_near(description.lower[2], 0.0, 0.0);
+    assert_near(description.upper[2], 6.0, 1e-6);
+    aur_scene_destroy(scene);
+}
+
+static void maps_samplers_to_sets(void **state) {
+    (void)state;
+    static const char *const rows[][2] = {
+        {"<sampler type='independent'><integer name='sample_count' value='9'/></sampler>", "random"},
+        {"<sampler type='multijitter'/>", "sobol"},
+        {"<sampler type='ldsampler'><integer name='dimension' value='4'/></sampler>", "sobol"},
+        {"<sampler type='halton'><string name='permute' value='random'/></sampler>", "halton:permute=random"},
+    };
+    for (size_t i = 0; i < sizeof rows / sizeof rows[0]; ++i) {
+        char text[512];
+        snprintf(text, sizeof text, "<scene version='3.0.0'><sensor type='perspective'>%s</sensor></scene>",
+                 rows[i][0]);
+        aur_scene *scene;
+        assert_int_equal(aur_scene_load(write_text("s.xml", text), NULL, &scene, NULL), AUR_OK);
+        assert_string_equal(aur_scene_sampler(scene), rows[i][1]);
+        assert_int_equal(aur_scene_samples_per_pixel(scene), i == 0 ? 9 : 4);
+        aur_scene_destroy(scene);
+    }
+}
+
+static void substitutes_names(void **state) {
+    (void)state;
+    static const char body[] =
+        "<default name='res' value='32'/><default name='resx' value='64'/><default name='f' value='tent'/>"
+        "<sensor type='perspective'><film type='hdrfilm'><integer name='width' value='$resx'/>"
+        "<integer name='height' value='$res'/><rfilter type='$f'/></film>"
+        "<sampler type='sobol'><integer name='sample_count' value='$n'/></sampler></sensor>";
+    const aur_definition definitions[] = {{"n", "16"}, {"res", "48"}};
+    const aur_scene_options options = {.definition_count = 2, .definitions = definitions};
+    aur_scene *scene;
+    aur_error error;
+    char text[1024];
+    snprintf(text, sizeof text, "<scene version='3.0.0'>%s</scene>", body);
+    const char *const path = write_text("s.xml", text);
+    assert_int_equal(aur_scene_load(path, &options, &scene, &error), AUR_OK);
+    assert_int_equal(aur_scene_film(scene)->width, 64);
+    assert_int_equal(aur_scene_film(scene)->height, 48);
+    assert_string_equal(aur_filter_name(aur_scene_film(scene)->filter), "tent");
+    assert_int_equal(aur_scene_samples_per_pixel(scene), 16);
+    aur_scene_destroy(scene);
+
+    const aur_definition unused[] = {{"n", "16"}, {"rex", "1"}};
+    const aur_scene_options wrong = {.definition_count = 2, .definitions = unused};
+    assert_int_equal(aur_scene_load(path, &wrong, &scene, &error), AUR_ERROR_NAME);
+    assert_non_null(strstr(error.message, "did you mean 'res"));
+    assert_int_equal(aur_scene_load(path, NULL, &scene, &error), AUR_ERROR_NAME);
+    assert_non_null(strstr(error.message, "$n is not defined"));
+}
+
+static void includes_files(void **state) {
+    (void)state;
+    write_text("walls.xml", "<scene version='3.0.0'><shape type='rectangle'><ref id='w'/></shape></scene>");
+    write_text("white.xml", "<bsdf type='diffuse' id='w'/>");
+    aur_scene *const scene =
+        must_load_body("<include filename='walls.xml'/><include filename='white.xml'/>"
+                       "<alias id='w' as='again'/><shape type='cube'><ref id='again'/></shape>");
+    aur_scene_description description;
+    aur_scene_describe(scene, &description);
+    assert_int_equal(description.shapes, 2);
+    assert_int_equal(description.materials, 1);
+    aur_scene_destroy(scene);
+
+    write_text("itself.xml", "<scene version='3.0.0'><include filename='itself.xml'/></scene>");
+    aur_error error;
+    aur_scene *none;
+    assert_int_equal(load_body("<include filename='itself.xml'/>", NULL, &none, &error), AUR_ERROR_FORMAT);
+    assert_non_null(strstr(error.message, "nested deeper than 15"));
+    assert_non_null(strstr(error.file, "itself.xml"));
+}
+
+static void keep_warning(void *user, const char *message) {
+    char *const text = user;
+    strncat(text, message, 4000 - strlen(text));
+    strncat(text, "\n", 4000 - strlen(text));
+}
+
+static void reads_old_versions(void **state) {
+    (void)state;
+    char warnings[4096] = "";
+    const aur_scene_options options = {.warnings = {keep_warning, warnings}};
+    aur_scene *scene;
+    aur_error error;
+    assert_int_equal(
+        aur_scene_load(
+            write_text("old.xml",
+                       "<scene version='0.5.0'><integrator type='path'><integer name='maxDepth' value='3'/>"
+                       "</integrator><sensor type='perspective'><transform name='toWorld'>"
+                       "<lookAt origin='0,0,5' target='0,0,0' up='0,1,0'/></transform>"
+                       "<float name='nearClip' value='1'/><film type='ldrfilm'>"
+                       "<boolean name='banner' value='false'/></film></sensor></scene>"),
+            &options, &scene, &error),
+        AUR_OK);
+    assert_non_null(strstr(warnings, "ldrfilm"));
+    assert_non_null(strstr(warnings, "banner"));
+    aur_parameters integrator;
+    assert_int_equal(aur_parameters_copy(aur_scene_integrator(scene), &integrator, NULL), AUR_OK);
+    int64_t depth = 0;
+    assert_int_equal(aur_parameters_integer(&integrator, "max_depth", -1, 100, &depth, NULL), AUR_OK);
+    assert_int_equal(depth, 3);
+    aur_parameters_release(&integrator);
+    aur_scene_destroy(scene);
+}
+
+/* What a file may get wrong: the body, where it is (line, column of scene.xml, whose second line the body
+ * is), and a part of the message. */
+static const struct bad_row {
+    const char *body;
+    size_t line, column;
+    const char *message;
+} bad_rows[] = {
+    {"<shape type=\"rectangle\">", 3, 69, "not well-formed XML: mismatched tag"},
+    {"<shap type=\"cube\"/>", 2, 1, "unknown element <shap>; did you mean <shape>?"},
+    {"<shape type=\"cub\"/>", 2, 1, "unknown shape 'cub'; did you mean 'cube'?"},
+    {"<shape type=\"zzzzzz\"/>", 2, 1, "unknown shape 'zzzzzz'; there are: "},
+    {"<shape/>", 2, 1, "<shape> needs the attribute 'type'"},
+    {"<shape type='cube' idd='x'/>", 2, 1, "<shape> has no attribute 'idd'; did you mean 'id'?"},
+    {"<shape type='cube'><bsdf type='difuse'/></shape>", 2, 20,
+     "unknown bsdf 'difuse'; did you mean 'diffuse'?"},
+    {"<bsdf type='diffuse'><rgb name='reflectence' value='1'/></bsdf>", 2, 22,
+     "bsdf 'diffuse' has no 'reflectence'; did you mean 'reflectance'?"},
+    {"<bsdf type='diffuse'><rgb name='reflectance' value='1.5'/></bsdf>", 2, 22,
+     "'reflectance' must be between 0 and 1, not '1.5'"},
+    {"<bsdf type='diffuse'><rgb name='reflectance' value='1 0'/></bsdf>", 2, 22,
+     "must be one or three numbers"},
+    {"<bsdf type='diffuse'><rgb name='reflectance' value='nan'/></bsdf>", 2, 22,
+     "must be one or three numbers"},
+    {"<bsdf type='phong'><rgb name='diffuse_reflectance' value='.7'/><rgb name='specular_reflectance' "
+     "value='.4'/></bsdf>",
+     2, 1, "must not exceed 1"},
+    {"<bsdf type='twosided'/>", 2, 1, "needs one or two nested bsdfs"},
+    {"<bsdf type='diffuse' id='a'/>\n<bsdf type='diffuse' id='a'/>", 3, 1, "id 'a' is given twice, first at"},
+    {"<shape type='cube'><ref id='nix'/></shape>", 2, 20, "there is no object with the id 'nix'"},
+    {"<bsdf type='diffuse' id='white'/><shape type='cube'><ref id='whte'/></shape>", 2, 53,
+     "did you mean 'white'?"},
+    {"<bsdf type='twosided' id='a'><ref id='b'/></bsdf><bsdf type='twosided' id='b'><ref id='a'/></bsdf>", 2,
+     79, "a cycle"},
+    {"<shape type='cube'><transform name='to_world'><scale value='0'/></transform></shape>", 2, 47,
+     "<scale> by 0"},
+    {"<shape type='cube'><transform name='to_world'><rotate angle='3'/></transform></shape>", 2, 47,
+     "needs 'value' or 'x', 'y' and 'z'"},
+    {"<shape type='cube'><transform name='to_world'><rotate angle='3' value='0 0 0'/></transform></shape>", 2,
+     47, "needs an axis"},
+    {"<shape type='cube'><transform name='to_world'><rotat angle='3' x='1'/></transform></shape>", 2, 47,
+     "did you mean <rotate>?"},
+    {"<shape type='cube'><transform name='to_world'><matrix value='1 2 3'/></transform></shape>", 2, 47,
+     "must be 16 numbers"},
+    {"<shape type='cube'><transform name='to_world'><matrix value='0 0 0 0 0 0 0 0 0'/></transform></shape>",
+     2, 20, "no inverse"},
+    {"<shape type='cube'><transform name='to_world'><lookat origin='1 1 1' target='1 1 "
+     "1'/></transform></shape>",
+     2, 47, "'target' must differ"},
+    {"<shape type='cube'><point name='center' x='0' value='1 2 3'/></shape>", 2, 20, "not both"},
+    {"<shape type='cube'><float name='radius'/></shape>", 2, 20, "<float> needs the attribute 'value'"},
+    {"<shape type='cube'><boolean name='flip_normals' value='yes'/></shape>", 2, 20, "must be true or false"},
+    {"<shape type='obj'/>", 2, 1, "needs the string 'filename'"},
+    {"<shape type='obj'><string name='filename' value='none.obj'/></shape>", 2, 19,
+     "cannot find 'none.obj'; looked in"},
+    {"<emitter type='area'/>", 2, 1, "must stand inside a <shape>"},
+    {"<shape type='cube'><emitter type='area'><rgb name='radiance' value='-1'/></emitter></shape>", 2, 41,
+     "must be between 0"},
+    {"<medium type='homogeneous'/>", 2, 1, "no participating media"},
+    {"<film type='hdrfilm'/>", 2, 1, "belongs inside a <sensor>"},
+    {"hello", 2, 1, "text between elements: 'hello'"},
+    {"<include filename='no.xml'/>", 2, 1, "cannot find 'no.xml'"},
+    {"<default name='a'/>", 2, 1, "<default> needs the attribute 'value'"},
+    {"<shape type='$kind'/>", 2, 1, "$kind is not defined: give it a <default>, or a value by -D kind=..."},
+    {"<alias id='q' as='r'/>", 2, 1, "there is no id 'q'"},
+    {"<bsdf type='diffuse'><texture type='checkerbord' name='reflectance'/></bsdf>", 2, 22,
+     "unknown texture"},
+    {"<bsdf type='diffuse'><spectrum name='reflectance' value='400:0.1, 700:0.2'/></bsdf>", 2, 22,
+     "wavelengths are not supported"},
+};
+
+static void says_what_is_wrong(void **state) {
+    (void)state;
+    size_t wrong = 0;
+    for (size_t i = 0; i < sizeof bad_rows / sizeof bad_rows[0]; ++i) {
+        const struct bad_row *const row = &bad_rows[i];
+        aur_scene *scene = NULL;
+        aur_error error = {0};
+        const aur_result result = load_body(row->body, NULL, &scene, &error);
+        if (result != AUR_OK && error.result == result && scene == NULL && error.line == row->line &&
+            error.column == row->column && strstr(error.message, row->message) != NULL)
+            continue;
+        ++wrong;
+        print_error("%s\n  gives %d at %zu:%zu: %s\n", row->body, result, error.line, error.column,
+                    error.message);
+    }
+    assert_int_equal(wrong, 0);
+}
+
+static void refuses_bad_roots(void **state) {
+    (void)state;
+    static const char *const rows[][2] = {
+        {"<scene><sensor type='perspective'/></scene>", "needs the attribute 'version'"},
+        {"<scene version='3'/>", "version must be like 3.0.0, not '3'"},
+        {"<shape type='cube'/>", "the first element must be <scene>, not <shape>"},
+        {"<scene version='3.0.0'/>", "the scene has no <sensor>"},
+        {"", "no element found"},
+        {"<scene version='3.0.0'><sensor type='perspectiv'/></scene>", "did you mean 'perspective'?"},
+        {"<scene version='3.0.0'><sensor type='perspective'><float name='fov' value='190'/></sensor></scene>",
+         "'fov' must be between"},
+        {"<scene version='3.0.0'><sensor type='perspective'><film type='hdrfilm'><integer name='width' "
+         "value='0'/></film></sensor></scene>",
+         "'width' must be between 1 and 65536"},
+        {"<scene version='3.0.0'><sensor type='perspective'><film type='hdrfilm'><rfilter type='gausian'/>"
+         "</film></sensor></scene>",
+         "unknown rfilter 'gausian'; did you mean 'gaussian'?"},
+    };
+    for (size_t i = 0; i < sizeof rows / sizeof rows[0]; ++i) {
+        aur_scene *scene;
+        aur_error error = {0};
+        const aur_result result = aur_scene_load(write_text("r.xml", rows[i][0]), NULL, &scene, &error);
+        if (result == AUR_OK || strstr(error.message, rows[i][1]) == NULL)
+            fail_msg("%s\n  gives: %s", rows[i][0], error.message);
+    }
+    aur_scene *scene;
+    aur_error error = {0};
+    assert_int_equal(aur_scene_load("/nowhere/scene.xml", NULL, &scene, &error), AUR_ERROR_OPEN);
+    assert_string_equal(error.file, "/nowhere/scene.xml");
+}
+
+static void loads_bundled_scenes(void **state) {
+    (void)state;
+    static const char *const names[] = {"cornell-box.xml", "glossy.xml"};
+    for (size_t i = 0; i < 2; ++i) {
+        char path[512];
+        snprintf(path, sizeof path, "%s/scenes/cornell-box/%s", AUR_SOURCE_DIR, names[i]);
+        aur_scene *scene;
+        aur_error error = {0};
+        if (aur_scene_load(path, NULL, &scene, &error) != AUR_OK)
+            fail_msg("%s:%zu:%zu: %s", error.file, error.line, error.column, error.message);
+        assert_int_equal(aur_scene_emitter_count(scene), 1);
+        aur_scene_destroy(scene);
+    }
+}
+
+/* Public scenes beside the project, where they are present. */
+static void loads_public_scenes(void **state) {
+    (void)state;
+    const char *const path = AUR_SOURCE_DIR "/../shared/scenes/cornell-box/scene.xml";
+    if (access(path, R_OK) != 0)
+        skip();
+    aur_scene *scene;
+    aur_error error = {0};
+    if (aur_scene_load(path, NULL, &scene, &error) != AUR_OK)
+        fail_msg("%s", error.message);
+    aur_scene_description description;
+    aur_scene_describe(scene, &description);
+    assert_int_equal(description.shapes, 8);
+    assert_int_equal(description.triangles, 36);
+    assert_int_equal(description.emitters, 1);
+    assert_int_equal(description.width, 1024);
+    assert_int_equal(description.samples_per_pixel, 64);
+    assert_string_equal(description.filter, "tent");
+    assert_string_equal(description.integrator, "path_guiding_integrator");
+    aur_scene_destroy(scene);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(loads_a_small_scene),  cmocka_unit_test(maps_samplers_to_sets),
+        cmocka_unit_test(substitutes_names),    cmocka_unit_test(includes_files),
+        cmocka_unit_test(reads_old_versions),   cmocka_unit_test(says_what_is_wrong),
+        cmocka_unit_test(refuses_bad_roots),    cmocka_unit_test(loads_public_scenes),
+        cmocka_unit_test(loads_bundled_scenes),
+    };
+    return cmocka_run_group_tests(tests, enter_folder, leave_folder);
+}
