@@ -30,7 +30,7 @@ typedef struct bench_limit_pair {
 bool bench_limit_compare(const bench_options *options, const bench_limit_pair *pair);
 
 /* One thread writes (or reads, or copies) doubles. Bytes: those written, read, or written by the copy. In
- * memory: 256 MiB; in cache: 16 KiB. `stream` uses non-temporal stores. */
+ * memory: 256 MiB (16 when quick); in cache: 16 KiB. `stream` uses non-temporal stores. */
 extern const bench_limit bench_limit_fill_memory;
 extern const bench_limit bench_limit_fill_memory_stream;
 extern const bench_limit bench_limit_fill_cache;

@@ -1,11 +1,13 @@
-# Embree 4 where it is, else Embree 3. Defines Embree::Embree and AUR_EMBREE_VERSION (3 or 4) on it.
-find_path(Embree_INCLUDE_DIR NAMES embree4/rtcore.h embree3/rtcore.h)
-find_library(Embree_LIBRARY NAMES embree4 embree3)
+# Embree 4 where it is, else Embree 3. Defines Embree::Embree, which brings AUR_EMBREE_VERSION (3 or 4) along. Header and
+# library must be of one version, so the version is chosen by the header.
+find_path(Embree_INCLUDE_DIR NAMES embree4/rtcore.h)
+find_path(Embree_INCLUDE_DIR NAMES embree3/rtcore.h)
 if(Embree_INCLUDE_DIR AND EXISTS "${Embree_INCLUDE_DIR}/embree4/rtcore.h")
     set(Embree_MAJOR 4)
 else()
     set(Embree_MAJOR 3)
 endif()
+find_library(Embree_LIBRARY NAMES embree${Embree_MAJOR})
 include(FindPackageHandleStandardArgs)
 find_package_handle_standard_args(Embree REQUIRED_VARS Embree_LIBRARY Embree_INCLUDE_DIR)
 if(Embree_FOUND AND NOT TARGET Embree::Embree)
