@@ -12,6 +12,8 @@ static const aur_measure_row *const rows[] = {
     &aur_measure_l2_cap,       //
     &aur_measure_l2_cap_mean,  //
     &aur_measure_riesz,        //
+    &aur_measure_cap,          //
+    &aur_measure_cap_bound,    //
     &aur_measure_min_distance, //
     &aur_measure_star,         //
     &aur_measure_l2_star,      //

@@ -31,6 +31,8 @@ extern const aur_measure_row aur_measure_scd;
 extern const aur_measure_row aur_measure_l2_cap;
 extern const aur_measure_row aur_measure_l2_cap_mean;
 extern const aur_measure_row aur_measure_riesz;
+extern const aur_measure_row aur_measure_cap;
+extern const aur_measure_row aur_measure_cap_bound;
 extern const aur_measure_row aur_measure_min_distance;
 extern const aur_measure_row aur_measure_star;
 extern const aur_measure_row aur_measure_l2_star;

@@ -1,0 +1,18 @@
+/* Suprema over spherical caps of |mass inside - area|. */
+#ifndef AUR_QUALITY_CAP_H
+#define AUR_QUALITY_CAP_H
+
+#include "quality/pair_sum.h"
+
+/* Axes with masses that add up to 1. */
+aur_result aur_cap_axes_create(const aur_points *points, aur_axes *axes, aur_error *error);
+
+typedef struct aur_height {
+    double height, mass;
+} aur_height;
+
+/* The best value of closed caps about one centre: the greatest mass inside less area, over all heights.
+ * `room` has space for count of them. */
+double aur_cap_best_about(const aur_axes *axes, const double centre[3], aur_height *room);
+
+#endif
