@@ -8,10 +8,12 @@
 #include "core/simd.h"
 
 extern const bench bench_limits;
+extern const bench bench_measures;
 extern const bench bench_parallel;
 
 static const bench *const benches[] = {
     &bench_limits,
+    &bench_measures,
     &bench_parallel,
 };
 
