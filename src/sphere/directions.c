@@ -332,6 +332,11 @@ static aur_result generate(const aur_directions *directions, uint64_t first, siz
         return AUR_ERROR_ARGUMENT;
     if (count > room)
         return AUR_ERROR_CAPACITY;
+    if (directions->native != NULL && !directions->warped && !directions->rotated && to->xyz != NULL &&
+        to->weights == NULL) {
+        directions->native->fill(directions->native_data, first, count, to->xyz);
+        return AUR_OK;
+    }
     double xyz[3 * CHUNK];
     double weights[CHUNK];
     for (size_t done = 0; done < count; done += CHUNK) {

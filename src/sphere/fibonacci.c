@@ -12,10 +12,12 @@
 #include <stdlib.h>
 
 #include "core/error.h"
+#include "core/simd.h"
+#include "sphere/fibonacci_kernels.h"
 #include "sphere/native.h"
 #include "sphere/phase.h"
 
-void aur_fibonacci_points(const aur_fibonacci *set, uint64_t first, size_t count, double *xyz) {
+void aur_fibonacci_points_portable(const aur_fibonacci *set, uint64_t first, size_t count, double *xyz) {
     for (size_t i = 0; i < count; ++i) {
         const uint64_t j = first + i;
         const double depth = ((double)j + set->offset) * set->step;
@@ -27,6 +29,20 @@ void aur_fibonacci_points(const aur_fibonacci *set, uint64_t first, size_t count
         xyz[3 * i + 2] = 1.0 - depth;
     }
 }
+
+aur_fibonacci_kernel aur_fibonacci_choose_kernel(void) {
+    const aur_isa isa = aur_isa_available();
+    if (isa == AUR_ISA_AVX512)
+        return aur_fibonacci_points_avx512;
+    if (isa == AUR_ISA_AVX2)
+        return aur_fibonacci_points_avx2;
+    return aur_fibonacci_points_portable;
+}
+
+typedef struct fibonacci_set {
+    aur_fibonacci points;
+    aur_fibonacci_kernel kernel;
+} fibonacci_set;
 
 static aur_result prepare(aur_parameters *keys, const aur_native_request *request, void **data,
                           aur_error *error) {
@@ -48,16 +64,17 @@ static aur_result prepare(aur_parameters *keys, const aur_native_request *reques
                             "set 'spherical-fibonacci': a single point needs an epsilon above 0");
         set = (aur_fibonacci){.step = 2.0 / (whole - 1.0 + 2.0 * epsilon), .offset = epsilon};
     }
-    aur_fibonacci *const kept = malloc(sizeof *kept);
+    fibonacci_set *const kept = malloc(sizeof *kept);
     if (kept == NULL)
         return aur_fail(error, AUR_ERROR_MEMORY, "out of memory");
-    *kept = set;
+    *kept = (fibonacci_set){set, aur_fibonacci_choose_kernel()};
     *data = kept;
     return AUR_OK;
 }
 
 static void fill(const void *data, uint64_t first, size_t count, double *xyz) {
-    aur_fibonacci_points(data, first, count, xyz);
+    const fibonacci_set *const set = data;
+    set->kernel(&set->points, first, count, xyz);
 }
 
 const aur_native_set aur_native_fibonacci = {

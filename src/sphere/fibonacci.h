@@ -12,6 +12,9 @@ typedef struct aur_fibonacci {
 } aur_fibonacci;
 
 /* Points first .. first+count-1 as x,y,z triples. */
-void aur_fibonacci_points(const aur_fibonacci *set, uint64_t first, size_t count, double *xyz);
+typedef void (*aur_fibonacci_kernel)(const aur_fibonacci *set, uint64_t first, size_t count, double *xyz);
+
+/* The kernel for this processor; all give the same bits. */
+aur_fibonacci_kernel aur_fibonacci_choose_kernel(void);
 
 #endif

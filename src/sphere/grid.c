@@ -119,8 +119,9 @@ static void doubled_grid(uint64_t count, size_t s, double height, double *xyz) {
     const double step = height / (double)count;
     const aur_fibonacci base = {step, centre, 0};
     const aur_fibonacci copy = {step, centre + half.index, half.phase};
-    aur_fibonacci_points(&base, 0, (size_t)count, xyz);
-    aur_fibonacci_points(&copy, 0, (size_t)count, xyz + 3 * count);
+    const aur_fibonacci_kernel kernel = aur_fibonacci_choose_kernel();
+    kernel(&base, 0, (size_t)count, xyz);
+    kernel(&copy, 0, (size_t)count, xyz + 3 * count);
 }
 
 size_t aur_grid_best_shift(uint64_t base, double height) {
@@ -147,6 +148,7 @@ typedef struct grid {
     size_t order[3]; /* the shifts in the order in which they are added */
     double step;
     double centre; /* N d */
+    aur_fibonacci_kernel kernel;
 } grid;
 
 /* The mean over blocks 0 .. blocks-1 of what their shifts add to the index. */
@@ -235,7 +237,7 @@ static aur_result prepare(aur_parameters *keys, const aur_native_request *reques
         result = aur_parameters_choice(keys, "shift", 2, shifts, &shift_kind, error);
     if (result == AUR_OK)
         result = aur_parameters_choice(keys, "progression", 2, progressions, &progression, error);
-    grid g = {0};
+    grid g = {.kernel = aur_fibonacci_choose_kernel()};
     if (result == AUR_OK)
         result = choose_size(request->count, base, levels, &g, error);
     if (result != AUR_OK)
@@ -274,7 +276,7 @@ static void fill(const void *data, uint64_t first, size_t count, double *xyz) {
             base.offset += moved.index;
             base.phase += moved.phase;
         }
-        aur_fibonacci_points(&base, j, part, xyz);
+        g->kernel(&base, j, part, xyz);
         first += part;
         count -= part;
         xyz += 3 * part;

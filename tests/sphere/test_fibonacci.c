@@ -2,6 +2,9 @@
 
 #include <string.h>
 
+#include "core/simd.h"
+#include "sphere/fibonacci_kernels.h"
+
 static const aur_directions_options sphere = {.domain = AUR_DOMAIN_SPHERE};
 
 static double *fibonacci(const char *set, uint64_t count, aur_domain domain) {
@@ -137,6 +140,37 @@ static void parts_do_not_depend_on_the_asking(void **state) {
     free(whole);
 }
 
+/* The tolerance between instruction sets is none: every bit, at any start, length and place in memory,
+ * whether streamed or not. */
+static void kernels_agree_bit_for_bit(void **state) {
+    (void)state;
+    static const aur_fibonacci_kernel kernels[] = {aur_fibonacci_points_avx2, aur_fibonacci_points_avx512};
+    static const aur_isa needs[] = {AUR_ISA_AVX2, AUR_ISA_AVX512};
+    const size_t most = AUR_FIBONACCI_STREAM_BYTES / 24 + 100;
+    double *const expected = malloc((3 * most + 8) * sizeof *expected);
+    double *const actual = malloc((3 * most + 8) * sizeof *actual);
+    assert_true(expected != NULL && actual != NULL);
+    for (uint64_t trial = 0; trial < 200; ++trial) {
+        const uint64_t random = aur_hash2(91, trial);
+        const size_t count = trial < 4 ? most - trial : random % 50;
+        const uint64_t first = random >> (16 + trial % 40);
+        const aur_fibonacci set = {
+            .step = 1.9 / (double)(first + count + 1), .offset = 0.25, .phase = random};
+        aur_fibonacci_points_portable(&set, first, count, expected);
+        for (size_t k = 0; k < 2; ++k) {
+            if (aur_isa_available() < needs[k])
+                continue;
+            double *const to = actual + trial % 8;
+            to[3 * count] = 7.0;
+            kernels[k](&set, first, count, to);
+            assert_memory_equal(to, expected, 3 * count * sizeof *to);
+            assert_true(to[3 * count] == 7.0);
+        }
+    }
+    free(expected);
+    free(actual);
+}
+
 static void refuses_what_is_wrong(void **state) {
     (void)state;
     static const char *const sets[] = {"spherical-fibonacci:offset=nan",
@@ -174,6 +208,7 @@ int main(void) {
         cmocka_unit_test(phases_stay_golden_to_a_thousand_million),
         cmocka_unit_test(hemisphere_is_the_first_half),
         cmocka_unit_test(caps_are_filled_evenly),
+        cmocka_unit_test(kernels_agree_bit_for_bit),
         cmocka_unit_test(parts_do_not_depend_on_the_asking),
         cmocka_unit_test(refuses_what_is_wrong),
     };
