@@ -8,59 +8,96 @@
 extern "C" {
 #endif
 
-enum { AUR_CHANNEL_NAME_CAPACITY = 32 };
+enum { AUR_CHANNEL_NAME_CAPACITY = 256 };
 
 /* data[(y * width + x) * channel_count + c]; the top row first. Free with aur_image_destroy. */
 typedef struct aur_image {
     size_t width, height, channel_count;
     float *data;
-    char (*channel_names)[AUR_CHANNEL_NAME_CAPACITY]; /* "R", "G", "B", ... */
+    char (*channel_names)[AUR_CHANNEL_NAME_CAPACITY]; /* "R", "G", "B", "albedo.R", ... */
 } aur_image;
 
-/* Zero filled; three channels are named R, G, B, one is Y, others are to be named by the caller. */
+/* Zero filled. The channels are named Y; Y, A; R, G, B; R, G, B, A when there are one to four; more are to be
+ * named by the caller. Errors: ARGUMENT for a size of zero or beyond 2^30 values, MEMORY. */
 AUR_API aur_result aur_image_create(size_t width, size_t height, size_t channel_count, aur_image **image,
                                     aur_error *error) AUR_NONNULL(4);
 AUR_API void aur_image_destroy(aur_image *image); /* NULL is allowed */
 
-/* By content and, failing that, by extension: EXR (scan lines or tiles, half or float), PFM, HDR, PNG, JPEG.
- * 8-bit pictures are decoded from sRGB to linear. */
+/* By content: EXR (scan lines or tiles; half, float or uint; the full-size level of the first part), PFM,
+ * HDR, PNG, JPEG. "-" is standard input. PNG and JPEG are decoded from sRGB to linear. Colour comes as
+ * R, G, B, A, then the channels of other layers, layer by layer. Errors: OPEN, FORMAT, UNSUPPORTED (deep or
+ * subsampled EXR), MEMORY. */
 AUR_API aur_result aur_image_read(const char *path, aur_image **image, aur_error *error) AUR_NONNULL(1, 2);
+/* The same from memory; `name` stands in messages. */
+AUR_API aur_result aur_image_read_memory(const char *name, size_t size, const void *data, aur_image **image,
+                                         aur_error *error) AUR_NONNULL(1, 3, 4);
 
-/* How radiance becomes an 8-bit value: exposure in stops, then the curve, then sRGB. */
-typedef enum aur_tone { AUR_TONE_SRGB, AUR_TONE_FILMIC } aur_tone;
+/* "EXR", "PFM", "HDR", "PNG" or "JPEG" by the first bytes of a file, NULL when it is none of them. */
+AUR_API const char *aur_image_format_of(size_t size, const void *data) AUR_NONNULL(2);
+
+/* How radiance becomes an 8-bit value: exposure in stops, then the curve, then the sRGB transfer function. */
+typedef enum aur_tone {
+    AUR_TONE_SRGB,  /* no curve: radiance 1 is white */
+    AUR_TONE_FILMIC /* Hable 2010, white at 11.2 after his exposure bias of 2 */
+} aur_tone;
+
+/* "srgb", "filmic" */
+AUR_API aur_result aur_tone_from_name(const char *name, aur_tone *tone, aur_error *error) AUR_NONNULL(1, 2);
 
 typedef struct aur_image_write_options {
-    float exposure; /* stops; PNG only */
-    aur_tone tone;  /* PNG only */
-    int half;       /* EXR: 16-bit floats instead of 32-bit ones */
+    float exposure;     /* stops; PNG only */
+    aur_tone tone;      /* PNG only */
+    int half;           /* EXR: 16-bit floats; finite values are kept finite (at most 65504) */
+    const char *format; /* "exr", "pfm", "hdr", "png"; NULL: by extension */
 } aur_image_write_options;
 
-/* By extension: .exr, .pfm, .hdr, .png. The file is replaced whole or not at all. `options` may be NULL. */
+/* EXR holds every channel; the others R, G, B (or a single channel: PFM and PNG as grey, HDR as three equal
+ * ones). The file is replaced whole or not at all; "-" is standard output, as EXR unless the options say
+ * otherwise. The same image gives the same bytes. `options` may be NULL. Errors: ARGUMENT (unnamed channels,
+ * no colour), NAME (unknown extension), WRITE, MEMORY. */
 AUR_API aur_result aur_image_write(const char *path, const aur_image *image,
                                    const aur_image_write_options *options, aur_error *error)
     AUR_NONNULL(1, 2);
 
-/* The R, G and B channels of two pictures of one size. */
+/* The index of a channel, or SIZE_MAX. */
+AUR_API size_t aur_image_find_channel(const aur_image *image, const char *name) AUR_NONNULL(1, 2);
+/* Which channels are red, green and blue: those of that name; else Y, or the only channel, for all three;
+ * else the three that there are. Returns 0 when there is no such choice. */
+AUR_API int aur_image_color_channels(const aur_image *image, size_t channels[3]) AUR_NONNULL(1, 2);
+/* A picture of some of the channels, in the order given. Errors: NAME, MEMORY. */
+AUR_API aur_result aur_image_select(const aur_image *image, size_t count, const char *const *names,
+                                    aur_image **selected, aur_error *error) AUR_NONNULL(1, 3, 4);
+/* Means of block x block pixels; blocks at the right and lower edge are averaged over what they have. */
+AUR_API aur_result aur_image_downsample(const aur_image *image, size_t block, aur_image **smaller,
+                                        aur_error *error) AUR_NONNULL(1, 3);
+/* The mean radiance of R, G, B, and of the three together. Errors: ARGUMENT without colour or when a pixel is
+ * not finite. */
+AUR_API aur_result aur_image_mean(const aur_image *image, double mean[4], aur_error *error) AUR_NONNULL(1, 2);
+
+/* Figures of the difference of two pictures of one size; a is the picture, r the reference. */
 typedef enum aur_image_metric {
     AUR_IMAGE_RMSE,
     AUR_IMAGE_MSE,
     AUR_IMAGE_MAE,
-    AUR_IMAGE_RELMSE, /* mean of (a-r)^2 / (r^2 + 0.01) */
-    AUR_IMAGE_MRSE    /* mean of (a-r)^2 / r^2 over non-zero r */
+    AUR_IMAGE_RELMSE,       /* mean of (a-r)^2 / (r^2 + 0.01) */
+    AUR_IMAGE_MRSE,         /* mean of (a-r)^2 / r^2 over non-zero r */
+    AUR_IMAGE_RELATIVE_RMSE /* RMSE / mean of r: 0 for equal pictures, infinite when only the mean is zero */
 } aur_image_metric;
+
+enum { AUR_IMAGE_METRIC_COUNT = AUR_IMAGE_RELATIVE_RMSE + 1 };
 
 AUR_API aur_result aur_image_metric_from_name(const char *name, aur_image_metric *metric, aur_error *error)
     AUR_NONNULL(1, 2);
-AUR_API const char *aur_image_metric_name(aur_image_metric metric);
+AUR_API const char *aur_image_metric_name(aur_image_metric metric); /* NULL out of range */
 
-/* value[0..2] for R, G, B; value[3] for all three together. Errors: ARGUMENT when sizes or channels differ.
- */
+/* value[0..2] for R, G, B; value[3] for all three together. Errors: ARGUMENT when sizes differ, there is no
+ * colour, or a pixel is not finite (the message names the first one). */
 AUR_API aur_result aur_image_compare(const aur_image *reference, const aur_image *image,
                                      aur_image_metric metric, double value[4], aur_error *error)
     AUR_NONNULL(1, 2, 4);
 
-/* A false-colour picture of the absolute difference; `scale` is the difference that is drawn brightest, 0
- * chooses the largest one. */
+/* A false-colour picture of the largest absolute difference among R, G and B, from black over violet, red and
+ * yellow to white; `scale` is the difference that is drawn brightest, 0 chooses the largest one. */
 AUR_API aur_result aur_image_difference(const aur_image *reference, const aur_image *image, double scale,
                                         aur_image **difference, aur_error *error) AUR_NONNULL(1, 2, 4);
 

@@ -1,2 +1,161 @@
-/* Placeholder translation unit until the room is filled. */
-#include <aureole/image.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "image/format.h"
+
+static const char *default_name(size_t channel_count, size_t channel) {
+    static const char *const names[5][4] = {{""}, {"Y"}, {"Y", "A"}, {"R", "G", "B"}, {"R", "G", "B", "A"}};
+    return channel_count <= 4 ? names[channel_count][channel] : "";
+}
+
+/* No overflow whatever the arguments are. */
+static bool size_is_allowed(size_t width, size_t height, size_t channel_count) {
+    if (width == 0 || height == 0 || channel_count == 0)
+        return false;
+    if (width > AUR_IMAGE_VALUES_MAX || height > AUR_IMAGE_VALUES_MAX / width)
+        return false;
+    return channel_count <= AUR_IMAGE_VALUES_MAX / (width * height);
+}
+
+aur_result aur_image_create(size_t width, size_t height, size_t channel_count, aur_image **image,
+                            aur_error *error) {
+    *image = NULL;
+    if (!size_is_allowed(width, height, channel_count))
+        return aur_fail(error, AUR_ERROR_ARGUMENT,
+                        "a picture of %zu x %zu pixels with %zu channels: there must be 1 to 2^30 values",
+                        width, height, channel_count);
+    aur_image *const made = calloc(1, sizeof *made);
+    if (made == NULL)
+        return aur_fail(error, AUR_ERROR_MEMORY, "out of memory");
+    made->width = width;
+    made->height = height;
+    made->channel_count = channel_count;
+    made->data = calloc(width * height * channel_count, sizeof *made->data);
+    made->channel_names = calloc(channel_count, sizeof *made->channel_names);
+    if (made->data == NULL || made->channel_names == NULL) {
+        aur_image_destroy(made);
+        return aur_fail(error, AUR_ERROR_MEMORY, "out of memory for %zu x %zu pixels with %zu channels",
+                        width, height, channel_count);
+    }
+    for (size_t c = 0; c < channel_count; ++c)
+        strcpy(made->channel_names[c], default_name(channel_count, c));
+    *image = made;
+    return AUR_OK;
+}
+
+void aur_image_destroy(aur_image *image) {
+    if (image == NULL)
+        return;
+    free(image->data);
+    free(image->channel_names);
+    free(image);
+}
+
+aur_result aur_image_check_size(const aur_image_source *source, size_t width, size_t height,
+                                size_t channel_count, aur_error *error) {
+    if (size_is_allowed(width, height, channel_count))
+        return AUR_OK;
+    return aur_fail_at(error, (aur_location){.file = source->name}, AUR_ERROR_FORMAT,
+                       "claims %zu x %zu pixels with %zu channels: there must be 1 to 2^30 values", width,
+                       height, channel_count);
+}
+
+size_t aur_image_find_channel(const aur_image *image, const char *name) {
+    for (size_t c = 0; c < image->channel_count; ++c)
+        if (strcmp(image->channel_names[c], name) == 0)
+            return c;
+    return SIZE_MAX;
+}
+
+int aur_image_color_channels(const aur_image *image, size_t channels[3]) {
+    static const char *const names[] = {"R", "G", "B"};
+    size_t found = 0;
+    for (size_t i = 0; i < 3; ++i) {
+        channels[i] = aur_image_find_channel(image, names[i]);
+        found += channels[i] != SIZE_MAX;
+    }
+    if (found == 3)
+        return 1;
+    const size_t grey = image->channel_count == 1 ? 0 : aur_image_find_channel(image, "Y");
+    if (grey != SIZE_MAX) {
+        channels[0] = channels[1] = channels[2] = grey;
+        return 1;
+    }
+    for (size_t i = 0; i < 3; ++i)
+        channels[i] = i;
+    return image->channel_count == 3;
+}
+
+/* "R, G, depth": as much as fits. */
+static void list_channels(const aur_image *image, size_t capacity, char *text) {
+    text[0] = '\0';
+    for (size_t c = 0; c < image->channel_count; ++c) {
+        const size_t used = strlen(text);
+        snprintf(text + used, capacity - used, "%s%s", c > 0 ? ", " : "", image->channel_names[c]);
+    }
+}
+
+aur_result aur_image_require_color(const char *name, const aur_image *image, size_t channels[3],
+                                   aur_error *error) {
+    if (aur_image_color_channels(image, channels))
+        return AUR_OK;
+    char list[512];
+    list_channels(image, sizeof list, list);
+    return aur_fail_at(error, (aur_location){.file = name}, AUR_ERROR_ARGUMENT,
+                       "has no channels R, G, B and not exactly one or three others to choose: it has %s",
+                       list);
+}
+
+aur_result aur_image_select(const aur_image *image, size_t count, const char *const *names,
+                            aur_image **selected, aur_error *error) {
+    *selected = NULL;
+    aur_image *made;
+    aur_result result = aur_image_create(image->width, image->height, count, &made, error);
+    if (result != AUR_OK)
+        return result;
+    const size_t pixels = image->width * image->height;
+    for (size_t i = 0; i < count; ++i) {
+        const size_t c = aur_image_find_channel(image, names[i]);
+        if (c == SIZE_MAX) {
+            char list[512];
+            list_channels(image, sizeof list, list);
+            result = aur_fail(error, AUR_ERROR_NAME, "there is no channel '%s', only %s", names[i], list);
+            aur_image_destroy(made);
+            return result;
+        }
+        memcpy(made->channel_names[i], image->channel_names[c], AUR_CHANNEL_NAME_CAPACITY);
+        for (size_t p = 0; p < pixels; ++p)
+            made->data[p * count + i] = image->data[p * image->channel_count + c];
+    }
+    *selected = made;
+    return AUR_OK;
+}
+
+static float block_mean(const aur_image *image, size_t block, size_t left, size_t top, size_t channel) {
+    const size_t right = image->width - left > block ? left + block : image->width;
+    const size_t bottom = image->height - top > block ? top + block : image->height;
+    double sum = 0.0;
+    for (size_t y = top; y < bottom; ++y)
+        for (size_t x = left; x < right; ++x)
+            sum += image->data[(y * image->width + x) * image->channel_count + channel];
+    return (float)(sum / (double)((right - left) * (bottom - top)));
+}
+
+aur_result aur_image_downsample(const aur_image *image, size_t block, aur_image **smaller, aur_error *error) {
+    *smaller = NULL;
+    if (block == 0)
+        return aur_fail(error, AUR_ERROR_ARGUMENT, "downsampling: blocks must have at least one pixel");
+    const size_t width = (image->width - 1) / block + 1;
+    const size_t height = (image->height - 1) / block + 1;
+    const aur_result result = aur_image_create(width, height, image->channel_count, smaller, error);
+    if (result != AUR_OK)
+        return result;
+    memcpy((*smaller)->channel_names, image->channel_names,
+           image->channel_count * sizeof *image->channel_names);
+    float *out = (*smaller)->data;
+    for (size_t y = 0; y < height; ++y)
+        for (size_t x = 0; x < width; ++x)
+            for (size_t c = 0; c < image->channel_count; ++c)
+                *out++ = block_mean(image, block, x * block, y * block, c);
+    return AUR_OK;
+}

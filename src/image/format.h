@@ -1,0 +1,59 @@
+/* The table of file formats, and what its entries share. */
+#ifndef AUR_IMAGE_FORMAT_H
+#define AUR_IMAGE_FORMAT_H
+
+#include <aureole/image.h>
+#include <stdbool.h>
+#include <stdio.h>
+
+#include "core/error.h"
+
+/* Values (pixels times channels) that a picture may have: 4 GiB of floats. A file that claims more lies. */
+#define AUR_IMAGE_VALUES_MAX ((size_t)1 << 30)
+
+/* A file in memory. */
+typedef struct aur_image_source {
+    const char *name; /* for messages */
+    size_t size;
+    const unsigned char *data;
+} aur_image_source;
+
+typedef struct aur_image_target {
+    const char *name;
+    FILE *stream;
+    aur_image_write_options options;
+} aur_image_target;
+
+typedef struct aur_image_format {
+    const char *name;
+    const char *extension; /* without the dot, lower case */
+    bool (*recognize)(const aur_image_source *source);
+    aur_result (*read)(const aur_image_source *source, aur_image **image, aur_error *error);
+    /* Errors of the stream are left to whoever commits the file. NULL: read only. */
+    aur_result (*write)(const aur_image_target *target, const aur_image *image, aur_error *error);
+} aur_image_format;
+
+extern const aur_image_format aur_image_format_exr;
+extern const aur_image_format aur_image_format_pfm;
+extern const aur_image_format aur_image_format_hdr;
+extern const aur_image_format aur_image_format_png;
+extern const aur_image_format aur_image_format_jpeg;
+
+aur_result aur_image_write_exr(const aur_image_target *target, const aur_image *image, aur_error *error);
+
+/* FORMAT with the source's name when a file claims a size that no picture may have. */
+aur_result aur_image_check_size(const aur_image_source *source, size_t width, size_t height,
+                                size_t channel_count, aur_error *error);
+
+/* Does the source begin with these bytes? */
+bool aur_image_begins(const aur_image_source *source, const char *bytes, size_t count);
+
+/* For stb's writers: the context is a stream, whose errors are left to whoever commits the file. */
+void aur_image_put_bytes(void *stream, void *bytes, int count);
+aur_result aur_image_fail_encode(const aur_image_target *target, aur_error *error);
+
+/* Red, green and blue, or an ARGUMENT error that names the channels that there are. `name` may be NULL. */
+aur_result aur_image_require_color(const char *name, const aur_image *image, size_t channels[3],
+                                   aur_error *error);
+
+#endif

@@ -1,0 +1,112 @@
+/* Portable float maps: "PF" (colour) or "Pf" (grey), width, height, a scale whose sign is the byte order,
+ * then rows from the bottom (Debevec 2001). */
+#include <ctype.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "image/format.h"
+
+static bool recognize(const aur_image_source *source) {
+    return source->size >= 3 && source->data[0] == 'P' &&
+           (source->data[1] == 'F' || source->data[1] == 'f') && isspace(source->data[2]);
+}
+
+typedef struct pfm_cursor {
+    const aur_image_source *source;
+    size_t at;
+} pfm_cursor;
+
+/* The next word of the header, and past the one white space that ends it. */
+static bool next_word(pfm_cursor *cursor, char word[32]) {
+    const aur_image_source *const source = cursor->source;
+    while (cursor->at < source->size && isspace(source->data[cursor->at]))
+        ++cursor->at;
+    size_t length = 0;
+    while (cursor->at < source->size && !isspace(source->data[cursor->at])) {
+        if (length == 31)
+            return false;
+        word[length++] = (char)source->data[cursor->at++];
+    }
+    word[length] = '\0';
+    ++cursor->at;
+    return length > 0 && cursor->at <= source->size;
+}
+
+static bool next_size(pfm_cursor *cursor, size_t *value) {
+    char word[32];
+    if (!next_word(cursor, word) || strspn(word, "0123456789") != strlen(word) || strlen(word) > 10)
+        return false;
+    *value = (size_t)strtoull(word, NULL, 10);
+    return true;
+}
+
+static bool next_scale(pfm_cursor *cursor, double *value) {
+    char word[32];
+    char *end;
+    if (!next_word(cursor, word))
+        return false;
+    *value = strtod(word, &end);
+    return *end == '\0' && isfinite(*value) && *value != 0.0;
+}
+
+static float float_at(const unsigned char *bytes, bool big_endian) {
+    const uint32_t b0 = bytes[0], b1 = bytes[1], b2 = bytes[2], b3 = bytes[3];
+    const uint32_t bits =
+        big_endian ? b0 << 24 | b1 << 16 | b2 << 8 | b3 : b3 << 24 | b2 << 16 | b1 << 8 | b0;
+    float value;
+    memcpy(&value, &bits, sizeof value);
+    return value;
+}
+
+static aur_result read_pfm(const aur_image_source *source, aur_image **image, aur_error *error) {
+    const aur_location where = {.file = source->name};
+    const size_t channel_count = source->data[1] == 'F' ? 3 : 1;
+    pfm_cursor cursor = {.source = source, .at = 2};
+    size_t width, height;
+    double scale;
+    if (!next_size(&cursor, &width) || !next_size(&cursor, &height) || !next_scale(&cursor, &scale))
+        return aur_fail_at(error, where, AUR_ERROR_FORMAT,
+                           "broken PFM header: there must be width, height and a scale that is not zero");
+    aur_result result = aur_image_check_size(source, width, height, channel_count, error);
+    if (result != AUR_OK)
+        return result;
+    const size_t row_values = width * channel_count;
+    if (source->size - cursor.at < row_values * height * sizeof(float))
+        return aur_fail_at(error, where, AUR_ERROR_FORMAT,
+                           "is cut short: %zu x %zu pixels need %zu bytes, there are %zu", width, height,
+                           row_values * height * sizeof(float), source->size - cursor.at);
+    result = aur_image_create(width, height, channel_count, image, error);
+    if (result != AUR_OK)
+        return result;
+    const unsigned char *bytes = source->data + cursor.at;
+    for (size_t y = height; y-- > 0;)
+        for (size_t i = 0; i < row_values; ++i, bytes += sizeof(float))
+            (*image)->data[y * row_values + i] = float_at(bytes, scale > 0.0);
+    return AUR_OK;
+}
+
+static void put_float(float value, FILE *stream) {
+    uint32_t bits;
+    memcpy(&bits, &value, sizeof bits);
+    const unsigned char bytes[4] = {(unsigned char)bits, (unsigned char)(bits >> 8),
+                                    (unsigned char)(bits >> 16), (unsigned char)(bits >> 24)};
+    fwrite(bytes, 1, sizeof bytes, stream);
+}
+
+static aur_result write_pfm(const aur_image_target *target, const aur_image *image, aur_error *error) {
+    size_t channels[3];
+    const aur_result result = aur_image_require_color(target->name, image, channels, error);
+    if (result != AUR_OK)
+        return result;
+    const size_t count = channels[0] == channels[1] ? 1 : 3;
+    fprintf(target->stream, "%s\n%zu %zu\n-1.0\n", count == 3 ? "PF" : "Pf", image->width, image->height);
+    for (size_t y = image->height; y-- > 0;)
+        for (size_t x = 0; x < image->width; ++x)
+            for (size_t c = 0; c < count; ++c)
+                put_float(image->data[(y * image->width + x) * image->channel_count + channels[c]],
+                          target->stream);
+    return AUR_OK;
+}
+
+const aur_image_format aur_image_format_pfm = {"PFM", "pfm", recognize, read_pfm, write_pfm};

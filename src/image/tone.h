@@ -1,0 +1,15 @@
+/* Between radiance and what a screen is sent. */
+#ifndef AUR_IMAGE_TONE_H
+#define AUR_IMAGE_TONE_H
+
+#include <aureole/image.h>
+
+/* The sRGB transfer function (IEC 61966-2-1) and its inverse; arguments and values in [0,1], arguments beyond
+ * it are clamped, NaN is 0. */
+double aur_srgb_encode(double linear);
+double aur_srgb_decode(double encoded);
+
+/* Radiance to [0,1] in linear light by a curve. */
+double aur_tone_apply(aur_tone tone, double radiance);
+
+#endif

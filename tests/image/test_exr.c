@@ -1,0 +1,331 @@
+/* EXR: what is written is read back; what OpenEXR writes in all its ways is read. */
+#include <openexr.h>
+
+#include "picture.h"
+
+static void test_float_round_trip_is_exact(void **state) {
+    (void)state;
+    /* Around the 16 lines of a ZIP chunk. The first chunk of 64 x 33 x 7 has the same length before and after
+     * compression, which OpenEXR alone gets wrong up to 3.4. */
+    static const size_t sizes[][3] = {{1, 1, 1}, {3, 15, 3}, {17, 16, 4}, {64, 33, 7}, {5, 100, 2}};
+    for (size_t i = 0; i < sizeof sizes / sizeof sizes[0]; ++i) {
+        aur_image *const image = random_picture(sizes[i][0], sizes[i][1], sizes[i][2]);
+        /* Already in the order in which a file is read: colour first, then layers by name. */
+        static const char *const names[] = {"R", "G", "B", "A", "depth", "albedo.R", "albedo.G"};
+        for (size_t c = 0; c < image->channel_count && sizes[i][2] > 2; ++c)
+            strcpy(image->channel_names[c], names[c]);
+        image->data[0] = -1e-40f; /* a denormal */
+        const char *const path = scratch(0, "float.exr");
+        write_picture(path, image, NULL);
+        aur_image *const back = read_picture(path);
+        assert_same_picture(image, back);
+        aur_image_destroy(back);
+        aur_image_destroy(image);
+        remove(path);
+    }
+}
+
+static void test_infinity_and_nan_survive(void **state) {
+    (void)state;
+    aur_image *const image = random_picture(3, 1, 1);
+    image->data[0] = INFINITY;
+    image->data[1] = -INFINITY;
+    image->data[2] = NAN;
+    for (int half = 0; half < 2; ++half) {
+        const char *const path = scratch(0, "special.exr");
+        write_picture(path, image, &(aur_image_write_options){.half = half});
+        aur_image *const back = read_picture(path);
+        assert_true(back->data[0] == INFINITY);
+        assert_true(back->data[1] == -INFINITY);
+        assert_true(isnan(back->data[2]));
+        aur_image_destroy(back);
+        remove(path);
+    }
+    aur_image_destroy(image);
+}
+
+/* A half has 11 significant bits: rounding to nearest is within 2^-12 of the value for normal numbers. */
+static void test_half_is_within_its_precision(void **state) {
+    (void)state;
+    aur_image *const image = random_picture(101, 37, 3);
+    image->data[0] = 1e6f;   /* beyond the largest half */
+    image->data[1] = -1e38f; /* and below the least */
+    image->data[2] = 0.0f;
+    const char *const path = scratch(0, "half.exr");
+    write_picture(path, image, &(aur_image_write_options){.half = 1});
+    aur_image *const back = read_picture(path);
+    assert_true(back->data[0] == 65504.0f);
+    assert_true(back->data[1] == -65504.0f);
+    assert_true(back->data[2] == 0.0f);
+    for (size_t i = 3; i < 101 * 37 * 3; ++i) {
+        const double bound = fmax(fabs((double)image->data[i]) * 0x1p-11, 0x1p-25);
+        assert_near((double)back->data[i], (double)image->data[i], bound);
+    }
+    aur_image_destroy(back);
+    aur_image_destroy(image);
+    remove(path);
+}
+
+static void test_same_image_same_bytes(void **state) {
+    (void)state;
+    aur_image *const image = random_picture(70, 40, 3);
+    for (int half = 0; half < 2; ++half) {
+        const aur_image_write_options options = {.half = half};
+        size_t size_a, size_b;
+        write_picture(scratch(0, "a.exr"), image, &options);
+        write_picture(scratch(1, "another-name.exr"), image, &options);
+        unsigned char *const a = read_bytes(scratch(0, "a.exr"), &size_a);
+        unsigned char *const b = read_bytes(scratch(1, "another-name.exr"), &size_b);
+        assert_int_equal(size_a, size_b);
+        assert_memory_equal(a, b, size_a);
+        free(a);
+        free(b);
+    }
+    remove(scratch(0, "a.exr"));
+    remove(scratch(1, "another-name.exr"));
+    aur_image_destroy(image);
+}
+
+static void test_names_are_checked(void **state) {
+    (void)state;
+    aur_error error;
+    aur_image *const image = random_picture(2, 2, 5);
+    assert_int_equal(aur_image_write(scratch(0, "x.exr"), image, NULL, &error), AUR_ERROR_ARGUMENT);
+    for (size_t c = 0; c < 5; ++c)
+        strcpy(image->channel_names[c], "same");
+    assert_int_equal(aur_image_write(scratch(0, "x.exr"), image, NULL, &error), AUR_ERROR_ARGUMENT);
+    assert_non_null(strstr(error.message, "same"));
+    assert_int_equal(access(scratch(0, "x.exr"), F_OK), -1);
+    aur_image_destroy(image);
+}
+
+/* A file as other programs write them, by OpenEXR itself. */
+typedef struct foreign_file {
+    exr_storage_t storage;
+    exr_compression_t compression;
+    size_t width, height;
+    int left, top; /* of the data window */
+    int tile;
+    int subsampling;
+} foreign_file;
+
+/* Channels in the order in which OpenEXR keeps them: half, half, float, uint. */
+static const char *const foreign_names[] = {"B", "id.number", "R", "depth.Z"};
+static const exr_pixel_type_t foreign_types[] = {EXR_PIXEL_HALF, EXR_PIXEL_UINT, EXR_PIXEL_HALF,
+                                                 EXR_PIXEL_FLOAT};
+
+/* Exact in every type: multiples of 1/8 below 256, whole for uint. Smooth, so that lossy codecs stay close.
+ */
+static float foreign_value(size_t channel, size_t x, size_t y) {
+    const float value = (float)((3 * x + 2 * y + 16 * channel) % 1024) / 8.0f;
+    return foreign_types[channel] == EXR_PIXEL_UINT ? floorf(value) : value;
+}
+
+static void must(exr_result_t code) {
+    if (code != EXR_ERR_SUCCESS)
+        print_error("OpenEXR: %s\n", exr_get_default_error_message(code));
+    assert_int_equal(code, EXR_ERR_SUCCESS);
+}
+
+static void encode_chunk(exr_context_t context, const exr_chunk_info_t *chunk, size_t left, size_t top) {
+    exr_encode_pipeline_t pipeline = EXR_ENCODE_PIPELINE_INITIALIZER;
+    const size_t width = (size_t)chunk->width, height = (size_t)chunk->height;
+    must(exr_encoding_initialize(context, 0, chunk, &pipeline));
+    uint32_t *const planes = malloc(4 * width * height * sizeof *planes);
+    assert_non_null(planes);
+    for (int i = 0; i < pipeline.channel_count; ++i) {
+        exr_coding_channel_info_t *const channel = &pipeline.channels[i];
+        size_t c = 0;
+        while (strcmp(foreign_names[c], channel->channel_name) != 0)
+            ++c;
+        uint32_t *const plane = planes + c * width * height;
+        const int is_uint = foreign_types[c] == EXR_PIXEL_UINT;
+        for (size_t y = 0; y < height; ++y) {
+            for (size_t x = 0; x < width; ++x) {
+                const float value = foreign_value(c, left + x, top + y);
+                const uint32_t whole = (uint32_t)value;
+                memcpy(&plane[y * width + x], is_uint ? (const void *)&whole : (const void *)&value, 4);
+            }
+        }
+        channel->encode_from_ptr = (const uint8_t *)plane;
+        channel->user_bytes_per_element = 4;
+        channel->user_data_type = is_uint ? EXR_PIXEL_UINT : EXR_PIXEL_FLOAT;
+        channel->user_pixel_stride = 4;
+        channel->user_line_stride = (int32_t)(4 * width);
+    }
+    must(exr_encoding_choose_default_routines(context, 0, &pipeline));
+    must(exr_encoding_run(context, 0, &pipeline));
+    exr_encoding_destroy(context, &pipeline);
+    free(planes);
+}
+
+static void write_foreign(const char *path, const foreign_file *file) {
+    exr_context_initializer_t setup = EXR_DEFAULT_CONTEXT_INITIALIZER;
+    exr_context_t context;
+    int part;
+    must(exr_start_write(&context, path, EXR_WRITE_FILE_DIRECTLY, &setup));
+    must(exr_add_part(context, NULL, file->storage, &part));
+    exr_attr_box2i_t window;
+    window.min.x = file->left;
+    window.min.y = file->top;
+    window.max.x = file->left + (int)file->width - 1;
+    window.max.y = file->top + (int)file->height - 1;
+    const exr_attr_v2f_t center = {.x = 0.0f, .y = 0.0f};
+    must(exr_initialize_required_attr(context, part, &window, &window, 1.0f, &center, 1.0f,
+                                      EXR_LINEORDER_INCREASING_Y, file->compression));
+    if (file->storage == EXR_STORAGE_TILED)
+        must(exr_set_tile_descriptor(context, part, (uint32_t)file->tile, (uint32_t)file->tile,
+                                     EXR_TILE_ONE_LEVEL, EXR_TILE_ROUND_DOWN));
+    for (size_t c = 0; c < 4; ++c)
+        must(exr_add_channel(context, part, foreign_names[c], foreign_types[c], EXR_PERCEPTUALLY_LOGARITHMIC,
+                             file->subsampling, file->subsampling));
+    must(exr_write_header(context));
+    exr_chunk_info_t chunk;
+    if (file->storage == EXR_STORAGE_TILED) {
+        for (size_t y = 0; y < file->height; y += (size_t)file->tile) {
+            for (size_t x = 0; x < file->width; x += (size_t)file->tile) {
+                must(exr_write_tile_chunk_info(context, 0, (int)x / file->tile, (int)y / file->tile, 0, 0,
+                                               &chunk));
+                encode_chunk(context, &chunk, x, y);
+            }
+        }
+    } else {
+        int32_t lines;
+        must(exr_get_scanlines_per_chunk(context, 0, &lines));
+        for (size_t y = 0; y < file->height; y += (size_t)lines) {
+            must(exr_write_scanline_chunk_info(context, 0, file->top + (int)y, &chunk));
+            encode_chunk(context, &chunk, 0, y);
+        }
+    }
+    must(exr_finish(&context));
+}
+
+/* The largest error of the half channels relative to the largest value; the other types must be exact. */
+static double foreign_error(const aur_image *image) {
+    static const char *const order[] = {"R", "B", "depth.Z", "id.number"};
+    static const size_t source[] = {2, 0, 3, 1};
+    double worst = 0.0;
+    assert_int_equal(image->channel_count, 4);
+    for (size_t c = 0; c < 4; ++c) {
+        assert_string_equal(image->channel_names[c], order[c]);
+        for (size_t i = 0; i < image->width * image->height; ++i) {
+            const double expected = foreign_value(source[c], i % image->width, i / image->width);
+            const double error = fabs((double)image->data[i * 4 + c] - expected);
+            if (foreign_types[source[c]] == EXR_PIXEL_HALF)
+                worst = fmax(worst, error / 128.0);
+            else
+                assert_true(error == 0.0);
+        }
+    }
+    return worst;
+}
+
+static void test_every_storage_and_compression(void **state) {
+    (void)state;
+    static const exr_compression_t compressions[] = {
+        EXR_COMPRESSION_NONE, EXR_COMPRESSION_RLE,   EXR_COMPRESSION_ZIPS, EXR_COMPRESSION_ZIP,
+        EXR_COMPRESSION_PIZ,  EXR_COMPRESSION_PXR24, EXR_COMPRESSION_B44,  EXR_COMPRESSION_B44A};
+    const size_t lossless = 6;
+    for (size_t i = 0; i < sizeof compressions / sizeof compressions[0]; ++i) {
+        for (int tiled = 0; tiled < 2; ++tiled) {
+            const foreign_file file = {.storage = tiled ? EXR_STORAGE_TILED : EXR_STORAGE_SCANLINE,
+                                       .compression = compressions[i],
+                                       .width = 61,
+                                       .height = 47,
+                                       .left = tiled ? 0 : -5,
+                                       .top = tiled ? 0 : 9,
+                                       .tile = 16,
+                                       .subsampling = 1};
+            const char *const path = scratch(0, "foreign.exr");
+            write_foreign(path, &file);
+            aur_image *const image = read_picture(path);
+            assert_int_equal(image->width, 61);
+            assert_int_equal(image->height, 47);
+            assert_true(foreign_error(image) <= (i < lossless ? 0.0 : 0.05));
+            aur_image_destroy(image);
+            remove(path);
+        }
+    }
+}
+
+static void test_what_cannot_be_read_says_so(void **state) {
+    (void)state;
+    const foreign_file file = {.storage = EXR_STORAGE_SCANLINE,
+                               .compression = EXR_COMPRESSION_ZIP,
+                               .width = 32,
+                               .height = 32,
+                               .subsampling = 2};
+    aur_image *image;
+    aur_error error;
+    write_foreign(scratch(0, "sub.exr"), &file);
+    assert_int_equal(aur_image_read(scratch(0, "sub.exr"), &image, &error), AUR_ERROR_UNSUPPORTED);
+    assert_non_null(strstr(error.message, "subsampled"));
+    assert_null(image);
+    remove(scratch(0, "sub.exr"));
+}
+
+static void test_every_truncation_is_an_error(void **state) {
+    (void)state;
+    aur_image *const image = random_picture(20, 40, 3);
+    const char *const path = scratch(0, "cut.exr");
+    write_picture(path, image, NULL);
+    size_t size;
+    unsigned char *const bytes = read_bytes(path, &size);
+    remove(path);
+    for (size_t length = 0; length < size; length += length < 700 ? 1 : 37) {
+        unsigned char *const exact = malloc(length > 0 ? length : 1); /* so that reading past it is seen */
+        memcpy(exact, bytes, length);
+        aur_image *read;
+        aur_error error;
+        assert_int_not_equal(aur_image_read_memory("cut.exr", length, exact, &read, &error), AUR_OK);
+        assert_string_equal(error.file, "cut.exr");
+        assert_null(read);
+        free(exact);
+    }
+    free(bytes);
+    aur_image_destroy(image);
+}
+
+static void test_shared_pictures(void **state) {
+    (void)state;
+    static const struct {
+        const char *path;
+        size_t width, height;
+    } pictures[] = {{AUR_SOURCE_DIR "/../shared/scenes/cornell-box/TungstenRender.exr", 1024, 1024},
+                    {AUR_SOURCE_DIR "/../shared/scenes/veach-mis/TungstenRender.exr", 1280, 720}};
+    for (size_t i = 0; i < 2; ++i) {
+        if (access(pictures[i].path, R_OK) != 0) {
+            print_message("skipped: %s is not there\n", pictures[i].path);
+            continue;
+        }
+        aur_image *const image = read_picture(pictures[i].path);
+        assert_int_equal(image->width, pictures[i].width);
+        assert_int_equal(image->height, pictures[i].height);
+        assert_int_equal(image->channel_count, 3);
+        assert_string_equal(image->channel_names[0], "R");
+        double mean[4];
+        aur_error error;
+        assert_success(aur_image_mean(image, mean, &error), &error);
+        if (i == 0) { /* published figures for this picture, to their digits */
+            assert_near(mean[0], 0.1962, 1e-4);
+            assert_near(mean[1], 0.1275, 1e-4);
+            assert_near(mean[2], 0.0361, 1e-4);
+        }
+        aur_image_destroy(image);
+    }
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_float_round_trip_is_exact),
+        cmocka_unit_test(test_infinity_and_nan_survive),
+        cmocka_unit_test(test_half_is_within_its_precision),
+        cmocka_unit_test(test_same_image_same_bytes),
+        cmocka_unit_test(test_names_are_checked),
+        cmocka_unit_test(test_every_storage_and_compression),
+        cmocka_unit_test(test_what_cannot_be_read_says_so),
+        cmocka_unit_test(test_every_truncation_is_an_error),
+        cmocka_unit_test(test_shared_pictures),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
