@@ -6,7 +6,7 @@ packages=(
   # tools
   ca-certificates clang-format cmake g++ gcc git ninja-build pkg-config
   # ray tracing, pictures, scene files, linear algebra
-  libembree-dev libopenexr-dev libstb-dev libexpat1-dev liblapacke-dev libopenblas-dev
+  libembree-dev libopenexr-dev libstb-dev libexpat1-dev zlib1g-dev liblapacke-dev libopenblas-dev
   # spectra and Voronoi figures, plots, unit tests
   libfftw3-dev libqhull-dev gnuplot-nox libcmocka-dev
 )

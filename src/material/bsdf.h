@@ -68,6 +68,7 @@ struct aur_bsdf {
     void *data;
     bool scatters_from_behind; /* twosided or transmissive: view.z < 0 is not black */
     bool transmits;            /* light may leave on the other side */
+    bool anisotropic;          /* the frame's x axis matters: it is the direction of growing texture u */
 };
 
 /* The table; NULL beyond it. */

@@ -27,6 +27,93 @@ static bool attach_mesh(aur_scene *scene, const aur_shape *shape, uint32_t id) {
     return true;
 }
 
+/* --- shapes that are no meshes: Embree asks us */
+
+static void curved_bounds(const struct RTCBoundsFunctionArguments *arguments) {
+    const aur_shape *const shape = arguments->geometryUserPtr;
+    double lower[3], upper[3];
+    shape->curved->bounds(shape, lower, upper);
+    struct RTCBounds *const bounds = arguments->bounds_o;
+    /* A hair wider than the rounding to float. */
+    float low[3], high[3];
+    for (size_t i = 0; i < 3; ++i) {
+        const double slack = 1e-6 * fmax(fabs(lower[i]), fabs(upper[i]));
+        low[i] = (float)(lower[i] - slack);
+        high[i] = (float)(upper[i] + slack);
+    }
+    bounds->lower_x = low[0];
+    bounds->lower_y = low[1];
+    bounds->lower_z = low[2];
+    bounds->upper_x = high[0];
+    bounds->upper_y = high[1];
+    bounds->upper_z = high[2];
+}
+
+/* Packets of N rays are arrays of N, one a field; Embree's accessors for them are C++ only. */
+enum { RAY_ORIGIN = 0, RAY_NEAREST = 3, RAY_DIRECTION = 4, RAY_FARTHEST = 8, RAY_FIELDS = 12 };
+enum { HIT_U = 3, HIT_V = 4, HIT_PRIMITIVE = 5, HIT_GEOMETRY = 6, HIT_INSTANCE = 7 };
+
+static bool curved_hit(const aur_shape *shape, const float *rays, size_t n, size_t i, float *distance) {
+    double origin[3], direction[3];
+    for (size_t k = 0; k < 3; ++k) {
+        origin[k] = rays[(RAY_ORIGIN + k) * n + i];
+        direction[k] = rays[(RAY_DIRECTION + k) * n + i];
+    }
+    double t;
+    if (!shape->curved->intersect(shape, origin, direction, rays[RAY_NEAREST * n + i],
+                                  rays[RAY_FARTHEST * n + i], &t))
+        return false;
+    *distance = (float)t;
+    return true;
+}
+
+static void curved_intersect(const struct RTCIntersectFunctionNArguments *arguments) {
+    const size_t n = arguments->N;
+    float *const rays = (float *)arguments->rayhit;
+    float *const hits = rays + RAY_FIELDS * n;
+    uint32_t *const ids = (uint32_t *)hits;
+    for (size_t i = 0; i < n; ++i) {
+        float distance;
+        if (arguments->valid[i] == 0 || !curved_hit(arguments->geometryUserPtr, rays, n, i, &distance))
+            continue;
+        rays[RAY_FARTHEST * n + i] = distance;
+        hits[HIT_U * n + i] = 0.0f;
+        hits[HIT_V * n + i] = 0.0f;
+        ids[HIT_PRIMITIVE * n + i] = arguments->primID;
+        ids[HIT_GEOMETRY * n + i] = arguments->geomID;
+        ids[HIT_INSTANCE * n + i] = arguments->context->instID[0];
+    }
+}
+
+static void curved_occluded(const struct RTCOccludedFunctionNArguments *arguments) {
+    const size_t n = arguments->N;
+    float *const rays = (float *)arguments->ray;
+    float distance;
+    for (size_t i = 0; i < n; ++i)
+        if (arguments->valid[i] != 0 && curved_hit(arguments->geometryUserPtr, rays, n, i, &distance))
+            rays[RAY_FARTHEST * n + i] = -INFINITY;
+}
+
+static bool attach_curved(aur_scene *scene, aur_shape *shape, uint32_t id) {
+    const RTCGeometry geometry = rtcNewGeometry(scene->device, RTC_GEOMETRY_TYPE_USER);
+    if (geometry == NULL)
+        return false;
+    rtcSetGeometryUserPrimitiveCount(geometry, 1);
+    rtcSetGeometryUserData(geometry, shape);
+    rtcSetGeometryBoundsFunction(geometry, curved_bounds, NULL);
+    rtcSetGeometryIntersectFunction(geometry, curved_intersect);
+    rtcSetGeometryOccludedFunction(geometry, curved_occluded);
+    rtcCommitGeometry(geometry);
+    rtcAttachGeometryByID(scene->accel, geometry, id);
+    rtcReleaseGeometry(geometry);
+    return true;
+}
+
+static bool attach(aur_scene *scene, uint32_t id) {
+    aur_shape *const shape = scene->shapes[id];
+    return shape->curved != NULL ? attach_curved(scene, shape, id) : attach_mesh(scene, shape, id);
+}
+
 aur_result aur_scene_build_accel(aur_scene *scene, aur_error *error) {
     /* One thread builds the same tree each time: with it, which of two hits at one distance wins is settled.
      */
@@ -39,7 +126,7 @@ aur_result aur_scene_build_accel(aur_scene *scene, aur_error *error) {
     /* Robust traversal leaves no gaps between triangles that share an edge: closed rooms stay closed. */
     rtcSetSceneFlags(scene->accel, RTC_SCENE_FLAG_ROBUST);
     for (size_t i = 0; i < scene->shape_count; ++i)
-        if (!attach_mesh(scene, scene->shapes[i], (uint32_t)i))
+        if (!attach(scene, (uint32_t)i))
             return fail(scene, error);
     rtcCommitScene(scene->accel);
     const enum RTCError code = rtcGetDeviceError(scene->device);

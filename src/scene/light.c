@@ -24,13 +24,18 @@ float aur_light_pdf_direct(const aur_scene *scene, aur_vector reference, const a
     if (surface->emitter == AUR_NO_EMITTER)
         return 0.0f;
     const aur_emitter *const emitter = scene->emitters[surface->emitter];
+    const aur_shape *const shape = scene->shapes[surface->shape];
     const aur_vector way = aur_vector_subtract(surface->position, reference);
     const float squared = aur_vector_dot(way, way);
     const float cosine = -aur_vector_dot(way, surface->geometric_normal) / sqrtf(squared);
     if (!(cosine > 0.0f))
         return 0.0f;
-    const float pdf = emitter->probability * squared / (cosine * (float)scene->shapes[surface->shape]->area);
-    return isfinite(pdf) ? pdf : 0.0f;
+    float pdf = shape->curved != NULL && shape->curved->pdf_seen != NULL
+                    ? shape->curved->pdf_seen(shape, reference)
+                    : 0.0f;
+    if (pdf == 0.0f)
+        pdf = squared / (cosine * (float)shape->area);
+    return isfinite(pdf) ? emitter->probability * pdf : 0.0f;
 }
 
 aur_vector aur_surface_emission(const aur_scene *scene, const aur_surface *surface, aur_vector view) {

@@ -6,11 +6,15 @@
 extern const aur_shape_descriptor aur_shape_rectangle;
 extern const aur_shape_descriptor aur_shape_cube;
 extern const aur_shape_descriptor aur_shape_obj;
+extern const aur_shape_descriptor aur_shape_ply;
+extern const aur_shape_descriptor aur_shape_serialized;
+extern const aur_shape_descriptor aur_shape_sphere;
+extern const aur_shape_descriptor aur_shape_disk;
+extern const aur_shape_descriptor aur_shape_cylinder;
 
 static const aur_shape_descriptor *const table[] = {
-    &aur_shape_rectangle,
-    &aur_shape_cube,
-    &aur_shape_obj,
+    &aur_shape_rectangle,  &aur_shape_cube,   &aur_shape_obj,  &aur_shape_ply,
+    &aur_shape_serialized, &aur_shape_sphere, &aur_shape_disk, &aur_shape_cylinder,
 };
 
 enum { TABLE_SIZE = sizeof table / sizeof table[0] };
@@ -78,6 +82,65 @@ aur_result aur_shape_create(aur_parameters *parameters, const aur_xml_document *
     return AUR_OK;
 }
 
+bool aur_first_root(double a, double b, double c, double nearest, double farthest, double *root) {
+    const double discriminant = b * b - a * c;
+    if (!(discriminant >= 0.0) || !(a > 0.0))
+        return false;
+    /* Without the cancellation of b and the square root. */
+    const double q = -(b + copysign(sqrt(discriminant), b));
+    double first = q / a, second = q != 0.0 ? c / q : first;
+    if (first > second) {
+        const double swap = first;
+        first = second;
+        second = swap;
+    }
+    *root = first > nearest ? first : second;
+    return *root > nearest && *root < farthest;
+}
+
+static aur_bsdf_point texture_at(const aur_mesh *mesh, size_t triangle, float b1, float b2) {
+    if (mesh->uvs == NULL)
+        return (aur_bsdf_point){b1, b2};
+    const uint32_t *const index = &mesh->indices[3 * triangle];
+    const float weight[3] = {1.0f - b1 - b2, b1, b2};
+    aur_bsdf_point point = {0.0f, 0.0f};
+    for (size_t i = 0; i < 3; ++i) {
+        point.u += weight[i] * mesh->uvs[2 * (size_t)index[i]];
+        point.v += weight[i] * mesh->uvs[2 * (size_t)index[i] + 1];
+    }
+    return point;
+}
+
+aur_shape_point aur_shape_sample(const aur_shape *shape, const aur_distribution *triangles,
+                                 const float u[3]) {
+    if (shape->curved != NULL)
+        return shape->curved->sample(shape, u[1], u[2]);
+    const aur_mesh *const mesh = &shape->mesh;
+    float choice = u[0];
+    const size_t triangle = triangles != NULL ? aur_distribution_choose(triangles, &choice) : 0;
+    aur_vector corner[3];
+    aur_mesh_corners(mesh, triangle, corner);
+    aur_shape_point point;
+    point.normal = aur_vector_normalize(aur_vector_cross(aur_vector_subtract(corner[1], corner[0]),
+                                                         aur_vector_subtract(corner[2], corner[0])));
+    if (shape->parallelogram) {
+        const aur_vector origin = aur_mesh_position(mesh, 0);
+        const aur_vector x = aur_vector_subtract(aur_mesh_position(mesh, 1), origin);
+        const aur_vector y = aur_vector_subtract(aur_mesh_position(mesh, 3), origin);
+        point.position = aur_vector_add_scaled(aur_vector_add_scaled(origin, u[1], x), u[2], y);
+        point.texture = (aur_bsdf_point){u[1], u[2]};
+        return point;
+    }
+    const float root = sqrtf(u[1]);
+    const float b1 = root * (1.0f - u[2]);
+    const float b2 = root * u[2];
+    point.position = aur_vector_scale(corner[0], 1.0f - b1 - b2);
+    point.position = aur_vector_add_scaled(point.position, b1, corner[1]);
+    point.position = aur_vector_add_scaled(point.position, b2, corner[2]);
+    point.texture = texture_at(mesh, triangle, b1, b2);
+    return point;
+}
+
 void aur_shape_destroy(aur_shape *shape) {
     if (shape == NULL)
         return;
@@ -89,6 +152,27 @@ void aur_shape_place(const aur_shape_input *input, aur_shape *shape) {
     aur_mesh_transform(&shape->mesh, &input->to_world, &input->to_local);
     if (input->flip_normals)
         aur_mesh_flip(&shape->mesh);
+}
+
+aur_result aur_shape_similarity(const aur_shape_input *input, const aur_transform *to_world, double *scale,
+                                aur_error *error) {
+    const double *const m = to_world->m;
+    double product[6]; /* of columns: xx, yy, zz, xy, yz, zx */
+    for (size_t i = 0; i < 3; ++i) {
+        product[i] = m[i] * m[i] + m[4 + i] * m[4 + i] + m[8 + i] * m[8 + i];
+        const size_t j = (i + 1) % 3;
+        product[3 + i] = m[i] * m[j] + m[4 + i] * m[4 + j] + m[8 + i] * m[8 + j];
+    }
+    *scale = sqrt((product[0] + product[1] + product[2]) / 3.0);
+    bool similar = true;
+    for (size_t i = 0; i < 3; ++i)
+        similar = similar && fabs(product[i] - *scale * *scale) <= 1e-4 * *scale * *scale &&
+                  fabs(product[3 + i]) <= 1e-4 * *scale * *scale;
+    if (similar)
+        return AUR_OK;
+    return aur_fail_at(error, input->parameters->location, AUR_ERROR_UNSUPPORTED,
+                       "shape '%s': 'to_world' may turn, move and scale it evenly, but not stretch it",
+                       input->parameters->plugin);
 }
 
 aur_result aur_shape_filename(const aur_shape_input *input, char **path, aur_error *error) {

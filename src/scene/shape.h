@@ -2,22 +2,51 @@
 #ifndef AUR_SCENE_SHAPE_H
 #define AUR_SCENE_SHAPE_H
 
+#include "scene/distribution.h"
 #include "scene/mesh.h"
 #include "scene/scene.h"
 #include "scene/xml.h"
 
 typedef struct aur_shape_descriptor aur_shape_descriptor;
 
-typedef struct aur_shape {
+typedef struct aur_shape aur_shape;
+
+/* A point of a shape, drawn uniformly by area. */
+typedef struct aur_shape_point {
+    aur_vector position, normal;
+    aur_bsdf_point texture;
+} aur_shape_point;
+
+/* What a shape that is no mesh can do; all in world coordinates. Its hits have primitive 0. */
+typedef struct aur_curved {
+    void (*bounds)(const aur_shape *shape, double lower[3], double upper[3]);
+    /* The nearest hit with nearest < distance < farthest; `direction` is of any length. */
+    bool (*intersect)(const aur_shape *shape, const double origin[3], const double direction[3],
+                      double nearest, double farthest, double *distance);
+    /* The point of the surface beside `position`, and its tangent along the first texture coordinate. */
+    void (*surface)(const aur_shape *shape, aur_vector position, aur_shape_point *point, aur_vector *tangent);
+    aur_shape_point (*sample)(const aur_shape *shape, float u, float v);
+    /* Draws among the points that `reference` sees, by *pdf a steradian, and tells that density; both may be
+     * NULL, and false or 0 says: by area, as from inside. */
+    bool (*sample_seen)(const aur_shape *shape, aur_vector reference, float u, float v,
+                        aur_shape_point *point, float *pdf);
+    float (*pdf_seen)(const aur_shape *shape, aur_vector reference);
+} aur_curved;
+
+struct aur_shape {
     const aur_shape_descriptor *descriptor;
     aur_location location;
+    const aur_curved *curved; /* NULL: a mesh */
     aur_mesh mesh;
-    bool
-        parallelogram; /* two triangles that are sampled by one continuous map: corners 0, 1, 2, 3 in order */
+    bool parallelogram; /* two triangles sampled by one continuous map: corners 0, 1, 2, 3 in order */
+    bool flipped;       /* curved shapes: the normal points to the other side */
+    aur_vector center;  /* curved shapes: where they are, */
+    aur_vector axis[3]; /* their local axes and */
+    float radius, length;
     double area;
     const aur_bsdf *bsdf;
     uint32_t emitter; /* or AUR_NO_EMITTER */
-} aur_shape;
+};
 
 /* What every shape is made from. */
 typedef struct aur_shape_input {
@@ -35,6 +64,12 @@ struct aur_shape_descriptor {
     aur_result (*create)(const aur_shape_input *input, aur_shape *shape, aur_error *error);
 };
 
+/* The first root of a t^2 + 2 b t + c with nearest < t < farthest. */
+bool aur_first_root(double a, double b, double c, double nearest, double farthest, double *root);
+
+/* A point of any shape drawn uniformly by area; u[0] chooses a triangle of a mesh by `triangles`. */
+aur_shape_point aur_shape_sample(const aur_shape *shape, const aur_distribution *triangles, const float u[3]);
+
 /* The table; NULL beyond it. */
 const aur_shape_descriptor *aur_shape_descriptor_at(size_t index);
 
@@ -45,6 +80,10 @@ void aur_shape_destroy(aur_shape *shape);
 
 /* For shapes made in local coordinates: moves the mesh into the world and flips it where asked. */
 void aur_shape_place(const aur_shape_input *input, aur_shape *shape);
+
+/* A shape's to_world times `local` must keep angles and ratios: then *scale is its factor. */
+aur_result aur_shape_similarity(const aur_shape_input *input, const aur_transform *to_world, double *scale,
+                                aur_error *error);
 
 /* The path of the file that the parameter `filename` names (malloc'ed). */
 aur_result aur_shape_filename(const aur_shape_input *input, char **path, aur_error *error);

@@ -17,38 +17,77 @@ static aur_vector interpolate(const float *values, const uint32_t *index, const 
     return sum;
 }
 
-void aur_scene_surface(const aur_scene *scene, const aur_ray *ray, const aur_hit *hit, aur_surface *surface) {
-    const aur_shape *const shape = scene->shapes[hit->shape];
-    const aur_mesh *const mesh = &shape->mesh;
+static void mesh_surface(const aur_mesh *mesh, const aur_ray *ray, const aur_hit *hit, aur_surface *surface) {
     const uint32_t *const index = &mesh->indices[3 * (size_t)hit->primitive];
     const float weight[3] = {1.0f - hit->u - hit->v, hit->u, hit->v};
     aur_vector corner[3];
     aur_mesh_corners(mesh, hit->primitive, corner);
+    const aur_vector edge[2] = {aur_vector_subtract(corner[1], corner[0]),
+                                aur_vector_subtract(corner[2], corner[0])};
     surface->position = interpolate(mesh->positions, index, weight);
-    const aur_vector normal = aur_vector_cross(aur_vector_subtract(corner[1], corner[0]),
-                                               aur_vector_subtract(corner[2], corner[0]));
+    const aur_vector normal = aur_vector_cross(edge[0], edge[1]);
     const float length = aur_vector_length(normal);
     /* A triangle too thin for its normal faces the ray. */
     surface->geometric_normal =
         length > 0.0f ? aur_vector_scale(normal, 1.0f / length) : aur_vector_scale(ray->direction, -1.0f);
-    aur_vector shading = surface->geometric_normal;
+    surface->frame.z = surface->geometric_normal;
     if (mesh->normals != NULL) {
         const aur_vector smooth = interpolate(mesh->normals, index, weight);
         const float squared = aur_vector_dot(smooth, smooth);
         if (squared > 1e-12f)
-            shading = aur_vector_scale(smooth, 1.0f / sqrtf(squared));
-        if (aur_vector_dot(shading, surface->geometric_normal) < 0.0f)
-            shading = aur_vector_scale(shading, -1.0f);
+            surface->frame.z = aur_vector_scale(smooth, 1.0f / sqrtf(squared));
     }
-    surface->frame = aur_frame_about(shading);
     surface->texture = (aur_bsdf_point){hit->u, hit->v};
-    if (mesh->uvs != NULL) {
-        surface->texture = (aur_bsdf_point){0.0f, 0.0f};
-        for (size_t i = 0; i < 3; ++i) {
-            surface->texture.u += weight[i] * mesh->uvs[2 * (size_t)index[i]];
-            surface->texture.v += weight[i] * mesh->uvs[2 * (size_t)index[i] + 1];
+    surface->frame.x = edge[0];
+    if (mesh->uvs == NULL)
+        return;
+    const float *const uv[3] = {&mesh->uvs[2 * (size_t)index[0]], &mesh->uvs[2 * (size_t)index[1]],
+                                &mesh->uvs[2 * (size_t)index[2]]};
+    surface->texture.u = weight[0] * uv[0][0] + weight[1] * uv[1][0] + weight[2] * uv[2][0];
+    surface->texture.v = weight[0] * uv[0][1] + weight[1] * uv[1][1] + weight[2] * uv[2][1];
+    /* The direction in which u grows and v stays. */
+    const float v1 = uv[1][1] - uv[0][1], v2 = uv[2][1] - uv[0][1];
+    const float determinant = (uv[1][0] - uv[0][0]) * v2 - (uv[2][0] - uv[0][0]) * v1;
+    if (determinant != 0.0f)
+        surface->frame.x = aur_vector_scale(
+            aur_vector_subtract(aur_vector_scale(edge[0], v2), aur_vector_scale(edge[1], v1)),
+            1.0f / determinant);
+}
+
+static void curved_surface(const aur_shape *shape, const aur_ray *ray, const aur_hit *hit,
+                           aur_surface *surface) {
+    aur_shape_point point;
+    shape->curved->surface(shape, aur_vector_add_scaled(ray->origin, hit->distance, ray->direction), &point,
+                           &surface->frame.x);
+    surface->position = point.position;
+    surface->geometric_normal = surface->frame.z = point.normal;
+    surface->texture = point.texture;
+}
+
+/* frame.z is unit; frame.x is made perpendicular to it where the material asks which way it points. */
+static void finish_frame(const aur_bsdf *bsdf, aur_surface *surface) {
+    if (aur_vector_dot(surface->frame.z, surface->geometric_normal) < 0.0f)
+        surface->frame.z = aur_vector_scale(surface->frame.z, -1.0f);
+    const aur_vector z = surface->frame.z;
+    if (bsdf->anisotropic) {
+        const aur_vector x = aur_vector_add_scaled(surface->frame.x, -aur_vector_dot(surface->frame.x, z), z);
+        const float length = aur_vector_length(x);
+        if (length > 0.0f && isfinite(length)) {
+            surface->frame.x = aur_vector_scale(x, 1.0f / length);
+            surface->frame.y = aur_vector_cross(z, surface->frame.x);
+            return;
         }
     }
+    surface->frame = aur_frame_about(z);
+}
+
+void aur_scene_surface(const aur_scene *scene, const aur_ray *ray, const aur_hit *hit, aur_surface *surface) {
+    const aur_shape *const shape = scene->shapes[hit->shape];
+    if (shape->curved != NULL)
+        curved_surface(shape, ray, hit, surface);
+    else
+        mesh_surface(&shape->mesh, ray, hit, surface);
+    finish_frame(shape->bsdf, surface);
     surface->bsdf = shape->bsdf;
     surface->shape = hit->shape;
     surface->primitive = hit->primitive;

@@ -23,15 +23,10 @@ static float unit(uint64_t a, uint64_t b) {
     return aur_unit_float((uint32_t)(aur_hash2(a, b) >> 32));
 }
 
-/* Irradiance on a sphere about the reference (its integral over all directions of L, fluence) in two ways: by
- * uniform directions that meet lights, and by drawn points on lights. And sampling says the pdf that asking
- * says. */
-static void draws_what_it_says(void **state) {
-    (void)state;
-    aur_scene *const scene = load_lights();
-    assert_int_equal(aur_scene_emitter_count(scene), 2);
-    const aur_vector reference = {0.5f, -0.25f, 1.0f};
-    enum { COUNT = 400000 };
+/* Light that falls on a point from all sides (fluence), in two ways: by uniform directions that meet lights,
+ * and by drawn points on lights. And asking says the pdf that sampling says. */
+static void compare_with_brute_force(const aur_scene *scene, aur_vector reference) {
+    enum { COUNT = 200000 };
     double direct[2] = {0, 0}, brute[2] = {0, 0};
     for (size_t i = 0; i < COUNT; ++i) {
         const float u[3] = {unit(1, i), unit(2, i), unit(3, i)};
@@ -44,34 +39,76 @@ static void draws_what_it_says(void **state) {
                 aur_scene_occluded(scene, &ray) ? 0.0 : (double)(sample.radiance.x / sample.pdf);
             direct[0] += value;
             direct[1] += value * value;
-            if (value > 0.0 && i % 16 == 0) {
+            if (value > 0.0 && i % 16 == 0 && sample.distance < 1e5f &&
+                sample.pdf < 20.0f) { /* not grazing */
                 aur_ray onward = ray;
                 onward.farthest = INFINITY;
                 aur_hit hit;
                 aur_surface surface;
-                assert_true(aur_scene_intersect(scene, &onward, &hit));
+                if (!aur_scene_intersect(scene, &onward, &hit))
+                    continue; /* beside a silhouette, by rounding */
                 aur_scene_surface(scene, &onward, &hit, &surface);
-                assert_relative(aur_light_pdf_direct(scene, reference, &surface), sample.pdf, 2e-3);
-                assert_near(hit.distance, distance, 1e-4 * distance);
+                assert_relative(aur_light_pdf_direct(scene, reference, &surface), sample.pdf, 4e-3);
+                assert_near(hit.distance, distance, 2e-3 * distance);
             }
         }
         const aur_ray ray = {reference, 0.0f, aur_sample_sphere(unit(4, i), unit(5, i)), INFINITY};
         aur_hit hit;
-        if (!aur_scene_intersect(scene, &ray, &hit))
-            continue;
-        aur_surface surface;
-        aur_scene_surface(scene, &ray, &hit, &surface);
-        const aur_vector emitted =
-            aur_surface_emission(scene, &surface, aur_vector_scale(ray.direction, -1.0f));
-        const double value = 4.0 * AUR_PI * (double)emitted.x;
+        double value = 4.0 * AUR_PI;
+        if (aur_scene_intersect(scene, &ray, &hit)) {
+            aur_surface surface;
+            aur_scene_surface(scene, &ray, &hit, &surface);
+            value *= (double)aur_surface_emission(scene, &surface, aur_vector_scale(ray.direction, -1.0f)).x;
+        } else {
+            value *= (double)aur_scene_environment(scene, ray.direction).x;
+        }
         brute[0] += value;
         brute[1] += value * value;
     }
     const double mean = direct[0] / COUNT, other = brute[0] / COUNT;
     const double sigma = sqrt((direct[1] / COUNT - mean * mean + brute[1] / COUNT - other * other) / COUNT);
-    assert_true(mean > 0.5);
-    assert_near(mean, other, 4.5 * sigma); /* fails by chance in 7 of a million runs; the numbers are fixed */
+    assert_true(mean > 0.01);
+    assert_near(mean, other, 4.5 * sigma); /* by chance in 7 of a million; the numbers are fixed */
+}
+
+static void draws_what_it_says(void **state) {
+    (void)state;
+    aur_scene *const scene = load_lights();
+    assert_int_equal(aur_scene_emitter_count(scene), 2);
+    compare_with_brute_force(scene, (aur_vector){0.5f, -0.25f, 1.0f});
     aur_scene_destroy(scene);
+}
+
+/* Each curved shape as a light, seen from outside and, where it shines inwards, from inside. */
+static void draws_on_curved_lights(void **state) {
+    (void)state;
+    static const struct {
+        const char *shape;
+        aur_vector reference;
+    } rows[] = {
+        {"sphere'><point name='center' x='1' y='2' z='3'/><float name='radius' value='0.5'/>", {0, 0, 0}},
+        {"sphere'><point name='center' x='1' y='0' z='0'/><float name='radius' value='0.99'/>", {0, 0, 0}},
+        {"sphere'><float name='radius' value='3'/><boolean name='flip_normals' value='true'/>", {1, 2, 1}},
+        {"disk'><transform name='to_world'><scale x='2' y='0.7'/><rotate x='1' angle='160'/><translate z='2' "
+         "y='.3'/>"
+         "</transform>",
+         {0, 0, 0}},
+        {"cylinder'><point name='p0' x='2' y='1' z='-1'/><point name='p1' x='2' y='2' z='2'/>"
+         "<float name='radius' value='0.4'/>",
+         {0, 0, 0}},
+        {"cylinder'><float name='radius' value='2'/><boolean name='flip_normals' value='true'/>"
+         "<transform name='to_world'><scale value='1.5'/></transform>",
+         {0.5f, 0.2f, 0.7f}},
+    };
+    for (size_t i = 0; i < sizeof rows / sizeof rows[0]; ++i) {
+        char body[1024];
+        snprintf(body, sizeof body,
+                 "<shape type='%s<emitter type='area'><float name='radiance' value='2'/></emitter></shape>",
+                 rows[i].shape);
+        aur_scene *const scene = must_load_body(body);
+        compare_with_brute_force(scene, rows[i].reference);
+        aur_scene_destroy(scene);
+    }
 }
 
 /* Particles carry the lights' power: pi * area * radiance in all, whatever light they leave. */
@@ -172,9 +209,9 @@ static void closed_rooms_stay_closed(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(draws_what_it_says),       cmocka_unit_test(particles_carry_the_power),
-        cmocka_unit_test(emits_on_one_side),        cmocka_unit_test(refuses_lights_without_area),
-        cmocka_unit_test(closed_rooms_stay_closed),
+        cmocka_unit_test(draws_what_it_says),          cmocka_unit_test(draws_on_curved_lights),
+        cmocka_unit_test(particles_carry_the_power),   cmocka_unit_test(emits_on_one_side),
+        cmocka_unit_test(refuses_lights_without_area), cmocka_unit_test(closed_rooms_stay_closed),
     };
     return cmocka_run_group_tests(tests, enter_folder, leave_folder);
 }

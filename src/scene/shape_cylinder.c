@@ -1,0 +1,100 @@
+/* The open cylinder from p0 to p1, facing outwards. */
+#include "material/sampling.h"
+#include "scene/shape.h"
+
+static void bounds(const aur_shape *shape, double lower[3], double upper[3]) {
+    const aur_vector end = aur_vector_add_scaled(shape->center, shape->length, shape->axis[2]);
+    const float from[3] = {shape->center.x, shape->center.y, shape->center.z}, to[3] = {end.x, end.y, end.z};
+    const float along[3] = {shape->axis[2].x, shape->axis[2].y, shape->axis[2].z};
+    for (size_t i = 0; i < 3; ++i) {
+        const float half = shape->radius * sqrtf(fmaxf(0.0f, 1.0f - along[i] * along[i]));
+        lower[i] = (double)(fminf(from[i], to[i]) - half);
+        upper[i] = (double)(fmaxf(from[i], to[i]) + half);
+    }
+}
+
+static double dot(const double a[3], aur_vector b) {
+    return a[0] * (double)b.x + a[1] * (double)b.y + a[2] * (double)b.z;
+}
+
+static bool intersect(const aur_shape *shape, const double origin[3], const double direction[3],
+                      double nearest, double farthest, double *distance) {
+    const double offset[3] = {origin[0] - (double)shape->center.x, origin[1] - (double)shape->center.y,
+                              origin[2] - (double)shape->center.z};
+    const double radius = shape->radius;
+    const double ox = dot(offset, shape->axis[0]), oy = dot(offset, shape->axis[1]),
+                 oz = dot(offset, shape->axis[2]);
+    const double dx = dot(direction, shape->axis[0]), dy = dot(direction, shape->axis[1]),
+                 dz = dot(direction, shape->axis[2]);
+    const double a = dx * dx + dy * dy, b = ox * dx + oy * dy, c = ox * ox + oy * oy - radius * radius;
+    /* The first root may lie beyond an end, the second within. */
+    double from = nearest;
+    for (size_t i = 0; i < 2; ++i) {
+        if (!aur_first_root(a, b, c, from, farthest, distance))
+            return false;
+        const double z = oz + *distance * dz;
+        if (z >= 0.0 && z <= (double)shape->length)
+            return true;
+        from = *distance;
+    }
+    return false;
+}
+
+static aur_shape_point point_at(const aur_shape *shape, float cosine, float sine, float z) {
+    aur_vector normal = aur_vector_scale(shape->axis[0], cosine);
+    normal = aur_vector_add_scaled(normal, sine, shape->axis[1]);
+    aur_vector position = aur_vector_add_scaled(shape->center, shape->radius, normal);
+    position = aur_vector_add_scaled(position, z, shape->axis[2]);
+    const float azimuth = atan2f(sine, cosine) / (2.0f * AUR_PI_F);
+    return (aur_shape_point){position,
+                             aur_vector_scale(normal, shape->flipped ? -1.0f : 1.0f),
+                             {azimuth - floorf(azimuth), z / shape->length}};
+}
+
+static void surface(const aur_shape *shape, aur_vector position, aur_shape_point *point,
+                    aur_vector *tangent) {
+    const aur_vector way = aur_vector_subtract(position, shape->center);
+    const float x = aur_vector_dot(way, shape->axis[0]), y = aur_vector_dot(way, shape->axis[1]);
+    const float size = fmaxf(hypotf(x, y), 1e-30f);
+    *point = point_at(shape, x / size, y / size, aur_vector_dot(way, shape->axis[2]));
+    *tangent = aur_vector_add_scaled(aur_vector_scale(shape->axis[0], -y), x, shape->axis[1]);
+}
+
+static aur_shape_point sample(const aur_shape *shape, float u, float v) {
+    const float angle = 2.0f * AUR_PI_F * u;
+    return point_at(shape, cosf(angle), sinf(angle), v * shape->length);
+}
+
+static const aur_curved curved = {bounds, intersect, surface, sample, NULL, NULL};
+
+static aur_result create(const aur_shape_input *input, aur_shape *shape, aur_error *error) {
+    double from[3] = {0.0, 0.0, 0.0}, to[3] = {0.0, 0.0, 1.0}, radius = 1.0, scale;
+    aur_result result = aur_parameters_triple(input->parameters, "p0", -1e30, 1e30, from, error);
+    if (result == AUR_OK)
+        result = aur_parameters_triple(input->parameters, "p1", -1e30, 1e30, to, error);
+    if (result == AUR_OK)
+        result = aur_parameters_float(input->parameters, "radius", 1e-30, 1e30, &radius, error);
+    if (result == AUR_OK)
+        result = aur_shape_similarity(input, &input->to_world, &scale, error);
+    if (result != AUR_OK)
+        return result;
+    const aur_vector start = {(float)from[0], (float)from[1], (float)from[2]};
+    const aur_vector end = {(float)to[0], (float)to[1], (float)to[2]};
+    shape->center = aur_transform_point_f(&input->to_world, start);
+    const aur_vector way = aur_vector_subtract(aur_transform_point_f(&input->to_world, end), shape->center);
+    shape->length = aur_vector_length(way);
+    if (!(shape->length > 0.0f) || !isfinite(shape->length))
+        return aur_fail_at(error, input->parameters->location, AUR_ERROR_FORMAT,
+                           "shape 'cylinder': 'p0' and 'p1' must differ");
+    const aur_frame frame = aur_frame_about(aur_vector_scale(way, 1.0f / shape->length));
+    shape->axis[0] = frame.x;
+    shape->axis[1] = frame.y;
+    shape->axis[2] = frame.z;
+    shape->radius = (float)(radius * scale);
+    shape->curved = &curved;
+    shape->flipped = input->flip_normals;
+    shape->area = 2.0 * AUR_PI * (double)shape->radius * (double)shape->length;
+    return AUR_OK;
+}
+
+const aur_shape_descriptor aur_shape_cylinder = {"cylinder", "an open cylinder from `p0` to `p1`", create};

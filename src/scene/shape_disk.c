@@ -1,0 +1,88 @@
+/* The unit disk in the plane z = 0, facing +z; an affine map makes it an ellipse. */
+#include "material/sampling.h"
+#include "scene/shape.h"
+
+static aur_vector normal_of(const aur_shape *shape) {
+    return shape->axis[2];
+}
+
+static void bounds(const aur_shape *shape, double lower[3], double upper[3]) {
+    const float center[3] = {shape->center.x, shape->center.y, shape->center.z};
+    const float half[3] = {hypotf(shape->axis[0].x, shape->axis[1].x),
+                           hypotf(shape->axis[0].y, shape->axis[1].y),
+                           hypotf(shape->axis[0].z, shape->axis[1].z)};
+    for (size_t i = 0; i < 3; ++i) {
+        lower[i] = (double)(center[i] - half[i]);
+        upper[i] = (double)(center[i] + half[i]);
+    }
+}
+
+static double dot(const double a[3], aur_vector b) {
+    return a[0] * (double)b.x + a[1] * (double)b.y + a[2] * (double)b.z;
+}
+
+/* Coordinates along the two (perhaps oblique) axes. */
+static void local(const aur_shape *shape, const double way[3], double *x, double *y) {
+    const aur_vector a = shape->axis[0], b = shape->axis[1];
+    const double aa = aur_vector_dot(a, a), ab = aur_vector_dot(a, b), bb = aur_vector_dot(b, b);
+    const double wa = dot(way, a), wb = dot(way, b), determinant = aa * bb - ab * ab;
+    *x = (wa * bb - wb * ab) / determinant;
+    *y = (wb * aa - wa * ab) / determinant;
+}
+
+static bool intersect(const aur_shape *shape, const double origin[3], const double direction[3],
+                      double nearest, double farthest, double *distance) {
+    const double to_center[3] = {(double)shape->center.x - origin[0], (double)shape->center.y - origin[1],
+                                 (double)shape->center.z - origin[2]};
+    const double t = dot(to_center, normal_of(shape)) / dot(direction, normal_of(shape));
+    if (!(t > nearest) || !(t < farthest))
+        return false;
+    const double way[3] = {t * direction[0] - to_center[0], t * direction[1] - to_center[1],
+                           t * direction[2] - to_center[2]};
+    double x, y;
+    local(shape, way, &x, &y);
+    *distance = t;
+    return x * x + y * y <= 1.0;
+}
+
+static aur_shape_point point_at(const aur_shape *shape, float x, float y) {
+    aur_shape_point point;
+    point.position = aur_vector_add_scaled(shape->center, x, shape->axis[0]);
+    point.position = aur_vector_add_scaled(point.position, y, shape->axis[1]);
+    point.normal = aur_vector_scale(normal_of(shape), shape->flipped ? -1.0f : 1.0f);
+    const float azimuth = atan2f(y, x) / (2.0f * AUR_PI_F);
+    point.texture = (aur_bsdf_point){hypotf(x, y), azimuth - floorf(azimuth)};
+    return point;
+}
+
+static void surface(const aur_shape *shape, aur_vector position, aur_shape_point *point,
+                    aur_vector *tangent) {
+    const aur_vector way = aur_vector_subtract(position, shape->center);
+    double x, y;
+    local(shape, (double[3]){way.x, way.y, way.z}, &x, &y);
+    *point = point_at(shape, (float)x, (float)y);
+    *tangent = x == 0.0 && y == 0.0 ? shape->axis[0] : way;
+}
+
+static aur_shape_point sample(const aur_shape *shape, float u, float v) {
+    float x, y;
+    aur_sample_disk(u, v, &x, &y);
+    return point_at(shape, x, y);
+}
+
+static const aur_curved curved = {bounds, intersect, surface, sample, NULL, NULL};
+
+static aur_result create(const aur_shape_input *input, aur_shape *shape, aur_error *error) {
+    (void)error;
+    shape->curved = &curved;
+    shape->flipped = input->flip_normals;
+    shape->center = aur_transform_point_f(&input->to_world, (aur_vector){0.0f, 0.0f, 0.0f});
+    shape->axis[0] = aur_transform_direction_f(&input->to_world, (aur_vector){1.0f, 0.0f, 0.0f});
+    shape->axis[1] = aur_transform_direction_f(&input->to_world, (aur_vector){0.0f, 1.0f, 0.0f});
+    shape->axis[2] =
+        aur_vector_normalize(aur_transform_normal_f(&input->to_local, (aur_vector){0.0f, 0.0f, 1.0f}));
+    shape->area = AUR_PI * (double)aur_vector_length(aur_vector_cross(shape->axis[0], shape->axis[1]));
+    return AUR_OK;
+}
+
+const aur_shape_descriptor aur_shape_disk = {"disk", "the unit disk facing +z", create};

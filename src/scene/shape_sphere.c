@@ -1,0 +1,110 @@
+/* The sphere, facing outwards. */
+#include "material/sampling.h"
+#include "scene/shape.h"
+
+static void bounds(const aur_shape *shape, double lower[3], double upper[3]) {
+    const double center[3] = {shape->center.x, shape->center.y, shape->center.z};
+    for (size_t i = 0; i < 3; ++i) {
+        lower[i] = center[i] - (double)shape->radius;
+        upper[i] = center[i] + (double)shape->radius;
+    }
+}
+
+static bool intersect(const aur_shape *shape, const double origin[3], const double direction[3],
+                      double nearest, double farthest, double *distance) {
+    const double offset[3] = {origin[0] - (double)shape->center.x, origin[1] - (double)shape->center.y,
+                              origin[2] - (double)shape->center.z};
+    const double radius = shape->radius;
+    double a = 0.0, b = 0.0, c = -radius * radius;
+    for (size_t i = 0; i < 3; ++i) {
+        a += direction[i] * direction[i];
+        b += direction[i] * offset[i];
+        c += offset[i] * offset[i];
+    }
+    return aur_first_root(a, b, c, nearest, farthest, distance);
+}
+
+/* Where a unit normal (before flipping) stands. */
+static aur_shape_point point_at(const aur_shape *shape, aur_vector normal) {
+    const float x = aur_vector_dot(normal, shape->axis[0]);
+    const float y = aur_vector_dot(normal, shape->axis[1]);
+    const float z = aur_vector_dot(normal, shape->axis[2]);
+    float azimuth = atan2f(y, x) / (2.0f * AUR_PI_F);
+    azimuth -= floorf(azimuth);
+    return (aur_shape_point){aur_vector_add_scaled(shape->center, shape->radius, normal),
+                             aur_vector_scale(normal, shape->flipped ? -1.0f : 1.0f),
+                             {azimuth, acosf(fminf(fmaxf(z, -1.0f), 1.0f)) / AUR_PI_F}};
+}
+
+static void surface(const aur_shape *shape, aur_vector position, aur_shape_point *point,
+                    aur_vector *tangent) {
+    const aur_vector normal = aur_vector_normalize(aur_vector_subtract(position, shape->center));
+    *point = point_at(shape, normal);
+    *tangent = aur_vector_cross(shape->axis[2], normal);
+}
+
+static aur_shape_point sample(const aur_shape *shape, float u, float v) {
+    return point_at(shape, aur_sample_sphere(u, v));
+}
+
+/* 1 - cos of the half angle under which the sphere is seen; 2 from inside. */
+static float seen_cap(const aur_shape *shape, aur_vector reference) {
+    const aur_vector way = aur_vector_subtract(shape->center, reference);
+    const float ratio = shape->radius * shape->radius / aur_vector_dot(way, way);
+    return ratio < 1.0f ? ratio / (1.0f + sqrtf(1.0f - ratio)) : 2.0f;
+}
+
+static float pdf_seen(const aur_shape *shape, aur_vector reference) {
+    const float cap = seen_cap(shape, reference);
+    return cap < 2.0f ? 1.0f / (2.0f * AUR_PI_F * cap) : 0.0f;
+}
+
+/* Uniform in the cone that the sphere fills. */
+static bool sample_seen(const aur_shape *shape, aur_vector reference, float u, float v,
+                        aur_shape_point *point, float *pdf) {
+    const float cap = seen_cap(shape, reference);
+    if (!(cap < 2.0f))
+        return false;
+    const aur_vector way = aur_vector_subtract(shape->center, reference);
+    const float distance = aur_vector_length(way);
+    const float above = u * cap; /* 1 - cos of the angle to the centre */
+    const float cosine = 1.0f - above;
+    const float sine_squared = above * (2.0f - above);
+    const float inside = shape->radius * shape->radius - distance * distance * sine_squared;
+    const float near_distance = distance * cosine - sqrtf(fmaxf(inside, 0.0f));
+    const float sine = sqrtf(fmaxf(sine_squared, 0.0f));
+    const float angle = 2.0f * AUR_PI_F * v;
+    const aur_frame frame = aur_frame_about(aur_vector_scale(way, 1.0f / distance));
+    const aur_vector direction =
+        aur_frame_to_world(&frame, (aur_vector){sine * cosf(angle), sine * sinf(angle), cosine});
+    const aur_vector position = aur_vector_add_scaled(reference, near_distance, direction);
+    *point = point_at(shape, aur_vector_normalize(aur_vector_subtract(position, shape->center)));
+    *pdf = 1.0f / (2.0f * AUR_PI_F * cap);
+    return true;
+}
+
+static const aur_curved curved = {bounds, intersect, surface, sample, sample_seen, pdf_seen};
+
+static aur_result create(const aur_shape_input *input, aur_shape *shape, aur_error *error) {
+    double center[3] = {0.0, 0.0, 0.0}, radius = 1.0, scale, moved[3];
+    aur_result result = aur_parameters_triple(input->parameters, "center", -1e30, 1e30, center, error);
+    if (result == AUR_OK)
+        result = aur_parameters_float(input->parameters, "radius", 1e-30, 1e30, &radius, error);
+    if (result == AUR_OK)
+        result = aur_shape_similarity(input, &input->to_world, &scale, error);
+    if (result != AUR_OK)
+        return result;
+    aur_transform_point(&input->to_world, center, moved);
+    shape->center = (aur_vector){(float)moved[0], (float)moved[1], (float)moved[2]};
+    shape->radius = (float)(radius * scale);
+    for (size_t i = 0; i < 3; ++i) {
+        const aur_vector axis = {i == 0, i == 1, i == 2};
+        shape->axis[i] = aur_vector_normalize(aur_transform_direction_f(&input->to_world, axis));
+    }
+    shape->curved = &curved;
+    shape->flipped = input->flip_normals;
+    shape->area = 4.0 * AUR_PI * (double)shape->radius * (double)shape->radius;
+    return AUR_OK;
+}
+
+const aur_shape_descriptor aur_shape_sphere = {"sphere", "a sphere of `center` and `radius`", create};
