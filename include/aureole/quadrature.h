@@ -73,6 +73,9 @@ AUR_API double aur_potential_smoothness(const aur_potential *potential) AUR_NONN
 /* The integral of the density as it is written, before p is normalised, in steradians for COSINE_POWER and
  * SPHERE: 2 pi/(m+1) times the part above the surface, 4 pi. */
 AUR_API double aur_potential_mass(const aur_potential *potential) AUR_NONNULL(1);
+/* p at a unit vector, normalised to integral 1, in 1/steradian; NaN for NODES, which have no density. */
+AUR_API double aur_potential_density(const aur_potential *potential, const double direction[3])
+    AUR_NONNULL(1, 2);
 /* z at `count` unit vectors. */
 AUR_API void aur_potential_evaluate(const aur_potential *potential, size_t count, const double *xyz,
                                     double *z) AUR_NONNULL(1, 3, 4);
@@ -131,6 +134,126 @@ AUR_API aur_result aur_weights_solve(size_t count, const double *xyz, size_t pot
                                      const aur_weights_options *options, double *weights,
                                      aur_weights_report *reports, double *condition, aur_error *error)
     AUR_NONNULL(2, 4, 6);
+
+/* --- two lobes, one merged set (OSWA) ---------------------------------------------------------------------
+ */
+
+/* Two patterns of one set: the first follows a lobe about the normal +z; the second a lobe about the mirror
+ * direction
+ * (-sin a, 0, cos a) of a view at the angle a from the normal towards +x. A GGX lobe takes that angle as its
+ * view angle. Both patterns may be turned about their axes; a "turn" is in [0,1). */
+typedef struct aur_oswa_options {
+    const char *set;            /* as in aur_directions_create; NULL: spherical-fibonacci */
+    size_t count, mirror_count; /* samples of the first and of the second pattern */
+    aur_lobe lobe, mirror_lobe; /* about the normal: COSINE_POWER; about the mirror direction: either kind */
+    int optimal_density;        /* points follow lobe^{2/(s+1)}; GGX keeps its own density */
+    int clipped; /* the mirror lobe ends at the horizon and hidden samples take no part; a GGX lobe
+                    always does */
+    aur_map map;
+    aur_scramble scramble;
+    uint64_t seed;                                 /* of the set, its scrambling, and of the table's turns */
+    double smoothness;                             /* 0 stands for 1.5 */
+    aur_weights_options weights;                   /* regularisation 0 is 0 */
+    const struct aur_potential_table *published_z; /* not NULL: z as published, by linear interpolation in a
+                                                      table (COSINE_POWER, unclipped) */
+} aur_oswa_options;
+
+/* Both patterns with all that does not depend on the angle: the two constant blocks of K and their z (Marques
+ * 2018 section 6.2). Immutable, for any number of threads. */
+typedef struct aur_oswa aur_oswa;
+
+AUR_API aur_result aur_oswa_create(const aur_oswa_options *options, aur_oswa **oswa, aur_error *error)
+    AUR_NONNULL(1, 2);
+AUR_API void aur_oswa_destroy(aur_oswa *oswa);                     /* NULL is allowed */
+AUR_API size_t aur_oswa_size(const aur_oswa *oswa) AUR_NONNULL(1); /* count + mirror_count */
+
+/* The merged samples xyz[3 * size], the first pattern first; mirrored: reflected in the plane of the view (y
+ * to -y), for which the same weights are optimal. */
+AUR_API void aur_oswa_points(const aur_oswa *oswa, double radians, const double turns[2], int mirrored,
+                             double *xyz) AUR_NONNULL(1, 3, 5);
+/* weights[2 * size]: of every sample for the first lobe, then for the mirror lobe, both of integral 1.
+ * `radians` in [0, pi/2]; *mass, unless NULL, is the integral of the mirror lobe as it is written. */
+AUR_API aur_result aur_oswa_solve(const aur_oswa *oswa, double radians, const double turns[2],
+                                  double *weights, double *mass, aur_error *error) AUR_NONNULL(1, 3, 4);
+
+/* The published look-up of z (Marques 2018 section 6.2): polar angle by log(1 + m), bilinear. Kept as the
+ * baseline to compare with: its error is what K^{-1} magnifies. */
+typedef struct aur_potential_table aur_potential_table;
+
+AUR_API aur_result aur_potential_table_create(size_t angle_count, size_t exponent_count,
+                                              double largest_exponent, double smoothness,
+                                              aur_potential_table **table, aur_error *error) AUR_NONNULL(5);
+AUR_API void aur_potential_table_destroy(aur_potential_table *table); /* NULL is allowed */
+/* z of the normalised cos^m lobe at directions whose cosines to its axis are given. */
+AUR_API void aur_potential_table_evaluate(const aur_potential_table *table, double exponent, size_t count,
+                                          const double *cosines, double *z) AUR_NONNULL(1, 4, 5);
+
+/* --- OSWA from a table ------------------------------------------------------------------------------------
+ */
+
+/* Weights at `angle_count` angles from 0 to 90 degrees for each of `rotation_count` pairs of turns, hashed
+ * from the seed, and linear interpolation between: no system to solve while rendering. */
+typedef struct aur_weight_table aur_weight_table;
+
+/* Each entry is computed alone: no bit depends on `threads` (0: all). */
+AUR_API aur_result aur_weight_table_build(const aur_oswa_options *options, size_t angle_count,
+                                          size_t rotation_count, size_t threads, const aur_progress *progress,
+                                          aur_weight_table **table, aur_error *error) AUR_NONNULL(1, 6);
+AUR_API void aur_weight_table_destroy(aur_weight_table *table); /* NULL is allowed */
+
+/* A file with version, options, patterns' hash and check sum. Loading refuses, saying which, a file of
+ * another version, a damaged one, and, unless `expected` is NULL, one that was built with other options. */
+AUR_API aur_result aur_weight_table_save(const aur_weight_table *table, const char *path, aur_error *error)
+    AUR_NONNULL(1, 2);
+AUR_API aur_result aur_weight_table_load(const char *path, const aur_oswa_options *expected,
+                                         aur_weight_table **table, aur_error *error) AUR_NONNULL(1, 3);
+
+/* What the table was built from; owned by the table. */
+AUR_API const aur_oswa_options *aur_weight_table_options(const aur_weight_table *table) AUR_NONNULL(1);
+AUR_API size_t aur_weight_table_angles(const aur_weight_table *table) AUR_NONNULL(1);
+AUR_API size_t aur_weight_table_rotations(const aur_weight_table *table) AUR_NONNULL(1);
+/* The turns of a rotation's two patterns. */
+AUR_API void aur_weight_table_turns(const aur_weight_table *table, size_t rotation, double turns[2])
+    AUR_NONNULL(1, 3);
+/* The merged samples that a rotation's weights belong to. */
+AUR_API void aur_weight_table_points(const aur_weight_table *table, double radians, size_t rotation,
+                                     int mirrored, double *xyz) AUR_NONNULL(1, 5);
+
+/* weights[count + mirror_count] for one lobe (0: the first, 1: the mirror lobe), of integral 1, at an angle
+ * in [0, pi/2] (clamped). rotation < rotation_count. */
+AUR_API void aur_weight_table_look_up(const aur_weight_table *table, size_t lobe, size_t rotation,
+                                      float radians, float *weights) AUR_NONNULL(1, 5);
+/* The mass of the mirror lobe at an angle, interpolated likewise. */
+AUR_API float aur_weight_table_mass(const aur_weight_table *table, float radians) AUR_NONNULL(1);
+
+/* --- the rivals: no system to solve ----------------------------------------------------------------------
+ */
+
+/* Veach's heuristics for samples drawn by several strategies: BALANCE in proportion to n q, POWER to its
+ * square. */
+typedef enum aur_mis_heuristic { AUR_MIS_BALANCE, AUR_MIS_POWER } aur_mis_heuristic;
+
+/* `count` samples that were drawn from a density. */
+typedef struct aur_strategy {
+    size_t count;
+    const aur_potential *sampled;
+} aur_strategy;
+
+/* Multiple importance sampling weights (Veach 1997 ch. 9) of samples xyz for the density `target`, those of
+ * the first strategy first: h(u) p(u) / (n q(u)). One strategy alone makes them the ratio weights p/(n q).
+ * Samples where the target is 0 get 0. Errors: ARGUMENT for a sample that its own strategy cannot have drawn,
+ * or a density made of nodes. */
+AUR_API aur_result aur_mis_weights(aur_mis_heuristic heuristic, size_t strategy_count,
+                                   const aur_strategy *strategies, const aur_potential *target,
+                                   const double *xyz, double *weights, aur_error *error)
+    AUR_NONNULL(3, 4, 5, 6);
+
+/* The importance re-weighting of Marques 2018 section 5.1: weights for p out of weights for p', both
+ * normalised: weights[i] *= p(u_i)/p'(u_i). Where p' is 0 the weight must be 0 and stays so; else ARGUMENT.
+ */
+AUR_API aur_result aur_weights_reweight(const aur_potential *wanted, const aur_potential *fitted,
+                                        size_t count, const double *xyz, double *weights, aur_error *error)
+    AUR_NONNULL(1, 2, 4, 5);
 
 #ifdef __cplusplus
 }

@@ -71,7 +71,7 @@ static aur_result create_nodes(aur_potential *potential, aur_error *error) {
         if (density->kind == AUR_DENSITY_FUNCTION)
             result = aur_nodes_function(density, potential->storage, masses, error);
         else if (density->kind == AUR_DENSITY_GGX)
-            result = aur_fail(error, AUR_ERROR_UNSUPPORTED, "GGX has no potential of its own yet");
+            result = aur_nodes_ggx(density, potential->storage, masses, error);
         else
             result = copy_nodes(density, potential->storage, masses, error);
     }
@@ -213,6 +213,26 @@ double aur_potential_self_energy(const aur_potential *potential) {
                                                        potential->nodes, potential->node_masses);
     }
     return energy;
+}
+
+double aur_potential_density(const aur_potential *potential, const double direction[3]) {
+    const aur_density *const density = &potential->density;
+    const double cosine = aur_dot3(direction, density->axis);
+    switch (density->kind) {
+    case AUR_DENSITY_COSINE_POWER:
+        if (cosine <= 0.0 || (density->clipped && direction[2] < 0.0))
+            return 0.0;
+        return pow(cosine, density->exponent) / potential->mass;
+    case AUR_DENSITY_SPHERE:
+        return 1.0 / potential->mass;
+    case AUR_DENSITY_GGX:
+        return aur_ggx_value(density, direction) / potential->mass;
+    case AUR_DENSITY_FUNCTION:
+        return density->function(density->user, direction) / potential->mass;
+    case AUR_DENSITY_NODES:
+        break;
+    }
+    return (double)NAN;
 }
 
 aur_result aur_check_directions(size_t count, const double *xyz, aur_error *error) {

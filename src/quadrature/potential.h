@@ -28,6 +28,8 @@ static inline bool aur_potential_hides(const aur_potential *potential) {
 /* Unnormalised densities as nodes: fill columns x, y, z and masses, node_count each. */
 aur_result aur_nodes_function(const aur_density *density, double *columns, double *masses, aur_error *error);
 aur_result aur_nodes_ggx(const aur_density *density, double *columns, double *masses, aur_error *error);
+/* The GGX lobe, reflection times cosine, in 1/steradian. */
+double aur_ggx_value(const aur_density *density, const double direction[3]);
 
 /* An error for the first of `count` vectors that is not of unit length. */
 aur_result aur_check_directions(size_t count, const double *xyz, aur_error *error);

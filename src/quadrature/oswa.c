@@ -1,0 +1,415 @@
+/* Two lobes and the union of their samples (Marques 2018 sections 5.3 and 6.2), at any angle, whole or
+ * clipped. */
+#include "quadrature/oswa.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "core/random.h"
+#include "core/vector.h"
+#include "quadrature/direction.h"
+#include "quadrature/solve.h"
+
+static bool is_ggx(const aur_oswa *oswa) {
+    return oswa->lobe[1].kind == AUR_LOBE_GGX;
+}
+
+static bool hides(const aur_oswa *oswa) {
+    return oswa->options.clipped || is_ggx(oswa);
+}
+
+static aur_result load_uniform(aur_oswa *oswa, size_t which, aur_error *error) {
+    const aur_directions_options options = {.count = oswa->count[which],
+                                            .domain = AUR_DOMAIN_HEMISPHERE,
+                                            .map = oswa->options.map,
+                                            .scramble = oswa->options.scramble,
+                                            .seed = oswa->options.seed + which};
+    aur_directions *directions;
+    aur_result result = aur_directions_create(oswa->set, &options, &directions, error);
+    if (result != AUR_OK)
+        return result;
+    if (aur_directions_size(directions) != oswa->count[which])
+        result = aur_fail(error, AUR_ERROR_ARGUMENT, "set '%s' has %llu points, not %zu", oswa->set,
+                          (unsigned long long)aur_directions_size(directions), oswa->count[which]);
+    else
+        result = aur_directions_points(directions, 0, oswa->count[which], 3 * oswa->count[which],
+                                       oswa->uniform[which], NULL);
+    aur_directions_destroy(directions);
+    return result;
+}
+
+/* The block of K and the z of a pattern within itself. */
+static aur_result prepare_pattern(aur_oswa *oswa, size_t which, aur_error *error) {
+    const size_t n = oswa->count[which];
+    const aur_density density = {.kind = AUR_DENSITY_COSINE_POWER, .exponent = oswa->lobe[which].exponent};
+    const aur_result result =
+        aur_potential_create(&density, oswa->options.smoothness, &oswa->whole[which], error);
+    if (result != AUR_OK)
+        return result;
+    double *const pattern = oswa->pattern[which];
+    for (size_t i = 0; i < n; ++i)
+        aur_lobe_warp(&oswa->sampled[which], oswa->uniform[which] + 3 * i, pattern + 3 * i);
+    double *const columns = malloc(3 * n * sizeof *columns);
+    if (columns == NULL)
+        return aur_fail(error, AUR_ERROR_MEMORY, "out of memory");
+    const aur_columns split = aur_columns_split(n, pattern, columns);
+    for (size_t i = 0; i < n; ++i) {
+        aur_kernel_row(&oswa->whole[which]->rule, pattern + 3 * i, i, split, oswa->kernel[which] + i * n);
+        oswa->kernel[which][i * n + i] = oswa->whole[which]->rule.top + oswa->options.weights.regularization;
+    }
+    const aur_potential_table *const published = oswa->options.published_z;
+    if (published != NULL)
+        aur_potential_table_evaluate(published, density.exponent, n, split.z, oswa->own[which]);
+    else
+        aur_potential_evaluate(oswa->whole[which], n, pattern, oswa->own[which]);
+    free(columns);
+    return AUR_OK;
+}
+
+static aur_result allocate(aur_oswa *oswa, aur_error *error) {
+    const size_t n = oswa->count[0] + oswa->count[1];
+    aur_result result = aur_check_system_size(n, error);
+    if (result != AUR_OK)
+        return result;
+    const size_t doubles = 7 * n + oswa->count[0] * oswa->count[0] + oswa->count[1] * oswa->count[1];
+    double *next = malloc(doubles * sizeof *next);
+    oswa->storage = next;
+    oswa->set = strdup(oswa->options.set != NULL ? oswa->options.set : "spherical-fibonacci");
+    if (next == NULL || oswa->set == NULL)
+        return aur_fail(error, AUR_ERROR_MEMORY, "out of memory");
+    oswa->options.set = oswa->set;
+    for (size_t which = 0; which < 2; ++which) {
+        const size_t count = oswa->count[which];
+        oswa->uniform[which] = next;
+        oswa->pattern[which] = next + 3 * count;
+        oswa->own[which] = next + 6 * count;
+        oswa->kernel[which] = next + 7 * count;
+        next += 7 * count + count * count;
+    }
+    return AUR_OK;
+}
+
+static aur_result check(const aur_oswa_options *options, aur_error *error) {
+    aur_result result = aur_lobe_check(&options->lobe, error);
+    if (result == AUR_OK)
+        result = aur_lobe_check(&options->mirror_lobe, error);
+    if (result != AUR_OK)
+        return result;
+    if (options->lobe.kind != AUR_LOBE_COSINE_POWER)
+        return aur_fail(error, AUR_ERROR_UNSUPPORTED,
+                        "the lobe about the normal must be uniform, cosine or phong:M");
+    if (options->count == 0 || options->mirror_count == 0)
+        return aur_fail(error, AUR_ERROR_ARGUMENT, "both lobes need at least one sample");
+    if (options->published_z != NULL && (options->clipped || options->mirror_lobe.kind == AUR_LOBE_GGX))
+        return aur_fail(error, AUR_ERROR_UNSUPPORTED,
+                        "the published table of z knows whole cos^m lobes only");
+    const double sigma = options->weights.regularization;
+    if (!(sigma >= 0.0 && isfinite(sigma)))
+        return aur_fail(error, AUR_ERROR_ARGUMENT, "the regularisation must be at least 0 and finite, not %g",
+                        sigma);
+    return AUR_OK;
+}
+
+static aur_result create(aur_oswa *oswa, aur_error *error) {
+    const aur_oswa_options *const options = &oswa->options;
+    for (size_t which = 0; which < 2; ++which) {
+        oswa->lobe[which] = which == 0 ? options->lobe : options->mirror_lobe;
+        oswa->sampled[which] = oswa->lobe[which];
+        oswa->count[which] = which == 0 ? options->count : options->mirror_count;
+        if (options->optimal_density && oswa->lobe[which].kind == AUR_LOBE_COSINE_POWER) {
+            const aur_result result =
+                aur_lobe_optimal(&oswa->lobe[which], options->smoothness, &oswa->sampled[which], error);
+            if (result != AUR_OK)
+                return result;
+        }
+    }
+    aur_result result = allocate(oswa, error);
+    for (size_t which = 0; which < 2 && result == AUR_OK; ++which) {
+        result = load_uniform(oswa, which, error);
+        if (result == AUR_OK && oswa->lobe[which].kind == AUR_LOBE_COSINE_POWER)
+            result = prepare_pattern(oswa, which, error);
+    }
+    return result;
+}
+
+aur_result aur_oswa_create(const aur_oswa_options *options, aur_oswa **oswa, aur_error *error) {
+    *oswa = NULL;
+    aur_result result = check(options, error);
+    if (result != AUR_OK)
+        return result;
+    aur_oswa *const created = calloc(1, sizeof *created);
+    if (created == NULL)
+        return aur_fail(error, AUR_ERROR_MEMORY, "out of memory");
+    created->options = *options;
+    if (options->smoothness == 0.0)
+        created->options.smoothness = 1.5;
+    result = create(created, error);
+    if (result != AUR_OK) {
+        aur_oswa_destroy(created);
+        return result;
+    }
+    *oswa = created;
+    return AUR_OK;
+}
+
+void aur_oswa_destroy(aur_oswa *oswa) {
+    if (oswa == NULL)
+        return;
+    aur_potential_destroy(oswa->whole[0]);
+    aur_potential_destroy(oswa->whole[1]);
+    free(oswa->storage);
+    free(oswa->set);
+    free(oswa);
+}
+
+size_t aur_oswa_size(const aur_oswa *oswa) {
+    return oswa->count[0] + oswa->count[1];
+}
+
+/* Turns about +z. */
+static void turn(double turns, size_t count, const double *from, double *to) {
+    const double c = cos(2.0 * AUR_PI * turns), s = sin(2.0 * AUR_PI * turns);
+    for (size_t i = 0; i < count; ++i) {
+        const double x = from[3 * i], y = from[3 * i + 1];
+        to[3 * i] = c * x - s * y;
+        to[3 * i + 1] = s * x + c * y;
+        to[3 * i + 2] = from[3 * i + 2];
+    }
+}
+
+/* Takes +z to the mirror direction (-sin a, 0, cos a). */
+static void tilt(double radians, size_t count, double *xyz) {
+    const double c = cos(radians), s = sin(radians);
+    for (size_t i = 0; i < count; ++i) {
+        const double x = xyz[3 * i], z = xyz[3 * i + 2];
+        xyz[3 * i] = c * x - s * z;
+        xyz[3 * i + 2] = s * x + c * z;
+    }
+}
+
+static aur_lobe ggx_at(const aur_oswa *oswa, double radians) {
+    aur_lobe lobe = oswa->lobe[1];
+    lobe.view_degrees = fmin(radians * 180.0 / AUR_PI, 89.99);
+    return lobe;
+}
+
+static void place(const aur_oswa *oswa, double radians, const double turns[2], double *xyz) {
+    double *const second = xyz + 3 * oswa->count[0];
+    turn(turns[0], oswa->count[0], oswa->pattern[0], xyz);
+    if (!is_ggx(oswa)) {
+        turn(turns[1], oswa->count[1], oswa->pattern[1], second);
+        tilt(radians, oswa->count[1], second);
+        return;
+    }
+    const aur_lobe lobe = ggx_at(oswa, radians);
+    turn(turns[1], oswa->count[1], oswa->uniform[1], second);
+    for (size_t i = 0; i < oswa->count[1]; ++i)
+        aur_lobe_warp(&lobe, second + 3 * i, second + 3 * i);
+}
+
+void aur_oswa_points(const aur_oswa *oswa, double radians, const double turns[2], int mirrored, double *xyz) {
+    place(oswa, radians, turns, xyz);
+    for (size_t i = 0; mirrored && i < aur_oswa_size(oswa); ++i)
+        xyz[3 * i + 1] = -xyz[3 * i + 1];
+}
+
+aur_result aur_oswa_angle_init(const aur_oswa *oswa, double radians, aur_oswa_angle *angle,
+                               aur_error *error) {
+    *angle = (aur_oswa_angle){.radians = radians};
+    if (!(radians >= 0.0 && radians <= 0.5 * AUR_PI + 1e-9))
+        return aur_fail(error, AUR_ERROR_ARGUMENT, "the angle must be between 0 and pi/2, not %g", radians);
+    if (is_ggx(oswa)) {
+        const aur_lobe lobe = ggx_at(oswa, radians);
+        aur_density density;
+        aur_result result = aur_density_from_lobe(&lobe, AUR_DOMAIN_HEMISPHERE, &density, error);
+        if (result == AUR_OK)
+            result = aur_potential_create(&density, oswa->options.smoothness, &angle->potential, error);
+        angle->mass = result == AUR_OK ? aur_potential_mass(angle->potential) : 0.0;
+        return result;
+    }
+    angle->mass = oswa->whole[1]->mass;
+    if (oswa->options.clipped) {
+        const double axis[3] = {-sin(radians), 0.0, fmax(0.0, cos(radians))};
+        aur_lune_init(&angle->lune, axis, oswa->lobe[1].exponent);
+        angle->mass *= 1.0 - angle->lune.fraction;
+    }
+    return AUR_OK;
+}
+
+void aur_oswa_angle_release(aur_oswa_angle *angle) {
+    aur_potential_destroy(angle->potential);
+    angle->potential = NULL;
+}
+
+size_t aur_oswa_scratch(const aur_oswa *oswa) {
+    const size_t n = aur_oswa_size(oswa);
+    return n * n + 10 * n;
+}
+
+/* z of both lobes at a pattern whose points stand at `xyz`: `z` for the first, `mirror_z` for the mirror
+ * lobe. */
+static void fill_z(const aur_oswa *oswa, const aur_oswa_angle *angle, size_t which, const double *xyz,
+                   double *cosines, double *z, double *mirror_z) {
+    const size_t n = oswa->count[which];
+    const double axis[3] = {-sin(angle->radians), 0.0, cos(angle->radians)};
+    double *const other = which == 0 ? mirror_z : z;
+    memcpy(which == 0 ? z : mirror_z, oswa->own[which], n * sizeof *z);
+    for (size_t i = 0; i < n; ++i)
+        cosines[i] = which == 0 ? aur_dot3(xyz + 3 * i, axis) : xyz[3 * i + 2];
+    if (oswa->options.published_z != NULL)
+        aur_potential_table_evaluate(oswa->options.published_z, oswa->lobe[1 - which].exponent, n, cosines,
+                                     other);
+    else
+        aur_zonal_evaluate(&oswa->whole[1 - which]->zonal, n, cosines, other);
+    if (angle->lune.fraction <= 0.0)
+        return;
+    const double visible = 1.0 - angle->lune.fraction;
+    for (size_t i = 0; i < n; ++i)
+        if (xyz[3 * i + 2] >= 0.0)
+            mirror_z[i] =
+                (mirror_z[i] - aur_lune_potential(&angle->lune, &oswa->whole[1]->rule, xyz + 3 * i)) /
+                visible;
+}
+
+/* The lower triangle of K with the regulariser, of all samples; the blocks within the patterns are there
+ * already. */
+static void fill_matrix(const aur_oswa *oswa, const double *xyz, double *columns, double *matrix) {
+    const size_t first = oswa->count[0], second = oswa->count[1], n = first + second;
+    const aur_columns split = aur_columns_split(first, xyz, columns);
+    for (size_t i = 0; i < first; ++i)
+        memcpy(matrix + i * n, oswa->kernel[0] + i * first, (i + 1) * sizeof *matrix);
+    for (size_t i = 0; i < second; ++i) {
+        double *const row = matrix + (first + i) * n;
+        aur_kernel_row(&oswa->whole[0]->rule, xyz + 3 * (first + i), first, split, row);
+        memcpy(row + first, oswa->kernel[1] + i * second, (i + 1) * sizeof *row);
+    }
+}
+
+/* Takes hidden samples out of the system, in place; returns how many stay. */
+static size_t drop_hidden(size_t n, const double *xyz, double *matrix, double *right, size_t columns) {
+    size_t kept = 0;
+    for (size_t i = 0; i < n; ++i)
+        kept += xyz[3 * i + 2] >= 0.0;
+    if (kept == n)
+        return n;
+    size_t row = 0;
+    for (size_t i = 0; i < n; ++i) {
+        if (xyz[3 * i + 2] < 0.0)
+            continue;
+        size_t column = 0;
+        for (size_t j = 0; j <= i; ++j)
+            if (xyz[3 * j + 2] >= 0.0)
+                matrix[row * kept + column++] = matrix[i * n + j];
+        ++row;
+    }
+    for (size_t k = 0; k < columns; ++k) {
+        row = 0;
+        for (size_t i = 0; i < n; ++i)
+            if (xyz[3 * i + 2] >= 0.0)
+                right[k * kept + row++] = right[k * n + i];
+    }
+    return kept;
+}
+
+static double sum_of(size_t count, const double *values) {
+    double sum = 0.0;
+    for (size_t i = 0; i < count; ++i)
+        sum += values[i];
+    return sum;
+}
+
+/* The way that knows nothing in advance: GGX, and systems that only merged samples make positive definite. */
+static aur_result solve_plainly(const aur_oswa *oswa, const aur_oswa_angle *angle, const double *xyz,
+                                double *weights, aur_error *error) {
+    const size_t n = aur_oswa_size(oswa);
+    aur_potential *mirror = angle->potential;
+    aur_result result = AUR_OK;
+    if (mirror == NULL) {
+        const aur_density density = {.kind = AUR_DENSITY_COSINE_POWER,
+                                     .axis = {-sin(angle->radians), 0.0, fmax(0.0, cos(angle->radians))},
+                                     .exponent = oswa->lobe[1].exponent,
+                                     .clipped = oswa->options.clipped};
+        result = aur_potential_create(&density, oswa->options.smoothness, &mirror, error);
+    }
+    size_t kept = 0;
+    double *const visible = malloc(5 * n * sizeof *visible);
+    if (result == AUR_OK && visible == NULL)
+        result = aur_fail(error, AUR_ERROR_MEMORY, "out of memory");
+    if (result == AUR_OK) {
+        for (size_t i = 0; i < n; ++i)
+            if (!hides(oswa) || xyz[3 * i + 2] >= 0.0)
+                memcpy(visible + 3 * kept++, xyz + 3 * i, 3 * sizeof *xyz);
+        const aur_potential *const potentials[] = {oswa->whole[0], mirror};
+        double *const found = visible + 3 * n;
+        result =
+            aur_weights_solve(kept, visible, 2, potentials, &oswa->options.weights, found, NULL, NULL, error);
+        for (size_t k = 0, at = 0; k < 2 && result == AUR_OK; ++k)
+            for (size_t i = 0; i < n; ++i)
+                weights[k * n + i] = !hides(oswa) || xyz[3 * i + 2] >= 0.0 ? found[at++] : 0.0;
+    }
+    free(visible);
+    if (mirror != angle->potential)
+        aur_potential_destroy(mirror);
+    return result;
+}
+
+aur_result aur_oswa_solve_at(const aur_oswa *oswa, const aur_oswa_angle *angle, const double turns[2],
+                             double *scratch, double *weights, aur_error *error) {
+    const size_t n = aur_oswa_size(oswa);
+    double *const matrix = scratch;
+    double *const xyz = matrix + n * n;
+    double *const columns = xyz + 3 * n;
+    double *const right = columns + 3 * n;
+    double *const cosines = right + 3 * n;
+    place(oswa, angle->radians, turns, xyz);
+    if (is_ggx(oswa))
+        return solve_plainly(oswa, angle, xyz, weights, error);
+    const size_t first = oswa->count[0];
+    fill_matrix(oswa, xyz, columns, matrix);
+    fill_z(oswa, angle, 0, xyz, cosines, right, right + n);
+    fill_z(oswa, angle, 1, xyz + 3 * first, cosines, right + first, right + n + first);
+    const bool constrained = oswa->options.weights.sum_constraint;
+    for (size_t i = 0; i < n; ++i)
+        right[2 * n + i] = 1.0;
+    const size_t kept = oswa->options.clipped ? drop_hidden(n, xyz, matrix, right, 3) : n;
+    if (aur_solve_positive(kept, matrix, constrained ? 3 : 2, right, NULL, NULL) != AUR_OK)
+        return solve_plainly(oswa, angle, xyz, weights, error);
+    for (size_t k = 0; k < 2; ++k) {
+        const double *const solution = right + k * kept;
+        const double *const ones = right + 2 * kept;
+        const double multiplier = constrained ? (sum_of(kept, solution) - 1.0) / sum_of(kept, ones) : 0.0;
+        size_t at = 0;
+        for (size_t i = 0; i < n; ++i) {
+            const bool taken = kept == n || xyz[3 * i + 2] >= 0.0;
+            weights[k * n + i] = !taken ? 0.0 : solution[at] - (constrained ? multiplier * ones[at] : 0.0);
+            at += taken;
+        }
+    }
+    return AUR_OK;
+}
+
+aur_result aur_oswa_solve(const aur_oswa *oswa, double radians, const double turns[2], double *weights,
+                          double *mass, aur_error *error) {
+    aur_oswa_angle angle;
+    aur_result result = aur_oswa_angle_init(oswa, radians, &angle, error);
+    double *const scratch = malloc(aur_oswa_scratch(oswa) * sizeof *scratch);
+    if (result == AUR_OK && scratch == NULL)
+        result = aur_fail(error, AUR_ERROR_MEMORY, "out of memory");
+    if (result == AUR_OK)
+        result = aur_oswa_solve_at(oswa, &angle, turns, scratch, weights, error);
+    if (result == AUR_OK && mass != NULL)
+        *mass = angle.mass;
+    free(scratch);
+    aur_oswa_angle_release(&angle);
+    return result;
+}
+
+uint64_t aur_oswa_hash(const aur_oswa *oswa) {
+    uint64_t hash = 0;
+    for (size_t which = 0; which < 2; ++which) {
+        for (size_t i = 0; i < 3 * oswa->count[which]; ++i)
+            hash = aur_hash2(hash, (uint64_t)(int64_t)llround(oswa->uniform[which][i] * 0x1p40));
+    }
+    return hash;
+}

@@ -1,0 +1,43 @@
+/* What a pair of patterns holds, and solving at one angle for many turns. */
+#ifndef AUR_QUADRATURE_OSWA_H
+#define AUR_QUADRATURE_OSWA_H
+
+#include <stdbool.h>
+
+#include "quadrature/potential.h"
+
+/* The patterns are numbered 0 (about the normal) and 1 (about the mirror direction). */
+struct aur_oswa {
+    aur_oswa_options options; /* its set is `set` below; smoothness is filled in */
+    char *set;
+    size_t count[2];
+    aur_lobe lobe[2];        /* that the weights are for */
+    aur_lobe sampled[2];     /* that the points follow */
+    double *uniform[2];      /* even directions of the hemisphere */
+    double *pattern[2];      /* warped, about +z; GGX: unused */
+    double *kernel[2];       /* count * count, lower triangle: the constant blocks; GGX: [1] is NULL */
+    double *own[2];          /* z of each pattern for its own lobe, unclipped; GGX: [1] is NULL */
+    aur_potential *whole[2]; /* of each lobe about +z, unclipped; GGX: [1] is NULL */
+    void *storage;
+};
+
+/* What depends on the angle but not on the turns. */
+typedef struct aur_oswa_angle {
+    double radians;
+    double mass;              /* of the mirror lobe */
+    aur_lune lune;            /* clipped COSINE_POWER */
+    aur_potential *potential; /* GGX */
+} aur_oswa_angle;
+
+aur_result aur_oswa_angle_init(const aur_oswa *oswa, double radians, aur_oswa_angle *angle, aur_error *error);
+void aur_oswa_angle_release(aur_oswa_angle *angle);
+
+/* Doubles of scratch memory that a solve needs. */
+size_t aur_oswa_scratch(const aur_oswa *oswa);
+aur_result aur_oswa_solve_at(const aur_oswa *oswa, const aur_oswa_angle *angle, const double turns[2],
+                             double *scratch, double *weights, aur_error *error);
+
+/* A hash of the patterns: two programs that make a set differently do not share a table. */
+uint64_t aur_oswa_hash(const aur_oswa *oswa);
+
+#endif
