@@ -135,6 +135,11 @@ AUR_API aur_result aur_weights_solve(size_t count, const double *xyz, size_t pot
                                      aur_weights_report *reports, double *condition, aur_error *error)
     AUR_NONNULL(2, 4, 6);
 
+/* Writes x,y,z and the weights of one or more densities as the columns w, w2, w3, ... of a CSV file ("-":
+ * standard output), 17 significant digits; the file is replaced whole or not at all. Errors: WRITE. */
+AUR_API aur_result aur_weights_write(const char *path, size_t count, const double *xyz, size_t density_count,
+                                     const double *weights, aur_error *error) AUR_NONNULL(1, 3, 5);
+
 /* --- two lobes, one merged set (OSWA) ---------------------------------------------------------------------
  */
 
@@ -233,16 +238,17 @@ AUR_API float aur_weight_table_mass(const aur_weight_table *table, float radians
  * square. */
 typedef enum aur_mis_heuristic { AUR_MIS_BALANCE, AUR_MIS_POWER } aur_mis_heuristic;
 
-/* `count` samples that were drawn from a density. */
+/* `count` samples that were drawn from a lobe. */
 typedef struct aur_strategy {
     size_t count;
-    const aur_potential *sampled;
+    aur_lobe sampled;
+    double axis[3]; /* COSINE_POWER: its axis, a unit vector; all zero stands for +z */
 } aur_strategy;
 
 /* Multiple importance sampling weights (Veach 1997 ch. 9) of samples xyz for the density `target`, those of
  * the first strategy first: h(u) p(u) / (n q(u)). One strategy alone makes them the ratio weights p/(n q).
- * Samples where the target is 0 get 0. Errors: ARGUMENT for a sample that its own strategy cannot have drawn,
- * or a density made of nodes. */
+ * Samples where the target is 0 get 0. Errors: ARGUMENT for a sample that no strategy can have drawn, or a
+ * density made of nodes. */
 AUR_API aur_result aur_mis_weights(aur_mis_heuristic heuristic, size_t strategy_count,
                                    const aur_strategy *strategies, const aur_potential *target,
                                    const double *xyz, double *weights, aur_error *error)

@@ -5,10 +5,11 @@
 #include "cli/cli.h"
 
 extern const cli_verb cli_verb_compare, cli_verb_convert, cli_verb_help, cli_verb_measure, cli_verb_points,
-    cli_verb_sets;
+    cli_verb_sets, cli_verb_weights;
 
 static const cli_verb *const verbs[] = {
-    &cli_verb_sets, &cli_verb_points, &cli_verb_measure, &cli_verb_compare, &cli_verb_convert, &cli_verb_help,
+    &cli_verb_sets,    &cli_verb_points,  &cli_verb_measure, &cli_verb_weights,
+    &cli_verb_compare, &cli_verb_convert, &cli_verb_help,
 };
 
 size_t cli_verb_count(void) {

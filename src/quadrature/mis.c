@@ -1,10 +1,22 @@
 #include <math.h>
 
 #include "core/error.h"
+#include "quadrature/direction.h"
 #include "quadrature/potential.h"
 
 static double square(double x) {
     return x * x;
+}
+
+/* The density that a strategy draws a direction with. */
+static double drawn_density(const aur_strategy *strategy, const double direction[3]) {
+    const double *const axis = strategy->axis;
+    if (strategy->sampled.kind == AUR_LOBE_GGX || (axis[0] == 0.0 && axis[1] == 0.0 && axis[2] == 0.0))
+        return aur_lobe_pdf(&strategy->sampled, direction);
+    /* A cos^m lobe asks for the angle to its axis only. */
+    const double cosine = aur_dot3(direction, axis);
+    const double local[3] = {sqrt(fmax(0.0, 1.0 - cosine * cosine)), 0.0, cosine};
+    return aur_lobe_pdf(&strategy->sampled, local);
 }
 
 /* How much of the sample is the strategy's own, over the density that it was drawn from: h/(n q). */
@@ -12,8 +24,7 @@ static double share(aur_mis_heuristic heuristic, size_t strategy_count, const au
                     size_t own, const double direction[3]) {
     double all = 0.0, mine = 0.0;
     for (size_t t = 0; t < strategy_count; ++t) {
-        const double drawn =
-            (double)strategies[t].count * aur_potential_density(strategies[t].sampled, direction);
+        const double drawn = (double)strategies[t].count * drawn_density(&strategies[t], direction);
         all += heuristic == AUR_MIS_POWER ? square(drawn) : drawn;
         mine = t == own ? drawn : mine;
     }

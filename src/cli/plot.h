@@ -1,0 +1,20 @@
+/* Pictures of figures by gnuplot. */
+#ifndef AUR_CLI_PLOT_H
+#define AUR_CLI_PLOT_H
+
+#include <stdbool.h>
+#include <stdio.h>
+
+typedef struct cli_plot {
+    FILE *script; /* write gnuplot's commands and data here; NULL when it could not be started */
+    char *temporary;
+    const char *path;
+} cli_plot;
+
+/* Starts gnuplot with a terminal for `path`, which ends in .svg or .png, of that many pixels. On failure
+ * prints the error and returns false. */
+bool cli_plot_open(const char *path, int width, int height, cli_plot *plot);
+/* Ends gnuplot and puts the picture in its place; returns the exit status, after printing what went wrong. */
+int cli_plot_close(cli_plot *plot);
+
+#endif

@@ -1,0 +1,54 @@
+/* The parts of `aureole weights`. */
+#ifndef AUR_CLI_WEIGHTS_H
+#define AUR_CLI_WEIGHTS_H
+
+#include <aureole/quadrature.h>
+
+#include "cli/point_source.h"
+
+typedef enum cli_method {
+    CLI_METHOD_OSW,   /* optimal weights; of two lobes each from its own samples */
+    CLI_METHOD_OSWA,  /* of two lobes from all samples */
+    CLI_METHOD_MIS,   /* multiple importance sampling, balance heuristic */
+    CLI_METHOD_POWER, /* power heuristic */
+    CLI_METHOD_EQUAL, /* 1/N */
+    CLI_METHOD_RATIO  /* p/(q N) */
+} cli_method;
+
+typedef struct cli_weights_arguments {
+    const char *source;
+    cli_point_options points;
+    bool lobe_given, mirror_given, size_given, method_given, angle_given, report, quiet;
+    size_t size, mirror_size;
+    aur_lobe mirror;
+    double degrees;
+    int clipped;
+    aur_weights_options weights;
+    cli_method method;
+    const char *method_name, *lobe_text, *mirror_text;
+    cli_format format;
+    const char *path, *plot, *table;
+    size_t angles, rotations, threads;
+} cli_weights_arguments;
+
+/* Samples, weights and their figures, lobe by lobe. */
+typedef struct cli_weights_result {
+    size_t count; /* samples */
+    size_t lobe_count;
+    double *xyz;     /* 3 * count */
+    double *weights; /* lobe_count * count */
+    double equal[2], weighted[2], sum[2];
+    double ratio[2]; /* with has_ratio: of the weights p/(q N) */
+    bool has_ratio;
+    double condition; /* 0: not known */
+} cli_weights_result;
+
+/* The two patterns that the options ask for. */
+aur_oswa_options cli_weights_oswa(const cli_weights_arguments *arguments);
+
+/* Each returns the exit status, after printing what went wrong. */
+int cli_weights_compute(const cli_weights_arguments *arguments, cli_weights_result *result);
+int cli_weights_plot(const cli_weights_arguments *arguments, const cli_weights_result *result);
+int cli_weights_table(const cli_weights_arguments *arguments);
+
+#endif

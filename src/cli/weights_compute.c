@@ -1,0 +1,271 @@
+/* From the options of `aureole weights` to samples, weights and their worst-case errors. */
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "cli/weights.h"
+
+/* One computation: what it works on. `own` is how many of the samples follow each lobe; the first lobe's come
+ * first. */
+typedef struct weights_job {
+    const cli_weights_arguments *arguments;
+    cli_weights_result *result;
+    size_t own[2];
+    aur_strategy strategies[2];
+    aur_potential *potentials[2];
+    double *plain; /* p/(q N) of the first lobe's samples, or NULL */
+} weights_job;
+
+static const double pi = 3.14159265358979323846;
+
+static aur_result out_of_memory(aur_error *error) {
+    *error = (aur_error){.result = AUR_ERROR_MEMORY, .message = "out of memory"};
+    return AUR_ERROR_MEMORY;
+}
+
+static aur_result fail(aur_error *error, aur_result result, const char *message) {
+    *error = (aur_error){.result = result};
+    strncpy(error->message, message, sizeof error->message - 1);
+    return result;
+}
+
+static bool from_file(const weights_job *task) {
+    return cli_is_file(task->arguments->source) || strncmp(task->arguments->source, "file:", 5) == 0;
+}
+
+static void mirror_axis(const weights_job *task, double axis[3]) {
+    const double radians = task->arguments->degrees * pi / 180.0;
+    axis[0] = -sin(radians);
+    axis[1] = 0.0;
+    axis[2] = fmax(0.0, cos(radians));
+}
+
+/* Potentials, and the lobes that samples are drawn from. */
+static aur_result prepare_lobes(weights_job *task, aur_error *error) {
+    const cli_weights_arguments *const arguments = task->arguments;
+    const cli_point_options *const points = &arguments->points;
+    for (size_t k = 0; k < task->result->lobe_count; ++k) {
+        aur_lobe lobe = k == 0 ? points->lobe : arguments->mirror;
+        if (k == 1 && lobe.kind == AUR_LOBE_GGX)
+            lobe.view_degrees = arguments->degrees;
+        aur_density density;
+        aur_result result = aur_density_from_lobe(&lobe, points->domain, &density, error);
+        if (result != AUR_OK)
+            return result;
+        if (k == 1) {
+            mirror_axis(task, density.axis);
+            density.clipped = arguments->clipped;
+        }
+        task->strategies[k] = (aur_strategy){.count = task->own[k], .sampled = lobe};
+        memcpy(task->strategies[k].axis, density.axis, sizeof density.axis);
+        if (points->optimal_density && lobe.kind == AUR_LOBE_COSINE_POWER)
+            result = aur_lobe_optimal(&lobe, points->smoothness != 0.0 ? points->smoothness : 1.5,
+                                      &task->strategies[k].sampled, error);
+        if (result == AUR_OK)
+            result = aur_potential_create(&density, points->smoothness, &task->potentials[k], error);
+        if (result != AUR_OK)
+            return result;
+    }
+    return AUR_OK;
+}
+
+static aur_result load_one(weights_job *task, aur_error *error) {
+    const cli_weights_arguments *const arguments = task->arguments;
+    cli_point_options options = arguments->points;
+    options.domain_given = !cli_is_file(arguments->source) || options.domain_given;
+    aur_points points;
+    const aur_result result = cli_load_points(arguments->source, &options, arguments->size, &points, error);
+    if (result != AUR_OK)
+        return result;
+    if (points.dimension != 3) {
+        aur_points_release(&points);
+        return fail(error, AUR_ERROR_UNSUPPORTED,
+                    "weights are for directions: the file must have the columns x,y,z");
+    }
+    task->result->count = points.count;
+    task->result->xyz = points.coordinates;
+    task->plain = points.weights;
+    for (size_t i = 0; arguments->points.domain == AUR_DOMAIN_HEMISPHERE && i < points.count; ++i)
+        if (points.coordinates[3 * i + 2] < -1e-9 && arguments->points.lobe.kind != AUR_LOBE_GGX) {
+            char message[160];
+            snprintf(message, sizeof message,
+                     "point %zu lies below the hemisphere (z = %g): is it --domain sphere?", i,
+                     points.coordinates[3 * i + 2]);
+            return fail(error, AUR_ERROR_ARGUMENT, message);
+        }
+    return AUR_OK;
+}
+
+aur_oswa_options cli_weights_oswa(const cli_weights_arguments *arguments) {
+    const cli_point_options *const points = &arguments->points;
+    return (aur_oswa_options){.set = arguments->source,
+                              .count = arguments->size,
+                              .mirror_count = arguments->mirror_size,
+                              .lobe = points->lobe,
+                              .mirror_lobe = arguments->mirror,
+                              .optimal_density = points->optimal_density,
+                              .clipped = arguments->clipped,
+                              .map = points->map,
+                              .scramble = points->scramble,
+                              .seed = points->seed,
+                              .smoothness = points->smoothness,
+                              .weights = arguments->weights};
+}
+
+static aur_result load_two(weights_job *task, aur_error *error) {
+    const aur_oswa_options options = cli_weights_oswa(task->arguments);
+    aur_oswa *oswa = NULL;
+    aur_result result = aur_oswa_create(&options, &oswa, error);
+    if (result != AUR_OK)
+        return result;
+    task->result->count = aur_oswa_size(oswa);
+    task->result->xyz = malloc(3 * task->result->count * sizeof(double));
+    if (task->result->xyz == NULL)
+        result = out_of_memory(error);
+    else
+        aur_oswa_points(oswa, task->arguments->degrees * pi / 180.0, (const double[2]){0.0, 0.0}, 0,
+                        task->result->xyz);
+    task->own[0] = options.count;
+    task->own[1] = options.mirror_count;
+    aur_oswa_destroy(oswa);
+    return result;
+}
+
+/* The samples of lobe k alone: where they start, and how many. */
+static size_t first_of(const weights_job *task, size_t k) {
+    return k == 1 && task->own[1] > 0 ? task->own[0] : 0;
+}
+
+static size_t count_of(const weights_job *task, size_t k) {
+    return task->own[k] > 0 ? task->own[k] : task->result->count;
+}
+
+/* 1/N over the samples of a lobe that its density can see. */
+static void equal_weights(const weights_job *task, size_t k, double *weights) {
+    const size_t first = first_of(task, k), count = count_of(task, k);
+    const bool hides = k == 1 && (task->arguments->clipped || task->arguments->mirror.kind == AUR_LOBE_GGX);
+    size_t visible = 0;
+    for (size_t i = first; i < first + count; ++i)
+        visible += !hides || task->result->xyz[3 * i + 2] >= 0.0;
+    memset(weights, 0, task->result->count * sizeof *weights);
+    for (size_t i = first; i < first + count; ++i)
+        if (!hides || task->result->xyz[3 * i + 2] >= 0.0)
+            weights[i] = 1.0 / (double)visible;
+}
+
+static aur_result ratio_weights(const weights_job *task, size_t k, double *weights, aur_error *error) {
+    const size_t first = first_of(task, k);
+    memset(weights, 0, task->result->count * sizeof *weights);
+    if (task->plain != NULL && k == 0) {
+        memcpy(weights, task->plain, task->result->count * sizeof *weights);
+        return AUR_OK;
+    }
+    if (task->own[k] == 0)
+        return fail(error, AUR_ERROR_UNSUPPORTED,
+                    "a file does not say what density its points were drawn from");
+    return aur_mis_weights(AUR_MIS_BALANCE, 1, &task->strategies[k], task->potentials[k],
+                           task->result->xyz + 3 * first, weights + first, error);
+}
+
+static aur_result optimal_weights(weights_job *task, aur_error *error) {
+    cli_weights_result *const result = task->result;
+    const aur_potential *const *const potentials = (const aur_potential *const *)task->potentials;
+    double *const condition = task->arguments->report ? &result->condition : NULL;
+    if (task->arguments->method == CLI_METHOD_OSWA || result->lobe_count == 1 || task->own[1] == 0)
+        return aur_weights_solve(result->count, result->xyz, result->lobe_count, potentials,
+                                 &task->arguments->weights, result->weights, NULL, condition, error);
+    memset(result->weights, 0, 2 * result->count * sizeof *result->weights);
+    for (size_t k = 0; k < 2; ++k) {
+        const size_t first = first_of(task, k);
+        const aur_result solved = aur_weights_solve(
+            count_of(task, k), result->xyz + 3 * first, 1, potentials + k, &task->arguments->weights,
+            result->weights + k * result->count + first, NULL, NULL, error);
+        if (solved != AUR_OK)
+            return solved;
+    }
+    return AUR_OK;
+}
+
+static aur_result rival_weights(weights_job *task, aur_error *error) {
+    cli_weights_result *const result = task->result;
+    const cli_method method = task->arguments->method;
+    for (size_t k = 0; k < result->lobe_count; ++k) {
+        double *const weights = result->weights + k * result->count;
+        aur_result made = AUR_OK;
+        if (method == CLI_METHOD_EQUAL)
+            equal_weights(task, k, weights);
+        else if (method == CLI_METHOD_RATIO)
+            made = ratio_weights(task, k, weights, error);
+        else if (result->lobe_count == 1 || task->own[1] == 0)
+            made = fail(error, AUR_ERROR_UNSUPPORTED,
+                        "multiple importance sampling needs a set and two lobes: give --lobe2");
+        else
+            made = aur_mis_weights(method == CLI_METHOD_POWER ? AUR_MIS_POWER : AUR_MIS_BALANCE, 2,
+                                   task->strategies, task->potentials[k], result->xyz, weights, error);
+        if (made != AUR_OK)
+            return made;
+    }
+    return AUR_OK;
+}
+
+static aur_result judge(weights_job *task, aur_error *error) {
+    cli_weights_result *const result = task->result;
+    double *const plain = malloc(result->count * sizeof *plain);
+    if (plain == NULL)
+        return out_of_memory(error);
+    const aur_progress progress = cli_progress(task->arguments->quiet);
+    aur_result judged = AUR_OK;
+    for (size_t k = 0; k < result->lobe_count && judged == AUR_OK; ++k) {
+        const double *const weights = result->weights + k * result->count;
+        judged = aur_worst_case_error(result->count, result->xyz, weights, task->potentials[k],
+                                      task->arguments->threads, &progress, &result->weighted[k], error);
+        for (size_t i = 0; i < result->count; ++i)
+            result->sum[k] += weights[i];
+        equal_weights(task, k, plain);
+        if (judged == AUR_OK)
+            judged = aur_worst_case_error(result->count, result->xyz, plain, task->potentials[k],
+                                          task->arguments->threads, &progress, &result->equal[k], error);
+        const bool drawn = task->arguments->points.optimal_density && !from_file(task);
+        if (judged == AUR_OK && drawn) {
+            result->has_ratio = true;
+            judged = ratio_weights(task, k, plain, error);
+        }
+        if (judged == AUR_OK && drawn)
+            judged = aur_worst_case_error(result->count, result->xyz, plain, task->potentials[k],
+                                          task->arguments->threads, &progress, &result->ratio[k], error);
+    }
+    cli_progress_clear();
+    free(plain);
+    return judged;
+}
+
+static aur_result compute(weights_job *task, aur_error *error) {
+    cli_weights_result *const result = task->result;
+    const bool two_patterns = task->arguments->mirror_given && !from_file(task);
+    aur_result made = two_patterns ? load_two(task, error) : load_one(task, error);
+    if (made == AUR_OK && !two_patterns && !from_file(task))
+        task->own[0] = result->count;
+    if (made == AUR_OK)
+        made = prepare_lobes(task, error);
+    if (made != AUR_OK)
+        return made;
+    result->weights = malloc(result->lobe_count * result->count * sizeof *result->weights);
+    if (result->weights == NULL)
+        return out_of_memory(error);
+    const bool optimal =
+        task->arguments->method == CLI_METHOD_OSW || task->arguments->method == CLI_METHOD_OSWA;
+    made = optimal ? optimal_weights(task, error) : rival_weights(task, error);
+    return made == AUR_OK && task->arguments->report ? judge(task, error) : made;
+}
+
+int cli_weights_compute(const cli_weights_arguments *arguments, cli_weights_result *result) {
+    weights_job task = {.arguments = arguments, .result = result};
+    result->lobe_count = arguments->mirror_given ? 2 : 1;
+    aur_error error = {0};
+    const aur_result made = compute(&task, &error);
+    aur_potential_destroy(task.potentials[0]);
+    aur_potential_destroy(task.potentials[1]);
+    free(task.plain);
+    return made == AUR_OK ? CLI_SUCCESS : cli_fail(&error);
+}
