@@ -123,9 +123,9 @@ typedef struct aur_weights_report {
 /* Optimal weights of `count` samples for each of `potential_count` densities (Marques 2018 eq. 14, with one
  * more right-hand side for the sum constraint): weights[potential_count * count], those of the first density
  * first. Two lobes and the union of their samples make this OSWA. All potentials must have the same
- * smoothness. When one of them is clipped, samples below the surface (z < 0) get weight 0 and take no part.
- * Samples at one place share their weight. `reports` (potential_count) and `condition` (an estimate of the
- * 1-norm condition number of the regularised matrix) may be NULL and are then not computed.
+ * smoothness. When one of them is clipped or GGX, samples below the surface (z < 0) get weight 0 and take no
+ * part. Samples at one place share their weight. `reports` (potential_count) and `condition` (an estimate of
+ * the 1-norm condition number of the regularised matrix) may be NULL and are then not computed.
  *
  * Errors: ARGUMENT for a vector that is not of unit length (which), no visible sample, or options out of
  * range; MEMORY with what it would take; INTERNAL for a matrix that is not positive definite. */

@@ -29,11 +29,19 @@ bool cli_plot_open(const char *path, int width, int height, cli_plot *plot) {
         return false;
     }
     snprintf(plot->temporary, capacity, "%s.tmp.%ld", path, (long)getpid());
+    FILE *const probe = fopen(plot->temporary, "wb");
+    if (probe == NULL) {
+        cli_bad_usage("%s: cannot write: %s", path, strerror(errno));
+        free(plot->temporary);
+        return false;
+    }
+    fclose(probe);
     /* A gnuplot that is not there must be an error, not the end of this program. */
     signal(SIGPIPE, SIG_IGN);
-    plot->script = popen("gnuplot", "w");
+    plot->script = popen("exec gnuplot >/dev/null 2>&1", "w");
     if (plot->script == NULL) {
         cli_bad_usage("--plot: cannot start gnuplot: %s", strerror(errno));
+        unlink(plot->temporary);
         free(plot->temporary);
         return false;
     }
@@ -49,9 +57,8 @@ int cli_plot_close(cli_plot *plot) {
     fputs("\nunset output\n", plot->script);
     const int status = pclose(plot->script);
     int result = CLI_SUCCESS;
-    if (status != 0 || access(plot->temporary, F_OK) != 0) {
-        cli_bad_usage("--plot: gnuplot did not draw '%s': is it installed, and can the file be written?",
-                      plot->path);
+    if (status != 0) {
+        cli_bad_usage("--plot: gnuplot did not draw '%s': is it installed?", plot->path);
         result = CLI_FAILURE;
     } else if (rename(plot->temporary, plot->path) != 0) {
         cli_bad_usage("%s: cannot write: %s", plot->path, strerror(errno));

@@ -15,10 +15,6 @@ static bool is_ggx(const aur_oswa *oswa) {
     return oswa->lobe[1].kind == AUR_LOBE_GGX;
 }
 
-static bool hides(const aur_oswa *oswa) {
-    return oswa->options.clipped || is_ggx(oswa);
-}
-
 static aur_result load_uniform(aur_oswa *oswa, size_t which, aur_error *error) {
     const aur_directions_options options = {.count = oswa->count[which],
                                             .domain = AUR_DOMAIN_HEMISPHERE,
@@ -286,27 +282,27 @@ static void fill_matrix(const aur_oswa *oswa, const double *xyz, double *columns
     }
 }
 
-/* Takes hidden samples out of the system, in place; returns how many stay. */
-static size_t drop_hidden(size_t n, const double *xyz, double *matrix, double *right, size_t columns) {
+/* Takes samples out of the system, in place; returns how many stay. */
+static size_t drop(size_t n, const bool *taken, double *matrix, double *right, size_t columns) {
     size_t kept = 0;
     for (size_t i = 0; i < n; ++i)
-        kept += xyz[3 * i + 2] >= 0.0;
+        kept += taken[i];
     if (kept == n)
         return n;
     size_t row = 0;
     for (size_t i = 0; i < n; ++i) {
-        if (xyz[3 * i + 2] < 0.0)
+        if (!taken[i])
             continue;
         size_t column = 0;
         for (size_t j = 0; j <= i; ++j)
-            if (xyz[3 * j + 2] >= 0.0)
+            if (taken[j])
                 matrix[row * kept + column++] = matrix[i * n + j];
         ++row;
     }
     for (size_t k = 0; k < columns; ++k) {
         row = 0;
         for (size_t i = 0; i < n; ++i)
-            if (xyz[3 * i + 2] >= 0.0)
+            if (taken[i])
                 right[k * kept + row++] = right[k * n + i];
     }
     return kept;
@@ -320,8 +316,8 @@ static double sum_of(size_t count, const double *values) {
 }
 
 /* The way that knows nothing in advance: GGX, and systems that only merged samples make positive definite. */
-static aur_result solve_plainly(const aur_oswa *oswa, const aur_oswa_angle *angle, const double *xyz,
-                                double *weights, aur_error *error) {
+static aur_result solve_plainly(const aur_oswa *oswa, const aur_oswa_angle *angle, const bool *taken,
+                                const double *xyz, double *weights, aur_error *error) {
     const size_t n = aur_oswa_size(oswa);
     aur_potential *mirror = angle->potential;
     aur_result result = AUR_OK;
@@ -332,30 +328,38 @@ static aur_result solve_plainly(const aur_oswa *oswa, const aur_oswa_angle *angl
                                      .clipped = oswa->options.clipped};
         result = aur_potential_create(&density, oswa->options.smoothness, &mirror, error);
     }
-    size_t kept = 0;
-    double *const visible = malloc(5 * n * sizeof *visible);
-    if (result == AUR_OK && visible == NULL)
+    double *const subset = malloc(5 * n * sizeof *subset);
+    if (result == AUR_OK && subset == NULL)
         result = aur_fail(error, AUR_ERROR_MEMORY, "out of memory");
     if (result == AUR_OK) {
+        size_t kept = 0;
         for (size_t i = 0; i < n; ++i)
-            if (!hides(oswa) || xyz[3 * i + 2] >= 0.0)
-                memcpy(visible + 3 * kept++, xyz + 3 * i, 3 * sizeof *xyz);
+            if (taken[i])
+                memcpy(subset + 3 * kept++, xyz + 3 * i, 3 * sizeof *xyz);
         const aur_potential *const potentials[] = {oswa->whole[0], mirror};
-        double *const found = visible + 3 * n;
+        double *const found = subset + 3 * n;
         result =
-            aur_weights_solve(kept, visible, 2, potentials, &oswa->options.weights, found, NULL, NULL, error);
+            aur_weights_solve(kept, subset, 2, potentials, &oswa->options.weights, found, NULL, NULL, error);
         for (size_t k = 0, at = 0; k < 2 && result == AUR_OK; ++k)
             for (size_t i = 0; i < n; ++i)
-                weights[k * n + i] = !hides(oswa) || xyz[3 * i + 2] >= 0.0 ? found[at++] : 0.0;
+                weights[k * n + i] = taken[i] ? found[at++] : 0.0;
     }
-    free(visible);
+    free(subset);
     if (mirror != angle->potential)
         aur_potential_destroy(mirror);
     return result;
 }
 
+void aur_oswa_visible(const aur_oswa *oswa, double radians, const double turns[2], double *xyz,
+                      bool *visible) {
+    const bool hides = oswa->options.clipped || is_ggx(oswa);
+    place(oswa, radians, turns, xyz);
+    for (size_t i = 0; i < aur_oswa_size(oswa); ++i)
+        visible[i] = !hides || xyz[3 * i + 2] >= 0.0;
+}
+
 aur_result aur_oswa_solve_at(const aur_oswa *oswa, const aur_oswa_angle *angle, const double turns[2],
-                             double *scratch, double *weights, aur_error *error) {
+                             const bool *taken, double *scratch, double *weights, aur_error *error) {
     const size_t n = aur_oswa_size(oswa);
     double *const matrix = scratch;
     double *const xyz = matrix + n * n;
@@ -364,7 +368,7 @@ aur_result aur_oswa_solve_at(const aur_oswa *oswa, const aur_oswa_angle *angle, 
     double *const cosines = right + 3 * n;
     place(oswa, angle->radians, turns, xyz);
     if (is_ggx(oswa))
-        return solve_plainly(oswa, angle, xyz, weights, error);
+        return solve_plainly(oswa, angle, taken, xyz, weights, error);
     const size_t first = oswa->count[0];
     fill_matrix(oswa, xyz, columns, matrix);
     fill_z(oswa, angle, 0, xyz, cosines, right, right + n);
@@ -372,18 +376,17 @@ aur_result aur_oswa_solve_at(const aur_oswa *oswa, const aur_oswa_angle *angle, 
     const bool constrained = oswa->options.weights.sum_constraint;
     for (size_t i = 0; i < n; ++i)
         right[2 * n + i] = 1.0;
-    const size_t kept = oswa->options.clipped ? drop_hidden(n, xyz, matrix, right, 3) : n;
+    const size_t kept = drop(n, taken, matrix, right, 3);
     if (aur_solve_positive(kept, matrix, constrained ? 3 : 2, right, NULL, NULL) != AUR_OK)
-        return solve_plainly(oswa, angle, xyz, weights, error);
+        return solve_plainly(oswa, angle, taken, xyz, weights, error);
     for (size_t k = 0; k < 2; ++k) {
         const double *const solution = right + k * kept;
         const double *const ones = right + 2 * kept;
         const double multiplier = constrained ? (sum_of(kept, solution) - 1.0) / sum_of(kept, ones) : 0.0;
         size_t at = 0;
         for (size_t i = 0; i < n; ++i) {
-            const bool taken = kept == n || xyz[3 * i + 2] >= 0.0;
-            weights[k * n + i] = !taken ? 0.0 : solution[at] - (constrained ? multiplier * ones[at] : 0.0);
-            at += taken;
+            weights[k * n + i] = !taken[i] ? 0.0 : solution[at] - (constrained ? multiplier * ones[at] : 0.0);
+            at += taken[i];
         }
     }
     return AUR_OK;
@@ -391,16 +394,21 @@ aur_result aur_oswa_solve_at(const aur_oswa *oswa, const aur_oswa_angle *angle, 
 
 aur_result aur_oswa_solve(const aur_oswa *oswa, double radians, const double turns[2], double *weights,
                           double *mass, aur_error *error) {
+    const size_t n = aur_oswa_size(oswa);
     aur_oswa_angle angle;
     aur_result result = aur_oswa_angle_init(oswa, radians, &angle, error);
     double *const scratch = malloc(aur_oswa_scratch(oswa) * sizeof *scratch);
-    if (result == AUR_OK && scratch == NULL)
+    bool *const visible = malloc(n * sizeof *visible);
+    if (result == AUR_OK && (scratch == NULL || visible == NULL))
         result = aur_fail(error, AUR_ERROR_MEMORY, "out of memory");
-    if (result == AUR_OK)
-        result = aur_oswa_solve_at(oswa, &angle, turns, scratch, weights, error);
+    if (result == AUR_OK) {
+        aur_oswa_visible(oswa, radians, turns, scratch, visible);
+        result = aur_oswa_solve_at(oswa, &angle, turns, visible, scratch, weights, error);
+    }
     if (result == AUR_OK && mass != NULL)
         *mass = angle.mass;
     free(scratch);
+    free(visible);
     aur_oswa_angle_release(&angle);
     return result;
 }

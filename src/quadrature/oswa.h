@@ -32,10 +32,15 @@ typedef struct aur_oswa_angle {
 aur_result aur_oswa_angle_init(const aur_oswa *oswa, double radians, aur_oswa_angle *angle, aur_error *error);
 void aur_oswa_angle_release(aur_oswa_angle *angle);
 
+/* Which samples are above the surface, where that matters; xyz[3 * size] are their places. */
+void aur_oswa_visible(const aur_oswa *oswa, double radians, const double turns[2], double *xyz,
+                      bool *visible);
+
 /* Doubles of scratch memory that a solve needs. */
 size_t aur_oswa_scratch(const aur_oswa *oswa);
+/* The weights with only the samples `taken`, which must be visible; the others get 0. */
 aur_result aur_oswa_solve_at(const aur_oswa *oswa, const aur_oswa_angle *angle, const double turns[2],
-                             double *scratch, double *weights, aur_error *error);
+                             const bool *taken, double *scratch, double *weights, aur_error *error);
 
 /* A hash of the patterns: two programs that make a set differently do not share a table. */
 uint64_t aur_oswa_hash(const aur_oswa *oswa);

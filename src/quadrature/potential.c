@@ -164,7 +164,7 @@ static void evaluate_lobe(const aur_potential *potential, size_t count, const do
             cosine[i] = z[first + i];
         aur_zonal_evaluate(&potential->zonal, size, cosine, z + first);
     }
-    if (!aur_potential_hides(potential) || potential->lune.fraction <= 0.0)
+    if (potential->lune.fraction <= 0.0)
         return;
     const double visible = 1.0 - potential->lune.fraction;
     for (size_t i = 0; i < count; ++i)
@@ -197,9 +197,7 @@ static double clipped_self_energy(const aur_potential *potential) {
 double aur_potential_self_energy(const aur_potential *potential) {
     switch (potential->density.kind) {
     case AUR_DENSITY_COSINE_POWER:
-        return aur_potential_hides(potential) && potential->lune.fraction > 0.0
-                   ? clipped_self_energy(potential)
-                   : potential->zonal.self_energy;
+        return potential->lune.fraction > 0.0 ? clipped_self_energy(potential) : potential->zonal.self_energy;
     case AUR_DENSITY_SPHERE:
         return sphere_potential(potential);
     default:

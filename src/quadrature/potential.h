@@ -22,7 +22,8 @@ struct aur_potential {
 
 /* Whether samples below the surface are hidden. */
 static inline bool aur_potential_hides(const aur_potential *potential) {
-    return potential->density.kind == AUR_DENSITY_COSINE_POWER && potential->density.clipped;
+    const aur_density_kind kind = potential->density.kind;
+    return kind == AUR_DENSITY_GGX || (kind == AUR_DENSITY_COSINE_POWER && potential->density.clipped);
 }
 
 /* Unnormalised densities as nodes: fill columns x, y, z and masses, node_count each. */

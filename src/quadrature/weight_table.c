@@ -27,9 +27,10 @@ aur_result aur_weight_table_allocate(const aur_oswa_options *options, size_t ang
     created->angle_count = angle_count;
     created->rotation_count = rotation_count;
     created->size = aur_oswa_size(created->oswa);
-    const size_t entries = angle_count * rotation_count; /* at most 2^32 */
+    created->apart = created->oswa->options.clipped || created->oswa->lobe[1].kind == AUR_LOBE_GGX;
     size_t floats;
-    if (__builtin_mul_overflow(entries, 2 * created->size, &floats) || floats > SIZE_MAX / sizeof(float))
+    if (__builtin_mul_overflow(aur_weight_table_rows(created), 2 * created->size, &floats) ||
+        floats > SIZE_MAX / sizeof(float))
         floats = SIZE_MAX / sizeof(float);
     created->weights = malloc(floats * sizeof *created->weights);
     created->masses = malloc(angle_count * sizeof *created->masses);
@@ -57,10 +58,9 @@ void aur_weight_table_turns(const aur_weight_table *table, size_t rotation, doub
         turns[which] = aur_unit_double(aur_hash4(UINT64_C(0x7475726e), seed, rotation, which));
 }
 
-/* The weights of one lobe and rotation at one angle: both lobes of a rotation lie side by side for all
- * angles. */
-static float *entry(const aur_weight_table *table, size_t lobe, size_t rotation, size_t angle) {
-    return table->weights + ((rotation * table->angle_count + angle) * 2 + lobe) * table->size;
+/* The two rows, one a lobe, at the lower or the upper end of an interval of angles. */
+static float *rows(const aur_weight_table *table, size_t rotation, size_t interval, size_t end) {
+    return table->weights + aur_weight_table_row(table, rotation, interval, end) * 2 * table->size;
 }
 
 typedef struct build {
@@ -68,27 +68,78 @@ typedef struct build {
     aur_error *errors; /* one an angle */
 } build;
 
+/* What one angle needs of memory. */
+typedef struct angle_work {
+    double *scratch, *weights;
+    bool *here, *neighbour, *taken, *solved;
+} angle_work;
+
+static aur_result solve_end(const aur_weight_table *table, const aur_oswa_angle *angle, const double turns[2],
+                            const angle_work *work, float *target, aur_error *error) {
+    const aur_result result =
+        aur_oswa_solve_at(table->oswa, angle, turns, work->taken, work->scratch, work->weights, error);
+    for (size_t i = 0; i < 2 * table->size && result == AUR_OK; ++i)
+        target[i] = (float)work->weights[i];
+    return result;
+}
+
+/* The rows that stand at one angle: the upper end of the interval before it and the lower end of that after
+ * it. Both ends of an interval take the samples that are visible at both, so that between them no sample
+ * appears or vanishes. */
+static aur_result build_rotation(const aur_weight_table *table, size_t index, size_t rotation,
+                                 const aur_oswa_angle *angle, const angle_work *work, aur_error *error) {
+    const size_t intervals = table->angle_count - 1;
+    double turns[2];
+    aur_weight_table_turns(table, rotation, turns);
+    aur_oswa_visible(table->oswa, angle->radians, turns, work->scratch, work->here);
+    const float *done = NULL;
+    for (size_t end = 2; end-- > 0;) {
+        if (index < end || index - end >= intervals)
+            continue;
+        const size_t neighbour = end == 1 ? index - 1 : index + 1;
+        float *const target = rows(table, rotation, index - end, end);
+        aur_oswa_visible(table->oswa, aur_weight_table_angle(table, neighbour), turns, work->scratch,
+                         work->neighbour);
+        for (size_t i = 0; i < table->size; ++i)
+            work->taken[i] = work->here[i] && work->neighbour[i];
+        if (done != NULL && memcmp(work->taken, work->solved, table->size * sizeof *work->taken) == 0) {
+            if (done != target)
+                memcpy(target, done, 2 * table->size * sizeof *target);
+            continue;
+        }
+        const aur_result result = solve_end(table, angle, turns, work, target, error);
+        if (result != AUR_OK)
+            return result;
+        memcpy(work->solved, work->taken, table->size * sizeof *work->taken);
+        done = target;
+    }
+    return AUR_OK;
+}
+
 static aur_result build_angle(void *context, size_t index) {
     const build *const work = context;
     aur_weight_table *const table = work->table;
     aur_error *const error = &work->errors[index];
-    const double radians = 0.5 * AUR_PI * (double)index / (double)(table->angle_count - 1);
+    const size_t doubles = aur_oswa_scratch(table->oswa);
+    double *const scratch = malloc((doubles + 2 * table->size) * sizeof *scratch);
+    bool *const flags = malloc(4 * table->size * sizeof *flags);
     aur_oswa_angle angle;
-    aur_result result = aur_oswa_angle_init(table->oswa, radians, &angle, error);
-    double *const scratch = malloc((aur_oswa_scratch(table->oswa) + 2 * table->size) * sizeof *scratch);
-    if (result == AUR_OK && scratch == NULL)
+    aur_result result = aur_oswa_angle_init(table->oswa, aur_weight_table_angle(table, index), &angle, error);
+    if (result == AUR_OK && (scratch == NULL || flags == NULL))
         result = aur_fail(error, AUR_ERROR_MEMORY, "out of memory");
-    table->masses[index] = (float)angle.mass;
-    for (size_t rotation = 0; rotation < table->rotation_count && result == AUR_OK; ++rotation) {
-        double *const weights = scratch + aur_oswa_scratch(table->oswa);
-        double turns[2];
-        aur_weight_table_turns(table, rotation, turns);
-        result = aur_oswa_solve_at(table->oswa, &angle, turns, scratch, weights, error);
-        float *const target = entry(table, 0, rotation, index);
-        for (size_t i = 0; i < 2 * table->size && result == AUR_OK; ++i)
-            target[i] = (float)weights[i];
+    if (result == AUR_OK) {
+        const angle_work parts = {scratch,
+                                  scratch + doubles,
+                                  flags,
+                                  flags + table->size,
+                                  flags + 2 * table->size,
+                                  flags + 3 * table->size};
+        table->masses[index] = (float)angle.mass;
+        for (size_t rotation = 0; rotation < table->rotation_count && result == AUR_OK; ++rotation)
+            result = build_rotation(table, index, rotation, &angle, &parts, error);
     }
     free(scratch);
+    free(flags);
     aur_oswa_angle_release(&angle);
     return result;
 }
@@ -157,8 +208,8 @@ void aur_weight_table_look_up(const aur_weight_table *table, size_t lobe, size_t
                               float *weights) {
     float part;
     const size_t angle = interval(table, radians, &part);
-    const float *restrict below = entry(table, lobe, rotation, angle);
-    const float *restrict above = below + 2 * table->size;
+    const float *restrict below = rows(table, rotation, angle, 0) + lobe * table->size;
+    const float *restrict above = rows(table, rotation, angle, 1) + lobe * table->size;
     float *restrict target = weights;
     for (size_t i = 0; i < table->size; ++i)
         target[i] = below[i] + part * (above[i] - below[i]);

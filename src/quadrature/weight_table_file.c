@@ -61,7 +61,7 @@ static void get_floats(const char *source, size_t count, float *values) {
 }
 
 static size_t weight_count(const aur_weight_table *table) {
-    return 2 * table->size * table->angle_count * table->rotation_count;
+    return 2 * table->size * aur_weight_table_rows(table);
 }
 
 aur_result aur_weight_table_save(const aur_weight_table *table, const char *path, aur_error *error) {
@@ -251,8 +251,9 @@ static aur_result parse(reader *in, size_t size, const aur_oswa_options *expecte
     if (result != AUR_OK)
         return result;
     /* The size must fit before anything of that size is allocated. */
-    const double numbers = (double)h.angles * (1.0 + 2.0 * (double)h.rotations *
-                                                         (double)(h.options.count + h.options.mirror_count));
+    const bool apart = h.options.clipped || h.options.mirror_lobe.kind == AUR_LOBE_GGX;
+    const double rows = (double)h.rotations * (apart ? 2.0 * ((double)h.angles - 1.0) : (double)h.angles);
+    const double numbers = (double)h.angles + 2.0 * rows * (double)(h.options.count + h.options.mirror_count);
     if ((double)(size - 8 - (size_t)(in->rest - data)) != 4.0 * numbers)
         return aur_fail_at(in->error, in->where, AUR_ERROR_FORMAT,
                            "the table is not of the size that it says");

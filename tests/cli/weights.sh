@@ -1,0 +1,97 @@
+#!/usr/bin/env bash
+# aureole weights through the program: golden figures, the sum of weights, two lobes, tables, pictures, bad input.
+set -u
+program=$1
+rm -rf work && mkdir work && cd work || exit 1
+fail() { echo "$*"; exit 1; }
+near() { awk -v a="$1" -v b="$2" -v t="$3" 'BEGIN { d = a - b; exit !((d < 0 ? -d : d) <= t * b) }'; }
+column() { # FILE NAME [ROW]: one cell of a CSV
+  awk -F, -v name="$2" -v row="${3:-1}" 'NR == 1 { for (i = 1; i <= NF; ++i) if ($i == name) c = i }
+    NR == row + 1 { print $c }' "$1"
+}
+check() { near "$(column "$1" "$2" "${5:-1}")" "$3" "$4" || fail "$1: $2 is $(column "$1" "$2" "${5:-1}"), not $3"; }
+
+sf=spherical-fibonacci
+"$program" weights $sf -n 64 --lobe cosine --regularization 0 --unconstrained --report --format csv >diffuse || exit 1
+check diffuse equal 3.451313401060e-2 1e-9
+check diffuse optimal 3.299058614880e-2 1e-9
+check diffuse weight_sum .998357445867 1e-9
+"$program" weights $sf -n 64 --lobe phong:20 --regularization 0 --unconstrained --report --format csv >glossy || exit 1
+check glossy equal 2.284681166476e-2 1e-9
+check glossy optimal 2.130088901918e-2 1e-9
+# The optimal density: plain weights p/q, and optimal ones.
+"$program" weights $sf -n 64 --lobe phong:20 --density optimal --regularization 0 --unconstrained --report \
+  --format csv >dense || exit 1
+check dense ratio 2.078e-2 2.5e-4
+check dense optimal 2.055e-2 5e-4
+
+# x,y,z,w: a header, 17 digits, weights of sum 1, and a file that goes in comes out the same.
+"$program" weights sobol -n 32 --lobe cosine -o points.csv || exit 1
+[ "$(head -1 points.csv)" = "x,y,z,w" ] || fail "header $(head -1 points.csv)"
+[ "$(wc -l <points.csv)" = 33 ] || fail "$(wc -l <points.csv) lines"
+near "$(awk -F, 'NR > 1 { s += $4 } END { printf "%.17g", s }' points.csv)" 1 1e-12 || fail "sum of weights"
+"$program" weights points.csv --lobe cosine >again.csv || exit 1
+cmp points.csv again.csv || fail "weights of a file differ from weights of its set"
+"$program" weights sobol -n 32 --domain sphere --method equal | awk -F, 'NR > 1 && $4 != 0.03125 { exit 1 }' ||
+  fail "equal weights are 1/N"
+
+# Two lobes: OSWA has the lowest error of all methods for both.
+for method in osw mis mis-power equal oswa; do
+  "$program" weights sobol -n 128 --n2 64 --lobe cosine --lobe2 phong:20 --angle 65 --clip --method $method \
+    --scramble digit --report --format csv >two.$method || exit 1
+done
+for row in 1 2; do
+  best=$(column two.oswa optimal $row)
+  near "$(column two.oswa weight_sum $row)" 1 1e-10 || fail "OSWA sum"
+  awk -v a="$best" -v b="$(column two.osw optimal $row)" 'BEGIN { exit !(a < b) }' || fail "OSWA against OSW"
+  for method in mis mis-power equal; do
+    awk -v a="$best" -v b="$(column two.$method weighted $row)" 'BEGIN { exit !(a < b) }' || fail "OSWA against $method"
+  done
+done
+"$program" weights sobol -n 16 --n2 8 --lobe cosine --lobe2 ggx:0.3 --angle 80 >two.csv || exit 1
+[ "$(head -1 two.csv)" = "x,y,z,w,w2" ] || fail "header of two lobes"
+awk -F, 'NR > 1 && $3 < 0 && ($4 != 0 || $5 != 0) { exit 1 }' two.csv || fail "hidden samples have weight 0"
+
+# Tables: the same file whatever the threads.
+table() { "$program" weights $sf -n 16 --n2 8 --lobe cosine --lobe2 phong:20 --clip --angles 9 --rotations 2 "$@"; }
+table --table a.table -t 1 && table --table b.table -t 4 || exit 1
+cmp a.table b.table || fail "a table depends on the threads"
+head -1 a.table | grep -q "aureole weight table" || fail "what a table says of itself"
+
+if command -v gnuplot >/dev/null; then
+  "$program" weights random -n 50 --lobe cosine --plot "it's.svg" || fail "plot"
+  grep -q "</svg>" "it's.svg" || fail "no picture"
+  "$program" weights random -n 50 --lobe cosine --plot no/such/folder.svg 2>/dev/null && fail "a plot nowhere"
+fi
+
+refused() { # PATTERN COMMAND...: exit status 2, one line on standard error, nothing on standard output
+  local pattern=$1; shift
+  "$program" weights "$@" >out 2>message; local status=$?
+  [ $status -eq 2 ] || fail "weights $*: status $status"
+  [ ! -s out ] || fail "weights $*: wrote to standard output"
+  [ "$(wc -l <message)" -eq 1 ] || fail "weights $*: $(cat message)"
+  grep -q -- "$pattern" message || fail "weights $*: $(cat message)"
+}
+printf 'x,y,z\n0,0,1\n0,0.5,0.5\n' >off.csv
+refused "length 1" off.csv --lobe cosine
+printf 'x,y,z\n0,0,1\n0,0,-1\n' >below.csv
+refused "below the hemisphere" below.csv --lobe cosine
+printf 'u,v\n0.5,0.5\n' >square.csv
+refused "x,y,z" square.csv --lobe cosine
+refused "exponent" sobol -n 8 --lobe phong:-1
+refused "exponent\|nan" sobol -n 8 --lobe phong:nan
+refused "smoothness" sobol -n 8 --lobe cosine --smoothness 2.5
+refused "smoothness" sobol -n 8 --lobe cosine --smoothness 1
+refused "regularization" sobol -n 8 --lobe cosine --regularization -1
+refused "sobol" sobl -n 8 --lobe cosine
+refused "-n N" sobol --lobe cosine
+refused "lobe2" sobol -n 8 --lobe cosine --method oswa
+refused "lobe2" sobol -n 8 --lobe cosine --clip
+refused "angle" sobol -n 8 --lobe cosine --lobe2 phong:20
+refused "hemisphere" sobol -n 8 --domain sphere --lobe cosine
+refused "missing" --lobe cosine
+refused "must be one of" sobol -n 8 --method best
+# Beyond memory: what it would take.
+"$program" weights random -n 2000000 --lobe cosine >/dev/null 2>message && fail "two million samples"
+grep -q "GiB" message || fail "$(cat message)"
+exit 0

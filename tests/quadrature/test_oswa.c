@@ -1,0 +1,347 @@
+/* Two lobes and one merged set: the fast way against the plain one, tables against solves, files against
+ * damage. */
+#include <aureole/quadrature.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "check.h"
+
+#define PI 3.14159265358979323846
+
+static aur_oswa_options pair(double m, int clipped) {
+    return (aur_oswa_options){.set = "sobol",
+                              .count = 64,
+                              .mirror_count = 32,
+                              .lobe = {.exponent = 1.0},
+                              .mirror_lobe = {.exponent = m},
+                              .clipped = clipped,
+                              .scramble = AUR_SCRAMBLE_DIGIT,
+                              .seed = 11,
+                              .weights = {AUR_REGULARIZATION_DEFAULT, 1}};
+}
+
+static aur_potential *create(const aur_density *density) {
+    aur_potential *potential;
+    assert_int_equal(aur_potential_create(density, 1.5, &potential, NULL), AUR_OK);
+    return potential;
+}
+
+/* The constant blocks, turns, hidden samples and clipped z of the fast way give what the plain solve gives of
+ * the same points. */
+static void test_solve_is_the_plain_one(void **state) {
+    (void)state;
+    const double turns[2] = {0.13, 0.77};
+    const double degrees[] = {0.0, 35.0, 75.0, 90.0};
+    for (int clipped = 0; clipped < 2; ++clipped) {
+        const aur_oswa_options options = pair(20.0, clipped);
+        aur_oswa *oswa;
+        assert_int_equal(aur_oswa_create(&options, &oswa, NULL), AUR_OK);
+        assert_int_equal(aur_oswa_size(oswa), 96);
+        for (size_t d = 0; d < 4; ++d) {
+            const double angle = degrees[d] * PI / 180.0;
+            double xyz[3 * 96], fast[2 * 96], plain[2 * 96], mass;
+            aur_oswa_points(oswa, angle, turns, 0, xyz);
+            assert_int_equal(aur_oswa_solve(oswa, angle, turns, fast, &mass, NULL), AUR_OK);
+            const double up = fmax(0.0, cos(angle));
+            aur_potential *const diffuse = create(&(aur_density){.exponent = 1.0});
+            aur_potential *const glossy =
+                create(&(aur_density){.exponent = 20.0, .axis = {-sin(angle), 0.0, up}, .clipped = clipped});
+            const aur_potential *const potentials[] = {diffuse, glossy};
+            assert_int_equal(
+                aur_weights_solve(96, xyz, 2, potentials, &options.weights, plain, NULL, NULL, NULL), AUR_OK);
+            for (int i = 0; i < 2 * 96; ++i)
+                assert_near(fast[i], plain[i], 1e-11);
+            assert_relative(mass, aur_potential_mass(glossy), 1e-12);
+            aur_potential_destroy(diffuse);
+            aur_potential_destroy(glossy);
+        }
+        aur_oswa_destroy(oswa);
+    }
+}
+
+/* The mirror image of the samples has the same optimal weights. */
+static void test_mirror_image(void **state) {
+    (void)state;
+    const double turns[2] = {0.4, 0.1};
+    const aur_oswa_options options = pair(20.0, 1);
+    aur_oswa *oswa;
+    assert_int_equal(aur_oswa_create(&options, &oswa, NULL), AUR_OK);
+    double straight[3 * 96], mirrored[3 * 96], weights[2 * 96], error[2];
+    aur_oswa_points(oswa, 1.0, turns, 0, straight);
+    aur_oswa_points(oswa, 1.0, turns, 1, mirrored);
+    assert_int_equal(aur_oswa_solve(oswa, 1.0, turns, weights, NULL, NULL), AUR_OK);
+    aur_potential *const glossy =
+        create(&(aur_density){.exponent = 20.0, .axis = {-sin(1.0), 0.0, cos(1.0)}, .clipped = 1});
+    assert_true(straight[1] == -mirrored[1] && straight[1] != 0.0);
+    aur_worst_case_error(96, straight, weights + 96, glossy, 1, NULL, &error[0], NULL);
+    aur_worst_case_error(96, mirrored, weights + 96, glossy, 1, NULL, &error[1], NULL);
+    assert_near(error[0], error[1], 1e-13);
+    aur_potential_destroy(glossy);
+    aur_oswa_destroy(oswa);
+}
+
+/* GGX: samples follow the visible normals at each angle and hidden ones get nothing. */
+static void test_ggx(void **state) {
+    (void)state;
+    aur_oswa_options options = pair(0.0, 0);
+    options.mirror_lobe = (aur_lobe){.kind = AUR_LOBE_GGX, .alpha = 0.3};
+    aur_oswa *oswa;
+    assert_int_equal(aur_oswa_create(&options, &oswa, NULL), AUR_OK);
+    const double turns[2] = {0.0, 0.0};
+    double xyz[3 * 96], weights[2 * 96], mass, sum = 0.0;
+    const double angle = 75.0 * PI / 180.0;
+    aur_oswa_points(oswa, angle, turns, 0, xyz);
+    assert_int_equal(aur_oswa_solve(oswa, angle, turns, weights, &mass, NULL), AUR_OK);
+    size_t hidden = 0;
+    for (int i = 0; i < 96; ++i) {
+        sum += weights[96 + i];
+        if (xyz[3 * i + 2] < 0.0) {
+            ++hidden;
+            assert_true(weights[i] == 0.0 && weights[96 + i] == 0.0);
+        }
+    }
+    assert_true(hidden > 0);
+    assert_near(sum, 1.0, 1e-12);
+    /* Energy is lost by masking only. */
+    assert_true(mass > 0.5 && mass < 1.0);
+    aur_oswa_destroy(oswa);
+}
+
+static void test_published_table(void **state) {
+    (void)state;
+    aur_potential_table *table;
+    assert_int_equal(aur_potential_table_create(64, 32, 200.0, 1.5, &table, NULL), AUR_OK);
+    aur_potential *const potential = create(&(aur_density){.exponent = 20.0});
+    double worst = 0.0;
+    for (int i = 0; i <= 100; ++i) {
+        const double x = cos(PI * i / 100.0), u[3] = {sin(PI * i / 100.0), 0.0, x};
+        double looked_up, exact;
+        aur_potential_table_evaluate(table, 20.0, 1, &x, &looked_up);
+        aur_potential_evaluate(potential, 1, u, &exact);
+        worst = fmax(worst, fabs(looked_up - exact));
+    }
+    /* Linear interpolation: small, and not nothing. */
+    assert_true(worst < 5e-3 && worst > 1e-5);
+    /* At a node of both axes it is exact: m = 0 is the first row. */
+    const double pole = 1.0;
+    double value;
+    aur_potential_table_evaluate(table, 0.0, 1, &pole, &value);
+    aur_potential *const uniform = create(&(aur_density){.exponent = 0.0});
+    double exact;
+    aur_potential_evaluate(uniform, 1, (double[]){0, 0, 1}, &exact);
+    assert_near(value, exact, 1e-14);
+    aur_potential_destroy(uniform);
+    aur_potential_destroy(potential);
+    aur_potential_table_destroy(table);
+    assert_int_equal(aur_potential_table_create(1, 32, 200.0, 1.5, &table, NULL), AUR_ERROR_ARGUMENT);
+}
+
+static aur_weight_table *build(const aur_oswa_options *options, size_t angles, size_t rotations,
+                               size_t threads) {
+    aur_weight_table *table;
+    assert_int_equal(aur_weight_table_build(options, angles, rotations, threads, NULL, &table, NULL), AUR_OK);
+    return table;
+}
+
+/* At its own angles a table holds the solves, whatever the threads; between them it loses less than half a
+ * percent of the gain, over every angle halfway. */
+static void check_table(double m, int clipped, size_t angles) {
+    const aur_oswa_options options = pair(m, clipped);
+    aur_weight_table *const table = build(&options, angles, 2, 1);
+    aur_weight_table *const again = build(&options, angles, 2, 3);
+    aur_oswa *oswa;
+    assert_int_equal(aur_oswa_create(&options, &oswa, NULL), AUR_OK);
+    float found[96], other[96];
+    double exact[2 * 96], turns[2], xyz[3 * 96], looked_up[96];
+    double equal_total = 0.0, optimal_total = 0.0, table_total = 0.0;
+    for (size_t i = 0; i + 1 < angles; i += 3) {
+        const double node = 0.5 * PI * (double)i / (double)(angles - 1);
+        aur_weight_table_turns(table, 1, turns);
+        assert_int_equal(aur_oswa_solve(oswa, node, turns, exact, NULL, NULL), AUR_OK);
+        for (size_t lobe = 0; lobe < 2; ++lobe) {
+            aur_weight_table_look_up(table, lobe, 1, (float)node, found);
+            aur_weight_table_look_up(again, lobe, 1, (float)node, other);
+            assert_memory_equal(found, other, sizeof found);
+            /* Clipped, the samples are those of the whole interval; their sum is still 1. */
+            double sum = 0.0;
+            for (size_t k = 0; k < 96; ++k) {
+                sum += (double)found[k];
+                if (!clipped)
+                    assert_near(found[k], exact[lobe * 96 + k], 2e-6 + 2e-4 * fabs(exact[lobe * 96 + k]));
+            }
+            assert_near(sum, 1.0, 1e-6);
+        }
+        const double angle = node + 0.25 * PI / (double)(angles - 1);
+        double errors[3], mass;
+        assert_int_equal(aur_oswa_solve(oswa, angle, turns, exact, &mass, NULL), AUR_OK);
+        aur_weight_table_look_up(table, 1, 1, (float)angle, found);
+        aur_oswa_points(oswa, angle, turns, 0, xyz);
+        size_t visible = 0;
+        for (size_t k = 64; k < 96; ++k)
+            visible += !clipped || xyz[3 * k + 2] >= 0.0;
+        double equal[96] = {0};
+        for (size_t k = 0; k < 96; ++k) {
+            const int seen = !clipped || xyz[3 * k + 2] >= 0.0;
+            looked_up[k] = seen ? (double)found[k] : 0.0;
+            equal[k] = k >= 64 && seen ? 1.0 / (double)visible : 0.0;
+        }
+        aur_potential *const glossy = create(&(aur_density){
+            .exponent = m, .axis = {-sin(angle), 0.0, fmax(0.0, cos(angle))}, .clipped = clipped});
+        aur_worst_case_error(96, xyz, exact + 96, glossy, 1, NULL, &errors[0], NULL);
+        aur_worst_case_error(96, xyz, looked_up, glossy, 1, NULL, &errors[1], NULL);
+        aur_worst_case_error(96, xyz, equal, glossy, 1, NULL, &errors[2], NULL);
+        assert_relative(aur_weight_table_mass(table, (float)angle), mass, 2e-3);
+        optimal_total += errors[0];
+        table_total += errors[1];
+        equal_total += errors[2];
+        aur_potential_destroy(glossy);
+    }
+    print_message("m %g clipped %d angles %zu: loss %.3f %% of the gain\n", m, clipped, angles,
+                  100.0 * (table_total - optimal_total) / (equal_total - optimal_total));
+    assert_true(table_total - optimal_total < (clipped ? 0.02 : 0.005) * (equal_total - optimal_total));
+    aur_oswa_destroy(oswa);
+    aur_weight_table_destroy(table);
+    aur_weight_table_destroy(again);
+}
+
+static void test_table(void **state) {
+    (void)state;
+    check_table(20.0, 0, 32);
+    check_table(200.0, 0, 64);
+    check_table(20.0, 1, 128);
+}
+
+static void write_file(const char *path, const char *data, size_t size) {
+    FILE *const file = fopen(path, "wb");
+    assert_non_null(file);
+    assert_int_equal(fwrite(data, 1, size, file), size);
+    assert_int_equal(fclose(file), 0);
+}
+
+static void test_file(void **state) {
+    (void)state;
+    const char *const path = "weights.table";
+    const aur_oswa_options options = pair(20.0, 1);
+    aur_weight_table *const table = build(&options, 5, 3, 0);
+    assert_int_equal(aur_weight_table_save(table, path, NULL), AUR_OK);
+    aur_weight_table *loaded;
+    aur_error error;
+    assert_int_equal(aur_weight_table_load(path, &options, &loaded, &error), AUR_OK);
+    assert_int_equal(aur_weight_table_angles(loaded), 5);
+    assert_int_equal(aur_weight_table_rotations(loaded), 3);
+    assert_string_equal(aur_weight_table_options(loaded)->set, "sobol");
+    for (size_t rotation = 0; rotation < 3; ++rotation) {
+        float a[96], b[96];
+        double first[3 * 96], second[3 * 96];
+        aur_weight_table_look_up(table, 1, rotation, 0.7f, a);
+        aur_weight_table_look_up(loaded, 1, rotation, 0.7f, b);
+        assert_memory_equal(a, b, sizeof a);
+        aur_weight_table_points(table, 0.7, rotation, 0, first);
+        aur_weight_table_points(loaded, 0.7, rotation, 0, second);
+        assert_memory_equal(first, second, sizeof first);
+    }
+    assert_true(aur_weight_table_mass(loaded, 0.3f) == aur_weight_table_mass(table, 0.3f));
+    /* Angles out of range are the nearest in it. */
+    float edge[96], beyond[96];
+    aur_weight_table_look_up(loaded, 0, 0, (float)(0.5 * PI), edge);
+    aur_weight_table_look_up(loaded, 0, 0, 9.0f, beyond);
+    assert_memory_equal(edge, beyond, sizeof edge);
+    aur_weight_table_destroy(loaded);
+    aur_weight_table_destroy(table);
+
+    /* Another set, other options: the message says which. */
+    aur_oswa_options other = options;
+    other.set = "halton";
+    assert_int_equal(aur_weight_table_load(path, &other, &loaded, &error), AUR_ERROR_FORMAT);
+    assert_null(loaded);
+    assert_non_null(strstr(error.message, "'sobol', not 'halton'"));
+    other = options;
+    other.mirror_lobe.exponent = 21.0;
+    assert_int_equal(aur_weight_table_load(path, &other, &loaded, &error), AUR_ERROR_FORMAT);
+    assert_non_null(strstr(error.message, "exponent of the mirror lobe: 20, not 21"));
+    other = options;
+    other.seed = 12;
+    assert_int_equal(aur_weight_table_load(path, &other, &loaded, &error), AUR_ERROR_FORMAT);
+    assert_non_null(strstr(error.message, "seed"));
+
+    FILE *const file = fopen(path, "rb");
+    assert_non_null(file);
+    static char data[1 << 16];
+    const size_t size = fread(data, 1, sizeof data, file);
+    fclose(file);
+    /* Another version. */
+    char *const version = strstr(data, "version 1");
+    version[8] = '7';
+    write_file("other.table", data, size);
+    assert_int_equal(aur_weight_table_load("other.table", NULL, &loaded, &error), AUR_ERROR_FORMAT);
+    assert_non_null(strstr(error.message, "version 7; this program reads version 1"));
+    version[8] = '1';
+    /* Any byte that is turned is noticed, and every length that is cut. */
+    for (size_t i = 0; i < size; i += 37) {
+        data[i] ^= 0x10;
+        write_file("other.table", data, size);
+        assert_int_equal(aur_weight_table_load("other.table", NULL, &loaded, &error), AUR_ERROR_FORMAT);
+        data[i] ^= 0x10;
+    }
+    for (size_t cut = 0; cut < size; cut += 301) {
+        write_file("other.table", data, cut);
+        assert_int_equal(aur_weight_table_load("other.table", NULL, &loaded, &error), AUR_ERROR_FORMAT);
+    }
+    assert_int_equal(aur_weight_table_load("no-such.table", NULL, &loaded, &error), AUR_ERROR_OPEN);
+    remove(path);
+    remove("other.table");
+}
+
+static int stop(void *user, const char *what, uint64_t done, uint64_t total) {
+    (void)what;
+    (void)total;
+    size_t *const calls = user;
+    ++*calls;
+    return done >= 3;
+}
+
+static void test_build_errors(void **state) {
+    (void)state;
+    aur_oswa_options options = pair(20.0, 0);
+    aur_weight_table *table;
+    aur_error error;
+    size_t calls = 0;
+    const aur_progress progress = {stop, &calls};
+    assert_int_equal(aur_weight_table_build(&options, 16, 1, 1, &progress, &table, &error),
+                     AUR_ERROR_CANCELLED);
+    assert_null(table);
+    assert_int_equal(calls, 3);
+    assert_int_equal(aur_weight_table_build(&options, 1, 1, 1, NULL, &table, &error), AUR_ERROR_ARGUMENT);
+    assert_int_equal(aur_weight_table_build(&options, 16, 0, 1, NULL, &table, &error), AUR_ERROR_ARGUMENT);
+    options.lobe = (aur_lobe){.kind = AUR_LOBE_GGX, .alpha = 0.5};
+    assert_int_equal(aur_weight_table_build(&options, 16, 1, 1, NULL, &table, &error), AUR_ERROR_UNSUPPORTED);
+    options = pair(20.0, 0);
+    options.set = "sobl";
+    assert_int_equal(aur_weight_table_build(&options, 16, 1, 1, NULL, &table, &error), AUR_ERROR_NAME);
+    options = pair(20.0, 0);
+    options.weights.regularization = -1.0;
+    assert_int_equal(aur_weight_table_build(&options, 16, 1, 1, NULL, &table, &error), AUR_ERROR_ARGUMENT);
+    options = pair(20.0, 0);
+    aur_oswa *oswa;
+    double weights[2 * 96];
+    assert_int_equal(aur_oswa_create(&options, &oswa, NULL), AUR_OK);
+    assert_int_equal(aur_oswa_solve(oswa, -0.1, (double[2]){0, 0}, weights, NULL, &error),
+                     AUR_ERROR_ARGUMENT);
+    assert_int_equal(aur_oswa_solve(oswa, (double)NAN, (double[2]){0, 0}, weights, NULL, &error),
+                     AUR_ERROR_ARGUMENT);
+    aur_oswa_destroy(oswa);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_solve_is_the_plain_one),
+        cmocka_unit_test(test_mirror_image),
+        cmocka_unit_test(test_ggx),
+        cmocka_unit_test(test_published_table),
+        cmocka_unit_test(test_table),
+        cmocka_unit_test(test_file),
+        cmocka_unit_test(test_build_errors),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
