@@ -4,13 +4,27 @@
 
 #include "cli/cli.h"
 
-extern const cli_verb cli_verb_compare, cli_verb_convert, cli_verb_help, cli_verb_measure, cli_verb_points,
-    cli_verb_sets, cli_verb_weights;
+/* clang-format off: a line a verb. */
+extern const cli_verb cli_verb_compare;
+extern const cli_verb cli_verb_convert;
+extern const cli_verb cli_verb_help;
+extern const cli_verb cli_verb_info;
+extern const cli_verb cli_verb_measure;
+extern const cli_verb cli_verb_points;
+extern const cli_verb cli_verb_sets;
+extern const cli_verb cli_verb_weights;
 
 static const cli_verb *const verbs[] = {
-    &cli_verb_sets,    &cli_verb_points,  &cli_verb_measure, &cli_verb_weights,
-    &cli_verb_compare, &cli_verb_convert, &cli_verb_help,
+    &cli_verb_sets,
+    &cli_verb_points,
+    &cli_verb_measure,
+    &cli_verb_weights,
+    &cli_verb_compare,
+    &cli_verb_convert,
+    &cli_verb_info,
+    &cli_verb_help,
 };
+/* clang-format on */
 
 size_t cli_verb_count(void) {
     return sizeof verbs / sizeof verbs[0];
