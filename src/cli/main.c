@@ -4,7 +4,8 @@
 
 #include "cli/cli.h"
 
-/* clang-format off: a line a verb. */
+/* A line a verb. */
+/* clang-format off */
 extern const cli_verb cli_verb_compare;
 extern const cli_verb cli_verb_convert;
 extern const cli_verb cli_verb_help;
