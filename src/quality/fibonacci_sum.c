@@ -198,8 +198,10 @@ int aur_is_spherical_fibonacci(const aur_points *points) {
         const double radius = sqrt(below * (2.0 - below));
         const double phi = 2.0 * AUR_PI * 0x1p-64 * (double)((uint64_t)j * golden_turn);
         const double along = radius * cos(phi), across = radius * sin(phi);
-        if (!(fabs(x[0] - (cosine * along - sine * across)) <= tolerance &&
-              fabs(x[1] - (sine * along + cosine * across)) <= tolerance))
+        /* A radius made from a rounded z is off by as much as that, over the radius. */
+        const double slack = tolerance + 0x1p-52 / radius;
+        if (!(fabs(x[0] - (cosine * along - sine * across)) <= slack &&
+              fabs(x[1] - (sine * along + cosine * across)) <= slack))
             return 0;
     }
     return 1;

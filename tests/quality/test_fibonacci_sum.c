@@ -37,6 +37,7 @@ static void large_sets_are_near_the_limit(void **state) {
     (void)state;
     const size_t count = 200000;
     aur_points points = spherical_fibonacci(count, AUR_DOMAIN_SPHERE);
+    assert_true(aur_is_spherical_fibonacci(&points));
     double energy = 0.0;
     assert_int_equal(aur_measure("energy", &points, NULL, &energy, NULL), AUR_OK);
     assert_near(energy * energy * pow((double)count, 1.5), 0.8115, 1e-4);
