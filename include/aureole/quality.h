@@ -48,6 +48,22 @@ AUR_API aur_result aur_measure(const char *metric, const aur_points *points,
                                const aur_measure_options *options, double *value, aur_error *error)
     AUR_NONNULL(1, 2, 4);
 
+enum { AUR_SERIES_COLUMNS_MAX = 6 };
+
+/* A table of numbers: values[row * column_count + column]. */
+typedef struct aur_series {
+    size_t row_count, column_count;
+    const char *columns[AUR_SERIES_COLUMNS_MAX]; /* static storage */
+    double *values;
+} aur_series;
+
+/* A measure that is a table: `series` is set in its description. Errors as for aur_measure; UNSUPPORTED for a
+ * measure that is one value. Free with aur_series_release. */
+AUR_API aur_result aur_measure_series(const char *metric, const aur_points *points,
+                                      const aur_measure_options *options, aur_series *series,
+                                      aur_error *error) AUR_NONNULL(1, 2, 4);
+AUR_API void aur_series_release(aur_series *series); /* safe on a zero series */
+
 #ifdef __cplusplus
 }
 #endif

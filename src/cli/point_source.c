@@ -1,5 +1,6 @@
 #include "cli/point_source.h"
 
+#include <math.h>
 #include <stdarg.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -45,14 +46,13 @@ static aur_result fail(aur_error *error, aur_result result, const char *file, co
     return result;
 }
 
+/* Weights of 1/N say nothing. */
 static void drop_equal_weights(aur_points *points) {
-    for (size_t i = 1; i < points->count; ++i)
-        if (points->weights[i] != points->weights[0])
+    for (size_t i = 0; i < points->count; ++i)
+        if (!(fabs(points->weights[i] * (double)points->count - 1.0) <= 1e-12))
             return;
-    if (points->count > 0 && points->weights[0] > 0.0) {
-        free(points->weights);
-        points->weights = NULL;
-    }
+    free(points->weights);
+    points->weights = NULL;
 }
 
 static aur_result load_file(const char *path, const cli_point_options *options, aur_points *points,

@@ -16,7 +16,7 @@
 
 #include "core/error.h"
 #include "core/parallel.h"
-#include "core/vector.h"
+#include "quality/vector3.h"
 
 /* What counts as on the boundary. A cap that is greater by this much holds those points, and its area differs
  * by half of it: the value of every cap looked at is attained to this. */
@@ -91,23 +91,6 @@ static void point_at(const aur_axes *axes, size_t i, double x[3]) {
     x[2] = axes->z[i];
 }
 
-static double dot(const double a[3], const double b[3]) {
-    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-}
-
-static void cross(const double a[3], const double b[3], double c[3]) {
-    c[0] = a[1] * b[2] - a[2] * b[1];
-    c[1] = a[2] * b[0] - a[0] * b[2];
-    c[2] = a[0] * b[1] - a[1] * b[0];
-}
-
-static double normalize(double a[3]) {
-    const double length = sqrt(dot(a, a));
-    for (int d = 0; d < 3 && length > 0.0; ++d)
-        a[d] /= length;
-    return length;
-}
-
 /* False for two points in one place: the other pairs cover it. For opposite points any middle will do. */
 static int make_frame(const aur_axes *axes, size_t i, size_t j, frame *f) {
     double a[3], b[3], difference[3];
@@ -117,18 +100,13 @@ static int make_frame(const aur_axes *axes, size_t i, size_t j, frame *f) {
         f->u[d] = a[d] + b[d];
         difference[d] = a[d] - b[d];
     }
-    if (normalize(difference) == 0.0)
+    if (aur_normalize3(difference) == 0.0)
         return 0;
-    if (normalize(f->u) < 1e-8) {
-        const int axis = fabs(a[0]) < 0.6 ? 0 : 1;
-        double other[3] = {0.0, 0.0, 0.0};
-        other[axis] = 1.0;
-        cross(a, other, f->u);
-        normalize(f->u);
-    }
-    cross(f->u, difference, f->v);
-    normalize(f->v);
-    f->height = fmax(dot(f->u, a), 0.0);
+    if (aur_normalize3(f->u) < 1e-8)
+        aur_frame3(a, f->u, f->v);
+    aur_cross3(f->u, difference, f->v);
+    aur_normalize3(f->v);
+    f->height = fmax(aur_dot3(f->u, a), 0.0);
     return 1;
 }
 
@@ -137,10 +115,10 @@ static double cap_at(const aur_axes *axes, const frame *f, size_t i, size_t j, d
     double w[3], a[3], b[3];
     for (int d = 0; d < 3; ++d)
         w[d] = f->u[d] * cosine + f->v[d] * sine;
-    normalize(w);
+    aur_normalize3(w);
     point_at(axes, i, a);
     point_at(axes, j, b);
-    return value_of_cap(axes, w, fmax(fmin(dot(w, a), dot(w, b)) - boundary_tolerance, -1.0));
+    return value_of_cap(axes, w, fmax(fmin(aur_dot3(w, a), aur_dot3(w, b)) - boundary_tolerance, -1.0));
 }
 
 /* Enters all points into the bins; returns the mass that is inside at t = 0 or too near to the pair's line to
@@ -275,6 +253,5 @@ static aur_result cap(const aur_measure_request *request, double *value, aur_err
 const aur_measure_row aur_measure_cap = {
     {"cap", "", "supremum over spherical caps of |share of points - share of area|, exact; time grows as N^3",
      "sphere", "Marques 2013 sec. 2.1", 0, 0},
-    1,
-    1,
-    cap};
+    .masses = 1,
+    .compute = cap};

@@ -102,6 +102,5 @@ const aur_measure_row aur_measure_cap_bound = {
     {"cap-bound", "[CENTRES]",
      "lower bound of 'cap' from all caps about CENTRES (4096) spherical Fibonacci centres, for large N",
      "sphere", "Marques 2013 sec. 2.1", 1, 0},
-    1,
-    1,
-    cap_bound};
+    .masses = 1,
+    .compute = cap_bound};

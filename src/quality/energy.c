@@ -84,27 +84,19 @@ static aur_result l2_cap_mean(const aur_measure_request *request, double *value,
 const aur_measure_row aur_measure_energy = {
     {"energy", "", "distance energy E_N: the worst-case error for the kernel of distances",
      "sphere, hemisphere", "Marques 2013 eq. 3; on the hemisphere with the mean-distance potential", 0, 0},
-    1,
-    0,
-    energy};
+    .compute = energy};
 
 const aur_measure_row aur_measure_scd = {{"scd", "",
                                           "spherical cap discrepancy as E-SFG has it: energy / sqrt 2",
                                           "sphere, hemisphere", "Marques 2019 eq. 57", 0, 0},
-                                         1,
-                                         0,
-                                         scd};
+                                         .compute = scd};
 
 const aur_measure_row aur_measure_l2_cap = {{"l2-cap", "",
                                              "L2 discrepancy of spherical caps, heights by dt: energy / 2",
                                              "sphere, hemisphere", "Stolarsky 1973", 0, 0},
-                                            1,
-                                            0,
-                                            l2_cap};
+                                            .compute = l2_cap};
 
 const aur_measure_row aur_measure_l2_cap_mean = {
     {"l2-cap-mean", "", "root mean square discrepancy of caps, heights by dt/2: energy / sqrt 8",
      "sphere, hemisphere", "Stolarsky 1973", 0, 0},
-    1,
-    0,
-    l2_cap_mean};
+    .compute = l2_cap_mean};

@@ -139,18 +139,12 @@ static aur_result wraparound(const aur_measure_request *request, double *value, 
 const aur_measure_row aur_measure_l2_star = {
     {"l2-star", "", "L2 star discrepancy, the root mean square over boxes at the origin", "square, cube",
      "Warnock 1972", 0, 0},
-    1,
-    0,
-    l2_star};
+    .compute = l2_star};
 
 const aur_measure_row aur_measure_centered = {
     {"centered", "", "centred L2 discrepancy (its root)", "square, cube", "Hickernell 1998", 0, 0},
-    1,
-    0,
-    centered};
+    .compute = centered};
 
 const aur_measure_row aur_measure_wraparound = {
     {"wraparound", "", "wrap-around L2 discrepancy (its root)", "square, cube", "Hickernell 1998", 0, 0},
-    1,
-    0,
-    wraparound};
+    .compute = wraparound};

@@ -7,18 +7,25 @@
 #include "core/parameters.h"
 
 static const aur_measure_row *const rows[] = {
-    &aur_measure_energy,       //
-    &aur_measure_scd,          //
-    &aur_measure_l2_cap,       //
-    &aur_measure_l2_cap_mean,  //
-    &aur_measure_riesz,        //
-    &aur_measure_cap,          //
-    &aur_measure_cap_bound,    //
-    &aur_measure_min_distance, //
-    &aur_measure_star,         //
-    &aur_measure_l2_star,      //
-    &aur_measure_centered,     //
-    &aur_measure_wraparound,   //
+    &aur_measure_energy,            //
+    &aur_measure_scd,               //
+    &aur_measure_l2_cap,            //
+    &aur_measure_l2_cap_mean,       //
+    &aur_measure_riesz,             //
+    &aur_measure_cap,               //
+    &aur_measure_cap_bound,         //
+    &aur_measure_min_distance,      //
+    &aur_measure_covering,          //
+    &aur_measure_mesh_ratio,        //
+    &aur_measure_voronoi_min,       //
+    &aur_measure_voronoi_max,       //
+    &aur_measure_voronoi_deviation, //
+    &aur_measure_voronoi,           //
+    &aur_measure_star,              //
+    &aur_measure_l2_star,           //
+    &aur_measure_centered,          //
+    &aur_measure_wraparound,        //
+    &aur_measure_wce,               //
 };
 
 enum { ROW_COUNT = sizeof rows / sizeof rows[0] };
@@ -214,27 +221,74 @@ static double *unit_copy(const aur_points *points) {
     return copy;
 }
 
-aur_result aur_measure(const char *metric, const aur_points *points, const aur_measure_options *options,
-                       double *value, aur_error *error) {
-    const aur_measure_row *row = NULL;
-    aur_measure_request request = {.points = points};
-    aur_result result = find_row(metric, &row, &request.parameter, error);
+/* The row, a checked request, and the copy of the coordinates that it points to (free it). */
+typedef struct prepared {
+    const aur_measure_row *row;
+    aur_measure_request request;
+    aur_points points;
+    double *unit;
+} prepared;
+
+static aur_result prepare(const char *metric, const aur_points *points, const aur_measure_options *options,
+                          prepared *p, aur_error *error) {
+    *p = (prepared){.points = *points, .request.points = &p->points};
+    aur_result result = find_row(metric, &p->row, &p->request.parameter, error);
     if (result == AUR_OK)
-        result = check(row, points, error);
+        result = check(p->row, points, error);
     if (result != AUR_OK)
         return result;
     if (options != NULL)
-        request.options = *options;
-    aur_points copy = *points;
-    double *unit = NULL;
-    if (expected_dimension(points->domain) == 3) {
-        unit = unit_copy(points);
-        if (unit == NULL)
-            return aur_fail(error, AUR_ERROR_MEMORY, "out of memory");
-        copy.coordinates = unit;
-        request.points = &copy;
-    }
-    result = row->compute(&request, value, error);
-    free(unit);
+        p->request.options = *options;
+    if (expected_dimension(points->domain) != 3)
+        return AUR_OK;
+    p->unit = unit_copy(points);
+    p->points.coordinates = p->unit;
+    return p->unit != NULL ? AUR_OK : aur_fail(error, AUR_ERROR_MEMORY, "out of memory");
+}
+
+aur_result aur_measure(const char *metric, const aur_points *points, const aur_measure_options *options,
+                       double *value, aur_error *error) {
+    prepared p;
+    aur_result result = prepare(metric, points, options, &p, error);
+    if (result != AUR_OK)
+        return result;
+    if (p.row->compute != NULL)
+        result = p.row->compute(&p.request, value, error);
+    else
+        result = aur_fail(error, AUR_ERROR_UNSUPPORTED, "measure '%s' is a table, not one value",
+                          p.row->description.name);
+    free(p.unit);
     return result;
+}
+
+aur_result aur_measure_series(const char *metric, const aur_points *points,
+                              const aur_measure_options *options, aur_series *series, aur_error *error) {
+    *series = (aur_series){0};
+    prepared p;
+    aur_result result = prepare(metric, points, options, &p, error);
+    if (result != AUR_OK)
+        return result;
+    if (p.row->tabulate != NULL)
+        result = p.row->tabulate(&p.request, series, error);
+    else
+        result = aur_fail(error, AUR_ERROR_UNSUPPORTED, "measure '%s' is one value, not a table",
+                          p.row->description.name);
+    if (result != AUR_OK)
+        aur_series_release(series);
+    free(p.unit);
+    return result;
+}
+
+aur_result aur_series_create(aur_series *series, size_t row_count, size_t column_count,
+                             const char *const *columns, aur_error *error) {
+    *series = (aur_series){.row_count = row_count, .column_count = column_count};
+    for (size_t c = 0; c < column_count; ++c)
+        series->columns[c] = columns[c];
+    series->values = calloc(row_count * column_count + 1, sizeof *series->values);
+    return series->values != NULL ? AUR_OK : aur_fail(error, AUR_ERROR_MEMORY, "out of memory");
+}
+
+void aur_series_release(aur_series *series) {
+    free(series->values);
+    *series = (aur_series){0};
 }

@@ -67,6 +67,4 @@ const aur_measure_row aur_measure_riesz = {
     {"riesz", "S",
      "Riesz energy: the sum of |x_i - x_j|^-S over ordered pairs, S = 0 the logarithm of 1/|x_i - x_j|",
      "sphere, hemisphere", "Hardin and Saff 2004", 0, 0},
-    1,
-    0,
-    riesz};
+    .compute = riesz};

@@ -1,47 +1,61 @@
 /* How near the nearest two points are. */
+#include "quality/spacing.h"
+
 #include <math.h>
 #include <stdlib.h>
 
 #include "core/error.h"
-#include "quality/measure.h"
 
-static int by_last_axis(const void *a, const void *b) {
-    const double *const p = a;
-    const double *const q = b;
-    return (p[2] > q[2]) - (p[2] < q[2]);
+typedef struct along_axis {
+    double coordinate;
+    const double *point;
+} along_axis;
+
+static int by_coordinate(const void *a, const void *b) {
+    const along_axis *const p = a;
+    const along_axis *const q = b;
+    return (p->coordinate > q->coordinate) - (p->coordinate < q->coordinate);
 }
 
-/* Sweep along z: a pair farther apart in z than the best distance so far cannot be nearer. */
-static aur_result min_distance(const aur_measure_request *request, double *value, aur_error *error) {
-    const size_t count = request->points->count;
-    double *const sorted = malloc(count * 3 * sizeof *sorted);
+static double square_distance(const double *p, const double *q, size_t dimension) {
+    double square = 0.0;
+    for (size_t d = 0; d < dimension; ++d)
+        square += (p[d] - q[d]) * (p[d] - q[d]);
+    return square;
+}
+
+/* Sweep along the last axis: a pair farther apart in it than the best distance so far cannot be nearer. */
+aur_result aur_smallest_distance(const aur_points *points, double *distance, aur_error *error) {
+    const size_t count = points->count;
+    const size_t dimension = points->dimension;
+    along_axis *const sorted = malloc(count * sizeof *sorted);
     if (sorted == NULL)
         return aur_fail(error, AUR_ERROR_MEMORY, "out of memory");
-    for (size_t i = 0; i < 3 * count; ++i)
-        sorted[i] = request->points->coordinates[i];
-    qsort(sorted, count, 3 * sizeof *sorted, by_last_axis);
-    double best = 5.0;
     for (size_t i = 0; i < count; ++i) {
-        const double *const p = sorted + 3 * i;
+        const double *const point = points->coordinates + i * dimension;
+        sorted[i] = (along_axis){point[dimension - 1], point};
+    }
+    qsort(sorted, count, sizeof *sorted, by_coordinate);
+    double best = INFINITY;
+    for (size_t i = 0; i < count; ++i) {
         for (size_t j = i + 1; j < count; ++j) {
-            const double *const q = sorted + 3 * j;
-            const double dz = q[2] - p[2];
-            if (dz * dz > best)
+            const double apart = sorted[j].coordinate - sorted[i].coordinate;
+            if (apart * apart > best)
                 break;
-            const double dx = q[0] - p[0];
-            const double dy = q[1] - p[1];
-            const double square = dx * dx + dy * dy + dz * dz;
-            best = square < best ? square : best;
+            best = fmin(best, square_distance(sorted[i].point, sorted[j].point, dimension));
         }
     }
     free(sorted);
-    *value = sqrt(best);
+    *distance = sqrt(best);
     return AUR_OK;
 }
 
-const aur_measure_row aur_measure_min_distance = {{"min-distance", "",
-                                                   "the smallest distance between two points (the chord)",
-                                                   "sphere, hemisphere", "Marques 2013 sec. 3.2", 0, 0},
-                                                  2,
-                                                  0,
-                                                  min_distance};
+static aur_result min_distance(const aur_measure_request *request, double *value, aur_error *error) {
+    return aur_smallest_distance(request->points, value, error);
+}
+
+const aur_measure_row aur_measure_min_distance = {
+    {"min-distance", "", "the smallest distance between two points (on the sphere the chord)",
+     "sphere, hemisphere, square, cube, disk", "Marques 2013 sec. 3.2", 0, 0},
+    .minimum_count = 2,
+    .compute = min_distance};

@@ -32,6 +32,7 @@ printf 'x,y,z\n1,0,0\n0,1.000002,0\n' >off.csv
 refuses off.csv:3 $measure off.csv --metric energy
 printf 'x,y,z\n1,0,0\n0,nan,0\n' >nan.csv
 refuses nan.csv:3 $measure nan.csv --metric energy
+prints 0.0345131 $measure spherical-fibonacci -n 64 --domain hemisphere --lobe cosine --metric wce:1.5:cosine
 refuses 'not for the sphere' $measure octahedron.csv --metric star
 refuses 'point 6 has z' $measure octahedron.csv --domain hemisphere --metric energy
 refuses 'did you mean' $measure octahedron.csv --metric enrgy

@@ -1,0 +1,167 @@
+/* Figures of the Voronoi cells: how far from the points one can be, and how equal the cells are. */
+#include <math.h>
+#include <stdlib.h>
+
+#include "core/vector.h"
+#include "quality/spacing.h"
+#include "quality/voronoi.h"
+
+static aur_result cells_of(const aur_measure_request *request, aur_voronoi_cell **cells, int *unbounded,
+                           aur_error *error) {
+    const size_t count = request->points->count;
+    *cells = malloc(count * sizeof **cells);
+    *unbounded = 0;
+    if (*cells == NULL)
+        return aur_fail(error, AUR_ERROR_MEMORY, "out of memory");
+    const aur_result result = aur_voronoi_cells(request, *cells, error);
+    for (size_t i = 0; i < count && result == AUR_OK; ++i)
+        *unbounded |= (*cells)[i].unbounded;
+    if (result == AUR_OK)
+        return AUR_OK;
+    free(*cells);
+    return result;
+}
+
+static aur_result fail_unbounded(aur_error *error) {
+    return aur_fail(error, AUR_ERROR_UNSUPPORTED,
+                    "some direction is 90 degrees or more from every point: the cells are not polygons");
+}
+
+/* Radians. */
+static aur_result covering(const aur_measure_request *request, double *value, aur_error *error) {
+    aur_voronoi_cell *cells;
+    int unbounded = 0;
+    const aur_result result = cells_of(request, &cells, &unbounded, error);
+    if (result != AUR_OK)
+        return result;
+    *value = 0.0;
+    for (size_t i = 0; i < request->points->count; ++i)
+        *value = fmax(*value, cells[i].radius);
+    free(cells);
+    if (!unbounded)
+        return AUR_OK;
+    if (request->points->domain == AUR_DOMAIN_HEMISPHERE)
+        return fail_unbounded(error);
+    /* All points are in one hemisphere: the farthest place is opposite the middle of the smallest cap. */
+    *value = AUR_PI - aur_smallest_cap(request->points);
+    return AUR_OK;
+}
+
+static aur_result mesh_ratio(const aur_measure_request *request, double *value, aur_error *error) {
+    double chord = 0.0;
+    aur_result result = aur_smallest_distance(request->points, &chord, error);
+    if (result == AUR_OK)
+        result = covering(request, value, error);
+    if (result != AUR_OK)
+        return result;
+    *value /= asin(fmin(0.5 * chord, 1.0));
+    if (chord == 0.0)
+        aur_warn_at(&request->options.warnings, (aur_location){0},
+                    "points coincide: the mesh ratio is infinite");
+    return AUR_OK;
+}
+
+/* The mean area of a cell is 1 in all figures of areas. */
+static double mean_area(const aur_points *points) {
+    return (points->domain == AUR_DOMAIN_HEMISPHERE ? 2.0 : 4.0) * AUR_PI / (double)points->count;
+}
+
+typedef struct area_figures {
+    double least, greatest, deviation;
+} area_figures;
+
+static aur_result areas(const aur_measure_request *request, area_figures *figures, aur_error *error) {
+    aur_voronoi_cell *cells;
+    int unbounded = 0;
+    const aur_result result = cells_of(request, &cells, &unbounded, error);
+    if (result != AUR_OK)
+        return result;
+    const double mean = mean_area(request->points);
+    double squares = 0.0;
+    *figures = (area_figures){INFINITY, 0.0, 0.0};
+    for (size_t i = 0; i < request->points->count; ++i) {
+        const double area = cells[i].area / mean;
+        figures->least = fmin(figures->least, area);
+        figures->greatest = fmax(figures->greatest, area);
+        squares += (area - 1.0) * (area - 1.0);
+    }
+    figures->deviation = sqrt(squares / (double)request->points->count);
+    free(cells);
+    return unbounded ? fail_unbounded(error) : AUR_OK;
+}
+
+static aur_result voronoi_min(const aur_measure_request *request, double *value, aur_error *error) {
+    area_figures figures;
+    const aur_result result = areas(request, &figures, error);
+    if (result == AUR_OK)
+        *value = figures.least;
+    return result;
+}
+
+static aur_result voronoi_max(const aur_measure_request *request, double *value, aur_error *error) {
+    area_figures figures;
+    const aur_result result = areas(request, &figures, error);
+    if (result == AUR_OK)
+        *value = figures.greatest;
+    return result;
+}
+
+static aur_result voronoi_deviation(const aur_measure_request *request, double *value, aur_error *error) {
+    area_figures figures;
+    const aur_result result = areas(request, &figures, error);
+    if (result == AUR_OK)
+        *value = figures.deviation;
+    return result;
+}
+
+static aur_result voronoi(const aur_measure_request *request, aur_series *series, aur_error *error) {
+    static const char *const columns[] = {"point", "area", "radius", "sides"};
+    aur_voronoi_cell *cells;
+    int unbounded = 0;
+    aur_result result = cells_of(request, &cells, &unbounded, error);
+    if (result != AUR_OK)
+        return result;
+    result = unbounded ? fail_unbounded(error)
+                       : aur_series_create(series, request->points->count, 4, columns, error);
+    for (size_t i = 0; i < series->row_count && result == AUR_OK; ++i) {
+        double *const row = series->values + 4 * i;
+        row[0] = (double)(i + 1);
+        row[1] = cells[i].area / mean_area(request->points);
+        row[2] = cells[i].radius;
+        row[3] = (double)cells[i].sides;
+    }
+    free(cells);
+    return result;
+}
+
+const aur_measure_row aur_measure_covering = {
+    {"covering", "",
+     "covering radius (mesh norm): the largest angle from a direction to its nearest point, radians",
+     "sphere, hemisphere", "Brauchart and Grabner 2015", 0, 0},
+    .compute = covering};
+
+const aur_measure_row aur_measure_mesh_ratio = {
+    {"mesh-ratio", "", "covering radius over half the smallest angle between points: at least 1",
+     "sphere, hemisphere", "Brauchart and Grabner 2015", 0, 0},
+    .minimum_count = 2,
+    .compute = mesh_ratio};
+
+const aur_measure_row aur_measure_voronoi_min = {{"voronoi-min", "",
+                                                  "area of the smallest Voronoi cell, in mean areas",
+                                                  "sphere, hemisphere", "Augenbaum and Peskin 1985", 0, 0},
+                                                 .compute = voronoi_min};
+
+const aur_measure_row aur_measure_voronoi_max = {{"voronoi-max", "",
+                                                  "area of the largest Voronoi cell, in mean areas",
+                                                  "sphere, hemisphere", "Augenbaum and Peskin 1985", 0, 0},
+                                                 .compute = voronoi_max};
+
+const aur_measure_row aur_measure_voronoi_deviation = {
+    {"voronoi-deviation", "", "standard deviation of the areas of Voronoi cells, in mean areas",
+     "sphere, hemisphere", "Augenbaum and Peskin 1985", 0, 0},
+    .compute = voronoi_deviation};
+
+const aur_measure_row aur_measure_voronoi = {
+    {"voronoi", "", "table of the Voronoi cells: area in mean areas, radius in radians, sides",
+     "sphere, hemisphere", "Augenbaum and Peskin 1985", 0, 1},
+    .tabulate = voronoi};

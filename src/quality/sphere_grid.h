@@ -1,0 +1,33 @@
+/* Points of the sphere in cells of about equal area, for finding those near a direction. */
+#ifndef AUR_QUALITY_SPHERE_GRID_H
+#define AUR_QUALITY_SPHERE_GRID_H
+
+#include <aureole/pointset.h>
+
+typedef struct aur_sphere_grid {
+    const aur_points *points; /* not owned */
+    double spacing;           /* the side of a cell, radians */
+    size_t band_count;
+    size_t *band_cells; /* band_count + 1: the first cell of each band */
+    size_t *cell_start; /* the first entry of each cell in `order`, one more than there are cells */
+    size_t *order;      /* indices of the points, cell by cell */
+} aur_sphere_grid;
+
+aur_result aur_sphere_grid_create(const aur_points *points, aur_sphere_grid *grid, aur_error *error);
+void aur_sphere_grid_release(aur_sphere_grid *grid);
+
+typedef struct aur_neighbour {
+    double square; /* of the chord */
+    size_t index;
+} aur_neighbour;
+
+typedef struct aur_neighbours {
+    size_t count, capacity;
+    aur_neighbour *items;
+} aur_neighbours;
+
+/* All points within `angle` of point `index` but itself, nearest first, ties by index. */
+aur_result aur_sphere_grid_near(const aur_sphere_grid *grid, size_t index, double angle,
+                                aur_neighbours *neighbours);
+
+#endif

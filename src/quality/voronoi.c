@@ -1,0 +1,166 @@
+/* Each cell alone: seen from its point through the gnomonic projection, a cell within 90 degrees is a convex
+ * polygon, cut by one straight line for each neighbour. Neighbours farther than twice the cell's radius
+ * cannot cut it. */
+#include "quality/voronoi.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+#include "core/parallel.h"
+#include "core/vector.h"
+#include "quality/sphere_grid.h"
+#include "quality/vector3.h"
+
+/* The first polygon's half side, as a tangent: almost 90 degrees. */
+static const double horizon = 1e6;
+
+typedef struct corner {
+    double p, q;
+} corner;
+
+typedef struct polygon {
+    size_t count, capacity;
+    corner *corners, *spare;
+} polygon;
+
+typedef struct line {
+    double a, b, c; /* keeps a p + b q <= c */
+} line;
+
+static int reserve(polygon *p, size_t capacity) {
+    if (capacity <= p->capacity)
+        return 1;
+    corner *const corners = realloc(p->corners, capacity * sizeof *corners);
+    if (corners != NULL)
+        p->corners = corners;
+    corner *const spare = realloc(p->spare, capacity * sizeof *spare);
+    if (spare != NULL)
+        p->spare = spare;
+    if (corners == NULL || spare == NULL)
+        return 0;
+    p->capacity = capacity;
+    return 1;
+}
+
+/* A convex polygon gains one corner at most. */
+static void cut(polygon *p, line l) {
+    size_t kept = 0;
+    for (size_t i = 0; i < p->count; ++i) {
+        const corner from = p->corners[i];
+        const corner to = p->corners[i + 1 < p->count ? i + 1 : 0];
+        const double inside_from = l.c - l.a * from.p - l.b * from.q;
+        const double inside_to = l.c - l.a * to.p - l.b * to.q;
+        if (inside_from >= 0.0)
+            p->spare[kept++] = from;
+        if ((inside_from > 0.0 && inside_to < 0.0) || (inside_from < 0.0 && inside_to > 0.0)) {
+            const double t = inside_from / (inside_from - inside_to);
+            p->spare[kept++] = (corner){from.p + t * (to.p - from.p), from.q + t * (to.q - from.q)};
+        }
+    }
+    corner *const corners = p->corners;
+    p->corners = p->spare;
+    p->spare = corners;
+    p->count = kept;
+}
+
+static double greatest_tangent(const polygon *p) {
+    double square = 0.0;
+    for (size_t i = 0; i < p->count; ++i)
+        square = fmax(square, p->corners[i].p * p->corners[i].p + p->corners[i].q * p->corners[i].q);
+    return sqrt(square);
+}
+
+/* Triangles between the point and the sides (Van Oosterom and Strackee 1983). */
+static double solid_angle(const polygon *p) {
+    double sum = 0.0;
+    for (size_t i = 0; i < p->count; ++i) {
+        const corner a = p->corners[i];
+        const corner b = p->corners[i + 1 < p->count ? i + 1 : 0];
+        const double length_a = sqrt(1.0 + a.p * a.p + a.q * a.q);
+        const double length_b = sqrt(1.0 + b.p * b.p + b.q * b.q);
+        const double product = 1.0 + a.p * b.p + a.q * b.q;
+        sum += 2.0 * atan2(a.p * b.q - a.q * b.p, length_a * length_b + length_a + length_b + product);
+    }
+    return sum;
+}
+
+typedef struct cells {
+    const aur_sphere_grid *grid;
+    aur_voronoi_cell *result;
+} cells;
+
+enum { CELLS_PER_ITEM = 256 };
+
+/* Cuts the cell of point `index` by all neighbours within `angle`; the number that share its place is added
+ * up. */
+static int cut_cell(const aur_points *points, size_t index, const aur_neighbours *near, polygon *p,
+                    size_t *coincident) {
+    const double *const x = points->coordinates + 3 * index;
+    double first[3], second[3];
+    aur_frame3(x, first, second);
+    if (!reserve(p, near->count + 8))
+        return 0;
+    p->count = 4;
+    p->corners[0] = (corner){-horizon, -horizon};
+    p->corners[1] = (corner){horizon, -horizon};
+    p->corners[2] = (corner){horizon, horizon};
+    p->corners[3] = (corner){-horizon, horizon};
+    if (points->domain == AUR_DOMAIN_HEMISPHERE)
+        cut(p, (line){-first[2], -second[2], fmax(x[2], 0.0)});
+    *coincident = 1;
+    for (size_t n = 0; n < near->count; ++n) {
+        const double *const y = points->coordinates + 3 * near->items[n].index;
+        if (near->items[n].square < 1e-28) {
+            ++*coincident;
+            continue;
+        }
+        cut(p, (line){aur_dot3(y, first), aur_dot3(y, second), 0.5 * near->items[n].square});
+    }
+    return 1;
+}
+
+static aur_result find_cell(const cells *work, size_t index, polygon *p, aur_neighbours *near) {
+    for (double angle = 3.0 * work->grid->spacing;; angle *= 2.0) {
+        const aur_result result = aur_sphere_grid_near(work->grid, index, angle, near);
+        size_t coincident;
+        if (result != AUR_OK || !cut_cell(work->grid->points, index, near, p, &coincident))
+            return AUR_ERROR_MEMORY;
+        const double tangent = greatest_tangent(p);
+        const double radius = atan(tangent);
+        if (2.0 * radius > angle && angle < AUR_PI)
+            continue;
+        work->result[index] = (aur_voronoi_cell){solid_angle(p) / (double)coincident, radius, p->count,
+                                                 tangent > 0.5 * horizon};
+        return AUR_OK;
+    }
+}
+
+static aur_result find_cells(void *context, size_t item) {
+    const cells *const work = context;
+    const size_t count = work->grid->points->count;
+    polygon p = {0};
+    aur_neighbours near = {0};
+    aur_result result = AUR_OK;
+    for (size_t i = item * CELLS_PER_ITEM; i < (item + 1) * CELLS_PER_ITEM && i < count && result == AUR_OK;
+         ++i)
+        result = find_cell(work, i, &p, &near);
+    free(p.corners);
+    free(p.spare);
+    free(near.items);
+    return result;
+}
+
+aur_result aur_voronoi_cells(const aur_measure_request *request, aur_voronoi_cell *result, aur_error *error) {
+    aur_sphere_grid grid;
+    aur_result status = aur_sphere_grid_create(request->points, &grid, error);
+    if (status != AUR_OK)
+        return status;
+    cells work = {&grid, result};
+    const aur_parallel_options parallel = {request->options.threads, "cutting cells",
+                                           request->options.progress};
+    status = aur_parallel_for(&parallel, (request->points->count + CELLS_PER_ITEM - 1) / CELLS_PER_ITEM,
+                              find_cells, &work);
+    aur_sphere_grid_release(&grid);
+    return status == AUR_OK ? AUR_OK
+                            : aur_fail(error, status, "Voronoi cells: %s", aur_result_string(status));
+}

@@ -1,0 +1,20 @@
+/* Voronoi cells on the sphere or, cut at the equator, on the hemisphere. */
+#ifndef AUR_QUALITY_VORONOI_H
+#define AUR_QUALITY_VORONOI_H
+
+#include "quality/measure.h"
+
+typedef struct aur_voronoi_cell {
+    double area;   /* steradians; points in one place share their cell */
+    double radius; /* the angle to the farthest corner */
+    size_t sides;
+    int unbounded; /* the cell reaches 90 degrees or more from its point: area and radius mean nothing */
+} aur_voronoi_cell;
+
+/* The cells of all points into cells[count]; no bit depends on the number of threads. */
+aur_result aur_voronoi_cells(const aur_measure_request *request, aur_voronoi_cell *cells, aur_error *error);
+
+/* The angular radius of the smallest cap that holds all points, which must lie in one hemisphere. */
+double aur_smallest_cap(const aur_points *points);
+
+#endif

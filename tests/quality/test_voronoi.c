@@ -1,0 +1,188 @@
+#include "check.h"
+
+#include <string.h>
+
+#include "quality/spacing.h"
+#include "quality/sphere_grid.h"
+#include "quality/voronoi.h"
+#include "sphere_sets.h"
+
+static double measured(const char *metric, const aur_points *points) {
+    double value = NAN;
+    aur_error error = {0};
+    assert_int_equal(aur_measure(metric, points, NULL, &value, &error), AUR_OK);
+    return value;
+}
+
+static double dot(const double *a, const double *b) {
+    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+
+static void the_grid_finds_all_neighbours(void **state) {
+    (void)state;
+    aur_points points = random_directions(700, 3);
+    points.coordinates[0] = points.coordinates[1] = 0.0; /* a pole */
+    points.coordinates[2] = 1.0;
+    aur_sphere_grid grid;
+    assert_int_equal(aur_sphere_grid_create(&points, &grid, NULL), AUR_OK);
+    aur_neighbours near = {0};
+    for (size_t i = 0; i < points.count; i += 7) {
+        const double angle = 0.01 * (double)(1 + i % 400);
+        assert_int_equal(aur_sphere_grid_near(&grid, i, angle, &near), AUR_OK);
+        size_t expected = 0;
+        for (size_t j = 0; j < points.count; ++j) {
+            double square = 0.0;
+            for (size_t d = 0; d < 3; ++d) {
+                const double apart = points.coordinates[3 * i + d] - points.coordinates[3 * j + d];
+                square += apart * apart;
+            }
+            const double chord = angle < AUR_PI ? 2.0 * sin(0.5 * angle) : 3.0;
+            expected += j != i && square <= chord * chord;
+        }
+        assert_int_equal(near.count, expected);
+        for (size_t n = 1; n < near.count; ++n)
+            assert_true(near.items[n - 1].square <= near.items[n].square);
+    }
+    free(near.items);
+    aur_sphere_grid_release(&grid);
+    release_points(&points);
+}
+
+static void regular_sets_have_regular_cells(void **state) {
+    (void)state;
+    aur_points points = octahedron();
+    assert_near(measured("covering", &points), acos(1.0 / sqrt(3.0)), 1e-9);
+    assert_near(measured("mesh-ratio", &points), acos(1.0 / sqrt(3.0)) / (AUR_PI / 4.0), 1e-9);
+    assert_near(measured("voronoi-min", &points), 1.0, 1e-9);
+    assert_near(measured("voronoi-max", &points), 1.0, 1e-9);
+    aur_series series;
+    assert_int_equal(aur_measure_series("voronoi", &points, NULL, &series, NULL), AUR_OK);
+    assert_int_equal(series.row_count, 6);
+    assert_string_equal(series.columns[3], "sides");
+    for (size_t i = 0; i < 6; ++i)
+        assert_near(series.values[4 * i + 3], 4.0, 0.0);
+    aur_series_release(&series);
+    /* A corner of the octahedron twice: the two share a cell. */
+    points.coordinates = realloc(points.coordinates, 21 * sizeof(double));
+    memcpy(points.coordinates + 18, points.coordinates, 3 * sizeof(double));
+    points.count = 7;
+    assert_near(measured("voronoi-min", &points), 7.0 / 12.0, 1e-9);
+    assert_near(measured("voronoi-max", &points), 7.0 / 6.0, 1e-9);
+    release_points(&points);
+}
+
+/* Cells tile the sphere, or the hemisphere. */
+static void areas_add_up(void **state) {
+    (void)state;
+    for (uint64_t seed = 0; seed < 4; ++seed) {
+        aur_points points = random_directions(300, seed);
+        if (seed % 2 == 1) {
+            points.domain = AUR_DOMAIN_HEMISPHERE;
+            for (size_t i = 0; i < points.count; ++i)
+                points.coordinates[3 * i + 2] = fabs(points.coordinates[3 * i + 2]);
+        }
+        aur_series series;
+        assert_int_equal(aur_measure_series("voronoi", &points, NULL, &series, NULL), AUR_OK);
+        double sum = 0.0;
+        for (size_t i = 0; i < series.row_count; ++i)
+            sum += series.values[4 * i + 1];
+        assert_relative(sum, (double)points.count, 1e-9);
+        aur_series_release(&series);
+        release_points(&points);
+    }
+}
+
+/* The covering radius against circumcentres of all triples: those of empty caps are the corners of the cells.
+ */
+static void covering_agrees_with_all_triples(void **state) {
+    (void)state;
+    for (uint64_t seed = 0; seed < 12; ++seed) {
+        aur_points points = random_directions(4 + 3 * seed, seed);
+        const double *const x = points.coordinates;
+        double best = 1.0;
+        for (size_t i = 0; i < points.count; ++i)
+            for (size_t j = 0; j < i; ++j)
+                for (size_t k = 0; k < j; ++k) {
+                    double p[3], q[3];
+                    for (size_t d = 0; d < 3; ++d) {
+                        p[d] = x[3 * j + d] - x[3 * i + d];
+                        q[d] = x[3 * k + d] - x[3 * i + d];
+                    }
+                    double w[3] = {p[1] * q[2] - p[2] * q[1], p[2] * q[0] - p[0] * q[2],
+                                   p[0] * q[1] - p[1] * q[0]};
+                    const double length = sqrt(dot(w, w));
+                    for (int side = 0; side < 2; ++side) {
+                        for (size_t d = 0; d < 3; ++d)
+                            w[d] /= side == 0 ? length : -1.0;
+                        const double height = dot(w, x + 3 * i);
+                        int empty = 1;
+                        for (size_t m = 0; m < points.count; ++m)
+                            empty &= dot(w, x + 3 * m) <= height + 1e-12;
+                        if (empty)
+                            best = fmin(best, height);
+                    }
+                }
+        assert_near(measured("covering", &points), acos(best), 1e-8);
+        release_points(&points);
+    }
+}
+
+/* One point, two points, and points of one hemisphere only. */
+static void covering_beyond_ninety_degrees(void **state) {
+    (void)state;
+    aur_points points = spherical_fibonacci(200, AUR_DOMAIN_HEMISPHERE);
+    points.domain = AUR_DOMAIN_SPHERE;
+    for (size_t i = 0; i < points.count; ++i) /* all within a cap of 60 degrees, the rim at z = 1/2 + 1/800 */
+        set_direction(&points, i, 0.5 + 0.5 * points.coordinates[3 * i + 2],
+                      atan2(points.coordinates[3 * i + 1], points.coordinates[3 * i]));
+    const double covering = measured("covering", &points);
+    assert_true(covering > AUR_PI - acos(0.5) && covering < AUR_PI - acos(0.5) + 0.05);
+    points.count = 1;
+    assert_near(measured("covering", &points), AUR_PI, 1e-7);
+    points.count = 2;
+    const double angle = acos(dot(points.coordinates, points.coordinates + 3));
+    assert_near(measured("covering", &points), AUR_PI - 0.5 * angle, 1e-9);
+    double value = 0.0;
+    aur_error error = {0};
+    assert_int_equal(aur_measure("voronoi-min", &points, NULL, &value, &error), AUR_ERROR_UNSUPPORTED);
+    assert_int_equal(aur_measure("voronoi", &points, NULL, &value, &error), AUR_ERROR_UNSUPPORTED);
+    release_points(&points);
+}
+
+static void smallest_distance_agrees_with_all_pairs(void **state) {
+    (void)state;
+    for (size_t dimension = 1; dimension < 5; ++dimension) {
+        const size_t count = 200;
+        aur_points points = {AUR_DOMAIN_CUBE, count, dimension, malloc(count * dimension * sizeof(double)),
+                             NULL};
+        for (size_t i = 0; i < count * dimension; ++i)
+            points.coordinates[i] = aur_unit_double(aur_hash2(dimension, i));
+        double best = 1e9;
+        for (size_t i = 0; i < count; ++i)
+            for (size_t j = 0; j < i; ++j) {
+                double square = 0.0;
+                for (size_t d = 0; d < dimension; ++d) {
+                    const double apart =
+                        points.coordinates[i * dimension + d] - points.coordinates[j * dimension + d];
+                    square += apart * apart;
+                }
+                best = fmin(best, square);
+            }
+        double found = 0.0;
+        assert_int_equal(aur_smallest_distance(&points, &found, NULL), AUR_OK);
+        assert_near(found, sqrt(best), 1e-15);
+        release_points(&points);
+    }
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(the_grid_finds_all_neighbours),
+        cmocka_unit_test(regular_sets_have_regular_cells),
+        cmocka_unit_test(areas_add_up),
+        cmocka_unit_test(covering_agrees_with_all_triples),
+        cmocka_unit_test(covering_beyond_ninety_degrees),
+        cmocka_unit_test(smallest_distance_agrees_with_all_pairs),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
