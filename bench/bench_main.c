@@ -14,11 +14,7 @@ extern const bench bench_points_sphere;
 extern const bench bench_weights;
 
 static const bench *const benches[] = {
-    &bench_limits,
-    &bench_measures,
-    &bench_parallel,
-    &bench_points_sphere,
-    &bench_weights,
+    &bench_limits, &bench_measures, &bench_parallel, &bench_points_sphere, &bench_weights,
 };
 
 enum { BENCH_COUNT = sizeof benches / sizeof benches[0] };
