@@ -68,6 +68,11 @@ typedef struct aur_warnings {
     void *user;
 } aur_warnings;
 
+/* Replaces the file `path` by data[size], whole or not at all ("-": standard output). Errors: WRITE, MEMORY.
+ */
+AUR_API aur_result aur_file_write(const char *path, size_t size, const void *data, aur_error *error)
+    AUR_NONNULL(1);
+
 /* "major.minor.patch" of the library in use. */
 AUR_API const char *aur_version(void);
 

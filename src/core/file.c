@@ -91,6 +91,16 @@ aur_result aur_file_commit(aur_file_writer *writer, aur_error *error) {
     return result;
 }
 
+aur_result aur_file_write(const char *path, size_t size, const void *data, aur_error *error) {
+    aur_file_writer writer;
+    const aur_result result = aur_file_open(path, &writer, error);
+    if (result != AUR_OK)
+        return result;
+    if (size > 0)
+        fwrite(data, 1, size, writer.stream); /* the stream remembers a failure until the commit */
+    return aur_file_commit(&writer, error);
+}
+
 void aur_file_abandon(aur_file_writer *writer) {
     if (writer->stream != NULL && writer->stream != stdout)
         fclose(writer->stream);

@@ -99,6 +99,29 @@ aur_result aur_parameters_copy(const aur_parameters *parameters, aur_parameters 
     return result;
 }
 
+/* The comma that ends a key=value, or NULL; commas in parentheses do not count. */
+static char *end_of_piece(char *text) {
+    size_t depth = 0;
+    for (; *text != '\0'; ++text) {
+        if (*text == '(')
+            ++depth;
+        else if (*text == ')' && depth > 0)
+            --depth;
+        else if (*text == ',' && depth == 0)
+            return text;
+    }
+    return NULL;
+}
+
+/* "(...)" is what stands between; anything else is itself. */
+static char *without_parentheses(char *value) {
+    const size_t length = strlen(value);
+    if (length < 2 || value[0] != '(' || value[length - 1] != ')')
+        return value;
+    value[length - 1] = '\0';
+    return value + 1;
+}
+
 aur_result aur_parameters_parse(aur_parameters *parameters, const char *kind, const char *text,
                                 aur_error *error) {
     *parameters = (aur_parameters){0};
@@ -110,7 +133,7 @@ aur_result aur_parameters_parse(aur_parameters *parameters, const char *kind, co
         *rest++ = '\0';
     aur_result result = aur_parameters_init(parameters, kind, copy, (aur_location){0}, error);
     while (result == AUR_OK && rest != NULL) {
-        char *const next = strchr(rest, ',');
+        char *const next = end_of_piece(rest);
         if (next != NULL)
             *next = '\0';
         char *const value = strchr(rest, '=');
@@ -120,8 +143,8 @@ aur_result aur_parameters_parse(aur_parameters *parameters, const char *kind, co
             break;
         }
         *value = '\0';
-        result = aur_parameters_add_text(parameters, AUR_PARAMETER_TEXT, rest, value + 1, (aur_location){0},
-                                         error);
+        result = aur_parameters_add_text(parameters, AUR_PARAMETER_TEXT, rest, without_parentheses(value + 1),
+                                         (aur_location){0}, error);
         rest = next != NULL ? next + 1 : NULL;
     }
     free(copy);

@@ -51,7 +51,8 @@ void aur_parameters_release(aur_parameters *parameters);
 /* A copy in which nothing is used yet. */
 aur_result aur_parameters_copy(const aur_parameters *parameters, aur_parameters *copy, aur_error *error);
 
-/* Parses "NAME[:key=value[,key=value...]]" into initialised parameters. */
+/* Parses "NAME[:key=value[,key=value...]]" into initialised parameters. A value that has commas of its own
+ * stands in parentheses: finalgather:pattern=(esfg:base=64,levels=1),rotations=0. */
 aur_result aur_parameters_parse(aur_parameters *parameters, const char *kind, const char *text,
                                 aur_error *error);
 

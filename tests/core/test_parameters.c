@@ -24,6 +24,20 @@ static void parses_a_specification(void **state) {
     aur_parameters_release(&parameters);
 }
 
+static void keeps_commas_in_parentheses(void **state) {
+    (void)state;
+    aur_parameters parameters;
+    aur_error error = {0};
+    assert_int_equal(aur_parameters_parse(&parameters, "integrator", "x:a=(y:b=1,c=2),d=3", &error), AUR_OK);
+    const char *a = NULL;
+    int64_t d = 0;
+    assert_int_equal(aur_parameters_string(&parameters, "a", &a, &error), AUR_OK);
+    assert_int_equal(aur_parameters_integer(&parameters, "d", 0, 9, &d, &error), AUR_OK);
+    assert_string_equal(a, "y:b=1,c=2");
+    assert_int_equal(d, 3);
+    aur_parameters_release(&parameters);
+}
+
 static void refuses_what_is_wrong(void **state) {
     (void)state;
     static const char *const texts[] = {"x:a=1e3x", "x:a=nan", "x:a=", "x:a=11", "x:b=3", "x:aa=1"};
@@ -63,9 +77,8 @@ static void splits_numbers(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(parses_a_specification),
-        cmocka_unit_test(refuses_what_is_wrong),
-        cmocka_unit_test(suggests_the_nearest_name),
+        cmocka_unit_test(parses_a_specification), cmocka_unit_test(keeps_commas_in_parentheses),
+        cmocka_unit_test(refuses_what_is_wrong),  cmocka_unit_test(suggests_the_nearest_name),
         cmocka_unit_test(splits_numbers),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
