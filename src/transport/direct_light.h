@@ -1,0 +1,27 @@
+/* Direct light at a surface point by multiple importance sampling of lights and BSDF (Veach 1997, power
+ * heuristic). */
+#ifndef AUR_TRANSPORT_DIRECT_LIGHT_H
+#define AUR_TRANSPORT_DIRECT_LIGHT_H
+
+#include "transport/integrator.h"
+#include "transport/shading.h"
+
+/* The weight of a sample drawn with density `pdf` where the rival technique has density `other`. */
+static inline float aur_power_heuristic(float pdf, float other) {
+    const float ratio = other / pdf;
+    return 1.0f / (1.0f + ratio * ratio);
+}
+
+/* The light-sampling half: radiance reflected towards the viewer, weighted for use beside BSDF sampling.
+ * choice is one number and position two, in [0,1). */
+aur_vector aur_direct_light_sampled(const aur_scene *scene, const aur_shading *shading, float choice,
+                                    const float position[2], aur_counters *counters);
+
+/* Both halves: one light sample and one BSDF sample, from the dimension pairs pair .. pair + 2. Light in
+ * specular directions is left out: who follows those meets the light itself. */
+aur_vector aur_direct_light(const aur_scene *scene, const aur_shading *shading, const aur_stream *stream,
+                            uint32_t pair, aur_counters *counters);
+
+enum { AUR_DIRECT_LIGHT_PAIRS = 3 };
+
+#endif

@@ -1,0 +1,67 @@
+/* Integrators: how radiance along a camera ray is found. One a file, with one line in the table of
+ * integrator.c. */
+#ifndef AUR_TRANSPORT_INTEGRATOR_H
+#define AUR_TRANSPORT_INTEGRATOR_H
+
+#include <aureole/render.h>
+
+#include "core/parameters.h"
+#include "scene/scene.h"
+#include "transport/cache.h"
+#include "transport/sampler.h"
+
+/* What an integrator is made for. Everything but the parameters outlives it. */
+typedef struct aur_integrator_context {
+    const aur_scene *scene;
+    size_t samples_per_pixel;
+    uint64_t seed;
+    size_t threads;
+    aur_cache *cache; /* what renders of one scene share */
+    aur_progress progress;
+    aur_warnings warnings;
+} aur_integrator_context;
+
+/* Counted by each tile for itself and added up afterwards. */
+typedef struct aur_counters {
+    uint64_t rays;
+} aur_counters;
+
+/* A camera ray with the numbers of its light path. */
+typedef struct aur_camera_sample {
+    aur_ray ray;
+    aur_stream stream;
+} aur_camera_sample;
+
+/* Dimension pairs that the camera uses; an integrator's own begin after them. */
+enum { AUR_PAIR_FILTER = 0, AUR_PAIR_LENS = 1, AUR_PAIR_FIRST = 2 };
+
+typedef struct aur_integrator aur_integrator;
+
+typedef struct aur_integrator_descriptor {
+    aur_integrator_description description;
+    /* Reads its parameters and prepares what all rays share (a photon map, say), on several threads. Sets
+     * integrator->data. */
+    aur_result (*create)(aur_parameters *parameters, const aur_integrator_context *context,
+                         aur_integrator *integrator, aur_error *error);
+    void (*release)(aur_integrator *integrator);
+    /* Radiance that arrives along the camera ray. */
+    aur_vector (*radiance)(const aur_integrator *integrator, const aur_camera_sample *sample,
+                           aur_counters *counters);
+} aur_integrator_descriptor;
+
+struct aur_integrator {
+    const aur_integrator_descriptor *descriptor;
+    const aur_scene *scene;
+    void *data;
+    bool pixel_centre; /* every camera ray goes through the centre of its pixel */
+};
+
+/* The table; NULL beyond it. */
+const aur_integrator_descriptor *aur_integrator_descriptor_at(size_t index);
+
+/* Makes the integrator that parameters->plugin names ready; errors carry the place in the scene file. */
+aur_result aur_integrator_create(aur_parameters *parameters, const aur_integrator_context *context,
+                                 aur_integrator **integrator, aur_error *error);
+void aur_integrator_destroy(aur_integrator *integrator);
+
+#endif

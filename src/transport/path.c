@@ -1,0 +1,111 @@
+/* The reference integrator: unidirectional path tracing with next-event estimation, multiple importance
+ * sampling and Russian roulette (Kajiya 1986; Veach 1997). */
+#include <stdlib.h>
+
+#include "transport/direct_light.h"
+#include "transport/integrator.h"
+
+typedef struct path_data {
+    uint32_t max_depth; /* UINT32_MAX: no limit; 1 is visible light only, 2 adds direct light */
+    uint32_t rr_depth;  /* Russian roulette from this depth on */
+} path_data;
+
+static aur_result create(aur_parameters *parameters, const aur_integrator_context *context,
+                         aur_integrator *integrator, aur_error *error) {
+    (void)context;
+    int64_t max_depth = -1, rr_depth = 5;
+    aur_result result = aur_parameters_integer(parameters, "max_depth", -1, 1 << 20, &max_depth, error);
+    if (result == AUR_OK)
+        result = aur_parameters_integer(parameters, "rr_depth", 1, 1 << 20, &rr_depth, error);
+    if (result == AUR_OK)
+        result = aur_parameters_finish(parameters, error);
+    if (result != AUR_OK)
+        return result;
+    path_data *const data = malloc(sizeof *data);
+    if (data == NULL)
+        return aur_fail(error, AUR_ERROR_MEMORY, "out of memory");
+    *data = (path_data){.max_depth = max_depth < 0 ? UINT32_MAX : (uint32_t)max_depth,
+                        .rr_depth = (uint32_t)rr_depth};
+    integrator->data = data;
+    return AUR_OK;
+}
+
+static void release(aur_integrator *integrator) {
+    free(integrator->data);
+}
+
+/* Pairs of one bounce: (light choice, roulette), light position, (lobe choice, unused), direction. */
+enum { PAIRS_A_BOUNCE = 4 };
+
+static aur_vector radiance(const aur_integrator *integrator, const aur_camera_sample *sample,
+                           aur_counters *counters) {
+    const path_data *const data = integrator->data;
+    const aur_scene *const scene = integrator->scene;
+    const bool has_lights = aur_scene_emitter_count(scene) > 0;
+    aur_vector sum = {0}, throughput = {1.0f, 1.0f, 1.0f};
+    aur_vector previous = {0};
+    float previous_pdf = 0.0f;
+    bool previous_specular = true; /* the camera cannot be hit by light sampling either */
+    aur_ray ray = sample->ray;
+
+    for (uint32_t depth = 1; depth <= data->max_depth; ++depth) {
+        aur_hit hit;
+        ++counters->rays;
+        if (!aur_scene_intersect(scene, &ray, &hit))
+            break;
+        aur_surface surface;
+        aur_scene_surface(scene, &ray, &hit, &surface);
+        const aur_vector view = aur_vector_scale(ray.direction, -1.0f);
+        const aur_vector emission = aur_surface_emission(scene, &surface, view);
+        if (!aur_vector_is_zero(emission)) {
+            const float weight =
+                previous_specular
+                    ? 1.0f
+                    : aur_power_heuristic(previous_pdf, aur_light_pdf_direct(scene, previous, &surface));
+            sum = aur_vector_add_scaled(sum, weight, aur_vector_multiply(throughput, emission));
+        }
+        if (depth == data->max_depth)
+            break;
+
+        const uint32_t pair = AUR_PAIR_FIRST + PAIRS_A_BOUNCE * (depth - 1);
+        float choice[2], position[2], lobe[2], direction[2];
+        aur_stream_pair(&sample->stream, pair, choice);
+        aur_stream_pair(&sample->stream, pair + 1, position);
+        aur_stream_pair(&sample->stream, pair + 2, lobe);
+        aur_stream_pair(&sample->stream, pair + 3, direction);
+
+        const aur_shading shading = aur_shading_at(&surface, view);
+        if (has_lights) {
+            const aur_vector direct =
+                aur_direct_light_sampled(scene, &shading, choice[0], position, counters);
+            sum = aur_vector_add(sum, aur_vector_multiply(throughput, direct));
+        }
+        aur_bsdf_sample scattered;
+        if (!aur_shading_sample(&shading, (const float[3]){lobe[0], direction[0], direction[1]}, &scattered))
+            break;
+        throughput = aur_vector_multiply(throughput, scattered.weight);
+        if (depth >= data->rr_depth) {
+            const float survival = fminf(aur_vector_max(throughput), 0.95f);
+            if (!(choice[1] < survival))
+                break;
+            throughput = aur_vector_scale(throughput, 1.0f / survival);
+        }
+        if (aur_vector_is_zero(throughput))
+            break;
+        previous = surface.position;
+        previous_pdf = scattered.pdf;
+        previous_specular = scattered.specular;
+        ray = aur_surface_ray(&surface, scattered.light);
+    }
+    return sum;
+}
+
+const aur_integrator_descriptor aur_integrator_path = {
+    .description = {.name = "path",
+                    .keys = "max_depth=-1, rr_depth=5",
+                    .summary = "unidirectional path tracing with multiple importance sampling, the reference",
+                    .source = "Kajiya 1986, Veach 1997"},
+    .create = create,
+    .release = release,
+    .radiance = radiance,
+};

@@ -1,0 +1,152 @@
+#include "transport/sampler.h"
+
+#include <aureole/pointset.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "core/error.h"
+#include "pointset/net_2d.h"
+
+/* Sets whose first 2^k points are a (0,k,2)-net in base 2, so that Owen scrambling and shuffling keep them
+ * one. */
+static bool is_base_two_net(const char *set) {
+    static const char *const names[] = {"hammersley", "larcher-pillichshammer", "niederreiter",
+                                        "van-der-corput"};
+    const size_t length = strcspn(set, ":");
+    for (size_t i = 0; i < sizeof names / sizeof names[0]; ++i)
+        if (strlen(names[i]) == length && strncmp(names[i], set, length) == 0)
+            return true;
+    return false;
+}
+
+static aur_result fill_table(aur_sampler *sampler, const char *set, const aur_warnings *warnings,
+                             aur_error *error) {
+    aur_pointset *points = NULL;
+    const aur_pointset_options options = {
+        .count = sampler->size, .dimension = 2, .warnings = warnings != NULL ? *warnings : (aur_warnings){0}};
+    aur_result result = aur_pointset_create(set, &options, &points, error);
+    if (result != AUR_OK)
+        return result;
+    double *const values = malloc(2 * sizeof *values * sampler->size);
+    sampler->points = malloc(sizeof *sampler->points * sampler->size);
+    if (values == NULL || sampler->points == NULL)
+        result = aur_fail(error, AUR_ERROR_MEMORY, "out of memory for a sampler of %u points", sampler->size);
+    if (result == AUR_OK) {
+        result = aur_pointset_points(points, 0, sampler->size, 2 * (size_t)sampler->size, values);
+        if (result != AUR_OK)
+            aur_fail(error, result, "sampler '%s': %s", set, aur_result_string(result));
+    }
+    for (size_t i = 0; i < sampler->size && result == AUR_OK; ++i)
+        for (size_t k = 0; k < 2; ++k)
+            sampler->points[i][k] = (uint32_t)(values[2 * i + k] * 0x1p32);
+    free(values);
+    aur_pointset_destroy(points);
+    return result;
+}
+
+aur_result aur_sampler_create(const char *set, size_t count, const aur_warnings *warnings, aur_sampler **out,
+                              aur_error *error) {
+    *out = NULL;
+    if (count == 0 || count > (size_t)1 << 30)
+        return aur_fail(error, AUR_ERROR_ARGUMENT, "samples per pixel must be between 1 and 2^30, not %zu",
+                        count);
+    aur_sampler *const sampler = calloc(1, sizeof *sampler);
+    if (sampler == NULL)
+        return aur_fail(error, AUR_ERROR_MEMORY, "out of memory");
+    aur_result result = AUR_OK;
+    if (strcmp(set, "random") == 0) {
+        sampler->kind = AUR_SAMPLER_RANDOM;
+    } else if (strcmp(set, "sobol") == 0) {
+        sampler->kind = AUR_SAMPLER_SOBOL;
+    } else {
+        sampler->kind = is_base_two_net(set) ? AUR_SAMPLER_NET : AUR_SAMPLER_TABLE;
+        sampler->size = (uint32_t)count;
+        if (sampler->kind == AUR_SAMPLER_NET)
+            for (sampler->size = 1; sampler->size < count;)
+                sampler->size *= 2;
+        result = fill_table(sampler, set, warnings, error);
+    }
+    if (result != AUR_OK) {
+        aur_sampler_destroy(sampler);
+        return result;
+    }
+    *out = sampler;
+    return AUR_OK;
+}
+
+void aur_sampler_destroy(aur_sampler *sampler) {
+    if (sampler == NULL)
+        return;
+    free(sampler->points);
+    free(sampler);
+}
+
+/* A random permutation of 0..size-1 by hashing and cycle walking (Kensler 2013, for its method; the mixing is
+ * ours). */
+static uint32_t permute(uint32_t index, uint32_t size, uint32_t seed) {
+    uint32_t mask = size - 1;
+    mask |= mask >> 1;
+    mask |= mask >> 2;
+    mask |= mask >> 4;
+    mask |= mask >> 8;
+    mask |= mask >> 16;
+    do {
+        index ^= seed & mask;
+        index = index * 0xe170893du & mask;
+        index ^= (index & mask) >> 4;
+        index ^= (seed >> 7) & mask;
+        index = index * ((seed >> 9) | 1u) & mask;
+        index ^= index >> 2;
+        index = index * 0x0929eb3fu & mask;
+        index ^= index >> 3 ^ (seed >> 17 & mask);
+        index = index * (seed | 1u) & mask;
+    } while (index >= size);
+    return index;
+}
+
+static void pair_words(const aur_stream *stream, uint32_t pair, uint32_t words[2]) {
+    const aur_sampler *const sampler = stream->sampler;
+    const uint64_t hash = aur_hash2(stream->pixel, pair);
+    const uint32_t seed_x = (uint32_t)hash;
+    const uint32_t seed_y = (uint32_t)(hash >> 32);
+    const uint32_t seed_index = (uint32_t)aur_mix64(hash + 1);
+    uint32_t index;
+    switch (sampler->kind) {
+    case AUR_SAMPLER_RANDOM: {
+        const uint64_t number = aur_hash2(hash, stream->index);
+        words[0] = (uint32_t)number;
+        words[1] = (uint32_t)(number >> 32);
+        return;
+    }
+    case AUR_SAMPLER_SOBOL:
+        /* Shuffles within, and moves, aligned blocks of a power of two: every such block is a net (Burley
+         * 2020). */
+        index = aur_owen_scramble(stream->index, seed_index);
+        words[0] = aur_owen_scramble(aur_sobol_first(index), seed_x);
+        words[1] = aur_owen_scramble(aur_sobol_second(index), seed_y);
+        return;
+    case AUR_SAMPLER_NET:
+        index = aur_owen_scramble(stream->index, seed_index) & (sampler->size - 1);
+        words[0] = aur_owen_scramble(sampler->points[index][0], seed_x);
+        words[1] = aur_owen_scramble(sampler->points[index][1], seed_y);
+        return;
+    case AUR_SAMPLER_TABLE:
+        index = permute(stream->index % sampler->size, sampler->size, seed_index);
+        words[0] = sampler->points[index][0] + seed_x;
+        words[1] = sampler->points[index][1] + seed_y;
+        return;
+    }
+}
+
+void aur_stream_pair(const aur_stream *stream, uint32_t pair, float u[2]) {
+    uint32_t words[2] = {0};
+    pair_words(stream, pair, words);
+    u[0] = aur_unit_float(words[0]);
+    u[1] = aur_unit_float(words[1]);
+}
+
+float aur_stream_single(const aur_stream *stream, uint32_t pair) {
+    float u[2];
+    aur_stream_pair(stream, pair, u);
+    return u[0];
+}
