@@ -10,8 +10,10 @@ extern const cli_verb cli_verb_compare;
 extern const cli_verb cli_verb_convert;
 extern const cli_verb cli_verb_help;
 extern const cli_verb cli_verb_info;
+extern const cli_verb cli_verb_lab;
 extern const cli_verb cli_verb_measure;
 extern const cli_verb cli_verb_points;
+extern const cli_verb cli_verb_render;
 extern const cli_verb cli_verb_sets;
 extern const cli_verb cli_verb_weights;
 
@@ -20,8 +22,10 @@ static const cli_verb *const verbs[] = {
     &cli_verb_points,
     &cli_verb_measure,
     &cli_verb_weights,
+    &cli_verb_render,
     &cli_verb_compare,
     &cli_verb_convert,
+    &cli_verb_lab,
     &cli_verb_info,
     &cli_verb_help,
 };

@@ -1,0 +1,219 @@
+/* Spherical Fibonacci against scrambled Sobol in final gathering of the glossy Cornell box (Marques 2013,
+ * section 6).
+ *
+ * A pattern is judged by the RMSE of its pictures against the same estimator with very many directions, on
+ * the same photon map and the same primary hits (pixel centres), for the diffuse and the glossy component of
+ * the indirect light apart. Its intervals are over independent randomisations of the patterns. */
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+
+#include "lab/lab.h"
+
+enum { REFERENCE_DIRECTIONS = 16384, SET_CAPACITY = 3, MOST_SCRAMBLES = 16 };
+
+typedef struct gather_study {
+    lab_run *run;
+    aur_renderer *renderer;
+    size_t side; /* pixels a side */
+    size_t photons;
+    size_t scrambles; /* independent randomisations */
+    size_t count_count;
+    size_t counts[4];    /* directions a pixel */
+    size_t path_samples; /* a pixel, of the path-traced picture that the bias is measured against */
+    size_t set_count;
+    const char *sets[SET_CAPACITY];
+} gather_study;
+
+static const char *const columns[] = {"component", "pattern", "directions", "rmse",      "rmse_low",
+                                      "rmse_high", "ratio",   "ratio_low",  "ratio_high"};
+
+static aur_result render(const gather_study *study, const char *integrator, size_t samples, size_t side,
+                         uint64_t seed, aur_image **image, aur_error *error) {
+    const lab_options *const lab = lab_run_options(study->run);
+    const aur_render_options options = {.integrator = integrator,
+                                        .sampler = "sobol",
+                                        .filter = "box",
+                                        .samples_per_pixel = samples,
+                                        .seed = seed,
+                                        .width = side,
+                                        .height = side,
+                                        .threads = lab->threads,
+                                        .progress = lab->progress,
+                                        .warnings = lab->warnings};
+    return aur_renderer_render(study->renderer, &options, image, NULL, error);
+}
+
+/* One component of the indirect light at the pixel centres. Every shading point has a randomisation of its
+ * own. */
+static aur_result render_component(const gather_study *study, const char *component, const char *set,
+                                   size_t directions, size_t scramble, aur_image **image, aur_error *error) {
+    char integrator[320];
+    snprintf(
+        integrator, sizeof integrator,
+        "finalgather:component=%s,direct=none,pixel=centre,density=same,rotations=0,photons=%zu,pattern=%s,"
+        "diffuse_samples=%zu,glossy_samples=%zu,pattern_seed=%zu",
+        component, study->photons, set, directions, directions, scramble);
+    return render(study, integrator, 1, study->side, 0, image, error);
+}
+
+/* Mean square errors of one pattern, one value a scramble; the picture of the first is written. */
+static aur_result measure(const gather_study *study, const char *component, const char *set,
+                          size_t directions, const aur_image *reference, double *mse, aur_error *error) {
+    aur_result result = AUR_OK;
+    for (size_t k = 0; k < study->scrambles && result == AUR_OK; ++k) {
+        aur_image *image = NULL;
+        double value[4];
+        result = render_component(study, component, set, directions, 1 + k, &image, error);
+        if (result == AUR_OK)
+            result = aur_image_compare(reference, image, AUR_IMAGE_MSE, value, error);
+        if (result == AUR_OK)
+            mse[k] = value[3];
+        if (result == AUR_OK && k == 0 && directions == 64) {
+            char name[64];
+            aur_image *difference = NULL;
+            /* One scale for all patterns: a tenth of full white. */
+            result = aur_image_difference(reference, image, 0.1, &difference, error);
+            snprintf(name, sizeof name, "%s-error-%s", component, set);
+            if (result == AUR_OK)
+                result = lab_picture(study->run, name, difference, 0.0f, error);
+            aur_image_destroy(difference);
+        }
+        aur_image_destroy(image);
+    }
+    return result;
+}
+
+static double root(double value) {
+    return sqrt(fmax(0.0, value));
+}
+
+/* The row of one pattern; `base` is the first pattern's mean square errors with the same number of
+ * directions. The interval of the ratio follows from those of the two means, which are independent. */
+static void add_row(const gather_study *study, const char *component, const char *set, size_t directions,
+                    const double *mse, const double *base) {
+    double mean, half, base_mean, base_half;
+    lab_mean_interval(study->scrambles, mse, &mean, &half);
+    lab_mean_interval(study->scrambles, base, &base_mean, &base_half);
+    const double relative =
+        sqrt(half / mean * (half / mean) + base_half / base_mean * (base_half / base_mean));
+    const double ratio = mean / base_mean;
+    lab_run *const run = study->run;
+    lab_text(run, component);
+    lab_text(run, set);
+    lab_number(run, (double)directions);
+    lab_number(run, root(mean));
+    lab_number(run, root(mean - half));
+    lab_number(run, root(mean + half));
+    lab_number(run, root(ratio));
+    lab_number(run, mse == base ? 1.0 : root(ratio * (1.0 - relative)));
+    lab_number(run, mse == base ? 1.0 : root(ratio * (1.0 + relative)));
+}
+
+/* Whether the intervals of two patterns are apart, the first below. */
+static bool apart(size_t count, const double *lower, const double *upper) {
+    double low_mean, low_half, high_mean, high_half;
+    lab_mean_interval(count, lower, &low_mean, &low_half);
+    lab_mean_interval(count, upper, &high_mean, &high_half);
+    return low_mean + low_half < high_mean - high_half;
+}
+
+static aur_result study_component(const gather_study *study, const char *component, aur_error *error) {
+    aur_image *reference = NULL;
+    aur_result result =
+        render_component(study, component, "spherical-fibonacci", REFERENCE_DIRECTIONS, 0, &reference, error);
+    if (result == AUR_OK) {
+        char name[64];
+        snprintf(name, sizeof name, "%s-reference", component);
+        result = lab_picture(study->run, name, reference, 1.0f, error);
+    }
+    size_t won = 0;
+    for (size_t n = 0; n < study->count_count && result == AUR_OK; ++n) {
+        double mse[SET_CAPACITY][MOST_SCRAMBLES];
+        for (size_t s = 0; s < study->set_count && result == AUR_OK; ++s) {
+            result = measure(study, component, study->sets[s], study->counts[n], reference, mse[s], error);
+            if (result == AUR_OK)
+                add_row(study, component, study->sets[s], study->counts[n], mse[s], mse[0]);
+        }
+        if (result == AUR_OK)
+            won += apart(study->scrambles, mse[0], mse[1]);
+    }
+    aur_image_destroy(reference);
+    if (result == AUR_OK)
+        lab_note(study->run,
+                 "%s: spherical Fibonacci below Sobol with the intervals apart at %zu of %zu counts",
+                 component, won, study->count_count);
+    return result;
+}
+
+/* Full light paths against path tracing: what the photon map costs in truth, apart from what patterns cost in
+ * noise. */
+static aur_result measure_bias(const gather_study *study, aur_error *error) {
+    char integrator[96];
+    snprintf(integrator, sizeof integrator, "finalgather:photons=%zu", study->photons);
+    aur_image *gathered = NULL, *traced = NULL, *gathered_small = NULL, *traced_small = NULL;
+    double gathered_mean[4], traced_mean[4], rmse[4];
+    aur_result result = render(study, integrator, study->path_samples / 4, study->side, 1, &gathered, error);
+    if (result == AUR_OK)
+        result = render(study, "path", study->path_samples, study->side, 2, &traced, error);
+    if (result == AUR_OK)
+        result = aur_image_mean(gathered, gathered_mean, error);
+    if (result == AUR_OK)
+        result = aur_image_mean(traced, traced_mean, error);
+    if (result == AUR_OK)
+        result = aur_image_downsample(gathered, 8, &gathered_small, error);
+    if (result == AUR_OK)
+        result = aur_image_downsample(traced, 8, &traced_small, error);
+    if (result == AUR_OK)
+        result = aur_image_compare(traced_small, gathered_small, AUR_IMAGE_RMSE, rmse, error);
+    if (result == AUR_OK) {
+        lab_note(study->run,
+                 "bias of finalgather against path (%zu samples a pixel): mean %+.2f %%, RMSE of 8x8 means "
+                 "%.2f %% of "
+                 "the mean",
+                 study->path_samples, 100.0 * (gathered_mean[3] / traced_mean[3] - 1.0),
+                 100.0 * rmse[3] / traced_mean[3]);
+        result = lab_picture(study->run, "finalgather", gathered, 0.5f, error);
+    }
+    if (result == AUR_OK)
+        result = lab_picture(study->run, "path", traced, 0.5f, error);
+    aur_image_destroy(gathered);
+    aur_image_destroy(traced);
+    aur_image_destroy(gathered_small);
+    aur_image_destroy(traced_small);
+    return result;
+}
+
+static aur_result run(lab_run *run, aur_error *error) {
+    const lab_options *const options = lab_run_options(run);
+    gather_study study = {.run = run,
+                          .side = options->quick ? 32 : 64,
+                          .photons = options->quick ? 50000 : 500000,
+                          .scrambles = options->quick ? 4 : MOST_SCRAMBLES,
+                          .count_count = options->quick ? 1 : 4,
+                          .counts = {64, 16, 256, 512},
+                          .path_samples = options->quick ? 64 : 1024,
+                          .set_count = options->set != NULL ? 3 : 2,
+                          .sets = {"spherical-fibonacci", "sobol", options->set}};
+    aur_scene *scene = NULL;
+    aur_result result = lab_load_scene(run, "cornell-box/glossy.xml", 0, NULL, &scene, error);
+    if (result == AUR_OK)
+        result = aur_renderer_create(scene, &study.renderer, error);
+    lab_columns(run, sizeof columns / sizeof columns[0], columns);
+    if (result == AUR_OK)
+        result = study_component(&study, "diffuse", error);
+    if (result == AUR_OK)
+        result = study_component(&study, "glossy", error);
+    if (result == AUR_OK)
+        result = measure_bias(&study, error);
+    aur_renderer_destroy(study.renderer);
+    aur_scene_destroy(scene);
+    return result;
+}
+
+const lab_experiment lab_marques_2013_gather = {
+    .name = "marques-2013-gather",
+    .reproduces = "Marques 2013, figs 5-6",
+    .summary = "spherical Fibonacci against scrambled Sobol in final gathering at equal rays",
+    .run = run,
+};
