@@ -118,13 +118,72 @@ static bool run_on_threads(const bench_options *options) {
     return true;
 }
 
+typedef struct inverse_context {
+    aur_fibonacci_set set;
+    size_t count;
+    const double *xyz;    /* of the queries */
+    const double *points; /* of the set, for brute force */
+    uint64_t *indices;
+} inverse_context;
+
+static void find_nearest(void *data) {
+    const inverse_context *const context = data;
+    aur_fibonacci_nearest(&context->set, context->count, context->xyz, context->count, context->indices);
+    bench_keep((double)context->indices[context->count - 1]);
+}
+
+static void find_nearest_by_force(void *data) {
+    const inverse_context *const context = data;
+    for (size_t i = 0; i < context->count; ++i) {
+        const double *const q = context->xyz + 3 * i;
+        double best = -2.0;
+        for (size_t j = 0; j < context->set.size; ++j) {
+            const double *const p = context->points + 3 * j;
+            const double cosine = p[0] * q[0] + p[1] * q[1] + p[2] * q[2];
+            if (cosine > best) {
+                best = cosine;
+                context->indices[i] = j;
+            }
+        }
+    }
+    bench_keep((double)context->indices[context->count - 1]);
+}
+
+static bool run_inverse(const bench_options *options) {
+    enum { SIZE = 10000, QUERIES = 4096 };
+    points_context points = {.count = SIZE};
+    points_context queries = {.count = QUERIES};
+    if (!open_points("spherical-fibonacci", AUR_DOMAIN_SPHERE, &points))
+        return false;
+    if (!open_points("random", AUR_DOMAIN_SPHERE, &queries)) {
+        close_points(&points);
+        return false;
+    }
+    make_points(&points);
+    make_points(&queries);
+    uint64_t indices[QUERIES];
+    inverse_context context = {{SIZE, AUR_DOMAIN_SPHERE}, QUERIES, queries.xyz, points.xyz, indices};
+    inverse_context few = context;
+    few.count = 16;
+    const bench_work fast = {find_nearest, &context, QUERIES};
+    const bench_work force = {find_nearest_by_force, &few, 16.0};
+    const bench_pair pair = bench_compare(options, &fast, &force);
+    bench_print_pair("nearest of 10,000 points", "brute force", "Mquery", 1e6, &pair);
+    context.set.size = 1000000000;
+    bench_print_rate("nearest of 1,000,000,000 points", "Mquery", 1e6, bench_rate(options, &fast));
+    close_points(&points);
+    close_points(&queries);
+    return true;
+}
+
 static bool run(const bench_options *options) {
     const size_t count = options->quick ? (size_t)1 << 16 : (size_t)1 << 22;
     return run_against_fill(options, "spherical-fibonacci, 4M", "spherical-fibonacci", count) &&
            run_against_fill(options, "esfg, 4M", "esfg:base=1024", count) &&
            run_against_cache(options, "spherical-fibonacci, 640", "spherical-fibonacci") &&
            run_against_loop(options, "spherical-fibonacci, 4M", count) &&
-           run_against_loop(options, "spherical-fibonacci, 640", 640) && run_on_threads(options);
+           run_against_loop(options, "spherical-fibonacci, 640", 640) && run_on_threads(options) &&
+           run_inverse(options);
 }
 
 const bench bench_points_sphere = {"points-sphere", "points of the sphere against fills and obvious loops",

@@ -89,6 +89,26 @@ AUR_API void aur_rotation_uniform(uint64_t seed, aur_rotation *rotation) AUR_NON
 /* Rotates xyz[3 * count] in place. */
 AUR_API void aur_rotation_apply(const aur_rotation *rotation, size_t count, double *xyz) AUR_NONNULL(1, 3);
 
+/* The inverse map of a spherical Fibonacci set (offset 1/2) on the HEMISPHERE or the SPHERE, 1 to 2^50
+ * points; its time does not depend on the size. Directions are unit vectors of the domain, to 1e-4. Of points
+ * at the same computed distance the one of the lower index comes first. */
+typedef struct aur_fibonacci_set {
+    uint64_t size;
+    aur_domain domain;
+} aur_fibonacci_set;
+
+enum { AUR_FIBONACCI_NEIGHBOURS_MAX = 256 };
+
+/* indices[i] is the nearest point of direction xyz[3 i ...] (Keinert 2015); `capacity` counts indices.
+ * Errors: ARGUMENT for a set or a direction out of its range (then nothing is written), CAPACITY. */
+AUR_API aur_result aur_fibonacci_nearest(const aur_fibonacci_set *set, size_t count, const double *xyz,
+                                         size_t capacity, uint64_t *indices) AUR_NONNULL(1);
+/* The `count` nearest points of one direction, nearest first; at most AUR_FIBONACCI_NEIGHBOURS_MAX and no
+ * more than the set has. */
+AUR_API aur_result aur_fibonacci_neighbours(const aur_fibonacci_set *set, const double direction[3],
+                                            size_t count, size_t capacity, uint64_t *indices)
+    AUR_NONNULL(1, 2, 5);
+
 /* A set of directions made ready: immutable, for any number of threads. */
 typedef struct aur_directions aur_directions;
 

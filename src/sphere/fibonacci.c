@@ -4,7 +4,7 @@
  * integration (0 adds exactly 1/N^2 to the square of the energy). The hemisphere is the first N points of the
  * set of 2N, a cap of height h the first N of the set of 2N/h. With `epsilon` instead, z_j = 1 - 2 (j +
  * epsilon)/(N - 1 + 2 epsilon) (Roberts 2020): above 1/2 it widens the smallest distance and spoils the
- * energy. Any N up to 2^50; the azimuth is exact to 5e-12 turn at j = 1e8 (the 64 digits of the golden ratio,
+ * energy. Any N up to 2^50; the azimuth is exact to 3e-12 turn at j = 1e9 (the 64 digits of the golden ratio,
  * times j). The cost is that of a square root and two polynomials of degree 8. */
 #include "sphere/fibonacci.h"
 
