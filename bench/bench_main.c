@@ -7,15 +7,24 @@
 #include "core/parallel.h"
 #include "core/simd.h"
 
+/* A line a bench. */
+/* clang-format off */
 extern const bench bench_limits;
 extern const bench bench_measures;
 extern const bench bench_parallel;
 extern const bench bench_points_sphere;
+extern const bench bench_scene;
 extern const bench bench_weights;
 
 static const bench *const benches[] = {
-    &bench_limits, &bench_measures, &bench_parallel, &bench_points_sphere, &bench_weights,
+    &bench_limits,
+    &bench_measures,
+    &bench_parallel,
+    &bench_points_sphere,
+    &bench_scene,
+    &bench_weights,
 };
+/* clang-format on */
 
 enum { BENCH_COUNT = sizeof benches / sizeof benches[0] };
 
