@@ -14,9 +14,19 @@ static inline uint64_t aur_digital_word(const uint64_t columns[AUR_DIGITAL_COLUM
     return word;
 }
 
-/* Fills coordinate `d` of the block. */
-void aur_fill_digital(const aur_pointset *set, const uint64_t columns[AUR_DIGITAL_COLUMNS],
-                      const aur_block *block, size_t d);
+/* Writes the matrix of a dimension. */
+typedef void (*aur_digital_matrix)(size_t dimension, uint64_t columns[AUR_DIGITAL_COLUMNS]);
+
+/* Makes the first `count` matrices ready as set->data and warns of an incomplete net. */
+aur_result aur_prepare_digital(aur_pointset *set, size_t count, aur_digital_matrix make,
+                               const aur_pointset_options *options, aur_error *error);
+
+/* The matrix that is ready, or one that is made in `columns` when set->data is NULL. */
+const uint64_t *aur_digital_matrix_of(const aur_pointset *set, size_t dimension, aur_digital_matrix make,
+                                      uint64_t columns[AUR_DIGITAL_COLUMNS]);
+
+/* Fills a block. */
+void aur_fill_digital_block(const aur_pointset *set, const aur_block *block, aur_digital_matrix make);
 
 /* Any prime base: matrices of row_count x column_count digits, one after another, column by column; digit 0
  * of the index is the lowest one, row 0 makes the coarsest digit of the coordinate. One allocation. */

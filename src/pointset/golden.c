@@ -17,7 +17,7 @@ static aur_result prepare(aur_pointset *set, aur_parameters *keys, const aur_poi
     uint64_t *const word = malloc(sizeof *word);
     if (word == NULL)
         return aur_fail(error, AUR_ERROR_MEMORY, "out of memory");
-    *word = aur_seed_word(seed) + aur_phase(aur_golden_fraction, 1);
+    *word = aur_golden_start(seed);
     set->data = word;
     return AUR_OK;
 }

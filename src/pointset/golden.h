@@ -10,6 +10,11 @@ static inline uint64_t aur_seed_word(double s) {
     return (uint64_t)(s * 0x1p53) << 11;
 }
 
+/* The word of G_s(1), where sequences begin. */
+static inline uint64_t aur_golden_start(double s) {
+    return aur_seed_word(s) + aur_phase(aur_golden_fraction, 1);
+}
+
 /* The step from the index of one value of G_s(0..count-1) to that of the next larger one: add `increment`
  * below `decrement`, else subtract `decrement`; an index beyond the set is skipped by stepping again (eq. 7).
  */

@@ -82,6 +82,49 @@ static void fill(const aur_pointset *set, const aur_block *block) {
     }
 }
 
+/* Numbers in ascending order beside a sequence, without a table. `sorted` is the coordinate of the former. */
+static aur_result make_whole(uint64_t seed_word, uint64_t sequence_word, size_t sorted, size_t count,
+                             const aur_output *output) {
+    if (count == 0 || count > UINT64_C(1) << 32)
+        return AUR_ERROR_ARGUMENT;
+    const aur_result result = aur_output_check(output, 2, count);
+    if (result != AUR_OK)
+        return result;
+    const bool arrays = output->layout == AUR_LAYOUT_ARRAYS;
+    const size_t point_stride = arrays ? 1 : 2;
+    const size_t coordinate_stride = !arrays ? 1 : output->stride != 0 ? output->stride : count;
+    const size_t a = sorted * coordinate_stride;
+    const size_t b = (1 - sorted) * coordinate_stride;
+    const aur_golden_order order = aur_golden_order_of(seed_word, count);
+    uint64_t index = order.first;
+    for (size_t i = 0; i < count; ++i) {
+        const uint64_t ascending = seed_word + aur_phase(aur_golden_fraction, index);
+        const uint64_t sequence = sequence_word + aur_phase(aur_golden_fraction, i);
+        if (output->doubles != NULL) {
+            output->doubles[i * point_stride + a] = aur_word_to_double(ascending);
+            output->doubles[i * point_stride + b] = aur_word_to_double(sequence);
+        } else {
+            output->floats[i * point_stride + a] = aur_unit_float((uint32_t)(ascending >> 32));
+            output->floats[i * point_stride + b] = aur_unit_float((uint32_t)(sequence >> 32));
+        }
+        if (i + 1 < count)
+            index = aur_golden_next(&order, index);
+    }
+    return AUR_OK;
+}
+
+aur_result aur_golden_set_points(double s, size_t count, const aur_output *output) {
+    if (!(s >= 0.0 && s < 1.0))
+        return AUR_ERROR_ARGUMENT;
+    return make_whole(aur_golden_start(s), aur_golden_start(s), 1, count, output);
+}
+
+aur_result aur_golden_set_points_two_seeds(double s, double r, size_t count, const aur_output *output) {
+    if (!(s >= 0.0 && s < 1.0) || !(r >= 0.0 && r < 1.0))
+        return AUR_ERROR_ARGUMENT;
+    return make_whole(aur_seed_word(s), aur_seed_word(r), 0, count, output);
+}
+
 const aur_square_set aur_set_golden_set = {
     .description = {.name = "golden-set",
                     .keys = "form=one-seed, seed=0",

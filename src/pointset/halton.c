@@ -44,11 +44,22 @@ static aur_result prepare_hammersley(aur_pointset *set, aur_parameters *keys,
     return prepare(set, keys, false, error);
 }
 
+/* The prime of a dimension, found when the set has none ready. */
+static uint32_t prime_of(const halton *data, size_t dimension) {
+    if (data != NULL)
+        return data->primes[dimension];
+    uint32_t prime = 2;
+    for (size_t d = 0; !aur_is_prime(prime) || d++ < dimension; ++prime)
+        continue;
+    return prime;
+}
+
 static void fill_halton(const aur_pointset *set, const aur_block *block) {
     const halton *const data = set->data;
-    const aur_digits digits = data->permuted ? AUR_DIGITS_PERMUTE : aur_digits_of(set->scramble);
+    const aur_digits digits =
+        data != NULL && data->permuted ? AUR_DIGITS_PERMUTE : aur_digits_of(set->scramble);
     for (size_t d = 0; d < block->dimension_count; ++d)
-        aur_fill_radical_inverse(set, block, d, data->primes[block->first_dimension + d], digits);
+        aur_fill_radical_inverse(set, block, d, prime_of(data, block->first_dimension + d), digits);
 }
 
 static void fill_hammersley(const aur_pointset *set, const aur_block *block) {
@@ -58,7 +69,7 @@ static void fill_hammersley(const aur_pointset *set, const aur_block *block) {
         if (dimension == 0)
             aur_fill_fraction(set, block, d);
         else
-            aur_fill_radical_inverse(set, block, d, data->primes[dimension - 1],
+            aur_fill_radical_inverse(set, block, d, prime_of(data, dimension - 1),
                                      aur_digits_of(set->scramble));
     }
 }

@@ -2,6 +2,8 @@
  * generating vector g; N up to 2^48. fibonacci-lattice (Schretter 2012, eq. 3; Marques 2013, sec. 3.1): N =
  * F_k and g = (1, F_{k-1}); for any other N, the limit ((i + offset) / N, i / Phi). Random access. Error
  * O(log N / N) for a good vector, and far better for periodic smooth functions. */
+#include "pointset/lattice.h"
+
 #include <ctype.h>
 #include <stdlib.h>
 #include <string.h>
@@ -9,21 +11,13 @@
 #include "pointset/phase.h"
 #include "pointset/set.h"
 
-enum { VECTOR_CAPACITY = 256 };
-
-typedef struct lattice {
-    double offset;
-    bool golden; /* the second coordinate is i / Phi */
-    uint64_t vector[VECTOR_CAPACITY];
-} lattice;
-
 static uint64_t multiply_modulo(uint64_t a, uint64_t b, uint64_t n) {
     __extension__ typedef unsigned __int128 wide;
     return (uint64_t)((wide)a * b % n);
 }
 
 static void fill(const aur_pointset *set, const aur_block *block) {
-    const lattice *const data = set->data;
+    const aur_lattice *const data = set->data;
     for (size_t d = 0; d < block->dimension_count; ++d) {
         const size_t dimension = block->first_dimension + d;
         const uint64_t step = data->vector[dimension] % set->size;
@@ -44,9 +38,9 @@ static void fill(const aur_pointset *set, const aur_block *block) {
 }
 
 /* "1/a/b" */
-static size_t parse_vector(const char *text, uint64_t vector[VECTOR_CAPACITY]) {
+static size_t parse_vector(const char *text, uint64_t vector[AUR_LATTICE_CAPACITY]) {
     size_t count = 0;
-    while (count < VECTOR_CAPACITY && isdigit((unsigned char)*text)) {
+    while (count < AUR_LATTICE_CAPACITY && isdigit((unsigned char)*text)) {
         char *end;
         const unsigned long long value = strtoull(text, &end, 10);
         if (value >= AUR_INDEX_LIMIT)
@@ -82,8 +76,8 @@ static uint64_t golden_generator(uint64_t n) {
     return 1;
 }
 
-static lattice *create(aur_pointset *set, aur_error *error) {
-    lattice *const data = calloc(1, sizeof *data);
+static aur_lattice *create(aur_pointset *set, aur_error *error) {
+    aur_lattice *const data = calloc(1, sizeof *data);
     if (data == NULL)
         aur_fail(error, AUR_ERROR_MEMORY, "out of memory");
     set->data = data;
@@ -92,7 +86,7 @@ static lattice *create(aur_pointset *set, aur_error *error) {
 
 static aur_result prepare_rank1(aur_pointset *set, aur_parameters *keys, const aur_pointset_options *options,
                                 aur_error *error) {
-    lattice *const data = create(set, error);
+    aur_lattice *const data = create(set, error);
     if (data == NULL)
         return AUR_ERROR_MEMORY;
     const char *text = NULL;
@@ -110,7 +104,7 @@ static aur_result prepare_rank1(aur_pointset *set, aur_parameters *keys, const a
                 error, AUR_ERROR_FORMAT,
                 "set 'rank1': vector must be up to %d whole numbers below 2^48 with / between them, "
                 "such as 1/55/21, not '%s'",
-                VECTOR_CAPACITY, text);
+                AUR_LATTICE_CAPACITY, text);
     }
     if (options->dimension == 0)
         set->dimension = count;
@@ -121,24 +115,29 @@ static aur_result prepare_rank1(aur_pointset *set, aur_parameters *keys, const a
     return AUR_OK;
 }
 
+void aur_lattice_make_fibonacci(uint64_t size, double offset, aur_lattice *lattice) {
+    uint64_t before = 1;
+    uint64_t number = 1;
+    while (number < size && number <= AUR_INDEX_LIMIT) {
+        const uint64_t next = before + number;
+        before = number;
+        number = next;
+    }
+    lattice->offset = offset;
+    lattice->vector[0] = 1;
+    lattice->vector[1] = before;
+    lattice->golden = number != size;
+}
+
 static aur_result prepare_fibonacci(aur_pointset *set, aur_parameters *keys,
                                     const aur_pointset_options *options, aur_error *error) {
-    lattice *const data = create(set, error);
+    aur_lattice *const data = create(set, error);
     if (data == NULL)
         return AUR_ERROR_MEMORY;
     const aur_result result = aur_parameters_float(keys, "offset", 0.0, AUR_BELOW_ONE, &data->offset, error);
     if (result != AUR_OK)
         return result;
-    uint64_t before = 1;
-    uint64_t number = 1;
-    while (number < set->size) {
-        const uint64_t next = before + number;
-        before = number;
-        number = next;
-    }
-    data->vector[0] = 1;
-    data->vector[1] = before;
-    data->golden = number != set->size;
+    aur_lattice_make_fibonacci(set->size, data->offset, data);
     if (data->golden)
         aur_warn_at(
             &options->warnings, (aur_location){0},
@@ -156,7 +155,7 @@ const aur_square_set aur_set_rank1 = {
                     .extensible = 0,
                     .source = "Korobov 1959; Sloan, Joe 1994"},
     .minimum_dimension = 1,
-    .maximum_dimension = VECTOR_CAPACITY,
+    .maximum_dimension = AUR_LATTICE_CAPACITY,
     .maximum_size = AUR_INDEX_LIMIT,
     .scramblings = AUR_SCRAMBLES_SHIFT,
     .prepare = prepare_rank1,

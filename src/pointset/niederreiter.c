@@ -3,8 +3,6 @@
  * degree and j = q e + u. A (t,s)-sequence with t the sum of e - 1; the first two coordinates are Sobol's.
  * Random access, n up to 2^53, up to 1024 dimensions. n that is not a power of two leaves a net incomplete: a
  * warning. Error O(log^d N / N). */
-#include <stdlib.h>
-
 #include "pointset/digital.h"
 
 enum { DIMENSIONS = 1024 };
@@ -41,7 +39,16 @@ static uint64_t divide_series(uint64_t series, uint32_t polynomial, unsigned deg
     return quotient;
 }
 
-static void make_matrix(uint32_t polynomial, uint64_t columns[AUR_DIGITAL_COLUMNS]) {
+/* Of the irreducible polynomials in ascending order: x, x + 1, x^2 + x + 1, ... */
+static uint32_t polynomial_of(size_t dimension) {
+    uint32_t polynomial = 2;
+    for (size_t d = 0; !is_irreducible(polynomial) || d++ < dimension; ++polynomial)
+        continue;
+    return polynomial;
+}
+
+static void make_matrix(size_t dimension, uint64_t columns[AUR_DIGITAL_COLUMNS]) {
+    const uint32_t polynomial = polynomial_of(dimension);
     const unsigned degree = degree_of(polynomial);
     for (unsigned c = 0; c < AUR_DIGITAL_COLUMNS; ++c)
         columns[c] = 0;
@@ -59,26 +66,13 @@ static void make_matrix(uint32_t polynomial, uint64_t columns[AUR_DIGITAL_COLUMN
 }
 
 static void fill(const aur_pointset *set, const aur_block *block) {
-    const uint64_t(*const matrices)[AUR_DIGITAL_COLUMNS] = set->data;
-    for (size_t d = 0; d < block->dimension_count; ++d)
-        aur_fill_digital(set, matrices[block->first_dimension + d], block, d);
+    aur_fill_digital_block(set, block, make_matrix);
 }
 
 static aur_result prepare(aur_pointset *set, aur_parameters *keys, const aur_pointset_options *options,
                           aur_error *error) {
     (void)keys;
-    uint64_t(*const matrices)[AUR_DIGITAL_COLUMNS] = malloc(set->dimension * sizeof *matrices);
-    if (matrices == NULL)
-        return aur_fail(error, AUR_ERROR_MEMORY, "out of memory");
-    uint32_t polynomial = 2;
-    for (size_t d = 0; d < set->dimension; ++d, ++polynomial) {
-        while (!is_irreducible(polynomial))
-            ++polynomial;
-        make_matrix(polynomial, matrices[d]);
-    }
-    set->data = matrices;
-    aur_warn_incomplete_net(set, options, 2);
-    return AUR_OK;
+    return aur_prepare_digital(set, set->dimension, make_matrix, options, error);
 }
 
 const aur_square_set aur_set_niederreiter = {

@@ -91,8 +91,7 @@ static aur_result find_set(const char *name, const aur_square_set **kind, aur_er
     return aur_fail(error, AUR_ERROR_NAME, "no set of the square is named '%s'", name);
 }
 
-/* Size, dimension and scrambling against what the set has. */
-static aur_result check(const aur_pointset *set, aur_error *error) {
+aur_result aur_pointset_check(const aur_pointset *set, aur_error *error) {
     const aur_square_set *const kind = set->kind;
     const char *const name = kind->description.name;
     const bool own_size = kind == &aur_set_file;
@@ -126,7 +125,7 @@ static aur_result make(aur_pointset *set, aur_parameters *keys, const aur_points
     if (result == AUR_OK && options->dimension == 0)
         set->dimension = set->kind->maximum_dimension < 2 ? set->kind->maximum_dimension : 2;
     if (result == AUR_OK)
-        result = check(set, error);
+        result = aur_pointset_check(set, error);
     if (result == AUR_OK && set->kind->prepare != NULL)
         result = set->kind->prepare(set, keys, options, error);
     if (result == AUR_OK)
@@ -210,24 +209,4 @@ void aur_pointset_fill(const aur_pointset *set, const aur_block *block) {
     set->kind->fill(set, block);
     if (set->scramble == AUR_SCRAMBLE_SHIFT || set->scramble == AUR_SCRAMBLE_ROTATE)
         shift(set, block);
-}
-
-aur_result aur_pointset_points(const aur_pointset *pointset, uint64_t first, size_t count, size_t capacity,
-                               double *points) {
-    const size_t dimension = pointset->dimension;
-    if (first > pointset->size || count > pointset->size - first)
-        return AUR_ERROR_ARGUMENT;
-    if (count > capacity / dimension)
-        return AUR_ERROR_CAPACITY;
-    if (count == 0)
-        return AUR_OK;
-    const aur_block block = {.first = first,
-                             .count = count,
-                             .dimension_count = dimension,
-                             .point_stride = dimension,
-                             .coordinate_stride = 1,
-                             .seed = pointset->seed,
-                             .data = points};
-    aur_pointset_fill(pointset, &block);
-    return AUR_OK;
 }

@@ -1,12 +1,11 @@
 /* Roberts 2018: coordinate d of point i is 1/2 + i t^(d+1) modulo 1, where 1/t is the root above 1 of
  * x^(s+1) = x + 1 in s dimensions: the golden ratio for s = 1, the plastic number for s = 2. Random access,
  * any n, exact to a double for every i. Error O(log^2 N / N) (measured in two dimensions). */
+#include "pointset/r2.h"
+
 #include <stdlib.h>
 
-#include "pointset/phase.h"
 #include "pointset/set.h"
-
-enum { DIMENSION_LIMIT = 64 };
 
 __extension__ typedef unsigned __int128 fraction;
 
@@ -33,6 +32,15 @@ static fraction root(size_t dimension) {
     return t;
 }
 
+void aur_r2_steps(size_t dimension, aur_fraction128 *steps) {
+    const fraction t = root(dimension);
+    fraction power = t;
+    for (size_t d = 0; d < dimension; ++d) {
+        steps[d] = (aur_fraction128){(uint64_t)(power >> 64), (uint64_t)power};
+        power = multiply(power, t);
+    }
+}
+
 static aur_result prepare(aur_pointset *set, aur_parameters *keys, const aur_pointset_options *options,
                           aur_error *error) {
     (void)keys;
@@ -40,12 +48,7 @@ static aur_result prepare(aur_pointset *set, aur_parameters *keys, const aur_poi
     aur_fraction128 *const steps = malloc(set->dimension * sizeof *steps);
     if (steps == NULL)
         return aur_fail(error, AUR_ERROR_MEMORY, "out of memory");
-    const fraction t = root(set->dimension);
-    fraction power = t;
-    for (size_t d = 0; d < set->dimension; ++d) {
-        steps[d] = (aur_fraction128){(uint64_t)(power >> 64), (uint64_t)power};
-        power = multiply(power, t);
-    }
+    aur_r2_steps(set->dimension, steps);
     set->data = steps;
     return AUR_OK;
 }
@@ -70,7 +73,7 @@ const aur_square_set aur_set_r2 = {
                     .extensible = 1,
                     .source = "Roberts 2018"},
     .minimum_dimension = 1,
-    .maximum_dimension = DIMENSION_LIMIT,
+    .maximum_dimension = AUR_R2_DIMENSIONS,
     .maximum_size = UINT64_MAX,
     .scramblings = AUR_SCRAMBLES_SHIFT,
     .prepare = prepare,

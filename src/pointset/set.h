@@ -60,6 +60,16 @@ extern const aur_square_set aur_set_random, aur_set_lcg, aur_set_icg, aur_set_ji
     aur_set_niederreiter, aur_set_larcher_pillichshammer, aur_set_matrices, aur_set_fibonacci_lattice,
     aur_set_rank1, aur_set_r2, aur_set_golden, aur_set_golden_set, aur_set_file;
 
+/* Size, dimension and scrambling against what the kind of set has. */
+aur_result aur_pointset_check(const aur_pointset *set, aur_error *error);
+
+/* Whether the output fits `count` points. */
+aur_result aur_output_check(const aur_output *output, size_t dimension, size_t count);
+
+/* Points into the caller's buffer, scrambled with `seed`. */
+aur_result aur_pointset_emit(const aur_pointset *set, uint64_t seed, uint64_t first, size_t count,
+                             const aur_output *output);
+
 /* The coordinates of a block with every scrambling applied. The block must be within the set. */
 void aur_pointset_fill(const aur_pointset *set, const aur_block *block);
 

@@ -3,8 +3,6 @@
  * 2^53, any dimension: beyond the 1024 of the table the dimensions repeat, at an index that is shuffled
  * within its net and Owen-scrambled, both by hashes that depend on the repeat (Burley 2020). n that is not a
  * power of two leaves a net incomplete: a warning. Error O(log^d N / N). */
-#include <stdlib.h>
-
 #include "pointset/digital.h"
 #include "pointset/sobol_table.h"
 
@@ -61,13 +59,16 @@ static void fill_repeat(const aur_pointset *set, const uint64_t *columns, const 
 }
 
 static void fill(const aur_pointset *set, const aur_block *block) {
-    const uint64_t(*const matrices)[AUR_DIGITAL_COLUMNS] = set->data;
-    for (size_t d = 0; d < block->dimension_count; ++d) {
-        const size_t dimension = block->first_dimension + d;
-        if (dimension < AUR_SOBOL_DIMENSIONS)
-            aur_fill_digital(set, matrices[dimension], block, d);
-        else
-            fill_repeat(set, matrices[dimension % AUR_SOBOL_DIMENSIONS], block, d);
+    const size_t table_count =
+        block->first_dimension < AUR_SOBOL_DIMENSIONS ? AUR_SOBOL_DIMENSIONS - block->first_dimension : 0;
+    aur_block part = *block;
+    if (part.dimension_count > table_count)
+        part.dimension_count = table_count;
+    aur_fill_digital_block(set, &part, make_matrix);
+    for (size_t d = part.dimension_count; d < block->dimension_count; ++d) {
+        uint64_t columns[AUR_DIGITAL_COLUMNS];
+        const size_t dimension = (block->first_dimension + d) % AUR_SOBOL_DIMENSIONS;
+        fill_repeat(set, aur_digital_matrix_of(set, dimension, make_matrix, columns), block, d);
     }
 }
 
@@ -75,14 +76,7 @@ static aur_result prepare(aur_pointset *set, aur_parameters *keys, const aur_poi
                           aur_error *error) {
     (void)keys;
     const size_t count = set->dimension < AUR_SOBOL_DIMENSIONS ? set->dimension : AUR_SOBOL_DIMENSIONS;
-    uint64_t(*const matrices)[AUR_DIGITAL_COLUMNS] = malloc(count * sizeof *matrices);
-    if (matrices == NULL)
-        return aur_fail(error, AUR_ERROR_MEMORY, "out of memory");
-    for (size_t d = 0; d < count; ++d)
-        make_matrix(d, matrices[d]);
-    set->data = matrices;
-    aur_warn_incomplete_net(set, options, 2);
-    return AUR_OK;
+    return aur_prepare_digital(set, count, make_matrix, options, error);
 }
 
 const aur_square_set aur_set_sobol = {

@@ -25,10 +25,13 @@ static inline uint64_t aur_reverse64(uint64_t x) {
     return (uint64_t)aur_reverse_bits((uint32_t)x) << 32 | aur_reverse_bits((uint32_t)(x >> 32));
 }
 
-/* What flips the digits beyond the 32nd: a hash of the scrambled 32 digits before them. */
+/* What flips the digits beyond the 32nd: a hash of the scrambled 32 digits before them (the two rounds of
+ * Wellons' lowbias32). */
 static inline uint32_t aur_nested_tail(uint32_t reversed_head, uint32_t key_high) {
-    const uint32_t x = (reversed_head ^ key_high) * 0x9e3779b1u;
-    return (x ^ x >> 15) * 0x85ebca77u;
+    uint32_t x = reversed_head ^ key_high;
+    x = (x ^ x >> 16) * 0x7feb352du;
+    x = (x ^ x >> 15) * 0x846ca68bu;
+    return x ^ x >> 16;
 }
 
 /* Owen's nested uniform scrambling in base 2 by hashing: each of the first 32 binary digits is flipped by a

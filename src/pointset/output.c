@@ -1,0 +1,107 @@
+/* From a set to the caller's buffer: ranges, capacities, layouts, floats. */
+#include <math.h>
+
+#include "pointset/set.h"
+
+enum { BUFFER_LENGTH = 512 };
+
+size_t aur_output_capacity(aur_layout layout, size_t dimension, size_t count, size_t stride) {
+    if (dimension == 0 || count == 0)
+        return 0;
+    if (layout == AUR_LAYOUT_POINTS)
+        return count > SIZE_MAX / dimension ? SIZE_MAX : count * dimension;
+    if (stride == 0)
+        stride = count;
+    if (stride < count || (dimension > 1 && stride > (SIZE_MAX - count) / (dimension - 1)))
+        return SIZE_MAX;
+    return (dimension - 1) * stride + count;
+}
+
+/* A run of one coordinate as floats. */
+static void fill_floats(const aur_pointset *set, aur_block block, float *out) {
+    double buffer[BUFFER_LENGTH];
+    const size_t stride = block.point_stride;
+    const size_t count = block.count;
+    const uint64_t first = block.first;
+    block.data = buffer;
+    block.point_stride = 1;
+    for (size_t begin = 0; begin < count; begin += block.count) {
+        block.first = first + begin;
+        block.count = count - begin < BUFFER_LENGTH ? count - begin : BUFFER_LENGTH;
+        aur_pointset_fill(set, &block);
+        for (size_t i = 0; i < block.count; ++i)
+            out[(begin + i) * stride] = (float)(int32_t)(buffer[i] * 0x1p24) * 0x1p-24f;
+    }
+}
+
+aur_result aur_output_check(const aur_output *output, size_t dimension, size_t count) {
+    if ((output->doubles == NULL) == (output->floats == NULL) ||
+        (output->layout != AUR_LAYOUT_POINTS && output->layout != AUR_LAYOUT_ARRAYS))
+        return AUR_ERROR_ARGUMENT;
+    if (output->layout == AUR_LAYOUT_ARRAYS && output->stride != 0 && output->stride < count)
+        return AUR_ERROR_ARGUMENT;
+    const size_t needed = aur_output_capacity(output->layout, dimension, count, output->stride);
+    return needed == SIZE_MAX || needed > output->capacity ? AUR_ERROR_CAPACITY : AUR_OK;
+}
+
+aur_result aur_pointset_emit(const aur_pointset *set, uint64_t seed, uint64_t first, size_t count,
+                             const aur_output *output) {
+    if (first > set->size || count > set->size - first)
+        return AUR_ERROR_ARGUMENT;
+    const aur_result result = aur_output_check(output, set->dimension, count);
+    if (result != AUR_OK || count == 0)
+        return result;
+    const bool arrays = output->layout == AUR_LAYOUT_ARRAYS;
+    aur_block block = {.first = first,
+                       .count = count,
+                       .dimension_count = set->dimension,
+                       .point_stride = arrays ? 1 : set->dimension,
+                       .coordinate_stride = !arrays               ? 1
+                                            : output->stride != 0 ? output->stride
+                                                                  : count,
+                       .seed = seed,
+                       .data = output->doubles};
+    if (output->doubles != NULL) {
+        aur_pointset_fill(set, &block);
+        return AUR_OK;
+    }
+    block.dimension_count = 1;
+    for (size_t d = 0; d < set->dimension; ++d) {
+        block.first_dimension = d;
+        fill_floats(set, block, output->floats + d * block.coordinate_stride);
+    }
+    return AUR_OK;
+}
+
+aur_result aur_pointset_generate(const aur_pointset *pointset, uint64_t first, size_t count,
+                                 const aur_output *output) {
+    return aur_pointset_emit(pointset, pointset->seed, first, count, output);
+}
+
+aur_result aur_pointset_randomize(const aur_pointset *pointset, uint64_t seed, uint64_t first, size_t count,
+                                  const aur_output *output) {
+    if (pointset->scramble == AUR_SCRAMBLE_NONE)
+        return AUR_ERROR_UNSUPPORTED;
+    return aur_pointset_emit(pointset, seed, first, count, output);
+}
+
+aur_result aur_pointset_points(const aur_pointset *pointset, uint64_t first, size_t count, size_t capacity,
+                               double *points) {
+    return aur_pointset_generate(pointset, first, count,
+                                 &(aur_output){.capacity = capacity, .doubles = points});
+}
+
+double aur_pointset_coordinate(const aur_pointset *pointset, uint64_t index, size_t dimension) {
+    if (index >= pointset->size || dimension >= pointset->dimension)
+        return NAN;
+    double value;
+    aur_pointset_fill(pointset, &(aur_block){.first = index,
+                                             .count = 1,
+                                             .first_dimension = dimension,
+                                             .dimension_count = 1,
+                                             .point_stride = 1,
+                                             .coordinate_stride = 1,
+                                             .seed = pointset->seed,
+                                             .data = &value});
+    return value;
+}
