@@ -22,9 +22,11 @@ static const aur_measure_row *const rows[] = {
     &aur_measure_voronoi_deviation, //
     &aur_measure_voronoi,           //
     &aur_measure_star,              //
+    &aur_measure_star_bound,        //
     &aur_measure_l2_star,           //
     &aur_measure_centered,          //
     &aur_measure_wraparound,        //
+    &aur_measure_net,               //
     &aur_measure_wce,               //
 };
 

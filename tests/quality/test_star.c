@@ -2,40 +2,7 @@
 
 #include <stdlib.h>
 
-#include <aureole/quality.h>
-
-#include "core/random.h"
-
-static double measured(const char *metric, const aur_points *points) {
-    double value = NAN;
-    aur_error error = {0};
-    assert_int_equal(aur_measure(metric, points, NULL, &value, &error), AUR_OK);
-    return value;
-}
-
-static aur_points cube_points(size_t count, size_t dimension) {
-    return (aur_points){.domain = dimension == 2 ? AUR_DOMAIN_SQUARE : AUR_DOMAIN_CUBE,
-                        .count = count,
-                        .dimension = dimension,
-                        .coordinates = malloc(count * dimension * sizeof(double))};
-}
-
-static aur_points random_points(size_t count, size_t dimension, uint64_t seed) {
-    aur_points points = cube_points(count, dimension);
-    for (size_t i = 0; i < count * dimension; ++i)
-        points.coordinates[i] = aur_unit_double(aur_hash2(seed, i));
-    return points;
-}
-
-static aur_points named_set(const char *set, size_t count) {
-    const aur_pointset_options options = {.count = count, .dimension = 2};
-    aur_pointset *pointset = NULL;
-    assert_int_equal(aur_pointset_create(set, &options, &pointset, NULL), AUR_OK);
-    aur_points points = cube_points(count, 2);
-    assert_int_equal(aur_pointset_points(pointset, 0, count, 2 * count, points.coordinates), AUR_OK);
-    aur_pointset_destroy(pointset);
-    return points;
-}
+#include "square_sets.h"
 
 /* Every box whose sides are coordinates of points or 1, open and closed. */
 static double star_by_all_boxes(const aur_points *points) {
@@ -83,7 +50,7 @@ static void nets_have_their_star_discrepancies(void **state) {
     (void)state;
     for (int m = 2; m <= 14; ++m) {
         const size_t count = (size_t)1 << m;
-        aur_points points = named_set("hammersley", count);
+        aur_points points = scrambled_set("hammersley", count, 2, AUR_SCRAMBLE_NONE);
         const double sign = m % 2 == 0 ? 1.0 : -1.0;
         const double expected = m / 3.0 + 13.0 / 9.0 - sign * 4.0 / (9.0 * (double)count);
         assert_near(measured("star", &points) * (double)count, expected, 1e-9);
@@ -94,10 +61,10 @@ static void nets_have_their_star_discrepancies(void **state) {
         double small, large;
     } golden[] = {{"sobol", .053711, .004299}, {"larcher-pillichshammer", .041016, .003338}};
     for (size_t g = 0; g < 2; ++g) {
-        aur_points points = named_set(golden[g].set, 64);
+        aur_points points = scrambled_set(golden[g].set, 64, 2, AUR_SCRAMBLE_NONE);
         assert_near(measured("star", &points), golden[g].small, 0.51e-6);
         aur_points_release(&points);
-        points = named_set(golden[g].set, 1024);
+        points = scrambled_set(golden[g].set, 1024, 2, AUR_SCRAMBLE_NONE);
         assert_near(measured("star", &points), golden[g].large, 0.51e-6);
         aur_points_release(&points);
     }
