@@ -28,6 +28,8 @@ static const aur_measure_row *const rows[] = {
     &aur_measure_wraparound,        //
     &aur_measure_net,               //
     &aur_measure_wce,               //
+    &aur_measure_spectrum,          //
+    &aur_measure_periodogram,       //
 };
 
 enum { ROW_COUNT = sizeof rows / sizeof rows[0] };

@@ -48,6 +48,8 @@ extern const aur_measure_row aur_measure_voronoi_deviation;
 extern const aur_measure_row aur_measure_voronoi;
 extern const aur_measure_row aur_measure_star_bound;
 extern const aur_measure_row aur_measure_net;
+extern const aur_measure_row aur_measure_spectrum;
+extern const aur_measure_row aur_measure_periodogram;
 extern const aur_measure_row aur_measure_wce;
 extern const aur_measure_row aur_measure_star;
 extern const aur_measure_row aur_measure_l2_star;
