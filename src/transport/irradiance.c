@@ -3,6 +3,7 @@
 #include <stdlib.h>
 
 #include "core/parallel.h"
+#include "transport/kd_tree.h"
 #include "transport/shading.h"
 
 enum {
@@ -19,7 +20,6 @@ static const float MOST_ELEVATION_SQUARED = 0.12f;
 
 typedef struct surface_place {
     const aur_photon *photons;
-    const aur_irradiance_point *points;
     aur_vector position, normal;
 } surface_place;
 
@@ -34,15 +34,6 @@ static bool shares_light(const surface_place *place, aur_vector position, aur_ve
 static bool accept_photon(const void *context, uint32_t item) {
     const surface_place *const place = context;
     return shares_light(place, place->photons[item].position, place->photons[item].normal);
-}
-
-/* A place where no photon fell may use an estimate if it lies in its disc: elsewhere it is dark. */
-static bool accept_point(const void *context, uint32_t item) {
-    const surface_place *const place = context;
-    const aur_irradiance_point *const point = &place->points[item];
-    const aur_vector offset = aur_vector_subtract(point->position, place->position);
-    return aur_vector_dot(offset, offset) <= point->radius_squared &&
-           shares_light(place, point->position, point->normal);
 }
 
 /* The part of the disc about a point that lies on like-turned surface: a disc that hangs over an edge or
@@ -168,16 +159,28 @@ static aur_result make_cells(aur_irradiance_map *map, uint32_t **centres) {
     return AUR_OK;
 }
 
-/* A tree over the photons that `items` names, or over all when it is NULL. */
-static aur_result tree_over(const aur_photon_map *photons, size_t count, const uint32_t *items,
-                            size_t threads, aur_kd_tree *tree) {
-    aur_vector *const positions = malloc(count * sizeof *positions);
+static aur_result tree_over(const aur_photon_map *photons, size_t threads, aur_kd_tree *tree) {
+    aur_vector *const positions = malloc(photons->count * sizeof *positions);
     if (positions == NULL)
         return AUR_ERROR_MEMORY;
-    for (size_t i = 0; i < count; ++i)
-        positions[i] = photons->photons[items != NULL ? items[i] : i].position;
-    const aur_result result = aur_kd_tree_build(tree, count, positions, threads);
+    for (size_t i = 0; i < photons->count; ++i)
+        positions[i] = photons->photons[i].position;
+    const aur_result result = aur_kd_tree_build(tree, photons->count, positions, threads);
     free(positions);
+    return result;
+}
+
+/* Places where no photon fell but over which an estimate's disc lies belong to it; elsewhere it is dark. */
+static aur_result spread_estimates(aur_irradiance_map *map) {
+    aur_surface_disc *const discs = malloc(map->count * sizeof *discs);
+    if (discs == NULL)
+        return AUR_ERROR_MEMORY;
+    for (size_t i = 0; i < map->count; ++i) {
+        const aur_irradiance_point *const point = &map->points[i];
+        discs[i] = (aur_surface_disc){point->position, point->normal, sqrtf(point->radius_squared)};
+    }
+    const aur_result result = aur_surface_cells_spread(&map->cells, map->count, discs);
+    free(discs);
     return result;
 }
 
@@ -185,11 +188,9 @@ static aur_result estimate_all(const aur_scene *scene, const aur_irradiance_opti
                                aur_irradiance_map *map, const uint32_t *centres, aur_error *error) {
     const size_t threads = options->photons.threads;
     aur_result result = lay_out_members(map, centres, options->neighbours, error);
-    if (result == AUR_OK)
-        result = tree_over(&map->photons, map->count, centres, threads, &map->tree);
     aur_kd_tree photon_tree = {0};
     if (result == AUR_OK)
-        result = tree_over(&map->photons, map->photons.count, NULL, threads, &photon_tree);
+        result = tree_over(&map->photons, threads, &photon_tree);
     if (result == AUR_OK) {
         estimate_work work = {scene, &photon_tree, centres, options, map};
         const aur_parallel_options parallel = {
@@ -198,6 +199,8 @@ static aur_result estimate_all(const aur_scene *scene, const aur_irradiance_opti
                                   estimate_chunk, &work);
     }
     aur_kd_tree_release(&photon_tree);
+    if (result == AUR_OK)
+        result = spread_estimates(map);
     return result;
 }
 
@@ -236,7 +239,6 @@ void aur_irradiance_map_destroy(aur_irradiance_map *map) {
     if (map == NULL)
         return;
     aur_photon_map_release(&map->photons);
-    aur_kd_tree_release(&map->tree);
     aur_surface_cells_release(&map->cells);
     free(map->points);
     free(map->members);
@@ -266,18 +268,6 @@ static aur_vector glossy_radiance(const aur_irradiance_map *map, const aur_irrad
     return aur_vector_scale(sum, 1.0f / point->area);
 }
 
-static const aur_irradiance_point *point_for(const aur_irradiance_map *map, aur_vector position,
-                                             aur_vector normal) {
-    const uint32_t cell = aur_surface_cells_find(&map->cells, position, normal);
-    if (cell != AUR_NO_CELL)
-        return &map->points[cell];
-    const surface_place here = {.points = map->points, .position = position, .normal = normal};
-    aur_kd_neighbour nearest;
-    if (aur_kd_tree_nearest(&map->tree, position, INFINITY, accept_point, &here, 1, &nearest) == 0)
-        return NULL;
-    return &map->points[nearest.item];
-}
-
 aur_vector aur_irradiance_radiance(const aur_irradiance_map *map, const aur_surface *surface,
                                    aur_vector view) {
     const aur_vector black = {0};
@@ -285,9 +275,10 @@ aur_vector aur_irradiance_radiance(const aur_irradiance_map *map, const aur_surf
     if (side < 0.0f && !surface->bsdf->scatters_from_behind)
         return black;
     const aur_vector normal = aur_vector_scale(surface->geometric_normal, side < 0.0f ? -1.0f : 1.0f);
-    const aur_irradiance_point *const point = point_for(map, surface->position, normal);
-    if (point == NULL)
+    const uint32_t cell = aur_surface_cells_find(&map->cells, surface->position, normal);
+    if (cell == AUR_NO_CELL)
         return black;
+    const aur_irradiance_point *const point = &map->points[cell];
     const aur_bsdf_descriptor *const descriptor = surface->bsdf->descriptor;
     const aur_vector local_view = aur_frame_to_local(&surface->frame, view);
     const aur_vector albedo = descriptor->diffuse_albedo(surface->bsdf, surface->texture, local_view.z);

@@ -3,7 +3,6 @@
 #ifndef AUR_TRANSPORT_IRRADIANCE_H
 #define AUR_TRANSPORT_IRRADIANCE_H
 
-#include "transport/kd_tree.h"
 #include "transport/photon_map.h"
 #include "transport/surface_cells.h"
 
@@ -23,8 +22,7 @@ typedef struct aur_irradiance_map {
     uint32_t *members;            /* indices of photons */
     aur_photon_map photons;
     aur_surface_cells cells;
-    aur_kd_tree tree; /* over the points, for places in no cell */
-    uint64_t rays;    /* that the map cost, particles included */
+    uint64_t rays; /* that the map cost, particles included */
 } aur_irradiance_map;
 
 typedef struct aur_irradiance_options {
@@ -38,9 +36,9 @@ aur_result aur_irradiance_map_create(const aur_scene *scene, const aur_irradianc
                                      aur_irradiance_map **map, aur_error *error);
 void aur_irradiance_map_destroy(aur_irradiance_map *map);
 
-/* Radiance that leaves the surface towards `view` (world, unit): the irradiance of the nearest point on a
- * like-turned surface times albedo / pi, and the glossy lobes over that point's photons. Emission is not part
- * of it. */
+/* Radiance that leaves the surface towards `view` (world, unit): the irradiance of its cell times albedo /
+ * pi, and the glossy lobes over that estimate's photons; black where no estimate reaches. Emission is not
+ * part of it. */
 aur_vector aur_irradiance_radiance(const aur_irradiance_map *map, const aur_surface *surface,
                                    aur_vector view);
 

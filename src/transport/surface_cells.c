@@ -5,6 +5,9 @@
 
 #include "core/random.h"
 
+/* A disc is spread over so many half cells from its centre at most. */
+static const float MOST_REACH = 64.0f;
+
 enum { COORDINATE_BITS = 20, COORDINATE_MAX = (1 << COORDINATE_BITS) - 1, SIZING_ROUNDS = 5 };
 
 /* Which side of a cube the normal goes through: 0 to 5. */
@@ -63,12 +66,14 @@ static float distance_to_centre(const aur_surface_cells *cells, uint64_t key, au
 static void fill(aur_surface_cells *cells, const aur_surface_samples *samples) {
     memset(cells->slots, 0, (cells->mask + 1) * sizeof *cells->slots);
     cells->count = 0;
+    cells->used = 0;
     for (size_t i = 0; i < samples->count; ++i) {
         const aur_vector position = sample_vector(samples->positions, samples->stride, i);
         const uint64_t key = key_of(cells, position, sample_vector(samples->normals, samples->stride, i));
         aur_surface_cell *const slot = slot_of(cells, key);
         if (slot->key == 0) {
             *slot = (aur_surface_cell){key, (uint32_t)cells->count++, (uint32_t)i};
+            ++cells->used;
             continue;
         }
         const aur_vector rival = sample_vector(samples->positions, samples->stride, slot->sample);
@@ -119,6 +124,65 @@ aur_result aur_surface_cells_build(aur_surface_cells *cells, const aur_surface_s
         if (ratio > 0.9f && ratio < 1.1f)
             break;
         size = fmaxf(least, fminf(size * ratio, extent));
+    }
+    return AUR_OK;
+}
+
+/* Room for one more cell at half load. */
+static aur_result grow(aur_surface_cells *cells) {
+    if (2 * (cells->used + 1) <= cells->mask + 1)
+        return AUR_OK;
+    const size_t slots = 2 * (cells->mask + 1);
+    aur_surface_cell *const larger = calloc(slots, sizeof *larger);
+    if (larger == NULL)
+        return AUR_ERROR_MEMORY;
+    aur_surface_cell *const old = cells->slots;
+    const size_t old_mask = cells->mask;
+    cells->slots = larger;
+    cells->mask = slots - 1;
+    for (size_t i = 0; i <= old_mask; ++i)
+        if (old[i].key != 0)
+            *slot_of(cells, old[i].key) = old[i];
+    free(old);
+    return AUR_OK;
+}
+
+static aur_result offer(aur_surface_cells *cells, const aur_surface_disc *discs, size_t item,
+                        aur_vector position) {
+    const uint64_t key = key_of(cells, position, discs[item].normal);
+    aur_surface_cell *slot = slot_of(cells, key);
+    if (slot->key == 0) {
+        const aur_result result = grow(cells);
+        if (result != AUR_OK)
+            return result;
+        slot = slot_of(cells, key);
+        *slot = (aur_surface_cell){key, (uint32_t)item, AUR_NO_CELL};
+        ++cells->used;
+    } else if (slot->sample == AUR_NO_CELL &&
+               distance_to_centre(cells, key, discs[item].position) <
+                   distance_to_centre(cells, key, discs[slot->item].position)) {
+        slot->item = (uint32_t)item;
+    }
+    return AUR_OK;
+}
+
+aur_result aur_surface_cells_spread(aur_surface_cells *cells, size_t count, const aur_surface_disc *discs) {
+    for (size_t i = 0; i < count; ++i) {
+        const aur_frame frame = aur_frame_about(discs[i].normal);
+        const float step = 0.5f * cells->size;
+        const long reach = (long)fminf(discs[i].radius / step, MOST_REACH);
+        for (long y = -reach; y <= reach; ++y) {
+            for (long x = -reach; x <= reach; ++x) {
+                const aur_vector offset = {(float)x * step, (float)y * step, 0.0f};
+                if (aur_vector_length(offset) > discs[i].radius)
+                    continue;
+                const aur_vector position =
+                    aur_vector_add(discs[i].position, aur_frame_to_world(&frame, offset));
+                const aur_result result = offer(cells, discs, i, position);
+                if (result != AUR_OK)
+                    return result;
+            }
+        }
     }
     return AUR_OK;
 }

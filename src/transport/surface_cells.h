@@ -8,16 +8,18 @@
 #include "core/vector.h"
 
 typedef struct aur_surface_cell {
-    uint64_t key;    /* 0: empty */
-    uint32_t item;   /* number of the cell, counted in the order of their first sample */
-    uint32_t sample; /* the sample nearest to the cell's centre */
+    uint64_t key; /* 0: empty */
+    uint32_t
+        item; /* of cells with samples: their number, in the order of first samples; else what was offered */
+    uint32_t sample; /* the sample nearest to the cell's centre, or AUR_NO_CELL where none fell */
 } aur_surface_cell;
 
 typedef struct aur_surface_cells {
     aur_vector origin;
-    float size; /* edge of a cube, scene units */
-    size_t count;
-    size_t mask; /* slots - 1 */
+    float size;   /* edge of a cube, scene units */
+    size_t count; /* cells with samples */
+    size_t used;  /* cells in all */
+    size_t mask;  /* slots - 1 */
     aur_surface_cell *slots;
 } aur_surface_cells;
 
@@ -35,9 +37,18 @@ typedef struct aur_surface_samples {
  */
 aur_result aur_surface_cells_build(aur_surface_cells *cells, const aur_surface_samples *samples,
                                    size_t wanted);
+typedef struct aur_surface_disc {
+    aur_vector position, normal;
+    float radius;
+} aur_surface_disc;
+
+/* Lets item i serve the cells of its disc, discs[i], in which no sample fell and to whose centre no other
+ * such item is nearer. */
+aur_result aur_surface_cells_spread(aur_surface_cells *cells, size_t count, const aur_surface_disc *discs);
+
 void aur_surface_cells_release(aur_surface_cells *cells);
 
-/* The cell's number (aur_surface_cell.item), or AUR_NO_CELL where no sample fell. */
+/* The cell's item, or AUR_NO_CELL where there is none. */
 uint32_t aur_surface_cells_find(const aur_surface_cells *cells, aur_vector position, aur_vector normal);
 
 #endif
