@@ -79,12 +79,13 @@ typedef enum aur_image_metric {
     AUR_IMAGE_RMSE,
     AUR_IMAGE_MSE,
     AUR_IMAGE_MAE,
-    AUR_IMAGE_RELMSE,       /* mean of (a-r)^2 / (r^2 + 0.01) */
-    AUR_IMAGE_MRSE,         /* mean of (a-r)^2 / r^2 over non-zero r */
-    AUR_IMAGE_RELATIVE_RMSE /* RMSE / mean of r: 0 for equal pictures, infinite when only the mean is zero */
+    AUR_IMAGE_RELMSE,        /* mean of (a-r)^2 / (r^2 + 0.01) */
+    AUR_IMAGE_MRSE,          /* mean of (a-r)^2 / r^2 over non-zero r */
+    AUR_IMAGE_RELATIVE_RMSE, /* RMSE / mean of r: 0 for equal pictures, infinite when only the mean is zero */
+    AUR_IMAGE_FLIP           /* mean of aur_image_flip's map, the same value for all channels */
 } aur_image_metric;
 
-enum { AUR_IMAGE_METRIC_COUNT = AUR_IMAGE_RELATIVE_RMSE + 1 };
+enum { AUR_IMAGE_METRIC_COUNT = AUR_IMAGE_FLIP + 1 };
 
 AUR_API aur_result aur_image_metric_from_name(const char *name, aur_image_metric *metric, aur_error *error)
     AUR_NONNULL(1, 2);
@@ -96,8 +97,19 @@ AUR_API aur_result aur_image_compare(const aur_image *reference, const aur_image
                                      aur_image_metric metric, double value[4], aur_error *error)
     AUR_NONNULL(1, 2, 4);
 
-/* A false-colour picture of the largest absolute difference among R, G and B, from black over violet, red and
- * yellow to white; `scale` is the difference that is drawn brightest, 0 chooses the largest one. */
+/* LDR-FLIP (Andersson et al. 2020) of each pixel, in [0,1], in one channel: how much a person sees who flips
+ * between the pictures on a screen of 67 pixels a degree. Radiance is clamped to [0,1]. Errors as for
+ * aur_image_compare. */
+AUR_API aur_result aur_image_flip(const aur_image *reference, const aur_image *image, aur_image **map,
+                                  aur_error *error) AUR_NONNULL(1, 2, 3);
+
+/* The first channel in false colour, from black at 0 and below over violet, red and yellow to white at
+ * `scale` and beyond; 0 chooses the largest value. Shows as intended in a PNG without tone curve. */
+AUR_API aur_result aur_image_false_color(const aur_image *image, double scale, aur_image **colored,
+                                         aur_error *error) AUR_NONNULL(1, 3);
+
+/* The largest absolute difference among R, G and B of each pixel in the false colour of
+ * aur_image_false_color. Errors as for aur_image_compare. */
 AUR_API aur_result aur_image_difference(const aur_image *reference, const aur_image *image, double scale,
                                         aur_image **difference, aur_error *error) AUR_NONNULL(1, 2, 4);
 

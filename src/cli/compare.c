@@ -144,14 +144,24 @@ static cli_table *create_table(const compare_options *options) {
     return cli_table_create(count, columns);
 }
 
+/* Of FLIP its map, of every other metric the absolute difference. */
 static int write_difference(const aur_image *reference, const aur_image *image,
                             const compare_options *options) {
     aur_error error;
-    aur_image *difference;
-    aur_result result = aur_image_difference(reference, image, options->scale, &difference, &error);
+    aur_image *map = NULL, *colored = NULL;
+    aur_result result;
+    if (options->metrics[0] == AUR_IMAGE_FLIP) {
+        result = aur_image_flip(reference, image, &map, &error);
+        if (result == AUR_OK)
+            result =
+                aur_image_false_color(map, options->scale > 0.0 ? options->scale : 1.0, &colored, &error);
+    } else {
+        result = aur_image_difference(reference, image, options->scale, &colored, &error);
+    }
     if (result == AUR_OK)
-        result = aur_image_write(options->outfile, difference, NULL, &error);
-    aur_image_destroy(difference);
+        result = aur_image_write(options->outfile, colored, NULL, &error);
+    aur_image_destroy(colored);
+    aur_image_destroy(map);
     return result == AUR_OK ? CLI_SUCCESS : cli_fail(&error);
 }
 
@@ -181,10 +191,11 @@ static int run(int argc, char **argv) {
 
 const cli_verb cli_verb_compare = {
     "compare", "REFERENCE IMAGE... [options]", "RMSE and other figures of the difference between pictures",
-    "  --metric NAME[,NAME...]  rmse (default), mse, mae, relmse, mrse, relative-rmse\n"
+    "  --metric NAME[,NAME...]  rmse (default), mse, mae, relmse, mrse, relative-rmse, flip\n"
     "  --tolerance T            every metric named may be at most T (default 0: identical)\n"
-    "  -o, --outfile FILE       write the absolute difference in false colour (PNG, EXR, ...)\n"
-    "  --scale D                the difference that is drawn brightest (default: the largest)\n"
+    "  -o, --outfile FILE       write the absolute difference (FLIP's map when the first metric is\n"
+    "                           flip) in false colour (PNG, EXR, ...)\n"
+    "  --scale D                the value that is drawn brightest (default: the largest; 1 for flip)\n"
     "  --downsample N           compare after averaging blocks of N x N pixels\n"
     "  --channels NAME[,...]    compare these channels (one or three) instead of R, G, B\n"
     "  --format table|csv|json  how the figures are printed\n"

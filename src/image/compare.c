@@ -2,14 +2,17 @@
 #include <string.h>
 
 #include "image/format.h"
+#include "image/metric.h"
 #include "image/tone.h"
 
-/* One metric: the mean over pixels of a term, then what is made of the mean. */
+/* One metric: the mean over pixels of a term, then what is made of the mean. Without a term it is the mean of
+ * a map of the whole picture. */
 typedef struct color_metric {
     const char *name;
     /* Adds to sum and weight the term of value a and reference r. */
     double (*term)(double a, double r, double *weight);
     double (*finish)(double mean, double reference_mean);
+    aur_result (*map)(const aur_image *reference, const aur_image *image, aur_image **map, aur_error *error);
 } color_metric;
 
 static double squared(double a, double r, double *weight) {
@@ -48,12 +51,13 @@ static double finish_relative_root(double mean, double reference_mean) {
 
 /* In the order of aur_image_metric. */
 static const color_metric metrics[AUR_IMAGE_METRIC_COUNT] = {
-    {"rmse", squared, finish_root},
-    {"mse", squared, finish_mean},
-    {"mae", absolute, finish_mean},
-    {"relmse", squared_relative, finish_mean},
-    {"mrse", squared_relative_nonzero, finish_mean},
-    {"relative-rmse", squared, finish_relative_root},
+    {"rmse", squared, finish_root, NULL},
+    {"mse", squared, finish_mean, NULL},
+    {"mae", absolute, finish_mean, NULL},
+    {"relmse", squared_relative, finish_mean, NULL},
+    {"mrse", squared_relative_nonzero, finish_mean, NULL},
+    {"relative-rmse", squared, finish_relative_root, NULL},
+    {"flip", NULL, NULL, aur_image_flip},
 };
 
 aur_result aur_image_metric_from_name(const char *name, aur_image_metric *found, aur_error *error) {
@@ -122,13 +126,8 @@ aur_result aur_image_mean(const aur_image *image, double mean[4], aur_error *err
     return result;
 }
 
-/* The places of red, green and blue in two pictures that can be compared. */
-typedef struct color_pair {
-    size_t reference[3], image[3];
-} color_pair;
-
-static aur_result check_pair(const aur_image *reference, const aur_image *image, color_pair *pair,
-                             aur_error *error) {
+aur_result aur_image_check_pair(const aur_image *reference, const aur_image *image, aur_color_pair *pair,
+                                aur_error *error) {
     if (reference->width != image->width || reference->height != image->height)
         return aur_fail(error, AUR_ERROR_ARGUMENT,
                         "the sizes differ: the reference has %zu x %zu pixels, the picture %zu x %zu",
@@ -143,15 +142,29 @@ static aur_result check_pair(const aur_image *reference, const aur_image *image,
     return result;
 }
 
+static aur_result mean_of_map(const color_metric *metric, const aur_image *reference, const aur_image *image,
+                              double value[4], aur_error *error) {
+    aur_image *map;
+    const aur_result result = metric->map(reference, image, &map, error);
+    if (result != AUR_OK)
+        return result;
+    mean_of_channel(map, 0, &value[3]);
+    value[0] = value[1] = value[2] = value[3];
+    aur_image_destroy(map);
+    return AUR_OK;
+}
+
 aur_result aur_image_compare(const aur_image *reference, const aur_image *image, aur_image_metric which,
                              double value[4], aur_error *error) {
     if ((size_t)which >= AUR_IMAGE_METRIC_COUNT)
         return aur_fail(error, AUR_ERROR_ARGUMENT, "there is no image metric number %d", (int)which);
-    color_pair pair;
-    const aur_result result = check_pair(reference, image, &pair, error);
+    aur_color_pair pair;
+    const aur_result result = aur_image_check_pair(reference, image, &pair, error);
     if (result != AUR_OK)
         return result;
     const color_metric *const metric = &metrics[which];
+    if (metric->map != NULL)
+        return mean_of_map(metric, reference, image, value, error);
     double reference_mean[4], sum[4] = {0.0}, weight[4] = {0.0};
     mean_of_colors(reference, pair.reference, reference_mean);
     for (size_t c = 0; c < 3; ++c) {
@@ -189,36 +202,51 @@ static void false_color(double t, float color[3]) {
         color[c] = (float)aur_srgb_decode((1.0 - fraction) * ramp[below][c] + fraction * ramp[below + 1][c]);
 }
 
-static double pixel_difference(const aur_image *reference, const aur_image *image, const color_pair *pair,
+static double pixel_difference(const aur_image *reference, const aur_image *image, const aur_color_pair *pair,
                                size_t pixel) {
     double largest = 0.0;
     for (size_t c = 0; c < 3; ++c) {
-        const double a = image->data[pixel * image->channel_count + pair->image[c]];
-        const double r = reference->data[pixel * reference->channel_count + pair->reference[c]];
+        const double a = (double)image->data[pixel * image->channel_count + pair->image[c]];
+        const double r = (double)reference->data[pixel * reference->channel_count + pair->reference[c]];
         largest = fmax(largest, fabs(a - r));
     }
     return largest;
 }
 
-aur_result aur_image_difference(const aur_image *reference, const aur_image *image, double scale,
-                                aur_image **difference, aur_error *error) {
-    *difference = NULL;
+aur_result aur_image_false_color(const aur_image *image, double scale, aur_image **colored,
+                                 aur_error *error) {
+    *colored = NULL;
     if (!(scale >= 0.0))
-        return aur_fail(error, AUR_ERROR_ARGUMENT, "the scale of a difference must be at least 0, not %g",
+        return aur_fail(error, AUR_ERROR_ARGUMENT, "the value drawn brightest must be at least 0, not %g",
                         scale);
-    color_pair pair;
-    aur_result result = check_pair(reference, image, &pair, error);
-    if (result == AUR_OK)
-        result = aur_image_create(image->width, image->height, 3, difference, error);
+    const aur_result result = aur_image_create(image->width, image->height, 3, colored, error);
     if (result != AUR_OK)
         return result;
     const size_t pixels = image->width * image->height;
     double brightest = scale;
     for (size_t i = 0; i < pixels && scale == 0.0; ++i)
-        brightest = fmax(brightest, pixel_difference(reference, image, &pair, i));
+        brightest = fmax(brightest, (double)image->data[i * image->channel_count]);
     for (size_t i = 0; i < pixels; ++i) {
-        const double part = brightest > 0.0 ? pixel_difference(reference, image, &pair, i) / brightest : 0.0;
-        false_color(fmin(part, 1.0), (*difference)->data + 3 * i);
+        const double value = (double)image->data[i * image->channel_count];
+        const double part = brightest > 0.0 ? value / brightest : 0.0;
+        false_color(fmin(fmax(part, 0.0), 1.0), (*colored)->data + 3 * i);
     }
     return AUR_OK;
+}
+
+aur_result aur_image_difference(const aur_image *reference, const aur_image *image, double scale,
+                                aur_image **difference, aur_error *error) {
+    *difference = NULL;
+    aur_color_pair pair;
+    aur_image *values;
+    aur_result result = aur_image_check_pair(reference, image, &pair, error);
+    if (result == AUR_OK)
+        result = aur_image_create(image->width, image->height, 1, &values, error);
+    if (result != AUR_OK)
+        return result;
+    for (size_t i = 0; i < image->width * image->height; ++i)
+        values->data[i] = (float)pixel_difference(reference, image, &pair, i);
+    result = aur_image_false_color(values, scale, difference, error);
+    aur_image_destroy(values);
+    return result;
 }

@@ -29,7 +29,7 @@ static double hable(double x) {
 
 static double filmic(double radiance) {
     const double exposure_bias = 2.0, white = 11.2;
-    if (isinf(radiance))
+    if (exposure_bias * radiance >= white)
         return 1.0;
     return clamp_unit(hable(exposure_bias * radiance) / hable(white));
 }

@@ -1,0 +1,18 @@
+/* What the measures of difference share. */
+#ifndef AUR_IMAGE_METRIC_H
+#define AUR_IMAGE_METRIC_H
+
+#include <aureole/image.h>
+
+#include "core/error.h"
+
+/* The places of red, green and blue in two pictures that can be compared. */
+typedef struct aur_color_pair {
+    size_t reference[3], image[3];
+} aur_color_pair;
+
+/* ARGUMENT when sizes differ, there is no colour or a value is not finite. */
+aur_result aur_image_check_pair(const aur_image *reference, const aur_image *image, aur_color_pair *pair,
+                                aur_error *error);
+
+#endif
