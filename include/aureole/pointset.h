@@ -209,6 +209,7 @@ typedef struct aur_points {
         dimension; /* coordinates a point: d on the cube, 2 on square and disk, 3 on hemisphere and sphere */
     double *coordinates; /* count * dimension, one point after another */
     double *weights;     /* count, or NULL */
+    size_t *lines;       /* count: the line of each point in its file, for messages; or NULL */
 } aur_points;
 
 /* Reads CSV (header u,v or x,y,z, and w where there are weights; without a header two columns are u,v and

@@ -77,86 +77,22 @@ static aur_result load_file(const char *path, const cli_point_options *options, 
     return AUR_OK;
 }
 
-static aur_result allocate(aur_points *points, bool weights, aur_error *error) {
-    points->coordinates = malloc(points->count * points->dimension * sizeof *points->coordinates);
-    points->weights = weights ? malloc(points->count * sizeof *points->weights) : NULL;
-    if (points->coordinates != NULL && (points->weights != NULL || !weights))
-        return AUR_OK;
-    aur_points_release(points);
-    return fail(error, AUR_ERROR_MEMORY, "", "out of memory for the points");
-}
-
-static aur_result load_directions(const char *set, const cli_point_options *options, size_t count,
-                                  aur_points *points, aur_error *error) {
-    const aur_directions_options wanted = {.count = count,
-                                           .domain = options->domain,
-                                           .map = options->map,
-                                           .lobe = options->lobe,
-                                           .optimal_density = options->optimal_density,
-                                           .smoothness = options->smoothness,
-                                           .scramble = options->scramble,
-                                           .seed = options->seed,
-                                           .warnings = options->warnings};
-    aur_directions *directions = NULL;
-    aur_result result = aur_directions_create(set, &wanted, &directions, error);
-    if (result != AUR_OK)
-        return result;
-    *points = (aur_points){
-        .domain = options->domain, .count = (size_t)aur_directions_size(directions), .dimension = 3};
-    result = allocate(points, true, error);
-    if (result == AUR_OK)
-        result = aur_directions_points(directions, 0, points->count, 3 * points->count, points->coordinates,
-                                       points->weights);
-    aur_directions_destroy(directions);
-    if (result != AUR_OK) {
-        aur_points_release(points);
-        return result;
-    }
-    drop_equal_weights(points);
-    return AUR_OK;
-}
-
-static aur_result load_cube(const char *set, const cli_point_options *options, size_t count,
-                            aur_points *points, aur_error *error) {
-    const aur_pointset_options wanted = {.count = count,
-                                         .dimension = options->dimension,
-                                         .scramble = options->scramble,
-                                         .seed = options->seed,
-                                         .warnings = options->warnings};
-    aur_pointset *pointset = NULL;
-    aur_result result = aur_pointset_create(set, &wanted, &pointset, error);
-    if (result != AUR_OK)
-        return result;
-    const size_t dimension = aur_pointset_dimension(pointset);
-    *points = (aur_points){.domain = dimension == 2 ? AUR_DOMAIN_SQUARE : AUR_DOMAIN_CUBE,
-                           .count = (size_t)aur_pointset_size(pointset),
-                           .dimension = dimension};
-    result = allocate(points, false, error);
-    if (result == AUR_OK)
-        result =
-            aur_pointset_points(pointset, 0, points->count, points->count * dimension, points->coordinates);
-    aur_pointset_destroy(pointset);
-    if (result != AUR_OK)
-        aur_points_release(points);
-    return result;
-}
-
 aur_result cli_load_points(const char *text, const cli_point_options *options, size_t count,
                            aur_points *points, aur_error *error) {
     *points = (aur_points){0};
     *error = (aur_error){0};
     if (cli_is_file(text))
         return load_file(text, options, points, error);
-    switch (options->domain) {
-    case AUR_DOMAIN_HEMISPHERE:
-    case AUR_DOMAIN_SPHERE:
-        return load_directions(text, options, count, points, error);
-    case AUR_DOMAIN_SQUARE:
-    case AUR_DOMAIN_CUBE:
-        return load_cube(text, options, count, points, error);
-    case AUR_DOMAIN_DISK:
-        break;
-    }
-    return fail(error, AUR_ERROR_UNSUPPORTED, "",
-                "no measure is for sets on the disk: write the points to a file and measure that");
+    const bool cube = options->domain == AUR_DOMAIN_SQUARE || options->domain == AUR_DOMAIN_CUBE;
+    const aur_points_request request = {.options = {.count = count,
+                                                    .domain = options->domain,
+                                                    .map = options->map,
+                                                    .lobe = options->lobe,
+                                                    .optimal_density = options->optimal_density,
+                                                    .smoothness = options->smoothness,
+                                                    .scramble = options->scramble,
+                                                    .seed = options->seed,
+                                                    .warnings = options->warnings},
+                                        .dimension = cube ? options->dimension : 0};
+    return aur_points_generate(text, &request, points, error);
 }

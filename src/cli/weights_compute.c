@@ -86,6 +86,7 @@ static aur_result load_one(weights_job *task, aur_error *error) {
     task->result->count = points.count;
     task->result->xyz = points.coordinates;
     task->plain = points.weights;
+    free(points.lines);
     for (size_t i = 0; arguments->points.domain == AUR_DOMAIN_HEMISPHERE && i < points.count; ++i)
         if (points.coordinates[3 * i + 2] < -1e-9 && arguments->points.lobe.kind != AUR_LOBE_GGX) {
             char message[160];

@@ -85,8 +85,7 @@ static const char *off_domain(const meaning *m, const double *row) {
     return NULL;
 }
 
-static aur_result interpret(const char *path, const aur_matrix *matrix, aur_points *points,
-                            aur_error *error) {
+static aur_result interpret(const char *path, aur_matrix *matrix, aur_points *points, aur_error *error) {
     const aur_location file = {.file = path};
     if (matrix->row_count == 0)
         return aur_fail_at(error, file, AUR_ERROR_FORMAT, "no points");
@@ -119,6 +118,8 @@ static aur_result interpret(const char *path, const aur_matrix *matrix, aur_poin
         below_horizon |= m.domain == AUR_DOMAIN_SPHERE && row[2] < 0.0;
     }
     points->domain = m.domain == AUR_DOMAIN_SPHERE && !below_horizon ? AUR_DOMAIN_HEMISPHERE : m.domain;
+    points->lines = matrix->lines;
+    matrix->lines = NULL;
     return AUR_OK;
 }
 
@@ -149,5 +150,6 @@ void aur_points_release(aur_points *points) {
         return;
     free(points->coordinates);
     free(points->weights);
+    free(points->lines);
     *points = (aur_points){0};
 }

@@ -125,34 +125,40 @@ static int lists(const char *list, const char *name) {
     return 0;
 }
 
+/* Where in its file a point stands, as far as it is known; the caller knows the file. */
+static aur_location line_of(const aur_points *points, size_t index) {
+    return (aur_location){.line = points->lines != NULL ? points->lines[index] : 0};
+}
+
 static aur_result check_point(const aur_points *points, size_t index, aur_error *error) {
+    const aur_location where = line_of(points, index);
     const double *const x = points->coordinates + index * points->dimension;
     for (size_t d = 0; d < points->dimension; ++d)
         if (!isfinite(x[d]))
-            return aur_fail(error, AUR_ERROR_ARGUMENT, "point %zu has a coordinate that is not finite",
-                            index + 1);
+            return aur_fail_at(error, where, AUR_ERROR_ARGUMENT,
+                               "point %zu has a coordinate that is not finite", index + 1);
     if (points->domain == AUR_DOMAIN_SQUARE || points->domain == AUR_DOMAIN_CUBE) {
         for (size_t d = 0; d < points->dimension; ++d)
             if (!(x[d] >= 0.0 && x[d] <= 1.0))
-                return aur_fail(error, AUR_ERROR_ARGUMENT, "point %zu: coordinate %.17g is not in [0,1]",
-                                index + 1, x[d]);
+                return aur_fail_at(error, where, AUR_ERROR_ARGUMENT,
+                                   "point %zu: coordinate %.17g is not in [0,1]", index + 1, x[d]);
         return AUR_OK;
     }
     if (points->domain == AUR_DOMAIN_DISK) {
         const double radius = hypot(x[0], x[1]);
         if (radius > 1.0 + unit_tolerance)
-            return aur_fail(error, AUR_ERROR_ARGUMENT, "point %zu is at radius %.17g, outside the unit disk",
-                            index + 1, radius);
+            return aur_fail_at(error, where, AUR_ERROR_ARGUMENT,
+                               "point %zu is at radius %.17g, outside the unit disk", index + 1, radius);
         return AUR_OK;
     }
     const double length = sqrt(x[0] * x[0] + x[1] * x[1] + x[2] * x[2]);
     if (!(fabs(length - 1.0) <= unit_tolerance))
-        return aur_fail(error, AUR_ERROR_ARGUMENT,
-                        "point %zu has the length %.9g: directions must be unit vectors within 1e-6",
-                        index + 1, length);
+        return aur_fail_at(error, where, AUR_ERROR_ARGUMENT,
+                           "point %zu has the length %.9g: directions must be unit vectors within 1e-6",
+                           index + 1, length);
     if (points->domain == AUR_DOMAIN_HEMISPHERE && x[2] < -unit_tolerance)
-        return aur_fail(error, AUR_ERROR_ARGUMENT, "point %zu has z = %.9g, below the hemisphere z >= 0",
-                        index + 1, x[2]);
+        return aur_fail_at(error, where, AUR_ERROR_ARGUMENT,
+                           "point %zu has z = %.9g, below the hemisphere z >= 0", index + 1, x[2]);
     return AUR_OK;
 }
 
@@ -161,11 +167,12 @@ static aur_result check_weights(const aur_measure_row *row, const aur_points *po
     for (size_t i = 0; i < points->count; ++i) {
         const double weight = points->weights[i];
         if (!isfinite(weight))
-            return aur_fail(error, AUR_ERROR_ARGUMENT, "point %zu has a weight that is not finite", i + 1);
+            return aur_fail_at(error, line_of(points, i), AUR_ERROR_ARGUMENT,
+                               "point %zu has a weight that is not finite", i + 1);
         if (row->masses && weight < 0.0)
-            return aur_fail(error, AUR_ERROR_ARGUMENT,
-                            "point %zu has the weight %.9g: '%s' needs weights that are not negative", i + 1,
-                            weight, row->description.name);
+            return aur_fail_at(error, line_of(points, i), AUR_ERROR_ARGUMENT,
+                               "point %zu has the weight %.9g: '%s' needs weights that are not negative",
+                               i + 1, weight, row->description.name);
         sum += weight;
     }
     if (!(sum > 0.0))

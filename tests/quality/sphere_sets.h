@@ -10,7 +10,10 @@
 #include "core/vector.h"
 
 static inline aur_points sphere_points(size_t count) {
-    return (aur_points){AUR_DOMAIN_SPHERE, count, 3, malloc(count * 3 * sizeof(double)), NULL};
+    return (aur_points){.domain = AUR_DOMAIN_SPHERE,
+                        .count = count,
+                        .dimension = 3,
+                        .coordinates = malloc(count * 3 * sizeof(double))};
 }
 
 static inline void release_points(aur_points *points) {

@@ -153,8 +153,10 @@ static void smallest_distance_agrees_with_all_pairs(void **state) {
     (void)state;
     for (size_t dimension = 1; dimension < 5; ++dimension) {
         const size_t count = 200;
-        aur_points points = {AUR_DOMAIN_CUBE, count, dimension, malloc(count * dimension * sizeof(double)),
-                             NULL};
+        aur_points points = {.domain = AUR_DOMAIN_CUBE,
+                             .count = count,
+                             .dimension = dimension,
+                             .coordinates = malloc(count * dimension * sizeof(double))};
         for (size_t i = 0; i < count * dimension; ++i)
             points.coordinates[i] = aur_unit_double(aur_hash2(dimension, i));
         double best = 1e9;
