@@ -1,7 +1,6 @@
 /* aureole measure: quality figures of points. */
 #include "cli/measure.h"
 
-#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -82,6 +81,7 @@ static bool parse_metrics(cli_measure_arguments *arguments, const char *text) {
     arguments->metric_count = 0;
     if (arguments->metric_text == NULL || arguments->metrics == NULL)
         return false;
+    size_t series = 0;
     char *rest = arguments->metric_text;
     while (rest != NULL) {
         char *const comma = strchr(rest, ',');
@@ -92,8 +92,12 @@ static bool parse_metrics(cli_measure_arguments *arguments, const char *text) {
         aur_error error = {0};
         if (!parsed(aur_measure_find(rest, &description, &error), &error))
             return false;
+        series += description->series != 0;
         rest = comma != NULL ? comma + 1 : NULL;
     }
+    arguments->series = series > 0;
+    if (series > 0 && arguments->metric_count > 1)
+        return cli_bad_usage("--metric: a measure that is a table stands alone, not with others"), false;
     return true;
 }
 
@@ -183,6 +187,8 @@ static bool check_arguments(cli_measure_arguments *arguments) {
             return cli_bad_usage("measure: -n is missing for the set '%s' (there is no such file)",
                                  arguments->sources[i]),
                    false;
+    if (arguments->series && arguments->seed_count > 0)
+        return cli_bad_usage("--seeds: there are no statistics of tables"), false;
     choose_domain(arguments);
     return true;
 }
@@ -205,157 +211,6 @@ static int print_list(cli_format format) {
     return status;
 }
 
-/* All metrics of one set of points into values[metric_count]; messages name the file. */
-static aur_result measure_points(const cli_measure_arguments *arguments, const char *source, size_t count,
-                                 uint64_t seed, cli_measure_row *row, double *values, aur_error *error) {
-    cli_point_options options = arguments->points;
-    options.seed = seed;
-    aur_points points;
-    aur_result result = cli_load_points(source, &options, count, &points, error);
-    if (result != AUR_OK)
-        return result;
-    row->count = points.count;
-    row->domain = points.domain;
-    for (size_t m = 0; m < arguments->metric_count && result == AUR_OK; ++m)
-        result = aur_measure(arguments->metrics[m], &points, &arguments->options, &values[m], error);
-    if (result != AUR_OK && error->file[0] == '\0')
-        snprintf(error->file, sizeof error->file, "%s", source);
-    aur_points_release(&points);
-    return result;
-}
-
-/* Mean, spread (the sample's standard deviation) and root mean square over seeds. */
-static aur_result measure_seeds(const cli_measure_arguments *arguments, const char *source, size_t count,
-                                cli_measure_row *row, double *values, aur_error *error) {
-    const size_t metrics = arguments->metric_count;
-    double *const means = row->figures;
-    memset(row->figures, 0, 3 * metrics * sizeof *row->figures);
-    aur_result result = AUR_OK;
-    for (size_t k = 0; k < arguments->seed_count && result == AUR_OK; ++k) {
-        result = measure_points(arguments, source, count, arguments->points.seed + k, row, values, error);
-        for (size_t m = 0; m < metrics && result == AUR_OK; ++m) {
-            /* Welford's update of mean and sum of squares. */
-            double *const figure = means + 3 * m;
-            const double difference = values[m] - figure[0];
-            figure[0] += difference / (double)(k + 1);
-            figure[1] += difference * (values[m] - figure[0]);
-        }
-    }
-    for (size_t m = 0; m < metrics; ++m) {
-        double *const figure = means + 3 * m;
-        const double squares = figure[1];
-        figure[2] = sqrt(figure[0] * figure[0] + squares / (double)arguments->seed_count);
-        figure[1] = sqrt(squares / (double)(arguments->seed_count - 1));
-    }
-    return result;
-}
-
-static cli_measure_row *append(cli_measure_rows *rows) {
-    if (rows->count == rows->capacity) {
-        const size_t capacity = rows->capacity == 0 ? 16 : 2 * rows->capacity;
-        cli_measure_row *const larger = realloc(rows->items, capacity * sizeof *larger);
-        if (larger == NULL)
-            return NULL;
-        rows->items = larger;
-        rows->capacity = capacity;
-    }
-    return &rows->items[rows->count];
-}
-
-/* Appends the row when it is complete. */
-static aur_result measure_row(const cli_measure_arguments *arguments, const char *source, size_t count,
-                              cli_measure_rows *rows, aur_error *error) {
-    const size_t metrics = arguments->metric_count;
-    cli_measure_row *const row = append(rows);
-    double *const values = malloc(metrics * sizeof *values);
-    double *const figures = malloc(metrics * cli_figures_per_metric(arguments) * sizeof *figures);
-    aur_result result = AUR_ERROR_MEMORY;
-    if (row != NULL && values != NULL && figures != NULL) {
-        *row = (cli_measure_row){.source = source, .figures = figures};
-        if (arguments->seed_count > 0 && !cli_is_file(source))
-            result = measure_seeds(arguments, source, count, row, values, error);
-        else
-            result = measure_points(arguments, source, count, arguments->points.seed, row, values, error);
-    }
-    if (result == AUR_OK) {
-        for (size_t m = 0; m < metrics && (arguments->seed_count == 0 || cli_is_file(source)); ++m) {
-            double *const figure = figures + m * cli_figures_per_metric(arguments);
-            figure[0] = values[m];
-            if (arguments->seed_count > 0) {
-                figure[1] = 0.0;
-                figure[2] = fabs(values[m]);
-            }
-        }
-        ++rows->count;
-    } else {
-        free(figures);
-    }
-    free(values);
-    return result;
-}
-
-static int print_rows(const cli_measure_arguments *arguments, const cli_measure_rows *rows) {
-    const size_t per = cli_figures_per_metric(arguments);
-    const size_t columns = 3 + arguments->metric_count * per;
-    static const char *const suffixes[] = {"", "-spread", "-rms"};
-    enum { NAME_CAPACITY = 96 };
-    char(*const names)[NAME_CAPACITY] = malloc(columns * sizeof *names);
-    const char **const texts = malloc(columns * sizeof *texts);
-    cli_table *table = NULL;
-    if (names != NULL && texts != NULL) {
-        texts[0] = "set";
-        texts[1] = "n";
-        texts[2] = "domain";
-        for (size_t c = 3; c < columns; ++c) {
-            snprintf(names[c], NAME_CAPACITY, "%s%s", arguments->metrics[(c - 3) / per],
-                     suffixes[(c - 3) % per]);
-            texts[c] = names[c];
-        }
-        table = cli_table_create(columns, texts);
-    }
-    for (size_t r = 0; r < rows->count; ++r) {
-        const cli_measure_row *const row = &rows->items[r];
-        cli_table_text(table, row->source);
-        cli_table_integer(table, row->count);
-        cli_table_text(table, cli_domain_name(row->domain));
-        for (size_t f = 0; f < columns - 3; ++f)
-            cli_table_number(table, row->figures[f], 6);
-    }
-    free(names);
-    free(texts);
-    const int status = cli_table_print(table, arguments->format);
-    cli_table_destroy(table);
-    return status;
-}
-
-static int measure_all(const cli_measure_arguments *arguments) {
-    cli_measure_rows rows = {0};
-    aur_error error = {0};
-    aur_result result = AUR_OK;
-    for (size_t s = 0; s < arguments->source_count && result == AUR_OK; ++s) {
-        const char *const source = arguments->sources[s];
-        const bool whole = cli_is_file(source) || arguments->size_count == 0;
-        for (size_t i = 0; i < (whole ? 1 : arguments->size_count) && result == AUR_OK; ++i)
-            result = measure_row(arguments, source, whole ? 1 : arguments->sizes[i], &rows, &error);
-    }
-    cli_progress_clear();
-    int status = CLI_SUCCESS;
-    /* Rows that are finished are kept when the work ends early. */
-    if (result == AUR_OK || rows.count > 0)
-        status = print_rows(arguments, &rows);
-    if (result == AUR_ERROR_CANCELLED)
-        snprintf(error.message, sizeof error.message, "interrupted after %zu finished row%s", rows.count,
-                 rows.count == 1 ? "" : "s");
-    if (result != AUR_OK) {
-        error.result = result;
-        status = cli_fail(&error);
-    }
-    for (size_t r = 0; r < rows.count; ++r)
-        free(rows.items[r].figures);
-    free(rows.items);
-    return status;
-}
-
 static int run(int argc, char **argv) {
     cli_measure_arguments arguments = {0};
     int status = CLI_BAD_INPUT;
@@ -372,7 +227,7 @@ static int run(int argc, char **argv) {
         status = print_list(arguments.format);
     } else if (good && check_arguments(&arguments)) {
         arguments.options.progress = cli_progress(arguments.quiet);
-        status = measure_all(&arguments);
+        status = arguments.series ? cli_measure_series(&arguments) : cli_measure_rows(&arguments);
     }
     free(arguments.sizes);
     free(arguments.metrics);

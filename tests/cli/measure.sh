@@ -40,4 +40,40 @@ refuses -n $measure sobol --metric star
 refuses --metric $measure sobol -n 4
 refuses 'at least 2 points' $measure sobol -n 1 --metric min-distance
 refuses no-such $measure no-such-set -n 4 --metric energy
+printf 'x,y,z,w\n1,0,0,1\n# a comment\n0,1,0,-0.5\n0,0,1,1\n' >negative.csv
+refuses negative.csv:4 $measure negative.csv --domain sphere --metric cap
+prints 1.1547 $measure negative.csv --domain sphere --metric energy
+printf '1,0,0\n0,0,-1\n' >low.csv
+refuses low.csv:2 $measure low.csv --domain hemisphere --metric energy
+printf 'x,y,z\n1,0,0\n1,0,0\n' >twice.csv
+prints inf $measure twice.csv --metric riesz:1
+prints coincide $measure twice.csv --metric riesz:1
+prints null $measure twice.csv --metric riesz:1 --format json -q
+refuses 'stands alone' $measure sobol -n 16 --metric spectrum,star
+prints 'degree' $measure sobol -n 16 --metric spectrum:2 --domain sphere
+prints 'kx,ky,power' $measure sobol -n 16 --metric periodogram:2 --format csv
+
+# A session that is interrupted prints the rows that it has finished and says so.
+"$program" measure random -n 64,1000000 --domain sphere --metric energy -t 1 >kept.txt 2>message.txt &
+job=$!
+# Half a second of its own time: the first row is long finished, the second takes minutes.
+for ((i = 0; i < 600; ++i)); do
+  [ "$(cut -d' ' -f14 /proc/$job/stat 2>/dev/null || echo 0)" -ge 50 ] && break
+  sleep 0.1
+done
+kill -INT $job
+wait $job
+[ $? = 3 ] || fail "an interrupted measure does not exit with 3"
+grep -q '64  sphere' kept.txt || fail "finished rows are lost on interrupt: $(cat kept.txt)"
+grep -q 'interrupted after 1 finished row' message.txt || fail "no word of the interrupt: $(cat message.txt)"
+
+if command -v gnuplot >/dev/null; then
+  rm -f slopes.svg spectrum.png
+  prints 'slope -0.7513' $measure spherical-fibonacci -n 64,128,256,512,1024,2048,4096,8192,16384 --metric energy --plot slopes.svg
+  grep -q 'slope -0.751' slopes.svg || fail "the plot does not show the slope"
+  prints power $measure jittered -n 64 --metric spectrum --plot spectrum.png
+  [ -s spectrum.png ] || fail "no plot of the spectrum"
+  refuses 'must end in' $measure sobol -n 4 --metric energy --plot slopes.txt
+  refuses 'logarithmic' $measure sobol -n 4 --metric net --plot slopes.svg
+fi
 exit $status

@@ -1,0 +1,129 @@
+/* Figures against N on log-log axes: what every paper in the field shows. */
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "cli/measure.h"
+#include "cli/plot.h"
+
+/* value = factor * N^slope by least squares of the logarithms. */
+typedef struct power_law {
+    size_t count; /* points that have a logarithm */
+    double slope, factor;
+} power_law;
+
+static double figure_of(const cli_measure_arguments *arguments, const cli_measure_row *row, size_t metric,
+                        size_t which) {
+    return row->figures[metric * cli_figures_per_metric(arguments) + which];
+}
+
+static bool drawable(double value) {
+    return isfinite(value) && value > 0.0;
+}
+
+static power_law fit(const cli_measure_arguments *arguments, const cli_measure_table *table,
+                     const char *source, size_t metric) {
+    double x = 0.0, y = 0.0, xx = 0.0, xy = 0.0;
+    size_t count = 0;
+    for (size_t r = 0; r < table->count; ++r) {
+        const cli_measure_row *const row = &table->items[r];
+        const double value = figure_of(arguments, row, metric, 0);
+        if (row->source != source || !drawable(value))
+            continue;
+        const double a = log((double)row->count), b = log(value);
+        x += a;
+        y += b;
+        xx += a * a;
+        xy += a * b;
+        ++count;
+    }
+    const double n = (double)count;
+    const double spread = n * xx - x * x;
+    if (count < 2 || !(spread > 1e-9))
+        return (power_law){.count = 0};
+    const double slope = (n * xy - x * y) / spread;
+    return (power_law){count, slope, exp((y - slope * x) / n)};
+}
+
+static void print_title(FILE *script, const char *source, const power_law *law) {
+    fputs("title '", script);
+    for (const char *c = source; *c != '\0'; ++c)
+        fprintf(script, *c == '\'' ? "''" : "%c", *c);
+    if (law->count > 0)
+        fprintf(script, "  slope %.3f", law->slope);
+    fputs("' noenhanced", script);
+}
+
+static void draw_panel(const cli_measure_arguments *arguments, const cli_measure_table *table, size_t metric,
+                       FILE *script) {
+    const bool spread = arguments->seed_count > 0;
+    const char *separator = "plot ";
+    fprintf(script, "set ylabel '%s' noenhanced\n", arguments->metrics[metric]);
+    for (size_t s = 0; s < arguments->source_count; ++s) {
+        const power_law law = fit(arguments, table, arguments->sources[s], metric);
+        fprintf(script, "%s'-' with %s lt %zu ", separator, spread ? "yerrorbars" : "points", s + 1);
+        print_title(script, arguments->sources[s], &law);
+        if (law.count > 0)
+            fprintf(script, ", %.17g*x**%.17g with lines lt %zu dt 2 notitle", law.factor, law.slope, s + 1);
+        separator = ", ";
+    }
+    fputc('\n', script);
+    for (size_t s = 0; s < arguments->source_count; ++s) {
+        for (size_t r = 0; r < table->count; ++r) {
+            const cli_measure_row *const row = &table->items[r];
+            const double value = figure_of(arguments, row, metric, 0);
+            if (row->source != arguments->sources[s] || !drawable(value))
+                continue;
+            fprintf(script, "%zu %.17g", row->count, value);
+            if (spread) { /* a bar that reaches zero has no place on this axis */
+                const double deviation = figure_of(arguments, row, metric, 1);
+                fprintf(script, " %.17g %.17g", fmax(value - deviation, 1e-3 * value), value + deviation);
+            }
+            fputc('\n', script);
+        }
+        fputs("e\n", script);
+    }
+}
+
+static void print_slopes(const cli_measure_arguments *arguments, const cli_measure_table *table) {
+    for (size_t m = 0; m < arguments->metric_count; ++m)
+        for (size_t s = 0; s < arguments->source_count; ++s) {
+            const power_law law = fit(arguments, table, arguments->sources[s], m);
+            if (law.count > 0)
+                fprintf(stderr, "%s of %s: slope %.4f over %zu sizes\n", arguments->metrics[m],
+                        arguments->sources[s], law.slope, law.count);
+        }
+}
+
+static bool has_values(const cli_measure_arguments *arguments, const cli_measure_table *table,
+                       size_t metric) {
+    for (size_t r = 0; r < table->count; ++r)
+        if (drawable(figure_of(arguments, &table->items[r], metric, 0)))
+            return true;
+    cli_bad_usage(
+        "--plot: no value of '%s' is positive and finite, so none has a place on a logarithmic axis",
+        arguments->metrics[metric]);
+    return false;
+}
+
+int cli_measure_plot(const cli_measure_arguments *arguments, const cli_measure_table *table) {
+    for (size_t m = 0; m < arguments->metric_count; ++m)
+        if (!has_values(arguments, table, m))
+            return CLI_BAD_INPUT;
+    cli_plot plot;
+    const int height = 120 + 320 * (int)arguments->metric_count;
+    if (!cli_plot_open(arguments->plot, 900, height, &plot))
+        return CLI_BAD_INPUT;
+    fputs("set logscale xy\nset grid\nset xlabel 'N'\nset key outside\nset format y '%.0e'\nset "
+          "pointsize 0.7\n"
+          "set offsets graph 0.03, graph 0.03, graph 0.03, graph 0.03\n",
+          plot.script);
+    fprintf(plot.script, "set multiplot layout %zu,1\n", arguments->metric_count);
+    for (size_t m = 0; m < arguments->metric_count; ++m)
+        draw_panel(arguments, table, m, plot.script);
+    fputs("unset multiplot\n", plot.script);
+    const int status = cli_plot_close(&plot);
+    if (status == CLI_SUCCESS && !arguments->quiet)
+        print_slopes(arguments, table);
+    return status;
+}
