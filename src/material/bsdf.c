@@ -7,12 +7,19 @@ extern const aur_bsdf_descriptor aur_bsdf_diffuse;
 extern const aur_bsdf_descriptor aur_bsdf_phong;
 extern const aur_bsdf_descriptor aur_bsdf_phong_lobe;
 extern const aur_bsdf_descriptor aur_bsdf_twosided;
+extern const aur_bsdf_descriptor aur_bsdf_conductor;
+extern const aur_bsdf_descriptor aur_bsdf_roughconductor;
+extern const aur_bsdf_descriptor aur_bsdf_dielectric;
+extern const aur_bsdf_descriptor aur_bsdf_thindielectric;
+extern const aur_bsdf_descriptor aur_bsdf_roughdielectric;
+extern const aur_bsdf_descriptor aur_bsdf_plastic;
+extern const aur_bsdf_descriptor aur_bsdf_roughplastic;
+extern const aur_bsdf_descriptor aur_bsdf_mask;
 
 static const aur_bsdf_descriptor *const table[] = {
-    &aur_bsdf_diffuse,
-    &aur_bsdf_twosided,
-    &aur_bsdf_phong,
-    &aur_bsdf_phong_lobe,
+    &aur_bsdf_diffuse,         &aur_bsdf_twosided,       &aur_bsdf_phong,        &aur_bsdf_phong_lobe,
+    &aur_bsdf_conductor,       &aur_bsdf_roughconductor, &aur_bsdf_dielectric,   &aur_bsdf_thindielectric,
+    &aur_bsdf_roughdielectric, &aur_bsdf_plastic,        &aur_bsdf_roughplastic, &aur_bsdf_mask,
 };
 
 enum { TABLE_SIZE = sizeof table / sizeof table[0] };
@@ -61,6 +68,30 @@ void aur_bsdf_destroy(aur_bsdf *bsdf) {
     if (bsdf->data != NULL)
         bsdf->descriptor->release(bsdf);
     free(bsdf);
+}
+
+aur_vector aur_bsdf_evaluate_none(const aur_bsdf *bsdf, aur_bsdf_point point, aur_vector view,
+                                  aur_vector light) {
+    (void)bsdf;
+    (void)point;
+    (void)view;
+    (void)light;
+    return (aur_vector){0};
+}
+
+float aur_bsdf_pdf_none(const aur_bsdf *bsdf, aur_bsdf_point point, aur_vector view, aur_vector light) {
+    (void)bsdf;
+    (void)point;
+    (void)view;
+    (void)light;
+    return 0.0f;
+}
+
+aur_vector aur_bsdf_albedo_none(const aur_bsdf *bsdf, aur_bsdf_point point, float side) {
+    (void)bsdf;
+    (void)point;
+    (void)side;
+    return (aur_vector){0};
 }
 
 void aur_bsdf_release_data(aur_bsdf *bsdf) {

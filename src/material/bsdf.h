@@ -22,11 +22,16 @@ typedef struct aur_bsdf_sample {
     aur_vector weight; /* BSDF * |cos| / pdf, RGB */
     float pdf;         /* a steradian; of no meaning when specular */
     bool specular;     /* a Dirac direction: evaluate and pdf are 0 there */
+    float ior_squared; /* 0: both sides are alike. When the light went through a boundary: the squared index
+                          of the light's side over the view's. The weight is radiance's; a particle's is
+                          weight times this. */
 } aur_bsdf_sample;
 
 typedef enum aur_lobe_shape {
     AUR_LOBE_SHAPE_COSINE_POWER, /* coefficient * max(0, axis . light)^exponent [* |light.z|] */
-    AUR_LOBE_SHAPE_SPECULAR      /* coefficient of a Dirac direction `axis` */
+    AUR_LOBE_SHAPE_SPECULAR,     /* coefficient of a Dirac direction `axis` */
+    AUR_LOBE_SHAPE_SAMPLED /* no formula: all that `evaluate` has beyond the other lobes, about `axis`; gather
+                              it by `sample` and leave out its specular draws */
 } aur_lobe_shape;
 
 /* One part of BSDF * cos, as final gathering wants it: the sum of the lobes is `evaluate` wherever light is
@@ -49,7 +54,7 @@ typedef struct aur_bsdf_descriptor {
     /* Reads its parameters (aur_parameters_finish is called by aur_bsdf_create) and sets bsdf->data. */
     aur_result (*create)(aur_parameters *parameters, aur_bsdf *bsdf, aur_error *error);
     void (*release)(aur_bsdf *bsdf); /* frees bsdf->data */
-    /* BSDF * |light.z|, RGB; 0 where nothing scatters. */
+    /* BSDF * |light.z|, RGB, for radiance; 0 where nothing scatters. */
     aur_vector (*evaluate)(const aur_bsdf *bsdf, aur_bsdf_point point, aur_vector view, aur_vector light);
     /* The density with which `sample` draws `light`, a steradian. */
     float (*pdf)(const aur_bsdf *bsdf, aur_bsdf_point point, aur_vector view, aur_vector light);
@@ -83,6 +88,11 @@ void aur_bsdf_destroy(aur_bsdf *bsdf);
 
 /* bsdf->data = `size` zero bytes. */
 aur_result aur_bsdf_allocate(const aur_parameters *parameters, aur_bsdf *bsdf, size_t size, aur_error *error);
+/* What smooth materials answer: nothing but Dirac directions. */
+aur_vector aur_bsdf_evaluate_none(const aur_bsdf *bsdf, aur_bsdf_point point, aur_vector view,
+                                  aur_vector light);
+float aur_bsdf_pdf_none(const aur_bsdf *bsdf, aur_bsdf_point point, aur_vector view, aur_vector light);
+aur_vector aur_bsdf_albedo_none(const aur_bsdf *bsdf, aur_bsdf_point point, float side);
 /* A `release` for data that owns nothing else. */
 void aur_bsdf_release_data(aur_bsdf *bsdf);
 /* The nested BSDF of that name ("bsdf", "bsdf2" when the file gives none); *bsdf keeps its value when absent.

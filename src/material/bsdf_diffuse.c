@@ -34,7 +34,8 @@ static bool sample(const aur_bsdf *bsdf, aur_bsdf_point point, aur_vector view, 
     if (view.z <= 0.0f)
         return false;
     const aur_vector light = aur_sample_cosine(u[1], u[2]);
-    *drawn = (aur_bsdf_sample){light, aur_color_at(&self->reflectance, point), light.z / AUR_PI_F, false};
+    *drawn = (aur_bsdf_sample){
+        .light = light, .weight = aur_color_at(&self->reflectance, point), .pdf = light.z / AUR_PI_F};
     return light.z > 0.0f;
 }
 

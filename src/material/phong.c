@@ -70,7 +70,7 @@ bool aur_phong_sample(const aur_bsdf *bsdf, aur_bsdf_point point, aur_vector vie
     if (!(pdf > 0.0f))
         return false;
     const aur_vector value = bsdf->descriptor->evaluate(bsdf, point, view, light);
-    *drawn = (aur_bsdf_sample){light, aur_vector_scale(value, 1.0f / pdf), pdf, false};
+    *drawn = (aur_bsdf_sample){.light = light, .weight = aur_vector_scale(value, 1.0f / pdf), .pdf = pdf};
     return aur_vector_max(value) > 0.0f;
 }
 

@@ -3,28 +3,31 @@
 #include <stdlib.h>
 #include <string.h>
 
-static const aur_texture_descriptor *const table[] = {NULL};
+extern const aur_texture_descriptor aur_texture_bitmap;
+extern const aur_texture_descriptor aur_texture_checkerboard;
+
+static const aur_texture_descriptor *const table[] = {
+    &aur_texture_bitmap,
+    &aur_texture_checkerboard,
+};
+
+enum { TABLE_SIZE = sizeof table / sizeof table[0] };
 
 const aur_texture_descriptor *aur_texture_descriptor_at(size_t index) {
-    return index < sizeof table / sizeof table[0] ? table[index] : NULL;
-}
-
-static aur_result fail_unknown(const aur_parameters *parameters, aur_error *error) {
-    const char *names[sizeof table / sizeof table[0]] = {NULL};
-    size_t count = 0;
-    for (; aur_texture_descriptor_at(count) != NULL; ++count)
-        names[count] = aur_texture_descriptor_at(count)->name;
-    return aur_fail_unknown_plugin(error, parameters, count, names);
+    return index < TABLE_SIZE ? table[index] : NULL;
 }
 
 aur_result aur_texture_create(aur_parameters *parameters, aur_texture **texture, aur_error *error) {
     *texture = NULL;
     const aur_texture_descriptor *descriptor = NULL;
-    for (size_t i = 0; descriptor == NULL && aur_texture_descriptor_at(i) != NULL; ++i)
-        if (strcmp(aur_texture_descriptor_at(i)->name, parameters->plugin) == 0)
-            descriptor = aur_texture_descriptor_at(i);
+    const char *names[TABLE_SIZE];
+    for (size_t i = 0; i < TABLE_SIZE; ++i) {
+        names[i] = table[i]->name;
+        if (strcmp(names[i], parameters->plugin) == 0)
+            descriptor = table[i];
+    }
     if (descriptor == NULL)
-        return fail_unknown(parameters, error);
+        return aur_fail_unknown_plugin(error, parameters, TABLE_SIZE, names);
     aur_texture *const made = calloc(1, sizeof *made);
     if (made == NULL)
         return aur_fail_at(error, parameters->location, AUR_ERROR_MEMORY, "out of memory");
@@ -66,5 +69,26 @@ aur_result aur_parameters_color(aur_parameters *parameters, const char *name, do
     const aur_result result = aur_parameters_triple(parameters, name, 0.0, maximum, value, error);
     if (result == AUR_OK)
         *color = (aur_color){{(float)value[0], (float)value[1], (float)value[2]}, NULL};
+    return result;
+}
+
+aur_result aur_parameters_uv_map(aur_parameters *parameters, aur_uv_map *map, aur_error *error) {
+    double m[16] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};
+    aur_result result = aur_parameters_transform(parameters, "to_uv", m, error);
+    /* Mitsuba 0.6's way to say it. */
+    double scale[2] = {1.0, 1.0}, offset[2] = {0.0, 0.0};
+    if (result == AUR_OK)
+        result = aur_parameters_float(parameters, "uscale", -1e30, 1e30, &scale[0], error);
+    if (result == AUR_OK)
+        result = aur_parameters_float(parameters, "vscale", -1e30, 1e30, &scale[1], error);
+    if (result == AUR_OK)
+        result = aur_parameters_float(parameters, "uoffset", -1e30, 1e30, &offset[0], error);
+    if (result == AUR_OK)
+        result = aur_parameters_float(parameters, "voffset", -1e30, 1e30, &offset[1], error);
+    for (size_t i = 0; i < 2; ++i) {
+        map->m[3 * i] = (float)(scale[i] * m[4 * i]);
+        map->m[3 * i + 1] = (float)(scale[i] * m[4 * i + 1]);
+        map->m[3 * i + 2] = (float)(scale[i] * m[4 * i + 3] + offset[i]);
+    }
     return result;
 }

@@ -31,6 +31,23 @@ const aur_texture_descriptor *aur_texture_descriptor_at(size_t index);
 aur_result aur_texture_create(aur_parameters *parameters, aur_texture **texture, aur_error *error);
 void aur_texture_destroy(aur_texture *texture);
 
+/* The affine map `to_uv` of a texture. */
+typedef struct aur_uv_map {
+    float m[6]; /* u' = m0 u + m1 v + m2, v' = m3 u + m4 v + m5 */
+} aur_uv_map;
+
+aur_result aur_parameters_uv_map(aur_parameters *parameters, aur_uv_map *map, aur_error *error);
+
+static inline aur_bsdf_point aur_uv_map_apply(const aur_uv_map *map, float u, float v) {
+    return (aur_bsdf_point){map->m[0] * u + map->m[1] * v + map->m[2],
+                            map->m[3] * u + map->m[4] * v + map->m[5]};
+}
+
+/* A picture's R, G and B (or its Y three times), the top row first; *rgb is malloc'ed. What is negative or
+ * not finite becomes 0. */
+aur_result aur_read_rgb(const char *path, aur_location location, size_t *width, size_t *height, float **rgb,
+                        aur_error *error);
+
 /* A colour of a material or light: one for the whole surface, or a texture. */
 typedef struct aur_color {
     aur_vector constant;

@@ -4,9 +4,15 @@
 #include <string.h>
 
 extern const aur_emitter_descriptor aur_emitter_area;
+extern const aur_emitter_descriptor aur_emitter_point;
+extern const aur_emitter_descriptor aur_emitter_spot;
+extern const aur_emitter_descriptor aur_emitter_directional;
+extern const aur_emitter_descriptor aur_emitter_constant;
+extern const aur_emitter_descriptor aur_emitter_envmap;
 
 static const aur_emitter_descriptor *const table[] = {
-    &aur_emitter_area,
+    &aur_emitter_area,        &aur_emitter_point,    &aur_emitter_spot,
+    &aur_emitter_directional, &aur_emitter_constant, &aur_emitter_envmap,
 };
 
 enum { TABLE_SIZE = sizeof table / sizeof table[0] };

@@ -39,6 +39,12 @@ struct aur_emitter {
 /* The table; NULL beyond it. */
 const aur_emitter_descriptor *aur_emitter_descriptor_at(size_t index);
 
+/* For lights that are infinitely far: a sample of the unit `direction` towards them, all but radiance and
+ * pdf; and a ray from there through a uniform point of the disk that covers the scene. */
+void aur_sample_far(const aur_scene *scene, aur_vector reference, aur_vector direction,
+                    aur_light_sample *drawn);
+aur_ray aur_emit_far(const aur_scene *scene, aur_vector direction, float u, float v);
+
 aur_result aur_emitter_create(aur_parameters *parameters, aur_emitter **emitter, aur_error *error);
 void aur_emitter_destroy(aur_emitter *emitter);
 

@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "core/parameters.h"
+#include "material/erf.h"
 
 static const aur_filter filters[] = {
     {AUR_FILTER_BOX, 0.5f},
@@ -36,35 +37,12 @@ static float gaussian_mass(float x) {
     return 1.2533141373155003f * erff(x * 0.70710678118654752f) - level * x;
 }
 
-/* erf^-1 (Giles 2012, single precision): where Newton starts. */
-static float inverse_erf(float x) {
-    float w = -logf((1.0f - x) * (1.0f + x));
-    if (w < 5.0f) {
-        static const float c[] = {2.81022636e-08f,  3.43273939e-07f, -3.5233877e-06f,
-                                  -4.39150654e-06f, 0.00021858087f,  -0.00125372503f,
-                                  -0.00417768164f,  0.246640727f,    1.50140941f};
-        w -= 2.5f;
-        float p = c[0];
-        for (size_t i = 1; i < 9; ++i)
-            p = c[i] + p * w;
-        return p * x;
-    }
-    static const float c[] = {-0.000200214257f, 0.000100950558f, 0.00134934322f,
-                              -0.00367342844f,  0.00573950773f,  -0.0076224613f,
-                              0.00943887047f,   1.00167406f,     2.83297682f};
-    w = sqrtf(w) - 3.0f;
-    float p = c[0];
-    for (size_t i = 1; i < 9; ++i)
-        p = c[i] + p * w;
-    return p * x;
-}
-
 /* Standard deviations from the centre. */
 static float sample_gaussian(float u) {
     const float side = u < 0.5f ? -1.0f : 1.0f;
     const float t = fabsf(2.0f * u - 1.0f);
     const float total = gaussian_mass(cut);
-    float x = fminf(1.41421356f * inverse_erf(fminf(t, 0.9999f)), cut);
+    float x = fminf(1.41421356f * aur_inverse_erf(fminf(t, 0.9999f)), cut);
     for (size_t i = 0; i < 3; ++i) {
         const float density = expf(-0.5f * x * x) - level;
         if (!(density > 1e-6f))

@@ -173,11 +173,30 @@ static aur_result build_bsdf(loader *self, aur_xml_node *node, aur_parameters *p
     return result;
 }
 
+/* A picture's `filename` becomes a path that opens. */
+static aur_result resolve_filename(loader *self, aur_parameters *parameters) {
+    for (size_t i = 0; i < parameters->count; ++i) {
+        aur_parameter *const item = &parameters->items[i];
+        if (strcmp(item->name, "filename") != 0 || item->kind != AUR_PARAMETER_STRING)
+            continue;
+        char *path;
+        const aur_result result =
+            aur_xml_find_asset(&self->scene->document, item->location, item->text, &path, self->error);
+        if (result != AUR_OK)
+            return result;
+        free(item->text);
+        item->text = path;
+    }
+    return AUR_OK;
+}
+
 static aur_result build_texture(loader *self, aur_xml_node *node, aur_parameters *parameters, void **object) {
     (void)node;
     aur_scene *const scene = self->scene;
     aur_texture *texture;
-    aur_result result = aur_texture_create(parameters, &texture, self->error);
+    aur_result result = resolve_filename(self, parameters);
+    if (result == AUR_OK)
+        result = aur_texture_create(parameters, &texture, self->error);
     if (result != AUR_OK)
         return result;
     result =
@@ -192,7 +211,9 @@ static aur_result build_emitter(loader *self, aur_xml_node *node, aur_parameters
     (void)node;
     aur_scene *const scene = self->scene;
     aur_emitter *emitter;
-    aur_result result = aur_emitter_create(parameters, &emitter, self->error);
+    aur_result result = resolve_filename(self, parameters);
+    if (result == AUR_OK)
+        result = aur_emitter_create(parameters, &emitter, self->error);
     if (result != AUR_OK)
         return result;
     result =

@@ -4,6 +4,12 @@
 
 #include "scene/scene_data.h"
 
+static void find_sphere(aur_scene *scene) {
+    scene->center = aur_vector_scale(aur_vector_add(scene->lower, scene->upper), 0.5f);
+    const float radius = 0.5f * aur_vector_length(aur_vector_subtract(scene->upper, scene->lower));
+    scene->radius = radius > 0.0f ? 1.001f * radius : 1.0f;
+}
+
 static aur_result prepare_lights(aur_scene *scene, aur_error *error) {
     double *const powers = malloc((scene->emitter_count + 1) * sizeof *powers);
     if (powers == NULL)
@@ -13,8 +19,14 @@ static aur_result prepare_lights(aur_scene *scene, aur_error *error) {
         aur_emitter *const emitter = scene->emitters[i];
         result = emitter->descriptor->prepare(scene, emitter, error);
         powers[i] = emitter->power;
-        if (emitter->descriptor->radiance_from != NULL)
-            scene->environment = emitter;
+        if (emitter->descriptor->radiance_from == NULL)
+            continue;
+        if (scene->environment != NULL && result == AUR_OK)
+            result = aur_fail_at(error, emitter->location, AUR_ERROR_FORMAT,
+                                 "a second environment: the first is at %s:%zu:%zu",
+                                 scene->environment->location.file, scene->environment->location.line,
+                                 scene->environment->location.column);
+        scene->environment = emitter;
     }
     if (result == AUR_OK)
         result = aur_distribution_create(&scene->lights, scene->emitter_count, powers, error);
@@ -35,8 +47,10 @@ aur_result aur_scene_load(const char *path, const aur_scene_options *options, au
         result = aur_scene_build(made, options != NULL ? &options->warnings : NULL, error);
     if (result == AUR_OK)
         result = aur_scene_build_accel(made, error);
-    if (result == AUR_OK)
+    if (result == AUR_OK) {
+        find_sphere(made);
         result = prepare_lights(made, error);
+    }
     if (result != AUR_OK) {
         aur_scene_destroy(made);
         return result;
@@ -100,11 +114,12 @@ void aur_camera_ray(const aur_scene *scene, size_t width, size_t height, float x
     const aur_vector origin = to_world_direction(sensor->to_world, local.origin);
     ray->origin =
         aur_vector_add(origin, (aur_vector){sensor->to_world[3], sensor->to_world[7], sensor->to_world[11]});
-    /* The clip depths are along local z. */
-    const float depth = local.direction.z / aur_vector_length(local.direction);
-    ray->direction = aur_vector_normalize(to_world_direction(sensor->to_world, local.direction));
-    ray->nearest = sensor->near_clip / depth;
-    ray->farthest = sensor->far_clip / depth;
+    /* The clip depths are along local z; a scaled camera scales them. */
+    const aur_vector direction = to_world_direction(sensor->to_world, local.direction);
+    const float unit_depth = aur_vector_length(direction) / local.direction.z;
+    ray->direction = aur_vector_normalize(direction);
+    ray->nearest = sensor->near_clip * unit_depth;
+    ray->farthest = sensor->far_clip * unit_depth;
 }
 
 const aur_film *aur_scene_film(const aur_scene *scene) {

@@ -34,6 +34,8 @@ struct aur_scene {
     aur_embree_device device;
     aur_embree_scene accel;
     aur_vector lower, upper;
+    aur_vector center; /* of a sphere around the scene */
+    float radius;
 };
 
 /* Builds the objects of the document into the empty scene (loader.c). */

@@ -4,9 +4,13 @@
 #include <string.h>
 
 extern const aur_sensor_descriptor aur_sensor_perspective;
+extern const aur_sensor_descriptor aur_sensor_thinlens;
+extern const aur_sensor_descriptor aur_sensor_orthographic;
 
 static const aur_sensor_descriptor *const table[] = {
     &aur_sensor_perspective,
+    &aur_sensor_thinlens,
+    &aur_sensor_orthographic,
 };
 
 enum { TABLE_SIZE = sizeof table / sizeof table[0] };

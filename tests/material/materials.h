@@ -15,17 +15,34 @@ typedef struct material_row {
     int flags;
 } material_row;
 
-enum { NOT_RECIPROCAL = 1 };
+enum { NOT_RECIPROCAL = 1, NARROW = 2, WHITE = 4 };
 
 static const material_row material_rows[] = {
     {"diffuse:reflectance=0.7", NULL, 0},
     {"phong:exponent=0,diffuse_reflectance=0.1,specular_reflectance=0.6", NULL, 0},
     {"phong:exponent=7.5,diffuse_reflectance=0.3,specular_reflectance=0.5", NULL, 0},
-    {"phong:exponent=300,diffuse_reflectance=0,specular_reflectance=1", NULL, 0},
+    {"phong:exponent=300,diffuse_reflectance=0,specular_reflectance=1", NULL, NARROW},
     {"phong_lobe:exponent=20,diffuse_reflectance=0.4,specular_reflectance=0.6", NULL, NOT_RECIPROCAL},
-    {"phong_lobe:exponent=200,diffuse_reflectance=0,specular_reflectance=0.9", NULL, NOT_RECIPROCAL},
+    {"phong_lobe:exponent=200,diffuse_reflectance=0,specular_reflectance=0.9", NULL, NOT_RECIPROCAL | NARROW},
     {"twosided", "diffuse:reflectance=0.6", 0},
     {"twosided", "phong:exponent=12", 0},
+    {"conductor:material=Au", NULL, 0},
+    {"conductor", NULL, WHITE},
+    {"roughconductor:alpha=0.3,material=Cu", NULL, 0},
+    {"roughconductor:alpha=0.1,distribution=ggx,eta=-0.2,k=-3.9", NULL, NARROW},
+    {"roughconductor:alpha_u=0.4,alpha_v=0.15", NULL, 0},
+    {"roughconductor:alpha_u=0.15,alpha_v=0.5,distribution=ggx", NULL, 0},
+    {"twosided", "roughconductor:alpha=0.6", 0},
+    {"dielectric:int_ior=diamond", NULL, WHITE},
+    {"thindielectric", NULL, WHITE},
+    {"roughdielectric:alpha=0.3,int_ior=1.5,ext_ior=1", NULL, 0},
+    {"roughdielectric:alpha_u=0.2,alpha_v=0.5,int_ior=1.5,ext_ior=1,distribution=ggx", NULL, NARROW},
+    {"plastic:diffuse_reflectance=1,nonlinear=true", NULL, WHITE},
+    {"plastic:diffuse_reflectance=0.3", NULL, 0},
+    {"roughplastic:alpha=0.2,diffuse_reflectance=0.6,distribution=ggx", NULL, 0},
+    {"roughplastic:alpha=0.4,diffuse_reflectance=0.8,nonlinear=true", NULL, 0},
+    {"mask:opacity=0.25", "diffuse:reflectance=0.9", 0},
+    {"mask:opacity=0.7", "roughconductor:alpha=0.4", 0},
 };
 
 enum { MATERIAL_COUNT = sizeof material_rows / sizeof material_rows[0] };

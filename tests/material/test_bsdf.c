@@ -49,8 +49,7 @@ static void draws_by_the_density(void **state) {
         for (size_t v = 0; v < VIEW_COUNT && view_at(made.bsdf, v, &view); ++v) {
             double mass[CELL_COUNT], total = 0.0;
             size_t counts[CELL_COUNT] = {0}, drawn = 0;
-            integrate_pdf(made.bsdf, view, strstr(material_rows[m].text, "00") != NULL ? 3 * PARTS : PARTS,
-                          mass);
+            integrate_pdf(made.bsdf, view, material_rows[m].flags & NARROW ? 3 * PARTS : PARTS, mass);
             for (size_t i = 0; i < DRAWS; ++i) {
                 const float u[3] = {unit(v, 1, i), unit(v, 2, i), unit(v, 3, i)};
                 aur_bsdf_sample sample;
@@ -132,8 +131,13 @@ static void is_reciprocal(void **state) {
             }
             if (fabsf(a.z) < 1e-3f || fabsf(b.z) < 1e-3f)
                 continue;
-            const float there = made.bsdf->descriptor->evaluate(made.bsdf, point, a, b).x / fabsf(b.z);
-            const float back = made.bsdf->descriptor->evaluate(made.bsdf, point, b, a).x / fabsf(a.z);
+            /* Radiance over the squared index is what keeps its way: 1.5 below the surface. */
+            const bool glass = strncmp(material_rows[m].text, "roughdielectric", 15) == 0;
+            const float above = glass && a.z < 0.0f ? 2.25f : 1.0f,
+                        below = glass && b.z < 0.0f ? 2.25f : 1.0f;
+            const float there =
+                made.bsdf->descriptor->evaluate(made.bsdf, point, a, b).x / fabsf(b.z) / above;
+            const float back = made.bsdf->descriptor->evaluate(made.bsdf, point, b, a).x / fabsf(a.z) / below;
             assert_near(there, back, 2e-3 * fabs((double)there) + 1e-6);
         }
         drop_material(&made);
@@ -152,15 +156,18 @@ static void conserves_energy(void **state) {
             for (size_t i = 0; i < DRAWS; ++i) {
                 const float u[3] = {unit(v, 4, i), unit(v, 5, i), unit(v, 6, i)};
                 aur_bsdf_sample sample;
-                const double weight = made.bsdf->descriptor->sample(made.bsdf, point, view, u, &sample)
-                                          ? (double)sample.weight.x
-                                          : 0.0;
+                double weight = 0.0;
+                if (made.bsdf->descriptor->sample(made.bsdf, point, view, u, &sample))
+                    weight =
+                        (double)(sample.weight.x * (sample.ior_squared > 0.0f ? sample.ior_squared : 1.0f));
                 sum += weight;
                 squares += weight * weight;
             }
             const double mean = sum / DRAWS;
             const double sigma = sqrt(fmax(squares / DRAWS - mean * mean, 0.0) / DRAWS);
-            if (!(mean <= 1.0 + 5.0 * sigma + 1e-6))
+            if (material_rows[m].flags & WHITE && view.z > 0.0f)
+                assert_near(mean, 1.0, 5.0 * sigma + 2e-4);
+            if (!(mean <= 1.0 + 5.0 * sigma + 1e-5))
                 fail_msg("%s, view %zu: albedo %g +- %g", material_rows[m].text, v, mean, sigma);
         }
         drop_material(&made);
@@ -168,6 +175,8 @@ static void conserves_energy(void **state) {
 }
 
 static aur_vector lobe_value(const aur_bsdf_lobe *lobe, aur_vector light) {
+    if (lobe->shape == AUR_LOBE_SHAPE_SPECULAR)
+        return (aur_vector){0};
     const float cosine = aur_vector_dot(lobe->axis, light);
     const float power = cosine > 0.0f ? powf(cosine, lobe->exponent) : 0.0f;
     return aur_vector_scale(lobe->coefficient, power * (lobe->times_cosine ? fabsf(light.z) : 1.0f));
@@ -184,8 +193,13 @@ static void lobes_are_the_material(void **state) {
             aur_bsdf_lobe lobes[AUR_BSDF_LOBE_CAPACITY];
             const size_t count = made.bsdf->descriptor->lobes(made.bsdf, point, view, lobes);
             double diffuse = 0.0;
+            bool formula = true; /* every lobe has one */
+            for (size_t k = 0; k < count; ++k)
+                formula = formula && lobes[k].shape != AUR_LOBE_SHAPE_SAMPLED;
             for (size_t k = 0; k < count; ++k)
                 diffuse += lobes[k].diffuse ? AUR_PI * (double)lobes[k].coefficient.x : 0.0;
+            if (!formula)
+                continue;
             assert_near(diffuse, made.bsdf->descriptor->diffuse_albedo(made.bsdf, point, view.z).x, 1e-6);
             for (size_t i = 0; i < 300; ++i) {
                 const aur_vector light = aur_sample_sphere(unit(m, 1, i), unit(m, 2, i));

@@ -81,6 +81,51 @@ static void moves_and_clips(void **state) {
     aur_scene_destroy(scene);
 }
 
+static aur_scene *load_sensor(const char *sensor) {
+    char text[1024];
+    snprintf(text, sizeof text, "<scene version='3.0.0'><sensor type='%s</sensor></scene>", sensor);
+    aur_scene *scene;
+    aur_error error;
+    if (aur_scene_load(write_text("camera.xml", text), NULL, &scene, &error) != AUR_OK)
+        fail_msg("%s", error.message);
+    return scene;
+}
+
+/* Rays of one film point leave the disk of the aperture and meet in the plane of focus. */
+static void focuses(void **state) {
+    (void)state;
+    aur_scene *const scene = load_sensor("thinlens'><float name='fov' value='60'/>"
+                                         "<float name='aperture_radius' value='0.5'/>"
+                                         "<float name='focus_distance' value='4'/>");
+    double widest = 0.0;
+    for (size_t i = 0; i < 200; ++i) {
+        const float lens[2] = {aur_unit_float((uint32_t)(aur_hash2(1, i) >> 32)),
+                               aur_unit_float((uint32_t)(aur_hash2(2, i) >> 32))};
+        aur_ray ray;
+        aur_camera_ray(scene, 200, 100, 50.0f, 25.0f, lens, &ray);
+        const float t = (4.0f - ray.origin.z) / ray.direction.z;
+        assert_near(ray.origin.x + t * ray.direction.x, 4.0 * 0.28867513, 1e-5);
+        assert_near(ray.origin.y + t * ray.direction.y, 4.0 * 0.14433757, 1e-5);
+        assert_near(ray.origin.z, 0.0, 0.0);
+        widest = fmax(widest, hypot(ray.origin.x, ray.origin.y));
+    }
+    assert_true(widest <= 0.5 + 1e-6 && widest > 0.45);
+    aur_scene_destroy(scene);
+}
+
+static void sees_in_parallel(void **state) {
+    (void)state;
+    aur_scene *const scene = load_sensor("orthographic'><float name='near_clip' value='1'/>"
+                                         "<transform name='to_world'><scale value='3'/></transform>");
+    aur_ray ray;
+    aur_camera_ray(scene, 200, 100, 0.0f, 0.0f, (const float[2]){0, 0}, &ray);
+    assert_near(ray.origin.x, 3.0, 1e-6); /* +x is the left of the picture */
+    assert_near(ray.origin.y, 1.5, 1e-6);
+    assert_near(ray.direction.z, 1.0, 0.0);
+    assert_near(ray.nearest, 3.0, 1e-6);
+    aur_scene_destroy(scene);
+}
+
 /* Distribution functions of the filters, in their own units. */
 static double filter_mass(const char *name, double x) {
     if (strcmp(name, "box") == 0)
@@ -115,9 +160,9 @@ static void samples_filters(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(frames_the_picture),
-        cmocka_unit_test(moves_and_clips),
-        cmocka_unit_test(samples_filters),
+        cmocka_unit_test(frames_the_picture), cmocka_unit_test(moves_and_clips),
+        cmocka_unit_test(samples_filters),    cmocka_unit_test(focuses),
+        cmocka_unit_test(sees_in_parallel),
     };
     return cmocka_run_group_tests(tests, enter_folder, leave_folder);
 }

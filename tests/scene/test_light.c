@@ -39,14 +39,13 @@ static void compare_with_brute_force(const aur_scene *scene, aur_vector referenc
                 aur_scene_occluded(scene, &ray) ? 0.0 : (double)(sample.radiance.x / sample.pdf);
             direct[0] += value;
             direct[1] += value * value;
-            if (value > 0.0 && i % 16 == 0 && sample.distance < 1e5f &&
-                sample.pdf < 20.0f) { /* not grazing */
-                aur_ray onward = ray;
-                onward.farthest = INFINITY;
-                aur_hit hit;
+            aur_ray onward = ray;
+            onward.farthest = INFINITY;
+            aur_hit hit;
+            /* not grazing, and not beside a silhouette or beyond the scene */
+            if (value > 0.0 && i % 16 == 0 && sample.pdf < 20.0f &&
+                aur_scene_intersect(scene, &onward, &hit)) {
                 aur_surface surface;
-                if (!aur_scene_intersect(scene, &onward, &hit))
-                    continue; /* beside a silhouette, by rounding */
                 aur_scene_surface(scene, &onward, &hit, &surface);
                 assert_relative(aur_light_pdf_direct(scene, reference, &surface), sample.pdf, 4e-3);
                 assert_near(hit.distance, distance, 2e-3 * distance);
@@ -107,6 +106,174 @@ static void draws_on_curved_lights(void **state) {
                  rows[i].shape);
         aur_scene *const scene = must_load_body(body);
         compare_with_brute_force(scene, rows[i].reference);
+        aur_scene_destroy(scene);
+    }
+}
+
+/* A picture of a sky: a dim gradient with one bright texel, as PFM (the bottom row first). */
+static void write_sky(void) {
+    enum { WIDTH = 16, HEIGHT = 9 };
+    char file[64 + WIDTH * HEIGHT * 12];
+    int used = sprintf(file, "PF\n%d %d\n-1.0\n", WIDTH, HEIGHT);
+    for (size_t j = HEIGHT; j-- > 0;) {
+        for (size_t i = 0; i < WIDTH; ++i) {
+            const float value = i == 5 && j == 3 ? 40.0f : 0.1f + 0.05f * (float)j + 0.01f * (float)i;
+            const float rgb[3] = {value, value, 0.5f * value};
+            memcpy(file + used, rgb, sizeof rgb);
+            used += (int)sizeof rgb;
+        }
+    }
+    write_file("sky.pfm", file, (size_t)used);
+}
+
+static const char *const sky = "<emitter type='envmap'><string name='filename' value='sky.pfm'/>"
+                               "<float name='scale' value='2'/><transform name='to_world'>"
+                               "<rotate x='1' y='1' angle='50'/></transform></emitter>";
+
+static void draws_environments(void **state) {
+    (void)state;
+    write_sky();
+    static const char *const rest =
+        "<shape type='cube'><transform name='to_world'><translate x='2.5'/></transform></shape>"
+        "<shape type='sphere'><point name='center' x='0' y='4' z='0'/><emitter type='area'/></shape>";
+    for (size_t i = 0; i < 2; ++i) {
+        char body[2048];
+        snprintf(body, sizeof body, "%s%s",
+                 i == 0 ? "<emitter type='constant'><rgb name='radiance' value='0.5 1 1'/></emitter>" : sky,
+                 rest);
+        aur_scene *const scene = must_load_body(body);
+        assert_true(aur_scene_has_environment(scene));
+        compare_with_brute_force(scene, (aur_vector){0.0f, 0.5f, 0.25f});
+        /* asking says what drawing says */
+        for (size_t k = 0; k < 3000; ++k) {
+            const float u[3] = {unit(1, k), unit(2, k), unit(3, k)};
+            aur_light_sample sample;
+            if (!aur_light_sample_direct(scene, (aur_vector){0}, u, &sample) || sample.distance < 5.5f)
+                continue; /* the sphere */
+            assert_near(sample.pdf, aur_environment_pdf_direct(scene, sample.direction), 1e-6 * sample.pdf);
+            assert_near(sample.radiance.y, aur_scene_environment(scene, sample.direction).y, 1e-6);
+        }
+        aur_scene_destroy(scene);
+    }
+}
+
+/* The picture's middle row seen along -z is its left edge, and along +x a quarter further. */
+static void turns_environments(void **state) {
+    (void)state;
+    write_sky();
+    aur_scene *const scene = must_load_body(
+        "<emitter type='envmap'><string name='filename' value='sky.pfm'/></emitter><shape type='cube'/>");
+    /* row 4 of 9: 0.1 + 0.2; between texels 15 and 0 of 16, and between 3 and 4 */
+    assert_near(aur_scene_environment(scene, (aur_vector){0, 0, -1}).x, 0.3 + 0.075, 1e-5);
+    assert_near(aur_scene_environment(scene, (aur_vector){1, 0, 0}).x, 0.3 + 0.035, 1e-5);
+    assert_near(aur_scene_environment(scene, (aur_vector){-1, 0, 0}).x, 0.3 + 0.115, 1e-5);
+    assert_near(aur_scene_environment(scene, (aur_vector){0, 1, 0}).x, 0.1 + 0.075, 0.01);
+    assert_near(aur_scene_environment(scene, (aur_vector){0, -1, 0}).x, 0.5 + 0.075, 0.01);
+    aur_scene_destroy(scene);
+}
+
+static void shines_from_points(void **state) {
+    (void)state;
+    static const struct {
+        const char *emitter;
+        aur_vector reference, direction;
+        double irradiance; /* radiance / pdf of the one light */
+    } rows[] = {
+        {"point'><point name='position' x='1' y='2' z='3'/><float name='intensity' value='8'/>",
+         {1, 2, 1},
+         {0, 0, 1},
+         2.0},
+        {"spot'><float name='intensity' value='8'/><float name='cutoff_angle' value='30'/>"
+         "<float name='beam_width' value='10'/><transform name='to_world'><translate y='3'/></transform>",
+         {0, 3, 2},
+         {0, 0, -1},
+         2.0},
+        /* 20 degrees aside: half-way between full and nothing */
+        {"spot'><float name='intensity' value='8'/><float name='cutoff_angle' value='30'/>"
+         "<float name='beam_width' value='10'/>",
+         {0.68404029f, 0, 1.8793852f},
+         {-0.34202014f, 0, -0.93969262f},
+         1.0},
+        {"directional'><vector name='direction' x='0' y='-2' z='0'/><float name='irradiance' value='3'/>",
+         {5, 3, 2},
+         {0, 1, 0},
+         3.0},
+        {"directional'><transform name='to_world'><lookat origin='1 0 0' target='0 0 0' up='0 1 "
+         "0'/></transform>",
+         {0, 0, 0},
+         {1, 0, 0},
+         1.0},
+    };
+    for (size_t i = 0; i < sizeof rows / sizeof rows[0]; ++i) {
+        char body[512];
+        snprintf(body, sizeof body, "<emitter type='%s</emitter><shape type='cube'/>", rows[i].emitter);
+        aur_scene *const scene = must_load_body(body);
+        aur_light_sample sample;
+        assert_true(
+            aur_light_sample_direct(scene, rows[i].reference, (const float[3]){0.3f, 0.4f, 0.5f}, &sample));
+        assert_true(sample.delta);
+        assert_near(aur_vector_dot(sample.direction, rows[i].direction), 1.0, 1e-6);
+        assert_near(sample.radiance.x / sample.pdf, rows[i].irradiance, 1e-5);
+        aur_scene_destroy(scene);
+    }
+    aur_scene *const dark = must_load_body("<emitter type='spot'/><shape type='cube'/>");
+    aur_light_sample sample;
+    assert_false(aur_light_sample_direct(dark, (aur_vector){0, 1, 1}, (const float[3]){0, 0, 0}, &sample));
+    aur_scene_destroy(dark);
+}
+
+/* The mean power of particles is what a light gives: in closed form for each kind. The scene is a unit cube,
+ * around which the sphere has radius sqrt 3 (and a thousandth). */
+static void particles_of_every_light(void **state) {
+    (void)state;
+    write_sky();
+    const double disk = AUR_PI * 3.0 * 1.001 * 1.001;
+    const double beam = cos(10.0 * AUR_PI / 180.0);
+    /* falloff times solid angle: 2 pi (integral of (cut - a) sin a da over 10..30 degrees) / 20 degrees + the
+     * beam */
+    const double width = 20.0 * AUR_PI / 180.0;
+    const double edge = width * beam - (sin(30.0 * AUR_PI / 180.0) - sin(10.0 * AUR_PI / 180.0));
+    double sky_mean = 0.0; /* integral of the sky over directions, by fine midpoints */
+    aur_scene *const under = must_load_body("<emitter type='envmap'><string name='filename' value='sky.pfm'/>"
+                                            "</emitter><shape type='cube'/>");
+    for (size_t i = 0; i < 1000; ++i)
+        for (size_t j = 0; j < 1000; ++j)
+            sky_mean += (double)aur_scene_environment(under, aur_sample_sphere(((float)i + 0.5f) / 1000.0f,
+                                                                               ((float)j + 0.5f) / 1000.0f))
+                            .x *
+                        4e-6 * AUR_PI;
+    aur_scene_destroy(under);
+    const struct {
+        const char *emitter;
+        double power;
+    } rows[] = {
+        {"<emitter type='point'><float name='intensity' value='2'/></emitter>", 8.0 * AUR_PI},
+        {"<emitter type='spot'><float name='cutoff_angle' value='30'/><float name='beam_width' "
+         "value='10'/></emitter>",
+         2.0 * AUR_PI * (1.0 - beam + edge / width)},
+        {"<emitter type='directional'><float name='irradiance' value='2'/></emitter>", 2.0 * disk},
+        {"<emitter type='constant'><float name='radiance' value='2'/></emitter>", 2.0 * 4.0 * AUR_PI * disk},
+        {"<emitter type='envmap'><string name='filename' value='sky.pfm'/></emitter>", sky_mean * disk},
+    };
+    for (size_t i = 0; i < sizeof rows / sizeof rows[0]; ++i) {
+        char body[512];
+        snprintf(body, sizeof body, "%s<shape type='cube'/>", rows[i].emitter);
+        aur_scene *const scene = must_load_body(body);
+        double sum = 0.0, squares = 0.0;
+        enum { COUNT = 50000 };
+        for (size_t k = 0; k < COUNT; ++k) {
+            const float u[5] = {unit(1, k), unit(2, k), unit(3, k), unit(4, k), unit(5, k)};
+            aur_ray ray;
+            aur_vector power;
+            if (!aur_light_emit(scene, u, &ray, &power))
+                continue;
+            assert_near(aur_vector_length(ray.direction), 1.0, 1e-5);
+            sum += (double)power.x;
+            squares += (double)power.x * (double)power.x;
+        }
+        const double mean = sum / COUNT;
+        const double sigma = sqrt(fmax(squares / COUNT - mean * mean, 0.0) / COUNT);
+        assert_near(mean, rows[i].power, 5.0 * sigma + 1e-4 * mean);
         aur_scene_destroy(scene);
     }
 }
@@ -209,7 +376,9 @@ static void closed_rooms_stay_closed(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(draws_what_it_says),          cmocka_unit_test(draws_on_curved_lights),
+        cmocka_unit_test(draws_what_it_says),          cmocka_unit_test(draws_environments),
+        cmocka_unit_test(turns_environments),          cmocka_unit_test(shines_from_points),
+        cmocka_unit_test(particles_of_every_light),    cmocka_unit_test(draws_on_curved_lights),
         cmocka_unit_test(particles_carry_the_power),   cmocka_unit_test(emits_on_one_side),
         cmocka_unit_test(refuses_lights_without_area), cmocka_unit_test(closed_rooms_stay_closed),
     };

@@ -1,0 +1,137 @@
+/* Metals: a smooth mirror, and one made rough by tiny facets. */
+#include "material/fresnel.h"
+#include "material/microfacet.h"
+#include "material/sampling.h"
+#include "material/texture.h"
+
+typedef struct conductor {
+    aur_color reflectance;
+    aur_vector eta, k;
+    bool perfect; /* reflects all */
+    aur_microfacet microfacet;
+} conductor;
+
+static aur_result create_smooth(aur_parameters *parameters, aur_bsdf *bsdf, aur_error *error) {
+    aur_result result = aur_bsdf_allocate(parameters, bsdf, sizeof(conductor), error);
+    if (result != AUR_OK)
+        return result;
+    conductor *const self = bsdf->data;
+    self->reflectance.constant = (aur_vector){1.0f, 1.0f, 1.0f};
+    result = aur_parameters_conductor(parameters, &self->eta, &self->k, &self->perfect, error);
+    if (result == AUR_OK)
+        result = aur_parameters_color(parameters, "specular_reflectance", 1.0, &self->reflectance, error);
+    return result;
+}
+
+static aur_result create_rough(aur_parameters *parameters, aur_bsdf *bsdf, aur_error *error) {
+    aur_result result = create_smooth(parameters, bsdf, error);
+    if (result != AUR_OK)
+        return result;
+    conductor *const self = bsdf->data;
+    result = aur_parameters_microfacet(parameters, &self->microfacet, error);
+    bsdf->anisotropic = self->microfacet.alpha_u != self->microfacet.alpha_v;
+    return result;
+}
+
+static aur_vector reflectance(const conductor *self, aur_bsdf_point point, float cosine) {
+    const aur_vector color = aur_color_at(&self->reflectance, point);
+    return self->perfect ? color
+                         : aur_vector_multiply(color, aur_fresnel_conductor(cosine, self->eta, self->k));
+}
+
+/* --- smooth */
+
+static bool sample_smooth(const aur_bsdf *bsdf, aur_bsdf_point point, aur_vector view, const float u[3],
+                          aur_bsdf_sample *drawn) {
+    (void)u;
+    if (view.z <= 0.0f)
+        return false;
+    *drawn = (aur_bsdf_sample){
+        .light = aur_mirror(view), .weight = reflectance(bsdf->data, point, view.z), .specular = true};
+    return true;
+}
+
+static size_t lobes_smooth(const aur_bsdf *bsdf, aur_bsdf_point point, aur_vector view, aur_bsdf_lobe *lobe) {
+    if (view.z <= 0.0f)
+        return 0;
+    lobe[0] = (aur_bsdf_lobe){.shape = AUR_LOBE_SHAPE_SPECULAR,
+                              .axis = aur_mirror(view),
+                              .coefficient = reflectance(bsdf->data, point, view.z)};
+    return 1;
+}
+
+const aur_bsdf_descriptor aur_bsdf_conductor = {
+    .name = "conductor",
+    .summary = "a smooth metal mirror",
+    .source = "Fresnel 1823",
+    .create = create_smooth,
+    .release = aur_bsdf_release_data,
+    .evaluate = aur_bsdf_evaluate_none,
+    .pdf = aur_bsdf_pdf_none,
+    .sample = sample_smooth,
+    .lobes = lobes_smooth,
+    .diffuse_albedo = aur_bsdf_albedo_none,
+};
+
+/* --- rough */
+
+static aur_vector evaluate_rough(const aur_bsdf *bsdf, aur_bsdf_point point, aur_vector view,
+                                 aur_vector light) {
+    const conductor *const self = bsdf->data;
+    if (view.z <= 0.0f || light.z <= 0.0f)
+        return (aur_vector){0};
+    const aur_vector normal = aur_vector_normalize(aur_vector_add(view, light));
+    const float value = aur_microfacet_density(&self->microfacet, normal) *
+                        aur_microfacet_masking(&self->microfacet, view, normal) *
+                        aur_microfacet_masking(&self->microfacet, light, normal) / (4.0f * view.z);
+    return aur_vector_scale(reflectance(self, point, aur_vector_dot(view, normal)), value);
+}
+
+static float pdf_rough(const aur_bsdf *bsdf, aur_bsdf_point point, aur_vector view, aur_vector light) {
+    (void)point;
+    const conductor *const self = bsdf->data;
+    if (view.z <= 0.0f || light.z <= 0.0f)
+        return 0.0f;
+    const aur_vector normal = aur_vector_normalize(aur_vector_add(view, light));
+    return aur_microfacet_pdf(&self->microfacet, view, normal) / (4.0f * aur_vector_dot(view, normal));
+}
+
+static bool sample_rough(const aur_bsdf *bsdf, aur_bsdf_point point, aur_vector view, const float u[3],
+                         aur_bsdf_sample *drawn) {
+    const conductor *const self = bsdf->data;
+    if (view.z <= 0.0f)
+        return false;
+    const aur_vector normal = aur_microfacet_sample(&self->microfacet, view, u[1], u[2]);
+    const float cosine = aur_vector_dot(view, normal);
+    const aur_vector light = aur_vector_add_scaled(aur_vector_scale(view, -1.0f), 2.0f * cosine, normal);
+    if (!(cosine > 0.0f) || !(light.z > 0.0f))
+        return false;
+    *drawn = (aur_bsdf_sample){.light = light,
+                               .weight =
+                                   aur_vector_scale(reflectance(self, point, cosine),
+                                                    aur_microfacet_masking(&self->microfacet, light, normal)),
+                               .pdf = aur_microfacet_pdf(&self->microfacet, view, normal) / (4.0f * cosine)};
+    return drawn->pdf > 0.0f;
+}
+
+static size_t lobes_rough(const aur_bsdf *bsdf, aur_bsdf_point point, aur_vector view, aur_bsdf_lobe *lobe) {
+    (void)bsdf;
+    (void)point;
+    if (view.z <= 0.0f)
+        return 0;
+    lobe[0] = (aur_bsdf_lobe){.shape = AUR_LOBE_SHAPE_SAMPLED, .axis = aur_mirror(view)};
+    return 1;
+}
+
+const aur_bsdf_descriptor aur_bsdf_roughconductor = {
+    .name = "roughconductor",
+    .summary = "a rough metal: beckmann or ggx facets",
+    .source = "Walter et al. 2007",
+    .create = create_rough,
+    .release = aur_bsdf_release_data,
+    .evaluate = evaluate_rough,
+    .pdf = pdf_rough,
+    .sample = sample_rough,
+    .lobes = lobes_rough,
+    .diffuse_albedo = aur_bsdf_albedo_none,
+};

@@ -1,0 +1,111 @@
+#include "material/microfacet.h"
+
+#include "material/erf.h"
+#include "material/sampling.h"
+
+aur_result aur_parameters_microfacet(aur_parameters *parameters, aur_microfacet *microfacet,
+                                     aur_error *error) {
+    static const char *const names[] = {"beckmann", "ggx"};
+    size_t distribution = 0;
+    double alpha = 0.1;
+    bool visible = true;
+    aur_result result = aur_parameters_choice(parameters, "distribution", 2, names, &distribution, error);
+    if (result == AUR_OK)
+        result = aur_parameters_boolean(parameters, "sample_visible", &visible, error);
+    if (result == AUR_OK)
+        result = aur_parameters_float(parameters, "alpha", 1e-4, 10.0, &alpha, error);
+    double alpha_u = alpha, alpha_v = alpha;
+    if (result == AUR_OK)
+        result = aur_parameters_float(parameters, "alpha_u", 1e-4, 10.0, &alpha_u, error);
+    if (result == AUR_OK)
+        result = aur_parameters_float(parameters, "alpha_v", 1e-4, 10.0, &alpha_v, error);
+    *microfacet = (aur_microfacet){distribution == 0, (float)alpha_u, (float)alpha_v};
+    return result;
+}
+
+float aur_microfacet_density(const aur_microfacet *microfacet, aur_vector normal) {
+    if (normal.z <= 0.0f)
+        return 0.0f;
+    const float x = normal.x / microfacet->alpha_u, y = normal.y / microfacet->alpha_v;
+    const float area = AUR_PI_F * microfacet->alpha_u * microfacet->alpha_v;
+    const float z2 = normal.z * normal.z;
+    if (microfacet->beckmann)
+        return expf(-(x * x + y * y) / z2) / (area * z2 * z2);
+    const float sum = x * x + y * y + z2;
+    return 1.0f / (area * sum * sum);
+}
+
+/* Smith's Lambda, exact for both. */
+static float lambda(const aur_microfacet *microfacet, aur_vector direction) {
+    const float x = direction.x * microfacet->alpha_u, y = direction.y * microfacet->alpha_v;
+    const float tangent2 = (x * x + y * y) / (direction.z * direction.z); /* (alpha tan)^2 */
+    if (!(tangent2 > 0.0f))
+        return 0.0f;
+    if (!microfacet->beckmann)
+        return 0.5f * (sqrtf(1.0f + tangent2) - 1.0f);
+    const float a = 1.0f / sqrtf(tangent2);
+    /* 0.564 = 1 / sqrt pi */
+    return fmaxf(0.5f * (0.56418958f * expf(-a * a) / a - erfcf(a)), 0.0f);
+}
+
+float aur_microfacet_masking(const aur_microfacet *microfacet, aur_vector direction, aur_vector normal) {
+    if (aur_vector_dot(direction, normal) * direction.z <= 0.0f)
+        return 0.0f;
+    return 1.0f / (1.0f + lambda(microfacet, direction));
+}
+
+float aur_microfacet_pdf(const aur_microfacet *microfacet, aur_vector view, aur_vector normal) {
+    return aur_microfacet_density(microfacet, normal) * aur_microfacet_masking(microfacet, view, normal) *
+           fmaxf(aur_vector_dot(view, normal), 0.0f) / view.z;
+}
+
+/* Visible normals of the hemisphere: half vectors of a spherical cap (Dupuy and Benyoub 2023). */
+static aur_vector sample_ggx(aur_vector view, float u, float v) {
+    const float z = (1.0f - v) * (1.0f + view.z) - view.z;
+    return aur_vector_add(aur_direction_at(z, u), view);
+}
+
+/* The slope along the view's azimuth, for roughness 1 (Heitz and d'Eon 2014): the root x of C(x) = u C(cot)
+ * with C(x) = sqrt(pi) cos (1 + erf x) + sin exp(-x^2), by Newton's method kept in a shrinking interval. */
+static float sample_visible_slope(float cosine, float sine, float u) {
+    const double root_pi = 1.7724538509055160;
+    const double c = cosine, s = sine;
+    double high = s > 1e-7 ? fmin(c / s, 6.0) : 6.0;
+    double low = -6.0;
+    const double target = (double)u * (root_pi * c * (1.0 + erf(high)) + s * exp(-high * high));
+    double x = fmin((double)aur_inverse_erf(fminf(fmaxf(2.0f * u - 1.0f, -0.99999f), 0.99999f)), high);
+    for (size_t i = 0; i < 40; ++i) {
+        const double gauss = exp(-x * x);
+        const double value = root_pi * c * (1.0 + erf(x)) + s * gauss - target;
+        if (value > 0.0)
+            high = x;
+        else
+            low = x;
+        const double slope = 2.0 * (c - x * s) * gauss;
+        double next = x - value / slope;
+        if (!(next > low) || !(next < high))
+            next = 0.5 * (low + high);
+        if (fabs(next - x) < 1e-7)
+            return (float)next;
+        x = next;
+    }
+    return (float)x;
+}
+
+static aur_vector sample_beckmann(aur_vector view, float u, float v) {
+    const float sine = sqrtf(view.x * view.x + view.y * view.y);
+    const float along = sample_visible_slope(view.z, sine, u);
+    const float across = aur_inverse_erf(fminf(fmaxf(2.0f * v - 1.0f, -0.999999f), 0.999999f));
+    const float x = sine > 0.0f ? view.x / sine : 1.0f;
+    const float y = sine > 0.0f ? view.y / sine : 0.0f;
+    return (aur_vector){-(x * along - y * across), -(y * along + x * across), 1.0f};
+}
+
+aur_vector aur_microfacet_sample(const aur_microfacet *microfacet, aur_vector view, float u, float v) {
+    const float a = microfacet->alpha_u, b = microfacet->alpha_v;
+    /* Stretched, every ellipsoid is a hemisphere. */
+    const aur_vector stretched = aur_vector_normalize((aur_vector){view.x * a, view.y * b, view.z});
+    const aur_vector normal =
+        microfacet->beckmann ? sample_beckmann(stretched, u, v) : sample_ggx(stretched, u, v);
+    return aur_vector_normalize((aur_vector){normal.x * a, normal.y * b, fmaxf(normal.z, 1e-7f)});
+}

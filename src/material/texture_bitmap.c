@@ -1,0 +1,159 @@
+/* A picture; (0, 0) is its top left corner and (1, 1) its bottom right one. */
+#include <aureole/image.h>
+
+#include <stdlib.h>
+#include <string.h>
+#include <strings.h>
+
+#include "material/texture.h"
+
+typedef enum wrap_mode { WRAP_REPEAT, WRAP_MIRROR, WRAP_CLAMP } wrap_mode;
+
+typedef struct bitmap {
+    size_t width, height;
+    float *rgb; /* 3 * width * height */
+    bool nearest;
+    wrap_mode wrap;
+    aur_uv_map to_uv;
+} bitmap;
+
+/* What sRGB stores for a linear value: undoes the reader's decoding for `raw` pictures of 8 bits. */
+static float encode(float linear) {
+    return linear <= 0.0031308f ? 12.92f * linear : 1.055f * powf(linear, 1.0f / 2.4f) - 0.055f;
+}
+
+static bool has_8_bits(const char *path) {
+    static const char *const endings[] = {".png", ".jpg", ".jpeg", ".bmp", ".tga"};
+    const char *const dot = strrchr(path, '.');
+    for (size_t i = 0; dot != NULL && i < sizeof endings / sizeof endings[0]; ++i)
+        if (strcasecmp(dot, endings[i]) == 0)
+            return true;
+    return false;
+}
+
+static size_t find_channel(const aur_image *image, const char *name, size_t otherwise) {
+    for (size_t i = 0; i < image->channel_count; ++i)
+        if (strcmp(image->channel_names[i], name) == 0)
+            return i;
+    return otherwise;
+}
+
+aur_result aur_read_rgb(const char *path, aur_location location, size_t *width, size_t *height, float **rgb,
+                        aur_error *error) {
+    aur_image *image;
+    aur_result result = aur_image_read(path, &image, error);
+    if (result != AUR_OK)
+        return result;
+    const size_t grey = find_channel(image, "Y", 0);
+    const size_t channel[3] = {find_channel(image, "R", grey), find_channel(image, "G", grey),
+                               find_channel(image, "B", grey)};
+    const size_t count = image->width * image->height;
+    *width = image->width;
+    *height = image->height;
+    *rgb = malloc((3 * count + 1) * sizeof **rgb);
+    if (*rgb == NULL)
+        result = aur_fail_at(error, location, AUR_ERROR_MEMORY, "out of memory");
+    for (size_t i = 0; result == AUR_OK && i < count; ++i) {
+        for (size_t k = 0; k < 3; ++k) {
+            const float value = image->data[i * image->channel_count + channel[k]];
+            (*rgb)[3 * i + k] = isfinite(value) && value > 0.0f ? value : 0.0f;
+        }
+    }
+    aur_image_destroy(image);
+    return result;
+}
+
+static void note_range(aur_texture *texture, const bitmap *self) {
+    double sum[3] = {0.0, 0.0, 0.0};
+    const size_t count = self->width * self->height;
+    for (size_t i = 0; i < 3 * count; ++i) {
+        sum[i % 3] += (double)self->rgb[i];
+        texture->maximum = fmaxf(texture->maximum, self->rgb[i]);
+    }
+    const double n = (double)count;
+    texture->mean = (aur_vector){(float)(sum[0] / n), (float)(sum[1] / n), (float)(sum[2] / n)};
+}
+
+static aur_result create(aur_parameters *parameters, aur_texture *texture, aur_error *error) {
+    static const char *const filters[] = {"bilinear", "nearest"};
+    static const char *const wraps[] = {"repeat", "mirror", "clamp"};
+    bitmap *const self = calloc(1, sizeof *self);
+    texture->data = self;
+    if (self == NULL)
+        return aur_fail_at(error, parameters->location, AUR_ERROR_MEMORY, "out of memory");
+    size_t filter = 0, wrap = 0;
+    bool raw = false;
+    const char *path = NULL;
+    aur_result result = aur_parameters_choice(parameters, "filter_type", 2, filters, &filter, error);
+    if (result == AUR_OK)
+        result = aur_parameters_choice(parameters, "wrap_mode", 3, wraps, &wrap, error);
+    if (result == AUR_OK)
+        result = aur_parameters_boolean(parameters, "raw", &raw, error);
+    if (result == AUR_OK)
+        result = aur_parameters_uv_map(parameters, &self->to_uv, error);
+    if (result == AUR_OK)
+        result = aur_parameters_string(parameters, "filename", &path, error);
+    if (result != AUR_OK)
+        return result;
+    if (path == NULL)
+        return aur_fail_at(error, parameters->location, AUR_ERROR_FORMAT,
+                           "texture 'bitmap' needs the string 'filename'");
+    self->nearest = filter == 1;
+    self->wrap = (wrap_mode)wrap;
+    result = aur_read_rgb(path, parameters->location, &self->width, &self->height, &self->rgb, error);
+    if (result != AUR_OK)
+        return result;
+    for (size_t i = 0; raw && has_8_bits(path) && i < 3 * self->width * self->height; ++i)
+        self->rgb[i] = encode(self->rgb[i]);
+    note_range(texture, self);
+    return AUR_OK;
+}
+
+static void release(aur_texture *texture) {
+    bitmap *const self = texture->data;
+    free(self->rgb);
+    free(self);
+}
+
+static size_t wrapped(int64_t index, size_t size, wrap_mode mode) {
+    const int64_t n = (int64_t)size;
+    if (mode == WRAP_CLAMP)
+        return (size_t)(index < 0 ? 0 : index < n ? index : n - 1);
+    const int64_t period = mode == WRAP_MIRROR ? 2 * n : n;
+    int64_t rest = index % period;
+    if (rest < 0)
+        rest += period;
+    return (size_t)(rest < n ? rest : period - 1 - rest);
+}
+
+static aur_vector texel(const bitmap *self, int64_t x, int64_t y) {
+    const float *const rgb = &self->rgb[3 * (wrapped(y, self->height, self->wrap) * self->width +
+                                             wrapped(x, self->width, self->wrap))];
+    return (aur_vector){rgb[0], rgb[1], rgb[2]};
+}
+
+static aur_vector evaluate(const aur_texture *texture, float u, float v) {
+    const bitmap *const self = texture->data;
+    const aur_bsdf_point at = aur_uv_map_apply(&self->to_uv, u, v);
+    const float offset = self->nearest ? 0.0f : 0.5f;
+    const float x = at.u * (float)self->width - offset, y = at.v * (float)self->height - offset;
+    if (!(fabsf(x) < 1e15f) || !(fabsf(y) < 1e15f))
+        return (aur_vector){0};
+    const float left = floorf(x), top = floorf(y);
+    const int64_t i = (int64_t)left, j = (int64_t)top;
+    if (self->nearest)
+        return texel(self, i, j);
+    const float s = x - left, t = y - top;
+    aur_vector sum = aur_vector_scale(texel(self, i, j), (1.0f - s) * (1.0f - t));
+    sum = aur_vector_add_scaled(sum, s * (1.0f - t), texel(self, i + 1, j));
+    sum = aur_vector_add_scaled(sum, (1.0f - s) * t, texel(self, i, j + 1));
+    return aur_vector_add_scaled(sum, s * t, texel(self, i + 1, j + 1));
+}
+
+const aur_texture_descriptor aur_texture_bitmap = {
+    .name = "bitmap",
+    .summary = "a picture from an EXR, PFM, HDR, PNG or JPEG file",
+    .create = create,
+    .release = release,
+    .evaluate = evaluate,
+};

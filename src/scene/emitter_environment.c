@@ -1,0 +1,269 @@
+/* Light from beyond the scene: the same from everywhere, or from a picture. */
+#include <stdlib.h>
+
+#include "material/sampling.h"
+#include "scene/emitter.h"
+#include "scene/scene_data.h"
+
+void aur_sample_far(const aur_scene *scene, aur_vector reference, aur_vector direction,
+                    aur_light_sample *drawn) {
+    const aur_vector way = aur_vector_subtract(scene->center, reference);
+    drawn->direction = direction;
+    drawn->distance = aur_vector_length(way) + 2.0f * scene->radius;
+    drawn->position = aur_vector_add_scaled(reference, drawn->distance, direction);
+    drawn->normal = aur_vector_scale(direction, -1.0f);
+}
+
+aur_ray aur_emit_far(const aur_scene *scene, aur_vector direction, float u, float v) {
+    const aur_frame frame = aur_frame_about(direction);
+    float x, y;
+    aur_sample_disk(u, v, &x, &y);
+    aur_vector origin = aur_vector_add_scaled(scene->center, scene->radius, direction);
+    origin = aur_vector_add_scaled(origin, scene->radius * x, frame.x);
+    origin = aur_vector_add_scaled(origin, scene->radius * y, frame.y);
+    return (aur_ray){origin, 0.0f, aur_vector_scale(direction, -1.0f), INFINITY};
+}
+
+/* --- constant */
+
+static aur_result create_constant(aur_parameters *parameters, aur_emitter *emitter, aur_error *error) {
+    emitter->radiance.constant = (aur_vector){1.0f, 1.0f, 1.0f};
+    const aur_result result = aur_parameters_color(parameters, "radiance", 1e30, &emitter->radiance, error);
+    if (result == AUR_OK && emitter->radiance.texture != NULL)
+        return aur_fail_at(error, parameters->location, AUR_ERROR_UNSUPPORTED,
+                           "emitter 'constant': 'radiance' cannot be a texture; use an envmap");
+    return result;
+}
+
+static aur_result prepare_constant(const aur_scene *scene, aur_emitter *emitter, aur_error *error) {
+    (void)error;
+    const double radius = scene->radius;
+    emitter->power =
+        4.0 * AUR_PI * AUR_PI * radius * radius * (double)aur_luminance(emitter->radiance.constant);
+    return AUR_OK;
+}
+
+static aur_vector constant_from(const aur_emitter *emitter, aur_vector direction) {
+    (void)direction;
+    return emitter->radiance.constant;
+}
+
+static float constant_pdf(const aur_emitter *emitter, aur_vector direction) {
+    (void)emitter;
+    (void)direction;
+    return 0.25f / AUR_PI_F;
+}
+
+static bool sample_constant(const aur_scene *scene, const aur_emitter *emitter, aur_vector reference,
+                            const float u[3], aur_light_sample *drawn) {
+    aur_sample_far(scene, reference, aur_sample_sphere(u[1], u[2]), drawn);
+    drawn->radiance = emitter->radiance.constant;
+    drawn->pdf = 0.25f / AUR_PI_F;
+    return true;
+}
+
+static bool emit_constant(const aur_scene *scene, const aur_emitter *emitter, const float u[5], aur_ray *ray,
+                          aur_vector *power) {
+    *ray = aur_emit_far(scene, aur_sample_sphere(u[1], u[2]), u[3], u[4]);
+    *power = aur_vector_scale(emitter->radiance.constant,
+                              4.0f * AUR_PI_F * AUR_PI_F * scene->radius * scene->radius);
+    return true;
+}
+
+const aur_emitter_descriptor aur_emitter_constant = {
+    .name = "constant",
+    .summary = "the same radiance from everywhere",
+    .create = create_constant,
+    .prepare = prepare_constant,
+    .sample = sample_constant,
+    .emit = emit_constant,
+    .radiance_from = constant_from,
+    .pdf_from = constant_pdf,
+};
+
+/* --- envmap */
+
+/* A latitude-longitude picture, +y up. Its values stand at azimuths (i + 1/2) / width and, from pole to pole,
+ * at polar angles j / (height - 1), and are interpolated between: `cells` is how bright each patch between
+ * four of them is. */
+typedef struct envmap {
+    size_t width, height;
+    float *rgb;
+    aur_frame frame; /* the world's directions of the picture's axes */
+    aur_distribution rows;
+    aur_distribution *cells; /* one for each row of patches: height - 1 of them */
+} envmap;
+
+static void release_envmap(aur_emitter *emitter) {
+    envmap *const self = emitter->data;
+    for (size_t i = 0; self->cells != NULL && i + 1 < self->height; ++i)
+        aur_distribution_release(&self->cells[i]);
+    free(self->cells);
+    aur_distribution_release(&self->rows);
+    free(self->rgb);
+    free(self);
+}
+
+static aur_result read_picture(aur_parameters *parameters, envmap *self, aur_error *error) {
+    const char *path = NULL;
+    double scale = 1.0;
+    aur_result result = aur_parameters_string(parameters, "filename", &path, error);
+    if (result == AUR_OK)
+        result = aur_parameters_float(parameters, "scale", 0.0, 1e30, &scale, error);
+    if (result != AUR_OK)
+        return result;
+    if (path == NULL)
+        return aur_fail_at(error, parameters->location, AUR_ERROR_FORMAT,
+                           "emitter 'envmap' needs the string 'filename'");
+    result = aur_read_rgb(path, parameters->location, &self->width, &self->height, &self->rgb, error);
+    if (result == AUR_OK && (self->width < 2 || self->height < 2))
+        return aur_fail_at(error, parameters->location, AUR_ERROR_FORMAT,
+                           "emitter 'envmap': the picture must be at least 2 x 2");
+    for (size_t i = 0; result == AUR_OK && i < 3 * self->width * self->height; ++i)
+        self->rgb[i] *= (float)scale;
+    return result;
+}
+
+static aur_result create_envmap(aur_parameters *parameters, aur_emitter *emitter, aur_error *error) {
+    envmap *const self = calloc(1, sizeof *self);
+    emitter->data = self;
+    if (self == NULL)
+        return aur_fail_at(error, parameters->location, AUR_ERROR_MEMORY, "out of memory");
+    aur_transform to_world = aur_transform_identity();
+    aur_result result = aur_parameters_transform(parameters, "to_world", to_world.m, error);
+    if (result == AUR_OK)
+        result = read_picture(parameters, self, error);
+    if (result != AUR_OK)
+        return result;
+    aur_vector *const axes[3] = {&self->frame.x, &self->frame.y, &self->frame.z};
+    for (size_t i = 0; i < 3; ++i)
+        *axes[i] =
+            aur_vector_normalize(aur_transform_direction_f(&to_world, (aur_vector){i == 0, i == 1, i == 2}));
+    const float skew = fabsf(aur_vector_dot(self->frame.x, self->frame.y)) +
+                       fabsf(aur_vector_dot(self->frame.y, self->frame.z)) +
+                       fabsf(aur_vector_dot(self->frame.z, self->frame.x));
+    if (skew > 1e-3f)
+        return aur_fail_at(error, parameters->location, AUR_ERROR_UNSUPPORTED,
+                           "emitter 'envmap': 'to_world' may only turn");
+    return AUR_OK;
+}
+
+static aur_vector value_at(const envmap *self, size_t i, size_t j) {
+    const float *const rgb = &self->rgb[3 * (j * self->width + i % self->width)];
+    return (aur_vector){rgb[0], rgb[1], rgb[2]};
+}
+
+static aur_result prepare_envmap(const aur_scene *scene, aur_emitter *emitter, aur_error *error) {
+    envmap *const self = emitter->data;
+    const size_t rows = self->height - 1;
+    double *const weights = malloc((self->width + rows) * sizeof *weights);
+    self->cells = calloc(rows, sizeof *self->cells);
+    aur_result result = weights != NULL && self->cells != NULL
+                            ? AUR_OK
+                            : aur_fail_at(error, emitter->location, AUR_ERROR_MEMORY, "out of memory");
+    for (size_t j = 0; result == AUR_OK && j < rows; ++j) {
+        for (size_t i = 0; i < self->width; ++i)
+            weights[i] = 0.25 * (double)(aur_luminance(value_at(self, i, j)) +
+                                         aur_luminance(value_at(self, i + 1, j)) +
+                                         aur_luminance(value_at(self, i, j + 1)) +
+                                         aur_luminance(value_at(self, i + 1, j + 1)));
+        result = aur_distribution_create(&self->cells[j], self->width, weights, error);
+        /* The patch's solid angle, but for a factor common to all. */
+        const double from = AUR_PI * (double)j / (double)rows, to = AUR_PI * (double)(j + 1) / (double)rows;
+        weights[self->width + j] = self->cells[j].total * (cos(from) - cos(to));
+    }
+    if (result == AUR_OK)
+        result = aur_distribution_create(&self->rows, rows, weights + self->width, error);
+    free(weights);
+    if (result != AUR_OK)
+        return result;
+    const double integral = self->rows.total * 2.0 * AUR_PI / (double)self->width;
+    emitter->power = AUR_PI * (double)scene->radius * (double)scene->radius * integral;
+    return AUR_OK;
+}
+
+/* Places in units of patches: x in [0, width), y in [0, height - 1]. */
+static void place_of(const envmap *self, aur_vector direction, float *x, float *y) {
+    const aur_vector local = aur_frame_to_local(&self->frame, direction);
+    float azimuth = atan2f(local.x, -local.z) / (2.0f * AUR_PI_F);
+    azimuth -= 0.5f / (float)self->width;
+    azimuth -= floorf(azimuth);
+    *x = fminf(azimuth, 0x1.fffffep-1f) * (float)self->width;
+    *y = acosf(fminf(fmaxf(local.y, -1.0f), 1.0f)) / AUR_PI_F * (float)(self->height - 1);
+}
+
+static aur_vector radiance_at(const envmap *self, float x, float y) {
+    const size_t i = (size_t)x, j = y < (float)(self->height - 2) ? (size_t)y : self->height - 2;
+    const float s = x - (float)i, t = y - (float)j;
+    aur_vector sum = aur_vector_scale(value_at(self, i, j), (1.0f - s) * (1.0f - t));
+    sum = aur_vector_add_scaled(sum, s * (1.0f - t), value_at(self, i + 1, j));
+    sum = aur_vector_add_scaled(sum, (1.0f - s) * t, value_at(self, i, j + 1));
+    return aur_vector_add_scaled(sum, s * t, value_at(self, i + 1, j + 1));
+}
+
+/* Within a patch azimuth and height are uniform, so the density of a direction is the patch's. */
+static float pdf_of(const envmap *self, float x, float y) {
+    if (!(self->rows.total > 0.0))
+        return 0.0f;
+    const size_t i = (size_t)x, j = y < (float)(self->height - 2) ? (size_t)y : self->height - 2;
+    const aur_distribution *const row = &self->cells[j];
+    const double brightness = row->sums[i + 1] - row->sums[i];
+    return (float)(brightness / self->rows.total * (double)self->width / (2.0 * AUR_PI));
+}
+
+static aur_vector envmap_from(const aur_emitter *emitter, aur_vector direction) {
+    float x, y;
+    place_of(emitter->data, direction, &x, &y);
+    return radiance_at(emitter->data, x, y);
+}
+
+static float envmap_pdf(const aur_emitter *emitter, aur_vector direction) {
+    float x, y;
+    place_of(emitter->data, direction, &x, &y);
+    return pdf_of(emitter->data, x, y);
+}
+
+static aur_vector draw_direction(const envmap *self, float u, float v) {
+    const size_t j = aur_distribution_choose(&self->rows, &v);
+    const size_t i = aur_distribution_choose(&self->cells[j], &u);
+    const float rows = (float)(self->height - 1);
+    const float top = cosf(AUR_PI_F * (float)j / rows), bottom = cosf(AUR_PI_F * (float)(j + 1) / rows);
+    const float height = top + v * (bottom - top);
+    const float radius = sqrtf(fmaxf(0.0f, 1.0f - height * height));
+    const float azimuth = 2.0f * AUR_PI_F * ((float)i + u + 0.5f) / (float)self->width;
+    return aur_frame_to_world(&self->frame,
+                              (aur_vector){radius * sinf(azimuth), height, -radius * cosf(azimuth)});
+}
+
+static bool sample_envmap(const aur_scene *scene, const aur_emitter *emitter, aur_vector reference,
+                          const float u[3], aur_light_sample *drawn) {
+    aur_sample_far(scene, reference, draw_direction(emitter->data, u[1], u[2]), drawn);
+    /* Asked for afterwards, so that rounding cannot part the two. */
+    drawn->radiance = envmap_from(emitter, drawn->direction);
+    drawn->pdf = envmap_pdf(emitter, drawn->direction);
+    return drawn->pdf > 0.0f;
+}
+
+static bool emit_envmap(const aur_scene *scene, const aur_emitter *emitter, const float u[5], aur_ray *ray,
+                        aur_vector *power) {
+    const aur_vector direction = draw_direction(emitter->data, u[1], u[2]);
+    const float pdf = envmap_pdf(emitter, direction);
+    if (!(pdf > 0.0f))
+        return false;
+    *ray = aur_emit_far(scene, direction, u[3], u[4]);
+    *power =
+        aur_vector_scale(envmap_from(emitter, direction), AUR_PI_F * scene->radius * scene->radius / pdf);
+    return true;
+}
+
+const aur_emitter_descriptor aur_emitter_envmap = {
+    .name = "envmap",
+    .summary = "a latitude-longitude picture around the scene, +y up",
+    .create = create_envmap,
+    .prepare = prepare_envmap,
+    .sample = sample_envmap,
+    .emit = emit_envmap,
+    .release = release_envmap,
+    .radiance_from = envmap_from,
+    .pdf_from = envmap_pdf,
+};

@@ -1,0 +1,258 @@
+/* Lights without a size: in all directions, in a cone, or from infinitely far. */
+#include <stdlib.h>
+
+#include "material/sampling.h"
+#include "scene/emitter.h"
+#include "scene/scene_data.h"
+
+typedef struct point_light {
+    aur_vector position, direction; /* unit; where a spot points, or directional light goes */
+    aur_frame frame;                /* z is the direction */
+    float cutoff, beam;             /* radians */
+    float cosine_cutoff;
+} point_light;
+
+static aur_result allocate(aur_parameters *parameters, aur_emitter *emitter, aur_error *error) {
+    emitter->data = calloc(1, sizeof(point_light));
+    emitter->radiance.constant = (aur_vector){1.0f, 1.0f, 1.0f};
+    return emitter->data != NULL
+               ? AUR_OK
+               : aur_fail_at(error, parameters->location, AUR_ERROR_MEMORY, "out of memory");
+}
+
+static void release(aur_emitter *emitter) {
+    free(emitter->data);
+}
+
+static aur_result read_color(aur_parameters *parameters, const char *name, aur_emitter *emitter,
+                             aur_error *error) {
+    const aur_result result = aur_parameters_color(parameters, name, 1e30, &emitter->radiance, error);
+    if (result == AUR_OK && emitter->radiance.texture != NULL)
+        return aur_fail_at(error, parameters->location, AUR_ERROR_UNSUPPORTED,
+                           "emitter '%s': '%s' cannot be a texture", parameters->plugin, name);
+    return result;
+}
+
+static aur_result read_place(aur_parameters *parameters, aur_transform *to_world, aur_error *error) {
+    *to_world = aur_transform_identity();
+    const aur_result result = aur_parameters_transform(parameters, "to_world", to_world->m, error);
+    if (result == AUR_OK && !aur_transform_is_affine(to_world))
+        return aur_fail_at(error, parameters->location, AUR_ERROR_FORMAT,
+                           "emitter '%s': 'to_world' must be affine", parameters->plugin);
+    return result;
+}
+
+static void aim(point_light *self, aur_vector direction) {
+    self->direction = aur_vector_normalize(direction);
+    self->frame = aur_frame_about(self->direction);
+}
+
+/* --- point */
+
+static aur_result create_point(aur_parameters *parameters, aur_emitter *emitter, aur_error *error) {
+    aur_transform to_world;
+    double position[3] = {0.0, 0.0, 0.0};
+    aur_result result = allocate(parameters, emitter, error);
+    if (result == AUR_OK)
+        result = read_color(parameters, "intensity", emitter, error);
+    if (result == AUR_OK)
+        result = aur_parameters_triple(parameters, "position", -1e30, 1e30, position, error);
+    if (result == AUR_OK)
+        result = read_place(parameters, &to_world, error);
+    if (result != AUR_OK)
+        return result;
+    ((point_light *)emitter->data)->position = aur_transform_point_f(
+        &to_world, (aur_vector){(float)position[0], (float)position[1], (float)position[2]});
+    return AUR_OK;
+}
+
+static aur_result prepare_point(const aur_scene *scene, aur_emitter *emitter, aur_error *error) {
+    (void)scene;
+    (void)error;
+    emitter->power = 4.0 * AUR_PI * (double)aur_luminance(emitter->radiance.constant);
+    return AUR_OK;
+}
+
+/* Towards a light at a place; radiance / pdf is intensity over the squared distance. */
+static bool sample_place(const aur_emitter *emitter, aur_vector reference, aur_light_sample *drawn) {
+    const point_light *const self = emitter->data;
+    const aur_vector way = aur_vector_subtract(self->position, reference);
+    const float squared = aur_vector_dot(way, way);
+    if (!(squared > 0.0f))
+        return false;
+    drawn->position = self->position;
+    drawn->distance = sqrtf(squared);
+    drawn->direction = aur_vector_scale(way, 1.0f / drawn->distance);
+    drawn->normal = aur_vector_scale(drawn->direction, -1.0f);
+    drawn->radiance = aur_vector_scale(emitter->radiance.constant, 1.0f / squared);
+    drawn->pdf = 1.0f;
+    drawn->delta = true;
+    return true;
+}
+
+static bool sample_point(const aur_scene *scene, const aur_emitter *emitter, aur_vector reference,
+                         const float u[3], aur_light_sample *drawn) {
+    (void)scene;
+    (void)u;
+    return sample_place(emitter, reference, drawn);
+}
+
+static bool emit_point(const aur_scene *scene, const aur_emitter *emitter, const float u[5], aur_ray *ray,
+                       aur_vector *power) {
+    (void)scene;
+    const point_light *const self = emitter->data;
+    *ray = (aur_ray){self->position, 0.0f, aur_sample_sphere(u[3], u[4]), INFINITY};
+    *power = aur_vector_scale(emitter->radiance.constant, 4.0f * AUR_PI_F);
+    return true;
+}
+
+const aur_emitter_descriptor aur_emitter_point = {
+    .name = "point",
+    .summary = "a point that shines evenly",
+    .create = create_point,
+    .prepare = prepare_point,
+    .sample = sample_point,
+    .emit = emit_point,
+    .release = release,
+};
+
+/* --- spot */
+
+static aur_result create_spot(aur_parameters *parameters, aur_emitter *emitter, aur_error *error) {
+    aur_transform to_world;
+    double cutoff = 20.0;
+    aur_result result = allocate(parameters, emitter, error);
+    if (result == AUR_OK)
+        result = read_color(parameters, "intensity", emitter, error);
+    if (result == AUR_OK)
+        result = aur_parameters_float(parameters, "cutoff_angle", 1e-3, 180.0, &cutoff, error);
+    double beam = 0.75 * cutoff;
+    if (result == AUR_OK)
+        result = aur_parameters_float(parameters, "beam_width", 0.0, cutoff, &beam, error);
+    if (result == AUR_OK)
+        result = read_place(parameters, &to_world, error);
+    if (result != AUR_OK)
+        return result;
+    point_light *const self = emitter->data;
+    self->position = aur_transform_point_f(&to_world, (aur_vector){0.0f, 0.0f, 0.0f});
+    aim(self, aur_transform_direction_f(&to_world, (aur_vector){0.0f, 0.0f, 1.0f}));
+    self->cutoff = (float)(cutoff * AUR_PI / 180.0);
+    self->beam = (float)(beam * AUR_PI / 180.0);
+    self->cosine_cutoff = cosf(self->cutoff);
+    return AUR_OK;
+}
+
+/* Full within the beam, then falling linearly with the angle to 0 at the cutoff. */
+static float falloff(const point_light *self, float cosine) {
+    if (!(cosine > self->cosine_cutoff))
+        return 0.0f;
+    const float angle = acosf(fminf(cosine, 1.0f));
+    return angle <= self->beam ? 1.0f : fmaxf((self->cutoff - angle) / (self->cutoff - self->beam), 0.0f);
+}
+
+static aur_result prepare_spot(const aur_scene *scene, aur_emitter *emitter, aur_error *error) {
+    (void)scene;
+    (void)error;
+    const point_light *const self = emitter->data;
+    const double mean = 0.5 * (cos((double)self->beam) + (double)self->cosine_cutoff);
+    emitter->power = 2.0 * AUR_PI * (1.0 - mean) * (double)aur_luminance(emitter->radiance.constant);
+    return AUR_OK;
+}
+
+static bool sample_spot(const aur_scene *scene, const aur_emitter *emitter, aur_vector reference,
+                        const float u[3], aur_light_sample *drawn) {
+    (void)scene;
+    (void)u;
+    const point_light *const self = emitter->data;
+    if (!sample_place(emitter, reference, drawn))
+        return false;
+    const float share = falloff(self, -aur_vector_dot(drawn->direction, self->direction));
+    drawn->radiance = aur_vector_scale(drawn->radiance, share);
+    return share > 0.0f;
+}
+
+static bool emit_spot(const aur_scene *scene, const aur_emitter *emitter, const float u[5], aur_ray *ray,
+                      aur_vector *power) {
+    (void)scene;
+    const point_light *const self = emitter->data;
+    const float cap = 1.0f - self->cosine_cutoff;
+    const float cosine = 1.0f - u[3] * cap;
+    *ray = (aur_ray){self->position, 0.0f, aur_frame_to_world(&self->frame, aur_direction_at(cosine, u[4])),
+                     INFINITY};
+    *power = aur_vector_scale(emitter->radiance.constant, falloff(self, cosine) * 2.0f * AUR_PI_F * cap);
+    return true;
+}
+
+const aur_emitter_descriptor aur_emitter_spot = {
+    .name = "spot",
+    .summary = "a point that shines in a cone about +z",
+    .create = create_spot,
+    .prepare = prepare_spot,
+    .sample = sample_spot,
+    .emit = emit_spot,
+    .release = release,
+};
+
+/* --- directional */
+
+static aur_result create_directional(aur_parameters *parameters, aur_emitter *emitter, aur_error *error) {
+    aur_transform to_world;
+    double direction[3] = {0.0, 0.0, 0.0};
+    aur_result result = allocate(parameters, emitter, error);
+    if (result == AUR_OK)
+        result = read_color(parameters, "irradiance", emitter, error);
+    if (result == AUR_OK)
+        result = aur_parameters_triple(parameters, "direction", -1e30, 1e30, direction, error);
+    if (result == AUR_OK)
+        result = read_place(parameters, &to_world, error);
+    if (result != AUR_OK)
+        return result;
+    const bool given = aur_parameters_find(parameters, "direction") != NULL;
+    if (given && aur_parameters_find(parameters, "to_world") != NULL)
+        return aur_fail_at(error, parameters->location, AUR_ERROR_FORMAT,
+                           "emitter 'directional': give 'direction' or 'to_world', not both");
+    aur_vector way = {(float)direction[0], (float)direction[1], (float)direction[2]};
+    if (!given)
+        way = aur_transform_direction_f(&to_world, (aur_vector){0.0f, 0.0f, 1.0f});
+    if (aur_vector_is_zero(way))
+        return aur_fail_at(error, parameters->location, AUR_ERROR_FORMAT,
+                           "emitter 'directional': 'direction' must not be 0 0 0");
+    aim(emitter->data, way);
+    return AUR_OK;
+}
+
+static aur_result prepare_directional(const aur_scene *scene, aur_emitter *emitter, aur_error *error) {
+    (void)error;
+    const double radius = scene->radius;
+    emitter->power = AUR_PI * radius * radius * (double)aur_luminance(emitter->radiance.constant);
+    return AUR_OK;
+}
+
+static bool sample_directional(const aur_scene *scene, const aur_emitter *emitter, aur_vector reference,
+                               const float u[3], aur_light_sample *drawn) {
+    (void)u;
+    const point_light *const self = emitter->data;
+    aur_sample_far(scene, reference, aur_vector_scale(self->direction, -1.0f), drawn);
+    drawn->radiance = emitter->radiance.constant;
+    drawn->pdf = 1.0f;
+    drawn->delta = true;
+    return true;
+}
+
+static bool emit_directional(const aur_scene *scene, const aur_emitter *emitter, const float u[5],
+                             aur_ray *ray, aur_vector *power) {
+    const point_light *const self = emitter->data;
+    *ray = aur_emit_far(scene, aur_vector_scale(self->direction, -1.0f), u[1], u[2]);
+    *power = aur_vector_scale(emitter->radiance.constant, AUR_PI_F * scene->radius * scene->radius);
+    return true;
+}
+
+const aur_emitter_descriptor aur_emitter_directional = {
+    .name = "directional",
+    .summary = "parallel light along +z or `direction`",
+    .create = create_directional,
+    .prepare = prepare_directional,
+    .sample = sample_directional,
+    .emit = emit_directional,
+    .release = release,
+};

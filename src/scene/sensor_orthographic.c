@@ -1,0 +1,19 @@
+/* Parallel rays; the film spans [-1, 1] from right to left in local coordinates. */
+#include "scene/sensor.h"
+
+static aur_result create(aur_parameters *parameters, aur_sensor *sensor, aur_error *error) {
+    (void)parameters;
+    (void)sensor;
+    (void)error;
+    return AUR_OK;
+}
+
+static void ray(const aur_sensor *sensor, float aspect, float x, float y, const float lens[2],
+                aur_ray *result) {
+    (void)sensor;
+    (void)lens;
+    result->origin = (aur_vector){1.0f - 2.0f * x, (1.0f - 2.0f * y) / aspect, 0.0f};
+    result->direction = (aur_vector){0.0f, 0.0f, 1.0f};
+}
+
+const aur_sensor_descriptor aur_sensor_orthographic = {"orthographic", "parallel rays along +z", create, ray};
