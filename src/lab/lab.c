@@ -13,9 +13,14 @@
 #endif
 
 extern const lab_experiment lab_marques_2013_gather;
+extern const lab_experiment lab_marques_2018_gains;
+extern const lab_experiment lab_marques_2018_rivals;
+extern const lab_experiment lab_marques_2018_sensitivity;
+extern const lab_experiment lab_marques_2018_slopes;
 
 static const lab_experiment *const experiments[] = {
-    &lab_marques_2013_gather,
+    &lab_marques_2013_gather,      &lab_marques_2018_gains,  &lab_marques_2018_rivals,
+    &lab_marques_2018_sensitivity, &lab_marques_2018_slopes,
 };
 
 size_t lab_experiment_count(void) {

@@ -1,0 +1,89 @@
+/* What optimal weights gain in worst-case error (Marques 2018, sections 5.2 and 5.3): 128 diffuse and 64
+ * glossy samples of a digit-scrambled set, each lobe from its own samples (OSW) and from all (OSWA). The
+ * published figures are those of one scrambling. */
+#include "samples.h"
+
+enum { DIFFUSE = 128, GLOSSY = 64, ALL = DIFFUSE + GLOSSY, GAINS = 4 };
+
+static const char *const columns[] = {"set", "figure", "published", "mean", "spread", "seeds"};
+
+/* One scrambling: the four gains in percent. */
+static aur_result measure(const char *set, uint64_t seed, const aur_potential *const potentials[2],
+                          double gains[GAINS], aur_error *error) {
+    const aur_weights_options unconstrained = {AUR_REGULARIZATION_DEFAULT, 0};
+    double xyz[3 * ALL], weights[2 * ALL];
+    aur_weights_report diffuse, glossy, all[2];
+    aur_result result = lab_draw(&(lab_samples){set, DIFFUSE, 1.0, 0, 2 * seed}, xyz, NULL, error);
+    if (result == AUR_OK)
+        result = lab_draw(&(lab_samples){set, GLOSSY, 20.0, 0, 2 * seed + 1}, xyz + 3 * DIFFUSE, NULL, error);
+    if (result == AUR_OK)
+        result =
+            aur_weights_solve(DIFFUSE, xyz, 1, potentials, &unconstrained, weights, &diffuse, NULL, error);
+    if (result == AUR_OK)
+        result = aur_weights_solve(GLOSSY, xyz + 3 * DIFFUSE, 1, potentials + 1, &unconstrained, weights,
+                                   &glossy, NULL, error);
+    if (result == AUR_OK)
+        result = aur_weights_solve(ALL, xyz, 2, potentials, &unconstrained, weights, all, NULL, error);
+    if (result != AUR_OK)
+        return result;
+    const double merged = all[0].optimal_error + all[1].optimal_error;
+    gains[0] = 100.0 * (1.0 - diffuse.optimal_error / diffuse.equal_error);
+    gains[1] = 100.0 * (1.0 - glossy.optimal_error / glossy.equal_error);
+    gains[2] = 100.0 * (1.0 - merged / (diffuse.optimal_error + glossy.optimal_error));
+    gains[3] = 100.0 * (1.0 - merged / (diffuse.equal_error + glossy.equal_error));
+    return AUR_OK;
+}
+
+static aur_result study_set(lab_run *run, const char *set, const aur_potential *const potentials[2],
+                            aur_error *error) {
+    static const char *const names[GAINS] = {"OSW diffuse", "OSW glossy", "OSWA against OSW",
+                                             "OSWA against QMC"};
+    static const double published[GAINS] = {7.0, 6.3, 19.1, 24.1};
+    const size_t seeds = lab_run_options(run)->quick ? 200 : 3000;
+    lab_moments moments[GAINS] = {0};
+    for (uint64_t seed = 0; seed < seeds; ++seed) {
+        double gains[GAINS];
+        const aur_result result = measure(set, seed, potentials, gains, error);
+        if (result != AUR_OK)
+            return result;
+        for (size_t i = 0; i < GAINS; ++i)
+            lab_add(&moments[i], gains[i]);
+    }
+    for (size_t i = 0; i < GAINS; ++i) {
+        lab_text(run, set);
+        lab_text(run, names[i]);
+        lab_number(run, published[i]);
+        lab_number(run, lab_mean(&moments[i]));
+        lab_number(run, lab_spread(&moments[i]));
+        lab_number(run, (double)seeds);
+    }
+    lab_note(run,
+             "%s: OSW gains %.1f +- %.1f and %.1f +- %.1f %% (published 7.0, 6.3); OSWA %.1f and %.1f %% "
+             "(19.1, 24.1)",
+             set, lab_mean(&moments[0]), lab_spread(&moments[0]), lab_mean(&moments[1]),
+             lab_spread(&moments[1]), lab_mean(&moments[2]), lab_mean(&moments[3]));
+    return AUR_OK;
+}
+
+static aur_result run(lab_run *run, aur_error *error) {
+    lab_columns(run, sizeof columns / sizeof columns[0], columns);
+    aur_potential *diffuse = NULL, *glossy = NULL;
+    aur_result result = lab_lobe_potential(1.0, 1.5, &diffuse, error);
+    if (result == AUR_OK)
+        result = lab_lobe_potential(20.0, 1.5, &glossy, error);
+    const aur_potential *const potentials[] = {diffuse, glossy};
+    const char *const sets[] = {"sobol", "random", "spherical-fibonacci", lab_run_options(run)->set};
+    for (size_t i = 0; i < 4 && result == AUR_OK; ++i)
+        if (sets[i] != NULL)
+            result = study_set(run, sets[i], potentials, error);
+    aur_potential_destroy(diffuse);
+    aur_potential_destroy(glossy);
+    return result;
+}
+
+const lab_experiment lab_marques_2018_gains = {
+    .name = "marques-2018-gains",
+    .reproduces = "Marques 2018, sections 5.2 and 5.3",
+    .summary = "gains of optimal weights in worst-case error, one lobe and merged sets",
+    .run = run,
+};

@@ -1,0 +1,244 @@
+/* The rivals on the same samples: 64 diffuse samples and 32 glossy ones (m = 20) under random lights, smooth
+ * ones and ones with hard edges, the view from above to grazing. The integral is the diffuse plus the glossy
+ * part, each of weight 1; no light comes from below the surface. What Marques 2018 section 6.3 shows of
+ * images, with the truth known. */
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "samples.h"
+
+enum { DIFFUSE = 64, GLOSSY = 32, ALL = DIFFUSE + GLOSSY, TRUTH = 16384, ANGLES = 4 };
+
+typedef enum method {
+    EQUAL,     /* each lobe from its own samples, 1/N */
+    SCALED,    /* the same, over the visible samples, times the visible part of the lobe */
+    BALANCE,   /* multiple importance sampling */
+    POWER,     /* with the power heuristic */
+    OSW,       /* optimal weights, each lobe from its own samples */
+    PUBLISHED, /* OSWA as published: z from a table, sigma = 0.5, no constraint */
+    WHOLE,     /* OSWA for whole lobes */
+    CLIPPED,   /* OSWA for lobes that end at the horizon */
+    TABLE,     /* the same from a table of 128 angles */
+    DENSE,     /* the same for points of the optimal density */
+    METHODS
+} method;
+
+static const char *const names[METHODS] = {"equal",
+                                           "equal, scaled by visible part",
+                                           "MIS balance",
+                                           "MIS power",
+                                           "OSW",
+                                           "OSWA as published",
+                                           "OSWA",
+                                           "OSWA, clipped",
+                                           "OSWA, clipped, table",
+                                           "OSWA, clipped, optimal density"};
+
+/* Of cos^20, in steradian. */
+static const double whole_mass = 2.0 * 3.14159265358979323846 / 21.0;
+
+static const char *const columns[] = {"set", "light", "degrees", "method", "rmse", "relative_to_equal"};
+
+/* Samples and weights of one method: weights[0] for the diffuse lobe, [1] for the glossy one, of which
+ * `visible` is the part that is estimated. */
+typedef struct rule {
+    double xyz[3 * ALL], weights[2][ALL];
+    double visible;
+} rule;
+
+typedef struct study {
+    lab_run *run;
+    const char *set;
+    double radians;
+    aur_potential_table *published_z;
+    aur_weight_table *table; /* of the set */
+    double *truth;           /* 6 * TRUTH: points of either lobe */
+} study;
+
+static aur_oswa_options pair(const study *s, method m, uint64_t seed) {
+    aur_oswa_options options = {.set = s->set,
+                                .count = DIFFUSE,
+                                .mirror_count = GLOSSY,
+                                .lobe = {.exponent = 1.0},
+                                .mirror_lobe = {.exponent = 20.0},
+                                .optimal_density = m == DENSE,
+                                .clipped = m == CLIPPED || m == TABLE || m == DENSE || m == SCALED,
+                                .scramble = lab_scrambling(s->set),
+                                .seed = 2 * seed,
+                                .weights = aur_weights_options_default()};
+    if (m == PUBLISHED) {
+        options.weights = (aur_weights_options){0.5, 0};
+        options.published_z = s->published_z;
+    }
+    return options;
+}
+
+/* Every light takes another rotation of the table, in turn. */
+static void from_table(const study *s, uint64_t seed, rule *r) {
+    const size_t rotation = seed % aur_weight_table_rotations(s->table);
+    float weights[ALL];
+    aur_weight_table_points(s->table, s->radians, rotation, 0, r->xyz);
+    for (size_t k = 0; k < 2; ++k) {
+        aur_weight_table_look_up(s->table, k, rotation, (float)s->radians, weights);
+        for (size_t i = 0; i < ALL; ++i)
+            r->weights[k][i] = (double)weights[i];
+    }
+    r->visible = (double)aur_weight_table_mass(s->table, (float)s->radians) / whole_mass;
+}
+
+/* Weights that take no merged solve. */
+static aur_result separate(const study *s, method m, rule *r, aur_error *error) {
+    const double axis[3] = {-sin(s->radians), 0.0, cos(s->radians)};
+    aur_density densities[2] = {{.exponent = 1.0}, {.exponent = 20.0}};
+    aur_strategy strategies[2] = {{.count = DIFFUSE, .sampled = {.exponent = 1.0}},
+                                  {.count = GLOSSY, .sampled = {.exponent = 20.0}}};
+    memcpy(densities[1].axis, axis, sizeof axis);
+    memcpy(strategies[1].axis, axis, sizeof axis);
+    const size_t first[2] = {0, DIFFUSE}, count[2] = {DIFFUSE, GLOSSY};
+    aur_result result = AUR_OK;
+    memset(r->weights, 0, sizeof r->weights);
+    for (size_t k = 0; k < 2 && result == AUR_OK; ++k) {
+        aur_potential *potential;
+        result = aur_potential_create(&densities[k], 1.5, &potential, error);
+        if (result != AUR_OK)
+            break;
+        const aur_potential *const one = potential;
+        double *const own = r->weights[k] + first[k];
+        size_t seen = 0;
+        for (size_t i = first[k]; i < first[k] + count[k]; ++i)
+            seen += m != SCALED || r->xyz[3 * i + 2] >= 0.0;
+        if (m == OSW)
+            result =
+                aur_weights_solve(count[k], r->xyz + 3 * first[k], 1, &one, NULL, own, NULL, NULL, error);
+        else if (m == BALANCE || m == POWER)
+            result = aur_mis_weights(m == POWER ? AUR_MIS_POWER : AUR_MIS_BALANCE, 2, strategies, potential,
+                                     r->xyz, r->weights[k], error);
+        else
+            for (size_t i = 0; i < count[k]; ++i)
+                own[i] = 1.0 / (double)seen;
+        aur_potential_destroy(potential);
+    }
+    return result;
+}
+
+static aur_result make_rule(const study *s, method m, uint64_t seed, rule *r, aur_error *error) {
+    const aur_oswa_options options = pair(s, m, seed);
+    if (m == TABLE) {
+        from_table(s, seed, r);
+        return AUR_OK;
+    }
+    aur_oswa *oswa;
+    aur_result result = aur_oswa_create(&options, &oswa, error);
+    if (result != AUR_OK)
+        return result;
+    const double turns[2] = {0.0, 0.0};
+    double weights[2 * ALL], mass;
+    aur_oswa_points(oswa, s->radians, turns, 0, r->xyz);
+    result = aur_oswa_solve(oswa, s->radians, turns, weights, &mass, error);
+    aur_oswa_destroy(oswa);
+    if (result != AUR_OK)
+        return result;
+    r->visible = mass / whole_mass;
+    if (m < PUBLISHED)
+        return separate(s, m, r, error);
+    memcpy(r->weights, weights, sizeof r->weights);
+    return AUR_OK;
+}
+
+static double estimate(const rule *r, const lab_light *light) {
+    double sum = 0.0;
+    for (size_t i = 0; i < ALL; ++i)
+        sum += (r->weights[0][i] + r->visible * r->weights[1][i]) * lab_radiance(light, r->xyz + 3 * i);
+    return sum;
+}
+
+static double exact(const study *s, const lab_light *light) {
+    double sum = 0.0;
+    for (size_t i = 0; i < 2 * TRUTH; ++i)
+        sum += lab_radiance(light, s->truth + 3 * i) / TRUTH;
+    return sum;
+}
+
+static aur_result compare(study *s, double degrees, bool hard, aur_error *error) {
+    const uint64_t lights = lab_run_options(s->run)->quick ? 16 : 120;
+    s->radians = degrees * 3.14159265358979323846 / 180.0;
+    aur_result result =
+        lab_draw(&(lab_samples){"spherical-fibonacci", TRUTH, 1.0, 0, 0}, s->truth, NULL, error);
+    if (result == AUR_OK)
+        result = lab_draw(&(lab_samples){"spherical-fibonacci", TRUTH, 20.0, 0, 0}, s->truth + 3 * TRUTH,
+                          NULL, error);
+    for (size_t i = TRUTH; i < 2 * TRUTH; ++i) {
+        const double x = s->truth[3 * i], z = s->truth[3 * i + 2];
+        s->truth[3 * i] = cos(s->radians) * x - sin(s->radians) * z;
+        s->truth[3 * i + 2] = sin(s->radians) * x + cos(s->radians) * z;
+    }
+    double squares[METHODS] = {0};
+    for (uint64_t seed = 0; seed < lights && result == AUR_OK; ++seed) {
+        const lab_light light = lab_random_light(seed, hard);
+        const double truth = exact(s, &light);
+        for (int m = 0; m < METHODS && result == AUR_OK; ++m) {
+            rule r;
+            result = make_rule(s, (method)m, seed, &r, error);
+            if (result == AUR_OK)
+                squares[m] += pow(estimate(&r, &light) - truth, 2) / (double)lights;
+        }
+    }
+    for (int m = 0; m < METHODS && result == AUR_OK; ++m) {
+        lab_text(s->run, s->set);
+        lab_text(s->run, hard ? "hard edges" : "smooth");
+        lab_number(s->run, degrees);
+        lab_text(s->run, names[m]);
+        lab_number(s->run, sqrt(squares[m]));
+        lab_number(s->run, sqrt(squares[m] / squares[EQUAL]));
+    }
+    if (result == AUR_OK)
+        lab_note(
+            s->run,
+            "%s, %s light, %g degrees: error over that of equal weights: OSWA %.2f, clipped %.2f, MIS %.2f",
+            s->set, hard ? "hard-edged" : "smooth", degrees, sqrt(squares[WHOLE] / squares[EQUAL]),
+            sqrt(squares[CLIPPED] / squares[EQUAL]), sqrt(squares[BALANCE] / squares[EQUAL]));
+    return result;
+}
+
+static aur_result study_set(study *s, aur_error *error) {
+    static const double degrees[ANGLES] = {60.0, 75.0, 0.0, 30.0};
+    const lab_options *const options = lab_run_options(s->run);
+    const aur_oswa_options tabulated = pair(s, TABLE, 0);
+    aur_result result = aur_weight_table_build(&tabulated, 128, options->quick ? 4 : 16, options->threads,
+                                               &options->progress, &s->table, error);
+    for (size_t d = 0; d < (options->quick ? 2 : ANGLES) && result == AUR_OK; ++d) {
+        result = compare(s, degrees[d], false, error);
+        if (result == AUR_OK)
+            result = compare(s, degrees[d], true, error);
+    }
+    aur_weight_table_destroy(s->table);
+    s->table = NULL;
+    return result;
+}
+
+static aur_result run(lab_run *run, aur_error *error) {
+    lab_columns(run, sizeof columns / sizeof columns[0], columns);
+    const lab_options *const options = lab_run_options(run);
+    study s = {.run = run, .truth = malloc(6 * TRUTH * sizeof *s.truth)};
+    if (s.truth == NULL)
+        return AUR_ERROR_MEMORY;
+    aur_result result = aur_potential_table_create(64, 32, 100.0, 1.5, &s.published_z, error);
+    const char *const sets[] = {"sobol", "spherical-fibonacci", options->quick ? NULL : "random",
+                                options->set};
+    for (size_t i = 0; i < 4 && result == AUR_OK; ++i) {
+        s.set = sets[i];
+        if (s.set != NULL)
+            result = study_set(&s, error);
+    }
+    aur_potential_table_destroy(s.published_z);
+    free(s.truth);
+    return result;
+}
+
+const lab_experiment lab_marques_2018_rivals = {
+    .name = "marques-2018-rivals",
+    .reproduces = "Marques 2018, section 6.3",
+    .summary = "equal weights, MIS, OSW and OSWA, published and clipped, under random lights",
+    .run = run,
+};

@@ -1,0 +1,90 @@
+#include "samples.h"
+
+#include <math.h>
+#include <string.h>
+
+aur_scramble lab_scrambling(const char *set) {
+    if (strncmp(set, "random", 6) == 0)
+        return AUR_SCRAMBLE_NONE;
+    for (size_t i = 0; i < aur_set_count(); ++i) {
+        const aur_set_description *const description = aur_set_at(i);
+        const size_t length = strlen(description->name);
+        if (strncmp(set, description->name, length) == 0 && (set[length] == '\0' || set[length] == ':'))
+            return strstr(description->domains, "square") != NULL ? AUR_SCRAMBLE_DIGIT : AUR_SCRAMBLE_ROTATE;
+    }
+    return AUR_SCRAMBLE_ROTATE;
+}
+
+aur_result lab_draw(const lab_samples *wanted, double *xyz, double *weights, aur_error *error) {
+    const aur_directions_options options = {.count = wanted->count,
+                                            .domain = AUR_DOMAIN_HEMISPHERE,
+                                            .lobe = {.exponent = wanted->exponent},
+                                            .optimal_density = wanted->optimal_density,
+                                            .scramble = lab_scrambling(wanted->set),
+                                            .seed = wanted->seed};
+    aur_directions *directions;
+    aur_result result = aur_directions_create(wanted->set, &options, &directions, error);
+    if (result != AUR_OK)
+        return result;
+    result = aur_directions_points(directions, 0, wanted->count, 3 * wanted->count, xyz, weights);
+    aur_directions_destroy(directions);
+    return result;
+}
+
+aur_result lab_lobe_potential(double exponent, double smoothness, aur_potential **potential,
+                              aur_error *error) {
+    const aur_density density = {.kind = AUR_DENSITY_COSINE_POWER, .exponent = exponent};
+    return aur_potential_create(&density, smoothness, potential, error);
+}
+
+void lab_add(lab_moments *moments, double value) {
+    moments->sum += value;
+    moments->squares += value * value;
+    ++moments->count;
+}
+
+double lab_mean(const lab_moments *moments) {
+    return moments->sum / (double)moments->count;
+}
+
+double lab_spread(const lab_moments *moments) {
+    const double mean = lab_mean(moments);
+    return sqrt(fmax(0.0, moments->squares / (double)moments->count - mean * mean));
+}
+
+/* A number in [0,1) of what it is for (the finalizer of SplitMix). */
+static double hashed(uint64_t seed, uint64_t what) {
+    uint64_t x = seed * UINT64_C(0x9e3779b97f4a7c15) + what * UINT64_C(0xd6e8feb86659fd93) + 1;
+    x = (x ^ x >> 30) * UINT64_C(0xbf58476d1ce4e5b9);
+    x = (x ^ x >> 27) * UINT64_C(0x94d049bb133111eb);
+    return (double)((x ^ x >> 31) >> 11) * 0x1p-53;
+}
+
+lab_light lab_random_light(uint64_t seed, bool hard) {
+    const double pi = 3.14159265358979323846;
+    lab_light light = {.hard = hard};
+    for (uint64_t i = 0; i < LAB_LIGHT_PARTS; ++i) {
+        const double z = 2.0 * hashed(seed, 4 * i) - 1.0, phi = 2.0 * pi * hashed(seed, 4 * i + 1);
+        light.axis[i][0] = sqrt(1.0 - z * z) * cos(phi);
+        light.axis[i][1] = sqrt(1.0 - z * z) * sin(phi);
+        light.axis[i][2] = z;
+        light.sharpness[i] = 2.0 * pow(30.0, hashed(seed, 4 * i + 2));
+        light.height[i] = hashed(seed, 4 * i + 3);
+    }
+    return light;
+}
+
+double lab_radiance(const lab_light *light, const double direction[3]) {
+    if (direction[2] < 0.0)
+        return 0.0;
+    double sum = 0.3;
+    for (int i = 0; i < LAB_LIGHT_PARTS; ++i) {
+        const double *const axis = light->axis[i];
+        const double depth = 1.0 - direction[0] * axis[0] - direction[1] * axis[1] - direction[2] * axis[2];
+        if (light->hard)
+            sum += light->sharpness[i] * depth < 1.0 ? light->height[i] : 0.0;
+        else
+            sum += light->height[i] * exp(-light->sharpness[i] * depth);
+    }
+    return sum;
+}

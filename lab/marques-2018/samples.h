@@ -1,0 +1,50 @@
+/* What the experiments on weights share: samples, densities and lights. */
+#ifndef LAB_MARQUES_2018_SAMPLES_H
+#define LAB_MARQUES_2018_SAMPLES_H
+
+#include <aureole/quadrature.h>
+
+#include "lab/lab.h"
+
+typedef struct lab_samples {
+    const char *set;
+    size_t count;
+    double exponent; /* of the cos^m lobe that they follow */
+    int optimal_density;
+    uint64_t seed; /* of random sets and of the scrambling */
+} lab_samples;
+
+/* Digit scrambling for sets of the square that know it, a rotation for sets of the sphere, nothing for random
+ * ones. */
+aur_scramble lab_scrambling(const char *set);
+
+/* Directions into xyz[3 * count] and weights[count] (or NULL). */
+aur_result lab_draw(const lab_samples *wanted, double *xyz, double *weights, aur_error *error);
+
+/* The potential of a cos^m lobe about +z. */
+aur_result lab_lobe_potential(double exponent, double smoothness, aur_potential **potential,
+                              aur_error *error);
+
+typedef struct lab_moments {
+    double sum, squares;
+    size_t count;
+} lab_moments;
+
+void lab_add(lab_moments *moments, double value);
+double lab_mean(const lab_moments *moments);
+double lab_spread(const lab_moments *moments); /* standard deviation */
+
+enum { LAB_LIGHT_PARTS = 6 };
+
+/* A sum of six spherical Gaussians of sharpness 2 to 60, anywhere, plus 0.3; or six disks as wide, with hard
+ * edges. */
+typedef struct lab_light {
+    double axis[LAB_LIGHT_PARTS][3], sharpness[LAB_LIGHT_PARTS], height[LAB_LIGHT_PARTS];
+    bool hard;
+} lab_light;
+
+lab_light lab_random_light(uint64_t seed, bool hard);
+/* Nothing comes from below the surface. */
+double lab_radiance(const lab_light *light, const double direction[3]);
+
+#endif

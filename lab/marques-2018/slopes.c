@@ -1,0 +1,104 @@
+/* Worst-case error against the number of samples, with equal and with optimal weights (what figure 7 of
+ * Marques 2018 shows of images): random samples gain a rate, low-discrepancy ones a constant. */
+#include <math.h>
+#include <stdlib.h>
+
+#include "samples.h"
+
+enum { SIZES = 7, SMALLEST = 16, LARGEST = SMALLEST << (SIZES - 1) };
+
+static const char *const columns[] = {"set", "exponent", "n", "equal", "optimal", "gain_percent"};
+
+typedef struct line {
+    double x[SIZES], y[SIZES];
+} line;
+
+static double slope(const line *l) {
+    double x = 0.0, y = 0.0, xx = 0.0, xy = 0.0;
+    for (size_t i = 0; i < SIZES; ++i) {
+        x += l->x[i] / SIZES;
+        y += l->y[i] / SIZES;
+    }
+    for (size_t i = 0; i < SIZES; ++i) {
+        xx += (l->x[i] - x) * (l->x[i] - x);
+        xy += (l->x[i] - x) * (l->y[i] - y);
+    }
+    return xy / xx;
+}
+
+/* Root mean squares over seeds. */
+static aur_result measure(const lab_samples *first, size_t seeds, const aur_potential *potential,
+                          double *room, double rms[2], aur_error *error) {
+    const aur_weights_options unconstrained = {AUR_REGULARIZATION_DEFAULT, 0};
+    double *const xyz = room, *const weights = room + 3 * LARGEST;
+    double squares[2] = {0};
+    for (uint64_t seed = 0; seed < seeds; ++seed) {
+        lab_samples wanted = *first;
+        wanted.seed = seed;
+        aur_weights_report report;
+        aur_result result = lab_draw(&wanted, xyz, NULL, error);
+        if (result == AUR_OK)
+            result = aur_weights_solve(wanted.count, xyz, 1, &potential, &unconstrained, weights, &report,
+                                       NULL, error);
+        if (result != AUR_OK)
+            return result;
+        squares[0] += report.equal_error * report.equal_error;
+        squares[1] += report.optimal_error * report.optimal_error;
+    }
+    rms[0] = sqrt(squares[0] / (double)seeds);
+    rms[1] = sqrt(squares[1] / (double)seeds);
+    return AUR_OK;
+}
+
+static aur_result study(lab_run *run, const char *set, double exponent, double *room, aur_error *error) {
+    aur_potential *potential;
+    aur_result result = lab_lobe_potential(exponent, 1.5, &potential, error);
+    line equal, optimal;
+    const bool fixed = lab_scrambling(set) == AUR_SCRAMBLE_ROTATE; /* a rotation changes no weight */
+    const size_t seeds = fixed ? 1 : lab_run_options(run)->quick ? 4 : 40;
+    for (size_t i = 0; i < SIZES && result == AUR_OK; ++i) {
+        const size_t count = (size_t)SMALLEST << i;
+        double rms[2];
+        result = measure(&(lab_samples){.set = set, .count = count, .exponent = exponent}, seeds, potential,
+                         room, rms, error);
+        if (result != AUR_OK)
+            break;
+        equal.x[i] = optimal.x[i] = log((double)count);
+        equal.y[i] = log(rms[0]);
+        optimal.y[i] = log(rms[1]);
+        lab_text(run, set);
+        lab_number(run, exponent);
+        lab_number(run, (double)count);
+        lab_number(run, rms[0]);
+        lab_number(run, rms[1]);
+        lab_number(run, 100.0 * (1.0 - rms[1] / rms[0]));
+    }
+    if (result == AUR_OK)
+        lab_note(run, "%s, m = %g: slope %.3f with equal weights, %.3f with optimal ones", set, exponent,
+                 slope(&equal), slope(&optimal));
+    aur_potential_destroy(potential);
+    return result;
+}
+
+static aur_result run(lab_run *run, aur_error *error) {
+    lab_columns(run, sizeof columns / sizeof columns[0], columns);
+    double *const room = malloc(4 * LARGEST * sizeof *room);
+    if (room == NULL)
+        return AUR_ERROR_MEMORY;
+    aur_result result = AUR_OK;
+    const char *const sets[] = {"random", "sobol", "spherical-fibonacci", lab_run_options(run)->set};
+    const double exponents[] = {1.0, 20.0};
+    for (size_t e = 0; e < 2; ++e)
+        for (size_t i = 0; i < 4 && result == AUR_OK; ++i)
+            if (sets[i] != NULL)
+                result = study(run, sets[i], exponents[e], room, error);
+    free(room);
+    return result;
+}
+
+const lab_experiment lab_marques_2018_slopes = {
+    .name = "marques-2018-slopes",
+    .reproduces = "Marques 2018, fig. 7",
+    .summary = "worst-case error against N: random samples gain a rate, nets a constant",
+    .run = run,
+};
