@@ -1,0 +1,24 @@
+#!/usr/bin/env bash
+# The quick forms of the experiments on weights reproduce their figures (200 scramblings; four standard errors).
+set -u
+program=$1
+rm -rf out && mkdir out || exit 1
+for name in gains slopes sensitivity; do
+  "$program" lab run marques-2018-$name --quick -o out >out/$name.txt || exit 1
+done
+# FIGURE MEAN TOLERANCE, of Sobol.
+while IFS=';' read -r figure mean tolerance; do
+  awk -F, -v f="$figure" -v m="$mean" -v t="$tolerance" '
+    $1 == "sobol" && $2 == f { d = $4 - m; found = 1; if (d > t || d < -t) { print f ": " $4 ", not " m; bad = 1 } }
+    END { exit bad || !found }' out/marques-2018-gains.csv || exit 1
+done <<'FIGURES'
+OSW diffuse;5.6;0.3
+OSW glossy;7.3;0.6
+OSWA against OSW;16.8;0.3
+OSWA against QMC;22.2;0.4
+FIGURES
+# Random samples gain a rate, Sobol a constant.
+grep "^# random" out/marques-2018-slopes.csv | awk '{ if ($7 > -0.45 || $7 < -0.55 || $11 > -0.70 || $11 < -0.79) exit 1 }' ||
+  { cat out/slopes.txt; exit 1; }
+# The published regularisation is worse than equal weights at m = 200.
+awk -F, '$2 == 200 && $5 == 0.5 { n++; if ($6 > 0) exit 1 } END { exit n != 2 }' out/marques-2018-sensitivity.csv || exit 1
