@@ -77,6 +77,24 @@ AUR_API double aur_lobe_pdf(const aur_lobe *lobe, const double direction[3]) AUR
 AUR_API aur_result aur_lobe_optimal(const aur_lobe *lobe, double smoothness, aur_lobe *density,
                                     aur_error *error) AUR_NONNULL(1, 3);
 
+/* A density on the unit square from a picture, made ready: immutable. */
+typedef struct aur_density_image aur_density_image;
+
+/* density[width * height] with the top row first, finite and not negative, not all 0; u runs along a row and
+ * v upwards, 1 to 65536 pixels a side. The density is constant within a pixel. */
+AUR_API aur_result aur_density_image_create(size_t width, size_t height, const float *density,
+                                            aur_density_image **image, aur_error *error) AUR_NONNULL(3, 4);
+AUR_API void aur_density_image_destroy(aur_density_image *image); /* NULL is allowed */
+/* A uniform point of the square to one that follows the density, by inversion: rows first by v, then along
+ * the row by u (Schretter 2012 fig. 4), and back. Points stay in [0,1); the arrays may be one and the same.
+ */
+AUR_API void aur_density_image_warp(const aur_density_image *image, const double square[2], double warped[2])
+    AUR_NONNULL(1, 2, 3);
+AUR_API void aur_density_image_unwarp(const aur_density_image *image, const double warped[2],
+                                      double square[2]) AUR_NONNULL(1, 2, 3);
+/* The density at a point of the square; its integral is 1. */
+AUR_API double aur_density_image_pdf(const aur_density_image *image, const double point[2]) AUR_NONNULL(1, 2);
+
 /* A rotation, row by row: rotated[i] = sum over k of m[3 i + k] v[k]. */
 typedef struct aur_rotation {
     double m[9];
@@ -153,7 +171,7 @@ AUR_API aur_result aur_directions_arrays_float(const aur_directions *directions,
 typedef struct aur_points_request {
     aur_directions_options options; /* .domain may be any; .map lifts to the disk too */
     int natural_domain;             /* non-zero: the set's own domain instead (a file's: what it holds) */
-    size_t dimension;               /* 0 stands for 2; otherwise CUBE, or SQUARE with 2 */
+    size_t dimension;               /* of the cube, or 2 for the square; 0: 2, or what the set has */
     uint64_t first;                 /* of the set's points */
     size_t count;                   /* 0: all from `first` on */
 } aur_points_request;

@@ -1,14 +1,23 @@
 /* aureole points: writes points of any set on any domain. */
+#include <aureole/image.h>
 #include <aureole/sphere.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include "cli/cli.h"
+#include "cli/draw.h"
+#include "cli/picture.h"
+
+/* The first four are the library's, in its order. */
+static const char *const format_words[] = {"csv", "json", "npy", "ply", "svg", "png"};
+enum { FORMAT_COUNT = sizeof format_words / sizeof format_words[0], FORMAT_SVG = 4, FORMAT_PNG = 5 };
 
 typedef struct request {
     const char *set;
     const char *path;
-    aur_points_format format;
+    const char *warp; /* a picture's path */
+    size_t format;    /* index into format_words */
     bool format_given, map_given, lobe_given, domain_given, size_given, quiet;
     aur_points_request points;
 } request;
@@ -41,7 +50,21 @@ static bool accept(aur_result result, const aur_error *error) {
     return result == AUR_OK;
 }
 
-enum { FIRST = 256, COUNT, DIMENSION, DOMAIN, MAP, LOBE, DENSITY, SMOOTHNESS, SCRAMBLE, SEED, CAP, FORMAT };
+enum {
+    FIRST = 256,
+    COUNT,
+    DIMENSION,
+    DOMAIN,
+    MAP,
+    LOBE,
+    DENSITY,
+    SMOOTHNESS,
+    SCRAMBLE,
+    SEED,
+    CAP,
+    WARP,
+    FORMAT
+};
 
 static bool parse_option(int option, const char *text, request *wanted) {
     aur_directions_options *const options = &wanted->points.options;
@@ -86,7 +109,10 @@ static bool parse_option(int option, const char *text, request *wanted) {
         return cli_parse_number("--cap", text, 1e-6, 180.0, &options->cap_degrees);
     case FORMAT:
         wanted->format_given = true;
-        return accept(aur_points_format_from_name(text, &wanted->format, &error), &error);
+        return cli_parse_word("--format", text, FORMAT_COUNT, format_words, &wanted->format);
+    case WARP:
+        wanted->warp = text;
+        return true;
     default:
         return false;
     }
@@ -94,26 +120,21 @@ static bool parse_option(int option, const char *text, request *wanted) {
 
 /* By the name's end when no format is given. */
 static void format_from_path(request *wanted) {
-    const char *const dot = wanted->path != NULL ? strrchr(wanted->path, '.') : NULL;
-    if (!wanted->format_given && dot != NULL &&
-        aur_points_format_from_name(dot + 1, &wanted->format, NULL) != AUR_OK)
-        wanted->format = AUR_POINTS_CSV;
+    const char *const dot = strrchr(wanted->path, '.');
+    for (size_t i = 0; i < FORMAT_COUNT && dot != NULL && !wanted->format_given; ++i)
+        if (strcmp(format_words[i], dot + 1) == 0)
+            wanted->format = i;
 }
 
 static bool parse(int argc, char **argv, request *wanted) {
-    static const struct option options[] = {{"first", required_argument, NULL, FIRST},
-                                            {"count", required_argument, NULL, COUNT},
-                                            {"dim", required_argument, NULL, DIMENSION},
-                                            {"domain", required_argument, NULL, DOMAIN},
-                                            {"map", required_argument, NULL, MAP},
-                                            {"lobe", required_argument, NULL, LOBE},
-                                            {"density", required_argument, NULL, DENSITY},
-                                            {"smoothness", required_argument, NULL, SMOOTHNESS},
-                                            {"scramble", required_argument, NULL, SCRAMBLE},
-                                            {"seed", required_argument, NULL, SEED},
-                                            {"cap", required_argument, NULL, CAP},
-                                            {"format", required_argument, NULL, FORMAT},
-                                            {0}};
+    static const struct option options[] = {
+        {"first", required_argument, NULL, FIRST},       {"count", required_argument, NULL, COUNT},
+        {"dim", required_argument, NULL, DIMENSION},     {"domain", required_argument, NULL, DOMAIN},
+        {"map", required_argument, NULL, MAP},           {"lobe", required_argument, NULL, LOBE},
+        {"density", required_argument, NULL, DENSITY},   {"smoothness", required_argument, NULL, SMOOTHNESS},
+        {"scramble", required_argument, NULL, SCRAMBLE}, {"seed", required_argument, NULL, SEED},
+        {"cap", required_argument, NULL, CAP},           {"warp", required_argument, NULL, WARP},
+        {"format", required_argument, NULL, FORMAT},     {0}};
     optind = 0;
     for (int option; (option = cli_next_option(argc, argv, "n:o:q", options)) != -1;)
         if (!parse_option(option, optarg, wanted))
@@ -148,6 +169,57 @@ static bool complete(request *wanted) {
     return true;
 }
 
+/* The density that a picture's brightness (Rec. 709 luminance) makes; returns the exit status. */
+static int read_density(const char *path, aur_density_image **density) {
+    aur_image *image;
+    const int status = cli_read_picture(path, NULL, &image);
+    if (status != CLI_SUCCESS)
+        return status;
+    const size_t count = image->width * image->height;
+    size_t channels[3];
+    float *const luminance = malloc(count * sizeof *luminance);
+    aur_error error = {.result = AUR_ERROR_MEMORY};
+    bool good = luminance != NULL && aur_image_color_channels(image, channels);
+    for (size_t i = 0; i < count && good; ++i) {
+        const float *const pixel = image->data + i * image->channel_count;
+        luminance[i] =
+            0.2126f * pixel[channels[0]] + 0.7152f * pixel[channels[1]] + 0.0722f * pixel[channels[2]];
+    }
+    good =
+        good && aur_density_image_create(image->width, image->height, luminance, density, &error) == AUR_OK;
+    free(luminance);
+    aur_image_destroy(image);
+    snprintf(error.file, sizeof error.file, "%s", path);
+    return good ? CLI_SUCCESS : cli_fail(&error);
+}
+
+static int warp(const char *path, aur_points *points) {
+    if (points->domain != AUR_DOMAIN_SQUARE)
+        return cli_bad_usage("--warp: needs points of the square");
+    aur_density_image *density;
+    const int status = read_density(path, &density);
+    if (status != CLI_SUCCESS)
+        return status;
+    for (size_t i = 0; i < points->count; ++i)
+        aur_density_image_warp(density, points->coordinates + 2 * i, points->coordinates + 2 * i);
+    aur_density_image_destroy(density);
+    return CLI_SUCCESS;
+}
+
+static int write_points(const request *wanted, const aur_points *points) {
+    aur_error error = {0};
+    const aur_points_origin origin = {.set = wanted->set,
+                                      .size = wanted->points.options.count,
+                                      .first = wanted->points.first,
+                                      .scramble = wanted->points.options.scramble,
+                                      .seed = wanted->points.options.seed};
+    const aur_result result =
+        wanted->format >= FORMAT_SVG
+            ? cli_draw_points(wanted->path, wanted->format == FORMAT_PNG, points, &error)
+            : aur_points_write(wanted->path, (aur_points_format)wanted->format, points, &origin, &error);
+    return result == AUR_OK ? CLI_SUCCESS : cli_fail(&error);
+}
+
 static int run(int argc, char **argv) {
     request wanted = {.path = "-"};
     if (!parse(argc, argv, &wanted) || !complete(&wanted))
@@ -157,14 +229,11 @@ static int run(int argc, char **argv) {
     aur_points points;
     if (aur_points_generate(wanted.set, &wanted.points, &points, &error) != AUR_OK)
         return cli_fail(&error);
-    const aur_points_origin origin = {.set = wanted.set,
-                                      .size = wanted.points.options.count,
-                                      .first = wanted.points.first,
-                                      .scramble = wanted.points.options.scramble,
-                                      .seed = wanted.points.options.seed};
-    const aur_result result = aur_points_write(wanted.path, wanted.format, &points, &origin, &error);
+    int status = wanted.warp != NULL ? warp(wanted.warp, &points) : CLI_SUCCESS;
+    if (status == CLI_SUCCESS)
+        status = write_points(&wanted, &points);
     aur_points_release(&points);
-    return result == AUR_OK ? CLI_SUCCESS : cli_fail(&error);
+    return status;
 }
 
 const cli_verb cli_verb_points = {
@@ -183,7 +252,8 @@ const cli_verb cli_verb_points = {
     "  --smoothness S         s of the optimal density, between 1 and 2 (1.5)\n"
     "  --scramble SCRAMBLE    none, digit, owen, shift, rotate or rotate3d (none)\n"
     "  --seed S               of random sets and scramblings (0)\n"
-    "  --format FORMAT        csv, npy, ply or json (by the file's name; csv)\n"
+    "  --warp IMAGE           move points of the square so that they follow the picture's brightness\n"
+    "  --format FORMAT        csv, npy, ply, json, svg or png (by the file's name; csv)\n"
     "  -o FILE                where to (standard output)\n"
     "  -q                     no warnings\n",
     run,

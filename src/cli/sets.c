@@ -1,7 +1,17 @@
 /* aureole sets: the table of all sets. */
 #include <aureole/sphere.h>
+#include <stdio.h>
+#include <string.h>
 
 #include "cli/cli.h"
+
+/* Where a set's points can be: sets of the square come to the other domains by a map. */
+static void add_domains(cli_table *table, const aur_set_description *set) {
+    char text[160];
+    const bool lifted = strstr(set->domains, "square") != NULL;
+    snprintf(text, sizeof text, "%s%s", set->domains, lifted ? ", disk, hemisphere, sphere" : "");
+    cli_table_text(table, text);
+}
 
 static int run(int argc, char **argv) {
     static const struct option options[] = {{"format", required_argument, NULL, 'f'}, {0}};
@@ -19,7 +29,7 @@ static int run(int argc, char **argv) {
         const aur_set_description *const set = aur_set_at(i);
         cli_table_text(table, set->name);
         cli_table_text(table, set->keys);
-        cli_table_text(table, set->domains);
+        add_domains(table, set);
         cli_table_text(table, set->sizes);
         cli_table_text(table, set->extensible ? "yes" : "no");
         cli_table_text(table, set->source);

@@ -149,11 +149,16 @@ static aur_result open_native(const char *set, const aur_directions_options *opt
 
 static aur_result open_square(const char *set, const aur_directions_options *options, uint64_t count,
                               aur_scramble scramble, aur_directions *directions, aur_error *error) {
-    const aur_pointset_options wanted = {
-        .count = count, .scramble = scramble, .seed = options->seed, .warnings = options->warnings};
-    directions->size = count;
+    const aur_pointset_options wanted = {.count = count,
+                                         .dimension = 2,
+                                         .scramble = scramble,
+                                         .seed = options->seed,
+                                         .warnings = options->warnings};
     directions->weighted = directions->weighted || directions->map == AUR_MAP_POLAR;
-    return aur_pointset_create(set, &wanted, &directions->square, error);
+    const aur_result result = aur_pointset_create(set, &wanted, &directions->square, error);
+    if (result == AUR_OK)
+        directions->size = aur_pointset_size(directions->square);
+    return result;
 }
 
 static aur_result open_file(const char *set, const aur_directions_options *options, aur_scramble scramble,

@@ -4,8 +4,9 @@
  * integration (0 adds exactly 1/N^2 to the square of the energy). The hemisphere is the first N points of the
  * set of 2N, a cap of height h the first N of the set of 2N/h. With `epsilon` instead, z_j = 1 - 2 (j +
  * epsilon)/(N - 1 + 2 epsilon) (Roberts 2020): above 1/2 it widens the smallest distance and spoils the
- * energy. Any N up to 2^50; the azimuth is exact to 3e-12 turn at j = 1e9 (the 64 digits of the golden ratio,
- * times j). The cost is that of a square root and two polynomials of degree 8. */
+ * energy. `region=octant` keeps x, y, z >= 0, N points by a table of their indices. Any N up to 2^50; the
+ * azimuth is exact to 3e-12 turn at j = 1e9 (the 64 digits of the golden ratio, times j). The cost is that of
+ * a square root and two polynomials of degree 8. */
 #include "sphere/fibonacci.h"
 
 #include <math.h>
@@ -42,10 +43,33 @@ aur_fibonacci_kernel aur_fibonacci_choose_kernel(void) {
 typedef struct fibonacci_set {
     aur_fibonacci points;
     aur_fibonacci_kernel kernel;
+    int octant;
+    uint64_t indices[]; /* of the points in the octant, where that is the region */
 } fibonacci_set;
 
-static aur_result prepare(aur_parameters *keys, const aur_native_request *request, void **data,
-                          aur_error *error) {
+static int in_first_quarter(uint64_t index) {
+    return index * AUR_GOLDEN_PHASE >> 62 == 0;
+}
+
+/* The first `count` points of a hemisphere's set whose azimuth is in the first quarter; the set's size is
+ * such that the next one would lie below the horizon, and as near to four times the count as can be. */
+static void choose_octant(fibonacci_set *set, uint64_t count, double offset) {
+    uint64_t next = 0;
+    for (uint64_t i = 0; i < count; ++i, ++next) {
+        while (!in_first_quarter(next))
+            ++next;
+        set->indices[i] = next;
+    }
+    uint64_t size = next;
+    while (size < 4 * count && !in_first_quarter(size))
+        ++size;
+    set->points = (aur_fibonacci){.step = 1.0 / (double)size, .offset = offset};
+    set->octant = 1;
+}
+
+/* The lattice of the whole sphere that the keys ask for. */
+static aur_result choose_lattice(aur_parameters *keys, const aur_native_request *request, aur_fibonacci *set,
+                                 aur_error *error) {
     double offset = 0.5;
     double epsilon = -1.0;
     aur_result result = aur_parameters_float(keys, "offset", 0.0, 1.0, &offset, error);
@@ -54,34 +78,62 @@ static aur_result prepare(aur_parameters *keys, const aur_native_request *reques
     if (result != AUR_OK)
         return result;
     const double whole = 2.0 / request->height * (double)request->count;
-    aur_fibonacci set = {.step = 2.0 / whole, .offset = offset};
-    if (epsilon >= 0.0) {
-        if (aur_parameters_find(keys, "offset") != NULL)
-            return aur_fail(error, AUR_ERROR_ARGUMENT,
-                            "set 'spherical-fibonacci': 'offset' and 'epsilon' exclude each other");
-        if (!(whole - 1.0 + 2.0 * epsilon > 0.0))
-            return aur_fail(error, AUR_ERROR_ARGUMENT,
-                            "set 'spherical-fibonacci': a single point needs an epsilon above 0");
-        set = (aur_fibonacci){.step = 2.0 / (whole - 1.0 + 2.0 * epsilon), .offset = epsilon};
-    }
-    fibonacci_set *const kept = malloc(sizeof *kept);
+    *set = (aur_fibonacci){.step = 2.0 / whole, .offset = offset};
+    if (epsilon < 0.0)
+        return AUR_OK;
+    if (aur_parameters_find(keys, "offset") != NULL)
+        return aur_fail(error, AUR_ERROR_ARGUMENT,
+                        "set 'spherical-fibonacci': 'offset' and 'epsilon' exclude each other");
+    if (!(whole - 1.0 + 2.0 * epsilon > 0.0))
+        return aur_fail(error, AUR_ERROR_ARGUMENT,
+                        "set 'spherical-fibonacci': a single point needs an epsilon above 0");
+    *set = (aur_fibonacci){.step = 2.0 / (whole - 1.0 + 2.0 * epsilon), .offset = epsilon};
+    return AUR_OK;
+}
+
+static aur_result prepare(aur_parameters *keys, const aur_native_request *request, void **data,
+                          aur_error *error) {
+    static const char *const regions[] = {"domain", "octant"};
+    aur_fibonacci lattice;
+    aur_result result = choose_lattice(keys, request, &lattice, error);
+    size_t region = 0;
+    if (result == AUR_OK)
+        result = aur_parameters_choice(keys, "region", 2, regions, &region, error);
+    if (result != AUR_OK)
+        return result;
+    if (region == 1 && (lattice.offset > 1.0 || aur_parameters_find(keys, "epsilon") != NULL ||
+                        (request->height != 1.0 && request->height != 2.0)))
+        return aur_fail(
+            error, AUR_ERROR_UNSUPPORTED,
+            "set 'spherical-fibonacci': an octant goes with an offset, not with 'epsilon' or a cap");
+    if (region == 1 && request->count > SIZE_MAX / 64)
+        return aur_fail(error, AUR_ERROR_MEMORY, "the octant's points do not fit into memory");
+    fibonacci_set *const kept =
+        malloc(sizeof *kept + (region == 1 ? (size_t)request->count * sizeof kept->indices[0] : 0));
     if (kept == NULL)
         return aur_fail(error, AUR_ERROR_MEMORY, "out of memory");
-    *kept = (fibonacci_set){set, aur_fibonacci_choose_kernel()};
+    *kept = (fibonacci_set){.points = lattice, .kernel = aur_fibonacci_choose_kernel()};
+    if (region == 1)
+        choose_octant(kept, request->count, lattice.offset);
     *data = kept;
     return AUR_OK;
 }
 
 static void fill(const void *data, uint64_t first, size_t count, double *xyz) {
     const fibonacci_set *const set = data;
-    set->kernel(&set->points, first, count, xyz);
+    if (!set->octant) {
+        set->kernel(&set->points, first, count, xyz);
+        return;
+    }
+    for (size_t i = 0; i < count; ++i)
+        aur_fibonacci_points_portable(&set->points, set->indices[first + i], 1, xyz + 3 * i);
 }
 
 const aur_native_set aur_native_fibonacci = {
     .description = {.name = "spherical-fibonacci",
-                    .keys = "offset=0.5,epsilon=none",
+                    .keys = "offset=0.5,epsilon=none,region=domain",
                     .summary = "a spiral of golden angles at equal heights; the most uniform there is",
-                    .domains = "sphere, hemisphere, cap",
+                    .domains = "sphere, hemisphere, disk, cap, octant",
                     .sizes = "1..2^50",
                     .extensible = 0,
                     .source = "Swinbank 2006, Marques 2013"},

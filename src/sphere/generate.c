@@ -148,12 +148,12 @@ aur_result aur_points_generate(const char *set, const aur_points_request *reques
     aur_result result = natural_domain(set, request, &points->domain, &size, error);
     if (result != AUR_OK)
         return result;
-    const size_t dimension = request->dimension != 0 ? request->dimension : 2;
+    const size_t dimension = request->dimension;
     const int flat = points->domain == AUR_DOMAIN_SQUARE || points->domain == AUR_DOMAIN_CUBE ||
                      points->domain == AUR_DOMAIN_DISK;
     if (flat)
         result = check_flat_options(&request->options, error);
-    if (result == AUR_OK && dimension != 2 && points->domain != AUR_DOMAIN_SQUARE &&
+    if (result == AUR_OK && dimension != 0 && dimension != 2 && points->domain != AUR_DOMAIN_SQUARE &&
         points->domain != AUR_DOMAIN_CUBE)
         result = aur_fail(error, AUR_ERROR_ARGUMENT, "only the square has other dimensions than its own");
     if (result != AUR_OK)

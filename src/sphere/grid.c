@@ -287,7 +287,7 @@ const aur_native_set aur_native_grid = {
     .description = {.name = "esfg",
                     .keys = "base=auto,levels=auto,first-shift=best,shift=final,progression=2",
                     .summary = "spherical Fibonacci grids that double or quadruple and keep their points",
-                    .domains = "sphere, hemisphere, cap",
+                    .domains = "sphere, hemisphere, disk, cap",
                     .sizes = "1..2^48; base*4^levels times 1, 2, 3, 4 is even",
                     .extensible = 1,
                     .source = "Marques 2019"},

@@ -1,0 +1,150 @@
+#!/usr/bin/env bash
+# Every set on every domain in every format, from the program's own list; and bad input, which gives one line on
+# standard error, exit status 2 and no file.
+set -u
+aureole=$1
+status=0
+fail() { echo "$*"; status=1; }
+rm -f ./*.out ./*.csv ./*.txt
+
+# What the sets need beyond their names: matrices a file, file: a path.
+printf '1 0\n0 1\n\n1 1\n0 1\n' > matrices.txt
+"$aureole" points halton -n 16 -o own.csv || fail "cannot write own.csv"
+count=16
+text_of() {
+  case $1 in
+    matrices) echo "matrices:file=matrices.txt" ;;
+    file) echo "file:own.csv" ;;
+    *) echo "$1" ;;
+  esac
+}
+
+"$aureole" sets --format csv > sets.csv || fail "sets failed"
+[ "$(wc -l < sets.csv)" -gt 15 ] || fail "too few sets are listed"
+seen=0
+while IFS= read -r line; do
+  set=${line%%,*}
+  [ "$set" = set ] && continue
+  # the field in quotes, or none
+  case $line in
+    *square*) domains="square disk hemisphere sphere" ;;
+    *sphere*) domains="disk hemisphere sphere" ;;
+    *) domains="own" ;;
+  esac
+  n=$count
+  [ "$set" = matrices ] && n=4
+  for domain in $domains; do
+    where=(--domain "$domain")
+    [ "$domain" = own ] && where=()
+    for format in csv json npy ply svg png; do
+      out=$set-$domain.$format.out
+      message=$("$aureole" points "$(text_of "$set")" -n $n -q "${where[@]}" --format $format -o "$out" 2>&1) ||
+        fail "$set on $domain as $format: $message"
+      [ -s "$out" ] || fail "$set on $domain as $format wrote nothing"
+      seen=$((seen + 1))
+    done
+    rows=$(($(wc -l < "$set-$domain.csv.out") - 1))
+    [ "$rows" = $n ] || fail "$set on $domain: $rows rows, not $n"
+    grep -q nan "$set-$domain.csv.out" && fail "$set on $domain: NaN"
+  done
+done < sets.csv
+[ $seen -gt 400 ] || fail "only $seen combinations were run"
+
+# What is written is read again, and parts are parts of the whole.
+"$aureole" points spherical-fibonacci -n 100 -o whole.csv || fail "whole"
+"$aureole" points spherical-fibonacci -n 100 --first 40 --count 10 -o part.csv || fail "part"
+[ "$(sed 1d part.csv)" = "$(sed -n 42,51p whole.csv)" ] || fail "a part differs from the whole"
+for format in csv npy; do
+  "$aureole" points spherical-fibonacci -n 100 --format $format -o again.$format.out || fail "writing $format"
+  "$aureole" points "file:again.$format.out" -o again.csv || fail "reading $format"
+  cmp -s again.csv whole.csv || fail "$format does not come back as it went"
+done
+head -1 whole.csv | grep -qx 'x,y,z' || fail "the header of directions"
+"$aureole" points sobol -n 4 --lobe phong:20 --density optimal | head -1 | grep -qx 'x,y,z,w' || fail "weights"
+"$aureole" points sobol -n 8 --dim 3 | head -1 | grep -qx 'u1,u2,u3' || fail "the cube"
+"$aureole" points sobol -n 6 2>&1 > /dev/null | grep -q 'power of 2' || fail "no warning at n = 6"
+"$aureole" points sobol -n 64 --format svg | grep -c '<circle' | grep -qx 64 || fail "the picture of 64 points"
+[ "$("$aureole" points esfg:base=16 -n 64 --format svg | grep -c '<circle cx')" = 128 ] || fail "two views of 64"
+"$aureole" points sobol -n 64 --format png -o ramp.png || fail "png"
+"$aureole" points hammersley -n 64 --warp ramp.png -o warped.csv || fail "warp"
+[ "$(wc -l < warped.csv)" = 65 ] || fail "warped points"
+"$aureole" points spherical-fibonacci -n 50 --cap 20 | awk -F, 'NR > 1 && $3 < 0.9396 { bad = 1 } END { exit bad }' ||
+  fail "a cap of 20 degrees"
+
+# The same seed gives the same points, another seed others.
+for scramble in digit owen shift rotate rotate3d; do
+  one=$("$aureole" points sobol -n 8 --domain sphere --scramble $scramble --seed 1)
+  [ "$one" = "$("$aureole" points sobol -n 8 --domain sphere --scramble $scramble --seed 1)" ] || fail "$scramble differs"
+  [ "$one" != "$("$aureole" points sobol -n 8 --domain sphere --scramble $scramble --seed 2)" ] || fail "$scramble: seed"
+done
+
+refuse() {
+  rm -f refused.out
+  "$aureole" points "$@" -o refused.out > stdout.txt 2> stderr.txt
+  local code=$?
+  [ $code = 2 ] || fail "points $*: exit status $code, not 2"
+  [ "$(wc -l < stderr.txt)" = 1 ] || fail "points $*: not one line on standard error: $(cat stderr.txt)"
+  grep -q '^aureole: ' stderr.txt || fail "points $*: $(cat stderr.txt)"
+  [ -s stdout.txt ] && fail "points $*: wrote on standard output"
+  compgen -G 'refused.out*' > /dev/null && fail "points $*: left a file"
+}
+refuse
+refuse sobol
+refuse sobol -n 0
+refuse sobol -n -1
+refuse sobol -n 1e3
+refuse sobol -n 99999999999999999999
+refuse sobol -n 99999999999999999
+refuse sobol halton -n 4
+refuse sobl -n 4
+refuse sobl -n 4 --domain sphere
+refuse sobol:x=1 -n 4
+refuse sobol -n 4 --dim 0
+refuse sobol -n 4 --dim 3 --domain sphere
+refuse larcher-pillichshammer -n 4 --dim 3
+refuse sobol -n 4 --domain torus
+refuse sobol -n 4 --map lambert
+refuse sobol -n 4 --domain sphere --map mercator
+refuse sobol -n 4 --lobe phong:-1
+refuse sobol -n 4 --lobe phong:nan
+refuse sobol -n 4 --lobe phong:inf
+refuse sobol -n 4 --lobe cosine --domain sphere
+refuse sobol -n 4 --lobe cosine --density best
+refuse sobol -n 4 --lobe cosine --density optimal --smoothness 2
+refuse sobol -n 4 --lobe cosine --density optimal --smoothness nan
+refuse sobol -n 4 --lobe ggx:0.5 --density optimal
+refuse sobol -n 4 --scramble sobol
+refuse sobol -n 4 --scramble rotate3d
+refuse sobol -n 4 --domain hemisphere --scramble rotate3d
+refuse sobol -n 4 --seed x
+refuse sobol -n 4 --cap 20
+refuse sobol -n 4 --cap nan --domain sphere
+refuse sobol -n 4 --cap 100 --domain hemisphere
+refuse sobol -n 4 --format obj
+refuse sobol -n 4 --dim 5 --format ply
+refuse sobol -n 4 --first 5
+refuse sobol -n 4 --first 4
+refuse sobol -n 4 --first 2 --count 3
+refuse sobol -n 4 --count 0
+refuse sobol -n 4 --frist 1
+refuse sobol -n 4 --warp nothing.png
+refuse sobol -n 4 --warp ramp.png --domain sphere
+refuse sobol -n 4 --warp own.csv
+refuse spherical-fibonacci -n 4 --domain square
+refuse spherical-fibonacci -n 4 --scramble owen
+refuse spherical-fibonacci:offset=nan -n 4
+refuse spherical-fibonacci:region=octant -n 4 --cap 20
+refuse esfg:base=64,levels=1 -n 300
+refuse file:nothing.csv
+refuse file:own.csv -n 17
+printf 'x,y,z\n0,0,1\n0,0\n' > ragged.csv
+printf 'x,y,z\n0,0,1\n0,0,nan\n' > nan.csv
+printf 'x,y,z\n0,0,1\n0,0,2\n' > off.csv
+printf 'u,v\n0,0.5\n0,1.5\n' > off-square.csv
+for file in ragged nan off off-square; do
+  refuse file:$file.csv
+  grep -q "$file.csv:3" stderr.txt || fail "$file.csv: the line is not named: $(cat stderr.txt)"
+done
+"$aureole" points sobol -n 4 -o nowhere/points.csv 2> /dev/null
+[ $? = 3 ] || fail "a folder that is not there is a failure of the system"
+exit $status
