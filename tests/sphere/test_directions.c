@@ -208,7 +208,8 @@ static void files_are_sets(void **state) {
     static const char path[] = "directions-of-a-file.csv";
     double xyz[] = {0, 0, 1, 0.6, 0, 0.8, 0, -0.8, 0.6};
     double weights[] = {0.5, 0.25, 0.25};
-    const aur_points points = {AUR_DOMAIN_HEMISPHERE, 3, 3, xyz, weights};
+    const aur_points points = {
+        .domain = AUR_DOMAIN_HEMISPHERE, .count = 3, .dimension = 3, .coordinates = xyz, .weights = weights};
     assert_int_equal(aur_points_write(path, AUR_POINTS_CSV, &points, NULL, NULL), AUR_OK);
     char set[64];
     snprintf(set, sizeof set, "file:%s", path);
@@ -228,7 +229,7 @@ static void files_are_sets(void **state) {
     more = (aur_directions_options){.domain = AUR_DOMAIN_HEMISPHERE};
     assert_int_equal(aur_directions_create(set, &more, &directions, NULL), AUR_ERROR_ARGUMENT);
     double uv[] = {0.25, 0.5, 0.125, 0.75};
-    const aur_points squares = {AUR_DOMAIN_SQUARE, 2, 2, uv, NULL};
+    const aur_points squares = {.domain = AUR_DOMAIN_SQUARE, .count = 2, .dimension = 2, .coordinates = uv};
     assert_int_equal(aur_points_write(path, AUR_POINTS_CSV, &squares, NULL, NULL), AUR_OK);
     directions = open_set(set, options);
     assert_int_equal(aur_directions_points(directions, 0, 2, 6, read, NULL), AUR_OK);
