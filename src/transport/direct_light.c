@@ -17,7 +17,8 @@ aur_vector aur_direct_light_sampled(const aur_scene *scene, const aur_shading *s
     ++counters->rays;
     if (aur_scene_occluded(scene, &shadow))
         return black;
-    const float weight = aur_power_heuristic(light.pdf, aur_shading_pdf(shading, light.direction));
+    const float weight =
+        light.delta ? 1.0f : aur_power_heuristic(light.pdf, aur_shading_pdf(shading, light.direction));
     return aur_vector_scale(radiance, weight / light.pdf);
 }
 
@@ -31,8 +32,14 @@ static aur_vector reflected_emission(const aur_scene *scene, const aur_shading *
     const aur_ray ray = aur_surface_ray(shading->surface, sample.light);
     aur_hit hit;
     ++counters->rays;
-    if (!aur_scene_intersect(scene, &ray, &hit))
-        return black;
+    if (!aur_scene_intersect(scene, &ray, &hit)) {
+        const aur_vector sky = aur_scene_environment(scene, ray.direction);
+        if (aur_vector_is_zero(sky))
+            return black;
+        const float rival = aur_environment_pdf_direct(scene, ray.direction);
+        return aur_vector_scale(aur_vector_multiply(sample.weight, sky),
+                                aur_power_heuristic(sample.pdf, rival));
+    }
     aur_surface light;
     aur_scene_surface(scene, &ray, &hit, &light);
     const aur_vector emission = aur_surface_emission(scene, &light, aur_vector_scale(ray.direction, -1.0f));

@@ -21,7 +21,7 @@ enum { LONGEST_CHAIN = 16 }; /* specular bounces in a row */
 typedef struct gather_data {
     size_t component, direct, incident;
     uint32_t max_depth;
-    size_t samples_per_pixel;
+    size_t samples_per_pixel, glossy_samples;
     uint64_t pattern_seed;
     aur_gather_options options;
     aur_gather_rule diffuse;
@@ -218,14 +218,14 @@ static aur_result create(aur_parameters *parameters, const aur_integrator_contex
     data->incident = p.incident;
     data->max_depth = p.max_depth < 0 ? UINT32_MAX : (uint32_t)p.max_depth;
     data->samples_per_pixel = context->samples_per_pixel;
+    data->glossy_samples = shared_count(p.glossy_samples, context->samples_per_pixel);
     data->pattern_seed = options.seed;
     data->options = options;
     options.count = shared_count(p.diffuse_samples, context->samples_per_pixel);
     result = aur_gather_rule_create(&options, 1.0, &data->diffuse, error);
     data->options.warnings = (aur_warnings){0};
     if (result == AUR_OK)
-        result = prepare_glossy_rules(data, context->scene,
-                                      shared_count(p.glossy_samples, context->samples_per_pixel), error);
+        result = prepare_glossy_rules(data, context->scene, data->glossy_samples, error);
     const bool wants_photons = p.incident == INCIDENT_PHOTONS && data->max_depth >= 3;
     if (result == AUR_OK && wants_photons)
         result = prepare_map(data, &p, context, error);
@@ -271,14 +271,18 @@ static aur_vector incident_radiance(const gather_place *place, aur_ray ray, uint
     for (uint32_t chain = 0; chain <= LONGEST_CHAIN; ++chain) {
         aur_hit hit;
         ++place->counters->rays;
-        if (!aur_scene_intersect(scene, &ray, &hit))
-            break;
+        /* Light that a mirror throws here is not found by shadow rays. */
+        const bool counts_emission = sees_emitters || (chain > 0 && data->direct == DIRECT_NEE);
+        if (!aur_scene_intersect(scene, &ray, &hit)) {
+            if (!counts_emission)
+                break;
+            return aur_vector_multiply(throughput, aur_scene_environment(scene, ray.direction));
+        }
         aur_surface surface;
         aur_scene_surface(scene, &ray, &hit, &surface);
         const aur_vector view = aur_vector_scale(ray.direction, -1.0f);
         aur_vector radiance = {0};
-        /* Light that a mirror throws here is not found by shadow rays. */
-        if (sees_emitters || (chain > 0 && data->direct == DIRECT_NEE))
+        if (counts_emission)
             radiance = aur_surface_emission(scene, &surface, view);
         if (!is_specular_only(&surface, view)) {
             if (data->map != NULL)
@@ -327,11 +331,43 @@ static aur_vector gather_lobe(const gather_place *place, const aur_gather_rule *
     return aur_vector_scale(aur_vector_multiply(sum, lobe->coefficient), 1.0f / (float)share);
 }
 
-static aur_vector gather(const gather_place *place, size_t count, const aur_bsdf_lobe *lobes) {
+/* The glossy part of a BSDF that has no formula, by the BSDF's own samples: this sample's share of them. */
+static aur_vector gather_sampled(const gather_place *place, const aur_shading *shading, size_t count,
+                                 const aur_bsdf_lobe *lobes, uint64_t what) {
+    static const aur_sampler sobol = {.kind = AUR_SAMPLER_SOBOL};
+    const gather_data *const data = place->integrator->data;
+    const aur_surface *const surface = place->surface;
+    const aur_stream *const stream = &place->sample->stream;
+    const uint64_t hash = aur_hash4(data->pattern_seed, stream->pixel, place->chain, what);
+    const size_t share = data->glossy_samples / data->samples_per_pixel;
+    aur_vector sum = {0};
+    for (size_t i = 0; i < share; ++i) {
+        const aur_stream numbers = {&sobol, hash, (uint32_t)(stream->index * share + i)};
+        float choice[2], direction[2];
+        aur_stream_pair(&numbers, 0, choice);
+        aur_stream_pair(&numbers, 1, direction);
+        aur_bsdf_sample drawn;
+        if (!aur_shading_sample(shading, (const float[3]){choice[0], direction[0], direction[1]}, &drawn) ||
+            drawn.specular || !(drawn.pdf > 0.0f))
+            continue;
+        const aur_vector light = aur_frame_to_local(&surface->frame, drawn.light);
+        const aur_vector value =
+            aur_glossy_value(surface->bsdf, surface->texture, shading->view, light, count, lobes);
+        const aur_vector radiance =
+            incident_radiance(place, aur_surface_ray(surface, drawn.light), aur_hash2(hash, i));
+        sum = aur_vector_add_scaled(sum, 1.0f / drawn.pdf, aur_vector_multiply(value, radiance));
+    }
+    return aur_vector_scale(sum, 1.0f / (float)share);
+}
+
+static aur_vector gather(const gather_place *place, const aur_shading *shading, size_t count,
+                         const aur_bsdf_lobe *lobes) {
     const gather_data *const data = place->integrator->data;
     aur_vector sum = {0};
     for (size_t i = 0; i < count; ++i) {
         const aur_gather_rule *const rule = find_rule(data, &lobes[i]);
+        if (lobes[i].shape == AUR_LOBE_SHAPE_SAMPLED && data->component != COMPONENT_DIFFUSE)
+            sum = aur_vector_add(sum, gather_sampled(place, shading, count, lobes, i));
         const bool wanted =
             data->component == COMPONENT_ALL || lobes[i].diffuse == (data->component == COMPONENT_DIFFUSE);
         if (lobes[i].shape == AUR_LOBE_SHAPE_COSINE_POWER && wanted && rule != NULL &&
@@ -354,8 +390,12 @@ static aur_vector radiance(const aur_integrator *integrator, const aur_camera_sa
     for (uint32_t chain = 0; chain <= LONGEST_CHAIN; ++chain) {
         aur_hit hit;
         ++counters->rays;
-        if (!aur_scene_intersect(scene, &ray, &hit))
+        if (!aur_scene_intersect(scene, &ray, &hit)) {
+            if (data->direct != DIRECT_NONE)
+                sum = aur_vector_add(
+                    sum, aur_vector_multiply(throughput, aur_scene_environment(scene, ray.direction)));
             break;
+        }
         aur_surface surface;
         aur_scene_surface(scene, &ray, &hit, &surface);
         const aur_vector view = aur_vector_scale(ray.direction, -1.0f);
@@ -376,7 +416,7 @@ static aur_vector radiance(const aur_integrator *integrator, const aur_camera_sa
         if (gathers) {
             const float side = aur_vector_dot(surface.geometric_normal, view) < 0.0f ? -1.0f : 1.0f;
             const gather_place place = {integrator, &surface, sample, side, chain, counters};
-            here = aur_vector_add(here, gather(&place, count, lobes));
+            here = aur_vector_add(here, gather(&place, &shading, count, lobes));
         }
         sum = aur_vector_add(sum, aur_vector_multiply(throughput, here));
         if (!specular)

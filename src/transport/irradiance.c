@@ -65,6 +65,7 @@ static float disc_coverage(const aur_scene *scene, aur_vector position, aur_vect
 
 typedef struct estimate_work {
     const aur_scene *scene;
+    const aur_photon *photons;
     const aur_kd_tree *photon_tree;
     const uint32_t *centres; /* the photon of each point */
     const aur_irradiance_options *options;
@@ -78,7 +79,7 @@ static int by_item(const void *a, const void *b) {
 
 static void estimate(const estimate_work *work, size_t index) {
     aur_irradiance_map *const map = work->map;
-    const aur_photon *const photons = map->photons.photons;
+    const aur_photon *const photons = work->photons;
     const aur_photon *const centre = &photons[work->centres[index]];
     aur_irradiance_point *const point = &map->points[index];
     const uint32_t first = point->first;
@@ -102,9 +103,10 @@ static void estimate(const estimate_work *work, size_t index) {
     for (size_t i = 0; i < count; ++i) {
         if (found[i].distance_squared >= radius_squared)
             continue;
-        power = aur_vector_add(power, photons[found[i].item].power);
+        const aur_photon *const photon = &photons[found[i].item];
+        power = aur_vector_add(power, photon->power);
         if (centre->glossy)
-            map->members[first + point->members++] = found[i].item;
+            map->members[first + point->members++] = (aur_incident_photon){photon->direction, photon->power};
     }
     const float coverage =
         disc_coverage(work->scene, centre->position, centre->normal, sqrtf(radius_squared));
@@ -124,26 +126,25 @@ static aur_result estimate_chunk(void *context, size_t chunk) {
 }
 
 /* Every glossy point has room for its photons, one after another. */
-static aur_result lay_out_members(aur_irradiance_map *map, const uint32_t *centres, size_t neighbours,
-                                  aur_error *error) {
+static aur_result lay_out_members(aur_irradiance_map *map, const aur_photon *photons, const uint32_t *centres,
+                                  size_t neighbours) {
     size_t total = 0;
     for (size_t i = 0; i < map->count; ++i) {
         map->points[i].first = (uint32_t)total;
-        total += map->photons.photons[centres[i]].glossy ? neighbours : 0;
+        total += photons[centres[i]].glossy ? neighbours : 0;
     }
     if (total > UINT32_MAX)
-        return aur_fail(error, AUR_ERROR_ARGUMENT, "photon map: too many photons on glossy surfaces");
+        return AUR_ERROR_ARGUMENT;
     map->members = malloc((total > 0 ? total : 1) * sizeof *map->members);
     return map->members != NULL ? AUR_OK : AUR_ERROR_MEMORY;
 }
 
 /* Cells over the photons; *centres is the photon that stands for each. */
-static aur_result make_cells(aur_irradiance_map *map, uint32_t **centres) {
-    const aur_photon *const photons = map->photons.photons;
-    const aur_surface_samples samples = {.count = map->photons.count,
-                                         .stride = sizeof *photons,
-                                         .positions = &photons->position,
-                                         .normals = &photons->normal};
+static aur_result make_cells(aur_irradiance_map *map, const aur_photon_map *photons, uint32_t **centres) {
+    const aur_surface_samples samples = {.count = photons->count,
+                                         .stride = sizeof *photons->photons,
+                                         .positions = &photons->photons->position,
+                                         .normals = &photons->photons->normal};
     const aur_result result =
         aur_surface_cells_build(&map->cells, &samples, samples.count / PHOTONS_A_CELL + 1);
     if (result != AUR_OK)
@@ -185,38 +186,41 @@ static aur_result spread_estimates(aur_irradiance_map *map) {
 }
 
 static aur_result estimate_all(const aur_scene *scene, const aur_irradiance_options *options,
-                               aur_irradiance_map *map, const uint32_t *centres, aur_error *error) {
+                               const aur_photon_map *photons, const uint32_t *centres,
+                               aur_irradiance_map *map) {
     const size_t threads = options->photons.threads;
-    aur_result result = lay_out_members(map, centres, options->neighbours, error);
-    aur_kd_tree photon_tree = {0};
+    aur_result result = lay_out_members(map, photons->photons, centres, options->neighbours);
+    aur_kd_tree tree = {0};
     if (result == AUR_OK)
-        result = tree_over(&map->photons, threads, &photon_tree);
+        result = tree_over(photons, threads, &tree);
     if (result == AUR_OK) {
-        estimate_work work = {scene, &photon_tree, centres, options, map};
+        estimate_work work = {scene, photons->photons, &tree, centres, options, map};
         const aur_parallel_options parallel = {
             .threads = threads, .what = "irradiance", .progress = options->photons.progress};
         result = aur_parallel_for(&parallel, (map->count + POINTS_A_CHUNK - 1) / POINTS_A_CHUNK,
                                   estimate_chunk, &work);
     }
-    aur_kd_tree_release(&photon_tree);
-    if (result == AUR_OK)
-        result = spread_estimates(map);
-    return result;
+    aur_kd_tree_release(&tree);
+    return result == AUR_OK ? spread_estimates(map) : result;
 }
 
 static aur_result fill(const aur_scene *scene, const aur_irradiance_options *options, aur_irradiance_map *map,
                        aur_error *error) {
-    aur_result result = aur_photon_map_create(scene, &options->photons, &map->photons, error);
+    aur_photon_map photons;
+    aur_result result = aur_photon_map_create(scene, &options->photons, &photons, error);
     if (result != AUR_OK)
         return result;
     uint32_t *centres = NULL;
-    result = make_cells(map, &centres);
+    result = make_cells(map, &photons, &centres);
     if (result == AUR_OK)
-        result = estimate_all(scene, options, map, centres, error);
+        result = estimate_all(scene, options, &photons, centres, map);
     free(centres);
-    map->rays = map->photons.rays + (uint64_t)map->count * COVERAGE_RAYS;
+    map->photons = photons.count;
+    map->rays = photons.rays + (uint64_t)map->count * COVERAGE_RAYS;
+    aur_photon_map_release(&photons);
     if (result == AUR_ERROR_ARGUMENT)
-        return result; /* said already */
+        return aur_fail(error, result,
+                        "photon map: more photons than 32-bit numbers can name; use fewer photons");
     return result == AUR_OK ? AUR_OK : aur_fail(error, result, "photon map: %s", aur_result_string(result));
 }
 
@@ -238,32 +242,56 @@ aur_result aur_irradiance_map_create(const aur_scene *scene, const aur_irradianc
 void aur_irradiance_map_destroy(aur_irradiance_map *map) {
     if (map == NULL)
         return;
-    aur_photon_map_release(&map->photons);
     aur_surface_cells_release(&map->cells);
     free(map->points);
     free(map->members);
     free(map);
 }
 
+/* What the glossy lobes have towards `light`, BSDF * |cos|, and nothing from powers too small to matter. */
+typedef struct glossy_lobes {
+    bool sampled; /* one of them has no formula */
+    size_t count;
+    aur_bsdf_lobe lobes[AUR_BSDF_LOBE_CAPACITY];
+    float
+        least[AUR_BSDF_LOBE_CAPACITY]; /* cosine about the axis under which cos^exponent is less than 1e-6 */
+} glossy_lobes;
+
+static glossy_lobes lobes_at(const aur_surface *surface, aur_vector view) {
+    glossy_lobes all = {0};
+    all.count = surface->bsdf->descriptor->lobes(surface->bsdf, surface->texture, view, all.lobes);
+    for (size_t i = 0; i < all.count; ++i) {
+        all.sampled = all.sampled || all.lobes[i].shape == AUR_LOBE_SHAPE_SAMPLED;
+        all.least[i] = expf(-13.8155f / fmaxf(all.lobes[i].exponent, 1e-3f));
+    }
+    return all;
+}
+
+static aur_vector glossy_value(const glossy_lobes *all, const aur_surface *surface, aur_vector view,
+                               aur_vector light) {
+    if (all->sampled)
+        return aur_glossy_value(surface->bsdf, surface->texture, view, light, all->count, all->lobes);
+    aur_vector sum = {0};
+    for (size_t i = 0; i < all->count; ++i)
+        if (!all->lobes[i].diffuse && aur_vector_dot(all->lobes[i].axis, light) > all->least[i])
+            sum = aur_vector_add(sum, aur_lobe_value(&all->lobes[i], light));
+    return sum;
+}
+
 /* The glossy lobes' share: a density estimate over the point's photons. */
 static aur_vector glossy_radiance(const aur_irradiance_map *map, const aur_irradiance_point *point,
-                                  const aur_surface *surface, size_t lobe_count, const aur_bsdf_lobe *lobes) {
+                                  const aur_surface *surface, aur_vector view) {
+    const glossy_lobes lobes = lobes_at(surface, view);
     aur_vector sum = {0};
     for (uint32_t i = 0; i < point->members; ++i) {
-        const aur_photon *const photon = &map->photons.photons[map->members[point->first + i]];
+        const aur_incident_photon *const photon = &map->members[point->first + i];
         const aur_vector light = aur_frame_to_local(&surface->frame, photon->direction);
-        /* The lobes are of BSDF * cos, and a photon's power has its cosine already. */
+        const aur_vector value = glossy_value(&lobes, surface, view, light);
+        if (aur_vector_is_zero(value))
+            continue;
+        /* The value is of BSDF * cos, and a photon's power has its cosine already. */
         const float cosine = fmaxf(fabsf(light.z), 0.05f);
-        for (size_t k = 0; k < lobe_count; ++k) {
-            if (lobes[k].diffuse || lobes[k].shape != AUR_LOBE_SHAPE_COSINE_POWER)
-                continue;
-            const float along = aur_vector_dot(lobes[k].axis, light);
-            if (along <= 0.0f)
-                continue;
-            const float value =
-                powf(along, lobes[k].exponent) * (lobes[k].times_cosine ? 1.0f : 1.0f / cosine);
-            sum = aur_vector_add_scaled(sum, value, aur_vector_multiply(lobes[k].coefficient, photon->power));
-        }
+        sum = aur_vector_add_scaled(sum, 1.0f / cosine, aur_vector_multiply(value, photon->power));
     }
     return aur_vector_scale(sum, 1.0f / point->area);
 }
@@ -286,7 +314,5 @@ aur_vector aur_irradiance_radiance(const aur_irradiance_map *map, const aur_surf
         aur_vector_scale(aur_vector_multiply(albedo, point->irradiance), 1.0f / AUR_PI_F);
     if (point->members == 0)
         return diffuse;
-    aur_bsdf_lobe lobes[AUR_BSDF_LOBE_CAPACITY];
-    const size_t lobe_count = descriptor->lobes(surface->bsdf, surface->texture, local_view, lobes);
-    return aur_vector_add(diffuse, glossy_radiance(map, point, surface, lobe_count, lobes));
+    return aur_vector_add(diffuse, glossy_radiance(map, point, surface, local_view));
 }

@@ -16,13 +16,19 @@ typedef struct aur_irradiance_point {
     uint32_t members;
 } aur_irradiance_point;
 
+/* A photon as glossy surfaces want it. */
+typedef struct aur_incident_photon {
+    aur_vector direction; /* unit, towards where it came from */
+    aur_vector power;
+} aur_incident_photon;
+
 typedef struct aur_irradiance_map {
     size_t count;
-    aur_irradiance_point *points; /* one a cell */
-    uint32_t *members;            /* indices of photons */
-    aur_photon_map photons;
+    aur_irradiance_point *points; /* one a cell that photons fell in */
+    aur_incident_photon *members; /* of the points on glossy surfaces, one point's after another's */
     aur_surface_cells cells;
-    uint64_t rays; /* that the map cost, particles included */
+    size_t photons; /* stored, of which the estimates were made */
+    uint64_t rays;  /* that the map cost, particles included */
 } aur_irradiance_map;
 
 typedef struct aur_irradiance_options {

@@ -51,8 +51,17 @@ static aur_vector radiance(const aur_integrator *integrator, const aur_camera_sa
     for (uint32_t depth = 1; depth <= data->max_depth; ++depth) {
         aur_hit hit;
         ++counters->rays;
-        if (!aur_scene_intersect(scene, &ray, &hit))
+        if (!aur_scene_intersect(scene, &ray, &hit)) {
+            const aur_vector sky = aur_scene_environment(scene, ray.direction);
+            if (!aur_vector_is_zero(sky)) {
+                const float weight =
+                    previous_specular
+                        ? 1.0f
+                        : aur_power_heuristic(previous_pdf, aur_environment_pdf_direct(scene, ray.direction));
+                sum = aur_vector_add_scaled(sum, weight, aur_vector_multiply(throughput, sky));
+            }
             break;
+        }
         aur_surface surface;
         aur_scene_surface(scene, &ray, &hit, &surface);
         const aur_vector view = aur_vector_scale(ray.direction, -1.0f);

@@ -56,7 +56,8 @@ static unsigned reflecting_parts(const aur_surface *surface, aur_vector view) {
 static aur_vector adjoint_weight(const aur_shading *shading, const aur_bsdf_sample *sample,
                                  aur_vector in_world) {
     if (sample->specular)
-        return sample->weight;
+        return sample->ior_squared > 0.0f ? aur_vector_scale(sample->weight, sample->ior_squared)
+                                          : sample->weight;
     const aur_shading reversed = aur_shading_at(shading->surface, sample->light);
     const float cos_in = fmaxf(fabsf(shading->view.z), 0.01f);
     const float cos_out = fabsf(reversed.view.z);
