@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# White furnaces (furnace.xml has the closed form): 8 independent seeds each. The mean over the seeds must be within t
+# White furnaces (furnace.xml and sky.xml have the closed forms): 8 independent seeds each. The mean over the seeds must be within t
 # standard errors of the exact radiance, t = 7.89 the quantile of Student's t with 7 degrees of freedom for a chance of
 # 1e-4, plus the bias that is stated for the photon map.
 . "$(dirname "$0")/common.sh.inc"
@@ -9,7 +9,7 @@ check() {
   local name=$1 exact=$2 bias=$3 means=
   shift 3
   for seed in 1 2 3 4 5 6 7 8; do
-    "$aureole" render "$source/tests/render/furnace.xml" -q --seed $seed -o $name-$seed.pfm "$@" ||
+    "$aureole" render "$source/tests/render/$scene.xml" -q --seed $seed -o $name-$seed.pfm "$@" ||
       { fail "$name: render"; return; }
     means="$means $(mean $name-$seed.pfm $name-$seed.pfm)"
   done
@@ -21,6 +21,7 @@ check() {
       exit !(off <= allowed && off >= -allowed && NF == 8) }' || fail "$name"
 }
 
+scene=furnace
 check path 1 0
 check path-random 1 0 --sampler random
 check path-bright 5 0 -D albedo=0.9
@@ -31,4 +32,8 @@ check gather-two 0.75 0 --integrator finalgather:direct=gather,incident=emitters
 check gather 1 0.01 --integrator finalgather:photons=50000,diffuse_samples=64 --spp 4
 check gather-bright 5 0.02 -D albedo=0.9 --integrator finalgather:photons=50000 --spp 4
 check gather-sobol 1 0.01 --integrator finalgather:photons=50000,pattern=sobol --spp 4
+scene=sky
+check sky-path 0.8 0
+check sky-gather 0.8 0 --integrator finalgather:photons=20000
+check sky-gather-all 0.8 0 --integrator finalgather:direct=gather,incident=emitters,density=same --spp 4
 exit $((failures > 0))
