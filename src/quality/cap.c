@@ -5,9 +5,9 @@
  * boundary opposite each other, or three points on its boundary. So for each pair all caps through both are
  * turned about it: with u the pair's middle, v = u x (their difference) and w(t) = u cos t + v sin t the
  * centre, h cos t is the height of the boundary (h = u.x_i), and a point x is inside while (u.x - h) cos t +
- * (v.x) sin t >= 0, which is half a turn. The entrances and exits are counted in bins of t, which bounds what
- * any event in a bin can give from above; only caps that could beat the best one so far are looked at point
- * by point. */
+ * (v.x) sin t >= 0, which is half a turn. Of three points two have indices of the same parity, so that such
+ * pairs are enough. The entrances and exits are counted in bins of t, which bounds from above what any event
+ * in a bin can give; only caps that could beat the best one so far are looked at point by point. */
 #include "quality/cap.h"
 
 #include <math.h>
@@ -81,6 +81,7 @@ static double value_of_cap(const aur_axes *axes, const double w[3], double heigh
 }
 
 typedef struct frame {
+    size_t i, j;
     double u[3], v[3];
     double height; /* u.x_i, at least 0 */
 } frame;
@@ -93,6 +94,8 @@ static void point_at(const aur_axes *axes, size_t i, double x[3]) {
 
 /* False for two points in one place: the other pairs cover it. For opposite points any middle will do. */
 static int make_frame(const aur_axes *axes, size_t i, size_t j, frame *f) {
+    f->i = i;
+    f->j = j;
     double a[3], b[3], difference[3];
     point_at(axes, i, a);
     point_at(axes, j, b);
@@ -111,14 +114,28 @@ static int make_frame(const aur_axes *axes, size_t i, size_t j, frame *f) {
 }
 
 /* The cap whose boundary passes through i, j (within the tolerance) with the centre w(t). */
-static double cap_at(const aur_axes *axes, const frame *f, size_t i, size_t j, double cosine, double sine) {
+static double cap_at(const aur_axes *axes, const frame *f, double cosine, double sine) {
     double w[3], a[3], b[3];
     for (int d = 0; d < 3; ++d)
         w[d] = f->u[d] * cosine + f->v[d] * sine;
     aur_normalize3(w);
-    point_at(axes, i, a);
-    point_at(axes, j, b);
+    point_at(axes, f->i, a);
+    point_at(axes, f->j, b);
     return value_of_cap(axes, w, fmax(fmin(aur_dot3(w, a), aur_dot3(w, b)) - boundary_tolerance, -1.0));
+}
+
+/* The half circle of a point near one of the pair, from the difference to it, which has no rounding error. */
+static void refine(const aur_axes *axes, const frame *f, size_t k, scratch *s) {
+    double x[3], a[3], b[3];
+    point_at(axes, k, x);
+    point_at(axes, f->i, a);
+    point_at(axes, f->j, b);
+    const double *const nearest = aur_dot3(x, a) > aur_dot3(x, b) ? a : b;
+    for (int d = 0; d < 3; ++d)
+        x[d] -= nearest[d];
+    s->along[k] = aur_dot3(f->u, x);
+    s->across[k] = aur_dot3(f->v, x);
+    s->angle[k] = diamond(s->across[k], -s->along[k]);
 }
 
 /* Enters all points into the bins; returns the mass that is inside at t = 0 or too near to the pair's line to
@@ -141,6 +158,7 @@ static double fill_bins(const pencils *work, const frame *f, scratch *s) {
         const double weight = axes->weights[k];
         if (fabs(s->along[k]) + fabs(s->across[k]) < nearby) {
             inside += weight;
+            refine(axes, f, k, s);
             continue;
         }
         /* Early in, late out: no cap of a bin holds more than its bins say. */
@@ -158,19 +176,18 @@ static double fill_bins(const pencils *work, const frame *f, scratch *s) {
 }
 
 /* Looks at every entrance or exit in one bin. */
-static void search_bin(const pencils *work, const frame *f, const scratch *s, size_t i, size_t j,
-                       size_t bin) {
+static void search_bin(const pencils *work, const frame *f, const scratch *s, size_t bin) {
     const size_t bins = work->bin_count;
     for (size_t k = 0; k < work->axes->count; ++k) {
         const double length = sqrt(s->along[k] * s->along[k] + s->across[k] * s->across[k]);
-        if (k == i || k == j || length == 0.0)
+        if (k == f->i || k == f->j || length == 0.0)
             continue;
         const double cosine = s->across[k] / length;
         const double sine = -s->along[k] / length;
         if (bin_of(s->angle[k], bins) == bin)
-            raise_best(work->best, cap_at(work->axes, f, i, j, cosine, sine));
+            raise_best(work->best, cap_at(work->axes, f, cosine, sine));
         if (bin_of(s->angle[k] + 2.0, bins) == bin)
-            raise_best(work->best, cap_at(work->axes, f, i, j, -cosine, -sine));
+            raise_best(work->best, cap_at(work->axes, f, -cosine, -sine));
     }
 }
 
@@ -178,15 +195,17 @@ static void turn_about_pair(const pencils *work, size_t i, size_t j, scratch *s)
     frame f;
     if (!make_frame(work->axes, i, j, &f))
         return;
-    double mass = fill_bins(work, &f, s);
     /* The cap with the pair on a diameter. */
-    raise_best(work->best, cap_at(work->axes, &f, i, j, 1.0, 0.0));
+    raise_best(work->best, cap_at(work->axes, &f, 1.0, 0.0));
+    if ((i + j) % 2 == 1)
+        return;
+    double mass = fill_bins(work, &f, s);
     for (size_t b = 0; b < work->bin_count; ++b) {
         mass += s->entering[b];
         const double bound = mass - 0.5 * (1.0 - f.height * work->cosines[b]) + 1e-12;
         mass -= s->leaving[b];
         if (bound > atomic_load_explicit(work->best, memory_order_relaxed))
-            search_bin(work, &f, s, i, j, b);
+            search_bin(work, &f, s, b);
     }
 }
 

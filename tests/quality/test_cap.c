@@ -89,8 +89,8 @@ static void caps_have_their_golden_figures(void **state) {
     release_points(&points);
 }
 
-/* The same by all triples, for random points, points of a grid (coplanar, coincident and antipodal ones among
- * them), and weights. */
+/* The same by all triples: random points, points of a grid (coplanar, coincident and antipodal ones among
+ * them), points that almost coincide, and weights. */
 static void caps_agree_with_all_triples(void **state) {
     (void)state;
     for (uint64_t seed = 0; seed < 24; ++seed) {
@@ -106,6 +106,15 @@ static void caps_agree_with_all_triples(void **state) {
                 for (int d = 0; d < 3; ++d)
                     x[d] = length > 0.0 ? x[d] / sqrt(length) : (d == 2 ? 1.0 : 0.0);
             }
+        /* Pairs that almost coincide. */
+        for (size_t i = 0; seed % 3 == 2 && i + 1 < points.count; i += 3) {
+            double *const x = points.coordinates + 3 * i;
+            for (int d = 0; d < 3; ++d)
+                x[3 + d] = x[d] + 1e-7 * (aur_unit_double(aur_hash3(seed, i, (uint64_t)d)) - 0.5);
+            const double length = sqrt(x[3] * x[3] + x[4] * x[4] + x[5] * x[5]);
+            for (int d = 3; d < 6; ++d)
+                x[d] /= length;
+        }
         if (seed % 2 == 1) {
             points.weights = malloc(points.count * sizeof(double));
             for (size_t i = 0; i < points.count; ++i)
