@@ -76,4 +76,9 @@ if command -v gnuplot >/dev/null; then
   refuses 'must end in' $measure sobol -n 4 --metric energy --plot slopes.txt
   refuses 'logarithmic' $measure sobol -n 4 --metric net --plot slopes.svg
 fi
+# The page for newcomers knows every measure.
+[ "$($measure --list --format csv | wc -l)" -gt 20 ] || fail "--list is short"
+for name in $($measure --list --format csv | tail -n +2 | cut -d, -f1 | cut -d: -f1 | cut -d'[' -f1); do
+  grep -q "\`$name[\`:\[]" "$2/docs/measures.md" || fail "docs/measures.md does not name $name"
+done
 exit $status
