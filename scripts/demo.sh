@@ -14,5 +14,6 @@ run() {
   echo "+ $*"
   "$@" </dev/null
 }
-run "$aureole" render scenes/cornell-box/glossy.xml -o out/cornell-glossy.png
+run "$aureole" render scenes/cornell-box/glossy.xml -v -o out/cornell-glossy.exr
+run "$aureole" convert out/cornell-glossy.exr out/cornell-glossy.png --exposure 1
 run "$aureole" lab run marques-2013-gather -o out/lab
