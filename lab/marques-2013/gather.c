@@ -10,13 +10,14 @@
 
 #include "lab/lab.h"
 
-enum { REFERENCE_DIRECTIONS = 16384, SET_CAPACITY = 3, MOST_SCRAMBLES = 16 };
+enum { SET_CAPACITY = 3, MOST_SCRAMBLES = 16 };
 
 typedef struct gather_study {
     lab_run *run;
     aur_renderer *renderer;
     size_t side; /* pixels a side */
     size_t photons;
+    size_t reference_directions;
     size_t scrambles; /* independent randomisations */
     size_t count_count;
     size_t counts[4];    /* directions a pixel */
@@ -120,8 +121,8 @@ static bool apart(size_t count, const double *lower, const double *upper) {
 
 static aur_result study_component(const gather_study *study, const char *component, aur_error *error) {
     aur_image *reference = NULL;
-    aur_result result =
-        render_component(study, component, "spherical-fibonacci", REFERENCE_DIRECTIONS, 0, &reference, error);
+    aur_result result = render_component(study, component, "spherical-fibonacci", study->reference_directions,
+                                         0, &reference, error);
     if (result == AUR_OK) {
         char name[64];
         snprintf(name, sizeof name, "%s-reference", component);
@@ -187,12 +188,13 @@ static aur_result measure_bias(const gather_study *study, aur_error *error) {
 static aur_result run(lab_run *run, aur_error *error) {
     const lab_options *const options = lab_run_options(run);
     gather_study study = {.run = run,
-                          .side = options->quick ? 32 : 64,
-                          .photons = options->quick ? 50000 : 500000,
+                          .side = options->quick ? 24 : 64,
+                          .photons = options->quick ? 20000 : 500000,
+                          .reference_directions = options->quick ? 4096 : 16384,
                           .scrambles = options->quick ? 4 : MOST_SCRAMBLES,
                           .count_count = options->quick ? 1 : 4,
                           .counts = {64, 16, 256, 512},
-                          .path_samples = options->quick ? 64 : 1024,
+                          .path_samples = options->quick ? 32 : 1024,
                           .set_count = options->set != NULL ? 3 : 2,
                           .sets = {"spherical-fibonacci", "sobol", options->set}};
     aur_scene *scene = NULL;

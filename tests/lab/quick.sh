@@ -1,0 +1,26 @@
+#!/usr/bin/env bash
+# The lab as a user meets it: the list, an experiment in its quick form, and names that do not exist.
+set -u
+aureole=$1
+source=$2
+failures=0
+fail() { echo "FAILED: $*"; failures=$((failures + 1)); }
+
+"$aureole" lab list | grep -q '^marques-2013-gather .*Marques 2013' || fail "the list"
+rm -rf results
+"$aureole" lab run marques-2013-gather --quick -q --scenes "$source/scenes" -o results >table.txt || fail "the run"
+cat table.txt
+# A row a component and pattern, each interval about its value, and Sobol's error above spherical Fibonacci's.
+awk -F, '!/^#/ && NR > 1 { ++rows; if (!($5 <= $4 && $4 <= $6 && $4 > 0)) bad = 1; rmse[$1 "/" $2] = $4 }
+         END { exit !(rows == 4 && !bad && rmse["diffuse/sobol"] > rmse["diffuse/spherical-fibonacci"] &&
+                      rmse["glossy/sobol"] > rmse["glossy/spherical-fibonacci"]) }' \
+  results/marques-2013-gather.csv || fail "the table"
+grep -q '^# bias of finalgather against path' results/marques-2013-gather.csv || fail "the bias"
+for picture in diffuse-reference glossy-error-sobol finalgather path; do
+  [ -s "results/marques-2013-gather-$picture.png" ] || fail "no picture $picture"
+done
+"$aureole" lab run marques-2031 2>message.txt && fail "an unknown experiment runs"
+[ $? -le 2 ] && grep -q "marques-2031.*lab list" message.txt || fail "$(cat message.txt)"
+"$aureole" lab 2>/dev/null
+[ $? -eq 2 ] || fail "lab without a word"
+exit $((failures > 0))
