@@ -25,6 +25,8 @@ static const aur_square_set *const sets[] = {
     &aur_set_r2,
     &aur_set_golden,
     &aur_set_golden_set,
+    &aur_set_blue_noise,
+    &aur_set_bnot,
     &aur_set_file,
 };
 

@@ -58,7 +58,8 @@ const aur_square_set *aur_square_set_at(size_t index);
 extern const aur_square_set aur_set_random, aur_set_lcg, aur_set_icg, aur_set_jittered,
     aur_set_van_der_corput, aur_set_halton, aur_set_hammersley, aur_set_faure, aur_set_sobol,
     aur_set_niederreiter, aur_set_larcher_pillichshammer, aur_set_matrices, aur_set_fibonacci_lattice,
-    aur_set_rank1, aur_set_r2, aur_set_golden, aur_set_golden_set, aur_set_file;
+    aur_set_rank1, aur_set_r2, aur_set_golden, aur_set_golden_set, aur_set_blue_noise, aur_set_bnot,
+    aur_set_file;
 
 /* Size, dimension and scrambling against what the kind of set has. */
 aur_result aur_pointset_check(const aur_pointset *set, aur_error *error);

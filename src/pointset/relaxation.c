@@ -1,0 +1,122 @@
+#include "pointset/relaxation.h"
+
+#include <inttypes.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+
+enum { PATH_CAPACITY = 4096 };
+
+void aur_random_sites(uint64_t seed, size_t count, aur_point2 *sites) {
+    for (size_t i = 0; i < count; ++i)
+        sites[i] =
+            (aur_point2){aur_unit_double(aur_hash3(seed, i, 0)), aur_unit_double(aur_hash3(seed, i, 1))};
+}
+
+bool aur_site_grid_create(aur_site_grid *grid, size_t count) {
+    grid->side = 1;
+    while ((grid->side + 1) * (grid->side + 1) <= count)
+        ++grid->side;
+    grid->start = malloc((grid->side * grid->side + 2) * sizeof *grid->start);
+    grid->sites = malloc(count * sizeof *grid->sites);
+    return grid->start != NULL && grid->sites != NULL;
+}
+
+void aur_site_grid_destroy(aur_site_grid *grid) {
+    free(grid->start);
+    free(grid->sites);
+    *grid = (aur_site_grid){0};
+}
+
+static size_t cell_of(const aur_site_grid *grid, aur_point2 p) {
+    const double side = (double)grid->side;
+    return (size_t)(p.y * side) * grid->side + (size_t)(p.x * side);
+}
+
+void aur_site_grid_fill(aur_site_grid *grid, size_t count, const aur_point2 *sites) {
+    const size_t cells = grid->side * grid->side;
+    uint32_t *const start = grid->start;
+    memset(start, 0, (cells + 2) * sizeof *start);
+    for (size_t i = 0; i < count; ++i)
+        ++start[cell_of(grid, sites[i]) + 2];
+    for (size_t c = 0; c <= cells; ++c)
+        start[c + 1] += start[c];
+    /* start[c + 1] is where cell c begins; placing its sites moves it to where the cell ends. */
+    for (size_t i = 0; i < count; ++i)
+        grid->sites[start[cell_of(grid, sites[i]) + 1]++] = (uint32_t)i;
+}
+
+/* The folder of the cache; false when there is none. */
+static bool cache_folder(char folder[PATH_CAPACITY]) {
+    const char *const own = getenv("AUREOLE_CACHE");
+    const char *const shared = getenv("XDG_CACHE_HOME");
+    const char *const home = getenv("HOME");
+    int length = -1;
+    if (own != NULL)
+        length = snprintf(folder, PATH_CAPACITY, "%s", own);
+    else if (shared != NULL && shared[0] == '/')
+        length = snprintf(folder, PATH_CAPACITY, "%s/aureole", shared);
+    else if (home != NULL && home[0] == '/')
+        length = snprintf(folder, PATH_CAPACITY, "%s/.cache/aureole", home);
+    return length > 0 && length < PATH_CAPACITY;
+}
+
+static void make_folders(const char *folder) {
+    char part[PATH_CAPACITY];
+    for (size_t i = 1; folder[i - 1] != '\0'; ++i) {
+        if (folder[i] != '/' && folder[i] != '\0')
+            continue;
+        memcpy(part, folder, i);
+        part[i] = '\0';
+        /* What exists already or cannot be made shows when the file is opened. */
+        (void)mkdir(part, 0777);
+    }
+}
+
+static bool cache_path(const aur_pointset *set, unsigned version, const char *folder,
+                       char path[PATH_CAPACITY]) {
+    const int length = snprintf(path, PATH_CAPACITY, "%s/%s-%u-%" PRIu64 "-%016" PRIx64 ".npy", folder,
+                                set->kind->description.name, version, set->size, set->seed);
+    return length > 0 && length < PATH_CAPACITY;
+}
+
+/* The points of a file, or NULL when it does not hold what it should. */
+static double *read_cache(const char *path, size_t count) {
+    aur_points points;
+    if (aur_points_read(path, &points, NULL) != AUR_OK)
+        return NULL;
+    double *coordinates = NULL;
+    if (points.domain == AUR_DOMAIN_SQUARE && points.count == count) {
+        coordinates = points.coordinates;
+        points.coordinates = NULL;
+    }
+    aur_points_release(&points);
+    return coordinates;
+}
+
+static void write_cache(const char *path, size_t count, aur_point2 *sites) {
+    const aur_points points = {
+        .domain = AUR_DOMAIN_SQUARE, .count = count, .dimension = 2, .coordinates = &sites[0].x};
+    (void)aur_points_write(path, AUR_POINTS_NPY, &points, NULL, NULL);
+}
+
+aur_result aur_prepare_relaxed(aur_pointset *set, unsigned version, aur_relaxation relax, aur_error *error) {
+    const size_t count = (size_t)set->size;
+    char folder[PATH_CAPACITY];
+    char path[PATH_CAPACITY];
+    const bool cached = cache_folder(folder) && cache_path(set, version, folder, path);
+    set->data = cached ? read_cache(path, count) : NULL;
+    if (set->data != NULL)
+        return AUR_OK;
+    aur_point2 *const sites = malloc(count * sizeof *sites);
+    if (sites == NULL)
+        return aur_fail(error, AUR_ERROR_MEMORY, "out of memory");
+    set->data = sites;
+    const aur_result result = relax(set->seed, count, sites, error);
+    if (result == AUR_OK && cached) {
+        make_folders(folder);
+        write_cache(path, count, sites);
+    }
+    return result;
+}

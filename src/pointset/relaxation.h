@@ -1,0 +1,57 @@
+/* What the two blue-noise sets share: random starts on the torus, wrapped differences, and a cache of
+ * results. */
+#ifndef AUR_POINTSET_RELAXATION_H
+#define AUR_POINTSET_RELAXATION_H
+
+#include "pointset/set.h"
+
+typedef struct aur_point2 {
+    double x, y;
+} aur_point2;
+
+/* The representative in [-1/2, 1/2) of a difference of two coordinates in [0,1). */
+static inline double aur_wrap(double difference) {
+    if (difference >= 0.5)
+        return difference - 1.0;
+    return difference < -0.5 ? difference + 1.0 : difference;
+}
+
+static inline aur_point2 aur_wrapped_difference(aur_point2 a, aur_point2 b) {
+    return (aur_point2){aur_wrap(a.x - b.x), aur_wrap(a.y - b.y)};
+}
+
+/* The representative in [0,1) of a coordinate in [-1, 2). */
+static inline double aur_unwrap(double x) {
+    if (x < 0.0)
+        x += 1.0;
+    if (x >= 1.0)
+        x -= 1.0;
+    return x >= 0.0 && x < 1.0 ? x : 0.0;
+}
+
+/* Independent uniform points. */
+void aur_random_sites(uint64_t seed, size_t count, aur_point2 *sites);
+
+/* Sites by cell of a square grid with about one site a cell: sites[start[c]] .. sites[start[c + 1] - 1] are
+ * those of cell c = row * side + column, in ascending order. */
+typedef struct aur_site_grid {
+    size_t side;
+    uint32_t *start; /* side^2 + 2 */
+    uint32_t *sites;
+} aur_site_grid;
+
+bool aur_site_grid_create(aur_site_grid *grid, size_t count); /* false: out of memory */
+void aur_site_grid_destroy(aur_site_grid *grid);
+void aur_site_grid_fill(aur_site_grid *grid, size_t count, const aur_point2 *sites);
+
+/* Writes set->size points or fails. */
+typedef aur_result (*aur_relaxation)(uint64_t seed, size_t count, aur_point2 *sites, aur_error *error);
+
+/* Makes set->data a table of the points that `relax` computes from the seed, or takes it from a file that an
+ * earlier call has left. The file is <folder>/<name>-<version>-<count>-<seed>.npy, where the folder is the
+ * value of the environment variable AUREOLE_CACHE, else aureole in XDG_CACHE_HOME, else .cache/aureole in
+ * HOME; an empty AUREOLE_CACHE means that nothing is kept. A file that cannot be read or written is no error:
+ * the points are computed. `version` changes whenever the points do. */
+aur_result aur_prepare_relaxed(aur_pointset *set, unsigned version, aur_relaxation relax, aur_error *error);
+
+#endif
