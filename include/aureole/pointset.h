@@ -47,6 +47,7 @@ typedef struct aur_set_description {
     const char *domains; /* "square", "cube, square", "sphere, hemisphere", ... */
     const char *sizes;   /* "any", "1..2^32", "base*4^levels", ... */
     int extensible;      /* the first n points of a larger set are the smaller set */
+    int binary_net;      /* 2^k points are a net in base 2: digit and Owen scrambling keep its evenness */
     const char *source;  /* author year */
 } aur_set_description;
 

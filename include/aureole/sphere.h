@@ -185,6 +185,8 @@ AUR_API aur_result aur_points_generate(const char *set, const aur_points_request
 /* The table of all sets, of the square and of the sphere. */
 AUR_API size_t aur_set_count(void);
 AUR_API const aur_set_description *aur_set_at(size_t index); /* NULL beyond the table */
+/* The row of the set that a text in SET syntax names, its keys apart; NULL for none (file:PATH has none). */
+AUR_API const aur_set_description *aur_set_find(const char *set) AUR_NONNULL(1);
 
 #ifdef __cplusplus
 }

@@ -97,6 +97,7 @@ const aur_square_set aur_set_hammersley = {
                     .domains = "square, cube",
                     .sizes = "1..2^48",
                     .extensible = 0,
+                    .binary_net = 1,
                     .source = "Hammersley 1960"},
     .minimum_dimension = 1,
     .maximum_dimension = AUR_RADICAL_PRIMES,

@@ -40,6 +40,7 @@ const aur_square_set aur_set_larcher_pillichshammer = {
                     .domains = "square",
                     .sizes = "any; a net at 2^m",
                     .extensible = 0,
+                    .binary_net = 1,
                     .source = "Larcher, Pillichshammer 2001; Kollig, Keller 2002"},
     .minimum_dimension = 2,
     .maximum_dimension = 2,

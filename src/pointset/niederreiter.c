@@ -82,6 +82,7 @@ const aur_square_set aur_set_niederreiter = {
                     .domains = "square, cube",
                     .sizes = "1..2^53; a net at 2^m",
                     .extensible = 1,
+                    .binary_net = 1,
                     .source = "Niederreiter 1988; Bratley, Fox, Niederreiter 1992"},
     .minimum_dimension = 1,
     .maximum_dimension = DIMENSIONS,

@@ -86,6 +86,7 @@ const aur_square_set aur_set_sobol = {
                     .domains = "square, cube",
                     .sizes = "1..2^53; a net at 2^m",
                     .extensible = 1,
+                    .binary_net = 1,
                     .source = "Sobol 1967; Joe, Kuo 2008; Burley 2020"},
     .minimum_dimension = 1,
     .maximum_dimension = SIZE_MAX,

@@ -41,6 +41,16 @@ const aur_set_description *aur_set_at(size_t index) {
     return index < squares + NATIVE_COUNT ? &natives[index - squares]->description : NULL;
 }
 
+const aur_set_description *aur_set_find(const char *set) {
+    const size_t length = strcspn(set, ":");
+    for (size_t i = 0; i < aur_set_count(); ++i) {
+        const aur_set_description *const row = aur_set_at(i);
+        if (strlen(row->name) == length && strncmp(row->name, set, length) == 0)
+            return row;
+    }
+    return NULL;
+}
+
 static const char file_prefix[] = "file:";
 
 int aur_set_is_file(const char *set) {

@@ -94,12 +94,8 @@ static aur_result read_parameters(aur_parameters *parameters, gather_parameters 
 
 /* Digits of nets are scrambled, every other pattern is turned about its axis (Marques 2013, section 6.1). */
 static aur_scramble default_scramble(const char *pattern) {
-    static const char *const nets[] = {"sobol", "larcher-pillichshammer", "hammersley", "niederreiter"};
-    const size_t length = strcspn(pattern, ":");
-    for (size_t i = 0; i < sizeof nets / sizeof nets[0]; ++i)
-        if (strlen(nets[i]) == length && strncmp(nets[i], pattern, length) == 0)
-            return AUR_SCRAMBLE_DIGIT;
-    return AUR_SCRAMBLE_ROTATE;
+    const aur_set_description *const row = aur_set_find(pattern);
+    return row != NULL && row->binary_net ? AUR_SCRAMBLE_DIGIT : AUR_SCRAMBLE_ROTATE;
 }
 
 static aur_result read_options(const gather_parameters *p, const aur_integrator_context *context,

@@ -1,23 +1,11 @@
 #include "transport/sampler.h"
 
-#include <aureole/pointset.h>
+#include <aureole/sphere.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "core/error.h"
 #include "pointset/net_2d.h"
-
-/* Sets whose first 2^k points are a (0,k,2)-net in base 2, so that Owen scrambling and shuffling keep them
- * one. */
-static bool is_base_two_net(const char *set) {
-    static const char *const names[] = {"hammersley", "larcher-pillichshammer", "niederreiter",
-                                        "van-der-corput"};
-    const size_t length = strcspn(set, ":");
-    for (size_t i = 0; i < sizeof names / sizeof names[0]; ++i)
-        if (strlen(names[i]) == length && strncmp(names[i], set, length) == 0)
-            return true;
-    return false;
-}
 
 static aur_result fill_table(aur_sampler *sampler, const char *set, const aur_warnings *warnings,
                              aur_error *error) {
@@ -59,7 +47,8 @@ aur_result aur_sampler_create(const char *set, size_t count, const aur_warnings 
     } else if (strcmp(set, "sobol") == 0) {
         sampler->kind = AUR_SAMPLER_SOBOL;
     } else {
-        sampler->kind = is_base_two_net(set) ? AUR_SAMPLER_NET : AUR_SAMPLER_TABLE;
+        const aur_set_description *const row = aur_set_find(set);
+        sampler->kind = row != NULL && row->binary_net ? AUR_SAMPLER_NET : AUR_SAMPLER_TABLE;
         sampler->size = (uint32_t)count;
         if (sampler->kind == AUR_SAMPLER_NET)
             for (sampler->size = 1; sampler->size < count;)
