@@ -35,6 +35,11 @@ static aur_result load_uniform(aur_oswa *oswa, size_t which, aur_error *error) {
     return result;
 }
 
+static void warp_pattern(aur_oswa *oswa, size_t which) {
+    for (size_t i = 0; i < oswa->count[which]; ++i)
+        aur_lobe_warp(&oswa->sampled[which], oswa->uniform[which] + 3 * i, oswa->pattern[which] + 3 * i);
+}
+
 /* The block of K and the z of a pattern within itself. */
 static aur_result prepare_pattern(aur_oswa *oswa, size_t which, aur_error *error) {
     const size_t n = oswa->count[which];
@@ -43,9 +48,7 @@ static aur_result prepare_pattern(aur_oswa *oswa, size_t which, aur_error *error
         aur_potential_create(&density, oswa->options.smoothness, &oswa->whole[which], error);
     if (result != AUR_OK)
         return result;
-    double *const pattern = oswa->pattern[which];
-    for (size_t i = 0; i < n; ++i)
-        aur_lobe_warp(&oswa->sampled[which], oswa->uniform[which] + 3 * i, pattern + 3 * i);
+    const double *const pattern = oswa->pattern[which];
     double *const columns = malloc(3 * n * sizeof *columns);
     if (columns == NULL)
         return aur_fail(error, AUR_ERROR_MEMORY, "out of memory");
@@ -63,12 +66,14 @@ static aur_result prepare_pattern(aur_oswa *oswa, size_t which, aur_error *error
     return AUR_OK;
 }
 
-static aur_result allocate(aur_oswa *oswa, aur_error *error) {
+static aur_result allocate(aur_oswa *oswa, bool solves, aur_error *error) {
     const size_t n = oswa->count[0] + oswa->count[1];
-    aur_result result = aur_check_system_size(n, error);
+    const aur_result result = aur_check_system_size(solves ? n : 1, error);
     if (result != AUR_OK)
         return result;
-    const size_t doubles = 7 * n + oswa->count[0] * oswa->count[0] + oswa->count[1] * oswa->count[1];
+    const size_t blocks[2] = {solves ? oswa->count[0] * oswa->count[0] : 0,
+                              solves ? oswa->count[1] * oswa->count[1] : 0};
+    const size_t doubles = 7 * n + blocks[0] + blocks[1];
     double *next = malloc(doubles * sizeof *next);
     oswa->storage = next;
     oswa->set = strdup(oswa->options.set != NULL ? oswa->options.set : "spherical-fibonacci");
@@ -81,7 +86,7 @@ static aur_result allocate(aur_oswa *oswa, aur_error *error) {
         oswa->pattern[which] = next + 3 * count;
         oswa->own[which] = next + 6 * count;
         oswa->kernel[which] = next + 7 * count;
-        next += 7 * count + count * count;
+        next += 7 * count + blocks[which];
     }
     return AUR_OK;
 }
@@ -107,7 +112,7 @@ static aur_result check(const aur_oswa_options *options, aur_error *error) {
     return AUR_OK;
 }
 
-static aur_result create(aur_oswa *oswa, aur_error *error) {
+static aur_result create(aur_oswa *oswa, bool solves, aur_error *error) {
     const aur_oswa_options *const options = &oswa->options;
     for (size_t which = 0; which < 2; ++which) {
         oswa->lobe[which] = which == 0 ? options->lobe : options->mirror_lobe;
@@ -120,16 +125,20 @@ static aur_result create(aur_oswa *oswa, aur_error *error) {
                 return result;
         }
     }
-    aur_result result = allocate(oswa, error);
+    aur_result result = allocate(oswa, solves, error);
     for (size_t which = 0; which < 2 && result == AUR_OK; ++which) {
         result = load_uniform(oswa, which, error);
-        if (result == AUR_OK && oswa->lobe[which].kind == AUR_LOBE_COSINE_POWER)
+        if (result != AUR_OK || oswa->lobe[which].kind != AUR_LOBE_COSINE_POWER)
+            continue;
+        warp_pattern(oswa, which);
+        if (solves)
             result = prepare_pattern(oswa, which, error);
     }
     return result;
 }
 
-aur_result aur_oswa_create(const aur_oswa_options *options, aur_oswa **oswa, aur_error *error) {
+aur_result aur_oswa_create_for(const aur_oswa_options *options, bool solves, aur_oswa **oswa,
+                               aur_error *error) {
     *oswa = NULL;
     aur_result result = check(options, error);
     if (result != AUR_OK)
@@ -140,13 +149,17 @@ aur_result aur_oswa_create(const aur_oswa_options *options, aur_oswa **oswa, aur
     created->options = *options;
     if (options->smoothness == 0.0)
         created->options.smoothness = 1.5;
-    result = create(created, error);
+    result = create(created, solves, error);
     if (result != AUR_OK) {
         aur_oswa_destroy(created);
         return result;
     }
     *oswa = created;
     return AUR_OK;
+}
+
+aur_result aur_oswa_create(const aur_oswa_options *options, aur_oswa **oswa, aur_error *error) {
+    return aur_oswa_create_for(options, true, oswa, error);
 }
 
 void aur_oswa_destroy(aur_oswa *oswa) {

@@ -21,6 +21,10 @@ struct aur_oswa {
     void *storage;
 };
 
+/* Without `solves` the patterns alone, which is all that a table of weights needs to be read. */
+aur_result aur_oswa_create_for(const aur_oswa_options *options, bool solves, aur_oswa **oswa,
+                               aur_error *error);
+
 /* What depends on the angle but not on the turns. */
 typedef struct aur_oswa_angle {
     double radians;

@@ -4,19 +4,18 @@
 #include <lapacke.h>
 #include <limits.h>
 #include <math.h>
-#include <stdatomic.h>
-#include <stdbool.h>
+#include <pthread.h>
 #include <stdlib.h>
 #include <unistd.h>
 
-/* OpenBLAS has one number of threads for the whole process. Setting it again is harmless, and so is a race.
- */
-static void hold_to_one_thread(void) {
-    static atomic_bool held;
-    if (atomic_load_explicit(&held, memory_order_acquire))
-        return;
+static void set_one_thread(void) {
     openblas_set_num_threads(1);
-    atomic_store_explicit(&held, true, memory_order_release);
+}
+
+/* OpenBLAS has one number of threads for the whole process. */
+static void hold_to_one_thread(void) {
+    static pthread_once_t once = PTHREAD_ONCE_INIT;
+    pthread_once(&once, set_one_thread);
 }
 
 aur_result aur_check_system_size(size_t size, aur_error *error) {

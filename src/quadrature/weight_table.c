@@ -10,7 +10,8 @@
 #include "core/vector.h"
 
 aur_result aur_weight_table_allocate(const aur_oswa_options *options, size_t angle_count,
-                                     size_t rotation_count, aur_weight_table **table, aur_error *error) {
+                                     size_t rotation_count, bool solves, aur_weight_table **table,
+                                     aur_error *error) {
     *table = NULL;
     if (angle_count < 2 || angle_count > 1 << 16 || rotation_count < 1 || rotation_count > 1 << 16)
         return aur_fail(error, AUR_ERROR_ARGUMENT,
@@ -19,7 +20,7 @@ aur_result aur_weight_table_allocate(const aur_oswa_options *options, size_t ang
     aur_weight_table *const created = calloc(1, sizeof *created);
     if (created == NULL)
         return aur_fail(error, AUR_ERROR_MEMORY, "out of memory");
-    const aur_result result = aur_oswa_create(options, &created->oswa, error);
+    const aur_result result = aur_oswa_create_for(options, solves, &created->oswa, error);
     if (result != AUR_OK) {
         free(created);
         return result;
@@ -147,7 +148,7 @@ static aur_result build_angle(void *context, size_t index) {
 aur_result aur_weight_table_build(const aur_oswa_options *options, size_t angle_count, size_t rotation_count,
                                   size_t threads, const aur_progress *progress, aur_weight_table **table,
                                   aur_error *error) {
-    aur_result result = aur_weight_table_allocate(options, angle_count, rotation_count, table, error);
+    aur_result result = aur_weight_table_allocate(options, angle_count, rotation_count, true, table, error);
     if (result != AUR_OK)
         return result;
     build work = {*table, calloc(angle_count, sizeof(aur_error))};

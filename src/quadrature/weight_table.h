@@ -29,8 +29,17 @@ static inline double aur_weight_table_angle(const aur_weight_table *table, size_
     return 0.5 * AUR_PI * (double)index / (double)(table->angle_count - 1);
 }
 
-/* A table with patterns but no weights yet. */
+/* A table with patterns but no weights yet; `solves` as for aur_oswa_create_for. */
 aur_result aur_weight_table_allocate(const aur_oswa_options *options, size_t angle_count,
-                                     size_t rotation_count, aur_weight_table **table, aur_error *error);
+                                     size_t rotation_count, bool solves, aur_weight_table **table,
+                                     aur_error *error);
+
+/* Reads a table from the bytes of a file: data[size] is a zero, and lines of the header are cut there. `name`
+ * is for messages. On failure *table is NULL. */
+aur_result aur_weight_table_parse(const char *name, size_t size, char *data, const aur_oswa_options *expected,
+                                  aur_weight_table **table, aur_error *error);
+
+/* What a file ends with: of all that stands before it. */
+uint64_t aur_weight_table_check_sum(const char *data, size_t size);
 
 #endif

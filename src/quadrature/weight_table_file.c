@@ -14,7 +14,7 @@ enum { VERSION = 1, HEADER_CAPACITY = 4096 };
 static const char magic[] = "aureole weight table\n";
 static const size_t file_limit = (size_t)1 << 34;
 
-static uint64_t check_sum(const char *data, size_t size) {
+uint64_t aur_weight_table_check_sum(const char *data, size_t size) {
     uint64_t hash = size;
     for (; size >= 8; data += 8, size -= 8) {
         uint64_t word = 0;
@@ -79,7 +79,7 @@ aur_result aur_weight_table_save(const aur_weight_table *table, const char *path
     memcpy(data, header, (size_t)length);
     put_floats(table->masses, table->angle_count, data + length);
     put_floats(table->weights, weight_count(table), data + length + 4 * table->angle_count);
-    const uint64_t sum = check_sum((const char *)data, size - 8);
+    const uint64_t sum = aur_weight_table_check_sum((const char *)data, size - 8);
     for (unsigned k = 0; k < 8; ++k)
         data[size - 8 + k] = (unsigned char)(sum >> 8 * k);
     aur_file_writer writer;
@@ -226,7 +226,7 @@ static aur_result parse(reader *in, size_t size, const aur_oswa_options *expecte
     const size_t magic_length = sizeof magic - 1;
     if (size < magic_length + 8 || memcmp(data, magic, magic_length) != 0)
         return aur_fail_at(in->error, in->where, AUR_ERROR_FORMAT, "this is not a weight table");
-    const uint64_t sum = check_sum(data, size - 8);
+    const uint64_t sum = aur_weight_table_check_sum(data, size - 8);
     uint64_t stored = 0;
     for (unsigned k = 0; k < 8; ++k)
         stored |= (uint64_t)(unsigned char)data[size - 8 + k] << 8 * k;
@@ -257,7 +257,8 @@ static aur_result parse(reader *in, size_t size, const aur_oswa_options *expecte
     if ((double)(size - 8 - (size_t)(in->rest - data)) != 4.0 * numbers)
         return aur_fail_at(in->error, in->where, AUR_ERROR_FORMAT,
                            "the table is not of the size that it says");
-    result = aur_weight_table_allocate(&h.options, (size_t)h.angles, (size_t)h.rotations, table, in->error);
+    result =
+        aur_weight_table_allocate(&h.options, (size_t)h.angles, (size_t)h.rotations, false, table, in->error);
     if (result != AUR_OK)
         return result;
     if (aur_oswa_hash((*table)->oswa) != h.patterns)
@@ -269,6 +270,18 @@ static aur_result parse(reader *in, size_t size, const aur_oswa_options *expecte
     return AUR_OK;
 }
 
+aur_result aur_weight_table_parse(const char *name, size_t size, char *data, const aur_oswa_options *expected,
+                                  aur_weight_table **table, aur_error *error) {
+    *table = NULL;
+    reader in = {{.file = name}, data, error};
+    const aur_result result = parse(&in, size, expected, table);
+    if (result != AUR_OK) {
+        aur_weight_table_destroy(*table);
+        *table = NULL;
+    }
+    return result;
+}
+
 aur_result aur_weight_table_load(const char *path, const aur_oswa_options *expected, aur_weight_table **table,
                                  aur_error *error) {
     *table = NULL;
@@ -277,12 +290,7 @@ aur_result aur_weight_table_load(const char *path, const aur_oswa_options *expec
     aur_result result = aur_file_read(path, file_limit, &data, &size, error);
     if (result != AUR_OK)
         return result;
-    reader in = {{.file = path}, data, error};
-    result = parse(&in, size, expected, table);
-    if (result != AUR_OK) {
-        aur_weight_table_destroy(*table);
-        *table = NULL;
-    }
+    result = aur_weight_table_parse(path, size, data, expected, table, error);
     free(data);
     return result;
 }
