@@ -135,6 +135,19 @@ AUR_API aur_result aur_weights_solve(size_t count, const double *xyz, size_t pot
                                      aur_weights_report *reports, double *condition, aur_error *error)
     AUR_NONNULL(2, 4, 6);
 
+/* A set of directions with its weights in one call: what an image is gathered with. */
+typedef struct aur_rule_options {
+    const char *set;               /* as in aur_directions_create; NULL: spherical-fibonacci */
+    aur_directions_options points; /* size, domain, lobe, density, scrambling; smoothness 0 stands for 1.5 */
+    int optimal; /* non-zero: optimal weights; else equal ones, or p/q where q is not the lobe */
+    aur_weights_options weights; /* of the optimal ones */
+} aur_rule_options;
+
+/* Fills xyz[3 * points.count] and weights[points.count], for integrals against the lobe normalised to 1.
+ * Errors: as aur_directions_create, aur_potential_create and aur_weights_solve. */
+AUR_API aur_result aur_rule_make(const aur_rule_options *options, double *xyz, double *weights,
+                                 aur_error *error) AUR_NONNULL(1, 2, 3);
+
 /* Writes x,y,z and the weights of one or more densities as the columns w, w2, w3, ... of a CSV file ("-":
  * standard output), 17 significant digits; the file is replaced whole or not at all. Errors: WRITE. */
 AUR_API aur_result aur_weights_write(const char *path, size_t count, const double *xyz, size_t density_count,

@@ -196,6 +196,11 @@ static bool complete(cli_weights_arguments *arguments) {
         cli_bad_usage("weights: the number of samples is missing: give -n N");
         return false;
     }
+    if (arguments->points.optimal_density &&
+        (cli_is_file(arguments->source) || strncmp(arguments->source, "file:", 5) == 0)) {
+        cli_bad_usage("--density: the points of a file are as they stand");
+        return false;
+    }
     if (arguments->points.smoothness == 1.0 || arguments->points.smoothness == 2.0) {
         cli_bad_usage("--smoothness: must be between 1 and 2, both exclusive");
         return false;
