@@ -98,8 +98,8 @@ static aur_digital_run run_of(const aur_pointset *set, const aur_block *block) {
         .dimension_count = 1, .scramble = set->scramble, .first = block->first, .count = block->count};
 }
 
-static void fill_one(const aur_pointset *set, const uint64_t columns[AUR_DIGITAL_COLUMNS],
-                     const aur_block *block, size_t d) {
+void aur_fill_digital(const aur_pointset *set, const uint64_t columns[AUR_DIGITAL_COLUMNS],
+                      const aur_block *block, size_t d) {
     double *const out = block->data + d * block->coordinate_stride;
     aur_digital_run run = run_of(set, block);
     run.columns[0] = columns;
@@ -170,7 +170,7 @@ void aur_fill_digital_block(const aur_pointset *set, const aur_block *block, aur
         return;
     }
     for (size_t d = 0; d < block->dimension_count; ++d)
-        fill_one(set, aur_digital_matrix_of(set, first + d, make, columns[0]), block, d);
+        aur_fill_digital(set, aur_digital_matrix_of(set, first + d, make, columns[0]), block, d);
 }
 
 aur_digital_rule *aur_digital_rule_create(uint32_t base, size_t row_count, size_t column_count,

@@ -25,6 +25,10 @@ aur_result aur_prepare_digital(aur_pointset *set, size_t count, aur_digital_matr
 const uint64_t *aur_digital_matrix_of(const aur_pointset *set, size_t dimension, aur_digital_matrix make,
                                       uint64_t columns[AUR_DIGITAL_COLUMNS]);
 
+/* Fills coordinate `d` of a block. */
+void aur_fill_digital(const aur_pointset *set, const uint64_t columns[AUR_DIGITAL_COLUMNS],
+                      const aur_block *block, size_t d);
+
 /* Fills a block. */
 void aur_fill_digital_block(const aur_pointset *set, const aur_block *block, aur_digital_matrix make);
 

@@ -79,8 +79,9 @@ static aur_result prepare(aur_pointset *set, aur_parameters *keys, const aur_poi
 
 const aur_square_set aur_set_faure = {
     .description = {.name = "faure",
-                    .keys = "base=smallest prime, scramble=none",
-                    .summary = "(0,s)-sequence in a prime base; scramble=none|lower-triangular",
+                    .keys = "base=auto,scramble=none",
+                    .summary =
+                        "(0,s)-sequence in a prime base (auto: the smallest); scramble=none|lower-triangular",
                     .domains = "square, cube",
                     .sizes = "1..2^48; a net at base^m",
                     .extensible = 1,

@@ -127,7 +127,7 @@ aur_result aur_golden_set_points_two_seeds(double s, double r, size_t count, con
 
 const aur_square_set aur_set_golden_set = {
     .description = {.name = "golden-set",
-                    .keys = "form=one-seed, seed=0",
+                    .keys = "form=one-seed,seed=0",
                     .summary = "golden ratio sequence beside itself sorted; form=one-seed|two-seeds",
                     .domains = "square",
                     .sizes = "1..2^32",

@@ -1,27 +1,17 @@
 /* The (0,m,2)-net of Larcher and Pillichshammer 2001, in the form of Kollig and Keller 2002: x = i/N, and
  * binary digit j of y is the parity of the index's digits j, j + 1, ... Any N; a net when N is a power of
  * two. Its star discrepancy is among the lowest of all such nets. Error O(log N / N). */
-#include "pointset/set.h"
-
-static uint64_t second_word(uint64_t index) {
-    uint64_t x = aur_reverse64(index);
-    for (unsigned shift = 1; shift < 64; shift *= 2)
-        x ^= x << shift;
-    return x;
-}
+#include "pointset/digital.h"
 
 static void fill(const aur_pointset *set, const aur_block *block) {
+    uint64_t columns[AUR_DIGITAL_COLUMNS];
+    for (unsigned k = 0; k < AUR_DIGITAL_COLUMNS; ++k)
+        columns[k] = UINT64_MAX << (63 - k);
     for (size_t d = 0; d < block->dimension_count; ++d) {
-        const size_t dimension = block->first_dimension + d;
-        if (dimension == 0) {
+        if (block->first_dimension + d == 0)
             aur_fill_fraction(set, block, d);
-            continue;
-        }
-        const uint64_t key = aur_scramble_key(block->seed, dimension);
-        double *const out = block->data + d * block->coordinate_stride;
-        for (size_t i = 0; i < block->count; ++i)
-            out[i * block->point_stride] =
-                aur_word_to_double(aur_scramble_word(set->scramble, second_word(block->first + i), key));
+        else
+            aur_fill_digital(set, columns, block, d);
     }
 }
 

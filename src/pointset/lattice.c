@@ -148,8 +148,8 @@ static aur_result prepare_fibonacci(aur_pointset *set, aur_parameters *keys,
 
 const aur_square_set aur_set_rank1 = {
     .description = {.name = "rank1",
-                    .keys = "vector=1/a, a next to N/Phi",
-                    .summary = "rank-1 lattice with a generating vector 1/a/b/...",
+                    .keys = "vector=auto",
+                    .summary = "rank-1 lattice of a generating vector 1/a/b; auto: 1/a with a next to N/Phi",
                     .domains = "square, cube",
                     .sizes = "1..2^48",
                     .extensible = 0,

@@ -82,7 +82,7 @@ static aur_result read_row(reader *r, char *text) {
     aur_matrix *const matrix = r->matrix;
     const size_t fields = count_fields(text);
     if (fields != matrix->column_count)
-        return aur_fail_at(r->error, here(r), AUR_ERROR_FORMAT, "%zu columns where the lines before have %zu",
+        return aur_fail_at(r->error, here(r), AUR_ERROR_FORMAT, "%zu columns where there were %zu before",
                            fields, matrix->column_count);
     if (!grow(r))
         return aur_fail(r->error, AUR_ERROR_MEMORY, "out of memory");

@@ -70,8 +70,15 @@ void aur_warn_incomplete_net(const aur_pointset *set, const aur_pointset_options
 }
 
 void aur_fill_fraction(const aur_pointset *set, const aur_block *block, size_t d) {
-    const uint64_t key = aur_scramble_key(block->seed, block->first_dimension + d);
     double *const out = block->data + d * block->coordinate_stride;
+    if (set->scramble != AUR_SCRAMBLE_DIGIT && set->scramble != AUR_SCRAMBLE_OWEN) {
+        /* Below 2^53 a quotient of integers is never rounded up to 1. */
+        const double size = (double)set->size;
+        for (size_t i = 0; i < block->count; ++i)
+            out[i * block->point_stride] = (double)(int64_t)(block->first + i) / size;
+        return;
+    }
+    const uint64_t key = aur_scramble_key(block->seed, block->first_dimension + d);
     for (size_t i = 0; i < block->count; ++i)
         out[i * block->point_stride] =
             aur_scrambled_fraction(set->scramble, block->first + i, set->size, key);
@@ -102,6 +109,9 @@ aur_result aur_pointset_check(const aur_pointset *set, aur_error *error) {
     if (set->size > kind->maximum_size)
         return aur_fail(error, AUR_ERROR_ARGUMENT, "set '%s' has at most %" PRIu64 " points, not %" PRIu64,
                         name, kind->maximum_size, set->size);
+    if (set->dimension != kind->minimum_dimension && kind->minimum_dimension == kind->maximum_dimension)
+        return aur_fail(error, AUR_ERROR_ARGUMENT, "set '%s' has %zu dimensions, not %zu", name,
+                        kind->minimum_dimension, set->dimension);
     if (set->dimension < kind->minimum_dimension || set->dimension > kind->maximum_dimension)
         return aur_fail(error, AUR_ERROR_ARGUMENT, "set '%s' has %zu to %zu dimensions, not %zu", name,
                         kind->minimum_dimension, kind->maximum_dimension, set->dimension);

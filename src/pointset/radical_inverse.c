@@ -1,5 +1,9 @@
 #include "pointset/radical_inverse.h"
 
+#include "pointset/digital.h"
+
+enum { SHORT_RUN = 8 };
+
 static uint32_t below(uint64_t hash, uint32_t limit) {
     return (uint32_t)(((hash & UINT64_C(0xffffffff)) * limit) >> 32);
 }
@@ -52,20 +56,62 @@ double aur_radical_inverse(uint32_t base, uint64_t index, aur_digits digits, uin
     return aur_digit_sum_value(&sum);
 }
 
+/* Base 2: the identity matrix. */
+static void fill_binary(const aur_pointset *set, const aur_block *block, size_t d) {
+    uint64_t columns[AUR_DIGITAL_COLUMNS];
+    for (unsigned k = 0; k < AUR_DIGITAL_COLUMNS; ++k)
+        columns[k] = UINT64_C(1) << (63 - k);
+    aur_fill_digital(set, columns, block, d);
+}
+
+/* Counts in reversed digits over one denominator, which all of the run's points share. A fraction of two
+ * integers below 2^53 is rounded correctly whatever its terms, so the bits are those of random access. False
+ * when the denominator is not below 2^53. */
+static bool fill_by_counting(const aur_block *block, uint32_t base, double *out) {
+    const uint64_t last = block->first + block->count - 1;
+    uint64_t denominator = base;
+    for (uint64_t rest = last / base; rest > 0; rest /= base) {
+        denominator *= base;
+        if (denominator > UINT64_C(1) << 53)
+            return false;
+    }
+    uint64_t numerator = 0;
+    uint64_t unit = denominator;
+    for (uint64_t rest = block->first; rest > 0; rest /= base) {
+        unit /= base;
+        numerator += rest % base * unit;
+    }
+    const double divisor = (double)denominator;
+    const uint64_t step = denominator / base;
+    for (size_t i = 0; i < block->count; ++i) {
+        out[i * block->point_stride] = (double)(int64_t)numerator / divisor;
+        /* Add one to the lowest digit; where it is the last one, back to 0 and carry. */
+        uint64_t span = denominator;
+        uint64_t place = step;
+        while (place > 0 && numerator >= span - place) {
+            numerator -= span - place;
+            span = place;
+            place /= base;
+        }
+        numerator += place;
+    }
+    return true;
+}
+
 void aur_fill_radical_inverse(const aur_pointset *set, const aur_block *block, size_t d, uint32_t base,
                               aur_digits digits) {
-    const size_t dimension = block->first_dimension + d;
-    const bool permuted = digits == AUR_DIGITS_PERMUTE;
-    /* Permutations belong to the set and stay when it is scrambled again. */
-    const uint64_t key = aur_scramble_key(permuted ? set->seed : block->seed, dimension);
-    double *const out = block->data + d * block->coordinate_stride;
-    for (size_t i = 0; i < block->count; ++i) {
-        const uint64_t index = block->first + i;
-        out[i * block->point_stride] =
-            base == 2 && !permuted
-                ? aur_word_to_double(aur_scramble_word(set->scramble, aur_reverse64(index), key))
-                : aur_radical_inverse(base, index, digits, key);
+    if (base == 2 && digits != AUR_DIGITS_PERMUTE) {
+        fill_binary(set, block, d);
+        return;
     }
+    const size_t dimension = block->first_dimension + d;
+    double *const out = block->data + d * block->coordinate_stride;
+    if (digits == AUR_DIGITS_PLAIN && block->count >= SHORT_RUN && fill_by_counting(block, base, out))
+        return;
+    /* Permutations belong to the set and stay when it is scrambled again. */
+    const uint64_t key = aur_scramble_key(digits == AUR_DIGITS_PERMUTE ? set->seed : block->seed, dimension);
+    for (size_t i = 0; i < block->count; ++i)
+        out[i * block->point_stride] = aur_radical_inverse(base, block->first + i, digits, key);
 }
 
 bool aur_is_prime(uint32_t n) {
