@@ -29,32 +29,18 @@ static const char help[] =
     "A SET is NAME[:key=value,...] ('aureole sets' lists them), a FILE CSV or NPY; '-' is standard input.\n"
     "Directions within 1e-6 of unit length are scaled to it; weights are divided by their sum.\n";
 
-enum {
-    OPTION_DOMAIN = 256,
-    OPTION_DIM,
-    OPTION_MAP,
-    OPTION_LOBE,
-    OPTION_DENSITY,
-    OPTION_SMOOTHNESS,
-    OPTION_SCRAMBLE,
-    OPTION_SEED,
-    OPTION_SEEDS,
-    OPTION_FAST,
-    OPTION_FORMAT,
-    OPTION_PLOT,
-    OPTION_LIST
-};
+enum { OPTION_SEEDS = 256, OPTION_FAST, OPTION_FORMAT, OPTION_PLOT, OPTION_LIST };
 
 static const struct option long_options[] = {{"count", required_argument, NULL, 'n'},
                                              {"metric", required_argument, NULL, 'm'},
-                                             {"domain", required_argument, NULL, OPTION_DOMAIN},
-                                             {"dim", required_argument, NULL, OPTION_DIM},
-                                             {"map", required_argument, NULL, OPTION_MAP},
-                                             {"lobe", required_argument, NULL, OPTION_LOBE},
-                                             {"density", required_argument, NULL, OPTION_DENSITY},
-                                             {"smoothness", required_argument, NULL, OPTION_SMOOTHNESS},
-                                             {"scramble", required_argument, NULL, OPTION_SCRAMBLE},
-                                             {"seed", required_argument, NULL, OPTION_SEED},
+                                             {"domain", required_argument, NULL, CLI_POINTS_DOMAIN},
+                                             {"dim", required_argument, NULL, CLI_POINTS_DIM},
+                                             {"map", required_argument, NULL, CLI_POINTS_MAP},
+                                             {"lobe", required_argument, NULL, CLI_POINTS_LOBE},
+                                             {"density", required_argument, NULL, CLI_POINTS_DENSITY},
+                                             {"smoothness", required_argument, NULL, CLI_POINTS_SMOOTHNESS},
+                                             {"scramble", required_argument, NULL, CLI_POINTS_SCRAMBLE},
+                                             {"seed", required_argument, NULL, CLI_POINTS_SEED},
                                              {"seeds", required_argument, NULL, OPTION_SEEDS},
                                              {"fast", no_argument, NULL, OPTION_FAST},
                                              {"format", required_argument, NULL, OPTION_FORMAT},
@@ -63,12 +49,6 @@ static const struct option long_options[] = {{"count", required_argument, NULL, 
                                              {"threads", required_argument, NULL, 't'},
                                              {"quiet", no_argument, NULL, 'q'},
                                              {NULL, 0, NULL, 0}};
-
-static bool parsed(aur_result result, const aur_error *error) {
-    if (result != AUR_OK)
-        cli_fail(error);
-    return result == AUR_OK;
-}
 
 static bool parse_metrics(cli_measure_arguments *arguments, const char *text) {
     size_t count = 1;
@@ -90,7 +70,7 @@ static bool parse_metrics(cli_measure_arguments *arguments, const char *text) {
         arguments->metrics[arguments->metric_count++] = rest;
         const aur_measure_description *description;
         aur_error error = {0};
-        if (!parsed(aur_measure_find(rest, &description, &error), &error))
+        if (!cli_succeeded(aur_measure_find(rest, &description, &error), &error))
             return false;
         series += description->series != 0;
         rest = comma != NULL ? comma + 1 : NULL;
@@ -101,18 +81,7 @@ static bool parse_metrics(cli_measure_arguments *arguments, const char *text) {
     return true;
 }
 
-static bool parse_density(const char *text, int *optimal) {
-    static const char *const words[] = {"same", "optimal"};
-    size_t index;
-    if (!cli_parse_word("--density", text, 2, words, &index))
-        return false;
-    *optimal = index == 1;
-    return true;
-}
-
 static bool parse_option(int option, cli_measure_arguments *arguments) {
-    cli_point_options *const points = &arguments->points;
-    aur_error error = {0};
     switch (option) {
     case 'n':
         free(arguments->sizes);
@@ -124,23 +93,6 @@ static bool parse_option(int option, cli_measure_arguments *arguments) {
     case 'q':
         arguments->quiet = true;
         return true;
-    case OPTION_DOMAIN:
-        points->domain_given = cli_parse_domain(optarg, &points->domain);
-        return points->domain_given;
-    case OPTION_DIM:
-        return cli_parse_size("--dim", optarg, 1, 1u << 20, &points->dimension);
-    case OPTION_MAP:
-        return parsed(aur_map_from_name(optarg, &points->map, &error), &error);
-    case OPTION_LOBE:
-        return parsed(aur_lobe_parse(optarg, &points->lobe, &error), &error);
-    case OPTION_DENSITY:
-        return parse_density(optarg, &points->optimal_density);
-    case OPTION_SMOOTHNESS:
-        return cli_parse_number("--smoothness", optarg, 1.0, 2.0, &points->smoothness);
-    case OPTION_SCRAMBLE:
-        return parsed(aur_scramble_from_name(optarg, &points->scramble, &error), &error);
-    case OPTION_SEED:
-        return cli_parse_u64("--seed", optarg, &points->seed);
     case OPTION_SEEDS:
         return cli_parse_size("--seeds", optarg, 2, 1u << 20, &arguments->seed_count);
     case OPTION_FAST:
@@ -155,7 +107,7 @@ static bool parse_option(int option, cli_measure_arguments *arguments) {
         arguments->list = true;
         return true;
     default:
-        return false;
+        return cli_parse_point_option(option, optarg, &arguments->points);
     }
 }
 

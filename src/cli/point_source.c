@@ -21,6 +21,46 @@ const char *cli_domain_name(aur_domain domain) {
     return domains[domain];
 }
 
+bool cli_succeeded(aur_result result, const aur_error *error) {
+    if (result != AUR_OK)
+        cli_fail(error);
+    return result == AUR_OK;
+}
+
+static bool parse_density(const char *text, int *optimal) {
+    static const char *const words[] = {"same", "optimal"};
+    size_t index;
+    if (!cli_parse_word("--density", text, 2, words, &index))
+        return false;
+    *optimal = index == 1;
+    return true;
+}
+
+bool cli_parse_point_option(int option, const char *text, cli_point_options *points) {
+    aur_error error = {0};
+    switch (option) {
+    case CLI_POINTS_DOMAIN:
+        points->domain_given = true;
+        return cli_parse_domain(text, &points->domain);
+    case CLI_POINTS_DIM:
+        return cli_parse_size("--dim", text, 1, 1u << 20, &points->dimension);
+    case CLI_POINTS_MAP:
+        return cli_succeeded(aur_map_from_name(text, &points->map, &error), &error);
+    case CLI_POINTS_LOBE:
+        return cli_succeeded(aur_lobe_parse(text, &points->lobe, &error), &error);
+    case CLI_POINTS_DENSITY:
+        return parse_density(text, &points->optimal_density);
+    case CLI_POINTS_SMOOTHNESS:
+        return cli_parse_number("--smoothness", text, 1.0, 2.0, &points->smoothness);
+    case CLI_POINTS_SCRAMBLE:
+        return cli_succeeded(aur_scramble_from_name(text, &points->scramble, &error), &error);
+    case CLI_POINTS_SEED:
+        return cli_parse_u64("--seed", text, &points->seed);
+    default:
+        return false;
+    }
+}
+
 bool cli_is_file(const char *text) {
     const size_t length = strcspn(text, ":");
     for (size_t i = 0; i < aur_set_count(); ++i) {

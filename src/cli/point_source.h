@@ -20,6 +20,23 @@ typedef struct cli_point_options {
     aur_warnings warnings;
 } cli_point_options;
 
+/* The options that fill it, for a verb's table of long options, and what they do; on failure the error is
+ * printed. */
+enum {
+    CLI_POINTS_DOMAIN = 512,
+    CLI_POINTS_DIM,
+    CLI_POINTS_MAP,
+    CLI_POINTS_LOBE,
+    CLI_POINTS_DENSITY,
+    CLI_POINTS_SMOOTHNESS,
+    CLI_POINTS_SCRAMBLE,
+    CLI_POINTS_SEED
+};
+bool cli_parse_point_option(int option, const char *text, cli_point_options *points);
+
+/* Prints the error of a result that is one; returns whether it is AUR_OK. */
+bool cli_succeeded(aur_result result, const aur_error *error);
+
 /* "square", "cube", "disk", "hemisphere", "sphere". */
 bool cli_parse_domain(const char *text, aur_domain *domain);
 const char *cli_domain_name(aur_domain domain);

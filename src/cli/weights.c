@@ -38,20 +38,13 @@ static const char help[] =
     "partial sets.\n";
 
 enum {
-    OPTION_DOMAIN = 256,
-    OPTION_LOBE,
-    OPTION_LOBE2,
+    OPTION_LOBE2 = 256,
     OPTION_ANGLE,
     OPTION_N2,
     OPTION_CLIP,
     OPTION_METHOD,
-    OPTION_DENSITY,
-    OPTION_SMOOTHNESS,
     OPTION_REGULARIZATION,
     OPTION_UNCONSTRAINED,
-    OPTION_MAP,
-    OPTION_SCRAMBLE,
-    OPTION_SEED,
     OPTION_REPORT,
     OPTION_FORMAT,
     OPTION_PLOT,
@@ -61,20 +54,20 @@ enum {
 };
 
 static const struct option long_options[] = {
-    {"domain", required_argument, NULL, OPTION_DOMAIN},
-    {"lobe", required_argument, NULL, OPTION_LOBE},
+    {"domain", required_argument, NULL, CLI_POINTS_DOMAIN},
+    {"lobe", required_argument, NULL, CLI_POINTS_LOBE},
     {"lobe2", required_argument, NULL, OPTION_LOBE2},
     {"angle", required_argument, NULL, OPTION_ANGLE},
     {"n2", required_argument, NULL, OPTION_N2},
     {"clip", no_argument, NULL, OPTION_CLIP},
     {"method", required_argument, NULL, OPTION_METHOD},
-    {"density", required_argument, NULL, OPTION_DENSITY},
-    {"smoothness", required_argument, NULL, OPTION_SMOOTHNESS},
+    {"density", required_argument, NULL, CLI_POINTS_DENSITY},
+    {"smoothness", required_argument, NULL, CLI_POINTS_SMOOTHNESS},
     {"regularization", required_argument, NULL, OPTION_REGULARIZATION},
     {"unconstrained", no_argument, NULL, OPTION_UNCONSTRAINED},
-    {"map", required_argument, NULL, OPTION_MAP},
-    {"scramble", required_argument, NULL, OPTION_SCRAMBLE},
-    {"seed", required_argument, NULL, OPTION_SEED},
+    {"map", required_argument, NULL, CLI_POINTS_MAP},
+    {"scramble", required_argument, NULL, CLI_POINTS_SCRAMBLE},
+    {"seed", required_argument, NULL, CLI_POINTS_SEED},
     {"report", no_argument, NULL, OPTION_REPORT},
     {"format", required_argument, NULL, OPTION_FORMAT},
     {"plot", required_argument, NULL, OPTION_PLOT},
@@ -84,12 +77,6 @@ static const struct option long_options[] = {
     {"threads", required_argument, NULL, 't'},
     {"quiet", no_argument, NULL, 'q'},
     {NULL, 0, NULL, 0}};
-
-static bool parsed(aur_result result, const aur_error *error) {
-    if (result != AUR_OK)
-        cli_fail(error);
-    return result == AUR_OK;
-}
 
 static bool parse_method(const char *text, cli_weights_arguments *arguments) {
     static const char *const words[] = {"osw", "oswa", "mis", "mis-power", "equal", "ratio"};
@@ -102,17 +89,7 @@ static bool parse_method(const char *text, cli_weights_arguments *arguments) {
     return true;
 }
 
-static bool parse_density(const char *text, int *optimal) {
-    static const char *const words[] = {"same", "optimal"};
-    size_t index;
-    if (!cli_parse_word("--density", text, 2, words, &index))
-        return false;
-    *optimal = index == 1;
-    return true;
-}
-
 static bool parse_option(int option, const char *text, cli_weights_arguments *arguments) {
-    cli_point_options *const points = &arguments->points;
     aur_error error = {0};
     switch (option) {
     case 'n':
@@ -126,17 +103,14 @@ static bool parse_option(int option, const char *text, cli_weights_arguments *ar
         return true;
     case 't':
         return cli_parse_size("--threads", text, 0, 4096, &arguments->threads);
-    case OPTION_DOMAIN:
-        points->domain_given = true;
-        return cli_parse_domain(text, &points->domain);
-    case OPTION_LOBE:
+    case CLI_POINTS_LOBE:
         arguments->lobe_given = true;
         arguments->lobe_text = text;
-        return parsed(aur_lobe_parse(text, &points->lobe, &error), &error);
+        return cli_parse_point_option(option, text, &arguments->points);
     case OPTION_LOBE2:
         arguments->mirror_given = true;
         arguments->mirror_text = text;
-        return parsed(aur_lobe_parse(text, &arguments->mirror, &error), &error);
+        return cli_succeeded(aur_lobe_parse(text, &arguments->mirror, &error), &error);
     case OPTION_ANGLE:
         arguments->angle_given = true;
         return cli_parse_number("--angle", text, 0.0, 90.0, &arguments->degrees);
@@ -147,21 +121,11 @@ static bool parse_option(int option, const char *text, cli_weights_arguments *ar
         return true;
     case OPTION_METHOD:
         return parse_method(text, arguments);
-    case OPTION_DENSITY:
-        return parse_density(text, &points->optimal_density);
-    case OPTION_SMOOTHNESS:
-        return cli_parse_number("--smoothness", text, 1.0, 2.0, &points->smoothness);
     case OPTION_REGULARIZATION:
         return cli_parse_number("--regularization", text, 0.0, 1e300, &arguments->weights.regularization);
     case OPTION_UNCONSTRAINED:
         arguments->weights.sum_constraint = 0;
         return true;
-    case OPTION_MAP:
-        return parsed(aur_map_from_name(text, &points->map, &error), &error);
-    case OPTION_SCRAMBLE:
-        return parsed(aur_scramble_from_name(text, &points->scramble, &error), &error);
-    case OPTION_SEED:
-        return cli_parse_u64("--seed", text, &points->seed);
     case OPTION_REPORT:
         arguments->report = true;
         return true;
@@ -178,7 +142,7 @@ static bool parse_option(int option, const char *text, cli_weights_arguments *ar
     case OPTION_ROTATIONS:
         return cli_parse_size("--rotations", text, 1, 1 << 16, &arguments->rotations);
     default:
-        return false;
+        return cli_parse_point_option(option, text, &arguments->points);
     }
 }
 
