@@ -7,8 +7,8 @@ packages=(
   ca-certificates clang-format cmake g++ gcc git ninja-build pkg-config
   # ray tracing, pictures, scene files, linear algebra
   libembree-dev libopenexr-dev libstb-dev libexpat1-dev zlib1g-dev liblapacke-dev libopenblas-dev
-  # spectra and Voronoi figures, plots, unit tests
-  libfftw3-dev libqhull-dev gnuplot-nox libcmocka-dev
+  # plots, unit tests
+  gnuplot-nox libcmocka-dev
 )
 
 command -v dpkg-query >/dev/null || {
