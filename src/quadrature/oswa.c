@@ -321,13 +321,6 @@ static size_t drop(size_t n, const bool *taken, double *matrix, double *right, s
     return kept;
 }
 
-static double sum_of(size_t count, const double *values) {
-    double sum = 0.0;
-    for (size_t i = 0; i < count; ++i)
-        sum += values[i];
-    return sum;
-}
-
 /* The way that knows nothing in advance: GGX, and systems that only merged samples make positive definite. */
 static aur_result solve_plainly(const aur_oswa *oswa, const aur_oswa_angle *angle, const bool *taken,
                                 const double *xyz, double *weights, aur_error *error) {
@@ -393,12 +386,12 @@ aur_result aur_oswa_solve_at(const aur_oswa *oswa, const aur_oswa_angle *angle, 
     if (aur_solve_positive(kept, matrix, constrained ? 3 : 2, right, NULL, NULL) != AUR_OK)
         return solve_plainly(oswa, angle, taken, xyz, weights, error);
     for (size_t k = 0; k < 2; ++k) {
-        const double *const solution = right + k * kept;
-        const double *const ones = right + 2 * kept;
-        const double multiplier = constrained ? (sum_of(kept, solution) - 1.0) / sum_of(kept, ones) : 0.0;
+        double *const solution = right + k * kept;
+        if (constrained)
+            aur_hold_sum(kept, solution, right + 2 * kept);
         size_t at = 0;
         for (size_t i = 0; i < n; ++i) {
-            weights[k * n + i] = !taken[i] ? 0.0 : solution[at] - (constrained ? multiplier * ones[at] : 0.0);
+            weights[k * n + i] = taken[i] ? solution[at] : 0.0;
             at += taken[i];
         }
     }

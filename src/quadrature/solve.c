@@ -86,3 +86,15 @@ aur_result aur_solve_positive(size_t size, double *matrix, size_t columns, doubl
             return not_positive(error, size);
     return AUR_OK;
 }
+
+double aur_hold_sum(size_t size, double *solution, const double *ones) {
+    double sum = 0.0, ones_sum = 0.0;
+    for (size_t i = 0; i < size; ++i) {
+        sum += solution[i];
+        ones_sum += ones[i];
+    }
+    const double multiplier = (sum - 1.0) / ones_sum;
+    for (size_t i = 0; i < size; ++i)
+        solution[i] -= multiplier * ones[i];
+    return multiplier;
+}

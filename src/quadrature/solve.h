@@ -12,6 +12,10 @@
 aur_result aur_solve_positive(size_t size, double *matrix, size_t columns, double *right, double *condition,
                               aur_error *error);
 
+/* Changes a solution of K X = z, in place, to that of least error among those whose sum is 1; `ones` solves K
+ * X = 1. Returns the multiplier of the constraint. */
+double aur_hold_sum(size_t size, double *solution, const double *ones);
+
 /* Refuses a system of that size when its matrix is larger than the machine's memory, saying how much it
  * takes. */
 aur_result aur_check_system_size(size_t size, aur_error *error);

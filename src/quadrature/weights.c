@@ -157,18 +157,15 @@ static double sum_of(size_t count, const double *values) {
 }
 
 /* From the solution of the system to the weights of one density; `z` are its potentials at the samples. */
-static void distribute(const weights_system *system, const aur_potential *potential, const double *solution,
+static void distribute(const weights_system *system, const aur_potential *potential, double *solution,
                        const double *ones, const double *z, double *weights, aur_weights_report *report) {
-    const size_t groups = system->group_count;
     const double sigma = system->options->regularization;
-    double multiplier = 0.0;
-    if (system->options->sum_constraint)
-        multiplier = (sum_of(groups, solution) - 1.0) / sum_of(groups, ones);
+    const double multiplier =
+        system->options->sum_constraint ? aur_hold_sum(system->group_count, solution, ones) : 0.0;
     double total = 0.0, linear = 0.0, squares = 0.0;
     for (size_t i = 0; i < system->count; ++i) {
         const size_t g = system->group[i];
-        const double shared = solution[g] - (system->options->sum_constraint ? multiplier * ones[g] : 0.0);
-        const double weight = shared / (double)system->group_size[g];
+        const double weight = solution[g] / (double)system->group_size[g];
         weights[system->sample[i]] = weight;
         total += weight;
         linear += weight * z[i];
