@@ -19,21 +19,25 @@ static aur_result result_of(exr_result_t code) {
     }
 }
 
+static aur_result fail_with(const aur_exr_stream *stream, exr_result_t code, const char *message) {
+    const aur_result result = result_of(code);
+    return aur_fail_at(stream->error, (aur_location){.file = stream->name}, result, "%s: %s",
+                       result == AUR_ERROR_FORMAT ? "broken EXR" : "EXR", message);
+}
+
 void aur_exr_note(exr_const_context_t context, exr_result_t code, const char *message) {
     void *user = NULL;
     if (context == NULL || exr_get_user_data(context, &user) != EXR_ERR_SUCCESS || user == NULL)
         return;
     aur_exr_stream *const stream = user;
     if (stream->result == AUR_OK)
-        stream->result = aur_fail_at(stream->error, (aur_location){.file = stream->name}, result_of(code),
-                                     "broken EXR: %s", message);
+        stream->result = fail_with(stream, code, message);
 }
 
 aur_result aur_exr_fail(const aur_exr_stream *stream, exr_result_t code) {
     if (stream->result != AUR_OK)
         return stream->result;
-    return aur_fail_at(stream->error, (aur_location){.file = stream->name}, result_of(code), "broken EXR: %s",
-                       exr_get_default_error_message(code));
+    return fail_with(stream, code, exr_get_default_error_message(code));
 }
 
 static int64_t read_bytes(exr_const_context_t context, void *user, void *buffer, uint64_t count,

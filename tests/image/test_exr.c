@@ -160,6 +160,25 @@ static void test_what_cannot_be_read_says_so(void **state) {
     assert_non_null(strstr(error.message, "subsampled"));
     assert_null(image);
     remove(scratch(0, "sub.exr"));
+
+    /* A compression that OpenEXR 3.1's C library lacks: DWAA, named in the header of another file. */
+    aur_image *const picture = random_picture(8, 8, 3);
+    memset(picture->data, 0, 8 * 8 * 3 * sizeof(float)); /* so that chunks are compressed */
+    write_picture(scratch(0, "dwaa.exr"), picture, NULL);
+    aur_image_destroy(picture);
+    size_t size;
+    unsigned char *const bytes = read_bytes(scratch(0, "dwaa.exr"), &size);
+    remove(scratch(0, "dwaa.exr"));
+    static const char attribute[] = "compression\0compression\0\1\0\0";
+    size_t at = 0;
+    while (at + sizeof attribute < size && memcmp(bytes + at, attribute, sizeof attribute) != 0)
+        ++at;
+    assert_int_equal(bytes[at + sizeof attribute], EXR_COMPRESSION_ZIP);
+    bytes[at + sizeof attribute] = EXR_COMPRESSION_DWAA;
+    const aur_result result = aur_image_read_memory("dwaa.exr", size, bytes, &image, &error);
+    assert_true(result == AUR_ERROR_UNSUPPORTED || result == AUR_ERROR_FORMAT); /* FORMAT: once it is there */
+    assert_null(image);
+    free(bytes);
 }
 
 static void test_every_truncation_is_an_error(void **state) {

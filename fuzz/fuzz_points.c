@@ -1,0 +1,52 @@
+/* Files of points: CSV and NPY. */
+#include <aureole/pointset.h>
+
+#include "fuzz.h"
+
+int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
+    aur_points points;
+    aur_error error = {0};
+    fuzz_write_file("fuzz-points", data, size);
+    const aur_result result = aur_points_read("fuzz-points", &points, &error);
+    if (result != AUR_OK) {
+        fuzz_require(error.message[0] != '\0', "a failure without a message");
+        fuzz_require(result != AUR_ERROR_INTERNAL && result != AUR_ERROR_OPEN, "a failure of the wrong kind");
+        return 0;
+    }
+    fuzz_require(points.dimension > 0 && points.coordinates != NULL, "points without coordinates");
+    double sum = 0.0; /* every value can be read and is finite */
+    for (size_t i = 0; i < points.count * points.dimension; ++i)
+        sum += points.coordinates[i] * 0.0;
+    for (size_t i = 0; i < points.count && points.weights != NULL; ++i)
+        sum += points.weights[i] * 0.0;
+    fuzz_require(sum == 0.0, "a value that is not finite");
+    aur_points_release(&points);
+    return 0;
+}
+
+static size_t npy_seed(size_t capacity, uint8_t *data) {
+    static const char header[] = "\x93NUMPY\x01\x00\x76\x00"
+                                 "{'descr': '<f8', 'fortran_order': False, 'shape': (4, 2), }";
+    const size_t start = 128;
+    fuzz_require(capacity >= start + 64, "a seed is too long");
+    memset(data, ' ', start);
+    memcpy(data, header, sizeof header - 1);
+    data[start - 1] = '\n';
+    for (size_t i = 0; i < 8; ++i) {
+        const double value = (double)i / 8.0;
+        memcpy(data + start + 8 * i, &value, sizeof value);
+    }
+    return start + 64;
+}
+
+size_t aur_fuzz_seed(size_t index, size_t capacity, uint8_t *data) {
+    static const char *const texts[] = {
+        "u,v\n0,0\n0.5,0.25\n0.25,0.75\n",
+        "x,y,z,w\n0,0,1,0.5\n1,0,0,2.5e-1\n0,0.6,0.8,1\n",
+        "# from a program\n0.125 0.5\n0.375\t0.75\n\n",
+        "x,y,z\r\n0,0,-1\r\n-0.6,0,0.8\r\n",
+        "u1,u2,u3,u4,u5\n0,0.1,0.2,0.3,0.4\n0.5,0.6,0.7,0.8,0.9\n",
+    };
+    const size_t count = sizeof texts / sizeof texts[0];
+    return index == count ? npy_seed(capacity, data) : fuzz_text_seed(count, texts, index, capacity, data);
+}
