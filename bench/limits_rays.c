@@ -5,25 +5,17 @@
 #include <string.h>
 
 #include "core/parallel.h"
-#include "core/random.h"
-#include "core/vector.h"
 #include "limits.h"
-#include "scene/embree.h"
+#include "trace.h"
 
 typedef enum ray_form { PRIMARY, SECONDARY, OCCLUDED } ray_form;
-enum { FORM_MASK = 3, PACKET = 4, BUMPY = 8, WIDTH = 256, RAY_COUNT = WIDTH * WIDTH, PACKET_SIZE = 16 };
-
-typedef struct stored_ray {
-    aur_vector origin, direction;
-    float farthest;
-} stored_ray;
+enum { FORM_MASK = 3, PACKET = 4, BUMPY = 8, WIDTH = 256, RAY_COUNT = WIDTH * WIDTH };
 
 typedef struct ray_context {
     RTCDevice device;
-    RTCScene scene;
-    ray_form form;
+    aur_ray *stored; /* RAY_COUNT */
+    bench_rays rays;
     bool packets;
-    stored_ray *rays; /* RAY_COUNT */
 } ray_context;
 
 /* --- the scenes --- */
@@ -84,98 +76,34 @@ static bool add_bumpy_sphere(RTCDevice device, RTCScene scene, size_t rows) {
 
 /* --- the rays --- */
 
-/* Neighbours in the order are neighbours in 4x4 blocks of the picture. */
-static stored_ray primary_ray(size_t index) {
-    const size_t block = index / PACKET_SIZE, within = index % PACKET_SIZE;
-    const size_t x = block % (WIDTH / 4) * 4 + within % 4, y = block / (WIDTH / 4) * 4 + within / 4;
+static aur_ray primary_ray(size_t index) {
+    size_t x, y;
+    bench_pixel(index, WIDTH, &x, &y);
     const aur_vector direction = {2.0f * ((float)x + 0.5f) / WIDTH - 1.0f, 1.0f,
                                   2.0f * ((float)y + 0.5f) / WIDTH - 1.0f};
-    return (stored_ray){{0.01f, -0.97f, 0.02f}, aur_vector_normalize(direction), INFINITY};
-}
-
-static struct RTCRayHit start(const stored_ray *ray) {
-    struct RTCRayHit query;
-    memset(&query, 0, sizeof query);
-    query.ray.org_x = ray->origin.x;
-    query.ray.org_y = ray->origin.y;
-    query.ray.org_z = ray->origin.z;
-    query.ray.dir_x = ray->direction.x;
-    query.ray.dir_y = ray->direction.y;
-    query.ray.dir_z = ray->direction.z;
-    query.ray.tfar = ray->farthest;
-    query.ray.mask = UINT32_MAX;
-    query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
-    query.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
-    return query;
+    return (aur_ray){
+        .origin = {0.01f, -0.97f, 0.02f}, .direction = aur_vector_normalize(direction), .farthest = INFINITY};
 }
 
 /* From the primary hit, cosine distributed about the normal that faces the eye. */
-static stored_ray secondary_ray(RTCScene scene, size_t index, float farthest) {
-    const stored_ray primary = primary_ray(index);
-    struct RTCRayHit query = start(&primary);
+static aur_ray secondary_ray(RTCScene scene, size_t index, float farthest) {
+    const aur_ray primary = primary_ray(index);
+    struct RTCRayHit query = bench_query(&primary);
     aur_embree_intersect1(scene, &query);
     aur_vector normal = aur_vector_normalize((aur_vector){query.hit.Ng_x, query.hit.Ng_y, query.hit.Ng_z});
     if (aur_vector_dot(normal, primary.direction) > 0.0f)
         normal = aur_vector_scale(normal, -1.0f);
-    const double u = aur_unit_double(aur_hash2(index, 0)),
-                 phi = 2.0 * AUR_PI * aur_unit_double(aur_hash2(index, 1));
-    const aur_vector local = {(float)(sqrt(u) * cos(phi)), (float)(sqrt(u) * sin(phi)), (float)sqrt(1.0 - u)};
-    const aur_frame frame = aur_frame_about(normal);
     const aur_vector hit = aur_vector_add_scaled(primary.origin, query.ray.tfar, primary.direction);
-    return (stored_ray){aur_vector_add_scaled(hit, 1e-4f, normal), aur_frame_to_world(&frame, local),
-                        farthest};
-}
-
-/* --- tracing --- */
-
-static double trace_single(const ray_context *context) {
-    double sum = 0.0;
-    for (size_t i = 0; i < RAY_COUNT; ++i) {
-        struct RTCRayHit query = start(&context->rays[i]);
-        if (context->form == OCCLUDED)
-            aur_embree_occluded1(context->scene, &query.ray);
-        else
-            aur_embree_intersect1(context->scene, &query);
-        sum += query.ray.tfar > 0.0f ? 1.0 : 0.0;
-    }
-    return sum;
-}
-
-static double trace_packets(const ray_context *context) {
-    static const _Alignas(64) int valid[PACKET_SIZE] = {-1, -1, -1, -1, -1, -1, -1, -1,
-                                                        -1, -1, -1, -1, -1, -1, -1, -1};
-    const aur_embree_order order = context->form == PRIMARY ? AUR_EMBREE_COHERENT : AUR_EMBREE_INCOHERENT;
-    _Alignas(64) struct RTCRayHit16 query;
-    memset(&query, 0, sizeof query);
-    double sum = 0.0;
-    for (size_t first = 0; first < RAY_COUNT; first += PACKET_SIZE) {
-        const stored_ray *const rays = context->rays + first;
-        for (size_t k = 0; k < PACKET_SIZE; ++k) {
-            query.ray.org_x[k] = rays[k].origin.x;
-            query.ray.org_y[k] = rays[k].origin.y;
-            query.ray.org_z[k] = rays[k].origin.z;
-            query.ray.dir_x[k] = rays[k].direction.x;
-            query.ray.dir_y[k] = rays[k].direction.y;
-            query.ray.dir_z[k] = rays[k].direction.z;
-            query.ray.tfar[k] = rays[k].farthest;
-            query.ray.mask[k] = UINT32_MAX;
-            query.hit.geomID[k] = RTC_INVALID_GEOMETRY_ID;
-            query.hit.instID[0][k] = RTC_INVALID_GEOMETRY_ID;
-        }
-        if (context->form == OCCLUDED)
-            aur_embree_occluded16(context->scene, order, valid, &query.ray);
-        else
-            aur_embree_intersect16(context->scene, order, valid, &query);
-        for (size_t k = 0; k < PACKET_SIZE; ++k)
-            sum += query.ray.tfar[k] > 0.0f ? 1.0 : 0.0;
-    }
-    return sum;
+    return (aur_ray){.origin = aur_vector_add_scaled(hit, 1e-4f, normal),
+                     .direction = bench_cosine_direction(normal, index),
+                     .farthest = farthest};
 }
 
 static aur_result trace(void *data, size_t index) {
     (void)index;
     const ray_context *const context = data;
-    bench_keep(context->packets ? trace_packets(context) : trace_single(context));
+    bench_keep((double)(context->packets ? bench_trace_packets(&context->rays)
+                                         : bench_trace_single(&context->rays)));
     return AUR_OK;
 }
 
@@ -189,11 +117,11 @@ static void close_rays(bench_work *work) {
     ray_context *const context = work->context;
     if (context == NULL)
         return;
-    if (context->scene != NULL)
-        rtcReleaseScene(context->scene);
+    if (context->rays.scene != NULL)
+        rtcReleaseScene(context->rays.scene);
     if (context->device != NULL)
         rtcReleaseDevice(context->device);
-    free(context->rays);
+    free(context->stored);
     free(context);
     work->context = NULL;
 }
@@ -203,23 +131,27 @@ static bool open_rays(const bench_limit *limit, const bench_options *options, be
     *work = (bench_work){.run = run_rays, .context = context, .units = RAY_COUNT};
     if (context == NULL)
         return bench_fail("out of memory");
-    context->form = (ray_form)(limit->form & FORM_MASK);
+    const ray_form form = (ray_form)(limit->form & FORM_MASK);
     context->packets = (limit->form & PACKET) != 0;
-    context->rays = malloc(RAY_COUNT * sizeof *context->rays);
+    context->stored = malloc(RAY_COUNT * sizeof *context->stored);
     context->device = rtcNewDevice(NULL);
-    context->scene = context->device != NULL ? rtcNewScene(context->device) : NULL;
+    const RTCScene scene = context->device != NULL ? rtcNewScene(context->device) : NULL;
+    context->rays = (bench_rays){.scene = scene,
+                                 .count = RAY_COUNT,
+                                 .rays = context->stored,
+                                 .occluded = form == OCCLUDED,
+                                 .order = form == PRIMARY ? AUR_EMBREE_COHERENT : AUR_EMBREE_INCOHERENT};
     const size_t rows = options->quick ? 50 : 500;
-    if (context->rays == NULL || context->scene == NULL || !add_box(context->device, context->scene) ||
-        ((limit->form & BUMPY) != 0 && !add_bumpy_sphere(context->device, context->scene, rows))) {
+    if (context->stored == NULL || scene == NULL || !add_box(context->device, scene) ||
+        ((limit->form & BUMPY) != 0 && !add_bumpy_sphere(context->device, scene, rows))) {
         close_rays(work);
         return bench_fail("Embree cannot build the scene of %s", limit->name);
     }
-    rtcCommitScene(context->scene);
+    rtcCommitScene(scene);
     /* Half a room ahead: some rays are stopped and some are not. */
-    const float farthest = context->form == OCCLUDED ? 1.0f : INFINITY;
+    const float farthest = form == OCCLUDED ? 1.0f : INFINITY;
     for (size_t i = 0; i < RAY_COUNT; ++i)
-        context->rays[i] =
-            context->form == PRIMARY ? primary_ray(i) : secondary_ray(context->scene, i, farthest);
+        context->stored[i] = form == PRIMARY ? primary_ray(i) : secondary_ray(scene, i, farthest);
     return true;
 }
 

@@ -1,0 +1,31 @@
+/* Stored rays through Embree itself, one by one and in packets of 16. */
+#ifndef AUR_BENCH_TRACE_H
+#define AUR_BENCH_TRACE_H
+
+#include "scene/embree.h"
+#include "scene/scene.h"
+
+enum { BENCH_PACKET_SIZE = 16 };
+
+typedef struct bench_rays {
+    RTCScene scene;
+    size_t count; /* a multiple of BENCH_PACKET_SIZE */
+    const aur_ray *rays;
+    bool occluded;          /* any hit, else the closest */
+    aur_embree_order order; /* of packets */
+} bench_rays;
+
+/* How many rays hit something. */
+size_t bench_trace_single(const bench_rays *rays);
+size_t bench_trace_packets(const bench_rays *rays);
+
+/* The ray in Embree's form. */
+struct RTCRayHit bench_query(const aur_ray *ray);
+
+/* The pixel of ray `index` in a picture `width` wide, a multiple of 4: 4 by 4 pixels make a packet. */
+void bench_pixel(size_t index, size_t width, size_t *x, size_t *y);
+
+/* A cosine distributed direction about a unit normal, by a hash of `index`. */
+aur_vector bench_cosine_direction(aur_vector normal, size_t index);
+
+#endif
