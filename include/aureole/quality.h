@@ -2,7 +2,9 @@
  *
  * A measure is named NAME[:PARAMETER] everywhere (energy, riesz:1, ...). Coordinates are read as aur_points
  * says; directions within 1e-6 of unit length are scaled to it, others are refused. Weights, where there are
- * any, stand for masses and are divided by their sum; without weights each point has the mass 1/N. */
+ * any, stand for masses and are divided by their sum (but for wce, which takes them as they are); without
+ * weights each point has the mass 1/N. Distances are chords, angles radians, areas of Voronoi cells in units
+ * of the mean area. */
 #ifndef AUREOLE_QUALITY_H
 #define AUREOLE_QUALITY_H
 
@@ -26,8 +28,8 @@ typedef struct aur_measure_description {
 AUR_API size_t aur_measure_count(void);
 AUR_API const aur_measure_description *aur_measure_at(size_t index); /* NULL beyond the table */
 
-/* The row of NAME[:PARAMETER], and the number of measure in the table; the parameter's value is not looked
- * at. Errors: NAME, with the nearest known name; ARGUMENT for a parameter that is missing or not wanted. */
+/* The row of NAME[:PARAMETER]; the parameter's value is not looked at. Errors: NAME, with the nearest known
+ * name; ARGUMENT for a parameter that is missing or not wanted. */
 AUR_API aur_result aur_measure_find(const char *metric, const aur_measure_description **description,
                                     aur_error *error) AUR_NONNULL(1, 2);
 
@@ -43,7 +45,8 @@ typedef struct aur_measure_options {
  * the number of threads. The value is finite but for riesz:S with S >= 0 and mesh-ratio of points that
  * coincide, which are infinite. Errors: NAME, ARGUMENT (a parameter, a point or a weight that is out of
  * range, too few points), UNSUPPORTED for a measure that has no meaning on the points' domain, CANCELLED,
- * MEMORY. When one point is at fault, the message counts points from 1. */
+ * MEMORY. When one point is at fault, the message counts points from 1, and error->line is the point's line
+ * where points->lines are there. */
 AUR_API aur_result aur_measure(const char *metric, const aur_points *points,
                                const aur_measure_options *options, double *value, aur_error *error)
     AUR_NONNULL(1, 2, 4);

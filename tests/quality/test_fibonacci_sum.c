@@ -30,6 +30,7 @@ static void lags_agree_with_pairs(void **state) {
         for (size_t c = 0; c < sizeof counts / sizeof counts[0]; ++c)
             assert_near(relative_difference(counts[c], domains[d]), 0.0, 1e-16);
     }
+    assert_near(relative_difference(65536, AUR_DOMAIN_SPHERE), 0.0, 1e-16);
 }
 
 /* The limit of C = E^2 N^(3/2) is 0.8115, which needs the sum to 1e-16. */
