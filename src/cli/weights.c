@@ -157,7 +157,7 @@ static bool complete(cli_weights_arguments *arguments) {
     }
     if (!arguments->size_given && !cli_is_file(arguments->source) &&
         strncmp(arguments->source, "file:", 5) != 0) {
-        cli_bad_usage("weights: the number of samples is missing: give -n N");
+        cli_bad_usage("weights: -n is missing for the set '%s' (there is no such file)", arguments->source);
         return false;
     }
     if (arguments->points.optimal_density &&

@@ -14,7 +14,6 @@ typedef struct weights_job {
     size_t own[2];
     aur_strategy strategies[2];
     aur_potential *potentials[2];
-    double *plain; /* p/(q N) of the first lobe's samples, or NULL */
 } weights_job;
 
 static const double pi = 3.14159265358979323846;
@@ -85,7 +84,7 @@ static aur_result load_one(weights_job *task, aur_error *error) {
     }
     task->result->count = points.count;
     task->result->xyz = points.coordinates;
-    task->plain = points.weights;
+    free(points.weights);
     free(points.lines);
     for (size_t i = 0; arguments->points.domain == AUR_DOMAIN_HEMISPHERE && i < points.count; ++i)
         if (points.coordinates[3 * i + 2] < -1e-9 && arguments->points.lobe.kind != AUR_LOBE_GGX) {
@@ -145,7 +144,8 @@ static size_t count_of(const weights_job *task, size_t k) {
 /* 1/N over the samples of a lobe that its density can see. */
 static void equal_weights(const weights_job *task, size_t k, double *weights) {
     const size_t first = first_of(task, k), count = count_of(task, k);
-    const bool hides = k == 1 && (task->arguments->clipped || task->arguments->mirror.kind == AUR_LOBE_GGX);
+    const aur_lobe *const lobe = k == 0 ? &task->arguments->points.lobe : &task->arguments->mirror;
+    const bool hides = lobe->kind == AUR_LOBE_GGX || (k == 1 && task->arguments->clipped);
     size_t visible = 0;
     for (size_t i = first; i < first + count; ++i)
         visible += !hides || task->result->xyz[3 * i + 2] >= 0.0;
@@ -158,13 +158,13 @@ static void equal_weights(const weights_job *task, size_t k, double *weights) {
 static aur_result ratio_weights(const weights_job *task, size_t k, double *weights, aur_error *error) {
     const size_t first = first_of(task, k);
     memset(weights, 0, task->result->count * sizeof *weights);
-    if (task->plain != NULL && k == 0) {
-        memcpy(weights, task->plain, task->result->count * sizeof *weights);
-        return AUR_OK;
-    }
     if (task->own[k] == 0)
         return fail(error, AUR_ERROR_UNSUPPORTED,
                     "a file does not say what density its points were drawn from");
+    if (task->arguments->points.domain == AUR_DOMAIN_SPHERE) {
+        equal_weights(task, k, weights); /* only the uniform density is there */
+        return AUR_OK;
+    }
     return aur_mis_weights(AUR_MIS_BALANCE, 1, &task->strategies[k], task->potentials[k],
                            task->result->xyz + 3 * first, weights + first, error);
 }
@@ -267,6 +267,5 @@ int cli_weights_compute(const cli_weights_arguments *arguments, cli_weights_resu
     const aur_result made = compute(&task, &error);
     aur_potential_destroy(task.potentials[0]);
     aur_potential_destroy(task.potentials[1]);
-    free(task.plain);
     return made == AUR_OK ? CLI_SUCCESS : cli_fail(&error);
 }

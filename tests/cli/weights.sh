@@ -35,6 +35,15 @@ cmp points.csv again.csv || fail "weights of a file differ from weights of its s
 "$program" weights sobol -n 32 --domain sphere --method equal | awk -F, 'NR > 1 && $4 != 0.03125 { exit 1 }' ||
   fail "equal weights are 1/N"
 
+# GGX: the ratio weights carry the masking, and both they and the optimal ones leave hidden samples out.
+for method in ratio osw; do
+  "$program" weights sobol -n 256 --lobe ggx:0.3:70 --method $method --report --format csv >ggx.$method || exit 1
+  "$program" weights sobol -n 256 --lobe ggx:0.3:70 --method $method |
+    awk -F, 'NR > 1 && $3 < 0 { n++; if ($4 != 0) exit 1 } END { exit n == 0 }' || fail "GGX: hidden samples"
+done
+near "$(column ggx.ratio weight_sum)" 1 0.02 || fail "GGX: sum of ratio weights"
+awk -v a="$(column ggx.osw optimal)" -v b="$(column ggx.ratio weighted)" 'BEGIN { exit !(a < b) }' || fail "GGX: gain"
+
 # Two lobes: OSWA has the lowest error of all methods for both.
 for method in osw mis mis-power equal oswa; do
   "$program" weights sobol -n 128 --n2 64 --lobe cosine --lobe2 phong:20 --angle 65 --clip --method $method \
@@ -85,7 +94,8 @@ refused "smoothness" sobol -n 8 --lobe cosine --smoothness 2.5
 refused "smoothness" sobol -n 8 --lobe cosine --smoothness 1
 refused "regularization" sobol -n 8 --lobe cosine --regularization -1
 refused "sobol" sobl -n 8 --lobe cosine
-refused "-n N" sobol --lobe cosine
+refused "-n is missing" sobol --lobe cosine
+refused "no such file" nothing.csv --lobe cosine
 refused "lobe2" sobol -n 8 --lobe cosine --method oswa
 refused "lobe2" sobol -n 8 --lobe cosine --clip
 refused "angle" sobol -n 8 --lobe cosine --lobe2 phong:20
