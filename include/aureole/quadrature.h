@@ -143,7 +143,8 @@ typedef struct aur_rule_options {
     aur_weights_options weights; /* of the optimal ones */
 } aur_rule_options;
 
-/* Fills xyz[3 * points.count] and weights[points.count], for integrals against the lobe normalised to 1.
+/* Fills xyz[3 * points.count] and weights[points.count], for integrals against the lobe normalised to 1
+ * (plain weights of a GGX lobe: against the density of its visible normals, which has no masking).
  * Errors: as aur_directions_create, aur_potential_create and aur_weights_solve. */
 AUR_API aur_result aur_rule_make(const aur_rule_options *options, double *xyz, double *weights,
                                  aur_error *error) AUR_NONNULL(1, 2, 3);
