@@ -28,13 +28,14 @@ aur_golden_order aur_golden_order_of(uint64_t seed_word, uint64_t count) {
     }
     aur_golden_order order = {.count = count, .increment = odd ? larger : smaller};
     order.decrement = odd ? smaller : larger;
+    const aur_wide step = aur_phase128(aur_golden_fraction, 1);
+    aur_wide phase = (aur_wide)seed_word << 64;
     uint64_t smallest = seed_word;
     for (uint64_t i = 1; i < count; ++i) {
-        const uint64_t word = seed_word + aur_phase(aur_golden_fraction, i);
-        if (word < smallest) {
-            smallest = word;
-            order.first = i;
-        }
+        phase += step;
+        const uint64_t word = (uint64_t)(phase >> 64);
+        order.first = word < smallest ? i : order.first;
+        smallest = word < smallest ? word : smallest;
     }
     return order;
 }
@@ -96,19 +97,29 @@ static aur_result make_whole(uint64_t seed_word, uint64_t sequence_word, size_t 
     const size_t a = sorted * coordinate_stride;
     const size_t b = (1 - sorted) * coordinate_stride;
     const aur_golden_order order = aur_golden_order_of(seed_word, count);
+    const aur_wide step = aur_phase128(aur_golden_fraction, 1);
+    const aur_wide up = aur_phase128(aur_golden_fraction, order.increment);
+    const aur_wide down = aur_phase128(aur_golden_fraction, order.decrement);
     uint64_t index = order.first;
+    aur_wide ascending = aur_phase128(aur_golden_fraction, index) + ((aur_wide)seed_word << 64);
+    aur_wide sequence = (aur_wide)sequence_word << 64;
     for (size_t i = 0; i < count; ++i) {
-        const uint64_t ascending = seed_word + aur_phase(aur_golden_fraction, index);
-        const uint64_t sequence = sequence_word + aur_phase(aur_golden_fraction, i);
+        const uint64_t x = (uint64_t)(ascending >> 64);
+        const uint64_t y = (uint64_t)(sequence >> 64);
         if (output->doubles != NULL) {
-            output->doubles[i * point_stride + a] = aur_word_to_double(ascending);
-            output->doubles[i * point_stride + b] = aur_word_to_double(sequence);
+            output->doubles[i * point_stride + a] = aur_word_to_double(x);
+            output->doubles[i * point_stride + b] = aur_word_to_double(y);
         } else {
-            output->floats[i * point_stride + a] = aur_unit_float((uint32_t)(ascending >> 32));
-            output->floats[i * point_stride + b] = aur_unit_float((uint32_t)(sequence >> 32));
+            output->floats[i * point_stride + a] = aur_unit_float((uint32_t)(x >> 32));
+            output->floats[i * point_stride + b] = aur_unit_float((uint32_t)(y >> 32));
         }
-        if (i + 1 < count)
-            index = aur_golden_next(&order, index);
+        sequence += step;
+        /* aur_golden_next with the phase beside the index; the last step leads out of the set. */
+        do {
+            const bool below = index < order.decrement;
+            index = below ? index + order.increment : index - order.decrement;
+            ascending += below ? up : 0 - down;
+        } while (index >= count && i + 1 < count);
     }
     return AUR_OK;
 }

@@ -3,7 +3,11 @@
 
 #include "pointset/set.h"
 
-enum { BUFFER_LENGTH = 512 };
+enum {
+    BUFFER_LENGTH = 512,
+    LEAST_PART = 128,
+    PART_LENGTH = 1 << 14 /* coordinates that a first or second cache keeps until the point is whole */
+};
 
 size_t aur_output_capacity(aur_layout layout, size_t dimension, size_t count, size_t stride) {
     if (dimension == 0 || count == 0)
@@ -31,6 +35,21 @@ static void fill_floats(const aur_pointset *set, aur_block block, float *out) {
         aur_pointset_fill(set, &block);
         for (size_t i = 0; i < block.count; ++i)
             out[(begin + i) * stride] = (float)(int32_t)(buffer[i] * 0x1p24) * 0x1p-24f;
+    }
+}
+
+/* Coordinates are made one after another: part by part, so that memory is passed once. */
+static void fill_doubles(const aur_pointset *set, aur_block block) {
+    const bool at_once = block.dimension_count == 1 || block.point_stride == 1 ||
+                         (block.dimension_count == 2 && set->kind->pairs);
+    const size_t room = PART_LENGTH / block.dimension_count;
+    const size_t part = at_once ? block.count : room > LEAST_PART ? room : LEAST_PART;
+    size_t left = block.count;
+    for (; left > 0; left -= block.count) {
+        block.count = left < part ? left : part;
+        aur_pointset_fill(set, &block);
+        block.first += block.count;
+        block.data += block.count * block.point_stride;
     }
 }
 
@@ -62,7 +81,7 @@ aur_result aur_pointset_emit(const aur_pointset *set, uint64_t seed, uint64_t fi
                        .seed = seed,
                        .data = output->doubles};
     if (output->doubles != NULL) {
-        aur_pointset_fill(set, &block);
+        fill_doubles(set, block);
         return AUR_OK;
     }
     block.dimension_count = 1;

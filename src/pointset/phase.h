@@ -13,10 +13,16 @@ typedef struct aur_fraction128 {
 static const aur_fraction128 aur_golden_fraction = {UINT64_C(0x9e3779b97f4a7c15),
                                                     UINT64_C(0xf39cc0605cedc834)};
 
-/* floor(index fraction 2^64) modulo 2^64, as a 64-bit word; at most one too small. */
+__extension__ typedef unsigned __int128 aur_wide;
+
+/* index * fraction modulo 1 in units of 2^-128: exact, and so are sums and differences of such phases. */
+static inline aur_wide aur_phase128(aur_fraction128 fraction, uint64_t index) {
+    return ((aur_wide)fraction.high << 64 | fraction.low) * index;
+}
+
+/* floor(index fraction 2^64) modulo 2^64, as a 64-bit word. */
 static inline uint64_t aur_phase(aur_fraction128 fraction, uint64_t index) {
-    __extension__ typedef unsigned __int128 wide;
-    return index * fraction.high + (uint64_t)((wide)index * fraction.low >> 64);
+    return (uint64_t)(aur_phase128(fraction, index) >> 64);
 }
 
 #endif

@@ -32,6 +32,7 @@ typedef struct aur_square_set {
     aur_set_description description;
     size_t minimum_dimension, maximum_dimension;
     uint64_t maximum_size;
+    bool pairs;           /* fill() makes two coordinates that lie beside each other in one go */
     unsigned scramblings; /* bit 1 << aur_scramble: what has a meaning here */
     /* Reads the keys and makes set->data ready (NULL: there are none and nothing is to be made ready). Size,
      * dimension, scrambling and seed are set and within the limits above; a file's own may change them. */

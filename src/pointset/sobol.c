@@ -91,6 +91,7 @@ const aur_square_set aur_set_sobol = {
     .minimum_dimension = 1,
     .maximum_dimension = SIZE_MAX,
     .maximum_size = UINT64_C(1) << 53,
+    .pairs = true,
     .scramblings = AUR_SCRAMBLES_ALL,
     .prepare = prepare,
     .fill = fill,
