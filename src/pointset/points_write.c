@@ -124,6 +124,14 @@ static void write_npy(const aur_points *points, FILE *stream) {
     write_binary_rows(points, 0, stream);
 }
 
+/* A comment is one line whatever the text holds. */
+static void write_ply_comment(const char *name, const char *text, FILE *stream) {
+    fprintf(stream, "comment %s ", name);
+    for (const char *c = text; *c != '\0'; ++c)
+        fputc((unsigned char)*c < 0x20 ? ' ' : *c, stream);
+    fputc('\n', stream);
+}
+
 /* Binary little-endian vertices x,y,z (0 where there is no such coordinate), with a property `quality` for
  * the weight, which is where mesh viewers look for a scalar. */
 static aur_result write_ply(const aur_points *points, const aur_points_origin *origin, FILE *stream,
@@ -133,11 +141,14 @@ static aur_result write_ply(const aur_points *points, const aur_points_origin *o
                         "a ply file has three coordinates, and these points have %zu: use csv, json or npy",
                         points->dimension);
     fputs("ply\nformat binary_little_endian 1.0\n", stream);
-    if (origin != NULL && origin->set != NULL)
-        fprintf(stream,
-                "comment set %s\ncomment n %" PRIu64 "\ncomment scramble %s\ncomment seed %" PRIu64 "\n",
-                origin->set, origin->size, aur_scramble_name(origin->scramble), origin->seed);
-    fprintf(stream, "comment domain %s\nelement vertex %zu\n", domain_name(points->domain), points->count);
+    if (origin != NULL && origin->set != NULL) {
+        write_ply_comment("set", origin->set, stream);
+        fprintf(stream, "comment n %" PRIu64 "\n", origin->size);
+        write_ply_comment("scramble", aur_scramble_name(origin->scramble), stream);
+        fprintf(stream, "comment seed %" PRIu64 "\n", origin->seed);
+    }
+    write_ply_comment("domain", domain_name(points->domain), stream);
+    fprintf(stream, "element vertex %zu\n", points->count);
     fputs("property double x\nproperty double y\nproperty double z\n", stream);
     if (points->weights != NULL)
         fputs("property double quality\n", stream);

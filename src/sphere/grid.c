@@ -112,10 +112,9 @@ static double judge(size_t count, const double *xyz, double height) {
     return 2.0 * domain / n - 2.0 * pairs / (n * n);
 }
 
-/* The base grid of `count` points and its copy by b_s/2, centred; into xyz[6 * count]. */
-static void doubled_grid(uint64_t count, size_t s, double height, double *xyz) {
+/* The base grid of `count` points and its copy by b_s/2, into xyz[6 * count]. */
+static void doubled_grid(uint64_t count, size_t s, double height, double centre, double *xyz) {
     const shift half = shift_of(s, 1);
-    const double centre = 0.5 - 0.5 * half.index;
     const double step = height / (double)count;
     const aur_fibonacci base = {step, centre, 0};
     const aur_fibonacci copy = {step, centre + half.index, half.phase};
@@ -124,14 +123,15 @@ static void doubled_grid(uint64_t count, size_t s, double height, double *xyz) {
     kernel(&copy, 0, (size_t)count, xyz + 3 * count);
 }
 
-size_t aur_grid_best_shift(uint64_t base, double height) {
+size_t aur_grid_best_shift(uint64_t base, double height, double centre) {
     double *const xyz = base <= JUDGED_LIMIT ? malloc(6 * (size_t)base * sizeof *xyz) : NULL;
     if (xyz == NULL)
         return aur_grid_first_shift(base, 2.0 * AUR_PI * (1.0 - height / 3.0));
     size_t best = 0;
     double lowest = INFINITY;
     for (size_t s = 0; s < 3; ++s) {
-        doubled_grid(base, s, height, xyz);
+        const double middle = 0.5 - 0.5 * shift_of(s, 1).index;
+        doubled_grid(base, s, height, centre >= 0.0 ? centre : middle, xyz);
         const double energy = judge(2 * (size_t)base, xyz, height);
         if (energy < lowest) {
             lowest = energy;
@@ -210,10 +210,19 @@ static bool is_complete(uint64_t count, uint64_t base) {
     return blocks < 4;
 }
 
-static void choose_order(grid *g, bool doubling, bool best, double height) {
+/* The keys that say which sub-grid comes first, as indices of their choices. */
+typedef struct grid_keys {
+    size_t first_shift; /* paper, best */
+    size_t shift;       /* final, per-level */
+    size_t progression; /* 2, 4 */
+} grid_keys;
+
+static void choose_order(grid *g, const grid_keys *keys, double height) {
     size_t first = 0;
-    if (doubling && g->levels > 0)
-        first = best ? aur_grid_best_shift(g->base, height) : aur_grid_first_shift(g->base, 1.0);
+    if (keys->progression == 0 && g->levels > 0)
+        first = keys->first_shift == 1
+                    ? aur_grid_best_shift(g->base, height, keys->shift == 0 ? g->centre : -1.0)
+                    : aur_grid_first_shift(g->base, 1.0);
     for (size_t i = 0; i < 3; ++i)
         g->order[i] = (first + i) % 3;
 }
@@ -225,27 +234,25 @@ static aur_result prepare(aur_parameters *keys, const aur_native_request *reques
     static const char *const progressions[] = {"2", "4"};
     int64_t base = 0;
     int64_t levels = -1;
-    size_t first_shift = 1;
-    size_t shift_kind = 0;
-    size_t progression = 0;
+    grid_keys chosen = {.first_shift = 1};
     aur_result result = aur_parameters_integer(keys, "base", 1, (int64_t)size_limit, &base, error);
     if (result == AUR_OK)
         result = aur_parameters_integer(keys, "levels", 0, LEVEL_LIMIT, &levels, error);
     if (result == AUR_OK)
-        result = aur_parameters_choice(keys, "first-shift", 2, first_shifts, &first_shift, error);
+        result = aur_parameters_choice(keys, "first-shift", 2, first_shifts, &chosen.first_shift, error);
     if (result == AUR_OK)
-        result = aur_parameters_choice(keys, "shift", 2, shifts, &shift_kind, error);
+        result = aur_parameters_choice(keys, "shift", 2, shifts, &chosen.shift, error);
     if (result == AUR_OK)
-        result = aur_parameters_choice(keys, "progression", 2, progressions, &progression, error);
+        result = aur_parameters_choice(keys, "progression", 2, progressions, &chosen.progression, error);
     grid g = {.kernel = aur_fibonacci_choose_kernel()};
     if (result == AUR_OK)
         result = choose_size(request->count, base, levels, &g, error);
     if (result != AUR_OK)
         return result;
-    choose_order(&g, progression == 0, first_shift == 1, request->height);
     g.step = request->height / (double)g.base;
     g.centre = ldexp(0.5, -(int)g.levels);
-    if (shift_kind == 1)
+    choose_order(&g, &chosen, request->height);
+    if (chosen.shift == 1)
         g.centre = 0.5 - mean_index_shift(&g, (request->count + g.base - 1) / g.base);
     if (!is_complete(request->count, g.base))
         aur_warn_at(

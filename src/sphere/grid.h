@@ -13,8 +13,9 @@ size_t aur_grid_shortest_vector(uint64_t base, double stretch);
  * vectors that make the Voronoi cell (eq. 56); 1 is the paper's stretch. */
 size_t aur_grid_first_shift(uint64_t base, double stretch);
 /* The same by trying all three on a cap of height `height` (1 hemisphere, 2 sphere) and keeping the doubled
- * grid of the lowest energy; grids of more than 2048 points are judged by the stretch that a cap has on
- * average. */
-size_t aur_grid_best_shift(uint64_t base, double height);
+ * grid of the lowest energy. The first point lies `centre` index steps below the pole; a negative one stands
+ * for the middle of each doubled grid. Grids of more than 2048 points are judged by the stretch that a cap
+ * has on average. */
+size_t aur_grid_best_shift(uint64_t base, double height, double centre);
 
 #endif
