@@ -194,6 +194,35 @@ static aur_result create_image(exr_reader *reader, const aur_image_source *sourc
     return result;
 }
 
+/* How many bytes of pixels one byte of a chunk can become at most: deflate's limit, with room; lossy DWA may
+ * do better by its blocks. */
+static uint64_t largest_ratio(exr_compression_t compression) {
+    switch (compression) {
+    case EXR_COMPRESSION_NONE:
+        return 1;
+    case EXR_COMPRESSION_DWAA:
+    case EXR_COMPRESSION_DWAB:
+        return 1 << 16;
+    default:
+        return 1 << 11;
+    }
+}
+
+/* Refuses a header that claims more pixels than the file can hold, before memory is taken for them. */
+static aur_result check_length(const exr_reader *reader, const aur_image_source *source, uint64_t pixels,
+                               aur_error *error) {
+    exr_compression_t compression = EXR_COMPRESSION_NONE;
+    exr_get_compression(reader->context, 0, &compression);
+    uint64_t bytes = 0;
+    for (int c = 0; c < reader->channels->num_channels; ++c)
+        bytes += reader->channels->entries[c].pixel_type == EXR_PIXEL_HALF ? pixels * 2 : pixels * 4;
+    if (bytes / largest_ratio(compression) <= source->size)
+        return AUR_OK;
+    return aur_fail_at(error, (aur_location){.file = source->name}, AUR_ERROR_FORMAT,
+                       "broken EXR: %zu bytes cannot hold the %llu pixels that it claims", source->size,
+                       (unsigned long long)pixels);
+}
+
 static aur_result check_header(exr_reader *reader, const aur_image_source *source, exr_storage_t storage,
                                aur_error *error) {
     const aur_location where = {.file = source->name};
@@ -213,7 +242,7 @@ static aur_result check_header(exr_reader *reader, const aur_image_source *sourc
                                "the EXR's channel %s is subsampled: only full channels can be read",
                                entry->name.str);
     }
-    return AUR_OK;
+    return check_length(reader, source, (uint64_t)width * (uint64_t)height, error);
 }
 
 static aur_result read_part(exr_reader *reader, const aur_image_source *source, const aur_exr_stream *stream,

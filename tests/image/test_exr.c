@@ -181,6 +181,29 @@ static void test_what_cannot_be_read_says_so(void **state) {
     free(bytes);
 }
 
+/* The header says 10,000,000 x 8, which is one chunk still, and the data are those of 8 x 8. */
+static void test_header_that_lies(void **state) {
+    (void)state;
+    aur_image *const picture = random_picture(8, 8, 3);
+    write_picture(scratch(0, "lie.exr"), picture, NULL);
+    aur_image_destroy(picture);
+    size_t size;
+    unsigned char *const bytes = read_bytes(scratch(0, "lie.exr"), &size);
+    remove(scratch(0, "lie.exr"));
+    static const char attribute[] = "dataWindow\0box2i\0\x10\0\0";
+    size_t at = 0;
+    while (at + sizeof attribute + 16 < size && memcmp(bytes + at, attribute, sizeof attribute) != 0)
+        ++at;
+    const int32_t window[4] = {0, 0, 9999999, 7};
+    memcpy(bytes + at + sizeof attribute, window, sizeof window);
+    aur_image *image;
+    aur_error error;
+    assert_int_equal(aur_image_read_memory("lie.exr", size, bytes, &image, &error), AUR_ERROR_FORMAT);
+    assert_non_null(strstr(error.message, "80000000 pixels"));
+    assert_null(image);
+    free(bytes);
+}
+
 static void test_every_truncation_is_an_error(void **state) {
     (void)state;
     aur_image *const image = random_picture(20, 40, 3);
@@ -241,6 +264,7 @@ int main(void) {
         cmocka_unit_test(test_names_are_checked),
         cmocka_unit_test(test_every_storage_and_compression),
         cmocka_unit_test(test_what_cannot_be_read_says_so),
+        cmocka_unit_test(test_header_that_lies),
         cmocka_unit_test(test_every_truncation_is_an_error),
         cmocka_unit_test(test_shared_pictures),
     };
