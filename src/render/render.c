@@ -78,7 +78,8 @@ static aur_result resolve(const aur_scene *scene, const aur_render_options *opti
         s->filter = aur_filter_find(options->filter);
         if (s->filter == NULL)
             return aur_fail(error, AUR_ERROR_NAME,
-                            "unknown filter '%s'; the filters are: box, tent, gaussian", options->filter);
+                            "unknown filter '%s'; the filters are: box, tent, gaussian, mitchell",
+                            options->filter);
     }
     if (s->x0 == 0 && s->x1 == 0 && s->y0 == 0 && s->y1 == 0) {
         s->x1 = s->width;
@@ -106,8 +107,9 @@ typedef struct render_work {
     tile_count *counts; /* one a tile */
 } render_work;
 
-static void camera_sample(const render_work *work, size_t x, size_t y, uint32_t index,
-                          aur_camera_sample *sample) {
+/* Returns the sample's weight. */
+static float camera_sample(const render_work *work, size_t x, size_t y, uint32_t index,
+                           aur_camera_sample *sample) {
     const settings *const s = work->settings;
     sample->stream = (aur_stream){work->sampler, aur_hash3(s->seed, y, x), index};
     float offset[2] = {0.0f, 0.0f}, lens[2];
@@ -120,6 +122,7 @@ static void camera_sample(const render_work *work, size_t x, size_t y, uint32_t 
     aur_stream_pair(&sample->stream, AUR_PAIR_LENS, lens);
     aur_camera_ray(work->scene, s->width, s->height, (float)x + 0.5f + offset[0], (float)y + 0.5f + offset[1],
                    lens, &sample->ray);
+    return aur_filter_weight(s->filter, offset[0]) * aur_filter_weight(s->filter, offset[1]);
 }
 
 static bool is_valid(aur_vector radiance) {
@@ -133,16 +136,16 @@ static void render_pixel(const render_work *work, size_t x, size_t y, float *pix
     size_t valid = 0;
     for (size_t i = 0; i < work->settings->samples_per_pixel; ++i) {
         aur_camera_sample sample;
-        camera_sample(work, x, y, (uint32_t)i, &sample);
+        const double weight = (double)camera_sample(work, x, y, (uint32_t)i, &sample);
         const aur_vector radiance =
             work->integrator->descriptor->radiance(work->integrator, &sample, counters);
         if (!is_valid(radiance)) {
             ++*invalid;
             continue;
         }
-        sum[0] += (double)radiance.x;
-        sum[1] += (double)radiance.y;
-        sum[2] += (double)radiance.z;
+        sum[0] += weight * (double)radiance.x;
+        sum[1] += weight * (double)radiance.y;
+        sum[2] += weight * (double)radiance.z;
         ++valid;
     }
     for (size_t c = 0; c < 3; ++c)

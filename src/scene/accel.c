@@ -12,7 +12,7 @@ static aur_result fail(const aur_scene *scene, aur_error *error) {
     return aur_fail(error, AUR_ERROR_INTERNAL, "Embree failed with error %d", (int)code);
 }
 
-static bool attach_mesh(aur_scene *scene, const aur_shape *shape, uint32_t id) {
+static bool attach_mesh(aur_scene *scene, aur_embree_scene to, const aur_shape *shape, uint32_t id) {
     const aur_mesh *const mesh = &shape->mesh;
     const RTCGeometry geometry = rtcNewGeometry(scene->device, RTC_GEOMETRY_TYPE_TRIANGLE);
     if (geometry == NULL)
@@ -22,7 +22,7 @@ static bool attach_mesh(aur_scene *scene, const aur_shape *shape, uint32_t id) {
     rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, mesh->indices, 0,
                                3 * sizeof(uint32_t), mesh->triangle_count);
     rtcCommitGeometry(geometry);
-    rtcAttachGeometryByID(scene->accel, geometry, id);
+    rtcAttachGeometryByID(to, geometry, id);
     rtcReleaseGeometry(geometry);
     return true;
 }
@@ -94,7 +94,7 @@ static void curved_occluded(const struct RTCOccludedFunctionNArguments *argument
             rays[RAY_FARTHEST * n + i] = -INFINITY;
 }
 
-static bool attach_curved(aur_scene *scene, aur_shape *shape, uint32_t id) {
+static bool attach_curved(aur_scene *scene, aur_embree_scene to, aur_shape *shape, uint32_t id) {
     const RTCGeometry geometry = rtcNewGeometry(scene->device, RTC_GEOMETRY_TYPE_USER);
     if (geometry == NULL)
         return false;
@@ -104,14 +104,61 @@ static bool attach_curved(aur_scene *scene, aur_shape *shape, uint32_t id) {
     rtcSetGeometryIntersectFunction(geometry, curved_intersect);
     rtcSetGeometryOccludedFunction(geometry, curved_occluded);
     rtcCommitGeometry(geometry);
-    rtcAttachGeometryByID(scene->accel, geometry, id);
+    rtcAttachGeometryByID(to, geometry, id);
     rtcReleaseGeometry(geometry);
     return true;
 }
 
-static bool attach(aur_scene *scene, uint32_t id) {
+static bool attach(aur_scene *scene, aur_embree_scene to, uint32_t id) {
     aur_shape *const shape = scene->shapes[id];
-    return shape->curved != NULL ? attach_curved(scene, shape, id) : attach_mesh(scene, shape, id);
+    return shape->curved != NULL ? attach_curved(scene, to, shape, id) : attach_mesh(scene, to, shape, id);
+}
+
+static aur_embree_scene new_scene(const aur_scene *scene) {
+    const aur_embree_scene made = rtcNewScene(scene->device);
+    /* Robust traversal leaves no gaps between triangles that share an edge: closed rooms stay closed. */
+    if (made != NULL)
+        rtcSetSceneFlags(made, RTC_SCENE_FLAG_ROBUST);
+    return made;
+}
+
+static bool build_group(aur_scene *scene, aur_group *group) {
+    group->accel = new_scene(scene);
+    for (size_t i = 0; group->accel != NULL && i < group->count; ++i)
+        if (!attach(scene, group->accel, group->shapes[i]))
+            return false;
+    if (group->accel != NULL)
+        rtcCommitScene(group->accel);
+    return group->accel != NULL;
+}
+
+/* Instances are numbered after the shapes. */
+static bool attach_instance(aur_scene *scene, size_t index) {
+    const aur_instance *const instance = scene->instances[index];
+    const RTCGeometry geometry = rtcNewGeometry(scene->device, RTC_GEOMETRY_TYPE_INSTANCE);
+    if (geometry == NULL)
+        return false;
+    float matrix[12];
+    for (size_t i = 0; i < 12; ++i)
+        matrix[i] = (float)instance->to_world.m[i];
+    rtcSetGeometryInstancedScene(geometry, instance->group->accel);
+    rtcSetGeometryTransform(geometry, 0, RTC_FORMAT_FLOAT3X4_ROW_MAJOR, matrix);
+    rtcCommitGeometry(geometry);
+    rtcAttachGeometryByID(scene->accel, geometry, (uint32_t)(scene->shape_count + index));
+    rtcReleaseGeometry(geometry);
+    return true;
+}
+
+static bool attach_all(aur_scene *scene) {
+    bool good = true;
+    for (size_t i = 0; good && i < scene->group_count; ++i)
+        good = build_group(scene, scene->groups[i]);
+    for (size_t i = 0; good && i < scene->shape_count; ++i)
+        if (!scene->shapes[i]->grouped)
+            good = attach(scene, scene->accel, (uint32_t)i);
+    for (size_t i = 0; good && i < scene->instance_count; ++i)
+        good = attach_instance(scene, i);
+    return good;
 }
 
 aur_result aur_scene_build_accel(aur_scene *scene, aur_error *error) {
@@ -120,14 +167,9 @@ aur_result aur_scene_build_accel(aur_scene *scene, aur_error *error) {
     scene->device = rtcNewDevice("threads=1");
     if (scene->device == NULL)
         return fail(scene, error);
-    scene->accel = rtcNewScene(scene->device);
-    if (scene->accel == NULL)
+    scene->accel = new_scene(scene);
+    if (scene->accel == NULL || !attach_all(scene))
         return fail(scene, error);
-    /* Robust traversal leaves no gaps between triangles that share an edge: closed rooms stay closed. */
-    rtcSetSceneFlags(scene->accel, RTC_SCENE_FLAG_ROBUST);
-    for (size_t i = 0; i < scene->shape_count; ++i)
-        if (!attach(scene, (uint32_t)i))
-            return fail(scene, error);
     rtcCommitScene(scene->accel);
     const enum RTCError code = rtcGetDeviceError(scene->device);
     if (code != RTC_ERROR_NONE)
@@ -143,6 +185,9 @@ aur_result aur_scene_build_accel(aur_scene *scene, aur_error *error) {
 }
 
 void aur_scene_release_accel(aur_scene *scene) {
+    for (size_t i = 0; i < scene->group_count; ++i)
+        if (scene->groups[i]->accel != NULL)
+            rtcReleaseScene(scene->groups[i]->accel);
     if (scene->accel != NULL)
         rtcReleaseScene(scene->accel);
     if (scene->device != NULL)
@@ -169,7 +214,10 @@ bool aur_scene_intersect(const aur_scene *scene, const aur_ray *ray, aur_hit *hi
     aur_embree_intersect1(scene->accel, &query);
     if (query.hit.geomID == RTC_INVALID_GEOMETRY_ID)
         return false;
-    *hit = (aur_hit){query.ray.tfar, query.hit.u, query.hit.v, query.hit.geomID, query.hit.primID};
+    const uint32_t instance = query.hit.instID[0] == RTC_INVALID_GEOMETRY_ID
+                                  ? AUR_NO_INSTANCE
+                                  : query.hit.instID[0] - (uint32_t)scene->shape_count;
+    *hit = (aur_hit){query.ray.tfar, query.hit.u, query.hit.v, query.hit.geomID, query.hit.primID, instance};
     return true;
 }
 

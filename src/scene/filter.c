@@ -11,9 +11,10 @@ static const aur_filter filters[] = {
     {AUR_FILTER_BOX, 0.5f},
     {AUR_FILTER_TENT, 1.0f},
     {AUR_FILTER_GAUSSIAN, 0.5f},
+    {AUR_FILTER_MITCHELL, 1.0f},
 };
 
-static const char *const names[] = {"box", "tent", "gaussian"};
+static const char *const names[] = {"box", "tent", "gaussian", "mitchell"};
 
 enum { FILTER_COUNT = sizeof filters / sizeof filters[0] };
 
@@ -52,6 +53,47 @@ static float sample_gaussian(float u) {
     return side * x;
 }
 
+/* Mitchell and Netravali's filter (1988) with B = C = 1/3 falls below 0 at 8/7 and ends at 2. This is the
+ * integral of its absolute value from 0 to x. */
+static const float mitchell_turn = 8.0f / 7.0f;
+
+static float mitchell_inner(float x) {
+    return (((7.0f / 4.0f * x - 4.0f) * x) * x + 16.0f / 3.0f) * x / 6.0f;
+}
+
+static float mitchell_outer(float x) {
+    return (((-7.0f / 12.0f * x + 4.0f) * x - 10.0f) * x + 32.0f / 3.0f) * x / 6.0f;
+}
+
+static float mitchell_mass(float x) {
+    if (x <= 1.0f)
+        return mitchell_inner(x);
+    const float mass = mitchell_inner(1.0f) + mitchell_outer(fminf(x, mitchell_turn)) - mitchell_outer(1.0f);
+    return x <= mitchell_turn ? mass : mass - (mitchell_outer(x) - mitchell_outer(mitchell_turn));
+}
+
+/* By bisection: the density vanishes at the turn, where Newton's method fails. */
+static float sample_mitchell(float u) {
+    const float side = u < 0.5f ? -1.0f : 1.0f;
+    const float target = fabsf(2.0f * u - 1.0f) * mitchell_mass(2.0f);
+    float low = 0.0f, high = 2.0f;
+    for (size_t i = 0; i < 22; ++i) {
+        const float middle = 0.5f * (low + high);
+        if (mitchell_mass(middle) <= target)
+            low = middle;
+        else
+            high = middle;
+    }
+    return side * low;
+}
+
+float aur_filter_weight(const aur_filter *filter, float offset) {
+    if (filter->kind != AUR_FILTER_MITCHELL)
+        return 1.0f;
+    const float size = 2.0f * mitchell_mass(2.0f);
+    return fabsf(offset) > mitchell_turn * filter->scale ? -size : size;
+}
+
 float aur_filter_sample(const aur_filter *filter, float u) {
     switch (filter->kind) {
     case AUR_FILTER_TENT: {
@@ -61,6 +103,8 @@ float aur_filter_sample(const aur_filter *filter, float u) {
     }
     case AUR_FILTER_GAUSSIAN:
         return filter->scale * sample_gaussian(u);
+    case AUR_FILTER_MITCHELL:
+        return filter->scale * sample_mitchell(u);
     case AUR_FILTER_BOX:
         break;
     }

@@ -5,11 +5,17 @@
 #include "core/parameters.h"
 #include "scene/scene.h"
 
-typedef enum aur_filter_kind { AUR_FILTER_BOX, AUR_FILTER_TENT, AUR_FILTER_GAUSSIAN } aur_filter_kind;
+typedef enum aur_filter_kind {
+    AUR_FILTER_BOX,
+    AUR_FILTER_TENT,
+    AUR_FILTER_GAUSSIAN,
+    AUR_FILTER_MITCHELL
+} aur_filter_kind;
 
 struct aur_filter {
     aur_filter_kind kind;
-    float scale; /* pixels: box and tent their radius, gaussian its standard deviation */
+    float scale; /* pixels: box and tent their radius, gaussian its standard deviation, mitchell half its
+                    radius */
 };
 
 /* The filter that parameters->plugin names, with its parameters. */

@@ -1,5 +1,7 @@
 /* From the tree of elements to the objects of a scene. An object is built when the walk meets it or when
  * something refers to it, whichever is first. */
+#include <aureole/sphere.h>
+
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -245,8 +247,78 @@ static aur_result make_default_bsdf(loader *self) {
     return result;
 }
 
+/* <shape type="shapegroup">: its shapes leave the scene and are seen through instances only. */
+static aur_result build_group(loader *self, aur_parameters *parameters, void **object) {
+    aur_scene *const scene = self->scene;
+    aur_group *const group = calloc(1, sizeof *group);
+    aur_result result = group != NULL ? append(self, &scene->group_count, &scene->group_capacity,
+                                               (void ***)&scene->groups, group)
+                                      : aur_fail(self->error, AUR_ERROR_MEMORY, "out of memory");
+    if (result != AUR_OK) {
+        free(group);
+        return result;
+    }
+    group->shapes = malloc((parameters->count + 1) * sizeof *group->shapes);
+    if (group->shapes == NULL)
+        return aur_fail(self->error, AUR_ERROR_MEMORY, "out of memory");
+    for (size_t i = 0; i < parameters->count; ++i) {
+        aur_parameter *const item = &parameters->items[i];
+        if (item->kind != AUR_PARAMETER_OBJECT || strcmp(item->object_kind, "shape") != 0)
+            continue;
+        size_t index = 0;
+        while (index < scene->shape_count && scene->shapes[index] != item->object)
+            ++index;
+        if (index == scene->shape_count || scene->shapes[index]->grouped)
+            return aur_fail_at(self->error, item->location, AUR_ERROR_FORMAT,
+                               "a shapegroup takes shapes of its own, no instances or other groups");
+        if (scene->shapes[index]->emitter != AUR_NO_EMITTER)
+            return aur_fail_at(self->error, item->location, AUR_ERROR_UNSUPPORTED,
+                               "a shape in a shapegroup cannot be a light");
+        scene->shapes[index]->grouped = true;
+        group->shapes[group->count++] = (uint32_t)index;
+        item->used = true;
+    }
+    *object = group;
+    if (group->count == 0)
+        return aur_fail_at(self->error, parameters->location, AUR_ERROR_FORMAT, "a shapegroup needs a shape");
+    return aur_parameters_finish(parameters, self->error);
+}
+
+static aur_result build_instance(loader *self, aur_parameters *parameters, void **object) {
+    aur_scene *const scene = self->scene;
+    aur_instance *const instance = calloc(1, sizeof *instance);
+    aur_result result = instance != NULL ? append(self, &scene->instance_count, &scene->instance_capacity,
+                                                  (void ***)&scene->instances, instance)
+                                         : aur_fail(self->error, AUR_ERROR_MEMORY, "out of memory");
+    if (result != AUR_OK) {
+        free(instance);
+        return result;
+    }
+    const void *const wanted = nested(parameters, "shape");
+    for (size_t i = 0; i < scene->group_count; ++i)
+        if (scene->groups[i] == wanted)
+            instance->group = scene->groups[i];
+    if (instance->group == NULL)
+        return aur_fail_at(self->error, parameters->location, AUR_ERROR_FORMAT,
+                           "shape 'instance' needs a reference to a shapegroup");
+    instance->to_world = aur_transform_identity();
+    result = aur_parameters_transform(parameters, "to_world", instance->to_world.m, self->error);
+    if (result != AUR_OK)
+        return result;
+    if (!aur_transform_is_affine(&instance->to_world) ||
+        !aur_transform_inverse(&instance->to_world, &instance->to_local))
+        return aur_fail_at(self->error, parameters->location, AUR_ERROR_FORMAT,
+                           "shape 'instance': 'to_world' must be affine: its last row is 0 0 0 1");
+    *object = instance;
+    return aur_parameters_finish(parameters, self->error);
+}
+
 static aur_result build_shape(loader *self, aur_xml_node *node, aur_parameters *parameters, void **object) {
     (void)node;
+    if (strcmp(parameters->plugin, "shapegroup") == 0)
+        return build_group(self, parameters, object);
+    if (strcmp(parameters->plugin, "instance") == 0)
+        return build_instance(self, parameters, object);
     aur_scene *const scene = self->scene;
     aur_shape *shape;
     const aur_bsdf *bsdf = nested(parameters, "bsdf");
@@ -341,6 +413,17 @@ static const char *set_for_sampler(const char *plugin) {
     return plugin;
 }
 
+static aur_result check_set(const aur_parameters *parameters, const char *set, aur_error *error) {
+    const char *names[128];
+    size_t count = 0;
+    for (; count < 128 && aur_set_at(count) != NULL; ++count) {
+        names[count] = aur_set_at(count)->name;
+        if (strcmp(names[count], set) == 0)
+            return AUR_OK;
+    }
+    return strncmp(set, "file:", 5) == 0 ? AUR_OK : aur_fail_unknown_plugin(error, parameters, count, names);
+}
+
 static aur_result build_sampler(loader *self, aur_xml_node *node, aur_parameters *parameters, void **object) {
     (void)node;
     aur_scene *const scene = self->scene;
@@ -354,6 +437,9 @@ static aur_result build_sampler(loader *self, aur_xml_node *node, aur_parameters
     /* The rest are the set's own keys. */
     char text[1024];
     const char *const set = set_for_sampler(parameters->plugin);
+    result = check_set(parameters, set, self->error);
+    if (result != AUR_OK)
+        return result;
     int used = snprintf(text, sizeof text, "%s", set);
     for (size_t i = 0, keys = 0; i < parameters->count && used < (int)sizeof text; ++i) {
         aur_parameter *const item = &parameters->items[i];

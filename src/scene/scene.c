@@ -71,6 +71,14 @@ void aur_scene_destroy(aur_scene *scene) {
         aur_bsdf_destroy(scene->bsdfs[i]);
     for (size_t i = 0; i < scene->texture_count; ++i)
         aur_texture_destroy(scene->textures[i]);
+    for (size_t i = 0; i < scene->group_count; ++i)
+        free(scene->groups[i]->shapes);
+    for (size_t i = 0; i < scene->group_count; ++i)
+        free(scene->groups[i]);
+    for (size_t i = 0; i < scene->instance_count; ++i)
+        free(scene->instances[i]);
+    free(scene->groups);
+    free(scene->instances);
     free(scene->shapes);
     free(scene->emitters);
     free(scene->bsdfs);

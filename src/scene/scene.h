@@ -19,7 +19,10 @@ typedef struct aur_hit {
     float u, v; /* barycentric: (1-u-v) a + u b + v c */
     uint32_t shape;
     uint32_t primitive; /* triangle of the shape */
+    uint32_t instance;  /* which copy of the shape, or AUR_NO_INSTANCE */
 } aur_hit;
+
+#define AUR_NO_INSTANCE UINT32_MAX
 
 /* A point on a surface with all that shading needs. */
 typedef struct aur_surface {
@@ -93,13 +96,16 @@ size_t aur_scene_emitter_count(const aur_scene *scene);
 void aur_camera_ray(const aur_scene *scene, size_t width, size_t height, float x, float y,
                     const float lens[2], aur_ray *ray);
 
-/* Reconstruction filters, by name: box (radius 0.5), tent (1), gaussian (stddev 0.5, radius 2, as Mitsuba 3).
- * Samples are drawn in proportion to the filter, so a pixel is the plain mean of its samples. */
+/* Reconstruction filters, by name: box (radius 0.5), tent (1), gaussian (stddev 0.5, radius 2, as Mitsuba 3),
+ * mitchell (B = C = 1/3, radius 2). Samples are drawn in proportion to the filter's absolute value, so a
+ * pixel is the plain mean of its samples times their aur_filter_weight in x and in y: 1 but for mitchell,
+ * which falls below 0. */
 typedef struct aur_filter aur_filter;
 const aur_filter *aur_filter_find(const char *name); /* NULL: unknown */
 const char *aur_filter_name(const aur_filter *filter);
 /* The offset from the pixel's centre, in pixels, that u in [0,1) stands for. */
 float aur_filter_sample(const aur_filter *filter, float u);
+float aur_filter_weight(const aur_filter *filter, float offset);
 
 typedef struct aur_film {
     size_t width, height;

@@ -12,6 +12,18 @@
 typedef struct RTCDeviceTy *aur_embree_device;
 typedef struct RTCSceneTy *aur_embree_scene;
 
+/* Shapes that are drawn by their instances only. */
+typedef struct aur_group {
+    size_t count;
+    uint32_t *shapes;
+    aur_embree_scene accel;
+} aur_group;
+
+typedef struct aur_instance {
+    const aur_group *group;
+    aur_transform to_world, to_local;
+} aur_instance;
+
 struct aur_scene {
     aur_xml_document document; /* owns the file names that locations point to */
     size_t bsdf_count, bsdf_capacity;
@@ -20,6 +32,10 @@ struct aur_scene {
     aur_texture **textures;
     size_t shape_count, shape_capacity;
     aur_shape **shapes;
+    size_t group_count, group_capacity;
+    aur_group **groups;
+    size_t instance_count, instance_capacity;
+    aur_instance **instances;
     size_t emitter_count, emitter_capacity;
     aur_emitter **emitters;
     aur_distribution lights;        /* the emitters by their power */

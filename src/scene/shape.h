@@ -46,6 +46,7 @@ struct aur_shape {
     double area;
     const aur_bsdf *bsdf;
     uint32_t emitter; /* or AUR_NO_EMITTER */
+    bool grouped;     /* seen through instances only */
 };
 
 /* What every shape is made from. */

@@ -81,12 +81,34 @@ static void finish_frame(const aur_bsdf *bsdf, aur_surface *surface) {
     surface->frame = aur_frame_about(z);
 }
 
-void aur_scene_surface(const aur_scene *scene, const aur_ray *ray, const aur_hit *hit, aur_surface *surface) {
-    const aur_shape *const shape = scene->shapes[hit->shape];
+static void shape_surface(const aur_shape *shape, const aur_ray *ray, const aur_hit *hit,
+                          aur_surface *surface) {
     if (shape->curved != NULL)
         curved_surface(shape, ray, hit, surface);
     else
         mesh_surface(&shape->mesh, ray, hit, surface);
+}
+
+/* In the group's own space, and then moved. */
+static void instance_surface(const aur_instance *instance, const aur_shape *shape, const aur_ray *ray,
+                             const aur_hit *hit, aur_surface *surface) {
+    aur_ray local = *ray;
+    local.origin = aur_transform_point_f(&instance->to_local, ray->origin);
+    local.direction = aur_transform_direction_f(&instance->to_local, ray->direction);
+    shape_surface(shape, &local, hit, surface);
+    surface->position = aur_transform_point_f(&instance->to_world, surface->position);
+    surface->geometric_normal =
+        aur_vector_normalize(aur_transform_normal_f(&instance->to_local, surface->geometric_normal));
+    surface->frame.z = aur_vector_normalize(aur_transform_normal_f(&instance->to_local, surface->frame.z));
+    surface->frame.x = aur_transform_direction_f(&instance->to_world, surface->frame.x);
+}
+
+void aur_scene_surface(const aur_scene *scene, const aur_ray *ray, const aur_hit *hit, aur_surface *surface) {
+    const aur_shape *const shape = scene->shapes[hit->shape];
+    if (hit->instance == AUR_NO_INSTANCE)
+        shape_surface(shape, ray, hit, surface);
+    else
+        instance_surface(scene->instances[hit->instance], shape, ray, hit, surface);
     finish_frame(shape->bsdf, surface);
     surface->bsdf = shape->bsdf;
     surface->shape = hit->shape;

@@ -92,6 +92,34 @@ static aur_scene *load_sensor(const char *sensor) {
 }
 
 /* Rays of one film point leave the disk of the aperture and meet in the plane of focus. */
+static double mitchell(double x) {
+    x = fabs(x);
+    if (x < 1.0)
+        return (7.0 * x * x * x - 12.0 * x * x + 16.0 / 3.0) / 6.0;
+    return x < 2.0 ? (-7.0 / 3.0 * x * x * x + 12.0 * x * x - 20.0 * x + 32.0 / 3.0) / 6.0 : 0.0;
+}
+
+/* Weighted samples have the moments that quadrature of the definition has. */
+static void samples_mitchell(void **state) {
+    (void)state;
+    const aur_filter *const filter = aur_filter_find("mitchell");
+    enum { COUNT = 200000 };
+    double drawn[3] = {0, 0, 0}, exact[3] = {0, 0, 0};
+    for (size_t i = 0; i < COUNT; ++i) {
+        const double u = ((double)i + 0.5) / COUNT;
+        const double x = (double)aur_filter_sample(filter, (float)u);
+        const double weight = (double)aur_filter_weight(filter, (float)x);
+        const double y = 4.0 * u - 2.0;
+        for (int k = 0; k < 3; ++k) {
+            drawn[k] += weight * pow(x, 2 * k) / COUNT;
+            exact[k] += mitchell(y) * pow(y, 2 * k) * 4.0 / COUNT;
+        }
+    }
+    assert_near(exact[0], 1.0, 1e-9);
+    for (int k = 0; k < 3; ++k)
+        assert_near(drawn[k], exact[k], 2e-5);
+}
+
 static void focuses(void **state) {
     (void)state;
     aur_scene *const scene = load_sensor("thinlens'><float name='fov' value='60'/>"
@@ -160,8 +188,11 @@ static void samples_filters(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(frames_the_picture), cmocka_unit_test(moves_and_clips),
-        cmocka_unit_test(samples_filters),    cmocka_unit_test(focuses),
+        cmocka_unit_test(frames_the_picture),
+        cmocka_unit_test(moves_and_clips),
+        cmocka_unit_test(samples_filters),
+        cmocka_unit_test(samples_mitchell),
+        cmocka_unit_test(focuses),
         cmocka_unit_test(sees_in_parallel),
     };
     return cmocka_run_group_tests(tests, enter_folder, leave_folder);

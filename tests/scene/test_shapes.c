@@ -316,6 +316,66 @@ static void says_what_is_wrong_in_meshes(void **state) {
     assert_int_equal(wrong, 0);
 }
 
+/* A copy of a group is what the same shapes are when they are moved themselves, hit by hit. */
+static void copies_groups(void **state) {
+    (void)state;
+    static const char *const move =
+        "<transform name='to_world'><scale x='2' y='-1' z='0.5'/><rotate x='1' y='3' "
+        "angle='40'/><translate x='5' y='1'/></transform>";
+    char body[2048];
+    write_text("bump.obj",
+               "v 0 0 0\nv 2 0 0\nv 2 2 1\nv 0 2 0\nv 1 1 2\nf 1 2 5\nf 2 3 5\nf 3 4 5\nf 4 1 5\n");
+    snprintf(
+        body, sizeof body,
+        "<shape type='shapegroup' id='g'><shape type='obj'><string name='filename' value='bump.obj'/></shape>"
+        "<shape type='cube'/></shape><shape type='instance'><ref id='g'/>%s</shape>",
+        move);
+    aur_scene *const copied = must_load_body(body);
+    snprintf(
+        body, sizeof body,
+        "<shape type='obj'><string name='filename' value='bump.obj'/>%s</shape><shape type='cube'>%s</shape>",
+        move, move);
+    aur_scene *const moved = must_load_body(body);
+    size_t hits = 0, apart = 0;
+    for (size_t i = 0; i < 5000; ++i) {
+        const aur_vector center = {5.0f, 1.0f, 0.0f};
+        const aur_vector origin =
+            aur_vector_add_scaled(center, 12.0f, aur_sample_sphere(unit(1, i), unit(2, i)));
+        const aur_vector target =
+            aur_vector_add_scaled(center, 2.0f, aur_sample_sphere(unit(3, i), unit(4, i)));
+        const aur_ray ray = {origin, 0.0f, aur_vector_normalize(aur_vector_subtract(target, origin)),
+                             INFINITY};
+        aur_hit hit[2];
+        const bool found = aur_scene_intersect(copied, &ray, &hit[0]);
+        const bool expected = aur_scene_intersect(moved, &ray, &hit[1]);
+        /* rounding at silhouettes */
+        if (found != expected || (found && fabsf(hit[0].distance - hit[1].distance) > 1e-4f)) {
+            ++apart;
+            continue;
+        }
+        if (!found)
+            continue;
+        ++hits;
+        aur_surface surface[2];
+        aur_scene_surface(copied, &ray, &hit[0], &surface[0]);
+        aur_scene_surface(moved, &ray, &hit[1], &surface[1]);
+        assert_int_equal(hit[0].instance, 0);
+        assert_int_equal(hit[1].instance, AUR_NO_INSTANCE);
+        assert_near(aur_vector_length(aur_vector_subtract(surface[0].position, surface[1].position)), 0.0,
+                    1e-4);
+        assert_near(aur_vector_dot(surface[0].geometric_normal, surface[1].geometric_normal), 1.0, 1e-4);
+        assert_true(aur_scene_occluded(copied, &ray));
+    }
+    assert_in_range(hits, 1000, 5000);
+    assert_in_range(apart, 0, 10);
+    aur_vector lower[2], upper[2];
+    aur_scene_bounds(copied, &lower[0], &upper[0]);
+    aur_scene_bounds(moved, &lower[1], &upper[1]);
+    assert_true(lower[0].x <= lower[1].x + 1e-4f && upper[0].z >= upper[1].z - 1e-4f);
+    aur_scene_destroy(copied);
+    aur_scene_destroy(moved);
+}
+
 /* Degenerate triangles are no error and give no NaN. */
 static void bears_degenerate_triangles(void **state) {
     (void)state;
@@ -341,7 +401,7 @@ int main(void) {
         cmocka_unit_test(hits_curved_shapes),         cmocka_unit_test(reads_ply_in_three_forms),
         cmocka_unit_test(reads_serialized_meshes),    cmocka_unit_test(reads_obj),
         cmocka_unit_test(smooths_without_normals),    cmocka_unit_test(says_what_is_wrong_in_meshes),
-        cmocka_unit_test(bears_degenerate_triangles),
+        cmocka_unit_test(bears_degenerate_triangles), cmocka_unit_test(copies_groups),
     };
     return cmocka_run_group_tests(tests, enter_folder, leave_folder);
 }
