@@ -12,7 +12,8 @@
 typedef struct loader {
     aur_scene *scene;
     const aur_warnings *warnings;
-    const aur_bsdf *default_bsdf;
+    const aur_bsdf *default_bsdf; /* of shapes that name none */
+    const aur_bsdf *black_bsdf;   /* of lights that name none */
     aur_error *error;
 } loader;
 
@@ -232,17 +233,22 @@ static void *nested(aur_parameters *parameters, const char *name) {
     return item != NULL ? (void *)(uintptr_t)item->object : NULL;
 }
 
-static aur_result make_default_bsdf(loader *self) {
-    if (self->default_bsdf != NULL)
+/* What a shape without a bsdf is made of: grey, or black when it is a light. */
+static aur_result default_bsdf(loader *self, bool light, const aur_bsdf **bsdf) {
+    const aur_bsdf **const known = light ? &self->black_bsdf : &self->default_bsdf;
+    *bsdf = *known;
+    if (*known != NULL)
         return AUR_OK;
     aur_parameters parameters;
     aur_result result = aur_parameters_init(&parameters, "bsdf", "diffuse", (aur_location){0}, self->error);
     if (result != AUR_OK)
         return result;
-    void *object;
-    result = build_bsdf(self, NULL, &parameters, &object);
+    void *object = NULL;
+    result = aur_parameters_add_text(&parameters, AUR_PARAMETER_FLOAT, "reflectance", light ? "0" : "0.5",
+                                     (aur_location){0}, self->error);
     if (result == AUR_OK)
-        self->default_bsdf = object;
+        result = build_bsdf(self, NULL, &parameters, &object);
+    *bsdf = *known = object;
     aur_parameters_release(&parameters);
     return result;
 }
@@ -324,10 +330,8 @@ static aur_result build_shape(loader *self, aur_xml_node *node, aur_parameters *
     const aur_bsdf *bsdf = nested(parameters, "bsdf");
     aur_emitter *const emitter = nested(parameters, "emitter");
     aur_result result = AUR_OK;
-    if (bsdf == NULL) {
-        result = make_default_bsdf(self);
-        bsdf = self->default_bsdf;
-    }
+    if (bsdf == NULL)
+        result = default_bsdf(self, emitter != NULL, &bsdf);
     if (result == AUR_OK && emitter != NULL && !emitter->descriptor->needs_shape)
         result = aur_fail_at(self->error, emitter->location, AUR_ERROR_FORMAT,
                              "emitter '%s' cannot stand inside a shape", emitter->descriptor->name);

@@ -24,6 +24,26 @@ static void loads_a_small_scene(void **state) {
     aur_scene_destroy(scene);
 }
 
+/* A shape without a bsdf is grey, a light without one is black. */
+static void gives_default_materials(void **state) {
+    (void)state;
+    aur_scene *const scene =
+        must_load_body("<shape type='rectangle'/><shape type='rectangle'><transform name='to_world'>"
+                       "<translate x='5'/></transform><emitter type='area'/></shape>");
+    static const double expected[2] = {0.5, 0.0};
+    for (size_t i = 0; i < 2; ++i) {
+        const aur_ray ray = {{5.0f * (float)i, 0.0f, 1.0f}, 0.0f, {0.0f, 0.0f, -1.0f}, INFINITY};
+        aur_hit hit;
+        aur_surface surface;
+        assert_true(aur_scene_intersect(scene, &ray, &hit));
+        aur_scene_surface(scene, &ray, &hit, &surface);
+        const aur_vector albedo =
+            surface.bsdf->descriptor->diffuse_albedo(surface.bsdf, surface.texture, 1.0f);
+        assert_near(albedo.x, expected[i], 0.0);
+    }
+    aur_scene_destroy(scene);
+}
+
 static void maps_samplers_to_sets(void **state) {
     (void)state;
     static const char *const rows[][2] = {
@@ -291,11 +311,11 @@ static void loads_public_scenes(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(loads_a_small_scene),  cmocka_unit_test(maps_samplers_to_sets),
-        cmocka_unit_test(substitutes_names),    cmocka_unit_test(includes_files),
-        cmocka_unit_test(reads_old_versions),   cmocka_unit_test(says_what_is_wrong),
-        cmocka_unit_test(refuses_bad_roots),    cmocka_unit_test(loads_public_scenes),
-        cmocka_unit_test(loads_bundled_scenes),
+        cmocka_unit_test(loads_a_small_scene),     cmocka_unit_test(maps_samplers_to_sets),
+        cmocka_unit_test(gives_default_materials), cmocka_unit_test(substitutes_names),
+        cmocka_unit_test(includes_files),          cmocka_unit_test(reads_old_versions),
+        cmocka_unit_test(says_what_is_wrong),      cmocka_unit_test(refuses_bad_roots),
+        cmocka_unit_test(loads_public_scenes),     cmocka_unit_test(loads_bundled_scenes),
     };
     return cmocka_run_group_tests(tests, enter_folder, leave_folder);
 }
