@@ -135,6 +135,7 @@ aur_result aur_sphere_grid_near(const aur_sphere_grid *grid, size_t index, doubl
             if (!search_cell(&s, first_cell + (first + step) % cells))
                 return AUR_ERROR_MEMORY;
     }
-    qsort(neighbours->items, neighbours->count, sizeof *neighbours->items, nearest_first);
+    if (neighbours->count > 0)
+        qsort(neighbours->items, neighbours->count, sizeof *neighbours->items, nearest_first);
     return AUR_OK;
 }
