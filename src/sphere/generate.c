@@ -1,28 +1,31 @@
 /* Points of any set on any domain, allocated. */
 #include <stdlib.h>
+#include <string.h>
 
 #include <aureole/sphere.h>
 
 #include "core/error.h"
 #include "sphere/native.h"
 
-/* Chooses the domain when the request leaves it to the set; a file is read for it. */
+/* Chooses domain and size when the request leaves them to the set. `file` is what a file holds, if it had to
+ * be read for it. */
 static aur_result natural_domain(const char *set, const aur_points_request *request, aur_domain *domain,
-                                 uint64_t *size, aur_error *error) {
+                                 uint64_t *size, aur_points *file, aur_error *error) {
     *domain = request->options.domain;
     if (request->natural_domain && !aur_set_is_file(set))
         *domain = aur_native_find(set) != NULL ? AUR_DOMAIN_SPHERE : AUR_DOMAIN_SQUARE;
-    if (!aur_set_is_file(set) || (*size != 0 && !request->natural_domain))
+    if (!aur_set_is_file(set) || (*size != 0 && !request->natural_domain && *domain != AUR_DOMAIN_DISK))
         return AUR_OK;
-    aur_points file;
-    const aur_result result = aur_points_read(set + 5, &file, error);
+    const aur_result result = aur_points_read(set + 5, file, error);
     if (result != AUR_OK)
         return result;
     if (request->natural_domain)
-        *domain = file.domain;
+        *domain = file->domain;
     if (*size == 0)
-        *size = file.count;
-    aur_points_release(&file);
+        *size = file->count;
+    if (*size > file->count)
+        return aur_fail(error, AUR_ERROR_ARGUMENT, "%s has %zu points, not %llu", set + 5, file->count,
+                        (unsigned long long)*size);
     return AUR_OK;
 }
 
@@ -99,6 +102,23 @@ static aur_result generate_disk(const char *set, const aur_points_request *reque
     return AUR_OK;
 }
 
+/* Points of a file that lie on the disk already. */
+static aur_result copy_disk(const aur_points *file, const aur_points_request *request, uint64_t size,
+                            aur_points *points, aur_error *error) {
+    if (request->options.scramble != AUR_SCRAMBLE_NONE)
+        return aur_fail(error, AUR_ERROR_UNSUPPORTED,
+                        "points that are on the disk already take no scrambling");
+    points->dimension = 2;
+    const aur_result result = allocate(request, size, file->weights != NULL, points, error);
+    if (result != AUR_OK)
+        return result;
+    memcpy(points->coordinates, file->coordinates + 2 * request->first,
+           2 * points->count * sizeof *points->coordinates);
+    if (points->weights != NULL)
+        memcpy(points->weights, file->weights + request->first, points->count * sizeof *points->weights);
+    return AUR_OK;
+}
+
 /* From the hemisphere to the disk by Lambert's azimuthal map, in place. */
 static void flatten(aur_points *points) {
     points->dimension = 2;
@@ -141,33 +161,43 @@ static aur_result check_flat_options(const aur_directions_options *options, aur_
     return AUR_OK;
 }
 
+/* On points->domain, which is known by now. */
+static aur_result generate(const char *set, const aur_points_request *request, uint64_t size,
+                           const aur_points *file, aur_points *points, aur_error *error) {
+    const aur_domain domain = points->domain;
+    const int flat = domain == AUR_DOMAIN_SQUARE || domain == AUR_DOMAIN_CUBE;
+    if (flat || domain == AUR_DOMAIN_DISK) {
+        const aur_result result = check_flat_options(&request->options, error);
+        if (result != AUR_OK)
+            return result;
+    }
+    if (flat)
+        return generate_flat(set, request, size, request->dimension, points, error);
+    if (request->dimension != 0 && request->dimension != 2)
+        return aur_fail(error, AUR_ERROR_ARGUMENT, "only the square has other dimensions than its own");
+    if (domain != AUR_DOMAIN_DISK)
+        return generate_directions(set, request, size, points, error);
+    if (file->count > 0 && file->domain == AUR_DOMAIN_DISK)
+        return copy_disk(file, request, size, points, error);
+    const int directions = file->count > 0 ? file->dimension == 3 && file->domain != AUR_DOMAIN_CUBE
+                                           : aur_native_find(set) != NULL;
+    return directions ? generate_directions(set, request, size, points, error)
+                      : generate_disk(set, request, size, points, error);
+}
+
 aur_result aur_points_generate(const char *set, const aur_points_request *request, aur_points *points,
                                aur_error *error) {
     *points = (aur_points){0};
+    aur_points file = {0};
     uint64_t size = request->options.count;
-    aur_result result = natural_domain(set, request, &points->domain, &size, error);
-    if (result != AUR_OK)
-        return result;
-    const size_t dimension = request->dimension;
-    const int flat = points->domain == AUR_DOMAIN_SQUARE || points->domain == AUR_DOMAIN_CUBE ||
-                     points->domain == AUR_DOMAIN_DISK;
-    if (flat)
-        result = check_flat_options(&request->options, error);
-    if (result == AUR_OK && dimension != 0 && dimension != 2 && points->domain != AUR_DOMAIN_SQUARE &&
-        points->domain != AUR_DOMAIN_CUBE)
-        result = aur_fail(error, AUR_ERROR_ARGUMENT, "only the square has other dimensions than its own");
-    if (result != AUR_OK)
-        return result;
-    if (points->domain == AUR_DOMAIN_DISK && aur_native_find(set) == NULL)
-        result = generate_disk(set, request, size, points, error);
-    else if (flat && points->domain != AUR_DOMAIN_DISK)
-        result = generate_flat(set, request, size, dimension, points, error);
-    else
-        result = generate_directions(set, request, size, points, error);
+    aur_result result = natural_domain(set, request, &points->domain, &size, &file, error);
+    if (result == AUR_OK)
+        result = generate(set, request, size, &file, points, error);
+    aur_points_release(&file);
     if (result != AUR_OK) {
         aur_points_release(points);
         *points = (aur_points){0};
-    } else if (flat && points->domain != AUR_DOMAIN_DISK) {
+    } else if (points->domain == AUR_DOMAIN_SQUARE || points->domain == AUR_DOMAIN_CUBE) {
         points->domain = points->dimension == 2 ? AUR_DOMAIN_SQUARE : AUR_DOMAIN_CUBE;
     }
     return result;

@@ -59,6 +59,13 @@ for format in csv npy; do
   "$aureole" points "file:again.$format.out" -o again.csv || fail "reading $format"
   cmp -s again.csv whole.csv || fail "$format does not come back as it went"
 done
+"$aureole" points sobol -n 20 --domain disk --map polar -o disk.csv || fail "a disk"
+"$aureole" points file:disk.csv | cmp -s - disk.csv || fail "a disk does not come back as it went"
+"$aureole" points halton -n 20 --dim 4 -o cube.csv || fail "a cube"
+"$aureole" points file:cube.csv | cmp -s - cube.csv || fail "a cube does not come back as it went"
+"$aureole" points spherical-fibonacci -n 20 --domain hemisphere -o dome.csv || fail "a hemisphere"
+"$aureole" points file:dome.csv --domain disk -o flat.csv || fail "a hemisphere on the disk"
+[ "$(wc -l < flat.csv)" = 21 ] || fail "a hemisphere on the disk"
 head -1 whole.csv | grep -qx 'x,y,z' || fail "the header of directions"
 "$aureole" points sobol -n 4 --lobe phong:20 --density optimal | head -1 | grep -qx 'x,y,z,w' || fail "weights"
 "$aureole" points sobol -n 8 --dim 3 | head -1 | grep -qx 'u1,u2,u3' || fail "the cube"
@@ -137,6 +144,9 @@ refuse spherical-fibonacci:region=octant -n 4 --cap 20
 refuse esfg:base=64,levels=1 -n 300
 refuse file:nothing.csv
 refuse file:own.csv -n 17
+refuse file:disk.csv --domain sphere
+refuse file:disk.csv --scramble rotate
+refuse file:whole.csv --domain square
 printf 'x,y,z\n0,0,1\n0,0\n' > ragged.csv
 printf 'x,y,z\n0,0,1\n0,0,nan\n' > nan.csv
 printf 'x,y,z\n0,0,1\n0,0,2\n' > off.csv
