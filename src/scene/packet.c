@@ -1,0 +1,42 @@
+#include "scene/packet.h"
+
+#include <string.h>
+
+#include "scene/scene_data.h"
+
+void aur_packet_clear(aur_packet *packet) {
+    memset(packet, 0, sizeof *packet);
+    memset(packet->query.ray.mask, 0xff, sizeof packet->query.ray.mask);
+}
+
+uint32_t aur_scene_intersect16(const aur_scene *scene, aur_embree_order order, aur_packet *packet) {
+    struct RTCHit16 *const hits = &packet->query.hit;
+    memset(hits->geomID, 0xff, sizeof hits->geomID); /* RTC_INVALID_GEOMETRY_ID */
+    memset(hits->instID, 0xff, sizeof hits->instID);
+    aur_embree_intersect16(scene->accel, order, packet->valid, &packet->query);
+    uint32_t found = 0;
+    for (size_t k = 0; k < AUR_PACKET_SIZE; ++k)
+        found |= (uint32_t)(hits->geomID[k] != RTC_INVALID_GEOMETRY_ID) << k;
+    return found;
+}
+
+aur_hit aur_packet_hit(const aur_scene *scene, const aur_packet *packet, size_t lane) {
+    const struct RTCHit16 *const hits = &packet->query.hit;
+    const uint32_t id = hits->instID[0][lane];
+    return (aur_hit){.distance = packet->query.ray.tfar[lane],
+                     .u = hits->u[lane],
+                     .v = hits->v[lane],
+                     .shape = hits->geomID[lane],
+                     .primitive = hits->primID[lane],
+                     .instance =
+                         id == RTC_INVALID_GEOMETRY_ID ? AUR_NO_INSTANCE : id - (uint32_t)scene->shape_count};
+}
+
+uint32_t aur_scene_occluded16(const aur_scene *scene, aur_embree_order order, aur_packet *packet) {
+    struct RTCRay16 *const rays = &packet->query.ray;
+    aur_embree_occluded16(scene->accel, order, packet->valid, rays);
+    uint32_t stopped = 0;
+    for (size_t k = 0; k < AUR_PACKET_SIZE; ++k)
+        stopped |= (uint32_t)(packet->valid[k] != 0 && rays->tfar[k] < 0.0f) << k;
+    return stopped;
+}

@@ -1,0 +1,43 @@
+/* Sixteen rays at once, in Embree's own layout: an array a field, so that rays are made where they are traced
+ * and nothing is copied.
+ *
+ * A packet is filled lane by lane (aur_packet_set), or by writing query.ray's arrays org_x .. tfar and valid
+ * in loops of 16. Lanes whose `valid` is 0 are not traced. */
+#ifndef AUR_SCENE_PACKET_H
+#define AUR_SCENE_PACKET_H
+
+#include "scene/embree.h"
+#include "scene/scene.h"
+
+enum { AUR_PACKET_SIZE = 16 };
+
+typedef struct aur_packet {
+    _Alignas(64) int valid[AUR_PACKET_SIZE]; /* -1: a ray, 0: none */
+    struct RTCRayHit16 query;                /* directions of unit length */
+} aur_packet;
+
+/* No rays; what all rays share is set. Once a packet, however often it is refilled. */
+void aur_packet_clear(aur_packet *packet);
+
+static inline void aur_packet_set(aur_packet *packet, size_t lane, const aur_ray *ray) {
+    struct RTCRay16 *const rays = &packet->query.ray;
+    packet->valid[lane] = -1;
+    rays->org_x[lane] = ray->origin.x;
+    rays->org_y[lane] = ray->origin.y;
+    rays->org_z[lane] = ray->origin.z;
+    rays->tnear[lane] = ray->nearest;
+    rays->dir_x[lane] = ray->direction.x;
+    rays->dir_y[lane] = ray->direction.y;
+    rays->dir_z[lane] = ray->direction.z;
+    rays->tfar[lane] = ray->farthest;
+}
+
+/* The nearest hits. Bit k of the result is set when the ray of lane k hits something; aur_packet_hit tells
+ * what. A hit's distance takes the place of tfar, so tfar must be set again before the next call. */
+uint32_t aur_scene_intersect16(const aur_scene *scene, aur_embree_order order, aur_packet *packet);
+aur_hit aur_packet_hit(const aur_scene *scene, const aur_packet *packet, size_t lane);
+
+/* Whether anything lies between: bit k for lane k. Changes tfar of the rays that are stopped. */
+uint32_t aur_scene_occluded16(const aur_scene *scene, aur_embree_order order, aur_packet *packet);
+
+#endif
