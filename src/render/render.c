@@ -2,14 +2,13 @@
  * neither threads nor the order of tiles can change it. */
 #include <aureole/render.h>
 
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <time.h>
 
 #include "core/parallel.h"
 #include "transport/integrator.h"
-
-enum { TILE_SIZE = 16 };
 
 struct aur_renderer {
     const aur_scene *scene;
@@ -93,80 +92,66 @@ static aur_result resolve(const aur_scene *scene, const aur_render_options *opti
     return AUR_OK;
 }
 
-typedef struct tile_count {
-    uint64_t rays, invalid;
-} tile_count;
+/* The sums of a picture's pixels. */
+typedef struct film {
+    size_t width, height, channel_count;
+    double *sums;
+    uint32_t *counts;
+} film;
 
 typedef struct render_work {
-    const aur_scene *scene;
     const aur_integrator *integrator;
-    const aur_sampler *sampler;
+    const aur_view *view;
     const settings *settings;
-    aur_image *image;
-    size_t tiles_a_row;
-    tile_count *counts; /* one a tile */
+    const film *film;
+    size_t column0, row0, columns; /* of the tiles, on the grid over the whole picture */
+    aur_counters *counters;        /* one a tile */
 } render_work;
 
-/* Returns the sample's weight. */
-static float camera_sample(const render_work *work, size_t x, size_t y, uint32_t index,
-                           aur_camera_sample *sample) {
-    const settings *const s = work->settings;
-    sample->stream = (aur_stream){work->sampler, aur_hash3(s->seed, y, x), index};
-    float offset[2] = {0.0f, 0.0f}, lens[2];
-    if (!work->integrator->pixel_centre) {
-        float u[2];
-        aur_stream_pair(&sample->stream, AUR_PAIR_FILTER, u);
-        offset[0] = aur_filter_sample(s->filter, u[0]);
-        offset[1] = aur_filter_sample(s->filter, u[1]);
-    }
-    aur_stream_pair(&sample->stream, AUR_PAIR_LENS, lens);
-    aur_camera_ray(work->scene, s->width, s->height, (float)x + 0.5f + offset[0], (float)y + 0.5f + offset[1],
-                   lens, &sample->ray);
-    return aur_filter_weight(s->filter, offset[0]) * aur_filter_weight(s->filter, offset[1]);
+static aur_result add_samples(const aur_integrator *integrator, aur_tile *tile) {
+    if (integrator->descriptor->tile != NULL)
+        return integrator->descriptor->tile(integrator, tile);
+    for (size_t y = tile->y0; y < tile->y1; ++y)
+        for (size_t x = tile->x0; x < tile->x1; ++x)
+            for (uint32_t i = 0; i < tile->count; ++i) {
+                aur_camera_sample sample;
+                const float weight = aur_view_sample(tile->view, x, y, tile->first + i, &sample);
+                const aur_vector radiance =
+                    integrator->descriptor->radiance(integrator, &sample, &tile->counters);
+                aur_tile_add(tile, x, y, weight, radiance);
+            }
+    return AUR_OK;
 }
 
-static bool is_valid(aur_vector radiance) {
-    return aur_vector_is_finite(radiance) && radiance.x >= 0.0f && radiance.y >= 0.0f && radiance.z >= 0.0f;
+static size_t larger(size_t a, size_t b) {
+    return a > b ? a : b;
 }
 
-/* The mean of a pixel's samples; samples that are no radiance are counted and left out. */
-static void render_pixel(const render_work *work, size_t x, size_t y, float *pixel, aur_counters *counters,
-                         uint64_t *invalid) {
-    double sum[3] = {0};
-    size_t valid = 0;
-    for (size_t i = 0; i < work->settings->samples_per_pixel; ++i) {
-        aur_camera_sample sample;
-        const double weight = (double)camera_sample(work, x, y, (uint32_t)i, &sample);
-        const aur_vector radiance =
-            work->integrator->descriptor->radiance(work->integrator, &sample, counters);
-        if (!is_valid(radiance)) {
-            ++*invalid;
-            continue;
-        }
-        sum[0] += weight * (double)radiance.x;
-        sum[1] += weight * (double)radiance.y;
-        sum[2] += weight * (double)radiance.z;
-        ++valid;
-    }
-    for (size_t c = 0; c < 3; ++c)
-        pixel[c] = valid > 0 ? (float)(sum[c] / (double)valid) : 0.0f;
+static size_t smaller(size_t a, size_t b) {
+    return a < b ? a : b;
 }
 
 static aur_result render_tile(void *context, size_t index) {
     const render_work *const work = context;
     const settings *const s = work->settings;
-    const size_t x0 = s->x0 + index % work->tiles_a_row * TILE_SIZE;
-    const size_t y0 = s->y0 + index / work->tiles_a_row * TILE_SIZE;
-    const size_t x1 = x0 + TILE_SIZE < s->x1 ? x0 + TILE_SIZE : s->x1;
-    const size_t y1 = y0 + TILE_SIZE < s->y1 ? y0 + TILE_SIZE : s->y1;
-    aur_counters counters = {0};
-    uint64_t invalid = 0;
-    for (size_t y = y0; y < y1; ++y)
-        for (size_t x = x0; x < x1; ++x)
-            render_pixel(work, x, y, &work->image->data[3 * ((y - s->y0) * work->image->width + (x - s->x0))],
-                         &counters, &invalid);
-    work->counts[index] = (tile_count){counters.rays, invalid};
-    return AUR_OK;
+    const film *const f = work->film;
+    const size_t x = (work->column0 + index % work->columns) * AUR_TILE_SIZE;
+    const size_t y = (work->row0 + index / work->columns) * AUR_TILE_SIZE;
+    aur_tile tile = {.view = work->view,
+                     .x0 = larger(x, s->x0),
+                     .x1 = smaller(x + AUR_TILE_SIZE, s->x1),
+                     .y0 = larger(y, s->y0),
+                     .y1 = smaller(y + AUR_TILE_SIZE, s->y1),
+                     .first = 0,
+                     .count = (uint32_t)s->samples_per_pixel,
+                     .stride = f->width,
+                     .channel_count = f->channel_count};
+    const size_t pixel = (tile.y0 - s->y0) * f->width + (tile.x0 - s->x0);
+    tile.sums = &f->sums[pixel * f->channel_count];
+    tile.counts = &f->counts[pixel];
+    const aur_result result = add_samples(work->integrator, &tile);
+    work->counters[index] = tile.counters;
+    return result;
 }
 
 static double seconds_now(void) {
@@ -175,27 +160,61 @@ static double seconds_now(void) {
     return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
 }
 
-static aur_result render_image(const render_work *work, const aur_render_options *options,
-                               aur_render_statistics *statistics, aur_error *error) {
+static aur_result render_samples(render_work *work, const aur_render_options *options,
+                                 aur_render_statistics *statistics, aur_error *error) {
     const settings *const s = work->settings;
-    const size_t tile_count_y = (s->y1 - s->y0 + TILE_SIZE - 1) / TILE_SIZE;
-    const size_t tiles = work->tiles_a_row * tile_count_y;
-    render_work here = *work;
-    here.counts = calloc(tiles, sizeof *here.counts);
-    if (here.counts == NULL)
+    work->column0 = s->x0 / AUR_TILE_SIZE;
+    work->row0 = s->y0 / AUR_TILE_SIZE;
+    work->columns = (s->x1 + AUR_TILE_SIZE - 1) / AUR_TILE_SIZE - work->column0;
+    const size_t rows = (s->y1 + AUR_TILE_SIZE - 1) / AUR_TILE_SIZE - work->row0;
+    const size_t tiles = work->columns * rows;
+    work->counters = calloc(tiles, sizeof *work->counters);
+    if (work->counters == NULL)
         return aur_fail(error, AUR_ERROR_MEMORY, "out of memory");
     const aur_parallel_options parallel = {
         .threads = s->threads, .what = "rendering", .progress = options->progress};
-    const aur_result result = aur_parallel_for(&parallel, tiles, render_tile, &here);
+    const aur_result result = aur_parallel_for(&parallel, tiles, render_tile, work);
     if (result != AUR_OK)
         aur_fail(error, result, "rendering: %s", aur_result_string(result));
     for (size_t i = 0; i < tiles; ++i) {
-        statistics->rays += here.counts[i].rays;
-        statistics->invalid_samples += here.counts[i].invalid;
+        statistics->rays += work->counters[i].rays;
+        statistics->invalid_samples += work->counters[i].invalid;
     }
     statistics->samples = (uint64_t)(s->x1 - s->x0) * (s->y1 - s->y0) * s->samples_per_pixel;
-    free(here.counts);
+    free(work->counters);
+    work->counters = NULL;
     return result;
+}
+
+static aur_result film_create(film *f, size_t width, size_t height, size_t channel_count, aur_error *error) {
+    *f = (film){.width = width, .height = height, .channel_count = channel_count};
+    f->sums = calloc(width * height, channel_count * sizeof *f->sums);
+    f->counts = calloc(width * height, sizeof *f->counts);
+    if (f->sums != NULL && f->counts != NULL)
+        return AUR_OK;
+    return aur_fail(error, AUR_ERROR_MEMORY, "out of memory for a picture of %zu x %zu", width, height);
+}
+
+static void film_release(film *f) {
+    free(f->sums);
+    free(f->counts);
+}
+
+/* The mean of every pixel's samples. */
+static aur_result develop(const film *f, const aur_integrator *integrator, aur_image **image,
+                          aur_error *error) {
+    const aur_result result = aur_image_create(f->width, f->height, f->channel_count, image, error);
+    if (result != AUR_OK)
+        return result;
+    static const char *const colors[] = {"R", "G", "B"};
+    for (size_t c = 0; c < f->channel_count; ++c)
+        snprintf((*image)->channel_names[c], AUR_CHANNEL_NAME_CAPACITY, "%s",
+                 c < 3 ? colors[c] : integrator->extra_names[c - 3]);
+    for (size_t i = 0; i < f->width * f->height; ++i)
+        for (size_t c = 0; c < f->channel_count && f->counts[i] > 0; ++c)
+            (*image)->data[i * f->channel_count + c] =
+                (float)(f->sums[i * f->channel_count + c] / (double)f->counts[i]);
+    return AUR_OK;
 }
 
 /* The integrator that the options or the scene name. */
@@ -236,27 +255,30 @@ aur_result aur_renderer_render(aur_renderer *renderer, const aur_render_options 
     result = aur_sampler_create(s.sampler, s.samples_per_pixel, &options->warnings, &sampler, error);
     if (result == AUR_OK)
         result = make_integrator(renderer, options, &s, &integrator, error);
+    film pixels = {0};
     if (result == AUR_OK)
-        result = aur_image_create(s.x1 - s.x0, s.y1 - s.y0, 3, image, error);
+        result = film_create(&pixels, s.x1 - s.x0, s.y1 - s.y0, 3 + integrator->extra_count, error);
     const double prepared = seconds_now();
     if (result == AUR_OK) {
-        const render_work work = {.scene = renderer->scene,
-                                  .integrator = integrator,
-                                  .sampler = sampler,
-                                  .settings = &s,
-                                  .image = *image,
-                                  .tiles_a_row = (s.x1 - s.x0 + TILE_SIZE - 1) / TILE_SIZE};
-        result = render_image(&work, options, &counted, error);
+        const aur_view view = {.scene = renderer->scene,
+                               .sampler = sampler,
+                               .filter = s.filter,
+                               .width = s.width,
+                               .height = s.height,
+                               .seed = s.seed,
+                               .pixel_centre = integrator->pixel_centre};
+        render_work work = {.integrator = integrator, .view = &view, .settings = &s, .film = &pixels};
+        result = render_samples(&work, options, &counted, error);
     }
+    if (result == AUR_OK)
+        result = develop(&pixels, integrator, image, error);
+    film_release(&pixels);
     counted.prepare_seconds = prepared - start;
     counted.render_seconds = seconds_now() - prepared;
     aur_integrator_destroy(integrator);
     aur_sampler_destroy(sampler);
-    if (result != AUR_OK) {
-        aur_image_destroy(*image);
-        *image = NULL;
+    if (result != AUR_OK)
         return result;
-    }
     if (counted.invalid_samples > 0)
         aur_warn_at(&options->warnings, (aur_location){0},
                     "%llu of %llu samples were NaN, infinite or negative and are left out",

@@ -8,7 +8,7 @@
 #include "core/parameters.h"
 #include "scene/scene.h"
 #include "transport/cache.h"
-#include "transport/sampler.h"
+#include "transport/tile.h"
 
 /* What an integrator is made for. Everything but the parameters outlives it. */
 typedef struct aur_integrator_context {
@@ -20,20 +20,6 @@ typedef struct aur_integrator_context {
     aur_progress progress;
     aur_warnings warnings;
 } aur_integrator_context;
-
-/* Counted by each tile for itself and added up afterwards. */
-typedef struct aur_counters {
-    uint64_t rays;
-} aur_counters;
-
-/* A camera ray with the numbers of its light path. */
-typedef struct aur_camera_sample {
-    aur_ray ray;
-    aur_stream stream;
-} aur_camera_sample;
-
-/* Dimension pairs that the camera uses; an integrator's own begin after them. */
-enum { AUR_PAIR_FILTER = 0, AUR_PAIR_LENS = 1, AUR_PAIR_FIRST = 2 };
 
 typedef struct aur_integrator aur_integrator;
 
@@ -47,13 +33,18 @@ typedef struct aur_integrator_descriptor {
     /* Radiance that arrives along the camera ray. */
     aur_vector (*radiance)(const aur_integrator *integrator, const aur_camera_sample *sample,
                            aur_counters *counters);
+    /* Instead of it, for integrators that treat pixels together or fill more channels: adds the samples of a
+     * tile. The sums of a pixel must not depend on which of its neighbours are wanted. */
+    aur_result (*tile)(const aur_integrator *integrator, aur_tile *tile);
 } aur_integrator_descriptor;
 
 struct aur_integrator {
     const aur_integrator_descriptor *descriptor;
     const aur_scene *scene;
     void *data;
-    bool pixel_centre; /* every camera ray goes through the centre of its pixel */
+    bool pixel_centre;              /* every camera ray goes through the centre of its pixel */
+    size_t extra_count;             /* channels after R, G, B */
+    const char *const *extra_names; /* as in the picture's file */
 };
 
 /* The table; NULL beyond it. */

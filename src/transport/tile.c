@@ -1,0 +1,48 @@
+#include "transport/tile.h"
+
+float aur_view_sample(const aur_view *view, size_t x, size_t y, uint32_t index, aur_camera_sample *sample) {
+    sample->stream = (aur_stream){view->sampler, aur_hash3(view->seed, y, x), index};
+    float offset[2] = {0.0f, 0.0f}, lens[2];
+    if (!view->pixel_centre) {
+        float u[2];
+        aur_stream_pair(&sample->stream, AUR_PAIR_FILTER, u);
+        offset[0] = aur_filter_sample(view->filter, u[0]);
+        offset[1] = aur_filter_sample(view->filter, u[1]);
+    }
+    aur_stream_pair(&sample->stream, AUR_PAIR_LENS, lens);
+    aur_camera_ray(view->scene, view->width, view->height, (float)x + 0.5f + offset[0],
+                   (float)y + 0.5f + offset[1], lens, &sample->ray);
+    return aur_filter_weight(view->filter, offset[0]) * aur_filter_weight(view->filter, offset[1]);
+}
+
+bool aur_is_radiance(aur_vector radiance) {
+    return aur_vector_is_finite(radiance) && radiance.x >= 0.0f && radiance.y >= 0.0f && radiance.z >= 0.0f;
+}
+
+void aur_tile_add_channels(aur_tile *tile, size_t x, size_t y, float weight, const float *values) {
+    bool valid = aur_is_radiance((aur_vector){values[0], values[1], values[2]});
+    for (size_t c = 3; c < tile->channel_count; ++c)
+        valid = valid && isfinite(values[c]);
+    if (!valid) {
+        ++tile->counters.invalid;
+        return;
+    }
+    const size_t pixel = (y - tile->y0) * tile->stride + (x - tile->x0);
+    double *const sums = &tile->sums[pixel * tile->channel_count];
+    for (size_t c = 0; c < tile->channel_count; ++c)
+        sums[c] += (double)weight * (double)values[c];
+    ++tile->counts[pixel];
+}
+
+void aur_tile_add(aur_tile *tile, size_t x, size_t y, float weight, aur_vector radiance) {
+    if (!aur_is_radiance(radiance)) {
+        ++tile->counters.invalid;
+        return;
+    }
+    const size_t pixel = (y - tile->y0) * tile->stride + (x - tile->x0);
+    double *const sums = &tile->sums[pixel * tile->channel_count];
+    sums[0] += (double)weight * (double)radiance.x;
+    sums[1] += (double)weight * (double)radiance.y;
+    sums[2] += (double)weight * (double)radiance.z;
+    ++tile->counts[pixel];
+}
