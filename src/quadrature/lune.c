@@ -12,13 +12,17 @@ static double lesser(double a, double b) {
     return a < b ? a : b;
 }
 
-/* A rule on [from, to] for cos^exponent. */
-static void lobe_rule(double from, double to, double exponent, size_t count, double *angle, double *weight) {
-    double node[AUR_LUNE_ACROSS], share[AUR_LUNE_ACROSS];
-    aur_gauss_legendre(count, node, share);
+/* Nodes and weights on [from, to] for cos^exponent, by the Gauss rule of `count` nodes on [-1,1]; `to` is the
+ * end where the cosine vanishes or nearly does. There cos^exponent has no derivatives when a small exponent
+ * is no integer: the substitution t = x^power of the distance t to that end gives them back. */
+static void lobe_rule(double from, double to, double exponent, size_t count, const double *node,
+                      const double *share, double *angle, double *weight) {
+    const int power = exponent < 0.5 ? 3 : exponent < 1.0 ? 2 : 1;
     for (size_t i = 0; i < count; ++i) {
-        angle[i] = 0.5 * (from + to) + 0.5 * (to - from) * node[i];
-        weight[i] = 0.5 * (to - from) * share[i] * pow(cos(angle[i]), exponent);
+        const double x = 0.5 * (1.0 - node[i]);
+        const double slope = power == 1 ? 1.0 : power == 2 ? 2.0 * x : 3.0 * x * x;
+        angle[i] = to + (from - to) * (power == 1 ? x : power == 2 ? x * x : x * x * x);
+        weight[i] = 0.5 * fabs(to - from) * share[i] * slope * pow(cos(angle[i]), exponent);
     }
 }
 
@@ -27,9 +31,17 @@ static double peak(const aur_lune *lune) {
     return (lune->exponent + 1.0) / (2.0 * AUR_PI);
 }
 
-/* The integral over beta of cos^{m+1}(beta). */
+/* The integral over beta of cos^{m+1}(beta), sqrt(pi) Gamma(n + 1/2) / Gamma(n + 1) with n = (m+1)/2: by the
+ * asymptotic series from n = 64 on, to rounding, and by two integrations by parts a step below. */
 static double aside_integral(double m) {
-    return sqrt(AUR_PI) * exp(lgamma(0.5 * m + 1.0) - lgamma(0.5 * m + 1.5));
+    double factor = sqrt(AUR_PI);
+    for (; m < 127.0; m += 2.0)
+        factor *= (m + 3.0) / (m + 2.0);
+    const double t = 2.0 / (m + 1.0);
+    const double series =
+        1.0 + t * (1.0 / 8.0 +
+                   t * (1.0 / 128.0 + t * (-5.0 / 1024.0 + t * (-21.0 / 32768.0 + t * (399.0 / 262144.0)))));
+    return factor * sqrt(t) / series;
 }
 
 void aur_lune_init(aur_lune *lune, const double axis[3], double exponent) {
@@ -53,8 +65,10 @@ void aur_lune_init(aur_lune *lune, const double axis[3], double exponent) {
     aur_gauss_legendre(AUR_LUNE_SIDE, lune->side, lune->side_weight);
     if (lune->horizon >= lune->psi_reach)
         return;
-    double psi[AUR_LUNE_ACROSS];
-    lobe_rule(lune->horizon, lune->psi_reach, exponent, AUR_LUNE_ACROSS, psi, lune->across_weight);
+    double node[AUR_LUNE_ACROSS], share[AUR_LUNE_ACROSS], psi[AUR_LUNE_ACROSS];
+    aur_gauss_legendre(AUR_LUNE_ACROSS, node, share);
+    lobe_rule(lune->horizon, lune->psi_reach, exponent, AUR_LUNE_ACROSS, node, share, psi,
+              lune->across_weight);
     double sum = 0.0;
     for (size_t i = 0; i < AUR_LUNE_ACROSS; ++i) {
         lune->cosine[i] = cos(psi[i]);
@@ -73,17 +87,16 @@ double aur_lune_potential(const aur_lune *lune, const aur_kernel_rule *rule, con
     double middle = asin(fmax(-1.0, fmin(1.0, local[2])));
     if (fabs(middle) >= 0.98 * lune->beta_reach)
         middle = 0.0;
-    double cosine[ASIDE], sine[ASIDE], aside_weight[ASIDE];
+    double beta[ASIDE], cosine[ASIDE], sine[ASIDE], aside_weight[ASIDE];
     for (size_t side = 0; side < 2; ++side) {
         const double end = side == 0 ? -lune->beta_reach : lune->beta_reach;
-        for (size_t i = 0; i < AUR_LUNE_SIDE; ++i) {
-            const size_t at = side * AUR_LUNE_SIDE + i;
-            const double beta = 0.5 * (middle + end) + 0.5 * (end - middle) * lune->side[i];
-            cosine[at] = cos(beta);
-            sine[at] = sin(beta);
-            aside_weight[at] =
-                0.5 * fabs(end - middle) * lune->side_weight[i] * pow(cosine[at], lune->exponent + 1.0);
-        }
+        const size_t at = side * AUR_LUNE_SIDE;
+        lobe_rule(middle, end, lune->exponent + 1.0, AUR_LUNE_SIDE, lune->side, lune->side_weight, beta + at,
+                  aside_weight + at);
+    }
+    for (size_t i = 0; i < ASIDE; ++i) {
+        cosine[i] = cos(beta[i]);
+        sine[i] = sin(beta[i]);
     }
     double x[COUNT], y[COUNT], z[COUNT], weight[COUNT];
     for (size_t j = 0; j < AUR_LUNE_ACROSS; ++j) {
@@ -99,10 +112,13 @@ double aur_lune_potential(const aur_lune *lune, const aur_kernel_rule *rule, con
 }
 
 void aur_lune_visible(const aur_lune *lune, double *xyz, double *weights) {
-    double psi[AUR_LUNE_ACROSS], psi_weight[AUR_LUNE_ACROSS], beta[AUR_LUNE_SIDE], beta_weight[AUR_LUNE_SIDE];
-    lobe_rule(-lune->psi_reach, lesser(lune->horizon, lune->psi_reach), lune->exponent, AUR_LUNE_ACROSS, psi,
-              psi_weight);
-    lobe_rule(0.0, lune->beta_reach, lune->exponent + 1.0, AUR_LUNE_SIDE, beta, beta_weight);
+    double node[AUR_LUNE_ACROSS], share[AUR_LUNE_ACROSS], psi[AUR_LUNE_ACROSS], psi_weight[AUR_LUNE_ACROSS];
+    double beta[AUR_LUNE_SIDE], beta_weight[AUR_LUNE_SIDE];
+    aur_gauss_legendre(AUR_LUNE_ACROSS, node, share);
+    lobe_rule(lesser(lune->horizon, lune->psi_reach), -lune->psi_reach, lune->exponent, AUR_LUNE_ACROSS, node,
+              share, psi, psi_weight);
+    lobe_rule(0.0, lune->beta_reach, lune->exponent + 1.0, AUR_LUNE_SIDE, lune->side, lune->side_weight, beta,
+              beta_weight);
     size_t at = 0;
     for (size_t j = 0; j < AUR_LUNE_ACROSS; ++j) {
         for (size_t i = 0; i < 2 * AUR_LUNE_SIDE; ++i, ++at) {
