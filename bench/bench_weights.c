@@ -175,11 +175,11 @@ static void run_look_up(void *data) {
 
 static void run_copy(void *data) {
     look_up_context *const context = data;
+    const size_t rows = aur_weight_table_rows(context->table) / ROTATIONS;
     for (uint64_t i = 0; i < LOOK_UPS; ++i) {
         const uint64_t hash = aur_mix64(i);
         const float radians = 1.57f * aur_unit_float((uint32_t)hash);
-        const size_t angle = (size_t)(radians * (ANGLES - 1) / 1.5708f);
-        const size_t row = aur_weight_table_row(context->table, (hash >> 32) % ROTATIONS, angle, 0);
+        const size_t row = (hash >> 32) % ROTATIONS * rows + (size_t)(radians * (float)(rows - 1) / 1.5708f);
         memcpy(context->weights, context->table->weights + (2 * row + (hash >> 63)) * SAMPLES,
                sizeof context->weights);
         bench_keep((double)context->weights[0]);
@@ -187,14 +187,19 @@ static void run_copy(void *data) {
 }
 
 static bool bench_look_up(const bench_options *options) {
-    look_up_context context;
-    if (aur_weight_table_build(&pair_options, ANGLES, ROTATIONS, 1, NULL, &context.table, NULL) != AUR_OK)
-        return bench_fail("weights: no table");
-    const bench_work limit = {run_copy, &context, LOOK_UPS};
-    const bench_work subject = {run_look_up, &context, LOOK_UPS};
-    const bench_pair pair = bench_compare(options, &subject, &limit);
-    bench_print_pair("look-up of 96 weights", "copy of 96 floats", "Mlookup", 1e6, &pair);
-    aur_weight_table_destroy(context.table);
+    for (int clipped = 0; clipped < 2; ++clipped) {
+        aur_oswa_options pair_of = pair_options;
+        pair_of.clipped = clipped;
+        look_up_context context;
+        if (aur_weight_table_build(&pair_of, ANGLES, ROTATIONS, 1, NULL, &context.table, NULL) != AUR_OK)
+            return bench_fail("weights: no table");
+        const bench_work limit = {run_copy, &context, LOOK_UPS};
+        const bench_work subject = {run_look_up, &context, LOOK_UPS};
+        const bench_pair pair = bench_compare(options, &subject, &limit);
+        bench_print_pair(clipped ? "look-up of 96 weights, clipped" : "look-up of 96 weights",
+                         "copy of 96 floats", "Mlookup", 1e6, &pair);
+        aur_weight_table_destroy(context.table);
+    }
     return true;
 }
 

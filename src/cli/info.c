@@ -1,4 +1,5 @@
-/* aureole info: what is in a scene, a picture or a file of points. */
+/* aureole info: what is in a scene, a picture, a file of points or a table of weights. */
+#include <aureole/quadrature.h>
 #include <aureole/scene.h>
 #include <ctype.h>
 #include <errno.h>
@@ -192,6 +193,35 @@ static int describe_points(const char *path, const info_options *options) {
     return status;
 }
 
+static int describe_weight_table(const char *path, const info_options *options) {
+    aur_weight_table *table;
+    aur_error error;
+    if (aur_weight_table_load(path, NULL, &table, &error) != AUR_OK)
+        return cli_fail(&error);
+    const aur_oswa_options *const o = aur_weight_table_options(table);
+    info_facts facts = {0};
+    add_text(&facts, "kind", "weight table");
+    add_text(&facts, "set", o->set);
+    add_number(&facts, "samples", (double)o->count);
+    add_number(&facts, "mirror_samples", (double)o->mirror_count);
+    add_number(&facts, "exponent", o->lobe.exponent);
+    if (o->mirror_lobe.kind == AUR_LOBE_GGX)
+        add_number(&facts, "mirror_alpha", o->mirror_lobe.alpha);
+    else
+        add_number(&facts, "mirror_exponent", o->mirror_lobe.exponent);
+    add_text(&facts, "density", o->optimal_density ? "optimal" : "same");
+    add_text(&facts, "horizon", o->clipped || o->mirror_lobe.kind == AUR_LOBE_GGX ? "clipped" : "ignored");
+    add_number(&facts, "seed", (double)o->seed);
+    add_number(&facts, "smoothness", o->smoothness);
+    add_number(&facts, "regularization", o->weights.regularization);
+    add_text(&facts, "sum", o->weights.sum_constraint ? "1" : "free");
+    add_number(&facts, "angles", (double)aur_weight_table_angles(table));
+    add_number(&facts, "rotations", (double)aur_weight_table_rotations(table));
+    const int status = print_facts(&facts, options->format);
+    aur_weight_table_destroy(table);
+    return status;
+}
+
 /* XML begins with '<', after a byte order mark and white space. */
 static bool is_xml(size_t size, const char *text) {
     size_t i = size >= 3 && memcmp(text, "\xef\xbb\xbf", 3) == 0 ? 3 : 0;
@@ -215,6 +245,9 @@ static int describe(const char *path, const info_options *options) {
         return describe_picture(path, format, options);
     if (is_xml(size, start))
         return describe_scene(path, options);
+    static const char table[] = "aureole weight table\n";
+    if (size >= sizeof table - 1 && memcmp(start, table, sizeof table - 1) == 0)
+        return describe_weight_table(path, options);
     return describe_points(path, options);
 }
 
@@ -247,7 +280,8 @@ static int run(int argc, char **argv) {
 }
 
 const cli_verb cli_verb_info = {
-    "info", "SCENE|IMAGE|POINTS [options]", "what is in a scene, a picture or a file of points",
+    "info", "SCENE|IMAGE|POINTS|TABLE [options]",
+    "what is in a scene, a picture, a file of points or a table of weights",
     "  -D NAME=VALUE            set a <default> of the scene\n"
     "  --format table|csv|json  how it is printed\n"
     "  -q, --quiet              no warnings\n"

@@ -30,6 +30,11 @@ static const char help[] =
     "  --plot FILE.svg        draw the samples coloured by weight (needs gnuplot)\n"
     "  --table FILE --angles T --rotations K\n"
     "                         build a table of OSWA weights for the two lobes (64 angles, 16 rotations)\n"
+    "  --table FILE --lookup DEGREES [--rotation K] [--mirrored]\n"
+    "                         write the samples and weights of a table at that angle (rotation 0); with a "
+    "set and\n"
+    "                         its options the table must have been built from them, else they may be left "
+    "out\n"
     "  -t, --threads T        0: all\n"
     "  -q                     no progress bar and no warnings\n"
     "\n"
@@ -50,7 +55,10 @@ enum {
     OPTION_PLOT,
     OPTION_TABLE,
     OPTION_ANGLES,
-    OPTION_ROTATIONS
+    OPTION_ROTATIONS,
+    OPTION_LOOKUP,
+    OPTION_ROTATION,
+    OPTION_MIRRORED
 };
 
 static const struct option long_options[] = {
@@ -74,6 +82,9 @@ static const struct option long_options[] = {
     {"table", required_argument, NULL, OPTION_TABLE},
     {"angles", required_argument, NULL, OPTION_ANGLES},
     {"rotations", required_argument, NULL, OPTION_ROTATIONS},
+    {"lookup", required_argument, NULL, OPTION_LOOKUP},
+    {"rotation", required_argument, NULL, OPTION_ROTATION},
+    {"mirrored", no_argument, NULL, OPTION_MIRRORED},
     {"threads", required_argument, NULL, 't'},
     {"quiet", no_argument, NULL, 'q'},
     {NULL, 0, NULL, 0}};
@@ -141,6 +152,14 @@ static bool parse_option(int option, const char *text, cli_weights_arguments *ar
         return cli_parse_size("--angles", text, 2, 1 << 16, &arguments->angles);
     case OPTION_ROTATIONS:
         return cli_parse_size("--rotations", text, 1, 1 << 16, &arguments->rotations);
+    case OPTION_LOOKUP:
+        arguments->look_up = true;
+        return cli_parse_number("--lookup", text, 0.0, 90.0, &arguments->look_up_degrees);
+    case OPTION_ROTATION:
+        return cli_parse_size("--rotation", text, 0, (1 << 16) - 1, &arguments->rotation);
+    case OPTION_MIRRORED:
+        arguments->mirrored = true;
+        return true;
     default:
         return cli_parse_point_option(option, text, &arguments->points);
     }
@@ -204,6 +223,12 @@ static bool parse(int argc, char **argv, cli_weights_arguments *arguments) {
     for (int option; (option = cli_next_option(argc, argv, "n:o:t:q", long_options)) != -1;)
         if (!parse_option(option, optarg, arguments))
             return false;
+    if (arguments->look_up && (arguments->table == NULL || arguments->report || arguments->plot != NULL)) {
+        cli_bad_usage("--lookup: needs a table to read, --table FILE, and neither reports nor draws");
+        return false;
+    }
+    if (arguments->look_up && optind == argc)
+        return true;
     if (optind + 1 != argc) {
         if (optind == argc)
             cli_bad_usage("weights: a set or a file is missing: 'aureole sets' lists the sets");
@@ -263,6 +288,8 @@ static int run(int argc, char **argv) {
         .weights = aur_weights_options_default(), .lobe_text = "uniform", .angles = 64, .rotations = 16};
     if (!parse(argc, argv, &arguments))
         return CLI_BAD_INPUT;
+    if (arguments.look_up)
+        return cli_weights_look_up(&arguments);
     if (arguments.table != NULL)
         return cli_weights_table(&arguments);
     cli_weights_result result = {0};

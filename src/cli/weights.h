@@ -18,7 +18,7 @@ typedef enum cli_method {
 typedef struct cli_weights_arguments {
     const char *source;
     cli_point_options points;
-    bool lobe_given, mirror_given, size_given, method_given, angle_given, report, quiet;
+    bool lobe_given, mirror_given, size_given, method_given, angle_given, look_up, mirrored, report, quiet;
     size_t size, mirror_size;
     aur_lobe mirror;
     double degrees;
@@ -29,6 +29,8 @@ typedef struct cli_weights_arguments {
     cli_format format;
     const char *path, *plot, *table;
     size_t angles, rotations, threads;
+    double look_up_degrees;
+    size_t rotation;
 } cli_weights_arguments;
 
 /* Samples, weights and their figures, lobe by lobe. */
@@ -50,5 +52,8 @@ aur_oswa_options cli_weights_oswa(const cli_weights_arguments *arguments);
 int cli_weights_compute(const cli_weights_arguments *arguments, cli_weights_result *result);
 int cli_weights_plot(const cli_weights_arguments *arguments, const cli_weights_result *result);
 int cli_weights_table(const cli_weights_arguments *arguments);
+/* Reads a table and writes the samples and weights of one angle and rotation. Without a set any table will
+ * do; with one it must have been built from the same options. */
+int cli_weights_look_up(const cli_weights_arguments *arguments);
 
 #endif

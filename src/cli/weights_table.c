@@ -1,5 +1,9 @@
-/* aureole weights --table: builds a table of OSWA weights. */
+/* aureole weights --table: builds a table of OSWA weights, or looks weights up in one. */
+#include <stdlib.h>
+
 #include "cli/weights.h"
+
+static const double degree = 3.14159265358979323846 / 180.0;
 
 int cli_weights_table(const cli_weights_arguments *arguments) {
     const aur_oswa_options options = cli_weights_oswa(arguments);
@@ -13,4 +17,49 @@ int cli_weights_table(const cli_weights_arguments *arguments) {
         result = aur_weight_table_save(table, arguments->table, &error);
     aur_weight_table_destroy(table);
     return result == AUR_OK ? CLI_SUCCESS : cli_fail(&error);
+}
+
+static aur_result write_entry(const cli_weights_arguments *arguments, const aur_weight_table *table,
+                              aur_error *error) {
+    const aur_oswa_options *const options = aur_weight_table_options(table);
+    const size_t size = options->count + options->mirror_count;
+    double *const xyz = malloc(5 * size * sizeof *xyz);
+    float *const found = malloc(size * sizeof *found);
+    aur_result result = AUR_ERROR_MEMORY;
+    if (xyz == NULL || found == NULL) {
+        *error = (aur_error){.result = result, .message = "out of memory"};
+    } else {
+        const double radians = arguments->look_up_degrees * degree;
+        double *const weights = xyz + 3 * size;
+        aur_weight_table_points(table, radians, arguments->rotation, arguments->mirrored, xyz);
+        for (size_t lobe = 0; lobe < 2; ++lobe) {
+            aur_weight_table_look_up(table, lobe, arguments->rotation, (float)radians, found);
+            for (size_t i = 0; i < size; ++i)
+                weights[lobe * size + i] = (double)found[i];
+        }
+        const char *const path = arguments->path != NULL ? arguments->path : "-";
+        result = aur_weights_write(path, size, xyz, 2, weights, error);
+    }
+    free(xyz);
+    free(found);
+    return result;
+}
+
+int cli_weights_look_up(const cli_weights_arguments *arguments) {
+    const aur_oswa_options options = cli_weights_oswa(arguments);
+    aur_error error = {0};
+    aur_weight_table *table;
+    const aur_oswa_options *const expected = arguments->source != NULL ? &options : NULL;
+    aur_result result = aur_weight_table_load(arguments->table, expected, &table, &error);
+    if (result != AUR_OK)
+        return cli_fail(&error);
+    const size_t rotations = aur_weight_table_rotations(table);
+    int status = CLI_SUCCESS;
+    if (arguments->rotation >= rotations)
+        status = cli_bad_usage("--rotation: the table has rotations 0 to %zu, not %zu", rotations - 1,
+                               arguments->rotation);
+    else if (write_entry(arguments, table, &error) != AUR_OK)
+        status = cli_fail(&error);
+    aur_weight_table_destroy(table);
+    return status;
 }

@@ -15,6 +15,10 @@ static bool is_ggx(const aur_oswa *oswa) {
     return oswa->lobe[1].kind == AUR_LOBE_GGX;
 }
 
+bool aur_oswa_hides(const aur_oswa *oswa) {
+    return oswa->options.clipped || is_ggx(oswa);
+}
+
 static aur_result load_uniform(aur_oswa *oswa, size_t which, aur_error *error) {
     const aur_directions_options options = {.count = oswa->count[which],
                                             .domain = AUR_DOMAIN_HEMISPHERE,
@@ -217,6 +221,19 @@ static void place(const aur_oswa *oswa, double radians, const double turns[2], d
         aur_lobe_warp(&lobe, second + 3 * i, second + 3 * i);
 }
 
+double aur_oswa_height(const aur_oswa *oswa, double radians, double turns, size_t index) {
+    double u[3];
+    if (is_ggx(oswa)) {
+        const aur_lobe lobe = ggx_at(oswa, radians);
+        turn(turns, 1, oswa->uniform[1] + 3 * index, u);
+        aur_lobe_warp(&lobe, u, u);
+    } else {
+        turn(turns, 1, oswa->pattern[1] + 3 * index, u);
+        tilt(radians, 1, u);
+    }
+    return u[2];
+}
+
 void aur_oswa_points(const aur_oswa *oswa, double radians, const double turns[2], int mirrored, double *xyz) {
     place(oswa, radians, turns, xyz);
     for (size_t i = 0; mirrored && i < aur_oswa_size(oswa); ++i)
@@ -358,10 +375,9 @@ static aur_result solve_plainly(const aur_oswa *oswa, const aur_oswa_angle *angl
 
 void aur_oswa_visible(const aur_oswa *oswa, double radians, const double turns[2], double *xyz,
                       bool *visible) {
-    const bool hides = oswa->options.clipped || is_ggx(oswa);
     place(oswa, radians, turns, xyz);
     for (size_t i = 0; i < aur_oswa_size(oswa); ++i)
-        visible[i] = !hides || xyz[3 * i + 2] >= 0.0;
+        visible[i] = !aur_oswa_hides(oswa) || xyz[3 * i + 2] >= 0.0;
 }
 
 aur_result aur_oswa_solve_at(const aur_oswa *oswa, const aur_oswa_angle *angle, const double turns[2],
@@ -373,6 +389,10 @@ aur_result aur_oswa_solve_at(const aur_oswa *oswa, const aur_oswa_angle *angle, 
     double *const right = columns + 3 * n;
     double *const cosines = right + 3 * n;
     place(oswa, angle->radians, turns, xyz);
+    /* At a crossing rounding may leave a sample just below the horizon. */
+    for (size_t i = 0; i < n && aur_oswa_hides(oswa); ++i)
+        if (taken[i])
+            xyz[3 * i + 2] = fmax(0.0, xyz[3 * i + 2]);
     if (is_ggx(oswa))
         return solve_plainly(oswa, angle, taken, xyz, weights, error);
     const size_t first = oswa->count[0];

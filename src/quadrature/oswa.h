@@ -36,13 +36,19 @@ typedef struct aur_oswa_angle {
 aur_result aur_oswa_angle_init(const aur_oswa *oswa, double radians, aur_oswa_angle *angle, aur_error *error);
 void aur_oswa_angle_release(aur_oswa_angle *angle);
 
+/* Whether samples below the surface take no part. */
+bool aur_oswa_hides(const aur_oswa *oswa);
+
 /* Which samples are above the surface, where that matters; xyz[3 * size] are their places. */
 void aur_oswa_visible(const aur_oswa *oswa, double radians, const double turns[2], double *xyz,
                       bool *visible);
 
+/* The height above the surface of sample `index` of the pattern about the mirror direction. */
+double aur_oswa_height(const aur_oswa *oswa, double radians, double turns, size_t index);
+
 /* Doubles of scratch memory that a solve needs. */
 size_t aur_oswa_scratch(const aur_oswa *oswa);
-/* The weights with only the samples `taken`, which must be visible; the others get 0. */
+/* The weights with only the samples `taken`, which must be visible but for rounding; the others get 0. */
 aur_result aur_oswa_solve_at(const aur_oswa *oswa, const aur_oswa_angle *angle, const double turns[2],
                              const bool *taken, double *scratch, double *weights, aur_error *error);
 

@@ -18,13 +18,16 @@ static void hold_to_one_thread(void) {
     pthread_once(&once, set_one_thread);
 }
 
+double aur_machine_memory(void) {
+    const long pages = sysconf(_SC_PHYS_PAGES);
+    const long page_size = sysconf(_SC_PAGESIZE);
+    return pages > 0 && page_size > 0 ? (double)pages * (double)page_size : 0.5 * (double)SIZE_MAX;
+}
+
 aur_result aur_check_system_size(size_t size, aur_error *error) {
     const double needed = (double)size * (double)size * sizeof(double);
     const double gibibyte = 1024.0 * 1024.0 * 1024.0;
-    const long pages = sysconf(_SC_PHYS_PAGES);
-    const long page_size = sysconf(_SC_PAGESIZE);
-    const double memory =
-        pages > 0 && page_size > 0 ? (double)pages * (double)page_size : 0.5 * (double)SIZE_MAX;
+    const double memory = aur_machine_memory();
     if (needed <= memory && size <= INT_MAX)
         return AUR_OK;
     return aur_fail(

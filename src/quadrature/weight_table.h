@@ -5,34 +5,47 @@
 #include "core/vector.h"
 #include "quadrature/oswa.h"
 
-/* A row holds the weights of both lobes at one angle. Where samples can be hidden the two ends of an interval
- * of angles have rows of their own; otherwise neighbouring intervals share one. */
+/* A row holds the weights of both lobes at one angle. Where samples can be hidden, the intervals between
+ * angles are cut into pieces where a sample crosses the horizon, so that within a piece the same samples take
+ * part and the weights are smooth; the two ends of a piece then have rows of their own. Otherwise
+ * neighbouring intervals share one. */
 struct aur_weight_table {
     aur_oswa *oswa; /* the patterns */
     size_t angle_count, rotation_count, size;
     bool apart;
+    size_t piece_count;
+    uint32_t
+        *first;     /* apart: the first piece of each interval, rotation by rotation, and one past the last */
+    float *start;   /* apart: the angle where each piece begins */
     float *weights; /* row, lobe, sample */
-    float *masses;  /* of the mirror lobe at each angle */
+    float
+        *masses; /* of the mirror lobe, at MASS_STEPS steps an interval: near the horizon it bends sharply */
 };
 
-static inline size_t aur_weight_table_row(const aur_weight_table *table, size_t rotation, size_t interval,
-                                          size_t end) {
-    return table->apart ? (rotation * (table->angle_count - 1) + interval) * 2 + end
-                        : rotation * table->angle_count + interval + end;
+enum { AUR_WEIGHT_TABLE_MASS_STEPS = 8 };
+
+static inline size_t aur_weight_table_mass_count(const aur_weight_table *table) {
+    return (table->angle_count - 1) * AUR_WEIGHT_TABLE_MASS_STEPS + 1;
+}
+
+static inline size_t aur_weight_table_intervals(const aur_weight_table *table) {
+    return table->rotation_count * (table->angle_count - 1);
 }
 
 static inline size_t aur_weight_table_rows(const aur_weight_table *table) {
-    return table->rotation_count * (table->apart ? 2 * (table->angle_count - 1) : table->angle_count);
+    return table->apart ? 2 * table->piece_count : table->rotation_count * table->angle_count;
 }
 
 static inline double aur_weight_table_angle(const aur_weight_table *table, size_t index) {
     return 0.5 * AUR_PI * (double)index / (double)(table->angle_count - 1);
 }
 
-/* A table with patterns but no weights yet; `solves` as for aur_oswa_create_for. */
-aur_result aur_weight_table_allocate(const aur_oswa_options *options, size_t angle_count,
-                                     size_t rotation_count, bool solves, aur_weight_table **table,
-                                     aur_error *error);
+/* A table with patterns but no weights yet; `solves` as for aur_oswa_create_for. Where samples can be hidden
+ * it has one piece an interval, and `first` and `start` are still to be filled. */
+aur_result aur_weight_table_create(const aur_oswa_options *options, size_t angle_count, size_t rotation_count,
+                                   bool solves, aur_weight_table **table, aur_error *error);
+/* Memory for the weights, once piece_count is known. */
+aur_result aur_weight_table_allocate(aur_weight_table *table, aur_error *error);
 
 /* Reads a table from the bytes of a file: data[size] is a zero, and lines of the header are cut there. `name`
  * is for messages. On failure *table is NULL. */

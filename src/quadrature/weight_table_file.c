@@ -9,7 +9,7 @@
 #include "core/random.h"
 #include "quadrature/weight_table.h"
 
-enum { VERSION = 1, HEADER_CAPACITY = 4096 };
+enum { VERSION = 2, HEADER_CAPACITY = 4096 };
 
 static const char magic[] = "aureole weight table\n";
 static const size_t file_limit = (size_t)1 << 34;
@@ -35,29 +35,41 @@ static int print_header(const aur_weight_table *table, char *text, size_t capaci
         "%sversion %d\nset %s\ncount %zu\nmirror_count %zu\nlobe %.17g\nmirror_kind %d\n"
         "mirror_exponent %.17g\nmirror_alpha %.17g\noptimal_density %d\nclipped %d\nmap %d\nscramble %d\n"
         "seed %" PRIu64 "\nsmoothness %.17g\nregularization %.17g\nsum_constraint %d\nangles %zu\n"
-        "rotations %zu\npatterns %016" PRIx64 "\nend\n",
+        "rotations %zu\npieces %zu\npatterns %016" PRIx64 "\nend\n",
         magic, VERSION, o->set, o->count, o->mirror_count, o->lobe.exponent, (int)o->mirror_lobe.kind,
         o->mirror_lobe.exponent, o->mirror_lobe.alpha, o->optimal_density, o->clipped, (int)o->map,
         (int)o->scramble, o->seed, o->smoothness, o->weights.regularization, o->weights.sum_constraint,
-        table->angle_count, table->rotation_count, aur_oswa_hash(table->oswa));
+        table->angle_count, table->rotation_count, table->piece_count, aur_oswa_hash(table->oswa));
 }
 
-static void put_floats(const float *values, size_t count, unsigned char *target) {
+static unsigned char *put_word(uint32_t word, unsigned char *target) {
+    for (unsigned k = 0; k < 4; ++k)
+        target[k] = (unsigned char)(word >> 8 * k);
+    return target + 4;
+}
+
+static unsigned char *put_floats(const float *values, size_t count, unsigned char *target) {
     for (size_t i = 0; i < count; ++i) {
         uint32_t bits;
         memcpy(&bits, &values[i], sizeof bits);
-        for (unsigned k = 0; k < 4; ++k)
-            target[4 * i + k] = (unsigned char)(bits >> 8 * k);
+        target = put_word(bits, target);
     }
+    return target;
 }
 
-static void get_floats(const char *source, size_t count, float *values) {
-    for (size_t i = 0; i < count; ++i) {
-        uint32_t bits = 0;
-        for (unsigned k = 0; k < 4; ++k)
-            bits |= (uint32_t)(unsigned char)source[4 * i + k] << 8 * k;
+static uint32_t get_word(const char *source) {
+    uint32_t word = 0;
+    for (unsigned k = 0; k < 4; ++k)
+        word |= (uint32_t)(unsigned char)source[k] << 8 * k;
+    return word;
+}
+
+static const char *get_floats(const char *source, size_t count, float *values) {
+    for (size_t i = 0; i < count; ++i, source += 4) {
+        const uint32_t bits = get_word(source);
         memcpy(&values[i], &bits, sizeof bits);
     }
+    return source;
 }
 
 static size_t weight_count(const aur_weight_table *table) {
@@ -67,18 +79,23 @@ static size_t weight_count(const aur_weight_table *table) {
 aur_result aur_weight_table_save(const aur_weight_table *table, const char *path, aur_error *error) {
     if (table->oswa->options.published_z != NULL)
         return aur_fail(error, AUR_ERROR_UNSUPPORTED, "a table made with the published z is not for keeping");
-    const size_t floats = weight_count(table) + table->angle_count;
+    const size_t intervals = table->apart ? aur_weight_table_intervals(table) : 0;
+    const size_t words =
+        weight_count(table) + aur_weight_table_mass_count(table) + intervals + table->piece_count;
     char header[HEADER_CAPACITY];
     const int length = print_header(table, header, sizeof header);
     if (length < 0 || (size_t)length >= sizeof header)
         return aur_fail(error, AUR_ERROR_ARGUMENT, "the name of the set is too long for a table");
-    const size_t size = (size_t)length + 4 * floats + 8;
+    const size_t size = (size_t)length + 4 * words + 8;
     unsigned char *const data = malloc(size);
     if (data == NULL)
         return aur_fail(error, AUR_ERROR_MEMORY, "out of memory");
     memcpy(data, header, (size_t)length);
-    put_floats(table->masses, table->angle_count, data + length);
-    put_floats(table->weights, weight_count(table), data + length + 4 * table->angle_count);
+    unsigned char *target = put_floats(table->masses, aur_weight_table_mass_count(table), data + length);
+    for (size_t i = 0; i < intervals; ++i)
+        target = put_word(table->first[i + 1] - table->first[i], target);
+    target = put_floats(table->start, table->piece_count, target);
+    put_floats(table->weights, weight_count(table), target);
     const uint64_t sum = aur_weight_table_check_sum((const char *)data, size - 8);
     for (unsigned k = 0; k < 8; ++k)
         data[size - 8 + k] = (unsigned char)(sum >> 8 * k);
@@ -140,7 +157,7 @@ static bool next_integer(reader *in, const char *key, int base, uint64_t limit, 
 
 typedef struct header {
     aur_oswa_options options;
-    uint64_t angles, rotations, patterns;
+    uint64_t angles, rotations, pieces, patterns;
 } header;
 
 /* Reads the lines after the version; they stand in the order that print_header gives them. */
@@ -162,6 +179,7 @@ static bool read_header(reader *in, header *h) {
         next_integer(in, "sum_constraint", 10, 1, &constraint) &&
         next_integer(in, "angles", 10, 1 << 16, &h->angles) &&
         next_integer(in, "rotations", 10, 1 << 16, &h->rotations) &&
+        next_integer(in, "pieces", 10, UINT32_MAX, &h->pieces) &&
         next_integer(in, "patterns", 16, UINT64_MAX, &h->patterns);
     if (!good)
         return false;
@@ -220,6 +238,57 @@ static aur_result compare(reader *in, const aur_oswa_options *has, const aur_osw
     return AUR_OK;
 }
 
+/* The pieces of each interval, which must begin in it one after another. */
+static const char *read_pieces(const char *source, aur_weight_table *table) {
+    const size_t intervals = aur_weight_table_intervals(table);
+    uint64_t total = 0;
+    for (size_t i = 0; i < intervals; ++i, source += 4) {
+        const uint32_t count = get_word(source);
+        table->first[i] = (uint32_t)total;
+        total += count;
+        if (count == 0 || total > table->piece_count)
+            return NULL;
+    }
+    table->first[intervals] = (uint32_t)total;
+    if (total != table->piece_count)
+        return NULL;
+    source = get_floats(source, table->piece_count, table->start);
+    for (size_t i = 0; i < intervals; ++i) {
+        const size_t index = i % (table->angle_count - 1);
+        float last = (float)aur_weight_table_angle(table, index);
+        for (size_t piece = table->first[i]; piece < table->first[i + 1]; ++piece) {
+            if (!(table->start[piece] >= last))
+                return NULL;
+            last = table->start[piece];
+        }
+        if (!(last <= (float)aur_weight_table_angle(table, index + 1)))
+            return NULL;
+    }
+    return source;
+}
+
+/* All numbers after the header, whose size has been found to fit. */
+static aur_result read_words(reader *in, size_t pieces, aur_weight_table *table) {
+    if (table->apart) {
+        table->piece_count = pieces;
+        table->first = malloc((aur_weight_table_intervals(table) + 1) * sizeof *table->first);
+        table->start = malloc(pieces * sizeof *table->start);
+        if (table->first == NULL || table->start == NULL)
+            return aur_fail(in->error, AUR_ERROR_MEMORY, "out of memory");
+    }
+    const aur_result result = aur_weight_table_allocate(table, in->error);
+    if (result != AUR_OK)
+        return result;
+    const char *source = get_floats(in->rest, aur_weight_table_mass_count(table), table->masses);
+    if (table->apart)
+        source = read_pieces(source, table);
+    if (source == NULL)
+        return aur_fail_at(in->error, in->where, AUR_ERROR_FORMAT,
+                           "the pieces of the table's intervals are out of order");
+    get_floats(source, weight_count(table), table->weights);
+    return AUR_OK;
+}
+
 /* `data` ends with a zero byte that `size` does not count. */
 static aur_result parse(reader *in, size_t size, const aur_oswa_options *expected, aur_weight_table **table) {
     char *const data = in->rest;
@@ -252,22 +321,23 @@ static aur_result parse(reader *in, size_t size, const aur_oswa_options *expecte
         return result;
     /* The size must fit before anything of that size is allocated. */
     const bool apart = h.options.clipped || h.options.mirror_lobe.kind == AUR_LOBE_GGX;
-    const double rows = (double)h.rotations * (apart ? 2.0 * ((double)h.angles - 1.0) : (double)h.angles);
-    const double numbers = (double)h.angles + 2.0 * rows * (double)(h.options.count + h.options.mirror_count);
-    if ((double)(size - 8 - (size_t)(in->rest - data)) != 4.0 * numbers)
+    const double angles = (double)h.angles, rotations = (double)h.rotations, pieces = (double)h.pieces;
+    const double rows = apart ? 2.0 * pieces : rotations * angles;
+    const double masses = (angles - 1.0) * AUR_WEIGHT_TABLE_MASS_STEPS + 1.0;
+    const double words = masses + (apart ? rotations * (angles - 1.0) + pieces : 0.0) +
+                         2.0 * rows * (double)(h.options.count + h.options.mirror_count);
+    if ((double)(size - 8 - (size_t)(in->rest - data)) != 4.0 * words)
         return aur_fail_at(in->error, in->where, AUR_ERROR_FORMAT,
                            "the table is not of the size that it says");
     result =
-        aur_weight_table_allocate(&h.options, (size_t)h.angles, (size_t)h.rotations, false, table, in->error);
+        aur_weight_table_create(&h.options, (size_t)h.angles, (size_t)h.rotations, false, table, in->error);
     if (result != AUR_OK)
         return result;
     if (aur_oswa_hash((*table)->oswa) != h.patterns)
         return aur_fail_at(in->error, in->where, AUR_ERROR_FORMAT,
                            "the table's set '%s' has other points than this program makes: build it again",
                            h.options.set);
-    get_floats(in->rest, (*table)->angle_count, (*table)->masses);
-    get_floats(in->rest + 4 * (*table)->angle_count, weight_count(*table), (*table)->weights);
-    return AUR_OK;
+    return read_words(in, (size_t)h.pieces, *table);
 }
 
 aur_result aur_weight_table_parse(const char *name, size_t size, char *data, const aur_oswa_options *expected,

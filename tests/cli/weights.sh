@@ -67,6 +67,27 @@ table --table a.table -t 1 && table --table b.table -t 4 || exit 1
 cmp a.table b.table || fail "a table depends on the threads"
 head -1 a.table | grep -q "aureole weight table" || fail "what a table says of itself"
 
+# Read back: without a set any table will do, with one it must be that of the options.
+table --table a.table --lookup 83 --rotation 1 -o entry.csv || exit 1
+"$program" weights --table a.table --lookup 83 --rotation 1 >same.csv || exit 1
+cmp entry.csv same.csv || fail "a look-up depends on the options that were given again"
+[ "$(head -1 entry.csv)" = "x,y,z,w,w2" ] || fail "header of a look-up: $(head -1 entry.csv)"
+awk -F, 'NR > 1 { a += $4; b += $5; n++; if ($3 < -1e-6 && ($4 != 0 || $5 != 0)) exit 1; if ($3 < 0) h++ }
+  END { exit !(n == 24 && h > 0 && a > 0.999999 && a < 1.000001 && b > 0.999999 && b < 1.000001) }' entry.csv ||
+  fail "weights of a look-up"
+# The samples as a file of points, solved anew: the same weights for the first lobe, whose samples all count here.
+"$program" weights $sf -n 16 --n2 8 --lobe cosine --lobe2 phong:20 --angles 9 --rotations 1 --table whole.table || exit 1
+"$program" weights --table whole.table --lookup 22.5 >looked.csv || exit 1
+cut -d, -f1-3 looked.csv >samples.csv
+"$program" weights samples.csv --lobe cosine --method osw >solved.csv || exit 1
+paste -d, looked.csv solved.csv | awk -F, 'NR > 1 { d = $4 - $9; if (d < -1e-6 || d > 1e-6) exit 1 } END { exit NR != 25 }' ||
+  fail "a look-up at an angle of the table is not the solve of its samples"
+"$program" weights --table a.table --lookup 83 --rotation 1 --mirrored >image.csv || exit 1
+paste -d, entry.csv image.csv | awk -F, 'NR > 1 && ($2 + $7 != 0 || $5 != $10) { exit 1 }' || fail "the mirror image"
+"$program" info a.table --format csv >described || exit 1
+[ "$(column described set) $(column described angles) $(column described rotations)" = "$sf 9 2" ] ||
+  fail "info of a table: $(cat described)"
+
 if command -v gnuplot >/dev/null; then
   "$program" weights random -n 50 --lobe cosine --plot "it's.svg" || fail "plot"
   grep -q "</svg>" "it's.svg" || fail "no picture"
@@ -102,6 +123,19 @@ refused "angle" sobol -n 8 --lobe cosine --lobe2 phong:20
 refused "hemisphere" sobol -n 8 --domain sphere --lobe cosine
 refused "missing" --lobe cosine
 refused "must be one of" sobol -n 8 --method best
+# Tables: of another set, of other options, of another version, damaged, not there.
+refused "'spherical-fibonacci', not 'sobol'" sobol -n 16 --n2 8 --lobe cosine --lobe2 phong:20 --clip --table a.table --lookup 10
+refused "exponent of the mirror lobe: 20, not 21" $sf -n 16 --n2 8 --lobe cosine --lobe2 phong:21 --clip --table a.table --lookup 10
+refused "another clipping" $sf -n 16 --n2 8 --lobe cosine --lobe2 phong:20 --table a.table --lookup 10
+sed 's/^version 2$/version 9/' a.table >other.table
+refused "version 9; this program reads version 2" --table other.table --lookup 10
+head -c -9 a.table >cut.table
+refused "damaged" --table cut.table --lookup 10
+refused "not a weight table" --table points.csv --lookup 10
+refused "rotations 0 to 1" --table a.table --lookup 10 --rotation 2
+refused "lookup" --table a.table --lookup 100
+refused "table FILE" --lookup 10
+refused "cannot" --table nothing.table --lookup 10
 # Beyond memory: what it would take.
 "$program" weights random -n 2000000 --lobe cosine >/dev/null 2>message && fail "two million samples"
 grep -q "GiB" message || fail "$(cat message)"

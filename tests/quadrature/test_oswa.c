@@ -144,7 +144,9 @@ static aur_weight_table *build(const aur_oswa_options *options, size_t angles, s
     return table;
 }
 
-/* At its own angles a table holds the solves, whatever the threads; between them it loses less than half a
+/* Clipped, too, although samples cross the horizon between the angles of the table.
+ *
+ * At its own angles a table holds the solves, whatever the threads; between them it loses less than half a
  * percent of the gain, over every angle halfway. */
 static void check_table(double m, int clipped, size_t angles) {
     const aur_oswa_options options = pair(m, clipped);
@@ -163,12 +165,10 @@ static void check_table(double m, int clipped, size_t angles) {
             aur_weight_table_look_up(table, lobe, 0, (float)node, found);
             aur_weight_table_look_up(again, lobe, 0, (float)node, other);
             assert_memory_equal(found, other, sizeof found);
-            /* Clipped, the samples are those of the whole interval; their sum is still 1. */
             double sum = 0.0;
             for (size_t k = 0; k < 96; ++k) {
                 sum += (double)found[k];
-                if (!clipped)
-                    assert_near(found[k], exact[lobe * 96 + k], 2e-6 + 2e-4 * fabs(exact[lobe * 96 + k]));
+                assert_near(found[k], exact[lobe * 96 + k], 2e-6 + 2e-4 * fabs(exact[lobe * 96 + k]));
             }
             assert_near(sum, 1.0, 1e-6);
         }
@@ -191,7 +191,7 @@ static void check_table(double m, int clipped, size_t angles) {
         aur_worst_case_error(96, xyz, exact + 96, glossy, 1, NULL, &errors[0], NULL);
         aur_worst_case_error(96, xyz, looked_up, glossy, 1, NULL, &errors[1], NULL);
         aur_worst_case_error(96, xyz, equal, glossy, 1, NULL, &errors[2], NULL);
-        assert_relative(aur_weight_table_mass(table, (float)angle), mass, 2e-3);
+        assert_relative(aur_weight_table_mass(table, (float)angle), mass, 2e-4);
         optimal_total += errors[0];
         table_total += errors[1];
         equal_total += errors[2];
@@ -199,7 +199,7 @@ static void check_table(double m, int clipped, size_t angles) {
     }
     print_message("m %g clipped %d angles %zu: loss %.3f %% of the gain\n", m, clipped, angles,
                   100.0 * (table_total - optimal_total) / (equal_total - optimal_total));
-    assert_true(table_total - optimal_total < (clipped ? 0.02 : 0.005) * (equal_total - optimal_total));
+    assert_true(table_total - optimal_total < 0.005 * (equal_total - optimal_total));
     aur_oswa_destroy(oswa);
     aur_weight_table_destroy(table);
     aur_weight_table_destroy(again);
@@ -209,7 +209,9 @@ static void test_table(void **state) {
     (void)state;
     check_table(20.0, 0, 32);
     check_table(200.0, 0, 64);
+    check_table(20.0, 1, 32);
     check_table(20.0, 1, 128);
+    check_table(200.0, 1, 64);
 }
 
 static void write_file(const char *path, const char *data, size_t size) {
@@ -267,24 +269,24 @@ static void test_file(void **state) {
 
     FILE *const file = fopen(path, "rb");
     assert_non_null(file);
-    static char data[1 << 16];
+    static char data[1 << 18];
     const size_t size = fread(data, 1, sizeof data, file);
     fclose(file);
     /* Another version. */
-    char *const version = strstr(data, "version 1");
+    char *const version = strstr(data, "version 2");
     version[8] = '7';
     write_file("other.table", data, size);
     assert_int_equal(aur_weight_table_load("other.table", NULL, &loaded, &error), AUR_ERROR_FORMAT);
-    assert_non_null(strstr(error.message, "version 7; this program reads version 1"));
-    version[8] = '1';
+    assert_non_null(strstr(error.message, "version 7; this program reads version 2"));
+    version[8] = '2';
     /* Any byte that is turned is noticed, and every length that is cut. */
-    for (size_t i = 0; i < size; i += 37) {
+    for (size_t i = 0; i < size; i += 397) {
         data[i] ^= 0x10;
         write_file("other.table", data, size);
         assert_int_equal(aur_weight_table_load("other.table", NULL, &loaded, &error), AUR_ERROR_FORMAT);
         data[i] ^= 0x10;
     }
-    for (size_t cut = 0; cut < size; cut += 301) {
+    for (size_t cut = 0; cut < size; cut += 1301) {
         write_file("other.table", data, cut);
         assert_int_equal(aur_weight_table_load("other.table", NULL, &loaded, &error), AUR_ERROR_FORMAT);
     }
