@@ -99,10 +99,17 @@ AUR_API size_t aur_output_capacity(aur_layout layout, size_t dimension, size_t c
 AUR_API aur_result aur_pointset_generate(const aur_pointset *pointset, uint64_t first, size_t count,
                                          const aur_output *output) AUR_NONNULL(1, 4);
 
-/* The same under another seed of its scrambling: any number of independent randomisations of one set, none of
- * which makes anything ready again. Random numbers that are the set's own (random, jittered, permutations,
- * linear scrambling) stay as the set's seed made them. Errors: also UNSUPPORTED when the set is not
- * scrambled. */
+/* The same for some of the coordinates: dimension .. dimension + dimension_count - 1, as if the points had no
+ * others. What a walk of many dimensions asks for, step by step. Errors: also ARGUMENT for a dimension beyond
+ * the set. */
+AUR_API aur_result aur_pointset_coordinates(const aur_pointset *pointset, size_t dimension,
+                                            size_t dimension_count, uint64_t first, size_t count,
+                                            const aur_output *output) AUR_NONNULL(1, 6);
+
+/* All coordinates under another seed of the scrambling: any number of independent randomisations of one set,
+ * none of which makes anything ready again. Random numbers that are the set's own (random, jittered,
+ * permutations, linear scrambling) stay as the set's seed made them. Errors: also UNSUPPORTED when the set is
+ * not scrambled. */
 AUR_API aur_result aur_pointset_randomize(const aur_pointset *pointset, uint64_t seed, uint64_t first,
                                           size_t count, const aur_output *output) AUR_NONNULL(1, 5);
 

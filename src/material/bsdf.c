@@ -41,6 +41,17 @@ static aur_result find_descriptor(const aur_parameters *parameters, const aur_bs
     return aur_fail_unknown_plugin(error, parameters, TABLE_SIZE, names);
 }
 
+static bool is_textured(const aur_parameters *parameters) {
+    for (size_t i = 0; i < parameters->count; ++i) {
+        const aur_parameter *const item = &parameters->items[i];
+        if (item->kind != AUR_PARAMETER_OBJECT)
+            continue;
+        if (strcmp(item->object_kind, "bsdf") != 0 || ((const aur_bsdf *)item->object)->textured)
+            return true;
+    }
+    return false;
+}
+
 aur_result aur_bsdf_create(aur_parameters *parameters, aur_bsdf **bsdf, aur_error *error) {
     *bsdf = NULL;
     const aur_bsdf_descriptor *descriptor = NULL;
@@ -54,6 +65,7 @@ aur_result aur_bsdf_create(aur_parameters *parameters, aur_bsdf **bsdf, aur_erro
     result = descriptor->create(parameters, made, error);
     if (result == AUR_OK)
         result = aur_parameters_finish(parameters, error);
+    made->textured = is_textured(parameters);
     if (result != AUR_OK) {
         aur_bsdf_destroy(made);
         return result;

@@ -63,18 +63,20 @@ aur_result aur_output_check(const aur_output *output, size_t dimension, size_t c
     return needed == SIZE_MAX || needed > output->capacity ? AUR_ERROR_CAPACITY : AUR_OK;
 }
 
-aur_result aur_pointset_emit(const aur_pointset *set, uint64_t seed, uint64_t first, size_t count,
-                             const aur_output *output) {
+/* Coordinates dimension .. dimension + dimension_count - 1. */
+static aur_result emit(const aur_pointset *set, uint64_t seed, size_t dimension, size_t dimension_count,
+                       uint64_t first, size_t count, const aur_output *output) {
     if (first > set->size || count > set->size - first)
         return AUR_ERROR_ARGUMENT;
-    const aur_result result = aur_output_check(output, set->dimension, count);
-    if (result != AUR_OK || count == 0)
+    const aur_result result = aur_output_check(output, dimension_count, count);
+    if (result != AUR_OK || count == 0 || dimension_count == 0)
         return result;
     const bool arrays = output->layout == AUR_LAYOUT_ARRAYS;
     aur_block block = {.first = first,
                        .count = count,
-                       .dimension_count = set->dimension,
-                       .point_stride = arrays ? 1 : set->dimension,
+                       .first_dimension = dimension,
+                       .dimension_count = dimension_count,
+                       .point_stride = arrays ? 1 : dimension_count,
                        .coordinate_stride = !arrays               ? 1
                                             : output->stride != 0 ? output->stride
                                                                   : count,
@@ -85,11 +87,23 @@ aur_result aur_pointset_emit(const aur_pointset *set, uint64_t seed, uint64_t fi
         return AUR_OK;
     }
     block.dimension_count = 1;
-    for (size_t d = 0; d < set->dimension; ++d) {
-        block.first_dimension = d;
+    for (size_t d = 0; d < dimension_count; ++d) {
+        block.first_dimension = dimension + d;
         fill_floats(set, block, output->floats + d * block.coordinate_stride);
     }
     return AUR_OK;
+}
+
+aur_result aur_pointset_emit(const aur_pointset *set, uint64_t seed, uint64_t first, size_t count,
+                             const aur_output *output) {
+    return emit(set, seed, 0, set->dimension, first, count, output);
+}
+
+aur_result aur_pointset_coordinates(const aur_pointset *pointset, size_t dimension, size_t dimension_count,
+                                    uint64_t first, size_t count, const aur_output *output) {
+    if (dimension > pointset->dimension || dimension_count > pointset->dimension - dimension)
+        return AUR_ERROR_ARGUMENT;
+    return emit(pointset, pointset->seed, dimension, dimension_count, first, count, output);
 }
 
 aur_result aur_pointset_generate(const aur_pointset *pointset, uint64_t first, size_t count,

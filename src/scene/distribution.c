@@ -20,8 +20,8 @@ void aur_distribution_release(aur_distribution *distribution) {
     *distribution = (aur_distribution){0};
 }
 
-size_t aur_distribution_choose(const aur_distribution *distribution, float *u) {
-    const double target = (double)*u * distribution->total;
+size_t aur_distribution_choose_double(const aur_distribution *distribution, double *u) {
+    const double target = *u * distribution->total;
     size_t low = 0;
     size_t high = distribution->count;
     while (high - low > 1) {
@@ -35,7 +35,14 @@ size_t aur_distribution_choose(const aur_distribution *distribution, float *u) {
     while (low > 0 && distribution->sums[low + 1] <= distribution->sums[low])
         --low;
     const double width = distribution->sums[low + 1] - distribution->sums[low];
-    const float rest = (float)((target - distribution->sums[low]) / width);
-    *u = rest < 0.0f ? 0.0f : rest < 0x1.fffffep-1f ? rest : 0x1.fffffep-1f;
+    const double rest = (target - distribution->sums[low]) / width;
+    *u = rest < 0.0 ? 0.0 : rest < 1.0 ? rest : 0x1.fffffffffffffp-1;
     return low;
+}
+
+size_t aur_distribution_choose(const aur_distribution *distribution, float *u) {
+    double rest = *u;
+    const size_t chosen = aur_distribution_choose_double(distribution, &rest);
+    *u = (float)rest < 0x1.fffffep-1f ? (float)rest : 0x1.fffffep-1f;
+    return chosen;
 }

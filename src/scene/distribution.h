@@ -18,6 +18,8 @@ void aur_distribution_release(aur_distribution *distribution);
 /* The item that u in [0,1) falls on, never one of weight 0; *u becomes what is left, again in [0,1). The
  * total must not be 0. */
 size_t aur_distribution_choose(const aur_distribution *distribution, float *u);
+/* The same where 24 binary digits are too few for a choice and two coordinates of a point. */
+size_t aur_distribution_choose_double(const aur_distribution *distribution, double *u);
 
 static inline double aur_distribution_probability(const aur_distribution *distribution, size_t index) {
     return (distribution->sums[index + 1] - distribution->sums[index]) / distribution->total;

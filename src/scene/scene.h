@@ -130,4 +130,25 @@ const aur_bsdf *aur_scene_bsdf(const aur_scene *scene, size_t index);
 
 void aur_scene_bounds(const aur_scene *scene, aur_vector *lower, aur_vector *upper);
 
+/* A triangle of a mesh, in world coordinates. */
+typedef struct aur_triangle {
+    aur_vector corner[3]; /* counter-clockwise seen from the side of the normal */
+    aur_bsdf_point texture[3];
+} aur_triangle;
+
+/* A scene that is made of triangle meshes and lit by them alone: UNSUPPORTED, with the place, for any other
+ * shape, for copies of shape groups and for lights that are no surface. */
+aur_result aur_scene_check_triangles(const aur_scene *scene, aur_error *error);
+
+size_t aur_scene_shape_count(const aur_scene *scene);
+/* Triangles of a shape; hits number them from 0. */
+size_t aur_scene_shape_triangles(const aur_scene *scene, size_t shape);
+void aur_scene_triangle(const aur_scene *scene, size_t shape, size_t index, aur_triangle *triangle);
+const aur_bsdf *aur_scene_shape_bsdf(const aur_scene *scene, size_t shape);
+aur_location aur_scene_shape_location(const aur_scene *scene, size_t shape);
+/* What a mesh emits on the side of its normal at a texture coordinate, and whether that varies; 0 for shapes
+ * that are no light. */
+aur_vector aur_scene_shape_emission(const aur_scene *scene, size_t shape, aur_bsdf_point point);
+bool aur_scene_shape_emission_varies(const aur_scene *scene, size_t shape);
+
 #endif

@@ -4,6 +4,7 @@
 #include <aureole/pointset.h>
 #include <aureole/quadrature.h>
 #include <aureole/quality.h>
+#include <aureole/radiosity.h>
 #include <aureole/render.h>
 #include <aureole/scene.h>
 #include <aureole/sphere.h>

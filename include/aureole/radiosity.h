@@ -1,0 +1,138 @@
+/* Quasi-Monte Carlo radiosity (Keller 1994): particles from the lights walk through a scene of diffuse
+ * triangles and mirrors, all triangles at once, by the points of one (2M + 4)-dimensional set. The result is
+ * a mean radiance for every triangle.
+ *
+ * A solution is a function of the scene and the options, whatever the threads and however its paths are
+ * divided into calls: sums are kept in fixed point, so their order has no meaning. */
+#ifndef AUREOLE_RADIOSITY_H
+#define AUREOLE_RADIOSITY_H
+
+#include <aureole/pointset.h>
+#include <aureole/scene.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* How two coordinates u, u' become a direction. COSINE: sin^2 theta = u, so every flight keeps its power.
+ * UNIFORM_ANGLE: theta = pi/2 u, as the paper has it (eq. 15); the power of a flight is then multiplied by
+ * (pi/2) sin(pi u). In both phi = 2 pi u'. */
+typedef enum aur_radiosity_directions {
+    AUR_RADIOSITY_COSINE,
+    AUR_RADIOSITY_UNIFORM_ANGLE
+} aur_radiosity_directions;
+
+/* Where paths begin: on lights in proportion to their power, or evenly by area (the paper). */
+typedef enum aur_radiosity_emission { AUR_RADIOSITY_BY_POWER, AUR_RADIOSITY_BY_AREA } aur_radiosity_emission;
+
+typedef struct aur_radiosity_options {
+    const char *sequence; /* SET syntax, of 2 bounces + 4 dimensions or more; NULL: "sobol". Where point 0 is
+                             all zero the walk begins with point 1: its ray would run along an edge */
+    aur_scramble scramble;
+    uint64_t seed; /* of scrambling and of random sets */
+    aur_radiosity_directions directions;
+    aur_radiosity_emission emission;
+    size_t bounces;        /* the paper's M: paths of M + 1 flights; 1 .. 10000 */
+    size_t randomizations; /* R >= 1 independent randomisations of the set, path i taken from number i mod R:
+                              from 2 on there are standard errors */
+    uint64_t variant; /* 0: the scene as it is; else a random order of the lights and a random turn of every
+                         triangle's frame */
+    size_t threads;   /* 0: all */
+    aur_progress progress;
+    aur_warnings warnings; /* open scenes, coincident surfaces, albedos of 1, lost paths */
+} aur_radiosity_options;
+
+/* Sobol points, cosine directions, emission by power, 6 bounces, 1 randomisation. */
+AUR_API aur_radiosity_options aur_radiosity_options_default(void);
+
+typedef struct aur_radiosity aur_radiosity;
+
+/* A solution without paths. The scene must outlive it; `options` may be NULL. Errors: UNSUPPORTED for scenes
+ * that are not made of triangle meshes, without lights, or with lights of no area (each with its place);
+ * ARGUMENT, NAME for options; MEMORY. */
+AUR_API aur_result aur_radiosity_create(const aur_scene *scene, const aur_radiosity_options *options,
+                                        aur_radiosity **radiosity, aur_error *error) AUR_NONNULL(1, 3);
+AUR_API void aur_radiosity_destroy(aur_radiosity *radiosity); /* NULL is allowed */
+
+/* Goes on until there are `paths` paths in all; what is there already stays. Errors: ARGUMENT for 0 paths or
+ * fewer than there are, UNSUPPORTED when a set that is not extensible is to be continued, CANCELLED. */
+AUR_API aur_result aur_radiosity_trace(aur_radiosity *radiosity, uint64_t paths, aur_error *error)
+    AUR_NONNULL(1);
+
+/* Adaptive termination (Keller 1994, section 4): after every `interval` paths the change of the solution is
+ *
+ *     sqrt(sum_k d_k^2 A_k / sum_k A_k) / sum_k L0_k A_k,
+ *
+ * d_k the Euclidean distance of the powers (eq. 7) that triangle k receives before and after, and L0 A summed
+ * over the lights as the length of the colour. It ends as soon as `window` changes in a row are below
+ * epsilon. That is a test of changes, not a bound of the error. */
+typedef struct aur_radiosity_termination {
+    double epsilon;    /* > 0 */
+    uint64_t interval; /* >= 1; 0 stands for 1000 */
+    uint64_t window;   /* >= 1; 0 stands for 2 */
+    uint64_t limit;    /* end after so many paths in any case; 0: 2^32 */
+} aur_radiosity_termination;
+
+/* Goes on from the paths that are there, which must be a multiple of the interval. *converged (may be NULL)
+ * tells whether the limit was reached before. */
+AUR_API aur_result aur_radiosity_terminate(aur_radiosity *radiosity, const aur_radiosity_termination *rule,
+                                           int *converged, aur_error *error) AUR_NONNULL(1, 2);
+
+/* What a solution is and how it came about. */
+typedef struct aur_radiosity_description {
+    size_t triangles;
+    size_t patches;   /* what can receive light: fronts of triangles, and backs of two-sided ones */
+    size_t lights;    /* triangles that emit */
+    size_t dimension; /* 2 bounces + 4 */
+    double area;      /* of all triangles, square units of the scene */
+    uint64_t paths, rays;
+    uint64_t lost;       /* paths that left the scene: it is open, or surfaces coincide */
+    uint64_t behind;     /* paths that ended on the back of a one-sided triangle */
+    uint64_t trapped;    /* paths that ended between mirrors */
+    uint64_t coincident; /* pairs of triangles that lie in one plane and overlap */
+    double change;       /* of the last interval of aur_radiosity_terminate; NaN without one */
+    double emitted;      /* watts, the three channels summed */
+    double tail; /* what the cut after M bounces leaves out, estimated: power that would still be received, as
+                    a part of what is received and would be. 1 when the last bounces do not lose power */
+    double error; /* standard error in the unit of epsilon: the root of the mean squares by area of the
+                     triangles' standard errors of power, by independent randomisations; NaN with one */
+    double largest_albedo;
+} aur_radiosity_description;
+
+AUR_API void aur_radiosity_describe(const aur_radiosity *radiosity, aur_radiosity_description *description)
+    AUR_NONNULL(1, 2);
+
+/* A triangle, seen from the side of its normal; RGB. Triangles are numbered shape by shape in the order of
+ * the scene's file. */
+typedef struct aur_radiosity_triangle_result {
+    double area;
+    double albedo[3];         /* diffuse; the mean of textured ones, 0 of mirrors */
+    double emission[3];       /* radiance L0 */
+    double power[3];          /* received: <L, Psi_k> of eq. 7, watts */
+    double radiance[3];       /* emission + eq. 8 */
+    double standard_error[3]; /* of the radiance; NaN with one randomisation */
+} aur_radiosity_triangle_result;
+
+/* All triangles into results[capacity]. Errors: CAPACITY. */
+AUR_API aur_result aur_radiosity_results(const aur_radiosity *radiosity, size_t capacity,
+                                         aur_radiosity_triangle_result *results) AUR_NONNULL(1, 3);
+
+/* Writes the solution with all that is needed to go on; loading it for another scene is an error. Of
+ * `options` only threads, progress and warnings are used. Errors: WRITE; OPEN, FORMAT (which says what is
+ * wrong). */
+AUR_API aur_result aur_radiosity_save(const aur_radiosity *radiosity, const char *path, aur_error *error)
+    AUR_NONNULL(1, 2);
+AUR_API aur_result aur_radiosity_load(const aur_scene *scene, const char *path,
+                                      const aur_radiosity_options *options, aur_radiosity **radiosity,
+                                      aur_error *error) AUR_NONNULL(1, 2, 4);
+
+/* Triangles coloured by their radiance: a binary PLY file of 3 vertices a triangle, sRGB bytes at `exposure`
+ * stops and the radiance itself as floats. Errors: WRITE. */
+AUR_API aur_result aur_radiosity_write_ply(const aur_radiosity *radiosity, const char *path, double exposure,
+                                           aur_error *error) AUR_NONNULL(1, 2);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif
