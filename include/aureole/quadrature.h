@@ -195,6 +195,9 @@ AUR_API void aur_oswa_points(const aur_oswa *oswa, double radians, const double 
 AUR_API aur_result aur_oswa_solve(const aur_oswa *oswa, double radians, const double turns[2],
                                   double *weights, double *mass, aur_error *error) AUR_NONNULL(1, 3, 4);
 
+/* The turns that prepared rotation number `rotation` has: hashed from the seed. Those of tables, too. */
+AUR_API void aur_oswa_turns(uint64_t seed, size_t rotation, double turns[2]) AUR_NONNULL(3);
+
 /* The published look-up of z (Marques 2018 section 6.2): polar angle by log(1 + m), bilinear. Kept as the
  * baseline to compare with: its error is what K^{-1} magnifies. */
 typedef struct aur_potential_table aur_potential_table;
@@ -242,6 +245,15 @@ AUR_API void aur_weight_table_points(const aur_weight_table *table, double radia
  * in [0, pi/2] (clamped). rotation < rotation_count. */
 AUR_API void aur_weight_table_look_up(const aur_weight_table *table, size_t lobe, size_t rotation,
                                       float radians, float *weights) AUR_NONNULL(1, 5);
+/* The rows that are interpolated between, for those who keep them in another layout: row `r` has the weights
+ * of the first lobe and, behind them, of the mirror lobe, 2 * (count + mirror_count) in all; it belongs to
+ * the table. */
+AUR_API size_t aur_weight_table_row_count(const aur_weight_table *table) AUR_NONNULL(1);
+AUR_API const float *aur_weight_table_row(const aur_weight_table *table, size_t row) AUR_NONNULL(1);
+/* The row r at the lower end of where an angle lies; the weights there are (1 - *part) times row r plus *part
+ * times row r + 1. */
+AUR_API size_t aur_weight_table_locate(const aur_weight_table *table, size_t rotation, float radians,
+                                       float *part) AUR_NONNULL(1, 4);
 /* The mass of the mirror lobe at an angle, interpolated likewise. */
 AUR_API float aur_weight_table_mass(const aur_weight_table *table, float radians) AUR_NONNULL(1);
 

@@ -221,6 +221,11 @@ static void place(const aur_oswa *oswa, double radians, const double turns[2], d
         aur_lobe_warp(&lobe, second + 3 * i, second + 3 * i);
 }
 
+void aur_oswa_turns(uint64_t seed, size_t rotation, double turns[2]) {
+    for (uint64_t which = 0; which < 2; ++which)
+        turns[which] = aur_unit_double(aur_hash4(UINT64_C(0x7475726e), seed, rotation, which));
+}
+
 double aur_oswa_height(const aur_oswa *oswa, double radians, double turns, size_t index) {
     double u[3];
     if (is_ggx(oswa)) {

@@ -4,7 +4,6 @@
 
 #include <stdlib.h>
 
-#include "core/random.h"
 #include "core/vector.h"
 #include "quadrature/solve.h"
 
@@ -56,9 +55,7 @@ void aur_weight_table_destroy(aur_weight_table *table) {
 }
 
 void aur_weight_table_turns(const aur_weight_table *table, size_t rotation, double turns[2]) {
-    const uint64_t seed = table->oswa->options.seed;
-    for (uint64_t which = 0; which < 2; ++which)
-        turns[which] = aur_unit_double(aur_hash4(UINT64_C(0x7475726e), seed, rotation, which));
+    aur_oswa_turns(table->oswa->options.seed, rotation, turns);
 }
 
 const aur_oswa_options *aur_weight_table_options(const aur_weight_table *table) {
@@ -91,8 +88,7 @@ static size_t locate_step(size_t steps, float radians, float *part) {
     return index;
 }
 
-/* The row at the lower end of where the angle lies, which that at the upper end follows. */
-static size_t locate(const aur_weight_table *table, size_t rotation, float radians, float *part) {
+size_t aur_weight_table_locate(const aur_weight_table *table, size_t rotation, float radians, float *part) {
     const size_t index = locate_step(table->angle_count - 1, radians, part);
     if (!table->apart)
         return rotation * table->angle_count + index;
@@ -111,10 +107,18 @@ static size_t locate(const aur_weight_table *table, size_t rotation, float radia
     return 2 * piece;
 }
 
+size_t aur_weight_table_row_count(const aur_weight_table *table) {
+    return aur_weight_table_rows(table);
+}
+
+const float *aur_weight_table_row(const aur_weight_table *table, size_t row) {
+    return table->weights + 2 * row * table->size;
+}
+
 void aur_weight_table_look_up(const aur_weight_table *table, size_t lobe, size_t rotation, float radians,
                               float *weights) {
     float part;
-    const size_t row = locate(table, rotation, radians, &part);
+    const size_t row = aur_weight_table_locate(table, rotation, radians, &part);
     const float *restrict below = table->weights + (2 * row + lobe) * table->size;
     const float *restrict above = below + 2 * table->size;
     float *restrict target = weights;
