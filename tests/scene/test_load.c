@@ -1,5 +1,7 @@
 #include "scene_text.h"
 
+#include <sys/stat.h>
+
 static void loads_a_small_scene(void **state) {
     (void)state;
     aur_scene *const scene = must_load_body(
@@ -239,6 +241,34 @@ static void says_what_is_wrong(void **state) {
     assert_int_equal(wrong, 0);
 }
 
+/* Meshes that are made when first needed: the error quotes the command, wherever the folder was to be found.
+ */
+static void names_the_command_of_a_missing_mesh(void **state) {
+    (void)state;
+    char folder[128], text[512];
+    snprintf(folder, sizeof folder, "%s/made", scene_folder);
+    assert_int_equal(mkdir(folder, 0777), 0);
+    write_text("made/HOW-TO-MAKE", "scripts/make-them.sh --all\nand more that is not quoted\n");
+    static const char *const bodies[] = {
+        "<shape type='ply'><string name='filename' value='made/hare.ply'/></shape>",
+        "<path value='made'/><shape type='ply'><string name='filename' value='hare.ply'/></shape>",
+        "<emitter type='envmap'><string name='filename' value='../%s/made/sky.exr'/></emitter>"};
+    for (size_t i = 0; i < sizeof bodies / sizeof bodies[0]; ++i) {
+        snprintf(text, sizeof text, bodies[i], strrchr(scene_folder, '/') + 1);
+        aur_scene *scene = NULL;
+        aur_error error = {0};
+        assert_int_equal(load_body(text, NULL, &scene, &error), AUR_ERROR_OPEN);
+        assert_non_null(
+            strstr(error.message, "is made by the command: scripts/make-them.sh --all (looked in"));
+    }
+    /* a line that is no text is not quoted */
+    write_file("made/HOW-TO-MAKE", "\x1b[2J", 4);
+    aur_scene *scene = NULL;
+    aur_error error = {0};
+    assert_int_equal(load_body(bodies[0], NULL, &scene, &error), AUR_ERROR_OPEN);
+    assert_null(strstr(error.message, "made by the command"));
+}
+
 static void refuses_bad_roots(void **state) {
     (void)state;
     static const char *const rows[][2] = {
@@ -314,8 +344,9 @@ int main(void) {
         cmocka_unit_test(loads_a_small_scene),     cmocka_unit_test(maps_samplers_to_sets),
         cmocka_unit_test(gives_default_materials), cmocka_unit_test(substitutes_names),
         cmocka_unit_test(includes_files),          cmocka_unit_test(reads_old_versions),
-        cmocka_unit_test(says_what_is_wrong),      cmocka_unit_test(refuses_bad_roots),
-        cmocka_unit_test(loads_public_scenes),     cmocka_unit_test(loads_bundled_scenes),
+        cmocka_unit_test(says_what_is_wrong),      cmocka_unit_test(names_the_command_of_a_missing_mesh),
+        cmocka_unit_test(refuses_bad_roots),       cmocka_unit_test(loads_public_scenes),
+        cmocka_unit_test(loads_bundled_scenes),
     };
     return cmocka_run_group_tests(tests, enter_folder, leave_folder);
 }
