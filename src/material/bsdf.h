@@ -73,6 +73,7 @@ struct aur_bsdf {
     void *data;
     bool scatters_from_behind; /* twosided or transmissive: view.z < 0 is not black */
     bool transmits;            /* light may leave on the other side */
+    bool plain_diffuse;        /* nothing but diffuse reflection, the same at every point of a surface */
     bool anisotropic;          /* the frame's x axis matters: it is the direction of growing texture u */
     bool textured;             /* something varies over the surface, here or in a nested BSDF */
 };

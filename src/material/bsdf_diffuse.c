@@ -12,7 +12,9 @@ static aur_result create(aur_parameters *parameters, aur_bsdf *bsdf, aur_error *
         return result;
     diffuse *const self = bsdf->data;
     self->reflectance.constant = (aur_vector){0.5f, 0.5f, 0.5f};
-    return aur_parameters_color(parameters, "reflectance", 1.0, &self->reflectance, error);
+    const aur_result read = aur_parameters_color(parameters, "reflectance", 1.0, &self->reflectance, error);
+    bsdf->plain_diffuse = self->reflectance.texture == NULL;
+    return read;
 }
 
 static aur_vector evaluate(const aur_bsdf *bsdf, aur_bsdf_point point, aur_vector view, aur_vector light) {

@@ -21,6 +21,9 @@ typedef struct aur_emitter_descriptor {
     bool (*emit)(const aur_scene *scene, const aur_emitter *emitter, const float u[5], aur_ray *ray,
                  aur_vector *power);
     void (*release)(aur_emitter *emitter);
+    /* For shapes only: the density, a steradian, with which `sample` draws the points that `reference` sees;
+     * 0 says that it draws them by area. */
+    float (*pdf_seen)(const aur_scene *scene, const aur_emitter *emitter, aur_vector reference);
     /* For environments only: the radiance from a direction, and the density with which `sample` draws it. */
     aur_vector (*radiance_from)(const aur_emitter *emitter, aur_vector direction);
     float (*pdf_from)(const aur_emitter *emitter, aur_vector direction);

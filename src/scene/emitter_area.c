@@ -5,6 +5,7 @@
 #include "scene/distribution.h"
 #include "scene/emitter.h"
 #include "scene/scene_data.h"
+#include "scene/spherical_rectangle.h"
 
 static aur_result create(aur_parameters *parameters, aur_emitter *emitter, aur_error *error) {
     emitter->radiance.constant = (aur_vector){1.0f, 1.0f, 1.0f};
@@ -15,22 +16,31 @@ static const aur_shape *shape_of(const aur_scene *scene, const aur_emitter *emit
     return scene->shapes[emitter->shape];
 }
 
-static aur_result prepare(const aur_scene *scene, aur_emitter *emitter, aur_error *error) {
-    const aur_shape *const shape = shape_of(scene, emitter);
-    if (!(shape->area > 0.0))
-        return aur_fail_at(error, emitter->location, AUR_ERROR_FORMAT,
-                           "emitter 'area': its shape has no area, so it gives no light");
-    emitter->power = AUR_PI * shape->area * (double)aur_luminance(aur_color_mean(&emitter->radiance));
-    if (shape->parallelogram || shape->curved != NULL)
-        return AUR_OK;
+/* How points of the shape are drawn. */
+typedef struct area_light {
+    aur_distribution triangles; /* of meshes, by area */
+    bool is_mesh, is_rectangle;
+    aur_rectangle rectangle; /* by the solid angle under which it is seen */
+} area_light;
+
+static bool find_rectangle(const aur_shape *shape, aur_rectangle *rectangle) {
+    const aur_vector corner = aur_mesh_position(&shape->mesh, 0);
+    const aur_vector x = aur_vector_subtract(aur_mesh_position(&shape->mesh, 1), corner);
+    const aur_vector y = aur_vector_subtract(aur_mesh_position(&shape->mesh, 3), corner);
+    *rectangle = (aur_rectangle){.corner = corner,
+                                 .x = aur_vector_normalize(x),
+                                 .y = aur_vector_normalize(y),
+                                 .width = aur_vector_length(x),
+                                 .height = aur_vector_length(y)};
+    return fabsf(aur_vector_dot(rectangle->x, rectangle->y)) < 1e-4f;
+}
+
+static aur_result find_triangles(const aur_shape *shape, const aur_emitter *emitter,
+                                 aur_distribution *triangles, aur_error *error) {
     const size_t count = shape->mesh.triangle_count;
     double *const areas = malloc(count * sizeof *areas);
-    aur_distribution *const triangles = calloc(1, sizeof *triangles);
-    emitter->data = triangles;
-    if (areas == NULL || triangles == NULL) {
-        free(areas);
+    if (areas == NULL)
         return aur_fail_at(error, emitter->location, AUR_ERROR_MEMORY, "out of memory");
-    }
     for (size_t i = 0; i < count; ++i)
         areas[i] = aur_mesh_triangle_area(&shape->mesh, i);
     const aur_result result = aur_distribution_create(triangles, count, areas, error);
@@ -38,19 +48,68 @@ static aur_result prepare(const aur_scene *scene, aur_emitter *emitter, aur_erro
     return result;
 }
 
+static aur_result prepare(const aur_scene *scene, aur_emitter *emitter, aur_error *error) {
+    const aur_shape *const shape = shape_of(scene, emitter);
+    if (!(shape->area > 0.0))
+        return aur_fail_at(error, emitter->location, AUR_ERROR_FORMAT,
+                           "emitter 'area': its shape has no area, so it gives no light");
+    emitter->power = AUR_PI * shape->area * (double)aur_luminance(aur_color_mean(&emitter->radiance));
+    area_light *const light = calloc(1, sizeof *light);
+    emitter->data = light;
+    if (light == NULL)
+        return aur_fail_at(error, emitter->location, AUR_ERROR_MEMORY, "out of memory");
+    if (shape->parallelogram) {
+        light->is_rectangle = find_rectangle(shape, &light->rectangle);
+        return AUR_OK;
+    }
+    light->is_mesh = shape->curved == NULL;
+    return light->is_mesh ? find_triangles(shape, emitter, &light->triangles, error) : AUR_OK;
+}
+
 static void release(aur_emitter *emitter) {
-    aur_distribution_release(emitter->data);
-    free(emitter->data);
+    area_light *const light = emitter->data;
+    if (light != NULL)
+        aur_distribution_release(&light->triangles);
+    free(light);
+}
+
+static aur_shape_point sample_area(const aur_shape *shape, const area_light *light, const float u[3]) {
+    return aur_shape_sample(shape, light->is_mesh ? &light->triangles : NULL, u);
+}
+
+/* By what `reference` sees of the shape; *pdf stays 0 when that is not to be had and area must do. */
+static aur_shape_point sample_seen(const aur_shape *shape, const area_light *light, aur_vector reference,
+                                   const float u[3], float *pdf) {
+    aur_shape_point point;
+    *pdf = 0.0f;
+    if (shape->curved != NULL && shape->curved->sample_seen != NULL &&
+        shape->curved->sample_seen(shape, reference, u[1], u[2], &point, pdf))
+        return point;
+    aur_spherical_rectangle seen;
+    if (light->is_rectangle && aur_spherical_rectangle_create(&light->rectangle, reference, &seen)) {
+        float along[3] = {0.0f};
+        aur_spherical_rectangle_sample(&seen, u[1], u[2], &along[1], &along[2]);
+        *pdf = 1.0f / seen.solid_angle;
+        return sample_area(shape, light, along);
+    }
+    return sample_area(shape, light, u);
+}
+
+static float pdf_seen(const aur_scene *scene, const aur_emitter *emitter, aur_vector reference) {
+    const aur_shape *const shape = shape_of(scene, emitter);
+    if (shape->curved != NULL)
+        return shape->curved->pdf_seen != NULL ? shape->curved->pdf_seen(shape, reference) : 0.0f;
+    const area_light *const light = emitter->data;
+    aur_spherical_rectangle seen;
+    if (light->is_rectangle && aur_spherical_rectangle_create(&light->rectangle, reference, &seen))
+        return 1.0f / seen.solid_angle;
+    return 0.0f;
 }
 
 static bool sample(const aur_scene *scene, const aur_emitter *emitter, aur_vector reference, const float u[3],
                    aur_light_sample *drawn) {
     const aur_shape *const shape = shape_of(scene, emitter);
-    aur_shape_point point;
-    drawn->pdf = 0.0f;
-    if (shape->curved == NULL || shape->curved->sample_seen == NULL ||
-        !shape->curved->sample_seen(shape, reference, u[1], u[2], &point, &drawn->pdf))
-        point = aur_shape_sample(shape, emitter->data, u);
+    const aur_shape_point point = sample_seen(shape, emitter->data, reference, u, &drawn->pdf);
     const aur_vector way = aur_vector_subtract(point.position, reference);
     const float squared = aur_vector_dot(way, way);
     drawn->distance = sqrtf(squared);
@@ -68,7 +127,7 @@ static bool sample(const aur_scene *scene, const aur_emitter *emitter, aur_vecto
 
 static bool emit(const aur_scene *scene, const aur_emitter *emitter, const float u[5], aur_ray *ray,
                  aur_vector *power) {
-    const aur_shape_point point = aur_shape_sample(shape_of(scene, emitter), emitter->data, u);
+    const aur_shape_point point = sample_area(shape_of(scene, emitter), emitter->data, u);
     const aur_frame frame = aur_frame_about(point.normal);
     const aur_surface surface = {.position = point.position, .geometric_normal = point.normal};
     *ray = aur_surface_ray(&surface, aur_frame_to_world(&frame, aur_sample_cosine(u[3], u[4])));
@@ -86,4 +145,5 @@ const aur_emitter_descriptor aur_emitter_area = {
     .sample = sample,
     .emit = emit,
     .release = release,
+    .pdf_seen = pdf_seen,
 };

@@ -30,9 +30,7 @@ float aur_light_pdf_direct(const aur_scene *scene, aur_vector reference, const a
     const float cosine = -aur_vector_dot(way, surface->geometric_normal) / sqrtf(squared);
     if (!(cosine > 0.0f))
         return 0.0f;
-    float pdf = shape->curved != NULL && shape->curved->pdf_seen != NULL
-                    ? shape->curved->pdf_seen(shape, reference)
-                    : 0.0f;
+    float pdf = emitter->descriptor->pdf_seen(scene, emitter, reference);
     if (pdf == 0.0f)
         pdf = squared / (cosine * (float)shape->area);
     return isfinite(pdf) ? emitter->probability * pdf : 0.0f;

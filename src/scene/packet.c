@@ -20,6 +20,41 @@ uint32_t aur_scene_intersect16(const aur_scene *scene, aur_embree_order order, a
     return found;
 }
 
+uint32_t aur_scene_intersect_each(const aur_scene *scene, aur_packet *packet) {
+    struct RTCRay16 *const rays = &packet->query.ray;
+    struct RTCHit16 *const hits = &packet->query.hit;
+    uint32_t found = 0;
+    for (size_t k = 0; k < AUR_PACKET_SIZE; ++k) {
+        if (packet->valid[k] == 0)
+            continue;
+        struct RTCRayHit one = {
+            .ray = {.org_x = rays->org_x[k],
+                    .org_y = rays->org_y[k],
+                    .org_z = rays->org_z[k],
+                    .tnear = rays->tnear[k],
+                    .dir_x = rays->dir_x[k],
+                    .dir_y = rays->dir_y[k],
+                    .dir_z = rays->dir_z[k],
+                    .tfar = rays->tfar[k],
+                    .mask = UINT32_MAX},
+            .hit = {.geomID = RTC_INVALID_GEOMETRY_ID, .instID = {RTC_INVALID_GEOMETRY_ID}}};
+        aur_embree_intersect1(scene->accel, &one);
+        if (one.hit.geomID == RTC_INVALID_GEOMETRY_ID)
+            continue;
+        found |= 1u << k;
+        rays->tfar[k] = one.ray.tfar;
+        hits->Ng_x[k] = one.hit.Ng_x;
+        hits->Ng_y[k] = one.hit.Ng_y;
+        hits->Ng_z[k] = one.hit.Ng_z;
+        hits->u[k] = one.hit.u;
+        hits->v[k] = one.hit.v;
+        hits->primID[k] = one.hit.primID;
+        hits->geomID[k] = one.hit.geomID;
+        hits->instID[0][k] = one.hit.instID[0];
+    }
+    return found;
+}
+
 aur_hit aur_packet_hit(const aur_scene *scene, const aur_packet *packet, size_t lane) {
     const struct RTCHit16 *const hits = &packet->query.hit;
     const uint32_t id = hits->instID[0][lane];

@@ -35,6 +35,8 @@ static inline void aur_packet_set(aur_packet *packet, size_t lane, const aur_ray
 /* The nearest hits. Bit k of the result is set when the ray of lane k hits something; aur_packet_hit tells
  * what. A hit's distance takes the place of tfar, so tfar must be set again before the next call. */
 uint32_t aur_scene_intersect16(const aur_scene *scene, aur_embree_order order, aur_packet *packet);
+/* The same by sixteen single rays: the oracle of packets, and their rival. */
+uint32_t aur_scene_intersect_each(const aur_scene *scene, aur_packet *packet);
 aur_hit aur_packet_hit(const aur_scene *scene, const aur_packet *packet, size_t lane);
 
 /* Whether anything lies between: bit k for lane k. Changes tfar of the rays that are stopped. */

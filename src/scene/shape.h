@@ -31,6 +31,8 @@ typedef struct aur_curved {
     bool (*sample_seen)(const aur_shape *shape, aur_vector reference, float u, float v,
                         aur_shape_point *point, float *pdf);
     float (*pdf_seen)(const aur_shape *shape, aur_vector reference);
+    /* Texture coordinates taken to the unit square such that equal areas stay equal. */
+    void (*equal_area)(aur_bsdf_point texture, float coordinates[2]);
 } aur_curved;
 
 struct aur_shape {

@@ -65,7 +65,12 @@ static aur_shape_point sample(const aur_shape *shape, float u, float v) {
     return point_at(shape, cosf(angle), sinf(angle), v * shape->length);
 }
 
-static const aur_curved curved = {bounds, intersect, surface, sample, NULL, NULL};
+static void equal_area(aur_bsdf_point texture, float coordinates[2]) {
+    coordinates[0] = texture.u;
+    coordinates[1] = texture.v;
+}
+
+static const aur_curved curved = {bounds, intersect, surface, sample, NULL, NULL, equal_area};
 
 static aur_result create(const aur_shape_input *input, aur_shape *shape, aur_error *error) {
     double from[3] = {0.0, 0.0, 0.0}, to[3] = {0.0, 0.0, 1.0}, radius = 1.0, scale;

@@ -70,7 +70,12 @@ static aur_shape_point sample(const aur_shape *shape, float u, float v) {
     return point_at(shape, x, y);
 }
 
-static const aur_curved curved = {bounds, intersect, surface, sample, NULL, NULL};
+static void equal_area(aur_bsdf_point texture, float coordinates[2]) {
+    coordinates[0] = texture.u * texture.u;
+    coordinates[1] = texture.v;
+}
+
+static const aur_curved curved = {bounds, intersect, surface, sample, NULL, NULL, equal_area};
 
 static aur_result create(const aur_shape_input *input, aur_shape *shape, aur_error *error) {
     (void)error;

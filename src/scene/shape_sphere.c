@@ -83,7 +83,12 @@ static bool sample_seen(const aur_shape *shape, aur_vector reference, float u, f
     return true;
 }
 
-static const aur_curved curved = {bounds, intersect, surface, sample, sample_seen, pdf_seen};
+static void equal_area(aur_bsdf_point texture, float coordinates[2]) {
+    coordinates[0] = texture.u;
+    coordinates[1] = 0.5f - 0.5f * cosf(AUR_PI_F * texture.v);
+}
+
+static const aur_curved curved = {bounds, intersect, surface, sample, sample_seen, pdf_seen, equal_area};
 
 static aur_result create(const aur_shape_input *input, aur_shape *shape, aur_error *error) {
     double center[3] = {0.0, 0.0, 0.0}, radius = 1.0, scale, moved[3];

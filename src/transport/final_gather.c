@@ -3,40 +3,20 @@
  * radiance at what they meet from precomputed irradiance (Christensen 1999), direct light by shadow rays.
  *
  * The directions of a pattern are shared out among the samples of a pixel: sample s of S takes every S-th. */
+#include "transport/final_gather.h"
+
 #include <inttypes.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
-#include "transport/direct_light.h"
-#include "transport/gather.h"
-#include "transport/integrator.h"
-#include "transport/irradiance.h"
-
-enum { COMPONENT_ALL, COMPONENT_DIFFUSE, COMPONENT_GLOSSY };
-enum { DIRECT_NEE, DIRECT_GATHER, DIRECT_NONE };
-enum { INCIDENT_PHOTONS, INCIDENT_EMITTERS };
-enum { LONGEST_CHAIN = 16 }; /* specular bounces in a row */
-
-typedef struct gather_data {
-    size_t component, direct, incident;
-    uint32_t max_depth;
-    size_t samples_per_pixel, glossy_samples;
-    uint64_t pattern_seed;
-    aur_gather_options options;
-    aur_gather_rule diffuse;
-    size_t glossy_count; /* rules, one for each exponent of the scene's materials */
-    aur_gather_rule *glossy;
-    const aur_irradiance_map
-        *map; /* owned by the cache; NULL when incident light is that of emitters alone */
-} gather_data;
-
 static void release(aur_integrator *integrator) {
-    gather_data *const data = integrator->data;
+    aur_final_gather *const data = integrator->data;
     aur_gather_rule_release(&data->diffuse);
     for (size_t i = 0; i < data->glossy_count; ++i)
         aur_gather_rule_release(&data->glossy[i]);
     free(data->glossy);
+    free(data->classes);
     free(data);
 }
 
@@ -44,10 +24,11 @@ static void release(aur_integrator *integrator) {
  * ------------------------------------------------------------------------------------------------ */
 
 typedef struct gather_parameters {
-    int64_t diffuse_samples, glossy_samples, rotations, photons, neighbours, max_depth, pattern_seed;
-    double smoothness;
-    const char *pattern, *map, *scramble;
-    size_t density, component, direct, incident, pixel;
+    int64_t diffuse_samples, glossy_samples, rotations, photons, max_depth, pattern_seed, edges;
+    double smoothness, photons_a_texel;
+    const char *pattern, *map, *scramble, *photon_set;
+    size_t density, component, direct, incident, pixel, decorrelation;
+    bool packets;
 } gather_parameters;
 
 static aur_result read_parameters(aur_parameters *parameters, gather_parameters *p, aur_error *error) {
@@ -56,15 +37,19 @@ static aur_result read_parameters(aur_parameters *parameters, gather_parameters 
     static const char *const directs[] = {"nee", "gather", "none"};
     static const char *const incidents[] = {"photons", "emitters"};
     static const char *const pixels[] = {"filter", "centre"};
+    static const char *const decorrelations[] = {"blue", "random", "none"};
     *p = (gather_parameters){.diffuse_samples = 64,
                              .glossy_samples = 64,
                              .rotations = 16,
                              .photons = 500000,
-                             .neighbours = 64,
+                             .photons_a_texel = 16.0,
+                             .edges = 32,
+                             .packets = true,
                              .max_depth = -1,
                              .smoothness = 1.5,
                              .pattern = "spherical-fibonacci",
                              .map = "lambert",
+                             .photon_set = "sobol",
                              .density = 1};
     const int64_t most = 1 << 30;
     aur_result r;
@@ -80,8 +65,13 @@ static aur_result read_parameters(aur_parameters *parameters, gather_parameters 
         (r = aur_parameters_choice(parameters, "density", 2, densities, &p->density, error)) == AUR_OK &&
         (r = aur_parameters_float(parameters, "smoothness", 1.0, 2.0, &p->smoothness, error)) == AUR_OK &&
         (r = aur_parameters_integer(parameters, "photons", 1, most, &p->photons, error)) == AUR_OK &&
-        (r = aur_parameters_integer(parameters, "neighbours", 2, AUR_IRRADIANCE_NEIGHBOURS_MAX,
-                                    &p->neighbours, error)) == AUR_OK &&
+        (r = aur_parameters_string(parameters, "photon_pattern", &p->photon_set, error)) == AUR_OK &&
+        (r = aur_parameters_float(parameters, "photons_per_texel", 1.0, 1e6, &p->photons_a_texel, error)) ==
+            AUR_OK &&
+        (r = aur_parameters_choice(parameters, "decorrelation", 3, decorrelations, &p->decorrelation,
+                                   error)) == AUR_OK &&
+        (r = aur_parameters_integer(parameters, "edges", 0, 65536, &p->edges, error)) == AUR_OK &&
+        (r = aur_parameters_boolean(parameters, "packets", &p->packets, error)) == AUR_OK &&
         (r = aur_parameters_integer(parameters, "max_depth", -1, 1 << 20, &p->max_depth, error)) == AUR_OK &&
         (r = aur_parameters_choice(parameters, "component", 3, components, &p->component, error)) == AUR_OK &&
         (r = aur_parameters_choice(parameters, "direct", 3, directs, &p->direct, error)) == AUR_OK &&
@@ -126,8 +116,7 @@ static size_t shared_count(int64_t wanted, size_t samples_per_pixel) {
     return each * samples_per_pixel;
 }
 
-/* The rule that serves a lobe, or NULL. */
-static const aur_gather_rule *find_rule(const gather_data *data, const aur_bsdf_lobe *lobe) {
+const aur_gather_rule *aur_final_gather_rule(const aur_final_gather *data, const aur_bsdf_lobe *lobe) {
     if (lobe->diffuse)
         return &data->diffuse;
     for (size_t i = 0; i < data->glossy_count; ++i)
@@ -137,7 +126,7 @@ static const aur_gather_rule *find_rule(const gather_data *data, const aur_bsdf_
 }
 
 /* One rule for each exponent among the glossy lobes of the scene's materials. */
-static aur_result prepare_glossy_rules(gather_data *data, const aur_scene *scene, size_t count,
+static aur_result prepare_glossy_rules(aur_final_gather *data, const aur_scene *scene, size_t count,
                                        aur_error *error) {
     const size_t materials = aur_scene_bsdf_count(scene);
     aur_gather_options options = data->options;
@@ -152,7 +141,8 @@ static aur_result prepare_glossy_rules(gather_data *data, const aur_scene *scene
             const aur_vector view = {0.0f, 0.0f, (float)side};
             const size_t found = bsdf->descriptor->lobes(bsdf, (aur_bsdf_point){0}, view, lobes);
             for (size_t k = 0; k < found; ++k) {
-                if (find_rule(data, &lobes[k]) != NULL || lobes[k].shape != AUR_LOBE_SHAPE_COSINE_POWER)
+                if (aur_final_gather_rule(data, &lobes[k]) != NULL ||
+                    lobes[k].shape != AUR_LOBE_SHAPE_COSINE_POWER)
                     continue;
                 const aur_result result = aur_gather_rule_create(&options, lobes[k].exponent,
                                                                  &data->glossy[data->glossy_count], error);
@@ -170,21 +160,23 @@ static void destroy_map(void *map) {
 }
 
 /* The photon map, shared by all renders that ask for the same one. */
-static aur_result prepare_map(gather_data *data, const gather_parameters *p,
+static aur_result prepare_map(aur_final_gather *data, const gather_parameters *p,
                               const aur_integrator_context *context, aur_error *error) {
     const size_t max_edges = data->max_depth == UINT32_MAX ? SIZE_MAX : data->max_depth - 2;
-    char key[160];
-    snprintf(key, sizeof key, "irradiance photons=%" PRId64 " neighbours=%" PRId64 " edges=%zu seed=%" PRIu64,
-             p->photons, p->neighbours, max_edges, context->seed);
+    char key[512];
+    snprintf(key, sizeof key,
+             "irradiance photons=%" PRId64 " texel=%.17g edges=%zu seed=%" PRIu64 " set=%.300s", p->photons,
+             p->photons_a_texel, max_edges, context->seed, p->photon_set);
     data->map = aur_cache_find(context->cache, key);
     if (data->map != NULL)
         return AUR_OK;
     const aur_irradiance_options options = {.photons = {.count = (size_t)p->photons,
                                                         .max_edges = max_edges,
+                                                        .set = p->photon_set,
                                                         .seed = context->seed,
                                                         .threads = context->threads,
                                                         .progress = context->progress},
-                                            .neighbours = (size_t)p->neighbours};
+                                            .photons_a_texel = p->photons_a_texel};
     aur_irradiance_map *map;
     const aur_result result = aur_irradiance_map_create(context->scene, &options, &map, error);
     if (result != AUR_OK)
@@ -192,6 +184,29 @@ static aur_result prepare_map(gather_data *data, const gather_parameters *p,
     if (aur_cache_store(context->cache, key, map, destroy_map) != AUR_OK)
         return aur_fail(error, AUR_ERROR_MEMORY, "out of memory");
     data->map = map;
+    return AUR_OK;
+}
+
+/* Which shapes' light is found without their surface. */
+static aur_result prepare_classes(aur_final_gather *data, aur_error *error) {
+    const aur_scene *const scene = data->scene;
+    const size_t count = aur_scene_shape_count(scene);
+    data->classes = calloc(count + 1, sizeof *data->classes);
+    if (data->classes == NULL)
+        return aur_fail(error, AUR_ERROR_MEMORY, "out of memory");
+    for (uint32_t i = 0; i < count && data->map != NULL; ++i) {
+        const aur_bsdf *const bsdf = aur_shape_bsdf(scene, i);
+        aur_hit_class *const class = &data->classes[i];
+        class->plain = bsdf->plain_diffuse && !aur_shape_is_curved(scene, i) &&
+                       aur_shape_emitter(scene, i) == AUR_NO_EMITTER;
+        if (!class->plain)
+            continue;
+        for (size_t side = 0; side < 2; ++side)
+            if (side == 0 || bsdf->scatters_from_behind)
+                class->albedo_on_pi[side] = aur_vector_scale(
+                    bsdf->descriptor->diffuse_albedo(bsdf, (aur_bsdf_point){0}, side == 0 ? 1.0f : -1.0f),
+                    1.0f / AUR_PI_F);
+    }
     return AUR_OK;
 }
 
@@ -204,11 +219,15 @@ static aur_result create(aur_parameters *parameters, const aur_integrator_contex
         result = read_options(&p, context, &options, error);
     if (result != AUR_OK)
         return result;
-    gather_data *const data = calloc(1, sizeof *data);
+    aur_final_gather *const data = calloc(1, sizeof *data);
     if (data == NULL)
         return aur_fail(error, AUR_ERROR_MEMORY, "out of memory");
     integrator->data = data;
     integrator->pixel_centre = p.pixel == 1;
+    data->scene = context->scene;
+    data->decorrelation = p.decorrelation;
+    data->edge_samples = (uint32_t)p.edges;
+    data->packets = p.packets;
     data->component = p.component;
     data->direct = p.direct;
     data->incident = p.incident;
@@ -222,225 +241,94 @@ static aur_result create(aur_parameters *parameters, const aur_integrator_contex
     data->options.warnings = (aur_warnings){0};
     if (result == AUR_OK)
         result = prepare_glossy_rules(data, context->scene, data->glossy_samples, error);
-    const bool wants_photons = p.incident == INCIDENT_PHOTONS && data->max_depth >= 3;
+    const bool wants_photons = p.incident == AUR_INCIDENT_PHOTONS && data->max_depth >= 3;
     if (result == AUR_OK && wants_photons)
         result = prepare_map(data, &p, context, error);
+    if (result == AUR_OK)
+        result = prepare_classes(data, error);
     return result;
 }
 
-/* --- radiance
- * -------------------------------------------------------------------------------------------------- */
+/* --- tiles
+ * ----------------------------------------------------------------------------------------------------- */
 
-/* A place where light is gathered, and the numbers of its light path. */
-typedef struct gather_place {
-    const aur_integrator *integrator;
-    const aur_surface *surface;
-    const aur_camera_sample *sample;
-    float side;     /* 1 where the surface is seen from the side of its normal, else -1 */
-    uint32_t chain; /* specular bounces from the camera */
-    aur_counters *counters;
-} gather_place;
-
-/* Whether gather rays count the lights that they meet; under next-event estimation that would count them
- * twice. */
-static bool gathers_emitters(const gather_data *data) {
-    return data->direct == DIRECT_GATHER ||
-           (data->incident == INCIDENT_EMITTERS && data->direct == DIRECT_NONE);
-}
-
-static bool is_specular_only(const aur_surface *surface, aur_vector view) {
-    aur_bsdf_lobe lobes[AUR_BSDF_LOBE_CAPACITY];
-    const aur_vector local = aur_frame_to_local(&surface->frame, view);
-    const size_t count = surface->bsdf->descriptor->lobes(surface->bsdf, surface->texture, local, lobes);
-    for (size_t i = 0; i < count; ++i)
-        if (lobes[i].shape != AUR_LOBE_SHAPE_SPECULAR)
-            return false;
-    return count > 0;
-}
-
-/* Radiance that comes along a gather ray; mirrors and glass in its way are followed. */
-static aur_vector incident_radiance(const gather_place *place, aur_ray ray, uint64_t hash) {
-    const gather_data *const data = place->integrator->data;
-    const aur_scene *const scene = place->integrator->scene;
-    const bool sees_emitters = gathers_emitters(data);
-    aur_vector throughput = {1.0f, 1.0f, 1.0f};
-    for (uint32_t chain = 0; chain <= LONGEST_CHAIN; ++chain) {
-        aur_hit hit;
-        ++place->counters->rays;
-        /* Light that a mirror throws here is not found by shadow rays. */
-        const bool counts_emission = sees_emitters || (chain > 0 && data->direct == DIRECT_NEE);
-        if (!aur_scene_intersect(scene, &ray, &hit)) {
-            if (!counts_emission)
-                break;
-            return aur_vector_multiply(throughput, aur_scene_environment(scene, ray.direction));
-        }
-        aur_surface surface;
-        aur_scene_surface(scene, &ray, &hit, &surface);
-        const aur_vector view = aur_vector_scale(ray.direction, -1.0f);
-        aur_vector radiance = {0};
-        if (counts_emission)
-            radiance = aur_surface_emission(scene, &surface, view);
-        if (!is_specular_only(&surface, view)) {
-            if (data->map != NULL)
-                radiance = aur_vector_add(radiance, aur_irradiance_radiance(data->map, &surface, view));
-            return aur_vector_multiply(throughput, radiance);
-        }
-        if (!aur_vector_is_zero(radiance))
-            return aur_vector_multiply(throughput, radiance);
-        const aur_shading shading = aur_shading_at(&surface, view);
-        hash = aur_mix64(hash);
-        const float u[3] = {aur_unit_float((uint32_t)hash), aur_unit_float((uint32_t)(hash >> 32)),
-                            aur_unit_float((uint32_t)aur_mix64(hash + 1))};
-        aur_bsdf_sample sample;
-        if (!aur_shading_sample(&shading, u, &sample))
-            break;
-        throughput = aur_vector_multiply(throughput, sample.weight);
-        ray = aur_surface_ray(&surface, sample.light);
+/* The groups' lanes that lie in the picture. A crop does not matter: packets must be those of the whole tile,
+ * or its pixels would differ in the last bits. */
+static uint32_t lanes_of(const aur_group_task *task) {
+    uint32_t lanes = 0;
+    for (size_t lane = 0; lane < AUR_PACKET_SIZE; ++lane) {
+        const size_t pixel = aur_group_pixel(task->group, lane);
+        const bool inside = task->x + pixel % AUR_TILE_SIZE < task->view->width &&
+                            task->y + pixel / AUR_TILE_SIZE < task->view->height;
+        lanes |= (uint32_t)inside << lane;
     }
-    return (aur_vector){0};
+    return lanes;
 }
 
-/* The integral over the hemisphere of one lobe times incident radiance, by this sample's share of a rule. */
-static aur_vector gather_lobe(const gather_place *place, const aur_gather_rule *rule,
-                              const aur_bsdf_lobe *lobe, uint64_t what) {
-    const gather_data *const data = place->integrator->data;
-    const aur_stream *const stream = &place->sample->stream;
-    const aur_surface *const surface = place->surface;
-    const size_t shares = data->samples_per_pixel;
-    const uint64_t hash = aur_hash4(data->pattern_seed, stream->pixel, place->chain, what);
-    const aur_gather_turn turn = aur_gather_rule_turn(rule, hash);
-    const aur_frame frame = aur_frame_about(aur_frame_to_world(&surface->frame, lobe->axis));
-    aur_vector sum = {0};
-    for (size_t i = stream->index % shares; i < rule->count; i += shares) {
-        aur_vector local;
-        float weight = aur_gather_direction(rule, &turn, i, &local);
-        const aur_vector direction = aur_frame_to_world(&frame, local);
-        const float cosine = place->side * aur_vector_dot(surface->frame.z, direction);
-        if (cosine <= 0.0f || place->side * aur_vector_dot(surface->geometric_normal, direction) <= 0.0f)
-            continue; /* below the surface */
-        if (lobe->times_cosine)
-            weight *= cosine;
-        const aur_ray ray = aur_surface_ray(surface, direction);
-        sum = aur_vector_add_scaled(sum, weight, incident_radiance(place, ray, aur_hash2(hash, i)));
-    }
-    const size_t share = rule->count / shares;
-    return aur_vector_scale(aur_vector_multiply(sum, lobe->coefficient), 1.0f / (float)share);
-}
-
-/* The glossy part of a BSDF that has no formula, by the BSDF's own samples: this sample's share of them. */
-static aur_vector gather_sampled(const gather_place *place, const aur_shading *shading, size_t count,
-                                 const aur_bsdf_lobe *lobes, uint64_t what) {
-    static const aur_sampler sobol = {.kind = AUR_SAMPLER_SOBOL};
-    const gather_data *const data = place->integrator->data;
-    const aur_surface *const surface = place->surface;
-    const aur_stream *const stream = &place->sample->stream;
-    const uint64_t hash = aur_hash4(data->pattern_seed, stream->pixel, place->chain, what);
-    const size_t share = data->glossy_samples / data->samples_per_pixel;
-    aur_vector sum = {0};
-    for (size_t i = 0; i < share; ++i) {
-        const aur_stream numbers = {&sobol, hash, (uint32_t)(stream->index * share + i)};
-        float choice[2], direction[2];
-        aur_stream_pair(&numbers, 0, choice);
-        aur_stream_pair(&numbers, 1, direction);
-        aur_bsdf_sample drawn;
-        if (!aur_shading_sample(shading, (const float[3]){choice[0], direction[0], direction[1]}, &drawn) ||
-            drawn.specular || !(drawn.pdf > 0.0f))
+/* Every stratum's mean radiance by its share of what the pixel sees. */
+static void develop(const aur_pixel_strata *pixel, double mean[3]) {
+    double seen = 0.0;
+    mean[0] = mean[1] = mean[2] = 0.0;
+    for (uint32_t i = 0; i < pixel->count; ++i) {
+        const aur_stratum *const stratum = &pixel->strata[i];
+        if (stratum->shaded == 0.0)
             continue;
-        const aur_vector light = aur_frame_to_local(&surface->frame, drawn.light);
-        const aur_vector value =
-            aur_glossy_value(surface->bsdf, surface->texture, shading->view, light, count, lobes);
-        const aur_vector radiance =
-            incident_radiance(place, aur_surface_ray(surface, drawn.light), aur_hash2(hash, i));
-        sum = aur_vector_add_scaled(sum, 1.0f / drawn.pdf, aur_vector_multiply(value, radiance));
+        seen += stratum->seen;
+        for (size_t c = 0; c < 3; ++c)
+            mean[c] += stratum->sum[c] * (stratum->seen / stratum->shaded);
     }
-    return aur_vector_scale(sum, 1.0f / (float)share);
+    for (size_t c = 0; c < 3; ++c)
+        mean[c] = seen != 0.0 ? mean[c] / seen : 0.0;
 }
 
-static aur_vector gather(const gather_place *place, const aur_shading *shading, size_t count,
-                         const aur_bsdf_lobe *lobes) {
-    const gather_data *const data = place->integrator->data;
-    aur_vector sum = {0};
-    for (size_t i = 0; i < count; ++i) {
-        const aur_gather_rule *const rule = find_rule(data, &lobes[i]);
-        if (lobes[i].shape == AUR_LOBE_SHAPE_SAMPLED && data->component != COMPONENT_DIFFUSE)
-            sum = aur_vector_add(sum, gather_sampled(place, shading, count, lobes, i));
-        const bool wanted =
-            data->component == COMPONENT_ALL || lobes[i].diffuse == (data->component == COMPONENT_DIFFUSE);
-        if (lobes[i].shape == AUR_LOBE_SHAPE_COSINE_POWER && wanted && rule != NULL &&
-            !aur_vector_is_zero(lobes[i].coefficient))
-            sum = aur_vector_add(sum, gather_lobe(place, rule, &lobes[i], i));
+static void add_tile(const aur_final_gather *data, aur_tile *tile, aur_group *group,
+                     aur_pixel_strata *strata) {
+    aur_group_task task = {.data = data,
+                           .view = tile->view,
+                           .x = tile->x0 / AUR_TILE_SIZE * AUR_TILE_SIZE,
+                           .y = tile->y0 / AUR_TILE_SIZE * AUR_TILE_SIZE};
+    for (task.group = 0; task.group < AUR_PACKET_SIZE; ++task.group) {
+        task.lanes = lanes_of(&task);
+        for (uint32_t i = 0; i < tile->count; ++i) {
+            task.index = tile->first + i;
+            if (task.lanes != 0)
+                aur_group_add_sample(group, &task, strata, &tile->counters);
+        }
     }
-    return sum;
+    if (data->edge_samples > 0)
+        aur_gather_refine_edges(group, &task, tile->first + tile->count, strata, &tile->counters);
+    for (size_t y = tile->y0; y < tile->y1; ++y)
+        for (size_t x = tile->x0; x < tile->x1; ++x) {
+            const aur_pixel_strata *const pixel = &strata[(y - task.y) * AUR_TILE_SIZE + (x - task.x)];
+            double mean[3];
+            develop(pixel, mean);
+            if (pixel->samples > 0)
+                aur_tile_add_mean(tile, x, y, tile->count, mean);
+        }
 }
 
-/* Pairs of one surface along the chain: direct light's, and two for a specular bounce. */
-enum { PAIRS_A_SURFACE = AUR_DIRECT_LIGHT_PAIRS + 2 };
-
-static aur_vector radiance(const aur_integrator *integrator, const aur_camera_sample *sample,
-                           aur_counters *counters) {
-    const gather_data *const data = integrator->data;
-    const aur_scene *const scene = integrator->scene;
-    const bool gathers = data->map != NULL || (gathers_emitters(data) && data->max_depth >= 2);
-    aur_vector sum = {0}, throughput = {1.0f, 1.0f, 1.0f};
-    aur_ray ray = sample->ray;
-    for (uint32_t chain = 0; chain <= LONGEST_CHAIN; ++chain) {
-        aur_hit hit;
-        ++counters->rays;
-        if (!aur_scene_intersect(scene, &ray, &hit)) {
-            if (data->direct != DIRECT_NONE)
-                sum = aur_vector_add(
-                    sum, aur_vector_multiply(throughput, aur_scene_environment(scene, ray.direction)));
-            break;
-        }
-        aur_surface surface;
-        aur_scene_surface(scene, &ray, &hit, &surface);
-        const aur_vector view = aur_vector_scale(ray.direction, -1.0f);
-        const uint32_t pair = AUR_PAIR_FIRST + PAIRS_A_SURFACE * chain;
-        aur_bsdf_lobe lobes[AUR_BSDF_LOBE_CAPACITY];
-        const aur_shading shading = aur_shading_at(&surface, view);
-        const size_t count =
-            surface.bsdf->descriptor->lobes(surface.bsdf, surface.texture, shading.view, lobes);
-        bool specular = false;
-        for (size_t i = 0; i < count; ++i)
-            specular = specular || lobes[i].shape == AUR_LOBE_SHAPE_SPECULAR;
-
-        aur_vector here = {0};
-        if (data->direct != DIRECT_NONE)
-            here = aur_surface_emission(scene, &surface, view);
-        if (data->direct == DIRECT_NEE && data->max_depth >= 2)
-            here = aur_vector_add(here, aur_direct_light(scene, &shading, &sample->stream, pair, counters));
-        if (gathers) {
-            const float side = aur_vector_dot(surface.geometric_normal, view) < 0.0f ? -1.0f : 1.0f;
-            const gather_place place = {integrator, &surface, sample, side, chain, counters};
-            here = aur_vector_add(here, gather(&place, &shading, count, lobes));
-        }
-        sum = aur_vector_add(sum, aur_vector_multiply(throughput, here));
-        if (!specular)
-            break;
-        /* A surface with other lobes too has been gathered for them; only its mirror direction goes on. */
-        float lobe[2], direction[2];
-        aur_stream_pair(&sample->stream, pair + AUR_DIRECT_LIGHT_PAIRS, lobe);
-        aur_stream_pair(&sample->stream, pair + AUR_DIRECT_LIGHT_PAIRS + 1, direction);
-        aur_bsdf_sample bounce;
-        if (!aur_shading_sample(&shading, (const float[3]){lobe[0], direction[0], direction[1]}, &bounce) ||
-            !bounce.specular)
-            break;
-        throughput = aur_vector_multiply(throughput, bounce.weight);
-        ray = aur_surface_ray(&surface, bounce.light);
-    }
-    return sum;
+static aur_result tile(const aur_integrator *integrator, aur_tile *tile) {
+    aur_group *const group = aur_group_create();
+    aur_pixel_strata *const strata = calloc(AUR_TILE_PIXELS, sizeof *strata);
+    const bool good = group != NULL && strata != NULL;
+    if (good)
+        add_tile(integrator->data, tile, group, strata);
+    free(strata);
+    aur_group_destroy(group);
+    return good ? AUR_OK : AUR_ERROR_MEMORY;
 }
 
 const aur_integrator_descriptor aur_integrator_final_gather = {
-    .description = {.name = "finalgather",
-                    .keys =
-                        "diffuse_samples=64, glossy_samples=64, pattern=spherical-fibonacci, map=lambert, "
-                        "scramble=rotate (nets: digit), rotations=16, density=optimal, smoothness=1.5, "
-                        "photons=500000, neighbours=64, max_depth=-1, component=all, direct=nee, "
-                        "incident=photons, pixel=filter, pattern_seed=0",
-                    .summary = "final gathering over a photon map, one pattern of directions an image",
-                    .source = "Christensen 1999, Marques 2013"},
+    .description =
+        {.name = "finalgather",
+         .keys = "diffuse_samples=64, glossy_samples=64, pattern=spherical-fibonacci, map=lambert, "
+                 "scramble=rotate (nets: digit), rotations=16, density=optimal, smoothness=1.5, "
+                 "decorrelation=blue, photons=500000, photon_pattern=sobol, photons_per_texel=16, edges=32, "
+                 "max_depth=-1, component=all, direct=nee, incident=photons, pixel=filter, "
+                 "pattern_seed=0, packets=true",
+         .summary = "final gathering over a photon map, one pattern of directions an image",
+         .source = "Christensen 1999, Marques 2013"},
     .create = create,
     .release = release,
-    .radiance = radiance,
+    .tile = tile,
 };

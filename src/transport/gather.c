@@ -150,6 +150,30 @@ static aur_result prepare_turns(const aur_gather_options *options, aur_gather_ru
     return AUR_OK;
 }
 
+/* Density of the directions: (M'+1)/(2 pi) cos^M'; the integrand's known part: cos^M. */
+float aur_gather_density(const aur_gather_rule *rule, float cosine) {
+    const float scale = (float)((rule->drawn_exponent + 1.0) / (2.0 * AUR_PI));
+    return cosine > 0.0f ? scale * powf(cosine, (float)rule->drawn_exponent) : 0.0f;
+}
+
+static float weight_at(const aur_gather_rule *rule, float z) {
+    const double scale = 2.0 * AUR_PI / (rule->drawn_exponent + 1.0);
+    const double excess = rule->exponent - rule->drawn_exponent;
+    return (float)(excess == 0.0 ? scale : scale * pow((double)z, excess));
+}
+
+static aur_result weigh(aur_gather_rule *rule, size_t count, aur_error *error) {
+    rule->weights = malloc(count * sizeof *rule->weights);
+    rule->densities = malloc(count * sizeof *rule->densities);
+    if (rule->weights == NULL || rule->densities == NULL)
+        return aur_fail(error, AUR_ERROR_MEMORY, "out of memory for %zu weights", count);
+    for (size_t i = 0; i < count; ++i) {
+        rule->weights[i] = weight_at(rule, rule->z[i]);
+        rule->densities[i] = aur_gather_density(rule, rule->z[i]);
+    }
+    return AUR_OK;
+}
+
 aur_result aur_gather_rule_create(const aur_gather_options *options, double exponent, aur_gather_rule *rule,
                                   aur_error *error) {
     const double power = options->optimal_density ? 2.0 / (options->smoothness + 1.0) : 1.0;
@@ -158,10 +182,12 @@ aur_result aur_gather_rule_create(const aur_gather_options *options, double expo
                               .drawn_exponent = exponent * power,
                               .map = options->map,
                               .scramble = options->scramble};
-    aur_result result = works_on_square(options->scramble) ? fill_square(options, rule, error)
-                                                           : fill_directions(options, rule, error);
+    const bool on_square = works_on_square(options->scramble);
+    aur_result result = on_square ? fill_square(options, rule, error) : fill_directions(options, rule, error);
     if (result == AUR_OK && options->rotations > 0 && options->scramble != AUR_SCRAMBLE_NONE)
         result = prepare_turns(options, rule, error);
+    if (result == AUR_OK && rule->x != NULL)
+        result = weigh(rule, on_square ? options->rotations * options->count : options->count, error);
     if (result != AUR_OK)
         aur_gather_rule_release(rule);
     return result;
@@ -169,6 +195,8 @@ aur_result aur_gather_rule_create(const aur_gather_options *options, double expo
 
 void aur_gather_rule_release(aur_gather_rule *rule) {
     free(rule->x);
+    free(rule->weights);
+    free(rule->densities);
     free(rule->square);
     free(rule->turns);
     *rule = (aur_gather_rule){0};
@@ -182,17 +210,22 @@ aur_gather_turn aur_gather_rule_turn(const aur_gather_rule *rule, uint64_t hash)
     return turn_from_hash(hash);
 }
 
+aur_gather_turn aur_gather_turn_by(aur_gather_turn turn, float cosine, float sine) {
+    aur_gather_turn sum = turn;
+    sum.cosine = turn.cosine * cosine - turn.sine * sine;
+    sum.sine = turn.sine * cosine + turn.cosine * sine;
+    return sum;
+}
+
 float aur_gather_direction(const aur_gather_rule *rule, const aur_gather_turn *turn, size_t index,
                            aur_vector *direction) {
     if (rule->square != NULL) {
         *direction = scrambled_direction(rule, turn, index);
-    } else {
-        const float x = rule->x[turn->first + index], y = rule->y[turn->first + index];
-        *direction = (aur_vector){turn->cosine * x - turn->sine * y, turn->sine * x + turn->cosine * y,
-                                  rule->z[turn->first + index]};
+        return weight_at(rule, direction->z);
     }
-    /* Density of the directions: (M'+1)/(2 pi) cos^M'; the integrand's known part: cos^M. */
-    const double scale = 2.0 * AUR_PI / (rule->drawn_exponent + 1.0);
-    const double excess = rule->exponent - rule->drawn_exponent;
-    return (float)(excess == 0.0 ? scale : scale * pow(direction->z, excess));
+    const size_t at = turn->first + index;
+    const float x = rule->x[at], y = rule->y[at];
+    *direction =
+        (aur_vector){turn->cosine * x - turn->sine * y, turn->sine * x + turn->cosine * y, rule->z[at]};
+    return rule->weights[at];
 }

@@ -39,6 +39,8 @@ typedef struct aur_gather_rule {
     aur_map map;
     aur_scramble scramble;
     float *x, *y, *z;      /* directions: one pattern, or one for each prepared scrambling */
+    float *weights;        /* of the directions: see aur_gather_direction */
+    float *densities;      /* with which directions are drawn, a steradian */
     uint32_t (*square)[2]; /* words of points of the square, scrambled at the shading point; else NULL */
     size_t rotations;
     aur_gather_turn *turns; /* rotations of them */
@@ -50,6 +52,12 @@ void aur_gather_rule_release(aur_gather_rule *rule);
 
 /* The randomisation that a hash stands for: equal hashes, equal patterns. */
 aur_gather_turn aur_gather_rule_turn(const aur_gather_rule *rule, uint64_t hash);
+
+/* Two turns, one after the other. */
+aur_gather_turn aur_gather_turn_by(aur_gather_turn turn, float cosine, float sine);
+
+/* The density of the rule's directions at the cosine about its axis, a steradian. */
+float aur_gather_density(const aur_gather_rule *rule, float cosine);
 
 /* Direction `index` of the turned rule in the lobe's frame. Returns the weight such that the mean over all
  * directions of weight * f estimates the integral of cos^exponent * f over the hemisphere (of solid angle).

@@ -1,20 +1,10 @@
-/* Irradiance precomputed at a part of the photons (Christensen 1999), so that a gather ray needs the nearest
- * of these points and no density estimate of its own. */
+/* Irradiance on texels, from photons: what a gather ray meets has its radiance by one array read, and no
+ * density estimate is made while a picture is rendered (after Christensen 1999). */
 #ifndef AUR_TRANSPORT_IRRADIANCE_H
 #define AUR_TRANSPORT_IRRADIANCE_H
 
 #include "transport/photon_map.h"
-#include "transport/surface_cells.h"
-
-typedef struct aur_irradiance_point {
-    aur_vector position;
-    aur_vector normal;
-    aur_vector irradiance; /* watts a square unit, RGB, on the side of the normal */
-    float radius_squared;  /* of the disc that the estimate's photons fell on; 0: there are none */
-    float area;            /* of the part of the disc that is surface */
-    uint32_t first;        /* of its photons in `members`; only where the surface is glossy */
-    uint32_t members;
-} aur_irradiance_point;
+#include "transport/texels.h"
 
 /* A photon as glossy surfaces want it. */
 typedef struct aur_incident_photon {
@@ -22,30 +12,42 @@ typedef struct aur_incident_photon {
     aur_vector power;
 } aur_incident_photon;
 
+typedef struct aur_texel_light {
+    _Alignas(16) aur_vector irradiance; /* watts a square unit, RGB */
+    float area;                         /* of the texel, square units */
+} aur_texel_light;
+
 typedef struct aur_irradiance_map {
-    size_t count;
-    aur_irradiance_point *points; /* one a cell that photons fell in */
-    aur_incident_photon *members; /* of the points on glossy surfaces, one point's after another's */
-    aur_surface_cells cells;
-    size_t photons; /* stored, of which the estimates were made */
-    uint64_t rays;  /* that the map cost, particles included */
+    aur_texels texels;
+    aur_texel_light *lights; /* two a texel: on the side of the shape's normal, and behind */
+    /* Photons of the texels on glossy surfaces, one texel's after another's: those of light i begin at
+     * member_first[i]. NULL where no surface is glossy. */
+    uint32_t *member_first;
+    aur_incident_photon *members;
+    size_t photons; /* stored, of which the map was made */
+    uint64_t paths; /* particles that left the lights */
+    uint64_t rays;  /* that the map cost */
 } aur_irradiance_map;
 
 typedef struct aur_irradiance_options {
     aur_photon_options photons;
-    size_t neighbours; /* photons an estimate: 1..AUR_IRRADIANCE_NEIGHBOURS_MAX */
+    double photons_a_texel; /* on average, at least 1 */
 } aur_irradiance_options;
-
-enum { AUR_IRRADIANCE_NEIGHBOURS_MAX = 512 };
 
 aur_result aur_irradiance_map_create(const aur_scene *scene, const aur_irradiance_options *options,
                                      aur_irradiance_map **map, aur_error *error);
 void aur_irradiance_map_destroy(aur_irradiance_map *map);
 
-/* Radiance that leaves the surface towards `view` (world, unit): the irradiance of its cell times albedo /
- * pi, and the glossy lobes over that estimate's photons; black where no estimate reaches. Emission is not
- * part of it. */
-aur_vector aur_irradiance_radiance(const aur_irradiance_map *map, const aur_surface *surface,
-                                   aur_vector view);
+/* The light on a triangle at a hit's barycentric u, v. */
+static inline const aur_texel_light *
+aur_irradiance_on_triangle(const aur_irradiance_map *map, uint32_t element, float u, float v, bool behind) {
+    const uint32_t texel = aur_texel_of_triangle(map->texels.ranges[element], u, v);
+    return &map->lights[2 * (size_t)texel + (behind ? 1 : 0)];
+}
+
+/* Radiance that leaves the surface of a hit towards `view` (world, unit): its irradiance times albedo / pi,
+ * and the glossy lobes over the texel's photons. Emission is not part of it. */
+aur_vector aur_irradiance_radiance(const aur_irradiance_map *map, const aur_scene *scene, const aur_hit *hit,
+                                   const aur_surface *surface, aur_vector view);
 
 #endif

@@ -22,7 +22,10 @@ typedef struct photon_chunk {
 
 typedef struct batch {
     const aur_scene *scene;
+    const aur_elements *elements;
     const aur_photon_options *options;
+    const aur_sampler *sampler;
+    uint64_t paths_a_set; /* beyond them the set begins anew with another randomisation */
     uint64_t first_path;
     photon_chunk chunks[CHUNKS_A_BATCH];
 } batch;
@@ -67,10 +70,9 @@ static aur_vector adjoint_weight(const aur_shading *shading, const aur_bsdf_samp
 enum { PAIR_LIGHT = 0, PAIR_POSITION = 1, PAIR_DIRECTION = 2, PAIR_BOUNCE = 3, PAIRS_A_BOUNCE = 2 };
 
 static bool trace_path(const batch *work, uint64_t path, photon_chunk *chunk) {
-    static const aur_sampler sobol = {.kind = AUR_SAMPLER_SOBOL};
-    /* Beyond 2^32 paths the net begins anew with another randomisation. */
-    const aur_stream stream = {&sobol, aur_hash3(work->options->seed, 0x70686f746f6e, path >> 32),
-                               (uint32_t)path};
+    const aur_stream stream = {work->sampler,
+                               aur_hash3(work->options->seed, 0x70686f746f6e, path / work->paths_a_set),
+                               (uint32_t)(path % work->paths_a_set)};
     float light[2], position[2], direction[2];
     aur_stream_pair(&stream, PAIR_LIGHT, light);
     aur_stream_pair(&stream, PAIR_POSITION, position);
@@ -96,13 +98,15 @@ static bool trace_path(const batch *work, uint64_t path, photon_chunk *chunk) {
         const float side = aur_vector_dot(surface.geometric_normal, in);
         const unsigned parts = reflecting_parts(&surface, shading.view);
         if (parts != 0) {
-            const aur_photon photon = {
-                .position = surface.position,
-                .normal = aur_vector_scale(surface.geometric_normal, side < 0 ? -1.0f : 1.0f),
-                .direction = in,
-                .power = power,
-                .shape = surface.shape,
-                .glossy = parts >> 1};
+            aur_photon photon = {.position = surface.position,
+                                 .normal =
+                                     aur_vector_scale(surface.geometric_normal, side < 0 ? -1.0f : 1.0f),
+                                 .direction = in,
+                                 .power = power,
+                                 .element = aur_element_of(work->elements, &hit),
+                                 .behind = side < 0.0f,
+                                 .glossy = (parts & 2u) != 0};
+            aur_element_coordinates(work->scene, &hit, &surface, photon.coordinates);
             if (aur_vector_is_finite(power) && !store(chunk, photon))
                 return false;
         }
@@ -184,15 +188,30 @@ static aur_result trace_until_enough(aur_photon_map *map, batch *work, aur_error
     return AUR_OK;
 }
 
-aur_result aur_photon_map_create(const aur_scene *scene, const aur_photon_options *options,
-                                 aur_photon_map *map, aur_error *error) {
+static aur_result make_sampler(const aur_photon_options *options, aur_sampler **sampler, aur_error *error) {
+    const size_t most = (size_t)1 << 30;
+    return aur_sampler_create(options->set != NULL ? options->set : "sobol",
+                              options->count < most ? options->count : most, NULL, sampler, error);
+}
+
+aur_result aur_photon_map_create(const aur_scene *scene, const aur_elements *elements,
+                                 const aur_photon_options *options, aur_photon_map *map, aur_error *error) {
     *map = (aur_photon_map){0};
     if (aur_scene_emitter_count(scene) == 0)
         return aur_fail(error, AUR_ERROR_UNSUPPORTED, "photon map: the scene has no light");
-    batch work = {.scene = scene, .options = options};
-    const aur_result result = trace_until_enough(map, &work, error);
+    aur_sampler *sampler;
+    aur_result result = make_sampler(options, &sampler, error);
+    if (result != AUR_OK)
+        return result;
+    batch work = {.scene = scene,
+                  .elements = elements,
+                  .options = options,
+                  .sampler = sampler,
+                  .paths_a_set = sampler->size > 0 ? sampler->size : (uint64_t)1 << 32};
+    result = trace_until_enough(map, &work, error);
     for (size_t i = 0; i < CHUNKS_A_BATCH; ++i)
         free(work.chunks[i].photons);
+    aur_sampler_destroy(sampler);
     if (result != AUR_OK)
         aur_photon_map_release(map);
     return result;

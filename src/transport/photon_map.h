@@ -3,15 +3,17 @@
 #ifndef AUR_TRANSPORT_PHOTON_MAP_H
 #define AUR_TRANSPORT_PHOTON_MAP_H
 
-#include "scene/scene.h"
+#include "scene/elements.h"
 
 typedef struct aur_photon {
     aur_vector position;
     aur_vector normal;    /* geometric, on the side that the photon came from */
     aur_vector direction; /* unit, towards where it came from */
     aur_vector power;     /* watts, RGB */
-    uint32_t shape;
-    uint32_t glossy; /* the surface has glossy lobes beside the diffuse one, or only such */
+    uint32_t element;
+    float coordinates[2]; /* on the element */
+    bool behind;          /* it came from the side that the normal of the shape does not show */
+    bool glossy;          /* the surface has glossy lobes beside the diffuse one, or only such */
 } aur_photon;
 
 typedef struct aur_photon_map {
@@ -24,14 +26,15 @@ typedef struct aur_photon_map {
 typedef struct aur_photon_options {
     size_t count; /* photons to store, at least; whole batches of paths are traced until there are so many */
     size_t max_edges; /* edges of a particle's path; SIZE_MAX: no limit but roulette's */
+    const char *set;  /* points of the square, SET syntax; NULL: sobol */
     uint64_t seed;
     size_t threads;
     aur_progress progress;
 } aur_photon_options;
 
 /* Errors: UNSUPPORTED when the scene has no light or (nearly) no particle meets a surface. */
-aur_result aur_photon_map_create(const aur_scene *scene, const aur_photon_options *options,
-                                 aur_photon_map *map, aur_error *error);
+aur_result aur_photon_map_create(const aur_scene *scene, const aur_elements *elements,
+                                 const aur_photon_options *options, aur_photon_map *map, aur_error *error);
 void aur_photon_map_release(aur_photon_map *map);
 
 #endif

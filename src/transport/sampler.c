@@ -95,7 +95,10 @@ static uint32_t permute(uint32_t index, uint32_t size, uint32_t seed) {
 
 static void pair_words(const aur_stream *stream, uint32_t pair, uint32_t words[2]) {
     const aur_sampler *const sampler = stream->sampler;
-    const uint64_t hash = aur_hash2(stream->pixel, pair);
+    uint64_t hash = aur_hash2(stream->pixel, pair);
+    /* Beyond its end a table begins anew with another randomisation. */
+    if (sampler->size > 0 && stream->index >= sampler->size)
+        hash = aur_hash2(hash, stream->index / sampler->size);
     const uint32_t seed_x = (uint32_t)hash;
     const uint32_t seed_y = (uint32_t)(hash >> 32);
     const uint32_t seed_index = (uint32_t)aur_mix64(hash + 1);

@@ -46,3 +46,10 @@ void aur_tile_add(aur_tile *tile, size_t x, size_t y, float weight, aur_vector r
     sums[2] += (double)weight * (double)radiance.z;
     ++tile->counts[pixel];
 }
+
+void aur_tile_add_mean(aur_tile *tile, size_t x, size_t y, uint32_t count, const double mean[3]) {
+    const size_t pixel = (y - tile->y0) * tile->stride + (x - tile->x0);
+    for (size_t c = 0; c < 3; ++c)
+        tile->sums[pixel * tile->channel_count + c] += (double)count * mean[c];
+    tile->counts[pixel] += count;
+}

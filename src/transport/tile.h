@@ -55,7 +55,9 @@ bool aur_is_radiance(aur_vector radiance);
 
 /* Adds one sample to a pixel of the tile. Samples that are no radiance are counted and left out. */
 void aur_tile_add(aur_tile *tile, size_t x, size_t y, float weight, aur_vector radiance);
-/* The same with all channels, the first three the radiance. */
+/* Adds the mean of `count` samples. */
+void aur_tile_add_mean(aur_tile *tile, size_t x, size_t y, uint32_t count, const double mean[3]);
+/* One sample with all channels, the first three the radiance. */
 void aur_tile_add_channels(aur_tile *tile, size_t x, size_t y, float weight, const float *values);
 
 #endif

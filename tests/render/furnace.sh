@@ -28,12 +28,12 @@ check path-bright 5 0 -D albedo=0.9
 # L = E + a E where only two edges are allowed, and the same by gathering from the lights alone: exact but for rounding.
 check path-two 0.75 0 --integrator path:max_depth=2
 check gather-two 0.75 0 --integrator finalgather:direct=gather,incident=emitters,density=same --spp 4
-# The density estimate is short of photons along the cube's edges although its disc is corrected: 1 % of bias.
-check gather 1 0.01 --integrator finalgather:photons=50000,diffuse_samples=64 --spp 4
-check gather-bright 5 0.02 -D albedo=0.9 --integrator finalgather:photons=50000 --spp 4
-check gather-sobol 1 0.01 --integrator finalgather:photons=50000,pattern=sobol --spp 4
+# Patterns that are only turned have an error of quadrature that turning does not average out: 0.2 %.
+check gather 1 0.002 --integrator finalgather:photons=50000,diffuse_samples=64 --spp 4
+check gather-bright 5 0.004 -D albedo=0.9 --integrator finalgather:photons=50000 --spp 4
+check gather-sobol 1 0.002 --integrator finalgather:photons=50000,pattern=sobol --spp 4
 scene=sky
 check sky-path 0.8 0
-check sky-gather 0.8 0 --integrator finalgather:photons=20000
+check sky-gather 0.8 0.002 --integrator finalgather:photons=20000
 check sky-gather-all 0.8 0 --integrator finalgather:direct=gather,incident=emitters,density=same --spp 4
 exit $((failures > 0))

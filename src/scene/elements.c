@@ -1,0 +1,166 @@
+#include "scene/elements.h"
+
+#include <stdlib.h>
+
+#include "scene/scene_data.h"
+
+static size_t primitives_of(const aur_shape *shape) {
+    return shape->curved != NULL ? 1 : shape->mesh.triangle_count;
+}
+
+static size_t count_placements(const aur_scene *scene) {
+    size_t count = 0;
+    for (size_t i = 0; i < scene->shape_count; ++i)
+        count += scene->shapes[i]->grouped ? 0 : 1;
+    for (size_t i = 0; i < scene->instance_count; ++i)
+        count += scene->instances[i]->group->count;
+    return count;
+}
+
+/* Adds a placement; elements->count grows by its primitives. */
+static void place(const aur_scene *scene, aur_elements *elements, uint32_t shape, uint32_t instance) {
+    const aur_shape *const s = scene->shapes[shape];
+    elements->placements[elements->placement_count++] = (aur_placement){.shape = shape,
+                                                                        .instance = instance,
+                                                                        .first = (uint32_t)elements->count,
+                                                                        .count = (uint32_t)primitives_of(s),
+                                                                        .curved = s->curved != NULL};
+    elements->count += primitives_of(s);
+    elements->any_curved = elements->any_curved || s->curved != NULL;
+}
+
+static void number_all(const aur_scene *scene, aur_elements *elements) {
+    for (size_t i = 0; i < scene->shape_count; ++i) {
+        if (scene->shapes[i]->grouped)
+            continue;
+        elements->shape_first[i] = (uint32_t)elements->count;
+        place(scene, elements, (uint32_t)i, AUR_NO_INSTANCE);
+    }
+    for (size_t i = 0; i < scene->instance_count; ++i) {
+        const aur_group *const group = scene->instances[i]->group;
+        elements->instance_first[i] = (uint32_t)elements->count;
+        for (size_t k = 0; k < group->count; ++k) {
+            elements->shape_first[group->shapes[k]] = (uint32_t)elements->count - elements->instance_first[i];
+            place(scene, elements, group->shapes[k], (uint32_t)i);
+        }
+    }
+}
+
+aur_result aur_elements_create(const aur_scene *scene, aur_elements *elements) {
+    *elements = (aur_elements){0};
+    const size_t placements = count_placements(scene);
+    elements->placements = malloc((placements + 1) * sizeof *elements->placements);
+    elements->shape_first = calloc(scene->shape_count + 1, sizeof *elements->shape_first);
+    elements->instance_first = calloc(scene->instance_count + 1, sizeof *elements->instance_first);
+    if (elements->placements == NULL || elements->shape_first == NULL || elements->instance_first == NULL) {
+        aur_elements_release(elements);
+        return AUR_ERROR_MEMORY;
+    }
+    number_all(scene, elements);
+    if (elements->count < UINT32_MAX)
+        return AUR_OK;
+    aur_elements_release(elements);
+    return AUR_ERROR_ARGUMENT;
+}
+
+void aur_elements_release(aur_elements *elements) {
+    free(elements->placements);
+    free(elements->shape_first);
+    free(elements->instance_first);
+    *elements = (aur_elements){0};
+}
+
+bool aur_element_is_curved(const aur_elements *elements, uint32_t element) {
+    if (!elements->any_curved)
+        return false;
+    /* The last placement that begins at or before the element; empty shapes begin where the next one does. */
+    size_t low = 0, high = elements->placement_count;
+    while (high - low > 1) {
+        const size_t middle = low + (high - low) / 2;
+        if (elements->placements[middle].first <= element)
+            low = middle;
+        else
+            high = middle;
+    }
+    return elements->placements[low].curved;
+}
+
+static const aur_instance *instance_of(const aur_scene *scene, const aur_placement *placement) {
+    return placement->instance == AUR_NO_INSTANCE ? NULL : scene->instances[placement->instance];
+}
+
+static void world_corners(const aur_scene *scene, const aur_placement *placement, uint32_t primitive,
+                          aur_vector corner[3]) {
+    aur_mesh_corners(&scene->shapes[placement->shape]->mesh, primitive, corner);
+    const aur_instance *const instance = instance_of(scene, placement);
+    for (size_t i = 0; instance != NULL && i < 3; ++i)
+        corner[i] = aur_transform_point_f(&instance->to_world, corner[i]);
+}
+
+static double mean_scale(const aur_transform *t) {
+    const double *const m = t->m;
+    const double determinant = m[0] * (m[5] * m[10] - m[6] * m[9]) - m[1] * (m[4] * m[10] - m[6] * m[8]) +
+                               m[2] * (m[4] * m[9] - m[5] * m[8]);
+    return cbrt(fabs(determinant));
+}
+
+double aur_element_area(const aur_scene *scene, const aur_placement *placement, uint32_t primitive) {
+    if (placement->curved) {
+        const aur_instance *const instance = instance_of(scene, placement);
+        const double scale = instance != NULL ? mean_scale(&instance->to_world) : 1.0;
+        return scene->shapes[placement->shape]->area * scale * scale;
+    }
+    aur_vector corner[3];
+    world_corners(scene, placement, primitive, corner);
+    const aur_vector cross = aur_vector_cross(aur_vector_subtract(corner[1], corner[0]),
+                                              aur_vector_subtract(corner[2], corner[0]));
+    return 0.5 * (double)aur_vector_length(cross);
+}
+
+void aur_element_middle(const aur_scene *scene, const aur_placement *placement, uint32_t primitive,
+                        aur_vector *position, aur_vector *normal) {
+    *normal = (aur_vector){0.0f, 0.0f, 1.0f};
+    if (placement->curved) {
+        const aur_shape *const shape = scene->shapes[placement->shape];
+        const aur_instance *const instance = instance_of(scene, placement);
+        double lower[3], upper[3];
+        shape->curved->bounds(shape, lower, upper);
+        const aur_vector middle = {(float)(0.5 * (lower[0] + upper[0])), (float)(0.5 * (lower[1] + upper[1])),
+                                   (float)(0.5 * (lower[2] + upper[2]))};
+        *position = instance != NULL ? aur_transform_point_f(&instance->to_world, middle) : middle;
+        return;
+    }
+    aur_vector corner[3];
+    world_corners(scene, placement, primitive, corner);
+    *position =
+        aur_vector_scale(aur_vector_add(aur_vector_add(corner[0], corner[1]), corner[2]), 1.0f / 3.0f);
+    const aur_vector cross = aur_vector_cross(aur_vector_subtract(corner[1], corner[0]),
+                                              aur_vector_subtract(corner[2], corner[0]));
+    if (aur_vector_length(cross) > 0.0f)
+        *normal = aur_vector_normalize(cross);
+}
+
+void aur_element_coordinates(const aur_scene *scene, const aur_hit *hit, const aur_surface *surface,
+                             float coordinates[2]) {
+    const aur_shape *const shape = scene->shapes[hit->shape];
+    coordinates[0] = hit->u;
+    coordinates[1] = hit->v;
+    if (shape->curved != NULL)
+        shape->curved->equal_area(surface->texture, coordinates);
+}
+
+bool aur_shape_is_curved(const aur_scene *scene, uint32_t shape) {
+    return scene->shapes[shape]->curved != NULL;
+}
+
+const aur_bsdf *aur_shape_bsdf(const aur_scene *scene, uint32_t shape) {
+    return scene->shapes[shape]->bsdf;
+}
+
+uint32_t aur_shape_emitter(const aur_scene *scene, uint32_t shape) {
+    return scene->shapes[shape]->emitter;
+}
+
+size_t aur_scene_shape_count(const aur_scene *scene) {
+    return scene->shape_count;
+}

@@ -1,0 +1,30 @@
+/* Uniform points, by solid angle, of a rectangle seen from a point (Urena, Fajardo, King 2013: "An
+ * Area-Preserving Parametrization for Spherical Rectangles"). */
+#ifndef AUR_SCENE_SPHERICAL_RECTANGLE_H
+#define AUR_SCENE_SPHERICAL_RECTANGLE_H
+
+#include <stdbool.h>
+
+#include "core/vector.h"
+
+typedef struct aur_rectangle {
+    aur_vector corner, x, y; /* x and y: unit, along the edges, perpendicular */
+    float width, height;     /* of the edges along x and y */
+} aur_rectangle;
+
+typedef struct aur_spherical_rectangle {
+    float x0, x1, y0, y1, z0; /* relative to the point */
+    float b0, b1, k;
+    float solid_angle; /* steradians */
+} aur_spherical_rectangle;
+
+/* False when the rectangle is seen under so small an angle (about 0.01 sr) that floats cannot tell it, and
+ * points drawn by area are as good. */
+bool aur_spherical_rectangle_create(const aur_rectangle *rectangle, aur_vector reference,
+                                    aur_spherical_rectangle *seen);
+
+/* The point that u, v in [0,1) stand for, in parts of the rectangle's width and height. */
+void aur_spherical_rectangle_sample(const aur_spherical_rectangle *seen, float u, float v, float *s,
+                                    float *t);
+
+#endif

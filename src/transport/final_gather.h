@@ -1,0 +1,136 @@
+/* Final gathering, from the inside: what its files share.
+ *
+ *     final_gather.c     parameters, preparation, tiles
+ *     gather_group.c     sixteen pixels at a time: what they see, direct light, gathering
+ *     gather_incident.c  radiance along gather rays
+ *     gather_edges.c     more primary rays where a pixel sees several things
+ *
+ * A tile of 16 x 16 pixels is done in 16 groups. A group has the pixels at one place of all 4 x 4 blocks of
+ * the tile, and these share one randomisation of the patterns (interleaved sampling, Keller and Heidrich
+ * 2001): on a flat wall its 16 rays of one direction of the pattern are parallel and make a coherent packet.
+ */
+#ifndef AUR_TRANSPORT_FINAL_GATHER_H
+#define AUR_TRANSPORT_FINAL_GATHER_H
+
+#include "scene/packet.h"
+#include "transport/gather.h"
+#include "transport/integrator.h"
+#include "transport/irradiance.h"
+
+enum { AUR_COMPONENT_ALL, AUR_COMPONENT_DIFFUSE, AUR_COMPONENT_GLOSSY };
+enum { AUR_DIRECT_NEE, AUR_DIRECT_GATHER, AUR_DIRECT_NONE };
+enum { AUR_INCIDENT_PHOTONS, AUR_INCIDENT_EMITTERS };
+enum { AUR_DECORRELATION_BLUE, AUR_DECORRELATION_RANDOM, AUR_DECORRELATION_NONE };
+enum { AUR_LONGEST_CHAIN = 16 }; /* specular bounces in a row */
+
+/* How a gather ray's hit on a shape becomes radiance. */
+typedef struct aur_hit_class {
+    bool plain;                 /* by the texel's irradiance and the reflectances here, without the surface */
+    aur_vector albedo_on_pi[2]; /* on the side of the normal, and behind */
+} aur_hit_class;
+
+typedef struct aur_final_gather {
+    const aur_scene *scene;
+    size_t component, direct, incident, decorrelation;
+    uint32_t max_depth;
+    size_t samples_per_pixel, glossy_samples;
+    uint32_t edge_samples;
+    bool packets; /* else every ray by itself: the same picture to rounding, for tests and measurements */
+    uint64_t pattern_seed;
+    aur_gather_options options;
+    aur_gather_rule diffuse;
+    size_t glossy_count; /* rules, one for each exponent of the scene's materials */
+    aur_gather_rule *glossy;
+    const aur_irradiance_map *map; /* owned by the cache; NULL when incident light is emitters' alone */
+    aur_hit_class *classes;        /* one a shape */
+} aur_final_gather;
+
+/* The rule that serves a lobe, or NULL. */
+const aur_gather_rule *aur_final_gather_rule(const aur_final_gather *data, const aur_bsdf_lobe *lobe);
+
+/* --- incident light (gather_incident.c) */
+
+/* Sixteen gather rays and what comes along them. */
+typedef struct aur_gather_rays {
+    aur_packet packet;
+    /* The density of each direction, a steradian, times the number of directions a surface point sends, that
+     * a light's own sampling is weighed against. */
+    float density[AUR_PACKET_SIZE];
+    uint64_t hash;                         /* of what chance decides along specular chains */
+    aur_vector reference[AUR_PACKET_SIZE]; /* the points that gather */
+    float radiance[3][AUR_PACKET_SIZE];    /* 0 for lanes without a ray */
+} aur_gather_rays;
+
+void aur_gather_trace(const aur_final_gather *data, aur_embree_order order, aur_gather_rays *rays,
+                      aur_counters *counters);
+
+/* Closest hits of a packet, as the parameter `packets` wants them. */
+uint32_t aur_final_gather_intersect(const aur_final_gather *data, aur_embree_order order, aur_packet *packet,
+                                    aur_counters *counters);
+uint32_t aur_final_gather_occluded(const aur_final_gather *data, aur_embree_order order, aur_packet *packet,
+                                   aur_counters *counters);
+
+/* Whether gather rays count the lights that they meet in full. Under next-event estimation they count them
+ * by multiple importance sampling. */
+bool aur_gathers_emitters(const aur_final_gather *data);
+
+/* --- groups of pixels (gather_group.c) */
+
+/* What a pixel's samples have seen of one thing. */
+typedef struct aur_stratum {
+    uint64_t key;  /* of the surface that the eye's ray met; 0: nothing */
+    double seen;   /* samples that met it, by weight */
+    double shaded; /* those whose radiance is in `sum` */
+    double sum[3];
+} aur_stratum;
+
+enum { AUR_STRATUM_COUNT = 6 }; /* the last one takes what comes after */
+
+typedef struct aur_pixel_strata {
+    uint32_t count;
+    uint32_t samples; /* valid ones */
+    aur_stratum strata[AUR_STRATUM_COUNT];
+} aur_pixel_strata;
+
+enum {
+    AUR_GROUPS_A_SIDE = 4, /* groups and pixels of a group, along each side of the tile */
+    AUR_TILE_PIXELS = AUR_TILE_SIZE * AUR_TILE_SIZE
+};
+
+/* Adds sample `index` of the group's pixels whose bit in `lanes` is set. With `known` only what a pixel has
+ * not yet seen is shaded. `strata` has AUR_TILE_PIXELS, row by row. */
+typedef struct aur_group_task {
+    const aur_final_gather *data;
+    const aur_view *view;
+    size_t x, y; /* of the tile's corner */
+    uint32_t group;
+    uint32_t lanes;
+    uint32_t index;
+    bool known;
+} aur_group_task;
+
+/* The pixel of a lane, within the tile. */
+static inline size_t aur_group_pixel(uint32_t group, size_t lane) {
+    const size_t x = group % AUR_GROUPS_A_SIDE + AUR_GROUPS_A_SIDE * (lane % AUR_GROUPS_A_SIDE);
+    const size_t y = group / AUR_GROUPS_A_SIDE + AUR_GROUPS_A_SIDE * (lane / AUR_GROUPS_A_SIDE);
+    return y * AUR_TILE_SIZE + x;
+}
+
+typedef struct aur_group aur_group;
+aur_group *aur_group_create(void); /* working memory; NULL: out of memory */
+void aur_group_destroy(aur_group *group);
+void aur_group_add_sample(aur_group *group, const aur_group_task *task, aur_pixel_strata *strata,
+                          aur_counters *counters);
+
+/* --- edges (gather_edges.c) */
+
+/* What a ray of the eye along `direction` met: the shape and which way it faces. Never 0, which is nothing.
+ */
+uint64_t aur_surface_key(const aur_surface *surface, aur_vector direction);
+#define AUR_KEY_EMITS (UINT64_C(1) << 63)
+
+/* Adds edge_samples to the pixels that see, or whose neighbours see, more than one thing. */
+void aur_gather_refine_edges(aur_group *group, const aur_group_task *task, uint32_t first_index,
+                             aur_pixel_strata *strata, aur_counters *counters);
+
+#endif

@@ -1,0 +1,590 @@
+/* Sixteen pixels at a time: the eye's rays, direct light, and gathering at what they meet. */
+#include <stdlib.h>
+#include <string.h>
+
+#include "transport/direct_light.h"
+#include "transport/final_gather.h"
+
+/* Dimension pairs of one surface along the chain: choice of light, position on it, and two for a specular
+ * bounce. */
+enum { PAIR_CHOICE, PAIR_POSITION, PAIR_LOBE, PAIR_BOUNCE, PAIRS_A_SURFACE };
+
+/* A surface point where light is gathered. */
+typedef struct place {
+    aur_surface surface;
+    aur_vector view;   /* local */
+    aur_vector origin; /* of rays that leave it, on the side that it is seen from */
+    float side;        /* 1 where it is seen from the side of its normal, else -1 */
+    size_t lobe_count;
+    aur_bsdf_lobe lobes[AUR_BSDF_LOBE_CAPACITY];
+} place;
+
+struct aur_group {
+    const aur_group_task *task;
+    aur_counters *counters;
+    uint32_t lanes; /* on the way */
+    uint32_t chain;
+    bool flat; /* the places lie on one plane, nearly */
+    aur_camera_sample samples[AUR_PACKET_SIZE];
+    float weights[AUR_PACKET_SIZE];
+    aur_vector throughput[AUR_PACKET_SIZE];
+    aur_vector sum[AUR_PACKET_SIZE];
+    place places[AUR_PACKET_SIZE];
+    aur_gather_rays rays;
+};
+
+aur_group *aur_group_create(void) {
+    aur_group *const group = aligned_alloc(64, (sizeof(aur_group) + 63) / 64 * 64);
+    if (group == NULL)
+        return NULL;
+    memset(group, 0, sizeof *group);
+    aur_packet_clear(&group->rays.packet);
+    return group;
+}
+
+void aur_group_destroy(aur_group *group) {
+    free(group);
+}
+
+static inline uint32_t first_lane(uint32_t lanes) {
+    return (uint32_t)__builtin_ctz(lanes);
+}
+
+static void clear_lanes(aur_packet *packet) {
+    memset(packet->valid, 0, sizeof packet->valid);
+}
+
+/* --- randomisations of the patterns
+ * ----------------------------------------------------------------------------- */
+
+/* The groups in an order that keeps neighbours' rotations far apart: a 4 x 4 ordered dither. */
+static const uint8_t dither[16] = {0, 8, 2, 10, 12, 4, 14, 6, 3, 11, 1, 9, 15, 7, 13, 5};
+
+/* What a lane's pattern is turned by. Under "blue" all lanes of the group have the same turn. */
+static aur_gather_turn turn_of(const aur_group *group, const aur_gather_rule *rule, size_t lane,
+                               uint64_t what) {
+    const aur_final_gather *const data = group->task->data;
+    if (data->decorrelation == AUR_DECORRELATION_NONE)
+        return aur_gather_rule_turn(rule, 0);
+    if (data->decorrelation == AUR_DECORRELATION_RANDOM || rule->rotations == 0) {
+        const uint64_t pixel = group->samples[lane].stream.pixel;
+        return aur_gather_rule_turn(rule, aur_hash4(data->pattern_seed, pixel, group->chain, what));
+    }
+    const uint64_t tile =
+        aur_hash4(data->pattern_seed, aur_hash2(group->task->y, group->task->x), group->chain, what);
+    /* Sixteen patterns would show as texture, were they the same in every tile. */
+    if (rule->scramble != AUR_SCRAMBLE_ROTATE) {
+        const uint64_t k = (dither[group->task->group] ^ (tile & 15u)) * rule->rotations / 16;
+        return aur_gather_rule_turn(rule, k);
+    }
+    const aur_gather_turn turn =
+        aur_gather_rule_turn(rule, dither[group->task->group] * rule->rotations / 16);
+    const float angle = 2.0f * AUR_PI_F * aur_unit_float((uint32_t)tile);
+    return aur_gather_turn_by(turn, cosf(angle), sinf(angle));
+}
+
+static bool shares_turns(const aur_group *group, const aur_gather_rule *rule) {
+    const size_t how = group->task->data->decorrelation;
+    return rule->square == NULL && (how == AUR_DECORRELATION_NONE || rule->scramble == AUR_SCRAMBLE_NONE ||
+                                    (how == AUR_DECORRELATION_BLUE && rule->rotations > 0));
+}
+
+/* --- gathering
+ * -------------------------------------------------------------------------------------------------- */
+
+static bool gathers(const aur_final_gather *data) {
+    return data->map != NULL ||
+           (data->max_depth >= 2 && (aur_gathers_emitters(data) || data->direct == AUR_DIRECT_NEE));
+}
+
+static bool is_gathered(const aur_final_gather *data, const aur_bsdf_lobe *lobe) {
+    if (!gathers(data) || lobe->shape == AUR_LOBE_SHAPE_SPECULAR)
+        return false;
+    return data->component == AUR_COMPONENT_ALL ||
+           lobe->diffuse == (data->component == AUR_COMPONENT_DIFFUSE);
+}
+
+/* Frames of the lobes and origins of the rays, an array a coordinate. */
+typedef struct lobe_frames {
+    float x[3][AUR_PACKET_SIZE], y[3][AUR_PACKET_SIZE], z[3][AUR_PACKET_SIZE];
+    float shading[3][AUR_PACKET_SIZE], geometric[3][AUR_PACKET_SIZE]; /* normals on the viewer's side */
+    bool times_cosine[AUR_PACKET_SIZE];
+} lobe_frames;
+
+static void set_column(float column[3][AUR_PACKET_SIZE], size_t lane, aur_vector v) {
+    column[0][lane] = v.x;
+    column[1][lane] = v.y;
+    column[2][lane] = v.z;
+}
+
+static void set_frames(aur_group *group, uint32_t lanes, size_t lobe, lobe_frames *frames) {
+    struct RTCRay16 *const rays = &group->rays.packet.query.ray;
+    memset(frames, 0, sizeof *frames);
+    for (uint32_t rest = lanes; rest != 0; rest &= rest - 1) {
+        const size_t lane = first_lane(rest);
+        const place *const p = &group->places[lane];
+        const aur_frame frame = aur_frame_about(aur_frame_to_world(&p->surface.frame, p->lobes[lobe].axis));
+        set_column(frames->x, lane, frame.x);
+        set_column(frames->y, lane, frame.y);
+        set_column(frames->z, lane, frame.z);
+        set_column(frames->shading, lane, aur_vector_scale(p->surface.frame.z, p->side));
+        set_column(frames->geometric, lane, aur_vector_scale(p->surface.geometric_normal, p->side));
+        frames->times_cosine[lane] = p->lobes[lobe].times_cosine;
+        rays->org_x[lane] = p->origin.x;
+        rays->org_y[lane] = p->origin.y;
+        rays->org_z[lane] = p->origin.z;
+        rays->tnear[lane] = 0.0f;
+        group->rays.reference[lane] = p->surface.position;
+    }
+}
+
+/* Directions local to the lobes made into rays; those below the surface are left out. Returns the lanes that
+ * have one; their cosines at the surface in `cosine`. */
+static uint32_t aim(aur_group *group, uint32_t lanes, const lobe_frames *restrict frames,
+                    float local[3][AUR_PACKET_SIZE], float cosine[AUR_PACKET_SIZE]) {
+    struct RTCRay16 *const rays = &group->rays.packet.query.ray;
+    float above[AUR_PACKET_SIZE];
+    for (size_t k = 0; k < AUR_PACKET_SIZE; ++k) {
+        const float x = local[0][k], y = local[1][k], z = local[2][k];
+        const float dx = frames->x[0][k] * x + frames->y[0][k] * y + frames->z[0][k] * z;
+        const float dy = frames->x[1][k] * x + frames->y[1][k] * y + frames->z[1][k] * z;
+        const float dz = frames->x[2][k] * x + frames->y[2][k] * y + frames->z[2][k] * z;
+        cosine[k] = frames->shading[0][k] * dx + frames->shading[1][k] * dy + frames->shading[2][k] * dz;
+        const float beyond =
+            frames->geometric[0][k] * dx + frames->geometric[1][k] * dy + frames->geometric[2][k] * dz;
+        above[k] = beyond < cosine[k] ? beyond : cosine[k];
+        rays->dir_x[k] = dx;
+        rays->dir_y[k] = dy;
+        rays->dir_z[k] = dz;
+        rays->tfar[k] = INFINITY;
+    }
+    uint32_t aimed = 0;
+    for (size_t k = 0; k < AUR_PACKET_SIZE; ++k) {
+        const bool wanted = (lanes >> k & 1u) != 0 && above[k] > 0.0f;
+        group->rays.packet.valid[k] = wanted ? -1 : 0;
+        aimed |= (uint32_t)wanted << k;
+    }
+    return aimed;
+}
+
+/* The lobes' integrals over the hemisphere by this sample's share of a rule, added to the lanes' sums. */
+static void gather_rule(aur_group *group, const aur_gather_rule *rule, size_t lobe, uint32_t lanes) {
+    const aur_final_gather *const data = group->task->data;
+    const size_t shares = data->samples_per_pixel;
+    const size_t share = rule->count / shares;
+    const aur_embree_order order = group->flat ? AUR_EMBREE_COHERENT : AUR_EMBREE_INCOHERENT;
+    const bool shared = shares_turns(group, rule);
+    aur_gather_turn turns[AUR_PACKET_SIZE];
+    for (uint32_t rest = lanes; rest != 0; rest &= rest - 1) {
+        const size_t lane = first_lane(rest);
+        turns[lane] =
+            shared && lane != first_lane(lanes) ? turns[first_lane(lanes)] : turn_of(group, rule, lane, lobe);
+    }
+    lobe_frames frames;
+    set_frames(group, lanes, lobe, &frames);
+    float sum[3][AUR_PACKET_SIZE] = {0};
+    for (size_t i = group->task->index % shares; i < rule->count; i += shares) {
+        float local[3][AUR_PACKET_SIZE] = {0}, weight[AUR_PACKET_SIZE] = {0}, cosine[AUR_PACKET_SIZE];
+        if (shared) {
+            aur_vector direction;
+            const aur_gather_turn *const turn = &turns[first_lane(lanes)];
+            const float one = aur_gather_direction(rule, turn, i, &direction);
+            const float density = rule->densities[turn->first + i] * (float)share;
+            for (size_t k = 0; k < AUR_PACKET_SIZE; ++k) {
+                local[0][k] = direction.x;
+                local[1][k] = direction.y;
+                local[2][k] = direction.z;
+                weight[k] = one;
+                group->rays.density[k] = density;
+            }
+        } else {
+            for (uint32_t rest = lanes; rest != 0; rest &= rest - 1) {
+                const size_t lane = first_lane(rest);
+                aur_vector direction;
+                weight[lane] = aur_gather_direction(rule, &turns[lane], i, &direction);
+                set_column(local, lane, direction);
+                group->rays.density[lane] = rule->square != NULL
+                                                ? aur_gather_density(rule, direction.z) * (float)share
+                                                : rule->densities[turns[lane].first + i] * (float)share;
+            }
+        }
+        const uint32_t aimed = aim(group, lanes, &frames, local, cosine);
+        if (aimed == 0)
+            continue;
+        group->rays.hash = aur_hash3(group->samples[first_lane(lanes)].stream.pixel, i, lobe);
+        aur_gather_trace(data, order, &group->rays, group->counters);
+        for (size_t k = 0; k < AUR_PACKET_SIZE; ++k)
+            weight[k] *= frames.times_cosine[k] ? cosine[k] : 1.0f;
+        for (size_t c = 0; c < 3; ++c)
+            for (size_t k = 0; k < AUR_PACKET_SIZE; ++k)
+                sum[c][k] += weight[k] * group->rays.radiance[c][k];
+    }
+    for (uint32_t rest = lanes; rest != 0; rest &= rest - 1) {
+        const size_t lane = first_lane(rest);
+        const aur_vector gathered = {sum[0][lane], sum[1][lane], sum[2][lane]};
+        const aur_vector reflected =
+            aur_vector_multiply(gathered, group->places[lane].lobes[lobe].coefficient);
+        group->sum[lane] = aur_vector_add_scaled(group->sum[lane], 1.0f / (float)share,
+                                                 aur_vector_multiply(group->throughput[lane], reflected));
+    }
+}
+
+static size_t sampled_share(const aur_final_gather *data) {
+    return data->glossy_samples / data->samples_per_pixel;
+}
+
+/* The glossy part of BSDFs that have no formula, by their own samples. */
+static void gather_sampled(aur_group *group, size_t lobe, uint32_t lanes) {
+    static const aur_sampler sobol = {.kind = AUR_SAMPLER_SOBOL};
+    const aur_final_gather *const data = group->task->data;
+    const size_t share = sampled_share(data);
+    for (size_t i = 0; i < share; ++i) {
+        aur_vector value[AUR_PACKET_SIZE];
+        uint32_t aimed = 0;
+        clear_lanes(&group->rays.packet);
+        for (uint32_t rest = lanes; rest != 0; rest &= rest - 1) {
+            const size_t lane = first_lane(rest);
+            const place *const p = &group->places[lane];
+            const uint64_t pixel = group->samples[lane].stream.pixel;
+            const aur_stream numbers = {&sobol, aur_hash4(data->pattern_seed, pixel, group->chain, lobe),
+                                        (uint32_t)(group->task->index * share + i)};
+            float choice[2], direction[2];
+            aur_stream_pair(&numbers, 0, choice);
+            aur_stream_pair(&numbers, 1, direction);
+            const aur_shading shading = {&p->surface, p->view};
+            aur_bsdf_sample drawn;
+            if (!aur_shading_sample(&shading, (const float[3]){choice[0], direction[0], direction[1]},
+                                    &drawn) ||
+                drawn.specular || !(drawn.pdf > 0.0f))
+                continue;
+            const aur_vector light = aur_frame_to_local(&p->surface.frame, drawn.light);
+            const aur_vector rest_value = aur_glossy_value(p->surface.bsdf, p->surface.texture, p->view,
+                                                           light, p->lobe_count, p->lobes);
+            value[lane] = aur_vector_scale(rest_value, 1.0f / (drawn.pdf * (float)share));
+            const aur_ray ray = aur_surface_ray(&p->surface, drawn.light);
+            aur_packet_set(&group->rays.packet, lane, &ray);
+            group->rays.density[lane] = drawn.pdf * (float)share;
+            group->rays.reference[lane] = p->surface.position;
+            aimed |= 1u << lane;
+        }
+        if (aimed == 0)
+            continue;
+        group->rays.hash = aur_hash3(group->samples[first_lane(lanes)].stream.pixel, i, lobe);
+        aur_gather_trace(data, AUR_EMBREE_INCOHERENT, &group->rays, group->counters);
+        for (uint32_t rest = aimed; rest != 0; rest &= rest - 1) {
+            const size_t lane = first_lane(rest);
+            const aur_vector incident = {group->rays.radiance[0][lane], group->rays.radiance[1][lane],
+                                         group->rays.radiance[2][lane]};
+            const aur_vector reflected = aur_vector_multiply(value[lane], incident);
+            group->sum[lane] =
+                aur_vector_add(group->sum[lane], aur_vector_multiply(group->throughput[lane], reflected));
+        }
+    }
+}
+
+/* The lanes whose lobe number `lobe` is gathered as that of the first such lane is. */
+static uint32_t lanes_alike(const aur_group *group, uint32_t lanes, size_t lobe,
+                            const aur_gather_rule *rule) {
+    uint32_t alike = 0;
+    for (uint32_t rest = lanes; rest != 0; rest &= rest - 1) {
+        const size_t lane = first_lane(rest);
+        if (aur_final_gather_rule(group->task->data, &group->places[lane].lobes[lobe]) == rule)
+            alike |= 1u << lane;
+    }
+    return alike;
+}
+
+static void gather(aur_group *group) {
+    const aur_final_gather *const data = group->task->data;
+    for (size_t lobe = 0; lobe < AUR_BSDF_LOBE_CAPACITY; ++lobe) {
+        uint32_t ruled = 0, sampled = 0;
+        for (uint32_t rest = group->lanes; rest != 0; rest &= rest - 1) {
+            const size_t lane = first_lane(rest);
+            const place *const p = &group->places[lane];
+            if (lobe >= p->lobe_count || !is_gathered(data, &p->lobes[lobe]))
+                continue;
+            if (p->lobes[lobe].shape == AUR_LOBE_SHAPE_SAMPLED)
+                sampled |= 1u << lane;
+            else if (!aur_vector_is_zero(p->lobes[lobe].coefficient) &&
+                     aur_final_gather_rule(data, &p->lobes[lobe]) != NULL)
+                ruled |= 1u << lane;
+        }
+        while (ruled != 0) {
+            const aur_gather_rule *const rule =
+                aur_final_gather_rule(data, &group->places[first_lane(ruled)].lobes[lobe]);
+            const uint32_t alike = lanes_alike(group, ruled, lobe, rule);
+            gather_rule(group, rule, lobe, alike);
+            ruled &= ~alike;
+        }
+        if (sampled != 0)
+            gather_sampled(group, lobe, sampled);
+    }
+}
+
+/* --- direct light
+ * ----------------------------------------------------------------------------------------------- */
+
+/* BSDF * cos towards a light, each lobe less the part that its gather rays find. */
+static aur_vector weighted_value(const aur_final_gather *data, const place *p,
+                                 const aur_light_sample *light) {
+    const aur_vector local = aur_frame_to_local(&p->surface.frame, light->direction);
+    if (aur_vector_dot(p->surface.geometric_normal, light->direction) * local.z <= 0.0f)
+        return (aur_vector){0};
+    aur_vector sum = {0};
+    for (size_t i = 0; i < p->lobe_count; ++i) {
+        const aur_bsdf_lobe *const lobe = &p->lobes[i];
+        aur_vector value = {0};
+        float density = 0.0f;
+        if (lobe->shape == AUR_LOBE_SHAPE_SAMPLED) {
+            const aur_shading shading = {&p->surface, p->view};
+            value = aur_glossy_value(p->surface.bsdf, p->surface.texture, p->view, local, p->lobe_count,
+                                     p->lobes);
+            density = aur_shading_pdf(&shading, light->direction) * (float)sampled_share(data);
+        } else if (lobe->shape == AUR_LOBE_SHAPE_COSINE_POWER && p->view.z * local.z > 0.0f) {
+            value = aur_lobe_value(lobe, local);
+            const aur_gather_rule *const rule = aur_final_gather_rule(data, lobe);
+            if (rule != NULL && !aur_vector_is_zero(value))
+                density = aur_gather_density(rule, aur_vector_dot(lobe->axis, local)) *
+                          (float)(rule->count / data->samples_per_pixel);
+        }
+        const bool rivals = !light->delta && is_gathered(data, lobe);
+        sum = aur_vector_add_scaled(sum, rivals ? aur_power_heuristic(light->pdf, density) : 1.0f, value);
+    }
+    return sum;
+}
+
+static void add_direct_light(aur_group *group) {
+    const aur_final_gather *const data = group->task->data;
+    const aur_scene *const scene = data->scene;
+    const bool chooses = aur_scene_emitter_count(scene) > 1;
+    const uint32_t pair = AUR_PAIR_FIRST + PAIRS_A_SURFACE * group->chain;
+    aur_vector contribution[AUR_PACKET_SIZE];
+    uint32_t aimed = 0;
+    clear_lanes(&group->rays.packet);
+    for (uint32_t rest = group->lanes; rest != 0; rest &= rest - 1) {
+        const size_t lane = first_lane(rest);
+        const place *const p = &group->places[lane];
+        float choice[2] = {0.5f, 0.0f}, position[2];
+        if (chooses)
+            aur_stream_pair(&group->samples[lane].stream, pair + PAIR_CHOICE, choice);
+        aur_stream_pair(&group->samples[lane].stream, pair + PAIR_POSITION, position);
+        aur_light_sample light;
+        if (!aur_light_sample_direct(scene, p->surface.position,
+                                     (const float[3]){choice[0], position[0], position[1]}, &light) ||
+            !(light.pdf > 0.0f))
+            continue;
+        const aur_vector value = weighted_value(data, p, &light);
+        contribution[lane] = aur_vector_scale(aur_vector_multiply(value, light.radiance), 1.0f / light.pdf);
+        if (aur_vector_is_zero(contribution[lane]))
+            continue;
+        float distance;
+        const aur_ray shadow = aur_surface_ray_to(&p->surface, light.position, &distance);
+        aur_packet_set(&group->rays.packet, lane, &shadow);
+        aimed |= 1u << lane;
+    }
+    if (aimed == 0)
+        return;
+    const aur_embree_order order = group->flat ? AUR_EMBREE_COHERENT : AUR_EMBREE_INCOHERENT;
+    const uint32_t lit =
+        aimed & ~aur_final_gather_occluded(data, order, &group->rays.packet, group->counters);
+    for (uint32_t rest = lit; rest != 0; rest &= rest - 1) {
+        const size_t lane = first_lane(rest);
+        group->sum[lane] = aur_vector_add(group->sum[lane],
+                                          aur_vector_multiply(group->throughput[lane], contribution[lane]));
+    }
+}
+
+/* --- what the eye sees
+ * ------------------------------------------------------------------------------------------ */
+
+static bool has_specular(const place *p) {
+    for (size_t i = 0; i < p->lobe_count; ++i)
+        if (p->lobes[i].shape == AUR_LOBE_SHAPE_SPECULAR)
+            return true;
+    return false;
+}
+
+static void set_place(const aur_scene *scene, const aur_ray *ray, const aur_hit *hit, place *p) {
+    aur_scene_surface(scene, ray, hit, &p->surface);
+    const aur_vector view = aur_vector_scale(ray->direction, -1.0f);
+    p->side = aur_vector_dot(p->surface.geometric_normal, view) < 0.0f ? -1.0f : 1.0f;
+    p->view = aur_frame_to_local(&p->surface.frame, view);
+    p->origin = aur_surface_ray(&p->surface, aur_vector_scale(p->surface.geometric_normal, p->side)).origin;
+    p->lobe_count =
+        p->surface.bsdf->descriptor->lobes(p->surface.bsdf, p->surface.texture, p->view, p->lobes);
+}
+
+/* Whether a packet from these places is coherent: from normals and positions, never from timing. */
+static bool are_flat(const aur_group *group) {
+    if (__builtin_popcount(group->lanes) < AUR_PACKET_SIZE / 2)
+        return false;
+    const place *const first = &group->places[first_lane(group->lanes)];
+    for (uint32_t rest = group->lanes; rest != 0; rest &= rest - 1) {
+        const place *const p = &group->places[first_lane(rest)];
+        const aur_vector offset = aur_vector_subtract(p->origin, first->origin);
+        const float height = aur_vector_dot(offset, first->surface.geometric_normal);
+        if (aur_vector_dot(p->surface.frame.z, first->surface.frame.z) * p->side * first->side < 0.995f ||
+            height * height > 0.01f * aur_vector_dot(offset, offset))
+            return false;
+    }
+    return true;
+}
+
+uint64_t aur_surface_key(const aur_surface *surface, aur_vector direction) {
+    const float side = aur_vector_dot(surface->geometric_normal, direction) > 0.0f ? -1.0f : 1.0f;
+    const aur_vector n = aur_vector_scale(surface->geometric_normal, side);
+    const float x = fabsf(n.x), y = fabsf(n.y), z = fabsf(n.z);
+    uint64_t facing = n.z < 0.0f ? 5 : 4;
+    if (x >= y && x >= z)
+        facing = n.x < 0.0f ? 1 : 0;
+    else if (y >= z)
+        facing = n.y < 0.0f ? 3 : 2;
+    const uint64_t emits = surface->emitter != AUR_NO_EMITTER ? AUR_KEY_EMITS : 0;
+    return emits | ((uint64_t)surface->shape * 8 + facing + 1);
+}
+
+static aur_stratum *stratum_of(aur_pixel_strata *pixel, uint64_t key, bool *found) {
+    for (uint32_t i = 0; i < pixel->count; ++i)
+        if (pixel->strata[i].key == key) {
+            *found = true;
+            return &pixel->strata[i];
+        }
+    *found = pixel->count == AUR_STRATUM_COUNT;
+    if (*found)
+        return &pixel->strata[AUR_STRATUM_COUNT - 1];
+    aur_stratum *const added = &pixel->strata[pixel->count++];
+    *added = (aur_stratum){.key = key};
+    return added;
+}
+
+/* Counts what the eye's rays met. Lanes that need no shading for it are taken out. */
+static void count_seen(aur_group *group, uint32_t lanes, uint32_t found, aur_pixel_strata *strata,
+                       aur_stratum *into[AUR_PACKET_SIZE]) {
+    for (uint32_t rest = lanes; rest != 0; rest &= rest - 1) {
+        const size_t lane = first_lane(rest);
+        const bool hits = (found >> lane & 1u) != 0;
+        const uint64_t key =
+            hits ? aur_surface_key(&group->places[lane].surface, group->samples[lane].ray.direction) : 0;
+        bool known;
+        into[lane] = stratum_of(&strata[aur_group_pixel(group->task->group, lane)], key, &known);
+        into[lane]->seen += (double)group->weights[lane];
+        if (group->task->known && known && into[lane]->shaded > 0.0) {
+            group->lanes &= ~(1u << lane);
+            into[lane] = NULL;
+        }
+    }
+}
+
+static void add_to_strata(const aur_group *group, aur_pixel_strata *strata,
+                          aur_stratum *const into[AUR_PACKET_SIZE], aur_counters *counters) {
+    for (uint32_t rest = group->task->lanes; rest != 0; rest &= rest - 1) {
+        const size_t lane = first_lane(rest);
+        if (into[lane] == NULL)
+            continue;
+        if (!aur_is_radiance(group->sum[lane])) {
+            ++counters->invalid;
+            into[lane]->seen -= (double)group->weights[lane];
+            continue;
+        }
+        const double weight = (double)group->weights[lane];
+        into[lane]->shaded += weight;
+        into[lane]->sum[0] += weight * (double)group->sum[lane].x;
+        into[lane]->sum[1] += weight * (double)group->sum[lane].y;
+        into[lane]->sum[2] += weight * (double)group->sum[lane].z;
+        ++strata[aur_group_pixel(group->task->group, lane)].samples;
+    }
+}
+
+/* Emission of what was met, and of the sky where nothing was. */
+static void add_emission(aur_group *group, uint32_t lanes, uint32_t found) {
+    const aur_final_gather *const data = group->task->data;
+    for (uint32_t rest = lanes; rest != 0 && data->direct != AUR_DIRECT_NONE; rest &= rest - 1) {
+        const size_t lane = first_lane(rest);
+        const aur_vector direction = group->samples[lane].ray.direction;
+        const aur_vector emission = (found >> lane & 1u) != 0
+                                        ? aur_surface_emission(data->scene, &group->places[lane].surface,
+                                                               aur_vector_scale(direction, -1.0f))
+                                        : aur_scene_environment(data->scene, direction);
+        group->sum[lane] =
+            aur_vector_add(group->sum[lane], aur_vector_multiply(group->throughput[lane], emission));
+    }
+}
+
+/* Lanes whose surface has a specular lobe go on in its direction; the others are done. A surface with other
+ * lobes too has been gathered for them. */
+static void bounce(aur_group *group) {
+    const uint32_t pair = AUR_PAIR_FIRST + PAIRS_A_SURFACE * group->chain;
+    for (uint32_t rest = group->lanes; rest != 0; rest &= rest - 1) {
+        const size_t lane = first_lane(rest);
+        const place *const p = &group->places[lane];
+        bool goes_on = false;
+        if (has_specular(p)) {
+            float lobe[2], direction[2];
+            aur_stream_pair(&group->samples[lane].stream, pair + PAIR_LOBE, lobe);
+            aur_stream_pair(&group->samples[lane].stream, pair + PAIR_BOUNCE, direction);
+            const aur_shading shading = {&p->surface, p->view};
+            aur_bsdf_sample drawn;
+            goes_on =
+                aur_shading_sample(&shading, (const float[3]){lobe[0], direction[0], direction[1]}, &drawn) &&
+                drawn.specular;
+            if (goes_on) {
+                group->throughput[lane] = aur_vector_multiply(group->throughput[lane], drawn.weight);
+                group->samples[lane].ray = aur_surface_ray(&p->surface, drawn.light);
+            }
+        }
+        if (!goes_on)
+            group->lanes &= ~(1u << lane);
+    }
+}
+
+static uint32_t find_places(aur_group *group) {
+    const aur_final_gather *const data = group->task->data;
+    aur_packet *const packet = &group->rays.packet;
+    clear_lanes(packet);
+    for (uint32_t rest = group->lanes; rest != 0; rest &= rest - 1) {
+        const size_t lane = first_lane(rest);
+        aur_packet_set(packet, lane, &group->samples[lane].ray);
+    }
+    const aur_embree_order order = group->chain == 0 ? AUR_EMBREE_COHERENT : AUR_EMBREE_INCOHERENT;
+    const uint32_t found = aur_final_gather_intersect(data, order, packet, group->counters);
+    for (uint32_t rest = found; rest != 0; rest &= rest - 1) {
+        const size_t lane = first_lane(rest);
+        const aur_hit hit = aur_packet_hit(data->scene, packet, lane);
+        set_place(data->scene, &group->samples[lane].ray, &hit, &group->places[lane]);
+    }
+    return found;
+}
+
+void aur_group_add_sample(aur_group *group, const aur_group_task *task, aur_pixel_strata *strata,
+                          aur_counters *counters) {
+    const aur_final_gather *const data = task->data;
+    aur_stratum *into[AUR_PACKET_SIZE] = {0};
+    group->task = task;
+    group->counters = counters;
+    group->lanes = task->lanes;
+    for (uint32_t rest = task->lanes; rest != 0; rest &= rest - 1) {
+        const size_t lane = first_lane(rest);
+        const size_t pixel = aur_group_pixel(task->group, lane);
+        group->weights[lane] =
+            aur_view_sample(task->view, task->x + pixel % AUR_TILE_SIZE, task->y + pixel / AUR_TILE_SIZE,
+                            task->index, &group->samples[lane]);
+        group->throughput[lane] = (aur_vector){1.0f, 1.0f, 1.0f};
+        group->sum[lane] = (aur_vector){0};
+    }
+    for (group->chain = 0; group->chain <= AUR_LONGEST_CHAIN && group->lanes != 0; ++group->chain) {
+        const uint32_t found = find_places(group);
+        if (group->chain == 0)
+            count_seen(group, group->lanes, found, strata, into);
+        add_emission(group, group->lanes, found);
+        group->lanes &= found;
+        if (group->lanes == 0)
+            break;
+        group->flat = are_flat(group);
+        if (data->direct == AUR_DIRECT_NEE && data->max_depth >= 2 &&
+            aur_scene_emitter_count(data->scene) > 0)
+            add_direct_light(group);
+        gather(group);
+        bounce(group);
+    }
+    add_to_strata(group, strata, into, counters);
+}

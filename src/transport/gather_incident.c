@@ -1,0 +1,181 @@
+/* Radiance along gather rays: where the ray's hit is plainly diffuse, one read of the irradiance map; else
+ * the surface, its emission, its glossy lobes over the map's photons, and mirrors and glass followed. */
+#include "transport/direct_light.h"
+#include "transport/final_gather.h"
+
+bool aur_gathers_emitters(const aur_final_gather *data) {
+    return data->direct == AUR_DIRECT_GATHER ||
+           (data->incident == AUR_INCIDENT_EMITTERS && data->direct == AUR_DIRECT_NONE);
+}
+
+static bool is_specular_only(const aur_surface *surface, aur_vector view) {
+    aur_bsdf_lobe lobes[AUR_BSDF_LOBE_CAPACITY];
+    const aur_vector local = aur_frame_to_local(&surface->frame, view);
+    const size_t count = surface->bsdf->descriptor->lobes(surface->bsdf, surface->texture, local, lobes);
+    for (size_t i = 0; i < count; ++i)
+        if (lobes[i].shape != AUR_LOBE_SHAPE_SPECULAR)
+            return false;
+    return count > 0;
+}
+
+/* One ray that has left a gathering point. */
+typedef struct gather_ray {
+    aur_ray ray;
+    aur_vector reference;
+    float density;
+    uint64_t hash;
+} gather_ray;
+
+/* The part of a light's radiance that gathering counts; the rest is found by sampling the light. */
+static float emission_weight(const aur_final_gather *data, uint32_t chain, float density, float light_pdf) {
+    if (aur_gathers_emitters(data))
+        return 1.0f;
+    if (data->direct != AUR_DIRECT_NEE)
+        return 0.0f;
+    /* Light that a mirror throws here is not found by sampling lights. */
+    return chain > 0 ? 1.0f : aur_power_heuristic(density, light_pdf);
+}
+
+static aur_vector sky_radiance(const aur_final_gather *data, const gather_ray *from, aur_vector direction,
+                               uint32_t chain) {
+    const aur_vector sky = aur_scene_environment(data->scene, direction);
+    if (aur_vector_is_zero(sky))
+        return sky;
+    const float pdf = chain > 0 ? 0.0f : aur_environment_pdf_direct(data->scene, direction);
+    return aur_vector_scale(sky, emission_weight(data, chain, from->density, pdf));
+}
+
+static aur_vector emitted_radiance(const aur_final_gather *data, const gather_ray *from,
+                                   const aur_surface *surface, aur_vector view, uint32_t chain) {
+    const aur_vector emission = aur_surface_emission(data->scene, surface, view);
+    if (aur_vector_is_zero(emission))
+        return emission;
+    const float pdf = chain > 0 ? 0.0f : aur_light_pdf_direct(data->scene, from->reference, surface);
+    return aur_vector_scale(emission, emission_weight(data, chain, from->density, pdf));
+}
+
+/* The general case. `hit` is the first one, or NULL when the ray left the scene. */
+static aur_vector radiance_along(const aur_final_gather *data, const gather_ray *from, const aur_hit *hit,
+                                 aur_counters *counters) {
+    const aur_scene *const scene = data->scene;
+    aur_vector throughput = {1.0f, 1.0f, 1.0f};
+    aur_ray ray = from->ray;
+    uint64_t hash = from->hash;
+    aur_hit next;
+    for (uint32_t chain = 0;; ++chain) {
+        if (hit == NULL)
+            return aur_vector_multiply(throughput, sky_radiance(data, from, ray.direction, chain));
+        aur_surface surface;
+        aur_scene_surface(scene, &ray, hit, &surface);
+        const aur_vector view = aur_vector_scale(ray.direction, -1.0f);
+        aur_vector radiance = emitted_radiance(data, from, &surface, view, chain);
+        if (!is_specular_only(&surface, view)) {
+            if (data->map != NULL)
+                radiance =
+                    aur_vector_add(radiance, aur_irradiance_radiance(data->map, scene, hit, &surface, view));
+            return aur_vector_multiply(throughput, radiance);
+        }
+        if (!aur_vector_is_zero(radiance))
+            return aur_vector_multiply(throughput, radiance);
+        if (chain == AUR_LONGEST_CHAIN)
+            return (aur_vector){0};
+        const aur_shading shading = aur_shading_at(&surface, view);
+        hash = aur_mix64(hash);
+        const float u[3] = {aur_unit_float((uint32_t)hash), aur_unit_float((uint32_t)(hash >> 32)),
+                            aur_unit_float((uint32_t)aur_mix64(hash + 1))};
+        aur_bsdf_sample sample;
+        if (!aur_shading_sample(&shading, u, &sample))
+            return (aur_vector){0};
+        throughput = aur_vector_multiply(throughput, sample.weight);
+        ray = aur_surface_ray(&surface, sample.light);
+        ++counters->rays;
+        hit = aur_scene_intersect(scene, &ray, &next) ? &next : NULL;
+    }
+}
+
+static aur_ray packet_ray(const aur_packet *packet, size_t lane) {
+    const struct RTCRay16 *const rays = &packet->query.ray;
+    return (aur_ray){.origin = {rays->org_x[lane], rays->org_y[lane], rays->org_z[lane]},
+                     .nearest = rays->tnear[lane],
+                     .direction = {rays->dir_x[lane], rays->dir_y[lane], rays->dir_z[lane]},
+                     .farthest = rays->tfar[lane]};
+}
+
+static uint32_t valid_lanes(const aur_packet *packet) {
+    uint32_t lanes = 0;
+    for (size_t k = 0; k < AUR_PACKET_SIZE; ++k)
+        lanes |= (uint32_t)(packet->valid[k] != 0) << k;
+    return lanes;
+}
+
+uint32_t aur_final_gather_intersect(const aur_final_gather *data, aur_embree_order order, aur_packet *packet,
+                                    aur_counters *counters) {
+    const uint32_t lanes = valid_lanes(packet);
+    counters->rays += (uint64_t)__builtin_popcount(lanes);
+    if (data->packets)
+        return aur_scene_intersect16(data->scene, order, packet);
+    return aur_scene_intersect_each(data->scene, packet);
+}
+
+uint32_t aur_final_gather_occluded(const aur_final_gather *data, aur_embree_order order, aur_packet *packet,
+                                   aur_counters *counters) {
+    uint32_t lanes = valid_lanes(packet), stopped = 0;
+    counters->rays += (uint64_t)__builtin_popcount(lanes);
+    if (data->packets)
+        return aur_scene_occluded16(data->scene, order, packet);
+    for (; lanes != 0; lanes &= lanes - 1) {
+        const size_t lane = (size_t)__builtin_ctz(lanes);
+        const aur_ray ray = packet_ray(packet, lane);
+        stopped |= (uint32_t)aur_scene_occluded(data->scene, &ray) << lane;
+    }
+    return stopped;
+}
+
+static void set_radiance(aur_gather_rays *rays, size_t lane, aur_vector radiance) {
+    rays->radiance[0][lane] = radiance.x;
+    rays->radiance[1][lane] = radiance.y;
+    rays->radiance[2][lane] = radiance.z;
+}
+
+/* Diffuse, without emission, no instance: true when that was all. */
+static bool plain_radiance(const aur_final_gather *data, const struct RTCRayHit16 *query, size_t lane,
+                           aur_vector *radiance) {
+    const uint32_t shape = query->hit.geomID[lane];
+    if (query->hit.instID[0][lane] != RTC_INVALID_GEOMETRY_ID || !data->classes[shape].plain)
+        return false;
+    const bool behind = query->hit.Ng_x[lane] * query->ray.dir_x[lane] +
+                            query->hit.Ng_y[lane] * query->ray.dir_y[lane] +
+                            query->hit.Ng_z[lane] * query->ray.dir_z[lane] >
+                        0.0f;
+    const uint32_t element = data->map->texels.elements.shape_first[shape] + query->hit.primID[lane];
+    const aur_texel_light *const light =
+        aur_irradiance_on_triangle(data->map, element, query->hit.u[lane], query->hit.v[lane], behind);
+    *radiance = aur_vector_multiply(data->classes[shape].albedo_on_pi[behind], light->irradiance);
+    return true;
+}
+
+void aur_gather_trace(const aur_final_gather *data, aur_embree_order order, aur_gather_rays *rays,
+                      aur_counters *counters) {
+    const uint32_t lanes = valid_lanes(&rays->packet);
+    const uint32_t found = aur_final_gather_intersect(data, order, &rays->packet, counters);
+    const bool has_sky = aur_scene_has_environment(data->scene);
+    for (size_t c = 0; c < 3; ++c)
+        for (size_t k = 0; k < AUR_PACKET_SIZE; ++k)
+            rays->radiance[c][k] = 0.0f;
+    for (uint32_t rest = has_sky ? lanes : found; rest != 0; rest &= rest - 1) {
+        const size_t lane = (size_t)__builtin_ctz(rest);
+        const bool hits = (found >> lane & 1u) != 0;
+        aur_vector radiance;
+        if (!hits || !plain_radiance(data, &rays->packet.query, lane, &radiance)) {
+            const gather_ray from = {.ray = packet_ray(&rays->packet, lane),
+                                     .reference = rays->reference[lane],
+                                     .density = rays->density[lane],
+                                     .hash = aur_hash2(rays->hash, lane)};
+            aur_hit hit = {0};
+            if (hits)
+                hit = aur_packet_hit(data->scene, &rays->packet, lane);
+            radiance = radiance_along(data, &from, hits ? &hit : NULL, counters);
+        }
+        set_radiance(rays, lane, radiance);
+    }
+}
