@@ -153,14 +153,6 @@ bool aur_shape_is_curved(const aur_scene *scene, uint32_t shape) {
     return scene->shapes[shape]->curved != NULL;
 }
 
-const aur_bsdf *aur_shape_bsdf(const aur_scene *scene, uint32_t shape) {
-    return scene->shapes[shape]->bsdf;
-}
-
 uint32_t aur_shape_emitter(const aur_scene *scene, uint32_t shape) {
     return scene->shapes[shape]->emitter;
-}
-
-size_t aur_scene_shape_count(const aur_scene *scene) {
-    return scene->shape_count;
 }

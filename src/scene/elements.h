@@ -49,8 +49,6 @@ void aur_element_coordinates(const aur_scene *scene, const aur_hit *hit, const a
 
 /* Whether the shape is curved, and not a mesh. */
 bool aur_shape_is_curved(const aur_scene *scene, uint32_t shape);
-const aur_bsdf *aur_shape_bsdf(const aur_scene *scene, uint32_t shape);
 uint32_t aur_shape_emitter(const aur_scene *scene, uint32_t shape); /* or AUR_NO_EMITTER */
-size_t aur_scene_shape_count(const aur_scene *scene);
 
 #endif

@@ -195,7 +195,7 @@ static aur_result prepare_classes(aur_final_gather *data, aur_error *error) {
     if (data->classes == NULL)
         return aur_fail(error, AUR_ERROR_MEMORY, "out of memory");
     for (uint32_t i = 0; i < count && data->map != NULL; ++i) {
-        const aur_bsdf *const bsdf = aur_shape_bsdf(scene, i);
+        const aur_bsdf *const bsdf = aur_scene_shape_bsdf(scene, i);
         aur_hit_class *const class = &data->classes[i];
         class->plain = bsdf->plain_diffuse && !aur_shape_is_curved(scene, i) &&
                        aur_shape_emitter(scene, i) == AUR_NO_EMITTER;
