@@ -3,35 +3,11 @@
 #include <string.h>
 
 #include "transport/direct_light.h"
-#include "transport/final_gather.h"
+#include "transport/gather_group.h"
 
 /* Dimension pairs of one surface along the chain: choice of light, position on it, and two for a specular
  * bounce. */
 enum { PAIR_CHOICE, PAIR_POSITION, PAIR_LOBE, PAIR_BOUNCE, PAIRS_A_SURFACE };
-
-/* A surface point where light is gathered. */
-typedef struct place {
-    aur_surface surface;
-    aur_vector view;   /* local */
-    aur_vector origin; /* of rays that leave it, on the side that it is seen from */
-    float side;        /* 1 where it is seen from the side of its normal, else -1 */
-    size_t lobe_count;
-    aur_bsdf_lobe lobes[AUR_BSDF_LOBE_CAPACITY];
-} place;
-
-struct aur_group {
-    const aur_group_task *task;
-    aur_counters *counters;
-    uint32_t lanes; /* on the way */
-    uint32_t chain;
-    bool flat; /* the places lie on one plane, nearly */
-    aur_camera_sample samples[AUR_PACKET_SIZE];
-    float weights[AUR_PACKET_SIZE];
-    aur_vector throughput[AUR_PACKET_SIZE];
-    aur_vector sum[AUR_PACKET_SIZE];
-    place places[AUR_PACKET_SIZE];
-    aur_gather_rays rays;
-};
 
 aur_group *aur_group_create(void) {
     aur_group *const group = aligned_alloc(64, (sizeof(aur_group) + 63) / 64 * 64);
@@ -46,19 +22,8 @@ void aur_group_destroy(aur_group *group) {
     free(group);
 }
 
-static inline uint32_t first_lane(uint32_t lanes) {
-    return (uint32_t)__builtin_ctz(lanes);
-}
-
-static void clear_lanes(aur_packet *packet) {
-    memset(packet->valid, 0, sizeof packet->valid);
-}
-
 /* --- randomisations of the patterns
  * ----------------------------------------------------------------------------- */
-
-/* The groups in an order that keeps neighbours' rotations far apart: a 4 x 4 ordered dither. */
-static const uint8_t dither[16] = {0, 8, 2, 10, 12, 4, 14, 6, 3, 11, 1, 9, 15, 7, 13, 5};
 
 /* What a lane's pattern is turned by. Under "blue" all lanes of the group have the same turn. */
 static aur_gather_turn turn_of(const aur_group *group, const aur_gather_rule *rule, size_t lane,
@@ -74,11 +39,11 @@ static aur_gather_turn turn_of(const aur_group *group, const aur_gather_rule *ru
         aur_hash4(data->pattern_seed, aur_hash2(group->task->y, group->task->x), group->chain, what);
     /* Sixteen patterns would show as texture, were they the same in every tile. */
     if (rule->scramble != AUR_SCRAMBLE_ROTATE) {
-        const uint64_t k = (dither[group->task->group] ^ (tile & 15u)) * rule->rotations / 16;
+        const uint64_t k = (aur_group_dither[group->task->group] ^ (tile & 15u)) * rule->rotations / 16;
         return aur_gather_rule_turn(rule, k);
     }
     const aur_gather_turn turn =
-        aur_gather_rule_turn(rule, dither[group->task->group] * rule->rotations / 16);
+        aur_gather_rule_turn(rule, aur_group_dither[group->task->group] * rule->rotations / 16);
     const float angle = 2.0f * AUR_PI_F * aur_unit_float((uint32_t)tile);
     return aur_gather_turn_by(turn, cosf(angle), sinf(angle));
 }
@@ -97,51 +62,41 @@ static bool gathers(const aur_final_gather *data) {
            (data->max_depth >= 2 && (aur_gathers_emitters(data) || data->direct == AUR_DIRECT_NEE));
 }
 
-static bool is_gathered(const aur_final_gather *data, const aur_bsdf_lobe *lobe) {
+bool aur_group_gathers(const aur_final_gather *data, const aur_bsdf_lobe *lobe) {
     if (!gathers(data) || lobe->shape == AUR_LOBE_SHAPE_SPECULAR)
         return false;
     return data->component == AUR_COMPONENT_ALL ||
            lobe->diffuse == (data->component == AUR_COMPONENT_DIFFUSE);
 }
 
-/* Frames of the lobes and origins of the rays, an array a coordinate. */
-typedef struct lobe_frames {
-    float x[3][AUR_PACKET_SIZE], y[3][AUR_PACKET_SIZE], z[3][AUR_PACKET_SIZE];
-    float shading[3][AUR_PACKET_SIZE], geometric[3][AUR_PACKET_SIZE]; /* normals on the viewer's side */
-    bool times_cosine[AUR_PACKET_SIZE];
-} lobe_frames;
-
-static void set_column(float column[3][AUR_PACKET_SIZE], size_t lane, aur_vector v) {
-    column[0][lane] = v.x;
-    column[1][lane] = v.y;
-    column[2][lane] = v.z;
+void aur_group_set_frame(aur_group *group, size_t lane, const aur_frame *frame, aur_lobe_frames *frames) {
+    struct RTCRay16 *const rays = &group->rays.packet.query.ray;
+    const aur_gather_place *const p = &group->places[lane];
+    aur_set_column(frames->x, lane, frame->x);
+    aur_set_column(frames->y, lane, frame->y);
+    aur_set_column(frames->z, lane, frame->z);
+    aur_set_column(frames->shading, lane, aur_vector_scale(p->surface.frame.z, p->side));
+    aur_set_column(frames->geometric, lane, aur_vector_scale(p->surface.geometric_normal, p->side));
+    rays->org_x[lane] = p->origin.x;
+    rays->org_y[lane] = p->origin.y;
+    rays->org_z[lane] = p->origin.z;
+    rays->tnear[lane] = 0.0f;
+    group->rays.reference[lane] = p->surface.position;
 }
 
-static void set_frames(aur_group *group, uint32_t lanes, size_t lobe, lobe_frames *frames) {
-    struct RTCRay16 *const rays = &group->rays.packet.query.ray;
+static void set_frames(aur_group *group, uint32_t lanes, size_t lobe, aur_lobe_frames *frames) {
     memset(frames, 0, sizeof *frames);
     for (uint32_t rest = lanes; rest != 0; rest &= rest - 1) {
-        const size_t lane = first_lane(rest);
-        const place *const p = &group->places[lane];
+        const size_t lane = aur_first_lane(rest);
+        const aur_gather_place *const p = &group->places[lane];
         const aur_frame frame = aur_frame_about(aur_frame_to_world(&p->surface.frame, p->lobes[lobe].axis));
-        set_column(frames->x, lane, frame.x);
-        set_column(frames->y, lane, frame.y);
-        set_column(frames->z, lane, frame.z);
-        set_column(frames->shading, lane, aur_vector_scale(p->surface.frame.z, p->side));
-        set_column(frames->geometric, lane, aur_vector_scale(p->surface.geometric_normal, p->side));
+        aur_group_set_frame(group, lane, &frame, frames);
         frames->times_cosine[lane] = p->lobes[lobe].times_cosine;
-        rays->org_x[lane] = p->origin.x;
-        rays->org_y[lane] = p->origin.y;
-        rays->org_z[lane] = p->origin.z;
-        rays->tnear[lane] = 0.0f;
-        group->rays.reference[lane] = p->surface.position;
     }
 }
 
-/* Directions local to the lobes made into rays; those below the surface are left out. Returns the lanes that
- * have one; their cosines at the surface in `cosine`. */
-static uint32_t aim(aur_group *group, uint32_t lanes, const lobe_frames *restrict frames,
-                    float local[3][AUR_PACKET_SIZE], float cosine[AUR_PACKET_SIZE]) {
+uint32_t aur_group_aim(aur_group *group, uint32_t lanes, const aur_lobe_frames *restrict frames,
+                       float local[3][AUR_PACKET_SIZE], float cosine[AUR_PACKET_SIZE]) {
     struct RTCRay16 *const rays = &group->rays.packet.query.ray;
     float above[AUR_PACKET_SIZE];
     for (size_t k = 0; k < AUR_PACKET_SIZE; ++k) {
@@ -176,18 +131,18 @@ static void gather_rule(aur_group *group, const aur_gather_rule *rule, size_t lo
     const bool shared = shares_turns(group, rule);
     aur_gather_turn turns[AUR_PACKET_SIZE];
     for (uint32_t rest = lanes; rest != 0; rest &= rest - 1) {
-        const size_t lane = first_lane(rest);
-        turns[lane] =
-            shared && lane != first_lane(lanes) ? turns[first_lane(lanes)] : turn_of(group, rule, lane, lobe);
+        const size_t lane = aur_first_lane(rest);
+        turns[lane] = shared && lane != aur_first_lane(lanes) ? turns[aur_first_lane(lanes)]
+                                                              : turn_of(group, rule, lane, lobe);
     }
-    lobe_frames frames;
+    aur_lobe_frames frames;
     set_frames(group, lanes, lobe, &frames);
     float sum[3][AUR_PACKET_SIZE] = {0};
     for (size_t i = group->task->index % shares; i < rule->count; i += shares) {
         float local[3][AUR_PACKET_SIZE] = {0}, weight[AUR_PACKET_SIZE] = {0}, cosine[AUR_PACKET_SIZE];
         if (shared) {
             aur_vector direction;
-            const aur_gather_turn *const turn = &turns[first_lane(lanes)];
+            const aur_gather_turn *const turn = &turns[aur_first_lane(lanes)];
             const float one = aur_gather_direction(rule, turn, i, &direction);
             const float density = rule->densities[turn->first + i] * (float)share;
             for (size_t k = 0; k < AUR_PACKET_SIZE; ++k) {
@@ -199,19 +154,19 @@ static void gather_rule(aur_group *group, const aur_gather_rule *rule, size_t lo
             }
         } else {
             for (uint32_t rest = lanes; rest != 0; rest &= rest - 1) {
-                const size_t lane = first_lane(rest);
+                const size_t lane = aur_first_lane(rest);
                 aur_vector direction;
                 weight[lane] = aur_gather_direction(rule, &turns[lane], i, &direction);
-                set_column(local, lane, direction);
+                aur_set_column(local, lane, direction);
                 group->rays.density[lane] = rule->square != NULL
                                                 ? aur_gather_density(rule, direction.z) * (float)share
                                                 : rule->densities[turns[lane].first + i] * (float)share;
             }
         }
-        const uint32_t aimed = aim(group, lanes, &frames, local, cosine);
+        const uint32_t aimed = aur_group_aim(group, lanes, &frames, local, cosine);
         if (aimed == 0)
             continue;
-        group->rays.hash = aur_hash3(group->samples[first_lane(lanes)].stream.pixel, i, lobe);
+        group->rays.hash = aur_hash3(group->samples[aur_first_lane(lanes)].stream.pixel, i, lobe);
         aur_gather_trace(data, order, &group->rays, group->counters);
         for (size_t k = 0; k < AUR_PACKET_SIZE; ++k)
             weight[k] *= frames.times_cosine[k] ? cosine[k] : 1.0f;
@@ -220,7 +175,7 @@ static void gather_rule(aur_group *group, const aur_gather_rule *rule, size_t lo
                 sum[c][k] += weight[k] * group->rays.radiance[c][k];
     }
     for (uint32_t rest = lanes; rest != 0; rest &= rest - 1) {
-        const size_t lane = first_lane(rest);
+        const size_t lane = aur_first_lane(rest);
         const aur_vector gathered = {sum[0][lane], sum[1][lane], sum[2][lane]};
         const aur_vector reflected =
             aur_vector_multiply(gathered, group->places[lane].lobes[lobe].coefficient);
@@ -241,10 +196,10 @@ static void gather_sampled(aur_group *group, size_t lobe, uint32_t lanes) {
     for (size_t i = 0; i < share; ++i) {
         aur_vector value[AUR_PACKET_SIZE];
         uint32_t aimed = 0;
-        clear_lanes(&group->rays.packet);
+        aur_clear_lanes(&group->rays.packet);
         for (uint32_t rest = lanes; rest != 0; rest &= rest - 1) {
-            const size_t lane = first_lane(rest);
-            const place *const p = &group->places[lane];
+            const size_t lane = aur_first_lane(rest);
+            const aur_gather_place *const p = &group->places[lane];
             const uint64_t pixel = group->samples[lane].stream.pixel;
             const aur_stream numbers = {&sobol, aur_hash4(data->pattern_seed, pixel, group->chain, lobe),
                                         (uint32_t)(group->task->index * share + i)};
@@ -269,10 +224,10 @@ static void gather_sampled(aur_group *group, size_t lobe, uint32_t lanes) {
         }
         if (aimed == 0)
             continue;
-        group->rays.hash = aur_hash3(group->samples[first_lane(lanes)].stream.pixel, i, lobe);
+        group->rays.hash = aur_hash3(group->samples[aur_first_lane(lanes)].stream.pixel, i, lobe);
         aur_gather_trace(data, AUR_EMBREE_INCOHERENT, &group->rays, group->counters);
         for (uint32_t rest = aimed; rest != 0; rest &= rest - 1) {
-            const size_t lane = first_lane(rest);
+            const size_t lane = aur_first_lane(rest);
             const aur_vector incident = {group->rays.radiance[0][lane], group->rays.radiance[1][lane],
                                          group->rays.radiance[2][lane]};
             const aur_vector reflected = aur_vector_multiply(value[lane], incident);
@@ -287,7 +242,7 @@ static uint32_t lanes_alike(const aur_group *group, uint32_t lanes, size_t lobe,
                             const aur_gather_rule *rule) {
     uint32_t alike = 0;
     for (uint32_t rest = lanes; rest != 0; rest &= rest - 1) {
-        const size_t lane = first_lane(rest);
+        const size_t lane = aur_first_lane(rest);
         if (aur_final_gather_rule(group->task->data, &group->places[lane].lobes[lobe]) == rule)
             alike |= 1u << lane;
     }
@@ -299,9 +254,9 @@ static void gather(aur_group *group) {
     for (size_t lobe = 0; lobe < AUR_BSDF_LOBE_CAPACITY; ++lobe) {
         uint32_t ruled = 0, sampled = 0;
         for (uint32_t rest = group->lanes; rest != 0; rest &= rest - 1) {
-            const size_t lane = first_lane(rest);
-            const place *const p = &group->places[lane];
-            if (lobe >= p->lobe_count || !is_gathered(data, &p->lobes[lobe]))
+            const size_t lane = aur_first_lane(rest);
+            const aur_gather_place *const p = &group->places[lane];
+            if (lobe >= p->lobe_count || !aur_group_gathers(data, &p->lobes[lobe]))
                 continue;
             if (p->lobes[lobe].shape == AUR_LOBE_SHAPE_SAMPLED)
                 sampled |= 1u << lane;
@@ -311,7 +266,7 @@ static void gather(aur_group *group) {
         }
         while (ruled != 0) {
             const aur_gather_rule *const rule =
-                aur_final_gather_rule(data, &group->places[first_lane(ruled)].lobes[lobe]);
+                aur_final_gather_rule(data, &group->places[aur_first_lane(ruled)].lobes[lobe]);
             const uint32_t alike = lanes_alike(group, ruled, lobe, rule);
             gather_rule(group, rule, lobe, alike);
             ruled &= ~alike;
@@ -325,7 +280,7 @@ static void gather(aur_group *group) {
  * ----------------------------------------------------------------------------------------------- */
 
 /* BSDF * cos towards a light, each lobe less the part that its gather rays find. */
-static aur_vector weighted_value(const aur_final_gather *data, const place *p,
+static aur_vector weighted_value(const aur_final_gather *data, const aur_gather_place *p,
                                  const aur_light_sample *light) {
     const aur_vector local = aur_frame_to_local(&p->surface.frame, light->direction);
     if (aur_vector_dot(p->surface.geometric_normal, light->direction) * local.z <= 0.0f)
@@ -347,7 +302,7 @@ static aur_vector weighted_value(const aur_final_gather *data, const place *p,
                 density = aur_gather_density(rule, aur_vector_dot(lobe->axis, local)) *
                           (float)(rule->count / data->samples_per_pixel);
         }
-        const bool rivals = !light->delta && is_gathered(data, lobe);
+        const bool rivals = !light->delta && aur_group_gathers(data, lobe);
         sum = aur_vector_add_scaled(sum, rivals ? aur_power_heuristic(light->pdf, density) : 1.0f, value);
     }
     return sum;
@@ -360,10 +315,10 @@ static void add_direct_light(aur_group *group) {
     const uint32_t pair = AUR_PAIR_FIRST + PAIRS_A_SURFACE * group->chain;
     aur_vector contribution[AUR_PACKET_SIZE];
     uint32_t aimed = 0;
-    clear_lanes(&group->rays.packet);
+    aur_clear_lanes(&group->rays.packet);
     for (uint32_t rest = group->lanes; rest != 0; rest &= rest - 1) {
-        const size_t lane = first_lane(rest);
-        const place *const p = &group->places[lane];
+        const size_t lane = aur_first_lane(rest);
+        const aur_gather_place *const p = &group->places[lane];
         float choice[2] = {0.5f, 0.0f}, position[2];
         if (chooses)
             aur_stream_pair(&group->samples[lane].stream, pair + PAIR_CHOICE, choice);
@@ -388,7 +343,7 @@ static void add_direct_light(aur_group *group) {
     const uint32_t lit =
         aimed & ~aur_final_gather_occluded(data, order, &group->rays.packet, group->counters);
     for (uint32_t rest = lit; rest != 0; rest &= rest - 1) {
-        const size_t lane = first_lane(rest);
+        const size_t lane = aur_first_lane(rest);
         group->sum[lane] = aur_vector_add(group->sum[lane],
                                           aur_vector_multiply(group->throughput[lane], contribution[lane]));
     }
@@ -397,14 +352,14 @@ static void add_direct_light(aur_group *group) {
 /* --- what the eye sees
  * ------------------------------------------------------------------------------------------ */
 
-static bool has_specular(const place *p) {
+static bool has_specular(const aur_gather_place *p) {
     for (size_t i = 0; i < p->lobe_count; ++i)
         if (p->lobes[i].shape == AUR_LOBE_SHAPE_SPECULAR)
             return true;
     return false;
 }
 
-static void set_place(const aur_scene *scene, const aur_ray *ray, const aur_hit *hit, place *p) {
+static void set_place(const aur_scene *scene, const aur_ray *ray, const aur_hit *hit, aur_gather_place *p) {
     aur_scene_surface(scene, ray, hit, &p->surface);
     const aur_vector view = aur_vector_scale(ray->direction, -1.0f);
     p->side = aur_vector_dot(p->surface.geometric_normal, view) < 0.0f ? -1.0f : 1.0f;
@@ -418,9 +373,9 @@ static void set_place(const aur_scene *scene, const aur_ray *ray, const aur_hit 
 static bool are_flat(const aur_group *group) {
     if (__builtin_popcount(group->lanes) < AUR_PACKET_SIZE / 2)
         return false;
-    const place *const first = &group->places[first_lane(group->lanes)];
+    const aur_gather_place *const first = &group->places[aur_first_lane(group->lanes)];
     for (uint32_t rest = group->lanes; rest != 0; rest &= rest - 1) {
-        const place *const p = &group->places[first_lane(rest)];
+        const aur_gather_place *const p = &group->places[aur_first_lane(rest)];
         const aur_vector offset = aur_vector_subtract(p->origin, first->origin);
         const float height = aur_vector_dot(offset, first->surface.geometric_normal);
         if (aur_vector_dot(p->surface.frame.z, first->surface.frame.z) * p->side * first->side < 0.995f ||
@@ -461,7 +416,7 @@ static aur_stratum *stratum_of(aur_pixel_strata *pixel, uint64_t key, bool *foun
 static void count_seen(aur_group *group, uint32_t lanes, uint32_t found, aur_pixel_strata *strata,
                        aur_stratum *into[AUR_PACKET_SIZE]) {
     for (uint32_t rest = lanes; rest != 0; rest &= rest - 1) {
-        const size_t lane = first_lane(rest);
+        const size_t lane = aur_first_lane(rest);
         const bool hits = (found >> lane & 1u) != 0;
         const uint64_t key =
             hits ? aur_surface_key(&group->places[lane].surface, group->samples[lane].ray.direction) : 0;
@@ -478,7 +433,7 @@ static void count_seen(aur_group *group, uint32_t lanes, uint32_t found, aur_pix
 static void add_to_strata(const aur_group *group, aur_pixel_strata *strata,
                           aur_stratum *const into[AUR_PACKET_SIZE], aur_counters *counters) {
     for (uint32_t rest = group->task->lanes; rest != 0; rest &= rest - 1) {
-        const size_t lane = first_lane(rest);
+        const size_t lane = aur_first_lane(rest);
         if (into[lane] == NULL)
             continue;
         if (!aur_is_radiance(group->sum[lane])) {
@@ -499,7 +454,7 @@ static void add_to_strata(const aur_group *group, aur_pixel_strata *strata,
 static void add_emission(aur_group *group, uint32_t lanes, uint32_t found) {
     const aur_final_gather *const data = group->task->data;
     for (uint32_t rest = lanes; rest != 0 && data->direct != AUR_DIRECT_NONE; rest &= rest - 1) {
-        const size_t lane = first_lane(rest);
+        const size_t lane = aur_first_lane(rest);
         const aur_vector direction = group->samples[lane].ray.direction;
         const aur_vector emission = (found >> lane & 1u) != 0
                                         ? aur_surface_emission(data->scene, &group->places[lane].surface,
@@ -515,8 +470,8 @@ static void add_emission(aur_group *group, uint32_t lanes, uint32_t found) {
 static void bounce(aur_group *group) {
     const uint32_t pair = AUR_PAIR_FIRST + PAIRS_A_SURFACE * group->chain;
     for (uint32_t rest = group->lanes; rest != 0; rest &= rest - 1) {
-        const size_t lane = first_lane(rest);
-        const place *const p = &group->places[lane];
+        const size_t lane = aur_first_lane(rest);
+        const aur_gather_place *const p = &group->places[lane];
         bool goes_on = false;
         if (has_specular(p)) {
             float lobe[2], direction[2];
@@ -540,15 +495,15 @@ static void bounce(aur_group *group) {
 static uint32_t find_places(aur_group *group) {
     const aur_final_gather *const data = group->task->data;
     aur_packet *const packet = &group->rays.packet;
-    clear_lanes(packet);
+    aur_clear_lanes(packet);
     for (uint32_t rest = group->lanes; rest != 0; rest &= rest - 1) {
-        const size_t lane = first_lane(rest);
+        const size_t lane = aur_first_lane(rest);
         aur_packet_set(packet, lane, &group->samples[lane].ray);
     }
     const aur_embree_order order = group->chain == 0 ? AUR_EMBREE_COHERENT : AUR_EMBREE_INCOHERENT;
     const uint32_t found = aur_final_gather_intersect(data, order, packet, group->counters);
     for (uint32_t rest = found; rest != 0; rest &= rest - 1) {
-        const size_t lane = first_lane(rest);
+        const size_t lane = aur_first_lane(rest);
         const aur_hit hit = aur_packet_hit(data->scene, packet, lane);
         set_place(data->scene, &group->samples[lane].ray, &hit, &group->places[lane]);
     }
@@ -563,7 +518,7 @@ void aur_group_add_sample(aur_group *group, const aur_group_task *task, aur_pixe
     group->counters = counters;
     group->lanes = task->lanes;
     for (uint32_t rest = task->lanes; rest != 0; rest &= rest - 1) {
-        const size_t lane = first_lane(rest);
+        const size_t lane = aur_first_lane(rest);
         const size_t pixel = aur_group_pixel(task->group, lane);
         group->weights[lane] =
             aur_view_sample(task->view, task->x + pixel % AUR_TILE_SIZE, task->y + pixel / AUR_TILE_SIZE,

@@ -1,0 +1,68 @@
+/* Sixteen pixels at a time, from the inside: what the files that gather share. */
+#ifndef AUR_TRANSPORT_GATHER_GROUP_H
+#define AUR_TRANSPORT_GATHER_GROUP_H
+
+#include <string.h>
+
+#include "transport/final_gather.h"
+
+/* A surface point where light is gathered. */
+typedef struct aur_gather_place {
+    aur_surface surface;
+    aur_vector view;   /* local */
+    aur_vector origin; /* of rays that leave it, on the side that it is seen from */
+    float side;        /* 1 where it is seen from the side of its normal, else -1 */
+    size_t lobe_count;
+    aur_bsdf_lobe lobes[AUR_BSDF_LOBE_CAPACITY];
+} aur_gather_place;
+
+struct aur_group {
+    const aur_group_task *task;
+    aur_counters *counters;
+    uint32_t lanes; /* on the way */
+    uint32_t chain;
+    bool flat; /* the places lie on one plane, nearly */
+    aur_camera_sample samples[AUR_PACKET_SIZE];
+    float weights[AUR_PACKET_SIZE];
+    aur_vector throughput[AUR_PACKET_SIZE];
+    aur_vector sum[AUR_PACKET_SIZE];
+    aur_gather_place places[AUR_PACKET_SIZE];
+    aur_gather_rays rays;
+};
+
+static inline uint32_t aur_first_lane(uint32_t lanes) {
+    return (uint32_t)__builtin_ctz(lanes);
+}
+
+static inline void aur_clear_lanes(aur_packet *packet) {
+    memset(packet->valid, 0, sizeof packet->valid);
+}
+
+/* The groups in an order that keeps neighbours' rotations far apart: a 4 x 4 ordered dither. */
+static const uint8_t aur_group_dither[16] = {0, 8, 2, 10, 12, 4, 14, 6, 3, 11, 1, 9, 15, 7, 13, 5};
+
+/* Frames of the lobes and normals, an array a coordinate. */
+typedef struct aur_lobe_frames {
+    float x[3][AUR_PACKET_SIZE], y[3][AUR_PACKET_SIZE], z[3][AUR_PACKET_SIZE];
+    float shading[3][AUR_PACKET_SIZE], geometric[3][AUR_PACKET_SIZE]; /* normals on the viewer's side */
+    bool times_cosine[AUR_PACKET_SIZE];
+} aur_lobe_frames;
+
+static inline void aur_set_column(float column[3][AUR_PACKET_SIZE], size_t lane, aur_vector v) {
+    column[0][lane] = v.x;
+    column[1][lane] = v.y;
+    column[2][lane] = v.z;
+}
+
+/* Whether a lobe's light comes by gather rays. */
+bool aur_group_gathers(const aur_final_gather *data, const aur_bsdf_lobe *lobe);
+
+/* One lane's frame and normals; its rays start at its place. */
+void aur_group_set_frame(aur_group *group, size_t lane, const aur_frame *frame, aur_lobe_frames *frames);
+
+/* Directions local to the lobes made into rays; those below the surface are left out. Returns the lanes that
+ * have one; their cosines at the surface in `cosine`. */
+uint32_t aur_group_aim(aur_group *group, uint32_t lanes, const aur_lobe_frames *restrict frames,
+                       float local[3][AUR_PACKET_SIZE], float cosine[AUR_PACKET_SIZE]);
+
+#endif
