@@ -9,6 +9,7 @@
 
 /* A line a bench. */
 /* clang-format off */
+extern const bench bench_ao;
 extern const bench bench_limits;
 extern const bench bench_measures;
 extern const bench bench_parallel;
@@ -18,6 +19,7 @@ extern const bench bench_scene;
 extern const bench bench_weights;
 
 static const bench *const benches[] = {
+    &bench_ao,
     &bench_limits,
     &bench_measures,
     &bench_parallel,

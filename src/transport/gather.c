@@ -25,6 +25,7 @@ static aur_result fill_directions(const aur_gather_options *options, aur_gather_
     const aur_directions_options wanted = {.count = options->count,
                                            .domain = AUR_DOMAIN_HEMISPHERE,
                                            .map = options->map,
+                                           .seed = options->set_seed,
                                            .warnings = options->warnings};
     aur_result result = aur_directions_create(options->set, &wanted, &directions, error);
     if (result != AUR_OK)
@@ -58,7 +59,7 @@ static aur_result fill_directions(const aur_gather_options *options, aur_gather_
 static aur_result fill_square(const aur_gather_options *options, aur_gather_rule *rule, aur_error *error) {
     aur_pointset *points = NULL;
     const aur_pointset_options wanted = {
-        .count = options->count, .dimension = 2, .warnings = options->warnings};
+        .count = options->count, .dimension = 2, .seed = options->set_seed, .warnings = options->warnings};
     aur_result result = aur_pointset_create(options->set, &wanted, &points, error);
     if (result != AUR_OK)
         return result;

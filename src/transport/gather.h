@@ -21,6 +21,7 @@ typedef struct aur_gather_options {
     double smoothness;    /* s, in (1, 2) */
     size_t rotations;     /* so many randomisations, prepared once; 0: a new one at every shading point */
     uint64_t seed;        /* of the prepared randomisations */
+    uint64_t set_seed;    /* of sets that are random themselves */
     aur_warnings warnings;
 } aur_gather_options;
 

@@ -6,10 +6,12 @@
 
 extern const aur_integrator_descriptor aur_integrator_path;
 extern const aur_integrator_descriptor aur_integrator_final_gather;
+extern const aur_integrator_descriptor aur_integrator_ambient_occlusion;
 
 static const aur_integrator_descriptor *const integrators[] = {
     &aur_integrator_path,
     &aur_integrator_final_gather,
+    &aur_integrator_ambient_occlusion,
 };
 
 enum { INTEGRATOR_COUNT = sizeof integrators / sizeof integrators[0] };

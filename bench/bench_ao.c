@@ -1,0 +1,152 @@
+/* Ambient occlusion against Embree alone on the very same packets of 16 rays, made before: what finding the
+ * places and making the rays costs. On the glossy Cornell box, and on the scene of ambient occlusion where
+ * its meshes are made. */
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#include "bench.h"
+#include "core/parallel.h"
+#include "scene/scene_data.h"
+#include "transport/ambient_occlusion.h"
+
+enum { SIDE = 128, TILES = SIDE / AUR_TILE_SIZE * (SIDE / AUR_TILE_SIZE), SAMPLES = 64 };
+
+typedef struct stored_packet {
+    _Alignas(64) int valid[AUR_PACKET_SIZE];
+    struct RTCRay16 rays;
+    aur_embree_order order;
+} stored_packet;
+
+typedef struct occlusion_bench {
+    const aur_integrator *integrator;
+    const aur_view *view;
+    float farthest;
+    size_t packet_count, ray_count;
+    stored_packet *packets;
+    double sums[3 * AUR_TILE_SIZE * AUR_TILE_SIZE];
+    uint32_t counts[AUR_TILE_SIZE * AUR_TILE_SIZE];
+} occlusion_bench;
+
+static void tile_corner(size_t index, size_t *x, size_t *y) {
+    *x = index % (SIDE / AUR_TILE_SIZE) * AUR_TILE_SIZE;
+    *y = index / (SIDE / AUR_TILE_SIZE) * AUR_TILE_SIZE;
+}
+
+static aur_result render(void *data, size_t unused) {
+    (void)unused;
+    occlusion_bench *const self = data;
+    for (size_t i = 0; i < TILES; ++i) {
+        aur_tile tile = {.view = self->view,
+                         .count = 1,
+                         .stride = AUR_TILE_SIZE,
+                         .channel_count = 3,
+                         .sums = self->sums,
+                         .counts = self->counts};
+        tile_corner(i, &tile.x0, &tile.y0);
+        tile.x1 = tile.x0 + AUR_TILE_SIZE;
+        tile.y1 = tile.y0 + AUR_TILE_SIZE;
+        const aur_result result = self->integrator->descriptor->tile(self->integrator, &tile);
+        if (result != AUR_OK)
+            return result;
+        bench_keep(self->sums[0]);
+    }
+    return AUR_OK;
+}
+
+static aur_result trace(void *data, size_t unused) {
+    (void)unused;
+    occlusion_bench *const self = data;
+    size_t stopped = 0;
+    for (size_t i = 0; i < self->packet_count; ++i) {
+        stored_packet *const packet = &self->packets[i];
+        for (size_t k = 0; k < AUR_PACKET_SIZE; ++k)
+            packet->rays.tfar[k] = self->farthest;
+        aur_embree_occluded16(self->view->scene->accel, packet->order, packet->valid, &packet->rays);
+        for (size_t k = 0; k < AUR_PACKET_SIZE; ++k)
+            stopped += packet->valid[k] != 0 && packet->rays.tfar[k] < 0.0f;
+    }
+    bench_keep((double)stopped);
+    return AUR_OK;
+}
+
+/* One item on one thread: with denormals flushed, as the renderer traces. */
+static void run_render(void *context) {
+    static const aur_parallel_options one_thread = {.threads = 1};
+    aur_parallel_for(&one_thread, 1, render, context);
+}
+
+static void run_trace(void *context) {
+    static const aur_parallel_options one_thread = {.threads = 1};
+    aur_parallel_for(&one_thread, 1, trace, context);
+}
+
+static void store(void *context, size_t first, aur_embree_order order, aur_packet *packet) {
+    (void)first;
+    occlusion_bench *const self = context;
+    stored_packet *const stored = &self->packets[self->packet_count++];
+    memcpy(stored->valid, packet->valid, sizeof stored->valid);
+    stored->rays = packet->query.ray;
+    stored->order = order;
+    self->farthest = packet->query.ray.tfar[0];
+    for (size_t k = 0; k < AUR_PACKET_SIZE; ++k)
+        self->ray_count += packet->valid[k] != 0;
+}
+
+static void store_all(occlusion_bench *self) {
+    aur_occlusion_places places = {0};
+    for (size_t i = 0; i < TILES; ++i) {
+        size_t x, y;
+        tile_corner(i, &x, &y);
+        aur_occlusion_find_places(self->view, x, y, 0, &places);
+        aur_occlusion_visit(self->integrator, &places, x, y, 0, store, self);
+    }
+}
+
+static bool compare(const bench_options *options, const char *name, const aur_scene *scene,
+                    const aur_integrator *integrator) {
+    static const aur_sampler sampler = {.kind = AUR_SAMPLER_SOBOL};
+    const aur_view view = {
+        .scene = scene, .sampler = &sampler, .filter = aur_filter_find("box"), .width = SIDE, .height = SIDE};
+    occlusion_bench context = {.integrator = integrator, .view = &view};
+    const size_t most = (size_t)SIDE * SIDE * SAMPLES / AUR_PACKET_SIZE;
+    context.packets = aligned_alloc(_Alignof(stored_packet), most * sizeof *context.packets);
+    if (context.packets == NULL)
+        return bench_fail("out of memory");
+    store_all(&context);
+    const bench_work ours = {run_render, &context, (double)context.ray_count};
+    const bench_work bare = {run_trace, &context, (double)context.ray_count};
+    const bench_pair pair = bench_compare(options, &ours, &bare);
+    bench_print_pair(name, "Embree, the same packets", "Mray", 1e6, &pair);
+    free(context.packets);
+    return true;
+}
+
+static bool bench_one(const bench_options *options, const char *name, const char *path) {
+    aur_error error;
+    aur_scene *scene = NULL;
+    if (aur_scene_load(path, NULL, &scene, &error) != AUR_OK)
+        return bench_fail("%s: %s", error.file, error.message);
+    const aur_integrator_context context = {.scene = scene, .samples_per_pixel = 1};
+    aur_parameters parameters;
+    aur_integrator *integrator = NULL;
+    bool good = aur_parameters_parse(&parameters, "integrator", "ao:samples=64", &error) == AUR_OK;
+    if (good) {
+        good = aur_integrator_create(&parameters, &context, &integrator, &error) == AUR_OK;
+        aur_parameters_release(&parameters);
+    }
+    good = good ? compare(options, name, scene, integrator) : bench_fail("%s", error.message);
+    aur_integrator_destroy(integrator);
+    aur_scene_destroy(scene);
+    return good;
+}
+
+static bool run(const bench_options *options) {
+    if (!bench_one(options, "glossy Cornell box", AUR_SOURCE_DIR "/scenes/cornell-box/glossy.xml"))
+        return false;
+    if (access(AUR_SOURCE_DIR "/scenes/generated/temple.ply", R_OK) != 0 || options->quick)
+        return true;
+    return bench_one(options, "figure among columns", AUR_SOURCE_DIR "/scenes/occlusion/occlusion.xml");
+}
+
+const bench bench_ao = {"ao", "ambient occlusion against Embree on the same packets", run};
