@@ -42,23 +42,37 @@ static aur_result create_smooth(aur_parameters *parameters, aur_bsdf *bsdf, aur_
     return AUR_OK;
 }
 
-/* The share of light that a rough boundary mirrors, all colours alike. */
-static float rough_reflectance(const aur_microfacet *microfacet, float ior, float cosine) {
-    enum { SIDE = 32 };
+/* What a rough boundary does with light that meets it at `cosine`. Facets that others shadow scatter once
+ * only, so the two shares are below 1 in sum, the more so the rougher; Mitsuba 3 does the same. */
+typedef struct rough_shares {
+    double mirrored, through;
+} rough_shares;
+
+static rough_shares shares_at(const aur_microfacet *microfacet, float ior, float cosine) {
+    /* From the denser side, total reflection cuts an edge into the integrand. */
+    const size_t side = ior > 1.0f ? 32 : 64;
     const float z = fmaxf(cosine, 1e-4f);
     const aur_vector view = {sqrtf(1.0f - z * z), 0.0f, z};
-    double sum = 0.0;
-    for (size_t i = 0; i < (size_t)SIDE * SIDE; ++i) {
-        const aur_vector normal = aur_microfacet_sample(microfacet, view, ((float)(i / SIDE) + 0.5f) / SIDE,
-                                                        ((float)(i % SIDE) + 0.5f) / SIDE);
+    rough_shares sum = {0};
+    for (size_t i = 0; i < side * side; ++i) {
+        const aur_vector normal =
+            aur_microfacet_sample(microfacet, view, ((float)(i / side) + 0.5f) / (float)side,
+                                  ((float)(i % side) + 0.5f) / (float)side);
         const float along = aur_vector_dot(view, normal);
-        const aur_vector light = aur_vector_add_scaled(aur_vector_scale(view, -1.0f), 2.0f * along, normal);
+        if (!(along > 0.0f))
+            continue;
         float refracted;
-        if (light.z > 0.0f && along > 0.0f)
-            sum += (double)(aur_fresnel_dielectric(along, ior, &refracted) *
-                            aur_microfacet_masking(microfacet, light, normal));
+        const float fresnel = aur_fresnel_dielectric(along, ior, &refracted);
+        const aur_vector up = aur_vector_add_scaled(aur_vector_scale(view, -1.0f), 2.0f * along, normal);
+        const aur_vector down =
+            aur_vector_add_scaled(aur_vector_scale(view, -1.0f / ior), along / ior + refracted, normal);
+        if (up.z > 0.0f)
+            sum.mirrored += (double)(fresnel * aur_microfacet_masking(microfacet, up, normal));
+        if (down.z < 0.0f)
+            sum.through += (double)((1.0f - fresnel) * aur_microfacet_masking(microfacet, down, normal));
     }
-    return (float)(sum / ((double)SIDE * SIDE));
+    const double count = (double)(side * side);
+    return (rough_shares){sum.mirrored / count, sum.through / count};
 }
 
 static aur_result create_rough(aur_parameters *parameters, aur_bsdf *bsdf, aur_error *error) {
@@ -75,10 +89,9 @@ static aur_result create_rough(aur_parameters *parameters, aur_bsdf *bsdf, aur_e
     double inner = 0.0, outer = 0.0;
     for (size_t i = 0; i < TABLE_SIZE; ++i) {
         const float cosine = (float)i / (TABLE_SIZE - 1);
-        const float mirrored = rough_reflectance(&self->microfacet, self->ior, cosine);
-        self->transmittance[i] = 1.0f - mirrored;
+        self->transmittance[i] = (float)shares_at(&self->microfacet, self->ior, cosine).through;
         const double weight = (i == 0 || i == TABLE_SIZE - 1 ? 1.0 : 2.0) * (double)cosine / (TABLE_SIZE - 1);
-        inner += weight * (double)rough_reflectance(&self->microfacet, 1.0f / self->ior, cosine);
+        inner += weight * shares_at(&self->microfacet, 1.0f / self->ior, cosine).mirrored;
         outer += weight * (double)self->transmittance[i];
     }
     self->inner_reflectance = (float)inner;
