@@ -13,6 +13,7 @@ extern const bench bench_ao;
 extern const bench bench_limits;
 extern const bench bench_measures;
 extern const bench bench_parallel;
+extern const bench bench_path;
 extern const bench bench_points_sphere;
 extern const bench bench_points_square;
 extern const bench bench_scene;
@@ -23,6 +24,7 @@ static const bench *const benches[] = {
     &bench_limits,
     &bench_measures,
     &bench_parallel,
+    &bench_path,
     &bench_points_sphere,
     &bench_points_square,
     &bench_scene,

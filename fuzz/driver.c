@@ -247,14 +247,12 @@ int main(int argc, char **argv) {
     fuzz_require(corpus.count > 0, "there are no seeds");
     fuzz_input input = {.data = malloc(INPUT_CAPACITY)};
     fuzz_require(input.data != NULL, "out of memory");
-    const size_t end = corpus.count + runs;
+    const size_t end = only != SIZE_MAX ? only + 1 : corpus.count + runs;
     for (size_t run = only != SIZE_MAX ? only : 0; run < end; ++run) {
         make_input(&corpus, seed, run, &input);
         if (only != SIZE_MAX)
             keep_input(&input);
         run_input(&input, run);
-        if (only != SIZE_MAX)
-            break;
     }
     for (size_t i = 0; i < corpus.count; ++i)
         free(corpus.seeds[i].data);

@@ -20,15 +20,18 @@ static inline uint32_t aur_sobol_first(uint32_t index) {
 
 /* Sobol's second dimension: its generator matrix is Pascal's triangle modulo 2. By Lucas' theorem the entry
  * (i, j) is 1 exactly when the bits of i are among those of j, so the product is a superset sum over the five
- * bits of a bit's position: five masked steps in place of up to 32 rows. */
-static inline uint32_t aur_sobol_second(uint32_t index) {
+ * bits of a bit's position: five masked steps in place of up to 32 rows. The result's bits are reversed. */
+static inline uint32_t aur_sobol_second_reversed(uint32_t index) {
     uint32_t x = index;
     x ^= x >> 1 & 0x55555555u;
     x ^= x >> 2 & 0x33333333u;
     x ^= x >> 4 & 0x0f0f0f0fu;
     x ^= x >> 8 & 0x00ff00ffu;
-    x ^= x >> 16;
-    return aur_reverse_bits(x);
+    return x ^ x >> 16;
+}
+
+static inline uint32_t aur_sobol_second(uint32_t index) {
+    return aur_reverse_bits(aur_sobol_second_reversed(index));
 }
 
 /* A permutation of words in which a bit depends on the lower bits only (Laine and Karras 2011, with the

@@ -1,5 +1,6 @@
 /* Rays against the scene, by Embree. */
 #include <stdlib.h>
+#include <string.h>
 
 #include "scene/embree.h"
 #include "scene/scene_data.h"
@@ -194,16 +195,18 @@ void aur_scene_release_accel(aur_scene *scene) {
         rtcReleaseDevice(scene->device);
 }
 
+/* Sixteen bytes at a time, as Embree reads them: a read across several smaller writes has to wait for them.
+ */
+typedef float four __attribute__((vector_size(16)));
+
 static inline void fill_ray(const aur_ray *ray, struct RTCRay *query) {
-    *query = (struct RTCRay){.org_x = ray->origin.x,
-                             .org_y = ray->origin.y,
-                             .org_z = ray->origin.z,
-                             .tnear = ray->nearest,
-                             .dir_x = ray->direction.x,
-                             .dir_y = ray->direction.y,
-                             .dir_z = ray->direction.z,
-                             .tfar = ray->farthest,
-                             .mask = UINT32_MAX};
+    const four from = {ray->origin.x, ray->origin.y, ray->origin.z, ray->nearest};
+    const four along = {ray->direction.x, ray->direction.y, ray->direction.z, 0.0f};
+    memcpy(&query->org_x, &from, sizeof from);
+    memcpy(&query->dir_x, &along, sizeof along);
+    query->tfar = ray->farthest;
+    query->mask = UINT32_MAX;
+    query->id = query->flags = 0;
 }
 
 bool aur_scene_intersect(const aur_scene *scene, const aur_ray *ray, aur_hit *hit) {

@@ -21,6 +21,8 @@ void aur_distribution_release(aur_distribution *distribution) {
 }
 
 size_t aur_distribution_choose_double(const aur_distribution *distribution, double *u) {
+    if (distribution->count == 1)
+        return 0;
     const double target = *u * distribution->total;
     size_t low = 0;
     size_t high = distribution->count;

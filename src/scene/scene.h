@@ -45,10 +45,33 @@ bool aur_scene_occluded(const aur_scene *scene, const aur_ray *ray);
 /* The surface at a hit. */
 void aur_scene_surface(const aur_scene *scene, const aur_ray *ray, const aur_hit *hit, aur_surface *surface);
 
+/* Positions are found to a few parts in 10^7 of their coordinates (seven roundings of 2^-24); the offset is a
+ * little beyond that, so that a ray never meets the surface that it leaves. */
+static inline float aur_surface_offset(aur_vector position) {
+    const aur_vector size = {fabsf(position.x), fabsf(position.y), fabsf(position.z)};
+    return 1.5e-6f * aur_vector_max(size) + 1e-9f;
+}
+
+/* A point beside the surface, on the side of `direction`. */
+static inline aur_vector aur_surface_leave(const aur_surface *surface, aur_vector direction) {
+    const float side = aur_vector_dot(direction, surface->geometric_normal) < 0.0f ? -1.0f : 1.0f;
+    return aur_vector_add_scaled(surface->position, side * aur_surface_offset(surface->position),
+                                 surface->geometric_normal);
+}
+
 /* A ray that leaves the surface without meeting it again; farthest is infinite. */
-aur_ray aur_surface_ray(const aur_surface *surface, aur_vector direction);
+static inline aur_ray aur_surface_ray(const aur_surface *surface, aur_vector direction) {
+    return (aur_ray){aur_surface_leave(surface, direction), 0.0f, direction, INFINITY};
+}
+
 /* A ray from the surface that stops just short of the point `target`; *distance is the whole way. */
-aur_ray aur_surface_ray_to(const aur_surface *surface, aur_vector target, float *distance);
+static inline aur_ray aur_surface_ray_to(const aur_surface *surface, aur_vector target, float *distance) {
+    const aur_vector from = aur_surface_leave(surface, aur_vector_subtract(target, surface->position));
+    const aur_vector way = aur_vector_subtract(target, from);
+    *distance = aur_vector_length(way);
+    return (aur_ray){from, 0.0f, aur_vector_scale(way, 1.0f / aur_larger(*distance, 1e-30f)),
+                     *distance * (1.0f - 1e-4f)};
+}
 
 /* --- lights
  * ---------------------------------------------------------------------------------------------------- */

@@ -149,7 +149,7 @@ static aur_result read_element(ply *self) {
     const size_t length = aur_scan_word(&self->scanner, &word);
     int64_t count;
     if (length == 0 || length >= sizeof element->name || !aur_scan_integer(&self->scanner, &count) ||
-        count < 0)
+        count < 0 || !aur_scan_line_done(&self->scanner))
         return fail_header(self, "an element needs a name and a count");
     memcpy(element->name, word, length);
     element->count = (size_t)count;
@@ -411,6 +411,8 @@ static aur_result read_body(ply *self, unsigned parts, aur_mesh *mesh) {
     bool seen = false;
     for (size_t i = 0; result == AUR_OK && i < self->element_count; ++i) {
         const ply_element *const element = &self->elements[i];
+        if (element->property_count == 0)
+            continue; /* no bytes, however many there are said to be */
         if (element == vertices) {
             result = read_vertices(self, element, mesh);
             seen = true;
@@ -420,7 +422,7 @@ static aur_result read_body(ply *self, unsigned parts, aur_mesh *mesh) {
                                    "faces stand before the vertices");
             result = read_faces(self, element, vertices->count);
         } else {
-            for (size_t k = 0; result == AUR_OK && k < element->count * (element->property_count > 0); ++k)
+            for (size_t k = 0; result == AUR_OK && k < element->count; ++k)
                 for (size_t p = 0; result == AUR_OK && p < element->property_count; ++p)
                     result = skip_property(self, &element->properties[p], element, k);
         }

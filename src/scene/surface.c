@@ -1,13 +1,6 @@
 /* Points on surfaces, and rays that leave them. */
 #include "scene/scene_data.h"
 
-/* Positions are found to a few parts in 10^7 of their coordinates (seven roundings of 2^-24); the offset is a
- * little beyond that, so that a ray never meets the surface that it leaves. */
-static float offset_at(aur_vector position) {
-    const float size = fmaxf(fabsf(position.x), fmaxf(fabsf(position.y), fabsf(position.z)));
-    return 1.5e-6f * size + 1e-9f;
-}
-
 static aur_vector interpolate(const float *values, const uint32_t *index, const float weight[3]) {
     aur_vector sum = {0.0f, 0.0f, 0.0f};
     for (size_t i = 0; i < 3; ++i) {
@@ -17,41 +10,57 @@ static aur_vector interpolate(const float *values, const uint32_t *index, const 
     return sum;
 }
 
-static void mesh_surface(const aur_mesh *mesh, const aur_ray *ray, const aur_hit *hit, aur_surface *surface) {
+static aur_bsdf_point mesh_texture(const aur_mesh *mesh, const uint32_t *index, const float weight[3]) {
+    aur_bsdf_point sum = {0.0f, 0.0f};
+    for (size_t i = 0; i < 3; ++i) {
+        sum.u += weight[i] * mesh->uvs[2 * (size_t)index[i]];
+        sum.v += weight[i] * mesh->uvs[2 * (size_t)index[i] + 1];
+    }
+    return sum;
+}
+
+/* The direction in which u grows and v stays. */
+static aur_vector mesh_tangent(const aur_mesh *mesh, const uint32_t *index, const aur_vector edge[2]) {
+    if (mesh->uvs == NULL)
+        return edge[0];
+    const float *const uv[3] = {&mesh->uvs[2 * (size_t)index[0]], &mesh->uvs[2 * (size_t)index[1]],
+                                &mesh->uvs[2 * (size_t)index[2]]};
+    const float v1 = uv[1][1] - uv[0][1], v2 = uv[2][1] - uv[0][1];
+    const float determinant = (uv[1][0] - uv[0][0]) * v2 - (uv[2][0] - uv[0][0]) * v1;
+    if (determinant == 0.0f)
+        return edge[0];
+    return aur_vector_scale(aur_vector_subtract(aur_vector_scale(edge[0], v2), aur_vector_scale(edge[1], v1)),
+                            1.0f / determinant);
+}
+
+static void mesh_surface(const aur_shape *shape, const aur_ray *ray, const aur_hit *hit,
+                         aur_surface *surface) {
+    const aur_mesh *const mesh = &shape->mesh;
     const uint32_t *const index = &mesh->indices[3 * (size_t)hit->primitive];
     const float weight[3] = {1.0f - hit->u - hit->v, hit->u, hit->v};
     aur_vector corner[3];
     aur_mesh_corners(mesh, hit->primitive, corner);
     const aur_vector edge[2] = {aur_vector_subtract(corner[1], corner[0]),
                                 aur_vector_subtract(corner[2], corner[0])};
-    surface->position = interpolate(mesh->positions, index, weight);
-    const aur_vector normal = aur_vector_cross(edge[0], edge[1]);
-    const float length = aur_vector_length(normal);
+    const aur_vector cross = aur_vector_cross(edge[0], edge[1]);
+    const float squared = aur_vector_dot(cross, cross);
     /* A triangle too thin for its normal faces the ray. */
-    surface->geometric_normal =
-        length > 0.0f ? aur_vector_scale(normal, 1.0f / length) : aur_vector_scale(ray->direction, -1.0f);
-    surface->frame.z = surface->geometric_normal;
+    const aur_vector normal = squared > 0.0f ? aur_vector_scale(cross, 1.0f / sqrtf(squared))
+                                             : aur_vector_scale(ray->direction, -1.0f);
+    surface->position = aur_vector_add_scaled(
+        aur_vector_add_scaled(aur_vector_scale(corner[0], weight[0]), weight[1], corner[1]), weight[2],
+        corner[2]);
+    surface->geometric_normal = normal;
+    surface->frame.z = normal;
     if (mesh->normals != NULL) {
         const aur_vector smooth = interpolate(mesh->normals, index, weight);
-        const float squared = aur_vector_dot(smooth, smooth);
-        if (squared > 1e-12f)
-            surface->frame.z = aur_vector_scale(smooth, 1.0f / sqrtf(squared));
+        const float size = aur_vector_dot(smooth, smooth);
+        if (size > 1e-12f)
+            surface->frame.z = aur_vector_scale(smooth, 1.0f / sqrtf(size));
     }
-    surface->texture = (aur_bsdf_point){hit->u, hit->v};
-    surface->frame.x = edge[0];
-    if (mesh->uvs == NULL)
-        return;
-    const float *const uv[3] = {&mesh->uvs[2 * (size_t)index[0]], &mesh->uvs[2 * (size_t)index[1]],
-                                &mesh->uvs[2 * (size_t)index[2]]};
-    surface->texture.u = weight[0] * uv[0][0] + weight[1] * uv[1][0] + weight[2] * uv[2][0];
-    surface->texture.v = weight[0] * uv[0][1] + weight[1] * uv[1][1] + weight[2] * uv[2][1];
-    /* The direction in which u grows and v stays. */
-    const float v1 = uv[1][1] - uv[0][1], v2 = uv[2][1] - uv[0][1];
-    const float determinant = (uv[1][0] - uv[0][0]) * v2 - (uv[2][0] - uv[0][0]) * v1;
-    if (determinant != 0.0f)
-        surface->frame.x = aur_vector_scale(
-            aur_vector_subtract(aur_vector_scale(edge[0], v2), aur_vector_scale(edge[1], v1)),
-            1.0f / determinant);
+    surface->texture =
+        mesh->uvs != NULL ? mesh_texture(mesh, index, weight) : (aur_bsdf_point){hit->u, hit->v};
+    surface->frame.x = shape->bsdf->anisotropic ? mesh_tangent(mesh, index, edge) : edge[0];
 }
 
 static void curved_surface(const aur_shape *shape, const aur_ray *ray, const aur_hit *hit,
@@ -86,7 +95,7 @@ static void shape_surface(const aur_shape *shape, const aur_ray *ray, const aur_
     if (shape->curved != NULL)
         curved_surface(shape, ray, hit, surface);
     else
-        mesh_surface(&shape->mesh, ray, hit, surface);
+        mesh_surface(shape, ray, hit, surface);
 }
 
 /* In the group's own space, and then moved. */
@@ -114,23 +123,4 @@ void aur_scene_surface(const aur_scene *scene, const aur_ray *ray, const aur_hit
     surface->shape = hit->shape;
     surface->primitive = hit->primitive;
     surface->emitter = shape->emitter;
-}
-
-/* A point beside the surface, on the side of `direction`. */
-static aur_vector leave(const aur_surface *surface, aur_vector direction) {
-    const float side = aur_vector_dot(direction, surface->geometric_normal) < 0.0f ? -1.0f : 1.0f;
-    return aur_vector_add_scaled(surface->position, side * offset_at(surface->position),
-                                 surface->geometric_normal);
-}
-
-aur_ray aur_surface_ray(const aur_surface *surface, aur_vector direction) {
-    return (aur_ray){leave(surface, direction), 0.0f, direction, INFINITY};
-}
-
-aur_ray aur_surface_ray_to(const aur_surface *surface, aur_vector target, float *distance) {
-    const aur_vector from = leave(surface, aur_vector_subtract(target, surface->position));
-    const aur_vector way = aur_vector_subtract(target, from);
-    *distance = aur_vector_length(way);
-    return (aur_ray){from, 0.0f, aur_vector_scale(way, 1.0f / fmaxf(*distance, 1e-30f)),
-                     *distance * (1.0f - 1e-4f)};
 }

@@ -1,25 +1,32 @@
 #include "transport/direct_light.h"
 
-aur_vector aur_direct_light_sampled(const aur_scene *scene, const aur_shading *shading, float choice,
-                                    const float position[2], aur_counters *counters) {
-    const aur_vector black = {0};
+bool aur_direct_light_choose(const aur_scene *scene, const aur_shading *shading, float choice,
+                             const float position[2], aur_shadow *shadow) {
     const aur_surface *const surface = shading->surface;
     aur_light_sample light;
     if (!aur_light_sample_direct(scene, surface->position, (const float[3]){choice, position[0], position[1]},
                                  &light))
-        return black;
+        return false;
     const aur_vector scattered = aur_shading_evaluate(shading, light.direction);
     const aur_vector radiance = aur_vector_multiply(scattered, light.radiance);
     if (!(light.pdf > 0.0f) || aur_vector_is_zero(radiance))
-        return black;
+        return false;
     float distance;
-    const aur_ray shadow = aur_surface_ray_to(surface, light.position, &distance);
-    ++counters->rays;
-    if (aur_scene_occluded(scene, &shadow))
-        return black;
+    shadow->ray = aur_surface_ray_to(surface, light.position, &distance);
     const float weight =
         light.delta ? 1.0f : aur_power_heuristic(light.pdf, aur_shading_pdf(shading, light.direction));
-    return aur_vector_scale(radiance, weight / light.pdf);
+    shadow->radiance = aur_vector_scale(radiance, weight / light.pdf);
+    return true;
+}
+
+aur_vector aur_direct_light_sampled(const aur_scene *scene, const aur_shading *shading, float choice,
+                                    const float position[2], aur_counters *counters) {
+    const aur_vector black = {0};
+    aur_shadow shadow;
+    if (!aur_direct_light_choose(scene, shading, choice, position, &shadow))
+        return black;
+    ++counters->rays;
+    return aur_scene_occluded(scene, &shadow.ray) ? black : shadow.radiance;
 }
 
 /* The BSDF-sampling half. */

@@ -12,8 +12,17 @@ static inline float aur_power_heuristic(float pdf, float other) {
     return 1.0f / (1.0f + ratio * ratio);
 }
 
-/* The light-sampling half: radiance reflected towards the viewer, weighted for use beside BSDF sampling.
- * choice is one number and position two, in [0,1). */
+/* A light sample before it is known whether anything lies between. */
+typedef struct aur_shadow {
+    aur_ray ray;         /* from the surface to the light */
+    aur_vector radiance; /* reflected towards the viewer if nothing does, weighted beside BSDF sampling */
+} aur_shadow;
+
+/* choice is one number and position two, in [0,1). False: no light comes that way. */
+bool aur_direct_light_choose(const aur_scene *scene, const aur_shading *shading, float choice,
+                             const float position[2], aur_shadow *shadow);
+
+/* The light-sampling half: radiance reflected towards the viewer, weighted for use beside BSDF sampling. */
 aur_vector aur_direct_light_sampled(const aur_scene *scene, const aur_shading *shading, float choice,
                                     const float position[2], aur_counters *counters);
 

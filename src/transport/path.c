@@ -34,8 +34,9 @@ static void release(aur_integrator *integrator) {
     free(integrator->data);
 }
 
-/* Pairs of one bounce: (light choice, roulette), light position, (lobe choice, unused), direction. */
-enum { PAIRS_A_BOUNCE = 4 };
+/* Pairs of one bounce: (light choice, roulette), light position, (lobe choice, unused), direction. Those of
+ * the first come with the camera's, the others two bounces at once. */
+enum { PAIRS_A_BOUNCE = 4, PAIRS_AT_ONCE = AUR_STREAM_BLOCK };
 
 static aur_vector radiance(const aur_integrator *integrator, const aur_camera_sample *sample,
                            aur_counters *counters) {
@@ -47,8 +48,16 @@ static aur_vector radiance(const aur_integrator *integrator, const aur_camera_sa
     float previous_pdf = 0.0f;
     bool previous_specular = true; /* the camera cannot be hit by light sampling either */
     aur_ray ray = sample->ray;
+    float ahead[PAIRS_AT_ONCE][2];
 
     for (uint32_t depth = 1; depth <= data->max_depth; ++depth) {
+        /* Before the ray, so that the processor works at both. */
+        if (depth % 2 == 0)
+            aur_stream_pairs(&sample->stream, PAIRS_AT_ONCE + PAIRS_A_BOUNCE * (depth - 2), PAIRS_AT_ONCE,
+                             ahead);
+        const float *const choice =
+            depth == 1 ? sample->first_pairs[AUR_PAIR_FIRST] : ahead[depth % 2 * PAIRS_A_BOUNCE];
+        const float *const position = choice + 2, *const lobe = choice + 4, *const direction = choice + 6;
         aur_hit hit;
         ++counters->rays;
         if (!aur_scene_intersect(scene, &ray, &hit)) {
@@ -76,25 +85,23 @@ static aur_vector radiance(const aur_integrator *integrator, const aur_camera_sa
         if (depth == data->max_depth)
             break;
 
-        const uint32_t pair = AUR_PAIR_FIRST + PAIRS_A_BOUNCE * (depth - 1);
-        float choice[2], position[2], lobe[2], direction[2];
-        aur_stream_pair(&sample->stream, pair, choice);
-        aur_stream_pair(&sample->stream, pair + 1, position);
-        aur_stream_pair(&sample->stream, pair + 2, lobe);
-        aur_stream_pair(&sample->stream, pair + 3, direction);
-
         const aur_shading shading = aur_shading_at(&surface, view);
-        if (has_lights) {
-            const aur_vector direct =
-                aur_direct_light_sampled(scene, &shading, choice[0], position, counters);
-            sum = aur_vector_add(sum, aur_vector_multiply(throughput, direct));
-        }
+        /* Both directions before the shadow ray: the processor works at them together. */
+        aur_shadow shadow;
+        const bool lit = has_lights && aur_direct_light_choose(scene, &shading, choice[0], position, &shadow);
         aur_bsdf_sample scattered;
-        if (!aur_shading_sample(&shading, (const float[3]){lobe[0], direction[0], direction[1]}, &scattered))
+        const bool goes_on =
+            aur_shading_sample(&shading, (const float[3]){lobe[0], direction[0], direction[1]}, &scattered);
+        if (lit) {
+            ++counters->rays;
+            if (!aur_scene_occluded(scene, &shadow.ray))
+                sum = aur_vector_add(sum, aur_vector_multiply(throughput, shadow.radiance));
+        }
+        if (!goes_on)
             break;
         throughput = aur_vector_multiply(throughput, scattered.weight);
         if (depth >= data->rr_depth) {
-            const float survival = fminf(aur_vector_max(throughput), 0.95f);
+            const float survival = aur_smaller(aur_vector_max(throughput), 0.95f);
             if (!(choice[1] < survival))
                 break;
             throughput = aur_vector_scale(throughput, 1.0f / survival);

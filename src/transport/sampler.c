@@ -5,7 +5,9 @@
 #include <string.h>
 
 #include "core/error.h"
+#include "core/simd.h"
 #include "pointset/net_2d.h"
+#include "transport/sampler_kernels.h"
 
 static aur_result fill_table(aur_sampler *sampler, const char *set, const aur_warnings *warnings,
                              aur_error *error) {
@@ -46,6 +48,10 @@ aur_result aur_sampler_create(const char *set, size_t count, const aur_warnings 
         sampler->kind = AUR_SAMPLER_RANDOM;
     } else if (strcmp(set, "sobol") == 0) {
         sampler->kind = AUR_SAMPLER_SOBOL;
+        const aur_isa isa = aur_isa_available();
+        sampler->sobol_pairs = isa >= AUR_ISA_AVX512 ? aur_sobol_pairs_avx512
+                               : isa >= AUR_ISA_AVX2 ? aur_sobol_pairs_avx2
+                                                     : aur_sobol_pairs_portable;
     } else {
         const aur_set_description *const row = aur_set_find(set);
         sampler->kind = row != NULL && row->binary_net ? AUR_SAMPLER_NET : AUR_SAMPLER_TABLE;
@@ -93,48 +99,84 @@ static uint32_t permute(uint32_t index, uint32_t size, uint32_t seed) {
     return index;
 }
 
+/* Of every kind but SOBOL. */
 static void pair_words(const aur_stream *stream, uint32_t pair, uint32_t words[2]) {
     const aur_sampler *const sampler = stream->sampler;
-    uint64_t hash = aur_hash2(stream->pixel, pair);
+    aur_pair_seeds seeds = aur_pair_seeds_of(stream, pair);
     /* Beyond its end a table begins anew with another randomisation. */
     if (sampler->size > 0 && stream->index >= sampler->size)
-        hash = aur_hash2(hash, stream->index / sampler->size);
-    const uint32_t seed_x = (uint32_t)hash;
-    const uint32_t seed_y = (uint32_t)(hash >> 32);
-    const uint32_t seed_index = (uint32_t)aur_mix64(hash + 1);
+        seeds = aur_pair_seeds_by(aur_hash2(seeds.coordinates, stream->index / sampler->size));
     uint32_t index;
     switch (sampler->kind) {
-    case AUR_SAMPLER_RANDOM: {
-        const uint64_t number = aur_hash2(hash, stream->index);
+    case AUR_SAMPLER_NET:
+        index = aur_owen_scramble(stream->index, (uint32_t)seeds.index) & (sampler->size - 1);
+        words[0] = aur_owen_scramble(sampler->points[index][0], (uint32_t)seeds.coordinates);
+        words[1] = aur_owen_scramble(sampler->points[index][1], (uint32_t)(seeds.coordinates >> 32));
+        return;
+    case AUR_SAMPLER_TABLE:
+        index = permute(stream->index % sampler->size, sampler->size, (uint32_t)seeds.index);
+        words[0] = sampler->points[index][0] + (uint32_t)seeds.coordinates;
+        words[1] = sampler->points[index][1] + (uint32_t)(seeds.coordinates >> 32);
+        return;
+    default: {
+        const uint64_t number = aur_hash2(seeds.coordinates, stream->index);
         words[0] = (uint32_t)number;
         words[1] = (uint32_t)(number >> 32);
         return;
     }
-    case AUR_SAMPLER_SOBOL:
-        /* Shuffles within, and moves, aligned blocks of a power of two: every such block is a net (Burley
-         * 2020). */
-        index = aur_owen_scramble(stream->index, seed_index);
-        words[0] = aur_owen_scramble(aur_sobol_first(index), seed_x);
-        words[1] = aur_owen_scramble(aur_sobol_second(index), seed_y);
+    }
+}
+
+/* An index is scrambled so that aligned blocks of a power of two are shuffled and moved: every such block is
+ * a net (Burley 2020). In the reversed words that hashing wants, the first coordinate is the index itself. */
+static void sobol_pair(const aur_stream *stream, uint32_t pair, float u[2]) {
+    const aur_pair_seeds seeds = aur_pair_seeds_of(stream, pair);
+    const uint32_t index =
+        aur_reverse_bits(aur_nested_hash(aur_reverse_bits(stream->index), (uint32_t)seeds.index));
+    const uint32_t x = aur_nested_hash(index, (uint32_t)seeds.coordinates);
+    const uint32_t y = aur_nested_hash(aur_sobol_second_reversed(index), (uint32_t)(seeds.coordinates >> 32));
+    u[0] = aur_unit_float(aur_reverse_bits(x));
+    u[1] = aur_unit_float(aur_reverse_bits(y));
+}
+
+void aur_sobol_pairs_portable(const aur_stream *stream, uint32_t first, float u[AUR_STREAM_BLOCK][2]) {
+    for (uint32_t i = 0; i < AUR_STREAM_BLOCK; ++i)
+        sobol_pair(stream, first + i, u[i]);
+}
+
+static void sobol_pairs(const aur_stream *stream, uint32_t first, size_t count, float (*u)[2]) {
+    const aur_sampler *const sampler = stream->sampler;
+    if (count > 2 && sampler->sobol_pairs != NULL) {
+        for (; count >= AUR_STREAM_BLOCK; first += AUR_STREAM_BLOCK, count -= AUR_STREAM_BLOCK) {
+            sampler->sobol_pairs(stream, first, u);
+            u += AUR_STREAM_BLOCK;
+        }
+        if (count == 0)
+            return;
+        float rest[AUR_STREAM_BLOCK][2];
+        sampler->sobol_pairs(stream, first, rest);
+        memcpy(u, rest, count * sizeof rest[0]);
         return;
-    case AUR_SAMPLER_NET:
-        index = aur_owen_scramble(stream->index, seed_index) & (sampler->size - 1);
-        words[0] = aur_owen_scramble(sampler->points[index][0], seed_x);
-        words[1] = aur_owen_scramble(sampler->points[index][1], seed_y);
+    }
+    for (uint32_t i = 0; i < count; ++i)
+        sobol_pair(stream, first + i, u[i]);
+}
+
+void aur_stream_pairs(const aur_stream *stream, uint32_t first, size_t count, float (*u)[2]) {
+    if (stream->sampler->kind == AUR_SAMPLER_SOBOL) {
+        sobol_pairs(stream, first, count, u);
         return;
-    case AUR_SAMPLER_TABLE:
-        index = permute(stream->index % sampler->size, sampler->size, seed_index);
-        words[0] = sampler->points[index][0] + seed_x;
-        words[1] = sampler->points[index][1] + seed_y;
-        return;
+    }
+    for (uint32_t i = 0; i < count; ++i) {
+        uint32_t words[2];
+        pair_words(stream, first + i, words);
+        u[i][0] = aur_unit_float(words[0]);
+        u[i][1] = aur_unit_float(words[1]);
     }
 }
 
 void aur_stream_pair(const aur_stream *stream, uint32_t pair, float u[2]) {
-    uint32_t words[2] = {0};
-    pair_words(stream, pair, words);
-    u[0] = aur_unit_float(words[0]);
-    u[1] = aur_unit_float(words[1]);
+    aur_stream_pairs(stream, pair, 1, (float(*)[2])u);
 }
 
 float aur_stream_single(const aur_stream *stream, uint32_t pair) {

@@ -17,8 +17,14 @@ typedef enum aur_sampler_kind {
     AUR_SAMPLER_TABLE   /* any other table: randomly permuted, shifted modulo 1 */
 } aur_sampler_kind;
 
+typedef struct aur_stream aur_stream;
+
+enum { AUR_STREAM_BLOCK = 8 }; /* pairs that are made at once */
+
 typedef struct aur_sampler {
     aur_sampler_kind kind;
+    /* SOBOL by this processor's instructions; NULL: in plain C. The bits are the same. */
+    void (*sobol_pairs)(const aur_stream *stream, uint32_t first, float u[AUR_STREAM_BLOCK][2]);
     uint32_t size;         /* points in the table; a power of two for nets */
     uint32_t (*points)[2]; /* words: x / 2^32 */
 } aur_sampler;
@@ -29,14 +35,16 @@ aur_result aur_sampler_create(const char *set, size_t count, const aur_warnings 
 void aur_sampler_destroy(aur_sampler *sampler);
 
 /* One sample's numbers. `pixel` is a hash of seed and pixel, `index` the sample's number there. */
-typedef struct aur_stream {
+struct aur_stream {
     const aur_sampler *sampler;
     uint64_t pixel;
     uint32_t index;
-} aur_stream;
+};
 
 /* The pair of numbers in [0,1) of dimension pair `pair`. */
 void aur_stream_pair(const aur_stream *stream, uint32_t pair, float u[2]);
+/* The pairs first .. first + count - 1, faster than one by one, most of all AUR_STREAM_BLOCK at once. */
+void aur_stream_pairs(const aur_stream *stream, uint32_t first, size_t count, float (*u)[2]);
 /* A single number in [0,1), from a pair of its own. */
 float aur_stream_single(const aur_stream *stream, uint32_t pair);
 

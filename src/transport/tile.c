@@ -2,16 +2,14 @@
 
 float aur_view_sample(const aur_view *view, size_t x, size_t y, uint32_t index, aur_camera_sample *sample) {
     sample->stream = (aur_stream){view->sampler, aur_hash3(view->seed, y, x), index};
-    float offset[2] = {0.0f, 0.0f}, lens[2];
+    float offset[2] = {0.0f, 0.0f};
+    aur_stream_pairs(&sample->stream, 0, AUR_STREAM_BLOCK, sample->first_pairs);
     if (!view->pixel_centre) {
-        float u[2];
-        aur_stream_pair(&sample->stream, AUR_PAIR_FILTER, u);
-        offset[0] = aur_filter_sample(view->filter, u[0]);
-        offset[1] = aur_filter_sample(view->filter, u[1]);
+        offset[0] = aur_filter_sample(view->filter, sample->first_pairs[AUR_PAIR_FILTER][0]);
+        offset[1] = aur_filter_sample(view->filter, sample->first_pairs[AUR_PAIR_FILTER][1]);
     }
-    aur_stream_pair(&sample->stream, AUR_PAIR_LENS, lens);
     aur_camera_ray(view->scene, view->width, view->height, (float)x + 0.5f + offset[0],
-                   (float)y + 0.5f + offset[1], lens, &sample->ray);
+                   (float)y + 0.5f + offset[1], sample->first_pairs[AUR_PAIR_LENS], &sample->ray);
     return aur_filter_weight(view->filter, offset[0]) * aur_filter_weight(view->filter, offset[1]);
 }
 

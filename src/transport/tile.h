@@ -16,6 +16,8 @@ typedef struct aur_counters {
 typedef struct aur_camera_sample {
     aur_ray ray;
     aur_stream stream;
+    float first_pairs[AUR_STREAM_BLOCK]
+                     [2]; /* of the stream: those of the camera, and the first of an integrator */
 } aur_camera_sample;
 
 /* Dimension pairs that the camera uses; an integrator's own begin after them. */

@@ -293,6 +293,11 @@ static const struct bad_mesh {
      "ply\nformat binary_little_endian 1.0\nelement vertex 3000000000\nproperty float x\nproperty float y\n"
      "property float z\nelement face 1\nproperty list uchar int vertex_indices\nend_header\n0000",
      0, "3000000000 vertices cannot be in 4 bytes"},
+    {"a.ply",
+     "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\nelement "
+     "face 999999999999\nelement face 1\nproperty list uchar int vertex_indices\nend_header\n0 0 0\n1 0 0\n",
+     13, "the file ends in vertex 2 of 3"},
+    {"a.ply", "ply\nformat ascii 1.0\nelement vertex 3x\n", 3, "an element needs a name and a count"},
     {"a.serialized", "xxxxxxxxxxxxxxxxxxx", 0, "no serialized mesh file"},
 };
 

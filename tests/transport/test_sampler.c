@@ -1,6 +1,8 @@
 #include "check.h"
 
-#include "transport/sampler.h"
+#include "transport/sampler_kernels.h"
+
+#include "core/simd.h"
 
 static aur_sampler *make(const char *set, size_t count) {
     aur_sampler *sampler = NULL;
@@ -94,6 +96,33 @@ static void tables_are_permuted(void **state) {
     }
 }
 
+/* Pairs in blocks are those one by one, to the bit, for every count and instruction set. */
+static void blocks_are_single_pairs(void **state) {
+    (void)state;
+    static void (*const forms[])(const aur_stream *, uint32_t, float[AUR_STREAM_BLOCK][2]) = {
+        aur_sobol_pairs_portable, aur_sobol_pairs_avx2, aur_sobol_pairs_avx512};
+    static const aur_isa needs[] = {AUR_ISA_PORTABLE, AUR_ISA_AVX2, AUR_ISA_AVX512};
+    for (size_t s = 0; s < sizeof sets / sizeof sets[0]; ++s) {
+        aur_sampler *const sampler = make(sets[s], 48);
+        for (size_t form = 0; form < sizeof forms / sizeof forms[0]; ++form) {
+            if (sampler->kind != AUR_SAMPLER_SOBOL ? form > 0 : needs[form] > aur_isa_available())
+                continue;
+            sampler->sobol_pairs = forms[form];
+            for (uint32_t count = 0; count <= 20; ++count) {
+                const aur_stream stream = {sampler, aur_hash2(3, count), 0x9e3779b9u * count};
+                float together[20][2], alone[2];
+                aur_stream_pairs(&stream, 7 * count, count, together);
+                for (uint32_t i = 0; i < count; ++i) {
+                    aur_stream_pair(&stream, 7 * count + i, alone);
+                    assert_near(together[i][0], alone[0], 0);
+                    assert_near(together[i][1], alone[1], 0);
+                }
+            }
+        }
+        aur_sampler_destroy(sampler);
+    }
+}
+
 static void refuses_bad_input(void **state) {
     (void)state;
     aur_sampler *sampler = NULL;
@@ -105,9 +134,9 @@ static void refuses_bad_input(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(is_random_access),  cmocka_unit_test(is_uniform_over_pixels),
-        cmocka_unit_test(nets_stay_nets),    cmocka_unit_test(tables_are_permuted),
-        cmocka_unit_test(refuses_bad_input),
+        cmocka_unit_test(is_random_access),        cmocka_unit_test(is_uniform_over_pixels),
+        cmocka_unit_test(nets_stay_nets),          cmocka_unit_test(tables_are_permuted),
+        cmocka_unit_test(blocks_are_single_pairs), cmocka_unit_test(refuses_bad_input),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
