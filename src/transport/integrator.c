@@ -7,11 +7,13 @@
 extern const aur_integrator_descriptor aur_integrator_path;
 extern const aur_integrator_descriptor aur_integrator_final_gather;
 extern const aur_integrator_descriptor aur_integrator_ambient_occlusion;
+extern const aur_integrator_descriptor aur_integrator_radiosity;
 
 static const aur_integrator_descriptor *const integrators[] = {
     &aur_integrator_path,
     &aur_integrator_final_gather,
     &aur_integrator_ambient_occlusion,
+    &aur_integrator_radiosity,
 };
 
 enum { INTEGRATOR_COUNT = sizeof integrators / sizeof integrators[0] };
