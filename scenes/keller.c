@@ -369,7 +369,7 @@ static void write_teapot_box(writer *w) {
     begin_scene(w, "teapot-box");
     write_room(w, (span){-0.5, 0.5}, (span){-0.4, 0.4}, (span){0.0, 0.7});
     begin_group(w);
-    add_teapot(&w->group, 0.1, (vec){0.0, 0.0, gap});
+    add_teapot(&w->group, 0.085, (vec){0.0, 0.0, gap});
     end_group(w, "teapot", false);
     end_scene(w, 1572);
 }
