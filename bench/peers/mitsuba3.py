@@ -109,7 +109,8 @@ Rough plastics differ for a reason that is known. The light that the coat mirror
 directions; Mitsuba takes it as the plain mean of 64 values from grazing to normal, both ends counted in full, which is
 1.5 % of it too little, and for Beckmann facets it uses a rational approximation of the shadowing. So its base is darker
 by one factor: 1.0138 (GGX) and 1.0205 (Beckmann) at this roughness, where both BSDFs are evaluated at one pair of
-directions. The rows that say "base /" have our base divided by it.
+directions. The rows that say "base /" have our base divided by it, and so have the rough plastics of the bundled scenes,
+each by the factor of its roughness.
 """
 
 
@@ -129,6 +130,67 @@ def all_scenes():
     rest += [("sensor " + name, scene(sensor=text)) for name, text in SENSORS.items()]
     for name, text in rest:
         yield name, text, text
+
+
+# Bundled scenes in the form with rough materials; their meshes are made by scripts/scenes.sh.
+BUNDLED = ("plates/plates", "sphere/sphere", "statue/statue", "room/room", "parade/parade", "occlusion/occlusion",
+           "cornell-box/figure")
+SCENES = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "scenes")
+SETTINGS = {"materials": "rough", "integrator": "path", "spp": str(SAMPLES), "resx": str(SIZE), "resy": str(SIZE),
+            "rfilter": "box", "max_depth": "8"}
+
+
+def plastic_factor(aureole, folder, alpha):
+    """Our base of a rough plastic over Mitsuba's (see EXPLANATION), at one pair of directions: no noise."""
+    text = ('<scene version="3.0.0"><integrator type="path"><integer name="max_depth" value="2"/></integrator>'
+            '<sensor type="orthographic"><transform name="to_world"><lookat origin="1,2,3" target="0,0,0" up="0,1,0"/>'
+            '</transform><sampler type="independent"><integer name="sample_count" value="1"/></sampler><film type="hdrfilm">'
+            '<integer name="width" value="1"/><integer name="height" value="1"/><rfilter type="box"/></film></sensor>'
+            '<emitter type="directional"><vector name="direction" x="1" y="-1" z="-2"/></emitter><shape type="rectangle">'
+            '<transform name="to_world"><scale value="9"/></transform><bsdf type="roughplastic"><rgb name='
+            '"specular_reflectance" value="0"/><rgb name="diffuse_reflectance" value="0.5"/>'
+            f'<float name="alpha" value="{alpha}"/></bsdf></shape></scene>')
+    theirs = np.array(mi.render(mi.load_string(text)))[:, :, :3].mean()
+    return render_ours(aureole, folder, text, 1).mean() / theirs
+
+
+def bundled_pair(aureole, folder, scene_path):
+    """Copies of a scene, the first for Mitsuba; in the second the bases of rough plastics are divided by their factors."""
+    name, files = os.path.split(scene_path)[0], []
+    for side in ("theirs", "ours"):
+        copy = os.path.join(folder, side, name)
+        os.makedirs(copy, exist_ok=True)
+        for entry in os.listdir(os.path.join(SCENES, name)):
+            if not entry.endswith(".xml"):
+                os.symlink(os.path.realpath(os.path.join(SCENES, name, entry)), os.path.join(copy, entry))
+                continue
+            with open(os.path.join(SCENES, name, entry), encoding="utf-8") as file:
+                text = file.read()
+            if side == "ours" and entry == "materials-rough.xml":
+                text = re.sub(r'(roughplastic">\s*<rgb name="diffuse_reflectance" value=")([^"]*)(".*?"alpha" value=")([^"]*)"',
+                              lambda m: m[1] + ", ".join(str(float(c) / plastic_factor(aureole, folder, m[4]))
+                                                         for c in m[2].split(",")) + m[3] + m[4] + '"', text, flags=re.S)
+            with open(os.path.join(copy, entry), "w", encoding="utf-8") as file:
+                file.write(text)
+        generated = os.path.join(folder, side, "generated")
+        if not os.path.exists(generated):
+            os.symlink(os.path.realpath(os.path.join(SCENES, "generated")), generated)
+        files.append(os.path.join(folder, side, scene_path + ".xml"))
+    return files
+
+
+def compare_bundled(aureole, folder, scene_path):
+    theirs_path, ours_path = bundled_pair(aureole, folder, scene_path)
+    loaded = mi.load_file(theirs_path, **SETTINGS)
+    definitions = [word for item in SETTINGS.items() for word in ("-D", "=".join(item))]
+    out = os.path.join(folder, "out.exr")
+    ours, theirs = [], []
+    for seed in range(1, SEEDS + 1):
+        subprocess.run([aureole, "render", ours_path, "-q", "--seed", str(seed), "--sampler", "random", "-o", out, *definitions],
+                       check=True)
+        ours.append(read(out))
+        theirs.append(np.array(mi.render(loaded, seed=seed), dtype=np.float64)[:, :, :3])
+    return judge("bundled " + scene_path, ours, theirs)
 
 
 def public_scene(path):
@@ -196,6 +258,10 @@ def compare(aureole, folder, name, texts):
     for seed in range(1, SEEDS + 1):
         ours.append(render_ours(aureole, folder, texts[1], seed))
         theirs.append(np.array(mi.render(loaded, seed=seed), dtype=np.float64)[:, :, :3])
+    return judge(name, ours, theirs)
+
+
+def judge(name, ours, theirs):
     a, b = np.array([blocks(p) for p in ours]), np.array([blocks(p) for p in theirs])
     error = np.sqrt((a.var(axis=0, ddof=1) + b.var(axis=0, ddof=1)) / SEEDS)
     difference = a.mean(axis=0) - b.mean(axis=0)
@@ -236,6 +302,9 @@ def main():
         for name, *texts in all_scenes():
             if only in name:
                 good = compare(aureole, folder, name, texts) and good
+        for scene_path in BUNDLED:
+            if only in "bundled " + scene_path:
+                good = compare_bundled(aureole, folder, scene_path) and good
         for path in paths:
             good = compare(aureole, folder, "file " + "/".join(path.split("/")[-2:]), 2 * [public_scene(path)]) and good
     print(EXPLANATION, end="")

@@ -38,7 +38,7 @@ static vec wedge_point(const wedge *w, double r, double y, double t) {
 }
 
 static void add_quad(mesh *m, vec a, vec b, vec c, vec d) {
-    const vec normal = normalize(cross(subtract(b, a), subtract(d, a)));
+    const vec normal = normalize(cross(subtract(c, a), subtract(d, b))); /* also where two corners are one */
     const uint32_t first = mesh_vertex(m, a, normal);
     mesh_vertex(m, b, normal);
     mesh_vertex(m, c, normal);

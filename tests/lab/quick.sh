@@ -19,6 +19,18 @@ grep -q '^# bias of finalgather against path' results/marques-2013-gather.csv ||
 for picture in diffuse-reference glossy-error-sobol finalgather path; do
   [ -s "results/marques-2013-gather-$picture.png" ] || fail "no picture $picture"
 done
+
+# Ambient occlusion: 5 sets x 2 counts x 2 forms, each interval about its value; every set below random numbers at 64
+# samples, where even the least of the gains is 2; and errors that are independent from pixel to pixel only where the set is
+# randomised for each: banding is 1 then, up to its own scatter of about .1, and above 1.2 when it is not.
+"$aureole" lab run schretter-2012-fig5 --quick -q --scenes "$source/scenes" -o results >table.txt || fail "the run of fig. 5"
+cat table.txt
+awk -F, '/^#/ || $1 == "pattern" { next }
+         { ++rows; if (!($5 <= $4 && $4 <= $6 && $4 > 0)) bad = 1
+           if ($2 == 64 && $1 != "random" && !($7 < 0.6)) bad = 1
+           if ($3 == "pixel" ? !($8 > 0.7 && $8 < 1.3) : !($8 > 1.2)) bad = 1 }
+         END { exit !(rows == 20 && !bad) }' results/schretter-2012-fig5.csv || fail "the table of fig. 5"
+[ -s results/schretter-2012-fig5-golden-set-16-pixel.png ] || fail "no picture of fig. 5"
 "$aureole" lab run marques-2031 2>message.txt && fail "an unknown experiment runs"
 [ $? -le 2 ] && grep -q "marques-2031.*lab list" message.txt || fail "$(cat message.txt)"
 "$aureole" lab 2>/dev/null

@@ -1,0 +1,191 @@
+/* Ambient occlusion by five sets of 16 and of 64 directions (Schretter 2012, fig. 5).
+ *
+ * Every pixel looks through its centre and has its set randomised for itself: sets of the square by
+ * Cranley-Patterson rotation (a shift modulo 1), spherical Fibonacci by a turn about the normal. A second
+ * form randomises the set once a picture: then errors of neighbours are alike, which is the banding that the
+ * paper names. Banding is told by the RMSE of means over 4 x 4 pixels, times 4 and over the RMSE of pixels: 1
+ * where errors are independent, up to 4. */
+#include <math.h>
+#include <stdio.h>
+
+#include "lab/lab.h"
+
+enum { SET_CAPACITY = 6, MOST_REPEATS = 16, BLOCK = 4 };
+
+typedef struct occlusion_set {
+    const char *name;
+    const char *scramble;
+} occlusion_set;
+
+typedef struct occlusion_study {
+    lab_run *run;
+    aur_renderer *renderer;
+    size_t width, height;
+    size_t picture_width, picture_height; /* of the pictures that are written; 0: none */
+    double max_distance;
+    size_t reference_samples, repeats;
+    size_t set_count;
+    occlusion_set sets[SET_CAPACITY];
+} occlusion_study;
+
+static const char *const columns[] = {"pattern",  "samples",   "randomised",  "rmse",
+                                      "rmse_low", "rmse_high", "over_random", "banding"};
+
+typedef struct occlusion_form {
+    const occlusion_set *set;
+    size_t samples;
+    bool each_pixel; /* randomised for each pixel, else once a picture */
+} occlusion_form;
+
+static aur_result render(const occlusion_study *study, const occlusion_form *form, size_t width,
+                         size_t height, size_t repeat, aur_image **image, aur_error *error) {
+    const lab_options *const lab = lab_run_options(study->run);
+    char integrator[256];
+    snprintf(
+        integrator, sizeof integrator,
+        "ao:pixel=centre,samples=%zu,pattern=%s,scramble=%s,rotations=%d,pattern_seed=%zu,max_distance=%g",
+        form->samples, form->set->name, form->set->scramble, form->each_pixel ? 0 : 1, repeat,
+        study->max_distance);
+    const aur_render_options options = {.integrator = integrator,
+                                        .samples_per_pixel = 1,
+                                        .width = width,
+                                        .height = height,
+                                        .threads = lab->threads,
+                                        .progress = lab->progress,
+                                        .warnings = lab->warnings};
+    return aur_renderer_render(study->renderer, &options, image, NULL, error);
+}
+
+/* Mean square errors of pixels and of means over blocks of them. */
+static aur_result compare(const aur_image *reference, const aur_image *image, double *pixels, double *blocks,
+                          aur_error *error) {
+    aur_image *small_reference = NULL, *small = NULL;
+    double value[4];
+    aur_result result = aur_image_compare(reference, image, AUR_IMAGE_MSE, value, error);
+    *pixels = value[3];
+    if (result == AUR_OK)
+        result = aur_image_downsample(reference, BLOCK, &small_reference, error);
+    if (result == AUR_OK)
+        result = aur_image_downsample(image, BLOCK, &small, error);
+    if (result == AUR_OK)
+        result = aur_image_compare(small_reference, small, AUR_IMAGE_MSE, value, error);
+    *blocks = value[3];
+    aur_image_destroy(small_reference);
+    aur_image_destroy(small);
+    return result;
+}
+
+/* Means over the repeats; the first picture is written. *mse is theirs, for the ratio to the first set. */
+static aur_result measure(const occlusion_study *study, const occlusion_form *form,
+                          const aur_image *reference, const double *base, double *mean, aur_error *error) {
+    double pixels[MOST_REPEATS], blocks[MOST_REPEATS], half, block_mean, unused;
+    aur_result result = AUR_OK;
+    for (size_t k = 0; k < study->repeats && result == AUR_OK; ++k) {
+        aur_image *image = NULL;
+        result = render(study, form, study->width, study->height, 1 + k, &image, error);
+        if (result == AUR_OK)
+            result = compare(reference, image, &pixels[k], &blocks[k], error);
+        aur_image_destroy(image);
+    }
+    if (result != AUR_OK)
+        return result;
+    lab_mean_interval(study->repeats, pixels, mean, &half);
+    lab_mean_interval(study->repeats, blocks, &block_mean, &unused);
+    lab_run *const run = study->run;
+    lab_text(run, form->set->name);
+    lab_number(run, (double)form->samples);
+    lab_text(run, form->each_pixel ? "pixel" : "picture");
+    lab_number(run, sqrt(*mean));
+    lab_number(run, sqrt(fmax(0.0, *mean - half)));
+    lab_number(run, sqrt(*mean + half));
+    lab_number(run, base != NULL ? sqrt(*mean / *base) : 1.0);
+    lab_number(run, BLOCK * sqrt(block_mean / *mean));
+    if (study->picture_width == 0)
+        return AUR_OK;
+    char name[96];
+    aur_image *image = NULL;
+    result = render(study, form, study->picture_width, study->picture_height, 1, &image, error);
+    snprintf(name, sizeof name, "%s-%zu-%s", form->set->name, form->samples,
+             form->each_pixel ? "pixel" : "picture");
+    if (result == AUR_OK)
+        result = lab_picture(run, name, image, 0.0f, error);
+    aur_image_destroy(image);
+    return result;
+}
+
+static aur_result study_all(const occlusion_study *study, aur_error *error) {
+    static const occlusion_set fibonacci = {"spherical-fibonacci", "rotate"};
+    static const size_t counts[] = {64, 16};
+    const occlusion_form truth = {&fibonacci, study->reference_samples, true};
+    aur_image *reference = NULL;
+    aur_result result = render(study, &truth, study->width, study->height, 0, &reference, error);
+    for (int each = 1; each >= 0; --each)
+        for (size_t n = 0; n < 2; ++n) {
+            double base = 0.0, mse = 0.0, best = INFINITY;
+            const char *winner = "";
+            for (size_t s = 0; s < study->set_count && result == AUR_OK; ++s) {
+                const occlusion_form form = {&study->sets[s], counts[n], each == 1};
+                result = measure(study, &form, reference, s == 0 ? NULL : &base, &mse, error);
+                if (s == 0)
+                    base = mse;
+                if (mse < best) {
+                    best = mse;
+                    winner = form.set->name;
+                }
+            }
+            if (result == AUR_OK)
+                lab_note(study->run, "%zu samples, randomised for each %s: least RMSE by %s", counts[n],
+                         each == 1 ? "pixel" : "picture", winner);
+        }
+    if (result == AUR_OK && study->picture_width > 0) {
+        aur_image *picture = NULL;
+        const occlusion_form fine = {&fibonacci, 1024, true};
+        result = render(study, &fine, study->picture_width, study->picture_height, 0, &picture, error);
+        if (result == AUR_OK)
+            result = lab_picture(study->run, "reference", picture, 0.0f, error);
+        aur_image_destroy(picture);
+    }
+    aur_image_destroy(reference);
+    return result;
+}
+
+static aur_result run(lab_run *run, aur_error *error) {
+    const lab_options *const options = lab_run_options(run);
+    occlusion_study study = {.run = run,
+                             .width = options->quick ? 32 : 128,
+                             .height = options->quick ? 32 : 96,
+                             .picture_width = options->quick ? 64 : 480,
+                             .picture_height = options->quick ? 64 : 360,
+                             .max_distance = options->quick ? 150.0 : INFINITY,
+                             .reference_samples = options->quick ? 4096 : 16384,
+                             .repeats = options->quick ? 4 : MOST_REPEATS,
+                             .set_count = 5,
+                             .sets = {{"random", "shift"},
+                                      {"hammersley", "shift"},
+                                      {"blue-noise", "shift"},
+                                      {"golden-set", "shift"},
+                                      {"spherical-fibonacci", "rotate"}}};
+    if (options->set != NULL)
+        study.sets[study.set_count++] = (occlusion_set){options->set, "rotate"};
+    aur_scene *scene = NULL;
+    /* The quick form needs no mesh that is to be made first. */
+    aur_result result = lab_load_scene(
+        run, options->quick ? "cornell-box/glossy.xml" : "occlusion/occlusion.xml", 0, NULL, &scene, error);
+    if (result == AUR_OK)
+        result = aur_renderer_create(scene, &study.renderer, error);
+    lab_columns(run, sizeof columns / sizeof columns[0], columns);
+    if (result == AUR_OK)
+        result = study_all(&study, error);
+    if (result == AUR_OK && options->quick)
+        lab_note(run, "the quick form looks 150 mm far in the glossy Cornell box");
+    aur_renderer_destroy(study.renderer);
+    aur_scene_destroy(scene);
+    return result;
+}
+
+const lab_experiment lab_schretter_2012_fig5 = {
+    .name = "schretter-2012-fig5",
+    .reproduces = "Schretter 2012, fig. 5",
+    .summary = "ambient occlusion by random, Hammersley, blue noise, golden and spherical Fibonacci sets",
+    .run = run,
+};
