@@ -266,7 +266,8 @@ aur_result aur_renderer_render(aur_renderer *renderer, const aur_render_options 
                                .width = s.width,
                                .height = s.height,
                                .seed = s.seed,
-                               .pixel_centre = integrator->pixel_centre};
+                               .pixel_centre = integrator->pixel_centre,
+                               .has_lens = aur_camera_has_lens(renderer->scene)};
         render_work work = {.integrator = integrator, .view = &view, .settings = &s, .film = &pixels};
         result = render_samples(&work, options, &counted, error);
     }

@@ -130,6 +130,10 @@ void aur_camera_ray(const aur_scene *scene, size_t width, size_t height, float x
     ray->farthest = sensor->far_clip * unit_depth;
 }
 
+bool aur_camera_has_lens(const aur_scene *scene) {
+    return scene->sensor.aperture_radius > 0.0f;
+}
+
 const aur_film *aur_scene_film(const aur_scene *scene) {
     return &scene->film;
 }

@@ -119,6 +119,9 @@ size_t aur_scene_emitter_count(const aur_scene *scene);
 void aur_camera_ray(const aur_scene *scene, size_t width, size_t height, float x, float y,
                     const float lens[2], aur_ray *ray);
 
+/* Whether the camera's rays depend on `lens`. */
+bool aur_camera_has_lens(const aur_scene *scene);
+
 /* Reconstruction filters, by name: box (radius 0.5), tent (1), gaussian (stddev 0.5, radius 2, as Mitsuba 3),
  * mitchell (B = C = 1/3, radius 2). Samples are drawn in proportion to the filter's absolute value, so a
  * pixel is the plain mean of its samples times their aur_filter_weight in x and in y: 1 but for mitchell,

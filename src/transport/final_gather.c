@@ -194,11 +194,12 @@ static aur_result prepare_classes(aur_final_gather *data, aur_error *error) {
     data->classes = calloc(count + 1, sizeof *data->classes);
     if (data->classes == NULL)
         return aur_fail(error, AUR_ERROR_MEMORY, "out of memory");
-    for (uint32_t i = 0; i < count && data->map != NULL; ++i) {
+    for (uint32_t i = 0; i < count; ++i) {
         const aur_bsdf *const bsdf = aur_scene_shape_bsdf(scene, i);
         aur_hit_class *const class = &data->classes[i];
-        class->plain = bsdf->plain_diffuse && !aur_shape_is_curved(scene, i) &&
-                       aur_shape_emitter(scene, i) == AUR_NO_EMITTER;
+        class->curved = aur_shape_is_curved(scene, i);
+        class->emits = aur_shape_emitter(scene, i) != AUR_NO_EMITTER;
+        class->plain = data->map != NULL && bsdf->plain_diffuse && !class->curved && !class->emits;
         if (!class->plain)
             continue;
         for (size_t side = 0; side < 2; ++side)

@@ -25,6 +25,7 @@ enum { AUR_LONGEST_CHAIN = 16 }; /* specular bounces in a row */
 
 /* How a gather ray's hit on a shape becomes radiance. */
 typedef struct aur_hit_class {
+    bool curved, emits;
     bool plain;                 /* by the texel's irradiance and the reflectances here, without the surface */
     aur_vector albedo_on_pi[2]; /* on the side of the normal, and behind */
 } aur_hit_class;
@@ -124,9 +125,8 @@ void aur_group_add_sample(aur_group *group, const aur_group_task *task, aur_pixe
 
 /* --- edges (gather_edges.c) */
 
-/* What a ray of the eye along `direction` met: the shape and which way it faces. Never 0, which is nothing.
- */
-uint64_t aur_surface_key(const aur_surface *surface, aur_vector direction);
+/* What a lane's ray hit: the shape and which way it faces. Never 0, which is nothing. */
+uint64_t aur_final_gather_key(const aur_final_gather *data, const aur_packet *packet, size_t lane);
 #define AUR_KEY_EMITS (UINT64_C(1) << 63)
 
 /* Adds edge_samples to the pixels that see, or whose neighbours see, more than one thing. */

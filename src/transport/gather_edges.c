@@ -39,29 +39,30 @@ static int edge_within(const aur_pixel_strata *pixel) {
     return edge;
 }
 
-/* What the first sample of a pixel beside the tile sees. */
-static void look_beside(const aur_group_task *task, size_t x, size_t y, aur_pixel_strata *pixel,
-                        aur_counters *counters) {
-    aur_camera_sample sample;
-    aur_view_sample(task->view, x, y, 0, &sample);
-    aur_hit hit;
-    ++counters->rays;
-    uint64_t key = 0;
-    if (aur_scene_intersect(task->data->scene, &sample.ray, &hit)) {
-        aur_surface surface;
-        aur_scene_surface(task->data->scene, &sample.ray, &hit, &surface);
-        key = aur_surface_key(&surface, sample.ray.direction);
+enum { SIDE = AUR_TILE_SIZE, APRON = SIDE + 2, RING = 4 * SIDE + 4 };
+
+/* Pixels beside the tile, 16 at a time: what the first sample of each sees. */
+static void look_at(const aur_group_task *task, size_t count, const size_t *x, const size_t *y,
+                    aur_pixel_strata *pixels, aur_counters *counters) {
+    aur_packet packet;
+    aur_camera_sample samples[AUR_PACKET_SIZE];
+    float weights[AUR_PACKET_SIZE];
+    aur_packet_clear(&packet);
+    aur_view_samples(task->view, count, x, y, 0, samples, weights);
+    for (size_t k = 0; k < count; ++k)
+        aur_packet_set(&packet, k, &samples[k].ray);
+    const uint32_t found = aur_final_gather_intersect(task->data, AUR_EMBREE_COHERENT, &packet, counters);
+    for (size_t k = 0; k < count; ++k) {
+        const uint64_t key = (found >> k & 1u) != 0 ? aur_final_gather_key(task->data, &packet, k) : 0;
+        pixels[k] = (aur_pixel_strata){.count = 1, .strata = {{.key = key}}};
     }
-    *pixel = (aur_pixel_strata){.count = 1, .strata = {{.key = key}}};
 }
 
-enum { SIDE = AUR_TILE_SIZE, APRON = SIDE + 2 };
-
 /* The ring of pixels around the tile; what lies beyond the picture sees nothing and makes no edge. */
-static void look_around(const aur_group_task *task, aur_pixel_strata ring[4 * SIDE + 4],
+static void look_around(const aur_group_task *task, aur_pixel_strata ring[RING],
                         const aur_pixel_strata *at[APRON * APRON], const aur_pixel_strata *strata,
                         aur_counters *counters) {
-    size_t used = 0;
+    size_t x[RING], y[RING], used = 0;
     for (size_t i = 0; i < APRON * APRON; ++i) {
         const size_t column = i % APRON, row = i / APRON;
         at[i] = NULL;
@@ -69,11 +70,17 @@ static void look_around(const aur_group_task *task, aur_pixel_strata ring[4 * SI
             at[i] = &strata[(row - 1) * SIDE + (column - 1)];
             continue;
         }
-        const size_t x = task->x + column, y = task->y + row; /* one too many, against underflow */
-        if (x == 0 || y == 0 || x > task->view->width || y > task->view->height)
+        x[used] = task->x + column; /* one too many, against underflow */
+        y[used] = task->y + row;
+        if (x[used] == 0 || y[used] == 0 || x[used] > task->view->width || y[used] > task->view->height)
             continue;
-        look_beside(task, x - 1, y - 1, &ring[used], counters);
+        --x[used];
+        --y[used];
         at[i] = &ring[used++];
+    }
+    for (size_t first = 0; first < used; first += AUR_PACKET_SIZE) {
+        const size_t count = used - first < AUR_PACKET_SIZE ? used - first : AUR_PACKET_SIZE;
+        look_at(task, count, &x[first], &y[first], &ring[first], counters);
     }
 }
 
@@ -94,7 +101,7 @@ static int edge_at(const aur_pixel_strata *const at[APRON * APRON], size_t x, si
 
 void aur_gather_refine_edges(aur_group *group, const aur_group_task *task, uint32_t first_index,
                              aur_pixel_strata *strata, aur_counters *counters) {
-    aur_pixel_strata ring[4 * SIDE + 4];
+    aur_pixel_strata ring[RING];
     const aur_pixel_strata *at[APRON * APRON];
     look_around(task, ring, at, strata, counters);
     uint32_t any[AUR_PACKET_SIZE] = {0}, lights[AUR_PACKET_SIZE] = {0};

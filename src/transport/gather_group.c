@@ -5,10 +5,6 @@
 #include "transport/direct_light.h"
 #include "transport/gather_group.h"
 
-/* Dimension pairs of one surface along the chain: choice of light, position on it, and two for a specular
- * bounce. */
-enum { PAIR_CHOICE, PAIR_POSITION, PAIR_LOBE, PAIR_BOUNCE, PAIRS_A_SURFACE };
-
 aur_group *aur_group_create(void) {
     aur_group *const group = aligned_alloc(64, (sizeof(aur_group) + 63) / 64 * 64);
     if (group == NULL)
@@ -184,7 +180,7 @@ static void gather_rule(aur_group *group, const aur_gather_rule *rule, size_t lo
     }
 }
 
-static size_t sampled_share(const aur_final_gather *data) {
+size_t aur_group_sampled_share(const aur_final_gather *data) {
     return data->glossy_samples / data->samples_per_pixel;
 }
 
@@ -192,7 +188,7 @@ static size_t sampled_share(const aur_final_gather *data) {
 static void gather_sampled(aur_group *group, size_t lobe, uint32_t lanes) {
     static const aur_sampler sobol = {.kind = AUR_SAMPLER_SOBOL};
     const aur_final_gather *const data = group->task->data;
-    const size_t share = sampled_share(data);
+    const size_t share = aur_group_sampled_share(data);
     for (size_t i = 0; i < share; ++i) {
         aur_vector value[AUR_PACKET_SIZE];
         uint32_t aimed = 0;
@@ -276,79 +272,6 @@ static void gather(aur_group *group) {
     }
 }
 
-/* --- direct light
- * ----------------------------------------------------------------------------------------------- */
-
-/* BSDF * cos towards a light, each lobe less the part that its gather rays find. */
-static aur_vector weighted_value(const aur_final_gather *data, const aur_gather_place *p,
-                                 const aur_light_sample *light) {
-    const aur_vector local = aur_frame_to_local(&p->surface.frame, light->direction);
-    if (aur_vector_dot(p->surface.geometric_normal, light->direction) * local.z <= 0.0f)
-        return (aur_vector){0};
-    aur_vector sum = {0};
-    for (size_t i = 0; i < p->lobe_count; ++i) {
-        const aur_bsdf_lobe *const lobe = &p->lobes[i];
-        aur_vector value = {0};
-        float density = 0.0f;
-        if (lobe->shape == AUR_LOBE_SHAPE_SAMPLED) {
-            const aur_shading shading = {&p->surface, p->view};
-            value = aur_glossy_value(p->surface.bsdf, p->surface.texture, p->view, local, p->lobe_count,
-                                     p->lobes);
-            density = aur_shading_pdf(&shading, light->direction) * (float)sampled_share(data);
-        } else if (lobe->shape == AUR_LOBE_SHAPE_COSINE_POWER && p->view.z * local.z > 0.0f) {
-            value = aur_lobe_value(lobe, local);
-            const aur_gather_rule *const rule = aur_final_gather_rule(data, lobe);
-            if (rule != NULL && !aur_vector_is_zero(value))
-                density = aur_gather_density(rule, aur_vector_dot(lobe->axis, local)) *
-                          (float)(rule->count / data->samples_per_pixel);
-        }
-        const bool rivals = !light->delta && aur_group_gathers(data, lobe);
-        sum = aur_vector_add_scaled(sum, rivals ? aur_power_heuristic(light->pdf, density) : 1.0f, value);
-    }
-    return sum;
-}
-
-static void add_direct_light(aur_group *group) {
-    const aur_final_gather *const data = group->task->data;
-    const aur_scene *const scene = data->scene;
-    const bool chooses = aur_scene_emitter_count(scene) > 1;
-    const uint32_t pair = AUR_PAIR_FIRST + PAIRS_A_SURFACE * group->chain;
-    aur_vector contribution[AUR_PACKET_SIZE];
-    uint32_t aimed = 0;
-    aur_clear_lanes(&group->rays.packet);
-    for (uint32_t rest = group->lanes; rest != 0; rest &= rest - 1) {
-        const size_t lane = aur_first_lane(rest);
-        const aur_gather_place *const p = &group->places[lane];
-        float choice[2] = {0.5f, 0.0f}, position[2];
-        if (chooses)
-            aur_stream_pair(&group->samples[lane].stream, pair + PAIR_CHOICE, choice);
-        aur_stream_pair(&group->samples[lane].stream, pair + PAIR_POSITION, position);
-        aur_light_sample light;
-        if (!aur_light_sample_direct(scene, p->surface.position,
-                                     (const float[3]){choice[0], position[0], position[1]}, &light) ||
-            !(light.pdf > 0.0f))
-            continue;
-        const aur_vector value = weighted_value(data, p, &light);
-        contribution[lane] = aur_vector_scale(aur_vector_multiply(value, light.radiance), 1.0f / light.pdf);
-        if (aur_vector_is_zero(contribution[lane]))
-            continue;
-        float distance;
-        const aur_ray shadow = aur_surface_ray_to(&p->surface, light.position, &distance);
-        aur_packet_set(&group->rays.packet, lane, &shadow);
-        aimed |= 1u << lane;
-    }
-    if (aimed == 0)
-        return;
-    const aur_embree_order order = group->flat ? AUR_EMBREE_COHERENT : AUR_EMBREE_INCOHERENT;
-    const uint32_t lit =
-        aimed & ~aur_final_gather_occluded(data, order, &group->rays.packet, group->counters);
-    for (uint32_t rest = lit; rest != 0; rest &= rest - 1) {
-        const size_t lane = aur_first_lane(rest);
-        group->sum[lane] = aur_vector_add(group->sum[lane],
-                                          aur_vector_multiply(group->throughput[lane], contribution[lane]));
-    }
-}
-
 /* --- what the eye sees
  * ------------------------------------------------------------------------------------------ */
 
@@ -385,17 +308,22 @@ static bool are_flat(const aur_group *group) {
     return true;
 }
 
-uint64_t aur_surface_key(const aur_surface *surface, aur_vector direction) {
-    const float side = aur_vector_dot(surface->geometric_normal, direction) > 0.0f ? -1.0f : 1.0f;
-    const aur_vector n = aur_vector_scale(surface->geometric_normal, side);
+uint64_t aur_final_gather_key(const aur_final_gather *data, const aur_packet *packet, size_t lane) {
+    const struct RTCRay16 *const rays = &packet->query.ray;
+    const struct RTCHit16 *const hits = &packet->query.hit;
+    const uint32_t shape = hits->geomID[lane];
+    const aur_hit_class *const class = &data->classes[shape];
+    const uint64_t key = (class->emits ? AUR_KEY_EMITS : 0) | ((uint64_t)shape * 8 + 1);
+    if (class->curved)
+        return key;
+    const aur_vector n = {hits->Ng_x[lane], hits->Ng_y[lane], hits->Ng_z[lane]};
+    const bool behind = n.x * rays->dir_x[lane] + n.y * rays->dir_y[lane] + n.z * rays->dir_z[lane] > 0.0f;
     const float x = fabsf(n.x), y = fabsf(n.y), z = fabsf(n.z);
-    uint64_t facing = n.z < 0.0f ? 5 : 4;
     if (x >= y && x >= z)
-        facing = n.x < 0.0f ? 1 : 0;
-    else if (y >= z)
-        facing = n.y < 0.0f ? 3 : 2;
-    const uint64_t emits = surface->emitter != AUR_NO_EMITTER ? AUR_KEY_EMITS : 0;
-    return emits | ((uint64_t)surface->shape * 8 + facing + 1);
+        return key + ((n.x < 0.0f) != behind ? 1 : 0);
+    if (y >= z)
+        return key + ((n.y < 0.0f) != behind ? 3 : 2);
+    return key + ((n.z < 0.0f) != behind ? 5 : 4);
 }
 
 static aur_stratum *stratum_of(aur_pixel_strata *pixel, uint64_t key, bool *found) {
@@ -418,8 +346,7 @@ static void count_seen(aur_group *group, uint32_t lanes, uint32_t found, aur_pix
     for (uint32_t rest = lanes; rest != 0; rest &= rest - 1) {
         const size_t lane = aur_first_lane(rest);
         const bool hits = (found >> lane & 1u) != 0;
-        const uint64_t key =
-            hits ? aur_surface_key(&group->places[lane].surface, group->samples[lane].ray.direction) : 0;
+        const uint64_t key = hits ? aur_final_gather_key(group->task->data, &group->rays.packet, lane) : 0;
         bool known;
         into[lane] = stratum_of(&strata[aur_group_pixel(group->task->group, lane)], key, &known);
         into[lane]->seen += (double)group->weights[lane];
@@ -450,33 +377,44 @@ static void add_to_strata(const aur_group *group, aur_pixel_strata *strata,
     }
 }
 
-/* Emission of what was met, and of the sky where nothing was. */
-static void add_emission(aur_group *group, uint32_t lanes, uint32_t found) {
+static void add_light(aur_group *group, size_t lane, aur_vector radiance) {
+    group->sum[lane] =
+        aur_vector_add(group->sum[lane], aur_vector_multiply(group->throughput[lane], radiance));
+}
+
+static void add_sky(aur_group *group, uint32_t lanes) {
     const aur_final_gather *const data = group->task->data;
-    for (uint32_t rest = lanes; rest != 0 && data->direct != AUR_DIRECT_NONE; rest &= rest - 1) {
+    if (data->direct == AUR_DIRECT_NONE || !aur_scene_has_environment(data->scene))
+        return;
+    for (uint32_t rest = lanes; rest != 0; rest &= rest - 1) {
         const size_t lane = aur_first_lane(rest);
-        const aur_vector direction = group->samples[lane].ray.direction;
-        const aur_vector emission = (found >> lane & 1u) != 0
-                                        ? aur_surface_emission(data->scene, &group->places[lane].surface,
-                                                               aur_vector_scale(direction, -1.0f))
-                                        : aur_scene_environment(data->scene, direction);
-        group->sum[lane] =
-            aur_vector_add(group->sum[lane], aur_vector_multiply(group->throughput[lane], emission));
+        add_light(group, lane, aur_scene_environment(data->scene, group->samples[lane].ray.direction));
+    }
+}
+
+static void add_emission(aur_group *group) {
+    for (uint32_t rest = group->lanes; rest != 0; rest &= rest - 1) {
+        const size_t lane = aur_first_lane(rest);
+        const aur_surface *const surface = &group->places[lane].surface;
+        if (surface->emitter == AUR_NO_EMITTER)
+            continue;
+        const aur_vector view = aur_vector_scale(group->samples[lane].ray.direction, -1.0f);
+        add_light(group, lane, aur_surface_emission(group->task->data->scene, surface, view));
     }
 }
 
 /* Lanes whose surface has a specular lobe go on in its direction; the others are done. A surface with other
  * lobes too has been gathered for them. */
 static void bounce(aur_group *group) {
-    const uint32_t pair = AUR_PAIR_FIRST + PAIRS_A_SURFACE * group->chain;
+    const uint32_t pair = AUR_PAIR_FIRST + AUR_GATHER_PAIRS * group->chain;
     for (uint32_t rest = group->lanes; rest != 0; rest &= rest - 1) {
         const size_t lane = aur_first_lane(rest);
         const aur_gather_place *const p = &group->places[lane];
         bool goes_on = false;
         if (has_specular(p)) {
             float lobe[2], direction[2];
-            aur_stream_pair(&group->samples[lane].stream, pair + PAIR_LOBE, lobe);
-            aur_stream_pair(&group->samples[lane].stream, pair + PAIR_BOUNCE, direction);
+            aur_stream_pair(&group->samples[lane].stream, pair + AUR_GATHER_PAIR_LOBE, lobe);
+            aur_stream_pair(&group->samples[lane].stream, pair + AUR_GATHER_PAIR_BOUNCE, direction);
             const aur_shading shading = {&p->surface, p->view};
             aur_bsdf_sample drawn;
             goes_on =
@@ -492,7 +430,7 @@ static void bounce(aur_group *group) {
     }
 }
 
-static uint32_t find_places(aur_group *group) {
+static uint32_t trace(aur_group *group) {
     const aur_final_gather *const data = group->task->data;
     aur_packet *const packet = &group->rays.packet;
     aur_clear_lanes(packet);
@@ -501,13 +439,16 @@ static uint32_t find_places(aur_group *group) {
         aur_packet_set(packet, lane, &group->samples[lane].ray);
     }
     const aur_embree_order order = group->chain == 0 ? AUR_EMBREE_COHERENT : AUR_EMBREE_INCOHERENT;
-    const uint32_t found = aur_final_gather_intersect(data, order, packet, group->counters);
-    for (uint32_t rest = found; rest != 0; rest &= rest - 1) {
+    return aur_final_gather_intersect(data, order, packet, group->counters);
+}
+
+static void set_places(aur_group *group) {
+    const aur_scene *const scene = group->task->data->scene;
+    for (uint32_t rest = group->lanes; rest != 0; rest &= rest - 1) {
         const size_t lane = aur_first_lane(rest);
-        const aur_hit hit = aur_packet_hit(data->scene, packet, lane);
-        set_place(data->scene, &group->samples[lane].ray, &hit, &group->places[lane]);
+        const aur_hit hit = aur_packet_hit(scene, &group->rays.packet, lane);
+        set_place(scene, &group->samples[lane].ray, &hit, &group->places[lane]);
     }
-    return found;
 }
 
 void aur_group_add_sample(aur_group *group, const aur_group_task *task, aur_pixel_strata *strata,
@@ -517,27 +458,32 @@ void aur_group_add_sample(aur_group *group, const aur_group_task *task, aur_pixe
     group->task = task;
     group->counters = counters;
     group->lanes = task->lanes;
-    for (uint32_t rest = task->lanes; rest != 0; rest &= rest - 1) {
-        const size_t lane = aur_first_lane(rest);
+    size_t x[AUR_PACKET_SIZE], y[AUR_PACKET_SIZE];
+    for (size_t lane = 0; lane < AUR_PACKET_SIZE; ++lane) {
         const size_t pixel = aur_group_pixel(task->group, lane);
-        group->weights[lane] =
-            aur_view_sample(task->view, task->x + pixel % AUR_TILE_SIZE, task->y + pixel / AUR_TILE_SIZE,
-                            task->index, &group->samples[lane]);
+        x[lane] = task->x + pixel % AUR_TILE_SIZE;
+        y[lane] = task->y + pixel / AUR_TILE_SIZE;
         group->throughput[lane] = (aur_vector){1.0f, 1.0f, 1.0f};
         group->sum[lane] = (aur_vector){0};
     }
+    aur_view_samples(task->view, AUR_PACKET_SIZE, x, y, task->index, group->samples, group->weights);
+    for (size_t lane = 0; lane < AUR_PACKET_SIZE; ++lane)
+        group->pixels[lane] = group->samples[lane].stream.pixel;
     for (group->chain = 0; group->chain <= AUR_LONGEST_CHAIN && group->lanes != 0; ++group->chain) {
-        const uint32_t found = find_places(group);
+        const uint32_t found = trace(group);
         if (group->chain == 0)
             count_seen(group, group->lanes, found, strata, into);
-        add_emission(group, group->lanes, found);
+        add_sky(group, group->lanes & ~found);
         group->lanes &= found;
         if (group->lanes == 0)
             break;
+        set_places(group);
+        if (data->direct != AUR_DIRECT_NONE)
+            add_emission(group);
         group->flat = are_flat(group);
         if (data->direct == AUR_DIRECT_NEE && data->max_depth >= 2 &&
             aur_scene_emitter_count(data->scene) > 0)
-            add_direct_light(group);
+            aur_group_add_direct_light(group);
         gather(group);
         bounce(group);
     }

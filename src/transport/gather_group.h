@@ -23,11 +23,22 @@ struct aur_group {
     uint32_t chain;
     bool flat; /* the places lie on one plane, nearly */
     aur_camera_sample samples[AUR_PACKET_SIZE];
+    uint64_t pixels[AUR_PACKET_SIZE]; /* hashes of the samples' streams */
     float weights[AUR_PACKET_SIZE];
     aur_vector throughput[AUR_PACKET_SIZE];
     aur_vector sum[AUR_PACKET_SIZE];
     aur_gather_place places[AUR_PACKET_SIZE];
     aur_gather_rays rays;
+};
+
+/* Dimension pairs of one surface along the chain: choice of light, position on it, and two for a specular
+ * bounce. */
+enum {
+    AUR_GATHER_PAIR_CHOICE,
+    AUR_GATHER_PAIR_POSITION,
+    AUR_GATHER_PAIR_LOBE,
+    AUR_GATHER_PAIR_BOUNCE,
+    AUR_GATHER_PAIRS
 };
 
 static inline uint32_t aur_first_lane(uint32_t lanes) {
@@ -53,6 +64,12 @@ static inline void aur_set_column(float column[3][AUR_PACKET_SIZE], size_t lane,
     column[1][lane] = v.y;
     column[2][lane] = v.z;
 }
+
+/* Directions that a surface point sends for lobes without a formula. */
+size_t aur_group_sampled_share(const aur_final_gather *data);
+
+/* Adds the light that reaches the places straight from lights (gather_direct.c). */
+void aur_group_add_direct_light(aur_group *group);
 
 /* Whether a lobe's light comes by gather rays. */
 bool aur_group_gathers(const aur_final_gather *data, const aur_bsdf_lobe *lobe);

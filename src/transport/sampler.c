@@ -8,6 +8,7 @@
 #include "core/simd.h"
 #include "pointset/net_2d.h"
 #include "transport/sampler_kernels.h"
+#include "transport/sampler_pixels.h"
 
 static aur_result fill_table(aur_sampler *sampler, const char *set, const aur_warnings *warnings,
                              aur_error *error) {
@@ -52,6 +53,10 @@ aur_result aur_sampler_create(const char *set, size_t count, const aur_warnings 
         sampler->sobol_pairs = isa >= AUR_ISA_AVX512 ? aur_sobol_pairs_avx512
                                : isa >= AUR_ISA_AVX2 ? aur_sobol_pairs_avx2
                                                      : aur_sobol_pairs_portable;
+#if defined(__x86_64__)
+        if (isa != AUR_ISA_PORTABLE)
+            sampler->sobol_pixels = isa == AUR_ISA_AVX512 ? aur_sobol_pixels_avx512 : aur_sobol_pixels_avx2;
+#endif
     } else {
         const aur_set_description *const row = aur_set_find(set);
         sampler->kind = row != NULL && row->binary_net ? AUR_SAMPLER_NET : AUR_SAMPLER_TABLE;
@@ -177,6 +182,24 @@ void aur_stream_pairs(const aur_stream *stream, uint32_t first, size_t count, fl
 
 void aur_stream_pair(const aur_stream *stream, uint32_t pair, float u[2]) {
     aur_stream_pairs(stream, pair, 1, (float(*)[2])u);
+}
+
+void aur_stream_pixels(const aur_sampler *sampler, size_t count, const uint64_t *pixels, uint32_t index,
+                       uint32_t pair, float *u, float *v) {
+    if (sampler->kind == AUR_SAMPLER_SOBOL) {
+        if (sampler->sobol_pixels != NULL)
+            sampler->sobol_pixels(count, pixels, index, pair, u, v);
+        else
+            sobol_pixels(count, pixels, index, pair, u, v);
+        return;
+    }
+    for (size_t k = 0; k < count; ++k) {
+        const aur_stream stream = {sampler, pixels[k], index};
+        float both[2];
+        aur_stream_pair(&stream, pair, both);
+        u[k] = both[0];
+        v[k] = both[1];
+    }
 }
 
 float aur_stream_single(const aur_stream *stream, uint32_t pair) {

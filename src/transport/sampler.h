@@ -25,6 +25,9 @@ typedef struct aur_sampler {
     aur_sampler_kind kind;
     /* SOBOL by this processor's instructions; NULL: in plain C. The bits are the same. */
     void (*sobol_pairs)(const aur_stream *stream, uint32_t first, float u[AUR_STREAM_BLOCK][2]);
+    /* One pair of many pixels; NULL: in plain C. */
+    void (*sobol_pixels)(size_t count, const uint64_t *pixels, uint32_t index, uint32_t pair, float *u,
+                         float *v);
     uint32_t size;         /* points in the table; a power of two for nets */
     uint32_t (*points)[2]; /* words: x / 2^32 */
 } aur_sampler;
@@ -45,6 +48,9 @@ struct aur_stream {
 void aur_stream_pair(const aur_stream *stream, uint32_t pair, float u[2]);
 /* The pairs first .. first + count - 1, faster than one by one, most of all AUR_STREAM_BLOCK at once. */
 void aur_stream_pairs(const aur_stream *stream, uint32_t first, size_t count, float (*u)[2]);
+/* One pair for sample `index` of `count` pixels, given by their hashes. */
+void aur_stream_pixels(const aur_sampler *sampler, size_t count, const uint64_t *pixels, uint32_t index,
+                       uint32_t pair, float *u, float *v);
 /* A single number in [0,1), from a pair of its own. */
 float aur_stream_single(const aur_stream *stream, uint32_t pair);
 

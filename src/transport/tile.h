@@ -31,11 +31,17 @@ typedef struct aur_view {
     size_t width, height; /* of the whole picture */
     uint64_t seed;
     bool pixel_centre; /* every camera ray goes through the centre of its pixel */
+    bool has_lens;     /* the camera's rays depend on a point of its lens */
 } aur_view;
 
 /* Sample `index` of pixel (x, y), a function of these alone. Returns its weight in the pixel's mean: 1, or -1
  * where the filter is negative. */
 float aur_view_sample(const aur_view *view, size_t x, size_t y, uint32_t index, aur_camera_sample *sample);
+
+/* The same for `count` pixels (at most AUR_TILE_SIZE) at columns x[k] and rows y[k]; first_pairs are not set.
+ */
+void aur_view_samples(const aur_view *view, size_t count, const size_t *x, const size_t *y, uint32_t index,
+                      aur_camera_sample *samples, float *weights);
 
 enum { AUR_TILE_SIZE = 16 };
 

@@ -123,6 +123,29 @@ static void blocks_are_single_pairs(void **state) {
     }
 }
 
+/* Many pixels at once, by whatever instructions, have the pairs that each has. */
+static void many_pixels_are_the_single_ones(void **state) {
+    (void)state;
+    enum { COUNT = 21 };
+    for (size_t s = 0; s < sizeof sets / sizeof sets[0]; ++s) {
+        aur_sampler *const sampler = make(sets[s], 16);
+        uint64_t pixels[COUNT];
+        for (size_t k = 0; k < COUNT; ++k)
+            pixels[k] = aur_hash2(9, k);
+        for (uint32_t index = 0; index < 40; index += 3) {
+            float u[COUNT], v[COUNT];
+            aur_stream_pixels(sampler, COUNT, pixels, index, 5, u, v);
+            for (size_t k = 0; k < COUNT; ++k) {
+                const aur_stream stream = {sampler, pixels[k], index};
+                float one[2];
+                aur_stream_pair(&stream, 5, one);
+                assert_true(one[0] == u[k] && one[1] == v[k]);
+            }
+        }
+        aur_sampler_destroy(sampler);
+    }
+}
+
 static void refuses_bad_input(void **state) {
     (void)state;
     aur_sampler *sampler = NULL;
@@ -134,9 +157,13 @@ static void refuses_bad_input(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(is_random_access),        cmocka_unit_test(is_uniform_over_pixels),
-        cmocka_unit_test(nets_stay_nets),          cmocka_unit_test(tables_are_permuted),
-        cmocka_unit_test(blocks_are_single_pairs), cmocka_unit_test(refuses_bad_input),
+        cmocka_unit_test(is_random_access),
+        cmocka_unit_test(is_uniform_over_pixels),
+        cmocka_unit_test(nets_stay_nets),
+        cmocka_unit_test(tables_are_permuted),
+        cmocka_unit_test(many_pixels_are_the_single_ones),
+        cmocka_unit_test(blocks_are_single_pairs),
+        cmocka_unit_test(refuses_bad_input),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

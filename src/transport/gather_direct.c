@@ -1,0 +1,74 @@
+/* Direct light of sixteen pixels: a point on a light each, one packet of shadow rays. */
+#include "transport/direct_light.h"
+#include "transport/gather_group.h"
+
+/* BSDF * cos towards a light, each lobe less the part that its gather rays find. */
+static aur_vector weighted_value(const aur_final_gather *data, const aur_gather_place *p,
+                                 const aur_light_sample *light) {
+    const aur_vector local = aur_frame_to_local(&p->surface.frame, light->direction);
+    if (aur_vector_dot(p->surface.geometric_normal, light->direction) * local.z <= 0.0f)
+        return (aur_vector){0};
+    aur_vector sum = {0};
+    for (size_t i = 0; i < p->lobe_count; ++i) {
+        const aur_bsdf_lobe *const lobe = &p->lobes[i];
+        aur_vector value = {0};
+        float density = 0.0f;
+        if (lobe->shape == AUR_LOBE_SHAPE_SAMPLED) {
+            const aur_shading shading = {&p->surface, p->view};
+            value = aur_glossy_value(p->surface.bsdf, p->surface.texture, p->view, local, p->lobe_count,
+                                     p->lobes);
+            density = aur_shading_pdf(&shading, light->direction) * (float)aur_group_sampled_share(data);
+        } else if (lobe->shape == AUR_LOBE_SHAPE_COSINE_POWER && p->view.z * local.z > 0.0f) {
+            value = aur_lobe_value(lobe, local);
+            const aur_gather_rule *const rule = aur_final_gather_rule(data, lobe);
+            if (rule != NULL && !aur_vector_is_zero(value))
+                density = aur_gather_density(rule, aur_vector_dot(lobe->axis, local)) *
+                          (float)(rule->count / data->samples_per_pixel);
+        }
+        const bool rivals = !light->delta && aur_group_gathers(data, lobe);
+        sum = aur_vector_add_scaled(sum, rivals ? aur_power_heuristic(light->pdf, density) : 1.0f, value);
+    }
+    return sum;
+}
+
+void aur_group_add_direct_light(aur_group *group) {
+    const aur_final_gather *const data = group->task->data;
+    const aur_scene *const scene = data->scene;
+    const bool chooses = aur_scene_emitter_count(scene) > 1;
+    const uint32_t pair = AUR_PAIR_FIRST + AUR_GATHER_PAIRS * group->chain;
+    float choice[AUR_PACKET_SIZE], unused[AUR_PACKET_SIZE], u[AUR_PACKET_SIZE], v[AUR_PACKET_SIZE];
+    if (chooses)
+        aur_stream_pairs(group->task->view->sampler, AUR_PACKET_SIZE, group->pixels, group->task->index,
+                         pair + AUR_GATHER_PAIR_CHOICE, choice, unused);
+    aur_stream_pairs(group->task->view->sampler, AUR_PACKET_SIZE, group->pixels, group->task->index,
+                     pair + AUR_GATHER_PAIR_POSITION, u, v);
+    aur_vector contribution[AUR_PACKET_SIZE];
+    uint32_t aimed = 0;
+    aur_clear_lanes(&group->rays.packet);
+    for (uint32_t rest = group->lanes; rest != 0; rest &= rest - 1) {
+        const size_t lane = aur_first_lane(rest);
+        const aur_gather_place *const p = &group->places[lane];
+        const float numbers[3] = {chooses ? choice[lane] : 0.5f, u[lane], v[lane]};
+        aur_light_sample light;
+        if (!aur_light_sample_direct(scene, p->surface.position, numbers, &light) || !(light.pdf > 0.0f))
+            continue;
+        const aur_vector value = weighted_value(data, p, &light);
+        contribution[lane] = aur_vector_scale(aur_vector_multiply(value, light.radiance), 1.0f / light.pdf);
+        if (aur_vector_is_zero(contribution[lane]))
+            continue;
+        float distance;
+        const aur_ray shadow = aur_surface_ray_to(&p->surface, light.position, &distance);
+        aur_packet_set(&group->rays.packet, lane, &shadow);
+        aimed |= 1u << lane;
+    }
+    if (aimed == 0)
+        return;
+    const aur_embree_order order = group->flat ? AUR_EMBREE_COHERENT : AUR_EMBREE_INCOHERENT;
+    const uint32_t lit =
+        aimed & ~aur_final_gather_occluded(data, order, &group->rays.packet, group->counters);
+    for (uint32_t rest = lit; rest != 0; rest &= rest - 1) {
+        const size_t lane = aur_first_lane(rest);
+        group->sum[lane] = aur_vector_add(group->sum[lane],
+                                          aur_vector_multiply(group->throughput[lane], contribution[lane]));
+    }
+}
