@@ -17,6 +17,11 @@ typedef struct aur_emitter_descriptor {
     /* As aur_light_sample_direct for this light alone: u[0] is what is left of it after the choice. */
     bool (*sample)(const aur_scene *scene, const aur_emitter *emitter, aur_vector reference, const float u[3],
                    aur_light_sample *drawn);
+    /* `sample` for `count` (at most AUR_LIGHT_LANES) references; drawn[k].pdf is 0 where it fails. May be
+     * NULL.
+     */
+    void (*samples)(const aur_scene *scene, const aur_emitter *emitter, size_t count,
+                    const aur_vector *references, const float *u, const float *v, aur_light_sample *drawn);
     /* As aur_light_emit for this light alone. */
     bool (*emit)(const aur_scene *scene, const aur_emitter *emitter, const float u[5], aur_ray *ray,
                  aur_vector *power);
@@ -36,6 +41,7 @@ struct aur_emitter {
     aur_color radiance;
     double power;      /* luminance of the watts it gives: lights are chosen in proportion */
     float probability; /* that the light is chosen */
+    bool needs_choice; /* u[0] matters even where this is the only light */
     void *data;
 };
 

@@ -21,6 +21,7 @@ typedef struct area_light {
     aur_distribution triangles; /* of meshes, by area */
     bool is_mesh, is_rectangle;
     aur_rectangle rectangle; /* by the solid angle under which it is seen */
+    aur_rectangle_function samples;
 } area_light;
 
 static bool find_rectangle(const aur_shape *shape, aur_rectangle *rectangle) {
@@ -60,9 +61,10 @@ static aur_result prepare(const aur_scene *scene, aur_emitter *emitter, aur_erro
         return aur_fail_at(error, emitter->location, AUR_ERROR_MEMORY, "out of memory");
     if (shape->parallelogram) {
         light->is_rectangle = find_rectangle(shape, &light->rectangle);
+        light->samples = aur_spherical_rectangle_samples();
         return AUR_OK;
     }
-    light->is_mesh = shape->curved == NULL;
+    light->is_mesh = emitter->needs_choice = shape->curved == NULL;
     return light->is_mesh ? find_triangles(shape, emitter, &light->triangles, error) : AUR_OK;
 }
 
@@ -106,23 +108,58 @@ static float pdf_seen(const aur_scene *scene, const aur_emitter *emitter, aur_ve
     return 0.0f;
 }
 
+/* What a point of the shape gives to the reference; `pdf` of 0 says that it was drawn by area. */
+static bool finish_sample(const aur_shape *shape, const aur_emitter *emitter, aur_vector reference,
+                          const aur_shape_point *point, float pdf, aur_light_sample *drawn) {
+    const aur_vector way = aur_vector_subtract(point->position, reference);
+    const float squared = aur_vector_dot(way, way);
+    drawn->delta = false;
+    drawn->distance = sqrtf(squared);
+    drawn->direction = aur_vector_scale(way, 1.0f / drawn->distance);
+    const float cosine = -aur_vector_dot(drawn->direction, point->normal);
+    if (!(cosine > 0.0f) || !(squared > 0.0f))
+        return false;
+    drawn->position = point->position;
+    drawn->normal = point->normal;
+    drawn->radiance = aur_color_at(&emitter->radiance, point->texture);
+    drawn->pdf = pdf > 0.0f ? pdf : squared / (cosine * (float)shape->area);
+    return isfinite(drawn->pdf);
+}
+
 static bool sample(const aur_scene *scene, const aur_emitter *emitter, aur_vector reference, const float u[3],
                    aur_light_sample *drawn) {
     const aur_shape *const shape = shape_of(scene, emitter);
-    const aur_shape_point point = sample_seen(shape, emitter->data, reference, u, &drawn->pdf);
-    const aur_vector way = aur_vector_subtract(point.position, reference);
-    const float squared = aur_vector_dot(way, way);
-    drawn->distance = sqrtf(squared);
-    drawn->direction = aur_vector_scale(way, 1.0f / drawn->distance);
-    const float cosine = -aur_vector_dot(drawn->direction, point.normal);
-    if (!(cosine > 0.0f) || !(squared > 0.0f))
-        return false;
-    drawn->position = point.position;
-    drawn->normal = point.normal;
-    drawn->radiance = aur_color_at(&emitter->radiance, point.texture);
-    if (drawn->pdf == 0.0f)
-        drawn->pdf = squared / (cosine * (float)shape->area);
-    return isfinite(drawn->pdf);
+    float pdf;
+    const aur_shape_point point = sample_seen(shape, emitter->data, reference, u, &pdf);
+    return finish_sample(shape, emitter, reference, &point, pdf, drawn);
+}
+
+static void samples(const aur_scene *scene, const aur_emitter *emitter, size_t count,
+                    const aur_vector *references, const float *u, const float *v, aur_light_sample *drawn) {
+    const aur_shape *const shape = shape_of(scene, emitter);
+    const area_light *const light = emitter->data;
+    float x[AUR_LIGHT_LANES], y[AUR_LIGHT_LANES], z[AUR_LIGHT_LANES];
+    float s[AUR_LIGHT_LANES], t[AUR_LIGHT_LANES], angle[AUR_LIGHT_LANES] = {0};
+    for (size_t k = 0; k < count; ++k) {
+        x[k] = references[k].x;
+        y[k] = references[k].y;
+        z[k] = references[k].z;
+    }
+    if (light->is_rectangle)
+        light->samples(&light->rectangle, count, (aur_rectangle_points){x, y, z, u, v},
+                       (aur_rectangle_samples){s, t, angle});
+    for (size_t k = 0; k < count; ++k) {
+        aur_shape_point point;
+        float pdf;
+        if (angle[k] > 0.0f) {
+            pdf = 1.0f / angle[k];
+            point = sample_area(shape, light, (const float[3]){0.0f, s[k], t[k]});
+        } else {
+            point = sample_seen(shape, light, references[k], (const float[3]){0.0f, u[k], v[k]}, &pdf);
+        }
+        if (!finish_sample(shape, emitter, references[k], &point, pdf, &drawn[k]))
+            drawn[k].pdf = 0.0f;
+    }
 }
 
 static bool emit(const aur_scene *scene, const aur_emitter *emitter, const float u[5], aur_ray *ray,
@@ -143,6 +180,7 @@ const aur_emitter_descriptor aur_emitter_area = {
     .create = create,
     .prepare = prepare,
     .sample = sample,
+    .samples = samples,
     .emit = emit,
     .release = release,
     .pdf_seen = pdf_seen,

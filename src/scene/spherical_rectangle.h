@@ -4,6 +4,7 @@
 #define AUR_SCENE_SPHERICAL_RECTANGLE_H
 
 #include <stdbool.h>
+#include <stddef.h>
 
 #include "core/vector.h"
 
@@ -26,5 +27,21 @@ bool aur_spherical_rectangle_create(const aur_rectangle *rectangle, aur_vector r
 /* The point that u, v in [0,1) stand for, in parts of the rectangle's width and height. */
 void aur_spherical_rectangle_sample(const aur_spherical_rectangle *seen, float u, float v, float *s,
                                     float *t);
+
+/* Many points that see one rectangle, each with two numbers in [0,1); arrays of `count`. */
+typedef struct aur_rectangle_points {
+    const float *x, *y, *z, *u, *v;
+} aur_rectangle_points;
+
+typedef struct aur_rectangle_samples {
+    float *s, *t;
+    float *solid_angle; /* 0: too small, and s, t are of no use */
+} aur_rectangle_samples;
+
+typedef void (*aur_rectangle_function)(const aur_rectangle *rectangle, size_t count, aur_rectangle_points in,
+                                       aur_rectangle_samples out);
+
+/* aur_spherical_rectangle_create and _sample for many points, by this processor's instructions. */
+aur_rectangle_function aur_spherical_rectangle_samples(void);
 
 #endif

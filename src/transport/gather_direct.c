@@ -34,30 +34,38 @@ static aur_vector weighted_value(const aur_final_gather *data, const aur_gather_
 void aur_group_add_direct_light(aur_group *group) {
     const aur_final_gather *const data = group->task->data;
     const aur_scene *const scene = data->scene;
-    const bool chooses = aur_scene_emitter_count(scene) > 1;
+    const bool chooses = aur_light_chooses(scene);
     const uint32_t pair = AUR_PAIR_FIRST + AUR_GATHER_PAIRS * group->chain;
+    const aur_sampler *const sampler = group->task->view->sampler;
+    const uint32_t index = group->task->index;
     float choice[AUR_PACKET_SIZE], unused[AUR_PACKET_SIZE], u[AUR_PACKET_SIZE], v[AUR_PACKET_SIZE];
     if (chooses)
-        aur_stream_pairs(group->task->view->sampler, AUR_PACKET_SIZE, group->pixels, group->task->index,
-                         pair + AUR_GATHER_PAIR_CHOICE, choice, unused);
-    aur_stream_pairs(group->task->view->sampler, AUR_PACKET_SIZE, group->pixels, group->task->index,
-                     pair + AUR_GATHER_PAIR_POSITION, u, v);
+        aur_stream_pairs(sampler, AUR_PACKET_SIZE, group->pixels, index, pair + AUR_GATHER_PAIR_CHOICE,
+                         choice, unused);
+    aur_stream_pairs(sampler, AUR_PACKET_SIZE, group->pixels, index, pair + AUR_GATHER_PAIR_POSITION, u, v);
+    /* Lanes without a place stand where the first one is: their samples are drawn and thrown away. */
+    aur_vector references[AUR_PACKET_SIZE];
+    for (size_t lane = 0; lane < AUR_PACKET_SIZE; ++lane) {
+        const size_t from = (group->lanes >> lane & 1u) != 0 ? lane : aur_first_lane(group->lanes);
+        references[lane] = group->places[from].surface.position;
+    }
+    aur_light_sample lights[AUR_PACKET_SIZE];
+    aur_light_samples_direct(scene, AUR_PACKET_SIZE, references, chooses ? choice : NULL, u, v, lights);
     aur_vector contribution[AUR_PACKET_SIZE];
     uint32_t aimed = 0;
     aur_clear_lanes(&group->rays.packet);
     for (uint32_t rest = group->lanes; rest != 0; rest &= rest - 1) {
         const size_t lane = aur_first_lane(rest);
         const aur_gather_place *const p = &group->places[lane];
-        const float numbers[3] = {chooses ? choice[lane] : 0.5f, u[lane], v[lane]};
-        aur_light_sample light;
-        if (!aur_light_sample_direct(scene, p->surface.position, numbers, &light) || !(light.pdf > 0.0f))
+        const aur_light_sample *const light = &lights[lane];
+        if (!(light->pdf > 0.0f))
             continue;
-        const aur_vector value = weighted_value(data, p, &light);
-        contribution[lane] = aur_vector_scale(aur_vector_multiply(value, light.radiance), 1.0f / light.pdf);
+        const aur_vector value = weighted_value(data, p, light);
+        contribution[lane] = aur_vector_scale(aur_vector_multiply(value, light->radiance), 1.0f / light->pdf);
         if (aur_vector_is_zero(contribution[lane]))
             continue;
         float distance;
-        const aur_ray shadow = aur_surface_ray_to(&p->surface, light.position, &distance);
+        const aur_ray shadow = aur_surface_ray_to(&p->surface, light->position, &distance);
         aur_packet_set(&group->rays.packet, lane, &shadow);
         aimed |= 1u << lane;
     }

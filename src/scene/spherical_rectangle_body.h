@@ -1,0 +1,107 @@
+/* The arithmetic of spherical rectangles for one point, without branches and calls, so that loops over it
+ * become vector code. Plain operations in one order without contraction: every instruction set gives the same
+ * bits. */
+#ifndef AUR_SCENE_SPHERICAL_RECTANGLE_BODY_H
+#define AUR_SCENE_SPHERICAL_RECTANGLE_BODY_H
+
+#include "scene/spherical_rectangle.h"
+
+/* Limits to [0, 1] a number that only rounding took out of it; comparisons would become branches. */
+static inline float rectangle_part(float x) {
+    const float positive = 0.5f * (x + fabsf(x));
+    return 0.5f * (positive + 1.0f - fabsf(positive - 1.0f));
+}
+
+/* Abramowitz and Stegun 4.4.46; error below 1e-7 and rounding. */
+static inline float rectangle_arc(float cosine) {
+    const float x = fabsf(cosine);
+    float p = -0.0012624911f;
+    p = p * x + 0.0066700901f;
+    p = p * x - 0.0170881256f;
+    p = p * x + 0.0308918810f;
+    p = p * x - 0.0501743046f;
+    p = p * x + 0.0889789874f;
+    p = p * x - 0.2145988016f;
+    p = p * x + 1.5707963050f;
+    const float angle = p * sqrtf(fabsf(1.0f - x));
+    return 0.5f * AUR_PI_F - copysignf(0.5f * AUR_PI_F - angle, cosine);
+}
+
+/* Sine and cosine of an angle within -3 pi .. 3 pi, by Taylor series about the nearest multiple of pi / 2. */
+static inline void rectangle_turn(float angle, float *sine, float *cosine) {
+    const float quarter = floorf(angle * (2.0f / AUR_PI_F) + 0.5f);
+    const float x = (angle - quarter * 1.57079637f) + quarter * 4.371139e-8f; /* pi / 2 in two parts */
+    const float square = x * x;
+    const float s =
+        x * (1.0f + square * (-1.0f / 6.0f +
+                              square * (1.0f / 120.0f + square * (-1.0f / 5040.0f + square / 362880.0f))));
+    const float c =
+        1.0f +
+        square * (-0.5f + square * (1.0f / 24.0f + square * (-1.0f / 720.0f + square * (1.0f / 40320.0f))));
+    const float half = 0.5f * quarter;
+    const float odd = 2.0f * (half - floorf(half)); /* 1 in quarters 1 and 3 */
+    const float upper = 0.5f * floorf(half);
+    const float sign = 1.0f - 4.0f * (upper - floorf(upper)); /* -1 in quarters 2 and 3 */
+    *sine = sign * (s + odd * (c - s));
+    *cosine = sign * (c - odd * (c + s));
+}
+
+/* The rectangle as the point sees it; its solid angle is 0 where that is too small to be told. */
+static inline aur_spherical_rectangle rectangle_seen(const aur_rectangle *r, aur_vector normal, float px,
+                                                     float py, float pz) {
+    const float wx = r->corner.x - px, wy = r->corner.y - py, wz = r->corner.z - pz;
+    const float x0 = wx * r->x.x + wy * r->x.y + wz * r->x.z;
+    const float y0 = wx * r->y.x + wy * r->y.y + wz * r->y.z;
+    const float x1 = x0 + r->width, y1 = y0 + r->height;
+    /* The rectangle's plane lies below the point in the frame of the derivation. */
+    const float z0 = -fabsf(wx * normal.x + wy * normal.y + wz * normal.z);
+    const float middle_x = 0.5f * (x0 + x1), middle_y = 0.5f * (y0 + y1), zz = z0 * z0;
+    const float squared = middle_x * middle_x + middle_y * middle_y + zz;
+    const float roughly = -z0 * r->width * r->height - 0.01f * (squared * sqrtf(squared));
+    /* z components of the normals of the four planes through the point and an edge. */
+    const float n0 = -y0 / sqrtf(zz + y0 * y0), n1 = x1 / sqrtf(zz + x1 * x1);
+    const float n2 = y1 / sqrtf(zz + y1 * y1), n3 = -x0 / sqrtf(zz + x0 * x0);
+    const float k = 2.0f * AUR_PI_F - rectangle_arc(-n2 * n3) - rectangle_arc(-n3 * n0);
+    const float angle = rectangle_arc(-n0 * n1) + rectangle_arc(-n1 * n2) - k;
+    return (aur_spherical_rectangle){
+        x0, x1, y0, y1, z0, n0, n2, k, angle * (0.5f + copysignf(0.5f, roughly))};
+}
+
+static inline void rectangle_point(const aur_spherical_rectangle *seen, float u, float v, float *s,
+                                   float *t) {
+    float sine, cosine;
+    rectangle_turn(u * seen->solid_angle + seen->k, &sine, &cosine);
+    const float f = (cosine * seen->b0 - seen->b1) / sine;
+    const float q = f * f + seen->b0 * seen->b0;
+    const float x = copysignf(seen->z0, f) / sqrtf(fabsf(q - 1.0f) + 1e-12f);
+    const float width = seen->x1 - seen->x0, height = seen->y1 - seen->y0;
+    *s = rectangle_part((x - seen->x0) / width);
+    const float inside = seen->x0 + *s * width;
+    const float squared = inside * inside + seen->z0 * seen->z0;
+    const float h0 = seen->y0 / sqrtf(squared + seen->y0 * seen->y0);
+    const float h1 = seen->y1 / sqrtf(squared + seen->y1 * seen->y1);
+    const float h = h0 + v * (h1 - h0);
+    const float y = h * sqrtf(squared / (fabsf(1.0f - h * h) + 1e-9f));
+    *t = rectangle_part((y - seen->y0) / height);
+}
+
+static inline void rectangle_points(const aur_rectangle *rectangle, size_t count, aur_rectangle_points in,
+                                    aur_rectangle_samples out) {
+    const aur_rectangle r = *rectangle; /* which the outputs cannot overlap */
+    const aur_vector normal = aur_vector_cross(r.x, r.y);
+    const float *restrict const px = in.x, *restrict const py = in.y, *restrict const pz = in.z;
+    const float *restrict const u = in.u, *restrict const v = in.v;
+    float *restrict const s = out.s, *restrict const t = out.t, *restrict const angle = out.solid_angle;
+    for (size_t k = 0; k < count; ++k) {
+        const aur_spherical_rectangle seen = rectangle_seen(&r, normal, px[k], py[k], pz[k]);
+        rectangle_point(&seen, u[k], v[k], &s[k], &t[k]);
+        angle[k] = seen.solid_angle;
+    }
+}
+
+void aur_rectangle_points_avx2(const aur_rectangle *rectangle, size_t count, aur_rectangle_points in,
+                               aur_rectangle_samples out);
+void aur_rectangle_points_avx512(const aur_rectangle *rectangle, size_t count, aur_rectangle_points in,
+                                 aur_rectangle_samples out);
+
+#endif

@@ -1,0 +1,112 @@
+#include "check.h"
+
+#include "scene/spherical_rectangle.h"
+
+enum { GRID = 400 };
+
+/* A rectangle of 2 x 1 about `middle`, turned in its plane. */
+static aur_rectangle make_rectangle(aur_vector middle) {
+    const float c = 0.8f, s = 0.6f;
+    const aur_rectangle r = {.x = {c, 0.0f, s}, .y = {-s, 0.0f, c}, .width = 2.0f, .height = 1.0f};
+    aur_rectangle placed = r;
+    placed.corner = aur_vector_add_scaled(aur_vector_add_scaled(middle, -1.0f, r.x), -0.5f, r.y);
+    return placed;
+}
+
+static aur_vector point_of(const aur_rectangle *r, double s, double t) {
+    const aur_vector along = aur_vector_add_scaled(r->corner, (float)s * r->width, r->x);
+    return aur_vector_add_scaled(along, (float)t * r->height, r->y);
+}
+
+/* The solid angle under which the part up to (s, t) is seen from the origin, by summing small pieces. */
+static double solid_angle_of_part(const aur_rectangle *r, double s, double t) {
+    const aur_vector normal = aur_vector_cross(r->x, r->y);
+    double sum = 0.0;
+    for (size_t i = 0; i < GRID; ++i)
+        for (size_t k = 0; k < GRID; ++k) {
+            const aur_vector p = point_of(r, s * ((double)i + 0.5) / GRID, t * ((double)k + 0.5) / GRID);
+            const double squared = (double)aur_vector_dot(p, p);
+            sum += fabs((double)aur_vector_dot(p, normal)) / (squared * sqrt(squared));
+        }
+    return sum * s * t * (double)(r->width * r->height) / ((double)GRID * GRID);
+}
+
+static const aur_vector middles[] = {
+    {0.0f, 1.0f, 0.0f}, {0.3f, -0.4f, 0.2f}, {2.0f, 1.0f, -1.0f}, {-0.7f, 0.05f, 0.1f}, {1.0f, 5.0f, 2.0f}};
+enum { MIDDLE_COUNT = sizeof middles / sizeof middles[0] };
+
+/* The pieces sum to the closed form, and so many of the points that u, v stand for lie in a part of the
+ * rectangle as its solid angle says: u cuts strips, v cuts within a strip. */
+static void points_are_uniform_by_solid_angle(void **state) {
+    (void)state;
+    const aur_vector origin = {0};
+    for (size_t i = 0; i < MIDDLE_COUNT; ++i) {
+        const aur_rectangle r = make_rectangle(middles[i]);
+        aur_spherical_rectangle seen;
+        assert_true(aur_spherical_rectangle_create(&r, origin, &seen));
+        assert_relative(seen.solid_angle, solid_angle_of_part(&r, 1.0, 1.0), 3e-3);
+        for (size_t k = 1; k < 8; ++k) {
+            float s, t;
+            const float u = (float)k / 8.0f;
+            aur_spherical_rectangle_sample(&seen, u, 0.5f, &s, &t);
+            assert_near(solid_angle_of_part(&r, (double)s, 1.0) / (double)seen.solid_angle, u, 4e-3);
+        }
+        size_t inside = 0;
+        for (size_t k = 0; k < GRID * GRID; ++k) {
+            float s, t;
+            aur_spherical_rectangle_sample(&seen, ((float)(k % GRID) + 0.5f) / GRID,
+                                           ((float)(k / GRID) + 0.5f) / GRID, &s, &t);
+            inside += s < 0.6f && t < 0.3f ? 1 : 0;
+        }
+        assert_near((double)inside / ((double)GRID * GRID),
+                    solid_angle_of_part(&r, 0.6, 0.3) / (double)seen.solid_angle, 6e-3);
+    }
+}
+
+/* Whatever instructions do it, many points are the single ones to the bit. */
+static void many_points_are_the_single_ones(void **state) {
+    (void)state;
+    enum { COUNT = 21 };
+    const aur_rectangle r = make_rectangle((aur_vector){0.2f, 0.5f, 0.1f});
+    float x[COUNT], y[COUNT], z[COUNT], u[COUNT], v[COUNT], s[COUNT], t[COUNT], angle[COUNT];
+    for (size_t k = 0; k < COUNT; ++k) {
+        x[k] = 0.13f * (float)k - 1.0f;
+        y[k] = 0.4f * (float)(k % 5) - 0.7f;
+        z[k] = 0.05f * (float)k;
+        u[k] = ((float)k + 0.5f) / COUNT;
+        v[k] = ((float)(k * 8 % COUNT) + 0.5f) / COUNT;
+    }
+    aur_spherical_rectangle_samples()(&r, COUNT, (aur_rectangle_points){x, y, z, u, v},
+                                      (aur_rectangle_samples){s, t, angle});
+    size_t told = 0;
+    for (size_t k = 0; k < COUNT; ++k) {
+        aur_spherical_rectangle seen;
+        float one_s, one_t;
+        const bool good = aur_spherical_rectangle_create(&r, (aur_vector){x[k], y[k], z[k]}, &seen);
+        assert_true(good == (angle[k] > 0.0f));
+        if (!good)
+            continue;
+        ++told;
+        aur_spherical_rectangle_sample(&seen, u[k], v[k], &one_s, &one_t);
+        assert_true(one_s == s[k] && one_t == t[k] && seen.solid_angle == angle[k]);
+        assert_true(s[k] >= 0.0f && s[k] <= 1.000001f && t[k] >= 0.0f && t[k] <= 1.000001f);
+    }
+    assert_true(told > COUNT / 2);
+}
+
+/* Too far to be told from a point, or seen edge on: the caller is to draw by area. */
+static void small_angles_are_refused(void **state) {
+    (void)state;
+    aur_spherical_rectangle seen;
+    const aur_rectangle far_off = make_rectangle((aur_vector){0.0f, 40.0f, 0.0f});
+    const aur_rectangle edge_on = make_rectangle((aur_vector){3.0f, 0.0f, 0.0f});
+    assert_false(aur_spherical_rectangle_create(&far_off, (aur_vector){0}, &seen));
+    assert_false(aur_spherical_rectangle_create(&edge_on, (aur_vector){0}, &seen));
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {cmocka_unit_test(points_are_uniform_by_solid_angle),
+                                       cmocka_unit_test(many_points_are_the_single_ones),
+                                       cmocka_unit_test(small_angles_are_refused)};
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
