@@ -40,9 +40,9 @@ void aur_group_add_direct_light(aur_group *group) {
     const uint32_t index = group->task->index;
     float choice[AUR_PACKET_SIZE], unused[AUR_PACKET_SIZE], u[AUR_PACKET_SIZE], v[AUR_PACKET_SIZE];
     if (chooses)
-        aur_stream_pairs(sampler, AUR_PACKET_SIZE, group->pixels, index, pair + AUR_GATHER_PAIR_CHOICE,
-                         choice, unused);
-    aur_stream_pairs(sampler, AUR_PACKET_SIZE, group->pixels, index, pair + AUR_GATHER_PAIR_POSITION, u, v);
+        aur_stream_pixels(sampler, AUR_PACKET_SIZE, group->pixels, index, pair + AUR_GATHER_PAIR_CHOICE,
+                          choice, unused);
+    aur_stream_pixels(sampler, AUR_PACKET_SIZE, group->pixels, index, pair + AUR_GATHER_PAIR_POSITION, u, v);
     /* Lanes without a place stand where the first one is: their samples are drawn and thrown away. */
     aur_vector references[AUR_PACKET_SIZE];
     for (size_t lane = 0; lane < AUR_PACKET_SIZE; ++lane) {
