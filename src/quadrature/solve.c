@@ -8,14 +8,23 @@
 #include <stdlib.h>
 #include <unistd.h>
 
+static pthread_mutex_t openblas = PTHREAD_MUTEX_INITIALIZER;
+
 static void set_one_thread(void) {
     openblas_set_num_threads(1);
 }
 
-/* OpenBLAS has one number of threads for the whole process. */
-static void hold_to_one_thread(void) {
+/* OpenBLAS has one number of threads for the whole process; and when several threads call it at once, Debian
+ * 12's 0.3.21 now and then gives wrong numbers (one or two in a thousand systems of 60 unknowns, on busy
+ * cores). */
+static void enter_openblas(void) {
     static pthread_once_t once = PTHREAD_ONCE_INIT;
     pthread_once(&once, set_one_thread);
+    pthread_mutex_lock(&openblas);
+}
+
+static void leave_openblas(void) {
+    pthread_mutex_unlock(&openblas);
 }
 
 double aur_machine_memory(void) {
@@ -61,7 +70,6 @@ static aur_result not_positive(aur_error *error, size_t size) {
 
 aur_result aur_solve_positive(size_t size, double *matrix, size_t columns, double *right, double *condition,
                               aur_error *error) {
-    hold_to_one_thread();
     const lapack_int n = (lapack_int)size;
     double *work = NULL;
     double norm = 0.0;
@@ -71,6 +79,7 @@ aur_result aur_solve_positive(size_t size, double *matrix, size_t columns, doubl
             return aur_fail(error, AUR_ERROR_MEMORY, "out of memory");
         norm = one_norm(size, matrix, work);
     }
+    enter_openblas();
     /* The lower triangle of a row-major matrix is the upper one of LAPACK's. */
     lapack_int info = LAPACKE_dpotrf_work(LAPACK_COL_MAJOR, 'U', n, matrix, n);
     if (info == 0)
@@ -81,6 +90,7 @@ aur_result aur_solve_positive(size_t size, double *matrix, size_t columns, doubl
                                    (lapack_int *)(void *)(work + 3 * size));
         *condition = reciprocal > 0.0 ? 1.0 / reciprocal : (double)INFINITY;
     }
+    leave_openblas();
     free(work);
     if (info != 0)
         return not_positive(error, size);
