@@ -15,6 +15,10 @@ static void release(aur_integrator *integrator) {
     aur_gather_rule_release(&data->diffuse);
     for (size_t i = 0; i < data->glossy_count; ++i)
         aur_gather_rule_release(&data->glossy[i]);
+    for (size_t i = 0; i < data->pair_count; ++i)
+        aur_gather_pair_destroy(data->pairs[i]);
+    free(data->pairs);
+    free(data->horizons);
     free(data->glossy);
     free(data->classes);
     free(data);
@@ -23,16 +27,19 @@ static void release(aur_integrator *integrator) {
 /* --- parameters
  * ------------------------------------------------------------------------------------------------ */
 
+enum { DENSITY_SAME, DENSITY_OPTIMAL, DENSITY_UNSAID };
+
 typedef struct gather_parameters {
     int64_t diffuse_samples, glossy_samples, rotations, photons, max_depth, pattern_seed, edges;
-    double smoothness, photons_a_texel;
+    double smoothness, regularization, photons_a_texel;
     const char *pattern, *map, *scramble, *photon_set;
-    size_t density, component, direct, incident, pixel, decorrelation;
-    bool packets;
+    size_t density, weights, component, direct, incident, pixel, decorrelation;
+    bool packets, clip;
 } gather_parameters;
 
 static aur_result read_parameters(aur_parameters *parameters, gather_parameters *p, aur_error *error) {
     static const char *const densities[] = {"same", "optimal"};
+    static const char *const weights[] = {"ratio", "equal", "osw", "oswa", "mis", "oswa-solve"};
     static const char *const components[] = {"all", "diffuse", "glossy"};
     static const char *const directs[] = {"nee", "gather", "none"};
     static const char *const incidents[] = {"photons", "emitters"};
@@ -50,7 +57,9 @@ static aur_result read_parameters(aur_parameters *parameters, gather_parameters 
                              .pattern = "spherical-fibonacci",
                              .map = "lambert",
                              .photon_set = "sobol",
-                             .density = 1};
+                             .density = DENSITY_UNSAID,
+                             .regularization = -1.0,
+                             .clip = true};
     const int64_t most = 1 << 30;
     aur_result r;
     const bool good =
@@ -63,6 +72,10 @@ static aur_result read_parameters(aur_parameters *parameters, gather_parameters 
         (r = aur_parameters_string(parameters, "scramble", &p->scramble, error)) == AUR_OK &&
         (r = aur_parameters_integer(parameters, "rotations", 0, 65536, &p->rotations, error)) == AUR_OK &&
         (r = aur_parameters_choice(parameters, "density", 2, densities, &p->density, error)) == AUR_OK &&
+        (r = aur_parameters_choice(parameters, "weights", 6, weights, &p->weights, error)) == AUR_OK &&
+        (r = aur_parameters_boolean(parameters, "clip", &p->clip, error)) == AUR_OK &&
+        (r = aur_parameters_float(parameters, "regularization", 0.0, 1e6, &p->regularization, error)) ==
+            AUR_OK &&
         (r = aur_parameters_float(parameters, "smoothness", 1.0, 2.0, &p->smoothness, error)) == AUR_OK &&
         (r = aur_parameters_integer(parameters, "photons", 1, most, &p->photons, error)) == AUR_OK &&
         (r = aur_parameters_string(parameters, "photon_pattern", &p->photon_set, error)) == AUR_OK &&
@@ -82,6 +95,27 @@ static aur_result read_parameters(aur_parameters *parameters, gather_parameters 
     return good ? aur_parameters_finish(parameters, error) : r;
 }
 
+/* Whether both patterns' samples serve both lobes. */
+static bool merges(const gather_parameters *p) {
+    return p->weights == AUR_WEIGHTS_OSWA || p->weights == AUR_WEIGHTS_MIS || p->weights == AUR_WEIGHTS_SOLVE;
+}
+
+/* What the keys about weights mean together. */
+static aur_result complete_weights(gather_parameters *p, aur_error *error) {
+    if (p->weights == AUR_WEIGHTS_EQUAL && p->density == DENSITY_OPTIMAL)
+        return aur_fail(
+            error, AUR_ERROR_ARGUMENT,
+            "finalgather: equal weights are for density=same; for density=optimal take weights=ratio");
+    if (merges(p) && p->rotations == 0)
+        return aur_fail(error, AUR_ERROR_ARGUMENT,
+                        "finalgather: weights of merged samples need prepared rotations, not rotations=0");
+    if (p->density == DENSITY_UNSAID)
+        p->density = p->weights == AUR_WEIGHTS_EQUAL ? DENSITY_SAME : DENSITY_OPTIMAL;
+    if (p->regularization < 0.0) /* as published for the published method */
+        p->regularization = p->weights == AUR_WEIGHTS_SOLVE ? 0.5 : AUR_REGULARIZATION_DEFAULT;
+    return AUR_OK;
+}
+
 /* Digits of nets are scrambled, every other pattern is turned about its axis (Marques 2013, section 6.1). */
 static aur_scramble default_scramble(const char *pattern) {
     const aur_set_description *const row = aur_set_find(pattern);
@@ -92,7 +126,7 @@ static aur_result read_options(const gather_parameters *p, const aur_integrator_
                                aur_gather_options *options, aur_error *error) {
     *options = (aur_gather_options){.set = p->pattern,
                                     .scramble = default_scramble(p->pattern),
-                                    .optimal_density = p->density == 1,
+                                    .optimal_density = p->density == DENSITY_OPTIMAL,
                                     .smoothness = p->smoothness,
                                     .rotations = (size_t)p->rotations,
                                     .seed = aur_hash2(context->seed, (uint64_t)p->pattern_seed),
@@ -155,6 +189,49 @@ static aur_result prepare_glossy_rules(aur_final_gather *data, const aur_scene *
     return AUR_OK;
 }
 
+/* Optimal weights in the rules, horizons, and what merged samples need. */
+static aur_result prepare_weights(aur_final_gather *data, const gather_parameters *p,
+                                  const aur_integrator_context *context, aur_error *error) {
+    const bool optimal =
+        p->weights == AUR_WEIGHTS_OSW || p->weights == AUR_WEIGHTS_OSWA || p->weights == AUR_WEIGHTS_SOLVE;
+    data->horizons = p->clip ? calloc(data->glossy_count + 1, sizeof *data->horizons) : NULL;
+    data->pairs = calloc(data->glossy_count + 1, sizeof *data->pairs);
+    if (data->pairs == NULL || (p->clip && data->horizons == NULL))
+        return aur_fail(error, AUR_ERROR_MEMORY, "out of memory");
+    aur_result result = AUR_OK;
+    if (optimal)
+        result = aur_gather_rule_optimise(&data->diffuse, p->smoothness, p->regularization, error);
+    for (size_t i = 0; i < data->glossy_count && result == AUR_OK; ++i) {
+        aur_gather_rule *const rule = &data->glossy[i];
+        if (p->clip)
+            aur_gather_horizon(rule->exponent, data->horizons[i]);
+        if (optimal)
+            result = aur_gather_rule_optimise(rule, p->smoothness, p->regularization, error);
+        if (result != AUR_OK || !merges(p))
+            continue;
+        const aur_pair_options options = {.method = p->weights == AUR_WEIGHTS_OSWA  ? AUR_PAIR_OSWA
+                                                    : p->weights == AUR_WEIGHTS_MIS ? AUR_PAIR_MIS
+                                                                                    : AUR_PAIR_SOLVE,
+                                          .set = data->options.set,
+                                          .count = {data->diffuse.count, rule->count},
+                                          .shares = data->samples_per_pixel,
+                                          .exponent = rule->exponent,
+                                          .rotations = data->options.rotations,
+                                          .map = data->options.map,
+                                          .scramble = data->options.scramble,
+                                          .optimal_density = data->options.optimal_density,
+                                          .clipped = p->clip,
+                                          .smoothness = p->smoothness,
+                                          .regularization = p->regularization,
+                                          .seed = data->pattern_seed,
+                                          .threads = context->threads,
+                                          .progress = context->progress};
+        result = aur_gather_pair_create(&options, &data->pairs[data->pair_count], error);
+        data->pair_count += result == AUR_OK;
+    }
+    return result;
+}
+
 static void destroy_map(void *map) {
     aur_irradiance_map_destroy(map);
 }
@@ -215,6 +292,8 @@ static aur_result create(aur_parameters *parameters, const aur_integrator_contex
                          aur_integrator *integrator, aur_error *error) {
     gather_parameters p;
     aur_result result = read_parameters(parameters, &p, error);
+    if (result == AUR_OK)
+        result = complete_weights(&p, error);
     aur_gather_options options;
     if (result == AUR_OK)
         result = read_options(&p, context, &options, error);
@@ -242,6 +321,8 @@ static aur_result create(aur_parameters *parameters, const aur_integrator_contex
     data->options.warnings = (aur_warnings){0};
     if (result == AUR_OK)
         result = prepare_glossy_rules(data, context->scene, data->glossy_samples, error);
+    if (result == AUR_OK)
+        result = prepare_weights(data, &p, context, error);
     const bool wants_photons = p.incident == AUR_INCIDENT_PHOTONS && data->max_depth >= 3;
     if (result == AUR_OK && wants_photons)
         result = prepare_map(data, &p, context, error);
@@ -309,7 +390,7 @@ static void add_tile(const aur_final_gather *data, aur_tile *tile, aur_group *gr
 }
 
 static aur_result tile(const aur_integrator *integrator, aur_tile *tile) {
-    aur_group *const group = aur_group_create();
+    aur_group *const group = aur_group_create(integrator->data);
     aur_pixel_strata *const strata = calloc(AUR_TILE_PIXELS, sizeof *strata);
     const bool good = group != NULL && strata != NULL;
     if (good)
@@ -320,15 +401,16 @@ static aur_result tile(const aur_integrator *integrator, aur_tile *tile) {
 }
 
 const aur_integrator_descriptor aur_integrator_final_gather = {
-    .description =
-        {.name = "finalgather",
-         .keys = "diffuse_samples=64, glossy_samples=64, pattern=spherical-fibonacci, map=lambert, "
-                 "scramble=rotate (nets: digit), rotations=16, density=optimal, smoothness=1.5, "
-                 "decorrelation=blue, photons=500000, photon_pattern=sobol, photons_per_texel=16, edges=32, "
-                 "max_depth=-1, component=all, direct=nee, incident=photons, pixel=filter, "
-                 "pattern_seed=0, packets=true",
-         .summary = "final gathering over a photon map, one pattern of directions an image",
-         .source = "Christensen 1999, Marques 2013"},
+    .description = {.name = "finalgather",
+                    .keys =
+                        "diffuse_samples=64, glossy_samples=64, pattern=spherical-fibonacci, map=lambert, "
+                        "scramble=rotate (nets: digit), rotations=16, density=optimal, smoothness=1.5, "
+                        "weights=ratio, regularization=1e-6, clip=true, decorrelation=blue, photons=500000, "
+                        "photon_pattern=sobol, photons_per_texel=16, edges=32, "
+                        "max_depth=-1, component=all, direct=nee, incident=photons, pixel=filter, "
+                        "pattern_seed=0, packets=true",
+                    .summary = "final gathering over a photon map, one pattern of directions an image",
+                    .source = "Christensen 1999, Marques 2013, Marques 2018"},
     .create = create,
     .release = release,
     .tile = tile,

@@ -2,6 +2,7 @@
  *
  *     final_gather.c     parameters, preparation, tiles
  *     gather_group.c     sixteen pixels at a time: what they see, direct light, gathering
+ *     gather_merged.c    two lobes of a place by the samples of both
  *     gather_incident.c  radiance along gather rays
  *     gather_edges.c     more primary rays where a pixel sees several things
  *
@@ -14,6 +15,8 @@
 
 #include "scene/packet.h"
 #include "transport/gather.h"
+#include "transport/gather_pair.h"
+#include "transport/gather_weights.h"
 #include "transport/integrator.h"
 #include "transport/irradiance.h"
 
@@ -21,6 +24,14 @@ enum { AUR_COMPONENT_ALL, AUR_COMPONENT_DIFFUSE, AUR_COMPONENT_GLOSSY };
 enum { AUR_DIRECT_NEE, AUR_DIRECT_GATHER, AUR_DIRECT_NONE };
 enum { AUR_INCIDENT_PHOTONS, AUR_INCIDENT_EMITTERS };
 enum { AUR_DECORRELATION_BLUE, AUR_DECORRELATION_RANDOM, AUR_DECORRELATION_NONE };
+enum {
+    AUR_WEIGHTS_RATIO,
+    AUR_WEIGHTS_EQUAL,
+    AUR_WEIGHTS_OSW,
+    AUR_WEIGHTS_OSWA,
+    AUR_WEIGHTS_MIS,
+    AUR_WEIGHTS_SOLVE
+};
 enum { AUR_LONGEST_CHAIN = 16 }; /* specular bounces in a row */
 
 /* How a gather ray's hit on a shape becomes radiance. */
@@ -42,6 +53,10 @@ typedef struct aur_final_gather {
     aur_gather_rule diffuse;
     size_t glossy_count; /* rules, one for each exponent of the scene's materials */
     aur_gather_rule *glossy;
+    /* One a glossy rule, or NULL when the horizon is not minded. */
+    float (*horizons)[AUR_HORIZON_STEPS + 1];
+    size_t pair_count; /* with merged samples: one for each glossy rule */
+    aur_gather_pair **pairs;
     const aur_irradiance_map *map; /* owned by the cache; NULL when incident light is emitters' alone */
     aur_hit_class *classes;        /* one a shape */
 } aur_final_gather;
@@ -118,7 +133,8 @@ static inline size_t aur_group_pixel(uint32_t group, size_t lane) {
 }
 
 typedef struct aur_group aur_group;
-aur_group *aur_group_create(void); /* working memory; NULL: out of memory */
+/* Working memory; NULL: out of memory. */
+aur_group *aur_group_create(const aur_final_gather *data);
 void aur_group_destroy(aur_group *group);
 void aur_group_add_sample(aur_group *group, const aur_group_task *task, aur_pixel_strata *strata,
                           aur_counters *counters);

@@ -1,6 +1,6 @@
 /* Direct light of sixteen pixels: a point on a light each, one packet of shadow rays. */
 #include "transport/direct_light.h"
-#include "transport/gather_group.h"
+#include "transport/gather_merged.h"
 
 /* BSDF * cos towards a light, each lobe less the part that its gather rays find. */
 static aur_vector weighted_value(const aur_final_gather *data, const aur_gather_place *p,
@@ -9,6 +9,8 @@ static aur_vector weighted_value(const aur_final_gather *data, const aur_gather_
     if (aur_vector_dot(p->surface.geometric_normal, light->direction) * local.z <= 0.0f)
         return (aur_vector){0};
     aur_vector sum = {0};
+    size_t merged[2];
+    const aur_gather_pair *const pair = aur_group_pair(data, p, merged);
     for (size_t i = 0; i < p->lobe_count; ++i) {
         const aur_bsdf_lobe *const lobe = &p->lobes[i];
         aur_vector value = {0};
@@ -21,7 +23,9 @@ static aur_vector weighted_value(const aur_final_gather *data, const aur_gather_
         } else if (lobe->shape == AUR_LOBE_SHAPE_COSINE_POWER && p->view.z * local.z > 0.0f) {
             value = aur_lobe_value(lobe, local);
             const aur_gather_rule *const rule = aur_final_gather_rule(data, lobe);
-            if (rule != NULL && !aur_vector_is_zero(value))
+            if (pair != NULL)
+                density = aur_group_pair_density(pair, p, merged, local);
+            else if (rule != NULL && !aur_vector_is_zero(value))
                 density = aur_gather_density(rule, aur_vector_dot(lobe->axis, local)) *
                           (float)(rule->count / data->samples_per_pixel);
         }

@@ -3,18 +3,28 @@
 #include <string.h>
 
 #include "transport/direct_light.h"
-#include "transport/gather_group.h"
+#include "transport/gather_merged.h"
 
-aur_group *aur_group_create(void) {
+aur_group *aur_group_create(const aur_final_gather *data) {
     aur_group *const group = aligned_alloc(64, (sizeof(aur_group) + 63) / 64 * 64);
     if (group == NULL)
         return NULL;
     memset(group, 0, sizeof *group);
     aur_packet_clear(&group->rays.packet);
-    return group;
+    size_t most = 0;
+    for (size_t i = 0; i < data->pair_count; ++i)
+        if (aur_gather_pair_share(data->pairs[i]) > most)
+            most = aur_gather_pair_share(data->pairs[i]);
+    group->merged = malloc((2 * most * (AUR_PACKET_SIZE + 1) + 1) * sizeof *group->merged);
+    if (group->merged != NULL)
+        return group;
+    free(group);
+    return NULL;
 }
 
 void aur_group_destroy(aur_group *group) {
+    if (group != NULL)
+        free(group->merged);
     free(group);
 }
 
@@ -118,6 +128,27 @@ uint32_t aur_group_aim(aur_group *group, uint32_t lanes, const aur_lobe_frames *
     return aimed;
 }
 
+/* What lobes that dip below the surface are multiplied by; 1 for the others. */
+static void horizon_factors(const aur_group *group, const aur_gather_rule *rule, uint32_t lanes,
+                            const aur_lobe_frames *frames, const aur_gather_turn turns[AUR_PACKET_SIZE],
+                            float factors[AUR_PACKET_SIZE]) {
+    const aur_final_gather *const data = group->task->data;
+    for (uint32_t rest = lanes; rest != 0; rest &= rest - 1) {
+        const size_t lane = aur_first_lane(rest);
+        factors[lane] = 1.0f;
+        if (rule == &data->diffuse || data->horizons == NULL)
+            continue;
+        aur_vector normal = {0};
+        for (size_t c = 0; c < 3; ++c) {
+            normal.x += frames->shading[c][lane] * frames->x[c][lane];
+            normal.y += frames->shading[c][lane] * frames->y[c][lane];
+            normal.z += frames->shading[c][lane] * frames->z[c][lane];
+        }
+        factors[lane] =
+            aur_gather_horizon_factor(rule, data->horizons[rule - data->glossy], &turns[lane], normal);
+    }
+}
+
 /* The lobes' integrals over the hemisphere by this sample's share of a rule, added to the lanes' sums. */
 static void gather_rule(aur_group *group, const aur_gather_rule *rule, size_t lobe, uint32_t lanes) {
     const aur_final_gather *const data = group->task->data;
@@ -133,6 +164,8 @@ static void gather_rule(aur_group *group, const aur_gather_rule *rule, size_t lo
     }
     aur_lobe_frames frames;
     set_frames(group, lanes, lobe, &frames);
+    float factors[AUR_PACKET_SIZE];
+    horizon_factors(group, rule, lanes, &frames, turns, factors);
     float sum[3][AUR_PACKET_SIZE] = {0};
     for (size_t i = group->task->index % shares; i < rule->count; i += shares) {
         float local[3][AUR_PACKET_SIZE] = {0}, weight[AUR_PACKET_SIZE] = {0}, cosine[AUR_PACKET_SIZE];
@@ -175,7 +208,7 @@ static void gather_rule(aur_group *group, const aur_gather_rule *rule, size_t lo
         const aur_vector gathered = {sum[0][lane], sum[1][lane], sum[2][lane]};
         const aur_vector reflected =
             aur_vector_multiply(gathered, group->places[lane].lobes[lobe].coefficient);
-        group->sum[lane] = aur_vector_add_scaled(group->sum[lane], 1.0f / (float)share,
+        group->sum[lane] = aur_vector_add_scaled(group->sum[lane], factors[lane] / (float)share,
                                                  aur_vector_multiply(group->throughput[lane], reflected));
     }
 }
@@ -245,11 +278,37 @@ static uint32_t lanes_alike(const aur_group *group, uint32_t lanes, size_t lobe,
     return alike;
 }
 
+/* Places with two lobes that share their samples; returns the other lanes. */
+static uint32_t gather_merged(aur_group *group) {
+    const aur_final_gather *const data = group->task->data;
+    uint32_t others = 0;
+    const aur_gather_pair *pairs[AUR_PACKET_SIZE];
+    for (uint32_t rest = group->lanes; rest != 0; rest &= rest - 1) {
+        const size_t lane = aur_first_lane(rest);
+        size_t lobes[2];
+        pairs[lane] = aur_group_pair(data, &group->places[lane], lobes);
+        if (pairs[lane] == NULL)
+            others |= 1u << lane;
+    }
+    for (uint32_t left = group->lanes & ~others; left != 0;) {
+        const aur_gather_pair *const pair = pairs[aur_first_lane(left)];
+        uint32_t alike = 0;
+        for (uint32_t rest = left; rest != 0; rest &= rest - 1)
+            alike |= (uint32_t)(pairs[aur_first_lane(rest)] == pair) << aur_first_lane(rest);
+        aur_group_gather_merged(group, pair, alike);
+        left &= ~alike;
+    }
+    return others;
+}
+
 static void gather(aur_group *group) {
     const aur_final_gather *const data = group->task->data;
+    if (!gathers(data))
+        return;
+    const uint32_t lanes = data->pair_count > 0 ? gather_merged(group) : group->lanes;
     for (size_t lobe = 0; lobe < AUR_BSDF_LOBE_CAPACITY; ++lobe) {
         uint32_t ruled = 0, sampled = 0;
-        for (uint32_t rest = group->lanes; rest != 0; rest &= rest - 1) {
+        for (uint32_t rest = lanes; rest != 0; rest &= rest - 1) {
             const size_t lane = aur_first_lane(rest);
             const aur_gather_place *const p = &group->places[lane];
             if (lobe >= p->lobe_count || !aur_group_gathers(data, &p->lobes[lobe]))

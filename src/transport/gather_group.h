@@ -28,6 +28,7 @@ struct aur_group {
     aur_vector throughput[AUR_PACKET_SIZE];
     aur_vector sum[AUR_PACKET_SIZE];
     aur_gather_place places[AUR_PACKET_SIZE];
+    float *merged; /* weights of merged samples, and room for one lane's: see gather_merged.c */
     aur_gather_rays rays;
 };
 
