@@ -35,11 +35,14 @@ typedef struct aur_render_options {
     aur_warnings warnings;
 } aur_render_options;
 
+enum { AUR_RENDER_LEVELS = 8 };
+
 typedef struct aur_render_statistics {
-    uint64_t rays;            /* traced, of all kinds */
-    uint64_t samples;         /* camera samples */
-    uint64_t invalid_samples; /* NaN, infinite or negative ones, left out of the picture */
-    double prepare_seconds;   /* wall clock: photon map and the like */
+    uint64_t rays;                      /* traced, of all kinds */
+    uint64_t samples;                   /* camera samples */
+    uint64_t invalid_samples;           /* NaN, infinite or negative ones, left out of the picture */
+    uint64_t levels[AUR_RENDER_LEVELS]; /* adaptive gathering: places that ended at each level */
+    double prepare_seconds;             /* wall clock: photon map and the like */
     double render_seconds;
 } aur_render_statistics;
 

@@ -187,6 +187,10 @@ static void print_statistics(const aur_render_statistics *statistics) {
             statistics->samples, statistics->rays, statistics->prepare_seconds, statistics->render_seconds,
             seconds > 0 ? 1e-6 * (double)statistics->rays / seconds : 0.0, cpu_seconds(),
             statistics->invalid_samples);
+    for (size_t l = 0; l < AUR_RENDER_LEVELS; ++l)
+        if (statistics->levels[l] > 0)
+            fprintf(stderr, "aureole: %" PRIu64 " gathers ended at level %zu\n", statistics->levels[l],
+                    l + 1);
 }
 
 static int render(const render_command *command) {

@@ -179,6 +179,8 @@ static aur_result render_samples(render_work *work, const aur_render_options *op
     for (size_t i = 0; i < tiles; ++i) {
         statistics->rays += work->counters[i].rays;
         statistics->invalid_samples += work->counters[i].invalid;
+        for (size_t l = 0; l < AUR_RENDER_LEVELS; ++l)
+            statistics->levels[l] += work->counters[i].levels[l];
     }
     statistics->samples = (uint64_t)(s->x1 - s->x0) * (s->y1 - s->y0) * s->samples_per_pixel;
     free(work->counters);

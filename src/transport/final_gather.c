@@ -20,6 +20,10 @@ static void release(aur_integrator *integrator) {
     free(data->pairs);
     free(data->horizons);
     free(data->glossy);
+    aur_gather_levels_release(&data->diffuse_levels);
+    for (size_t i = 0; i < data->glossy_count && data->glossy_levels != NULL; ++i)
+        aur_gather_levels_release(&data->glossy_levels[i]);
+    free(data->glossy_levels);
     free(data->classes);
     free(data);
 }
@@ -31,10 +35,11 @@ enum { DENSITY_SAME, DENSITY_OPTIMAL, DENSITY_UNSAID };
 
 typedef struct gather_parameters {
     int64_t diffuse_samples, glossy_samples, rotations, photons, max_depth, pattern_seed, edges;
-    double smoothness, regularization, photons_a_texel;
+    int64_t levels, level_factor;
+    double smoothness, regularization, photons_a_texel, threshold;
     const char *pattern, *map, *scramble, *photon_set;
-    size_t density, weights, component, direct, incident, pixel, decorrelation;
-    bool packets, clip;
+    size_t density, weights, component, direct, incident, pixel, decorrelation, criterion;
+    bool packets, clip, adaptive;
 } gather_parameters;
 
 static aur_result read_parameters(aur_parameters *parameters, gather_parameters *p, aur_error *error) {
@@ -44,6 +49,7 @@ static aur_result read_parameters(aur_parameters *parameters, gather_parameters 
     static const char *const directs[] = {"nee", "gather", "none"};
     static const char *const incidents[] = {"photons", "emitters"};
     static const char *const pixels[] = {"filter", "centre"};
+    static const char *const criteria[] = {"entropy", "variance"};
     static const char *const decorrelations[] = {"blue", "random", "none"};
     *p = (gather_parameters){.diffuse_samples = 64,
                              .glossy_samples = 64,
@@ -52,6 +58,10 @@ static aur_result read_parameters(aur_parameters *parameters, gather_parameters 
                              .photons_a_texel = 16.0,
                              .edges = 32,
                              .packets = true,
+                             .levels = 2,
+                             .level_factor = 4,
+                             .threshold = -1.0,
+                             .criterion = AUR_CRITERION_VARIANCE,
                              .max_depth = -1,
                              .smoothness = 1.5,
                              .pattern = "spherical-fibonacci",
@@ -85,6 +95,12 @@ static aur_result read_parameters(aur_parameters *parameters, gather_parameters 
                                    error)) == AUR_OK &&
         (r = aur_parameters_integer(parameters, "edges", 0, 65536, &p->edges, error)) == AUR_OK &&
         (r = aur_parameters_boolean(parameters, "packets", &p->packets, error)) == AUR_OK &&
+        (r = aur_parameters_boolean(parameters, "adaptive", &p->adaptive, error)) == AUR_OK &&
+        (r = aur_parameters_integer(parameters, "levels", 1, AUR_GATHER_LEVEL_CAPACITY - 1, &p->levels,
+                                    error)) == AUR_OK &&
+        (r = aur_parameters_integer(parameters, "level_factor", 2, 4, &p->level_factor, error)) == AUR_OK &&
+        (r = aur_parameters_float(parameters, "threshold", 0.0, 1e6, &p->threshold, error)) == AUR_OK &&
+        (r = aur_parameters_choice(parameters, "criterion", 2, criteria, &p->criterion, error)) == AUR_OK &&
         (r = aur_parameters_integer(parameters, "max_depth", -1, 1 << 20, &p->max_depth, error)) == AUR_OK &&
         (r = aur_parameters_choice(parameters, "component", 3, components, &p->component, error)) == AUR_OK &&
         (r = aur_parameters_choice(parameters, "direct", 3, directs, &p->direct, error)) == AUR_OK &&
@@ -157,6 +173,49 @@ const aur_gather_rule *aur_final_gather_rule(const aur_final_gather *data, const
         if ((float)data->glossy[i].exponent == lobe->exponent)
             return &data->glossy[i];
     return NULL;
+}
+
+const aur_gather_levels *aur_final_gather_levels(const aur_final_gather *data, const aur_gather_rule *rule) {
+    if (!data->adaptive)
+        return NULL;
+    return rule == &data->diffuse ? &data->diffuse_levels : &data->glossy_levels[rule - data->glossy];
+}
+
+float aur_final_gather_share(const aur_final_gather *data, const aur_gather_rule *rule) {
+    const aur_gather_levels *const levels = aur_final_gather_levels(data, rule);
+    return levels != NULL ? (float)levels->ends[0] : (float)(rule->count / data->samples_per_pixel);
+}
+
+/* The extensible sets that adaptive gathering takes the place of patterns by. */
+static aur_result set_growth(const gather_parameters *p, int64_t base, aur_gather_levels_options *growth,
+                             size_t capacity, char *set, size_t *count, aur_error *error) {
+    if (p->level_factor == 3)
+        return aur_fail(error, AUR_ERROR_ARGUMENT, "finalgather: 'level_factor' is 2 or 4, not 3");
+    *growth = (aur_gather_levels_options){.base = (size_t)base,
+                                          .factor = (size_t)p->level_factor,
+                                          .extensions = (size_t)p->levels,
+                                          .smoothness = p->smoothness,
+                                          .optimal = p->weights == AUR_WEIGHTS_OSW,
+                                          .regularization = p->regularization};
+    return aur_gather_levels_set(growth, capacity, set, count, error);
+}
+
+static aur_result add_levels(aur_final_gather *data, const aur_gather_levels_options *growth,
+                             const aur_gather_rule *rule, aur_gather_levels *levels, aur_error *error) {
+    if (rule->count > data->most_directions)
+        data->most_directions = rule->count;
+    return aur_gather_levels_create(growth, rule, levels, error);
+}
+
+/* The rules of adaptive gathering are made from grids in place of the pattern. */
+static aur_result prepare_levels(aur_final_gather *data, aur_error *error) {
+    data->glossy_levels = calloc(data->glossy_count + 1, sizeof *data->glossy_levels);
+    if (data->glossy_levels == NULL)
+        return aur_fail(error, AUR_ERROR_MEMORY, "out of memory");
+    aur_result result = add_levels(data, &data->diffuse_growth, &data->diffuse, &data->diffuse_levels, error);
+    for (size_t i = 0; i < data->glossy_count && result == AUR_OK; ++i)
+        result = add_levels(data, &data->glossy_growth, &data->glossy[i], &data->glossy_levels[i], error);
+    return result;
 }
 
 /* One rule for each exponent among the glossy lobes of the scene's materials. */
@@ -288,6 +347,11 @@ static aur_result prepare_classes(aur_final_gather *data, aur_error *error) {
     return AUR_OK;
 }
 
+/* Chosen by measurement: see docs/rendering.md. */
+static double default_threshold(size_t criterion) {
+    return criterion == AUR_CRITERION_ENTROPY ? 0.3 : 0.03;
+}
+
 static aur_result create(aur_parameters *parameters, const aur_integrator_context *context,
                          aur_integrator *integrator, aur_error *error) {
     gather_parameters p;
@@ -304,10 +368,17 @@ static aur_result create(aur_parameters *parameters, const aur_integrator_contex
         return aur_fail(error, AUR_ERROR_MEMORY, "out of memory");
     integrator->data = data;
     integrator->pixel_centre = p.pixel == 1;
+    static const char *const extra[] = {"directions"};
+    if (p.adaptive) {
+        integrator->extra_count = 1;
+        integrator->extra_names = extra;
+    }
     data->scene = context->scene;
     data->decorrelation = p.decorrelation;
     data->edge_samples = (uint32_t)p.edges;
     data->packets = p.packets;
+    data->adaptive = p.adaptive;
+    data->criterion = p.criterion;
     data->component = p.component;
     data->direct = p.direct;
     data->incident = p.incident;
@@ -317,12 +388,36 @@ static aur_result create(aur_parameters *parameters, const aur_integrator_contex
     data->pattern_seed = options.seed;
     data->options = options;
     options.count = shared_count(p.diffuse_samples, context->samples_per_pixel);
-    result = aur_gather_rule_create(&options, 1.0, &data->diffuse, error);
+    size_t glossy_count = data->glossy_samples;
+    char set[80], glossy_set[80];
+    if (p.adaptive) {
+        if (p.weights != AUR_WEIGHTS_RATIO && p.weights != AUR_WEIGHTS_EQUAL && p.weights != AUR_WEIGHTS_OSW)
+            return aur_fail(error, AUR_ERROR_UNSUPPORTED,
+                            "finalgather: adaptive gathering grows each lobe's pattern by itself: weights of "
+                            "merged samples (oswa, mis) do not go with it; take osw, ratio or equal");
+        if (options.scramble != AUR_SCRAMBLE_ROTATE || strcmp(p.pattern, "spherical-fibonacci") != 0)
+            return aur_fail(error, AUR_ERROR_UNSUPPORTED,
+                            "finalgather: adaptive gathering takes its patterns from extensible spherical "
+                            "Fibonacci grids: leave 'pattern' and 'scramble' out");
+        data->threshold = (float)(p.threshold >= 0.0 ? p.threshold : default_threshold(p.criterion));
+        result =
+            set_growth(&p, p.diffuse_samples, &data->diffuse_growth, sizeof set, set, &options.count, error);
+        if (result == AUR_OK)
+            result = set_growth(&p, p.glossy_samples, &data->glossy_growth, sizeof glossy_set, glossy_set,
+                                &glossy_count, error);
+        options.set = set;
+        data->options.set = glossy_set;
+    }
+    if (result == AUR_OK)
+        result = aur_gather_rule_create(&options, 1.0, &data->diffuse, error);
     data->options.warnings = (aur_warnings){0};
     if (result == AUR_OK)
-        result = prepare_glossy_rules(data, context->scene, data->glossy_samples, error);
-    if (result == AUR_OK)
+        result = prepare_glossy_rules(data, context->scene, glossy_count, error);
+    if (result == AUR_OK && p.adaptive)
+        result = prepare_levels(data, error);
+    if (result == AUR_OK && !p.adaptive)
         result = prepare_weights(data, &p, context, error);
+    data->options.set = NULL; /* what it named may be gone */
     const bool wants_photons = p.incident == AUR_INCIDENT_PHOTONS && data->max_depth >= 3;
     if (result == AUR_OK && wants_photons)
         result = prepare_map(data, &p, context, error);
@@ -384,8 +479,11 @@ static void add_tile(const aur_final_gather *data, aur_tile *tile, aur_group *gr
             const aur_pixel_strata *const pixel = &strata[(y - task.y) * AUR_TILE_SIZE + (x - task.x)];
             double mean[3];
             develop(pixel, mean);
-            if (pixel->samples > 0)
-                aur_tile_add_mean(tile, x, y, tile->count, mean);
+            if (pixel->samples == 0)
+                continue;
+            aur_tile_add_mean(tile, x, y, tile->count, mean);
+            if (data->adaptive)
+                aur_tile_add_extra(tile, x, y, 0, (double)tile->count * (double)pixel->directions);
         }
 }
 
@@ -407,10 +505,12 @@ const aur_integrator_descriptor aur_integrator_final_gather = {
                         "scramble=rotate (nets: digit), rotations=16, density=optimal, smoothness=1.5, "
                         "weights=ratio, regularization=1e-6, clip=true, decorrelation=blue, photons=500000, "
                         "photon_pattern=sobol, photons_per_texel=16, edges=32, "
+                        "adaptive=false, levels=2, level_factor=4, criterion=variance, threshold=0.03 "
+                        "(entropy: 0.3), "
                         "max_depth=-1, component=all, direct=nee, incident=photons, pixel=filter, "
                         "pattern_seed=0, packets=true",
                     .summary = "final gathering over a photon map, one pattern of directions an image",
-                    .source = "Christensen 1999, Marques 2013, Marques 2018"},
+                    .source = "Christensen 1999, Marques 2013, Marques 2018, Marques 2019"},
     .create = create,
     .release = release,
     .tile = tile,

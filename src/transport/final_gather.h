@@ -15,6 +15,7 @@
 
 #include "scene/packet.h"
 #include "transport/gather.h"
+#include "transport/gather_levels.h"
 #include "transport/gather_pair.h"
 #include "transport/gather_weights.h"
 #include "transport/integrator.h"
@@ -32,6 +33,7 @@ enum {
     AUR_WEIGHTS_MIS,
     AUR_WEIGHTS_SOLVE
 };
+enum { AUR_CRITERION_ENTROPY, AUR_CRITERION_VARIANCE };
 enum { AUR_LONGEST_CHAIN = 16 }; /* specular bounces in a row */
 
 /* How a gather ray's hit on a shape becomes radiance. */
@@ -57,12 +59,25 @@ typedef struct aur_final_gather {
     float (*horizons)[AUR_HORIZON_STEPS + 1];
     size_t pair_count; /* with merged samples: one for each glossy rule */
     aur_gather_pair **pairs;
-    const aur_irradiance_map *map; /* owned by the cache; NULL when incident light is emitters' alone */
-    aur_hit_class *classes;        /* one a shape */
+    bool adaptive;
+    size_t criterion;
+    float threshold;
+    aur_gather_levels_options diffuse_growth, glossy_growth;
+    aur_gather_levels diffuse_levels;
+    aur_gather_levels *glossy_levels; /* one a glossy rule */
+    size_t most_directions;           /* of any rule with levels */
+    const aur_irradiance_map *map;    /* owned by the cache; NULL when incident light is emitters' alone */
+    aur_hit_class *classes;           /* one a shape */
 } aur_final_gather;
 
 /* The rule that serves a lobe, or NULL. */
 const aur_gather_rule *aur_final_gather_rule(const aur_final_gather *data, const aur_bsdf_lobe *lobe);
+
+/* The levels of a rule; NULL unless gathering is adaptive. */
+const aur_gather_levels *aur_final_gather_levels(const aur_final_gather *data, const aur_gather_rule *rule);
+
+/* Directions of a rule that one sample of a pixel sends; when adaptive, those of the first level. */
+float aur_final_gather_share(const aur_final_gather *data, const aur_gather_rule *rule);
 
 /* --- incident light (gather_incident.c) */
 
@@ -104,7 +119,8 @@ enum { AUR_STRATUM_COUNT = 6 }; /* the last one takes what comes after */
 
 typedef struct aur_pixel_strata {
     uint32_t count;
-    uint32_t samples; /* valid ones */
+    uint32_t samples;    /* valid ones */
+    uint64_t directions; /* gathered with, when adaptive */
     aur_stratum strata[AUR_STRATUM_COUNT];
 } aur_pixel_strata;
 

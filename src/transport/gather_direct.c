@@ -27,7 +27,7 @@ static aur_vector weighted_value(const aur_final_gather *data, const aur_gather_
                 density = aur_group_pair_density(pair, p, merged, local);
             else if (rule != NULL && !aur_vector_is_zero(value))
                 density = aur_gather_density(rule, aur_vector_dot(lobe->axis, local)) *
-                          (float)(rule->count / data->samples_per_pixel);
+                          aur_final_gather_share(data, rule);
         }
         const bool rivals = !light->delta && aur_group_gathers(data, lobe);
         sum = aur_vector_add_scaled(sum, rivals ? aur_power_heuristic(light->pdf, density) : 1.0f, value);

@@ -15,16 +15,19 @@ aur_group *aur_group_create(const aur_final_gather *data) {
     for (size_t i = 0; i < data->pair_count; ++i)
         if (aur_gather_pair_share(data->pairs[i]) > most)
             most = aur_gather_pair_share(data->pairs[i]);
+    group->values = malloc((3 * AUR_PACKET_SIZE * data->most_directions + 1) * sizeof *group->values);
     group->merged = malloc((2 * most * (AUR_PACKET_SIZE + 1) + 1) * sizeof *group->merged);
-    if (group->merged != NULL)
+    if (group->merged != NULL && group->values != NULL)
         return group;
-    free(group);
+    aur_group_destroy(group);
     return NULL;
 }
 
 void aur_group_destroy(aur_group *group) {
-    if (group != NULL)
-        free(group->merged);
+    if (group == NULL)
+        return;
+    free(group->merged);
+    free(group->values);
     free(group);
 }
 
@@ -41,8 +44,11 @@ static aur_gather_turn turn_of(const aur_group *group, const aur_gather_rule *ru
         const uint64_t pixel = group->samples[lane].stream.pixel;
         return aur_gather_rule_turn(rule, aur_hash4(data->pattern_seed, pixel, group->chain, what));
     }
-    const uint64_t tile =
+    uint64_t tile =
         aur_hash4(data->pattern_seed, aur_hash2(group->task->y, group->task->x), group->chain, what);
+    /* Where the samples of a pixel do not share a pattern out, each has it turned anew. */
+    if (data->adaptive)
+        tile = aur_hash2(tile, group->task->index);
     /* Sixteen patterns would show as texture, were they the same in every tile. */
     if (rule->scramble != AUR_SCRAMBLE_ROTATE) {
         const uint64_t k = (aur_group_dither[group->task->group] ^ (tile & 15u)) * rule->rotations / 16;
@@ -149,68 +155,94 @@ static void horizon_factors(const aur_group *group, const aur_gather_rule *rule,
     }
 }
 
-/* The lobes' integrals over the hemisphere by this sample's share of a rule, added to the lanes' sums. */
-static void gather_rule(aur_group *group, const aur_gather_rule *rule, size_t lobe, uint32_t lanes) {
-    const aur_final_gather *const data = group->task->data;
-    const size_t shares = data->samples_per_pixel;
-    const size_t share = rule->count / shares;
-    const aur_embree_order order = group->flat ? AUR_EMBREE_COHERENT : AUR_EMBREE_INCOHERENT;
-    const bool shared = shares_turns(group, rule);
-    aur_gather_turn turns[AUR_PACKET_SIZE];
+uint32_t aur_group_trace_direction(aur_group *group, const aur_rule_walk *walk, size_t index,
+                                   float factor[AUR_PACKET_SIZE]) {
+    const aur_gather_rule *const rule = walk->rule;
+    float local[3][AUR_PACKET_SIZE] = {0}, cosine[AUR_PACKET_SIZE], weight[AUR_PACKET_SIZE] = {0};
+    if (walk->shared) {
+        aur_vector direction;
+        const aur_gather_turn *const turn = &walk->turns[aur_first_lane(walk->lanes)];
+        const float one = aur_gather_direction(rule, turn, index, &direction);
+        const float density = rule->densities[turn->first + index] * walk->share;
+        for (size_t k = 0; k < AUR_PACKET_SIZE; ++k) {
+            local[0][k] = direction.x;
+            local[1][k] = direction.y;
+            local[2][k] = direction.z;
+            weight[k] = one;
+            group->rays.density[k] = density;
+        }
+    } else {
+        for (uint32_t rest = walk->lanes; rest != 0; rest &= rest - 1) {
+            const size_t lane = aur_first_lane(rest);
+            aur_vector direction;
+            weight[lane] = aur_gather_direction(rule, &walk->turns[lane], index, &direction);
+            aur_set_column(local, lane, direction);
+            group->rays.density[lane] =
+                walk->share * (rule->square != NULL ? aur_gather_density(rule, direction.z)
+                                                    : rule->densities[walk->turns[lane].first + index]);
+        }
+    }
+    const uint32_t aimed = aur_group_aim(group, walk->lanes, &walk->frames, local, cosine);
+    if (aimed == 0)
+        return 0;
+    group->rays.hash = aur_hash3(group->samples[aur_first_lane(walk->lanes)].stream.pixel, index, walk->lobe);
+    aur_gather_trace(group->task->data, walk->order, &group->rays, group->counters);
+    for (size_t k = 0; k < AUR_PACKET_SIZE; ++k)
+        factor[k] = (walk->weighs ? weight[k] : 1.0f) * (walk->frames.times_cosine[k] ? cosine[k] : 1.0f);
+    return aimed;
+}
+
+static void start_walk(aur_group *group, const aur_gather_rule *rule, size_t lobe, uint32_t lanes,
+                       aur_rule_walk *walk) {
+    *walk = (aur_rule_walk){.rule = rule,
+                            .lobe = lobe,
+                            .lanes = lanes,
+                            .shared = shares_turns(group, rule),
+                            .weighs = true,
+                            .share = aur_final_gather_share(group->task->data, rule),
+                            .order = group->flat ? AUR_EMBREE_COHERENT : AUR_EMBREE_INCOHERENT};
     for (uint32_t rest = lanes; rest != 0; rest &= rest - 1) {
         const size_t lane = aur_first_lane(rest);
-        turns[lane] = shared && lane != aur_first_lane(lanes) ? turns[aur_first_lane(lanes)]
-                                                              : turn_of(group, rule, lane, lobe);
+        walk->turns[lane] = walk->shared && lane != aur_first_lane(lanes) ? walk->turns[aur_first_lane(lanes)]
+                                                                          : turn_of(group, rule, lane, lobe);
     }
-    aur_lobe_frames frames;
-    set_frames(group, lanes, lobe, &frames);
+    set_frames(group, lanes, lobe, &walk->frames);
+}
+
+/* The lobes' integrals over the hemisphere by this sample's share of a rule, added to the lanes' sums. */
+static void gather_share(aur_group *group, const aur_rule_walk *walk) {
     float factors[AUR_PACKET_SIZE];
-    horizon_factors(group, rule, lanes, &frames, turns, factors);
+    horizon_factors(group, walk->rule, walk->lanes, &walk->frames, walk->turns, factors);
+    const size_t shares = group->task->data->samples_per_pixel;
     float sum[3][AUR_PACKET_SIZE] = {0};
-    for (size_t i = group->task->index % shares; i < rule->count; i += shares) {
-        float local[3][AUR_PACKET_SIZE] = {0}, weight[AUR_PACKET_SIZE] = {0}, cosine[AUR_PACKET_SIZE];
-        if (shared) {
-            aur_vector direction;
-            const aur_gather_turn *const turn = &turns[aur_first_lane(lanes)];
-            const float one = aur_gather_direction(rule, turn, i, &direction);
-            const float density = rule->densities[turn->first + i] * (float)share;
-            for (size_t k = 0; k < AUR_PACKET_SIZE; ++k) {
-                local[0][k] = direction.x;
-                local[1][k] = direction.y;
-                local[2][k] = direction.z;
-                weight[k] = one;
-                group->rays.density[k] = density;
-            }
-        } else {
-            for (uint32_t rest = lanes; rest != 0; rest &= rest - 1) {
-                const size_t lane = aur_first_lane(rest);
-                aur_vector direction;
-                weight[lane] = aur_gather_direction(rule, &turns[lane], i, &direction);
-                aur_set_column(local, lane, direction);
-                group->rays.density[lane] = rule->square != NULL
-                                                ? aur_gather_density(rule, direction.z) * (float)share
-                                                : rule->densities[turns[lane].first + i] * (float)share;
-            }
-        }
-        const uint32_t aimed = aur_group_aim(group, lanes, &frames, local, cosine);
-        if (aimed == 0)
+    for (size_t i = group->task->index % shares; i < walk->rule->count; i += shares) {
+        float factor[AUR_PACKET_SIZE];
+        if (aur_group_trace_direction(group, walk, i, factor) == 0)
             continue;
-        group->rays.hash = aur_hash3(group->samples[aur_first_lane(lanes)].stream.pixel, i, lobe);
-        aur_gather_trace(data, order, &group->rays, group->counters);
-        for (size_t k = 0; k < AUR_PACKET_SIZE; ++k)
-            weight[k] *= frames.times_cosine[k] ? cosine[k] : 1.0f;
         for (size_t c = 0; c < 3; ++c)
             for (size_t k = 0; k < AUR_PACKET_SIZE; ++k)
-                sum[c][k] += weight[k] * group->rays.radiance[c][k];
+                sum[c][k] += factor[k] * group->rays.radiance[c][k];
     }
-    for (uint32_t rest = lanes; rest != 0; rest &= rest - 1) {
+    for (uint32_t rest = walk->lanes; rest != 0; rest &= rest - 1) {
         const size_t lane = aur_first_lane(rest);
         const aur_vector gathered = {sum[0][lane], sum[1][lane], sum[2][lane]};
         const aur_vector reflected =
-            aur_vector_multiply(gathered, group->places[lane].lobes[lobe].coefficient);
-        group->sum[lane] = aur_vector_add_scaled(group->sum[lane], factors[lane] / (float)share,
+            aur_vector_multiply(gathered, group->places[lane].lobes[walk->lobe].coefficient);
+        group->sum[lane] = aur_vector_add_scaled(group->sum[lane], factors[lane] / walk->share,
                                                  aur_vector_multiply(group->throughput[lane], reflected));
     }
+}
+
+static void gather_rule(aur_group *group, const aur_gather_rule *rule, size_t lobe, uint32_t lanes) {
+    aur_rule_walk walk;
+    start_walk(group, rule, lobe, lanes, &walk);
+    const aur_gather_levels *const levels = aur_final_gather_levels(group->task->data, rule);
+    if (levels == NULL) {
+        gather_share(group, &walk);
+        return;
+    }
+    walk.weighs = false;
+    aur_group_gather_adaptive(group, &walk, levels);
 }
 
 size_t aur_group_sampled_share(const aur_final_gather *data) {
@@ -428,6 +460,7 @@ static void add_to_strata(const aur_group *group, aur_pixel_strata *strata,
             continue;
         }
         const double weight = (double)group->weights[lane];
+        strata[aur_group_pixel(group->task->group, lane)].directions += group->directions[lane];
         into[lane]->shaded += weight;
         into[lane]->sum[0] += weight * (double)group->sum[lane].x;
         into[lane]->sum[1] += weight * (double)group->sum[lane].y;
@@ -524,6 +557,7 @@ void aur_group_add_sample(aur_group *group, const aur_group_task *task, aur_pixe
         y[lane] = task->y + pixel / AUR_TILE_SIZE;
         group->throughput[lane] = (aur_vector){1.0f, 1.0f, 1.0f};
         group->sum[lane] = (aur_vector){0};
+        group->directions[lane] = 0;
     }
     aur_view_samples(task->view, AUR_PACKET_SIZE, x, y, task->index, group->samples, group->weights);
     for (size_t lane = 0; lane < AUR_PACKET_SIZE; ++lane)

@@ -29,6 +29,8 @@ struct aur_group {
     aur_vector sum[AUR_PACKET_SIZE];
     aur_gather_place places[AUR_PACKET_SIZE];
     float *merged; /* weights of merged samples, and room for one lane's: see gather_merged.c */
+    uint32_t directions[AUR_PACKET_SIZE]; /* gathered with, when adaptive */
+    float *values;                        /* room for what adaptive gathering keeps */
     aur_gather_rays rays;
 };
 
@@ -74,6 +76,27 @@ void aur_group_add_direct_light(aur_group *group);
 
 /* Whether a lobe's light comes by gather rays. */
 bool aur_group_gathers(const aur_final_gather *data, const aur_bsdf_lobe *lobe);
+
+/* A rule at the places of some lanes, direction by direction. */
+typedef struct aur_rule_walk {
+    const aur_gather_rule *rule;
+    size_t lobe;
+    uint32_t lanes;
+    bool shared; /* all lanes have one turn */
+    bool weighs; /* factors have the rule's weights */
+    float share; /* directions that one sample sends */
+    aur_embree_order order;
+    aur_gather_turn turns[AUR_PACKET_SIZE];
+    aur_lobe_frames frames;
+} aur_rule_walk;
+
+/* Traces direction `index`; group->rays.radiance has what came along it. Returns the lanes above whose
+ * surface it lies, and what their radiance is to be multiplied by; the others' is 0. */
+uint32_t aur_group_trace_direction(aur_group *group, const aur_rule_walk *walk, size_t index,
+                                   float factor[AUR_PACKET_SIZE]);
+
+/* Adds the lobes' integrals by as many levels as they need (gather_adaptive.c). */
+void aur_group_gather_adaptive(aur_group *group, aur_rule_walk *walk, const aur_gather_levels *levels);
 
 /* One lane's frame and normals; its rays start at its place. */
 void aur_group_set_frame(aur_group *group, size_t lane, const aur_frame *frame, aur_lobe_frames *frames);

@@ -72,3 +72,8 @@ void aur_tile_add_mean(aur_tile *tile, size_t x, size_t y, uint32_t count, const
         tile->sums[pixel * tile->channel_count + c] += (double)count * mean[c];
     tile->counts[pixel] += count;
 }
+
+void aur_tile_add_extra(aur_tile *tile, size_t x, size_t y, size_t channel, double value) {
+    const size_t pixel = (y - tile->y0) * tile->stride + (x - tile->x0);
+    tile->sums[pixel * tile->channel_count + 3 + channel] += value;
+}

@@ -3,13 +3,16 @@
 #ifndef AUR_TRANSPORT_TILE_H
 #define AUR_TRANSPORT_TILE_H
 
+#include <aureole/render.h>
+
 #include "scene/scene.h"
 #include "transport/sampler.h"
 
 /* Counted by each tile for itself and added up afterwards. */
 typedef struct aur_counters {
     uint64_t rays;
-    uint64_t invalid; /* samples that were no radiance */
+    uint64_t invalid;                   /* samples that were no radiance */
+    uint64_t levels[AUR_RENDER_LEVELS]; /* adaptive gathering: places that ended at each level */
 } aur_counters;
 
 /* A camera ray with the numbers of its light path. */
@@ -65,6 +68,8 @@ bool aur_is_radiance(aur_vector radiance);
 void aur_tile_add(aur_tile *tile, size_t x, size_t y, float weight, aur_vector radiance);
 /* Adds the mean of `count` samples. */
 void aur_tile_add_mean(aur_tile *tile, size_t x, size_t y, uint32_t count, const double mean[3]);
+/* Adds to a channel after the first three, counting no sample. */
+void aur_tile_add_extra(aur_tile *tile, size_t x, size_t y, size_t channel, double value);
 /* One sample with all channels, the first three the radiance. */
 void aur_tile_add_channels(aur_tile *tile, size_t x, size_t y, float weight, const float *values);
 

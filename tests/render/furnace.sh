@@ -29,6 +29,8 @@ check path-bright 5 0 -D albedo=0.9
 check path-two 0.75 0 --integrator path:max_depth=2
 check gather-two 0.75 0 --integrator finalgather:direct=gather,incident=emitters,density=same --spp 4
 # Patterns that are only turned have an error of quadrature that turning does not average out: 0.2 %.
+check gather-adaptive-two 0.75 0 --spp 4 \
+  --integrator finalgather:direct=gather,incident=emitters,density=same,adaptive=true,diffuse_samples=8
 check gather 1 0.002 --integrator finalgather:photons=50000,diffuse_samples=64 --spp 4
 check gather-bright 5 0.004 -D albedo=0.9 --integrator finalgather:photons=50000 --spp 4
 check gather-sobol 1 0.002 --integrator finalgather:photons=50000,pattern=sobol --spp 4
