@@ -10,6 +10,7 @@
 /* A line a bench. */
 /* clang-format off */
 extern const bench bench_ao;
+extern const bench bench_gather;
 extern const bench bench_limits;
 extern const bench bench_measures;
 extern const bench bench_parallel;
@@ -21,6 +22,7 @@ extern const bench bench_weights;
 
 static const bench *const benches[] = {
     &bench_ao,
+    &bench_gather,
     &bench_limits,
     &bench_measures,
     &bench_parallel,
