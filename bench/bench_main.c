@@ -17,6 +17,7 @@ extern const bench bench_parallel;
 extern const bench bench_path;
 extern const bench bench_points_sphere;
 extern const bench bench_points_square;
+extern const bench bench_radiosity;
 extern const bench bench_scene;
 extern const bench bench_weights;
 
@@ -29,6 +30,7 @@ static const bench *const benches[] = {
     &bench_path,
     &bench_points_sphere,
     &bench_points_square,
+    &bench_radiosity,
     &bench_scene,
     &bench_weights,
 };

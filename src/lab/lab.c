@@ -12,6 +12,9 @@
 #define AUR_SCENES_FOLDER "scenes"
 #endif
 
+extern const lab_experiment lab_keller_1994_table1;
+extern const lab_experiment lab_keller_1994_table2;
+extern const lab_experiment lab_keller_1994_table3;
 extern const lab_experiment lab_marques_2013_gather;
 extern const lab_experiment lab_marques_2018_gains;
 extern const lab_experiment lab_marques_2018_rivals;
@@ -20,6 +23,7 @@ extern const lab_experiment lab_marques_2018_slopes;
 extern const lab_experiment lab_schretter_2012_fig5;
 
 static const lab_experiment *const experiments[] = {
+    &lab_keller_1994_table1,       &lab_keller_1994_table2,  &lab_keller_1994_table3,
     &lab_marques_2013_gather,      &lab_marques_2018_gains,  &lab_marques_2018_rivals,
     &lab_marques_2018_sensitivity, &lab_marques_2018_slopes, &lab_schretter_2012_fig5,
 };

@@ -4,7 +4,9 @@
  *
  * Random access: the step is the map (b x + a) / x of the projective line, where 0 goes to infinity and
  * infinity to b. Full period means that this map runs through all 2^31 points of the line, and the
- * generator's sequence is the same without infinity. So value k is a power of a 2 x 2 matrix. */
+ * generator's sequence is the same without infinity. So value k is a power of a 2 x 2 matrix. A run of one
+ * coordinate takes the same power from point to point, as fractions p / q, and their denominators are
+ * inverted together (Montgomery 1987). */
 #include "pointset/set.h"
 
 static const uint64_t modulus = (UINT64_C(1) << 31) - 1;
@@ -31,19 +33,62 @@ static uint64_t inverse(uint64_t x) {
     return result;
 }
 
-/* Value k of the stream that starts at 0, by jumping. */
-static uint64_t value_at(uint64_t k) {
-    k %= modulus;
-    if (k == 0)
-        return 0;
+static matrix power_of_step(uint64_t exponent) {
     matrix result = {1, 0, 0, 1};
     matrix step = {summand, factor, 1, 0};
-    for (uint64_t exponent = k + 1; exponent > 0; exponent >>= 1) {
+    for (; exponent > 0; exponent >>= 1) {
         if (exponent & 1u)
             result = multiply(result, step);
         step = multiply(step, step);
     }
-    return result.b * inverse(result.d) % modulus;
+    return result;
+}
+
+/* Value k of the stream that starts at 0, by jumping: infinity stands between the values 0 and 1. */
+static uint64_t value_at(uint64_t k) {
+    k %= modulus;
+    if (k == 0)
+        return 0;
+    const matrix m = power_of_step(k + 1);
+    return m.b * inverse(m.d) % modulus;
+}
+
+enum { BATCH = 128 };
+
+/* values[i] = numerators[i] / denominators[i]; no denominator is 0. */
+static void divide_all(size_t count, const uint64_t *numerators, const uint64_t *denominators,
+                       uint64_t *values) {
+    uint64_t product = 1;
+    for (size_t i = 0; i < count; ++i) {
+        values[i] = product;
+        product = product * denominators[i] % modulus;
+    }
+    uint64_t rest = inverse(product);
+    for (size_t i = count; i-- > 0;) {
+        values[i] = values[i] * rest % modulus * numerators[i] % modulus;
+        rest = rest * denominators[i] % modulus;
+    }
+}
+
+/* Values k, k + stride, k + 2 stride, ... of the stream. */
+typedef struct run {
+    uint64_t k, stride, p, q; /* value k is p / q */
+    matrix jump;
+} run;
+
+static void go_on(run *r) {
+    const bool leaves_zero = r->k == 0;
+    r->k += r->stride;
+    if (leaves_zero || r->k >= modulus) {
+        /* Infinity is stepped over. */
+        r->k %= modulus;
+        r->p = value_at(r->k);
+        r->q = 1;
+        return;
+    }
+    const uint64_t p = (r->jump.a * r->p + r->jump.b * r->q) % modulus;
+    r->q = (r->jump.c * r->p + r->jump.d * r->q) % modulus;
+    r->p = p;
 }
 
 static aur_result prepare(aur_pointset *set, aur_parameters *keys, const aur_pointset_options *options,
@@ -59,17 +104,25 @@ static aur_result prepare(aur_pointset *set, aur_parameters *keys, const aur_poi
 
 static void fill(const aur_pointset *set, const aur_block *block) {
     const uint64_t start = set->seed == 0 ? 0 : aur_mix64(set->seed) % modulus;
-    const bool whole = block->dimension_count == set->dimension;
-    uint64_t x = value_at(start + block->first * set->dimension);
-    for (size_t i = 0; i < block->count; ++i) {
-        for (size_t d = 0; d < block->dimension_count; ++d) {
-            const size_t dimension = block->first_dimension + d;
-            const uint64_t key = aur_scramble_key(block->seed, dimension);
-            if (!whole)
-                x = value_at(start + (block->first + i) * set->dimension + dimension);
-            block->data[i * block->point_stride + d * block->coordinate_stride] =
-                aur_scrambled_fraction(set->scramble, x, modulus, key);
-            x = (factor * inverse(x) + summand) % modulus;
+    const matrix jump = power_of_step(set->dimension);
+    for (size_t d = 0; d < block->dimension_count; ++d) {
+        const size_t dimension = block->first_dimension + d;
+        const uint64_t key = aur_scramble_key(block->seed, dimension);
+        const uint64_t k = (start + block->first * set->dimension + dimension) % modulus;
+        run r = {.k = k, .stride = set->dimension, .p = value_at(k), .q = 1, .jump = jump};
+        double *const out = block->data + d * block->coordinate_stride;
+        for (size_t begin = 0; begin < block->count; begin += BATCH) {
+            const size_t count = block->count - begin < BATCH ? block->count - begin : BATCH;
+            uint64_t numerators[BATCH], denominators[BATCH], values[BATCH];
+            for (size_t i = 0; i < count; ++i) {
+                numerators[i] = r.p;
+                denominators[i] = r.q;
+                go_on(&r);
+            }
+            divide_all(count, numerators, denominators, values);
+            for (size_t i = 0; i < count; ++i)
+                out[(begin + i) * block->point_stride] =
+                    aur_scrambled_fraction(set->scramble, values[i], modulus, key);
         }
     }
 }

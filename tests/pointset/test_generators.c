@@ -48,6 +48,41 @@ static void icg_is_the_recursion(void **state) {
     aur_pointset_destroy(set);
 }
 
+static void expect_run(const char *text, aur_pointset_options options, uint64_t first) {
+    enum { COUNT = 700 };
+    double *const run = malloc(COUNT * options.dimension * sizeof *run);
+    aur_pointset *const set = make_set(text, options);
+    assert_int_equal(aur_pointset_points(set, first, COUNT, COUNT * options.dimension, run), AUR_OK);
+    for (size_t i = 0; i < COUNT; ++i)
+        for (size_t d = 0; d < options.dimension; ++d)
+            assert_true(aur_pointset_coordinate(set, first + i, d) == run[i * options.dimension + d]);
+    aur_pointset_destroy(set);
+    free(run);
+}
+
+/* Runs count on from point to point, single points jump: through carries of many digits, and through the end
+ * of the stream of icg, where it begins anew at 0 and the line has its infinity. */
+static void runs_are_their_points(void **state) {
+    (void)state;
+    static const char *const faure[] = {"faure:base=5", "faure:base=67",
+                                        "faure:base=5,scramble=lower-triangular",
+                                        "faure:base=67,scramble=lower-triangular"};
+    for (size_t k = 0; k < 4; ++k) {
+        const uint64_t base = k % 2 == 0 ? 5 : 67, power = base * base * base * base;
+        const aur_pointset_options options = {.count = UINT64_C(1) << 40, .dimension = 5, .seed = 3};
+        expect_run(faure[k], options, 0);
+        expect_run(faure[k], options, power - 350);
+        expect_run(faure[k], options, 3 * power * base - 17);
+    }
+    const uint64_t p = 2147483647;
+    for (size_t dimension = 1; dimension <= 3; ++dimension) {
+        const uint64_t start = aur_mix64(11) % p;
+        const aur_pointset_options options = {.count = p / dimension, .dimension = dimension, .seed = 11};
+        expect_run("icg", options, (p - start) / dimension - 350);
+        expect_run("icg", (aur_pointset_options){.count = 1000, .dimension = dimension}, 0);
+    }
+}
+
 /* Cells have equal area, so that the first coordinate's column and the second's row are known from the index.
  */
 static void jittered_points_are_in_their_cells(void **state) {
@@ -389,6 +424,7 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(lcg_is_minstd),
         cmocka_unit_test(icg_is_the_recursion),
+        cmocka_unit_test(runs_are_their_points),
         cmocka_unit_test(jittered_points_are_in_their_cells),
         cmocka_unit_test(faure_is_a_net_in_its_base),
         cmocka_unit_test(faure_begins_as_published),

@@ -1,0 +1,41 @@
+/* What the three tables of Keller 1994 share. */
+#ifndef AUR_LAB_KELLER_STUDY_H
+#define AUR_LAB_KELLER_STUDY_H
+
+#include <aureole/radiosity.h>
+
+#include "lab/lab.h"
+
+enum { KELLER_SCENES = 4, KELLER_SETS = 9, KELLER_PUBLISHED_SETS = 5, KELLER_VARIANTS = 12 };
+
+/* In the order of the paper's tables 2 and 3: cube, living room, office, teapot. */
+typedef struct keller_scene {
+    const char *name;
+    const char *realistic; /* below the scenes folder; the cube keeps its analytic form, as in the paper */
+    const char *analytic;
+} keller_scene;
+
+/* The first KELLER_PUBLISHED_SETS are the paper's, in its order. */
+typedef struct keller_set {
+    const char *name; /* SET syntax */
+    bool extensible;
+} keller_set;
+
+const keller_scene *keller_scene_at(size_t index);
+/* False beyond the table; the one after the last is the set of `--set`, when there is one. */
+bool keller_set_at(const lab_run *run, size_t index, keller_set *set);
+
+/* A solution of one variant: its own order of the lights, turn of the frames, and seed. */
+aur_result keller_start(const lab_run *run, const aur_scene *scene, const char *set, size_t variant,
+                        size_t bounces, aur_radiosity_directions directions, aur_radiosity **radiosity,
+                        aur_error *error);
+
+/* Delta_a^2 and Delta_aw^2 (section 4.1) of a solution in the analytic setting. */
+aur_result keller_deviation(const aur_radiosity *radiosity, double *plain, double *weighted,
+                            aur_error *error);
+
+/* The last cells of a row: published, published / measured, and a verdict by a factor of 1.5. NaN: not
+ * published. */
+void keller_verdict(lab_run *run, double measured, double published);
+
+#endif
