@@ -4,10 +4,10 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <time.h>
 #include <unistd.h>
 
 #include "cli/cli.h"
+#include "cli/errors.h"
 
 enum { DEFINITION_CAPACITY = 64 };
 
@@ -17,6 +17,7 @@ typedef struct render_command {
     size_t definition_count;
     aur_definition definitions[DEFINITION_CAPACITY];
     aur_render_options options;
+    const char *reference, *errors;
     bool quiet, statistics;
 } render_command;
 
@@ -93,7 +94,7 @@ static bool folder_is_writable(const char *path) {
 }
 
 static bool parse(int argc, char **argv, render_command *command) {
-    enum { SPP = 256, SEED, CROP, FILTER, INTEGRATOR, SAMPLER, STATS, WIDTH, HEIGHT };
+    enum { SPP = 256, SEED, CROP, FILTER, INTEGRATOR, SAMPLER, STATS, WIDTH, HEIGHT, REFERENCE, ERRORS };
     static const struct option options[] = {{"output", required_argument, NULL, 'o'},
                                             {"threads", required_argument, NULL, 't'},
                                             {"quiet", no_argument, NULL, 'q'},
@@ -107,6 +108,8 @@ static bool parse(int argc, char **argv, render_command *command) {
                                             {"stats", no_argument, NULL, STATS},
                                             {"width", required_argument, NULL, WIDTH},
                                             {"height", required_argument, NULL, HEIGHT},
+                                            {"reference", required_argument, NULL, REFERENCE},
+                                            {"errors", required_argument, NULL, ERRORS},
                                             {NULL, 0, NULL, 0}};
     enum { LARGEST_SIDE = 65536 };
     aur_render_options *const o = &command->options;
@@ -156,6 +159,12 @@ static bool parse(int argc, char **argv, render_command *command) {
         case HEIGHT:
             good = cli_parse_size("--height", optarg, 1, LARGEST_SIDE, &o->height);
             break;
+        case REFERENCE:
+            command->reference = optarg;
+            break;
+        case ERRORS:
+            command->errors = optarg;
+            break;
         default:
             return false;
         }
@@ -167,15 +176,13 @@ static bool parse(int argc, char **argv, render_command *command) {
                                      : "render: one scene at a time");
         return false;
     }
+    if ((command->reference == NULL) != (command->errors == NULL)) {
+        cli_bad_usage("render: '--reference' and '--errors' are wanted together");
+        return false;
+    }
     command->scene = argv[optind];
     command->output = output != NULL ? strdup(output) : default_output(command->scene);
     return command->output != NULL && check_output(command->output);
-}
-
-static double cpu_seconds(void) {
-    struct timespec time;
-    clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &time);
-    return (double)time.tv_sec + 1e-9 * (double)time.tv_nsec;
 }
 
 static void print_statistics(const aur_render_statistics *statistics) {
@@ -185,7 +192,7 @@ static void print_statistics(const aur_render_statistics *statistics) {
             " rays, prepared in %.2f s, rendered in %.2f s (%.2f Mray/s), "
             "%.2f CPU s, %" PRIu64 " invalid samples\n",
             statistics->samples, statistics->rays, statistics->prepare_seconds, statistics->render_seconds,
-            seconds > 0 ? 1e-6 * (double)statistics->rays / seconds : 0.0, cpu_seconds(),
+            seconds > 0 ? 1e-6 * (double)statistics->rays / seconds : 0.0, statistics->cpu_seconds,
             statistics->invalid_samples);
     for (size_t l = 0; l < AUR_RENDER_LEVELS; ++l)
         if (statistics->levels[l] > 0)
@@ -193,15 +200,22 @@ static void print_statistics(const aur_render_statistics *statistics) {
                     l + 1);
 }
 
-static int render(const render_command *command) {
+static aur_result check_folder(const char *path, aur_error *error) {
+    if (folder_is_writable(path))
+        return AUR_OK;
+    error->result = AUR_ERROR_WRITE;
+    snprintf(error->file, sizeof error->file, "%s", path);
+    snprintf(error->message, sizeof error->message,
+             "cannot write: its folder does not exist or is read-only");
+    return AUR_ERROR_WRITE;
+}
+
+static int render(const render_command *command, const cli_errors *errors) {
     aur_error error = {0};
-    if (!folder_is_writable(command->output)) {
-        error.result = AUR_ERROR_WRITE;
-        snprintf(error.file, sizeof error.file, "%s", command->output);
-        snprintf(error.message, sizeof error.message,
-                 "cannot write: its folder does not exist or is read-only");
+    if (check_folder(command->output, &error) != AUR_OK ||
+        (errors != NULL && strcmp(command->errors, "-") != 0 &&
+         check_folder(command->errors, &error) != AUR_OK))
         return cli_fail(&error);
-    }
     const aur_scene_options scene_options = {.definition_count = command->definition_count,
                                              .definitions = command->definitions,
                                              .warnings = command->options.warnings};
@@ -217,6 +231,8 @@ static int render(const render_command *command) {
     cli_progress_clear();
     if (result == AUR_OK)
         result = aur_image_write(command->output, image, NULL, &error);
+    if (result == AUR_OK && errors != NULL)
+        result = cli_errors_write(errors, command->errors, &error);
     if (result == AUR_OK && command->statistics)
         print_statistics(&statistics);
     aur_image_destroy(image);
@@ -231,7 +247,12 @@ static int run(int argc, char **argv) {
     if (parse(argc, argv, &command)) {
         command.options.progress = cli_progress(command.quiet);
         command.options.warnings = cli_warnings(command.quiet);
-        status = render(&command);
+        cli_errors *const errors = command.reference != NULL ? cli_errors_create(command.reference) : NULL;
+        if (errors != NULL)
+            command.options.waves = cli_errors_waves(errors);
+        if (errors != NULL || command.reference == NULL)
+            status = render(&command, errors);
+        cli_errors_destroy(errors);
     }
     free(command.output);
     return status;
@@ -249,6 +270,9 @@ const cli_verb cli_verb_render = {
     "  --crop x0,x1,y0,y1  render the pixels x0 <= x < x1, y0 <= y < y1 only\n"
     "  --seed N            of all random numbers (default 0)\n"
     "  -t N                threads (default: all); the picture does not depend on it\n"
+    "  --reference REF --errors CSV  samples, rays, CPU seconds and RMSE against the picture REF after 1, "
+    "2,\n"
+    "                      4, ... samples a pixel\n"
     "  --stats, -v         say how many rays and how much time it took\n"
     "  -q                  no progress bar and no warnings\n",
     run};

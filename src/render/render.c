@@ -104,8 +104,9 @@ typedef struct render_work {
     const aur_view *view;
     const settings *settings;
     const film *film;
-    size_t column0, row0, columns; /* of the tiles, on the grid over the whole picture */
-    aur_counters *counters;        /* one a tile */
+    size_t column0, row0, columns, tiles; /* on the grid over the whole picture */
+    uint32_t first, count;                /* samples of the wave */
+    aur_counters *counters;               /* one a tile */
 } render_work;
 
 static aur_result add_samples(const aur_integrator *integrator, aur_tile *tile) {
@@ -142,8 +143,8 @@ static aur_result render_tile(void *context, size_t index) {
                      .x1 = smaller(x + AUR_TILE_SIZE, s->x1),
                      .y0 = larger(y, s->y0),
                      .y1 = smaller(y + AUR_TILE_SIZE, s->y1),
-                     .first = 0,
-                     .count = (uint32_t)s->samples_per_pixel,
+                     .first = work->first,
+                     .count = work->count,
                      .stride = f->width,
                      .channel_count = f->channel_count};
     const size_t pixel = (tile.y0 - s->y0) * f->width + (tile.x0 - s->x0);
@@ -154,35 +155,55 @@ static aur_result render_tile(void *context, size_t index) {
     return result;
 }
 
-static double seconds_now(void) {
+static double seconds_of(clockid_t clock) {
     struct timespec now;
-    clock_gettime(CLOCK_MONOTONIC, &now);
+    clock_gettime(clock, &now);
     return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
 }
 
-static aur_result render_samples(render_work *work, const aur_render_options *options,
-                                 aur_render_statistics *statistics, aur_error *error) {
+/* A stretch of work by two clocks. */
+typedef struct stopwatch {
+    double wall, cpu;
+} stopwatch;
+
+static stopwatch stopwatch_start(void) {
+    return (stopwatch){seconds_of(CLOCK_MONOTONIC), seconds_of(CLOCK_PROCESS_CPUTIME_ID)};
+}
+
+static void stopwatch_add(const stopwatch *start, double *wall, double *cpu) {
+    *wall += seconds_of(CLOCK_MONOTONIC) - start->wall;
+    *cpu += seconds_of(CLOCK_PROCESS_CPUTIME_ID) - start->cpu;
+}
+
+static void lay_tiles(render_work *work) {
     const settings *const s = work->settings;
     work->column0 = s->x0 / AUR_TILE_SIZE;
     work->row0 = s->y0 / AUR_TILE_SIZE;
     work->columns = (s->x1 + AUR_TILE_SIZE - 1) / AUR_TILE_SIZE - work->column0;
-    const size_t rows = (s->y1 + AUR_TILE_SIZE - 1) / AUR_TILE_SIZE - work->row0;
-    const size_t tiles = work->columns * rows;
-    work->counters = calloc(tiles, sizeof *work->counters);
+    work->tiles = work->columns * ((s->y1 + AUR_TILE_SIZE - 1) / AUR_TILE_SIZE - work->row0);
+}
+
+/* The samples first .. first + count - 1 of every pixel. */
+static aur_result render_wave(render_work *work, const aur_render_options *options,
+                              aur_render_statistics *statistics, aur_error *error) {
+    const settings *const s = work->settings;
+    work->counters = calloc(work->tiles, sizeof *work->counters);
     if (work->counters == NULL)
         return aur_fail(error, AUR_ERROR_MEMORY, "out of memory");
+    const stopwatch start = stopwatch_start();
     const aur_parallel_options parallel = {
         .threads = s->threads, .what = "rendering", .progress = options->progress};
-    const aur_result result = aur_parallel_for(&parallel, tiles, render_tile, work);
+    const aur_result result = aur_parallel_for(&parallel, work->tiles, render_tile, work);
     if (result != AUR_OK)
         aur_fail(error, result, "rendering: %s", aur_result_string(result));
-    for (size_t i = 0; i < tiles; ++i) {
+    stopwatch_add(&start, &statistics->render_seconds, &statistics->cpu_seconds);
+    for (size_t i = 0; i < work->tiles; ++i) {
         statistics->rays += work->counters[i].rays;
         statistics->invalid_samples += work->counters[i].invalid;
         for (size_t l = 0; l < AUR_RENDER_LEVELS; ++l)
             statistics->levels[l] += work->counters[i].levels[l];
     }
-    statistics->samples = (uint64_t)(s->x1 - s->x0) * (s->y1 - s->y0) * s->samples_per_pixel;
+    statistics->samples += (uint64_t)(s->x1 - s->x0) * (s->y1 - s->y0) * work->count;
     free(work->counters);
     work->counters = NULL;
     return result;
@@ -202,6 +223,17 @@ static void film_release(film *f) {
     free(f->counts);
 }
 
+static void develop_pixel(const film *f, const aur_integrator *integrator, size_t index, float *pixel) {
+    const uint32_t count = f->counts[index];
+    double mean[3 + AUR_EXTRA_CHANNELS_MAX];
+    for (size_t c = 0; c < f->channel_count; ++c)
+        mean[c] = count > 0 ? f->sums[index * f->channel_count + c] / (double)count : 0.0;
+    if (integrator->descriptor->develop != NULL)
+        integrator->descriptor->develop(integrator, count, mean);
+    for (size_t c = 0; c < f->channel_count; ++c)
+        pixel[c] = (float)mean[c];
+}
+
 /* The mean of every pixel's samples. */
 static aur_result develop(const film *f, const aur_integrator *integrator, aur_image **image,
                           aur_error *error) {
@@ -213,9 +245,7 @@ static aur_result develop(const film *f, const aur_integrator *integrator, aur_i
         snprintf((*image)->channel_names[c], AUR_CHANNEL_NAME_CAPACITY, "%s",
                  c < 3 ? colors[c] : integrator->extra_names[c - 3]);
     for (size_t i = 0; i < f->width * f->height; ++i)
-        for (size_t c = 0; c < f->channel_count && f->counts[i] > 0; ++c)
-            (*image)->data[i * f->channel_count + c] =
-                (float)(f->sums[i * f->channel_count + c] / (double)f->counts[i]);
+        develop_pixel(f, integrator, i, &(*image)->data[i * f->channel_count]);
     return AUR_OK;
 }
 
@@ -240,6 +270,60 @@ static aur_result make_integrator(aur_renderer *renderer, const aur_render_optio
     return result;
 }
 
+/* All samples, wave by wave where somebody waits for them. *image is the last wave's picture. */
+static aur_result render_samples(render_work *work, const aur_render_options *options, aur_image **image,
+                                 aur_render_statistics *statistics, aur_error *error) {
+    const size_t samples = work->settings->samples_per_pixel;
+    const bool waves = options->waves.finished != NULL;
+    lay_tiles(work);
+    for (size_t done = 0; done < samples; done += work->count) {
+        const size_t end = waves && 2 * done < samples ? larger(2 * done, 1) : samples;
+        work->first = (uint32_t)done;
+        work->count = (uint32_t)(end - done);
+        aur_image_destroy(*image);
+        *image = NULL;
+        aur_result result = render_wave(work, options, statistics, error);
+        if (result == AUR_OK)
+            result = develop(work->film, work->integrator, image, error);
+        if (result == AUR_OK && waves)
+            result = options->waves.finished(options->waves.context, *image, statistics, error);
+        if (result != AUR_OK)
+            return result;
+    }
+    return AUR_OK;
+}
+
+static aur_result render(aur_renderer *renderer, const aur_render_options *options, const settings *s,
+                         aur_image **image, aur_render_statistics *counted, aur_error *error) {
+    aur_sampler *sampler = NULL;
+    aur_integrator *integrator = NULL;
+    film pixels = {0};
+    const stopwatch start = stopwatch_start();
+    aur_result result =
+        aur_sampler_create(s->sampler, s->samples_per_pixel, &options->warnings, &sampler, error);
+    if (result == AUR_OK)
+        result = make_integrator(renderer, options, s, &integrator, error);
+    if (result == AUR_OK)
+        result = film_create(&pixels, s->x1 - s->x0, s->y1 - s->y0, 3 + integrator->extra_count, error);
+    stopwatch_add(&start, &counted->prepare_seconds, &counted->cpu_seconds);
+    if (result == AUR_OK) {
+        const aur_view view = {.scene = renderer->scene,
+                               .sampler = sampler,
+                               .filter = s->filter,
+                               .width = s->width,
+                               .height = s->height,
+                               .seed = s->seed,
+                               .pixel_centre = integrator->pixel_centre,
+                               .has_lens = aur_camera_has_lens(renderer->scene)};
+        render_work work = {.integrator = integrator, .view = &view, .settings = s, .film = &pixels};
+        result = render_samples(&work, options, image, counted, error);
+    }
+    film_release(&pixels);
+    aur_integrator_destroy(integrator);
+    aur_sampler_destroy(sampler);
+    return result;
+}
+
 aur_result aur_renderer_render(aur_renderer *renderer, const aur_render_options *options, aur_image **image,
                                aur_render_statistics *statistics, aur_error *error) {
     static const aur_render_options defaults = {0};
@@ -247,41 +331,15 @@ aur_result aur_renderer_render(aur_renderer *renderer, const aur_render_options 
     if (options == NULL)
         options = &defaults;
     settings s;
-    aur_result result = resolve(renderer->scene, options, &s, error);
-    if (result != AUR_OK)
-        return result;
     aur_render_statistics counted = {0};
-    aur_sampler *sampler = NULL;
-    aur_integrator *integrator = NULL;
-    const double start = seconds_now();
-    result = aur_sampler_create(s.sampler, s.samples_per_pixel, &options->warnings, &sampler, error);
+    aur_result result = resolve(renderer->scene, options, &s, error);
     if (result == AUR_OK)
-        result = make_integrator(renderer, options, &s, &integrator, error);
-    film pixels = {0};
-    if (result == AUR_OK)
-        result = film_create(&pixels, s.x1 - s.x0, s.y1 - s.y0, 3 + integrator->extra_count, error);
-    const double prepared = seconds_now();
-    if (result == AUR_OK) {
-        const aur_view view = {.scene = renderer->scene,
-                               .sampler = sampler,
-                               .filter = s.filter,
-                               .width = s.width,
-                               .height = s.height,
-                               .seed = s.seed,
-                               .pixel_centre = integrator->pixel_centre,
-                               .has_lens = aur_camera_has_lens(renderer->scene)};
-        render_work work = {.integrator = integrator, .view = &view, .settings = &s, .film = &pixels};
-        result = render_samples(&work, options, &counted, error);
-    }
-    if (result == AUR_OK)
-        result = develop(&pixels, integrator, image, error);
-    film_release(&pixels);
-    counted.prepare_seconds = prepared - start;
-    counted.render_seconds = seconds_now() - prepared;
-    aur_integrator_destroy(integrator);
-    aur_sampler_destroy(sampler);
-    if (result != AUR_OK)
+        result = render(renderer, options, &s, image, &counted, error);
+    if (result != AUR_OK) {
+        aur_image_destroy(*image);
+        *image = NULL;
         return result;
+    }
     if (counted.invalid_samples > 0)
         aur_warn_at(&options->warnings, (aur_location){0},
                     "%llu of %llu samples were NaN, infinite or negative and are left out",

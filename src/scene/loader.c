@@ -14,6 +14,7 @@ typedef struct loader {
     const aur_warnings *warnings;
     const aur_bsdf *default_bsdf; /* of shapes that name none */
     const aur_bsdf *black_bsdf;   /* of lights that name none */
+    const aur_xml_node *top;      /* the child of <scene> that is being built */
     aur_error *error;
 } loader;
 
@@ -489,13 +490,19 @@ static aur_result build_sensor(loader *self, aur_xml_node *node, aur_parameters 
 static aur_result build_integrator(loader *self, aur_xml_node *node, aur_parameters *parameters,
                                    void **object) {
     aur_scene *const scene = self->scene;
-    *object = &scene->integrator;
-    if (scene->has_integrator) {
+    const bool nested = node != self->top;
+    bool *const has = nested ? &scene->has_nested_integrator : &scene->has_integrator;
+    aur_parameters *const made = nested ? &scene->nested_integrator : &scene->integrator;
+    *object = made;
+    if (*has && nested)
+        return aur_fail_at(self->error, node->location, AUR_ERROR_UNSUPPORTED,
+                           "a second <integrator> inside another: one is the most");
+    if (*has) {
         aur_warn_at(self->warnings, node->location, "a second integrator is left out");
         return AUR_OK;
     }
-    scene->has_integrator = true;
-    return aur_parameters_copy(parameters, &scene->integrator, self->error);
+    *has = true;
+    return aur_parameters_copy(parameters, made, self->error);
 }
 
 static const object_kind kinds[] = {
@@ -526,6 +533,7 @@ static aur_result build_top(loader *self, aur_xml_node *node) {
         aur_warn_at(self->warnings, node->location, "a second sensor is left out");
         return AUR_OK;
     }
+    self->top = node;
     const aur_result result = build_node(self, node);
     if (result != AUR_OK || strcmp(node->tag, "emitter") != 0)
         return result;

@@ -86,6 +86,7 @@ void aur_scene_destroy(aur_scene *scene) {
     free(scene->sampler);
     aur_distribution_release(&scene->lights);
     aur_parameters_release(&scene->integrator);
+    aur_parameters_release(&scene->nested_integrator);
     aur_xml_release(&scene->document);
     free(scene);
 }

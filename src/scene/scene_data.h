@@ -47,6 +47,8 @@ struct aur_scene {
     char *sampler;
     size_t samples_per_pixel;
     aur_parameters integrator;
+    bool has_nested_integrator;
+    aur_parameters nested_integrator; /* one that stands inside it */
     aur_embree_device device;
     aur_embree_scene accel;
     aur_vector lower, upper;

@@ -7,14 +7,23 @@
 extern const aur_integrator_descriptor aur_integrator_path;
 extern const aur_integrator_descriptor aur_integrator_final_gather;
 extern const aur_integrator_descriptor aur_integrator_ambient_occlusion;
+extern const aur_integrator_descriptor aur_integrator_direct;
+extern const aur_integrator_descriptor aur_integrator_depth;
+extern const aur_integrator_descriptor aur_integrator_aov;
 extern const aur_integrator_descriptor aur_integrator_radiosity;
 
+/* A line an integrator. */
+/* clang-format off */
 static const aur_integrator_descriptor *const integrators[] = {
     &aur_integrator_path,
     &aur_integrator_final_gather,
     &aur_integrator_ambient_occlusion,
+    &aur_integrator_direct,
+    &aur_integrator_depth,
+    &aur_integrator_aov,
     &aur_integrator_radiosity,
 };
+/* clang-format on */
 
 enum { INTEGRATOR_COUNT = sizeof integrators / sizeof integrators[0] };
 

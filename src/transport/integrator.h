@@ -36,14 +36,19 @@ typedef struct aur_integrator_descriptor {
     /* Instead of it, for integrators that treat pixels together or fill more channels: adds the samples of a
      * tile. The sums of a pixel must not depend on which of its neighbours are wanted. */
     aur_result (*tile)(const aur_integrator *integrator, aur_tile *tile);
+    /* May be NULL. Makes of the means of a pixel's channels over its `count` samples what the picture shows.
+     */
+    void (*develop)(const aur_integrator *integrator, uint32_t count, double *pixel);
 } aur_integrator_descriptor;
+
+enum { AUR_EXTRA_CHANNELS_MAX = 64 };
 
 struct aur_integrator {
     const aur_integrator_descriptor *descriptor;
     const aur_scene *scene;
     void *data;
     bool pixel_centre;              /* every camera ray goes through the centre of its pixel */
-    size_t extra_count;             /* channels after R, G, B */
+    size_t extra_count;             /* channels after R, G, B; at most AUR_EXTRA_CHANNELS_MAX */
     const char *const *extra_names; /* as in the picture's file */
 };
 

@@ -4,19 +4,28 @@
 
 #include "transport/direct_light.h"
 #include "transport/integrator.h"
+#include "transport/visible.h"
 
 typedef struct path_data {
     uint32_t max_depth; /* UINT32_MAX: no limit; 1 is visible light only, 2 adds direct light */
     uint32_t rr_depth;  /* Russian roulette from this depth on */
+    bool hide_emitters; /* from the camera */
 } path_data;
 
 static aur_result create(aur_parameters *parameters, const aur_integrator_context *context,
                          aur_integrator *integrator, aur_error *error) {
-    (void)context;
     int64_t max_depth = -1, rr_depth = 5;
     aur_result result = aur_parameters_integer(parameters, "max_depth", -1, 1 << 20, &max_depth, error);
     if (result == AUR_OK)
         result = aur_parameters_integer(parameters, "rr_depth", 1, 1 << 20, &rr_depth, error);
+    bool hide_emitters = false, strict_normals = false;
+    if (result == AUR_OK)
+        result = aur_parameters_boolean(parameters, "strict_normals", &strict_normals, error);
+    if (result == AUR_OK && aur_parameters_find(parameters, "strict_normals") != NULL)
+        aur_warn_at(&context->warnings, parameters->location,
+                    "integrator 'path': 'strict_normals' has no effect: it is always so");
+    if (result == AUR_OK)
+        result = aur_parameters_boolean(parameters, "hide_emitters", &hide_emitters, error);
     if (result == AUR_OK)
         result = aur_parameters_finish(parameters, error);
     if (result != AUR_OK)
@@ -25,7 +34,8 @@ static aur_result create(aur_parameters *parameters, const aur_integrator_contex
     if (data == NULL)
         return aur_fail(error, AUR_ERROR_MEMORY, "out of memory");
     *data = (path_data){.max_depth = max_depth < 0 ? UINT32_MAX : (uint32_t)max_depth,
-                        .rr_depth = (uint32_t)rr_depth};
+                        .rr_depth = (uint32_t)rr_depth,
+                        .hide_emitters = hide_emitters};
     integrator->data = data;
     return AUR_OK;
 }
@@ -58,9 +68,11 @@ static aur_vector radiance(const aur_integrator *integrator, const aur_camera_sa
         const float *const choice =
             depth == 1 ? sample->first_pairs[AUR_PAIR_FIRST] : ahead[depth % 2 * PAIRS_A_BOUNCE];
         const float *const position = choice + 2, *const lobe = choice + 4, *const direction = choice + 6;
-        aur_hit hit;
-        ++counters->rays;
-        if (!aur_scene_intersect(scene, &ray, &hit)) {
+        aur_surface surface;
+        const bool hide = data->hide_emitters && depth == 1;
+        if (!aur_visible_surface(scene, hide, &ray, &surface, counters)) {
+            if (hide)
+                break;
             const aur_vector sky = aur_scene_environment(scene, ray.direction);
             if (!aur_vector_is_zero(sky)) {
                 const float weight =
@@ -71,8 +83,6 @@ static aur_vector radiance(const aur_integrator *integrator, const aur_camera_sa
             }
             break;
         }
-        aur_surface surface;
-        aur_scene_surface(scene, &ray, &hit, &surface);
         const aur_vector view = aur_vector_scale(ray.direction, -1.0f);
         const aur_vector emission = aur_surface_emission(scene, &surface, view);
         if (!aur_vector_is_zero(emission)) {
@@ -118,7 +128,7 @@ static aur_vector radiance(const aur_integrator *integrator, const aur_camera_sa
 
 const aur_integrator_descriptor aur_integrator_path = {
     .description = {.name = "path",
-                    .keys = "max_depth=-1, rr_depth=5",
+                    .keys = "max_depth=-1, rr_depth=5, hide_emitters=false",
                     .summary = "unidirectional path tracing with multiple importance sampling, the reference",
                     .source = "Kajiya 1986, Veach 1997"},
     .create = create,

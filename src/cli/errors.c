@@ -1,0 +1,67 @@
+#include "cli/errors.h"
+
+#include <inttypes.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "cli/cli.h"
+
+enum { LINE_CAPACITY = 256, WAVE_CAPACITY = 64 }; /* waves double: 2^30 samples are 31 of them */
+
+struct cli_errors {
+    const char *path; /* of the reference */
+    aur_image *reference;
+    size_t used;
+    char text[LINE_CAPACITY * WAVE_CAPACITY];
+};
+
+cli_errors *cli_errors_create(const char *reference) {
+    cli_errors *const errors = calloc(1, sizeof *errors);
+    aur_error error = {.result = AUR_ERROR_MEMORY, .message = "out of memory"};
+    if (errors == NULL || aur_image_read(reference, &errors->reference, &error) != AUR_OK) {
+        cli_fail(&error);
+        free(errors);
+        return NULL;
+    }
+    errors->path = reference;
+    errors->used =
+        (size_t)snprintf(errors->text, LINE_CAPACITY, "spp,samples,rays,cpu_seconds,rmse,relative_rmse\n");
+    return errors;
+}
+
+void cli_errors_destroy(cli_errors *errors) {
+    if (errors == NULL)
+        return;
+    aur_image_destroy(errors->reference);
+    free(errors);
+}
+
+static aur_result note(void *context, const aur_image *image, const aur_render_statistics *statistics,
+                       aur_error *error) {
+    cli_errors *const errors = context;
+    double rmse[4], mean[4];
+    aur_result result = aur_image_compare(errors->reference, image, AUR_IMAGE_RMSE, rmse, error);
+    if (result == AUR_OK)
+        result = aur_image_mean(errors->reference, mean, error);
+    if (result != AUR_OK) {
+        snprintf(error->file, sizeof error->file, "%s", errors->path);
+        return result;
+    }
+    if (errors->used + LINE_CAPACITY > sizeof errors->text)
+        return AUR_OK;
+    const uint64_t pixels = (uint64_t)image->width * image->height;
+    errors->used += (size_t)snprintf(errors->text + errors->used, LINE_CAPACITY,
+                                     "%" PRIu64 ",%" PRIu64 ",%" PRIu64 ",%.6g,%.17g,%.17g\n",
+                                     statistics->samples / pixels, statistics->samples, statistics->rays,
+                                     statistics->cpu_seconds, rmse[3], rmse[3] / mean[3]);
+    return AUR_OK;
+}
+
+aur_waves cli_errors_waves(cli_errors *errors) {
+    return (aur_waves){.finished = note, .context = errors};
+}
+
+aur_result cli_errors_write(const cli_errors *errors, const char *path, aur_error *error) {
+    return aur_file_write(path, errors->used, errors->text, error);
+}

@@ -1,0 +1,271 @@
+/* What is known of the surfaces that the camera sees, in channels beside the radiance of another integrator,
+ * named as Mitsuba 3 names them. */
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "transport/integrator.h"
+
+enum { NAME_CAPACITY = 96, CHANNEL_CAPACITY = AUR_EXTRA_CHANNELS_MAX };
+
+/* One sample as the channels see it. */
+typedef struct aov_sample {
+    aur_vector radiance;
+    float weight;
+    const aur_ray *ray;
+    const aur_hit *hit; /* NULL: the ray meets nothing, and the rest is 0 */
+    const aur_surface *surface;
+} aov_sample;
+
+typedef struct aov_type {
+    const char *name;
+    const char *letters; /* one a channel */
+    void (*evaluate)(const aov_sample *sample, float *values);
+} aov_type;
+
+static void put(aur_vector v, float *values) {
+    values[0] = v.x;
+    values[1] = v.y;
+    values[2] = v.z;
+}
+
+static void albedo(const aov_sample *sample, float *values) {
+    const aur_surface *const surface = sample->surface;
+    const float side = -aur_vector_dot(surface->frame.z, sample->ray->direction);
+    put(surface->bsdf->descriptor->diffuse_albedo(surface->bsdf, surface->texture, side), values);
+}
+
+static void depth(const aov_sample *sample, float *values) {
+    values[0] = sample->hit->distance;
+}
+
+static void position(const aov_sample *sample, float *values) {
+    put(sample->surface->position, values);
+}
+
+static void uv(const aov_sample *sample, float *values) {
+    values[0] = sample->surface->texture.u;
+    values[1] = sample->surface->texture.v;
+}
+
+static void geo_normal(const aov_sample *sample, float *values) {
+    put(sample->surface->geometric_normal, values);
+}
+
+static void sh_normal(const aov_sample *sample, float *values) {
+    put(sample->surface->frame.z, values);
+}
+
+static void prim_index(const aov_sample *sample, float *values) {
+    values[0] = (float)sample->hit->primitive;
+}
+
+/* From 1, so that 0 is nothing. */
+static void shape_index(const aov_sample *sample, float *values) {
+    values[0] = (float)(sample->hit->shape + 1);
+}
+
+/* develop() makes these two of the means. */
+static void sample_count(const aov_sample *sample, float *values) {
+    (void)sample;
+    values[0] = 0.0f;
+}
+
+static void variance(const aov_sample *sample, float *values) {
+    put(aur_vector_scale(aur_vector_multiply(sample->radiance, sample->radiance), sample->weight), values);
+}
+
+static const aov_type types[] = {
+    {"albedo", "RGB", albedo},           {"depth", "T", depth},
+    {"position", "XYZ", position},       {"uv", "UV", uv},
+    {"geo_normal", "XYZ", geo_normal},   {"sh_normal", "XYZ", sh_normal},
+    {"prim_index", "I", prim_index},     {"shape_index", "I", shape_index},
+    {"sample_count", "N", sample_count}, {"variance", "RGB", variance},
+};
+
+enum { TYPE_COUNT = sizeof types / sizeof types[0] };
+
+static const char default_aovs[] = "albedo:albedo,normal:sh_normal,position:position,shape:shape_index,"
+                                   "primitive:prim_index,samples:sample_count,variance:variance";
+
+typedef struct aov_data {
+    aur_integrator *nested;
+    size_t count;
+    const aov_type *aovs[CHANNEL_CAPACITY];
+    size_t channel_count;
+    char names[CHANNEL_CAPACITY][NAME_CAPACITY];
+    const char *name_list[CHANNEL_CAPACITY];
+} aov_data;
+
+static void release(aur_integrator *integrator) {
+    aov_data *const data = integrator->data;
+    aur_integrator_destroy(data->nested);
+    free(data);
+}
+
+static const aov_type *find_type(const char *name, size_t length) {
+    for (size_t i = 0; i < TYPE_COUNT; ++i)
+        if (strlen(types[i].name) == length && memcmp(types[i].name, name, length) == 0)
+            return &types[i];
+    return NULL;
+}
+
+static aur_result fail_type(const char *name, size_t length, aur_location location, aur_error *error) {
+    char list[256];
+    size_t used = 0;
+    for (size_t i = 0; i < TYPE_COUNT; ++i)
+        used += (size_t)snprintf(list + used, sizeof list - used, "%s%s", i == 0 ? "" : ", ", types[i].name);
+    return aur_fail_at(error, location, AUR_ERROR_NAME, "integrator 'aov': '%.*s' is none of %s",
+                       length < 64 ? (int)length : 64, name, list);
+}
+
+/* "name:type" */
+static aur_result add_aov(aov_data *data, const char *text, size_t length, aur_location location,
+                          aur_error *error) {
+    const char *const colon = memchr(text, ':', length);
+    const size_t name_length = colon != NULL ? (size_t)(colon - text) : 0;
+    if (colon == NULL || name_length == 0 || name_length + 3 > NAME_CAPACITY)
+        return aur_fail_at(error, location, AUR_ERROR_FORMAT,
+                           "integrator 'aov': '%.*s' is not of the form name:type, with a name of at most %d",
+                           length < 64 ? (int)length : 64, text, NAME_CAPACITY - 3);
+    const aov_type *const type = find_type(colon + 1, length - name_length - 1);
+    if (type == NULL)
+        return fail_type(colon + 1, length - name_length - 1, location, error);
+    const size_t channels = strlen(type->letters);
+    if (data->channel_count + channels > CHANNEL_CAPACITY)
+        return aur_fail_at(error, location, AUR_ERROR_ARGUMENT, "integrator 'aov': more than %d channels",
+                           CHANNEL_CAPACITY);
+    for (size_t c = 0; c < channels; ++c) {
+        char *const name = data->names[data->channel_count];
+        snprintf(name, NAME_CAPACITY, "%.*s.%c", (int)name_length, text, type->letters[c]);
+        for (size_t i = 0; i < data->channel_count; ++i)
+            if (strcmp(data->names[i], name) == 0)
+                return aur_fail_at(error, location, AUR_ERROR_FORMAT,
+                                   "integrator 'aov': two channels are called '%s'", name);
+        data->name_list[data->channel_count++] = name;
+    }
+    data->aovs[data->count++] = type;
+    return AUR_OK;
+}
+
+static aur_result read_aovs(aov_data *data, const char *text, aur_location location, aur_error *error) {
+    while (*text != '\0') {
+        const size_t skipped = strspn(text, ", \t\n");
+        const size_t length = strcspn(text + skipped, ", \t\n");
+        if (length > 0) {
+            const aur_result result = add_aov(data, text + skipped, length, location, error);
+            if (result != AUR_OK)
+                return result;
+        }
+        text += skipped + length;
+    }
+    return AUR_OK;
+}
+
+static aur_result create_nested(aur_parameters *parameters, const aur_integrator_context *context,
+                                aov_data *data, aur_error *error) {
+    const aur_parameter *const item = aur_parameters_find(parameters, "integrator");
+    aur_parameters nested;
+    aur_result result;
+    if (item != NULL && item->kind == AUR_PARAMETER_OBJECT) {
+        if (strcmp(item->object_kind, "integrator") != 0)
+            return aur_fail_at(error, item->location, AUR_ERROR_FORMAT,
+                               "integrator 'aov': 'integrator' must be an integrator");
+        result = aur_parameters_copy(item->object, &nested, error);
+    } else {
+        result = aur_parameters_parse(&nested, "integrator", item != NULL ? item->text : "path", error);
+    }
+    if (result != AUR_OK)
+        return result;
+    result = aur_integrator_create(&nested, context, &data->nested, error);
+    aur_parameters_release(&nested);
+    if (result == AUR_OK && data->nested->descriptor->radiance == NULL)
+        return aur_fail_at(error, parameters->location, AUR_ERROR_UNSUPPORTED,
+                           "integrator 'aov': '%s' treats pixels together and cannot stand inside",
+                           data->nested->descriptor->description.name);
+    return result;
+}
+
+static aur_result create(aur_parameters *parameters, const aur_integrator_context *context,
+                         aur_integrator *integrator, aur_error *error) {
+    aov_data *const data = calloc(1, sizeof *data);
+    integrator->data = data;
+    if (data == NULL)
+        return aur_fail(error, AUR_ERROR_MEMORY, "out of memory");
+    const char *aovs = default_aovs;
+    aur_result result = aur_parameters_string(parameters, "aovs", &aovs, error);
+    if (result == AUR_OK)
+        result = read_aovs(data, aovs, parameters->location, error);
+    if (result == AUR_OK)
+        result = create_nested(parameters, context, data, error);
+    if (result == AUR_OK)
+        result = aur_parameters_finish(parameters, error);
+    if (result != AUR_OK)
+        return result;
+    integrator->pixel_centre = data->nested->pixel_centre;
+    integrator->extra_count = data->channel_count;
+    integrator->extra_names = data->name_list;
+    return AUR_OK;
+}
+
+static void add_sample(const aur_integrator *integrator, aur_tile *tile, size_t x, size_t y, uint32_t index) {
+    const aov_data *const data = integrator->data;
+    aur_camera_sample sample;
+    const float weight = aur_view_sample(tile->view, x, y, index, &sample);
+    aur_hit hit;
+    aur_surface surface;
+    const bool seen = aur_scene_intersect(integrator->scene, &sample.ray, &hit);
+    ++tile->counters.rays;
+    if (seen)
+        aur_scene_surface(integrator->scene, &sample.ray, &hit, &surface);
+    const aov_sample at = {.radiance =
+                               data->nested->descriptor->radiance(data->nested, &sample, &tile->counters),
+                           .weight = weight,
+                           .ray = &sample.ray,
+                           .hit = seen ? &hit : NULL,
+                           .surface = &surface};
+    float values[3 + CHANNEL_CAPACITY] = {0};
+    put(at.radiance, values);
+    for (size_t i = 0, channel = 3; i < data->count; ++i) {
+        if (seen || data->aovs[i]->evaluate == variance)
+            data->aovs[i]->evaluate(&at, &values[channel]);
+        channel += strlen(data->aovs[i]->letters);
+    }
+    aur_tile_add_channels(tile, x, y, weight, values);
+}
+
+static aur_result add_tile(const aur_integrator *integrator, aur_tile *tile) {
+    for (size_t y = tile->y0; y < tile->y1; ++y)
+        for (size_t x = tile->x0; x < tile->x1; ++x)
+            for (uint32_t i = 0; i < tile->count; ++i)
+                add_sample(integrator, tile, x, y, tile->first + i);
+    return AUR_OK;
+}
+
+/* The unbiased estimate of the variance of one sample, of the means of it and of its square. */
+static double variance_of(uint32_t count, double mean, double mean_square) {
+    const double spread = mean_square - mean * mean;
+    return count > 1 && spread > 0.0 ? spread * (double)count / (double)(count - 1) : 0.0;
+}
+
+static void develop(const aur_integrator *integrator, uint32_t count, double *pixel) {
+    const aov_data *const data = integrator->data;
+    for (size_t i = 0, channel = 3; i < data->count; ++i) {
+        if (data->aovs[i]->evaluate == sample_count)
+            pixel[channel] = count;
+        for (size_t c = 0; data->aovs[i]->evaluate == variance && c < 3; ++c)
+            pixel[channel + c] = variance_of(count, pixel[c], pixel[channel + c]);
+        channel += strlen(data->aovs[i]->letters);
+    }
+}
+
+const aur_integrator_descriptor aur_integrator_aov = {
+    .description = {.name = "aov",
+                    .keys = "aovs=(name:type,...), integrator=path",
+                    .summary = "albedo, normals, positions and more in channels beside another integrator's",
+                    .source = "Mitsuba 3"},
+    .create = create,
+    .release = release,
+    .tile = add_tile,
+    .develop = develop,
+};

@@ -1,0 +1,34 @@
+/* How far the camera sees: the distance along the ray in all three channels, 0 where there is nothing. */
+#include <stdlib.h>
+
+#include "transport/integrator.h"
+
+static aur_result create(aur_parameters *parameters, const aur_integrator_context *context,
+                         aur_integrator *integrator, aur_error *error) {
+    (void)context;
+    (void)integrator;
+    return aur_parameters_finish(parameters, error);
+}
+
+static void release(aur_integrator *integrator) {
+    (void)integrator;
+}
+
+static aur_vector radiance(const aur_integrator *integrator, const aur_camera_sample *sample,
+                           aur_counters *counters) {
+    aur_hit hit;
+    ++counters->rays;
+    if (!aur_scene_intersect(integrator->scene, &sample->ray, &hit))
+        return (aur_vector){0};
+    return (aur_vector){hit.distance, hit.distance, hit.distance};
+}
+
+const aur_integrator_descriptor aur_integrator_depth = {
+    .description = {.name = "depth",
+                    .keys = "",
+                    .summary = "the distance to what the camera sees",
+                    .source = "Mitsuba 3"},
+    .create = create,
+    .release = release,
+    .radiance = radiance,
+};
