@@ -21,6 +21,7 @@ typedef struct area_light {
     aur_distribution triangles; /* of meshes, by area */
     bool is_mesh, is_rectangle;
     aur_rectangle rectangle; /* by the solid angle under which it is seen */
+    aur_vector normal;       /* of the rectangle */
     aur_rectangle_function samples;
 } area_light;
 
@@ -61,6 +62,7 @@ static aur_result prepare(const aur_scene *scene, aur_emitter *emitter, aur_erro
         return aur_fail_at(error, emitter->location, AUR_ERROR_MEMORY, "out of memory");
     if (shape->parallelogram) {
         light->is_rectangle = find_rectangle(shape, &light->rectangle);
+        light->normal = aur_shape_sample(shape, NULL, (const float[3]){0.0f}).normal;
         light->samples = aur_spherical_rectangle_samples();
         return AUR_OK;
     }
@@ -76,6 +78,13 @@ static void release(aur_emitter *emitter) {
 }
 
 static aur_shape_point sample_area(const aur_shape *shape, const area_light *light, const float u[3]) {
+    if (light->is_rectangle) {
+        const aur_rectangle *const r = &light->rectangle;
+        const aur_vector along = aur_vector_add_scaled(r->corner, u[1] * r->width, r->x);
+        return (aur_shape_point){.position = aur_vector_add_scaled(along, u[2] * r->height, r->y),
+                                 .normal = light->normal,
+                                 .texture = {u[1], u[2]}};
+    }
     return aur_shape_sample(shape, light->is_mesh ? &light->triangles : NULL, u);
 }
 

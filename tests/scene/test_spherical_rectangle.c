@@ -32,7 +32,7 @@ static double solid_angle_of_part(const aur_rectangle *r, double s, double t) {
 }
 
 static const aur_vector middles[] = {
-    {0.0f, 1.0f, 0.0f}, {0.3f, -0.4f, 0.2f}, {2.0f, 1.0f, -1.0f}, {-0.7f, 0.05f, 0.1f}, {1.0f, 5.0f, 2.0f}};
+    {0.0f, 1.0f, 0.0f}, {0.3f, -0.4f, 0.2f}, {1.2f, 1.0f, -0.6f}, {-0.7f, 0.05f, 0.1f}, {0.5f, 2.5f, 1.0f}};
 enum { MIDDLE_COUNT = sizeof middles / sizeof middles[0] };
 
 /* The pieces sum to the closed form, and so many of the points that u, v stand for lie in a part of the
