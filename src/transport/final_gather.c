@@ -39,7 +39,7 @@ typedef struct gather_parameters {
     double smoothness, regularization, photons_a_texel, threshold;
     const char *pattern, *map, *scramble, *photon_set;
     size_t density, weights, component, direct, incident, pixel, decorrelation, criterion;
-    bool packets, clip, adaptive;
+    bool packets, clip, adaptive, share;
 } gather_parameters;
 
 static aur_result read_parameters(aur_parameters *parameters, gather_parameters *p, aur_error *error) {
@@ -95,6 +95,7 @@ static aur_result read_parameters(aur_parameters *parameters, gather_parameters 
                                    error)) == AUR_OK &&
         (r = aur_parameters_integer(parameters, "edges", 0, 65536, &p->edges, error)) == AUR_OK &&
         (r = aur_parameters_boolean(parameters, "packets", &p->packets, error)) == AUR_OK &&
+        (r = aur_parameters_boolean(parameters, "share", &p->share, error)) == AUR_OK &&
         (r = aur_parameters_boolean(parameters, "adaptive", &p->adaptive, error)) == AUR_OK &&
         (r = aur_parameters_integer(parameters, "levels", 1, AUR_GATHER_LEVEL_CAPACITY - 1, &p->levels,
                                     error)) == AUR_OK &&
@@ -183,7 +184,10 @@ const aur_gather_levels *aur_final_gather_levels(const aur_final_gather *data, c
 
 float aur_final_gather_share(const aur_final_gather *data, const aur_gather_rule *rule) {
     const aur_gather_levels *const levels = aur_final_gather_levels(data, rule);
-    return levels != NULL ? (float)levels->ends[0] : (float)(rule->count / data->samples_per_pixel);
+    if (levels != NULL)
+        return (float)levels->ends[0];
+    const size_t blocks = data->shares_irradiance && rule == &data->diffuse ? AUR_PACKET_SIZE : 1;
+    return (float)(rule->count / (blocks * data->samples_per_pixel));
 }
 
 /* The extensible sets that adaptive gathering takes the place of patterns by. */
@@ -377,6 +381,7 @@ static aur_result create(aur_parameters *parameters, const aur_integrator_contex
     data->decorrelation = p.decorrelation;
     data->edge_samples = (uint32_t)p.edges;
     data->packets = p.packets;
+    data->shares_irradiance = p.share;
     data->adaptive = p.adaptive;
     data->criterion = p.criterion;
     data->component = p.component;
@@ -388,6 +393,12 @@ static aur_result create(aur_parameters *parameters, const aur_integrator_contex
     data->pattern_seed = options.seed;
     data->options = options;
     options.count = shared_count(p.diffuse_samples, context->samples_per_pixel);
+    if (p.share && (p.adaptive || p.decorrelation != AUR_DECORRELATION_BLUE || merges(&p)))
+        return aur_fail(error, AUR_ERROR_UNSUPPORTED,
+                        "finalgather: share=true splits one pattern among pixels: it goes with "
+                        "decorrelation=blue and weights=ratio, equal or osw, and not with adaptive=true");
+    if (p.share)
+        options.count *= AUR_PACKET_SIZE;
     size_t glossy_count = data->glossy_samples;
     char set[80], glossy_set[80];
     if (p.adaptive) {
@@ -474,6 +485,8 @@ static void add_tile(const aur_final_gather *data, aur_tile *tile, aur_group *gr
     }
     if (data->edge_samples > 0)
         aur_gather_refine_edges(group, &task, tile->first + tile->count, strata, &tile->counters);
+    if (data->shares_irradiance)
+        aur_gather_share_irradiance(strata);
     for (size_t y = tile->y0; y < tile->y1; ++y)
         for (size_t x = tile->x0; x < tile->x1; ++x) {
             const aur_pixel_strata *const pixel = &strata[(y - task.y) * AUR_TILE_SIZE + (x - task.x)];
@@ -504,7 +517,7 @@ const aur_integrator_descriptor aur_integrator_final_gather = {
                         "diffuse_samples=64, glossy_samples=64, pattern=spherical-fibonacci, map=lambert, "
                         "scramble=rotate (nets: digit), rotations=16, density=optimal, smoothness=1.5, "
                         "weights=ratio, regularization=1e-6, clip=true, decorrelation=blue, photons=500000, "
-                        "photon_pattern=sobol, photons_per_texel=16, edges=32, "
+                        "photon_pattern=sobol, photons_per_texel=16, edges=32, share=false, "
                         "adaptive=false, levels=2, level_factor=4, criterion=variance, threshold=0.03 "
                         "(entropy: 0.3), "
                         "max_depth=-1, component=all, direct=nee, incident=photons, pixel=filter, "

@@ -49,6 +49,7 @@ typedef struct aur_final_gather {
     uint32_t max_depth;
     size_t samples_per_pixel, glossy_samples;
     uint32_t edge_samples;
+    bool shares_irradiance; /* between the pixels of a 4 x 4 block */
     bool packets; /* else every ray by itself: the same picture to rounding, for tests and measurements */
     uint64_t pattern_seed;
     aur_gather_options options;
@@ -113,6 +114,11 @@ typedef struct aur_stratum {
     double seen;   /* samples that met it, by weight */
     double shaded; /* those whose radiance is in `sum` */
     double sum[3];
+    /* With shared irradiance, over the samples that gathered, `gathers` by weight: */
+    float gathers;
+    aur_vector irradiance;  /* sum of the diffuse lobe's integrals without its coefficient */
+    aur_vector coefficient; /* sum of what they are to be multiplied by */
+    aur_vector position, normal;
 } aur_stratum;
 
 enum { AUR_STRATUM_COUNT = 6 }; /* the last one takes what comes after */
@@ -154,6 +160,11 @@ aur_group *aur_group_create(const aur_final_gather *data);
 void aur_group_destroy(aur_group *group);
 void aur_group_add_sample(aur_group *group, const aur_group_task *task, aur_pixel_strata *strata,
                           aur_counters *counters);
+
+/* --- sharing (gather_sharing.c) */
+
+/* Adds to every stratum its diffuse light by the irradiance that its block of 4 x 4 pixels has in common. */
+void aur_gather_share_irradiance(aur_pixel_strata *strata);
 
 /* --- edges (gather_edges.c) */
 

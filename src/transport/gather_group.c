@@ -34,6 +34,12 @@ void aur_group_destroy(aur_group *group) {
 /* --- randomisations of the patterns
  * ----------------------------------------------------------------------------- */
 
+/* Whether the pixels of a block gather with parts of one pattern. */
+static bool shares_pattern(const aur_group *group, const aur_gather_rule *rule) {
+    const aur_final_gather *const data = group->task->data;
+    return data->shares_irradiance && rule == &data->diffuse && group->chain == 0;
+}
+
 /* What a lane's pattern is turned by. Under "blue" all lanes of the group have the same turn. */
 static aur_gather_turn turn_of(const aur_group *group, const aur_gather_rule *rule, size_t lane,
                                uint64_t what) {
@@ -49,13 +55,13 @@ static aur_gather_turn turn_of(const aur_group *group, const aur_gather_rule *ru
     /* Where the samples of a pixel do not share a pattern out, each has it turned anew. */
     if (data->adaptive)
         tile = aur_hash2(tile, group->task->index);
+    const uint32_t order = shares_pattern(group, rule) ? 0 : aur_group_dither[group->task->group];
     /* Sixteen patterns would show as texture, were they the same in every tile. */
     if (rule->scramble != AUR_SCRAMBLE_ROTATE) {
-        const uint64_t k = (aur_group_dither[group->task->group] ^ (tile & 15u)) * rule->rotations / 16;
+        const uint64_t k = (order ^ (tile & 15u)) * rule->rotations / 16;
         return aur_gather_rule_turn(rule, k);
     }
-    const aur_gather_turn turn =
-        aur_gather_rule_turn(rule, aur_group_dither[group->task->group] * rule->rotations / 16);
+    const aur_gather_turn turn = aur_gather_rule_turn(rule, order * rule->rotations / 16);
     const float angle = 2.0f * AUR_PI_F * aur_unit_float((uint32_t)tile);
     return aur_gather_turn_by(turn, cosf(angle), sinf(angle));
 }
@@ -210,12 +216,26 @@ static void start_walk(aur_group *group, const aur_gather_rule *rule, size_t lob
 }
 
 /* The lobes' integrals over the hemisphere by this sample's share of a rule, added to the lanes' sums. */
+static void keep_for_sharing(aur_group *group, const aur_rule_walk *walk, size_t lane, aur_vector gathered) {
+    const aur_gather_place *const p = &group->places[lane];
+    group->shared |= 1u << lane;
+    group->irradiance[lane] = aur_vector_scale(gathered, 1.0f / walk->share);
+    group->coefficient[lane] = aur_vector_multiply(group->throughput[lane], p->lobes[walk->lobe].coefficient);
+    group->shared_position[lane] = p->surface.position;
+    group->shared_normal[lane] = aur_vector_scale(p->surface.frame.z, p->side);
+}
+
 static void gather_share(aur_group *group, const aur_rule_walk *walk) {
     float factors[AUR_PACKET_SIZE];
     horizon_factors(group, walk->rule, walk->lanes, &walk->frames, walk->turns, factors);
-    const size_t shares = group->task->data->samples_per_pixel;
+    const bool split = shares_pattern(group, walk->rule);
+    size_t shares = group->task->data->samples_per_pixel, share = group->task->index % shares;
+    if (split) {
+        share = share * AUR_PACKET_SIZE + aur_group_dither[group->task->group];
+        shares *= AUR_PACKET_SIZE;
+    }
     float sum[3][AUR_PACKET_SIZE] = {0};
-    for (size_t i = group->task->index % shares; i < walk->rule->count; i += shares) {
+    for (size_t i = share; i < walk->rule->count; i += shares) {
         float factor[AUR_PACKET_SIZE];
         if (aur_group_trace_direction(group, walk, i, factor) == 0)
             continue;
@@ -226,6 +246,10 @@ static void gather_share(aur_group *group, const aur_rule_walk *walk) {
     for (uint32_t rest = walk->lanes; rest != 0; rest &= rest - 1) {
         const size_t lane = aur_first_lane(rest);
         const aur_vector gathered = {sum[0][lane], sum[1][lane], sum[2][lane]};
+        if (split) {
+            keep_for_sharing(group, walk, lane, gathered);
+            continue;
+        }
         const aur_vector reflected =
             aur_vector_multiply(gathered, group->places[lane].lobes[walk->lobe].coefficient);
         group->sum[lane] = aur_vector_add_scaled(group->sum[lane], factors[lane] / walk->share,
@@ -448,6 +472,15 @@ static void count_seen(aur_group *group, uint32_t lanes, uint32_t found, aur_pix
     }
 }
 
+static void add_shared(const aur_group *group, size_t lane, aur_stratum *stratum) {
+    const float weight = group->weights[lane];
+    stratum->gathers += weight;
+    stratum->irradiance = aur_vector_add_scaled(stratum->irradiance, weight, group->irradiance[lane]);
+    stratum->coefficient = aur_vector_add_scaled(stratum->coefficient, weight, group->coefficient[lane]);
+    stratum->position = aur_vector_add_scaled(stratum->position, weight, group->shared_position[lane]);
+    stratum->normal = aur_vector_add_scaled(stratum->normal, weight, group->shared_normal[lane]);
+}
+
 static void add_to_strata(const aur_group *group, aur_pixel_strata *strata,
                           aur_stratum *const into[AUR_PACKET_SIZE], aur_counters *counters) {
     for (uint32_t rest = group->task->lanes; rest != 0; rest &= rest - 1) {
@@ -465,6 +498,8 @@ static void add_to_strata(const aur_group *group, aur_pixel_strata *strata,
         into[lane]->sum[0] += weight * (double)group->sum[lane].x;
         into[lane]->sum[1] += weight * (double)group->sum[lane].y;
         into[lane]->sum[2] += weight * (double)group->sum[lane].z;
+        if ((group->shared >> lane & 1u) != 0)
+            add_shared(group, lane, into[lane]);
         ++strata[aur_group_pixel(group->task->group, lane)].samples;
     }
 }
@@ -550,6 +585,7 @@ void aur_group_add_sample(aur_group *group, const aur_group_task *task, aur_pixe
     group->task = task;
     group->counters = counters;
     group->lanes = task->lanes;
+    group->shared = 0;
     size_t x[AUR_PACKET_SIZE], y[AUR_PACKET_SIZE];
     for (size_t lane = 0; lane < AUR_PACKET_SIZE; ++lane) {
         const size_t pixel = aur_group_pixel(task->group, lane);

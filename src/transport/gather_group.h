@@ -28,7 +28,10 @@ struct aur_group {
     aur_vector throughput[AUR_PACKET_SIZE];
     aur_vector sum[AUR_PACKET_SIZE];
     aur_gather_place places[AUR_PACKET_SIZE];
-    float *merged; /* weights of merged samples, and room for one lane's: see gather_merged.c */
+    float *merged;   /* weights of merged samples, and room for one lane's: see gather_merged.c */
+    uint32_t shared; /* lanes whose diffuse light is to be shared: */
+    aur_vector irradiance[AUR_PACKET_SIZE], coefficient[AUR_PACKET_SIZE];
+    aur_vector shared_position[AUR_PACKET_SIZE], shared_normal[AUR_PACKET_SIZE];
     uint32_t directions[AUR_PACKET_SIZE]; /* gathered with, when adaptive */
     float *values;                        /* room for what adaptive gathering keeps */
     aur_gather_rays rays;

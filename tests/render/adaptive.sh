@@ -36,7 +36,7 @@ grep -q 'ended at level 2' furnace.log && fail "constant light went on to level 
 
 # refuses KEYS WORDS: fails with status 2 and a line that has the words.
 refuses() {
-  "$aureole" render "$scene" -q -o refused.exr --integrator "finalgather:adaptive=true,$1" 2>refused.log
+  "$aureole" render "$scene" -q --width 16 --height 16 -o refused.exr --integrator "finalgather:adaptive=true,$1" 2>refused.log
   [ $? -eq 2 ] || fail "$1: the status is not 2"
   grep -q "$2" refused.log || fail "$1: '$(cat refused.log)' does not say '$2'"
 }
