@@ -35,7 +35,7 @@ enum { DENSITY_SAME, DENSITY_OPTIMAL, DENSITY_UNSAID };
 
 typedef struct gather_parameters {
     int64_t diffuse_samples, glossy_samples, rotations, photons, max_depth, pattern_seed, edges;
-    int64_t levels, level_factor;
+    int64_t levels, level_factor, caustic_photons;
     double smoothness, regularization, photons_a_texel, threshold;
     const char *pattern, *map, *scramble, *photon_set;
     size_t density, weights, component, direct, incident, pixel, decorrelation, criterion;
@@ -88,6 +88,8 @@ static aur_result read_parameters(aur_parameters *parameters, gather_parameters 
             AUR_OK &&
         (r = aur_parameters_float(parameters, "smoothness", 1.0, 2.0, &p->smoothness, error)) == AUR_OK &&
         (r = aur_parameters_integer(parameters, "photons", 1, most, &p->photons, error)) == AUR_OK &&
+        (r = aur_parameters_integer(parameters, "caustic_photons", 0, most, &p->caustic_photons, error)) ==
+            AUR_OK &&
         (r = aur_parameters_string(parameters, "photon_pattern", &p->photon_set, error)) == AUR_OK &&
         (r = aur_parameters_float(parameters, "photons_per_texel", 1.0, 1e6, &p->photons_a_texel, error)) ==
             AUR_OK &&
@@ -299,32 +301,52 @@ static void destroy_map(void *map) {
     aur_irradiance_map_destroy(map);
 }
 
-/* The photon map, shared by all renders that ask for the same one. */
-static aur_result prepare_map(aur_final_gather *data, const gather_parameters *p,
-                              const aur_integrator_context *context, aur_error *error) {
-    const size_t max_edges = data->max_depth == UINT32_MAX ? SIZE_MAX : data->max_depth - 2;
+/* A photon map, shared by all renders that ask for the same one. */
+static aur_result prepare_map(const gather_parameters *p, const aur_integrator_context *context,
+                              const aur_photon_options *photons, const aur_irradiance_map **found,
+                              aur_error *error) {
     char key[512];
     snprintf(key, sizeof key,
-             "irradiance photons=%" PRId64 " texel=%.17g edges=%zu seed=%" PRIu64 " set=%.300s", p->photons,
-             p->photons_a_texel, max_edges, context->seed, p->photon_set);
-    data->map = aur_cache_find(context->cache, key);
-    if (data->map != NULL)
+             "irradiance kind=%d photons=%zu texel=%.17g edges=%zu seed=%" PRIu64 " set=%.300s",
+             (int)photons->kind, photons->count, p->photons_a_texel, photons->max_edges, photons->seed,
+             photons->set);
+    *found = aur_cache_find(context->cache, key);
+    if (*found != NULL)
         return AUR_OK;
-    const aur_irradiance_options options = {.photons = {.count = (size_t)p->photons,
-                                                        .max_edges = max_edges,
-                                                        .set = p->photon_set,
-                                                        .seed = context->seed,
-                                                        .threads = context->threads,
-                                                        .progress = context->progress},
-                                            .photons_a_texel = p->photons_a_texel};
+    const aur_irradiance_options options = {.photons = *photons, .photons_a_texel = p->photons_a_texel};
     aur_irradiance_map *map;
     const aur_result result = aur_irradiance_map_create(context->scene, &options, &map, error);
     if (result != AUR_OK)
         return result;
     if (aur_cache_store(context->cache, key, map, destroy_map) != AUR_OK)
         return aur_fail(error, AUR_ERROR_MEMORY, "out of memory");
-    data->map = map;
+    *found = map;
     return AUR_OK;
+}
+
+static aur_result prepare_maps(aur_final_gather *data, const gather_parameters *p,
+                               const aur_integrator_context *context, aur_error *error) {
+    const bool apart = p->caustic_photons > 0;
+    /* What the eye sees at one gather ray's end is two edges on; caustics are seen without a gather ray. */
+    const size_t edges = data->max_depth == UINT32_MAX ? SIZE_MAX : data->max_depth - 2;
+    aur_photon_options photons = {.count = (size_t)p->photons,
+                                  .max_edges = edges,
+                                  .kind = apart ? AUR_PHOTONS_OTHER : AUR_PHOTONS_ALL,
+                                  .set = p->photon_set,
+                                  .seed = context->seed,
+                                  .threads = context->threads,
+                                  .progress = context->progress};
+    aur_result result = prepare_map(p, context, &photons, &data->map, error);
+    if (result != AUR_OK || !apart)
+        return result;
+    photons.count = (size_t)p->caustic_photons;
+    photons.kind = AUR_PHOTONS_CAUSTIC;
+    result = prepare_map(p, context, &photons, &data->caustics, error);
+    if (result == AUR_OK && data->caustics->photons < photons.count)
+        aur_warn_at(&context->warnings, (aur_location){0},
+                    "finalgather: %zu caustic photons of %zu found: little light comes by specular bounces",
+                    data->caustics->photons, photons.count);
+    return result;
 }
 
 /* Which shapes' light is found without their surface. */
@@ -431,7 +453,7 @@ static aur_result create(aur_parameters *parameters, const aur_integrator_contex
     data->options.set = NULL; /* what it named may be gone */
     const bool wants_photons = p.incident == AUR_INCIDENT_PHOTONS && data->max_depth >= 3;
     if (result == AUR_OK && wants_photons)
-        result = prepare_map(data, &p, context, error);
+        result = prepare_maps(data, &p, context, error);
     if (result == AUR_OK)
         result = prepare_classes(data, error);
     return result;
@@ -512,18 +534,18 @@ static aur_result tile(const aur_integrator *integrator, aur_tile *tile) {
 }
 
 const aur_integrator_descriptor aur_integrator_final_gather = {
-    .description = {.name = "finalgather",
-                    .keys =
-                        "diffuse_samples=64, glossy_samples=64, pattern=spherical-fibonacci, map=lambert, "
-                        "scramble=rotate (nets: digit), rotations=16, density=optimal, smoothness=1.5, "
-                        "weights=ratio, regularization=1e-6, clip=true, decorrelation=blue, photons=500000, "
-                        "photon_pattern=sobol, photons_per_texel=16, edges=32, share=false, "
-                        "adaptive=false, levels=2, level_factor=4, criterion=variance, threshold=0.03 "
-                        "(entropy: 0.3), "
-                        "max_depth=-1, component=all, direct=nee, incident=photons, pixel=filter, "
-                        "pattern_seed=0, packets=true",
-                    .summary = "final gathering over a photon map, one pattern of directions an image",
-                    .source = "Christensen 1999, Marques 2013, Marques 2018, Marques 2019"},
+    .description =
+        {.name = "finalgather",
+         .keys = "diffuse_samples=64, glossy_samples=64, pattern=spherical-fibonacci, map=lambert, "
+                 "scramble=rotate (nets: digit), rotations=16, density=optimal, smoothness=1.5, "
+                 "weights=ratio, regularization=1e-6, clip=true, decorrelation=blue, photons=500000, "
+                 "caustic_photons=0, photon_pattern=sobol, photons_per_texel=16, edges=32, share=false, "
+                 "adaptive=false, levels=2, level_factor=4, criterion=variance, threshold=0.03 "
+                 "(entropy: 0.3), "
+                 "max_depth=-1, component=all, direct=nee, incident=photons, pixel=filter, "
+                 "pattern_seed=0, packets=true",
+         .summary = "final gathering over a photon map, one pattern of directions an image",
+         .source = "Christensen 1999, Marques 2013, Marques 2018, Marques 2019"},
     .create = create,
     .release = release,
     .tile = tile,

@@ -68,7 +68,9 @@ typedef struct aur_final_gather {
     aur_gather_levels *glossy_levels; /* one a glossy rule */
     size_t most_directions;           /* of any rule with levels */
     const aur_irradiance_map *map;    /* owned by the cache; NULL when incident light is emitters' alone */
-    aur_hit_class *classes;           /* one a shape */
+    const aur_irradiance_map
+        *caustics;          /* the light that specular bounces brought, which `map` has not; or NULL */
+    aur_hit_class *classes; /* one a shape */
 } aur_final_gather;
 
 /* The rule that serves a lobe, or NULL. */

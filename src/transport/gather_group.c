@@ -570,11 +570,18 @@ static uint32_t trace(aur_group *group) {
 }
 
 static void set_places(aur_group *group) {
-    const aur_scene *const scene = group->task->data->scene;
+    const aur_final_gather *const data = group->task->data;
+    const aur_scene *const scene = data->scene;
     for (uint32_t rest = group->lanes; rest != 0; rest &= rest - 1) {
         const size_t lane = aur_first_lane(rest);
         const aur_hit hit = aur_packet_hit(scene, &group->rays.packet, lane);
-        set_place(scene, &group->samples[lane].ray, &hit, &group->places[lane]);
+        aur_gather_place *const p = &group->places[lane];
+        const aur_ray *const ray = &group->samples[lane].ray;
+        set_place(scene, ray, &hit, p);
+        if (data->caustics != NULL && data->direct != AUR_DIRECT_NONE)
+            add_light(group, lane,
+                      aur_irradiance_radiance(data->caustics, scene, &hit, &p->surface,
+                                              aur_vector_scale(ray->direction, -1.0f)));
     }
 }
 

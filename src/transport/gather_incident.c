@@ -32,8 +32,11 @@ static float emission_weight(const aur_final_gather *data, uint32_t chain, float
         return 1.0f;
     if (data->direct != AUR_DIRECT_NEE)
         return 0.0f;
-    /* Light that a mirror throws here is not found by sampling lights. */
-    return chain > 0 ? 1.0f : aur_power_heuristic(density, light_pdf);
+    /* Light that a mirror throws here is not found by sampling lights, but by caustic photons if there are.
+     */
+    if (chain > 0)
+        return data->caustics == NULL ? 1.0f : 0.0f;
+    return aur_power_heuristic(density, light_pdf);
 }
 
 static aur_vector sky_radiance(const aur_final_gather *data, const gather_ray *from, aur_vector direction,
@@ -73,6 +76,9 @@ static aur_vector radiance_along(const aur_final_gather *data, const gather_ray 
             if (data->map != NULL)
                 radiance =
                     aur_vector_add(radiance, aur_irradiance_radiance(data->map, scene, hit, &surface, view));
+            if (data->caustics != NULL)
+                radiance = aur_vector_add(
+                    radiance, aur_irradiance_radiance(data->caustics, scene, hit, &surface, view));
             return aur_vector_multiply(throughput, radiance);
         }
         if (!aur_vector_is_zero(radiance))
@@ -150,7 +156,13 @@ static bool plain_radiance(const aur_final_gather *data, const struct RTCRayHit1
     const uint32_t element = data->map->texels.elements.shape_first[shape] + query->hit.primID[lane];
     const aur_texel_light *const light =
         aur_irradiance_on_triangle(data->map, element, query->hit.u[lane], query->hit.v[lane], behind);
-    *radiance = aur_vector_multiply(data->classes[shape].albedo_on_pi[behind], light->irradiance);
+    aur_vector irradiance = light->irradiance;
+    if (data->caustics != NULL)
+        irradiance =
+            aur_vector_add(irradiance, aur_irradiance_on_triangle(data->caustics, element, query->hit.u[lane],
+                                                                  query->hit.v[lane], behind)
+                                           ->irradiance);
+    *radiance = aur_vector_multiply(data->classes[shape].albedo_on_pi[behind], irradiance);
     return true;
 }
 

@@ -86,7 +86,9 @@ static bool trace_path(const batch *work, uint64_t path, photon_chunk *chunk) {
     size_t limit = work->options->max_edges;
     if (limit > LONGEST_PATH)
         limit = LONGEST_PATH;
-    for (size_t edge = 1; edge <= limit; ++edge) {
+    const aur_photon_kind kind = work->options->kind;
+    bool specular_so_far = true;
+    for (size_t edge = 1; edge <= limit && (specular_so_far || kind != AUR_PHOTONS_CAUSTIC); ++edge) {
         aur_hit hit;
         ++chunk->rays;
         if (!aur_scene_intersect(work->scene, &ray, &hit))
@@ -97,7 +99,8 @@ static bool trace_path(const batch *work, uint64_t path, photon_chunk *chunk) {
         const aur_shading shading = aur_shading_at(&surface, in);
         const float side = aur_vector_dot(surface.geometric_normal, in);
         const unsigned parts = reflecting_parts(&surface, shading.view);
-        if (parts != 0) {
+        const bool is_caustic = specular_so_far && edge > 1;
+        if (parts != 0 && (kind == AUR_PHOTONS_ALL || is_caustic == (kind == AUR_PHOTONS_CAUSTIC))) {
             aur_photon photon = {.position = surface.position,
                                  .normal =
                                      aur_vector_scale(surface.geometric_normal, side < 0 ? -1.0f : 1.0f),
@@ -117,6 +120,7 @@ static bool trace_path(const batch *work, uint64_t path, photon_chunk *chunk) {
         aur_bsdf_sample sample;
         if (!aur_shading_sample(&shading, (const float[3]){lobe[0], towards[0], towards[1]}, &sample))
             return true;
+        specular_so_far = specular_so_far && sample.specular;
         const aur_vector weight = adjoint_weight(&shading, &sample, in);
         const float survival =
             fminf(1.0f, aur_vector_max(aur_vector_multiply(power, weight)) / aur_vector_max(power));
@@ -165,6 +169,8 @@ static aur_result trace_until_enough(aur_photon_map *map, batch *work, aur_error
     const uint64_t most = (uint64_t)options->count * PATHS_A_PHOTON_LIMIT + PATHS_A_CHUNK * CHUNKS_A_BATCH;
     size_t capacity = 0;
     while (map->count < options->count) {
+        if (map->paths >= most && options->kind == AUR_PHOTONS_CAUSTIC)
+            break;
         if (map->paths >= most)
             return aur_fail(
                 error, AUR_ERROR_UNSUPPORTED,

@@ -23,16 +23,21 @@ typedef struct aur_photon_map {
     uint64_t rays;
 } aur_photon_map;
 
+/* Caustic photons came from the light by specular bounces alone, one at least. */
+typedef enum aur_photon_kind { AUR_PHOTONS_ALL, AUR_PHOTONS_CAUSTIC, AUR_PHOTONS_OTHER } aur_photon_kind;
+
 typedef struct aur_photon_options {
     size_t count; /* photons to store, at least; whole batches of paths are traced until there are so many */
     size_t max_edges; /* edges of a particle's path; SIZE_MAX: no limit but roulette's */
-    const char *set;  /* points of the square, SET syntax; NULL: sobol */
+    aur_photon_kind kind;
+    const char *set; /* points of the square, SET syntax; NULL: sobol */
     uint64_t seed;
     size_t threads;
     aur_progress progress;
 } aur_photon_options;
 
-/* Errors: UNSUPPORTED when the scene has no light or (nearly) no particle meets a surface. */
+/* Caustic photons may be none: then the map is empty. Errors: UNSUPPORTED when the scene has no light or
+ * (nearly) no particle meets a surface. */
 aur_result aur_photon_map_create(const aur_scene *scene, const aur_elements *elements,
                                  const aur_photon_options *options, aur_photon_map *map, aur_error *error);
 void aur_photon_map_release(aur_photon_map *map);

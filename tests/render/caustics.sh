@@ -1,0 +1,18 @@
+#!/usr/bin/env bash
+# Light through glass and off a mirror: gathered along specular chains, or from caustic photons, it is what paths find.
+. "$(dirname "$0")/common.sh.inc"
+scene=$source/tests/render/caustic.xml
+"$aureole" render "$scene" -q --spp 1024 -o path.exr || fail "path: render"
+for caustics in 0 40000; do
+  "$aureole" render "$scene" -q --spp 16 -o gather-$caustics.exr --integrator \
+    "finalgather:photons=40000,diffuse_samples=256,caustic_photons=$caustics" || fail "$caustics: render"
+  off=$(figure relative_rmse path.exr gather-$caustics.exr --downsample 8)
+  echo "caustic_photons=$caustics: relative RMSE of means of 8 x 8 pixels $off"
+  awk -v off="$off" -v path="$(mean path.exr path.exr)" -v mean="$(mean path.exr gather-$caustics.exr)" \
+    'BEGIN { exit !(off < 0.04 && mean > 0.99 * path && mean < 1.01 * path) }' ||
+    fail "caustic_photons=$caustics is off by $off"
+done
+"$aureole" render "$source/scenes/cornell-box/cornell-box.xml" --width 16 --height 16 --spp 1 -o none.exr \
+  --integrator finalgather:photons=1000,caustic_photons=1000 2>none.log || fail "no caustics: render"
+grep -q 'caustic photons of' none.log || fail "no caustics: no warning"
+exit $((failures > 0))
