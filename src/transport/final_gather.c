@@ -3,7 +3,7 @@
  * radiance at what they meet from precomputed irradiance (Christensen 1999), direct light by shadow rays.
  *
  * The directions of a pattern are shared out among the samples of a pixel: sample s of S takes every S-th. */
-#include "transport/final_gather.h"
+#include "transport/final_gather_parameters.h"
 
 #include <inttypes.h>
 #include <stdio.h>
@@ -26,138 +26,6 @@ static void release(aur_integrator *integrator) {
     free(data->glossy_levels);
     free(data->classes);
     free(data);
-}
-
-/* --- parameters
- * ------------------------------------------------------------------------------------------------ */
-
-enum { DENSITY_SAME, DENSITY_OPTIMAL, DENSITY_UNSAID };
-
-typedef struct gather_parameters {
-    int64_t diffuse_samples, glossy_samples, rotations, photons, max_depth, pattern_seed, edges;
-    int64_t levels, level_factor, caustic_photons;
-    double smoothness, regularization, photons_a_texel, threshold;
-    const char *pattern, *map, *scramble, *photon_set;
-    size_t density, weights, component, direct, incident, pixel, decorrelation, criterion;
-    bool packets, clip, adaptive, share;
-} gather_parameters;
-
-static aur_result read_parameters(aur_parameters *parameters, gather_parameters *p, aur_error *error) {
-    static const char *const densities[] = {"same", "optimal"};
-    static const char *const weights[] = {"ratio", "equal", "osw", "oswa", "mis", "oswa-solve"};
-    static const char *const components[] = {"all", "diffuse", "glossy"};
-    static const char *const directs[] = {"nee", "gather", "none"};
-    static const char *const incidents[] = {"photons", "emitters"};
-    static const char *const pixels[] = {"filter", "centre"};
-    static const char *const criteria[] = {"entropy", "variance"};
-    static const char *const decorrelations[] = {"blue", "random", "none"};
-    *p = (gather_parameters){.diffuse_samples = 64,
-                             .glossy_samples = 64,
-                             .rotations = 16,
-                             .photons = 500000,
-                             .photons_a_texel = 16.0,
-                             .edges = 32,
-                             .packets = true,
-                             .levels = 2,
-                             .level_factor = 4,
-                             .threshold = -1.0,
-                             .criterion = AUR_CRITERION_VARIANCE,
-                             .max_depth = -1,
-                             .smoothness = 1.5,
-                             .pattern = "spherical-fibonacci",
-                             .map = "lambert",
-                             .photon_set = "sobol",
-                             .density = DENSITY_UNSAID,
-                             .regularization = -1.0,
-                             .clip = true};
-    const int64_t most = 1 << 30;
-    aur_result r;
-    const bool good =
-        (r = aur_parameters_integer(parameters, "diffuse_samples", 1, most, &p->diffuse_samples, error)) ==
-            AUR_OK &&
-        (r = aur_parameters_integer(parameters, "glossy_samples", 1, most, &p->glossy_samples, error)) ==
-            AUR_OK &&
-        (r = aur_parameters_string(parameters, "pattern", &p->pattern, error)) == AUR_OK &&
-        (r = aur_parameters_string(parameters, "map", &p->map, error)) == AUR_OK &&
-        (r = aur_parameters_string(parameters, "scramble", &p->scramble, error)) == AUR_OK &&
-        (r = aur_parameters_integer(parameters, "rotations", 0, 65536, &p->rotations, error)) == AUR_OK &&
-        (r = aur_parameters_choice(parameters, "density", 2, densities, &p->density, error)) == AUR_OK &&
-        (r = aur_parameters_choice(parameters, "weights", 6, weights, &p->weights, error)) == AUR_OK &&
-        (r = aur_parameters_boolean(parameters, "clip", &p->clip, error)) == AUR_OK &&
-        (r = aur_parameters_float(parameters, "regularization", 0.0, 1e6, &p->regularization, error)) ==
-            AUR_OK &&
-        (r = aur_parameters_float(parameters, "smoothness", 1.0, 2.0, &p->smoothness, error)) == AUR_OK &&
-        (r = aur_parameters_integer(parameters, "photons", 1, most, &p->photons, error)) == AUR_OK &&
-        (r = aur_parameters_integer(parameters, "caustic_photons", 0, most, &p->caustic_photons, error)) ==
-            AUR_OK &&
-        (r = aur_parameters_string(parameters, "photon_pattern", &p->photon_set, error)) == AUR_OK &&
-        (r = aur_parameters_float(parameters, "photons_per_texel", 1.0, 1e6, &p->photons_a_texel, error)) ==
-            AUR_OK &&
-        (r = aur_parameters_choice(parameters, "decorrelation", 3, decorrelations, &p->decorrelation,
-                                   error)) == AUR_OK &&
-        (r = aur_parameters_integer(parameters, "edges", 0, 65536, &p->edges, error)) == AUR_OK &&
-        (r = aur_parameters_boolean(parameters, "packets", &p->packets, error)) == AUR_OK &&
-        (r = aur_parameters_boolean(parameters, "share", &p->share, error)) == AUR_OK &&
-        (r = aur_parameters_boolean(parameters, "adaptive", &p->adaptive, error)) == AUR_OK &&
-        (r = aur_parameters_integer(parameters, "levels", 1, AUR_GATHER_LEVEL_CAPACITY - 1, &p->levels,
-                                    error)) == AUR_OK &&
-        (r = aur_parameters_integer(parameters, "level_factor", 2, 4, &p->level_factor, error)) == AUR_OK &&
-        (r = aur_parameters_float(parameters, "threshold", 0.0, 1e6, &p->threshold, error)) == AUR_OK &&
-        (r = aur_parameters_choice(parameters, "criterion", 2, criteria, &p->criterion, error)) == AUR_OK &&
-        (r = aur_parameters_integer(parameters, "max_depth", -1, 1 << 20, &p->max_depth, error)) == AUR_OK &&
-        (r = aur_parameters_choice(parameters, "component", 3, components, &p->component, error)) == AUR_OK &&
-        (r = aur_parameters_choice(parameters, "direct", 3, directs, &p->direct, error)) == AUR_OK &&
-        (r = aur_parameters_choice(parameters, "incident", 2, incidents, &p->incident, error)) == AUR_OK &&
-        (r = aur_parameters_choice(parameters, "pixel", 2, pixels, &p->pixel, error)) == AUR_OK &&
-        (r = aur_parameters_integer(parameters, "pattern_seed", 0, INT64_MAX, &p->pattern_seed, error)) ==
-            AUR_OK;
-    return good ? aur_parameters_finish(parameters, error) : r;
-}
-
-/* Whether both patterns' samples serve both lobes. */
-static bool merges(const gather_parameters *p) {
-    return p->weights == AUR_WEIGHTS_OSWA || p->weights == AUR_WEIGHTS_MIS || p->weights == AUR_WEIGHTS_SOLVE;
-}
-
-/* What the keys about weights mean together. */
-static aur_result complete_weights(gather_parameters *p, aur_error *error) {
-    if (p->weights == AUR_WEIGHTS_EQUAL && p->density == DENSITY_OPTIMAL)
-        return aur_fail(
-            error, AUR_ERROR_ARGUMENT,
-            "finalgather: equal weights are for density=same; for density=optimal take weights=ratio");
-    if (merges(p) && p->rotations == 0)
-        return aur_fail(error, AUR_ERROR_ARGUMENT,
-                        "finalgather: weights of merged samples need prepared rotations, not rotations=0");
-    if (p->density == DENSITY_UNSAID)
-        p->density = p->weights == AUR_WEIGHTS_EQUAL ? DENSITY_SAME : DENSITY_OPTIMAL;
-    if (p->regularization < 0.0) /* as published for the published method */
-        p->regularization = p->weights == AUR_WEIGHTS_SOLVE ? 0.5 : AUR_REGULARIZATION_DEFAULT;
-    return AUR_OK;
-}
-
-/* Digits of nets are scrambled, every other pattern is turned about its axis (Marques 2013, section 6.1). */
-static aur_scramble default_scramble(const char *pattern) {
-    const aur_set_description *const row = aur_set_find(pattern);
-    return row != NULL && row->binary_net ? AUR_SCRAMBLE_DIGIT : AUR_SCRAMBLE_ROTATE;
-}
-
-static aur_result read_options(const gather_parameters *p, const aur_integrator_context *context,
-                               aur_gather_options *options, aur_error *error) {
-    *options = (aur_gather_options){.set = p->pattern,
-                                    .scramble = default_scramble(p->pattern),
-                                    .optimal_density = p->density == DENSITY_OPTIMAL,
-                                    .smoothness = p->smoothness,
-                                    .rotations = (size_t)p->rotations,
-                                    .seed = aur_hash2(context->seed, (uint64_t)p->pattern_seed),
-                                    .warnings = context->warnings};
-    aur_result result = aur_map_from_name(p->map, &options->map, error);
-    if (result == AUR_OK && p->scramble != NULL)
-        result = aur_scramble_from_name(p->scramble, &options->scramble, error);
-    if (result == AUR_OK && options->scramble == AUR_SCRAMBLE_ROTATE3D)
-        result =
-            aur_fail(error, AUR_ERROR_UNSUPPORTED,
-                     "finalgather: 'rotate3d' would turn the pattern out of its hemisphere; use 'rotate'");
-    return result;
 }
 
 /* --- preparation
@@ -193,7 +61,7 @@ float aur_final_gather_share(const aur_final_gather *data, const aur_gather_rule
 }
 
 /* The extensible sets that adaptive gathering takes the place of patterns by. */
-static aur_result set_growth(const gather_parameters *p, int64_t base, aur_gather_levels_options *growth,
+static aur_result set_growth(const aur_gather_parameters *p, int64_t base, aur_gather_levels_options *growth,
                              size_t capacity, char *set, size_t *count, aur_error *error) {
     if (p->level_factor == 3)
         return aur_fail(error, AUR_ERROR_ARGUMENT, "finalgather: 'level_factor' is 2 or 4, not 3");
@@ -255,7 +123,7 @@ static aur_result prepare_glossy_rules(aur_final_gather *data, const aur_scene *
 }
 
 /* Optimal weights in the rules, horizons, and what merged samples need. */
-static aur_result prepare_weights(aur_final_gather *data, const gather_parameters *p,
+static aur_result prepare_weights(aur_final_gather *data, const aur_gather_parameters *p,
                                   const aur_integrator_context *context, aur_error *error) {
     const bool optimal =
         p->weights == AUR_WEIGHTS_OSW || p->weights == AUR_WEIGHTS_OSWA || p->weights == AUR_WEIGHTS_SOLVE;
@@ -272,7 +140,7 @@ static aur_result prepare_weights(aur_final_gather *data, const gather_parameter
             aur_gather_horizon(rule->exponent, data->horizons[i]);
         if (optimal)
             result = aur_gather_rule_optimise(rule, p->smoothness, p->regularization, error);
-        if (result != AUR_OK || !merges(p))
+        if (result != AUR_OK || !aur_merges_samples(p))
             continue;
         const aur_pair_options options = {.method = p->weights == AUR_WEIGHTS_OSWA  ? AUR_PAIR_OSWA
                                                     : p->weights == AUR_WEIGHTS_MIS ? AUR_PAIR_MIS
@@ -302,7 +170,7 @@ static void destroy_map(void *map) {
 }
 
 /* A photon map, shared by all renders that ask for the same one. */
-static aur_result prepare_map(const gather_parameters *p, const aur_integrator_context *context,
+static aur_result prepare_map(const aur_gather_parameters *p, const aur_integrator_context *context,
                               const aur_photon_options *photons, const aur_irradiance_map **found,
                               aur_error *error) {
     char key[512];
@@ -324,7 +192,7 @@ static aur_result prepare_map(const gather_parameters *p, const aur_integrator_c
     return AUR_OK;
 }
 
-static aur_result prepare_maps(aur_final_gather *data, const gather_parameters *p,
+static aur_result prepare_maps(aur_final_gather *data, const aur_gather_parameters *p,
                                const aur_integrator_context *context, aur_error *error) {
     const bool apart = p->caustic_photons > 0;
     /* What the eye sees at one gather ray's end is two edges on; caustics are seen without a gather ray. */
@@ -380,13 +248,11 @@ static double default_threshold(size_t criterion) {
 
 static aur_result create(aur_parameters *parameters, const aur_integrator_context *context,
                          aur_integrator *integrator, aur_error *error) {
-    gather_parameters p;
-    aur_result result = read_parameters(parameters, &p, error);
-    if (result == AUR_OK)
-        result = complete_weights(&p, error);
+    aur_gather_parameters p;
+    aur_result result = aur_final_gather_read(parameters, &p, error);
     aur_gather_options options;
     if (result == AUR_OK)
-        result = read_options(&p, context, &options, error);
+        result = aur_final_gather_options(&p, context, &options, error);
     if (result != AUR_OK)
         return result;
     aur_final_gather *const data = calloc(1, sizeof *data);
@@ -415,7 +281,7 @@ static aur_result create(aur_parameters *parameters, const aur_integrator_contex
     data->pattern_seed = options.seed;
     data->options = options;
     options.count = shared_count(p.diffuse_samples, context->samples_per_pixel);
-    if (p.share && (p.adaptive || p.decorrelation != AUR_DECORRELATION_BLUE || merges(&p)))
+    if (p.share && (p.adaptive || p.decorrelation != AUR_DECORRELATION_BLUE || aur_merges_samples(&p)))
         return aur_fail(error, AUR_ERROR_UNSUPPORTED,
                         "finalgather: share=true splits one pattern among pixels: it goes with "
                         "decorrelation=blue and weights=ratio, equal or osw, and not with adaptive=true");
@@ -459,80 +325,6 @@ static aur_result create(aur_parameters *parameters, const aur_integrator_contex
     return result;
 }
 
-/* --- tiles
- * ----------------------------------------------------------------------------------------------------- */
-
-/* The groups' lanes that lie in the picture. A crop does not matter: packets must be those of the whole tile,
- * or its pixels would differ in the last bits. */
-static uint32_t lanes_of(const aur_group_task *task) {
-    uint32_t lanes = 0;
-    for (size_t lane = 0; lane < AUR_PACKET_SIZE; ++lane) {
-        const size_t pixel = aur_group_pixel(task->group, lane);
-        const bool inside = task->x + pixel % AUR_TILE_SIZE < task->view->width &&
-                            task->y + pixel / AUR_TILE_SIZE < task->view->height;
-        lanes |= (uint32_t)inside << lane;
-    }
-    return lanes;
-}
-
-/* Every stratum's mean radiance by its share of what the pixel sees. */
-static void develop(const aur_pixel_strata *pixel, double mean[3]) {
-    double seen = 0.0;
-    mean[0] = mean[1] = mean[2] = 0.0;
-    for (uint32_t i = 0; i < pixel->count; ++i) {
-        const aur_stratum *const stratum = &pixel->strata[i];
-        if (stratum->shaded == 0.0)
-            continue;
-        seen += stratum->seen;
-        for (size_t c = 0; c < 3; ++c)
-            mean[c] += stratum->sum[c] * (stratum->seen / stratum->shaded);
-    }
-    for (size_t c = 0; c < 3; ++c)
-        mean[c] = seen != 0.0 ? mean[c] / seen : 0.0;
-}
-
-static void add_tile(const aur_final_gather *data, aur_tile *tile, aur_group *group,
-                     aur_pixel_strata *strata) {
-    aur_group_task task = {.data = data,
-                           .view = tile->view,
-                           .x = tile->x0 / AUR_TILE_SIZE * AUR_TILE_SIZE,
-                           .y = tile->y0 / AUR_TILE_SIZE * AUR_TILE_SIZE};
-    for (task.group = 0; task.group < AUR_PACKET_SIZE; ++task.group) {
-        task.lanes = lanes_of(&task);
-        for (uint32_t i = 0; i < tile->count; ++i) {
-            task.index = tile->first + i;
-            if (task.lanes != 0)
-                aur_group_add_sample(group, &task, strata, &tile->counters);
-        }
-    }
-    if (data->edge_samples > 0)
-        aur_gather_refine_edges(group, &task, tile->first + tile->count, strata, &tile->counters);
-    if (data->shares_irradiance)
-        aur_gather_share_irradiance(strata);
-    for (size_t y = tile->y0; y < tile->y1; ++y)
-        for (size_t x = tile->x0; x < tile->x1; ++x) {
-            const aur_pixel_strata *const pixel = &strata[(y - task.y) * AUR_TILE_SIZE + (x - task.x)];
-            double mean[3];
-            develop(pixel, mean);
-            if (pixel->samples == 0)
-                continue;
-            aur_tile_add_mean(tile, x, y, tile->count, mean);
-            if (data->adaptive)
-                aur_tile_add_extra(tile, x, y, 0, (double)tile->count * (double)pixel->directions);
-        }
-}
-
-static aur_result tile(const aur_integrator *integrator, aur_tile *tile) {
-    aur_group *const group = aur_group_create(integrator->data);
-    aur_pixel_strata *const strata = calloc(AUR_TILE_PIXELS, sizeof *strata);
-    const bool good = group != NULL && strata != NULL;
-    if (good)
-        add_tile(integrator->data, tile, group, strata);
-    free(strata);
-    aur_group_destroy(group);
-    return good ? AUR_OK : AUR_ERROR_MEMORY;
-}
-
 const aur_integrator_descriptor aur_integrator_final_gather = {
     .description =
         {.name = "finalgather",
@@ -548,5 +340,5 @@ const aur_integrator_descriptor aur_integrator_final_gather = {
          .source = "Christensen 1999, Marques 2013, Marques 2018, Marques 2019"},
     .create = create,
     .release = release,
-    .tile = tile,
+    .tile = aur_final_gather_tile,
 };

@@ -1,10 +1,15 @@
 /* Final gathering, from the inside: what its files share.
  *
- *     final_gather.c     parameters, preparation, tiles
- *     gather_group.c     sixteen pixels at a time: what they see, direct light, gathering
+ *     final_gather.c     preparation: rules, weights, maps; final_gather_parameters.c the keys
+ *     gather_tile.c      a tile: its groups, its edges, the means of its pixels
+ *     gather_group.c     sixteen pixels at a time: what they see
+ *     gather_direct.c    their direct light
+ *     gather_lobes.c     gathering by lobe; gather_merged.c both lobes by merged samples;
+ *                        gather_adaptive.c by levels
  *     gather_merged.c    two lobes of a place by the samples of both
  *     gather_incident.c  radiance along gather rays
  *     gather_edges.c     more primary rays where a pixel sees several things
+ *     gather_sharing.c   irradiance that the pixels of a block have in common
  *
  * A tile of 16 x 16 pixels is done in 16 groups. A group has the pixels at one place of all 4 x 4 blocks of
  * the tile, and these share one randomisation of the patterns (interleaved sampling, Keller and Heidrich
@@ -72,6 +77,9 @@ typedef struct aur_final_gather {
         *caustics;          /* the light that specular bounces brought, which `map` has not; or NULL */
     aur_hit_class *classes; /* one a shape */
 } aur_final_gather;
+
+/* Renders a tile (gather_tile.c): the integrator's `tile`. */
+aur_result aur_final_gather_tile(const aur_integrator *integrator, aur_tile *tile);
 
 /* The rule that serves a lobe, or NULL. */
 const aur_gather_rule *aur_final_gather_rule(const aur_final_gather *data, const aur_bsdf_lobe *lobe);

@@ -74,6 +74,9 @@ static inline void aur_set_column(float column[3][AUR_PACKET_SIZE], size_t lane,
 /* Directions that a surface point sends for lobes without a formula. */
 size_t aur_group_sampled_share(const aur_final_gather *data);
 
+/* Adds what the places' lobes gather (gather_lobes.c). */
+void aur_group_gather(aur_group *group);
+
 /* Adds the light that reaches the places straight from lights (gather_direct.c). */
 void aur_group_add_direct_light(aur_group *group);
 
