@@ -42,7 +42,7 @@ static double body(const void *context, vec p) {
     double roof = cabin(q, 0.0);
     d = solid_join(d, roof, 0.16);
     d = solid_cut(d, fmax(cabin(q, 0.06), 0.80 - q.y), 0.02); /* room for those who ride in it */
-    d = fmax(d, -fmax(windows(p), cabin(q, -0.05)));
+    d = solid_cut(d, fmax(windows(p), cabin(q, -0.05)), 0.035);
     /* fenders, and the running board between them */
     d = solid_join(d,
                    solid_ellipsoid(turn_z(subtract(q, (vec){1.10, 0.46, 0.63}), 0.08), (vec){0},
@@ -54,15 +54,15 @@ static double body(const void *context, vec p) {
                    0.06);
     d = solid_join(d, solid_block(q, (vec){0.0, 0.27, 0.64}, (vec){0.75, 0.035, 0.15}, 0.03), 0.08);
     /* lines: doors, hood */
-    const double door = fabs(fmax(slab_between(q.x, -0.45, 0.26), slab_between(q.y, 0.36, 0.90))) - 0.007;
-    d = solid_cut(d, fmax(fmax(door, 0.38 - q.z), fabs(d) - 0.02), 0.008);
+    const double door = fabs(fmax(slab_between(q.x, -0.45, 0.26), slab_between(q.y, 0.36, 0.90))) - 0.011;
+    d = solid_cut(d, fmax(fmax(door, 0.38 - q.z), fabs(d) - 0.024), 0.02);
     for (size_t i = 0; i < 7; ++i) /* louvres of the hood */
         d = solid_cut(d,
                       solid_limb(q, (vec){0.62 + 0.075 * (double)i, 0.60, 0.40},
                                  (vec){0.66 + 0.075 * (double)i, 0.76, 0.37}, 0.011, 0.011),
                       0.014);
     d = solid_join(d, solid_limb(q, (vec){1.86, 0.66, 0.0}, (vec){-0.02, 1.0, 0.0}, 0.018, 0.018), 0.03);
-    d = solid_cut(d, fmin(arch(q, front_wheel, 0.375), arch(q, rear_wheel, 0.375)), 0.02);
+    d = solid_cut(d, fmin(arch(q, front_wheel, 0.375), arch(q, rear_wheel, 0.375)), 0.05);
     return fmax(d, 0.20 - p.y);
 }
 
@@ -70,7 +70,7 @@ static double glass(const void *context, vec p) {
     (void)context;
     const vec q = {p.x, p.y, sqrt(p.z * p.z + 1e-6)};
     const double shell = fmax(cabin(q, 0.022), -cabin(q, 0.040));
-    return fmax(shell, windows(p) + 0.006);
+    return fmax(shell, windows(p) - 0.012);
 }
 
 static double wheel_axis(vec p, vec wheel, double *radius) {
@@ -146,19 +146,19 @@ static void build(mesh *m, solid function, double cell) {
 }
 
 static void build_body(mesh *m) {
-    build(m, body, 0.0190);
+    build(m, body, 0.0165);
 }
 
 static void build_chrome(mesh *m) {
-    build(m, chrome, 0.0110);
+    build(m, chrome, 0.0125);
 }
 
 static void build_glass(mesh *m) {
-    build(m, glass, 0.0090);
+    build(m, glass, 0.0125);
 }
 
 static void build_tyres(mesh *m) {
-    build(m, tyre, 0.0135);
+    build(m, tyre, 0.0160);
 }
 
 static void build_lamps(mesh *m) {

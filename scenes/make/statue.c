@@ -253,7 +253,7 @@ static double statue_solid(const void *context, vec p) {
 
 static void build(mesh *m) {
     const solid_box box = {
-        .lower = {-0.84, -0.02, -0.84}, .upper = {0.84, 1.90, 0.84}, .cell = 0.00597, .slack = 0.08};
+        .lower = {-0.84, -0.02, -0.84}, .upper = {0.84, 1.90, 0.84}, .cell = 0.00546, .slack = 0.08};
     mesh_solid(m, &box, statue_solid, NULL);
 }
 

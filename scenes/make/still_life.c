@@ -31,7 +31,7 @@ static void add_teapot(mesh *m, size_t quads) {
 }
 
 static void build_teapot(mesh *m) {
-    add_teapot(m, 44);
+    add_teapot(m, 40);
     mesh_place(m, 0, 0.158, 2.75, (vec){0.60, 0.0, -0.18});
 }
 
@@ -61,7 +61,7 @@ static void add_cup(mesh *m, double angle, vec place) {
     const size_t first = m->vertex_count;
     const profile cup = {COUNT(cup_profile), cup_profile}, saucer = {COUNT(saucer_profile), saucer_profile};
     const tube handle = {.curve = cup_handle, .radius = handle_radius, .rows = 56, .columns = 24};
-    mesh_revolve(m, &cup, 110, 128);
+    mesh_revolve(m, &cup, 104, 120);
     mesh_tube(m, &handle);
     mesh_place(m, first, 0.92, angle, (vec){0.0, 0.021, 0.0});
     const size_t below = m->vertex_count;
@@ -71,8 +71,8 @@ static void add_cup(mesh *m, double angle, vec place) {
 }
 
 static void build_cups(mesh *m) {
-    add_cup(m, 0.5, (vec){0.16, 0.0, 0.42});
-    add_cup(m, -0.7, (vec){1.12, 0.0, 0.26});
+    add_cup(m, 0.5, (vec){0.28, 0.0, 0.44});
+    add_cup(m, -0.7, (vec){1.20, 0.0, 0.26});
 }
 
 static const double tea_profile[][2] = {{0.0, 0.0},      {0.155, 0.0},   {0.175, 0.0},
@@ -80,7 +80,7 @@ static const double tea_profile[][2] = {{0.0, 0.0},      {0.155, 0.0},   {0.175,
 
 static void build_tea(mesh *m) {
     const profile tea = {COUNT(tea_profile), tea_profile};
-    static const vec places[2] = {{0.16, 0.205, 0.42}, {1.12, 0.205, 0.26}};
+    static const vec places[2] = {{0.28, 0.205, 0.44}, {1.20, 0.205, 0.26}};
     for (size_t i = 0; i < 2; ++i) {
         const size_t first = m->vertex_count;
         mesh_revolve(m, &tea, 24, 96);
@@ -167,38 +167,32 @@ static vec orange_surface(const void *context, double u, double v) {
 }
 
 static const fruit apples[] = {{{-0.83, 0.27, 0.06}, 0.165, 0.35, 0.4, 1.0},
-                               {{-0.46, 0.26, 0.10}, 0.160, -0.45, 0.9, 5.0},
-                               {{0.79, 0.0, 0.0}, 0.0, 0.0, 0.0, 0.0}};
+                               {{-0.46, 0.26, 0.10}, 0.160, -0.45, 0.9, 5.0}};
 static const fruit oranges[] = {{{-0.80, 0.27, -0.26}, 0.172, 0.5, 1.0, 2.0},
                                 {{-0.64, 0.29, -0.02}, 0.170, -0.6, 2.0, 7.0}};
 static const fruit pears[] = {{{-0.42, 0.33, -0.24}, 0.165, -0.55, 0.35, 3.0},
-                              {{-0.16, 0.155, 0.62}, 0.155, 1.42, 2.2, 4.0}};
+                              {{-0.36, 0.158, 0.60}, 0.155, 1.42, 2.2, 4.0}};
+
+static void add_fruits(mesh *m, size_t count, const fruit *fruits, surface skin, const grid *size) {
+    for (size_t i = 0; i < count; ++i) {
+        const size_t first = m->vertex_count;
+        mesh_grid(m, size, skin, &fruits[i]);
+        place_fruit(m, first, &fruits[i]);
+    }
+}
 
 static void build_apples(mesh *m) {
-    const grid size = {.rows = 120, .columns = 140, .wraps_v = true};
-    for (size_t i = 0; i < 2; ++i) {
-        const size_t first = m->vertex_count;
-        mesh_grid(m, &size, apple_surface, &apples[i]);
-        place_fruit(m, first, &apples[i]);
-    }
+    add_fruits(m, COUNT(apples), apples, apple_surface,
+               &(grid){.rows = 120, .columns = 140, .wraps_v = true});
 }
 
 static void build_oranges(mesh *m) {
-    const grid size = {.rows = 150, .columns = 200, .wraps_v = true};
-    for (size_t i = 0; i < COUNT(oranges); ++i) {
-        const size_t first = m->vertex_count;
-        mesh_grid(m, &size, orange_surface, &oranges[i]);
-        place_fruit(m, first, &oranges[i]);
-    }
+    add_fruits(m, COUNT(oranges), oranges, orange_surface,
+               &(grid){.rows = 132, .columns = 176, .wraps_v = true});
 }
 
 static void build_pears(mesh *m) {
-    const grid size = {.rows = 96, .columns = 96, .wraps_v = true};
-    for (size_t i = 0; i < COUNT(pears); ++i) {
-        const size_t first = m->vertex_count;
-        mesh_grid(m, &size, pear_surface, &pears[i]);
-        place_fruit(m, first, &pears[i]);
-    }
+    add_fruits(m, COUNT(pears), pears, pear_surface, &(grid){.rows = 96, .columns = 96, .wraps_v = true});
 }
 
 static vec stem_curve(const void *context, double u) {

@@ -51,6 +51,14 @@ grep -q "plates.xml:[0-9]*:[0-9]*: cannot find '../generated/plate.ply'; it is m
 cp one/plate.ply copy/generated/
 "$aureole" info copy/plates/plates.xml >/dev/null || fail "the scene does not load with its mesh"
 
+# A user's own environment, by a name from where the user is.
+cp -r "$source/scenes/sphere" copy/
+"$scenes" --folder copy/generated seeds.ply >/dev/null || fail "making the seeds"
+"$aureole" render view.xml -q --width 8 --height 4 --spp 1 -o mine.hdr || fail "making a picture"
+"$aureole" info copy/sphere/sphere.xml -D environment=mine.hdr >/dev/null || fail "an environment of the user's"
+"$aureole" info copy/sphere/sphere.xml -D environment=none.hdr >/dev/null 2>message && fail "an environment that is not there"
+grep -q "cannot find 'none.hdr'" message || fail "$(cat message)"
+
 "$scenes" --folder one no-such.ply 2>message && fail "an unknown file"
 grep -q "no-such.ply" message && grep -q "hare.ply" message || fail "$(cat message)"
 exit $((failures > 0))
