@@ -11,6 +11,7 @@
 /* clang-format off */
 extern const bench bench_ao;
 extern const bench bench_gather;
+extern const bench bench_gather_weights;
 extern const bench bench_limits;
 extern const bench bench_measures;
 extern const bench bench_parallel;
@@ -24,6 +25,7 @@ extern const bench bench_weights;
 static const bench *const benches[] = {
     &bench_ao,
     &bench_gather,
+    &bench_gather_weights,
     &bench_limits,
     &bench_measures,
     &bench_parallel,

@@ -20,12 +20,14 @@ extern const lab_experiment lab_marques_2018_gains;
 extern const lab_experiment lab_marques_2018_rivals;
 extern const lab_experiment lab_marques_2018_sensitivity;
 extern const lab_experiment lab_marques_2018_slopes;
+extern const lab_experiment lab_marques_2018_table1;
 extern const lab_experiment lab_schretter_2012_fig5;
 
 static const lab_experiment *const experiments[] = {
     &lab_keller_1994_table1,       &lab_keller_1994_table2,  &lab_keller_1994_table3,
     &lab_marques_2013_gather,      &lab_marques_2018_gains,  &lab_marques_2018_rivals,
-    &lab_marques_2018_sensitivity, &lab_marques_2018_slopes, &lab_schretter_2012_fig5,
+    &lab_marques_2018_sensitivity, &lab_marques_2018_slopes, &lab_marques_2018_table1,
+    &lab_schretter_2012_fig5,
 };
 
 size_t lab_experiment_count(void) {

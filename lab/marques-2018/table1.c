@@ -1,0 +1,237 @@
+/* Weights in rendered pictures: the glossy Cornell box by final gathering with 40 + 20 directions a pixel, a
+ * figure and a sphere under the sky with 50 + 25 and 64 + 32 (Marques 2018, table 1 and figs 1, 6 and 9).
+ *
+ * A way to weigh is judged by the RMSE of its pictures against the same estimator with very many directions,
+ * on the same photon map and the same primary hits, over the pixels whose surface has both a diffuse and a
+ * glossy lobe: elsewhere the ways hardly differ. Intervals are over independent scramblings of the patterns.
+ */
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "lab/lab.h"
+
+enum { MOST_SCRAMBLES = 16, MOST_SETS = 4 };
+
+typedef enum way { OSWA, PUBLISHED, MIS, OSW, EQUAL, DENSE, WAYS } way;
+
+static const struct {
+    const char *name, *keys;
+} ways[WAYS] = {
+    {"OSWA", "weights=oswa,density=same"}, {"OSWA as published", "weights=oswa-solve,density=same"},
+    {"MIS", "weights=mis,density=same"},   {"OSW", "weights=osw,density=same,clip=false"},
+    {"equal", "weights=equal,clip=false"}, {"OSWA, optimal density", "weights=oswa,density=optimal"}};
+
+/* RMSE over that of OSWA in percent as published; 0: there is none. */
+typedef struct published {
+    const char *set;
+    double percent[WAYS];
+} published;
+
+static const published table1[] = {{"random", {[MIS] = 67.0, [OSW] = 47.0, [EQUAL] = 84.9}},
+                                   {"sobol", {[MIS] = 15.4, [OSW] = 43.1, [EQUAL] = 57.9}},
+                                   {NULL, {0}}};
+static const published figure1[] = {{"sobol", {[MIS] = 7.5, [OSW] = 8.6, [EQUAL] = 18.6}}, {NULL, {0}}};
+static const published figure6[] = {{NULL, {0}}};
+
+typedef struct subject {
+    const char *name, *file;
+    const char *light; /* what gather rays see */
+    size_t directions[2];
+    const published *published;
+} subject;
+
+static const subject subjects[] = {
+    {"Cornell box", "cornell-box/glossy.xml", "direct=none,photons_per_texel=256", {40, 20}, table1},
+    {"figure", "statue/statue.xml", "direct=gather,incident=emitters", {50, 25}, figure1},
+    {"sphere", "sphere/sphere.xml", "direct=gather,incident=emitters", {64, 32}, figure6}};
+
+typedef struct picture_study {
+    lab_run *run;
+    const subject *subject;
+    aur_renderer *renderer;
+    aur_image *reference, *mask;
+    size_t side, photons, scrambles, reference_directions;
+    size_t set_count;
+    const char *sets[MOST_SETS];
+} picture_study;
+
+static const char *const columns[] = {"scene",    "set",       "directions", "weights",
+                                      "rmse",     "rmse_low",  "rmse_high",  "over_oswa",
+                                      "over_low", "over_high", "published",  "picture_rmse"};
+
+static aur_result render(const picture_study *study, const char *set, const char *keys, size_t diffuse,
+                         size_t glossy, size_t seed, aur_image **image, aur_error *error) {
+    const lab_options *const lab = lab_run_options(study->run);
+    char integrator[400];
+    snprintf(
+        integrator, sizeof integrator,
+        "finalgather:%s,pixel=centre,edges=0,decorrelation=random,photons=%zu,pattern=%s,diffuse_samples=%zu,"
+        "glossy_samples=%zu,pattern_seed=%zu,%s",
+        study->subject->light, study->photons, set, diffuse, glossy, seed, keys);
+    const aur_render_options options = {.integrator = integrator,
+                                        .sampler = "sobol",
+                                        .filter = "box",
+                                        .samples_per_pixel = 1,
+                                        .width = study->side,
+                                        .height = study->side,
+                                        .threads = lab->threads,
+                                        .progress = lab->progress,
+                                        .warnings = lab->warnings};
+    return aur_renderer_render(study->renderer, &options, image, NULL, error);
+}
+
+/* Mean square errors over the pixels with both lobes, and over the picture. */
+static void judge(const picture_study *study, const aur_image *image, double *both, double *all) {
+    const aur_image *const reference = study->reference;
+    const size_t pixels = reference->width * reference->height;
+    double sums[2] = {0.0, 0.0};
+    size_t marked = 0;
+    for (size_t i = 0; i < pixels; ++i) {
+        double square = 0.0;
+        bool glossy = false;
+        for (size_t c = 0; c < 3; ++c) {
+            const double off = (double)image->data[i * image->channel_count + c] -
+                               (double)reference->data[i * reference->channel_count + c];
+            square += off * off / 3.0;
+            glossy = glossy || study->mask->data[i * study->mask->channel_count + c] > 0.0f;
+        }
+        sums[0] += glossy ? square : 0.0;
+        sums[1] += square;
+        marked += glossy;
+    }
+    *both = marked > 0 ? sums[0] / (double)marked : 0.0;
+    *all = sums[1] / (double)pixels;
+}
+
+static double published_percent(const subject *of, const char *set, way which) {
+    for (const published *row = of->published; row->set != NULL; ++row)
+        if (strcmp(row->set, set) == 0)
+            return row->percent[which];
+    return 0.0;
+}
+
+static double root(double value) {
+    return sqrt(fmax(0.0, value));
+}
+
+/* What one way has over OSWA, in percent: the ratio of two means over the same scramblings, with the interval
+ * of its linear form. */
+static void add_row(const picture_study *study, const char *set, way which, const double *mse,
+                    const double *base, double picture) {
+    lab_run *const run = study->run;
+    double mean, half, base_mean, base_half, off[MOST_SCRAMBLES], nothing, spread;
+    lab_mean_interval(study->scrambles, mse, &mean, &half);
+    lab_mean_interval(study->scrambles, base, &base_mean, &base_half);
+    const double ratio = mean / base_mean;
+    for (size_t k = 0; k < study->scrambles; ++k)
+        off[k] = (mse[k] - ratio * base[k]) / base_mean;
+    lab_mean_interval(study->scrambles, off, &nothing, &spread);
+    char directions[32];
+    snprintf(directions, sizeof directions, "%zu+%zu", study->subject->directions[0],
+             study->subject->directions[1]);
+    lab_text(run, study->subject->name);
+    lab_text(run, set);
+    lab_text(run, directions);
+    lab_text(run, ways[which].name);
+    lab_number(run, root(mean));
+    lab_number(run, root(mean - half));
+    lab_number(run, root(mean + half));
+    lab_number(run, 100.0 * (root(ratio) - 1.0));
+    lab_number(run, 100.0 * (root(ratio - spread) - 1.0));
+    lab_number(run, 100.0 * (root(ratio + spread) - 1.0));
+    const double known = published_percent(study->subject, set, which);
+    if (known != 0.0)
+        lab_number(run, known);
+    else
+        lab_text(run, "");
+    lab_number(run, root(picture));
+}
+
+static aur_result study_set(const picture_study *study, const char *set, aur_error *error) {
+    double mse[WAYS][MOST_SCRAMBLES], over[WAYS];
+    const size_t *const directions = study->subject->directions;
+    for (size_t w = 0; w < WAYS; ++w) {
+        double picture = 0.0;
+        for (size_t k = 0; k < study->scrambles; ++k) {
+            aur_image *image = NULL;
+            double all = 0.0;
+            const aur_result result =
+                render(study, set, ways[w].keys, directions[0], directions[1], 1 + k, &image, error);
+            if (result != AUR_OK)
+                return result;
+            judge(study, image, &mse[w][k], &all);
+            picture += all / (double)study->scrambles;
+            aur_image_destroy(image);
+        }
+        add_row(study, set, (way)w, mse[w], mse[OSWA], picture);
+        double mean, base, half;
+        lab_mean_interval(study->scrambles, mse[w], &mean, &half);
+        lab_mean_interval(study->scrambles, mse[OSWA], &base, &half);
+        over[w] = 100.0 * (root(mean / base) - 1.0);
+    }
+    lab_note(study->run,
+             "%s, %s: over OSWA: MIS %+.1f %%, OSW %+.1f %%, equal weights %+.1f %%; as published %+.1f %%, "
+             "optimal density %+.1f %%",
+             study->subject->name, set, over[MIS], over[OSW], over[EQUAL], over[PUBLISHED], over[DENSE]);
+    return AUR_OK;
+}
+
+static aur_result study_subject(picture_study *study, aur_error *error) {
+    aur_scene *scene = NULL;
+    aur_result result = lab_load_scene(study->run, study->subject->file, 0, NULL, &scene, error);
+    if (result != AUR_OK && study->subject != subjects) {
+        /* The box is always there; the others are made by scripts/scenes.sh. */
+        lab_note(study->run, "%s: left out: %s", study->subject->name, error->message);
+        return AUR_OK;
+    }
+    if (result == AUR_OK)
+        result = aur_renderer_create(scene, &study->renderer, error);
+    const size_t many = study->reference_directions;
+    if (result == AUR_OK)
+        result = render(study, "spherical-fibonacci", "density=same,rotations=0,clip=false", many, many, 0,
+                        &study->reference, error);
+    if (result == AUR_OK)
+        result = render(study, "spherical-fibonacci", "component=glossy,clip=false", 64, 64, 0, &study->mask,
+                        error);
+    if (result == AUR_OK) {
+        char name[32];
+        snprintf(name, sizeof name, "reference-%zu", (size_t)(study->subject - subjects));
+        result = lab_picture(study->run, name, study->reference, 1.0f, error);
+    }
+    for (size_t s = 0; s < study->set_count && result == AUR_OK; ++s)
+        result = study_set(study, study->sets[s], error);
+    aur_image_destroy(study->reference);
+    aur_image_destroy(study->mask);
+    aur_renderer_destroy(study->renderer);
+    aur_scene_destroy(scene);
+    study->reference = study->mask = NULL;
+    study->renderer = NULL;
+    return result;
+}
+
+static aur_result run(lab_run *run, aur_error *error) {
+    const lab_options *const options = lab_run_options(run);
+    picture_study study = {.run = run,
+                           .side = options->quick ? 24 : 64,
+                           .photons = options->quick ? 50000 : 2000000,
+                           .scrambles = options->quick ? 4 : MOST_SCRAMBLES,
+                           .reference_directions = options->quick ? 1024 : 4096,
+                           .set_count = options->set != NULL ? 4 : 3,
+                           .sets = {"random", "sobol", "spherical-fibonacci", options->set}};
+    lab_columns(run, sizeof columns / sizeof columns[0], columns);
+    aur_result result = AUR_OK;
+    const size_t count = options->quick ? 1 : sizeof subjects / sizeof subjects[0];
+    for (size_t i = 0; i < count && result == AUR_OK; ++i) {
+        study.subject = &subjects[i];
+        result = study_subject(&study, error);
+    }
+    return result;
+}
+
+const lab_experiment lab_marques_2018_table1 = {
+    .name = "marques-2018-table1",
+    .reproduces = "Marques 2018, table 1, figs 1, 6, 9",
+    .summary = "equal weights, MIS, OSW and OSWA in rendered pictures at the paper's counts",
+    .run = run,
+};
