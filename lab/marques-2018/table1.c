@@ -20,7 +20,7 @@ static const struct {
 } ways[WAYS] = {
     {"OSWA", "weights=oswa,density=same"}, {"OSWA as published", "weights=oswa-solve,density=same"},
     {"MIS", "weights=mis,density=same"},   {"OSW", "weights=osw,density=same,clip=false"},
-    {"equal", "weights=equal,clip=false"}, {"OSWA, optimal density", "weights=oswa,density=optimal"}};
+    {"equal", "weights=equal,clip=false"}, {"OSWA at optimal density", "weights=oswa,density=optimal"}};
 
 /* RMSE over that of OSWA in percent as published; 0: there is none. */
 typedef struct published {
@@ -214,11 +214,13 @@ static aur_result run(lab_run *run, aur_error *error) {
     const lab_options *const options = lab_run_options(run);
     picture_study study = {.run = run,
                            .side = options->quick ? 24 : 64,
-                           .photons = options->quick ? 50000 : 2000000,
-                           .scrambles = options->quick ? 4 : MOST_SCRAMBLES,
+                           .photons = options->quick ? 100000 : 2000000,
+                           .scrambles = options->quick ? 3 : MOST_SCRAMBLES,
                            .reference_directions = options->quick ? 1024 : 4096,
-                           .set_count = options->set != NULL ? 4 : 3,
-                           .sets = {"random", "sobol", "spherical-fibonacci", options->set}};
+                           .set_count = options->quick ? 1 : 3,
+                           .sets = {"random", "sobol", "spherical-fibonacci"}};
+    if (options->set != NULL)
+        study.sets[study.set_count++] = options->set;
     lab_columns(run, sizeof columns / sizeof columns[0], columns);
     aur_result result = AUR_OK;
     const size_t count = options->quick ? 1 : sizeof subjects / sizeof subjects[0];

@@ -12,17 +12,19 @@ static double lesser(double a, double b) {
     return a < b ? a : b;
 }
 
-/* Nodes and weights on [from, to] for cos^exponent, by the Gauss rule of `count` nodes on [-1,1]; `to` is the
- * end where the cosine vanishes or nearly does. There cos^exponent has no derivatives when a small exponent
- * is no integer: the substitution t = x^power of the distance t to that end gives them back. */
+/* Nodes, their cosines, and weights on [from, to] for cos^exponent, by the Gauss rule of `count` nodes on
+ * [-1,1]; `to` is the end where the cosine vanishes or nearly does. There cos^exponent has no derivatives
+ * when a small exponent is no integer: the substitution t = x^power of the distance t to that end gives them
+ * back. */
 static void lobe_rule(double from, double to, double exponent, size_t count, const double *node,
-                      const double *share, double *angle, double *weight) {
+                      const double *share, double *angle, double *cosine, double *weight) {
     const int power = exponent < 0.5 ? 3 : exponent < 1.0 ? 2 : 1;
     for (size_t i = 0; i < count; ++i) {
         const double x = 0.5 * (1.0 - node[i]);
         const double slope = power == 1 ? 1.0 : power == 2 ? 2.0 * x : 3.0 * x * x;
         angle[i] = to + (from - to) * (power == 1 ? x : power == 2 ? x * x : x * x * x);
-        weight[i] = 0.5 * fabs(to - from) * share[i] * slope * pow(cos(angle[i]), exponent);
+        cosine[i] = cos(angle[i]);
+        weight[i] = 0.5 * fabs(to - from) * share[i] * slope * pow(cosine[i], exponent);
     }
 }
 
@@ -67,11 +69,10 @@ void aur_lune_init(aur_lune *lune, const double axis[3], double exponent) {
         return;
     double node[AUR_LUNE_ACROSS], share[AUR_LUNE_ACROSS], psi[AUR_LUNE_ACROSS];
     aur_gauss_legendre(AUR_LUNE_ACROSS, node, share);
-    lobe_rule(lune->horizon, lune->psi_reach, exponent, AUR_LUNE_ACROSS, node, share, psi,
+    lobe_rule(lune->horizon, lune->psi_reach, exponent, AUR_LUNE_ACROSS, node, share, psi, lune->cosine,
               lune->across_weight);
     double sum = 0.0;
     for (size_t i = 0; i < AUR_LUNE_ACROSS; ++i) {
-        lune->cosine[i] = cos(psi[i]);
         lune->sine[i] = sin(psi[i]);
         sum += lune->across_weight[i];
     }
@@ -92,10 +93,9 @@ double aur_lune_potential(const aur_lune *lune, const aur_kernel_rule *rule, con
         const double end = side == 0 ? -lune->beta_reach : lune->beta_reach;
         const size_t at = side * AUR_LUNE_SIDE;
         lobe_rule(middle, end, lune->exponent + 1.0, AUR_LUNE_SIDE, lune->side, lune->side_weight, beta + at,
-                  aside_weight + at);
+                  cosine + at, aside_weight + at);
     }
     for (size_t i = 0; i < ASIDE; ++i) {
-        cosine[i] = cos(beta[i]);
         sine[i] = sin(beta[i]);
     }
     double x[COUNT], y[COUNT], z[COUNT], weight[COUNT];
@@ -113,12 +113,12 @@ double aur_lune_potential(const aur_lune *lune, const aur_kernel_rule *rule, con
 
 void aur_lune_visible(const aur_lune *lune, double *xyz, double *weights) {
     double node[AUR_LUNE_ACROSS], share[AUR_LUNE_ACROSS], psi[AUR_LUNE_ACROSS], psi_weight[AUR_LUNE_ACROSS];
-    double beta[AUR_LUNE_SIDE], beta_weight[AUR_LUNE_SIDE];
+    double beta[AUR_LUNE_SIDE], beta_weight[AUR_LUNE_SIDE], cosine[AUR_LUNE_ACROSS];
     aur_gauss_legendre(AUR_LUNE_ACROSS, node, share);
     lobe_rule(lesser(lune->horizon, lune->psi_reach), -lune->psi_reach, lune->exponent, AUR_LUNE_ACROSS, node,
-              share, psi, psi_weight);
+              share, psi, cosine, psi_weight);
     lobe_rule(0.0, lune->beta_reach, lune->exponent + 1.0, AUR_LUNE_SIDE, lune->side, lune->side_weight, beta,
-              beta_weight);
+              cosine, beta_weight);
     size_t at = 0;
     for (size_t j = 0; j < AUR_LUNE_ACROSS; ++j) {
         for (size_t i = 0; i < 2 * AUR_LUNE_SIDE; ++i, ++at) {

@@ -22,3 +22,8 @@ grep "^# random" out/marques-2018-slopes.csv | awk '{ if ($7 > -0.45 || $7 < -0.
   { cat out/slopes.txt; exit 1; }
 # The published regularisation is worse than equal weights at m = 200.
 awk -F, '$2 == 200 && $5 == 0.5 { n++; if ($6 > 0) exit 1 } END { exit n != 2 }' out/marques-2018-sensitivity.csv || exit 1
+# Weights in pictures, few pixels and scramblings: every row is there, and weights help random samples.
+"$program" lab run marques-2018-table1 --quick -q --scenes "$2/scenes" -o out >out/table1.txt || exit 1
+awk -F, '$1 == "Cornell box" && $2 == "random" { rows++; if (!($5 > 0)) bad = 1; rmse[$4] = $5 }
+  END { exit bad || rows != 6 || !(rmse["OSWA"] < rmse["equal"] && rmse["OSW"] < rmse["equal"]) }' \
+  out/marques-2018-table1.csv || { cat out/table1.txt; exit 1; }
