@@ -50,7 +50,7 @@ typedef struct aur_render_options {
     size_t threads;       /* 0: all */
     size_t width, height; /* 0 keeps the scene's */
     size_t crop_x0, crop_x1, crop_y0,
-        crop_y1; /* pixels x0 <= x < x1, y0 <= y < y1; all zero: the whole picture */
+        crop_y1; /* pixels x0 <= x < x1, y0 <= y < y1; all zero: what the scene's film says */
     aur_waves waves;
     aur_progress progress;
     aur_warnings warnings;

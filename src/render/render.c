@@ -81,8 +81,12 @@ static aur_result resolve(const aur_scene *scene, const aur_render_options *opti
                             options->filter);
     }
     if (s->x0 == 0 && s->x1 == 0 && s->y0 == 0 && s->y1 == 0) {
-        s->x1 = s->width;
-        s->y1 = s->height;
+        /* The film's own part holds for its own size. */
+        const bool part = film->crop_x1 > 0 && s->width == film->width && s->height == film->height;
+        s->x0 = part ? film->crop_x0 : 0;
+        s->x1 = part ? film->crop_x1 : s->width;
+        s->y0 = part ? film->crop_y0 : 0;
+        s->y1 = part ? film->crop_y1 : s->height;
     }
     if (s->x0 >= s->x1 || s->y0 >= s->y1 || s->x1 > s->width || s->y1 > s->height)
         return aur_fail(

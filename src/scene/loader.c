@@ -373,6 +373,35 @@ static void warn_unused(loader *self, aur_parameters *parameters, const char *na
                     parameters->plugin, name, why);
 }
 
+/* The part of the picture that is to be rendered. */
+static aur_result read_crop(loader *self, aur_parameters *parameters, aur_film *film) {
+    const int64_t width = (int64_t)film->width, height = (int64_t)film->height;
+    int64_t x = 0, y = 0, wide = -1, high = -1;
+    aur_result result = aur_parameters_integer(parameters, "crop_offset_x", 0, 65535, &x, self->error);
+    if (result == AUR_OK)
+        result = aur_parameters_integer(parameters, "crop_offset_y", 0, 65535, &y, self->error);
+    if (result == AUR_OK)
+        result = aur_parameters_integer(parameters, "crop_width", 1, 65536, &wide, self->error);
+    if (result == AUR_OK)
+        result = aur_parameters_integer(parameters, "crop_height", 1, 65536, &high, self->error);
+    if (result != AUR_OK)
+        return result;
+    wide = wide < 0 ? width : wide;
+    high = high < 0 ? height : high;
+    if (x + wide > width || y + high > height)
+        return aur_fail_at(self->error, parameters->location, AUR_ERROR_FORMAT,
+                           "film '%s': the crop of %lld x %lld at %lld, %lld is not inside %lld x %lld",
+                           parameters->plugin, (long long)wide, (long long)high, (long long)x, (long long)y,
+                           (long long)width, (long long)height);
+    if (wide == width && high == height)
+        return AUR_OK;
+    film->crop_x0 = (size_t)x;
+    film->crop_x1 = (size_t)(x + wide);
+    film->crop_y0 = (size_t)y;
+    film->crop_y1 = (size_t)(y + high);
+    return AUR_OK;
+}
+
 static aur_result build_film(loader *self, aur_xml_node *node, aur_parameters *parameters, void **object) {
     (void)node;
     static const char *const films[] = {"hdrfilm", "ldrfilm"};
@@ -391,6 +420,9 @@ static aur_result build_film(loader *self, aur_xml_node *node, aur_parameters *p
         return result;
     film->width = (size_t)width;
     film->height = (size_t)height;
+    result = read_crop(self, parameters, film);
+    if (result != AUR_OK)
+        return result;
     if (nested(parameters, "rfilter") != NULL)
         film->filter = &self->scene->filter;
     /* The output file's name says these. */
@@ -546,7 +578,7 @@ static aur_result build_top(loader *self, aur_xml_node *node) {
 
 aur_result aur_scene_build(aur_scene *scene, const aur_warnings *warnings, aur_error *error) {
     loader self = {.scene = scene, .warnings = warnings, .error = error};
-    scene->film = (aur_film){768, 576, aur_filter_find("gaussian")};
+    scene->film = (aur_film){.width = 768, .height = 576, .filter = aur_filter_find("gaussian")};
     scene->samples_per_pixel = 4;
     aur_xml_node *const root = scene->document.root;
     for (aur_xml_node *node = root->first_child; node != NULL; node = node->next) {

@@ -141,6 +141,7 @@ float aur_filter_weight(const aur_filter *filter, float offset);
 
 typedef struct aur_film {
     size_t width, height;
+    size_t crop_x0, crop_x1, crop_y0, crop_y1; /* pixels x0 <= x < x1, y0 <= y < y1; all 0: the whole */
     const aur_filter *filter;
 } aur_film;
 
