@@ -144,6 +144,7 @@ void aur_irradiance_map_destroy(aur_irradiance_map *map) {
 /* What the glossy lobes have towards `light`, BSDF * |cos|, and nothing from powers too small to matter. */
 typedef struct glossy_lobes {
     bool sampled; /* one of them has no formula */
+    bool whole;   /* and it is the whole BSDF: none beside it is diffuse */
     size_t count;
     aur_bsdf_lobe lobes[AUR_BSDF_LOBE_CAPACITY];
     float
@@ -151,12 +152,14 @@ typedef struct glossy_lobes {
 } glossy_lobes;
 
 static glossy_lobes lobes_at(const aur_surface *surface, aur_vector view) {
-    glossy_lobes all = {0};
+    glossy_lobes all = {.whole = true};
     all.count = surface->bsdf->descriptor->lobes(surface->bsdf, surface->texture, view, all.lobes);
     for (size_t i = 0; i < all.count; ++i) {
         all.sampled = all.sampled || all.lobes[i].shape == AUR_LOBE_SHAPE_SAMPLED;
+        all.whole = all.whole && !all.lobes[i].diffuse;
         all.least[i] = expf(-13.8155f / fmaxf(all.lobes[i].exponent, 1e-3f));
     }
+    all.whole = all.whole && all.sampled;
     return all;
 }
 
@@ -173,13 +176,12 @@ static aur_vector glossy_value(const glossy_lobes *all, const aur_surface *surfa
 
 /* The glossy lobes' share: a density estimate over the texel's photons. */
 static aur_vector glossy_radiance(const aur_irradiance_map *map, size_t light_index,
-                                  const aur_surface *surface, aur_vector view) {
-    const glossy_lobes lobes = lobes_at(surface, view);
+                                  const aur_surface *surface, aur_vector view, const glossy_lobes *lobes) {
     aur_vector sum = {0};
     for (uint32_t i = map->member_first[light_index]; i < map->member_first[light_index + 1]; ++i) {
         const aur_incident_photon *const photon = &map->members[i];
         const aur_vector light = aur_frame_to_local(&surface->frame, photon->direction);
-        const aur_vector value = glossy_value(&lobes, surface, view, light);
+        const aur_vector value = glossy_value(lobes, surface, view, light);
         if (aur_vector_is_zero(value))
             continue;
         /* The value is of BSDF * cos, and a photon's power has its cosine already. */
@@ -207,5 +209,7 @@ aur_vector aur_irradiance_radiance(const aur_irradiance_map *map, const aur_scen
         aur_vector_scale(aur_vector_multiply(albedo, light->irradiance), 1.0f / AUR_PI_F);
     if (map->member_first == NULL || map->member_first[light_index] == map->member_first[light_index + 1])
         return diffuse;
-    return aur_vector_add(diffuse, glossy_radiance(map, light_index, surface, local_view));
+    const glossy_lobes lobes = lobes_at(surface, local_view);
+    const aur_vector glossy = glossy_radiance(map, light_index, surface, local_view, &lobes);
+    return lobes.whole ? glossy : aur_vector_add(diffuse, glossy);
 }
