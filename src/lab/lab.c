@@ -16,6 +16,7 @@ extern const lab_experiment lab_keller_1994_table1;
 extern const lab_experiment lab_keller_1994_table2;
 extern const lab_experiment lab_keller_1994_table3;
 extern const lab_experiment lab_marques_2013_gather;
+extern const lab_experiment lab_marques_2013_table1;
 extern const lab_experiment lab_marques_2018_gains;
 extern const lab_experiment lab_marques_2018_rivals;
 extern const lab_experiment lab_marques_2018_sensitivity;
@@ -24,10 +25,10 @@ extern const lab_experiment lab_marques_2018_table1;
 extern const lab_experiment lab_schretter_2012_fig5;
 
 static const lab_experiment *const experiments[] = {
-    &lab_keller_1994_table1,       &lab_keller_1994_table2,  &lab_keller_1994_table3,
-    &lab_marques_2013_gather,      &lab_marques_2018_gains,  &lab_marques_2018_rivals,
-    &lab_marques_2018_sensitivity, &lab_marques_2018_slopes, &lab_marques_2018_table1,
-    &lab_schretter_2012_fig5,
+    &lab_keller_1994_table1,  &lab_keller_1994_table2,       &lab_keller_1994_table3,
+    &lab_marques_2013_gather, &lab_marques_2013_table1,      &lab_marques_2018_gains,
+    &lab_marques_2018_rivals, &lab_marques_2018_sensitivity, &lab_marques_2018_slopes,
+    &lab_marques_2018_table1, &lab_schretter_2012_fig5,
 };
 
 size_t lab_experiment_count(void) {

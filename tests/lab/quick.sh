@@ -20,6 +20,14 @@ for picture in diffuse-reference glossy-error-sobol finalgather path; do
   [ -s "results/marques-2013-gather-$picture.png" ] || fail "no picture $picture"
 done
 
+# Table 1: 2 components x 2 maps x 2 rivals of spherical Fibonacci, each interval about its ratio; no rival is better than
+# chance allows (a quarter below it would be), and all means together are worse.
+"$aureole" lab run marques-2013-table1 --quick -q --scenes "$source/scenes" -o results >table.txt || fail "the run of table 1"
+cat table.txt
+awk -F, '/^#/ || $1 == "scene" { next }
+         { ++rows; if (!($5 > 0 && $7 <= $6 && $6 <= $8 && $6 > 0.75 && $9 > 0 && $10 >= 1 && $11 > 512)) bad = 1; sum += log($6) }
+         END { exit !(rows == 8 && !bad && sum > 0) }' results/marques-2013-table1.csv || fail "the table of table 1"
+
 # Ambient occlusion: 5 sets x 2 counts x 2 forms, each interval about its value; every set below random numbers at 64
 # samples, where even the least of the gains is 2; and errors that are independent from pixel to pixel only where the set is
 # randomised for each: banding is 1 then, up to its own scatter of about .1, and above 1.2 when it is not.

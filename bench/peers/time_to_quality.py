@@ -1,0 +1,263 @@
+#!/usr/bin/env python3
+"""CPU seconds that Mitsuba 3, Blender's Cycles and our own path tracer take to a relative RMSE on the same scenes.
+
+    python3.11 -m venv /tmp/peers && /tmp/peers/bin/pip install 'mitsuba==3.*' numpy
+    /tmp/peers/bin/pip install bpy==4.2.0 --extra-index-url https://download.blender.org/pypi/
+    /tmp/peers/bin/python bench/peers/time_to_quality.py build/release/aureole [--threads N] [--only TEXT]
+
+A renderer that is not installed is left out and named. All of them are unbiased, so the RMSE of a picture is told by two
+pictures with different seeds: the root of half their mean squared difference, over the mean. It is measured at two numbers
+of samples a pixel; from there the error follows a power law and the time a line. The time is user + system seconds of all
+threads in the call that renders: imports, loading and the first compilation of kernels (llvm_ad_rgb) are not counted, which favours the peers. Cycles gets the scene's triangles from Mitsuba and materials of its own for
+rough plastic (a Principled BSDF of the same base, index and roughness), so its picture is alike, not equal.
+"""
+import argparse
+import json
+import math
+import os
+import re
+import resource
+import subprocess
+import sys
+import tempfile
+
+ROOT = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..")
+PUBLIC = os.path.join(ROOT, "..", "shared", "scenes", "cornell-box", "scene.xml")
+SCENES = {
+    "cornell-box": (PUBLIC if os.path.exists(PUBLIC) else os.path.join(ROOT, "scenes/cornell-box/cornell-box.xml"), 256, 256, {}),
+    "glossy-box": (os.path.join(ROOT, "scenes/cornell-box/figure.xml"), 256, 256, {"materials": "rough"}),
+    "room": (os.path.join(ROOT, "scenes/room/room.xml"), 240, 160, {"materials": "rough"}),
+}
+ERRORS = (0.02, 0.005)
+SAMPLES = (8, 32)  # a pixel, where error and time are measured
+
+
+def cpu_seconds(who=resource.RUSAGE_SELF):
+    usage = resource.getrusage(who)
+    return usage.ru_utime + usage.ru_stime
+
+
+def scene_text(path, width, height, definitions):
+    """The scene as both programs read it: independent samples, a box filter, path tracing without end, full file names."""
+    with open(path, encoding="utf-8") as file:
+        text = file.read()
+    folder = os.path.dirname(os.path.abspath(path))
+    included = re.search(r'<include filename="([^"]*)"/>', text)
+    while included:
+        name = included[1]
+        for key, value in definitions.items():
+            name = name.replace("$" + key, value)
+        with open(os.path.join(folder, name), encoding="utf-8") as file:
+            inner = re.search(r"<scene[^>]*>(.*)</scene>", file.read(), re.S)[1]
+        text = text.replace(included[0], inner)
+        included = re.search(r'<include filename="([^"]*)"/>', text)
+    text = re.sub(r'<sampler\s+type="[^"]*"', '<sampler type="independent"', text)
+    text = re.sub(r'<rfilter\s+type="[^"]*"', '<rfilter type="box"', text)
+    text = re.sub(r'<integrator.*?</integrator>', '<integrator type="path"><integer name="max_depth" value="-1"/></integrator>',
+                  text, flags=re.S)
+    for side, value in (("width", width), ("height", height)):
+        text = re.sub(rf'(name="{side}"\s+value=)"[^"]*"', rf'\1"{value}"', text)
+    return re.sub(r'(name="filename"\s+value=)"([^"$]*)"', lambda m: f'{m[1]}"{os.path.join(folder, m[2])}"', text)
+
+
+# --- renderers: each gives a function (samples, seed) -> (picture, CPU seconds)
+
+
+def mitsuba(variant, path, threads):
+    import mitsuba as mi
+    import numpy as np
+    mi.set_variant(variant)
+    if variant.startswith("llvm"):
+        import drjit as dr
+        dr.set_thread_count(threads)
+    else:
+        mi.Thread.set_thread_count(threads) if hasattr(mi.Thread, "set_thread_count") else None
+    scene = mi.load_file(path)
+    np.array(mi.render(scene, spp=1, seed=999))
+
+    def render(samples, seed):
+        start = cpu_seconds()
+        picture = np.array(mi.render(scene, spp=samples, seed=seed), dtype=np.float64)[:, :, :3]
+        return picture, cpu_seconds() - start
+    return render
+
+
+def triangles(mi, shape):
+    """Vertices and faces of a Mitsuba shape, or None."""
+    import numpy as np
+    if shape.is_mesh():
+        return (np.array(shape.vertex_position_buffer() if hasattr(shape, "vertex_position_buffer")
+                         else mi.traverse(shape)["vertex_positions"]).reshape(-1, 3),
+                np.array(mi.traverse(shape)["faces"]).reshape(-1, 3))
+    parameters = mi.traverse(shape)
+    if "to_world" not in parameters:
+        return None
+    matrix = np.array(parameters["to_world"].matrix, dtype=np.float64).reshape(4, 4)
+    corners = np.array([[-1, -1, 0, 1], [1, -1, 0, 1], [1, 1, 0, 1], [-1, 1, 0, 1]], dtype=np.float64)
+    return (corners @ matrix.T)[:, :3], np.array([[0, 1, 2], [0, 2, 3]])
+
+
+def bsdf_values(text, name):
+    """What Cycles is to know of a BSDF by its XML."""
+    found = re.search(rf'<bsdf type="[^"]*" id="{re.escape(name)}">(.*?)</bsdf>\s*</bsdf>', text, re.S)
+    inner = found[1] if found else ""
+    base = re.search(r'name="(?:diffuse_)?reflectance" value="([^"]*)"', inner)
+    values = [float(v) for v in base[1].split(",")] if base else [0.5]
+    alpha = re.search(r'name="alpha" value="([^"]*)"', inner)
+    return (values * 3)[:3], float(alpha[1]) if alpha and "roughplastic" in inner else None
+
+
+def cycles(path, threads):
+    import bpy
+    import mitsuba as mi
+    import numpy as np
+    mi.set_variant("scalar_rgb")
+    source = mi.load_file(path)
+    with open(path, encoding="utf-8") as file:
+        text = file.read()
+    bpy.ops.wm.read_factory_settings(use_empty=True)
+    scene = bpy.context.scene
+    for shape in source.shapes():
+        geometry = triangles(mi, shape)
+        if geometry is None:
+            raise RuntimeError("a shape that is no mesh")
+        mesh = bpy.data.meshes.new("mesh")
+        mesh.from_pydata(geometry[0].tolist(), [], geometry[1].tolist())
+        material = bpy.data.materials.new("material")
+        material.use_nodes = True
+        nodes, links = material.node_tree.nodes, material.node_tree.links
+        nodes.clear()
+        out = nodes.new("ShaderNodeOutputMaterial")
+        if shape.is_emitter():
+            shader = nodes.new("ShaderNodeEmission")
+            radiance = np.array(mi.traverse(shape.emitter())["radiance.value"]).ravel()
+            shader.inputs["Color"].default_value = (*[float(v) for v in radiance[:3]], 1)
+            facing = nodes.new("ShaderNodeNewGeometry")  # mesh lights shine to both sides unless told
+            front = nodes.new("ShaderNodeMath")
+            front.operation = "SUBTRACT"
+            front.inputs[0].default_value = 1
+            links.new(facing.outputs["Backfacing"], front.inputs[1])
+            links.new(front.outputs[0], shader.inputs["Strength"])
+        else:
+            base, alpha = bsdf_values(text, shape.bsdf().id())
+            if alpha is None:
+                shader = nodes.new("ShaderNodeBsdfDiffuse")
+                shader.inputs["Color"].default_value = (*base, 1)
+            else:
+                shader = nodes.new("ShaderNodeBsdfPrincipled")
+                shader.inputs["Base Color"].default_value = (*base, 1)
+                shader.inputs["Roughness"].default_value = math.sqrt(alpha)
+                shader.inputs["IOR"].default_value = 1.49
+        links.new(shader.outputs[0], out.inputs["Surface"])
+        mesh.materials.append(material)
+        scene.collection.objects.link(bpy.data.objects.new("object", mesh))
+    sensor = source.sensors()[0]
+    camera = bpy.data.cameras.new("camera")
+    thing = bpy.data.objects.new("camera", camera)
+    scene.collection.objects.link(thing)
+    scene.camera = thing
+    parameters = mi.traverse(sensor)
+    matrix = np.array(parameters["to_world"].matrix, dtype=np.float64).reshape(4, 4)
+    # Mitsuba looks along +z with x to the left, Blender along -z with x to the right.
+    import mathutils
+    thing.matrix_world = mathutils.Matrix((matrix @ np.diag([-1.0, 1.0, -1.0, 1.0])).tolist())
+    width, height = sensor.film().size()
+    camera.sensor_fit = "HORIZONTAL"
+    camera.angle = math.radians(float(np.array(parameters["x_fov"]).ravel()[0]))
+    camera.clip_end = 1e6
+    render = scene.render
+    render.engine = "CYCLES"
+    render.resolution_x, render.resolution_y, render.resolution_percentage = int(width), int(height), 100
+    render.threads_mode, render.threads = "FIXED", threads
+    render.image_settings.file_format, render.image_settings.color_depth = "OPEN_EXR", "32"
+    scene.view_settings.view_transform = "Raw"
+    options = scene.cycles
+    options.device, options.use_adaptive_sampling, options.use_denoising = "CPU", False, False
+    options.sample_clamp_direct = options.sample_clamp_indirect = options.light_sampling_threshold = 0.0
+    options.max_bounces = options.diffuse_bounces = options.glossy_bounces = 64
+    options.pixel_filter_type, options.filter_width = "BOX", 1.0
+    folder = tempfile.mkdtemp()
+
+    def shoot(samples, seed):
+        options.samples, options.seed = samples, seed
+        render.filepath = os.path.join(folder, "out.exr")
+        start = cpu_seconds()
+        bpy.ops.render.render(write_still=True)
+        seconds = cpu_seconds() - start
+        bitmap = mi.Bitmap(render.filepath).convert(mi.Bitmap.PixelFormat.RGB, mi.Struct.Type.Float32)
+        return np.array(bitmap, dtype=np.float64), seconds
+    shoot(1, 999)
+    return shoot
+
+
+def ours(aureole, path, threads):
+    import mitsuba as mi
+    import numpy as np
+    mi.set_variant("scalar_rgb")
+    out = os.path.join(os.path.dirname(path), "ours.exr")
+
+    def render(samples, seed):
+        start = cpu_seconds(resource.RUSAGE_CHILDREN)
+        subprocess.run([aureole, "render", path, "-q", "--sampler", "sobol", "--spp", str(samples), "--seed", str(seed), "-t",
+                        str(threads), "-o", out], check=True)
+        seconds = cpu_seconds(resource.RUSAGE_CHILDREN) - start
+        return np.array(mi.Bitmap(out).convert(mi.Bitmap.PixelFormat.RGB, mi.Struct.Type.Float32), dtype=np.float64), seconds
+    return render
+
+
+# --- measuring
+
+
+def pair(render, samples):
+    (a, first), (b, second) = render(samples, 1), render(samples, 2)
+    mean = (a.mean() + b.mean()) / 2
+    return math.sqrt(((a - b) ** 2).mean() / 2) / mean, (first + second) / 2, mean
+
+
+def child(kind, aureole, path, threads):
+    render = {"Cycles": lambda: cycles(path, threads), "path (ours)": lambda: ours(aureole, path, threads)}.get(
+        kind, lambda: mitsuba(kind.split()[1], path, threads))()
+    (error, seconds, _), (less, more_seconds, mean) = (pair(render, samples) for samples in SAMPLES)
+    slope = math.log(less / error) / math.log(SAMPLES[1] / SAMPLES[0])
+    each = (more_seconds - seconds) / (SAMPLES[1] - SAMPLES[0])
+    counts = [SAMPLES[1] * (wanted / less) ** (1 / slope) for wanted in ERRORS]
+    times = [max(each, more_seconds + each * (count - SAMPLES[1])) for count in counts]
+    print(json.dumps({"times": times, "mean": mean, "samples": [round(count) for count in counts], "error": less}))
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("aureole")
+    parser.add_argument("--threads", type=int, default=1)
+    parser.add_argument("--only", default="")
+    parser.add_argument("--child", nargs=2, metavar=("RENDERER", "SCENE"))
+    given = parser.parse_args()
+    if given.child:
+        child(given.child[0], given.aureole, given.child[1], given.threads)
+        return
+    aureole = os.path.abspath(given.aureole)
+    print("| scene | renderer | " + " | ".join(f"CPU s to {100 * e:g} %" for e in ERRORS) + f" | samples a pixel | mean | error at {SAMPLES[1]} |")
+    print("|---|---|---|---|---|---|---|")
+    with tempfile.TemporaryDirectory() as folder:
+        for name, (path, width, height, definitions) in SCENES.items():
+            copy = os.path.join(folder, name + ".xml")
+            with open(copy, "w", encoding="utf-8") as file:
+                file.write(scene_text(path, width, height, definitions))
+            for kind in ("path (ours)", "Mitsuba scalar_rgb", "Mitsuba llvm_ad_rgb", "Cycles"):
+                if given.only not in f"{name} {kind}":
+                    continue
+                done = subprocess.run([sys.executable, os.path.abspath(__file__), aureole, "--threads", str(given.threads),
+                                       "--child", kind, copy], capture_output=True, text=True, check=False)
+                lines = [line for line in done.stdout.splitlines() if line.startswith("{")]
+                if done.returncode != 0 or not lines:
+                    reason = (done.stderr.strip().splitlines() or ["no output"])[-1]
+                    print(f"| {name} | {kind} | not measured: {reason} | | | | |", flush=True)
+                    continue
+                row = json.loads(lines[-1])
+                print(f"| {name} | {kind} | " + " | ".join(f"{t:.3g}" for t in row["times"]) +
+                      f" | {row['samples'][0]}, {row['samples'][1]} | {row['mean']:.4f} | {100 * row['error']:.2f} % |",
+                      flush=True)
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,233 @@
+/* Sobol, BNOT and Larcher-Pillichshammer points against spherical Fibonacci at 512 directions, over three
+ * scenes, two components of the indirect light and two maps of the square (Marques 2013, table 1).
+ *
+ * The mean square error of a picture x is the mean of (x - a)(x - b), where a and b are two references by the
+ * same estimator with very many directions, on the same photon map and primary hits, independent of each
+ * other and by different sets: so the references' own errors drop out and favour no set. Intervals are over
+ * independent randomisations of the patterns. */
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "lab/lab.h"
+
+enum { DIRECTIONS = 512, MORE_DIRECTIONS = 768, SCENES = 3, RIVALS = 3, BATCH = 8, MOST_SCRAMBLES = 96 };
+
+/* Relative half widths of mean square errors: base and rival together make +- 1 % of
+ * a ratio of RMSEs. */
+static const double base_half = 0.010, rival_half = 0.017, slope_half = 0.04;
+
+typedef struct table_scene {
+    const char *name;
+    const char *file, *quick_file; /* the latter needs no generated meshes; NULL: not in the quick form */
+    size_t width, height;
+    double published[2][2][RIVALS][2]; /* glossy, diffuse; lambert, concentric; rival: percent of RMSE above
+                                          spherical Fibonacci's, rays needed */
+} table_scene;
+
+static const table_scene scenes[SCENES] = {
+    {"cornell-box",
+     "cornell-box/figure.xml",
+     "cornell-box/glossy.xml",
+     64,
+     64,
+     {{{{19.2, 658}, {15.2, 610}, {3.4, 544}}, {{18.1, 667}, {7.8, 601}, {3.0, 541}}},
+      {{{24.9, 762}, {25.9, 785}, {8.7, 603}}, {{24.2, 760}, {7.4, 605}, {10.9, 614}}}}},
+    {"room",
+     "room/room.xml",
+     NULL,
+     78,
+     52,
+     {{{{38.7, 799}, {20.9, 665}, {8.5, 557}}, {{30.0, 718}, {36.6, 763}, {24.6, 665}}},
+      {{{14.6, 661}, {9.4, 601}, {4.1, 555}}, {{14.8, 662}, {4.8, 569}, {4.5, 558}}}}},
+    {"cars",
+     "parade/parade.xml",
+     NULL,
+     78,
+     52,
+     {{{{2.2, 528}, {2.5, 526}, {0.6, 514}}, {{2.1, 531}, {1.2, 520}, {1.1, 518}}},
+      {{{14.7, 634}, {7.3, 569}, {3.5, 535}}, {{12.2, 607}, {6.4, 559}, {4.4, 544}}}}}};
+
+static const char *const rivals[RIVALS] = {"sobol", "bnot", "larcher-pillichshammer"};
+static const char *const components[2] = {"glossy", "diffuse"};
+static const char *const maps[2] = {"lambert", "concentric"};
+static const char *const columns[] = {"scene", "component",       "map",           "pattern",
+                                      "rmse",  "ratio",           "ratio_low",     "ratio_high",
+                                      "rays",  "published_ratio", "published_rays"};
+
+typedef struct table_study {
+    lab_run *run;
+    const table_scene *scene;
+    aur_renderer *renderer;
+    bool quick;
+    size_t directions, more_directions; /* where the RMSE is compared, and where its slope is taken from */
+    size_t reference_directions, photons;
+    const char *component;
+    aur_image *references[2];
+    size_t rows, above, not_below; /* rows; those whose interval is above 1, and those whose value is not */
+} table_study;
+
+static aur_result render(const table_study *study, const char *set, const char *map, size_t directions,
+                         size_t scramble, aur_image **image, aur_error *error) {
+    const lab_options *const lab = lab_run_options(study->run);
+    char integrator[320];
+    snprintf(integrator, sizeof integrator,
+             "finalgather:component=%s,direct=none,pixel=centre,density=same,rotations=0,edges=0,photons=%zu,"
+             "pattern=%s,map=%s,diffuse_samples=%zu,glossy_samples=%zu,pattern_seed=%zu",
+             study->component, study->photons, set, map, directions, directions, scramble);
+    const aur_render_options options = {.integrator = integrator,
+                                        .sampler = "sobol",
+                                        .filter = "box",
+                                        .samples_per_pixel = 1,
+                                        .width = study->quick ? 20 : study->scene->width,
+                                        .height = study->quick ? 20 : study->scene->height,
+                                        .threads = lab->threads,
+                                        .progress = lab->progress,
+                                        .warnings = lab->warnings};
+    return aur_renderer_render(study->renderer, &options, image, NULL, error);
+}
+
+static double mean_product(const aur_image *x, const aur_image *a, const aur_image *b) {
+    const size_t count = x->width * x->height * x->channel_count;
+    double sum = 0.0;
+    for (size_t i = 0; i < count; ++i)
+        sum += ((double)x->data[i] - (double)a->data[i]) * ((double)x->data[i] - (double)b->data[i]);
+    return sum / (double)count;
+}
+
+typedef struct table_cell {
+    double mean, relative_half; /* of the mean square error */
+} table_cell;
+
+/* The mean square error over independent randomisations: as many as a narrow interval takes. */
+static aur_result measure(const table_study *study, const char *set, const char *map, size_t directions,
+                          double wanted_half, table_cell *cell, aur_error *error) {
+    double mse[MOST_SCRAMBLES], half;
+    const size_t batch = study->quick ? BATCH / 2 : BATCH;
+    const size_t most = study->quick ? batch : MOST_SCRAMBLES;
+    for (size_t k = 0; k < most; ++k) {
+        aur_image *image = NULL;
+        const aur_result result = render(study, set, map, directions, 1 + k, &image, error);
+        if (result != AUR_OK)
+            return result;
+        mse[k] = mean_product(image, study->references[0], study->references[1]);
+        aur_image_destroy(image);
+        if ((k + 1) % batch != 0)
+            continue;
+        lab_mean_interval(k + 1, mse, &cell->mean, &half);
+        cell->relative_half = half / cell->mean;
+        if (cell->relative_half <= wanted_half)
+            break;
+    }
+    return AUR_OK;
+}
+
+static double root(double value) {
+    return sqrt(fmax(0.0, value));
+}
+
+/* Directions that the rival needs for the base's error, by the slope of its own between two counts. */
+static double rays_needed(const table_study *study, double at_directions, double at_more, double base) {
+    const double slope =
+        log(at_more / at_directions) / log((double)study->more_directions / (double)study->directions);
+    return (double)study->directions * pow(base / at_directions, 1.0 / slope);
+}
+
+static aur_result add_rival(table_study *study, size_t component, size_t map, size_t rival, table_cell base,
+                            aur_error *error) {
+    const char *const set = rivals[rival];
+    table_cell cell, more;
+    aur_result result = measure(study, set, maps[map], study->directions, rival_half, &cell, error);
+    if (result == AUR_OK)
+        result = measure(study, set, maps[map], study->more_directions, slope_half, &more, error);
+    if (result != AUR_OK)
+        return result;
+    const double half = hypot(cell.relative_half, base.relative_half), ratio = cell.mean / base.mean;
+    const double *const published = study->scene->published[component][map][rival];
+    lab_run *const run = study->run;
+    lab_text(run, study->scene->name);
+    lab_text(run, study->component);
+    lab_text(run, maps[map]);
+    lab_text(run, set);
+    lab_number(run, root(cell.mean));
+    lab_number(run, root(ratio));
+    lab_number(run, root(ratio * (1.0 - half)));
+    lab_number(run, root(ratio * (1.0 + half)));
+    lab_number(run, rays_needed(study, cell.mean, more.mean, base.mean));
+    lab_number(run, 1.0 + 0.01 * published[0]);
+    lab_number(run, published[1]);
+    ++study->rows;
+    study->above += ratio * (1.0 - half) > 1.0;
+    study->not_below += ratio * (1.0 + half) >= 1.0;
+    return AUR_OK;
+}
+
+static aur_result study_component(table_study *study, size_t component, aur_error *error) {
+    study->component = components[component];
+    aur_result result = render(study, "spherical-fibonacci", "lambert", study->reference_directions, 1000,
+                               &study->references[0], error);
+    if (result == AUR_OK)
+        result = render(study, "sobol", "concentric", study->reference_directions, 2000,
+                        &study->references[1], error);
+    table_cell base;
+    if (result == AUR_OK)
+        result = measure(study, "spherical-fibonacci", "lambert", study->directions, base_half, &base, error);
+    if (result == AUR_OK)
+        for (size_t map = 0; map < 2 && result == AUR_OK; ++map)
+            for (size_t rival = 0; rival < RIVALS && result == AUR_OK; ++rival)
+                if (!study->quick || rival != 1) /* BNOT takes long to make */
+                    result = add_rival(study, component, map, rival, base, error);
+    for (size_t i = 0; i < 2; ++i) {
+        aur_image_destroy(study->references[i]);
+        study->references[i] = NULL;
+    }
+    return result;
+}
+
+static aur_result study_scene(table_study *study, aur_error *error) {
+    aur_scene *scene = NULL;
+    const char *const file = study->quick ? study->scene->quick_file : study->scene->file;
+    if (file == NULL)
+        return AUR_OK;
+    aur_result result = lab_load_scene(study->run, file, 0, NULL, &scene, error);
+    if (result == AUR_ERROR_OPEN) {
+        lab_note(study->run, "%s left out, scripts/scenes.sh makes its meshes: %s", file, error->message);
+        return AUR_OK;
+    }
+    if (result == AUR_OK)
+        result = aur_renderer_create(scene, &study->renderer, error);
+    for (size_t component = 0; component < 2 && result == AUR_OK; ++component)
+        result = study_component(study, component, error);
+    aur_renderer_destroy(study->renderer);
+    study->renderer = NULL;
+    aur_scene_destroy(scene);
+    return result;
+}
+
+static aur_result run(lab_run *run, aur_error *error) {
+    const lab_options *const options = lab_run_options(run);
+    table_study study = {.run = run,
+                         .quick = options->quick,
+                         .directions = options->quick ? 64 : DIRECTIONS,
+                         .more_directions = options->quick ? 96 : MORE_DIRECTIONS,
+                         .reference_directions = options->quick ? 2048 : 16384,
+                         .photons = options->quick ? 20000 : 500000};
+    lab_columns(run, sizeof columns / sizeof columns[0], columns);
+    aur_result result = AUR_OK;
+    for (size_t i = 0; i < SCENES && result == AUR_OK; ++i) {
+        study.scene = &scenes[i];
+        result = study_scene(&study, error);
+    }
+    if (result == AUR_OK)
+        lab_note(run,
+                 "%zu rows: spherical Fibonacci better beyond the interval in %zu, worse beyond it in %zu",
+                 study.rows, study.above, study.rows - study.not_below);
+    return result;
+}
+
+const lab_experiment lab_marques_2013_table1 = {
+    .name = "marques-2013-table1",
+    .reproduces = "Marques 2013, table 1",
+    .summary = "RMSE and rays needed of four patterns at 512 directions, three scenes, two maps",
+    .run = run,
+};
