@@ -8,7 +8,7 @@
 #include "core/parallel.h"
 #include "transport/integrator.h"
 
-enum { WIDTH = 256, QUICK_WIDTH = 32, CHANNELS = 3 };
+enum { WIDTH = 128, QUICK_WIDTH = 32, CHANNELS = 3 };
 
 typedef struct gather_context {
     const aur_scene *scene;

@@ -98,6 +98,9 @@ typedef struct aur_gather_rays {
     /* The density of each direction, a steradian, times the number of directions a surface point sends, that
      * a light's own sampling is weighed against. */
     float density[AUR_PACKET_SIZE];
+    /* Not NULL: instead, the density of both its patterns about these axes, found only where it is needed. */
+    const aur_gather_pair *pair;
+    aur_vector axes[AUR_PACKET_SIZE][2];
     uint64_t hash;                         /* of what chance decides along specular chains */
     aur_vector reference[AUR_PACKET_SIZE]; /* the points that gather */
     float radiance[3][AUR_PACKET_SIZE];    /* 0 for lanes without a ray */

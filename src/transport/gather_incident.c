@@ -166,6 +166,14 @@ static bool plain_radiance(const aur_final_gather *data, const struct RTCRayHit1
     return true;
 }
 
+static float density_of(const aur_gather_rays *rays, size_t lane) {
+    if (rays->pair == NULL)
+        return rays->density[lane];
+    const aur_vector direction = packet_ray(&rays->packet, lane).direction;
+    return aur_gather_pair_density(rays->pair, aur_vector_dot(rays->axes[lane][0], direction),
+                                   aur_vector_dot(rays->axes[lane][1], direction));
+}
+
 void aur_gather_trace(const aur_final_gather *data, aur_embree_order order, aur_gather_rays *rays,
                       aur_counters *counters) {
     const uint32_t lanes = valid_lanes(&rays->packet);
@@ -181,7 +189,7 @@ void aur_gather_trace(const aur_final_gather *data, aur_embree_order order, aur_
         if (!hits || !plain_radiance(data, &rays->packet.query, lane, &radiance)) {
             const gather_ray from = {.ray = packet_ray(&rays->packet, lane),
                                      .reference = rays->reference[lane],
-                                     .density = rays->density[lane],
+                                     .density = density_of(rays, lane),
                                      .hash = aur_hash2(rays->hash, lane)};
             aur_hit hit = {0};
             if (hits)

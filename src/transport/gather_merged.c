@@ -80,6 +80,8 @@ static void prepare(aur_group *group, merged *work) {
         aur_frame frames[2];
         work->rotation[lane] = rotation_of(group, work->pair, lane, &mirrored);
         aur_gather_pair_frames(normal, mirror, mirrored, frames);
+        group->rays.axes[lane][0] = normal;
+        group->rays.axes[lane][1] = mirror;
         for (size_t k = 0; k < 2; ++k) {
             aur_group_set_frame(group, lane, &frames[k], &work->frames[k]);
             if (aur_group_gathers(data, &p->lobes[lobes[k]]))
@@ -114,17 +116,6 @@ static void set_directions(const aur_group *group, const merged *work, size_t pa
     }
 }
 
-/* What lights' own sampling is weighed against: the density of both patterns together. */
-static void set_densities(aur_group *group, const merged *work, const float cosine[AUR_PACKET_SIZE]) {
-    const struct RTCRay16 *const rays = &group->rays.packet.query.ray;
-    const aur_lobe_frames *const frames = &work->frames[1];
-    for (size_t k = 0; k < AUR_PACKET_SIZE; ++k) {
-        const float along = frames->z[0][k] * rays->dir_x[k] + frames->z[1][k] * rays->dir_y[k] +
-                            frames->z[2][k] * rays->dir_z[k];
-        group->rays.density[k] = aur_gather_pair_density(work->pair, cosine[k], along);
-    }
-}
-
 static void add_radiance(const aur_group *group, merged *work, size_t sample,
                          const float cosine[AUR_PACKET_SIZE]) {
     const size_t samples = aur_gather_pair_share(work->pair);
@@ -145,6 +136,7 @@ void aur_group_gather_merged(aur_group *group, const aur_gather_pair *pair, uint
     const aur_embree_order order = group->flat ? AUR_EMBREE_COHERENT : AUR_EMBREE_INCOHERENT;
     merged work = {.pair = pair, .lanes = lanes, .alike = data->decorrelation != AUR_DECORRELATION_RANDOM};
     prepare(group, &work);
+    group->rays.pair = pair;
     size_t sample = 0;
     for (size_t pattern = 0; pattern < 2; ++pattern)
         for (size_t i = 0; i < pair->share_count[pattern]; ++i, ++sample) {
@@ -152,12 +144,11 @@ void aur_group_gather_merged(aur_group *group, const aur_gather_pair *pair, uint
             set_directions(group, &work, pattern, i, local);
             if (aur_group_aim(group, lanes, &work.frames[pattern], local, cosine) == 0)
                 continue;
-            if (data->direct == AUR_DIRECT_NEE)
-                set_densities(group, &work, cosine);
             group->rays.hash = aur_hash3(group->samples[aur_first_lane(lanes)].stream.pixel, sample, 0);
             aur_gather_trace(data, order, &group->rays, group->counters);
             add_radiance(group, &work, sample, cosine);
         }
+    group->rays.pair = NULL;
     for (uint32_t rest = lanes; rest != 0; rest &= rest - 1) {
         const size_t lane = aur_first_lane(rest);
         aur_vector reflected = {0};
