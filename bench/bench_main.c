@@ -13,6 +13,7 @@ extern const bench bench_ao;
 extern const bench bench_gather;
 extern const bench bench_gather_weights;
 extern const bench bench_limits;
+extern const bench bench_load;
 extern const bench bench_measures;
 extern const bench bench_parallel;
 extern const bench bench_path;
@@ -27,6 +28,7 @@ static const bench *const benches[] = {
     &bench_gather,
     &bench_gather_weights,
     &bench_limits,
+    &bench_load,
     &bench_measures,
     &bench_parallel,
     &bench_path,

@@ -1,0 +1,211 @@
+/* Loading scenes of 1.5 million triangles, from each kind of mesh file, against what cannot be saved: one
+ * read of the file and Embree's own build of the same mesh. */
+#include <fcntl.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+#include <zlib.h>
+
+#include <aureole/scene.h>
+
+#include "bench.h"
+#include "scene/embree.h"
+
+enum { SIDE = 866, QUICK_SIDE = 60, PATH_CAPACITY = 256 };
+
+typedef struct grid {
+    size_t side, vertex_count, triangle_count;
+    float *positions;
+    uint32_t *indices;
+} grid;
+
+/* Rounded so that a text of 6 digits gives the same mesh. */
+static float rounded(double x) {
+    return (float)(floor(x * 1e5 + 0.5) * 1e-5);
+}
+
+/* A waving square. */
+static bool grid_create(grid *g, size_t side) {
+    *g = (grid){.side = side, .vertex_count = (side + 1) * (side + 1), .triangle_count = 2 * side * side};
+    g->positions = malloc((3 * g->vertex_count + 1) * sizeof *g->positions);
+    g->indices = malloc(3 * g->triangle_count * sizeof *g->indices);
+    if (g->positions == NULL || g->indices == NULL)
+        return bench_fail("out of memory");
+    for (size_t i = 0; i < g->vertex_count; ++i) {
+        const double x = (double)(i % (side + 1)) / (double)side, y = (double)(i / (side + 1)) / (double)side;
+        const double place[3] = {x, y, 0.05 * sin(40.0 * x) * sin(40.0 * y)};
+        for (size_t k = 0; k < 3; ++k)
+            g->positions[3 * i + k] = rounded(place[k]);
+    }
+    for (size_t i = 0; i < side * side; ++i) {
+        const uint32_t a = (uint32_t)(i / side * (side + 1) + i % side), b = a + (uint32_t)side + 1;
+        const uint32_t quad[6] = {a, a + 1, b + 1, a, b + 1, b};
+        memcpy(&g->indices[6 * i], quad, sizeof quad);
+    }
+    return true;
+}
+
+static void grid_release(grid *g) {
+    free(g->positions);
+    free(g->indices);
+}
+
+static void write_obj(const grid *g, FILE *file) {
+    for (size_t i = 0; i < g->vertex_count; ++i)
+        fprintf(file, "v %.5f %.5f %.5f\n", (double)g->positions[3 * i], (double)g->positions[3 * i + 1],
+                (double)g->positions[3 * i + 2]);
+    for (size_t i = 0; i < g->triangle_count; ++i)
+        fprintf(file, "f %u %u %u\n", g->indices[3 * i] + 1, g->indices[3 * i + 1] + 1,
+                g->indices[3 * i + 2] + 1);
+}
+
+static void write_ply(const grid *g, FILE *file) {
+    fprintf(file,
+            "ply\nformat binary_little_endian 1.0\nelement vertex %zu\nproperty float x\nproperty float y\n"
+            "property float z\nelement face %zu\nproperty list uchar int vertex_indices\nend_header\n",
+            g->vertex_count, g->triangle_count);
+    fwrite(g->positions, 3 * sizeof(float), g->vertex_count, file);
+    for (size_t i = 0; i < g->triangle_count; ++i) {
+        fputc(3, file);
+        fwrite(&g->indices[3 * i], sizeof(uint32_t), 3, file);
+    }
+}
+
+static void write_serialized(const grid *g, FILE *file) {
+    const size_t vertex_bytes = 3 * g->vertex_count * sizeof(float);
+    const size_t index_bytes = 3 * g->triangle_count * sizeof(uint32_t);
+    const uint32_t flags = 0x1000, meshes = 1;
+    const uint64_t counts[2] = {g->vertex_count, g->triangle_count}, offset = 0;
+    unsigned char *const plain = malloc(22 + vertex_bytes + index_bytes);
+    uLongf size = compressBound((uLong)(22 + vertex_bytes + index_bytes));
+    unsigned char *const packed = malloc(size);
+    if (plain != NULL && packed != NULL) {
+        memcpy(plain, &flags, 4);
+        memcpy(plain + 4, "m", 2);
+        memcpy(plain + 6, counts, 16);
+        memcpy(plain + 22, g->positions, vertex_bytes);
+        memcpy(plain + 22 + vertex_bytes, g->indices, index_bytes);
+        compress2(packed, &size, plain, (uLong)(22 + vertex_bytes + index_bytes), 1);
+        fwrite("\x1c\x04\x04\0", 1, 4, file);
+        fwrite(packed, 1, size, file);
+        fwrite(&offset, 8, 1, file);
+        fwrite(&meshes, 4, 1, file);
+    }
+    free(plain);
+    free(packed);
+}
+
+typedef struct load_context {
+    const grid *mesh;
+    char file[PATH_CAPACITY], scene[PATH_CAPACITY];
+    bool failed;
+} load_context;
+
+static void load(void *data) {
+    load_context *const context = data;
+    aur_scene *scene = NULL;
+    aur_error error;
+    if (aur_scene_load(context->scene, NULL, &scene, &error) != AUR_OK)
+        context->failed = !bench_fail("%s: %s", error.file, error.message);
+    aur_scene_destroy(scene);
+}
+
+static void read_file(load_context *context) {
+    const int file = open(context->file, O_RDONLY);
+    struct stat status;
+    char *const bytes = file >= 0 && fstat(file, &status) == 0 ? malloc((size_t)status.st_size) : NULL;
+    size_t done = 0;
+    for (ssize_t part; bytes != NULL && done < (size_t)status.st_size; done += (size_t)part) {
+        part = read(file, bytes + done, (size_t)status.st_size - done);
+        if (part <= 0)
+            break;
+    }
+    context->failed = context->failed || bytes == NULL || done < (size_t)status.st_size;
+    if (bytes != NULL)
+        bench_keep((double)bytes[0]);
+    free(bytes);
+    if (file >= 0)
+        close(file);
+}
+
+static void build(const grid *g) {
+    const RTCDevice device = rtcNewDevice("threads=1");
+    const RTCScene scene = rtcNewScene(device);
+    rtcSetSceneFlags(scene, RTC_SCENE_FLAG_ROBUST);
+    const RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
+    rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, g->positions, 0,
+                               3 * sizeof(float), g->vertex_count);
+    rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, g->indices, 0,
+                               3 * sizeof(uint32_t), g->triangle_count);
+    rtcCommitGeometry(geometry);
+    rtcAttachGeometry(scene, geometry);
+    rtcReleaseGeometry(geometry);
+    rtcCommitScene(scene);
+    rtcReleaseScene(scene);
+    rtcReleaseDevice(device);
+}
+
+static void read_and_build(void *data) {
+    load_context *const context = data;
+    read_file(context);
+    build(context->mesh);
+}
+
+static bool write_files(const char *folder, const char *kind, void (*write)(const grid *, FILE *),
+                        bool face_normals, load_context *context) {
+    snprintf(context->file, sizeof context->file, "%s/mesh.%s", folder, kind);
+    snprintf(context->scene, sizeof context->scene, "%s/%s.xml", folder, kind);
+    FILE *file = fopen(context->file, "wb");
+    if (file == NULL)
+        return bench_fail("%s cannot be written", context->file);
+    write(context->mesh, file);
+    const bool good = fclose(file) == 0;
+    file = fopen(context->scene, "wb");
+    if (!good || file == NULL)
+        return bench_fail("%s cannot be written", context->scene);
+    fprintf(file,
+            "<scene version='3.0.0'><sensor type='perspective'/><shape type='%s'><string name='filename' "
+            "value='mesh.%s'/><boolean name='face_normals' value='%s'/></shape></scene>",
+            kind, kind, face_normals ? "true" : "false");
+    return fclose(file) == 0;
+}
+
+static bool measure(const bench_options *options, const char *folder, const grid *mesh, const char *kind,
+                    void (*write)(const grid *, FILE *), bool face_normals) {
+    load_context context = {.mesh = mesh};
+    const bool written = write_files(folder, kind, write, face_normals, &context);
+    if (written) {
+        const double triangles = (double)mesh->triangle_count;
+        const bench_work subject = {load, &context, triangles}, limit = {read_and_build, &context, triangles};
+        bench_options few = *options;
+        few.pairs = options->quick ? 1 : 5;
+        const bench_pair pair = bench_compare(&few, &subject, &limit);
+        char name[64];
+        snprintf(name, sizeof name, "%s, %s", kind, face_normals ? "flat" : "smoothed where it can be");
+        bench_print_pair(name, "reading the file, Embree's build", "Mtriangle", 1e6, &pair);
+    }
+    unlink(context.file);
+    unlink(context.scene);
+    return written && (!context.failed || bench_fail("%s cannot be read", context.file));
+}
+
+static bool run(const bench_options *options) {
+    char folder[] = "/tmp/aureole-bench-XXXXXX";
+    if (mkdtemp(folder) == NULL)
+        return bench_fail("no folder for files in /tmp");
+    grid mesh;
+    const bool good = grid_create(&mesh, options->quick ? QUICK_SIDE : SIDE) &&
+                      measure(options, folder, &mesh, "obj", write_obj, true) &&
+                      measure(options, folder, &mesh, "obj", write_obj, false) &&
+                      measure(options, folder, &mesh, "ply", write_ply, true) &&
+                      measure(options, folder, &mesh, "ply", write_ply, false) &&
+                      measure(options, folder, &mesh, "serialized", write_serialized, true);
+    grid_release(&mesh);
+    rmdir(folder);
+    return good;
+}
+
+const bench bench_load = {"load", "scenes of 1.5 million triangles against reading and Embree's build", run};
