@@ -11,8 +11,8 @@ static bool run(const bench_options *given) {
     const bench_options *const options = &chosen;
     bench_figures figures = {0};
     /* Memory first: a child's peak is never below this process's own. */
-    const bool good = bench_gather_memory(options, &figures) && bench_gather_rays(options, &figures) &&
-                      bench_gather_lookups(options, &figures) && bench_quality(options, &figures);
+    const bool good = bench_gather_memory(options, &figures) && bench_gather_lookups(options, &figures) &&
+                      bench_gather_rays(options, &figures) && bench_quality(options, &figures);
     if (good)
         bench_figures_print(&figures);
     return good;

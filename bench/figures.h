@@ -16,7 +16,7 @@ typedef struct bench_figure {
 
 typedef struct bench_figures {
     size_t count;
-    bench_figure rows[96]; /* what comes after the last is left out, and said so when printed */
+    bench_figure rows[128]; /* what comes after the last is left out, and said so when printed */
 } bench_figures;
 
 /* `name` as by printf. Nothing is asked of a figure that is only NOTED. */

@@ -156,9 +156,10 @@ bool bench_gather_memory(const bench_options *options, bench_figures *figures) {
             unlink(picture);
             peaks[i] = cost.peak_bytes;
         }
-        bench_figures_add(figures, BENCH_AT_MOST, 100.0,
-                          (peaks[1] - peaks[0]) / (double)(counts[1] - counts[0]), "bytes",
-                          "8. memory a photon at the peak, %s", scenes[k]);
+        const double bytes = (peaks[1] - peaks[0]) / (double)(counts[1] - counts[0]);
+        printf("  %-36s %9.4g bytes a photon\n", scenes[k], bytes);
+        bench_figures_add(figures, BENCH_AT_MOST, 100.0, bytes, "bytes", "8. memory a photon at the peak, %s",
+                          scenes[k]);
     }
     return true;
 }

@@ -10,7 +10,7 @@
 #include "child.h"
 #include "heavy_box.h"
 
-enum { REPEATS = 5, PATH_TRIALS = 3, PATH_CAPACITY = 8, HEAVY_TRIANGLES = 500000, WORDS = 26 };
+enum { REPEATS = 5, PATH_TRIALS = 3, PATH_CAPACITY = 8, HEAVY_TRIANGLES = 500000, WORDS = 26, BLOCK = 8 };
 
 static const bench_subject subjects[] = {
     {.name = "cornell-box",
@@ -112,15 +112,22 @@ static bool open_truth(study *self) {
     return true;
 }
 
-/* The mean of (x - a)(x - b) over pixels and channels. */
-static double mean_square_error(const study *self, const aur_image *image) {
-    const size_t count = self->width * self->height * 3;
+/* The mean of (x - a)(x - b) over channels and means of block x block pixels; what does not fill a block is
+ * left out. */
+static double mean_square_error(const study *self, const aur_image *image, size_t block) {
+    const size_t across = self->width / block, down = self->height / block;
     double sum = 0.0;
-    for (size_t i = 0; i < count; ++i) {
-        const double x = (double)image->data[i];
-        sum += (x - (double)self->truth[0]->data[i]) * (x - (double)self->truth[1]->data[i]);
+    for (size_t i = 0; i < across * down * 3; ++i) {
+        const size_t x0 = i / 3 % across * block, y0 = i / 3 / across * block;
+        double to_a = 0.0, to_b = 0.0;
+        for (size_t k = 0; k < block * block; ++k) {
+            const size_t at = 3 * ((y0 + k / block) * self->width + x0 + k % block) + i % 3;
+            to_a += (double)image->data[at] - (double)self->truth[0]->data[at];
+            to_b += (double)image->data[at] - (double)self->truth[1]->data[at];
+        }
+        sum += to_a * to_b;
     }
-    return sum / (double)count;
+    return sum / (double)(across * down * 3) / pow((double)block, 4.0);
 }
 
 static int ascending(const void *a, const void *b) {
@@ -129,7 +136,7 @@ static int ascending(const void *a, const void *b) {
 }
 
 /* Median of the times and root of the mean square error over the seeds 1 .. repeats, one thread. */
-static bool measure(const study *self, const char *integrator, size_t samples, size_t repeats,
+static bool measure(const study *self, const char *integrator, size_t samples, size_t repeats, size_t block,
                     outcome *found) {
     char output[4400];
     double seconds[REPEATS], square = 0.0;
@@ -143,7 +150,7 @@ static bool measure(const study *self, const char *integrator, size_t samples, s
         if (image == NULL)
             return false;
         seconds[k] = cost.cpu_seconds;
-        square += mean_square_error(self, image) / (double)repeats;
+        square += mean_square_error(self, image, block) / (double)repeats;
         aur_image_destroy(image);
     }
     qsort(seconds, repeats, sizeof *seconds, ascending);
@@ -163,7 +170,7 @@ static void print(const char *integrator, size_t samples, double wanted, const o
  * last trial lacks or has too much is made up by the same law. */
 static bool trace_path(const study *self, double wanted, size_t *samples, outcome *found) {
     for (size_t trial = 0; trial < PATH_TRIALS; ++trial) {
-        if (!measure(self, "path", *samples, 1, found))
+        if (!measure(self, "path", *samples, 1, 1, found))
             return false;
         const double factor = found->error / wanted * (found->error / wanted);
         if (factor <= 1.0 && factor > 0.8)
@@ -203,7 +210,7 @@ static bool follow_recipe(const study *self, const bench_recipe *recipe, size_t 
                           bench_figures *figures) {
     const char *const name = self->subject->name;
     outcome gathered, traced;
-    if (!measure(self, recipe->integrator, recipe->samples, self->repeats, &gathered))
+    if (!measure(self, recipe->integrator, recipe->samples, self->repeats, 1, &gathered))
         return false;
     print(recipe->integrator, recipe->samples, recipe->error, &gathered);
     add(figures, BENCH_AT_MOST, recipe->error, gathered.error, "", name, recipe->error,
@@ -217,6 +224,28 @@ static bool follow_recipe(const study *self, const bench_recipe *recipe, size_t 
         "path");
     add(figures, BENCH_AT_LEAST, ratio_asked(name, recipe->error), traced.seconds / gathered.seconds, "",
         name, recipe->error, "path / finalgather");
+    return true;
+}
+
+/* What the photon map costs in truth: pictures with so many directions that hardly any other error is left,
+ * compared by means of 8 x 8 pixels, by photons and by photons on a texel. */
+static bool measure_bias(const study *self, bench_figures *figures) {
+    static const size_t photons[] = {20000, 200000, 2000000}, texels[] = {4, 16, 64};
+    const size_t many = self->options->quick ? 1 : 3, samples = self->options->quick ? 1 : 32;
+    for (size_t i = 0; i < many; ++i)
+        for (size_t k = 0; k < many; ++k) {
+            char integrator[160];
+            outcome found;
+            snprintf(integrator, sizeof integrator,
+                     "finalgather:photons=%zu,photons_per_texel=%zu,diffuse_samples=256,glossy_samples=64,"
+                     "edges=64",
+                     photons[i], texels[k]);
+            if (!measure(self, integrator, samples, 1, BLOCK, &found))
+                return false;
+            bench_figures_add(figures, BENCH_NOTED, 0.0, found.error, "",
+                              "bias, %s: %zu photons, %zu a texel, 8 x 8 means", self->subject->name,
+                              photons[i], texels[k]);
+        }
     return true;
 }
 
@@ -251,6 +280,8 @@ static bool study_subject(study *self, bench_figures *figures) {
         if (strcmp(bench_recipes[i].subject, self->subject->name) == 0 &&
             (!self->options->quick || bench_recipes[i].error >= 0.005))
             good = follow_recipe(self, &bench_recipes[i], &path_samples, figures);
+    if (self->subject->scene[0] != 0)
+        good = good && measure_bias(self, figures);
     aur_image_destroy(self->truth[0]);
     aur_image_destroy(self->truth[1]);
     return good;

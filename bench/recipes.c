@@ -2,12 +2,13 @@
 #include "quality.h"
 
 const bench_recipe bench_recipes[] = {
-    {"cornell-box", 0.01, 0.10, 2, "finalgather:photons=20000,diffuse_samples=20,edges=96"},
-    {"cornell-box", 0.005, 0.20, 4, "finalgather:photons=20000,diffuse_samples=56,edges=256"},
-    {"cornell-box", 0.002, 0.70, 16, "finalgather:photons=500000,diffuse_samples=256,edges=1024"},
+    {"cornell-box", 0.01, 0.10, 2, "finalgather:photons=20000,diffuse_samples=28,edges=128"},
+    {"cornell-box", 0.005, 0.20, 6, "finalgather:photons=20000,diffuse_samples=72,edges=256"},
+    {"cornell-box", 0.002, 0.70, 20, "finalgather:photons=300000,diffuse_samples=240,edges=1024"},
     {"cornell-box", 0.0015, -1.0, 64, "finalgather:photons=2000000,diffuse_samples=1024,edges=4096"},
     {"heavy-box", 0.005, 0.0, 4, "finalgather:photons=50000,diffuse_samples=64,edges=256"},
-    {"glossy-box", 0.02, 0.0, 4, "finalgather:photons=50000,diffuse_samples=48,glossy_samples=48,edges=256"},
+    {"glossy-box", 0.02, 0.0, 18,
+     "finalgather:photons=200000,photons_per_texel=64,diffuse_samples=72,glossy_samples=36,edges=256"},
     {"glossy-box", 0.005, 0.0, 32,
      "finalgather:photons=500000,diffuse_samples=512,glossy_samples=512,edges=1024"},
     {"room", 0.02, 0.0, 16, "finalgather:photons=200000,diffuse_samples=64,glossy_samples=64,edges=256"},

@@ -85,11 +85,9 @@ def mitsuba(variant, path, threads):
 def triangles(mi, shape):
     """Vertices and faces of a Mitsuba shape, or None."""
     import numpy as np
-    if shape.is_mesh():
-        return (np.array(shape.vertex_position_buffer() if hasattr(shape, "vertex_position_buffer")
-                         else mi.traverse(shape)["vertex_positions"]).reshape(-1, 3),
-                np.array(mi.traverse(shape)["faces"]).reshape(-1, 3))
     parameters = mi.traverse(shape)
+    if "vertex_positions" in parameters:
+        return (np.array(parameters["vertex_positions"]).reshape(-1, 3), np.array(parameters["faces"]).reshape(-1, 3))
     if "to_world" not in parameters:
         return None
     matrix = np.array(parameters["to_world"].matrix, dtype=np.float64).reshape(4, 4)
