@@ -6,7 +6,8 @@
 #include <math.h>
 #include <pthread.h>
 #include <stdlib.h>
-#include <unistd.h>
+
+#include "core/memory.h"
 
 static pthread_mutex_t openblas = PTHREAD_MUTEX_INITIALIZER;
 
@@ -25,12 +26,6 @@ static void enter_openblas(void) {
 
 static void leave_openblas(void) {
     pthread_mutex_unlock(&openblas);
-}
-
-double aur_machine_memory(void) {
-    const long pages = sysconf(_SC_PHYS_PAGES);
-    const long page_size = sysconf(_SC_PAGESIZE);
-    return pages > 0 && page_size > 0 ? (double)pages * (double)page_size : 0.5 * (double)SIZE_MAX;
 }
 
 aur_result aur_check_system_size(size_t size, aur_error *error) {

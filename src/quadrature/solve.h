@@ -16,9 +16,6 @@ aur_result aur_solve_positive(size_t size, double *matrix, size_t columns, doubl
  * X = 1. Returns the multiplier of the constraint. */
 double aur_hold_sum(size_t size, double *solution, const double *ones);
 
-/* Bytes of memory that this machine has; a large number where that is not known. */
-double aur_machine_memory(void);
-
 /* Refuses a system of that size when its matrix is larger than the machine's memory, saying how much it
  * takes. */
 aur_result aur_check_system_size(size_t size, aur_error *error);

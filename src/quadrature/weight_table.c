@@ -4,6 +4,7 @@
 
 #include <stdlib.h>
 
+#include "core/memory.h"
 #include "core/vector.h"
 #include "quadrature/solve.h"
 

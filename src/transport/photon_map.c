@@ -3,6 +3,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "core/memory.h"
 #include "core/parallel.h"
 #include "transport/sampler.h"
 #include "transport/shading.h"
@@ -200,13 +201,27 @@ static aur_result make_sampler(const aur_photon_options *options, aur_sampler **
                               options->count < most ? options->count : most, NULL, sampler, error);
 }
 
+/* Room for growth by halves, and for the texels' lists. */
+static aur_result check_memory(const aur_photon_options *options, aur_error *error) {
+    const double gibibyte = 1024.0 * 1024.0 * 1024.0;
+    const double needed = 2.0 * (double)options->count * sizeof(aur_photon), memory = aur_machine_memory();
+    if (needed <= memory)
+        return AUR_OK;
+    return aur_fail(error, AUR_ERROR_MEMORY,
+                    "photon map: %zu photons take up to %.1f GiB; this machine has %.1f, enough for %.0f",
+                    options->count, needed / gibibyte, memory / gibibyte,
+                    floor(memory / (2.0 * sizeof(aur_photon))));
+}
+
 aur_result aur_photon_map_create(const aur_scene *scene, const aur_elements *elements,
                                  const aur_photon_options *options, aur_photon_map *map, aur_error *error) {
     *map = (aur_photon_map){0};
     if (aur_scene_emitter_count(scene) == 0)
         return aur_fail(error, AUR_ERROR_UNSUPPORTED, "photon map: the scene has no light");
     aur_sampler *sampler;
-    aur_result result = make_sampler(options, &sampler, error);
+    aur_result result = check_memory(options, error);
+    if (result == AUR_OK)
+        result = make_sampler(options, &sampler, error);
     if (result != AUR_OK)
         return result;
     batch work = {.scene = scene,

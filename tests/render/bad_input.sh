@@ -73,6 +73,10 @@ expect 2 "a scene is missing"
 edit '/<emitter/,/<\/emitter>/d'
 expect 2 "no light" bad.xml --integrator finalgather
 
+# More photons than memory: said before they are traced.
+timeout 20 "$aureole" render -q --spp 1 box.xml -o out.exr --integrator finalgather:photons=1073741824 2>message.txt
+[ $? -eq 3 ] && grep -q 'photons take up to .* GiB; this machine has' message.txt || fail "photons: $(cat message.txt)"
+
 # Output that cannot be: another folder, a full disk (a limit on the size of files stands for it).
 "$aureole" render -q --spp 1 box.xml -o no-such-folder/out.exr 2>message.txt
 [ $? -eq 3 ] && grep -q 'no-such-folder/out.exr: cannot write' message.txt || fail "a folder that is not there: $(cat message.txt)"
