@@ -42,8 +42,9 @@ static void run_replay(void *context) {
     aur_parallel_for(&one_thread, 1, replay, context);
 }
 
-static bool compare(const bench_options *options, path_context *context, const char *name) {
+static bool record(path_context *context) {
     context->recorder.count = 0;
+    context->options.integrator = "path:packets=false";
     bench_record(&context->recorder);
     render(context);
     bench_record(NULL);
@@ -52,10 +53,25 @@ static bool compare(const bench_options *options, path_context *context, const c
     if (context->recorder.count > CAPACITY || context->recorder.count != context->statistics.rays)
         return bench_fail("%zu rays were recorded, %llu counted", context->recorder.count,
                           (unsigned long long)context->statistics.rays);
-    const double rays = (double)context->recorder.count;
-    const bench_work path = {render, context, rays}, bare = {run_replay, context, rays};
-    const bench_pair pair = bench_compare(options, &path, &bare);
-    bench_print_pair(name, "Embree, one by one", "Mray", 1e6, &pair);
+    return true;
+}
+
+/* Single paths, and sixteen at a time, against the rays of the single ones. */
+static bool compare(const bench_options *options, path_context *context, const char *name) {
+    static const char *const integrators[] = {"path:packets=false", "path", "path:interleaved=true"};
+    static const char *const kinds[] = {"single", "packets", "interleaved"};
+    if (!record(context))
+        return false;
+    const bench_work bare = {run_replay, context, (double)context->recorder.count};
+    for (size_t i = 0; i < sizeof integrators / sizeof integrators[0] && !context->failed; ++i) {
+        char label[96];
+        snprintf(label, sizeof label, "%s, %s", name, kinds[i]);
+        context->options.integrator = integrators[i];
+        render(context);
+        const bench_work path = {render, context, (double)context->statistics.rays};
+        const bench_pair pair = bench_compare(options, &path, &bare);
+        bench_print_pair(label, "Embree, one by one", "Mray", 1e6, &pair);
+    }
     return !context->failed || bench_fail("%s", context->error.message);
 }
 

@@ -153,6 +153,10 @@ bool aur_shape_is_curved(const aur_scene *scene, uint32_t shape) {
     return scene->shapes[shape]->curved != NULL;
 }
 
+bool aur_shape_is_flat(const aur_scene *scene, uint32_t shape) {
+    return scene->shapes[shape]->curved == NULL && scene->shapes[shape]->mesh.normals == NULL;
+}
+
 uint32_t aur_shape_emitter(const aur_scene *scene, uint32_t shape) {
     return scene->shapes[shape]->emitter;
 }

@@ -49,6 +49,8 @@ void aur_element_coordinates(const aur_scene *scene, const aur_hit *hit, const a
 
 /* Whether the shape is curved, and not a mesh. */
 bool aur_shape_is_curved(const aur_scene *scene, uint32_t shape);
+/* Whether it is a mesh whose triangles are flat: no normals at its vertices. */
+bool aur_shape_is_flat(const aur_scene *scene, uint32_t shape);
 uint32_t aur_shape_emitter(const aur_scene *scene, uint32_t shape); /* or AUR_NO_EMITTER */
 
 #endif

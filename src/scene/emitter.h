@@ -3,6 +3,7 @@
 #define AUR_SCENE_EMITTER_H
 
 #include "material/texture.h"
+#include "scene/packet.h"
 #include "scene/scene.h"
 
 typedef struct aur_emitter aur_emitter;
@@ -22,6 +23,9 @@ typedef struct aur_emitter_descriptor {
      */
     void (*samples)(const aur_scene *scene, const aur_emitter *emitter, size_t count,
                     const aur_vector *references, const float *u, const float *v, aur_light_sample *drawn);
+    /* `sample` for the sixteen lanes of a packet; false: it is left to `sample`. May be NULL. */
+    bool (*lanes)(const aur_scene *scene, const aur_emitter *emitter, const aur_lane_vectors *reference,
+                  const float *u, const float *v, aur_light_lanes *drawn);
     /* As aur_light_emit for this light alone. */
     bool (*emit)(const aur_scene *scene, const aur_emitter *emitter, const float u[5], aur_ray *ray,
                  aur_vector *power);

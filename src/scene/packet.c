@@ -75,3 +75,43 @@ uint32_t aur_scene_occluded16(const aur_scene *scene, aur_embree_order order, au
         stopped |= (uint32_t)(packet->valid[k] != 0 && rays->tfar[k] < 0.0f) << k;
     return stopped;
 }
+
+void aur_packet_corners(const aur_scene *scene, const aur_packet *packet, uint32_t lanes,
+                        aur_lane_vectors corner[3]) {
+    const struct RTCHit16 *const hits = &packet->query.hit;
+    aur_vector last[3] = {{0}};
+    uint32_t shape = RTC_INVALID_GEOMETRY_ID, primitive = 0;
+    for (; lanes != 0; lanes &= lanes - 1) {
+        const size_t lane = (size_t)__builtin_ctz(lanes);
+        if (hits->geomID[lane] != shape || hits->primID[lane] != primitive) {
+            shape = hits->geomID[lane];
+            primitive = hits->primID[lane];
+            aur_mesh_corners(&scene->shapes[shape]->mesh, primitive, last);
+        }
+        for (size_t i = 0; i < 3; ++i)
+            aur_lane_set(&corner[i], lane, last[i]);
+    }
+}
+
+static void light_lane(const aur_scene *scene, const aur_lane_vectors *reference, const float u[3],
+                       size_t lane, aur_light_lanes *lights) {
+    aur_light_sample one;
+    if (!aur_light_sample_direct(scene, aur_lane_vector(reference, lane), u, &one))
+        one = (aur_light_sample){0};
+    aur_lane_set(&lights->position, lane, one.position);
+    aur_lane_set(&lights->radiance, lane, one.radiance);
+    lights->pdf[lane] = one.pdf;
+    lights->rivals[lane] = one.delta ? 0.0f : 1.0f;
+}
+
+void aur_light_lanes_direct(const aur_scene *scene, const aur_lane_vectors *reference, const float *choice,
+                            const float *u, const float *v, aur_light_lanes *lights) {
+    const bool chooses = aur_light_chooses(scene);
+    if (!chooses && scene->emitter_count == 1) {
+        const aur_emitter *const only = scene->emitters[0];
+        if (only->descriptor->lanes != NULL && only->descriptor->lanes(scene, only, reference, u, v, lights))
+            return;
+    }
+    for (size_t k = 0; k < AUR_PACKET_SIZE; ++k)
+        light_lane(scene, reference, (const float[3]){chooses ? choice[k] : 0.5f, u[k], v[k]}, k, lights);
+}

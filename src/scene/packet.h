@@ -42,4 +42,38 @@ aur_hit aur_packet_hit(const aur_scene *scene, const aur_packet *packet, size_t 
 /* Whether anything lies between: bit k for lane k. Changes tfar of the rays that are stopped. */
 uint32_t aur_scene_occluded16(const aur_scene *scene, aur_embree_order order, aur_packet *packet);
 
+/* --- what the sixteen hits need, an array a coordinate */
+
+typedef float aur_lane_numbers[AUR_PACKET_SIZE];
+
+typedef struct aur_lane_vectors {
+    aur_lane_numbers x, y, z;
+} aur_lane_vectors;
+
+static inline aur_vector aur_lane_vector(const aur_lane_vectors *vectors, size_t lane) {
+    return (aur_vector){vectors->x[lane], vectors->y[lane], vectors->z[lane]};
+}
+
+static inline void aur_lane_set(aur_lane_vectors *vectors, size_t lane, aur_vector v) {
+    vectors->x[lane] = v.x;
+    vectors->y[lane] = v.y;
+    vectors->z[lane] = v.z;
+}
+
+/* The corners of the triangles hit by the lanes whose bit is set, which must be of meshes and of no instance.
+ */
+void aur_packet_corners(const aur_scene *scene, const aur_packet *packet, uint32_t lanes,
+                        aur_lane_vectors corner[3]);
+
+/* aur_light_samples_direct of sixteen points. */
+typedef struct aur_light_lanes {
+    aur_lane_vectors position, radiance;
+    aur_lane_numbers pdf;    /* 0: no light from there */
+    aur_lane_numbers rivals; /* 1, or 0 for lights that no ray finds */
+} aur_light_lanes;
+
+/* `choice` is not read unless aur_light_chooses. */
+void aur_light_lanes_direct(const aur_scene *scene, const aur_lane_vectors *reference, const float *choice,
+                            const float *u, const float *v, aur_light_lanes *lights);
+
 #endif

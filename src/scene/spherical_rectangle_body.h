@@ -27,9 +27,19 @@ static inline float rectangle_arc(float cosine) {
     return 0.5f * AUR_PI_F - copysignf(0.5f * AUR_PI_F - angle, cosine);
 }
 
+/* The nearest integer of a number below 2^22, as vector code has no floorf that leaves the flags alone. */
+static inline float rectangle_nearest(float x) {
+    return (x + 0x1.8p23f) - 0x1.8p23f;
+}
+
+/* 1 for odd integers, else 0. */
+static inline float rectangle_is_odd(float integer) {
+    return fabsf(integer - 2.0f * rectangle_nearest(0.5f * integer));
+}
+
 /* Sine and cosine of an angle within -3 pi .. 3 pi, by Taylor series about the nearest multiple of pi / 2. */
 static inline void rectangle_turn(float angle, float *sine, float *cosine) {
-    const float quarter = floorf(angle * (2.0f / AUR_PI_F) + 0.5f);
+    const float quarter = rectangle_nearest(angle * (2.0f / AUR_PI_F));
     const float x = (angle - quarter * 1.57079637f) + quarter * 4.371139e-8f; /* pi / 2 in two parts */
     const float square = x * x;
     const float s =
@@ -38,10 +48,8 @@ static inline void rectangle_turn(float angle, float *sine, float *cosine) {
     const float c =
         1.0f +
         square * (-0.5f + square * (1.0f / 24.0f + square * (-1.0f / 720.0f + square * (1.0f / 40320.0f))));
-    const float half = 0.5f * quarter;
-    const float odd = 2.0f * (half - floorf(half)); /* 1 in quarters 1 and 3 */
-    const float upper = 0.5f * floorf(half);
-    const float sign = 1.0f - 4.0f * (upper - floorf(upper)); /* -1 in quarters 2 and 3 */
+    const float odd = rectangle_is_odd(quarter);
+    const float sign = 1.0f - 2.0f * rectangle_is_odd(0.5f * (quarter - odd)); /* -1 in quarters 2 and 3 */
     *sine = sign * (s + odd * (c - s));
     *cosine = sign * (c - odd * (c + s));
 }
@@ -105,6 +113,7 @@ static inline void rectangle_points(const aur_rectangle *rectangle, size_t count
     const float *restrict const px = in.x, *restrict const py = in.y, *restrict const pz = in.z;
     const float *restrict const u = in.u, *restrict const v = in.v;
     float *restrict const s = out.s, *restrict const t = out.t, *restrict const angle = out.solid_angle;
+#pragma GCC ivdep /* more arrays than the compiler would check for overlaps */
     for (size_t k = 0; k < count; ++k) {
         const aur_spherical_rectangle seen = rectangle_seen(&r, normal, px[k], py[k], pz[k]);
         rectangle_point(&seen, u[k], v[k], &s[k], &t[k]);

@@ -3,18 +3,13 @@
 #include <stdlib.h>
 
 #include "transport/direct_light.h"
-#include "transport/integrator.h"
+#include "transport/path.h"
 #include "transport/visible.h"
-
-typedef struct path_data {
-    uint32_t max_depth; /* UINT32_MAX: no limit; 1 is visible light only, 2 adds direct light */
-    uint32_t rr_depth;  /* Russian roulette from this depth on */
-    bool hide_emitters; /* from the camera */
-} path_data;
 
 static aur_result create(aur_parameters *parameters, const aur_integrator_context *context,
                          aur_integrator *integrator, aur_error *error) {
     int64_t max_depth = -1, rr_depth = 5;
+    bool packets = true, interleaved = false;
     aur_result result = aur_parameters_integer(parameters, "max_depth", -1, 1 << 20, &max_depth, error);
     if (result == AUR_OK)
         result = aur_parameters_integer(parameters, "rr_depth", 1, 1 << 20, &rr_depth, error);
@@ -27,30 +22,38 @@ static aur_result create(aur_parameters *parameters, const aur_integrator_contex
     if (result == AUR_OK)
         result = aur_parameters_boolean(parameters, "hide_emitters", &hide_emitters, error);
     if (result == AUR_OK)
+        result = aur_parameters_boolean(parameters, "packets", &packets, error);
+    if (result == AUR_OK)
+        result = aur_parameters_boolean(parameters, "interleaved", &interleaved, error);
+    if (result == AUR_OK)
         result = aur_parameters_finish(parameters, error);
     if (result != AUR_OK)
         return result;
-    path_data *const data = malloc(sizeof *data);
+    if (interleaved && (!packets || hide_emitters))
+        return aur_fail_at(error, parameters->location, AUR_ERROR_FORMAT,
+                           "integrator 'path': 'interleaved' goes neither with 'packets=false' nor with "
+                           "'hide_emitters=true'");
+    aur_path *const data = calloc(1, sizeof *data);
     if (data == NULL)
         return aur_fail(error, AUR_ERROR_MEMORY, "out of memory");
-    *data = (path_data){.max_depth = max_depth < 0 ? UINT32_MAX : (uint32_t)max_depth,
-                        .rr_depth = (uint32_t)rr_depth,
-                        .hide_emitters = hide_emitters};
+    *data = (aur_path){.max_depth = max_depth < 0 ? UINT32_MAX : (uint32_t)max_depth,
+                       .rr_depth = (uint32_t)rr_depth,
+                       .hide_emitters = hide_emitters,
+                       .packets = packets,
+                       .interleaved = interleaved};
     integrator->data = data;
-    return AUR_OK;
+    return aur_path_prepare(data, context->scene, error);
 }
 
 static void release(aur_integrator *integrator) {
-    free(integrator->data);
+    aur_path *const data = integrator->data;
+    free(data->classes);
+    free(data);
 }
-
-/* Pairs of one bounce: (light choice, roulette), light position, (lobe choice, unused), direction. Those of
- * the first come with the camera's, the others two bounces at once. */
-enum { PAIRS_A_BOUNCE = 4, PAIRS_AT_ONCE = AUR_STREAM_BLOCK };
 
 static aur_vector radiance(const aur_integrator *integrator, const aur_camera_sample *sample,
                            aur_counters *counters) {
-    const path_data *const data = integrator->data;
+    const aur_path *const data = integrator->data;
     const aur_scene *const scene = integrator->scene;
     const bool has_lights = aur_scene_emitter_count(scene) > 0;
     aur_vector sum = {0}, throughput = {1.0f, 1.0f, 1.0f};
@@ -58,15 +61,14 @@ static aur_vector radiance(const aur_integrator *integrator, const aur_camera_sa
     float previous_pdf = 0.0f;
     bool previous_specular = true; /* the camera cannot be hit by light sampling either */
     aur_ray ray = sample->ray;
-    float ahead[PAIRS_AT_ONCE][2];
+    float ahead[AUR_STREAM_BLOCK][2];
 
     for (uint32_t depth = 1; depth <= data->max_depth; ++depth) {
         /* Before the ray, so that the processor works at both. */
         if (depth % 2 == 0)
-            aur_stream_pairs(&sample->stream, PAIRS_AT_ONCE + PAIRS_A_BOUNCE * (depth - 2), PAIRS_AT_ONCE,
-                             ahead);
+            aur_stream_pairs(&sample->stream, aur_path_pair(depth), AUR_STREAM_BLOCK, ahead);
         const float *const choice =
-            depth == 1 ? sample->first_pairs[AUR_PAIR_FIRST] : ahead[depth % 2 * PAIRS_A_BOUNCE];
+            depth == 1 ? sample->first_pairs[AUR_PAIR_FIRST] : ahead[depth % 2 * AUR_PATH_PAIRS];
         const float *const position = choice + 2, *const lobe = choice + 4, *const direction = choice + 6;
         aur_surface surface;
         const bool hide = data->hide_emitters && depth == 1;
@@ -111,7 +113,7 @@ static aur_vector radiance(const aur_integrator *integrator, const aur_camera_sa
             break;
         throughput = aur_vector_multiply(throughput, scattered.weight);
         if (depth >= data->rr_depth) {
-            const float survival = aur_smaller(aur_vector_max(throughput), 0.95f);
+            const float survival = aur_path_survival(throughput);
             if (!(choice[1] < survival))
                 break;
             throughput = aur_vector_scale(throughput, 1.0f / survival);
@@ -126,12 +128,32 @@ static aur_vector radiance(const aur_integrator *integrator, const aur_camera_sa
     return sum;
 }
 
+static void add_one_by_one(const aur_integrator *integrator, aur_tile *tile) {
+    for (size_t y = tile->y0; y < tile->y1; ++y)
+        for (size_t x = tile->x0; x < tile->x1; ++x)
+            for (uint32_t i = 0; i < tile->count; ++i) {
+                aur_camera_sample sample;
+                const float weight = aur_view_sample(tile->view, x, y, tile->first + i, &sample);
+                aur_tile_add(tile, x, y, weight, radiance(integrator, &sample, &tile->counters));
+            }
+}
+
+static aur_result tile(const aur_integrator *integrator, aur_tile *tile) {
+    const aur_path *const data = integrator->data;
+    if (data->packets && !data->hide_emitters)
+        aur_path_add_tile(data, integrator->scene, tile);
+    else
+        add_one_by_one(integrator, tile);
+    return AUR_OK;
+}
+
 const aur_integrator_descriptor aur_integrator_path = {
     .description = {.name = "path",
-                    .keys = "max_depth=-1, rr_depth=5, hide_emitters=false",
+                    .keys = "max_depth=-1, rr_depth=5, hide_emitters=false, packets=true, interleaved=false",
                     .summary = "unidirectional path tracing with multiple importance sampling, the reference",
                     .source = "Kajiya 1986, Veach 1997"},
     .create = create,
     .release = release,
     .radiance = radiance,
+    .tile = tile,
 };

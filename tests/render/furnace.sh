@@ -23,6 +23,8 @@ check() {
 
 scene=furnace
 check path 1 0
+check path-interleaved 1 0 --integrator path:interleaved=true
+check path-single 1 0 --integrator path:packets=false
 check path-random 1 0 --sampler random
 check path-bright 5 0 -D albedo=0.9
 # L = E + a E where only two edges are allowed, and the same by gathering from the lights alone: exact but for rounding.
@@ -36,6 +38,7 @@ check gather-bright 5 0.004 -D albedo=0.9 --integrator finalgather:photons=50000
 check gather-sobol 1 0.002 --integrator finalgather:photons=50000,pattern=sobol --spp 4
 scene=sky
 check sky-path 0.8 0
+check sky-interleaved 0.8 0 --integrator path:interleaved=true
 check sky-gather 0.8 0.002 --integrator finalgather:photons=20000
 check sky-gather-all 0.8 0 --integrator finalgather:direct=gather,incident=emitters,density=same --spp 4
 exit $((failures > 0))

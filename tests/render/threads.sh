@@ -2,7 +2,7 @@
 # A picture is the same to the bit for any number of threads, and its crop is a part of it.
 . "$(dirname "$0")/common.sh.inc"
 scene=$source/scenes/cornell-box/glossy.xml
-for integrator in path finalgather:photons=20000,diffuse_samples=16,glossy_samples=16 \
+for integrator in path:interleaved=true path finalgather:photons=20000,diffuse_samples=16,glossy_samples=16 \
                   finalgather:photons=20000,pattern=sobol,rotations=0; do
   name=${integrator%%[:,]*}
   for threads in 1 2 3; do

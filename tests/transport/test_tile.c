@@ -24,7 +24,8 @@ static aur_image *render(const aur_scene *scene, const char *integrator, const s
  * packets, shared patterns and the search for edges look at neighbours. */
 static void a_crop_is_a_part_of_the_picture(void **state) {
     (void)state;
-    static const char *const integrators[] = {"path", "finalgather:photons=5000,diffuse_samples=8",
+    static const char *const integrators[] = {"path", "path:interleaved=true,rr_depth=2",
+                                              "finalgather:photons=5000,diffuse_samples=8",
                                               "finalgather:photons=5000,diffuse_samples=2,share=true",
                                               "finalgather:photons=5000,pattern=sobol,edges=8"};
     static const size_t whole[4] = {0, 45, 0, 37}, part[4] = {5, 30, 14, 19};
