@@ -57,6 +57,7 @@ expect 2 "diffuse_samples.*at least 1|diffuse_samples.*between 1" box.xml --inte
 expect 2 "component.*one of all, diffuse, glossy" box.xml --integrator finalgather:component=shiny
 expect 2 "spherical-fibonaci.*spherical-fibonacci" box.xml --integrator finalgather:pattern=spherical-fibonaci
 expect 2 "map|lambert" box.xml --integrator finalgather:map=mercator
+expect 2 "interleaved.*packets=false" box.xml --integrator path:interleaved=true,packets=false
 expect 2 "rotate3d" box.xml --integrator finalgather:scramble=rotate3d
 expect 2 "sobl.*sobol" box.xml --sampler sobl
 expect 2 "unknown filter 'bx'" box.xml --filter bx
