@@ -87,6 +87,8 @@ aur_result aur_mesh_smooth(aur_mesh *mesh, aur_location location, aur_error *err
         aur_mesh_corners(mesh, i, corner);
         const aur_vector normal = aur_vector_normalize(aur_vector_cross(
             aur_vector_subtract(corner[1], corner[0]), aur_vector_subtract(corner[2], corner[0])));
+        if (!aur_vector_is_finite(normal))
+            continue; /* so large that the product of its edges is not */
         for (size_t k = 0; k < 3; ++k) {
             const aur_vector here = corner[k];
             const float angle = angle_between(aur_vector_subtract(corner[(k + 1) % 3], here),

@@ -1,3 +1,4 @@
+#include "scene/scene_data.h"
 #include "scene_text.h"
 
 #include <zlib.h>
@@ -251,6 +252,19 @@ static void smooths_without_normals(void **state) {
     }
 }
 
+/* Coordinates whose products overflow give no normal rather than NaN. */
+static void normals_are_finite(void **state) {
+    (void)state;
+    write_text("vast.obj", "v 0 0 0\nv 1e30 0 0\nv 0 1e30 1e30\nv 0 1 0\nv 1 0 0\nf 1 2 3\nf 1 4 5\n");
+    aur_scene *const scene =
+        must_load_body("<shape type='obj'><string name='filename' value='vast.obj'/></shape>");
+    const aur_mesh *const mesh = &scene->shapes[0]->mesh;
+    assert_non_null(mesh->normals);
+    for (size_t i = 0; i < 3 * mesh->vertex_count; ++i)
+        assert_true(isfinite(mesh->normals[i]));
+    aur_scene_destroy(scene);
+}
+
 /* What a mesh file may get wrong, and the line and message that tell. */
 static const struct bad_mesh {
     const char *file, *text;
@@ -403,10 +417,15 @@ static void bears_degenerate_triangles(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(hits_curved_shapes),         cmocka_unit_test(reads_ply_in_three_forms),
-        cmocka_unit_test(reads_serialized_meshes),    cmocka_unit_test(reads_obj),
-        cmocka_unit_test(smooths_without_normals),    cmocka_unit_test(says_what_is_wrong_in_meshes),
-        cmocka_unit_test(bears_degenerate_triangles), cmocka_unit_test(copies_groups),
+        cmocka_unit_test(hits_curved_shapes),
+        cmocka_unit_test(reads_ply_in_three_forms),
+        cmocka_unit_test(reads_serialized_meshes),
+        cmocka_unit_test(reads_obj),
+        cmocka_unit_test(smooths_without_normals),
+        cmocka_unit_test(normals_are_finite),
+        cmocka_unit_test(says_what_is_wrong_in_meshes),
+        cmocka_unit_test(bears_degenerate_triangles),
+        cmocka_unit_test(copies_groups),
     };
     return cmocka_run_group_tests(tests, enter_folder, leave_folder);
 }
