@@ -8,14 +8,26 @@ bool aur_gathers_emitters(const aur_final_gather *data) {
            (data->incident == AUR_INCIDENT_EMITTERS && data->direct == AUR_DIRECT_NONE);
 }
 
-static bool is_specular_only(const aur_surface *surface, aur_vector view) {
+/* What a gather ray meets. */
+typedef struct met_surface {
+    bool scatters; /* by lobes that the photon map answers for */
+    bool goes_on;  /* by specular lobes, or, where light passes through, by all: they are sampled */
+    bool passes;   /* rough glass: every sample is followed */
+} met_surface;
+
+static met_surface meet(const aur_surface *surface, aur_vector view) {
     aur_bsdf_lobe lobes[AUR_BSDF_LOBE_CAPACITY];
     const aur_vector local = aur_frame_to_local(&surface->frame, view);
     const size_t count = surface->bsdf->descriptor->lobes(surface->bsdf, surface->texture, local, lobes);
-    for (size_t i = 0; i < count; ++i)
-        if (lobes[i].shape != AUR_LOBE_SHAPE_SPECULAR)
-            return false;
-    return count > 0;
+    met_surface met = {0};
+    for (size_t i = 0; i < count; ++i) {
+        met.goes_on = met.goes_on || lobes[i].shape == AUR_LOBE_SHAPE_SPECULAR;
+        met.scatters = met.scatters || lobes[i].shape != AUR_LOBE_SHAPE_SPECULAR;
+        met.passes = met.passes || (lobes[i].shape == AUR_LOBE_SHAPE_SAMPLED && surface->bsdf->transmits);
+    }
+    met.goes_on = met.goes_on || met.passes;
+    met.scatters = met.scatters && !met.passes;
+    return met;
 }
 
 /* One ray that has left a gathering point. */
@@ -26,72 +38,86 @@ typedef struct gather_ray {
     uint64_t hash;
 } gather_ray;
 
+/* How a ray came where it is. */
+typedef struct gather_chain {
+    uint32_t length; /* bounces since the gathering point */
+    bool specular;   /* all of them */
+} gather_chain;
+
 /* The part of a light's radiance that gathering counts; the rest is found by sampling the light. */
-static float emission_weight(const aur_final_gather *data, uint32_t chain, float density, float light_pdf) {
+static float emission_weight(const aur_final_gather *data, gather_chain chain, float density,
+                             float light_pdf) {
     if (aur_gathers_emitters(data))
         return 1.0f;
     if (data->direct != AUR_DIRECT_NEE)
         return 0.0f;
+    if (chain.length == 0)
+        return aur_power_heuristic(density, light_pdf);
     /* Light that a mirror throws here is not found by sampling lights, but by caustic photons if there are.
      */
-    if (chain > 0)
-        return data->caustics == NULL ? 1.0f : 0.0f;
-    return aur_power_heuristic(density, light_pdf);
+    return data->caustics != NULL && chain.specular ? 0.0f : 1.0f;
 }
 
 static aur_vector sky_radiance(const aur_final_gather *data, const gather_ray *from, aur_vector direction,
-                               uint32_t chain) {
+                               gather_chain chain) {
     const aur_vector sky = aur_scene_environment(data->scene, direction);
     if (aur_vector_is_zero(sky))
         return sky;
-    const float pdf = chain > 0 ? 0.0f : aur_environment_pdf_direct(data->scene, direction);
+    const float pdf = chain.length > 0 ? 0.0f : aur_environment_pdf_direct(data->scene, direction);
     return aur_vector_scale(sky, emission_weight(data, chain, from->density, pdf));
 }
 
 static aur_vector emitted_radiance(const aur_final_gather *data, const gather_ray *from,
-                                   const aur_surface *surface, aur_vector view, uint32_t chain) {
+                                   const aur_surface *surface, aur_vector view, gather_chain chain) {
     const aur_vector emission = aur_surface_emission(data->scene, surface, view);
     if (aur_vector_is_zero(emission))
         return emission;
-    const float pdf = chain > 0 ? 0.0f : aur_light_pdf_direct(data->scene, from->reference, surface);
+    const float pdf = chain.length > 0 ? 0.0f : aur_light_pdf_direct(data->scene, from->reference, surface);
     return aur_vector_scale(emission, emission_weight(data, chain, from->density, pdf));
+}
+
+/* What the photon maps know of the light that leaves a surface. */
+static aur_vector scattered_radiance(const aur_final_gather *data, const aur_hit *hit,
+                                     const aur_surface *surface, aur_vector view) {
+    aur_vector sum = {0};
+    if (data->map != NULL)
+        sum = aur_irradiance_radiance(data->map, data->scene, hit, surface, view);
+    if (data->caustics != NULL)
+        sum = aur_vector_add(sum, aur_irradiance_radiance(data->caustics, data->scene, hit, surface, view));
+    return sum;
 }
 
 /* The general case. `hit` is the first one, or NULL when the ray left the scene. */
 static aur_vector radiance_along(const aur_final_gather *data, const gather_ray *from, const aur_hit *hit,
                                  aur_counters *counters) {
     const aur_scene *const scene = data->scene;
-    aur_vector throughput = {1.0f, 1.0f, 1.0f};
+    aur_vector sum = {0}, throughput = {1.0f, 1.0f, 1.0f};
     aur_ray ray = from->ray;
     uint64_t hash = from->hash;
     aur_hit next;
-    for (uint32_t chain = 0;; ++chain) {
-        if (hit == NULL)
-            return aur_vector_multiply(throughput, sky_radiance(data, from, ray.direction, chain));
+    for (gather_chain chain = {0, true};; ++chain.length) {
+        if (hit == NULL) {
+            const aur_vector sky = sky_radiance(data, from, ray.direction, chain);
+            return aur_vector_add(sum, aur_vector_multiply(throughput, sky));
+        }
         aur_surface surface;
         aur_scene_surface(scene, &ray, hit, &surface);
         const aur_vector view = aur_vector_scale(ray.direction, -1.0f);
+        const met_surface met = meet(&surface, view);
         aur_vector radiance = emitted_radiance(data, from, &surface, view, chain);
-        if (!is_specular_only(&surface, view)) {
-            if (data->map != NULL)
-                radiance =
-                    aur_vector_add(radiance, aur_irradiance_radiance(data->map, scene, hit, &surface, view));
-            if (data->caustics != NULL)
-                radiance = aur_vector_add(
-                    radiance, aur_irradiance_radiance(data->caustics, scene, hit, &surface, view));
-            return aur_vector_multiply(throughput, radiance);
-        }
-        if (!aur_vector_is_zero(radiance))
-            return aur_vector_multiply(throughput, radiance);
-        if (chain == AUR_LONGEST_CHAIN)
-            return (aur_vector){0};
+        if (met.scatters)
+            radiance = aur_vector_add(radiance, scattered_radiance(data, hit, &surface, view));
+        sum = aur_vector_add(sum, aur_vector_multiply(throughput, radiance));
+        if (!met.goes_on || chain.length == AUR_LONGEST_CHAIN)
+            return sum;
         const aur_shading shading = aur_shading_at(&surface, view);
         hash = aur_mix64(hash);
         const float u[3] = {aur_unit_float((uint32_t)hash), aur_unit_float((uint32_t)(hash >> 32)),
                             aur_unit_float((uint32_t)aur_mix64(hash + 1))};
         aur_bsdf_sample sample;
-        if (!aur_shading_sample(&shading, u, &sample))
-            return (aur_vector){0};
+        if (!aur_shading_sample(&shading, u, &sample) || !(sample.specular || met.passes))
+            return sum;
+        chain.specular = chain.specular && sample.specular;
         throughput = aur_vector_multiply(throughput, sample.weight);
         ray = aur_surface_ray(&surface, sample.light);
         ++counters->rays;
