@@ -19,9 +19,10 @@ typedef struct aur_spherical_rectangle {
     float solid_angle; /* steradians */
 } aur_spherical_rectangle;
 
-/* Steradians, roughly. Points drawn by area take less time, and are as good for paths below 0.15; sixteen at
- * once cost little, and final gathering with one sample a light has 5 % less error with 0.02. */
-#define AUR_RECTANGLE_LEAST 0.02f
+/* Below this solid angle, in steradians and roughly, points drawn by area are as good for paths: in the
+ * Cornell box they have 0.7 % more variance, and path tracing takes 20 % less time than with solid angles
+ * down to 0.01. (Final gathering with two samples a pixel would have 12 % less error with 0.02.) */
+#define AUR_RECTANGLE_LEAST 0.15f
 
 /* False when the rectangle is seen under less than AUR_RECTANGLE_LEAST. */
 bool aur_spherical_rectangle_create(const aur_rectangle *rectangle, aur_vector reference,
