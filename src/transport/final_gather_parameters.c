@@ -1,7 +1,5 @@
 #include "transport/final_gather_parameters.h"
 
-#include <string.h>
-
 static aur_result read_parameters(aur_parameters *parameters, aur_gather_parameters *p, aur_error *error) {
     static const char *const densities[] = {"same", "optimal"};
     static const char *const weights[] = {"ratio", "equal", "osw", "oswa", "mis", "oswa-solve"};

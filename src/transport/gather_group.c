@@ -1,9 +1,9 @@
-/* Sixteen pixels at a time: the eye's rays, direct light, and gathering at what they meet. */
+/* Sixteen pixels at a time: what the eye's rays meet, and what becomes of it. */
 #include <stdlib.h>
 #include <string.h>
 
-#include "transport/direct_light.h"
-#include "transport/gather_merged.h"
+#include "transport/gather_group.h"
+#include "transport/shading.h"
 
 aur_group *aur_group_create(const aur_final_gather *data) {
     aur_group *const group = aligned_alloc(64, (sizeof(aur_group) + 63) / 64 * 64);

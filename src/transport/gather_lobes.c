@@ -1,7 +1,7 @@
 /* Gathering at the places of a group: which turn of a pattern each lane has, and its directions traced. */
-#include "transport/direct_light.h"
 #include "transport/gather_group.h"
 #include "transport/gather_merged.h"
+#include "transport/shading.h"
 
 /* --- randomisations of the patterns
  * ----------------------------------------------------------------------------- */
