@@ -73,6 +73,7 @@ static aur_result render(const table_study *study, const char *set, const char *
     char integrator[320];
     snprintf(integrator, sizeof integrator,
              "finalgather:component=%s,direct=none,pixel=centre,density=same,rotations=0,edges=0,photons=%zu,"
+             "photons_per_texel=64,"
              "pattern=%s,map=%s,diffuse_samples=%zu,glossy_samples=%zu,pattern_seed=%zu",
              study->component, study->photons, set, map, directions, directions, scramble);
     const aur_render_options options = {.integrator = integrator,
