@@ -16,23 +16,24 @@ typedef struct aur_emitter_descriptor {
     /* Called when all shapes are there: makes tables and sets emitter->power. */
     aur_result (*prepare)(const aur_scene *scene, aur_emitter *emitter, aur_error *error);
     /* As aur_light_sample_direct for this light alone: u[0] is what is left of it after the choice. */
-    bool (*sample)(const aur_scene *scene, const aur_emitter *emitter, aur_vector reference, const float u[3],
-                   aur_light_sample *drawn);
+    bool (*sample)(const aur_scene *scene, const aur_emitter *emitter, aur_vector reference, float least,
+                   const float u[3], aur_light_sample *drawn);
     /* `sample` for `count` (at most AUR_LIGHT_LANES) references; drawn[k].pdf is 0 where it fails. May be
      * NULL.
      */
     void (*samples)(const aur_scene *scene, const aur_emitter *emitter, size_t count,
-                    const aur_vector *references, const float *u, const float *v, aur_light_sample *drawn);
+                    const aur_vector *references, float least, const float *u, const float *v,
+                    aur_light_sample *drawn);
     /* `sample` for the sixteen lanes of a packet; false: it is left to `sample`. May be NULL. */
     bool (*lanes)(const aur_scene *scene, const aur_emitter *emitter, const aur_lane_vectors *reference,
-                  const float *u, const float *v, aur_light_lanes *drawn);
+                  float least, const float *u, const float *v, aur_light_lanes *drawn);
     /* As aur_light_emit for this light alone. */
     bool (*emit)(const aur_scene *scene, const aur_emitter *emitter, const float u[5], aur_ray *ray,
                  aur_vector *power);
     void (*release)(aur_emitter *emitter);
     /* For shapes only: the density, a steradian, with which `sample` draws the points that `reference` sees;
      * 0 says that it draws them by area. */
-    float (*pdf_seen)(const aur_scene *scene, const aur_emitter *emitter, aur_vector reference);
+    float (*pdf_seen)(const aur_scene *scene, const aur_emitter *emitter, aur_vector reference, float least);
     /* For environments only: the radiance from a direction, and the density with which `sample` draws it. */
     aur_vector (*radiance_from)(const aur_emitter *emitter, aur_vector direction);
     float (*pdf_from)(const aur_emitter *emitter, aur_vector direction);

@@ -90,14 +90,14 @@ static aur_shape_point sample_area(const aur_shape *shape, const area_light *lig
 
 /* By what `reference` sees of the shape; *pdf stays 0 when that is not to be had and area must do. */
 static aur_shape_point sample_seen(const aur_shape *shape, const area_light *light, aur_vector reference,
-                                   const float u[3], float *pdf) {
+                                   float least, const float u[3], float *pdf) {
     aur_shape_point point;
     *pdf = 0.0f;
     if (shape->curved != NULL && shape->curved->sample_seen != NULL &&
         shape->curved->sample_seen(shape, reference, u[1], u[2], &point, pdf))
         return point;
     aur_spherical_rectangle seen;
-    if (light->is_rectangle && aur_spherical_rectangle_create(&light->rectangle, reference, &seen)) {
+    if (light->is_rectangle && aur_spherical_rectangle_create(&light->rectangle, reference, least, &seen)) {
         float along[3] = {0.0f};
         aur_spherical_rectangle_sample(&seen, u[1], u[2], &along[1], &along[2]);
         *pdf = 1.0f / seen.solid_angle;
@@ -106,13 +106,13 @@ static aur_shape_point sample_seen(const aur_shape *shape, const area_light *lig
     return sample_area(shape, light, u);
 }
 
-static float pdf_seen(const aur_scene *scene, const aur_emitter *emitter, aur_vector reference) {
+static float pdf_seen(const aur_scene *scene, const aur_emitter *emitter, aur_vector reference, float least) {
     const aur_shape *const shape = shape_of(scene, emitter);
     if (shape->curved != NULL)
         return shape->curved->pdf_seen != NULL ? shape->curved->pdf_seen(shape, reference) : 0.0f;
     const area_light *const light = emitter->data;
     aur_spherical_rectangle seen;
-    if (light->is_rectangle && aur_spherical_rectangle_create(&light->rectangle, reference, &seen))
+    if (light->is_rectangle && aur_spherical_rectangle_create(&light->rectangle, reference, least, &seen))
         return 1.0f / seen.solid_angle;
     return 0.0f;
 }
@@ -135,16 +135,17 @@ static bool finish_sample(const aur_shape *shape, const aur_emitter *emitter, au
     return isfinite(drawn->pdf);
 }
 
-static bool sample(const aur_scene *scene, const aur_emitter *emitter, aur_vector reference, const float u[3],
-                   aur_light_sample *drawn) {
+static bool sample(const aur_scene *scene, const aur_emitter *emitter, aur_vector reference, float least,
+                   const float u[3], aur_light_sample *drawn) {
     const aur_shape *const shape = shape_of(scene, emitter);
     float pdf;
-    const aur_shape_point point = sample_seen(shape, emitter->data, reference, u, &pdf);
+    const aur_shape_point point = sample_seen(shape, emitter->data, reference, least, u, &pdf);
     return finish_sample(shape, emitter, reference, &point, pdf, drawn);
 }
 
 static void samples(const aur_scene *scene, const aur_emitter *emitter, size_t count,
-                    const aur_vector *references, const float *u, const float *v, aur_light_sample *drawn) {
+                    const aur_vector *references, float least, const float *u, const float *v,
+                    aur_light_sample *drawn) {
     const aur_shape *const shape = shape_of(scene, emitter);
     const area_light *const light = emitter->data;
     float x[AUR_LIGHT_LANES], y[AUR_LIGHT_LANES], z[AUR_LIGHT_LANES];
@@ -155,7 +156,7 @@ static void samples(const aur_scene *scene, const aur_emitter *emitter, size_t c
         z[k] = references[k].z;
     }
     if (light->is_rectangle)
-        light->samples(&light->rectangle, count, (aur_rectangle_points){x, y, z, u, v},
+        light->samples(&light->rectangle, least, count, (aur_rectangle_points){x, y, z, u, v},
                        (aur_rectangle_samples){s, t, angle});
     for (size_t k = 0; k < count; ++k) {
         aur_shape_point point;
@@ -164,7 +165,7 @@ static void samples(const aur_scene *scene, const aur_emitter *emitter, size_t c
             pdf = 1.0f / angle[k];
             point = sample_area(shape, light, (const float[3]){0.0f, s[k], t[k]});
         } else {
-            point = sample_seen(shape, light, references[k], (const float[3]){0.0f, u[k], v[k]}, &pdf);
+            point = sample_seen(shape, light, references[k], least, (const float[3]){0.0f, u[k], v[k]}, &pdf);
         }
         if (!finish_sample(shape, emitter, references[k], &point, pdf, &drawn[k]))
             drawn[k].pdf = 0.0f;
@@ -172,24 +173,24 @@ static void samples(const aur_scene *scene, const aur_emitter *emitter, size_t c
 }
 
 /* Whether any point sees the rectangle well enough to draw by what it sees. */
-static bool any_sees(const area_light *light, const aur_lane_vectors *reference) {
+static bool any_sees(const area_light *light, const aur_lane_vectors *reference, float least) {
     float most = 0.0f;
     for (size_t k = 0; k < AUR_PACKET_SIZE; ++k)
         most = aur_larger(rectangle_placed(&light->rectangle, light->normal, reference->x[k], reference->y[k],
-                                           reference->z[k])
+                                           reference->z[k], least)
                               .excess,
                           most);
     return most > 0.0f;
 }
 
 static bool lanes(const aur_scene *scene, const aur_emitter *emitter, const aur_lane_vectors *reference,
-                  const float *u, const float *v, aur_light_lanes *drawn) {
+                  float least, const float *u, const float *v, aur_light_lanes *drawn) {
     const area_light *const light = emitter->data;
     if (!light->is_rectangle || emitter->radiance.texture != NULL)
         return false;
     aur_lane_numbers s = {0}, t = {0}, angle = {0};
-    if (any_sees(light, reference))
-        light->samples(&light->rectangle, AUR_PACKET_SIZE,
+    if (any_sees(light, reference, least))
+        light->samples(&light->rectangle, least, AUR_PACKET_SIZE,
                        (aur_rectangle_points){reference->x, reference->y, reference->z, u, v},
                        (aur_rectangle_samples){s, t, angle});
     const aur_vector corner = light->rectangle.corner, normal = light->normal;

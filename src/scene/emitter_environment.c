@@ -55,7 +55,8 @@ static float constant_pdf(const aur_emitter *emitter, aur_vector direction) {
 }
 
 static bool sample_constant(const aur_scene *scene, const aur_emitter *emitter, aur_vector reference,
-                            const float u[3], aur_light_sample *drawn) {
+                            float least, const float u[3], aur_light_sample *drawn) {
+    (void)least;
     aur_sample_far(scene, reference, aur_sample_sphere(u[1], u[2]), drawn);
     drawn->radiance = emitter->radiance.constant;
     drawn->pdf = 0.25f / AUR_PI_F;
@@ -236,7 +237,8 @@ static aur_vector draw_direction(const envmap *self, float u, float v) {
 }
 
 static bool sample_envmap(const aur_scene *scene, const aur_emitter *emitter, aur_vector reference,
-                          const float u[3], aur_light_sample *drawn) {
+                          float least, const float u[3], aur_light_sample *drawn) {
+    (void)least;
     aur_sample_far(scene, reference, draw_direction(emitter->data, u[1], u[2]), drawn);
     /* Asked for afterwards, so that rounding cannot part the two. */
     drawn->radiance = envmap_from(emitter, drawn->direction);

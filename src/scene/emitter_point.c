@@ -91,7 +91,8 @@ static bool sample_place(const aur_emitter *emitter, aur_vector reference, aur_l
 }
 
 static bool sample_point(const aur_scene *scene, const aur_emitter *emitter, aur_vector reference,
-                         const float u[3], aur_light_sample *drawn) {
+                         float least, const float u[3], aur_light_sample *drawn) {
+    (void)least;
     (void)scene;
     (void)u;
     return sample_place(emitter, reference, drawn);
@@ -159,8 +160,9 @@ static aur_result prepare_spot(const aur_scene *scene, aur_emitter *emitter, aur
     return AUR_OK;
 }
 
-static bool sample_spot(const aur_scene *scene, const aur_emitter *emitter, aur_vector reference,
+static bool sample_spot(const aur_scene *scene, const aur_emitter *emitter, aur_vector reference, float least,
                         const float u[3], aur_light_sample *drawn) {
+    (void)least;
     (void)scene;
     (void)u;
     const point_light *const self = emitter->data;
@@ -229,7 +231,8 @@ static aur_result prepare_directional(const aur_scene *scene, aur_emitter *emitt
 }
 
 static bool sample_directional(const aur_scene *scene, const aur_emitter *emitter, aur_vector reference,
-                               const float u[3], aur_light_sample *drawn) {
+                               float least, const float u[3], aur_light_sample *drawn) {
+    (void)least;
     (void)u;
     const point_light *const self = emitter->data;
     aur_sample_far(scene, reference, aur_vector_scale(self->direction, -1.0f), drawn);

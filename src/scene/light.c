@@ -7,32 +7,32 @@ static const aur_emitter *choose(const aur_scene *scene, float *u) {
     return scene->emitters[aur_distribution_choose(&scene->lights, u)];
 }
 
-bool aur_light_sample_direct(const aur_scene *scene, aur_vector reference, const float u[3],
+bool aur_light_sample_direct(const aur_scene *scene, aur_vector reference, float least, const float u[3],
                              aur_light_sample *sample) {
     float rest[3] = {u[0], u[1], u[2]};
     const aur_emitter *const emitter = choose(scene, &rest[0]);
     if (emitter == NULL)
         return false;
     *sample = (aur_light_sample){0};
-    if (!emitter->descriptor->sample(scene, emitter, reference, rest, sample))
+    if (!emitter->descriptor->sample(scene, emitter, reference, least, rest, sample))
         return false;
     sample->pdf *= emitter->probability;
     return true;
 }
 
-void aur_light_samples_direct(const aur_scene *scene, size_t count, const aur_vector *references,
+void aur_light_samples_direct(const aur_scene *scene, size_t count, const aur_vector *references, float least,
                               const float *choice, const float *u, const float *v,
                               aur_light_sample *samples) {
     const aur_emitter *const only = scene->emitter_count == 1 ? scene->emitters[0] : NULL;
     /* Meshes choose their triangle by what the choice of the light leaves. */
     if (only != NULL && only->descriptor->samples != NULL && !only->needs_choice) {
-        only->descriptor->samples(scene, only, count, references, u, v, samples);
+        only->descriptor->samples(scene, only, count, references, least, u, v, samples);
         for (size_t k = 0; k < count; ++k)
             samples[k].pdf *= only->probability;
         return;
     }
     for (size_t k = 0; k < count; ++k)
-        if (!aur_light_sample_direct(scene, references[k],
+        if (!aur_light_sample_direct(scene, references[k], least,
                                      (const float[3]){choice != NULL ? choice[k] : 0.5f, u[k], v[k]},
                                      &samples[k]))
             samples[k].pdf = 0.0f;
@@ -42,7 +42,8 @@ bool aur_light_chooses(const aur_scene *scene) {
     return scene->emitter_count > 1 || (scene->emitter_count == 1 && scene->emitters[0]->needs_choice);
 }
 
-float aur_light_pdf_direct(const aur_scene *scene, aur_vector reference, const aur_surface *surface) {
+float aur_light_pdf_direct(const aur_scene *scene, aur_vector reference, float least,
+                           const aur_surface *surface) {
     if (surface->emitter == AUR_NO_EMITTER)
         return 0.0f;
     const aur_emitter *const emitter = scene->emitters[surface->emitter];
@@ -52,7 +53,7 @@ float aur_light_pdf_direct(const aur_scene *scene, aur_vector reference, const a
     const float cosine = -aur_vector_dot(way, surface->geometric_normal) / sqrtf(squared);
     if (!(cosine > 0.0f))
         return 0.0f;
-    float pdf = emitter->descriptor->pdf_seen(scene, emitter, reference);
+    float pdf = emitter->descriptor->pdf_seen(scene, emitter, reference, least);
     if (pdf == 0.0f)
         pdf = squared / (cosine * (float)shape->area);
     return isfinite(pdf) ? emitter->probability * pdf : 0.0f;

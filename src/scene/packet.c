@@ -93,10 +93,10 @@ void aur_packet_corners(const aur_scene *scene, const aur_packet *packet, uint32
     }
 }
 
-static void light_lane(const aur_scene *scene, const aur_lane_vectors *reference, const float u[3],
-                       size_t lane, aur_light_lanes *lights) {
+static void light_lane(const aur_scene *scene, const aur_lane_vectors *reference, float least,
+                       const float u[3], size_t lane, aur_light_lanes *lights) {
     aur_light_sample one;
-    if (!aur_light_sample_direct(scene, aur_lane_vector(reference, lane), u, &one))
+    if (!aur_light_sample_direct(scene, aur_lane_vector(reference, lane), least, u, &one))
         one = (aur_light_sample){0};
     aur_lane_set(&lights->position, lane, one.position);
     aur_lane_set(&lights->radiance, lane, one.radiance);
@@ -104,14 +104,16 @@ static void light_lane(const aur_scene *scene, const aur_lane_vectors *reference
     lights->rivals[lane] = one.delta ? 0.0f : 1.0f;
 }
 
-void aur_light_lanes_direct(const aur_scene *scene, const aur_lane_vectors *reference, const float *choice,
-                            const float *u, const float *v, aur_light_lanes *lights) {
+void aur_light_lanes_direct(const aur_scene *scene, const aur_lane_vectors *reference, float least,
+                            const float *choice, const float *u, const float *v, aur_light_lanes *lights) {
     const bool chooses = aur_light_chooses(scene);
     if (!chooses && scene->emitter_count == 1) {
         const aur_emitter *const only = scene->emitters[0];
-        if (only->descriptor->lanes != NULL && only->descriptor->lanes(scene, only, reference, u, v, lights))
+        if (only->descriptor->lanes != NULL &&
+            only->descriptor->lanes(scene, only, reference, least, u, v, lights))
             return;
     }
     for (size_t k = 0; k < AUR_PACKET_SIZE; ++k)
-        light_lane(scene, reference, (const float[3]){chooses ? choice[k] : 0.5f, u[k], v[k]}, k, lights);
+        light_lane(scene, reference, least, (const float[3]){chooses ? choice[k] : 0.5f, u[k], v[k]}, k,
+                   lights);
 }

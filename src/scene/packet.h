@@ -73,7 +73,7 @@ typedef struct aur_light_lanes {
 } aur_light_lanes;
 
 /* `choice` is not read unless aur_light_chooses. */
-void aur_light_lanes_direct(const aur_scene *scene, const aur_lane_vectors *reference, const float *choice,
-                            const float *u, const float *v, aur_light_lanes *lights);
+void aur_light_lanes_direct(const aur_scene *scene, const aur_lane_vectors *reference, float least,
+                            const float *choice, const float *u, const float *v, aur_light_lanes *lights);
 
 #endif

@@ -88,17 +88,21 @@ typedef struct aur_light_sample {
 } aur_light_sample;
 
 /* Draws a point on a light seen from `reference`: u[0] chooses the light in proportion to its power, u[1],
- * u[2] the point. False when the scene has no light or the point cannot be seen from there (pdf 0). */
-bool aur_light_sample_direct(const aur_scene *scene, aur_vector reference, const float u[3],
+ * u[2] the point. False when the scene has no light or the point cannot be seen from there (pdf 0).
+ *
+ * Rectangles are drawn by solid angle where they are seen under `least` steradians or more, roughly, else by
+ * area, which is faster and has more noise. An integrator has one `least` for all that it draws and asks. */
+bool aur_light_sample_direct(const aur_scene *scene, aur_vector reference, float least, const float u[3],
                              aur_light_sample *sample);
 /* The same for `count` (at most AUR_LIGHT_LANES) references with three numbers each; samples[k].pdf is 0
  * where it fails. `choice` may be NULL unless aur_light_chooses. */
 enum { AUR_LIGHT_LANES = 16 };
 bool aur_light_chooses(const aur_scene *scene); /* u[0] matters: several lights, or a mesh */
-void aur_light_samples_direct(const aur_scene *scene, size_t count, const aur_vector *references,
+void aur_light_samples_direct(const aur_scene *scene, size_t count, const aur_vector *references, float least,
                               const float *choice, const float *u, const float *v, aur_light_sample *samples);
 /* The pdf with which aur_light_sample_direct would draw the point `surface` of a light, from `reference`. */
-float aur_light_pdf_direct(const aur_scene *scene, aur_vector reference, const aur_surface *surface);
+float aur_light_pdf_direct(const aur_scene *scene, aur_vector reference, float least,
+                           const aur_surface *surface);
 /* Radiance that `surface` emits towards the unit direction `view` (world); 0 when it is no light or seen from
  * behind. */
 aur_vector aur_surface_emission(const aur_scene *scene, const aur_surface *surface, aur_vector view);

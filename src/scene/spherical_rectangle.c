@@ -1,12 +1,12 @@
 #include "core/simd.h"
 #include "scene/spherical_rectangle_body.h"
 
-bool aur_spherical_rectangle_create(const aur_rectangle *rectangle, aur_vector reference,
+bool aur_spherical_rectangle_create(const aur_rectangle *rectangle, aur_vector reference, float least,
                                     aur_spherical_rectangle *seen) {
     const aur_vector normal = aur_vector_cross(rectangle->x, rectangle->y);
-    if (!(rectangle_placed(rectangle, normal, reference.x, reference.y, reference.z).excess > 0.0f))
+    if (!(rectangle_placed(rectangle, normal, reference.x, reference.y, reference.z, least).excess > 0.0f))
         return false;
-    *seen = rectangle_seen(rectangle, normal, reference.x, reference.y, reference.z);
+    *seen = rectangle_seen(rectangle, normal, reference.x, reference.y, reference.z, least);
     return seen->solid_angle > 0.0f;
 }
 
@@ -15,9 +15,9 @@ void aur_spherical_rectangle_sample(const aur_spherical_rectangle *seen, float u
     rectangle_point(seen, u, v, s, t);
 }
 
-static void points_portable(const aur_rectangle *rectangle, size_t count, aur_rectangle_points in,
-                            aur_rectangle_samples out) {
-    rectangle_points(rectangle, count, in, out);
+static void points_portable(const aur_rectangle *rectangle, float least, size_t count,
+                            aur_rectangle_points in, aur_rectangle_samples out) {
+    rectangle_points(rectangle, least, count, in, out);
 }
 
 aur_rectangle_function aur_spherical_rectangle_samples(void) {

@@ -19,13 +19,8 @@ typedef struct aur_spherical_rectangle {
     float solid_angle; /* steradians */
 } aur_spherical_rectangle;
 
-/* Below this solid angle, in steradians and roughly, points drawn by area are as good for paths: in the
- * Cornell box they have 0.7 % more variance, and path tracing takes 20 % less time than with solid angles
- * down to 0.01. (Final gathering with two samples a pixel would have 12 % less error with 0.02.) */
-#define AUR_RECTANGLE_LEAST 0.15f
-
-/* False when the rectangle is seen under less than AUR_RECTANGLE_LEAST. */
-bool aur_spherical_rectangle_create(const aur_rectangle *rectangle, aur_vector reference,
+/* False when the rectangle is seen under less than `least` steradians, roughly. */
+bool aur_spherical_rectangle_create(const aur_rectangle *rectangle, aur_vector reference, float least,
                                     aur_spherical_rectangle *seen);
 
 /* The point that u, v in [0,1) stand for, in parts of the rectangle's width and height. */
@@ -42,8 +37,8 @@ typedef struct aur_rectangle_samples {
     float *solid_angle; /* 0: too small, and s, t are of no use */
 } aur_rectangle_samples;
 
-typedef void (*aur_rectangle_function)(const aur_rectangle *rectangle, size_t count, aur_rectangle_points in,
-                                       aur_rectangle_samples out);
+typedef void (*aur_rectangle_function)(const aur_rectangle *rectangle, float least, size_t count,
+                                       aur_rectangle_points in, aur_rectangle_samples out);
 
 /* aur_spherical_rectangle_create and _sample for many points, by this processor's instructions. */
 aur_rectangle_function aur_spherical_rectangle_samples(void);

@@ -1,6 +1,6 @@
 #include "scene/spherical_rectangle_body.h"
 
-void aur_rectangle_points_avx2(const aur_rectangle *rectangle, size_t count, aur_rectangle_points in,
-                               aur_rectangle_samples out) {
-    rectangle_points(rectangle, count, in, out);
+void aur_rectangle_points_avx2(const aur_rectangle *rectangle, float least, size_t count,
+                               aur_rectangle_points in, aur_rectangle_samples out) {
+    rectangle_points(rectangle, least, count, in, out);
 }

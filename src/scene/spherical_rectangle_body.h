@@ -57,11 +57,11 @@ static inline void rectangle_turn(float angle, float *sine, float *cosine) {
 /* Where the rectangle lies as the point sees it. */
 typedef struct rectangle_place {
     float x0, y0, z0;
-    float excess; /* positive when it is seen under AUR_RECTANGLE_LEAST or more, roughly */
+    float excess; /* positive when it is seen under the least angle or more, roughly */
 } rectangle_place;
 
 static inline rectangle_place rectangle_placed(const aur_rectangle *r, aur_vector normal, float px, float py,
-                                               float pz) {
+                                               float pz, float least) {
     const float wx = r->corner.x - px, wy = r->corner.y - py, wz = r->corner.z - pz;
     const float x0 = wx * r->x.x + wy * r->x.y + wz * r->x.z;
     const float y0 = wx * r->y.x + wy * r->y.y + wz * r->y.z;
@@ -69,14 +69,13 @@ static inline rectangle_place rectangle_placed(const aur_rectangle *r, aur_vecto
     const float z0 = -fabsf(wx * normal.x + wy * normal.y + wz * normal.z);
     const float middle_x = x0 + 0.5f * r->width, middle_y = y0 + 0.5f * r->height;
     const float squared = middle_x * middle_x + middle_y * middle_y + z0 * z0;
-    return (rectangle_place){x0, y0, z0,
-                             -z0 * r->width * r->height - AUR_RECTANGLE_LEAST * (squared * sqrtf(squared))};
+    return (rectangle_place){x0, y0, z0, -z0 * r->width * r->height - least * (squared * sqrtf(squared))};
 }
 
 /* The rectangle as the point sees it; its solid angle is 0 where that is small. */
 static inline aur_spherical_rectangle rectangle_seen(const aur_rectangle *r, aur_vector normal, float px,
-                                                     float py, float pz) {
-    const rectangle_place at = rectangle_placed(r, normal, px, py, pz);
+                                                     float py, float pz, float least) {
+    const rectangle_place at = rectangle_placed(r, normal, px, py, pz, least);
     const float x0 = at.x0, y0 = at.y0, z0 = at.z0, zz = z0 * z0;
     const float x1 = x0 + r->width, y1 = y0 + r->height;
     /* z components of the normals of the four planes through the point and an edge. */
@@ -106,8 +105,8 @@ static inline void rectangle_point(const aur_spherical_rectangle *seen, float u,
     *t = rectangle_part((y - seen->y0) / height);
 }
 
-static inline void rectangle_points(const aur_rectangle *rectangle, size_t count, aur_rectangle_points in,
-                                    aur_rectangle_samples out) {
+static inline void rectangle_points(const aur_rectangle *rectangle, float least, size_t count,
+                                    aur_rectangle_points in, aur_rectangle_samples out) {
     const aur_rectangle r = *rectangle; /* which the outputs cannot overlap */
     const aur_vector normal = aur_vector_cross(r.x, r.y);
     const float *restrict const px = in.x, *restrict const py = in.y, *restrict const pz = in.z;
@@ -115,15 +114,15 @@ static inline void rectangle_points(const aur_rectangle *rectangle, size_t count
     float *restrict const s = out.s, *restrict const t = out.t, *restrict const angle = out.solid_angle;
 #pragma GCC ivdep /* more arrays than the compiler would check for overlaps */
     for (size_t k = 0; k < count; ++k) {
-        const aur_spherical_rectangle seen = rectangle_seen(&r, normal, px[k], py[k], pz[k]);
+        const aur_spherical_rectangle seen = rectangle_seen(&r, normal, px[k], py[k], pz[k], least);
         rectangle_point(&seen, u[k], v[k], &s[k], &t[k]);
         angle[k] = seen.solid_angle;
     }
 }
 
-void aur_rectangle_points_avx2(const aur_rectangle *rectangle, size_t count, aur_rectangle_points in,
-                               aur_rectangle_samples out);
-void aur_rectangle_points_avx512(const aur_rectangle *rectangle, size_t count, aur_rectangle_points in,
-                                 aur_rectangle_samples out);
+void aur_rectangle_points_avx2(const aur_rectangle *rectangle, float least, size_t count,
+                               aur_rectangle_points in, aur_rectangle_samples out);
+void aur_rectangle_points_avx512(const aur_rectangle *rectangle, float least, size_t count,
+                                 aur_rectangle_points in, aur_rectangle_samples out);
 
 #endif

@@ -60,7 +60,7 @@ static aur_vector sample_light(const aur_scene *scene, const direct_data *data, 
                                const float u[3], aur_counters *counters) {
     const aur_vector black = {0};
     aur_light_sample light;
-    if (!aur_light_sample_direct(scene, shading->surface->position, u, &light))
+    if (!aur_light_sample_direct(scene, shading->surface->position, AUR_LEAST_LIGHT_SEEN, u, &light))
         return black;
     const aur_vector radiance =
         aur_vector_multiply(aur_shading_evaluate(shading, light.direction), light.radiance);
@@ -92,7 +92,7 @@ static aur_vector sample_bsdf(const aur_scene *scene, const direct_data *data, c
         aur_surface surface;
         aur_scene_surface(scene, &ray, &hit, &surface);
         light = aur_surface_emission(scene, &surface, aur_vector_scale(ray.direction, -1.0f));
-        rival = aur_light_pdf_direct(scene, shading->surface->position, &surface);
+        rival = aur_light_pdf_direct(scene, shading->surface->position, AUR_LEAST_LIGHT_SEEN, &surface);
     } else {
         light = aur_scene_environment(scene, ray.direction);
         rival = aur_environment_pdf_direct(scene, ray.direction);

@@ -4,8 +4,8 @@ bool aur_direct_light_choose(const aur_scene *scene, const aur_shading *shading,
                              const float position[2], aur_shadow *shadow) {
     const aur_surface *const surface = shading->surface;
     aur_light_sample light;
-    if (!aur_light_sample_direct(scene, surface->position, (const float[3]){choice, position[0], position[1]},
-                                 &light))
+    if (!aur_light_sample_direct(scene, surface->position, AUR_LEAST_LIGHT_OF_PATHS,
+                                 (const float[3]){choice, position[0], position[1]}, &light))
         return false;
     const aur_vector scattered = aur_shading_evaluate(shading, light.direction);
     const aur_vector radiance = aur_vector_multiply(scattered, light.radiance);
@@ -54,8 +54,8 @@ static aur_vector reflected_emission(const aur_scene *scene, const aur_shading *
         return black;
     float weight = 1.0f;
     if (!sample.specular)
-        weight =
-            aur_power_heuristic(sample.pdf, aur_light_pdf_direct(scene, shading->surface->position, &light));
+        weight = aur_power_heuristic(sample.pdf, aur_light_pdf_direct(scene, shading->surface->position,
+                                                                      AUR_LEAST_LIGHT_OF_PATHS, &light));
     return aur_vector_scale(aur_vector_multiply(sample.weight, emission), weight);
 }
 

@@ -54,7 +54,8 @@ void aur_group_add_direct_light(aur_group *group) {
         references[lane] = group->places[from].surface.position;
     }
     aur_light_sample lights[AUR_PACKET_SIZE];
-    aur_light_samples_direct(scene, AUR_PACKET_SIZE, references, chooses ? choice : NULL, u, v, lights);
+    aur_light_samples_direct(scene, AUR_PACKET_SIZE, references, AUR_LEAST_LIGHT_SEEN,
+                             chooses ? choice : NULL, u, v, lights);
     aur_vector contribution[AUR_PACKET_SIZE];
     uint32_t aimed = 0;
     aur_clear_lanes(&group->rays.packet);

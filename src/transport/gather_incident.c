@@ -72,7 +72,9 @@ static aur_vector emitted_radiance(const aur_final_gather *data, const gather_ra
     const aur_vector emission = aur_surface_emission(data->scene, surface, view);
     if (aur_vector_is_zero(emission))
         return emission;
-    const float pdf = chain.length > 0 ? 0.0f : aur_light_pdf_direct(data->scene, from->reference, surface);
+    const float pdf = chain.length > 0
+                          ? 0.0f
+                          : aur_light_pdf_direct(data->scene, from->reference, AUR_LEAST_LIGHT_SEEN, surface);
     return aur_vector_scale(emission, emission_weight(data, chain, from->density, pdf));
 }
 

@@ -91,7 +91,9 @@ static aur_vector radiance(const aur_integrator *integrator, const aur_camera_sa
             const float weight =
                 previous_specular || aur_vector_is_zero(emission)
                     ? 1.0f
-                    : aur_power_heuristic(previous_pdf, aur_light_pdf_direct(scene, previous, &surface));
+                    : aur_power_heuristic(
+                          previous_pdf,
+                          aur_light_pdf_direct(scene, previous, AUR_LEAST_LIGHT_OF_PATHS, &surface));
             sum = aur_vector_add_scaled(sum, weight, aur_vector_multiply(throughput, emission));
         }
         if (depth == data->max_depth)

@@ -147,10 +147,10 @@ static void add_emission(group *g, size_t k, const aur_surface *surface, aur_vec
         return;
     const bool found = (g->specular >> k & 1u) == 0;
     const float weight =
-        found
-            ? aur_power_heuristic(g->lanes.pdf[k],
-                                  aur_light_pdf_direct(g->scene, aur_lane_vector(&g->lanes.from, k), surface))
-            : 1.0f;
+        found ? aur_power_heuristic(g->lanes.pdf[k],
+                                    aur_light_pdf_direct(g->scene, aur_lane_vector(&g->lanes.from, k),
+                                                         AUR_LEAST_LIGHT_OF_PATHS, surface))
+              : 1.0f;
     add_light(g, k, weight, emission);
 }
 
@@ -241,8 +241,8 @@ static uint32_t trace(group *g, bool coherent) {
 static void add_direct(group *g, uint32_t plain, bool coherent, const aur_surface *surfaces) {
     aur_path_lanes *const lanes = &g->lanes;
     if (plain != 0) {
-        aur_light_lanes_direct(g->scene, &lanes->position, lanes->choice, lanes->light_u, lanes->light_v,
-                               &lanes->light);
+        aur_light_lanes_direct(g->scene, &lanes->position, AUR_LEAST_LIGHT_OF_PATHS, lanes->choice,
+                               lanes->light_u, lanes->light_v, &lanes->light);
         g->data->kernels->shadow(lanes, &g->shadows);
     }
     for (uint32_t rest = g->alive & ~plain; rest != 0; rest &= rest - 1)

@@ -24,14 +24,17 @@ static float unit(uint64_t a, uint64_t b) {
 }
 
 /* Light that falls on a point from all sides (fluence), in two ways: by uniform directions that meet lights,
- * and by drawn points on lights. And asking says the pdf that sampling says. */
+ * and by drawn points on lights. And asking says the pdf that sampling says, from whatever solid angle on
+ * rectangles are drawn by it. */
 static void compare_with_brute_force(const aur_scene *scene, aur_vector reference) {
     enum { COUNT = 200000 };
+    static const float leasts[] = {0.02f, 0.15f, 4.0f};
     double direct[2] = {0, 0}, brute[2] = {0, 0};
     for (size_t i = 0; i < COUNT; ++i) {
         const float u[3] = {unit(1, i), unit(2, i), unit(3, i)};
         aur_light_sample sample;
-        if (aur_light_sample_direct(scene, reference, u, &sample)) {
+        const float least = leasts[i % 3];
+        if (aur_light_sample_direct(scene, reference, least, u, &sample)) {
             const aur_surface eye = {.position = reference, .geometric_normal = sample.direction};
             float distance;
             const aur_ray ray = aur_surface_ray_to(&eye, sample.position, &distance);
@@ -47,7 +50,7 @@ static void compare_with_brute_force(const aur_scene *scene, aur_vector referenc
                 aur_scene_intersect(scene, &onward, &hit)) {
                 aur_surface surface;
                 aur_scene_surface(scene, &onward, &hit, &surface);
-                assert_relative(aur_light_pdf_direct(scene, reference, &surface), sample.pdf, 4e-3);
+                assert_relative(aur_light_pdf_direct(scene, reference, least, &surface), sample.pdf, 4e-3);
                 assert_near(hit.distance, distance, 2e-3 * distance);
             }
         }
@@ -148,7 +151,7 @@ static void draws_environments(void **state) {
         for (size_t k = 0; k < 3000; ++k) {
             const float u[3] = {unit(1, k), unit(2, k), unit(3, k)};
             aur_light_sample sample;
-            if (!aur_light_sample_direct(scene, (aur_vector){0}, u, &sample) || sample.distance < 5.5f)
+            if (!aur_light_sample_direct(scene, (aur_vector){0}, 0.1f, u, &sample) || sample.distance < 5.5f)
                 continue; /* the sphere */
             assert_near(sample.pdf, aur_environment_pdf_direct(scene, sample.direction), 1e-6 * sample.pdf);
             assert_near(sample.radiance.y, aur_scene_environment(scene, sample.direction).y, 1e-6);
@@ -209,8 +212,8 @@ static void shines_from_points(void **state) {
         snprintf(body, sizeof body, "<emitter type='%s</emitter><shape type='cube'/>", rows[i].emitter);
         aur_scene *const scene = must_load_body(body);
         aur_light_sample sample;
-        assert_true(
-            aur_light_sample_direct(scene, rows[i].reference, (const float[3]){0.3f, 0.4f, 0.5f}, &sample));
+        assert_true(aur_light_sample_direct(scene, rows[i].reference, 0.1f,
+                                            (const float[3]){0.3f, 0.4f, 0.5f}, &sample));
         assert_true(sample.delta);
         assert_near(aur_vector_dot(sample.direction, rows[i].direction), 1.0, 1e-6);
         assert_near(sample.radiance.x / sample.pdf, rows[i].irradiance, 1e-5);
@@ -218,7 +221,8 @@ static void shines_from_points(void **state) {
     }
     aur_scene *const dark = must_load_body("<emitter type='spot'/><shape type='cube'/>");
     aur_light_sample sample;
-    assert_false(aur_light_sample_direct(dark, (aur_vector){0, 1, 1}, (const float[3]){0, 0, 0}, &sample));
+    assert_false(
+        aur_light_sample_direct(dark, (aur_vector){0, 1, 1}, 0.1f, (const float[3]){0, 0, 0}, &sample));
     aur_scene_destroy(dark);
 }
 
@@ -340,7 +344,7 @@ static void refuses_lights_without_area(void **state) {
     /* no light at all is no error */
     scene = must_load_body("<shape type='cube'/>");
     aur_light_sample sample;
-    assert_false(aur_light_sample_direct(scene, (aur_vector){0}, (const float[3]){0, 0, 0}, &sample));
+    assert_false(aur_light_sample_direct(scene, (aur_vector){0}, 0.1f, (const float[3]){0, 0, 0}, &sample));
     assert_false(aur_scene_has_environment(scene));
     aur_scene_destroy(scene);
 }

@@ -3,6 +3,7 @@
 #include "scene/spherical_rectangle.h"
 
 enum { GRID = 400 };
+static const float LEAST = 0.15f; /* steradians */
 
 /* A rectangle of 2 x 1 about `middle`, turned in its plane. */
 static aur_rectangle make_rectangle(aur_vector middle) {
@@ -43,7 +44,7 @@ static void points_are_uniform_by_solid_angle(void **state) {
     for (size_t i = 0; i < MIDDLE_COUNT; ++i) {
         const aur_rectangle r = make_rectangle(middles[i]);
         aur_spherical_rectangle seen;
-        assert_true(aur_spherical_rectangle_create(&r, origin, &seen));
+        assert_true(aur_spherical_rectangle_create(&r, origin, LEAST, &seen));
         assert_relative(seen.solid_angle, solid_angle_of_part(&r, 1.0, 1.0), 3e-3);
         for (size_t k = 1; k < 8; ++k) {
             float s, t;
@@ -76,13 +77,13 @@ static void many_points_are_the_single_ones(void **state) {
         u[k] = ((float)k + 0.5f) / COUNT;
         v[k] = ((float)(k * 8 % COUNT) + 0.5f) / COUNT;
     }
-    aur_spherical_rectangle_samples()(&r, COUNT, (aur_rectangle_points){x, y, z, u, v},
+    aur_spherical_rectangle_samples()(&r, LEAST, COUNT, (aur_rectangle_points){x, y, z, u, v},
                                       (aur_rectangle_samples){s, t, angle});
     size_t told = 0;
     for (size_t k = 0; k < COUNT; ++k) {
         aur_spherical_rectangle seen;
         float one_s, one_t;
-        const bool good = aur_spherical_rectangle_create(&r, (aur_vector){x[k], y[k], z[k]}, &seen);
+        const bool good = aur_spherical_rectangle_create(&r, (aur_vector){x[k], y[k], z[k]}, LEAST, &seen);
         assert_true(good == (angle[k] > 0.0f));
         if (!good)
             continue;
@@ -100,8 +101,10 @@ static void small_angles_are_refused(void **state) {
     aur_spherical_rectangle seen;
     const aur_rectangle far_off = make_rectangle((aur_vector){0.0f, 40.0f, 0.0f});
     const aur_rectangle edge_on = make_rectangle((aur_vector){3.0f, 0.0f, 0.0f});
-    assert_false(aur_spherical_rectangle_create(&far_off, (aur_vector){0}, &seen));
-    assert_false(aur_spherical_rectangle_create(&edge_on, (aur_vector){0}, &seen));
+    assert_true(aur_spherical_rectangle_create(&far_off, (aur_vector){0}, 0.001f, &seen));
+    assert_relative(seen.solid_angle, 2.0 / 1600.0, 1e-2);
+    assert_false(aur_spherical_rectangle_create(&far_off, (aur_vector){0}, LEAST, &seen));
+    assert_false(aur_spherical_rectangle_create(&edge_on, (aur_vector){0}, LEAST, &seen));
 }
 
 int main(void) {
