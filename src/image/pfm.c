@@ -86,12 +86,11 @@ static aur_result read_pfm(const aur_image_source *source, aur_image **image, au
     return AUR_OK;
 }
 
-static void put_float(float value, FILE *stream) {
+static void put_float(float value, unsigned char *bytes) {
     uint32_t bits;
     memcpy(&bits, &value, sizeof bits);
-    const unsigned char bytes[4] = {(unsigned char)bits, (unsigned char)(bits >> 8),
-                                    (unsigned char)(bits >> 16), (unsigned char)(bits >> 24)};
-    fwrite(bytes, 1, sizeof bytes, stream);
+    for (size_t i = 0; i < sizeof bits; ++i)
+        bytes[i] = (unsigned char)(bits >> (8 * i));
 }
 
 static aur_result write_pfm(const aur_image_target *target, const aur_image *image, aur_error *error) {
@@ -101,11 +100,18 @@ static aur_result write_pfm(const aur_image_target *target, const aur_image *ima
         return result;
     const size_t count = channels[0] == channels[1] ? 1 : 3;
     fprintf(target->stream, "%s\n%zu %zu\n-1.0\n", count == 3 ? "PF" : "Pf", image->width, image->height);
-    for (size_t y = image->height; y-- > 0;)
-        for (size_t x = 0; x < image->width; ++x)
-            for (size_t c = 0; c < count; ++c)
-                put_float(image->data[(y * image->width + x) * image->channel_count + channels[c]],
-                          target->stream);
+    const size_t row_size = image->width * count * sizeof(float);
+    unsigned char *const row = malloc(row_size);
+    if (row == NULL)
+        return aur_fail(error, AUR_ERROR_MEMORY, "out of memory");
+    for (size_t y = image->height; y-- > 0;) {
+        for (size_t i = 0; i < image->width * count; ++i)
+            put_float(
+                image->data[(y * image->width + i / count) * image->channel_count + channels[i % count]],
+                row + sizeof(float) * i);
+        fwrite(row, 1, row_size, target->stream);
+    }
+    free(row);
     return AUR_OK;
 }
 
