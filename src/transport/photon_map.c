@@ -9,8 +9,8 @@
 #include "transport/shading.h"
 
 enum {
-    PATHS_A_CHUNK = 1024,
     CHUNKS_A_BATCH = 16,
+    PATHS_A_BATCH = 16 * 1024,
     LONGEST_PATH = 512, /* edges; a path so long is cut, which only a scene without absorption can notice */
     PATHS_A_PHOTON_LIMIT = 64 /* give up when so many paths leave less than one photon each */
 };
@@ -28,12 +28,13 @@ typedef struct batch {
     const aur_sampler *sampler;
     uint64_t paths_a_set; /* beyond them the set begins anew with another randomisation */
     uint64_t first_path;
+    uint64_t paths_a_chunk;
     photon_chunk chunks[CHUNKS_A_BATCH];
 } batch;
 
 static bool store(photon_chunk *chunk, aur_photon photon) {
     if (chunk->count == chunk->capacity) {
-        const size_t capacity = chunk->capacity == 0 ? 4 * PATHS_A_CHUNK : 2 * chunk->capacity;
+        const size_t capacity = chunk->capacity == 0 ? 4096 : 2 * chunk->capacity;
         aur_photon *const larger = realloc(chunk->photons, capacity * sizeof *larger);
         if (larger == NULL)
             return false;
@@ -138,8 +139,8 @@ static aur_result trace_chunk(void *context, size_t index) {
     photon_chunk *const chunk = &work->chunks[index];
     chunk->count = 0;
     chunk->rays = 0;
-    for (uint64_t i = 0; i < PATHS_A_CHUNK; ++i)
-        if (!trace_path(work, work->first_path + index * PATHS_A_CHUNK + i, chunk))
+    for (uint64_t i = 0; i < work->paths_a_chunk; ++i)
+        if (!trace_path(work, work->first_path + index * work->paths_a_chunk + i, chunk))
             return AUR_ERROR_MEMORY;
     return AUR_OK;
 }
@@ -165,9 +166,18 @@ static aur_result append_batch(aur_photon_map *map, const batch *work, size_t *c
     return AUR_OK;
 }
 
+/* Paths between two looks at the number of photons: few when few photons are wanted, and a power of two, as
+ * nets like it. */
+static uint64_t paths_a_chunk(size_t photons) {
+    uint64_t paths = PATHS_A_BATCH / CHUNKS_A_BATCH;
+    while (paths > 16 && paths * CHUNKS_A_BATCH > photons / 2)
+        paths /= 2;
+    return paths;
+}
+
 static aur_result trace_until_enough(aur_photon_map *map, batch *work, aur_error *error) {
     const aur_photon_options *const options = work->options;
-    const uint64_t most = (uint64_t)options->count * PATHS_A_PHOTON_LIMIT + PATHS_A_CHUNK * CHUNKS_A_BATCH;
+    const uint64_t most = (uint64_t)options->count * PATHS_A_PHOTON_LIMIT + PATHS_A_BATCH;
     size_t capacity = 0;
     while (map->count < options->count) {
         if (map->paths >= most && options->kind == AUR_PHOTONS_CAUSTIC)
@@ -184,7 +194,7 @@ static aur_result trace_until_enough(aur_photon_map *map, batch *work, aur_error
             result = append_batch(map, work, &capacity);
         if (result != AUR_OK)
             return aur_fail(error, result, "photon map: %s", aur_result_string(result));
-        map->paths += PATHS_A_CHUNK * CHUNKS_A_BATCH;
+        map->paths += work->paths_a_chunk * CHUNKS_A_BATCH;
         const uint64_t done = map->count < options->count ? map->count : options->count;
         if (options->progress.function != NULL &&
             options->progress.function(options->progress.user, "photons", done, options->count) != 0)
@@ -228,6 +238,7 @@ aur_result aur_photon_map_create(const aur_scene *scene, const aur_elements *ele
                   .elements = elements,
                   .options = options,
                   .sampler = sampler,
+                  .paths_a_chunk = paths_a_chunk(options->count),
                   .paths_a_set = sampler->size > 0 ? sampler->size : (uint64_t)1 << 32};
     result = trace_until_enough(map, &work, error);
     for (size_t i = 0; i < CHUNKS_A_BATCH; ++i)
