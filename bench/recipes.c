@@ -4,9 +4,10 @@
 #include "quality.h"
 
 const bench_recipe bench_recipes[] = {
-    {"cornell-box", 0.01, 0.10, 2, "finalgather:photons=5000,diffuse_samples=8,edges=64,share=true"},
-    {"cornell-box", 0.005, 0.20, 4, "finalgather:photons=20000,diffuse_samples=12,edges=256,share=true"},
-    {"cornell-box", 0.002, 0.70, 24, "finalgather:photons=200000,diffuse_samples=48,edges=1024,share=true"},
+    {"cornell-box", 0.01, 0.10, 2, "finalgather:photons=5000,diffuse_samples=4,edges=64,share=true"},
+    {"cornell-box", 0.005, 0.20, 4, "finalgather:photons=20000,diffuse_samples=8,edges=128,share=true"},
+    {"cornell-box", 0.002, 0.70, 12,
+     "finalgather:photons=200000,photons_per_texel=24,diffuse_samples=36,edges=1024,share=true"},
     {"cornell-box", 0.0015, -1.0, 64, "finalgather:photons=2000000,diffuse_samples=1024,edges=4096"},
     {"heavy-box", 0.005, 0.0, 4, "finalgather:photons=50000,diffuse_samples=64,edges=256"},
     {"glossy-box", 0.02, 0.0, 18,

@@ -9,7 +9,7 @@
  *     gather_merged.c    two lobes of a place by the samples of both
  *     gather_incident.c  radiance along gather rays
  *     gather_edges.c     more primary rays where a pixel sees several things
- *     gather_sharing.c   irradiance that the pixels of a block have in common
+ *     gather_sharing.c   irradiance that neighbouring pixels have in common
  *
  * A tile of 16 x 16 pixels is done in 16 groups. A group has the pixels at one place of all 4 x 4 blocks of
  * the tile, and these share one randomisation of the patterns (interleaved sampling, Keller and Heidrich
@@ -54,7 +54,7 @@ typedef struct aur_final_gather {
     uint32_t max_depth;
     size_t samples_per_pixel, glossy_samples;
     uint32_t edge_samples;
-    bool shares_irradiance; /* between the pixels of a 4 x 4 block */
+    bool shares_irradiance; /* between neighbouring pixels */
     bool packets; /* else every ray by itself: the same picture to rounding, for tests and measurements */
     uint64_t pattern_seed;
     aur_gather_options options;
@@ -176,8 +176,9 @@ void aur_group_add_sample(aur_group *group, const aur_group_task *task, aur_pixe
 
 /* --- sharing (gather_sharing.c) */
 
-/* Adds to every stratum its diffuse light by the irradiance that its block of 4 x 4 pixels has in common. */
-void aur_gather_share_irradiance(aur_pixel_strata *strata);
+/* Adds to every stratum of a tile its diffuse light by the irradiance that neighbouring pixels share. False:
+ * out of memory. */
+bool aur_gather_share_irradiance(aur_pixel_strata *strata);
 
 /* --- edges (gather_edges.c) */
 

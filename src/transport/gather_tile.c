@@ -32,7 +32,7 @@ static void develop(const aur_pixel_strata *pixel, double mean[3]) {
         mean[c] = seen != 0.0 ? mean[c] / seen : 0.0;
 }
 
-static void add_tile(const aur_final_gather *data, aur_tile *tile, aur_group *group,
+static bool add_tile(const aur_final_gather *data, aur_tile *tile, aur_group *group,
                      aur_pixel_strata *strata) {
     aur_group_task task = {.data = data,
                            .view = tile->view,
@@ -48,8 +48,8 @@ static void add_tile(const aur_final_gather *data, aur_tile *tile, aur_group *gr
     }
     if (data->edge_samples > 0)
         aur_gather_refine_edges(group, &task, tile->first + tile->count, strata, &tile->counters);
-    if (data->shares_irradiance)
-        aur_gather_share_irradiance(strata);
+    if (data->shares_irradiance && !aur_gather_share_irradiance(strata))
+        return false;
     for (size_t y = tile->y0; y < tile->y1; ++y)
         for (size_t x = tile->x0; x < tile->x1; ++x) {
             const aur_pixel_strata *const pixel = &strata[(y - task.y) * AUR_TILE_SIZE + (x - task.x)];
@@ -61,14 +61,13 @@ static void add_tile(const aur_final_gather *data, aur_tile *tile, aur_group *gr
             if (data->adaptive)
                 aur_tile_add_extra(tile, x, y, 0, (double)tile->count * (double)pixel->directions);
         }
+    return true;
 }
 
 aur_result aur_final_gather_tile(const aur_integrator *integrator, aur_tile *tile) {
     aur_group *const group = aur_group_create(integrator->data);
     aur_pixel_strata *const strata = calloc(AUR_TILE_PIXELS, sizeof *strata);
-    const bool good = group != NULL && strata != NULL;
-    if (good)
-        add_tile(integrator->data, tile, group, strata);
+    const bool good = group != NULL && strata != NULL && add_tile(integrator->data, tile, group, strata);
     free(strata);
     aur_group_destroy(group);
     return good ? AUR_OK : AUR_ERROR_MEMORY;
