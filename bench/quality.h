@@ -17,6 +17,7 @@ typedef struct bench_subject {
     const char *scene;      /* below the source tree; "": the heavy box */
     const char *fallback;   /* where that file is not there; NULL: the subject is skipped */
     const char *definition; /* "name=value" or NULL */
+    const char *path;       /* the fastest form of our path tracer there, which gathering is compared to */
     size_t width, height;
     size_t reference_samples; /* a pixel, of each of the two pictures */
     bool relative;            /* errors are divided by the mean of the truth */

@@ -9,7 +9,7 @@ const bench_recipe bench_recipes[] = {
     {"cornell-box", 0.002, 0.70, 12,
      "finalgather:photons=200000,photons_per_texel=24,diffuse_samples=36,edges=1024,share=true"},
     {"cornell-box", 0.0015, -1.0, 64, "finalgather:photons=2000000,diffuse_samples=1024,edges=4096"},
-    {"heavy-box", 0.005, 0.0, 4, "finalgather:photons=50000,diffuse_samples=64,edges=256"},
+    {"heavy-box", 0.005, 0.0, 8, "finalgather:photons=50000,diffuse_samples=24,edges=256,share=true"},
     {"glossy-box", 0.02, 0.0, 18,
      "finalgather:photons=200000,photons_per_texel=64,diffuse_samples=72,glossy_samples=36,edges=256"},
     {"glossy-box", 0.005, 0.0, 32,

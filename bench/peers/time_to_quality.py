@@ -1,15 +1,19 @@
 #!/usr/bin/env python3
 """CPU seconds that Mitsuba 3, Blender's Cycles and our own path tracer take to a relative RMSE on the same scenes.
 
-    python3.11 -m venv /tmp/peers && /tmp/peers/bin/pip install 'mitsuba==3.*' numpy
-    /tmp/peers/bin/pip install bpy==4.2.0 --extra-index-url https://download.blender.org/pypi/
+    python3.11 -m venv /tmp/peers && /tmp/peers/bin/pip install 'mitsuba==3.*' numpy bpy==4.2.0
     /tmp/peers/bin/python bench/peers/time_to_quality.py build/release/aureole [--threads N] [--only TEXT]
+
+The glossy box and the room are of meshes that scripts/scenes.sh makes. llvm_ad_rgb compiles by LLVM 19 (Debian's libllvm19,
+DRJIT_LIBLLVM_PATH=.../libLLVM.so.19.1): 14 is refused, and 15 and 16 stop at "Cannot select: fminimum".
 
 A renderer that is not installed is left out and named. All of them are unbiased, so the RMSE of a picture is told by two
 pictures with different seeds: the root of half their mean squared difference, over the mean. It is measured at two numbers
 of samples a pixel; from there the error follows a power law and the time a line. The time is user + system seconds of all
-threads in the call that renders: imports, loading and the first compilation of kernels (llvm_ad_rgb) are not counted, which favours the peers. Cycles gets the scene's triangles from Mitsuba and materials of its own for
-rough plastic (a Principled BSDF of the same base, index and roughness), so its picture is alike, not equal.
+threads in the call that renders: imports, loading and the first compilation of kernels (llvm_ad_rgb) are not counted, which
+favours the peers; ours is that of whole processes. Cycles gets the scene's triangles, normals and texture from Mitsuba and
+materials of its own for rough plastic (a Principled BSDF of the same base, index and roughness), so its picture is alike,
+not equal.
 """
 import argparse
 import json
@@ -29,7 +33,8 @@ SCENES = {
     "room": (os.path.join(ROOT, "scenes/room/room.xml"), 240, 160, {"materials": "rough"}),
 }
 ERRORS = (0.02, 0.005)
-SAMPLES = (9, 36)  # a pixel, squares for multi-jittered ones, where error and time are measured
+# A pixel, squares for multi-jittered ones and powers of 2 for Sobol's, where error and time are measured.
+SAMPLES = {"cornell-box": (64, 256), "glossy-box": (64, 256), "room": (64, 256)}
 
 
 def cpu_seconds(who=resource.RUSAGE_SELF):
@@ -38,8 +43,7 @@ def cpu_seconds(who=resource.RUSAGE_SELF):
 
 
 def scene_text(path, width, height, definitions):
-    """The scene as both programs read it: multi-jittered samples (Mitsuba's best), a box filter, path tracing without end,
-    full file names."""
+    """The scene as both programs read it: a box filter, path tracing without end, full file names."""
     with open(path, encoding="utf-8") as file:
         text = file.read()
     folder = os.path.dirname(os.path.abspath(path))
@@ -52,7 +56,6 @@ def scene_text(path, width, height, definitions):
             inner = re.search(r"<scene[^>]*>(.*)</scene>", file.read(), re.S)[1]
         text = text.replace(included[0], inner)
         included = re.search(r'<include filename="([^"]*)"/>', text)
-    text = re.sub(r'<sampler\s+type="[^"]*"', '<sampler type="multijitter"', text)
     text = re.sub(r'<rfilter\s+type="[^"]*"', '<rfilter type="box"', text)
     text = re.sub(r'<integrator.*?</integrator>', '<integrator type="path"><integer name="max_depth" value="-1"/></integrator>',
                   text, flags=re.S)
@@ -61,10 +64,15 @@ def scene_text(path, width, height, definitions):
     return re.sub(r'(name="filename"\s+value=)"([^"$]*)"', lambda m: f'{m[1]}"{os.path.join(folder, m[2])}"', text)
 
 
+def name_of(path):
+    """The scene's, of its copy's path."""
+    return os.path.splitext(os.path.basename(path))[0]
+
+
 # --- renderers: each gives a function (samples, seed) -> (picture, CPU seconds)
 
 
-def mitsuba(variant, path, threads):
+def mitsuba(variant, sampler, path, threads):
     import mitsuba as mi
     import numpy as np
     mi.set_variant(variant)
@@ -73,8 +81,10 @@ def mitsuba(variant, path, threads):
         dr.set_thread_count(threads)
     else:
         mi.Thread.set_thread_count(threads) if hasattr(mi.Thread, "set_thread_count") else None
-    scene = mi.load_file(path)
-    np.array(mi.render(scene, spp=1, seed=999))
+    with open(path, encoding="utf-8") as file:
+        scene = mi.load_string(re.sub(r'<sampler\s+type="[^"]*"', f'<sampler type="{sampler}"', file.read()))
+    for samples in SAMPLES[name_of(path)] if variant.startswith("llvm") else (1,):  # kernels are compiled for each
+        np.array(mi.render(scene, spp=samples, seed=999))
 
     def render(samples, seed):
         start = cpu_seconds()
@@ -96,14 +106,34 @@ def triangles(mi, shape):
     return (corners @ matrix.T)[:, :3], np.array([[0, 1, 2], [0, 2, 3]])
 
 
+def normals(mi, shape):
+    """Of the vertices, or None."""
+    import numpy as np
+    parameters = mi.traverse(shape)
+    found = np.array(parameters["vertex_normals"]).reshape(-1, 3) if "vertex_normals" in parameters else ()
+    return found if len(found) > 0 else None
+
+
 def bsdf_values(text, name):
-    """What Cycles is to know of a BSDF by its XML."""
+    """What Cycles is to know of a BSDF by its XML: base colour, roughness of a plastic or None, file of a texture or None."""
     found = re.search(rf'<bsdf type="[^"]*" id="{re.escape(name)}">(.*?)</bsdf>\s*</bsdf>', text, re.S)
     inner = found[1] if found else ""
     base = re.search(r'name="(?:diffuse_)?reflectance" value="([^"]*)"', inner)
     values = [float(v) for v in base[1].split(",")] if base else [0.5]
     alpha = re.search(r'name="alpha" value="([^"]*)"', inner)
-    return (values * 3)[:3], float(alpha[1]) if alpha and "roughplastic" in inner else None
+    picture = re.search(r'name="filename" value="([^"]*)"', inner)
+    return (values * 3)[:3], float(alpha[1]) if alpha and "roughplastic" in inner else None, picture[1] if picture else None
+
+
+def add_texture(bpy, mesh, nodes, links, picture, color):
+    texture = nodes.new("ShaderNodeTexImage")
+    texture.image = bpy.data.images.load(picture)
+    texture.image.colorspace_settings.name = "Non-Color"
+    corners = ((0, 0), (1, 0), (1, 1), (0, 1))
+    layer = mesh.uv_layers.new()
+    for loop, place in zip(mesh.loops, layer.data):
+        place.uv = corners[loop.vertex_index]
+    links.new(texture.outputs["Color"], color)
 
 
 def cycles(path, threads):
@@ -122,6 +152,10 @@ def cycles(path, threads):
             raise RuntimeError("a shape that is no mesh")
         mesh = bpy.data.meshes.new("mesh")
         mesh.from_pydata(geometry[0].tolist(), [], geometry[1].tolist())
+        smooth = normals(mi, shape)
+        if smooth is not None:
+            mesh.polygons.foreach_set("use_smooth", [True] * len(mesh.polygons))
+            mesh.normals_split_custom_set_from_vertices(smooth.tolist())
         material = bpy.data.materials.new("material")
         material.use_nodes = True
         nodes, links = material.node_tree.nodes, material.node_tree.links
@@ -138,10 +172,12 @@ def cycles(path, threads):
             links.new(facing.outputs["Backfacing"], front.inputs[1])
             links.new(front.outputs[0], shader.inputs["Strength"])
         else:
-            base, alpha = bsdf_values(text, shape.bsdf().id())
+            base, alpha, picture = bsdf_values(text, shape.bsdf().id())
             if alpha is None:
                 shader = nodes.new("ShaderNodeBsdfDiffuse")
                 shader.inputs["Color"].default_value = (*base, 1)
+                if picture is not None:  # of rectangles only
+                    add_texture(bpy, mesh, nodes, links, picture, shader.inputs["Color"])
             else:
                 shader = nodes.new("ShaderNodeBsdfPrincipled")
                 shader.inputs["Base Color"].default_value = (*base, 1)
@@ -189,7 +225,7 @@ def cycles(path, threads):
     return shoot
 
 
-def ours(aureole, path, threads):
+def ours(aureole, integrator, path, threads):
     import mitsuba as mi
     import numpy as np
     mi.set_variant("scalar_rgb")
@@ -197,7 +233,7 @@ def ours(aureole, path, threads):
 
     def render(samples, seed):
         start = cpu_seconds(resource.RUSAGE_CHILDREN)
-        subprocess.run([aureole, "render", path, "-q", "--sampler", "sobol", "--spp", str(samples), "--seed", str(seed), "-t",
+        subprocess.run([aureole, "render", path, "-q", "--sampler", "sobol", "--integrator", integrator, "--spp", str(samples), "--seed", str(seed), "-t",
                         str(threads), "-o", out], check=True)
         seconds = cpu_seconds(resource.RUSAGE_CHILDREN) - start
         return np.array(mi.Bitmap(out).convert(mi.Bitmap.PixelFormat.RGB, mi.Struct.Type.Float32), dtype=np.float64), seconds
@@ -213,15 +249,27 @@ def pair(render, samples):
     return math.sqrt(((a - b) ** 2).mean() / 2) / mean, (first + second) / 2, mean
 
 
+KINDS = {
+    "ours, path": lambda aureole, *rest: ours(aureole, "path", *rest),
+    "ours, path:interleaved=true,rr_depth=4": lambda aureole, *rest: ours(aureole, "path:interleaved=true,rr_depth=4", *rest),
+    "Mitsuba scalar_rgb, independent": lambda _, *rest: mitsuba("scalar_rgb", "independent", *rest),
+    "Mitsuba scalar_rgb, multijitter": lambda _, *rest: mitsuba("scalar_rgb", "multijitter", *rest),
+    "Mitsuba llvm_ad_rgb, independent": lambda _, *rest: mitsuba("llvm_ad_rgb", "independent", *rest),
+    "Mitsuba llvm_ad_rgb, multijitter": lambda _, *rest: mitsuba("llvm_ad_rgb", "multijitter", *rest),
+    "Cycles": lambda _, *rest: cycles(*rest),
+}
+
+
 def child(kind, aureole, path, threads):
-    render = {"Cycles": lambda: cycles(path, threads), "path (ours)": lambda: ours(aureole, path, threads)}.get(
-        kind, lambda: mitsuba(kind.split()[1], path, threads))()
-    (error, seconds, _), (less, more_seconds, mean) = (pair(render, samples) for samples in SAMPLES)
-    slope = math.log(less / error) / math.log(SAMPLES[1] / SAMPLES[0])
-    each = (more_seconds - seconds) / (SAMPLES[1] - SAMPLES[0])
-    counts = [SAMPLES[1] * (wanted / less) ** (1 / slope) for wanted in ERRORS]
-    times = [max(each, more_seconds + each * (count - SAMPLES[1])) for count in counts]
-    print(json.dumps({"times": times, "mean": mean, "samples": [round(count) for count in counts], "error": less}))
+    few, many = SAMPLES[name_of(path)]
+    render = KINDS[kind](aureole, path, threads)
+    (error, seconds, _), (less, more_seconds, mean) = (pair(render, samples) for samples in (few, many))
+    slope = math.log(less / error) / math.log(many / few)
+    each = (more_seconds - seconds) / (many - few)
+    counts = [many * (wanted / less) ** (1 / slope) for wanted in ERRORS]
+    times = [max(each, more_seconds + each * (count - many)) for count in counts]
+    print(json.dumps({"times": times, "mean": mean, "samples": [round(count) for count in counts], "errors": (error, less),
+                      "slope": slope, "many": many}))
 
 
 def main():
@@ -235,14 +283,14 @@ def main():
         child(given.child[0], given.aureole, given.child[1], given.threads)
         return
     aureole = os.path.abspath(given.aureole)
-    print("| scene | renderer | " + " | ".join(f"CPU s to {100 * e:g} %" for e in ERRORS) + f" | samples a pixel | mean | error at {SAMPLES[1]} |")
-    print("|---|---|---|---|---|---|---|")
+    print("| scene | renderer | " + " | ".join(f"CPU s to {100 * e:g} %" for e in ERRORS) + f" | samples a pixel | mean | measured | error ~ samples^ |")
+    print("|---|---|---|---|---|---|---|---|")
     with tempfile.TemporaryDirectory() as folder:
         for name, (path, width, height, definitions) in SCENES.items():
             copy = os.path.join(folder, name + ".xml")
             with open(copy, "w", encoding="utf-8") as file:
                 file.write(scene_text(path, width, height, definitions))
-            for kind in ("path (ours)", "Mitsuba scalar_rgb", "Mitsuba llvm_ad_rgb", "Cycles"):
+            for kind in KINDS:
                 if given.only not in f"{name} {kind}":
                     continue
                 done = subprocess.run([sys.executable, os.path.abspath(__file__), aureole, "--threads", str(given.threads),
@@ -250,11 +298,12 @@ def main():
                 lines = [line for line in done.stdout.splitlines() if line.startswith("{")]
                 if done.returncode != 0 or not lines:
                     reason = (done.stderr.strip().splitlines() or ["no output"])[-1]
-                    print(f"| {name} | {kind} | not measured: {reason} | | | | |", flush=True)
+                    print(f"| {name} | {kind} | not measured: {reason} | | | | | |", flush=True)
                     continue
                 row = json.loads(lines[-1])
                 print(f"| {name} | {kind} | " + " | ".join(f"{t:.3g}" for t in row["times"]) +
-                      f" | {row['samples'][0]}, {row['samples'][1]} | {row['mean']:.4f} | {100 * row['error']:.2f} % |",
+                      f" | {row['samples'][0]}, {row['samples'][1]} | {row['mean']:.4f} | "
+                      f"{100 * row['errors'][1]:.2f} % at {row['many']} | {row['slope']:.2f} |",
                       flush=True)
 
 
