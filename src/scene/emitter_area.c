@@ -5,7 +5,7 @@
 #include "scene/distribution.h"
 #include "scene/emitter.h"
 #include "scene/scene_data.h"
-#include "scene/spherical_rectangle_body.h"
+#include "scene/spherical_rectangle.h"
 
 static aur_result create(aur_parameters *parameters, aur_emitter *emitter, aur_error *error) {
     emitter->radiance.constant = (aur_vector){1.0f, 1.0f, 1.0f};
@@ -22,7 +22,7 @@ typedef struct area_light {
     bool is_mesh, is_rectangle;
     aur_rectangle rectangle; /* by the solid angle under which it is seen */
     aur_vector normal;       /* of the rectangle */
-    aur_rectangle_function samples;
+    const aur_rectangle_kernels *kernels;
 } area_light;
 
 static bool find_rectangle(const aur_shape *shape, aur_rectangle *rectangle) {
@@ -63,7 +63,7 @@ static aur_result prepare(const aur_scene *scene, aur_emitter *emitter, aur_erro
     if (shape->parallelogram) {
         light->is_rectangle = find_rectangle(shape, &light->rectangle);
         light->normal = aur_shape_sample(shape, NULL, (const float[3]){0.0f}).normal;
-        light->samples = aur_spherical_rectangle_samples();
+        light->kernels = aur_rectangle_kernels_here();
         return AUR_OK;
     }
     light->is_mesh = emitter->needs_choice = shape->curved == NULL;
@@ -156,8 +156,8 @@ static void samples(const aur_scene *scene, const aur_emitter *emitter, size_t c
         z[k] = references[k].z;
     }
     if (light->is_rectangle)
-        light->samples(&light->rectangle, least, count, (aur_rectangle_points){x, y, z, u, v},
-                       (aur_rectangle_samples){s, t, angle});
+        light->kernels->samples(&light->rectangle, least, count, (aur_rectangle_points){x, y, z, u, v},
+                                (aur_rectangle_samples){s, t, angle});
     for (size_t k = 0; k < count; ++k) {
         aur_shape_point point;
         float pdf;
@@ -172,45 +172,17 @@ static void samples(const aur_scene *scene, const aur_emitter *emitter, size_t c
     }
 }
 
-/* Whether any point sees the rectangle well enough to draw by what it sees. */
-static bool any_sees(const area_light *light, const aur_lane_vectors *reference, float least) {
-    float most = 0.0f;
-    for (size_t k = 0; k < AUR_PACKET_SIZE; ++k)
-        most = aur_larger(rectangle_placed(&light->rectangle, light->normal, reference->x[k], reference->y[k],
-                                           reference->z[k], least)
-                              .excess,
-                          most);
-    return most > 0.0f;
-}
-
 static bool lanes(const aur_scene *scene, const aur_emitter *emitter, const aur_lane_vectors *reference,
                   float least, const float *u, const float *v, aur_light_lanes *drawn) {
     const area_light *const light = emitter->data;
     if (!light->is_rectangle || emitter->radiance.texture != NULL)
         return false;
-    aur_lane_numbers s = {0}, t = {0}, angle = {0};
-    if (any_sees(light, reference, least))
-        light->samples(&light->rectangle, least, AUR_PACKET_SIZE,
-                       (aur_rectangle_points){reference->x, reference->y, reference->z, u, v},
-                       (aur_rectangle_samples){s, t, angle});
-    const aur_vector corner = light->rectangle.corner, normal = light->normal;
-    const aur_vector x = aur_vector_scale(light->rectangle.x, light->rectangle.width);
-    const aur_vector y = aur_vector_scale(light->rectangle.y, light->rectangle.height);
-    const float probability = emitter->probability, area = (float)shape_of(scene, emitter)->area;
-    const aur_vector radiance = emitter->radiance.constant;
-    for (size_t k = 0; k < AUR_PACKET_SIZE; ++k) {
-        const bool seen = angle[k] > 0.0f; /* else by area, as `sample` */
-        const float along_x = seen ? s[k] : u[k], along_y = seen ? t[k] : v[k];
-        const aur_vector point = aur_vector_add_scaled(aur_vector_add_scaled(corner, along_x, x), along_y, y);
-        const aur_vector way = aur_vector_subtract(aur_lane_vector(reference, k), point);
-        const float height = aur_vector_dot(way, normal), squared = aur_vector_dot(way, way);
-        const float by_area = squared * sqrtf(squared) / (height * area);
-        const float pdf = seen ? 1.0f / angle[k] : by_area;
-        aur_lane_set(&drawn->position, k, point);
-        aur_lane_set(&drawn->radiance, k, radiance);
-        drawn->pdf[k] = height > 0.0f ? probability * pdf : 0.0f;
-        drawn->rivals[k] = 1.0f;
-    }
+    const aur_rectangle_light all = {.rectangle = light->rectangle,
+                                     .normal = light->normal,
+                                     .radiance = emitter->radiance.constant,
+                                     .area = (float)shape_of(scene, emitter)->area,
+                                     .probability = emitter->probability};
+    light->kernels->lanes(&all, least, reference, u, v, drawn);
     return true;
 }
 

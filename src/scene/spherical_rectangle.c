@@ -15,18 +15,15 @@ void aur_spherical_rectangle_sample(const aur_spherical_rectangle *seen, float u
     rectangle_point(seen, u, v, s, t);
 }
 
-static void points_portable(const aur_rectangle *rectangle, float least, size_t count,
-                            aur_rectangle_points in, aur_rectangle_samples out) {
-    rectangle_points(rectangle, least, count, in, out);
-}
+static const aur_rectangle_kernels portable = AUR_RECTANGLE_KERNELS;
 
-aur_rectangle_function aur_spherical_rectangle_samples(void) {
+const aur_rectangle_kernels *aur_rectangle_kernels_here(void) {
 #if defined(__x86_64__)
     const aur_isa isa = aur_isa_available();
     if (isa == AUR_ISA_AVX512)
-        return aur_rectangle_points_avx512;
+        return &aur_rectangle_kernels_avx512;
     if (isa == AUR_ISA_AVX2)
-        return aur_rectangle_points_avx2;
+        return &aur_rectangle_kernels_avx2;
 #endif
-    return points_portable;
+    return &portable;
 }

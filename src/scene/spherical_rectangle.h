@@ -6,7 +6,7 @@
 #include <stdbool.h>
 #include <stddef.h>
 
-#include "core/vector.h"
+#include "scene/packet.h"
 
 typedef struct aur_rectangle {
     aur_vector corner, x, y; /* x and y: unit, along the edges, perpendicular */
@@ -40,7 +40,26 @@ typedef struct aur_rectangle_samples {
 typedef void (*aur_rectangle_function)(const aur_rectangle *rectangle, float least, size_t count,
                                        aur_rectangle_points in, aur_rectangle_samples out);
 
-/* aur_spherical_rectangle_create and _sample for many points, by this processor's instructions. */
-aur_rectangle_function aur_spherical_rectangle_samples(void);
+/* A light on a rectangle: what samples of it have in common. */
+typedef struct aur_rectangle_light {
+    aur_rectangle rectangle;
+    aur_vector normal; /* of the side that shines */
+    aur_vector radiance;
+    float area, probability;
+} aur_rectangle_light;
+
+/* Samples of the light for sixteen points: by solid angle where that is not less than `least`, else by area.
+ */
+typedef void (*aur_rectangle_lanes_function)(const aur_rectangle_light *light, float least,
+                                             const aur_lane_vectors *reference, const float *u,
+                                             const float *v, aur_light_lanes *drawn);
+
+/* For many points at once, by this processor's instructions. */
+typedef struct aur_rectangle_kernels {
+    aur_rectangle_function samples; /* aur_spherical_rectangle_create and _sample */
+    aur_rectangle_lanes_function lanes;
+} aur_rectangle_kernels;
+
+const aur_rectangle_kernels *aur_rectangle_kernels_here(void);
 
 #endif

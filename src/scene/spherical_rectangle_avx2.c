@@ -1,6 +1,3 @@
 #include "scene/spherical_rectangle_body.h"
 
-void aur_rectangle_points_avx2(const aur_rectangle *rectangle, float least, size_t count,
-                               aur_rectangle_points in, aur_rectangle_samples out) {
-    rectangle_points(rectangle, least, count, in, out);
-}
+const aur_rectangle_kernels aur_rectangle_kernels_avx2 = AUR_RECTANGLE_KERNELS;

@@ -120,9 +120,61 @@ static inline void rectangle_points(const aur_rectangle *rectangle, float least,
     }
 }
 
-void aur_rectangle_points_avx2(const aur_rectangle *rectangle, float least, size_t count,
-                               aur_rectangle_points in, aur_rectangle_samples out);
-void aur_rectangle_points_avx512(const aur_rectangle *rectangle, float least, size_t count,
-                                 aur_rectangle_points in, aur_rectangle_samples out);
+static inline bool rectangle_any_sees(const aur_rectangle *rectangle, aur_vector normal, float least,
+                                      const aur_lane_vectors *reference) {
+    const aur_rectangle r = *rectangle;
+    uint32_t any = 0;
+    for (size_t k = 0; k < AUR_PACKET_SIZE; ++k)
+        any |=
+            (uint32_t)(rectangle_placed(&r, normal, reference->x[k], reference->y[k], reference->z[k], least)
+                           .excess > 0.0f);
+    return any != 0;
+}
+
+static inline void rectangle_lanes(const aur_rectangle_light *given, float least,
+                                   const aur_lane_vectors *reference, const float *u, const float *v,
+                                   aur_light_lanes *drawn) {
+    const aur_rectangle_light light = *given; /* which the outputs cannot overlap */
+    const aur_rectangle *const r = &light.rectangle;
+    aur_lane_numbers s = {0}, t = {0}, angle = {0};
+    if (rectangle_any_sees(r, light.normal, least, reference))
+        rectangle_points(r, least, AUR_PACKET_SIZE,
+                         (aur_rectangle_points){reference->x, reference->y, reference->z, u, v},
+                         (aur_rectangle_samples){s, t, angle});
+    const aur_vector x = aur_vector_scale(r->x, r->width), y = aur_vector_scale(r->y, r->height);
+#pragma GCC ivdep
+    for (size_t k = 0; k < AUR_PACKET_SIZE; ++k) {
+        const bool seen = angle[k] > 0.0f;
+        const float along_x = seen ? s[k] : u[k], along_y = seen ? t[k] : v[k];
+        const aur_vector point =
+            aur_vector_add_scaled(aur_vector_add_scaled(r->corner, along_x, x), along_y, y);
+        const aur_vector way = aur_vector_subtract(aur_lane_vector(reference, k), point);
+        const float height = aur_vector_dot(way, light.normal), squared = aur_vector_dot(way, way);
+        const float by_area = squared * sqrtf(squared) / (height * light.area);
+        const float by_angle = 1.0f / angle[k];
+        const float pdf = light.probability * (seen ? by_angle : by_area);
+        aur_lane_set(&drawn->position, k, point);
+        aur_lane_set(&drawn->radiance, k, light.radiance);
+        drawn->pdf[k] = height > 0.0f ? pdf : 0.0f;
+        drawn->rivals[k] = 1.0f;
+    }
+}
+
+static void rectangle_points_here(const aur_rectangle *rectangle, float least, size_t count,
+                                  aur_rectangle_points in, aur_rectangle_samples out) {
+    rectangle_points(rectangle, least, count, in, out);
+}
+
+static void rectangle_lanes_here(const aur_rectangle_light *light, float least,
+                                 const aur_lane_vectors *reference, const float *u, const float *v,
+                                 aur_light_lanes *drawn) {
+    rectangle_lanes(light, least, reference, u, v, drawn);
+}
+
+#define AUR_RECTANGLE_KERNELS                                                                                \
+    { rectangle_points_here, rectangle_lanes_here }
+
+extern const aur_rectangle_kernels aur_rectangle_kernels_avx2;
+extern const aur_rectangle_kernels aur_rectangle_kernels_avx512;
 
 #endif

@@ -77,8 +77,8 @@ static void many_points_are_the_single_ones(void **state) {
         u[k] = ((float)k + 0.5f) / COUNT;
         v[k] = ((float)(k * 8 % COUNT) + 0.5f) / COUNT;
     }
-    aur_spherical_rectangle_samples()(&r, LEAST, COUNT, (aur_rectangle_points){x, y, z, u, v},
-                                      (aur_rectangle_samples){s, t, angle});
+    aur_rectangle_kernels_here()->samples(&r, LEAST, COUNT, (aur_rectangle_points){x, y, z, u, v},
+                                          (aur_rectangle_samples){s, t, angle});
     size_t told = 0;
     for (size_t k = 0; k < COUNT; ++k) {
         aur_spherical_rectangle seen;
@@ -93,6 +93,49 @@ static void many_points_are_the_single_ones(void **state) {
         assert_true(s[k] >= 0.0f && s[k] <= 1.000001f && t[k] >= 0.0f && t[k] <= 1.000001f);
     }
     assert_true(told > COUNT / 2);
+}
+
+/* Sixteen samples of a light at once: points and densities of the single ones, by solid angle near it and by
+ * area far from it; none from behind. */
+static void lanes_are_the_single_samples(void **state) {
+    (void)state;
+    const aur_rectangle r = make_rectangle((aur_vector){0.0f, 0.0f, 0.0f});
+    const aur_rectangle_light light = {.rectangle = r,
+                                       .normal = {0.0f, 1.0f, 0.0f},
+                                       .radiance = {3.0f, 2.0f, 1.0f},
+                                       .area = 2.0f,
+                                       .probability = 0.25f};
+    aur_lane_vectors reference;
+    aur_lane_numbers u, v;
+    for (size_t k = 0; k < AUR_PACKET_SIZE; ++k) {
+        const float height = k == 3 ? -1.0f : 0.3f + 0.7f * (float)k;
+        aur_lane_set(&reference, k, (aur_vector){0.1f * (float)(k % 5), height, -0.2f * (float)(k % 3)});
+        u[k] = ((float)k + 0.5f) / AUR_PACKET_SIZE;
+        v[k] = ((float)(k * 5 % AUR_PACKET_SIZE) + 0.5f) / AUR_PACKET_SIZE;
+    }
+    aur_light_lanes drawn;
+    aur_rectangle_kernels_here()->lanes(&light, LEAST, &reference, u, v, &drawn);
+    size_t by_angle = 0, by_area = 0;
+    for (size_t k = 0; k < AUR_PACKET_SIZE; ++k) {
+        const aur_vector from = aur_lane_vector(&reference, k);
+        aur_spherical_rectangle seen;
+        float s = u[k], t = v[k];
+        double pdf;
+        const bool good = aur_spherical_rectangle_create(&r, from, LEAST, &seen);
+        if (good)
+            aur_spherical_rectangle_sample(&seen, u[k], v[k], &s, &t);
+        const aur_vector point = point_of(&r, (double)s, (double)t);
+        const aur_vector way = aur_vector_subtract(from, point);
+        const double squared = (double)aur_vector_dot(way, way);
+        pdf = good ? 1.0 / (double)seen.solid_angle : squared * sqrt(squared) / (2.0 * (double)way.y);
+        assert_near(aur_vector_length(aur_vector_subtract(aur_lane_vector(&drawn.position, k), point)), 0.0,
+                    1e-6);
+        assert_relative(drawn.pdf[k], k == 3 ? 0.0 : 0.25 * pdf, 1e-5);
+        assert_true(drawn.radiance.x[k] == 3.0f && drawn.radiance.z[k] == 1.0f && drawn.rivals[k] == 1.0f);
+        by_angle += good && k != 3;
+        by_area += !good;
+    }
+    assert_true(by_angle > 3 && by_area > 3);
 }
 
 /* Too far to be told from a point, or seen edge on: the caller is to draw by area. */
@@ -110,6 +153,7 @@ static void small_angles_are_refused(void **state) {
 int main(void) {
     const struct CMUnitTest tests[] = {cmocka_unit_test(points_are_uniform_by_solid_angle),
                                        cmocka_unit_test(many_points_are_the_single_ones),
+                                       cmocka_unit_test(lanes_are_the_single_samples),
                                        cmocka_unit_test(small_angles_are_refused)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
