@@ -82,6 +82,27 @@ void aur_bsdf_destroy(aur_bsdf *bsdf) {
     free(bsdf);
 }
 
+aur_vector aur_bsdf_evaluate_sampled(const aur_bsdf *bsdf, aur_bsdf_point point, aur_vector view,
+                                     aur_vector light) {
+    const aur_bsdf_descriptor *const descriptor = bsdf->descriptor;
+    return descriptor->sampled != NULL ? descriptor->sampled->evaluate(bsdf, point, view, light)
+                                       : descriptor->evaluate(bsdf, point, view, light);
+}
+
+float aur_bsdf_pdf_sampled(const aur_bsdf *bsdf, aur_bsdf_point point, aur_vector view, aur_vector light) {
+    const aur_bsdf_descriptor *const descriptor = bsdf->descriptor;
+    return descriptor->sampled != NULL ? descriptor->sampled->pdf(bsdf, point, view, light)
+                                       : descriptor->pdf(bsdf, point, view, light);
+}
+
+bool aur_bsdf_sample_sampled(const aur_bsdf *bsdf, aur_bsdf_point point, aur_vector view, const float u[3],
+                             aur_bsdf_sample *sample) {
+    const aur_bsdf_descriptor *const descriptor = bsdf->descriptor;
+    return (descriptor->sampled != NULL ? descriptor->sampled->sample(bsdf, point, view, u, sample)
+                                        : descriptor->sample(bsdf, point, view, u, sample)) &&
+           !sample->specular;
+}
+
 aur_vector aur_bsdf_evaluate_none(const aur_bsdf *bsdf, aur_bsdf_point point, aur_vector view,
                                   aur_vector light) {
     (void)bsdf;

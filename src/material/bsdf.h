@@ -28,10 +28,9 @@ typedef struct aur_bsdf_sample {
 } aur_bsdf_sample;
 
 typedef enum aur_lobe_shape {
-    AUR_LOBE_SHAPE_COSINE_POWER, /* coefficient * max(0, axis . light)^exponent [* |light.z|] */
+    AUR_LOBE_SHAPE_COSINE_POWER, /* coefficient * max(0, axis . light)^exponent [* |light.z|] [* factor] */
     AUR_LOBE_SHAPE_SPECULAR,     /* coefficient of a Dirac direction `axis` */
-    AUR_LOBE_SHAPE_SAMPLED /* no formula: all that `evaluate` has beyond the other lobes, about `axis`; gather
-                              it by `sample` and leave out its specular draws */
+    AUR_LOBE_SHAPE_SAMPLED /* no formula, about `axis`; at most one: aur_bsdf_evaluate_sampled and its kin */
 } aur_lobe_shape;
 
 /* One part of BSDF * cos, as final gathering wants it: the sum of the lobes is `evaluate` wherever light is
@@ -43,9 +42,21 @@ typedef struct aur_bsdf_lobe {
     float exponent;
     aur_vector axis; /* unit, local */
     aur_vector coefficient;
+    /* NULL, or what the power lacks of the lobe, of |light.z|: directions are drawn by the power and weighed
+     * by the lobe over it (Marques 2018, section 5.1). */
+    float (*factor)(const void *data, float cosine);
+    const void *factor_data;
 } aur_bsdf_lobe;
 
 enum { AUR_BSDF_LOBE_CAPACITY = 4 };
+
+/* A lobe without a formula, alone; as the functions of the whole BSDF below. */
+typedef struct aur_bsdf_sampled {
+    aur_vector (*evaluate)(const aur_bsdf *bsdf, aur_bsdf_point point, aur_vector view, aur_vector light);
+    float (*pdf)(const aur_bsdf *bsdf, aur_bsdf_point point, aur_vector view, aur_vector light);
+    bool (*sample)(const aur_bsdf *bsdf, aur_bsdf_point point, aur_vector view, const float u[3],
+                   aur_bsdf_sample *sample);
+} aur_bsdf_sampled;
 
 typedef struct aur_bsdf_descriptor {
     const char *name;
@@ -66,6 +77,8 @@ typedef struct aur_bsdf_descriptor {
     /* The part of the diffuse reflectance that a photon's irradiance is multiplied by: radiance = E * albedo
      * / pi. `side` is the local z of the direction that it is seen from. */
     aur_vector (*diffuse_albedo)(const aur_bsdf *bsdf, aur_bsdf_point point, float side);
+    /* Of BSDFs that may have a sampled lobe beside others. NULL: where there is one, it is all there is. */
+    const aur_bsdf_sampled *sampled;
 } aur_bsdf_descriptor;
 
 struct aur_bsdf {
@@ -85,6 +98,18 @@ const aur_bsdf_descriptor *aur_bsdf_descriptor_at(size_t index);
  * parameters of kind AUR_PARAMETER_OBJECT with object_kind "bsdf", and outlive the one that uses them. */
 aur_result aur_bsdf_create(aur_parameters *parameters, aur_bsdf **bsdf, aur_error *error);
 void aur_bsdf_destroy(aur_bsdf *bsdf);
+
+/* The sampled lobe: BSDF * |light.z|, the density of its draws, and draws of it, never specular. */
+aur_vector aur_bsdf_evaluate_sampled(const aur_bsdf *bsdf, aur_bsdf_point point, aur_vector view,
+                                     aur_vector light);
+float aur_bsdf_pdf_sampled(const aur_bsdf *bsdf, aur_bsdf_point point, aur_vector view, aur_vector light);
+bool aur_bsdf_sample_sampled(const aur_bsdf *bsdf, aur_bsdf_point point, aur_vector view, const float u[3],
+                             aur_bsdf_sample *sample);
+
+/* What a lobe's factor is at a cosine. */
+static inline float aur_lobe_factor(const aur_bsdf_lobe *lobe, float cosine) {
+    return lobe->factor != NULL ? lobe->factor(lobe->factor_data, cosine) : 1.0f;
+}
 
 /* --- for the files of the table */
 

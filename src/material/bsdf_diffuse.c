@@ -70,4 +70,5 @@ const aur_bsdf_descriptor aur_bsdf_diffuse = {
     sample,
     lobes,
     diffuse_albedo,
+    NULL,
 };

@@ -76,6 +76,30 @@ static aur_vector diffuse_albedo(const aur_bsdf *bsdf, aur_bsdf_point point, flo
                             opacity_at(self, point));
 }
 
+/* The nested lobe is gathered as often as if it were there; what passes is no part of it. */
+static aur_vector evaluate_sampled(const aur_bsdf *bsdf, aur_bsdf_point point, aur_vector view,
+                                   aur_vector light) {
+    const mask *const self = bsdf->data;
+    return aur_vector_scale(aur_bsdf_evaluate_sampled(self->nested, point, view, light),
+                            opacity_at(self, point));
+}
+
+static float pdf_sampled(const aur_bsdf *bsdf, aur_bsdf_point point, aur_vector view, aur_vector light) {
+    const mask *const self = bsdf->data;
+    return aur_bsdf_pdf_sampled(self->nested, point, view, light);
+}
+
+static bool sample_sampled(const aur_bsdf *bsdf, aur_bsdf_point point, aur_vector view, const float u[3],
+                           aur_bsdf_sample *drawn) {
+    const mask *const self = bsdf->data;
+    if (!aur_bsdf_sample_sampled(self->nested, point, view, u, drawn))
+        return false;
+    drawn->weight = aur_vector_scale(drawn->weight, opacity_at(self, point));
+    return true;
+}
+
+static const aur_bsdf_sampled sampled = {evaluate_sampled, pdf_sampled, sample_sampled};
+
 const aur_bsdf_descriptor aur_bsdf_mask = {
     .name = "mask",
     .summary = "the nested bsdf with an opacity",
@@ -87,4 +111,5 @@ const aur_bsdf_descriptor aur_bsdf_mask = {
     .sample = sample,
     .lobes = lobes,
     .diffuse_albedo = diffuse_albedo,
+    .sampled = &sampled,
 };

@@ -34,4 +34,5 @@ const aur_bsdf_descriptor aur_bsdf_phong = {
     aur_phong_sample,
     lobes,
     aur_phong_diffuse_albedo,
+    NULL,
 };

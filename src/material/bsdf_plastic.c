@@ -172,6 +172,22 @@ static bool sample_smooth(const aur_bsdf *bsdf, aur_bsdf_point point, aur_vector
     return drawn->pdf > 0.0f;
 }
 
+static float smooth_factor(const void *data, float cosine) {
+    return smooth_transmittance(data, cosine);
+}
+
+/* The base: a cosine lobe but for the coat, which lets less through the flatter light comes. */
+static aur_bsdf_lobe base_lobe(const plastic *self, aur_bsdf_point point, float transmittance,
+                               float (*factor)(const void *, float)) {
+    return (aur_bsdf_lobe){.shape = AUR_LOBE_SHAPE_COSINE_POWER,
+                           .diffuse = true,
+                           .exponent = 1.0f,
+                           .axis = {0.0f, 0.0f, 1.0f},
+                           .coefficient = aur_vector_scale(base_color(self, point), transmittance / AUR_PI_F),
+                           .factor = factor,
+                           .factor_data = self};
+}
+
 static size_t lobes_smooth(const aur_bsdf *bsdf, aur_bsdf_point point, aur_vector view, aur_bsdf_lobe *lobe) {
     const plastic *const self = bsdf->data;
     if (view.z <= 0.0f)
@@ -181,7 +197,7 @@ static size_t lobes_smooth(const aur_bsdf *bsdf, aur_bsdf_point point, aur_vecto
         (aur_bsdf_lobe){.shape = AUR_LOBE_SHAPE_SPECULAR,
                         .axis = aur_mirror(view),
                         .coefficient = aur_vector_scale(aur_color_at(&self->specular, point), mirrored)};
-    lobe[1] = (aur_bsdf_lobe){.shape = AUR_LOBE_SHAPE_SAMPLED, .diffuse = true, .axis = {0.0f, 0.0f, 1.0f}};
+    lobe[1] = base_lobe(self, point, 1.0f - mirrored, smooth_factor);
     return 2;
 }
 
@@ -208,8 +224,8 @@ const aur_bsdf_descriptor aur_bsdf_plastic = {
 
 /* --- rough */
 
-static aur_vector evaluate_rough(const aur_bsdf *bsdf, aur_bsdf_point point, aur_vector view,
-                                 aur_vector light) {
+static aur_vector evaluate_coat(const aur_bsdf *bsdf, aur_bsdf_point point, aur_vector view,
+                                aur_vector light) {
     const plastic *const self = bsdf->data;
     if (view.z <= 0.0f || light.z <= 0.0f)
         return (aur_vector){0};
@@ -218,22 +234,53 @@ static aur_vector evaluate_rough(const aur_bsdf *bsdf, aur_bsdf_point point, aur
                        aur_microfacet_masking(&self->microfacet, view, normal) *
                        aur_microfacet_masking(&self->microfacet, light, normal) *
                        (1.0f - smooth_transmittance(self, aur_vector_dot(view, normal))) / (4.0f * view.z);
-    const float base =
-        rough_transmittance(self, view.z) * rough_transmittance(self, light.z) * light.z / AUR_PI_F;
-    return aur_vector_add_scaled(aur_vector_scale(base_color(self, point), base), coat,
-                                 aur_color_at(&self->specular, point));
+    return aur_vector_scale(aur_color_at(&self->specular, point), coat);
 }
 
-static float pdf_rough(const aur_bsdf *bsdf, aur_bsdf_point point, aur_vector view, aur_vector light) {
+static float pdf_coat(const aur_bsdf *bsdf, aur_bsdf_point point, aur_vector view, aur_vector light) {
     (void)point;
     const plastic *const self = bsdf->data;
     if (view.z <= 0.0f || light.z <= 0.0f)
         return 0.0f;
     const aur_vector normal = aur_vector_normalize(aur_vector_add(view, light));
+    return aur_microfacet_pdf(&self->microfacet, view, normal) / (4.0f * aur_vector_dot(view, normal));
+}
+
+static aur_vector draw_coat(const plastic *self, aur_vector view, const float u[3]) {
+    const aur_vector normal = aur_microfacet_sample(&self->microfacet, view, u[1], u[2]);
+    return aur_vector_add_scaled(aur_vector_scale(view, -1.0f), 2.0f * aur_vector_dot(view, normal), normal);
+}
+
+static bool sample_coat(const aur_bsdf *bsdf, aur_bsdf_point point, aur_vector view, const float u[3],
+                        aur_bsdf_sample *drawn) {
+    if (view.z <= 0.0f)
+        return false;
+    const aur_vector light = draw_coat(bsdf->data, view, u);
+    const float density = pdf_coat(bsdf, point, view, light);
+    if (!(density > 0.0f))
+        return false;
+    const aur_vector value = evaluate_coat(bsdf, point, view, light);
+    *drawn =
+        (aur_bsdf_sample){.light = light, .weight = aur_vector_scale(value, 1.0f / density), .pdf = density};
+    return true;
+}
+
+static aur_vector evaluate_rough(const aur_bsdf *bsdf, aur_bsdf_point point, aur_vector view,
+                                 aur_vector light) {
+    const plastic *const self = bsdf->data;
+    if (view.z <= 0.0f || light.z <= 0.0f)
+        return (aur_vector){0};
+    const float base =
+        rough_transmittance(self, view.z) * rough_transmittance(self, light.z) * light.z / AUR_PI_F;
+    return aur_vector_add_scaled(evaluate_coat(bsdf, point, view, light), base, base_color(self, point));
+}
+
+static float pdf_rough(const aur_bsdf *bsdf, aur_bsdf_point point, aur_vector view, aur_vector light) {
+    const plastic *const self = bsdf->data;
+    if (view.z <= 0.0f || light.z <= 0.0f)
+        return 0.0f;
     const float probability = specular_probability(self, rough_transmittance(self, view.z));
-    return probability * aur_microfacet_pdf(&self->microfacet, view, normal) /
-               (4.0f * aur_vector_dot(view, normal)) +
-           (1.0f - probability) * light.z / AUR_PI_F;
+    return probability * pdf_coat(bsdf, point, view, light) + (1.0f - probability) * light.z / AUR_PI_F;
 }
 
 static bool sample_rough(const aur_bsdf *bsdf, aur_bsdf_point point, aur_vector view, const float u[3],
@@ -242,31 +289,27 @@ static bool sample_rough(const aur_bsdf *bsdf, aur_bsdf_point point, aur_vector 
     if (view.z <= 0.0f)
         return false;
     const float probability = specular_probability(self, rough_transmittance(self, view.z));
-    aur_vector light;
-    if (u[0] < probability) {
-        const aur_vector normal = aur_microfacet_sample(&self->microfacet, view, u[1], u[2]);
-        light =
-            aur_vector_add_scaled(aur_vector_scale(view, -1.0f), 2.0f * aur_vector_dot(view, normal), normal);
-    } else {
-        light = aur_sample_cosine(u[1], u[2]);
-    }
+    const aur_vector light = u[0] < probability ? draw_coat(self, view, u) : aur_sample_cosine(u[1], u[2]);
     const float density = pdf_rough(bsdf, point, view, light);
     if (!(density > 0.0f))
         return false;
-    *drawn = (aur_bsdf_sample){.light = light,
-                               .weight =
-                                   aur_vector_scale(evaluate_rough(bsdf, point, view, light), 1.0f / density),
-                               .pdf = density};
+    const aur_vector value = evaluate_rough(bsdf, point, view, light);
+    *drawn =
+        (aur_bsdf_sample){.light = light, .weight = aur_vector_scale(value, 1.0f / density), .pdf = density};
     return true;
 }
 
+static float rough_factor(const void *data, float cosine) {
+    return rough_transmittance(data, cosine);
+}
+
 static size_t lobes_rough(const aur_bsdf *bsdf, aur_bsdf_point point, aur_vector view, aur_bsdf_lobe *lobe) {
-    (void)bsdf;
-    (void)point;
+    const plastic *const self = bsdf->data;
     if (view.z <= 0.0f)
         return 0;
-    lobe[0] = (aur_bsdf_lobe){.shape = AUR_LOBE_SHAPE_SAMPLED, .axis = aur_mirror(view)};
-    return 1;
+    lobe[0] = base_lobe(self, point, rough_transmittance(self, view.z), rough_factor);
+    lobe[1] = (aur_bsdf_lobe){.shape = AUR_LOBE_SHAPE_SAMPLED, .axis = aur_mirror(view)};
+    return 2;
 }
 
 static aur_vector albedo_rough(const aur_bsdf *bsdf, aur_bsdf_point point, float side) {
@@ -276,6 +319,8 @@ static aur_vector albedo_rough(const aur_bsdf *bsdf, aur_bsdf_point point, float
     return aur_vector_scale(base_color(self, point),
                             rough_transmittance(self, side) * self->outer_transmittance);
 }
+
+static const aur_bsdf_sampled sampled_coat = {evaluate_coat, pdf_coat, sample_coat};
 
 const aur_bsdf_descriptor aur_bsdf_roughplastic = {
     .name = "roughplastic",
@@ -288,4 +333,5 @@ const aur_bsdf_descriptor aur_bsdf_roughplastic = {
     .sample = sample_rough,
     .lobes = lobes_rough,
     .diffuse_albedo = albedo_rough,
+    .sampled = &sampled_coat,
 };

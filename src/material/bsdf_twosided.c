@@ -70,6 +70,26 @@ static aur_vector diffuse_albedo(const aur_bsdf *bsdf, aur_bsdf_point point, flo
     return nested->descriptor->diffuse_albedo(nested, point, fabsf(side));
 }
 
+static aur_vector evaluate_sampled(const aur_bsdf *bsdf, aur_bsdf_point point, aur_vector view,
+                                   aur_vector light) {
+    return aur_bsdf_evaluate_sampled(side_of(bsdf, view.z), point, turned(view, view.z),
+                                     turned(light, view.z));
+}
+
+static float pdf_sampled(const aur_bsdf *bsdf, aur_bsdf_point point, aur_vector view, aur_vector light) {
+    return aur_bsdf_pdf_sampled(side_of(bsdf, view.z), point, turned(view, view.z), turned(light, view.z));
+}
+
+static bool sample_sampled(const aur_bsdf *bsdf, aur_bsdf_point point, aur_vector view, const float u[3],
+                           aur_bsdf_sample *drawn) {
+    if (!aur_bsdf_sample_sampled(side_of(bsdf, view.z), point, turned(view, view.z), u, drawn))
+        return false;
+    drawn->light = turned(drawn->light, view.z);
+    return true;
+}
+
+static const aur_bsdf_sampled sampled = {evaluate_sampled, pdf_sampled, sample_sampled};
+
 const aur_bsdf_descriptor aur_bsdf_twosided = {
     "twosided",
     "the nested bsdf on both sides, or a second one behind",
@@ -81,4 +101,5 @@ const aur_bsdf_descriptor aur_bsdf_twosided = {
     sample,
     lobes,
     diffuse_albedo,
+    &sampled,
 };

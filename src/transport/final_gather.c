@@ -13,6 +13,7 @@
 static void release(aur_integrator *integrator) {
     aur_final_gather *const data = integrator->data;
     aur_gather_rule_release(&data->diffuse);
+    aur_gather_rule_release(&data->visible);
     for (size_t i = 0; i < data->glossy_count; ++i)
         aur_gather_rule_release(&data->glossy[i]);
     for (size_t i = 0; i < data->pair_count; ++i)
@@ -47,7 +48,7 @@ const aur_gather_rule *aur_final_gather_rule(const aur_final_gather *data, const
 }
 
 const aur_gather_levels *aur_final_gather_levels(const aur_final_gather *data, const aur_gather_rule *rule) {
-    if (!data->adaptive)
+    if (!data->adaptive || rule == &data->visible)
         return NULL;
     return rule == &data->diffuse ? &data->diffuse_levels : &data->glossy_levels[rule - data->glossy];
 }
@@ -92,6 +93,17 @@ static aur_result prepare_levels(aur_final_gather *data, aur_error *error) {
     return result;
 }
 
+/* A rule for an exponent that has none yet. */
+static aur_result add_glossy_rule(aur_final_gather *data, const aur_gather_options *options,
+                                  const aur_bsdf_lobe *lobe, aur_error *error) {
+    if (aur_final_gather_rule(data, lobe) != NULL || lobe->shape != AUR_LOBE_SHAPE_COSINE_POWER)
+        return AUR_OK;
+    const aur_result result =
+        aur_gather_rule_create(options, lobe->exponent, &data->glossy[data->glossy_count], error);
+    data->glossy_count += result == AUR_OK;
+    return result;
+}
+
 /* One rule for each exponent among the glossy lobes of the scene's materials. */
 static aur_result prepare_glossy_rules(aur_final_gather *data, const aur_scene *scene, size_t count,
                                        aur_error *error) {
@@ -108,18 +120,28 @@ static aur_result prepare_glossy_rules(aur_final_gather *data, const aur_scene *
             const aur_vector view = {0.0f, 0.0f, (float)side};
             const size_t found = bsdf->descriptor->lobes(bsdf, (aur_bsdf_point){0}, view, lobes);
             for (size_t k = 0; k < found; ++k) {
-                if (aur_final_gather_rule(data, &lobes[k]) != NULL ||
-                    lobes[k].shape != AUR_LOBE_SHAPE_COSINE_POWER)
-                    continue;
-                const aur_result result = aur_gather_rule_create(&options, lobes[k].exponent,
-                                                                 &data->glossy[data->glossy_count], error);
+                const aur_result result = add_glossy_rule(data, &options, &lobes[k], error);
                 if (result != AUR_OK)
                     return result;
-                ++data->glossy_count;
             }
         }
     }
     return AUR_OK;
+}
+
+/* A bit for each shape that a lobe has of any surface of the scene. */
+static unsigned lobe_shapes(const aur_scene *scene) {
+    unsigned shapes = 0;
+    for (uint32_t i = 0; i < aur_scene_shape_count(scene); ++i)
+        for (int side = 1; side >= -1; side -= 2) {
+            const aur_bsdf *const bsdf = aur_scene_shape_bsdf(scene, i);
+            aur_bsdf_lobe lobes[AUR_BSDF_LOBE_CAPACITY];
+            const size_t count = bsdf->descriptor->lobes(bsdf, (aur_bsdf_point){0},
+                                                         (aur_vector){0.0f, 0.0f, (float)side}, lobes);
+            for (size_t k = 0; k < count; ++k)
+                shapes |= 1u << lobes[k].shape;
+        }
+    return shapes;
 }
 
 /* Optimal weights in the rules, horizons, and what merged samples need. */
@@ -310,14 +332,23 @@ static aur_result create(aur_parameters *parameters, const aur_integrator_contex
     if (result == AUR_OK)
         result = aur_gather_rule_create(&options, 1.0, &data->diffuse, error);
     data->options.warnings = (aur_warnings){0};
+    const unsigned shapes = lobe_shapes(context->scene);
     if (result == AUR_OK)
         result = prepare_glossy_rules(data, context->scene, glossy_count, error);
+    if (result == AUR_OK && (shapes >> AUR_LOBE_SHAPE_SAMPLED & 1u) != 0) {
+        options.set = p.pattern;
+        options.count = data->glossy_samples;
+        options.warnings = (aur_warnings){0};
+        result = aur_gather_rule_create(&options, 0.0, &data->visible, error);
+    }
     if (result == AUR_OK && p.adaptive)
         result = prepare_levels(data, error);
     if (result == AUR_OK && !p.adaptive)
         result = prepare_weights(data, &p, context, error);
     data->options.set = NULL; /* what it named may be gone */
-    const bool wants_photons = p.incident == AUR_INCIDENT_PHOTONS && data->max_depth >= 3;
+    /* Where gather rays go on from every surface, there is no use for photons. */
+    const bool wants_photons = p.incident == AUR_INCIDENT_PHOTONS && data->max_depth >= 3 &&
+                               (shapes >> AUR_LOBE_SHAPE_COSINE_POWER & 1u) != 0;
     if (result == AUR_OK && wants_photons)
         result = prepare_maps(data, &p, context, error);
     if (result == AUR_OK)

@@ -59,7 +59,9 @@ typedef struct aur_final_gather {
     uint64_t pattern_seed;
     aur_gather_options options;
     aur_gather_rule diffuse;
-    size_t glossy_count; /* rules, one for each exponent of the scene's materials */
+    aur_gather_rule visible; /* evenly over the hemisphere, for lobes that are sampled: see
+                                aur_gather_square; empty where no material has one */
+    size_t glossy_count;     /* rules, one for each exponent of the scene's materials */
     aur_gather_rule *glossy;
     /* One a glossy rule, or NULL when the horizon is not minded. */
     float (*horizons)[AUR_HORIZON_STEPS + 1];

@@ -230,3 +230,15 @@ float aur_gather_direction(const aur_gather_rule *rule, const aur_gather_turn *t
         (aur_vector){turn->cosine * x - turn->sine * y, turn->sine * x + turn->cosine * y, rule->z[at]};
     return rule->weights[at];
 }
+
+void aur_gather_square(const aur_gather_rule *rule, const aur_gather_turn *turn, size_t index,
+                       float point[2]) {
+    aur_vector direction;
+    aur_gather_direction(rule, turn, index, &direction);
+    const float turns = atan2f(direction.y, direction.x) * (0.5f / AUR_PI_F);
+    point[0] = fminf(turns < 0.0f ? turns + 1.0f : turns, 0x1.fffffep-1f);
+    /* Turned directions keep their heights; in the square a shift is as good as a turn. */
+    const float shift = rule->square == NULL ? aur_unit_float(turn->word_v) : 0.0f;
+    const float height = fmaxf(1.0f - direction.z, 0.0f) + shift;
+    point[1] = fminf(height < 1.0f ? height : height - 1.0f, 0x1.fffffep-1f);
+}

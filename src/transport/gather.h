@@ -66,4 +66,9 @@ float aur_gather_density(const aur_gather_rule *rule, float cosine);
 float aur_gather_direction(const aur_gather_rule *rule, const aur_gather_turn *turn, size_t index,
                            aur_vector *direction);
 
+/* Direction `index` of a rule of exponent 0, which has them evenly over the hemisphere, as a point of the
+ * unit square: its azimuth, and how far its height is from the pole. */
+void aur_gather_square(const aur_gather_rule *rule, const aur_gather_turn *turn, size_t index,
+                       float point[2]);
+
 #endif

@@ -16,10 +16,9 @@ static aur_vector weighted_value(const aur_final_gather *data, const aur_gather_
         aur_vector value = {0};
         float density = 0.0f;
         if (lobe->shape == AUR_LOBE_SHAPE_SAMPLED) {
-            const aur_shading shading = {&p->surface, p->view};
-            value = aur_glossy_value(p->surface.bsdf, p->surface.texture, p->view, local, p->lobe_count,
-                                     p->lobes);
-            density = aur_shading_pdf(&shading, light->direction) * (float)aur_group_sampled_share(data);
+            value = aur_bsdf_evaluate_sampled(p->surface.bsdf, p->surface.texture, p->view, local);
+            density = aur_bsdf_pdf_sampled(p->surface.bsdf, p->surface.texture, p->view, local) *
+                      aur_final_gather_share(data, &data->visible);
         } else if (lobe->shape == AUR_LOBE_SHAPE_COSINE_POWER && p->view.z * local.z > 0.0f) {
             value = aur_lobe_value(lobe, local);
             const aur_gather_rule *const rule = aur_final_gather_rule(data, lobe);

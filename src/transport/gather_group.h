@@ -71,9 +71,6 @@ static inline void aur_set_column(float column[3][AUR_PACKET_SIZE], size_t lane,
     column[2][lane] = v.z;
 }
 
-/* Directions that a surface point sends for lobes without a formula. */
-size_t aur_group_sampled_share(const aur_final_gather *data);
-
 /* Adds what the places' lobes gather (gather_lobes.c). */
 void aur_group_gather(aur_group *group);
 
@@ -88,9 +85,10 @@ typedef struct aur_rule_walk {
     const aur_gather_rule *rule;
     size_t lobe;
     uint32_t lanes;
-    bool shared; /* all lanes have one turn */
-    bool weighs; /* factors have the rule's weights */
-    float share; /* directions that one sample sends */
+    uint32_t factored; /* lanes whose lobe has a factor */
+    bool shared;       /* all lanes have one turn */
+    bool weighs;       /* factors have the rule's weights */
+    float share;       /* directions that one sample sends */
     aur_embree_order order;
     aur_gather_turn turns[AUR_PACKET_SIZE];
     aur_lobe_frames frames;

@@ -11,8 +11,8 @@ bool aur_gathers_emitters(const aur_final_gather *data) {
 /* What a gather ray meets. */
 typedef struct met_surface {
     bool scatters; /* by lobes that the photon map answers for */
-    bool goes_on;  /* by specular lobes, or, where light passes through, by all: they are sampled */
-    bool passes;   /* rough glass: every sample is followed */
+    bool mirrors;  /* by specular lobes: the ray goes on */
+    bool sampled;  /* by a lobe without a formula: it goes on too */
 } met_surface;
 
 static met_surface meet(const aur_surface *surface, aur_vector view) {
@@ -21,13 +21,33 @@ static met_surface meet(const aur_surface *surface, aur_vector view) {
     const size_t count = surface->bsdf->descriptor->lobes(surface->bsdf, surface->texture, local, lobes);
     met_surface met = {0};
     for (size_t i = 0; i < count; ++i) {
-        met.goes_on = met.goes_on || lobes[i].shape == AUR_LOBE_SHAPE_SPECULAR;
-        met.scatters = met.scatters || lobes[i].shape != AUR_LOBE_SHAPE_SPECULAR;
-        met.passes = met.passes || (lobes[i].shape == AUR_LOBE_SHAPE_SAMPLED && surface->bsdf->transmits);
+        met.mirrors = met.mirrors || lobes[i].shape == AUR_LOBE_SHAPE_SPECULAR;
+        met.sampled = met.sampled || lobes[i].shape == AUR_LOBE_SHAPE_SAMPLED;
+        met.scatters = met.scatters || lobes[i].shape == AUR_LOBE_SHAPE_COSINE_POWER;
     }
-    met.goes_on = met.goes_on || met.passes;
-    met.scatters = met.scatters && !met.passes;
     return met;
+}
+
+/* A draw of the lobes that the photon map does not answer for; light in world coordinates. */
+static bool draw_onward(const aur_surface *surface, aur_vector view, met_surface met, const float u[3],
+                        aur_bsdf_sample *drawn) {
+    const aur_bsdf *const bsdf = surface->bsdf;
+    const aur_shading shading = aur_shading_at(surface, view);
+    if (!met.mirrors) {
+        if (!aur_bsdf_sample_sampled(bsdf, surface->texture, shading.view, u, drawn))
+            return false;
+        const float side = drawn->light.z;
+        drawn->light = aur_frame_to_world(&surface->frame, drawn->light);
+        return aur_vector_dot(surface->geometric_normal, drawn->light) * side > 0.0f;
+    }
+    if (!aur_shading_sample(&shading, u, drawn))
+        return false;
+    if (drawn->specular || !met.sampled)
+        return drawn->specular;
+    const aur_vector light = aur_frame_to_local(&surface->frame, drawn->light);
+    const aur_vector value = aur_bsdf_evaluate_sampled(bsdf, surface->texture, shading.view, light);
+    drawn->weight = aur_vector_scale(value, 1.0f / drawn->pdf);
+    return drawn->pdf > 0.0f;
 }
 
 /* One ray that has left a gathering point. */
@@ -89,6 +109,9 @@ static aur_vector scattered_radiance(const aur_final_gather *data, const aur_hit
     return sum;
 }
 
+/* Weak reflections are followed now and then, so many times as often as they are strong. */
+static const float BOOST = 8.0f;
+
 /* The general case. `hit` is the first one, or NULL when the ray left the scene. */
 static aur_vector radiance_along(const aur_final_gather *data, const gather_ray *from, const aur_hit *hit,
                                  aur_counters *counters) {
@@ -107,20 +130,25 @@ static aur_vector radiance_along(const aur_final_gather *data, const gather_ray 
         const aur_vector view = aur_vector_scale(ray.direction, -1.0f);
         const met_surface met = meet(&surface, view);
         aur_vector radiance = emitted_radiance(data, from, &surface, view, chain);
-        if (met.scatters)
+        /* Two edges led here, one a link of the chain, and a photon came by one at least. */
+        if (met.scatters && chain.length + 3 <= data->max_depth)
             radiance = aur_vector_add(radiance, scattered_radiance(data, hit, &surface, view));
         sum = aur_vector_add(sum, aur_vector_multiply(throughput, radiance));
-        if (!met.goes_on || chain.length == AUR_LONGEST_CHAIN)
+        if (!(met.mirrors || met.sampled) || chain.length == AUR_LONGEST_CHAIN ||
+            chain.length + 3 > data->max_depth)
             return sum;
-        const aur_shading shading = aur_shading_at(&surface, view);
         hash = aur_mix64(hash);
         const float u[3] = {aur_unit_float((uint32_t)hash), aur_unit_float((uint32_t)(hash >> 32)),
                             aur_unit_float((uint32_t)aur_mix64(hash + 1))};
         aur_bsdf_sample sample;
-        if (!aur_shading_sample(&shading, u, &sample) || !(sample.specular || met.passes))
+        if (!draw_onward(&surface, view, met, u, &sample))
             return sum;
         chain.specular = chain.specular && sample.specular;
         throughput = aur_vector_multiply(throughput, sample.weight);
+        const float survival = fminf(1.0f, BOOST * aur_vector_max(throughput));
+        if (!(aur_unit_float((uint32_t)(aur_mix64(hash + 1) >> 32)) < survival))
+            return sum;
+        throughput = aur_vector_scale(throughput, 1.0f / survival);
         ray = aur_surface_ray(&surface, sample.light);
         ++counters->rays;
         hit = aur_scene_intersect(scene, &ray, &next) ? &next : NULL;

@@ -31,9 +31,12 @@ static aur_gather_turn turn_of(const aur_group *group, const aur_gather_rule *ru
     /* Sixteen patterns would show as texture, were they the same in every tile. */
     if (rule->scramble != AUR_SCRAMBLE_ROTATE) {
         const uint64_t k = (order ^ (tile & 15u)) * rule->rotations / 16;
-        return aur_gather_rule_turn(rule, k);
+        aur_gather_turn turn = aur_gather_rule_turn(rule, k);
+        turn.word_v ^= rule->scramble != AUR_SCRAMBLE_NONE ? (uint32_t)(tile >> 32) : 0;
+        return turn;
     }
-    const aur_gather_turn turn = aur_gather_rule_turn(rule, order * rule->rotations / 16);
+    aur_gather_turn turn = aur_gather_rule_turn(rule, order * rule->rotations / 16);
+    turn.word_v ^= (uint32_t)(tile >> 32);
     const float angle = 2.0f * AUR_PI_F * aur_unit_float((uint32_t)tile);
     return aur_gather_turn_by(turn, cosf(angle), sinf(angle));
 }
@@ -167,6 +170,10 @@ uint32_t aur_group_trace_direction(aur_group *group, const aur_rule_walk *walk, 
     aur_gather_trace(group->task->data, walk->order, &group->rays, group->counters);
     for (size_t k = 0; k < AUR_PACKET_SIZE; ++k)
         factor[k] = (walk->weighs ? weight[k] : 1.0f) * (walk->frames.times_cosine[k] ? cosine[k] : 1.0f);
+    for (uint32_t rest = walk->factored & aimed; rest != 0; rest &= rest - 1) {
+        const size_t lane = aur_first_lane(rest);
+        factor[lane] *= aur_lobe_factor(&group->places[lane].lobes[walk->lobe], cosine[lane]);
+    }
     return aimed;
 }
 
@@ -181,6 +188,8 @@ static void start_walk(aur_group *group, const aur_gather_rule *rule, size_t lob
                             .order = group->flat ? AUR_EMBREE_COHERENT : AUR_EMBREE_INCOHERENT};
     for (uint32_t rest = lanes; rest != 0; rest &= rest - 1) {
         const size_t lane = aur_first_lane(rest);
+        if (group->places[lane].lobes[lobe].factor != NULL)
+            walk->factored |= 1u << lane;
         walk->turns[lane] = walk->shared && lane != aur_first_lane(lanes) ? walk->turns[aur_first_lane(lanes)]
                                                                           : turn_of(group, rule, lane, lobe);
     }
@@ -241,48 +250,48 @@ static void gather_rule(aur_group *group, const aur_gather_rule *rule, size_t lo
     aur_group_gather_adaptive(group, &walk, levels);
 }
 
-size_t aur_group_sampled_share(const aur_final_gather *data) {
-    return data->glossy_samples / data->samples_per_pixel;
+/* A draw of a place's sampled lobe becomes the lane's ray; false: there is none. */
+static bool aim_sampled(aur_group *group, size_t lane, const float u[3], float share, aur_vector *value) {
+    const aur_gather_place *const p = &group->places[lane];
+    aur_bsdf_sample drawn;
+    if (!aur_bsdf_sample_sampled(p->surface.bsdf, p->surface.texture, p->view, u, &drawn) ||
+        !(drawn.pdf > 0.0f))
+        return false;
+    const aur_vector light = aur_frame_to_world(&p->surface.frame, drawn.light);
+    if (aur_vector_dot(p->surface.geometric_normal, light) * drawn.light.z <= 0.0f)
+        return false;
+    *value = aur_vector_scale(drawn.weight, 1.0f / share);
+    const aur_ray ray = aur_surface_ray(&p->surface, light);
+    aur_packet_set(&group->rays.packet, lane, &ray);
+    group->rays.density[lane] = drawn.pdf * share;
+    group->rays.reference[lane] = p->surface.position;
+    return true;
 }
 
-/* The glossy part of BSDFs that have no formula, by their own samples. */
+/* Lobes that have no formula, by the pattern's points of the square and the BSDF's own sampling. */
 static void gather_sampled(aur_group *group, size_t lobe, uint32_t lanes) {
-    static const aur_sampler sobol = {.kind = AUR_SAMPLER_SOBOL};
     const aur_final_gather *const data = group->task->data;
-    const size_t share = aur_group_sampled_share(data);
-    for (size_t i = 0; i < share; ++i) {
+    aur_rule_walk walk;
+    start_walk(group, &data->visible, lobe, lanes, &walk);
+    const size_t shares = data->samples_per_pixel, first = group->task->index % shares;
+    for (size_t i = first; i < walk.rule->count; i += shares) {
         aur_vector value[AUR_PACKET_SIZE];
+        float u[3] = {0.0f, 0.0f, 0.0f};
         uint32_t aimed = 0;
         aur_clear_lanes(&group->rays.packet);
+        group->rays.hash = aur_hash3(group->samples[aur_first_lane(lanes)].stream.pixel, i, lobe);
+        if (walk.shared)
+            aur_gather_square(walk.rule, &walk.turns[aur_first_lane(lanes)], i, &u[1]);
         for (uint32_t rest = lanes; rest != 0; rest &= rest - 1) {
             const size_t lane = aur_first_lane(rest);
-            const aur_gather_place *const p = &group->places[lane];
-            const uint64_t pixel = group->samples[lane].stream.pixel;
-            const aur_stream numbers = {&sobol, aur_hash4(data->pattern_seed, pixel, group->chain, lobe),
-                                        (uint32_t)(group->task->index * share + i)};
-            float choice[2], direction[2];
-            aur_stream_pair(&numbers, 0, choice);
-            aur_stream_pair(&numbers, 1, direction);
-            const aur_shading shading = {&p->surface, p->view};
-            aur_bsdf_sample drawn;
-            if (!aur_shading_sample(&shading, (const float[3]){choice[0], direction[0], direction[1]},
-                                    &drawn) ||
-                drawn.specular || !(drawn.pdf > 0.0f))
-                continue;
-            const aur_vector light = aur_frame_to_local(&p->surface.frame, drawn.light);
-            const aur_vector rest_value = aur_glossy_value(p->surface.bsdf, p->surface.texture, p->view,
-                                                           light, p->lobe_count, p->lobes);
-            value[lane] = aur_vector_scale(rest_value, 1.0f / (drawn.pdf * (float)share));
-            const aur_ray ray = aur_surface_ray(&p->surface, drawn.light);
-            aur_packet_set(&group->rays.packet, lane, &ray);
-            group->rays.density[lane] = drawn.pdf * (float)share;
-            group->rays.reference[lane] = p->surface.position;
-            aimed |= 1u << lane;
+            if (!walk.shared)
+                aur_gather_square(walk.rule, &walk.turns[lane], i, &u[1]);
+            u[0] = aur_unit_float((uint32_t)aur_hash2(group->rays.hash, ~(uint64_t)lane));
+            aimed |= (uint32_t)aim_sampled(group, lane, u, walk.share, &value[lane]) << lane;
         }
         if (aimed == 0)
             continue;
-        group->rays.hash = aur_hash3(group->samples[aur_first_lane(lanes)].stream.pixel, i, lobe);
-        aur_gather_trace(data, AUR_EMBREE_INCOHERENT, &group->rays, group->counters);
+        aur_gather_trace(data, walk.order, &group->rays, group->counters);
         for (uint32_t rest = aimed; rest != 0; rest &= rest - 1) {
             const size_t lane = aur_first_lane(rest);
             const aur_vector incident = {group->rays.radiance[0][lane], group->rays.radiance[1][lane],

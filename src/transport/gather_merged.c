@@ -11,7 +11,7 @@ const aur_gather_pair *aur_group_pair(const aur_final_gather *data, const aur_ga
         const size_t which = lobe->diffuse ? 0 : 1;
         if (lobe->shape == AUR_LOBE_SHAPE_SPECULAR || aur_vector_is_zero(lobe->coefficient))
             continue;
-        if (lobe->shape != AUR_LOBE_SHAPE_COSINE_POWER || found[which] ||
+        if (lobe->shape != AUR_LOBE_SHAPE_COSINE_POWER || lobe->factor != NULL || found[which] ||
             (which == 0 && lobe->exponent != 1.0f))
             return NULL;
         found[which] = true;

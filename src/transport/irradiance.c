@@ -141,10 +141,8 @@ void aur_irradiance_map_destroy(aur_irradiance_map *map) {
     free(map);
 }
 
-/* What the glossy lobes have towards `light`, BSDF * |cos|, and nothing from powers too small to matter. */
+/* The glossy lobes with a formula, and where their powers are too small to matter. */
 typedef struct glossy_lobes {
-    bool sampled; /* one of them has no formula */
-    bool whole;   /* and it is the whole BSDF: none beside it is diffuse */
     size_t count;
     aur_bsdf_lobe lobes[AUR_BSDF_LOBE_CAPACITY];
     float
@@ -152,36 +150,34 @@ typedef struct glossy_lobes {
 } glossy_lobes;
 
 static glossy_lobes lobes_at(const aur_surface *surface, aur_vector view) {
-    glossy_lobes all = {.whole = true};
-    all.count = surface->bsdf->descriptor->lobes(surface->bsdf, surface->texture, view, all.lobes);
-    for (size_t i = 0; i < all.count; ++i) {
-        all.sampled = all.sampled || all.lobes[i].shape == AUR_LOBE_SHAPE_SAMPLED;
-        all.whole = all.whole && !all.lobes[i].diffuse;
-        all.least[i] = expf(-13.8155f / fmaxf(all.lobes[i].exponent, 1e-3f));
+    aur_bsdf_lobe lobes[AUR_BSDF_LOBE_CAPACITY];
+    const size_t count = surface->bsdf->descriptor->lobes(surface->bsdf, surface->texture, view, lobes);
+    glossy_lobes all = {0};
+    for (size_t i = 0; i < count; ++i) {
+        if (lobes[i].diffuse || lobes[i].shape != AUR_LOBE_SHAPE_COSINE_POWER)
+            continue;
+        all.least[all.count] = expf(-13.8155f / fmaxf(lobes[i].exponent, 1e-3f));
+        all.lobes[all.count++] = lobes[i];
     }
-    all.whole = all.whole && all.sampled;
     return all;
 }
 
-static aur_vector glossy_value(const glossy_lobes *all, const aur_surface *surface, aur_vector view,
-                               aur_vector light) {
-    if (all->sampled)
-        return aur_glossy_value(surface->bsdf, surface->texture, view, light, all->count, all->lobes);
+static aur_vector glossy_value(const glossy_lobes *all, aur_vector light) {
     aur_vector sum = {0};
     for (size_t i = 0; i < all->count; ++i)
-        if (!all->lobes[i].diffuse && aur_vector_dot(all->lobes[i].axis, light) > all->least[i])
+        if (aur_vector_dot(all->lobes[i].axis, light) > all->least[i])
             sum = aur_vector_add(sum, aur_lobe_value(&all->lobes[i], light));
     return sum;
 }
 
 /* The glossy lobes' share: a density estimate over the texel's photons. */
 static aur_vector glossy_radiance(const aur_irradiance_map *map, size_t light_index,
-                                  const aur_surface *surface, aur_vector view, const glossy_lobes *lobes) {
+                                  const aur_surface *surface, const glossy_lobes *lobes) {
     aur_vector sum = {0};
     for (uint32_t i = map->member_first[light_index]; i < map->member_first[light_index + 1]; ++i) {
         const aur_incident_photon *const photon = &map->members[i];
         const aur_vector light = aur_frame_to_local(&surface->frame, photon->direction);
-        const aur_vector value = glossy_value(lobes, surface, view, light);
+        const aur_vector value = glossy_value(lobes, light);
         if (aur_vector_is_zero(value))
             continue;
         /* The value is of BSDF * cos, and a photon's power has its cosine already. */
@@ -210,6 +206,5 @@ aur_vector aur_irradiance_radiance(const aur_irradiance_map *map, const aur_scen
     if (map->member_first == NULL || map->member_first[light_index] == map->member_first[light_index + 1])
         return diffuse;
     const glossy_lobes lobes = lobes_at(surface, local_view);
-    const aur_vector glossy = glossy_radiance(map, light_index, surface, local_view, &lobes);
-    return lobes.whole ? glossy : aur_vector_add(diffuse, glossy);
+    return aur_vector_add(diffuse, glossy_radiance(map, light_index, surface, &lobes));
 }

@@ -46,7 +46,7 @@ aur_irradiance_on_triangle(const aur_irradiance_map *map, uint32_t element, floa
 }
 
 /* Radiance that leaves the surface of a hit towards `view` (world, unit): its irradiance times albedo / pi,
- * and the glossy lobes over the texel's photons. Emission is not part of it. */
+ * and the cos^m lobes over the texel's photons. Emission and other lobes are no part of it. */
 aur_vector aur_irradiance_radiance(const aur_irradiance_map *map, const aur_scene *scene, const aur_hit *hit,
                                    const aur_surface *surface, aur_vector view);
 

@@ -45,13 +45,14 @@ static bool store(photon_chunk *chunk, aur_photon photon) {
     return true;
 }
 
-/* What a surface reflects of photons: bit 0 diffusely, bit 1 by glossy lobes. */
+/* What a surface reflects of photons: bit 0 diffusely, bit 1 by glossy lobes. Gather rays go on by the
+ * others, and ask for no photons. */
 static unsigned reflecting_parts(const aur_surface *surface, aur_vector view) {
     aur_bsdf_lobe lobes[AUR_BSDF_LOBE_CAPACITY];
     const size_t count = surface->bsdf->descriptor->lobes(surface->bsdf, surface->texture, view, lobes);
     unsigned parts = 0;
     for (size_t i = 0; i < count; ++i)
-        if (lobes[i].shape != AUR_LOBE_SHAPE_SPECULAR)
+        if (lobes[i].shape == AUR_LOBE_SHAPE_COSINE_POWER)
             parts |= lobes[i].diffuse ? 1u : 2u;
     return parts;
 }

@@ -45,17 +45,9 @@ static inline aur_vector aur_lobe_value(const aur_bsdf_lobe *lobe, aur_vector li
     if (lobe->shape != AUR_LOBE_SHAPE_COSINE_POWER || along <= 0.0f)
         return (aur_vector){0};
     const float power = lobe->exponent == 1.0f ? along : powf(along, lobe->exponent);
-    return aur_vector_scale(lobe->coefficient, lobe->times_cosine ? power * fabsf(light.z) : power);
-}
-
-/* BSDF * |cos| towards a local direction without its diffuse lobes. */
-static inline aur_vector aur_glossy_value(const aur_bsdf *bsdf, aur_bsdf_point point, aur_vector view,
-                                          aur_vector light, size_t lobe_count, const aur_bsdf_lobe *lobes) {
-    aur_vector rest = bsdf->descriptor->evaluate(bsdf, point, view, light);
-    for (size_t i = 0; i < lobe_count; ++i)
-        if (lobes[i].diffuse && view.z * light.z > 0.0f)
-            rest = aur_vector_subtract(rest, aur_lobe_value(&lobes[i], light));
-    return (aur_vector){fmaxf(rest.x, 0.0f), fmaxf(rest.y, 0.0f), fmaxf(rest.z, 0.0f)};
+    const float factor = aur_lobe_factor(lobe, fabsf(light.z));
+    return aur_vector_scale(lobe->coefficient,
+                            factor * (lobe->times_cosine ? power * fabsf(light.z) : power));
 }
 
 #endif
