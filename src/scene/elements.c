@@ -97,6 +97,10 @@ static void world_corners(const aur_scene *scene, const aur_placement *placement
         corner[i] = aur_transform_point_f(&instance->to_world, corner[i]);
 }
 
+void aur_shape_corners(const aur_scene *scene, uint32_t shape, uint32_t primitive, aur_vector corner[3]) {
+    aur_mesh_corners(&scene->shapes[shape]->mesh, primitive, corner);
+}
+
 static double mean_scale(const aur_transform *t) {
     const double *const m = t->m;
     const double determinant = m[0] * (m[5] * m[10] - m[6] * m[9]) - m[1] * (m[4] * m[10] - m[6] * m[8]) +

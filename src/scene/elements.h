@@ -42,6 +42,9 @@ double aur_element_area(const aur_scene *scene, const aur_placement *placement, 
 void aur_element_middle(const aur_scene *scene, const aur_placement *placement, uint32_t primitive,
                         aur_vector *position, aur_vector *normal);
 
+/* The corners of a mesh's triangle, of a shape that is no copy. */
+void aur_shape_corners(const aur_scene *scene, uint32_t shape, uint32_t primitive, aur_vector corner[3]);
+
 /* Coordinates in which equal areas are equal: of a triangle the barycentric u, v of the hit (u + v <= 1), of
  * a curved shape a point of the unit square. */
 void aur_element_coordinates(const aur_scene *scene, const aur_hit *hit, const aur_surface *surface,

@@ -14,6 +14,7 @@ static void release(aur_integrator *integrator) {
     aur_final_gather *const data = integrator->data;
     aur_gather_rule_release(&data->diffuse);
     aur_gather_rule_release(&data->visible);
+    aur_bright_texels_release(&data->bright);
     for (size_t i = 0; i < data->glossy_count; ++i)
         aur_gather_rule_release(&data->glossy[i]);
     for (size_t i = 0; i < data->pair_count; ++i)
@@ -263,6 +264,23 @@ static aur_result prepare_classes(aur_final_gather *data, aur_error *error) {
     return AUR_OK;
 }
 
+static bool plain_albedo(const void *context, uint32_t shape, aur_vector albedo_on_pi[2]) {
+    const aur_hit_class *const class = &((const aur_final_gather *)context)->classes[shape];
+    albedo_on_pi[0] = class->albedo_on_pi[0];
+    albedo_on_pi[1] = class->albedo_on_pi[1];
+    return class->plain;
+}
+
+static aur_result prepare_bright(aur_final_gather *data, int64_t samples, aur_error *error) {
+    if (samples == 0 || data->map == NULL || data->component != AUR_COMPONENT_ALL)
+        return AUR_OK;
+    const aur_result result =
+        aur_bright_texels_create(data->scene, data->map, plain_albedo, data, &data->bright, error);
+    if (result == AUR_OK && data->bright.distribution.total > 0.0)
+        data->bright_share = shared_count(samples, data->samples_per_pixel) / data->samples_per_pixel;
+    return result;
+}
+
 /* Chosen by measurement: see docs/rendering.md. */
 static double default_threshold(size_t criterion) {
     return criterion == AUR_CRITERION_ENTROPY ? 0.3 : 0.03;
@@ -295,6 +313,7 @@ static aur_result create(aur_parameters *parameters, const aur_integrator_contex
     data->adaptive = p.adaptive;
     data->criterion = p.criterion;
     data->component = p.component;
+    data->light_share = (uint32_t)p.light_samples;
     data->direct = p.direct;
     data->incident = p.incident;
     data->max_depth = p.max_depth < 0 ? UINT32_MAX : (uint32_t)p.max_depth;
@@ -353,22 +372,26 @@ static aur_result create(aur_parameters *parameters, const aur_integrator_contex
         result = prepare_maps(data, &p, context, error);
     if (result == AUR_OK)
         result = prepare_classes(data, error);
+    if (result == AUR_OK)
+        result = prepare_bright(data, p.bright_samples, error);
     return result;
 }
 
 const aur_integrator_descriptor aur_integrator_final_gather = {
-    .description =
-        {.name = "finalgather",
-         .keys = "diffuse_samples=64, glossy_samples=64, pattern=spherical-fibonacci, map=lambert, "
-                 "scramble=rotate (nets: digit), rotations=16, density=optimal, smoothness=1.5, "
-                 "weights=ratio, regularization=1e-6, clip=true, decorrelation=blue, photons=500000, "
-                 "caustic_photons=0, photon_pattern=sobol, photons_per_texel=16, edges=32, share=false, "
-                 "adaptive=false, levels=2, level_factor=4, criterion=variance, threshold=0.03 "
-                 "(entropy: 0.3), "
-                 "max_depth=-1, component=all, direct=nee, incident=photons, pixel=filter, "
-                 "pattern_seed=0, packets=true",
-         .summary = "final gathering over a photon map, one pattern of directions an image",
-         .source = "Christensen 1999, Marques 2013, Marques 2018, Marques 2019"},
+    .description = {.name = "finalgather",
+                    .keys =
+                        "diffuse_samples=64, glossy_samples=64, pattern=spherical-fibonacci, map=lambert, "
+                        "scramble=rotate (nets: digit), rotations=16, density=optimal, smoothness=1.5, "
+                        "weights=ratio, regularization=1e-6, clip=true, decorrelation=blue, photons=500000, "
+                        "caustic_photons=0, photon_pattern=sobol, photons_per_texel=16, light_samples=1, "
+                        "bright_samples=0, edges=32, "
+                        "share=false, "
+                        "adaptive=false, levels=2, level_factor=4, criterion=variance, threshold=0.03 "
+                        "(entropy: 0.3), "
+                        "max_depth=-1, component=all, direct=nee, incident=photons, pixel=filter, "
+                        "pattern_seed=0, packets=true",
+                    .summary = "final gathering over a photon map, one pattern of directions an image",
+                    .source = "Christensen 1999, Marques 2013, Marques 2018, Marques 2019"},
     .create = create,
     .release = release,
     .tile = aur_final_gather_tile,

@@ -4,10 +4,11 @@
  *     gather_tile.c      a tile: its groups, its edges, the means of its pixels
  *     gather_group.c     sixteen pixels at a time: what they see
  *     gather_direct.c    their direct light
+ *     gather_bright.c    light of bright texels, drawn as lights are
  *     gather_lobes.c     gathering by lobe; gather_merged.c both lobes by merged samples;
  *                        gather_adaptive.c by levels
  *     gather_merged.c    two lobes of a place by the samples of both
- *     gather_incident.c  radiance along gather rays
+ *     gather_incident.c  radiance along gather rays; gather_chain.c where it is not one array read
  *     gather_edges.c     more primary rays where a pixel sees several things
  *     gather_sharing.c   irradiance that neighbouring pixels have in common
  *
@@ -19,6 +20,7 @@
 #define AUR_TRANSPORT_FINAL_GATHER_H
 
 #include "scene/packet.h"
+#include "transport/bright_texels.h"
 #include "transport/gather.h"
 #include "transport/gather_levels.h"
 #include "transport/gather_pair.h"
@@ -78,6 +80,9 @@ typedef struct aur_final_gather {
     const aur_irradiance_map
         *caustics;          /* the light that specular bounces brought, which `map` has not; or NULL */
     aur_hit_class *classes; /* one a shape */
+    uint32_t light_share;   /* points on lights that one sample draws */
+    size_t bright_share;    /* draws of bright texels that one sample sends; 0: there are none */
+    aur_bright_texels bright;
 } aur_final_gather;
 
 /* Renders a tile (gather_tile.c): the integrator's `tile`. */
@@ -110,6 +115,18 @@ typedef struct aur_gather_rays {
 
 void aur_gather_trace(const aur_final_gather *data, aur_embree_order order, aur_gather_rays *rays,
                       aur_counters *counters);
+
+/* One ray that has left a gathering point. */
+typedef struct aur_gather_ray {
+    aur_ray ray;
+    aur_vector reference; /* the point */
+    float density;        /* see aur_gather_rays */
+    uint64_t hash;        /* of what chance decides on its way */
+} aur_gather_ray;
+
+/* Radiance along a ray whose first hit is `hit`, or NULL when it left the scene (gather_chain.c). */
+aur_vector aur_gather_chain_radiance(const aur_final_gather *data, const aur_gather_ray *from,
+                                     const aur_hit *hit, aur_counters *counters);
 
 /* Closest hits of a packet, as the parameter `packets` wants them. */
 uint32_t aur_final_gather_intersect(const aur_final_gather *data, aur_embree_order order, aur_packet *packet,

@@ -11,6 +11,7 @@ static aur_result read_parameters(aur_parameters *parameters, aur_gather_paramet
     static const char *const decorrelations[] = {"blue", "random", "none"};
     *p = (aur_gather_parameters){.diffuse_samples = 64,
                                  .glossy_samples = 64,
+                                 .light_samples = 1,
                                  .rotations = 16,
                                  .photons = 500000,
                                  .photons_a_texel = 16.0,
@@ -47,6 +48,10 @@ static aur_result read_parameters(aur_parameters *parameters, aur_gather_paramet
         (r = aur_parameters_float(parameters, "smoothness", 1.0, 2.0, &p->smoothness, error)) == AUR_OK &&
         (r = aur_parameters_integer(parameters, "photons", 1, most, &p->photons, error)) == AUR_OK &&
         (r = aur_parameters_integer(parameters, "caustic_photons", 0, most, &p->caustic_photons, error)) ==
+            AUR_OK &&
+        (r = aur_parameters_integer(parameters, "light_samples", 1, 65536, &p->light_samples, error)) ==
+            AUR_OK &&
+        (r = aur_parameters_integer(parameters, "bright_samples", 0, 65536, &p->bright_samples, error)) ==
             AUR_OK &&
         (r = aur_parameters_string(parameters, "photon_pattern", &p->photon_set, error)) == AUR_OK &&
         (r = aur_parameters_float(parameters, "photons_per_texel", 1.0, 1e6, &p->photons_a_texel, error)) ==

@@ -8,7 +8,7 @@ enum { AUR_DENSITY_SAME, AUR_DENSITY_OPTIMAL, AUR_DENSITY_UNSAID };
 
 typedef struct aur_gather_parameters {
     int64_t diffuse_samples, glossy_samples, rotations, photons, max_depth, pattern_seed, edges;
-    int64_t levels, level_factor, caustic_photons;
+    int64_t levels, level_factor, caustic_photons, bright_samples, light_samples;
     double smoothness, regularization, photons_a_texel, threshold;
     const char *pattern, *map, *scramble, *photon_set;
     size_t density, weights, component, direct, incident, pixel, decorrelation, criterion;

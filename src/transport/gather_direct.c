@@ -2,9 +2,8 @@
 #include "transport/direct_light.h"
 #include "transport/gather_merged.h"
 
-/* BSDF * cos towards a light, each lobe less the part that its gather rays find. */
-static aur_vector weighted_value(const aur_final_gather *data, const aur_gather_place *p,
-                                 const aur_light_sample *light) {
+aur_vector aur_group_weighted_value(const aur_final_gather *data, const aur_gather_place *p,
+                                    const aur_light_sample *light) {
     const aur_vector local = aur_frame_to_local(&p->surface.frame, light->direction);
     if (aur_vector_dot(p->surface.geometric_normal, light->direction) * local.z <= 0.0f)
         return (aur_vector){0};
@@ -34,13 +33,12 @@ static aur_vector weighted_value(const aur_final_gather *data, const aur_gather_
     return sum;
 }
 
-void aur_group_add_direct_light(aur_group *group) {
+static void add_draw(aur_group *group, uint32_t index) {
     const aur_final_gather *const data = group->task->data;
     const aur_scene *const scene = data->scene;
     const bool chooses = aur_light_chooses(scene);
     const uint32_t pair = AUR_PAIR_FIRST + AUR_GATHER_PAIRS * group->chain;
     const aur_sampler *const sampler = group->task->view->sampler;
-    const uint32_t index = group->task->index;
     float choice[AUR_PACKET_SIZE], unused[AUR_PACKET_SIZE], u[AUR_PACKET_SIZE], v[AUR_PACKET_SIZE];
     if (chooses)
         aur_stream_pixels(sampler, AUR_PACKET_SIZE, group->pixels, index, pair + AUR_GATHER_PAIR_CHOICE,
@@ -61,10 +59,11 @@ void aur_group_add_direct_light(aur_group *group) {
     for (uint32_t rest = group->lanes; rest != 0; rest &= rest - 1) {
         const size_t lane = aur_first_lane(rest);
         const aur_gather_place *const p = &group->places[lane];
-        const aur_light_sample *const light = &lights[lane];
+        aur_light_sample *const light = &lights[lane];
         if (!(light->pdf > 0.0f))
             continue;
-        const aur_vector value = weighted_value(data, p, light);
+        light->pdf *= (float)data->light_share;
+        const aur_vector value = aur_group_weighted_value(data, p, light);
         contribution[lane] = aur_vector_scale(aur_vector_multiply(value, light->radiance), 1.0f / light->pdf);
         if (aur_vector_is_zero(contribution[lane]))
             continue;
@@ -83,4 +82,10 @@ void aur_group_add_direct_light(aur_group *group) {
         group->sum[lane] = aur_vector_add(group->sum[lane],
                                           aur_vector_multiply(group->throughput[lane], contribution[lane]));
     }
+}
+
+void aur_group_add_direct_light(aur_group *group) {
+    const uint32_t share = group->task->data->light_share;
+    for (uint32_t k = 0; k < share; ++k)
+        add_draw(group, group->task->index * share + k);
 }

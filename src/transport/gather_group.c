@@ -261,6 +261,8 @@ void aur_group_add_sample(aur_group *group, const aur_group_task *task, aur_pixe
         if (data->direct == AUR_DIRECT_NEE && data->max_depth >= 2 &&
             aur_scene_emitter_count(data->scene) > 0)
             aur_group_add_direct_light(group);
+        if (data->bright_share > 0)
+            aur_group_add_bright_light(group);
         aur_group_gather(group);
         bounce(group);
     }

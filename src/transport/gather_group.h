@@ -37,13 +37,15 @@ struct aur_group {
     aur_gather_rays rays;
 };
 
-/* Dimension pairs of one surface along the chain: choice of light, position on it, and two for a specular
- * bounce. */
+/* Dimension pairs of one surface along the chain: choice of light, position on it, two for a specular
+ * bounce, choice of a bright texel, position on it. */
 enum {
     AUR_GATHER_PAIR_CHOICE,
     AUR_GATHER_PAIR_POSITION,
     AUR_GATHER_PAIR_LOBE,
     AUR_GATHER_PAIR_BOUNCE,
+    AUR_GATHER_PAIR_TEXEL,
+    AUR_GATHER_PAIR_TEXEL_POSITION,
     AUR_GATHER_PAIRS
 };
 
@@ -76,6 +78,13 @@ void aur_group_gather(aur_group *group);
 
 /* Adds the light that reaches the places straight from lights (gather_direct.c). */
 void aur_group_add_direct_light(aur_group *group);
+
+/* BSDF * cos towards a light, each lobe less the part that its gather rays find. */
+aur_vector aur_group_weighted_value(const aur_final_gather *data, const aur_gather_place *p,
+                                    const aur_light_sample *light);
+
+/* Adds the light that reaches the places from bright texels (gather_bright.c). */
+void aur_group_add_bright_light(aur_group *group);
 
 /* Whether a lobe's light comes by gather rays. */
 bool aur_group_gathers(const aur_final_gather *data, const aur_bsdf_lobe *lobe);

@@ -1,158 +1,11 @@
 /* Radiance along gather rays: where the ray's hit is plainly diffuse, one read of the irradiance map; else
- * the surface, its emission, its glossy lobes over the map's photons, and mirrors and glass followed. */
+ * what gather_chain.c finds. */
 #include "transport/direct_light.h"
 #include "transport/final_gather.h"
 
 bool aur_gathers_emitters(const aur_final_gather *data) {
     return data->direct == AUR_DIRECT_GATHER ||
            (data->incident == AUR_INCIDENT_EMITTERS && data->direct == AUR_DIRECT_NONE);
-}
-
-/* What a gather ray meets. */
-typedef struct met_surface {
-    bool scatters; /* by lobes that the photon map answers for */
-    bool mirrors;  /* by specular lobes: the ray goes on */
-    bool sampled;  /* by a lobe without a formula: it goes on too */
-} met_surface;
-
-static met_surface meet(const aur_surface *surface, aur_vector view) {
-    aur_bsdf_lobe lobes[AUR_BSDF_LOBE_CAPACITY];
-    const aur_vector local = aur_frame_to_local(&surface->frame, view);
-    const size_t count = surface->bsdf->descriptor->lobes(surface->bsdf, surface->texture, local, lobes);
-    met_surface met = {0};
-    for (size_t i = 0; i < count; ++i) {
-        met.mirrors = met.mirrors || lobes[i].shape == AUR_LOBE_SHAPE_SPECULAR;
-        met.sampled = met.sampled || lobes[i].shape == AUR_LOBE_SHAPE_SAMPLED;
-        met.scatters = met.scatters || lobes[i].shape == AUR_LOBE_SHAPE_COSINE_POWER;
-    }
-    return met;
-}
-
-/* A draw of the lobes that the photon map does not answer for; light in world coordinates. */
-static bool draw_onward(const aur_surface *surface, aur_vector view, met_surface met, const float u[3],
-                        aur_bsdf_sample *drawn) {
-    const aur_bsdf *const bsdf = surface->bsdf;
-    const aur_shading shading = aur_shading_at(surface, view);
-    if (!met.mirrors) {
-        if (!aur_bsdf_sample_sampled(bsdf, surface->texture, shading.view, u, drawn))
-            return false;
-        const float side = drawn->light.z;
-        drawn->light = aur_frame_to_world(&surface->frame, drawn->light);
-        return aur_vector_dot(surface->geometric_normal, drawn->light) * side > 0.0f;
-    }
-    if (!aur_shading_sample(&shading, u, drawn))
-        return false;
-    if (drawn->specular || !met.sampled)
-        return drawn->specular;
-    const aur_vector light = aur_frame_to_local(&surface->frame, drawn->light);
-    const aur_vector value = aur_bsdf_evaluate_sampled(bsdf, surface->texture, shading.view, light);
-    drawn->weight = aur_vector_scale(value, 1.0f / drawn->pdf);
-    return drawn->pdf > 0.0f;
-}
-
-/* One ray that has left a gathering point. */
-typedef struct gather_ray {
-    aur_ray ray;
-    aur_vector reference;
-    float density;
-    uint64_t hash;
-} gather_ray;
-
-/* How a ray came where it is. */
-typedef struct gather_chain {
-    uint32_t length; /* bounces since the gathering point */
-    bool specular;   /* all of them */
-} gather_chain;
-
-/* The part of a light's radiance that gathering counts; the rest is found by sampling the light. */
-static float emission_weight(const aur_final_gather *data, gather_chain chain, float density,
-                             float light_pdf) {
-    if (aur_gathers_emitters(data))
-        return 1.0f;
-    if (data->direct != AUR_DIRECT_NEE)
-        return 0.0f;
-    if (chain.length == 0)
-        return aur_power_heuristic(density, light_pdf);
-    /* Light that a mirror throws here is not found by sampling lights, but by caustic photons if there are.
-     */
-    return data->caustics != NULL && chain.specular ? 0.0f : 1.0f;
-}
-
-static aur_vector sky_radiance(const aur_final_gather *data, const gather_ray *from, aur_vector direction,
-                               gather_chain chain) {
-    const aur_vector sky = aur_scene_environment(data->scene, direction);
-    if (aur_vector_is_zero(sky))
-        return sky;
-    const float pdf = chain.length > 0 ? 0.0f : aur_environment_pdf_direct(data->scene, direction);
-    return aur_vector_scale(sky, emission_weight(data, chain, from->density, pdf));
-}
-
-static aur_vector emitted_radiance(const aur_final_gather *data, const gather_ray *from,
-                                   const aur_surface *surface, aur_vector view, gather_chain chain) {
-    const aur_vector emission = aur_surface_emission(data->scene, surface, view);
-    if (aur_vector_is_zero(emission))
-        return emission;
-    const float pdf = chain.length > 0
-                          ? 0.0f
-                          : aur_light_pdf_direct(data->scene, from->reference, AUR_LEAST_LIGHT_SEEN, surface);
-    return aur_vector_scale(emission, emission_weight(data, chain, from->density, pdf));
-}
-
-/* What the photon maps know of the light that leaves a surface. */
-static aur_vector scattered_radiance(const aur_final_gather *data, const aur_hit *hit,
-                                     const aur_surface *surface, aur_vector view) {
-    aur_vector sum = {0};
-    if (data->map != NULL)
-        sum = aur_irradiance_radiance(data->map, data->scene, hit, surface, view);
-    if (data->caustics != NULL)
-        sum = aur_vector_add(sum, aur_irradiance_radiance(data->caustics, data->scene, hit, surface, view));
-    return sum;
-}
-
-/* Weak reflections are followed now and then, so many times as often as they are strong. */
-static const float BOOST = 8.0f;
-
-/* The general case. `hit` is the first one, or NULL when the ray left the scene. */
-static aur_vector radiance_along(const aur_final_gather *data, const gather_ray *from, const aur_hit *hit,
-                                 aur_counters *counters) {
-    const aur_scene *const scene = data->scene;
-    aur_vector sum = {0}, throughput = {1.0f, 1.0f, 1.0f};
-    aur_ray ray = from->ray;
-    uint64_t hash = from->hash;
-    aur_hit next;
-    for (gather_chain chain = {0, true};; ++chain.length) {
-        if (hit == NULL) {
-            const aur_vector sky = sky_radiance(data, from, ray.direction, chain);
-            return aur_vector_add(sum, aur_vector_multiply(throughput, sky));
-        }
-        aur_surface surface;
-        aur_scene_surface(scene, &ray, hit, &surface);
-        const aur_vector view = aur_vector_scale(ray.direction, -1.0f);
-        const met_surface met = meet(&surface, view);
-        aur_vector radiance = emitted_radiance(data, from, &surface, view, chain);
-        /* Two edges led here, one a link of the chain, and a photon came by one at least. */
-        if (met.scatters && chain.length + 3 <= data->max_depth)
-            radiance = aur_vector_add(radiance, scattered_radiance(data, hit, &surface, view));
-        sum = aur_vector_add(sum, aur_vector_multiply(throughput, radiance));
-        if (!(met.mirrors || met.sampled) || chain.length == AUR_LONGEST_CHAIN ||
-            chain.length + 3 > data->max_depth)
-            return sum;
-        hash = aur_mix64(hash);
-        const float u[3] = {aur_unit_float((uint32_t)hash), aur_unit_float((uint32_t)(hash >> 32)),
-                            aur_unit_float((uint32_t)aur_mix64(hash + 1))};
-        aur_bsdf_sample sample;
-        if (!draw_onward(&surface, view, met, u, &sample))
-            return sum;
-        chain.specular = chain.specular && sample.specular;
-        throughput = aur_vector_multiply(throughput, sample.weight);
-        const float survival = fminf(1.0f, BOOST * aur_vector_max(throughput));
-        if (!(aur_unit_float((uint32_t)(aur_mix64(hash + 1) >> 32)) < survival))
-            return sum;
-        throughput = aur_vector_scale(throughput, 1.0f / survival);
-        ray = aur_surface_ray(&surface, sample.light);
-        ++counters->rays;
-        hit = aur_scene_intersect(scene, &ray, &next) ? &next : NULL;
-    }
 }
 
 static aur_ray packet_ray(const aur_packet *packet, size_t lane) {
@@ -199,9 +52,33 @@ static void set_radiance(aur_gather_rays *rays, size_t lane, aur_vector radiance
     rays->radiance[2][lane] = radiance.z;
 }
 
+static float density_of(const aur_gather_rays *rays, size_t lane) {
+    if (rays->pair == NULL)
+        return rays->density[lane];
+    const aur_vector direction = packet_ray(&rays->packet, lane).direction;
+    return aur_gather_pair_density(rays->pair, aur_vector_dot(rays->axes[lane][0], direction),
+                                   aur_vector_dot(rays->axes[lane][1], direction));
+}
+
+/* The part of a bright texel's light that gathering counts; the rest is found by drawing bright texels. */
+static float bright_weight(const aur_final_gather *data, const aur_gather_rays *rays, size_t lane,
+                           aur_vector known) {
+    const float texel = aur_bright_texels_density(&data->bright, known);
+    if (texel == 0.0f)
+        return 1.0f;
+    const struct RTCRayHit16 *const query = &rays->packet.query;
+    const aur_vector normal = {query->hit.Ng_x[lane], query->hit.Ng_y[lane], query->hit.Ng_z[lane]};
+    const aur_vector direction = {query->ray.dir_x[lane], query->ray.dir_y[lane], query->ray.dir_z[lane]};
+    const float along = fabsf(aur_vector_dot(normal, direction)), distance = query->ray.tfar[lane];
+    const float rival =
+        texel * (float)data->bright_share * distance * distance * aur_vector_length(normal) / along;
+    return along > 0.0f ? aur_power_heuristic(density_of(rays, lane), rival) : 1.0f;
+}
+
 /* Diffuse, without emission, no instance: true when that was all. */
-static bool plain_radiance(const aur_final_gather *data, const struct RTCRayHit16 *query, size_t lane,
+static bool plain_radiance(const aur_final_gather *data, const aur_gather_rays *rays, size_t lane,
                            aur_vector *radiance) {
+    const struct RTCRayHit16 *const query = &rays->packet.query;
     const uint32_t shape = query->hit.geomID[lane];
     if (query->hit.instID[0][lane] != RTC_INVALID_GEOMETRY_ID || !data->classes[shape].plain)
         return false;
@@ -212,22 +89,16 @@ static bool plain_radiance(const aur_final_gather *data, const struct RTCRayHit1
     const uint32_t element = data->map->texels.elements.shape_first[shape] + query->hit.primID[lane];
     const aur_texel_light *const light =
         aur_irradiance_on_triangle(data->map, element, query->hit.u[lane], query->hit.v[lane], behind);
-    aur_vector irradiance = light->irradiance;
-    if (data->caustics != NULL)
-        irradiance =
-            aur_vector_add(irradiance, aur_irradiance_on_triangle(data->caustics, element, query->hit.u[lane],
-                                                                  query->hit.v[lane], behind)
-                                           ->irradiance);
-    *radiance = aur_vector_multiply(data->classes[shape].albedo_on_pi[behind], irradiance);
+    const aur_vector albedo = data->classes[shape].albedo_on_pi[behind];
+    *radiance = aur_vector_multiply(albedo, light->irradiance);
+    const float weight = data->bright_share > 0 ? bright_weight(data, rays, lane, *radiance) : 1.0f;
+    if (data->caustics != NULL) {
+        const aur_texel_light *const caustic = aur_irradiance_on_triangle(
+            data->caustics, element, query->hit.u[lane], query->hit.v[lane], behind);
+        *radiance = aur_vector_add(*radiance, aur_vector_multiply(albedo, caustic->irradiance));
+    }
+    *radiance = aur_vector_scale(*radiance, weight);
     return true;
-}
-
-static float density_of(const aur_gather_rays *rays, size_t lane) {
-    if (rays->pair == NULL)
-        return rays->density[lane];
-    const aur_vector direction = packet_ray(&rays->packet, lane).direction;
-    return aur_gather_pair_density(rays->pair, aur_vector_dot(rays->axes[lane][0], direction),
-                                   aur_vector_dot(rays->axes[lane][1], direction));
 }
 
 void aur_gather_trace(const aur_final_gather *data, aur_embree_order order, aur_gather_rays *rays,
@@ -242,15 +113,15 @@ void aur_gather_trace(const aur_final_gather *data, aur_embree_order order, aur_
         const size_t lane = (size_t)__builtin_ctz(rest);
         const bool hits = (found >> lane & 1u) != 0;
         aur_vector radiance;
-        if (!hits || !plain_radiance(data, &rays->packet.query, lane, &radiance)) {
-            const gather_ray from = {.ray = packet_ray(&rays->packet, lane),
-                                     .reference = rays->reference[lane],
-                                     .density = density_of(rays, lane),
-                                     .hash = aur_hash2(rays->hash, lane)};
+        if (!hits || !plain_radiance(data, rays, lane, &radiance)) {
+            const aur_gather_ray from = {.ray = packet_ray(&rays->packet, lane),
+                                         .reference = rays->reference[lane],
+                                         .density = density_of(rays, lane),
+                                         .hash = aur_hash2(rays->hash, lane)};
             aur_hit hit = {0};
             if (hits)
                 hit = aur_packet_hit(data->scene, &rays->packet, lane);
-            radiance = radiance_along(data, &from, hits ? &hit : NULL, counters);
+            radiance = aur_gather_chain_radiance(data, &from, hits ? &hit : NULL, counters);
         }
         set_radiance(rays, lane, radiance);
     }
