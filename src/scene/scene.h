@@ -129,6 +129,18 @@ size_t aur_scene_emitter_count(const aur_scene *scene);
 void aur_camera_ray(const aur_scene *scene, size_t width, size_t height, float x, float y,
                     const float lens[2], aur_ray *ray);
 
+/* Sixteen camera rays, an array a coordinate. */
+enum { AUR_CAMERA_LANES = 16 };
+
+typedef struct aur_camera_lanes {
+    float origin[3][AUR_CAMERA_LANES], direction[3][AUR_CAMERA_LANES];
+    float nearest[AUR_CAMERA_LANES], farthest[AUR_CAMERA_LANES];
+} aur_camera_lanes;
+
+/* aur_camera_ray of sixteen film points and points of the lens: the same bits. */
+void aur_camera_rays(const aur_scene *scene, size_t width, size_t height, const float *x, const float *y,
+                     const float *lens_u, const float *lens_v, aur_camera_lanes *rays);
+
 /* Whether the camera's rays depend on `lens`. */
 bool aur_camera_has_lens(const aur_scene *scene);
 

@@ -102,8 +102,7 @@ aur_result aur_sensor_read_lens(aur_parameters *parameters, aur_sensor *sensor, 
     return AUR_OK;
 }
 
-/* Half the film's width at z = 1. */
-static float half_width(const aur_sensor *sensor, float aspect) {
+float aur_sensor_half_width(const aur_sensor *sensor, float aspect) {
     switch (sensor->axis) {
     case AUR_FOV_X:
         break;
@@ -117,11 +116,4 @@ static float half_width(const aur_sensor *sensor, float aspect) {
         return aspect > 1.0f ? sensor->tangent : sensor->tangent * aspect;
     }
     return sensor->tangent;
-}
-
-aur_vector aur_sensor_direction(const aur_sensor *sensor, float aspect, float x, float y) {
-    const float half = half_width(sensor, aspect);
-    /* +x is the left of the picture. */
-    return (aur_vector){(1.0f - 2.0f * (x + sensor->offset_x)) * half,
-                        (1.0f - 2.0f * (y + sensor->offset_y)) * half / aspect, 1.0f};
 }

@@ -23,6 +23,7 @@ typedef struct aur_sensor_descriptor {
     /* The ray in camera space through the film point; `aspect` is width over height and x, y are in [0, 1], y
      * downwards. The direction is of any length, and nearest and farthest are depths along +z. */
     void (*ray)(const aur_sensor *sensor, float aspect, float x, float y, const float lens[2], aur_ray *ray);
+    bool is_pinhole; /* all rays begin at the origin, in directions aur_sensor_direction */
 } aur_sensor_descriptor;
 
 struct aur_sensor {
@@ -43,7 +44,15 @@ aur_result aur_sensor_create(aur_parameters *parameters, aur_sensor *sensor, aur
 
 /* What perspective cameras share: fov or focal_length, fov_axis and principal point offsets. */
 aur_result aur_sensor_read_lens(aur_parameters *parameters, aur_sensor *sensor, aur_error *error);
-/* The direction with z = 1 through the film point. */
-aur_vector aur_sensor_direction(const aur_sensor *sensor, float aspect, float x, float y);
+/* Half the film's width at z = 1. */
+float aur_sensor_half_width(const aur_sensor *sensor, float aspect);
+
+/* The direction with z = 1 through the film point, by half the film's width. */
+static inline aur_vector aur_sensor_direction(const aur_sensor *sensor, float half, float aspect, float x,
+                                              float y) {
+    /* +x is the left of the picture. */
+    return (aur_vector){(1.0f - 2.0f * (x + sensor->offset_x)) * half,
+                        (1.0f - 2.0f * (y + sensor->offset_y)) * half / aspect, 1.0f};
+}
 
 #endif

@@ -16,4 +16,9 @@ static void ray(const aur_sensor *sensor, float aspect, float x, float y, const 
     result->direction = (aur_vector){0.0f, 0.0f, 1.0f};
 }
 
-const aur_sensor_descriptor aur_sensor_orthographic = {"orthographic", "parallel rays along +z", create, ray};
+const aur_sensor_descriptor aur_sensor_orthographic = {
+    .name = "orthographic",
+    .summary = "parallel rays along +z",
+    .create = create,
+    .ray = ray,
+};

@@ -6,11 +6,16 @@ static void ray(const aur_sensor *sensor, float aspect, float x, float y, const 
                 aur_ray *result) {
     (void)lens;
     result->origin = (aur_vector){0.0f, 0.0f, 0.0f};
-    result->direction = aur_sensor_direction(sensor, aspect, x, y);
+    result->direction = aur_sensor_direction(sensor, aur_sensor_half_width(sensor, aspect), aspect, x, y);
 }
 
-const aur_sensor_descriptor aur_sensor_perspective = {"perspective", "a pinhole camera", aur_sensor_read_lens,
-                                                      ray};
+const aur_sensor_descriptor aur_sensor_perspective = {
+    .name = "perspective",
+    .summary = "a pinhole camera",
+    .create = aur_sensor_read_lens,
+    .ray = ray,
+    .is_pinhole = true,
+};
 
 static aur_result create_thinlens(aur_parameters *parameters, aur_sensor *sensor, aur_error *error) {
     double radius = -1.0, distance = -1.0;
@@ -31,7 +36,8 @@ static aur_result create_thinlens(aur_parameters *parameters, aur_sensor *sensor
 static void thinlens_ray(const aur_sensor *sensor, float aspect, float x, float y, const float lens[2],
                          aur_ray *result) {
     const aur_vector focus =
-        aur_vector_scale(aur_sensor_direction(sensor, aspect, x, y), sensor->focus_distance);
+        aur_vector_scale(aur_sensor_direction(sensor, aur_sensor_half_width(sensor, aspect), aspect, x, y),
+                         sensor->focus_distance);
     aur_vector origin = {0.0f, 0.0f, 0.0f};
     aur_sample_disk(lens[0], lens[1], &origin.x, &origin.y);
     result->origin = aur_vector_scale(origin, sensor->aperture_radius);
@@ -39,4 +45,8 @@ static void thinlens_ray(const aur_sensor *sensor, float aspect, float x, float 
 }
 
 const aur_sensor_descriptor aur_sensor_thinlens = {
-    "thinlens", "a camera with an aperture and a plane of focus", create_thinlens, thinlens_ray};
+    .name = "thinlens",
+    .summary = "a camera with an aperture and a plane of focus",
+    .create = create_thinlens,
+    .ray = thinlens_ray,
+};

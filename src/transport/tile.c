@@ -13,26 +13,46 @@ float aur_view_sample(const aur_view *view, size_t x, size_t y, uint32_t index, 
     return aur_filter_weight(view->filter, offset[0]) * aur_filter_weight(view->filter, offset[1]);
 }
 
+/* Offsets from the pixels' centres along one axis. */
+static void draw_offsets(const aur_filter *filter, const float *u, float *offsets) {
+    for (size_t k = 0; k < AUR_TILE_SIZE; ++k)
+        offsets[k] = aur_filter_sample(filter, u[k]);
+}
+
 void aur_view_samples(const aur_view *view, size_t count, const size_t *x, const size_t *y, uint32_t index,
                       aur_camera_sample *samples, float *weights) {
     uint64_t pixels[AUR_TILE_SIZE] = {0};
     float u[AUR_TILE_SIZE], v[AUR_TILE_SIZE], s[AUR_TILE_SIZE], t[AUR_TILE_SIZE];
+    float across[AUR_TILE_SIZE] = {0}, down[AUR_TILE_SIZE] = {0};
+    for (size_t k = 0; k < AUR_TILE_SIZE; ++k)
+        u[k] = v[k] = s[k] = t[k] = 0.5f;
     for (size_t k = 0; k < count; ++k)
         pixels[k] = aur_hash3(view->seed, y[k], x[k]);
-    if (!view->pixel_centre)
-        aur_stream_pixels(view->sampler, count, pixels, index, AUR_PAIR_FILTER, u, v);
     if (view->has_lens)
         aur_stream_pixels(view->sampler, count, pixels, index, AUR_PAIR_LENS, s, t);
+    if (!view->pixel_centre) {
+        aur_stream_pixels(view->sampler, count, pixels, index, AUR_PAIR_FILTER, u, v);
+        draw_offsets(view->filter, u, across);
+        draw_offsets(view->filter, v, down);
+    }
     for (size_t k = 0; k < count; ++k) {
-        const float offset[2] = {view->pixel_centre ? 0.0f : aur_filter_sample(view->filter, u[k]),
-                                 view->pixel_centre ? 0.0f : aur_filter_sample(view->filter, v[k])};
-        const float lens[2] = {view->has_lens ? s[k] : 0.5f, view->has_lens ? t[k] : 0.5f};
+        weights[k] = aur_filter_weight(view->filter, across[k]) * aur_filter_weight(view->filter, down[k]);
+        across[k] = (float)x[k] + 0.5f + across[k];
+        down[k] = (float)y[k] + 0.5f + down[k];
+    }
+    aur_camera_lanes rays;
+    aur_camera_rays(view->scene, view->width, view->height, across, down, s, t, &rays);
+    for (size_t k = 0; k < count; ++k) {
         samples[k].stream = (aur_stream){view->sampler, pixels[k], index};
-        aur_camera_ray(view->scene, view->width, view->height, (float)x[k] + 0.5f + offset[0],
-                       (float)y[k] + 0.5f + offset[1], lens, &samples[k].ray);
-        weights[k] = aur_filter_weight(view->filter, offset[0]) * aur_filter_weight(view->filter, offset[1]);
+        samples[k].ray =
+            (aur_ray){.origin = {rays.origin[0][k], rays.origin[1][k], rays.origin[2][k]},
+                      .nearest = rays.nearest[k],
+                      .direction = {rays.direction[0][k], rays.direction[1][k], rays.direction[2][k]},
+                      .farthest = rays.farthest[k]};
     }
 }
+
+_Static_assert((int)AUR_TILE_SIZE == (int)AUR_CAMERA_LANES, "a row of a tile is one call");
 
 bool aur_is_radiance(aur_vector radiance) {
     return aur_vector_is_finite(radiance) && radiance.x >= 0.0f && radiance.y >= 0.0f && radiance.z >= 0.0f;

@@ -154,6 +154,38 @@ static void sees_in_parallel(void **state) {
     aur_scene_destroy(scene);
 }
 
+/* Sixteen rays at once have the bits of single ones, for every camera. */
+static void sixteen_rays_are_the_single_ones(void **state) {
+    (void)state;
+    static const char *const sensors[] = {
+        "perspective'><float name='fov' value='50'/><float name='near_clip' value='0.3'/><transform "
+        "name='to_world'><lookat origin='1,2,3' target='-0.3,0.4,0.1' up='0,1,0'/></transform>",
+        "thinlens'><float name='aperture_radius' value='0.5'/><float name='focus_distance' value='4'/>",
+        "orthographic'><transform name='to_world'><scale value='3'/></transform>"};
+    for (size_t i = 0; i < sizeof sensors / sizeof sensors[0]; ++i) {
+        aur_scene *const scene = load_sensor(sensors[i]);
+        float x[AUR_CAMERA_LANES], y[AUR_CAMERA_LANES], u[AUR_CAMERA_LANES], v[AUR_CAMERA_LANES];
+        for (size_t k = 0; k < AUR_CAMERA_LANES; ++k) {
+            x[k] = 200.0f * aur_unit_float((uint32_t)(aur_hash2(1, k) >> 32));
+            y[k] = 90.0f * aur_unit_float((uint32_t)(aur_hash2(2, k) >> 32));
+            u[k] = aur_unit_float((uint32_t)(aur_hash2(3, k) >> 32));
+            v[k] = aur_unit_float((uint32_t)(aur_hash2(4, k) >> 32));
+        }
+        aur_camera_lanes rays;
+        aur_camera_rays(scene, 200, 90, x, y, u, v, &rays);
+        for (size_t k = 0; k < AUR_CAMERA_LANES; ++k) {
+            aur_ray ray;
+            aur_camera_ray(scene, 200, 90, x[k], y[k], (const float[2]){u[k], v[k]}, &ray);
+            assert_true(ray.origin.x == rays.origin[0][k] && ray.origin.y == rays.origin[1][k] &&
+                        ray.origin.z == rays.origin[2][k]);
+            assert_true(ray.direction.x == rays.direction[0][k] && ray.direction.y == rays.direction[1][k] &&
+                        ray.direction.z == rays.direction[2][k]);
+            assert_true(ray.nearest == rays.nearest[k] && ray.farthest == rays.farthest[k]);
+        }
+        aur_scene_destroy(scene);
+    }
+}
+
 /* Distribution functions of the filters, in their own units. */
 static double filter_mass(const char *name, double x) {
     if (strcmp(name, "box") == 0)
@@ -194,6 +226,7 @@ int main(void) {
         cmocka_unit_test(samples_mitchell),
         cmocka_unit_test(focuses),
         cmocka_unit_test(sees_in_parallel),
+        cmocka_unit_test(sixteen_rays_are_the_single_ones),
     };
     return cmocka_run_group_tests(tests, enter_folder, leave_folder);
 }
