@@ -106,7 +106,7 @@ typedef struct aur_gather_rays {
      * a light's own sampling is weighed against. */
     float density[AUR_PACKET_SIZE];
     /* Not NULL: instead, the density of both its patterns about these axes, found only where it is needed. */
-    const aur_gather_pair *pair;
+    const aur_gather_pair *pairs[AUR_PACKET_SIZE];
     aur_vector axes[AUR_PACKET_SIZE][2];
     uint64_t hash;                         /* of what chance decides along specular chains */
     aur_vector reference[AUR_PACKET_SIZE]; /* the points that gather */

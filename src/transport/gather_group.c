@@ -16,7 +16,7 @@ aur_group *aur_group_create(const aur_final_gather *data) {
         if (aur_gather_pair_share(data->pairs[i]) > most)
             most = aur_gather_pair_share(data->pairs[i]);
     group->values = malloc((3 * AUR_PACKET_SIZE * data->most_directions + 1) * sizeof *group->values);
-    group->merged = malloc((2 * most * (AUR_PACKET_SIZE + 1) + 1) * sizeof *group->merged);
+    group->merged = calloc(2 * most * (AUR_PACKET_SIZE + 1) + 1, sizeof *group->merged);
     if (group->merged != NULL && group->values != NULL)
         return group;
     aur_group_destroy(group);

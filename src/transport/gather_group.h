@@ -89,6 +89,11 @@ void aur_group_add_bright_light(aur_group *group);
 /* Whether a lobe's light comes by gather rays. */
 bool aur_group_gathers(const aur_final_gather *data, const aur_bsdf_lobe *lobe);
 
+/* What a lane's pattern for its lobe number `lobe` is turned by. Under "blue" all lanes of the group have the
+ * same turn. */
+aur_gather_turn aur_group_turn(const aur_group *group, const aur_gather_rule *rule, size_t lane,
+                               uint64_t lobe);
+
 /* A rule at the places of some lanes, direction by direction. */
 typedef struct aur_rule_walk {
     const aur_gather_rule *rule;

@@ -53,10 +53,10 @@ static void set_radiance(aur_gather_rays *rays, size_t lane, aur_vector radiance
 }
 
 static float density_of(const aur_gather_rays *rays, size_t lane) {
-    if (rays->pair == NULL)
+    if (rays->pairs[lane] == NULL)
         return rays->density[lane];
     const aur_vector direction = packet_ray(&rays->packet, lane).direction;
-    return aur_gather_pair_density(rays->pair, aur_vector_dot(rays->axes[lane][0], direction),
+    return aur_gather_pair_density(rays->pairs[lane], aur_vector_dot(rays->axes[lane][0], direction),
                                    aur_vector_dot(rays->axes[lane][1], direction));
 }
 
@@ -114,9 +114,12 @@ void aur_gather_trace(const aur_final_gather *data, aur_embree_order order, aur_
         const bool hits = (found >> lane & 1u) != 0;
         aur_vector radiance;
         if (!hits || !plain_radiance(data, rays, lane, &radiance)) {
+            /* Only light that is sampled too asks for the density. */
+            const bool weighed =
+                !hits || data->bright_share > 0 || data->classes[rays->packet.query.hit.geomID[lane]].emits;
             const aur_gather_ray from = {.ray = packet_ray(&rays->packet, lane),
                                          .reference = rays->reference[lane],
-                                         .density = density_of(rays, lane),
+                                         .density = weighed ? density_of(rays, lane) : 0.0f,
                                          .hash = aur_hash2(rays->hash, lane)};
             aur_hit hit = {0};
             if (hits)

@@ -12,18 +12,17 @@ static bool shares_pattern(const aur_group *group, const aur_gather_rule *rule) 
     return data->shares_irradiance && rule == &data->diffuse && group->chain == 0;
 }
 
-/* What a lane's pattern is turned by. Under "blue" all lanes of the group have the same turn. */
-static aur_gather_turn turn_of(const aur_group *group, const aur_gather_rule *rule, size_t lane,
-                               uint64_t what) {
+aur_gather_turn aur_group_turn(const aur_group *group, const aur_gather_rule *rule, size_t lane,
+                               uint64_t lobe) {
     const aur_final_gather *const data = group->task->data;
     if (data->decorrelation == AUR_DECORRELATION_NONE)
         return aur_gather_rule_turn(rule, 0);
     if (data->decorrelation == AUR_DECORRELATION_RANDOM || rule->rotations == 0) {
         const uint64_t pixel = group->samples[lane].stream.pixel;
-        return aur_gather_rule_turn(rule, aur_hash4(data->pattern_seed, pixel, group->chain, what));
+        return aur_gather_rule_turn(rule, aur_hash4(data->pattern_seed, pixel, group->chain, lobe));
     }
     uint64_t tile =
-        aur_hash4(data->pattern_seed, aur_hash2(group->task->y, group->task->x), group->chain, what);
+        aur_hash4(data->pattern_seed, aur_hash2(group->task->y, group->task->x), group->chain, lobe);
     /* Where the samples of a pixel do not share a pattern out, each has it turned anew. */
     if (data->adaptive)
         tile = aur_hash2(tile, group->task->index);
@@ -190,8 +189,9 @@ static void start_walk(aur_group *group, const aur_gather_rule *rule, size_t lob
         const size_t lane = aur_first_lane(rest);
         if (group->places[lane].lobes[lobe].factor != NULL)
             walk->factored |= 1u << lane;
-        walk->turns[lane] = walk->shared && lane != aur_first_lane(lanes) ? walk->turns[aur_first_lane(lanes)]
-                                                                          : turn_of(group, rule, lane, lobe);
+        walk->turns[lane] = walk->shared && lane != aur_first_lane(lanes)
+                                ? walk->turns[aur_first_lane(lanes)]
+                                : aur_group_turn(group, rule, lane, lobe);
     }
     set_frames(group, lanes, lobe, &walk->frames);
 }
@@ -315,34 +315,11 @@ static uint32_t lanes_alike(const aur_group *group, uint32_t lanes, size_t lobe,
     return alike;
 }
 
-/* Places with two lobes that share their samples; returns the other lanes. */
-static uint32_t gather_merged(aur_group *group) {
-    const aur_final_gather *const data = group->task->data;
-    uint32_t others = 0;
-    const aur_gather_pair *pairs[AUR_PACKET_SIZE];
-    for (uint32_t rest = group->lanes; rest != 0; rest &= rest - 1) {
-        const size_t lane = aur_first_lane(rest);
-        size_t lobes[2];
-        pairs[lane] = aur_group_pair(data, &group->places[lane], lobes);
-        if (pairs[lane] == NULL)
-            others |= 1u << lane;
-    }
-    for (uint32_t left = group->lanes & ~others; left != 0;) {
-        const aur_gather_pair *const pair = pairs[aur_first_lane(left)];
-        uint32_t alike = 0;
-        for (uint32_t rest = left; rest != 0; rest &= rest - 1)
-            alike |= (uint32_t)(pairs[aur_first_lane(rest)] == pair) << aur_first_lane(rest);
-        aur_group_gather_merged(group, pair, alike);
-        left &= ~alike;
-    }
-    return others;
-}
-
 void aur_group_gather(aur_group *group) {
     const aur_final_gather *const data = group->task->data;
     if (!gathers(data))
         return;
-    const uint32_t lanes = data->pair_count > 0 ? gather_merged(group) : group->lanes;
+    const uint32_t lanes = data->pair_count > 0 ? aur_group_gather_merged(group) : group->lanes;
     for (size_t lobe = 0; lobe < AUR_BSDF_LOBE_CAPACITY; ++lobe) {
         uint32_t ruled = 0, sampled = 0;
         for (uint32_t rest = lanes; rest != 0; rest &= rest - 1) {

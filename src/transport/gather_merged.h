@@ -12,7 +12,8 @@ const aur_gather_pair *aur_group_pair(const aur_final_gather *data, const aur_ga
 float aur_group_pair_density(const aur_gather_pair *pair, const aur_gather_place *p, const size_t lobes[2],
                              aur_vector local);
 
-/* Adds both lobes' light to the lanes, whose places the pair serves. */
-void aur_group_gather_merged(aur_group *group, const aur_gather_pair *pair, uint32_t lanes);
+/* Adds the light of places that have a pair, and of diffuse places that are among them; returns the other
+ * lanes, which are still to be gathered. */
+uint32_t aur_group_gather_merged(aur_group *group);
 
 #endif

@@ -54,6 +54,15 @@ for weights in oswa mis osw; do
   awk -v off="$off" 'BEGIN { exit !(off < 2e-3) }' || fail "$weights: lone rays are off by $off"
 done
 
+# Diffuse places go in the packets of glossy ones near them: what the eye sees of the red wall, whose groups of pixels reach
+# the glossy back wall, is to rounding what it is by itself.
+for weights in osw oswa; do
+  "$aureole" render "$box" -q --width 48 --height 48 --crop 0,8,16,32 --spp 2 -o wall-$weights.exr --integrator \
+    "finalgather:photons=20000,diffuse_samples=32,glossy_samples=16,weights=$weights,density=same,edges=0" || fail "wall: $weights"
+done
+off=$(figure relative_rmse wall-osw.exr wall-oswa.exr)
+awk -v off="$off" 'BEGIN { exit !(off < 1e-5) }' || fail "diffuse places among glossy ones: off by $off"
+
 # Lights that gather rays meet are weighed against their own sampling: the mean stays that of plain weights.
 for weights in ratio oswa mis; do
   "$aureole" render "$box" -q --width 32 --height 32 --spp 64 -o mean-$weights.exr --integrator \
