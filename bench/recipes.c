@@ -4,10 +4,13 @@
 #include "quality.h"
 
 const bench_recipe bench_recipes[] = {
-    {"cornell-box", 0.01, 0.10, 2, "finalgather:photons=5000,diffuse_samples=4,edges=64,share=true"},
-    {"cornell-box", 0.005, 0.20, 4, "finalgather:photons=20000,diffuse_samples=8,edges=128,share=true"},
-    {"cornell-box", 0.002, 0.70, 12,
-     "finalgather:photons=200000,photons_per_texel=24,diffuse_samples=36,edges=1024,share=true"},
+    {"cornell-box", 0.01, 0.10, 1,
+     "finalgather:photons=5000,diffuse_samples=3,edges=48,light_samples=2,share=true"},
+    {"cornell-box", 0.005, 0.20, 1,
+     "finalgather:photons=14000,diffuse_samples=6,edges=160,light_samples=4,share=true"},
+    {"cornell-box", 0.002, 0.70, 2,
+     "finalgather:photons=120000,photons_per_texel=24,diffuse_samples=24,edges=1024,light_samples=8,share="
+     "true"},
     {"cornell-box", 0.0015, -1.0, 64, "finalgather:photons=2000000,diffuse_samples=1024,edges=4096"},
     {"heavy-box", 0.005, 0.0, 8, "finalgather:photons=50000,diffuse_samples=24,edges=256,share=true"},
     {"glossy-box", 0.02, 0.0, 18,
