@@ -1,0 +1,310 @@
+/* Radiosity kept in files, and what it refuses or reports. */
+#include "radiosity_room.h"
+
+/* --- files */
+
+static const char *path_of(const char *name) {
+    static char path[2][128];
+    static int turn;
+    turn = 1 - turn;
+    snprintf(path[turn], sizeof path[turn], "%s/%s", scene_folder, name);
+    return path[turn];
+}
+
+static void saved_solutions_go_on(void **state) {
+    (void)state;
+    aur_scene *const scene = must_load_body(ROOM);
+    aur_radiosity_options options = options_of(AUR_RADIOSITY_COSINE, 6);
+    options.scramble = AUR_SCRAMBLE_OWEN;
+    options.randomizations = 4;
+    options.seed = 5;
+    aur_radiosity *const whole = must_trace(scene, &options, 7000);
+    aur_radiosity *const part = must_trace(scene, &options, 2345);
+    aur_error error = {0};
+    assert_int_equal(aur_radiosity_save(part, path_of("part"), &error), AUR_OK);
+    aur_radiosity *loaded = NULL;
+    const aur_radiosity_options two_threads = {.threads = 2};
+    assert_int_equal(aur_radiosity_load(scene, path_of("part"), &two_threads, &loaded, &error), AUR_OK);
+    assert_same(part, loaded);
+    assert_int_equal(aur_radiosity_trace(loaded, 7000, &error), AUR_OK);
+    assert_same(whole, loaded);
+    assert_int_equal(aur_radiosity_trace(loaded, 6999, &error), AUR_ERROR_ARGUMENT);
+    assert_non_null(strstr(error.message, "7000 paths already"));
+    aur_radiosity_destroy(whole);
+    aur_radiosity_destroy(part);
+    aur_radiosity_destroy(loaded);
+    aur_scene_destroy(scene);
+}
+
+static void expect_bad_file(const aur_scene *scene, size_t size, const char *data, const char *message) {
+    aur_radiosity *loaded = NULL;
+    aur_error error = {0};
+    const char *const path = write_file("bad", data, size);
+    const aur_result result = aur_radiosity_load(scene, path, NULL, &loaded, &error);
+    if (result != AUR_ERROR_FORMAT || strstr(error.message, message) == NULL || strcmp(error.file, path) != 0)
+        fail_msg("%d, %s: %s", result, error.file, error.message);
+    assert_null(loaded);
+}
+
+static void damaged_files_are_refused(void **state) {
+    (void)state;
+    aur_scene *const scene = must_load_body(ROOM), *const other = must_load_body(FIVE_WALLS);
+    const aur_radiosity_options options = options_of(AUR_RADIOSITY_COSINE, 6);
+    aur_radiosity *const radiosity = must_trace(scene, &options, 100);
+    assert_int_equal(aur_radiosity_save(radiosity, path_of("good"), NULL), AUR_OK);
+    char data[4096];
+    FILE *const file = fopen(path_of("good"), "rb");
+    const size_t size = fread(data, 1, sizeof data, file);
+    fclose(file);
+    assert_in_range(size, 500, sizeof data - 1);
+    expect_bad_file(scene, 0, data, "does not begin with");
+    expect_bad_file(scene, 30, data, "head is cut");
+    expect_bad_file(scene, size - 8, data, "cut short");
+    expect_bad_file(scene, size + 1, data, "too long");
+    expect_bad_file(other, size, data, "made for another scene");
+    for (size_t at = 0; at < size; at += 7) {
+        data[at] ^= 4;
+        aur_radiosity *loaded = NULL;
+        assert_int_not_equal(aur_radiosity_load(scene, write_file("bad", data, size), NULL, &loaded, NULL),
+                             AUR_OK);
+        assert_null(loaded);
+        data[at] ^= 4;
+    }
+    aur_radiosity *loaded = NULL;
+    aur_error error = {0};
+    assert_int_equal(aur_radiosity_load(scene, path_of("nowhere"), NULL, &loaded, &error), AUR_ERROR_OPEN);
+    assert_int_equal(aur_radiosity_save(radiosity, path_of("no-folder/file"), &error), AUR_ERROR_WRITE);
+    aur_radiosity_destroy(radiosity);
+    aur_scene_destroy(scene);
+    aur_scene_destroy(other);
+}
+
+/* A PLY file that our own reader takes: the same triangles. */
+static void meshes_are_written(void **state) {
+    (void)state;
+    aur_scene *const scene = must_load_body(ROOM);
+    const aur_radiosity_options options = options_of(AUR_RADIOSITY_COSINE, 6);
+    aur_radiosity *const radiosity = must_trace(scene, &options, 4000);
+    assert_int_equal(aur_radiosity_write_ply(radiosity, path_of("room.ply"), 1.0, NULL), AUR_OK);
+    aur_scene *const again =
+        must_load_body("<shape type='ply'><string name='filename' value='room.ply'/></shape>");
+    aur_scene_description a, b;
+    aur_scene_describe(scene, &a);
+    aur_scene_describe(again, &b);
+    assert_int_equal(b.triangles, 12);
+    assert_memory_equal(a.lower, b.lower, sizeof a.lower);
+    assert_memory_equal(a.upper, b.upper, sizeof a.upper);
+    /* Radiance 1/2 at one stop is full white; each vertex tells the radiance of its triangle. */
+    char data[4096];
+    FILE *const file = fopen(path_of("room.ply"), "rb");
+    const size_t size = fread(data, 1, sizeof data - 1, file);
+    fclose(file);
+    data[size] = '\0';
+    const char *const body = strstr(data, "end_header\n") + 11;
+    assert_int_equal(size - (size_t)(body - data), 36 * (12 + 3 + 12) + 12 * 13);
+    aur_radiosity_triangle_result results[MOST_TRIANGLES];
+    get_results(radiosity, results);
+    for (size_t v = 0; v < 36; ++v) {
+        float radiance[3];
+        memcpy(radiance, body + 27 * v + 15, sizeof radiance);
+        assert_near(radiance[1], results[v / 3].radiance[1], 1e-6);
+        assert_in_range((unsigned char)body[27 * v + 12], 250, 255);
+    }
+    aur_radiosity_destroy(radiosity);
+    aur_scene_destroy(again);
+    aur_scene_destroy(scene);
+}
+
+/* --- bad input */
+
+static void expect_refused(const char *body, const aur_radiosity_options *options, aur_result expected,
+                           const char *message) {
+    aur_scene *const scene = must_load_body(body);
+    aur_radiosity *radiosity = NULL;
+    aur_error error = {0};
+    const aur_result result = aur_radiosity_create(scene, options, &radiosity, &error);
+    if (result != expected || strstr(error.message, message) == NULL)
+        fail_msg("%d: '%s' does not say '%s'", result, error.message, message);
+    assert_null(radiosity);
+    aur_scene_destroy(scene);
+}
+
+static void scenes_without_an_answer_are_refused(void **state) {
+    (void)state;
+    expect_refused("<shape type='cube'/>", NULL, AUR_ERROR_UNSUPPORTED, "no light");
+    expect_refused("<emitter type='constant'/><shape type='cube'/>", NULL, AUR_ERROR_UNSUPPORTED,
+                   "emitter 'constant' is no surface");
+    expect_refused(
+        "<shape type='cube'><emitter type='area'><rgb name='radiance' value='0'/></emitter></shape>", NULL,
+        AUR_ERROR_UNSUPPORTED, "emit no radiance");
+    expect_refused(ROOM "<shape type='sphere'/>", NULL, AUR_ERROR_UNSUPPORTED,
+                   "'sphere' is no mesh of triangles");
+    /* A light of no area, and radiance that is no number, are refused before, by the loader. */
+    aur_scene *scene = NULL;
+    aur_error error = {0};
+    assert_int_equal(
+        load_body("<shape type='cube'><emitter type='area'><rgb name='radiance' value='nan'/></emitter>"
+                  "</shape>",
+                  NULL, &scene, &error),
+        AUR_ERROR_FORMAT);
+    assert_int_equal(error.line, 2);
+    assert_non_null(strstr(error.message, "radiance"));
+    write_text("flat.obj", "v 0 0 0\nv 1 0 0\nv 2 0 0\nf 1 2 3\n");
+    assert_int_equal(
+        load_body("<shape type='obj'><string name='filename' value='flat.obj'/><emitter type='area'/>"
+                  "</shape>",
+                  NULL, &scene, &error),
+        AUR_ERROR_FORMAT);
+    assert_non_null(strstr(error.message, "no area"));
+}
+
+static void options_out_of_range_are_refused(void **state) {
+    (void)state;
+    aur_radiosity_options options = options_of(AUR_RADIOSITY_COSINE, 0);
+    expect_refused(ROOM, &options, AUR_ERROR_ARGUMENT, "bounces must be between 1 and 10000, not 0");
+    options.bounces = 10001;
+    expect_refused(ROOM, &options, AUR_ERROR_ARGUMENT, "bounces must be between 1 and 10000, not 10001");
+    options = options_of(AUR_RADIOSITY_COSINE, 6);
+    options.randomizations = 0;
+    expect_refused(ROOM, &options, AUR_ERROR_ARGUMENT, "randomizations must be between");
+    aur_scene *const scene = must_load_body(ROOM);
+    static const struct {
+        const char *sequence;
+        size_t bounces, randomizations;
+        uint64_t paths;
+        aur_result result;
+        const char *message;
+    } cases[] = {
+        {"sobol", 6, 1, 0, AUR_ERROR_ARGUMENT, "paths must be at least 1"},
+        {"jittered", 6, 1, 100, AUR_ERROR_ARGUMENT, "has 2 dimensions, not 16"},
+        {"faure", 3000, 1, 100, AUR_ERROR_ARGUMENT, "dimensions, not 6004"},
+        {"lcg", 6, 1, UINT64_C(1) << 40, AUR_ERROR_ARGUMENT, "at most"},
+        {"lcg", 6, 1, UINT64_C(1) << 30, AUR_ERROR_ARGUMENT, "no more than"},
+        {"sobbol", 6, 1, 100, AUR_ERROR_NAME, "did you mean 'sobol'"},
+        {"sobol", 6, 2, 100, AUR_ERROR_UNSUPPORTED, "need a scrambling"},
+    };
+    for (size_t i = 0; i < sizeof cases / sizeof cases[0]; ++i) {
+        options = options_of(AUR_RADIOSITY_COSINE, cases[i].bounces);
+        options.sequence = cases[i].sequence;
+        options.randomizations = cases[i].randomizations;
+        aur_radiosity *const radiosity = must_create(scene, &options);
+        aur_error error = {0};
+        const aur_result result = aur_radiosity_trace(radiosity, cases[i].paths, &error);
+        if (result != cases[i].result || strstr(error.message, cases[i].message) == NULL)
+            fail_msg("%s: %d: '%s' does not say '%s'", cases[i].sequence, result, error.message,
+                     cases[i].message);
+        assert_int_equal(describe(radiosity).paths, 0);
+        aur_radiosity_destroy(radiosity);
+    }
+    /* A set whose points depend on how many there are cannot go on. */
+    options = options_of(AUR_RADIOSITY_COSINE, 6);
+    options.sequence = "hammersley";
+    aur_radiosity *const radiosity = must_trace(scene, &options, 100);
+    aur_error error = {0};
+    assert_int_equal(aur_radiosity_trace(radiosity, 200, &error), AUR_ERROR_UNSUPPORTED);
+    assert_non_null(strstr(error.message, "cannot be continued"));
+    aur_radiosity_destroy(radiosity);
+    aur_scene_destroy(scene);
+}
+
+/* By reciprocity one path in five leaves an open room at once. */
+static void open_scenes_are_reported(void **state) {
+    (void)state;
+    aur_scene *const scene = must_load_body(FIVE_WALLS);
+    messages kept = {0};
+    aur_radiosity_options options = options_of(AUR_RADIOSITY_COSINE, 1);
+    options.warnings = (aur_warnings){keep_message, &kept};
+    aur_radiosity *const radiosity = must_trace(scene, &options, 10000);
+    assert_in_range(describe(radiosity).lost, 2000, 5000);
+    assert_int_equal(kept.count, 1);
+    assert_non_null(strstr(kept.text, "left the scene: it is open"));
+    aur_radiosity_destroy(radiosity);
+    aur_scene_destroy(scene);
+}
+
+static void backs_are_reported(void **state) {
+    (void)state;
+    aur_scene *const scene = must_load_body(ROOM "<shape type='rectangle'><bsdf type='diffuse'/></shape>");
+    messages kept = {0};
+    aur_radiosity_options options = options_of(AUR_RADIOSITY_COSINE, 2);
+    options.warnings = (aur_warnings){keep_message, &kept};
+    aur_radiosity *const radiosity = must_trace(scene, &options, 1000);
+    assert_in_range(describe(radiosity).behind, 100, 900);
+    assert_int_equal(kept.count, 1);
+    assert_non_null(strstr(kept.text, "back of a one-sided surface"));
+    aur_radiosity_destroy(radiosity);
+    aur_scene_destroy(scene);
+}
+
+static void bright_albedos_are_reported(void **state) {
+    (void)state;
+    aur_scene *const scene = must_load_body("<shape type='cube'>" INSIDE
+                                            "<bsdf type='diffuse'><rgb name='reflectance' value='1'/></bsdf>"
+                                            "<emitter type='area'/></shape>");
+    messages kept = {0};
+    aur_radiosity_options options = options_of(AUR_RADIOSITY_COSINE, 2);
+    options.warnings = (aur_warnings){keep_message, &kept};
+    aur_radiosity *const radiosity = must_trace(scene, &options, 1000);
+    assert_true(describe(radiosity).tail == 1.0 && describe(radiosity).largest_albedo == 1.0);
+    assert_int_equal(kept.count, 1);
+    assert_non_null(strstr(kept.text, "scene.xml:2"));
+    assert_non_null(strstr(kept.text, "albedo of 1"));
+    aur_radiosity_destroy(radiosity);
+    aur_scene_destroy(scene);
+}
+
+#define BOX(height)                                                                                          \
+    ROOM "<shape type='cube'><transform name='to_world'><scale value='0.4'/><translate z='" height "'/>"     \
+         "</transform>" WALL_MATERIAL "</shape>"
+
+/* A box that stands exactly on the floor loses what its underside emits; one just above it nothing. */
+static void coincident_surfaces_are_reported(void **state) {
+    (void)state;
+    messages kept = {0};
+    aur_radiosity_options options = options_of(AUR_RADIOSITY_COSINE, 2);
+    options.warnings = (aur_warnings){keep_message, &kept};
+    aur_scene *const standing = must_load_body(BOX("-0.6"));
+    aur_radiosity *const lossy = must_create(standing, &options);
+    assert_in_range(describe(lossy).coincident, 2, 4);
+    assert_int_equal(kept.count, 1);
+    assert_non_null(strstr(kept.text, "lie on each other"));
+    assert_int_equal(aur_radiosity_trace(lossy, 10000, NULL), AUR_OK);
+    assert_in_range(describe(lossy).lost, 100, 5000);
+    aur_radiosity_destroy(lossy);
+    aur_scene_destroy(standing);
+    aur_scene *const floating = must_load_body(BOX("-0.599"));
+    aur_radiosity *const tight = must_trace(floating, &options, 10000);
+    assert_int_equal(describe(tight).coincident + describe(tight).lost + describe(tight).behind, 0);
+    aur_radiosity_destroy(tight);
+    aur_scene_destroy(floating);
+}
+
+static void other_materials_are_reported(void **state) {
+    (void)state;
+    aur_scene *const scene =
+        must_load_body(ROOM "<shape type='cube'><transform name='to_world'><scale value='0.2'/>"
+                            "</transform><bsdf type='plastic'/></shape>");
+    messages kept = {0};
+    aur_radiosity_options options = options_of(AUR_RADIOSITY_COSINE, 2);
+    options.warnings = (aur_warnings){keep_message, &kept};
+    aur_radiosity_destroy(must_create(scene, &options));
+    assert_int_equal(kept.count, 1);
+    assert_non_null(strstr(kept.text, "only the diffuse part of the material 'plastic'"));
+    aur_scene_destroy(scene);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(saved_solutions_go_on),
+        cmocka_unit_test(damaged_files_are_refused),
+        cmocka_unit_test(meshes_are_written),
+        cmocka_unit_test(scenes_without_an_answer_are_refused),
+        cmocka_unit_test(options_out_of_range_are_refused),
+        cmocka_unit_test(open_scenes_are_reported),
+        cmocka_unit_test(backs_are_reported),
+        cmocka_unit_test(bright_albedos_are_reported),
+        cmocka_unit_test(coincident_surfaces_are_reported),
+        cmocka_unit_test(other_materials_are_reported),
+    };
+    return cmocka_run_group_tests_name("radiosity files", tests, enter_folder, leave_folder);
+}
