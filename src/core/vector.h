@@ -3,6 +3,7 @@
 #define AUR_CORE_VECTOR_H
 
 #include <math.h>
+#include <stdint.h>
 
 #define AUR_PI 3.14159265358979323846
 #define AUR_PI_F 3.14159265358979323846f
@@ -44,6 +45,16 @@ static inline aur_vector aur_vector_cross(aur_vector a, aur_vector b) {
 
 static inline float aur_vector_length(aur_vector a) {
     return sqrtf(aur_vector_dot(a, a));
+}
+
+/* Which side of a cube about the origin the vector goes through: +x, -x, +y, -y, +z, -z are 0 to 5. */
+static inline uint32_t aur_vector_facing(aur_vector a) {
+    const float x = fabsf(a.x), y = fabsf(a.y), z = fabsf(a.z);
+    if (x >= y && x >= z)
+        return a.x < 0.0f ? 1 : 0;
+    if (y >= z)
+        return a.y < 0.0f ? 3 : 2;
+    return a.z < 0.0f ? 5 : 4;
 }
 
 /* The zero vector stays as it is. */

@@ -74,12 +74,7 @@ uint64_t aur_final_gather_key(const aur_final_gather *data, const aur_packet *pa
         return key;
     const aur_vector n = {hits->Ng_x[lane], hits->Ng_y[lane], hits->Ng_z[lane]};
     const bool behind = n.x * rays->dir_x[lane] + n.y * rays->dir_y[lane] + n.z * rays->dir_z[lane] > 0.0f;
-    const float x = fabsf(n.x), y = fabsf(n.y), z = fabsf(n.z);
-    if (x >= y && x >= z)
-        return key + ((n.x < 0.0f) != behind ? 1 : 0);
-    if (y >= z)
-        return key + ((n.y < 0.0f) != behind ? 3 : 2);
-    return key + ((n.z < 0.0f) != behind ? 5 : 4);
+    return key + aur_vector_facing(behind ? aur_vector_scale(n, -1.0f) : n);
 }
 
 static aur_stratum *stratum_of(aur_pixel_strata *pixel, uint64_t key, bool *found) {

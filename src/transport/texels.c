@@ -25,16 +25,6 @@ typedef struct layout {
     aur_texels *texels;
 } layout;
 
-/* Which side of a cube the normal goes through: 0 to 5. */
-static uint64_t facing(aur_vector n) {
-    const float x = fabsf(n.x), y = fabsf(n.y), z = fabsf(n.z);
-    if (x >= y && x >= z)
-        return n.x < 0.0f ? 1 : 0;
-    if (y >= z)
-        return n.y < 0.0f ? 3 : 2;
-    return n.z < 0.0f ? 5 : 4;
-}
-
 static uint64_t quantized(float coordinate, float origin, float size) {
     const float cell = floorf((coordinate - origin) / size);
     if (!(cell > 0.0f))
@@ -47,7 +37,7 @@ static uint64_t key_of(const layout *work, aur_vector position, aur_vector norma
     const uint64_t x = quantized(position.x, work->origin.x, work->cell_size);
     const uint64_t y = quantized(position.y, work->origin.y, work->cell_size);
     const uint64_t z = quantized(position.z, work->origin.z, work->cell_size);
-    return (x << (2 * COORDINATE_BITS) | y << COORDINATE_BITS | z) * 8 + facing(normal) + 1;
+    return (x << (2 * COORDINATE_BITS) | y << COORDINATE_BITS | z) * 8 + aur_vector_facing(normal) + 1;
 }
 
 static bool add_texels(layout *work, size_t count, double area) {
