@@ -10,7 +10,16 @@
 #include "child.h"
 #include "heavy_box.h"
 
-enum { REPEATS = 5, PATH_TRIALS = 3, PATH_CAPACITY = 8, HEAVY_TRIANGLES = 500000, WORDS = 26, BLOCK = 8 };
+enum {
+    REPEATS = 5,
+    SLOW_REPEATS = 2,
+    PATH_TRIALS = 3,
+    PATH_MOST = 2048,
+    PATH_CAPACITY = 8,
+    HEAVY_TRIANGLES = 500000,
+    WORDS = 26,
+    BLOCK = 8
+};
 
 static const bench_subject subjects[] = {
     {.name = "cornell-box",
@@ -32,7 +41,7 @@ static const bench_subject subjects[] = {
      .path = "path:interleaved=true,rr_depth=4",
      .width = 256,
      .height = 256,
-     .reference_samples = 512,
+     .reference_samples = 4096,
      .relative = true},
     {.name = "room",
      .scene = "/scenes/room/room.xml",
@@ -40,7 +49,7 @@ static const bench_subject subjects[] = {
      .path = "path:interleaved=true,rr_depth=4",
      .width = 240,
      .height = 160,
-     .reference_samples = 512,
+     .reference_samples = 4096,
      .relative = true},
 };
 
@@ -188,10 +197,10 @@ static bool trace_path(const study *self, double wanted, size_t *samples, outcom
         const double factor = samples_for(found->error, wanted);
         if (factor <= 1.0 && factor > 0.8)
             break;
-        if (trial + 1 == PATH_TRIALS || self->options->quick)
+        if (trial + 1 == PATH_TRIALS || self->options->quick || *samples == PATH_MOST)
             break;
         const size_t next = (size_t)ceil(1.02 * factor * (double)*samples);
-        *samples = next > 0 ? next : 1;
+        *samples = next == 0 ? 1 : next < PATH_MOST ? next : PATH_MOST;
     }
     print(self->subject->path, *samples, wanted, found);
     if (found->error > wanted)
@@ -310,7 +319,9 @@ bool bench_quality(const bench_options *options, bench_figures *figures) {
                       .width = options->quick ? 16 : subjects[i].width,
                       .height = options->quick ? 16 : subjects[i].height,
                       .reference_samples = options->quick ? 4 : subjects[i].reference_samples,
-                      .repeats = options->quick ? 1 : REPEATS};
+                      .repeats = options->quick         ? 1
+                                 : subjects[i].relative ? SLOW_REPEATS
+                                                        : REPEATS};
         snprintf(self.folder, sizeof self.folder, "%s", folder);
         if (!study_subject(&self, figures))
             return false;
