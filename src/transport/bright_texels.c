@@ -5,7 +5,6 @@
 /* A texel is bright from so many times the mean radiance of the lit ones on. */
 static const double BRIGHTNESS = 2.0;
 
-/* Calls `visit` for all texels of plain triangles, side by side. */
 typedef struct patch_visit {
     aur_bright_patch patch;
     double area;
@@ -76,6 +75,7 @@ static aur_result visit_triangle(patch_search *search, patch_visit *at, double t
     return AUR_OK;
 }
 
+/* Calls `visit` for every side of every texel of plain triangles. */
 static aur_result visit_all(patch_search *search, aur_result (*visit)(patch_search *, const patch_visit *)) {
     const aur_elements *const elements = &search->map->texels.elements;
     for (size_t i = 0; i < elements->placement_count; ++i) {

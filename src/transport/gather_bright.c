@@ -58,15 +58,7 @@ static void add_draw(aur_group *group, uint32_t index) {
         aur_packet_set(&group->rays.packet, lane, &shadow);
         aimed |= 1u << lane;
     }
-    if (aimed == 0)
-        return;
-    const uint32_t lit =
-        aimed & ~aur_final_gather_occluded(data, AUR_EMBREE_INCOHERENT, &group->rays.packet, group->counters);
-    for (uint32_t lanes = lit; lanes != 0; lanes &= lanes - 1) {
-        const size_t lane = aur_first_lane(lanes);
-        group->sum[lane] = aur_vector_add(group->sum[lane],
-                                          aur_vector_multiply(group->throughput[lane], contribution[lane]));
-    }
+    aur_group_add_unoccluded(group, AUR_EMBREE_INCOHERENT, aimed, contribution);
 }
 
 void aur_group_add_bright_light(aur_group *group) {

@@ -33,6 +33,19 @@ aur_vector aur_group_weighted_value(const aur_final_gather *data, const aur_gath
     return sum;
 }
 
+void aur_group_add_unoccluded(aur_group *group, aur_embree_order order, uint32_t aimed,
+                              const aur_vector contribution[AUR_PACKET_SIZE]) {
+    if (aimed == 0)
+        return;
+    const uint32_t lit =
+        aimed & ~aur_final_gather_occluded(group->task->data, order, &group->rays.packet, group->counters);
+    for (uint32_t rest = lit; rest != 0; rest &= rest - 1) {
+        const size_t lane = aur_first_lane(rest);
+        group->sum[lane] = aur_vector_add(group->sum[lane],
+                                          aur_vector_multiply(group->throughput[lane], contribution[lane]));
+    }
+}
+
 static void add_draw(aur_group *group, uint32_t index) {
     const aur_final_gather *const data = group->task->data;
     const aur_scene *const scene = data->scene;
@@ -72,16 +85,8 @@ static void add_draw(aur_group *group, uint32_t index) {
         aur_packet_set(&group->rays.packet, lane, &shadow);
         aimed |= 1u << lane;
     }
-    if (aimed == 0)
-        return;
-    const aur_embree_order order = group->flat ? AUR_EMBREE_COHERENT : AUR_EMBREE_INCOHERENT;
-    const uint32_t lit =
-        aimed & ~aur_final_gather_occluded(data, order, &group->rays.packet, group->counters);
-    for (uint32_t rest = lit; rest != 0; rest &= rest - 1) {
-        const size_t lane = aur_first_lane(rest);
-        group->sum[lane] = aur_vector_add(group->sum[lane],
-                                          aur_vector_multiply(group->throughput[lane], contribution[lane]));
-    }
+    aur_group_add_unoccluded(group, group->flat ? AUR_EMBREE_COHERENT : AUR_EMBREE_INCOHERENT, aimed,
+                             contribution);
 }
 
 void aur_group_add_direct_light(aur_group *group) {

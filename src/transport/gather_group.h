@@ -83,6 +83,10 @@ void aur_group_add_direct_light(aur_group *group);
 aur_vector aur_group_weighted_value(const aur_final_gather *data, const aur_gather_place *p,
                                     const aur_light_sample *light);
 
+/* Traces the group's packet, whose lanes `aimed` are set, as shadow rays; adds what is not stopped. */
+void aur_group_add_unoccluded(aur_group *group, aur_embree_order order, uint32_t aimed,
+                              const aur_vector contribution[AUR_PACKET_SIZE]);
+
 /* Adds the light that reaches the places from bright texels (gather_bright.c). */
 void aur_group_add_bright_light(aur_group *group);
 
