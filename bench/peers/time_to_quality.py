@@ -76,13 +76,13 @@ def mitsuba(variant, sampler, path, threads):
     import mitsuba as mi
     import numpy as np
     mi.set_variant(variant)
+    with open(path, encoding="utf-8") as file:
+        scene = mi.load_string(re.sub(r'<sampler\s+type="[^"]*"', f'<sampler type="{sampler}"', file.read()))
     if variant.startswith("llvm"):
-        import drjit as dr
+        import drjit as dr  # after loading: textures are read by its threads, and one alone waits for itself
         dr.set_thread_count(threads)
     else:
         mi.Thread.set_thread_count(threads) if hasattr(mi.Thread, "set_thread_count") else None
-    with open(path, encoding="utf-8") as file:
-        scene = mi.load_string(re.sub(r'<sampler\s+type="[^"]*"', f'<sampler type="{sampler}"', file.read()))
     for samples in SAMPLES[name_of(path)] if variant.startswith("llvm") else (1,):  # kernels are compiled for each
         np.array(mi.render(scene, spp=samples, seed=999))
 
