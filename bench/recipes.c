@@ -14,8 +14,8 @@ const bench_recipe bench_recipes[] = {
     {"glossy-box", 0.02, 0.0, 8,
      "finalgather:photons=100000,photons_per_texel=32,diffuse_samples=16,glossy_samples=8,edges=1024,share="
      "true"},
-    {"glossy-box", 0.005, 0.0, 96,
-     "finalgather:photons=500000,diffuse_samples=384,glossy_samples=96,edges=8192,share=true"},
+    {"glossy-box", 0.005, 0.0, 192,
+     "finalgather:photons=4000000,diffuse_samples=768,glossy_samples=192,edges=8192,share=true"},
     {"room", 0.02, 0.0, 128,
      "finalgather:photons=8000000,diffuse_samples=256,glossy_samples=128,edges=1024,bright_samples=128,"
      "light_samples=8,share=true"},
