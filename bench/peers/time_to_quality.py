@@ -34,7 +34,7 @@ SCENES = {
 }
 ERRORS = (0.02, 0.005)
 # A pixel, squares for multi-jittered ones and powers of 2 for Sobol's, where error and time are measured.
-SAMPLES = {"cornell-box": (64, 256), "glossy-box": (64, 256), "room": (64, 256)}
+SAMPLES = {"cornell-box": (16, 64), "glossy-box": (64, 256), "room": (64, 256)}
 
 
 def cpu_seconds(who=resource.RUSAGE_SELF):
