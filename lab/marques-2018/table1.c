@@ -36,15 +36,32 @@ static const published figure6[] = {{NULL, {0}}};
 
 typedef struct subject {
     const char *name, *file;
-    const char *light; /* what gather rays see */
+    const char *environment; /* NULL: the scene's own */
+    const char *light;       /* what gather rays see */
     size_t directions[2];
     const published *published;
 } subject;
 
+/* Seen from the scenes' folders. */
+#define STUDIO "../generated/studio.exr"
+
 static const subject subjects[] = {
-    {"Cornell box", "cornell-box/glossy.xml", "direct=none,photons_per_texel=256", {40, 20}, table1},
-    {"figure", "statue/statue.xml", "direct=gather,incident=emitters", {50, 25}, figure1},
-    {"sphere", "sphere/sphere.xml", "direct=gather,incident=emitters", {64, 32}, figure6}};
+    {"Cornell box", "cornell-box/glossy.xml", NULL, "direct=none,photons_per_texel=256", {40, 20}, table1},
+    {"figure", "statue/statue.xml", NULL, "direct=gather,incident=emitters", {50, 25}, figure1},
+    {"sphere", "sphere/sphere.xml", NULL, "direct=gather,incident=emitters", {64, 32}, figure6},
+    /* Without the sun's spike, as the paper's probes are. */
+    {"figure in the studio",
+     "statue/statue.xml",
+     STUDIO,
+     "direct=gather,incident=emitters",
+     {50, 25},
+     figure1},
+    {"sphere in the studio",
+     "sphere/sphere.xml",
+     STUDIO,
+     "direct=gather,incident=emitters",
+     {64, 32},
+     figure6}};
 
 typedef struct picture_study {
     lab_run *run;
@@ -179,7 +196,10 @@ static aur_result study_set(const picture_study *study, const char *set, aur_err
 
 static aur_result study_subject(picture_study *study, aur_error *error) {
     aur_scene *scene = NULL;
-    aur_result result = lab_load_scene(study->run, study->subject->file, 0, NULL, &scene, error);
+    const aur_definition environment = {"environment", study->subject->environment};
+    aur_result result =
+        lab_load_scene(study->run, study->subject->file, study->subject->environment != NULL ? 1 : 0,
+                       &environment, &scene, error);
     if (result != AUR_OK && study->subject != subjects) {
         /* The box is always there; the others are made by scripts/scenes.sh. */
         lab_note(study->run, "%s: left out: %s", study->subject->name, error->message);

@@ -1,0 +1,168 @@
+/* Fixed patterns of several sizes are rendered over the same photon map and the same primary hits, a line is
+ * laid through the logarithms of their errors and rays, and where it has the error of the adaptive picture
+ * the rays are compared. Every seed of the patterns is one such comparison. */
+#include "gather_adaptive.h"
+
+#include <aureole/render.h>
+#include <math.h>
+#include <stdio.h>
+
+enum {
+    SIDE = 96,
+    QUICK_SIDE = 16,
+    SEEDS = 8,
+    QUICK_SEEDS = 2,
+    FIXED_COUNT = 5,
+    REFERENCE_DIRECTIONS = 6144,
+    QUICK_REFERENCE = 256,
+    REFERENCE_SEED = 1000
+};
+
+/* 95 % of Student's t, two-sided, by degrees of freedom. */
+static const double student[SEEDS] = {0.0, 12.706, 4.303, 3.182, 2.776, 2.571, 2.447, 2.365};
+
+typedef struct adaptive_context {
+    aur_renderer *renderer;
+    aur_render_options options;
+    size_t side, seeds, reference_directions;
+    aur_image *reference;
+    aur_error error;
+} adaptive_context;
+
+typedef struct outcome {
+    double rays;  /* that gathered */
+    double error; /* RMSE */
+} outcome;
+
+static bool render(adaptive_context *context, const char *keys, size_t seed, aur_image **image,
+                   double *rays) {
+    char integrator[256];
+    aur_render_statistics statistics;
+    snprintf(integrator, sizeof integrator,
+             "finalgather:direct=none,edges=0,pixel=centre,photons=%d,pattern_seed=%zu,%s",
+             context->side == SIDE ? 200000 : 20000, seed, keys);
+    context->options.integrator = integrator;
+    if (aur_renderer_render(context->renderer, &context->options, image, &statistics, &context->error) !=
+        AUR_OK)
+        return bench_fail("%s: %s", integrator, context->error.message);
+    *rays = (double)statistics.rays - (double)(context->side * context->side);
+    return true;
+}
+
+static bool measure(adaptive_context *context, const char *keys, size_t seed, outcome *found) {
+    aur_image *image = NULL;
+    if (!render(context, keys, seed, &image, &found->rays))
+        return false;
+    double sum = 0.0;
+    for (size_t pixel = 0; pixel < context->side * context->side; ++pixel)
+        for (size_t c = 0; c < 3; ++c) {
+            const double off =
+                (double)image->data[pixel * image->channel_count + c] -
+                (double)context->reference->data[pixel * context->reference->channel_count + c];
+            sum += off * off;
+        }
+    found->error = sqrt(sum / (double)(3 * context->side * context->side));
+    aur_image_destroy(image);
+    return true;
+}
+
+/* The line log rays = a + b log error, by least squares. */
+typedef struct line {
+    double a, b;
+} line;
+
+static bool fit_fixed(adaptive_context *context, size_t seed, line *fitted) {
+    double x[FIXED_COUNT], y[FIXED_COUNT], mean_x = 0.0, mean_y = 0.0, xx = 0.0, xy = 0.0;
+    for (size_t i = 0; i < FIXED_COUNT; ++i) {
+        char keys[80];
+        outcome found;
+        /* 80 + 40 to 320 + 160, where the adaptive pictures' errors lie. */
+        const size_t glossy = (size_t)(40.0 * pow(4.0, (double)i / (FIXED_COUNT - 1)) + 0.5);
+        snprintf(keys, sizeof keys, "diffuse_samples=%zu,glossy_samples=%zu", 2 * glossy, glossy);
+        if (!measure(context, keys, seed, &found))
+            return false;
+        x[i] = log(found.error);
+        y[i] = log(found.rays);
+        mean_x += x[i] / FIXED_COUNT;
+        mean_y += y[i] / FIXED_COUNT;
+    }
+    for (size_t i = 0; i < FIXED_COUNT; ++i) {
+        xx += (x[i] - mean_x) * (x[i] - mean_x);
+        xy += (x[i] - mean_x) * (y[i] - mean_y);
+    }
+    fitted->b = xy / xx;
+    fitted->a = mean_y - fitted->b * mean_x;
+    return true;
+}
+
+static bool compare(adaptive_context *context, const char *name, const char *keys, double asked,
+                    const line *fixed, bench_figures *figures) {
+    char all[160];
+    snprintf(all, sizeof all, "adaptive=true,%s", keys);
+    double sum = 0.0, squares = 0.0;
+    const double n = (double)context->seeds;
+    for (size_t k = 0; k < context->seeds; ++k) {
+        outcome found;
+        if (!measure(context, all, k, &found))
+            return false;
+        const double ratio = log(found.rays) - (fixed[k].a + fixed[k].b * log(found.error));
+        sum += ratio;
+        squares += ratio * ratio;
+    }
+    const double mean = sum / n, variance = fmax(0.0, squares - n * mean * mean) / (n - 1.0);
+    const double half = student[context->seeds - 1] * sqrt(variance / n);
+    printf("  %-36s %.3f [%.3f, %.3f] of the rays of fixed patterns at equal error, %zu seeds\n", name,
+           exp(mean), exp(mean - half), exp(mean + half), context->seeds);
+    fflush(stdout);
+    bench_figures_add(figures, asked > 0.0 ? BENCH_AT_MOST : BENCH_NOTED, asked, exp(mean), "",
+                      "6. adaptive, %s: rays / fixed at equal error", name);
+    return true;
+}
+
+static bool run_with(adaptive_context *context, bench_figures *figures) {
+    static const struct {
+        const char *name, *keys;
+        double asked;
+    } ways[] = {
+        {"variance, x2", "diffuse_samples=64,glossy_samples=32,level_factor=2,levels=4,threshold=0.02", 0.7},
+        {"variance, x4", "diffuse_samples=40,glossy_samples=20,criterion=variance", 0.7},
+        {"entropy, x4", "diffuse_samples=40,glossy_samples=20,criterion=entropy", 0.0}};
+    char keys[80];
+    double rays;
+    snprintf(keys, sizeof keys, "diffuse_samples=%zu,glossy_samples=%zu", context->reference_directions,
+             context->reference_directions / 2);
+    /* The photon map is made here and kept. */
+    if (!render(context, keys, REFERENCE_SEED, &context->reference, &rays))
+        return false;
+    line fixed[SEEDS];
+    bool good = true;
+    for (size_t k = 0; k < context->seeds && good; ++k)
+        good = fit_fixed(context, k, &fixed[k]);
+    for (size_t i = 0; i < sizeof ways / sizeof ways[0] && good; ++i)
+        good = compare(context, ways[i].name, ways[i].keys, ways[i].asked, fixed, figures);
+    aur_image_destroy(context->reference);
+    return good;
+}
+
+bool bench_gather_adaptive(const bench_options *options, bench_figures *figures) {
+    adaptive_context context = {.side = options->quick ? QUICK_SIDE : SIDE,
+                                .seeds = options->quick ? QUICK_SEEDS : SEEDS,
+                                .reference_directions =
+                                    options->quick ? QUICK_REFERENCE : REFERENCE_DIRECTIONS};
+    context.options = (aur_render_options){.sampler = "sobol",
+                                           .filter = "box",
+                                           .samples_per_pixel = 1,
+                                           .threads = options->threads,
+                                           .width = context.side,
+                                           .height = context.side};
+    aur_scene *scene = NULL;
+    if (aur_scene_load(AUR_SOURCE_DIR "/scenes/cornell-box/glossy.xml", NULL, &scene, &context.error) !=
+        AUR_OK)
+        return bench_fail("%s: %s", context.error.file, context.error.message);
+    bool good = aur_renderer_create(scene, &context.renderer, &context.error) == AUR_OK ||
+                bench_fail("%s", context.error.message);
+    good = good && run_with(&context, figures);
+    aur_renderer_destroy(context.renderer);
+    aur_scene_destroy(scene);
+    return good;
+}
