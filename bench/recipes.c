@@ -17,7 +17,7 @@ const bench_recipe bench_recipes[] = {
     {"glossy-box", 0.005, 0.0, 192,
      "finalgather:photons=4000000,diffuse_samples=768,glossy_samples=192,edges=8192,share=true"},
     {"room", 0.02, 0.0, 128,
-     "finalgather:photons=8000000,diffuse_samples=256,glossy_samples=128,edges=1024,bright_samples=128,"
+     "finalgather:photons=8000000,diffuse_samples=256,glossy_samples=128,edges=1024,bright_samples=256,"
      "light_samples=8,share=true"},
 };
 
