@@ -61,31 +61,44 @@ typedef struct gather_chain {
 static float emission_weight(const aur_final_gather *data, const gather_chain *chain, float light_pdf) {
     if (aur_gathers_emitters(data))
         return 1.0f;
-    if (data->direct != AUR_DIRECT_NEE)
-        return 0.0f;
     if (!chain->mirrored)
         return aur_power_heuristic(chain->density, chain->light_draws * light_pdf);
     /* Light that a mirror throws here is found by caustic photons, if there are. */
     return data->caustics != NULL && chain->specular ? 0.0f : 1.0f;
 }
 
+/* Whether rays count any of the light that they meet, and whether it takes a light's density to tell how
+ * much.
+ */
+static bool counts_emission(const aur_final_gather *data) {
+    return data->direct == AUR_DIRECT_NEE || aur_gathers_emitters(data);
+}
+
+static bool has_rival(const aur_final_gather *data, const gather_chain *chain) {
+    return !chain->mirrored && !aur_gathers_emitters(data);
+}
+
 static aur_vector sky_radiance(const aur_final_gather *data, aur_vector direction,
                                const gather_chain *chain) {
+    if (!counts_emission(data))
+        return (aur_vector){0};
     const aur_vector sky = aur_scene_environment(data->scene, direction);
     if (aur_vector_is_zero(sky))
         return sky;
-    const float pdf = chain->mirrored ? 0.0f : aur_environment_pdf_direct(data->scene, direction);
+    const float pdf = has_rival(data, chain) ? aur_environment_pdf_direct(data->scene, direction) : 0.0f;
     return aur_vector_scale(sky, emission_weight(data, chain, pdf));
 }
 
 static aur_vector emitted_radiance(const aur_final_gather *data, const aur_surface *surface, aur_vector view,
                                    const gather_chain *chain) {
+    if (!counts_emission(data))
+        return (aur_vector){0};
     const aur_vector emission = aur_surface_emission(data->scene, surface, view);
     if (aur_vector_is_zero(emission))
         return emission;
-    const float pdf =
-        chain->mirrored ? 0.0f
-                        : aur_light_pdf_direct(data->scene, chain->reference, AUR_LEAST_LIGHT_SEEN, surface);
+    const float pdf = has_rival(data, chain)
+                          ? aur_light_pdf_direct(data->scene, chain->reference, AUR_LEAST_LIGHT_SEEN, surface)
+                          : 0.0f;
     return aur_vector_scale(emission, emission_weight(data, chain, pdf));
 }
 
