@@ -28,15 +28,4 @@ typedef struct aur_shadow {
 bool aur_direct_light_choose(const aur_scene *scene, const aur_shading *shading, float choice,
                              const float position[2], aur_shadow *shadow);
 
-/* The light-sampling half: radiance reflected towards the viewer, weighted for use beside BSDF sampling. */
-aur_vector aur_direct_light_sampled(const aur_scene *scene, const aur_shading *shading, float choice,
-                                    const float position[2], aur_counters *counters);
-
-/* Both halves: one light sample and one BSDF sample, from the dimension pairs pair .. pair + 2. Light in
- * specular directions is left out: who follows those meets the light itself. */
-aur_vector aur_direct_light(const aur_scene *scene, const aur_shading *shading, const aur_stream *stream,
-                            uint32_t pair, aur_counters *counters);
-
-enum { AUR_DIRECT_LIGHT_PAIRS = 3 };
-
 #endif
