@@ -194,11 +194,3 @@ void aur_scene_bounds(const aur_scene *scene, aur_vector *lower, aur_vector *upp
     *lower = scene->lower;
     *upper = scene->upper;
 }
-
-size_t aur_scene_bsdf_count(const aur_scene *scene) {
-    return scene->bsdf_count;
-}
-
-const aur_bsdf *aur_scene_bsdf(const aur_scene *scene, size_t index) {
-    return scene->bsdfs[index];
-}

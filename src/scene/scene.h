@@ -167,13 +167,6 @@ const char *aur_scene_sampler(const aur_scene *scene); /* SET syntax */
 /* The integrator as the scene has it; its plugin may be one that Aureole does not know. */
 const aur_parameters *aur_scene_integrator(const aur_scene *scene);
 
-/* --- materials
- * ------------------------------------------------------------------------------------------------- */
-
-/* Every BSDF that a surface of the scene may have. */
-size_t aur_scene_bsdf_count(const aur_scene *scene);
-const aur_bsdf *aur_scene_bsdf(const aur_scene *scene, size_t index);
-
 /* --- geometry, for photon maps and radiosity
  * ------------------------------------------------------------------- */
 

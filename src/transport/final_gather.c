@@ -105,22 +105,25 @@ static aur_result add_glossy_rule(aur_final_gather *data, const aur_gather_optio
     return result;
 }
 
-/* One rule for each exponent among the glossy lobes of the scene's materials. */
+/* One rule for each exponent among the glossy lobes of the scene's surfaces. `shapes` gets a bit for each
+ * shape that any of their lobes has. */
 static aur_result prepare_glossy_rules(aur_final_gather *data, const aur_scene *scene, size_t count,
-                                       aur_error *error) {
-    const size_t materials = aur_scene_bsdf_count(scene);
+                                       unsigned *shapes, aur_error *error) {
+    const size_t surfaces = aur_scene_shape_count(scene);
     aur_gather_options options = data->options;
     options.count = count;
-    data->glossy = calloc(2 * materials * AUR_BSDF_LOBE_CAPACITY + 1, sizeof *data->glossy);
+    *shapes = 0;
+    data->glossy = calloc(2 * surfaces * AUR_BSDF_LOBE_CAPACITY + 1, sizeof *data->glossy);
     if (data->glossy == NULL)
         return aur_fail(error, AUR_ERROR_MEMORY, "out of memory");
-    for (size_t i = 0; i < materials; ++i) {
-        const aur_bsdf *const bsdf = aur_scene_bsdf(scene, i);
+    for (uint32_t i = 0; i < surfaces; ++i) {
+        const aur_bsdf *const bsdf = aur_scene_shape_bsdf(scene, i);
         aur_bsdf_lobe lobes[AUR_BSDF_LOBE_CAPACITY];
         for (int side = 1; side >= -1; side -= 2) {
             const aur_vector view = {0.0f, 0.0f, (float)side};
             const size_t found = bsdf->descriptor->lobes(bsdf, (aur_bsdf_point){0}, view, lobes);
             for (size_t k = 0; k < found; ++k) {
+                *shapes |= 1u << lobes[k].shape;
                 const aur_result result = add_glossy_rule(data, &options, &lobes[k], error);
                 if (result != AUR_OK)
                     return result;
@@ -128,21 +131,6 @@ static aur_result prepare_glossy_rules(aur_final_gather *data, const aur_scene *
         }
     }
     return AUR_OK;
-}
-
-/* A bit for each shape that a lobe has of any surface of the scene. */
-static unsigned lobe_shapes(const aur_scene *scene) {
-    unsigned shapes = 0;
-    for (uint32_t i = 0; i < aur_scene_shape_count(scene); ++i)
-        for (int side = 1; side >= -1; side -= 2) {
-            const aur_bsdf *const bsdf = aur_scene_shape_bsdf(scene, i);
-            aur_bsdf_lobe lobes[AUR_BSDF_LOBE_CAPACITY];
-            const size_t count = bsdf->descriptor->lobes(bsdf, (aur_bsdf_point){0},
-                                                         (aur_vector){0.0f, 0.0f, (float)side}, lobes);
-            for (size_t k = 0; k < count; ++k)
-                shapes |= 1u << lobes[k].shape;
-        }
-    return shapes;
 }
 
 /* Optimal weights in the rules, horizons, and what merged samples need. */
@@ -351,9 +339,9 @@ static aur_result create(aur_parameters *parameters, const aur_integrator_contex
     if (result == AUR_OK)
         result = aur_gather_rule_create(&options, 1.0, &data->diffuse, error);
     data->options.warnings = (aur_warnings){0};
-    const unsigned shapes = lobe_shapes(context->scene);
+    unsigned shapes = 0;
     if (result == AUR_OK)
-        result = prepare_glossy_rules(data, context->scene, glossy_count, error);
+        result = prepare_glossy_rules(data, context->scene, glossy_count, &shapes, error);
     if (result == AUR_OK && (shapes >> AUR_LOBE_SHAPE_SAMPLED & 1u) != 0) {
         options.set = p.pattern;
         options.count = data->glossy_samples;
@@ -384,8 +372,7 @@ const aur_integrator_descriptor aur_integrator_final_gather = {
                         "scramble=rotate (nets: digit), rotations=16, density=optimal, smoothness=1.5, "
                         "weights=ratio, regularization=1e-6, clip=true, decorrelation=blue, photons=500000, "
                         "caustic_photons=0, photon_pattern=sobol, photons_per_texel=16, light_samples=1, "
-                        "bright_samples=0, edges=32, "
-                        "share=false, "
+                        "bright_samples=0, edges=32, share=false, "
                         "adaptive=false, levels=2, level_factor=4, criterion=variance, threshold=0.03 "
                         "(entropy: 0.3), "
                         "max_depth=-1, component=all, direct=nee, incident=photons, pixel=filter, "

@@ -46,7 +46,7 @@ void aur_group_add_unoccluded(aur_group *group, aur_embree_order order, uint32_t
     }
 }
 
-static void add_draw(aur_group *group, uint32_t index) {
+static void add_draw(aur_group *group, const aur_vector references[AUR_PACKET_SIZE], uint32_t index) {
     const aur_final_gather *const data = group->task->data;
     const aur_scene *const scene = data->scene;
     const bool chooses = aur_light_chooses(scene);
@@ -57,12 +57,6 @@ static void add_draw(aur_group *group, uint32_t index) {
         aur_stream_pixels(sampler, AUR_PACKET_SIZE, group->pixels, index, pair + AUR_GATHER_PAIR_CHOICE,
                           choice, unused);
     aur_stream_pixels(sampler, AUR_PACKET_SIZE, group->pixels, index, pair + AUR_GATHER_PAIR_POSITION, u, v);
-    /* Lanes without a place stand where the first one is: their samples are drawn and thrown away. */
-    aur_vector references[AUR_PACKET_SIZE];
-    for (size_t lane = 0; lane < AUR_PACKET_SIZE; ++lane) {
-        const size_t from = (group->lanes >> lane & 1u) != 0 ? lane : aur_first_lane(group->lanes);
-        references[lane] = group->places[from].surface.position;
-    }
     aur_light_sample lights[AUR_PACKET_SIZE];
     aur_light_samples_direct(scene, AUR_PACKET_SIZE, references, AUR_LEAST_LIGHT_SEEN,
                              chooses ? choice : NULL, u, v, lights);
@@ -90,7 +84,13 @@ static void add_draw(aur_group *group, uint32_t index) {
 }
 
 void aur_group_add_direct_light(aur_group *group) {
+    /* Lanes without a place stand where the first one is: their samples are drawn and thrown away. */
+    aur_vector references[AUR_PACKET_SIZE];
+    for (size_t lane = 0; lane < AUR_PACKET_SIZE; ++lane) {
+        const size_t from = (group->lanes >> lane & 1u) != 0 ? lane : aur_first_lane(group->lanes);
+        references[lane] = group->places[from].surface.position;
+    }
     const uint32_t share = group->task->data->light_share;
     for (uint32_t k = 0; k < share; ++k)
-        add_draw(group, group->task->index * share + k);
+        add_draw(group, references, group->task->index * share + k);
 }

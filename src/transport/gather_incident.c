@@ -115,8 +115,7 @@ void aur_gather_trace(const aur_final_gather *data, aur_embree_order order, aur_
         aur_vector radiance;
         if (!hits || !plain_radiance(data, rays, lane, &radiance)) {
             /* Only light that is sampled too asks for the density. */
-            const bool weighed =
-                !hits || data->bright_share > 0 || data->classes[rays->packet.query.hit.geomID[lane]].emits;
+            const bool weighed = !hits || data->classes[rays->packet.query.hit.geomID[lane]].emits;
             const aur_gather_ray from = {.ray = packet_ray(&rays->packet, lane),
                                          .reference = rays->reference[lane],
                                          .density = weighed ? density_of(rays, lane) : 0.0f,
