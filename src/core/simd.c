@@ -14,9 +14,7 @@ static aur_isa processor_isa(void) {
     return AUR_ISA_PORTABLE;
 }
 
-aur_isa aur_isa_available(void) {
-    const aur_isa processor = processor_isa();
-    const char *limit = getenv("AUREOLE_ISA");
+static aur_isa limited(aur_isa processor, const char *limit) {
     if (limit == NULL)
         return processor;
     if (strcmp(limit, "portable") == 0)
@@ -24,6 +22,15 @@ aur_isa aur_isa_available(void) {
     if (strcmp(limit, "avx2") == 0 && processor > AUR_ISA_AVX2)
         return AUR_ISA_AVX2;
     return processor;
+}
+
+aur_isa aur_isa_available(void) {
+    return limited(processor_isa(), getenv("AUREOLE_ISA"));
+}
+
+aur_isa aur_isa_of_rays(void) {
+    const char *const limit = getenv("AUREOLE_EMBREE_ISA");
+    return limit == NULL ? aur_isa_available() : limited(processor_isa(), limit);
 }
 
 const char *aur_isa_name(aur_isa isa) {

@@ -1,6 +1,5 @@
 /* The one place that asks which instructions the processor has. A SIMD routine lives in its own file
- * (*_avx2.c,
- * *_avx512.c) beside a portable twin, and its room chooses between them by this answer. */
+ * (*_avx2.c, *_avx512.c) beside a portable twin, and its room chooses between them by this answer. */
 #ifndef AUR_CORE_SIMD_H
 #define AUR_CORE_SIMD_H
 
@@ -9,6 +8,11 @@ typedef enum aur_isa { AUR_ISA_PORTABLE = 0, AUR_ISA_AVX2 = 2, AUR_ISA_AVX512 = 
 /* The widest set that both the processor and the environment variable AUREOLE_ISA (portable, avx2, avx512; a
  * limit, for tests and measurements) allow. AVX2 implies FMA; AVX-512 means F, DQ, BW and VL. */
 aur_isa aur_isa_available(void);
+
+/* The same for Embree's kernels, with AUREOLE_EMBREE_ISA in the place of AUREOLE_ISA where it is set.
+ * Embree's hits differ in the last bits between its kernels; ours do not, so a test of our bits holds
+ * Embree's kernels fixed. */
+aur_isa aur_isa_of_rays(void);
 
 const char *aur_isa_name(aur_isa isa);
 

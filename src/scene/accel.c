@@ -2,6 +2,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "core/simd.h"
 #include "scene/embree.h"
 #include "scene/scene_data.h"
 
@@ -162,10 +163,23 @@ static bool attach_all(aur_scene *scene) {
     return good;
 }
 
+/* One thread builds the same tree each time: with it, which of two hits at one distance wins is settled.
+ * Embree obeys the limit of AUREOLE_ISA too, so that a test on one machine meets the kernels that others
+ * have. */
+static const char *device_configuration(void) {
+    switch (aur_isa_of_rays()) {
+    case AUR_ISA_PORTABLE:
+        return "threads=1,isa=sse2";
+    case AUR_ISA_AVX2:
+        return "threads=1,isa=avx2";
+    case AUR_ISA_AVX512:
+        break;
+    }
+    return "threads=1";
+}
+
 aur_result aur_scene_build_accel(aur_scene *scene, aur_error *error) {
-    /* One thread builds the same tree each time: with it, which of two hits at one distance wins is settled.
-     */
-    scene->device = rtcNewDevice("threads=1");
+    scene->device = rtcNewDevice(device_configuration());
     if (scene->device == NULL)
         return fail(scene, error);
     scene->accel = new_scene(scene);

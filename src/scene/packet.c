@@ -14,9 +14,10 @@ uint32_t aur_scene_intersect16(const aur_scene *scene, aur_embree_order order, a
     memset(hits->geomID, 0xff, sizeof hits->geomID); /* RTC_INVALID_GEOMETRY_ID */
     memset(hits->instID, 0xff, sizeof hits->instID);
     aur_embree_intersect16(scene->accel, order, packet->valid, &packet->query);
+    /* Embree 3.13 without AVX-512 writes hits into invalid lanes of incoherent packets too. */
     uint32_t found = 0;
     for (size_t k = 0; k < AUR_PACKET_SIZE; ++k)
-        found |= (uint32_t)(hits->geomID[k] != RTC_INVALID_GEOMETRY_ID) << k;
+        found |= (uint32_t)(packet->valid[k] != 0 && hits->geomID[k] != RTC_INVALID_GEOMETRY_ID) << k;
     return found;
 }
 
