@@ -8,7 +8,7 @@
 #include "bench.h"
 #include "core/parallel.h"
 #include "scene/scene_data.h"
-#include "transport/ambient_occlusion.h"
+#include "transport/integrators/ambient_occlusion.h"
 
 enum { SIDE = 128, TILES = SIDE / AUR_TILE_SIZE * (SIDE / AUR_TILE_SIZE), SAMPLES = 64 };
 

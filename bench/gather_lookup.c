@@ -8,7 +8,7 @@
 #include "child.h"
 #include "core/random.h"
 #include "gather_rays.h"
-#include "transport/irradiance.h"
+#include "transport/photons/irradiance.h"
 
 enum { PHOTONS = 500000, QUICK_PHOTONS = 2000, WARM_QUERIES = 4096, CAPACITY = 64 };
 

@@ -5,10 +5,10 @@
 
 #include <aureole/render.h>
 
+#include "core/cache.h"
 #include "core/parameters.h"
+#include "film/tile.h"
 #include "scene/scene.h"
-#include "transport/cache.h"
-#include "transport/tile.h"
 
 /* What an integrator is made for. Everything but the parameters outlives it. */
 typedef struct aur_integrator_context {

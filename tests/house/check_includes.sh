@@ -2,28 +2,67 @@
 # A room includes only its own headers and those of rooms below it; the program and the lab include public headers only.
 set -u
 source_tree=$2
-# From the top floor to the ground.
-rooms=(cli lab render transport quality quadrature scene material sphere image pointset core)
-status=0
-floor_of() { for i in "${!rooms[@]}"; do [ "${rooms[$i]}" = "$1" ] && { echo "$i"; return; }; done; echo -1; }
-for room in "${rooms[@]}"; do
-  here=$(floor_of "$room")
-  while IFS=: read -r file line text; do
-    target=$(sed -E 's/.*"([a-z_]+)\/.*/\1/' <<<"$text")
-    there=$(floor_of "$target")
-    if [ "$there" -lt 0 ]; then echo "$file:$line: unknown room '$target'"; status=1; fi
-    if [ "$there" -lt "$here" ]; then echo "$file:$line: $room must not call $target, which is above it"; status=1; fi
-    if [ "$room" = cli ] && [ "$target" != cli ] && [ "$target" != lab ]; then
-      echo "$file:$line: the program uses <aureole/...> only"; status=1; fi
-    if [ "$room" = lab ] && [ "$target" != lab ]; then
-      echo "$file:$line: the lab uses <aureole/...> only"; status=1; fi
-  done < <(grep -nHE '^#include "[a-z_]+/' "$source_tree/src/$room/"*.[ch] 2>/dev/null)
-  for public in "$source_tree/include/aureole/"*.h; do
-    grep -nE '^#include "' "$public" && { echo "$public: public headers include <aureole/...> only"; status=1; }
-  done
-done
+# From the top floor to the ground; rooms on one line stand side by side and do not include each other. A room inside a
+# room stands above the room's own folder, which holds what all of them share.
+floors='
+cli
+lab
+render
+transport/integrators
+transport/gather transport/paths transport/radiosity
+transport/photons
+transport/packets
+transport/lights
+transport
+film
+sampling
+quality
+quadrature
+scene
+material
+sphere
+image
+pointset
+core
+'
+(cd "$source_tree" && grep -rnE '^#include "' src include --include='*.[ch]') |
+  awk -v floors="$floors" '
+    # The room of a path below src: the longest one of the table that it lies in.
+    function room_of(path, room) {
+      room = path
+      while (sub(/\/[^\/]*$/, "", room))
+        if (room in floor) return room
+      return ""
+    }
+    BEGIN {
+      count = split(floors, lines, "\n")
+      for (i = 1; i <= count; ++i) {
+        rooms = split(lines[i], names, " ")
+        for (k = 1; k <= rooms; ++k) floor[names[k]] = i
+      }
+    }
+    function bad(what) { print where ": " what; status = 1 }
+    {
+      split($0, part, ":")
+      file = part[1]
+      where = file ":" part[2]
+      target = $0
+      sub(/.*#include "/, "", target)
+      sub(/".*/, "", target)
+      if (file ~ /^include\//) { bad("public headers include <aureole/...> only"); next }
+      sub(/^src\//, "", file)
+      here = room_of(file)
+      there = room_of(target)
+      if (here == "") { bad("stands in no room"); next }
+      if (there == "") { bad("unknown room of \"" target "\""); next }
+      if (floor[there] < floor[here]) bad(here " must not call " there ", which is above it")
+      if (floor[there] == floor[here] && there != here) bad(here " must not call " there ", which stands beside it")
+      if (here == "cli" && there != "cli" && there != "lab") bad("the program uses <aureole/...> only")
+      if (here == "lab" && there != "lab") bad("the lab uses <aureole/...> only")
+    }
+    END { exit status }
+  ' || exit 1
 # No C file may stand outside a room.
 for folder in "$source_tree"/src/*/; do
-  [ "$(floor_of "$(basename "$folder")")" -ge 0 ] || { echo "$folder is not a room"; status=1; }
+  grep -qx "$(basename "$folder")" <<<"$floors" || { echo "$folder is not a room"; exit 1; }
 done
-exit $status

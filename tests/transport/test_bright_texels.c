@@ -3,7 +3,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "transport/bright_texels.h"
+#include "transport/photons/bright_texels.h"
 
 /* Every triangle of the Cornell box but the light's reflects a third of what it gets, on both sides. */
 static bool third(const void *context, uint32_t shape, aur_vector albedo_on_pi[2]) {

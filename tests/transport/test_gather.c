@@ -1,7 +1,7 @@
 #include "check.h"
 
 #include "core/random.h"
-#include "transport/gather.h"
+#include "transport/gather/rule.h"
 
 static aur_gather_options options_of(const char *set, aur_scramble scramble, size_t count, bool optimal,
                                      size_t rotations) {

@@ -4,7 +4,7 @@
 
 #include "check.h"
 
-#include "transport/gather_pair.h"
+#include "transport/gather/rule_merged.h"
 
 #define PI 3.14159265358979323846
 

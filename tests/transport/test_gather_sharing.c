@@ -3,7 +3,7 @@
 
 #include <stdlib.h>
 
-#include "transport/final_gather.h"
+#include "transport/gather/plan.h"
 
 enum { SIDE = AUR_TILE_SIZE, BLOCK = AUR_GROUPS_A_SIDE };
 

@@ -3,7 +3,7 @@
 
 #include "check.h"
 
-#include "transport/gather_weights.h"
+#include "transport/gather/rule_weights.h"
 
 #define PI 3.14159265358979323846
 

@@ -3,7 +3,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "transport/irradiance.h"
+#include "transport/photons/irradiance.h"
 
 /* The closed furnace of tests/render/furnace.xml: walls of [-1,1]^3 that emit 0.5 and reflect half, so that
  * the radiance is 1 and the irradiance pi everywhere. */

@@ -3,7 +3,7 @@
 #include "scene/scene_text.h"
 
 #include "core/random.h"
-#include "transport/irradiance.h"
+#include "transport/photons/irradiance.h"
 
 /* A closed room cut in two by a wall without thickness at x = WALL_AT, where no texel ends but by chance; its
  * floor, ceiling and sides are single faces that reach under the wall. The light is on the far side of it. */

@@ -3,7 +3,7 @@
 #include <aureole/render.h>
 
 #include "core/random.h"
-#include "transport/radiosity_direct.h"
+#include "transport/radiosity/picture_direct.h"
 
 #define WALL                                                                                                 \
     "<bsdf type='diffuse'><rgb name='reflectance' value='0.5'/></bsdf>"                                      \

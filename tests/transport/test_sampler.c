@@ -1,6 +1,6 @@
 #include "check.h"
 
-#include "transport/sampler_kernels.h"
+#include "sampling/stream_kernels.h"
 
 #include "core/simd.h"
 

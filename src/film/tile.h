@@ -1,0 +1,76 @@
+/* What an integrator sees of the film: a part of the picture, the camera samples of its pixels, and their
+ * sums. */
+#ifndef AUR_FILM_TILE_H
+#define AUR_FILM_TILE_H
+
+#include <aureole/render.h>
+
+#include "sampling/stream.h"
+#include "scene/scene.h"
+
+/* Counted by each tile for itself and added up afterwards. */
+typedef struct aur_counters {
+    uint64_t rays;
+    uint64_t invalid;                   /* samples that were no radiance */
+    uint64_t levels[AUR_RENDER_LEVELS]; /* adaptive gathering: places that ended at each level */
+} aur_counters;
+
+/* A camera ray with the numbers of its light path. */
+typedef struct aur_camera_sample {
+    aur_ray ray;
+    aur_stream stream;
+    float first_pairs[AUR_STREAM_BLOCK]
+                     [2]; /* of the stream: those of the camera, and the first of an integrator */
+} aur_camera_sample;
+
+/* Dimension pairs that the camera uses; an integrator's own begin after them. */
+enum { AUR_PAIR_FILTER = 0, AUR_PAIR_LENS = 1, AUR_PAIR_FIRST = 2 };
+
+/* Where camera samples come from; immutable while a picture is made. */
+typedef struct aur_view {
+    const aur_scene *scene;
+    const aur_sampler *sampler;
+    const aur_filter *filter;
+    size_t width, height; /* of the whole picture */
+    uint64_t seed;
+    bool pixel_centre; /* every camera ray goes through the centre of its pixel */
+    bool has_lens;     /* the camera's rays depend on a point of its lens */
+} aur_view;
+
+/* Sample `index` of pixel (x, y), a function of these alone. Returns its weight in the pixel's mean: 1, or -1
+ * where the filter is negative. */
+float aur_view_sample(const aur_view *view, size_t x, size_t y, uint32_t index, aur_camera_sample *sample);
+
+/* The same for `count` pixels (at most AUR_TILE_SIZE) at columns x[k] and rows y[k]; first_pairs are not set.
+ */
+void aur_view_samples(const aur_view *view, size_t count, const size_t *x, const size_t *y, uint32_t index,
+                      aur_camera_sample *samples, float *weights);
+
+enum { AUR_TILE_SIZE = 16 };
+
+/* Tiles lie on a grid of AUR_TILE_SIZE pixels over the whole picture, so that a crop changes no neighbours.
+ */
+typedef struct aur_tile {
+    const aur_view *view;
+    size_t x0, x1, y0, y1; /* the pixels that are wanted: a whole tile or what a crop leaves of it */
+    uint32_t first, count; /* samples of each pixel */
+    size_t stride;         /* pixels from one row of sums to the next */
+    size_t channel_count;
+    double *sums;     /* of pixel (x0, y0): channel_count values a pixel */
+    uint32_t *counts; /* samples added to each pixel */
+    aur_counters counters;
+} aur_tile;
+
+/* Whether finite and not negative. */
+bool aur_is_radiance(aur_vector radiance);
+
+/* Adds one sample to a pixel of the tile. Samples that are no radiance are counted and left out. */
+void aur_tile_add(aur_tile *tile, size_t x, size_t y, float weight, aur_vector radiance);
+/* Adds the mean of `count` samples. */
+void aur_tile_add_mean(aur_tile *tile, size_t x, size_t y, uint32_t count, const double mean[3]);
+/* Adds to a channel after the first three, counting no sample. */
+void aur_tile_add_extra(aur_tile *tile, size_t x, size_t y, size_t channel, double value);
+/* One sample with all channels, the first three the radiance. */
+void aur_tile_add_channels(aur_tile *tile, size_t x, size_t y, float weight, const float *values);
+
+#endif

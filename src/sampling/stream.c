@@ -1,0 +1,209 @@
+#include "sampling/stream.h"
+
+#include <aureole/sphere.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "core/error.h"
+#include "core/simd.h"
+#include "pointset/net_2d.h"
+#include "sampling/stream_kernels.h"
+#include "sampling/stream_pixels.h"
+
+static aur_result fill_table(aur_sampler *sampler, const char *set, const aur_warnings *warnings,
+                             aur_error *error) {
+    aur_pointset *points = NULL;
+    const aur_pointset_options options = {
+        .count = sampler->size, .dimension = 2, .warnings = warnings != NULL ? *warnings : (aur_warnings){0}};
+    aur_result result = aur_pointset_create(set, &options, &points, error);
+    if (result != AUR_OK)
+        return result;
+    double *const values = malloc(2 * sizeof *values * sampler->size);
+    sampler->points = malloc(sizeof *sampler->points * sampler->size);
+    if (values == NULL || sampler->points == NULL)
+        result = aur_fail(error, AUR_ERROR_MEMORY, "out of memory for a sampler of %u points", sampler->size);
+    if (result == AUR_OK) {
+        result = aur_pointset_points(points, 0, sampler->size, 2 * (size_t)sampler->size, values);
+        if (result != AUR_OK)
+            aur_fail(error, result, "sampler '%s': %s", set, aur_result_string(result));
+    }
+    for (size_t i = 0; i < sampler->size && result == AUR_OK; ++i)
+        for (size_t k = 0; k < 2; ++k)
+            sampler->points[i][k] = (uint32_t)(values[2 * i + k] * 0x1p32);
+    free(values);
+    aur_pointset_destroy(points);
+    return result;
+}
+
+aur_result aur_sampler_create(const char *set, size_t count, const aur_warnings *warnings, aur_sampler **out,
+                              aur_error *error) {
+    *out = NULL;
+    if (count == 0 || count > (size_t)1 << 30)
+        return aur_fail(error, AUR_ERROR_ARGUMENT, "samples per pixel must be between 1 and 2^30, not %zu",
+                        count);
+    aur_sampler *const sampler = calloc(1, sizeof *sampler);
+    if (sampler == NULL)
+        return aur_fail(error, AUR_ERROR_MEMORY, "out of memory");
+    aur_result result = AUR_OK;
+    if (strcmp(set, "random") == 0) {
+        sampler->kind = AUR_SAMPLER_RANDOM;
+    } else if (strcmp(set, "sobol") == 0) {
+        sampler->kind = AUR_SAMPLER_SOBOL;
+        const aur_isa isa = aur_isa_available();
+        sampler->sobol_pairs = isa >= AUR_ISA_AVX512 ? aur_sobol_pairs_avx512
+                               : isa >= AUR_ISA_AVX2 ? aur_sobol_pairs_avx2
+                                                     : aur_sobol_pairs_portable;
+#if defined(__x86_64__)
+        if (isa != AUR_ISA_PORTABLE)
+            sampler->sobol_pixels = isa == AUR_ISA_AVX512 ? aur_sobol_pixels_avx512 : aur_sobol_pixels_avx2;
+#endif
+    } else {
+        const aur_set_description *const row = aur_set_find(set);
+        sampler->kind = row != NULL && row->binary_net ? AUR_SAMPLER_NET : AUR_SAMPLER_TABLE;
+        sampler->size = (uint32_t)count;
+        if (sampler->kind == AUR_SAMPLER_NET)
+            for (sampler->size = 1; sampler->size < count;)
+                sampler->size *= 2;
+        result = fill_table(sampler, set, warnings, error);
+    }
+    if (result != AUR_OK) {
+        aur_sampler_destroy(sampler);
+        return result;
+    }
+    *out = sampler;
+    return AUR_OK;
+}
+
+void aur_sampler_destroy(aur_sampler *sampler) {
+    if (sampler == NULL)
+        return;
+    free(sampler->points);
+    free(sampler);
+}
+
+/* A random permutation of 0..size-1 by hashing and cycle walking (Kensler 2013, for its method; the mixing is
+ * ours). */
+static uint32_t permute(uint32_t index, uint32_t size, uint32_t seed) {
+    uint32_t mask = size - 1;
+    mask |= mask >> 1;
+    mask |= mask >> 2;
+    mask |= mask >> 4;
+    mask |= mask >> 8;
+    mask |= mask >> 16;
+    do {
+        index ^= seed & mask;
+        index = index * 0xe170893du & mask;
+        index ^= (index & mask) >> 4;
+        index ^= (seed >> 7) & mask;
+        index = index * ((seed >> 9) | 1u) & mask;
+        index ^= index >> 2;
+        index = index * 0x0929eb3fu & mask;
+        index ^= index >> 3 ^ (seed >> 17 & mask);
+        index = index * (seed | 1u) & mask;
+    } while (index >= size);
+    return index;
+}
+
+/* Of every kind but SOBOL. */
+static void pair_words(const aur_stream *stream, uint32_t pair, uint32_t words[2]) {
+    const aur_sampler *const sampler = stream->sampler;
+    aur_pair_seeds seeds = aur_pair_seeds_of(stream, pair);
+    /* Beyond its end a table begins anew with another randomisation. */
+    if (sampler->size > 0 && stream->index >= sampler->size)
+        seeds = aur_pair_seeds_by(aur_hash2(seeds.coordinates, stream->index / sampler->size));
+    uint32_t index;
+    switch (sampler->kind) {
+    case AUR_SAMPLER_NET:
+        index = aur_owen_scramble(stream->index, (uint32_t)seeds.index) & (sampler->size - 1);
+        words[0] = aur_owen_scramble(sampler->points[index][0], (uint32_t)seeds.coordinates);
+        words[1] = aur_owen_scramble(sampler->points[index][1], (uint32_t)(seeds.coordinates >> 32));
+        return;
+    case AUR_SAMPLER_TABLE:
+        index = permute(stream->index % sampler->size, sampler->size, (uint32_t)seeds.index);
+        words[0] = sampler->points[index][0] + (uint32_t)seeds.coordinates;
+        words[1] = sampler->points[index][1] + (uint32_t)(seeds.coordinates >> 32);
+        return;
+    default: {
+        const uint64_t number = aur_hash2(seeds.coordinates, stream->index);
+        words[0] = (uint32_t)number;
+        words[1] = (uint32_t)(number >> 32);
+        return;
+    }
+    }
+}
+
+/* An index is scrambled so that aligned blocks of a power of two are shuffled and moved: every such block is
+ * a net (Burley 2020). In the reversed words that hashing wants, the first coordinate is the index itself. */
+static void sobol_pair(const aur_stream *stream, uint32_t pair, float u[2]) {
+    const aur_pair_seeds seeds = aur_pair_seeds_of(stream, pair);
+    const uint32_t index =
+        aur_reverse_bits(aur_nested_hash(aur_reverse_bits(stream->index), (uint32_t)seeds.index));
+    const uint32_t x = aur_nested_hash(index, (uint32_t)seeds.coordinates);
+    const uint32_t y = aur_nested_hash(aur_sobol_second_reversed(index), (uint32_t)(seeds.coordinates >> 32));
+    u[0] = aur_unit_float(aur_reverse_bits(x));
+    u[1] = aur_unit_float(aur_reverse_bits(y));
+}
+
+void aur_sobol_pairs_portable(const aur_stream *stream, uint32_t first, float u[AUR_STREAM_BLOCK][2]) {
+    for (uint32_t i = 0; i < AUR_STREAM_BLOCK; ++i)
+        sobol_pair(stream, first + i, u[i]);
+}
+
+static void sobol_pairs(const aur_stream *stream, uint32_t first, size_t count, float (*u)[2]) {
+    const aur_sampler *const sampler = stream->sampler;
+    if (count > 2 && sampler->sobol_pairs != NULL) {
+        for (; count >= AUR_STREAM_BLOCK; first += AUR_STREAM_BLOCK, count -= AUR_STREAM_BLOCK) {
+            sampler->sobol_pairs(stream, first, u);
+            u += AUR_STREAM_BLOCK;
+        }
+        if (count == 0)
+            return;
+        float rest[AUR_STREAM_BLOCK][2];
+        sampler->sobol_pairs(stream, first, rest);
+        memcpy(u, rest, count * sizeof rest[0]);
+        return;
+    }
+    for (uint32_t i = 0; i < count; ++i)
+        sobol_pair(stream, first + i, u[i]);
+}
+
+void aur_stream_pairs(const aur_stream *stream, uint32_t first, size_t count, float (*u)[2]) {
+    if (stream->sampler->kind == AUR_SAMPLER_SOBOL) {
+        sobol_pairs(stream, first, count, u);
+        return;
+    }
+    for (uint32_t i = 0; i < count; ++i) {
+        uint32_t words[2];
+        pair_words(stream, first + i, words);
+        u[i][0] = aur_unit_float(words[0]);
+        u[i][1] = aur_unit_float(words[1]);
+    }
+}
+
+void aur_stream_pair(const aur_stream *stream, uint32_t pair, float u[2]) {
+    aur_stream_pairs(stream, pair, 1, (float(*)[2])u);
+}
+
+void aur_stream_pixels(const aur_sampler *sampler, size_t count, const uint64_t *pixels, uint32_t index,
+                       uint32_t pair, float *u, float *v) {
+    if (sampler->kind == AUR_SAMPLER_SOBOL) {
+        if (sampler->sobol_pixels != NULL)
+            sampler->sobol_pixels(count, pixels, index, pair, u, v);
+        else
+            sobol_pixels(count, pixels, index, pair, u, v);
+        return;
+    }
+    for (size_t k = 0; k < count; ++k) {
+        const aur_stream stream = {sampler, pixels[k], index};
+        float both[2];
+        aur_stream_pair(&stream, pair, both);
+        u[k] = both[0];
+        v[k] = both[1];
+    }
+}
+
+float aur_stream_single(const aur_stream *stream, uint32_t pair) {
+    float u[2];
+    aur_stream_pair(stream, pair, u);
+    return u[0];
+}

@@ -1,0 +1,113 @@
+/* Gathering by as many directions as the light asks for: a level of an extensible grid at a time, while the
+ * samples differ too much. */
+#include "transport/gather/group.h"
+
+/* Samples of one lane and channel so far. */
+typedef struct spread {
+    double sum, squares;
+    double information; /* sum of c log c */
+} spread;
+
+static void add_value(spread *s, double value) {
+    s->sum += value;
+    s->squares += value * value;
+    s->information += value > 0.0 ? value * log(value) : 0.0;
+}
+
+/* 1 - H / log n of the samples' shares p = c / sum c, H = -sum p log p: 0 for constant light, 1 where one
+ * sample has it all. Rigau, Feixas, Sbert 2003, turned so that it grows with variation. */
+static double entropy_contrast(const spread *s, double count) {
+    if (!(s->sum > 0.0) || count < 2.0)
+        return 0.0;
+    const double entropy = log(s->sum) - s->information / s->sum;
+    return 1.0 - entropy / log(count);
+}
+
+/* The expected error over the mean: the samples' spread times the level's worst-case error over that of one
+ * random direction. */
+static double relative_error(const spread *s, double count, double level_error) {
+    if (!(s->sum > 0.0) || count < 2.0)
+        return 0.0;
+    const double mean = s->sum / count;
+    const double variance = fmax(s->squares / count - mean * mean, 0.0);
+    return sqrt(variance) / mean * level_error;
+}
+
+/* Over the channels, weighted by their means. */
+static double contrast_of(const aur_final_gather *data, const aur_gather_levels *levels, size_t level,
+                          const spread spreads[3], double count) {
+    double weighted = 0.0, total = 0.0;
+    for (size_t c = 0; c < 3; ++c) {
+        const double contrast = data->criterion == AUR_CRITERION_ENTROPY
+                                    ? entropy_contrast(&spreads[c], count)
+                                    : relative_error(&spreads[c], count, (double)levels->errors[level]);
+        weighted += spreads[c].sum * contrast;
+        total += spreads[c].sum;
+    }
+    return total > 0.0 ? weighted / total : 0.0;
+}
+
+typedef struct adaptive_state {
+    spread spreads[AUR_PACKET_SIZE][3];
+    uint32_t samples[AUR_PACKET_SIZE]; /* that were above the surface */
+    uint32_t directions[AUR_PACKET_SIZE];
+    float *values; /* of direction i, channel c, lane k: values[(3 * i + c) * AUR_PACKET_SIZE + k] */
+} adaptive_state;
+
+/* The directions of one level. */
+static void add_level(aur_group *group, aur_rule_walk *walk, const aur_gather_levels *levels, size_t level,
+                      adaptive_state *state) {
+    const size_t first = level > 0 ? levels->ends[level - 1] : 0;
+    for (size_t i = first; i < levels->ends[level]; ++i) {
+        float factor[AUR_PACKET_SIZE];
+        const uint32_t aimed = aur_group_trace_direction(group, walk, i, factor);
+        for (size_t c = 0; c < 3; ++c)
+            for (size_t k = 0; k < AUR_PACKET_SIZE; ++k)
+                state->values[(3 * i + c) * AUR_PACKET_SIZE + k] =
+                    (aimed >> k & 1u) != 0 ? factor[k] * group->rays.radiance[c][k] : 0.0f;
+        for (uint32_t rest = aimed; rest != 0; rest &= rest - 1) {
+            const size_t lane = aur_first_lane(rest);
+            ++state->samples[lane];
+            for (size_t c = 0; c < 3; ++c)
+                add_value(
+                    &state->spreads[lane][c],
+                    (double)(state->values[(3 * i + c) * AUR_PACKET_SIZE + lane] * walk->rule->weights[i]));
+        }
+        for (uint32_t rest = walk->lanes; rest != 0; rest &= rest - 1)
+            ++state->directions[aur_first_lane(rest)];
+    }
+}
+
+/* A lane's integral with the weights of its last level. */
+static void finish_lane(aur_group *group, const aur_rule_walk *walk, const aur_gather_levels *levels,
+                        size_t level, const adaptive_state *state, size_t lane) {
+    float sum[3] = {0};
+    for (size_t i = 0; i < levels->ends[level]; ++i)
+        for (size_t c = 0; c < 3; ++c)
+            sum[c] += levels->weights[level][i] * state->values[(3 * i + c) * AUR_PACKET_SIZE + lane];
+    const aur_vector reflected = aur_vector_multiply((aur_vector){sum[0], sum[1], sum[2]},
+                                                     group->places[lane].lobes[walk->lobe].coefficient);
+    group->sum[lane] =
+        aur_vector_add(group->sum[lane], aur_vector_multiply(group->throughput[lane], reflected));
+    group->directions[lane] += state->directions[lane];
+    ++group->counters->levels[level];
+}
+
+void aur_group_gather_adaptive(aur_group *group, aur_rule_walk *walk, const aur_gather_levels *levels) {
+    const aur_final_gather *const data = group->task->data;
+    adaptive_state state = {.values = group->values};
+    uint32_t going = walk->lanes;
+    for (size_t level = 0; going != 0; ++level) {
+        walk->lanes = going;
+        add_level(group, walk, levels, level, &state);
+        for (uint32_t rest = going; rest != 0; rest &= rest - 1) {
+            const size_t lane = aur_first_lane(rest);
+            const bool last = level + 1 == levels->count;
+            if (!last && contrast_of(data, levels, level, state.spreads[lane], (double)state.samples[lane]) >
+                             (double)data->threshold)
+                continue;
+            finish_lane(group, walk, levels, level, &state, lane);
+            going &= ~(1u << lane);
+        }
+    }
+}

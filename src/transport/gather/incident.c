@@ -1,0 +1,130 @@
+/* Radiance along gather rays: where the ray's hit is plainly diffuse, one read of the irradiance map; else
+ * what chain.c finds. */
+#include "transport/gather/plan.h"
+#include "transport/lights/direct_light.h"
+
+bool aur_gathers_emitters(const aur_final_gather *data) {
+    return data->direct == AUR_DIRECT_GATHER ||
+           (data->incident == AUR_INCIDENT_EMITTERS && data->direct == AUR_DIRECT_NONE);
+}
+
+static aur_ray packet_ray(const aur_packet *packet, size_t lane) {
+    const struct RTCRay16 *const rays = &packet->query.ray;
+    return (aur_ray){.origin = {rays->org_x[lane], rays->org_y[lane], rays->org_z[lane]},
+                     .nearest = rays->tnear[lane],
+                     .direction = {rays->dir_x[lane], rays->dir_y[lane], rays->dir_z[lane]},
+                     .farthest = rays->tfar[lane]};
+}
+
+static uint32_t valid_lanes(const aur_packet *packet) {
+    uint32_t lanes = 0;
+    for (size_t k = 0; k < AUR_PACKET_SIZE; ++k)
+        lanes |= (uint32_t)(packet->valid[k] != 0) << k;
+    return lanes;
+}
+
+uint32_t aur_final_gather_intersect(const aur_final_gather *data, aur_embree_order order, aur_packet *packet,
+                                    aur_counters *counters) {
+    const uint32_t lanes = valid_lanes(packet);
+    counters->rays += (uint64_t)__builtin_popcount(lanes);
+    if (data->packets)
+        return aur_scene_intersect16(data->scene, order, packet);
+    return aur_scene_intersect_each(data->scene, packet);
+}
+
+uint32_t aur_final_gather_occluded(const aur_final_gather *data, aur_embree_order order, aur_packet *packet,
+                                   aur_counters *counters) {
+    uint32_t lanes = valid_lanes(packet), stopped = 0;
+    counters->rays += (uint64_t)__builtin_popcount(lanes);
+    if (data->packets)
+        return aur_scene_occluded16(data->scene, order, packet);
+    for (; lanes != 0; lanes &= lanes - 1) {
+        const size_t lane = (size_t)__builtin_ctz(lanes);
+        const aur_ray ray = packet_ray(packet, lane);
+        stopped |= (uint32_t)aur_scene_occluded(data->scene, &ray) << lane;
+    }
+    return stopped;
+}
+
+static void set_radiance(aur_gather_rays *rays, size_t lane, aur_vector radiance) {
+    rays->radiance[0][lane] = radiance.x;
+    rays->radiance[1][lane] = radiance.y;
+    rays->radiance[2][lane] = radiance.z;
+}
+
+static float density_of(const aur_gather_rays *rays, size_t lane) {
+    if (rays->pairs[lane] == NULL)
+        return rays->density[lane];
+    const aur_vector direction = packet_ray(&rays->packet, lane).direction;
+    return aur_gather_pair_density(rays->pairs[lane], aur_vector_dot(rays->axes[lane][0], direction),
+                                   aur_vector_dot(rays->axes[lane][1], direction));
+}
+
+/* The part of a bright texel's light that gathering counts; the rest is found by drawing bright texels. */
+static float bright_weight(const aur_final_gather *data, const aur_gather_rays *rays, size_t lane,
+                           aur_vector known) {
+    const float texel = aur_bright_texels_density(&data->bright, known);
+    if (texel == 0.0f)
+        return 1.0f;
+    const struct RTCRayHit16 *const query = &rays->packet.query;
+    const aur_vector normal = {query->hit.Ng_x[lane], query->hit.Ng_y[lane], query->hit.Ng_z[lane]};
+    const aur_vector direction = {query->ray.dir_x[lane], query->ray.dir_y[lane], query->ray.dir_z[lane]};
+    const float along = fabsf(aur_vector_dot(normal, direction)), distance = query->ray.tfar[lane];
+    const float rival =
+        texel * (float)data->bright_share * distance * distance * aur_vector_length(normal) / along;
+    return along > 0.0f ? aur_power_heuristic(density_of(rays, lane), rival) : 1.0f;
+}
+
+/* Diffuse, without emission, no instance: true when that was all. */
+static bool plain_radiance(const aur_final_gather *data, const aur_gather_rays *rays, size_t lane,
+                           aur_vector *radiance) {
+    const struct RTCRayHit16 *const query = &rays->packet.query;
+    const uint32_t shape = query->hit.geomID[lane];
+    if (query->hit.instID[0][lane] != RTC_INVALID_GEOMETRY_ID || !data->classes[shape].plain)
+        return false;
+    const bool behind = query->hit.Ng_x[lane] * query->ray.dir_x[lane] +
+                            query->hit.Ng_y[lane] * query->ray.dir_y[lane] +
+                            query->hit.Ng_z[lane] * query->ray.dir_z[lane] >
+                        0.0f;
+    const uint32_t element = data->map->texels.elements.shape_first[shape] + query->hit.primID[lane];
+    const aur_texel_light *const light =
+        aur_irradiance_on_triangle(data->map, element, query->hit.u[lane], query->hit.v[lane], behind);
+    const aur_vector albedo = data->classes[shape].albedo_on_pi[behind];
+    *radiance = aur_vector_multiply(albedo, light->irradiance);
+    const float weight = data->bright_share > 0 ? bright_weight(data, rays, lane, *radiance) : 1.0f;
+    if (data->caustics != NULL) {
+        const aur_texel_light *const caustic = aur_irradiance_on_triangle(
+            data->caustics, element, query->hit.u[lane], query->hit.v[lane], behind);
+        *radiance = aur_vector_add(*radiance, aur_vector_multiply(albedo, caustic->irradiance));
+    }
+    *radiance = aur_vector_scale(*radiance, weight);
+    return true;
+}
+
+void aur_gather_trace(const aur_final_gather *data, aur_embree_order order, aur_gather_rays *rays,
+                      aur_counters *counters) {
+    const uint32_t lanes = valid_lanes(&rays->packet);
+    const uint32_t found = aur_final_gather_intersect(data, order, &rays->packet, counters);
+    const bool has_sky = aur_scene_has_environment(data->scene);
+    for (size_t c = 0; c < 3; ++c)
+        for (size_t k = 0; k < AUR_PACKET_SIZE; ++k)
+            rays->radiance[c][k] = 0.0f;
+    for (uint32_t rest = has_sky ? lanes : found; rest != 0; rest &= rest - 1) {
+        const size_t lane = (size_t)__builtin_ctz(rest);
+        const bool hits = (found >> lane & 1u) != 0;
+        aur_vector radiance;
+        if (!hits || !plain_radiance(data, rays, lane, &radiance)) {
+            /* Only light that is sampled too asks for the density. */
+            const bool weighed = !hits || data->classes[rays->packet.query.hit.geomID[lane]].emits;
+            const aur_gather_ray from = {.ray = packet_ray(&rays->packet, lane),
+                                         .reference = rays->reference[lane],
+                                         .density = weighed ? density_of(rays, lane) : 0.0f,
+                                         .hash = aur_hash2(rays->hash, lane)};
+            aur_hit hit = {0};
+            if (hits)
+                hit = aur_packet_hit(data->scene, &rays->packet, lane);
+            radiance = aur_gather_chain_radiance(data, &from, hits ? &hit : NULL, counters);
+        }
+        set_radiance(rays, lane, radiance);
+    }
+}

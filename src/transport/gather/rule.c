@@ -1,0 +1,244 @@
+#include "transport/gather/rule.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#include "core/error.h"
+#include "core/random.h"
+#include "pointset/net_2d.h"
+
+static bool works_on_square(aur_scramble scramble) {
+    return scramble == AUR_SCRAMBLE_DIGIT || scramble == AUR_SCRAMBLE_OWEN || scramble == AUR_SCRAMBLE_SHIFT;
+}
+
+/* z -> z^{1/(M+1)} takes the uniform hemisphere to the density ~ cos^M about the axis; the azimuth stays. */
+static aur_vector warp(float x, float y, float z, double exponent) {
+    const double warped = pow(z, 1.0 / (exponent + 1.0));
+    const double radius = sqrt((double)x * x + (double)y * y);
+    const double scale = radius > 0.0 ? sqrt(fmax(0.0, 1.0 - warped * warped)) / radius : 0.0;
+    return (aur_vector){(float)(x * scale), (float)(y * scale), (float)warped};
+}
+
+static aur_result fill_directions(const aur_gather_options *options, aur_gather_rule *rule,
+                                  aur_error *error) {
+    aur_directions *directions = NULL;
+    const aur_directions_options wanted = {.count = options->count,
+                                           .domain = AUR_DOMAIN_HEMISPHERE,
+                                           .map = options->map,
+                                           .seed = options->set_seed,
+                                           .warnings = options->warnings};
+    aur_result result = aur_directions_create(options->set, &wanted, &directions, error);
+    if (result != AUR_OK)
+        return result;
+    const size_t count = options->count;
+    double *const xyz = malloc(3 * count * sizeof *xyz);
+    rule->x = malloc(3 * count * sizeof *rule->x);
+    if (xyz == NULL || rule->x == NULL)
+        result = aur_fail(error, AUR_ERROR_MEMORY, "out of memory for %zu directions", count);
+    if (result == AUR_OK) {
+        result = aur_directions_points(directions, 0, count, 3 * count, xyz, NULL);
+        if (result != AUR_OK)
+            aur_fail(error, result, "pattern '%s': %s", options->set, aur_result_string(result));
+    }
+    if (result == AUR_OK) {
+        rule->y = rule->x + count;
+        rule->z = rule->y + count;
+        for (size_t i = 0; i < count; ++i) {
+            const aur_vector v =
+                warp((float)xyz[3 * i], (float)xyz[3 * i + 1], (float)xyz[3 * i + 2], rule->drawn_exponent);
+            rule->x[i] = v.x;
+            rule->y[i] = v.y;
+            rule->z[i] = v.z;
+        }
+    }
+    free(xyz);
+    aur_directions_destroy(directions);
+    return result;
+}
+
+static aur_result fill_square(const aur_gather_options *options, aur_gather_rule *rule, aur_error *error) {
+    aur_pointset *points = NULL;
+    const aur_pointset_options wanted = {
+        .count = options->count, .dimension = 2, .seed = options->set_seed, .warnings = options->warnings};
+    aur_result result = aur_pointset_create(options->set, &wanted, &points, error);
+    if (result != AUR_OK)
+        return result;
+    const size_t count = options->count;
+    double *const uv = malloc(2 * count * sizeof *uv);
+    rule->square = malloc(count * sizeof *rule->square);
+    if (uv == NULL || rule->square == NULL)
+        result = aur_fail(error, AUR_ERROR_MEMORY, "out of memory for %zu points", count);
+    if (result == AUR_OK) {
+        result = aur_pointset_points(points, 0, count, 2 * count, uv);
+        if (result != AUR_OK)
+            aur_fail(error, result, "pattern '%s': %s", options->set, aur_result_string(result));
+    }
+    for (size_t i = 0; i < count && result == AUR_OK; ++i)
+        for (size_t k = 0; k < 2; ++k)
+            rule->square[i][k] = (uint32_t)(uv[2 * i + k] * 0x1p32);
+    free(uv);
+    aur_pointset_destroy(points);
+    return result;
+}
+
+static aur_gather_turn turn_from_hash(uint64_t hash) {
+    const float angle = 2.0f * AUR_PI_F * aur_unit_float((uint32_t)(hash >> 32));
+    const uint64_t words = aur_mix64(hash);
+    return (aur_gather_turn){.cosine = cosf(angle),
+                             .sine = sinf(angle),
+                             .word_u = (uint32_t)words,
+                             .word_v = (uint32_t)(words >> 32)};
+}
+
+static aur_vector scrambled_direction(const aur_gather_rule *rule, const aur_gather_turn *turn,
+                                      size_t index) {
+    uint32_t u = rule->square[index][0], v = rule->square[index][1];
+    switch (rule->scramble) {
+    case AUR_SCRAMBLE_DIGIT:
+        u ^= turn->word_u;
+        v ^= turn->word_v;
+        break;
+    case AUR_SCRAMBLE_OWEN:
+        u = aur_owen_scramble(u, turn->word_u);
+        v = aur_owen_scramble(v, turn->word_v);
+        break;
+    default:
+        u += turn->word_u;
+        v += turn->word_v;
+        break;
+    }
+    /* The centre of the word's cell keeps z away from 0 and the pole's azimuth defined. */
+    const double point[2] = {((double)u + 0.5) * 0x1p-32, ((double)v + 0.5) * 0x1p-32};
+    double xyz[3];
+    aur_map_to_hemisphere(rule->map, point, xyz);
+    return warp((float)xyz[0], (float)xyz[1], (float)xyz[2], rule->drawn_exponent);
+}
+
+/* Rotations are spread evenly over the circle; scramblings are made into directions once and for all. */
+static aur_result prepare_turns(const aur_gather_options *options, aur_gather_rule *rule, aur_error *error) {
+    const size_t rotations = options->rotations, count = options->count;
+    rule->turns = malloc(rotations * sizeof *rule->turns);
+    float *const scrambled = rule->square != NULL ? malloc(3 * rotations * count * sizeof *scrambled) : NULL;
+    if (rule->turns == NULL || (rule->square != NULL && scrambled == NULL)) {
+        free(scrambled);
+        return aur_fail(error, AUR_ERROR_MEMORY, "out of memory for %zu rotations of %zu directions",
+                        rotations, count);
+    }
+    for (size_t k = 0; k < rotations; ++k) {
+        aur_gather_turn *const turn = &rule->turns[k];
+        *turn = turn_from_hash(aur_hash3(options->seed, 0x7475726e, k));
+        const double angle = 2.0 * AUR_PI * (double)k / (double)rotations;
+        turn->cosine = (float)cos(angle);
+        turn->sine = (float)sin(angle);
+        if (rule->square == NULL)
+            continue;
+        for (size_t i = 0; i < count; ++i) {
+            const aur_vector v = scrambled_direction(rule, turn, i);
+            scrambled[k * count + i] = v.x;
+            scrambled[(rotations + k) * count + i] = v.y;
+            scrambled[(2 * rotations + k) * count + i] = v.z;
+        }
+        *turn = (aur_gather_turn){.cosine = 1.0f, .first = k * count};
+    }
+    rule->rotations = rotations;
+    if (rule->square == NULL)
+        return AUR_OK;
+    free(rule->square);
+    rule->square = NULL;
+    rule->x = scrambled;
+    rule->y = scrambled + rotations * count;
+    rule->z = scrambled + 2 * rotations * count;
+    return AUR_OK;
+}
+
+/* Density of the directions: (M'+1)/(2 pi) cos^M'; the integrand's known part: cos^M. */
+float aur_gather_density(const aur_gather_rule *rule, float cosine) {
+    const float scale = (float)((rule->drawn_exponent + 1.0) / (2.0 * AUR_PI));
+    return cosine > 0.0f ? scale * powf(cosine, (float)rule->drawn_exponent) : 0.0f;
+}
+
+static float weight_at(const aur_gather_rule *rule, float z) {
+    const double scale = 2.0 * AUR_PI / (rule->drawn_exponent + 1.0);
+    const double excess = rule->exponent - rule->drawn_exponent;
+    return (float)(excess == 0.0 ? scale : scale * pow((double)z, excess));
+}
+
+static aur_result weigh(aur_gather_rule *rule, size_t count, aur_error *error) {
+    rule->weights = malloc(count * sizeof *rule->weights);
+    rule->densities = malloc(count * sizeof *rule->densities);
+    if (rule->weights == NULL || rule->densities == NULL)
+        return aur_fail(error, AUR_ERROR_MEMORY, "out of memory for %zu weights", count);
+    for (size_t i = 0; i < count; ++i) {
+        rule->weights[i] = weight_at(rule, rule->z[i]);
+        rule->densities[i] = aur_gather_density(rule, rule->z[i]);
+    }
+    return AUR_OK;
+}
+
+aur_result aur_gather_rule_create(const aur_gather_options *options, double exponent, aur_gather_rule *rule,
+                                  aur_error *error) {
+    const double power = options->optimal_density ? 2.0 / (options->smoothness + 1.0) : 1.0;
+    *rule = (aur_gather_rule){.count = options->count,
+                              .exponent = exponent,
+                              .drawn_exponent = exponent * power,
+                              .map = options->map,
+                              .scramble = options->scramble};
+    const bool on_square = works_on_square(options->scramble);
+    aur_result result = on_square ? fill_square(options, rule, error) : fill_directions(options, rule, error);
+    if (result == AUR_OK && options->rotations > 0 && options->scramble != AUR_SCRAMBLE_NONE)
+        result = prepare_turns(options, rule, error);
+    if (result == AUR_OK && rule->x != NULL)
+        result = weigh(rule, on_square ? options->rotations * options->count : options->count, error);
+    if (result != AUR_OK)
+        aur_gather_rule_release(rule);
+    return result;
+}
+
+void aur_gather_rule_release(aur_gather_rule *rule) {
+    free(rule->x);
+    free(rule->weights);
+    free(rule->densities);
+    free(rule->square);
+    free(rule->turns);
+    *rule = (aur_gather_rule){0};
+}
+
+aur_gather_turn aur_gather_rule_turn(const aur_gather_rule *rule, uint64_t hash) {
+    if (rule->scramble == AUR_SCRAMBLE_NONE)
+        return (aur_gather_turn){.cosine = 1.0f};
+    if (rule->rotations > 0)
+        return rule->turns[hash % rule->rotations];
+    return turn_from_hash(hash);
+}
+
+aur_gather_turn aur_gather_turn_by(aur_gather_turn turn, float cosine, float sine) {
+    aur_gather_turn sum = turn;
+    sum.cosine = turn.cosine * cosine - turn.sine * sine;
+    sum.sine = turn.sine * cosine + turn.cosine * sine;
+    return sum;
+}
+
+float aur_gather_direction(const aur_gather_rule *rule, const aur_gather_turn *turn, size_t index,
+                           aur_vector *direction) {
+    if (rule->square != NULL) {
+        *direction = scrambled_direction(rule, turn, index);
+        return weight_at(rule, direction->z);
+    }
+    const size_t at = turn->first + index;
+    const float x = rule->x[at], y = rule->y[at];
+    *direction =
+        (aur_vector){turn->cosine * x - turn->sine * y, turn->sine * x + turn->cosine * y, rule->z[at]};
+    return rule->weights[at];
+}
+
+void aur_gather_square(const aur_gather_rule *rule, const aur_gather_turn *turn, size_t index,
+                       float point[2]) {
+    aur_vector direction;
+    aur_gather_direction(rule, turn, index, &direction);
+    const float turns = atan2f(direction.y, direction.x) * (0.5f / AUR_PI_F);
+    point[0] = fminf(turns < 0.0f ? turns + 1.0f : turns, 0x1.fffffep-1f);
+    /* Turned directions keep their heights; in the square a shift is as good as a turn. */
+    const float shift = rule->square == NULL ? aur_unit_float(turn->word_v) : 0.0f;
+    const float height = fmaxf(1.0f - direction.z, 0.0f) + shift;
+    point[1] = fminf(height < 1.0f ? height : height - 1.0f, 0x1.fffffep-1f);
+}

@@ -1,0 +1,41 @@
+/* The rays of ambient occlusion, packet by packet: what the integrator traces and the bench compares with. */
+#ifndef AUR_TRANSPORT_INTEGRATORS_AMBIENT_OCCLUSION_H
+#define AUR_TRANSPORT_INTEGRATORS_AMBIENT_OCCLUSION_H
+
+#include "scene/packet.h"
+#include "transport/integrator.h"
+
+/* The 16 pixels of a tile that share a place in their blocks of 4 by 4 share a rotation of the pattern, so
+ * the rays of a packet are one direction of it at 16 places, almost parallel where the surface is flat. */
+enum { AUR_OCCLUSION_PLACES = AUR_TILE_SIZE * AUR_TILE_SIZE };
+
+/* What the eye sees at the places of a tile, in packet order. */
+typedef struct aur_occlusion_places {
+    _Alignas(64) float origin[3][AUR_OCCLUSION_PLACES];
+    _Alignas(64) float axis[3][3][AUR_OCCLUSION_PLACES]; /* x, y and z of the frame about the normal */
+    float weight[AUR_OCCLUSION_PLACES];                  /* of the camera sample */
+    uint64_t pixel[AUR_OCCLUSION_PLACES];                /* a hash of the pixel */
+    bool seen[AUR_OCCLUSION_PLACES];                     /* else the eye sees no surface there */
+} aur_occlusion_places;
+
+/* The pixel of a place, from the tile's corner. */
+static inline void aur_occlusion_pixel(size_t place, size_t *x, size_t *y) {
+    const size_t within = place / AUR_PACKET_SIZE, block = place % AUR_PACKET_SIZE;
+    *x = block % 4 * 4 + within % 4;
+    *y = block / 4 * 4 + within / 4;
+}
+
+/* Sample `index` of every pixel of the tile whose corner is (x, y). */
+void aur_occlusion_find_places(const aur_view *view, size_t x, size_t y, uint32_t index,
+                               aur_occlusion_places *places);
+
+/* Called with each packet of the tile's rays in a fixed order; lane k is place first_place + k. */
+typedef void (*aur_occlusion_visitor)(void *context, size_t first_place, aur_embree_order order,
+                                      aur_packet *packet);
+
+/* Makes the rays of sample `index` from its places and hands them on; returns how many directions a place
+ * has. */
+size_t aur_occlusion_visit(const aur_integrator *integrator, const aur_occlusion_places *places, size_t x,
+                           size_t y, uint32_t index, aur_occlusion_visitor visit, void *context);
+
+#endif

@@ -1,0 +1,141 @@
+/* Direct light alone: what the lights send to the surfaces that the camera sees, by sampling lights and BSDF
+ * with any number of samples each, weighted by the power heuristic (Veach 1997). A mirror shows the lights.
+ */
+#include <stdlib.h>
+
+#include "transport/integrator.h"
+#include "transport/lights/direct_light.h"
+#include "transport/lights/first_surface.h"
+
+typedef struct direct_data {
+    uint32_t emitter_samples, bsdf_samples;
+    bool hide_emitters;
+} direct_data;
+
+static aur_result create(aur_parameters *parameters, const aur_integrator_context *context,
+                         aur_integrator *integrator, aur_error *error) {
+    (void)context;
+    enum { MOST = 1 << 16 };
+    int64_t shading = -1, emitter = -1, bsdf = -1;
+    bool hide_emitters = false;
+    aur_result result = aur_parameters_integer(parameters, "shading_samples", 1, MOST, &shading, error);
+    if (result == AUR_OK)
+        result = aur_parameters_integer(parameters, "emitter_samples", 0, MOST, &emitter, error);
+    if (result == AUR_OK)
+        result = aur_parameters_integer(parameters, "bsdf_samples", 0, MOST, &bsdf, error);
+    if (result == AUR_OK)
+        result = aur_parameters_boolean(parameters, "hide_emitters", &hide_emitters, error);
+    if (result == AUR_OK)
+        result = aur_parameters_finish(parameters, error);
+    if (result != AUR_OK)
+        return result;
+    if (shading >= 0 && (emitter >= 0 || bsdf >= 0))
+        return aur_fail_at(error, parameters->location, AUR_ERROR_FORMAT,
+                           "integrator 'direct': give either 'shading_samples' or 'emitter_samples' and "
+                           "'bsdf_samples'");
+    const int64_t each = shading >= 0 ? shading : 1;
+    direct_data *const data = malloc(sizeof *data);
+    if (data == NULL)
+        return aur_fail(error, AUR_ERROR_MEMORY, "out of memory");
+    *data = (direct_data){.emitter_samples = (uint32_t)(emitter >= 0 ? emitter : each),
+                          .bsdf_samples = (uint32_t)(bsdf >= 0 ? bsdf : each),
+                          .hide_emitters = hide_emitters};
+    integrator->data = data;
+    if (data->emitter_samples + data->bsdf_samples > 0)
+        return AUR_OK;
+    return aur_fail_at(error, parameters->location, AUR_ERROR_FORMAT,
+                       "integrator 'direct': 'emitter_samples' and 'bsdf_samples' cannot both be 0");
+}
+
+static void release(aur_integrator *integrator) {
+    free(integrator->data);
+}
+
+/* The weight of one of `count` samples of density `pdf`, beside `rivals` of density `other`. */
+static float weight_of(uint32_t count, float pdf, uint32_t rivals, float other) {
+    return aur_power_heuristic((float)count * pdf, (float)rivals * other) / (float)count;
+}
+
+static aur_vector sample_light(const aur_scene *scene, const direct_data *data, const aur_shading *shading,
+                               const float u[3], aur_counters *counters) {
+    const aur_vector black = {0};
+    aur_light_sample light;
+    if (!aur_light_sample_direct(scene, shading->surface->position, AUR_LEAST_LIGHT_SEEN, u, &light))
+        return black;
+    const aur_vector radiance =
+        aur_vector_multiply(aur_shading_evaluate(shading, light.direction), light.radiance);
+    if (!(light.pdf > 0.0f) || aur_vector_is_zero(radiance))
+        return black;
+    float distance;
+    const aur_ray shadow = aur_surface_ray_to(shading->surface, light.position, &distance);
+    ++counters->rays;
+    if (aur_scene_occluded(scene, &shadow))
+        return black;
+    const float weight = light.delta ? 1.0f / (float)data->emitter_samples
+                                     : weight_of(data->emitter_samples, light.pdf, data->bsdf_samples,
+                                                 aur_shading_pdf(shading, light.direction));
+    return aur_vector_scale(radiance, weight / light.pdf);
+}
+
+static aur_vector sample_bsdf(const aur_scene *scene, const direct_data *data, const aur_shading *shading,
+                              const float u[3], aur_counters *counters) {
+    const aur_vector black = {0};
+    aur_bsdf_sample sample;
+    if (!aur_shading_sample(shading, u, &sample))
+        return black;
+    const aur_ray ray = aur_surface_ray(shading->surface, sample.light);
+    aur_hit hit;
+    aur_vector light;
+    float rival;
+    ++counters->rays;
+    if (aur_scene_intersect(scene, &ray, &hit)) {
+        aur_surface surface;
+        aur_scene_surface(scene, &ray, &hit, &surface);
+        light = aur_surface_emission(scene, &surface, aur_vector_scale(ray.direction, -1.0f));
+        rival = aur_light_pdf_direct(scene, shading->surface->position, AUR_LEAST_LIGHT_SEEN, &surface);
+    } else {
+        light = aur_scene_environment(scene, ray.direction);
+        rival = aur_environment_pdf_direct(scene, ray.direction);
+    }
+    if (aur_vector_is_zero(light))
+        return black;
+    const float weight = sample.specular
+                             ? 1.0f / (float)data->bsdf_samples
+                             : weight_of(data->bsdf_samples, sample.pdf, data->emitter_samples, rival);
+    return aur_vector_scale(aur_vector_multiply(sample.weight, light), weight);
+}
+
+static aur_vector radiance(const aur_integrator *integrator, const aur_camera_sample *sample,
+                           aur_counters *counters) {
+    const direct_data *const data = integrator->data;
+    const aur_scene *const scene = integrator->scene;
+    aur_ray ray = sample->ray;
+    aur_surface surface;
+    if (!aur_visible_surface(scene, data->hide_emitters, &ray, &surface, counters))
+        return data->hide_emitters ? (aur_vector){0} : aur_scene_environment(scene, ray.direction);
+    const aur_vector view = aur_vector_scale(ray.direction, -1.0f);
+    aur_vector sum = aur_surface_emission(scene, &surface, view);
+    if (aur_scene_emitter_count(scene) == 0)
+        return sum;
+    const aur_shading shading = aur_shading_at(&surface, view);
+    uint32_t pair = AUR_PAIR_FIRST; /* two a sample: choice, then position or direction */
+    for (uint32_t i = 0; i < data->emitter_samples + data->bsdf_samples; ++i, pair += 2) {
+        float u[2][2];
+        aur_stream_pairs(&sample->stream, pair, 2, u);
+        const float numbers[3] = {u[0][0], u[1][0], u[1][1]};
+        sum = aur_vector_add(sum, i < data->emitter_samples
+                                      ? sample_light(scene, data, &shading, numbers, counters)
+                                      : sample_bsdf(scene, data, &shading, numbers, counters));
+    }
+    return sum;
+}
+
+const aur_integrator_descriptor aur_integrator_direct = {
+    .description = {.name = "direct",
+                    .keys = "shading_samples=1, emitter_samples, bsdf_samples, hide_emitters=false",
+                    .summary = "direct light by sampling lights and materials",
+                    .source = "Veach 1997"},
+    .create = create,
+    .release = release,
+    .radiance = radiance,
+};

@@ -1,0 +1,43 @@
+/* The path tracer from the inside: one path by itself (path.c) and sixteen pixels in lockstep (path_group.c,
+ * with its arithmetic in path_lanes*). */
+#ifndef AUR_TRANSPORT_PATHS_PATH_H
+#define AUR_TRANSPORT_PATHS_PATH_H
+
+#include "transport/integrator.h"
+#include "transport/paths/path_lanes.h"
+
+/* What of a shape is known before a ray meets it. */
+typedef struct aur_path_class {
+    bool plain;           /* a mesh of flat triangles, nothing but diffuse reflection, no light */
+    aur_vector albedo[2]; /* seen from the side of the normal, and from behind */
+} aur_path_class;
+
+typedef struct aur_path {
+    uint32_t max_depth; /* UINT32_MAX: no limit; 1 is visible light only, 2 adds direct light */
+    uint32_t rr_depth;  /* Russian roulette from this depth on */
+    bool hide_emitters; /* from the camera */
+    bool packets;       /* 16 pixels in lockstep */
+    bool interleaved;   /* which share their numbers but for the camera's */
+    const aur_path_kernels *kernels;
+    aur_path_class *classes; /* one a shape */
+} aur_path;
+
+/* Dimension pairs of one bounce: (light choice, roulette), light position, (lobe choice, unused), direction.
+ */
+enum { AUR_PATH_CHOICE, AUR_PATH_POSITION, AUR_PATH_LOBE, AUR_PATH_DIRECTION, AUR_PATH_PAIRS };
+
+/* The first pair of a bounce. Those of the first come with the camera's, the others two bounces at once. */
+static inline uint32_t aur_path_pair(uint32_t depth) {
+    return depth == 1 ? AUR_PAIR_FIRST : AUR_STREAM_BLOCK + AUR_PATH_PAIRS * (depth - 2);
+}
+
+/* The probability to go on, under Russian roulette. */
+static inline float aur_path_survival(aur_vector throughput) {
+    return aur_smaller(aur_vector_max(throughput), 0.95f);
+}
+
+aur_result aur_path_prepare(aur_path *data, const aur_scene *scene, aur_error *error);
+/* Adds the samples of a tile, sixteen pixels at a time. */
+void aur_path_add_tile(const aur_path *data, const aur_scene *scene, aur_tile *tile);
+
+#endif

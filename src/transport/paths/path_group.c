@@ -1,0 +1,373 @@
+/* Path tracing of sixteen pixels at a time, in lockstep: at each bounce one packet of rays for the nearest
+ * hits and one towards the lights. Lanes on plain surfaces are shaded together, the others one by one.
+ *
+ * The pixels are those of one group of a tile (gather.h's): one at the same place of all of its 4 x 4 blocks.
+ * Interleaved (Keller and Heidrich 2001), they share all numbers but the camera's: paths on flat walls run
+ * in parallel, and their packets stay coherent. */
+#include <stdlib.h>
+
+#include "scene/elements.h"
+#include "transport/lights/direct_light.h"
+#include "transport/packets/interleave.h"
+#include "transport/paths/path.h"
+
+typedef struct group {
+    aur_path_lanes lanes;
+    aur_packet packet, shadows;
+    const aur_path *data;
+    const aur_scene *scene;
+    aur_counters *counters;
+    bool has_lights, has_sky, chooses;
+    uint32_t alive;    /* a bit a lane, as in all masks */
+    uint32_t specular; /* lanes whose ray no light sample could have found */
+    aur_stream shared; /* interleaved: of all lanes */
+    float ahead[AUR_STREAM_BLOCK][2];
+    const aur_sampler *sampler;
+    uint32_t index;
+    uint64_t pixels[AUR_PACKET_SIZE];
+    aur_camera_sample samples[AUR_PACKET_SIZE];
+    float weights[AUR_PACKET_SIZE];
+} group;
+
+aur_result aur_path_prepare(aur_path *data, const aur_scene *scene, aur_error *error) {
+    const size_t count = aur_scene_shape_count(scene);
+    data->kernels = aur_path_kernels_here();
+    data->classes = calloc(count + 1, sizeof *data->classes);
+    if (data->classes == NULL)
+        return aur_fail(error, AUR_ERROR_MEMORY, "out of memory");
+    for (uint32_t i = 0; i < count; ++i) {
+        const aur_bsdf *const bsdf = aur_scene_shape_bsdf(scene, i);
+        aur_path_class *const class = &data->classes[i];
+        class->plain = bsdf->plain_diffuse && aur_shape_is_flat(scene, i) &&
+                       aur_shape_emitter(scene, i) == AUR_NO_EMITTER;
+        if (!class->plain)
+            continue;
+        for (size_t side = 0; side < 2; ++side)
+            if (side == 0 || bsdf->scatters_from_behind)
+                class->albedo[side] =
+                    bsdf->descriptor->diffuse_albedo(bsdf, (aur_bsdf_point){0}, side == 0 ? 1.0f : -1.0f);
+    }
+    return AUR_OK;
+}
+
+static uint32_t first_lane(uint32_t lanes) {
+    return (uint32_t)__builtin_ctz(lanes);
+}
+
+static uint32_t mask_of(const int *valid) {
+    uint32_t mask = 0;
+    for (uint32_t k = 0; k < AUR_PACKET_SIZE; ++k)
+        mask |= (uint32_t)(valid[k] & 1) << k;
+    return mask;
+}
+
+static void set_valid(aur_packet *packet, uint32_t lanes) {
+    for (uint32_t k = 0; k < AUR_PACKET_SIZE; ++k)
+        packet->valid[k] = -(int)(lanes >> k & 1u);
+}
+
+static aur_ray ray_of(const aur_packet *packet, size_t k) {
+    const struct RTCRay16 *const rays = &packet->query.ray;
+    return (aur_ray){.origin = {rays->org_x[k], rays->org_y[k], rays->org_z[k]},
+                     .nearest = rays->tnear[k],
+                     .direction = {rays->dir_x[k], rays->dir_y[k], rays->dir_z[k]},
+                     .farthest = rays->tfar[k]};
+}
+
+/* --- numbers
+ * ---------------------------------------------------------------------------------------------------- */
+
+static void share(float number, float *lanes) {
+    for (size_t k = 0; k < AUR_PACKET_SIZE; ++k)
+        lanes[k] = number;
+}
+
+static void shared_numbers(group *g, uint32_t depth) {
+    aur_path_lanes *const lanes = &g->lanes;
+    const uint32_t first = aur_path_pair(depth);
+    if (depth == 1 || depth % 2 == 0)
+        aur_stream_pairs(&g->shared, first, AUR_STREAM_BLOCK, g->ahead);
+    float(*const pair)[2] = &g->ahead[depth == 1 ? 0 : depth % 2 * AUR_PATH_PAIRS];
+    share(pair[AUR_PATH_CHOICE][0], lanes->choice);
+    share(pair[AUR_PATH_CHOICE][1], lanes->roulette);
+    share(pair[AUR_PATH_POSITION][0], lanes->light_u);
+    share(pair[AUR_PATH_POSITION][1], lanes->light_v);
+    share(pair[AUR_PATH_LOBE][0], lanes->lobe);
+    share(pair[AUR_PATH_DIRECTION][0], lanes->direction_u);
+    share(pair[AUR_PATH_DIRECTION][1], lanes->direction_v);
+}
+
+static void own_pair(const group *g, uint32_t pair, float *u, float *v) {
+    aur_stream_pixels(g->sampler, AUR_PACKET_SIZE, g->pixels, g->index, pair, u, v);
+}
+
+/* Of each lane, only those that are asked for; `mixed`: not all surfaces are plain. */
+static void own_numbers(group *g, uint32_t depth, bool mixed) {
+    aur_path_lanes *const lanes = &g->lanes;
+    const uint32_t first = aur_path_pair(depth);
+    float unused[AUR_PACKET_SIZE];
+    if (g->chooses || depth >= g->data->rr_depth)
+        own_pair(g, first + AUR_PATH_CHOICE, lanes->choice, lanes->roulette);
+    if (g->has_lights)
+        own_pair(g, first + AUR_PATH_POSITION, lanes->light_u, lanes->light_v);
+    if (mixed)
+        own_pair(g, first + AUR_PATH_LOBE, lanes->lobe, unused);
+    own_pair(g, first + AUR_PATH_DIRECTION, lanes->direction_u, lanes->direction_v);
+}
+
+/* --- lanes that are not plain, one by one
+ * ---------------------------------------------------------------------- */
+
+static void add_light(group *g, size_t k, float weight, aur_vector radiance) {
+    const aur_vector throughput = aur_lane_vector(&g->lanes.throughput, k);
+    aur_lane_set(&g->lanes.sum, k,
+                 aur_vector_add_scaled(aur_lane_vector(&g->lanes.sum, k), weight,
+                                       aur_vector_multiply(throughput, radiance)));
+}
+
+static void add_sky(group *g, uint32_t lanes) {
+    for (; lanes != 0; lanes &= lanes - 1) {
+        const size_t k = first_lane(lanes);
+        const aur_ray ray = ray_of(&g->packet, k);
+        const aur_vector sky = aur_scene_environment(g->scene, ray.direction);
+        if (aur_vector_is_zero(sky))
+            continue;
+        const bool found = (g->specular >> k & 1u) == 0;
+        add_light(
+            g, k,
+            found ? aur_power_heuristic(g->lanes.pdf[k], aur_environment_pdf_direct(g->scene, ray.direction))
+                  : 1.0f,
+            sky);
+    }
+}
+
+static void add_emission(group *g, size_t k, const aur_surface *surface, aur_vector view) {
+    const aur_vector emission = aur_surface_emission(g->scene, surface, view);
+    if (aur_vector_is_zero(emission))
+        return;
+    const bool found = (g->specular >> k & 1u) == 0;
+    const float weight =
+        found ? aur_power_heuristic(g->lanes.pdf[k],
+                                    aur_light_pdf_direct(g->scene, aur_lane_vector(&g->lanes.from, k),
+                                                         AUR_LEAST_LIGHT_OF_PATHS, surface))
+              : 1.0f;
+    add_light(g, k, weight, emission);
+}
+
+/* The surfaces of lanes that are not plain, with the light that they give. */
+static void set_surfaces(group *g, uint32_t lanes, aur_surface *surfaces) {
+    for (; lanes != 0; lanes &= lanes - 1) {
+        const size_t k = first_lane(lanes);
+        const aur_ray ray = ray_of(&g->packet, k);
+        const aur_hit hit = aur_packet_hit(g->scene, &g->packet, k);
+        aur_scene_surface(g->scene, &ray, &hit, &surfaces[k]);
+        add_emission(g, k, &surfaces[k], aur_vector_scale(ray.direction, -1.0f));
+    }
+}
+
+static aur_vector view_of(const group *g, size_t k) {
+    return aur_vector_scale(ray_of(&g->packet, k).direction, -1.0f);
+}
+
+static void shadow_one(group *g, size_t k, const aur_surface *surface) {
+    const aur_shading shading = aur_shading_at(surface, view_of(g, k));
+    const float position[2] = {g->lanes.light_u[k], g->lanes.light_v[k]};
+    const float choice = g->chooses ? g->lanes.choice[k] : 0.5f;
+    aur_shadow shadow;
+    g->lanes.lit[k] = 0;
+    if (!aur_direct_light_choose(g->scene, &shading, choice, position, &shadow))
+        return;
+    g->lanes.lit[k] = -1;
+    aur_packet_set(&g->shadows, k, &shadow.ray);
+    aur_lane_set(&g->lanes.shadow, k,
+                 aur_vector_multiply(aur_lane_vector(&g->lanes.throughput, k), shadow.radiance));
+}
+
+static bool scatter_one(group *g, size_t k, const aur_surface *surface, aur_vector view, bool roulette) {
+    const aur_shading shading = aur_shading_at(surface, view);
+    const float u[3] = {g->lanes.lobe[k], g->lanes.direction_u[k], g->lanes.direction_v[k]};
+    aur_bsdf_sample drawn;
+    if (!aur_shading_sample(&shading, u, &drawn))
+        return false;
+    aur_vector throughput = aur_vector_multiply(aur_lane_vector(&g->lanes.throughput, k), drawn.weight);
+    if (roulette) {
+        const float survival = aur_path_survival(throughput);
+        if (!(g->lanes.roulette[k] < survival))
+            return false;
+        throughput = aur_vector_scale(throughput, 1.0f / survival);
+    }
+    if (aur_vector_is_zero(throughput))
+        return false;
+    aur_lane_set(&g->lanes.throughput, k, throughput);
+    aur_lane_set(&g->lanes.from, k, surface->position);
+    g->lanes.pdf[k] = drawn.pdf;
+    if (drawn.specular)
+        g->specular |= 1u << k;
+    const aur_ray ray = aur_surface_ray(surface, drawn.light);
+    aur_packet_set(&g->packet, k, &ray);
+    return true;
+}
+
+/* --- a bounce
+ * --------------------------------------------------------------------------------------------------- */
+
+/* The lanes whose surface the kernels can do; their triangles and reflectances are made ready. */
+static uint32_t plain_lanes(group *g, uint32_t lanes) {
+    const struct RTCHit16 *const hits = &g->packet.query.hit;
+    uint32_t plain = 0;
+    for (uint32_t rest = lanes; rest != 0; rest &= rest - 1) {
+        const size_t k = first_lane(rest);
+        if (hits->instID[0][k] != RTC_INVALID_GEOMETRY_ID)
+            continue;
+        const aur_path_class *const class = &g->data->classes[hits->geomID[k]];
+        if (!class->plain)
+            continue;
+        plain |= 1u << k;
+        aur_lane_set(&g->lanes.albedo[0], k, class->albedo[0]);
+        aur_lane_set(&g->lanes.albedo[1], k, class->albedo[1]);
+    }
+    aur_packet_corners(g->scene, &g->packet, plain, g->lanes.corner);
+    return plain;
+}
+
+static uint32_t trace(group *g, bool coherent) {
+    set_valid(&g->packet, g->alive);
+    g->counters->rays += (uint64_t)__builtin_popcount(g->alive);
+    return aur_scene_intersect16(g->scene, coherent ? AUR_EMBREE_COHERENT : AUR_EMBREE_INCOHERENT,
+                                 &g->packet);
+}
+
+/* Light straight from the lights. */
+static void add_direct(group *g, uint32_t plain, bool coherent, const aur_surface *surfaces) {
+    aur_path_lanes *const lanes = &g->lanes;
+    if (plain != 0) {
+        aur_light_lanes_direct(g->scene, &lanes->position, AUR_LEAST_LIGHT_OF_PATHS, lanes->choice,
+                               lanes->light_u, lanes->light_v, &lanes->light);
+        g->data->kernels->shadow(lanes, &g->shadows);
+    }
+    for (uint32_t rest = g->alive & ~plain; rest != 0; rest &= rest - 1)
+        shadow_one(g, first_lane(rest), &surfaces[first_lane(rest)]);
+    const uint32_t lit = mask_of(lanes->lit) & g->alive;
+    if (lit == 0)
+        return;
+    set_valid(&g->shadows, lit);
+    g->counters->rays += (uint64_t)__builtin_popcount(lit);
+    const uint32_t stopped =
+        aur_scene_occluded16(g->scene, coherent ? AUR_EMBREE_COHERENT : AUR_EMBREE_INCOHERENT, &g->shadows);
+    g->data->kernels->add(lanes, lit & ~stopped);
+}
+
+static void scatter(group *g, uint32_t plain, bool roulette, const aur_surface *surfaces) {
+    const uint32_t others = g->alive & ~plain;
+    aur_vector views[AUR_PACKET_SIZE], throughputs[AUR_PACKET_SIZE];
+    for (uint32_t rest = others; rest != 0; rest &= rest - 1) {
+        const size_t k = first_lane(rest);
+        views[k] = view_of(g, k);
+        throughputs[k] = aur_lane_vector(&g->lanes.throughput, k);
+    }
+    uint32_t alive = 0;
+    if (plain != 0) {
+        g->data->kernels->scatter(&g->lanes, roulette, &g->packet);
+        alive = mask_of(g->lanes.alive) & plain;
+    }
+    g->specular = 0;
+    for (uint32_t rest = others; rest != 0; rest &= rest - 1) {
+        const size_t k = first_lane(rest);
+        aur_lane_set(&g->lanes.throughput, k, throughputs[k]);
+        alive |= (uint32_t)scatter_one(g, k, &surfaces[k], views[k], roulette) << k;
+    }
+    g->alive = alive;
+}
+
+/* Whether rays that leave the surfaces are mostly parallel, and so a coherent packet: the lanes share their
+ * numbers, and most lie in one plane. A function of normals and positions, never of timing. */
+static bool are_parallel(const group *g, uint32_t plain) {
+    if (!g->data->interleaved || plain == 0)
+        return false;
+    const uint32_t flat = plain & ~g->data->kernels->tilted(&g->lanes, first_lane(plain));
+    return 2 * __builtin_popcount(flat) >= __builtin_popcount(g->alive);
+}
+
+static void trace_paths(group *g) {
+    const aur_path *const data = g->data;
+    aur_surface surfaces[AUR_PACKET_SIZE];
+    bool coherent = true;
+    for (uint32_t depth = 1; depth <= data->max_depth && g->alive != 0; ++depth) {
+        const uint32_t found = trace(g, coherent);
+        if (g->has_sky)
+            add_sky(g, g->alive & ~found);
+        g->alive &= found;
+        const uint32_t plain = plain_lanes(g, g->alive);
+        if (plain != 0)
+            data->kernels->surface(&g->lanes, &g->packet);
+        set_surfaces(g, g->alive & ~plain, surfaces);
+        if (depth == data->max_depth)
+            return;
+        if (data->interleaved)
+            shared_numbers(g, depth);
+        else
+            own_numbers(g, depth, g->alive != plain);
+        coherent = are_parallel(g, plain);
+        if (g->has_lights)
+            add_direct(g, plain, coherent, surfaces);
+        scatter(g, plain, depth >= data->rr_depth, surfaces);
+    }
+}
+
+/* --- tiles
+ * ------------------------------------------------------------------------------------------------------ */
+
+static void begin(group *g, const aur_view *view, const size_t *x, const size_t *y, uint32_t lanes) {
+    aur_view_samples(view, AUR_PACKET_SIZE, x, y, g->index, g->samples, g->weights);
+    for (size_t k = 0; k < AUR_PACKET_SIZE; ++k) {
+        g->pixels[k] = g->samples[k].stream.pixel;
+        aur_packet_set(&g->packet, k, &g->samples[k].ray);
+        aur_lane_set(&g->lanes.throughput, k, (aur_vector){1.0f, 1.0f, 1.0f});
+        aur_lane_set(&g->lanes.sum, k, (aur_vector){0});
+    }
+    g->alive = lanes;
+    g->specular = UINT16_MAX; /* light sampling cannot hit the camera either */
+}
+
+/* One group's samples. Whole groups are traced even where a crop wants few of their pixels: a packet's rays
+ * may depend on each other in their last bits. */
+static void add_group(group *g, uint32_t number, aur_tile *tile) {
+    const aur_view *const view = tile->view;
+    const size_t x0 = tile->x0 / AUR_TILE_SIZE * AUR_TILE_SIZE, y0 = tile->y0 / AUR_TILE_SIZE * AUR_TILE_SIZE;
+    size_t x[AUR_PACKET_SIZE], y[AUR_PACKET_SIZE];
+    uint32_t lanes = 0, wanted = 0;
+    for (size_t k = 0; k < AUR_PACKET_SIZE; ++k) {
+        const size_t pixel = aur_group_pixel(number, k);
+        x[k] = x0 + pixel % AUR_TILE_SIZE;
+        y[k] = y0 + pixel / AUR_TILE_SIZE;
+        lanes |= (uint32_t)(x[k] < view->width && y[k] < view->height) << k;
+        wanted |= (uint32_t)(x[k] >= tile->x0 && x[k] < tile->x1 && y[k] >= tile->y0 && y[k] < tile->y1) << k;
+    }
+    if (wanted == 0)
+        return;
+    for (uint32_t i = 0; i < tile->count; ++i) {
+        g->index = tile->first + i;
+        g->shared = (aur_stream){view->sampler, aur_hash4(view->seed, y0, x0, UINT64_C(0x696e746c) + number),
+                                 g->index};
+        begin(g, view, x, y, lanes);
+        trace_paths(g);
+        for (uint32_t rest = wanted; rest != 0; rest &= rest - 1) {
+            const size_t k = first_lane(rest);
+            aur_tile_add(tile, x[k], y[k], g->weights[k], aur_lane_vector(&g->lanes.sum, k));
+        }
+    }
+}
+
+void aur_path_add_tile(const aur_path *data, const aur_scene *scene, aur_tile *tile) {
+    group g = {.data = data,
+               .scene = scene,
+               .counters = &tile->counters,
+               .sampler = tile->view->sampler,
+               .has_lights = aur_scene_emitter_count(scene) > 0,
+               .has_sky = aur_scene_has_environment(scene),
+               .chooses = aur_light_chooses(scene)};
+    aur_packet_clear(&g.packet);
+    aur_packet_clear(&g.shadows);
+    for (uint32_t number = 0; number < AUR_PACKET_SIZE; ++number)
+        add_group(&g, number, tile);
+}

@@ -1,0 +1,145 @@
+/* The body of the path tracer's loops, compiled once for each instruction set. Without branches, so that they
+ * become vector code; plain operations in one order without contraction: the bits are the same everywhere. */
+#ifndef AUR_TRANSPORT_PATHS_PATH_LANES_BODY_H
+#define AUR_TRANSPORT_PATHS_PATH_LANES_BODY_H
+
+#include "material/sampling.h"
+#include "transport/lights/direct_light.h"
+#include "transport/paths/path.h"
+
+static void lanes_surface(aur_path_lanes *restrict lanes, const aur_packet *restrict packet) {
+    const struct RTCRay16 *const rays = &packet->query.ray;
+    const struct RTCHit16 *const hits = &packet->query.hit;
+    for (size_t k = 0; k < AUR_PACKET_SIZE; ++k) {
+        const aur_vector corner = aur_lane_vector(&lanes->corner[0], k);
+        const aur_vector b = aur_lane_vector(&lanes->corner[1], k), c = aur_lane_vector(&lanes->corner[2], k);
+        const aur_vector way = {rays->dir_x[k], rays->dir_y[k], rays->dir_z[k]};
+        const float u = hits->u[k], v = hits->v[k];
+        const aur_vector cross =
+            aur_vector_cross(aur_vector_subtract(b, corner), aur_vector_subtract(c, corner));
+        const float squared = aur_vector_dot(cross, cross);
+        const float scale = 1.0f / sqrtf(squared > 0.0f ? squared : 1.0f);
+        /* A triangle too thin for its normal faces the ray. */
+        const aur_vector normal = {squared > 0.0f ? cross.x * scale : -way.x,
+                                   squared > 0.0f ? cross.y * scale : -way.y,
+                                   squared > 0.0f ? cross.z * scale : -way.z};
+        const aur_vector position =
+            aur_vector_add_scaled(aur_vector_add_scaled(aur_vector_scale(corner, 1.0f - u - v), u, b), v, c);
+        const float along = aur_vector_dot(normal, way);
+        const float side = along > 0.0f ? -1.0f : 1.0f;
+        aur_lane_set(&lanes->position, k, position);
+        aur_lane_set(&lanes->normal, k, normal);
+        lanes->side[k] = side;
+        lanes->offset[k] = aur_surface_offset(position);
+        lanes->reflectance.x[k] = along > 0.0f ? lanes->albedo[1].x[k] : lanes->albedo[0].x[k];
+        lanes->reflectance.y[k] = along > 0.0f ? lanes->albedo[1].y[k] : lanes->albedo[0].y[k];
+        lanes->reflectance.z[k] = along > 0.0f ? lanes->albedo[1].z[k] : lanes->albedo[0].z[k];
+    }
+}
+
+static uint32_t lanes_tilted(const aur_path_lanes *lanes, size_t first) {
+    const aur_vector place = aur_lane_vector(&lanes->position, first);
+    const aur_vector normal = aur_vector_scale(aur_lane_vector(&lanes->normal, first), lanes->side[first]);
+    uint32_t tilted = 0;
+    for (uint32_t k = 0; k < AUR_PACKET_SIZE; ++k) {
+        const aur_vector offset = aur_vector_subtract(aur_lane_vector(&lanes->position, k), place);
+        const float height = aur_vector_dot(offset, normal);
+        const float alike = aur_vector_dot(aur_lane_vector(&lanes->normal, k), normal) * lanes->side[k];
+        const uint32_t off =
+            (uint32_t)(alike < 0.995f) | (uint32_t)(height * height > 0.01f * aur_vector_dot(offset, offset));
+        tilted |= off << k;
+    }
+    return tilted;
+}
+
+static inline aur_vector lanes_origin(const aur_path_lanes *lanes, size_t k) {
+    return aur_vector_add_scaled(aur_lane_vector(&lanes->position, k), lanes->side[k] * lanes->offset[k],
+                                 aur_lane_vector(&lanes->normal, k));
+}
+
+static void lanes_shadow(aur_path_lanes *restrict lanes, aur_packet *restrict packet) {
+    struct RTCRay16 *const rays = &packet->query.ray;
+    for (size_t k = 0; k < AUR_PACKET_SIZE; ++k) {
+        const aur_vector target = aur_lane_vector(&lanes->light.position, k);
+        const aur_vector whole = aur_vector_subtract(target, aur_lane_vector(&lanes->position, k));
+        const float size = sqrtf(aur_vector_dot(whole, whole));
+        const float cosine =
+            aur_vector_dot(aur_lane_vector(&lanes->normal, k), whole) * lanes->side[k] / size;
+        const float pdf = lanes->light.pdf[k];
+        const float ratio = cosine / AUR_PI_F / pdf * lanes->light.rivals[k];
+        const float weight = cosine / (AUR_PI_F * pdf * (1.0f + ratio * ratio));
+        const aur_vector light = aur_vector_multiply(aur_lane_vector(&lanes->reflectance, k),
+                                                     aur_lane_vector(&lanes->light.radiance, k));
+        const float any = light.x + light.y + light.z;
+        aur_lane_set(
+            &lanes->shadow, k,
+            aur_vector_multiply(aur_lane_vector(&lanes->throughput, k), aur_vector_scale(light, weight)));
+        lanes->lit[k] = -((int)(pdf > 0.0f) & (int)(cosine > 0.0f) & (int)(any > 0.0f));
+        const aur_vector origin = lanes_origin(lanes, k);
+        const aur_vector way = aur_vector_subtract(target, origin);
+        const float squared = aur_vector_dot(way, way);
+        const float distance = sqrtf(squared > 1e-38f ? squared : 1e-38f);
+        const float scale = 1.0f / distance;
+        rays->org_x[k] = origin.x;
+        rays->org_y[k] = origin.y;
+        rays->org_z[k] = origin.z;
+        rays->tnear[k] = 0.0f;
+        rays->dir_x[k] = way.x * scale;
+        rays->dir_y[k] = way.y * scale;
+        rays->dir_z[k] = way.z * scale;
+        rays->tfar[k] = distance * (1.0f - 1e-4f);
+    }
+}
+
+static void lanes_add(aur_path_lanes *restrict lanes, uint32_t lit) {
+    for (uint32_t k = 0; k < AUR_PACKET_SIZE; ++k) {
+        const bool on = (lit >> k & 1u) != 0;
+        lanes->sum.x[k] += on ? lanes->shadow.x[k] : 0.0f;
+        lanes->sum.y[k] += on ? lanes->shadow.y[k] : 0.0f;
+        lanes->sum.z[k] += on ? lanes->shadow.z[k] : 0.0f;
+    }
+}
+
+static void lanes_scatter(aur_path_lanes *restrict lanes, bool roulette, aur_packet *restrict packet) {
+    struct RTCRay16 *const rays = &packet->query.ray;
+    const float least = roulette ? 0.0f : 1.0f; /* probability to go on */
+    for (size_t k = 0; k < AUR_PACKET_SIZE; ++k) {
+        /* aur_sample_cosine without its branches. */
+        const float a = 2.0f * lanes->direction_u[k] - 1.0f, b = 2.0f * lanes->direction_v[k] - 1.0f;
+        const bool wide = fabsf(a) > fabsf(b);
+        const float radius = wide ? a : b, other = wide ? b : a;
+        float cosine, sine;
+        aur_eighth_turn(other / (radius == 0.0f ? 1.0f : radius), &cosine, &sine);
+        const float x = radius * (wide ? cosine : sine), y = radius * (wide ? sine : cosine);
+        const float z = sqrtf(fabsf(1.0f - x * x - y * y)); /* below 0 by rounding only */
+
+        const aur_vector normal = aur_lane_vector(&lanes->normal, k);
+        const aur_frame frame = aur_frame_about(normal);
+        const aur_vector way = aur_frame_to_world(&frame, (aur_vector){x, y, lanes->side[k] * z});
+        const aur_vector throughput = aur_vector_multiply(aur_lane_vector(&lanes->throughput, k),
+                                                          aur_lane_vector(&lanes->reflectance, k));
+        const float most = aur_vector_max(throughput);
+        const float survival = aur_larger(aur_smaller(most, 0.95f), least);
+        aur_lane_set(&lanes->throughput, k, aur_vector_scale(throughput, 1.0f / survival));
+        lanes->alive[k] = -((int)(lanes->roulette[k] < survival) & (int)(most > 0.0f));
+        lanes->pdf[k] = z / AUR_PI_F;
+        aur_lane_set(&lanes->from, k, aur_lane_vector(&lanes->position, k));
+        const aur_vector origin = lanes_origin(lanes, k);
+        rays->org_x[k] = origin.x;
+        rays->org_y[k] = origin.y;
+        rays->org_z[k] = origin.z;
+        rays->tnear[k] = 0.0f;
+        rays->dir_x[k] = way.x;
+        rays->dir_y[k] = way.y;
+        rays->dir_z[k] = way.z;
+        rays->tfar[k] = INFINITY;
+    }
+}
+
+#define AUR_PATH_KERNELS                                                                                     \
+    { lanes_surface, lanes_tilted, lanes_shadow, lanes_add, lanes_scatter }
+
+extern const aur_path_kernels aur_path_kernels_avx2;
+extern const aur_path_kernels aur_path_kernels_avx512;
+
+#endif

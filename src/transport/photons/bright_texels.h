@@ -1,0 +1,58 @@
+/* Texels that reflect far more light than most, drawn as if they were lights: where a small part of the
+ * surfaces has much of the indirect light (a window's reveal, a lit page), directions about the normal find
+ * it by chance only. Gather rays that meet such texels are weighed against these draws (Veach 1997, multiple
+ * importance sampling), so nothing is counted twice. */
+#ifndef AUR_TRANSPORT_PHOTONS_BRIGHT_TEXELS_H
+#define AUR_TRANSPORT_PHOTONS_BRIGHT_TEXELS_H
+
+#include "scene/distribution.h"
+#include "transport/photons/irradiance.h"
+
+/* A texel's part of one triangle, on one side. */
+typedef struct aur_bright_patch {
+    uint32_t element;
+    uint32_t shape;
+    uint32_t primitive;
+    uint16_t row, column; /* of the triangle's texels */
+    bool upper, behind;
+} aur_bright_patch;
+
+typedef struct aur_bright_texels {
+    aur_distribution distribution; /* of patches; its total is 0 where no texel is bright */
+    aur_bright_patch *patches;
+    float threshold; /* radiance under which a texel is none of them */
+    float scale;     /* density = scale * (radiance - threshold), a square unit */
+} aur_bright_texels;
+
+/* A point on a bright texel. */
+typedef struct aur_bright_point {
+    uint32_t element, shape;
+    float u, v; /* barycentric */
+    bool behind;
+    aur_vector position;
+    aur_vector normal; /* of the side that shines */
+} aur_bright_point;
+
+/* What a shape's triangles reflect of irradiance on the side of the normal and behind: albedo / pi; false:
+ * they are not plainly diffuse, or are lights. */
+typedef bool (*aur_plain_albedo)(const void *context, uint32_t shape, aur_vector albedo_on_pi[2]);
+
+/* Errors: MEMORY. */
+aur_result aur_bright_texels_create(const aur_scene *scene, const aur_irradiance_map *map,
+                                    aur_plain_albedo albedo, const void *context, aur_bright_texels *bright,
+                                    aur_error *error);
+void aur_bright_texels_release(aur_bright_texels *bright);
+
+/* Numbers in [0,1). Only where the distribution's total is not 0. */
+aur_bright_point aur_bright_texels_sample(const aur_bright_texels *bright, const aur_scene *scene,
+                                          const aur_irradiance_map *map, double choice,
+                                          const float position[2]);
+
+/* The density, a square unit, with which points of a texel are drawn that reflects `radiance` by the map's
+ * irradiance. */
+static inline float aur_bright_texels_density(const aur_bright_texels *bright, aur_vector radiance) {
+    const float excess = aur_vector_max(radiance) - bright->threshold;
+    return excess > 0.0f ? bright->scale * excess : 0.0f;
+}
+
+#endif

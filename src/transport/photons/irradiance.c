@@ -1,0 +1,210 @@
+#include "transport/photons/irradiance.h"
+
+#include <stdlib.h>
+
+#include "transport/lights/shading.h"
+
+static uint32_t texel_of(const aur_texels *texels, bool curved, uint32_t element,
+                         const float coordinates[2]) {
+    const aur_texel_range range = texels->ranges[element];
+    return curved ? aur_texel_of_square(range, coordinates[0], coordinates[1])
+                  : aur_texel_of_triangle(range, coordinates[0], coordinates[1]);
+}
+
+/* Which light every photon adds to. */
+static void find_lights(const aur_irradiance_map *map, const aur_photon_map *photons, uint32_t *lights) {
+    const aur_elements *const elements = &map->texels.elements;
+    for (size_t i = 0; i < photons->count; ++i) {
+        const aur_photon *const photon = &photons->photons[i];
+        const uint32_t texel = texel_of(&map->texels, aur_element_is_curved(elements, photon->element),
+                                        photon->element, photon->coordinates);
+        lights[i] = 2 * texel + (photon->behind ? 1 : 0);
+    }
+}
+
+/* In the photons' order, whatever the threads. */
+static void add_power(aur_irradiance_map *map, const aur_photon_map *photons, const uint32_t *lights) {
+    for (size_t i = 0; i < photons->count; ++i) {
+        aur_texel_light *const light = &map->lights[lights[i]];
+        light->irradiance = aur_vector_add(light->irradiance, photons->photons[i].power);
+    }
+    for (size_t i = 0; i < 2 * map->texels.count; ++i) {
+        aur_texel_light *const light = &map->lights[i];
+        light->area = map->texels.areas[i / 2];
+        const float scale = light->area > 0.0f ? 1.0f / light->area : 0.0f;
+        light->irradiance = aur_vector_scale(light->irradiance, scale);
+    }
+}
+
+/* Sorts the photons of glossy surfaces by light, each light's in their own order. */
+static aur_result collect_members(aur_irradiance_map *map, const aur_photon_map *photons,
+                                  const uint32_t *lights) {
+    size_t count = 0;
+    for (size_t i = 0; i < photons->count; ++i)
+        count += photons->photons[i].glossy ? 1 : 0;
+    if (count == 0)
+        return AUR_OK;
+    const size_t light_count = 2 * map->texels.count;
+    map->member_first = calloc(light_count + 2, sizeof *map->member_first);
+    map->members = malloc(count * sizeof *map->members);
+    if (map->member_first == NULL || map->members == NULL)
+        return AUR_ERROR_MEMORY;
+    /* Counted two places on, so that filling leaves each first where it belongs. */
+    uint32_t *const next = map->member_first + 1;
+    for (size_t i = 0; i < photons->count; ++i)
+        if (photons->photons[i].glossy)
+            ++next[lights[i] + 1];
+    for (size_t i = 1; i <= light_count; ++i)
+        next[i] += next[i - 1];
+    for (size_t i = 0; i < photons->count; ++i) {
+        const aur_photon *const photon = &photons->photons[i];
+        if (photon->glossy)
+            map->members[next[lights[i]]++] = (aur_incident_photon){photon->direction, photon->power};
+    }
+    return AUR_OK;
+}
+
+/* Takes the elements over. */
+static aur_result lay_out(aur_irradiance_map *map, const aur_scene *scene, aur_elements *elements,
+                          const aur_photon_map *photons, double photons_a_texel) {
+    uint32_t *const hits = calloc(elements->count + 1, sizeof *hits);
+    if (hits == NULL)
+        return AUR_ERROR_MEMORY;
+    for (size_t i = 0; i < photons->count; ++i)
+        ++hits[photons->photons[i].element];
+    const aur_result result = aur_texels_create(scene, *elements, hits, photons_a_texel, &map->texels);
+    *elements = (aur_elements){0};
+    free(hits);
+    return result;
+}
+
+static aur_result fill_lights(aur_irradiance_map *map, const aur_photon_map *photons) {
+    map->lights = calloc(2 * map->texels.count + 1, sizeof *map->lights);
+    uint32_t *const lights = malloc((photons->count + 1) * sizeof *lights);
+    aur_result result = AUR_ERROR_MEMORY;
+    if (map->lights != NULL && lights != NULL) {
+        find_lights(map, photons, lights);
+        add_power(map, photons, lights);
+        result = collect_members(map, photons, lights);
+    }
+    free(lights);
+    return result;
+}
+
+static aur_result fill(const aur_scene *scene, const aur_irradiance_options *options, aur_irradiance_map *map,
+                       aur_error *error) {
+    aur_elements elements;
+    aur_result result = aur_elements_create(scene, &elements);
+    if (result != AUR_OK)
+        return aur_fail(error, result, "photon map: %s", aur_result_string(result));
+    aur_photon_map photons;
+    result = aur_photon_map_create(scene, &elements, &options->photons, &photons, error);
+    if (result != AUR_OK) {
+        aur_elements_release(&elements);
+        return result;
+    }
+    result = lay_out(map, scene, &elements, &photons, options->photons_a_texel);
+    if (result == AUR_OK)
+        result = fill_lights(map, &photons);
+    map->photons = photons.count;
+    map->paths = photons.paths;
+    map->rays = photons.rays;
+    aur_photon_map_release(&photons);
+    if (result == AUR_ERROR_ARGUMENT)
+        return aur_fail(error, result,
+                        "photon map: more texels than 32-bit numbers can name; use fewer photons");
+    return result == AUR_OK ? AUR_OK : aur_fail(error, result, "photon map: %s", aur_result_string(result));
+}
+
+aur_result aur_irradiance_map_create(const aur_scene *scene, const aur_irradiance_options *options,
+                                     aur_irradiance_map **out, aur_error *error) {
+    *out = NULL;
+    aur_irradiance_map *const map = calloc(1, sizeof *map);
+    if (map == NULL)
+        return aur_fail(error, AUR_ERROR_MEMORY, "photon map: out of memory");
+    const aur_result result = fill(scene, options, map, error);
+    if (result != AUR_OK) {
+        aur_irradiance_map_destroy(map);
+        return result;
+    }
+    *out = map;
+    return AUR_OK;
+}
+
+void aur_irradiance_map_destroy(aur_irradiance_map *map) {
+    if (map == NULL)
+        return;
+    aur_texels_release(&map->texels);
+    free(map->lights);
+    free(map->member_first);
+    free(map->members);
+    free(map);
+}
+
+/* The glossy lobes with a formula, and where their powers are too small to matter. */
+typedef struct glossy_lobes {
+    size_t count;
+    aur_bsdf_lobe lobes[AUR_BSDF_LOBE_CAPACITY];
+    float
+        least[AUR_BSDF_LOBE_CAPACITY]; /* cosine about the axis under which cos^exponent is less than 1e-6 */
+} glossy_lobes;
+
+static glossy_lobes lobes_at(const aur_surface *surface, aur_vector view) {
+    aur_bsdf_lobe lobes[AUR_BSDF_LOBE_CAPACITY];
+    const size_t count = surface->bsdf->descriptor->lobes(surface->bsdf, surface->texture, view, lobes);
+    glossy_lobes all = {0};
+    for (size_t i = 0; i < count; ++i) {
+        if (lobes[i].diffuse || lobes[i].shape != AUR_LOBE_SHAPE_COSINE_POWER)
+            continue;
+        all.least[all.count] = expf(-13.8155f / fmaxf(lobes[i].exponent, 1e-3f));
+        all.lobes[all.count++] = lobes[i];
+    }
+    return all;
+}
+
+static aur_vector glossy_value(const glossy_lobes *all, aur_vector light) {
+    aur_vector sum = {0};
+    for (size_t i = 0; i < all->count; ++i)
+        if (aur_vector_dot(all->lobes[i].axis, light) > all->least[i])
+            sum = aur_vector_add(sum, aur_lobe_value(&all->lobes[i], light));
+    return sum;
+}
+
+/* The glossy lobes' share: a density estimate over the texel's photons. */
+static aur_vector glossy_radiance(const aur_irradiance_map *map, size_t light_index,
+                                  const aur_surface *surface, const glossy_lobes *lobes) {
+    aur_vector sum = {0};
+    for (uint32_t i = map->member_first[light_index]; i < map->member_first[light_index + 1]; ++i) {
+        const aur_incident_photon *const photon = &map->members[i];
+        const aur_vector light = aur_frame_to_local(&surface->frame, photon->direction);
+        const aur_vector value = glossy_value(lobes, light);
+        if (aur_vector_is_zero(value))
+            continue;
+        /* The value is of BSDF * cos, and a photon's power has its cosine already. */
+        const float cosine = fmaxf(fabsf(light.z), 0.05f);
+        sum = aur_vector_add_scaled(sum, 1.0f / cosine, aur_vector_multiply(value, photon->power));
+    }
+    return aur_vector_scale(sum, 1.0f / map->lights[light_index].area);
+}
+
+aur_vector aur_irradiance_radiance(const aur_irradiance_map *map, const aur_scene *scene, const aur_hit *hit,
+                                   const aur_surface *surface, aur_vector view) {
+    const bool behind = aur_vector_dot(surface->geometric_normal, view) < 0.0f;
+    if (behind && !surface->bsdf->scatters_from_behind)
+        return (aur_vector){0};
+    float coordinates[2];
+    aur_element_coordinates(scene, hit, surface, coordinates);
+    const uint32_t texel = texel_of(&map->texels, aur_shape_is_curved(scene, hit->shape),
+                                    aur_element_of(&map->texels.elements, hit), coordinates);
+    const size_t light_index = 2 * (size_t)texel + (behind ? 1 : 0);
+    const aur_texel_light *const light = &map->lights[light_index];
+    const aur_vector local_view = aur_frame_to_local(&surface->frame, view);
+    const aur_vector albedo =
+        surface->bsdf->descriptor->diffuse_albedo(surface->bsdf, surface->texture, local_view.z);
+    const aur_vector diffuse =
+        aur_vector_scale(aur_vector_multiply(albedo, light->irradiance), 1.0f / AUR_PI_F);
+    if (map->member_first == NULL || map->member_first[light_index] == map->member_first[light_index + 1])
+        return diffuse;
+    const glossy_lobes lobes = lobes_at(surface, local_view);
+    return aur_vector_add(diffuse, glossy_radiance(map, light_index, surface, &lobes));
+}

@@ -1,0 +1,223 @@
+/* Solutions on disk: a line that names the format and its version, then whole numbers of 8 bytes, the lowest
+ * byte first, and a hash of them all. */
+#include <stdlib.h>
+#include <string.h>
+
+#include "core/file.h"
+#include "core/random.h"
+#include "transport/radiosity/solution.h"
+
+static const char magic[] = "aureole-radiosity 1\n";
+enum { MAGIC_LENGTH = sizeof magic - 1, HEAD_NUMBERS = 11, TALLY_NUMBERS = 8, NAME_LIMIT = 4096 };
+
+/* --- writing */
+
+typedef struct number_writer {
+    FILE *stream;
+    uint64_t hash;
+} number_writer;
+
+static void put(number_writer *out, uint64_t number) {
+    unsigned char bytes[8];
+    for (size_t i = 0; i < 8; ++i)
+        bytes[i] = (unsigned char)(number >> (8 * i));
+    fwrite(bytes, 1, sizeof bytes, out->stream);
+    out->hash = aur_hash2(out->hash, number);
+}
+
+static uint64_t bits_of(double value) {
+    uint64_t bits;
+    memcpy(&bits, &value, sizeof bits);
+    return bits;
+}
+
+static void put_sum(number_writer *out, const aur_exact_sum *sum) {
+    put(out, sum->low);
+    put(out, sum->high);
+}
+
+/* The name's characters, one a number: it is short. */
+static void put_name(number_writer *out, const char *name) {
+    put(out, strlen(name));
+    for (const char *c = name; *c != '\0'; ++c)
+        put(out, (unsigned char)*c);
+}
+
+aur_result aur_radiosity_save(const aur_radiosity *radiosity, const char *path, aur_error *error) {
+    aur_file_writer file;
+    const aur_result result = aur_file_open(path, &file, error);
+    if (result != AUR_OK)
+        return result;
+    number_writer out = {.stream = file.stream};
+    fwrite(magic, 1, MAGIC_LENGTH, out.stream);
+    const aur_radiosity_options *const o = &radiosity->options;
+    const uint64_t head[HEAD_NUMBERS] = {radiosity->scene.hash,
+                                         radiosity->scene.patch_count,
+                                         radiosity->paths,
+                                         bits_of(radiosity->change),
+                                         (uint64_t)o->scramble,
+                                         o->seed,
+                                         (uint64_t)o->directions,
+                                         (uint64_t)o->emission,
+                                         o->bounces,
+                                         o->randomizations,
+                                         o->variant};
+    for (size_t i = 0; i < HEAD_NUMBERS; ++i)
+        put(&out, head[i]);
+    put_name(&out, radiosity->sequence);
+    for (size_t r = 0; r < o->randomizations; ++r) {
+        const aur_radiosity_tally *const tally = &radiosity->tallies[r];
+        put(&out, tally->rays);
+        put(&out, tally->lost);
+        put(&out, tally->behind);
+        put(&out, tally->trapped);
+        put_sum(&out, &tally->last);
+        put_sum(&out, &tally->rest);
+        for (size_t i = 0; i < tally->patch_count; ++i)
+            for (size_t c = 0; c < 3; ++c)
+                put_sum(&out, &tally->power[i][c]);
+    }
+    put(&out, out.hash);
+    return aur_file_commit(&file, error);
+}
+
+/* --- reading */
+
+typedef struct number_reader {
+    const unsigned char *at, *end;
+    uint64_t hash;
+    bool failed; /* the file has ended */
+} number_reader;
+
+static uint64_t get(number_reader *in) {
+    if (in->end - in->at < 8) {
+        in->failed = true;
+        return 0;
+    }
+    uint64_t number = 0;
+    for (size_t i = 0; i < 8; ++i)
+        number |= (uint64_t)in->at[i] << (8 * i);
+    in->at += 8;
+    in->hash = aur_hash2(in->hash, number);
+    return number;
+}
+
+static void get_sum(number_reader *in, aur_exact_sum *sum) {
+    sum->low = get(in);
+    sum->high = get(in);
+}
+
+typedef struct file_head {
+    uint64_t hash, patches, paths;
+    double change;
+    aur_radiosity_options options;
+    char name[NAME_LIMIT + 1];
+} file_head;
+
+static aur_result damaged(const char *path, const char *what, aur_error *error) {
+    return aur_fail_at(error, (aur_location){.file = path}, AUR_ERROR_FORMAT, "not a radiosity solution: %s",
+                       what);
+}
+
+/* What does not fit its type is refused here; the options' own limits are checked when they are used. */
+static aur_result read_head(number_reader *in, const char *path, file_head *head, aur_error *error) {
+    uint64_t n[HEAD_NUMBERS];
+    for (size_t i = 0; i < HEAD_NUMBERS; ++i)
+        n[i] = get(in);
+    const uint64_t length = get(in);
+    if (in->failed || length > NAME_LIMIT)
+        return damaged(path, "its head is cut or damaged", error);
+    for (size_t i = 0; i < length; ++i)
+        head->name[i] = (char)get(in);
+    head->name[length] = '\0';
+    if (in->failed || strlen(head->name) != length)
+        return damaged(path, "its head is cut or damaged", error);
+    head->hash = n[0];
+    head->patches = n[1];
+    head->paths = n[2];
+    memcpy(&head->change, &n[3], sizeof head->change);
+    if (n[4] > AUR_SCRAMBLE_ROTATE3D || n[6] > AUR_RADIOSITY_UNIFORM_ANGLE || n[7] > AUR_RADIOSITY_BY_AREA)
+        return damaged(path, "its head has choices that do not exist", error);
+    head->options = (aur_radiosity_options){.sequence = head->name,
+                                            .scramble = (aur_scramble)n[4],
+                                            .seed = n[5],
+                                            .directions = (aur_radiosity_directions)n[6],
+                                            .emission = (aur_radiosity_emission)n[7],
+                                            .bounces = n[8],
+                                            .randomizations = n[9],
+                                            .variant = n[10]};
+    return AUR_OK;
+}
+
+static void read_tally(number_reader *in, aur_radiosity_tally *tally) {
+    tally->rays = get(in);
+    tally->lost = get(in);
+    tally->behind = get(in);
+    tally->trapped = get(in);
+    get_sum(in, &tally->last);
+    get_sum(in, &tally->rest);
+    for (size_t i = 0; i < tally->patch_count; ++i)
+        for (size_t c = 0; c < 3; ++c)
+            get_sum(in, &tally->power[i][c]);
+}
+
+/* Whether what is left of the file holds so many sums, before memory is asked for. */
+static bool has_room(const number_reader *in, const file_head *head) {
+    const uint64_t left = (uint64_t)(in->end - in->at) / 8;
+    return (in->end - in->at) % 8 == 0 && head->options.randomizations > 0 &&
+           head->options.randomizations <= left && (head->patches <= left / 6) &&
+           left == head->options.randomizations * (TALLY_NUMBERS + 6 * head->patches) + 1;
+}
+
+static aur_result read_solution(number_reader *in, const aur_scene *scene, const char *path,
+                                const aur_radiosity_options *options, aur_radiosity **radiosity,
+                                aur_error *error) {
+    file_head head;
+    aur_result result = read_head(in, path, &head, error);
+    if (result != AUR_OK)
+        return result;
+    if (!has_room(in, &head))
+        return damaged(path, "it is cut short or too long", error);
+    if (options != NULL) {
+        head.options.threads = options->threads;
+        head.options.progress = options->progress;
+        head.options.warnings = options->warnings;
+    }
+    result = aur_radiosity_create(scene, &head.options, radiosity, error);
+    if (result != AUR_OK)
+        return result;
+    aur_radiosity *const made = *radiosity;
+    if (made->scene.hash != head.hash || made->scene.patch_count != head.patches)
+        return aur_fail_at(error, (aur_location){.file = path}, AUR_ERROR_FORMAT,
+                           "the solution was made for another scene: triangles, materials or lights differ");
+    made->paths = head.paths;
+    made->change = head.change;
+    for (size_t r = 0; r < made->options.randomizations; ++r)
+        read_tally(in, &made->tallies[r]);
+    const uint64_t hash = in->hash;
+    if (get(in) != hash || in->failed)
+        return damaged(path, "its numbers are damaged", error);
+    return AUR_OK;
+}
+
+aur_result aur_radiosity_load(const aur_scene *scene, const char *path, const aur_radiosity_options *options,
+                              aur_radiosity **radiosity, aur_error *error) {
+    *radiosity = NULL;
+    char *data = NULL;
+    size_t size = 0;
+    aur_result result = aur_file_read(path, SIZE_MAX / 2, &data, &size, error);
+    if (result != AUR_OK)
+        return result;
+    number_reader in = {.at = (const unsigned char *)data + MAGIC_LENGTH,
+                        .end = (const unsigned char *)data + size};
+    if (size < MAGIC_LENGTH || memcmp(data, magic, MAGIC_LENGTH) != 0)
+        result = damaged(path, "it does not begin with 'aureole-radiosity 1'", error);
+    else
+        result = read_solution(&in, scene, path, options, radiosity, error);
+    free(data);
+    if (result != AUR_OK) {
+        aur_radiosity_destroy(*radiosity);
+        *radiosity = NULL;
+    }
+    return result;
+}

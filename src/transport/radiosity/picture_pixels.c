@@ -1,0 +1,271 @@
+/* The rendering step: hit points by Halton's sequence, each with a share of the lights and a hemisphere of
+ * gather rays; pixels may share irradiance with their neighbours where these see the same triangle. */
+#include <stdlib.h>
+#include <string.h>
+
+#include "core/random.h"
+#include "transport/radiosity/picture.h"
+
+enum { ROUND = 4, HALTON_DIMENSIONS = 4 };
+
+/* One hit point: all but its indirect light, and that as irradiance over pi times what the path and the
+ * surface keep of it. */
+typedef struct hit_point {
+    aur_vector rest;       /* emitted and directly reflected */
+    aur_vector throughput; /* path to the eye, times albedo */
+    aur_vector irradiance; /* over pi */
+    uint32_t triangle; /* that the eye's ray met first, with its side in the lowest bit; or AUR_NO_PATCH */
+    float weight;      /* of the filter */
+} hit_point;
+
+typedef struct pixel_points {
+    size_t count;
+    hit_point *points;
+} pixel_points;
+
+typedef struct workspace {
+    const aur_integrator *integrator;
+    const aur_radiosity_image *image;
+    const aur_view *view;
+    aur_counters *counters;
+    uint32_t *order; /* the lights as the pixel's hit points take them */
+} workspace;
+
+static double radical_inverse(uint32_t base, uint32_t index) {
+    double value = 0.0, unit = 1.0 / base;
+    for (; index > 0; index /= base, unit /= base)
+        value += unit * (index % base);
+    return value;
+}
+
+/* Halton's point `index`, shifted for each pixel, so that no pattern repeats over the picture. */
+static void halton_point(uint64_t pixel, uint32_t index, float u[HALTON_DIMENSIONS]) {
+    static const uint32_t bases[HALTON_DIMENSIONS] = {2, 3, 5, 7};
+    for (uint32_t d = 0; d < HALTON_DIMENSIONS; ++d) {
+        const double sum = radical_inverse(bases[d], index) + aur_unit_double(aur_hash3(pixel, 0x68616c, d));
+        u[d] = fminf((float)(sum - floor(sum)), 0x1.fffffep-1f);
+    }
+}
+
+static uint64_t pixel_hash(const workspace *work, size_t x, size_t y) {
+    return aur_hash3(aur_hash2(work->image->seed, 0x706978656c), y, x);
+}
+
+static float camera_ray(const workspace *work, size_t x, size_t y, uint32_t index, aur_ray *ray) {
+    const aur_view *const view = work->view;
+    if (work->image->oversampling == AUR_OVERSAMPLING_SAMPLER) {
+        aur_camera_sample sample;
+        const float weight = aur_view_sample(view, x, y, index, &sample);
+        *ray = sample.ray;
+        return weight;
+    }
+    float u[HALTON_DIMENSIONS];
+    halton_point(pixel_hash(work, x, y), index, u);
+    const float offset[2] = {aur_filter_sample(view->filter, u[0]), aur_filter_sample(view->filter, u[1])};
+    aur_camera_ray(view->scene, view->width, view->height, (float)x + 0.5f + offset[0],
+                   (float)y + 0.5f + offset[1], &u[2], ray);
+    return aur_filter_weight(view->filter, offset[0]) * aur_filter_weight(view->filter, offset[1]);
+}
+
+/* --- light at a hit point */
+
+/* Whether the eye sees something there, through mirrors too. */
+static bool find_place(const workspace *work, aur_ray ray, uint64_t hash, aur_radiosity_place *place,
+                       aur_vector *throughput) {
+    const aur_radiosity_scene *const scene = work->image->gather.scene;
+    aur_hit hit;
+    *throughput = (aur_vector){1.0f, 1.0f, 1.0f};
+    ++work->counters->rays;
+    if (!aur_scene_intersect(scene->scene, &ray, &hit))
+        return false;
+    uint32_t index = aur_radiosity_triangle_at(scene, &hit);
+    if ((scene->triangles[index].flags & AUR_RADIOSITY_MIRROR) != 0) {
+        if (aur_radiosity_reflect(scene, false, hash, &ray, &hit, throughput, &work->counters->rays) !=
+            AUR_RADIOSITY_MET)
+            return false;
+        index = aur_radiosity_triangle_at(scene, &hit);
+    }
+    const aur_radiosity_triangle *const met = &scene->triangles[index];
+    const bool front = aur_vector_dot(ray.direction, met->frame.z) < 0.0f;
+    *place = (aur_radiosity_place){.position = aur_radiosity_point(met, hit.u, hit.v),
+                                   .normal = aur_vector_scale(met->frame.z, front ? 1.0f : -1.0f),
+                                   .triangle = index,
+                                   .front = front};
+    if (front || met->back != AUR_NO_PATCH)
+        place->albedo = aur_radiosity_albedo(scene, index, front, &ray, &hit);
+    if (front && (met->flags & AUR_RADIOSITY_GLOWS) != 0)
+        place->emission = aur_radiosity_emitted(scene, index, hit.u, hit.v);
+    return true;
+}
+
+static aur_vector light_sample(const workspace *work, const aur_radiosity_place *place, uint64_t pixel,
+                               size_t light, uint32_t index) {
+    const uint32_t triangle = work->image->lights[light];
+    if (triangle == place->triangle)
+        return (aur_vector){0};
+    /* The R2 sequence, shifted for each pixel and light. */
+    const uint64_t shift = aur_hash3(pixel, 0x6c69676874, light);
+    const float u = aur_unit_float((uint32_t)shift + (index + 1) * 3242174889u);
+    const float v = aur_unit_float((uint32_t)(shift >> 32) + (index + 1) * 2447445414u);
+    return aur_radiosity_direct(work->image->gather.scene, place, triangle, u, v, &work->counters->rays);
+}
+
+/* Light number p of the pixel's order is taken by hit point p mod `points` alone, `points` times: over the
+ * pixel every light is used once. */
+static aur_vector direct_light(const workspace *work, const aur_radiosity_place *place, uint64_t pixel,
+                               uint32_t index, uint32_t points) {
+    const bool permuted = work->image->permuted;
+    aur_vector sum = {0};
+    for (size_t p = permuted ? index % points : 0; p < work->image->light_count; p += permuted ? points : 1)
+        sum = aur_vector_add(sum, light_sample(work, place, pixel, permuted ? work->order[p] : p, index));
+    return permuted ? aur_vector_scale(sum, (float)points) : sum;
+}
+
+static bool wants(const workspace *work, aur_radiosity_component component) {
+    return work->image->component == AUR_COMPONENT_ALL || work->image->component == component;
+}
+
+/* Hit point `index`, one of `points` that share out the lights. */
+static hit_point make_point(const workspace *work, size_t x, size_t y, uint32_t index, uint32_t points) {
+    const uint64_t pixel = pixel_hash(work, x, y), hash = aur_hash2(pixel, index);
+    aur_ray ray;
+    hit_point made = {.triangle = AUR_NO_PATCH, .weight = camera_ray(work, x, y, index, &ray)};
+    aur_radiosity_place place;
+    aur_vector path;
+    if (!find_place(work, ray, hash, &place, &path))
+        return made;
+    made.triangle = place.triangle << 1 | place.front;
+    made.throughput = aur_vector_multiply(path, place.albedo);
+    if (wants(work, AUR_COMPONENT_EMISSION))
+        made.rest = aur_vector_multiply(path, place.emission);
+    if (aur_vector_is_zero(place.albedo))
+        return made;
+    if (wants(work, AUR_COMPONENT_DIRECT))
+        made.rest = aur_vector_add(
+            made.rest, aur_vector_multiply(path, direct_light(work, &place, pixel, index, points)));
+    if (wants(work, AUR_COMPONENT_INDIRECT))
+        made.irradiance =
+            aur_radiosity_gather_at(&work->image->gather, &place, aur_mix64(hash + 1), &work->counters->rays);
+    return made;
+}
+
+static aur_vector radiance_of(const hit_point *point, aur_vector irradiance) {
+    return aur_vector_add(point->rest, aur_vector_multiply(point->throughput, irradiance));
+}
+
+/* --- pixels */
+
+static bool is_steady(const pixel_points *p, float threshold) {
+    float sums[2] = {0.0f, 0.0f};
+    for (size_t i = 0; i < p->count; ++i) {
+        const aur_vector l = radiance_of(&p->points[i], p->points[i].irradiance);
+        sums[i + ROUND >= p->count] += l.x + l.y + l.z;
+    }
+    const float before = sums[0] / (float)(p->count - ROUND), now = (sums[0] + sums[1]) / (float)p->count;
+    return fabsf(now - before) <= threshold * now;
+}
+
+/* Hit points first .. first + count - 1 of a pixel. Adaptive ones come in rounds that share out all lights.
+ */
+static void make_pixel(const workspace *work, size_t x, size_t y, uint32_t first, uint32_t count,
+                       pixel_points *made) {
+    const bool adaptive = work->image->oversampling == AUR_OVERSAMPLING_ADAPTIVE;
+    const uint32_t points = adaptive ? ROUND : (uint32_t)work->image->samples_per_pixel;
+    made->count = 0;
+    uint32_t round = UINT32_MAX;
+    for (uint32_t i = first; i < first + count; ++i) {
+        if (adaptive && i % ROUND == 0 && made->count >= 2 * ROUND && is_steady(made, work->image->threshold))
+            return;
+        if (work->image->permuted && i / points != round) {
+            round = i / points;
+            aur_radiosity_permute(work->image->light_count, work->order,
+                                  aur_hash3(pixel_hash(work, x, y), 0x6f72646572, round));
+        }
+        made->points[made->count++] = make_point(work, x, y, i, points);
+    }
+}
+
+/* The irradiance of all hit points on one triangle in the pixel and its neighbours. */
+static aur_vector pooled(size_t neighbour_count, const pixel_points *const *neighbours, uint32_t triangle) {
+    aur_vector sum = {0};
+    size_t count = 0;
+    for (size_t n = 0; n < neighbour_count; ++n)
+        for (size_t i = 0; i < neighbours[n]->count; ++i)
+            if (neighbours[n]->points[i].triangle == triangle) {
+                sum = aur_vector_add(sum, neighbours[n]->points[i].irradiance);
+                ++count;
+            }
+    return aur_vector_scale(sum, 1.0f / (float)count);
+}
+
+/* A pixel that shares with the eight around it. */
+static void add_shared(aur_tile *tile, size_t x, size_t y, const pixel_points *self, size_t neighbour_count,
+                       const pixel_points *const *neighbours) {
+    uint32_t last = AUR_NO_PATCH;
+    aur_vector irradiance = {0};
+    for (size_t i = 0; i < self->count; ++i) {
+        const hit_point *const point = &self->points[i];
+        if (point->triangle != AUR_NO_PATCH && point->triangle != last) {
+            irradiance = pooled(neighbour_count, neighbours, point->triangle);
+            last = point->triangle;
+        }
+        aur_tile_add(tile, x, y, point->weight, radiance_of(point, irradiance));
+    }
+}
+
+/* The part of the picture whose pixels are made: the tile, and one more pixel around it for sharing. */
+typedef struct area {
+    size_t x0, y0, columns, rows;
+} area;
+
+static area area_of(const aur_tile *tile, bool shared) {
+    if (!shared)
+        return (area){tile->x0, tile->y0, tile->x1 - tile->x0, tile->y1 - tile->y0};
+    const size_t x0 = tile->x0 > 0 ? tile->x0 - 1 : 0, y0 = tile->y0 > 0 ? tile->y0 - 1 : 0;
+    const size_t x1 = tile->x1 < tile->view->width ? tile->x1 + 1 : tile->x1;
+    const size_t y1 = tile->y1 < tile->view->height ? tile->y1 + 1 : tile->y1;
+    return (area){x0, y0, x1 - x0, y1 - y0};
+}
+
+static void add_all(aur_tile *tile, const area *a, const pixel_points *pixels, bool shared) {
+    for (size_t y = tile->y0; y < tile->y1; ++y)
+        for (size_t x = tile->x0; x < tile->x1; ++x) {
+            const size_t column = x - a->x0, row = y - a->y0;
+            const pixel_points *const self = &pixels[row * a->columns + column];
+            if (!shared) {
+                for (size_t i = 0; i < self->count; ++i)
+                    aur_tile_add(tile, x, y, self->points[i].weight,
+                                 radiance_of(&self->points[i], self->points[i].irradiance));
+                continue;
+            }
+            const pixel_points *neighbours[9];
+            size_t count = 0;
+            for (size_t r = row > 0 ? row - 1 : 0; r < a->rows && r <= row + 1; ++r)
+                for (size_t c = column > 0 ? column - 1 : 0; c < a->columns && c <= column + 1; ++c)
+                    neighbours[count++] = &pixels[r * a->columns + c];
+            add_shared(tile, x, y, self, count, neighbours);
+        }
+}
+
+aur_result aur_radiosity_tile(const aur_integrator *integrator, aur_tile *tile) {
+    const aur_radiosity_image *const image = integrator->data;
+    const area a = area_of(tile, image->share_neighbours);
+    const size_t pixel_count = a.columns * a.rows;
+    pixel_points *const pixels = malloc(pixel_count * sizeof *pixels);
+    hit_point *const points = malloc(pixel_count * tile->count * sizeof *points + 1);
+    uint32_t *const order = malloc((image->light_count + 1) * sizeof *order);
+    const bool good = pixels != NULL && points != NULL && order != NULL;
+    if (good) {
+        const workspace work = {integrator, image, tile->view, &tile->counters, order};
+        for (size_t i = 0; i < pixel_count; ++i) {
+            pixels[i].points = points + i * tile->count;
+            make_pixel(&work, a.x0 + i % a.columns, a.y0 + i / a.columns, tile->first, tile->count,
+                       &pixels[i]);
+        }
+        add_all(tile, &a, pixels, image->share_neighbours);
+    }
+    free(pixels);
+    free(points);
+    free(order);
+    return good ? AUR_OK : AUR_ERROR_MEMORY;
+}

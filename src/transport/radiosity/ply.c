@@ -1,0 +1,61 @@
+/* A solution as a coloured mesh. */
+#include <string.h>
+
+#include "core/file.h"
+#include "image/tone.h"
+#include "transport/radiosity/solution.h"
+
+/* PLY of this machine's byte order. */
+static const char *byte_order(void) {
+    const uint16_t one = 1;
+    unsigned char first;
+    memcpy(&first, &one, 1);
+    return first == 1 ? "binary_little_endian" : "binary_big_endian";
+}
+
+aur_result aur_radiosity_write_ply(const aur_radiosity *radiosity, const char *path, double exposure,
+                                   aur_error *error) {
+    aur_file_writer file;
+    const aur_result result = aur_file_open(path, &file, error);
+    if (result != AUR_OK)
+        return result;
+    const aur_radiosity_scene *const scene = &radiosity->scene;
+    const size_t count = scene->triangle_count;
+    fprintf(
+        file.stream,
+        "ply\nformat %s 1.0\ncomment radiosity of %llu paths\nelement vertex %zu\nproperty float x\n"
+        "property float y\nproperty float z\nproperty uchar red\nproperty uchar green\nproperty uchar blue\n"
+        "property float radiance_r\nproperty float radiance_g\nproperty float radiance_b\n"
+        "element face %zu\nproperty list uchar int vertex_indices\nend_header\n",
+        byte_order(), (unsigned long long)radiosity->paths, 3 * count, count);
+    const double scale = exp2(exposure);
+    for (size_t i = 0; i < count; ++i) {
+        const aur_radiosity_triangle *const t = &scene->triangles[i];
+        double power[3];
+        aur_radiosity_power(radiosity, i, power);
+        const float albedo[3] = {t->albedo[0].x, t->albedo[0].y, t->albedo[0].z};
+        const float emission[3] = {scene->emission[i].x, scene->emission[i].y, scene->emission[i].z};
+        float radiance[3];
+        unsigned char color[3];
+        for (size_t c = 0; c < 3; ++c) {
+            const double share = scene->areas[i] > 0.0 ? (double)albedo[c] / (AUR_PI * scene->areas[i]) : 0.0;
+            radiance[c] = (float)((double)emission[c] + share * power[c]);
+            color[c] = (unsigned char)(255.0 * aur_srgb_encode(scale * (double)radiance[c]) + 0.5);
+        }
+        const aur_vector corner[3] = {t->corner, aur_vector_add(t->corner, t->edge[0]),
+                                      aur_vector_add(t->corner, t->edge[1])};
+        for (size_t k = 0; k < 3; ++k) {
+            const float position[3] = {corner[k].x, corner[k].y, corner[k].z};
+            fwrite(position, sizeof position, 1, file.stream);
+            fwrite(color, sizeof color, 1, file.stream);
+            fwrite(radiance, sizeof radiance, 1, file.stream);
+        }
+    }
+    for (size_t i = 0; i < count; ++i) {
+        const unsigned char three = 3;
+        const int32_t index[3] = {(int32_t)(3 * i), (int32_t)(3 * i + 1), (int32_t)(3 * i + 2)};
+        fwrite(&three, 1, 1, file.stream);
+        fwrite(index, sizeof index, 1, file.stream);
+    }
+    return aur_file_commit(&file, error);
+}

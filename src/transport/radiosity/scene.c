@@ -1,0 +1,304 @@
+#include "transport/radiosity/scene.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#include "core/random.h"
+#include "transport/lights/shading.h"
+
+enum { LINE = 64, MEAN_POINTS = 1024 };
+
+static aur_result allocate(aur_radiosity_scene *made, size_t shapes, aur_error *error) {
+    const size_t count = made->triangle_count;
+    const size_t bytes = (count * sizeof *made->triangles + LINE - 1) / LINE * LINE;
+    made->triangles = aligned_alloc(LINE, bytes);
+    made->areas = malloc(count * sizeof *made->areas);
+    made->emission = malloc(count * sizeof *made->emission);
+    made->first = malloc(shapes * sizeof *made->first);
+    made->behind = malloc(count * sizeof *made->behind);
+    if (made->triangles != NULL && made->areas != NULL && made->emission != NULL && made->first != NULL &&
+        made->behind != NULL)
+        return AUR_OK;
+    return aur_fail(error, AUR_ERROR_MEMORY, "radiosity: out of memory for %zu triangles", count);
+}
+
+void aur_radiosity_scene_release(aur_radiosity_scene *scene) {
+    free(scene->triangles);
+    free(scene->areas);
+    free(scene->emission);
+    free(scene->first);
+    free(scene->behind);
+    *scene = (aur_radiosity_scene){0};
+}
+
+/* --- materials */
+
+/* What a side of a shape's material is made of. */
+typedef struct parts {
+    bool diffuse, specular, glossy;
+} parts;
+
+static parts parts_of(const aur_bsdf *bsdf, float side) {
+    aur_bsdf_lobe lobes[AUR_BSDF_LOBE_CAPACITY];
+    const size_t count =
+        bsdf->descriptor->lobes(bsdf, (aur_bsdf_point){0.5f, 0.5f}, (aur_vector){0.0f, 0.0f, side}, lobes);
+    parts found = {0};
+    for (size_t i = 0; i < count; ++i) {
+        if (lobes[i].diffuse)
+            found.diffuse = true;
+        else if (lobes[i].shape == AUR_LOBE_SHAPE_SPECULAR)
+            found.specular = true;
+        else
+            found.glossy = true;
+    }
+    return found;
+}
+
+static bool is_mirror(parts found) {
+    return found.specular && !found.diffuse && !found.glossy;
+}
+
+static aur_bsdf_point texture_at(const aur_triangle *triangle, float u, float v) {
+    const aur_bsdf_point *const t = triangle->texture;
+    return (aur_bsdf_point){t[0].u + u * (t[1].u - t[0].u) + v * (t[2].u - t[0].u),
+                            t[0].v + u * (t[1].v - t[0].v) + v * (t[2].v - t[0].v)};
+}
+
+/* Point i of the R2 sequence, which shares no period with a texture, folded onto the triangle. */
+static void mean_point(size_t i, float *u, float *v) {
+    *u = aur_unit_float((uint32_t)(i + 1) * 3242174889u);
+    *v = aur_unit_float((uint32_t)(i + 1) * 2447445414u);
+    if (*u + *v > 1.0f) {
+        *u = 1.0f - *u;
+        *v = 1.0f - *v;
+    }
+}
+
+static aur_vector mean_albedo(const aur_bsdf *bsdf, const aur_triangle *triangle, float side) {
+    if (!bsdf->textured)
+        return bsdf->descriptor->diffuse_albedo(bsdf, texture_at(triangle, 0.3f, 0.3f), side);
+    aur_vector sum = {0};
+    for (size_t i = 0; i < MEAN_POINTS; ++i) {
+        float u, v;
+        mean_point(i, &u, &v);
+        sum = aur_vector_add(sum, bsdf->descriptor->diffuse_albedo(bsdf, texture_at(triangle, u, v), side));
+    }
+    return aur_vector_scale(sum, 1.0f / MEAN_POINTS);
+}
+
+static aur_vector mean_emission(const aur_scene *scene, size_t shape, const aur_triangle *triangle) {
+    if (!aur_scene_shape_emission_varies(scene, shape))
+        return aur_scene_shape_emission(scene, shape, triangle->texture[0]);
+    aur_vector sum = {0};
+    for (size_t i = 0; i < MEAN_POINTS; ++i) {
+        float u, v;
+        mean_point(i, &u, &v);
+        sum = aur_vector_add(sum, aur_scene_shape_emission(scene, shape, texture_at(triangle, u, v)));
+    }
+    return aur_vector_scale(sum, 1.0f / MEAN_POINTS);
+}
+
+/* --- triangles */
+
+static double area_of(const aur_vector edge[2]) {
+    const double a[3] = {edge[0].x, edge[0].y, edge[0].z}, b[3] = {edge[1].x, edge[1].y, edge[1].z};
+    const double x = a[1] * b[2] - a[2] * b[1], y = a[2] * b[0] - a[0] * b[2], z = a[0] * b[1] - a[1] * b[0];
+    return 0.5 * sqrt(x * x + y * y + z * z);
+}
+
+static aur_frame frame_of(const aur_vector edge[2], uint64_t variant, size_t index) {
+    aur_frame frame = aur_frame_about(aur_vector_normalize(aur_vector_cross(edge[0], edge[1])));
+    if (variant == 0)
+        return frame;
+    const float angle = 2.0f * AUR_PI_F * aur_unit_float((uint32_t)aur_hash3(variant, 0x66726d, index));
+    const aur_vector x = frame.x;
+    frame.x = aur_vector_add_scaled(aur_vector_scale(x, cosf(angle)), sinf(angle), frame.y);
+    frame.y = aur_vector_cross(frame.z, frame.x);
+    return frame;
+}
+
+/* Positions are found to a few parts in 10^7 of their coordinates, as in scene/surface.c. */
+static float offset_of(const aur_triangle *triangle) {
+    float size = 0.0f;
+    for (size_t i = 0; i < 3; ++i) {
+        const aur_vector c = triangle->corner[i];
+        size = fmaxf(size, fmaxf(fabsf(c.x), fmaxf(fabsf(c.y), fabsf(c.z))));
+    }
+    return 1.5e-6f * size + 1e-9f;
+}
+
+static uint64_t hash_floats(uint64_t hash, size_t count, const float *values) {
+    for (size_t i = 0; i < count; ++i) {
+        uint32_t bits;
+        memcpy(&bits, &values[i], sizeof bits);
+        hash = aur_hash2(hash, bits);
+    }
+    return hash;
+}
+
+static uint64_t hash_vector(uint64_t hash, aur_vector v) {
+    return hash_floats(hash, 3, (const float[3]){v.x, v.y, v.z});
+}
+
+static aur_result add_shape(const aur_scene *scene, size_t shape, uint64_t variant, aur_radiosity_scene *made,
+                            size_t *next, aur_error *error) {
+    const aur_bsdf *const bsdf = aur_scene_shape_bsdf(scene, shape);
+    const bool mirror =
+        is_mirror(parts_of(bsdf, 1.0f)) || (bsdf->scatters_from_behind && is_mirror(parts_of(bsdf, -1.0f)));
+    const size_t count = aur_scene_shape_triangles(scene, shape);
+    made->first[shape] = (uint32_t)*next;
+    for (size_t i = 0; i < count; ++i, ++*next) {
+        aur_triangle corners;
+        aur_scene_triangle(scene, shape, i, &corners);
+        aur_radiosity_triangle *const t = &made->triangles[*next];
+        *t = (aur_radiosity_triangle){.corner = corners.corner[0],
+                                      .edge = {aur_vector_subtract(corners.corner[1], corners.corner[0]),
+                                               aur_vector_subtract(corners.corner[2], corners.corner[0])},
+                                      .offset = offset_of(&corners),
+                                      .back = AUR_NO_PATCH,
+                                      .shape = (uint32_t)shape};
+        t->frame = frame_of(t->edge, variant, *next);
+        t->flags = (mirror ? AUR_RADIOSITY_MIRROR : 0u) | (bsdf->textured ? AUR_RADIOSITY_TEXTURED : 0u);
+        t->albedo[0] = mean_albedo(bsdf, &corners, 1.0f);
+        if (bsdf->scatters_from_behind && !mirror)
+            t->albedo[1] = mean_albedo(bsdf, &corners, -1.0f);
+        if (!aur_vector_is_zero(t->albedo[1])) {
+            made->behind[made->patch_count - made->triangle_count] = (uint32_t)*next;
+            t->back = (uint32_t)made->patch_count++;
+        }
+        made->areas[*next] = area_of(t->edge);
+        made->area += made->areas[*next];
+        const aur_vector emission = mean_emission(scene, shape, &corners);
+        made->emission[*next] = emission;
+        if (!aur_vector_is_finite(emission))
+            return aur_fail_at(error, aur_scene_shape_location(scene, shape), AUR_ERROR_FORMAT,
+                               "radiosity: triangle %zu of this shape emits a radiance that is not finite",
+                               i);
+        if (!aur_vector_is_zero(emission)) {
+            t->flags |= AUR_RADIOSITY_GLOWS;
+            if (aur_scene_shape_emission_varies(scene, shape))
+                t->flags |= AUR_RADIOSITY_TEXTURED_LIGHT;
+            made->glow_area += made->areas[*next];
+        }
+        for (size_t k = 0; k < 3; ++k)
+            made->hash = hash_vector(made->hash, corners.corner[k]);
+        made->hash = hash_vector(hash_vector(made->hash, t->albedo[0]), t->albedo[1]);
+        made->hash = aur_hash2(hash_vector(made->hash, emission), t->flags);
+    }
+    return AUR_OK;
+}
+
+/* What light does on a shape that radiosity has no account of. */
+static void warn_about(const aur_scene *scene, size_t shape, const aur_radiosity_scene *made,
+                       const aur_warnings *warnings) {
+    const aur_location location = aur_scene_shape_location(scene, shape);
+    const aur_bsdf *const bsdf = aur_scene_shape_bsdf(scene, shape);
+    const parts found = parts_of(bsdf, 1.0f);
+    if (found.glossy || (found.specular && found.diffuse))
+        aur_warn_at(warnings, location,
+                    "radiosity: only the diffuse part of the material '%s' is taken into account",
+                    bsdf->descriptor->name);
+    const size_t first = made->first[shape], count = aur_scene_shape_triangles(scene, shape);
+    for (size_t i = first; i < first + count; ++i) {
+        const float albedo =
+            fmaxf(aur_vector_max(made->triangles[i].albedo[0]), aur_vector_max(made->triangles[i].albedo[1]));
+        if (albedo < 1.0f)
+            continue;
+        aur_warn_at(
+            warnings, location,
+            "radiosity: triangle %zu of this shape has an albedo of %g: what is cut off after the last "
+            "bounce has no bound unless it is below 1",
+            i - first, (double)albedo);
+        return;
+    }
+}
+
+static aur_result check_light(const aur_radiosity_scene *made, aur_error *error) {
+    if (aur_scene_emitter_count(made->scene) == 0)
+        return aur_fail(error, AUR_ERROR_UNSUPPORTED, "radiosity: the scene has no light");
+    for (size_t i = 0; i < made->triangle_count; ++i)
+        if ((made->triangles[i].flags & AUR_RADIOSITY_GLOWS) != 0 && made->areas[i] > 0.0)
+            return AUR_OK;
+    return aur_fail(error, AUR_ERROR_UNSUPPORTED,
+                    made->glow_area > 0.0 ? "radiosity: the lights have no area"
+                                          : "radiosity: the lights emit no radiance");
+}
+
+aur_result aur_radiosity_scene_create(const aur_scene *scene, uint64_t variant, const aur_warnings *warnings,
+                                      aur_radiosity_scene *made, aur_error *error) {
+    *made = (aur_radiosity_scene){.scene = scene, .hash = UINT64_C(0x7261646973637631)};
+    aur_result result = aur_scene_check_triangles(scene, error);
+    if (result != AUR_OK)
+        return result;
+    const size_t shapes = aur_scene_shape_count(scene);
+    for (size_t i = 0; i < shapes; ++i)
+        made->triangle_count += aur_scene_shape_triangles(scene, i);
+    if (made->triangle_count == 0)
+        return aur_fail(error, AUR_ERROR_UNSUPPORTED, "radiosity: the scene has no triangles");
+    if (made->triangle_count > UINT32_MAX / 4)
+        return aur_fail(error, AUR_ERROR_UNSUPPORTED,
+                        "radiosity: %zu triangles are too many: the limit is %u", made->triangle_count,
+                        UINT32_MAX / 4);
+    made->patch_count = made->triangle_count;
+    result = allocate(made, shapes, error);
+    size_t next = 0;
+    for (size_t i = 0; i < shapes && result == AUR_OK; ++i)
+        result = add_shape(scene, i, variant, made, &next, error);
+    if (result == AUR_OK)
+        result = check_light(made, error);
+    if (result != AUR_OK) {
+        aur_radiosity_scene_release(made);
+        return result;
+    }
+    for (size_t i = 0; i < shapes; ++i)
+        warn_about(scene, i, made, warnings);
+    return AUR_OK;
+}
+
+/* --- at hits */
+
+aur_vector aur_radiosity_albedo(const aur_radiosity_scene *scene, uint32_t triangle, bool front,
+                                const aur_ray *ray, const aur_hit *hit) {
+    const aur_radiosity_triangle *const t = &scene->triangles[triangle];
+    if ((t->flags & AUR_RADIOSITY_TEXTURED) == 0)
+        return t->albedo[front ? 0 : 1];
+    aur_surface surface;
+    aur_scene_surface(scene->scene, ray, hit, &surface);
+    return surface.bsdf->descriptor->diffuse_albedo(surface.bsdf, surface.texture, front ? 1.0f : -1.0f);
+}
+
+aur_vector aur_radiosity_emitted(const aur_radiosity_scene *scene, uint32_t triangle, float u, float v) {
+    const uint32_t shape = scene->triangles[triangle].shape;
+    if (!aur_scene_shape_emission_varies(scene->scene, shape))
+        return scene->emission[triangle];
+    aur_triangle corners;
+    aur_scene_triangle(scene->scene, shape, triangle - scene->first[shape], &corners);
+    return aur_scene_shape_emission(scene->scene, shape, texture_at(&corners, u, v));
+}
+
+aur_radiosity_end aur_radiosity_reflect(const aur_radiosity_scene *scene, bool particle, uint64_t hash,
+                                        aur_ray *ray, aur_hit *hit, aur_vector *throughput, uint64_t *rays) {
+    for (uint32_t hop = 0; hop < AUR_RADIOSITY_HOPS; ++hop) {
+        aur_surface surface;
+        aur_scene_surface(scene->scene, ray, hit, &surface);
+        surface.frame = aur_frame_about(surface.geometric_normal);
+        const aur_shading shading = aur_shading_at(&surface, aur_vector_scale(ray->direction, -1.0f));
+        hash = aur_mix64(hash + 1);
+        const float u[3] = {aur_unit_float((uint32_t)hash), aur_unit_float((uint32_t)(hash >> 32)),
+                            aur_unit_float((uint32_t)aur_mix64(hash))};
+        aur_bsdf_sample sample;
+        if (!aur_shading_sample(&shading, u, &sample))
+            return AUR_RADIOSITY_TRAPPED;
+        const bool changes = particle && sample.ior_squared > 0.0f;
+        *throughput = aur_vector_multiply(
+            *throughput, changes ? aur_vector_scale(sample.weight, sample.ior_squared) : sample.weight);
+        *ray = aur_surface_ray(&surface, sample.light);
+        ++*rays;
+        if (!aur_scene_intersect(scene->scene, ray, hit))
+            return AUR_RADIOSITY_NONE;
+        const uint32_t triangle = aur_radiosity_triangle_at(scene, hit);
+        if ((scene->triangles[triangle].flags & AUR_RADIOSITY_MIRROR) == 0)
+            return AUR_RADIOSITY_MET;
+    }
+    return AUR_RADIOSITY_TRAPPED;
+}

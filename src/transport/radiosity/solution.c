@@ -1,0 +1,392 @@
+#include "transport/radiosity/solution.h"
+
+#include <aureole/sphere.h>
+#include <inttypes.h>
+#include <stdatomic.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "core/parallel.h"
+#include "core/random.h"
+
+aur_radiosity_options aur_radiosity_options_default(void) {
+    return (aur_radiosity_options){
+        .sequence = "sobol", .directions = AUR_RADIOSITY_COSINE, .bounces = 6, .randomizations = 1};
+}
+
+/* --- making */
+
+static aur_result check_options(const aur_radiosity_options *options, aur_error *error) {
+    if (options->bounces < 1 || options->bounces > AUR_RADIOSITY_MOST_BOUNCES)
+        return aur_fail(error, AUR_ERROR_ARGUMENT, "radiosity: bounces must be between 1 and %d, not %zu",
+                        AUR_RADIOSITY_MOST_BOUNCES, options->bounces);
+    if (options->randomizations < 1 || options->randomizations > AUR_RADIOSITY_MOST_RANDOMIZATIONS)
+        return aur_fail(error, AUR_ERROR_ARGUMENT,
+                        "radiosity: randomizations must be between 1 and %d, not %zu",
+                        AUR_RADIOSITY_MOST_RANDOMIZATIONS, options->randomizations);
+    return AUR_OK;
+}
+
+static void warn_of_coincidence(const aur_radiosity *radiosity, const uint32_t where[2]) {
+    const aur_scene *const scene = radiosity->scene.scene;
+    const aur_location other = aur_scene_shape_location(scene, where[1]);
+    aur_warn_at(&radiosity->options.warnings, aur_scene_shape_location(scene, where[0]),
+                "radiosity: %" PRIu64
+                " pairs of triangles lie on each other, the first of this shape and of that at "
+                "%s:%zu:%zu: paths between them are lost",
+                radiosity->coincident, other.file != NULL ? other.file : "", other.line, other.column);
+}
+
+static aur_result make(aur_radiosity *made, const aur_scene *scene, aur_error *error) {
+    const aur_radiosity_options *const options = &made->options;
+    made->change = NAN;
+    made->sequence = strdup(options->sequence != NULL ? options->sequence : "sobol");
+    made->tallies = calloc(options->randomizations, sizeof *made->tallies);
+    if (made->sequence == NULL || made->tallies == NULL)
+        return aur_fail(error, AUR_ERROR_MEMORY, "radiosity: out of memory");
+    made->options.sequence = made->sequence;
+    aur_result result =
+        aur_radiosity_scene_create(scene, options->variant, &options->warnings, &made->scene, error);
+    if (result == AUR_OK)
+        result = aur_radiosity_walk_create(&made->scene, options, &made->walk, error);
+    for (size_t r = 0; r < options->randomizations && result == AUR_OK; ++r)
+        result = aur_radiosity_tally_create(made->scene.patch_count, &made->tallies[r], error);
+    if (result != AUR_OK)
+        return result;
+    uint32_t where[2];
+    made->coincident = aur_radiosity_coincidences(&made->scene, where);
+    if (made->coincident > 0)
+        warn_of_coincidence(made, where);
+    return AUR_OK;
+}
+
+aur_result aur_radiosity_create(const aur_scene *scene, const aur_radiosity_options *options,
+                                aur_radiosity **radiosity, aur_error *error) {
+    *radiosity = NULL;
+    const aur_radiosity_options wanted = options != NULL ? *options : aur_radiosity_options_default();
+    aur_result result = check_options(&wanted, error);
+    if (result != AUR_OK)
+        return result;
+    aur_radiosity *const made = calloc(1, sizeof *made);
+    if (made == NULL)
+        return aur_fail(error, AUR_ERROR_MEMORY, "radiosity: out of memory");
+    made->options = wanted;
+    result = make(made, scene, error);
+    if (result != AUR_OK) {
+        aur_radiosity_destroy(made);
+        return result;
+    }
+    *radiosity = made;
+    return AUR_OK;
+}
+
+static void release_lanes(aur_radiosity *radiosity) {
+    for (size_t i = 0; i < radiosity->lane_count * radiosity->options.randomizations; ++i)
+        aur_radiosity_tally_release(&radiosity->lanes[i]);
+    free(radiosity->lanes);
+    radiosity->lanes = NULL;
+    radiosity->lane_count = 0;
+}
+
+void aur_radiosity_destroy(aur_radiosity *radiosity) {
+    if (radiosity == NULL)
+        return;
+    release_lanes(radiosity);
+    for (size_t r = 0; radiosity->tallies != NULL && r < radiosity->options.randomizations; ++r)
+        aur_radiosity_tally_release(&radiosity->tallies[r]);
+    free(radiosity->tallies);
+    aur_radiosity_walk_release(&radiosity->walk);
+    aur_radiosity_scene_release(&radiosity->scene);
+    free(radiosity->sequence);
+    free(radiosity);
+}
+
+/* --- points */
+
+/* The points of all randomisations. */
+typedef struct point_source {
+    size_t count;
+    aur_pointset **sets;
+    uint64_t skipped; /* points left out at the beginning */
+} point_source;
+
+static void release_points(point_source *points) {
+    for (size_t r = 0; points->sets != NULL && r < points->count; ++r)
+        aur_pointset_destroy(points->sets[r]);
+    free(points->sets);
+    *points = (point_source){0};
+}
+
+static bool begins_with_zero(const aur_pointset *set) {
+    for (size_t d = 0; d < aur_pointset_dimension(set); ++d)
+        if (aur_pointset_coordinate(set, 0, d) != 0.0)
+            return false;
+    return true;
+}
+
+static aur_result make_set(const aur_radiosity *radiosity, size_t r, uint64_t count, aur_pointset **set,
+                           aur_error *error) {
+    const aur_radiosity_options *const options = &radiosity->options;
+    const aur_pointset_options wanted = {
+        .count = count,
+        .dimension = 2 * options->bounces + 4,
+        .scramble = options->scramble,
+        .seed = options->randomizations > 1 ? aur_hash3(options->seed, 0x72616e646f6d, r) : options->seed};
+    return aur_pointset_create(radiosity->sequence, &wanted, set, error);
+}
+
+/* Two randomisations must differ somewhere in their second point. */
+static aur_result check_randomized(const aur_radiosity *radiosity, const point_source *points,
+                                   aur_error *error) {
+    const uint64_t index = aur_pointset_size(points->sets[1]) > 1 ? 1 : 0;
+    for (size_t d = 0; d < aur_pointset_dimension(points->sets[0]); ++d)
+        if (aur_pointset_coordinate(points->sets[0], index, d) !=
+            aur_pointset_coordinate(points->sets[1], index, d))
+            return AUR_OK;
+    return aur_fail(error, AUR_ERROR_UNSUPPORTED,
+                    "radiosity: %zu randomizations of '%s' need a scrambling: owen, digit or shift",
+                    radiosity->options.randomizations, radiosity->sequence);
+}
+
+static aur_result make_points(const aur_radiosity *radiosity, uint64_t paths, point_source *points,
+                              aur_error *error) {
+    *points = (point_source){.count = radiosity->options.randomizations};
+    points->sets = calloc(points->count, sizeof(aur_pointset *));
+    if (points->sets == NULL)
+        return aur_fail(error, AUR_ERROR_MEMORY, "radiosity: out of memory");
+    const uint64_t most = aur_radiosity_share(radiosity, 0, paths);
+    aur_result result = make_set(radiosity, 0, most, &points->sets[0], error);
+    if (result == AUR_OK && begins_with_zero(points->sets[0])) {
+        points->skipped = 1;
+        aur_pointset_destroy(points->sets[0]);
+        points->sets[0] = NULL;
+        result = make_set(radiosity, 0, most + 1, &points->sets[0], error);
+    }
+    for (size_t r = 1; r < points->count && result == AUR_OK; ++r)
+        result = make_set(radiosity, r, most + points->skipped, &points->sets[r], error);
+    if (result == AUR_OK && radiosity->paths > 0 && !aur_set_find(radiosity->sequence)->extensible)
+        result =
+            aur_fail(error, AUR_ERROR_UNSUPPORTED,
+                     "radiosity: '%s' cannot be continued: its first points depend on how many there are",
+                     radiosity->sequence);
+    if (result == AUR_OK && points->count > 1)
+        result = check_randomized(radiosity, points, error);
+    if (result != AUR_OK)
+        release_points(points);
+    return result;
+}
+
+/* --- tracing */
+
+/* A run of points of one randomisation, shared out in blocks. */
+typedef struct batch {
+    const aur_radiosity *radiosity;
+    const point_source *points;
+    uint64_t begin, end; /* paths */
+    size_t blocks_each;  /* of one randomisation, at most */
+    atomic_size_t next;
+} batch;
+
+static aur_result run_lane(void *context, size_t lane) {
+    batch *const work = context;
+    const aur_radiosity *const radiosity = work->radiosity;
+    const size_t count = radiosity->options.randomizations;
+    for (;;) {
+        const size_t item = atomic_fetch_add(&work->next, 1);
+        if (item >= count * work->blocks_each)
+            return AUR_OK;
+        const size_t r = item / work->blocks_each;
+        const uint64_t end = aur_radiosity_share(radiosity, r, work->end);
+        const uint64_t first = aur_radiosity_share(radiosity, r, work->begin) +
+                               item % work->blocks_each * (uint64_t)AUR_RADIOSITY_BLOCK;
+        if (first >= end)
+            continue;
+        const uint64_t left = end - first;
+        aur_radiosity_walk_block(&radiosity->walk, work->points->sets[r], r, work->points->skipped + first,
+                                 left < AUR_RADIOSITY_BLOCK ? (size_t)left : AUR_RADIOSITY_BLOCK,
+                                 &radiosity->lanes[lane * count + r]);
+    }
+}
+
+static aur_result prepare_lanes(aur_radiosity *radiosity, aur_error *error) {
+    const size_t lanes = aur_parallel_threads(radiosity->options.threads);
+    const size_t count = radiosity->options.randomizations;
+    if (radiosity->lane_count == lanes)
+        return AUR_OK;
+    release_lanes(radiosity);
+    radiosity->lanes = calloc(lanes * count, sizeof *radiosity->lanes);
+    if (radiosity->lanes == NULL)
+        return aur_fail(error, AUR_ERROR_MEMORY, "radiosity: out of memory");
+    radiosity->lane_count = lanes;
+    aur_result result = AUR_OK;
+    for (size_t i = 0; i < lanes * count && result == AUR_OK; ++i)
+        result = aur_radiosity_tally_create(radiosity->scene.patch_count, &radiosity->lanes[i], error);
+    return result;
+}
+
+static aur_result trace_batch(aur_radiosity *radiosity, const point_source *points, uint64_t end) {
+    const size_t count = radiosity->options.randomizations;
+    batch work = {.radiosity = radiosity, .points = points, .begin = radiosity->paths, .end = end};
+    const uint64_t longest =
+        aur_radiosity_share(radiosity, 0, end) - aur_radiosity_share(radiosity, count - 1, radiosity->paths);
+    work.blocks_each = (size_t)(longest / AUR_RADIOSITY_BLOCK + 1);
+    atomic_init(&work.next, 0);
+    const aur_result result = aur_parallel_for(&(aur_parallel_options){.threads = radiosity->lane_count},
+                                               radiosity->lane_count, run_lane, &work);
+    for (size_t i = 0; i < radiosity->lane_count * count; ++i)
+        aur_radiosity_tally_take(&radiosity->tallies[i % count], &radiosity->lanes[i]);
+    radiosity->paths = end;
+    return result;
+}
+
+static void warn_of_ends(aur_radiosity *radiosity) {
+    aur_radiosity_description d;
+    aur_radiosity_describe(radiosity, &d);
+    const aur_warnings *const warnings = &radiosity->options.warnings;
+    if (radiosity->warned)
+        return;
+    radiosity->warned = d.lost > 0 || d.behind > 0 || d.trapped > 0;
+    const double percent = 100.0 / (double)d.paths;
+    if (d.lost > 0)
+        aur_warn_at(warnings, (aur_location){0},
+                    "radiosity: %" PRIu64 " of %" PRIu64 " paths (%.3g %%) left the scene: it is open%s",
+                    d.lost, d.paths, percent * (double)d.lost,
+                    d.coincident > 0 ? ", or surfaces lie on each other" : "");
+    if (d.behind > 0)
+        aur_warn_at(warnings, (aur_location){0},
+                    "radiosity: %" PRIu64 " of %" PRIu64
+                    " paths (%.3g %%) ended on the back of a one-sided surface",
+                    d.behind, d.paths, percent * (double)d.behind);
+    if (d.trapped > 0)
+        aur_warn_at(warnings, (aur_location){0},
+                    "radiosity: %" PRIu64 " of %" PRIu64 " paths (%.3g %%) ended between mirrors", d.trapped,
+                    d.paths, percent * (double)d.trapped);
+}
+
+aur_result aur_radiosity_trace(aur_radiosity *radiosity, uint64_t paths, aur_error *error) {
+    enum { BLOCKS_A_BATCH = 128 };
+    if (paths == 0)
+        return aur_fail(error, AUR_ERROR_ARGUMENT, "radiosity: the number of paths must be at least 1");
+    if (paths < radiosity->paths)
+        return aur_fail(error, AUR_ERROR_ARGUMENT,
+                        "radiosity: there are %" PRIu64 " paths already: %" PRIu64 " are fewer",
+                        radiosity->paths, paths);
+    if (paths == radiosity->paths)
+        return AUR_OK;
+    point_source points;
+    aur_result result = make_points(radiosity, paths, &points, error);
+    if (result != AUR_OK)
+        return result;
+    result = prepare_lanes(radiosity, error);
+    const aur_progress *const progress = &radiosity->options.progress;
+    const uint64_t batch_paths = (uint64_t)AUR_RADIOSITY_BLOCK * BLOCKS_A_BATCH * radiosity->lane_count;
+    while (result == AUR_OK && radiosity->paths < paths) {
+        const uint64_t left = paths - radiosity->paths;
+        result =
+            trace_batch(radiosity, &points, radiosity->paths + (left < batch_paths ? left : batch_paths));
+        if (result != AUR_OK)
+            aur_fail(error, result, "radiosity: %s", aur_result_string(result));
+        else if (progress->function != NULL && left > batch_paths &&
+                 progress->function(progress->user, "radiosity", radiosity->paths, paths) != 0)
+            result = aur_fail(error, AUR_ERROR_CANCELLED, "cancelled");
+    }
+    release_points(&points);
+    if (result == AUR_OK)
+        warn_of_ends(radiosity);
+    return result;
+}
+
+/* --- results */
+
+void aur_radiosity_power(const aur_radiosity *radiosity, size_t patch, double power[3]) {
+    const double scale = radiosity->paths > 0 ? radiosity->walk.quantum / (double)radiosity->paths : 0.0;
+    for (size_t c = 0; c < 3; ++c) {
+        aur_exact_sum sum = {0};
+        for (size_t r = 0; r < radiosity->options.randomizations; ++r)
+            aur_exact_merge(&sum, &radiosity->tallies[r].power[patch][c]);
+        power[c] = scale * aur_exact_value(&sum);
+    }
+}
+
+void aur_radiosity_power_error(const aur_radiosity *radiosity, size_t patch, double error[3]) {
+    const size_t count = radiosity->options.randomizations;
+    for (size_t c = 0; c < 3; ++c) {
+        double sum = 0.0, squares = 0.0;
+        for (size_t r = 0; r < count; ++r) {
+            const uint64_t paths = aur_radiosity_share(radiosity, r, radiosity->paths);
+            const double value = radiosity->walk.quantum *
+                                 aur_exact_value(&radiosity->tallies[r].power[patch][c]) / (double)paths;
+            sum += value;
+            squares += value * value;
+        }
+        const double n = (double)count;
+        const bool known = count > 1 && radiosity->paths >= count;
+        error[c] = known ? sqrt(fmax(0.0, squares - sum * sum / n) / (n - 1.0) / n) : NAN;
+    }
+}
+
+static double total_emitted(const aur_radiosity *radiosity) {
+    double sum = 0.0;
+    for (size_t i = 0; i < radiosity->scene.triangle_count; ++i) {
+        const aur_vector l = radiosity->scene.emission[i];
+        sum += AUR_PI * radiosity->scene.areas[i] * ((double)l.x + (double)l.y + (double)l.z);
+    }
+    return sum;
+}
+
+void aur_radiosity_describe(const aur_radiosity *radiosity, aur_radiosity_description *d) {
+    const aur_radiosity_scene *const scene = &radiosity->scene;
+    *d = (aur_radiosity_description){.triangles = scene->triangle_count,
+                                     .patches = scene->patch_count,
+                                     .lights = radiosity->walk.light_count,
+                                     .dimension = 2 * radiosity->options.bounces + 4,
+                                     .area = scene->area,
+                                     .paths = radiosity->paths,
+                                     .coincident = radiosity->coincident,
+                                     .change = radiosity->change,
+                                     .emitted = total_emitted(radiosity),
+                                     .error = aur_radiosity_standard_error(radiosity)};
+    double last = 0.0, rest = 0.0, received = 0.0;
+    for (size_t r = 0; r < radiosity->options.randomizations; ++r) {
+        const aur_radiosity_tally *const tally = &radiosity->tallies[r];
+        d->rays += tally->rays;
+        d->lost += tally->lost;
+        d->behind += tally->behind;
+        d->trapped += tally->trapped;
+        last += aur_exact_value(&tally->last);
+        rest += aur_exact_value(&tally->rest);
+        for (size_t i = 0; i < tally->patch_count; ++i)
+            for (size_t c = 0; c < 3; ++c)
+                received += aur_exact_value(&tally->power[i][c]);
+    }
+    const double missing = rest < last ? rest / (1.0 - rest / last) : INFINITY;
+    d->tail = rest == 0.0 ? 0.0 : isfinite(missing) ? missing / (received + missing) : 1.0;
+    for (size_t i = 0; i < scene->triangle_count; ++i)
+        for (size_t side = 0; side < 2; ++side)
+            d->largest_albedo =
+                fmax(d->largest_albedo, (double)aur_vector_max(scene->triangles[i].albedo[side]));
+}
+
+aur_result aur_radiosity_results(const aur_radiosity *radiosity, size_t capacity,
+                                 aur_radiosity_triangle_result *results) {
+    const aur_radiosity_scene *const scene = &radiosity->scene;
+    if (capacity < scene->triangle_count)
+        return AUR_ERROR_CAPACITY;
+    for (size_t i = 0; i < scene->triangle_count; ++i) {
+        aur_radiosity_triangle_result *const out = &results[i];
+        const aur_vector albedo = scene->triangles[i].albedo[0], emission = scene->emission[i];
+        *out = (aur_radiosity_triangle_result){
+            .area = scene->areas[i],
+            .albedo = {(double)albedo.x, (double)albedo.y, (double)albedo.z},
+            .emission = {(double)emission.x, (double)emission.y, (double)emission.z}};
+        double error[3];
+        aur_radiosity_power(radiosity, i, out->power);
+        aur_radiosity_power_error(radiosity, i, error);
+        for (size_t c = 0; c < 3; ++c) {
+            const double share = out->area > 0.0 ? out->albedo[c] / (AUR_PI * out->area) : 0.0;
+            out->radiance[c] = out->emission[c] + share * out->power[c];
+            out->standard_error[c] = share * error[c];
+        }
+    }
+    return AUR_OK;
+}

@@ -1,0 +1,38 @@
+/* The inside of a radiosity solution. */
+#ifndef AUR_TRANSPORT_RADIOSITY_SOLUTION_H
+#define AUR_TRANSPORT_RADIOSITY_SOLUTION_H
+
+#include "transport/radiosity/walk.h"
+
+struct aur_radiosity {
+    aur_radiosity_scene scene;
+    aur_radiosity_walk walk;
+    aur_radiosity_options options;
+    char *sequence; /* options.sequence */
+    uint64_t paths, coincident;
+    double change;                /* NaN: never measured */
+    aur_radiosity_tally *tallies; /* one a randomisation */
+    size_t lane_count;
+    aur_radiosity_tally *lanes; /* one a thread and randomisation: empty between calls */
+    bool warned;
+};
+
+enum { AUR_RADIOSITY_MOST_BOUNCES = 10000, AUR_RADIOSITY_MOST_RANDOMIZATIONS = 1024 };
+
+/* Paths that randomisation r has among the first `paths`. */
+static inline uint64_t aur_radiosity_share(const aur_radiosity *radiosity, size_t r, uint64_t paths) {
+    const uint64_t count = radiosity->options.randomizations;
+    return paths / count + (r < paths % count);
+}
+
+/* The power that a patch receives, RGB watts, over all randomisations. */
+void aur_radiosity_power(const aur_radiosity *radiosity, size_t patch, double power[3]);
+/* The standard error of that; NaN with one randomisation. */
+void aur_radiosity_power_error(const aur_radiosity *radiosity, size_t patch, double error[3]);
+/* Over all patches, in the unit of epsilon. */
+double aur_radiosity_standard_error(const aur_radiosity *radiosity);
+
+/* Pairs of triangles in one plane that overlap; *where tells the shapes of one. */
+uint64_t aur_radiosity_coincidences(const aur_radiosity_scene *scene, uint32_t where[2]);
+
+#endif
