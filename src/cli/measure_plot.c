@@ -45,24 +45,26 @@ static power_law fit(const cli_measure_arguments *arguments, const cli_measure_t
     return (power_law){count, slope, exp((y - slope * x) / n)};
 }
 
-static void print_title(FILE *script, const char *source, const power_law *law) {
-    fputs("title '", script);
-    for (const char *c = source; *c != '\0'; ++c)
-        fprintf(script, *c == '\'' ? "''" : "%c", *c);
+static void print_title(cli_plot *plot, const char *source, const power_law *law) {
+    fputs("title '", plot->script);
+    cli_plot_text(plot, source);
     if (law->count > 0)
-        fprintf(script, "  slope %.3f", law->slope);
-    fputs("' noenhanced", script);
+        fprintf(plot->script, "  slope %.3f", law->slope);
+    fputs("' noenhanced", plot->script);
 }
 
 static void draw_panel(const cli_measure_arguments *arguments, const cli_measure_table *table, size_t metric,
-                       FILE *script) {
+                       cli_plot *plot) {
+    FILE *const script = plot->script;
     const bool spread = arguments->seed_count > 0;
     const char *separator = "plot ";
-    fprintf(script, "set ylabel '%s' noenhanced\n", arguments->metrics[metric]);
+    fputs("set ylabel '", script);
+    cli_plot_text(plot, arguments->metrics[metric]);
+    fputs("' noenhanced\n", script);
     for (size_t s = 0; s < arguments->source_count; ++s) {
         const power_law law = fit(arguments, table, arguments->sources[s], metric);
         fprintf(script, "%s'-' with %s lt %zu ", separator, spread ? "yerrorbars" : "points", s + 1);
-        print_title(script, arguments->sources[s], &law);
+        print_title(plot, arguments->sources[s], &law);
         if (law.count > 0)
             fprintf(script, ", %.17g*x**%.17g with lines lt %zu dt 2 notitle", law.factor, law.slope, s + 1);
         separator = ", ";
@@ -120,7 +122,7 @@ int cli_measure_plot(const cli_measure_arguments *arguments, const cli_measure_t
           plot.script);
     fprintf(plot.script, "set multiplot layout %zu,1\n", arguments->metric_count);
     for (size_t m = 0; m < arguments->metric_count; ++m)
-        draw_panel(arguments, table, m, plot.script);
+        draw_panel(arguments, table, m, &plot);
     fputs("unset multiplot\n", plot.script);
     const int status = cli_plot_close(&plot);
     if (status == CLI_SUCCESS && !arguments->quiet)

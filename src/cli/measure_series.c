@@ -59,13 +59,13 @@ static int plot_series(const cli_measure_arguments *arguments, const series_list
     for (size_t i = 0; i < list->count; ++i) {
         const series_item *const item = &list->items[i];
         if (picture)
-            fprintf(plot.script,
-                    "set cbrange [0:4]\nset title '%s, N = %zu' noenhanced\nunset key\nplot '-' with image\n",
-                    item->source, item->count);
+            fputs("set cbrange [0:4]\nset title '", plot.script);
         else
-            fprintf(plot.script, "%s'-' with %s title '%s, N = %zu' noenhanced", i > 0 ? ", " : "",
-                    strcmp(item->series.columns[0], "point") == 0 ? "points" : "lines", item->source,
-                    item->count);
+            fprintf(plot.script, "%s'-' with %s title '", i > 0 ? ", " : "",
+                    strcmp(item->series.columns[0], "point") == 0 ? "points" : "lines");
+        cli_plot_text(&plot, item->source);
+        fprintf(plot.script, ", N = %zu' noenhanced%s", item->count,
+                picture ? "\nunset key\nplot '-' with image\n" : "");
         for (size_t r = 0; r < item->series.row_count && picture; ++r) {
             const double *const row = item->series.values + r * item->series.column_count;
             fprintf(plot.script, "%g %g %g\n", row[0], row[1], row[2]);

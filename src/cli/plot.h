@@ -4,9 +4,11 @@
 
 #include <stdbool.h>
 #include <stdio.h>
+#include <sys/types.h>
 
 typedef struct cli_plot {
     FILE *script; /* write gnuplot's commands and data here; NULL when it could not be started */
+    pid_t process;
     char *temporary;
     const char *path;
 } cli_plot;
@@ -14,6 +16,9 @@ typedef struct cli_plot {
 /* Starts gnuplot with a terminal for `path`, which ends in .svg or .png, of that many pixels. On failure
  * prints the error and returns false. */
 bool cli_plot_open(const char *path, int width, int height, cli_plot *plot);
+/* Writes text that stands between single quotes in a command: quotes are doubled, and control characters,
+ * which would end the command, become question marks. */
+void cli_plot_text(cli_plot *plot, const char *text);
 /* Ends gnuplot and puts the picture in its place; returns the exit status, after printing what went wrong. */
 int cli_plot_close(cli_plot *plot);
 

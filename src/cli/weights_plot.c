@@ -35,8 +35,9 @@ int cli_weights_plot(const cli_weights_arguments *arguments, const cli_weights_r
         lowest = fmin(lowest, result->xyz[3 * i + 2]);
     const double reach = sqrt(1.0 - lowest);
     for (size_t k = 0; k < result->lobe_count; ++k) {
-        fprintf(script, "set title '%s, %zu samples, weights for %s: %s' noenhanced\n",
-                cli_is_file(arguments->source) ? "file" : arguments->source, result->count,
+        fputs("set title '", script);
+        cli_plot_text(&plot, cli_is_file(arguments->source) ? "file" : arguments->source);
+        fprintf(script, ", %zu samples, weights for %s: %s' noenhanced\n", result->count,
                 k == 0 ? arguments->lobe_text : arguments->mirror_text, arguments->method_name);
         fprintf(script,
                 "plot cos(t),sin(t) with lines lc 'gray', %g*cos(t),%g*sin(t) with lines lc 'gray', "

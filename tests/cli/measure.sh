@@ -73,6 +73,14 @@ if command -v gnuplot >/dev/null; then
   grep -q 'slope -0.751' slopes.svg || fail "the plot does not show the slope"
   prints power $measure jittered -n 64 --metric spectrum --plot spectrum.png
   [ -s spectrum.png ] || fail "no plot of the spectrum"
+  # A path or a name is never a command of gnuplot's.
+  rm -f pwned
+  path=$(printf 'n\nsystem "touch pwned"\n.svg')
+  $measure sobol -n 16,32,64 --metric star --plot "$path" 2>/dev/null && grep -q '</svg>' "$path" ||
+    fail "no plot at a path of three lines"
+  file=$(printf "f'\nsystem 'touch pwned'\n.csv")
+  "$program" points sobol -n 16 -o "$file" && $measure "$file" --domain square --metric star --plot two.svg 2>/dev/null
+  [ -e pwned ] && fail "a name ran a command"
   refuses 'must end in' $measure sobol -n 4 --metric energy --plot slopes.txt
   refuses 'logarithmic' $measure sobol -n 4 --metric net --plot slopes.svg
 fi
