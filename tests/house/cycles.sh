@@ -1,0 +1,40 @@
+#!/usr/bin/env bash
+# No circles: the C files of the libraries can be put in an order in which each calls only files after it. Which file needs
+# which is read from the symbols that its object defines and needs.
+set -u
+build=$(dirname "$1")
+command -v nm >/dev/null && command -v tsort >/dev/null || { echo "skipped: needs nm and tsort"; exit 77; }
+source_tree=$2
+# Rooms that still have circles. A room whose circles are gone leaves this list.
+open_rooms='transport pointset sphere quality material scene image'
+
+# Objects of files that are no longer in the tree stay in a build folder.
+objects=$(find "$build"/CMakeFiles/aureole_{core,points,light}.dir -name '*.c.o' | while read -r object; do
+  source=${object#*.dir/}
+  [ ! -e "$source_tree/${source%.o}" ] || echo "$object"
+done)
+[ -n "$objects" ] || { echo "no object files below $build"; exit 1; }
+
+# One line an arrow: FILE NEEDED SYMBOL.
+# shellcheck disable=SC2086
+nm -A $objects | sed -E 's|^.*\.dir/src/([^:]*)\.o:|\1 |' |
+  awk '$NF !~ /^aur_/ { next }
+       $(NF - 1) == "U" { needs[++count] = $1 " " $NF; next }
+       $(NF - 1) ~ /^[A-Z]$/ { defines[$NF] = $1 }
+       END { for (i = 1; i <= count; ++i) {
+               split(needs[i], part, " ")
+               target = defines[part[2]]
+               if (target != "" && target != part[1]) print part[1], target, part[2] } }' | sort -u >arrows.txt
+[ "$(wc -l <arrows.txt)" -gt 500 ] || { echo "only $(wc -l <arrows.txt) arrows: the symbols were not read"; exit 1; }
+
+for room in $open_rooms; do
+  grep -vE "^$room/[^ ]* $room/" arrows.txt >closed.txt
+  mv closed.txt arrows.txt
+done
+cut -d' ' -f1,2 arrows.txt | sort -u | tsort 2>loops.txt >/dev/null && exit 0
+# Each circle that tsort met, with the symbols that close it.
+sed 's/^tsort: //' loops.txt | awk '/contains a loop/ { print "a circle:"; next } { print "  " $0 }'
+members=$(grep -v 'contains a loop' loops.txt | sed 's/^tsort: //' | sort -u)
+awk -v members="$members" 'BEGIN { n = split(members, m, "\n"); for (i = 1; i <= n; ++i) in_loop[m[i]] = 1 }
+                           ($1 in in_loop) && ($2 in in_loop) { print "  " $1 " needs " $3 " of " $2 }' arrows.txt
+exit 1
