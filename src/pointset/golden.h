@@ -2,7 +2,7 @@
 #ifndef AUR_POINTSET_GOLDEN_H
 #define AUR_POINTSET_GOLDEN_H
 
-#include "pointset/phase.h"
+#include "pointset/fraction128.h"
 #include "pointset/words.h"
 
 /* The fraction of a seed s in [0,1) as a word. */

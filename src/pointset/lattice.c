@@ -8,7 +8,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "pointset/phase.h"
+#include "pointset/fraction128.h"
 #include "pointset/set.h"
 
 static uint64_t multiply_modulo(uint64_t a, uint64_t b, uint64_t n) {

@@ -4,7 +4,7 @@
 
 #include <stddef.h>
 
-#include "pointset/phase.h"
+#include "pointset/fraction128.h"
 
 enum { AUR_R2_DIMENSIONS = 64 };
 

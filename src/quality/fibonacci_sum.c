@@ -13,6 +13,7 @@
 #include "core/parallel.h"
 #include "core/vector.h"
 #include "quadrature/gauss.h"
+#include "sphere/phase.h"
 
 enum {
     NODES = 12,  /* of a panel */
@@ -22,8 +23,6 @@ enum {
     LANES = 8,   /* of the sums, so that their order does not depend on registers */
     LAGS_PER_ITEM = 256
 };
-
-static const uint64_t golden_turn = UINT64_C(0x9E3779B97F4A7C15);
 
 typedef struct lag {
     double k, points;   /* M */
@@ -141,7 +140,7 @@ static aur_result sum_lags(void *context, size_t index) {
         const size_t k = index * LAGS_PER_ITEM + i + 1;
         if (k >= work->count)
             break;
-        const double turn = (double)(int64_t)((uint64_t)k * golden_turn) * 0x1p-64;
+        const double turn = (double)(int64_t)((uint64_t)k * AUR_GOLDEN_PHASE) * 0x1p-64;
         const double sine = sin(AUR_PI * turn);
         const lag l = {(double)k, points, 4.0 * sine * sine};
         const double sum = lag_sum(&l, &work->gauss, work->count - k, work->domain);
@@ -188,7 +187,7 @@ int aur_is_spherical_fibonacci(const aur_points *points) {
     const size_t widest = points->domain == AUR_DOMAIN_SPHERE ? count / 2 : count - 1;
     const double *const wide = points->coordinates + 3 * widest;
     const double shift =
-        atan2(wide[1], wide[0]) - 2.0 * AUR_PI * 0x1p-64 * (double)((uint64_t)widest * golden_turn);
+        atan2(wide[1], wide[0]) - 2.0 * AUR_PI * 0x1p-64 * (double)((uint64_t)widest * AUR_GOLDEN_PHASE);
     const double cosine = cos(shift), sine = sin(shift);
     for (size_t j = 0; j < count; ++j) {
         const double *const x = points->coordinates + 3 * j;
@@ -196,7 +195,7 @@ int aur_is_spherical_fibonacci(const aur_points *points) {
         if (!(fabs(x[2] - (1.0 - below)) <= tolerance))
             return 0;
         const double radius = sqrt(below * (2.0 - below));
-        const double phi = 2.0 * AUR_PI * 0x1p-64 * (double)((uint64_t)j * golden_turn);
+        const double phi = 2.0 * AUR_PI * 0x1p-64 * (double)((uint64_t)j * AUR_GOLDEN_PHASE);
         const double along = radius * cos(phi), across = radius * sin(phi);
         /* A radius made from a rounded z is off by as much as that, over the radius. */
         const double slack = tolerance + 0x1p-52 / radius;

@@ -5,10 +5,12 @@
 
 #include <stdint.h>
 
-/* 1/Phi = (sqrt 5 - 1)/2 turns, the golden angle, rounded to the nearest: 2.6e-21 turn too much, where the
- * customary
- * ...7c15 is 5.2e-20 short. */
-#define AUR_GOLDEN_PHASE UINT64_C(0x9e3779b97f4a7c16)
+#include "pointset/fraction128.h"
+
+/* The golden angle, 1/Phi turns, rounded to the nearest phase: 2.6e-21 turn too much. (The constant without
+ * the rounding, ...7c15, is 5.2e-20 turn short: at 43,000 points the azimuths differ by more than a double's
+ * last digits.) */
+#define AUR_GOLDEN_PHASE (AUR_GOLDEN_HIGH + (AUR_GOLDEN_LOW >> 63))
 
 /* The fraction of `turns`, exact to 2^-64 turn. Any finite number is allowed. */
 static inline uint64_t aur_phase_from_turns(double turns) {

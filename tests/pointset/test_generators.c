@@ -2,8 +2,8 @@
 #include "points.h"
 
 #include "core/random.h"
+#include "pointset/fraction128.h"
 #include "pointset/golden.h"
-#include "pointset/phase.h"
 #include "pointset/set.h"
 
 static void lcg_is_minstd(void **state) {

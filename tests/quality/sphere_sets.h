@@ -1,8 +1,9 @@
-/* Points for the tests of the measures, made from their closed forms. */
+/* Points for the tests of the measures. */
 #ifndef AUR_TESTS_SPHERE_SETS_H
 #define AUR_TESTS_SPHERE_SETS_H
 
 #include <aureole/quality.h>
+#include <aureole/sphere.h>
 #include <math.h>
 #include <stdlib.h>
 
@@ -29,16 +30,13 @@ static inline void set_direction(aur_points *points, size_t index, double z, dou
     points->coordinates[3 * index + 2] = z;
 }
 
-/* Marques 2013 eq. 4 with the azimuth in 64-bit fixed point. */
+/* As the library makes them, so that a measure is tried on the points that it will be asked about. */
 static inline aur_points spherical_fibonacci(size_t count, aur_domain domain) {
-    aur_points points = sphere_points(count);
-    points.domain = domain;
-    const double scale = domain == AUR_DOMAIN_SPHERE ? 1.0 : 2.0;
-    for (size_t j = 0; j < count; ++j) {
-        const uint64_t phase = (uint64_t)j * UINT64_C(0x9E3779B97F4A7C15);
-        set_direction(&points, j, 1.0 - (2.0 * (double)j + 1.0) / (scale * (double)count),
-                      2.0 * AUR_PI * (double)phase * 0x1p-64);
-    }
+    const aur_points_request request = {.options = {.count = count, .domain = domain}};
+    aur_points points = {0};
+    aur_error error = {0};
+    if (aur_points_generate("spherical-fibonacci", &request, &points, &error) != AUR_OK)
+        fail_msg("%s", error.message);
     return points;
 }
 

@@ -1,6 +1,6 @@
-/* Phases i a modulo 1 of irrational a, exact to a double: the constants are 128-bit fractions. */
-#ifndef AUR_POINTSET_PHASE_H
-#define AUR_POINTSET_PHASE_H
+/* Multiples i a modulo 1 of irrational numbers a, exact to a double: a is kept as a fraction of 128 bits. */
+#ifndef AUR_POINTSET_FRACTION128_H
+#define AUR_POINTSET_FRACTION128_H
 
 #include <stdint.h>
 
@@ -9,9 +9,11 @@ typedef struct aur_fraction128 {
     uint64_t high, low;
 } aur_fraction128;
 
-/* 1/Phi, the golden ratio less one, cut after 128 bits. */
-static const aur_fraction128 aur_golden_fraction = {UINT64_C(0x9e3779b97f4a7c15),
-                                                    UINT64_C(0xf39cc0605cedc834)};
+/* 1/Phi = (sqrt 5 - 1)/2, the golden ratio less one, cut after 128 bits: the project's one copy. What works
+ * with 64 bits takes AUR_GOLDEN_PHASE of sphere/phase.h, which is made from it. */
+#define AUR_GOLDEN_HIGH UINT64_C(0x9e3779b97f4a7c15)
+#define AUR_GOLDEN_LOW UINT64_C(0xf39cc0605cedc834)
+static const aur_fraction128 aur_golden_fraction = {AUR_GOLDEN_HIGH, AUR_GOLDEN_LOW};
 
 __extension__ typedef unsigned __int128 aur_wide;
 
