@@ -2,6 +2,8 @@
  * through. */
 #include "material/texture.h"
 
+extern const aur_bsdf_descriptor aur_bsdf_mask;
+
 typedef struct mask {
     aur_color opacity;
     const aur_bsdf *nested;
@@ -63,10 +65,17 @@ static size_t lobes(const aur_bsdf *bsdf, aur_bsdf_point point, aur_vector view,
     size_t count = self->nested->descriptor->lobes(self->nested, point, view, lobe);
     for (size_t i = 0; i < count; ++i)
         lobe[i].coefficient = aur_vector_scale(lobe[i].coefficient, opacity);
-    if (opacity < 1.0f && count < AUR_BSDF_LOBE_CAPACITY)
-        lobe[count++] = (aur_bsdf_lobe){.shape = AUR_LOBE_SHAPE_SPECULAR,
-                                        .axis = aur_vector_scale(view, -1.0f),
-                                        .coefficient = {1.0f - opacity, 1.0f - opacity, 1.0f - opacity}};
+    if (self->opacity.texture == NULL && opacity >= 1.0f)
+        return count;
+    const aur_vector straight = aur_vector_scale(view, -1.0f);
+    /* A nested mask's light that goes straight on and this one's are one lobe, the last. */
+    const bool nested = self->nested->descriptor == &aur_bsdf_mask && count > 0 &&
+                        lobe[count - 1].shape == AUR_LOBE_SHAPE_SPECULAR;
+    if (!nested)
+        lobe[count++] = (aur_bsdf_lobe){.shape = AUR_LOBE_SHAPE_SPECULAR, .axis = straight};
+    const float through = 1.0f - opacity;
+    lobe[count - 1].coefficient =
+        aur_vector_add(lobe[count - 1].coefficient, (aur_vector){through, through, through});
     return count;
 }
 

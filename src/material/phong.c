@@ -74,6 +74,11 @@ bool aur_phong_sample(const aur_bsdf *bsdf, aur_bsdf_point point, aur_vector vie
     return aur_vector_max(value) > 0.0f;
 }
 
+/* Whether there is a lobe at all: one that a texture makes black here is elsewhere. */
+static bool may_reflect(const aur_color *color) {
+    return color->texture != NULL || aur_vector_max(color->constant) > 0.0f;
+}
+
 size_t aur_phong_lobes(const aur_bsdf *bsdf, aur_bsdf_point point, aur_vector view, float scale,
                        bool times_cosine, aur_bsdf_lobe *lobe) {
     const aur_phong *const self = bsdf->data;
@@ -81,13 +86,13 @@ size_t aur_phong_lobes(const aur_bsdf *bsdf, aur_bsdf_point point, aur_vector vi
         return 0;
     const aur_phong_point at = aur_phong_at(bsdf, point);
     size_t count = 0;
-    if (aur_vector_max(at.diffuse) > 0.0f)
+    if (may_reflect(&self->diffuse))
         lobe[count++] = (aur_bsdf_lobe){.shape = AUR_LOBE_SHAPE_COSINE_POWER,
                                         .diffuse = true,
                                         .exponent = 1.0f,
                                         .axis = {0.0f, 0.0f, 1.0f},
                                         .coefficient = aur_vector_scale(at.diffuse, 1.0f / AUR_PI_F)};
-    if (aur_vector_max(at.specular) > 0.0f)
+    if (may_reflect(&self->specular))
         lobe[count++] = (aur_bsdf_lobe){.shape = AUR_LOBE_SHAPE_COSINE_POWER,
                                         .times_cosine = times_cosine,
                                         .exponent = self->exponent,

@@ -1,6 +1,7 @@
 #include "materials.h"
 
 #include "material/sampling.h"
+#include "material/texture.h"
 
 static const aur_bsdf_point point = {0.3f, 0.6f};
 
@@ -231,6 +232,59 @@ static void lobes_are_the_material(void **state) {
     }
 }
 
+/* Final gathering makes a rule for each lobe before it knows where light falls: lobes and their numbers do
+ * not depend on the point, though a texture makes them black there. */
+static void lobes_are_the_same_at_every_point(void **state) {
+    (void)state;
+    aur_parameters parameters;
+    aur_error error = {0};
+    aur_texture *texture;
+    assert_int_equal(aur_parameters_parse(&parameters, "texture", "checkerboard:color0=0,color1=0.5", &error),
+                     AUR_OK);
+    assert_int_equal(aur_texture_create(&parameters, &texture, &error), AUR_OK);
+    aur_parameters_release(&parameters);
+    static const char *const names[] = {"diffuse_reflectance", "specular_reflectance"};
+    for (size_t k = 0; k < 2; ++k) {
+        aur_bsdf *bsdf;
+        assert_int_equal(aur_parameters_parse(&parameters, "bsdf", "phong:exponent=9", &error), AUR_OK);
+        assert_int_equal(
+            aur_parameters_add_object(&parameters, names[k], "texture", texture, (aur_location){0}, &error),
+            AUR_OK);
+        assert_int_equal(aur_bsdf_create(&parameters, &bsdf, &error), AUR_OK);
+        aur_parameters_release(&parameters);
+        const aur_vector view = {0.0f, 0.6f, 0.8f};
+        aur_bsdf_lobe black[AUR_BSDF_LOBE_CAPACITY], lit[AUR_BSDF_LOBE_CAPACITY];
+        assert_int_equal(bsdf->descriptor->lobes(bsdf, (aur_bsdf_point){0.0f, 0.0f}, view, black), 2);
+        assert_int_equal(bsdf->descriptor->lobes(bsdf, (aur_bsdf_point){0.7f, 0.2f}, view, lit), 2);
+        for (size_t i = 0; i < 2; ++i) {
+            assert_int_equal(black[i].shape, lit[i].shape);
+            assert_int_equal(black[i].diffuse, lit[i].diffuse);
+            assert_true(black[i].exponent == lit[i].exponent && lit[i].coefficient.x > 0.0f);
+            assert_int_equal(black[i].coefficient.x > 0.0f, i != k);
+        }
+        aur_bsdf_destroy(bsdf);
+    }
+    aur_texture_destroy(texture);
+}
+
+/* Through n masks of opacity a goes 1 - a^n of the light, all of it in a lobe. */
+static void masks_in_masks_let_all_light_through(void **state) {
+    (void)state;
+    const aur_vector view = {0.0f, 0.6f, 0.8f};
+    aur_bsdf *made[6] = {make_bsdf("phong", NULL)};
+    for (size_t n = 1; n < 6; ++n) {
+        made[n] = make_bsdf("mask:opacity=0.5", made[n - 1]);
+        aur_bsdf_lobe lobes[AUR_BSDF_LOBE_CAPACITY];
+        const size_t count = made[n]->descriptor->lobes(made[n], point, view, lobes);
+        float through = 0.0f;
+        for (size_t i = 0; i < count; ++i)
+            through += lobes[i].shape == AUR_LOBE_SHAPE_SPECULAR ? lobes[i].coefficient.x : 0.0f;
+        assert_true(through == 1.0f - ldexpf(1.0f, -(int)n));
+    }
+    for (size_t n = 6; n-- > 0;)
+        aur_bsdf_destroy(made[n]);
+}
+
 /* Draws of a sampled lobe alone have weight value / pdf, and their mean is the integral of the value: against
  * a midpoint rule over the sphere in cosine and azimuth, at most 1 % off where facets are this rough. */
 static void sampled_lobes_are_drawn_alone(void **state) {
@@ -311,6 +365,8 @@ int main(void) {
         cmocka_unit_test(is_reciprocal),
         cmocka_unit_test(conserves_energy),
         cmocka_unit_test(lobes_are_the_material),
+        cmocka_unit_test(lobes_are_the_same_at_every_point),
+        cmocka_unit_test(masks_in_masks_let_all_light_through),
         cmocka_unit_test(sampled_lobes_are_drawn_alone),
         cmocka_unit_test(lobe_reflectance_is_its_parameter),
     };
