@@ -8,9 +8,11 @@
 #if defined(__GNUC__)
 #define AUR_API __attribute__((visibility("default")))
 #define AUR_NONNULL(...) __attribute__((nonnull(__VA_ARGS__)))
+#define AUR_PRINTF(text, first) __attribute__((format(printf, text, first)))
 #else
 #define AUR_API
 #define AUR_NONNULL(...)
+#define AUR_PRINTF(text, first)
 #endif
 
 #ifdef __cplusplus
@@ -51,6 +53,11 @@ typedef struct aur_error {
  * Returns the length that the whole text has, as snprintf does. */
 AUR_API size_t aur_error_format(const aur_error *error, char *text, size_t capacity) AUR_NONNULL(1);
 
+/* Fills `error` (NULL: nothing is filled) with a result and a formatted message, and returns that result: for
+ * callbacks that fail, and for programs that report their own errors as the library's. */
+AUR_API aur_result aur_error_set(aur_error *error, aur_result result, const char *format, ...) AUR_NONNULL(3)
+    AUR_PRINTF(3, 4);
+
 /* Called now and then, from any thread but never from two at once, with 0 <= done <= total. A non-zero return
  * asks the work to stop; it then ends with AUR_ERROR_CANCELLED. */
 typedef int (*aur_progress_function)(void *user, const char *what, uint64_t done, uint64_t total);
@@ -60,7 +67,8 @@ typedef struct aur_progress {
     void *user;
 } aur_progress;
 
-/* Called for each thing that is worth saying and is not an error; `where` may be empty. */
+/* Called for each thing that is worth saying and is not an error. The message begins with "FILE:LINE:COLUMN:
+ * " as far as these are known. */
 typedef void (*aur_warning_function)(void *user, const char *message);
 
 typedef struct aur_warnings {

@@ -4,6 +4,8 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "core/text.h"
+
 const char *aur_version(void) {
     return AUR_VERSION;
 }
@@ -70,9 +72,11 @@ static void fill(aur_error *error, aur_location location, aur_result result, con
     const size_t length = strlen(file);
     const size_t room = sizeof error->file - 1;
     const char *tail = length > room ? file + (length - room) : file;
-    /* The caller may pass the file of this very error. */
+    /* The caller may pass the file or the message of this very error. */
+    char message[AUR_ERROR_MESSAGE_CAPACITY];
+    aur_format_list(message, sizeof message, format, arguments);
     memmove(error->file, tail, strlen(tail) + 1);
-    vsnprintf(error->message, sizeof error->message, format, arguments);
+    memcpy(error->message, message, strlen(message) + 1);
 }
 
 aur_result aur_fail(aur_error *error, aur_result result, const char *format, ...) {
@@ -83,6 +87,20 @@ aur_result aur_fail(aur_error *error, aur_result result, const char *format, ...
     fill(error, (aur_location){0}, result, format, arguments);
     va_end(arguments);
     return result;
+}
+
+aur_result aur_error_set(aur_error *error, aur_result result, const char *format, ...) {
+    if (error == NULL)
+        return result;
+    va_list arguments;
+    va_start(arguments, format);
+    fill(error, (aur_location){0}, result, format, arguments);
+    va_end(arguments);
+    return result;
+}
+
+aur_result aur_fail_memory(aur_error *error) {
+    return aur_fail(error, AUR_ERROR_MEMORY, "out of memory");
 }
 
 aur_result aur_fail_at(aur_error *error, aur_location location, aur_result result, const char *format, ...) {
@@ -104,49 +122,7 @@ void aur_warn_at(const aur_warnings *warnings, aur_location location, const char
         return;
     va_list arguments;
     va_start(arguments, format);
-    vsnprintf(text + used, sizeof text - used, format, arguments);
+    aur_format_list(text + used, sizeof text - used, format, arguments);
     va_end(arguments);
     warnings->function(warnings->user, text);
-}
-
-enum { LONGEST_NAME = 63 };
-
-/* Levenshtein distance of two short names. */
-static size_t edit_distance(const char *a, const char *b) {
-    size_t row[LONGEST_NAME + 1];
-    const size_t length_a = strlen(a);
-    const size_t length_b = strlen(b);
-    for (size_t j = 0; j <= length_b; ++j)
-        row[j] = j;
-    for (size_t i = 1; i <= length_a; ++i) {
-        size_t diagonal = row[0];
-        row[0] = i;
-        for (size_t j = 1; j <= length_b; ++j) {
-            const size_t substitute = diagonal + (a[i - 1] != b[j - 1]);
-            diagonal = row[j];
-            size_t best = substitute < row[j] + 1 ? substitute : row[j] + 1;
-            if (row[j - 1] + 1 < best)
-                best = row[j - 1] + 1;
-            row[j] = best;
-        }
-    }
-    return row[length_b];
-}
-
-const char *aur_nearest_name(const char *wanted, size_t count, const char *const *names) {
-    const size_t length = strlen(wanted);
-    if (length == 0 || length > LONGEST_NAME)
-        return NULL;
-    const char *best = NULL;
-    size_t best_distance = length < 6 ? 3 : length / 2;
-    for (size_t i = 0; i < count; ++i) {
-        if (strlen(names[i]) > LONGEST_NAME)
-            continue;
-        const size_t distance = edit_distance(wanted, names[i]);
-        if (distance < best_distance) {
-            best = names[i];
-            best_distance = distance;
-        }
-    }
-    return best;
 }

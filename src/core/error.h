@@ -11,18 +11,17 @@ typedef struct aur_location {
     size_t column;
 } aur_location;
 
-aur_result aur_fail(aur_error *error, aur_result result, const char *format, ...)
-    __attribute__((format(printf, 3, 4)));
+/* aur_error_set under the name that the libraries call it by. */
+aur_result aur_fail(aur_error *error, aur_result result, const char *format, ...) AUR_PRINTF(3, 4);
 
 aur_result aur_fail_at(aur_error *error, aur_location location, aur_result result, const char *format, ...)
-    __attribute__((format(printf, 4, 5)));
+    AUR_PRINTF(4, 5);
 
 /* Sends one formatted warning, if anyone listens; a location is put before it as in aur_error_format. */
 void aur_warn_at(const aur_warnings *warnings, aur_location location, const char *format, ...)
-    __attribute__((format(printf, 3, 4)));
+    AUR_PRINTF(3, 4);
 
-/* The name nearest to `wanted` among `count` names by edit distance, or NULL when none is near enough to
- * suggest. */
-const char *aur_nearest_name(const char *wanted, size_t count, const char *const *names);
+/* The one wording for memory that is not to be had. */
+aur_result aur_fail_memory(aur_error *error);
 
 #endif

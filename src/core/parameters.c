@@ -9,9 +9,9 @@
 #include <string.h>
 #include <strings.h>
 
-static aur_result fail_memory(aur_error *error) {
-    return aur_fail(error, AUR_ERROR_MEMORY, "out of memory");
-}
+#include "core/array.h"
+#include "core/names.h"
+#include "core/text.h"
 
 aur_result aur_parameters_init(aur_parameters *parameters, const char *kind, const char *plugin,
                                aur_location location, aur_error *error) {
@@ -21,7 +21,7 @@ aur_result aur_parameters_init(aur_parameters *parameters, const char *kind, con
     if (parameters->kind != NULL && parameters->plugin != NULL)
         return AUR_OK;
     aur_parameters_release(parameters);
-    return fail_memory(error);
+    return aur_fail_memory(error);
 }
 
 void aur_parameters_release(aur_parameters *parameters) {
@@ -48,20 +48,15 @@ static aur_result add(aur_parameters *parameters, aur_parameter item, const char
                            "%s '%s': '%s' is given twice, first in line %zu", parameters->kind,
                            parameters->plugin, name, line);
     }
-    if (parameters->count == parameters->capacity) {
-        const size_t capacity = parameters->capacity == 0 ? 8 : parameters->capacity * 2;
-        aur_parameter *const larger = realloc(parameters->items, capacity * sizeof *larger);
-        if (larger == NULL)
-            return fail_memory(error);
-        parameters->items = larger;
-        parameters->capacity = capacity;
-    }
+    if (!aur_array_reserve(&parameters->items, &parameters->capacity, parameters->count + 1,
+                           sizeof *parameters->items))
+        return aur_fail_memory(error);
     item.name = strdup(name);
     item.text = text != NULL ? strdup(text) : NULL;
     if (item.name == NULL || (text != NULL && item.text == NULL)) {
         free(item.name);
         free(item.text);
-        return fail_memory(error);
+        return aur_fail_memory(error);
     }
     parameters->items[parameters->count++] = item;
     return AUR_OK;
@@ -127,7 +122,7 @@ aur_result aur_parameters_parse(aur_parameters *parameters, const char *kind, co
     *parameters = (aur_parameters){0};
     char *const copy = strdup(text);
     if (copy == NULL)
-        return fail_memory(error);
+        return aur_fail_memory(error);
     char *rest = strchr(copy, ':');
     if (rest != NULL)
         *rest++ = '\0';
@@ -165,37 +160,6 @@ const aur_parameter *aur_parameters_find(aur_parameters *parameters, const char 
     return NULL;
 }
 
-bool aur_parse_double(const char *text, double *value) {
-    char *end;
-    const double parsed = strtod(text, &end);
-    if (end == text || isnan(parsed))
-        return false;
-    while (isspace((unsigned char)*end))
-        ++end;
-    if (*end != '\0')
-        return false;
-    *value = parsed;
-    return true;
-}
-
-size_t aur_parse_doubles(const char *text, double *values, size_t capacity) {
-    size_t count = 0;
-    for (;;) {
-        while (isspace((unsigned char)*text) || *text == ',')
-            ++text;
-        if (*text == '\0')
-            return count;
-        char *end;
-        const double parsed = strtod(text, &end);
-        if (end == text || isnan(parsed) || (*end != '\0' && *end != ',' && !isspace((unsigned char)*end)))
-            return SIZE_MAX;
-        if (count < capacity)
-            values[count] = parsed;
-        ++count;
-        text = end;
-    }
-}
-
 static aur_result fail_value(aur_error *error, const aur_parameters *parameters, const aur_parameter *item,
                              const char *expected) {
     return aur_fail_at(error, item->location, AUR_ERROR_FORMAT, "%s '%s': '%s' must be %s, not '%s'",
@@ -210,11 +174,11 @@ static aur_result fail_range(aur_error *error, const aur_parameters *parameters,
                              double minimum, double maximum) {
     char expected[128];
     if (isinf(maximum))
-        snprintf(expected, sizeof expected, "at least %g", minimum);
+        aur_format(expected, sizeof expected, "at least %g", minimum);
     else if (isinf(minimum))
-        snprintf(expected, sizeof expected, "at most %g", maximum);
+        aur_format(expected, sizeof expected, "at most %g", maximum);
     else
-        snprintf(expected, sizeof expected, "between %g and %g", minimum, maximum);
+        aur_format(expected, sizeof expected, "between %g and %g", minimum, maximum);
     return fail_value(error, parameters, item, expected);
 }
 
@@ -295,15 +259,14 @@ aur_result aur_parameters_choice(aur_parameters *parameters, const char *name, s
     const aur_parameter *const item = aur_parameters_find(parameters, name);
     if (item == NULL)
         return AUR_OK;
-    char expected[256] = "one of";
-    for (size_t i = 0; i < count; ++i) {
-        if (kind_fits(item, AUR_PARAMETER_STRING) && strcmp(item->text, choices[i]) == 0) {
-            *value = i;
-            return AUR_OK;
-        }
-        const size_t used = strlen(expected);
-        snprintf(expected + used, sizeof expected - used, "%s %s", i > 0 ? "," : "", choices[i]);
+    const aur_names names = aur_names_of(count, choices);
+    const size_t found = kind_fits(item, AUR_PARAMETER_STRING) ? aur_names_find(names, item->text) : count;
+    if (found < count) {
+        *value = found;
+        return AUR_OK;
     }
+    char expected[AUR_ERROR_MESSAGE_CAPACITY] = "one of ";
+    aur_names_list(names, expected + strlen(expected), sizeof expected - strlen(expected));
     return fail_value(error, parameters, item, expected);
 }
 
@@ -338,25 +301,11 @@ aur_result aur_parameters_transform(aur_parameters *parameters, const char *name
     return AUR_OK;
 }
 
-/* "a, b, c" into text[capacity]. */
-static void join_names(char *text, size_t capacity, size_t count, const char *const *names) {
-    text[0] = '\0';
-    for (size_t k = 0; k < count; ++k) {
-        const size_t used = strlen(text);
-        snprintf(text + used, capacity - used, "%s%s", k > 0 ? ", " : "", names[k]);
-    }
-}
-
 aur_result aur_fail_unknown_plugin(aur_error *error, const aur_parameters *parameters, size_t count,
                                    const char *const *names) {
-    const char *const nearest = aur_nearest_name(parameters->plugin, count, names);
-    if (nearest != NULL)
-        return aur_fail_at(error, parameters->location, AUR_ERROR_NAME, "unknown %s '%s'; did you mean '%s'?",
-                           parameters->kind, parameters->plugin, nearest);
-    char known[512];
-    join_names(known, sizeof known, count, names);
-    return aur_fail_at(error, parameters->location, AUR_ERROR_NAME, "unknown %s '%s'; there are: %s",
-                       parameters->kind, parameters->plugin, known);
+    size_t index;
+    return aur_names_choose(aur_names_of(count, names), parameters->kind, parameters->plugin,
+                            parameters->location, &index, error);
 }
 
 aur_result aur_parameters_finish(const aur_parameters *parameters, aur_error *error) {
@@ -364,13 +313,14 @@ aur_result aur_parameters_finish(const aur_parameters *parameters, aur_error *er
         const aur_parameter *const item = &parameters->items[i];
         if (item->used)
             continue;
-        const char *const nearest = aur_nearest_name(item->name, parameters->known_count, parameters->known);
+        const aur_names names = aur_names_of(parameters->known_count, parameters->known);
+        const char *const nearest = aur_names_nearest(names, item->name);
         if (nearest != NULL)
             return aur_fail_at(error, item->location, AUR_ERROR_NAME,
                                "%s '%s' has no '%s'; did you mean '%s'?", parameters->kind,
                                parameters->plugin, item->name, nearest);
-        char known[512];
-        join_names(known, sizeof known, parameters->known_count, parameters->known);
+        char known[AUR_ERROR_MESSAGE_CAPACITY];
+        aur_names_list(names, known, sizeof known);
         if (known[0] == '\0')
             return aur_fail_at(error, item->location, AUR_ERROR_NAME,
                                "%s '%s' has no '%s': it takes no parameters", parameters->kind,

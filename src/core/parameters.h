@@ -95,11 +95,4 @@ aur_result aur_parameters_finish(const aur_parameters *parameters, aur_error *er
 aur_result aur_fail_unknown_plugin(aur_error *error, const aur_parameters *parameters, size_t count,
                                    const char *const *names);
 
-/* Parses one number that fills all of `text` but for spaces around it; `e-008` and `inf` are numbers, NaN is
- * not. */
-bool aur_parse_double(const char *text, double *value);
-/* Parses up to `capacity` numbers split by spaces or commas; returns how many there are, or SIZE_MAX when a
- * piece is not a number. */
-size_t aur_parse_doubles(const char *text, double *values, size_t capacity);
-
 #endif

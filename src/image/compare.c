@@ -1,6 +1,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "core/text.h"
 #include "image/format.h"
 #include "image/metric.h"
 #include "image/tone.h"

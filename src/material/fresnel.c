@@ -3,6 +3,8 @@
 #include <math.h>
 #include <string.h>
 
+#include "core/text.h"
+
 float aur_fresnel_dielectric(float cosine, float ior, float *refracted) {
     const float ratio = cosine >= 0.0f ? ior : 1.0f / ior; /* of the other side to this one */
     const float here = fabsf(cosine);

@@ -4,6 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "core/text.h"
 #include "pointset/set.h"
 
 /* The table of square sets: one line for each file. */

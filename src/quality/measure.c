@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "core/parameters.h"
+#include "core/text.h"
 
 static const aur_measure_row *const rows[] = {
     &aur_measure_energy,            //

@@ -5,6 +5,7 @@
 
 #include "core/error.h"
 #include "core/parameters.h"
+#include "core/text.h"
 #include "quality/measure.h"
 
 /* "S[:LOBE]". */

@@ -6,6 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "core/text.h"
 #include "scene/properties.h"
 #include "scene/scene_data.h"
 

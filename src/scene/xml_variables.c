@@ -4,6 +4,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "core/text.h"
+
 static aur_xml_variable *find(const aur_xml_variables *variables, const char *name) {
     for (size_t i = 0; i < variables->count; ++i)
         if (strcmp(variables->items[i].name, name) == 0)

@@ -8,6 +8,7 @@
 #include <aureole/sphere.h>
 
 #include "core/error.h"
+#include "core/text.h"
 #include "core/vector.h"
 #include "pointset/set.h"
 #include "sphere/native.h"

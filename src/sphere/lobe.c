@@ -6,6 +6,7 @@
 
 #include "core/error.h"
 #include "core/parameters.h"
+#include "core/text.h"
 #include "core/vector.h"
 #include "sphere/lobe_ggx.h"
 

@@ -3,6 +3,7 @@
 #include <string.h>
 
 #include "core/parameters.h"
+#include "core/text.h"
 
 static void parses_a_specification(void **state) {
     (void)state;

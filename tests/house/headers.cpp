@@ -8,6 +8,8 @@
 #include <aureole/render.h>
 #include <aureole/scene.h>
 #include <aureole/sphere.h>
+#include <aureole/statistics.h>
+#include <aureole/text.h>
 
 extern const char *aureole_headers_compile_as_cxx();
 

@@ -1,0 +1,100 @@
+#include "core/names.h"
+
+#include <string.h>
+
+#include "core/text.h"
+
+enum { LONGEST_NAME = 63 };
+
+/* Levenshtein distance of two short names. */
+static size_t edit_distance(const char *a, const char *b) {
+    size_t row[LONGEST_NAME + 1];
+    const size_t length_a = strlen(a);
+    const size_t length_b = strlen(b);
+    for (size_t j = 0; j <= length_b; ++j)
+        row[j] = j;
+    for (size_t i = 1; i <= length_a; ++i) {
+        size_t diagonal = row[0];
+        row[0] = i;
+        for (size_t j = 1; j <= length_b; ++j) {
+            const size_t substitute = diagonal + (a[i - 1] != b[j - 1]);
+            diagonal = row[j];
+            size_t best = substitute < row[j] + 1 ? substitute : row[j] + 1;
+            if (row[j - 1] + 1 < best)
+                best = row[j - 1] + 1;
+            row[j] = best;
+        }
+    }
+    return row[length_b];
+}
+
+static const char *string_at(const void *table, size_t index) {
+    const char *const *const strings = table;
+    return strings[index];
+}
+
+aur_names aur_names_of(size_t count, const char *const *strings) {
+    return (aur_names){.count = count, .at = string_at, .table = strings};
+}
+
+size_t aur_names_find(aur_names names, const char *wanted) {
+    size_t i = 0;
+    while (i < names.count && strcmp(names.at(names.table, i), wanted) != 0)
+        ++i;
+    return i;
+}
+
+const char *aur_names_nearest(aur_names names, const char *wanted) {
+    const size_t length = strlen(wanted);
+    if (length == 0 || length > LONGEST_NAME)
+        return NULL;
+    const char *best = NULL;
+    size_t best_distance = length < 6 ? 3 : length / 2;
+    for (size_t i = 0; i < names.count; ++i) {
+        const char *const name = names.at(names.table, i);
+        if (strlen(name) > LONGEST_NAME)
+            continue;
+        const size_t distance = edit_distance(wanted, name);
+        if (distance < best_distance) {
+            best = name;
+            best_distance = distance;
+        }
+    }
+    return best;
+}
+
+size_t aur_names_list(aur_names names, char *text, size_t capacity) {
+    size_t used = 0;
+    if (capacity > 0)
+        text[0] = '\0';
+    for (size_t i = 0; i < names.count; ++i) {
+        const size_t left = used < capacity ? capacity - used : 0;
+        used += (size_t)snprintf(left > 0 ? text + used : NULL, left, "%s%s", i > 0 ? ", " : "",
+                                 names.at(names.table, i));
+    }
+    return used;
+}
+
+aur_result aur_names_choose(aur_names names, const char *kind, const char *wanted, aur_location location,
+                            size_t *index, aur_error *error) {
+    const size_t found = aur_names_find(names, wanted);
+    if (found < names.count) {
+        *index = found;
+        return AUR_OK;
+    }
+    const char *const nearest = aur_names_nearest(names, wanted);
+    if (nearest != NULL)
+        return aur_fail_at(error, location, AUR_ERROR_NAME, "unknown %s '%s'; did you mean '%s'?", kind,
+                           wanted, nearest);
+    char list[AUR_ERROR_MESSAGE_CAPACITY]; /* what does not fit here does not fit the message either */
+    aur_names_list(names, list, sizeof list);
+    return aur_fail_at(error, location, AUR_ERROR_NAME, "unknown %s '%s'; there are: %s", kind, wanted, list);
+}
+
+const char *aur_nearest_name(const char *wanted, size_t count, const char *const *names) {
+    return aur_names_nearest(aur_names_of(count, names), wanted);
+}
+
+size_t aur_list_names(size_t count, const char *const *names, char *text, size_t capacity) {
+    return aur_names_list(aur_names_of(count, names), text, capacity);
+}

@@ -1,0 +1,32 @@
+/* Tables whose rows have names: finding one, suggesting the nearest, listing them all in an error's text. */
+#ifndef AUR_CORE_NAMES_H
+#define AUR_CORE_NAMES_H
+
+#include "core/error.h"
+
+/* The names of a table. `at` gives the name of row `index` < count; `table` is what it is given. */
+typedef struct aur_names {
+    size_t count;
+    const char *(*at)(const void *table, size_t index);
+    const void *table;
+} aur_names;
+
+/* The names of an array of strings, which must outlive them. */
+aur_names aur_names_of(size_t count, const char *const *strings);
+
+/* The index of the row called `wanted`, or names.count. */
+size_t aur_names_find(aur_names names, const char *wanted);
+
+/* The nearest name by edit distance, or NULL when none is near enough to suggest. */
+const char *aur_names_nearest(aur_names names, const char *wanted);
+
+/* Writes "a, b, c" into text[capacity], always terminated; returns the length of the whole list, as snprintf
+ * does. */
+size_t aur_names_list(aur_names names, char *text, size_t capacity);
+
+/* AUR_OK with the index of the row called `wanted`, or AUR_ERROR_NAME with "unknown KIND 'WANTED'; did you
+ * mean 'NAME'?" or, when nothing is near, "unknown KIND 'WANTED'; there are: a, b, c". */
+aur_result aur_names_choose(aur_names names, const char *kind, const char *wanted, aur_location location,
+                            size_t *index, aur_error *error);
+
+#endif
