@@ -6,11 +6,15 @@
 #include "transport/photons/bright_texels.h"
 
 /* Every triangle of the Cornell box but the light's reflects a third of what it gets, on both sides. */
-static bool third(const void *context, uint32_t shape, aur_vector albedo_on_pi[2]) {
-    const aur_scene *const scene = context;
-    const float value = 1.0f / 3.0f / AUR_PI_F;
-    albedo_on_pi[0] = albedo_on_pi[1] = (aur_vector){value, value, value};
-    return aur_shape_emitter(scene, shape) == AUR_NO_EMITTER;
+static const float THIRD_ON_PI = 1.0f / 3.0f / AUR_PI_F;
+
+static aur_shape_class *make_classes(const aur_scene *scene) {
+    aur_shape_class *classes;
+    assert_int_equal(aur_shape_classes_create(scene, &classes, NULL), AUR_OK);
+    for (uint32_t i = 0; i < aur_scene_shape_count(scene); ++i)
+        classes[i].albedo_on_pi[0] = classes[i].albedo_on_pi[1] =
+            (aur_vector){THIRD_ON_PI, THIRD_ON_PI, THIRD_ON_PI};
+    return classes;
 }
 
 typedef struct box {
@@ -28,7 +32,9 @@ static box open_box(size_t photons) {
         .photons = {.count = photons, .max_edges = SIZE_MAX, .seed = 3, .threads = 1},
         .photons_a_texel = 16.0};
     assert_int_equal(aur_irradiance_map_create(b.scene, &options, &b.map, &error), AUR_OK);
-    assert_int_equal(aur_bright_texels_create(b.scene, b.map, third, b.scene, &b.bright, &error), AUR_OK);
+    aur_shape_class *const classes = make_classes(b.scene);
+    assert_int_equal(aur_bright_texels_create(b.scene, b.map, classes, &b.bright, &error), AUR_OK);
+    free(classes);
     assert_true(b.bright.distribution.total > 0.0);
     return b;
 }
@@ -40,9 +46,7 @@ static void close_box(box *b) {
 }
 
 static double density_of_light(const box *b, size_t light) {
-    aur_vector albedo[2];
-    third(b->scene, 0, albedo);
-    const aur_vector radiance = aur_vector_multiply(albedo[0], b->map->lights[light].irradiance);
+    const aur_vector radiance = aur_vector_scale(b->map->lights[light].irradiance, THIRD_ON_PI);
     return (double)aur_bright_texels_density(&b->bright, radiance);
 }
 

@@ -51,7 +51,7 @@ static size_t rotation_of(const aur_group *group, const aur_gather_pair *pair, s
     const uint64_t hash =
         aur_hash3(data->pattern_seed, aur_hash2(group->task->y, group->task->x), group->chain);
     *mirrored = hash >> 63 != 0;
-    return (aur_group_dither[group->task->group] ^ (hash & 15u)) * pair->rotations / 16;
+    return (aur_group_rank(group->task->group) ^ (hash & 15u)) * pair->rotations / 16;
 }
 
 /* One pattern's share, and the lanes that send it. */

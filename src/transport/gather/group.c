@@ -50,7 +50,7 @@ static void set_place(const aur_scene *scene, const aur_ray *ray, const aur_hit 
 
 /* Whether a packet from these places is coherent: from normals and positions, never from timing. */
 static bool are_flat(const aur_group *group) {
-    if (__builtin_popcount(group->lanes) < AUR_PACKET_SIZE / 2)
+    if (aur_lane_count(group->lanes) < AUR_PACKET_SIZE / 2)
         return false;
     const aur_gather_place *const first = &group->places[aur_first_lane(group->lanes)];
     for (uint32_t rest = group->lanes; rest != 0; rest &= rest - 1) {
@@ -68,7 +68,7 @@ uint64_t aur_final_gather_key(const aur_final_gather *data, const aur_packet *pa
     const struct RTCRay16 *const rays = &packet->query.ray;
     const struct RTCHit16 *const hits = &packet->query.hit;
     const uint32_t shape = hits->geomID[lane];
-    const aur_hit_class *const class = &data->classes[shape];
+    const aur_shape_class *const class = &data->classes[shape];
     const uint64_t key = (class->emits ? AUR_KEY_EMITS : 0) | ((uint64_t)shape * 8 + 1);
     if (class->curved)
         return key;
@@ -196,7 +196,7 @@ static void bounce(aur_group *group) {
 static uint32_t trace(aur_group *group) {
     const aur_final_gather *const data = group->task->data;
     aur_packet *const packet = &group->rays.packet;
-    aur_clear_lanes(packet);
+    aur_packet_empty(packet);
     for (uint32_t rest = group->lanes; rest != 0; rest &= rest - 1) {
         const size_t lane = aur_first_lane(rest);
         aur_packet_set(packet, lane, &group->samples[lane].ray);
@@ -230,10 +230,8 @@ void aur_group_add_sample(aur_group *group, const aur_group_task *task, aur_pixe
     group->lanes = task->lanes;
     group->shared = 0;
     size_t x[AUR_PACKET_SIZE], y[AUR_PACKET_SIZE];
+    aur_group_pixels(task->group, task->x, task->y, x, y);
     for (size_t lane = 0; lane < AUR_PACKET_SIZE; ++lane) {
-        const size_t pixel = aur_group_pixel(task->group, lane);
-        x[lane] = task->x + pixel % AUR_TILE_SIZE;
-        y[lane] = task->y + pixel / AUR_TILE_SIZE;
         group->throughput[lane] = (aur_vector){1.0f, 1.0f, 1.0f};
         group->sum[lane] = (aur_vector){0};
         group->directions[lane] = 0;

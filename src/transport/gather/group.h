@@ -49,17 +49,6 @@ enum {
     AUR_GATHER_PAIRS
 };
 
-static inline uint32_t aur_first_lane(uint32_t lanes) {
-    return (uint32_t)__builtin_ctz(lanes);
-}
-
-static inline void aur_clear_lanes(aur_packet *packet) {
-    memset(packet->valid, 0, sizeof packet->valid);
-}
-
-/* The groups in an order that keeps neighbours' rotations far apart: a 4 x 4 ordered dither. */
-static const uint8_t aur_group_dither[16] = {0, 8, 2, 10, 12, 4, 14, 6, 3, 11, 1, 9, 15, 7, 13, 5};
-
 /* Frames of the lobes and normals, an array a coordinate. */
 typedef struct aur_lobe_frames {
     float x[3][AUR_PACKET_SIZE], y[3][AUR_PACKET_SIZE], z[3][AUR_PACKET_SIZE];

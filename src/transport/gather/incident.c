@@ -8,25 +8,10 @@ bool aur_gathers_emitters(const aur_final_gather *data) {
            (data->incident == AUR_INCIDENT_EMITTERS && data->direct == AUR_DIRECT_NONE);
 }
 
-static aur_ray packet_ray(const aur_packet *packet, size_t lane) {
-    const struct RTCRay16 *const rays = &packet->query.ray;
-    return (aur_ray){.origin = {rays->org_x[lane], rays->org_y[lane], rays->org_z[lane]},
-                     .nearest = rays->tnear[lane],
-                     .direction = {rays->dir_x[lane], rays->dir_y[lane], rays->dir_z[lane]},
-                     .farthest = rays->tfar[lane]};
-}
-
-static uint32_t valid_lanes(const aur_packet *packet) {
-    uint32_t lanes = 0;
-    for (size_t k = 0; k < AUR_PACKET_SIZE; ++k)
-        lanes |= (uint32_t)(packet->valid[k] != 0) << k;
-    return lanes;
-}
-
 uint32_t aur_final_gather_intersect(const aur_final_gather *data, aur_embree_order order, aur_packet *packet,
                                     aur_counters *counters) {
-    const uint32_t lanes = valid_lanes(packet);
-    counters->rays += (uint64_t)__builtin_popcount(lanes);
+    const uint32_t lanes = aur_lanes_set(packet->valid);
+    counters->rays += aur_lane_count(lanes);
     if (data->packets)
         return aur_scene_intersect16(data->scene, order, packet);
     return aur_scene_intersect_each(data->scene, packet);
@@ -34,13 +19,13 @@ uint32_t aur_final_gather_intersect(const aur_final_gather *data, aur_embree_ord
 
 uint32_t aur_final_gather_occluded(const aur_final_gather *data, aur_embree_order order, aur_packet *packet,
                                    aur_counters *counters) {
-    uint32_t lanes = valid_lanes(packet), stopped = 0;
-    counters->rays += (uint64_t)__builtin_popcount(lanes);
+    uint32_t lanes = aur_lanes_set(packet->valid), stopped = 0;
+    counters->rays += aur_lane_count(lanes);
     if (data->packets)
         return aur_scene_occluded16(data->scene, order, packet);
     for (; lanes != 0; lanes &= lanes - 1) {
-        const size_t lane = (size_t)__builtin_ctz(lanes);
-        const aur_ray ray = packet_ray(packet, lane);
+        const size_t lane = aur_first_lane(lanes);
+        const aur_ray ray = aur_packet_ray(packet, lane);
         stopped |= (uint32_t)aur_scene_occluded(data->scene, &ray) << lane;
     }
     return stopped;
@@ -55,7 +40,7 @@ static void set_radiance(aur_gather_rays *rays, size_t lane, aur_vector radiance
 static float density_of(const aur_gather_rays *rays, size_t lane) {
     if (rays->pairs[lane] == NULL)
         return rays->density[lane];
-    const aur_vector direction = packet_ray(&rays->packet, lane).direction;
+    const aur_vector direction = aur_packet_ray(&rays->packet, lane).direction;
     return aur_gather_pair_density(rays->pairs[lane], aur_vector_dot(rays->axes[lane][0], direction),
                                    aur_vector_dot(rays->axes[lane][1], direction));
 }
@@ -80,7 +65,8 @@ static bool plain_radiance(const aur_final_gather *data, const aur_gather_rays *
                            aur_vector *radiance) {
     const struct RTCRayHit16 *const query = &rays->packet.query;
     const uint32_t shape = query->hit.geomID[lane];
-    if (query->hit.instID[0][lane] != RTC_INVALID_GEOMETRY_ID || !data->classes[shape].plain)
+    if (query->hit.instID[0][lane] != RTC_INVALID_GEOMETRY_ID || data->map == NULL ||
+        !data->classes[shape].plain)
         return false;
     const bool behind = query->hit.Ng_x[lane] * query->ray.dir_x[lane] +
                             query->hit.Ng_y[lane] * query->ray.dir_y[lane] +
@@ -103,20 +89,20 @@ static bool plain_radiance(const aur_final_gather *data, const aur_gather_rays *
 
 void aur_gather_trace(const aur_final_gather *data, aur_embree_order order, aur_gather_rays *rays,
                       aur_counters *counters) {
-    const uint32_t lanes = valid_lanes(&rays->packet);
+    const uint32_t lanes = aur_lanes_set(rays->packet.valid);
     const uint32_t found = aur_final_gather_intersect(data, order, &rays->packet, counters);
     const bool has_sky = aur_scene_has_environment(data->scene);
     for (size_t c = 0; c < 3; ++c)
         for (size_t k = 0; k < AUR_PACKET_SIZE; ++k)
             rays->radiance[c][k] = 0.0f;
     for (uint32_t rest = has_sky ? lanes : found; rest != 0; rest &= rest - 1) {
-        const size_t lane = (size_t)__builtin_ctz(rest);
+        const size_t lane = aur_first_lane(rest);
         const bool hits = (found >> lane & 1u) != 0;
         aur_vector radiance;
         if (!hits || !plain_radiance(data, rays, lane, &radiance)) {
             /* Only light that is sampled too asks for the density. */
             const bool weighed = !hits || data->classes[rays->packet.query.hit.geomID[lane]].emits;
-            const aur_gather_ray from = {.ray = packet_ray(&rays->packet, lane),
+            const aur_gather_ray from = {.ray = aur_packet_ray(&rays->packet, lane),
                                          .reference = rays->reference[lane],
                                          .density = weighed ? density_of(rays, lane) : 0.0f,
                                          .hash = aur_hash2(rays->hash, lane)};

@@ -40,7 +40,7 @@ static void add_draw(aur_group *group, uint32_t index) {
                       u, v);
     aur_vector contribution[AUR_PACKET_SIZE];
     uint32_t aimed = 0;
-    aur_clear_lanes(&group->rays.packet);
+    aur_packet_empty(&group->rays.packet);
     for (uint32_t lanes = group->lanes; lanes != 0; lanes &= lanes - 1) {
         const size_t lane = aur_first_lane(lanes);
         const aur_gather_place *const p = &group->places[lane];

@@ -62,7 +62,7 @@ static void add_draw(aur_group *group, const aur_vector references[AUR_PACKET_SI
                              chooses ? choice : NULL, u, v, lights);
     aur_vector contribution[AUR_PACKET_SIZE];
     uint32_t aimed = 0;
-    aur_clear_lanes(&group->rays.packet);
+    aur_packet_empty(&group->rays.packet);
     for (uint32_t rest = group->lanes; rest != 0; rest &= rest - 1) {
         const size_t lane = aur_first_lane(rest);
         const aur_gather_place *const p = &group->places[lane];

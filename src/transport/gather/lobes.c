@@ -26,7 +26,7 @@ aur_gather_turn aur_group_turn(const aur_group *group, const aur_gather_rule *ru
     /* Where the samples of a pixel do not share a pattern out, each has it turned anew. */
     if (data->adaptive)
         tile = aur_hash2(tile, group->task->index);
-    const uint32_t order = shares_pattern(group, rule) ? 0 : aur_group_dither[group->task->group];
+    const uint32_t order = shares_pattern(group, rule) ? 0 : aur_group_rank(group->task->group);
     /* Sixteen patterns would show as texture, were they the same in every tile. */
     if (rule->scramble != AUR_SCRAMBLE_ROTATE) {
         const uint64_t k = (order ^ (tile & 15u)) * rule->rotations / 16;
@@ -212,7 +212,7 @@ static void gather_share(aur_group *group, const aur_rule_walk *walk) {
     const bool split = shares_pattern(group, walk->rule);
     size_t shares = group->task->data->samples_per_pixel, share = group->task->index % shares;
     if (split) {
-        share = share * AUR_PACKET_SIZE + aur_group_dither[group->task->group];
+        share = share * AUR_PACKET_SIZE + aur_group_rank(group->task->group);
         shares *= AUR_PACKET_SIZE;
     }
     float sum[3][AUR_PACKET_SIZE] = {0};
@@ -278,7 +278,7 @@ static void gather_sampled(aur_group *group, size_t lobe, uint32_t lanes) {
         aur_vector value[AUR_PACKET_SIZE];
         float u[3] = {0.0f, 0.0f, 0.0f};
         uint32_t aimed = 0;
-        aur_clear_lanes(&group->rays.packet);
+        aur_packet_empty(&group->rays.packet);
         group->rays.hash = aur_hash3(group->samples[aur_first_lane(lanes)].stream.pixel, i, lobe);
         if (walk.shared)
             aur_gather_square(walk.rule, &walk.turns[aur_first_lane(lanes)], i, &u[1]);

@@ -26,6 +26,8 @@
 #include "transport/gather/rule_weights.h"
 #include "transport/integrator.h"
 #include "transport/packets/interleave.h"
+#include "transport/packets/packet_rays.h"
+#include "transport/packets/shape_class.h"
 #include "transport/photons/bright_texels.h"
 #include "transport/photons/irradiance.h"
 
@@ -43,13 +45,6 @@ enum {
 };
 enum { AUR_CRITERION_ENTROPY, AUR_CRITERION_VARIANCE };
 enum { AUR_LONGEST_CHAIN = 16 }; /* specular bounces in a row */
-
-/* How a gather ray's hit on a shape becomes radiance. */
-typedef struct aur_hit_class {
-    bool curved, emits;
-    bool plain;                 /* by the texel's irradiance and the reflectances here, without the surface */
-    aur_vector albedo_on_pi[2]; /* on the side of the normal, and behind */
-} aur_hit_class;
 
 typedef struct aur_final_gather {
     const aur_scene *scene;
@@ -79,10 +74,10 @@ typedef struct aur_final_gather {
     size_t most_directions;           /* of any rule with levels */
     const aur_irradiance_map *map;    /* owned by the cache; NULL when incident light is emitters' alone */
     const aur_irradiance_map
-        *caustics;          /* the light that specular bounces brought, which `map` has not; or NULL */
-    aur_hit_class *classes; /* one a shape */
-    uint32_t light_share;   /* points on lights that one sample draws */
-    size_t bright_share;    /* draws of bright texels that one sample sends; 0: there are none */
+        *caustics;            /* the light that specular bounces brought, which `map` has not; or NULL */
+    aur_shape_class *classes; /* one a shape */
+    uint32_t light_share;     /* points on lights that one sample draws */
+    size_t bright_share;      /* draws of bright texels that one sample sends; 0: there are none */
     aur_bright_texels bright;
 } aur_final_gather;
 

@@ -6,14 +6,9 @@
 /* The groups' lanes that lie in the picture. A crop does not matter: packets must be those of the whole tile,
  * or its pixels would differ in the last bits. */
 static uint32_t lanes_of(const aur_group_task *task) {
-    uint32_t lanes = 0;
-    for (size_t lane = 0; lane < AUR_PACKET_SIZE; ++lane) {
-        const size_t pixel = aur_group_pixel(task->group, lane);
-        const bool inside = task->x + pixel % AUR_TILE_SIZE < task->view->width &&
-                            task->y + pixel / AUR_TILE_SIZE < task->view->height;
-        lanes |= (uint32_t)inside << lane;
-    }
-    return lanes;
+    size_t x[AUR_PACKET_SIZE], y[AUR_PACKET_SIZE];
+    aur_group_pixels(task->group, task->x, task->y, x, y);
+    return aur_group_lanes_within(x, y, 0, task->view->width, 0, task->view->height);
 }
 
 /* Every stratum's mean radiance by its share of what the pixel sees. */

@@ -127,10 +127,10 @@ void aur_occlusion_find_places(const aur_view *view, size_t x, size_t y, uint32_
     for (size_t block = 0; block < AUR_PACKET_SIZE; ++block) {
         for (size_t within = 0; within < AUR_PACKET_SIZE; ++within) {
             const size_t place = within * AUR_PACKET_SIZE + block;
-            size_t dx, dy;
-            aur_occlusion_pixel(place, &dx, &dy);
+            const size_t pixel = aur_group_pixel((uint32_t)within, block);
             aur_camera_sample sample;
-            places->weight[place] = aur_view_sample(view, x + dx, y + dy, index, &sample);
+            places->weight[place] =
+                aur_view_sample(view, x + pixel % AUR_TILE_SIZE, y + pixel / AUR_TILE_SIZE, index, &sample);
             places->pixel[place] = sample.stream.pixel;
             places->seen[place] = false;
             rays[within] = sample.ray;
@@ -196,8 +196,6 @@ static void set_distances(const occlusion_data *data, struct RTCRay16 *rays) {
 
 size_t aur_occlusion_visit(const aur_integrator *integrator, const aur_occlusion_places *places, size_t x,
                            size_t y, uint32_t index, aur_occlusion_visitor visit, void *context) {
-    /* Neighbours in a block have rotations that are far apart: the ranks of an ordered dither. */
-    static const uint8_t ranks[AUR_PACKET_SIZE] = {0, 8, 2, 10, 12, 4, 14, 6, 3, 11, 1, 9, 15, 7, 13, 5};
     const occlusion_data *const data = integrator->data;
     const aur_gather_rule *const rule = &data->rule;
     const uint64_t tile = aur_hash3(data->seed, y, x) >> 8;
@@ -219,7 +217,7 @@ size_t aur_occlusion_visit(const aur_integrator *integrator, const aur_occlusion
         const bool together = rule->rotations > 0 || rule->scramble == AUR_SCRAMBLE_NONE;
         aur_gather_turn turns[AUR_PACKET_SIZE];
         for (size_t k = 0; k < (together ? 1 : AUR_PACKET_SIZE); ++k)
-            turns[k] = aur_gather_rule_turn(rule, together ? tile + ranks[within]
+            turns[k] = aur_gather_rule_turn(rule, together ? tile + aur_group_rank((uint32_t)within)
                                                            : aur_hash2(data->seed, places->pixel[first + k]));
         for (size_t i = index % data->samples_per_pixel; i < rule->count; i += data->samples_per_pixel) {
             if (together) {
@@ -258,10 +256,9 @@ static aur_result tile(const aur_integrator *integrator, aur_tile *tile) {
         aur_occlusion_find_places(tile->view, x, y, i, &places);
         const size_t directions = aur_occlusion_visit(integrator, &places, x, y, i, trace, &sums);
         for (size_t place = 0; place < AUR_OCCLUSION_PLACES; ++place) {
-            size_t px, py;
-            aur_occlusion_pixel(place, &px, &py);
-            px += x;
-            py += y;
+            const size_t pixel =
+                aur_group_pixel((uint32_t)(place / AUR_PACKET_SIZE), place % AUR_PACKET_SIZE);
+            const size_t px = x + pixel % AUR_TILE_SIZE, py = y + pixel / AUR_TILE_SIZE;
             tile->counters.rays += 1 + (places.seen[place] ? directions : 0);
             if (px < tile->x0 || px >= tile->x1 || py < tile->y0 || py >= tile->y1)
                 continue;

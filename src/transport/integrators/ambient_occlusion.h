@@ -4,12 +4,14 @@
 
 #include "scene/packet.h"
 #include "transport/integrator.h"
+#include "transport/packets/interleave.h"
 
 /* The 16 pixels of a tile that share a place in their blocks of 4 by 4 share a rotation of the pattern, so
  * the rays of a packet are one direction of it at 16 places, almost parallel where the surface is flat. */
-enum { AUR_OCCLUSION_PLACES = AUR_TILE_SIZE * AUR_TILE_SIZE };
+enum { AUR_OCCLUSION_PLACES = AUR_TILE_PIXELS };
 
-/* What the eye sees at the places of a tile, in packet order. */
+/* What the eye sees at the places of a tile, in packet order: those of group g begin at g * AUR_PACKET_SIZE.
+ */
 typedef struct aur_occlusion_places {
     _Alignas(64) float origin[3][AUR_OCCLUSION_PLACES];
     _Alignas(64) float axis[3][3][AUR_OCCLUSION_PLACES]; /* x, y and z of the frame about the normal */
@@ -17,13 +19,6 @@ typedef struct aur_occlusion_places {
     uint64_t pixel[AUR_OCCLUSION_PLACES];                /* a hash of the pixel */
     bool seen[AUR_OCCLUSION_PLACES];                     /* else the eye sees no surface there */
 } aur_occlusion_places;
-
-/* The pixel of a place, from the tile's corner. */
-static inline void aur_occlusion_pixel(size_t place, size_t *x, size_t *y) {
-    const size_t within = place / AUR_PACKET_SIZE, block = place % AUR_PACKET_SIZE;
-    *x = block % 4 * 4 + within % 4;
-    *y = block / 4 * 4 + within / 4;
-}
 
 /* Sample `index` of every pixel of the tile whose corner is (x, y). */
 void aur_occlusion_find_places(const aur_view *view, size_t x, size_t y, uint32_t index,

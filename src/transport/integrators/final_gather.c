@@ -228,42 +228,11 @@ static aur_result prepare_maps(aur_final_gather *data, const aur_gather_paramete
     return result;
 }
 
-/* Which shapes' light is found without their surface. */
-static aur_result prepare_classes(aur_final_gather *data, aur_error *error) {
-    const aur_scene *const scene = data->scene;
-    const size_t count = aur_scene_shape_count(scene);
-    data->classes = calloc(count + 1, sizeof *data->classes);
-    if (data->classes == NULL)
-        return aur_fail(error, AUR_ERROR_MEMORY, "out of memory");
-    for (uint32_t i = 0; i < count; ++i) {
-        const aur_bsdf *const bsdf = aur_scene_shape_bsdf(scene, i);
-        aur_hit_class *const class = &data->classes[i];
-        class->curved = aur_shape_is_curved(scene, i);
-        class->emits = aur_shape_emitter(scene, i) != AUR_NO_EMITTER;
-        class->plain = data->map != NULL && bsdf->plain_diffuse && !class->curved && !class->emits;
-        if (!class->plain)
-            continue;
-        for (size_t side = 0; side < 2; ++side)
-            if (side == 0 || bsdf->scatters_from_behind)
-                class->albedo_on_pi[side] = aur_vector_scale(
-                    bsdf->descriptor->diffuse_albedo(bsdf, (aur_bsdf_point){0}, side == 0 ? 1.0f : -1.0f),
-                    1.0f / AUR_PI_F);
-    }
-    return AUR_OK;
-}
-
-static bool plain_albedo(const void *context, uint32_t shape, aur_vector albedo_on_pi[2]) {
-    const aur_hit_class *const class = &((const aur_final_gather *)context)->classes[shape];
-    albedo_on_pi[0] = class->albedo_on_pi[0];
-    albedo_on_pi[1] = class->albedo_on_pi[1];
-    return class->plain;
-}
-
 static aur_result prepare_bright(aur_final_gather *data, int64_t samples, aur_error *error) {
     if (samples == 0 || data->map == NULL || data->component != AUR_COMPONENT_ALL)
         return AUR_OK;
     const aur_result result =
-        aur_bright_texels_create(data->scene, data->map, plain_albedo, data, &data->bright, error);
+        aur_bright_texels_create(data->scene, data->map, data->classes, &data->bright, error);
     if (result == AUR_OK && data->bright.distribution.total > 0.0)
         data->bright_share = shared_count(samples, data->samples_per_pixel) / data->samples_per_pixel;
     return result;
@@ -359,7 +328,7 @@ static aur_result create(aur_parameters *parameters, const aur_integrator_contex
     if (result == AUR_OK && wants_photons)
         result = prepare_maps(data, &p, context, error);
     if (result == AUR_OK)
-        result = prepare_classes(data, error);
+        result = aur_shape_classes_create(data->scene, &data->classes, error);
     if (result == AUR_OK)
         result = prepare_bright(data, p.bright_samples, error);
     return result;

@@ -4,10 +4,12 @@
 #define AUR_TRANSPORT_PACKETS_INTERLEAVE_H
 
 #include "film/tile.h"
+#include "scene/packet.h"
 
 enum {
     /* Groups, and pixels of a group, along each side of the tile. */
     AUR_GROUPS_A_SIDE = 4,
+    AUR_GROUP_COUNT = AUR_GROUPS_A_SIDE * AUR_GROUPS_A_SIDE,
     AUR_TILE_PIXELS = AUR_TILE_SIZE * AUR_TILE_SIZE
 };
 
@@ -16,6 +18,35 @@ static inline size_t aur_group_pixel(uint32_t group, size_t lane) {
     const size_t x = group % AUR_GROUPS_A_SIDE + AUR_GROUPS_A_SIDE * (lane % AUR_GROUPS_A_SIDE);
     const size_t y = group / AUR_GROUPS_A_SIDE + AUR_GROUPS_A_SIDE * (lane / AUR_GROUPS_A_SIDE);
     return y * AUR_TILE_SIZE + x;
+}
+
+/* Columns and rows in the picture of a group's pixels, whose tile begins at (x0, y0). */
+static inline void aur_group_pixels(uint32_t group, size_t x0, size_t y0, size_t x[AUR_PACKET_SIZE],
+                                    size_t y[AUR_PACKET_SIZE]) {
+    for (size_t lane = 0; lane < AUR_PACKET_SIZE; ++lane) {
+        const size_t pixel = aur_group_pixel(group, lane);
+        x[lane] = x0 + pixel % AUR_TILE_SIZE;
+        y[lane] = y0 + pixel / AUR_TILE_SIZE;
+    }
+}
+
+/* The lanes of a group whose pixels lie in columns x0 .. x1 - 1 and rows y0 .. y1 - 1 of the picture. */
+static inline uint32_t aur_group_lanes_within(const size_t x[AUR_PACKET_SIZE],
+                                              const size_t y[AUR_PACKET_SIZE], size_t x0, size_t x1,
+                                              size_t y0, size_t y1) {
+    uint32_t lanes = 0;
+    for (size_t lane = 0; lane < AUR_PACKET_SIZE; ++lane) {
+        const bool inside = x[lane] >= x0 && x[lane] < x1 && y[lane] >= y0 && y[lane] < y1;
+        lanes |= (uint32_t)inside << lane;
+    }
+    return lanes;
+}
+
+/* The rank of a group in an order that keeps neighbours far apart, a 4 x 4 ordered dither: of 16 rotations
+ * of a pattern, neighbouring pixels get two that differ much. */
+static inline uint32_t aur_group_rank(uint32_t group) {
+    static const uint8_t ranks[AUR_GROUP_COUNT] = {0, 8, 2, 10, 12, 4, 14, 6, 3, 11, 1, 9, 15, 7, 13, 5};
+    return ranks[group];
 }
 
 #endif

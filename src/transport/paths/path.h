@@ -4,13 +4,8 @@
 #define AUR_TRANSPORT_PATHS_PATH_H
 
 #include "transport/integrator.h"
+#include "transport/packets/shape_class.h"
 #include "transport/paths/path_lanes.h"
-
-/* What of a shape is known before a ray meets it. */
-typedef struct aur_path_class {
-    bool plain;           /* a mesh of flat triangles, nothing but diffuse reflection, no light */
-    aur_vector albedo[2]; /* seen from the side of the normal, and from behind */
-} aur_path_class;
 
 typedef struct aur_path {
     uint32_t max_depth; /* UINT32_MAX: no limit; 1 is visible light only, 2 adds direct light */
@@ -19,7 +14,7 @@ typedef struct aur_path {
     bool packets;       /* 16 pixels in lockstep */
     bool interleaved;   /* which share their numbers but for the camera's */
     const aur_path_kernels *kernels;
-    aur_path_class *classes; /* one a shape */
+    aur_shape_class *classes; /* one a shape */
 } aur_path;
 
 /* Dimension pairs of one bounce: (light choice, roulette), light position, (lobe choice, unused), direction.

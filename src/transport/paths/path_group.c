@@ -1,14 +1,12 @@
 /* Path tracing of sixteen pixels at a time, in lockstep: at each bounce one packet of rays for the nearest
  * hits and one towards the lights. Lanes on plain surfaces are shaded together, the others one by one.
  *
- * The pixels are those of one group of a tile (gather.h's): one at the same place of all of its 4 x 4 blocks.
- * Interleaved (Keller and Heidrich 2001), they share all numbers but the camera's: paths on flat walls run
- * in parallel, and their packets stay coherent. */
-#include <stdlib.h>
-
-#include "scene/elements.h"
+ * The pixels are those of one group of a tile (packets/interleave.h): one at the same place of all of its 4 x
+ * 4 blocks. Interleaved (Keller and Heidrich 2001), they share all numbers but the camera's: paths on flat
+ * walls run in parallel, and their packets stay coherent. */
 #include "transport/lights/direct_light.h"
 #include "transport/packets/interleave.h"
+#include "transport/packets/packet_rays.h"
 #include "transport/paths/path.h"
 
 typedef struct group {
@@ -30,52 +28,11 @@ typedef struct group {
 } group;
 
 aur_result aur_path_prepare(aur_path *data, const aur_scene *scene, aur_error *error) {
-    const size_t count = aur_scene_shape_count(scene);
     data->kernels = aur_path_kernels_here();
-    data->classes = calloc(count + 1, sizeof *data->classes);
-    if (data->classes == NULL)
-        return aur_fail(error, AUR_ERROR_MEMORY, "out of memory");
-    for (uint32_t i = 0; i < count; ++i) {
-        const aur_bsdf *const bsdf = aur_scene_shape_bsdf(scene, i);
-        aur_path_class *const class = &data->classes[i];
-        class->plain = bsdf->plain_diffuse && aur_shape_is_flat(scene, i) &&
-                       aur_shape_emitter(scene, i) == AUR_NO_EMITTER;
-        if (!class->plain)
-            continue;
-        for (size_t side = 0; side < 2; ++side)
-            if (side == 0 || bsdf->scatters_from_behind)
-                class->albedo[side] =
-                    bsdf->descriptor->diffuse_albedo(bsdf, (aur_bsdf_point){0}, side == 0 ? 1.0f : -1.0f);
-    }
-    return AUR_OK;
+    return aur_shape_classes_create(scene, &data->classes, error);
 }
 
-static uint32_t first_lane(uint32_t lanes) {
-    return (uint32_t)__builtin_ctz(lanes);
-}
-
-static uint32_t mask_of(const int *valid) {
-    uint32_t mask = 0;
-    for (uint32_t k = 0; k < AUR_PACKET_SIZE; ++k)
-        mask |= (uint32_t)(valid[k] & 1) << k;
-    return mask;
-}
-
-static void set_valid(aur_packet *packet, uint32_t lanes) {
-    for (uint32_t k = 0; k < AUR_PACKET_SIZE; ++k)
-        packet->valid[k] = -(int)(lanes >> k & 1u);
-}
-
-static aur_ray ray_of(const aur_packet *packet, size_t k) {
-    const struct RTCRay16 *const rays = &packet->query.ray;
-    return (aur_ray){.origin = {rays->org_x[k], rays->org_y[k], rays->org_z[k]},
-                     .nearest = rays->tnear[k],
-                     .direction = {rays->dir_x[k], rays->dir_y[k], rays->dir_z[k]},
-                     .farthest = rays->tfar[k]};
-}
-
-/* --- numbers
- * ---------------------------------------------------------------------------------------------------- */
+/* --- numbers */
 
 static void share(float number, float *lanes) {
     for (size_t k = 0; k < AUR_PACKET_SIZE; ++k)
@@ -115,8 +72,7 @@ static void own_numbers(group *g, uint32_t depth, bool mixed) {
     own_pair(g, first + AUR_PATH_DIRECTION, lanes->direction_u, lanes->direction_v);
 }
 
-/* --- lanes that are not plain, one by one
- * ---------------------------------------------------------------------- */
+/* --- lanes that are not plain, one by one */
 
 static void add_light(group *g, size_t k, float weight, aur_vector radiance) {
     const aur_vector throughput = aur_lane_vector(&g->lanes.throughput, k);
@@ -127,8 +83,8 @@ static void add_light(group *g, size_t k, float weight, aur_vector radiance) {
 
 static void add_sky(group *g, uint32_t lanes) {
     for (; lanes != 0; lanes &= lanes - 1) {
-        const size_t k = first_lane(lanes);
-        const aur_ray ray = ray_of(&g->packet, k);
+        const size_t k = aur_first_lane(lanes);
+        const aur_ray ray = aur_packet_ray(&g->packet, k);
         const aur_vector sky = aur_scene_environment(g->scene, ray.direction);
         if (aur_vector_is_zero(sky))
             continue;
@@ -157,8 +113,8 @@ static void add_emission(group *g, size_t k, const aur_surface *surface, aur_vec
 /* The surfaces of lanes that are not plain, with the light that they give. */
 static void set_surfaces(group *g, uint32_t lanes, aur_surface *surfaces) {
     for (; lanes != 0; lanes &= lanes - 1) {
-        const size_t k = first_lane(lanes);
-        const aur_ray ray = ray_of(&g->packet, k);
+        const size_t k = aur_first_lane(lanes);
+        const aur_ray ray = aur_packet_ray(&g->packet, k);
         const aur_hit hit = aur_packet_hit(g->scene, &g->packet, k);
         aur_scene_surface(g->scene, &ray, &hit, &surfaces[k]);
         add_emission(g, k, &surfaces[k], aur_vector_scale(ray.direction, -1.0f));
@@ -166,7 +122,7 @@ static void set_surfaces(group *g, uint32_t lanes, aur_surface *surfaces) {
 }
 
 static aur_vector view_of(const group *g, size_t k) {
-    return aur_vector_scale(ray_of(&g->packet, k).direction, -1.0f);
+    return aur_vector_scale(aur_packet_ray(&g->packet, k).direction, -1.0f);
 }
 
 static void shadow_one(group *g, size_t k, const aur_surface *surface) {
@@ -208,19 +164,18 @@ static bool scatter_one(group *g, size_t k, const aur_surface *surface, aur_vect
     return true;
 }
 
-/* --- a bounce
- * --------------------------------------------------------------------------------------------------- */
+/* --- a bounce */
 
 /* The lanes whose surface the kernels can do; their triangles and reflectances are made ready. */
 static uint32_t plain_lanes(group *g, uint32_t lanes) {
     const struct RTCHit16 *const hits = &g->packet.query.hit;
     uint32_t plain = 0;
     for (uint32_t rest = lanes; rest != 0; rest &= rest - 1) {
-        const size_t k = first_lane(rest);
+        const size_t k = aur_first_lane(rest);
         if (hits->instID[0][k] != RTC_INVALID_GEOMETRY_ID)
             continue;
-        const aur_path_class *const class = &g->data->classes[hits->geomID[k]];
-        if (!class->plain)
+        const aur_shape_class *const class = &g->data->classes[hits->geomID[k]];
+        if (!class->plain_flat)
             continue;
         plain |= 1u << k;
         aur_lane_set(&g->lanes.albedo[0], k, class->albedo[0]);
@@ -231,8 +186,8 @@ static uint32_t plain_lanes(group *g, uint32_t lanes) {
 }
 
 static uint32_t trace(group *g, bool coherent) {
-    set_valid(&g->packet, g->alive);
-    g->counters->rays += (uint64_t)__builtin_popcount(g->alive);
+    aur_packet_set_lanes(&g->packet, g->alive);
+    g->counters->rays += aur_lane_count(g->alive);
     return aur_scene_intersect16(g->scene, coherent ? AUR_EMBREE_COHERENT : AUR_EMBREE_INCOHERENT,
                                  &g->packet);
 }
@@ -246,12 +201,12 @@ static void add_direct(group *g, uint32_t plain, bool coherent, const aur_surfac
         g->data->kernels->shadow(lanes, &g->shadows);
     }
     for (uint32_t rest = g->alive & ~plain; rest != 0; rest &= rest - 1)
-        shadow_one(g, first_lane(rest), &surfaces[first_lane(rest)]);
-    const uint32_t lit = mask_of(lanes->lit) & g->alive;
+        shadow_one(g, aur_first_lane(rest), &surfaces[aur_first_lane(rest)]);
+    const uint32_t lit = aur_lanes_set(lanes->lit) & g->alive;
     if (lit == 0)
         return;
-    set_valid(&g->shadows, lit);
-    g->counters->rays += (uint64_t)__builtin_popcount(lit);
+    aur_packet_set_lanes(&g->shadows, lit);
+    g->counters->rays += aur_lane_count(lit);
     const uint32_t stopped =
         aur_scene_occluded16(g->scene, coherent ? AUR_EMBREE_COHERENT : AUR_EMBREE_INCOHERENT, &g->shadows);
     g->data->kernels->add(lanes, lit & ~stopped);
@@ -261,18 +216,18 @@ static void scatter(group *g, uint32_t plain, bool roulette, const aur_surface *
     const uint32_t others = g->alive & ~plain;
     aur_vector views[AUR_PACKET_SIZE], throughputs[AUR_PACKET_SIZE];
     for (uint32_t rest = others; rest != 0; rest &= rest - 1) {
-        const size_t k = first_lane(rest);
+        const size_t k = aur_first_lane(rest);
         views[k] = view_of(g, k);
         throughputs[k] = aur_lane_vector(&g->lanes.throughput, k);
     }
     uint32_t alive = 0;
     if (plain != 0) {
         g->data->kernels->scatter(&g->lanes, roulette, &g->packet);
-        alive = mask_of(g->lanes.alive) & plain;
+        alive = aur_lanes_set(g->lanes.alive) & plain;
     }
     g->specular = 0;
     for (uint32_t rest = others; rest != 0; rest &= rest - 1) {
-        const size_t k = first_lane(rest);
+        const size_t k = aur_first_lane(rest);
         aur_lane_set(&g->lanes.throughput, k, throughputs[k]);
         alive |= (uint32_t)scatter_one(g, k, &surfaces[k], views[k], roulette) << k;
     }
@@ -284,8 +239,8 @@ static void scatter(group *g, uint32_t plain, bool roulette, const aur_surface *
 static bool are_parallel(const group *g, uint32_t plain) {
     if (!g->data->interleaved || plain == 0)
         return false;
-    const uint32_t flat = plain & ~g->data->kernels->tilted(&g->lanes, first_lane(plain));
-    return 2 * __builtin_popcount(flat) >= __builtin_popcount(g->alive);
+    const uint32_t flat = plain & ~g->data->kernels->tilted(&g->lanes, aur_first_lane(plain));
+    return 2 * aur_lane_count(flat) >= aur_lane_count(g->alive);
 }
 
 static void trace_paths(group *g) {
@@ -314,8 +269,7 @@ static void trace_paths(group *g) {
     }
 }
 
-/* --- tiles
- * ------------------------------------------------------------------------------------------------------ */
+/* --- tiles */
 
 static void begin(group *g, const aur_view *view, const size_t *x, const size_t *y, uint32_t lanes) {
     aur_view_samples(view, AUR_PACKET_SIZE, x, y, g->index, g->samples, g->weights);
@@ -335,14 +289,9 @@ static void add_group(group *g, uint32_t number, aur_tile *tile) {
     const aur_view *const view = tile->view;
     const size_t x0 = tile->x0 / AUR_TILE_SIZE * AUR_TILE_SIZE, y0 = tile->y0 / AUR_TILE_SIZE * AUR_TILE_SIZE;
     size_t x[AUR_PACKET_SIZE], y[AUR_PACKET_SIZE];
-    uint32_t lanes = 0, wanted = 0;
-    for (size_t k = 0; k < AUR_PACKET_SIZE; ++k) {
-        const size_t pixel = aur_group_pixel(number, k);
-        x[k] = x0 + pixel % AUR_TILE_SIZE;
-        y[k] = y0 + pixel / AUR_TILE_SIZE;
-        lanes |= (uint32_t)(x[k] < view->width && y[k] < view->height) << k;
-        wanted |= (uint32_t)(x[k] >= tile->x0 && x[k] < tile->x1 && y[k] >= tile->y0 && y[k] < tile->y1) << k;
-    }
+    aur_group_pixels(number, x0, y0, x, y);
+    const uint32_t lanes = aur_group_lanes_within(x, y, 0, view->width, 0, view->height);
+    const uint32_t wanted = aur_group_lanes_within(x, y, tile->x0, tile->x1, tile->y0, tile->y1);
     if (wanted == 0)
         return;
     for (uint32_t i = 0; i < tile->count; ++i) {
@@ -352,7 +301,7 @@ static void add_group(group *g, uint32_t number, aur_tile *tile) {
         begin(g, view, x, y, lanes);
         trace_paths(g);
         for (uint32_t rest = wanted; rest != 0; rest &= rest - 1) {
-            const size_t k = first_lane(rest);
+            const size_t k = aur_first_lane(rest);
             aur_tile_add(tile, x[k], y[k], g->weights[k], aur_lane_vector(&g->lanes.sum, k));
         }
     }

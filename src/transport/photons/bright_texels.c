@@ -14,8 +14,7 @@ typedef struct patch_visit {
 typedef struct patch_search {
     const aur_scene *scene;
     const aur_irradiance_map *map;
-    aur_plain_albedo albedo;
-    const void *context;
+    const aur_shape_class *classes;
     double flux, area; /* of what is lit */
     size_t count, capacity;
     double *weights;
@@ -80,15 +79,14 @@ static aur_result visit_all(patch_search *search, aur_result (*visit)(patch_sear
     const aur_elements *const elements = &search->map->texels.elements;
     for (size_t i = 0; i < elements->placement_count; ++i) {
         const aur_placement *const placement = &elements->placements[i];
-        aur_vector albedo_on_pi[2];
-        if (placement->curved || placement->instance != AUR_NO_INSTANCE ||
-            !search->albedo(search->context, placement->shape, albedo_on_pi))
+        const aur_shape_class *const class = &search->classes[placement->shape];
+        if (placement->instance != AUR_NO_INSTANCE || !class->plain)
             continue;
         for (uint32_t k = 0; k < placement->count; ++k) {
             patch_visit at = {
                 .patch = {.element = placement->first + k, .shape = placement->shape, .primitive = k}};
             const aur_result result = visit_triangle(
-                search, &at, aur_element_area(search->scene, placement, k), albedo_on_pi, visit);
+                search, &at, aur_element_area(search->scene, placement, k), class->albedo_on_pi, visit);
             if (result != AUR_OK)
                 return result;
         }
@@ -97,11 +95,10 @@ static aur_result visit_all(patch_search *search, aur_result (*visit)(patch_sear
 }
 
 aur_result aur_bright_texels_create(const aur_scene *scene, const aur_irradiance_map *map,
-                                    aur_plain_albedo albedo, const void *context, aur_bright_texels *bright,
+                                    const aur_shape_class *classes, aur_bright_texels *bright,
                                     aur_error *error) {
     *bright = (aur_bright_texels){0};
-    patch_search search = {
-        .scene = scene, .map = map, .albedo = albedo, .context = context, .bright = bright};
+    patch_search search = {.scene = scene, .map = map, .classes = classes, .bright = bright};
     visit_all(&search, measure);
     bright->threshold = search.area > 0.0 ? (float)(BRIGHTNESS * search.flux / search.area) : 0.0f;
     aur_result result = visit_all(&search, collect);

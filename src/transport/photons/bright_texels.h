@@ -6,6 +6,7 @@
 #define AUR_TRANSPORT_PHOTONS_BRIGHT_TEXELS_H
 
 #include "scene/distribution.h"
+#include "transport/packets/shape_class.h"
 #include "transport/photons/irradiance.h"
 
 /* A texel's part of one triangle, on one side. */
@@ -33,13 +34,9 @@ typedef struct aur_bright_point {
     aur_vector normal; /* of the side that shines */
 } aur_bright_point;
 
-/* What a shape's triangles reflect of irradiance on the side of the normal and behind: albedo / pi; false:
- * they are not plainly diffuse, or are lights. */
-typedef bool (*aur_plain_albedo)(const void *context, uint32_t shape, aur_vector albedo_on_pi[2]);
-
-/* Errors: MEMORY. */
+/* Only texels of shapes whose class is plain count. Errors: MEMORY. */
 aur_result aur_bright_texels_create(const aur_scene *scene, const aur_irradiance_map *map,
-                                    aur_plain_albedo albedo, const void *context, aur_bright_texels *bright,
+                                    const aur_shape_class *classes, aur_bright_texels *bright,
                                     aur_error *error);
 void aur_bright_texels_release(aur_bright_texels *bright);
 
