@@ -70,6 +70,16 @@ cp -r "$scenes" copy && sed '/<emitter/,/<\/emitter>/d' "$scenes/cube.xml" >copy
 expect 2 "no light" copy/dark.xml radiosity
 sed 's/1, 0.95, 0.85/nan, 1, 1/' "$scenes/cube.xml" >copy/nan.xml
 expect 2 "nan.xml:[0-9]+:[0-9]+: .*radiance" copy/nan.xml radiosity
+# A scene that somebody else wrote names no files.
+for key in save load ply; do
+  echo kept >victim
+  sed "s|<scene version=\"3.0.0\">|&<integrator type=\"radiosity\"><string name=\"$key\" value=\"$PWD/victim\"/></integrator>|" \
+    "$scenes/cube.xml" >copy/$key.xml
+  grep -q victim copy/$key.xml || fail "no integrator in copy/$key.xml"
+  render -q copy/$key.xml -o out.exr 2>message.txt
+  [ $? -eq 2 ] && grep -Eq "$key.xml:[0-9]+:[0-9]+: .*must not name the file of '$key'" message.txt || fail "$key: $(cat message.txt)"
+  [ "$(cat victim)" = kept ] || fail "a scene overwrote a file by '$key'"
+done
 
 # Scenes that can be rendered, with a warning.
 warns() {

@@ -24,6 +24,21 @@ typedef struct image_parameters {
 
 static const int64_t most = 1 << 30;
 
+/* Whoever renders a scene of unknown origin must not have a file overwritten or read: such names come from
+ * the caller's own text, which has no place in a file. */
+static aur_result refuse_files_of_scenes(aur_parameters *parameters, aur_error *error) {
+    static const char *const names[] = {"save", "load", "ply"};
+    for (size_t i = 0; i < sizeof names / sizeof names[0]; ++i) {
+        const aur_parameter *const found = aur_parameters_find(parameters, names[i]);
+        if (found != NULL && found->location.file != NULL)
+            return aur_fail_at(error, found->location, AUR_ERROR_UNSUPPORTED,
+                               "integrator 'radiosity': a scene must not name the file of '%s'; say "
+                               "--integrator radiosity:%s=... instead",
+                               names[i], names[i]);
+    }
+    return AUR_OK;
+}
+
 static aur_result read_solution(aur_parameters *parameters, solution_parameters *p, aur_error *error) {
     static const char *const directions[] = {"cosine", "uniform_angle"};
     static const char *const emissions[] = {"power", "area"};
@@ -214,7 +229,9 @@ static aur_result create(aur_parameters *parameters, const aur_integrator_contex
                          aur_integrator *integrator, aur_error *error) {
     solution_parameters s;
     image_parameters p;
-    aur_result result = read_solution(parameters, &s, error);
+    aur_result result = refuse_files_of_scenes(parameters, error);
+    if (result == AUR_OK)
+        result = read_solution(parameters, &s, error);
     if (result == AUR_OK)
         result = read_image(parameters, &p, error);
     if (result != AUR_OK)
