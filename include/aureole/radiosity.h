@@ -89,7 +89,7 @@ typedef struct aur_radiosity_description {
     uint64_t lost;       /* paths that left the scene: it is open, or surfaces coincide */
     uint64_t behind;     /* paths that ended on the back of a one-sided triangle */
     uint64_t trapped;    /* paths that ended between mirrors */
-    uint64_t coincident; /* pairs of triangles that lie in one plane and overlap */
+    uint64_t coincident; /* pairs of triangles that lie in one plane and overlap; counted up to about 2^20 */
     double change;       /* of the last interval of aur_radiosity_terminate; NaN without one */
     double emitted;      /* watts, the three channels summed */
     double tail; /* what the cut after M bounces leaves out, estimated: power that would still be received, as

@@ -1,19 +1,34 @@
 /* Triangles that lie on each other: a box that stands exactly on a floor, say. Particles between them are on
- * the wrong side of one, so that they leave the scene. Found by a sweep along the longest side of the scene.
+ * the wrong side of one, so that they leave the scene. Found by a tree of boxes that is held against itself.
  */
 #include <stdlib.h>
 
 #include "transport/radiosity/solution.h"
 
-typedef struct span {
-    float low[3], high[3]; /* the triangle's box */
-    uint32_t triangle;
-    size_t axis;
-} span;
+enum { LEAF = 4 };
 
-static float coordinate(aur_vector v, size_t axis) {
-    return axis == 0 ? v.x : axis == 1 ? v.y : v.z;
-}
+typedef struct box {
+    float low[3], high[3];
+} box;
+
+typedef struct item {
+    box bounds; /* grown by what the triangle's plane may be off */
+    float key;  /* to sort by */
+    uint32_t triangle;
+} item;
+
+/* The children of node i are 2 i + 1 and 2 i + 2, and have one half of its items each. */
+typedef struct node {
+    box bounds;
+    size_t first, count;
+} node;
+
+typedef struct search {
+    const aur_radiosity_scene *scene;
+    item *items;
+    node *nodes;
+    aur_radiosity_coincidence *found;
+} search;
 
 static void corners_of(const aur_radiosity_triangle *t, aur_vector corner[3]) {
     corner[0] = t->corner;
@@ -21,17 +36,17 @@ static void corners_of(const aur_radiosity_triangle *t, aur_vector corner[3]) {
     corner[2] = aur_vector_add(t->corner, t->edge[1]);
 }
 
-static int by_low(const void *a, const void *b) {
-    const span *const left = a, *const right = b;
-    const float x = left->low[left->axis], y = right->low[right->axis];
-    return x < y ? -1 : x > y ? 1 : left->triangle < right->triangle ? -1 : 1;
-}
-
-static bool boxes_meet(const span *a, const span *b, float slack) {
+static bool boxes_meet(const box *a, const box *b) {
     for (size_t k = 0; k < 3; ++k)
-        if (a->low[k] > b->high[k] + slack || b->low[k] > a->high[k] + slack)
+        if (a->low[k] > b->high[k] || b->low[k] > a->high[k])
             return false;
     return true;
+}
+
+/* --- two triangles */
+
+static float slack_of(const aur_radiosity_triangle *t) {
+    return 2.0f * t->offset;
 }
 
 /* Whether an edge of `a` has all of `b` on its outer side, but for `slack`. */
@@ -50,7 +65,7 @@ static bool separates(const aur_radiosity_triangle *a, const aur_vector p[3], co
 }
 
 static bool coincide(const aur_radiosity_triangle *a, const aur_radiosity_triangle *b) {
-    const float slack = 2.0f * fmaxf(a->offset, b->offset);
+    const float slack = fmaxf(slack_of(a), slack_of(b));
     if (fabsf(aur_vector_dot(a->frame.z, b->frame.z)) < 0.9999f)
         return false;
     aur_vector p[3], q[3];
@@ -62,43 +77,136 @@ static bool coincide(const aur_radiosity_triangle *a, const aur_radiosity_triang
     return !separates(a, p, q, 4.0f * slack) && !separates(b, q, p, 4.0f * slack);
 }
 
-uint64_t aur_radiosity_coincidences(const aur_radiosity_scene *scene, uint32_t where[2]) {
-    aur_vector lower, upper;
-    aur_scene_bounds(scene->scene, &lower, &upper);
-    const aur_vector size = aur_vector_subtract(upper, lower);
-    const size_t axis = size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
-    span *const spans = malloc(scene->triangle_count * sizeof *spans);
-    if (spans == NULL)
-        return 0; /* a courtesy that is left out */
-    for (size_t i = 0; i < scene->triangle_count; ++i) {
+/* --- the tree */
+
+static void make_items(search *s) {
+    for (size_t i = 0; i < s->scene->triangle_count; ++i) {
+        const aur_radiosity_triangle *const t = &s->scene->triangles[i];
         aur_vector corner[3];
-        corners_of(&scene->triangles[i], corner);
-        spans[i] = (span){.triangle = (uint32_t)i, .axis = axis};
+        corners_of(t, corner);
+        const float x[3] = {corner[0].x, corner[1].x, corner[2].x},
+                    y[3] = {corner[0].y, corner[1].y, corner[2].y},
+                    z[3] = {corner[0].z, corner[1].z, corner[2].z};
+        const float *const coordinates[3] = {x, y, z};
+        s->items[i].triangle = (uint32_t)i;
         for (size_t k = 0; k < 3; ++k) {
-            const float a = coordinate(corner[0], k), b = coordinate(corner[1], k),
-                        c = coordinate(corner[2], k);
-            spans[i].low[k] = fminf(a, fminf(b, c));
-            spans[i].high[k] = fmaxf(a, fmaxf(b, c));
+            const float *const c = coordinates[k];
+            s->items[i].bounds.low[k] = fminf(c[0], fminf(c[1], c[2])) - slack_of(t);
+            s->items[i].bounds.high[k] = fmaxf(c[0], fmaxf(c[1], c[2])) + slack_of(t);
         }
     }
-    qsort(spans, scene->triangle_count, sizeof *spans, by_low);
-    uint64_t pairs = 0;
-    for (size_t i = 0; i < scene->triangle_count; ++i) {
-        const aur_radiosity_triangle *const a = &scene->triangles[spans[i].triangle];
-        const float slack = 2.0f * a->offset;
-        for (size_t j = i + 1; j < scene->triangle_count && spans[j].low[axis] <= spans[i].high[axis] + slack;
-             ++j) {
-            if (!boxes_meet(&spans[i], &spans[j], slack))
-                continue;
-            const aur_radiosity_triangle *const b = &scene->triangles[spans[j].triangle];
-            if (!coincide(a, b))
-                continue;
-            if (pairs++ == 0) {
-                where[0] = a->shape;
-                where[1] = b->shape;
-            }
+}
+
+static int by_key(const void *a, const void *b) {
+    const float x = ((const item *)a)->key, y = ((const item *)b)->key;
+    return (x > y) - (x < y);
+}
+
+/* Sorts the node's items along the axis on which their middles are spread most. */
+static void sort_items(item *items, size_t count) {
+    float widest = -1.0f;
+    size_t axis = 0;
+    for (size_t k = 0; k < 3; ++k) {
+        float low = INFINITY, high = -INFINITY;
+        for (size_t i = 0; i < count; ++i) {
+            low = fminf(low, items[i].bounds.low[k] + items[i].bounds.high[k]);
+            high = fmaxf(high, items[i].bounds.low[k] + items[i].bounds.high[k]);
+        }
+        if (high - low > widest) {
+            widest = high - low;
+            axis = k;
         }
     }
-    free(spans);
-    return pairs;
+    for (size_t i = 0; i < count; ++i)
+        items[i].key = items[i].bounds.low[axis] + items[i].bounds.high[axis];
+    qsort(items, count, sizeof *items, by_key);
+}
+
+static void make_node(search *s, size_t index, size_t first, size_t count) {
+    node *const made = &s->nodes[index];
+    *made = (node){.bounds = s->items[first].bounds, .first = first, .count = count};
+    for (size_t i = first + 1; i < first + count; ++i)
+        for (size_t k = 0; k < 3; ++k) {
+            made->bounds.low[k] = fminf(made->bounds.low[k], s->items[i].bounds.low[k]);
+            made->bounds.high[k] = fmaxf(made->bounds.high[k], s->items[i].bounds.high[k]);
+        }
+    if (count <= LEAF)
+        return;
+    sort_items(&s->items[first], count);
+    make_node(s, 2 * index + 1, first, count - count / 2);
+    make_node(s, 2 * index + 2, first + (count - count / 2), count / 2);
+}
+
+/* Nodes of a tree whose first children have the greater half. */
+static size_t node_count(size_t items) {
+    size_t count = 1, level = 1;
+    for (; items > LEAF; items -= items / 2) {
+        level *= 2;
+        count += level;
+    }
+    return count;
+}
+
+/* --- the search */
+
+static void test_pair(search *s, const item *a, const item *b) {
+    const uint32_t low = a->triangle < b->triangle ? a->triangle : b->triangle;
+    const uint32_t high = a->triangle < b->triangle ? b->triangle : a->triangle;
+    if (!boxes_meet(&a->bounds, &b->bounds) ||
+        !coincide(&s->scene->triangles[low], &s->scene->triangles[high]))
+        return;
+    aur_radiosity_coincidence *const found = s->found;
+    const bool is_first = found->pairs++ == 0 || low < found->triangles[0] ||
+                          (low == found->triangles[0] && high < found->triangles[1]);
+    if (is_first) {
+        found->triangles[0] = low;
+        found->triangles[1] = high;
+    }
+}
+
+static void test_leaves(search *s, const node *a, const node *b) {
+    for (size_t i = a->first; i < a->first + a->count; ++i)
+        for (size_t j = a == b ? i + 1 : b->first; j < b->first + b->count; ++j)
+            test_pair(s, &s->items[i], &s->items[j]);
+}
+
+/* All pairs of an item of node a and another of node b. */
+static void join(search *s, size_t a, size_t b) {
+    const node *const left = &s->nodes[a], *const right = &s->nodes[b];
+    if (s->found->pairs >= AUR_RADIOSITY_MOST_COINCIDENCES || !boxes_meet(&left->bounds, &right->bounds))
+        return;
+    if (left->count <= LEAF && right->count <= LEAF) {
+        test_leaves(s, left, right);
+    } else if (a == b) {
+        join(s, 2 * a + 1, 2 * a + 1);
+        join(s, 2 * a + 1, 2 * a + 2);
+        join(s, 2 * a + 2, 2 * a + 2);
+    } else if (left->count >= right->count) {
+        join(s, 2 * a + 1, b);
+        join(s, 2 * a + 2, b);
+    } else {
+        join(s, a, 2 * b + 1);
+        join(s, a, 2 * b + 2);
+    }
+}
+
+aur_result aur_radiosity_find_coincidences(const aur_radiosity_scene *scene, aur_radiosity_coincidence *found,
+                                           aur_error *error) {
+    const size_t count = scene->triangle_count;
+    search s = {.scene = scene,
+                .items = malloc(count * sizeof *s.items),
+                .nodes = malloc(node_count(count) * sizeof *s.nodes),
+                .found = found};
+    *found = (aur_radiosity_coincidence){0};
+    aur_result result = AUR_OK;
+    if (s.items == NULL || s.nodes == NULL) {
+        result = aur_fail(error, AUR_ERROR_MEMORY, "radiosity: out of memory for %zu triangles", count);
+    } else {
+        make_items(&s);
+        make_node(&s, 0, 0, count);
+        join(&s, 0, 0);
+    }
+    free(s.items);
+    free(s.nodes);
+    return result;
 }

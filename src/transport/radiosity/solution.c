@@ -27,14 +27,27 @@ static aur_result check_options(const aur_radiosity_options *options, aur_error 
     return AUR_OK;
 }
 
-static void warn_of_coincidence(const aur_radiosity *radiosity, const uint32_t where[2]) {
-    const aur_scene *const scene = radiosity->scene.scene;
-    const aur_location other = aur_scene_shape_location(scene, where[1]);
-    aur_warn_at(&radiosity->options.warnings, aur_scene_shape_location(scene, where[0]),
+static aur_location location_of(const aur_radiosity_scene *scene, uint32_t triangle) {
+    return aur_scene_shape_location(scene->scene, scene->triangles[triangle].shape);
+}
+
+static aur_result look_for_coincidences(aur_radiosity *radiosity, aur_error *error) {
+    const aur_radiosity_scene *const scene = &radiosity->scene;
+    aur_radiosity_coincidence found;
+    const aur_result result = aur_radiosity_find_coincidences(scene, &found, error);
+    if (result != AUR_OK)
+        return result;
+    radiosity->coincident = found.pairs;
+    if (found.pairs == 0)
+        return AUR_OK;
+    const aur_location other = location_of(scene, found.triangles[1]);
+    aur_warn_at(&radiosity->options.warnings, location_of(scene, found.triangles[0]),
                 "radiosity: %" PRIu64
-                " pairs of triangles lie on each other, the first of this shape and of that at "
+                " pairs of triangles%s lie on each other, the first of this shape and of that at "
                 "%s:%zu:%zu: paths between them are lost",
-                radiosity->coincident, other.file != NULL ? other.file : "", other.line, other.column);
+                found.pairs, found.pairs >= AUR_RADIOSITY_MOST_COINCIDENCES ? " and more" : "",
+                other.file != NULL ? other.file : "", other.line, other.column);
+    return AUR_OK;
 }
 
 static aur_result make(aur_radiosity *made, const aur_scene *scene, aur_error *error) {
@@ -51,13 +64,7 @@ static aur_result make(aur_radiosity *made, const aur_scene *scene, aur_error *e
         result = aur_radiosity_walk_create(&made->scene, options, &made->walk, error);
     for (size_t r = 0; r < options->randomizations && result == AUR_OK; ++r)
         result = aur_radiosity_tally_create(made->scene.patch_count, &made->tallies[r], error);
-    if (result != AUR_OK)
-        return result;
-    uint32_t where[2];
-    made->coincident = aur_radiosity_coincidences(&made->scene, where);
-    if (made->coincident > 0)
-        warn_of_coincidence(made, where);
-    return AUR_OK;
+    return result == AUR_OK ? look_for_coincidences(made, error) : result;
 }
 
 aur_result aur_radiosity_create(const aur_scene *scene, const aur_radiosity_options *options,
@@ -214,13 +221,15 @@ static aur_result prepare_lanes(aur_radiosity *radiosity, aur_error *error) {
     if (radiosity->lane_count == lanes)
         return AUR_OK;
     release_lanes(radiosity);
-    radiosity->lanes = calloc(lanes * count, sizeof *radiosity->lanes);
+    radiosity->lanes = calloc(lanes, count * sizeof *radiosity->lanes);
     if (radiosity->lanes == NULL)
         return aur_fail(error, AUR_ERROR_MEMORY, "radiosity: out of memory");
     radiosity->lane_count = lanes;
     aur_result result = AUR_OK;
     for (size_t i = 0; i < lanes * count && result == AUR_OK; ++i)
         result = aur_radiosity_tally_create(radiosity->scene.patch_count, &radiosity->lanes[i], error);
+    if (result != AUR_OK)
+        release_lanes(radiosity);
     return result;
 }
 

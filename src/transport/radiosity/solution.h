@@ -32,7 +32,14 @@ void aur_radiosity_power_error(const aur_radiosity *radiosity, size_t patch, dou
 /* Over all patches, in the unit of epsilon. */
 double aur_radiosity_standard_error(const aur_radiosity *radiosity);
 
-/* Pairs of triangles in one plane that overlap; *where tells the shapes of one. */
-uint64_t aur_radiosity_coincidences(const aur_radiosity_scene *scene, uint32_t where[2]);
+/* Pairs of triangles that lie in one plane and overlap. Beyond a number that nobody looks at one by one they
+ * are no longer sought: many copies of one triangle would take the square of their number. */
+enum { AUR_RADIOSITY_MOST_COINCIDENCES = 1 << 20 };
+typedef struct aur_radiosity_coincidence {
+    uint64_t pairs;
+    uint32_t triangles[2]; /* the first pair */
+} aur_radiosity_coincidence;
+aur_result aur_radiosity_find_coincidences(const aur_radiosity_scene *scene, aur_radiosity_coincidence *found,
+                                           aur_error *error);
 
 #endif
