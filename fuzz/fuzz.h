@@ -34,6 +34,15 @@ static inline void fuzz_write_file(const char *path, const uint8_t *data, size_t
                  "the input file cannot be written");
 }
 
+/* The bytes of a file that a writer has made, as a seed. */
+static inline size_t fuzz_read_file(const char *path, size_t capacity, uint8_t *data) {
+    FILE *const file = fopen(path, "rb");
+    fuzz_require(file != NULL, "a seed cannot be read");
+    const size_t size = fread(data, 1, capacity, file);
+    fclose(file);
+    return size;
+}
+
 /* Text number `index` of `count` as a seed. */
 static inline size_t fuzz_text_seed(size_t count, const char *const *texts, size_t index, size_t capacity,
                                     uint8_t *data) {

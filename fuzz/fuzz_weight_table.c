@@ -56,10 +56,7 @@ size_t aur_fuzz_seed(size_t index, size_t capacity, uint8_t *data) {
     const char *const path = "seed.table";
     fuzz_require(aur_weight_table_save(table, path, &error) == AUR_OK, "a seed cannot be written");
     aur_weight_table_destroy(table);
-    FILE *const file = fopen(path, "rb");
-    fuzz_require(file != NULL, "a seed cannot be read");
-    const size_t size = fread(data, 1, capacity, file);
-    fclose(file);
+    const size_t size = fuzz_read_file(path, capacity, data);
     unlink(path);
     return size;
 }

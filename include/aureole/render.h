@@ -1,8 +1,9 @@
-/* Rendering a scene into a picture. The picture is a function of the scene, the options and the seed: the
- * number of threads changes no bit of it. */
+/* Rendering a scene into a picture, in one call or in steps. The picture is a function of the scene, the
+ * options, the seed and the steps: the number of threads changes no bit of it. */
 #ifndef AUREOLE_RENDER_H
 #define AUREOLE_RENDER_H
 
+#include <aureole/film.h>
 #include <aureole/image.h>
 #include <aureole/scene.h>
 
@@ -29,29 +30,20 @@ typedef struct aur_render_statistics {
     uint64_t invalid_samples;           /* NaN, infinite or negative ones, left out of the picture */
     uint64_t levels[AUR_RENDER_LEVELS]; /* adaptive gathering: places that ended at each level */
     double prepare_seconds;             /* wall clock: photon map and the like */
-    double render_seconds;
-    double cpu_seconds; /* of the process, for both; without what happens between waves */
+    double render_seconds;              /* wall clock, in steps */
+    double cpu_seconds;                 /* of the process, for both */
 } aur_render_statistics;
-
-/* Called when every pixel has 1, 2, 4, ... samples, and at the end: the picture so far and what it has cost.
- * Anything but AUR_OK ends the render with that result. */
-typedef struct aur_waves {
-    aur_result (*finished)(void *context, const aur_image *image, const aur_render_statistics *statistics,
-                           aur_error *error); /* NULL: no waves */
-    void *context;
-} aur_waves;
 
 typedef struct aur_render_options {
     const char *integrator;   /* NAME[:key=value,...] instead of the scene's; NULL keeps it */
     const char *sampler;      /* SET instead of the scene's; NULL keeps it */
-    const char *filter;       /* "box", "tent", "gaussian" instead of the scene's; NULL keeps it */
+    const char *filter;       /* the name of a filter instead of the scene's; NULL keeps it */
     size_t samples_per_pixel; /* 0 keeps the scene's */
     uint64_t seed;
     size_t threads;       /* 0: all */
     size_t width, height; /* 0 keeps the scene's */
-    size_t crop_x0, crop_x1, crop_y0,
-        crop_y1; /* pixels x0 <= x < x1, y0 <= y < y1; all zero: what the scene's film says */
-    aur_waves waves;
+    /* Pixels x0 <= x < x1, y0 <= y < y1; all zero: what the scene's film says. */
+    size_t crop_x0, crop_x1, crop_y0, crop_y1;
     aur_progress progress;
     aur_warnings warnings;
 } aur_render_options;
@@ -60,14 +52,55 @@ typedef struct aur_render_options {
  * must outlive it. Not for two threads at once. */
 typedef struct aur_renderer aur_renderer;
 
+/* Errors: MEMORY. */
 AUR_API aur_result aur_renderer_create(const aur_scene *scene, aur_renderer **renderer, aur_error *error)
     AUR_NONNULL(1, 2);
 AUR_API void aur_renderer_destroy(aur_renderer *renderer); /* NULL is allowed */
 
-/* A new picture of channels R, G, B; `options` may be NULL, `statistics` too. */
+/* A new picture of channels R, G, B and those that the integrator adds, all samples in one step. `options`
+ * may be NULL, `statistics` too. When the progress callback stops the work, the result is CANCELLED and
+ * *image is the picture so far; with every other error it is NULL. Errors: NAME (no such integrator, sampler,
+ * filter or key), ARGUMENT (a value or a crop out of range), UNSUPPORTED (keys or a scene that do not go
+ * together), CANCELLED, MEMORY, and those of files that an integrator reads. */
 AUR_API aur_result aur_renderer_render(aur_renderer *renderer, const aur_render_options *options,
                                        aur_image **image, aur_render_statistics *statistics, aur_error *error)
     AUR_NONNULL(1, 3);
+
+/* --- a render in steps: for a viewer, a checkpoint, or whoever decides on the way when it is enough */
+
+typedef struct aur_render aur_render;
+
+/* Prepares all that comes before the first sample. The renderer must outlive the render, and so must what the
+ * options' callbacks use; texts are copied. Errors as for aur_renderer_render. */
+AUR_API aur_result aur_render_create(aur_renderer *renderer, const aur_render_options *options,
+                                     aur_render **render, aur_error *error) AUR_NONNULL(1, 3);
+AUR_API void aur_render_destroy(aur_render *render); /* NULL is allowed */
+
+/* Gives every pixel `count` more samples; 0 or too many: all that remain of the options' samples_per_pixel.
+ * Where a tile is ahead of the others because an earlier step was cancelled, the others catch up first.
+ * Integrators that decide by a pixel's samples of one step (finalgather's edges) give other pictures of the
+ * same light for other steps. Errors: CANCELLED by aur_render_cancel or the progress callback: tiles that
+ * were finished keep their samples, and the next step goes on where this one was stopped; MEMORY and others,
+ * after which the render can only be destroyed. */
+AUR_API aur_result aur_render_step(aur_render *render, size_t count, aur_error *error) AUR_NONNULL(1);
+/* Stops the step that another thread is in. May be called from any thread and from a signal handler. */
+AUR_API void aur_render_cancel(aur_render *render) AUR_NONNULL(1);
+
+/* Samples that every pixel has, and that it will have. */
+AUR_API size_t aur_render_samples(const aur_render *render) AUR_NONNULL(1);
+AUR_API size_t aur_render_samples_wanted(const aur_render *render) AUR_NONNULL(1);
+
+/* The film so far, owned by the render: aur_film_develop makes the picture, aur_film_error tells its error,
+ * aur_film_save keeps it. */
+AUR_API const aur_film *aur_render_film(const aur_render *render) AUR_NONNULL(1);
+/* Takes over the samples of a film of the same scene, options and seed, such as one saved earlier: the render
+ * goes on where that one ended. Errors as for aur_film_merge. */
+AUR_API aur_result aur_render_merge(aur_render *render, const aur_film *film, aur_error *error)
+    AUR_NONNULL(1, 2);
+
+/* What preparing and the steps so far have cost. */
+AUR_API void aur_render_get_statistics(const aur_render *render, aur_render_statistics *statistics)
+    AUR_NONNULL(1, 2);
 
 #ifdef __cplusplus
 }

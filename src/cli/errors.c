@@ -7,13 +7,13 @@
 
 #include "cli/cli.h"
 
-enum { LINE_CAPACITY = 256, WAVE_CAPACITY = 64 }; /* waves double: 2^30 samples are 31 of them */
+enum { LINE_CAPACITY = 256, STEP_CAPACITY = 64 }; /* steps double: 2^30 samples are 31 of them */
 
 struct cli_errors {
     const char *path; /* of the reference */
     aur_image *reference;
     size_t used;
-    char text[LINE_CAPACITY * WAVE_CAPACITY];
+    char text[LINE_CAPACITY * STEP_CAPACITY];
 };
 
 cli_errors *cli_errors_create(const char *reference) {
@@ -37,9 +37,8 @@ void cli_errors_destroy(cli_errors *errors) {
     free(errors);
 }
 
-static aur_result note(void *context, const aur_image *image, const aur_render_statistics *statistics,
-                       aur_error *error) {
-    cli_errors *const errors = context;
+static aur_result note_image(cli_errors *errors, const aur_image *image,
+                             const aur_render_statistics *statistics, aur_error *error) {
     double rmse[4], mean[4];
     aur_result result = aur_image_compare(errors->reference, image, AUR_IMAGE_RMSE, rmse, error);
     if (result == AUR_OK)
@@ -58,8 +57,27 @@ static aur_result note(void *context, const aur_image *image, const aur_render_s
     return AUR_OK;
 }
 
-aur_waves cli_errors_waves(cli_errors *errors) {
-    return (aur_waves){.finished = note, .context = errors};
+static aur_result note(cli_errors *errors, const aur_render *render, aur_error *error) {
+    aur_image *image = NULL;
+    aur_render_statistics statistics;
+    aur_render_get_statistics(render, &statistics);
+    aur_result result = aur_film_develop(aur_render_film(render), &image, error);
+    if (result == AUR_OK)
+        result = note_image(errors, image, &statistics, error);
+    aur_image_destroy(image);
+    return result;
+}
+
+aur_result cli_errors_render(cli_errors *errors, aur_render *render, aur_error *error) {
+    aur_result result = AUR_OK;
+    const size_t wanted = aur_render_samples_wanted(render);
+    for (size_t done = 0; result == AUR_OK && done < wanted; done = aur_render_samples(render)) {
+        /* 1 more, then as many as there are. */
+        result = aur_render_step(render, done > 0 ? done : 1, error);
+        if (result == AUR_OK)
+            result = note(errors, render, error);
+    }
+    return result;
 }
 
 aur_result cli_errors_write(const cli_errors *errors, const char *path, aur_error *error) {

@@ -185,7 +185,10 @@ static bool parse(int argc, char **argv, render_command *command) {
     return command->output != NULL && check_output(command->output);
 }
 
-static void print_statistics(const aur_render_statistics *statistics) {
+static void print_statistics(const aur_render *render) {
+    aur_render_statistics counted;
+    aur_render_get_statistics(render, &counted);
+    const aur_render_statistics *const statistics = &counted;
     const double seconds = statistics->prepare_seconds + statistics->render_seconds;
     fprintf(stderr,
             "aureole: %" PRIu64 " samples, %" PRIu64
@@ -210,7 +213,15 @@ static aur_result check_folder(const char *path, aur_error *error) {
     return AUR_ERROR_WRITE;
 }
 
-static int render(const render_command *command, const cli_errors *errors) {
+/* All samples, in the steps that the errors ask for; *image is what there is in the end. */
+static aur_result render_samples(aur_render *render, cli_errors *errors, aur_image **image,
+                                 aur_error *error) {
+    const aur_result result =
+        errors != NULL ? cli_errors_render(errors, render, error) : aur_render_step(render, 0, error);
+    return result == AUR_OK ? aur_film_develop(aur_render_film(render), image, error) : result;
+}
+
+static int render(const render_command *command, cli_errors *errors) {
     aur_error error = {0};
     if (check_folder(command->output, &error) != AUR_OK ||
         (errors != NULL && strcmp(command->errors, "-") != 0 &&
@@ -221,21 +232,24 @@ static int render(const render_command *command, const cli_errors *errors) {
                                              .warnings = command->options.warnings};
     aur_scene *scene = NULL;
     aur_renderer *renderer = NULL;
+    aur_render *work = NULL;
     aur_image *image = NULL;
-    aur_render_statistics statistics;
     aur_result result = aur_scene_load(command->scene, &scene_options, &scene, &error);
     if (result == AUR_OK)
         result = aur_renderer_create(scene, &renderer, &error);
     if (result == AUR_OK)
-        result = aur_renderer_render(renderer, &command->options, &image, &statistics, &error);
+        result = aur_render_create(renderer, &command->options, &work, &error);
+    if (result == AUR_OK)
+        result = render_samples(work, errors, &image, &error);
     cli_progress_clear();
     if (result == AUR_OK)
         result = aur_image_write(command->output, image, NULL, &error);
     if (result == AUR_OK && errors != NULL)
         result = cli_errors_write(errors, command->errors, &error);
     if (result == AUR_OK && command->statistics)
-        print_statistics(&statistics);
+        print_statistics(work);
     aur_image_destroy(image);
+    aur_render_destroy(work);
     aur_renderer_destroy(renderer);
     aur_scene_destroy(scene);
     return result == AUR_OK ? CLI_SUCCESS : cli_fail(&error);
@@ -248,8 +262,6 @@ static int run(int argc, char **argv) {
         command.options.progress = cli_progress(command.quiet);
         command.options.warnings = cli_warnings(command.quiet);
         cli_errors *const errors = command.reference != NULL ? cli_errors_create(command.reference) : NULL;
-        if (errors != NULL)
-            command.options.waves = cli_errors_waves(errors);
         if (errors != NULL || command.reference == NULL)
             status = render(&command, errors);
         cli_errors_destroy(errors);

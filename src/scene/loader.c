@@ -375,7 +375,7 @@ static void warn_unused(loader *self, aur_parameters *parameters, const char *na
 }
 
 /* The part of the picture that is to be rendered. */
-static aur_result read_crop(loader *self, aur_parameters *parameters, aur_film *film) {
+static aur_result read_crop(loader *self, aur_parameters *parameters, aur_film_settings *film) {
     const int64_t width = (int64_t)film->width, height = (int64_t)film->height;
     int64_t x = 0, y = 0, wide = -1, high = -1;
     aur_result result = aur_parameters_integer(parameters, "crop_offset_x", 0, 65535, &x, self->error);
@@ -406,7 +406,7 @@ static aur_result read_crop(loader *self, aur_parameters *parameters, aur_film *
 static aur_result build_film(loader *self, aur_xml_node *node, aur_parameters *parameters, void **object) {
     (void)node;
     static const char *const films[] = {"hdrfilm", "ldrfilm"};
-    aur_film *const film = &self->scene->film;
+    aur_film_settings *const film = &self->scene->film;
     *object = film;
     if (strcmp(parameters->plugin, "ldrfilm") == 0)
         aur_warn_at(self->warnings, parameters->location,
@@ -579,7 +579,7 @@ static aur_result build_top(loader *self, aur_xml_node *node) {
 
 aur_result aur_scene_build(aur_scene *scene, const aur_warnings *warnings, aur_error *error) {
     loader self = {.scene = scene, .warnings = warnings, .error = error};
-    scene->film = (aur_film){.width = 768, .height = 576, .filter = aur_filter_find("gaussian")};
+    scene->film = (aur_film_settings){.width = 768, .height = 576, .filter = aur_filter_find("gaussian")};
     scene->samples_per_pixel = 4;
     aur_xml_node *const root = scene->document.root;
     for (aur_xml_node *node = root->first_child; node != NULL; node = node->next) {

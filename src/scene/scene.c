@@ -174,7 +174,7 @@ bool aur_camera_has_lens(const aur_scene *scene) {
     return scene->sensor.aperture_radius > 0.0f;
 }
 
-const aur_film *aur_scene_film(const aur_scene *scene) {
+const aur_film_settings *aur_scene_film(const aur_scene *scene) {
     return &scene->film;
 }
 

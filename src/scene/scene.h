@@ -155,13 +155,14 @@ const char *aur_filter_name(const aur_filter *filter);
 float aur_filter_sample(const aur_filter *filter, float u);
 float aur_filter_weight(const aur_filter *filter, float offset);
 
-typedef struct aur_film {
+/* What a scene says of its picture. */
+typedef struct aur_film_settings {
     size_t width, height;
     size_t crop_x0, crop_x1, crop_y0, crop_y1; /* pixels x0 <= x < x1, y0 <= y < y1; all 0: the whole */
     const aur_filter *filter;
-} aur_film;
+} aur_film_settings;
 
-const aur_film *aur_scene_film(const aur_scene *scene);
+const aur_film_settings *aur_scene_film(const aur_scene *scene);
 size_t aur_scene_samples_per_pixel(const aur_scene *scene);
 const char *aur_scene_sampler(const aur_scene *scene); /* SET syntax */
 /* The integrator as the scene has it; its plugin may be one that Aureole does not know. */

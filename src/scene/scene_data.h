@@ -43,7 +43,7 @@ struct aur_scene {
     bool has_sensor, has_integrator;
     aur_sensor sensor;
     aur_filter filter;
-    aur_film film;
+    aur_film_settings film;
     char *sampler;
     size_t samples_per_pixel;
     aur_parameters integrator;

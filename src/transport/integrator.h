@@ -5,13 +5,22 @@
 
 #include <aureole/render.h>
 
+#include <stdlib.h>
+
 #include "core/cache.h"
 #include "core/parameters.h"
-#include "film/tile.h"
+#include "film/film.h"
 #include "scene/scene.h"
 
 /* What an integrator is made for. Everything but the parameters outlives it. */
-typedef struct aur_integrator_context {
+typedef struct aur_integrator aur_integrator;
+typedef struct aur_integrator_context aur_integrator_context;
+
+/* Makes the integrator that parameters->plugin names ready; errors carry the place in the scene file. */
+typedef aur_result aur_integrator_factory(aur_parameters *parameters, const aur_integrator_context *context,
+                                          aur_integrator **integrator, aur_error *error);
+
+struct aur_integrator_context {
     const aur_scene *scene;
     size_t samples_per_pixel;
     uint64_t seed;
@@ -19,9 +28,9 @@ typedef struct aur_integrator_context {
     aur_cache *cache; /* what renders of one scene share */
     aur_progress progress;
     aur_warnings warnings;
-} aur_integrator_context;
-
-typedef struct aur_integrator aur_integrator;
+    /* For integrators that hold another one; set by aur_integrator_create. */
+    aur_integrator_factory *create;
+};
 
 typedef struct aur_integrator_descriptor {
     aur_integrator_description description;
@@ -36,9 +45,6 @@ typedef struct aur_integrator_descriptor {
     /* Instead of it, for integrators that treat pixels together or fill more channels: adds the samples of a
      * tile. The sums of a pixel must not depend on which of its neighbours are wanted. */
     aur_result (*tile)(const aur_integrator *integrator, aur_tile *tile);
-    /* May be NULL. Makes of the means of a pixel's channels over its `count` samples what the picture shows.
-     */
-    void (*develop)(const aur_integrator *integrator, uint32_t count, double *pixel);
 } aur_integrator_descriptor;
 
 enum { AUR_EXTRA_CHANNELS_MAX = 64 };
@@ -50,14 +56,21 @@ struct aur_integrator {
     bool pixel_centre;              /* every camera ray goes through the centre of its pixel */
     size_t extra_count;             /* channels after R, G, B; at most AUR_EXTRA_CHANNELS_MAX */
     const char *const *extra_names; /* as in the picture's file */
+    /* What they show; NULL: means. */
+    const aur_channel_kind *extra_kinds;
 };
 
 /* The table; NULL beyond it. */
 const aur_integrator_descriptor *aur_integrator_descriptor_at(size_t index);
 
-/* Makes the integrator that parameters->plugin names ready; errors carry the place in the scene file. */
-aur_result aur_integrator_create(aur_parameters *parameters, const aur_integrator_context *context,
-                                 aur_integrator **integrator, aur_error *error);
-void aur_integrator_destroy(aur_integrator *integrator);
+aur_integrator_factory aur_integrator_create;
+
+static inline void aur_integrator_destroy(aur_integrator *integrator) {
+    if (integrator == NULL)
+        return;
+    if (integrator->data != NULL)
+        integrator->descriptor->release(integrator);
+    free(integrator);
+}
 
 #endif

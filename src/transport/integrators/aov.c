@@ -65,7 +65,7 @@ static void shape_index(const aov_sample *sample, float *values) {
     values[0] = (float)(sample->hit->shape + 1);
 }
 
-/* develop() makes these two of the means. */
+/* The film makes these two of its sums: see channel_kind. */
 static void sample_count(const aov_sample *sample, float *values) {
     (void)sample;
     values[0] = 0.0f;
@@ -93,6 +93,7 @@ typedef struct aov_data {
     size_t count;
     const aov_type *aovs[CHANNEL_CAPACITY];
     size_t channel_count;
+    aur_channel_kind kinds[CHANNEL_CAPACITY];
     char names[CHANNEL_CAPACITY][NAME_CAPACITY];
     const char *name_list[CHANNEL_CAPACITY];
 } aov_data;
@@ -119,6 +120,13 @@ static aur_result fail_type(const char *name, size_t length, aur_location locati
                        length < 64 ? (int)length : 64, name, list);
 }
 
+static aur_channel_kind channel_kind(const aov_type *type, size_t channel) {
+    if (type->evaluate == sample_count)
+        return AUR_CHANNEL_COUNT;
+    return type->evaluate == variance ? (aur_channel_kind)(AUR_CHANNEL_VARIANCE_R + channel)
+                                      : AUR_CHANNEL_MEAN;
+}
+
 /* "name:type" */
 static aur_result add_aov(aov_data *data, const char *text, size_t length, aur_location location,
                           aur_error *error) {
@@ -142,6 +150,7 @@ static aur_result add_aov(aov_data *data, const char *text, size_t length, aur_l
             if (strcmp(data->names[i], name) == 0)
                 return aur_fail_at(error, location, AUR_ERROR_FORMAT,
                                    "integrator 'aov': two channels are called '%s'", name);
+        data->kinds[data->channel_count] = channel_kind(type, c);
         data->name_list[data->channel_count++] = name;
     }
     data->aovs[data->count++] = type;
@@ -177,7 +186,7 @@ static aur_result create_nested(aur_parameters *parameters, const aur_integrator
     }
     if (result != AUR_OK)
         return result;
-    result = aur_integrator_create(&nested, context, &data->nested, error);
+    result = context->create(&nested, context, &data->nested, error);
     aur_parameters_release(&nested);
     if (result == AUR_OK && data->nested->descriptor->radiance == NULL)
         return aur_fail_at(error, parameters->location, AUR_ERROR_UNSUPPORTED,
@@ -205,6 +214,7 @@ static aur_result create(aur_parameters *parameters, const aur_integrator_contex
     integrator->pixel_centre = data->nested->pixel_centre;
     integrator->extra_count = data->channel_count;
     integrator->extra_names = data->name_list;
+    integrator->extra_kinds = data->kinds;
     return AUR_OK;
 }
 
@@ -242,23 +252,6 @@ static aur_result add_tile(const aur_integrator *integrator, aur_tile *tile) {
     return AUR_OK;
 }
 
-/* The unbiased estimate of the variance of one sample, of the means of it and of its square. */
-static double variance_of(uint32_t count, double mean, double mean_square) {
-    const double spread = mean_square - mean * mean;
-    return count > 1 && spread > 0.0 ? spread * (double)count / (double)(count - 1) : 0.0;
-}
-
-static void develop(const aur_integrator *integrator, uint32_t count, double *pixel) {
-    const aov_data *const data = integrator->data;
-    for (size_t i = 0, channel = 3; i < data->count; ++i) {
-        if (data->aovs[i]->evaluate == sample_count)
-            pixel[channel] = count;
-        for (size_t c = 0; data->aovs[i]->evaluate == variance && c < 3; ++c)
-            pixel[channel + c] = variance_of(count, pixel[c], pixel[channel + c]);
-        channel += strlen(data->aovs[i]->letters);
-    }
-}
-
 const aur_integrator_descriptor aur_integrator_aov = {
     .description = {.name = "aov",
                     .keys = "aovs=(name:type,...), integrator=path",
@@ -267,5 +260,4 @@ const aur_integrator_descriptor aur_integrator_aov = {
     .create = create,
     .release = release,
     .tile = add_tile,
-    .develop = develop,
 };

@@ -48,19 +48,13 @@ aur_result aur_integrator_create(aur_parameters *parameters, const aur_integrato
         return aur_fail(error, AUR_ERROR_MEMORY, "out of memory");
     integrator->descriptor = descriptor;
     integrator->scene = context->scene;
-    const aur_result result = descriptor->create(parameters, context, integrator, error);
+    aur_integrator_context own = *context;
+    own.create = aur_integrator_create;
+    const aur_result result = descriptor->create(parameters, &own, integrator, error);
     if (result != AUR_OK) {
         aur_integrator_destroy(integrator);
         return result;
     }
     *out = integrator;
     return AUR_OK;
-}
-
-void aur_integrator_destroy(aur_integrator *integrator) {
-    if (integrator == NULL)
-        return;
-    if (integrator->data != NULL)
-        integrator->descriptor->release(integrator);
-    free(integrator);
 }

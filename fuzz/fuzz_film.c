@@ -1,0 +1,66 @@
+/* Films. The checksum of every input is made right, so that what stands before it is what is tried. */
+#include <string.h>
+
+#include "core/random.h"
+#include "film/film.h"
+#include "fuzz.h"
+
+static uint64_t word_at(const uint8_t *bytes) {
+    uint64_t word = 0;
+    for (unsigned k = 0; k < 8; ++k)
+        word |= (uint64_t)bytes[k] << 8 * k;
+    return word;
+}
+
+int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
+    uint8_t *const bytes = malloc(size + 1);
+    if (bytes == NULL)
+        return 0;
+    memcpy(bytes, data, size);
+    if (size >= 8 && size % 8 == 0) {
+        uint64_t hash = 0;
+        for (size_t i = 0; i + 8 < size; i += 8)
+            hash = aur_hash2(hash, word_at(&bytes[i]));
+        for (unsigned k = 0; k < 8; ++k)
+            bytes[size - 8 + k] = (uint8_t)(hash >> 8 * k);
+    }
+    aur_film *film;
+    aur_error error = {0};
+    const aur_result result = aur_film_load_memory("input", size, bytes, &film, &error);
+    if (result != AUR_OK) {
+        fuzz_require(film == NULL, "a failed read left a film");
+        fuzz_require(error.result == result && error.message[0] != '\0', "a failure without a message");
+    } else {
+        aur_image *image = NULL;
+        double rmse[4];
+        fuzz_require(aur_film_develop(film, &image, NULL) == AUR_OK, "a film without a picture");
+        aur_image_destroy(image);
+        aur_film_error(film, rmse, NULL, NULL);
+        fuzz_require(aur_film_merge(film, film, NULL) == AUR_OK, "a film that is not like itself");
+    }
+    aur_film_destroy(film);
+    free(bytes);
+    return 0;
+}
+
+/* A whole picture, and a part of one with a channel of its own. */
+size_t aur_fuzz_seed(size_t index, size_t capacity, uint8_t *data) {
+    if (index > 1)
+        return 0;
+    const aur_film_layout layout = {.width = 20 + index * 1000,
+                                    .height = 18,
+                                    .x0 = index * 16,
+                                    .x1 = 19 + index,
+                                    .y1 = 18,
+                                    .channel_count = 3 + index};
+    aur_film *film = NULL;
+    fuzz_require(aur_film_create(&layout, &film, NULL) == AUR_OK, "no film");
+    if (index == 1)
+        film->channels[3] = (aur_film_channel){.name = "n", .kind = AUR_CHANNEL_COUNT};
+    const char *const path = "seed.film";
+    fuzz_require(aur_film_save(film, path, NULL) == AUR_OK, "a seed cannot be written");
+    aur_film_destroy(film);
+    const size_t size = fuzz_read_file(path, capacity, data);
+    unlink(path);
+    return size;
+}

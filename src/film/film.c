@@ -1,0 +1,271 @@
+#include "film/film.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "core/error.h"
+#include "core/options.h"
+
+static bool is_good(const aur_film_layout *layout) {
+    enum { LARGEST_SIDE = 1 << 24, MOST_CHANNELS = 1 << 16 };
+    return layout->x0 < layout->x1 && layout->x1 <= layout->width && layout->width <= LARGEST_SIDE &&
+           layout->y0 < layout->y1 && layout->y1 <= layout->height && layout->height <= LARGEST_SIDE &&
+           layout->channel_count >= 3 && layout->channel_count <= MOST_CHANNELS;
+}
+
+aur_result aur_film_create(const aur_film_layout *layout, aur_film **out, aur_error *error) {
+    *out = NULL;
+    if (!is_good(layout))
+        return aur_fail(error, AUR_ERROR_ARGUMENT, "no film has %zu x %zu pixels and %zu channels",
+                        layout->width, layout->height, layout->channel_count);
+    aur_film *const film = calloc(1, sizeof *film);
+    if (film == NULL)
+        return aur_fail(error, AUR_ERROR_MEMORY, "out of memory");
+    film->layout = *layout;
+    film->column0 = layout->x0 / AUR_TILE_SIZE;
+    film->row0 = layout->y0 / AUR_TILE_SIZE;
+    film->columns = (layout->x1 + AUR_TILE_SIZE - 1) / AUR_TILE_SIZE - film->column0;
+    film->tile_count = film->columns * ((layout->y1 + AUR_TILE_SIZE - 1) / AUR_TILE_SIZE - film->row0);
+    const size_t pixels = aur_film_pixel_count(film);
+    film->channels = calloc(layout->channel_count, sizeof *film->channels);
+    film->tile_samples = calloc(film->tile_count, sizeof *film->tile_samples);
+    film->sums = calloc(pixels, layout->channel_count * sizeof *film->sums);
+    film->counts = calloc(pixels, sizeof *film->counts);
+    film->steps = calloc(pixels, sizeof *film->steps);
+    film->squares = calloc(pixels, 3 * sizeof *film->squares);
+    if (film->channels == NULL || film->tile_samples == NULL || film->sums == NULL || film->counts == NULL ||
+        film->steps == NULL || film->squares == NULL) {
+        aur_film_destroy(film);
+        return aur_fail(error, AUR_ERROR_MEMORY, "out of memory for a picture of %zu x %zu", layout->width,
+                        layout->height);
+    }
+    for (size_t c = 0; c < 3; ++c)
+        film->channels[c].name[0] = "RGB"[c];
+    *out = film;
+    return AUR_OK;
+}
+
+void aur_film_destroy(aur_film *film) {
+    if (film == NULL)
+        return;
+    free(film->channels);
+    free(film->tile_samples);
+    free(film->sums);
+    free(film->counts);
+    free(film->steps);
+    free(film->squares);
+    free(film);
+}
+
+static size_t larger(size_t a, size_t b) {
+    return a > b ? a : b;
+}
+
+static size_t smaller(size_t a, size_t b) {
+    return a < b ? a : b;
+}
+
+bool aur_film_open_tile(aur_film *film, size_t index, uint32_t target, aur_tile *tile,
+                        aur_film_before *before) {
+    const aur_film_layout *const layout = &film->layout;
+    const uint32_t done = film->tile_samples[index];
+    if (done >= target)
+        return false;
+    const size_t x = (film->column0 + index % film->columns) * AUR_TILE_SIZE;
+    const size_t y = (film->row0 + index / film->columns) * AUR_TILE_SIZE;
+    tile->x0 = larger(x, layout->x0);
+    tile->x1 = smaller(x + AUR_TILE_SIZE, layout->x1);
+    tile->y0 = larger(y, layout->y0);
+    tile->y1 = smaller(y + AUR_TILE_SIZE, layout->y1);
+    tile->first = done;
+    tile->count = target - done;
+    tile->stride = layout->x1 - layout->x0;
+    tile->channel_count = layout->channel_count;
+    const size_t pixel = (tile->y0 - layout->y0) * tile->stride + (tile->x0 - layout->x0);
+    tile->sums = &film->sums[pixel * layout->channel_count];
+    tile->counts = &film->counts[pixel];
+    size_t k = 0;
+    for (size_t row = 0; row < tile->y1 - tile->y0; ++row)
+        for (size_t column = 0; column < tile->x1 - tile->x0; ++column, ++k) {
+            const size_t at = row * tile->stride + column;
+            memcpy(before->sums[k], &tile->sums[at * tile->channel_count], sizeof before->sums[k]);
+            before->counts[k] = tile->counts[at];
+        }
+    return true;
+}
+
+void aur_film_close_tile(aur_film *film, size_t index, const aur_tile *tile, const aur_film_before *before) {
+    const size_t first = (size_t)(tile->counts - film->counts);
+    size_t k = 0;
+    for (size_t row = 0; row < tile->y1 - tile->y0; ++row)
+        for (size_t column = 0; column < tile->x1 - tile->x0; ++column, ++k) {
+            const size_t at = row * tile->stride + column;
+            const uint32_t count = tile->counts[at] - before->counts[k];
+            if (count == 0)
+                continue;
+            ++film->steps[first + at];
+            for (size_t c = 0; c < 3; ++c) {
+                const double sum = tile->sums[at * tile->channel_count + c] - before->sums[k][c];
+                film->squares[3 * (first + at) + c] += sum * sum / (double)count;
+            }
+        }
+    film->tile_samples[index] += tile->count;
+}
+
+uint32_t aur_film_samples(const aur_film *film) {
+    uint32_t least = UINT32_MAX;
+    for (size_t i = 0; i < film->tile_count; ++i)
+        least = film->tile_samples[i] < least ? film->tile_samples[i] : least;
+    return least;
+}
+
+aur_result aur_film_describe(const aur_film *film, aur_film_description *description, aur_error *error) {
+    const aur_film_layout *const layout = &film->layout;
+    aur_film_description own = {.width = layout->width,
+                                .height = layout->height,
+                                .x0 = layout->x0,
+                                .x1 = layout->x1,
+                                .y0 = layout->y0,
+                                .y1 = layout->y1,
+                                .channel_count = layout->channel_count,
+                                .least_samples = aur_film_samples(film)};
+    for (size_t i = 0; i < film->tile_count; ++i)
+        if (film->tile_samples[i] > own.most_samples)
+            own.most_samples = film->tile_samples[i];
+    return aur_description_write(&own, sizeof own, sizeof own, description, "aur_film_description", error);
+}
+
+const char *aur_film_channel_name(const aur_film *film, size_t channel) {
+    return channel < film->layout.channel_count ? film->channels[channel].name : NULL;
+}
+
+/* Whether a side of the part lies on the film's own side or between two tiles. */
+static bool fits(size_t part, size_t own) {
+    return part == own || part % AUR_TILE_SIZE == 0;
+}
+
+static aur_result check_part(const aur_film *film, const aur_film *part, aur_error *error) {
+    const aur_film_layout *const a = &film->layout, *const b = &part->layout;
+    if (a->width != b->width || a->height != b->height)
+        return aur_fail(error, AUR_ERROR_ARGUMENT,
+                        "a part of a picture of %zu x %zu cannot be added to one of %zu x %zu", b->width,
+                        b->height, a->width, a->height);
+    bool same = a->channel_count == b->channel_count;
+    for (size_t c = 0; same && c < a->channel_count; ++c)
+        same = strcmp(film->channels[c].name, part->channels[c].name) == 0 &&
+               film->channels[c].kind == part->channels[c].kind;
+    if (!same)
+        return aur_fail(error, AUR_ERROR_ARGUMENT, "the part has other channels than the film");
+    if (b->x0 < a->x0 || b->x1 > a->x1 || b->y0 < a->y0 || b->y1 > a->y1 || !fits(b->x0, a->x0) ||
+        !fits(b->x1, a->x1) || !fits(b->y0, a->y0) || !fits(b->y1, a->y1))
+        return aur_fail(error, AUR_ERROR_ARGUMENT,
+                        "the part's pixels %zu,%zu,%zu,%zu are not whole tiles of %d pixels of the film's "
+                        "%zu,%zu,%zu,%zu",
+                        b->x0, b->x1, b->y0, b->y1, (int)AUR_TILE_SIZE, a->x0, a->x1, a->y0, a->y1);
+    return AUR_OK;
+}
+
+aur_result aur_film_merge(aur_film *film, const aur_film *part, aur_error *error) {
+    const aur_result result = check_part(film, part, error);
+    if (result != AUR_OK)
+        return result;
+    const aur_film_layout *const a = &film->layout, *const b = &part->layout;
+    const size_t channels = a->channel_count;
+    for (size_t y = b->y0; y < b->y1; ++y)
+        for (size_t x = b->x0; x < b->x1; ++x) {
+            const size_t to = (y - a->y0) * (a->x1 - a->x0) + (x - a->x0);
+            const size_t from = (y - b->y0) * (b->x1 - b->x0) + (x - b->x0);
+            for (size_t c = 0; c < channels; ++c)
+                film->sums[to * channels + c] += part->sums[from * channels + c];
+            for (size_t c = 0; c < 3; ++c)
+                film->squares[3 * to + c] += part->squares[3 * from + c];
+            film->counts[to] += part->counts[from];
+            film->steps[to] += part->steps[from];
+        }
+    for (size_t i = 0; i < part->tile_count; ++i) {
+        const size_t column = part->column0 + i % part->columns - film->column0;
+        const size_t row = part->row0 + i / part->columns - film->row0;
+        film->tile_samples[row * film->columns + column] += part->tile_samples[i];
+    }
+    return AUR_OK;
+}
+
+/* The unbiased estimate of the variance of one sample, of the means of it and of its square. */
+static double variance_of(uint32_t count, double mean, double mean_square) {
+    const double spread = mean_square - mean * mean;
+    return count > 1 && spread > 0.0 ? spread * (double)count / (double)(count - 1) : 0.0;
+}
+
+static double channel_value(const aur_film *film, size_t pixel, size_t channel) {
+    const double *const sums = &film->sums[pixel * film->layout.channel_count];
+    const uint32_t count = film->counts[pixel];
+    if (count == 0)
+        return 0.0;
+    const aur_channel_kind kind = film->channels[channel].kind;
+    if (kind == AUR_CHANNEL_COUNT)
+        return count;
+    const double mean = sums[channel] / (double)count;
+    return kind == AUR_CHANNEL_MEAN
+               ? mean
+               : variance_of(count, sums[kind - AUR_CHANNEL_VARIANCE_R] / (double)count, mean);
+}
+
+aur_result aur_film_develop(const aur_film *film, aur_image **out, aur_error *error) {
+    const aur_film_layout *const layout = &film->layout;
+    const size_t channels = layout->channel_count;
+    *out = NULL;
+    aur_image *image;
+    const aur_result result =
+        aur_image_create(layout->x1 - layout->x0, layout->y1 - layout->y0, channels, &image, error);
+    if (result != AUR_OK)
+        return result;
+    for (size_t c = 0; c < channels; ++c)
+        memcpy(image->channel_names[c], film->channels[c].name, AUR_CHANNEL_NAME_CAPACITY);
+    for (size_t i = 0; i < aur_film_pixel_count(film); ++i)
+        for (size_t c = 0; c < channels; ++c)
+            image->data[i * channels + c] = (float)channel_value(film, i, c);
+    *out = image;
+    return AUR_OK;
+}
+
+/* The squared standard error of a pixel's mean (aur_film_error). */
+static double squared_error(const aur_film *film, size_t pixel, size_t channel) {
+    const double count = film->counts[pixel];
+    const double sum = film->sums[pixel * film->layout.channel_count + channel];
+    const double spread = film->squares[3 * pixel + channel] - sum * sum / count;
+    return spread > 0.0 ? spread / ((double)(film->steps[pixel] - 1) * count) : 0.0;
+}
+
+aur_result aur_film_error(const aur_film *film, double rmse[4], aur_image **out, aur_error *error) {
+    const size_t pixels = aur_film_pixel_count(film);
+    if (out != NULL)
+        *out = NULL;
+    for (size_t i = 0; i < pixels; ++i)
+        if (film->steps[i] < 2)
+            return aur_fail(error, AUR_ERROR_UNSUPPORTED,
+                            "a pixel has %u steps of samples; an error is seen from two steps on",
+                            film->steps[i]);
+    aur_image *image = NULL;
+    if (out != NULL) {
+        const aur_result result = aur_image_create(film->layout.x1 - film->layout.x0,
+                                                   film->layout.y1 - film->layout.y0, 3, &image, error);
+        if (result != AUR_OK)
+            return result;
+    }
+    double total[4] = {0};
+    for (size_t i = 0; i < pixels; ++i)
+        for (size_t c = 0; c < 3; ++c) {
+            const double squared = squared_error(film, i, c);
+            total[c] += squared / (double)pixels;
+            total[3] += squared / (3.0 * (double)pixels);
+            if (image != NULL)
+                image->data[3 * i + c] = (float)sqrt(squared);
+        }
+    for (size_t c = 0; rmse != NULL && c < 4; ++c)
+        rmse[c] = sqrt(total[c]);
+    if (out != NULL)
+        *out = image;
+    return AUR_OK;
+}

@@ -1,0 +1,74 @@
+/* The inside of a film: sums of samples for each pixel, and how far each tile has come. */
+#ifndef AUR_FILM_FILM_H
+#define AUR_FILM_FILM_H
+
+#include <aureole/film.h>
+
+#include "film/tile.h"
+
+/* What a channel shows of its sums. */
+typedef enum aur_channel_kind {
+    AUR_CHANNEL_MEAN,
+    /* The number of samples. */
+    AUR_CHANNEL_COUNT,
+    /* The variance of one sample of channel 0, 1 or 2; the sums are of squares. */
+    AUR_CHANNEL_VARIANCE_R,
+    AUR_CHANNEL_VARIANCE_G,
+    AUR_CHANNEL_VARIANCE_B,
+    AUR_CHANNEL_KIND_COUNT
+} aur_channel_kind;
+
+typedef struct aur_film_channel {
+    char name[AUR_CHANNEL_NAME_CAPACITY];
+    aur_channel_kind kind;
+} aur_film_channel;
+
+/* The first three channels are R, G, B. */
+typedef struct aur_film_layout {
+    /* Of the whole picture. */
+    size_t width, height;
+    /* The film's pixels: x0 <= x < x1, y0 <= y < y1. */
+    size_t x0, x1, y0, y1;
+    size_t channel_count;
+} aur_film_layout;
+
+struct aur_film {
+    aur_film_layout layout;
+    aur_film_channel *channels;
+    /* The first tile on the grid over the whole picture, and how many tiles there are. */
+    size_t column0, row0, columns, tile_count;
+    /* Samples that each pixel of a tile was given. */
+    uint32_t *tile_samples;
+    /* For each pixel, row by row: sums of each channel, and the number of samples in them. */
+    double *sums;
+    uint32_t *counts;
+    /* For each pixel: steps with samples, and over them the sum of n_b * m_b^2 for R, G, B (aur_film_error).
+     */
+    uint32_t *steps;
+    double *squares;
+};
+
+static inline size_t aur_film_pixel_count(const aur_film *film) {
+    return (film->layout.x1 - film->layout.x0) * (film->layout.y1 - film->layout.y0);
+}
+
+/* An empty film; its channels after the first three are still to be named. Errors: ARGUMENT, MEMORY. */
+aur_result aur_film_create(const aur_film_layout *layout, aur_film **film, aur_error *error);
+
+/* What one pixel of a tile had before a step. */
+typedef struct aur_film_before {
+    double sums[AUR_TILE_SIZE * AUR_TILE_SIZE][3];
+    uint32_t counts[AUR_TILE_SIZE * AUR_TILE_SIZE];
+} aur_film_before;
+
+/* Opens tile `index` for the samples that it lacks up to `target`, tile->first to tile->first + tile->count
+ * - 1. False when it has them. Different tiles may be open in different threads. */
+bool aur_film_open_tile(aur_film *film, size_t index, uint32_t target, aur_tile *tile,
+                        aur_film_before *before);
+/* Notes what the step brought. */
+void aur_film_close_tile(aur_film *film, size_t index, const aur_tile *tile, const aur_film_before *before);
+
+/* Samples that every pixel was given. */
+uint32_t aur_film_samples(const aur_film *film);
+
+#endif
