@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # Checksums of pictures, points, weights and measures, a line each. A change that only moves code leaves every line as it
 # was: scripts/bits.sh PROGRAM > before; ...; scripts/bits.sh PROGRAM > after; diff before after
-# The sums are of this machine: Embree's hits and OpenBLAS's sums differ in the last bits between processors.
+# The sums are of this machine: Embree's hits differ in the last bits between processors.
 set -euo pipefail
 aureole=$(realpath "${1:-build/release/aureole}")
 source=$(cd "$(dirname "$0")/.." && pwd)

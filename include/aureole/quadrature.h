@@ -5,10 +5,7 @@
  * aur_potential_mass for the density as it is written. The kernel is K(u,v) = 2^{2s-1}/s - |u-v|^{2s-2}, 1 <
  * s < 2 (Marques 2018 eq. 3); z(u) = integral of K(u,v) p(v) (eq. 12) is called the potential of p, V =
  * integral of z p (eq. 10) its self-energy. Directions are unit vectors x,y,z, one after another; the surface
- * normal is +z.
- *
- * The first solve holds OpenBLAS to one thread for the whole process, so that results do not depend on how
- * many threads the machine has. */
+ * normal is +z. Weights have the same bits on every processor and for any number of threads. */
 #ifndef AUREOLE_QUADRATURE_H
 #define AUREOLE_QUADRATURE_H
 

@@ -1,4 +1,4 @@
-/* Symmetric positive definite systems by LAPACK, on one thread. */
+/* Symmetric positive definite systems, on one thread. */
 #ifndef AUR_QUADRATURE_SOLVE_H
 #define AUR_QUADRATURE_SOLVE_H
 

@@ -94,6 +94,12 @@ if command -v gnuplot >/dev/null; then
   "$program" weights random -n 50 --lobe cosine --plot no/such/folder.svg 2>/dev/null && fail "a plot nowhere"
 fi
 
+# Where memory is short the weights are found or refused; they are not waited for.
+for limit in 150000 200000 250000; do
+  (ulimit -v $limit; timeout 60 "$program" weights random -n 2000 --lobe cosine >/dev/null 2>&1)
+  [ $? != 124 ] || fail "2000 samples within $limit KiB of addresses take for ever"
+done
+
 refused() { # PATTERN COMMAND...: exit status 2, one line on standard error, nothing on standard output
   local pattern=$1; shift
   "$program" weights "$@" >out 2>message; local status=$?

@@ -214,8 +214,7 @@ static void test_table(void **state) {
     check_table(200.0, 1, 64);
 }
 
-/* More threads than cores, so that they are interrupted anywhere: every table has the same bits. (OpenBLAS
- * 0.3.21 called by several threads at once fails this in one table out of some tens.) */
+/* More threads than cores, so that they are interrupted anywhere: every table has the same bits. */
 static void test_threads(void **state) {
     (void)state;
     const aur_oswa_options options = pair(20.0, 0);
