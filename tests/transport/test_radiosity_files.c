@@ -3,6 +3,7 @@
 
 #include "core/random.h"
 #include "radiosity_room.h"
+#include "transport/radiosity/solution.h"
 
 /* --- files */
 
@@ -335,6 +336,57 @@ static void coincidences_are_found_quickly(void **state) {
     aur_scene_destroy(copies);
 }
 
+/* A light 10^18 times darker than another vanishes in the sum of their powers: it is left out, and the other
+ * one's light is what it would be alone. */
+static void vanishing_lights_are_left_out(void **state) {
+    (void)state;
+    aur_scene *const scene = must_load_body(
+        "<shape type='cube'>" INSIDE "<bsdf type='diffuse'><rgb name='reflectance' value='0'/></bsdf>"
+        "<emitter type='area'><rgb name='radiance' value='1e12'/></emitter></shape>"
+        "<shape type='rectangle'><transform name='to_world'><translate z='5'/></transform>"
+        "<emitter type='area'><rgb name='radiance' value='1e-6'/></emitter></shape>");
+    const aur_radiosity_options options = options_of(AUR_RADIOSITY_COSINE, 1);
+    aur_radiosity *const radiosity = must_trace(scene, &options, 1000);
+    assert_int_equal(describe(radiosity).lights, 14);
+    aur_radiosity_triangle_result results[MOST_TRIANGLES];
+    double received = 0.0;
+    for (size_t i = 0, count = get_results(radiosity, results); i < count; ++i)
+        received += results[i].power[0];
+    assert_relative(received, 24.0 * AUR_PI * (double)1e12f, 1e-9);
+    aur_radiosity_destroy(radiosity);
+    aur_scene_destroy(scene);
+}
+
+/* What the sums cannot hold is counted, and what is no number makes no solution. */
+static void powers_beyond_the_sums_are_reported(void **state) {
+    (void)state;
+    aur_scene *const scene = must_load_body(ROOM);
+    messages kept = {0};
+    aur_radiosity_options options = options_of(AUR_RADIOSITY_COSINE, 2);
+    options.warnings = (aur_warnings){keep_message, &kept};
+    aur_radiosity *const radiosity = must_trace(scene, &options, 100), *const whole =
+                                                                           must_trace(scene, &options, 100);
+    double *const start = radiosity->walk.start[0];
+    const double good = start[0];
+    start[0] = NAN;
+    aur_error error = {0};
+    assert_int_equal(aur_radiosity_trace(radiosity, 200, &error), AUR_ERROR_FORMAT);
+    assert_non_null(strstr(error.message, "not finite"));
+    assert_same(whole, radiosity);
+    start[0] = good;
+    assert_int_equal(aur_radiosity_trace(radiosity, 200, &error), AUR_OK);
+    assert_int_equal(aur_radiosity_trace(whole, 200, &error), AUR_OK);
+    assert_same(whole, radiosity);
+    assert_int_equal(kept.count, 0);
+    start[0] = 0x1p63;
+    assert_int_equal(aur_radiosity_trace(radiosity, 300, &error), AUR_OK);
+    assert_int_equal(kept.count, 1);
+    assert_non_null(strstr(kept.text, "is cut off"));
+    aur_radiosity_destroy(radiosity);
+    aur_radiosity_destroy(whole);
+    aur_scene_destroy(scene);
+}
+
 static void other_materials_are_reported(void **state) {
     (void)state;
     aur_scene *const scene =
@@ -362,6 +414,8 @@ int main(void) {
         cmocka_unit_test(coincident_surfaces_are_reported),
         cmocka_unit_test(every_coincidence_is_found),
         cmocka_unit_test(coincidences_are_found_quickly),
+        cmocka_unit_test(vanishing_lights_are_left_out),
+        cmocka_unit_test(powers_beyond_the_sums_are_reported),
         cmocka_unit_test(other_materials_are_reported),
     };
     return cmocka_run_group_tests_name("radiosity files", tests, enter_folder, leave_folder);

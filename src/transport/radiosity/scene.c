@@ -170,6 +170,10 @@ static aur_result add_shape(const aur_scene *scene, size_t shape, uint64_t varia
         made->area += made->areas[*next];
         const aur_vector emission = mean_emission(scene, shape, &corners);
         made->emission[*next] = emission;
+        if (!isfinite(made->areas[*next]))
+            return aur_fail_at(error, aur_scene_shape_location(scene, shape), AUR_ERROR_FORMAT,
+                               "radiosity: triangle %zu of this shape is too large: its area is not finite",
+                               i);
         if (!aur_vector_is_finite(emission))
             return aur_fail_at(error, aur_scene_shape_location(scene, shape), AUR_ERROR_FORMAT,
                                "radiosity: triangle %zu of this shape emits a radiance that is not finite",

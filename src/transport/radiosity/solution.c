@@ -233,7 +233,8 @@ static aur_result prepare_lanes(aur_radiosity *radiosity, aur_error *error) {
     return result;
 }
 
-static aur_result trace_batch(aur_radiosity *radiosity, const point_source *points, uint64_t end) {
+static aur_result trace_batch(aur_radiosity *radiosity, const point_source *points, uint64_t end,
+                              aur_error *error) {
     const size_t count = radiosity->options.randomizations;
     batch work = {.radiosity = radiosity, .points = points, .begin = radiosity->paths, .end = end};
     const uint64_t longest =
@@ -242,10 +243,20 @@ static aur_result trace_batch(aur_radiosity *radiosity, const point_source *poin
     atomic_init(&work.next, 0);
     const aur_result result = aur_parallel_for(&(aur_parallel_options){.threads = radiosity->lane_count},
                                                radiosity->lane_count, run_lane, &work);
+    bool not_finite = false;
+    for (size_t i = 0; i < radiosity->lane_count * count; ++i)
+        not_finite |= radiosity->lanes[i].not_finite;
+    if (not_finite) {
+        release_lanes(radiosity); /* the solution stays what it was before these paths */
+        return aur_fail(
+            error, AUR_ERROR_FORMAT,
+            "radiosity: a path carries a power that is not finite: look for a texture or a material "
+            "of that kind");
+    }
     for (size_t i = 0; i < radiosity->lane_count * count; ++i)
         aur_radiosity_tally_take(&radiosity->tallies[i % count], &radiosity->lanes[i]);
     radiosity->paths = end;
-    return result;
+    return result == AUR_OK ? AUR_OK : aur_fail(error, result, "radiosity: %s", aur_result_string(result));
 }
 
 static void warn_of_ends(aur_radiosity *radiosity) {
@@ -254,7 +265,17 @@ static void warn_of_ends(aur_radiosity *radiosity) {
     const aur_warnings *const warnings = &radiosity->options.warnings;
     if (radiosity->warned)
         return;
-    radiosity->warned = d.lost > 0 || d.behind > 0 || d.trapped > 0;
+    uint64_t cut = 0;
+    for (size_t r = 0; r < radiosity->options.randomizations; ++r)
+        cut += radiosity->tallies[r].cut;
+    radiosity->warned = d.lost > 0 || d.behind > 0 || d.trapped > 0 || cut > 0;
+    if (cut > 0)
+        aur_warn_at(
+            warnings, (aur_location){0},
+            "radiosity: %" PRIu64
+            " times a path had more than 2^20 times the power that the brightest light gives it: what "
+            "is beyond that is cut off",
+            cut);
     const double percent = 100.0 / (double)d.paths;
     if (d.lost > 0)
         aur_warn_at(warnings, (aur_location){0},
@@ -291,12 +312,10 @@ aur_result aur_radiosity_trace(aur_radiosity *radiosity, uint64_t paths, aur_err
     const uint64_t batch_paths = (uint64_t)AUR_RADIOSITY_BLOCK * BLOCKS_A_BATCH * radiosity->lane_count;
     while (result == AUR_OK && radiosity->paths < paths) {
         const uint64_t left = paths - radiosity->paths;
-        result =
-            trace_batch(radiosity, &points, radiosity->paths + (left < batch_paths ? left : batch_paths));
-        if (result != AUR_OK)
-            aur_fail(error, result, "radiosity: %s", aur_result_string(result));
-        else if (progress->function != NULL && left > batch_paths &&
-                 progress->function(progress->user, "radiosity", radiosity->paths, paths) != 0)
+        result = trace_batch(radiosity, &points, radiosity->paths + (left < batch_paths ? left : batch_paths),
+                             error);
+        if (result == AUR_OK && progress->function != NULL && left > batch_paths &&
+            progress->function(progress->user, "radiosity", radiosity->paths, paths) != 0)
             result = aur_fail(error, AUR_ERROR_CANCELLED, "cancelled");
     }
     release_points(&points);

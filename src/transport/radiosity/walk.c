@@ -7,8 +7,8 @@
 
 enum { BLOCK = AUR_RADIOSITY_BLOCK };
 
-/* A quantum is 2^-42 of the greatest power that a path starts with. Uniform angles multiply it by at most
- * pi/2 a flight, so there is room for 2^20 times it, beyond which terms are cut. */
+/* A quantum is 2^-42 of the greatest power that a path starts with. Uniform angles multiply it by up to pi/2
+ * a flight, so there is room for 2^20 times it, beyond which terms are cut, counted and reported. */
 static const double QUANTA = 0x1p42, MOST_QUANTA = 0x1p62;
 
 /* --- lights */
@@ -49,14 +49,15 @@ static aur_result choose_lights(aur_radiosity_walk *walk, const aur_radiosity_op
     return result;
 }
 
-/* L0 A pi / probability, for the lights' mean radiance. */
+/* L0 A pi / probability, for the lights' mean radiance. A light whose weight is lost beside that of brighter
+ * ones, less than 2^-53 of the sum, is never chosen and starts no path. */
 static void find_start(aur_radiosity_walk *walk) {
     double greatest = 0.0;
     for (size_t i = 0; i < walk->light_count; ++i) {
         const uint32_t light = walk->lights[i];
         const aur_vector radiance = walk->scene->emission[light];
-        const double share =
-            AUR_PI * walk->scene->areas[light] / aur_distribution_probability(&walk->choice, i);
+        const double probability = aur_distribution_probability(&walk->choice, i);
+        const double share = probability > 0.0 ? AUR_PI * walk->scene->areas[light] / probability : 0.0;
         const double power[3] = {share * (double)radiance.x, share * (double)radiance.y,
                                  share * (double)radiance.z};
         for (size_t c = 0; c < 3; ++c) {
@@ -119,6 +120,7 @@ void aur_radiosity_tally_take(aur_radiosity_tally *tally, aur_radiosity_tally *o
     tally->lost += other->lost;
     tally->behind += other->behind;
     tally->trapped += other->trapped;
+    tally->cut += other->cut;
     memset(other->power, 0, other->patch_count * sizeof *other->power);
     *other = (aur_radiosity_tally){.patch_count = other->patch_count, .power = other->power};
 }
@@ -216,12 +218,16 @@ static void make_directions(block *b) {
     }
 }
 
-static inline uint64_t quanta(double power) {
-    return (uint64_t)(int64_t)((power < MOST_QUANTA ? power : MOST_QUANTA) + 0.5);
+static inline uint64_t quanta(double power, aur_radiosity_tally *tally) {
+    if (power < MOST_QUANTA)
+        return (uint64_t)(int64_t)(power + 0.5);
+    ++tally->cut;
+    tally->not_finite |= !isfinite(power);
+    return (uint64_t)MOST_QUANTA;
 }
 
-static uint64_t channels(const double power[3]) {
-    return quanta(power[0]) + quanta(power[1]) + quanta(power[2]);
+static uint64_t channels(const double power[3], aur_radiosity_tally *tally) {
+    return quanta(power[0], tally) + quanta(power[1], tally) + quanta(power[2], tally);
 }
 
 /* The particle's hash for what mirrors and glass choose. */
@@ -289,16 +295,16 @@ static bool fly(block *b, size_t i, size_t flight) {
         for (size_t c = 0; c < 3; ++c)
             p->power[c] *= (double)b->factor[i];
     for (size_t c = 0; c < 3; ++c)
-        aur_exact_add(&tally->power[patch][c], quanta(p->power[c]));
+        aur_exact_add(&tally->power[patch][c], quanta(p->power[c], tally));
     const bool is_last = flight == walk->bounces;
     if (is_last)
-        aur_exact_add(&tally->last, channels(p->power));
+        aur_exact_add(&tally->last, channels(p->power, tally));
     const aur_vector albedo = aur_radiosity_albedo(scene, index, front, &ray, &hit);
     p->power[0] *= (double)albedo.x;
     p->power[1] *= (double)albedo.y;
     p->power[2] *= (double)albedo.z;
     if (is_last)
-        aur_exact_add(&tally->rest, channels(p->power));
+        aur_exact_add(&tally->rest, channels(p->power, tally));
     p->position = aur_radiosity_point(met, hit.u, hit.v);
     p->triangle = index;
     p->side = front ? 1.0f : -1.0f;

@@ -28,6 +28,8 @@ typedef struct aur_radiosity_tally {
     aur_exact_sum last;        /* received by the last flight, all channels */
     aur_exact_sum rest;        /* carried on after it */
     uint64_t rays, lost, behind, trapped;
+    uint64_t cut;    /* terms that were greater than a sum takes; not kept in files */
+    bool not_finite; /* one of them was no finite number: the sums are worth nothing */
 } aur_radiosity_tally;
 
 aur_result aur_radiosity_walk_create(const aur_radiosity_scene *scene, const aur_radiosity_options *options,
