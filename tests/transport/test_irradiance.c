@@ -1,7 +1,4 @@
-#include "check.h"
-
-#include <stdlib.h>
-#include <string.h>
+#include "scene/scene_text.h"
 
 #include "transport/photons/irradiance.h"
 
@@ -54,6 +51,36 @@ static void photons_bring_all_the_power(void **state) {
     aur_photon_map_release(&map);
     aur_elements_release(&elements);
     aur_scene_destroy(scene);
+}
+
+static void keep_last(void *user, const char *message) {
+    snprintf(user, 256, "%s", message);
+}
+
+/* Where nothing is absorbed no path ends but by rounding: they are cut, counted and reported. None is where a
+ * furnace absorbs half of what comes. */
+static void endless_paths_are_reported(void **state) {
+    (void)state;
+    aur_scene *const white = must_load_body(
+                         "<shape type='cube'><boolean name='flip_normals' value='true'/><bsdf type='diffuse'>"
+                         "<rgb name='reflectance' value='1'/></bsdf><emitter type='area'/></shape>"),
+                     *const grey = load_furnace();
+    for (size_t i = 0; i < 2; ++i) {
+        char message[256] = "";
+        const aur_photon_options options = {
+            .count = 4000, .max_edges = SIZE_MAX, .seed = 7, .warnings = {keep_last, message}};
+        const aur_scene *const scene = i == 0 ? white : grey;
+        aur_elements elements;
+        assert_int_equal(aur_elements_create(scene, &elements), AUR_OK);
+        aur_photon_map map;
+        assert_int_equal(aur_photon_map_create(scene, &elements, &options, &map, NULL), AUR_OK);
+        assert_in_range(map.cut, i == 0 ? map.paths * 9 / 10 : 0, i == 0 ? map.paths : 0);
+        assert_int_equal(strstr(message, "particles were cut after 512 edges") != NULL, i == 0);
+        aur_photon_map_release(&map);
+        aur_elements_release(&elements);
+    }
+    aur_scene_destroy(white);
+    aur_scene_destroy(grey);
 }
 
 /* Texels lose no photon and count none twice: their areas are those of the walls, their powers those of the
@@ -199,6 +226,7 @@ static void photons_come_from_any_set(void **state) {
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(photons_bring_all_the_power),
+        cmocka_unit_test(endless_paths_are_reported),
         cmocka_unit_test(texels_hold_all_the_power),
         cmocka_unit_test(look_ups_agree_with_density_estimates),
         cmocka_unit_test(unlit_sides_stay_dark),
@@ -206,5 +234,5 @@ int main(void) {
         cmocka_unit_test(photons_come_from_any_set),
         cmocka_unit_test(does_not_depend_on_threads),
     };
-    return cmocka_run_group_tests(tests, NULL, NULL);
+    return cmocka_run_group_tests_name("irradiance", tests, enter_folder, leave_folder);
 }

@@ -214,7 +214,8 @@ static aur_result prepare_maps(aur_final_gather *data, const aur_gather_paramete
                                   .set = p->photon_set,
                                   .seed = context->seed,
                                   .threads = context->threads,
-                                  .progress = context->progress};
+                                  .progress = context->progress,
+                                  .warnings = context->warnings};
     aur_result result = prepare_map(p, context, &photons, &data->map, error);
     if (result != AUR_OK || !apart)
         return result;

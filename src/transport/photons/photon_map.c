@@ -11,14 +11,15 @@
 enum {
     CHUNKS_A_BATCH = 16,
     PATHS_A_BATCH = 16 * 1024,
-    LONGEST_PATH = 512, /* edges; a path so long is cut, which only a scene without absorption can notice */
+    LONGEST_PATH =
+        512, /* edges; longer paths, which only scenes without absorption have, are cut and counted */
     PATHS_A_PHOTON_LIMIT = 64 /* give up when so many paths leave less than one photon each */
 };
 
 typedef struct photon_chunk {
     size_t count, capacity;
     aur_photon *photons;
-    uint64_t rays;
+    uint64_t rays, cut;
 } photon_chunk;
 
 typedef struct batch {
@@ -86,9 +87,8 @@ static bool trace_path(const batch *work, uint64_t path, photon_chunk *chunk) {
                         (const float[5]){light[0], position[0], position[1], direction[0], direction[1]},
                         &ray, &power))
         return true;
-    size_t limit = work->options->max_edges;
-    if (limit > LONGEST_PATH)
-        limit = LONGEST_PATH;
+    const bool unlimited = work->options->max_edges > LONGEST_PATH;
+    const size_t limit = unlimited ? LONGEST_PATH : work->options->max_edges;
     const aur_photon_kind kind = work->options->kind;
     bool specular_so_far = true;
     for (size_t edge = 1; edge <= limit && (specular_so_far || kind != AUR_PHOTONS_CAUSTIC); ++edge) {
@@ -131,6 +131,8 @@ static bool trace_path(const batch *work, uint64_t path, photon_chunk *chunk) {
             return true;
         power = aur_vector_scale(aur_vector_multiply(power, weight), 1.0f / survival);
         ray = aur_surface_ray(&surface, sample.light);
+        if (unlimited && edge == limit)
+            ++chunk->cut;
     }
     return true;
 }
@@ -139,7 +141,7 @@ static aur_result trace_chunk(void *context, size_t index) {
     batch *const work = context;
     photon_chunk *const chunk = &work->chunks[index];
     chunk->count = 0;
-    chunk->rays = 0;
+    chunk->rays = chunk->cut = 0;
     for (uint64_t i = 0; i < work->paths_a_chunk; ++i)
         if (!trace_path(work, work->first_path + index * work->paths_a_chunk + i, chunk))
             return AUR_ERROR_MEMORY;
@@ -163,6 +165,7 @@ static aur_result append_batch(aur_photon_map *map, const batch *work, size_t *c
             memcpy(map->photons + map->count, chunk->photons, chunk->count * sizeof *chunk->photons);
         map->count += chunk->count;
         map->rays += chunk->rays;
+        map->cut += chunk->cut;
     }
     return AUR_OK;
 }
@@ -201,6 +204,12 @@ static aur_result trace_until_enough(aur_photon_map *map, batch *work, aur_error
             options->progress.function(options->progress.user, "photons", done, options->count) != 0)
             return aur_fail(error, AUR_ERROR_CANCELLED, "cancelled");
     }
+    if (map->cut > 0)
+        aur_warn_at(
+            &options->warnings, (aur_location){0},
+            "photon map: %llu of %llu particles were cut after %d edges: surfaces absorb (nearly) nothing, "
+            "and what those particles would still bring is missing",
+            (unsigned long long)map->cut, (unsigned long long)map->paths, LONGEST_PATH);
     for (size_t i = 0; i < map->count; ++i)
         map->photons[i].power = aur_vector_scale(map->photons[i].power, 1.0f / (float)map->paths);
     return AUR_OK;

@@ -21,6 +21,7 @@ typedef struct aur_photon_map {
     aur_photon *photons;
     uint64_t paths; /* particles that left the lights */
     uint64_t rays;
+    uint64_t cut; /* particles whose path was cut because it was too long to follow */
 } aur_photon_map;
 
 /* Caustic photons came from the light by specular bounces alone, one at least. */
@@ -34,6 +35,7 @@ typedef struct aur_photon_options {
     uint64_t seed;
     size_t threads;
     aur_progress progress;
+    aur_warnings warnings; /* particles whose path was cut */
 } aur_photon_options;
 
 /* Caustic photons may be none: then the map is empty. Errors: UNSUPPORTED when the scene has no light or
