@@ -16,4 +16,12 @@ aur_isa aur_isa_of_rays(void);
 
 const char *aur_isa_name(aur_isa isa);
 
+/* Stands before a loop whose rounds do not read what other rounds write, which the compiler cannot see by
+ * itself. */
+#if defined(__GNUC__) && !defined(__clang__)
+#define AUR_INDEPENDENT_LOOP _Pragma("GCC ivdep")
+#else
+#define AUR_INDEPENDENT_LOOP
+#endif
+
 #endif

@@ -4,6 +4,7 @@
 #ifndef AUR_SCENE_SPHERICAL_RECTANGLE_BODY_H
 #define AUR_SCENE_SPHERICAL_RECTANGLE_BODY_H
 
+#include "core/simd.h"
 #include "scene/spherical_rectangle.h"
 
 /* Limits to [0, 1] a number that only rounding took out of it; comparisons would become branches. */
@@ -112,7 +113,8 @@ static inline void rectangle_points(const aur_rectangle *rectangle, float least,
     const float *restrict const px = in.x, *restrict const py = in.y, *restrict const pz = in.z;
     const float *restrict const u = in.u, *restrict const v = in.v;
     float *restrict const s = out.s, *restrict const t = out.t, *restrict const angle = out.solid_angle;
-#pragma GCC ivdep /* more arrays than the compiler would check for overlaps */
+    /* More arrays than the compiler would check for overlaps. */
+    AUR_INDEPENDENT_LOOP
     for (size_t k = 0; k < count; ++k) {
         const aur_spherical_rectangle seen = rectangle_seen(&r, normal, px[k], py[k], pz[k], least);
         rectangle_point(&seen, u[k], v[k], &s[k], &t[k]);
@@ -142,7 +144,7 @@ static inline void rectangle_lanes(const aur_rectangle_light *given, float least
                          (aur_rectangle_points){reference->x, reference->y, reference->z, u, v},
                          (aur_rectangle_samples){s, t, angle});
     const aur_vector x = aur_vector_scale(r->x, r->width), y = aur_vector_scale(r->y, r->height);
-#pragma GCC ivdep
+    AUR_INDEPENDENT_LOOP
     for (size_t k = 0; k < AUR_PACKET_SIZE; ++k) {
         const bool seen = angle[k] > 0.0f;
         const float along_x = seen ? s[k] : u[k], along_y = seen ? t[k] : v[k];

@@ -158,8 +158,8 @@ static void sees_in_parallel(void **state) {
 static void sixteen_rays_are_the_single_ones(void **state) {
     (void)state;
     static const char *const sensors[] = {
-        "perspective'><float name='fov' value='50'/><float name='near_clip' value='0.3'/><transform "
-        "name='to_world'><lookat origin='1,2,3' target='-0.3,0.4,0.1' up='0,1,0'/></transform>",
+        ("perspective'><float name='fov' value='50'/><float name='near_clip' value='0.3'/><transform "
+         "name='to_world'><lookat origin='1,2,3' target='-0.3,0.4,0.1' up='0,1,0'/></transform>"),
         "thinlens'><float name='aperture_radius' value='0.5'/><float name='focus_distance' value='4'/>",
         "orthographic'><transform name='to_world'><scale value='3'/></transform>"};
     for (size_t i = 0; i < sizeof sensors / sizeof sensors[0]; ++i) {
