@@ -21,6 +21,12 @@ typedef enum aur_domain {
     AUR_DOMAIN_SPHERE
 } aur_domain;
 
+/* "square", "cube", "disk", "hemisphere", "sphere" to the value and back. Errors: NAME; the name of a value
+ * out of range is NULL. */
+AUR_API aur_result aur_domain_from_name(const char *name, aur_domain *domain, aur_error *error)
+    AUR_NONNULL(1, 2);
+AUR_API const char *aur_domain_name(aur_domain domain);
+
 /* How a set is randomised. DIGIT: Kollig-Keller, one XOR word a dimension; OWEN: nested uniform scrambling;
  * SHIFT: Cranley-Patterson, addition modulo 1; ROTATE: a random rotation about z (on the square: a shift of
  * the azimuth coordinate, which is the second); ROTATE3D: a uniformly random rotation of the sphere. */
@@ -220,9 +226,17 @@ typedef struct aur_points {
     size_t *lines;       /* count: the line of each point in its file, for messages; or NULL */
 } aur_points;
 
-/* Reads CSV (header u,v or x,y,z, and w where there are weights; without a header two columns are u,v and
- * three are x,y,z) or NPY. Errors name the line. Free with aur_points_release. */
+/* Reads CSV (header u,v for the square, x,y for the disk, x,y,z for directions, u1,u2,... for the cube, and w
+ * after it where there are weights; without a header two columns are u,v and three are x,y,z) or NPY.
+ * Directions that all have z >= 0 are of the hemisphere. Errors: OPEN, MEMORY, and FORMAT, which names the
+ * line; then nothing is to be released, otherwise free with aur_points_release. */
 AUR_API aur_result aur_points_read(const char *path, aur_points *points, aur_error *error) AUR_NONNULL(1, 2);
+/* The same where it is known which domain the points are of: x,y stands for the square too when SQUARE or
+ * CUBE is asked for, and directions may be of the hemisphere or the sphere. CUBE takes any number of
+ * coordinates. Errors: also UNSUPPORTED for points of another domain, FORMAT for directions below the
+ * hemisphere. */
+AUR_API aur_result aur_points_read_on(const char *path, aur_domain domain, aur_points *points,
+                                      aur_error *error) AUR_NONNULL(1, 3);
 AUR_API void aur_points_release(aur_points *points);
 
 /* How points are written. CSV: a header (u,v on the square, x,y on the disk, x,y,z on hemisphere and sphere,

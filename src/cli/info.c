@@ -182,7 +182,7 @@ static int describe_points(const char *path, const info_options *options) {
         const bool named = points.dimension <= 3 && points.domain != AUR_DOMAIN_CUBE;
         snprintf(number, sizeof number, "u%zu", c + 1);
         const char *const letters = points.domain == AUR_DOMAIN_SQUARE ? "u\0v" : "x\0y\0z";
-        cli_table_text(table, cli_domain_name(points.domain));
+        cli_table_text(table, aur_domain_name(points.domain));
         cli_table_integer(table, points.count);
         cli_table_text(table, weight ? "w" : named ? letters + 2 * c : number);
         put_summary(table, &summary);

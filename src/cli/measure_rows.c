@@ -119,7 +119,7 @@ static int print_rows(const cli_measure_arguments *arguments, const cli_measure_
         const cli_measure_row *const row = &rows->items[r];
         cli_table_text(table, row->source);
         cli_table_integer(table, row->count);
-        cli_table_text(table, cli_domain_name(row->domain));
+        cli_table_text(table, aur_domain_name(row->domain));
         for (size_t f = 0; f < columns - 3; ++f)
             cli_table_number(table, row->figures[f], 6);
     }

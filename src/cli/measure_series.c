@@ -97,7 +97,7 @@ static int print_series(const cli_measure_arguments *arguments, void *context) {
         for (size_t r = 0; r < item->series.row_count; ++r) {
             cli_table_text(table, item->source);
             cli_table_integer(table, item->count);
-            cli_table_text(table, cli_domain_name(item->domain));
+            cli_table_text(table, aur_domain_name(item->domain));
             for (size_t c = 0; c < first->column_count; ++c)
                 cli_table_number(table, item->series.values[r * first->column_count + c], 6);
         }

@@ -1,24 +1,13 @@
 #include "cli/point_source.h"
 
 #include <math.h>
-#include <stdarg.h>
-#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
 
-static const char *const domains[] = {"square", "cube", "disk", "hemisphere", "sphere"};
-
 bool cli_parse_domain(const char *text, aur_domain *domain) {
-    size_t index;
-    if (!cli_parse_word("--domain", text, sizeof domains / sizeof domains[0], domains, &index))
-        return false;
-    *domain = (aur_domain)index;
-    return true;
-}
-
-const char *cli_domain_name(aur_domain domain) {
-    return domains[domain];
+    aur_error error = {0};
+    return cli_succeeded(aur_domain_from_name(text, domain, &error), &error);
 }
 
 bool cli_succeeded(aur_result result, const aur_error *error) {
@@ -73,19 +62,6 @@ bool cli_is_file(const char *text) {
     return strcmp(text, "-") == 0 || access(text, F_OK) == 0;
 }
 
-static aur_result fail(aur_error *error, aur_result result, const char *file, const char *format, ...)
-    __attribute__((format(printf, 4, 5)));
-
-static aur_result fail(aur_error *error, aur_result result, const char *file, const char *format, ...) {
-    *error = (aur_error){.result = result};
-    snprintf(error->file, sizeof error->file, "%s", file);
-    va_list arguments;
-    va_start(arguments, format);
-    vsnprintf(error->message, sizeof error->message, format, arguments);
-    va_end(arguments);
-    return result;
-}
-
 /* Weights of 1/N say nothing. */
 static void drop_equal_weights(aur_points *points) {
     for (size_t i = 0; i < points->count; ++i)
@@ -97,21 +73,10 @@ static void drop_equal_weights(aur_points *points) {
 
 static aur_result load_file(const char *path, const cli_point_options *options, aur_points *points,
                             aur_error *error) {
-    const aur_result result = aur_points_read(path, points, error);
+    const aur_result result = options->domain_given ? aur_points_read_on(path, options->domain, points, error)
+                                                    : aur_points_read(path, points, error);
     if (result != AUR_OK)
         return result;
-    if (options->domain_given && options->domain != points->domain) {
-        const bool directions =
-            options->domain == AUR_DOMAIN_HEMISPHERE || options->domain == AUR_DOMAIN_SPHERE;
-        if (points->dimension != 3 || !directions) {
-            fail(error, AUR_ERROR_UNSUPPORTED, path,
-                 "its points are on the %s, not on the %s: 'file:%s' makes a set of points of the square",
-                 cli_domain_name(points->domain), cli_domain_name(options->domain), path);
-            aur_points_release(points);
-            return AUR_ERROR_UNSUPPORTED;
-        }
-        points->domain = options->domain;
-    }
     if (points->weights != NULL)
         drop_equal_weights(points);
     return AUR_OK;

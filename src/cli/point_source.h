@@ -39,7 +39,6 @@ bool cli_succeeded(aur_result result, const aur_error *error);
 
 /* "square", "cube", "disk", "hemisphere", "sphere". */
 bool cli_parse_domain(const char *text, aur_domain *domain);
-const char *cli_domain_name(aur_domain domain);
 
 /* Whether `text` names a file rather than a set: no set is called so, and there is such a file or "-". */
 bool cli_is_file(const char *text);

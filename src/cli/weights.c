@@ -171,7 +171,7 @@ static bool complete(cli_weights_arguments *arguments) {
         arguments->points.domain = AUR_DOMAIN_HEMISPHERE;
     if (arguments->points.domain != AUR_DOMAIN_HEMISPHERE && arguments->points.domain != AUR_DOMAIN_SPHERE) {
         cli_bad_usage("--domain: must be one of hemisphere, sphere, not '%s'",
-                      cli_domain_name(arguments->points.domain));
+                      aur_domain_name(arguments->points.domain));
         return false;
     }
     if (!arguments->size_given && !cli_is_file(arguments->source) &&

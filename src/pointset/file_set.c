@@ -12,7 +12,7 @@ static aur_result prepare(aur_pointset *set, aur_parameters *keys, const aur_poi
         return aur_fail(error, AUR_ERROR_FORMAT, "a file of points is named by file:PATH");
     const char *const path = item->text;
     aur_points points;
-    aur_result result = aur_points_read(path, &points, error);
+    aur_result result = aur_points_read_on(path, AUR_DOMAIN_CUBE, &points, error);
     if (result != AUR_OK)
         return result;
     const aur_location where = {.file = path};
@@ -20,10 +20,7 @@ static aur_result prepare(aur_pointset *set, aur_parameters *keys, const aur_poi
         set->size = points.count;
     if (options->dimension == 0)
         set->dimension = points.dimension;
-    if (points.domain != AUR_DOMAIN_SQUARE && points.domain != AUR_DOMAIN_CUBE)
-        result = aur_fail_at(error, where, AUR_ERROR_UNSUPPORTED,
-                             "these points are directions or on the disk, not on the square or cube");
-    else if (set->size > points.count)
+    if (set->size > points.count)
         result = aur_fail_at(error, where, AUR_ERROR_ARGUMENT, "the file has only %zu points", points.count);
     else if (set->dimension != points.dimension)
         result = aur_fail_at(error, where, AUR_ERROR_ARGUMENT, "the points have %zu coordinates, not %zu",

@@ -25,11 +25,6 @@ const char *aur_points_format_name(aur_points_format format) {
     return (size_t)format < FORMAT_COUNT ? format_names[format] : NULL;
 }
 
-static const char *domain_name(aur_domain domain) {
-    static const char *const names[] = {"square", "cube", "disk", "hemisphere", "sphere"};
-    return (size_t)domain < sizeof names / sizeof names[0] ? names[domain] : "unknown";
-}
-
 /* The name of a column: u,v on the square, x,y on the disk, x,y,z on the sphere, u1,u2,... on the cube. */
 static void column_name(const aur_points *points, size_t column, char name[NAME_CAPACITY]) {
     static const char letters[] = "xyz";
@@ -78,7 +73,7 @@ static void write_json(const aur_points *points, const aur_points_origin *origin
         fprintf(stream, ", \"scramble\": \"%s\", \"seed\": %" PRIu64 ", ",
                 aur_scramble_name(origin->scramble), origin->seed);
     }
-    fprintf(stream, "\"domain\": \"%s\", \"dimension\": %zu,\n\"points\": [", domain_name(points->domain),
+    fprintf(stream, "\"domain\": \"%s\", \"dimension\": %zu,\n\"points\": [", aur_domain_name(points->domain),
             points->dimension);
     for (size_t i = 0; i < points->count; ++i) {
         fputs(i > 0 ? ",\n[" : "\n[", stream);
@@ -147,7 +142,7 @@ static aur_result write_ply(const aur_points *points, const aur_points_origin *o
         write_ply_comment("scramble", aur_scramble_name(origin->scramble), stream);
         fprintf(stream, "comment seed %" PRIu64 "\n", origin->seed);
     }
-    write_ply_comment("domain", domain_name(points->domain), stream);
+    write_ply_comment("domain", aur_domain_name(points->domain), stream);
     fprintf(stream, "element vertex %zu\n", points->count);
     fputs("property double x\nproperty double y\nproperty double z\n", stream);
     if (points->weights != NULL)
@@ -161,6 +156,8 @@ aur_result aur_points_write(const char *path, aur_points_format format, const au
                             const aur_points_origin *origin, aur_error *error) {
     if (aur_points_format_name(format) == NULL)
         return aur_fail(error, AUR_ERROR_ARGUMENT, "unknown format %d", (int)format);
+    if (aur_domain_name(points->domain) == NULL)
+        return aur_fail(error, AUR_ERROR_ARGUMENT, "unknown domain %d", (int)points->domain);
     aur_file_writer writer;
     aur_result result = aur_file_open(path, &writer, error);
     if (result != AUR_OK)

@@ -183,6 +183,10 @@ static aur_result open_file(const char *set, const aur_directions_options *optio
     if (count > file->count)
         return aur_fail(error, AUR_ERROR_ARGUMENT, "%s has %zu points, not %llu", path, file->count,
                         (unsigned long long)count);
+    if (file->domain == AUR_DOMAIN_DISK)
+        return aur_fail_at(
+            error, (aur_location){.file = path}, AUR_ERROR_UNSUPPORTED,
+            "its points are on the disk (header x,y), neither directions nor on the square (u,v)");
     if (file->domain != AUR_DOMAIN_HEMISPHERE && file->domain != AUR_DOMAIN_SPHERE) {
         aur_points_release(file);
         *file = (aur_points){0};

@@ -1,4 +1,5 @@
 /* Points of any set on any domain, allocated. */
+#include <stdbool.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -16,7 +17,10 @@ static aur_result natural_domain(const char *set, const aur_points_request *requ
         *domain = aur_native_find(set) != NULL ? AUR_DOMAIN_SPHERE : AUR_DOMAIN_SQUARE;
     if (!aur_set_is_file(set) || (*size != 0 && !request->natural_domain && *domain != AUR_DOMAIN_DISK))
         return AUR_OK;
-    const aur_result result = aur_points_read(set + 5, file, error);
+    const bool flat =
+        !request->natural_domain && (*domain == AUR_DOMAIN_SQUARE || *domain == AUR_DOMAIN_CUBE);
+    const aur_result result = flat ? aur_points_read_on(set + 5, AUR_DOMAIN_CUBE, file, error)
+                                   : aur_points_read(set + 5, file, error);
     if (result != AUR_OK)
         return result;
     if (request->natural_domain)

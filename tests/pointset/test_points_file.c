@@ -53,6 +53,53 @@ static void headers_say_what_columns_are(void **state) {
     }
 }
 
+static aur_result read_on(aur_domain domain, const char *text, aur_points *points, aur_error *error) {
+    write_file(text, strlen(text));
+    return aur_points_read_on(path, domain, points, error);
+}
+
+/* A header x,y is the disk's, and the square's where the square is asked for. */
+static void the_domain_asked_for_decides(void **state) {
+    (void)state;
+    static const char unit[] = "x,y\n0.9,0.9\n";
+    aur_points points;
+    aur_error error = {0};
+    assert_int_equal(read_on(AUR_DOMAIN_SQUARE, unit, &points, &error), AUR_OK);
+    assert_int_equal(points.domain, AUR_DOMAIN_SQUARE);
+    aur_points_release(&points);
+    assert_int_equal(aur_points_read(path, &points, &error), AUR_ERROR_FORMAT);
+    assert_non_null(strstr(error.message, "header x,y"));
+    assert_int_equal(read_on(AUR_DOMAIN_DISK, unit, &points, &error), AUR_ERROR_FORMAT);
+    assert_int_equal(read_on(AUR_DOMAIN_DISK, "u,v\n0.5,0.5\n", &points, &error), AUR_ERROR_UNSUPPORTED);
+    assert_non_null(strstr(error.message, "u,v"));
+    assert_int_equal(error.line, 1);
+    assert_int_equal(read_on(AUR_DOMAIN_SPHERE, "u1,u2,u3\n0,0.5,0.25\n", &points, &error),
+                     AUR_ERROR_UNSUPPORTED);
+    assert_int_equal(read_on(AUR_DOMAIN_SPHERE, "x,y,z\n0,0,1\n", &points, &error), AUR_OK);
+    assert_int_equal(points.domain, AUR_DOMAIN_SPHERE);
+    aur_points_release(&points);
+    assert_int_equal(read_on(AUR_DOMAIN_HEMISPHERE, "x,y,z\n0,0,-1\n", &points, &error), AUR_ERROR_FORMAT);
+    assert_int_equal(error.line, 2);
+
+    aur_pointset *set;
+    const aur_pointset_options options = {0};
+    write_file(unit, sizeof unit - 1);
+    assert_int_equal(aur_pointset_create("file:test_points_file.tmp", &options, &set, &error), AUR_OK);
+    aur_pointset_destroy(set);
+}
+
+static void domains_have_names(void **state) {
+    (void)state;
+    for (int d = AUR_DOMAIN_SQUARE; d <= AUR_DOMAIN_SPHERE; ++d) {
+        aur_domain domain;
+        assert_int_equal(aur_domain_from_name(aur_domain_name((aur_domain)d), &domain, NULL), AUR_OK);
+        assert_int_equal(domain, d);
+    }
+    aur_domain domain;
+    assert_int_equal(aur_domain_from_name("ball", &domain, NULL), AUR_ERROR_NAME);
+    assert_null(aur_domain_name((aur_domain)77));
+}
+
 static void numbers_come_back(void **state) {
     (void)state;
     aur_points points = read_text("u,v,w\n0.10000000000000001,2.5e-1,3\n0.99999999999999989,0,-1\n");
@@ -180,7 +227,8 @@ static void bad_arrays_are_refused(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(headers_say_what_columns_are), cmocka_unit_test(numbers_come_back),
+        cmocka_unit_test(headers_say_what_columns_are), cmocka_unit_test(the_domain_asked_for_decides),
+        cmocka_unit_test(domains_have_names),           cmocka_unit_test(numbers_come_back),
         cmocka_unit_test(bad_text_names_its_line),      cmocka_unit_test(arrays_come_back),
         cmocka_unit_test(bad_arrays_are_refused),
     };
