@@ -53,6 +53,11 @@ static double accumulate(size_t count, double *cumulative, uint32_t *guide) {
     return sum;
 }
 
+/* Coordinates outside [0,1), NaN among them, are moved to its nearer end, NaN to 0. */
+static double clamp_unit(double x) {
+    return x >= 0.0 ? fmin(x, 0x1.fffffffffffffp-1) : 0.0;
+}
+
 static size_t find_bin(const distribution *d, double u) {
     size_t bin = d->guide[(size_t)(u * (double)d->count)];
     while (bin + 1 < d->count && d->cumulative[bin + 1] <= u)
@@ -114,7 +119,7 @@ aur_result aur_density_image_create(size_t width, size_t height, const float *de
                         height);
     aur_density_image *const made = calloc(1, sizeof *made);
     if (made == NULL)
-        return aur_fail(error, AUR_ERROR_MEMORY, "out of memory");
+        return aur_fail_memory(error);
     made->width = width;
     made->height = height;
     made->cumulative = malloc((height * (width + 1) + height + 1) * sizeof *made->cumulative);
@@ -122,7 +127,7 @@ aur_result aur_density_image_create(size_t width, size_t height, const float *de
     made->density = malloc(height * width * sizeof *made->density);
     aur_result result = AUR_OK;
     if (made->cumulative == NULL || made->guide == NULL || made->density == NULL)
-        result = aur_fail(error, AUR_ERROR_MEMORY, "out of memory");
+        result = aur_fail_memory(error);
     if (result == AUR_OK)
         result = fill_tables(made, density, error);
     if (result != AUR_OK) {
@@ -143,23 +148,26 @@ void aur_density_image_destroy(aur_density_image *image) {
 }
 
 void aur_density_image_warp(const aur_density_image *image, const double square[2], double warped[2]) {
+    const double u = clamp_unit(square[0]);
+    const double v = clamp_unit(square[1]);
     const distribution rows = rows_distribution(image);
-    const size_t row = find_bin(&rows, square[1]);
-    const double v = invert(&rows, row, square[1]);
+    const size_t row = find_bin(&rows, v);
     const distribution columns = row_distribution(image, row);
-    warped[0] = invert(&columns, find_bin(&columns, square[0]), square[0]);
-    warped[1] = v;
+    warped[0] = invert(&columns, find_bin(&columns, u), u);
+    warped[1] = invert(&rows, row, v);
 }
 
 void aur_density_image_unwarp(const aur_density_image *image, const double warped[2], double square[2]) {
+    const double x = clamp_unit(warped[0]);
+    const double y = clamp_unit(warped[1]);
     const distribution rows = rows_distribution(image);
-    const distribution columns = row_distribution(image, bin_at(image->height, warped[1]));
-    const double v = evaluate(&rows, warped[1]);
-    square[0] = evaluate(&columns, warped[0]);
-    square[1] = v;
+    const distribution columns = row_distribution(image, bin_at(image->height, y));
+    square[0] = evaluate(&columns, x);
+    square[1] = evaluate(&rows, y);
 }
 
 double aur_density_image_pdf(const aur_density_image *image, const double point[2]) {
-    const size_t row = bin_at(image->height, point[1]);
-    return (double)image->density[row * image->width + bin_at(image->width, point[0])] / image->mean;
+    const size_t row = bin_at(image->height, clamp_unit(point[1]));
+    const size_t column = bin_at(image->width, clamp_unit(point[0]));
+    return (double)image->density[row * image->width + column] / image->mean;
 }

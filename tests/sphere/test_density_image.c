@@ -106,6 +106,34 @@ static void pixels_receive_their_mass(void **state) {
     aur_density_image_destroy(image);
 }
 
+/* Whatever the coordinates, NaN and infinities among them: what the nearer end of [0,1) gives, and nothing is
+ * read beyond the tables (the sanitizers see that). */
+static void coordinates_beyond_the_square_are_clamped(void **state) {
+    (void)state;
+    float density[SIDE_X * SIDE_Y];
+    random_picture(density);
+    aur_density_image *const image = make(SIDE_X, SIDE_Y, density);
+    const double last = 0x1.fffffffffffffp-1;
+    const double wild[][2] = {{1.0, last},     {2.0, last},      {1e300, last}, {INFINITY, last},
+                              {-0x1p-60, 0.0}, {-INFINITY, 0.0}, {NAN, 0.0}};
+    for (size_t i = 0; i < sizeof wild / sizeof wild[0]; ++i) {
+        for (size_t axis = 0; axis < 2; ++axis) {
+            double outside[2] = {0.3, 0.3}, inside[2] = {0.3, 0.3}, got[2], expected[2];
+            outside[axis] = wild[i][0];
+            inside[axis] = wild[i][1];
+            aur_density_image_warp(image, outside, got);
+            aur_density_image_warp(image, inside, expected);
+            assert_memory_equal(got, expected, sizeof got);
+            aur_density_image_unwarp(image, outside, got);
+            aur_density_image_unwarp(image, inside, expected);
+            assert_memory_equal(got, expected, sizeof got);
+            const double density_there = aur_density_image_pdf(image, inside);
+            assert_near(aur_density_image_pdf(image, outside), density_there, 0.0);
+        }
+    }
+    aur_density_image_destroy(image);
+}
+
 static void refuses_what_is_wrong(void **state) {
     (void)state;
     aur_density_image *image;
@@ -125,6 +153,7 @@ int main(void) {
         cmocka_unit_test(a_ramp_warps_by_a_root),
         cmocka_unit_test(inverse_and_density_agree),
         cmocka_unit_test(pixels_receive_their_mass),
+        cmocka_unit_test(coordinates_beyond_the_square_are_clamped),
         cmocka_unit_test(refuses_what_is_wrong),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
