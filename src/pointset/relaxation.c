@@ -6,6 +6,9 @@
 #include <string.h>
 #include <sys/stat.h>
 
+#include "core/file.h"
+#include "core/random.h"
+
 enum { PATH_CAPACITY = 4096 };
 
 void aur_random_sites(uint64_t seed, size_t count, aur_point2 *sites) {
@@ -76,29 +79,65 @@ static void make_folders(const char *folder) {
 
 static bool cache_path(const aur_pointset *set, unsigned version, const char *folder,
                        char path[PATH_CAPACITY]) {
-    const int length = snprintf(path, PATH_CAPACITY, "%s/%s-%u-%" PRIu64 "-%016" PRIx64 ".npy", folder,
+    const int length = snprintf(path, PATH_CAPACITY, "%s/%s-%u-%" PRIu64 "-%016" PRIx64 ".points", folder,
                                 set->kind->description.name, version, set->size, set->seed);
     return length > 0 && length < PATH_CAPACITY;
 }
 
-/* The points of a file, or NULL when it does not hold what it should. */
-static double *read_cache(const char *path, size_t count) {
-    aur_points points;
-    if (aur_points_read(path, &points, NULL) != AUR_OK)
-        return NULL;
-    double *coordinates = NULL;
-    if (points.domain == AUR_DOMAIN_SQUARE && points.count == count) {
-        coordinates = points.coordinates;
-        points.coordinates = NULL;
-    }
-    aur_points_release(&points);
-    return coordinates;
+/* What stands before the points in a file of the cache, in the machine's own order of bytes. */
+typedef struct cache_header {
+    uint64_t magic, key, check_sum;
+} cache_header;
+
+static const uint64_t cache_magic = UINT64_C(0x61757265706f696e);
+
+/* What the points follow from. */
+static uint64_t cache_key(const aur_pointset *set, unsigned version) {
+    uint64_t key = aur_hash3(version, set->size, set->seed);
+    for (const char *c = set->kind->description.name; *c != '\0'; ++c)
+        key = aur_hash2(key, (unsigned char)*c);
+    return key;
 }
 
-static void write_cache(const char *path, size_t count, aur_point2 *sites) {
-    const aur_points points = {
-        .domain = AUR_DOMAIN_SQUARE, .count = count, .dimension = 2, .coordinates = &sites[0].x};
-    (void)aur_points_write(path, AUR_POINTS_NPY, &points, NULL, NULL);
+static uint64_t check_sum(size_t count, const aur_point2 *sites) {
+    uint64_t sum = count;
+    for (size_t i = 0; i < count; ++i) {
+        uint64_t bits[2];
+        memcpy(bits, &sites[i], sizeof bits);
+        sum = aur_hash3(sum, bits[0], bits[1]);
+    }
+    return sum;
+}
+
+/* The points of a file, or NULL when it is not the one that was written. */
+static aur_point2 *read_cache(const char *path, uint64_t key, size_t count) {
+    const size_t bytes = count * sizeof(aur_point2);
+    cache_header header;
+    char *data;
+    size_t size;
+    if (aur_file_read(path, sizeof header + bytes, &data, &size, NULL) != AUR_OK)
+        return NULL;
+    aur_point2 *sites = size == sizeof header + bytes ? malloc(bytes) : NULL;
+    if (sites != NULL) {
+        memcpy(&header, data, sizeof header);
+        memcpy(sites, data + sizeof header, bytes);
+        if (header.magic != cache_magic || header.key != key || header.check_sum != check_sum(count, sites)) {
+            free(sites);
+            sites = NULL;
+        }
+    }
+    free(data);
+    return sites;
+}
+
+static void write_cache(const char *path, uint64_t key, size_t count, const aur_point2 *sites) {
+    const cache_header header = {cache_magic, key, check_sum(count, sites)};
+    aur_file_writer writer;
+    if (aur_file_open(path, &writer, NULL) != AUR_OK)
+        return;
+    fwrite(&header, sizeof header, 1, writer.stream);
+    fwrite(sites, sizeof *sites, count, writer.stream);
+    (void)aur_file_commit(&writer, NULL);
 }
 
 aur_result aur_prepare_relaxed(aur_pointset *set, unsigned version, aur_relaxation relax, aur_error *error) {
@@ -106,17 +145,18 @@ aur_result aur_prepare_relaxed(aur_pointset *set, unsigned version, aur_relaxati
     char folder[PATH_CAPACITY];
     char path[PATH_CAPACITY];
     const bool cached = cache_folder(folder) && cache_path(set, version, folder, path);
-    set->data = cached ? read_cache(path, count) : NULL;
+    const uint64_t key = cache_key(set, version);
+    set->data = cached ? read_cache(path, key, count) : NULL;
     if (set->data != NULL)
         return AUR_OK;
     aur_point2 *const sites = malloc(count * sizeof *sites);
     if (sites == NULL)
-        return aur_fail(error, AUR_ERROR_MEMORY, "out of memory");
+        return aur_fail_memory(error);
     set->data = sites;
     const aur_result result = relax(set->seed, count, sites, error);
     if (result == AUR_OK && cached) {
         make_folders(folder);
-        write_cache(path, count, sites);
+        write_cache(path, key, count, sites);
     }
     return result;
 }

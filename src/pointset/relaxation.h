@@ -48,10 +48,11 @@ void aur_site_grid_fill(aur_site_grid *grid, size_t count, const aur_point2 *sit
 typedef aur_result (*aur_relaxation)(uint64_t seed, size_t count, aur_point2 *sites, aur_error *error);
 
 /* Makes set->data a table of the points that `relax` computes from the seed, or takes it from a file that an
- * earlier call has left. The file is <folder>/<name>-<version>-<count>-<seed>.npy, where the folder is the
+ * earlier call has left. The file is <folder>/<name>-<version>-<count>-<seed>.points, where the folder is the
  * value of the environment variable AUREOLE_CACHE, else aureole in XDG_CACHE_HOME, else .cache/aureole in
- * HOME; an empty AUREOLE_CACHE means that nothing is kept. A file that cannot be read or written is no error:
- * the points are computed. `version` changes whenever the points do. */
+ * HOME; an empty AUREOLE_CACHE means that nothing is kept. A file that cannot be read or written, or whose
+ * check sum is not that of its points, is no error: the points are computed. `version` changes whenever the
+ * points do. */
 aur_result aur_prepare_relaxed(aur_pointset *set, unsigned version, aur_relaxation relax, aur_error *error);
 
 #endif

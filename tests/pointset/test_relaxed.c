@@ -170,7 +170,7 @@ static void every_small_size_works(void **state) {
 static void results_are_kept(void **state) {
     (void)state;
     char path[256];
-    snprintf(path, sizeof path, "%s/bnot-1-20-0000000000000005.npy", folder);
+    snprintf(path, sizeof path, "%s/bnot-1-20-0000000000000005.points", folder);
     remove(path);
     setenv("AUREOLE_CACHE", folder, 1);
     const aur_pointset_options options = {.count = 20, .seed = 5};
@@ -181,16 +181,23 @@ static void results_are_kept(void **state) {
     assert_memory_equal(computed, read, 40 * sizeof *read);
     free(read);
 
-    /* What is read is used, and what is no good is computed again. */
+    /* A file that is damaged or not the one that was asked for is computed again. */
     FILE *file = fopen(path, "r+b");
     assert_non_null(file);
     assert_int_equal(fseek(file, -8, SEEK_END), 0);
     const double half = 0.5;
     assert_int_equal(fwrite(&half, sizeof half, 1, file), 1);
     assert_int_equal(fclose(file), 0);
-    double *const changed = make_points("bnot", options);
-    assert_near(changed[39], 0.5, 0.0);
-    free(changed);
+    double *const mended = make_points("bnot", options);
+    assert_memory_equal(computed, mended, 40 * sizeof *mended);
+    free(mended);
+    char other[256];
+    snprintf(other, sizeof other, "%s/bnot-1-20-0000000000000006.points", folder);
+    assert_int_equal(rename(path, other), 0);
+    double *const renamed = make_points("bnot", (aur_pointset_options){.count = 20, .seed = 6});
+    assert_memory_not_equal(computed, renamed, 40 * sizeof *renamed);
+    free(renamed);
+    remove(other);
     file = fopen(path, "wb");
     assert_non_null(file);
     assert_int_equal(fclose(file), 0);
