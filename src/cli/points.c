@@ -175,18 +175,22 @@ static int read_density(const char *path, aur_density_image **density) {
     const int status = cli_read_picture(path, NULL, &image);
     if (status != CLI_SUCCESS)
         return status;
-    const size_t count = image->width * image->height;
     size_t channels[3];
+    if (!aur_image_color_channels(image, channels)) {
+        aur_image_destroy(image);
+        return cli_bad_usage("--warp: %s must have one channel (or Y), or R, G and B, to have a brightness",
+                             path);
+    }
+    const size_t count = image->width * image->height;
     float *const luminance = malloc(count * sizeof *luminance);
-    aur_error error = {.result = AUR_ERROR_MEMORY};
-    bool good = luminance != NULL && aur_image_color_channels(image, channels);
-    for (size_t i = 0; i < count && good; ++i) {
+    aur_error error = {.result = AUR_ERROR_MEMORY, .message = "out of memory"};
+    for (size_t i = 0; i < count && luminance != NULL; ++i) {
         const float *const pixel = image->data + i * image->channel_count;
         luminance[i] =
             0.2126f * pixel[channels[0]] + 0.7152f * pixel[channels[1]] + 0.0722f * pixel[channels[2]];
     }
-    good =
-        good && aur_density_image_create(image->width, image->height, luminance, density, &error) == AUR_OK;
+    const bool good = luminance != NULL && aur_density_image_create(image->width, image->height, luminance,
+                                                                    density, &error) == AUR_OK;
     free(luminance);
     aur_image_destroy(image);
     snprintf(error.file, sizeof error.file, "%s", path);

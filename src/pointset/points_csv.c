@@ -1,17 +1,17 @@
 /* Comma separated numbers; spaces and tabs separate as well. Lines that are empty or begin with # are
  * skipped. */
 #include <ctype.h>
-#include <math.h>
-#include <stdlib.h>
 #include <string.h>
 
+#include "core/array.h"
 #include "core/error.h"
+#include "core/text.h"
 #include "pointset/points_file.h"
 
 typedef struct reader {
     const char *path;
     size_t line;
-    size_t capacity; /* rows */
+    size_t value_capacity, line_capacity; /* of the matrix */
     aur_matrix *matrix;
     aur_error *error;
 } reader;
@@ -34,19 +34,10 @@ static char *skip_separator(char *text) {
 
 static bool grow(reader *r) {
     aur_matrix *const matrix = r->matrix;
-    if (matrix->row_count < r->capacity)
-        return true;
-    const size_t capacity = r->capacity == 0 ? 256 : r->capacity * 2;
-    double *const values = realloc(matrix->values, capacity * matrix->column_count * sizeof *values);
-    if (values == NULL)
-        return false;
-    matrix->values = values;
-    size_t *const lines = realloc(matrix->lines, capacity * sizeof *lines);
-    if (lines == NULL)
-        return false;
-    matrix->lines = lines;
-    r->capacity = capacity;
-    return true;
+    size_t wanted;
+    return aur_size_product(matrix->row_count + 1, matrix->column_count, &wanted) &&
+           aur_array_reserve(&matrix->values, &r->value_capacity, wanted, sizeof *matrix->values) &&
+           aur_array_reserve(&matrix->lines, &r->line_capacity, matrix->row_count + 1, sizeof *matrix->lines);
 }
 
 static size_t count_fields(char *text) {
@@ -85,20 +76,17 @@ static aur_result read_row(reader *r, char *text) {
         return aur_fail_at(r->error, here(r), AUR_ERROR_FORMAT, "%zu columns where there were %zu before",
                            fields, matrix->column_count);
     if (!grow(r))
-        return aur_fail(r->error, AUR_ERROR_MEMORY, "out of memory");
+        return aur_fail_memory(r->error);
     double *const row = matrix->values + matrix->row_count * matrix->column_count;
     text = skip_spaces(text);
     for (size_t c = 0; c < fields; ++c, text = skip_separator(text)) {
-        char *end;
-        row[c] = strtod(text, &end);
-        const bool whole =
-            end != text && (*end == '\0' || *end == ',' || *end == ' ' || *end == '\t' || *end == '\r');
-        if (!whole || !isfinite(row[c])) {
+        const char *const end = aur_read_double(text, AUR_NUMBER_FINITE, &row[c]);
+        if (end == NULL || !(*end == '\0' || *end == ',' || *end == ' ' || *end == '\t' || *end == '\r')) {
             const int length = (int)strcspn(text, ", \t\r");
             return aur_fail_at(r->error, here(r), AUR_ERROR_FORMAT,
                                "column %zu: '%.*s' is not a finite number", c + 1, length, text);
         }
-        text = end;
+        text += end - text;
     }
     matrix->lines[matrix->row_count++] = r->line;
     return AUR_OK;
@@ -107,10 +95,8 @@ static aur_result read_row(reader *r, char *text) {
 /* A header is a first line that begins with a letter, but for the spellings of NaN and infinity. */
 static bool is_header(const char *text) {
     double ignored;
-    char *end;
-    ignored = strtod(text, &end);
-    (void)ignored;
-    return end == text && (isalpha((unsigned char)*text) || *text == '_');
+    return aur_read_double(text, AUR_NUMBER_ANY, &ignored) == NULL &&
+           (isalpha((unsigned char)*text) || *text == '_');
 }
 
 static aur_result read_line(reader *r, char *text) {

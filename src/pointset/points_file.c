@@ -1,16 +1,14 @@
 /* What the columns of a file of points mean, and whether the points are on their domain. */
 #include "pointset/points_file.h"
 
-#include <math.h>
 #include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "core/error.h"
 #include "core/file.h"
-
-/* Points on the sphere that are written with the precision of floats are still on it. */
-static const double radius_tolerance = 1e-6;
+#include "core/text.h"
+#include "core/vector3d.h"
 
 static const size_t file_limit = (size_t)1 << 34;
 
@@ -18,16 +16,13 @@ static const size_t file_limit = (size_t)1 << 34;
 static bool is_cube_header(const char *header, size_t columns) {
     const char *at = header;
     for (size_t c = 1; c <= columns; ++c) {
-        char *end;
-        if (*at != 'u' || strtoul(at + 1, &end, 10) != c || end == at + 1)
+        uint64_t number;
+        const char *const end = *at == 'u' ? aur_read_integer(at + 1, columns, &number) : NULL;
+        if (end == NULL || number != c)
             return false;
         at = *end == ',' ? end + 1 : end;
     }
     return *at == '\0' || strcmp(at, "w") == 0;
-}
-
-static bool unit_length(const double *v) {
-    return fabs(v[0] * v[0] + v[1] * v[1] + v[2] * v[2] - 1.0) <= 2.0 * radius_tolerance;
 }
 
 /* Domain, coordinates a point, and whether a column of weights follows them. */
@@ -74,7 +69,7 @@ static void by_columns(const aur_matrix *matrix, meaning *m) {
     *m = (meaning){AUR_DOMAIN_CUBE, columns, false};
     if (columns == 2)
         m->domain = AUR_DOMAIN_SQUARE;
-    const bool unit = columns >= 3 && matrix->row_count > 0 && unit_length(matrix->values);
+    const bool unit = columns >= 3 && matrix->row_count > 0 && aur_is_unit(matrix->values);
     if ((columns == 3 && (unit || matrix->lines != NULL)) || (columns == 4 && unit))
         *m = (meaning){AUR_DOMAIN_SPHERE, 3, columns == 4};
 }
@@ -82,7 +77,7 @@ static void by_columns(const aur_matrix *matrix, meaning *m) {
 /* What is wrong with a point, or NULL. */
 static const char *off_domain(const meaning *m, const double *row) {
     if (m->domain == AUR_DOMAIN_SPHERE)
-        return unit_length(row) ? NULL : "a direction must have length 1";
+        return aur_is_unit(row) ? NULL : "a direction must have length 1";
     if (m->domain == AUR_DOMAIN_DISK)
         return row[0] * row[0] + row[1] * row[1] <= 1.0 ? NULL
                                                         : "a point of the disk must have x^2 + y^2 <= 1 (the "
@@ -132,7 +127,7 @@ static aur_result interpret(const char *path, const aur_domain *wanted, aur_matr
     points->coordinates = malloc(points->count * m.dimension * sizeof *points->coordinates);
     points->weights = m.weights ? malloc(points->count * sizeof *points->weights) : NULL;
     if (points->coordinates == NULL || (m.weights && points->weights == NULL))
-        return aur_fail(error, AUR_ERROR_MEMORY, "out of memory");
+        return aur_fail_memory(error);
     bool below_horizon = false;
     for (size_t r = 0; r < matrix->row_count; ++r) {
         const double *const row = matrix->values + r * matrix->column_count;

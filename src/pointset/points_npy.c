@@ -2,11 +2,11 @@
  * Fortran order. */
 #include <math.h>
 #include <stdint.h>
-#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "core/error.h"
+#include "core/text.h"
 #include "pointset/points_file.h"
 
 enum { HEADER_CAPACITY = 4096 };
@@ -39,17 +39,27 @@ static const char *value_of(const char *header, const char *key) {
     return value;
 }
 
+/* "(rows, columns)" or "(rows,)" into numbers. */
+static bool parse_shape(const char *text, uint64_t *rows, uint64_t *columns) {
+    *columns = 1;
+    if (text == NULL || *text != '(')
+        return false;
+    text = aur_read_integer(aur_skip_spaces(text + 1), SIZE_MAX / 16, rows);
+    if (text == NULL)
+        return false;
+    text = aur_skip_spaces(text);
+    if (*text != ',')
+        return false;
+    text = aur_skip_spaces(text + 1);
+    if (*text == ')')
+        return true;
+    text = aur_read_integer(text, SIZE_MAX / 16, columns);
+    return text != NULL && *aur_skip_spaces(text) == ')';
+}
+
 static aur_result read_shape(const char *path, const char *text, aur_matrix *matrix, aur_error *error) {
-    unsigned long long rows = 0;
-    unsigned long long columns = 1;
-    int used = 0;
-    if (text == NULL || (sscanf(text, "(%llu ,%llu )%n", &rows, &columns, &used) < 2 || used == 0)) {
-        columns = 1;
-        used = 0;
-        if (text == NULL || sscanf(text, "(%llu ,)%n", &rows, &used) < 1 || used == 0)
-            return malformed(error, path, "the shape must be (points, coordinates)");
-    }
-    if (columns == 0 || columns > SIZE_MAX / 16 || rows > SIZE_MAX / 16 / columns)
+    uint64_t rows, columns;
+    if (!parse_shape(text, &rows, &columns) || columns == 0 || rows > SIZE_MAX / 16 / columns)
         return malformed(error, path, "the shape must be (points, coordinates)");
     matrix->row_count = (size_t)rows;
     matrix->column_count = (size_t)columns;
@@ -115,7 +125,7 @@ aur_result aur_npy_parse(const char *path, const char *data, size_t size, aur_ma
         return malformed(error, path, "the file is cut short");
     matrix->values = malloc((count > 0 ? count : 1) * sizeof *matrix->values);
     if (matrix->values == NULL)
-        return aur_fail(error, AUR_ERROR_MEMORY, "out of memory");
+        return aur_fail_memory(error);
     const unsigned char *const numbers = bytes + start + length;
     for (size_t r = 0; r < matrix->row_count; ++r) {
         for (size_t c = 0; c < matrix->column_count; ++c) {

@@ -1,24 +1,24 @@
 /* Writing points: CSV, JSON, NPY and PLY. */
 #include <inttypes.h>
+#include <stdbool.h>
 #include <string.h>
 
 #include <aureole/pointset.h>
+#include <aureole/text.h>
 
-#include "core/error.h"
 #include "core/file.h"
+#include "core/names.h"
 
 static const char *const format_names[] = {"csv", "json", "npy", "ply"};
 enum { FORMAT_COUNT = sizeof format_names / sizeof format_names[0], NAME_CAPACITY = 24 };
 
 aur_result aur_points_format_from_name(const char *name, aur_points_format *format, aur_error *error) {
-    for (size_t i = 0; i < FORMAT_COUNT; ++i) {
-        if (strcmp(format_names[i], name) == 0) {
-            *format = (aur_points_format)i;
-            return AUR_OK;
-        }
-    }
-    return aur_fail(error, AUR_ERROR_NAME, "unknown format '%s'; points are written as csv, json, npy or ply",
-                    name);
+    size_t index;
+    const aur_result result = aur_names_choose(aur_names_of(FORMAT_COUNT, format_names), "format of points",
+                                               name, (aur_location){0}, &index, error);
+    if (result == AUR_OK)
+        *format = (aur_points_format)index;
+    return result;
 }
 
 const char *aur_points_format_name(aur_points_format format) {
@@ -44,61 +44,73 @@ static void write_csv(const aur_points *points, FILE *stream) {
     fputs(points->weights != NULL ? ",w\n" : "\n", stream);
     for (size_t i = 0; i < points->count; ++i) {
         for (size_t d = 0; d < points->dimension; ++d)
-            fprintf(stream, "%s%.17g", d > 0 ? "," : "", points->coordinates[i * points->dimension + d]);
+            aur_print(stream, "%s%.17g", d > 0 ? "," : "", points->coordinates[i * points->dimension + d]);
         if (points->weights != NULL)
-            fprintf(stream, ",%.17g", points->weights[i]);
+            aur_print(stream, ",%.17g", points->weights[i]);
         fputc('\n', stream);
     }
 }
 
-static void write_json_string(const char *text, FILE *stream) {
-    fputc('"', stream);
-    for (const char *c = text; *c != '\0'; ++c) {
-        if (*c == '"' || *c == '\\')
-            fprintf(stream, "\\%c", *c);
-        else if ((unsigned char)*c < 0x20)
-            fprintf(stream, "\\u%04x", (unsigned)(unsigned char)*c);
-        else
-            fputc(*c, stream);
-    }
-    fputc('"', stream);
-}
-
 static void write_json(const aur_points *points, const aur_points_origin *origin, FILE *stream) {
-    fputs("{", stream);
+    aur_json json = {.stream = stream};
+    aur_json_open(&json, '{', true);
     if (origin != NULL && origin->set != NULL) {
-        fputs("\"set\": ", stream);
-        write_json_string(origin->set, stream);
-        fprintf(stream, ", \"n\": %" PRIu64 ", \"first\": %" PRIu64, origin->size, origin->first);
-        fprintf(stream, ", \"scramble\": \"%s\", \"seed\": %" PRIu64 ", ",
-                aur_scramble_name(origin->scramble), origin->seed);
+        aur_json_name(&json, "set");
+        aur_json_string(&json, origin->set);
+        aur_json_name(&json, "n");
+        aur_json_integer(&json, origin->size);
+        aur_json_name(&json, "first");
+        aur_json_integer(&json, origin->first);
+        aur_json_name(&json, "scramble");
+        aur_json_string(&json, aur_scramble_name(origin->scramble));
+        aur_json_name(&json, "seed");
+        aur_json_integer(&json, origin->seed);
     }
-    fprintf(stream, "\"domain\": \"%s\", \"dimension\": %zu,\n\"points\": [", aur_domain_name(points->domain),
-            points->dimension);
+    aur_json_name(&json, "domain");
+    aur_json_string(&json, aur_domain_name(points->domain));
+    aur_json_name(&json, "dimension");
+    aur_json_integer(&json, points->dimension);
+    aur_json_name(&json, "points");
+    aur_json_open(&json, '[', true);
     for (size_t i = 0; i < points->count; ++i) {
-        fputs(i > 0 ? ",\n[" : "\n[", stream);
+        aur_json_open(&json, '[', false);
         for (size_t d = 0; d < points->dimension; ++d)
-            fprintf(stream, "%s%.17g", d > 0 ? ", " : "", points->coordinates[i * points->dimension + d]);
-        fputc(']', stream);
+            aur_json_number(&json, points->coordinates[i * points->dimension + d]);
+        aur_json_close(&json, ']');
     }
-    fputs("\n]", stream);
+    aur_json_close(&json, ']');
     if (points->weights != NULL) {
-        fputs(",\n\"weights\": [", stream);
+        aur_json_name(&json, "weights");
+        aur_json_open(&json, '[', true);
         for (size_t i = 0; i < points->count; ++i)
-            fprintf(stream, "%s%.17g", i > 0 ? ",\n" : "\n", points->weights[i]);
-        fputs("\n]", stream);
+            aur_json_number(&json, points->weights[i]);
+        aur_json_close(&json, ']');
     }
-    fputs("}\n", stream);
+    aur_json_close(&json, '}');
 }
 
+/* NPY and PLY files say that their numbers are little-endian, whatever the machine is. */
+static void write_doubles(const double *values, size_t count, FILE *stream) {
+    if (__BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__) {
+        fwrite(values, sizeof *values, count, stream);
+        return;
+    }
+    for (size_t i = 0; i < count; ++i) {
+        uint64_t bits;
+        memcpy(&bits, &values[i], sizeof bits);
+        bits = __builtin_bswap64(bits);
+        fwrite(&bits, sizeof bits, 1, stream);
+    }
+}
+
+/* Each point's coordinates, `padding` zeros, and its weight where there are weights. */
 static void write_binary_rows(const aur_points *points, size_t padding, FILE *stream) {
-    const double zero = 0.0;
+    static const double zeros[3] = {0.0};
     for (size_t i = 0; i < points->count; ++i) {
-        fwrite(points->coordinates + i * points->dimension, sizeof(double), points->dimension, stream);
-        for (size_t d = 0; d < padding; ++d)
-            fwrite(&zero, sizeof zero, 1, stream);
+        write_doubles(points->coordinates + i * points->dimension, points->dimension, stream);
+        write_doubles(zeros, padding, stream);
         if (points->weights != NULL)
-            fwrite(points->weights + i, sizeof(double), 1, stream);
+            write_doubles(points->weights + i, 1, stream);
     }
 }
 

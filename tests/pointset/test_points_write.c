@@ -58,12 +58,13 @@ static void json_names_its_origin(void **state) {
         .set = "file:a\"b\\c\n", .size = 9, .first = 3, .scramble = AUR_SCRAMBLE_OWEN, .seed = 5};
     expect_text(
         AUR_POINTS_JSON, &round_one, &origin,
-        "{\"set\": \"file:a\\\"b\\\\c\\u000a\", \"n\": 9, \"first\": 3, \"scramble\": \"owen\", \"seed\": 5, "
-        "\"domain\": \"sphere\", \"dimension\": 3,\n\"points\": [\n[0, 0.59999999999999998, "
-        "0.80000000000000004]\n],\n\"weights\": [\n0.25\n]}\n");
+        "{\n  \"set\": \"file:a\\\"b\\\\c\\u000a\",\n  \"n\": 9,\n  \"first\": 3,\n  \"scramble\": "
+        "\"owen\",\n"
+        "  \"seed\": 5,\n  \"domain\": \"sphere\",\n  \"dimension\": 3,\n  \"points\": [\n"
+        "    [0, 0.59999999999999998, 0.80000000000000004]\n  ],\n  \"weights\": [\n    0.25\n  ]\n}\n");
     expect_text(AUR_POINTS_JSON, &flat, NULL,
-                "{\"domain\": \"square\", \"dimension\": 2,\n\"points\": [\n[0, 0.10000000000000001],\n[0.5, "
-                "0.75]\n]}\n");
+                "{\n  \"domain\": \"square\",\n  \"dimension\": 2,\n  \"points\": [\n"
+                "    [0, 0.10000000000000001],\n    [0.5, 0.75]\n  ]\n}\n");
 }
 
 /* NumPy's format: magic, version, a header whose end is a multiple of 64, then rows of doubles. */

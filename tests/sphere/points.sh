@@ -137,6 +137,10 @@ refuse sobol -n 4 --frist 1
 refuse sobol -n 4 --warp nothing.png
 refuse sobol -n 4 --warp ramp.png --domain sphere
 refuse sobol -n 4 --warp own.csv
+printf 'PF\n1 1\n-1\n\0\0\200?\0\0\200?\0\0\200?' > white.pfm
+"$aureole" convert white.pfm --channels R,G two.exr || fail "two channels"
+refuse sobol -n 4 --warp two.exr
+grep -q 'two.exr must have one channel' stderr.txt || fail "what two channels lack: $(cat stderr.txt)"
 refuse spherical-fibonacci -n 4 --domain square
 refuse spherical-fibonacci -n 4 --scramble owen
 refuse spherical-fibonacci:offset=nan -n 4
