@@ -6,21 +6,15 @@
 #include <aureole/film.h>
 #include <aureole/image.h>
 #include <aureole/scene.h>
+#include <aureole/tables.h>
 
 #ifdef __cplusplus
 extern "C" {
 #endif
 
-/* One row of the table of integrators. */
-typedef struct aur_integrator_description {
-    const char *name;
-    const char *keys;    /* "key=default, key=default, ..." */
-    const char *summary; /* one line */
-    const char *source;  /* author year */
-} aur_integrator_description;
-
-AUR_API size_t aur_integrator_count(void);
-AUR_API const aur_integrator_description *aur_integrator_at(size_t index); /* NULL beyond the table */
+/* What a picture is made with: the tables of integrators, materials, shapes and so on; NULL beyond the last.
+ * Those of sets and measures are aur_table_at's. */
+AUR_API const aur_table *aur_render_table_at(size_t index);
 
 enum { AUR_RENDER_LEVELS = 8 };
 

@@ -160,8 +160,8 @@ const aur_parameter *aur_parameters_find(aur_parameters *parameters, const char 
     return NULL;
 }
 
-static aur_result fail_value(aur_error *error, const aur_parameters *parameters, const aur_parameter *item,
-                             const char *expected) {
+aur_result aur_parameters_fail_value(const aur_parameters *parameters, const aur_parameter *item,
+                                     const char *expected, aur_error *error) {
     return aur_fail_at(error, item->location, AUR_ERROR_FORMAT, "%s '%s': '%s' must be %s, not '%s'",
                        parameters->kind, parameters->plugin, item->name, expected,
                        item->text != NULL                      ? item->text
@@ -179,7 +179,7 @@ static aur_result fail_range(aur_error *error, const aur_parameters *parameters,
         aur_format(expected, sizeof expected, "at most %g", maximum);
     else
         aur_format(expected, sizeof expected, "between %g and %g", minimum, maximum);
-    return fail_value(error, parameters, item, expected);
+    return aur_parameters_fail_value(parameters, item, expected, error);
 }
 
 /* Whether a value of this kind may be read as `wanted`: text may be anything, an integer may be a float. */
@@ -195,7 +195,7 @@ aur_result aur_parameters_float(aur_parameters *parameters, const char *name, do
         return AUR_OK;
     double parsed;
     if (!kind_fits(item, AUR_PARAMETER_FLOAT) || !aur_parse_double(item->text, &parsed))
-        return fail_value(error, parameters, item, "a number");
+        return aur_parameters_fail_value(parameters, item, "a number", error);
     if (parsed < minimum || parsed > maximum)
         return fail_range(error, parameters, item, minimum, maximum);
     *value = parsed;
@@ -208,7 +208,7 @@ aur_result aur_parameters_integer(aur_parameters *parameters, const char *name, 
     if (item == NULL)
         return AUR_OK;
     if (!kind_fits(item, AUR_PARAMETER_INTEGER))
-        return fail_value(error, parameters, item, "an integer");
+        return aur_parameters_fail_value(parameters, item, "an integer", error);
     char *end;
     errno = 0;
     const long long parsed = strtoll(item->text, &end, 10);
@@ -216,14 +216,14 @@ aur_result aur_parameters_integer(aur_parameters *parameters, const char *name, 
     while (isspace((unsigned char)*end))
         ++end;
     if (end == item->text || *end != '\0')
-        return fail_value(error, parameters, item, "an integer");
+        return aur_parameters_fail_value(parameters, item, "an integer", error);
     if (overflow || parsed < minimum || parsed > maximum) {
         char expected[96];
         if (maximum == INT64_MAX)
             snprintf(expected, sizeof expected, "at least %" PRId64, minimum);
         else
             snprintf(expected, sizeof expected, "between %" PRId64 " and %" PRId64, minimum, maximum);
-        return fail_value(error, parameters, item, expected);
+        return aur_parameters_fail_value(parameters, item, expected, error);
     }
     *value = parsed;
     return AUR_OK;
@@ -239,7 +239,7 @@ aur_result aur_parameters_boolean(aur_parameters *parameters, const char *name, 
     else if (kind_fits(item, AUR_PARAMETER_BOOLEAN) && strcasecmp(item->text, "false") == 0)
         *value = false;
     else
-        return fail_value(error, parameters, item, "true or false");
+        return aur_parameters_fail_value(parameters, item, "true or false", error);
     return AUR_OK;
 }
 
@@ -249,7 +249,7 @@ aur_result aur_parameters_string(aur_parameters *parameters, const char *name, c
     if (item == NULL)
         return AUR_OK;
     if (!kind_fits(item, AUR_PARAMETER_STRING))
-        return fail_value(error, parameters, item, "a string");
+        return aur_parameters_fail_value(parameters, item, "a string", error);
     *value = item->text;
     return AUR_OK;
 }
@@ -267,7 +267,7 @@ aur_result aur_parameters_choice(aur_parameters *parameters, const char *name, s
     }
     char expected[AUR_ERROR_MESSAGE_CAPACITY] = "one of ";
     aur_names_list(names, expected + strlen(expected), sizeof expected - strlen(expected));
-    return fail_value(error, parameters, item, expected);
+    return aur_parameters_fail_value(parameters, item, expected, error);
 }
 
 aur_result aur_parameters_triple(aur_parameters *parameters, const char *name, double minimum, double maximum,
@@ -282,7 +282,7 @@ aur_result aur_parameters_triple(aur_parameters *parameters, const char *name, d
     if (count == 1)
         parsed[2] = parsed[1] = parsed[0];
     else if (count != 3)
-        return fail_value(error, parameters, item, "one or three numbers");
+        return aur_parameters_fail_value(parameters, item, "one or three numbers", error);
     for (size_t i = 0; i < 3; ++i)
         if (parsed[i] < minimum || parsed[i] > maximum)
             return fail_range(error, parameters, item, minimum, maximum);
@@ -296,7 +296,7 @@ aur_result aur_parameters_transform(aur_parameters *parameters, const char *name
     if (item == NULL)
         return AUR_OK;
     if (item->kind != AUR_PARAMETER_TRANSFORM)
-        return fail_value(error, parameters, item, "a transform");
+        return aur_parameters_fail_value(parameters, item, "a transform", error);
     memcpy(value, item->transform, sizeof item->transform);
     return AUR_OK;
 }

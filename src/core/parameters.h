@@ -88,6 +88,10 @@ aur_result aur_parameters_triple(aur_parameters *parameters, const char *name, d
 aur_result aur_parameters_transform(aur_parameters *parameters, const char *name, double value[16],
                                     aur_error *error);
 
+/* "KIND 'PLUGIN': 'NAME' must be EXPECTED, not 'VALUE'", with the value's place. */
+aur_result aur_parameters_fail_value(const aur_parameters *parameters, const aur_parameter *item,
+                                     const char *expected, aur_error *error);
+
 /* An error for the first value that no getter asked for. */
 aur_result aur_parameters_finish(const aur_parameters *parameters, aur_error *error);
 

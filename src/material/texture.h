@@ -3,6 +3,7 @@
 #ifndef AUR_MATERIAL_TEXTURE_H
 #define AUR_MATERIAL_TEXTURE_H
 
+#include "core/keys.h"
 #include "material/bsdf.h"
 
 typedef struct aur_texture aur_texture;
@@ -47,12 +48,6 @@ static inline aur_bsdf_point aur_uv_map_apply(const aur_uv_map *map, float u, fl
  * not finite becomes 0. */
 aur_result aur_read_rgb(const char *path, aur_location location, size_t *width, size_t *height, float **rgb,
                         aur_error *error);
-
-/* A colour of a material or light: one for the whole surface, or a texture. */
-typedef struct aur_color {
-    aur_vector constant;
-    const aur_texture *texture; /* NULL: constant */
-} aur_color;
 
 static inline aur_vector aur_color_at(const aur_color *color, aur_bsdf_point point) {
     return color->texture == NULL ? color->constant

@@ -31,18 +31,6 @@ struct aur_render {
     aur_result broken;
 };
 
-size_t aur_integrator_count(void) {
-    size_t count = 0;
-    while (aur_integrator_descriptor_at(count) != NULL)
-        ++count;
-    return count;
-}
-
-const aur_integrator_description *aur_integrator_at(size_t index) {
-    const aur_integrator_descriptor *const descriptor = aur_integrator_descriptor_at(index);
-    return descriptor != NULL ? &descriptor->description : NULL;
-}
-
 aur_result aur_renderer_create(const aur_scene *scene, aur_renderer **out, aur_error *error) {
     *out = NULL;
     aur_renderer *const renderer = calloc(1, sizeof *renderer);

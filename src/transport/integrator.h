@@ -8,7 +8,7 @@
 #include <stdlib.h>
 
 #include "core/cache.h"
-#include "core/parameters.h"
+#include "core/keys.h"
 #include "film/film.h"
 #include "scene/scene.h"
 
@@ -33,8 +33,8 @@ struct aur_integrator_context {
 };
 
 typedef struct aur_integrator_descriptor {
-    aur_integrator_description description;
-    /* Reads its parameters and prepares what all rays share (a photon map, say), on several threads. Sets
+    aur_row row; /* first, so that a row of the table is its descriptor */
+    /* Reads its keys and prepares what all rays share (a photon map, say), on several threads. Sets
      * integrator->data. */
     aur_result (*create)(aur_parameters *parameters, const aur_integrator_context *context,
                          aur_integrator *integrator, aur_error *error);
@@ -60,8 +60,7 @@ struct aur_integrator {
     const aur_channel_kind *extra_kinds;
 };
 
-/* The table; NULL beyond it. */
-const aur_integrator_descriptor *aur_integrator_descriptor_at(size_t index);
+extern const aur_table aur_integrator_table;
 
 aur_integrator_factory aur_integrator_create;
 

@@ -10,6 +10,7 @@
 #include <aureole/scene.h>
 #include <aureole/sphere.h>
 #include <aureole/statistics.h>
+#include <aureole/tables.h>
 #include <aureole/text.h>
 
 extern const char *aureole_headers_compile_as_cxx();

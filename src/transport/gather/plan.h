@@ -1,6 +1,6 @@
 /* Final gathering, from the inside: what its files share.
  *
- *     final_gather.c     preparation: rules, weights, maps; parameters.c the keys
+ *     final_gather.c     keys; preparation: rules, weights, maps
  *     tile.c      a tile: its groups, its edges, the means of its pixels
  *     group.c     sixteen pixels at a time: what they see
  *     light_direct.c    their direct light
@@ -31,24 +31,35 @@
 #include "transport/photons/bright_texels.h"
 #include "transport/photons/irradiance.h"
 
-enum { AUR_COMPONENT_ALL, AUR_COMPONENT_DIFFUSE, AUR_COMPONENT_GLOSSY };
-enum { AUR_DIRECT_NEE, AUR_DIRECT_GATHER, AUR_DIRECT_NONE };
-enum { AUR_INCIDENT_PHOTONS, AUR_INCIDENT_EMITTERS };
-enum { AUR_DECORRELATION_BLUE, AUR_DECORRELATION_RANDOM, AUR_DECORRELATION_NONE };
-enum {
+typedef enum aur_gather_component {
+    AUR_COMPONENT_ALL,
+    AUR_COMPONENT_DIFFUSE,
+    AUR_COMPONENT_GLOSSY
+} aur_gather_component;
+typedef enum aur_gather_direct { AUR_DIRECT_NEE, AUR_DIRECT_GATHER, AUR_DIRECT_NONE } aur_gather_direct;
+typedef enum aur_gather_incident { AUR_INCIDENT_PHOTONS, AUR_INCIDENT_EMITTERS } aur_gather_incident;
+typedef enum aur_gather_decorrelation {
+    AUR_DECORRELATION_BLUE,
+    AUR_DECORRELATION_RANDOM,
+    AUR_DECORRELATION_NONE
+} aur_gather_decorrelation;
+typedef enum aur_gather_weights {
     AUR_WEIGHTS_RATIO,
     AUR_WEIGHTS_EQUAL,
     AUR_WEIGHTS_OSW,
     AUR_WEIGHTS_OSWA,
     AUR_WEIGHTS_MIS,
     AUR_WEIGHTS_SOLVE
-};
-enum { AUR_CRITERION_ENTROPY, AUR_CRITERION_VARIANCE };
+} aur_gather_weights;
+typedef enum aur_gather_criterion { AUR_CRITERION_ENTROPY, AUR_CRITERION_VARIANCE } aur_gather_criterion;
 enum { AUR_LONGEST_CHAIN = 16 }; /* specular bounces in a row */
 
 typedef struct aur_final_gather {
     const aur_scene *scene;
-    size_t component, direct, incident, decorrelation;
+    aur_gather_component component;
+    aur_gather_direct direct;
+    aur_gather_incident incident;
+    aur_gather_decorrelation decorrelation;
     uint32_t max_depth;
     size_t samples_per_pixel, glossy_samples;
     uint32_t edge_samples;
@@ -66,7 +77,7 @@ typedef struct aur_final_gather {
     size_t pair_count; /* with merged samples: one for each glossy rule */
     aur_gather_pair **pairs;
     bool adaptive;
-    size_t criterion;
+    aur_gather_criterion criterion;
     float threshold;
     aur_gather_levels_options diffuse_growth, glossy_growth;
     aur_gather_levels diffuse_levels;

@@ -21,40 +21,37 @@ static void release(aur_integrator *integrator) {
 }
 
 typedef struct occlusion_parameters {
-    int64_t samples, rotations, pattern_seed;
-    const char *pattern, *map, *scramble;
+    int64_t samples, rotations, max_depth;
+    uint64_t pattern_seed;
+    const char *pattern, *map, *scramble; /* scramble NULL: not given */
     double max_distance;
     bool cosine;
-    size_t pixel;
+    enum { PIXEL_FILTER, PIXEL_CENTRE } pixel;
 } occlusion_parameters;
 
-static aur_result read_parameters(aur_parameters *parameters, occlusion_parameters *p, aur_error *error) {
-    static const char *const pixels[] = {"filter", "centre"};
-    *p = (occlusion_parameters){.samples = 64,
-                                .rotations = 16,
-                                .pattern = "spherical-fibonacci",
-                                .map = "lambert",
-                                .max_distance = INFINITY,
-                                .cosine = true};
-    aur_result r;
-    int64_t max_depth = -1;
-    const bool good =
-        (r = aur_parameters_integer(parameters, "samples", 1, 1 << 30, &p->samples, error)) == AUR_OK &&
-        (r = aur_parameters_string(parameters, "pattern", &p->pattern, error)) == AUR_OK &&
-        (r = aur_parameters_string(parameters, "map", &p->map, error)) == AUR_OK &&
-        (r = aur_parameters_string(parameters, "scramble", &p->scramble, error)) == AUR_OK &&
-        (r = aur_parameters_integer(parameters, "rotations", 0, 65536, &p->rotations, error)) == AUR_OK &&
-        (r = aur_parameters_float(parameters, "max_distance", 0.0, INFINITY, &p->max_distance, error)) ==
-            AUR_OK &&
-        (r = aur_parameters_boolean(parameters, "cosine", &p->cosine, error)) == AUR_OK &&
-        (r = aur_parameters_choice(parameters, "pixel", 2, pixels, &p->pixel, error)) == AUR_OK &&
-        (r = aur_parameters_integer(parameters, "pattern_seed", 0, INT64_MAX, &p->pattern_seed, error)) ==
-            AUR_OK &&
-        /* no light is followed, so any depth is deep enough: scenes set it for whatever integrator is asked
-           for */
-        (r = aur_parameters_integer(parameters, "max_depth", -1, 1 << 20, &max_depth, error)) == AUR_OK;
-    return good ? aur_parameters_finish(parameters, error) : r;
-}
+static const aur_key keys[] = {
+    {AUR_KEY_OF_INTEGER(occlusion_parameters, "samples", samples, 1, 1 << 30, "64",
+                        "directions a pixel, shared out among its samples")},
+    {AUR_KEY_OF_TEXT(occlusion_parameters, "pattern", pattern, "spherical-fibonacci",
+                     "SET of the directions")},
+    {AUR_KEY_OF_TEXT(occlusion_parameters, "map", map, "lambert",
+                     "map of a square set to the hemisphere: lambert, concentric, azimuthal or polar")},
+    {AUR_KEY_OF_TEXT(occlusion_parameters, "scramble", scramble, "rotate (nets: digit)",
+                     "how a pattern is randomised: none, digit, owen, shift or rotate"),
+     .computed = true},
+    {AUR_KEY_OF_INTEGER(occlusion_parameters, "rotations", rotations, 0, 65536, "16",
+                        "randomisations made beforehand; 0 is one of its own for every pixel")},
+    {AUR_KEY_OF_REAL(occlusion_parameters, "max_distance", max_distance, 0.0, INFINITY, "infinity",
+                     "what is farther, in scene units, does not occlude")},
+    {AUR_KEY_OF_BOOLEAN(occlusion_parameters, "cosine", cosine, "true",
+                        "directions weighted by the cosine, else evenly")},
+    {AUR_KEY_OF_CHOICE(occlusion_parameters, "pixel", pixel, "filter",
+                       "camera rays over the pixel, or through its centre", "filter", "centre")},
+    {AUR_KEY_OF_INTEGER(occlusion_parameters, "pattern_seed", pattern_seed, 0, INFINITY, "0",
+                        "another randomisation of the pattern under the same seed")},
+    {AUR_KEY_OF_INTEGER(occlusion_parameters, "max_depth", max_depth, -1, 1 << 20, "-1",
+                        "of no effect: scenes set it for whatever integrator is asked for")},
+};
 
 static aur_result make_rule(const occlusion_parameters *p, const aur_integrator_context *context,
                             occlusion_data *data, aur_error *error) {
@@ -81,17 +78,17 @@ static aur_result make_rule(const occlusion_parameters *p, const aur_integrator_
 
 static aur_result create(aur_parameters *parameters, const aur_integrator_context *context,
                          aur_integrator *integrator, aur_error *error) {
-    occlusion_parameters p;
-    const aur_result result = read_parameters(parameters, &p, error);
+    occlusion_parameters p = {.scramble = NULL};
+    const aur_result result = aur_row_read(&integrator->descriptor->row, parameters, &p, error);
     if (result != AUR_OK)
         return result;
     occlusion_data *const data = calloc(1, sizeof *data);
     if (data == NULL)
         return aur_fail(error, AUR_ERROR_MEMORY, "out of memory");
     integrator->data = data;
-    integrator->pixel_centre = p.pixel == 1;
+    integrator->pixel_centre = p.pixel == PIXEL_CENTRE;
     data->samples_per_pixel = context->samples_per_pixel;
-    data->seed = aur_hash2(context->seed, (uint64_t)p.pattern_seed);
+    data->seed = aur_hash2(context->seed, p.pattern_seed);
     data->max_distance = (float)p.max_distance;
     return make_rule(&p, context, data, error);
 }
@@ -270,12 +267,10 @@ static aur_result tile(const aur_integrator *integrator, aur_tile *tile) {
 }
 
 const aur_integrator_descriptor aur_integrator_ambient_occlusion = {
-    .description =
-        {.name = "ao",
-         .keys = "samples=64, pattern=spherical-fibonacci, map=lambert, scramble=rotate (nets: digit), "
-                 "rotations=16, max_distance=infinity, cosine=true, pixel=filter, pattern_seed=0",
-         .summary = "ambient occlusion: how much of the hemisphere over a point is open",
-         .source = "Zhukov 1998, Schretter 2012"},
+    .row = {.name = "ao",
+            .summary = "ambient occlusion: how much of the hemisphere over a point is open",
+            .source = "Zhukov 1998, Schretter 2012",
+            AUR_ROW_KEYS(keys)},
     .create = create,
     .release = release,
     .tile = tile,

@@ -85,8 +85,18 @@ static const aov_type types[] = {
 
 enum { TYPE_COUNT = sizeof types / sizeof types[0] };
 
-static const char default_aovs[] = "albedo:albedo,normal:sh_normal,position:position,shape:shape_index,"
-                                   "primitive:prim_index,samples:sample_count,variance:variance";
+typedef struct aov_parameters {
+    const char *aovs;
+    const aur_parameter *integrator;
+} aov_parameters;
+
+static const aur_key keys[] = {
+    {AUR_KEY_OF_TEXT(aov_parameters, "aovs", aovs,
+                     "albedo:albedo,normal:sh_normal,position:position,shape:shape_index,"
+                     "primitive:prim_index,samples:sample_count,variance:variance",
+                     "name:type,...: the channels beside the picture")},
+    {AUR_KEY_OF_ITEM(aov_parameters, "integrator", integrator, "path", "whose picture it is", "integrator")},
+};
 
 typedef struct aov_data {
     aur_integrator *nested;
@@ -171,9 +181,8 @@ static aur_result read_aovs(aov_data *data, const char *text, aur_location locat
     return AUR_OK;
 }
 
-static aur_result create_nested(aur_parameters *parameters, const aur_integrator_context *context,
-                                aov_data *data, aur_error *error) {
-    const aur_parameter *const item = aur_parameters_find(parameters, "integrator");
+static aur_result create_nested(const aur_parameters *parameters, const aur_parameter *item,
+                                const aur_integrator_context *context, aov_data *data, aur_error *error) {
     aur_parameters nested;
     aur_result result;
     if (item != NULL && item->kind == AUR_PARAMETER_OBJECT) {
@@ -191,7 +200,7 @@ static aur_result create_nested(aur_parameters *parameters, const aur_integrator
     if (result == AUR_OK && data->nested->descriptor->radiance == NULL)
         return aur_fail_at(error, parameters->location, AUR_ERROR_UNSUPPORTED,
                            "integrator 'aov': '%s' treats pixels together and cannot stand inside",
-                           data->nested->descriptor->description.name);
+                           data->nested->descriptor->row.name);
     return result;
 }
 
@@ -201,14 +210,12 @@ static aur_result create(aur_parameters *parameters, const aur_integrator_contex
     integrator->data = data;
     if (data == NULL)
         return aur_fail(error, AUR_ERROR_MEMORY, "out of memory");
-    const char *aovs = default_aovs;
-    aur_result result = aur_parameters_string(parameters, "aovs", &aovs, error);
+    aov_parameters p = {.integrator = NULL};
+    aur_result result = aur_row_read(&integrator->descriptor->row, parameters, &p, error);
     if (result == AUR_OK)
-        result = read_aovs(data, aovs, parameters->location, error);
+        result = read_aovs(data, p.aovs, parameters->location, error);
     if (result == AUR_OK)
-        result = create_nested(parameters, context, data, error);
-    if (result == AUR_OK)
-        result = aur_parameters_finish(parameters, error);
+        result = create_nested(parameters, p.integrator, context, data, error);
     if (result != AUR_OK)
         return result;
     integrator->pixel_centre = data->nested->pixel_centre;
@@ -253,10 +260,10 @@ static aur_result add_tile(const aur_integrator *integrator, aur_tile *tile) {
 }
 
 const aur_integrator_descriptor aur_integrator_aov = {
-    .description = {.name = "aov",
-                    .keys = "aovs=(name:type,...), integrator=path",
-                    .summary = "albedo, normals, positions and more in channels beside another integrator's",
-                    .source = "Mitsuba 3"},
+    .row = {.name = "aov",
+            .summary = "albedo, normals, positions and more in channels beside another integrator's",
+            .source = "Mitsuba 3",
+            AUR_ROW_KEYS(keys)},
     .create = create,
     .release = release,
     .tile = add_tile,

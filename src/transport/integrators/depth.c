@@ -6,8 +6,7 @@
 static aur_result create(aur_parameters *parameters, const aur_integrator_context *context,
                          aur_integrator *integrator, aur_error *error) {
     (void)context;
-    (void)integrator;
-    return aur_parameters_finish(parameters, error);
+    return aur_row_read(&integrator->descriptor->row, parameters, NULL, error);
 }
 
 static void release(aur_integrator *integrator) {
@@ -24,10 +23,7 @@ static aur_vector radiance(const aur_integrator *integrator, const aur_camera_sa
 }
 
 const aur_integrator_descriptor aur_integrator_depth = {
-    .description = {.name = "depth",
-                    .keys = "",
-                    .summary = "the distance to what the camera sees",
-                    .source = "Mitsuba 3"},
+    .row = {.name = "depth", .summary = "the distance to what the camera sees", .source = "Mitsuba 3"},
     .create = create,
     .release = release,
     .radiance = radiance,

@@ -12,39 +12,57 @@ typedef struct direct_data {
     bool hide_emitters;
 } direct_data;
 
+typedef struct direct_parameters {
+    int64_t shading, emitter, bsdf; /* -1: not given */
+    bool hide_emitters;
+} direct_parameters;
+
+enum { MOST_SAMPLES = 1 << 16 };
+
+static const aur_key keys[] = {
+    {AUR_KEY_OF_INTEGER(direct_parameters, "shading_samples", shading, 1, MOST_SAMPLES, "1",
+                        "samples of lights and of the BSDF each"),
+     .computed = true},
+    {AUR_KEY_OF_INTEGER(direct_parameters, "emitter_samples", emitter, 0, MOST_SAMPLES, "1",
+                        "samples of lights, in place of shading_samples"),
+     .computed = true},
+    {AUR_KEY_OF_INTEGER(direct_parameters, "bsdf_samples", bsdf, 0, MOST_SAMPLES, "1",
+                        "samples of the BSDF, in place of shading_samples"),
+     .computed = true},
+    {AUR_KEY_OF_BOOLEAN(direct_parameters, "hide_emitters", hide_emitters, "false",
+                        "lights are black to the camera")},
+};
+
+/* What the keys mean together. */
+static aur_result check(const direct_parameters *p, aur_location location, aur_error *error) {
+    if (p->shading >= 0 && (p->emitter >= 0 || p->bsdf >= 0))
+        return aur_fail_at(error, location, AUR_ERROR_FORMAT,
+                           "integrator 'direct': give either 'shading_samples' or 'emitter_samples' and "
+                           "'bsdf_samples'");
+    if (p->emitter == 0 && p->bsdf == 0)
+        return aur_fail_at(error, location, AUR_ERROR_FORMAT,
+                           "integrator 'direct': 'emitter_samples' and 'bsdf_samples' cannot both be 0");
+    return AUR_OK;
+}
+
 static aur_result create(aur_parameters *parameters, const aur_integrator_context *context,
                          aur_integrator *integrator, aur_error *error) {
     (void)context;
-    enum { MOST = 1 << 16 };
-    int64_t shading = -1, emitter = -1, bsdf = -1;
-    bool hide_emitters = false;
-    aur_result result = aur_parameters_integer(parameters, "shading_samples", 1, MOST, &shading, error);
+    direct_parameters p = {.shading = -1, .emitter = -1, .bsdf = -1};
+    aur_result result = aur_row_read(&integrator->descriptor->row, parameters, &p, error);
     if (result == AUR_OK)
-        result = aur_parameters_integer(parameters, "emitter_samples", 0, MOST, &emitter, error);
-    if (result == AUR_OK)
-        result = aur_parameters_integer(parameters, "bsdf_samples", 0, MOST, &bsdf, error);
-    if (result == AUR_OK)
-        result = aur_parameters_boolean(parameters, "hide_emitters", &hide_emitters, error);
-    if (result == AUR_OK)
-        result = aur_parameters_finish(parameters, error);
+        result = check(&p, parameters->location, error);
     if (result != AUR_OK)
         return result;
-    if (shading >= 0 && (emitter >= 0 || bsdf >= 0))
-        return aur_fail_at(error, parameters->location, AUR_ERROR_FORMAT,
-                           "integrator 'direct': give either 'shading_samples' or 'emitter_samples' and "
-                           "'bsdf_samples'");
-    const int64_t each = shading >= 0 ? shading : 1;
+    const int64_t each = p.shading >= 0 ? p.shading : 1;
     direct_data *const data = malloc(sizeof *data);
     if (data == NULL)
         return aur_fail(error, AUR_ERROR_MEMORY, "out of memory");
-    *data = (direct_data){.emitter_samples = (uint32_t)(emitter >= 0 ? emitter : each),
-                          .bsdf_samples = (uint32_t)(bsdf >= 0 ? bsdf : each),
-                          .hide_emitters = hide_emitters};
+    *data = (direct_data){.emitter_samples = (uint32_t)(p.emitter >= 0 ? p.emitter : each),
+                          .bsdf_samples = (uint32_t)(p.bsdf >= 0 ? p.bsdf : each),
+                          .hide_emitters = p.hide_emitters};
     integrator->data = data;
-    if (data->emitter_samples + data->bsdf_samples > 0)
-        return AUR_OK;
-    return aur_fail_at(error, parameters->location, AUR_ERROR_FORMAT,
-                       "integrator 'direct': 'emitter_samples' and 'bsdf_samples' cannot both be 0");
+    return AUR_OK;
 }
 
 static void release(aur_integrator *integrator) {
@@ -131,10 +149,10 @@ static aur_vector radiance(const aur_integrator *integrator, const aur_camera_sa
 }
 
 const aur_integrator_descriptor aur_integrator_direct = {
-    .description = {.name = "direct",
-                    .keys = "shading_samples=1, emitter_samples, bsdf_samples, hide_emitters=false",
-                    .summary = "direct light by sampling lights and materials",
-                    .source = "Veach 1997"},
+    .row = {.name = "direct",
+            .summary = "direct light by sampling lights and materials",
+            .source = "Veach 1997",
+            AUR_ROW_KEYS(keys)},
     .create = create,
     .release = release,
     .radiance = radiance,

@@ -10,6 +10,146 @@
 #include <stdlib.h>
 #include <string.h>
 
+/* --- keys */
+
+enum { MOST = 1 << 30 };
+
+static const aur_key keys[] = {
+    {AUR_KEY_OF_INTEGER(aur_gather_parameters, "diffuse_samples", diffuse_samples, 1, MOST, "64",
+                        "directions a pixel for the diffuse lobe, shared out among its samples")},
+    {AUR_KEY_OF_INTEGER(aur_gather_parameters, "glossy_samples", glossy_samples, 1, MOST, "64",
+                        "directions a pixel for each glossy lobe")},
+    {AUR_KEY_OF_TEXT(aur_gather_parameters, "pattern", pattern, "spherical-fibonacci",
+                     "SET of the directions")},
+    {AUR_KEY_OF_TEXT(aur_gather_parameters, "map", map, "lambert",
+                     "map of a square set to the hemisphere: lambert, concentric, azimuthal or polar")},
+    {AUR_KEY_OF_TEXT(aur_gather_parameters, "scramble", scramble, "rotate (nets: digit)",
+                     "how a pattern is randomised: none, digit, owen, shift or rotate"),
+     .computed = true},
+    {AUR_KEY_OF_INTEGER(aur_gather_parameters, "rotations", rotations, 0, 65536, "16",
+                        "randomisations made beforehand; 0 is one of its own for every pixel")},
+    {AUR_KEY_OF_CHOICE(aur_gather_parameters, "density", density, "optimal (weights=equal: same)",
+                       "directions follow the lobe, or its power 2/(s+1)", "same", "optimal"),
+     .computed = true},
+    {AUR_KEY_OF_CHOICE(aur_gather_parameters, "weights", weights, "ratio",
+                       "how samples are weighed (Marques 2018, 2019)", "ratio", "equal", "osw", "oswa", "mis",
+                       "oswa-solve")},
+    {AUR_KEY_OF_BOOLEAN(aur_gather_parameters, "clip", clip, "true",
+                        "glossy lobes end at the surface's horizon")},
+    {AUR_KEY_OF_REAL(aur_gather_parameters, "regularization", regularization, 0.0, 1e6,
+                     "1e-6 (oswa-solve: 0.5)", "added to the diagonal of optimal weights' systems"),
+     .computed = true},
+    {AUR_KEY_OF_REAL(aur_gather_parameters, "smoothness", smoothness, 1.0, 2.0, "1.5",
+                     "s of the optimal weights and density"),
+     .minimum_open = true, .maximum_open = true},
+    {AUR_KEY_OF_INTEGER(aur_gather_parameters, "photons", photons, 1, MOST, "500000",
+                        "photons of the map that gather rays look up")},
+    {AUR_KEY_OF_INTEGER(aur_gather_parameters, "caustic_photons", caustic_photons, 0, MOST, "0",
+                        "photons of a map of caustics alone; 0 leaves them in the one map")},
+    {AUR_KEY_OF_INTEGER(aur_gather_parameters, "light_samples", light_samples, 1, 65536, "1",
+                        "points on lights that each sample's shadow rays aim at")},
+    {AUR_KEY_OF_INTEGER(aur_gather_parameters, "bright_samples", bright_samples, 0, 65536, "0",
+                        "rays a pixel to brightly lit places, drawn as lights are")},
+    {AUR_KEY_OF_TEXT(aur_gather_parameters, "photon_pattern", photon_set, "sobol",
+                     "SET of the photons' numbers")},
+    {AUR_KEY_OF_REAL(aur_gather_parameters, "photons_per_texel", photons_a_texel, 1.0, 1e6, "16",
+                     "photons that a texel of irradiance is the mean of")},
+    {AUR_KEY_OF_CHOICE(aur_gather_parameters, "decorrelation", decorrelation, "blue",
+                       "how pixels choose among the rotations", "blue", "random", "none")},
+    {AUR_KEY_OF_INTEGER(aur_gather_parameters, "edges", edges, 0, 65536, "32",
+                        "camera rays more where a pixel sees several things")},
+    {AUR_KEY_OF_BOOLEAN(aur_gather_parameters, "packets", packets, "true",
+                        "sixteen rays at a time, else one: the same picture to rounding")},
+    {AUR_KEY_OF_BOOLEAN(aur_gather_parameters, "share", share, "false",
+                        "neighbouring pixels share the diffuse light that they gather")},
+    {AUR_KEY_OF_BOOLEAN(aur_gather_parameters, "adaptive", adaptive, "false",
+                        "more directions where the light varies (Marques 2019)")},
+    {AUR_KEY_OF_INTEGER(aur_gather_parameters, "levels", levels, 1, AUR_GATHER_LEVEL_CAPACITY - 1, "2",
+                        "extensions of an adaptive pattern")},
+    {AUR_KEY_OF_INTEGER(aur_gather_parameters, "level_factor", level_factor, 2, 4, "4",
+                        "directions of a level over those of the one before: 2 or 4")},
+    {AUR_KEY_OF_REAL(aur_gather_parameters, "threshold", threshold, 0.0, 1e6, "0.03 (entropy: 0.3)",
+                     "contrast above which the next level is gathered"),
+     .computed = true},
+    {AUR_KEY_OF_CHOICE(aur_gather_parameters, "criterion", criterion, "variance",
+                       "how that contrast is measured", "entropy", "variance")},
+    {AUR_KEY_OF_INTEGER(
+        aur_gather_parameters, "max_depth", max_depth, -1, 1 << 20, "-1",
+        "longest path in edges: 1 is emitted light only, 2 adds direct light; -1 is unlimited")},
+    {AUR_KEY_OF_CHOICE(aur_gather_parameters, "component", component, "all", "the lobes to gather", "all",
+                       "diffuse", "glossy")},
+    {AUR_KEY_OF_CHOICE(aur_gather_parameters, "direct", direct, "nee",
+                       "direct light by shadow rays, by the gather rays, or not at all", "nee", "gather",
+                       "none")},
+    {AUR_KEY_OF_CHOICE(aur_gather_parameters, "incident", incident, "photons",
+                       "what gather rays meet shines by its photons, or by what it emits alone", "photons",
+                       "emitters")},
+    {AUR_KEY_OF_CHOICE(aur_gather_parameters, "pixel", pixel, "filter",
+                       "camera rays over the pixel, or through its centre", "filter", "centre")},
+    {AUR_KEY_OF_INTEGER(aur_gather_parameters, "pattern_seed", pattern_seed, 0, INFINITY, "0",
+                        "another randomisation of the pattern under the same seed")},
+};
+
+/* What the keys mean together: defaults that follow from other keys, and what does not go together. */
+static aur_result complete(aur_gather_parameters *p, aur_error *error) {
+    if (p->weights == AUR_WEIGHTS_EQUAL && p->density == AUR_GATHER_DENSITY_OPTIMAL)
+        return aur_fail(
+            error, AUR_ERROR_ARGUMENT,
+            "finalgather: equal weights are for density=same; for density=optimal take weights=ratio");
+    if (aur_merges_samples(p) && p->rotations == 0)
+        return aur_fail(error, AUR_ERROR_ARGUMENT,
+                        "finalgather: weights of merged samples need prepared rotations, not rotations=0");
+    if (p->density == AUR_GATHER_DENSITY_UNSAID)
+        p->density = p->weights == AUR_WEIGHTS_EQUAL ? AUR_GATHER_DENSITY_SAME : AUR_GATHER_DENSITY_OPTIMAL;
+    if (p->regularization < 0.0) /* as published for the published method */
+        p->regularization = p->weights == AUR_WEIGHTS_SOLVE ? 0.5 : AUR_REGULARIZATION_DEFAULT;
+    if (p->threshold < 0.0) /* by measurement: see docs/rendering.md */
+        p->threshold = p->criterion == AUR_CRITERION_ENTROPY ? 0.3 : 0.03;
+    if (p->share && (p->adaptive || p->decorrelation != AUR_DECORRELATION_BLUE || aur_merges_samples(p)))
+        return aur_fail(error, AUR_ERROR_UNSUPPORTED,
+                        "finalgather: share=true splits one pattern among pixels: it goes with "
+                        "decorrelation=blue and weights=ratio, equal or osw, and not with adaptive=true");
+    if (!p->adaptive)
+        return AUR_OK;
+    if (aur_merges_samples(p))
+        return aur_fail(error, AUR_ERROR_UNSUPPORTED,
+                        "finalgather: adaptive gathering grows each lobe's pattern by itself: weights of "
+                        "merged samples (oswa, mis) do not go with it; take osw, ratio or equal");
+    if ((p->scramble != NULL && strcmp(p->scramble, "rotate") != 0) ||
+        strcmp(p->pattern, "spherical-fibonacci") != 0)
+        return aur_fail(error, AUR_ERROR_UNSUPPORTED,
+                        "finalgather: adaptive gathering takes its patterns from extensible spherical "
+                        "Fibonacci grids: leave 'pattern' and 'scramble' out");
+    if (p->level_factor == 3)
+        return aur_fail(error, AUR_ERROR_ARGUMENT, "finalgather: 'level_factor' is 2 or 4, not 3");
+    return AUR_OK;
+}
+
+/* Digits of nets are scrambled, every other pattern is turned about its axis (Marques 2013, section 6.1). */
+static aur_scramble default_scramble(const char *pattern) {
+    const aur_set_description *const row = aur_set_find(pattern);
+    return row != NULL && row->binary_net ? AUR_SCRAMBLE_DIGIT : AUR_SCRAMBLE_ROTATE;
+}
+
+static aur_result read_options(const aur_gather_parameters *p, const aur_integrator_context *context,
+                               aur_gather_options *options, aur_error *error) {
+    *options = (aur_gather_options){.set = p->pattern,
+                                    .scramble = default_scramble(p->pattern),
+                                    .optimal_density = p->density == AUR_GATHER_DENSITY_OPTIMAL,
+                                    .smoothness = p->smoothness,
+                                    .rotations = (size_t)p->rotations,
+                                    .seed = aur_hash2(context->seed, p->pattern_seed),
+                                    .warnings = context->warnings};
+    aur_result result = aur_map_from_name(p->map, &options->map, error);
+    if (result == AUR_OK && p->scramble != NULL)
+        result = aur_scramble_from_name(p->scramble, &options->scramble, error);
+    if (result == AUR_OK && options->scramble == AUR_SCRAMBLE_ROTATE3D)
+        result =
+            aur_fail(error, AUR_ERROR_UNSUPPORTED,
+                     "finalgather: 'rotate3d' would turn the pattern out of its hemisphere; use 'rotate'");
+    return result;
+}
+
 static void release(aur_integrator *integrator) {
     aur_final_gather *const data = integrator->data;
     aur_gather_rule_release(&data->diffuse);
@@ -30,8 +170,7 @@ static void release(aur_integrator *integrator) {
     free(data);
 }
 
-/* --- preparation
- * ----------------------------------------------------------------------------------------------- */
+/* --- preparation */
 
 /* A pattern is shared out evenly: as many directions as samples at least, and a multiple of them. */
 static size_t shared_count(int64_t wanted, size_t samples_per_pixel) {
@@ -65,8 +204,6 @@ float aur_final_gather_share(const aur_final_gather *data, const aur_gather_rule
 /* The extensible sets that adaptive gathering takes the place of patterns by. */
 static aur_result set_growth(const aur_gather_parameters *p, int64_t base, aur_gather_levels_options *growth,
                              size_t capacity, char *set, size_t *count, aur_error *error) {
-    if (p->level_factor == 3)
-        return aur_fail(error, AUR_ERROR_ARGUMENT, "finalgather: 'level_factor' is 2 or 4, not 3");
     *growth = (aur_gather_levels_options){.base = (size_t)base,
                                           .factor = (size_t)p->level_factor,
                                           .extensions = (size_t)p->levels,
@@ -239,25 +376,23 @@ static aur_result prepare_bright(aur_final_gather *data, int64_t samples, aur_er
     return result;
 }
 
-/* Chosen by measurement: see docs/rendering.md. */
-static double default_threshold(size_t criterion) {
-    return criterion == AUR_CRITERION_ENTROPY ? 0.3 : 0.03;
-}
-
 static aur_result create(aur_parameters *parameters, const aur_integrator_context *context,
                          aur_integrator *integrator, aur_error *error) {
-    aur_gather_parameters p;
-    aur_result result = aur_final_gather_read(parameters, &p, error);
+    aur_gather_parameters p = {
+        .density = AUR_GATHER_DENSITY_UNSAID, .regularization = -1.0, .threshold = -1.0};
+    aur_result result = aur_row_read(&integrator->descriptor->row, parameters, &p, error);
+    if (result == AUR_OK)
+        result = complete(&p, error);
     aur_gather_options options;
     if (result == AUR_OK)
-        result = aur_final_gather_options(&p, context, &options, error);
+        result = read_options(&p, context, &options, error);
     if (result != AUR_OK)
         return result;
     aur_final_gather *const data = calloc(1, sizeof *data);
     if (data == NULL)
         return aur_fail(error, AUR_ERROR_MEMORY, "out of memory");
     integrator->data = data;
-    integrator->pixel_centre = p.pixel == 1;
+    integrator->pixel_centre = p.pixel == AUR_PIXEL_CENTRE;
     static const char *const extra[] = {"directions"};
     if (p.adaptive) {
         integrator->extra_count = 1;
@@ -280,24 +415,12 @@ static aur_result create(aur_parameters *parameters, const aur_integrator_contex
     data->pattern_seed = options.seed;
     data->options = options;
     options.count = shared_count(p.diffuse_samples, context->samples_per_pixel);
-    if (p.share && (p.adaptive || p.decorrelation != AUR_DECORRELATION_BLUE || aur_merges_samples(&p)))
-        return aur_fail(error, AUR_ERROR_UNSUPPORTED,
-                        "finalgather: share=true splits one pattern among pixels: it goes with "
-                        "decorrelation=blue and weights=ratio, equal or osw, and not with adaptive=true");
     if (p.share)
         options.count *= AUR_PACKET_SIZE;
     size_t glossy_count = data->glossy_samples;
     char set[80], glossy_set[80];
     if (p.adaptive) {
-        if (p.weights != AUR_WEIGHTS_RATIO && p.weights != AUR_WEIGHTS_EQUAL && p.weights != AUR_WEIGHTS_OSW)
-            return aur_fail(error, AUR_ERROR_UNSUPPORTED,
-                            "finalgather: adaptive gathering grows each lobe's pattern by itself: weights of "
-                            "merged samples (oswa, mis) do not go with it; take osw, ratio or equal");
-        if (options.scramble != AUR_SCRAMBLE_ROTATE || strcmp(p.pattern, "spherical-fibonacci") != 0)
-            return aur_fail(error, AUR_ERROR_UNSUPPORTED,
-                            "finalgather: adaptive gathering takes its patterns from extensible spherical "
-                            "Fibonacci grids: leave 'pattern' and 'scramble' out");
-        data->threshold = (float)(p.threshold >= 0.0 ? p.threshold : default_threshold(p.criterion));
+        data->threshold = (float)p.threshold;
         result =
             set_growth(&p, p.diffuse_samples, &data->diffuse_growth, sizeof set, set, &options.count, error);
         if (result == AUR_OK)
@@ -336,19 +459,10 @@ static aur_result create(aur_parameters *parameters, const aur_integrator_contex
 }
 
 const aur_integrator_descriptor aur_integrator_final_gather = {
-    .description = {.name = "finalgather",
-                    .keys =
-                        "diffuse_samples=64, glossy_samples=64, pattern=spherical-fibonacci, map=lambert, "
-                        "scramble=rotate (nets: digit), rotations=16, density=optimal, smoothness=1.5, "
-                        "weights=ratio, regularization=1e-6, clip=true, decorrelation=blue, photons=500000, "
-                        "caustic_photons=0, photon_pattern=sobol, photons_per_texel=16, light_samples=1, "
-                        "bright_samples=0, edges=32, share=false, "
-                        "adaptive=false, levels=2, level_factor=4, criterion=variance, threshold=0.03 "
-                        "(entropy: 0.3), "
-                        "max_depth=-1, component=all, direct=nee, incident=photons, pixel=filter, "
-                        "pattern_seed=0, packets=true",
-                    .summary = "final gathering over a photon map, one pattern of directions an image",
-                    .source = "Christensen 1999, Marques 2013, Marques 2018, Marques 2019"},
+    .row = {.name = "finalgather",
+            .summary = "final gathering over a photon map, one pattern of directions an image",
+            .source = "Christensen 1999, Marques 2013, Marques 2018, Marques 2019",
+            AUR_ROW_KEYS(keys)},
     .create = create,
     .release = release,
     .tile = aur_final_gather_tile,

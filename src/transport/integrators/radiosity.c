@@ -7,22 +7,88 @@
 
 #include "transport/radiosity/picture.h"
 
-typedef struct solution_parameters {
-    int64_t paths, bounces, interval, window, randomizations, variant;
+typedef struct radiosity_parameters {
+    /* the solution */
+    int64_t paths; /* -1: not given */
+    int64_t bounces, interval, window, randomizations;
+    uint64_t variant;
     double epsilon, ply_exposure;
-    const char *sequence, *scramble, *save, *load, *ply;
-    size_t directions, emission;
-} solution_parameters;
-
-typedef struct image_parameters {
+    const char *sequence, *scramble, *save, *load, *ply; /* NULL: not given */
+    aur_radiosity_directions directions;
+    aur_radiosity_emission emission;
+    /* the picture */
     int64_t gather_samples;
     double smoothness, threshold;
     const char *pattern, *map, *pattern_scramble;
-    size_t weights, density, light_sampling, oversampling, component;
+    enum { WEIGHTS_EQUAL, WEIGHTS_OPTIMAL } weights;
+    enum { DENSITY_SAME, DENSITY_OPTIMAL } density;
+    enum { LIGHTS_PERMUTED, LIGHTS_ALL } light_sampling;
+    aur_radiosity_oversampling oversampling;
+    aur_radiosity_component component;
     bool share_neighbours;
-} image_parameters;
+} radiosity_parameters;
 
-static const int64_t most = 1 << 30;
+enum { MOST = 1 << 30 };
+
+static const aur_key keys[] = {
+    {AUR_KEY_OF_INTEGER(radiosity_parameters, "paths", paths, 1, INT64_C(1) << 40, "100000",
+                        "paths of the walk; with epsilon the most that are tried (2^28)"),
+     .computed = true},
+    {AUR_KEY_OF_TEXT(radiosity_parameters, "sequence", sequence, "sobol", "SET of the walk's numbers"),
+     .computed = true},
+    {AUR_KEY_OF_TEXT(radiosity_parameters, "scramble", scramble, "none", "of the sequence"),
+     .computed = true},
+    {AUR_KEY_OF_CHOICE(radiosity_parameters, "directions", directions, "cosine",
+                       "how two numbers become a direction (uniform_angle: the paper's eq. 15)", "cosine",
+                       "uniform_angle")},
+    {AUR_KEY_OF_CHOICE(radiosity_parameters, "emission", emission, "power",
+                       "where paths begin: on lights by their power, or by area (the paper)", "power",
+                       "area")},
+    {AUR_KEY_OF_INTEGER(radiosity_parameters, "bounces", bounces, 1, AUR_RADIOSITY_MOST_BOUNCES, "6",
+                        "the paper's M: paths have M + 1 flights")},
+    {AUR_KEY_OF_REAL(radiosity_parameters, "epsilon", epsilon, 0.0, 1.0, "0",
+                     "walk on until the solution changes by less; 0 is a fixed number of paths")},
+    {AUR_KEY_OF_INTEGER(radiosity_parameters, "interval", interval, 1, MOST, "1000",
+                        "paths between two looks at the change")},
+    {AUR_KEY_OF_INTEGER(radiosity_parameters, "window", window, 1, MOST, "2",
+                        "looks in a row that must be below epsilon")},
+    {AUR_KEY_OF_INTEGER(radiosity_parameters, "randomizations", randomizations, 1,
+                        AUR_RADIOSITY_MOST_RANDOMIZATIONS, "1",
+                        "randomisations of the sequence; from 2 on there are standard errors")},
+    {AUR_KEY_OF_INTEGER(radiosity_parameters, "variant", variant, 0, INFINITY, "0",
+                        "another order of the lights and another turn of the triangles' frames; 0 is none")},
+    {AUR_KEY_OF_TEXT(radiosity_parameters, "save", save, NULL, "file to which the solution is written")},
+    {AUR_KEY_OF_TEXT(radiosity_parameters, "load", load, NULL, "file of a solution to go on from")},
+    {AUR_KEY_OF_TEXT(radiosity_parameters, "ply", ply, NULL, "file for the scene as coloured triangles")},
+    {AUR_KEY_OF_REAL(radiosity_parameters, "ply_exposure", ply_exposure, -64.0, 64.0, "0",
+                     "stops by which the colours of that file are brighter")},
+    {AUR_KEY_OF_INTEGER(radiosity_parameters, "gather_samples", gather_samples, 1, 1 << 20, "16",
+                        "directions at every point that the eye sees")},
+    {AUR_KEY_OF_TEXT(radiosity_parameters, "pattern", pattern, "spherical-fibonacci",
+                     "SET of these directions")},
+    {AUR_KEY_OF_TEXT(radiosity_parameters, "map", map, "lambert",
+                     "map of a square set to the hemisphere: lambert, concentric, azimuthal or polar")},
+    {AUR_KEY_OF_TEXT(radiosity_parameters, "pattern_scramble", pattern_scramble, "none",
+                     "how the pattern is randomised: none, digit, owen, shift or rotate")},
+    {AUR_KEY_OF_CHOICE(radiosity_parameters, "weights", weights, "equal",
+                       "of the directions; osw are optimal (Marques 2018)", "equal", "osw")},
+    {AUR_KEY_OF_CHOICE(radiosity_parameters, "density", density, "same",
+                       "directions follow the cosine, or its power 2/(s+1)", "same", "optimal")},
+    {AUR_KEY_OF_REAL(radiosity_parameters, "smoothness", smoothness, 1.0, 2.0, "1.5",
+                     "s of the optimal weights and density"),
+     .minimum_open = true, .maximum_open = true},
+    {AUR_KEY_OF_CHOICE(radiosity_parameters, "light_sampling", light_sampling, "permuted",
+                       "each light at one of a pixel's points, or all lights at each", "permuted", "all")},
+    {AUR_KEY_OF_BOOLEAN(radiosity_parameters, "share_neighbours", share_neighbours, "false",
+                        "neighbouring pixels share what they gather")},
+    {AUR_KEY_OF_CHOICE(radiosity_parameters, "oversampling", oversampling, "halton",
+                       "samples of a pixel: Halton points, these until nothing changes, or the sampler's",
+                       "halton", "adaptive", "sampler")},
+    {AUR_KEY_OF_REAL(radiosity_parameters, "threshold", threshold, 0.0, 1.0, "0.01",
+                     "change at which adaptive oversampling ends")},
+    {AUR_KEY_OF_CHOICE(radiosity_parameters, "component", component, "all", "the part of the light to show",
+                       "all", "emission", "direct", "indirect")},
+};
 
 /* Whoever renders a scene of unknown origin must not have a file overwritten or read: such names come from
  * the caller's own text, which has no place in a file. */
@@ -39,77 +105,17 @@ static aur_result refuse_files_of_scenes(aur_parameters *parameters, aur_error *
     return AUR_OK;
 }
 
-static aur_result read_solution(aur_parameters *parameters, solution_parameters *p, aur_error *error) {
-    static const char *const directions[] = {"cosine", "uniform_angle"};
-    static const char *const emissions[] = {"power", "area"};
-    *p = (solution_parameters){.paths = -1, .bounces = 6, .interval = 1000, .window = 2, .randomizations = 1};
-    aur_result r;
-    const bool good =
-        (r = aur_parameters_integer(parameters, "paths", 1, INT64_C(1) << 40, &p->paths, error)) == AUR_OK &&
-        (r = aur_parameters_string(parameters, "sequence", &p->sequence, error)) == AUR_OK &&
-        (r = aur_parameters_string(parameters, "scramble", &p->scramble, error)) == AUR_OK &&
-        (r = aur_parameters_choice(parameters, "directions", 2, directions, &p->directions, error)) ==
-            AUR_OK &&
-        (r = aur_parameters_choice(parameters, "emission", 2, emissions, &p->emission, error)) == AUR_OK &&
-        (r = aur_parameters_integer(parameters, "bounces", 1, AUR_RADIOSITY_MOST_BOUNCES, &p->bounces,
-                                    error)) == AUR_OK &&
-        (r = aur_parameters_float(parameters, "epsilon", 0.0, 1.0, &p->epsilon, error)) == AUR_OK &&
-        (r = aur_parameters_integer(parameters, "interval", 1, most, &p->interval, error)) == AUR_OK &&
-        (r = aur_parameters_integer(parameters, "window", 1, most, &p->window, error)) == AUR_OK &&
-        (r = aur_parameters_integer(parameters, "randomizations", 1, AUR_RADIOSITY_MOST_RANDOMIZATIONS,
-                                    &p->randomizations, error)) == AUR_OK &&
-        (r = aur_parameters_integer(parameters, "variant", 0, INT64_MAX, &p->variant, error)) == AUR_OK &&
-        (r = aur_parameters_string(parameters, "save", &p->save, error)) == AUR_OK &&
-        (r = aur_parameters_string(parameters, "load", &p->load, error)) == AUR_OK &&
-        (r = aur_parameters_string(parameters, "ply", &p->ply, error)) == AUR_OK &&
-        (r = aur_parameters_float(parameters, "ply_exposure", -64.0, 64.0, &p->ply_exposure, error)) ==
-            AUR_OK;
-    return good ? AUR_OK : r;
-}
-
-static aur_result read_image(aur_parameters *parameters, image_parameters *p, aur_error *error) {
-    static const char *const weights[] = {"equal", "osw"};
-    static const char *const densities[] = {"same", "optimal"};
-    static const char *const lights[] = {"permuted", "all"};
-    static const char *const oversamplings[] = {"halton", "adaptive", "sampler"};
-    static const char *const components[] = {"all", "emission", "direct", "indirect"};
-    *p = (image_parameters){.gather_samples = 16,
-                            .smoothness = 1.5,
-                            .threshold = 0.01,
-                            .pattern = "spherical-fibonacci",
-                            .map = "lambert",
-                            .pattern_scramble = "none"};
-    aur_result r;
-    const bool good =
-        (r = aur_parameters_integer(parameters, "gather_samples", 1, 1 << 20, &p->gather_samples, error)) ==
-            AUR_OK &&
-        (r = aur_parameters_string(parameters, "pattern", &p->pattern, error)) == AUR_OK &&
-        (r = aur_parameters_string(parameters, "map", &p->map, error)) == AUR_OK &&
-        (r = aur_parameters_string(parameters, "pattern_scramble", &p->pattern_scramble, error)) == AUR_OK &&
-        (r = aur_parameters_choice(parameters, "weights", 2, weights, &p->weights, error)) == AUR_OK &&
-        (r = aur_parameters_choice(parameters, "density", 2, densities, &p->density, error)) == AUR_OK &&
-        (r = aur_parameters_float(parameters, "smoothness", 1.0, 2.0, &p->smoothness, error)) == AUR_OK &&
-        (r = aur_parameters_choice(parameters, "light_sampling", 2, lights, &p->light_sampling, error)) ==
-            AUR_OK &&
-        (r = aur_parameters_boolean(parameters, "share_neighbours", &p->share_neighbours, error)) == AUR_OK &&
-        (r = aur_parameters_choice(parameters, "oversampling", 3, oversamplings, &p->oversampling, error)) ==
-            AUR_OK &&
-        (r = aur_parameters_float(parameters, "threshold", 0.0, 1.0, &p->threshold, error)) == AUR_OK &&
-        (r = aur_parameters_choice(parameters, "component", 4, components, &p->component, error)) == AUR_OK;
-    return good ? aur_parameters_finish(parameters, error) : r;
-}
-
 /* --- the solution */
 
-static aur_result start(const solution_parameters *p, const aur_integrator_context *context,
+static aur_result start(const radiosity_parameters *p, const aur_integrator_context *context,
                         aur_radiosity **radiosity, aur_error *error) {
     aur_radiosity_options options = {.sequence = p->sequence,
                                      .seed = context->seed,
-                                     .directions = (aur_radiosity_directions)p->directions,
-                                     .emission = (aur_radiosity_emission)p->emission,
+                                     .directions = p->directions,
+                                     .emission = p->emission,
                                      .bounces = (size_t)p->bounces,
                                      .randomizations = (size_t)p->randomizations,
-                                     .variant = (uint64_t)p->variant,
+                                     .variant = p->variant,
                                      .threads = context->threads,
                                      .progress = context->progress,
                                      .warnings = context->warnings};
@@ -121,7 +127,7 @@ static aur_result start(const solution_parameters *p, const aur_integrator_conte
     return result == AUR_OK ? aur_radiosity_create(context->scene, &options, radiosity, error) : result;
 }
 
-static aur_result go_on(const solution_parameters *p, const aur_integrator_context *context,
+static aur_result go_on(const radiosity_parameters *p, const aur_integrator_context *context,
                         aur_radiosity *radiosity, aur_error *error) {
     enum { USUAL_PATHS = 100000, USUAL_LIMIT = 1 << 28 };
     const bool loaded = p->load != NULL;
@@ -143,7 +149,7 @@ static aur_result go_on(const solution_parameters *p, const aur_integrator_conte
     return result;
 }
 
-static aur_result write_files(const solution_parameters *p, const aur_radiosity *radiosity,
+static aur_result write_files(const radiosity_parameters *p, const aur_radiosity *radiosity,
                               aur_error *error) {
     aur_result result = AUR_OK;
     if (p->save != NULL)
@@ -172,13 +178,13 @@ static void destroy_solution(void *radiosity) {
 }
 
 /* The solution, shared by all pictures that ask for the same one. */
-static aur_result solve(const solution_parameters *p, const aur_integrator_context *context,
+static aur_result solve(const radiosity_parameters *p, const aur_integrator_context *context,
                         aur_radiosity_image *image, aur_error *error) {
     char key[1024];
     const int length =
         snprintf(key, sizeof key,
-                 "radiosity %" PRId64 " %s %s %zu %zu %" PRId64 " %a %" PRId64 " %" PRId64 " %" PRId64
-                 " %" PRId64 " %s %" PRIu64,
+                 "radiosity %" PRId64 " %s %s %u %u %" PRId64 " %a %" PRId64 " %" PRId64 " %" PRId64
+                 " %" PRIu64 " %s %" PRIu64,
                  p->paths, p->sequence != NULL ? p->sequence : "", p->scramble != NULL ? p->scramble : "",
                  p->directions, p->emission, p->bounces, p->epsilon, p->interval, p->window,
                  p->randomizations, p->variant, p->load != NULL ? p->load : "", context->seed);
@@ -205,17 +211,17 @@ static aur_result solve(const solution_parameters *p, const aur_integrator_conte
 
 /* --- the picture */
 
-static aur_result prepare_gather(const image_parameters *p, const aur_integrator_context *context,
+static aur_result prepare_gather(const radiosity_parameters *p, const aur_integrator_context *context,
                                  aur_radiosity_image *image, aur_error *error) {
     aur_rule_options rule = {.set = p->pattern,
                              .points = {.count = (uint64_t)p->gather_samples,
                                         .domain = AUR_DOMAIN_HEMISPHERE,
                                         .lobe = {.kind = AUR_LOBE_COSINE_POWER, .exponent = 1.0},
-                                        .optimal_density = p->density == 1,
+                                        .optimal_density = p->density == DENSITY_OPTIMAL,
                                         .smoothness = p->smoothness,
                                         .seed = context->seed,
                                         .warnings = context->warnings},
-                             .optimal = p->weights == 1,
+                             .optimal = p->weights == WEIGHTS_OPTIMAL,
                              .weights = aur_weights_options_default()};
     aur_result result = aur_map_from_name(p->map, &rule.points.map, error);
     if (result == AUR_OK)
@@ -227,27 +233,24 @@ static aur_result prepare_gather(const image_parameters *p, const aur_integrator
 
 static aur_result create(aur_parameters *parameters, const aur_integrator_context *context,
                          aur_integrator *integrator, aur_error *error) {
-    solution_parameters s;
-    image_parameters p;
+    radiosity_parameters p = {.paths = -1};
     aur_result result = refuse_files_of_scenes(parameters, error);
     if (result == AUR_OK)
-        result = read_solution(parameters, &s, error);
-    if (result == AUR_OK)
-        result = read_image(parameters, &p, error);
+        result = aur_row_read(&integrator->descriptor->row, parameters, &p, error);
     if (result != AUR_OK)
         return result;
     aur_radiosity_image *const image = calloc(1, sizeof *image);
     if (image == NULL)
         return aur_fail(error, AUR_ERROR_MEMORY, "out of memory");
     integrator->data = image;
-    image->permuted = p.light_sampling == 0;
+    image->permuted = p.light_sampling == LIGHTS_PERMUTED;
     image->share_neighbours = p.share_neighbours;
-    image->oversampling = (aur_radiosity_oversampling)p.oversampling;
+    image->oversampling = p.oversampling;
     image->threshold = (float)p.threshold;
-    image->component = (aur_radiosity_component)p.component;
+    image->component = p.component;
     image->samples_per_pixel = context->samples_per_pixel;
     image->seed = context->seed;
-    result = solve(&s, context, image, error);
+    result = solve(&p, context, image, error);
     if (result != AUR_OK)
         return result;
     image->light_count = image->solution->walk.light_count;
@@ -262,16 +265,10 @@ static void release(aur_integrator *integrator) {
 }
 
 const aur_integrator_descriptor aur_integrator_radiosity = {
-    .description =
-        {.name = "radiosity",
-         .keys = "paths=100000, sequence=sobol, scramble=none, directions=cosine, emission=power, "
-                 "bounces=6, epsilon=0, interval=1000, window=2, randomizations=1, variant=0, "
-                 "gather_samples=16, pattern=spherical-fibonacci, map=lambert, pattern_scramble=none, "
-                 "weights=equal, density=same, smoothness=1.5, light_sampling=permuted, "
-                 "share_neighbours=false, oversampling=halton, threshold=0.01, component=all, save, load, "
-                 "ply, ply_exposure=0",
-         .summary = "particles give every triangle its radiance, which is gathered once",
-         .source = "Keller 1994"},
+    .row = {.name = "radiosity",
+            .summary = "particles give every triangle its radiance, which is gathered once",
+            .source = "Keller 1994",
+            AUR_ROW_KEYS(keys)},
     .create = create,
     .release = release,
     .tile = aur_radiosity_tile,

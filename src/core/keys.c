@@ -1,0 +1,304 @@
+#include "core/keys.h"
+
+#include <string.h>
+#include <strings.h>
+
+#include "core/names.h"
+#include "core/text.h"
+
+enum { EXPECTED_CAPACITY = 512 };
+
+const char *aur_key_type_name(aur_key_type type) {
+    static const char *const names[] = {"boolean", "integer", "number",    "choice", "text",
+                                        "vector",  "color",   "transform", "item"};
+    return (size_t)type < sizeof names / sizeof names[0] ? names[type] : NULL;
+}
+
+const aur_key *aur_row_key(const aur_row *row, size_t index) {
+    return index < row->key_count ? &row->keys[index] : NULL;
+}
+
+static const aur_key *find_key(size_t count, const aur_key *keys, const char *name) {
+    for (size_t i = 0; i < count; ++i)
+        if (strcmp(keys[i].name, name) == 0)
+            return &keys[i];
+    return NULL;
+}
+
+const aur_key *aur_row_find_key(const aur_row *row, const char *name) {
+    return find_key(row->key_count, row->keys, name);
+}
+
+/* Integers without an exponent, other numbers as %g has them. */
+static void print_number(double value, char text[32]) {
+    aur_format(text, 32, fabs(value) < 1e15 && value == trunc(value) ? "%.0f" : "%g", value);
+}
+
+static aur_names names_of_words(const char *const *words) {
+    size_t count = 0;
+    while (words[count] != NULL)
+        ++count;
+    return aur_names_of(count, words);
+}
+
+static bool is_numeric(const aur_key *key) {
+    return key->type == AUR_KEY_INTEGER || key->type == AUR_KEY_REAL || key->type == AUR_KEY_VECTOR ||
+           key->type == AUR_KEY_COLOR;
+}
+
+size_t aur_key_range(const aur_key *key, size_t capacity, char *text) {
+    char list[EXPECTED_CAPACITY] = "";
+    if (key->words != NULL) {
+        aur_names_list(names_of_words(key->words), list, sizeof list);
+    } else if (is_numeric(key) && (isfinite(key->minimum) || isfinite(key->maximum))) {
+        char low[32], high[32];
+        print_number(key->minimum, low);
+        print_number(key->maximum, high);
+        const char *const above = key->minimum_open ? "> " : "";
+        const char *const below = key->maximum_open ? "< " : "";
+        if (!isfinite(key->maximum))
+            aur_format(list, sizeof list, "%s%s ..", above, low);
+        else if (!isfinite(key->minimum))
+            aur_format(list, sizeof list, ".. %s%s", below, high);
+        else
+            aur_format(list, sizeof list, "%s%s .. %s%s", above, low, below, high);
+    }
+    return (size_t)aur_format(text, capacity, "%s", list);
+}
+
+/* "between 1 and 2", "above 1 and below 2", "at least 1", ... */
+static void say_range(const aur_key *key, size_t capacity, char *expected) {
+    char low[32], high[32];
+    print_number(key->minimum, low);
+    print_number(key->maximum, high);
+    const char *const above = key->minimum_open ? "above" : "at least";
+    const char *const below = key->maximum_open ? "below" : "at most";
+    if (isinf(key->maximum))
+        aur_format(expected, capacity, "%s %s", above, low);
+    else if (isinf(key->minimum))
+        aur_format(expected, capacity, "%s %s", below, high);
+    else if (key->minimum_open && key->maximum_open)
+        aur_format(expected, capacity, "between %s and %s, both exclusive", low, high);
+    else if (key->minimum_open || key->maximum_open)
+        aur_format(expected, capacity, "%s %s and %s %s", above, low, below, high);
+    else
+        aur_format(expected, capacity, "between %s and %s", low, high);
+}
+
+static bool in_range(const aur_key *key, double value) {
+    return (key->minimum_open ? value > key->minimum : value >= key->minimum) &&
+           (key->maximum_open ? value < key->maximum : value <= key->maximum);
+}
+
+static void put_integer(const aur_key *key, uint64_t value, void *field) {
+    if (key->size == sizeof(uint32_t))
+        *(uint32_t *)field = (uint32_t)value;
+    else
+        *(uint64_t *)field = value;
+}
+
+/* Each parser below leaves `expected` alone for a number that is one but out of range, and returns false. */
+static bool parse_integer(const aur_key *key, const char *text, void *field, size_t capacity,
+                          char *expected) {
+    const char *const digits = aur_skip_spaces(text);
+    const bool negative = *digits == '-';
+    const char *const start = digits + (negative || *digits == '+');
+    uint64_t magnitude = UINT64_MAX;
+    const size_t count = strspn(start, "0123456789");
+    if (count == 0 || *aur_skip_spaces(start + count) != '\0') {
+        aur_format(expected, capacity, "an integer");
+        return false;
+    }
+    if (aur_read_integer(start, negative ? (uint64_t)INT64_MAX : UINT64_MAX, &magnitude) == NULL)
+        return false;
+    if (!in_range(key, negative ? -(double)magnitude : (double)magnitude))
+        return false;
+    put_integer(key, negative ? 0 - magnitude : magnitude, field);
+    return true;
+}
+
+static void put_real(const aur_key *key, double value, void *field) {
+    if (key->size == sizeof(float))
+        *(float *)field = (float)value;
+    else
+        *(double *)field = value;
+}
+
+static bool parse_real(const aur_key *key, const char *text, void *field, size_t capacity, char *expected) {
+    double value;
+    if (!aur_parse_double(text, &value)) {
+        aur_format(expected, capacity, "a number");
+        return false;
+    }
+    if (!in_range(key, value))
+        return false;
+    put_real(key, value, field);
+    return true;
+}
+
+static bool parse_vector(const aur_key *key, const char *text, void *field, size_t capacity, char *expected) {
+    double value[3];
+    const size_t count = aur_parse_doubles(text, value, 3);
+    if (count == 1) {
+        value[2] = value[1] = value[0];
+    } else if (count != 3) {
+        aur_format(expected, capacity, "one or three numbers");
+        return false;
+    }
+    for (size_t i = 0; i < 3; ++i)
+        if (!in_range(key, value[i]))
+            return false;
+    if (key->type == AUR_KEY_COLOR)
+        *(aur_color *)field = (aur_color){{(float)value[0], (float)value[1], (float)value[2]}, NULL};
+    for (size_t i = 0; key->type == AUR_KEY_VECTOR && i < 3; ++i) {
+        if (key->size == sizeof value)
+            ((double *)field)[i] = value[i];
+        else
+            ((float *)field)[i] = (float)value[i];
+    }
+    return true;
+}
+
+static bool parse_choice(const aur_key *key, const char *text, void *field, size_t capacity, char *expected) {
+    const aur_names names = names_of_words(key->words);
+    const size_t index = aur_names_find(names, text);
+    if (index == names.count) {
+        const int used = aur_format(expected, capacity, "one of ");
+        aur_names_list(names, expected + used, capacity - (size_t)used);
+        return false;
+    }
+    put_integer(key, index, field);
+    return true;
+}
+
+static bool parse_boolean(const char *text, void *field, size_t capacity, char *expected) {
+    const bool yes = strcasecmp(text, "true") == 0;
+    if (!yes && strcasecmp(text, "false") != 0) {
+        aur_format(expected, capacity, "true or false");
+        return false;
+    }
+    *(bool *)field = yes;
+    return true;
+}
+
+bool aur_key_parse(const aur_key *key, const char *text, void *fields, size_t capacity, char *expected) {
+    void *const field = (char *)fields + key->offset;
+    say_range(key, capacity, expected);
+    switch (key->type) {
+    case AUR_KEY_BOOLEAN:
+        return parse_boolean(text, field, capacity, expected);
+    case AUR_KEY_INTEGER:
+        return parse_integer(key, text, field, capacity, expected);
+    case AUR_KEY_REAL:
+        return parse_real(key, text, field, capacity, expected);
+    case AUR_KEY_CHOICE:
+        return parse_choice(key, text, field, capacity, expected);
+    case AUR_KEY_TEXT:
+        *(const char **)field = text;
+        return true;
+    case AUR_KEY_VECTOR:
+    case AUR_KEY_COLOR:
+        return parse_vector(key, text, field, capacity, expected);
+    case AUR_KEY_TRANSFORM:
+    case AUR_KEY_ITEM:
+        break;
+    }
+    aur_format(expected, capacity, "something else than text");
+    return false;
+}
+
+/* Whether a value of this kind may be read as a key of that type: text may be anything. */
+static bool kind_fits(aur_parameter_kind kind, aur_key_type type) {
+    static const unsigned kinds[] = {
+        [AUR_KEY_BOOLEAN] = 1u << AUR_PARAMETER_BOOLEAN,
+        [AUR_KEY_INTEGER] = 1u << AUR_PARAMETER_INTEGER,
+        [AUR_KEY_REAL] = 1u << AUR_PARAMETER_FLOAT | 1u << AUR_PARAMETER_INTEGER,
+        [AUR_KEY_CHOICE] = 1u << AUR_PARAMETER_STRING,
+        [AUR_KEY_TEXT] = 1u << AUR_PARAMETER_STRING,
+        [AUR_KEY_VECTOR] = 1u << AUR_PARAMETER_VECTOR | 1u << AUR_PARAMETER_COLOR |
+                           1u << AUR_PARAMETER_FLOAT | 1u << AUR_PARAMETER_INTEGER,
+        [AUR_KEY_COLOR] = 1u << AUR_PARAMETER_VECTOR | 1u << AUR_PARAMETER_COLOR | 1u << AUR_PARAMETER_FLOAT |
+                          1u << AUR_PARAMETER_INTEGER,
+        [AUR_KEY_TRANSFORM] = 1u << AUR_PARAMETER_TRANSFORM,
+    };
+    return kind == AUR_PARAMETER_TEXT ? type != AUR_KEY_TRANSFORM : (kinds[type] >> kind & 1u) != 0;
+}
+
+/* What a value of the type is called before its range is looked at. */
+static const char *type_wanted(const aur_key *key, size_t capacity, char *expected) {
+    static const char *const wanted[] = {"true or false",
+                                         "an integer",
+                                         "a number",
+                                         "",
+                                         "a string",
+                                         "one or three numbers",
+                                         "one or three numbers or a texture",
+                                         "a transform"};
+    if (key->type == AUR_KEY_CHOICE)
+        parse_choice(key, "", &(uint64_t){0}, capacity, expected);
+    else
+        aur_format(expected, capacity, "%s", wanted[key->type]);
+    return expected;
+}
+
+static aur_result read_given(const aur_key *key, const aur_parameters *parameters, const aur_parameter *item,
+                             void *fields, aur_error *error) {
+    void *const field = (char *)fields + key->offset;
+    char expected[EXPECTED_CAPACITY];
+    if (key->type == AUR_KEY_ITEM) {
+        *(const aur_parameter **)field = item;
+        return AUR_OK;
+    }
+    if (key->type == AUR_KEY_COLOR && item->kind == AUR_PARAMETER_OBJECT &&
+        strcmp(item->object_kind, "texture") == 0) {
+        *(aur_color *)field = (aur_color){.texture = item->object};
+        return AUR_OK;
+    }
+    if (!kind_fits(item->kind, key->type))
+        return aur_parameters_fail_value(parameters, item, type_wanted(key, sizeof expected, expected),
+                                         error);
+    if (key->type == AUR_KEY_TRANSFORM) {
+        memcpy(field, item->transform, sizeof item->transform);
+        return AUR_OK;
+    }
+    return aur_key_parse(key, item->text, fields, sizeof expected, expected)
+               ? AUR_OK
+               : aur_parameters_fail_value(parameters, item, expected, error);
+}
+
+aur_result aur_keys_read(size_t count, const aur_key *keys, aur_parameters *parameters, void *fields,
+                         aur_error *error) {
+    char unused[EXPECTED_CAPACITY];
+    for (size_t i = 0; i < count; ++i) {
+        const aur_parameter *const item = aur_parameters_find(parameters, keys[i].name);
+        if (item != NULL) {
+            const aur_result result = read_given(&keys[i], parameters, item, fields, error);
+            if (result != AUR_OK)
+                return result;
+        } else if (keys[i].default_text != NULL && !keys[i].computed && keys[i].type != AUR_KEY_ITEM &&
+                   !aur_key_parse(&keys[i], keys[i].default_text, fields, sizeof unused, unused)) {
+            return aur_fail(error, AUR_ERROR_INTERNAL, "%s '%s': the default of '%s' must be %s",
+                            parameters->kind, parameters->plugin, keys[i].name, unused);
+        }
+    }
+    return AUR_OK;
+}
+
+aur_result aur_row_read(const aur_row *row, aur_parameters *parameters, void *fields, aur_error *error) {
+    const aur_result result = aur_keys_read(row->key_count, row->keys, parameters, fields, error);
+    return result == AUR_OK ? aur_parameters_finish(parameters, error) : result;
+}
+
+static const char *row_name(const void *table, size_t index) {
+    return ((const aur_table *)table)->rows[index]->name;
+}
+
+aur_result aur_table_find(const aur_table *table, const aur_parameters *parameters, const aur_row **row,
+                          aur_error *error) {
+    const aur_names names = {.count = table->count, .at = row_name, .table = table};
+    size_t index = 0;
+    const aur_result result =
+        aur_names_choose(names, table->kind, parameters->plugin, parameters->location, &index, error);
+    *row = result == AUR_OK ? table->rows[index] : NULL;
+    return result;
+}
