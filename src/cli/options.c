@@ -1,8 +1,6 @@
 /* Reading the command line, with messages that say what would be right. */
+#include <aureole/text.h>
 #include <ctype.h>
-#include <errno.h>
-#include <inttypes.h>
-#include <math.h>
 #include <stdarg.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -64,15 +62,10 @@ int cli_next_option(int argc, char **argv, const char *short_options, const stru
 }
 
 bool cli_parse_u64(const char *name, const char *text, uint64_t *value) {
-    char *end;
-    errno = 0;
-    const unsigned long long parsed = strtoull(text, &end, 10);
-    if (!isdigit((unsigned char)text[0]) || *end != '\0' || errno == ERANGE) {
-        cli_bad_usage("%s: '%s' is not a whole number", name, text);
-        return false;
-    }
-    *value = parsed;
-    return true;
+    if (aur_parse_integer(text, UINT64_MAX, value))
+        return true;
+    cli_bad_usage("%s: '%s' is not a whole number", name, text);
+    return false;
 }
 
 bool cli_parse_size(const char *name, const char *text, size_t minimum, size_t maximum, size_t *value) {
@@ -91,9 +84,8 @@ bool cli_parse_size(const char *name, const char *text, size_t minimum, size_t m
 }
 
 bool cli_parse_number(const char *name, const char *text, double minimum, double maximum, double *value) {
-    char *end;
-    const double parsed = strtod(text, &end);
-    if (end == text || *end != '\0' || isnan(parsed)) {
+    double parsed;
+    if (!aur_parse_double(text, &parsed)) {
         cli_bad_usage("%s: '%s' is not a number", name, text);
         return false;
     }
@@ -113,11 +105,8 @@ bool cli_parse_word(const char *name, const char *text, size_t count, const char
             return true;
         }
     }
-    char list[256] = "";
-    for (size_t i = 0; i < count; ++i) {
-        const size_t used = strlen(list);
-        snprintf(list + used, sizeof list - used, "%s%s", i > 0 ? ", " : "", words[i]);
-    }
+    char list[AUR_ERROR_MESSAGE_CAPACITY];
+    aur_list_names(count, words, list, sizeof list);
     cli_bad_usage("%s: must be one of %s, not '%s'", name, list, text);
     return false;
 }
@@ -149,7 +138,7 @@ bool cli_parse_sizes(const char *name, const char *text, size_t *count, size_t *
 
 bool cli_parse_format(const char *text, cli_format *format) {
     static const char *const words[] = {"table", "csv", "json"};
-    size_t index;
+    size_t index = 0;
     if (!cli_parse_word("--format", text, 3, words, &index))
         return false;
     *format = (cli_format)index;

@@ -1,5 +1,6 @@
 /* aureole render: a scene to a picture. */
 #include <aureole/render.h>
+#include <aureole/text.h>
 #include <inttypes.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -37,10 +38,18 @@ static bool parse_definition(render_command *command, char *text) {
 }
 
 static bool parse_crop(const char *text, aur_render_options *options) {
-    size_t values[4];
-    char rest;
-    if (strchr(text, '-') != NULL ||
-        sscanf(text, "%zu,%zu,%zu,%zu%c", &values[0], &values[1], &values[2], &values[3], &rest) != 4) {
+    uint64_t values[4];
+    const char *at = text;
+    bool good = true;
+    for (size_t i = 0; i < 4 && good; ++i) {
+        char piece[24] = "";
+        const size_t length = strcspn(at, ",");
+        good = length < sizeof piece && (at[length] == ',') == (i < 3);
+        if (good)
+            good = aur_parse_integer(memcpy(piece, at, length), SIZE_MAX, &values[i]);
+        at += length + (i < 3);
+    }
+    if (!good) {
         cli_bad_usage("--crop: '%s' is not of the form x0,x1,y0,y1", text);
         return false;
     }

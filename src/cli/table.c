@@ -1,4 +1,5 @@
 /* Tables of results as text, CSV or JSON. */
+#include <aureole/text.h>
 #include <inttypes.h>
 #include <math.h>
 #include <stdio.h>
@@ -8,9 +9,10 @@
 #include "cli/cli.h"
 
 typedef struct cell {
-    char *text;  /* as people read it */
-    char *exact; /* as programs read it; NULL: the same */
-    bool number;
+    char *text; /* as people read it */
+    enum { TEXT, INTEGER, NUMBER } kind;
+    uint64_t integer;
+    double number;
 } cell;
 
 struct cli_table {
@@ -38,10 +40,8 @@ cli_table *cli_table_create(size_t column_count, const char *const *columns) {
 void cli_table_destroy(cli_table *table) {
     if (table == NULL)
         return;
-    for (size_t i = 0; i < table->count; ++i) {
+    for (size_t i = 0; i < table->count; ++i)
         free(table->cells[i].text);
-        free(table->cells[i].exact);
-    }
     for (size_t i = 0; i < table->column_count && table->columns != NULL; ++i)
         free(table->columns[i]);
     free(table->columns);
@@ -49,7 +49,7 @@ void cli_table_destroy(cli_table *table) {
     free(table);
 }
 
-static void add(cli_table *table, const char *text, const char *exact, bool number) {
+static void add(cli_table *table, const char *text, cell added) {
     if (table == NULL || table->failed)
         return;
     if (table->count == table->capacity) {
@@ -61,26 +61,25 @@ static void add(cli_table *table, const char *text, const char *exact, bool numb
         table->cells = larger;
         table->capacity = capacity;
     }
-    cell *const added = &table->cells[table->count++];
-    *added = (cell){.text = strdup(text), .exact = exact != NULL ? strdup(exact) : NULL, .number = number};
-    table->failed = added->text == NULL || (exact != NULL && added->exact == NULL);
+    added.text = strdup(text);
+    table->failed = added.text == NULL;
+    table->cells[table->count++] = added;
 }
 
 void cli_table_text(cli_table *table, const char *text) {
-    add(table, text, NULL, false);
+    add(table, text, (cell){.kind = TEXT});
 }
 
 void cli_table_number(cli_table *table, double value, int digits) {
-    char text[64], exact[64];
-    snprintf(text, sizeof text, "%.*g", digits, value);
-    snprintf(exact, sizeof exact, "%.17g", value);
-    add(table, text, exact, isfinite(value));
+    char text[64];
+    aur_format(text, sizeof text, "%.*g", digits, value);
+    add(table, text, (cell){.kind = NUMBER, .number = value});
 }
 
 void cli_table_integer(cli_table *table, uint64_t value) {
     char text[32];
     snprintf(text, sizeof text, "%" PRIu64, value);
-    add(table, text, NULL, true);
+    add(table, text, (cell){.kind = INTEGER, .integer = value});
 }
 
 /* The columns a UTF-8 text takes on a terminal, for the letters that we use. */
@@ -113,7 +112,8 @@ static void print_text(const cli_table *table) {
                 const cell *const other = &table->cells[r * table->column_count + c];
                 const size_t used = display_width(other->text);
                 width = used > width ? used : width;
-                right = right && other->number;
+                right =
+                    right && (other->kind == INTEGER || (other->kind == NUMBER && isfinite(other->number)));
             }
             const char *const text =
                 row == 0 ? table->columns[c] : table->cells[(row - 1) * table->column_count + c].text;
@@ -136,55 +136,39 @@ static void print_csv_field(const char *text) {
     putchar('"');
 }
 
-static const char *exact_text(const cell *source) {
-    return source->exact != NULL ? source->exact : source->text;
-}
-
 static void print_csv(const cli_table *table) {
     for (size_t c = 0; c < table->column_count; ++c) {
         print_csv_field(table->columns[c]);
         putchar(c + 1 < table->column_count ? ',' : '\n');
     }
     for (size_t i = 0; i < table->count; ++i) {
-        print_csv_field(exact_text(&table->cells[i]));
+        if (table->cells[i].kind == NUMBER)
+            aur_print(stdout, "%.17g", table->cells[i].number);
+        else
+            print_csv_field(table->cells[i].text);
         putchar((i + 1) % table->column_count != 0 ? ',' : '\n');
     }
 }
 
-static void print_json_string(const char *text) {
-    putchar('"');
-    for (const char *c = text; *c != '\0'; ++c) {
-        const unsigned char letter = (unsigned char)*c;
-        if (letter == '"' || letter == '\\')
-            printf("\\%c", letter);
-        else if (letter < 0x20)
-            printf("\\u%04x", letter);
-        else
-            putchar(letter);
-    }
-    putchar('"');
-}
-
 static void print_json(const cli_table *table) {
-    fputs("[", stdout);
+    aur_json json = {.stream = stdout};
+    aur_json_open(&json, '[', true);
     for (size_t i = 0; i < table->count; ++i) {
+        const cell *const source = &table->cells[i];
         const size_t column = i % table->column_count;
         if (column == 0)
-            fputs(i == 0 ? "\n  {" : ",\n  {", stdout);
+            aur_json_open(&json, '{', false);
+        aur_json_name(&json, table->columns[column]);
+        if (source->kind == TEXT)
+            aur_json_string(&json, source->text);
+        else if (source->kind == INTEGER)
+            aur_json_integer(&json, source->integer);
         else
-            fputs(", ", stdout);
-        print_json_string(table->columns[column]);
-        fputs(": ", stdout);
-        if (table->cells[i].number)
-            fputs(exact_text(&table->cells[i]), stdout);
-        else if (table->cells[i].exact != NULL)
-            fputs("null", stdout); /* JSON has no infinity and no NaN */
-        else
-            print_json_string(table->cells[i].text);
+            aur_json_number(&json, source->number);
         if (column + 1 == table->column_count)
-            putchar('}');
+            aur_json_close(&json, '}');
     }
-    fputs(table->count > 0 ? "\n]\n" : "]\n", stdout);
+    aur_json_close(&json, ']');
 }
 
 int cli_table_print(const cli_table *table, cli_format format) {

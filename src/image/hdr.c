@@ -6,6 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "core/text.h"
 #include "image/format.h"
 
 static bool recognize(const aur_image_source *source) {
@@ -46,13 +47,13 @@ static aur_result read_header(const aur_image_source *source, hdr_input *input, 
         return fail_broken(source, "its header has no FORMAT=32-bit_rle_rgbe", error);
     if (!next_line(input, line))
         return fail_broken(source, "it has no size", error);
-    char *end;
-    if (strncmp(line, "-Y ", 3) != 0)
+    uint64_t height = 0, width = 0;
+    const char *end = strncmp(line, "-Y ", 3) == 0 ? aur_read_integer(line + 3, UINT32_MAX, &height) : NULL;
+    end = end != NULL && strncmp(end, " +X ", 4) == 0 ? aur_read_integer(end + 4, UINT32_MAX, &width) : NULL;
+    if (end == NULL)
         return fail_broken(source, "its size is not of the form '-Y height +X width'", error);
-    size[1] = strtoul(line + 3, &end, 10);
-    if (strncmp(end, " +X ", 4) != 0)
-        return fail_broken(source, "its size is not of the form '-Y height +X width'", error);
-    size[0] = strtoul(end + 4, &end, 10);
+    size[0] = (size_t)width;
+    size[1] = (size_t)height;
     return aur_image_check_size(source, size[0], size[1], 3, error);
 }
 

@@ -5,6 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "core/text.h"
 #include "image/format.h"
 
 static bool recognize(const aur_image_source *source) {
@@ -35,19 +36,19 @@ static bool next_word(pfm_cursor *cursor, char word[32]) {
 
 static bool next_size(pfm_cursor *cursor, size_t *value) {
     char word[32];
-    if (!next_word(cursor, word) || strspn(word, "0123456789") != strlen(word) || strlen(word) > 10)
+    uint64_t size;
+    if (!next_word(cursor, word) || !aur_parse_integer(word, UINT32_MAX, &size))
         return false;
-    *value = (size_t)strtoull(word, NULL, 10);
+    *value = (size_t)size;
     return true;
 }
 
 static bool next_scale(pfm_cursor *cursor, double *value) {
     char word[32];
-    char *end;
     if (!next_word(cursor, word))
         return false;
-    *value = strtod(word, &end);
-    return *end == '\0' && isfinite(*value) && *value != 0.0;
+    const char *const end = aur_read_double(word, AUR_NUMBER_FINITE, value);
+    return end != NULL && *end == '\0' && *value != 0.0;
 }
 
 static float float_at(const unsigned char *bytes, bool big_endian) {

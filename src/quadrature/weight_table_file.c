@@ -1,5 +1,6 @@
 /* Tables of weights as files: lines of text that say what they are, then the numbers as little-endian floats,
  * then a check sum of all that stands before it. */
+#include <errno.h>
 #include <inttypes.h>
 #include <limits.h>
 #include <stdlib.h>
@@ -7,6 +8,7 @@
 
 #include "core/file.h"
 #include "core/random.h"
+#include "core/text.h"
 #include "quadrature/weight_table.h"
 
 enum { VERSION = 2, HEADER_CAPACITY = 4096 };
@@ -30,7 +32,7 @@ uint64_t aur_weight_table_check_sum(const char *data, size_t size) {
 /* All options in a fixed form: tables are of one kind when these texts are equal. Lines are `key value`. */
 static int print_header(const aur_weight_table *table, char *text, size_t capacity) {
     const aur_oswa_options *const o = &table->oswa->options;
-    return snprintf(
+    return aur_format(
         text, capacity,
         "%sversion %d\nset %s\ncount %zu\nmirror_count %zu\nlobe %.17g\nmirror_kind %d\n"
         "mirror_exponent %.17g\nmirror_alpha %.17g\noptimal_density %d\nclipped %d\nmap %d\nscramble %d\n"
@@ -135,9 +137,8 @@ static bool next_double(reader *in, const char *key, double *value) {
     const char *const text = next_value(in, key);
     if (text == NULL)
         return false;
-    char *end;
-    *value = strtod(text, &end);
-    if (end != text && *end == '\0')
+    const char *const end = aur_read_double(text, AUR_NUMBER_ANY, value);
+    if (end != NULL && *end == '\0')
         return true;
     aur_fail_at(in->error, in->where, AUR_ERROR_FORMAT, "'%s' is not a number", text);
     return false;
@@ -148,8 +149,9 @@ static bool next_integer(reader *in, const char *key, int base, uint64_t limit, 
     if (text == NULL)
         return false;
     char *end;
+    errno = 0;
     *value = strtoull(text, &end, base);
-    if (end != text && *end == '\0' && text[0] != '-' && *value <= limit)
+    if (end != text && *end == '\0' && errno == 0 && text[0] != '-' && *value <= limit)
         return true;
     aur_fail_at(in->error, in->where, AUR_ERROR_FORMAT, "'%s' is not a valid %s", text, key);
     return false;

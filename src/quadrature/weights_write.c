@@ -1,4 +1,5 @@
 #include "core/file.h"
+#include "core/text.h"
 #include "quadrature/potential.h"
 
 aur_result aur_weights_write(const char *path, size_t count, const double *xyz, size_t density_count,
@@ -11,9 +12,9 @@ aur_result aur_weights_write(const char *path, size_t count, const double *xyz, 
     for (size_t k = 0; k < density_count; ++k)
         fprintf(writer.stream, k == 0 ? ",w" : ",w%zu", k + 1);
     for (size_t i = 0; i < count; ++i) {
-        fprintf(writer.stream, "\n%.17g,%.17g,%.17g", xyz[3 * i], xyz[3 * i + 1], xyz[3 * i + 2]);
+        aur_print(writer.stream, "\n%.17g,%.17g,%.17g", xyz[3 * i], xyz[3 * i + 1], xyz[3 * i + 2]);
         for (size_t k = 0; k < density_count; ++k)
-            fprintf(writer.stream, ",%.17g", weights[k * count + i]);
+            aur_print(writer.stream, ",%.17g", weights[k * count + i]);
     }
     fputc('\n', writer.stream);
     return aur_file_commit(&writer, error);

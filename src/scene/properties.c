@@ -268,7 +268,7 @@ aur_result aur_xml_add_property(const aur_xml_node *node, aur_parameters *parame
         result = read_triple(node, 0.0, triple, error);
         if (result != AUR_OK)
             return result;
-        snprintf(text, sizeof text, "%.17g %.17g %.17g", triple[0], triple[1], triple[2]);
+        aur_format(text, sizeof text, "%.17g %.17g %.17g", triple[0], triple[1], triple[2]);
         return aur_parameters_add_text(parameters, kind, name, text, node->location, error);
     }
     result = aur_xml_require(node, "value", &value, error);

@@ -3,6 +3,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "core/text.h"
+
 extern const aur_sensor_descriptor aur_sensor_perspective;
 extern const aur_sensor_descriptor aur_sensor_thinlens;
 extern const aur_sensor_descriptor aur_sensor_orthographic;
@@ -63,9 +65,10 @@ aur_result aur_sensor_create(aur_parameters *parameters, aur_sensor *sensor, aur
 /* "50mm" on 35 mm film, whose diagonal is that of 36 mm by 24 mm. */
 static aur_result read_focal_length(const aur_parameters *parameters, const aur_parameter *item,
                                     aur_sensor *sensor, aur_error *error) {
-    char *end = NULL;
-    const double length = item->text != NULL ? strtod(item->text, &end) : 0.0;
-    if (end == NULL || !(length > 0.0) || !isfinite(length) || (*end != '\0' && strcmp(end, "mm") != 0))
+    double length = 0.0;
+    const char *const end =
+        item->text != NULL ? aur_read_double(aur_skip_spaces(item->text), AUR_NUMBER_FINITE, &length) : NULL;
+    if (end == NULL || !(length > 0.0) || (*end != '\0' && strcmp(end, "mm") != 0))
         return aur_fail_at(error, item->location, AUR_ERROR_FORMAT,
                            "sensor '%s': 'focal_length' must be millimetres such as 50mm",
                            parameters->plugin);

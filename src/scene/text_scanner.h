@@ -25,8 +25,8 @@ void aur_scan_next_line(aur_scanner *scanner);
 bool aur_scan_line_done(aur_scanner *scanner);
 /* The next word of the line; its length is 0 at the end. */
 size_t aur_scan_word(aur_scanner *scanner, const char **word);
-/* A number, right to the last bit of a float; false leaves the scanner where it was. inf and nan are numbers
- * here: the caller refuses them. */
+/* A number, the nearest double; false when there is none. inf and nan are numbers here: the caller refuses
+ * them. */
 bool aur_scan_double(aur_scanner *scanner, double *value);
 /* A whole number that fits 64 bits. */
 bool aur_scan_integer(aur_scanner *scanner, int64_t *value);

@@ -7,6 +7,7 @@
 #include <string.h>
 
 #include "core/file.h"
+#include "core/text.h"
 #include "scene/xml_variables.h"
 
 enum { DEEPEST_INCLUDE = 15, DEEPEST_ELEMENT = 100 };
@@ -205,10 +206,16 @@ static aur_result do_alias(file_reading *reader, aur_xml_node *node) {
 }
 
 static bool read_version(const char *text, unsigned *major) {
-    unsigned minor, patch;
-    char rest;
-    const int fields = sscanf(text, "%u.%u.%u%c", major, &minor, &patch, &rest);
-    return (fields == 2 || fields == 3) && text[0] != '-';
+    uint64_t parts[3] = {0};
+    size_t count = 0;
+    for (; count < 3 && text != NULL; ++count) {
+        text = aur_read_integer(text, UINT32_MAX, &parts[count]);
+        if (text == NULL || *text != '.')
+            break;
+        ++text;
+    }
+    *major = (unsigned)parts[0];
+    return text != NULL && *text == '\0' && (count == 1 || count == 2);
 }
 
 static aur_result check_root(file_reading *reader, const aur_xml_node *node) {
