@@ -42,6 +42,7 @@ typedef struct aur_emitter_descriptor {
 struct aur_emitter {
     const aur_emitter_descriptor *descriptor;
     aur_location location;
+    uint32_t index; /* among the emitters of the scene */
     uint32_t shape; /* for lights that are shapes */
     aur_color radiance;
     double power;      /* luminance of the watts it gives: lights are chosen in proportion */

@@ -10,12 +10,16 @@
 #include "scene/properties.h"
 #include "scene/scene_data.h"
 
+/* Objects may stand in or refer to each other this deep; what they become is walked recursively. */
+enum { DEEPEST_OBJECT = 100 };
+
 typedef struct loader {
     aur_scene *scene;
     const aur_warnings *warnings;
     const aur_bsdf *default_bsdf; /* of shapes that name none */
     const aur_bsdf *black_bsdf;   /* of lights that name none */
     const aur_xml_node *top;      /* the child of <scene> that is being built */
+    size_t depth;                 /* objects that are being built, each inside the one before */
     aur_error *error;
 } loader;
 
@@ -26,6 +30,10 @@ typedef struct object_kind {
     const char *tag;
     builder build;
 } object_kind;
+
+/* Shapes of these two types are no aur_shape. */
+static const char *const group_plugin = "shapegroup";
+static const char *const instance_plugin = "instance";
 
 static const object_kind *find_kind(const char *tag);
 static aur_result build_node(loader *self, aur_xml_node *node);
@@ -96,21 +104,33 @@ static aur_result find_reference(loader *self, const aur_xml_node *node, aur_xml
     return result;
 }
 
-static aur_result add_nested(loader *self, const aur_xml_node *child, aur_parameters *parameters) {
-    aur_xml_node *target = (aur_xml_node *)(uintptr_t)child;
-    aur_result result = AUR_OK;
-    if (strcmp(child->tag, "ref") == 0)
-        result = find_reference(self, child, &target);
-    if (result != AUR_OK)
-        return result;
-    const object_kind *const kind = find_kind(target->tag);
-    if (kind == NULL)
+/* The object that a child is or refers to; it may not be built yet. */
+static aur_result find_target(loader *self, aur_xml_node *child, aur_xml_node **target) {
+    *target = child;
+    if (strcmp(child->tag, "ref") == 0) {
+        const aur_result result = find_reference(self, child, target);
+        if (result != AUR_OK)
+            return result;
+    }
+    if (find_kind((*target)->tag) == NULL)
         return aur_fail_at(self->error, child->location, AUR_ERROR_FORMAT, "<%s> is no object to refer to",
-                           target->tag);
-    if (target->state == AUR_XML_BUILDING)
+                           (*target)->tag);
+    if ((*target)->state == AUR_XML_BUILDING)
         return aur_fail_at(self->error, child->location, AUR_ERROR_FORMAT,
                            "this refers to the object at %s:%zu:%zu, which contains it: a cycle",
-                           target->location.file, target->location.line, target->location.column);
+                           (*target)->location.file, (*target)->location.line, (*target)->location.column);
+    return AUR_OK;
+}
+
+static aur_result add_nested(loader *self, aur_xml_node *child, aur_parameters *parameters) {
+    aur_xml_node *target;
+    aur_result result = find_target(self, child, &target);
+    if (result != AUR_OK)
+        return result;
+    /* A group may have a hundred thousand shapes: it goes through them itself. */
+    if (strcmp(target->tag, "shape") == 0 && strcmp(parameters->plugin, group_plugin) == 0)
+        return build_node(self, target);
+    const object_kind *const kind = find_kind(target->tag);
     char name[96];
     result = nested_name(self, child, kind->tag, parameters, name, sizeof name);
     if (result == AUR_OK)
@@ -122,7 +142,7 @@ static aur_result add_nested(loader *self, const aur_xml_node *child, aur_parame
 
 /* All that stands inside a node becomes parameters. */
 static aur_result collect(loader *self, const aur_xml_node *node, aur_parameters *parameters) {
-    for (const aur_xml_node *child = node->first_child; child != NULL; child = child->next) {
+    for (aur_xml_node *child = node->first_child; child != NULL; child = child->next) {
         aur_result result;
         if (aur_xml_is_property(child->tag)) {
             result = aur_xml_add_property(child, parameters, self->error);
@@ -151,12 +171,17 @@ static aur_result build_node(loader *self, aur_xml_node *node) {
         result = aur_xml_require(node, "type", &type, self->error);
     if (result != AUR_OK)
         return result;
+    if (self->depth == DEEPEST_OBJECT)
+        return aur_fail_at(self->error, node->location, AUR_ERROR_FORMAT,
+                           "objects refer to each other in a chain of more than %d", DEEPEST_OBJECT);
     node->state = AUR_XML_BUILDING;
     aur_parameters parameters;
     result = aur_parameters_init(&parameters, node->tag, type, node->location, self->error);
     if (result != AUR_OK)
         return result;
+    ++self->depth;
     result = collect(self, node, &parameters);
+    --self->depth;
     if (result == AUR_OK)
         result = find_kind(node->tag)->build(self, node, &parameters, &node->object);
     aur_parameters_release(&parameters);
@@ -223,16 +248,27 @@ static aur_result build_emitter(loader *self, aur_xml_node *node, aur_parameters
         return result;
     result =
         append(self, &scene->emitter_count, &scene->emitter_capacity, (void ***)&scene->emitters, emitter);
-    if (result != AUR_OK)
+    if (result != AUR_OK) {
         aur_emitter_destroy(emitter);
+        return result;
+    }
+    emitter->index = (uint32_t)(scene->emitter_count - 1);
     *object = emitter;
-    return result;
+    return AUR_OK;
 }
 
-/* A nested object of one kind, or NULL when it is absent. */
-static void *nested(aur_parameters *parameters, const char *name) {
-    const aur_parameter *const item = aur_parameters_find(parameters, name);
-    return item != NULL ? (void *)(uintptr_t)item->object : NULL;
+/* The nested object that is called by its kind, or NULL when it is absent. A texture may be given any name,
+ * and a number or a string too: they are refused. */
+static aur_result nested(loader *self, aur_parameters *parameters, const char *kind, void **object) {
+    *object = NULL;
+    const aur_parameter *const item = aur_parameters_find(parameters, kind);
+    if (item == NULL)
+        return AUR_OK;
+    if (item->kind != AUR_PARAMETER_OBJECT || strcmp(item->object_kind, kind) != 0)
+        return aur_fail_at(self->error, item->location, AUR_ERROR_FORMAT, "%s '%s': '%s' must be a <%s>",
+                           parameters->kind, parameters->plugin, kind, kind);
+    *object = (void *)(uintptr_t)item->object;
+    return AUR_OK;
 }
 
 /* What a shape without a bsdf is made of: grey, or black when it is a light. */
@@ -255,8 +291,24 @@ static aur_result default_bsdf(loader *self, bool light, const aur_bsdf **bsdf) 
     return result;
 }
 
+static aur_result add_to_group(loader *self, aur_group *group, const aur_xml_node *child,
+                               const aur_xml_node *target) {
+    const char *const plugin = aur_xml_attribute_value(target, "type");
+    aur_shape *const shape = target->object;
+    if (strcmp(plugin, group_plugin) == 0 || strcmp(plugin, instance_plugin) == 0 || shape->grouped)
+        return aur_fail_at(self->error, child->location, AUR_ERROR_FORMAT,
+                           "a shapegroup takes shapes of its own, no instances or other groups");
+    if (shape->emitter != AUR_NO_EMITTER)
+        return aur_fail_at(self->error, child->location, AUR_ERROR_UNSUPPORTED,
+                           "a shape in a shapegroup cannot be a light");
+    shape->grouped = true;
+    group->shapes[group->count++] = shape->index;
+    return AUR_OK;
+}
+
 /* <shape type="shapegroup">: its shapes leave the scene and are seen through instances only. */
-static aur_result build_group(loader *self, aur_parameters *parameters, void **object) {
+static aur_result build_group(loader *self, const aur_xml_node *node, aur_parameters *parameters,
+                              void **object) {
     aur_scene *const scene = self->scene;
     aur_group *const group = calloc(1, sizeof *group);
     aur_result result = group != NULL ? append(self, &scene->group_count, &scene->group_capacity,
@@ -266,25 +318,21 @@ static aur_result build_group(loader *self, aur_parameters *parameters, void **o
         free(group);
         return result;
     }
-    group->shapes = malloc((parameters->count + 1) * sizeof *group->shapes);
+    size_t most = 0;
+    for (const aur_xml_node *child = node->first_child; child != NULL; child = child->next)
+        ++most;
+    group->shapes = malloc((most + 1) * sizeof *group->shapes);
     if (group->shapes == NULL)
         return aur_fail(self->error, AUR_ERROR_MEMORY, "out of memory");
-    for (size_t i = 0; i < parameters->count; ++i) {
-        aur_parameter *const item = &parameters->items[i];
-        if (item->kind != AUR_PARAMETER_OBJECT || strcmp(item->object_kind, "shape") != 0)
+    for (aur_xml_node *child = node->first_child; child != NULL; child = child->next) {
+        aur_xml_node *target;
+        if (aur_xml_is_property(child->tag))
             continue;
-        size_t index = 0;
-        while (index < scene->shape_count && scene->shapes[index] != item->object)
-            ++index;
-        if (index == scene->shape_count || scene->shapes[index]->grouped)
-            return aur_fail_at(self->error, item->location, AUR_ERROR_FORMAT,
-                               "a shapegroup takes shapes of its own, no instances or other groups");
-        if (scene->shapes[index]->emitter != AUR_NO_EMITTER)
-            return aur_fail_at(self->error, item->location, AUR_ERROR_UNSUPPORTED,
-                               "a shape in a shapegroup cannot be a light");
-        scene->shapes[index]->grouped = true;
-        group->shapes[group->count++] = (uint32_t)index;
-        item->used = true;
+        result = find_target(self, child, &target);
+        if (result == AUR_OK && strcmp(target->tag, "shape") == 0)
+            result = add_to_group(self, group, child, target);
+        if (result != AUR_OK)
+            return result;
     }
     *object = group;
     if (group->count == 0)
@@ -302,7 +350,10 @@ static aur_result build_instance(loader *self, aur_parameters *parameters, void 
         free(instance);
         return result;
     }
-    const void *const wanted = nested(parameters, "shape");
+    void *wanted;
+    result = nested(self, parameters, "shape", &wanted);
+    if (result != AUR_OK)
+        return result;
     for (size_t i = 0; i < scene->group_count; ++i)
         if (scene->groups[i] == wanted)
             instance->group = scene->groups[i];
@@ -322,17 +373,19 @@ static aur_result build_instance(loader *self, aur_parameters *parameters, void 
 }
 
 static aur_result build_shape(loader *self, aur_xml_node *node, aur_parameters *parameters, void **object) {
-    (void)node;
-    if (strcmp(parameters->plugin, "shapegroup") == 0)
-        return build_group(self, parameters, object);
-    if (strcmp(parameters->plugin, "instance") == 0)
+    if (strcmp(parameters->plugin, group_plugin) == 0)
+        return build_group(self, node, parameters, object);
+    if (strcmp(parameters->plugin, instance_plugin) == 0)
         return build_instance(self, parameters, object);
     aur_scene *const scene = self->scene;
     aur_shape *shape;
-    const aur_bsdf *bsdf = nested(parameters, "bsdf");
-    aur_emitter *const emitter = nested(parameters, "emitter");
-    aur_result result = AUR_OK;
-    if (bsdf == NULL)
+    void *found = NULL;
+    aur_result result = nested(self, parameters, "emitter", &found);
+    aur_emitter *const emitter = found;
+    if (result == AUR_OK)
+        result = nested(self, parameters, "bsdf", &found);
+    const aur_bsdf *bsdf = found;
+    if (result == AUR_OK && bsdf == NULL)
         result = default_bsdf(self, emitter != NULL, &bsdf);
     if (result == AUR_OK && emitter != NULL && !emitter->descriptor->needs_shape)
         result = aur_fail_at(self->error, emitter->location, AUR_ERROR_FORMAT,
@@ -350,11 +403,10 @@ static aur_result build_shape(loader *self, aur_xml_node *node, aur_parameters *
         return result;
     }
     shape->bsdf = bsdf;
+    shape->index = (uint32_t)(scene->shape_count - 1);
     if (emitter != NULL) {
-        emitter->shape = (uint32_t)(scene->shape_count - 1);
-        for (size_t i = 0; i < scene->emitter_count; ++i)
-            if (scene->emitters[i] == emitter)
-                shape->emitter = (uint32_t)i;
+        emitter->shape = shape->index;
+        shape->emitter = emitter->index;
     }
     *object = shape;
     return AUR_OK;
@@ -424,8 +476,12 @@ static aur_result build_film(loader *self, aur_xml_node *node, aur_parameters *p
     result = read_crop(self, parameters, film);
     if (result != AUR_OK)
         return result;
-    if (nested(parameters, "rfilter") != NULL)
-        film->filter = &self->scene->filter;
+    void *filter;
+    result = nested(self, parameters, "rfilter", &filter);
+    if (result != AUR_OK)
+        return result;
+    if (filter != NULL)
+        film->filter = filter;
     /* The output file's name says these. */
     aur_parameters_find(parameters, "file_format");
     aur_parameters_find(parameters, "pixel_format");
@@ -466,8 +522,8 @@ static aur_result build_sampler(loader *self, aur_xml_node *node, aur_parameters
     (void)node;
     aur_scene *const scene = self->scene;
     int64_t samples = (int64_t)scene->samples_per_pixel;
-    aur_result result =
-        aur_parameters_integer(parameters, "sample_count", 1, INT64_C(1) << 32, &samples, self->error);
+    aur_result result = aur_parameters_integer(parameters, "sample_count", 1, AUR_SAMPLES_PER_PIXEL_MAX,
+                                               &samples, self->error);
     if (result != AUR_OK)
         return result;
     scene->samples_per_pixel = (size_t)samples;
@@ -512,8 +568,12 @@ static aur_result build_sensor(loader *self, aur_xml_node *node, aur_parameters 
     aur_scene *const scene = self->scene;
     *object = &scene->sensor;
     /* Nested film and sampler have set the scene's own. */
-    nested(parameters, "film");
-    nested(parameters, "sampler");
+    void *inner;
+    aur_result result = nested(self, parameters, "film", &inner);
+    if (result == AUR_OK)
+        result = nested(self, parameters, "sampler", &inner);
+    if (result != AUR_OK)
+        return result;
     scene->has_sensor = true;
     warn_unused(self, parameters, "shutter_open", "nothing moves");
     warn_unused(self, parameters, "shutter_close", "nothing moves");

@@ -38,6 +38,7 @@ typedef struct aur_curved {
 struct aur_shape {
     const aur_shape_descriptor *descriptor;
     aur_location location;
+    uint32_t index;           /* among the shapes of the scene */
     const aur_curved *curved; /* NULL: a mesh */
     aur_mesh mesh;
     bool parallelogram; /* two triangles sampled by one continuous map: corners 0, 1, 2, 3 in order */

@@ -368,10 +368,14 @@ static int compare_id_to_key(const void *key, const void *item) {
     return strcmp(key, ((const aur_xml_id *)item)->id);
 }
 
-const aur_xml_id *aur_xml_find_id(const aur_xml_document *document, const char *id) {
+static aur_xml_id *find_id(const aur_xml_document *document, const char *id) {
     return document->id_count == 0
                ? NULL
                : bsearch(id, document->ids, document->id_count, sizeof *document->ids, compare_id_to_key);
+}
+
+const aur_xml_id *aur_xml_find_id(const aur_xml_document *document, const char *id) {
+    return find_id(document, id);
 }
 
 static aur_result sort_ids(reading *shared) {
@@ -389,17 +393,28 @@ static aur_result sort_ids(reading *shared) {
     return AUR_OK;
 }
 
+/* The id that an alias is another name of, or NULL. */
+static aur_xml_id *next_id(const aur_xml_document *document, const aur_xml_id *alias) {
+    return find_id(document, aur_xml_attribute_value(alias->node, "id"));
+}
+
+/* Every alias on the way to an object is given that object, so that a chain of aliases is walked once. */
 static aur_result resolve_aliases(reading *shared) {
     const aur_xml_document *const document = shared->document;
     for (size_t i = 0; i < document->id_count; ++i) {
-        aur_xml_id *const item = &document->ids[i];
-        for (size_t hops = 0; strcmp(item->node->tag, "alias") == 0; ++hops) {
-            const char *const wanted = aur_xml_attribute_value(item->node, "id");
-            const aur_xml_id *const known = aur_xml_find_id(document, wanted);
-            if (known == NULL || hops > document->id_count)
-                return aur_fail_at(shared->error, item->location, AUR_ERROR_NAME,
-                                   "<alias>: there is no id '%s'", wanted);
-            item->node = known->node;
+        aur_xml_id *const first = &document->ids[i];
+        const aur_xml_id *last = first;
+        for (size_t hops = 0; strcmp(last->node->tag, "alias") == 0; ++hops) {
+            const aur_xml_id *const next = next_id(document, last);
+            if (next == NULL || hops > document->id_count)
+                return aur_fail_at(shared->error, first->location, AUR_ERROR_NAME,
+                                   "<alias>: there is no id '%s'", aur_xml_attribute_value(last->node, "id"));
+            last = next;
+        }
+        for (aur_xml_id *item = first; strcmp(item->node->tag, "alias") == 0;) {
+            aur_xml_id *const next = next_id(document, item);
+            item->node = last->node;
+            item = next;
         }
     }
     return AUR_OK;

@@ -1,6 +1,7 @@
 #include "scene_text.h"
 
 #include <sys/stat.h>
+#include <time.h>
 
 static void loads_a_small_scene(void **state) {
     (void)state;
@@ -203,6 +204,28 @@ static const struct bad_row {
     {"<shape type='obj'/>", 2, 1, "needs the string 'filename'"},
     {"<shape type='obj'><string name='filename' value='none.obj'/></shape>", 2, 19,
      "cannot find 'none.obj'; looked in"},
+    /* objects and values that are called by the name of another kind */
+    {"<shape type='sphere'><texture type='checkerboard' name='bsdf'/></shape>", 2, 22,
+     "shape 'sphere': 'bsdf' must be a <bsdf>"},
+    {"<shape type='sphere'><texture type='checkerboard' name='emitter'/></shape>", 2, 22,
+     "'emitter' must be a <emitter>"},
+    {"<shape type='sphere'><float name='bsdf' value='1'/></shape>", 2, 22, "'bsdf' must be a <bsdf>"},
+    {"<shape type='instance'><texture type='checkerboard' name='shape'/></shape>", 2, 24,
+     "'shape' must be a <shape>"},
+    {"<sensor type='perspective'><film type='hdrfilm'><texture type='checkerboard' "
+     "name='rfilter'/></film></sensor>",
+     2, 49, "'rfilter' must be a <rfilter>"},
+    {"<sensor type='perspective'><texture type='checkerboard' name='film'/></sensor>", 2, 28,
+     "'film' must be a <film>"},
+    {"<sensor type='perspective'><sampler type='sobol'><integer name='sample_count' "
+     "value='1073741825'/></sampler></sensor>",
+     2, 50, "'sample_count' must be between 1 and 1073741824"},
+    {"<shape type='shapegroup'><shape type='shapegroup'><shape type='cube'/></shape></shape>", 2, 26,
+     "no instances or other groups"},
+    {"<shape type='shapegroup' id='a'><shape type='cube' id='c'/></shape><shape "
+     "type='shapegroup'><ref id='c'/></shape>",
+     2, 93, "takes shapes of its own"},
+    {"<shape type='shapegroup'><bsdf type='diffuse'/></shape>", 2, 1, "needs a shape"},
     {"<emitter type='area'/>", 2, 1, "must stand inside a <shape>"},
     {"<shape type='cube'><emitter type='area'><rgb name='radiance' value='-1'/></emitter></shape>", 2, 41,
      "must be between 0"},
@@ -267,6 +290,56 @@ static void names_the_command_of_a_missing_mesh(void **state) {
     aur_error error = {0};
     assert_int_equal(load_body(bodies[0], NULL, &scene, &error), AUR_ERROR_OPEN);
     assert_null(strstr(error.message, "made by the command"));
+}
+
+/* `count` materials of which each one refers to the next; the last one is plain. */
+static char *chain(size_t count) {
+    char *const text = malloc(count * 64 + 64);
+    char *end = text;
+    for (size_t i = 0; i + 1 < count; ++i)
+        end += sprintf(end, "<bsdf type='twosided' id='b%zu'><ref id='b%zu'/></bsdf>", i, i + 1);
+    sprintf(end, "<bsdf type='diffuse' id='b%zu'/>", count - 1);
+    return text;
+}
+
+static void refuses_long_chains(void **state) {
+    (void)state;
+    static const size_t counts[] = {100, 101, 20000};
+    for (size_t i = 0; i < 3; ++i) {
+        char *const text = chain(counts[i]);
+        aur_scene *scene = NULL;
+        aur_error error = {0};
+        const aur_result result = load_body(text, NULL, &scene, &error);
+        assert_int_equal(result, i == 0 ? AUR_OK : AUR_ERROR_FORMAT);
+        assert_true(i == 0 || strstr(error.message, "in a chain of more than 100") != NULL);
+        aur_scene_destroy(scene);
+        free(text);
+    }
+}
+
+/* The time of a load, in seconds, of `count` copies of a text between a head and a tail. */
+static double seconds_to_load(const char *head, const char *format, size_t count, const char *tail) {
+    char *const text = malloc(strlen(head) + count * 96 + strlen(tail) + 1);
+    char *end = stpcpy(text, head);
+    for (size_t i = 0; i < count; ++i)
+        end += sprintf(end, format, count - i, count - i - 1);
+    strcpy(end, tail);
+    struct timespec from, to;
+    clock_gettime(CLOCK_MONOTONIC, &from);
+    aur_scene_destroy(must_load_body(text));
+    clock_gettime(CLOCK_MONOTONIC, &to);
+    free(text);
+    return (double)(to.tv_sec - from.tv_sec) + 1e-9 * (double)(to.tv_nsec - from.tv_nsec);
+}
+
+/* These took the square of their number: 48 and more than 20 seconds at these sizes. */
+static void loads_many_things_in_time(void **state) {
+    (void)state;
+    assert_true(
+        seconds_to_load("", "<alias as='a%zu' id='a%zu'/>\n", 20000, "<bsdf type='diffuse' id='a0'/>") < 5.0);
+    assert_true(seconds_to_load("<shape type='shapegroup'>",
+                                "<shape type='sphere'><point name='center' value='%zu %zu 0'/></shape>\n",
+                                30000, "</shape>") < 10.0);
 }
 
 static void refuses_bad_roots(void **state) {
@@ -341,12 +414,19 @@ static void loads_public_scenes(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(loads_a_small_scene),     cmocka_unit_test(maps_samplers_to_sets),
-        cmocka_unit_test(gives_default_materials), cmocka_unit_test(substitutes_names),
-        cmocka_unit_test(includes_files),          cmocka_unit_test(reads_old_versions),
-        cmocka_unit_test(says_what_is_wrong),      cmocka_unit_test(names_the_command_of_a_missing_mesh),
-        cmocka_unit_test(refuses_bad_roots),       cmocka_unit_test(loads_public_scenes),
+        cmocka_unit_test(loads_a_small_scene),
+        cmocka_unit_test(maps_samplers_to_sets),
+        cmocka_unit_test(gives_default_materials),
+        cmocka_unit_test(substitutes_names),
+        cmocka_unit_test(includes_files),
+        cmocka_unit_test(reads_old_versions),
+        cmocka_unit_test(says_what_is_wrong),
+        cmocka_unit_test(names_the_command_of_a_missing_mesh),
+        cmocka_unit_test(refuses_bad_roots),
+        cmocka_unit_test(loads_public_scenes),
         cmocka_unit_test(loads_bundled_scenes),
+        cmocka_unit_test(refuses_long_chains),
+        cmocka_unit_test(loads_many_things_in_time),
     };
     return cmocka_run_group_tests(tests, enter_folder, leave_folder);
 }
