@@ -194,7 +194,7 @@ aur_result aur_scene_build_accel(aur_scene *scene, aur_error *error) {
     rtcGetSceneBounds(scene->accel, &bounds);
     scene->lower = (aur_vector){bounds.lower_x, bounds.lower_y, bounds.lower_z};
     scene->upper = (aur_vector){bounds.upper_x, bounds.upper_y, bounds.upper_z};
-    if (scene->shape_count == 0)
+    if (!(scene->lower.x <= scene->upper.x)) /* nothing is there to be hit */
         scene->lower = scene->upper = (aur_vector){0.0f, 0.0f, 0.0f};
     return AUR_OK;
 }

@@ -116,9 +116,8 @@ double aur_element_area(const aur_scene *scene, const aur_placement *placement, 
     }
     aur_vector corner[3];
     world_corners(scene, placement, primitive, corner);
-    const aur_vector cross = aur_vector_cross(aur_vector_subtract(corner[1], corner[0]),
-                                              aur_vector_subtract(corner[2], corner[0]));
-    return 0.5 * (double)aur_vector_length(cross);
+    return aur_triangle_area(aur_vector_subtract(corner[1], corner[0]),
+                             aur_vector_subtract(corner[2], corner[0]));
 }
 
 void aur_element_middle(const aur_scene *scene, const aur_placement *placement, uint32_t primitive,
@@ -138,10 +137,10 @@ void aur_element_middle(const aur_scene *scene, const aur_placement *placement, 
     world_corners(scene, placement, primitive, corner);
     *position =
         aur_vector_scale(aur_vector_add(aur_vector_add(corner[0], corner[1]), corner[2]), 1.0f / 3.0f);
-    const aur_vector cross = aur_vector_cross(aur_vector_subtract(corner[1], corner[0]),
-                                              aur_vector_subtract(corner[2], corner[0]));
-    if (aur_vector_length(cross) > 0.0f)
-        *normal = aur_vector_normalize(cross);
+    const aur_vector unit = aur_triangle_normal(aur_vector_subtract(corner[1], corner[0]),
+                                                aur_vector_subtract(corner[2], corner[0]));
+    if (!aur_vector_is_zero(unit))
+        *normal = unit;
 }
 
 void aur_element_coordinates(const aur_scene *scene, const aur_hit *hit, const aur_surface *surface,
@@ -158,7 +157,8 @@ bool aur_shape_is_curved(const aur_scene *scene, uint32_t shape) {
 }
 
 bool aur_shape_is_flat(const aur_scene *scene, uint32_t shape) {
-    return scene->shapes[shape]->curved == NULL && scene->shapes[shape]->mesh.normals == NULL;
+    const aur_shape *const found = scene->shapes[shape];
+    return found->curved == NULL && found->mesh.normals == NULL && !found->extreme;
 }
 
 uint32_t aur_shape_emitter(const aur_scene *scene, uint32_t shape) {

@@ -130,8 +130,8 @@ static aur_result create_envmap(aur_parameters *parameters, aur_emitter *emitter
     emitter->data = self;
     if (self == NULL)
         return aur_fail_at(error, parameters->location, AUR_ERROR_MEMORY, "out of memory");
-    aur_transform to_world = aur_transform_identity();
-    aur_result result = aur_parameters_transform(parameters, "to_world", to_world.m, error);
+    aur_transform to_world, to_local;
+    aur_result result = aur_parameters_to_world(parameters, &to_world, &to_local, error);
     if (result == AUR_OK)
         result = read_picture(parameters, self, error);
     if (result != AUR_OK)

@@ -33,15 +33,6 @@ static aur_result read_color(aur_parameters *parameters, const char *name, aur_e
     return result;
 }
 
-static aur_result read_place(aur_parameters *parameters, aur_transform *to_world, aur_error *error) {
-    *to_world = aur_transform_identity();
-    const aur_result result = aur_parameters_transform(parameters, "to_world", to_world->m, error);
-    if (result == AUR_OK && !aur_transform_is_affine(to_world))
-        return aur_fail_at(error, parameters->location, AUR_ERROR_FORMAT,
-                           "emitter '%s': 'to_world' must be affine", parameters->plugin);
-    return result;
-}
-
 static void aim(point_light *self, aur_vector direction) {
     self->direction = aur_vector_normalize(direction);
     self->frame = aur_frame_about(self->direction);
@@ -50,17 +41,22 @@ static void aim(point_light *self, aur_vector direction) {
 /* --- point */
 
 static aur_result create_point(aur_parameters *parameters, aur_emitter *emitter, aur_error *error) {
-    aur_transform to_world;
+    aur_transform to_world, to_local;
     double position[3] = {0.0, 0.0, 0.0};
     aur_result result = allocate(parameters, emitter, error);
     if (result == AUR_OK)
         result = read_color(parameters, "intensity", emitter, error);
     if (result == AUR_OK)
-        result = aur_parameters_triple(parameters, "position", -1e30, 1e30, position, error);
+        result = aur_parameters_triple(parameters, "position", -AUR_REACH, AUR_REACH, position, error);
     if (result == AUR_OK)
-        result = read_place(parameters, &to_world, error);
+        result = aur_parameters_to_world(parameters, &to_world, &to_local, error);
     if (result != AUR_OK)
         return result;
+    const aur_transform place = aur_transform_translate(position[0], position[1], position[2]);
+    const aur_transform both = aur_transform_multiply(&to_world, &place);
+    if (!aur_transform_is_within_reach(&both))
+        return aur_fail_at(error, parameters->location, AUR_ERROR_FORMAT,
+                           "emitter 'point' must be within %g of the origin", AUR_REACH);
     ((point_light *)emitter->data)->position = aur_transform_point_f(
         &to_world, (aur_vector){(float)position[0], (float)position[1], (float)position[2]});
     return AUR_OK;
@@ -120,7 +116,7 @@ const aur_emitter_descriptor aur_emitter_point = {
 /* --- spot */
 
 static aur_result create_spot(aur_parameters *parameters, aur_emitter *emitter, aur_error *error) {
-    aur_transform to_world;
+    aur_transform to_world, to_local;
     double cutoff = 20.0;
     aur_result result = allocate(parameters, emitter, error);
     if (result == AUR_OK)
@@ -131,7 +127,7 @@ static aur_result create_spot(aur_parameters *parameters, aur_emitter *emitter, 
     if (result == AUR_OK)
         result = aur_parameters_float(parameters, "beam_width", 0.0, cutoff, &beam, error);
     if (result == AUR_OK)
-        result = read_place(parameters, &to_world, error);
+        result = aur_parameters_to_world(parameters, &to_world, &to_local, error);
     if (result != AUR_OK)
         return result;
     point_light *const self = emitter->data;
@@ -198,15 +194,15 @@ const aur_emitter_descriptor aur_emitter_spot = {
 /* --- directional */
 
 static aur_result create_directional(aur_parameters *parameters, aur_emitter *emitter, aur_error *error) {
-    aur_transform to_world;
+    aur_transform to_world, to_local;
     double direction[3] = {0.0, 0.0, 0.0};
     aur_result result = allocate(parameters, emitter, error);
     if (result == AUR_OK)
         result = read_color(parameters, "irradiance", emitter, error);
     if (result == AUR_OK)
-        result = aur_parameters_triple(parameters, "direction", -1e30, 1e30, direction, error);
+        result = aur_parameters_triple(parameters, "direction", -AUR_REACH, AUR_REACH, direction, error);
     if (result == AUR_OK)
-        result = read_place(parameters, &to_world, error);
+        result = aur_parameters_to_world(parameters, &to_world, &to_local, error);
     if (result != AUR_OK)
         return result;
     const bool given = aur_parameters_find(parameters, "direction") != NULL;
@@ -216,9 +212,9 @@ static aur_result create_directional(aur_parameters *parameters, aur_emitter *em
     aur_vector way = {(float)direction[0], (float)direction[1], (float)direction[2]};
     if (!given)
         way = aur_transform_direction_f(&to_world, (aur_vector){0.0f, 0.0f, 1.0f});
-    if (aur_vector_is_zero(way))
+    if (!(aur_vector_length(way) > (float)(1.0 / AUR_REACH)))
         return aur_fail_at(error, parameters->location, AUR_ERROR_FORMAT,
-                           "emitter 'directional': 'direction' must not be 0 0 0");
+                           "emitter 'directional': 'direction' must not be 0 0 0, nor nearly so");
     aim(emitter->data, way);
     return AUR_OK;
 }

@@ -360,14 +360,10 @@ static aur_result build_instance(loader *self, aur_parameters *parameters, void 
     if (instance->group == NULL)
         return aur_fail_at(self->error, parameters->location, AUR_ERROR_FORMAT,
                            "shape 'instance' needs a reference to a shapegroup");
-    instance->to_world = aur_transform_identity();
-    result = aur_parameters_transform(parameters, "to_world", instance->to_world.m, self->error);
+    result = aur_parameters_to_world(parameters, &instance->to_world, &instance->to_local, self->error);
     if (result != AUR_OK)
         return result;
-    if (!aur_transform_is_affine(&instance->to_world) ||
-        !aur_transform_inverse(&instance->to_world, &instance->to_local))
-        return aur_fail_at(self->error, parameters->location, AUR_ERROR_FORMAT,
-                           "shape 'instance': 'to_world' must be affine: its last row is 0 0 0 1");
+    instance->location = parameters->location;
     *object = instance;
     return aur_parameters_finish(parameters, self->error);
 }

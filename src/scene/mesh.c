@@ -85,10 +85,8 @@ aur_result aur_mesh_smooth(aur_mesh *mesh, aur_location location, aur_error *err
     for (size_t i = 0; i < mesh->triangle_count; ++i) {
         aur_vector corner[3];
         aur_mesh_corners(mesh, i, corner);
-        const aur_vector normal = aur_vector_normalize(aur_vector_cross(
-            aur_vector_subtract(corner[1], corner[0]), aur_vector_subtract(corner[2], corner[0])));
-        if (!aur_vector_is_finite(normal))
-            continue; /* so large that the product of its edges is not */
+        const aur_vector normal = aur_triangle_normal(aur_vector_subtract(corner[1], corner[0]),
+                                                      aur_vector_subtract(corner[2], corner[0]));
         for (size_t k = 0; k < 3; ++k) {
             const aur_vector here = corner[k];
             const float angle = angle_between(aur_vector_subtract(corner[(k + 1) % 3], here),
@@ -121,10 +119,32 @@ aur_result aur_mesh_check(const aur_mesh *mesh, aur_location location, aur_error
     return AUR_OK;
 }
 
+aur_vector aur_extreme_triangle_normal(aur_vector a, aur_vector b, double *doubled_area) {
+    /* By a power of two, which changes no bit of the sides, to sides of about 1. */
+    const float largest = fmaxf(fmaxf(fmaxf(fabsf(a.x), fabsf(a.y)), fmaxf(fabsf(a.z), fabsf(b.x))),
+                                fmaxf(fabsf(b.y), fabsf(b.z)));
+    int exponent = 0;
+    frexpf(largest, &exponent);
+    const float scale = ldexpf(1.0f, -exponent);
+    const aur_vector cross = aur_vector_cross(aur_vector_scale(a, scale), aur_vector_scale(b, scale));
+    const float length = aur_vector_length(cross);
+    if (doubled_area != NULL)
+        *doubled_area = ldexp((double)length, 2 * exponent);
+    return length > 0.0f && isfinite(length) ? aur_vector_scale(cross, 1.0f / length) : (aur_vector){0};
+}
+
+double aur_triangle_area(aur_vector a, aur_vector b) {
+    const aur_vector cross = aur_vector_cross(a, b);
+    const float squared = aur_vector_dot(cross, cross);
+    double doubled = (double)sqrtf(squared);
+    if (!aur_is_usual_square(squared))
+        aur_extreme_triangle_normal(a, b, &doubled);
+    return 0.5 * doubled;
+}
+
 double aur_mesh_triangle_area(const aur_mesh *mesh, size_t triangle) {
     aur_vector corner[3];
     aur_mesh_corners(mesh, triangle, corner);
-    const aur_vector a = aur_vector_subtract(corner[1], corner[0]);
-    const aur_vector b = aur_vector_subtract(corner[2], corner[0]);
-    return 0.5 * (double)aur_vector_length(aur_vector_cross(a, b));
+    return aur_triangle_area(aur_vector_subtract(corner[1], corner[0]),
+                             aur_vector_subtract(corner[2], corner[0]));
 }

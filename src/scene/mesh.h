@@ -45,6 +45,27 @@ static inline void aur_mesh_corners(const aur_mesh *mesh, size_t triangle, aur_v
         corner[i] = aur_mesh_position(mesh, mesh->indices[3 * triangle + i]);
 }
 
+/* As aur_triangle_normal, for a triangle whose product of sides leaves the range of floats: with sides longer
+ * than 1e9 or shorter than 1e-9. *doubled_area may be NULL. */
+aur_vector aur_extreme_triangle_normal(aur_vector a, aur_vector b, double *doubled_area);
+
+/* Whether the squared length of the product of two sides can be used as it is. */
+static inline bool aur_is_usual_square(float squared) {
+    return squared > 1e-37f && squared < 1e38f;
+}
+
+/* The unit normal of a triangle whose sides from its first corner are `a` and `b`; zero for one without area.
+ */
+static inline aur_vector aur_triangle_normal(aur_vector a, aur_vector b) {
+    const aur_vector cross = aur_vector_cross(a, b);
+    const float squared = aur_vector_dot(cross, cross);
+    if (aur_is_usual_square(squared))
+        return aur_vector_scale(cross, 1.0f / sqrtf(squared));
+    return aur_extreme_triangle_normal(a, b, NULL);
+}
+
+/* The area of such a triangle. */
+double aur_triangle_area(aur_vector a, aur_vector b);
 double aur_mesh_triangle_area(const aur_mesh *mesh, size_t triangle);
 
 #endif

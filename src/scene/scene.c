@@ -10,6 +10,74 @@ static void find_sphere(aur_scene *scene) {
     scene->radius = radius > 0.0f ? 1.001f * radius : 1.0f;
 }
 
+/* The largest coordinate of a shape in its own space, either side of 0. Corners beyond what Embree takes
+ * (1.8e18) are left out: it draws no triangle that has one. */
+static double reach_of(const aur_shape *shape) {
+    double reach = 0.0;
+    if (shape->curved != NULL) {
+        double lower[3], upper[3];
+        shape->curved->bounds(shape, lower, upper);
+        for (size_t i = 0; i < 3; ++i)
+            reach = fmax(reach, fmax(fabs(lower[i]), fabs(upper[i])));
+    }
+    for (size_t i = 0; i < 3 * shape->mesh.vertex_count; ++i) {
+        const double size = fabs((double)shape->mesh.positions[i]);
+        if (size > reach && size < 1.8e18)
+            reach = size;
+    }
+    return reach;
+}
+
+/* Rays leave surfaces by at least 1e-9 (aur_surface_offset), which in a tiny scene is as far as walls are. */
+static void warn_of_tiny(const aur_scene *scene, const aur_warnings *warnings) {
+    const double width = 2.0 * (double)scene->radius;
+    if (width < 1e-5)
+        aur_warn_at(warnings, scene->document.root->location,
+                    "the scene is %.2g wide, too small to be exact: scale it to 1e-5 or more", width);
+}
+
+static double larger_of(double a, aur_vector b) {
+    return fmax(a, fmax(fabs((double)b.x), fmax(fabs((double)b.y), fabs((double)b.z))));
+}
+
+/* Where rays may begin, in the space of an instance, must not be beyond what Embree takes, with room for
+ * what lies around the scene. */
+static aur_result check_instance(const aur_instance *instance, double reach, aur_error *error) {
+    const double *const m = instance->to_local.m;
+    for (size_t i = 0; i < 3; ++i)
+        if ((fabs(m[4 * i]) + fabs(m[4 * i + 1]) + fabs(m[4 * i + 2])) * reach + fabs(m[4 * i + 3]) > 1e17)
+            return aur_fail_at(error, instance->location, AUR_ERROR_FORMAT,
+                               "shape 'instance': 'to_world' shrinks too much for a scene that reaches to %g "
+                               "from the origin: seen from the shapes of the group that is more than 1e17",
+                               reach);
+    return AUR_OK;
+}
+
+/* Refuses what is so far away that Embree would end the process. */
+static aur_result check_reach(const aur_scene *scene, aur_error *error) {
+    const float *const camera = scene->sensor.to_world;
+    double reach = larger_of(larger_of(0.0, scene->lower), scene->upper);
+    const double most = 1.00001 * AUR_REACH; /* bounds are a little wider than shapes */
+    for (size_t i = 0; reach > most && i < scene->shape_count; ++i) {
+        const aur_shape *const shape = scene->shapes[i];
+        if (!shape->grouped && reach_of(shape) > most)
+            return aur_fail_at(error, shape->location, AUR_ERROR_FORMAT,
+                               "shape '%s' reaches to %g from the origin; %g is the most",
+                               shape->descriptor->name, reach_of(shape), AUR_REACH);
+    }
+    if (reach > most)
+        return aur_fail_at(error, scene->document.root->location, AUR_ERROR_FORMAT,
+                           "instances reach to %g from the origin; %g is the most", reach, AUR_REACH);
+    for (size_t i = 0; i < 12; ++i)
+        reach = fmax(reach, fabs((double)camera[i]) * fmax(1.0, scene->sensor.aperture_radius));
+    for (size_t i = 0; i < scene->instance_count; ++i) {
+        const aur_result result = check_instance(scene->instances[i], reach, error);
+        if (result != AUR_OK)
+            return result;
+    }
+    return AUR_OK;
+}
+
 static aur_result prepare_lights(aur_scene *scene, aur_error *error) {
     double *const powers = malloc((scene->emitter_count + 1) * sizeof *powers);
     if (powers == NULL)
@@ -47,8 +115,11 @@ aur_result aur_scene_load(const char *path, const aur_scene_options *options, au
         result = aur_scene_build(made, options != NULL ? &options->warnings : NULL, error);
     if (result == AUR_OK)
         result = aur_scene_build_accel(made, error);
+    if (result == AUR_OK)
+        result = check_reach(made, error);
     if (result == AUR_OK) {
         find_sphere(made);
+        warn_of_tiny(made, options != NULL ? &options->warnings : NULL);
         result = prepare_lights(made, error);
     }
     if (result != AUR_OK) {

@@ -20,6 +20,7 @@ typedef struct aur_group {
 } aur_group;
 
 typedef struct aur_instance {
+    aur_location location;
     const aur_group *group;
     aur_transform to_world, to_local;
 } aur_instance;

@@ -22,9 +22,9 @@ const aur_sensor_descriptor *aur_sensor_descriptor_at(size_t index) {
 }
 
 static aur_result read_common(aur_parameters *parameters, aur_sensor *sensor, aur_error *error) {
-    aur_transform to_world = aur_transform_identity();
+    aur_transform to_world, to_local;
     double near_clip = 1e-2, far_clip = 1e4;
-    aur_result result = aur_parameters_transform(parameters, "to_world", to_world.m, error);
+    aur_result result = aur_parameters_to_world(parameters, &to_world, &to_local, error);
     if (result == AUR_OK)
         result = aur_parameters_float(parameters, "near_clip", 0.0, 1e30, &near_clip, error);
     if (result == AUR_OK)
@@ -35,10 +35,6 @@ static aur_result read_common(aur_parameters *parameters, aur_sensor *sensor, au
         return aur_fail_at(error, parameters->location, AUR_ERROR_FORMAT,
                            "sensor '%s': near_clip (%g) must be less than far_clip (%g)", parameters->plugin,
                            near_clip, far_clip);
-    if (!aur_transform_is_affine(&to_world))
-        return aur_fail_at(error, parameters->location, AUR_ERROR_FORMAT,
-                           "sensor '%s': 'to_world' must be affine: its last row is 0 0 0 1",
-                           parameters->plugin);
     for (size_t i = 0; i < 12; ++i)
         sensor->to_world[i] = (float)to_world.m[i];
     sensor->near_clip = (float)near_clip;

@@ -21,9 +21,10 @@ static aur_result create_thinlens(aur_parameters *parameters, aur_sensor *sensor
     double radius = -1.0, distance = -1.0;
     aur_result result = aur_sensor_read_lens(parameters, sensor, error);
     if (result == AUR_OK)
-        result = aur_parameters_float(parameters, "aperture_radius", 0.0, 1e30, &radius, error);
+        result = aur_parameters_float(parameters, "aperture_radius", 0.0, AUR_REACH, &radius, error);
     if (result == AUR_OK)
-        result = aur_parameters_float(parameters, "focus_distance", 1e-30, 1e30, &distance, error);
+        result =
+            aur_parameters_float(parameters, "focus_distance", 1.0 / AUR_REACH, AUR_REACH, &distance, error);
     if (result == AUR_OK && (radius < 0.0 || distance < 0.0))
         return aur_fail_at(error, parameters->location, AUR_ERROR_FORMAT,
                            "sensor 'thinlens' needs 'aperture_radius' and 'focus_distance'");

@@ -37,18 +37,11 @@ static aur_result find_descriptor(const aur_parameters *parameters, const aur_sh
 }
 
 static aur_result read_common(aur_shape_input *input, aur_error *error) {
-    input->to_world = aur_transform_identity();
-    aur_result result = aur_parameters_transform(input->parameters, "to_world", input->to_world.m, error);
-    if (result == AUR_OK)
-        result = aur_parameters_boolean(input->parameters, "flip_normals", &input->flip_normals, error);
-    if (result != AUR_OK)
-        return result;
-    if (!aur_transform_is_affine(&input->to_world) ||
-        !aur_transform_inverse(&input->to_world, &input->to_local))
-        return aur_fail_at(error, input->parameters->location, AUR_ERROR_FORMAT,
-                           "%s '%s': 'to_world' must be affine: its last row is 0 0 0 1",
-                           input->parameters->kind, input->parameters->plugin);
-    return AUR_OK;
+    const aur_result result =
+        aur_parameters_to_world(input->parameters, &input->to_world, &input->to_local, error);
+    return result != AUR_OK
+               ? result
+               : aur_parameters_boolean(input->parameters, "flip_normals", &input->flip_normals, error);
 }
 
 aur_result aur_shape_create(aur_parameters *parameters, const aur_xml_document *document,
@@ -76,8 +69,12 @@ aur_result aur_shape_create(aur_parameters *parameters, const aur_xml_document *
         aur_shape_destroy(made);
         return result;
     }
-    for (size_t i = 0; i < made->mesh.triangle_count; ++i)
-        made->area += aur_mesh_triangle_area(&made->mesh, i);
+    for (size_t i = 0; i < made->mesh.triangle_count; ++i) {
+        const double area = aur_mesh_triangle_area(&made->mesh, i);
+        const float squared = (float)(4.0 * area * area);
+        made->area += area;
+        made->extreme = made->extreme || (area > 0.0 && !aur_is_usual_square(squared));
+    }
     *shape = made;
     return AUR_OK;
 }
@@ -121,8 +118,8 @@ aur_shape_point aur_shape_sample(const aur_shape *shape, const aur_distribution 
     aur_vector corner[3];
     aur_mesh_corners(mesh, triangle, corner);
     aur_shape_point point;
-    point.normal = aur_vector_normalize(aur_vector_cross(aur_vector_subtract(corner[1], corner[0]),
-                                                         aur_vector_subtract(corner[2], corner[0])));
+    point.normal = aur_triangle_normal(aur_vector_subtract(corner[1], corner[0]),
+                                       aur_vector_subtract(corner[2], corner[0]));
     if (shape->parallelogram) {
         const aur_vector origin = aur_mesh_position(mesh, 0);
         const aur_vector x = aur_vector_subtract(aur_mesh_position(mesh, 1), origin);

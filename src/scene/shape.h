@@ -46,6 +46,7 @@ struct aur_shape {
     aur_vector center;  /* curved shapes: where they are, */
     aur_vector axis[3]; /* their local axes and */
     float radius, length;
+    bool extreme; /* a mesh of which some triangle is no aur_is_usual_square */
     double area;
     const aur_bsdf *bsdf;
     uint32_t emitter; /* or AUR_NO_EMITTER */

@@ -74,11 +74,12 @@ static const aur_curved curved = {bounds, intersect, surface, sample, NULL, NULL
 
 static aur_result create(const aur_shape_input *input, aur_shape *shape, aur_error *error) {
     double from[3] = {0.0, 0.0, 0.0}, to[3] = {0.0, 0.0, 1.0}, radius = 1.0, scale;
-    aur_result result = aur_parameters_triple(input->parameters, "p0", -1e30, 1e30, from, error);
+    aur_result result = aur_parameters_triple(input->parameters, "p0", -AUR_REACH, AUR_REACH, from, error);
     if (result == AUR_OK)
-        result = aur_parameters_triple(input->parameters, "p1", -1e30, 1e30, to, error);
+        result = aur_parameters_triple(input->parameters, "p1", -AUR_REACH, AUR_REACH, to, error);
     if (result == AUR_OK)
-        result = aur_parameters_float(input->parameters, "radius", 1e-30, 1e30, &radius, error);
+        result =
+            aur_parameters_float(input->parameters, "radius", 1.0 / AUR_REACH, AUR_REACH, &radius, error);
     if (result == AUR_OK)
         result = aur_shape_similarity(input, &input->to_world, &scale, error);
     if (result != AUR_OK)

@@ -92,9 +92,11 @@ static const aur_curved curved = {bounds, intersect, surface, sample, sample_see
 
 static aur_result create(const aur_shape_input *input, aur_shape *shape, aur_error *error) {
     double center[3] = {0.0, 0.0, 0.0}, radius = 1.0, scale, moved[3];
-    aur_result result = aur_parameters_triple(input->parameters, "center", -1e30, 1e30, center, error);
+    aur_result result =
+        aur_parameters_triple(input->parameters, "center", -AUR_REACH, AUR_REACH, center, error);
     if (result == AUR_OK)
-        result = aur_parameters_float(input->parameters, "radius", 1e-30, 1e30, &radius, error);
+        result =
+            aur_parameters_float(input->parameters, "radius", 1.0 / AUR_REACH, AUR_REACH, &radius, error);
     if (result == AUR_OK)
         result = aur_shape_similarity(input, &input->to_world, &scale, error);
     if (result != AUR_OK)

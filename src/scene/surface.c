@@ -42,11 +42,10 @@ static void mesh_surface(const aur_shape *shape, const aur_ray *ray, const aur_h
     aur_mesh_corners(mesh, hit->primitive, corner);
     const aur_vector edge[2] = {aur_vector_subtract(corner[1], corner[0]),
                                 aur_vector_subtract(corner[2], corner[0])};
-    const aur_vector cross = aur_vector_cross(edge[0], edge[1]);
-    const float squared = aur_vector_dot(cross, cross);
+    aur_vector normal = aur_triangle_normal(edge[0], edge[1]);
     /* A triangle too thin for its normal faces the ray. */
-    const aur_vector normal = squared > 0.0f ? aur_vector_scale(cross, 1.0f / sqrtf(squared))
-                                             : aur_vector_scale(ray->direction, -1.0f);
+    if (aur_vector_is_zero(normal))
+        normal = aur_vector_scale(ray->direction, -1.0f);
     surface->position = aur_vector_add_scaled(
         aur_vector_add_scaled(aur_vector_scale(corner[0], weight[0]), weight[1], corner[1]), weight[2],
         corner[2]);

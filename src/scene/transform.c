@@ -172,3 +172,33 @@ aur_vector aur_transform_normal_f(const aur_transform *inverse, aur_vector norma
     aur_transform_normal(inverse, (double[3]){normal.x, normal.y, normal.z}, result);
     return to_vector(result);
 }
+
+static bool is_within_reach(const aur_transform *a, const aur_transform *inverse) {
+    for (size_t i = 0; i < 12; ++i)
+        if (fabs(a->m[i]) > AUR_REACH || (i % 4 != 3 && fabs(inverse->m[i]) > AUR_REACH))
+            return false;
+    return true;
+}
+
+/* The entries of a map bound how much it stretches, those of its inverse how much it shrinks. */
+bool aur_transform_is_within_reach(const aur_transform *a) {
+    aur_transform inverse;
+    return aur_transform_inverse(a, &inverse) && is_within_reach(a, &inverse);
+}
+
+aur_result aur_parameters_to_world(aur_parameters *parameters, aur_transform *to_world,
+                                   aur_transform *to_local, aur_error *error) {
+    *to_world = aur_transform_identity();
+    const aur_result result = aur_parameters_transform(parameters, "to_world", to_world->m, error);
+    if (result != AUR_OK)
+        return result;
+    if (!aur_transform_is_affine(to_world) || !aur_transform_inverse(to_world, to_local))
+        return aur_fail_at(error, parameters->location, AUR_ERROR_FORMAT,
+                           "%s '%s': 'to_world' must be affine: its last row is 0 0 0 1", parameters->kind,
+                           parameters->plugin);
+    if (is_within_reach(to_world, to_local))
+        return AUR_OK;
+    return aur_fail_at(error, parameters->location, AUR_ERROR_FORMAT,
+                       "%s '%s': 'to_world' must move by at most %g, and scale by %g to %g", parameters->kind,
+                       parameters->plugin, AUR_REACH, 1.0 / AUR_REACH, AUR_REACH);
+}

@@ -5,6 +5,7 @@
 
 #include <stdbool.h>
 
+#include "core/parameters.h"
 #include "core/vector.h"
 
 typedef struct aur_transform {
@@ -36,5 +37,18 @@ void aur_transform_normal(const aur_transform *inverse, const double normal[3], 
 aur_vector aur_transform_point_f(const aur_transform *a, aur_vector point);
 aur_vector aur_transform_direction_f(const aur_transform *a, aur_vector direction);
 aur_vector aur_transform_normal_f(const aur_transform *inverse, aur_vector normal);
+
+/* How far from the origin a scene may reach, and by how much a map may stretch or shrink lengths. Far beyond
+ * it squares of lengths leave the range of floats, and Embree, as Debian builds it, ends the process when a
+ * ray begins beyond 1.8e18. */
+#define AUR_REACH 1e12
+
+/* Whether an affine map moves by no more than AUR_REACH, and stretches and shrinks by no more. */
+bool aur_transform_is_within_reach(const aur_transform *a);
+
+/* The parameter `to_world`, an affine map within reach and its inverse; the identity when it is absent.
+ * Errors: FORMAT. */
+aur_result aur_parameters_to_world(aur_parameters *parameters, aur_transform *to_world,
+                                   aur_transform *to_local, aur_error *error);
 
 #endif

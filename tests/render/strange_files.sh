@@ -39,6 +39,23 @@ bad "an index of 10^9" 'far.obj:4: index 1000000000 is no vertex' "<shape type='
 printf 'v 0 0 0\nv 1 nan 0\nv 0 1 0\nf 1 2 3\n' >nan.obj
 bad "a vertex that is NaN" 'nan.obj:2: .*not finite' "<shape type='obj'><string name='filename' value='nan.obj'/></shape>"
 
+# The same room, 2^36 times as large: as bright up to the rounding of the rays' beginnings.
+room() { # SCALE FAR: a box that a small square lights
+  scene "<shape type='cube'><boolean name='flip_normals' value='true'/><transform name='to_world'><scale value='$1'/></transform></shape>
+<shape type='rectangle'><transform name='to_world'><scale value='.5'/><rotate x='1' angle='90'/><translate y='.9'/><scale value='$1'/></transform>
+<emitter type='area'><rgb name='radiance' value='9'/></emitter></shape>"
+  sed -i "s|<lookat.*/>|<lookat origin='0 0 -.9' target='0,0,0' up='0,1,0'/><scale value='$1'/>|" s.xml
+}
+for integrator in path path:packets=false direct finalgather:photons=2000; do
+  for scale in 1 68719476736; do
+    room $scale
+    "$aureole" render s.xml -q --spp 16 --integrator "$integrator" -o room$scale.exr 2>message.txt || fail "room $scale: $(cat message.txt)"
+  done
+  "$aureole" compare room1.exr room68719476736.exr --metric relative-rmse --tolerance 0.01 >message.txt || fail "$integrator, 2^36 times as large: $(cat message.txt)"
+done
+room 1e-8
+"$aureole" render s.xml --spp 1 -o tiny.exr 2>&1 | grep -q 's.xml:1:1: the scene is .* wide' || fail "no warning of a tiny scene"
+
 # Signs of eta and k do not matter; exponents with leading zeros are numbers.
 metal() { echo "<shape type='cube'><bsdf type='conductor'><rgb name='eta' value='$1'/><rgb name='k' value='$2'/></bsdf></shape>$sky"; }
 good metal "$(metal '0.2 0.9 1.1' '3.9 2.4 2.1')"

@@ -226,6 +226,32 @@ static const struct bad_row {
      "type='shapegroup'><ref id='c'/></shape>",
      2, 93, "takes shapes of its own"},
     {"<shape type='shapegroup'><bsdf type='diffuse'/></shape>", 2, 1, "needs a shape"},
+    /* maps and places with which Embree would end the process */
+    {"<shape type='disk'><transform name='to_world'><scale value='1e13'/></transform></shape>", 2, 1,
+     "shape 'disk': 'to_world' must move by at most 1e+12, and scale by 1e-12 to 1e+12"},
+    {"<sensor type='perspective'><transform name='to_world'><lookat origin='1e20,1e20,1e20' target='0,0,1' "
+     "up='0,1,0'/></transform></sensor>",
+     2, 1, "sensor 'perspective': 'to_world' must move"},
+    {"<sensor type='perspective'><transform name='to_world'><scale value='1e-38'/></transform></sensor>", 2,
+     1, "sensor 'perspective': 'to_world' must move"},
+    {"<sensor type='orthographic'><transform name='to_world'><scale value='1e18'/></transform></sensor>", 2,
+     1, "'to_world' must move"},
+    {"<sensor type='thinlens'><float name='aperture_radius' value='1e20'/></sensor>", 2, 25,
+     "'aperture_radius' must be between"},
+    {"<shape type='shapegroup' id='g'><shape type='cube'/></shape>\n<shape type='instance'><ref "
+     "id='g'/><transform name='to_world'><scale value='1e-38'/></transform></shape>",
+     3, 1, "shape 'instance': 'to_world' must move"},
+    {"<shape type='shapegroup' id='g'><shape type='cube'/></shape><shape type='sphere'><float name='radius' "
+     "value='1e9'/></shape>\n<shape type='instance'><ref id='g'/><transform name='to_world'><scale "
+     "value='1e-10'/></transform></shape>",
+     3, 1, "'to_world' shrinks too much"},
+    {"<shape type='cube'/><shape type='sphere'><float name='radius' value='1e12'/><point name='center' "
+     "x='1e12'/></shape>",
+     2, 21, "shape 'sphere' reaches to 2e+12 from the origin"},
+    {"<emitter type='point'><point name='position' x='1e12'/><transform name='to_world'><scale "
+     "value='2'/></transform></emitter>",
+     2, 1, "must be within 1e+12 of the origin"},
+    {"<emitter type='directional'><vector name='direction' x='1e-13'/></emitter>", 2, 1, "nor nearly so"},
     {"<emitter type='area'/>", 2, 1, "must stand inside a <shape>"},
     {"<shape type='cube'><emitter type='area'><rgb name='radiance' value='-1'/></emitter></shape>", 2, 41,
      "must be between 0"},
