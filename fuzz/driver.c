@@ -116,12 +116,38 @@ static void edit_word(fuzz_input *input, fuzz_dice *dice) {
         input->data[at + (big ? width - 1 - i : i)] = (uint8_t)(value >> (8 * i));
 }
 
+static bool is_word(uint8_t c) {
+    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_';
+}
+
+/* The word at or after a place: where it begins, and its length, 0 when there is none. */
+static size_t find_word(const uint8_t *data, size_t size, size_t from, size_t *begin) {
+    while (from > 0 && from < size && is_word(data[from - 1]))
+        --from;
+    while (from < size && !is_word(data[from]))
+        ++from;
+    *begin = from;
+    size_t length = 0;
+    while (from + length < size && is_word(data[from + length]))
+        ++length;
+    return length;
+}
+
+/* A word becomes a word of some seed: a name of one thing stands where the name of another one should. */
+static void edit_name(fuzz_input *input, const fuzz_corpus *corpus, fuzz_dice *dice) {
+    const fuzz_seed *const other = &corpus->seeds[roll(dice, corpus->count)];
+    size_t at, from;
+    const size_t removed = find_word(input->data, input->size, (size_t)roll(dice, input->size), &at);
+    const size_t length = find_word(other->data, other->size, (size_t)roll(dice, other->size), &from);
+    replace(input, at, removed, other->data + from, length);
+}
+
 static void edit(fuzz_input *input, const fuzz_corpus *corpus, fuzz_dice *dice) {
     if (input->size == 0)
         return;
     const size_t at = (size_t)roll(dice, input->size);
     const size_t piece = (size_t)roll(dice, input->size - at < 64 ? input->size - at : 64) + 1;
-    switch (roll(dice, 9)) {
+    switch (roll(dice, 10)) {
     case 0:
         input->data[at] ^= (uint8_t)(1u << roll(dice, 8));
         break;
@@ -143,6 +169,9 @@ static void edit(fuzz_input *input, const fuzz_corpus *corpus, fuzz_dice *dice) 
         replace(input, (size_t)roll(dice, input->size), 0, copy, piece);
         break;
     }
+    case 8:
+        edit_name(input, corpus, dice);
+        break;
     case 6:
         if (roll(dice, 4) == 0)
             input->size = at;

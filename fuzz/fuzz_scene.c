@@ -1,14 +1,34 @@
-/* Scene files: the tree of elements and the objects made of it, all but the ray-tracing structure. */
+/* Scene files: loading them, and a few paths through what they hold, so that materials, textures and lights
+ * are asked too. */
+#include <aureole/render.h>
 #include <string.h>
 #include <unistd.h>
 
 #include "fuzz.h"
-#include "scene/scene_data.h"
 
 static const char *input_path(void) {
     static char path[64];
     snprintf(path, sizeof path, "fuzz-scene-%ld.xml", (long)getpid());
     return path;
+}
+
+/* Whether the picture comes out is not asked: a scene may ask for what no sample can give. */
+static void render(const aur_scene *scene) {
+    const aur_render_options options = {.integrator = "path:max_depth=4",
+                                        .sampler = "random",
+                                        .filter = "box",
+                                        .samples_per_pixel = 1,
+                                        .threads = 1,
+                                        .width = 4,
+                                        .height = 4,
+                                        .crop_x1 = 4,
+                                        .crop_y1 = 4};
+    aur_renderer *renderer = NULL;
+    aur_image *image = NULL;
+    if (aur_renderer_create(scene, &renderer, NULL) == AUR_OK)
+        aur_renderer_render(renderer, &options, &image, NULL, NULL);
+    aur_image_destroy(image);
+    aur_renderer_destroy(renderer);
 }
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
@@ -18,17 +38,16 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
     static const aur_definition definitions[] = {{"n", "3"}};
     const aur_scene_options options = {.definition_count = 1, .definitions = definitions};
     aur_error error = {0};
-    aur_scene *const scene = calloc(1, sizeof *scene);
-    fuzz_require(scene != NULL, "out of memory");
-    aur_result result = aur_xml_read(input_path(), &options, &scene->document, &error);
-    if (result == AUR_OK)
-        result = aur_scene_build(scene, NULL, &error);
+    aur_scene *scene = NULL;
+    const aur_result result = aur_scene_load(input_path(), &options, &scene, &error);
     unlink(input_path());
     if (result != AUR_OK) {
         fuzz_require(error.result == result && error.message[0] != '\0', "a failure without a message");
         fuzz_require(error.file[0] != '\0' || result == AUR_ERROR_MEMORY, "a failure without a place");
         fuzz_require(result != AUR_ERROR_INTERNAL && result != AUR_ERROR_ARGUMENT,
                      "a failure of the wrong kind");
+    } else {
+        render(scene);
     }
     aur_scene_destroy(scene);
     return 0;
@@ -74,6 +93,10 @@ static const char *const seeds[] = {
     "name='direction' x='0' y='0' z='1'/></emitter><bsdf type='dielectric'><string name='int_ior' "
     "value='diamond'/>"
     "<float name='ext_ior' value='1.1'/></bsdf><bsdf type='thindielectric'/><bsdf type='plastic'/></scene>",
+    /* A texture was once taken for the bsdf that its name says it is. */
+    "<scene version='3.0.0'><sensor type='perspective'/><shape type='sphere'><point name='center' "
+    "z='$n'/><texture "
+    "type='checkerboard' name='bsdf'/></shape><emitter type='constant'/></scene>",
 };
 
 size_t aur_fuzz_seed(size_t index, size_t capacity, uint8_t *data) {
