@@ -1,4 +1,4 @@
-/* The inside of a point set: what each generator's file offers to the table in pointset.c. */
+/* The inside of a point set: what each generator's file offers to the table (sets.h). */
 #ifndef AUR_POINTSET_SET_H
 #define AUR_POINTSET_SET_H
 
@@ -32,6 +32,7 @@ typedef struct aur_square_set {
     aur_set_description description;
     size_t minimum_dimension, maximum_dimension;
     uint64_t maximum_size;
+    bool own_size;        /* a size of 0 stands for what prepare() finds */
     bool pairs;           /* fill() makes two coordinates that lie beside each other in one go */
     unsigned scramblings; /* bit 1 << aur_scramble: what has a meaning here */
     /* Reads the keys and makes set->data ready (NULL: there are none and nothing is to be made ready). Size,
@@ -54,13 +55,6 @@ struct aur_pointset {
 /* The table, for the listing of all sets. */
 size_t aur_square_set_count(void);
 const aur_square_set *aur_square_set_at(size_t index);
-
-/* Generators, one file each. */
-extern const aur_square_set aur_set_random, aur_set_lcg, aur_set_icg, aur_set_jittered,
-    aur_set_van_der_corput, aur_set_halton, aur_set_hammersley, aur_set_faure, aur_set_sobol,
-    aur_set_niederreiter, aur_set_larcher_pillichshammer, aur_set_matrices, aur_set_fibonacci_lattice,
-    aur_set_rank1, aur_set_r2, aur_set_golden, aur_set_golden_set, aur_set_blue_noise, aur_set_bnot,
-    aur_set_file;
 
 /* Size, dimension and scrambling against what the kind of set has. */
 aur_result aur_pointset_check(const aur_pointset *set, aur_error *error);

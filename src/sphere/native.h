@@ -1,9 +1,10 @@
-/* The inside of a set that is native to the sphere: what each generator's file offers to the table in
- * directions.c. */
+/* The inside of a set that is native to the sphere: what each generator's file offers to the table of all
+ * sets. */
 #ifndef AUR_SPHERE_NATIVE_H
 #define AUR_SPHERE_NATIVE_H
 
 #include <aureole/sphere.h>
+#include <stdbool.h>
 
 #include "core/parameters.h"
 
@@ -26,14 +27,23 @@ typedef struct aur_native_set {
     void (*fill)(const void *data, uint64_t first, size_t count, double *xyz);
 } aur_native_set;
 
+/* The native sets, in the order of listings: one line for each file of a generator, which defines
+ * aur_native_<name>. */
+#define AUR_NATIVE_SETS(ROW)                                                                                 \
+    ROW(fibonacci)                                                                                           \
+    ROW(grid)
+
+#define AUR_DECLARE_NATIVE_SET(name) extern const aur_native_set aur_native_##name;
+AUR_NATIVE_SETS(AUR_DECLARE_NATIVE_SET)
+#undef AUR_DECLARE_NATIVE_SET
+
 /* The native set that a SET's text names, or NULL. */
 const aur_native_set *aur_native_find(const char *set);
+/* AUR_OK if a SET's text names a set of either kind, else NAME with a suggestion. */
+aur_result aur_set_check_name(const char *set, aur_error *error);
 /* Whether a SET's text is file:PATH, whose path starts at set + 5. */
-int aur_set_is_file(const char *set);
+bool aur_set_is_file(const char *set);
 /* Whether the points of a rule are not all worth the same. */
-int aur_directions_weighted(const aur_directions *directions);
-
-/* Generators, one file each. */
-extern const aur_native_set aur_native_fibonacci, aur_native_grid;
+bool aur_directions_weighted(const aur_directions *directions);
 
 #endif

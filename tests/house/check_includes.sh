@@ -20,8 +20,14 @@ quality
 quadrature
 scene
 material
+sphere/directions
+sphere/sets sphere/nearest
 sphere
 image
+pointset/table
+pointset/relax
+pointset/generators pointset/files
+pointset/digits
 pointset
 core
 '

@@ -3,7 +3,7 @@
 
 #include "core/random.h"
 #include "pointset/fraction128.h"
-#include "pointset/golden.h"
+#include "pointset/generators/golden.h"
 #include "pointset/set.h"
 
 static void lcg_is_minstd(void **state) {

@@ -5,7 +5,7 @@
 #include <unistd.h>
 
 #include "core/random.h"
-#include "pointset/power_diagram.h"
+#include "pointset/relax/power_diagram.h"
 
 static const char folder[] = "test_relaxed_cache.tmp/inner";
 

@@ -3,7 +3,7 @@
 #include <string.h>
 
 #include "core/simd.h"
-#include "sphere/fibonacci_kernels.h"
+#include "sphere/sets/fibonacci_kernels.h"
 
 static const aur_directions_options sphere = {.domain = AUR_DOMAIN_SPHERE};
 

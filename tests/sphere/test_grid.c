@@ -3,9 +3,9 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "sphere/fibonacci_kernels.h"
-#include "sphere/grid.h"
 #include "sphere/phase.h"
+#include "sphere/sets/fibonacci_kernels.h"
+#include "sphere/sets/grid.h"
 
 static double *grid(const char *keys, uint64_t count, aur_domain domain) {
     char set[128];

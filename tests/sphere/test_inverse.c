@@ -3,7 +3,7 @@
 #include <string.h>
 
 #include "core/simd.h"
-#include "sphere/inverse.h"
+#include "sphere/nearest/inverse.h"
 
 /* Every other direction near a pole, where the lattice is bent most. */
 static void sample_direction(uint64_t size, uint64_t index, aur_domain domain, double q[3]) {
@@ -113,15 +113,15 @@ static void kernels_agree(void **state) {
     static double xyz[3 * COUNT], expected[COUNT], actual[COUNT];
     for (size_t s = 0; s < 30; ++s) {
         const double size = floor(pow(1.8, (double)s)) + 1.0;
-        const aur_lattice lattice =
-            s % 2 == 0 ? (aur_lattice){2.0 / size, size, size} : (aur_lattice){1.0 / size, 2.0 * size, size};
+        const aur_sphere_lattice lattice = s % 2 == 0 ? (aur_sphere_lattice){2.0 / size, size, size}
+                                                      : (aur_sphere_lattice){1.0 / size, 2.0 * size, size};
         for (size_t i = 0; i < COUNT; ++i)
             sample_direction((uint64_t)size, i, s % 2 == 0 ? AUR_DOMAIN_SPHERE : AUR_DOMAIN_HEMISPHERE,
                              xyz + 3 * i);
         xyz[0] = xyz[1] = 0.0;
         xyz[2] = 1.0;
-        aur_lattice_nearest_portable(&lattice, COUNT, xyz, expected);
-        aur_lattice_nearest_avx512(&lattice, COUNT, xyz, actual);
+        aur_sphere_lattice_nearest_portable(&lattice, COUNT, xyz, expected);
+        aur_sphere_lattice_nearest_avx512(&lattice, COUNT, xyz, actual);
         assert_memory_equal(expected, actual, sizeof expected);
     }
 }

@@ -1,0 +1,194 @@
+/* What the columns of a file of points mean, and whether the points are on their domain. */
+#include "pointset/files/points_file.h"
+
+#include <stdint.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "core/error.h"
+#include "core/file.h"
+#include "core/text.h"
+#include "core/vector3d.h"
+
+static const size_t file_limit = (size_t)1 << 34;
+
+/* u1,u2,..., and w after them where there are weights. */
+static bool is_cube_header(const char *header, size_t columns) {
+    const char *at = header;
+    for (size_t c = 1; c <= columns; ++c) {
+        uint64_t number;
+        const char *const end = *at == 'u' ? aur_read_integer(at + 1, columns, &number) : NULL;
+        if (end == NULL || number != c)
+            return false;
+        at = *end == ',' ? end + 1 : end;
+    }
+    return *at == '\0' || strcmp(at, "w") == 0;
+}
+
+/* Domain, coordinates a point, and whether a column of weights follows them. */
+typedef struct meaning {
+    aur_domain domain;
+    size_t dimension;
+    bool weights;
+} meaning;
+
+static bool is_flat(aur_domain domain) {
+    return domain == AUR_DOMAIN_SQUARE || domain == AUR_DOMAIN_CUBE;
+}
+
+/* `wanted` is where the points are asked for, or NULL: it decides between the two meanings of x,y. */
+static aur_result by_header(const char *path, const aur_matrix *matrix, const aur_domain *wanted, meaning *m,
+                            aur_error *error) {
+    char header[sizeof matrix->header];
+    memcpy(header, matrix->header, sizeof header);
+    const size_t length = strlen(header);
+    m->weights = length >= 2 && strcmp(header + length - 2, ",w") == 0;
+    if (m->weights)
+        header[length - 2] = '\0';
+    m->dimension = matrix->column_count - m->weights;
+    if (strcmp(header, "u,v") == 0)
+        m->domain = AUR_DOMAIN_SQUARE;
+    else if (strcmp(header, "x,y,z") == 0)
+        m->domain = AUR_DOMAIN_SPHERE;
+    else if (strcmp(header, "x,y") == 0)
+        m->domain = wanted != NULL && is_flat(*wanted) ? AUR_DOMAIN_SQUARE : AUR_DOMAIN_DISK;
+    else if (strcmp(header, "u") == 0 || is_cube_header(header, m->dimension))
+        m->domain = m->dimension == 2 ? AUR_DOMAIN_SQUARE : AUR_DOMAIN_CUBE;
+    else
+        return aur_fail_at(error, (aur_location){.file = path, .line = 1}, AUR_ERROR_FORMAT,
+                           "the header '%s' must be u,v (square), x,y (disk), x,y,z (sphere) or u1,u2,... "
+                           "(cube), and w for weights after it",
+                           matrix->header);
+    return AUR_OK;
+}
+
+/* Without names: two columns are u,v, three unit vectors, four unit vectors with weights; any other number
+ * are coordinates on the cube, and so are the three or four columns of an array that are no unit vectors. */
+static void by_columns(const aur_matrix *matrix, meaning *m) {
+    const size_t columns = matrix->column_count;
+    *m = (meaning){AUR_DOMAIN_CUBE, columns, false};
+    if (columns == 2)
+        m->domain = AUR_DOMAIN_SQUARE;
+    const bool unit = columns >= 3 && matrix->row_count > 0 && aur_is_unit(matrix->values);
+    if ((columns == 3 && (unit || matrix->lines != NULL)) || (columns == 4 && unit))
+        *m = (meaning){AUR_DOMAIN_SPHERE, 3, columns == 4};
+}
+
+/* What is wrong with a point, or NULL. */
+static const char *off_domain(const meaning *m, const double *row) {
+    if (m->domain == AUR_DOMAIN_SPHERE)
+        return aur_is_unit(row) ? NULL : "a direction must have length 1";
+    if (m->domain == AUR_DOMAIN_DISK)
+        return row[0] * row[0] + row[1] * row[1] <= 1.0 ? NULL
+                                                        : "a point of the disk must have x^2 + y^2 <= 1 (the "
+                                                          "header x,y stands for the disk where no "
+                                                          "other domain is asked for, u,v for the square)";
+    for (size_t d = 0; d < m->dimension; ++d)
+        if (!(row[d] >= 0.0 && row[d] < 1.0))
+            return "a coordinate must be at least 0 and below 1";
+    return NULL;
+}
+
+/* Whether points of the file's domain can stand on the one that is asked for. */
+static aur_result check_domain(const char *path, const aur_matrix *matrix, const meaning *m,
+                               aur_domain wanted, aur_error *error) {
+    const bool directions = wanted == AUR_DOMAIN_HEMISPHERE || wanted == AUR_DOMAIN_SPHERE;
+    if (m->domain == wanted || (m->domain == AUR_DOMAIN_SPHERE && directions) ||
+        (m->domain == AUR_DOMAIN_SQUARE && wanted == AUR_DOMAIN_CUBE))
+        return AUR_OK;
+    const bool header = matrix->header[0] != '\0';
+    return aur_fail_at(
+        error, (aur_location){.file = path, .line = header}, AUR_ERROR_UNSUPPORTED,
+        "%s%s%s points are on the %s, not on the %s%s%s", header ? "the header '" : "its", matrix->header,
+        header ? "' says that the" : "", aur_domain_name(m->domain), aur_domain_name(wanted),
+        is_flat(m->domain) ? ": to map them there, name them file:" : "", is_flat(m->domain) ? path : "");
+}
+
+static aur_result find_meaning(const char *path, const aur_matrix *matrix, const aur_domain *wanted,
+                               meaning *m, aur_error *error) {
+    if (matrix->row_count == 0)
+        return aur_fail_at(error, (aur_location){.file = path}, AUR_ERROR_FORMAT, "no points");
+    aur_result result = AUR_OK;
+    if (matrix->header[0] == '\0')
+        by_columns(matrix, m);
+    else
+        result = by_header(path, matrix, wanted, m, error);
+    return result == AUR_OK && wanted != NULL ? check_domain(path, matrix, m, *wanted, error) : result;
+}
+
+static aur_result interpret(const char *path, const aur_domain *wanted, aur_matrix *matrix,
+                            aur_points *points, aur_error *error) {
+    meaning m = {0};
+    const aur_result result = find_meaning(path, matrix, wanted, &m, error);
+    if (result != AUR_OK)
+        return result;
+    points->count = matrix->row_count;
+    points->dimension = m.dimension;
+    points->coordinates = malloc(points->count * m.dimension * sizeof *points->coordinates);
+    points->weights = m.weights ? malloc(points->count * sizeof *points->weights) : NULL;
+    if (points->coordinates == NULL || (m.weights && points->weights == NULL))
+        return aur_fail_memory(error);
+    bool below_horizon = false;
+    for (size_t r = 0; r < matrix->row_count; ++r) {
+        const double *const row = matrix->values + r * matrix->column_count;
+        const char *const wrong = off_domain(&m, row);
+        const aur_location where = {.file = path, .line = matrix->lines != NULL ? matrix->lines[r] : 0};
+        if (wrong != NULL && matrix->lines != NULL)
+            return aur_fail_at(error, where, AUR_ERROR_FORMAT, "%s", wrong);
+        if (wrong != NULL)
+            return aur_fail_at(error, where, AUR_ERROR_FORMAT, "point %zu: %s", r, wrong);
+        if (wanted != NULL && *wanted == AUR_DOMAIN_HEMISPHERE && row[2] < 0.0)
+            return aur_fail_at(error, where, AUR_ERROR_FORMAT,
+                               "point %zu has z = %g, below the hemisphere z >= 0", r + 1, row[2]);
+        memcpy(points->coordinates + r * m.dimension, row, m.dimension * sizeof *row);
+        if (m.weights)
+            points->weights[r] = row[m.dimension];
+        below_horizon |= m.domain == AUR_DOMAIN_SPHERE && row[2] < 0.0;
+    }
+    points->domain = m.domain;
+    if (m.domain == AUR_DOMAIN_SPHERE && (wanted != NULL ? *wanted == AUR_DOMAIN_HEMISPHERE : !below_horizon))
+        points->domain = AUR_DOMAIN_HEMISPHERE;
+    points->lines = matrix->lines;
+    matrix->lines = NULL;
+    return AUR_OK;
+}
+
+static aur_result read_points(const char *path, const aur_domain *wanted, aur_points *points,
+                              aur_error *error) {
+    *points = (aur_points){0};
+    char *data;
+    size_t size;
+    aur_result result = aur_file_read(path, file_limit, &data, &size, error);
+    if (result != AUR_OK)
+        return result;
+    aur_matrix matrix;
+    if (aur_npy_recognize(data, size))
+        result = aur_npy_parse(path, data, size, &matrix, error);
+    else
+        result = aur_csv_parse(path, data, size, &matrix, error);
+    free(data);
+    if (result == AUR_OK)
+        result = interpret(path, wanted, &matrix, points, error);
+    free(matrix.values);
+    free(matrix.lines);
+    if (result != AUR_OK)
+        aur_points_release(points);
+    return result;
+}
+
+aur_result aur_points_read(const char *path, aur_points *points, aur_error *error) {
+    return read_points(path, NULL, points, error);
+}
+
+aur_result aur_points_read_on(const char *path, aur_domain domain, aur_points *points, aur_error *error) {
+    return read_points(path, &domain, points, error);
+}
+
+void aur_points_release(aur_points *points) {
+    if (points == NULL)
+        return;
+    free(points->coordinates);
+    free(points->weights);
+    free(points->lines);
+    *points = (aur_points){0};
+}

@@ -1,0 +1,46 @@
+/* The golden ratio sequence G_s(i) = s + i/Phi modulo 1 (Schretter 2012, eq. 4) for i = 1, 2, ..., so that
+ * point k is G_s(k + 1); one dimension. Random access, any n; any prefix is evenly spread. Exact to a double
+ * for every i. Error O(log N / N). */
+#include "pointset/generators/golden.h"
+
+#include <stdlib.h>
+
+#include "pointset/set.h"
+
+static aur_result prepare(aur_pointset *set, aur_parameters *keys, const aur_pointset_options *options,
+                          aur_error *error) {
+    (void)options;
+    double seed = 0.0;
+    const aur_result result = aur_parameters_float(keys, "seed", 0.0, AUR_BELOW_ONE, &seed, error);
+    if (result != AUR_OK)
+        return result;
+    uint64_t *const word = malloc(sizeof *word);
+    if (word == NULL)
+        return aur_fail(error, AUR_ERROR_MEMORY, "out of memory");
+    *word = aur_golden_start(seed);
+    set->data = word;
+    return AUR_OK;
+}
+
+static void fill(const aur_pointset *set, const aur_block *block) {
+    const uint64_t seed_word = *(const uint64_t *)set->data;
+    for (size_t i = 0; i < block->count && block->dimension_count > 0; ++i)
+        block->data[i * block->point_stride] =
+            aur_word_to_double(seed_word + aur_phase(aur_golden_fraction, block->first + i));
+}
+
+const aur_square_set aur_set_golden = {
+    .description = {.name = "golden",
+                    .keys = "seed=0",
+                    .summary = "golden ratio sequence, one dimension",
+                    .domains = "cube",
+                    .sizes = "any",
+                    .extensible = 1,
+                    .source = "Schretter 2012"},
+    .minimum_dimension = 1,
+    .maximum_dimension = 1,
+    .maximum_size = UINT64_MAX,
+    .scramblings = AUR_SCRAMBLES_SHIFT,
+    .prepare = prepare,
+    .fill = fill,
+};

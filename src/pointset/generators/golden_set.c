@@ -1,0 +1,153 @@
+/* Golden point sets (Schretter 2012, sec. 3 and appendix): the golden ratio sequence beside the same sequence
+ * in ascending order, found without sorting. One coordinate is looked up, so the ordered one is made ready in
+ * a table of N indices; n up to 2^32. form=one-seed: (G_s(i), sorted G_s) for i = 1..N; form=two-seeds:
+ * (sorted G_s, G_r(i)) as in the appendix, r drawn from the options' seed. Error about O(log N / N)
+ * (measured). */
+#include <stdlib.h>
+
+#include "pointset/generators/golden.h"
+#include "pointset/set.h"
+
+typedef struct golden_set {
+    bool two_seeds;
+    uint64_t seed_word, second_word;
+    uint32_t order[];
+} golden_set;
+
+aur_golden_order aur_golden_order_of(uint64_t seed_word, uint64_t count) {
+    /* Gaps between the values of indices that are Fibonacci numbers apart: one of even and one of odd rank,
+     * so that one goes up and the other down (1/Phi is above 1/2, so 1, 3, 8, ... go down from above). */
+    uint64_t larger = 1;
+    uint64_t smaller = 1;
+    bool odd = false;
+    while (larger + smaller < count) {
+        const uint64_t sum = larger + smaller;
+        smaller = larger;
+        larger = sum;
+        odd = !odd;
+    }
+    aur_golden_order order = {.count = count, .increment = odd ? larger : smaller};
+    order.decrement = odd ? smaller : larger;
+    const aur_wide step = aur_phase128(aur_golden_fraction, 1);
+    aur_wide phase = (aur_wide)seed_word << 64;
+    uint64_t smallest = seed_word;
+    for (uint64_t i = 1; i < count; ++i) {
+        phase += step;
+        const uint64_t word = (uint64_t)(phase >> 64);
+        order.first = word < smallest ? i : order.first;
+        smallest = word < smallest ? word : smallest;
+    }
+    return order;
+}
+
+static aur_result prepare(aur_pointset *set, aur_parameters *keys, const aur_pointset_options *options,
+                          aur_error *error) {
+    static const char *const choices[] = {"one-seed", "two-seeds"};
+    size_t form = 0;
+    double seed = 0.0;
+    aur_result result = aur_parameters_choice(keys, "form", 2, choices, &form, error);
+    if (result == AUR_OK)
+        result = aur_parameters_float(keys, "seed", 0.0, AUR_BELOW_ONE, &seed, error);
+    if (result != AUR_OK)
+        return result;
+    golden_set *const data = malloc(sizeof *data + set->size * sizeof data->order[0]);
+    if (data == NULL)
+        return aur_fail(error, AUR_ERROR_MEMORY, "out of memory");
+    data->two_seeds = form == 1;
+    data->seed_word = aur_seed_word(seed);
+    if (!data->two_seeds)
+        data->seed_word += aur_phase(aur_golden_fraction, 1);
+    data->second_word = aur_hash2(UINT64_C(0x676f6c64656e), options->seed);
+    const aur_golden_order order = aur_golden_order_of(data->seed_word, set->size);
+    uint64_t index = order.first;
+    for (uint64_t i = 0; i < set->size; ++i) {
+        data->order[i] = (uint32_t)index;
+        if (i + 1 < set->size)
+            index = aur_golden_next(&order, index);
+    }
+    set->data = data;
+    return AUR_OK;
+}
+
+static void fill(const aur_pointset *set, const aur_block *block) {
+    const golden_set *const data = set->data;
+    for (size_t d = 0; d < block->dimension_count; ++d) {
+        const bool sorted = (block->first_dimension + d == 0) == data->two_seeds;
+        const uint64_t start = !sorted && data->two_seeds ? data->second_word : data->seed_word;
+        double *const out = block->data + d * block->coordinate_stride;
+        for (size_t i = 0; i < block->count; ++i) {
+            const uint64_t index = block->first + i;
+            const uint64_t rank = sorted ? data->order[index] : index;
+            out[i * block->point_stride] = aur_word_to_double(start + aur_phase(aur_golden_fraction, rank));
+        }
+    }
+}
+
+/* Numbers in ascending order beside a sequence, without a table. `sorted` is the coordinate of the former. */
+static aur_result make_whole(uint64_t seed_word, uint64_t sequence_word, size_t sorted, size_t count,
+                             const aur_output *output) {
+    if (count == 0 || count > UINT64_C(1) << 32)
+        return AUR_ERROR_ARGUMENT;
+    const aur_result result = aur_output_check(output, 2, count);
+    if (result != AUR_OK)
+        return result;
+    const bool arrays = output->layout == AUR_LAYOUT_ARRAYS;
+    const size_t point_stride = arrays ? 1 : 2;
+    const size_t coordinate_stride = !arrays ? 1 : output->stride != 0 ? output->stride : count;
+    const size_t a = sorted * coordinate_stride;
+    const size_t b = (1 - sorted) * coordinate_stride;
+    const aur_golden_order order = aur_golden_order_of(seed_word, count);
+    const aur_wide step = aur_phase128(aur_golden_fraction, 1);
+    const aur_wide up = aur_phase128(aur_golden_fraction, order.increment);
+    const aur_wide down = aur_phase128(aur_golden_fraction, order.decrement);
+    uint64_t index = order.first;
+    aur_wide ascending = aur_phase128(aur_golden_fraction, index) + ((aur_wide)seed_word << 64);
+    aur_wide sequence = (aur_wide)sequence_word << 64;
+    for (size_t i = 0; i < count; ++i) {
+        const uint64_t x = (uint64_t)(ascending >> 64);
+        const uint64_t y = (uint64_t)(sequence >> 64);
+        if (output->doubles != NULL) {
+            output->doubles[i * point_stride + a] = aur_word_to_double(x);
+            output->doubles[i * point_stride + b] = aur_word_to_double(y);
+        } else {
+            output->floats[i * point_stride + a] = aur_unit_float((uint32_t)(x >> 32));
+            output->floats[i * point_stride + b] = aur_unit_float((uint32_t)(y >> 32));
+        }
+        sequence += step;
+        /* aur_golden_next with the phase beside the index; the last step leads out of the set. */
+        do {
+            const bool below = index < order.decrement;
+            index = below ? index + order.increment : index - order.decrement;
+            ascending += below ? up : 0 - down;
+        } while (index >= count && i + 1 < count);
+    }
+    return AUR_OK;
+}
+
+aur_result aur_golden_set_points(double s, size_t count, const aur_output *output) {
+    if (!(s >= 0.0 && s < 1.0))
+        return AUR_ERROR_ARGUMENT;
+    return make_whole(aur_golden_start(s), aur_golden_start(s), 1, count, output);
+}
+
+aur_result aur_golden_set_points_two_seeds(double s, double r, size_t count, const aur_output *output) {
+    if (!(s >= 0.0 && s < 1.0) || !(r >= 0.0 && r < 1.0))
+        return AUR_ERROR_ARGUMENT;
+    return make_whole(aur_seed_word(s), aur_seed_word(r), 0, count, output);
+}
+
+const aur_square_set aur_set_golden_set = {
+    .description = {.name = "golden-set",
+                    .keys = "form=one-seed,seed=0",
+                    .summary = "golden ratio sequence beside itself sorted; form=one-seed|two-seeds",
+                    .domains = "square",
+                    .sizes = "1..2^32",
+                    .extensible = 0,
+                    .source = "Schretter 2012"},
+    .minimum_dimension = 2,
+    .maximum_dimension = 2,
+    .maximum_size = UINT64_C(1) << 32,
+    .scramblings = AUR_SCRAMBLES_SHIFT,
+    .prepare = prepare,
+    .fill = fill,
+};

@@ -1,0 +1,179 @@
+/* Rank-1 lattices. rank1: coordinate d of point i is i g_d / N modulo 1, in exact integer arithmetic, for any
+ * generating vector g; N up to 2^48. fibonacci-lattice (Schretter 2012, eq. 3; Marques 2013, sec. 3.1): N =
+ * F_k and g = (1, F_{k-1}); for any other N, the limit ((i + offset) / N, i / Phi). Random access. Error
+ * O(log N / N) for a good vector, and far better for periodic smooth functions. */
+#include "pointset/generators/lattice.h"
+
+#include <ctype.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "pointset/fraction128.h"
+#include "pointset/set.h"
+
+static uint64_t multiply_modulo(uint64_t a, uint64_t b, uint64_t n) {
+    __extension__ typedef unsigned __int128 wide;
+    return (uint64_t)((wide)a * b % n);
+}
+
+static void fill(const aur_pointset *set, const aur_block *block) {
+    const aur_lattice *const data = set->data;
+    for (size_t d = 0; d < block->dimension_count; ++d) {
+        const size_t dimension = block->first_dimension + d;
+        const uint64_t step = data->vector[dimension] % set->size;
+        double *const out = block->data + d * block->coordinate_stride;
+        uint64_t position = multiply_modulo(block->first % set->size, step, set->size);
+        for (size_t i = 0; i < block->count; ++i) {
+            double x = aur_fraction(position, set->size);
+            if (data->golden && dimension == 1)
+                x = aur_word_to_double(aur_phase(aur_golden_fraction, block->first + i));
+            else if (dimension == 0 && data->offset > 0.0)
+                x = ((double)position + data->offset) / (double)set->size;
+            out[i * block->point_stride] = x < 1.0 ? x : AUR_BELOW_ONE;
+            position += step;
+            if (position >= set->size)
+                position -= set->size;
+        }
+    }
+}
+
+/* "1/a/b" */
+static size_t parse_vector(const char *text, uint64_t vector[AUR_LATTICE_CAPACITY]) {
+    size_t count = 0;
+    while (count < AUR_LATTICE_CAPACITY && isdigit((unsigned char)*text)) {
+        char *end;
+        const unsigned long long value = strtoull(text, &end, 10);
+        if (value >= AUR_INDEX_LIMIT)
+            return 0;
+        vector[count++] = value;
+        if (*end == '\0')
+            return count;
+        if (*end != '/')
+            return 0;
+        text = end + 1;
+    }
+    return 0;
+}
+
+static uint64_t common_divisor(uint64_t a, uint64_t b) {
+    while (b != 0) {
+        const uint64_t rest = a % b;
+        a = b;
+        b = rest;
+    }
+    return a;
+}
+
+/* The number nearest to N / Phi that has no factor in common with N: a Fibonacci number for Fibonacci N. */
+static uint64_t golden_generator(uint64_t n) {
+    const uint64_t middle = (uint64_t)((double)n * 0.61803398874989484820 + 0.5);
+    for (uint64_t distance = 0; distance < n; ++distance) {
+        if (common_divisor(middle + distance, n) == 1)
+            return (middle + distance) % n;
+        if (distance <= middle && common_divisor(middle - distance, n) == 1)
+            return middle - distance;
+    }
+    return 1;
+}
+
+static aur_lattice *create(aur_pointset *set, aur_error *error) {
+    aur_lattice *const data = calloc(1, sizeof *data);
+    if (data == NULL)
+        aur_fail(error, AUR_ERROR_MEMORY, "out of memory");
+    set->data = data;
+    return data;
+}
+
+static aur_result prepare_rank1(aur_pointset *set, aur_parameters *keys, const aur_pointset_options *options,
+                                aur_error *error) {
+    aur_lattice *const data = create(set, error);
+    if (data == NULL)
+        return AUR_ERROR_MEMORY;
+    const char *text = NULL;
+    const aur_result result = aur_parameters_string(keys, "vector", &text, error);
+    if (result != AUR_OK)
+        return result;
+    size_t count = 2;
+    if (text == NULL) {
+        data->vector[0] = 1;
+        data->vector[1] = golden_generator(set->size);
+    } else {
+        count = parse_vector(text, data->vector);
+        if (count == 0)
+            return aur_fail(
+                error, AUR_ERROR_FORMAT,
+                "set 'rank1': vector must be up to %d whole numbers below 2^48 with / between them, "
+                "such as 1/55/21, not '%s'",
+                AUR_LATTICE_CAPACITY, text);
+    }
+    if (options->dimension == 0)
+        set->dimension = count;
+    if (set->dimension != count)
+        return aur_fail(error, AUR_ERROR_ARGUMENT,
+                        "set 'rank1': a vector of %zu numbers has no %zu dimensions%s", count, set->dimension,
+                        text == NULL ? "; give vector=1/a/b" : "");
+    return AUR_OK;
+}
+
+void aur_lattice_make_fibonacci(uint64_t size, double offset, aur_lattice *lattice) {
+    uint64_t before = 1;
+    uint64_t number = 1;
+    while (number < size && number <= AUR_INDEX_LIMIT) {
+        const uint64_t next = before + number;
+        before = number;
+        number = next;
+    }
+    lattice->offset = offset;
+    lattice->vector[0] = 1;
+    lattice->vector[1] = before;
+    lattice->golden = number != size;
+}
+
+static aur_result prepare_fibonacci(aur_pointset *set, aur_parameters *keys,
+                                    const aur_pointset_options *options, aur_error *error) {
+    aur_lattice *const data = create(set, error);
+    if (data == NULL)
+        return AUR_ERROR_MEMORY;
+    const aur_result result = aur_parameters_float(keys, "offset", 0.0, AUR_BELOW_ONE, &data->offset, error);
+    if (result != AUR_OK)
+        return result;
+    aur_lattice_make_fibonacci(set->size, data->offset, data);
+    if (data->golden)
+        aur_warn_at(
+            &options->warnings, (aur_location){0},
+            "set 'fibonacci-lattice': the number of points is no Fibonacci number, so the points are no "
+            "lattice; the golden ratio stands for its ratios");
+    return AUR_OK;
+}
+
+const aur_square_set aur_set_rank1 = {
+    .description = {.name = "rank1",
+                    .keys = "vector=auto",
+                    .summary = "rank-1 lattice of a generating vector 1/a/b; auto: 1/a with a next to N/Phi",
+                    .domains = "square, cube",
+                    .sizes = "1..2^48",
+                    .extensible = 0,
+                    .source = "Korobov 1959; Sloan, Joe 1994"},
+    .minimum_dimension = 1,
+    .maximum_dimension = AUR_LATTICE_CAPACITY,
+    .maximum_size = AUR_INDEX_LIMIT,
+    .scramblings = AUR_SCRAMBLES_SHIFT,
+    .prepare = prepare_rank1,
+    .fill = fill,
+};
+
+const aur_square_set aur_set_fibonacci_lattice = {
+    .description = {.name = "fibonacci-lattice",
+                    .keys = "offset=0",
+                    .summary = "rank-1 lattice of two Fibonacci numbers; i/Phi at other sizes",
+                    .domains = "square",
+                    .sizes = "1..2^48; a lattice at F_k",
+                    .extensible = 0,
+                    .source = "Zaremba 1966; Niederreiter, Sloan 1994"},
+    .minimum_dimension = 2,
+    .maximum_dimension = 2,
+    .maximum_size = AUR_INDEX_LIMIT,
+    .scramblings = AUR_SCRAMBLES_SHIFT,
+    .prepare = prepare_fibonacci,
+    .fill = fill,
+};

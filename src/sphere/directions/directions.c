@@ -1,0 +1,347 @@
+/* Directions from any set: those of the square are lifted by a map, those native to the sphere stand as they
+ * are; then come lobe, rotation and weights. And the table of all sets. */
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <aureole/sphere.h>
+
+#include "core/error.h"
+#include "core/text.h"
+#include "core/vector.h"
+#include "pointset/set.h"
+#include "sphere/native.h"
+
+enum { CHUNK = 128 };
+
+struct aur_directions {
+    uint64_t size;
+    const aur_native_set *native; /* NULL: a set of the square, or a file */
+    void *native_data;
+    aur_pointset *square;
+    aur_points file; /* of directions; count 0 when it is something else */
+    aur_map map;
+    double height;
+    aur_lobe lobe;    /* what the weights are for */
+    aur_lobe density; /* what the points follow */
+    int weighted;     /* the density is not the lobe, or the map is not uniform */
+    int warped, rotated;
+    aur_rotation rotation;
+};
+
+static const char file_prefix[] = "file:";
+
+bool aur_set_is_file(const char *set) {
+    return strncmp(set, file_prefix, sizeof file_prefix - 1) == 0;
+}
+
+static aur_result check_options(const aur_directions_options *options, aur_error *error) {
+    if (options->domain != AUR_DOMAIN_HEMISPHERE && options->domain != AUR_DOMAIN_SPHERE)
+        return aur_fail(error, AUR_ERROR_ARGUMENT, "directions live on the hemisphere or the sphere");
+    if (aur_map_name(options->map) == NULL)
+        return aur_fail(error, AUR_ERROR_ARGUMENT, "unknown map %d", (int)options->map);
+    const double widest = options->domain == AUR_DOMAIN_SPHERE ? 180.0 : 90.0;
+    if (!(options->cap_degrees >= 0.0 && options->cap_degrees <= widest))
+        return aur_fail(error, AUR_ERROR_ARGUMENT,
+                        "a cap's angle must be above 0 and at most %g degrees, not %g", widest,
+                        options->cap_degrees);
+    const aur_result result = aur_lobe_check(&options->lobe, error);
+    if (result != AUR_OK)
+        return result;
+    const int uniform = options->lobe.kind == AUR_LOBE_COSINE_POWER && options->lobe.exponent == 0.0;
+    if (!uniform && (options->domain != AUR_DOMAIN_HEMISPHERE || options->cap_degrees != 0.0))
+        return aur_fail(error, AUR_ERROR_UNSUPPORTED, "a lobe needs the whole hemisphere as its domain");
+    if (options->scramble == AUR_SCRAMBLE_ROTATE3D &&
+        (options->domain != AUR_DOMAIN_SPHERE || options->cap_degrees != 0.0))
+        return aur_fail(error, AUR_ERROR_UNSUPPORTED,
+                        "scrambling 'rotate3d' needs the whole sphere as its domain: use rotate");
+    return AUR_OK;
+}
+
+/* 1 - cos of the cap's angle, without cancellation. */
+static double cap_height(const aur_directions_options *options) {
+    if (options->cap_degrees == 0.0)
+        return options->domain == AUR_DOMAIN_SPHERE ? 2.0 : 1.0;
+    if (options->cap_degrees == 90.0)
+        return 1.0;
+    const double half = sin(options->cap_degrees * (AUR_PI / 360.0));
+    return 2.0 * half * half;
+}
+
+static aur_result choose_density(aur_directions *directions, const aur_directions_options *options,
+                                 aur_error *error) {
+    directions->lobe = directions->density = options->lobe;
+    if (options->optimal_density) {
+        const double smoothness = options->smoothness != 0.0 ? options->smoothness : 1.5;
+        const aur_result result = aur_lobe_optimal(&options->lobe, smoothness, &directions->density, error);
+        if (result != AUR_OK)
+            return result;
+    }
+    const int ggx = options->lobe.kind == AUR_LOBE_GGX;
+    directions->warped = ggx || directions->density.exponent != 0.0;
+    directions->weighted = ggx || directions->density.exponent != directions->lobe.exponent;
+    return AUR_OK;
+}
+
+/* Scramblings that are rotations happen here, after the map; the others belong to the square. */
+static aur_scramble choose_rotation(aur_directions *directions, const aur_directions_options *options) {
+    directions->rotated = 1;
+    if (options->scramble == AUR_SCRAMBLE_ROTATE) {
+        aur_rotation_axial(options->seed, &directions->rotation);
+        return AUR_SCRAMBLE_NONE;
+    }
+    if (options->scramble == AUR_SCRAMBLE_ROTATE3D) {
+        aur_rotation_uniform(options->seed, &directions->rotation);
+        return AUR_SCRAMBLE_NONE;
+    }
+    directions->rotated = 0;
+    return options->scramble;
+}
+
+static aur_result refuse_scramble(const char *set, aur_scramble scramble, aur_error *error) {
+    const char *const name = aur_scramble_name(scramble);
+    return aur_fail(error, AUR_ERROR_UNSUPPORTED,
+                    "set '%s': scrambling '%s' has no meaning on the sphere: use rotate or rotate3d", set,
+                    name != NULL ? name : "?");
+}
+
+static aur_result open_native(const char *set, const aur_directions_options *options,
+                              aur_directions *directions, aur_error *error) {
+    const aur_native_set *const native = directions->native;
+    if (options->count == 0 || options->count > native->maximum_size)
+        return aur_fail(error, AUR_ERROR_ARGUMENT, "set '%s' has sizes %s, not %llu",
+                        native->description.name, native->description.sizes,
+                        (unsigned long long)options->count);
+    aur_parameters keys;
+    aur_result result = aur_parameters_parse(&keys, "set", set, error);
+    if (result != AUR_OK)
+        return result;
+    const aur_native_request request = {options->count, directions->height, &options->warnings};
+    result = native->prepare(&keys, &request, &directions->native_data, error);
+    if (result == AUR_OK)
+        result = aur_parameters_finish(&keys, error);
+    aur_parameters_release(&keys);
+    directions->size = options->count;
+    return result;
+}
+
+static aur_result open_square(const char *set, const aur_directions_options *options, uint64_t count,
+                              aur_scramble scramble, aur_directions *directions, aur_error *error) {
+    const aur_pointset_options wanted = {.count = count,
+                                         .dimension = 2,
+                                         .scramble = scramble,
+                                         .seed = options->seed,
+                                         .warnings = options->warnings};
+    directions->weighted = directions->weighted || directions->map == AUR_MAP_POLAR;
+    const aur_result result = aur_pointset_create(set, &wanted, &directions->square, error);
+    if (result == AUR_OK)
+        directions->size = aur_pointset_size(directions->square);
+    return result;
+}
+
+static aur_result open_file(const char *set, const aur_directions_options *options, aur_scramble scramble,
+                            aur_directions *directions, aur_error *error) {
+    aur_points *const file = &directions->file;
+    const char *const path = set + sizeof file_prefix - 1;
+    const aur_result result = aur_points_read(path, file, error);
+    if (result != AUR_OK)
+        return result;
+    const uint64_t count = options->count != 0 ? options->count : file->count;
+    if (count > file->count)
+        return aur_fail(error, AUR_ERROR_ARGUMENT, "%s has %zu points, not %llu", path, file->count,
+                        (unsigned long long)count);
+    if (file->domain == AUR_DOMAIN_DISK)
+        return aur_fail_at(
+            error, (aur_location){.file = path}, AUR_ERROR_UNSUPPORTED,
+            "its points are on the disk (header x,y), neither directions nor on the square (u,v)");
+    if (file->domain != AUR_DOMAIN_HEMISPHERE && file->domain != AUR_DOMAIN_SPHERE) {
+        aur_points_release(file);
+        *file = (aur_points){0};
+        return open_square(set, options, count, scramble, directions, error);
+    }
+    if (scramble != AUR_SCRAMBLE_NONE)
+        return refuse_scramble(set, scramble, error);
+    for (size_t i = 0; i < count; ++i)
+        if (file->coordinates[3 * i + 2] < 1.0 - directions->height)
+            return aur_fail(error, AUR_ERROR_ARGUMENT, "%s: point %zu lies off the domain", path, i);
+    directions->size = count;
+    directions->weighted = directions->weighted || file->weights != NULL;
+    return AUR_OK;
+}
+
+static aur_result open_set(const char *set, const aur_directions_options *options, aur_directions *directions,
+                           aur_error *error) {
+    aur_result result = choose_density(directions, options, error);
+    if (result != AUR_OK)
+        return result;
+    const aur_scramble scramble = choose_rotation(directions, options);
+    directions->map = options->map;
+    directions->height = cap_height(options);
+    if (aur_set_is_file(set))
+        return open_file(set, options, scramble, directions, error);
+    directions->native = aur_native_find(set);
+    result = aur_set_check_name(set, error);
+    if (result != AUR_OK)
+        return result;
+    if (directions->native == NULL)
+        return open_square(set, options, options->count, scramble, directions, error);
+    if (scramble != AUR_SCRAMBLE_NONE)
+        return refuse_scramble(set, scramble, error);
+    return open_native(set, options, directions, error);
+}
+
+aur_result aur_directions_create(const char *set, const aur_directions_options *options,
+                                 aur_directions **directions, aur_error *error) {
+    *directions = NULL;
+    aur_result result = check_options(options, error);
+    if (result != AUR_OK)
+        return result;
+    aur_directions *const made = calloc(1, sizeof *made);
+    if (made == NULL)
+        return aur_fail_memory(error);
+    result = open_set(set, options, made, error);
+    if (result != AUR_OK) {
+        aur_directions_destroy(made);
+        return result;
+    }
+    *directions = made;
+    return AUR_OK;
+}
+
+void aur_directions_destroy(aur_directions *directions) {
+    if (directions == NULL)
+        return;
+    aur_pointset_destroy(directions->square);
+    aur_points_release(&directions->file);
+    free(directions->native_data);
+    free(directions);
+}
+
+uint64_t aur_directions_size(const aur_directions *directions) {
+    return directions->size;
+}
+
+bool aur_directions_weighted(const aur_directions *directions) {
+    return directions->weighted;
+}
+
+static aur_result lift(const aur_directions *directions, uint64_t first, size_t count, double *xyz,
+                       double *weights) {
+    double square[2 * CHUNK];
+    const aur_result result = aur_pointset_points(directions->square, first, count, 2 * CHUNK, square);
+    for (size_t i = 0; i < count && result == AUR_OK; ++i) {
+        aur_map_to_cap(directions->map, directions->height, square + 2 * i, xyz + 3 * i);
+        if (weights != NULL)
+            weights[i] *= aur_map_weight(directions->map, square + 2 * i);
+    }
+    return result;
+}
+
+static void take_from_file(const aur_directions *directions, uint64_t first, size_t count, double *xyz,
+                           double *weights) {
+    const aur_points *const file = &directions->file;
+    memcpy(xyz, file->coordinates + 3 * first, 3 * count * sizeof *xyz);
+    if (weights != NULL && file->weights != NULL)
+        memcpy(weights, file->weights + first, count * sizeof *weights);
+}
+
+/* A density's weight p/q, or what is below the horizon. */
+static double density_weight(const aur_directions *directions, const double direction[3]) {
+    if (directions->lobe.kind == AUR_LOBE_GGX)
+        return direction[2] >= 0.0 ? 1.0 : 0.0;
+    const double p = directions->lobe.exponent;
+    const double q = directions->density.exponent;
+    return p != q ? (p + 1.0) / (q + 1.0) * pow(direction[2], p - q) : 1.0;
+}
+
+/* At most CHUNK points, within the set. */
+static aur_result fill_chunk(const aur_directions *directions, uint64_t first, size_t count, double *xyz,
+                             double *weights) {
+    aur_result result = AUR_OK;
+    for (size_t i = 0; i < count && weights != NULL; ++i)
+        weights[i] = 1.0 / (double)directions->size;
+    if (directions->native != NULL)
+        directions->native->fill(directions->native_data, first, count, xyz);
+    else if (directions->square != NULL)
+        result = lift(directions, first, count, xyz, weights);
+    else
+        take_from_file(directions, first, count, xyz, weights);
+    for (size_t i = 0; i < count && directions->warped && result == AUR_OK; ++i) {
+        aur_lobe_warp(&directions->density, xyz + 3 * i, xyz + 3 * i);
+        if (weights != NULL)
+            weights[i] *= density_weight(directions, xyz + 3 * i);
+    }
+    if (directions->rotated)
+        aur_rotation_apply(&directions->rotation, count, xyz);
+    return result;
+}
+
+/* Where points go: one of the four layouts, and weights or none. */
+typedef struct sink {
+    double *xyz, *axes[3], *weights;
+    float *xyz_float, *axes_float[3], *weights_float;
+} sink;
+
+static void store(const sink *to, size_t at, size_t count, const double *xyz, const double *weights) {
+    for (size_t i = 0; i < 3 * count && to->xyz_float != NULL; ++i)
+        to->xyz_float[3 * at + i] = (float)xyz[i];
+    for (size_t axis = 0; axis < 3; ++axis) {
+        for (size_t i = 0; i < count && to->axes[axis] != NULL; ++i)
+            to->axes[axis][at + i] = xyz[3 * i + axis];
+        for (size_t i = 0; i < count && to->axes_float[axis] != NULL; ++i)
+            to->axes_float[axis][at + i] = (float)xyz[3 * i + axis];
+    }
+    for (size_t i = 0; i < count && to->weights_float != NULL; ++i)
+        to->weights_float[at + i] = (float)weights[i];
+}
+
+static aur_result generate(const aur_directions *directions, uint64_t first, size_t count, size_t room,
+                           const sink *to) {
+    if (first > directions->size || count > directions->size - first)
+        return AUR_ERROR_ARGUMENT;
+    if (count > room)
+        return AUR_ERROR_CAPACITY;
+    if (directions->native != NULL && !directions->warped && !directions->rotated && to->xyz != NULL &&
+        to->weights == NULL) {
+        directions->native->fill(directions->native_data, first, count, to->xyz);
+        return AUR_OK;
+    }
+    double xyz[3 * CHUNK];
+    double weights[CHUNK];
+    for (size_t done = 0; done < count; done += CHUNK) {
+        const size_t part = count - done < CHUNK ? count - done : CHUNK;
+        double *const part_xyz = to->xyz != NULL ? to->xyz + 3 * done : xyz;
+        double *const part_weights = to->weights != NULL         ? to->weights + done
+                                     : to->weights_float != NULL ? weights
+                                                                 : NULL;
+        const aur_result result = fill_chunk(directions, first + done, part, part_xyz, part_weights);
+        if (result != AUR_OK)
+            return result;
+        store(to, done, part, part_xyz, part_weights);
+    }
+    return AUR_OK;
+}
+
+aur_result aur_directions_points(const aur_directions *directions, uint64_t first, size_t count,
+                                 size_t capacity, double *xyz, double *weights) {
+    const sink to = {.xyz = xyz, .weights = weights};
+    return generate(directions, first, count, capacity / 3, &to);
+}
+
+aur_result aur_directions_points_float(const aur_directions *directions, uint64_t first, size_t count,
+                                       size_t capacity, float *xyz, float *weights) {
+    const sink to = {.xyz_float = xyz, .weights_float = weights};
+    return generate(directions, first, count, capacity / 3, &to);
+}
+
+aur_result aur_directions_arrays(const aur_directions *directions, uint64_t first, size_t count,
+                                 size_t capacity, double *x, double *y, double *z, double *weights) {
+    const sink to = {.axes = {x, y, z}, .weights = weights};
+    return generate(directions, first, count, capacity, &to);
+}
+
+aur_result aur_directions_arrays_float(const aur_directions *directions, uint64_t first, size_t count,
+                                       size_t capacity, float *x, float *y, float *z, float *weights) {
+    const sink to = {.axes_float = {x, y, z}, .weights_float = weights};
+    return generate(directions, first, count, capacity, &to);
+}

@@ -1,0 +1,65 @@
+/* The table of all sets: those of the square, then those that are native to the sphere. */
+#include <stdio.h>
+#include <string.h>
+
+#include <aureole/sphere.h>
+
+#include "core/names.h"
+#include "pointset/set.h"
+#include "sphere/native.h"
+
+static const aur_native_set *const natives[] = {
+#define ROW(name) &aur_native_##name,
+    AUR_NATIVE_SETS(ROW)
+#undef ROW
+};
+enum { NATIVE_COUNT = sizeof natives / sizeof natives[0], NAME_CAPACITY = 64 };
+
+size_t aur_set_count(void) {
+    return aur_square_set_count() + NATIVE_COUNT;
+}
+
+const aur_set_description *aur_set_at(size_t index) {
+    const size_t squares = aur_square_set_count();
+    if (index < squares)
+        return &aur_square_set_at(index)->description;
+    return index < squares + NATIVE_COUNT ? &natives[index - squares]->description : NULL;
+}
+
+const aur_set_description *aur_set_find(const char *set) {
+    const size_t length = strcspn(set, ":");
+    for (size_t i = 0; i < aur_set_count(); ++i) {
+        const aur_set_description *const row = aur_set_at(i);
+        if (strlen(row->name) == length && strncmp(row->name, set, length) == 0)
+            return row;
+    }
+    return NULL;
+}
+
+const aur_native_set *aur_native_find(const char *set) {
+    const size_t length = strcspn(set, ":");
+    for (size_t i = 0; i < NATIVE_COUNT; ++i) {
+        const char *const name = natives[i]->description.name;
+        if (strlen(name) == length && strncmp(name, set, length) == 0)
+            return natives[i];
+    }
+    return NULL;
+}
+
+static const char *name_of(const void *table, size_t index) {
+    (void)table;
+    return aur_set_at(index)->name;
+}
+
+aur_result aur_set_check_name(const char *set, aur_error *error) {
+    const aur_names all = {aur_set_count(), name_of, NULL};
+    char wanted[NAME_CAPACITY];
+    const size_t length = strcspn(set, ":");
+    snprintf(wanted, sizeof wanted, "%.*s", (int)(length < sizeof wanted ? length : sizeof wanted - 1), set);
+    if (aur_names_find(all, wanted) < all.count)
+        return AUR_OK;
+    const char *const nearest = aur_names_nearest(all, wanted);
+    if (nearest != NULL)
+        return aur_fail(error, AUR_ERROR_NAME, "unknown set '%s'; did you mean '%s'?", wanted, nearest);
+    return aur_fail(error, AUR_ERROR_NAME, "unknown set '%s': 'aureole sets' lists them", wanted);
+}

@@ -1,0 +1,304 @@
+/* Extensible spherical Fibonacci grids, E-SFG (Marques, Bouville, Bouatouch, Blat 2019, algorithm 1).
+ *
+ * A planar Fibonacci grid of `base` points x = j/N, y = j/Phi is copied by half its basis vectors b_0 =
+ * (0,-1), b_1 = (1/N, 1/Phi), b_2 = (1/N, -1/Phi^2), which makes four times the points, and so on with a
+ * quarter, an eighth,
+ * ...; z = 1 - h (x + d) on a cap of height h. So point i is point i mod N of the base grid, shifted by
+ * one vector for each digit of i/N in base 4: random access, up to 2^48 points. Only sizes with complete
+ * sub-grids, N 4^l times 1, 2, 3 or 4, are as even as spherical Fibonacci sets; others draw a warning.
+ *
+ * The shift d along x centres the points. `final`: d = 1/(2^{L+1} N) suits all N 4^L points, and smaller
+ * sizes are prefixes that lose 5 to 8 %. `per-level`: each size has its own, within 1 % of spherical
+ * Fibonacci, and old points move. Progression 2 puts the sub-grid first that doubles a grid best. */
+#include "sphere/sets/grid.h"
+
+#include <math.h>
+#include <stdbool.h>
+#include <stdlib.h>
+
+#include "core/error.h"
+#include "core/vector.h"
+#include "sphere/native.h"
+#include "sphere/phase.h"
+#include "sphere/sets/fibonacci.h"
+
+static const double inverse_phi = 0.61803398874989484820;
+static const uint64_t size_limit = UINT64_C(1) << 48;
+
+enum { LEVEL_LIMIT = 24, JUDGED_LIMIT = 2048, LEGENDRE_TERMS = 200 };
+
+/* Squared length of b_k. */
+static double squared_length(size_t k, uint64_t base, double stretch) {
+    double previous = 1.0; /* F_{-1}, F_0 */
+    double fibonacci = 0.0;
+    for (size_t i = 0; i < k; ++i) {
+        const double next = fibonacci + previous;
+        previous = fibonacci;
+        fibonacci = next;
+    }
+    const double x = fibonacci / (double)base;
+    const double y = stretch * pow(inverse_phi, (double)k);
+    return x * x + y * y;
+}
+
+size_t aur_grid_shortest_vector(uint64_t base, double stretch) {
+    size_t k = 0;
+    while (squared_length(k + 1, base, stretch) < squared_length(k, base, stretch))
+        ++k;
+    return k;
+}
+
+size_t aur_grid_first_shift(uint64_t base, double stretch) {
+    const size_t k = aur_grid_shortest_vector(base, stretch);
+    if (k == 0)
+        return 1;
+    const double below = squared_length(k - 1, base, stretch);
+    const double above = squared_length(k + 1, base, stretch);
+    return (below > above ? k - 1 : k + 1) % 3;
+}
+
+/* b_s/2^level as what it adds to the index (x times N) and to the phase. */
+typedef struct shift {
+    double index;
+    uint64_t phase;
+} shift;
+
+static shift shift_of(size_t s, size_t level) {
+    const uint64_t turn = UINT64_C(1) << (64 - level);
+    const uint64_t golden = AUR_GOLDEN_PHASE >> level;
+    if (s == 0)
+        return (shift){0.0, 0 - turn};
+    return (shift){ldexp(1.0, -(int)level), s == 1 ? golden : golden - turn};
+}
+
+/* The mean distance of a point at height z to the points of the upper hemisphere: the Legendre series of |x -
+ * y| against that of the hemisphere's indicator. */
+static double distance_to_hemisphere(double z) {
+    double before = 1.0; /* P_{l-1}(z), P_l(z) and the same at 0 */
+    double now = z;
+    double zero_before = 1.0;
+    double zero = 0.0;
+    double sum = 4.0 / 3.0;
+    for (size_t l = 1; l < LEGENDRE_TERMS; ++l) {
+        const double n = (double)l;
+        sum -= 4.0 / ((2.0 * n - 1.0) * (2.0 * n + 3.0)) * zero_before / (n + 1.0) * now;
+        const double next = ((2.0 * n + 1.0) * z * now - n * before) / (n + 1.0);
+        const double zero_next = -n * zero_before / (n + 1.0);
+        before = now;
+        now = next;
+        zero_before = zero;
+        zero = zero_next;
+    }
+    return sum;
+}
+
+/* What is to be small: minus the mean distance of all pairs, plus twice the mean distance to the domain,
+ * which is 4/3 everywhere on the sphere. Caps other than the hemisphere are judged as spheres are. */
+static double judge(size_t count, const double *xyz, double height) {
+    double pairs = 0.0;
+    double domain = 0.0;
+    for (size_t i = 0; i < count; ++i) {
+        const double *const a = xyz + 3 * i;
+        for (size_t k = 0; k < i; ++k) {
+            const double *const b = xyz + 3 * k;
+            const double x = a[0] - b[0];
+            const double y = a[1] - b[1];
+            const double z = a[2] - b[2];
+            pairs += sqrt(x * x + y * y + z * z);
+        }
+        domain += height == 1.0 ? distance_to_hemisphere(a[2]) : 4.0 / 3.0;
+    }
+    const double n = (double)count;
+    return 2.0 * domain / n - 2.0 * pairs / (n * n);
+}
+
+/* The base grid of `count` points and its copy by b_s/2, into xyz[6 * count]. */
+static void doubled_grid(uint64_t count, size_t s, double height, double centre, double *xyz) {
+    const shift half = shift_of(s, 1);
+    const double step = height / (double)count;
+    const aur_fibonacci base = {step, centre, 0};
+    const aur_fibonacci copy = {step, centre + half.index, half.phase};
+    const aur_fibonacci_kernel kernel = aur_fibonacci_choose_kernel();
+    kernel(&base, 0, (size_t)count, xyz);
+    kernel(&copy, 0, (size_t)count, xyz + 3 * count);
+}
+
+size_t aur_grid_best_shift(uint64_t base, double height, double centre) {
+    double *const xyz = base <= JUDGED_LIMIT ? malloc(6 * (size_t)base * sizeof *xyz) : NULL;
+    if (xyz == NULL)
+        return aur_grid_first_shift(base, 2.0 * AUR_PI * (1.0 - height / 3.0));
+    size_t best = 0;
+    double lowest = INFINITY;
+    for (size_t s = 0; s < 3; ++s) {
+        const double middle = 0.5 - 0.5 * shift_of(s, 1).index;
+        doubled_grid(base, s, height, centre >= 0.0 ? centre : middle, xyz);
+        const double energy = judge(2 * (size_t)base, xyz, height);
+        if (energy < lowest) {
+            lowest = energy;
+            best = s;
+        }
+    }
+    free(xyz);
+    return best;
+}
+
+typedef struct grid {
+    uint64_t base;
+    size_t levels;
+    size_t order[3]; /* the shifts in the order in which they are added */
+    double step;
+    double centre; /* N d */
+    aur_fibonacci_kernel kernel;
+} grid;
+
+/* The mean over blocks 0 .. blocks-1 of what their shifts add to the index. */
+static double mean_index_shift(const grid *g, uint64_t blocks) {
+    double sum = 0.0;
+    double above = 0.0; /* of the digits already passed */
+    uint64_t left = blocks;
+    for (size_t level = g->levels; level > 0; --level) {
+        const uint64_t block = UINT64_C(1) << (2 * (level - 1));
+        /* a complete block of all lower levels has half of its points shifted at each of them */
+        const double inside = 0.5 * (1.0 - ldexp(1.0, -(int)(level - 1)));
+        const uint64_t digit = left / block;
+        for (uint64_t d = 0; d < digit; ++d)
+            sum += (double)block * (above + inside + (d > 0 ? shift_of(g->order[d - 1], level).index : 0.0));
+        if (digit > 0 && digit < 4)
+            above += shift_of(g->order[digit - 1], level).index;
+        left -= digit * block;
+    }
+    return (sum + (double)left * above) / (double)blocks;
+}
+
+/* Base and levels from the keys and the size that is asked for. */
+static aur_result choose_size(uint64_t count, int64_t base, int64_t levels, grid *g, aur_error *error) {
+    if (base == 0 && levels < 0) {
+        /* As many levels as leave a whole base of at least 16 points. */
+        for (g->base = count; g->base % 4 == 0 && g->base / 4 >= 16; g->base /= 4)
+            ++g->levels;
+        return AUR_OK;
+    }
+    if (base == 0) {
+        g->levels = (size_t)levels;
+        g->base = count >> (2 * g->levels);
+        if (g->base == 0 || g->base << (2 * g->levels) != count)
+            return aur_fail(error, AUR_ERROR_ARGUMENT,
+                            "set 'esfg': %llu points are no multiple of 4^%zu: give the base",
+                            (unsigned long long)count, g->levels);
+        return AUR_OK;
+    }
+    g->base = (uint64_t)base;
+    for (g->levels = levels < 0 ? 0 : (size_t)levels; levels < 0 && g->base << (2 * g->levels) < count;)
+        ++g->levels;
+    if (g->base > size_limit >> (2 * g->levels))
+        return aur_fail(error, AUR_ERROR_ARGUMENT, "set 'esfg': base*4^levels must be at most 2^48");
+    if (count > g->base << (2 * g->levels))
+        return aur_fail(error, AUR_ERROR_ARGUMENT,
+                        "set 'esfg': base %llu and %zu levels make %llu points, not %llu",
+                        (unsigned long long)g->base, g->levels,
+                        (unsigned long long)(g->base << (2 * g->levels)), (unsigned long long)count);
+    return AUR_OK;
+}
+
+/* Whether all sub-grids of the size are there: N 4^l times 1, 2, 3 or 4. */
+static bool is_complete(uint64_t count, uint64_t base) {
+    if (count % base != 0)
+        return false;
+    uint64_t blocks = count / base;
+    while (blocks % 4 == 0)
+        blocks /= 4;
+    return blocks < 4;
+}
+
+/* The keys that say which sub-grid comes first, as indices of their choices. */
+typedef struct grid_keys {
+    size_t first_shift; /* paper, best */
+    size_t shift;       /* final, per-level */
+    size_t progression; /* 2, 4 */
+} grid_keys;
+
+static void choose_order(grid *g, const grid_keys *keys, double height) {
+    size_t first = 0;
+    if (keys->progression == 0 && g->levels > 0)
+        first = keys->first_shift == 1
+                    ? aur_grid_best_shift(g->base, height, keys->shift == 0 ? g->centre : -1.0)
+                    : aur_grid_first_shift(g->base, 1.0);
+    for (size_t i = 0; i < 3; ++i)
+        g->order[i] = (first + i) % 3;
+}
+
+static aur_result prepare(aur_parameters *keys, const aur_native_request *request, void **data,
+                          aur_error *error) {
+    static const char *const first_shifts[] = {"paper", "best"};
+    static const char *const shifts[] = {"final", "per-level"};
+    static const char *const progressions[] = {"2", "4"};
+    int64_t base = 0;
+    int64_t levels = -1;
+    grid_keys chosen = {.first_shift = 1};
+    aur_result result = aur_parameters_integer(keys, "base", 1, (int64_t)size_limit, &base, error);
+    if (result == AUR_OK)
+        result = aur_parameters_integer(keys, "levels", 0, LEVEL_LIMIT, &levels, error);
+    if (result == AUR_OK)
+        result = aur_parameters_choice(keys, "first-shift", 2, first_shifts, &chosen.first_shift, error);
+    if (result == AUR_OK)
+        result = aur_parameters_choice(keys, "shift", 2, shifts, &chosen.shift, error);
+    if (result == AUR_OK)
+        result = aur_parameters_choice(keys, "progression", 2, progressions, &chosen.progression, error);
+    grid g = {.kernel = aur_fibonacci_choose_kernel()};
+    if (result == AUR_OK)
+        result = choose_size(request->count, base, levels, &g, error);
+    if (result != AUR_OK)
+        return result;
+    g.step = request->height / (double)g.base;
+    g.centre = ldexp(0.5, -(int)g.levels);
+    choose_order(&g, &chosen, request->height);
+    if (chosen.shift == 1)
+        g.centre = 0.5 - mean_index_shift(&g, (request->count + g.base - 1) / g.base);
+    if (!is_complete(request->count, g.base))
+        aur_warn_at(
+            request->warnings, (aur_location){0},
+            "set 'esfg': %llu points leave a sub-grid incomplete: sizes of base %llu are even at 1, 2, 3, 4, "
+            "8, 12, 16, ... times the base",
+            (unsigned long long)request->count, (unsigned long long)g.base);
+    grid *const kept = malloc(sizeof *kept);
+    if (kept == NULL)
+        return aur_fail(error, AUR_ERROR_MEMORY, "out of memory");
+    *kept = g;
+    *data = kept;
+    return AUR_OK;
+}
+
+static void fill(const void *data, uint64_t first, size_t count, double *xyz) {
+    const grid *const g = data;
+    while (count > 0) {
+        const uint64_t block = first / g->base;
+        const uint64_t j = first % g->base;
+        const size_t part = count < g->base - j ? count : (size_t)(g->base - j);
+        aur_fibonacci base = {.step = g->step, .offset = g->centre};
+        for (size_t level = 1; level <= g->levels; ++level) {
+            const size_t digit = block >> (2 * (level - 1)) & 3;
+            if (digit == 0)
+                continue;
+            const shift moved = shift_of(g->order[digit - 1], level);
+            base.offset += moved.index;
+            base.phase += moved.phase;
+        }
+        g->kernel(&base, j, part, xyz);
+        first += part;
+        count -= part;
+        xyz += 3 * part;
+    }
+}
+
+const aur_native_set aur_native_grid = {
+    .description = {.name = "esfg",
+                    .keys = "base=auto,levels=auto,first-shift=best,shift=final,progression=2",
+                    .summary = "spherical Fibonacci grids that double or quadruple and keep their points",
+                    .domains = "sphere, hemisphere, disk, cap",
+                    .sizes = "1..2^48; base*4^levels times 1, 2, 3, 4 is even",
+                    .extensible = 1,
+                    .source = "Marques 2019"},
+    .maximum_size = UINT64_C(1) << 48,
+    .prepare = prepare,
+    .fill = fill,
+};
