@@ -30,6 +30,15 @@
 
 enum { MOST_TRIANGLES = 64 };
 
+/* The path of a file in the test program's folder; the last two given out stay as they are. */
+static inline const char *path_of(const char *name) {
+    static char path[2][128];
+    static int turn;
+    turn = 1 - turn;
+    snprintf(path[turn], sizeof path[turn], "%s/%s", scene_folder, name);
+    return path[turn];
+}
+
 typedef struct messages {
     size_t count;
     char text[1024];

@@ -6,16 +6,16 @@
 #include "transport/radiosity/picture_gather.h"
 
 typedef enum aur_radiosity_oversampling {
-    AUR_OVERSAMPLING_HALTON,   /* Halton points, as many as asked for */
-    AUR_OVERSAMPLING_ADAPTIVE, /* the same in rounds, until the mean no longer changes */
-    AUR_OVERSAMPLING_SAMPLER   /* the scene's sampler */
+    AUR_RADIOSITY_HALTON,   /* Halton points, as many as asked for */
+    AUR_RADIOSITY_ADAPTIVE, /* the same in rounds, until the mean no longer changes */
+    AUR_RADIOSITY_SAMPLER   /* the scene's sampler */
 } aur_radiosity_oversampling;
 
 typedef enum aur_radiosity_component {
-    AUR_COMPONENT_ALL,
-    AUR_COMPONENT_EMISSION, /* L0 as the eye sees it */
-    AUR_COMPONENT_DIRECT,   /* T L0 */
-    AUR_COMPONENT_INDIRECT  /* T T L */
+    AUR_RADIOSITY_ALL,
+    AUR_RADIOSITY_EMISSION, /* L0 as the eye sees it */
+    AUR_RADIOSITY_DIRECT,   /* T L0 */
+    AUR_RADIOSITY_INDIRECT  /* T T L */
 } aur_radiosity_component;
 
 typedef struct aur_radiosity_image {

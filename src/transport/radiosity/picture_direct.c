@@ -1,32 +1,14 @@
 #include "transport/radiosity/picture_direct.h"
 
 #include "core/random.h"
-
-static double dot(const double a[3], const double b[3]) {
-    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-}
-
-static void cross(const double a[3], const double b[3], double c[3]) {
-    c[0] = a[1] * b[2] - a[2] * b[1];
-    c[1] = a[2] * b[0] - a[0] * b[2];
-    c[2] = a[0] * b[1] - a[1] * b[0];
-}
-
-static bool normalize(double v[3]) {
-    const double length = sqrt(dot(v, v));
-    if (!(length > 0.0))
-        return false;
-    for (size_t k = 0; k < 3; ++k)
-        v[k] /= length;
-    return true;
-}
+#include "core/vector3d.h"
 
 /* The unit vector along the part of `b` that is perpendicular to the unit vector `a`. */
 static bool perpendicular(const double b[3], const double a[3], double result[3]) {
-    const double along = dot(a, b);
+    const double along = aur_dot3(a, b);
     for (size_t k = 0; k < 3; ++k)
         result[k] = b[k] - along * a[k];
-    return normalize(result);
+    return aur_normalize3(result) > 0.0;
 }
 
 /* cos * a + sin * b, of unit length */
@@ -34,7 +16,7 @@ static void turn(double cosine, const double a[3], const double b[3], double res
     const double c = fmax(-1.0, fmin(1.0, cosine)), s = sqrt(1.0 - c * c);
     for (size_t k = 0; k < 3; ++k)
         result[k] = c * a[k] + s * b[k];
-    normalize(result);
+    aur_normalize3(result);
 }
 
 /* A triangle so small is flat: a point on it, evenly. */
@@ -45,7 +27,7 @@ static void flat_direction(const double corner[9], const double from[3], double 
     const double root = sqrt(u), a = root * (1.0 - v), b = root * v;
     for (size_t k = 0; k < 3; ++k)
         direction[k] = (1.0 - a - b) * corner[k] + a * corner[3 + k] + b * corner[6 + k] - from[k];
-    normalize(direction);
+    aur_normalize3(direction);
 }
 
 double aur_spherical_triangle(const double corner[9], const double from[3], double u, double v,
@@ -54,14 +36,15 @@ double aur_spherical_triangle(const double corner[9], const double from[3], doub
     for (size_t i = 0; i < 3; ++i) {
         for (size_t k = 0; k < 3; ++k)
             a[i][k] = corner[3 * i + k] - from[k];
-        if (!normalize(a[i]))
+        if (!(aur_normalize3(a[i]) > 0.0))
             return 0.0;
     }
     double bc[3];
-    cross(a[1], a[2], bc);
+    aur_cross3(a[1], a[2], bc);
     /* Van Oosterom and Strackee 1983: without the cancellation of the sum of the angles. */
-    const double triple = fabs(dot(a[0], bc));
-    const double solid_angle = 2.0 * atan2(triple, 1.0 + dot(a[0], a[1]) + dot(a[1], a[2]) + dot(a[2], a[0]));
+    const double triple = fabs(aur_dot3(a[0], bc));
+    const double solid_angle =
+        2.0 * atan2(triple, 1.0 + aur_dot3(a[0], a[1]) + aur_dot3(a[1], a[2]) + aur_dot3(a[2], a[0]));
     if (!(solid_angle > 0.0))
         return 0.0;
     if (solid_angle < FLAT) {
@@ -72,8 +55,9 @@ double aur_spherical_triangle(const double corner[9], const double from[3], doub
     if (!perpendicular(a[1], a[0], to_b) || !perpendicular(a[2], a[0], to_c))
         return 0.0;
     double sides[3];
-    cross(to_b, to_c, sides);
-    const double cos_alpha = dot(to_b, to_c), sin_alpha = sqrt(dot(sides, sides)), cos_c = dot(a[0], a[1]);
+    aur_cross3(to_b, to_c, sides);
+    const double cos_alpha = aur_dot3(to_b, to_c), sin_alpha = sqrt(aur_dot3(sides, sides)),
+                 cos_c = aur_dot3(a[0], a[1]);
     /* Arvo 1995: a triangle of the area u solid_angle with the same corner and side, then a point of its far
      * side's arc. */
     const double alpha = atan2(sin_alpha, cos_alpha);
@@ -88,7 +72,7 @@ double aur_spherical_triangle(const double corner[9], const double from[3], doub
             direction[k] = a[1][k];
         return solid_angle;
     }
-    turn(1.0 - v * (1.0 - dot(end, a[1])), a[1], across, direction);
+    turn(1.0 - v * (1.0 - aur_dot3(end, a[1])), a[1], across, direction);
     return solid_angle;
 }
 

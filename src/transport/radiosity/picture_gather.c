@@ -4,6 +4,7 @@
 
 #include "core/random.h"
 #include "scene/packet.h"
+#include "transport/radiosity/statistics.h"
 
 static aur_result make_pattern(const aur_rule_options *rule, aur_radiosity_gather *gather, aur_error *error) {
     const size_t count = (size_t)rule->points.count;

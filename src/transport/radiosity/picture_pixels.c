@@ -53,7 +53,7 @@ static uint64_t pixel_hash(const workspace *work, size_t x, size_t y) {
 
 static float camera_ray(const workspace *work, size_t x, size_t y, uint32_t index, aur_ray *ray) {
     const aur_view *const view = work->view;
-    if (work->image->oversampling == AUR_OVERSAMPLING_SAMPLER) {
+    if (work->image->oversampling == AUR_RADIOSITY_SAMPLER) {
         aur_camera_sample sample;
         const float weight = aur_view_sample(view, x, y, index, &sample);
         *ray = sample.ray;
@@ -122,7 +122,7 @@ static aur_vector direct_light(const workspace *work, const aur_radiosity_place 
 }
 
 static bool wants(const workspace *work, aur_radiosity_component component) {
-    return work->image->component == AUR_COMPONENT_ALL || work->image->component == component;
+    return work->image->component == AUR_RADIOSITY_ALL || work->image->component == component;
 }
 
 /* Hit point `index`, one of `points` that share out the lights. */
@@ -136,14 +136,14 @@ static hit_point make_point(const workspace *work, size_t x, size_t y, uint32_t 
         return made;
     made.triangle = place.triangle << 1 | place.front;
     made.throughput = aur_vector_multiply(path, place.albedo);
-    if (wants(work, AUR_COMPONENT_EMISSION))
+    if (wants(work, AUR_RADIOSITY_EMISSION))
         made.rest = aur_vector_multiply(path, place.emission);
     if (aur_vector_is_zero(place.albedo))
         return made;
-    if (wants(work, AUR_COMPONENT_DIRECT))
+    if (wants(work, AUR_RADIOSITY_DIRECT))
         made.rest = aur_vector_add(
             made.rest, aur_vector_multiply(path, direct_light(work, &place, pixel, index, points)));
-    if (wants(work, AUR_COMPONENT_INDIRECT))
+    if (wants(work, AUR_RADIOSITY_INDIRECT))
         made.irradiance =
             aur_radiosity_gather_at(&work->image->gather, &place, aur_mix64(hash + 1), &work->counters->rays);
     return made;
@@ -169,7 +169,7 @@ static bool is_steady(const pixel_points *p, float threshold) {
  */
 static void make_pixel(const workspace *work, size_t x, size_t y, uint32_t first, uint32_t count,
                        pixel_points *made) {
-    const bool adaptive = work->image->oversampling == AUR_OVERSAMPLING_ADAPTIVE;
+    const bool adaptive = work->image->oversampling == AUR_RADIOSITY_ADAPTIVE;
     const uint32_t points = adaptive ? ROUND : (uint32_t)work->image->samples_per_pixel;
     made->count = 0;
     uint32_t round = UINT32_MAX;

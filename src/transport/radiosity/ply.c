@@ -3,7 +3,7 @@
 
 #include "core/file.h"
 #include "image/tone.h"
-#include "transport/radiosity/solution.h"
+#include "transport/radiosity/statistics.h"
 
 /* PLY of this machine's byte order. */
 static const char *byte_order(void) {
@@ -31,15 +31,12 @@ aur_result aur_radiosity_write_ply(const aur_radiosity *radiosity, const char *p
     const double scale = exp2(exposure);
     for (size_t i = 0; i < count; ++i) {
         const aur_radiosity_triangle *const t = &scene->triangles[i];
-        double power[3];
-        aur_radiosity_power(radiosity, i, power);
-        const float albedo[3] = {t->albedo[0].x, t->albedo[0].y, t->albedo[0].z};
-        const float emission[3] = {scene->emission[i].x, scene->emission[i].y, scene->emission[i].z};
+        aur_radiosity_triangle_result seen;
+        aur_radiosity_result(radiosity, i, &seen);
         float radiance[3];
         unsigned char color[3];
         for (size_t c = 0; c < 3; ++c) {
-            const double share = scene->areas[i] > 0.0 ? (double)albedo[c] / (AUR_PI * scene->areas[i]) : 0.0;
-            radiance[c] = (float)((double)emission[c] + share * power[c]);
+            radiance[c] = (float)seen.radiance[c];
             color[c] = (unsigned char)(255.0 * aur_srgb_encode(scale * (double)radiance[c]) + 0.5);
         }
         const aur_vector corner[3] = {t->corner, aur_vector_add(t->corner, t->edge[0]),

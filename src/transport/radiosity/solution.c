@@ -8,6 +8,8 @@
 
 #include "core/parallel.h"
 #include "core/random.h"
+#include "transport/radiosity/coincidence.h"
+#include "transport/radiosity/statistics.h"
 
 aur_radiosity_options aur_radiosity_options_default(void) {
     return (aur_radiosity_options){
@@ -322,99 +324,4 @@ aur_result aur_radiosity_trace(aur_radiosity *radiosity, uint64_t paths, aur_err
     if (result == AUR_OK)
         warn_of_ends(radiosity);
     return result;
-}
-
-/* --- results */
-
-void aur_radiosity_power(const aur_radiosity *radiosity, size_t patch, double power[3]) {
-    const double scale = radiosity->paths > 0 ? radiosity->walk.quantum / (double)radiosity->paths : 0.0;
-    for (size_t c = 0; c < 3; ++c) {
-        aur_exact_sum sum = {0};
-        for (size_t r = 0; r < radiosity->options.randomizations; ++r)
-            aur_exact_merge(&sum, &radiosity->tallies[r].power[patch][c]);
-        power[c] = scale * aur_exact_value(&sum);
-    }
-}
-
-void aur_radiosity_power_error(const aur_radiosity *radiosity, size_t patch, double error[3]) {
-    const size_t count = radiosity->options.randomizations;
-    for (size_t c = 0; c < 3; ++c) {
-        double sum = 0.0, squares = 0.0;
-        for (size_t r = 0; r < count; ++r) {
-            const uint64_t paths = aur_radiosity_share(radiosity, r, radiosity->paths);
-            const double value = radiosity->walk.quantum *
-                                 aur_exact_value(&radiosity->tallies[r].power[patch][c]) / (double)paths;
-            sum += value;
-            squares += value * value;
-        }
-        const double n = (double)count;
-        const bool known = count > 1 && radiosity->paths >= count;
-        error[c] = known ? sqrt(fmax(0.0, squares - sum * sum / n) / (n - 1.0) / n) : NAN;
-    }
-}
-
-static double total_emitted(const aur_radiosity *radiosity) {
-    double sum = 0.0;
-    for (size_t i = 0; i < radiosity->scene.triangle_count; ++i) {
-        const aur_vector l = radiosity->scene.emission[i];
-        sum += AUR_PI * radiosity->scene.areas[i] * ((double)l.x + (double)l.y + (double)l.z);
-    }
-    return sum;
-}
-
-void aur_radiosity_describe(const aur_radiosity *radiosity, aur_radiosity_description *d) {
-    const aur_radiosity_scene *const scene = &radiosity->scene;
-    *d = (aur_radiosity_description){.triangles = scene->triangle_count,
-                                     .patches = scene->patch_count,
-                                     .lights = radiosity->walk.light_count,
-                                     .dimension = 2 * radiosity->options.bounces + 4,
-                                     .area = scene->area,
-                                     .paths = radiosity->paths,
-                                     .coincident = radiosity->coincident,
-                                     .change = radiosity->change,
-                                     .emitted = total_emitted(radiosity),
-                                     .error = aur_radiosity_standard_error(radiosity)};
-    double last = 0.0, rest = 0.0, received = 0.0;
-    for (size_t r = 0; r < radiosity->options.randomizations; ++r) {
-        const aur_radiosity_tally *const tally = &radiosity->tallies[r];
-        d->rays += tally->rays;
-        d->lost += tally->lost;
-        d->behind += tally->behind;
-        d->trapped += tally->trapped;
-        last += aur_exact_value(&tally->last);
-        rest += aur_exact_value(&tally->rest);
-        for (size_t i = 0; i < tally->patch_count; ++i)
-            for (size_t c = 0; c < 3; ++c)
-                received += aur_exact_value(&tally->power[i][c]);
-    }
-    const double missing = rest < last ? rest / (1.0 - rest / last) : INFINITY;
-    d->tail = rest == 0.0 ? 0.0 : isfinite(missing) ? missing / (received + missing) : 1.0;
-    for (size_t i = 0; i < scene->triangle_count; ++i)
-        for (size_t side = 0; side < 2; ++side)
-            d->largest_albedo =
-                fmax(d->largest_albedo, (double)aur_vector_max(scene->triangles[i].albedo[side]));
-}
-
-aur_result aur_radiosity_results(const aur_radiosity *radiosity, size_t capacity,
-                                 aur_radiosity_triangle_result *results) {
-    const aur_radiosity_scene *const scene = &radiosity->scene;
-    if (capacity < scene->triangle_count)
-        return AUR_ERROR_CAPACITY;
-    for (size_t i = 0; i < scene->triangle_count; ++i) {
-        aur_radiosity_triangle_result *const out = &results[i];
-        const aur_vector albedo = scene->triangles[i].albedo[0], emission = scene->emission[i];
-        *out = (aur_radiosity_triangle_result){
-            .area = scene->areas[i],
-            .albedo = {(double)albedo.x, (double)albedo.y, (double)albedo.z},
-            .emission = {(double)emission.x, (double)emission.y, (double)emission.z}};
-        double error[3];
-        aur_radiosity_power(radiosity, i, out->power);
-        aur_radiosity_power_error(radiosity, i, error);
-        for (size_t c = 0; c < 3; ++c) {
-            const double share = out->area > 0.0 ? out->albedo[c] / (AUR_PI * out->area) : 0.0;
-            out->radiance[c] = out->emission[c] + share * out->power[c];
-            out->standard_error[c] = share * error[c];
-        }
-    }
-    return AUR_OK;
 }

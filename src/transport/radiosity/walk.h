@@ -6,8 +6,8 @@
 #include <aureole/radiosity.h>
 
 #include "scene/distribution.h"
-#include "transport/radiosity/exact_sum.h"
 #include "transport/radiosity/scene.h"
+#include "transport/radiosity/tally.h"
 
 typedef struct aur_radiosity_walk {
     const aur_radiosity_scene *scene;
@@ -21,25 +21,9 @@ typedef struct aur_radiosity_walk {
     double quantum; /* watts: the unit of the sums */
 } aur_radiosity_walk;
 
-/* What paths have left behind. */
-typedef struct aur_radiosity_tally {
-    size_t patch_count;
-    aur_exact_sum (*power)[3]; /* patch -> quanta received */
-    aur_exact_sum last;        /* received by the last flight, all channels */
-    aur_exact_sum rest;        /* carried on after it */
-    uint64_t rays, lost, behind, trapped;
-    uint64_t cut;    /* terms that were greater than a sum takes; not kept in files */
-    bool not_finite; /* one of them was no finite number: the sums are worth nothing */
-} aur_radiosity_tally;
-
 aur_result aur_radiosity_walk_create(const aur_radiosity_scene *scene, const aur_radiosity_options *options,
                                      aur_radiosity_walk *walk, aur_error *error);
 void aur_radiosity_walk_release(aur_radiosity_walk *walk);
-
-aur_result aur_radiosity_tally_create(size_t patch_count, aur_radiosity_tally *tally, aur_error *error);
-void aur_radiosity_tally_release(aur_radiosity_tally *tally);
-/* Adds `other` and empties it. */
-void aur_radiosity_tally_take(aur_radiosity_tally *tally, aur_radiosity_tally *other);
 
 enum { AUR_RADIOSITY_BLOCK = 512 };
 
