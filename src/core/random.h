@@ -5,6 +5,7 @@
 #ifndef AUR_CORE_RANDOM_H
 #define AUR_CORE_RANDOM_H
 
+#include <stddef.h>
 #include <stdint.h>
 
 static inline uint64_t aur_mix64(uint64_t x) {
@@ -37,6 +38,16 @@ static inline double aur_unit_double(uint64_t hash) {
 /* 24 bits as a float in [0,1). */
 static inline float aur_unit_float(uint32_t bits) {
     return (float)(bits >> 8) * 0x1p-24f;
+}
+
+/* Puts items into a random order, by hashes (Fisher and Yates). */
+static inline void aur_shuffle(size_t count, uint32_t *items, uint64_t seed) {
+    for (size_t i = count; i > 1; --i) {
+        const size_t j = (size_t)(aur_hash3(seed, 0x6f72646572, i) % i);
+        const uint32_t swap = items[i - 1];
+        items[i - 1] = items[j];
+        items[j] = swap;
+    }
 }
 
 #endif

@@ -93,18 +93,6 @@ static void directions_are_uniform_in_the_solid_angle(void **state) {
     assert_true(aur_spherical_triangle(edge_on, from, 0.5, 0.5, direction) == 0.0);
 }
 
-static void permutations_are_permutations(void **state) {
-    (void)state;
-    for (uint64_t seed = 0; seed < 50; ++seed) {
-        uint32_t order[17];
-        unsigned seen = 0;
-        aur_radiosity_permute(17, order, seed);
-        for (size_t i = 0; i < 17; ++i)
-            seen |= 1u << order[i];
-        assert_int_equal(seen, (1u << 17) - 1u);
-    }
-}
-
 /* --- pictures */
 
 enum { WIDTH = 24, HEIGHT = 18, PIXELS = WIDTH * HEIGHT };
@@ -277,7 +265,6 @@ static void pictures_depend_on_nothing_else(void **state) {
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(directions_are_uniform_in_the_solid_angle),
-        cmocka_unit_test(permutations_are_permutations),
         cmocka_unit_test(components_are_what_they_should_be),
         cmocka_unit_test(mirrors_show_the_same),
         cmocka_unit_test(permuting_lights_is_unbiased),

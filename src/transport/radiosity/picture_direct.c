@@ -1,6 +1,5 @@
 #include "transport/radiosity/picture_direct.h"
 
-#include "core/random.h"
 #include "core/vector3d.h"
 
 /* The unit vector along the part of `b` that is perpendicular to the unit vector `a`. */
@@ -108,12 +107,4 @@ aur_vector aur_radiosity_direct(const aur_radiosity_scene *scene, const aur_radi
     const float factor = (float)solid_angle * cosine / AUR_PI_F;
     return aur_vector_scale(
         aur_vector_multiply(place->albedo, aur_radiosity_emitted(scene, triangle, hit.u, hit.v)), factor);
-}
-
-void aur_radiosity_permute(size_t count, uint32_t *order, uint64_t seed) {
-    for (size_t i = 0; i < count; ++i) {
-        const size_t j = (size_t)(aur_hash2(seed, i) % (i + 1));
-        order[i] = order[j];
-        order[j] = (uint32_t)i;
-    }
 }

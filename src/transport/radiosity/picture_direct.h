@@ -30,7 +30,4 @@ static inline aur_ray aur_radiosity_leave(const aur_radiosity_scene *scene, cons
 aur_vector aur_radiosity_direct(const aur_radiosity_scene *scene, const aur_radiosity_place *place,
                                 uint32_t triangle, float u, float v, uint64_t *rays);
 
-/* A random order of the numbers below `count`: lights as hit points take them. */
-void aur_radiosity_permute(size_t count, uint32_t *order, uint64_t seed);
-
 #endif

@@ -24,25 +24,18 @@ typedef struct pixel_points {
 } pixel_points;
 
 typedef struct workspace {
-    const aur_integrator *integrator;
     const aur_radiosity_image *image;
     const aur_view *view;
     aur_counters *counters;
-    uint32_t *order; /* the lights as the pixel's hit points take them */
+    uint32_t *order;                     /* the lights as the pixel's hit points take them */
+    uint32_t first;                      /* hit point of the tile */
+    double (*halton)[HALTON_DIMENSIONS]; /* of its hit points, before they are shifted */
 } workspace;
 
-static double radical_inverse(uint32_t base, uint32_t index) {
-    double value = 0.0, unit = 1.0 / base;
-    for (; index > 0; index /= base, unit /= base)
-        value += unit * (index % base);
-    return value;
-}
-
-/* Halton's point `index`, shifted for each pixel, so that no pattern repeats over the picture. */
-static void halton_point(uint64_t pixel, uint32_t index, float u[HALTON_DIMENSIONS]) {
-    static const uint32_t bases[HALTON_DIMENSIONS] = {2, 3, 5, 7};
+/* A point of Halton's sequence, shifted for each pixel, so that no pattern repeats over the picture. */
+static void shift_point(const double point[HALTON_DIMENSIONS], uint64_t pixel, float u[HALTON_DIMENSIONS]) {
     for (uint32_t d = 0; d < HALTON_DIMENSIONS; ++d) {
-        const double sum = radical_inverse(bases[d], index) + aur_unit_double(aur_hash3(pixel, 0x68616c, d));
+        const double sum = point[d] + aur_unit_double(aur_hash3(pixel, 0x68616c, d));
         u[d] = fminf((float)(sum - floor(sum)), 0x1.fffffep-1f);
     }
 }
@@ -60,7 +53,7 @@ static float camera_ray(const workspace *work, size_t x, size_t y, uint32_t inde
         return weight;
     }
     float u[HALTON_DIMENSIONS];
-    halton_point(pixel_hash(work, x, y), index, u);
+    shift_point(work->halton[index - work->first], pixel_hash(work, x, y), u);
     const float offset[2] = {aur_filter_sample(view->filter, u[0]), aur_filter_sample(view->filter, u[1])};
     aur_camera_ray(view->scene, view->width, view->height, (float)x + 0.5f + offset[0],
                    (float)y + 0.5f + offset[1], &u[2], ray);
@@ -178,8 +171,9 @@ static void make_pixel(const workspace *work, size_t x, size_t y, uint32_t first
             return;
         if (work->image->permuted && i / points != round) {
             round = i / points;
-            aur_radiosity_permute(work->image->light_count, work->order,
-                                  aur_hash3(pixel_hash(work, x, y), 0x6f72646572, round));
+            for (uint32_t k = 0; k < work->image->light_count; ++k)
+                work->order[k] = k;
+            aur_shuffle(work->image->light_count, work->order, aur_hash2(pixel_hash(work, x, y), round));
         }
         made->points[made->count++] = make_point(work, x, y, i, points);
     }
@@ -254,9 +248,12 @@ aur_result aur_radiosity_tile(const aur_integrator *integrator, aur_tile *tile) 
     pixel_points *const pixels = malloc(pixel_count * sizeof *pixels);
     hit_point *const points = malloc(pixel_count * tile->count * sizeof *points + 1);
     uint32_t *const order = malloc((image->light_count + 1) * sizeof *order);
-    const bool good = pixels != NULL && points != NULL && order != NULL;
+    double(*const halton)[HALTON_DIMENSIONS] = malloc(tile->count * sizeof *halton + 1);
+    const bool good = pixels != NULL && points != NULL && order != NULL && halton != NULL;
     if (good) {
-        const workspace work = {integrator, image, tile->view, &tile->counters, order};
+        const workspace work = {image, tile->view, &tile->counters, order, tile->first, halton};
+        const aur_output output = {.capacity = HALTON_DIMENSIONS * (size_t)tile->count, .doubles = halton[0]};
+        aur_halton_points(HALTON_DIMENSIONS, NULL, tile->first, tile->count, &output); /* it cannot fail */
         for (size_t i = 0; i < pixel_count; ++i) {
             pixels[i].points = points + i * tile->count;
             make_pixel(&work, a.x0 + i % a.columns, a.y0 + i / a.columns, tile->first, tile->count,
@@ -267,5 +264,6 @@ aur_result aur_radiosity_tile(const aur_integrator *integrator, aur_tile *tile) 
     free(pixels);
     free(points);
     free(order);
+    free(halton);
     return good ? AUR_OK : AUR_ERROR_MEMORY;
 }

@@ -13,16 +13,6 @@ static const double QUANTA = 0x1p42, MOST_QUANTA = 0x1p62;
 
 /* --- lights */
 
-/* By hashes: Fisher and Yates. */
-static void shuffle(size_t count, uint32_t *items, uint64_t seed) {
-    for (size_t i = count; i > 1; --i) {
-        const size_t j = (size_t)(aur_hash3(seed, 0x6f72646572, i) % i);
-        const uint32_t swap = items[i - 1];
-        items[i - 1] = items[j];
-        items[j] = swap;
-    }
-}
-
 static aur_result choose_lights(aur_radiosity_walk *walk, const aur_radiosity_options *options,
                                 aur_error *error) {
     const aur_radiosity_scene *const scene = walk->scene;
@@ -36,7 +26,7 @@ static aur_result choose_lights(aur_radiosity_walk *walk, const aur_radiosity_op
         if ((scene->triangles[i].flags & AUR_RADIOSITY_GLOWS) != 0 && scene->areas[i] > 0.0)
             walk->lights[walk->light_count++] = (uint32_t)i;
     if (result == AUR_OK && options->variant != 0)
-        shuffle(walk->light_count, walk->lights, options->variant);
+        aur_shuffle(walk->light_count, walk->lights, options->variant);
     for (size_t i = 0; i < walk->light_count && result == AUR_OK; ++i) {
         const uint32_t light = walk->lights[i];
         const aur_vector radiance = scene->emission[light];
