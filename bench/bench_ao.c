@@ -7,6 +7,7 @@
 
 #include "bench.h"
 #include "core/parallel.h"
+#include "sampling/stream_kernels.h"
 #include "scene/scene_data.h"
 #include "transport/integrators/ambient_occlusion.h"
 
@@ -105,7 +106,7 @@ static void store_all(occlusion_bench *self) {
 
 static bool compare(const bench_options *options, const char *name, const aur_scene *scene,
                     const aur_integrator *integrator) {
-    static const aur_sampler sampler = {.kind = AUR_SAMPLER_SOBOL};
+    static const aur_sampler sampler = {.kind = AUR_SAMPLER_SOBOL, .kernels = &aur_stream_kernels_portable};
     const aur_view view = {
         .scene = scene, .sampler = &sampler, .filter = aur_filter_find("box"), .width = SIDE, .height = SIDE};
     occlusion_bench context = {.integrator = integrator, .view = &view};

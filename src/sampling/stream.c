@@ -7,8 +7,7 @@
 #include "core/error.h"
 #include "core/simd.h"
 #include "pointset/net_2d.h"
-#include "sampling/stream_kernels.h"
-#include "sampling/stream_pixels.h"
+#include "sampling/stream_body.h"
 
 static aur_result fill_table(aur_sampler *sampler, const char *set, const aur_warnings *warnings,
                              aur_error *error) {
@@ -35,6 +34,19 @@ static aur_result fill_table(aur_sampler *sampler, const char *set, const aur_wa
     return result;
 }
 
+const aur_stream_kernels aur_stream_kernels_portable = AUR_STREAM_KERNELS;
+
+static const aur_stream_kernels *kernels_here(void) {
+#if defined(__x86_64__)
+    const aur_isa isa = aur_isa_available();
+    if (isa >= AUR_ISA_AVX512)
+        return &aur_stream_kernels_avx512;
+    if (isa >= AUR_ISA_AVX2)
+        return &aur_stream_kernels_avx2;
+#endif
+    return &aur_stream_kernels_portable;
+}
+
 aur_result aur_sampler_create(const char *set, size_t count, const aur_warnings *warnings, aur_sampler **out,
                               aur_error *error) {
     *out = NULL;
@@ -49,14 +61,7 @@ aur_result aur_sampler_create(const char *set, size_t count, const aur_warnings 
         sampler->kind = AUR_SAMPLER_RANDOM;
     } else if (strcmp(set, "sobol") == 0) {
         sampler->kind = AUR_SAMPLER_SOBOL;
-        const aur_isa isa = aur_isa_available();
-        sampler->sobol_pairs = isa >= AUR_ISA_AVX512 ? aur_sobol_pairs_avx512
-                               : isa >= AUR_ISA_AVX2 ? aur_sobol_pairs_avx2
-                                                     : aur_sobol_pairs_portable;
-#if defined(__x86_64__)
-        if (isa != AUR_ISA_PORTABLE)
-            sampler->sobol_pixels = isa == AUR_ISA_AVX512 ? aur_sobol_pixels_avx512 : aur_sobol_pixels_avx2;
-#endif
+        sampler->kernels = kernels_here();
     } else {
         const aur_set_description *const row = aur_set_find(set);
         sampler->kind = row != NULL && row->binary_net ? AUR_SAMPLER_NET : AUR_SAMPLER_TABLE;
@@ -107,24 +112,25 @@ static uint32_t permute(uint32_t index, uint32_t size, uint32_t seed) {
 /* Of every kind but SOBOL. */
 static void pair_words(const aur_stream *stream, uint32_t pair, uint32_t words[2]) {
     const aur_sampler *const sampler = stream->sampler;
-    aur_pair_seeds seeds = aur_pair_seeds_of(stream, pair);
+    uint64_t hash = aur_hash2(stream->pixel, pair);
     /* Beyond its end a table begins anew with another randomisation. */
     if (sampler->size > 0 && stream->index >= sampler->size)
-        seeds = aur_pair_seeds_by(aur_hash2(seeds.coordinates, stream->index / sampler->size));
+        hash = aur_hash2(hash, stream->index / sampler->size);
+    const uint32_t shuffle = (uint32_t)aur_mix64(hash + 1);
     uint32_t index;
     switch (sampler->kind) {
     case AUR_SAMPLER_NET:
-        index = aur_owen_scramble(stream->index, (uint32_t)seeds.index) & (sampler->size - 1);
-        words[0] = aur_owen_scramble(sampler->points[index][0], (uint32_t)seeds.coordinates);
-        words[1] = aur_owen_scramble(sampler->points[index][1], (uint32_t)(seeds.coordinates >> 32));
+        index = aur_owen_scramble(stream->index, shuffle) & (sampler->size - 1);
+        words[0] = aur_owen_scramble(sampler->points[index][0], (uint32_t)hash);
+        words[1] = aur_owen_scramble(sampler->points[index][1], (uint32_t)(hash >> 32));
         return;
     case AUR_SAMPLER_TABLE:
-        index = permute(stream->index % sampler->size, sampler->size, (uint32_t)seeds.index);
-        words[0] = sampler->points[index][0] + (uint32_t)seeds.coordinates;
-        words[1] = sampler->points[index][1] + (uint32_t)(seeds.coordinates >> 32);
+        index = permute(stream->index % sampler->size, sampler->size, shuffle);
+        words[0] = sampler->points[index][0] + (uint32_t)hash;
+        words[1] = sampler->points[index][1] + (uint32_t)(hash >> 32);
         return;
     default: {
-        const uint64_t number = aur_hash2(seeds.coordinates, stream->index);
+        const uint64_t number = aur_hash2(hash, stream->index);
         words[0] = (uint32_t)number;
         words[1] = (uint32_t)(number >> 32);
         return;
@@ -132,44 +138,28 @@ static void pair_words(const aur_stream *stream, uint32_t pair, uint32_t words[2
     }
 }
 
-/* An index is scrambled so that aligned blocks of a power of two are shuffled and moved: every such block is
- * a net (Burley 2020). In the reversed words that hashing wants, the first coordinate is the index itself. */
-static void sobol_pair(const aur_stream *stream, uint32_t pair, float u[2]) {
-    const aur_pair_seeds seeds = aur_pair_seeds_of(stream, pair);
-    const uint32_t index =
-        aur_reverse_bits(aur_nested_hash(aur_reverse_bits(stream->index), (uint32_t)seeds.index));
-    const uint32_t x = aur_nested_hash(index, (uint32_t)seeds.coordinates);
-    const uint32_t y = aur_nested_hash(aur_sobol_second_reversed(index), (uint32_t)(seeds.coordinates >> 32));
-    u[0] = aur_unit_float(aur_reverse_bits(x));
-    u[1] = aur_unit_float(aur_reverse_bits(y));
-}
-
-void aur_sobol_pairs_portable(const aur_stream *stream, uint32_t first, float u[AUR_STREAM_BLOCK][2]) {
-    for (uint32_t i = 0; i < AUR_STREAM_BLOCK; ++i)
-        sobol_pair(stream, first + i, u[i]);
-}
-
-static void sobol_pairs(const aur_stream *stream, uint32_t first, size_t count, float (*u)[2]) {
-    const aur_sampler *const sampler = stream->sampler;
-    if (count > 2 && sampler->sobol_pairs != NULL) {
-        for (; count >= AUR_STREAM_BLOCK; first += AUR_STREAM_BLOCK, count -= AUR_STREAM_BLOCK) {
-            sampler->sobol_pairs(stream, first, u);
-            u += AUR_STREAM_BLOCK;
-        }
-        if (count == 0)
-            return;
-        float rest[AUR_STREAM_BLOCK][2];
-        sampler->sobol_pairs(stream, first, rest);
-        memcpy(u, rest, count * sizeof rest[0]);
+static void sobol_blocks(const aur_stream *stream, uint32_t first, size_t count, float (*u)[2]) {
+    if (count <= 2) {
+        for (uint32_t i = 0; i < count; ++i)
+            sobol_pair(aur_reverse_bits(stream->index), aur_hash2(stream->pixel, first + i), &u[i][0],
+                       &u[i][1]);
         return;
     }
-    for (uint32_t i = 0; i < count; ++i)
-        sobol_pair(stream, first + i, u[i]);
+    const aur_stream_kernels *const kernels = stream->sampler->kernels;
+    for (; count >= AUR_STREAM_BLOCK; first += AUR_STREAM_BLOCK, count -= AUR_STREAM_BLOCK) {
+        kernels->pairs(stream, first, u);
+        u += AUR_STREAM_BLOCK;
+    }
+    if (count == 0)
+        return;
+    float rest[AUR_STREAM_BLOCK][2];
+    kernels->pairs(stream, first, rest);
+    memcpy(u, rest, count * sizeof rest[0]);
 }
 
 void aur_stream_pairs(const aur_stream *stream, uint32_t first, size_t count, float (*u)[2]) {
     if (stream->sampler->kind == AUR_SAMPLER_SOBOL) {
-        sobol_pairs(stream, first, count, u);
+        sobol_blocks(stream, first, count, u);
         return;
     }
     for (uint32_t i = 0; i < count; ++i) {
@@ -187,10 +177,7 @@ void aur_stream_pair(const aur_stream *stream, uint32_t pair, float u[2]) {
 void aur_stream_pixels(const aur_sampler *sampler, size_t count, const uint64_t *pixels, uint32_t index,
                        uint32_t pair, float *u, float *v) {
     if (sampler->kind == AUR_SAMPLER_SOBOL) {
-        if (sampler->sobol_pixels != NULL)
-            sampler->sobol_pixels(count, pixels, index, pair, u, v);
-        else
-            sobol_pixels(count, pixels, index, pair, u, v);
+        sampler->kernels->pixels(count, pixels, index, pair, u, v);
         return;
     }
     for (size_t k = 0; k < count; ++k) {

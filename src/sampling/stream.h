@@ -18,16 +18,14 @@ typedef enum aur_sampler_kind {
 } aur_sampler_kind;
 
 typedef struct aur_stream aur_stream;
+typedef struct aur_stream_kernels aur_stream_kernels;
 
 enum { AUR_STREAM_BLOCK = 8 }; /* pairs that are made at once */
 
 typedef struct aur_sampler {
     aur_sampler_kind kind;
-    /* SOBOL by this processor's instructions; NULL: in plain C. The bits are the same. */
-    void (*sobol_pairs)(const aur_stream *stream, uint32_t first, float u[AUR_STREAM_BLOCK][2]);
-    /* One pair of many pixels; NULL: in plain C. */
-    void (*sobol_pixels)(size_t count, const uint64_t *pixels, uint32_t index, uint32_t pair, float *u,
-                         float *v);
+    /* Of SOBOL, by this processor's instructions. */
+    const aur_stream_kernels *kernels;
     uint32_t size;         /* points in the table; a power of two for nets */
     uint32_t (*points)[2]; /* words: x / 2^32 */
 } aur_sampler;

@@ -1,26 +1,19 @@
-/* The inner loop of the Sobol sampler for each instruction set; all give the same bits. */
+/* The inner loops of the Sobol sampler for each instruction set; all give the same bits. */
 #ifndef AUR_SAMPLING_STREAM_KERNELS_H
 #define AUR_SAMPLING_STREAM_KERNELS_H
 
 #include "sampling/stream.h"
 
-/* What one pair is randomised by. */
-typedef struct aur_pair_seeds {
-    uint64_t coordinates; /* the first coordinate's seed in the lower half, the second's in the upper */
-    uint64_t index;       /* in the lower half */
-} aur_pair_seeds;
+struct aur_stream_kernels {
+    /* The pairs first .. first + AUR_STREAM_BLOCK - 1. */
+    void (*pairs)(const aur_stream *stream, uint32_t first, float u[AUR_STREAM_BLOCK][2]);
+    /* One pair for sample `index` of `count` pixels. */
+    void (*pixels)(size_t count, const uint64_t *pixels, uint32_t index, uint32_t pair, float *u, float *v);
+};
 
-static inline aur_pair_seeds aur_pair_seeds_by(uint64_t hash) {
-    return (aur_pair_seeds){hash, aur_mix64(hash + 1)};
-}
-
-static inline aur_pair_seeds aur_pair_seeds_of(const aur_stream *stream, uint32_t pair) {
-    return aur_pair_seeds_by(aur_hash2(stream->pixel, pair));
-}
-
-/* The pairs first .. first + AUR_STREAM_BLOCK - 1. */
-void aur_sobol_pairs_portable(const aur_stream *stream, uint32_t first, float u[AUR_STREAM_BLOCK][2]);
-void aur_sobol_pairs_avx2(const aur_stream *stream, uint32_t first, float u[AUR_STREAM_BLOCK][2]);
-void aur_sobol_pairs_avx512(const aur_stream *stream, uint32_t first, float u[AUR_STREAM_BLOCK][2]);
+/* In plain C; in stream.c. */
+extern const aur_stream_kernels aur_stream_kernels_portable;
+extern const aur_stream_kernels aur_stream_kernels_avx2;
+extern const aur_stream_kernels aur_stream_kernels_avx512;
 
 #endif

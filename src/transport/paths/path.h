@@ -1,5 +1,5 @@
-/* The path tracer from the inside: one path by itself (path.c) and sixteen pixels in lockstep (path_group.c,
- * with its arithmetic in path_lanes*). */
+/* The path tracer from the inside: one path by itself (path_single.c) and sixteen pixels in lockstep
+ * (path_group.c, with its arithmetic in path_lanes*). */
 #ifndef AUR_TRANSPORT_PATHS_PATH_H
 #define AUR_TRANSPORT_PATHS_PATH_H
 
@@ -32,7 +32,12 @@ static inline float aur_path_survival(aur_vector throughput) {
 }
 
 aur_result aur_path_prepare(aur_path *data, const aur_scene *scene, aur_error *error);
-/* Adds the samples of a tile, sixteen pixels at a time. */
+/* Radiance along one camera ray. */
+aur_vector aur_path_radiance(const aur_path *data, const aur_scene *scene, const aur_camera_sample *sample,
+                             aur_counters *counters);
+/* Adds the samples of a tile, each path by itself. */
+void aur_path_add_tile_singly(const aur_path *data, const aur_scene *scene, aur_tile *tile);
+/* The same, sixteen pixels at a time. */
 void aur_path_add_tile(const aur_path *data, const aur_scene *scene, aur_tile *tile);
 
 #endif
