@@ -268,14 +268,15 @@ typedef struct aur_strategy {
     double axis[3]; /* COSINE_POWER: its axis, a unit vector; all zero stands for +z */
 } aur_strategy;
 
-/* Multiple importance sampling weights (Veach 1997 ch. 9) of samples xyz for the density `target`, those of
- * the first strategy first: h(u) p(u) / (n q(u)). One strategy alone makes them the ratio weights p/(n q).
- * Samples where the target is 0 get 0. Errors: ARGUMENT for a sample that no strategy can have drawn, or a
- * density made of nodes. */
+/* Multiple importance sampling weights (Veach 1997 ch. 9) of `count` samples xyz for the density `target`,
+ * those of the first strategy first: h(u) p(u) / (n q(u)). One strategy alone makes them the ratio weights
+ * p/(n q). Samples where the target is 0 get 0. Errors: ARGUMENT for strategies whose counts do not add up to
+ * `count`, whose lobe is out of its range or whose axis is not a unit vector, for a sample that its strategy
+ * cannot have drawn, and for a target of kind NODES. */
 AUR_API aur_result aur_mis_weights(aur_mis_heuristic heuristic, size_t strategy_count,
-                                   const aur_strategy *strategies, const aur_potential *target,
+                                   const aur_strategy *strategies, const aur_potential *target, size_t count,
                                    const double *xyz, double *weights, aur_error *error)
-    AUR_NONNULL(3, 4, 5, 6);
+    AUR_NONNULL(3, 4, 6, 7);
 
 /* The importance re-weighting of Marques 2018 section 5.1: weights for p out of weights for p', both
  * normalised: weights[i] *= p(u_i)/p'(u_i). Where p' is 0 the weight must be 0 and stays so; else ARGUMENT.

@@ -113,7 +113,7 @@ static aur_result separate(const study *s, method m, rule *r, aur_error *error) 
                 aur_weights_solve(count[k], r->xyz + 3 * first[k], 1, &one, NULL, own, NULL, NULL, error);
         else if (m == BALANCE || m == POWER)
             result = aur_mis_weights(m == POWER ? AUR_MIS_POWER : AUR_MIS_BALANCE, 2, strategies, potential,
-                                     r->xyz, r->weights[k], error);
+                                     DIFFUSE + GLOSSY, r->xyz, r->weights[k], error);
         else
             for (size_t i = 0; i < count[k]; ++i)
                 own[i] = 1.0 / (double)seen;

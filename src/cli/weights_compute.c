@@ -165,7 +165,7 @@ static aur_result ratio_weights(const weights_job *task, size_t k, double *weigh
         equal_weights(task, k, weights); /* only the uniform density is there */
         return AUR_OK;
     }
-    return aur_mis_weights(AUR_MIS_BALANCE, 1, &task->strategies[k], task->potentials[k],
+    return aur_mis_weights(AUR_MIS_BALANCE, 1, &task->strategies[k], task->potentials[k], count_of(task, k),
                            task->result->xyz + 3 * first, weights + first, error);
 }
 
@@ -203,7 +203,8 @@ static aur_result rival_weights(weights_job *task, aur_error *error) {
                         "multiple importance sampling needs a set and two lobes: give --lobe2");
         else
             made = aur_mis_weights(method == CLI_METHOD_POWER ? AUR_MIS_POWER : AUR_MIS_BALANCE, 2,
-                                   task->strategies, task->potentials[k], result->xyz, weights, error);
+                                   task->strategies, task->potentials[k], result->count, result->xyz, weights,
+                                   error);
         if (made != AUR_OK)
             return made;
     }

@@ -1,4 +1,6 @@
 #include <math.h>
+#include <stdbool.h>
+#include <stdint.h>
 
 #include "core/error.h"
 #include "quadrature/direction.h"
@@ -8,10 +10,14 @@ static double square(double x) {
     return x * x;
 }
 
+static bool is_default_axis(const double axis[3]) {
+    return axis[0] == 0.0 && axis[1] == 0.0 && axis[2] == 0.0;
+}
+
 /* The density that a strategy draws a direction with. */
 static double drawn_density(const aur_strategy *strategy, const double direction[3]) {
     const double *const axis = strategy->axis;
-    if (strategy->sampled.kind == AUR_LOBE_GGX || (axis[0] == 0.0 && axis[1] == 0.0 && axis[2] == 0.0))
+    if (strategy->sampled.kind == AUR_LOBE_GGX || is_default_axis(axis))
         return aur_lobe_pdf(&strategy->sampled, direction);
     /* A cos^m lobe asks for the angle to its axis only. */
     const double cosine = aur_dot3(direction, axis);
@@ -31,9 +37,36 @@ static double share(aur_mis_heuristic heuristic, size_t strategy_count, const au
     return (heuristic == AUR_MIS_POWER ? mine : 1.0) / all;
 }
 
+static aur_result check_strategies(aur_mis_heuristic heuristic, size_t strategy_count,
+                                   const aur_strategy *strategies, const aur_potential *target, size_t count,
+                                   aur_error *error) {
+    if (heuristic != AUR_MIS_BALANCE && heuristic != AUR_MIS_POWER)
+        return aur_fail(error, AUR_ERROR_ARGUMENT, "no such heuristic: %d", (int)heuristic);
+    if (target->density.kind == AUR_DENSITY_NODES)
+        return aur_fail(error, AUR_ERROR_ARGUMENT, "point masses have no density to weigh samples by");
+    size_t left = count; /* samples that no strategy so far has drawn */
+    for (size_t t = 0; t < strategy_count && left != SIZE_MAX; ++t) {
+        const aur_strategy *const strategy = &strategies[t];
+        const aur_result result = aur_lobe_check(&strategy->sampled, error);
+        if (result != AUR_OK)
+            return result;
+        if (!is_default_axis(strategy->axis) && !aur_is_unit(strategy->axis))
+            return aur_fail(error, AUR_ERROR_ARGUMENT,
+                            "the axis (%g, %g, %g) of strategy %zu is not a unit vector", strategy->axis[0],
+                            strategy->axis[1], strategy->axis[2], t);
+        left = strategy->count <= left ? left - strategy->count : SIZE_MAX;
+    }
+    return left == 0 ? AUR_OK
+                     : aur_fail(error, AUR_ERROR_ARGUMENT,
+                                "the strategies' samples are not %zu, as many as there are weights", count);
+}
+
 aur_result aur_mis_weights(aur_mis_heuristic heuristic, size_t strategy_count, const aur_strategy *strategies,
-                           const aur_potential *target, const double *xyz, double *weights,
+                           const aur_potential *target, size_t count, const double *xyz, double *weights,
                            aur_error *error) {
+    const aur_result result = check_strategies(heuristic, strategy_count, strategies, target, count, error);
+    if (result != AUR_OK)
+        return result;
     size_t at = 0;
     for (size_t t = 0; t < strategy_count; ++t) {
         for (size_t i = 0; i < strategies[t].count; ++i, ++at) {
@@ -51,6 +84,8 @@ aur_result aur_mis_weights(aur_mis_heuristic heuristic, size_t strategy_count, c
 
 aur_result aur_weights_reweight(const aur_potential *wanted, const aur_potential *fitted, size_t count,
                                 const double *xyz, double *weights, aur_error *error) {
+    if (wanted->density.kind == AUR_DENSITY_NODES || fitted->density.kind == AUR_DENSITY_NODES)
+        return aur_fail(error, AUR_ERROR_ARGUMENT, "point masses have no density to weigh samples by");
     for (size_t i = 0; i < count; ++i) {
         if (weights[i] == 0.0)
             continue;

@@ -60,6 +60,10 @@ static aur_result create_nodes(aur_potential *potential, aur_error *error) {
     if (count == 0 || count > NODES_MOST)
         return aur_fail(error, AUR_ERROR_ARGUMENT, "a density needs 1 to %d nodes, not %zu", NODES_MOST,
                         count);
+    if (density->kind == AUR_DENSITY_FUNCTION && density->function == NULL)
+        return aur_fail(error, AUR_ERROR_ARGUMENT, "a density of kind FUNCTION needs its function");
+    if (density->kind == AUR_DENSITY_NODES && (density->nodes == NULL || density->masses == NULL))
+        return aur_fail(error, AUR_ERROR_ARGUMENT, "a density of kind NODES needs its nodes and masses");
     potential->storage = malloc(4 * count * sizeof *potential->storage);
     if (potential->storage == NULL)
         return aur_fail(error, AUR_ERROR_MEMORY, "out of memory");

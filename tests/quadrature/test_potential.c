@@ -266,12 +266,27 @@ static void test_kernel_rows(void **state) {
         assert_near(k[l], 4.0 / ((2.0 * l - 1.0) * (2.0 * l + 3.0)), 1e-14);
 }
 
+static void test_missing(void **state) {
+    (void)state;
+    const double node[3] = {0.0, 0.0, 1.0};
+    const aur_density densities[] = {{.kind = AUR_DENSITY_FUNCTION},
+                                     {.kind = AUR_DENSITY_NODES, .node_count = 1},
+                                     {.kind = AUR_DENSITY_NODES, .node_count = 1, .nodes = node}};
+    for (size_t i = 0; i < 3; ++i) {
+        aur_potential *potential;
+        aur_error error;
+        assert_int_equal(aur_potential_create(&densities[i], 1.5, &potential, &error), AUR_ERROR_ARGUMENT);
+        assert_non_null(strstr(error.message, "needs its"));
+        assert_null(potential);
+    }
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_golden),      cmocka_unit_test(test_long_series),
         cmocka_unit_test(test_definition),  cmocka_unit_test(test_clipped),
         cmocka_unit_test(test_function),    cmocka_unit_test(test_cross_energy),
-        cmocka_unit_test(test_kernel_rows),
+        cmocka_unit_test(test_kernel_rows), cmocka_unit_test(test_missing),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -36,8 +36,8 @@ static void test_mis(void **state) {
                                   {.count = B, .sampled = {.exponent = 20.0}}};
     memcpy(strategies[1].axis, glossy.axis, sizeof glossy.axis);
     for (int power = 0; power < 2; ++power) {
-        assert_int_equal(aur_mis_weights(power ? AUR_MIS_POWER : AUR_MIS_BALANCE, 2, strategies, target, xyz,
-                                         weights, NULL),
+        assert_int_equal(aur_mis_weights(power ? AUR_MIS_POWER : AUR_MIS_BALANCE, 2, strategies, target,
+                                         A + B, xyz, weights, NULL),
                          AUR_OK);
         double sum = 0.0;
         for (size_t i = 0; i < A + B; ++i) {
@@ -53,19 +53,61 @@ static void test_mis(void **state) {
         }
         assert_near(sum, 1.0, 0.01);
     }
-    assert_int_equal(aur_mis_weights(AUR_MIS_BALANCE, 1, strategies + 1, target, xyz + 3 * A, weights, NULL),
-                     AUR_OK);
+    assert_int_equal(
+        aur_mis_weights(AUR_MIS_BALANCE, 1, strategies + 1, target, B, xyz + 3 * A, weights, NULL), AUR_OK);
     for (size_t i = 0; i < B; ++i)
         assert_near(weights[i], 1.0 / B, 1e-12);
     /* A sample that no strategy has drawn: at the horizon of the only one that is asked. */
     const double below[3] = {sin(0.8), 0.0, cos(0.8)};
     const aur_strategy elsewhere = {.count = 1, .sampled = {.exponent = 1.0}, .axis = {0.0, 0.0, -1.0}};
     aur_error error;
-    assert_int_equal(aur_mis_weights(AUR_MIS_BALANCE, 1, &elsewhere, target, below, weights, &error),
+    assert_int_equal(aur_mis_weights(AUR_MIS_BALANCE, 1, &elsewhere, target, 1, below, weights, &error),
                      AUR_ERROR_ARGUMENT);
     assert_non_null(strstr(error.message, "sample 0"));
     aur_potential_destroy(target);
     free(xyz);
+}
+
+static void test_refused_strategies(void **state) {
+    (void)state;
+    const aur_density cosine = {.exponent = 1.0};
+    aur_potential *const target = create(&cosine);
+    const double node[3] = {0.0, 0.0, 1.0}, mass = 1.0;
+    const aur_density point = {.kind = AUR_DENSITY_NODES, .node_count = 1, .nodes = node, .masses = &mass};
+    aur_potential *const nodes = create(&point);
+    const aur_strategy good = {.count = 1, .sampled = {.exponent = 1.0}};
+    aur_strategy kind = good, exponent = good, axis = good;
+    kind.sampled.kind = (aur_lobe_kind)9;
+    exponent.sampled.exponent = -1.0;
+    axis.axis[2] = 2.0;
+    const struct {
+        int heuristic;
+        const aur_strategy *strategy;
+        const aur_potential *target;
+        size_t count;
+        aur_result result;
+    } cases[] = {
+        {AUR_MIS_BALANCE, &good, target, 1, AUR_OK},
+        {77, &good, target, 1, AUR_ERROR_ARGUMENT},
+        {AUR_MIS_BALANCE, &kind, target, 1, AUR_ERROR_ARGUMENT},
+        {AUR_MIS_BALANCE, &exponent, target, 1, AUR_ERROR_ARGUMENT},
+        {AUR_MIS_BALANCE, &axis, target, 1, AUR_ERROR_ARGUMENT},
+        {AUR_MIS_BALANCE, &good, target, 0, AUR_ERROR_ARGUMENT},
+        {AUR_MIS_BALANCE, &good, target, 2, AUR_ERROR_ARGUMENT},
+        {AUR_MIS_BALANCE, &good, nodes, 1, AUR_ERROR_ARGUMENT},
+    };
+    for (size_t i = 0; i < sizeof cases / sizeof cases[0]; ++i) {
+        double weight[2] = {0};
+        aur_error error = {0};
+        assert_int_equal(aur_mis_weights((aur_mis_heuristic)cases[i].heuristic, 1, cases[i].strategy,
+                                         cases[i].target, cases[i].count, node, weight, &error),
+                         cases[i].result);
+        assert_true(cases[i].result == AUR_OK || error.message[0] != '\0');
+    }
+    double weight = 1.0;
+    assert_int_equal(aur_weights_reweight(nodes, target, 1, node, &weight, NULL), AUR_ERROR_ARGUMENT);
+    aur_potential_destroy(nodes);
+    aur_potential_destroy(target);
 }
 
 /* --- GGX -------------------------------------------------------------------------------------------------
@@ -234,6 +276,7 @@ static void test_published_method(void **state) {
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_mis),
+        cmocka_unit_test(test_refused_strategies),
         cmocka_unit_test(test_ggx),
         cmocka_unit_test(test_reweighting),
         cmocka_unit_test(test_published_method),

@@ -208,8 +208,9 @@ static void balance_is_the_library_s(void **state) {
                 aur_potential *const target =
                     lobe == 0 ? lobe_at(1.0, 0.0, false) : lobe_at(20.0, angle, true);
                 const double mass = aur_potential_mass(target);
-                assert_int_equal(aur_mis_weights(AUR_MIS_BALANCE, 2, strategies, target, xyz, expected, NULL),
-                                 AUR_OK);
+                assert_int_equal(
+                    aur_mis_weights(AUR_MIS_BALANCE, 2, strategies, target, SIZE, xyz, expected, NULL),
+                    AUR_OK);
                 for (size_t i = 0; i < SIZE; ++i)
                     if (fabs(xyz[3 * i + 2]) > 1e-5)
                         assert_near(weights[lobe * SIZE + i], mass * expected[i],
