@@ -135,7 +135,7 @@ static void run_table(void *data) {
     const size_t *const size = data; /* angles, rotations */
     aur_weight_table *table;
     if (aur_weight_table_build(&pair_options, size[0], size[1], 1, NULL, &table, NULL) == AUR_OK)
-        bench_keep((double)aur_weight_table_mass(table, 0.5f));
+        bench_keep(aur_weight_table_mass(table, 0.5));
     aur_weight_table_destroy(table);
 }
 
@@ -167,8 +167,8 @@ static void run_look_up(void *data) {
     for (uint64_t i = 0; i < LOOK_UPS; ++i) {
         const uint64_t hash = aur_mix64(i);
         const float radians = 1.57f * aur_unit_float((uint32_t)hash);
-        aur_weight_table_look_up(context->table, hash >> 63, (hash >> 32) % ROTATIONS, radians,
-                                 context->weights);
+        aur_weight_table_look_up(context->table, hash >> 63, (hash >> 32) % ROTATIONS, (double)radians,
+                                 SAMPLES, context->weights, NULL);
         bench_keep((double)context->weights[0]);
     }
 }

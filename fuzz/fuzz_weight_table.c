@@ -27,9 +27,10 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
     } else {
         float *const weights = malloc(table->size * sizeof *weights);
         fuzz_require(weights != NULL, "no memory");
-        const float angles[] = {0.0f, 0.8f, 1.5707964f, -1.0f, 9.0f, NAN};
+        const double angles[] = {0.0, 0.8, 1.5707963267948966, -1.0, 9.0, (double)NAN};
         for (size_t i = 0; i < sizeof angles / sizeof angles[0]; ++i)
-            aur_weight_table_look_up(table, i % 2, table->rotation_count - 1, angles[i], weights);
+            aur_weight_table_look_up(table, i % 2, table->rotation_count - 1, angles[i], table->size, weights,
+                                     NULL);
         free(weights);
     }
     aur_weight_table_destroy(table);

@@ -10,6 +10,7 @@
 #define AUREOLE_QUADRATURE_H
 
 #include <aureole/sphere.h>
+#include <stdbool.h>
 
 #ifdef __cplusplus
 extern "C" {
@@ -35,12 +36,12 @@ typedef struct aur_density {
     double axis[3];      /* COSINE_POWER, FUNCTION: unit vector; all zero stands for +z */
     double exponent;     /* COSINE_POWER: m in [0, AUR_EXPONENT_MAXIMUM]. FUNCTION: of the lobe about the axis
                             that     the nodes are drawn from, which must cover the support of p */
-    int clipped;         /* COSINE_POWER: only the part above the surface, z > 0 */
+    bool clipped;        /* COSINE_POWER: only the part above the surface, z > 0 */
     double alpha;        /* GGX: roughness in (0,1] */
     double view_degrees; /* GGX: of the view direction from +z towards +x, in [0,90) */
     aur_density_function function; /* FUNCTION */
     void *user;
-    int whole_sphere;     /* FUNCTION: draw the nodes evenly from the whole sphere instead */
+    bool whole_sphere;    /* FUNCTION: draw the nodes evenly from the whole sphere instead */
     size_t node_count;    /* NODES; for GGX and FUNCTION 0 stands for 4096 */
     const double *nodes;  /* NODES: 3 * node_count; copied */
     const double *masses; /* NODES: node_count, >= 0; copied */
@@ -79,9 +80,11 @@ AUR_API void aur_potential_evaluate(const aur_potential *potential, size_t count
 /* V. The square of the node count in kernel evaluations for densities made of nodes. */
 AUR_API double aur_potential_self_energy(const aur_potential *potential) AUR_NONNULL(1);
 
-/* The integral of K(u,v) p(u) q(v) for two unclipped cos^m lobes whose axes meet at an angle with that
- * cosine: what the worst-case error of a sum of two lobes needs. NaN for arguments out of range. */
-AUR_API double aur_cross_energy(double exponent, double other_exponent, double cosine, double smoothness);
+/* *energy becomes the integral of K(u,v) p(u) q(v) for two unclipped cos^m lobes whose axes meet at an angle
+ * with that cosine: what the worst-case error of a sum of two lobes needs. Exponents as for COSINE_POWER,
+ * smoothness in (1,2). Errors: ARGUMENT (which, and the range), MEMORY. */
+AUR_API aur_result aur_cross_energy(double exponent, double other_exponent, double cosine, double smoothness,
+                                    double *energy, aur_error *error) AUR_NONNULL(5);
 
 /* The kernel at a chord |u-v| in [0,2]. */
 AUR_API double aur_kernel(double smoothness, double chord);
@@ -104,7 +107,7 @@ AUR_API aur_result aur_worst_case_error(size_t count, const double *xyz, const d
 
 typedef struct aur_weights_options {
     double regularization; /* added to the diagonal of K: >= 0 */
-    int sum_constraint;    /* sum of weights = 1, so that constants are integrated exactly */
+    bool sum_constraint;   /* sum of weights = 1, so that constants are integrated exactly */
 } aur_weights_options;
 
 /* Regularisation 1e-6, sum constraint on. */
@@ -136,15 +139,16 @@ AUR_API aur_result aur_weights_solve(size_t count, const double *xyz, size_t pot
 typedef struct aur_rule_options {
     const char *set;               /* as in aur_directions_create; NULL: spherical-fibonacci */
     aur_directions_options points; /* size, domain, lobe, density, scrambling; smoothness 0 stands for 1.5 */
-    int optimal; /* non-zero: optimal weights; else equal ones, or p/q where q is not the lobe */
-    aur_weights_options weights; /* of the optimal ones */
+    bool optimal;                  /* optimal weights; else equal ones, or p/q where q is not the lobe */
+    aur_weights_options weights;   /* of the optimal ones */
 } aur_rule_options;
 
 /* Fills xyz[3 * points.count] and weights[points.count], for integrals against the lobe normalised to 1
  * (plain weights of a GGX lobe: against the density of its visible normals, which has no masking).
- * Errors: as aur_directions_create, aur_potential_create and aur_weights_solve. */
-AUR_API aur_result aur_rule_make(const aur_rule_options *options, double *xyz, double *weights,
-                                 aur_error *error) AUR_NONNULL(1, 2, 3);
+ * `capacity` counts doubles of xyz; weights has room for a third as many. Errors: CAPACITY; as
+ * aur_directions_create, aur_potential_create and aur_weights_solve. */
+AUR_API aur_result aur_rule_make(const aur_rule_options *options, size_t capacity, double *xyz,
+                                 double *weights, aur_error *error) AUR_NONNULL(1, 3, 4);
 
 /* Writes x,y,z and the weights of one or more densities as the columns w, w2, w3, ... of a CSV file ("-":
  * standard output), 17 significant digits; the file is replaced whole or not at all. Errors: WRITE. */
@@ -162,8 +166,8 @@ typedef struct aur_oswa_options {
     const char *set;            /* as in aur_directions_create; NULL: spherical-fibonacci */
     size_t count, mirror_count; /* samples of the first and of the second pattern */
     aur_lobe lobe, mirror_lobe; /* about the normal: COSINE_POWER; about the mirror direction: either kind */
-    int optimal_density;        /* points follow lobe^{2/(s+1)}; GGX keeps its own density */
-    int clipped; /* the mirror lobe ends at the horizon and hidden samples take no part; a GGX lobe
+    bool optimal_density;       /* points follow lobe^{2/(s+1)}; GGX keeps its own density */
+    bool clipped; /* the mirror lobe ends at the horizon and hidden samples take no part; a GGX lobe
                     always does */
     aur_map map;
     aur_scramble scramble;
@@ -183,14 +187,18 @@ AUR_API aur_result aur_oswa_create(const aur_oswa_options *options, aur_oswa **o
 AUR_API void aur_oswa_destroy(aur_oswa *oswa);                     /* NULL is allowed */
 AUR_API size_t aur_oswa_size(const aur_oswa *oswa) AUR_NONNULL(1); /* count + mirror_count */
 
-/* The merged samples xyz[3 * size], the first pattern first; mirrored: reflected in the plane of the view (y
- * to -y), for which the same weights are optimal. */
-AUR_API void aur_oswa_points(const aur_oswa *oswa, double radians, const double turns[2], int mirrored,
-                             double *xyz) AUR_NONNULL(1, 3, 5);
+/* The merged samples xyz[3 * size], the first pattern first, for an angle in [0, pi/2]; mirrored: reflected
+ * in the plane of the view (y to -y), for which the same weights are optimal. `capacity` counts doubles.
+ * Errors: ARGUMENT for another angle, CAPACITY. */
+AUR_API aur_result aur_oswa_points(const aur_oswa *oswa, double radians, const double turns[2], bool mirrored,
+                                   size_t capacity, double *xyz, aur_error *error) AUR_NONNULL(1, 3, 6);
 /* weights[2 * size]: of every sample for the first lobe, then for the mirror lobe, both of integral 1.
- * `radians` in [0, pi/2]; *mass, unless NULL, is the integral of the mirror lobe as it is written. */
+ * `radians` in [0, pi/2]; `capacity` counts doubles; *mass, unless NULL, is the integral of the mirror lobe
+ * as it is written. O(size^3) time. Errors: ARGUMENT, CAPACITY, MEMORY, INTERNAL for a system that is not
+ * positive definite. */
 AUR_API aur_result aur_oswa_solve(const aur_oswa *oswa, double radians, const double turns[2],
-                                  double *weights, double *mass, aur_error *error) AUR_NONNULL(1, 3, 4);
+                                  size_t capacity, double *weights, double *mass, aur_error *error)
+    AUR_NONNULL(1, 3, 5);
 
 /* The turns that prepared rotation number `rotation` has: hashed from the seed. Those of tables, too. */
 AUR_API void aur_oswa_turns(uint64_t seed, size_t rotation, double turns[2]) AUR_NONNULL(3);
@@ -231,28 +239,21 @@ AUR_API aur_result aur_weight_table_load(const char *path, const aur_oswa_option
 AUR_API const aur_oswa_options *aur_weight_table_options(const aur_weight_table *table) AUR_NONNULL(1);
 AUR_API size_t aur_weight_table_angles(const aur_weight_table *table) AUR_NONNULL(1);
 AUR_API size_t aur_weight_table_rotations(const aur_weight_table *table) AUR_NONNULL(1);
-/* The turns of a rotation's two patterns. */
-AUR_API void aur_weight_table_turns(const aur_weight_table *table, size_t rotation, double turns[2])
-    AUR_NONNULL(1, 3);
-/* The merged samples that a rotation's weights belong to. */
-AUR_API void aur_weight_table_points(const aur_weight_table *table, double radians, size_t rotation,
-                                     int mirrored, double *xyz) AUR_NONNULL(1, 5);
+/* The merged samples xyz[3 * size] that a rotation's weights belong to, at an angle in [0, pi/2]; their turns
+ * are aur_oswa_turns of the options' seed. `capacity` counts doubles. Errors: ARGUMENT for another angle or a
+ * rotation that is not in the table, CAPACITY. */
+AUR_API aur_result aur_weight_table_points(const aur_weight_table *table, double radians, size_t rotation,
+                                           bool mirrored, size_t capacity, double *xyz, aur_error *error)
+    AUR_NONNULL(1, 6);
 
 /* weights[count + mirror_count] for one lobe (0: the first, 1: the mirror lobe), of integral 1, at an angle
- * in [0, pi/2] (clamped). rotation < rotation_count. */
-AUR_API void aur_weight_table_look_up(const aur_weight_table *table, size_t lobe, size_t rotation,
-                                      float radians, float *weights) AUR_NONNULL(1, 5);
-/* The rows that are interpolated between, for those who keep them in another layout: row `r` has the weights
- * of the first lobe and, behind them, of the mirror lobe, 2 * (count + mirror_count) in all; it belongs to
- * the table. */
-AUR_API size_t aur_weight_table_row_count(const aur_weight_table *table) AUR_NONNULL(1);
-AUR_API const float *aur_weight_table_row(const aur_weight_table *table, size_t row) AUR_NONNULL(1);
-/* The row r at the lower end of where an angle lies; the weights there are (1 - *part) times row r plus *part
- * times row r + 1. */
-AUR_API size_t aur_weight_table_locate(const aur_weight_table *table, size_t rotation, float radians,
-                                       float *part) AUR_NONNULL(1, 4);
-/* The mass of the mirror lobe at an angle, interpolated likewise. */
-AUR_API float aur_weight_table_mass(const aur_weight_table *table, float radians) AUR_NONNULL(1);
+ * in [0, pi/2]. They are floats, as the table keeps them for renderers; `capacity` counts floats. Errors:
+ * ARGUMENT for another angle, another lobe or a rotation that is not in the table, CAPACITY. */
+AUR_API aur_result aur_weight_table_look_up(const aur_weight_table *table, size_t lobe, size_t rotation,
+                                            double radians, size_t capacity, float *weights, aur_error *error)
+    AUR_NONNULL(1, 6);
+/* The mass of the mirror lobe at an angle (clamped to [0, pi/2]), interpolated likewise. */
+AUR_API double aur_weight_table_mass(const aur_weight_table *table, double radians) AUR_NONNULL(1);
 
 /* --- the rivals: no system to solve ----------------------------------------------------------------------
  */

@@ -75,16 +75,18 @@ static aur_oswa_options pair(const study *s, method m, uint64_t seed) {
 }
 
 /* Every light takes another rotation of the table, in turn. */
-static void from_table(const study *s, uint64_t seed, rule *r) {
+static aur_result from_table(const study *s, uint64_t seed, rule *r, aur_error *error) {
     const size_t rotation = seed % aur_weight_table_rotations(s->table);
     float weights[ALL];
-    aur_weight_table_points(s->table, s->radians, rotation, 0, r->xyz);
-    for (size_t k = 0; k < 2; ++k) {
-        aur_weight_table_look_up(s->table, k, rotation, (float)s->radians, weights);
-        for (size_t i = 0; i < ALL; ++i)
+    aur_result result =
+        aur_weight_table_points(s->table, s->radians, rotation, false, 3 * ALL, r->xyz, error);
+    for (size_t k = 0; k < 2 && result == AUR_OK; ++k) {
+        result = aur_weight_table_look_up(s->table, k, rotation, s->radians, ALL, weights, error);
+        for (size_t i = 0; i < ALL && result == AUR_OK; ++i)
             r->weights[k][i] = (double)weights[i];
     }
-    r->visible = (double)aur_weight_table_mass(s->table, (float)s->radians) / whole_mass;
+    r->visible = aur_weight_table_mass(s->table, s->radians) / whole_mass;
+    return result;
 }
 
 /* Weights that take no merged solve. */
@@ -124,18 +126,17 @@ static aur_result separate(const study *s, method m, rule *r, aur_error *error) 
 
 static aur_result make_rule(const study *s, method m, uint64_t seed, rule *r, aur_error *error) {
     const aur_oswa_options options = pair(s, m, seed);
-    if (m == TABLE) {
-        from_table(s, seed, r);
-        return AUR_OK;
-    }
+    if (m == TABLE)
+        return from_table(s, seed, r, error);
     aur_oswa *oswa;
     aur_result result = aur_oswa_create(&options, &oswa, error);
     if (result != AUR_OK)
         return result;
     const double turns[2] = {0.0, 0.0};
     double weights[2 * ALL], mass;
-    aur_oswa_points(oswa, s->radians, turns, 0, r->xyz);
-    result = aur_oswa_solve(oswa, s->radians, turns, weights, &mass, error);
+    result = aur_oswa_points(oswa, s->radians, turns, false, 3 * ALL, r->xyz, error);
+    if (result == AUR_OK)
+        result = aur_oswa_solve(oswa, s->radians, turns, 2 * ALL, weights, &mass, error);
     aur_oswa_destroy(oswa);
     if (result != AUR_OK)
         return result;

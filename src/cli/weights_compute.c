@@ -124,8 +124,8 @@ static aur_result load_two(weights_job *task, aur_error *error) {
     if (task->result->xyz == NULL)
         result = out_of_memory(error);
     else
-        aur_oswa_points(oswa, task->arguments->degrees * pi / 180.0, (const double[2]){0.0, 0.0}, 0,
-                        task->result->xyz);
+        result = aur_oswa_points(oswa, task->arguments->degrees * pi / 180.0, (const double[2]){0.0, 0.0},
+                                 false, 3 * task->result->count, task->result->xyz, error);
     task->own[0] = options.count;
     task->own[1] = options.mirror_count;
     aur_oswa_destroy(oswa);

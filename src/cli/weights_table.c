@@ -31,14 +31,16 @@ static aur_result write_entry(const cli_weights_arguments *arguments, const aur_
     } else {
         const double radians = arguments->look_up_degrees * degree;
         double *const weights = xyz + 3 * size;
-        aur_weight_table_points(table, radians, arguments->rotation, arguments->mirrored, xyz);
-        for (size_t lobe = 0; lobe < 2; ++lobe) {
-            aur_weight_table_look_up(table, lobe, arguments->rotation, (float)radians, found);
-            for (size_t i = 0; i < size; ++i)
+        result = aur_weight_table_points(table, radians, arguments->rotation, arguments->mirrored, 3 * size,
+                                         xyz, error);
+        for (size_t lobe = 0; lobe < 2 && result == AUR_OK; ++lobe) {
+            result = aur_weight_table_look_up(table, lobe, arguments->rotation, radians, size, found, error);
+            for (size_t i = 0; i < size && result == AUR_OK; ++i)
                 weights[lobe * size + i] = (double)found[i];
         }
         const char *const path = arguments->path != NULL ? arguments->path : "-";
-        result = aur_weights_write(path, size, xyz, 2, weights, error);
+        if (result == AUR_OK)
+            result = aur_weights_write(path, size, xyz, 2, weights, error);
     }
     free(xyz);
     free(found);

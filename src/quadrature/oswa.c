@@ -8,6 +8,7 @@
 
 #include "core/random.h"
 #include "core/vector.h"
+#include "quadrature/check.h"
 #include "quadrature/direction.h"
 #include "quadrature/solve.h"
 
@@ -239,21 +240,29 @@ double aur_oswa_height(const aur_oswa *oswa, double radians, double turns, size_
     return u[2];
 }
 
-void aur_oswa_points(const aur_oswa *oswa, double radians, const double turns[2], int mirrored, double *xyz) {
+aur_result aur_oswa_points(const aur_oswa *oswa, double radians, const double turns[2], bool mirrored,
+                           size_t capacity, double *xyz, aur_error *error) {
+    aur_result result = aur_check_angle(radians, error);
+    if (result == AUR_OK)
+        result = aur_check_capacity(3 * aur_oswa_size(oswa), capacity, error);
+    if (result != AUR_OK)
+        return result;
     place(oswa, radians, turns, xyz);
     for (size_t i = 0; mirrored && i < aur_oswa_size(oswa); ++i)
         xyz[3 * i + 1] = -xyz[3 * i + 1];
+    return AUR_OK;
 }
 
 aur_result aur_oswa_angle_init(const aur_oswa *oswa, double radians, aur_oswa_angle *angle,
                                aur_error *error) {
     *angle = (aur_oswa_angle){.radians = radians};
-    if (!(radians >= 0.0 && radians <= 0.5 * AUR_PI + 1e-9))
-        return aur_fail(error, AUR_ERROR_ARGUMENT, "the angle must be between 0 and pi/2, not %g", radians);
+    aur_result result = aur_check_angle(radians, error);
+    if (result != AUR_OK)
+        return result;
     if (is_ggx(oswa)) {
         const aur_lobe lobe = ggx_at(oswa, radians);
         aur_density density;
-        aur_result result = aur_density_from_lobe(&lobe, AUR_DOMAIN_HEMISPHERE, &density, error);
+        result = aur_density_from_lobe(&lobe, AUR_DOMAIN_HEMISPHERE, &density, error);
         if (result == AUR_OK)
             result = aur_potential_create(&density, oswa->options.smoothness, &angle->potential, error);
         angle->mass = result == AUR_OK ? aur_potential_mass(angle->potential) : 0.0;
@@ -423,11 +432,13 @@ aur_result aur_oswa_solve_at(const aur_oswa *oswa, const aur_oswa_angle *angle, 
     return AUR_OK;
 }
 
-aur_result aur_oswa_solve(const aur_oswa *oswa, double radians, const double turns[2], double *weights,
-                          double *mass, aur_error *error) {
+aur_result aur_oswa_solve(const aur_oswa *oswa, double radians, const double turns[2], size_t capacity,
+                          double *weights, double *mass, aur_error *error) {
     const size_t n = aur_oswa_size(oswa);
-    aur_oswa_angle angle;
-    aur_result result = aur_oswa_angle_init(oswa, radians, &angle, error);
+    aur_oswa_angle angle = {0};
+    aur_result result = aur_check_capacity(2 * n, capacity, error);
+    if (result == AUR_OK)
+        result = aur_oswa_angle_init(oswa, radians, &angle, error);
     double *const scratch = malloc(aur_oswa_scratch(oswa) * sizeof *scratch);
     bool *const visible = malloc(n * sizeof *visible);
     if (result == AUR_OK && (scratch == NULL || visible == NULL))

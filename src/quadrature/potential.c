@@ -5,6 +5,7 @@
 
 #include "core/error.h"
 #include "core/vector.h"
+#include "quadrature/check.h"
 #include "quadrature/direction.h"
 
 enum { NODES_DEFAULT = 4096, NODES_MOST = 1 << 24 };
@@ -235,16 +236,6 @@ double aur_potential_density(const aur_potential *potential, const double direct
         break;
     }
     return (double)NAN;
-}
-
-aur_result aur_check_directions(size_t count, const double *xyz, aur_error *error) {
-    for (size_t i = 0; i < count; ++i) {
-        const double *const u = xyz + 3 * i;
-        if (!aur_is_unit(u))
-            return aur_fail(error, AUR_ERROR_ARGUMENT, "point %zu, (%g, %g, %g), is not a unit vector", i,
-                            u[0], u[1], u[2]);
-    }
-    return AUR_OK;
 }
 
 aur_result aur_density_from_lobe(const aur_lobe *lobe, aur_domain domain, aur_density *density,

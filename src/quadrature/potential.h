@@ -32,7 +32,4 @@ aur_result aur_nodes_ggx(const aur_density *density, double *columns, double *ma
 /* The GGX lobe, reflection times cosine, in 1/steradian. */
 double aur_ggx_value(const aur_density *density, const double direction[3]);
 
-/* An error for the first of `count` vectors that is not of unit length. */
-aur_result aur_check_directions(size_t count, const double *xyz, aur_error *error);
-
 #endif

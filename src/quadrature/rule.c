@@ -1,4 +1,5 @@
 #include "core/error.h"
+#include "quadrature/check.h"
 #include "quadrature/potential.h"
 
 static aur_result weigh(const aur_rule_options *options, const double *xyz, double *weights,
@@ -16,13 +17,17 @@ static aur_result weigh(const aur_rule_options *options, const double *xyz, doub
     return result;
 }
 
-aur_result aur_rule_make(const aur_rule_options *options, double *xyz, double *weights, aur_error *error) {
+aur_result aur_rule_make(const aur_rule_options *options, size_t capacity, double *xyz, double *weights,
+                         aur_error *error) {
     const char *const set = options->set != NULL ? options->set : "spherical-fibonacci";
     const size_t count = (size_t)options->points.count;
     if (count == 0)
         return aur_fail(error, AUR_ERROR_ARGUMENT, "a rule needs at least one sample");
     aur_directions *directions;
-    aur_result result = aur_directions_create(set, &options->points, &directions, error);
+    aur_result result = aur_check_capacity(count, capacity / 3, error);
+    if (result != AUR_OK)
+        return result;
+    result = aur_directions_create(set, &options->points, &directions, error);
     if (result != AUR_OK)
         return result;
     if (aur_directions_size(directions) != count)

@@ -6,6 +6,7 @@
 
 #include "core/memory.h"
 #include "core/vector.h"
+#include "quadrature/check.h"
 #include "quadrature/solve.h"
 
 aur_result aur_weight_table_create(const aur_oswa_options *options, size_t angle_count, size_t rotation_count,
@@ -55,10 +56,6 @@ void aur_weight_table_destroy(aur_weight_table *table) {
     free(table);
 }
 
-void aur_weight_table_turns(const aur_weight_table *table, size_t rotation, double turns[2]) {
-    aur_oswa_turns(table->oswa->options.seed, rotation, turns);
-}
-
 const aur_oswa_options *aur_weight_table_options(const aur_weight_table *table) {
     return &table->oswa->options;
 }
@@ -71,11 +68,23 @@ size_t aur_weight_table_rotations(const aur_weight_table *table) {
     return table->rotation_count;
 }
 
-void aur_weight_table_points(const aur_weight_table *table, double radians, size_t rotation, int mirrored,
-                             double *xyz) {
+static aur_result check(const aur_weight_table *table, double radians, size_t rotation, size_t needed,
+                        size_t capacity, aur_error *error) {
+    if (rotation >= table->rotation_count)
+        return aur_fail(error, AUR_ERROR_ARGUMENT, "the table has rotations 0 to %zu, not %zu",
+                        table->rotation_count - 1, rotation);
+    const aur_result result = aur_check_angle(radians, error);
+    return result == AUR_OK ? aur_check_capacity(needed, capacity, error) : result;
+}
+
+aur_result aur_weight_table_points(const aur_weight_table *table, double radians, size_t rotation,
+                                   bool mirrored, size_t capacity, double *xyz, aur_error *error) {
+    const aur_result result = check(table, radians, rotation, 3 * table->size, capacity, error);
+    if (result != AUR_OK)
+        return result;
     double turns[2];
-    aur_weight_table_turns(table, rotation, turns);
-    aur_oswa_points(table->oswa, radians, turns, mirrored, xyz);
+    aur_oswa_turns(table->oswa->options.seed, rotation, turns);
+    return aur_oswa_points(table->oswa, radians, turns, mirrored, capacity, xyz, error);
 }
 
 /* Where an angle lies among `steps` equal parts of [0, pi/2]: the part's number, and how far in it. */
@@ -116,19 +125,25 @@ const float *aur_weight_table_row(const aur_weight_table *table, size_t row) {
     return table->weights + 2 * row * table->size;
 }
 
-void aur_weight_table_look_up(const aur_weight_table *table, size_t lobe, size_t rotation, float radians,
-                              float *weights) {
+aur_result aur_weight_table_look_up(const aur_weight_table *table, size_t lobe, size_t rotation,
+                                    double radians, size_t capacity, float *weights, aur_error *error) {
+    if (lobe > 1)
+        return aur_fail(error, AUR_ERROR_ARGUMENT, "a table has the lobes 0 and 1, not %zu", lobe);
+    const aur_result result = check(table, radians, rotation, table->size, capacity, error);
+    if (result != AUR_OK)
+        return result;
     float part;
-    const size_t row = aur_weight_table_locate(table, rotation, radians, &part);
+    const size_t row = aur_weight_table_locate(table, rotation, (float)radians, &part);
     const float *restrict below = table->weights + (2 * row + lobe) * table->size;
     const float *restrict above = below + 2 * table->size;
     float *restrict target = weights;
     for (size_t i = 0; i < table->size; ++i)
         target[i] = below[i] + part * (above[i] - below[i]);
+    return AUR_OK;
 }
 
-float aur_weight_table_mass(const aur_weight_table *table, float radians) {
+double aur_weight_table_mass(const aur_weight_table *table, double radians) {
     float part;
-    const size_t step = locate_step(aur_weight_table_mass_count(table) - 1, radians, &part);
-    return table->masses[step] + part * (table->masses[step + 1] - table->masses[step]);
+    const size_t step = locate_step(aur_weight_table_mass_count(table) - 1, (float)radians, &part);
+    return (double)(table->masses[step] + part * (table->masses[step + 1] - table->masses[step]));
 }

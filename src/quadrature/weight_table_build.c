@@ -60,7 +60,7 @@ static bool cut_rotation(const aur_weight_table *table, size_t rotation, bool *s
                          piece_list *list) {
     const size_t count = table->oswa->count[1];
     double turns[2];
-    aur_weight_table_turns(table, rotation, turns);
+    aur_oswa_turns(table->oswa->options.seed, rotation, turns);
     for (size_t k = 0; k < count; ++k)
         sides[k] = aur_oswa_height(table->oswa, 0.0, turns[1], k) >= 0.0;
     for (size_t i = 0; i + 1 < table->angle_count; ++i) {
@@ -180,7 +180,7 @@ static aur_result build_crossings(const aur_weight_table *table, size_t index, s
 static aur_result build_rotation(const aur_weight_table *table, size_t index, size_t rotation,
                                  const aur_oswa_angle *angle, const angle_work *work, aur_error *error) {
     double turns[2];
-    aur_weight_table_turns(table, rotation, turns);
+    aur_oswa_turns(table->oswa->options.seed, rotation, turns);
     if (!table->apart) {
         for (size_t i = 0; i < table->size; ++i)
             work->taken[i] = true;

@@ -4,6 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "quadrature/check.h"
 #include "quadrature/potential.h"
 #include "quadrature/solve.h"
 

@@ -2,6 +2,7 @@
 #include <stdlib.h>
 
 #include "core/parallel.h"
+#include "quadrature/check.h"
 #include "quadrature/potential.h"
 
 enum { BLOCK = 64 };

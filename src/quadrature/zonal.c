@@ -165,23 +165,29 @@ void aur_zonal_evaluate(const aur_zonal *zonal, size_t count, const double *x, d
     }
 }
 
-double aur_cross_energy(double exponent, double other_exponent, double cosine, double smoothness) {
-    const int valid = exponent >= 0.0 && exponent <= AUR_EXPONENT_MAXIMUM && other_exponent >= 0.0 &&
-                      other_exponent <= AUR_EXPONENT_MAXIMUM && fabs(cosine) <= 1.0 && smoothness > 1.0 &&
-                      smoothness < 2.0;
-    if (!valid)
-        return (double)NAN;
+aur_result aur_cross_energy(double exponent, double other_exponent, double cosine, double smoothness,
+                            double *energy, aur_error *error) {
+    const double exponents[2] = {exponent, other_exponent};
+    for (size_t k = 0; k < 2; ++k)
+        if (!(exponents[k] >= 0.0 && exponents[k] <= AUR_EXPONENT_MAXIMUM))
+            return aur_fail(error, AUR_ERROR_ARGUMENT,
+                            "the exponent of a lobe must be between 0 and %g, not %g", AUR_EXPONENT_MAXIMUM,
+                            exponents[k]);
+    if (!(fabs(cosine) <= 1.0))
+        return aur_fail(error, AUR_ERROR_ARGUMENT, "a cosine must be between -1 and 1, not %g", cosine);
+    if (!(smoothness > 1.0 && smoothness < 2.0))
+        return aur_fail(error, AUR_ERROR_ARGUMENT,
+                        "the smoothness must be between 1 and 2 (exclusive), not %g", smoothness);
     /* The product of the moments decays as l^-(m+m'+3), so one lobe's count is more than enough. */
     const size_t terms = aur_zonal_terms(fmax(exponent, other_exponent), smoothness);
     double *const storage = malloc(3 * terms * sizeof *storage);
     if (storage == NULL)
-        return (double)NAN;
+        return aur_fail(error, AUR_ERROR_MEMORY, "out of memory");
     series_terms(exponent, smoothness, terms, storage, storage + terms);
     lobe_moments(other_exponent, terms, storage + terms);
     for (size_t l = 0; l < terms; ++l)
         storage[l] *= storage[terms + l];
-    double energy;
-    legendre_sum(terms, storage, 1, &cosine, &energy);
+    legendre_sum(terms, storage, 1, &cosine, energy);
     free(storage);
-    return energy;
+    return AUR_OK;
 }

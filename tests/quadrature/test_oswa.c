@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "check.h"
+#include "quadrature/weight_rows.h"
 
 #define PI 3.14159265358979323846
 
@@ -41,8 +42,10 @@ static void test_solve_is_the_plain_one(void **state) {
         for (size_t d = 0; d < 4; ++d) {
             const double angle = degrees[d] * PI / 180.0;
             double xyz[3 * 96], fast[2 * 96], plain[2 * 96], mass;
-            aur_oswa_points(oswa, angle, turns, 0, xyz);
-            assert_int_equal(aur_oswa_solve(oswa, angle, turns, fast, &mass, NULL), AUR_OK);
+            assert_int_equal(aur_oswa_points(oswa, angle, turns, false, 3 * aur_oswa_size(oswa), xyz, NULL),
+                             AUR_OK);
+            assert_int_equal(aur_oswa_solve(oswa, angle, turns, 2 * aur_oswa_size(oswa), fast, &mass, NULL),
+                             AUR_OK);
             const double up = fmax(0.0, cos(angle));
             aur_potential *const diffuse = create(&(aur_density){.exponent = 1.0});
             aur_potential *const glossy =
@@ -68,9 +71,11 @@ static void test_mirror_image(void **state) {
     aur_oswa *oswa;
     assert_int_equal(aur_oswa_create(&options, &oswa, NULL), AUR_OK);
     double straight[3 * 96], mirrored[3 * 96], weights[2 * 96], error[2];
-    aur_oswa_points(oswa, 1.0, turns, 0, straight);
-    aur_oswa_points(oswa, 1.0, turns, 1, mirrored);
-    assert_int_equal(aur_oswa_solve(oswa, 1.0, turns, weights, NULL, NULL), AUR_OK);
+    assert_int_equal(aur_oswa_points(oswa, 1.0, turns, false, 3 * aur_oswa_size(oswa), straight, NULL),
+                     AUR_OK);
+    assert_int_equal(aur_oswa_points(oswa, 1.0, turns, true, 3 * aur_oswa_size(oswa), mirrored, NULL),
+                     AUR_OK);
+    assert_int_equal(aur_oswa_solve(oswa, 1.0, turns, 2 * aur_oswa_size(oswa), weights, NULL, NULL), AUR_OK);
     aur_potential *const glossy =
         create(&(aur_density){.exponent = 20.0, .axis = {-sin(1.0), 0.0, cos(1.0)}, .clipped = 1});
     assert_true(straight[1] == -mirrored[1] && straight[1] != 0.0);
@@ -91,8 +96,9 @@ static void test_ggx(void **state) {
     const double turns[2] = {0.0, 0.0};
     double xyz[3 * 96], weights[2 * 96], mass, sum = 0.0;
     const double angle = 75.0 * PI / 180.0;
-    aur_oswa_points(oswa, angle, turns, 0, xyz);
-    assert_int_equal(aur_oswa_solve(oswa, angle, turns, weights, &mass, NULL), AUR_OK);
+    assert_int_equal(aur_oswa_points(oswa, angle, turns, false, 3 * aur_oswa_size(oswa), xyz, NULL), AUR_OK);
+    assert_int_equal(aur_oswa_solve(oswa, angle, turns, 2 * aur_oswa_size(oswa), weights, &mass, NULL),
+                     AUR_OK);
     size_t hidden = 0;
     for (int i = 0; i < 96; ++i) {
         sum += weights[96 + i];
@@ -159,11 +165,12 @@ static void check_table(double m, int clipped, size_t angles) {
     double equal_total = 0.0, optimal_total = 0.0, table_total = 0.0;
     for (size_t i = 0; i + 1 < angles; i += 3) {
         const double node = 0.5 * PI * (double)i / (double)(angles - 1);
-        aur_weight_table_turns(table, 0, turns);
-        assert_int_equal(aur_oswa_solve(oswa, node, turns, exact, NULL, NULL), AUR_OK);
+        aur_oswa_turns(options.seed, 0, turns);
+        assert_int_equal(aur_oswa_solve(oswa, node, turns, 2 * aur_oswa_size(oswa), exact, NULL, NULL),
+                         AUR_OK);
         for (size_t lobe = 0; lobe < 2; ++lobe) {
-            aur_weight_table_look_up(table, lobe, 0, (float)node, found);
-            aur_weight_table_look_up(again, lobe, 0, (float)node, other);
+            assert_int_equal(aur_weight_table_look_up(table, lobe, 0, node, 96, found, NULL), AUR_OK);
+            assert_int_equal(aur_weight_table_look_up(again, lobe, 0, node, 96, other, NULL), AUR_OK);
             assert_memory_equal(found, other, sizeof found);
             double sum = 0.0;
             for (size_t k = 0; k < 96; ++k) {
@@ -174,9 +181,11 @@ static void check_table(double m, int clipped, size_t angles) {
         }
         const double angle = node + 0.25 * PI / (double)(angles - 1);
         double errors[3], mass;
-        assert_int_equal(aur_oswa_solve(oswa, angle, turns, exact, &mass, NULL), AUR_OK);
-        aur_weight_table_look_up(table, 1, 0, (float)angle, found);
-        aur_oswa_points(oswa, angle, turns, 0, xyz);
+        assert_int_equal(aur_oswa_solve(oswa, angle, turns, 2 * aur_oswa_size(oswa), exact, &mass, NULL),
+                         AUR_OK);
+        assert_int_equal(aur_weight_table_look_up(table, 1, 0, angle, 96, found, NULL), AUR_OK);
+        assert_int_equal(aur_oswa_points(oswa, angle, turns, false, 3 * aur_oswa_size(oswa), xyz, NULL),
+                         AUR_OK);
         size_t visible = 0;
         for (size_t k = 64; k < 96; ++k)
             visible += !clipped || xyz[3 * k + 2] >= 0.0;
@@ -191,7 +200,7 @@ static void check_table(double m, int clipped, size_t angles) {
         aur_worst_case_error(96, xyz, exact + 96, glossy, 1, NULL, &errors[0], NULL);
         aur_worst_case_error(96, xyz, looked_up, glossy, 1, NULL, &errors[1], NULL);
         aur_worst_case_error(96, xyz, equal, glossy, 1, NULL, &errors[2], NULL);
-        assert_relative(aur_weight_table_mass(table, (float)angle), mass, 2e-4);
+        assert_relative(aur_weight_table_mass(table, angle), mass, 2e-4);
         optimal_total += errors[0];
         table_total += errors[1];
         equal_total += errors[2];
@@ -252,19 +261,37 @@ static void test_file(void **state) {
     for (size_t rotation = 0; rotation < 3; ++rotation) {
         float a[96], b[96];
         double first[3 * 96], second[3 * 96];
-        aur_weight_table_look_up(table, 1, rotation, 0.7f, a);
-        aur_weight_table_look_up(loaded, 1, rotation, 0.7f, b);
+        assert_int_equal(aur_weight_table_look_up(table, 1, rotation, 0.7, 96, a, NULL), AUR_OK);
+        assert_int_equal(aur_weight_table_look_up(loaded, 1, rotation, 0.7, 96, b, NULL), AUR_OK);
         assert_memory_equal(a, b, sizeof a);
-        aur_weight_table_points(table, 0.7, rotation, 0, first);
-        aur_weight_table_points(loaded, 0.7, rotation, 0, second);
+        assert_int_equal(aur_weight_table_points(table, 0.7, rotation, false, 3 * 96, first, NULL), AUR_OK);
+        assert_int_equal(aur_weight_table_points(loaded, 0.7, rotation, false, 3 * 96, second, NULL), AUR_OK);
         assert_memory_equal(first, second, sizeof first);
     }
-    assert_true(aur_weight_table_mass(loaded, 0.3f) == aur_weight_table_mass(table, 0.3f));
-    /* Angles out of range are the nearest in it. */
-    float edge[96], beyond[96];
-    aur_weight_table_look_up(loaded, 0, 0, (float)(0.5 * PI), edge);
-    aur_weight_table_look_up(loaded, 0, 0, 9.0f, beyond);
-    assert_memory_equal(edge, beyond, sizeof edge);
+    assert_true(aur_weight_table_mass(loaded, 0.3) == aur_weight_table_mass(table, 0.3));
+    /* What is not in the table, and what does not fit, is refused. */
+    const struct {
+        size_t lobe, rotation, capacity;
+        double radians;
+        aur_result result;
+    } asked[] = {
+        {1, 2, 96, 0.5 * PI, AUR_OK},         {2, 2, 96, 0.7, AUR_ERROR_ARGUMENT},
+        {1, 3, 96, 0.7, AUR_ERROR_ARGUMENT},  {1, SIZE_MAX, 96, 0.7, AUR_ERROR_ARGUMENT},
+        {1, 2, 95, 0.7, AUR_ERROR_CAPACITY},  {1, 2, 96, 9.0, AUR_ERROR_ARGUMENT},
+        {1, 2, 96, -0.1, AUR_ERROR_ARGUMENT}, {1, 2, 96, (double)NAN, AUR_ERROR_ARGUMENT},
+    };
+    for (size_t i = 0; i < sizeof asked / sizeof asked[0]; ++i) {
+        float found[96];
+        double xyz[3 * 96];
+        assert_int_equal(aur_weight_table_look_up(loaded, asked[i].lobe, asked[i].rotation, asked[i].radians,
+                                                  asked[i].capacity, found, &error),
+                         asked[i].result);
+        if (asked[i].lobe < 2)
+            assert_int_equal(aur_weight_table_points(loaded, asked[i].radians, asked[i].rotation, false,
+                                                     3 * asked[i].capacity, xyz, &error),
+                             asked[i].result);
+    }
+    assert_true(aur_weight_table_mass(loaded, 9.0) == aur_weight_table_mass(loaded, 0.5 * PI));
     aur_weight_table_destroy(loaded);
     aur_weight_table_destroy(table);
 
@@ -344,10 +371,19 @@ static void test_build_errors(void **state) {
     aur_oswa *oswa;
     double weights[2 * 96];
     assert_int_equal(aur_oswa_create(&options, &oswa, NULL), AUR_OK);
-    assert_int_equal(aur_oswa_solve(oswa, -0.1, (double[2]){0, 0}, weights, NULL, &error),
+    assert_int_equal(
+        aur_oswa_solve(oswa, -0.1, (double[2]){0, 0}, 2 * aur_oswa_size(oswa), weights, NULL, &error),
+        AUR_ERROR_ARGUMENT);
+    assert_int_equal(
+        aur_oswa_solve(oswa, (double)NAN, (double[2]){0, 0}, 2 * aur_oswa_size(oswa), weights, NULL, &error),
+        AUR_ERROR_ARGUMENT);
+    assert_int_equal(aur_oswa_solve(oswa, 0.1, (double[2]){0, 0}, 2 * 96 - 1, weights, NULL, &error),
+                     AUR_ERROR_CAPACITY);
+    double xyz[3 * 96];
+    assert_int_equal(aur_oswa_points(oswa, (double)NAN, (double[2]){0, 0}, false, 3 * 96, xyz, &error),
                      AUR_ERROR_ARGUMENT);
-    assert_int_equal(aur_oswa_solve(oswa, (double)NAN, (double[2]){0, 0}, weights, NULL, &error),
-                     AUR_ERROR_ARGUMENT);
+    assert_int_equal(aur_oswa_points(oswa, 0.1, (double[2]){0, 0}, false, 3 * 96 - 1, xyz, &error),
+                     AUR_ERROR_CAPACITY);
     aur_oswa_destroy(oswa);
 }
 

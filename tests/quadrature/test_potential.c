@@ -22,7 +22,9 @@ static void test_golden(void **state) {
     for (size_t i = 0; i < 2; ++i) {
         aur_potential *const potential = create(&(aur_density){.exponent = energies[i][0]}, 1.5);
         assert_relative(aur_potential_self_energy(potential), energies[i][1], 1e-12);
-        assert_relative(aur_cross_energy(energies[i][0], energies[i][0], 1.0, 1.5), energies[i][1], 1e-12);
+        double cross;
+        assert_int_equal(aur_cross_energy(energies[i][0], energies[i][0], 1.0, 1.5, &cross, NULL), AUR_OK);
+        assert_relative(cross, energies[i][1], 1e-12);
         assert_relative(aur_potential_mass(potential), 2.0 * PI / (energies[i][0] + 1.0), 1e-14);
         aur_potential_destroy(potential);
     }
@@ -236,8 +238,18 @@ static void test_cross_energy(void **state) {
             energy += 0.5 * weight[i] / AROUND * 21.0 * pow(cosine, 20.0) * z;
         }
     }
-    assert_relative(aur_cross_energy(1.0, 20.0, cos(0.9), 1.5), energy, 1e-9);
-    assert_true(isnan(aur_cross_energy(-1.0, 20.0, 0.5, 1.5)) && isnan(aur_cross_energy(1.0, 2.0, 1.5, 1.5)));
+    double cross;
+    assert_int_equal(aur_cross_energy(1.0, 20.0, cos(0.9), 1.5, &cross, NULL), AUR_OK);
+    assert_relative(cross, energy, 1e-9);
+    const double refused[][4] = {{-1.0, 20.0, 0.5, 1.5}, {1.0, (double)NAN, 0.5, 1.5},
+                                 {1.0, 2.0, 1.5, 1.5},   {1.0, 2.0, (double)NAN, 1.5},
+                                 {1.0, 2.0, 0.5, 1.0},   {1.0, 2.0, 0.5, 2.0}};
+    for (size_t i = 0; i < sizeof refused / sizeof refused[0]; ++i) {
+        const double *const r = refused[i];
+        aur_error error;
+        assert_int_equal(aur_cross_energy(r[0], r[1], r[2], r[3], &cross, &error), AUR_ERROR_ARGUMENT);
+        assert_non_null(strstr(error.message, "must be"));
+    }
     aur_potential_destroy(diffuse);
 }
 

@@ -259,8 +259,11 @@ static void test_published_method(void **state) {
         options.published_z = published ? table : NULL;
         aur_oswa *oswa;
         assert_int_equal(aur_oswa_create(&options, &oswa, NULL), AUR_OK);
-        aur_oswa_points(oswa, 0.6, (double[]){0, 0}, 0, xyz);
-        assert_int_equal(aur_oswa_solve(oswa, 0.6, (double[]){0, 0}, weights, NULL, NULL), AUR_OK);
+        assert_int_equal(
+            aur_oswa_points(oswa, 0.6, (double[]){0, 0}, false, 3 * aur_oswa_size(oswa), xyz, NULL), AUR_OK);
+        assert_int_equal(
+            aur_oswa_solve(oswa, 0.6, (double[]){0, 0}, 2 * aur_oswa_size(oswa), weights, NULL, NULL),
+            AUR_OK);
         aur_worst_case_error(96, xyz, weights + 96, glossy, 1, NULL, &errors[published], NULL);
         aur_oswa_destroy(oswa);
     }

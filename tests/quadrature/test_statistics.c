@@ -238,8 +238,11 @@ static void check_clipping(double degrees) {
             aur_oswa *oswa;
             assert_int_equal(aur_oswa_create(&options, &oswa, NULL), AUR_OK);
             const double turns[2] = {0.0, 0.0};
-            aur_oswa_points(oswa, angle, turns, 0, xyz);
-            assert_int_equal(aur_oswa_solve(oswa, angle, turns, weights, &mass[clipped], NULL), AUR_OK);
+            assert_int_equal(aur_oswa_points(oswa, angle, turns, false, 3 * aur_oswa_size(oswa), xyz, NULL),
+                             AUR_OK);
+            assert_int_equal(
+                aur_oswa_solve(oswa, angle, turns, 2 * aur_oswa_size(oswa), weights, &mass[clipped], NULL),
+                AUR_OK);
             found[clipped] = mass[clipped] / mass[0] * estimate(&l, ALL, xyz, weights + ALL);
             aur_oswa_destroy(oswa);
         }

@@ -195,19 +195,20 @@ static void test_rule(void **state) {
     const aur_rule_options optimal = {
         .points = {.count = 64, .domain = AUR_DOMAIN_HEMISPHERE, .lobe = {.exponent = 20.0}}, .optimal = 1};
     double xyz[3 * 64], weights[64], value;
-    assert_int_equal(aur_rule_make(&optimal, xyz, weights, NULL), AUR_OK);
+    assert_int_equal(aur_rule_make(&optimal, 3 * 64, xyz, weights, NULL), AUR_OK);
     aur_potential *const potential = lobe_potential(20.0, 1.5);
     assert_int_equal(aur_worst_case_error(64, xyz, weights, potential, 1, NULL, &value, NULL), AUR_OK);
     assert_relative(value, 2.130088901918e-2, 1e-9);
     aur_rule_options ratio = optimal;
     ratio.optimal = 0;
     ratio.points.optimal_density = 1;
-    assert_int_equal(aur_rule_make(&ratio, xyz, weights, NULL), AUR_OK);
+    assert_int_equal(aur_rule_make(&ratio, 3 * 64, xyz, weights, NULL), AUR_OK);
     assert_int_equal(aur_worst_case_error(64, xyz, weights, potential, 1, NULL, &value, NULL), AUR_OK);
     assert_near(value, 2.078e-2, 0.5e-5);
     aur_error error;
+    assert_int_equal(aur_rule_make(&ratio, 3 * 64 - 1, xyz, weights, &error), AUR_ERROR_CAPACITY);
     ratio.set = "no-such-set";
-    assert_int_equal(aur_rule_make(&ratio, xyz, weights, &error), AUR_ERROR_NAME);
+    assert_int_equal(aur_rule_make(&ratio, 3 * 64, xyz, weights, &error), AUR_ERROR_NAME);
     aur_potential_destroy(potential);
 }
 

@@ -3,6 +3,7 @@
 #include <stdlib.h>
 
 #include "core/error.h"
+#include "quadrature/weight_rows.h"
 
 /* --- making one
  * ------------------------------------------------------------------------------------------------------- */
@@ -61,12 +62,11 @@ static aur_result fill_directions(aur_gather_pair *pair, const aur_oswa_options 
     for (size_t rotation = 0; rotation < pair->rotations && result == AUR_OK; ++rotation) {
         double turns[2];
         aur_oswa_turns(pair->seed, rotation, turns);
-        if (pair->table != NULL)
-            aur_weight_table_points(pair->table, 0.0, rotation, 0, xyz);
-        else
-            aur_oswa_points(pair->oswa, 0.0, turns, 0, xyz);
+        result = pair->table != NULL
+                     ? aur_weight_table_points(pair->table, 0.0, rotation, false, 3 * size, xyz, error)
+                     : aur_oswa_points(pair->oswa, 0.0, turns, false, 3 * size, xyz, error);
         const double *u = xyz;
-        for (size_t pattern = 0; pattern < 2; ++pattern)
+        for (size_t pattern = 0; pattern < 2 && result == AUR_OK; ++pattern)
             for (size_t i = 0; i < pair->count[pattern]; ++i, u += 3)
                 for (size_t k = 0; k < 3; ++k)
                     pair->direction[pattern][k][rotation * pair->count[pattern] +
@@ -191,7 +191,7 @@ static void look_up(const aur_gather_pair *pair, size_t rotation, size_t share, 
     float *restrict target = weights;
     for (size_t i = 0; i < samples; ++i)
         target[i] = below[i] + part * (above[i] - below[i]);
-    const float mass = aur_weight_table_mass(pair->table, radians);
+    const float mass = (float)aur_weight_table_mass(pair->table, (double)radians);
     for (size_t i = samples; i < 2 * samples; ++i)
         target[i] = mass * (below[i] + part * (above[i] - below[i]));
 }
@@ -229,8 +229,8 @@ static void solve(const aur_gather_pair *pair, size_t rotation, size_t share, fl
     double turns[2], mass = 0.0;
     aur_oswa_turns(pair->seed, rotation, turns);
     double *const found = malloc(2 * size * sizeof *found);
-    const bool solved =
-        found != NULL && aur_oswa_solve(pair->oswa, (double)radians, turns, found, &mass, NULL) == AUR_OK;
+    const bool solved = found != NULL && aur_oswa_solve(pair->oswa, (double)radians, turns, 2 * size, found,
+                                                        &mass, NULL) == AUR_OK;
     for (size_t lobe = 0, at = 0; lobe < 2; ++lobe) {
         const double scale = (double)pair->shares * (lobe == 0 ? AUR_PI : mass);
         for (size_t i = 0; i < samples; ++i, ++at) {

@@ -14,7 +14,7 @@ static aur_result make_pattern(const aur_rule_options *rule, aur_radiosity_gathe
     if (numbers == NULL || gather->x == NULL)
         result = aur_fail(error, AUR_ERROR_MEMORY, "radiosity: out of memory for %zu directions", count);
     if (result == AUR_OK)
-        result = aur_rule_make(rule, numbers, numbers + 3 * count, error);
+        result = aur_rule_make(rule, 3 * count, numbers, numbers + 3 * count, error);
     gather->count = count;
     gather->y = gather->x + count;
     gather->z = gather->y + count;
