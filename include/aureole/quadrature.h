@@ -158,10 +158,18 @@ AUR_API aur_result aur_weights_write(const char *path, size_t count, const doubl
 /* --- two lobes, one merged set (OSWA) ---------------------------------------------------------------------
  */
 
+/* The published look-up of z (Marques 2018 section 6.2), bilinear in the polar angle and log(1 + m). It is
+ * kept as the baseline to compare with: its error is what K^{-1} magnifies. */
+typedef struct aur_z_grid {
+    size_t angle_count;      /* from 0 to pi, 2 to 65536; 0: no grid */
+    size_t exponent_count;   /* from 0 to largest_exponent, 2 to 4096 */
+    double largest_exponent; /* in (0, AUR_EXPONENT_MAXIMUM]; lobes beyond it get its z */
+} aur_z_grid;
+
 /* Two patterns of one set: the first follows a lobe about the normal +z; the second a lobe about the mirror
- * direction
- * (-sin a, 0, cos a) of a view at the angle a from the normal towards +x. A GGX lobe takes that angle as its
- * view angle. Both patterns may be turned about their axes; a "turn" is in [0,1). */
+ * direction (-sin a, 0, cos a) of a view at the angle a from the normal towards +x. A GGX lobe takes that
+ * angle as its view angle. Both patterns may be turned about their axes by turns in [0,1), parts of a whole
+ * turn. */
 typedef struct aur_oswa_options {
     const char *set;            /* as in aur_directions_create; NULL: spherical-fibonacci */
     size_t count, mirror_count; /* samples of the first and of the second pattern */
@@ -171,11 +179,10 @@ typedef struct aur_oswa_options {
                     always does */
     aur_map map;
     aur_scramble scramble;
-    uint64_t seed;                                 /* of the set, its scrambling, and of the table's turns */
-    double smoothness;                             /* 0 stands for 1.5 */
-    aur_weights_options weights;                   /* regularisation 0 is 0 */
-    const struct aur_potential_table *published_z; /* not NULL: z as published, by linear interpolation in a
-                                                      table (COSINE_POWER, unclipped) */
+    uint64_t seed;               /* of the set, its scrambling, and of the table's turns */
+    double smoothness;           /* 0 stands for 1.5 */
+    aur_weights_options weights; /* regularisation 0 is 0 */
+    aur_z_grid published_z;      /* z as published, for unclipped COSINE_POWER lobes; all zero: exact z */
 } aur_oswa_options;
 
 /* Both patterns with all that does not depend on the angle: the two constant blocks of K and their z (Marques
@@ -202,18 +209,6 @@ AUR_API aur_result aur_oswa_solve(const aur_oswa *oswa, double radians, const do
 
 /* The turns that prepared rotation number `rotation` has: hashed from the seed. Those of tables, too. */
 AUR_API void aur_oswa_turns(uint64_t seed, size_t rotation, double turns[2]) AUR_NONNULL(3);
-
-/* The published look-up of z (Marques 2018 section 6.2): polar angle by log(1 + m), bilinear. Kept as the
- * baseline to compare with: its error is what K^{-1} magnifies. */
-typedef struct aur_potential_table aur_potential_table;
-
-AUR_API aur_result aur_potential_table_create(size_t angle_count, size_t exponent_count,
-                                              double largest_exponent, double smoothness,
-                                              aur_potential_table **table, aur_error *error) AUR_NONNULL(5);
-AUR_API void aur_potential_table_destroy(aur_potential_table *table); /* NULL is allowed */
-/* z of the normalised cos^m lobe at directions whose cosines to its axis are given. */
-AUR_API void aur_potential_table_evaluate(const aur_potential_table *table, double exponent, size_t count,
-                                          const double *cosines, double *z) AUR_NONNULL(1, 4, 5);
 
 /* --- OSWA from a table ------------------------------------------------------------------------------------
  */

@@ -51,7 +51,6 @@ typedef struct study {
     lab_run *run;
     const char *set;
     double radians;
-    aur_potential_table *published_z;
     aur_weight_table *table; /* of the set */
     double *truth;           /* 6 * TRUTH: points of either lobe */
 } study;
@@ -69,7 +68,7 @@ static aur_oswa_options pair(const study *s, method m, uint64_t seed) {
                                 .weights = aur_weights_options_default()};
     if (m == PUBLISHED) {
         options.weights = (aur_weights_options){0.5, 0};
-        options.published_z = s->published_z;
+        options.published_z = (aur_z_grid){64, 32, 100.0};
     }
     return options;
 }
@@ -224,7 +223,7 @@ static aur_result run(lab_run *run, aur_error *error) {
     study s = {.run = run, .truth = malloc(6 * TRUTH * sizeof *s.truth)};
     if (s.truth == NULL)
         return AUR_ERROR_MEMORY;
-    aur_result result = aur_potential_table_create(64, 32, 100.0, 1.5, &s.published_z, error);
+    aur_result result = AUR_OK;
     const char *const sets[] = {"sobol", "spherical-fibonacci", options->quick ? NULL : "random",
                                 options->set};
     for (size_t i = 0; i < 4 && result == AUR_OK; ++i) {
@@ -232,7 +231,6 @@ static aur_result run(lab_run *run, aur_error *error) {
         if (s.set != NULL)
             result = study_set(&s, error);
     }
-    aur_potential_table_destroy(s.published_z);
     free(s.truth);
     return result;
 }

@@ -62,7 +62,7 @@ static aur_result prepare_pattern(aur_oswa *oswa, size_t which, aur_error *error
         aur_kernel_row(&oswa->whole[which]->rule, pattern + 3 * i, i, split, oswa->kernel[which] + i * n);
         oswa->kernel[which][i * n + i] = oswa->whole[which]->rule.top + oswa->options.weights.regularization;
     }
-    const aur_potential_table *const published = oswa->options.published_z;
+    const aur_potential_table *const published = oswa->published_z;
     if (published != NULL)
         aur_potential_table_evaluate(published, density.exponent, n, split.z, oswa->own[which]);
     else
@@ -107,7 +107,8 @@ static aur_result check(const aur_oswa_options *options, aur_error *error) {
                         "the lobe about the normal must be uniform, cosine or phong:M");
     if (options->count == 0 || options->mirror_count == 0)
         return aur_fail(error, AUR_ERROR_ARGUMENT, "both lobes need at least one sample");
-    if (options->published_z != NULL && (options->clipped || options->mirror_lobe.kind == AUR_LOBE_GGX))
+    if (options->published_z.angle_count > 0 &&
+        (options->clipped || options->mirror_lobe.kind == AUR_LOBE_GGX))
         return aur_fail(error, AUR_ERROR_UNSUPPORTED,
                         "the published table of z knows whole cos^m lobes only");
     const double sigma = options->weights.regularization;
@@ -131,6 +132,9 @@ static aur_result create(aur_oswa *oswa, bool solves, aur_error *error) {
         }
     }
     aur_result result = allocate(oswa, solves, error);
+    if (result == AUR_OK && solves && options->published_z.angle_count > 0)
+        result =
+            aur_potential_table_create(&options->published_z, options->smoothness, &oswa->published_z, error);
     for (size_t which = 0; which < 2 && result == AUR_OK; ++which) {
         result = load_uniform(oswa, which, error);
         if (result != AUR_OK || oswa->lobe[which].kind != AUR_LOBE_COSINE_POWER)
@@ -172,6 +176,7 @@ void aur_oswa_destroy(aur_oswa *oswa) {
         return;
     aur_potential_destroy(oswa->whole[0]);
     aur_potential_destroy(oswa->whole[1]);
+    aur_potential_table_destroy(oswa->published_z);
     free(oswa->storage);
     free(oswa->set);
     free(oswa);
@@ -297,9 +302,8 @@ static void fill_z(const aur_oswa *oswa, const aur_oswa_angle *angle, size_t whi
     memcpy(which == 0 ? z : mirror_z, oswa->own[which], n * sizeof *z);
     for (size_t i = 0; i < n; ++i)
         cosines[i] = which == 0 ? aur_dot3(xyz + 3 * i, axis) : xyz[3 * i + 2];
-    if (oswa->options.published_z != NULL)
-        aur_potential_table_evaluate(oswa->options.published_z, oswa->lobe[1 - which].exponent, n, cosines,
-                                     other);
+    if (oswa->published_z != NULL)
+        aur_potential_table_evaluate(oswa->published_z, oswa->lobe[1 - which].exponent, n, cosines, other);
     else
         aur_zonal_evaluate(&oswa->whole[1 - which]->zonal, n, cosines, other);
     if (angle->lune.fraction <= 0.0)

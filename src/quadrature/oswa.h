@@ -5,6 +5,7 @@
 #include <stdbool.h>
 
 #include "quadrature/potential.h"
+#include "quadrature/potential_table.h"
 
 /* The patterns are numbered 0 (about the normal) and 1 (about the mirror direction). */
 struct aur_oswa {
@@ -18,6 +19,7 @@ struct aur_oswa {
     double *kernel[2];       /* count * count, lower triangle: the constant blocks; GGX: [1] is NULL */
     double *own[2];          /* z of each pattern for its own lobe, unclipped; GGX: [1] is NULL */
     aur_potential *whole[2]; /* of each lobe about +z, unclipped; GGX: [1] is NULL */
+    aur_potential_table *published_z; /* NULL: z is exact */
     void *storage;
 };
 

@@ -1,9 +1,10 @@
-/* The published look-up of z: bilinear in polar angle and lobe width (Marques 2018 section 6.2). */
+#include "quadrature/potential_table.h"
+
 #include <math.h>
 #include <stdlib.h>
 
+#include "core/error.h"
 #include "core/vector.h"
-#include "quadrature/potential.h"
 
 struct aur_potential_table {
     size_t angle_count, exponent_count;
@@ -11,8 +12,10 @@ struct aur_potential_table {
     double *z;      /* a row an exponent */
 };
 
-aur_result aur_potential_table_create(size_t angle_count, size_t exponent_count, double largest_exponent,
-                                      double smoothness, aur_potential_table **table, aur_error *error) {
+aur_result aur_potential_table_create(const aur_z_grid *grid, double smoothness, aur_potential_table **table,
+                                      aur_error *error) {
+    const size_t angle_count = grid->angle_count, exponent_count = grid->exponent_count;
+    const double largest_exponent = grid->largest_exponent;
     *table = NULL;
     if (angle_count < 2 || exponent_count < 2 || angle_count > 1 << 16 || exponent_count > 1 << 12)
         return aur_fail(error, AUR_ERROR_ARGUMENT,

@@ -79,7 +79,7 @@ static size_t weight_count(const aur_weight_table *table) {
 }
 
 aur_result aur_weight_table_save(const aur_weight_table *table, const char *path, aur_error *error) {
-    if (table->oswa->options.published_z != NULL)
+    if (table->oswa->options.published_z.angle_count > 0)
         return aur_fail(error, AUR_ERROR_UNSUPPORTED, "a table made with the published z is not for keeping");
     const size_t intervals = table->apart ? aur_weight_table_intervals(table) : 0;
     const size_t words =

@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "check.h"
+#include "quadrature/potential_table.h"
 #include "quadrature/weight_rows.h"
 
 #define PI 3.14159265358979323846
@@ -117,7 +118,7 @@ static void test_ggx(void **state) {
 static void test_published_table(void **state) {
     (void)state;
     aur_potential_table *table;
-    assert_int_equal(aur_potential_table_create(64, 32, 200.0, 1.5, &table, NULL), AUR_OK);
+    assert_int_equal(aur_potential_table_create(&(aur_z_grid){64, 32, 200.0}, 1.5, &table, NULL), AUR_OK);
     aur_potential *const potential = create(&(aur_density){.exponent = 20.0});
     double worst = 0.0;
     for (int i = 0; i <= 100; ++i) {
@@ -140,7 +141,8 @@ static void test_published_table(void **state) {
     aur_potential_destroy(uniform);
     aur_potential_destroy(potential);
     aur_potential_table_destroy(table);
-    assert_int_equal(aur_potential_table_create(1, 32, 200.0, 1.5, &table, NULL), AUR_ERROR_ARGUMENT);
+    assert_int_equal(aur_potential_table_create(&(aur_z_grid){1, 32, 200.0}, 1.5, &table, NULL),
+                     AUR_ERROR_ARGUMENT);
 }
 
 static aur_weight_table *build(const aur_oswa_options *options, size_t angles, size_t rotations,

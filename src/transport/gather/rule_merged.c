@@ -116,9 +116,7 @@ static aur_result prepare(aur_gather_pair *pair, const aur_pair_options *options
         result = aur_weight_table_build(&wanted, angle_count(options->exponent), options->rotations,
                                         options->threads, &options->progress, &pair->table, error);
     if (options->method == AUR_PAIR_SOLVE)
-        result = aur_potential_table_create(64, 32, fmax(1.0, options->exponent), options->smoothness,
-                                            &pair->published_z, error);
-    wanted.published_z = pair->published_z;
+        wanted.published_z = (aur_z_grid){64, 32, fmax(1.0, options->exponent)};
     if (result == AUR_OK)
         result = fill_directions(pair, &wanted, error);
     if (result == AUR_OK && pair->table != NULL)
@@ -171,7 +169,6 @@ void aur_gather_pair_destroy(aur_gather_pair *pair) {
         return;
     aur_weight_table_destroy(pair->table);
     aur_oswa_destroy(pair->oswa);
-    aur_potential_table_destroy(pair->published_z);
     free(pair->rows);
     free(pair->storage);
     free(pair);

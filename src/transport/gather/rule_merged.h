@@ -53,8 +53,7 @@ typedef struct aur_gather_pair {
      * light's own sampling is weighed against. */
     float density[2][AUR_PAIR_DENSITY_STEPS + 1];
     double drawn_exponent[2];
-    aur_oswa *oswa;                   /* SOLVE */
-    aur_potential_table *published_z; /* SOLVE */
+    aur_oswa *oswa; /* SOLVE */
     uint64_t seed;
     aur_weight_table *table; /* OSWA: where angles lie */
     float
