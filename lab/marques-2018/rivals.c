@@ -64,7 +64,7 @@ static aur_oswa_options pair(const study *s, method m, uint64_t seed) {
                                 .optimal_density = m == DENSE,
                                 .clipped = m == CLIPPED || m == TABLE || m == DENSE || m == SCALED,
                                 .scramble = lab_scrambling(s->set),
-                                .seed = 2 * seed,
+                                .seed = seed,
                                 .weights = aur_weights_options_default()};
     if (m == PUBLISHED) {
         options.weights = (aur_weights_options){0.5, 0};

@@ -20,12 +20,17 @@ bool aur_oswa_hides(const aur_oswa *oswa) {
     return oswa->options.clipped || is_ggx(oswa);
 }
 
+/* The second pattern has a seed of its own, which is not the first one's of another pair. */
+static uint64_t pattern_seed(uint64_t seed, size_t which) {
+    return which == 0 ? seed : aur_hash2(UINT64_C(0x6d6972726f72), seed);
+}
+
 static aur_result load_uniform(aur_oswa *oswa, size_t which, aur_error *error) {
     const aur_directions_options options = {.count = oswa->count[which],
                                             .domain = AUR_DOMAIN_HEMISPHERE,
                                             .map = oswa->options.map,
                                             .scramble = oswa->options.scramble,
-                                            .seed = oswa->options.seed + which};
+                                            .seed = pattern_seed(oswa->options.seed, which)};
     aur_directions *directions;
     aur_result result = aur_directions_create(oswa->set, &options, &directions, error);
     if (result != AUR_OK)

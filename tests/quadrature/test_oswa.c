@@ -87,6 +87,27 @@ static void test_mirror_image(void **state) {
     aur_oswa_destroy(oswa);
 }
 
+/* Pairs of neighbouring seeds share no pattern: no uniform height of one is a height of the other. */
+static void test_neighbouring_seeds(void **state) {
+    (void)state;
+    double xyz[2][3 * 96];
+    for (uint64_t seed = 0; seed < 2; ++seed) {
+        aur_oswa_options options = pair(0.0, 0);
+        options.count = options.mirror_count = 48;
+        options.lobe.exponent = 0.0;
+        options.set = "random";
+        options.seed = 7 + seed;
+        aur_oswa *oswa;
+        assert_int_equal(aur_oswa_create(&options, &oswa, NULL), AUR_OK);
+        assert_int_equal(aur_oswa_points(oswa, 0.0, (double[2]){0, 0}, false, 3 * 96, xyz[seed], NULL),
+                         AUR_OK);
+        aur_oswa_destroy(oswa);
+    }
+    for (size_t i = 0; i < 96; ++i)
+        for (size_t j = 0; j < 96; ++j)
+            assert_true(xyz[0][3 * i + 2] != xyz[1][3 * j + 2]);
+}
+
 /* GGX: samples follow the visible normals at each angle and hidden ones get nothing. */
 static void test_ggx(void **state) {
     (void)state;
@@ -393,6 +414,7 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_solve_is_the_plain_one),
         cmocka_unit_test(test_mirror_image),
+        cmocka_unit_test(test_neighbouring_seeds),
         cmocka_unit_test(test_ggx),
         cmocka_unit_test(test_published_table),
         cmocka_unit_test(test_table),
