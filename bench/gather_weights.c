@@ -102,7 +102,7 @@ static int ascending(const void *a, const void *b) {
 static bool compare(const bench_options *options, gather_context *context, const char *name, const char *keys,
                     gather_way *equal, double *percent) {
     enum { CAPACITY = 128 };
-    static const aur_parallel_options one_thread = {.threads = 1};
+    static const aur_parallel_options one_thread = {.threads = 1, .flush_denormals = true};
     const size_t wanted = ROUNDS * options->pairs + 1;
     const size_t rounds = wanted < CAPACITY ? wanted : CAPACITY;
     double more[CAPACITY];

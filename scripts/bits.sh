@@ -8,7 +8,6 @@ source=$(cd "$(dirname "$0")/.." && pwd)
 folder=$(mktemp -d)
 trap 'rm -rf "$folder"' EXIT
 cd "$folder"
-export OMP_WAIT_POLICY=passive
 
 sum() { # sum NAME FILE
   printf '%s  %s\n' "$(sha256sum <"$2" | cut -c 1-16)" "$1"

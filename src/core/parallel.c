@@ -1,61 +1,149 @@
+#if defined(__linux__) && !defined(_GNU_SOURCE)
+#define _GNU_SOURCE /* sched_getaffinity */
+#endif
 #include "core/parallel.h"
 
-#include <omp.h>
+#include <pthread.h>
+#include <sched.h>
+#include <signal.h>
 #include <stdatomic.h>
-#include <stdbool.h>
+#include <stdlib.h>
+#include <unistd.h>
+
+#include "core/text.h"
 
 #if defined(__x86_64__)
 #include <immintrin.h>
+#endif
 
-static unsigned enter_fast_denormals(void) {
+enum { MOST_THREADS = 1024, THREADS_A_PROCESSOR = 4, FEWEST_ALLOWED = 16 };
+
+/* --- denormal numbers: the processor's state, and back to what the host had */
+
+#if defined(__x86_64__)
+static uint64_t flush_denormals(void) {
     const unsigned saved = _mm_getcsr();
     _mm_setcsr(saved | 0x8040u); /* flush to zero, denormals are zero */
     return saved;
 }
 
-static void leave_fast_denormals(unsigned saved) {
-    _mm_setcsr(saved);
+static void restore_denormals(uint64_t saved) {
+    _mm_setcsr((unsigned)saved);
+}
+#elif defined(__aarch64__)
+static uint64_t flush_denormals(void) {
+    uint64_t saved;
+    __asm__ volatile("mrs %0, fpcr" : "=r"(saved));
+    __asm__ volatile("msr fpcr, %0" : : "r"(saved | UINT64_C(1) << 24));
+    return saved;
+}
+
+static void restore_denormals(uint64_t saved) {
+    __asm__ volatile("msr fpcr, %0" : : "r"(saved));
 }
 #else
-static unsigned enter_fast_denormals(void) {
+static uint64_t flush_denormals(void) {
     return 0;
 }
 
-static void leave_fast_denormals(unsigned saved) {
+static void restore_denormals(uint64_t saved) {
     (void)saved;
 }
 #endif
 
-size_t aur_parallel_threads(size_t threads) {
-    if (threads > 0)
-        return threads;
-    const int offered = omp_get_max_threads();
-    return offered > 0 ? (size_t)offered : 1;
+/* --- the number of threads */
+
+/* The processors that this process may use. */
+static size_t processor_count(void) {
+#if defined(__linux__)
+    cpu_set_t set;
+    if (sched_getaffinity(0, sizeof set, &set) == 0 && CPU_COUNT(&set) > 0)
+        return (size_t)CPU_COUNT(&set);
+#endif
+    const long online = sysconf(_SC_NPROCESSORS_ONLN);
+    return online > 0 ? (size_t)online : 1;
 }
 
-typedef struct shared_state {
+size_t aur_parallel_threads(size_t threads) {
+    const size_t processors = processor_count();
+    size_t most = processors * THREADS_A_PROCESSOR;
+    most = most < FEWEST_ALLOWED ? FEWEST_ALLOWED : most > MOST_THREADS ? MOST_THREADS : most;
+    if (threads == 0) {
+        /* Batch systems and test harnesses say by this variable how many processors are ours. */
+        const char *const wish = getenv("OMP_NUM_THREADS");
+        uint64_t wished;
+        threads = wish != NULL && aur_read_integer(wish, MOST_THREADS, &wished) != NULL && wished > 0
+                      ? (size_t)wished
+                      : processors;
+    }
+    return threads < most ? threads : most;
+}
+
+/* --- sharing the work */
+
+typedef struct shared_work {
+    const aur_parallel_options *options;
+    size_t count;
+    aur_parallel_function function;
+    void *context;
+    atomic_size_t next; /* the first item that nobody has taken */
     atomic_bool stop;
-    size_t failed_index;
+    pthread_mutex_t lock; /* guards what follows, and makes one progress report at a time */
+    size_t failed_index;  /* `count` while nothing has failed */
     aur_result result;
     uint64_t done;
-} shared_state;
+} shared_work;
 
-static void record(shared_state *state, const aur_parallel_options *options, size_t count, size_t index,
-                   aur_result result) {
-#pragma omp critical(aur_parallel_record)
-    {
-        if (result != AUR_OK && index < state->failed_index) {
-            state->failed_index = index;
-            state->result = result;
-            atomic_store(&state->stop, true);
-        }
-        ++state->done;
-        if (result == AUR_OK && !atomic_load(&state->stop) && options->progress.function != NULL &&
-            options->progress.function(options->progress.user, options->what, state->done, count) != 0) {
-            state->result = AUR_ERROR_CANCELLED;
-            atomic_store(&state->stop, true);
-        }
+/* Whether this thread is inside an item. Parallel work within an item runs on the item's thread alone. */
+static _Thread_local bool is_inside_item;
+
+static void record(shared_work *work, size_t index, aur_result result) {
+    const aur_progress *const progress = &work->options->progress;
+    if (result == AUR_OK && progress->function == NULL)
+        return;
+    pthread_mutex_lock(&work->lock);
+    ++work->done;
+    if (result != AUR_OK && index < work->failed_index) {
+        work->failed_index = index;
+        work->result = result;
+        atomic_store(&work->stop, true);
+    } else if (result == AUR_OK && !atomic_load(&work->stop) &&
+               progress->function(progress->user, work->options->what, work->done, work->count) != 0) {
+        work->result = AUR_ERROR_CANCELLED;
+        atomic_store(&work->stop, true);
     }
+    pthread_mutex_unlock(&work->lock);
+}
+
+static void *do_items(void *shared) {
+    shared_work *const work = shared;
+    while (!atomic_load_explicit(&work->stop, memory_order_relaxed)) {
+        const size_t index = atomic_fetch_add_explicit(&work->next, 1, memory_order_relaxed);
+        if (index >= work->count)
+            break;
+        const bool was_inside = is_inside_item;
+        const uint64_t saved = work->options->flush_denormals ? flush_denormals() : 0;
+        is_inside_item = true;
+        const aur_result result = work->function(work->context, index);
+        is_inside_item = was_inside;
+        if (work->options->flush_denormals)
+            restore_denormals(saved);
+        record(work, index, result);
+    }
+    return NULL;
+}
+
+/* Starts up to `wanted` threads, which leave the host's signals to the host's threads. Returns how many there
+ * are: results do not depend on it, so fewer are no error. */
+static size_t start_threads(shared_work *work, size_t wanted, pthread_t *threads) {
+    sigset_t all, before;
+    sigfillset(&all);
+    pthread_sigmask(SIG_SETMASK, &all, &before);
+    size_t count = 0;
+    while (count < wanted && pthread_create(&threads[count], NULL, do_items, work) == 0)
+        ++count;
+    pthread_sigmask(SIG_SETMASK, &before, NULL);
+    return count;
 }
 
 aur_result aur_parallel_for(const aur_parallel_options *options, size_t count, aur_parallel_function function,
@@ -65,22 +153,20 @@ aur_result aur_parallel_for(const aur_parallel_options *options, size_t count, a
         options = &defaults;
     if (count == 0)
         return AUR_OK;
-    size_t threads = aur_parallel_threads(options->threads);
-    if (threads > count)
-        threads = count;
-    shared_state state = {.failed_index = count, .result = AUR_OK};
-    atomic_init(&state.stop, false);
-
-#pragma omp parallel num_threads((int)threads)
-    {
-        const unsigned saved = enter_fast_denormals();
-#pragma omp for schedule(dynamic, 1)
-        for (size_t i = 0; i < count; ++i) {
-            if (atomic_load_explicit(&state.stop, memory_order_relaxed))
-                continue;
-            record(&state, options, count, i, function(context, i));
-        }
-        leave_fast_denormals(saved);
-    }
-    return state.result;
+    size_t wanted = is_inside_item ? 1 : aur_parallel_threads(options->threads);
+    if (wanted > count)
+        wanted = count;
+    shared_work work = {
+        .options = options, .count = count, .function = function, .context = context, .failed_index = count};
+    atomic_init(&work.next, 0);
+    atomic_init(&work.stop, false);
+    if (pthread_mutex_init(&work.lock, NULL) != 0)
+        return AUR_ERROR_MEMORY;
+    pthread_t threads[MOST_THREADS];
+    const size_t started = wanted > 1 ? start_threads(&work, wanted - 1, threads) : 0;
+    do_items(&work);
+    for (size_t i = 0; i < started; ++i)
+        pthread_join(threads[i], NULL);
+    pthread_mutex_destroy(&work.lock);
+    return work.result;
 }

@@ -1,5 +1,6 @@
 #include "core/simd.h"
 
+#include <stdatomic.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -24,8 +25,21 @@ static aur_isa limited(aur_isa processor, const char *limit) {
     return processor;
 }
 
+/* The answer, or -1 while nobody has asked: the environment is read once, since kernels are chosen often. Two
+ * threads that ask first at once find out the same. */
+static atomic_int known = -1;
+
+void aur_isa_ask_again(void) {
+    atomic_store(&known, -1);
+}
+
 aur_isa aur_isa_available(void) {
-    return limited(processor_isa(), getenv("AUREOLE_ISA"));
+    int isa = atomic_load_explicit(&known, memory_order_relaxed);
+    if (isa < 0) {
+        isa = (int)limited(processor_isa(), getenv("AUREOLE_ISA"));
+        atomic_store_explicit(&known, isa, memory_order_relaxed);
+    }
+    return (aur_isa)isa;
 }
 
 aur_isa aur_isa_of_rays(void) {

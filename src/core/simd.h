@@ -9,6 +9,9 @@ typedef enum aur_isa { AUR_ISA_PORTABLE = 0, AUR_ISA_AVX2 = 2, AUR_ISA_AVX512 = 
  * limit, for tests and measurements) allow. AVX2 implies FMA; AVX-512 means F, DQ, BW and VL. */
 aur_isa aur_isa_available(void);
 
+/* Lets the next call look at the environment again: for tests of several instruction sets in one process. */
+void aur_isa_ask_again(void);
+
 /* The same for Embree's kernels, with AUREOLE_EMBREE_ISA in the place of AUREOLE_ISA where it is set.
  * Embree's hits differ in the last bits between its kernels; ours do not, so a test of our bits holds
  * Embree's kernels fixed. */

@@ -249,8 +249,9 @@ static aur_result search(const aur_measure_request *request, const aur_axes *axe
         _Atomic double best;
         atomic_init(&best, best_about_points(axes, room));
         pencils work = {axes, bins, cosines, &best};
-        const aur_parallel_options parallel = {request->options.threads, "turning caps",
-                                               request->options.progress};
+        const aur_parallel_options parallel = {.threads = request->options.threads,
+                                               .what = "turning caps",
+                                               .progress = request->options.progress};
         result = aur_parallel_for(&parallel, axes->count, turn_about_pairs_of, &work);
         *value = atomic_load(&best);
     }

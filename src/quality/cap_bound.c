@@ -87,8 +87,8 @@ static aur_result cap_bound(const aur_measure_request *request, double *value, a
     const size_t count = (size_t)wanted;
     const size_t items = (count + CENTRES_PER_ITEM - 1) / CENTRES_PER_ITEM;
     centres work = {&axes, count, malloc(items * sizeof *work.best)};
-    const aur_parallel_options parallel = {request->options.threads, "trying caps",
-                                           request->options.progress};
+    const aur_parallel_options parallel = {
+        .threads = request->options.threads, .what = "trying caps", .progress = request->options.progress};
     result = work.best != NULL ? aur_parallel_for(&parallel, items, try_centres, &work) : AUR_ERROR_MEMORY;
     *value = 0.0;
     for (size_t i = 0; i < items && result == AUR_OK; ++i)

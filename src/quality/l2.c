@@ -61,8 +61,8 @@ static aur_result discrepancy(const product_kernel *kernel, const aur_measure_re
     double_sum work = {kernel, points, malloc(2 * items * sizeof *work.rows)};
     if (work.rows == NULL)
         return aur_fail(error, AUR_ERROR_MEMORY, "out of memory");
-    const aur_parallel_options parallel = {request->options.threads, "summing pairs",
-                                           request->options.progress};
+    const aur_parallel_options parallel = {
+        .threads = request->options.threads, .what = "summing pairs", .progress = request->options.progress};
     const aur_result result = aur_parallel_for(&parallel, items, sum_rows, &work);
     aur_twofold pairs = {0.0, 0.0}, singles = {0.0, 0.0}, mass = {0.0, 0.0};
     for (size_t i = 0; i < items && result == AUR_OK; ++i) {

@@ -104,7 +104,8 @@ aur_result aur_pair_sum(const aur_axes *axes, aur_tile_function function, double
     tiles work = {axes, function, parameter, malloc(count * sizeof *work.sums)};
     if (work.sums == NULL)
         return aur_fail(error, AUR_ERROR_MEMORY, "out of memory");
-    const aur_parallel_options parallel = {options->threads, "summing pairs", options->progress};
+    const aur_parallel_options parallel = {
+        .threads = options->threads, .what = "summing pairs", .progress = options->progress};
     const aur_result result = aur_parallel_for(&parallel, count, sum_tile, &work);
     *sum = (aur_twofold){0.0, 0.0};
     for (size_t i = 0; i < count && result == AUR_OK; ++i)

@@ -105,8 +105,8 @@ static aur_result make_periodogram(const aur_measure_request *request, periodogr
     *p = (periodogram){request->points, (size_t)limit, NULL};
     const size_t count = (p->limit + 1) * (2 * p->limit + 1);
     p->power = malloc(count * sizeof *p->power);
-    const aur_parallel_options parallel = {request->options.threads, "transforming",
-                                           request->options.progress};
+    const aur_parallel_options parallel = {
+        .threads = request->options.threads, .what = "transforming", .progress = request->options.progress};
     result = p->power != NULL ? aur_parallel_for(&parallel, p->limit + 1, fill_row, p) : AUR_ERROR_MEMORY;
     const double scale = 1.0 / aur_sum_of_squares(request->points);
     for (size_t i = 0; i < count && result == AUR_OK; ++i)

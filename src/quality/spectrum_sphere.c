@@ -100,8 +100,8 @@ aur_result aur_angular_spectrum(const aur_measure_request *request, aur_series *
     harmonics work = {request->points, (size_t)limit, NULL};
     const size_t side = work.limit + 1;
     work.power = calloc(side * side, sizeof *work.power);
-    const aur_parallel_options parallel = {request->options.threads, "transforming",
-                                           request->options.progress};
+    const aur_parallel_options parallel = {
+        .threads = request->options.threads, .what = "transforming", .progress = request->options.progress};
     result = work.power != NULL ? aur_parallel_for(&parallel, side, fill_order, &work) : AUR_ERROR_MEMORY;
     if (result != AUR_OK)
         aur_fail(error, result, "spectrum: %s", aur_result_string(result));

@@ -193,8 +193,8 @@ static aur_result star_bound(const aur_measure_request *request, double *value, 
         return aur_fail(error, AUR_ERROR_MEMORY, "out of memory");
     walk w = {request->points,       table, table + request->points->count, (size_t)steps,
               request->options.seed, best};
-    const aur_parallel_options parallel = {request->options.threads, "trying boxes",
-                                           request->options.progress};
+    const aur_parallel_options parallel = {
+        .threads = request->options.threads, .what = "trying boxes", .progress = request->options.progress};
     result = aur_parallel_for(&parallel, TRIALS, do_trial, &w);
     free(table);
     *value = 0.0;

@@ -156,8 +156,8 @@ aur_result aur_voronoi_cells(const aur_measure_request *request, aur_voronoi_cel
     if (status != AUR_OK)
         return status;
     cells work = {&grid, result};
-    const aur_parallel_options parallel = {request->options.threads, "cutting cells",
-                                           request->options.progress};
+    const aur_parallel_options parallel = {
+        .threads = request->options.threads, .what = "cutting cells", .progress = request->options.progress};
     status = aur_parallel_for(&parallel, (request->points->count + CELLS_PER_ITEM - 1) / CELLS_PER_ITEM,
                               find_cells, &work);
     aur_sphere_grid_release(&grid);

@@ -223,8 +223,10 @@ aur_result aur_render_step(aur_render *render, size_t count, aur_error *error) {
     if (work.counters == NULL)
         return aur_fail(error, AUR_ERROR_MEMORY, "out of memory");
     const aur_stopwatch start = aur_stopwatch_start();
-    const aur_parallel_options parallel = {
-        .threads = render->settings.threads, .what = "rendering", .progress = render->settings.progress};
+    const aur_parallel_options parallel = {.threads = render->settings.threads,
+                                           .what = "rendering",
+                                           .progress = render->settings.progress,
+                                           .flush_denormals = true};
     const aur_result result = aur_parallel_for(&parallel, render->film->tile_count, render_tile, &work);
     aur_stopwatch_add(&start, &render->statistics.render_seconds, &render->statistics.cpu_seconds);
     add_counters(render, work.counters);

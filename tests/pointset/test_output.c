@@ -1,6 +1,7 @@
 /* Layouts, floats, direct generators, randomisations, and that every instruction set writes the same bits. */
 #include "points.h"
 
+#include "core/simd.h"
 #include "pointset/set.h"
 
 static const uint64_t size = 1000;
@@ -165,6 +166,15 @@ static void all_forms_agree(void **state) {
     }
 }
 
+/* NULL: what the environment said before. */
+static void hold_isa(const char *name) {
+    if (name != NULL)
+        setenv("AUREOLE_ISA", name, 1);
+    else
+        unsetenv("AUREOLE_ISA");
+    aur_isa_ask_again();
+}
+
 /* Prefixes of various lengths, starts and addresses, so that every lane, wrap and tail of a group is met. */
 static void instruction_sets_agree(void **state) {
     (void)state;
@@ -187,18 +197,15 @@ static void instruction_sets_agree(void **state) {
         const uint64_t first = bases[trial / 24 % 4] + trial % 67;
         const size_t count = 90 + trial * 7 % (LONGEST - 90);
         const size_t offset = trial / 2 % 8;
-        setenv("AUREOLE_ISA", "portable", 1);
+        hold_isa("portable");
         assert_int_equal(aur_pointset_points(set, first, count, 3 * LONGEST, plain + offset), AUR_OK);
-        setenv("AUREOLE_ISA", isas[trial % 2], 1);
+        hold_isa(isas[trial % 2]);
         plain[offset + count * dimension] = wide[offset + count * dimension] = -1.0;
         assert_int_equal(aur_pointset_points(set, first, count, 3 * LONGEST, wide + offset), AUR_OK);
         assert_memory_equal(plain + offset, wide + offset, (count * dimension + 1) * sizeof *plain);
         aur_pointset_destroy(set);
     }
-    if (saved != NULL)
-        setenv("AUREOLE_ISA", saved, 1);
-    else
-        unsetenv("AUREOLE_ISA");
+    hold_isa(saved);
     free(saved);
 }
 

@@ -192,8 +192,9 @@ static aur_result trace_until_enough(aur_photon_map *map, batch *work, aur_error
                 "photon map: %zu photons stored after %llu particles: the lights do not reach the surfaces",
                 map->count, (unsigned long long)map->paths);
         work->first_path = map->paths;
-        aur_result result = aur_parallel_for(&(aur_parallel_options){.threads = options->threads},
-                                             CHUNKS_A_BATCH, trace_chunk, work);
+        aur_result result =
+            aur_parallel_for(&(aur_parallel_options){.threads = options->threads, .flush_denormals = true},
+                             CHUNKS_A_BATCH, trace_chunk, work);
         if (result == AUR_OK)
             result = append_batch(map, work, &capacity);
         if (result != AUR_OK)

@@ -243,8 +243,9 @@ static aur_result trace_batch(aur_radiosity *radiosity, const point_source *poin
         aur_radiosity_share(radiosity, 0, end) - aur_radiosity_share(radiosity, count - 1, radiosity->paths);
     work.blocks_each = (size_t)(longest / AUR_RADIOSITY_BLOCK + 1);
     atomic_init(&work.next, 0);
-    const aur_result result = aur_parallel_for(&(aur_parallel_options){.threads = radiosity->lane_count},
-                                               radiosity->lane_count, run_lane, &work);
+    const aur_result result =
+        aur_parallel_for(&(aur_parallel_options){.threads = radiosity->lane_count, .flush_denormals = true},
+                         radiosity->lane_count, run_lane, &work);
     bool not_finite = false;
     for (size_t i = 0; i < radiosity->lane_count * count; ++i)
         not_finite |= radiosity->lanes[i].not_finite;
