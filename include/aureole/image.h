@@ -41,11 +41,13 @@ typedef enum aur_tone {
     AUR_TONE_FILMIC /* Hable 2010, white at 11.2 after his exposure bias of 2 */
 } aur_tone;
 
+enum { AUR_TONE_COUNT = AUR_TONE_FILMIC + 1 };
+
 /* "srgb", "filmic" */
 AUR_API aur_result aur_tone_from_name(const char *name, aur_tone *tone, aur_error *error) AUR_NONNULL(1, 2);
 
 typedef struct aur_image_write_options {
-    float exposure;     /* stops; PNG only */
+    float exposure;     /* stops, finite; PNG only */
     aur_tone tone;      /* PNG only */
     int half;           /* EXR: 16-bit floats; finite values are kept finite (at most 65504) */
     const char *format; /* "exr", "pfm", "hdr", "png"; NULL: by extension */
@@ -54,7 +56,7 @@ typedef struct aur_image_write_options {
 /* EXR holds every channel; the others R, G, B (or a single channel: PFM and PNG as grey, HDR as three equal
  * ones). The file is replaced whole or not at all; "-" is standard output, as EXR unless the options say
  * otherwise. The same image gives the same bytes. `options` may be NULL. Errors: ARGUMENT (unnamed channels,
- * no colour), NAME (unknown extension), WRITE, MEMORY. */
+ * no colour, options out of range), NAME (unknown extension), WRITE, MEMORY. */
 AUR_API aur_result aur_image_write(const char *path, const aur_image *image,
                                    const aur_image_write_options *options, aur_error *error)
     AUR_NONNULL(1, 2);

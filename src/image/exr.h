@@ -17,7 +17,17 @@ typedef struct aur_exr_stream {
     size_t capacity;
 } aur_exr_stream;
 
-/* Keeps the first message in the stream's error. */
+/* Rows of a picture whose strides OpenEXR can count. */
+static inline bool aur_exr_rows_fit(size_t width, size_t channel_count) {
+    return width <= INT32_MAX / sizeof(float) / channel_count;
+}
+
+/* The stream whose calls of OpenEXR this thread makes, or NULL: what aur_exr_note writes to. OpenEXR gives
+ * its handler of messages a context only, and holds a lock meanwhile that asking the context for its user
+ * data would wait for without end. */
+void aur_exr_listen(aur_exr_stream *stream);
+
+/* The handler of messages: keeps the first one in the stream's error. */
 void aur_exr_note(exr_const_context_t context, exr_result_t code, const char *message);
 
 /* The result of a failed call: what was noted, or else the code's own text. */

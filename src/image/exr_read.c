@@ -25,13 +25,16 @@ static aur_result fail_with(const aur_exr_stream *stream, exr_result_t code, con
                        result == AUR_ERROR_FORMAT ? "broken EXR" : "EXR", message);
 }
 
+static _Thread_local aur_exr_stream *listening;
+
+void aur_exr_listen(aur_exr_stream *stream) {
+    listening = stream;
+}
+
 void aur_exr_note(exr_const_context_t context, exr_result_t code, const char *message) {
-    void *user = NULL;
-    if (context == NULL || exr_get_user_data(context, &user) != EXR_ERR_SUCCESS || user == NULL)
-        return;
-    aur_exr_stream *const stream = user;
-    if (stream->result == AUR_OK)
-        stream->result = fail_with(stream, code, message);
+    (void)context;
+    if (listening != NULL && listening->result == AUR_OK)
+        listening->result = fail_with(listening, code, message);
 }
 
 aur_result aur_exr_fail(const aur_exr_stream *stream, exr_result_t code) {
@@ -235,6 +238,10 @@ static aur_result check_header(exr_reader *reader, const aur_image_source *sourc
                                                    height > 0 ? (size_t)height : 0, (size_t)count, error);
     if (result != AUR_OK)
         return result;
+    if (!aur_exr_rows_fit((size_t)width, (size_t)count))
+        return aur_fail_at(error, where, AUR_ERROR_UNSUPPORTED,
+                           "rows of %lld pixels with %d channels are too long for EXR", (long long)width,
+                           count);
     for (int c = 0; c < count; ++c) {
         const exr_attr_chlist_entry_t *const entry = &reader->channels->entries[c];
         if (entry->x_sampling != 1 || entry->y_sampling != 1)
@@ -278,13 +285,15 @@ static aur_result read_exr(const aur_image_source *source, aur_image **image, au
     setup.size_fn = stream_size;
     setup.flags = EXR_CONTEXT_FLAG_DISABLE_CHUNK_RECONSTRUCTION;
     exr_reader reader = {.pipeline = EXR_DECODE_PIPELINE_INITIALIZER};
+    aur_exr_listen(&stream);
     const exr_result_t code = exr_start_read(&reader.context, source->name, &setup);
-    if (code != EXR_ERR_SUCCESS)
-        return aur_exr_fail(&stream, code);
-    const aur_result result = read_part(&reader, source, &stream, error);
+    const aur_result result =
+        code == EXR_ERR_SUCCESS ? read_part(&reader, source, &stream, error) : aur_exr_fail(&stream, code);
     if (reader.started)
         exr_decoding_destroy(reader.context, &reader.pipeline);
-    exr_finish(&reader.context);
+    if (code == EXR_ERR_SUCCESS)
+        exr_finish(&reader.context);
+    aur_exr_listen(NULL);
     free(reader.place);
     if (result == AUR_OK)
         *image = reader.image;

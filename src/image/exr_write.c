@@ -37,11 +37,19 @@ static aur_result check_names(const aur_image_target *target, const aur_image *i
             return aur_fail_at(error, (aur_location){.file = target->name}, AUR_ERROR_ARGUMENT,
                                "two channels are named '%s'", name);
     }
-    if (image->width * image->channel_count > INT32_MAX / sizeof(float) || image->height > INT32_MAX)
+    if (!aur_exr_rows_fit(image->width, image->channel_count) || image->height > INT32_MAX)
         return aur_fail_at(error, (aur_location){.file = target->name}, AUR_ERROR_UNSUPPORTED,
                            "rows of %zu pixels with %zu channels are too long for EXR", image->width,
                            image->channel_count);
     return AUR_OK;
+}
+
+/* Whether a channel's name has more than the 31 bytes that EXR's names had at first. */
+static bool has_long_name(const aur_image *image) {
+    for (size_t c = 0; c < image->channel_count; ++c)
+        if (strlen(image->channel_names[c]) > 31)
+            return true;
+    return false;
 }
 
 static exr_result_t write_header(exr_context_t context, const aur_image *image, bool half) {
@@ -141,15 +149,20 @@ aur_result aur_image_write_exr(const aur_image_target *target, const aur_image *
     setup.user_data = &stream;
     setup.write_fn = write_bytes;
     exr_context_t context = NULL;
+    aur_exr_listen(&stream);
     exr_result_t code = exr_start_write(&context, target->name, EXR_WRITE_FILE_DIRECTLY, &setup);
     if (code == EXR_ERR_SUCCESS) {
-        code = write_header(context, image, target->options.half);
+        /* A mark in the file that only files with such names need. */
+        code = exr_set_longname_support(context, has_long_name(image));
+        if (code == EXR_ERR_SUCCESS)
+            code = write_header(context, image, target->options.half);
         if (code == EXR_ERR_SUCCESS)
             code = write_pixels(context, image, target->options.half);
         const exr_result_t finished = exr_finish(&context);
         if (code == EXR_ERR_SUCCESS)
             code = finished;
     }
+    aur_exr_listen(NULL);
     if (code == EXR_ERR_SUCCESS)
         fwrite(stream.output, 1, stream.size, target->stream);
     else

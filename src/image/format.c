@@ -1,5 +1,6 @@
 #include "image/format.h"
 
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 #include <strings.h>
@@ -76,6 +77,10 @@ aur_result aur_image_write(const char *path, const aur_image *image, const aur_i
     static const aur_image_write_options defaults = {0};
     if (options == NULL)
         options = &defaults;
+    if (!isfinite(options->exposure) || (size_t)options->tone >= AUR_TONE_COUNT)
+        return aur_fail_at(error, (aur_location){.file = path}, AUR_ERROR_ARGUMENT,
+                           "cannot write a picture with exposure %g and tone curve %d",
+                           (double)options->exposure, (int)options->tone);
     const aur_image_format *const format = find_writer(path, options->format, error);
     if (format == NULL)
         return AUR_ERROR_NAME;

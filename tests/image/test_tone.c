@@ -50,11 +50,26 @@ static void test_names(void **state) {
     assert_int_equal(aur_tone_from_name("Filmic", &tone, &error), AUR_ERROR_NAME);
 }
 
+static void test_options_are_checked(void **state) {
+    (void)state;
+    aur_image *image;
+    aur_error error;
+    assert_success(aur_image_create(1, 1, 3, &image, &error), &error);
+    const aur_image_write_options rows[] = {
+        {.tone = (aur_tone)77}, {.tone = (aur_tone)-1}, {.exposure = NAN}, {.exposure = INFINITY}};
+    for (size_t i = 0; i < sizeof rows / sizeof rows[0]; ++i) {
+        assert_int_equal(aur_image_write("refused.png", image, &rows[i], &error), AUR_ERROR_ARGUMENT);
+        assert_int_equal(access("refused.png", F_OK), -1);
+    }
+    aur_image_destroy(image);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_srgb),
         cmocka_unit_test(test_filmic),
         cmocka_unit_test(test_names),
+        cmocka_unit_test(test_options_are_checked),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
