@@ -59,41 +59,45 @@ static bool read_command(const char *folder, size_t length, const char *name, ch
     return end > 0;
 }
 
-aur_result aur_xml_find_asset(const aur_xml_document *document, aur_location location, const char *name,
-                              char **found, aur_error *error) {
+/* Looks for the name in one folder after the other, and notes which they were. NULL when it is in none. */
+static char *search(const aur_xml_document *document, aur_location location, const char *name, char *places,
+                    size_t capacity) {
+    const size_t beside = folder_length(location.file);
+    char *found = join(location.file, beside, name);
+    note(places, capacity, location.file, beside);
+    if (found == NULL && document->root != NULL) {
+        const char *const main_file = document->root->location.file;
+        const size_t length = folder_length(main_file);
+        if (length != beside || strncmp(main_file, location.file, length) != 0) {
+            found = join(main_file, length, name);
+            note(places, capacity, main_file, length);
+        }
+    }
+    for (const aur_xml_folder *folder = document->folders; found == NULL && folder != NULL;
+         folder = folder->next) {
+        found = join(folder->path, strlen(folder->path), name);
+        note(places, capacity, folder->path, strlen(folder->path));
+    }
+    if (found == NULL) { /* as Mitsuba: at last where the user is, for files named by -D */
+        found = join("", 0, name);
+        note(places, capacity, "", 0);
+    }
+    return found;
+}
+
+static aur_result find(const aur_xml_document *document, aur_location location, const char *name,
+                       char **found, aur_error *error) {
     *found = NULL;
     char places[700] = "";
     if (name[0] == '\0')
         return aur_fail_at(error, location, AUR_ERROR_FORMAT, "a file name is empty");
-    if (name[0] == '/') {
-        *found = join("", 0, name);
-        return *found != NULL ? AUR_OK
-                              : aur_fail_at(error, location, AUR_ERROR_OPEN, "cannot find '%s'", name);
-    }
-    const size_t beside = folder_length(location.file);
-    *found = join(location.file, beside, name);
-    note(places, sizeof places, location.file, beside);
-    if (*found == NULL && document->root != NULL) {
-        const char *const main_file = document->root->location.file;
-        const size_t length = folder_length(main_file);
-        if (length != beside || strncmp(main_file, location.file, length) != 0) {
-            *found = join(main_file, length, name);
-            note(places, sizeof places, main_file, length);
-        }
-    }
-    for (const aur_xml_folder *folder = document->folders; *found == NULL && folder != NULL;
-         folder = folder->next) {
-        *found = join(folder->path, strlen(folder->path), name);
-        note(places, sizeof places, folder->path, strlen(folder->path));
-    }
-    if (*found == NULL) { /* as Mitsuba: at last where the user is, for files named by -D */
-        *found = join("", 0, name);
-        note(places, sizeof places, "", 0);
-    }
+    *found = name[0] == '/' ? join("", 0, name) : search(document, location, name, places, sizeof places);
     if (*found != NULL)
         return AUR_OK;
+    if (name[0] == '/')
+        return aur_fail_at(error, location, AUR_ERROR_OPEN, "cannot find '%s'", name);
     char command[160];
-    bool made = read_command(location.file, beside, name, command, sizeof command);
+    bool made = read_command(location.file, folder_length(location.file), name, command, sizeof command);
     for (const aur_xml_folder *folder = document->folders; !made && folder != NULL; folder = folder->next)
         made = read_command(folder->path, strlen(folder->path), name, command, sizeof command);
     if (made)
@@ -101,4 +105,46 @@ aur_result aur_xml_find_asset(const aur_xml_document *document, aur_location loc
                            "cannot find '%s'; it is made by the command: %s (looked in %s)", name, command,
                            places);
     return aur_fail_at(error, location, AUR_ERROR_OPEN, "cannot find '%s'; looked in %s", name, places);
+}
+
+aur_result aur_xml_find_asset(const aur_xml_document *document, aur_location location, const char *name,
+                              char **found, aur_error *error) {
+    const aur_result result = find(document, location, name, found, error);
+    struct stat status;
+    if (result != AUR_OK || (stat(*found, &status) == 0 && S_ISREG(status.st_mode)))
+        return result;
+    free(*found);
+    *found = NULL;
+    return aur_fail_at(error, location, AUR_ERROR_OPEN,
+                       "'%s' is no regular file: a scene may name no folders, devices or pipes", name);
+}
+
+aur_result aur_xml_find_folder(const aur_xml_document *document, aur_location location, const char *name,
+                               char **found, aur_error *error) {
+    return find(document, location, name, found, error);
+}
+
+aur_result aur_xml_find_set(const aur_xml_document *document, aur_location location, const char *set,
+                            char **found, aur_error *error) {
+    /* file:PATH, and the value of a key `file` */
+    const char *start = strncmp(set, "file:", 5) == 0 ? set + 5 : NULL;
+    for (const char *c = strstr(set, "file="); start == NULL && c != NULL; c = strstr(c + 1, "file="))
+        start = c > set && (c[-1] == ':' || c[-1] == ',') ? c + 5 : NULL;
+    const size_t length = start == NULL ? 0 : start[-1] == ':' ? strlen(start) : strcspn(start, ",");
+    const size_t head = start == NULL ? strlen(set) : (size_t)(start - set);
+    char *const name = start != NULL ? strndup(start, length) : strdup("");
+    char *path = NULL;
+    aur_result result = name != NULL ? AUR_OK : aur_fail(error, AUR_ERROR_MEMORY, "out of memory");
+    if (result == AUR_OK && start != NULL)
+        result = aur_xml_find_asset(document, location, name, &path, error);
+    free(name);
+    if (result != AUR_OK)
+        return result;
+    const size_t size = strlen(set) + (path != NULL ? strlen(path) : 0) + 1;
+    *found = malloc(size);
+    if (*found != NULL)
+        snprintf(*found, size, "%.*s%s%s", (int)head, set, path != NULL ? path : "",
+                 start != NULL ? start + length : "");
+    free(path);
+    return *found != NULL ? AUR_OK : aur_fail(error, AUR_ERROR_MEMORY, "out of memory");
 }

@@ -220,6 +220,18 @@ static aur_result resolve_filename(loader *self, aur_parameters *parameters) {
     return AUR_OK;
 }
 
+/* Sets that a scene names in files are looked for where its meshes are. */
+static aur_result resolve_set(loader *self, aur_parameter *item) {
+    char *set;
+    const aur_result result =
+        aur_xml_find_set(&self->scene->document, item->location, item->text, &set, self->error);
+    if (result != AUR_OK)
+        return result;
+    free(item->text);
+    item->text = set;
+    return AUR_OK;
+}
+
 static aur_result build_texture(loader *self, aur_xml_node *node, aur_parameters *parameters, void **object) {
     (void)node;
     aur_scene *const scene = self->scene;
@@ -554,9 +566,10 @@ static aur_result build_sampler(loader *self, aur_xml_node *node, aur_parameters
         return aur_fail_at(self->error, parameters->location, AUR_ERROR_FORMAT,
                            "the sampler's keys are too long");
     free(scene->sampler);
-    scene->sampler = strdup(text);
+    scene->sampler = NULL;
+    result = aur_xml_find_set(&scene->document, parameters->location, text, &scene->sampler, self->error);
     *object = scene->sampler;
-    return scene->sampler != NULL ? AUR_OK : aur_fail(self->error, AUR_ERROR_MEMORY, "out of memory");
+    return result;
 }
 
 static aur_result build_sensor(loader *self, aur_xml_node *node, aur_parameters *parameters, void **object) {
@@ -591,6 +604,13 @@ static aur_result build_integrator(loader *self, aur_xml_node *node, aur_paramet
         return AUR_OK;
     }
     *has = true;
+    for (size_t i = 0; i < parameters->count; ++i) {
+        const aur_result result = parameters->items[i].kind == AUR_PARAMETER_STRING
+                                      ? resolve_set(self, &parameters->items[i])
+                                      : AUR_OK;
+        if (result != AUR_OK)
+            return result;
+    }
     return aur_parameters_copy(parameters, made, self->error);
 }
 

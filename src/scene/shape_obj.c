@@ -142,8 +142,9 @@ static aur_result read_line(obj *self) {
     for (size_t i = 0; i < sizeof left_out / sizeof left_out[0]; ++i)
         if (strlen(left_out[i]) == length && memcmp(left_out[i], word, length) == 0)
             return AUR_OK;
-    return aur_fail_at(self->error, here(self), AUR_ERROR_FORMAT, "'%.*s' is no keyword of an OBJ file",
-                       length < 32 ? (int)length : 32, word);
+    /* Any file may be named by a scene, so that its words are not quoted. */
+    return aur_fail_at(self->error, here(self), AUR_ERROR_FORMAT,
+                       "the line begins with no keyword of an OBJ file");
 }
 
 static aur_result read_all(obj *self) {

@@ -16,8 +16,7 @@ enum {
     HAS_UVS = 0x0002,
     HAS_COLORS = 0x0008,
     FACE_NORMALS = 0x0010,
-    SINGLE = 0x1000,
-    DOUBLE = 0x2000
+    DOUBLE = 0x2000 /* without it, single precision, whatever 0x1000 says */
 };
 
 typedef struct serialized {
@@ -93,8 +92,6 @@ static aur_result read_mesh(serialized *self, uint64_t version, size_t compresse
     const uint64_t most = 1032 * ((uint64_t)compressed + 64) / 12;
     if (counts[0] > most || counts[1] > most)
         return fail(self, "the counts of vertices or triangles cannot be right");
-    if (!(flags & (SINGLE | DOUBLE)))
-        return fail(self, "the mesh is of neither single nor double precision");
     const bool normals = (flags & HAS_NORMALS) && !face_normals && !(flags & FACE_NORMALS);
     const unsigned parts = (normals ? AUR_MESH_NORMALS : 0u) | (flags & HAS_UVS ? AUR_MESH_UVS : 0u);
     const size_t vertices = (size_t)counts[0], triangles = (size_t)counts[1];

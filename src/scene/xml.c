@@ -10,8 +10,10 @@
 #include "core/text.h"
 #include "scene/xml_variables.h"
 
-enum { DEEPEST_INCLUDE = 15, DEEPEST_ELEMENT = 100 };
-#define LARGEST_FILE ((size_t)1 << 30)
+/* A few kilobytes of includes or <default>s that double each other must not become an endless scene, so that
+ * files, their bytes and what $names become have a limit. */
+enum { DEEPEST_INCLUDE = 15, DEEPEST_ELEMENT = 100, MOST_FILES = 10000, MOST_SUBSTITUTED = 1 << 26 };
+#define LARGEST_SCENE ((size_t)1 << 30)
 
 /* What all files of a scene share. */
 typedef struct reading {
@@ -19,6 +21,7 @@ typedef struct reading {
     const aur_scene_options *options;
     aur_xml_variables variables;
     size_t id_capacity;
+    size_t file_count, file_bytes, substituted_bytes;
     aur_error *error;
 } reading;
 
@@ -102,7 +105,13 @@ static aur_result make_node(file_reading *reader, const char *tag, const char **
         attribute->value = reader->legacy && strcmp(attributes[2 * i], "name") == 0
                                ? snake_case(arena, value)
                                : aur_arena_copy(arena, value, strlen(value));
+        const size_t before = strlen(attributes[2 * i + 1]), after = strlen(value);
         free(value);
+        reader->shared->substituted_bytes += after > before ? after - before : 0;
+        if (reader->shared->substituted_bytes > MOST_SUBSTITUTED)
+            return aur_fail_at(reader->shared->error, location, AUR_ERROR_FORMAT,
+                               "the values of $names make the scene more than %d bytes longer",
+                               MOST_SUBSTITUTED);
         if (attribute->name == NULL || attribute->value == NULL)
             return fail_memory(reader);
     }
@@ -179,8 +188,8 @@ static aur_result do_path(file_reading *reader, const aur_xml_node *node) {
         return result;
     char *path;
     aur_xml_document *const document = reader->shared->document;
-    result = aur_xml_find_asset(document, node->location, aur_xml_attribute_value(node, "value"), &path,
-                                reader->shared->error);
+    result = aur_xml_find_folder(document, node->location, aur_xml_attribute_value(node, "value"), &path,
+                                 reader->shared->error);
     if (result != AUR_OK)
         return result;
     aur_xml_folder *const folder = aur_arena_allocate(&document->arena, sizeof *folder);
@@ -331,9 +340,13 @@ static aur_result read_file(reading *shared, const char *path, size_t include_de
                             aur_xml_node *target) {
     char *data;
     size_t size;
-    aur_result result = aur_file_read(path, LARGEST_FILE, &data, &size, shared->error);
+    if (++shared->file_count > MOST_FILES)
+        return aur_fail_at(shared->error, (aur_location){.file = path}, AUR_ERROR_FORMAT,
+                           "more than %d files are included, counted each time", MOST_FILES);
+    aur_result result = aur_file_read(path, LARGEST_SCENE - shared->file_bytes, &data, &size, shared->error);
     if (result != AUR_OK)
         return result;
+    shared->file_bytes += size;
     file_reading *const reader = calloc(1, sizeof *reader);
     const XML_Parser expat = XML_ParserCreate(NULL);
     const char *const file = aur_arena_copy(&shared->document->arena, path, strlen(path));

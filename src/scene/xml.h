@@ -63,11 +63,18 @@ const char *aur_xml_attribute_value(const aur_xml_node *node, const char *name);
 /* NULL when there is none. */
 const aur_xml_id *aur_xml_find_id(const aur_xml_document *document, const char *id);
 
-/* The path under which an asset named in `location.file` can be read: beside that file, beside the scene, in
- * a <path>, or in the working folder. `found` is allocated with malloc. The error names the places; where one
- * of them has a text HOW-TO-MAKE beside the missing file, it quotes its first line, the command that makes
- * the file. */
+/* The path of a regular file under which an asset named in `location.file` can be read: beside that file,
+ * beside the scene, in a <path>, or in the working folder. `found` is allocated with malloc. The error names
+ * the places; where one of them has a text HOW-TO-MAKE beside the missing file, it quotes its first line, the
+ * command that makes the file. */
 aur_result aur_xml_find_asset(const aur_xml_document *document, aur_location location, const char *name,
                               char **found, aur_error *error);
+/* The same for the folder of a <path>. */
+aur_result aur_xml_find_folder(const aur_xml_document *document, aur_location location, const char *name,
+                               char **found, aur_error *error);
+/* A point set's text in which the file that it names, by file:PATH or a key `file`, is found in the same way.
+ * Texts that name none are copied. */
+aur_result aur_xml_find_set(const aur_xml_document *document, aur_location location, const char *set,
+                            char **found, aur_error *error);
 
 #endif

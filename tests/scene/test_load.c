@@ -117,6 +117,67 @@ static void includes_files(void **state) {
     assert_non_null(strstr(error.file, "itself.xml"));
 }
 
+/* Small files that would become large scenes: 10 includes of the next file in each of 14, and values that
+ * double. */
+static void ends_growth(void **state) {
+    (void)state;
+    char name[32], text[2048];
+    for (size_t i = 0; i < 14; ++i) {
+        strcpy(text, "<scene version='3.0.0'>");
+        for (size_t k = 0; k < 10; ++k)
+            sprintf(text + strlen(text), "<include filename='level%zu.xml'/>", i + 1);
+        sprintf(name, "level%zu.xml", i);
+        write_text(name, strcat(text, "</scene>"));
+    }
+    write_text("level14.xml", "<scene version='3.0.0'/>");
+    aur_error error;
+    aur_scene *none;
+    assert_int_equal(load_body("<include filename='level0.xml'/>", NULL, &none, &error), AUR_ERROR_FORMAT);
+    assert_non_null(strstr(error.message, "more than 10000 files"));
+    char *const body = malloc(1 << 16);
+    char *end = stpcpy(body, "<default name='v00' value='0123456789abcdef'/>");
+    for (size_t i = 0; i < 19; ++i)
+        end += sprintf(end, "<default name='v%02zu' value='$v%02zu$v%02zu'/>", i + 1, i, i);
+    for (size_t i = 0; i < 100; ++i)
+        end += sprintf(end, "<bsdf type='diffuse' id='$v19'/>");
+    assert_int_equal(load_body(body, NULL, &none, &error), AUR_ERROR_FORMAT);
+    assert_non_null(strstr(error.message, "$names make the scene more than 67108864 bytes longer"));
+    free(body);
+}
+
+/* What a scene reads is looked for beside it, and is a regular file. */
+static void finds_files_beside_the_scene(void **state) {
+    (void)state;
+    write_text("own.csv", "x,y\n0.25,0.5\n0.75,0.5\n");
+    char text[1024], expected[512];
+    snprintf(
+        text, sizeof text,
+        "<scene version='3.0.0'><integrator type='finalgather'><string name='pattern' value='file:own.csv'/>"
+        "<string name='photon_pattern' value='matrices:file=own.csv,skip=1'/></integrator>"
+        "<sensor type='perspective'><sampler type='file:own.csv'/></sensor></scene>");
+    aur_scene *scene;
+    assert_int_equal(aur_scene_load(write_text("s.xml", text), NULL, &scene, NULL), AUR_OK);
+    snprintf(expected, sizeof expected, "file:%s/own.csv", scene_folder);
+    assert_string_equal(aur_scene_sampler(scene), expected);
+    const aur_parameters *const integrator = aur_scene_integrator(scene);
+    assert_string_equal(integrator->items[0].text, expected);
+    snprintf(expected, sizeof expected, "matrices:file=%s/own.csv,skip=1", scene_folder);
+    assert_string_equal(integrator->items[1].text, expected);
+    aur_scene_destroy(scene);
+    static const char *const rows[][2] = {
+        {"<shape type='obj'><string name='filename' value='/dev/zero'/></shape>",
+         "'/dev/zero' is no regular file"},
+        {"<shape type='ply'><string name='filename' value='.'/></shape>", "'.' is no regular file"},
+        {"<integrator type='finalgather'><string name='pattern' value='file:none.csv'/></integrator>",
+         "cannot find 'none.csv'; looked in"},
+    };
+    for (size_t i = 0; i < sizeof rows / sizeof rows[0]; ++i) {
+        aur_error error = {0};
+        assert_int_equal(load_body(rows[i][0], NULL, &scene, &error), AUR_ERROR_OPEN);
+        assert_non_null(strstr(error.message, rows[i][1]));
+    }
+}
+
 static void keep_warning(void *user, const char *message) {
     char *const text = user;
     strncat(text, message, 4000 - strlen(text));
@@ -453,6 +514,8 @@ int main(void) {
         cmocka_unit_test(loads_bundled_scenes),
         cmocka_unit_test(refuses_long_chains),
         cmocka_unit_test(loads_many_things_in_time),
+        cmocka_unit_test(ends_growth),
+        cmocka_unit_test(finds_files_beside_the_scene),
     };
     return cmocka_run_group_tests(tests, enter_folder, leave_folder);
 }

@@ -162,9 +162,11 @@ static void reads_ply_in_three_forms(void **state) {
     }
 }
 
-static size_t make_serialized(unsigned char *file, bool wide) {
+/* Flag 0x2000 is double precision; 0x1000, single, may be missing. */
+static size_t make_serialized(unsigned char *file, uint32_t precision) {
+    const bool wide = precision == 0x2000u;
     unsigned char plain[1024], *at = plain;
-    const uint32_t flags = (wide ? 0x2000u : 0x1000u) | 2u;
+    const uint32_t flags = precision | 2u;
     const uint64_t counts[2] = {4, 2};
     static const double positions[12] = {0, 0, 1, 1, 0, 1, 1, 1, 1, 0, 1, 1},
                         uvs[8] = {0, 0, 1, 0, 1, 2, 0, 2};
@@ -192,8 +194,8 @@ static size_t make_serialized(unsigned char *file, bool wide) {
 static void reads_serialized_meshes(void **state) {
     (void)state;
     unsigned char file[2048];
-    for (int wide = 0; wide < 2; ++wide) {
-        write_file("square.serialized", file, make_serialized(file, wide == 1));
+    for (uint32_t precision = 0; precision <= 0x2000; precision += 0x1000) {
+        write_file("square.serialized", file, make_serialized(file, precision));
         aur_scene *const scene = must_load_body(
             "<shape type='serialized'><string name='filename' value='square.serialized'/></shape>");
         aur_bsdf_point texture;
@@ -203,7 +205,7 @@ static void reads_serialized_meshes(void **state) {
         aur_scene_destroy(scene);
     }
     /* cut anywhere, it is refused and nothing breaks */
-    const size_t size = make_serialized(file, false);
+    const size_t size = make_serialized(file, 0x1000);
     for (size_t cut = 0; cut < size; ++cut) {
         write_file("square.serialized", file, cut);
         aur_scene *scene;
@@ -281,7 +283,7 @@ static const struct bad_mesh {
     {"a.obj", "v 0 0\n", 1, "expected 3 numbers"},
     {"a.obj", "v 0 0 0\nf 1 1\n", 2, "at least 3 corners"},
     {"a.obj", "v 0 0 0\nf 1 1 x\n", 2, "indices such as"},
-    {"a.obj", "v 0 0 0\nfoo\n", 2, "'foo' is no keyword"},
+    {"a.obj", "v 0 0 0\nfoo\n", 2, "begins with no keyword of an OBJ file"},
     {"a.obj", "v 0 0 0\n", 0, "no face"},
     {"a.obj", "", 0, "no face"},
     {"a.ply", "plx\n", 1, "must begin with 'ply'"},
