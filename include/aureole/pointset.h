@@ -5,7 +5,7 @@
 #ifndef AUREOLE_POINTSET_H
 #define AUREOLE_POINTSET_H
 
-#include <aureole/core.h>
+#include <aureole/tables.h>
 
 #ifdef __cplusplus
 extern "C" {
@@ -47,14 +47,12 @@ AUR_API const char *aur_scramble_name(aur_scramble scramble);
 
 /* One row of the table of sets. */
 typedef struct aur_set_description {
-    const char *name;
-    const char *keys;    /* "offset=0.5": key=default, comma separated; empty where there are none */
-    const char *summary; /* one line */
-    const char *domains; /* "square", "cube, square", "sphere, hemisphere", ... */
-    const char *sizes;   /* "any", "1..2^32", "base*4^levels", ... */
-    int extensible;      /* the first n points of a larger set are the smaller set */
-    int binary_net;      /* 2^k points are a net in base 2: digit and Owen scrambling keep its evenness */
-    const char *source;  /* author year */
+    aur_row row;
+    unsigned domains;  /* bit 1 << aur_domain: where its points are by themselves. Those of the square come to
+                          the disk, the hemisphere and the sphere by a map */
+    const char *sizes; /* "any", "1..2^32; a lattice at F_k", ... */
+    bool extensible;   /* the first n points of a larger set are the smaller set */
+    bool binary_net;   /* 2^k points are a net in base 2: digit and Owen scrambling keep its evenness */
 } aur_set_description;
 
 /* A set made ready: an immutable table or rule that any number of threads may read. */

@@ -16,13 +16,11 @@ extern "C" {
 
 /* One row of the table of measures. */
 typedef struct aur_measure_description {
-    const char *name;
+    aur_row row;           /* name, summary and source; a measure has a parameter instead of keys */
     const char *parameter; /* "S" for riesz:S, "[B]" where it may be left out, empty for none */
-    const char *summary;
-    const char *domains; /* "sphere, hemisphere": the first is the one to take when nothing is said */
-    const char *source;  /* author year, equation */
-    int bound;           /* the value is a lower bound of what is measured */
-    int series;          /* a table rather than one value: ask aur_measure_series */
+    const char *domains;   /* "sphere, hemisphere": the first is the one to take when nothing is said */
+    bool bound;            /* the value is a lower bound of what is measured */
+    bool series;           /* a table rather than one value: ask aur_measure_series */
 } aur_measure_description;
 
 AUR_API size_t aur_measure_count(void);

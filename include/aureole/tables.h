@@ -56,9 +56,12 @@ typedef struct aur_row {
 typedef struct aur_table {
     const char *kind;    /* "integrator": the word in messages and in `aureole help integrator` */
     const char *summary; /* one line */
-    size_t count;
-    const aur_row *const *rows;
+    const aur_row *(*row)(size_t index); /* NULL beyond the last */
 } aur_table;
+
+/* The tables of point sets and of measures, one after the other; NULL beyond the last. Those of what pictures
+ * are made with are aur_render_table_at's. */
+AUR_API const aur_table *aur_table_at(size_t index);
 
 /* Key `index` of a row; NULL beyond its keys. */
 AUR_API const aur_key *aur_row_key(const aur_row *row, size_t index) AUR_NONNULL(1);

@@ -8,9 +8,10 @@ aur_scramble lab_scrambling(const char *set) {
         return AUR_SCRAMBLE_NONE;
     for (size_t i = 0; i < aur_set_count(); ++i) {
         const aur_set_description *const description = aur_set_at(i);
-        const size_t length = strlen(description->name);
-        if (strncmp(set, description->name, length) == 0 && (set[length] == '\0' || set[length] == ':'))
-            return strstr(description->domains, "square") != NULL ? AUR_SCRAMBLE_DIGIT : AUR_SCRAMBLE_ROTATE;
+        const size_t length = strlen(description->row.name);
+        if (strncmp(set, description->row.name, length) == 0 && (set[length] == '\0' || set[length] == ':'))
+            return (description->domains >> AUR_DOMAIN_SQUARE & 1u) != 0 ? AUR_SCRAMBLE_DIGIT
+                                                                         : AUR_SCRAMBLE_ROTATE;
     }
     return AUR_SCRAMBLE_ROTATE;
 }

@@ -72,7 +72,7 @@ static bool parse_metrics(cli_measure_arguments *arguments, const char *text) {
         aur_error error = {0};
         if (!cli_succeeded(aur_measure_find(rest, &description, &error), &error))
             return false;
-        series += description->series != 0;
+        series += description->series;
         rest = comma != NULL ? comma + 1 : NULL;
     }
     arguments->series = series > 0;
@@ -153,15 +153,15 @@ static int print_list(cli_format format) {
         char name[64];
         /* riesz:S, cap-bound[:CENTRES] */
         const bool optional = row->parameter[0] == '[';
-        snprintf(name, sizeof name, "%s%s%s", row->name,
+        snprintf(name, sizeof name, "%s%s%s", row->row.name,
                  optional                    ? "[:"
                  : row->parameter[0] != '\0' ? ":"
                                              : "",
                  row->parameter + optional);
         cli_table_text(table, name);
         cli_table_text(table, row->domains);
-        cli_table_text(table, row->summary);
-        cli_table_text(table, row->source);
+        cli_table_text(table, row->row.summary);
+        cli_table_text(table, row->row.source);
     }
     const int status = cli_table_print(table, format);
     cli_table_destroy(table);

@@ -53,7 +53,7 @@ bool cli_parse_point_option(int option, const char *text, cli_point_options *poi
 bool cli_is_file(const char *text) {
     const size_t length = strcspn(text, ":");
     for (size_t i = 0; i < aur_set_count(); ++i) {
-        const char *const name = aur_set_at(i)->name;
+        const char *const name = aur_set_at(i)->row.name;
         if (strlen(name) == length && strncmp(name, text, length) == 0)
             return false;
     }

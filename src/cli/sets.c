@@ -7,9 +7,28 @@
 
 /* Where a set's points can be: sets of the square come to the other domains by a map. */
 static void add_domains(cli_table *table, const aur_set_description *set) {
-    char text[160];
-    const bool lifted = strstr(set->domains, "square") != NULL;
-    snprintf(text, sizeof text, "%s%s", set->domains, lifted ? ", disk, hemisphere, sphere" : "");
+    enum { LIFTED = 1 << AUR_DOMAIN_DISK | 1 << AUR_DOMAIN_HEMISPHERE | 1 << AUR_DOMAIN_SPHERE };
+    const bool square = (set->domains >> AUR_DOMAIN_SQUARE & 1u) != 0;
+    const unsigned domains = square ? set->domains | LIFTED : set->domains;
+    char text[160] = "";
+    for (unsigned d = 0; aur_domain_name((aur_domain)d) != NULL; ++d) {
+        const size_t used = strlen(text);
+        if ((domains >> d & 1u) != 0)
+            snprintf(text + used, sizeof text - used, "%s%s", used > 0 ? ", " : "",
+                     aur_domain_name((aur_domain)d));
+    }
+    cli_table_text(table, text);
+}
+
+/* "offset=0.5,epsilon=none" */
+static void add_keys(cli_table *table, const aur_row *row) {
+    char text[512] = "";
+    for (size_t i = 0; i < row->key_count; ++i) {
+        const aur_key *const key = aur_row_key(row, i);
+        const size_t used = strlen(text);
+        snprintf(text + used, sizeof text - used, "%s%s%s%s", i > 0 ? "," : "", key->name,
+                 key->default_text != NULL ? "=" : "", key->default_text != NULL ? key->default_text : "");
+    }
     cli_table_text(table, text);
 }
 
@@ -27,13 +46,13 @@ static int run(int argc, char **argv) {
     cli_table *const table = cli_table_create(7, columns);
     for (size_t i = 0; i < aur_set_count(); ++i) {
         const aur_set_description *const set = aur_set_at(i);
-        cli_table_text(table, set->name);
-        cli_table_text(table, set->keys);
+        cli_table_text(table, set->row.name);
+        add_keys(table, &set->row);
         add_domains(table, set);
         cli_table_text(table, set->sizes);
         cli_table_text(table, set->extensible ? "yes" : "no");
-        cli_table_text(table, set->source);
-        cli_table_text(table, set->summary);
+        cli_table_text(table, set->row.source);
+        cli_table_text(table, set->row.summary);
     }
     const int status = cli_table_print(table, format);
     cli_table_destroy(table);

@@ -290,15 +290,17 @@ aur_result aur_row_read(const aur_row *row, aur_parameters *parameters, void *fi
 }
 
 static const char *row_name(const void *table, size_t index) {
-    return ((const aur_table *)table)->rows[index]->name;
+    return ((const aur_table *)table)->row(index)->name;
 }
 
 aur_result aur_table_find(const aur_table *table, const aur_parameters *parameters, const aur_row **row,
                           aur_error *error) {
-    const aur_names names = {.count = table->count, .at = row_name, .table = table};
     size_t index = 0;
+    while (table->row(index) != NULL)
+        ++index;
+    const aur_names names = {.count = index, .at = row_name, .table = table};
     const aur_result result =
         aur_names_choose(names, table->kind, parameters->plugin, parameters->location, &index, error);
-    *row = result == AUR_OK ? table->rows[index] : NULL;
+    *row = result == AUR_OK ? table->row(index) : NULL;
     return result;
 }

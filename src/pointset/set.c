@@ -23,7 +23,7 @@ const char *aur_scramble_name(aur_scramble scramble) {
 
 aur_result aur_pointset_check(const aur_pointset *set, aur_error *error) {
     const aur_square_set *const kind = set->kind;
-    const char *const name = kind->description.name;
+    const char *const name = kind->description.row.name;
     if (set->size == 0 && !kind->own_size)
         return aur_fail(error, AUR_ERROR_ARGUMENT, "set '%s': the number of points must be at least 1", name);
     if (set->size > kind->maximum_size)
@@ -58,7 +58,7 @@ void aur_warn_incomplete_net(const aur_pointset *set, const aur_pointset_options
     if (rest != 1)
         aur_warn_at(&options->warnings, (aur_location){0},
                     "set '%s': %" PRIu64 " points are not a power of %" PRIu64 ", so the net is incomplete",
-                    set->kind->description.name, set->size, base);
+                    set->kind->description.row.name, set->size, base);
 }
 
 void aur_fill_fraction(const aur_pointset *set, const aur_block *block, size_t d) {

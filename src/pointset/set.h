@@ -5,7 +5,7 @@
 #include <aureole/pointset.h>
 #include <stdbool.h>
 
-#include "core/parameters.h"
+#include "core/keys.h"
 #include "pointset/words.h"
 
 /* Which coordinates of which points, and where they go: coordinate first_dimension + d of point first + i is
@@ -25,6 +25,15 @@ typedef struct aur_block {
 enum {
     AUR_SCRAMBLES_SHIFT = 1 << AUR_SCRAMBLE_NONE | 1 << AUR_SCRAMBLE_SHIFT | 1 << AUR_SCRAMBLE_ROTATE,
     AUR_SCRAMBLES_ALL = AUR_SCRAMBLES_SHIFT | 1 << AUR_SCRAMBLE_DIGIT | 1 << AUR_SCRAMBLE_OWEN
+};
+
+/* aur_set_description.domains */
+enum {
+    AUR_ON_SQUARE = 1 << AUR_DOMAIN_SQUARE,
+    AUR_ON_CUBE = 1 << AUR_DOMAIN_CUBE,
+    AUR_ON_DISK = 1 << AUR_DOMAIN_DISK,
+    AUR_ON_HEMISPHERE = 1 << AUR_DOMAIN_HEMISPHERE,
+    AUR_ON_SPHERE = 1 << AUR_DOMAIN_SPHERE
 };
 
 /* One row of the table of square sets. */

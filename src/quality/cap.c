@@ -271,7 +271,12 @@ static aur_result cap(const aur_measure_request *request, double *value, aur_err
 }
 
 const aur_measure_row aur_measure_cap = {
-    {"cap", "", "supremum over spherical caps of |share of points - share of area|, exact; time grows as N^3",
-     "sphere", "Marques 2013 sec. 2.1", 0, 0},
+    {.row =
+         {.name = "cap",
+          .summary =
+              "supremum over spherical caps of |share of points - share of area|, exact; time grows as N^3",
+          .source = "Marques 2013 sec. 2.1"},
+     .parameter = "",
+     .domains = "sphere"},
     .masses = 1,
     .compute = cap};

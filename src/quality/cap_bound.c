@@ -99,8 +99,12 @@ static aur_result cap_bound(const aur_measure_request *request, double *value, a
 }
 
 const aur_measure_row aur_measure_cap_bound = {
-    {"cap-bound", "[CENTRES]",
-     "lower bound of 'cap' from all caps about CENTRES (4096) spherical Fibonacci centres, for large N",
-     "sphere", "Marques 2013 sec. 2.1", 1, 0},
+    {.row = {.name = "cap-bound",
+             .summary = "lower bound of 'cap' from all caps about CENTRES (4096) spherical Fibonacci "
+                        "centres, for large N",
+             .source = "Marques 2013 sec. 2.1"},
+     .parameter = "[CENTRES]",
+     .domains = "sphere",
+     .bound = true},
     .masses = 1,
     .compute = cap_bound};

@@ -135,33 +135,53 @@ static aur_result voronoi(const aur_measure_request *request, aur_series *series
 }
 
 const aur_measure_row aur_measure_covering = {
-    {"covering", "",
-     "covering radius (mesh norm): the largest angle from a direction to its nearest point, radians",
-     "sphere, hemisphere", "Brauchart and Grabner 2015", 0, 0},
+    {.row =
+         {.name = "covering",
+          .summary =
+              "covering radius (mesh norm): the largest angle from a direction to its nearest point, radians",
+          .source = "Brauchart and Grabner 2015"},
+     .parameter = "",
+     .domains = "sphere, hemisphere"},
     .compute = covering};
 
 const aur_measure_row aur_measure_mesh_ratio = {
-    {"mesh-ratio", "", "covering radius over half the smallest angle between points: at least 1",
-     "sphere, hemisphere", "Brauchart and Grabner 2015", 0, 0},
+    {.row = {.name = "mesh-ratio",
+             .summary = "covering radius over half the smallest angle between points: at least 1",
+             .source = "Brauchart and Grabner 2015"},
+     .parameter = "",
+     .domains = "sphere, hemisphere"},
     .minimum_count = 2,
     .compute = mesh_ratio};
 
-const aur_measure_row aur_measure_voronoi_min = {{"voronoi-min", "",
-                                                  "area of the smallest Voronoi cell, in mean areas",
-                                                  "sphere, hemisphere", "Augenbaum and Peskin 1985", 0, 0},
-                                                 .compute = voronoi_min};
+const aur_measure_row aur_measure_voronoi_min = {
+    {.row = {.name = "voronoi-min",
+             .summary = "area of the smallest Voronoi cell, in mean areas",
+             .source = "Augenbaum and Peskin 1985"},
+     .parameter = "",
+     .domains = "sphere, hemisphere"},
+    .compute = voronoi_min};
 
-const aur_measure_row aur_measure_voronoi_max = {{"voronoi-max", "",
-                                                  "area of the largest Voronoi cell, in mean areas",
-                                                  "sphere, hemisphere", "Augenbaum and Peskin 1985", 0, 0},
-                                                 .compute = voronoi_max};
+const aur_measure_row aur_measure_voronoi_max = {
+    {.row = {.name = "voronoi-max",
+             .summary = "area of the largest Voronoi cell, in mean areas",
+             .source = "Augenbaum and Peskin 1985"},
+     .parameter = "",
+     .domains = "sphere, hemisphere"},
+    .compute = voronoi_max};
 
 const aur_measure_row aur_measure_voronoi_deviation = {
-    {"voronoi-deviation", "", "standard deviation of the areas of Voronoi cells, in mean areas",
-     "sphere, hemisphere", "Augenbaum and Peskin 1985", 0, 0},
+    {.row = {.name = "voronoi-deviation",
+             .summary = "standard deviation of the areas of Voronoi cells, in mean areas",
+             .source = "Augenbaum and Peskin 1985"},
+     .parameter = "",
+     .domains = "sphere, hemisphere"},
     .compute = voronoi_deviation};
 
 const aur_measure_row aur_measure_voronoi = {
-    {"voronoi", "", "table of the Voronoi cells: area in mean areas, radius in radians, sides",
-     "sphere, hemisphere", "Augenbaum and Peskin 1985", 0, 1},
+    {.row = {.name = "voronoi",
+             .summary = "table of the Voronoi cells: area in mean areas, radius in radians, sides",
+             .source = "Augenbaum and Peskin 1985"},
+     .parameter = "",
+     .domains = "sphere, hemisphere",
+     .series = true},
     .tabulate = voronoi};

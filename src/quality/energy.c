@@ -82,21 +82,33 @@ static aur_result l2_cap_mean(const aur_measure_request *request, double *value,
 }
 
 const aur_measure_row aur_measure_energy = {
-    {"energy", "", "distance energy E_N: the worst-case error for the kernel of distances",
-     "sphere, hemisphere", "Marques 2013 eq. 3; on the hemisphere with the mean-distance potential", 0, 0},
+    {.row = {.name = "energy",
+             .summary = "distance energy E_N: the worst-case error for the kernel of distances",
+             .source = "Marques 2013 eq. 3; on the hemisphere with the mean-distance potential"},
+     .parameter = "",
+     .domains = "sphere, hemisphere"},
     .compute = energy};
 
-const aur_measure_row aur_measure_scd = {{"scd", "",
-                                          "spherical cap discrepancy as E-SFG has it: energy / sqrt 2",
-                                          "sphere, hemisphere", "Marques 2019 eq. 57", 0, 0},
-                                         .compute = scd};
+const aur_measure_row aur_measure_scd = {
+    {.row = {.name = "scd",
+             .summary = "spherical cap discrepancy as E-SFG has it: energy / sqrt 2",
+             .source = "Marques 2019 eq. 57"},
+     .parameter = "",
+     .domains = "sphere, hemisphere"},
+    .compute = scd};
 
-const aur_measure_row aur_measure_l2_cap = {{"l2-cap", "",
-                                             "L2 discrepancy of spherical caps, heights by dt: energy / 2",
-                                             "sphere, hemisphere", "Stolarsky 1973", 0, 0},
-                                            .compute = l2_cap};
+const aur_measure_row aur_measure_l2_cap = {
+    {.row = {.name = "l2-cap",
+             .summary = "L2 discrepancy of spherical caps, heights by dt: energy / 2",
+             .source = "Stolarsky 1973"},
+     .parameter = "",
+     .domains = "sphere, hemisphere"},
+    .compute = l2_cap};
 
 const aur_measure_row aur_measure_l2_cap_mean = {
-    {"l2-cap-mean", "", "root mean square discrepancy of caps, heights by dt/2: energy / sqrt 8",
-     "sphere, hemisphere", "Stolarsky 1973", 0, 0},
+    {.row = {.name = "l2-cap-mean",
+             .summary = "root mean square discrepancy of caps, heights by dt/2: energy / sqrt 8",
+             .source = "Stolarsky 1973"},
+     .parameter = "",
+     .domains = "sphere, hemisphere"},
     .compute = l2_cap_mean};

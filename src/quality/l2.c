@@ -137,14 +137,22 @@ static aur_result wraparound(const aur_measure_request *request, double *value, 
 }
 
 const aur_measure_row aur_measure_l2_star = {
-    {"l2-star", "", "L2 star discrepancy, the root mean square over boxes at the origin", "square, cube",
-     "Warnock 1972", 0, 0},
+    {.row = {.name = "l2-star",
+             .summary = "L2 star discrepancy, the root mean square over boxes at the origin",
+             .source = "Warnock 1972"},
+     .parameter = "",
+     .domains = "square, cube"},
     .compute = l2_star};
 
 const aur_measure_row aur_measure_centered = {
-    {"centered", "", "centred L2 discrepancy (its root)", "square, cube", "Hickernell 1998", 0, 0},
+    {.row = {.name = "centered", .summary = "centred L2 discrepancy (its root)", .source = "Hickernell 1998"},
+     .parameter = "",
+     .domains = "square, cube"},
     .compute = centered};
 
-const aur_measure_row aur_measure_wraparound = {
-    {"wraparound", "", "wrap-around L2 discrepancy (its root)", "square, cube", "Hickernell 1998", 0, 0},
-    .compute = wraparound};
+const aur_measure_row aur_measure_wraparound = {{.row = {.name = "wraparound",
+                                                         .summary = "wrap-around L2 discrepancy (its root)",
+                                                         .source = "Hickernell 1998"},
+                                                 .parameter = "",
+                                                 .domains = "square, cube"},
+                                                .compute = wraparound};

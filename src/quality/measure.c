@@ -6,6 +6,7 @@
 
 #include "core/parameters.h"
 #include "core/text.h"
+#include "sphere/native.h"
 
 static const aur_measure_row *const rows[] = {
     &aur_measure_energy,            //
@@ -45,6 +46,17 @@ const aur_measure_description *aur_measure_at(size_t index) {
     return index < ROW_COUNT ? &rows[index]->description : NULL;
 }
 
+static const aur_row *row_at(size_t index) {
+    return index < ROW_COUNT ? &rows[index]->description.row : NULL;
+}
+
+static const aur_table measures = {"measure", "figures of the quality of points", row_at};
+
+const aur_table *aur_table_at(size_t index) {
+    const aur_table *const tables[] = {&aur_set_table, &measures};
+    return index < sizeof tables / sizeof tables[0] ? tables[index] : NULL;
+}
+
 static aur_result find_row(const char *metric, const aur_measure_row **row, const char **parameter,
                            aur_error *error) {
     const size_t length = strcspn(metric, ":");
@@ -52,7 +64,7 @@ static aur_result find_row(const char *metric, const aur_measure_row **row, cons
     const char *names[ROW_COUNT];
     for (size_t i = 0; i < ROW_COUNT; ++i) {
         const aur_measure_description *const description = &rows[i]->description;
-        names[i] = description->name;
+        names[i] = description->row.name;
         if (strlen(names[i]) != length || strncmp(names[i], metric, length) != 0)
             continue;
         *row = rows[i];
@@ -173,7 +185,7 @@ static aur_result check_weights(const aur_measure_row *row, const aur_points *po
         if (row->masses && weight < 0.0)
             return aur_fail_at(error, line_of(points, i), AUR_ERROR_ARGUMENT,
                                "point %zu has the weight %.9g: '%s' needs weights that are not negative",
-                               i + 1, weight, row->description.name);
+                               i + 1, weight, row->description.row.name);
         sum += weight;
     }
     if (!(sum > 0.0))
@@ -197,7 +209,7 @@ static size_t expected_dimension(aur_domain domain) {
 }
 
 static aur_result check(const aur_measure_row *row, const aur_points *points, aur_error *error) {
-    const char *const name = row->description.name;
+    const char *const name = row->description.row.name;
     const char *const domain = domain_name(points->domain);
     if (!lists(row->description.domains, domain))
         return aur_fail(error, AUR_ERROR_UNSUPPORTED, "measure '%s' is for the %s, not for the %s", name,
@@ -268,7 +280,7 @@ aur_result aur_measure(const char *metric, const aur_points *points, const aur_m
         result = p.row->compute(&p.request, value, error);
     else
         result = aur_fail(error, AUR_ERROR_UNSUPPORTED, "measure '%s' is a table, not one value",
-                          p.row->description.name);
+                          p.row->description.row.name);
     free(p.unit);
     return result;
 }
@@ -284,7 +296,7 @@ aur_result aur_measure_series(const char *metric, const aur_points *points,
         result = p.row->tabulate(&p.request, series, error);
     else
         result = aur_fail(error, AUR_ERROR_UNSUPPORTED, "measure '%s' is one value, not a table",
-                          p.row->description.name);
+                          p.row->description.row.name);
     if (result != AUR_OK)
         aur_series_release(series);
     free(p.unit);

@@ -140,6 +140,9 @@ static aur_result net_parameter(const aur_measure_request *request, double *valu
 }
 
 const aur_measure_row aur_measure_net = {
-    {"net", "[B]", "t of the points as a (t,m,s)-net in base B (2): 0 is best, m is no net at all",
-     "square, cube", "Niederreiter 1987", 0, 0},
+    {.row = {.name = "net",
+             .summary = "t of the points as a (t,m,s)-net in base B (2): 0 is best, m is no net at all",
+             .source = "Niederreiter 1987"},
+     .parameter = "[B]",
+     .domains = "square, cube"},
     .compute = net_parameter};

@@ -64,7 +64,10 @@ static aur_result riesz(const aur_measure_request *request, double *value, aur_e
 }
 
 const aur_measure_row aur_measure_riesz = {
-    {"riesz", "S",
-     "Riesz energy: the sum of |x_i - x_j|^-S over ordered pairs, S = 0 the logarithm of 1/|x_i - x_j|",
-     "sphere, hemisphere", "Hardin and Saff 2004", 0, 0},
+    {.row = {.name = "riesz",
+             .summary = "Riesz energy: the sum of |x_i - x_j|^-S over ordered pairs, S = 0 the logarithm of "
+                        "1/|x_i - x_j|",
+             .source = "Hardin and Saff 2004"},
+     .parameter = "S",
+     .domains = "sphere, hemisphere"},
     .compute = riesz};

@@ -55,7 +55,10 @@ static aur_result min_distance(const aur_measure_request *request, double *value
 }
 
 const aur_measure_row aur_measure_min_distance = {
-    {"min-distance", "", "the smallest distance between two points (on the sphere the chord)",
-     "sphere, hemisphere, square, cube, disk", "Marques 2013 sec. 3.2", 0, 0},
+    {.row = {.name = "min-distance",
+             .summary = "the smallest distance between two points (on the sphere the chord)",
+             .source = "Marques 2013 sec. 3.2"},
+     .parameter = "",
+     .domains = "sphere, hemisphere, square, cube, disk"},
     .minimum_count = 2,
     .compute = min_distance};

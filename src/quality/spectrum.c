@@ -193,13 +193,21 @@ static aur_result full_periodogram(const aur_measure_request *request, aur_serie
     return result;
 }
 
-const aur_measure_row aur_measure_spectrum = {{"spectrum", "[F]",
-                                               "table of the power at frequencies up to F (2 sqrt N; 4 sqrt "
-                                               "N): radial mean on the square, by degree on the sphere",
-                                               "square, sphere", "Ulichney 1988; Pilleboue 2015", 0, 1},
-                                              .tabulate = spectrum};
+const aur_measure_row aur_measure_spectrum = {
+    {.row = {.name = "spectrum",
+             .summary = "table of the power at frequencies up to F (2 sqrt N; 4 sqrt "
+                        "N): radial mean on the square, by degree on the sphere",
+             .source = "Ulichney 1988; Pilleboue 2015"},
+     .parameter = "[F]",
+     .domains = "square, sphere",
+     .series = true},
+    .tabulate = spectrum};
 
 const aur_measure_row aur_measure_periodogram = {
-    {"periodogram", "[F]", "table of the power at each frequency (kx, ky) up to F (2 sqrt N)", "square",
-     "Ulichney 1988", 0, 1},
+    {.row = {.name = "periodogram",
+             .summary = "table of the power at each frequency (kx, ky) up to F (2 sqrt N)",
+             .source = "Ulichney 1988"},
+     .parameter = "[F]",
+     .domains = "square",
+     .series = true},
     .tabulate = full_periodogram};

@@ -250,7 +250,11 @@ static aur_result star(const aur_measure_request *request, double *value, aur_er
 }
 
 const aur_measure_row aur_measure_star = {
-    {"star", "", "exact star discrepancy D*, the supremum over boxes at the origin (one and two dimensions)",
-     "square, cube", "Bundschuh and Zhu 1993", 0, 0},
+    {.row = {.name = "star",
+             .summary =
+                 "exact star discrepancy D*, the supremum over boxes at the origin (one and two dimensions)",
+             .source = "Bundschuh and Zhu 1993"},
+     .parameter = "",
+     .domains = "square, cube"},
     .masses = 1,
     .compute = star};

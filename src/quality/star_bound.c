@@ -204,8 +204,12 @@ static aur_result star_bound(const aur_measure_request *request, double *value, 
 }
 
 const aur_measure_row aur_measure_star_bound = {
-    {"star-bound", "[STEPS]",
-     "lower bound of the star discrepancy by threshold accepting, STEPS (4096) boxes in each of 16 walks",
-     "square, cube", "Winker and Fang 1997; Gnewuch, Wahlström and Winzen 2012", 1, 0},
+    {.row = {.name = "star-bound",
+             .summary = "lower bound of the star discrepancy by threshold accepting, STEPS (4096) boxes in "
+                        "each of 16 walks",
+             .source = "Winker and Fang 1997; Gnewuch, Wahlström and Winzen 2012"},
+     .parameter = "[STEPS]",
+     .domains = "square, cube",
+     .bound = true},
     .masses = 1,
     .compute = star_bound};

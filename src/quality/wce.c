@@ -43,7 +43,10 @@ static aur_result wce(const aur_measure_request *request, double *value, aur_err
 }
 
 const aur_measure_row aur_measure_wce = {
-    {"wce", "S[:LOBE]",
-     "worst-case error as a rule for the density LOBE (uniform), smoothness S; weights are taken as they are",
-     "hemisphere, sphere", "Marques 2018 eq. 9", 0, 0},
+    {.row = {.name = "wce",
+             .summary = "worst-case error as a rule for the density LOBE (uniform), smoothness S; weights "
+                        "are taken as they are",
+             .source = "Marques 2018 eq. 9"},
+     .parameter = "S[:LOBE]",
+     .domains = "hemisphere, sphere"},
     .compute = wce};

@@ -519,7 +519,7 @@ static aur_result check_set(const aur_parameters *parameters, const char *set, a
     const char *names[128];
     size_t count = 0;
     for (; count < 128 && aur_set_at(count) != NULL; ++count) {
-        names[count] = aur_set_at(count)->name;
+        names[count] = aur_set_at(count)->row.name;
         if (strcmp(names[count], set) == 0)
             return AUR_OK;
     }

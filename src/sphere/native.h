@@ -6,7 +6,7 @@
 #include <aureole/sphere.h>
 #include <stdbool.h>
 
-#include "core/parameters.h"
+#include "pointset/set.h"
 
 /* What a native set fills: `count` points spread uniformly over the cap z >= 1 - height (1 hemisphere, 2
  * sphere).
@@ -21,8 +21,8 @@ typedef struct aur_native_set {
     aur_set_description description;
     uint64_t maximum_size;
     /* Reads the keys and makes *data, one allocation, ready. */
-    aur_result (*prepare)(aur_parameters *keys, const aur_native_request *request, void **data,
-                          aur_error *error);
+    aur_result (*prepare)(const aur_row *row, aur_parameters *parameters, const aur_native_request *request,
+                          void **data, aur_error *error);
     /* Unit vectors first .. first+count-1, which are within the set. */
     void (*fill)(const void *data, uint64_t first, size_t count, double *xyz);
 } aur_native_set;
@@ -45,5 +45,7 @@ aur_result aur_set_check_name(const char *set, aur_error *error);
 bool aur_set_is_file(const char *set);
 /* Whether the points of a rule are not all worth the same. */
 bool aur_directions_weighted(const aur_directions *directions);
+
+extern const aur_table aur_set_table;
 
 #endif

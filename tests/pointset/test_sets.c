@@ -170,7 +170,7 @@ static void every_set_is_random_access(void **state) {
     (void)state;
     for (size_t k = 0; k < aur_square_set_count(); ++k) {
         const aur_square_set *const kind = aur_square_set_at(k);
-        if (needs_a_file(kind->description.name))
+        if (needs_a_file(kind->description.row.name))
             continue;
         for (int s = AUR_SCRAMBLE_NONE; s <= AUR_SCRAMBLE_ROTATE; ++s) {
             const size_t dimension = kind->maximum_dimension < 2 ? kind->maximum_dimension : 2;
@@ -179,8 +179,8 @@ static void every_set_is_random_access(void **state) {
             enum { COUNT = 233 };
             const aur_pointset_options options = {
                 .count = COUNT, .dimension = dimension, .scramble = (aur_scramble)s, .seed = 5};
-            double *const whole = make_points(kind->description.name, options);
-            aur_pointset *const set = make_set(kind->description.name, options);
+            double *const whole = make_points(kind->description.row.name, options);
+            aur_pointset *const set = make_set(kind->description.row.name, options);
             for (size_t i = COUNT; i-- > 0;) {
                 const size_t run = i % 7 < COUNT - i ? i % 7 : COUNT - i;
                 double part[14];
@@ -198,16 +198,16 @@ static void extensible_sets_extend(void **state) {
     (void)state;
     for (size_t k = 0; k < aur_square_set_count(); ++k) {
         const aur_square_set *const kind = aur_square_set_at(k);
-        if (needs_a_file(kind->description.name))
+        if (needs_a_file(kind->description.row.name))
             continue;
         const size_t dimension = kind->maximum_dimension < 2 ? kind->maximum_dimension : 2;
-        double *const small =
-            make_points(kind->description.name, (aur_pointset_options){.count = 55, .dimension = dimension});
-        double *const large =
-            make_points(kind->description.name, (aur_pointset_options){.count = 89, .dimension = dimension});
+        double *const small = make_points(kind->description.row.name,
+                                          (aur_pointset_options){.count = 55, .dimension = dimension});
+        double *const large = make_points(kind->description.row.name,
+                                          (aur_pointset_options){.count = 89, .dimension = dimension});
         const bool same = memcmp(small, large, 55 * dimension * sizeof *small) == 0;
         if (same != (kind->description.extensible != 0))
-            print_error("%s\n", kind->description.name);
+            print_error("%s\n", kind->description.row.name);
         assert_int_equal(same, kind->description.extensible != 0);
         free(small);
         free(large);

@@ -9,11 +9,11 @@ static void the_table_is_consistent(void **state) {
     (void)state;
     for (size_t i = 0; i < aur_measure_count(); ++i) {
         const aur_measure_description *const row = aur_measure_at(i);
-        assert_true(strlen(row->name) > 0 && strlen(row->summary) > 0 && strlen(row->domains) > 0 &&
-                    strlen(row->source) > 0);
+        assert_true(strlen(row->row.name) > 0 && strlen(row->row.summary) > 0 && strlen(row->domains) > 0 &&
+                    strlen(row->row.source) > 0);
         const aur_measure_description *found = NULL;
         char name[64];
-        snprintf(name, sizeof name, "%s%s", row->name,
+        snprintf(name, sizeof name, "%s%s", row->row.name,
                  row->parameter[0] != '\0' && row->parameter[0] != '[' ? ":1" : "");
         assert_int_equal(aur_measure_find(name, &found, NULL), AUR_OK);
         assert_ptr_equal(found, row);

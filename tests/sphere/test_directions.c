@@ -276,10 +276,10 @@ static void table_names_sets_that_exist(void **state) {
     assert_null(aur_set_at(aur_set_count()));
     for (size_t i = 0; i < aur_set_count(); ++i) {
         const aur_set_description *const set = aur_set_at(i);
-        assert_true(set->name != NULL && set->keys != NULL && set->summary != NULL && set->domains != NULL &&
-                    set->sizes != NULL && set->source != NULL);
+        assert_true(set->row.name != NULL && set->row.summary != NULL && set->domains != 0 &&
+                    set->sizes != NULL && set->row.source != NULL);
         for (size_t k = 0; k < i; ++k)
-            assert_string_not_equal(set->name, aur_set_at(k)->name);
+            assert_string_not_equal(set->row.name, aur_set_at(k)->row.name);
     }
 }
 

@@ -5,14 +5,26 @@
 
 #include "pointset/set.h"
 
-static aur_result prepare(aur_pointset *set, aur_parameters *keys, const aur_pointset_options *options,
+/* What follows "file:" is the path as it stands. */
+typedef struct file_keys {
+    const char *path;
+} file_keys;
+
+static const aur_key keys[] = {
+    {AUR_KEY_OF_TEXT(file_keys, "PATH", path, NULL, "the file, in place of key=value: file:PATH")},
+};
+
+static aur_result prepare(aur_pointset *set, aur_parameters *parameters, const aur_pointset_options *options,
                           aur_error *error) {
-    const aur_parameter *const item = aur_parameters_find(keys, "path");
-    if (item == NULL || item->text[0] == '\0')
+    file_keys p = {NULL};
+    aur_result result = aur_row_read(&set->kind->description.row, parameters, &p, error);
+    if (result != AUR_OK)
+        return result;
+    const char *const path = p.path;
+    if (path == NULL || path[0] == '\0')
         return aur_fail(error, AUR_ERROR_FORMAT, "a file of points is named by file:PATH");
-    const char *const path = item->text;
     aur_points points;
-    aur_result result = aur_points_read_on(path, AUR_DOMAIN_CUBE, &points, error);
+    result = aur_points_read_on(path, AUR_DOMAIN_CUBE, &points, error);
     if (result != AUR_OK)
         return result;
     const aur_location where = {.file = path};
@@ -34,13 +46,13 @@ static aur_result prepare(aur_pointset *set, aur_parameters *keys, const aur_poi
 }
 
 const aur_square_set aur_set_file = {
-    .description = {.name = "file",
-                    .keys = "file:PATH",
-                    .summary = "points from a CSV or NPY file",
-                    .domains = "square, cube",
+    .description = {.row = {.name = "file",
+                            .summary = "points from a CSV or NPY file",
+                            .source = "the user",
+                            AUR_ROW_KEYS(keys)},
+                    .domains = AUR_ON_SQUARE | AUR_ON_CUBE,
                     .sizes = "up to the file's",
-                    .extensible = 1,
-                    .source = "the user"},
+                    .extensible = true},
     .minimum_dimension = 1,
     .maximum_dimension = SIZE_MAX,
     .maximum_size = UINT64_MAX,

@@ -48,16 +48,26 @@ static uint32_t smallest_base(size_t dimension) {
     return base;
 }
 
-static aur_result prepare(aur_pointset *set, aur_parameters *keys, const aur_pointset_options *options,
+typedef struct faure_keys {
+    int64_t base;
+    enum { SCRAMBLE_NONE, SCRAMBLE_LOWER_TRIANGULAR } scramble;
+} faure_keys;
+
+static const aur_key keys[] = {
+    {AUR_KEY_OF_INTEGER(faure_keys, "base", base, 2, AUR_RADICAL_BASE_LIMIT - 1, "auto",
+                        "a prime of at least the dimension; auto: the smallest"),
+     .computed = true},
+    {AUR_KEY_OF_CHOICE(faure_keys, "scramble", scramble, "none",
+                       "random lower-triangular matrices (Matousek 1998)", "none", "lower-triangular")},
+};
+
+static aur_result prepare(aur_pointset *set, aur_parameters *parameters, const aur_pointset_options *options,
                           aur_error *error) {
-    static const char *const choices[] = {"none", "lower-triangular"};
-    int64_t base = smallest_base(set->dimension);
-    size_t choice = 0;
-    aur_result result = aur_parameters_integer(keys, "base", 2, AUR_RADICAL_BASE_LIMIT - 1, &base, error);
-    if (result == AUR_OK)
-        result = aur_parameters_choice(keys, "scramble", 2, choices, &choice, error);
+    faure_keys p = {.base = smallest_base(set->dimension)};
+    const aur_result result = aur_row_read(&set->kind->description.row, parameters, &p, error);
     if (result != AUR_OK)
         return result;
+    const int64_t base = p.base;
     if (!aur_is_prime((uint32_t)base) || (uint64_t)base < set->dimension)
         return aur_fail(error, AUR_ERROR_ARGUMENT,
                         "set 'faure': base must be a prime of at least the dimension %zu, such as %u, not %u",
@@ -69,7 +79,7 @@ static aur_result prepare(aur_pointset *set, aur_parameters *keys, const aur_poi
     for (size_t d = 0; d < set->dimension; ++d) {
         uint16_t *const matrix = rule->digits + d * places * places;
         pascal_power(rule, (uint32_t)d, matrix);
-        if (choice == 1)
+        if (p.scramble == SCRAMBLE_LOWER_TRIANGULAR)
             scramble_lower(rule, aur_hash3(UINT64_C(0x6661757265), set->seed, d), matrix);
     }
     set->data = rule;
@@ -78,14 +88,15 @@ static aur_result prepare(aur_pointset *set, aur_parameters *keys, const aur_poi
 }
 
 const aur_square_set aur_set_faure = {
-    .description = {.name = "faure",
-                    .keys = "base=auto,scramble=none",
-                    .summary =
-                        "(0,s)-sequence in a prime base (auto: the smallest); scramble=none|lower-triangular",
-                    .domains = "square, cube",
-                    .sizes = "1..2^48; a net at base^m",
-                    .extensible = 1,
-                    .source = "Faure 1982; Matousek 1998"},
+    .description =
+        {.row = {.name = "faure",
+                 .summary =
+                     "(0,s)-sequence in a prime base (auto: the smallest); scramble=none|lower-triangular",
+                 .source = "Faure 1982; Matousek 1998",
+                 AUR_ROW_KEYS(keys)},
+         .domains = AUR_ON_SQUARE | AUR_ON_CUBE,
+         .sizes = "1..2^48; a net at base^m",
+         .extensible = true},
     .minimum_dimension = 1,
     .maximum_dimension = 4096,
     .maximum_size = AUR_INDEX_LIMIT,

@@ -7,17 +7,26 @@
 
 #include "pointset/set.h"
 
-static aur_result prepare(aur_pointset *set, aur_parameters *keys, const aur_pointset_options *options,
+typedef struct golden_keys {
+    double seed;
+} golden_keys;
+
+static const aur_key keys[] = {
+    {AUR_KEY_OF_REAL(golden_keys, "seed", seed, 0.0, 1.0, "0", "s: where the sequence starts"),
+     .maximum_open = true},
+};
+
+static aur_result prepare(aur_pointset *set, aur_parameters *parameters, const aur_pointset_options *options,
                           aur_error *error) {
     (void)options;
-    double seed = 0.0;
-    const aur_result result = aur_parameters_float(keys, "seed", 0.0, AUR_BELOW_ONE, &seed, error);
+    golden_keys p;
+    const aur_result result = aur_row_read(&set->kind->description.row, parameters, &p, error);
     if (result != AUR_OK)
         return result;
     uint64_t *const word = malloc(sizeof *word);
     if (word == NULL)
         return aur_fail(error, AUR_ERROR_MEMORY, "out of memory");
-    *word = aur_golden_start(seed);
+    *word = aur_golden_start(p.seed);
     set->data = word;
     return AUR_OK;
 }
@@ -30,13 +39,13 @@ static void fill(const aur_pointset *set, const aur_block *block) {
 }
 
 const aur_square_set aur_set_golden = {
-    .description = {.name = "golden",
-                    .keys = "seed=0",
-                    .summary = "golden ratio sequence, one dimension",
-                    .domains = "cube",
+    .description = {.row = {.name = "golden",
+                            .summary = "golden ratio sequence, one dimension",
+                            .source = "Schretter 2012",
+                            AUR_ROW_KEYS(keys)},
+                    .domains = AUR_ON_CUBE,
                     .sizes = "any",
-                    .extensible = 1,
-                    .source = "Schretter 2012"},
+                    .extensible = true},
     .minimum_dimension = 1,
     .maximum_dimension = 1,
     .maximum_size = UINT64_MAX,

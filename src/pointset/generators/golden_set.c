@@ -40,21 +40,30 @@ aur_golden_order aur_golden_order_of(uint64_t seed_word, uint64_t count) {
     return order;
 }
 
-static aur_result prepare(aur_pointset *set, aur_parameters *keys, const aur_pointset_options *options,
+typedef struct golden_set_keys {
+    enum { ONE_SEED, TWO_SEEDS } form;
+    double seed;
+} golden_set_keys;
+
+static const aur_key keys[] = {
+    {AUR_KEY_OF_CHOICE(golden_set_keys, "form", form, "one-seed",
+                       "the sequence beside itself sorted, from one start or from two", "one-seed",
+                       "two-seeds")},
+    {AUR_KEY_OF_REAL(golden_set_keys, "seed", seed, 0.0, 1.0, "0", "s: where the sequence starts"),
+     .maximum_open = true},
+};
+
+static aur_result prepare(aur_pointset *set, aur_parameters *parameters, const aur_pointset_options *options,
                           aur_error *error) {
-    static const char *const choices[] = {"one-seed", "two-seeds"};
-    size_t form = 0;
-    double seed = 0.0;
-    aur_result result = aur_parameters_choice(keys, "form", 2, choices, &form, error);
-    if (result == AUR_OK)
-        result = aur_parameters_float(keys, "seed", 0.0, AUR_BELOW_ONE, &seed, error);
+    golden_set_keys p;
+    const aur_result result = aur_row_read(&set->kind->description.row, parameters, &p, error);
     if (result != AUR_OK)
         return result;
     golden_set *const data = malloc(sizeof *data + set->size * sizeof data->order[0]);
     if (data == NULL)
         return aur_fail(error, AUR_ERROR_MEMORY, "out of memory");
-    data->two_seeds = form == 1;
-    data->seed_word = aur_seed_word(seed);
+    data->two_seeds = p.form == TWO_SEEDS;
+    data->seed_word = aur_seed_word(p.seed);
     if (!data->two_seeds)
         data->seed_word += aur_phase(aur_golden_fraction, 1);
     data->second_word = aur_hash2(UINT64_C(0x676f6c64656e), options->seed);
@@ -137,13 +146,13 @@ aur_result aur_golden_set_points_two_seeds(double s, double r, size_t count, con
 }
 
 const aur_square_set aur_set_golden_set = {
-    .description = {.name = "golden-set",
-                    .keys = "form=one-seed,seed=0",
-                    .summary = "golden ratio sequence beside itself sorted; form=one-seed|two-seeds",
-                    .domains = "square",
+    .description = {.row = {.name = "golden-set",
+                            .summary = "golden ratio sequence beside itself sorted; form=one-seed|two-seeds",
+                            .source = "Schretter 2012",
+                            AUR_ROW_KEYS(keys)},
+                    .domains = AUR_ON_SQUARE,
                     .sizes = "1..2^32",
-                    .extensible = 0,
-                    .source = "Schretter 2012"},
+                    .extensible = false},
     .minimum_dimension = 2,
     .maximum_dimension = 2,
     .maximum_size = UINT64_C(1) << 32,

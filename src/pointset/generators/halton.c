@@ -11,37 +11,35 @@ typedef struct halton {
     uint32_t primes[];
 } halton;
 
-static aur_result prepare(aur_pointset *set, aur_parameters *keys, bool has_keys, aur_error *error) {
-    static const char *const choices[] = {"none", "random"};
-    size_t choice = 0;
-    if (has_keys) {
-        const aur_result result = aur_parameters_choice(keys, "permute", 2, choices, &choice, error);
-        if (result != AUR_OK)
-            return result;
-    }
-    if (choice == 1 && (set->scramble == AUR_SCRAMBLE_DIGIT || set->scramble == AUR_SCRAMBLE_OWEN))
+typedef struct halton_keys {
+    enum { PERMUTE_NONE, PERMUTE_RANDOM } permute;
+} halton_keys;
+
+static const aur_key keys[] = {
+    {AUR_KEY_OF_CHOICE(halton_keys, "permute", permute, "none", "random permutations of the digits", "none",
+                       "random")},
+};
+
+/* Of both sets: hammersley has no keys. */
+static aur_result prepare(aur_pointset *set, aur_parameters *parameters, const aur_pointset_options *options,
+                          aur_error *error) {
+    (void)options;
+    halton_keys p = {PERMUTE_NONE};
+    const aur_result result = aur_row_read(&set->kind->description.row, parameters, &p, error);
+    if (result != AUR_OK)
+        return result;
+    if (p.permute == PERMUTE_RANDOM &&
+        (set->scramble == AUR_SCRAMBLE_DIGIT || set->scramble == AUR_SCRAMBLE_OWEN))
         return aur_fail(error, AUR_ERROR_UNSUPPORTED,
                         "set 'halton': permute=random permutes the digits already; it goes with scrambling "
                         "none, shift or rotate");
     halton *const data = malloc(sizeof *data + set->dimension * sizeof data->primes[0]);
     if (data == NULL)
-        return aur_fail(error, AUR_ERROR_MEMORY, "out of memory");
-    data->permuted = choice == 1;
+        return aur_fail_memory(error);
+    data->permuted = p.permute == PERMUTE_RANDOM;
     aur_primes(set->dimension, data->primes);
     set->data = data;
     return AUR_OK;
-}
-
-static aur_result prepare_halton(aur_pointset *set, aur_parameters *keys, const aur_pointset_options *options,
-                                 aur_error *error) {
-    (void)options;
-    return prepare(set, keys, true, error);
-}
-
-static aur_result prepare_hammersley(aur_pointset *set, aur_parameters *keys,
-                                     const aur_pointset_options *options, aur_error *error) {
-    (void)options;
-    return prepare(set, keys, false, error);
 }
 
 /* The prime of a dimension, found when the set has none ready. */
@@ -75,34 +73,33 @@ static void fill_hammersley(const aur_pointset *set, const aur_block *block) {
 }
 
 const aur_square_set aur_set_halton = {
-    .description = {.name = "halton",
-                    .keys = "permute=none",
-                    .summary = "radical inverses in the first primes",
-                    .domains = "square, cube",
+    .description = {.row = {.name = "halton",
+                            .summary = "radical inverses in the first primes",
+                            .source = "Halton 1960; permutations Owen 2017",
+                            AUR_ROW_KEYS(keys)},
+                    .domains = AUR_ON_SQUARE | AUR_ON_CUBE,
                     .sizes = "1..2^48",
-                    .extensible = 1,
-                    .source = "Halton 1960; permutations Owen 2017"},
+                    .extensible = true},
     .minimum_dimension = 1,
     .maximum_dimension = AUR_RADICAL_PRIMES,
     .maximum_size = AUR_INDEX_LIMIT,
     .scramblings = AUR_SCRAMBLES_ALL,
-    .prepare = prepare_halton,
+    .prepare = prepare,
     .fill = fill_halton,
 };
 
 const aur_square_set aur_set_hammersley = {
-    .description = {.name = "hammersley",
-                    .keys = "",
-                    .summary = "i/N, then radical inverses in the first primes",
-                    .domains = "square, cube",
+    .description = {.row = {.name = "hammersley",
+                            .summary = "i/N, then radical inverses in the first primes",
+                            .source = "Hammersley 1960"},
+                    .domains = AUR_ON_SQUARE | AUR_ON_CUBE,
                     .sizes = "1..2^48",
-                    .extensible = 0,
-                    .binary_net = 1,
-                    .source = "Hammersley 1960"},
+                    .extensible = false,
+                    .binary_net = true},
     .minimum_dimension = 1,
     .maximum_dimension = AUR_RADICAL_PRIMES,
     .maximum_size = AUR_INDEX_LIMIT,
     .scramblings = AUR_SCRAMBLES_ALL,
-    .prepare = prepare_hammersley,
+    .prepare = prepare,
     .fill = fill_hammersley,
 };

@@ -128,13 +128,12 @@ static void fill(const aur_pointset *set, const aur_block *block) {
 }
 
 const aur_square_set aur_set_icg = {
-    .description = {.name = "icg",
-                    .keys = "",
-                    .summary = "inversive congruential generator of full period",
-                    .domains = "square, cube",
+    .description = {.row = {.name = "icg",
+                            .summary = "inversive congruential generator of full period",
+                            .source = "Eichenauer, Lehn 1986"},
+                    .domains = AUR_ON_SQUARE | AUR_ON_CUBE,
                     .sizes = "1..(2^31-1)/dimension",
-                    .extensible = 1,
-                    .source = "Eichenauer, Lehn 1986"},
+                    .extensible = true},
     .minimum_dimension = 1,
     .maximum_dimension = (UINT64_C(1) << 31) - 1,
     .maximum_size = (UINT64_C(1) << 31) - 1,

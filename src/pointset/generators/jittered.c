@@ -27,13 +27,12 @@ static void fill(const aur_pointset *set, const aur_block *block) {
 }
 
 const aur_square_set aur_set_jittered = {
-    .description = {.name = "jittered",
-                    .keys = "",
-                    .summary = "a random point in each of N cells of equal area",
-                    .domains = "square",
+    .description = {.row = {.name = "jittered",
+                            .summary = "a random point in each of N cells of equal area",
+                            .source = "Cook 1986"},
+                    .domains = AUR_ON_SQUARE,
                     .sizes = "1..2^40",
-                    .extensible = 0,
-                    .source = "Cook 1986"},
+                    .extensible = false},
     .minimum_dimension = 2,
     .maximum_dimension = 2,
     .maximum_size = UINT64_C(1) << 40,

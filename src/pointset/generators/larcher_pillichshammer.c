@@ -24,14 +24,13 @@ static aur_result prepare(aur_pointset *set, aur_parameters *keys, const aur_poi
 }
 
 const aur_square_set aur_set_larcher_pillichshammer = {
-    .description = {.name = "larcher-pillichshammer",
-                    .keys = "",
-                    .summary = "(0,m,2)-net of very low star discrepancy",
-                    .domains = "square",
+    .description = {.row = {.name = "larcher-pillichshammer",
+                            .summary = "(0,m,2)-net of very low star discrepancy",
+                            .source = "Larcher, Pillichshammer 2001; Kollig, Keller 2002"},
+                    .domains = AUR_ON_SQUARE,
                     .sizes = "any; a net at 2^m",
-                    .extensible = 0,
-                    .binary_net = 1,
-                    .source = "Larcher, Pillichshammer 2001; Kollig, Keller 2002"},
+                    .extensible = false,
+                    .binary_net = true},
     .minimum_dimension = 2,
     .maximum_dimension = 2,
     .maximum_size = AUR_INDEX_LIMIT,

@@ -84,15 +84,32 @@ static aur_lattice *create(aur_pointset *set, aur_error *error) {
     return data;
 }
 
-static aur_result prepare_rank1(aur_pointset *set, aur_parameters *keys, const aur_pointset_options *options,
-                                aur_error *error) {
+typedef struct lattice_keys {
+    const char *vector; /* NULL: not given */
+    double offset;
+} lattice_keys;
+
+static const aur_key rank1_keys[] = {
+    {AUR_KEY_OF_TEXT(lattice_keys, "vector", vector, "auto",
+                     "generating vector 1/a/b, a number a dimension; auto: 1/a with a next to N/Phi"),
+     .computed = true},
+};
+
+static const aur_key fibonacci_keys[] = {
+    {AUR_KEY_OF_REAL(lattice_keys, "offset", offset, 0.0, 1.0, "0", "added to i in the first coordinate i/N"),
+     .maximum_open = true},
+};
+
+static aur_result prepare_rank1(aur_pointset *set, aur_parameters *parameters,
+                                const aur_pointset_options *options, aur_error *error) {
     aur_lattice *const data = create(set, error);
     if (data == NULL)
         return AUR_ERROR_MEMORY;
-    const char *text = NULL;
-    const aur_result result = aur_parameters_string(keys, "vector", &text, error);
+    lattice_keys p = {.vector = NULL};
+    const aur_result result = aur_row_read(&set->kind->description.row, parameters, &p, error);
     if (result != AUR_OK)
         return result;
+    const char *const text = p.vector;
     size_t count = 2;
     if (text == NULL) {
         data->vector[0] = 1;
@@ -129,15 +146,16 @@ void aur_lattice_make_fibonacci(uint64_t size, double offset, aur_lattice *latti
     lattice->golden = number != size;
 }
 
-static aur_result prepare_fibonacci(aur_pointset *set, aur_parameters *keys,
+static aur_result prepare_fibonacci(aur_pointset *set, aur_parameters *parameters,
                                     const aur_pointset_options *options, aur_error *error) {
     aur_lattice *const data = create(set, error);
     if (data == NULL)
         return AUR_ERROR_MEMORY;
-    const aur_result result = aur_parameters_float(keys, "offset", 0.0, AUR_BELOW_ONE, &data->offset, error);
+    lattice_keys p;
+    const aur_result result = aur_row_read(&set->kind->description.row, parameters, &p, error);
     if (result != AUR_OK)
         return result;
-    aur_lattice_make_fibonacci(set->size, data->offset, data);
+    aur_lattice_make_fibonacci(set->size, p.offset, data);
     if (data->golden)
         aur_warn_at(
             &options->warnings, (aur_location){0},
@@ -147,13 +165,14 @@ static aur_result prepare_fibonacci(aur_pointset *set, aur_parameters *keys,
 }
 
 const aur_square_set aur_set_rank1 = {
-    .description = {.name = "rank1",
-                    .keys = "vector=auto",
-                    .summary = "rank-1 lattice of a generating vector 1/a/b; auto: 1/a with a next to N/Phi",
-                    .domains = "square, cube",
+    .description = {.row = {.name = "rank1",
+                            .summary =
+                                "rank-1 lattice of a generating vector 1/a/b; auto: 1/a with a next to N/Phi",
+                            .source = "Korobov 1959; Sloan, Joe 1994",
+                            AUR_ROW_KEYS(rank1_keys)},
+                    .domains = AUR_ON_SQUARE | AUR_ON_CUBE,
                     .sizes = "1..2^48",
-                    .extensible = 0,
-                    .source = "Korobov 1959; Sloan, Joe 1994"},
+                    .extensible = false},
     .minimum_dimension = 1,
     .maximum_dimension = AUR_LATTICE_CAPACITY,
     .maximum_size = AUR_INDEX_LIMIT,
@@ -163,13 +182,13 @@ const aur_square_set aur_set_rank1 = {
 };
 
 const aur_square_set aur_set_fibonacci_lattice = {
-    .description = {.name = "fibonacci-lattice",
-                    .keys = "offset=0",
-                    .summary = "rank-1 lattice of two Fibonacci numbers; i/Phi at other sizes",
-                    .domains = "square",
+    .description = {.row = {.name = "fibonacci-lattice",
+                            .summary = "rank-1 lattice of two Fibonacci numbers; i/Phi at other sizes",
+                            .source = "Zaremba 1966; Niederreiter, Sloan 1994",
+                            AUR_ROW_KEYS(fibonacci_keys)},
+                    .domains = AUR_ON_SQUARE,
                     .sizes = "1..2^48; a lattice at F_k",
-                    .extensible = 0,
-                    .source = "Zaremba 1966; Niederreiter, Sloan 1994"},
+                    .extensible = false},
     .minimum_dimension = 2,
     .maximum_dimension = 2,
     .maximum_size = AUR_INDEX_LIMIT,

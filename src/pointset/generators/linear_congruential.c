@@ -43,13 +43,12 @@ static void fill(const aur_pointset *set, const aur_block *block) {
 }
 
 const aur_square_set aur_set_lcg = {
-    .description = {.name = "lcg",
-                    .keys = "",
-                    .summary = "minimal standard linear congruential generator",
-                    .domains = "square, cube",
+    .description = {.row = {.name = "lcg",
+                            .summary = "minimal standard linear congruential generator",
+                            .source = "Park, Miller 1988"},
+                    .domains = AUR_ON_SQUARE | AUR_ON_CUBE,
                     .sizes = "1..(2^31-2)/dimension",
-                    .extensible = 1,
-                    .source = "Park, Miller 1988"},
+                    .extensible = true},
     .minimum_dimension = 1,
     .maximum_dimension = (UINT64_C(1) << 31) - 2,
     .maximum_size = (UINT64_C(1) << 31) - 2,

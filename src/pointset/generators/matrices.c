@@ -149,10 +149,20 @@ static aur_result make_rule(aur_pointset *set, const reader *r) {
     return AUR_OK;
 }
 
-static aur_result prepare(aur_pointset *set, aur_parameters *keys, const aur_pointset_options *options,
+typedef struct matrices_keys {
+    const char *file;
+} matrices_keys;
+
+static const aur_key keys[] = {
+    {AUR_KEY_OF_TEXT(matrices_keys, "file", file, NULL,
+                     "text file of the generator matrices; must be given")},
+};
+
+static aur_result prepare(aur_pointset *set, aur_parameters *parameters, const aur_pointset_options *options,
                           aur_error *error) {
-    const char *path = NULL;
-    aur_result result = aur_parameters_string(keys, "file", &path, error);
+    matrices_keys p = {NULL};
+    aur_result result = aur_row_read(&set->kind->description.row, parameters, &p, error);
+    const char *const path = p.file;
     if (result != AUR_OK)
         return result;
     if (path == NULL)
@@ -174,13 +184,14 @@ static aur_result prepare(aur_pointset *set, aur_parameters *keys, const aur_poi
 }
 
 const aur_square_set aur_set_matrices = {
-    .description = {.name = "matrices",
-                    .keys = "file",
-                    .summary = "digital sequence from generator matrices in a text file, any prime base",
-                    .domains = "square, cube",
+    .description = {.row = {.name = "matrices",
+                            .summary =
+                                "digital sequence from generator matrices in a text file, any prime base",
+                            .source = "Niederreiter 1992",
+                            AUR_ROW_KEYS(keys)},
+                    .domains = AUR_ON_SQUARE | AUR_ON_CUBE,
                     .sizes = "1..base^columns",
-                    .extensible = 1,
-                    .source = "Niederreiter 1992"},
+                    .extensible = true},
     .minimum_dimension = 1,
     .maximum_dimension = SIZE_MAX,
     .maximum_size = AUR_INDEX_LIMIT,

@@ -76,14 +76,13 @@ static aur_result prepare(aur_pointset *set, aur_parameters *keys, const aur_poi
 }
 
 const aur_square_set aur_set_niederreiter = {
-    .description = {.name = "niederreiter",
-                    .keys = "",
-                    .summary = "(t,s)-sequence in base 2 from irreducible polynomials",
-                    .domains = "square, cube",
+    .description = {.row = {.name = "niederreiter",
+                            .summary = "(t,s)-sequence in base 2 from irreducible polynomials",
+                            .source = "Niederreiter 1988; Bratley, Fox, Niederreiter 1992"},
+                    .domains = AUR_ON_SQUARE | AUR_ON_CUBE,
                     .sizes = "1..2^53; a net at 2^m",
-                    .extensible = 1,
-                    .binary_net = 1,
-                    .source = "Niederreiter 1988; Bratley, Fox, Niederreiter 1992"},
+                    .extensible = true,
+                    .binary_net = true},
     .minimum_dimension = 1,
     .maximum_dimension = DIMENSIONS,
     .maximum_size = UINT64_C(1) << 53,

@@ -65,13 +65,13 @@ static void fill(const aur_pointset *set, const aur_block *block) {
 }
 
 const aur_square_set aur_set_r2 = {
-    .description = {.name = "r2",
-                    .keys = "",
-                    .summary = "additive recurrence of the plastic number (its kin in other dimensions)",
-                    .domains = "square, cube",
+    .description = {.row = {.name = "r2",
+                            .summary =
+                                "additive recurrence of the plastic number (its kin in other dimensions)",
+                            .source = "Roberts 2018"},
+                    .domains = AUR_ON_SQUARE | AUR_ON_CUBE,
                     .sizes = "any",
-                    .extensible = 1,
-                    .source = "Roberts 2018"},
+                    .extensible = true},
     .minimum_dimension = 1,
     .maximum_dimension = AUR_R2_DIMENSIONS,
     .maximum_size = UINT64_MAX,

@@ -15,13 +15,12 @@ static void fill(const aur_pointset *set, const aur_block *block) {
 }
 
 const aur_square_set aur_set_random = {
-    .description = {.name = "random",
-                    .keys = "",
-                    .summary = "independent uniform random points, counter-based",
-                    .domains = "square, cube",
+    .description = {.row = {.name = "random",
+                            .summary = "independent uniform random points, counter-based",
+                            .source = "Salmon 2011 (counter-based generation)"},
+                    .domains = AUR_ON_SQUARE | AUR_ON_CUBE,
                     .sizes = "any",
-                    .extensible = 1,
-                    .source = "Salmon 2011 (counter-based generation)"},
+                    .extensible = true},
     .minimum_dimension = 1,
     .maximum_dimension = SIZE_MAX,
     .maximum_size = UINT64_MAX,

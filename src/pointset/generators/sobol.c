@@ -80,14 +80,13 @@ static aur_result prepare(aur_pointset *set, aur_parameters *keys, const aur_poi
 }
 
 const aur_square_set aur_set_sobol = {
-    .description = {.name = "sobol",
-                    .keys = "",
-                    .summary = "(t,s)-sequence in base 2 of any dimension",
-                    .domains = "square, cube",
+    .description = {.row = {.name = "sobol",
+                            .summary = "(t,s)-sequence in base 2 of any dimension",
+                            .source = "Sobol 1967; Joe, Kuo 2008; Burley 2020"},
+                    .domains = AUR_ON_SQUARE | AUR_ON_CUBE,
                     .sizes = "1..2^53; a net at 2^m",
-                    .extensible = 1,
-                    .binary_net = 1,
-                    .source = "Sobol 1967; Joe, Kuo 2008; Burley 2020"},
+                    .extensible = true,
+                    .binary_net = true},
     .minimum_dimension = 1,
     .maximum_dimension = SIZE_MAX,
     .maximum_size = UINT64_C(1) << 53,

@@ -8,13 +8,12 @@ static void fill(const aur_pointset *set, const aur_block *block) {
 }
 
 const aur_square_set aur_set_van_der_corput = {
-    .description = {.name = "van-der-corput",
-                    .keys = "",
-                    .summary = "radical inverse in base 2, one dimension",
-                    .domains = "cube",
+    .description = {.row = {.name = "van-der-corput",
+                            .summary = "radical inverse in base 2, one dimension",
+                            .source = "van der Corput 1935"},
+                    .domains = AUR_ON_CUBE,
                     .sizes = "1..2^48",
-                    .extensible = 1,
-                    .source = "van der Corput 1935"},
+                    .extensible = true},
     .minimum_dimension = 1,
     .maximum_dimension = 1,
     .maximum_size = AUR_INDEX_LIMIT,

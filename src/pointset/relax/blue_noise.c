@@ -236,13 +236,12 @@ static aur_result prepare(aur_pointset *set, aur_parameters *keys, const aur_poi
 }
 
 const aur_square_set aur_set_blue_noise = {
-    .description = {.name = "blue-noise",
-                    .keys = "",
-                    .summary = "capacity-constrained Voronoi tessellation, periodic",
-                    .domains = "square",
+    .description = {.row = {.name = "blue-noise",
+                            .summary = "capacity-constrained Voronoi tessellation, periodic",
+                            .source = "Balzer, Schloemer, Deussen 2009"},
+                    .domains = AUR_ON_SQUARE,
                     .sizes = "1..65536",
-                    .extensible = 0,
-                    .source = "Balzer, Schloemer, Deussen 2009"},
+                    .extensible = false},
     .minimum_dimension = 2,
     .maximum_dimension = 2,
     .maximum_size = 1 << 16,

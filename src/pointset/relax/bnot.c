@@ -198,13 +198,12 @@ static aur_result prepare(aur_pointset *set, aur_parameters *keys, const aur_poi
 }
 
 const aur_square_set aur_set_bnot = {
-    .description = {.name = "bnot",
-                    .keys = "",
-                    .summary = "blue noise through optimal transport, periodic",
-                    .domains = "square",
+    .description = {.row = {.name = "bnot",
+                            .summary = "blue noise through optimal transport, periodic",
+                            .source = "de Goes, Breeden, Ostromoukhov, Desbrun 2012"},
+                    .domains = AUR_ON_SQUARE,
                     .sizes = "1..65536",
-                    .extensible = 0,
-                    .source = "de Goes, Breeden, Ostromoukhov, Desbrun 2012"},
+                    .extensible = false},
     .minimum_dimension = 2,
     .maximum_dimension = 2,
     .maximum_size = 1 << 16,

@@ -80,7 +80,7 @@ static void make_folders(const char *folder) {
 static bool cache_path(const aur_pointset *set, unsigned version, const char *folder,
                        char path[PATH_CAPACITY]) {
     const int length = snprintf(path, PATH_CAPACITY, "%s/%s-%u-%" PRIu64 "-%016" PRIx64 ".points", folder,
-                                set->kind->description.name, version, set->size, set->seed);
+                                set->kind->description.row.name, version, set->size, set->seed);
     return length > 0 && length < PATH_CAPACITY;
 }
 
@@ -94,7 +94,7 @@ static const uint64_t cache_magic = UINT64_C(0x61757265706f696e);
 /* What the points follow from. */
 static uint64_t cache_key(const aur_pointset *set, unsigned version) {
     uint64_t key = aur_hash3(version, set->size, set->seed);
-    for (const char *c = set->kind->description.name; *c != '\0'; ++c)
+    for (const char *c = set->kind->description.row.name; *c != '\0'; ++c)
         key = aur_hash2(key, (unsigned char)*c);
     return key;
 }

@@ -26,7 +26,7 @@ const aur_square_set *aur_square_set_at(size_t index) {
 
 static const char *name_of(const void *table, size_t index) {
     (void)table;
-    return sets[index]->description.name;
+    return sets[index]->description.row.name;
 }
 
 static aur_result find_set(const char *name, const aur_square_set **kind, aur_error *error) {
@@ -62,7 +62,7 @@ static aur_result parse(const char *text, aur_parameters *keys, aur_error *error
     if (result != AUR_OK)
         return result;
     result =
-        aur_parameters_add_text(keys, AUR_PARAMETER_TEXT, "path", text + sizeof prefix - 1, nowhere, error);
+        aur_parameters_add_text(keys, AUR_PARAMETER_TEXT, "PATH", text + sizeof prefix - 1, nowhere, error);
     if (result != AUR_OK)
         aur_parameters_release(keys);
     return result;

@@ -110,14 +110,14 @@ static aur_result open_native(const char *set, const aur_directions_options *opt
     const aur_native_set *const native = directions->native;
     if (options->count == 0 || options->count > native->maximum_size)
         return aur_fail(error, AUR_ERROR_ARGUMENT, "set '%s' has sizes %s, not %llu",
-                        native->description.name, native->description.sizes,
+                        native->description.row.name, native->description.sizes,
                         (unsigned long long)options->count);
     aur_parameters keys;
     aur_result result = aur_parameters_parse(&keys, "set", set, error);
     if (result != AUR_OK)
         return result;
     const aur_native_request request = {options->count, directions->height, &options->warnings};
-    result = native->prepare(&keys, &request, &directions->native_data, error);
+    result = native->prepare(&native->description.row, &keys, &request, &directions->native_data, error);
     if (result == AUR_OK)
         result = aur_parameters_finish(&keys, error);
     aur_parameters_release(&keys);

@@ -26,11 +26,18 @@ const aur_set_description *aur_set_at(size_t index) {
     return index < squares + NATIVE_COUNT ? &natives[index - squares]->description : NULL;
 }
 
+static const aur_row *row_at(size_t index) {
+    const aur_set_description *const set = aur_set_at(index);
+    return set != NULL ? &set->row : NULL;
+}
+
+const aur_table aur_set_table = {"set", "point sets of the square, the cube and the sphere", row_at};
+
 const aur_set_description *aur_set_find(const char *set) {
     const size_t length = strcspn(set, ":");
     for (size_t i = 0; i < aur_set_count(); ++i) {
         const aur_set_description *const row = aur_set_at(i);
-        if (strlen(row->name) == length && strncmp(row->name, set, length) == 0)
+        if (strlen(row->row.name) == length && strncmp(row->row.name, set, length) == 0)
             return row;
     }
     return NULL;
@@ -39,7 +46,7 @@ const aur_set_description *aur_set_find(const char *set) {
 const aur_native_set *aur_native_find(const char *set) {
     const size_t length = strcspn(set, ":");
     for (size_t i = 0; i < NATIVE_COUNT; ++i) {
-        const char *const name = natives[i]->description.name;
+        const char *const name = natives[i]->description.row.name;
         if (strlen(name) == length && strncmp(name, set, length) == 0)
             return natives[i];
     }
@@ -48,7 +55,7 @@ const aur_native_set *aur_native_find(const char *set) {
 
 static const char *name_of(const void *table, size_t index) {
     (void)table;
-    return aur_set_at(index)->name;
+    return aur_set_at(index)->row.name;
 }
 
 aur_result aur_set_check_name(const char *set, aur_error *error) {

@@ -67,21 +67,32 @@ static void choose_octant(fibonacci_set *set, uint64_t count, double offset) {
     set->octant = 1;
 }
 
+typedef struct fibonacci_keys {
+    double offset, epsilon; /* -1: not given */
+    enum { REGION_DOMAIN, REGION_OCTANT } region;
+} fibonacci_keys;
+
+static const aur_key keys[] = {
+    {AUR_KEY_OF_REAL(fibonacci_keys, "offset", offset, 0.0, 1.0, "0.5",
+                     "heights stand at i + offset: 0.5 in the middle of their bands"),
+     .computed = true},
+    {AUR_KEY_OF_REAL(fibonacci_keys, "epsilon", epsilon, 0.0, 1e6, "none",
+                     "in place of offset: distance of the first and last point from the poles, in bands"),
+     .computed = true},
+    {AUR_KEY_OF_CHOICE(fibonacci_keys, "region", region, "domain", "fill the domain, or one octant of it",
+                       "domain", "octant")},
+};
+
 /* The lattice of the whole sphere that the keys ask for. */
-static aur_result choose_lattice(aur_parameters *keys, const aur_native_request *request, aur_fibonacci *set,
-                                 aur_error *error) {
-    double offset = 0.5;
-    double epsilon = -1.0;
-    aur_result result = aur_parameters_float(keys, "offset", 0.0, 1.0, &offset, error);
-    if (result == AUR_OK)
-        result = aur_parameters_float(keys, "epsilon", 0.0, 1e6, &epsilon, error);
-    if (result != AUR_OK)
-        return result;
+static aur_result choose_lattice(const fibonacci_keys *p, const aur_native_request *request,
+                                 aur_fibonacci *set, aur_error *error) {
+    const double offset = p->offset < 0.0 ? 0.5 : p->offset;
+    const double epsilon = p->epsilon;
     const double whole = 2.0 / request->height * (double)request->count;
     *set = (aur_fibonacci){.step = 2.0 / whole, .offset = offset};
     if (epsilon < 0.0)
         return AUR_OK;
-    if (aur_parameters_find(keys, "offset") != NULL)
+    if (p->offset >= 0.0)
         return aur_fail(error, AUR_ERROR_ARGUMENT,
                         "set 'spherical-fibonacci': 'offset' and 'epsilon' exclude each other");
     if (!(whole - 1.0 + 2.0 * epsilon > 0.0))
@@ -91,29 +102,29 @@ static aur_result choose_lattice(aur_parameters *keys, const aur_native_request 
     return AUR_OK;
 }
 
-static aur_result prepare(aur_parameters *keys, const aur_native_request *request, void **data,
-                          aur_error *error) {
-    static const char *const regions[] = {"domain", "octant"};
+static aur_result prepare(const aur_row *row, aur_parameters *parameters, const aur_native_request *request,
+                          void **data, aur_error *error) {
+    fibonacci_keys p = {.offset = -1.0, .epsilon = -1.0};
     aur_fibonacci lattice;
-    aur_result result = choose_lattice(keys, request, &lattice, error);
-    size_t region = 0;
+    aur_result result = aur_row_read(row, parameters, &p, error);
     if (result == AUR_OK)
-        result = aur_parameters_choice(keys, "region", 2, regions, &region, error);
+        result = choose_lattice(&p, request, &lattice, error);
     if (result != AUR_OK)
         return result;
-    if (region == 1 && (lattice.offset > 1.0 || aur_parameters_find(keys, "epsilon") != NULL ||
-                        (request->height != 1.0 && request->height != 2.0)))
+    const bool octant = p.region == REGION_OCTANT;
+    if (octant &&
+        (lattice.offset > 1.0 || p.epsilon >= 0.0 || (request->height != 1.0 && request->height != 2.0)))
         return aur_fail(
             error, AUR_ERROR_UNSUPPORTED,
             "set 'spherical-fibonacci': an octant goes with an offset, not with 'epsilon' or a cap");
-    if (region == 1 && request->count > SIZE_MAX / 64)
+    if (octant && request->count > SIZE_MAX / 64)
         return aur_fail(error, AUR_ERROR_MEMORY, "the octant's points do not fit into memory");
     fibonacci_set *const kept =
-        malloc(sizeof *kept + (region == 1 ? (size_t)request->count * sizeof kept->indices[0] : 0));
+        malloc(sizeof *kept + (octant ? (size_t)request->count * sizeof kept->indices[0] : 0));
     if (kept == NULL)
         return aur_fail(error, AUR_ERROR_MEMORY, "out of memory");
     *kept = (fibonacci_set){.points = lattice, .kernel = aur_fibonacci_choose_kernel()};
-    if (region == 1)
+    if (octant)
         choose_octant(kept, request->count, lattice.offset);
     *data = kept;
     return AUR_OK;
@@ -130,13 +141,14 @@ static void fill(const void *data, uint64_t first, size_t count, double *xyz) {
 }
 
 const aur_native_set aur_native_fibonacci = {
-    .description = {.name = "spherical-fibonacci",
-                    .keys = "offset=0.5,epsilon=none,region=domain",
-                    .summary = "a spiral of golden angles at equal heights; the most uniform there is",
-                    .domains = "sphere, hemisphere, disk, cap, octant",
+    .description = {.row = {.name = "spherical-fibonacci",
+                            .summary =
+                                "a spiral of golden angles at equal heights; the most uniform there is",
+                            .source = "Swinbank 2006, Marques 2013",
+                            AUR_ROW_KEYS(keys)},
+                    .domains = AUR_ON_SPHERE | AUR_ON_HEMISPHERE | AUR_ON_DISK,
                     .sizes = "1..2^50",
-                    .extensible = 0,
-                    .source = "Swinbank 2006, Marques 2013"},
+                    .extensible = false},
     .maximum_size = UINT64_C(1) << 50,
     .prepare = prepare,
     .fill = fill,

@@ -23,7 +23,6 @@
 #include "sphere/sets/fibonacci.h"
 
 static const double inverse_phi = 0.61803398874989484820;
-static const uint64_t size_limit = UINT64_C(1) << 48;
 
 enum { LEVEL_LIMIT = 24, JUDGED_LIMIT = 2048, LEGENDRE_TERMS = 200 };
 
@@ -190,7 +189,7 @@ static aur_result choose_size(uint64_t count, int64_t base, int64_t levels, grid
     g->base = (uint64_t)base;
     for (g->levels = levels < 0 ? 0 : (size_t)levels; levels < 0 && g->base << (2 * g->levels) < count;)
         ++g->levels;
-    if (g->base > size_limit >> (2 * g->levels))
+    if (g->base > AUR_INDEX_LIMIT >> (2 * g->levels))
         return aur_fail(error, AUR_ERROR_ARGUMENT, "set 'esfg': base*4^levels must be at most 2^48");
     if (count > g->base << (2 * g->levels))
         return aur_fail(error, AUR_ERROR_ARGUMENT,
@@ -210,49 +209,53 @@ static bool is_complete(uint64_t count, uint64_t base) {
     return blocks < 4;
 }
 
-/* The keys that say which sub-grid comes first, as indices of their choices. */
 typedef struct grid_keys {
-    size_t first_shift; /* paper, best */
-    size_t shift;       /* final, per-level */
-    size_t progression; /* 2, 4 */
+    int64_t base, levels; /* 0 and -1: not given */
+    enum { FIRST_SHIFT_PAPER, FIRST_SHIFT_BEST } first_shift;
+    enum { SHIFT_FINAL, SHIFT_PER_LEVEL } shift;
+    enum { PROGRESSION_2, PROGRESSION_4 } progression;
 } grid_keys;
 
-static void choose_order(grid *g, const grid_keys *keys, double height) {
+static const aur_key keys[] = {
+    {AUR_KEY_OF_INTEGER(grid_keys, "base", base, 1, AUR_INDEX_LIMIT, "auto", "N: points of the first grid"),
+     .computed = true},
+    {AUR_KEY_OF_INTEGER(grid_keys, "levels", levels, 0, LEVEL_LIMIT, "auto",
+                        "times that the grid may be quadrupled: base*4^levels points at most"),
+     .computed = true},
+    {AUR_KEY_OF_CHOICE(grid_keys, "first-shift", first_shift, "best",
+                       "how the sub-grid that doubles a grid is chosen: by eq. 56, or by trying all three",
+                       "paper", "best")},
+    {AUR_KEY_OF_CHOICE(
+        grid_keys, "shift", shift, "final",
+        "the points are centred for base*4^levels of them, or for each size: old points then move", "final",
+        "per-level")},
+    {AUR_KEY_OF_CHOICE(grid_keys, "progression", progression, "2",
+                       "2 puts the sub-grid first that doubles a grid best, 4 keeps their order", "2", "4")},
+};
+
+static void choose_order(grid *g, const grid_keys *p, double height) {
     size_t first = 0;
-    if (keys->progression == 0 && g->levels > 0)
-        first = keys->first_shift == 1
-                    ? aur_grid_best_shift(g->base, height, keys->shift == 0 ? g->centre : -1.0)
+    if (p->progression == PROGRESSION_2 && g->levels > 0)
+        first = p->first_shift == FIRST_SHIFT_BEST
+                    ? aur_grid_best_shift(g->base, height, p->shift == SHIFT_FINAL ? g->centre : -1.0)
                     : aur_grid_first_shift(g->base, 1.0);
     for (size_t i = 0; i < 3; ++i)
         g->order[i] = (first + i) % 3;
 }
 
-static aur_result prepare(aur_parameters *keys, const aur_native_request *request, void **data,
-                          aur_error *error) {
-    static const char *const first_shifts[] = {"paper", "best"};
-    static const char *const shifts[] = {"final", "per-level"};
-    static const char *const progressions[] = {"2", "4"};
-    int64_t base = 0;
-    int64_t levels = -1;
-    grid_keys chosen = {.first_shift = 1};
-    aur_result result = aur_parameters_integer(keys, "base", 1, (int64_t)size_limit, &base, error);
-    if (result == AUR_OK)
-        result = aur_parameters_integer(keys, "levels", 0, LEVEL_LIMIT, &levels, error);
-    if (result == AUR_OK)
-        result = aur_parameters_choice(keys, "first-shift", 2, first_shifts, &chosen.first_shift, error);
-    if (result == AUR_OK)
-        result = aur_parameters_choice(keys, "shift", 2, shifts, &chosen.shift, error);
-    if (result == AUR_OK)
-        result = aur_parameters_choice(keys, "progression", 2, progressions, &chosen.progression, error);
+static aur_result prepare(const aur_row *row, aur_parameters *parameters, const aur_native_request *request,
+                          void **data, aur_error *error) {
+    grid_keys p = {.levels = -1};
+    aur_result result = aur_row_read(row, parameters, &p, error);
     grid g = {.kernel = aur_fibonacci_choose_kernel()};
     if (result == AUR_OK)
-        result = choose_size(request->count, base, levels, &g, error);
+        result = choose_size(request->count, p.base, p.levels, &g, error);
     if (result != AUR_OK)
         return result;
     g.step = request->height / (double)g.base;
     g.centre = ldexp(0.5, -(int)g.levels);
-    choose_order(&g, &chosen, request->height);
-    if (chosen.shift == 1)
+    choose_order(&g, &p, request->height);
+    if (p.shift == SHIFT_PER_LEVEL)
         g.centre = 0.5 - mean_index_shift(&g, (request->count + g.base - 1) / g.base);
     if (!is_complete(request->count, g.base))
         aur_warn_at(
@@ -291,13 +294,14 @@ static void fill(const void *data, uint64_t first, size_t count, double *xyz) {
 }
 
 const aur_native_set aur_native_grid = {
-    .description = {.name = "esfg",
-                    .keys = "base=auto,levels=auto,first-shift=best,shift=final,progression=2",
-                    .summary = "spherical Fibonacci grids that double or quadruple and keep their points",
-                    .domains = "sphere, hemisphere, disk, cap",
+    .description = {.row = {.name = "esfg",
+                            .summary =
+                                "spherical Fibonacci grids that double or quadruple and keep their points",
+                            .source = "Marques 2019",
+                            AUR_ROW_KEYS(keys)},
+                    .domains = AUR_ON_SPHERE | AUR_ON_HEMISPHERE | AUR_ON_DISK,
                     .sizes = "1..2^48; base*4^levels times 1, 2, 3, 4 is even",
-                    .extensible = 1,
-                    .source = "Marques 2019"},
+                    .extensible = true},
     .maximum_size = UINT64_C(1) << 48,
     .prepare = prepare,
     .fill = fill,

@@ -24,10 +24,14 @@ static const aur_row *const rows[] = {
 };
 /* clang-format on */
 
+static const aur_row *row_at(size_t index) {
+    return index < sizeof rows / sizeof rows[0] ? rows[index] : NULL;
+}
+
 const aur_table aur_integrator_table = {
     .kind = "integrator",
     .summary = "how the light that reaches the camera is found",
-    AUR_TABLE_ROWS(rows),
+    .row = row_at,
 };
 
 aur_result aur_integrator_create(aur_parameters *parameters, const aur_integrator_context *context,
