@@ -96,7 +96,9 @@ static bool run_scene(const bench_options *options, path_context *context, const
 
 static bool run(const bench_options *options) {
     path_context context = {
-        .options = {.integrator = "path",
+        .statistics = {.size = sizeof(aur_render_statistics)},
+        .options = {.size = sizeof(aur_render_options),
+                    .integrator = "path",
                     .threads = 1,
                     .width = options->quick ? QUICK_WIDTH : WIDTH,
                     .height = options->quick ? QUICK_WIDTH : WIDTH,

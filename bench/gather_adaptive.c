@@ -37,7 +37,7 @@ typedef struct outcome {
 static bool render(adaptive_context *context, const char *keys, size_t seed, aur_image **image,
                    double *rays) {
     char integrator[256];
-    aur_render_statistics statistics;
+    aur_render_statistics statistics = {.size = sizeof statistics};
     snprintf(integrator, sizeof integrator,
              "finalgather:direct=none,edges=0,pixel=centre,photons=%d,pattern_seed=%zu,%s",
              context->side == SIDE ? 200000 : 20000, seed, keys);
@@ -149,7 +149,8 @@ bool bench_gather_adaptive(const bench_options *options, bench_figures *figures)
                                 .seeds = options->quick ? QUICK_SEEDS : SEEDS,
                                 .reference_directions =
                                     options->quick ? QUICK_REFERENCE : REFERENCE_DIRECTIONS};
-    context.options = (aur_render_options){.sampler = "sobol",
+    context.options = (aur_render_options){.size = sizeof(aur_render_options),
+                                           .sampler = "sobol",
                                            .filter = "box",
                                            .samples_per_pixel = 1,
                                            .threads = options->threads,

@@ -101,7 +101,9 @@ static bool compare(const bench_options *options, gather_context *context, const
 static bool run_scene(const bench_options *options, const char *path, const char *name, bool flat,
                       bench_figures *figures) {
     const size_t side = options->quick ? QUICK_SIDE : SIDE;
-    gather_context context = {.options = {.sampler = "sobol",
+    gather_context context = {.statistics = {.size = sizeof(aur_render_statistics)},
+                              .options = {.size = sizeof(aur_render_options),
+                                          .sampler = "sobol",
                                           .filter = "box",
                                           .samples_per_pixel = 1,
                                           .threads = 1,

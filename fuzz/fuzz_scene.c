@@ -14,7 +14,8 @@ static const char *input_path(void) {
 
 /* Whether the picture comes out is not asked: a scene may ask for what no sample can give. */
 static void render(const aur_scene *scene) {
-    const aur_render_options options = {.integrator = "path:max_depth=4",
+    const aur_render_options options = {.size = sizeof options,
+                                        .integrator = "path:max_depth=4",
                                         .sampler = "random",
                                         .filter = "box",
                                         .samples_per_pixel = 1,

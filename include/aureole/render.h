@@ -7,6 +7,7 @@
 #include <aureole/image.h>
 #include <aureole/scene.h>
 #include <aureole/tables.h>
+#include <string.h>
 
 #ifdef __cplusplus
 extern "C" {
@@ -18,7 +19,9 @@ AUR_API const aur_table *aur_render_table_at(size_t index);
 
 enum { AUR_RENDER_LEVELS = 8 };
 
+/* `size` is set by the caller to the size of his struct. */
 typedef struct aur_render_statistics {
+    size_t size;
     uint64_t rays;                      /* traced, of all kinds */
     uint64_t samples;                   /* camera samples */
     uint64_t invalid_samples;           /* NaN, infinite or negative ones, left out of the picture */
@@ -28,7 +31,9 @@ typedef struct aur_render_statistics {
     double cpu_seconds;                 /* of the process, for both */
 } aur_render_statistics;
 
+/* All zero but `size`, as aur_render_options_default makes it, renders what the scene says. */
 typedef struct aur_render_options {
+    size_t size;              /* of the caller's struct, so that it can grow */
     const char *integrator;   /* NAME[:key=value,...] instead of the scene's; NULL keeps it */
     const char *sampler;      /* SET instead of the scene's; NULL keeps it */
     const char *filter;       /* the name of a filter instead of the scene's; NULL keeps it */
@@ -41,6 +46,13 @@ typedef struct aur_render_options {
     aur_progress progress;
     aur_warnings warnings;
 } aur_render_options;
+
+static inline aur_render_options aur_render_options_default(void) {
+    aur_render_options options;
+    memset(&options, 0, sizeof options);
+    options.size = sizeof options;
+    return options;
+}
 
 /* Renders pictures of one scene and keeps between them what they share (a photon map, for one). The scene
  * must outlive it. Not for two threads at once. */
@@ -92,9 +104,9 @@ AUR_API const aur_film *aur_render_film(const aur_render *render) AUR_NONNULL(1)
 AUR_API aur_result aur_render_merge(aur_render *render, const aur_film *film, aur_error *error)
     AUR_NONNULL(1, 2);
 
-/* What preparing and the steps so far have cost. */
-AUR_API void aur_render_get_statistics(const aur_render *render, aur_render_statistics *statistics)
-    AUR_NONNULL(1, 2);
+/* What preparing and the steps so far have cost. Errors: ARGUMENT when `size` is not set. */
+AUR_API aur_result aur_render_get_statistics(const aur_render *render, aur_render_statistics *statistics,
+                                             aur_error *error) AUR_NONNULL(1, 2);
 
 #ifdef __cplusplus
 }

@@ -32,7 +32,8 @@ static const char *const columns[] = {"component", "pattern", "directions", "rms
 static aur_result render(const gather_study *study, const char *integrator, size_t samples, size_t side,
                          uint64_t seed, aur_image **image, aur_error *error) {
     const lab_options *const lab = lab_run_options(study->run);
-    const aur_render_options options = {.integrator = integrator,
+    const aur_render_options options = {.size = sizeof options,
+                                        .integrator = integrator,
                                         .sampler = "sobol",
                                         .filter = "box",
                                         .samples_per_pixel = samples,

@@ -76,7 +76,8 @@ static aur_result render(const table_study *study, const char *set, const char *
              "photons_per_texel=64,"
              "pattern=%s,map=%s,diffuse_samples=%zu,glossy_samples=%zu,pattern_seed=%zu",
              study->component, study->photons, set, map, directions, directions, scramble);
-    const aur_render_options options = {.integrator = integrator,
+    const aur_render_options options = {.size = sizeof options,
+                                        .integrator = integrator,
                                         .sampler = "sobol",
                                         .filter = "box",
                                         .samples_per_pixel = 1,

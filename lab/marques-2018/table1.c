@@ -86,7 +86,8 @@ static aur_result render(const picture_study *study, const char *set, const char
         "finalgather:%s,pixel=centre,edges=0,decorrelation=random,photons=%zu,pattern=%s,diffuse_samples=%zu,"
         "glossy_samples=%zu,pattern_seed=%zu,%s",
         study->subject->light, study->photons, set, diffuse, glossy, seed, keys);
-    const aur_render_options options = {.integrator = integrator,
+    const aur_render_options options = {.size = sizeof options,
+                                        .integrator = integrator,
                                         .sampler = "sobol",
                                         .filter = "box",
                                         .samples_per_pixel = 1,

@@ -46,7 +46,8 @@ static aur_result render(const occlusion_study *study, const occlusion_form *for
         "ao:pixel=centre,samples=%zu,pattern=%s,scramble=%s,rotations=%d,pattern_seed=%zu,max_distance=%g",
         form->samples, form->set->name, form->set->scramble, form->each_pixel ? 0 : 1, repeat,
         study->max_distance);
-    const aur_render_options options = {.integrator = integrator,
+    const aur_render_options options = {.size = sizeof options,
+                                        .integrator = integrator,
                                         .samples_per_pixel = 1,
                                         .width = width,
                                         .height = height,

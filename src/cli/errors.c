@@ -59,8 +59,8 @@ static aur_result note_image(cli_errors *errors, const aur_image *image,
 
 static aur_result note(cli_errors *errors, const aur_render *render, aur_error *error) {
     aur_image *image = NULL;
-    aur_render_statistics statistics;
-    aur_render_get_statistics(render, &statistics);
+    aur_render_statistics statistics = {.size = sizeof statistics};
+    aur_render_get_statistics(render, &statistics, NULL);
     aur_result result = aur_film_develop(aur_render_film(render), &image, error);
     if (result == AUR_OK)
         result = note_image(errors, image, &statistics, error);

@@ -195,8 +195,8 @@ static bool parse(int argc, char **argv, render_command *command) {
 }
 
 static void print_statistics(const aur_render *render) {
-    aur_render_statistics counted;
-    aur_render_get_statistics(render, &counted);
+    aur_render_statistics counted = {.size = sizeof counted};
+    aur_render_get_statistics(render, &counted, NULL);
     const aur_render_statistics *const statistics = &counted;
     const double seconds = statistics->prepare_seconds + statistics->render_seconds;
     fprintf(stderr,
@@ -265,7 +265,7 @@ static int render(const render_command *command, cli_errors *errors) {
 }
 
 static int run(int argc, char **argv) {
-    render_command command = {0};
+    render_command command = {.options = aur_render_options_default()};
     int status = CLI_BAD_INPUT;
     if (parse(argc, argv, &command)) {
         command.options.progress = cli_progress(command.quiet);

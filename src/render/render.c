@@ -7,6 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "core/options.h"
 #include "core/parallel.h"
 #include "film/film.h"
 #include "render/settings.h"
@@ -120,7 +121,6 @@ static aur_result prepare(aur_render *render, const aur_render_options *options,
 
 aur_result aur_render_create(aur_renderer *renderer, const aur_render_options *options, aur_render **out,
                              aur_error *error) {
-    static const aur_render_options defaults = {0};
     *out = NULL;
     aur_render *const render = calloc(1, sizeof *render);
     if (render == NULL)
@@ -128,7 +128,10 @@ aur_result aur_render_create(aur_renderer *renderer, const aur_render_options *o
     render->renderer = renderer;
     atomic_init(&render->cancelled, false);
     const aur_stopwatch start = aur_stopwatch_start();
-    const aur_result result = prepare(render, options != NULL ? options : &defaults, error);
+    aur_render_options own = aur_render_options_default();
+    aur_result result = aur_options_read(options, sizeof own, sizeof own, &own, "aur_render_options", error);
+    if (result == AUR_OK)
+        result = prepare(render, &own, error);
     aur_stopwatch_add(&start, &render->statistics.prepare_seconds, &render->statistics.cpu_seconds);
     if (result != AUR_OK) {
         aur_render_destroy(render);
@@ -259,8 +262,10 @@ aur_result aur_render_merge(aur_render *render, const aur_film *film, aur_error 
     return aur_film_merge(render->film, film, error);
 }
 
-void aur_render_get_statistics(const aur_render *render, aur_render_statistics *statistics) {
-    *statistics = render->statistics;
+aur_result aur_render_get_statistics(const aur_render *render, aur_render_statistics *statistics,
+                                     aur_error *error) {
+    return aur_description_write(&render->statistics, sizeof render->statistics, sizeof render->statistics,
+                                 statistics, "aur_render_statistics", error);
 }
 
 aur_result aur_renderer_render(aur_renderer *renderer, const aur_render_options *options, aur_image **image,
@@ -275,8 +280,10 @@ aur_result aur_renderer_render(aur_renderer *renderer, const aur_render_options 
         const aur_result developed = aur_film_develop(render->film, image, error);
         result = developed != AUR_OK ? developed : result;
     }
-    if (statistics != NULL)
-        *statistics = render->statistics;
+    if (statistics != NULL && (result == AUR_OK || result == AUR_ERROR_CANCELLED)) {
+        const aur_result told = aur_render_get_statistics(render, statistics, error);
+        result = told != AUR_OK ? told : result;
+    }
     aur_render_destroy(render);
     return result;
 }

@@ -16,8 +16,12 @@ static aur_scene *load(const char *name) {
 }
 
 static aur_render_options small(const char *integrator, size_t threads) {
-    return (aur_render_options){
-        .integrator = integrator, .samples_per_pixel = 8, .width = 45, .height = 37, .threads = threads};
+    return (aur_render_options){.size = sizeof(aur_render_options),
+                                .integrator = integrator,
+                                .samples_per_pixel = 8,
+                                .width = 45,
+                                .height = 37,
+                                .threads = threads};
 }
 
 static aur_render *start(aur_renderer *renderer, const aur_render_options *options) {
@@ -204,6 +208,26 @@ static void the_error_is_that_of_independent_samples(void **state) {
     aur_render_destroy(render);
 }
 
+/* A struct whose size is not set, or of a newer library and used, is refused; an unused one is not. */
+static void options_of_other_sizes(void **state) {
+    const fixture *const f = *state;
+    aur_error error = {0};
+    aur_render *render = NULL;
+    const aur_render_options empty = {0};
+    assert_int_equal(aur_render_create(f->renderer, &empty, &render, &error), AUR_ERROR_ARGUMENT);
+    assert_non_null(strstr(error.message, "aur_render_options"));
+    struct {
+        aur_render_options options;
+        size_t more;
+    } newer = {.options = small("depth", 1)};
+    newer.options.size = sizeof newer;
+    assert_int_equal(aur_render_create(f->renderer, &newer.options, &render, &error), AUR_OK);
+    aur_render_destroy(render);
+    newer.more = 1;
+    assert_int_equal(aur_render_create(f->renderer, &newer.options, &render, &error), AUR_ERROR_UNSUPPORTED);
+    assert_null(render);
+}
+
 static aur_result load_bytes(size_t size, const unsigned char *bytes) {
     aur_film *film = NULL;
     const aur_result result = aur_film_load_memory("bytes", size, bytes, &film, NULL);
@@ -239,6 +263,7 @@ int main(void) {
                                        cmocka_unit_test(parts_are_merged),
                                        cmocka_unit_test(a_stopped_step_is_kept_and_continued),
                                        cmocka_unit_test(the_error_is_that_of_independent_samples),
+                                       cmocka_unit_test(options_of_other_sizes),
                                        cmocka_unit_test(damaged_films_are_refused)};
     return cmocka_run_group_tests(tests, set_up, tear_down);
 }

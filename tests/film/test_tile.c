@@ -6,7 +6,8 @@
 static aur_image *render(const aur_scene *scene, const char *integrator, const size_t crop[4]) {
     aur_renderer *renderer = NULL;
     aur_image *image = NULL;
-    const aur_render_options options = {.integrator = integrator,
+    const aur_render_options options = {.size = sizeof options,
+                                        .integrator = integrator,
                                         .samples_per_pixel = 2,
                                         .width = 45,
                                         .height = 37,

@@ -18,7 +18,7 @@ static aur_image *must_render(const aur_scene *scene, const aur_render_options *
 
 static aur_image *must_render_simply(const aur_scene *scene, const char *integrator) {
     const aur_render_options options = {
-        .integrator = integrator, .samples_per_pixel = 1, .width = 24, .height = 16};
+        .size = sizeof options, .integrator = integrator, .samples_per_pixel = 1, .width = 24, .height = 16};
     return must_render(scene, &options);
 }
 
@@ -67,7 +67,8 @@ static void wall(void **state) {
                                             "origin='1.5,5,0' target='1.5,0,0' up='0,0,1'/>"
                                             "</transform></sensor>");
     for (int cosine = 0; cosine < 2; ++cosine) {
-        const aur_render_options options = {.integrator = cosine
+        const aur_render_options options = {.size = sizeof options,
+                                            .integrator = cosine
                                                               ? "ao:samples=1024,pixel=centre"
                                                               : "ao:samples=1024,pixel=centre,cosine=false",
                                             .samples_per_pixel = 4,
@@ -102,8 +103,12 @@ static void crops_and_threads(void **state) {
     aur_scene *scene = NULL;
     assert_int_equal(aur_scene_load(AUR_SOURCE_DIR "/scenes/cornell-box/glossy.xml", NULL, &scene, &error),
                      AUR_OK);
-    aur_render_options options = {
-        .integrator = "ao:samples=8", .samples_per_pixel = 2, .width = 50, .height = 37, .threads = 1};
+    aur_render_options options = {.size = sizeof options,
+                                  .integrator = "ao:samples=8",
+                                  .samples_per_pixel = 2,
+                                  .width = 50,
+                                  .height = 37,
+                                  .threads = 1};
     aur_image *const whole = must_render(scene, &options);
     options.threads = 3;
     options.crop_x0 = 5;
@@ -139,7 +144,7 @@ static void refuses(void **state) {
         aur_image *image = NULL;
         aur_error error = {0};
         const aur_render_options options = {
-            .integrator = bad[i][0], .samples_per_pixel = 1, .width = 4, .height = 4};
+            .size = sizeof options, .integrator = bad[i][0], .samples_per_pixel = 1, .width = 4, .height = 4};
         assert_int_equal(aur_renderer_create(scene, &renderer, &error), AUR_OK);
         assert_true(aur_renderer_render(renderer, &options, &image, NULL, &error) != AUR_OK);
         assert_null(image);

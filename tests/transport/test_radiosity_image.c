@@ -102,7 +102,8 @@ static aur_image *render(const aur_scene *scene, const char *integrator, size_t 
     aur_renderer *renderer = NULL;
     aur_image *image = NULL;
     aur_error error = {0};
-    const aur_render_options options = {.integrator = integrator,
+    const aur_render_options options = {.size = sizeof options,
+                                        .integrator = integrator,
                                         .samples_per_pixel = samples,
                                         .width = WIDTH,
                                         .height = HEIGHT,
@@ -216,7 +217,7 @@ static void sharing_smooths_the_indirect_light(void **state) {
 static void adaptive_pixels_spare_samples(void **state) {
     (void)state;
     aur_scene *const scene = must_load_body(ROOM);
-    aur_render_statistics fixed, adaptive;
+    aur_render_statistics fixed = {.size = sizeof fixed}, adaptive = {.size = sizeof adaptive};
     aur_image *const a = render(scene, "radiosity", 64, 2, &fixed);
     aur_image *const b = render(scene, "radiosity:oversampling=adaptive,threshold=0.05", 64, 2, &adaptive);
     assert_true(adaptive.rays < fixed.rays / 2);
@@ -241,7 +242,8 @@ static void pictures_depend_on_nothing_else(void **state) {
         assert_memory_equal(one->data, three->data, 3 * PIXELS * sizeof(float));
         aur_renderer *renderer = NULL;
         aur_image *part = NULL;
-        const aur_render_options options = {.integrator = integrators[i],
+        const aur_render_options options = {.size = sizeof options,
+                                            .integrator = integrators[i],
                                             .samples_per_pixel = 4,
                                             .width = WIDTH,
                                             .height = HEIGHT,
