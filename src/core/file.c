@@ -1,89 +1,168 @@
+#if defined(__linux__) && !defined(_GNU_SOURCE)
+#define _GNU_SOURCE /* O_TMPFILE */
+#endif
 #include "core/file.h"
 
 #include <errno.h>
 #include <fcntl.h>
+#include <stdbool.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
 #include <unistd.h>
+
+#include "core/array.h"
 
 static aur_result fail_write(aur_error *error, const char *path, int code) {
     return aur_fail_at(error, (aur_location){.file = path}, AUR_ERROR_WRITE, "cannot write: %s",
                        strerror(code));
 }
 
-/* The permissions that open() with mode 0666 would give; mkstemp gives 0600. The umask can only be read by
- * setting it, which is process-wide state, so a file of our own is asked instead. */
-static int create_beside(char *temporary) {
-    const size_t length = strlen(temporary);
-    for (unsigned attempt = 0; attempt < 1000; ++attempt) {
-        snprintf(temporary + length - 9, 10, "%05x.%03u", (unsigned)getpid() & 0xfffffu, attempt);
-        const int descriptor = open(temporary, O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
-        if (descriptor >= 0 || errno != EEXIST)
-            return descriptor;
+/* The folder of `path` with the slash after it; the length alone. */
+static size_t folder_length(const char *path) {
+    const char *const slash = strrchr(path, '/');
+    return slash != NULL ? (size_t)(slash - path) + 1 : 0;
+}
+
+/* Gives the file a name of its own in the folder of its destination, by `link` where it has none yet, by
+ * open(2) otherwise. The name does not contain the destination's, which may be as long as names can be.
+ * Returns what `link` or open returned, or -1 with errno. */
+static int take_name(aur_file_writer *writer, int nameless) {
+    const size_t folder = folder_length(writer->path);
+    const size_t capacity = folder + sizeof ".aureole-12345678-123.tmp";
+    writer->temporary = malloc(capacity);
+    if (writer->temporary == NULL) {
+        errno = ENOMEM;
+        return -1;
     }
+    memcpy(writer->temporary, writer->path, folder);
+    for (unsigned attempt = 0; attempt < 1000; ++attempt) {
+        snprintf(writer->temporary + folder, capacity - folder, ".aureole-%08x-%03u.tmp", (unsigned)getpid(),
+                 attempt);
+        char source[40];
+        snprintf(source, sizeof source, "/proc/self/fd/%d", nameless);
+        const int got = nameless < 0
+                            ? open(writer->temporary, O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666)
+                            : linkat(AT_FDCWD, source, AT_FDCWD, writer->temporary, AT_SYMLINK_FOLLOW);
+        if (got >= 0)
+            return got;
+        if (errno != EEXIST)
+            break;
+    }
+    const int code = errno;
+    free(writer->temporary);
+    writer->temporary = NULL;
+    errno = code;
     return -1;
+}
+
+/* A file that has no name until it is complete, so that nothing is left behind when the process is killed; -1
+ * where the system has no such files. */
+static int open_nameless(const char *path) {
+#if defined(O_TMPFILE)
+    if (access("/proc/self/fd", X_OK) != 0)
+        return -1;
+    const size_t length = folder_length(path);
+    char *const folder = length > 0 ? strndup(path, length) : strdup(".");
+    const int descriptor = folder != NULL ? open(folder, O_TMPFILE | O_WRONLY | O_CLOEXEC, 0666) : -1;
+    free(folder);
+    return descriptor;
+#else
+    (void)path;
+    return -1;
+#endif
+}
+
+/* The new file gets the owner, the group and the mode of the one that it replaces, as far as this is allowed.
+ * Where the group cannot be kept, the new group may do what everybody may. */
+static void keep_status(int descriptor, const struct stat *old) {
+    mode_t mode = old->st_mode & 07777;
+    if (fchown(descriptor, old->st_uid, old->st_gid) != 0 && fchown(descriptor, (uid_t)-1, old->st_gid) != 0)
+        mode = (mode & 0707) | (mode & 07) << 3;
+    (void)fchmod(descriptor, mode);
 }
 
 aur_result aur_file_open(const char *path, aur_file_writer *writer, aur_error *error) {
     *writer = (aur_file_writer){0};
-    writer->path = strdup(path);
-    if (writer->path == NULL)
-        return aur_fail(error, AUR_ERROR_MEMORY, "out of memory");
     if (strcmp(path, "-") == 0) {
+        writer->path = strdup(path);
         writer->stream = stdout;
-        return AUR_OK;
+        return writer->path != NULL ? AUR_OK : aur_fail_memory(error);
     }
     struct stat status;
-    if (stat(path, &status) == 0 && !S_ISREG(status.st_mode)) {
-        /* A pipe or a device cannot be replaced by a rename: write to it as it is. A folder fails here. */
-        writer->stream = fopen(path, "wb");
-        if (writer->stream == NULL) {
-            const int code = errno;
-            aur_file_abandon(writer);
-            return fail_write(error, path, code);
-        }
-        return AUR_OK;
-    }
-    const size_t capacity = strlen(path) + sizeof ".tmp.12345.123";
-    writer->temporary = malloc(capacity);
-    if (writer->temporary == NULL) {
-        aur_file_abandon(writer);
-        return aur_fail(error, AUR_ERROR_MEMORY, "out of memory");
-    }
-    snprintf(writer->temporary, capacity, "%s.tmp.12345.123", path);
-    const int descriptor = create_beside(writer->temporary);
-    writer->stream = descriptor >= 0 ? fdopen(descriptor, "wb") : NULL;
-    if (writer->stream == NULL) {
-        const int code = errno;
-        if (descriptor >= 0) {
+    const bool exists = stat(path, &status) == 0;
+    struct stat link;
+    const bool is_link = lstat(path, &link) == 0 && S_ISLNK(link.st_mode);
+    /* What a link points to is replaced, and the link stays. */
+    writer->path = exists && is_link ? realpath(path, NULL) : strdup(path);
+    if (writer->path == NULL)
+        return aur_fail_memory(error);
+    if (exists ? S_ISREG(status.st_mode) : !is_link) {
+        int descriptor = open_nameless(writer->path);
+        writer->nameless = descriptor >= 0;
+        if (descriptor < 0)
+            descriptor = take_name(writer, -1);
+        if (descriptor >= 0 && exists)
+            keep_status(descriptor, &status);
+        writer->stream = descriptor >= 0 ? fdopen(descriptor, "wb") : NULL;
+        if (writer->stream == NULL && descriptor >= 0)
             close(descriptor);
-            unlink(writer->temporary);
-        }
-        free(writer->temporary);
-        writer->temporary = NULL;
-        aur_file_abandon(writer);
-        return fail_write(error, path, code);
+    } else {
+        /* A pipe, a device or a link to nothing cannot be replaced by a rename: it is written as it is. A
+         * folder fails here. */
+        writer->stream = fopen(path, "wb");
     }
-    return AUR_OK;
+    if (writer->stream != NULL)
+        return AUR_OK;
+    const int code = errno;
+    aur_file_abandon(writer);
+    return fail_write(error, path, code);
+}
+
+/* The reason why an earlier write failed: errno is gone by now, so the same is tried once more. */
+static int reason_of_failure(FILE *stream) {
+    clearerr(stream);
+    errno = 0;
+    if (fputc(0, stream) == EOF || fflush(stream) != 0)
+        return errno != 0 ? errno : EIO;
+    return EIO;
+}
+
+/* Makes the rename last beyond a loss of power. Some file systems cannot do this for folders; the file is
+ * complete even so. */
+static void sync_folder(const char *path) {
+    const size_t length = folder_length(path);
+    char *const folder = length > 0 ? strndup(path, length) : strdup(".");
+    const int descriptor = folder != NULL ? open(folder, O_RDONLY | O_DIRECTORY | O_CLOEXEC) : -1;
+    if (descriptor >= 0) {
+        (void)fsync(descriptor);
+        close(descriptor);
+    }
+    free(folder);
 }
 
 aur_result aur_file_commit(aur_file_writer *writer, aur_error *error) {
     int code = 0;
     errno = 0;
-    if (fflush(writer->stream) != 0 || ferror(writer->stream))
+    if (ferror(writer->stream))
+        code = reason_of_failure(writer->stream);
+    else if (fflush(writer->stream) != 0)
         code = errno != 0 ? errno : EIO;
-    if (code == 0 && writer->temporary != NULL && fsync(fileno(writer->stream)) != 0)
+    const bool replaces = writer->nameless || writer->temporary != NULL;
+    if (code == 0 && replaces && fsync(fileno(writer->stream)) != 0)
+        code = errno;
+    if (code == 0 && writer->nameless && take_name(writer, fileno(writer->stream)) < 0)
         code = errno;
     if (writer->stream != stdout && fclose(writer->stream) != 0 && code == 0)
         code = errno;
     writer->stream = NULL;
-    if (code == 0 && writer->temporary != NULL) {
+    if (code == 0 && replaces) {
         if (rename(writer->temporary, writer->path) != 0) {
             code = errno;
         } else {
             free(writer->temporary);
             writer->temporary = NULL;
+            sync_folder(writer->path);
         }
     }
     const aur_result result = code == 0 ? AUR_OK : fail_write(error, writer->path, code);
@@ -115,28 +194,28 @@ aur_result aur_file_read(const char *path, size_t limit, char **data, size_t *si
     *data = NULL;
     *size = 0;
     const aur_location where = {.file = path};
-    const int standard = strcmp(path, "-") == 0;
+    const bool standard = strcmp(path, "-") == 0;
     FILE *const stream = standard ? stdin : fopen(path, "rb");
     if (stream == NULL)
         return aur_fail_at(error, where, AUR_ERROR_OPEN, "cannot read: %s", strerror(errno));
     aur_result result = AUR_OK;
-    size_t capacity = 1 << 16;
-    size_t used = 0;
-    char *buffer = malloc(capacity);
-    while (buffer != NULL) {
-        used += fread(buffer + used, 1, capacity - 1 - used, stream);
-        if (used < capacity - 1)
+    char *buffer = NULL;
+    size_t capacity = 0, used = 0;
+    /* A file whose size is known is read into a buffer of that size, and of one byte that tells that it has
+     * ended. */
+    struct stat status;
+    const bool sized = fstat(fileno(stream), &status) == 0 && S_ISREG(status.st_mode) && status.st_size > 0;
+    const size_t expected = sized && (uint64_t)status.st_size < limit ? (size_t)status.st_size : 1 << 16;
+    bool room = aur_array_reserve(&buffer, &capacity, expected + 2, 1);
+    while (room && used <= limit) {
+        const size_t count = fread(buffer + used, 1, capacity - 1 - used, stream);
+        used += count;
+        if (count == 0)
             break;
-        if (capacity > limit)
-            break;
-        char *const larger = realloc(buffer, capacity * 2);
-        if (larger == NULL)
-            free(buffer);
-        buffer = larger;
-        capacity *= 2;
+        room = used < capacity - 1 || aur_array_reserve(&buffer, &capacity, capacity + 1, 1);
     }
-    if (buffer == NULL)
-        result = aur_fail_at(error, where, AUR_ERROR_MEMORY, "out of memory");
+    if (!room)
+        result = aur_fail_memory(error);
     else if (ferror(stream))
         result = aur_fail_at(error, where, AUR_ERROR_OPEN, "cannot read: %s", strerror(errno));
     else if (used > limit)

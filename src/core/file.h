@@ -2,6 +2,7 @@
 #ifndef AUR_CORE_FILE_H
 #define AUR_CORE_FILE_H
 
+#include <stdbool.h>
 #include <stdio.h>
 
 #include "core/error.h"
@@ -9,11 +10,15 @@
 /* A file that is being written beside its destination. "-" is standard output. */
 typedef struct aur_file_writer {
     FILE *stream;    /* write here; buffered */
-    char *temporary; /* the path that is written; NULL for standard output */
-    char *path;
+    char *path;      /* what is replaced: links are followed */
+    bool nameless;   /* the file has no name before the commit */
+    char *temporary; /* the name before the commit of a file that has one; else NULL */
 } aur_file_writer;
 
-/* Opens `path` for replacement. On failure nothing is left behind and *writer is zero. */
+/* Opens `path` for replacement by a file with the same mode, owner and group, as far as these may be given.
+ * Where the system has files without a name the new one has none until it is complete, so that a killed
+ * process leaves nothing behind. Pipes, devices and links to nothing are written as they are. On failure
+ * nothing is left behind and *writer is zero. */
 aur_result aur_file_open(const char *path, aur_file_writer *writer, aur_error *error);
 
 /* Flushes, syncs and renames. On any failure (a full disk, say) the temporary file is removed, the

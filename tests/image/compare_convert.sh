@@ -102,5 +102,5 @@ if [ -w /dev/full ]; then
   expect 3 convert a.exr /dev/full --to exr
   complains "/dev/full: cannot write"
 fi
-ls | grep -qF .tmp. && fail "a temporary file was left: $(ls)"
+ls -A | grep -qF .tmp && fail "a temporary file was left: $(ls)"
 exit $status
