@@ -24,6 +24,7 @@ static aur_result create(aur_parameters *parameters, aur_bsdf *bsdf, aur_error *
         return aur_fail_at(error, parameters->location, AUR_ERROR_FORMAT,
                            "bsdf 'twosided': a nested bsdf that lets light through already has two sides");
     bsdf->scatters_from_behind = true;
+    bsdf->anisotropic = self->front->anisotropic || self->back->anisotropic;
     bsdf->plain_diffuse = self->front->plain_diffuse && self->back->plain_diffuse;
     return AUR_OK;
 }
