@@ -1,143 +1,174 @@
+/* What is asked of a material: its own answer, or the one that follows from its lobes. */
 #include "material/bsdf.h"
 
 #include <stdlib.h>
 #include <string.h>
 
-extern const aur_bsdf_descriptor aur_bsdf_diffuse;
-extern const aur_bsdf_descriptor aur_bsdf_phong;
-extern const aur_bsdf_descriptor aur_bsdf_phong_lobe;
-extern const aur_bsdf_descriptor aur_bsdf_twosided;
-extern const aur_bsdf_descriptor aur_bsdf_conductor;
-extern const aur_bsdf_descriptor aur_bsdf_roughconductor;
-extern const aur_bsdf_descriptor aur_bsdf_dielectric;
-extern const aur_bsdf_descriptor aur_bsdf_thindielectric;
-extern const aur_bsdf_descriptor aur_bsdf_roughdielectric;
-extern const aur_bsdf_descriptor aur_bsdf_plastic;
-extern const aur_bsdf_descriptor aur_bsdf_roughplastic;
-extern const aur_bsdf_descriptor aur_bsdf_mask;
-
-static const aur_bsdf_descriptor *const table[] = {
-    &aur_bsdf_diffuse,         &aur_bsdf_twosided,       &aur_bsdf_phong,        &aur_bsdf_phong_lobe,
-    &aur_bsdf_conductor,       &aur_bsdf_roughconductor, &aur_bsdf_dielectric,   &aur_bsdf_thindielectric,
-    &aur_bsdf_roughdielectric, &aur_bsdf_plastic,        &aur_bsdf_roughplastic, &aur_bsdf_mask,
-};
-
-enum { TABLE_SIZE = sizeof table / sizeof table[0] };
-
-const aur_bsdf_descriptor *aur_bsdf_descriptor_at(size_t index) {
-    return index < TABLE_SIZE ? table[index] : NULL;
-}
-
-static aur_result find_descriptor(const aur_parameters *parameters, const aur_bsdf_descriptor **descriptor,
-                                  aur_error *error) {
-    const char *names[TABLE_SIZE];
-    for (size_t i = 0; i < TABLE_SIZE; ++i) {
-        names[i] = table[i]->name;
-        if (strcmp(names[i], parameters->plugin) == 0) {
-            *descriptor = table[i];
-            return AUR_OK;
-        }
-    }
-    return aur_fail_unknown_plugin(error, parameters, TABLE_SIZE, names);
-}
-
-static bool is_textured(const aur_parameters *parameters) {
-    for (size_t i = 0; i < parameters->count; ++i) {
-        const aur_parameter *const item = &parameters->items[i];
-        if (item->kind != AUR_PARAMETER_OBJECT)
-            continue;
-        if (strcmp(item->object_kind, "bsdf") != 0 || ((const aur_bsdf *)item->object)->textured)
-            return true;
-    }
-    return false;
-}
-
-aur_result aur_bsdf_create(aur_parameters *parameters, aur_bsdf **bsdf, aur_error *error) {
-    *bsdf = NULL;
-    const aur_bsdf_descriptor *descriptor = NULL;
-    aur_result result = find_descriptor(parameters, &descriptor, error);
-    if (result != AUR_OK)
-        return result;
-    aur_bsdf *const made = calloc(1, sizeof *made);
-    if (made == NULL)
-        return aur_fail_at(error, parameters->location, AUR_ERROR_MEMORY, "out of memory");
-    made->descriptor = descriptor;
-    result = descriptor->create(parameters, made, error);
-    if (result == AUR_OK)
-        result = aur_parameters_finish(parameters, error);
-    made->textured = is_textured(parameters);
-    if (result != AUR_OK) {
-        aur_bsdf_destroy(made);
-        return result;
-    }
-    *bsdf = made;
-    return AUR_OK;
-}
+#include "material/sampling.h"
 
 void aur_bsdf_destroy(aur_bsdf *bsdf) {
-    if (bsdf == NULL)
-        return;
-    if (bsdf->data != NULL)
-        bsdf->descriptor->release(bsdf);
+    if (bsdf != NULL)
+        free(bsdf->data);
     free(bsdf);
 }
 
-aur_vector aur_bsdf_evaluate_sampled(const aur_bsdf *bsdf, aur_bsdf_point point, aur_vector view,
-                                     aur_vector light) {
-    const aur_bsdf_descriptor *const descriptor = bsdf->descriptor;
-    return descriptor->sampled != NULL ? descriptor->sampled->evaluate(bsdf, point, view, light)
-                                       : descriptor->evaluate(bsdf, point, view, light);
+size_t aur_bsdf_add_lobe(aur_bsdf *bsdf, const aur_bsdf_lobe *lobe) {
+    if (bsdf->lobe_count < AUR_BSDF_LOBE_CAPACITY)
+        bsdf->lobes[bsdf->lobe_count] = *lobe;
+    return bsdf->lobe_count++;
 }
 
-float aur_bsdf_pdf_sampled(const aur_bsdf *bsdf, aur_bsdf_point point, aur_vector view, aur_vector light) {
-    const aur_bsdf_descriptor *const descriptor = bsdf->descriptor;
-    return descriptor->sampled != NULL ? descriptor->sampled->pdf(bsdf, point, view, light)
-                                       : descriptor->pdf(bsdf, point, view, light);
+size_t aur_bsdf_lobes(const aur_bsdf *bsdf, aur_bsdf_point point, aur_vector view, aur_bsdf_lobe *lobes) {
+    for (size_t i = 0; i < bsdf->lobe_count; ++i)
+        lobes[i] = bsdf->lobes[i];
+    bsdf->descriptor->weigh(bsdf, point, view, lobes);
+    return bsdf->lobe_count;
 }
 
-bool aur_bsdf_sample_sampled(const aur_bsdf *bsdf, aur_bsdf_point point, aur_vector view, const float u[3],
-                             aur_bsdf_sample *sample) {
-    const aur_bsdf_descriptor *const descriptor = bsdf->descriptor;
-    return (descriptor->sampled != NULL ? descriptor->sampled->sample(bsdf, point, view, u, sample)
-                                        : descriptor->sample(bsdf, point, view, u, sample)) &&
-           !sample->specular;
+/* --- what follows from the lobes */
+
+/* The lobes at a point, and how often each is drawn: by its reflectance, were it not cut at the horizon. */
+typedef struct weighed_lobes {
+    size_t count;
+    aur_bsdf_lobe lobes[AUR_BSDF_LOBE_CAPACITY];
+    float chances[AUR_BSDF_LOBE_CAPACITY], total; /* not normalised, and their sum */
+} weighed_lobes;
+
+static void weigh_lobes(const aur_bsdf *bsdf, aur_bsdf_point point, aur_vector view, weighed_lobes *all) {
+    all->count = aur_bsdf_lobes(bsdf, point, view, all->lobes);
+    all->total = 0.0f;
+    for (size_t i = 0; i < all->count; ++i) {
+        const aur_bsdf_lobe *const lobe = &all->lobes[i];
+        float mass = lobe->ior_squared > 0.0f ? lobe->ior_squared : 1.0f;
+        if (lobe->shape == AUR_LOBE_SHAPE_COSINE_POWER)
+            mass = 2.0f * AUR_PI_F / (lobe->exponent + (lobe->times_cosine ? 2.0f : 1.0f));
+        all->chances[i] = mass * aur_luminance(lobe->coefficient);
+        all->total += all->chances[i];
+    }
 }
 
-aur_vector aur_bsdf_evaluate_none(const aur_bsdf *bsdf, aur_bsdf_point point, aur_vector view,
-                                  aur_vector light) {
-    (void)bsdf;
-    (void)point;
-    (void)view;
-    (void)light;
-    return (aur_vector){0};
+static aur_vector value_of(const weighed_lobes *all, aur_vector light) {
+    aur_vector sum = {0};
+    for (size_t i = 0; i < all->count; ++i)
+        if (!aur_vector_is_zero(all->lobes[i].coefficient))
+            sum = aur_vector_add(sum, aur_lobe_value(&all->lobes[i], light));
+    return sum;
 }
 
-float aur_bsdf_pdf_none(const aur_bsdf *bsdf, aur_bsdf_point point, aur_vector view, aur_vector light) {
-    (void)bsdf;
-    (void)point;
-    (void)view;
-    (void)light;
-    return 0.0f;
+static float density_of(const weighed_lobes *all, aur_vector light) {
+    float sum = 0.0f;
+    for (size_t i = 0; i < all->count; ++i) {
+        const aur_bsdf_lobe *const lobe = &all->lobes[i];
+        if (lobe->shape != AUR_LOBE_SHAPE_COSINE_POWER || !(all->chances[i] > 0.0f))
+            continue;
+        const float cosine = aur_vector_dot(lobe->axis, light);
+        sum += all->chances[i] * (lobe->diffuse ? fmaxf(cosine, 0.0f) / AUR_PI_F
+                                                : aur_cosine_power_pdf(cosine, lobe->exponent));
+    }
+    return all->total > 0.0f ? sum / all->total : 0.0f;
 }
 
-aur_vector aur_bsdf_albedo_none(const aur_bsdf *bsdf, aur_bsdf_point point, float side) {
-    (void)bsdf;
-    (void)point;
-    (void)side;
-    return (aur_vector){0};
+static bool has_formula(const aur_bsdf *bsdf, aur_vector view) {
+    return (aur_bsdf_scatters(bsdf, view.z) & (AUR_SCATTERS_DIFFUSE | AUR_SCATTERS_GLOSSY)) != 0;
 }
 
-void aur_bsdf_release_data(aur_bsdf *bsdf) {
-    free(bsdf->data);
-    bsdf->data = NULL;
+static aur_vector evaluate_lobes(const aur_bsdf *bsdf, aur_bsdf_point point, aur_vector view,
+                                 aur_vector light) {
+    if (!(view.z * light.z > 0.0f) || !has_formula(bsdf, view))
+        return (aur_vector){0};
+    weighed_lobes all;
+    weigh_lobes(bsdf, point, view, &all);
+    return value_of(&all, light);
 }
 
-aur_result aur_bsdf_allocate(const aur_parameters *parameters, aur_bsdf *bsdf, size_t size,
-                             aur_error *error) {
-    bsdf->data = calloc(1, size);
-    if (bsdf->data == NULL)
-        return aur_fail_at(error, parameters->location, AUR_ERROR_MEMORY, "out of memory");
-    return AUR_OK;
+static float pdf_of_lobes(const aur_bsdf *bsdf, aur_bsdf_point point, aur_vector view, aur_vector light) {
+    if (!(view.z * light.z > 0.0f) || !has_formula(bsdf, view))
+        return 0.0f;
+    weighed_lobes all;
+    weigh_lobes(bsdf, point, view, &all);
+    return density_of(&all, light);
+}
+
+/* The lobe that u in [0,1) chooses: small ones choose the last. */
+static size_t choose_lobe(const weighed_lobes *all, float u) {
+    float rest = u * all->total;
+    for (size_t i = all->count; i-- > 1;) {
+        if (rest < all->chances[i])
+            return i;
+        rest -= all->chances[i];
+    }
+    return 0;
+}
+
+static bool draw_lobe(const aur_bsdf *bsdf, aur_bsdf_point point, aur_vector view, const float u[3],
+                      aur_bsdf_sample *drawn) {
+    weighed_lobes all;
+    weigh_lobes(bsdf, point, view, &all);
+    if (!(all.total > 0.0f))
+        return false;
+    const size_t chosen = choose_lobe(&all, u[0]);
+    const aur_bsdf_lobe *const lobe = &all.lobes[chosen];
+    if (lobe->shape == AUR_LOBE_SHAPE_SPECULAR) {
+        *drawn =
+            (aur_bsdf_sample){.light = lobe->axis,
+                              .weight = aur_vector_scale(lobe->coefficient, all.total / all.chances[chosen]),
+                              .specular = true,
+                              .ior_squared = lobe->ior_squared};
+        return all.chances[chosen] > 0.0f;
+    }
+    const aur_frame frame = aur_frame_about(lobe->axis);
+    const aur_vector light =
+        aur_frame_to_world(&frame, lobe->diffuse ? aur_sample_cosine(u[1], u[2])
+                                                 : aur_sample_cosine_power(u[1], u[2], lobe->exponent));
+    const float pdf = density_of(&all, light);
+    if (!(pdf > 0.0f) || !(view.z * light.z > 0.0f))
+        return false;
+    const aur_vector value = value_of(&all, light);
+    *drawn = (aur_bsdf_sample){.light = light, .weight = aur_vector_scale(value, 1.0f / pdf), .pdf = pdf};
+    return aur_vector_max(value) > 0.0f;
+}
+
+/* Of diffuse lobes without a factor, whose integral is their coefficient times pi. */
+static aur_vector albedo_of_lobes(const aur_bsdf *bsdf, aur_bsdf_point point, float side) {
+    aur_vector sum = {0};
+    if ((aur_bsdf_scatters(bsdf, side) & AUR_SCATTERS_DIFFUSE) == 0)
+        return sum;
+    aur_bsdf_lobe lobes[AUR_BSDF_LOBE_CAPACITY];
+    const aur_vector view = {sqrtf(fmaxf(1.0f - side * side, 0.0f)), 0.0f, side};
+    const size_t count = aur_bsdf_lobes(bsdf, point, view, lobes);
+    for (size_t i = 0; i < count; ++i)
+        if (lobes[i].diffuse)
+            sum = aur_vector_add_scaled(sum, AUR_PI_F, lobes[i].coefficient);
+    return sum;
+}
+
+/* --- what is asked */
+
+aur_vector aur_bsdf_evaluate(const aur_bsdf *bsdf, aur_bsdf_part part, aur_bsdf_point point, aur_vector view,
+                             aur_vector light) {
+    const aur_bsdf_descriptor *const own = bsdf->descriptor;
+    return own->evaluate != NULL ? own->evaluate(bsdf, part, point, view, light)
+                                 : evaluate_lobes(bsdf, point, view, light);
+}
+
+float aur_bsdf_pdf(const aur_bsdf *bsdf, aur_bsdf_part part, aur_bsdf_point point, aur_vector view,
+                   aur_vector light) {
+    const aur_bsdf_descriptor *const own = bsdf->descriptor;
+    return own->pdf != NULL ? own->pdf(bsdf, part, point, view, light)
+                            : pdf_of_lobes(bsdf, point, view, light);
+}
+
+bool aur_bsdf_draw(const aur_bsdf *bsdf, aur_bsdf_part part, aur_bsdf_point point, aur_vector view,
+                   const float u[3], aur_bsdf_sample *drawn) {
+    const aur_bsdf_descriptor *const own = bsdf->descriptor;
+    return own->sample != NULL ? own->sample(bsdf, part, point, view, u, drawn)
+                               : draw_lobe(bsdf, point, view, u, drawn);
+}
+
+aur_vector aur_bsdf_diffuse_albedo(const aur_bsdf *bsdf, aur_bsdf_point point, float side) {
+    const aur_bsdf_descriptor *const own = bsdf->descriptor;
+    return own->diffuse_albedo != NULL ? own->diffuse_albedo(bsdf, point, side)
+                                       : albedo_of_lobes(bsdf, point, side);
 }
 
 aur_result aur_parameters_nested_bsdf(aur_parameters *parameters, const char *name, const aur_bsdf **bsdf,

@@ -1,4 +1,9 @@
-/* Materials: how a surface scatters light. One BSDF a file (bsdf_*.c), with one line in the table of bsdf.c.
+/* Materials: how a surface scatters light. A BSDF is one file (bsdf_*.c) with one line in bsdf_table.c.
+ *
+ * A material is a list of lobes that is fixed when the scene is loaded. At a point of the surface each lobe
+ * has an axis and a coefficient; where a texture makes it black it is still there, so that lobes keep their
+ * numbers. What else is asked of a material follows from the list (bsdf.c), unless the material has a better
+ * form of its own.
  *
  * Directions are unit vectors in the local shading frame, z along the shading normal on the side that the
  * shape's normal points to. `view` points to where light goes (the eye), `light` to where it comes from. */
@@ -28,67 +33,86 @@ typedef struct aur_bsdf_sample {
 } aur_bsdf_sample;
 
 typedef enum aur_lobe_shape {
-    AUR_LOBE_SHAPE_COSINE_POWER, /* coefficient * max(0, axis . light)^exponent [* |light.z|] [* factor] */
-    AUR_LOBE_SHAPE_SPECULAR,     /* coefficient of a Dirac direction `axis` */
-    AUR_LOBE_SHAPE_SAMPLED /* no formula, about `axis`; at most one: aur_bsdf_evaluate_sampled and its kin */
+    /* coefficient * max(0, axis . light)^exponent [* |light.z|] [* factor], where light is on the view's side
+     */
+    AUR_LOBE_SHAPE_COSINE_POWER,
+    /* coefficient of a Dirac direction `axis` */
+    AUR_LOBE_SHAPE_SPECULAR,
+    /* No formula, about `axis`: the material itself evaluates and draws it, with all its sampled lobes at
+     * once (AUR_BSDF_SAMPLED_LOBES). The coefficient only says whether it is there. */
+    AUR_LOBE_SHAPE_SAMPLED
 } aur_lobe_shape;
 
-/* One part of BSDF * cos, as final gathering wants it: the sum of the lobes is `evaluate` wherever light is
- * on the side of view (and what a lobe has on the other side is to be left out). */
+/* The sides of a surface that something is seen from. */
+enum { AUR_SIDE_FRONT = 1, AUR_SIDE_BACK = 2, AUR_SIDES_BOTH = 3 };
+
+/* One part of BSDF * cos: the sum of the lobes is the material. */
 typedef struct aur_bsdf_lobe {
+    /* Fixed when the scene is loaded: */
     aur_lobe_shape shape;
     bool diffuse;      /* about the normal: gathered by the diffuse rule */
     bool times_cosine; /* the factor |light.z| stands beside the power */
+    bool transmits;    /* light may come from the other side than the view's */
+    unsigned sides;    /* that it may be seen from */
     float exponent;
-    aur_vector axis; /* unit, local */
-    aur_vector coefficient;
     /* NULL, or what the power lacks of the lobe, of |light.z|: directions are drawn by the power and weighed
      * by the lobe over it (Marques 2018, section 5.1). */
     float (*factor)(const void *data, float cosine);
     const void *factor_data;
+    /* At a point and from a view: */
+    aur_vector axis;        /* unit, local */
+    aur_vector coefficient; /* black: not there */
+    float ior_squared;      /* of specular lobes; as in aur_bsdf_sample */
 } aur_bsdf_lobe;
 
-enum { AUR_BSDF_LOBE_CAPACITY = 4 };
+/* A material with more lobes is refused when it is made. */
+enum { AUR_BSDF_LOBE_CAPACITY = 8 };
 
-/* A lobe without a formula, alone; as the functions of the whole BSDF below. */
-typedef struct aur_bsdf_sampled {
-    aur_vector (*evaluate)(const aur_bsdf *bsdf, aur_bsdf_point point, aur_vector view, aur_vector light);
-    float (*pdf)(const aur_bsdf *bsdf, aur_bsdf_point point, aur_vector view, aur_vector light);
-    bool (*sample)(const aur_bsdf *bsdf, aur_bsdf_point point, aur_vector view, const float u[3],
-                   aur_bsdf_sample *sample);
-} aur_bsdf_sampled;
+/* What kinds of lobes there are, a bit each. */
+enum {
+    AUR_SCATTERS_DIFFUSE = 1,
+    AUR_SCATTERS_GLOSSY = 2, /* other powers of a cosine */
+    AUR_SCATTERS_SPECULAR = 4,
+    AUR_SCATTERS_SAMPLED = 8
+};
+
+/* What is asked of a material: all of it, or its sampled lobes alone, which are never specular. */
+typedef enum aur_bsdf_part { AUR_BSDF_WHOLE, AUR_BSDF_SAMPLED_LOBES } aur_bsdf_part;
 
 typedef struct aur_bsdf_descriptor {
     const char *name;
     const char *summary;
     const char *source;
-    /* Reads its parameters (aur_parameters_finish is called by aur_bsdf_create) and sets bsdf->data. */
+    size_t size; /* of what bsdf->data points to: zeroed before create, freed in the end */
+    /* Reads its parameters (aur_parameters_finish is called by aur_bsdf_create) into bsdf->data and adds its
+     * lobes; sets bsdf->anisotropic. */
     aur_result (*create)(aur_parameters *parameters, aur_bsdf *bsdf, aur_error *error);
-    void (*release)(aur_bsdf *bsdf); /* frees bsdf->data */
-    /* BSDF * |light.z|, RGB, for radiance; 0 where nothing scatters. */
-    aur_vector (*evaluate)(const aur_bsdf *bsdf, aur_bsdf_point point, aur_vector view, aur_vector light);
-    /* The density with which `sample` draws `light`, a steradian. */
-    float (*pdf)(const aur_bsdf *bsdf, aur_bsdf_point point, aur_vector view, aur_vector light);
-    /* u[0] chooses among lobes, u[1], u[2] a direction; false when the sample is absorbed. */
-    bool (*sample)(const aur_bsdf *bsdf, aur_bsdf_point point, aur_vector view, const float u[3],
-                   aur_bsdf_sample *sample);
-    /* Fills lobes[AUR_BSDF_LOBE_CAPACITY] and returns how many. */
-    size_t (*lobes)(const aur_bsdf *bsdf, aur_bsdf_point point, aur_vector view, aur_bsdf_lobe *lobes);
-    /* The part of the diffuse reflectance that a photon's irradiance is multiplied by: radiance = E * albedo
-     * / pi. `side` is the local z of the direction that it is seen from. */
+    /* Sets axis and coefficient of lobes[bsdf->lobe_count], a copy of bsdf->lobes; the coefficients come in
+     * black, and stay so for lobes that are not seen from `view`. */
+    void (*weigh)(const aur_bsdf *bsdf, aur_bsdf_point point, aur_vector view, aur_bsdf_lobe *lobes);
+    /* The material's own forms of what is asked below, each of which may be NULL: then it follows from the
+     * lobes. A material with a sampled lobe has the first three. */
+    aur_vector (*evaluate)(const aur_bsdf *bsdf, aur_bsdf_part part, aur_bsdf_point point, aur_vector view,
+                           aur_vector light);
+    float (*pdf)(const aur_bsdf *bsdf, aur_bsdf_part part, aur_bsdf_point point, aur_vector view,
+                 aur_vector light);
+    bool (*sample)(const aur_bsdf *bsdf, aur_bsdf_part part, aur_bsdf_point point, aur_vector view,
+                   const float u[3], aur_bsdf_sample *sample);
     aur_vector (*diffuse_albedo)(const aur_bsdf *bsdf, aur_bsdf_point point, float side);
-    /* Of BSDFs that may have a sampled lobe beside others. NULL: where there is one, it is all there is. */
-    const aur_bsdf_sampled *sampled;
 } aur_bsdf_descriptor;
 
 struct aur_bsdf {
     const aur_bsdf_descriptor *descriptor;
     void *data;
-    bool scatters_from_behind; /* twosided or transmissive: view.z < 0 is not black */
+    size_t lobe_count;
+    aur_bsdf_lobe lobes[AUR_BSDF_LOBE_CAPACITY]; /* their coefficients are black */
+    bool anisotropic; /* the frame's x axis matters: it is the direction of growing texture u */
+    /* What follows from the lobes and the parameters: */
+    unsigned scatters[2];      /* the kinds of lobes seen from the front and from behind */
+    bool scatters_from_behind; /* view.z < 0 is not black */
     bool transmits;            /* light may leave on the other side */
-    bool plain_diffuse;        /* nothing but diffuse reflection, the same at every point of a surface */
-    bool anisotropic;          /* the frame's x axis matters: it is the direction of growing texture u */
     bool textured;             /* something varies over the surface, here or in a nested BSDF */
+    bool plain_diffuse;        /* nothing but diffuse reflection, the same at every point of a surface */
 };
 
 /* The table; NULL beyond it. */
@@ -99,29 +123,58 @@ const aur_bsdf_descriptor *aur_bsdf_descriptor_at(size_t index);
 aur_result aur_bsdf_create(aur_parameters *parameters, aur_bsdf **bsdf, aur_error *error);
 void aur_bsdf_destroy(aur_bsdf *bsdf);
 
-/* The sampled lobe: BSDF * |light.z|, the density of its draws, and draws of it, never specular. */
-aur_vector aur_bsdf_evaluate_sampled(const aur_bsdf *bsdf, aur_bsdf_point point, aur_vector view,
-                                     aur_vector light);
-float aur_bsdf_pdf_sampled(const aur_bsdf *bsdf, aur_bsdf_point point, aur_vector view, aur_vector light);
-bool aur_bsdf_sample_sampled(const aur_bsdf *bsdf, aur_bsdf_point point, aur_vector view, const float u[3],
-                             aur_bsdf_sample *sample);
+/* --- what is asked of a material */
+
+/* Fills lobes[AUR_BSDF_LOBE_CAPACITY] and returns bsdf->lobe_count. */
+size_t aur_bsdf_lobes(const aur_bsdf *bsdf, aur_bsdf_point point, aur_vector view, aur_bsdf_lobe *lobes);
+
+/* The kinds of lobes that may be seen from the side of a local direction with this z. */
+static inline unsigned aur_bsdf_scatters(const aur_bsdf *bsdf, float side) {
+    return bsdf->scatters[side < 0.0f ? 1 : 0];
+}
+
+/* BSDF * |light.z|, RGB, for radiance; 0 where nothing scatters. */
+aur_vector aur_bsdf_evaluate(const aur_bsdf *bsdf, aur_bsdf_part part, aur_bsdf_point point, aur_vector view,
+                             aur_vector light);
+/* The density with which aur_bsdf_sample draws `light`, a steradian. */
+float aur_bsdf_pdf(const aur_bsdf *bsdf, aur_bsdf_part part, aur_bsdf_point point, aur_vector view,
+                   aur_vector light);
+/* u[0] chooses among lobes, u[1], u[2] a direction; false when the sample is absorbed. */
+bool aur_bsdf_draw(const aur_bsdf *bsdf, aur_bsdf_part part, aur_bsdf_point point, aur_vector view,
+                   const float u[3], aur_bsdf_sample *sample);
+/* The part of the diffuse reflectance that a photon's irradiance is multiplied by: radiance = E * albedo
+ * / pi. `side` is the local z of the direction that it is seen from. */
+aur_vector aur_bsdf_diffuse_albedo(const aur_bsdf *bsdf, aur_bsdf_point point, float side);
 
 /* What a lobe's factor is at a cosine. */
 static inline float aur_lobe_factor(const aur_bsdf_lobe *lobe, float cosine) {
     return lobe->factor != NULL ? lobe->factor(lobe->factor_data, cosine) : 1.0f;
 }
 
+/* What one lobe with a formula has towards a local direction on the view's side: BSDF * |cos|. */
+static inline aur_vector aur_lobe_value(const aur_bsdf_lobe *lobe, aur_vector light) {
+    const float along = aur_vector_dot(lobe->axis, light);
+    if (lobe->shape != AUR_LOBE_SHAPE_COSINE_POWER || along <= 0.0f)
+        return (aur_vector){0};
+    const float power = lobe->exponent == 1.0f ? along : powf(along, lobe->exponent);
+    const float factor = aur_lobe_factor(lobe, fabsf(light.z));
+    return aur_vector_scale(lobe->coefficient,
+                            factor * (lobe->times_cosine ? power * fabsf(light.z) : power));
+}
+
 /* --- for the files of the table */
 
-/* bsdf->data = `size` zero bytes. */
-aur_result aur_bsdf_allocate(const aur_parameters *parameters, aur_bsdf *bsdf, size_t size, aur_error *error);
-/* What smooth materials answer: nothing but Dirac directions. */
-aur_vector aur_bsdf_evaluate_none(const aur_bsdf *bsdf, aur_bsdf_point point, aur_vector view,
-                                  aur_vector light);
-float aur_bsdf_pdf_none(const aur_bsdf *bsdf, aur_bsdf_point point, aur_vector view, aur_vector light);
-aur_vector aur_bsdf_albedo_none(const aur_bsdf *bsdf, aur_bsdf_point point, float side);
-/* A `release` for data that owns nothing else. */
-void aur_bsdf_release_data(aur_bsdf *bsdf);
+/* Lambert's lobe about the normal, seen from the front. */
+static inline aur_bsdf_lobe aur_diffuse_lobe(void) {
+    return (aur_bsdf_lobe){.shape = AUR_LOBE_SHAPE_COSINE_POWER,
+                           .diffuse = true,
+                           .sides = AUR_SIDE_FRONT,
+                           .exponent = 1.0f,
+                           .axis = {0.0f, 0.0f, 1.0f}};
+}
+
+/* Adds a lobe and returns its number. aur_bsdf_create refuses a material that has more than the capacity. */
+size_t aur_bsdf_add_lobe(aur_bsdf *bsdf, const aur_bsdf_lobe *lobe);
 /* The nested BSDF of that name ("bsdf", "bsdf2" when the file gives none); *bsdf keeps its value when absent.
  */
 aur_result aur_parameters_nested_bsdf(aur_parameters *parameters, const char *name, const aur_bsdf **bsdf,

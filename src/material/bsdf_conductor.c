@@ -11,23 +11,22 @@ typedef struct conductor {
     aur_microfacet microfacet;
 } conductor;
 
-static aur_result create_smooth(aur_parameters *parameters, aur_bsdf *bsdf, aur_error *error) {
-    aur_result result = aur_bsdf_allocate(parameters, bsdf, sizeof(conductor), error);
-    if (result != AUR_OK)
-        return result;
+static aur_result read_metal(aur_parameters *parameters, aur_bsdf *bsdf, aur_error *error) {
     conductor *const self = bsdf->data;
     self->reflectance.constant = (aur_vector){1.0f, 1.0f, 1.0f};
-    result = aur_parameters_conductor(parameters, &self->eta, &self->k, &self->perfect, error);
+    aur_result result = aur_parameters_conductor(parameters, &self->eta, &self->k, &self->perfect, error);
     if (result == AUR_OK)
         result = aur_parameters_color(parameters, "specular_reflectance", 1.0, &self->reflectance, error);
     return result;
 }
 
 static aur_result create_rough(aur_parameters *parameters, aur_bsdf *bsdf, aur_error *error) {
-    aur_result result = create_smooth(parameters, bsdf, error);
+    aur_result result = read_metal(parameters, bsdf, error);
     if (result != AUR_OK)
         return result;
     conductor *const self = bsdf->data;
+    const aur_bsdf_lobe lobe = {.shape = AUR_LOBE_SHAPE_SAMPLED, .sides = AUR_SIDE_FRONT};
+    aur_bsdf_add_lobe(bsdf, &lobe);
     result = aur_parameters_microfacet(parameters, &self->microfacet, error);
     bsdf->anisotropic = self->microfacet.alpha_u != self->microfacet.alpha_v;
     return result;
@@ -41,42 +40,33 @@ static aur_vector reflectance(const conductor *self, aur_bsdf_point point, float
 
 /* --- smooth */
 
-static bool sample_smooth(const aur_bsdf *bsdf, aur_bsdf_point point, aur_vector view, const float u[3],
-                          aur_bsdf_sample *drawn) {
-    (void)u;
-    if (view.z <= 0.0f)
-        return false;
-    *drawn = (aur_bsdf_sample){
-        .light = aur_mirror(view), .weight = reflectance(bsdf->data, point, view.z), .specular = true};
-    return true;
+static aur_result create_smooth(aur_parameters *parameters, aur_bsdf *bsdf, aur_error *error) {
+    const aur_bsdf_lobe lobe = {.shape = AUR_LOBE_SHAPE_SPECULAR, .sides = AUR_SIDE_FRONT};
+    aur_bsdf_add_lobe(bsdf, &lobe);
+    return read_metal(parameters, bsdf, error);
 }
 
-static size_t lobes_smooth(const aur_bsdf *bsdf, aur_bsdf_point point, aur_vector view, aur_bsdf_lobe *lobe) {
+static void weigh_smooth(const aur_bsdf *bsdf, aur_bsdf_point point, aur_vector view, aur_bsdf_lobe *lobes) {
     if (view.z <= 0.0f)
-        return 0;
-    lobe[0] = (aur_bsdf_lobe){.shape = AUR_LOBE_SHAPE_SPECULAR,
-                              .axis = aur_mirror(view),
-                              .coefficient = reflectance(bsdf->data, point, view.z)};
-    return 1;
+        return;
+    lobes[0].axis = aur_mirror(view);
+    lobes[0].coefficient = reflectance(bsdf->data, point, view.z);
 }
 
 const aur_bsdf_descriptor aur_bsdf_conductor = {
     .name = "conductor",
     .summary = "a smooth metal mirror",
     .source = "Fresnel 1823",
+    .size = sizeof(conductor),
     .create = create_smooth,
-    .release = aur_bsdf_release_data,
-    .evaluate = aur_bsdf_evaluate_none,
-    .pdf = aur_bsdf_pdf_none,
-    .sample = sample_smooth,
-    .lobes = lobes_smooth,
-    .diffuse_albedo = aur_bsdf_albedo_none,
+    .weigh = weigh_smooth,
 };
 
 /* --- rough */
 
-static aur_vector evaluate_rough(const aur_bsdf *bsdf, aur_bsdf_point point, aur_vector view,
-                                 aur_vector light) {
+static aur_vector evaluate_rough(const aur_bsdf *bsdf, aur_bsdf_part part, aur_bsdf_point point,
+                                 aur_vector view, aur_vector light) {
+    (void)part;
     const conductor *const self = bsdf->data;
     if (view.z <= 0.0f || light.z <= 0.0f)
         return (aur_vector){0};
@@ -87,7 +77,9 @@ static aur_vector evaluate_rough(const aur_bsdf *bsdf, aur_bsdf_point point, aur
     return aur_vector_scale(reflectance(self, point, aur_vector_dot(view, normal)), value);
 }
 
-static float pdf_rough(const aur_bsdf *bsdf, aur_bsdf_point point, aur_vector view, aur_vector light) {
+static float pdf_rough(const aur_bsdf *bsdf, aur_bsdf_part part, aur_bsdf_point point, aur_vector view,
+                       aur_vector light) {
+    (void)part;
     (void)point;
     const conductor *const self = bsdf->data;
     if (view.z <= 0.0f || light.z <= 0.0f)
@@ -96,8 +88,9 @@ static float pdf_rough(const aur_bsdf *bsdf, aur_bsdf_point point, aur_vector vi
     return aur_microfacet_pdf(&self->microfacet, view, normal) / (4.0f * aur_vector_dot(view, normal));
 }
 
-static bool sample_rough(const aur_bsdf *bsdf, aur_bsdf_point point, aur_vector view, const float u[3],
-                         aur_bsdf_sample *drawn) {
+static bool sample_rough(const aur_bsdf *bsdf, aur_bsdf_part part, aur_bsdf_point point, aur_vector view,
+                         const float u[3], aur_bsdf_sample *drawn) {
+    (void)part;
     const conductor *const self = bsdf->data;
     if (view.z <= 0.0f)
         return false;
@@ -114,24 +107,23 @@ static bool sample_rough(const aur_bsdf *bsdf, aur_bsdf_point point, aur_vector 
     return drawn->pdf > 0.0f;
 }
 
-static size_t lobes_rough(const aur_bsdf *bsdf, aur_bsdf_point point, aur_vector view, aur_bsdf_lobe *lobe) {
+static void weigh_rough(const aur_bsdf *bsdf, aur_bsdf_point point, aur_vector view, aur_bsdf_lobe *lobes) {
     (void)bsdf;
     (void)point;
     if (view.z <= 0.0f)
-        return 0;
-    lobe[0] = (aur_bsdf_lobe){.shape = AUR_LOBE_SHAPE_SAMPLED, .axis = aur_mirror(view)};
-    return 1;
+        return;
+    lobes[0].axis = aur_mirror(view);
+    lobes[0].coefficient = (aur_vector){1.0f, 1.0f, 1.0f};
 }
 
 const aur_bsdf_descriptor aur_bsdf_roughconductor = {
     .name = "roughconductor",
     .summary = "a rough metal: beckmann or ggx facets",
     .source = "Walter et al. 2007",
+    .size = sizeof(conductor),
     .create = create_rough,
-    .release = aur_bsdf_release_data,
+    .weigh = weigh_rough,
     .evaluate = evaluate_rough,
     .pdf = pdf_rough,
     .sample = sample_rough,
-    .lobes = lobes_rough,
-    .diffuse_albedo = aur_bsdf_albedo_none,
 };

@@ -9,13 +9,13 @@ typedef struct dielectric {
 } dielectric;
 
 static aur_result create(aur_parameters *parameters, aur_bsdf *bsdf, aur_error *error) {
-    aur_result result = aur_bsdf_allocate(parameters, bsdf, sizeof(dielectric), error);
-    if (result != AUR_OK)
-        return result;
     dielectric *const self = bsdf->data;
     self->reflectance.constant = self->transmittance.constant = (aur_vector){1.0f, 1.0f, 1.0f};
-    bsdf->scatters_from_behind = bsdf->transmits = true;
-    result = aur_parameters_ior(parameters, "bk7", &self->ior, error);
+    aur_bsdf_lobe lobe = {.shape = AUR_LOBE_SHAPE_SPECULAR, .sides = AUR_SIDES_BOTH};
+    aur_bsdf_add_lobe(bsdf, &lobe);
+    lobe.transmits = true;
+    aur_bsdf_add_lobe(bsdf, &lobe);
+    aur_result result = aur_parameters_ior(parameters, "bk7", &self->ior, error);
     if (result == AUR_OK)
         result = aur_parameters_color(parameters, "specular_reflectance", 1.0, &self->reflectance, error);
     if (result == AUR_OK)
@@ -59,62 +59,54 @@ static bool draw(const dielectric *self, aur_bsdf_point point, aur_vector view, 
     return view.z != 0.0f;
 }
 
-static bool sample_boundary(const aur_bsdf *bsdf, aur_bsdf_point point, aur_vector view, const float u[3],
-                            aur_bsdf_sample *drawn) {
+static bool sample_boundary(const aur_bsdf *bsdf, aur_bsdf_part part, aur_bsdf_point point, aur_vector view,
+                            const float u[3], aur_bsdf_sample *drawn) {
+    (void)part;
     return draw(bsdf->data, point, view, u[0], split_at_boundary(bsdf->data, view), drawn);
 }
 
-static bool sample_pane(const aur_bsdf *bsdf, aur_bsdf_point point, aur_vector view, const float u[3],
-                        aur_bsdf_sample *drawn) {
+static bool sample_pane(const aur_bsdf *bsdf, aur_bsdf_part part, aur_bsdf_point point, aur_vector view,
+                        const float u[3], aur_bsdf_sample *drawn) {
+    (void)part;
     return draw(bsdf->data, point, view, u[0], split_at_pane(bsdf->data, view), drawn);
 }
 
-static size_t make_lobes(const dielectric *self, aur_bsdf_point point, aur_vector view, split parts,
-                         aur_bsdf_lobe *lobe) {
-    lobe[0] = (aur_bsdf_lobe){.shape = AUR_LOBE_SHAPE_SPECULAR,
-                              .axis = aur_mirror(view),
-                              .coefficient =
-                                  aur_vector_scale(aur_color_at(&self->reflectance, point), parts.mirrored)};
+static void weigh_split(const dielectric *self, aur_bsdf_point point, aur_vector view, split parts,
+                        aur_bsdf_lobe *lobes) {
+    lobes[0].axis = aur_mirror(view);
+    lobes[0].coefficient = aur_vector_scale(aur_color_at(&self->reflectance, point), parts.mirrored);
     if (parts.mirrored >= 1.0f)
-        return 1;
-    lobe[1] = (aur_bsdf_lobe){.shape = AUR_LOBE_SHAPE_SPECULAR,
-                              .axis = aur_vector_normalize(parts.through),
-                              .coefficient = aur_vector_scale(aur_color_at(&self->transmittance, point),
-                                                              (1.0f - parts.mirrored) * parts.scale)};
-    return 2;
+        return;
+    lobes[1].axis = aur_vector_normalize(parts.through);
+    lobes[1].coefficient =
+        aur_vector_scale(aur_color_at(&self->transmittance, point), (1.0f - parts.mirrored) * parts.scale);
 }
 
-static size_t lobes_boundary(const aur_bsdf *bsdf, aur_bsdf_point point, aur_vector view,
-                             aur_bsdf_lobe *lobe) {
-    return make_lobes(bsdf->data, point, view, split_at_boundary(bsdf->data, view), lobe);
+static void weigh_boundary(const aur_bsdf *bsdf, aur_bsdf_point point, aur_vector view,
+                           aur_bsdf_lobe *lobes) {
+    weigh_split(bsdf->data, point, view, split_at_boundary(bsdf->data, view), lobes);
 }
 
-static size_t lobes_pane(const aur_bsdf *bsdf, aur_bsdf_point point, aur_vector view, aur_bsdf_lobe *lobe) {
-    return make_lobes(bsdf->data, point, view, split_at_pane(bsdf->data, view), lobe);
+static void weigh_pane(const aur_bsdf *bsdf, aur_bsdf_point point, aur_vector view, aur_bsdf_lobe *lobes) {
+    weigh_split(bsdf->data, point, view, split_at_pane(bsdf->data, view), lobes);
 }
 
 const aur_bsdf_descriptor aur_bsdf_dielectric = {
     .name = "dielectric",
     .summary = "a smooth boundary such as glass",
     .source = "Fresnel 1823",
+    .size = sizeof(dielectric),
     .create = create,
-    .release = aur_bsdf_release_data,
-    .evaluate = aur_bsdf_evaluate_none,
-    .pdf = aur_bsdf_pdf_none,
     .sample = sample_boundary,
-    .lobes = lobes_boundary,
-    .diffuse_albedo = aur_bsdf_albedo_none,
+    .weigh = weigh_boundary,
 };
 
 const aur_bsdf_descriptor aur_bsdf_thindielectric = {
     .name = "thindielectric",
     .summary = "a thin pane that bends no light",
     .source = "Stam 2001",
+    .size = sizeof(dielectric),
     .create = create,
-    .release = aur_bsdf_release_data,
-    .evaluate = aur_bsdf_evaluate_none,
-    .pdf = aur_bsdf_pdf_none,
     .sample = sample_pane,
-    .lobes = lobes_pane,
-    .diffuse_albedo = aur_bsdf_albedo_none,
+    .weigh = weigh_pane,
 };

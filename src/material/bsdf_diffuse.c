@@ -1,4 +1,5 @@
-/* Lambert's ideally diffuse surface. */
+/* Lambert's ideally diffuse surface. Most surfaces are, so it has the short forms of all that follows from
+ * its one lobe. */
 #include "material/sampling.h"
 #include "material/texture.h"
 
@@ -7,31 +8,39 @@ typedef struct diffuse {
 } diffuse;
 
 static aur_result create(aur_parameters *parameters, aur_bsdf *bsdf, aur_error *error) {
-    const aur_result result = aur_bsdf_allocate(parameters, bsdf, sizeof(diffuse), error);
-    if (result != AUR_OK)
-        return result;
     diffuse *const self = bsdf->data;
     self->reflectance.constant = (aur_vector){0.5f, 0.5f, 0.5f};
-    const aur_result read = aur_parameters_color(parameters, "reflectance", 1.0, &self->reflectance, error);
-    bsdf->plain_diffuse = self->reflectance.texture == NULL;
-    return read;
+    const aur_bsdf_lobe lobe = aur_diffuse_lobe();
+    aur_bsdf_add_lobe(bsdf, &lobe);
+    return aur_parameters_color(parameters, "reflectance", 1.0, &self->reflectance, error);
 }
 
-static aur_vector evaluate(const aur_bsdf *bsdf, aur_bsdf_point point, aur_vector view, aur_vector light) {
+static void weigh(const aur_bsdf *bsdf, aur_bsdf_point point, aur_vector view, aur_bsdf_lobe *lobes) {
+    const diffuse *const self = bsdf->data;
+    if (view.z > 0.0f)
+        lobes[0].coefficient = aur_vector_scale(aur_color_at(&self->reflectance, point), 1.0f / AUR_PI_F);
+}
+
+static aur_vector evaluate(const aur_bsdf *bsdf, aur_bsdf_part part, aur_bsdf_point point, aur_vector view,
+                           aur_vector light) {
+    (void)part;
     const diffuse *const self = bsdf->data;
     if (view.z <= 0.0f || light.z <= 0.0f)
         return (aur_vector){0};
     return aur_vector_scale(aur_color_at(&self->reflectance, point), light.z / AUR_PI_F);
 }
 
-static float pdf(const aur_bsdf *bsdf, aur_bsdf_point point, aur_vector view, aur_vector light) {
+static float pdf(const aur_bsdf *bsdf, aur_bsdf_part part, aur_bsdf_point point, aur_vector view,
+                 aur_vector light) {
     (void)bsdf;
+    (void)part;
     (void)point;
     return view.z > 0.0f && light.z > 0.0f ? light.z / AUR_PI_F : 0.0f;
 }
 
-static bool sample(const aur_bsdf *bsdf, aur_bsdf_point point, aur_vector view, const float u[3],
-                   aur_bsdf_sample *drawn) {
+static bool sample(const aur_bsdf *bsdf, aur_bsdf_part part, aur_bsdf_point point, aur_vector view,
+                   const float u[3], aur_bsdf_sample *drawn) {
+    (void)part;
     const diffuse *const self = bsdf->data;
     if (view.z <= 0.0f)
         return false;
@@ -41,34 +50,20 @@ static bool sample(const aur_bsdf *bsdf, aur_bsdf_point point, aur_vector view, 
     return light.z > 0.0f;
 }
 
-static size_t lobes(const aur_bsdf *bsdf, aur_bsdf_point point, aur_vector view, aur_bsdf_lobe *lobe) {
-    const diffuse *const self = bsdf->data;
-    if (view.z <= 0.0f)
-        return 0;
-    lobe[0] = (aur_bsdf_lobe){.shape = AUR_LOBE_SHAPE_COSINE_POWER,
-                              .diffuse = true,
-                              .exponent = 1.0f,
-                              .axis = {0.0f, 0.0f, 1.0f},
-                              .coefficient =
-                                  aur_vector_scale(aur_color_at(&self->reflectance, point), 1.0f / AUR_PI_F)};
-    return 1;
-}
-
 static aur_vector diffuse_albedo(const aur_bsdf *bsdf, aur_bsdf_point point, float side) {
     const diffuse *const self = bsdf->data;
     return side > 0.0f ? aur_color_at(&self->reflectance, point) : (aur_vector){0};
 }
 
 const aur_bsdf_descriptor aur_bsdf_diffuse = {
-    "diffuse",
-    "ideally diffuse reflection",
-    "Lambert 1760",
-    create,
-    aur_bsdf_release_data,
-    evaluate,
-    pdf,
-    sample,
-    lobes,
-    diffuse_albedo,
-    NULL,
+    .name = "diffuse",
+    .summary = "ideally diffuse reflection",
+    .source = "Lambert 1760",
+    .size = sizeof(diffuse),
+    .create = create,
+    .weigh = weigh,
+    .evaluate = evaluate,
+    .pdf = pdf,
+    .sample = sample,
+    .diffuse_albedo = diffuse_albedo,
 };

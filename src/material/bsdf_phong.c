@@ -9,7 +9,9 @@ static float scale_of(const aur_bsdf *bsdf) {
     return (self->exponent + 2.0f) / (2.0f * AUR_PI_F);
 }
 
-static aur_vector evaluate(const aur_bsdf *bsdf, aur_bsdf_point point, aur_vector view, aur_vector light) {
+static aur_vector evaluate(const aur_bsdf *bsdf, aur_bsdf_part part, aur_bsdf_point point, aur_vector view,
+                           aur_vector light) {
+    (void)part;
     const aur_phong *const self = bsdf->data;
     if (view.z <= 0.0f || light.z <= 0.0f)
         return (aur_vector){0};
@@ -19,20 +21,23 @@ static aur_vector evaluate(const aur_bsdf *bsdf, aur_bsdf_point point, aur_vecto
     return aur_vector_add_scaled(aur_vector_scale(at.diffuse, light.z / AUR_PI_F), lobe, at.specular);
 }
 
-static size_t lobes(const aur_bsdf *bsdf, aur_bsdf_point point, aur_vector view, aur_bsdf_lobe *lobe) {
-    return aur_phong_lobes(bsdf, point, view, scale_of(bsdf), true, lobe);
+static aur_result create(aur_parameters *parameters, aur_bsdf *bsdf, aur_error *error) {
+    return aur_phong_create(parameters, bsdf, true, error);
+}
+
+static void weigh(const aur_bsdf *bsdf, aur_bsdf_point point, aur_vector view, aur_bsdf_lobe *lobes) {
+    aur_phong_weigh(bsdf, point, view, scale_of(bsdf), lobes);
 }
 
 const aur_bsdf_descriptor aur_bsdf_phong = {
     "phong",
     "modified Phong model: (m+2)/(2 pi) cos^m times the cosine",
     "Lafortune Willems 1994",
-    aur_phong_create,
-    aur_bsdf_release_data,
+    sizeof(aur_phong),
+    create,
+    weigh,
     evaluate,
     aur_phong_pdf,
     aur_phong_sample,
-    lobes,
     aur_phong_diffuse_albedo,
-    NULL,
 };

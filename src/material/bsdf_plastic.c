@@ -18,14 +18,11 @@ typedef struct plastic {
     float transmittance[TABLE_SIZE]; /* of the rough coat from outside, at cosines i / (TABLE_SIZE - 1) */
 } plastic;
 
-static aur_result create_smooth(aur_parameters *parameters, aur_bsdf *bsdf, aur_error *error) {
-    aur_result result = aur_bsdf_allocate(parameters, bsdf, sizeof(plastic), error);
-    if (result != AUR_OK)
-        return result;
+static aur_result read_coat(aur_parameters *parameters, aur_bsdf *bsdf, aur_error *error) {
     plastic *const self = bsdf->data;
     self->diffuse.constant = (aur_vector){0.5f, 0.5f, 0.5f};
     self->specular.constant = (aur_vector){1.0f, 1.0f, 1.0f};
-    result = aur_parameters_ior(parameters, "polypropylene", &self->ior, error);
+    aur_result result = aur_parameters_ior(parameters, "polypropylene", &self->ior, error);
     if (result == AUR_OK)
         result = aur_parameters_color(parameters, "diffuse_reflectance", 1.0, &self->diffuse, error);
     if (result == AUR_OK)
@@ -75,30 +72,6 @@ static rough_shares shares_at(const aur_microfacet *microfacet, float ior, float
     return (rough_shares){sum.mirrored / count, sum.through / count};
 }
 
-static aur_result create_rough(aur_parameters *parameters, aur_bsdf *bsdf, aur_error *error) {
-    aur_result result = create_smooth(parameters, bsdf, error);
-    if (result != AUR_OK)
-        return result;
-    plastic *const self = bsdf->data;
-    result = aur_parameters_microfacet(parameters, &self->microfacet, error);
-    if (result != AUR_OK)
-        return result;
-    if (self->microfacet.alpha_u != self->microfacet.alpha_v)
-        return aur_fail_at(error, parameters->location, AUR_ERROR_UNSUPPORTED,
-                           "bsdf 'roughplastic': 'alpha_u' and 'alpha_v' must be equal: give 'alpha'");
-    double inner = 0.0, outer = 0.0;
-    for (size_t i = 0; i < TABLE_SIZE; ++i) {
-        const float cosine = (float)i / (TABLE_SIZE - 1);
-        self->transmittance[i] = (float)shares_at(&self->microfacet, self->ior, cosine).through;
-        const double weight = (i == 0 || i == TABLE_SIZE - 1 ? 1.0 : 2.0) * (double)cosine / (TABLE_SIZE - 1);
-        inner += weight * shares_at(&self->microfacet, 1.0f / self->ior, cosine).mirrored;
-        outer += weight * (double)self->transmittance[i];
-    }
-    self->inner_reflectance = (float)inner;
-    self->outer_transmittance = (float)outer;
-    return AUR_OK;
-}
-
 /* Of the coat, at a cosine above it. */
 static float smooth_transmittance(const plastic *self, float cosine) {
     float refracted;
@@ -130,10 +103,30 @@ static float specular_probability(const plastic *self, float transmittance) {
     return coat + base > 0.0f ? coat / (coat + base) : 1.0f;
 }
 
+/* The base is a cosine lobe but for the coat, which lets less through the flatter light comes. */
+static void add_base(aur_bsdf *bsdf, float (*factor)(const void *, float)) {
+    aur_bsdf_lobe lobe = aur_diffuse_lobe();
+    lobe.factor = factor;
+    lobe.factor_data = bsdf->data;
+    aur_bsdf_add_lobe(bsdf, &lobe);
+}
+
 /* --- smooth */
 
-static aur_vector evaluate_smooth(const aur_bsdf *bsdf, aur_bsdf_point point, aur_vector view,
-                                  aur_vector light) {
+static float smooth_factor(const void *data, float cosine) {
+    return smooth_transmittance(data, cosine);
+}
+
+static aur_result create_smooth(aur_parameters *parameters, aur_bsdf *bsdf, aur_error *error) {
+    const aur_bsdf_lobe coat = {.shape = AUR_LOBE_SHAPE_SPECULAR, .sides = AUR_SIDE_FRONT};
+    aur_bsdf_add_lobe(bsdf, &coat);
+    add_base(bsdf, smooth_factor);
+    return read_coat(parameters, bsdf, error);
+}
+
+static aur_vector evaluate_smooth(const aur_bsdf *bsdf, aur_bsdf_part part, aur_bsdf_point point,
+                                  aur_vector view, aur_vector light) {
+    (void)part;
     const plastic *const self = bsdf->data;
     if (view.z <= 0.0f || light.z <= 0.0f)
         return (aur_vector){0};
@@ -142,7 +135,9 @@ static aur_vector evaluate_smooth(const aur_bsdf *bsdf, aur_bsdf_point point, au
                                                          AUR_PI_F);
 }
 
-static float pdf_smooth(const aur_bsdf *bsdf, aur_bsdf_point point, aur_vector view, aur_vector light) {
+static float pdf_smooth(const aur_bsdf *bsdf, aur_bsdf_part part, aur_bsdf_point point, aur_vector view,
+                        aur_vector light) {
+    (void)part;
     (void)point;
     const plastic *const self = bsdf->data;
     if (view.z <= 0.0f || light.z <= 0.0f)
@@ -150,8 +145,9 @@ static float pdf_smooth(const aur_bsdf *bsdf, aur_bsdf_point point, aur_vector v
     return (1.0f - specular_probability(self, smooth_transmittance(self, view.z))) * light.z / AUR_PI_F;
 }
 
-static bool sample_smooth(const aur_bsdf *bsdf, aur_bsdf_point point, aur_vector view, const float u[3],
-                          aur_bsdf_sample *drawn) {
+static bool sample_smooth(const aur_bsdf *bsdf, aur_bsdf_part part, aur_bsdf_point point, aur_vector view,
+                          const float u[3], aur_bsdf_sample *drawn) {
+    (void)part;
     const plastic *const self = bsdf->data;
     if (view.z <= 0.0f)
         return false;
@@ -172,33 +168,14 @@ static bool sample_smooth(const aur_bsdf *bsdf, aur_bsdf_point point, aur_vector
     return drawn->pdf > 0.0f;
 }
 
-static float smooth_factor(const void *data, float cosine) {
-    return smooth_transmittance(data, cosine);
-}
-
-/* The base: a cosine lobe but for the coat, which lets less through the flatter light comes. */
-static aur_bsdf_lobe base_lobe(const plastic *self, aur_bsdf_point point, float transmittance,
-                               float (*factor)(const void *, float)) {
-    return (aur_bsdf_lobe){.shape = AUR_LOBE_SHAPE_COSINE_POWER,
-                           .diffuse = true,
-                           .exponent = 1.0f,
-                           .axis = {0.0f, 0.0f, 1.0f},
-                           .coefficient = aur_vector_scale(base_color(self, point), transmittance / AUR_PI_F),
-                           .factor = factor,
-                           .factor_data = self};
-}
-
-static size_t lobes_smooth(const aur_bsdf *bsdf, aur_bsdf_point point, aur_vector view, aur_bsdf_lobe *lobe) {
+static void weigh_smooth(const aur_bsdf *bsdf, aur_bsdf_point point, aur_vector view, aur_bsdf_lobe *lobes) {
     const plastic *const self = bsdf->data;
     if (view.z <= 0.0f)
-        return 0;
+        return;
     const float mirrored = 1.0f - smooth_transmittance(self, view.z);
-    lobe[0] =
-        (aur_bsdf_lobe){.shape = AUR_LOBE_SHAPE_SPECULAR,
-                        .axis = aur_mirror(view),
-                        .coefficient = aur_vector_scale(aur_color_at(&self->specular, point), mirrored)};
-    lobe[1] = base_lobe(self, point, 1.0f - mirrored, smooth_factor);
-    return 2;
+    lobes[0].axis = aur_mirror(view);
+    lobes[0].coefficient = aur_vector_scale(aur_color_at(&self->specular, point), mirrored);
+    lobes[1].coefficient = aur_vector_scale(base_color(self, point), (1.0f - mirrored) / AUR_PI_F);
 }
 
 static aur_vector albedo_smooth(const aur_bsdf *bsdf, aur_bsdf_point point, float side) {
@@ -213,16 +190,47 @@ const aur_bsdf_descriptor aur_bsdf_plastic = {
     .name = "plastic",
     .summary = "a diffuse base under a smooth clear coat",
     .source = "Jakob 2010 (Mitsuba)",
+    .size = sizeof(plastic),
     .create = create_smooth,
-    .release = aur_bsdf_release_data,
+    .weigh = weigh_smooth,
     .evaluate = evaluate_smooth,
     .pdf = pdf_smooth,
     .sample = sample_smooth,
-    .lobes = lobes_smooth,
     .diffuse_albedo = albedo_smooth,
 };
 
 /* --- rough */
+
+static float rough_factor(const void *data, float cosine) {
+    return rough_transmittance(data, cosine);
+}
+
+static aur_result create_rough(aur_parameters *parameters, aur_bsdf *bsdf, aur_error *error) {
+    aur_result result = read_coat(parameters, bsdf, error);
+    if (result != AUR_OK)
+        return result;
+    plastic *const self = bsdf->data;
+    add_base(bsdf, rough_factor);
+    const aur_bsdf_lobe coat = {.shape = AUR_LOBE_SHAPE_SAMPLED, .sides = AUR_SIDE_FRONT};
+    aur_bsdf_add_lobe(bsdf, &coat);
+    result = aur_parameters_microfacet(parameters, &self->microfacet, error);
+    if (result != AUR_OK)
+        return result;
+    if (self->microfacet.alpha_u != self->microfacet.alpha_v)
+        return aur_fail_at(error, parameters->location, AUR_ERROR_UNSUPPORTED,
+                           "bsdf 'roughplastic': 'alpha_u' and 'alpha_v' must be equal: give 'alpha'");
+    double inner = 0.0, outer = 0.0;
+    for (size_t i = 0; i < TABLE_SIZE; ++i) {
+        const float cosine = (float)i / (TABLE_SIZE - 1);
+        self->transmittance[i] = (float)shares_at(&self->microfacet, self->ior, cosine).through;
+        const double weight = (i == 0 || i == TABLE_SIZE - 1 ? 1.0 : 2.0) * (double)cosine / (TABLE_SIZE - 1);
+        inner += weight * shares_at(&self->microfacet, 1.0f / self->ior, cosine).mirrored;
+        outer += weight * (double)self->transmittance[i];
+    }
+    self->inner_reflectance = (float)inner;
+    self->outer_transmittance = (float)outer;
+    return AUR_OK;
+}
 
 static aur_vector evaluate_coat(const aur_bsdf *bsdf, aur_bsdf_point point, aur_vector view,
                                 aur_vector light) {
@@ -251,65 +259,55 @@ static aur_vector draw_coat(const plastic *self, aur_vector view, const float u[
     return aur_vector_add_scaled(aur_vector_scale(view, -1.0f), 2.0f * aur_vector_dot(view, normal), normal);
 }
 
-static bool sample_coat(const aur_bsdf *bsdf, aur_bsdf_point point, aur_vector view, const float u[3],
-                        aur_bsdf_sample *drawn) {
-    if (view.z <= 0.0f)
-        return false;
-    const aur_vector light = draw_coat(bsdf->data, view, u);
-    const float density = pdf_coat(bsdf, point, view, light);
-    if (!(density > 0.0f))
-        return false;
-    const aur_vector value = evaluate_coat(bsdf, point, view, light);
-    *drawn =
-        (aur_bsdf_sample){.light = light, .weight = aur_vector_scale(value, 1.0f / density), .pdf = density};
-    return true;
-}
-
-static aur_vector evaluate_rough(const aur_bsdf *bsdf, aur_bsdf_point point, aur_vector view,
-                                 aur_vector light) {
+static aur_vector evaluate_rough(const aur_bsdf *bsdf, aur_bsdf_part part, aur_bsdf_point point,
+                                 aur_vector view, aur_vector light) {
     const plastic *const self = bsdf->data;
     if (view.z <= 0.0f || light.z <= 0.0f)
         return (aur_vector){0};
+    const aur_vector coat = evaluate_coat(bsdf, point, view, light);
+    if (part == AUR_BSDF_SAMPLED_LOBES)
+        return coat;
     const float base =
         rough_transmittance(self, view.z) * rough_transmittance(self, light.z) * light.z / AUR_PI_F;
-    return aur_vector_add_scaled(evaluate_coat(bsdf, point, view, light), base, base_color(self, point));
+    return aur_vector_add_scaled(coat, base, base_color(self, point));
 }
 
-static float pdf_rough(const aur_bsdf *bsdf, aur_bsdf_point point, aur_vector view, aur_vector light) {
+static float pdf_rough(const aur_bsdf *bsdf, aur_bsdf_part part, aur_bsdf_point point, aur_vector view,
+                       aur_vector light) {
     const plastic *const self = bsdf->data;
     if (view.z <= 0.0f || light.z <= 0.0f)
         return 0.0f;
+    if (part == AUR_BSDF_SAMPLED_LOBES)
+        return pdf_coat(bsdf, point, view, light);
     const float probability = specular_probability(self, rough_transmittance(self, view.z));
     return probability * pdf_coat(bsdf, point, view, light) + (1.0f - probability) * light.z / AUR_PI_F;
 }
 
-static bool sample_rough(const aur_bsdf *bsdf, aur_bsdf_point point, aur_vector view, const float u[3],
-                         aur_bsdf_sample *drawn) {
+static bool sample_rough(const aur_bsdf *bsdf, aur_bsdf_part part, aur_bsdf_point point, aur_vector view,
+                         const float u[3], aur_bsdf_sample *drawn) {
     const plastic *const self = bsdf->data;
     if (view.z <= 0.0f)
         return false;
-    const float probability = specular_probability(self, rough_transmittance(self, view.z));
+    const float probability =
+        part == AUR_BSDF_SAMPLED_LOBES ? 1.0f : specular_probability(self, rough_transmittance(self, view.z));
     const aur_vector light = u[0] < probability ? draw_coat(self, view, u) : aur_sample_cosine(u[1], u[2]);
-    const float density = pdf_rough(bsdf, point, view, light);
+    const float density = pdf_rough(bsdf, part, point, view, light);
     if (!(density > 0.0f))
         return false;
-    const aur_vector value = evaluate_rough(bsdf, point, view, light);
+    const aur_vector value = evaluate_rough(bsdf, part, point, view, light);
     *drawn =
         (aur_bsdf_sample){.light = light, .weight = aur_vector_scale(value, 1.0f / density), .pdf = density};
     return true;
 }
 
-static float rough_factor(const void *data, float cosine) {
-    return rough_transmittance(data, cosine);
-}
-
-static size_t lobes_rough(const aur_bsdf *bsdf, aur_bsdf_point point, aur_vector view, aur_bsdf_lobe *lobe) {
+static void weigh_rough(const aur_bsdf *bsdf, aur_bsdf_point point, aur_vector view, aur_bsdf_lobe *lobes) {
     const plastic *const self = bsdf->data;
     if (view.z <= 0.0f)
-        return 0;
-    lobe[0] = base_lobe(self, point, rough_transmittance(self, view.z), rough_factor);
-    lobe[1] = (aur_bsdf_lobe){.shape = AUR_LOBE_SHAPE_SAMPLED, .axis = aur_mirror(view)};
-    return 2;
+        return;
+    lobes[0].coefficient =
+        aur_vector_scale(base_color(self, point), rough_transmittance(self, view.z) / AUR_PI_F);
+    lobes[1].axis = aur_mirror(view);
+    lobes[1].coefficient = (aur_vector){1.0f, 1.0f, 1.0f};
 }
 
 static aur_vector albedo_rough(const aur_bsdf *bsdf, aur_bsdf_point point, float side) {
@@ -320,18 +318,15 @@ static aur_vector albedo_rough(const aur_bsdf *bsdf, aur_bsdf_point point, float
                             rough_transmittance(self, side) * self->outer_transmittance);
 }
 
-static const aur_bsdf_sampled sampled_coat = {evaluate_coat, pdf_coat, sample_coat};
-
 const aur_bsdf_descriptor aur_bsdf_roughplastic = {
     .name = "roughplastic",
     .summary = "a diffuse base under a rough clear coat",
     .source = "Jakob 2010 (Mitsuba)",
+    .size = sizeof(plastic),
     .create = create_rough,
-    .release = aur_bsdf_release_data,
+    .weigh = weigh_rough,
     .evaluate = evaluate_rough,
     .pdf = pdf_rough,
     .sample = sample_rough,
-    .lobes = lobes_rough,
     .diffuse_albedo = albedo_rough,
-    .sampled = &sampled_coat,
 };

@@ -11,13 +11,11 @@ typedef struct rough {
 } rough;
 
 static aur_result create(aur_parameters *parameters, aur_bsdf *bsdf, aur_error *error) {
-    aur_result result = aur_bsdf_allocate(parameters, bsdf, sizeof(rough), error);
-    if (result != AUR_OK)
-        return result;
     rough *const self = bsdf->data;
     self->reflectance.constant = self->transmittance.constant = (aur_vector){1.0f, 1.0f, 1.0f};
-    bsdf->scatters_from_behind = bsdf->transmits = true;
-    result = aur_parameters_ior(parameters, "bk7", &self->ior, error);
+    const aur_bsdf_lobe lobe = {.shape = AUR_LOBE_SHAPE_SAMPLED, .transmits = true, .sides = AUR_SIDES_BOTH};
+    aur_bsdf_add_lobe(bsdf, &lobe);
+    aur_result result = aur_parameters_ior(parameters, "bk7", &self->ior, error);
     if (result == AUR_OK)
         result = aur_parameters_color(parameters, "specular_reflectance", 1.0, &self->reflectance, error);
     if (result == AUR_OK)
@@ -85,20 +83,25 @@ static aur_vector value_of(const rough *self, aur_bsdf_point point, aur_vector v
                             common * (1.0f - at->mirrored) / (at->ratio * at->ratio));
 }
 
-static aur_vector evaluate(const aur_bsdf *bsdf, aur_bsdf_point point, aur_vector view, aur_vector light) {
+static aur_vector evaluate(const aur_bsdf *bsdf, aur_bsdf_part part, aur_bsdf_point point, aur_vector view,
+                           aur_vector light) {
+    (void)part;
     facet at;
     return find_facet(bsdf->data, view, light, &at) ? value_of(bsdf->data, point, view, light, &at)
                                                     : (aur_vector){0};
 }
 
-static float pdf(const aur_bsdf *bsdf, aur_bsdf_point point, aur_vector view, aur_vector light) {
+static float pdf(const aur_bsdf *bsdf, aur_bsdf_part part, aur_bsdf_point point, aur_vector view,
+                 aur_vector light) {
+    (void)part;
     (void)point;
     facet at;
     return find_facet(bsdf->data, view, light, &at) ? pdf_of(bsdf->data, view, &at) : 0.0f;
 }
 
-static bool sample(const aur_bsdf *bsdf, aur_bsdf_point point, aur_vector view, const float u[3],
-                   aur_bsdf_sample *drawn) {
+static bool sample(const aur_bsdf *bsdf, aur_bsdf_part part, aur_bsdf_point point, aur_vector view,
+                   const float u[3], aur_bsdf_sample *drawn) {
+    (void)part;
     const rough *const self = bsdf->data;
     if (view.z == 0.0f)
         return false;
@@ -128,22 +131,21 @@ static bool sample(const aur_bsdf *bsdf, aur_bsdf_point point, aur_vector view, 
     return true;
 }
 
-static size_t lobes(const aur_bsdf *bsdf, aur_bsdf_point point, aur_vector view, aur_bsdf_lobe *lobe) {
+static void weigh(const aur_bsdf *bsdf, aur_bsdf_point point, aur_vector view, aur_bsdf_lobe *lobes) {
     (void)bsdf;
     (void)point;
-    lobe[0] = (aur_bsdf_lobe){.shape = AUR_LOBE_SHAPE_SAMPLED, .axis = aur_mirror(view)};
-    return 1;
+    lobes[0].axis = aur_mirror(view);
+    lobes[0].coefficient = (aur_vector){1.0f, 1.0f, 1.0f};
 }
 
 const aur_bsdf_descriptor aur_bsdf_roughdielectric = {
     .name = "roughdielectric",
     .summary = "a rough boundary such as ground glass",
     .source = "Walter et al. 2007",
+    .size = sizeof(rough),
     .create = create,
-    .release = aur_bsdf_release_data,
+    .weigh = weigh,
     .evaluate = evaluate,
     .pdf = pdf,
     .sample = sample,
-    .lobes = lobes,
-    .diffuse_albedo = aur_bsdf_albedo_none,
 };

@@ -2,15 +2,16 @@
 
 #include "material/sampling.h"
 
-aur_result aur_phong_create(aur_parameters *parameters, aur_bsdf *bsdf, aur_error *error) {
-    aur_result result = aur_bsdf_allocate(parameters, bsdf, sizeof(aur_phong), error);
-    if (result != AUR_OK)
-        return result;
+static bool may_reflect(const aur_color *color) {
+    return color->texture != NULL || aur_vector_max(color->constant) > 0.0f;
+}
+
+aur_result aur_phong_create(aur_parameters *parameters, aur_bsdf *bsdf, bool times_cosine, aur_error *error) {
     aur_phong *const self = bsdf->data;
     self->diffuse.constant = (aur_vector){0.5f, 0.5f, 0.5f};
     self->specular.constant = (aur_vector){0.2f, 0.2f, 0.2f};
     double exponent = 30.0;
-    result = aur_parameters_color(parameters, "diffuse_reflectance", 1.0, &self->diffuse, error);
+    aur_result result = aur_parameters_color(parameters, "diffuse_reflectance", 1.0, &self->diffuse, error);
     if (result == AUR_OK)
         result = aur_parameters_color(parameters, "specular_reflectance", 1.0, &self->specular, error);
     if (result == AUR_OK)
@@ -18,6 +19,15 @@ aur_result aur_phong_create(aur_parameters *parameters, aur_bsdf *bsdf, aur_erro
     if (result != AUR_OK)
         return result;
     self->exponent = (float)exponent;
+    const aur_bsdf_lobe diffuse = aur_diffuse_lobe();
+    const aur_bsdf_lobe specular = {.shape = AUR_LOBE_SHAPE_COSINE_POWER,
+                                    .times_cosine = times_cosine,
+                                    .sides = AUR_SIDE_FRONT,
+                                    .exponent = self->exponent};
+    if (may_reflect(&self->diffuse))
+        aur_bsdf_add_lobe(bsdf, &diffuse);
+    if (may_reflect(&self->specular))
+        aur_bsdf_add_lobe(bsdf, &specular);
     if (self->diffuse.texture != NULL || self->specular.texture != NULL)
         return AUR_OK;
     const float most = aur_vector_max(aur_vector_add(self->diffuse.constant, self->specular.constant));
@@ -48,13 +58,15 @@ static float density(const aur_bsdf *bsdf, const aur_phong_point *at, aur_vector
            (1.0f - at->specular_probability) * light.z / AUR_PI_F;
 }
 
-float aur_phong_pdf(const aur_bsdf *bsdf, aur_bsdf_point point, aur_vector view, aur_vector light) {
+float aur_phong_pdf(const aur_bsdf *bsdf, aur_bsdf_part part, aur_bsdf_point point, aur_vector view,
+                    aur_vector light) {
+    (void)part;
     const aur_phong_point at = aur_phong_at(bsdf, point);
     return density(bsdf, &at, view, light);
 }
 
-bool aur_phong_sample(const aur_bsdf *bsdf, aur_bsdf_point point, aur_vector view, const float u[3],
-                      aur_bsdf_sample *drawn) {
+bool aur_phong_sample(const aur_bsdf *bsdf, aur_bsdf_part part, aur_bsdf_point point, aur_vector view,
+                      const float u[3], aur_bsdf_sample *drawn) {
     const aur_phong *const self = bsdf->data;
     if (view.z <= 0.0f)
         return false;
@@ -69,36 +81,24 @@ bool aur_phong_sample(const aur_bsdf *bsdf, aur_bsdf_point point, aur_vector vie
     const float pdf = density(bsdf, &at, view, light);
     if (!(pdf > 0.0f))
         return false;
-    const aur_vector value = bsdf->descriptor->evaluate(bsdf, point, view, light);
+    const aur_vector value = bsdf->descriptor->evaluate(bsdf, part, point, view, light);
     *drawn = (aur_bsdf_sample){.light = light, .weight = aur_vector_scale(value, 1.0f / pdf), .pdf = pdf};
     return aur_vector_max(value) > 0.0f;
 }
 
-/* Whether there is a lobe at all: one that a texture makes black here is elsewhere. */
-static bool may_reflect(const aur_color *color) {
-    return color->texture != NULL || aur_vector_max(color->constant) > 0.0f;
-}
-
-size_t aur_phong_lobes(const aur_bsdf *bsdf, aur_bsdf_point point, aur_vector view, float scale,
-                       bool times_cosine, aur_bsdf_lobe *lobe) {
+void aur_phong_weigh(const aur_bsdf *bsdf, aur_bsdf_point point, aur_vector view, float scale,
+                     aur_bsdf_lobe *lobes) {
     const aur_phong *const self = bsdf->data;
     if (view.z <= 0.0f)
-        return 0;
-    const aur_phong_point at = aur_phong_at(bsdf, point);
-    size_t count = 0;
-    if (may_reflect(&self->diffuse))
-        lobe[count++] = (aur_bsdf_lobe){.shape = AUR_LOBE_SHAPE_COSINE_POWER,
-                                        .diffuse = true,
-                                        .exponent = 1.0f,
-                                        .axis = {0.0f, 0.0f, 1.0f},
-                                        .coefficient = aur_vector_scale(at.diffuse, 1.0f / AUR_PI_F)};
-    if (may_reflect(&self->specular))
-        lobe[count++] = (aur_bsdf_lobe){.shape = AUR_LOBE_SHAPE_COSINE_POWER,
-                                        .times_cosine = times_cosine,
-                                        .exponent = self->exponent,
-                                        .axis = aur_mirror(view),
-                                        .coefficient = aur_vector_scale(at.specular, scale)};
-    return count;
+        return;
+    for (size_t i = 0; i < bsdf->lobe_count; ++i) {
+        if (lobes[i].diffuse) {
+            lobes[i].coefficient = aur_vector_scale(aur_color_at(&self->diffuse, point), 1.0f / AUR_PI_F);
+            continue;
+        }
+        lobes[i].axis = aur_mirror(view);
+        lobes[i].coefficient = aur_vector_scale(aur_color_at(&self->specular, point), scale);
+    }
 }
 
 aur_vector aur_phong_diffuse_albedo(const aur_bsdf *bsdf, aur_bsdf_point point, float side) {

@@ -15,16 +15,16 @@ typedef struct aur_phong_point {
     float specular_probability;
 } aur_phong_point;
 
-aur_result aur_phong_create(aur_parameters *parameters, aur_bsdf *bsdf, aur_error *error);
+aur_result aur_phong_create(aur_parameters *parameters, aur_bsdf *bsdf, bool times_cosine, aur_error *error);
 aur_phong_point aur_phong_at(const aur_bsdf *bsdf, aur_bsdf_point point);
-float aur_phong_pdf(const aur_bsdf *bsdf, aur_bsdf_point point, aur_vector view, aur_vector light);
+float aur_phong_pdf(const aur_bsdf *bsdf, aur_bsdf_part part, aur_bsdf_point point, aur_vector view,
+                    aur_vector light);
 /* Draws by aur_phong_pdf; the weight comes from the BSDF's own `evaluate`. */
-bool aur_phong_sample(const aur_bsdf *bsdf, aur_bsdf_point point, aur_vector view, const float u[3],
-                      aur_bsdf_sample *drawn);
-/* The diffuse lobe, then the one about the mirrored view direction whose factor is `scale` times the specular
- * reflectance. */
-size_t aur_phong_lobes(const aur_bsdf *bsdf, aur_bsdf_point point, aur_vector view, float scale,
-                       bool times_cosine, aur_bsdf_lobe *lobe);
+bool aur_phong_sample(const aur_bsdf *bsdf, aur_bsdf_part part, aur_bsdf_point point, aur_vector view,
+                      const float u[3], aur_bsdf_sample *drawn);
+/* `scale` times the specular reflectance is the factor of the lobe about the mirrored view direction. */
+void aur_phong_weigh(const aur_bsdf *bsdf, aur_bsdf_point point, aur_vector view, float scale,
+                     aur_bsdf_lobe *lobes);
 aur_vector aur_phong_diffuse_albedo(const aur_bsdf *bsdf, aur_bsdf_point point, float side);
 
 #endif

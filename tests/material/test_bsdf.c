@@ -26,8 +26,8 @@ static void integrate_pdf(const aur_bsdf *bsdf, aur_vector view, size_t parts, d
             const double offset_phi = (double)(k / 2 % parts) + 0.5;
             const double z = -1.0 + 2.0 * (cell_z + offset_z / (double)parts) / CELLS_Z;
             const double phi = (cell_phi + offset_phi / (double)parts) / CELLS_PHI;
-            mass[cell] +=
-                (double)bsdf->descriptor->pdf(bsdf, point, view, aur_direction_at((float)z, (float)phi));
+            mass[cell] += (double)aur_bsdf_pdf(bsdf, AUR_BSDF_WHOLE, point, view,
+                                               aur_direction_at((float)z, (float)phi));
         }
         mass[cell] *= 4.0 * AUR_PI / (CELL_COUNT * (double)(2 * parts * parts));
     }
@@ -54,7 +54,7 @@ static void draws_by_the_density(void **state) {
             for (size_t i = 0; i < DRAWS; ++i) {
                 const float u[3] = {unit(v, 1, i), unit(v, 2, i), unit(v, 3, i)};
                 aur_bsdf_sample sample;
-                if (!made.bsdf->descriptor->sample(made.bsdf, point, view, u, &sample) || sample.specular)
+                if (!aur_bsdf_draw(made.bsdf, AUR_BSDF_WHOLE, point, view, u, &sample) || sample.specular)
                     continue;
                 ++counts[cell_of(sample.light)];
                 ++drawn;
@@ -100,15 +100,15 @@ static void samples_agree_with_evaluation(void **state) {
             for (size_t i = 0; i < 500; ++i) {
                 const float u[3] = {unit(v, 1, i), unit(v, 2, i), unit(v, 3, i)};
                 aur_bsdf_sample sample;
-                if (!made.bsdf->descriptor->sample(made.bsdf, point, view, u, &sample))
+                if (!aur_bsdf_draw(made.bsdf, AUR_BSDF_WHOLE, point, view, u, &sample))
                     continue;
                 assert_near(aur_vector_length(sample.light), 1.0, 1e-5);
                 if (sample.specular)
                     continue;
                 const aur_vector value =
-                    made.bsdf->descriptor->evaluate(made.bsdf, point, view, sample.light);
-                assert_relative(sample.pdf, made.bsdf->descriptor->pdf(made.bsdf, point, view, sample.light),
-                                1e-3);
+                    aur_bsdf_evaluate(made.bsdf, AUR_BSDF_WHOLE, point, view, sample.light);
+                assert_relative(sample.pdf,
+                                aur_bsdf_pdf(made.bsdf, AUR_BSDF_WHOLE, point, view, sample.light), 1e-3);
                 assert_relative(sample.weight.y * sample.pdf, value.y, 1e-3);
                 assert_true(sample.weight.y >= 0.0f && isfinite(sample.weight.y));
             }
@@ -137,8 +137,9 @@ static void is_reciprocal(void **state) {
             const float above = glass && a.z < 0.0f ? 2.25f : 1.0f,
                         below = glass && b.z < 0.0f ? 2.25f : 1.0f;
             const float there =
-                made.bsdf->descriptor->evaluate(made.bsdf, point, a, b).x / fabsf(b.z) / above;
-            const float back = made.bsdf->descriptor->evaluate(made.bsdf, point, b, a).x / fabsf(a.z) / below;
+                aur_bsdf_evaluate(made.bsdf, AUR_BSDF_WHOLE, point, a, b).x / fabsf(b.z) / above;
+            const float back =
+                aur_bsdf_evaluate(made.bsdf, AUR_BSDF_WHOLE, point, b, a).x / fabsf(a.z) / below;
             assert_near(there, back, 2e-3 * fabs((double)there) + 1e-6);
         }
         drop_material(&made);
@@ -158,7 +159,7 @@ static void conserves_energy(void **state) {
                 const float u[3] = {unit(v, 4, i), unit(v, 5, i), unit(v, 6, i)};
                 aur_bsdf_sample sample;
                 double weight = 0.0;
-                if (made.bsdf->descriptor->sample(made.bsdf, point, view, u, &sample))
+                if (aur_bsdf_draw(made.bsdf, AUR_BSDF_WHOLE, point, view, u, &sample))
                     weight =
                         (double)(sample.weight.x * (sample.ior_squared > 0.0f ? sample.ior_squared : 1.0f));
                 sum += weight;
@@ -180,7 +181,7 @@ static aur_vector lobe_value(const aur_bsdf *bsdf, aur_vector view, const aur_bs
     if (lobe->shape == AUR_LOBE_SHAPE_SPECULAR)
         return (aur_vector){0};
     if (lobe->shape == AUR_LOBE_SHAPE_SAMPLED)
-        return aur_bsdf_evaluate_sampled(bsdf, point, view, light);
+        return aur_bsdf_evaluate(bsdf, AUR_BSDF_SAMPLED_LOBES, point, view, light);
     const float cosine = aur_vector_dot(lobe->axis, light);
     const float power = cosine > 0.0f ? powf(cosine, lobe->exponent) : 0.0f;
     const float factor = aur_lobe_factor(lobe, fabsf(light.z));
@@ -208,15 +209,14 @@ static void lobes_are_the_material(void **state) {
         aur_vector view;
         for (size_t v = 0; v < VIEW_COUNT && view_at(made.bsdf, v, &view); ++v) {
             aur_bsdf_lobe lobes[AUR_BSDF_LOBE_CAPACITY];
-            const size_t count = made.bsdf->descriptor->lobes(made.bsdf, point, view, lobes);
+            const size_t count = aur_bsdf_lobes(made.bsdf, point, view, lobes);
             double diffuse = 0.0;
             bool coated = false;
             for (size_t k = 0; k < count; ++k) {
                 diffuse += lobes[k].diffuse ? diffuse_mass(&lobes[k]) * (double)lobes[k].coefficient.x : 0.0;
                 coated = coated || lobes[k].factor != NULL;
             }
-            assert_near(diffuse, made.bsdf->descriptor->diffuse_albedo(made.bsdf, point, view.z).x,
-                        coated ? 1e-3 : 1e-6);
+            assert_near(diffuse, aur_bsdf_diffuse_albedo(made.bsdf, point, view.z).x, coated ? 1e-3 : 1e-6);
             for (size_t i = 0; i < 300; ++i) {
                 const aur_vector light = aur_sample_sphere(unit(m, 1, i), unit(m, 2, i));
                 if (light.z * view.z <= 0.0f)
@@ -224,7 +224,7 @@ static void lobes_are_the_material(void **state) {
                 double sum = 0.0;
                 for (size_t k = 0; k < count; ++k)
                     sum += (double)lobe_value(made.bsdf, view, &lobes[k], light).x;
-                const double value = made.bsdf->descriptor->evaluate(made.bsdf, point, view, light).x;
+                const double value = aur_bsdf_evaluate(made.bsdf, AUR_BSDF_WHOLE, point, view, light).x;
                 assert_near(sum, value, 1e-4 * value + 1e-7);
             }
         }
@@ -254,8 +254,8 @@ static void lobes_are_the_same_at_every_point(void **state) {
         aur_parameters_release(&parameters);
         const aur_vector view = {0.0f, 0.6f, 0.8f};
         aur_bsdf_lobe black[AUR_BSDF_LOBE_CAPACITY], lit[AUR_BSDF_LOBE_CAPACITY];
-        assert_int_equal(bsdf->descriptor->lobes(bsdf, (aur_bsdf_point){0.0f, 0.0f}, view, black), 2);
-        assert_int_equal(bsdf->descriptor->lobes(bsdf, (aur_bsdf_point){0.7f, 0.2f}, view, lit), 2);
+        assert_int_equal(aur_bsdf_lobes(bsdf, (aur_bsdf_point){0.0f, 0.0f}, view, black), 2);
+        assert_int_equal(aur_bsdf_lobes(bsdf, (aur_bsdf_point){0.7f, 0.2f}, view, lit), 2);
         for (size_t i = 0; i < 2; ++i) {
             assert_int_equal(black[i].shape, lit[i].shape);
             assert_int_equal(black[i].diffuse, lit[i].diffuse);
@@ -275,7 +275,7 @@ static void masks_in_masks_let_all_light_through(void **state) {
     for (size_t n = 1; n < 6; ++n) {
         made[n] = make_bsdf("mask:opacity=0.5", made[n - 1]);
         aur_bsdf_lobe lobes[AUR_BSDF_LOBE_CAPACITY];
-        const size_t count = made[n]->descriptor->lobes(made[n], point, view, lobes);
+        const size_t count = aur_bsdf_lobes(made[n], point, view, lobes);
         float through = 0.0f;
         for (size_t i = 0; i < count; ++i)
             through += lobes[i].shape == AUR_LOBE_SHAPE_SPECULAR ? lobes[i].coefficient.x : 0.0f;
@@ -295,11 +295,11 @@ static void sampled_lobes_are_drawn_alone(void **state) {
         aur_vector view;
         for (size_t v = 0; v < VIEW_COUNT && view_at(made.bsdf, v, &view); ++v) {
             aur_bsdf_lobe lobes[AUR_BSDF_LOBE_CAPACITY];
-            const size_t count = made.bsdf->descriptor->lobes(made.bsdf, point, view, lobes);
+            const size_t count = aur_bsdf_lobes(made.bsdf, point, view, lobes);
             bool sampled = false;
             for (size_t k = 0; k < count; ++k)
                 sampled = sampled || lobes[k].shape == AUR_LOBE_SHAPE_SAMPLED;
-            if (!sampled || made.bsdf->descriptor->sampled == NULL)
+            if (!sampled)
                 continue;
             ++found;
             enum { DRAWS = 20000 };
@@ -307,10 +307,11 @@ static void sampled_lobes_are_drawn_alone(void **state) {
             for (size_t i = 0; i < DRAWS; ++i) {
                 const float u[3] = {unit(v, 7, i), unit(v, 8, i), unit(v, 9, i)};
                 aur_bsdf_sample sample;
-                if (!aur_bsdf_sample_sampled(made.bsdf, point, view, u, &sample))
+                if (!aur_bsdf_draw(made.bsdf, AUR_BSDF_SAMPLED_LOBES, point, view, u, &sample))
                     continue;
-                const double value = aur_bsdf_evaluate_sampled(made.bsdf, point, view, sample.light).x /
-                                     (double)aur_bsdf_pdf_sampled(made.bsdf, point, view, sample.light);
+                const double value =
+                    aur_bsdf_evaluate(made.bsdf, AUR_BSDF_SAMPLED_LOBES, point, view, sample.light).x /
+                    (double)aur_bsdf_pdf(made.bsdf, AUR_BSDF_SAMPLED_LOBES, point, view, sample.light);
                 assert_near(value, sample.weight.x, 2e-3 * value + 1e-6);
                 sum += (double)sample.weight.x;
                 squares += (double)(sample.weight.x * sample.weight.x);
@@ -322,7 +323,8 @@ static void sampled_lobes_are_drawn_alone(void **state) {
             for (size_t i = 0; i < (size_t)SIDE * SIDE; ++i) {
                 const float z = 2.0f * ((float)(i / SIDE) + 0.5f) / SIDE - 1.0f;
                 const aur_vector light = aur_direction_at(z, ((float)(i % SIDE) + 0.5f) / SIDE);
-                integral += (double)aur_bsdf_evaluate_sampled(made.bsdf, point, view, light).x;
+                integral +=
+                    (double)aur_bsdf_evaluate(made.bsdf, AUR_BSDF_SAMPLED_LOBES, point, view, light).x;
             }
             integral *= 4.0 * AUR_PI / ((double)SIDE * SIDE);
             assert_near(mean, integral, 5.0 * sigma + 0.01 * integral + 1e-6);
@@ -350,7 +352,7 @@ static void lobe_reflectance_is_its_parameter(void **state) {
         for (size_t i = 0; i < (size_t)SIDE * SIDE; ++i) {
             const float u[3] = {0.5f, ((float)(i / SIDE) + 0.5f) / SIDE, ((float)(i % SIDE) + 0.5f) / SIDE};
             aur_bsdf_sample sample;
-            if (made.bsdf->descriptor->sample(made.bsdf, point, view, u, &sample))
+            if (aur_bsdf_draw(made.bsdf, AUR_BSDF_WHOLE, point, view, u, &sample))
                 sum += (double)sample.weight.x;
         }
         assert_near(sum / ((double)SIDE * SIDE), views[v].expected, views[v].tolerance);

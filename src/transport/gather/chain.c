@@ -12,17 +12,10 @@ typedef struct met_surface {
 } met_surface;
 
 static met_surface meet(const aur_shading *shading) {
-    aur_bsdf_lobe lobes[AUR_BSDF_LOBE_CAPACITY];
-    const aur_surface *const surface = shading->surface;
-    const size_t count =
-        surface->bsdf->descriptor->lobes(surface->bsdf, surface->texture, shading->view, lobes);
-    met_surface met = {0};
-    for (size_t i = 0; i < count; ++i) {
-        met.mirrors = met.mirrors || lobes[i].shape == AUR_LOBE_SHAPE_SPECULAR;
-        met.sampled = met.sampled || lobes[i].shape == AUR_LOBE_SHAPE_SAMPLED;
-        met.scatters = met.scatters || lobes[i].shape == AUR_LOBE_SHAPE_COSINE_POWER;
-    }
-    return met;
+    const unsigned kinds = aur_bsdf_scatters(shading->surface->bsdf, shading->view.z);
+    return (met_surface){.scatters = (kinds & (AUR_SCATTERS_DIFFUSE | AUR_SCATTERS_GLOSSY)) != 0,
+                         .mirrors = (kinds & AUR_SCATTERS_SPECULAR) != 0,
+                         .sampled = (kinds & AUR_SCATTERS_SAMPLED) != 0};
 }
 
 /* A draw of the lobes that the photon map does not answer for; light in world coordinates. */
@@ -31,7 +24,7 @@ static bool draw_onward(const aur_shading *shading, met_surface met, const float
     const aur_surface *const surface = shading->surface;
     const aur_bsdf *const bsdf = surface->bsdf;
     if (!met.mirrors) {
-        if (!aur_bsdf_sample_sampled(bsdf, surface->texture, shading->view, u, drawn))
+        if (!aur_bsdf_draw(bsdf, AUR_BSDF_SAMPLED_LOBES, surface->texture, shading->view, u, drawn))
             return false;
         const float side = drawn->light.z;
         drawn->light = aur_frame_to_world(&surface->frame, drawn->light);
@@ -42,7 +35,8 @@ static bool draw_onward(const aur_shading *shading, met_surface met, const float
     if (drawn->specular || !met.sampled)
         return drawn->specular;
     const aur_vector light = aur_frame_to_local(&surface->frame, drawn->light);
-    const aur_vector value = aur_bsdf_evaluate_sampled(bsdf, surface->texture, shading->view, light);
+    const aur_vector value =
+        aur_bsdf_evaluate(bsdf, AUR_BSDF_SAMPLED_LOBES, surface->texture, shading->view, light);
     drawn->weight = aur_vector_scale(value, 1.0f / drawn->pdf);
     return drawn->pdf > 0.0f;
 }
@@ -142,11 +136,12 @@ static aur_vector sampled_light(const aur_final_gather *data, const aur_shading 
     if (aur_vector_dot(surface->geometric_normal, light.direction) * local.z <= 0.0f)
         return black;
     const aur_bsdf *const bsdf = surface->bsdf;
-    const aur_vector value = aur_bsdf_evaluate_sampled(bsdf, surface->texture, shading->view, local);
+    const aur_vector value =
+        aur_bsdf_evaluate(bsdf, AUR_BSDF_SAMPLED_LOBES, surface->texture, shading->view, local);
     if (aur_vector_is_zero(value))
         return black;
-    const float rival = met.mirrors ? bsdf->descriptor->pdf(bsdf, surface->texture, shading->view, local)
-                                    : aur_bsdf_pdf_sampled(bsdf, surface->texture, shading->view, local);
+    const aur_bsdf_part part = met.mirrors ? AUR_BSDF_WHOLE : AUR_BSDF_SAMPLED_LOBES;
+    const float rival = aur_bsdf_pdf(bsdf, part, surface->texture, shading->view, local);
     const float weight = light.delta ? 1.0f : aur_power_heuristic(light.pdf, rival);
     const aur_vector radiance =
         aur_vector_scale(aur_vector_multiply(value, light.radiance), weight / light.pdf);

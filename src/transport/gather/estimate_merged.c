@@ -141,8 +141,7 @@ static bool is_diffuse(const aur_final_gather *data, const aur_gather_place *p, 
     size_t gathered = 0;
     bool diffuse = false;
     for (size_t i = 0; i < p->lobe_count; ++i) {
-        if (!aur_group_gathers(data, &p->lobes[i]) ||
-            (p->lobes[i].shape == AUR_LOBE_SHAPE_COSINE_POWER && aur_vector_is_zero(p->lobes[i].coefficient)))
+        if (!aur_group_gathers(data, &p->lobes[i]) || !aur_is_there(p, &p->lobes[i]))
             continue;
         ++gathered;
         diffuse = p->lobes[i].shape == AUR_LOBE_SHAPE_COSINE_POWER && p->lobes[i].diffuse &&

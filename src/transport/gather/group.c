@@ -32,10 +32,7 @@ void aur_group_destroy(aur_group *group) {
 }
 
 static bool has_specular(const aur_gather_place *p) {
-    for (size_t i = 0; i < p->lobe_count; ++i)
-        if (p->lobes[i].shape == AUR_LOBE_SHAPE_SPECULAR)
-            return true;
-    return false;
+    return (aur_bsdf_scatters(p->surface.bsdf, p->view.z) & AUR_SCATTERS_SPECULAR) != 0;
 }
 
 static void set_place(const aur_scene *scene, const aur_ray *ray, const aur_hit *hit, aur_gather_place *p) {
@@ -44,8 +41,7 @@ static void set_place(const aur_scene *scene, const aur_ray *ray, const aur_hit 
     p->side = aur_vector_dot(p->surface.geometric_normal, view) < 0.0f ? -1.0f : 1.0f;
     p->view = aur_frame_to_local(&p->surface.frame, view);
     p->origin = aur_surface_ray(&p->surface, aur_vector_scale(p->surface.geometric_normal, p->side)).origin;
-    p->lobe_count =
-        p->surface.bsdf->descriptor->lobes(p->surface.bsdf, p->surface.texture, p->view, p->lobes);
+    p->lobe_count = aur_bsdf_lobes(p->surface.bsdf, p->surface.texture, p->view, p->lobes);
 }
 
 /* Whether a packet from these places is coherent: from normals and positions, never from timing. */

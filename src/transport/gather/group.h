@@ -16,6 +16,13 @@ typedef struct aur_gather_place {
     aur_bsdf_lobe lobes[AUR_BSDF_LOBE_CAPACITY];
 } aur_gather_place;
 
+/* Whether a place has that one of its material's lobes. */
+static inline bool aur_is_there(const aur_gather_place *p, const aur_bsdf_lobe *lobe) {
+    return lobe->shape == AUR_LOBE_SHAPE_SAMPLED
+               ? (aur_bsdf_scatters(p->surface.bsdf, p->view.z) & AUR_SCATTERS_SAMPLED) != 0
+               : !aur_vector_is_zero(lobe->coefficient);
+}
+
 struct aur_group {
     const aur_group_task *task;
     aur_counters *counters;

@@ -12,18 +12,22 @@ aur_vector aur_group_weighted_value(const aur_final_gather *data, const aur_gath
     const aur_gather_pair *const pair = aur_group_pair(data, p, merged);
     for (size_t i = 0; i < p->lobe_count; ++i) {
         const aur_bsdf_lobe *const lobe = &p->lobes[i];
+        if (aur_vector_is_zero(lobe->coefficient))
+            continue;
         aur_vector value = {0};
         float density = 0.0f;
         if (lobe->shape == AUR_LOBE_SHAPE_SAMPLED) {
-            value = aur_bsdf_evaluate_sampled(p->surface.bsdf, p->surface.texture, p->view, local);
-            density = aur_bsdf_pdf_sampled(p->surface.bsdf, p->surface.texture, p->view, local) *
-                      aur_final_gather_share(data, &data->visible);
+            value = aur_bsdf_evaluate(p->surface.bsdf, AUR_BSDF_SAMPLED_LOBES, p->surface.texture, p->view,
+                                      local);
+            density =
+                aur_bsdf_pdf(p->surface.bsdf, AUR_BSDF_SAMPLED_LOBES, p->surface.texture, p->view, local) *
+                aur_final_gather_share(data, &data->visible);
         } else if (lobe->shape == AUR_LOBE_SHAPE_COSINE_POWER && p->view.z * local.z > 0.0f) {
             value = aur_lobe_value(lobe, local);
             const aur_gather_rule *const rule = aur_final_gather_rule(data, lobe);
             if (pair != NULL)
                 density = aur_group_pair_density(pair, p, merged, local);
-            else if (rule != NULL && !aur_vector_is_zero(value))
+            else if (!aur_vector_is_zero(value))
                 density = aur_gather_density(rule, aur_vector_dot(lobe->axis, local)) *
                           aur_final_gather_share(data, rule);
         }

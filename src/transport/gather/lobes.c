@@ -254,7 +254,7 @@ static void gather_rule(aur_group *group, const aur_gather_rule *rule, size_t lo
 static bool aim_sampled(aur_group *group, size_t lane, const float u[3], float share, aur_vector *value) {
     const aur_gather_place *const p = &group->places[lane];
     aur_bsdf_sample drawn;
-    if (!aur_bsdf_sample_sampled(p->surface.bsdf, p->surface.texture, p->view, u, &drawn) ||
+    if (!aur_bsdf_draw(p->surface.bsdf, AUR_BSDF_SAMPLED_LOBES, p->surface.texture, p->view, u, &drawn) ||
         !(drawn.pdf > 0.0f))
         return false;
     const aur_vector light = aur_frame_to_world(&p->surface.frame, drawn.light);
@@ -325,12 +325,12 @@ void aur_group_gather(aur_group *group) {
         for (uint32_t rest = lanes; rest != 0; rest &= rest - 1) {
             const size_t lane = aur_first_lane(rest);
             const aur_gather_place *const p = &group->places[lane];
-            if (lobe >= p->lobe_count || !aur_group_gathers(data, &p->lobes[lobe]))
+            if (lobe >= p->lobe_count || !aur_group_gathers(data, &p->lobes[lobe]) ||
+                !aur_is_there(p, &p->lobes[lobe]))
                 continue;
             if (p->lobes[lobe].shape == AUR_LOBE_SHAPE_SAMPLED)
                 sampled |= 1u << lane;
-            else if (!aur_vector_is_zero(p->lobes[lobe].coefficient) &&
-                     aur_final_gather_rule(data, &p->lobes[lobe]) != NULL)
+            else
                 ruled |= 1u << lane;
         }
         while (ruled != 0) {

@@ -95,7 +95,7 @@ typedef struct aur_final_gather {
 /* Renders a tile (tile.c): the integrator's `tile`. */
 aur_result aur_final_gather_tile(const aur_integrator *integrator, aur_tile *tile);
 
-/* The rule that serves a lobe, or NULL. */
+/* The rule that serves a lobe: every lobe with a formula of the scene has one. */
 const aur_gather_rule *aur_final_gather_rule(const aur_final_gather *data, const aur_bsdf_lobe *lobe);
 
 /* The levels of a rule; NULL unless gathering is adaptive. */

@@ -32,7 +32,7 @@ static void put(aur_vector v, float *values) {
 static void albedo(const aov_sample *sample, float *values) {
     const aur_surface *const surface = sample->surface;
     const float side = -aur_vector_dot(surface->frame.z, sample->ray->direction);
-    put(surface->bsdf->descriptor->diffuse_albedo(surface->bsdf, surface->texture, side), values);
+    put(aur_bsdf_diffuse_albedo(surface->bsdf, surface->texture, side), values);
 }
 
 static void depth(const aov_sample *sample, float *values) {

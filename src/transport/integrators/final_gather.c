@@ -242,29 +242,27 @@ static aur_result add_glossy_rule(aur_final_gather *data, const aur_gather_optio
     return result;
 }
 
-/* One rule for each exponent among the glossy lobes of the scene's surfaces. `shapes` gets a bit for each
- * shape that any of their lobes has. */
+/* One rule for each exponent among the glossy lobes of the scene's surfaces: every lobe with a formula has
+ * its rule, whatever textures do. `kinds` gets the kinds of all their lobes. */
 static aur_result prepare_glossy_rules(aur_final_gather *data, const aur_scene *scene, size_t count,
-                                       unsigned *shapes, aur_error *error) {
+                                       unsigned *kinds, aur_error *error) {
     const size_t surfaces = aur_scene_shape_count(scene);
     aur_gather_options options = data->options;
     options.count = count;
-    *shapes = 0;
-    data->glossy = calloc(2 * surfaces * AUR_BSDF_LOBE_CAPACITY + 1, sizeof *data->glossy);
+    *kinds = 0;
+    size_t most = 0;
+    for (size_t i = 0; i < surfaces; ++i)
+        most += aur_scene_shape_bsdf(scene, i)->lobe_count;
+    data->glossy = calloc(most + 1, sizeof *data->glossy);
     if (data->glossy == NULL)
         return aur_fail(error, AUR_ERROR_MEMORY, "out of memory");
-    for (uint32_t i = 0; i < surfaces; ++i) {
+    for (size_t i = 0; i < surfaces; ++i) {
         const aur_bsdf *const bsdf = aur_scene_shape_bsdf(scene, i);
-        aur_bsdf_lobe lobes[AUR_BSDF_LOBE_CAPACITY];
-        for (int side = 1; side >= -1; side -= 2) {
-            const aur_vector view = {0.0f, 0.0f, (float)side};
-            const size_t found = bsdf->descriptor->lobes(bsdf, (aur_bsdf_point){0}, view, lobes);
-            for (size_t k = 0; k < found; ++k) {
-                *shapes |= 1u << lobes[k].shape;
-                const aur_result result = add_glossy_rule(data, &options, &lobes[k], error);
-                if (result != AUR_OK)
-                    return result;
-            }
+        *kinds |= bsdf->scatters[0] | bsdf->scatters[1];
+        for (size_t k = 0; k < bsdf->lobe_count; ++k) {
+            const aur_result result = add_glossy_rule(data, &options, &bsdf->lobes[k], error);
+            if (result != AUR_OK)
+                return result;
         }
     }
     return AUR_OK;
@@ -432,10 +430,10 @@ static aur_result create(aur_parameters *parameters, const aur_integrator_contex
     if (result == AUR_OK)
         result = aur_gather_rule_create(&options, 1.0, &data->diffuse, error);
     data->options.warnings = (aur_warnings){0};
-    unsigned shapes = 0;
+    unsigned kinds = 0;
     if (result == AUR_OK)
-        result = prepare_glossy_rules(data, context->scene, glossy_count, &shapes, error);
-    if (result == AUR_OK && (shapes >> AUR_LOBE_SHAPE_SAMPLED & 1u) != 0) {
+        result = prepare_glossy_rules(data, context->scene, glossy_count, &kinds, error);
+    if (result == AUR_OK && (kinds & AUR_SCATTERS_SAMPLED) != 0) {
         options.set = p.pattern;
         options.count = data->glossy_samples;
         options.warnings = (aur_warnings){0};
@@ -448,7 +446,7 @@ static aur_result create(aur_parameters *parameters, const aur_integrator_contex
     data->options.set = NULL; /* what it named may be gone */
     /* Where gather rays go on from every surface, there is no use for photons. */
     const bool wants_photons = p.incident == AUR_INCIDENT_PHOTONS && data->max_depth >= 3 &&
-                               (shapes >> AUR_LOBE_SHAPE_COSINE_POWER & 1u) != 0;
+                               (kinds & (AUR_SCATTERS_DIFFUSE | AUR_SCATTERS_GLOSSY)) != 0;
     if (result == AUR_OK && wants_photons)
         result = prepare_maps(data, &p, context, error);
     if (result == AUR_OK)

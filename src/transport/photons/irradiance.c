@@ -141,25 +141,25 @@ void aur_irradiance_map_destroy(aur_irradiance_map *map) {
     free(map);
 }
 
-/* The glossy lobes with a formula, and where their powers are too small to matter. */
+/* The glossy lobes with a formula, and the cosines about their axes under which cos^exponent is less than
+ * 1e-6. */
 typedef struct glossy_lobes {
     size_t count;
     aur_bsdf_lobe lobes[AUR_BSDF_LOBE_CAPACITY];
-    float
-        least[AUR_BSDF_LOBE_CAPACITY]; /* cosine about the axis under which cos^exponent is less than 1e-6 */
+    float least[AUR_BSDF_LOBE_CAPACITY];
 } glossy_lobes;
 
-static glossy_lobes lobes_at(const aur_surface *surface, aur_vector view) {
-    aur_bsdf_lobe lobes[AUR_BSDF_LOBE_CAPACITY];
-    const size_t count = surface->bsdf->descriptor->lobes(surface->bsdf, surface->texture, view, lobes);
-    glossy_lobes all = {0};
+static void glossy_lobes_at(const aur_surface *surface, aur_vector view, glossy_lobes *all) {
+    const size_t count = aur_bsdf_lobes(surface->bsdf, surface->texture, view, all->lobes);
+    all->count = 0;
     for (size_t i = 0; i < count; ++i) {
-        if (lobes[i].diffuse || lobes[i].shape != AUR_LOBE_SHAPE_COSINE_POWER)
+        const aur_bsdf_lobe *const lobe = &all->lobes[i];
+        if (lobe->diffuse || lobe->shape != AUR_LOBE_SHAPE_COSINE_POWER ||
+            aur_vector_is_zero(lobe->coefficient))
             continue;
-        all.least[all.count] = expf(-13.8155f / fmaxf(lobes[i].exponent, 1e-3f));
-        all.lobes[all.count++] = lobes[i];
+        all->least[all->count] = expf(-13.8155f / fmaxf(lobe->exponent, 1e-3f));
+        all->lobes[all->count++] = *lobe;
     }
-    return all;
 }
 
 static aur_vector glossy_value(const glossy_lobes *all, aur_vector light) {
@@ -199,12 +199,12 @@ aur_vector aur_irradiance_radiance(const aur_irradiance_map *map, const aur_scen
     const size_t light_index = 2 * (size_t)texel + (behind ? 1 : 0);
     const aur_texel_light *const light = &map->lights[light_index];
     const aur_vector local_view = aur_frame_to_local(&surface->frame, view);
-    const aur_vector albedo =
-        surface->bsdf->descriptor->diffuse_albedo(surface->bsdf, surface->texture, local_view.z);
+    const aur_vector albedo = aur_bsdf_diffuse_albedo(surface->bsdf, surface->texture, local_view.z);
     const aur_vector diffuse =
         aur_vector_scale(aur_vector_multiply(albedo, light->irradiance), 1.0f / AUR_PI_F);
     if (map->member_first == NULL || map->member_first[light_index] == map->member_first[light_index + 1])
         return diffuse;
-    const glossy_lobes lobes = lobes_at(surface, local_view);
+    glossy_lobes lobes;
+    glossy_lobes_at(surface, local_view, &lobes);
     return aur_vector_add(diffuse, glossy_radiance(map, light_index, surface, &lobes));
 }

@@ -49,13 +49,8 @@ static bool store(photon_chunk *chunk, aur_photon photon) {
 /* What a surface reflects of photons: bit 0 diffusely, bit 1 by glossy lobes. Gather rays go on by the
  * others, and ask for no photons. */
 static unsigned reflecting_parts(const aur_surface *surface, aur_vector view) {
-    aur_bsdf_lobe lobes[AUR_BSDF_LOBE_CAPACITY];
-    const size_t count = surface->bsdf->descriptor->lobes(surface->bsdf, surface->texture, view, lobes);
-    unsigned parts = 0;
-    for (size_t i = 0; i < count; ++i)
-        if (lobes[i].shape == AUR_LOBE_SHAPE_COSINE_POWER)
-            parts |= lobes[i].diffuse ? 1u : 2u;
-    return parts;
+    const unsigned kinds = aur_bsdf_scatters(surface->bsdf, view.z);
+    return ((kinds & AUR_SCATTERS_DIFFUSE) != 0 ? 1u : 0u) | ((kinds & AUR_SCATTERS_GLOSSY) != 0 ? 2u : 0u);
 }
 
 /* Particles are scattered by the adjoint BSDF: light that arrives from `in` and leaves to `out`, where the

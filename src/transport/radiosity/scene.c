@@ -33,29 +33,8 @@ void aur_radiosity_scene_release(aur_radiosity_scene *scene) {
 
 /* --- materials */
 
-/* What a side of a shape's material is made of. */
-typedef struct parts {
-    bool diffuse, specular, glossy;
-} parts;
-
-static parts parts_of(const aur_bsdf *bsdf, float side) {
-    aur_bsdf_lobe lobes[AUR_BSDF_LOBE_CAPACITY];
-    const size_t count =
-        bsdf->descriptor->lobes(bsdf, (aur_bsdf_point){0.5f, 0.5f}, (aur_vector){0.0f, 0.0f, side}, lobes);
-    parts found = {0};
-    for (size_t i = 0; i < count; ++i) {
-        if (lobes[i].diffuse)
-            found.diffuse = true;
-        else if (lobes[i].shape == AUR_LOBE_SHAPE_SPECULAR)
-            found.specular = true;
-        else
-            found.glossy = true;
-    }
-    return found;
-}
-
-static bool is_mirror(parts found) {
-    return found.specular && !found.diffuse && !found.glossy;
+static bool is_mirror(const aur_bsdf *bsdf) {
+    return bsdf->scatters[0] == AUR_SCATTERS_SPECULAR || bsdf->scatters[1] == AUR_SCATTERS_SPECULAR;
 }
 
 static aur_bsdf_point texture_at(const aur_triangle *triangle, float u, float v) {
@@ -76,12 +55,12 @@ static void mean_point(size_t i, float *u, float *v) {
 
 static aur_vector mean_albedo(const aur_bsdf *bsdf, const aur_triangle *triangle, float side) {
     if (!bsdf->textured)
-        return bsdf->descriptor->diffuse_albedo(bsdf, texture_at(triangle, 0.3f, 0.3f), side);
+        return aur_bsdf_diffuse_albedo(bsdf, texture_at(triangle, 0.3f, 0.3f), side);
     aur_vector sum = {0};
     for (size_t i = 0; i < MEAN_POINTS; ++i) {
         float u, v;
         mean_point(i, &u, &v);
-        sum = aur_vector_add(sum, bsdf->descriptor->diffuse_albedo(bsdf, texture_at(triangle, u, v), side));
+        sum = aur_vector_add(sum, aur_bsdf_diffuse_albedo(bsdf, texture_at(triangle, u, v), side));
     }
     return aur_vector_scale(sum, 1.0f / MEAN_POINTS);
 }
@@ -143,8 +122,7 @@ static uint64_t hash_vector(uint64_t hash, aur_vector v) {
 static aur_result add_shape(const aur_scene *scene, size_t shape, uint64_t variant, aur_radiosity_scene *made,
                             size_t *next, aur_error *error) {
     const aur_bsdf *const bsdf = aur_scene_shape_bsdf(scene, shape);
-    const bool mirror =
-        is_mirror(parts_of(bsdf, 1.0f)) || (bsdf->scatters_from_behind && is_mirror(parts_of(bsdf, -1.0f)));
+    const bool mirror = is_mirror(bsdf);
     const size_t count = aur_scene_shape_triangles(scene, shape);
     made->first[shape] = (uint32_t)*next;
     for (size_t i = 0; i < count; ++i, ++*next) {
@@ -197,8 +175,8 @@ static void warn_about(const aur_scene *scene, size_t shape, const aur_radiosity
                        const aur_warnings *warnings) {
     const aur_location location = aur_scene_shape_location(scene, shape);
     const aur_bsdf *const bsdf = aur_scene_shape_bsdf(scene, shape);
-    const parts found = parts_of(bsdf, 1.0f);
-    if (found.glossy || (found.specular && found.diffuse))
+    const unsigned kinds = bsdf->scatters[0];
+    if (kinds != AUR_SCATTERS_SPECULAR && (kinds & ~(unsigned)AUR_SCATTERS_DIFFUSE) != 0)
         aur_warn_at(warnings, location,
                     "radiosity: only the diffuse part of the material '%s' is taken into account",
                     bsdf->descriptor->name);
@@ -268,7 +246,7 @@ aur_vector aur_radiosity_albedo(const aur_radiosity_scene *scene, uint32_t trian
         return t->albedo[front ? 0 : 1];
     aur_surface surface;
     aur_scene_surface(scene->scene, ray, hit, &surface);
-    return surface.bsdf->descriptor->diffuse_albedo(surface.bsdf, surface.texture, front ? 1.0f : -1.0f);
+    return aur_bsdf_diffuse_albedo(surface.bsdf, surface.texture, front ? 1.0f : -1.0f);
 }
 
 aur_vector aur_radiosity_emitted(const aur_radiosity_scene *scene, uint32_t triangle, float u, float v) {
