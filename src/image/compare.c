@@ -83,22 +83,6 @@ const char *aur_image_metric_name(aur_image_metric which) {
     return (size_t)which < AUR_IMAGE_METRIC_COUNT ? metrics[which].name : NULL;
 }
 
-static aur_result check_finite(const char *what, const aur_image *image, const size_t channels[3],
-                               aur_error *error) {
-    for (size_t i = 0; i < image->width * image->height; ++i) {
-        for (size_t c = 0; c < 3; ++c) {
-            const float value = image->data[i * image->channel_count + channels[c]];
-            if (!isfinite(value))
-                return aur_fail(error, AUR_ERROR_ARGUMENT,
-                                "%s has the value %g at column %zu of row %zu, channel %s: "
-                                "only finite values can be compared",
-                                what, (double)value, i % image->width, i / image->width,
-                                image->channel_names[channels[c]]);
-        }
-    }
-    return AUR_OK;
-}
-
 /* Sums a row before it is added to the whole, so that rounding stays small in large pictures. */
 static void mean_of_channel(const aur_image *image, size_t channel, double *mean) {
     double sum = 0.0;
@@ -121,25 +105,9 @@ aur_result aur_image_mean(const aur_image *image, double mean[4], aur_error *err
     size_t channels[3];
     aur_result result = aur_image_require_color("the picture", image, channels, error);
     if (result == AUR_OK)
-        result = check_finite("the picture", image, channels, error);
+        result = aur_image_check_finite("the picture", image, channels, error);
     if (result == AUR_OK)
         mean_of_colors(image, channels, mean);
-    return result;
-}
-
-aur_result aur_image_check_pair(const aur_image *reference, const aur_image *image, aur_color_pair *pair,
-                                aur_error *error) {
-    if (reference->width != image->width || reference->height != image->height)
-        return aur_fail(error, AUR_ERROR_ARGUMENT,
-                        "the sizes differ: the reference has %zu x %zu pixels, the picture %zu x %zu",
-                        reference->width, reference->height, image->width, image->height);
-    aur_result result = aur_image_require_color("the reference", reference, pair->reference, error);
-    if (result == AUR_OK)
-        result = aur_image_require_color("the picture", image, pair->image, error);
-    if (result == AUR_OK)
-        result = check_finite("the reference", reference, pair->reference, error);
-    if (result == AUR_OK)
-        result = check_finite("the picture", image, pair->image, error);
     return result;
 }
 

@@ -107,15 +107,6 @@ static aur_result read_jpeg(const aur_image_source *source, aur_image **image, a
     return read_ldr(source, "JPEG", block_pixels * bits, image, error);
 }
 
-void aur_image_put_bytes(void *stream, void *bytes, int count) {
-    fwrite(bytes, 1, (size_t)count, stream);
-}
-
-aur_result aur_image_fail_encode(const aur_image_target *target, aur_error *error) {
-    return aur_fail_at(error, (aur_location){.file = target->name}, AUR_ERROR_MEMORY,
-                       "cannot encode the picture: out of memory");
-}
-
 static aur_result write_png(const aur_image_target *target, const aur_image *image, aur_error *error) {
     size_t channels[3];
     aur_result result = aur_image_require_color(target->name, image, channels, error);

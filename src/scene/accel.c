@@ -124,7 +124,7 @@ static aur_embree_scene new_scene(const aur_scene *scene) {
     return made;
 }
 
-static bool build_group(aur_scene *scene, aur_group *group) {
+static bool build_group(aur_scene *scene, aur_shape_group *group) {
     group->accel = new_scene(scene);
     for (size_t i = 0; group->accel != NULL && i < group->count; ++i)
         if (!attach(scene, group->accel, group->shapes[i]))

@@ -37,7 +37,7 @@ static void number_all(const aur_scene *scene, aur_elements *elements) {
         place(scene, elements, (uint32_t)i, AUR_NO_INSTANCE);
     }
     for (size_t i = 0; i < scene->instance_count; ++i) {
-        const aur_group *const group = scene->instances[i]->group;
+        const aur_shape_group *const group = scene->instances[i]->group;
         elements->instance_first[i] = (uint32_t)elements->count;
         for (size_t k = 0; k < group->count; ++k) {
             elements->shape_first[group->shapes[k]] = (uint32_t)elements->count - elements->instance_first[i];

@@ -1,4 +1,4 @@
-/* Lights. One plugin a file (emitter_*.c), with one line in the table of emitter.c. */
+/* Lights. One a file of lights, with one line in its table.c. */
 #ifndef AUR_SCENE_EMITTER_H
 #define AUR_SCENE_EMITTER_H
 

@@ -7,21 +7,21 @@
 #include "scene/filter.h"
 #include "scene/sensor.h"
 #include "scene/shape.h"
-#include "scene/xml.h"
+#include "scene/xml/xml.h"
 
 typedef struct RTCDeviceTy *aur_embree_device;
 typedef struct RTCSceneTy *aur_embree_scene;
 
 /* Shapes that are drawn by their instances only. */
-typedef struct aur_group {
+typedef struct aur_shape_group {
     size_t count;
     uint32_t *shapes;
     aur_embree_scene accel;
-} aur_group;
+} aur_shape_group;
 
 typedef struct aur_instance {
     aur_location location;
-    const aur_group *group;
+    const aur_shape_group *group;
     aur_transform to_world, to_local;
 } aur_instance;
 
@@ -34,7 +34,7 @@ struct aur_scene {
     size_t shape_count, shape_capacity;
     aur_shape **shapes;
     size_t group_count, group_capacity;
-    aur_group **groups;
+    aur_shape_group **groups;
     size_t instance_count, instance_capacity;
     aur_instance **instances;
     size_t emitter_count, emitter_capacity;

@@ -1,4 +1,4 @@
-/* Cameras. One plugin a file (sensor_*.c), with one line in the table of sensor.c. */
+/* Cameras. One a file of sensors, with one line in its table.c. */
 #ifndef AUR_SCENE_SENSOR_H
 #define AUR_SCENE_SENSOR_H
 

@@ -1,11 +1,11 @@
-/* Shapes. One plugin a file (shape_*.c), with one line in the table of shape.c. */
+/* Shapes. One a file of shapes, with one line in its table.c. */
 #ifndef AUR_SCENE_SHAPE_H
 #define AUR_SCENE_SHAPE_H
 
 #include "scene/distribution.h"
 #include "scene/mesh.h"
 #include "scene/scene.h"
-#include "scene/xml.h"
+#include "scene/xml/xml.h"
 
 typedef struct aur_shape_descriptor aur_shape_descriptor;
 

@@ -18,7 +18,10 @@ film
 sampling
 quality
 quadrature
+scene/load
+scene/shapes scene/lights scene/sensors
 scene
+scene/xml
 material
 sphere/directions
 sphere/sets sphere/nearest

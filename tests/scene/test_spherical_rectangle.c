@@ -1,6 +1,6 @@
 #include "check.h"
 
-#include "scene/spherical_rectangle.h"
+#include "scene/lights/spherical_rectangle.h"
 
 enum { GRID = 400 };
 static const float LEAST = 0.15f; /* steradians */

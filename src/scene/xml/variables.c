@@ -1,4 +1,4 @@
-#include "scene/xml_variables.h"
+#include "scene/xml/variables.h"
 
 #include <ctype.h>
 #include <stdlib.h>

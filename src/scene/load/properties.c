@@ -1,4 +1,4 @@
-#include "scene/properties.h"
+#include "scene/load/properties.h"
 
 #include <stdio.h>
 #include <string.h>

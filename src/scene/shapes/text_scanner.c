@@ -1,4 +1,4 @@
-#include "scene/text_scanner.h"
+#include "scene/shapes/text_scanner.h"
 
 #include <string.h>
 

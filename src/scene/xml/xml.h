@@ -10,7 +10,7 @@
 #include <aureole/scene.h>
 
 #include "core/error.h"
-#include "scene/arena.h"
+#include "scene/xml/arena.h"
 
 #include <stdbool.h>
 

@@ -1,4 +1,4 @@
-#include "scene/arena.h"
+#include "scene/xml/arena.h"
 
 #include <stdalign.h>
 #include <stdint.h>

@@ -6,7 +6,7 @@
 #include <sys/stat.h>
 
 #include "core/file.h"
-#include "scene/xml.h"
+#include "scene/xml/xml.h"
 
 /* folder + name, or NULL when that is no file or memory is out. `folder` ends at its last slash. */
 static char *join(const char *folder, size_t folder_length, const char *name) {

@@ -1,7 +1,8 @@
-#include "scene/emitter.h"
-
+/* Every light by name. One new light is one new file and one line here. */
 #include <stdlib.h>
 #include <string.h>
+
+#include "scene/emitter.h"
 
 extern const aur_emitter_descriptor aur_emitter_area;
 extern const aur_emitter_descriptor aur_emitter_point;

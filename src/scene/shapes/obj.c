@@ -4,7 +4,7 @@
 
 #include "core/file.h"
 #include "scene/shape.h"
-#include "scene/text_scanner.h"
+#include "scene/shapes/text_scanner.h"
 
 #define LARGEST_FILE ((size_t)1 << 35)
 

@@ -4,8 +4,8 @@
 #include "material/sampling.h"
 #include "scene/distribution.h"
 #include "scene/emitter.h"
+#include "scene/lights/spherical_rectangle.h"
 #include "scene/scene_data.h"
-#include "scene/spherical_rectangle.h"
 
 static aur_result create(aur_parameters *parameters, aur_emitter *emitter, aur_error *error) {
     emitter->radiance.constant = (aur_vector){1.0f, 1.0f, 1.0f};

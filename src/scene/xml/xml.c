@@ -1,4 +1,4 @@
-#include "scene/xml.h"
+#include "scene/xml/xml.h"
 
 #include <ctype.h>
 #include <expat.h>
@@ -8,7 +8,7 @@
 
 #include "core/file.h"
 #include "core/text.h"
-#include "scene/xml_variables.h"
+#include "scene/xml/variables.h"
 
 /* A few kilobytes of includes or <default>s that double each other must not become an endless scene, so that
  * files, their bytes and what $names become have a limit. */

@@ -3,7 +3,7 @@
 #define AUR_SCENE_PROPERTIES_H
 
 #include "core/parameters.h"
-#include "scene/xml.h"
+#include "scene/xml/xml.h"
 
 /* Whether a tag is a property's. */
 bool aur_xml_is_property(const char *tag);

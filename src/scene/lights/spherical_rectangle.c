@@ -1,5 +1,5 @@
 #include "core/simd.h"
-#include "scene/spherical_rectangle_body.h"
+#include "scene/lights/spherical_rectangle_body.h"
 
 bool aur_spherical_rectangle_create(const aur_rectangle *rectangle, aur_vector reference, float least,
                                     aur_spherical_rectangle *seen) {

@@ -5,7 +5,7 @@
 #define AUR_SCENE_SPHERICAL_RECTANGLE_BODY_H
 
 #include "core/simd.h"
-#include "scene/spherical_rectangle.h"
+#include "scene/lights/spherical_rectangle.h"
 
 /* Limits to [0, 1] a number that only rounding took out of it; comparisons would become branches. */
 static inline float rectangle_part(float x) {

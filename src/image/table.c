@@ -1,0 +1,94 @@
+/* Every format of pictures: by content when reading, by name when writing. */
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+#include <strings.h>
+
+#include "core/file.h"
+#include "image/format.h"
+
+/* One new format is one new file and one line here. */
+static const aur_image_format *const formats[] = {
+    &aur_image_format_exr, &aur_image_format_pfm,  &aur_image_format_hdr,
+    &aur_image_format_png, &aur_image_format_jpeg,
+};
+
+enum { FORMAT_COUNT = sizeof formats / sizeof formats[0] };
+
+static const aur_image_format *recognize(const aur_image_source *source) {
+    for (size_t i = 0; i < FORMAT_COUNT; ++i)
+        if (formats[i]->recognize(source))
+            return formats[i];
+    return NULL;
+}
+
+const char *aur_image_format_of(size_t size, const void *data) {
+    const aur_image_format *const format = recognize(&(aur_image_source){.size = size, .data = data});
+    return format != NULL ? format->name : NULL;
+}
+
+aur_result aur_image_read_memory(const char *name, size_t size, const void *data, aur_image **image,
+                                 aur_error *error) {
+    *image = NULL;
+    const aur_image_source source = {.name = name, .size = size, .data = data};
+    const aur_image_format *const format = recognize(&source);
+    if (format == NULL)
+        return aur_fail_at(error, (aur_location){.file = name}, AUR_ERROR_FORMAT,
+                           size == 0 ? "is empty, not a picture"
+                                     : "is not a picture that can be read: EXR, PFM, HDR, PNG or JPEG");
+    return format->read(&source, image, error);
+}
+
+aur_result aur_image_read(const char *path, aur_image **image, aur_error *error) {
+    *image = NULL;
+    const size_t limit = (size_t)1 << 34;
+    char *data;
+    size_t size;
+    aur_result result = aur_file_read(path, limit, &data, &size, error);
+    if (result != AUR_OK)
+        return result;
+    result = aur_image_read_memory(path, size, data, image, error);
+    free(data);
+    return result;
+}
+
+/* The format to write, or NULL after an error. */
+static const aur_image_format *find_writer(const char *path, const char *wanted, aur_error *error) {
+    const char *extension = wanted;
+    if (extension == NULL) {
+        const char *const slash = strrchr(path, '/');
+        const char *const dot = strrchr(slash != NULL ? slash : path, '.');
+        extension = strcmp(path, "-") == 0 ? "exr" : dot != NULL ? dot + 1 : "";
+    }
+    for (size_t i = 0; i < FORMAT_COUNT; ++i)
+        if (formats[i]->write != NULL && strcasecmp(extension, formats[i]->extension) == 0)
+            return formats[i];
+    aur_fail_at(error, (aur_location){.file = path}, AUR_ERROR_NAME,
+                "cannot tell how to write a picture from '%s': use exr, pfm, hdr or png", extension);
+    return NULL;
+}
+
+aur_result aur_image_write(const char *path, const aur_image *image, const aur_image_write_options *options,
+                           aur_error *error) {
+    static const aur_image_write_options defaults = {0};
+    if (options == NULL)
+        options = &defaults;
+    if (!isfinite(options->exposure) || (size_t)options->tone >= AUR_TONE_COUNT)
+        return aur_fail_at(error, (aur_location){.file = path}, AUR_ERROR_ARGUMENT,
+                           "cannot write a picture with exposure %g and tone curve %d",
+                           (double)options->exposure, (int)options->tone);
+    const aur_image_format *const format = find_writer(path, options->format, error);
+    if (format == NULL)
+        return AUR_ERROR_NAME;
+    aur_file_writer writer;
+    aur_result result = aur_file_open(path, &writer, error);
+    if (result != AUR_OK)
+        return result;
+    result = format->write(&(aur_image_target){.name = path, .stream = writer.stream, .options = *options},
+                           image, error);
+    if (result != AUR_OK) {
+        aur_file_abandon(&writer);
+        return result;
+    }
+    return aur_file_commit(&writer, error);
+}

@@ -1,0 +1,148 @@
+/* Shapes, groups of them and the groups' instances. */
+#include <stdlib.h>
+#include <string.h>
+
+#include "scene/load/loader.h"
+#include "scene/load/properties.h"
+
+/* Its objects, too, are no aur_shape. */
+static const char *const instance_plugin = "instance";
+
+/* What a shape without a bsdf is made of: grey, or black when it is a light. */
+static aur_result default_bsdf(aur_loader *self, bool light, const aur_bsdf **bsdf) {
+    const aur_bsdf **const known = light ? &self->black_bsdf : &self->default_bsdf;
+    *bsdf = *known;
+    if (*known != NULL)
+        return AUR_OK;
+    aur_parameters parameters;
+    aur_result result = aur_parameters_init(&parameters, "bsdf", "diffuse", (aur_location){0}, self->error);
+    if (result != AUR_OK)
+        return result;
+    void *object = NULL;
+    result = aur_parameters_add_text(&parameters, AUR_PARAMETER_FLOAT, "reflectance", light ? "0" : "0.5",
+                                     (aur_location){0}, self->error);
+    if (result == AUR_OK)
+        result = aur_build_bsdf(self, NULL, &parameters, &object);
+    *bsdf = *known = object;
+    aur_parameters_release(&parameters);
+    return result;
+}
+
+static aur_result add_to_group(aur_loader *self, aur_shape_group *group, const aur_xml_node *child,
+                               const aur_xml_node *target) {
+    const char *const plugin = aur_xml_attribute_value(target, "type");
+    aur_shape *const shape = target->object;
+    if (strcmp(plugin, AUR_GROUP_PLUGIN) == 0 || strcmp(plugin, instance_plugin) == 0 || shape->grouped)
+        return aur_fail_at(self->error, child->location, AUR_ERROR_FORMAT,
+                           "a shapegroup takes shapes of its own, no instances or other groups");
+    if (shape->emitter != AUR_NO_EMITTER)
+        return aur_fail_at(self->error, child->location, AUR_ERROR_UNSUPPORTED,
+                           "a shape in a shapegroup cannot be a light");
+    shape->grouped = true;
+    group->shapes[group->count++] = shape->index;
+    return AUR_OK;
+}
+
+/* <shape type="shapegroup">: its shapes leave the scene and are seen through instances only. */
+static aur_result build_group(aur_loader *self, const aur_xml_node *node, aur_parameters *parameters,
+                              void **object) {
+    aur_scene *const scene = self->scene;
+    aur_shape_group *const group = calloc(1, sizeof *group);
+    aur_result result = group != NULL ? aur_loader_append(self, &scene->group_count, &scene->group_capacity,
+                                                          (void ***)&scene->groups, group)
+                                      : aur_fail(self->error, AUR_ERROR_MEMORY, "out of memory");
+    if (result != AUR_OK) {
+        free(group);
+        return result;
+    }
+    size_t most = 0;
+    for (const aur_xml_node *child = node->first_child; child != NULL; child = child->next)
+        ++most;
+    group->shapes = malloc((most + 1) * sizeof *group->shapes);
+    if (group->shapes == NULL)
+        return aur_fail(self->error, AUR_ERROR_MEMORY, "out of memory");
+    for (aur_xml_node *child = node->first_child; child != NULL; child = child->next) {
+        aur_xml_node *target;
+        if (aur_xml_is_property(child->tag))
+            continue;
+        result = aur_loader_find_target(self, child, &target);
+        if (result == AUR_OK && strcmp(target->tag, "shape") == 0)
+            result = add_to_group(self, group, child, target);
+        if (result != AUR_OK)
+            return result;
+    }
+    *object = group;
+    if (group->count == 0)
+        return aur_fail_at(self->error, parameters->location, AUR_ERROR_FORMAT, "a shapegroup needs a shape");
+    return aur_parameters_finish(parameters, self->error);
+}
+
+static aur_result build_instance(aur_loader *self, aur_parameters *parameters, void **object) {
+    aur_scene *const scene = self->scene;
+    aur_instance *const instance = calloc(1, sizeof *instance);
+    aur_result result = instance != NULL
+                            ? aur_loader_append(self, &scene->instance_count, &scene->instance_capacity,
+                                                (void ***)&scene->instances, instance)
+                            : aur_fail(self->error, AUR_ERROR_MEMORY, "out of memory");
+    if (result != AUR_OK) {
+        free(instance);
+        return result;
+    }
+    void *wanted;
+    result = aur_loader_nested(self, parameters, "shape", &wanted);
+    if (result != AUR_OK)
+        return result;
+    for (size_t i = 0; i < scene->group_count; ++i)
+        if (scene->groups[i] == wanted)
+            instance->group = scene->groups[i];
+    if (instance->group == NULL)
+        return aur_fail_at(self->error, parameters->location, AUR_ERROR_FORMAT,
+                           "shape 'instance' needs a reference to a shapegroup");
+    result = aur_parameters_to_world(parameters, &instance->to_world, &instance->to_local, self->error);
+    if (result != AUR_OK)
+        return result;
+    instance->location = parameters->location;
+    *object = instance;
+    return aur_parameters_finish(parameters, self->error);
+}
+
+aur_result aur_build_shape(aur_loader *self, aur_xml_node *node, aur_parameters *parameters, void **object) {
+    if (strcmp(parameters->plugin, AUR_GROUP_PLUGIN) == 0)
+        return build_group(self, node, parameters, object);
+    if (strcmp(parameters->plugin, instance_plugin) == 0)
+        return build_instance(self, parameters, object);
+    aur_scene *const scene = self->scene;
+    aur_shape *shape;
+    void *found = NULL;
+    aur_result result = aur_loader_nested(self, parameters, "emitter", &found);
+    aur_emitter *const emitter = found;
+    if (result == AUR_OK)
+        result = aur_loader_nested(self, parameters, "bsdf", &found);
+    const aur_bsdf *bsdf = found;
+    if (result == AUR_OK && bsdf == NULL)
+        result = default_bsdf(self, emitter != NULL, &bsdf);
+    if (result == AUR_OK && emitter != NULL && !emitter->descriptor->needs_shape)
+        result = aur_fail_at(self->error, emitter->location, AUR_ERROR_FORMAT,
+                             "emitter '%s' cannot stand inside a shape", emitter->descriptor->name);
+    if (result == AUR_OK && emitter != NULL && emitter->shape != UINT32_MAX)
+        result = aur_fail_at(self->error, parameters->location, AUR_ERROR_FORMAT,
+                             "the emitter of this shape already belongs to another one");
+    if (result == AUR_OK)
+        result = aur_shape_create(parameters, &scene->document, self->warnings, &shape, self->error);
+    if (result != AUR_OK)
+        return result;
+    result =
+        aur_loader_append(self, &scene->shape_count, &scene->shape_capacity, (void ***)&scene->shapes, shape);
+    if (result != AUR_OK) {
+        aur_shape_destroy(shape);
+        return result;
+    }
+    shape->bsdf = bsdf;
+    shape->index = (uint32_t)(scene->shape_count - 1);
+    if (emitter != NULL) {
+        emitter->shape = shape->index;
+        shape->emitter = emitter->index;
+    }
+    *object = shape;
+    return AUR_OK;
+}

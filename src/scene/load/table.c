@@ -1,0 +1,60 @@
+/* Every kind of object, and the walk over the children of <scene>. */
+#include <string.h>
+
+#include "scene/load/loader.h"
+#include "scene/load/properties.h"
+
+static const aur_object_kind kinds[] = {
+    {"shape", aur_build_shape},     {"bsdf", aur_build_bsdf},       {"texture", aur_build_texture},
+    {"emitter", aur_build_emitter}, {"sensor", aur_build_sensor},   {"film", aur_build_film},
+    {"rfilter", aur_build_filter},  {"sampler", aur_build_sampler}, {"integrator", aur_build_integrator},
+};
+
+static aur_result build_top(aur_loader *self, aur_xml_node *node) {
+    static const char *const names[] = {"integrator", "sensor", "shape",   "bsdf", "emitter", "texture",
+                                        "default",    "alias",  "include", "path", "ref"};
+    static const char *const inner[] = {"film", "rfilter", "sampler"};
+    for (size_t i = 0; i < 3; ++i)
+        if (strcmp(node->tag, inner[i]) == 0)
+            return aur_fail_at(self->error, node->location, AUR_ERROR_FORMAT,
+                               "<%s> cannot stand here: it belongs inside a <%s>", node->tag,
+                               i == 1 ? "film" : "sensor");
+    if (aur_loader_find_kind(self, node->tag) == NULL)
+        return aur_xml_fail_tag(node, sizeof names / sizeof names[0], names, self->error);
+    if (strcmp(node->tag, "sensor") == 0 && self->scene->has_sensor) {
+        aur_warn_at(self->warnings, node->location, "a second sensor is left out");
+        return AUR_OK;
+    }
+    self->top = node;
+    const aur_result result = aur_loader_build(self, node);
+    if (result != AUR_OK || strcmp(node->tag, "emitter") != 0)
+        return result;
+    const aur_emitter *const emitter = node->object;
+    if (!emitter->descriptor->needs_shape)
+        return AUR_OK;
+    return aur_fail_at(self->error, node->location, AUR_ERROR_FORMAT,
+                       "emitter '%s' must stand inside a <shape>", emitter->descriptor->name);
+}
+
+aur_result aur_scene_build(aur_scene *scene, const aur_warnings *warnings, aur_error *error) {
+    aur_loader self = {.scene = scene,
+                       .warnings = warnings,
+                       .kind_count = sizeof kinds / sizeof kinds[0],
+                       .kinds = kinds,
+                       .error = error};
+    scene->film = (aur_film_settings){.width = 768, .height = 576, .filter = aur_filter_find("gaussian")};
+    scene->samples_per_pixel = 4;
+    aur_xml_node *const root = scene->document.root;
+    for (aur_xml_node *node = root->first_child; node != NULL; node = node->next) {
+        const aur_result result = build_top(&self, node);
+        if (result != AUR_OK)
+            return result;
+    }
+    if (!scene->has_sensor)
+        return aur_fail_at(error, root->location, AUR_ERROR_FORMAT, "the scene has no <sensor>");
+    if (scene->sampler == NULL && (scene->sampler = strdup("random")) == NULL)
+        return aur_fail(error, AUR_ERROR_MEMORY, "out of memory");
+    if (scene->has_integrator)
+        return AUR_OK;
+    return aur_parameters_init(&scene->integrator, "integrator", "path", root->location, error);
+}
