@@ -1,5 +1,7 @@
-/* The one place that asks which instructions the processor has. A SIMD routine lives in its own file
- * (*_avx2.c, *_avx512.c) beside a portable twin, and its room chooses between them by this answer. */
+/* The one place that asks which instructions the processor has. A SIMD routine is one body (*_body.h, on
+ * core/simd_lanes.h or in loops without branches) that is compiled in a file for each instruction set
+ * (*_avx2.c,
+ * *_avx512.c, and a portable one), and its room chooses between them by AUR_KERNEL_HERE. */
 #ifndef AUR_CORE_SIMD_H
 #define AUR_CORE_SIMD_H
 
@@ -18,6 +20,18 @@ void aur_isa_ask_again(void);
 aur_isa aur_isa_of_rays(void);
 
 const char *aur_isa_name(aur_isa isa);
+
+/* Of the functions kernel_portable, kernel_avx2 and kernel_avx512, which one body makes in files that are
+ * compiled for these instruction sets, the one to call here. Builds for other processors (and with
+ * AUREOLE_PORTABLE) have the first one only. */
+#if defined(__x86_64__) && !defined(AUR_PORTABLE)
+#define AUR_KERNEL_HERE(kernel)                                                                              \
+    (aur_isa_available() == AUR_ISA_AVX512 ? kernel##_avx512                                                 \
+     : aur_isa_available() == AUR_ISA_AVX2 ? kernel##_avx2                                                   \
+                                           : kernel##_portable)
+#else
+#define AUR_KERNEL_HERE(kernel) kernel##_portable
+#endif
 
 /* Stands before a loop whose rounds do not read what other rounds write, which the compiler cannot see by
  * itself. */

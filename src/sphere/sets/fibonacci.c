@@ -15,29 +15,14 @@
 #include "core/error.h"
 #include "core/simd.h"
 #include "sphere/native.h"
-#include "sphere/phase.h"
-#include "sphere/sets/fibonacci_kernels.h"
+#include "sphere/sets/fibonacci_body.h"
 
 void aur_fibonacci_points_portable(const aur_fibonacci *set, uint64_t first, size_t count, double *xyz) {
-    for (size_t i = 0; i < count; ++i) {
-        const uint64_t j = first + i;
-        const double depth = ((double)j + set->offset) * set->step;
-        const double radius = sqrt(depth * (2.0 - depth));
-        double sine, cosine;
-        aur_phase_sincos(set->phase + j * AUR_GOLDEN_PHASE, &sine, &cosine);
-        xyz[3 * i] = radius * cosine;
-        xyz[3 * i + 1] = radius * sine;
-        xyz[3 * i + 2] = 1.0 - depth;
-    }
+    fill_points(set, first, count, xyz);
 }
 
 aur_fibonacci_kernel aur_fibonacci_choose_kernel(void) {
-    const aur_isa isa = aur_isa_available();
-    if (isa == AUR_ISA_AVX512)
-        return aur_fibonacci_points_avx512;
-    if (isa == AUR_ISA_AVX2)
-        return aur_fibonacci_points_avx2;
-    return aur_fibonacci_points_portable;
+    return AUR_KERNEL_HERE(aur_fibonacci_points);
 }
 
 typedef struct fibonacci_set {
@@ -122,7 +107,7 @@ static aur_result prepare(const aur_row *row, aur_parameters *parameters, const 
     fibonacci_set *const kept =
         malloc(sizeof *kept + (octant ? (size_t)request->count * sizeof kept->indices[0] : 0));
     if (kept == NULL)
-        return aur_fail(error, AUR_ERROR_MEMORY, "out of memory");
+        return aur_fail_memory(error);
     *kept = (fibonacci_set){.points = lattice, .kernel = aur_fibonacci_choose_kernel()};
     if (octant)
         choose_octant(kept, request->count, lattice.offset);
@@ -137,7 +122,7 @@ static void fill(const void *data, uint64_t first, size_t count, double *xyz) {
         return;
     }
     for (size_t i = 0; i < count; ++i)
-        aur_fibonacci_points_portable(&set->points, set->indices[first + i], 1, xyz + 3 * i);
+        fill_one_by_one(&set->points, set->indices[first + i], 1, xyz + 3 * i);
 }
 
 const aur_native_set aur_native_fibonacci = {
