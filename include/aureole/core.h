@@ -2,6 +2,7 @@
 #ifndef AUREOLE_CORE_H
 #define AUREOLE_CORE_H
 
+#include <aureole/version.h>
 #include <stddef.h>
 #include <stdint.h>
 
@@ -53,13 +54,24 @@ typedef struct aur_error {
  * Returns the length that the whole text has, as snprintf does. */
 AUR_API size_t aur_error_format(const aur_error *error, char *text, size_t capacity) AUR_NONNULL(1);
 
+/* For bindings, which need not know the layout of aur_error: an error without content (NULL when there is no
+ * memory), its end (NULL is allowed), and what stands in it. The texts live as long as the error keeps its
+ * content; `place` returns the file, empty when none is concerned. */
+AUR_API aur_error *aur_error_create(void);
+AUR_API void aur_error_destroy(aur_error *error);
+AUR_API aur_result aur_error_result(const aur_error *error) AUR_NONNULL(1);
+AUR_API const char *aur_error_message(const aur_error *error) AUR_NONNULL(1);
+AUR_API const char *aur_error_place(const aur_error *error, size_t *line, size_t *column)
+    AUR_NONNULL(1, 2, 3);
+
 /* Fills `error` (NULL: nothing is filled) with a result and a formatted message, and returns that result: for
  * callbacks that fail, and for programs that report their own errors as the library's. */
 AUR_API aur_result aur_error_set(aur_error *error, aur_result result, const char *format, ...) AUR_NONNULL(3)
     AUR_PRINTF(3, 4);
 
-/* Called now and then, from any thread but never from two at once, with 0 <= done <= total. A non-zero return
- * asks the work to stop; it then ends with AUR_ERROR_CANCELLED. */
+/* Called now and then, from any thread but by one at a time for each call of the library, with 0 <= done <=
+ * total. A non-zero return asks the work to stop; it then ends with AUR_ERROR_CANCELLED. The callback may
+ * call the library. */
 typedef int (*aur_progress_function)(void *user, const char *what, uint64_t done, uint64_t total);
 
 typedef struct aur_progress {
@@ -81,7 +93,7 @@ typedef struct aur_warnings {
 AUR_API aur_result aur_file_write(const char *path, size_t size, const void *data, aur_error *error)
     AUR_NONNULL(1);
 
-/* "major.minor.patch" of the library in use. */
+/* "major.minor.patch" of the library in use; version.h has that of the headers. */
 AUR_API const char *aur_version(void);
 
 #ifdef __cplusplus

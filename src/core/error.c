@@ -2,12 +2,16 @@
 
 #include <stdarg.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include "core/text.h"
 
+#define TEXT_OF(number) #number
+#define DOTTED(major, minor, patch) TEXT_OF(major) "." TEXT_OF(minor) "." TEXT_OF(patch)
+
 const char *aur_version(void) {
-    return AUR_VERSION;
+    return DOTTED(AUREOLE_VERSION_MAJOR, AUREOLE_VERSION_MINOR, AUREOLE_VERSION_PATCH);
 }
 
 const char *aur_result_string(aur_result result) {
@@ -87,6 +91,28 @@ aur_result aur_fail(aur_error *error, aur_result result, const char *format, ...
     fill(error, (aur_location){0}, result, format, arguments);
     va_end(arguments);
     return result;
+}
+
+aur_error *aur_error_create(void) {
+    return calloc(1, sizeof(aur_error));
+}
+
+void aur_error_destroy(aur_error *error) {
+    free(error);
+}
+
+aur_result aur_error_result(const aur_error *error) {
+    return error->result;
+}
+
+const char *aur_error_message(const aur_error *error) {
+    return error->message;
+}
+
+const char *aur_error_place(const aur_error *error, size_t *line, size_t *column) {
+    *line = error->line;
+    *column = error->column;
+    return error->file;
 }
 
 aur_result aur_error_set(aur_error *error, aur_result result, const char *format, ...) {

@@ -12,6 +12,7 @@
 #include <aureole/statistics.h>
 #include <aureole/tables.h>
 #include <aureole/text.h>
+#include <aureole/version.h>
 
 extern const char *aureole_headers_compile_as_cxx();
 
