@@ -36,7 +36,8 @@ static void corners_of(const aur_radiosity_triangle *t, aur_vector corner[3]) {
     corner[2] = aur_vector_add(t->corner, t->edge[1]);
 }
 
-static bool boxes_meet(const box *a, const box *b) {
+static bool boxes_meet(search *s, const box *a, const box *b) {
+    ++s->found->compared;
     for (size_t k = 0; k < 3; ++k)
         if (a->low[k] > b->high[k] || b->low[k] > a->high[k])
             return false;
@@ -152,7 +153,7 @@ static size_t node_count(size_t items) {
 static void test_pair(search *s, const item *a, const item *b) {
     const uint32_t low = a->triangle < b->triangle ? a->triangle : b->triangle;
     const uint32_t high = a->triangle < b->triangle ? b->triangle : a->triangle;
-    if (!boxes_meet(&a->bounds, &b->bounds) ||
+    if (!boxes_meet(s, &a->bounds, &b->bounds) ||
         !coincide(&s->scene->triangles[low], &s->scene->triangles[high]))
         return;
     aur_radiosity_coincidence *const found = s->found;
@@ -173,7 +174,7 @@ static void test_leaves(search *s, const node *a, const node *b) {
 /* All pairs of an item of node a and another of node b. */
 static void join(search *s, size_t a, size_t b) {
     const node *const left = &s->nodes[a], *const right = &s->nodes[b];
-    if (s->found->pairs >= AUR_RADIOSITY_MOST_COINCIDENCES || !boxes_meet(&left->bounds, &right->bounds))
+    if (s->found->pairs >= AUR_RADIOSITY_MOST_COINCIDENCES || !boxes_meet(s, &left->bounds, &right->bounds))
         return;
     if (left->count <= LEAF && right->count <= LEAF) {
         test_leaves(s, left, right);

@@ -8,6 +8,7 @@
 enum { AUR_RADIOSITY_MOST_COINCIDENCES = 1 << 20 };
 typedef struct aur_radiosity_coincidence {
     uint64_t pairs;
+    uint64_t compared;     /* pairs of boxes, of nodes and of triangles: what the search took */
     uint32_t triangles[2]; /* the first pair */
 } aur_radiosity_coincidence;
 aur_result aur_radiosity_find_coincidences(const aur_radiosity_scene *scene, aur_radiosity_coincidence *found,
