@@ -6,10 +6,7 @@
 #include <unistd.h>
 
 #include "bench.h"
-#include "core/parallel.h"
-#include "sampling/stream_kernels.h"
-#include "scene/scene_data.h"
-#include "transport/integrators/ambient_occlusion.h"
+#include "experimental.h"
 
 enum { SIDE = 128, TILES = SIDE / AUR_TILE_SIZE * (SIDE / AUR_TILE_SIZE), SAMPLES = 64 };
 
@@ -63,7 +60,8 @@ static aur_result trace(void *data, size_t unused) {
         stored_packet *const packet = &self->packets[i];
         for (size_t k = 0; k < AUR_PACKET_SIZE; ++k)
             packet->rays.tfar[k] = self->farthest;
-        aur_embree_occluded16(self->view->scene->accel, packet->order, packet->valid, &packet->rays);
+        aur_embree_occluded16(aur_scene_embree(self->view->scene), packet->order, packet->valid,
+                              &packet->rays);
         for (size_t k = 0; k < AUR_PACKET_SIZE; ++k)
             stopped += packet->valid[k] != 0 && packet->rays.tfar[k] < 0.0f;
     }
@@ -106,20 +104,25 @@ static void store_all(occlusion_bench *self) {
 
 static bool compare(const bench_options *options, const char *name, const aur_scene *scene,
                     const aur_integrator *integrator) {
-    static const aur_sampler sampler = {.kind = AUR_SAMPLER_SOBOL, .kernels = &aur_stream_kernels_portable};
+    aur_sampler *sampler;
+    if (aur_sampler_create("sobol", 1, NULL, &sampler, NULL) != AUR_OK)
+        return bench_fail("out of memory");
     const aur_view view = {
-        .scene = scene, .sampler = &sampler, .filter = aur_filter_find("box"), .width = SIDE, .height = SIDE};
+        .scene = scene, .sampler = sampler, .filter = aur_filter_find("box"), .width = SIDE, .height = SIDE};
     occlusion_bench context = {.integrator = integrator, .view = &view};
     const size_t most = (size_t)SIDE * SIDE * SAMPLES / AUR_PACKET_SIZE;
     context.packets = aligned_alloc(_Alignof(stored_packet), most * sizeof *context.packets);
-    if (context.packets == NULL)
+    if (context.packets == NULL) {
+        aur_sampler_destroy(sampler);
         return bench_fail("out of memory");
+    }
     store_all(&context);
     const bench_work ours = {run_render, &context, (double)context.ray_count};
     const bench_work bare = {run_trace, &context, (double)context.ray_count};
     const bench_pair pair = bench_compare(options, &ours, &bare);
     bench_print_pair(name, "Embree, the same packets", "Mray", 1e6, &pair);
     free(context.packets);
+    aur_sampler_destroy(sampler);
     return true;
 }
 

@@ -12,7 +12,7 @@
 #include <aureole/scene.h>
 
 #include "bench.h"
-#include "scene/embree.h"
+#include "experimental.h"
 
 enum { SIDE = 866, QUICK_SIDE = 60, PATH_CAPACITY = 256 };
 

@@ -4,8 +4,7 @@
 #include <string.h>
 
 #include "bench.h"
-#include "core/parallel.h"
-#include "core/simd.h"
+#include "experimental.h"
 
 /* A line a bench. */
 /* clang-format off */

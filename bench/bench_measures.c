@@ -2,11 +2,8 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-#include "core/random.h"
-#include "core/simd.h"
+#include "experimental.h"
 #include "limits.h"
-#include "quality/fibonacci_sum.h"
-#include "quality/pair_sum.h"
 
 typedef struct sum_context {
     aur_axes axes;

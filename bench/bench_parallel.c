@@ -1,6 +1,5 @@
 /* What sharing work among threads costs: the same items on one thread and on all of them. */
-#include "core/parallel.h"
-#include "core/random.h"
+#include "experimental.h"
 #include "limits.h"
 
 enum { ITEMS = 256 };

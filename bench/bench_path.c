@@ -3,10 +3,9 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-#include "core/parallel.h"
+#include "experimental.h"
 #include "limits.h"
 #include "recorder.h"
-#include "scene/scene_data.h"
 
 enum { WIDTH = 128, SAMPLES = 16, QUICK_WIDTH = 16, CAPACITY = 1 << 22 };
 
@@ -32,7 +31,7 @@ static void render(void *data) {
 static aur_result replay(void *data, size_t index) {
     (void)index;
     const path_context *const context = data;
-    bench_keep((double)bench_replay(context->scene->accel, &context->recorder));
+    bench_keep((double)bench_replay(aur_scene_embree(context->scene), &context->recorder));
     return AUR_OK;
 }
 

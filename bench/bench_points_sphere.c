@@ -4,7 +4,7 @@
 #include <math.h>
 #include <stdlib.h>
 
-#include "core/parallel.h"
+#include "experimental.h"
 #include "limits.h"
 
 enum { SLICES = 16, ROUNDS = 8 };

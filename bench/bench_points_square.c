@@ -2,10 +2,8 @@
 #include <aureole/pointset.h>
 #include <stdlib.h>
 
-#include "core/parallel.h"
-#include "core/random.h"
+#include "experimental.h"
 #include "limits.h"
-#include "pointset/net_2d.h"
 
 /* A run on threads is long beside a time slice of a busy machine, whose end the other thread waits for. */
 enum { SLICES = 16, ROUNDS = 256 };

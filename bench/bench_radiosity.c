@@ -4,10 +4,9 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-#include "core/parallel.h"
+#include "experimental.h"
 #include "limits.h"
 #include "recorder.h"
-#include "scene/scene_data.h"
 
 enum { PATHS = 1 << 15, QUICK_PATHS = 1 << 9, BOUNCES = 6, CAPACITY = PATHS * (BOUNCES + 1) * 2 };
 
@@ -30,7 +29,7 @@ static void walk(void *data) {
 static aur_result replay(void *data, size_t index) {
     (void)index;
     const walk_context *const context = data;
-    bench_keep((double)bench_replay(context->scene->accel, &context->recorder));
+    bench_keep((double)bench_replay(aur_scene_embree(context->scene), &context->recorder));
     return AUR_OK;
 }
 

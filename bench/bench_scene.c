@@ -3,9 +3,8 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-#include "core/parallel.h"
+#include "experimental.h"
 #include "limits.h"
-#include "scene/scene_data.h"
 #include "trace.h"
 
 enum { WIDTH = 256, RAY_COUNT = WIDTH * WIDTH };
@@ -104,8 +103,9 @@ static bool run(const bench_options *options) {
             aur_camera_ray(scene, WIDTH, WIDTH, (float)x + 0.5f, (float)y + 0.5f, lens, &primary[i]);
             secondary[i] = secondary_ray(scene, &primary[i], i);
         }
-        const bench_rays from_eye = {scene->accel, RAY_COUNT, primary, false, AUR_EMBREE_COHERENT};
-        const bench_rays from_surfaces = {scene->accel, RAY_COUNT, secondary, false, AUR_EMBREE_INCOHERENT};
+        const bench_rays from_eye = {aur_scene_embree(scene), RAY_COUNT, primary, false, AUR_EMBREE_COHERENT};
+        const bench_rays from_surfaces = {aur_scene_embree(scene), RAY_COUNT, secondary, false,
+                                          AUR_EMBREE_INCOHERENT};
         compare(options, scene, "from the eye", &from_eye);
         compare(options, scene, "from surfaces", &from_surfaces);
     }

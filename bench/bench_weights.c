@@ -5,9 +5,7 @@
 #include <string.h>
 
 #include "bench.h"
-#include "core/random.h"
-#include "quadrature/potential.h"
-#include "quadrature/weight_table.h"
+#include "experimental.h"
 
 /* Samples, their densities made ready as a renderer keeps them, and room for what is computed. */
 typedef struct solve_context {

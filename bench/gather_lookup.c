@@ -6,9 +6,8 @@
 #include <unistd.h>
 
 #include "child.h"
-#include "core/random.h"
+#include "experimental.h"
 #include "gather_rays.h"
-#include "transport/photons/irradiance.h"
 
 enum { PHOTONS = 500000, QUICK_PHOTONS = 2000, WARM_QUERIES = 4096, CAPACITY = 64 };
 

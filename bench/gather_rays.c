@@ -6,10 +6,9 @@
 #include <unistd.h>
 
 #include "child.h"
-#include "core/parallel.h"
+#include "experimental.h"
 #include "heavy_box.h"
 #include "packet_recorder.h"
-#include "scene/scene_data.h"
 
 enum { SIDE = 256, QUICK_SIDE = 32, DIRECTIONS = 32, BUMPY_TRIANGLES = 500000, MANY_TRIANGLES = 1500000 };
 
@@ -35,7 +34,7 @@ static void render(void *data) {
 static aur_result replay(void *data, size_t index) {
     (void)index;
     const gather_context *const context = data;
-    bench_keep((double)bench_replay_packets(context->scene->accel, &context->recorder));
+    bench_keep((double)bench_replay_packets(aur_scene_embree(context->scene), &context->recorder));
     return AUR_OK;
 }
 

@@ -5,8 +5,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-#include "core/parallel.h"
-#include "transport/integrator.h"
+#include "experimental.h"
 
 enum { WIDTH = 128, QUICK_WIDTH = 32, CHANNELS = 3, ROUNDS = 2 };
 

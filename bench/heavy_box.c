@@ -7,7 +7,7 @@
 #include <unistd.h>
 
 #include "bench.h"
-#include "core/vector.h"
+#include "experimental.h"
 
 static const char scene_head[] =
     "<scene version=\"3.0.0\">\n"

@@ -4,8 +4,7 @@
 #include <math.h>
 #include <stdlib.h>
 
-#include "core/simd.h"
-#include "core/vector.h"
+#include "experimental.h"
 #include "limits_kernels.h"
 
 static const bench_kernels *kernels(void) {

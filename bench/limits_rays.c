@@ -4,7 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "core/parallel.h"
+#include "experimental.h"
 #include "limits.h"
 #include "trace.h"
 

@@ -1,5 +1,7 @@
+#define _GNU_SOURCE /* RTLD_NEXT */
 #include "packet_recorder.h"
 
+#include <dlfcn.h>
 #include <math.h>
 #include <string.h>
 
@@ -34,52 +36,44 @@ static void keep(const int *valid, const struct RTCRay16 *rays, bool coherent, b
     packet->coherent = coherent;
 }
 
-/* The names are the linker's. */
-#if AUR_EMBREE_VERSION >= 4
+/* Embree's own functions, which the program's of the same names hide from the libraries. */
+static __typeof__(rtcIntersect16) *real_intersect;
+static __typeof__(rtcOccluded16) *real_occluded;
 
-void __real_rtcIntersect16(const int *valid, RTCScene scene, struct RTCRayHit16 *query,
-                           struct RTCIntersectArguments *arguments);
-void __real_rtcOccluded16(const int *valid, RTCScene scene, struct RTCRay16 *query,
-                          struct RTCOccludedArguments *arguments);
-void __wrap_rtcIntersect16(const int *valid, RTCScene scene, struct RTCRayHit16 *query,
-                           struct RTCIntersectArguments *arguments);
-void __wrap_rtcOccluded16(const int *valid, RTCScene scene, struct RTCRay16 *query,
-                          struct RTCOccludedArguments *arguments);
-
-void __wrap_rtcIntersect16(const int *valid, RTCScene scene, struct RTCRayHit16 *query,
-                           struct RTCIntersectArguments *arguments) {
-    keep(valid, &query->ray, arguments != NULL && (arguments->flags & RTC_RAY_QUERY_FLAG_COHERENT) != 0,
-         false);
-    __real_rtcIntersect16(valid, scene, query, arguments);
+__attribute__((constructor)) static void find_real(void) {
+    void *const intersect = dlsym(RTLD_NEXT, "rtcIntersect16"), *const occluded =
+                                                                    dlsym(RTLD_NEXT, "rtcOccluded16");
+    memcpy(&real_intersect, &intersect, sizeof intersect);
+    memcpy(&real_occluded, &occluded, sizeof occluded);
 }
 
-void __wrap_rtcOccluded16(const int *valid, RTCScene scene, struct RTCRay16 *query,
-                          struct RTCOccludedArguments *arguments) {
+#if AUR_EMBREE_VERSION >= 4
+
+void rtcIntersect16(const int *valid, RTCScene scene, struct RTCRayHit16 *query,
+                    struct RTCIntersectArguments *arguments) {
+    keep(valid, &query->ray, arguments != NULL && (arguments->flags & RTC_RAY_QUERY_FLAG_COHERENT) != 0,
+         false);
+    real_intersect(valid, scene, query, arguments);
+}
+
+void rtcOccluded16(const int *valid, RTCScene scene, struct RTCRay16 *query,
+                   struct RTCOccludedArguments *arguments) {
     keep(valid, query, arguments != NULL && (arguments->flags & RTC_RAY_QUERY_FLAG_COHERENT) != 0, true);
-    __real_rtcOccluded16(valid, scene, query, arguments);
+    real_occluded(valid, scene, query, arguments);
 }
 
 #else
 
-void __real_rtcIntersect16(const int *valid, RTCScene scene, struct RTCIntersectContext *context,
-                           struct RTCRayHit16 *query);
-void __real_rtcOccluded16(const int *valid, RTCScene scene, struct RTCIntersectContext *context,
-                          struct RTCRay16 *query);
-void __wrap_rtcIntersect16(const int *valid, RTCScene scene, struct RTCIntersectContext *context,
-                           struct RTCRayHit16 *query);
-void __wrap_rtcOccluded16(const int *valid, RTCScene scene, struct RTCIntersectContext *context,
-                          struct RTCRay16 *query);
-
-void __wrap_rtcIntersect16(const int *valid, RTCScene scene, struct RTCIntersectContext *context,
-                           struct RTCRayHit16 *query) {
+void rtcIntersect16(const int *valid, RTCScene scene, struct RTCIntersectContext *context,
+                    struct RTCRayHit16 *query) {
     keep(valid, &query->ray, (context->flags & RTC_INTERSECT_CONTEXT_FLAG_COHERENT) != 0, false);
-    __real_rtcIntersect16(valid, scene, context, query);
+    real_intersect(valid, scene, context, query);
 }
 
-void __wrap_rtcOccluded16(const int *valid, RTCScene scene, struct RTCIntersectContext *context,
-                          struct RTCRay16 *query) {
+void rtcOccluded16(const int *valid, RTCScene scene, struct RTCIntersectContext *context,
+                   struct RTCRay16 *query) {
     keep(valid, query, (context->flags & RTC_INTERSECT_CONTEXT_FLAG_COHERENT) != 0, true);
-    __real_rtcOccluded16(valid, scene, context, query);
+    real_occluded(valid, scene, context, query);
 }
 
 #endif

@@ -1,5 +1,5 @@
-/* Which packets of 16 rays a piece of code traces, by the linker's --wrap as in recorder.h, and the same
- * packets again through Embree alone. */
+/* Which packets of 16 rays a piece of code traces, by functions in front of Embree's as in recorder.h, and
+ * the same packets again through Embree alone. */
 #ifndef AUR_BENCH_PACKET_RECORDER_H
 #define AUR_BENCH_PACKET_RECORDER_H
 
@@ -7,7 +7,7 @@
 #include <stddef.h>
 #include <stdint.h>
 
-#include "scene/embree.h"
+#include "experimental.h"
 
 enum { BENCH_RECORDED_LANES = 16 };
 

@@ -1,4 +1,8 @@
+#define _GNU_SOURCE /* RTLD_NEXT */
 #include "recorder.h"
+
+#include <dlfcn.h>
+#include <string.h>
 
 static bench_recorder *current;
 
@@ -14,39 +18,39 @@ static void keep(const struct RTCRay *ray, bool occluded) {
     ++current->count;
 }
 
-/* The names are the linker's. */
-#if AUR_EMBREE_VERSION >= 4
+/* Embree's own functions, which the program's of the same names hide from the libraries. */
+static __typeof__(rtcIntersect1) *real_intersect;
+static __typeof__(rtcOccluded1) *real_occluded;
 
-void __real_rtcIntersect1(RTCScene scene, struct RTCRayHit *query, struct RTCIntersectArguments *arguments);
-void __real_rtcOccluded1(RTCScene scene, struct RTCRay *query, struct RTCOccludedArguments *arguments);
-void __wrap_rtcIntersect1(RTCScene scene, struct RTCRayHit *query, struct RTCIntersectArguments *arguments);
-void __wrap_rtcOccluded1(RTCScene scene, struct RTCRay *query, struct RTCOccludedArguments *arguments);
-
-void __wrap_rtcIntersect1(RTCScene scene, struct RTCRayHit *query, struct RTCIntersectArguments *arguments) {
-    keep(&query->ray, false);
-    __real_rtcIntersect1(scene, query, arguments);
+__attribute__((constructor)) static void find_real(void) {
+    void *const intersect = dlsym(RTLD_NEXT, "rtcIntersect1"), *const occluded =
+                                                                   dlsym(RTLD_NEXT, "rtcOccluded1");
+    memcpy(&real_intersect, &intersect, sizeof intersect);
+    memcpy(&real_occluded, &occluded, sizeof occluded);
 }
 
-void __wrap_rtcOccluded1(RTCScene scene, struct RTCRay *query, struct RTCOccludedArguments *arguments) {
+#if AUR_EMBREE_VERSION >= 4
+
+void rtcIntersect1(RTCScene scene, struct RTCRayHit *query, struct RTCIntersectArguments *arguments) {
+    keep(&query->ray, false);
+    real_intersect(scene, query, arguments);
+}
+
+void rtcOccluded1(RTCScene scene, struct RTCRay *query, struct RTCOccludedArguments *arguments) {
     keep(query, true);
-    __real_rtcOccluded1(scene, query, arguments);
+    real_occluded(scene, query, arguments);
 }
 
 #else
 
-void __real_rtcIntersect1(RTCScene scene, struct RTCIntersectContext *context, struct RTCRayHit *query);
-void __real_rtcOccluded1(RTCScene scene, struct RTCIntersectContext *context, struct RTCRay *query);
-void __wrap_rtcIntersect1(RTCScene scene, struct RTCIntersectContext *context, struct RTCRayHit *query);
-void __wrap_rtcOccluded1(RTCScene scene, struct RTCIntersectContext *context, struct RTCRay *query);
-
-void __wrap_rtcIntersect1(RTCScene scene, struct RTCIntersectContext *context, struct RTCRayHit *query) {
+void rtcIntersect1(RTCScene scene, struct RTCIntersectContext *context, struct RTCRayHit *query) {
     keep(&query->ray, false);
-    __real_rtcIntersect1(scene, context, query);
+    real_intersect(scene, context, query);
 }
 
-void __wrap_rtcOccluded1(RTCScene scene, struct RTCIntersectContext *context, struct RTCRay *query) {
+void rtcOccluded1(RTCScene scene, struct RTCIntersectContext *context, struct RTCRay *query) {
     keep(query, true);
-    __real_rtcOccluded1(scene, context, query);
+    real_occluded(scene, context, query);
 }
 
 #endif

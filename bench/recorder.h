@@ -1,12 +1,12 @@
-/* Which rays a piece of code traces one by one. The linker leads the program's calls of rtcIntersect1 and
- * rtcOccluded1 here (--wrap, in CMakeLists.txt), so nothing that is measured has to know of it. */
+/* Which rays a piece of code traces one by one. The program has an rtcIntersect1 and an rtcOccluded1 of its
+ * own, which the libraries find before Embree's, so nothing that is measured has to know of it. */
 #ifndef AUR_BENCH_RECORDER_H
 #define AUR_BENCH_RECORDER_H
 
 #include <stdbool.h>
 #include <stddef.h>
 
-#include "scene/embree.h"
+#include "experimental.h"
 
 typedef struct bench_recorded_ray {
     struct RTCRay ray;

@@ -2,8 +2,7 @@
 #ifndef AUR_BENCH_TRACE_H
 #define AUR_BENCH_TRACE_H
 
-#include "scene/embree.h"
-#include "scene/scene.h"
+#include "experimental.h"
 
 enum { BENCH_PACKET_SIZE = 16 };
 

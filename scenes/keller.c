@@ -10,8 +10,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "core/file.h"
-#include "core/random.h"
+#include "experimental.h"
 #include "make/teapot_patches.h"
 
 enum { VERTEX_CAPACITY = 4096, TRIANGLE_CAPACITY = 4096, PROFILE_CAPACITY = 64 };

@@ -5,7 +5,7 @@
 #include <stdbool.h>
 #include <stdlib.h>
 
-#include "core/file.h"
+#include "experimental.h"
 #include "make/teapot_patches.h"
 
 enum { SUBDIVISIONS_MAXIMUM = 128 };

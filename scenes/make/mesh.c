@@ -79,7 +79,8 @@ typedef struct grid_ids {
     uint32_t *id;
 } grid_ids;
 
-static bool is_point(const grid *size, surface function, const void *context, bool along_v, double at) {
+static bool is_point(const grid *size, surface_function function, const void *context, bool along_v,
+                     double at) {
     if (along_v ? size->wraps_u : size->wraps_v)
         return false;
     const vec start = along_v ? function(context, at, 0.0) : function(context, 0.0, at);
@@ -92,7 +93,8 @@ static bool is_point(const grid *size, surface function, const void *context, bo
     return true;
 }
 
-static void fill_ids(mesh *m, const grid *size, surface function, const void *context, const grid_ids *ids) {
+static void fill_ids(mesh *m, const grid *size, surface_function function, const void *context,
+                     const grid_ids *ids) {
     const bool point_u[2] = {is_point(size, function, context, true, 0.0),
                              is_point(size, function, context, true, 1.0)};
     const bool point_v[2] = {is_point(size, function, context, false, 0.0),
@@ -114,7 +116,7 @@ static void fill_ids(mesh *m, const grid *size, surface function, const void *co
         }
 }
 
-void mesh_grid(mesh *m, const grid *size, surface function, const void *context) {
+void mesh_grid(mesh *m, const grid *size, surface_function function, const void *context) {
     const size_t first = m->vertex_count, first_triangle = m->triangle_count;
     grid_ids ids = {.rows = size->rows + !size->wraps_u, .columns = size->columns + !size->wraps_v};
     ids.id = calloc(ids.rows * ids.columns, sizeof *ids.id);

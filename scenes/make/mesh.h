@@ -23,7 +23,7 @@ void mesh_triangle(mesh *m, uint32_t a, uint32_t b, uint32_t c);
 void mesh_smooth(mesh *m, size_t first, size_t first_triangle);
 
 /* A surface over the unit square; its outside is du x dv. */
-typedef vec (*surface)(const void *context, double u, double v);
+typedef vec (*surface_function)(const void *context, double u, double v);
 
 typedef struct grid {
     size_t rows, columns; /* quads along u and v */
@@ -31,7 +31,7 @@ typedef struct grid {
 } grid;
 
 /* Quads split in two, with smooth normals. A row or column that is one point becomes one vertex. */
-void mesh_grid(mesh *m, const grid *size, surface function, const void *context);
+void mesh_grid(mesh *m, const grid *size, surface_function function, const void *context);
 
 /* A surface of revolution about y: a uniform cubic B-spline of (radius, height), from the bottom upwards on
  * the outside. Its ends are reached; a control point that is there three times is a crease. */

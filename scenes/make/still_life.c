@@ -173,7 +173,7 @@ static const fruit oranges[] = {{{-0.80, 0.27, -0.26}, 0.172, 0.5, 1.0, 2.0},
 static const fruit pears[] = {{{-0.42, 0.33, -0.24}, 0.165, -0.55, 0.35, 3.0},
                               {{-0.36, 0.158, 0.60}, 0.155, 1.42, 2.2, 4.0}};
 
-static void add_fruits(mesh *m, size_t count, const fruit *fruits, surface skin, const grid *size) {
+static void add_fruits(mesh *m, size_t count, const fruit *fruits, surface_function skin, const grid *size) {
     for (size_t i = 0; i < count; ++i) {
         const size_t first = m->vertex_count;
         mesh_grid(m, size, skin, &fruits[i]);

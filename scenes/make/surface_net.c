@@ -2,7 +2,7 @@
 
 #include <stdlib.h>
 
-#include "core/parallel.h"
+#include "experimental.h"
 
 enum { BLOCK = 8, CHUNK = 512 };
 

@@ -1,6 +1,6 @@
 /* The place of the ambient occlusion scene: a half circle of fluted columns on three steps, a floor of tiles
  * with open joints, a beam with teeth, and pebbles. Large and fine things side by side. */
-#include "core/random.h"
+#include "experimental.h"
 #include "noise.h"
 #include "product.h"
 

@@ -2,7 +2,7 @@
 #ifndef AUR_QUADRATURE_KERNEL_H
 #define AUR_QUADRATURE_KERNEL_H
 
-#include <stddef.h>
+#include "core/error.h"
 
 /* Directions as three arrays, so that a row of the kernel is one vector loop. */
 typedef struct aur_columns {
@@ -22,8 +22,8 @@ typedef struct aur_kernel_rule {
 aur_kernel_rule aur_kernel_rule_make(double smoothness);
 
 /* row[j] = K(point, columns[j]), 0 <= j < count. The same bits on every instruction set. */
-void aur_kernel_row(const aur_kernel_rule *rule, const double point[3], size_t count, aur_columns columns,
-                    double *row);
+AUR_EXPERIMENTAL void aur_kernel_row(const aur_kernel_rule *rule, const double point[3], size_t count,
+                                     aur_columns columns, double *row);
 
 /* sum of weights[j] K(point, columns[j]), in an order that depends on count only. */
 double aur_kernel_sum(const aur_kernel_rule *rule, const double point[3], size_t count, aur_columns columns,
@@ -33,7 +33,7 @@ double aur_kernel_sum(const aur_kernel_rule *rule, const double point[3], size_t
 void aur_kernel_coefficients(double smoothness, size_t count, double *coefficients);
 
 /* Splits count x,y,z triples into x[count], y[count], z[count] at `storage` (3 * count). */
-aur_columns aur_columns_split(size_t count, const double *xyz, double *storage);
+AUR_EXPERIMENTAL aur_columns aur_columns_split(size_t count, const double *xyz, double *storage);
 
 /* The row for smoothness 3/2, once for each instruction set: entered through aur_kernel_row only. */
 void aur_kernel_row_portable(double top, const double point[3], size_t count, aur_columns columns,

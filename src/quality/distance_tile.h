@@ -60,7 +60,7 @@ static inline void aur_distance_row(const aur_axes *axes, size_t row, size_t fir
     }
 }
 
-static inline aur_twofold aur_distance_tile_body(const aur_axes *axes, aur_tile tile) {
+static inline aur_twofold aur_distance_tile_body(const aur_axes *axes, aur_pair_tile tile) {
     aur_lanes lanes = {{0}, {0}};
     const int diagonal = tile.first_row == tile.first_column;
     for (size_t i = tile.first_row; i < tile.last_row; ++i)

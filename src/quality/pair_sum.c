@@ -41,12 +41,12 @@ void aur_axes_release(aur_axes *axes) {
     *axes = (aur_axes){0};
 }
 
-aur_twofold aur_distance_tile(const aur_axes *axes, aur_tile tile, double parameter) {
+aur_twofold aur_distance_tile(const aur_axes *axes, aur_pair_tile tile, double parameter) {
     (void)parameter;
     return aur_distance_tile_body(axes, tile);
 }
 
-aur_twofold aur_distance_tile_plain(const aur_axes *axes, aur_tile tile, double parameter) {
+aur_twofold aur_distance_tile_plain(const aur_axes *axes, aur_pair_tile tile, double parameter) {
     (void)parameter;
     const int diagonal = tile.first_row == tile.first_column;
     aur_twofold total = {0.0, 0.0};
@@ -73,7 +73,7 @@ aur_twofold aur_distance_tile_plain(const aur_axes *axes, aur_tile tile, double 
 /* The tiles of the lower triangle, row by row: tile (r, c) with c <= r has the number r (r + 1) / 2 + c. */
 typedef struct tiles {
     const aur_axes *axes;
-    aur_tile_function function;
+    aur_pair_tile_function function;
     double parameter;
     aur_twofold *sums;
 } tiles;
@@ -91,13 +91,13 @@ static aur_result sum_tile(void *context, size_t index) {
         ++row;
     const size_t column = index - row * (row + 1) / 2;
     const size_t count = work->axes->count;
-    const aur_tile tile = {row * AUR_TILE_POINTS, least((row + 1) * AUR_TILE_POINTS, count),
-                           column * AUR_TILE_POINTS, least((column + 1) * AUR_TILE_POINTS, count)};
+    const aur_pair_tile tile = {row * AUR_TILE_POINTS, least((row + 1) * AUR_TILE_POINTS, count),
+                                column * AUR_TILE_POINTS, least((column + 1) * AUR_TILE_POINTS, count)};
     work->sums[index] = work->function(work->axes, tile, work->parameter);
     return AUR_OK;
 }
 
-aur_result aur_pair_sum(const aur_axes *axes, aur_tile_function function, double parameter,
+aur_result aur_pair_sum(const aur_axes *axes, aur_pair_tile_function function, double parameter,
                         const aur_measure_options *options, aur_twofold *sum, aur_error *error) {
     const size_t side = (axes->count + AUR_TILE_POINTS - 1) / AUR_TILE_POINTS;
     const size_t count = side * (side + 1) / 2;
@@ -117,7 +117,7 @@ aur_result aur_pair_sum(const aur_axes *axes, aur_tile_function function, double
 
 aur_result aur_distance_sum(const aur_axes *axes, const aur_measure_options *options, aur_twofold *sum,
                             aur_error *error) {
-    aur_tile_function function = aur_distance_tile;
+    aur_pair_tile_function function = aur_distance_tile;
 #if defined(__x86_64__)
     if (aur_isa_available() == AUR_ISA_AVX512)
         function =

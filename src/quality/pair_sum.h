@@ -15,32 +15,32 @@ typedef struct aur_axes {
     double *weights; /* NULL: all equal to 1 */
 } aur_axes;
 
-aur_result aur_axes_create(const aur_points *points, aur_axes *axes, aur_error *error);
-void aur_axes_release(aur_axes *axes);
+AUR_EXPERIMENTAL aur_result aur_axes_create(const aur_points *points, aur_axes *axes, aur_error *error);
+AUR_EXPERIMENTAL void aur_axes_release(aur_axes *axes);
 
 /* Rows [first_row, last_row) against columns [first_column, last_column); when both ranges are the same, the
  * pairs below the diagonal only. */
-typedef struct aur_tile {
+typedef struct aur_pair_tile {
     size_t first_row, last_row, first_column, last_column;
-} aur_tile;
+} aur_pair_tile;
 
-typedef aur_twofold (*aur_tile_function)(const aur_axes *axes, aur_tile tile, double parameter);
+typedef aur_twofold (*aur_pair_tile_function)(const aur_axes *axes, aur_pair_tile tile, double parameter);
 
 /* Sums `function` over the tiles of the lower triangle. */
-aur_result aur_pair_sum(const aur_axes *axes, aur_tile_function function, double parameter,
+aur_result aur_pair_sum(const aur_axes *axes, aur_pair_tile_function function, double parameter,
                         const aur_measure_options *options, aur_twofold *sum, aur_error *error);
 
 /* The sum of w_i w_j |x_i - x_j| over unordered pairs; relative error about 1e-16, or 2e-14 when
  * options->fast. */
-aur_result aur_distance_sum(const aur_axes *axes, const aur_measure_options *options, aur_twofold *sum,
-                            aur_error *error);
+AUR_EXPERIMENTAL aur_result aur_distance_sum(const aur_axes *axes, const aur_measure_options *options,
+                                             aur_twofold *sum, aur_error *error);
 
 /* The kernels by name, for tests and benches. The compensated ones give the same bits on every processor. */
-aur_twofold aur_distance_tile(const aur_axes *axes, aur_tile tile, double parameter);
-aur_twofold aur_distance_tile_avx512(const aur_axes *axes, aur_tile tile, double parameter);
+aur_twofold aur_distance_tile(const aur_axes *axes, aur_pair_tile tile, double parameter);
+aur_twofold aur_distance_tile_avx512(const aur_axes *axes, aur_pair_tile tile, double parameter);
 /* Plain sums with the hardware's square root. */
-aur_twofold aur_distance_tile_plain(const aur_axes *axes, aur_tile tile, double parameter);
+aur_twofold aur_distance_tile_plain(const aur_axes *axes, aur_pair_tile tile, double parameter);
 /* Reciprocal root estimates refined once; equal weights only. */
-aur_twofold aur_distance_tile_fast_avx512(const aur_axes *axes, aur_tile tile, double parameter);
+aur_twofold aur_distance_tile_fast_avx512(const aur_axes *axes, aur_pair_tile tile, double parameter);
 
 #endif

@@ -31,7 +31,7 @@ static inline void compensated_row(const aur_axes *axes, size_t row, size_t firs
     }
 }
 
-aur_twofold aur_distance_tile_avx512(const aur_axes *axes, aur_tile tile, double parameter) {
+aur_twofold aur_distance_tile_avx512(const aur_axes *axes, aur_pair_tile tile, double parameter) {
     (void)parameter;
     const int diagonal = tile.first_row == tile.first_column;
     __m512d sum = _mm512_setzero_pd(), error = _mm512_setzero_pd();
@@ -103,7 +103,7 @@ static inline aur_twofold four_rows(const aur_axes *axes, size_t row, size_t fir
     return total;
 }
 
-aur_twofold aur_distance_tile_fast_avx512(const aur_axes *axes, aur_tile tile, double parameter) {
+aur_twofold aur_distance_tile_fast_avx512(const aur_axes *axes, aur_pair_tile tile, double parameter) {
     if (tile.first_row == tile.first_column)
         return aur_distance_tile_avx512(axes, tile, parameter);
     aur_twofold total = {0.0, 0.0};
@@ -111,7 +111,7 @@ aur_twofold aur_distance_tile_fast_avx512(const aur_axes *axes, aur_tile tile, d
     for (; i + ROWS <= tile.last_row; i += ROWS)
         total = aur_twofold_add(total, four_rows(axes, i, tile.first_column, tile.last_column));
     if (i < tile.last_row) {
-        const aur_tile rest = {i, tile.last_row, tile.first_column, tile.last_column};
+        const aur_pair_tile rest = {i, tile.last_row, tile.first_column, tile.last_column};
         total = aur_twofold_add(total, aur_distance_tile_avx512(axes, rest, parameter));
     }
     return total;

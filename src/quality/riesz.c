@@ -16,7 +16,7 @@ static double kernel(double square, double exponent) {
     return pow(square, -0.5 * exponent);
 }
 
-static aur_twofold riesz_tile(const aur_axes *axes, aur_tile tile, double exponent) {
+static aur_twofold riesz_tile(const aur_axes *axes, aur_pair_tile tile, double exponent) {
     const int diagonal = tile.first_row == tile.first_column;
     aur_twofold total = {0.0, 0.0};
     for (size_t i = tile.first_row; i < tile.last_row; ++i) {

@@ -8,6 +8,7 @@
 
 #include <stdbool.h>
 
+#include "core/error.h"
 #include "core/random.h"
 
 typedef enum aur_sampler_kind {
@@ -31,9 +32,9 @@ typedef struct aur_sampler {
 } aur_sampler;
 
 /* `set` in SET syntax; `count` samples a pixel. */
-aur_result aur_sampler_create(const char *set, size_t count, const aur_warnings *warnings,
-                              aur_sampler **sampler, aur_error *error);
-void aur_sampler_destroy(aur_sampler *sampler);
+AUR_EXPERIMENTAL aur_result aur_sampler_create(const char *set, size_t count, const aur_warnings *warnings,
+                                               aur_sampler **sampler, aur_error *error);
+AUR_EXPERIMENTAL void aur_sampler_destroy(aur_sampler *sampler);
 
 /* One sample's numbers. `pixel` is a hash of seed and pixel, `index` the sample's number there. */
 struct aur_stream {

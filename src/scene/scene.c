@@ -261,6 +261,10 @@ const aur_parameters *aur_scene_integrator(const aur_scene *scene) {
     return &scene->integrator;
 }
 
+struct RTCSceneTy *aur_scene_embree(const aur_scene *scene) {
+    return scene->accel;
+}
+
 void aur_scene_bounds(const aur_scene *scene, aur_vector *lower, aur_vector *upper) {
     *lower = scene->lower;
     *upper = scene->upper;

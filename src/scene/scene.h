@@ -38,12 +38,13 @@ typedef struct aur_surface {
 #define AUR_NO_EMITTER UINT32_MAX
 
 /* The nearest hit; false when there is none. */
-bool aur_scene_intersect(const aur_scene *scene, const aur_ray *ray, aur_hit *hit);
+AUR_EXPERIMENTAL bool aur_scene_intersect(const aur_scene *scene, const aur_ray *ray, aur_hit *hit);
 /* Whether anything lies between. */
 bool aur_scene_occluded(const aur_scene *scene, const aur_ray *ray);
 
 /* The surface at a hit. */
-void aur_scene_surface(const aur_scene *scene, const aur_ray *ray, const aur_hit *hit, aur_surface *surface);
+AUR_EXPERIMENTAL void aur_scene_surface(const aur_scene *scene, const aur_ray *ray, const aur_hit *hit,
+                                        aur_surface *surface);
 
 /* Positions are found to a few parts in 10^7 of their coordinates (seven roundings of 2^-24); the offset is a
  * little beyond that, so that a ray never meets the surface that it leaves. */
@@ -126,8 +127,8 @@ size_t aur_scene_emitter_count(const aur_scene *scene);
 
 /* The ray through the film point (x, y) in pixels, (0, 0) the top left corner of the picture; width and
  * height are those of the picture being rendered. lens[2] in [0,1) for cameras that have one. */
-void aur_camera_ray(const aur_scene *scene, size_t width, size_t height, float x, float y,
-                    const float lens[2], aur_ray *ray);
+AUR_EXPERIMENTAL void aur_camera_ray(const aur_scene *scene, size_t width, size_t height, float x, float y,
+                                     const float lens[2], aur_ray *ray);
 
 /* Sixteen camera rays, an array a coordinate. */
 enum { AUR_CAMERA_LANES = 16 };
@@ -142,14 +143,14 @@ void aur_camera_rays(const aur_scene *scene, size_t width, size_t height, const 
                      const float *lens_u, const float *lens_v, aur_camera_lanes *rays);
 
 /* Whether the camera's rays depend on `lens`. */
-bool aur_camera_has_lens(const aur_scene *scene);
+AUR_EXPERIMENTAL bool aur_camera_has_lens(const aur_scene *scene);
 
 /* Reconstruction filters, by name: box (radius 0.5), tent (1), gaussian (stddev 0.5, radius 2, as Mitsuba 3),
  * mitchell (B = C = 1/3, radius 2). Samples are drawn in proportion to the filter's absolute value, so a
  * pixel is the plain mean of its samples times their aur_filter_weight in x and in y: 1 but for mitchell,
  * which falls below 0. */
 typedef struct aur_filter aur_filter;
-const aur_filter *aur_filter_find(const char *name); /* NULL: unknown */
+AUR_EXPERIMENTAL const aur_filter *aur_filter_find(const char *name); /* NULL: unknown */
 const char *aur_filter_name(const aur_filter *filter);
 /* The offset from the pixel's centre, in pixels, that u in [0,1) stands for. */
 float aur_filter_sample(const aur_filter *filter, float u);
@@ -174,6 +175,9 @@ const aur_parameters *aur_scene_integrator(const aur_scene *scene);
  * ------------------------------------------------------------------- */
 
 void aur_scene_bounds(const aur_scene *scene, aur_vector *lower, aur_vector *upper);
+/* Embree's scene, for who traces rays past this room: all but the shapes of groups, which are its instances.
+ */
+AUR_EXPERIMENTAL struct RTCSceneTy *aur_scene_embree(const aur_scene *scene);
 
 /* A triangle of a mesh, in world coordinates. */
 typedef struct aur_triangle {

@@ -62,7 +62,7 @@ struct aur_integrator {
 
 extern const aur_table aur_integrator_table;
 
-aur_integrator_factory aur_integrator_create;
+AUR_EXPERIMENTAL aur_integrator_factory aur_integrator_create;
 
 static inline void aur_integrator_destroy(aur_integrator *integrator) {
     if (integrator == NULL)

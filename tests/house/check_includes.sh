@@ -1,5 +1,6 @@
 #!/usr/bin/env bash
-# A room includes only its own headers and those of rooms below it; the program and the lab include public headers only.
+# A room includes only its own headers and those of rooms below it; the program and the lab include public headers only, the
+# other tools of the tree (bench, makers of scenes) those and src/experimental.h. Tests and fuzz harnesses may look inside.
 set -u
 source_tree=$2
 # From the top floor to the ground; rooms on one line stand side by side and do not include each other. A room inside a
@@ -34,7 +35,7 @@ pointset/digits
 pointset
 core
 '
-(cd "$source_tree" && grep -rnE '^#include "' src include --include='*.[ch]') |
+(cd "$source_tree" && grep -rnE '^#include "' src include bench lab scenes tests fuzz --include='*.[ch]' --include='*.cpp') |
   awk -v floors="$floors" '
     # The room of a path below src: the longest one of the table that it lies in.
     function room_of(path, room) {
@@ -59,6 +60,18 @@ core
       sub(/.*#include "/, "", target)
       sub(/".*/, "", target)
       if (file ~ /^include\//) { bad("public headers include <aureole/...> only"); next }
+      if (file ~ /^(tests|fuzz)\//) {
+        if (target ~ /^(cli|lab|bench|scenes)\//) bad("tests run programs, and do not look into them")
+        next
+      }
+      if (file ~ /^(bench|lab|scenes)\//) {
+        inside = room_of(target)
+        if (inside != "" && !(inside == "lab" && file ~ /^lab\//)) bad("tools use <aureole/...> and experimental.h only")
+        if (target == "experimental.h" && file ~ /^lab\//) bad("the lab uses <aureole/...> only")
+        next
+      }
+      if (target == "experimental.h") { bad("experimental.h is for tools"); next }
+      if (file == "src/experimental.h") next
       sub(/^src\//, "", file)
       here = room_of(file)
       there = room_of(target)

@@ -217,7 +217,7 @@ static void neither_threads_nor_registers_change_a_bit(void **state) {
     if (aur_isa_available() == AUR_ISA_AVX512) {
         aur_axes axes;
         assert_int_equal(aur_axes_create(&points, &axes, NULL), AUR_OK);
-        const aur_tile tile = {4096, 5000, 1024, 2048};
+        const aur_pair_tile tile = {4096, 5000, 1024, 2048};
         const aur_twofold portable = aur_distance_tile(&axes, tile, 0.0);
         const aur_twofold wide = aur_distance_tile_avx512(&axes, tile, 0.0);
         assert_memory_equal(&portable, &wide, sizeof wide);

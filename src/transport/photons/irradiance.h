@@ -34,9 +34,10 @@ typedef struct aur_irradiance_options {
     double photons_a_texel; /* on average, at least 1 */
 } aur_irradiance_options;
 
-aur_result aur_irradiance_map_create(const aur_scene *scene, const aur_irradiance_options *options,
-                                     aur_irradiance_map **map, aur_error *error);
-void aur_irradiance_map_destroy(aur_irradiance_map *map);
+AUR_EXPERIMENTAL aur_result aur_irradiance_map_create(const aur_scene *scene,
+                                                      const aur_irradiance_options *options,
+                                                      aur_irradiance_map **map, aur_error *error);
+AUR_EXPERIMENTAL void aur_irradiance_map_destroy(aur_irradiance_map *map);
 
 /* The light on a triangle at a hit's barycentric u, v. */
 static inline const aur_texel_light *

@@ -1,0 +1,26 @@
+/* The door for the tools of this tree: what the bench and the makers of the bundled scenes use of the
+ * libraries' inside, beside <aureole/...>. They include this header and no other one of src. It is installed
+ * nowhere, and what it shows may change at any time. Functions of core can be called as they are; those of
+ * other rooms where AUR_EXPERIMENTAL stands before them, else the linker does not find them. */
+#ifndef AUR_EXPERIMENTAL_H
+#define AUR_EXPERIMENTAL_H
+
+#include "core/cache.h"
+#include "core/file.h"
+#include "core/parallel.h"
+#include "core/random.h"
+#include "core/simd.h"
+#include "core/vector.h"
+#include "pointset/net_2d.h"
+#include "quadrature/kernel.h"
+#include "quadrature/potential.h"
+#include "quadrature/weight_table.h"
+#include "quality/fibonacci_sum.h"
+#include "quality/pair_sum.h"
+#include "scene/embree.h"
+#include "scene/scene.h"
+#include "transport/integrator.h"
+#include "transport/integrators/ambient_occlusion.h"
+#include "transport/photons/irradiance.h"
+
+#endif
