@@ -1,29 +1,30 @@
-/* Radiance along one gather ray in the general case: the light that its hit emits, what the photon maps know
- * of the light that it scatters, and, by lobes that they do not answer for - mirrors, glass, rough facets -,
- * light sampled straight from the lights and a ray that goes on. */
-#include "transport/gather/plan.h"
+/* At every surface on its way the ray finds the light that the surface emits, what the photon maps know of
+ * the light that it scatters, and, by lobes that they do not answer for - mirrors, glass, rough facets -,
+ * light drawn from the lights; and it goes on by one of those lobes. */
+#include "transport/gather/chain.h"
+
 #include "transport/lights/direct_light.h"
 
-/* What a gather ray meets. */
-typedef struct met_surface {
-    bool scatters; /* by lobes that the photon map answers for */
-    bool mirrors;  /* by specular lobes: the ray goes on */
-    bool sampled;  /* by a lobe without a formula: it goes on too */
-} met_surface;
+/* The kinds of lobes of a surface that a gather ray meets. */
+typedef struct surface_lobes {
+    bool scatters; /* lobes that the photon map answers for */
+    bool mirrors;  /* specular lobes: the ray goes on */
+    bool sampled;  /* a lobe without a formula: it goes on too */
+} surface_lobes;
 
-static met_surface meet(const aur_shading *shading) {
+static surface_lobes lobes_of(const aur_shading *shading) {
     const unsigned kinds = aur_bsdf_scatters(shading->surface->bsdf, shading->view.z);
-    return (met_surface){.scatters = (kinds & (AUR_SCATTERS_DIFFUSE | AUR_SCATTERS_GLOSSY)) != 0,
-                         .mirrors = (kinds & AUR_SCATTERS_SPECULAR) != 0,
-                         .sampled = (kinds & AUR_SCATTERS_SAMPLED) != 0};
+    return (surface_lobes){.scatters = (kinds & (AUR_SCATTERS_DIFFUSE | AUR_SCATTERS_GLOSSY)) != 0,
+                           .mirrors = (kinds & AUR_SCATTERS_SPECULAR) != 0,
+                           .sampled = (kinds & AUR_SCATTERS_SAMPLED) != 0};
 }
 
 /* A draw of the lobes that the photon map does not answer for; light in world coordinates. */
-static bool draw_onward(const aur_shading *shading, met_surface met, const float u[3],
+static bool draw_onward(const aur_shading *shading, surface_lobes kinds, const float u[3],
                         aur_bsdf_sample *drawn) {
     const aur_surface *const surface = shading->surface;
     const aur_bsdf *const bsdf = surface->bsdf;
-    if (!met.mirrors) {
+    if (!kinds.mirrors) {
         if (!aur_bsdf_draw(bsdf, AUR_BSDF_SAMPLED_LOBES, surface->texture, shading->view, u, drawn))
             return false;
         const float side = drawn->light.z;
@@ -32,7 +33,7 @@ static bool draw_onward(const aur_shading *shading, met_surface met, const float
     }
     if (!aur_shading_sample(shading, u, drawn))
         return false;
-    if (drawn->specular || !met.sampled)
+    if (drawn->specular || !kinds.sampled)
         return drawn->specular;
     const aur_vector light = aur_frame_to_local(&surface->frame, drawn->light);
     const aur_vector value =
@@ -41,7 +42,7 @@ static bool draw_onward(const aur_shading *shading, met_surface met, const float
     return drawn->pdf > 0.0f;
 }
 
-/* How the ray came where it is. */
+/* How the ray came to where it is. */
 typedef struct gather_chain {
     uint32_t length;      /* bounces since the gathering point */
     bool specular;        /* all of them */
@@ -52,58 +53,57 @@ typedef struct gather_chain {
 } gather_chain;
 
 /* The part of a light's radiance that this ray counts; the rest is found by sampling the light. */
-static float emission_weight(const aur_final_gather *data, const gather_chain *chain, float light_pdf) {
-    if (aur_gathers_emitters(data))
+static float emission_weight(const aur_gather_plan *plan, const gather_chain *chain, float light_pdf) {
+    if (plan->counts_emitters)
         return 1.0f;
     if (!chain->mirrored)
         return aur_power_heuristic(chain->density, chain->light_draws * light_pdf);
     /* Light that a mirror throws here is found by caustic photons, if there are. */
-    return data->caustics != NULL && chain->specular ? 0.0f : 1.0f;
+    return plan->light.caustics != NULL && chain->specular ? 0.0f : 1.0f;
 }
 
-/* Whether rays count any of the light that they meet, and whether it takes a light's density to tell how
- * much.
- */
-static bool counts_emission(const aur_final_gather *data) {
-    return data->direct == AUR_DIRECT_NEE || aur_gathers_emitters(data);
+/* Whether rays count any of the light that they meet. */
+static bool finds_emission(const aur_gather_plan *plan) {
+    return plan->policy.direct == AUR_DIRECT_NEE || plan->counts_emitters;
 }
 
-static bool has_rival(const aur_final_gather *data, const gather_chain *chain) {
-    return !chain->mirrored && !aur_gathers_emitters(data);
+/* Whether it takes the density of a light's own sampling to tell how much of it. */
+static bool has_rival(const aur_gather_plan *plan, const gather_chain *chain) {
+    return !chain->mirrored && !plan->counts_emitters;
 }
 
-static aur_vector sky_radiance(const aur_final_gather *data, aur_vector direction,
-                               const gather_chain *chain) {
-    if (!counts_emission(data))
+static aur_vector sky_radiance(const aur_gather_plan *plan, aur_vector direction, const gather_chain *chain) {
+    if (!finds_emission(plan))
         return (aur_vector){0};
-    const aur_vector sky = aur_scene_environment(data->scene, direction);
+    const aur_vector sky = aur_scene_environment(plan->scene, direction);
     if (aur_vector_is_zero(sky))
         return sky;
-    const float pdf = has_rival(data, chain) ? aur_environment_pdf_direct(data->scene, direction) : 0.0f;
-    return aur_vector_scale(sky, emission_weight(data, chain, pdf));
+    const float pdf = has_rival(plan, chain) ? aur_environment_pdf_direct(plan->scene, direction) : 0.0f;
+    return aur_vector_scale(sky, emission_weight(plan, chain, pdf));
 }
 
-static aur_vector emitted_radiance(const aur_final_gather *data, const aur_surface *surface, aur_vector view,
+static aur_vector emitted_radiance(const aur_gather_plan *plan, const aur_surface *surface, aur_vector view,
                                    const gather_chain *chain) {
-    if (!counts_emission(data))
+    if (!finds_emission(plan))
         return (aur_vector){0};
-    const aur_vector emission = aur_surface_emission(data->scene, surface, view);
+    const aur_vector emission = aur_surface_emission(plan->scene, surface, view);
     if (aur_vector_is_zero(emission))
         return emission;
-    const float pdf = has_rival(data, chain)
-                          ? aur_light_pdf_direct(data->scene, chain->reference, AUR_LEAST_LIGHT_SEEN, surface)
+    const float pdf = has_rival(plan, chain)
+                          ? aur_light_pdf_direct(plan->scene, chain->reference, AUR_LEAST_LIGHT_SEEN, surface)
                           : 0.0f;
-    return aur_vector_scale(emission, emission_weight(data, chain, pdf));
+    return aur_vector_scale(emission, emission_weight(plan, chain, pdf));
 }
 
 /* What the photon maps know of the light that leaves a surface. */
-static aur_vector scattered_radiance(const aur_final_gather *data, const aur_hit *hit,
+static aur_vector scattered_radiance(const aur_gather_plan *plan, const aur_hit *hit,
                                      const aur_surface *surface, aur_vector view) {
     aur_vector sum = {0};
-    if (data->map != NULL)
-        sum = aur_irradiance_radiance(data->map, data->scene, hit, surface, view);
-    if (data->caustics != NULL)
-        sum = aur_vector_add(sum, aur_irradiance_radiance(data->caustics, data->scene, hit, surface, view));
+    if (plan->light.map != NULL)
+        sum = aur_irradiance_radiance(plan->light.map, plan->scene, hit, surface, view);
+    if (plan->light.caustics != NULL)
+        sum = aur_vector_add(sum,
+                             aur_irradiance_radiance(plan->light.caustics, plan->scene, hit, surface, view));
     return sum;
 }
 
@@ -122,14 +122,14 @@ static void draw_units(uint64_t *hash, float u[3]) {
 
 /* A point on a light, reflected by the sampled lobe, weighed beside the ray that goes on. What is weak beside
  * the radiance `known` of the surface is asked for now and then. */
-static aur_vector sampled_light(const aur_final_gather *data, const aur_shading *shading, met_surface met,
+static aur_vector sampled_light(const aur_gather_plan *plan, const aur_shading *shading, surface_lobes kinds,
                                 aur_vector known, uint64_t *hash, aur_counters *counters) {
     const aur_vector black = {0};
     const aur_surface *const surface = shading->surface;
     float u[3];
     aur_light_sample light;
     draw_units(hash, u);
-    if (!aur_light_sample_direct(data->scene, surface->position, AUR_LEAST_LIGHT_SEEN, u, &light) ||
+    if (!aur_light_sample_direct(plan->scene, surface->position, AUR_LEAST_LIGHT_SEEN, u, &light) ||
         !(light.pdf > 0.0f))
         return black;
     const aur_vector local = aur_frame_to_local(&surface->frame, light.direction);
@@ -140,7 +140,7 @@ static aur_vector sampled_light(const aur_final_gather *data, const aur_shading 
         aur_bsdf_evaluate(bsdf, AUR_BSDF_SAMPLED_LOBES, surface->texture, shading->view, local);
     if (aur_vector_is_zero(value))
         return black;
-    const aur_bsdf_part part = met.mirrors ? AUR_BSDF_WHOLE : AUR_BSDF_SAMPLED_LOBES;
+    const aur_bsdf_part part = kinds.mirrors ? AUR_BSDF_WHOLE : AUR_BSDF_SAMPLED_LOBES;
     const float rival = aur_bsdf_pdf(bsdf, part, surface->texture, shading->view, local);
     const float weight = light.delta ? 1.0f : aur_power_heuristic(light.pdf, rival);
     const aur_vector radiance =
@@ -152,47 +152,47 @@ static aur_vector sampled_light(const aur_final_gather *data, const aur_shading 
     float distance;
     const aur_ray shadow = aur_surface_ray_to(surface, light.position, &distance);
     ++counters->rays;
-    return aur_scene_occluded(data->scene, &shadow) ? black : aur_vector_scale(radiance, 1.0f / survival);
+    return aur_scene_occluded(plan->scene, &shadow) ? black : aur_vector_scale(radiance, 1.0f / survival);
 }
 
-aur_vector aur_gather_chain_radiance(const aur_final_gather *data, const aur_gather_ray *from,
+aur_vector aur_gather_chain_radiance(const aur_gather_plan *plan, const aur_gather_ray *from,
                                      const aur_hit *hit, aur_counters *counters) {
-    const aur_scene *const scene = data->scene;
+    const aur_scene *const scene = plan->scene;
     const bool samples_lights =
-        data->direct == AUR_DIRECT_NEE && !aur_gathers_emitters(data) && aur_scene_emitter_count(scene) > 0;
+        plan->policy.direct == AUR_DIRECT_NEE && !plan->counts_emitters && aur_scene_emitter_count(scene) > 0;
     gather_chain chain = {.specular = true,
                           .reference = from->reference,
                           .density = from->density,
-                          .light_draws = (float)data->light_share};
+                          .light_draws = (float)plan->light.draws};
     aur_vector sum = {0}, throughput = {1.0f, 1.0f, 1.0f};
     aur_ray ray = from->ray;
     uint64_t hash = from->hash;
     aur_hit next;
     for (;; ++chain.length) {
         if (hit == NULL) {
-            const aur_vector sky = sky_radiance(data, ray.direction, &chain);
+            const aur_vector sky = sky_radiance(plan, ray.direction, &chain);
             return aur_vector_add(sum, aur_vector_multiply(throughput, sky));
         }
         aur_surface surface;
         aur_scene_surface(scene, &ray, hit, &surface);
         const aur_vector view = aur_vector_scale(ray.direction, -1.0f);
         const aur_shading shading = aur_shading_at(&surface, view);
-        const met_surface met = meet(&shading);
-        aur_vector radiance = emitted_radiance(data, &surface, view, &chain);
+        const surface_lobes kinds = lobes_of(&shading);
+        aur_vector radiance = emitted_radiance(plan, &surface, view, &chain);
         /* Two edges led here, and one for each link of the chain; a photon came by one more at least. */
-        const bool deeper = chain.length + 3 <= data->max_depth;
-        if (met.scatters && deeper)
-            radiance = aur_vector_add(radiance, scattered_radiance(data, hit, &surface, view));
-        if (met.sampled && deeper && samples_lights)
+        const bool deeper = chain.length + 3 <= plan->policy.max_depth;
+        if (kinds.scatters && deeper)
+            radiance = aur_vector_add(radiance, scattered_radiance(plan, hit, &surface, view));
+        if (kinds.sampled && deeper && samples_lights)
             radiance =
-                aur_vector_add(radiance, sampled_light(data, &shading, met, radiance, &hash, counters));
+                aur_vector_add(radiance, sampled_light(plan, &shading, kinds, radiance, &hash, counters));
         sum = aur_vector_add(sum, aur_vector_multiply(throughput, radiance));
-        if (!(met.mirrors || met.sampled) || chain.length == AUR_LONGEST_CHAIN || !deeper)
+        if (!(kinds.mirrors || kinds.sampled) || chain.length == AUR_LONGEST_CHAIN || !deeper)
             return sum;
         float u[3];
         aur_bsdf_sample drawn;
         draw_units(&hash, u);
-        if (!draw_onward(&shading, met, u, &drawn))
+        if (!draw_onward(&shading, kinds, u, &drawn))
             return sum;
         throughput = aur_vector_multiply(throughput, drawn.weight);
         const float survival = fminf(1.0f, BOOST * aur_vector_max(throughput));

@@ -1,12 +1,8 @@
-/* A pixel that sees several things - above all a part of a light - has its error from how much it sees of
- * each, not from the light that they reflect. So such pixels get more rays of the eye that only tell what
- * they meet, and the shares weigh the means of what was shaded. */
-#include "transport/gather/plan.h"
+#include "transport/gather/edges.h"
+
+#include "transport/gather/incident.h"
 
 enum { NO_EDGE, PLAIN_EDGE, LIGHT_EDGE };
-
-/* Edges that are none of a light's get a part of the samples only. */
-enum { PLAIN_EDGE_PART = 16 };
 
 static bool has_key(const aur_pixel_strata *pixel, uint64_t key) {
     for (uint32_t i = 0; i < pixel->count; ++i)
@@ -16,7 +12,7 @@ static bool has_key(const aur_pixel_strata *pixel, uint64_t key) {
 }
 
 static int edge_of(uint64_t key, uint64_t other) {
-    return ((key | other) & AUR_KEY_EMITS) != 0 ? LIGHT_EDGE : PLAIN_EDGE;
+    return ((key | other) & AUR_SURFACE_KEY_EMITS) != 0 ? LIGHT_EDGE : PLAIN_EDGE;
 }
 
 /* The edge between two pixels, from what only one of them has seen. */
@@ -42,26 +38,26 @@ static int edge_within(const aur_pixel_strata *pixel) {
 enum { SIDE = AUR_TILE_SIZE, APRON = SIDE + 2, RING = 4 * SIDE + 4 };
 
 /* Pixels beside the tile, 16 at a time: what the first sample of each sees. */
-static void look_at(const aur_group_task *task, size_t count, const size_t *x, const size_t *y,
-                    aur_pixel_strata *pixels, aur_counters *counters) {
+static void look_at(const aur_gather_plan *plan, const aur_view *view, size_t count, const size_t *x,
+                    const size_t *y, aur_pixel_strata *pixels, aur_counters *counters) {
     aur_packet packet;
     aur_camera_sample samples[AUR_PACKET_SIZE];
     float weights[AUR_PACKET_SIZE];
     aur_packet_clear(&packet);
-    aur_view_samples(task->view, count, x, y, 0, samples, weights);
+    aur_view_samples(view, count, x, y, 0, samples, weights);
     for (size_t k = 0; k < count; ++k)
         aur_packet_set(&packet, k, &samples[k].ray);
-    const uint32_t found = aur_final_gather_intersect(task->data, AUR_EMBREE_COHERENT, &packet, counters);
+    const uint32_t found = aur_gather_intersect(plan, AUR_EMBREE_COHERENT, &packet, counters);
     for (size_t k = 0; k < count; ++k) {
-        const uint64_t key = (found >> k & 1u) != 0 ? aur_final_gather_key(task->data, &packet, k) : 0;
+        const uint64_t key = (found >> k & 1u) != 0 ? aur_gather_surface_key(plan->classes, &packet, k) : 0;
         pixels[k] = (aur_pixel_strata){.count = 1, .strata = {{.key = key}}};
     }
 }
 
 /* The ring of pixels around the tile; what lies beyond the picture sees nothing and makes no edge. */
-static void look_around(const aur_group_task *task, aur_pixel_strata ring[RING],
-                        const aur_pixel_strata *at[APRON * APRON], const aur_pixel_strata *strata,
-                        aur_counters *counters) {
+static void look_around(const aur_gather_plan *plan, const aur_view *view, size_t left, size_t top,
+                        const aur_pixel_strata *strata, aur_pixel_strata ring[RING],
+                        const aur_pixel_strata *at[APRON * APRON], aur_counters *counters) {
     size_t x[RING], y[RING], used = 0;
     for (size_t i = 0; i < APRON * APRON; ++i) {
         const size_t column = i % APRON, row = i / APRON;
@@ -70,9 +66,9 @@ static void look_around(const aur_group_task *task, aur_pixel_strata ring[RING],
             at[i] = &strata[(row - 1) * SIDE + (column - 1)];
             continue;
         }
-        x[used] = task->x + column; /* one too many, against underflow */
-        y[used] = task->y + row;
-        if (x[used] == 0 || y[used] == 0 || x[used] > task->view->width || y[used] > task->view->height)
+        x[used] = left + column; /* one too many, against underflow */
+        y[used] = top + row;
+        if (x[used] == 0 || y[used] == 0 || x[used] > view->width || y[used] > view->height)
             continue;
         --x[used];
         --y[used];
@@ -80,7 +76,7 @@ static void look_around(const aur_group_task *task, aur_pixel_strata ring[RING],
     }
     for (size_t first = 0; first < used; first += AUR_PACKET_SIZE) {
         const size_t count = used - first < AUR_PACKET_SIZE ? used - first : AUR_PACKET_SIZE;
-        look_at(task, count, &x[first], &y[first], &ring[first], counters);
+        look_at(plan, view, count, &x[first], &y[first], &ring[first], counters);
     }
 }
 
@@ -99,30 +95,19 @@ static int edge_at(const aur_pixel_strata *const at[APRON * APRON], size_t x, si
     return edge;
 }
 
-void aur_gather_refine_edges(aur_group *group, const aur_group_task *task, uint32_t first_index,
-                             aur_pixel_strata *strata, aur_counters *counters) {
+void aur_gather_find_edges(const aur_gather_plan *plan, const aur_view *view, size_t x, size_t y,
+                           const aur_pixel_strata *strata, aur_gather_edges *edges, aur_counters *counters) {
     aur_pixel_strata ring[RING];
     const aur_pixel_strata *at[APRON * APRON];
-    look_around(task, ring, at, strata, counters);
-    uint32_t any[AUR_PACKET_SIZE] = {0}, lights[AUR_PACKET_SIZE] = {0};
-    for (uint32_t g = 0; g < AUR_PACKET_SIZE; ++g)
+    look_around(plan, view, x, y, strata, ring, at, counters);
+    *edges = (aur_gather_edges){0};
+    for (uint32_t group = 0; group < AUR_GROUP_COUNT; ++group)
         for (size_t lane = 0; lane < AUR_PACKET_SIZE; ++lane) {
-            const size_t pixel = aur_group_pixel(g, lane);
+            const size_t pixel = aur_group_pixel(group, lane);
             if (strata[pixel].count == 0)
                 continue;
             const int edge = edge_at(at, pixel % SIDE, pixel / SIDE);
-            any[g] |= (uint32_t)(edge != NO_EDGE) << lane;
-            lights[g] |= (uint32_t)(edge == LIGHT_EDGE) << lane;
-        }
-    const uint32_t count = task->data->edge_samples;
-    for (uint32_t g = 0; g < AUR_PACKET_SIZE; ++g)
-        for (uint32_t i = 0; i < count; ++i) {
-            aur_group_task more = *task;
-            more.group = g;
-            more.index = first_index + i;
-            more.lanes = i < count / PLAIN_EDGE_PART ? any[g] : lights[g];
-            more.known = true;
-            if (more.lanes != 0)
-                aur_group_add_sample(group, &more, strata, counters);
+            edges->any[group] |= (uint32_t)(edge != NO_EDGE) << lane;
+            edges->lights[group] |= (uint32_t)(edge == LIGHT_EDGE) << lane;
         }
 }

@@ -1,6 +1,6 @@
 /* Gathering by as many directions as the light asks for: a level of an extensible grid at a time, while the
  * samples differ too much. */
-#include "transport/gather/group.h"
+#include "transport/gather/estimators.h"
 
 /* Samples of one lane and channel so far. */
 typedef struct spread {
@@ -34,11 +34,11 @@ static double relative_error(const spread *s, double count, double level_error) 
 }
 
 /* Over the channels, weighted by their means. */
-static double contrast_of(const aur_final_gather *data, const aur_gather_levels *levels, size_t level,
+static double contrast_of(aur_gather_criterion criterion, const aur_gather_levels *levels, size_t level,
                           const spread spreads[3], double count) {
     double weighted = 0.0, total = 0.0;
     for (size_t c = 0; c < 3; ++c) {
-        const double contrast = data->criterion == AUR_CRITERION_ENTROPY
+        const double contrast = criterion == AUR_CRITERION_ENTROPY
                                     ? entropy_contrast(&spreads[c], count)
                                     : relative_error(&spreads[c], count, (double)levels->errors[level]);
         weighted += spreads[c].sum * contrast;
@@ -54,60 +54,63 @@ typedef struct adaptive_state {
     float *values; /* of direction i, channel c, lane k: values[(3 * i + c) * AUR_PACKET_SIZE + k] */
 } adaptive_state;
 
-/* The directions of one level. */
-static void add_level(aur_group *group, aur_rule_walk *walk, const aur_gather_levels *levels, size_t level,
-                      adaptive_state *state) {
+/* Traces the directions of one level. */
+static void add_level(const aur_gather_plan *plan, const aur_gather_places *places,
+                      const aur_gather_sweep *sweep, size_t level, adaptive_state *state,
+                      aur_gather_rays *rays, aur_counters *counters) {
+    const aur_gather_levels *const levels = &sweep->rule->levels;
+    const float *const weights = sweep->rule->rule.weights;
     const size_t first = level > 0 ? levels->ends[level - 1] : 0;
     for (size_t i = first; i < levels->ends[level]; ++i) {
         float factor[AUR_PACKET_SIZE];
-        const uint32_t aimed = aur_group_trace_direction(group, walk, i, factor);
+        const uint32_t aimed = aur_gather_sweep_trace(plan, places, sweep, i, false, rays, counters, factor);
         for (size_t c = 0; c < 3; ++c)
             for (size_t k = 0; k < AUR_PACKET_SIZE; ++k)
                 state->values[(3 * i + c) * AUR_PACKET_SIZE + k] =
-                    (aimed >> k & 1u) != 0 ? factor[k] * group->rays.radiance[c][k] : 0.0f;
+                    aur_has_lane(aimed, k) ? factor[k] * rays->radiance[c][k] : 0.0f;
         for (uint32_t rest = aimed; rest != 0; rest &= rest - 1) {
             const size_t lane = aur_first_lane(rest);
             ++state->samples[lane];
             for (size_t c = 0; c < 3; ++c)
-                add_value(
-                    &state->spreads[lane][c],
-                    (double)(state->values[(3 * i + c) * AUR_PACKET_SIZE + lane] * walk->rule->weights[i]));
+                add_value(&state->spreads[lane][c],
+                          (double)(state->values[(3 * i + c) * AUR_PACKET_SIZE + lane] * weights[i]));
         }
-        for (uint32_t rest = walk->lanes; rest != 0; rest &= rest - 1)
+        for (uint32_t rest = sweep->lanes; rest != 0; rest &= rest - 1)
             ++state->directions[aur_first_lane(rest)];
     }
 }
 
 /* A lane's integral with the weights of its last level. */
-static void finish_lane(aur_group *group, const aur_rule_walk *walk, const aur_gather_levels *levels,
-                        size_t level, const adaptive_state *state, size_t lane) {
+static void finish_lane(const aur_gather_places *places, const aur_gather_sweep *sweep, size_t level,
+                        const adaptive_state *state, size_t lane, aur_gather_sums *sums) {
+    const aur_gather_levels *const levels = &sweep->rule->levels;
     float sum[3] = {0};
     for (size_t i = 0; i < levels->ends[level]; ++i)
         for (size_t c = 0; c < 3; ++c)
             sum[c] += levels->weights[level][i] * state->values[(3 * i + c) * AUR_PACKET_SIZE + lane];
-    const aur_vector reflected = aur_vector_multiply((aur_vector){sum[0], sum[1], sum[2]},
-                                                     group->places[lane].lobes[walk->lobe].coefficient);
-    group->sum[lane] =
-        aur_vector_add(group->sum[lane], aur_vector_multiply(group->throughput[lane], reflected));
-    group->directions[lane] += state->directions[lane];
-    ++group->counters->levels[level];
+    aur_gather_add(sums, places, lane,
+                   aur_vector_multiply((aur_vector){sum[0], sum[1], sum[2]},
+                                       places->at[lane].lobes[sweep->lobe].coefficient));
+    sums->directions[lane] += state->directions[lane];
+    ++sums->counters->levels[level];
 }
 
-void aur_group_gather_adaptive(aur_group *group, aur_rule_walk *walk, const aur_gather_levels *levels) {
-    const aur_final_gather *const data = group->task->data;
-    adaptive_state state = {.values = group->values};
-    uint32_t going = walk->lanes;
-    for (size_t level = 0; going != 0; ++level) {
-        walk->lanes = going;
-        add_level(group, walk, levels, level, &state);
-        for (uint32_t rest = going; rest != 0; rest &= rest - 1) {
+void aur_gather_by_levels(const aur_gather_plan *plan, const aur_gather_places *places,
+                          const aur_gather_lobe_rule *rule, size_t lobe, uint32_t lanes,
+                          aur_gather_sums *sums, aur_gather_scratch *scratch) {
+    aur_gather_sweep sweep;
+    aur_gather_sweep_start(plan, places, rule, lobe, lanes, &sweep, &scratch->rays);
+    adaptive_state state = {.values = scratch->values};
+    for (size_t level = 0; sweep.lanes != 0; ++level) {
+        add_level(plan, places, &sweep, level, &state, &scratch->rays, sums->counters);
+        for (uint32_t rest = sweep.lanes; rest != 0; rest &= rest - 1) {
             const size_t lane = aur_first_lane(rest);
-            const bool last = level + 1 == levels->count;
-            if (!last && contrast_of(data, levels, level, state.spreads[lane], (double)state.samples[lane]) >
-                             (double)data->threshold)
+            const bool last = level + 1 == rule->levels.count;
+            if (!last && contrast_of(plan->policy.criterion, &rule->levels, level, state.spreads[lane],
+                                     (double)state.samples[lane]) > (double)plan->policy.threshold)
                 continue;
-            finish_lane(group, walk, levels, level, &state, lane);
-            going &= ~(1u << lane);
+            finish_lane(places, &sweep, level, &state, lane, sums);
+            sweep.lanes &= ~(1u << lane);
         }
     }
 }

@@ -1,14 +1,44 @@
-/* The keys of final gathering. */
+/* What the keys of final gathering say. */
 #ifndef AUR_TRANSPORT_GATHER_PARAMETERS_H
 #define AUR_TRANSPORT_GATHER_PARAMETERS_H
 
-#include "transport/gather/plan.h"
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
 
+/* Which lobes are gathered. */
+typedef enum aur_gather_component {
+    AUR_COMPONENT_ALL,
+    AUR_COMPONENT_DIFFUSE,
+    AUR_COMPONENT_GLOSSY
+} aur_gather_component;
+/* Light straight from lights: by points drawn on them, by gather rays that meet them, or left out. */
+typedef enum aur_gather_direct { AUR_DIRECT_NEE, AUR_DIRECT_GATHER, AUR_DIRECT_NONE } aur_gather_direct;
+/* What gather rays bring: what photons know and what lights emit, or the latter only. */
+typedef enum aur_gather_incident { AUR_INCIDENT_PHOTONS, AUR_INCIDENT_EMITTERS } aur_gather_incident;
+/* How the rotations of neighbouring pixels differ: dithered over blocks of 4 x 4, by chance, not at all. */
+typedef enum aur_gather_decorrelation {
+    AUR_DECORRELATION_BLUE,
+    AUR_DECORRELATION_RANDOM,
+    AUR_DECORRELATION_NONE
+} aur_gather_decorrelation;
+/* Of samples: p/q or 1; optimal for one lobe, for two lobes merged (OSWA); the balance heuristic; optimal as
+ * published, a system solved at every place. */
+typedef enum aur_gather_weights {
+    AUR_WEIGHTS_RATIO,
+    AUR_WEIGHTS_EQUAL,
+    AUR_WEIGHTS_OSW,
+    AUR_WEIGHTS_OSWA,
+    AUR_WEIGHTS_MIS,
+    AUR_WEIGHTS_SOLVE
+} aur_gather_weights;
+typedef enum aur_gather_criterion { AUR_CRITERION_ENTROPY, AUR_CRITERION_VARIANCE } aur_gather_criterion;
 typedef enum aur_density_choice {
     AUR_GATHER_DENSITY_SAME,
     AUR_GATHER_DENSITY_OPTIMAL,
     AUR_GATHER_DENSITY_UNSAID
 } aur_density_choice;
+
 typedef enum aur_gather_pixel { AUR_PIXEL_FILTER, AUR_PIXEL_CENTRE } aur_gather_pixel;
 
 typedef struct aur_gather_parameters {

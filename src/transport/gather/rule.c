@@ -19,7 +19,7 @@ static aur_vector warp(float x, float y, float z, double exponent) {
     return (aur_vector){(float)(x * scale), (float)(y * scale), (float)warped};
 }
 
-static aur_result fill_directions(const aur_gather_options *options, aur_gather_rule *rule,
+static aur_result fill_directions(const aur_gather_rule_options *options, aur_gather_rule *rule,
                                   aur_error *error) {
     aur_directions *directions = NULL;
     const aur_directions_options wanted = {.count = options->count,
@@ -56,7 +56,8 @@ static aur_result fill_directions(const aur_gather_options *options, aur_gather_
     return result;
 }
 
-static aur_result fill_square(const aur_gather_options *options, aur_gather_rule *rule, aur_error *error) {
+static aur_result fill_square(const aur_gather_rule_options *options, aur_gather_rule *rule,
+                              aur_error *error) {
     aur_pointset *points = NULL;
     const aur_pointset_options wanted = {
         .count = options->count, .dimension = 2, .seed = options->set_seed, .warnings = options->warnings};
@@ -81,30 +82,30 @@ static aur_result fill_square(const aur_gather_options *options, aur_gather_rule
     return result;
 }
 
-static aur_gather_turn turn_from_hash(uint64_t hash) {
+static aur_gather_rotation rotation_from_hash(uint64_t hash) {
     const float angle = 2.0f * AUR_PI_F * aur_unit_float((uint32_t)(hash >> 32));
     const uint64_t words = aur_mix64(hash);
-    return (aur_gather_turn){.cosine = cosf(angle),
-                             .sine = sinf(angle),
-                             .word_u = (uint32_t)words,
-                             .word_v = (uint32_t)(words >> 32)};
+    return (aur_gather_rotation){.cosine = cosf(angle),
+                                 .sine = sinf(angle),
+                                 .word_u = (uint32_t)words,
+                                 .word_v = (uint32_t)(words >> 32)};
 }
 
-static aur_vector scrambled_direction(const aur_gather_rule *rule, const aur_gather_turn *turn,
+static aur_vector scrambled_direction(const aur_gather_rule *rule, const aur_gather_rotation *rotation,
                                       size_t index) {
     uint32_t u = rule->square[index][0], v = rule->square[index][1];
     switch (rule->scramble) {
     case AUR_SCRAMBLE_DIGIT:
-        u ^= turn->word_u;
-        v ^= turn->word_v;
+        u ^= rotation->word_u;
+        v ^= rotation->word_v;
         break;
     case AUR_SCRAMBLE_OWEN:
-        u = aur_owen_scramble(u, turn->word_u);
-        v = aur_owen_scramble(v, turn->word_v);
+        u = aur_owen_scramble(u, rotation->word_u);
+        v = aur_owen_scramble(v, rotation->word_v);
         break;
     default:
-        u += turn->word_u;
-        v += turn->word_v;
+        u += rotation->word_u;
+        v += rotation->word_v;
         break;
     }
     /* The centre of the word's cell keeps z away from 0 and the pole's azimuth defined. */
@@ -115,32 +116,33 @@ static aur_vector scrambled_direction(const aur_gather_rule *rule, const aur_gat
 }
 
 /* Rotations are spread evenly over the circle; scramblings are made into directions once and for all. */
-static aur_result prepare_turns(const aur_gather_options *options, aur_gather_rule *rule, aur_error *error) {
+static aur_result prepare_rotations(const aur_gather_rule_options *options, aur_gather_rule *rule,
+                                    aur_error *error) {
     const size_t rotations = options->rotations, count = options->count;
-    rule->turns = malloc(rotations * sizeof *rule->turns);
+    rule->rotations = malloc(rotations * sizeof *rule->rotations);
     float *const scrambled = rule->square != NULL ? malloc(3 * rotations * count * sizeof *scrambled) : NULL;
-    if (rule->turns == NULL || (rule->square != NULL && scrambled == NULL)) {
+    if (rule->rotations == NULL || (rule->square != NULL && scrambled == NULL)) {
         free(scrambled);
         return aur_fail(error, AUR_ERROR_MEMORY, "out of memory for %zu rotations of %zu directions",
                         rotations, count);
     }
     for (size_t k = 0; k < rotations; ++k) {
-        aur_gather_turn *const turn = &rule->turns[k];
-        *turn = turn_from_hash(aur_hash3(options->seed, 0x7475726e, k));
+        aur_gather_rotation *const rotation = &rule->rotations[k];
+        *rotation = rotation_from_hash(aur_hash3(options->seed, 0x7475726e, k));
         const double angle = 2.0 * AUR_PI * (double)k / (double)rotations;
-        turn->cosine = (float)cos(angle);
-        turn->sine = (float)sin(angle);
+        rotation->cosine = (float)cos(angle);
+        rotation->sine = (float)sin(angle);
         if (rule->square == NULL)
             continue;
         for (size_t i = 0; i < count; ++i) {
-            const aur_vector v = scrambled_direction(rule, turn, i);
+            const aur_vector v = scrambled_direction(rule, rotation, i);
             scrambled[k * count + i] = v.x;
             scrambled[(rotations + k) * count + i] = v.y;
             scrambled[(2 * rotations + k) * count + i] = v.z;
         }
-        *turn = (aur_gather_turn){.cosine = 1.0f, .first = k * count};
+        *rotation = (aur_gather_rotation){.cosine = 1.0f, .first = k * count};
     }
-    rule->rotations = rotations;
+    rule->rotation_count = rotations;
     if (rule->square == NULL)
         return AUR_OK;
     free(rule->square);
@@ -152,7 +154,7 @@ static aur_result prepare_turns(const aur_gather_options *options, aur_gather_ru
 }
 
 /* Density of the directions: (M'+1)/(2 pi) cos^M'; the integrand's known part: cos^M. */
-float aur_gather_density(const aur_gather_rule *rule, float cosine) {
+float aur_gather_rule_density(const aur_gather_rule *rule, float cosine) {
     const float scale = (float)((rule->drawn_exponent + 1.0) / (2.0 * AUR_PI));
     return cosine > 0.0f ? scale * powf(cosine, (float)rule->drawn_exponent) : 0.0f;
 }
@@ -170,13 +172,13 @@ static aur_result weigh(aur_gather_rule *rule, size_t count, aur_error *error) {
         return aur_fail(error, AUR_ERROR_MEMORY, "out of memory for %zu weights", count);
     for (size_t i = 0; i < count; ++i) {
         rule->weights[i] = weight_at(rule, rule->z[i]);
-        rule->densities[i] = aur_gather_density(rule, rule->z[i]);
+        rule->densities[i] = aur_gather_rule_density(rule, rule->z[i]);
     }
     return AUR_OK;
 }
 
-aur_result aur_gather_rule_create(const aur_gather_options *options, double exponent, aur_gather_rule *rule,
-                                  aur_error *error) {
+aur_result aur_gather_rule_create(const aur_gather_rule_options *options, double exponent,
+                                  aur_gather_rule *rule, aur_error *error) {
     const double power = options->optimal_density ? 2.0 / (options->smoothness + 1.0) : 1.0;
     *rule = (aur_gather_rule){.count = options->count,
                               .exponent = exponent,
@@ -186,7 +188,7 @@ aur_result aur_gather_rule_create(const aur_gather_options *options, double expo
     const bool on_square = works_on_square(options->scramble);
     aur_result result = on_square ? fill_square(options, rule, error) : fill_directions(options, rule, error);
     if (result == AUR_OK && options->rotations > 0 && options->scramble != AUR_SCRAMBLE_NONE)
-        result = prepare_turns(options, rule, error);
+        result = prepare_rotations(options, rule, error);
     if (result == AUR_OK && rule->x != NULL)
         result = weigh(rule, on_square ? options->rotations * options->count : options->count, error);
     if (result != AUR_OK)
@@ -199,46 +201,46 @@ void aur_gather_rule_release(aur_gather_rule *rule) {
     free(rule->weights);
     free(rule->densities);
     free(rule->square);
-    free(rule->turns);
+    free(rule->rotations);
     *rule = (aur_gather_rule){0};
 }
 
-aur_gather_turn aur_gather_rule_turn(const aur_gather_rule *rule, uint64_t hash) {
+aur_gather_rotation aur_gather_rule_rotation(const aur_gather_rule *rule, uint64_t hash) {
     if (rule->scramble == AUR_SCRAMBLE_NONE)
-        return (aur_gather_turn){.cosine = 1.0f};
-    if (rule->rotations > 0)
-        return rule->turns[hash % rule->rotations];
-    return turn_from_hash(hash);
+        return (aur_gather_rotation){.cosine = 1.0f};
+    if (rule->rotation_count > 0)
+        return rule->rotations[hash % rule->rotation_count];
+    return rotation_from_hash(hash);
 }
 
-aur_gather_turn aur_gather_turn_by(aur_gather_turn turn, float cosine, float sine) {
-    aur_gather_turn sum = turn;
-    sum.cosine = turn.cosine * cosine - turn.sine * sine;
-    sum.sine = turn.sine * cosine + turn.cosine * sine;
+aur_gather_rotation aur_gather_rotation_by(aur_gather_rotation rotation, float cosine, float sine) {
+    aur_gather_rotation sum = rotation;
+    sum.cosine = rotation.cosine * cosine - rotation.sine * sine;
+    sum.sine = rotation.sine * cosine + rotation.cosine * sine;
     return sum;
 }
 
-float aur_gather_direction(const aur_gather_rule *rule, const aur_gather_turn *turn, size_t index,
-                           aur_vector *direction) {
+float aur_gather_rule_direction(const aur_gather_rule *rule, const aur_gather_rotation *rotation,
+                                size_t index, aur_vector *direction) {
     if (rule->square != NULL) {
-        *direction = scrambled_direction(rule, turn, index);
+        *direction = scrambled_direction(rule, rotation, index);
         return weight_at(rule, direction->z);
     }
-    const size_t at = turn->first + index;
+    const size_t at = rotation->first + index;
     const float x = rule->x[at], y = rule->y[at];
-    *direction =
-        (aur_vector){turn->cosine * x - turn->sine * y, turn->sine * x + turn->cosine * y, rule->z[at]};
+    *direction = (aur_vector){rotation->cosine * x - rotation->sine * y,
+                              rotation->sine * x + rotation->cosine * y, rule->z[at]};
     return rule->weights[at];
 }
 
-void aur_gather_square(const aur_gather_rule *rule, const aur_gather_turn *turn, size_t index,
-                       float point[2]) {
+void aur_gather_rule_square(const aur_gather_rule *rule, const aur_gather_rotation *rotation, size_t index,
+                            float point[2]) {
     aur_vector direction;
-    aur_gather_direction(rule, turn, index, &direction);
-    const float turns = atan2f(direction.y, direction.x) * (0.5f / AUR_PI_F);
-    point[0] = fminf(turns < 0.0f ? turns + 1.0f : turns, 0x1.fffffep-1f);
-    /* Turned directions keep their heights; in the square a shift is as good as a turn. */
-    const float shift = rule->square == NULL ? aur_unit_float(turn->word_v) : 0.0f;
+    aur_gather_rule_direction(rule, rotation, index, &direction);
+    const float circles = atan2f(direction.y, direction.x) * (0.5f / AUR_PI_F);
+    point[0] = fminf(circles < 0.0f ? circles + 1.0f : circles, 0x1.fffffep-1f);
+    /* Rotated directions keep their heights; in the square a shift is as good as a rotation. */
+    const float shift = rule->square == NULL ? aur_unit_float(rotation->word_v) : 0.0f;
     const float height = fmaxf(1.0f - direction.z, 0.0f) + shift;
     point[1] = fminf(height < 1.0f ? height : height - 1.0f, 0x1.fffffep-1f);
 }

@@ -24,7 +24,7 @@ typedef struct aur_gather_levels_options {
     double smoothness, regularization;
 } aur_gather_levels_options;
 
-/* The SET of a grid with these levels, for aur_gather_options. */
+/* The SET of a grid with these levels, for aur_gather_rule_options. */
 aur_result aur_gather_levels_set(const aur_gather_levels_options *options, size_t capacity, char *set,
                                  size_t *count, aur_error *error);
 

@@ -5,8 +5,7 @@
 #include "core/error.h"
 #include "quadrature/weight_rows.h"
 
-/* --- making one
- * ------------------------------------------------------------------------------------------------------- */
+/* --- making one */
 
 /* Linear interpolation loses less than 0.2 % of the gain with so many angles: 32 for m = 20, 64 for 200. */
 static size_t angle_count(double exponent) {
@@ -16,199 +15,200 @@ static size_t angle_count(double exponent) {
     return count;
 }
 
-static aur_oswa_options oswa_options(const aur_pair_options *options) {
+static aur_oswa_options oswa_options(const aur_merged_rule_options *options) {
     return (aur_oswa_options){.set = options->set,
                               .count = options->count[0],
                               .mirror_count = options->count[1],
                               .lobe = {.exponent = 1.0},
                               .mirror_lobe = {.exponent = options->exponent},
                               .optimal_density = options->optimal_density,
-                              .clipped = options->clipped && options->method == AUR_PAIR_OSWA,
+                              .clipped = options->clipped && options->method == AUR_MERGED_OSWA,
                               .map = options->map,
                               .scramble = options->scramble,
                               .seed = options->seed,
                               .smoothness = options->smoothness,
                               /* The paper has no constraint of the sum. */
-                              .weights = {options->regularization, options->method == AUR_PAIR_OSWA}};
+                              .weights = {options->regularization, options->method == AUR_MERGED_OSWA}};
 }
 
-/* Where sample `index` of a pattern stands in the order of shares. */
-static size_t place_of(const aur_gather_pair *pair, size_t pattern, size_t index) {
-    return index % pair->shares * pair->share_count[pattern] + index / pair->shares;
+/* Where sample `index` of a pattern stands in the order of subsets. */
+static size_t slot_of(const aur_merged_rule *rule, size_t pattern, size_t index) {
+    return index % rule->subsets * rule->subset_count[pattern] + index / rule->subsets;
 }
 
-static aur_result allocate(aur_gather_pair *pair, aur_error *error) {
-    const size_t samples = pair->rotations * (pair->count[0] + pair->count[1]);
+static aur_result allocate(aur_merged_rule *rule, aur_error *error) {
+    const size_t samples = rule->rotations * (rule->count[0] + rule->count[1]);
     float *next = malloc(3 * samples * sizeof *next);
-    pair->storage = next;
+    rule->storage = next;
     if (next == NULL)
         return aur_fail(error, AUR_ERROR_MEMORY, "out of memory for %zu rotations of %zu + %zu directions",
-                        pair->rotations, pair->count[0], pair->count[1]);
+                        rule->rotations, rule->count[0], rule->count[1]);
     for (size_t pattern = 0; pattern < 2; ++pattern)
-        for (size_t k = 0; k < 3; ++k, next += pair->rotations * pair->count[pattern])
-            pair->direction[pattern][k] = next;
+        for (size_t k = 0; k < 3; ++k, next += rule->rotations * rule->count[pattern])
+            rule->direction[pattern][k] = next;
     return AUR_OK;
 }
 
-/* The patterns in all their turns; at the angle 0 both stand about +z. */
-static aur_result fill_directions(aur_gather_pair *pair, const aur_oswa_options *options, aur_error *error) {
-    const size_t size = pair->count[0] + pair->count[1];
+/* The patterns in all their rotations; at the angle 0 both stand about +z. */
+static aur_result fill_directions(aur_merged_rule *rule, const aur_oswa_options *options, aur_error *error) {
+    const size_t size = rule->count[0] + rule->count[1];
     double *const xyz = malloc(3 * size * sizeof *xyz);
     if (xyz == NULL)
         return aur_fail(error, AUR_ERROR_MEMORY, "out of memory");
     aur_result result = AUR_OK;
-    if (pair->table == NULL)
-        result = aur_oswa_create(options, &pair->oswa, error);
-    for (size_t rotation = 0; rotation < pair->rotations && result == AUR_OK; ++rotation) {
-        double turns[2];
-        aur_oswa_turns(pair->seed, rotation, turns);
-        result = pair->table != NULL
-                     ? aur_weight_table_points(pair->table, 0.0, rotation, false, 3 * size, xyz, error)
-                     : aur_oswa_points(pair->oswa, 0.0, turns, false, 3 * size, xyz, error);
+    if (rule->table == NULL)
+        result = aur_oswa_create(options, &rule->oswa, error);
+    for (size_t rotation = 0; rotation < rule->rotations && result == AUR_OK; ++rotation) {
+        double angles[2];
+        aur_oswa_turns(rule->seed, rotation, angles);
+        result = rule->table != NULL
+                     ? aur_weight_table_points(rule->table, 0.0, rotation, false, 3 * size, xyz, error)
+                     : aur_oswa_points(rule->oswa, 0.0, angles, false, 3 * size, xyz, error);
         const double *u = xyz;
         for (size_t pattern = 0; pattern < 2 && result == AUR_OK; ++pattern)
-            for (size_t i = 0; i < pair->count[pattern]; ++i, u += 3)
+            for (size_t i = 0; i < rule->count[pattern]; ++i, u += 3)
                 for (size_t k = 0; k < 3; ++k)
-                    pair->direction[pattern][k][rotation * pair->count[pattern] +
-                                                place_of(pair, pattern, i)] = (float)u[k];
+                    rule->direction[pattern][k][rotation * rule->count[pattern] + slot_of(rule, pattern, i)] =
+                        (float)u[k];
     }
     free(xyz);
     return result;
 }
 
-static void fill_densities(aur_gather_pair *pair) {
+static void fill_densities(aur_merged_rule *rule) {
     for (size_t pattern = 0; pattern < 2; ++pattern) {
-        const double exponent = pair->drawn_exponent[pattern];
-        const double scale = (double)pair->share_count[pattern] * (exponent + 1.0) / (2.0 * AUR_PI);
-        for (size_t i = 0; i <= AUR_PAIR_DENSITY_STEPS; ++i)
-            pair->density[pattern][i] = (float)(scale * pow((double)i / AUR_PAIR_DENSITY_STEPS, exponent));
+        const double exponent = rule->drawn_exponent[pattern];
+        const double scale = (double)rule->subset_count[pattern] * (exponent + 1.0) / (2.0 * AUR_PI);
+        for (size_t i = 0; i <= AUR_MERGED_DENSITY_STEPS; ++i)
+            rule->density[pattern][i] = (float)(scale * pow((double)i / AUR_MERGED_DENSITY_STEPS, exponent));
     }
 }
 
-/* The table's rows in the order of shares, for integrals of the lobes as they are written: of mass pi for the
- * diffuse lobe; that of the glossy one depends on the angle and is left for the look-up. */
-static aur_result compile(aur_gather_pair *pair, aur_error *error) {
-    const size_t size = pair->count[0] + pair->count[1];
-    const size_t row_count = aur_weight_table_row_count(pair->table);
-    pair->rows = malloc(row_count * 2 * size * sizeof *pair->rows);
-    if (pair->rows == NULL)
+/* The table's rows in the order of subsets, for integrals of the lobes as they are written: of mass pi for
+ * the diffuse lobe; that of the glossy one depends on the angle and is left for the look-up. */
+static aur_result compile(aur_merged_rule *rule, aur_error *error) {
+    const size_t size = rule->count[0] + rule->count[1];
+    const size_t row_count = aur_weight_table_row_count(rule->table);
+    rule->rows = malloc(row_count * 2 * size * sizeof *rule->rows);
+    if (rule->rows == NULL)
         return aur_fail(error, AUR_ERROR_MEMORY, "out of memory for the weights of %zu directions", size);
-    const size_t share = aur_gather_pair_share(pair);
+    const size_t subset = aur_merged_rule_samples(rule);
     for (size_t row = 0; row < row_count; ++row) {
         for (size_t lobe = 0; lobe < 2; ++lobe) {
-            const float *const from = aur_weight_table_row(pair->table, row) + lobe * size;
-            const float scale = (float)pair->shares * (lobe == 0 ? AUR_PI_F : 1.0f);
+            const float *const from = aur_weight_table_row(rule->table, row) + lobe * size;
+            const float scale = (float)rule->subsets * (lobe == 0 ? AUR_PI_F : 1.0f);
             for (size_t i = 0; i < size; ++i) {
-                const size_t pattern = i < pair->count[0] ? 0 : 1;
-                const size_t index = i - pattern * pair->count[0];
-                float *const block = pair->rows + row * 2 * size + index % pair->shares * 2 * share;
-                block[lobe * share + pattern * pair->share_count[0] + index / pair->shares] = scale * from[i];
+                const size_t pattern = i < rule->count[0] ? 0 : 1;
+                const size_t index = i - pattern * rule->count[0];
+                float *const block = rule->rows + row * 2 * size + index % rule->subsets * 2 * subset;
+                block[lobe * subset + pattern * rule->subset_count[0] + index / rule->subsets] =
+                    scale * from[i];
             }
         }
     }
     return AUR_OK;
 }
 
-static aur_result prepare(aur_gather_pair *pair, const aur_pair_options *options, aur_error *error) {
+static aur_result prepare(aur_merged_rule *rule, const aur_merged_rule_options *options, aur_error *error) {
     aur_oswa_options wanted = oswa_options(options);
     aur_result result = AUR_OK;
-    if (options->method == AUR_PAIR_OSWA)
+    if (options->method == AUR_MERGED_OSWA)
         result = aur_weight_table_build(&wanted, angle_count(options->exponent), options->rotations,
-                                        options->threads, &options->progress, &pair->table, error);
-    if (options->method == AUR_PAIR_SOLVE)
+                                        options->threads, &options->progress, &rule->table, error);
+    if (options->method == AUR_MERGED_SOLVE)
         wanted.published_z = (aur_z_grid){64, 32, fmax(1.0, options->exponent)};
     if (result == AUR_OK)
-        result = fill_directions(pair, &wanted, error);
-    if (result == AUR_OK && pair->table != NULL)
-        result = compile(pair, error);
+        result = fill_directions(rule, &wanted, error);
+    if (result == AUR_OK && rule->table != NULL)
+        result = compile(rule, error);
     return result;
 }
 
-static aur_result create(aur_gather_pair *pair, const aur_pair_options *options, aur_error *error) {
+static aur_result create(aur_merged_rule *rule, const aur_merged_rule_options *options, aur_error *error) {
     const double power = options->optimal_density ? 2.0 / (options->smoothness + 1.0) : 1.0;
-    pair->method = options->method;
-    pair->shares = options->shares;
-    pair->rotations = options->rotations;
-    pair->exponent = options->exponent;
-    pair->mass = 2.0 * AUR_PI / (options->exponent + 1.0);
-    pair->seed = options->seed;
+    rule->method = options->method;
+    rule->subsets = options->subsets;
+    rule->rotations = options->rotations;
+    rule->exponent = options->exponent;
+    rule->mass = 2.0 * AUR_PI / (options->exponent + 1.0);
+    rule->seed = options->seed;
     for (size_t pattern = 0; pattern < 2; ++pattern) {
-        pair->count[pattern] = options->count[pattern];
-        pair->share_count[pattern] = options->count[pattern] / options->shares;
-        pair->drawn_exponent[pattern] = power * (pattern == 0 ? 1.0 : options->exponent);
+        rule->count[pattern] = options->count[pattern];
+        rule->subset_count[pattern] = options->count[pattern] / options->subsets;
+        rule->drawn_exponent[pattern] = power * (pattern == 0 ? 1.0 : options->exponent);
     }
-    fill_densities(pair);
-    const aur_result result = allocate(pair, error);
-    return result == AUR_OK ? prepare(pair, options, error) : result;
+    fill_densities(rule);
+    const aur_result result = allocate(rule, error);
+    return result == AUR_OK ? prepare(rule, options, error) : result;
 }
 
-aur_result aur_gather_pair_create(const aur_pair_options *options, aur_gather_pair **pair, aur_error *error) {
-    *pair = NULL;
+aur_result aur_merged_rule_create(const aur_merged_rule_options *options, aur_merged_rule **rule,
+                                  aur_error *error) {
+    *rule = NULL;
     if (options->rotations == 0)
         return aur_fail(error, AUR_ERROR_ARGUMENT,
                         "weights of merged samples need prepared rotations: at least 1, not 0");
-    if (options->shares == 0 || options->count[0] % options->shares != 0 ||
-        options->count[1] % options->shares != 0)
+    if (options->subsets == 0 || options->count[0] % options->subsets != 0 ||
+        options->count[1] % options->subsets != 0)
         return aur_fail(error, AUR_ERROR_ARGUMENT,
                         "%zu + %zu directions are not shared evenly by %zu samples", options->count[0],
-                        options->count[1], options->shares);
-    aur_gather_pair *const created = calloc(1, sizeof *created);
+                        options->count[1], options->subsets);
+    aur_merged_rule *const created = calloc(1, sizeof *created);
     if (created == NULL)
         return aur_fail(error, AUR_ERROR_MEMORY, "out of memory");
     const aur_result result = create(created, options, error);
     if (result != AUR_OK) {
-        aur_gather_pair_destroy(created);
+        aur_merged_rule_destroy(created);
         return result;
     }
-    *pair = created;
+    *rule = created;
     return AUR_OK;
 }
 
-void aur_gather_pair_destroy(aur_gather_pair *pair) {
-    if (pair == NULL)
+void aur_merged_rule_destroy(aur_merged_rule *rule) {
+    if (rule == NULL)
         return;
-    aur_weight_table_destroy(pair->table);
-    aur_oswa_destroy(pair->oswa);
-    free(pair->rows);
-    free(pair->storage);
-    free(pair);
+    aur_weight_table_destroy(rule->table);
+    aur_oswa_destroy(rule->oswa);
+    free(rule->rows);
+    free(rule->storage);
+    free(rule);
 }
 
-/* --- at a shading point
- * ----------------------------------------------------------------------------------------------- */
+/* --- at a shading point */
 
-static void look_up(const aur_gather_pair *pair, size_t rotation, size_t share, float radians,
+static void look_up(const aur_merged_rule *rule, size_t rotation, size_t subset, float radians,
                     float *weights) {
     float part;
-    const size_t row = aur_weight_table_locate(pair->table, rotation, radians, &part);
-    const size_t samples = aur_gather_pair_share(pair);
-    const size_t row_size = 2 * samples * pair->shares;
-    const float *restrict below = pair->rows + row * row_size + share * 2 * samples;
+    const size_t row = aur_weight_table_locate(rule->table, rotation, radians, &part);
+    const size_t samples = aur_merged_rule_samples(rule);
+    const size_t row_size = 2 * samples * rule->subsets;
+    const float *restrict below = rule->rows + row * row_size + subset * 2 * samples;
     const float *restrict above = below + row_size;
     float *restrict target = weights;
     for (size_t i = 0; i < samples; ++i)
         target[i] = below[i] + part * (above[i] - below[i]);
-    const float mass = (float)aur_weight_table_mass(pair->table, (double)radians);
+    const float mass = (float)aur_weight_table_mass(rule->table, (double)radians);
     for (size_t i = samples; i < 2 * samples; ++i)
         target[i] = mass * (below[i] + part * (above[i] - below[i]));
 }
 
 /* cos^exponent / (n q + n' q') for each lobe and sample; below the surface there is no light. */
-static void balance(const aur_gather_pair *pair, size_t rotation, size_t share, float cosine,
+static void balance(const aur_merged_rule *rule, size_t rotation, size_t subset, float cosine,
                     float *weights) {
-    const size_t samples = aur_gather_pair_share(pair);
+    const size_t samples = aur_merged_rule_samples(rule);
     const float sine = sqrtf(fmaxf(0.0f, 1.0f - cosine * cosine));
     float scale[2], drawn[2];
     for (size_t pattern = 0; pattern < 2; ++pattern) {
-        drawn[pattern] = (float)pair->drawn_exponent[pattern];
-        scale[pattern] = (float)pair->share_count[pattern] * (drawn[pattern] + 1.0f) / (2.0f * AUR_PI_F);
+        drawn[pattern] = (float)rule->drawn_exponent[pattern];
+        scale[pattern] = (float)rule->subset_count[pattern] * (drawn[pattern] + 1.0f) / (2.0f * AUR_PI_F);
     }
     size_t at = 0;
     for (size_t pattern = 0; pattern < 2; ++pattern) {
-        const size_t first = rotation * pair->count[pattern] + share * pair->share_count[pattern];
-        for (size_t i = 0; i < pair->share_count[pattern]; ++i, ++at) {
-            const float x = pair->direction[pattern][0][first + i],
-                        z = pair->direction[pattern][2][first + i];
+        const size_t first = rotation * rule->count[pattern] + subset * rule->subset_count[pattern];
+        for (size_t i = 0; i < rule->subset_count[pattern]; ++i, ++at) {
+            const float x = rule->direction[pattern][0][first + i],
+                        z = rule->direction[pattern][2][first + i];
             const float other = pattern == 0 ? cosine * z - sine * x : cosine * z + sine * x;
             const float normal = pattern == 0 ? z : other, mirror = pattern == 0 ? other : z;
             const float on_normal = normal > 0.0f ? scale[0] * powf(normal, drawn[0]) : 0.0f;
@@ -216,42 +216,56 @@ static void balance(const aur_gather_pair *pair, size_t rotation, size_t share, 
             const float all = on_normal + on_mirror;
             weights[at] = normal > 0.0f ? normal / all : 0.0f;
             weights[samples + at] =
-                normal > 0.0f && mirror > 0.0f ? powf(mirror, (float)pair->exponent) / all : 0.0f;
+                normal > 0.0f && mirror > 0.0f ? powf(mirror, (float)rule->exponent) / all : 0.0f;
         }
     }
 }
 
-static void solve(const aur_gather_pair *pair, size_t rotation, size_t share, float radians, float *weights) {
-    const size_t size = pair->count[0] + pair->count[1], samples = aur_gather_pair_share(pair);
-    double turns[2], mass = 0.0;
-    aur_oswa_turns(pair->seed, rotation, turns);
+static bool solve(const aur_merged_rule *rule, size_t rotation, size_t subset, float radians,
+                  float *weights) {
+    const size_t size = rule->count[0] + rule->count[1], samples = aur_merged_rule_samples(rule);
+    double angles[2], mass = 0.0;
+    aur_oswa_turns(rule->seed, rotation, angles);
     double *const found = malloc(2 * size * sizeof *found);
-    const bool solved = found != NULL && aur_oswa_solve(pair->oswa, (double)radians, turns, 2 * size, found,
+    const bool solved = found != NULL && aur_oswa_solve(rule->oswa, (double)radians, angles, 2 * size, found,
                                                         &mass, NULL) == AUR_OK;
     for (size_t lobe = 0, at = 0; lobe < 2; ++lobe) {
-        const double scale = (double)pair->shares * (lobe == 0 ? AUR_PI : mass);
+        const double scale = (double)rule->subsets * (lobe == 0 ? AUR_PI : mass);
         for (size_t i = 0; i < samples; ++i, ++at) {
-            const size_t pattern = i < pair->share_count[0] ? 0 : 1;
-            const size_t index = (i - pattern * pair->share_count[0]) * pair->shares + share;
+            const size_t pattern = i < rule->subset_count[0] ? 0 : 1;
+            const size_t index = (i - pattern * rule->subset_count[0]) * rule->subsets + subset;
             weights[at] =
-                solved ? (float)(scale * found[lobe * size + pattern * pair->count[0] + index]) : NAN;
+                solved ? (float)(scale * found[lobe * size + pattern * rule->count[0] + index]) : NAN;
         }
     }
     free(found);
+    return solved;
 }
 
-void aur_gather_pair_weights(const aur_gather_pair *pair, size_t rotation, size_t share, float cosine,
+bool aur_merged_rule_weights(const aur_merged_rule *rule, size_t rotation, size_t subset, float cosine,
                              float *weights) {
     const float inside = cosine > 0.0f ? (cosine < 1.0f ? cosine : 1.0f) : 0.0f;
-    switch (pair->method) {
-    case AUR_PAIR_OSWA:
-        look_up(pair, rotation, share, acosf(inside), weights);
+    switch (rule->method) {
+    case AUR_MERGED_OSWA:
+        look_up(rule, rotation, subset, acosf(inside), weights);
         break;
-    case AUR_PAIR_MIS:
-        balance(pair, rotation, share, inside, weights);
+    case AUR_MERGED_MIS:
+        balance(rule, rotation, subset, inside, weights);
         break;
-    case AUR_PAIR_SOLVE:
-        solve(pair, rotation, share, acosf(inside), weights);
-        break;
+    case AUR_MERGED_SOLVE:
+        return solve(rule, rotation, subset, acosf(inside), weights);
     }
+    return true;
+}
+
+void aur_merged_rule_frames(aur_vector normal, aur_vector mirror, bool mirrored, aur_frame frames[2]) {
+    const float cosine = aur_vector_dot(normal, mirror);
+    const aur_vector along = aur_vector_add_scaled(mirror, -cosine, normal);
+    const float sine = aur_vector_length(along);
+    /* Where the plane is lost any will do. */
+    const aur_vector x = sine > 1e-6f ? aur_vector_scale(along, -1.0f / sine) : aur_frame_about(normal).x;
+    const aur_vector y = aur_vector_scale(aur_vector_cross(normal, x), mirrored ? -1.0f : 1.0f);
+    frames[0] = (aur_frame){x, y, normal};
+    frames[1] = (aur_frame){
+        aur_vector_add_scaled(aur_vector_scale(x, cosine), sine > 1e-6f ? sine : 0.0f, normal), y, mirror};
 }

@@ -18,12 +18,12 @@ static void widen(const aur_gather_rule *rule, size_t first, double *xyz) {
     }
 }
 
-/* One pattern for each prepared scrambling, or one that is turned. */
+/* One copy of the pattern for each prepared scrambling, or one that is rotated. */
 static size_t pattern_count(const aur_gather_rule *rule) {
     size_t count = 1;
-    for (size_t k = 0; k < rule->rotations; ++k)
-        if (rule->turns[k].first / rule->count + 1 > count)
-            count = rule->turns[k].first / rule->count + 1;
+    for (size_t k = 0; k < rule->rotation_count; ++k)
+        if (rule->rotations[k].first / rule->count + 1 > count)
+            count = rule->rotations[k].first / rule->count + 1;
     return count;
 }
 
@@ -53,62 +53,4 @@ aur_result aur_gather_rule_optimise(aur_gather_rule *rule, double smoothness, do
     free(xyz);
     aur_potential_destroy(potential);
     return result;
-}
-
-/* The lobe is a product in the angles along and across the plane of its tilt (see quadrature/lune.h): what is
- * hidden is half the integral of sin^exponent up to the tilt over that up to 90 degrees. */
-void aur_gather_horizon(double exponent, float visible[AUR_HORIZON_STEPS + 1]) {
-    enum { PARTS = 16 };
-    const double width = 0.5 * AUR_PI / (AUR_HORIZON_STEPS * PARTS);
-    double hidden[AUR_HORIZON_STEPS + 1] = {0.0};
-    for (size_t i = 0; i < AUR_HORIZON_STEPS; ++i) {
-        double sum = 0.0;
-        for (size_t k = 0; k < PARTS; ++k)
-            sum += pow(sin(((double)(i * PARTS + k) + 0.5) * width), exponent);
-        hidden[i + 1] = hidden[i] + sum;
-    }
-    for (size_t i = 0; i <= AUR_HORIZON_STEPS; ++i)
-        visible[i] = (float)(1.0 - 0.5 * hidden[i] / hidden[AUR_HORIZON_STEPS]);
-}
-
-/* The mean weight over all directions, of those above the surface. */
-static float visible_mean(const aur_gather_rule *rule, const aur_gather_turn *turn, aur_vector normal) {
-    float sum = 0.0f;
-    if (rule->square != NULL) {
-        for (size_t i = 0; i < rule->count; ++i) {
-            aur_vector direction;
-            const float weight = aur_gather_direction(rule, turn, i, &direction);
-            sum += aur_vector_dot(direction, normal) > 0.0f ? weight : 0.0f;
-        }
-        return sum / (float)rule->count;
-    }
-    /* The normal turned back, rather than every direction forth. */
-    const float nx = turn->cosine * normal.x + turn->sine * normal.y;
-    const float ny = turn->cosine * normal.y - turn->sine * normal.x;
-    const float *restrict x = rule->x + turn->first, *restrict y = rule->y + turn->first;
-    const float *restrict z = rule->z + turn->first, *restrict weights = rule->weights + turn->first;
-    float lanes[8] = {0};
-    size_t i = 0;
-    for (; i + 8 <= rule->count; i += 8)
-        for (size_t k = 0; k < 8; ++k)
-            lanes[k] += nx * x[i + k] + ny * y[i + k] + normal.z * z[i + k] > 0.0f ? weights[i + k] : 0.0f;
-    for (; i < rule->count; ++i)
-        lanes[i % 8] += nx * x[i] + ny * y[i] + normal.z * z[i] > 0.0f ? weights[i] : 0.0f;
-    for (size_t k = 0; k < 8; ++k)
-        sum += lanes[k];
-    return sum / (float)rule->count;
-}
-
-float aur_gather_horizon_factor(const aur_gather_rule *rule, const float visible[AUR_HORIZON_STEPS + 1],
-                                const aur_gather_turn *turn, aur_vector normal) {
-    const float cosine = normal.z > 0.0f ? (normal.z < 1.0f ? normal.z : 1.0f) : 0.0f;
-    const float position = acosf(cosine) * ((float)AUR_HORIZON_STEPS / (0.5f * AUR_PI_F));
-    const size_t step = position < (float)AUR_HORIZON_STEPS ? (size_t)position : AUR_HORIZON_STEPS - 1;
-    const float part = position - (float)step;
-    const float share = visible[step] + part * (visible[step + 1] - visible[step]);
-    if (share > 0.9999f)
-        return 1.0f;
-    const float whole = (float)(2.0 * AUR_PI / (rule->exponent + 1.0));
-    const float mean = visible_mean(rule, turn, normal);
-    return mean > 0.0f ? whole * share / mean : 0.0f;
 }

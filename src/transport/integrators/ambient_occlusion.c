@@ -58,13 +58,13 @@ static aur_result make_rule(const occlusion_parameters *p, const aur_integrator_
     const aur_set_description *const row = aur_set_find(p->pattern);
     const bool net = row != NULL && row->binary_net;
     const size_t shares = context->samples_per_pixel;
-    aur_gather_options options = {.set = p->pattern,
-                                  .count = ((size_t)p->samples + shares - 1) / shares * shares,
-                                  .scramble = net ? AUR_SCRAMBLE_DIGIT : AUR_SCRAMBLE_ROTATE,
-                                  .rotations = (size_t)p->rotations,
-                                  .seed = data->seed,
-                                  .set_seed = data->seed,
-                                  .warnings = context->warnings};
+    aur_gather_rule_options options = {.set = p->pattern,
+                                       .count = ((size_t)p->samples + shares - 1) / shares * shares,
+                                       .scramble = net ? AUR_SCRAMBLE_DIGIT : AUR_SCRAMBLE_ROTATE,
+                                       .rotations = (size_t)p->rotations,
+                                       .seed = data->seed,
+                                       .set_seed = data->seed,
+                                       .warnings = context->warnings};
     aur_result result = aur_map_from_name(p->map, &options.map, error);
     if (result == AUR_OK && p->scramble != NULL)
         result = aur_scramble_from_name(p->scramble, &options.scramble, error);
@@ -172,10 +172,10 @@ static void aim(const aur_occlusion_places *places, size_t first, aur_vector loc
 
 /* Every place by a randomisation of its own. */
 static void aim_apart(const aur_gather_rule *rule, const aur_occlusion_places *places, size_t first,
-                      const aur_gather_turn turns[AUR_PACKET_SIZE], size_t index, struct RTCRay16 *rays) {
+                      const aur_gather_rotation turns[AUR_PACKET_SIZE], size_t index, struct RTCRay16 *rays) {
     for (size_t k = 0; k < AUR_PACKET_SIZE; ++k) {
         aur_vector local;
-        aur_gather_direction(rule, &turns[k], index, &local);
+        aur_gather_rule_direction(rule, &turns[k], index, &local);
         float direction[3];
         for (size_t c = 0; c < 3; ++c)
             direction[c] = local.x * places->axis[0][c][first + k] + local.y * places->axis[1][c][first + k] +
@@ -211,15 +211,16 @@ size_t aur_occlusion_visit(const aur_integrator *integrator, const aur_occlusion
         if (!any)
             continue;
         const aur_embree_order order = order_of(places, first);
-        const bool together = rule->rotations > 0 || rule->scramble == AUR_SCRAMBLE_NONE;
-        aur_gather_turn turns[AUR_PACKET_SIZE];
+        const bool together = rule->rotation_count > 0 || rule->scramble == AUR_SCRAMBLE_NONE;
+        aur_gather_rotation turns[AUR_PACKET_SIZE];
         for (size_t k = 0; k < (together ? 1 : AUR_PACKET_SIZE); ++k)
-            turns[k] = aur_gather_rule_turn(rule, together ? tile + aur_group_rank((uint32_t)within)
-                                                           : aur_hash2(data->seed, places->pixel[first + k]));
+            turns[k] =
+                aur_gather_rule_rotation(rule, together ? tile + aur_group_rank((uint32_t)within)
+                                                        : aur_hash2(data->seed, places->pixel[first + k]));
         for (size_t i = index % data->samples_per_pixel; i < rule->count; i += data->samples_per_pixel) {
             if (together) {
                 aur_vector local;
-                aur_gather_direction(rule, &turns[0], i, &local);
+                aur_gather_rule_direction(rule, &turns[0], i, &local);
                 aim(places, first, local, &packet.query.ray);
             } else {
                 aim_apart(rule, places, first, turns, i, &packet.query.ray);

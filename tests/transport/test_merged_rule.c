@@ -1,5 +1,5 @@
 /* Weights of merged samples as the gather loop looks them up: tables against solves, constants exactly,
- * shares against the whole. */
+ * subsets against the whole. */
 #include <stdlib.h>
 
 #include "check.h"
@@ -10,36 +10,38 @@
 
 enum { DIFFUSE = 48, GLOSSY = 24, SIZE = DIFFUSE + GLOSSY, ROTATIONS = 3 };
 
-static aur_pair_options options_of(aur_pair_method method, double exponent, bool clipped, size_t shares) {
-    return (aur_pair_options){.method = method,
-                              .set = "sobol",
-                              .count = {DIFFUSE, GLOSSY},
-                              .shares = shares,
-                              .exponent = exponent,
-                              .rotations = ROTATIONS,
-                              .scramble = AUR_SCRAMBLE_DIGIT,
-                              .clipped = clipped,
-                              .smoothness = 1.5,
-                              .regularization = method == AUR_PAIR_SOLVE ? 0.5 : 1e-6,
-                              .seed = 77,
-                              .threads = 2};
+static aur_merged_rule_options options_of(aur_merged_method method, double exponent, bool clipped,
+                                          size_t subsets) {
+    return (aur_merged_rule_options){.method = method,
+                                     .set = "sobol",
+                                     .count = {DIFFUSE, GLOSSY},
+                                     .subsets = subsets,
+                                     .exponent = exponent,
+                                     .rotations = ROTATIONS,
+                                     .scramble = AUR_SCRAMBLE_DIGIT,
+                                     .clipped = clipped,
+                                     .smoothness = 1.5,
+                                     .regularization = method == AUR_MERGED_SOLVE ? 0.5 : 1e-6,
+                                     .seed = 77,
+                                     .threads = 2};
 }
 
-static aur_gather_pair *create(const aur_pair_options *options) {
-    aur_gather_pair *pair;
-    assert_int_equal(aur_gather_pair_create(options, &pair, NULL), AUR_OK);
+static aur_merged_rule *create(const aur_merged_rule_options *options) {
+    aur_merged_rule *pair;
+    assert_int_equal(aur_merged_rule_create(options, &pair, NULL), AUR_OK);
     return pair;
 }
 
-/* The directions of a share in the frame of normal and plane of reflection, as the gather loop makes them. */
-static void place(const aur_gather_pair *pair, size_t rotation, size_t share, double angle, bool mirrored,
+/* The directions of a subset in the frame of normal and plane of reflection, as the gather loop makes them.
+ */
+static void place(const aur_merged_rule *pair, size_t rotation, size_t subset, double angle, bool mirrored,
                   double *xyz) {
     aur_frame frames[2];
-    aur_gather_pair_frames((aur_vector){0.0f, 0.0f, 1.0f},
+    aur_merged_rule_frames((aur_vector){0.0f, 0.0f, 1.0f},
                            (aur_vector){-(float)sin(angle), 0.0f, (float)cos(angle)}, mirrored, frames);
     for (size_t pattern = 0; pattern < 2; ++pattern) {
-        const size_t first = rotation * pair->count[pattern] + share * pair->share_count[pattern];
-        for (size_t i = 0; i < pair->share_count[pattern]; ++i, xyz += 3) {
+        const size_t first = rotation * pair->count[pattern] + subset * pair->subset_count[pattern];
+        for (size_t i = 0; i < pair->subset_count[pattern]; ++i, xyz += 3) {
             const aur_vector local = {pair->direction[pattern][0][first + i],
                                       pair->direction[pattern][1][first + i],
                                       pair->direction[pattern][2][first + i]};
@@ -78,16 +80,16 @@ static void tables_are_solves(void **state) {
     } cases[] = {{20.0, true, false}, {20.0, false, true}, {150.0, true, true}, {3.3, true, false}};
     for (size_t c = 0; c < sizeof cases / sizeof *cases; ++c) {
         const double m = cases[c].exponent;
-        aur_pair_options options = options_of(AUR_PAIR_OSWA, m, cases[c].clipped, 1);
+        aur_merged_rule_options options = options_of(AUR_MERGED_OSWA, m, cases[c].clipped, 1);
         options.optimal_density = cases[c].optimal;
-        aur_gather_pair *const pair = create(&options);
+        aur_merged_rule *const pair = create(&options);
         double looked_up_total = 0.0, solved_total = 0.0, equal_total = 0.0;
         for (size_t step = 0; step < 18; ++step) {
             const double angle = (0.4 + 5.0 * (double)step) * PI / 180.0;
             float weights[2 * SIZE];
             double xyz[3 * SIZE], own[SIZE], equal[SIZE] = {0}, exact[2 * SIZE];
             place(pair, step % ROTATIONS, 0, angle, step % 2 == 1, xyz);
-            aur_gather_pair_weights(pair, step % ROTATIONS, 0, (float)cos(angle), weights);
+            aur_merged_rule_weights(pair, step % ROTATIONS, 0, (float)cos(angle), weights);
             aur_potential *const lobes[2] = {lobe_at(1.0, 0.0, false), lobe_at(m, angle, cases[c].clipped)};
             const aur_potential *const potentials[2] = {lobes[0], lobes[1]};
             assert_int_equal(aur_weights_solve(SIZE, xyz, 2, potentials, NULL, exact, NULL, NULL, NULL),
@@ -119,25 +121,25 @@ static void tables_are_solves(void **state) {
         const double loss = (looked_up_total - solved_total) / (equal_total - solved_total);
         print_message("m %g: look-ups lose %.3f %% of the gain\n", m, 100.0 * loss);
         assert_true(loss < 0.005);
-        aur_gather_pair_destroy(pair);
+        aur_merged_rule_destroy(pair);
     }
 }
 
 /* Constant light of one: the sum of the weights is the mass of the lobe above the surface, for whatever part
- * of the samples is hidden, over all shares together. */
+ * of the samples is hidden, over all subsets together. */
 static void constants_are_exact(void **state) {
     (void)state;
-    const aur_pair_options options = options_of(AUR_PAIR_OSWA, 20.0, true, 4);
-    aur_gather_pair *const pair = create(&options);
-    assert_int_equal(aur_gather_pair_share(pair), SIZE / 4);
+    const aur_merged_rule_options options = options_of(AUR_MERGED_OSWA, 20.0, true, 4);
+    aur_merged_rule *const pair = create(&options);
+    assert_int_equal(aur_merged_rule_samples(pair), SIZE / 4);
     for (size_t step = 0; step <= 30; ++step) {
         const double angle = 3.0 * (double)step * PI / 180.0;
         double sums[2] = {0.0, 0.0};
-        for (size_t share = 0; share < 4; ++share) {
+        for (size_t subset = 0; subset < 4; ++subset) {
             float weights[2 * SIZE / 4];
             double xyz[3 * SIZE / 4];
-            aur_gather_pair_weights(pair, step % ROTATIONS, share, (float)cos(angle), weights);
-            place(pair, step % ROTATIONS, share, angle, false, xyz);
+            aur_merged_rule_weights(pair, step % ROTATIONS, subset, (float)cos(angle), weights);
+            place(pair, step % ROTATIONS, subset, angle, false, xyz);
             for (size_t i = 0; i < SIZE / 4; ++i) {
                 /* Hidden samples carry nothing. */
                 if (xyz[3 * i + 2] < -1e-3)
@@ -151,29 +153,29 @@ static void constants_are_exact(void **state) {
         assert_relative(sums[1], aur_potential_mass(lobe), 2e-4);
         aur_potential_destroy(lobe);
     }
-    aur_gather_pair_destroy(pair);
+    aur_merged_rule_destroy(pair);
 }
 
 /* Shares are a permutation: together they hold the directions and weights of the whole. */
 static void shares_make_the_whole(void **state) {
     (void)state;
-    for (int method = AUR_PAIR_MIS; method <= AUR_PAIR_SOLVE; ++method) {
-        const aur_pair_options one = options_of((aur_pair_method)method, 20.0, true, 1);
-        const aur_pair_options four = options_of((aur_pair_method)method, 20.0, true, 4);
-        aur_gather_pair *const whole = create(&one);
-        aur_gather_pair *const shared = create(&four);
+    for (int method = AUR_MERGED_MIS; method <= AUR_MERGED_SOLVE; ++method) {
+        const aur_merged_rule_options one = options_of((aur_merged_method)method, 20.0, true, 1);
+        const aur_merged_rule_options four = options_of((aur_merged_method)method, 20.0, true, 4);
+        aur_merged_rule *const whole = create(&one);
+        aur_merged_rule *const shared = create(&four);
         float expected[2 * SIZE];
-        aur_gather_pair_weights(whole, 1, 0, 0.5f, expected);
-        for (size_t share = 0; share < 4; ++share) {
+        aur_merged_rule_weights(whole, 1, 0, 0.5f, expected);
+        for (size_t subset = 0; subset < 4; ++subset) {
             float weights[2 * SIZE / 4];
-            aur_gather_pair_weights(shared, 1, share, 0.5f, weights);
+            aur_merged_rule_weights(shared, 1, subset, 0.5f, weights);
             for (size_t pattern = 0, at = 0; pattern < 2; ++pattern) {
-                const size_t count = shared->share_count[pattern];
+                const size_t count = shared->subset_count[pattern];
                 for (size_t i = 0; i < count; ++i, ++at) {
-                    const size_t index = 4 * i + share;
+                    const size_t index = 4 * i + subset;
                     for (size_t k = 0; k < 3; ++k)
                         assert_true(
-                            shared->direction[pattern][k][shared->count[pattern] + share * count + i] ==
+                            shared->direction[pattern][k][shared->count[pattern] + subset * count + i] ==
                             whole->direction[pattern][k][whole->count[pattern] + index]);
                     for (size_t lobe = 0; lobe < 2; ++lobe)
                         assert_near(weights[lobe * SIZE / 4 + at],
@@ -181,8 +183,8 @@ static void shares_make_the_whole(void **state) {
                 }
             }
         }
-        aur_gather_pair_destroy(whole);
-        aur_gather_pair_destroy(shared);
+        aur_merged_rule_destroy(whole);
+        aur_merged_rule_destroy(shared);
     }
 }
 
@@ -190,15 +192,15 @@ static void shares_make_the_whole(void **state) {
 static void balance_is_the_library_s(void **state) {
     (void)state;
     for (int optimal = 0; optimal < 2; ++optimal) {
-        aur_pair_options options = options_of(AUR_PAIR_MIS, 20.0, true, 1);
+        aur_merged_rule_options options = options_of(AUR_MERGED_MIS, 20.0, true, 1);
         options.optimal_density = optimal == 1;
-        aur_gather_pair *const pair = create(&options);
+        aur_merged_rule *const pair = create(&options);
         for (size_t step = 0; step < 9; ++step) {
             const double angle = 10.0 * (double)step * PI / 180.0;
             float weights[2 * SIZE];
             double xyz[3 * SIZE], expected[SIZE];
             place(pair, 0, 0, angle, false, xyz);
-            aur_gather_pair_weights(pair, 0, 0, (float)cos(angle), weights);
+            aur_merged_rule_weights(pair, 0, 0, (float)cos(angle), weights);
             const double power = optimal == 1 ? 0.8 : 1.0;
             const aur_strategy strategies[2] = {{.count = DIFFUSE, .sampled = {.exponent = power}},
                                                 {.count = GLOSSY,
@@ -218,40 +220,40 @@ static void balance_is_the_library_s(void **state) {
                 aur_potential_destroy(target);
             }
         }
-        aur_gather_pair_destroy(pair);
+        aur_merged_rule_destroy(pair);
     }
 }
 
 /* The density that a light's own sampling is weighed against is that of the directions. */
 static void densities(void **state) {
     (void)state;
-    aur_pair_options options = options_of(AUR_PAIR_OSWA, 20.0, true, 4);
+    aur_merged_rule_options options = options_of(AUR_MERGED_OSWA, 20.0, true, 4);
     options.optimal_density = true;
-    aur_gather_pair *const pair = create(&options);
+    aur_merged_rule *const pair = create(&options);
     for (float cosine = 0.05f; cosine <= 1.0f; cosine += 0.05f) {
         const double expected = 12.0 * 1.8 / (2.0 * PI) * pow((double)cosine, 0.8) +
                                 6.0 * 17.0 / (2.0 * PI) * pow((double)cosine, 16.0);
-        assert_relative(aur_gather_pair_density(pair, cosine, cosine), expected, 0.02 / (double)cosine);
+        assert_relative(aur_merged_rule_density(pair, cosine, cosine), expected, 0.02 / (double)cosine);
     }
-    assert_true(aur_gather_pair_density(pair, -0.5f, -0.1f) == 0.0f);
-    aur_gather_pair_destroy(pair);
+    assert_true(aur_merged_rule_density(pair, -0.5f, -0.1f) == 0.0f);
+    aur_merged_rule_destroy(pair);
 }
 
 static void refuses(void **state) {
     (void)state;
-    aur_gather_pair *pair;
+    aur_merged_rule *pair;
     aur_error error;
-    aur_pair_options options = options_of(AUR_PAIR_OSWA, 20.0, true, 1);
+    aur_merged_rule_options options = options_of(AUR_MERGED_OSWA, 20.0, true, 1);
     options.rotations = 0;
-    assert_int_equal(aur_gather_pair_create(&options, &pair, &error), AUR_ERROR_ARGUMENT);
+    assert_int_equal(aur_merged_rule_create(&options, &pair, &error), AUR_ERROR_ARGUMENT);
     assert_null(pair);
-    options = options_of(AUR_PAIR_OSWA, 20.0, true, 5);
-    assert_int_equal(aur_gather_pair_create(&options, &pair, &error), AUR_ERROR_ARGUMENT);
-    options = options_of(AUR_PAIR_OSWA, 20.0, true, 1);
+    options = options_of(AUR_MERGED_OSWA, 20.0, true, 5);
+    assert_int_equal(aur_merged_rule_create(&options, &pair, &error), AUR_ERROR_ARGUMENT);
+    options = options_of(AUR_MERGED_OSWA, 20.0, true, 1);
     options.set = "sobl";
-    assert_int_equal(aur_gather_pair_create(&options, &pair, &error), AUR_ERROR_NAME);
-    options = options_of(AUR_PAIR_MIS, -1.0, true, 1);
-    assert_int_equal(aur_gather_pair_create(&options, &pair, &error), AUR_ERROR_ARGUMENT);
+    assert_int_equal(aur_merged_rule_create(&options, &pair, &error), AUR_ERROR_NAME);
+    options = options_of(AUR_MERGED_MIS, -1.0, true, 1);
+    assert_int_equal(aur_merged_rule_create(&options, &pair, &error), AUR_ERROR_ARGUMENT);
     assert_null(pair);
 }
 

@@ -3,16 +3,16 @@
 #include "core/random.h"
 #include "transport/gather/rule.h"
 
-static aur_gather_options options_of(const char *set, aur_scramble scramble, size_t count, bool optimal,
-                                     size_t rotations) {
-    return (aur_gather_options){.set = set,
-                                .count = count,
-                                .map = AUR_MAP_LAMBERT,
-                                .scramble = scramble,
-                                .optimal_density = optimal,
-                                .smoothness = 1.5,
-                                .rotations = rotations,
-                                .seed = 5};
+static aur_gather_rule_options options_of(const char *set, aur_scramble scramble, size_t count, bool optimal,
+                                          size_t rotations) {
+    return (aur_gather_rule_options){.set = set,
+                                     .count = count,
+                                     .map = AUR_MAP_LAMBERT,
+                                     .scramble = scramble,
+                                     .optimal_density = optimal,
+                                     .smoothness = 1.5,
+                                     .rotations = rotations,
+                                     .seed = 5};
 }
 
 typedef double (*function)(aur_vector);
@@ -26,20 +26,20 @@ static double smooth(aur_vector v) {
     return 1.0 + 0.5 * (double)v.x + 0.25 * (double)v.y + (double)v.z;
 }
 
-/* The mean over several turns of the rule's estimate of the integral of cos^exponent * f. */
-static double integrate(const aur_gather_rule *rule, function f, size_t turns) {
+/* The mean over several rotations of the rule's estimate of the integral of cos^exponent * f. */
+static double integrate(const aur_gather_rule *rule, function f, size_t rotations) {
     double sum = 0.0;
-    for (uint64_t t = 0; t < turns; ++t) {
-        const aur_gather_turn turn = aur_gather_rule_turn(rule, aur_hash2(3, t));
+    for (uint64_t t = 0; t < rotations; ++t) {
+        const aur_gather_rotation rotation = aur_gather_rule_rotation(rule, aur_hash2(3, t));
         for (size_t i = 0; i < rule->count; ++i) {
             aur_vector v;
-            const float weight = aur_gather_direction(rule, &turn, i, &v);
+            const float weight = aur_gather_rule_direction(rule, &rotation, i, &v);
             assert_near(aur_vector_length(v), 1.0, 1e-5);
             assert_true(v.z >= 0.0f);
             sum += (double)weight * f(v);
         }
     }
-    return sum / (double)(rule->count * turns);
+    return sum / (double)(rule->count * rotations);
 }
 
 /* Integrals over the hemisphere: cos^m gives 2 pi / (m + 1); of `smooth` the odd parts vanish and cos^m * z
@@ -60,7 +60,7 @@ static void integrates_lobes(void **state) {
             for (int optimal = 0; optimal < 2; ++optimal) {
                 for (size_t rotations = 0; rotations <= 16; rotations += 16) {
                     const double m = exponents[e];
-                    const aur_gather_options options =
+                    const aur_gather_rule_options options =
                         options_of(cases[c].set, cases[c].scramble, 1024, optimal != 0, rotations);
                     aur_gather_rule rule;
                     aur_error error = {0};
@@ -76,10 +76,10 @@ static void integrates_lobes(void **state) {
     }
 }
 
-/* As many different patterns as prepared turns, and no more. */
-static void prepared_turns_are_few(void **state) {
+/* As many different patterns as prepared rotations, and no more. */
+static void prepared_rotations_are_few(void **state) {
     (void)state;
-    const aur_gather_options options = options_of("sobol", AUR_SCRAMBLE_DIGIT, 32, false, 4);
+    const aur_gather_rule_options options = options_of("sobol", AUR_SCRAMBLE_DIGIT, 32, false, 4);
     aur_gather_rule rule;
     aur_error error = {0};
     assert_int_equal(aur_gather_rule_create(&options, 1.0, &rule, &error), AUR_OK);
@@ -87,8 +87,8 @@ static void prepared_turns_are_few(void **state) {
     size_t distinct = 0;
     for (uint64_t hash = 0; hash < 64; ++hash) {
         aur_vector v;
-        const aur_gather_turn turn = aur_gather_rule_turn(&rule, aur_mix64(hash));
-        aur_gather_direction(&rule, &turn, 7, &v);
+        const aur_gather_rotation rotation = aur_gather_rule_rotation(&rule, aur_mix64(hash));
+        aur_gather_rule_direction(&rule, &rotation, 7, &v);
         size_t k = 0;
         while (k < distinct && seen[k] != v.x)
             ++k;
@@ -104,7 +104,7 @@ static void prepared_turns_are_few(void **state) {
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(integrates_lobes),
-        cmocka_unit_test(prepared_turns_are_few),
+        cmocka_unit_test(prepared_rotations_are_few),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,15 +1,10 @@
-/* Irradiance shared between neighbouring pixels: one joint pattern is split among those of a 4 x 4 block, the
- * same way in all blocks, and what they gathered is pooled where they see one surface (a discontinuity
- * buffer: Wald, Benthin, Slusallek, Keller 2002).
- *
- * A pixel's pool is the window of 5 x 5 pixels about it whose outer rows and columns count half. Like every
- * 4 x 4 window it has each part of the pattern once, and its middle is the pixel: light that changes linearly
- * over it is not blurred. Windows at the tile's rim are 4 wide and lie beside their pixel. */
-#include "transport/gather/plan.h"
+#include "transport/gather/pooling.h"
 
 #include <stdlib.h>
 
-/* Pixels share where their normals differ by less than 8 degrees from those of the first pixel seen of a
+#include "transport/packets/interleave.h"
+
+/* Pixels pool where their normals differ by less than 8 degrees from those of the first pixel seen of a
  * surface, and they lie near its plane. */
 static const float LEAST_AGREEMENT = 0.99f;
 static const float MOST_ELEVATION_SQUARED = 0.01f;
@@ -18,43 +13,43 @@ enum { SIDE = AUR_TILE_SIZE, REACH = AUR_GROUPS_A_SIDE / 2, WINDOW = AUR_GROUPS_
 enum { NO_SURFACE = -1 };
 
 /* One surface of the tile. */
-typedef struct shared_surface {
+typedef struct pooled_surface {
     uint64_t key;
     aur_vector position, normal; /* where it was first met */
-} shared_surface;
+} pooled_surface;
 
-typedef struct shared_tile {
+typedef struct pooled_tile {
     aur_pixel_strata *strata;
     size_t surface_count;
-    shared_surface surfaces[AUR_TILE_PIXELS * AUR_STRATUM_COUNT];
+    pooled_surface surfaces[AUR_TILE_PIXELS * AUR_STRATUM_COUNT];
     int surface_of[AUR_TILE_PIXELS][AUR_STRATUM_COUNT];
-} shared_tile;
+} pooled_tile;
 
-static bool lies_on(const shared_surface *surface, const aur_stratum *stratum) {
+static bool lies_on(const pooled_surface *surface, const aur_stratum *stratum) {
     if (surface->key != stratum->key)
         return false;
-    const aur_vector sum = stratum->normal; /* not of unit length */
+    const aur_vector sum = stratum->pooled.normal; /* not of unit length */
     const float cosine = aur_vector_dot(sum, surface->normal);
     if (cosine < 0.0f || cosine * cosine < LEAST_AGREEMENT * LEAST_AGREEMENT * aur_vector_dot(sum, sum))
         return false;
-    const aur_vector position = aur_vector_scale(stratum->position, 1.0f / stratum->gathers);
+    const aur_vector position = aur_vector_scale(stratum->pooled.position, 1.0f / stratum->gathers);
     const aur_vector offset = aur_vector_subtract(position, surface->position);
     const float height = aur_vector_dot(offset, surface->normal);
     return height * height <= MOST_ELEVATION_SQUARED * aur_vector_dot(offset, offset);
 }
 
-static int find_surface(shared_tile *tile, const aur_stratum *stratum) {
+static int find_surface(pooled_tile *tile, const aur_stratum *stratum) {
     for (size_t i = tile->surface_count; i-- > 0;)
         if (lies_on(&tile->surfaces[i], stratum))
             return (int)i;
     tile->surfaces[tile->surface_count] =
-        (shared_surface){.key = stratum->key,
-                         .position = aur_vector_scale(stratum->position, 1.0f / stratum->gathers),
-                         .normal = aur_vector_normalize(stratum->normal)};
+        (pooled_surface){.key = stratum->key,
+                         .position = aur_vector_scale(stratum->pooled.position, 1.0f / stratum->gathers),
+                         .normal = aur_vector_normalize(stratum->pooled.normal)};
     return (int)tile->surface_count++;
 }
 
-static void find_surfaces(shared_tile *tile) {
+static void find_surfaces(pooled_tile *tile) {
     for (size_t pixel = 0; pixel < AUR_TILE_PIXELS; ++pixel)
         for (uint32_t k = 0; k < tile->strata[pixel].count; ++k) {
             const aur_stratum *const stratum = &tile->strata[pixel].strata[k];
@@ -75,7 +70,7 @@ static size_t place_window(size_t at, float weights[WINDOW]) {
 }
 
 /* The mean irradiance of a surface over the window of a pixel. */
-static aur_vector pooled_irradiance(const shared_tile *tile, size_t x, size_t y, int surface) {
+static aur_vector pooled_irradiance(const pooled_tile *tile, size_t x, size_t y, int surface) {
     float across[WINDOW], down[WINDOW];
     const size_t left = place_window(x, across), top = place_window(y, down);
     aur_vector sum = {0};
@@ -89,15 +84,15 @@ static aur_vector pooled_irradiance(const shared_tile *tile, size_t x, size_t y,
         for (uint32_t k = 0; k < other->count; ++k) {
             if (tile->surface_of[pixel][k] != surface)
                 continue;
-            sum = aur_vector_add_scaled(sum, weight, other->strata[k].irradiance);
+            sum = aur_vector_add_scaled(sum, weight, other->strata[k].pooled.irradiance);
             gathers += weight * other->strata[k].gathers;
         }
     }
     return aur_vector_scale(sum, 1.0f / gathers);
 }
 
-bool aur_gather_share_irradiance(aur_pixel_strata *strata) {
-    shared_tile *const tile = malloc(sizeof *tile);
+bool aur_gather_pool_irradiance(aur_pixel_strata *strata) {
+    pooled_tile *const tile = malloc(sizeof *tile);
     if (tile == NULL)
         return false;
     tile->strata = strata;
@@ -110,7 +105,7 @@ bool aur_gather_share_irradiance(aur_pixel_strata *strata) {
                 continue;
             aur_stratum *const own = &strata[pixel].strata[k];
             const aur_vector mean = pooled_irradiance(tile, pixel % SIDE, pixel / SIDE, surface);
-            const aur_vector light = aur_vector_multiply(own->coefficient, mean);
+            const aur_vector light = aur_vector_multiply(own->pooled.coefficient, mean);
             own->sum[0] += (double)light.x;
             own->sum[1] += (double)light.y;
             own->sum[2] += (double)light.z;

@@ -1,9 +1,10 @@
-/* Shared irradiance: the joint pattern's parts cancel, linear light is kept, and surfaces stay apart. */
+/* Pooled irradiance: the joint pattern's parts cancel, linear light is kept, and surfaces stay apart. */
 #include "check.h"
 
 #include <stdlib.h>
 
-#include "transport/gather/plan.h"
+#include "transport/gather/pooling.h"
+#include "transport/packets/interleave.h"
 
 enum { SIDE = AUR_TILE_SIZE, BLOCK = AUR_GROUPS_A_SIDE };
 
@@ -21,10 +22,10 @@ static void add(aur_pixel_strata *strata, size_t x, size_t y, uint64_t key, aur_
     pixel->strata[pixel->count++] =
         (aur_stratum){.key = key,
                       .gathers = weight,
-                      .irradiance = aur_vector_scale((aur_vector){light, light, light}, weight),
-                      .coefficient = aur_vector_scale((aur_vector){0.5f, 0.5f, 0.5f}, weight),
-                      .position = aur_vector_scale((aur_vector){(float)x, (float)y, 0.0f}, weight),
-                      .normal = aur_vector_scale(normal, weight)};
+                      .pooled = {.irradiance = aur_vector_scale((aur_vector){light, light, light}, weight),
+                                 .coefficient = aur_vector_scale((aur_vector){0.5f, 0.5f, 0.5f}, weight),
+                                 .position = aur_vector_scale((aur_vector){(float)x, (float)y, 0.0f}, weight),
+                                 .normal = aur_vector_scale(normal, weight)}};
 }
 
 static aur_pixel_strata *create(void) {
@@ -47,7 +48,7 @@ static void linear_light_is_kept(void **state) {
         const double x = (double)(i % SIDE), y = (double)(i / SIDE);
         add(strata, i % SIDE, i / SIDE, 1, up, 2.0f, 3.0 + 0.25 * x - 0.125 * y + part(i % SIDE, i / SIDE));
     }
-    assert_true(aur_gather_share_irradiance(strata));
+    assert_true(aur_gather_pool_irradiance(strata));
     for (size_t i = 0; i < AUR_TILE_PIXELS; ++i) {
         const double expected = 3.0 + 0.25 * middle_of_window(i % SIDE) - 0.125 * middle_of_window(i / SIDE);
         assert_near(strata[i].strata[0].sum[0], 2.0 * 0.5 * expected, 1e-5);
@@ -69,7 +70,7 @@ static void surfaces_stay_apart(void **state) {
         if (y > 5 && y < 10)
             add(strata, x, y, 2, up, 0.5f, 4.0);
     }
-    assert_true(aur_gather_share_irradiance(strata));
+    assert_true(aur_gather_pool_irradiance(strata));
     for (size_t i = 0; i < AUR_TILE_PIXELS; ++i) {
         const aur_pixel_strata *const pixel = &strata[i];
         if (pixel->count > 0)
@@ -87,9 +88,9 @@ static void depths_stay_apart(void **state) {
     for (size_t i = 0; i < AUR_TILE_PIXELS; ++i) {
         const bool behind = i % 2 == 1;
         add(strata, i % SIDE, i / SIDE, 1, up, 1.0f, behind ? 3.0 : 1.0);
-        strata[i].strata[0].position.z = behind ? -20.0f : 0.0f;
+        strata[i].strata[0].pooled.position.z = behind ? -20.0f : 0.0f;
     }
-    assert_true(aur_gather_share_irradiance(strata));
+    assert_true(aur_gather_pool_irradiance(strata));
     for (size_t i = 0; i < AUR_TILE_PIXELS; ++i)
         assert_near(strata[i].strata[0].sum[0], i % 2 == 1 ? 1.5 : 0.5, 1e-6);
     free(strata);

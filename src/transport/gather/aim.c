@@ -1,0 +1,172 @@
+#include "transport/gather/aim.h"
+
+#include <string.h>
+
+#include "core/random.h"
+#include "transport/packets/interleave.h"
+
+/* --- randomisations of the patterns */
+
+bool aur_gather_splits(const aur_gather_plan *plan, const aur_gather_places *places,
+                       const aur_gather_lobe_rule *rule) {
+    return plan->policy.pools && rule == &plan->rules.lobes[0] && places->bounces == 0;
+}
+
+aur_gather_rotation aur_gather_rotation_at(const aur_gather_plan *plan, const aur_gather_places *places,
+                                           const aur_gather_lobe_rule *lobe_rule, size_t lane,
+                                           uint64_t lobe) {
+    const aur_gather_policy *const policy = &plan->policy;
+    const aur_gather_rule *const rule = &lobe_rule->rule;
+    if (policy->decorrelation == AUR_DECORRELATION_NONE)
+        return aur_gather_rule_rotation(rule, 0);
+    if (policy->decorrelation == AUR_DECORRELATION_RANDOM || rule->rotation_count == 0)
+        return aur_gather_rule_rotation(rule,
+                                        aur_hash4(policy->seed, places->pixels[lane], places->bounces, lobe));
+    uint64_t tile = aur_hash4(policy->seed, places->tile, places->bounces, lobe);
+    /* Where the samples of a pixel do not split a pattern, each has it rotated anew. */
+    if (policy->adaptive)
+        tile = aur_hash2(tile, places->index);
+    const uint32_t rank = aur_gather_splits(plan, places, lobe_rule) ? 0 : aur_group_rank(places->group);
+    /* Sixteen patterns would show as texture, were they the same in every tile. */
+    if (rule->scramble != AUR_SCRAMBLE_ROTATE) {
+        const uint64_t k = (rank ^ (tile & 15u)) * rule->rotation_count / 16;
+        aur_gather_rotation rotation = aur_gather_rule_rotation(rule, k);
+        rotation.word_v ^= rule->scramble != AUR_SCRAMBLE_NONE ? (uint32_t)(tile >> 32) : 0;
+        return rotation;
+    }
+    aur_gather_rotation rotation = aur_gather_rule_rotation(rule, rank * rule->rotation_count / 16);
+    rotation.word_v ^= (uint32_t)(tile >> 32);
+    const float angle = 2.0f * AUR_PI_F * aur_unit_float((uint32_t)tile);
+    return aur_gather_rotation_by(rotation, cosf(angle), sinf(angle));
+}
+
+/* Whether all lanes have one rotation. */
+static bool rotate_together(const aur_gather_plan *plan, const aur_gather_rule *rule) {
+    const aur_gather_decorrelation how = plan->policy.decorrelation;
+    return rule->square == NULL && (how == AUR_DECORRELATION_NONE || rule->scramble == AUR_SCRAMBLE_NONE ||
+                                    (how == AUR_DECORRELATION_BLUE && rule->rotation_count > 0));
+}
+
+/* --- rays */
+
+static void set_column(float column[3][AUR_PACKET_SIZE], size_t lane, aur_vector v) {
+    column[0][lane] = v.x;
+    column[1][lane] = v.y;
+    column[2][lane] = v.z;
+}
+
+void aur_gather_set_frame(const aur_gather_place *place, size_t lane, const aur_frame *frame,
+                          aur_lobe_frames *frames, aur_gather_rays *gather_rays) {
+    struct RTCRay16 *const rays = &gather_rays->packet.query.ray;
+    const aur_surface *const surface = &place->surface;
+    set_column(frames->x, lane, frame->x);
+    set_column(frames->y, lane, frame->y);
+    set_column(frames->z, lane, frame->z);
+    set_column(frames->shading, lane, aur_vector_scale(surface->frame.z, place->side));
+    set_column(frames->geometric, lane, aur_vector_scale(surface->geometric_normal, place->side));
+    rays->org_x[lane] = place->origin.x;
+    rays->org_y[lane] = place->origin.y;
+    rays->org_z[lane] = place->origin.z;
+    rays->tnear[lane] = 0.0f;
+    gather_rays->reference[lane] = surface->position;
+}
+
+uint32_t aur_gather_aim(uint32_t lanes, const aur_lobe_frames *restrict frames,
+                        float local[3][AUR_PACKET_SIZE], aur_packet *packet, float cosine[AUR_PACKET_SIZE]) {
+    struct RTCRay16 *const rays = &packet->query.ray;
+    float above[AUR_PACKET_SIZE];
+    for (size_t k = 0; k < AUR_PACKET_SIZE; ++k) {
+        const float x = local[0][k], y = local[1][k], z = local[2][k];
+        const float dx = frames->x[0][k] * x + frames->y[0][k] * y + frames->z[0][k] * z;
+        const float dy = frames->x[1][k] * x + frames->y[1][k] * y + frames->z[1][k] * z;
+        const float dz = frames->x[2][k] * x + frames->y[2][k] * y + frames->z[2][k] * z;
+        cosine[k] = frames->shading[0][k] * dx + frames->shading[1][k] * dy + frames->shading[2][k] * dz;
+        const float beyond =
+            frames->geometric[0][k] * dx + frames->geometric[1][k] * dy + frames->geometric[2][k] * dz;
+        above[k] = beyond < cosine[k] ? beyond : cosine[k];
+        rays->dir_x[k] = dx;
+        rays->dir_y[k] = dy;
+        rays->dir_z[k] = dz;
+        rays->tfar[k] = INFINITY;
+    }
+    uint32_t aimed = 0;
+    for (size_t k = 0; k < AUR_PACKET_SIZE; ++k) {
+        const bool wanted = aur_has_lane(lanes, k) && above[k] > 0.0f;
+        packet->valid[k] = wanted ? -1 : 0;
+        aimed |= (uint32_t)wanted << k;
+    }
+    return aimed;
+}
+
+/* --- a rule, direction by direction */
+
+void aur_gather_sweep_start(const aur_gather_plan *plan, const aur_gather_places *places,
+                            const aur_gather_lobe_rule *rule, size_t lobe, uint32_t lanes,
+                            aur_gather_sweep *sweep, aur_gather_rays *rays) {
+    *sweep = (aur_gather_sweep){
+        .rule = rule, .lobe = lobe, .lanes = lanes, .together = rotate_together(plan, &rule->rule)};
+    const size_t first = aur_first_lane(lanes);
+    for (uint32_t rest = lanes; rest != 0; rest &= rest - 1) {
+        const size_t lane = aur_first_lane(rest);
+        const aur_gather_place *const place = &places->at[lane];
+        const aur_bsdf_lobe *const own = &place->lobes[lobe];
+        if (own->factor != NULL)
+            sweep->factored |= 1u << lane;
+        sweep->times_cosine[lane] = own->times_cosine;
+        sweep->rotations[lane] = sweep->together && lane != first
+                                     ? sweep->rotations[first]
+                                     : aur_gather_rotation_at(plan, places, rule, lane, lobe);
+        const aur_frame frame = aur_frame_about(aur_gather_place_axis(place, lobe));
+        aur_gather_set_frame(place, lane, &frame, &sweep->frames, rays);
+    }
+}
+
+/* Direction `index` in the frames of all lanes, with its weights and the densities that rivals are weighed
+ * against. */
+static void set_directions(const aur_gather_sweep *sweep, size_t index, float local[3][AUR_PACKET_SIZE],
+                           float weight[AUR_PACKET_SIZE], float density[AUR_PACKET_SIZE]) {
+    const aur_gather_rule *const rule = &sweep->rule->rule;
+    const float directions = sweep->rule->directions;
+    aur_vector direction;
+    if (sweep->together) {
+        const aur_gather_rotation *const rotation = &sweep->rotations[aur_first_lane(sweep->lanes)];
+        const float one = aur_gather_rule_direction(rule, rotation, index, &direction);
+        const float drawn = rule->densities[rotation->first + index] * directions;
+        for (size_t k = 0; k < AUR_PACKET_SIZE; ++k) {
+            local[0][k] = direction.x;
+            local[1][k] = direction.y;
+            local[2][k] = direction.z;
+            weight[k] = one;
+            density[k] = drawn;
+        }
+        return;
+    }
+    for (uint32_t rest = sweep->lanes; rest != 0; rest &= rest - 1) {
+        const size_t lane = aur_first_lane(rest);
+        const aur_gather_rotation *const rotation = &sweep->rotations[lane];
+        weight[lane] = aur_gather_rule_direction(rule, rotation, index, &direction);
+        set_column(local, lane, direction);
+        density[lane] = directions * (rule->square != NULL ? aur_gather_rule_density(rule, direction.z)
+                                                           : rule->densities[rotation->first + index]);
+    }
+}
+
+uint32_t aur_gather_sweep_trace(const aur_gather_plan *plan, const aur_gather_places *places,
+                                const aur_gather_sweep *sweep, size_t index, bool weighed,
+                                aur_gather_rays *rays, aur_counters *counters,
+                                float factor[AUR_PACKET_SIZE]) {
+    float local[3][AUR_PACKET_SIZE] = {0}, cosine[AUR_PACKET_SIZE], weight[AUR_PACKET_SIZE] = {0};
+    set_directions(sweep, index, local, weight, rays->density);
+    const uint32_t aimed = aur_gather_aim(sweep->lanes, &sweep->frames, local, &rays->packet, cosine);
+    if (aimed == 0)
+        return 0;
+    rays->hash = aur_hash3(places->pixels[aur_first_lane(sweep->lanes)], index, sweep->lobe);
+    aur_gather_rays_trace(plan, places->order, rays, counters);
+    for (size_t k = 0; k < AUR_PACKET_SIZE; ++k)
+        factor[k] = (weighed ? weight[k] : 1.0f) * (sweep->times_cosine[k] ? cosine[k] : 1.0f);
+    for (uint32_t rest = sweep->factored & aimed; rest != 0; rest &= rest - 1) {
+        const size_t lane = aur_first_lane(rest);
+        factor[lane] *= aur_lobe_factor(&places->at[lane].lobes[sweep->lobe], cosine[lane]);
+    }
+    return aimed;
+}

@@ -1,0 +1,55 @@
+/* Directions of a rule made into gather rays at sixteen places. */
+#ifndef AUR_TRANSPORT_GATHER_AIM_H
+#define AUR_TRANSPORT_GATHER_AIM_H
+
+#include "transport/gather/scratch.h"
+#include "transport/gather/sums.h"
+
+/* Frames of the lobes, and normals on the side that is seen, an array a coordinate. */
+typedef struct aur_lobe_frames {
+    float x[3][AUR_PACKET_SIZE], y[3][AUR_PACKET_SIZE], z[3][AUR_PACKET_SIZE];
+    float shading[3][AUR_PACKET_SIZE], geometric[3][AUR_PACKET_SIZE];
+} aur_lobe_frames;
+
+/* Sets one lane's frame and normals, and makes its ray begin at its place. */
+void aur_gather_set_frame(const aur_gather_place *place, size_t lane, const aur_frame *frame,
+                          aur_lobe_frames *frames, aur_gather_rays *rays);
+
+/* Directions local to the frames made into rays of the packet; the lanes' origins have been set. Those below
+ * the surface are left out. Returns the lanes that have a ray, and their cosines at the surface. */
+uint32_t aur_gather_aim(uint32_t lanes, const aur_lobe_frames *restrict frames,
+                        float local[3][AUR_PACKET_SIZE], aur_packet *packet, float cosine[AUR_PACKET_SIZE]);
+
+/* What a lane's pattern for its lobe number `lobe` is randomised by. Under "blue" all lanes of the group have
+ * the same rotation. */
+aur_gather_rotation aur_gather_rotation_at(const aur_gather_plan *plan, const aur_gather_places *places,
+                                           const aur_gather_lobe_rule *rule, size_t lane, uint64_t lobe);
+
+/* Whether the pixels of a block split this rule, each one's directions being a part of one pattern. */
+bool aur_gather_splits(const aur_gather_plan *plan, const aur_gather_places *places,
+                       const aur_gather_lobe_rule *rule);
+
+/* One rule at the places of some lanes, to be traced direction by direction for their lobe number `lobe`. */
+typedef struct aur_gather_sweep {
+    const aur_gather_lobe_rule *rule;
+    size_t lobe;
+    uint32_t lanes;
+    uint32_t factored; /* lanes whose lobe has a factor beside the power */
+    bool together;     /* all lanes have one rotation */
+    bool times_cosine[AUR_PACKET_SIZE];
+    aur_gather_rotation rotations[AUR_PACKET_SIZE];
+    aur_lobe_frames frames;
+} aur_gather_sweep;
+
+void aur_gather_sweep_start(const aur_gather_plan *plan, const aur_gather_places *places,
+                            const aur_gather_lobe_rule *rule, size_t lobe, uint32_t lanes,
+                            aur_gather_sweep *sweep, aur_gather_rays *rays);
+
+/* Traces direction `index`; rays->radiance has what came along it. Returns the lanes above whose surface it
+ * lies, and what their radiance is to be multiplied by: the rule's weight where it is `weighed`, times what
+ * the lobe has beside the power. The radiance of other lanes is 0. */
+uint32_t aur_gather_sweep_trace(const aur_gather_plan *plan, const aur_gather_places *places,
+                                const aur_gather_sweep *sweep, size_t index, bool weighed,
+                                aur_gather_rays *rays, aur_counters *counters, float factor[AUR_PACKET_SIZE]);
+
+#endif

@@ -1,0 +1,173 @@
+#include "transport/gather/rules.h"
+
+#include <stdlib.h>
+
+#include "core/error.h"
+#include "scene/packet.h"
+#include "transport/gather/rule_weights.h"
+
+size_t aur_gather_split_count(int64_t wanted, size_t samples_per_pixel) {
+    const size_t each = ((size_t)wanted + samples_per_pixel - 1) / samples_per_pixel;
+    return each * samples_per_pixel;
+}
+
+/* What rules of one kind, diffuse or glossy, have in common. */
+typedef struct rule_maker {
+    const aur_gather_parameters *p;
+    const aur_integrator_context *context;
+    aur_gather_rule_options pattern;
+    aur_gather_levels_options growth; /* of adaptive rules */
+    size_t pixels;                    /* that split one pattern */
+    char set[80];                     /* of adaptive rules: extensible grids in place of the pattern */
+} rule_maker;
+
+static aur_result prepare(rule_maker *maker, int64_t count, aur_error *error) {
+    const aur_gather_parameters *const p = maker->p;
+    maker->pattern.count = maker->pixels * aur_gather_split_count(count, maker->context->samples_per_pixel);
+    if (!p->adaptive)
+        return AUR_OK;
+    maker->growth = (aur_gather_levels_options){.base = (size_t)count,
+                                                .factor = (size_t)p->level_factor,
+                                                .extensions = (size_t)p->levels,
+                                                .smoothness = p->smoothness,
+                                                .optimal = p->weights == AUR_WEIGHTS_OSW,
+                                                .regularization = p->regularization};
+    maker->pattern.set = maker->set;
+    return aur_gather_levels_set(&maker->growth, sizeof maker->set, maker->set, &maker->pattern.count, error);
+}
+
+/* A rule with its levels, or with its weights. */
+static aur_result make(const rule_maker *maker, double exponent, aur_gather_lobe_rule *lobe,
+                       aur_error *error) {
+    const aur_gather_parameters *const p = maker->p;
+    const aur_result result = aur_gather_rule_create(&maker->pattern, exponent, &lobe->rule, error);
+    if (result != AUR_OK)
+        return result;
+    if (p->adaptive) {
+        lobe->directions = (float)maker->growth.base;
+        return aur_gather_levels_create(&maker->growth, &lobe->rule, &lobe->levels, error);
+    }
+    lobe->directions = (float)(lobe->rule.count / (maker->pixels * maker->context->samples_per_pixel));
+    const bool optimal =
+        p->weights == AUR_WEIGHTS_OSW || p->weights == AUR_WEIGHTS_OSWA || p->weights == AUR_WEIGHTS_SOLVE;
+    return optimal ? aur_gather_rule_optimise(&lobe->rule, p->smoothness, p->regularization, error) : AUR_OK;
+}
+
+static aur_result add_horizon(aur_gather_lobe_rule *lobe, aur_error *error) {
+    lobe->horizon = malloc(sizeof *lobe->horizon);
+    if (lobe->horizon == NULL)
+        return aur_fail_memory(error);
+    aur_gather_horizon_fill(lobe->rule.exponent, lobe->horizon);
+    return AUR_OK;
+}
+
+static aur_result merge(const rule_maker *maker, const aur_gather_rule *diffuse, aur_gather_lobe_rule *lobe,
+                        aur_error *error) {
+    const aur_gather_parameters *const p = maker->p;
+    const aur_merged_rule_options options = {.method = p->weights == AUR_WEIGHTS_OSWA  ? AUR_MERGED_OSWA
+                                                       : p->weights == AUR_WEIGHTS_MIS ? AUR_MERGED_MIS
+                                                                                       : AUR_MERGED_SOLVE,
+                                             .set = maker->pattern.set,
+                                             .count = {diffuse->count, lobe->rule.count},
+                                             .subsets = maker->context->samples_per_pixel,
+                                             .exponent = lobe->rule.exponent,
+                                             .rotations = maker->pattern.rotations,
+                                             .map = maker->pattern.map,
+                                             .scramble = maker->pattern.scramble,
+                                             .optimal_density = maker->pattern.optimal_density,
+                                             .clipped = p->clip,
+                                             .smoothness = p->smoothness,
+                                             .regularization = p->regularization,
+                                             .seed = maker->pattern.seed,
+                                             .threads = maker->context->threads,
+                                             .progress = maker->context->progress};
+    return aur_merged_rule_create(&options, &lobe->merged, error);
+}
+
+/* The rule of a lobe with a formula, made where there is none yet. */
+static aur_result find_or_make(const rule_maker *maker, const aur_bsdf_lobe *wanted, aur_gather_rules *rules,
+                               const aur_gather_lobe_rule **found, aur_error *error) {
+    size_t i = wanted->diffuse ? 0 : 1;
+    while (i > 0 && i < rules->count && (float)rules->lobes[i].rule.exponent != wanted->exponent)
+        ++i;
+    aur_gather_lobe_rule *const lobe = &rules->lobes[i];
+    *found = lobe;
+    if (i < rules->count)
+        return AUR_OK;
+    ++rules->count;
+    aur_result result = make(maker, wanted->exponent, lobe, error);
+    if (result == AUR_OK && maker->p->clip && !maker->p->adaptive)
+        result = add_horizon(lobe, error);
+    if (result == AUR_OK && aur_merges_samples(maker->p))
+        result = merge(maker, &rules->lobes[0].rule, lobe, error);
+    return result;
+}
+
+/* Rules for the lobes of all surfaces, also those that a texture makes black somewhere. */
+static aur_result serve_shapes(const rule_maker *maker, aur_gather_rules *rules, aur_error *error) {
+    const aur_scene *const scene = maker->context->scene;
+    aur_result result = AUR_OK;
+    for (uint32_t i = 0; i < aur_scene_shape_count(scene); ++i) {
+        const aur_bsdf *const bsdf = aur_scene_shape_bsdf(scene, i);
+        rules->scatters |= bsdf->scatters[0] | bsdf->scatters[1];
+        for (size_t k = 0; k < bsdf->lobe_count && result == AUR_OK; ++k)
+            if (bsdf->lobes[k].shape == AUR_LOBE_SHAPE_COSINE_POWER)
+                result = find_or_make(maker, &bsdf->lobes[k], rules, &rules->of_shape[i][k], error);
+    }
+    return result;
+}
+
+/* Never adaptive, and weighed by the draws themselves. */
+static aur_result make_sampled(const rule_maker *maker, aur_gather_lobe_rule *sampled, aur_error *error) {
+    aur_gather_rule_options options = maker->pattern;
+    options.set = maker->p->pattern;
+    options.count = aur_gather_split_count(maker->p->glossy_samples, maker->context->samples_per_pixel);
+    sampled->directions = (float)(options.count / maker->context->samples_per_pixel);
+    return aur_gather_rule_create(&options, 0.0, &sampled->rule, error);
+}
+
+aur_result aur_gather_rules_create(const aur_gather_parameters *p, const aur_gather_rule_options *pattern,
+                                   const aur_integrator_context *context, aur_gather_rules *rules,
+                                   aur_error *error) {
+    *rules = (aur_gather_rules){0};
+    const size_t shapes = aur_scene_shape_count(context->scene);
+    size_t most = 1;
+    for (size_t i = 0; i < shapes; ++i)
+        most += aur_scene_shape_bsdf(context->scene, i)->lobe_count;
+    rules->lobes = calloc(most, sizeof *rules->lobes);
+    rules->of_shape = calloc(shapes + 1, sizeof *rules->of_shape);
+    if (rules->lobes == NULL || rules->of_shape == NULL)
+        return aur_fail_memory(error);
+    rule_maker maker = {
+        .p = p, .context = context, .pattern = *pattern, .pixels = p->share ? AUR_PACKET_SIZE : 1};
+    rules->count = 1;
+    aur_result result = prepare(&maker, p->diffuse_samples, error);
+    if (result == AUR_OK)
+        result = make(&maker, 1.0, &rules->lobes[0], error);
+    maker.pixels = 1;
+    maker.pattern.warnings = (aur_warnings){0}; /* the diffuse pattern has given them */
+    if (result == AUR_OK)
+        result = prepare(&maker, p->glossy_samples, error);
+    if (result == AUR_OK)
+        result = serve_shapes(&maker, rules, error);
+    if (result == AUR_OK && (rules->scatters & AUR_SCATTERS_SAMPLED) != 0)
+        result = make_sampled(&maker, &rules->sampled, error);
+    rules->merged = rules->count > 1 ? rules->lobes[1].merged : NULL;
+    return result;
+}
+
+static void release(aur_gather_lobe_rule *lobe) {
+    aur_gather_rule_release(&lobe->rule);
+    aur_gather_levels_release(&lobe->levels);
+    aur_merged_rule_destroy(lobe->merged);
+    free(lobe->horizon);
+}
+
+void aur_gather_rules_release(aur_gather_rules *rules) {
+    for (size_t i = 0; i < rules->count; ++i)
+        release(&rules->lobes[i]);
+    release(&rules->sampled);
+    free(rules->lobes);
+    free(rules->of_shape);
+    *rules = (aur_gather_rules){0};
+}

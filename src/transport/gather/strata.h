@@ -1,0 +1,43 @@
+/* What the samples of a pixel have seen, by the surfaces that they saw. */
+#ifndef AUR_TRANSPORT_GATHER_STRATA_H
+#define AUR_TRANSPORT_GATHER_STRATA_H
+
+#include "transport/gather/sums.h"
+
+/* A key for what a lane's ray of the eye hit: the shape, and roughly which way it faces. 0 means that the ray
+ * left the scene, and is no surface's key. */
+uint64_t aur_gather_surface_key(const aur_shape_class *classes, const aur_packet *packet, size_t lane);
+#define AUR_SURFACE_KEY_EMITS (UINT64_C(1) << 63)
+
+/* One stratum of a pixel: all samples whose first hit has the same key. Samples count by their weight. */
+typedef struct aur_stratum {
+    uint64_t key;
+    double seen;   /* samples that met it */
+    double shaded; /* those whose radiance is in `sum` */
+    double sum[3];
+    /* With pooled irradiance: the samples that gathered, and sums over them. */
+    float gathers;
+    aur_gather_pooled pooled;
+} aur_stratum;
+
+enum { AUR_STRATUM_COUNT = 6 }; /* the last one takes what comes after */
+
+typedef struct aur_pixel_strata {
+    uint32_t count;
+    uint32_t samples;    /* whose radiance was valid */
+    uint64_t directions; /* gathered with, when adaptive */
+    aur_stratum strata[AUR_STRATUM_COUNT];
+} aur_pixel_strata;
+
+/* The pixel's stratum of a key, which is added where there is none yet: then `known` is false. */
+aur_stratum *aur_pixel_strata_find(aur_pixel_strata *pixel, uint64_t key, bool *known);
+
+/* Adds what was found for one lane of the sums, a sample of the pixel in that stratum. A sample that is no
+ * radiance is counted as invalid, and is as if it had not been drawn. */
+void aur_pixel_strata_add(aur_pixel_strata *pixel, aur_stratum *stratum, const aur_gather_sums *sums,
+                          size_t lane, float weight);
+
+/* The pixel's radiance, RGB: the mean of every stratum by its part of what the pixel sees. */
+void aur_pixel_strata_mean(const aur_pixel_strata *pixel, double mean[3]);
+
+#endif
