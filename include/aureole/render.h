@@ -22,9 +22,12 @@ enum { AUR_RENDER_LEVELS = 8 };
 /* `size` is set by the caller to the size of his struct. */
 typedef struct aur_render_statistics {
     size_t size;
-    uint64_t rays;                      /* traced, of all kinds */
-    uint64_t samples;                   /* camera samples */
-    uint64_t invalid_samples;           /* NaN, infinite or negative ones, left out of the picture */
+    uint64_t rays;            /* traced, of all kinds */
+    uint64_t samples;         /* camera samples */
+    uint64_t invalid_samples; /* NaN, infinite or negative ones, left out of the picture */
+    uint64_t cut_paths; /* cut after many mirrors in a row: the light that they would bring is missing */
+    /* finalgather, weights=oswa-solve: places whose system could not be solved. Their samples are invalid. */
+    uint64_t unsolved_weights;
     uint64_t levels[AUR_RENDER_LEVELS]; /* adaptive gathering: places that ended at each level */
     double prepare_seconds;             /* wall clock: photon map and the like */
     double render_seconds;              /* wall clock, in steps */

@@ -191,13 +191,30 @@ static aur_result render_tile(void *context, size_t index) {
     return AUR_OK;
 }
 
+/* Cut paths are worth a warning when they are more than so many a thousand samples. */
+enum { MOST_CUT_PATHS = 10 };
+
 /* Said once, when all samples are there. */
-static void warn_of_invalid_samples(const aur_render *render) {
+static void warn_of_losses(const aur_render *render) {
     const aur_render_statistics *const counted = &render->statistics;
-    if (counted->invalid_samples > 0 && aur_render_samples(render) >= render->settings.samples_per_pixel)
-        aur_warn_at(&render->settings.warnings, (aur_location){0},
+    const aur_warnings *const warnings = &render->settings.warnings;
+    const unsigned long long samples = counted->samples;
+    if (aur_render_samples(render) < render->settings.samples_per_pixel)
+        return;
+    if (counted->invalid_samples > 0)
+        aur_warn_at(warnings, (aur_location){0},
                     "%llu of %llu samples were NaN, infinite or negative and are left out",
-                    (unsigned long long)counted->invalid_samples, (unsigned long long)counted->samples);
+                    (unsigned long long)counted->invalid_samples, samples);
+    if (counted->unsolved_weights > 0)
+        aur_warn_at(warnings, (aur_location){0},
+                    "%llu systems for optimal weights could not be solved, and samples there are NaN: take "
+                    "a larger 'regularization'",
+                    (unsigned long long)counted->unsolved_weights);
+    if (1000 * counted->cut_paths > MOST_CUT_PATHS * counted->samples)
+        aur_warn_at(warnings, (aur_location){0},
+                    "%llu paths of %llu samples were cut after many mirrors or hidden lights in a row: what "
+                    "they would still bring is missing",
+                    (unsigned long long)counted->cut_paths, samples);
 }
 
 static void add_counters(aur_render *render, const aur_counters *counters) {
@@ -205,6 +222,8 @@ static void add_counters(aur_render *render, const aur_counters *counters) {
     for (size_t i = 0; i < render->film->tile_count; ++i) {
         statistics->rays += counters[i].rays;
         statistics->invalid_samples += counters[i].invalid;
+        statistics->cut_paths += counters[i].cut;
+        statistics->unsolved_weights += counters[i].unsolved;
         statistics->samples += counters[i].samples;
         for (size_t l = 0; l < AUR_RENDER_LEVELS; ++l)
             statistics->levels[l] += counters[i].levels[l];
@@ -234,7 +253,7 @@ aur_result aur_render_step(aur_render *render, size_t count, aur_error *error) {
     aur_stopwatch_add(&start, &render->statistics.render_seconds, &render->statistics.cpu_seconds);
     add_counters(render, work.counters);
     free(work.counters);
-    warn_of_invalid_samples(render);
+    warn_of_losses(render);
     atomic_store(&render->cancelled, false);
     if (result == AUR_OK)
         return AUR_OK;

@@ -257,6 +257,24 @@ static void refuses(void **state) {
     assert_null(pair);
 }
 
+/* A system that cannot be solved is said, and no weight is a number. Here the solver refuses the room for the
+ * result, which is too small because the rule forgets its second pattern. */
+static void unsolved_systems_are_said(void **state) {
+    (void)state;
+    const aur_merged_rule_options options = options_of(AUR_MERGED_SOLVE, 20.0, true, 1);
+    aur_merged_rule *const rule = create(&options);
+    float weights[2 * SIZE];
+    assert_true(aur_merged_rule_weights(rule, 0, 0, 0.5f, weights));
+    for (size_t i = 0; i < 2 * SIZE; ++i)
+        assert_true(isfinite(weights[i]));
+    aur_merged_rule broken = *rule;
+    broken.count[1] = 0;
+    assert_false(aur_merged_rule_weights(&broken, 0, 0, 0.5f, weights));
+    for (size_t i = 0; i < 2 * SIZE; ++i)
+        assert_true(isnan(weights[i]));
+    aur_merged_rule_destroy(rule);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(tables_are_solves),
@@ -265,6 +283,7 @@ int main(void) {
         cmocka_unit_test(balance_is_the_library_s),
         cmocka_unit_test(densities),
         cmocka_unit_test(refuses),
+        cmocka_unit_test(unsolved_systems_are_said),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

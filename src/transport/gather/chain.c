@@ -187,7 +187,7 @@ aur_vector aur_gather_chain_radiance(const aur_gather_plan *plan, const aur_gath
             radiance =
                 aur_vector_add(radiance, sampled_light(plan, &shading, kinds, radiance, &hash, counters));
         sum = aur_vector_add(sum, aur_vector_multiply(throughput, radiance));
-        if (!(kinds.mirrors || kinds.sampled) || chain.length == AUR_LONGEST_CHAIN || !deeper)
+        if (!(kinds.mirrors || kinds.sampled) || !deeper)
             return sum;
         float u[3];
         aur_bsdf_sample drawn;
@@ -198,6 +198,10 @@ aur_vector aur_gather_chain_radiance(const aur_gather_plan *plan, const aur_gath
         const float survival = fminf(1.0f, BOOST * aur_vector_max(throughput));
         if (!(draw_unit(&hash) < survival))
             return sum;
+        if (chain.length == AUR_LONGEST_CHAIN) {
+            ++counters->cut;
+            return sum;
+        }
         throughput = aur_vector_scale(throughput, 1.0f / survival);
         chain.specular = chain.specular && drawn.specular;
         chain.mirrored = drawn.specular;

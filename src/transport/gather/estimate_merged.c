@@ -50,7 +50,7 @@ static float *weights_of(const merged *work, size_t lobe, size_t sample) {
     return work->weights + (lobe * work->samples + sample) * AUR_PACKET_SIZE;
 }
 
-static void set_merged(merged *work, size_t lane, aur_gather_rays *rays) {
+static void set_merged(merged *work, size_t lane, aur_gather_rays *rays, aur_counters *counters) {
     const aur_gather_place *const place = &work->places->at[lane];
     const aur_merged_rule *const rule = place->merged;
     const size_t *const lobes = place->merged_lobes;
@@ -76,7 +76,8 @@ static void set_merged(merged *work, size_t lane, aur_gather_rays *rays) {
             work->coefficients[lane][k] = place->lobes[lobes[k]].coefficient;
     }
     float *const looked_up = weights_of(work, 2, 0);
-    aur_merged_rule_weights(rule, rotation, work->subset, aur_vector_dot(normal, mirror), looked_up);
+    if (!aur_merged_rule_weights(rule, rotation, work->subset, aur_vector_dot(normal, mirror), looked_up))
+        ++counters->unsolved;
     for (size_t i = 0; i < 2 * work->samples; ++i)
         work->weights[i * AUR_PACKET_SIZE + lane] = looked_up[i];
 }
@@ -139,7 +140,7 @@ static void finish_pattern(merged_pattern *pattern) {
 }
 
 /* Frames, directions and weights of all lanes; returns those that are served. */
-static uint32_t prepare(merged *work, aur_gather_rays *rays) {
+static uint32_t prepare(merged *work, aur_gather_rays *rays, aur_counters *counters) {
     const aur_gather_plan *const plan = work->plan;
     const uint32_t lanes = work->places->lanes;
     uint32_t merged_lanes = 0, diffuse = 0;
@@ -148,7 +149,7 @@ static uint32_t prepare(merged *work, aur_gather_rays *rays) {
         if (work->places->at[lane].merged == NULL)
             continue;
         merged_lanes |= 1u << lane;
-        set_merged(work, lane, rays);
+        set_merged(work, lane, rays, counters);
     }
     for (uint32_t rest = merged_lanes != 0 ? lanes & ~merged_lanes : 0; rest != 0; rest &= rest - 1) {
         const size_t lane = aur_first_lane(rest);
@@ -227,7 +228,7 @@ uint32_t aur_gather_by_merged(const aur_gather_plan *plan, const aur_gather_plac
                    .subset_count = {first->subset_count[0], first->subset_count[1]},
                    .samples = aur_merged_rule_samples(first),
                    .weights = scratch->merged};
-    const uint32_t lanes = prepare(&work, &scratch->rays);
+    const uint32_t lanes = prepare(&work, &scratch->rays, sums->counters);
     if (lanes == 0)
         return places->lanes;
     for (size_t k = 0; k < 2; ++k)

@@ -227,8 +227,8 @@ static bool solve(const aur_merged_rule *rule, size_t rotation, size_t subset, f
     double angles[2], mass = 0.0;
     aur_oswa_turns(rule->seed, rotation, angles);
     double *const found = malloc(2 * size * sizeof *found);
-    const bool solved = found != NULL && aur_oswa_solve(rule->oswa, (double)radians, angles, 2 * size, found,
-                                                        &mass, NULL) == AUR_OK;
+    bool solved = found != NULL &&
+                  aur_oswa_solve(rule->oswa, (double)radians, angles, 2 * size, found, &mass, NULL) == AUR_OK;
     for (size_t lobe = 0, at = 0; lobe < 2; ++lobe) {
         const double scale = (double)rule->subsets * (lobe == 0 ? AUR_PI : mass);
         for (size_t i = 0; i < samples; ++i, ++at) {
@@ -236,6 +236,7 @@ static bool solve(const aur_merged_rule *rule, size_t rotation, size_t subset, f
             const size_t index = (i - pattern * rule->subset_count[0]) * rule->subsets + subset;
             weights[at] =
                 solved ? (float)(scale * found[lobe * size + pattern * rule->count[0] + index]) : NAN;
+            solved = solved && isfinite(weights[at]);
         }
     }
     free(found);

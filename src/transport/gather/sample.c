@@ -170,6 +170,7 @@ void aur_gather_add_samples(aur_gather_group *group, const aur_gather_task *task
         aur_gather_shade(plan, places, &group->sums, group->scratch);
         bounce(group);
     }
+    counters->cut += aur_lane_count(places->lanes);
     for (uint32_t rest = task->lanes; rest != 0; rest &= rest - 1) {
         const size_t lane = aur_first_lane(rest);
         if (group->strata[lane] != NULL)

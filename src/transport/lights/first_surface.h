@@ -19,6 +19,7 @@ static inline bool aur_visible_surface(const aur_scene *scene, bool hide_emitter
             return true;
         *ray = aur_surface_ray(surface, ray->direction);
     }
+    ++counters->cut;
     return false;
 }
 
