@@ -37,7 +37,8 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
     fuzz_require(file != NULL && fwrite(data, 1, size, file) == size && fclose(file) == 0,
                  "cannot write the input");
     static const aur_definition definitions[] = {{"n", "3"}};
-    const aur_scene_options options = {.definition_count = 1, .definitions = definitions};
+    const aur_scene_options options = {
+        .size = sizeof options, .definition_count = 1, .definitions = definitions};
     aur_error error = {0};
     aur_scene *scene = NULL;
     const aur_result result = aur_scene_load(input_path(), &options, &scene, &error);

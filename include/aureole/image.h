@@ -3,6 +3,8 @@
 #define AUREOLE_IMAGE_H
 
 #include <aureole/core.h>
+#include <stdbool.h>
+#include <string.h>
 
 #ifdef __cplusplus
 extern "C" {
@@ -46,12 +48,21 @@ enum { AUR_TONE_COUNT = AUR_TONE_FILMIC + 1 };
 /* "srgb", "filmic" */
 AUR_API aur_result aur_tone_from_name(const char *name, aur_tone *tone, aur_error *error) AUR_NONNULL(1, 2);
 
+/* All zero but `size`, as aur_image_write_options_default makes it, writes radiance as it is. */
 typedef struct aur_image_write_options {
+    size_t size;        /* of the caller's struct, so that it can grow */
     float exposure;     /* stops, finite; PNG only */
     aur_tone tone;      /* PNG only */
-    int half;           /* EXR: 16-bit floats; finite values are kept finite (at most 65504) */
+    bool half;          /* EXR: 16-bit floats; finite values are kept finite (at most 65504) */
     const char *format; /* "exr", "pfm", "hdr", "png"; NULL: by extension */
 } aur_image_write_options;
+
+static inline aur_image_write_options aur_image_write_options_default(void) {
+    aur_image_write_options options;
+    memset(&options, 0, sizeof options);
+    options.size = sizeof options;
+    return options;
+}
 
 /* EXR holds every channel; the others R, G, B (or a single channel: PFM and PNG as grey, HDR as three equal
  * ones). The file is replaced whole or not at all; "-" is standard output, as EXR unless the options say
@@ -64,8 +75,8 @@ AUR_API aur_result aur_image_write(const char *path, const aur_image *image,
 /* The index of a channel, or SIZE_MAX. */
 AUR_API size_t aur_image_find_channel(const aur_image *image, const char *name) AUR_NONNULL(1, 2);
 /* Which channels are red, green and blue: those of that name; else Y, or the only channel, for all three;
- * else the three that there are. Returns 0 when there is no such choice. */
-AUR_API int aur_image_color_channels(const aur_image *image, size_t channels[3]) AUR_NONNULL(1, 2);
+ * else the three that there are. False when there is no such choice. */
+AUR_API bool aur_image_color_channels(const aur_image *image, size_t channels[3]) AUR_NONNULL(1, 2);
 /* A picture of some of the channels, in the order given. Errors: NAME, MEMORY. */
 AUR_API aur_result aur_image_select(const aur_image *image, size_t count, const char *const *names,
                                     aur_image **selected, aur_error *error) AUR_NONNULL(1, 3, 4);

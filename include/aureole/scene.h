@@ -3,12 +3,13 @@
 #define AUREOLE_SCENE_H
 
 #include <aureole/core.h>
+#include <string.h>
 
 #ifdef __cplusplus
 extern "C" {
 #endif
 
-/* Immutable once loaded; any number of threads may render it. */
+/* Immutable once loaded; any number of threads may render it and ask it. It must outlive its renderers. */
 typedef struct aur_scene aur_scene;
 
 /* One `-D name=value`. */
@@ -17,28 +18,52 @@ typedef struct aur_definition {
     const char *value;
 } aur_definition;
 
+/* All zero but `size`, as aur_scene_options_default makes it, takes the scene as it stands. */
 typedef struct aur_scene_options {
+    size_t size; /* of the caller's struct, so that it can grow */
     size_t definition_count;
     const aur_definition *definitions; /* they beat the scene's <default>s; an unused one is an error */
     aur_warnings warnings;             /* legacy parameters and the like */
 } aur_scene_options;
 
-/* Errors carry file, line and column. `options` may be NULL. */
+static inline aur_scene_options aur_scene_options_default(void) {
+    aur_scene_options options;
+    memset(&options, 0, sizeof options);
+    options.size = sizeof options;
+    return options;
+}
+
+/* Reads a scene and all files that it names: includes, meshes, pictures and point sets. Relative names are
+ * looked for beside the file that has them, beside the scene, in the folders of <path>, and in the folder of
+ * the process; only regular files are read, and none is written. `options` may be NULL. Errors carry file,
+ * line and column: OPEN (a file is not there or is no regular file), FORMAT (what is written cannot be
+ * meant), NAME (an unknown element, plugin, parameter or definition; the message suggests the nearest),
+ * UNSUPPORTED (Mitsuba has it, Aureole has not), ARGUMENT (`options`), MEMORY. */
 AUR_API aur_result aur_scene_load(const char *path, const aur_scene_options *options, aur_scene **scene,
                                   aur_error *error) AUR_NONNULL(1, 3);
+/* The same from the `bytes` bytes of a scene file in memory. `name` stands for its path: in messages, and as
+ * the place beside which files are looked for. */
+AUR_API aur_result aur_scene_load_memory(const char *name, size_t bytes, const void *data,
+                                         const aur_scene_options *options, aur_scene **scene,
+                                         aur_error *error) AUR_NONNULL(1, 3, 5);
+/* Not while a renderer of the scene lives. */
 AUR_API void aur_scene_destroy(aur_scene *scene); /* NULL is allowed */
 
-/* What is in a scene, for people and for `aureole info`. */
+/* What is in a scene, for people and for `aureole info`. `size` is set by the caller to that of the struct.
+ */
 typedef struct aur_scene_description {
+    size_t size;
     size_t shapes, triangles, emitters, materials;
     size_t width, height, samples_per_pixel;
     float lower[3], upper[3]; /* bounding box, scene units */
     const char *integrator;   /* owned by the scene */
     const char *sampler;      /* SET syntax, owned by the scene */
-    const char *filter;       /* "box", "tent", "gaussian" */
+    const char *filter;       /* static storage */
 } aur_scene_description;
 
-AUR_API void aur_scene_describe(const aur_scene *scene, aur_scene_description *description) AUR_NONNULL(1, 2);
+/* Errors: ARGUMENT when `size` is not set. */
+AUR_API aur_result aur_scene_describe(const aur_scene *scene, aur_scene_description *description,
+                                      aur_error *error) AUR_NONNULL(1, 2);
 
 #ifdef __cplusplus
 }

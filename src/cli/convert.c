@@ -31,7 +31,7 @@ static bool parse_options(int argc, char **argv, convert_options *options) {
                                                  {"to", required_argument, NULL, 'f'},
                                                  {0}};
     static const char *const formats[] = {"exr", "pfm", "hdr", "png"};
-    *options = (convert_options){.downsample = 1};
+    *options = (convert_options){.downsample = 1, .write = aur_image_write_options_default()};
     optind = 0;
     for (int option; (option = cli_next_option(argc, argv, "", long_options)) != -1;) {
         bool good = true;
@@ -48,7 +48,7 @@ static bool parse_options(int argc, char **argv, convert_options *options) {
             options->toned = true;
             break;
         case 'h':
-            options->write.half = 1;
+            options->write.half = true;
             break;
         case 'c':
             options->channels = optarg;

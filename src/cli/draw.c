@@ -190,7 +190,7 @@ static aur_result write_png(const char *path, const drawing *d, aur_error *error
         image->data[i] = 1.0f;
     for (size_t p = 0; p < d->panel_count; ++p)
         paint_panel(d, p, image);
-    const aur_image_write_options options = {.format = "png"};
+    const aur_image_write_options options = {.size = sizeof options, .format = "png"};
     result = aur_image_write(path, image, &options, error);
     aur_image_destroy(image);
     return result;

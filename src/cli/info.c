@@ -71,13 +71,14 @@ static int print_facts(const info_facts *facts, cli_format format) {
 static int describe_scene(const char *path, const info_options *options) {
     aur_error error;
     aur_scene *scene;
-    const aur_scene_options scene_options = {.definition_count = options->definition_count,
+    const aur_scene_options scene_options = {.size = sizeof scene_options,
+                                             .definition_count = options->definition_count,
                                              .definitions = options->definitions,
                                              .warnings = cli_warnings(options->quiet)};
     if (aur_scene_load(path, &scene_options, &scene, &error) != AUR_OK)
         return cli_fail(&error);
-    aur_scene_description d;
-    aur_scene_describe(scene, &d);
+    aur_scene_description d = {.size = sizeof d};
+    aur_scene_describe(scene, &d, NULL);
     info_facts facts = {0};
     add_text(&facts, "kind", "scene");
     add_number(&facts, "shapes", (double)d.shapes);

@@ -236,7 +236,8 @@ static int render(const render_command *command, cli_errors *errors) {
         (errors != NULL && strcmp(command->errors, "-") != 0 &&
          check_folder(command->errors, &error) != AUR_OK))
         return cli_fail(&error);
-    const aur_scene_options scene_options = {.definition_count = command->definition_count,
+    const aur_scene_options scene_options = {.size = sizeof scene_options,
+                                             .definition_count = command->definition_count,
                                              .definitions = command->definitions,
                                              .warnings = command->options.warnings};
     aur_scene *scene = NULL;

@@ -67,7 +67,7 @@ size_t aur_image_find_channel(const aur_image *image, const char *name) {
     return SIZE_MAX;
 }
 
-int aur_image_color_channels(const aur_image *image, size_t channels[3]) {
+bool aur_image_color_channels(const aur_image *image, size_t channels[3]) {
     static const char *const names[] = {"R", "G", "B"};
     size_t found = 0;
     for (size_t i = 0; i < 3; ++i) {
@@ -75,11 +75,11 @@ int aur_image_color_channels(const aur_image *image, size_t channels[3]) {
         found += channels[i] != SIZE_MAX;
     }
     if (found == 3)
-        return 1;
+        return true;
     const size_t grey = image->channel_count == 1 ? 0 : aur_image_find_channel(image, "Y");
     if (grey != SIZE_MAX) {
         channels[0] = channels[1] = channels[2] = grey;
-        return 1;
+        return true;
     }
     for (size_t i = 0; i < 3; ++i)
         channels[i] = i;

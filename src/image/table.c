@@ -5,6 +5,7 @@
 #include <strings.h>
 
 #include "core/file.h"
+#include "core/options.h"
 #include "image/format.h"
 
 /* One new format is one new file and one line here. */
@@ -70,22 +71,24 @@ static const aur_image_format *find_writer(const char *path, const char *wanted,
 
 aur_result aur_image_write(const char *path, const aur_image *image, const aur_image_write_options *options,
                            aur_error *error) {
-    static const aur_image_write_options defaults = {0};
-    if (options == NULL)
-        options = &defaults;
-    if (!isfinite(options->exposure) || (size_t)options->tone >= AUR_TONE_COUNT)
+    aur_image_write_options own = aur_image_write_options_default();
+    aur_result result =
+        aur_options_read(options, sizeof own, sizeof own, &own, "aur_image_write_options", error);
+    if (result != AUR_OK)
+        return result;
+    if (!isfinite(own.exposure) || (size_t)own.tone >= AUR_TONE_COUNT)
         return aur_fail_at(error, (aur_location){.file = path}, AUR_ERROR_ARGUMENT,
-                           "cannot write a picture with exposure %g and tone curve %d",
-                           (double)options->exposure, (int)options->tone);
-    const aur_image_format *const format = find_writer(path, options->format, error);
+                           "cannot write a picture with exposure %g and tone curve %d", (double)own.exposure,
+                           (int)own.tone);
+    const aur_image_format *const format = find_writer(path, own.format, error);
     if (format == NULL)
         return AUR_ERROR_NAME;
     aur_file_writer writer;
-    aur_result result = aur_file_open(path, &writer, error);
+    result = aur_file_open(path, &writer, error);
     if (result != AUR_OK)
         return result;
-    result = format->write(&(aur_image_target){.name = path, .stream = writer.stream, .options = *options},
-                           image, error);
+    result = format->write(&(aur_image_target){.name = path, .stream = writer.stream, .options = own}, image,
+                           error);
     if (result != AUR_OK) {
         aur_file_abandon(&writer);
         return result;

@@ -120,8 +120,10 @@ aur_result lab_load_scene(const lab_run *run, const char *path, size_t definitio
         folder = access("scenes", R_OK) == 0 ? "scenes" : AUR_SCENES_FOLDER;
     char full[AUR_ERROR_FILE_CAPACITY];
     snprintf(full, sizeof full, "%s/%s", folder, path);
-    const aur_scene_options options = {
-        .definition_count = definition_count, .definitions = definitions, .warnings = run->options->warnings};
+    const aur_scene_options options = {.size = sizeof options,
+                                       .definition_count = definition_count,
+                                       .definitions = definitions,
+                                       .warnings = run->options->warnings};
     return aur_scene_load(full, &options, scene, error);
 }
 
@@ -129,7 +131,7 @@ aur_result lab_picture(lab_run *run, const char *name, const aur_image *image, f
                        aur_error *error) {
     char path[AUR_ERROR_FILE_CAPACITY];
     snprintf(path, sizeof path, "%s/%s-%s.png", run->options->folder, run->experiment->name, name);
-    const aur_image_write_options options = {.exposure = exposure};
+    const aur_image_write_options options = {.size = sizeof options, .exposure = exposure};
     const aur_result result = aur_image_write(path, image, &options, error);
     if (result == AUR_OK)
         add_string(run, &run->result->files, &run->result->file_count, &run->result->file_capacity, path);

@@ -2,6 +2,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "core/options.h"
 #include "scene/scene_data.h"
 
 static void find_sphere(aur_scene *scene) {
@@ -104,22 +105,28 @@ static aur_result prepare_lights(aur_scene *scene, aur_error *error) {
     return result;
 }
 
-aur_result aur_scene_load(const char *path, const aur_scene_options *options, aur_scene **scene,
-                          aur_error *error) {
+/* From the file at `path`, or from `data`, where it is given. */
+static aur_result load(const char *path, size_t bytes, const char *data, const aur_scene_options *given,
+                       aur_scene **scene, aur_error *error) {
     *scene = NULL;
+    aur_scene_options options = aur_scene_options_default();
+    aur_result result =
+        aur_options_read(given, sizeof options, sizeof options, &options, "aur_scene_options", error);
+    if (result != AUR_OK)
+        return result;
     aur_scene *const made = calloc(1, sizeof *made);
     if (made == NULL)
-        return aur_fail(error, AUR_ERROR_MEMORY, "out of memory");
-    aur_result result = aur_xml_read(path, options, &made->document, error);
+        return aur_fail_memory(error);
+    result = aur_xml_read(path, bytes, data, &options, &made->document, error);
     if (result == AUR_OK)
-        result = aur_scene_build(made, options != NULL ? &options->warnings : NULL, error);
+        result = aur_scene_build(made, &options.warnings, error);
     if (result == AUR_OK)
         result = aur_scene_build_accel(made, error);
     if (result == AUR_OK)
         result = check_reach(made, error);
     if (result == AUR_OK) {
         find_sphere(made);
-        warn_of_tiny(made, options != NULL ? &options->warnings : NULL);
+        warn_of_tiny(made, &options.warnings);
         result = prepare_lights(made, error);
     }
     if (result != AUR_OK) {
@@ -128,6 +135,16 @@ aur_result aur_scene_load(const char *path, const aur_scene_options *options, au
     }
     *scene = made;
     return AUR_OK;
+}
+
+aur_result aur_scene_load(const char *path, const aur_scene_options *options, aur_scene **scene,
+                          aur_error *error) {
+    return load(path, 0, NULL, options, scene, error);
+}
+
+aur_result aur_scene_load_memory(const char *name, size_t bytes, const void *data,
+                                 const aur_scene_options *options, aur_scene **scene, aur_error *error) {
+    return load(name, bytes, data, options, scene, error);
 }
 
 void aur_scene_destroy(aur_scene *scene) {
@@ -162,8 +179,10 @@ void aur_scene_destroy(aur_scene *scene) {
     free(scene);
 }
 
-void aur_scene_describe(const aur_scene *scene, aur_scene_description *description) {
-    *description = (aur_scene_description){
+aur_result aur_scene_describe(const aur_scene *scene, aur_scene_description *description, aur_error *error) {
+    aur_scene_description own = {
+        .size = sizeof own,
+
         .shapes = scene->shape_count,
         .emitters = scene->emitter_count,
         .materials = scene->bsdf_count,
@@ -177,7 +196,8 @@ void aur_scene_describe(const aur_scene *scene, aur_scene_description *descripti
         .filter = aur_filter_name(scene->film.filter),
     };
     for (size_t i = 0; i < scene->shape_count; ++i)
-        description->triangles += scene->shapes[i]->mesh.triangle_count;
+        own.triangles += scene->shapes[i]->mesh.triangle_count;
+    return aur_description_write(&own, sizeof own, sizeof own, description, "aur_scene_description", error);
 }
 
 static aur_vector to_world_direction(const float m[12], aur_vector v) {

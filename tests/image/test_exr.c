@@ -32,7 +32,8 @@ static void test_infinity_and_nan_survive(void **state) {
     image->data[2] = NAN;
     for (int half = 0; half < 2; ++half) {
         const char *const path = scratch(0, "special.exr");
-        write_picture(path, image, &(aur_image_write_options){.half = half});
+        write_picture(path, image,
+                      &(aur_image_write_options){.size = sizeof(aur_image_write_options), .half = half});
         aur_image *const back = read_picture(path);
         assert_true(back->data[0] == INFINITY);
         assert_true(back->data[1] == -INFINITY);
@@ -51,7 +52,8 @@ static void test_half_is_within_its_precision(void **state) {
     image->data[1] = -1e38f; /* and below the least */
     image->data[2] = 0.0f;
     const char *const path = scratch(0, "half.exr");
-    write_picture(path, image, &(aur_image_write_options){.half = 1});
+    write_picture(path, image,
+                  &(aur_image_write_options){.size = sizeof(aur_image_write_options), .half = true});
     aur_image *const back = read_picture(path);
     assert_true(back->data[0] == 65504.0f);
     assert_true(back->data[1] == -65504.0f);
@@ -69,7 +71,7 @@ static void test_same_image_same_bytes(void **state) {
     (void)state;
     aur_image *const image = random_picture(70, 40, 3);
     for (int half = 0; half < 2; ++half) {
-        const aur_image_write_options options = {.half = half};
+        const aur_image_write_options options = {.size = sizeof options, .half = half};
         size_t size_a, size_b;
         write_picture(scratch(0, "a.exr"), image, &options);
         write_picture(scratch(1, "another-name.exr"), image, &options);

@@ -157,7 +157,8 @@ static void test_png_of_any_radiance(void **state) {
     aur_image *const image = random_picture(6, 1, 1);
     for (size_t i = 0; i < 6; ++i)
         image->data[i] = (float[]){NAN, INFINITY, -INFINITY, -3.0f, 1e30f, 0.5f}[i];
-    write_picture(scratch(0, "x.png"), image, &(aur_image_write_options){.exposure = 1.0f});
+    write_picture(scratch(0, "x.png"), image,
+                  &(aur_image_write_options){.size = sizeof(aur_image_write_options), .exposure = 1.0f});
     aur_image *const back = read_picture(scratch(0, "x.png"));
     for (size_t i = 0; i < 6; ++i)
         assert_true(back->data[i] == ((float[]){0, 1, 0, 0, 1, 1})[i]);
@@ -233,7 +234,9 @@ static void test_formats_are_told_by_content(void **state) {
     static const char *const formats[][2] = {{"exr", "EXR"}, {"pfm", "PFM"}, {"hdr", "HDR"}, {"png", "PNG"}};
     for (size_t i = 0; i < 4; ++i) {
         const char *const path = scratch(0, "no-extension");
-        write_picture(path, image, &(aur_image_write_options){.format = formats[i][0]});
+        write_picture(
+            path, image,
+            &(aur_image_write_options){.size = sizeof(aur_image_write_options), .format = formats[i][0]});
         size_t size;
         unsigned char *const bytes = read_bytes(path, &size);
         assert_string_equal(aur_image_format_of(size, bytes), formats[i][1]);

@@ -55,8 +55,11 @@ static void test_options_are_checked(void **state) {
     aur_image *image;
     aur_error error;
     assert_success(aur_image_create(1, 1, 3, &image, &error), &error);
-    const aur_image_write_options rows[] = {
-        {.tone = (aur_tone)77}, {.tone = (aur_tone)-1}, {.exposure = NAN}, {.exposure = INFINITY}};
+    const aur_image_write_options rows[] = {{.size = sizeof *rows, .tone = (aur_tone)77},
+                                            {.size = sizeof *rows, .tone = (aur_tone)-1},
+                                            {.size = sizeof *rows, .exposure = NAN},
+                                            {.size = sizeof *rows, .exposure = INFINITY},
+                                            {.size = 0}};
     for (size_t i = 0; i < sizeof rows / sizeof rows[0]; ++i) {
         assert_int_equal(aur_image_write("refused.png", image, &rows[i], &error), AUR_ERROR_ARGUMENT);
         assert_int_equal(access("refused.png", F_OK), -1);

@@ -10,8 +10,8 @@ static void loads_a_small_scene(void **state) {
         "<shape type=\"rectangle\"><ref id=\"red\"/></shape>"
         "<shape type='cube'><transform name='to_world'><translate z='5'/></transform></shape>"
         "<bsdf type=\"diffuse\" id=\"red\"><rgb name=\"reflectance\" value=\"0.5 0 0\"/></bsdf>");
-    aur_scene_description description;
-    aur_scene_describe(scene, &description);
+    aur_scene_description description = {.size = sizeof description};
+    aur_scene_describe(scene, &description, NULL);
     assert_int_equal(description.shapes, 2);
     assert_int_equal(description.triangles, 14);
     assert_int_equal(description.emitters, 0);
@@ -25,6 +25,30 @@ static void loads_a_small_scene(void **state) {
     assert_near(description.lower[2], 0.0, 0.0);
     assert_near(description.upper[2], 6.0, 1e-6);
     aur_scene_destroy(scene);
+}
+
+/* A scene in memory; files are looked for beside its name. */
+static void loads_from_memory(void **state) {
+    (void)state;
+    static const char text[] =
+        "<scene version='3.0.0'><sensor type='perspective'/><include filename='one.xml'/></scene>";
+    char name[256];
+    write_text("one.xml", "<scene version='3.0.0'><shape type='cube'/></scene>");
+    snprintf(name, sizeof name, "%s/not-there.xml", scene_folder);
+    aur_scene *scene;
+    aur_error error;
+    assert_int_equal(aur_scene_load_memory(name, sizeof text - 1, text, NULL, &scene, &error), AUR_OK);
+    aur_scene_description description = {.size = sizeof description};
+    assert_int_equal(aur_scene_describe(scene, &description, &error), AUR_OK);
+    assert_int_equal(description.shapes, 1);
+    description.size = 0;
+    assert_int_equal(aur_scene_describe(scene, &description, &error), AUR_ERROR_ARGUMENT);
+    aur_scene_destroy(scene);
+    assert_int_equal(aur_scene_load_memory(name, 20, text, NULL, &scene, &error), AUR_ERROR_FORMAT);
+    assert_string_equal(error.file, name);
+    const aur_scene_options unset = {0};
+    assert_int_equal(aur_scene_load_memory(name, sizeof text - 1, text, &unset, &scene, &error),
+                     AUR_ERROR_ARGUMENT);
 }
 
 /* A shape without a bsdf is grey, a light without one is black. */
@@ -75,7 +99,8 @@ static void substitutes_names(void **state) {
         "<integer name='height' value='$res'/><rfilter type='$f'/></film>"
         "<sampler type='sobol'><integer name='sample_count' value='$n'/></sampler></sensor>";
     const aur_definition definitions[] = {{"n", "16"}, {"res", "48"}};
-    const aur_scene_options options = {.definition_count = 2, .definitions = definitions};
+    const aur_scene_options options = {
+        .size = sizeof options, .definition_count = 2, .definitions = definitions};
     aur_scene *scene;
     aur_error error;
     char text[1024];
@@ -89,7 +114,7 @@ static void substitutes_names(void **state) {
     aur_scene_destroy(scene);
 
     const aur_definition unused[] = {{"n", "16"}, {"rex", "1"}};
-    const aur_scene_options wrong = {.definition_count = 2, .definitions = unused};
+    const aur_scene_options wrong = {.size = sizeof wrong, .definition_count = 2, .definitions = unused};
     assert_int_equal(aur_scene_load(path, &wrong, &scene, &error), AUR_ERROR_NAME);
     assert_non_null(strstr(error.message, "did you mean 'res"));
     assert_int_equal(aur_scene_load(path, NULL, &scene, &error), AUR_ERROR_NAME);
@@ -103,8 +128,8 @@ static void includes_files(void **state) {
     aur_scene *const scene =
         must_load_body("<include filename='walls.xml'/><include filename='white.xml'/>"
                        "<alias id='w' as='again'/><shape type='cube'><ref id='again'/></shape>");
-    aur_scene_description description;
-    aur_scene_describe(scene, &description);
+    aur_scene_description description = {.size = sizeof description};
+    aur_scene_describe(scene, &description, NULL);
     assert_int_equal(description.shapes, 2);
     assert_int_equal(description.materials, 1);
     aur_scene_destroy(scene);
@@ -187,7 +212,7 @@ static void keep_warning(void *user, const char *message) {
 static void reads_old_versions(void **state) {
     (void)state;
     char warnings[4096] = "";
-    const aur_scene_options options = {.warnings = {keep_warning, warnings}};
+    const aur_scene_options options = {.size = sizeof options, .warnings = {keep_warning, warnings}};
     aur_scene *scene;
     aur_error error;
     assert_int_equal(
@@ -487,8 +512,8 @@ static void loads_public_scenes(void **state) {
     aur_error error = {0};
     if (aur_scene_load(path, NULL, &scene, &error) != AUR_OK)
         fail_msg("%s", error.message);
-    aur_scene_description description;
-    aur_scene_describe(scene, &description);
+    aur_scene_description description = {.size = sizeof description};
+    aur_scene_describe(scene, &description, NULL);
     assert_int_equal(description.shapes, 8);
     assert_int_equal(description.triangles, 36);
     assert_int_equal(description.emitters, 1);
@@ -514,6 +539,7 @@ int main(void) {
         cmocka_unit_test(loads_bundled_scenes),
         cmocka_unit_test(refuses_long_chains),
         cmocka_unit_test(loads_many_things_in_time),
+        cmocka_unit_test(loads_from_memory),
         cmocka_unit_test(ends_growth),
         cmocka_unit_test(finds_files_beside_the_scene),
     };

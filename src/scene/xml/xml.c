@@ -336,22 +336,14 @@ static aur_result parse(file_reading *reader, const char *data, size_t size) {
     return AUR_OK;
 }
 
-static aur_result read_file(reading *shared, const char *path, size_t include_depth, bool legacy,
-                            aur_xml_node *target) {
-    char *data;
-    size_t size;
-    if (++shared->file_count > MOST_FILES)
-        return aur_fail_at(shared->error, (aur_location){.file = path}, AUR_ERROR_FORMAT,
-                           "more than %d files are included, counted each time", MOST_FILES);
-    aur_result result = aur_file_read(path, LARGEST_SCENE - shared->file_bytes, &data, &size, shared->error);
-    if (result != AUR_OK)
-        return result;
-    shared->file_bytes += size;
+static aur_result read_text(reading *shared, const char *path, size_t size, const char *data,
+                            size_t include_depth, bool legacy, aur_xml_node *target) {
+    aur_result result;
     file_reading *const reader = calloc(1, sizeof *reader);
     const XML_Parser expat = XML_ParserCreate(NULL);
     const char *const file = aur_arena_copy(&shared->document->arena, path, strlen(path));
     if (reader == NULL || expat == NULL || file == NULL) {
-        result = aur_fail(shared->error, AUR_ERROR_MEMORY, "out of memory");
+        result = aur_fail_memory(shared->error);
     } else {
         *reader = (file_reading){.shared = shared,
                                  .expat = expat,
@@ -367,6 +359,21 @@ static aur_result read_file(reading *shared, const char *path, size_t include_de
     if (expat != NULL)
         XML_ParserFree(expat);
     free(reader);
+    return result;
+}
+
+static aur_result read_file(reading *shared, const char *path, size_t include_depth, bool legacy,
+                            aur_xml_node *target) {
+    char *data;
+    size_t size;
+    if (++shared->file_count > MOST_FILES)
+        return aur_fail_at(shared->error, (aur_location){.file = path}, AUR_ERROR_FORMAT,
+                           "more than %d files are included, counted each time", MOST_FILES);
+    aur_result result = aur_file_read(path, LARGEST_SCENE - shared->file_bytes, &data, &size, shared->error);
+    if (result != AUR_OK)
+        return result;
+    shared->file_bytes += size;
+    result = read_text(shared, path, size, data, include_depth, legacy, target);
     free(data);
     return result;
 }
@@ -433,14 +440,15 @@ static aur_result resolve_aliases(reading *shared) {
     return AUR_OK;
 }
 
-aur_result aur_xml_read(const char *path, const aur_scene_options *options, aur_xml_document *document,
-                        aur_error *error) {
+aur_result aur_xml_read(const char *path, size_t bytes, const char *data, const aur_scene_options *options,
+                        aur_xml_document *document, aur_error *error) {
     *document = (aur_xml_document){0};
     reading shared = {.document = document, .options = options, .error = error};
     aur_result result = aur_xml_variables_init(&shared.variables, options, error);
     if (result != AUR_OK)
         return result;
-    result = read_file(&shared, path, 0, false, NULL);
+    result = data != NULL ? read_text(&shared, path, bytes, data, 0, false, NULL)
+                          : read_file(&shared, path, 0, false, NULL);
     if (result == AUR_OK)
         result = sort_ids(&shared);
     if (result == AUR_OK)

@@ -53,9 +53,9 @@ typedef struct aur_xml_document {
     aur_xml_id *ids; /* sorted; malloc */
 } aur_xml_document;
 
-/* On failure *document needs no release. `options` may be NULL. */
-aur_result aur_xml_read(const char *path, const aur_scene_options *options, aur_xml_document *document,
-                        aur_error *error);
+/* From the file at `path`, or from `data`, where it is given. On failure *document needs no release. */
+aur_result aur_xml_read(const char *path, size_t bytes, const char *data, const aur_scene_options *options,
+                        aur_xml_document *document, aur_error *error);
 void aur_xml_release(aur_xml_document *document);
 
 /* NULL when absent. */
