@@ -1,7 +1,6 @@
 #include <math.h>
-#include <string.h>
 
-#include "core/text.h"
+#include "core/names.h"
 #include "image/format.h"
 #include "image/metric.h"
 #include "image/tone.h"
@@ -61,22 +60,18 @@ static const color_metric metrics[AUR_IMAGE_METRIC_COUNT] = {
     {"flip", NULL, NULL, aur_image_flip},
 };
 
+static const char *metric_at(const void *table, size_t index) {
+    (void)table;
+    return metrics[index].name;
+}
+
 aur_result aur_image_metric_from_name(const char *name, aur_image_metric *found, aur_error *error) {
-    const char *names[AUR_IMAGE_METRIC_COUNT];
-    char list[256] = "";
-    for (size_t i = 0; i < AUR_IMAGE_METRIC_COUNT; ++i) {
-        names[i] = metrics[i].name;
-        if (strcmp(name, names[i]) == 0) {
-            *found = (aur_image_metric)i;
-            return AUR_OK;
-        }
-        const size_t used = strlen(list);
-        snprintf(list + used, sizeof list - used, "%s%s", i > 0 ? ", " : "", names[i]);
-    }
-    const char *const nearest = aur_nearest_name(name, AUR_IMAGE_METRIC_COUNT, names);
-    if (nearest != NULL)
-        return aur_fail(error, AUR_ERROR_NAME, "unknown metric '%s': did you mean '%s'?", name, nearest);
-    return aur_fail(error, AUR_ERROR_NAME, "unknown metric '%s': %s", name, list);
+    size_t index;
+    const aur_result result = aur_names_choose((aur_names){AUR_IMAGE_METRIC_COUNT, metric_at, NULL}, "metric",
+                                               name, (aur_location){0}, &index, error);
+    if (result == AUR_OK)
+        *found = (aur_image_metric)index;
+    return result;
 }
 
 const char *aur_image_metric_name(aur_image_metric which) {

@@ -1,9 +1,8 @@
 #include "image/tone.h"
 
 #include <math.h>
-#include <string.h>
 
-#include "core/error.h"
+#include "core/names.h"
 
 static double clamp_unit(double value) {
     if (!(value > 0.0))
@@ -42,11 +41,10 @@ double aur_tone_apply(aur_tone tone, double radiance) {
 
 aur_result aur_tone_from_name(const char *name, aur_tone *tone, aur_error *error) {
     static const char *const names[] = {"srgb", "filmic"};
-    for (size_t i = 0; i < 2; ++i) {
-        if (strcmp(name, names[i]) == 0) {
-            *tone = (aur_tone)i;
-            return AUR_OK;
-        }
-    }
-    return aur_fail(error, AUR_ERROR_NAME, "unknown tone curve '%s': srgb, filmic", name);
+    size_t index;
+    const aur_result result = aur_names_choose(aur_names_of(AUR_TONE_COUNT, names), "tone curve", name,
+                                               (aur_location){0}, &index, error);
+    if (result == AUR_OK)
+        *tone = (aur_tone)index;
+    return result;
 }

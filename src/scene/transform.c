@@ -3,6 +3,8 @@
 #include <math.h>
 #include <string.h>
 
+#include "core/vector3d.h"
+
 aur_transform aur_transform_identity(void) {
     return aur_transform_scale(1.0, 1.0, 1.0);
 }
@@ -25,18 +27,8 @@ aur_transform aur_transform_scale(double x, double y, double z) {
 }
 
 static bool normalize(double v[3]) {
-    const double length = sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
-    if (!(length > 0.0) || !isfinite(length))
-        return false;
-    for (size_t i = 0; i < 3; ++i)
-        v[i] /= length;
-    return true;
-}
-
-static void cross(const double a[3], const double b[3], double result[3]) {
-    result[0] = a[1] * b[2] - a[2] * b[1];
-    result[1] = a[2] * b[0] - a[0] * b[2];
-    result[2] = a[0] * b[1] - a[1] * b[0];
+    const double length = aur_normalize3(v);
+    return length > 0.0 && isfinite(length);
 }
 
 bool aur_transform_rotate(const double axis[3], double degrees, aur_transform *result) {
@@ -71,10 +63,10 @@ bool aur_transform_look_at(const double origin[3], const double target[3], const
         forward[i] = target[i] - origin[i];
     if (!normalize(forward))
         return false;
-    cross(up, forward, left);
+    aur_cross3(up, forward, left);
     if (!normalize(left))
         return false;
-    cross(forward, left, above);
+    aur_cross3(forward, left, above);
     for (size_t i = 0; i < 3; ++i) {
         result->m[4 * i] = left[i];
         result->m[4 * i + 1] = above[i];

@@ -2,11 +2,10 @@
 #include "scene/load/loader.h"
 
 #include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 
 #include "core/array.h"
-#include "core/text.h"
+#include "core/names.h"
 #include "scene/load/properties.h"
 
 /* Objects may stand in or refer to each other this deep; what they become is walked recursively. */
@@ -62,6 +61,10 @@ static aur_result nested_name(aur_loader *self, const aur_xml_node *child, const
     return AUR_OK;
 }
 
+static const char *id_at(const void *ids, size_t index) {
+    return ((const aur_xml_id *)ids)[index].id;
+}
+
 static aur_result find_reference(aur_loader *self, const aur_xml_node *node, aur_xml_node **target) {
     static const char *const names[] = {"id", "name"};
     const char *id;
@@ -76,18 +79,12 @@ static aur_result find_reference(aur_loader *self, const aur_xml_node *node, aur
         *target = known->node;
         return AUR_OK;
     }
-    const char **const ids = malloc((document->id_count + 1) * sizeof *ids);
-    for (size_t i = 0; ids != NULL && i < document->id_count; ++i)
-        ids[i] = document->ids[i].id;
-    const char *const nearest = ids != NULL ? aur_nearest_name(id, document->id_count, ids) : NULL;
-    if (nearest != NULL)
-        result = aur_fail_at(self->error, node->location, AUR_ERROR_NAME,
-                             "there is no object with the id '%s'; did you mean '%s'?", id, nearest);
-    else
-        result = aur_fail_at(self->error, node->location, AUR_ERROR_NAME,
-                             "there is no object with the id '%s'", id);
-    free(ids);
-    return result;
+    const char *const nearest = aur_names_nearest((aur_names){document->id_count, id_at, document->ids}, id);
+    if (nearest == NULL)
+        return aur_fail_at(self->error, node->location, AUR_ERROR_NAME, "there is no object with the id '%s'",
+                           id);
+    return aur_fail_at(self->error, node->location, AUR_ERROR_NAME,
+                       "there is no object with the id '%s'; did you mean '%s'?", id, nearest);
 }
 
 aur_result aur_loader_find_target(aur_loader *self, aur_xml_node *child, aur_xml_node **target) {

@@ -46,33 +46,6 @@ aur_result aur_xml_fail_tag(const aur_xml_node *node, size_t count, const char *
     return aur_fail_at(error, node->location, AUR_ERROR_NAME, "unknown element <%s>", node->tag);
 }
 
-aur_result aur_xml_check_attributes(const aur_xml_node *node, size_t count, const char *const *names,
-                                    aur_error *error) {
-    for (size_t i = 0; i < node->attribute_count; ++i) {
-        const char *const name = node->attributes[i].name;
-        bool known = false;
-        for (size_t k = 0; k < count && !known; ++k)
-            known = strcmp(name, names[k]) == 0;
-        if (known)
-            continue;
-        const char *const nearest = aur_nearest_name(name, count, names);
-        if (nearest != NULL)
-            return aur_fail_at(error, node->location, AUR_ERROR_NAME,
-                               "<%s> has no attribute '%s'; did you mean '%s'?", node->tag, name, nearest);
-        return aur_fail_at(error, node->location, AUR_ERROR_NAME, "<%s> has no attribute '%s'", node->tag,
-                           name);
-    }
-    return AUR_OK;
-}
-
-aur_result aur_xml_require(const aur_xml_node *node, const char *name, const char **value, aur_error *error) {
-    *value = aur_xml_attribute_value(node, name);
-    if (*value != NULL)
-        return AUR_OK;
-    return aur_fail_at(error, node->location, AUR_ERROR_FORMAT, "<%s> needs the attribute '%s'", node->tag,
-                       name);
-}
-
 /* Three numbers from `value`, or from x, y, z, of which the missing ones are `missing`. */
 static aur_result read_triple(const aur_xml_node *node, double missing, double triple[3], aur_error *error) {
     static const char *const axes[] = {"x", "y", "z"};

@@ -11,13 +11,6 @@ bool aur_xml_is_property(const char *tag);
 /* Adds the property that the node is. */
 aur_result aur_xml_add_property(const aur_xml_node *node, aur_parameters *parameters, aur_error *error);
 
-/* An error when the node has another attribute than the `count` named ones. */
-aur_result aur_xml_check_attributes(const aur_xml_node *node, size_t count, const char *const *names,
-                                    aur_error *error);
-
-/* The attribute, or an error that names it. */
-aur_result aur_xml_require(const aur_xml_node *node, const char *name, const char **value, aur_error *error);
-
 /* An error for a tag that is not known here. */
 aur_result aur_xml_fail_tag(const aur_xml_node *node, size_t count, const char *const *names,
                             aur_error *error);

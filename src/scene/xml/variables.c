@@ -4,6 +4,9 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "core/array.h"
+#include "core/names.h"
+
 #include "core/text.h"
 
 static aur_xml_variable *find(const aur_xml_variables *variables, const char *name) {
@@ -15,14 +18,9 @@ static aur_xml_variable *find(const aur_xml_variables *variables, const char *na
 
 static aur_result add(aur_xml_variables *variables, const char *name, const char *value, bool defined,
                       aur_location location, aur_error *error) {
-    if (variables->count == variables->capacity) {
-        const size_t capacity = variables->capacity == 0 ? 16 : 2 * variables->capacity;
-        aur_xml_variable *const larger = realloc(variables->items, capacity * sizeof *larger);
-        if (larger == NULL)
-            return aur_fail_at(error, location, AUR_ERROR_MEMORY, "out of memory");
-        variables->items = larger;
-        variables->capacity = capacity;
-    }
+    if (!aur_array_reserve(&variables->items, &variables->capacity, variables->count + 1,
+                           sizeof *variables->items))
+        return aur_fail_memory(error);
     const aur_xml_variable item = {strdup(name), strdup(value), false, defined};
     if (item.name == NULL || item.value == NULL) {
         free(item.name);
@@ -85,6 +83,10 @@ static aur_xml_variable *match(const aur_xml_variables *variables, const char *t
     return NULL;
 }
 
+static const char *name_at(const void *items, size_t index) {
+    return ((const aur_xml_variable *)items)[index].name;
+}
+
 static aur_result fail_undefined(const aur_xml_variables *variables, const char *text, aur_location location,
                                  aur_error *error) {
     char name[64];
@@ -94,22 +96,13 @@ static aur_result fail_undefined(const aur_xml_variables *variables, const char 
         ++length;
     }
     name[length] = '\0';
-    const char **const names = malloc((variables->count + 1) * sizeof *names);
-    const char *nearest = NULL;
-    if (names != NULL) {
-        for (size_t i = 0; i < variables->count; ++i)
-            names[i] = variables->items[i].name;
-        nearest = aur_nearest_name(name, variables->count, names);
-    }
-    aur_result result;
+    const char *const nearest =
+        aur_names_nearest((aur_names){variables->count, name_at, variables->items}, name);
     if (nearest != NULL)
-        result = aur_fail_at(error, location, AUR_ERROR_NAME, "$%s is not defined; did you mean '$%s'?", name,
-                             nearest);
-    else
-        result = aur_fail_at(error, location, AUR_ERROR_NAME,
-                             "$%s is not defined: give it a <default>, or a value by -D %s=...", name, name);
-    free(names);
-    return result;
+        return aur_fail_at(error, location, AUR_ERROR_NAME, "$%s is not defined; did you mean '$%s'?", name,
+                           nearest);
+    return aur_fail_at(error, location, AUR_ERROR_NAME,
+                       "$%s is not defined: give it a <default>, or a value by -D %s=...", name, name);
 }
 
 typedef struct text_buffer {
@@ -118,14 +111,8 @@ typedef struct text_buffer {
 } text_buffer;
 
 static bool append(text_buffer *buffer, const char *text, size_t length) {
-    if (buffer->length + length + 1 > buffer->capacity) {
-        const size_t capacity = 2 * (buffer->length + length) + 32;
-        char *const larger = realloc(buffer->text, capacity);
-        if (larger == NULL)
-            return false;
-        buffer->text = larger;
-        buffer->capacity = capacity;
-    }
+    if (!aur_array_reserve(&buffer->text, &buffer->capacity, buffer->length + length + 1, 1))
+        return false;
     memcpy(buffer->text + buffer->length, text, length);
     buffer->length += length;
     buffer->text[buffer->length] = '\0';

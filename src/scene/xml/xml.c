@@ -6,6 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "core/array.h"
 #include "core/file.h"
 #include "core/text.h"
 #include "scene/xml/variables.h"
@@ -119,34 +120,48 @@ static aur_result make_node(file_reading *reader, const char *tag, const char **
     return AUR_OK;
 }
 
-/* The value of an attribute that must be there; `count` names are all that may be. */
+aur_result aur_xml_check_attributes(const aur_xml_node *node, size_t count, const char *const *names,
+                                    aur_error *error) {
+    for (size_t i = 0; i < node->attribute_count; ++i) {
+        const char *const name = node->attributes[i].name;
+        bool known = false;
+        for (size_t k = 0; k < count && !known; ++k)
+            known = strcmp(name, names[k]) == 0;
+        if (known)
+            continue;
+        const char *const nearest = aur_nearest_name(name, count, names);
+        if (nearest != NULL)
+            return aur_fail_at(error, node->location, AUR_ERROR_NAME,
+                               "<%s> has no attribute '%s'; did you mean '%s'?", node->tag, name, nearest);
+        return aur_fail_at(error, node->location, AUR_ERROR_NAME, "<%s> has no attribute '%s'", node->tag,
+                           name);
+    }
+    return AUR_OK;
+}
+
+aur_result aur_xml_require(const aur_xml_node *node, const char *name, const char **value, aur_error *error) {
+    *value = aur_xml_attribute_value(node, name);
+    if (*value != NULL)
+        return AUR_OK;
+    return aur_fail_at(error, node->location, AUR_ERROR_FORMAT, "<%s> needs the attribute '%s'", node->tag,
+                       name);
+}
+
+/* All of `count` attributes must be there, and no other one. */
 static aur_result required(file_reading *reader, const aur_xml_node *node, size_t count,
                            const char *const *names) {
-    for (size_t i = 0; i < node->attribute_count; ++i) {
-        bool known = false;
-        for (size_t k = 0; k < count; ++k)
-            known = known || strcmp(node->attributes[i].name, names[k]) == 0;
-        if (!known)
-            return aur_fail_at(reader->shared->error, node->location, AUR_ERROR_NAME,
-                               "<%s> has no attribute '%s'", node->tag, node->attributes[i].name);
-    }
-    for (size_t k = 0; k < count; ++k)
-        if (aur_xml_attribute_value(node, names[k]) == NULL)
-            return aur_fail_at(reader->shared->error, node->location, AUR_ERROR_FORMAT,
-                               "<%s> needs the attribute '%s'", node->tag, names[k]);
-    return AUR_OK;
+    const char *value;
+    aur_result result = aur_xml_check_attributes(node, count, names, reader->shared->error);
+    for (size_t k = 0; k < count && result == AUR_OK; ++k)
+        result = aur_xml_require(node, names[k], &value, reader->shared->error);
+    return result;
 }
 
 static aur_result add_id(reading *shared, const char *id, aur_xml_node *node, aur_location location) {
     aur_xml_document *const document = shared->document;
-    if (document->id_count == shared->id_capacity) {
-        const size_t capacity = shared->id_capacity == 0 ? 64 : 2 * shared->id_capacity;
-        aur_xml_id *const larger = realloc(document->ids, capacity * sizeof *larger);
-        if (larger == NULL)
-            return aur_fail_at(shared->error, location, AUR_ERROR_MEMORY, "out of memory");
-        document->ids = larger;
-        shared->id_capacity = capacity;
-    }
+    if (!aur_array_reserve(&document->ids, &shared->id_capacity, document->id_count + 1,
+                           sizeof *document->ids))
+        return aur_fail_memory(shared->error);
     document->ids[document->id_count] = (aur_xml_id){id, node, location, document->id_count};
     ++document->id_count;
     return AUR_OK;

@@ -60,6 +60,13 @@ void aur_xml_release(aur_xml_document *document);
 
 /* NULL when absent. */
 const char *aur_xml_attribute_value(const aur_xml_node *node, const char *name);
+/* An error when the node has another attribute than the `count` named ones. */
+aur_result aur_xml_check_attributes(const aur_xml_node *node, size_t count, const char *const *names,
+                                    aur_error *error);
+
+/* The attribute, or an error that names it. */
+aur_result aur_xml_require(const aur_xml_node *node, const char *name, const char **value, aur_error *error);
+
 /* NULL when there is none. */
 const aur_xml_id *aur_xml_find_id(const aur_xml_document *document, const char *id);
 
