@@ -6,7 +6,7 @@
 
 #include "image/metric.h"
 
-/* The paper's setting: a 0.7 m wide screen of 3840 pixels seen from 0.7 m, in pixels a degree (section 4.1).
+/* Pixels a degree in the paper's setting, a screen 0.7 m wide of 3840 pixels seen from 0.7 m (section 4.1).
  */
 static const double pixels_per_degree = 0.7 * 3840.0 / 0.7 * 3.14159265358979323846 / 180.0;
 
@@ -195,8 +195,8 @@ static void add_convolution(const flip_planes *planes, const float *in, const fl
     }
 }
 
-/* A contrast sensitivity is a sum of two Gaussians a sqrt(pi / b) exp(-pi^2 x^2 / b), x in degrees (table 1).
- */
+/* A contrast sensitivity is a sum of two Gaussians a sqrt(pi / b) exp(-pi^2 x^2 / b) with x in degrees (table
+ * 1). */
 typedef struct flip_sensitivity {
     double a[2], b[2];
 } flip_sensitivity;

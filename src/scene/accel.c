@@ -209,8 +209,8 @@ void aur_scene_release_accel(aur_scene *scene) {
         rtcReleaseDevice(scene->device);
 }
 
-/* Sixteen bytes at a time, as Embree reads them: a read across several smaller writes has to wait for them.
- */
+/* A ray is written sixteen bytes at a time, as Embree reads it: a read that spans several smaller writes has
+ * to wait for them. */
 typedef float four __attribute__((vector_size(16)));
 
 static inline void fill_ray(const aur_ray *ray, struct RTCRay *query) {

@@ -54,8 +54,8 @@ static inline bool aur_is_usual_square(float squared) {
     return squared > 1e-37f && squared < 1e38f;
 }
 
-/* The unit normal of a triangle whose sides from its first corner are `a` and `b`; zero for one without area.
- */
+/* The unit normal of a triangle whose sides from its first corner are `a` and `b`. Zero when the triangle has
+ * no area. */
 static inline aur_vector aur_triangle_normal(aur_vector a, aur_vector b) {
     const aur_vector cross = aur_vector_cross(a, b);
     const float squared = aur_vector_dot(cross, cross);

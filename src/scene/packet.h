@@ -60,8 +60,8 @@ static inline void aur_lane_set(aur_lane_vectors *vectors, size_t lane, aur_vect
     vectors->z[lane] = v.z;
 }
 
-/* The corners of the triangles hit by the lanes whose bit is set, which must be of meshes and of no instance.
- */
+/* The corners of the triangles that the lanes whose bit is set have hit. They must be triangles of meshes
+ * that stand in no instance. */
 void aur_packet_corners(const aur_scene *scene, const aur_packet *packet, uint32_t lanes,
                         aur_lane_vectors corner[3]);
 

@@ -39,7 +39,7 @@ typedef struct aur_surface {
 
 /* The nearest hit; false when there is none. */
 AUR_EXPERIMENTAL bool aur_scene_intersect(const aur_scene *scene, const aur_ray *ray, aur_hit *hit);
-/* Whether anything lies between. */
+/* Whether anything lies on the ray, between its nearest and farthest distance. */
 bool aur_scene_occluded(const aur_scene *scene, const aur_ray *ray);
 
 /* The surface at a hit. */
@@ -74,8 +74,7 @@ static inline aur_ray aur_surface_ray_to(const aur_surface *surface, aur_vector 
                      *distance * (1.0f - 1e-4f)};
 }
 
-/* --- lights
- * ---------------------------------------------------------------------------------------------------- */
+/* --- lights */
 
 typedef struct aur_light_sample {
     aur_vector position;  /* on the light; beyond the scene for lights that are infinitely far */
@@ -116,14 +115,13 @@ aur_vector aur_scene_environment(const aur_scene *scene, aur_vector direction);
 float aur_environment_pdf_direct(const aur_scene *scene, aur_vector direction);
 
 /* A particle that leaves a light: u[0] chooses the light by power, u[1], u[2] the point, u[3], u[4] a cosine
- * distributed direction. *power is RGB watts that one of `n` particles would carry times n. False: no light.
- */
+ * distributed direction. *power is the light's power: each of n particles carries 1/n of it, in watts (RGB).
+ * False when the scene has no light. */
 bool aur_light_emit(const aur_scene *scene, const float u[5], aur_ray *ray, aur_vector *power);
 
 size_t aur_scene_emitter_count(const aur_scene *scene);
 
-/* --- camera and film
- * ------------------------------------------------------------------------------------------- */
+/* --- camera and film */
 
 /* The ray through the film point (x, y) in pixels, (0, 0) the top left corner of the picture; width and
  * height are those of the picture being rendered. lens[2] in [0,1) for cameras that have one. */
@@ -171,12 +169,11 @@ const char *aur_scene_sampler(const aur_scene *scene); /* SET syntax */
 /* The integrator as the scene has it; its plugin may be one that Aureole does not know. */
 const aur_parameters *aur_scene_integrator(const aur_scene *scene);
 
-/* --- geometry, for photon maps and radiosity
- * ------------------------------------------------------------------- */
+/* --- geometry, for photon maps and radiosity */
 
 void aur_scene_bounds(const aur_scene *scene, aur_vector *lower, aur_vector *upper);
-/* Embree's scene, for who traces rays past this room: all but the shapes of groups, which are its instances.
- */
+/* Embree's scene, for code that traces rays by itself: all shapes but those of groups, whose instances it
+ * holds. */
 AUR_EXPERIMENTAL struct RTCSceneTy *aur_scene_embree(const aur_scene *scene);
 
 /* A triangle of a mesh, in world coordinates. */

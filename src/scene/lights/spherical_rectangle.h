@@ -48,8 +48,8 @@ typedef struct aur_rectangle_light {
     float area, probability;
 } aur_rectangle_light;
 
-/* Samples of the light for sixteen points: by solid angle where that is not less than `least`, else by area.
- */
+/* Samples of the light for sixteen points: by solid angle where the light is seen under `least` or more, else
+ * by area. */
 typedef void (*aur_rectangle_lanes_function)(const aur_rectangle_light *light, float least,
                                              const aur_lane_vectors *reference, const float *u,
                                              const float *v, aur_light_lanes *drawn);

@@ -37,9 +37,8 @@ aur_result aur_loader_append(aur_loader *self, size_t *count, size_t *capacity, 
     return AUR_OK;
 }
 
-/* The name under which a nested object is asked for: textures have names, the rest are called by what they
- * are
- * ("bsdf", "bsdf2", ...). */
+/* The name under which a nested object is asked for: a texture has a name of its own, any other object is
+ * called by its kind and its number among its kind ("bsdf", "bsdf2", ...). */
 static aur_result nested_name(aur_loader *self, const aur_xml_node *child, const char *tag,
                               const aur_parameters *parameters, char *name, size_t capacity) {
     const char *const given = aur_xml_attribute_value(child, "name");
