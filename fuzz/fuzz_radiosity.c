@@ -56,11 +56,12 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
     fuzz_require((result == AUR_OK) == (radiosity != NULL), "a failure with a solution, or none without");
     if (result == AUR_OK) {
         /* Whatever numbers it holds, it can be asked. */
-        aur_radiosity_description description;
+        aur_radiosity_description description = {.size = sizeof description};
         aur_radiosity_triangle_result results[12];
-        aur_radiosity_describe(radiosity, &description);
+        aur_radiosity_describe(radiosity, &description, NULL);
         fuzz_require(description.triangles == 12, "triangles that the scene does not have");
-        fuzz_require(aur_radiosity_results(radiosity, 12, results) == AUR_OK, "no results");
+        fuzz_require(aur_radiosity_results(radiosity, 12, sizeof *results, results, NULL) == AUR_OK,
+                     "no results");
     } else {
         fuzz_require(error.result == result && error.message[0] != '\0', "a failure without a message");
         fuzz_require(result != AUR_ERROR_INTERNAL, "a failure of the wrong kind");

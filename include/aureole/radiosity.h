@@ -9,6 +9,8 @@
 
 #include <aureole/pointset.h>
 #include <aureole/scene.h>
+#include <stdbool.h>
+#include <string.h>
 
 #ifdef __cplusplus
 extern "C" {
@@ -26,24 +28,35 @@ typedef enum aur_radiosity_directions {
 typedef enum aur_radiosity_emission { AUR_RADIOSITY_BY_POWER, AUR_RADIOSITY_BY_AREA } aur_radiosity_emission;
 
 typedef struct aur_radiosity_options {
-    const char *sequence; /* SET syntax, of 2 bounces + 4 dimensions or more; NULL: "sobol". Where point 0 is
-                             all zero the walk begins with point 1: its ray would run along an edge */
+    size_t size; /* of the caller's struct, so that it can grow */
+    /* A SET of 2 bounces + 4 dimensions or more; NULL: "sobol". Where all coordinates of point 0 are zero the
+     * walk begins with point 1, because the ray of point 0 would run along an edge. */
+    const char *sequence;
     aur_scramble scramble;
     uint64_t seed; /* of scrambling and of random sets */
     aur_radiosity_directions directions;
     aur_radiosity_emission emission;
-    size_t bounces;        /* the paper's M: paths of M + 1 flights; 1 .. 10000 */
-    size_t randomizations; /* R >= 1 independent randomisations of the set, path i taken from number i mod R:
-                              from 2 on there are standard errors */
-    uint64_t variant; /* 0: the scene as it is; else a random order of the lights and a random turn of every
-                         triangle's frame */
-    size_t threads;   /* 0: all */
+    size_t bounces; /* the paper's M: paths have M + 1 flights; 1 .. 10000 */
+    /* Independent randomisations of the set, 1 .. 1024; path i is taken from number i modulo this. From 2 on
+     * there are standard errors. */
+    size_t randomizations;
+    /* 0 leaves the scene as it is; any other number makes a random order of the lights and turns the local
+     * frame of every triangle at random about its normal. */
+    uint64_t variant;
+    size_t threads; /* 0: all */
     aur_progress progress;
     aur_warnings warnings; /* open scenes, coincident surfaces, albedos of 1, lost paths */
 } aur_radiosity_options;
 
 /* Sobol points, cosine directions, emission by power, 6 bounces, 1 randomisation. */
-AUR_API aur_radiosity_options aur_radiosity_options_default(void);
+static inline aur_radiosity_options aur_radiosity_options_default(void) {
+    aur_radiosity_options options;
+    memset(&options, 0, sizeof options);
+    options.size = sizeof options;
+    options.bounces = 6;
+    options.randomizations = 1;
+    return options;
+}
 
 typedef struct aur_radiosity aur_radiosity;
 
@@ -67,19 +80,30 @@ AUR_API aur_result aur_radiosity_trace(aur_radiosity *radiosity, uint64_t paths,
  * over the lights as the length of the colour. It ends as soon as `window` changes in a row are below
  * epsilon. That is a test of changes, not a bound of the error. */
 typedef struct aur_radiosity_termination {
+    size_t size;       /* of the caller's struct, so that it can grow */
     double epsilon;    /* > 0 */
     uint64_t interval; /* >= 1; 0 stands for 1000 */
     uint64_t window;   /* >= 1; 0 stands for 2 */
     uint64_t limit;    /* end after so many paths in any case; 0: 2^32 */
 } aur_radiosity_termination;
 
-/* Goes on from the paths that are there, which must be a multiple of the interval. *converged (may be NULL)
- * tells whether the limit was reached before. */
-AUR_API aur_result aur_radiosity_terminate(aur_radiosity *radiosity, const aur_radiosity_termination *rule,
-                                           int *converged, aur_error *error) AUR_NONNULL(1, 2);
+static inline aur_radiosity_termination aur_radiosity_termination_default(double epsilon) {
+    aur_radiosity_termination rule;
+    memset(&rule, 0, sizeof rule);
+    rule.size = sizeof rule;
+    rule.epsilon = epsilon;
+    return rule;
+}
 
-/* What a solution is and how it came about. */
+/* Goes on from the paths that are there, which must be a multiple of the interval. *converged (may be NULL)
+ * becomes true when the changes fell below epsilon, and false when the limit of paths came first. Errors:
+ * ARGUMENT for an epsilon, interval or limit out of range, and those of aur_radiosity_trace. */
+AUR_API aur_result aur_radiosity_terminate(aur_radiosity *radiosity, const aur_radiosity_termination *rule,
+                                           bool *converged, aur_error *error) AUR_NONNULL(1, 2);
+
+/* What a solution is and how it came about. `size` is set by the caller to the size of his struct. */
 typedef struct aur_radiosity_description {
+    size_t size;
     size_t triangles;
     size_t patches;   /* what can receive light: fronts of triangles, and backs of two-sided ones */
     size_t lights;    /* triangles that emit */
@@ -92,14 +116,18 @@ typedef struct aur_radiosity_description {
     uint64_t coincident; /* pairs of triangles that lie in one plane and overlap; counted up to about 2^20 */
     double change;       /* of the last interval of aur_radiosity_terminate; NaN without one */
     double emitted;      /* watts, the three channels summed */
-    double tail; /* what the cut after M bounces leaves out, estimated: power that would still be received, as
-                    a part of what is received and would be. 1 when the last bounces do not lose power */
-    double error; /* standard error in the unit of epsilon: the root of the mean squares by area of the
-                     triangles' standard errors of power, by independent randomisations; NaN with one */
+    /* An estimate of what the cut after M bounces leaves out: the power that triangles would still receive,
+     * as a part of all that they receive and would receive. 1 when the last bounces do not lose power. */
+    double tail;
+    /* The standard error in the unit of epsilon: the root of the mean square, by area, of the triangles'
+     * standard errors of power over independent randomisations. NaN with one randomisation. */
+    double error;
     double largest_albedo;
 } aur_radiosity_description;
 
-AUR_API void aur_radiosity_describe(const aur_radiosity *radiosity, aur_radiosity_description *description)
+/* Errors: ARGUMENT when `size` is not set. */
+AUR_API aur_result aur_radiosity_describe(const aur_radiosity *radiosity,
+                                          aur_radiosity_description *description, aur_error *error)
     AUR_NONNULL(1, 2);
 
 /* A triangle, seen from the side of its normal; RGB. Triangles are numbered shape by shape in the order of
@@ -113,9 +141,11 @@ typedef struct aur_radiosity_triangle_result {
     double standard_error[3]; /* of the radiance; NaN with one randomisation */
 } aur_radiosity_triangle_result;
 
-/* All triangles into results[capacity]. Errors: CAPACITY. */
-AUR_API aur_result aur_radiosity_results(const aur_radiosity *radiosity, size_t capacity,
-                                         aur_radiosity_triangle_result *results) AUR_NONNULL(1, 3);
+/* All triangles into results[capacity]; `size` is sizeof *results, so that the struct can grow. Errors:
+ * CAPACITY; ARGUMENT for a size that no version of the struct has. */
+AUR_API aur_result aur_radiosity_results(const aur_radiosity *radiosity, size_t capacity, size_t size,
+                                         aur_radiosity_triangle_result *results, aur_error *error)
+    AUR_NONNULL(1, 4);
 
 /* Writes the solution with all that is needed to go on; loading it for another scene is an error. Of
  * `options` only threads, progress and warnings are used. Errors: WRITE; OPEN, FORMAT (which says what is

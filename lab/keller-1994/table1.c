@@ -44,11 +44,14 @@ static aur_result measure(lab_run *run, const aur_scene *scene, bool analytic, c
                               error);
         /* The window of a smaller epsilon closes later, so one walk finds them all. */
         for (size_t e = 0; e < epsilon_count && result == AUR_OK; ++e) {
-            const aur_radiosity_termination rule = {
-                .epsilon = epsilons[e], .interval = 1000, .window = 2, .limit = UINT64_C(4000000)};
-            aur_radiosity_description d;
+            const aur_radiosity_termination rule = {.size = sizeof rule,
+                                                    .epsilon = epsilons[e],
+                                                    .interval = 1000,
+                                                    .window = 2,
+                                                    .limit = UINT64_C(4000000)};
+            aur_radiosity_description d = {.size = sizeof d};
             result = aur_radiosity_terminate(radiosity, &rule, NULL, error);
-            aur_radiosity_describe(radiosity, &d);
+            aur_radiosity_describe(radiosity, &d, NULL);
             found->paths[e][v] = (double)d.paths;
         }
         aur_radiosity_destroy(radiosity);

@@ -52,7 +52,7 @@ static aur_result measure_variant(lab_run *run, const aur_scene *scene, const ke
                                   aur_radiosity_directions directions, deviations *d, aur_error *error) {
     aur_radiosity *radiosity = NULL;
     aur_result result = AUR_OK;
-    aur_radiosity_description description;
+    aur_radiosity_description description = {.size = sizeof description};
     for (size_t n = 0; n < d->size_count && result == AUR_OK; ++n) {
         if (radiosity == NULL)
             result = keller_start(run, scene, set->name, variant, 29, directions, &radiosity, error);
@@ -61,7 +61,7 @@ static aur_result measure_variant(lab_run *run, const aur_scene *scene, const ke
         if (result == AUR_OK)
             result = keller_deviation(radiosity, &d->plain[n][variant], &d->weighted[n][variant], error);
         if (result == AUR_OK && (n + 1 == d->size_count || !set->extensible)) {
-            aur_radiosity_describe(radiosity, &description);
+            aur_radiosity_describe(radiosity, &description, error);
             d->lost += description.lost + description.behind;
             aur_radiosity_destroy(radiosity);
             radiosity = NULL;

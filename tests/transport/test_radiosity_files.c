@@ -13,7 +13,7 @@ static void saved_solutions_go_on(void **state) {
     aur_error error = {0};
     assert_int_equal(aur_radiosity_save(part, path_of("part"), &error), AUR_OK);
     aur_radiosity *loaded = NULL;
-    const aur_radiosity_options two_threads = {.threads = 2};
+    const aur_radiosity_options two_threads = {.size = sizeof two_threads, .threads = 2};
     assert_int_equal(aur_radiosity_load(scene, path_of("part"), &two_threads, &loaded, &error), AUR_OK);
     assert_same(part, loaded);
     assert_int_equal(aur_radiosity_trace(loaded, 7000, &error), AUR_OK);

@@ -96,6 +96,51 @@ static void options_out_of_range_are_refused(void **state) {
     aur_scene_destroy(scene);
 }
 
+/* Structs that tell no size are refused; larger ones of a later version are served as far as they are known.
+ */
+static void structs_may_grow(void **state) {
+    (void)state;
+    aur_scene *const scene = must_load_body(ROOM);
+    aur_error error = {0};
+    aur_radiosity *radiosity = NULL;
+    assert_int_equal(aur_radiosity_create(scene, &(aur_radiosity_options){.bounces = 1}, &radiosity, &error),
+                     AUR_ERROR_ARGUMENT);
+    struct {
+        aur_radiosity_options options;
+        uint64_t later;
+    } larger = {aur_radiosity_options_default(), 0};
+    larger.options.size = sizeof larger;
+    larger.options.bounces = 3;
+    assert_int_equal(aur_radiosity_create(scene, &larger.options, &radiosity, &error), AUR_OK);
+    assert_int_equal(describe(radiosity).dimension, 10);
+    larger.later = 1;
+    aur_radiosity *refused = NULL;
+    assert_int_equal(aur_radiosity_create(scene, &larger.options, &refused, &error), AUR_ERROR_UNSUPPORTED);
+    aur_radiosity_description unset = {.size = 0};
+    assert_int_equal(aur_radiosity_describe(radiosity, &unset, &error), AUR_ERROR_ARGUMENT);
+    assert_int_equal(
+        aur_radiosity_terminate(radiosity, &(aur_radiosity_termination){.epsilon = 1.0}, NULL, &error),
+        AUR_ERROR_ARGUMENT);
+    assert_non_null(strstr(error.message, "'size'"));
+    struct {
+        aur_radiosity_triangle_result row;
+        double later;
+    } rows[MOST_TRIANGLES];
+    aur_radiosity_triangle_result plain[MOST_TRIANGLES];
+    assert_int_equal(aur_radiosity_trace(radiosity, 100, &error), AUR_OK);
+    const size_t count = get_results(radiosity, plain);
+    assert_int_equal(aur_radiosity_results(radiosity, count, sizeof rows[0], &rows[0].row, &error), AUR_OK);
+    for (size_t i = 0; i < count; ++i) {
+        assert_memory_equal(&rows[i].row, &plain[i], sizeof plain[i]);
+        assert_true(rows[i].later == 0.0);
+    }
+    assert_int_equal(aur_radiosity_results(radiosity, count - 1, sizeof plain[0], plain, &error),
+                     AUR_ERROR_CAPACITY);
+    assert_int_equal(aur_radiosity_results(radiosity, count, 8, plain, &error), AUR_ERROR_ARGUMENT);
+    aur_radiosity_destroy(radiosity);
+    aur_scene_destroy(scene);
+}
+
 /* By reciprocity one path in five leaves an open room at once. */
 static void open_scenes_are_reported(void **state) {
     (void)state;
@@ -297,6 +342,7 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(scenes_without_an_answer_are_refused),
         cmocka_unit_test(options_out_of_range_are_refused),
+        cmocka_unit_test(structs_may_grow),
         cmocka_unit_test(open_scenes_are_reported),
         cmocka_unit_test(backs_are_reported),
         cmocka_unit_test(bright_albedos_are_reported),

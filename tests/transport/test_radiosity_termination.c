@@ -58,26 +58,30 @@ static void terminates_as_the_paper_says(void **state) {
         change = sqrt(sum / 24.0) / (sqrt(3.0) * 0.25 * 24.0);
         quiet = paths > 1000 && change < epsilon ? quiet + 1 : 0;
     }
-    int converged = 0;
+    bool converged = false;
     aur_error error = {0};
-    const aur_radiosity_termination rule = {.epsilon = epsilon};
+    const aur_radiosity_termination rule = {.size = sizeof rule, .epsilon = epsilon};
     assert_int_equal(aur_radiosity_terminate(adaptive, &rule, &converged, &error), AUR_OK);
-    assert_int_equal(converged, 1);
+    assert_true(converged);
     assert_int_equal(describe(adaptive).paths, paths);
     assert_relative(describe(adaptive).change, change, 1e-9);
     assert_same(stepwise, adaptive);
     /* A limit ends it before. */
     aur_radiosity *const limited = must_create(scene, &options);
-    assert_int_equal(aur_radiosity_terminate(limited,
-                                             &(aur_radiosity_termination){.epsilon = 1e-9, .limit = 4500},
-                                             &converged, NULL),
+    assert_int_equal(aur_radiosity_terminate(
+                         limited,
+                         &(aur_radiosity_termination){
+                             .size = sizeof(aur_radiosity_termination), .epsilon = 1e-9, .limit = 4500},
+                         &converged, NULL),
                      AUR_OK);
-    assert_int_equal(converged, 0);
+    assert_false(converged);
     assert_int_equal(describe(limited).paths, 4500);
     assert_int_equal(aur_radiosity_terminate(limited, &rule, NULL, &error), AUR_ERROR_ARGUMENT);
     assert_non_null(strstr(error.message, "4500 paths are no multiple of the interval of 1000"));
     assert_int_equal(
-        aur_radiosity_terminate(adaptive, &(aur_radiosity_termination){.epsilon = 0.0}, NULL, &error),
+        aur_radiosity_terminate(
+            adaptive, &(aur_radiosity_termination){.size = sizeof(aur_radiosity_termination), .epsilon = 0.0},
+            NULL, &error),
         AUR_ERROR_ARGUMENT);
     assert_non_null(strstr(error.message, "epsilon must be above 0"));
     aur_radiosity_destroy(limited);

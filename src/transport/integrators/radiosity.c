@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "transport/radiosity/picture.h"
+#include "transport/radiosity/statistics.h"
 
 typedef struct radiosity_parameters {
     /* the solution */
@@ -109,7 +110,8 @@ static aur_result refuse_files_of_scenes(aur_parameters *parameters, aur_error *
 
 static aur_result start(const radiosity_parameters *p, const aur_integrator_context *context,
                         aur_radiosity **radiosity, aur_error *error) {
-    aur_radiosity_options options = {.sequence = p->sequence,
+    aur_radiosity_options options = {.size = sizeof options,
+                                     .sequence = p->sequence,
                                      .seed = context->seed,
                                      .directions = p->directions,
                                      .emission = p->emission,
@@ -136,11 +138,12 @@ static aur_result go_on(const radiosity_parameters *p, const aur_integrator_cont
             return AUR_OK;
         return aur_radiosity_trace(radiosity, p->paths < 0 ? USUAL_PATHS : (uint64_t)p->paths, error);
     }
-    const aur_radiosity_termination rule = {.epsilon = p->epsilon,
+    const aur_radiosity_termination rule = {.size = sizeof rule,
+                                            .epsilon = p->epsilon,
                                             .interval = (uint64_t)p->interval,
                                             .window = (uint64_t)p->window,
                                             .limit = p->paths < 0 ? USUAL_LIMIT : (uint64_t)p->paths};
-    int converged = 0;
+    bool converged = false;
     const aur_result result = aur_radiosity_terminate(radiosity, &rule, &converged, error);
     if (result == AUR_OK && !converged)
         aur_warn_at(&context->warnings, (aur_location){0},
@@ -161,7 +164,7 @@ static aur_result write_files(const radiosity_parameters *p, const aur_radiosity
 
 static void warn_of_tail(const aur_radiosity *radiosity, const aur_warnings *warnings) {
     aur_radiosity_description d;
-    aur_radiosity_describe(radiosity, &d);
+    aur_radiosity_summarize(radiosity, &d);
     if (d.tail > 0.02)
         aur_warn_at(
             warnings, (aur_location){0},

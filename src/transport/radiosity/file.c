@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "core/file.h"
+#include "core/options.h"
 #include "core/random.h"
 #include "transport/radiosity/solution.h"
 
@@ -138,7 +139,8 @@ static aur_result read_head(number_reader *in, const char *path, file_head *head
     memcpy(&head->change, &n[3], sizeof head->change);
     if (n[4] > AUR_SCRAMBLE_ROTATE3D || n[6] > AUR_RADIOSITY_UNIFORM_ANGLE || n[7] > AUR_RADIOSITY_BY_AREA)
         return damaged(path, "its head has choices that do not exist", error);
-    head->options = (aur_radiosity_options){.sequence = head->name,
+    head->options = (aur_radiosity_options){.size = sizeof head->options,
+                                            .sequence = head->name,
                                             .scramble = (aur_scramble)n[4],
                                             .seed = n[5],
                                             .directions = (aur_radiosity_directions)n[6],
@@ -178,11 +180,9 @@ static aur_result read_solution(number_reader *in, const aur_scene *scene, const
         return result;
     if (!has_room(in, &head))
         return damaged(path, "it is cut short or too long", error);
-    if (options != NULL) {
-        head.options.threads = options->threads;
-        head.options.progress = options->progress;
-        head.options.warnings = options->warnings;
-    }
+    head.options.threads = options->threads;
+    head.options.progress = options->progress;
+    head.options.warnings = options->warnings;
     result = aur_radiosity_create(scene, &head.options, radiosity, error);
     if (result != AUR_OK)
         return result;
@@ -203,9 +203,14 @@ static aur_result read_solution(number_reader *in, const aur_scene *scene, const
 aur_result aur_radiosity_load(const aur_scene *scene, const char *path, const aur_radiosity_options *options,
                               aur_radiosity **radiosity, aur_error *error) {
     *radiosity = NULL;
+    aur_radiosity_options own = aur_radiosity_options_default();
+    aur_result result =
+        aur_options_read(options, sizeof own, sizeof own, &own, "aur_radiosity_options", error);
+    if (result != AUR_OK)
+        return result;
     char *data = NULL;
     size_t size = 0;
-    aur_result result = aur_file_read(path, SIZE_MAX / 2, &data, &size, error);
+    result = aur_file_read(path, SIZE_MAX / 2, &data, &size, error);
     if (result != AUR_OK)
         return result;
     number_reader in = {.at = (const unsigned char *)data + MAGIC_LENGTH,
@@ -213,7 +218,7 @@ aur_result aur_radiosity_load(const aur_scene *scene, const char *path, const au
     if (size < MAGIC_LENGTH || memcmp(data, magic, MAGIC_LENGTH) != 0)
         result = damaged(path, "it does not begin with 'aureole-radiosity 1'", error);
     else
-        result = read_solution(&in, scene, path, options, radiosity, error);
+        result = read_solution(&in, scene, path, &own, radiosity, error);
     free(data);
     if (result != AUR_OK) {
         aur_radiosity_destroy(*radiosity);

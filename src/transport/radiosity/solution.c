@@ -6,15 +6,11 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "core/options.h"
 #include "core/parallel.h"
 #include "core/random.h"
 #include "transport/radiosity/coincidence.h"
 #include "transport/radiosity/statistics.h"
-
-aur_radiosity_options aur_radiosity_options_default(void) {
-    return (aur_radiosity_options){
-        .sequence = "sobol", .directions = AUR_RADIOSITY_COSINE, .bounces = 6, .randomizations = 1};
-}
 
 /* --- making */
 
@@ -72,8 +68,11 @@ static aur_result make(aur_radiosity *made, const aur_scene *scene, aur_error *e
 aur_result aur_radiosity_create(const aur_scene *scene, const aur_radiosity_options *options,
                                 aur_radiosity **radiosity, aur_error *error) {
     *radiosity = NULL;
-    const aur_radiosity_options wanted = options != NULL ? *options : aur_radiosity_options_default();
-    aur_result result = check_options(&wanted, error);
+    aur_radiosity_options wanted = aur_radiosity_options_default();
+    aur_result result =
+        aur_options_read(options, sizeof wanted, sizeof wanted, &wanted, "aur_radiosity_options", error);
+    if (result == AUR_OK)
+        result = check_options(&wanted, error);
     if (result != AUR_OK)
         return result;
     aur_radiosity *const made = calloc(1, sizeof *made);
@@ -264,7 +263,7 @@ static aur_result trace_batch(aur_radiosity *radiosity, const point_source *poin
 
 static void warn_of_ends(aur_radiosity *radiosity) {
     aur_radiosity_description d;
-    aur_radiosity_describe(radiosity, &d);
+    aur_radiosity_summarize(radiosity, &d);
     const aur_warnings *const warnings = &radiosity->options.warnings;
     if (radiosity->warned)
         return;

@@ -1,5 +1,9 @@
 #include "transport/radiosity/statistics.h"
 
+#include <string.h>
+
+#include "core/options.h"
+
 void aur_radiosity_power(const aur_radiosity *radiosity, size_t patch, double power[3]) {
     const double scale = radiosity->paths > 0 ? radiosity->walk.quantum / (double)radiosity->paths : 0.0;
     for (size_t c = 0; c < 3; ++c) {
@@ -87,9 +91,10 @@ static double total_emitted(const aur_radiosity *radiosity) {
     return sum;
 }
 
-void aur_radiosity_describe(const aur_radiosity *radiosity, aur_radiosity_description *d) {
+void aur_radiosity_summarize(const aur_radiosity *radiosity, aur_radiosity_description *d) {
     const aur_radiosity_scene *const scene = &radiosity->scene;
-    *d = (aur_radiosity_description){.triangles = scene->triangle_count,
+    *d = (aur_radiosity_description){.size = sizeof *d,
+                                     .triangles = scene->triangle_count,
                                      .patches = scene->patch_count,
                                      .lights = radiosity->walk.light_count,
                                      .dimension = 2 * radiosity->options.bounces + 4,
@@ -138,11 +143,29 @@ void aur_radiosity_result(const aur_radiosity *radiosity, size_t triangle,
     }
 }
 
-aur_result aur_radiosity_results(const aur_radiosity *radiosity, size_t capacity,
-                                 aur_radiosity_triangle_result *results) {
-    if (capacity < radiosity->scene.triangle_count)
-        return AUR_ERROR_CAPACITY;
-    for (size_t i = 0; i < radiosity->scene.triangle_count; ++i)
-        aur_radiosity_result(radiosity, i, &results[i]);
+aur_result aur_radiosity_results(const aur_radiosity *radiosity, size_t capacity, size_t size,
+                                 aur_radiosity_triangle_result *results, aur_error *error) {
+    const size_t count = radiosity->scene.triangle_count;
+    aur_radiosity_triangle_result row;
+    if (size < sizeof row)
+        return aur_fail(error, AUR_ERROR_ARGUMENT,
+                        "radiosity: a row of results has %zu bytes at least, not %zu", sizeof row, size);
+    if (capacity < count)
+        return aur_fail(error, AUR_ERROR_CAPACITY, "radiosity: there are %zu triangles, and room for %zu",
+                        count, capacity);
+    for (size_t i = 0; i < count; ++i) {
+        aur_radiosity_result(radiosity, i, &row);
+        unsigned char *const out = (unsigned char *)results + i * size;
+        memset(out, 0, size);
+        memcpy(out, &row, sizeof row);
+    }
     return AUR_OK;
+}
+
+aur_result aur_radiosity_describe(const aur_radiosity *radiosity, aur_radiosity_description *description,
+                                  aur_error *error) {
+    aur_radiosity_description own;
+    aur_radiosity_summarize(radiosity, &own);
+    return aur_description_write(&own, sizeof own, sizeof own, description, "aur_radiosity_description",
+                                 error);
 }

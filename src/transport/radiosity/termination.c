@@ -2,6 +2,7 @@
 #include <inttypes.h>
 #include <stdlib.h>
 
+#include "core/options.h"
 #include "transport/radiosity/statistics.h"
 
 static aur_result check_rule(const aur_radiosity *radiosity, const aur_radiosity_termination *rule,
@@ -22,12 +23,15 @@ static aur_result check_rule(const aur_radiosity *radiosity, const aur_radiosity
 }
 
 aur_result aur_radiosity_terminate(aur_radiosity *radiosity, const aur_radiosity_termination *rule,
-                                   int *converged, aur_error *error) {
-    aur_radiosity_termination r = *rule;
+                                   bool *converged, aur_error *error) {
+    aur_radiosity_termination r;
+    aur_result result = aur_options_read(rule, sizeof r, sizeof r, &r, "aur_radiosity_termination", error);
+    if (result != AUR_OK)
+        return result;
     r.interval = r.interval != 0 ? r.interval : 1000;
     r.window = r.window != 0 ? r.window : 2;
     r.limit = r.limit != 0 ? r.limit : UINT64_C(1) << 32;
-    aur_result result = check_rule(radiosity, &r, error);
+    result = check_rule(radiosity, &r, error);
     if (result != AUR_OK)
         return result;
     double(*const before)[3] = calloc(radiosity->scene.patch_count, sizeof *before);
