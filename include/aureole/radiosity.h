@@ -157,7 +157,7 @@ AUR_API aur_result aur_radiosity_load(const aur_scene *scene, const char *path,
                                       aur_error *error) AUR_NONNULL(1, 2, 4);
 
 /* Triangles coloured by their radiance: a binary PLY file of 3 vertices a triangle, sRGB bytes at `exposure`
- * stops and the radiance itself as floats. Errors: WRITE. */
+ * stops and the radiance itself as floats. Errors: WRITE, UNSUPPORTED beyond 715 million triangles. */
 AUR_API aur_result aur_radiosity_write_ply(const aur_radiosity *radiosity, const char *path, double exposure,
                                            aur_error *error) AUR_NONNULL(1, 2);
 

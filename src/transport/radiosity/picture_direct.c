@@ -10,7 +10,7 @@ static bool perpendicular(const double b[3], const double a[3], double result[3]
     return aur_normalize3(result) > 0.0;
 }
 
-/* cos * a + sin * b, of unit length */
+/* The unit vector a cos + b sin, of orthogonal unit vectors a and b. */
 static void turn(double cosine, const double a[3], const double b[3], double result[3]) {
     const double c = fmax(-1.0, fmin(1.0, cosine)), s = sqrt(1.0 - c * c);
     for (size_t k = 0; k < 3; ++k)
@@ -18,7 +18,8 @@ static void turn(double cosine, const double a[3], const double b[3], double res
     aur_normalize3(result);
 }
 
-/* A triangle so small is flat: a point on it, evenly. */
+/* Below this solid angle a triangle is taken for flat, and directions lead to points spread evenly over it.
+ */
 static const double FLAT = 1e-7;
 
 static void flat_direction(const double corner[9], const double from[3], double u, double v,
@@ -40,7 +41,7 @@ double aur_spherical_triangle(const double corner[9], const double from[3], doub
     }
     double bc[3];
     aur_cross3(a[1], a[2], bc);
-    /* Van Oosterom and Strackee 1983: without the cancellation of the sum of the angles. */
+    /* This form (Van Oosterom and Strackee 1983) does not lose digits as the sum of the angles does. */
     const double triple = fabs(aur_dot3(a[0], bc));
     const double solid_angle =
         2.0 * atan2(triple, 1.0 + aur_dot3(a[0], a[1]) + aur_dot3(a[1], a[2]) + aur_dot3(a[2], a[0]));

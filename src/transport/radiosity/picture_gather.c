@@ -22,7 +22,7 @@ static aur_result make_pattern(const aur_rule_options *rule, aur_radiosity_gathe
     for (size_t i = 0; i < count && result == AUR_OK; ++i) {
         gather->x[i] = (float)numbers[3 * i];
         gather->y[i] = (float)numbers[3 * i + 1];
-        /* Not along the surface. */
+        /* A ray along the surface would meet the surface itself. */
         gather->z[i] = fmaxf((float)numbers[3 * i + 2], 1e-6f);
         gather->weights[i] = (float)numbers[3 * count + i];
     }
@@ -59,7 +59,7 @@ void aur_radiosity_gather_release(aur_radiosity_gather *gather) {
     *gather = (aur_radiosity_gather){0};
 }
 
-/* What the solution has where a gather ray ends, beyond mirrors. */
+/* The radiance that the solution has where a gather ray ends, which mirrors may lead on. */
 static aur_vector radiance_at(const aur_radiosity_gather *gather, aur_ray ray, aur_hit hit, uint64_t hash,
                               uint64_t *rays) {
     const aur_radiosity_scene *const scene = gather->scene;
@@ -78,7 +78,8 @@ static aur_vector radiance_at(const aur_radiosity_gather *gather, aur_ray ray, a
         return (aur_vector){0};
     const aur_vector albedo = aur_radiosity_albedo(scene, index, front, &ray, &hit);
     aur_vector radiance = aur_vector_multiply(albedo, gather->exitance[patch]);
-    /* Lights in a mirror are not among those that direct light knows. */
+    /* Direct light is drawn from lights that are seen without mirrors, so what a mirror shows of a light is
+     * added here. */
     if (reflected && front)
         radiance = aur_vector_add(radiance, aur_radiosity_emitted(scene, index, hit.u, hit.v));
     return aur_vector_multiply(throughput, radiance);

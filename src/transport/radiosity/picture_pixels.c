@@ -8,8 +8,8 @@
 
 enum { ROUND = 4, HALTON_DIMENSIONS = 4 };
 
-/* One hit point: all but its indirect light, and that as irradiance over pi times what the path and the
- * surface keep of it. */
+/* One hit point. The radiance that the eye sees there is rest + throughput * irradiance; the irradiance
+ * stands apart because pixels may share it. */
 typedef struct hit_point {
     aur_vector rest;       /* emitted and directly reflected */
     aur_vector throughput; /* path to the eye, times albedo */
@@ -62,7 +62,8 @@ static float camera_ray(const workspace *work, size_t x, size_t y, uint32_t inde
 
 /* --- light at a hit point */
 
-/* Whether the eye sees something there, through mirrors too. */
+/* Finds the surface that a ray of the eye meets, by way of mirrors. False when it leaves the scene or ends
+ * between mirrors. */
 static bool find_place(const workspace *work, aur_ray ray, uint64_t hash, aur_radiosity_place *place,
                        aur_vector *throughput) {
     const aur_radiosity_scene *const scene = work->image->gather.scene;

@@ -15,6 +15,10 @@ static const char *byte_order(void) {
 
 aur_result aur_radiosity_write_ply(const aur_radiosity *radiosity, const char *path, double exposure,
                                    aur_error *error) {
+    if (radiosity->scene.triangle_count > INT32_MAX / 3)
+        return aur_fail(error, AUR_ERROR_UNSUPPORTED,
+                        "radiosity: a PLY file numbers at most %d triangles, and the scene has %zu",
+                        INT32_MAX / 3, radiosity->scene.triangle_count);
     aur_file_writer file;
     const aur_result result = aur_file_open(path, &file, error);
     if (result != AUR_OK)

@@ -170,7 +170,7 @@ static aur_result add_shape(const aur_scene *scene, size_t shape, uint64_t varia
     return AUR_OK;
 }
 
-/* What light does on a shape that radiosity has no account of. */
+/* Warns of the part of a shape's material that radiosity leaves out, and of an albedo of 1. */
 static void warn_about(const aur_scene *scene, size_t shape, const aur_radiosity_scene *made,
                        const aur_warnings *warnings) {
     const aur_location location = aur_scene_shape_location(scene, shape);

@@ -143,7 +143,8 @@ static aur_result make_set(const aur_radiosity *radiosity, size_t r, uint64_t co
     return aur_pointset_create(radiosity->sequence, &wanted, set, error);
 }
 
-/* Two randomisations must differ somewhere in their second point. */
+/* Refuses randomisations that are all the same, because the set is not scrambled: the second points of two of
+ * them must differ somewhere. */
 static aur_result check_randomized(const aur_radiosity *radiosity, const point_source *points,
                                    aur_error *error) {
     const uint64_t index = aur_pointset_size(points->sets[1]) > 1 ? 1 : 0;

@@ -106,7 +106,8 @@ typedef struct block {
     _Alignas(64) float factor[BLOCK];                /* of the power, for uniform angles */
 } block;
 
-/* The range and the buffer are right by construction. */
+/* Two coordinates of the block's points, from `dimension` on. This cannot fail: the range and the buffer are
+ * right by construction. */
 static void fill_coordinates(block *b, size_t dimension) {
     const aur_output output = {
         .layout = AUR_LAYOUT_ARRAYS, .stride = BLOCK, .capacity = 2 * BLOCK, .doubles = b->u};
@@ -150,13 +151,14 @@ static inline void sine_cosine(float turn, float *sine, float *cosine) {
     *cosine = ((quarter + 1) & 2) != 0 ? -minor : minor;
 }
 
-/* Not quite along the surface. */
+/* The least cosine of a direction with the normal: a ray along the surface would meet the surface itself. */
 static const float LEAST_COSINE = 1e-6f;
 
 static void make_directions(block *b) {
     const bool uniform = b->walk->directions == AUR_RADIOSITY_UNIFORM_ANGLE;
     const double *const u = b->u, *const v = b->u + BLOCK;
-    /* Whole blocks, so that the loops have a length that is known; what is beyond count is not used. */
+    /* The loops run over whole blocks, so that the compiler knows their length; what is beyond the count is
+     * not used. */
     for (size_t i = 0; i < BLOCK; ++i) {
         const float radius = sqrtf((float)u[i]), height = sqrtf((float)(1.0 - u[i]));
         float sine, cosine;
@@ -205,7 +207,8 @@ static inline aur_ray departure(const block *b, size_t i, const aur_radiosity_tr
                      INFINITY};
 }
 
-/* What a ray meets beyond mirrors; false when the path has ended. */
+/* Traces a particle's ray, by way of mirrors, to the surface that receives it. False when the path has
+ * ended. */
 static bool meet(block *b, size_t i, size_t flight, aur_ray *ray, aur_hit *hit) {
     particle *const p = &b->particles[i];
     ++b->tally->rays;
