@@ -3,7 +3,7 @@
 #include <math.h>
 
 #include "core/vector.h"
-#include "quadrature/direction.h"
+#include "core/vector3d.h"
 #include "quadrature/gauss.h"
 
 static const double negligible = 1e-13;

@@ -3,7 +3,7 @@
 #include <stdint.h>
 
 #include "core/error.h"
-#include "quadrature/direction.h"
+#include "core/vector3d.h"
 #include "quadrature/potential.h"
 
 static double square(double x) {

@@ -3,7 +3,7 @@
 #include <math.h>
 
 #include "core/vector.h"
-#include "quadrature/direction.h"
+#include "core/vector3d.h"
 #include "quadrature/potential.h"
 
 /* Point i of `count` even ones on the hemisphere about +z, or on the whole sphere. */

@@ -8,8 +8,8 @@
 
 #include "core/random.h"
 #include "core/vector.h"
+#include "core/vector3d.h"
 #include "quadrature/check.h"
-#include "quadrature/direction.h"
 #include "quadrature/solve.h"
 
 static bool is_ggx(const aur_oswa *oswa) {

@@ -5,8 +5,8 @@
 
 #include "core/error.h"
 #include "core/vector.h"
+#include "core/vector3d.h"
 #include "quadrature/check.h"
-#include "quadrature/direction.h"
 
 enum { NODES_DEFAULT = 4096, NODES_MOST = 1 << 24 };
 

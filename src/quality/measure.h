@@ -1,9 +1,9 @@
-/* The table of measures: a measure is one descriptor, defined in the file that computes it, and one line in
- * measure.c. */
+/* A measure is one aur_measure_row, defined in the file that computes it, and one line in measures.h. */
 #ifndef AUR_QUALITY_MEASURE_H
 #define AUR_QUALITY_MEASURE_H
 
 #include <aureole/quality.h>
+#include <stdbool.h>
 
 #include "core/error.h"
 
@@ -12,13 +12,15 @@
 typedef struct aur_measure_request {
     const aur_points *points;
     const char *parameter; /* what follows the first ':', or NULL */
+    size_t variant;        /* of the row */
     aur_measure_options options;
 } aur_measure_request;
 
 typedef struct aur_measure_row {
     aur_measure_description description;
     size_t minimum_count; /* 0 stands for 1 */
-    int masses;           /* weights must not be negative */
+    bool masses;          /* weights must not be negative */
+    size_t variant;       /* tells rows apart that share a function */
     /* One of the two, as description.series says. */
     aur_result (*compute)(const aur_measure_request *request, double *value, aur_error *error);
     aur_result (*tabulate)(const aur_measure_request *request, aur_series *series, aur_error *error);
@@ -32,28 +34,7 @@ aur_result aur_measure_number(const aur_measure_request *request, double minimum
 aur_result aur_series_create(aur_series *series, size_t row_count, size_t column_count,
                              const char *const *columns, aur_error *error);
 
-extern const aur_measure_row aur_measure_energy;
-extern const aur_measure_row aur_measure_scd;
-extern const aur_measure_row aur_measure_l2_cap;
-extern const aur_measure_row aur_measure_l2_cap_mean;
-extern const aur_measure_row aur_measure_riesz;
-extern const aur_measure_row aur_measure_cap;
-extern const aur_measure_row aur_measure_cap_bound;
-extern const aur_measure_row aur_measure_min_distance;
-extern const aur_measure_row aur_measure_covering;
-extern const aur_measure_row aur_measure_mesh_ratio;
-extern const aur_measure_row aur_measure_voronoi_min;
-extern const aur_measure_row aur_measure_voronoi_max;
-extern const aur_measure_row aur_measure_voronoi_deviation;
-extern const aur_measure_row aur_measure_voronoi;
-extern const aur_measure_row aur_measure_star_bound;
-extern const aur_measure_row aur_measure_net;
-extern const aur_measure_row aur_measure_spectrum;
-extern const aur_measure_row aur_measure_periodogram;
-extern const aur_measure_row aur_measure_wce;
-extern const aur_measure_row aur_measure_star;
-extern const aur_measure_row aur_measure_l2_star;
-extern const aur_measure_row aur_measure_centered;
-extern const aur_measure_row aur_measure_wraparound;
+/* The sum of squared weights (N without weights): the mean power of a random set's spectrum. */
+double aur_sum_of_squares(const aur_points *points);
 
 #endif

@@ -17,6 +17,9 @@ transport/lights
 transport
 film
 sampling
+quality/table
+quality/sphere quality/square quality/spectrum
+quality/pairs
 quality
 quadrature
 scene/load

@@ -1,7 +1,7 @@
 #include "check.h"
 
-#include "quality/fibonacci_sum.h"
-#include "quality/pair_sum.h"
+#include "quality/pairs/pair_sum.h"
+#include "quality/sphere/fibonacci_sum.h"
 #include "sphere_sets.h"
 
 static double relative_difference(size_t count, aur_domain domain) {

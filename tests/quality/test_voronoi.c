@@ -3,8 +3,8 @@
 #include <string.h>
 
 #include "quality/spacing.h"
-#include "quality/sphere_grid.h"
-#include "quality/voronoi.h"
+#include "quality/sphere/sphere_grid.h"
+#include "quality/sphere/voronoi.h"
 #include "sphere_sets.h"
 
 static double measured(const char *metric, const aur_points *points) {

@@ -5,7 +5,7 @@
  *
  * With z_j = 1 - (2j+1)/M, t = j + 1/2, A = t (M-t-k) and B = (t+k) (M-t), the distance is
  *     (2/M) sqrt((kM / (sqrt A + sqrt B))^2 + 4 sin^2(pi k / Phi) sqrt(A B)). */
-#include "quality/fibonacci_sum.h"
+#include "quality/sphere/fibonacci_sum.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -1,10 +1,9 @@
-#include "quality/pair_sum.h"
+#include "quality/pairs/pair_sum.h"
 
 #include <stdlib.h>
 
 #include "core/parallel.h"
 #include "core/simd.h"
-#include "quality/distance_tile.h"
 
 static double *axis(size_t padded) {
     double *const values = aligned_alloc(64, padded * sizeof *values);
@@ -39,35 +38,6 @@ void aur_axes_release(aur_axes *axes) {
     free(axes->z);
     free(axes->weights);
     *axes = (aur_axes){0};
-}
-
-aur_twofold aur_distance_tile(const aur_axes *axes, aur_pair_tile tile, double parameter) {
-    (void)parameter;
-    return aur_distance_tile_body(axes, tile);
-}
-
-aur_twofold aur_distance_tile_plain(const aur_axes *axes, aur_pair_tile tile, double parameter) {
-    (void)parameter;
-    const int diagonal = tile.first_row == tile.first_column;
-    aur_twofold total = {0.0, 0.0};
-    for (size_t i = tile.first_row; i < tile.last_row; ++i) {
-        const size_t last = diagonal ? i : tile.last_column;
-        double lanes[AUR_LANES] = {0};
-        size_t j = tile.first_column;
-        for (; j + AUR_LANES <= last; j += AUR_LANES) {
-            for (int l = 0; l < AUR_LANES; ++l) {
-                const double dx = axes->x[i] - axes->x[j + (size_t)l];
-                const double dy = axes->y[i] - axes->y[j + (size_t)l];
-                const double dz = axes->z[i] - axes->z[j + (size_t)l];
-                lanes[l] += sqrt(dx * dx + dy * dy + dz * dz);
-            }
-        }
-        for (int l = 0; j < last; ++j, ++l)
-            lanes[l] += aur_distance_between(axes, i, j);
-        for (int l = 0; l < AUR_LANES; ++l)
-            total = aur_twofold_add(total, (aur_twofold){lanes[l], 0.0});
-    }
-    return total;
 }
 
 /* The tiles of the lower triangle, row by row: tile (r, c) with c <= r has the number r (r + 1) / 2 + c. */
@@ -117,11 +87,12 @@ aur_result aur_pair_sum(const aur_axes *axes, aur_pair_tile_function function, d
 
 aur_result aur_distance_sum(const aur_axes *axes, const aur_measure_options *options, aur_twofold *sum,
                             aur_error *error) {
-    aur_pair_tile_function function = aur_distance_tile;
+    const aur_distance_kernels *kernels = &aur_distance_portable;
 #if defined(__x86_64__)
-    if (aur_isa_available() == AUR_ISA_AVX512)
-        function =
-            options->fast && axes->weights == NULL ? aur_distance_tile_fast_avx512 : aur_distance_tile_avx512;
+    const aur_isa isa = aur_isa_available();
+    if (isa != AUR_ISA_PORTABLE)
+        kernels = isa == AUR_ISA_AVX512 ? &aur_distance_avx512 : &aur_distance_avx2;
 #endif
-    return aur_pair_sum(axes, function, 0.0, options, sum, error);
+    const bool fast = options->fast && axes->weights == NULL;
+    return aur_pair_sum(axes, fast ? kernels->fast : kernels->exact, 0.0, options, sum, error);
 }

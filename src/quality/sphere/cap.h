@@ -2,7 +2,7 @@
 #ifndef AUR_QUALITY_CAP_H
 #define AUR_QUALITY_CAP_H
 
-#include "quality/pair_sum.h"
+#include "quality/pairs/pair_sum.h"
 
 /* Axes with masses that add up to 1. */
 aur_result aur_cap_axes_create(const aur_points *points, aur_axes *axes, aur_error *error);

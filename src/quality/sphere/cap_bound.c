@@ -5,7 +5,7 @@
 #include "core/error.h"
 #include "core/parallel.h"
 #include "core/vector.h"
-#include "quality/cap.h"
+#include "quality/sphere/cap.h"
 
 aur_result aur_cap_axes_create(const aur_points *points, aur_axes *axes, aur_error *error) {
     aur_points weighted = *points;

@@ -3,7 +3,7 @@
 #define AUR_QUALITY_FIBONACCI_SUM_H
 
 #include "quality/measure.h"
-#include "quality/twofold.h"
+#include "quality/pairs/twofold.h"
 
 /* Whether the points are those of Marques 2013 eq. 4 in their order, to rounding and up to a rotation about
  * z. */

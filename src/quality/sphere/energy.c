@@ -2,9 +2,9 @@
 #include <math.h>
 
 #include "core/error.h"
-#include "quality/fibonacci_sum.h"
-#include "quality/hemisphere.h"
-#include "quality/pair_sum.h"
+#include "quality/pairs/pair_sum.h"
+#include "quality/sphere/fibonacci_sum.h"
+#include "quality/sphere/hemisphere.h"
 
 /* From here on the sum by lags is faster than that over pairs. */
 enum { STRUCTURED_COUNT = 2048 };
@@ -57,28 +57,12 @@ static aur_result square_energy(const aur_measure_request *request, double *squa
     return result;
 }
 
-static aur_result scaled_energy(const aur_measure_request *request, double divisor, double *value,
-                                aur_error *error) {
+/* The published names divide E^2 by the row's variant. */
+static aur_result energy(const aur_measure_request *request, double *value, aur_error *error) {
     double square = 0.0;
     const aur_result result = square_energy(request, &square, error);
-    *value = sqrt(square / divisor);
+    *value = sqrt(square / (double)request->variant);
     return result;
-}
-
-static aur_result energy(const aur_measure_request *request, double *value, aur_error *error) {
-    return scaled_energy(request, 1.0, value, error);
-}
-
-static aur_result scd(const aur_measure_request *request, double *value, aur_error *error) {
-    return scaled_energy(request, 2.0, value, error);
-}
-
-static aur_result l2_cap(const aur_measure_request *request, double *value, aur_error *error) {
-    return scaled_energy(request, 4.0, value, error);
-}
-
-static aur_result l2_cap_mean(const aur_measure_request *request, double *value, aur_error *error) {
-    return scaled_energy(request, 8.0, value, error);
 }
 
 const aur_measure_row aur_measure_energy = {
@@ -87,6 +71,7 @@ const aur_measure_row aur_measure_energy = {
              .source = "Marques 2013 eq. 3; on the hemisphere with the mean-distance potential"},
      .parameter = "",
      .domains = "sphere, hemisphere"},
+    .variant = 1,
     .compute = energy};
 
 const aur_measure_row aur_measure_scd = {
@@ -95,7 +80,8 @@ const aur_measure_row aur_measure_scd = {
              .source = "Marques 2019 eq. 57"},
      .parameter = "",
      .domains = "sphere, hemisphere"},
-    .compute = scd};
+    .variant = 2,
+    .compute = energy};
 
 const aur_measure_row aur_measure_l2_cap = {
     {.row = {.name = "l2-cap",
@@ -103,7 +89,8 @@ const aur_measure_row aur_measure_l2_cap = {
              .source = "Stolarsky 1973"},
      .parameter = "",
      .domains = "sphere, hemisphere"},
-    .compute = l2_cap};
+    .variant = 4,
+    .compute = energy};
 
 const aur_measure_row aur_measure_l2_cap_mean = {
     {.row = {.name = "l2-cap-mean",
@@ -111,4 +98,5 @@ const aur_measure_row aur_measure_l2_cap_mean = {
              .source = "Stolarsky 1973"},
      .parameter = "",
      .domains = "sphere, hemisphere"},
-    .compute = l2_cap_mean};
+    .variant = 8,
+    .compute = energy};

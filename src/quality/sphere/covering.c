@@ -4,7 +4,7 @@
 
 #include "core/vector.h"
 #include "quality/spacing.h"
-#include "quality/voronoi.h"
+#include "quality/sphere/voronoi.h"
 
 static aur_result cells_of(const aur_measure_request *request, aur_voronoi_cell **cells, int *unbounded,
                            aur_error *error) {
@@ -66,52 +66,26 @@ static double mean_area(const aur_points *points) {
     return (points->domain == AUR_DOMAIN_HEMISPHERE ? 2.0 : 4.0) * AUR_PI / (double)points->count;
 }
 
-typedef struct area_figures {
-    double least, greatest, deviation;
-} area_figures;
+enum { LEAST, GREATEST, DEVIATION, FIGURES };
 
-static aur_result areas(const aur_measure_request *request, area_figures *figures, aur_error *error) {
+static aur_result area_figure(const aur_measure_request *request, double *value, aur_error *error) {
     aur_voronoi_cell *cells;
     int unbounded = 0;
     const aur_result result = cells_of(request, &cells, &unbounded, error);
     if (result != AUR_OK)
         return result;
     const double mean = mean_area(request->points);
-    double squares = 0.0;
-    *figures = (area_figures){INFINITY, 0.0, 0.0};
+    double squares = 0.0, figures[FIGURES] = {[LEAST] = INFINITY};
     for (size_t i = 0; i < request->points->count; ++i) {
         const double area = cells[i].area / mean;
-        figures->least = fmin(figures->least, area);
-        figures->greatest = fmax(figures->greatest, area);
+        figures[LEAST] = fmin(figures[LEAST], area);
+        figures[GREATEST] = fmax(figures[GREATEST], area);
         squares += (area - 1.0) * (area - 1.0);
     }
-    figures->deviation = sqrt(squares / (double)request->points->count);
+    figures[DEVIATION] = sqrt(squares / (double)request->points->count);
     free(cells);
+    *value = figures[request->variant];
     return unbounded ? fail_unbounded(error) : AUR_OK;
-}
-
-static aur_result voronoi_min(const aur_measure_request *request, double *value, aur_error *error) {
-    area_figures figures;
-    const aur_result result = areas(request, &figures, error);
-    if (result == AUR_OK)
-        *value = figures.least;
-    return result;
-}
-
-static aur_result voronoi_max(const aur_measure_request *request, double *value, aur_error *error) {
-    area_figures figures;
-    const aur_result result = areas(request, &figures, error);
-    if (result == AUR_OK)
-        *value = figures.greatest;
-    return result;
-}
-
-static aur_result voronoi_deviation(const aur_measure_request *request, double *value, aur_error *error) {
-    area_figures figures;
-    const aur_result result = areas(request, &figures, error);
-    if (result == AUR_OK)
-        *value = figures.deviation;
-    return result;
 }
 
 static aur_result voronoi(const aur_measure_request *request, aur_series *series, aur_error *error) {
@@ -159,7 +133,8 @@ const aur_measure_row aur_measure_voronoi_min = {
              .source = "Augenbaum and Peskin 1985"},
      .parameter = "",
      .domains = "sphere, hemisphere"},
-    .compute = voronoi_min};
+    .variant = LEAST,
+    .compute = area_figure};
 
 const aur_measure_row aur_measure_voronoi_max = {
     {.row = {.name = "voronoi-max",
@@ -167,7 +142,8 @@ const aur_measure_row aur_measure_voronoi_max = {
              .source = "Augenbaum and Peskin 1985"},
      .parameter = "",
      .domains = "sphere, hemisphere"},
-    .compute = voronoi_max};
+    .variant = GREATEST,
+    .compute = area_figure};
 
 const aur_measure_row aur_measure_voronoi_deviation = {
     {.row = {.name = "voronoi-deviation",
@@ -175,7 +151,8 @@ const aur_measure_row aur_measure_voronoi_deviation = {
              .source = "Augenbaum and Peskin 1985"},
      .parameter = "",
      .domains = "sphere, hemisphere"},
-    .compute = voronoi_deviation};
+    .variant = DEVIATION,
+    .compute = area_figure};
 
 const aur_measure_row aur_measure_voronoi = {
     {.row = {.name = "voronoi",

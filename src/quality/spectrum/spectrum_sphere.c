@@ -6,7 +6,7 @@
 #include "core/error.h"
 #include "core/parallel.h"
 #include "core/vector.h"
-#include "quality/spectrum.h"
+#include "quality/spectrum/spectrum.h"
 
 enum {
     BLOCK = 128,

@@ -1,4 +1,4 @@
-#include "quality/sphere_grid.h"
+#include "quality/sphere/sphere_grid.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -1,47 +1,8 @@
-/* The distance kernels for AVX-512. */
-#include "quality/distance_tile.h"
+/* The fast kernel is by hand: estimates of reciprocal roots take half the time of roots. */
+#define LANES 8
+#include "quality/pairs/distance_body.h"
 
-#if defined(__AVX512F__)
 #include <immintrin.h>
-
-/* One row of the compensated kernel, in the order of operations of aur_distance_row: the same bits. */
-static inline void compensated_row(const aur_axes *axes, size_t row, size_t first, size_t last, __m512d *sum,
-                                   __m512d *error) {
-    const __m512d x = _mm512_set1_pd(axes->x[row]);
-    const __m512d y = _mm512_set1_pd(axes->y[row]);
-    const __m512d z = _mm512_set1_pd(axes->z[row]);
-    for (size_t j = first; j < last; j += 8) {
-        const __mmask8 mask = (__mmask8)(last - j >= 8 ? 0xffu : (1u << (last - j)) - 1u);
-        const __m512d dx = _mm512_sub_pd(x, _mm512_load_pd(axes->x + j));
-        const __m512d dy = _mm512_sub_pd(y, _mm512_load_pd(axes->y + j));
-        const __m512d dz = _mm512_sub_pd(z, _mm512_load_pd(axes->z + j));
-        const __m512d plane = _mm512_add_pd(_mm512_mul_pd(dx, dx), _mm512_mul_pd(dy, dy));
-        const __m512d square = _mm512_add_pd(plane, _mm512_mul_pd(dz, dz));
-        __m512d distance = _mm512_maskz_sqrt_pd(mask, square);
-        if (axes->weights != NULL) {
-            const __m512d weight = _mm512_set1_pd(axes->weights[row]);
-            distance = _mm512_mul_pd(distance, _mm512_mul_pd(weight, _mm512_load_pd(axes->weights + j)));
-        }
-        const __m512d next = _mm512_add_pd(*sum, distance);
-        const __m512d part = _mm512_sub_pd(next, *sum);
-        const __m512d lost =
-            _mm512_add_pd(_mm512_sub_pd(*sum, _mm512_sub_pd(next, part)), _mm512_sub_pd(distance, part));
-        *error = _mm512_add_pd(*error, lost);
-        *sum = next;
-    }
-}
-
-aur_twofold aur_distance_tile_avx512(const aur_axes *axes, aur_pair_tile tile, double parameter) {
-    (void)parameter;
-    const int diagonal = tile.first_row == tile.first_column;
-    __m512d sum = _mm512_setzero_pd(), error = _mm512_setzero_pd();
-    for (size_t i = tile.first_row; i < tile.last_row; ++i)
-        compensated_row(axes, i, tile.first_column, diagonal ? i : tile.last_column, &sum, &error);
-    aur_lanes lanes;
-    _mm512_storeu_pd(lanes.sum, sum);
-    _mm512_storeu_pd(lanes.error, error);
-    return aur_lanes_total(&lanes);
-}
 
 /* A distance is root + part * series. */
 typedef struct estimate {
@@ -103,17 +64,18 @@ static inline aur_twofold four_rows(const aur_axes *axes, size_t row, size_t fir
     return total;
 }
 
-aur_twofold aur_distance_tile_fast_avx512(const aur_axes *axes, aur_pair_tile tile, double parameter) {
+static aur_twofold fast_tile(const aur_axes *axes, aur_pair_tile tile, double parameter) {
     if (tile.first_row == tile.first_column)
-        return aur_distance_tile_avx512(axes, tile, parameter);
+        return distance_tile(axes, tile, parameter);
     aur_twofold total = {0.0, 0.0};
     size_t i = tile.first_row;
     for (; i + ROWS <= tile.last_row; i += ROWS)
         total = aur_twofold_add(total, four_rows(axes, i, tile.first_column, tile.last_column));
     if (i < tile.last_row) {
         const aur_pair_tile rest = {i, tile.last_row, tile.first_column, tile.last_column};
-        total = aur_twofold_add(total, aur_distance_tile_avx512(axes, rest, parameter));
+        total = aur_twofold_add(total, distance_tile(axes, rest, parameter));
     }
     return total;
 }
-#endif
+
+const aur_distance_kernels aur_distance_avx512 = {distance_tile, fast_tile};

@@ -1,4 +1,4 @@
-#include "quality/hemisphere.h"
+#include "quality/sphere/hemisphere.h"
 
 #include <math.h>
 

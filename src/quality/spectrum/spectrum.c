@@ -1,6 +1,6 @@
 /* Power spectra: how a set of points looks to waves of each frequency. A random set has the power 1
  * everywhere on average. The angular spectrum is in spectrum_sphere.c. */
-#include "quality/spectrum.h"
+#include "quality/spectrum/spectrum.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -87,13 +87,6 @@ static aur_result fill_row(void *context, size_t kx) {
     free(sums);
     free(block);
     return result;
-}
-
-double aur_sum_of_squares(const aur_points *points) {
-    double sum = 0.0;
-    for (size_t i = 0; i < points->count; ++i)
-        sum += points->weights != NULL ? points->weights[i] * points->weights[i] : 1.0;
-    return sum;
 }
 
 static aur_result make_periodogram(const aur_measure_request *request, periodogram *p, aur_error *error) {

@@ -8,7 +8,7 @@
  * (v.x) sin t >= 0, which is half a turn. Of three points two have indices of the same parity, so that such
  * pairs are enough. The entrances and exits are counted in bins of t, which bounds from above what any event
  * in a bin can give; only caps that could beat the best one so far are looked at point by point. */
-#include "quality/cap.h"
+#include "quality/sphere/cap.h"
 
 #include <math.h>
 #include <stdatomic.h>
@@ -16,7 +16,7 @@
 
 #include "core/error.h"
 #include "core/parallel.h"
-#include "quality/vector3.h"
+#include "core/vector3d.h"
 
 /* What counts as on the boundary. A cap that is greater by this much holds those points, and its area differs
  * by half of it: the value of every cap looked at is attained to this. */

@@ -1,15 +1,15 @@
 /* Each cell alone: seen from its point through the gnomonic projection, a cell within 90 degrees is a convex
  * polygon, cut by one straight line for each neighbour. Neighbours farther than twice the cell's radius
  * cannot cut it. */
-#include "quality/voronoi.h"
+#include "quality/sphere/voronoi.h"
 
 #include <math.h>
 #include <stdlib.h>
 
 #include "core/parallel.h"
 #include "core/vector.h"
-#include "quality/sphere_grid.h"
-#include "quality/vector3.h"
+#include "core/vector3d.h"
+#include "quality/sphere/sphere_grid.h"
 
 /* The first polygon's half side, as a tangent: almost 90 degrees. */
 static const double horizon = 1e6;

@@ -2,7 +2,7 @@
 #include <math.h>
 
 #include "core/error.h"
-#include "quality/pair_sum.h"
+#include "quality/pairs/pair_sum.h"
 
 static double kernel(double square, double exponent) {
     if (exponent == 0.0)

@@ -6,7 +6,7 @@
 #include "core/error.h"
 #include "core/parallel.h"
 #include "quality/measure.h"
-#include "quality/twofold.h"
+#include "quality/pairs/twofold.h"
 
 typedef struct product_kernel {
     double (*constant)(double dimension);
@@ -121,19 +121,14 @@ static double wraparound_pair(double x, double y) {
     return 1.5 - a * (1.0 - a);
 }
 
-static aur_result l2_star(const aur_measure_request *request, double *value, aur_error *error) {
-    static const product_kernel kernel = {star_constant, star_point, star_pair};
-    return discrepancy(&kernel, request, value, error);
-}
+enum { STAR, CENTERED, WRAPAROUND };
 
-static aur_result centered(const aur_measure_request *request, double *value, aur_error *error) {
-    static const product_kernel kernel = {centered_constant, centered_point, centered_pair};
-    return discrepancy(&kernel, request, value, error);
-}
-
-static aur_result wraparound(const aur_measure_request *request, double *value, aur_error *error) {
-    static const product_kernel kernel = {wraparound_constant, wraparound_point, wraparound_pair};
-    return discrepancy(&kernel, request, value, error);
+static aur_result product_discrepancy(const aur_measure_request *request, double *value, aur_error *error) {
+    static const product_kernel kernels[] = {
+        [STAR] = {star_constant, star_point, star_pair},
+        [CENTERED] = {centered_constant, centered_point, centered_pair},
+        [WRAPAROUND] = {wraparound_constant, wraparound_point, wraparound_pair}};
+    return discrepancy(&kernels[request->variant], request, value, error);
 }
 
 const aur_measure_row aur_measure_l2_star = {
@@ -142,17 +137,20 @@ const aur_measure_row aur_measure_l2_star = {
              .source = "Warnock 1972"},
      .parameter = "",
      .domains = "square, cube"},
-    .compute = l2_star};
+    .variant = STAR,
+    .compute = product_discrepancy};
 
 const aur_measure_row aur_measure_centered = {
     {.row = {.name = "centered", .summary = "centred L2 discrepancy (its root)", .source = "Hickernell 1998"},
      .parameter = "",
      .domains = "square, cube"},
-    .compute = centered};
+    .variant = CENTERED,
+    .compute = product_discrepancy};
 
 const aur_measure_row aur_measure_wraparound = {{.row = {.name = "wraparound",
                                                          .summary = "wrap-around L2 discrepancy (its root)",
                                                          .source = "Hickernell 1998"},
                                                  .parameter = "",
                                                  .domains = "square, cube"},
-                                                .compute = wraparound};
+                                                .variant = WRAPAROUND,
+                                                .compute = product_discrepancy};

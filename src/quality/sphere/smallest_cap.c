@@ -2,8 +2,8 @@
 #include <math.h>
 
 #include "core/random.h"
-#include "quality/vector3.h"
-#include "quality/voronoi.h"
+#include "core/vector3d.h"
+#include "quality/sphere/voronoi.h"
 
 typedef struct sphere_cap {
     double centre[3];

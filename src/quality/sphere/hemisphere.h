@@ -2,7 +2,7 @@
 #ifndef AUR_QUALITY_HEMISPHERE_H
 #define AUR_QUALITY_HEMISPHERE_H
 
-#include "quality/twofold.h"
+#include "quality/pairs/twofold.h"
 
 /* The mean distance from a point of the unit sphere with height z, -1 <= z <= 1, to the hemisphere z >= 0; to
  * the last bits. */

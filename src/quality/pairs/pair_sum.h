@@ -4,7 +4,7 @@
 #define AUR_QUALITY_PAIR_SUM_H
 
 #include "quality/measure.h"
-#include "quality/twofold.h"
+#include "quality/pairs/twofold.h"
 
 enum { AUR_TILE_POINTS = 1024 }; /* a tile's coordinates stay in the first-level cache */
 
@@ -35,12 +35,12 @@ aur_result aur_pair_sum(const aur_axes *axes, aur_pair_tile_function function, d
 AUR_EXPERIMENTAL aur_result aur_distance_sum(const aur_axes *axes, const aur_measure_options *options,
                                              aur_twofold *sum, aur_error *error);
 
-/* The kernels by name, for tests and benches. The compensated ones give the same bits on every processor. */
-aur_twofold aur_distance_tile(const aur_axes *axes, aur_pair_tile tile, double parameter);
-aur_twofold aur_distance_tile_avx512(const aur_axes *axes, aur_pair_tile tile, double parameter);
-/* Plain sums with the hardware's square root. */
-aur_twofold aur_distance_tile_plain(const aur_axes *axes, aur_pair_tile tile, double parameter);
-/* Reciprocal root estimates refined once; equal weights only. */
-aur_twofold aur_distance_tile_fast_avx512(const aur_axes *axes, aur_pair_tile tile, double parameter);
+/* The sum over a tile: `exact` compensated, the same bits on every processor; `fast` to 2e-14, for equal
+ * weights only. */
+typedef struct aur_distance_kernels {
+    aur_pair_tile_function exact, fast;
+} aur_distance_kernels;
+
+extern const aur_distance_kernels aur_distance_portable, aur_distance_avx2, aur_distance_avx512;
 
 #endif

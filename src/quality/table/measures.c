@@ -1,0 +1,252 @@
+/* The table of measures, and what is checked before one is computed. */
+#include "quality/measures.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "core/names.h"
+#include "core/text.h"
+#include "sphere/native.h"
+
+#define ROW_OF(name) &aur_measure_##name,
+static const aur_measure_row *const rows[] = {AUR_MEASURES(ROW_OF)};
+
+enum { ROW_COUNT = sizeof rows / sizeof rows[0] };
+
+static const double unit_tolerance = 1e-6;
+
+size_t aur_measure_count(void) {
+    return ROW_COUNT;
+}
+
+const aur_measure_description *aur_measure_at(size_t index) {
+    return index < ROW_COUNT ? &rows[index]->description : NULL;
+}
+
+static const aur_row *row_at(size_t index) {
+    return index < ROW_COUNT ? &rows[index]->description.row : NULL;
+}
+
+static const aur_table measures = {"measure", "figures of the quality of points", row_at};
+
+const aur_table *aur_table_at(size_t index) {
+    const aur_table *const tables[] = {&aur_set_table, &measures};
+    return index < sizeof tables / sizeof tables[0] ? tables[index] : NULL;
+}
+
+static const char *name_at(const void *table, size_t index) {
+    (void)table;
+    return rows[index]->description.row.name;
+}
+
+static aur_result find_row(const char *metric, const aur_measure_row **row, const char **parameter,
+                           aur_error *error) {
+    const size_t length = strcspn(metric, ":");
+    char name[64];
+    aur_format(name, sizeof name, "%.*s", (int)(length < sizeof name ? length : sizeof name - 1), metric);
+    size_t index;
+    const aur_result result = aur_names_choose((aur_names){ROW_COUNT, name_at, NULL}, "measure", name,
+                                               (aur_location){0}, &index, error);
+    if (result != AUR_OK)
+        return result;
+    *row = rows[index];
+    *parameter = metric[length] == ':' ? metric + length + 1 : NULL;
+    const char *const wanted = rows[index]->description.parameter;
+    if (*parameter != NULL && wanted[0] == '\0')
+        return aur_fail(error, AUR_ERROR_ARGUMENT, "measure '%s' takes no parameter, not '%s'", name,
+                        *parameter);
+    if (wanted[0] != '\0' && wanted[0] != '[' && (*parameter == NULL || (*parameter)[0] == '\0'))
+        return aur_fail(error, AUR_ERROR_ARGUMENT, "measure '%s' needs a parameter: %s:%s", name, name,
+                        wanted);
+    return AUR_OK;
+}
+
+aur_result aur_measure_find(const char *metric, const aur_measure_description **description,
+                            aur_error *error) {
+    const aur_measure_row *row = NULL;
+    const char *parameter;
+    const aur_result result = find_row(metric, &row, &parameter, error);
+    if (result == AUR_OK)
+        *description = &row->description;
+    return result;
+}
+
+/* Whether `name` is one of the comma-separated words of `list`. */
+static bool lists(const char *list, const char *name) {
+    const size_t length = strlen(name);
+    while (*list != '\0') {
+        list += strspn(list, ", ");
+        const size_t word = strcspn(list, ", ");
+        if (word == length && strncmp(list, name, length) == 0)
+            return true;
+        list += word;
+    }
+    return false;
+}
+
+/* Where in its file a point stands, as far as it is known; the caller knows the file. */
+static aur_location line_of(const aur_points *points, size_t index) {
+    return (aur_location){.line = points->lines != NULL ? points->lines[index] : 0};
+}
+
+static aur_result check_point(const aur_points *points, size_t index, aur_error *error) {
+    const aur_location where = line_of(points, index);
+    const double *const x = points->coordinates + index * points->dimension;
+    for (size_t d = 0; d < points->dimension; ++d)
+        if (!isfinite(x[d]))
+            return aur_fail_at(error, where, AUR_ERROR_ARGUMENT,
+                               "point %zu has a coordinate that is not finite", index + 1);
+    if (points->domain == AUR_DOMAIN_SQUARE || points->domain == AUR_DOMAIN_CUBE) {
+        for (size_t d = 0; d < points->dimension; ++d)
+            if (!(x[d] >= 0.0 && x[d] <= 1.0))
+                return aur_fail_at(error, where, AUR_ERROR_ARGUMENT,
+                                   "point %zu: coordinate %.17g is not in [0,1]", index + 1, x[d]);
+        return AUR_OK;
+    }
+    if (points->domain == AUR_DOMAIN_DISK) {
+        const double radius = hypot(x[0], x[1]);
+        if (radius > 1.0 + unit_tolerance)
+            return aur_fail_at(error, where, AUR_ERROR_ARGUMENT,
+                               "point %zu is at radius %.17g, outside the unit disk", index + 1, radius);
+        return AUR_OK;
+    }
+    const double length = sqrt(x[0] * x[0] + x[1] * x[1] + x[2] * x[2]);
+    if (!(fabs(length - 1.0) <= unit_tolerance))
+        return aur_fail_at(error, where, AUR_ERROR_ARGUMENT,
+                           "point %zu has the length %.9g: directions must be unit vectors within 1e-6",
+                           index + 1, length);
+    if (points->domain == AUR_DOMAIN_HEMISPHERE && x[2] < -unit_tolerance)
+        return aur_fail_at(error, where, AUR_ERROR_ARGUMENT,
+                           "point %zu has z = %.9g, below the hemisphere z >= 0", index + 1, x[2]);
+    return AUR_OK;
+}
+
+static aur_result check_weights(const aur_measure_row *row, const aur_points *points, aur_error *error) {
+    double sum = 0.0;
+    for (size_t i = 0; i < points->count; ++i) {
+        const double weight = points->weights[i];
+        if (!isfinite(weight))
+            return aur_fail_at(error, line_of(points, i), AUR_ERROR_ARGUMENT,
+                               "point %zu has a weight that is not finite", i + 1);
+        if (row->masses && weight < 0.0)
+            return aur_fail_at(error, line_of(points, i), AUR_ERROR_ARGUMENT,
+                               "point %zu has the weight %.9g: '%s' needs weights that are not negative",
+                               i + 1, weight, row->description.row.name);
+        sum += weight;
+    }
+    if (!(sum > 0.0))
+        return aur_fail(error, AUR_ERROR_ARGUMENT, "the weights add up to %.9g: the sum must be positive",
+                        sum);
+    return AUR_OK;
+}
+
+static size_t expected_dimension(aur_domain domain) {
+    switch (domain) {
+    case AUR_DOMAIN_SQUARE:
+    case AUR_DOMAIN_DISK:
+        return 2;
+    case AUR_DOMAIN_HEMISPHERE:
+    case AUR_DOMAIN_SPHERE:
+        return 3;
+    case AUR_DOMAIN_CUBE:
+        break;
+    }
+    return 0;
+}
+
+static aur_result check(const aur_measure_row *row, const aur_points *points, aur_error *error) {
+    const char *const name = row->description.row.name;
+    const char *const domain = aur_domain_name(points->domain);
+    if (!lists(row->description.domains, domain))
+        return aur_fail(error, AUR_ERROR_UNSUPPORTED, "measure '%s' is for the %s, not for the %s", name,
+                        row->description.domains, domain);
+    const size_t dimension = expected_dimension(points->domain);
+    if (points->dimension == 0 || (dimension != 0 && dimension != points->dimension))
+        return aur_fail(error, AUR_ERROR_ARGUMENT, "points of the %s cannot have %zu coordinates", domain,
+                        points->dimension);
+    const size_t minimum = row->minimum_count > 0 ? row->minimum_count : 1;
+    if (points->count < minimum)
+        return aur_fail(error, AUR_ERROR_ARGUMENT, "measure '%s' needs at least %zu point%s, not %zu", name,
+                        minimum, minimum == 1 ? "" : "s", points->count);
+    for (size_t i = 0; i < points->count; ++i) {
+        const aur_result result = check_point(points, i, error);
+        if (result != AUR_OK)
+            return result;
+    }
+    return points->weights != NULL ? check_weights(row, points, error) : AUR_OK;
+}
+
+/* A copy whose directions have unit length to the last bit, so that seven-digit files are measured as meant.
+ */
+static double *unit_copy(const aur_points *points) {
+    double *const copy = malloc(points->count * 3 * sizeof *copy);
+    for (size_t i = 0; i < points->count && copy != NULL; ++i) {
+        const double *const x = points->coordinates + 3 * i;
+        const double square = x[0] * x[0] + x[1] * x[1] + x[2] * x[2];
+        /* A vector that is unit to rounding stays as it is. */
+        const double scale = fabs(square - 1.0) <= 1e-15 ? 1.0 : 1.0 / sqrt(square);
+        for (size_t d = 0; d < 3; ++d)
+            copy[3 * i + d] = x[d] * scale;
+    }
+    return copy;
+}
+
+/* The row, a checked request, and the copy of the coordinates that it points to (free it). */
+typedef struct prepared {
+    const aur_measure_row *row;
+    aur_measure_request request;
+    aur_points points;
+    double *unit;
+} prepared;
+
+static aur_result prepare(const char *metric, const aur_points *points, const aur_measure_options *options,
+                          prepared *p, aur_error *error) {
+    *p = (prepared){.points = *points, .request.points = &p->points};
+    aur_result result = find_row(metric, &p->row, &p->request.parameter, error);
+    if (result == AUR_OK)
+        result = check(p->row, points, error);
+    if (result != AUR_OK)
+        return result;
+    if (options != NULL)
+        p->request.options = *options;
+    p->request.variant = p->row->variant;
+    if (expected_dimension(points->domain) != 3)
+        return AUR_OK;
+    p->unit = unit_copy(points);
+    p->points.coordinates = p->unit;
+    return p->unit != NULL ? AUR_OK : aur_fail(error, AUR_ERROR_MEMORY, "out of memory");
+}
+
+aur_result aur_measure(const char *metric, const aur_points *points, const aur_measure_options *options,
+                       double *value, aur_error *error) {
+    prepared p;
+    aur_result result = prepare(metric, points, options, &p, error);
+    if (result != AUR_OK)
+        return result;
+    if (p.row->compute != NULL)
+        result = p.row->compute(&p.request, value, error);
+    else
+        result = aur_fail(error, AUR_ERROR_UNSUPPORTED, "measure '%s' is a table, not one value",
+                          p.row->description.row.name);
+    free(p.unit);
+    return result;
+}
+
+aur_result aur_measure_series(const char *metric, const aur_points *points,
+                              const aur_measure_options *options, aur_series *series, aur_error *error) {
+    *series = (aur_series){0};
+    prepared p;
+    aur_result result = prepare(metric, points, options, &p, error);
+    if (result != AUR_OK)
+        return result;
+    if (p.row->tabulate != NULL)
+        result = p.row->tabulate(&p.request, series, error);
+    else
+        result = aur_fail(error, AUR_ERROR_UNSUPPORTED, "measure '%s' is one value, not a table",
+                          p.row->description.row.name);
+    if (result != AUR_OK)
+        aur_series_release(series);
+    free(p.unit);
+    return result;
+}
