@@ -98,7 +98,7 @@ static void store_all(occlusion_bench *self) {
         size_t x, y;
         tile_corner(i, &x, &y);
         aur_occlusion_find_places(self->view, x, y, 0, &places);
-        aur_occlusion_visit(self->integrator, &places, x, y, 0, store, self);
+        aur_occlusion_visit(self->integrator->data, &places, x, y, 0, store, self);
     }
 }
 

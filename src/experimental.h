@@ -20,7 +20,7 @@
 #include "scene/embree.h"
 #include "scene/scene.h"
 #include "transport/integrator.h"
-#include "transport/integrators/ambient_occlusion.h"
+#include "transport/occlusion/rays.h"
 #include "transport/photons/irradiance.h"
 
 #endif

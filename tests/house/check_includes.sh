@@ -10,6 +10,7 @@ cli
 lab
 render
 transport/integrators
+transport/occlusion
 transport/gather transport/paths transport/radiosity
 transport/photons
 transport/packets

@@ -1,14 +1,22 @@
 /* The rays of ambient occlusion, packet by packet: what the integrator traces and the bench compares with. */
-#ifndef AUR_TRANSPORT_INTEGRATORS_AMBIENT_OCCLUSION_H
-#define AUR_TRANSPORT_INTEGRATORS_AMBIENT_OCCLUSION_H
+#ifndef AUR_TRANSPORT_OCCLUSION_RAYS_H
+#define AUR_TRANSPORT_OCCLUSION_RAYS_H
 
 #include "scene/packet.h"
-#include "transport/integrator.h"
+#include "transport/gather/rule.h"
 #include "transport/packets/interleave.h"
 
 /* The 16 pixels of a tile that share a place in their blocks of 4 by 4 share a rotation of the pattern, so
  * the rays of a packet are one direction of it at 16 places, almost parallel where the surface is flat. */
 enum { AUR_OCCLUSION_PLACES = AUR_TILE_PIXELS };
+
+typedef struct aur_occlusion {
+    size_t samples_per_pixel;
+    uint64_t seed;
+    /* What is farther, in scene units, does not occlude. */
+    float max_distance;
+    aur_gather_rule rule;
+} aur_occlusion;
 
 /* What the eye sees at the places of a tile, in packet order: those of group g begin at g * AUR_PACKET_SIZE.
  */
@@ -30,7 +38,7 @@ typedef void (*aur_occlusion_visitor)(void *context, size_t first_place, aur_emb
 
 /* Makes the rays of sample `index` from its places and hands them on; returns how many directions a place
  * has. */
-AUR_EXPERIMENTAL size_t aur_occlusion_visit(const aur_integrator *integrator,
+AUR_EXPERIMENTAL size_t aur_occlusion_visit(const aur_occlusion *occlusion,
                                             const aur_occlusion_places *places, size_t x, size_t y,
                                             uint32_t index, aur_occlusion_visitor visit, void *context);
 
