@@ -1,4 +1,5 @@
 #include "transport/gather/places.h"
+#include "transport/packets/coherence.h"
 
 /* The merged rule of a place whose lobes are one diffuse and one glossy lobe, both with a formula, and
  * specular ones. */
@@ -43,10 +44,9 @@ static bool are_flat(const aur_gather_places *places) {
     for (uint32_t rest = places->lanes; rest != 0; rest &= rest - 1) {
         const aur_gather_place *const place = &places->at[aur_first_lane(rest)];
         const aur_vector offset = aur_vector_subtract(place->origin, first->origin);
-        const float height = aur_vector_dot(offset, first->surface.geometric_normal);
         const float cosine = aur_vector_dot(place->surface.frame.z, first->surface.frame.z);
-        if (cosine * place->side * first->side < 0.995f ||
-            height * height > 0.01f * aur_vector_dot(offset, offset))
+        if (aur_is_off_plane(offset, first->surface.geometric_normal, cosine * place->side * first->side) !=
+            0)
             return false;
     }
     return true;

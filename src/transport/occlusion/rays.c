@@ -1,5 +1,7 @@
 #include "transport/occlusion/rays.h"
 
+#include "transport/packets/coherence.h"
+
 /* --- places */
 
 static void put(float arrays[3][AUR_OCCLUSION_PLACES], size_t place, aur_vector v) {
@@ -51,18 +53,19 @@ void aur_occlusion_find_places(const aur_view *view, size_t x, size_t y, uint32_
 
 /* --- rays */
 
+static aur_vector get(const float arrays[3][AUR_OCCLUSION_PLACES], size_t place) {
+    return (aur_vector){arrays[0][place], arrays[1][place], arrays[2][place]};
+}
+
 /* Packets are fast together where their surface is flat, and slower than apart where it is not. */
 static aur_embree_order order_of(const aur_occlusion_places *places, size_t first) {
-    const float(*const normal)[AUR_OCCLUSION_PLACES] = places->axis[2];
-    float least = 1.0f;
-    bool all = true;
-    for (size_t k = first; k < first + AUR_PACKET_SIZE; ++k) {
-        const float cosine = normal[0][first] * normal[0][k] + normal[1][first] * normal[1][k] +
-                             normal[2][first] * normal[2][k];
-        least = fminf(least, cosine);
-        all = all && places->seen[k];
-    }
-    return all && least > 0.999f ? AUR_EMBREE_COHERENT : AUR_EMBREE_INCOHERENT;
+    const aur_vector origin = get(places->origin, first), normal = get(places->axis[2], first);
+    uint32_t apart = 0;
+    for (size_t k = first; k < first + AUR_PACKET_SIZE; ++k)
+        apart |= (uint32_t)!places->seen[k] |
+                 aur_is_off_plane(aur_vector_subtract(get(places->origin, k), origin), normal,
+                                  aur_vector_dot(get(places->axis[2], k), normal));
+    return apart == 0 ? AUR_EMBREE_COHERENT : AUR_EMBREE_INCOHERENT;
 }
 
 /* One local direction in the frames of 16 places. */

@@ -5,6 +5,7 @@
 
 #include "material/sampling.h"
 #include "transport/lights/direct_light.h"
+#include "transport/packets/coherence.h"
 #include "transport/paths/path.h"
 
 static void lanes_surface(aur_path_lanes *restrict lanes, const aur_packet *restrict packet) {
@@ -43,11 +44,8 @@ static uint32_t lanes_tilted(const aur_path_lanes *lanes, size_t first) {
     uint32_t tilted = 0;
     for (uint32_t k = 0; k < AUR_PACKET_SIZE; ++k) {
         const aur_vector offset = aur_vector_subtract(aur_lane_vector(&lanes->position, k), place);
-        const float height = aur_vector_dot(offset, normal);
         const float alike = aur_vector_dot(aur_lane_vector(&lanes->normal, k), normal) * lanes->side[k];
-        const uint32_t off =
-            (uint32_t)(alike < 0.995f) | (uint32_t)(height * height > 0.01f * aur_vector_dot(offset, offset));
-        tilted |= off << k;
+        tilted |= aur_is_off_plane(offset, normal, alike) << k;
     }
     return tilted;
 }
