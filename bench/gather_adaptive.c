@@ -4,6 +4,7 @@
 #include "gather_adaptive.h"
 
 #include <aureole/render.h>
+#include <aureole/statistics.h>
 #include <math.h>
 #include <stdio.h>
 
@@ -17,9 +18,6 @@ enum {
     QUICK_REFERENCE = 256,
     REFERENCE_SEED = 1000
 };
-
-/* 95 % of Student's t, two-sided, by degrees of freedom. */
-static const double student[SEEDS] = {0.0, 12.706, 4.303, 3.182, 2.776, 2.571, 2.447, 2.365};
 
 typedef struct adaptive_context {
     aur_renderer *renderer;
@@ -99,18 +97,14 @@ static bool compare(adaptive_context *context, const char *name, const char *key
                     const line *fixed, bench_figures *figures) {
     char all[160];
     snprintf(all, sizeof all, "adaptive=true,%s", keys);
-    double sum = 0.0, squares = 0.0;
-    const double n = (double)context->seeds;
+    aur_moments ratios = {0};
     for (size_t k = 0; k < context->seeds; ++k) {
         outcome found;
         if (!measure(context, all, k, &found))
             return false;
-        const double ratio = log(found.rays) - (fixed[k].a + fixed[k].b * log(found.error));
-        sum += ratio;
-        squares += ratio * ratio;
+        aur_moments_add(&ratios, log(found.rays) - (fixed[k].a + fixed[k].b * log(found.error)));
     }
-    const double mean = sum / n, variance = fmax(0.0, squares - n * mean * mean) / (n - 1.0);
-    const double half = student[context->seeds - 1] * sqrt(variance / n);
+    const double mean = ratios.mean, half = aur_moments_interval(&ratios, 0.95);
     printf("  %-36s %.3f [%.3f, %.3f] of the rays of fixed patterns at equal error, %zu seeds\n", name,
            exp(mean), exp(mean - half), exp(mean + half), context->seeds);
     fflush(stdout);

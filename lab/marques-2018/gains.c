@@ -1,6 +1,9 @@
 /* What optimal weights gain in worst-case error (Marques 2018, sections 5.2 and 5.3): 128 diffuse and 64
  * glossy samples of a digit-scrambled set, each lobe from its own samples (OSW) and from all (OSWA). The
  * published figures are those of one scrambling. */
+#include <aureole/statistics.h>
+#include <math.h>
+
 #include "samples.h"
 
 enum { DIFFUSE = 128, GLOSSY = 64, ALL = DIFFUSE + GLOSSY, GAINS = 4 };
@@ -40,28 +43,28 @@ static aur_result study_set(lab_run *run, const char *set, const aur_potential *
                                              "OSWA against QMC"};
     static const double published[GAINS] = {7.0, 6.3, 19.1, 24.1};
     const size_t seeds = lab_run_options(run)->quick ? 200 : 3000;
-    lab_moments moments[GAINS] = {0};
+    aur_moments moments[GAINS] = {0};
     for (uint64_t seed = 0; seed < seeds; ++seed) {
         double gains[GAINS];
         const aur_result result = measure(set, seed, potentials, gains, error);
         if (result != AUR_OK)
             return result;
         for (size_t i = 0; i < GAINS; ++i)
-            lab_add(&moments[i], gains[i]);
+            aur_moments_add(&moments[i], gains[i]);
     }
     for (size_t i = 0; i < GAINS; ++i) {
         lab_text(run, set);
         lab_text(run, names[i]);
         lab_number(run, published[i]);
-        lab_number(run, lab_mean(&moments[i]));
-        lab_number(run, lab_spread(&moments[i]));
+        lab_number(run, moments[i].mean);
+        lab_number(run, sqrt(aur_moments_variance(&moments[i])));
         lab_number(run, (double)seeds);
     }
     lab_note(run,
              "%s: OSW gains %.1f +- %.1f and %.1f +- %.1f %% (published 7.0, 6.3); OSWA %.1f and %.1f %% "
              "(19.1, 24.1)",
-             set, lab_mean(&moments[0]), lab_spread(&moments[0]), lab_mean(&moments[1]),
-             lab_spread(&moments[1]), lab_mean(&moments[2]), lab_mean(&moments[3]));
+             set, moments[0].mean, sqrt(aur_moments_variance(&moments[0])), moments[1].mean,
+             sqrt(aur_moments_variance(&moments[1])), moments[2].mean, moments[3].mean);
     return AUR_OK;
 }
 

@@ -38,21 +38,6 @@ aur_result lab_lobe_potential(double exponent, double smoothness, aur_potential 
     return aur_potential_create(&density, smoothness, potential, error);
 }
 
-void lab_add(lab_moments *moments, double value) {
-    moments->sum += value;
-    moments->squares += value * value;
-    ++moments->count;
-}
-
-double lab_mean(const lab_moments *moments) {
-    return moments->sum / (double)moments->count;
-}
-
-double lab_spread(const lab_moments *moments) {
-    const double mean = lab_mean(moments);
-    return sqrt(fmax(0.0, moments->squares / (double)moments->count - mean * mean));
-}
-
 /* A number in [0,1) of what it is for (the finalizer of SplitMix). */
 static double hashed(uint64_t seed, uint64_t what) {
     uint64_t x = seed * UINT64_C(0x9e3779b97f4a7c15) + what * UINT64_C(0xd6e8feb86659fd93) + 1;

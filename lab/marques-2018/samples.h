@@ -25,15 +25,6 @@ aur_result lab_draw(const lab_samples *wanted, double *xyz, double *weights, aur
 aur_result lab_lobe_potential(double exponent, double smoothness, aur_potential **potential,
                               aur_error *error);
 
-typedef struct lab_moments {
-    double sum, squares;
-    size_t count;
-} lab_moments;
-
-void lab_add(lab_moments *moments, double value);
-double lab_mean(const lab_moments *moments);
-double lab_spread(const lab_moments *moments); /* standard deviation */
-
 enum { LAB_LIGHT_PARTS = 6 };
 
 /* A sum of six spherical Gaussians of sharpness 2 to 60, anywhere, plus 0.3; or six disks as wide, with hard

@@ -1,7 +1,7 @@
 /* The table of experiments, and what runs them: a new one is one file and one line here. */
 #include "lab/lab.h"
 
-#include <math.h>
+#include <aureole/statistics.h>
 #include <stdarg.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -200,21 +200,9 @@ void lab_result_release(lab_result *result) {
 }
 
 void lab_mean_interval(size_t count, const double *values, double *mean, double *half) {
-    /* 97.5 % quantiles of Student's t for 1 .. 30 degrees of freedom; the normal's from there on is within 2
-     * %. */
-    static const double quantile[] = {12.706, 4.303, 3.182, 2.776, 2.571, 2.447, 2.365, 2.306, 2.262, 2.228,
-                                      2.201,  2.179, 2.160, 2.145, 2.131, 2.120, 2.110, 2.101, 2.093, 2.086,
-                                      2.080,  2.074, 2.069, 2.064, 2.060, 2.056, 2.052, 2.048, 2.045, 2.042};
-    double sum = 0.0;
+    aur_moments moments = {0};
     for (size_t i = 0; i < count; ++i)
-        sum += values[i];
-    *mean = count > 0 ? sum / (double)count : 0.0;
-    *half = 0.0;
-    if (count < 2)
-        return;
-    double squares = 0.0;
-    for (size_t i = 0; i < count; ++i)
-        squares += (values[i] - *mean) * (values[i] - *mean);
-    const double error = sqrt(squares / (double)(count - 1) / (double)count);
-    *half = error * (count <= 31 ? quantile[count - 2] : 1.98);
+        aur_moments_add(&moments, values[i]);
+    *mean = moments.mean;
+    *half = aur_moments_interval(&moments, 0.95);
 }
