@@ -22,7 +22,7 @@ aur_result aur_film_create(const aur_film_layout *layout, aur_film **out, aur_er
                         layout->width, layout->height, layout->channel_count);
     aur_film *const film = calloc(1, sizeof *film);
     if (film == NULL)
-        return aur_fail(error, AUR_ERROR_MEMORY, "out of memory");
+        return aur_fail_memory(error);
     film->layout = *layout;
     film->column0 = layout->x0 / AUR_TILE_SIZE;
     film->row0 = layout->y0 / AUR_TILE_SIZE;

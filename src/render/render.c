@@ -39,7 +39,7 @@ aur_result aur_renderer_create(const aur_scene *scene, aur_renderer **out, aur_e
         renderer->cache = aur_cache_create();
     if (renderer == NULL || renderer->cache == NULL) {
         free(renderer);
-        return aur_fail(error, AUR_ERROR_MEMORY, "out of memory");
+        return aur_fail_memory(error);
     }
     renderer->scene = scene;
     *out = renderer;
@@ -124,7 +124,7 @@ aur_result aur_render_create(aur_renderer *renderer, const aur_render_options *o
     *out = NULL;
     aur_render *const render = calloc(1, sizeof *render);
     if (render == NULL)
-        return aur_fail(error, AUR_ERROR_MEMORY, "out of memory");
+        return aur_fail_memory(error);
     render->renderer = renderer;
     atomic_init(&render->cancelled, false);
     const aur_stopwatch start = aur_stopwatch_start();
@@ -243,7 +243,7 @@ aur_result aur_render_step(aur_render *render, size_t count, aur_error *error) {
                         .target = (uint32_t)(done + count),
                         .counters = calloc(render->film->tile_count, sizeof *work.counters)};
     if (work.counters == NULL)
-        return aur_fail(error, AUR_ERROR_MEMORY, "out of memory");
+        return aur_fail_memory(error);
     const aur_stopwatch start = aur_stopwatch_start();
     const aur_parallel_options parallel = {.threads = render->settings.threads,
                                            .what = "rendering",

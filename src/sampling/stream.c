@@ -55,7 +55,7 @@ aur_result aur_sampler_create(const char *set, size_t count, const aur_warnings 
                         count);
     aur_sampler *const sampler = calloc(1, sizeof *sampler);
     if (sampler == NULL)
-        return aur_fail(error, AUR_ERROR_MEMORY, "out of memory");
+        return aur_fail_memory(error);
     aur_result result = AUR_OK;
     if (strcmp(set, "random") == 0) {
         sampler->kind = AUR_SAMPLER_RANDOM;

@@ -43,7 +43,7 @@ static aur_result measure_level(const aur_gather_levels_options *options, const 
     const double mass = aur_potential_mass(potential);
     double *const normalised = malloc(count * sizeof *normalised);
     if (normalised == NULL)
-        return aur_fail(error, AUR_ERROR_MEMORY, "out of memory");
+        return aur_fail_memory(error);
     for (size_t i = 0; i < count; ++i)
         normalised[i] = weights[i] / mass;
     double found = 0.0;
@@ -87,7 +87,7 @@ aur_result aur_gather_levels_create(const aur_gather_levels_options *options, co
     aur_potential *potential = NULL;
     double *const xyz = malloc(3 * rule->count * sizeof *xyz);
     aur_result result = xyz != NULL ? aur_potential_create(&density, options->smoothness, &potential, error)
-                                    : aur_fail(error, AUR_ERROR_MEMORY, "out of memory");
+                                    : aur_fail_memory(error);
     for (size_t i = 0; i < rule->count && result == AUR_OK; ++i) {
         /* Floats are no unit vectors to the solver's liking. */
         const double x = (double)rule->x[i], y = (double)rule->y[i], z = (double)rule->z[i];

@@ -54,7 +54,7 @@ static aur_result fill_directions(aur_merged_rule *rule, const aur_oswa_options 
     const size_t size = rule->count[0] + rule->count[1];
     double *const xyz = malloc(3 * size * sizeof *xyz);
     if (xyz == NULL)
-        return aur_fail(error, AUR_ERROR_MEMORY, "out of memory");
+        return aur_fail_memory(error);
     aur_result result = AUR_OK;
     if (rule->table == NULL)
         result = aur_oswa_create(options, &rule->oswa, error);
@@ -155,7 +155,7 @@ aur_result aur_merged_rule_create(const aur_merged_rule_options *options, aur_me
                         options->count[1], options->subsets);
     aur_merged_rule *const created = calloc(1, sizeof *created);
     if (created == NULL)
-        return aur_fail(error, AUR_ERROR_MEMORY, "out of memory");
+        return aur_fail_memory(error);
     const aur_result result = create(created, options, error);
     if (result != AUR_OK) {
         aur_merged_rule_destroy(created);

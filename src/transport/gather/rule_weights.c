@@ -41,7 +41,7 @@ aur_result aur_gather_rule_optimise(aur_gather_rule *rule, double smoothness, do
     aur_result result = aur_potential_create(&density, smoothness, &potential, error);
     double *const xyz = malloc(4 * n * sizeof *xyz);
     if (result == AUR_OK && xyz == NULL)
-        result = aur_fail(error, AUR_ERROR_MEMORY, "out of memory");
+        result = aur_fail_memory(error);
     for (size_t pattern = 0; pattern < pattern_count(rule) && result == AUR_OK; ++pattern) {
         const aur_potential *const one = potential;
         widen(rule, pattern * n, xyz);

@@ -76,7 +76,7 @@ static aur_result create(aur_parameters *parameters, const aur_integrator_contex
         return result;
     aur_occlusion *const data = calloc(1, sizeof *data);
     if (data == NULL)
-        return aur_fail(error, AUR_ERROR_MEMORY, "out of memory");
+        return aur_fail_memory(error);
     integrator->data = data;
     integrator->pixel_centre = p.pixel == PIXEL_CENTRE;
     data->samples_per_pixel = context->samples_per_pixel;

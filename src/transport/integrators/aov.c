@@ -209,7 +209,7 @@ static aur_result create(aur_parameters *parameters, const aur_integrator_contex
     aov_data *const data = calloc(1, sizeof *data);
     integrator->data = data;
     if (data == NULL)
-        return aur_fail(error, AUR_ERROR_MEMORY, "out of memory");
+        return aur_fail_memory(error);
     aov_parameters p = {.integrator = NULL};
     aur_result result = aur_row_read(&integrator->descriptor->row, parameters, &p, error);
     if (result == AUR_OK)

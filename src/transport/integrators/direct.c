@@ -57,7 +57,7 @@ static aur_result create(aur_parameters *parameters, const aur_integrator_contex
     const int64_t each = p.shading >= 0 ? p.shading : 1;
     direct_data *const data = malloc(sizeof *data);
     if (data == NULL)
-        return aur_fail(error, AUR_ERROR_MEMORY, "out of memory");
+        return aur_fail_memory(error);
     *data = (direct_data){.emitter_samples = (uint32_t)(p.emitter >= 0 ? p.emitter : each),
                           .bsdf_samples = (uint32_t)(p.bsdf >= 0 ? p.bsdf : each),
                           .hide_emitters = p.hide_emitters};

@@ -43,7 +43,7 @@ aur_result aur_integrator_create(aur_parameters *parameters, const aur_integrato
         return result;
     aur_integrator *const integrator = calloc(1, sizeof *integrator);
     if (integrator == NULL)
-        return aur_fail(error, AUR_ERROR_MEMORY, "out of memory");
+        return aur_fail_memory(error);
     integrator->descriptor = (const aur_integrator_descriptor *)row;
     integrator->scene = context->scene;
     aur_integrator_context own = *context;

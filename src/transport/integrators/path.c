@@ -40,7 +40,7 @@ static aur_result create(aur_parameters *parameters, const aur_integrator_contex
                            "'hide_emitters=true'");
     aur_path *const data = calloc(1, sizeof *data);
     if (data == NULL)
-        return aur_fail(error, AUR_ERROR_MEMORY, "out of memory");
+        return aur_fail_memory(error);
     *data = (aur_path){.max_depth = p.max_depth < 0 ? UINT32_MAX : (uint32_t)p.max_depth,
                        .rr_depth = (uint32_t)p.rr_depth,
                        .hide_emitters = p.hide_emitters,

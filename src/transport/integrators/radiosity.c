@@ -205,7 +205,7 @@ static aur_result solve(const radiosity_parameters *p, const aur_integrator_cont
         if (!has_key)
             snprintf(key, sizeof key, "radiosity at %p", (void *)radiosity);
         if (aur_cache_store(context->cache, key, radiosity, destroy_solution) != AUR_OK)
-            return aur_fail(error, AUR_ERROR_MEMORY, "out of memory");
+            return aur_fail_memory(error);
         warn_of_tail(radiosity, &context->warnings);
     }
     image->solution = radiosity;
@@ -244,7 +244,7 @@ static aur_result create(aur_parameters *parameters, const aur_integrator_contex
         return result;
     aur_radiosity_image *const image = calloc(1, sizeof *image);
     if (image == NULL)
-        return aur_fail(error, AUR_ERROR_MEMORY, "out of memory");
+        return aur_fail_memory(error);
     integrator->data = image;
     image->permuted = p.light_sampling == LIGHTS_PERMUTED;
     image->share_neighbours = p.share_neighbours;

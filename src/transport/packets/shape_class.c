@@ -22,7 +22,7 @@ aur_result aur_shape_classes_create(const aur_scene *scene, aur_shape_class **cl
     const size_t count = aur_scene_shape_count(scene);
     *classes = calloc(count + 1, sizeof **classes);
     if (*classes == NULL)
-        return aur_fail(error, AUR_ERROR_MEMORY, "out of memory");
+        return aur_fail_memory(error);
     for (uint32_t i = 0; i < count; ++i)
         (*classes)[i] = class_of(scene, i);
     return AUR_OK;

@@ -2,6 +2,8 @@
 
 #include <stdlib.h>
 
+#include "core/array.h"
+
 /* A texel is bright from so many times the mean radiance of the lit ones on. */
 static const double BRIGHTNESS = 2.0;
 
@@ -16,7 +18,7 @@ typedef struct patch_search {
     const aur_irradiance_map *map;
     const aur_shape_class *classes;
     double flux, area; /* of what is lit */
-    size_t count, capacity;
+    size_t count, patch_capacity, weight_capacity;
     double *weights;
     aur_bright_texels *bright;
 } patch_search;
@@ -33,19 +35,11 @@ static aur_result collect(patch_search *search, const patch_visit *at) {
     const float excess = at->radiance - search->bright->threshold;
     if (!(excess > 0.0f))
         return AUR_OK;
-    if (search->count == search->capacity) {
-        const size_t capacity = search->capacity == 0 ? 1024 : 2 * search->capacity;
-        aur_bright_patch *const patches =
-            realloc(search->bright->patches, capacity * sizeof *search->bright->patches);
-        if (patches != NULL)
-            search->bright->patches = patches;
-        double *const weights = realloc(search->weights, capacity * sizeof *search->weights);
-        if (weights != NULL)
-            search->weights = weights;
-        if (patches == NULL || weights == NULL)
-            return AUR_ERROR_MEMORY;
-        search->capacity = capacity;
-    }
+    const size_t wanted = search->count + 1;
+    if (!aur_array_reserve(&search->bright->patches, &search->patch_capacity, wanted,
+                           sizeof *search->bright->patches) ||
+        !aur_array_reserve(&search->weights, &search->weight_capacity, wanted, sizeof *search->weights))
+        return AUR_ERROR_MEMORY;
     search->bright->patches[search->count] = at->patch;
     search->weights[search->count++] = at->area * (double)excess;
     return AUR_OK;

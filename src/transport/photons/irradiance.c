@@ -121,7 +121,7 @@ aur_result aur_irradiance_map_create(const aur_scene *scene, const aur_irradianc
     *out = NULL;
     aur_irradiance_map *const map = calloc(1, sizeof *map);
     if (map == NULL)
-        return aur_fail(error, AUR_ERROR_MEMORY, "photon map: out of memory");
+        return aur_fail_memory(error);
     const aur_result result = fill(scene, options, map, error);
     if (result != AUR_OK) {
         aur_irradiance_map_destroy(map);

@@ -3,6 +3,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "core/array.h"
 #include "core/memory.h"
 #include "core/parallel.h"
 #include "sampling/stream.h"
@@ -34,14 +35,9 @@ typedef struct batch {
 } batch;
 
 static bool store(photon_chunk *chunk, aur_photon photon) {
-    if (chunk->count == chunk->capacity) {
-        const size_t capacity = chunk->capacity == 0 ? 4096 : 2 * chunk->capacity;
-        aur_photon *const larger = realloc(chunk->photons, capacity * sizeof *larger);
-        if (larger == NULL)
-            return false;
-        chunk->photons = larger;
-        chunk->capacity = capacity;
-    }
+    if (chunk->count == chunk->capacity &&
+        !aur_array_reserve(&chunk->photons, &chunk->capacity, chunk->count + 1, sizeof *chunk->photons))
+        return false;
     chunk->photons[chunk->count++] = photon;
     return true;
 }
@@ -147,13 +143,8 @@ static aur_result append_batch(aur_photon_map *map, const batch *work, size_t *c
     size_t added = 0;
     for (size_t i = 0; i < CHUNKS_A_BATCH; ++i)
         added += work->chunks[i].count;
-    if (map->count + added > *capacity) {
-        *capacity = 2 * (map->count + added);
-        aur_photon *const larger = realloc(map->photons, *capacity * sizeof *larger);
-        if (larger == NULL)
-            return AUR_ERROR_MEMORY;
-        map->photons = larger;
-    }
+    if (!aur_array_reserve(&map->photons, capacity, map->count + added, sizeof *map->photons))
+        return AUR_ERROR_MEMORY;
     for (size_t i = 0; i < CHUNKS_A_BATCH; ++i) {
         const photon_chunk *const chunk = &work->chunks[i];
         if (chunk->count > 0)

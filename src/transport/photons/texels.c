@@ -2,6 +2,7 @@
 
 #include <stdlib.h>
 
+#include "core/array.h"
 #include "core/random.h"
 
 enum { COORDINATE_BITS = 20, COORDINATE_MAX = (1 << COORDINATE_BITS) - 1 };
@@ -42,14 +43,9 @@ static uint64_t key_of(const layout *work, aur_vector position, aur_vector norma
 
 static bool add_texels(layout *work, size_t count, double area) {
     aur_texels *const texels = work->texels;
-    if (texels->count + count > work->area_capacity) {
-        const size_t capacity = 2 * (texels->count + count) + 1024;
-        float *const larger = realloc(texels->areas, capacity * sizeof *larger);
-        if (larger == NULL)
-            return false;
-        texels->areas = larger;
-        work->area_capacity = capacity;
-    }
+    if (!aur_array_reserve(&texels->areas, &work->area_capacity, texels->count + count,
+                           sizeof *texels->areas))
+        return false;
     for (size_t i = 0; i < count; ++i)
         texels->areas[texels->count + i] = (float)area;
     texels->count += count;

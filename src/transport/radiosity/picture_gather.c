@@ -35,9 +35,7 @@ aur_result aur_radiosity_gather_create(const aur_radiosity *radiosity, const aur
     const aur_radiosity_scene *const scene = &radiosity->scene;
     *gather = (aur_radiosity_gather){.scene = scene};
     gather->exitance = malloc(scene->patch_count * sizeof *gather->exitance);
-    aur_result result = gather->exitance != NULL
-                            ? make_pattern(rule, gather, error)
-                            : aur_fail(error, AUR_ERROR_MEMORY, "radiosity: out of memory");
+    aur_result result = gather->exitance != NULL ? make_pattern(rule, gather, error) : aur_fail_memory(error);
     if (result != AUR_OK) {
         aur_radiosity_gather_release(gather);
         return result;

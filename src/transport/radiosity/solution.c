@@ -54,7 +54,7 @@ static aur_result make(aur_radiosity *made, const aur_scene *scene, aur_error *e
     made->sequence = strdup(options->sequence != NULL ? options->sequence : "sobol");
     made->tallies = calloc(options->randomizations, sizeof *made->tallies);
     if (made->sequence == NULL || made->tallies == NULL)
-        return aur_fail(error, AUR_ERROR_MEMORY, "radiosity: out of memory");
+        return aur_fail_memory(error);
     made->options.sequence = made->sequence;
     aur_result result =
         aur_radiosity_scene_create(scene, options->variant, &options->warnings, &made->scene, error);
@@ -77,7 +77,7 @@ aur_result aur_radiosity_create(const aur_scene *scene, const aur_radiosity_opti
         return result;
     aur_radiosity *const made = calloc(1, sizeof *made);
     if (made == NULL)
-        return aur_fail(error, AUR_ERROR_MEMORY, "radiosity: out of memory");
+        return aur_fail_memory(error);
     made->options = wanted;
     result = make(made, scene, error);
     if (result != AUR_OK) {
@@ -162,7 +162,7 @@ static aur_result make_points(const aur_radiosity *radiosity, uint64_t paths, po
     *points = (point_source){.count = radiosity->options.randomizations};
     points->sets = calloc(points->count, sizeof(aur_pointset *));
     if (points->sets == NULL)
-        return aur_fail(error, AUR_ERROR_MEMORY, "radiosity: out of memory");
+        return aur_fail_memory(error);
     const uint64_t most = aur_radiosity_share(radiosity, 0, paths);
     aur_result result = make_set(radiosity, 0, most, &points->sets[0], error);
     if (result == AUR_OK && begins_with_zero(points->sets[0])) {
@@ -225,7 +225,7 @@ static aur_result prepare_lanes(aur_radiosity *radiosity, aur_error *error) {
     release_lanes(radiosity);
     radiosity->lanes = calloc(lanes, count * sizeof *radiosity->lanes);
     if (radiosity->lanes == NULL)
-        return aur_fail(error, AUR_ERROR_MEMORY, "radiosity: out of memory");
+        return aur_fail_memory(error);
     radiosity->lane_count = lanes;
     aur_result result = AUR_OK;
     for (size_t i = 0; i < lanes * count && result == AUR_OK; ++i)

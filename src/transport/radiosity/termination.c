@@ -36,7 +36,7 @@ aur_result aur_radiosity_terminate(aur_radiosity *radiosity, const aur_radiosity
         return result;
     double(*const before)[3] = calloc(radiosity->scene.patch_count, sizeof *before);
     if (before == NULL)
-        return aur_fail(error, AUR_ERROR_MEMORY, "radiosity: out of memory");
+        return aur_fail_memory(error);
     bool measured = radiosity->paths > 0; /* whether `before` holds a solution */
     if (measured)
         aur_radiosity_measure_change(radiosity, before);

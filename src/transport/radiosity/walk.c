@@ -21,7 +21,7 @@ static aur_result choose_lights(aur_radiosity_walk *walk, const aur_radiosity_op
     double *const weights = malloc(scene->triangle_count * sizeof *weights);
     aur_result result = AUR_OK;
     if (walk->lights == NULL || walk->start == NULL || weights == NULL)
-        result = aur_fail(error, AUR_ERROR_MEMORY, "radiosity: out of memory");
+        result = aur_fail_memory(error);
     for (size_t i = 0; i < scene->triangle_count && result == AUR_OK; ++i)
         if ((scene->triangles[i].flags & AUR_RADIOSITY_GLOWS) != 0 && scene->areas[i] > 0.0)
             walk->lights[walk->light_count++] = (uint32_t)i;
