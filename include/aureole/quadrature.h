@@ -16,8 +16,7 @@
 extern "C" {
 #endif
 
-/* --- densities -------------------------------------------------------------------------------------------
- */
+/* --- densities */
 
 typedef enum aur_density_kind {
     AUR_DENSITY_COSINE_POWER, /* cos^exponent of the angle to the axis, on the hemisphere about the axis */
@@ -74,7 +73,8 @@ AUR_API double aur_potential_mass(const aur_potential *potential) AUR_NONNULL(1)
 /* p at a unit vector, normalised to integral 1, in 1/steradian; NaN for NODES, which have no density. */
 AUR_API double aur_potential_density(const aur_potential *potential, const double direction[3])
     AUR_NONNULL(1, 2);
-/* z at `count` unit vectors. */
+/* z[count] at `count` unit vectors xyz[3 * count], which are not checked: NaN gives NaN. O(count) for
+ * COSINE_POWER and SPHERE, O(count * nodes) for the others. */
 AUR_API void aur_potential_evaluate(const aur_potential *potential, size_t count, const double *xyz,
                                     double *z) AUR_NONNULL(1, 3, 4);
 /* V. The square of the node count in kernel evaluations for densities made of nodes. */
@@ -86,11 +86,10 @@ AUR_API double aur_potential_self_energy(const aur_potential *potential) AUR_NON
 AUR_API aur_result aur_cross_energy(double exponent, double other_exponent, double cosine, double smoothness,
                                     double *energy, aur_error *error) AUR_NONNULL(5);
 
-/* The kernel at a chord |u-v| in [0,2]. */
+/* The kernel at a chord |u-v| in [0,2]; NaN for a chord or a smoothness out of range. */
 AUR_API double aur_kernel(double smoothness, double chord);
 
-/* --- worst-case error ------------------------------------------------------------------------------------
- */
+/* --- worst-case error */
 
 /* sup |I - sum w_i f(u_i)| over f of norm 1 (Marques 2018 eq. 9): sqrt(W'KW - 2 Z'W + V). `weights` may be
  * NULL: 1/N. O(N^2) time, O(N) memory; threads 0: all, and no bit depends on it. Errors: ARGUMENT for a
@@ -100,8 +99,7 @@ AUR_API aur_result aur_worst_case_error(size_t count, const double *xyz, const d
                                         const aur_progress *progress, double *value, aur_error *error)
     AUR_NONNULL(2, 4, 7);
 
-/* --- optimal weights -------------------------------------------------------------------------------------
- */
+/* --- optimal weights */
 
 #define AUR_REGULARIZATION_DEFAULT 1e-6
 
@@ -155,8 +153,7 @@ AUR_API aur_result aur_rule_make(const aur_rule_options *options, size_t capacit
 AUR_API aur_result aur_weights_write(const char *path, size_t count, const double *xyz, size_t density_count,
                                      const double *weights, aur_error *error) AUR_NONNULL(1, 3, 5);
 
-/* --- two lobes, one merged set (OSWA) ---------------------------------------------------------------------
- */
+/* --- two lobes, one merged set (OSWA) */
 
 /* The published look-up of z (Marques 2018 section 6.2), bilinear in the polar angle and log(1 + m). It is
  * kept as the baseline to compare with: its error is what K^{-1} magnifies. */
@@ -189,6 +186,8 @@ typedef struct aur_oswa_options {
  * 2018 section 6.2). Immutable, for any number of threads. */
 typedef struct aur_oswa aur_oswa;
 
+/* O(size^2) memory and time. Errors: ARGUMENT (which option, and the range), NAME of the set, UNSUPPORTED for
+ * a first lobe that is no COSINE_POWER or a grid of z for a clipped or GGX lobe, MEMORY. */
 AUR_API aur_result aur_oswa_create(const aur_oswa_options *options, aur_oswa **oswa, aur_error *error)
     AUR_NONNULL(1, 2);
 AUR_API void aur_oswa_destroy(aur_oswa *oswa);                     /* NULL is allowed */
@@ -210,21 +209,22 @@ AUR_API aur_result aur_oswa_solve(const aur_oswa *oswa, double radians, const do
 /* The turns that prepared rotation number `rotation` has: hashed from the seed. Those of tables, too. */
 AUR_API void aur_oswa_turns(uint64_t seed, size_t rotation, double turns[2]) AUR_NONNULL(3);
 
-/* --- OSWA from a table ------------------------------------------------------------------------------------
- */
+/* --- OSWA from a table */
 
 /* Weights at `angle_count` angles from 0 to 90 degrees for each of `rotation_count` pairs of turns, hashed
  * from the seed, and linear interpolation between: no system to solve while rendering. */
 typedef struct aur_weight_table aur_weight_table;
 
-/* Each entry is computed alone: no bit depends on `threads` (0: all). */
+/* 2 to 65536 angles, 1 to 65536 rotations; angles * rotations systems are solved. Each entry is computed
+ * alone: no bit depends on `threads` (0: all). Errors: as aur_oswa_create and aur_oswa_solve, CANCELLED. */
 AUR_API aur_result aur_weight_table_build(const aur_oswa_options *options, size_t angle_count,
                                           size_t rotation_count, size_t threads, const aur_progress *progress,
                                           aur_weight_table **table, aur_error *error) AUR_NONNULL(1, 6);
 AUR_API void aur_weight_table_destroy(aur_weight_table *table); /* NULL is allowed */
 
 /* A file with version, options, patterns' hash and check sum. Loading refuses, saying which, a file of
- * another version, a damaged one, and, unless `expected` is NULL, one that was built with other options. */
+ * another version, a damaged one, and, unless `expected` is NULL, one that was built with other options.
+ * Errors: OPEN, FORMAT, MEMORY; saving: WRITE, and UNSUPPORTED for a table made with a grid of z. */
 AUR_API aur_result aur_weight_table_save(const aur_weight_table *table, const char *path, aur_error *error)
     AUR_NONNULL(1, 2);
 AUR_API aur_result aur_weight_table_load(const char *path, const aur_oswa_options *expected,
@@ -250,8 +250,7 @@ AUR_API aur_result aur_weight_table_look_up(const aur_weight_table *table, size_
 /* The mass of the mirror lobe at an angle (clamped to [0, pi/2]), interpolated likewise. */
 AUR_API double aur_weight_table_mass(const aur_weight_table *table, double radians) AUR_NONNULL(1);
 
-/* --- the rivals: no system to solve ----------------------------------------------------------------------
- */
+/* --- the rivals: no system to solve */
 
 /* Veach's heuristics for samples drawn by several strategies: BALANCE in proportion to n q, POWER to its
  * square. */
