@@ -24,6 +24,7 @@ enum { AUR_LANES = 2 };
 
 typedef double aur_reals __attribute__((vector_size(8 * AUR_LANES)));
 typedef uint64_t aur_words __attribute__((vector_size(8 * AUR_LANES)));
+typedef uint32_t aur_halves __attribute__((vector_size(8 * AUR_LANES))); /* two a word */
 
 /* 0, 1, 2, ... */
 static inline aur_words aur_lanes_count(void) {
@@ -117,6 +118,81 @@ static inline void aur_lanes_store3(double *to, aur_reals x, aur_reals y, aur_re
     }
 #endif
 }
+/* Every second lane of a and b, interleaved: a0, b0, a2, b2, ..., and a1, b1, a3, b3, ... */
+static inline aur_reals aur_lanes_even(aur_reals a, aur_reals b) {
+#if defined(__AVX512F__)
+    return __builtin_shufflevector(a, b, 0, 8, 2, 10, 4, 12, 6, 14);
+#elif defined(__AVX2__)
+    return __builtin_shufflevector(a, b, 0, 4, 2, 6);
+#else
+    return __builtin_shufflevector(a, b, 0, 2);
+#endif
+}
+
+static inline aur_reals aur_lanes_odd(aur_reals a, aur_reals b) {
+#if defined(__AVX512F__)
+    return __builtin_shufflevector(a, b, 1, 9, 3, 11, 5, 13, 7, 15);
+#elif defined(__AVX2__)
+    return __builtin_shufflevector(a, b, 1, 5, 3, 7);
+#else
+    return __builtin_shufflevector(a, b, 1, 3);
+#endif
+}
+
+/* Words of halves: in each 128 bits the low and high halves low0, high0, low1, high1 of the first two halves
+ * of either, and of the last two. */
+static inline aur_words aur_lanes_first_words(aur_halves low, aur_halves high) {
+#if defined(__AVX512F__)
+    return (aur_words)__builtin_shufflevector(low, high, 0, 16, 1, 17, 4, 20, 5, 21, 8, 24, 9, 25, 12, 28, 13,
+                                              29);
+#elif defined(__AVX2__)
+    return (aur_words)__builtin_shufflevector(low, high, 0, 8, 1, 9, 4, 12, 5, 13);
+#else
+    return (aur_words)__builtin_shufflevector(low, high, 0, 4, 1, 5);
+#endif
+}
+
+static inline aur_words aur_lanes_last_words(aur_halves low, aur_halves high) {
+#if defined(__AVX512F__)
+    return (aur_words)__builtin_shufflevector(low, high, 2, 18, 3, 19, 6, 22, 7, 23, 10, 26, 11, 27, 14, 30,
+                                              15, 31);
+#elif defined(__AVX2__)
+    return (aur_words)__builtin_shufflevector(low, high, 2, 10, 3, 11, 6, 14, 7, 15);
+#else
+    return (aur_words)__builtin_shufflevector(low, high, 2, 6, 3, 7);
+#endif
+}
+
+/* The 32 bits of each half in the reverse order: nibbles by a table, then bytes. */
+static inline aur_halves aur_lanes_reverse_bits(aur_halves x) {
+#if defined(__AVX2__)
+    static const uint8_t reversed[16] = {0x0, 0x8, 0x4, 0xc, 0x2, 0xa, 0x6, 0xe,
+                                         0x1, 0x9, 0x5, 0xd, 0x3, 0xb, 0x7, 0xf};
+    static const uint8_t bytes[16] = {3, 2, 1, 0, 7, 6, 5, 4, 11, 10, 9, 8, 15, 14, 13, 12};
+    const __m128i table = _mm_loadu_si128((const __m128i *)(const void *)reversed);
+    const __m128i order = _mm_loadu_si128((const __m128i *)(const void *)bytes);
+    const aur_halves low = x & 0x0f0f0f0f;
+    const aur_halves high = x >> 4 & 0x0f0f0f0f;
+#if defined(__AVX512BW__)
+    const __m512i tables = _mm512_broadcast_i32x4(table);
+    const aur_halves nibbles = (aur_halves)_mm512_shuffle_epi8(tables, (__m512i)low) << 4 |
+                               (aur_halves)_mm512_shuffle_epi8(tables, (__m512i)high);
+    return (aur_halves)_mm512_shuffle_epi8((__m512i)nibbles, _mm512_broadcast_i32x4(order));
+#else
+    const __m256i tables = _mm256_broadcastsi128_si256(table);
+    const aur_halves nibbles = (aur_halves)_mm256_shuffle_epi8(tables, (__m256i)low) << 4 |
+                               (aur_halves)_mm256_shuffle_epi8(tables, (__m256i)high);
+    return (aur_halves)_mm256_shuffle_epi8((__m256i)nibbles, _mm256_broadcastsi128_si256(order));
+#endif
+#else
+    x = (x >> 1 & 0x55555555) | (x & 0x55555555) << 1;
+    x = (x >> 2 & 0x33333333) | (x & 0x33333333) << 2;
+    x = (x >> 4 & 0x0f0f0f0f) | (x & 0x0f0f0f0f) << 4;
+    x = (x >> 8 & 0x00ff00ff) | (x & 0x00ff00ff) << 8;
+    return x >> 16 | x << 16;
+#endif
+}
+
 /* Ends a run of streamed stores: other threads see them in order from here on. */
 static inline void aur_lanes_end_stream(void) {
 #if defined(__AVX2__)

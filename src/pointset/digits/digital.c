@@ -3,7 +3,7 @@
 #include <stdlib.h>
 
 #include "core/simd.h"
-#include "pointset/digits/digital_kernels.h"
+#include "pointset/digits/digital_body.h"
 
 enum {
     SHORT_RUN = 16, /* shorter ones are computed one index at a time */
@@ -11,6 +11,10 @@ enum {
     BUFFER_LENGTH = 512,
     STREAM_BYTES = 4 << 20 /* larger outputs go past the caches */
 };
+
+size_t aur_digital_run_portable(const aur_digital_run *run) {
+    return run_kernel(run);
+}
 
 /* A run of one dimension with any stride. */
 static void fill_plainly(const aur_digital_run *run, size_t dimension, size_t stride, double *out) {
@@ -41,11 +45,10 @@ static void fill_plainly_part(const aur_digital_run *run, size_t begin, size_t c
 
 /* One dimension, or two beside each other, without gaps. */
 static void fill_run(const aur_digital_run *run) {
-    const aur_isa isa = run->count < WIDE_RUN ? AUR_ISA_PORTABLE : aur_isa_available();
     const size_t point_bytes = run->dimension_count * sizeof *run->out;
     const size_t beyond = (uintptr_t)run->out % 64;
     const size_t before = beyond == 0 ? 0 : (64 - beyond) / point_bytes;
-    if (isa == AUR_ISA_PORTABLE || beyond % point_bytes != 0) {
+    if (run->count < WIDE_RUN || beyond % point_bytes != 0) {
         fill_plainly_part(run, 0, run->count);
         return;
     }
@@ -55,8 +58,8 @@ static void fill_run(const aur_digital_run *run) {
     wide.count -= before;
     wide.out += before * run->dimension_count;
     wide.stream = wide.count * point_bytes > STREAM_BYTES;
-    const size_t done =
-        before + (isa == AUR_ISA_AVX512 ? aur_digital_run_avx512(&wide) : aur_digital_run_avx2(&wide));
+    const aur_digital_kernel kernel = AUR_KERNEL_HERE(aur_digital_run);
+    const size_t done = before + kernel(&wide);
     fill_plainly_part(run, done, run->count - done);
 }
 

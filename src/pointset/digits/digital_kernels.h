@@ -18,8 +18,10 @@ typedef struct aur_digital_run {
 } aur_digital_run;
 
 /* Each does whole groups of points, as many as fit, and returns how many it did. */
-size_t aur_digital_run_avx512(const aur_digital_run *run);
+typedef size_t (*aur_digital_kernel)(const aur_digital_run *run);
+size_t aur_digital_run_portable(const aur_digital_run *run);
 size_t aur_digital_run_avx2(const aur_digital_run *run);
+size_t aur_digital_run_avx512(const aur_digital_run *run);
 
 enum { AUR_DIGITAL_GROUP = 16 }; /* the largest group */
 
