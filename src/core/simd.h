@@ -21,14 +21,14 @@ aur_isa aur_isa_of_rays(void);
 
 const char *aur_isa_name(aur_isa isa);
 
-/* Of the functions kernel_portable, kernel_avx2 and kernel_avx512, which one body makes in files that are
- * compiled for these instruction sets, the one to call here. Builds for other processors (and with
- * AUREOLE_PORTABLE) have the first one only. */
-#if defined(__x86_64__) && !defined(AUR_PORTABLE)
+/* Of kernel_portable, kernel_avx2 and kernel_avx512, functions or tables of functions which one body makes in
+ * files that are compiled for these instruction sets, the one to use here. Builds for other processors than
+ * x86-64 (and with AUREOLE_PORTABLE) have the first one only. */
+#if !defined(AUR_PORTABLE)
 #define AUR_KERNEL_HERE(kernel)                                                                              \
-    (aur_isa_available() == AUR_ISA_AVX512 ? kernel##_avx512                                                 \
-     : aur_isa_available() == AUR_ISA_AVX2 ? kernel##_avx2                                                   \
-                                           : kernel##_portable)
+    (*(aur_isa_available() == AUR_ISA_AVX512 ? &kernel##_avx512                                              \
+       : aur_isa_available() == AUR_ISA_AVX2 ? &kernel##_avx2                                                \
+                                             : &kernel##_portable))
 #else
 #define AUR_KERNEL_HERE(kernel) kernel##_portable
 #endif

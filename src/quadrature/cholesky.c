@@ -7,14 +7,7 @@
 const aur_cholesky aur_cholesky_portable = {factor, solve};
 
 const aur_cholesky *aur_cholesky_best(void) {
-#if defined(__x86_64__)
-    const aur_isa isa = aur_isa_available();
-    if (isa == AUR_ISA_AVX512)
-        return &aur_cholesky_avx512;
-    if (isa == AUR_ISA_AVX2)
-        return &aur_cholesky_avx2;
-#endif
-    return &aur_cholesky_portable;
+    return &AUR_KERNEL_HERE(aur_cholesky);
 }
 
 size_t aur_cholesky_work(size_t size) {

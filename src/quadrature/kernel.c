@@ -15,14 +15,7 @@ aur_kernel_rule aur_kernel_rule_make(double smoothness) {
     aur_kernel_rule rule = {.smoothness = smoothness,
                             .top = pow(2.0, 2.0 * smoothness - 1.0) / smoothness,
                             .power = smoothness - 1.0,
-                            .row = aur_kernel_row_portable};
-#if defined(__x86_64__)
-    const aur_isa isa = aur_isa_available();
-    if (isa == AUR_ISA_AVX512)
-        rule.row = aur_kernel_row_avx512;
-    else if (isa == AUR_ISA_AVX2)
-        rule.row = aur_kernel_row_avx2;
-#endif
+                            .row = AUR_KERNEL_HERE(aur_kernel_row)};
     return rule;
 }
 

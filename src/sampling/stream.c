@@ -37,14 +37,7 @@ static aur_result fill_table(aur_sampler *sampler, const char *set, const aur_wa
 const aur_stream_kernels aur_stream_kernels_portable = AUR_STREAM_KERNELS;
 
 static const aur_stream_kernels *kernels_here(void) {
-#if defined(__x86_64__)
-    const aur_isa isa = aur_isa_available();
-    if (isa >= AUR_ISA_AVX512)
-        return &aur_stream_kernels_avx512;
-    if (isa >= AUR_ISA_AVX2)
-        return &aur_stream_kernels_avx2;
-#endif
-    return &aur_stream_kernels_portable;
+    return &AUR_KERNEL_HERE(aur_stream_kernels);
 }
 
 aur_result aur_sampler_create(const char *set, size_t count, const aur_warnings *warnings, aur_sampler **out,

@@ -87,12 +87,7 @@ aur_result aur_pair_sum(const aur_axes *axes, aur_pair_tile_function function, d
 
 aur_result aur_distance_sum(const aur_axes *axes, const aur_measure_options *options, aur_twofold *sum,
                             aur_error *error) {
-    const aur_distance_kernels *kernels = &aur_distance_portable;
-#if defined(__x86_64__)
-    const aur_isa isa = aur_isa_available();
-    if (isa != AUR_ISA_PORTABLE)
-        kernels = isa == AUR_ISA_AVX512 ? &aur_distance_avx512 : &aur_distance_avx2;
-#endif
+    const aur_distance_kernels *const kernels = &AUR_KERNEL_HERE(aur_distance);
     const bool fast = options->fast && axes->weights == NULL;
     return aur_pair_sum(axes, fast ? kernels->fast : kernels->exact, 0.0, options, sum, error);
 }

@@ -15,15 +15,8 @@ void aur_spherical_rectangle_sample(const aur_spherical_rectangle *seen, float u
     rectangle_point(seen, u, v, s, t);
 }
 
-static const aur_rectangle_kernels portable = AUR_RECTANGLE_KERNELS;
+static const aur_rectangle_kernels aur_rectangle_kernels_portable = AUR_RECTANGLE_KERNELS;
 
 const aur_rectangle_kernels *aur_rectangle_kernels_here(void) {
-#if defined(__x86_64__)
-    const aur_isa isa = aur_isa_available();
-    if (isa == AUR_ISA_AVX512)
-        return &aur_rectangle_kernels_avx512;
-    if (isa == AUR_ISA_AVX2)
-        return &aur_rectangle_kernels_avx2;
-#endif
-    return &portable;
+    return &AUR_KERNEL_HERE(aur_rectangle_kernels);
 }
