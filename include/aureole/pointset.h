@@ -39,8 +39,8 @@ typedef enum aur_scramble {
     AUR_SCRAMBLE_ROTATE3D
 } aur_scramble;
 
-/* "none", "digit", "owen", "shift", "rotate", "rotate3d" to the value and back; NULL for a value out of
- * range. */
+/* "none", "digit", "owen", "shift", "rotate", "rotate3d" to the value and back. Errors: NAME, *scramble
+ * untouched; the name of a value out of range is NULL. */
 AUR_API aur_result aur_scramble_from_name(const char *name, aur_scramble *scramble, aur_error *error)
     AUR_NONNULL(1, 2);
 AUR_API const char *aur_scramble_name(aur_scramble scramble);
@@ -72,6 +72,8 @@ AUR_API aur_result aur_pointset_create(const char *set, const aur_pointset_optio
                                        aur_pointset **pointset, aur_error *error) AUR_NONNULL(1, 2, 3);
 AUR_API void aur_pointset_destroy(aur_pointset *pointset); /* NULL is allowed */
 
+/* The number of coordinates of a point, and of points: for file:PATH what the file holds, unless fewer points
+ * were asked for. */
 AUR_API size_t aur_pointset_dimension(const aur_pointset *pointset) AUR_NONNULL(1);
 AUR_API uint64_t aur_pointset_size(const aur_pointset *pointset) AUR_NONNULL(1);
 
@@ -117,7 +119,8 @@ AUR_API aur_result aur_pointset_coordinates(const aur_pointset *pointset, size_t
 AUR_API aur_result aur_pointset_randomize(const aur_pointset *pointset, uint64_t seed, uint64_t first,
                                           size_t count, const aur_output *output) AUR_NONNULL(1, 5);
 
-/* One coordinate of one point: what a renderer asks for. NaN for an index or dimension beyond the set. */
+/* One coordinate of one point, or NaN for an index or dimension beyond the set. Each call finds its place in
+ * the set again: loops are faster by aur_pointset_coordinates. */
 AUR_API double aur_pointset_coordinate(const aur_pointset *pointset, uint64_t index, size_t dimension)
     AUR_NONNULL(1);
 
@@ -217,8 +220,8 @@ AUR_API aur_result aur_golden_set_points_two_seeds(double s, double r, size_t co
 typedef struct aur_points {
     aur_domain domain;
     size_t count;
-    size_t
-        dimension; /* coordinates a point: d on the cube, 2 on square and disk, 3 on hemisphere and sphere */
+    /* coordinates a point: d on the cube, 2 on square and disk, 3 on hemisphere and sphere */
+    size_t dimension;
     double *coordinates; /* count * dimension, one point after another */
     double *weights;     /* count, or NULL */
     size_t *lines;       /* count: the line of each point in its file, for messages; or NULL */
@@ -248,7 +251,8 @@ typedef enum aur_points_format {
     AUR_POINTS_PLY
 } aur_points_format;
 
-/* "csv", "json", "npy", "ply" to the value and back; NULL for a value out of range. */
+/* "csv", "json", "npy", "ply" to the value and back. Errors: NAME, *format untouched; the name of a value out
+ * of range is NULL. */
 AUR_API aur_result aur_points_format_from_name(const char *name, aur_points_format *format, aur_error *error)
     AUR_NONNULL(1, 2);
 AUR_API const char *aur_points_format_name(aur_points_format format);

@@ -20,6 +20,7 @@ extern "C" {
  * the weight aur_map_weight. */
 typedef enum aur_map { AUR_MAP_LAMBERT, AUR_MAP_CONCENTRIC, AUR_MAP_AZIMUTHAL, AUR_MAP_POLAR } aur_map;
 
+/* "lambert", "concentric", "azimuthal", "polar" to the value and back. Errors: NAME, *map untouched. */
 AUR_API aur_result aur_map_from_name(const char *name, aur_map *map, aur_error *error) AUR_NONNULL(1, 2);
 AUR_API const char *aur_map_name(aur_map map); /* NULL for a value out of range */
 
@@ -100,11 +101,12 @@ typedef struct aur_rotation {
     double m[9];
 } aur_rotation;
 
-/* About +z by an angle that is uniform over seeds, and a uniformly random rotation (Shoemake 1992). Rotating
- * one set many times randomises it without generating it again. */
+/* About +z by an angle that is uniform over seeds, and a uniformly random rotation (Shoemake 1992), each from
+ * its own hash of the seed: equal seeds give equal rotations, and the two do not depend on each other.
+ * Rotating one set many times randomises it without generating it again. */
 AUR_API void aur_rotation_axial(uint64_t seed, aur_rotation *rotation) AUR_NONNULL(2);
 AUR_API void aur_rotation_uniform(uint64_t seed, aur_rotation *rotation) AUR_NONNULL(2);
-/* Rotates xyz[3 * count] in place. */
+/* Rotates `count` vectors in xyz[3 * count] in place. */
 AUR_API void aur_rotation_apply(const aur_rotation *rotation, size_t count, double *xyz) AUR_NONNULL(1, 3);
 
 /* The inverse map of a spherical Fibonacci set (offset 1/2) on the HEMISPHERE or the SPHERE, 1 to 2^50
@@ -122,7 +124,8 @@ enum { AUR_FIBONACCI_NEIGHBOURS_MAX = 256 };
 AUR_API aur_result aur_fibonacci_nearest(const aur_fibonacci_set *set, size_t count, const double *xyz,
                                          size_t capacity, uint64_t *indices) AUR_NONNULL(1);
 /* The `count` nearest points of one direction, nearest first; at most AUR_FIBONACCI_NEIGHBOURS_MAX and no
- * more than the set has. */
+ * more than the set has. Errors: ARGUMENT for a larger count, a set or a direction out of its range, CAPACITY
+ * where `capacity` indices are fewer than `count`; then nothing is written. */
 AUR_API aur_result aur_fibonacci_neighbours(const aur_fibonacci_set *set, const double direction[3],
                                             size_t count, size_t capacity, uint64_t *indices)
     AUR_NONNULL(1, 2, 5);
@@ -149,6 +152,7 @@ typedef struct aur_directions_options {
 AUR_API aur_result aur_directions_create(const char *set, const aur_directions_options *options,
                                          aur_directions **directions, aur_error *error) AUR_NONNULL(1, 2, 3);
 AUR_API void aur_directions_destroy(aur_directions *directions); /* NULL is allowed */
+/* The number of directions: the options' count, or what a file holds where that was 0. */
 AUR_API uint64_t aur_directions_size(const aur_directions *directions) AUR_NONNULL(1);
 
 /* Unit vectors first .. first+count-1 as x,y,z triples into xyz[3 * count] (`capacity` counts doubles), and
@@ -157,7 +161,7 @@ AUR_API uint64_t aur_directions_size(const aur_directions *directions) AUR_NONNU
  * horizon of a GGX lobe. Errors: ARGUMENT for a range beyond the set, CAPACITY. */
 AUR_API aur_result aur_directions_points(const aur_directions *directions, uint64_t first, size_t count,
                                          size_t capacity, double *xyz, double *weights) AUR_NONNULL(1, 5);
-/* The same rounded to float, and as separate arrays of `capacity` numbers each. */
+/* The same rounded to float, and as separate arrays of `capacity` numbers each. Errors: as above. */
 AUR_API aur_result aur_directions_points_float(const aur_directions *directions, uint64_t first, size_t count,
                                                size_t capacity, float *xyz, float *weights) AUR_NONNULL(1, 5);
 AUR_API aur_result aur_directions_arrays(const aur_directions *directions, uint64_t first, size_t count,
