@@ -115,9 +115,6 @@ struct aur_bsdf {
     bool plain_diffuse;        /* nothing but diffuse reflection, the same at every point of a surface */
 };
 
-/* The table; NULL beyond it. */
-const aur_bsdf_descriptor *aur_bsdf_descriptor_at(size_t index);
-
 /* Builds the material that parameters->plugin names; errors name the file and line. Nested BSDFs are
  * parameters of kind AUR_PARAMETER_OBJECT with object_kind "bsdf", and outlive the one that uses them. */
 aur_result aur_bsdf_create(aur_parameters *parameters, aur_bsdf **bsdf, aur_error *error);

@@ -68,13 +68,9 @@ static aur_vector evaluate_rough(const aur_bsdf *bsdf, aur_bsdf_part part, aur_b
                                  aur_vector view, aur_vector light) {
     (void)part;
     const conductor *const self = bsdf->data;
-    if (view.z <= 0.0f || light.z <= 0.0f)
-        return (aur_vector){0};
-    const aur_vector normal = aur_vector_normalize(aur_vector_add(view, light));
-    const float value = aur_microfacet_density(&self->microfacet, normal) *
-                        aur_microfacet_masking(&self->microfacet, view, normal) *
-                        aur_microfacet_masking(&self->microfacet, light, normal) / (4.0f * view.z);
-    return aur_vector_scale(reflectance(self, point, aur_vector_dot(view, normal)), value);
+    float cosine;
+    const float value = aur_microfacet_mirror(&self->microfacet, view, light, &cosine);
+    return value > 0.0f ? aur_vector_scale(reflectance(self, point, cosine), value) : (aur_vector){0};
 }
 
 static float pdf_rough(const aur_bsdf *bsdf, aur_bsdf_part part, aur_bsdf_point point, aur_vector view,
@@ -82,10 +78,7 @@ static float pdf_rough(const aur_bsdf *bsdf, aur_bsdf_part part, aur_bsdf_point 
     (void)part;
     (void)point;
     const conductor *const self = bsdf->data;
-    if (view.z <= 0.0f || light.z <= 0.0f)
-        return 0.0f;
-    const aur_vector normal = aur_vector_normalize(aur_vector_add(view, light));
-    return aur_microfacet_pdf(&self->microfacet, view, normal) / (4.0f * aur_vector_dot(view, normal));
+    return aur_microfacet_mirror_pdf(&self->microfacet, view, light);
 }
 
 static bool sample_rough(const aur_bsdf *bsdf, aur_bsdf_part part, aur_bsdf_point point, aur_vector view,
@@ -94,9 +87,9 @@ static bool sample_rough(const aur_bsdf *bsdf, aur_bsdf_part part, aur_bsdf_poin
     const conductor *const self = bsdf->data;
     if (view.z <= 0.0f)
         return false;
-    const aur_vector normal = aur_microfacet_sample(&self->microfacet, view, u[1], u[2]);
+    aur_vector normal;
+    const aur_vector light = aur_microfacet_draw_mirrored(&self->microfacet, view, u[1], u[2], &normal);
     const float cosine = aur_vector_dot(view, normal);
-    const aur_vector light = aur_vector_add_scaled(aur_vector_scale(view, -1.0f), 2.0f * cosine, normal);
     if (!(cosine > 0.0f) || !(light.z > 0.0f))
         return false;
     *drawn = (aur_bsdf_sample){.light = light,

@@ -25,10 +25,6 @@ static const aur_bsdf_descriptor *const table[] = {
 
 enum { TABLE_SIZE = sizeof table / sizeof table[0] };
 
-const aur_bsdf_descriptor *aur_bsdf_descriptor_at(size_t index) {
-    return index < TABLE_SIZE ? table[index] : NULL;
-}
-
 static aur_result find_descriptor(const aur_parameters *parameters, const aur_bsdf_descriptor **descriptor,
                                   aur_error *error) {
     const char *names[TABLE_SIZE];

@@ -109,3 +109,27 @@ aur_vector aur_microfacet_sample(const aur_microfacet *microfacet, aur_vector vi
         microfacet->beckmann ? sample_beckmann(stretched, u, v) : sample_ggx(stretched, u, v);
     return aur_vector_normalize((aur_vector){normal.x * a, normal.y * b, fmaxf(normal.z, 1e-7f)});
 }
+
+float aur_microfacet_mirror(const aur_microfacet *microfacet, aur_vector view, aur_vector light,
+                            float *cosine) {
+    if (view.z <= 0.0f || light.z <= 0.0f)
+        return 0.0f;
+    const aur_vector normal = aur_vector_normalize(aur_vector_add(view, light));
+    *cosine = aur_vector_dot(view, normal);
+    return aur_microfacet_density(microfacet, normal) * aur_microfacet_masking(microfacet, view, normal) *
+           aur_microfacet_masking(microfacet, light, normal) / (4.0f * view.z);
+}
+
+float aur_microfacet_mirror_pdf(const aur_microfacet *microfacet, aur_vector view, aur_vector light) {
+    if (view.z <= 0.0f || light.z <= 0.0f)
+        return 0.0f;
+    const aur_vector normal = aur_vector_normalize(aur_vector_add(view, light));
+    return aur_microfacet_pdf(microfacet, view, normal) / (4.0f * aur_vector_dot(view, normal));
+}
+
+aur_vector aur_microfacet_draw_mirrored(const aur_microfacet *microfacet, aur_vector view, float u, float v,
+                                        aur_vector *normal) {
+    *normal = aur_microfacet_sample(microfacet, view, u, v);
+    return aur_vector_add_scaled(aur_vector_scale(view, -1.0f), 2.0f * aur_vector_dot(view, *normal),
+                                 *normal);
+}

@@ -24,4 +24,16 @@ float aur_microfacet_masking(const aur_microfacet *microfacet, aur_vector direct
 float aur_microfacet_pdf(const aur_microfacet *microfacet, aur_vector view, aur_vector normal);
 aur_vector aur_microfacet_sample(const aur_microfacet *microfacet, aur_vector view, float u, float v);
 
+/* What facets that mirror all light scatter from `light` to `view`, times |light.z|; 0 unless both are above.
+ * Their reflectance at *cosine, the angle between either direction and the facet, is left out. */
+float aur_microfacet_mirror(const aur_microfacet *microfacet, aur_vector view, aur_vector light,
+                            float *cosine);
+/* The density, a steradian, with which aur_microfacet_draw_mirrored draws `light`; 0 unless both are above.
+ */
+float aur_microfacet_mirror_pdf(const aur_microfacet *microfacet, aur_vector view, aur_vector light);
+/* Where light comes from that a facet drawn by aur_microfacet_sample, its normal in *normal, mirrors to
+ * `view`. */
+aur_vector aur_microfacet_draw_mirrored(const aur_microfacet *microfacet, aur_vector view, float u, float v,
+                                        aur_vector *normal);
+
 #endif

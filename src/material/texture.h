@@ -1,4 +1,4 @@
-/* Values that vary over a surface. One texture a file (texture_*.c), with one line in the table of texture.c.
+/* Values that vary over a surface. One texture a file (texture_*.c), with one line in texture_table.c.
  */
 #ifndef AUR_MATERIAL_TEXTURE_H
 #define AUR_MATERIAL_TEXTURE_H
@@ -23,9 +23,6 @@ struct aur_texture {
     aur_vector mean; /* over the unit square */
     float maximum;   /* of any channel anywhere */
 };
-
-/* The table; NULL beyond it. */
-const aur_texture_descriptor *aur_texture_descriptor_at(size_t index);
 
 /* Builds the texture that parameters->plugin names. A bitmap's `filename` must already be a path that opens.
  */
