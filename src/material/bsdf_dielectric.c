@@ -11,9 +11,9 @@ typedef struct dielectric {
 static aur_result create(aur_parameters *parameters, aur_bsdf *bsdf, aur_error *error) {
     dielectric *const self = bsdf->data;
     self->reflectance.constant = self->transmittance.constant = (aur_vector){1.0f, 1.0f, 1.0f};
-    aur_bsdf_lobe lobe = {.shape = AUR_LOBE_SHAPE_SPECULAR, .sides = AUR_SIDES_BOTH};
+    aur_bsdf_lobe lobe = {.shape = AUR_LOBE_SHAPE_SPECULAR, .sides = AUR_SIDES_BOTH, .transmits = true};
     aur_bsdf_add_lobe(bsdf, &lobe);
-    lobe.transmits = true;
+    lobe.transmits = false;
     aur_bsdf_add_lobe(bsdf, &lobe);
     aur_result result = aur_parameters_ior(parameters, "bk7", &self->ior, error);
     if (result == AUR_OK)
@@ -23,72 +23,37 @@ static aur_result create(aur_parameters *parameters, aur_bsdf *bsdf, aur_error *
     return result;
 }
 
-/* What comes of light: the share that is mirrored, where the rest comes from, and how its radiance is scaled.
- */
-typedef struct split {
-    float mirrored;
-    aur_vector through;
-    float scale;
-} split;
-
-static split split_at_boundary(const dielectric *self, aur_vector view) {
-    float refracted;
-    const float mirrored = aur_fresnel_dielectric(view.z, self->ior, &refracted);
-    const float ratio = view.z >= 0.0f ? 1.0f / self->ior : self->ior; /* the view's side over the light's */
-    return (split){mirrored, {-ratio * view.x, -ratio * view.y, refracted}, ratio * ratio};
-}
-
-/* Two boundaries and all that is mirrored between them (Stam 2001): R + T^2 R / (1 - R^2) = 2 R / (1 + R). */
-static split split_at_pane(const dielectric *self, aur_vector view) {
-    float refracted;
-    const float once = aur_fresnel_dielectric(fabsf(view.z), self->ior, &refracted);
-    return (split){2.0f * once / (1.0f + once), aur_vector_scale(view, -1.0f), 1.0f};
-}
-
-static bool draw(const dielectric *self, aur_bsdf_point point, aur_vector view, float u, split parts,
-                 aur_bsdf_sample *drawn) {
-    *drawn = (aur_bsdf_sample){.specular = true};
-    if (u < parts.mirrored) {
-        drawn->light = aur_mirror(view);
-        drawn->weight = aur_color_at(&self->reflectance, point);
-        return true;
-    }
-    drawn->light = aur_vector_normalize(parts.through);
-    drawn->weight = aur_vector_scale(aur_color_at(&self->transmittance, point), parts.scale);
-    drawn->ior_squared = parts.scale != 1.0f ? 1.0f / parts.scale : 0.0f;
-    return view.z != 0.0f;
-}
-
-static bool sample_boundary(const aur_bsdf *bsdf, aur_bsdf_part part, aur_bsdf_point point, aur_vector view,
-                            const float u[3], aur_bsdf_sample *drawn) {
-    (void)part;
-    return draw(bsdf->data, point, view, u[0], split_at_boundary(bsdf->data, view), drawn);
-}
-
-static bool sample_pane(const aur_bsdf *bsdf, aur_bsdf_part part, aur_bsdf_point point, aur_vector view,
-                        const float u[3], aur_bsdf_sample *drawn) {
-    (void)part;
-    return draw(bsdf->data, point, view, u[0], split_at_pane(bsdf->data, view), drawn);
-}
-
-static void weigh_split(const dielectric *self, aur_bsdf_point point, aur_vector view, split parts,
-                        aur_bsdf_lobe *lobes) {
-    lobes[0].axis = aur_mirror(view);
-    lobes[0].coefficient = aur_vector_scale(aur_color_at(&self->reflectance, point), parts.mirrored);
-    if (parts.mirrored >= 1.0f)
+/* `through` is where the light comes from that is not mirrored, and `ratio` the index of the view's side over
+ * that of the light's, by whose square radiance is scaled. */
+static void split(const dielectric *self, aur_bsdf_point point, aur_vector view, float mirrored,
+                  aur_vector through, float ratio, aur_bsdf_lobe *lobes) {
+    lobes[1].axis = aur_mirror(view);
+    lobes[1].coefficient = aur_vector_scale(aur_color_at(&self->reflectance, point), mirrored);
+    if (mirrored >= 1.0f)
         return;
-    lobes[1].axis = aur_vector_normalize(parts.through);
-    lobes[1].coefficient =
-        aur_vector_scale(aur_color_at(&self->transmittance, point), (1.0f - parts.mirrored) * parts.scale);
+    lobes[0].axis = through;
+    lobes[0].coefficient =
+        aur_vector_scale(aur_color_at(&self->transmittance, point), (1.0f - mirrored) * ratio * ratio);
+    lobes[0].ior_squared = ratio != 1.0f ? 1.0f / (ratio * ratio) : 0.0f;
 }
 
 static void weigh_boundary(const aur_bsdf *bsdf, aur_bsdf_point point, aur_vector view,
                            aur_bsdf_lobe *lobes) {
-    weigh_split(bsdf->data, point, view, split_at_boundary(bsdf->data, view), lobes);
+    const dielectric *const self = bsdf->data;
+    float refracted;
+    const float mirrored = aur_fresnel_dielectric(view.z, self->ior, &refracted);
+    const float ratio = view.z >= 0.0f ? 1.0f / self->ior : self->ior;
+    const aur_vector through =
+        aur_vector_normalize((aur_vector){-ratio * view.x, -ratio * view.y, refracted});
+    split(self, point, view, mirrored, through, ratio, lobes);
 }
 
+/* Two boundaries and all that is mirrored between them (Stam 2001): R + T^2 R / (1 - R^2) = 2 R / (1 + R). */
 static void weigh_pane(const aur_bsdf *bsdf, aur_bsdf_point point, aur_vector view, aur_bsdf_lobe *lobes) {
-    weigh_split(bsdf->data, point, view, split_at_pane(bsdf->data, view), lobes);
+    const dielectric *const self = bsdf->data;
+    float refracted;
+    const float once = aur_fresnel_dielectric(fabsf(view.z), self->ior, &refracted);
+    split(self, point, view, 2.0f * once / (1.0f + once), aur_vector_scale(view, -1.0f), 1.0f, lobes);
 }
 
 const aur_bsdf_descriptor aur_bsdf_dielectric = {
@@ -97,7 +62,6 @@ const aur_bsdf_descriptor aur_bsdf_dielectric = {
     .source = "Fresnel 1823",
     .size = sizeof(dielectric),
     .create = create,
-    .sample = sample_boundary,
     .weigh = weigh_boundary,
 };
 
@@ -107,6 +71,5 @@ const aur_bsdf_descriptor aur_bsdf_thindielectric = {
     .source = "Stam 2001",
     .size = sizeof(dielectric),
     .create = create,
-    .sample = sample_pane,
     .weigh = weigh_pane,
 };

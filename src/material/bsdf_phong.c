@@ -1,43 +1,89 @@
-/* Mitsuba 0.6's modified Phong model: f = k_d / pi + (m + 2) / (2 pi) k_s (u . u_r)^m (Lafortune and Willems
- * 1994), reciprocal. */
-#include "material/phong.h"
+/* The two materials named after Phong: a diffuse lobe and one of cos^m about the mirror direction u_r, with
+ * the reflectances k_d and k_s.
+ *
+ * phong: BSDF = k_d / pi + (m + 2) / (2 pi) k_s (u . u_r)^m, Mitsuba 0.6's modified model (Lafortune and
+ * Willems 1994), reciprocal. phong_lobe: BSDF * cos = k_d / pi (u . n) + k_s (m + 1) / (2 pi) (u . u_r)^m, so
+ * that k_s is the reflectance of the whole lobe (Marques 2013, section 5). Not reciprocal. */
 #include "material/sampling.h"
+#include "material/texture.h"
 
-/* The factor of k_s (u . u_r)^m. */
-static float scale_of(const aur_bsdf *bsdf) {
-    const aur_phong *const self = bsdf->data;
-    return (self->exponent + 2.0f) / (2.0f * AUR_PI_F);
+typedef struct phong {
+    aur_color diffuse, specular;
+    float scale; /* of k_s (u . u_r)^m */
+} phong;
+
+static bool may_reflect(const aur_color *color) {
+    return color->texture != NULL || aur_vector_max(color->constant) > 0.0f;
 }
 
-static aur_vector evaluate(const aur_bsdf *bsdf, aur_bsdf_part part, aur_bsdf_point point, aur_vector view,
-                           aur_vector light) {
-    (void)part;
-    const aur_phong *const self = bsdf->data;
-    if (view.z <= 0.0f || light.z <= 0.0f)
-        return (aur_vector){0};
-    const aur_phong_point at = aur_phong_at(bsdf, point);
-    const float cosine = aur_vector_dot(aur_mirror(view), light);
-    const float lobe = cosine > 0.0f ? scale_of(bsdf) * powf(cosine, self->exponent) * light.z : 0.0f;
-    return aur_vector_add_scaled(aur_vector_scale(at.diffuse, light.z / AUR_PI_F), lobe, at.specular);
+static aur_result create_with(aur_parameters *parameters, aur_bsdf *bsdf, bool times_cosine,
+                              aur_error *error) {
+    phong *const self = bsdf->data;
+    self->diffuse.constant = (aur_vector){0.5f, 0.5f, 0.5f};
+    self->specular.constant = (aur_vector){0.2f, 0.2f, 0.2f};
+    double exponent = 30.0;
+    aur_result result = aur_parameters_color(parameters, "diffuse_reflectance", 1.0, &self->diffuse, error);
+    if (result == AUR_OK)
+        result = aur_parameters_color(parameters, "specular_reflectance", 1.0, &self->specular, error);
+    if (result == AUR_OK)
+        result = aur_parameters_float(parameters, "exponent", 0.0, 1e6, &exponent, error);
+    if (result != AUR_OK)
+        return result;
+    self->scale = ((float)exponent + (times_cosine ? 2.0f : 1.0f)) / (2.0f * AUR_PI_F);
+    const aur_bsdf_lobe diffuse = aur_diffuse_lobe();
+    const aur_bsdf_lobe specular = {.shape = AUR_LOBE_SHAPE_COSINE_POWER,
+                                    .times_cosine = times_cosine,
+                                    .sides = AUR_SIDE_FRONT,
+                                    .exponent = (float)exponent};
+    if (may_reflect(&self->diffuse))
+        aur_bsdf_add_lobe(bsdf, &diffuse);
+    if (may_reflect(&self->specular))
+        aur_bsdf_add_lobe(bsdf, &specular);
+    const float most = aur_vector_max(aur_vector_add(self->diffuse.constant, self->specular.constant));
+    if (self->diffuse.texture == NULL && self->specular.texture == NULL && most > 1.0f + 1e-5f)
+        return aur_fail_at(
+            error, parameters->location, AUR_ERROR_FORMAT,
+            "bsdf '%s': diffuse_reflectance + specular_reflectance must not exceed 1, but adds to %g",
+            parameters->plugin, (double)most);
+    return AUR_OK;
 }
 
 static aur_result create(aur_parameters *parameters, aur_bsdf *bsdf, aur_error *error) {
-    return aur_phong_create(parameters, bsdf, true, error);
+    return create_with(parameters, bsdf, true, error);
+}
+
+static aur_result create_lobe(aur_parameters *parameters, aur_bsdf *bsdf, aur_error *error) {
+    return create_with(parameters, bsdf, false, error);
 }
 
 static void weigh(const aur_bsdf *bsdf, aur_bsdf_point point, aur_vector view, aur_bsdf_lobe *lobes) {
-    aur_phong_weigh(bsdf, point, view, scale_of(bsdf), lobes);
+    const phong *const self = bsdf->data;
+    if (view.z <= 0.0f)
+        return;
+    for (size_t i = 0; i < bsdf->lobe_count; ++i) {
+        if (lobes[i].diffuse) {
+            lobes[i].coefficient = aur_vector_scale(aur_color_at(&self->diffuse, point), 1.0f / AUR_PI_F);
+            continue;
+        }
+        lobes[i].axis = aur_mirror(view);
+        lobes[i].coefficient = aur_vector_scale(aur_color_at(&self->specular, point), self->scale);
+    }
 }
 
 const aur_bsdf_descriptor aur_bsdf_phong = {
-    "phong",
-    "modified Phong model: (m+2)/(2 pi) cos^m times the cosine",
-    "Lafortune Willems 1994",
-    sizeof(aur_phong),
-    create,
-    weigh,
-    evaluate,
-    aur_phong_pdf,
-    aur_phong_sample,
-    aur_phong_diffuse_albedo,
+    .name = "phong",
+    .summary = "modified Phong model: (m+2)/(2 pi) cos^m times the cosine",
+    .source = "Lafortune Willems 1994",
+    .size = sizeof(phong),
+    .create = create,
+    .weigh = weigh,
+};
+
+const aur_bsdf_descriptor aur_bsdf_phong_lobe = {
+    .name = "phong_lobe",
+    .summary = "diffuse part and a pure cos^m lobe about the mirror direction; not reciprocal",
+    .source = "Marques 2013",
+    .size = sizeof(phong),
+    .create = create_lobe,
+    .weigh = weigh,
 };

@@ -1,5 +1,6 @@
-/* A diffuse base under a clear coat, smooth or rough. Light that the coat mirrors inwards meets the base
- * again; the geometric series over these bounces gives the factor below. */
+/* A diffuse base under a clear coat, smooth or rough: the two differ in what the coat mirrors, by a Dirac
+ * lobe or by facets, and in what it lets through, by Fresnel's formula or by a table. Light that the coat
+ * mirrors inwards meets the base again; the geometric series over these bounces gives the factor below. */
 #include "material/fresnel.h"
 #include "material/microfacet.h"
 #include "material/sampling.h"
@@ -14,8 +15,10 @@ typedef struct plastic {
     float inner_reflectance;   /* of the coat from inside, over diffuse light */
     float outer_transmittance; /* of the coat from outside, over diffuse light */
     float specular_weight;
+    bool rough;
+    /* Of a rough coat: */
     aur_microfacet microfacet;
-    float transmittance[TABLE_SIZE]; /* of the rough coat from outside, at cosines i / (TABLE_SIZE - 1) */
+    float transmittance[TABLE_SIZE]; /* from outside, at cosines i / (TABLE_SIZE - 1) */
 } plastic;
 
 static aur_result read_coat(aur_parameters *parameters, aur_bsdf *bsdf, aur_error *error) {
@@ -72,137 +75,35 @@ static rough_shares shares_at(const aur_microfacet *microfacet, float ior, float
     return (rough_shares){sum.mirrored / count, sum.through / count};
 }
 
-/* Of the coat, at a cosine above it. */
-static float smooth_transmittance(const plastic *self, float cosine) {
-    float refracted;
-    return 1.0f - aur_fresnel_dielectric(cosine, self->ior, &refracted);
-}
-
-static float rough_transmittance(const plastic *self, float cosine) {
+/* The share of light that the coat lets through where it meets it at `cosine` from above. */
+static float transmittance(const plastic *self, float cosine) {
+    if (!self->rough) {
+        float refracted;
+        return 1.0f - aur_fresnel_dielectric(cosine, self->ior, &refracted);
+    }
     const float place = fminf(fmaxf(cosine, 0.0f), 1.0f) * (TABLE_SIZE - 1);
     const size_t index = place < TABLE_SIZE - 1 ? (size_t)place : TABLE_SIZE - 2;
     const float share = place - (float)index;
     return (1.0f - share) * self->transmittance[index] + share * self->transmittance[index + 1];
 }
 
-/* The base's colour with its inner bounces, over ior^2: what is to be multiplied by both transmittances. */
-static aur_vector base_color(const plastic *self, aur_bsdf_point point) {
-    const aur_vector color = aur_color_at(&self->diffuse, point);
-    const float inner = self->inner_reflectance, scale = 1.0f / (self->ior * self->ior);
-    if (!self->nonlinear)
-        return aur_vector_scale(color, scale / (1.0f - inner));
-    return (aur_vector){color.x * scale / (1.0f - color.x * inner),
-                        color.y * scale / (1.0f - color.y * inner),
-                        color.z * scale / (1.0f - color.z * inner)};
-}
-
-/* How often the coat is drawn, where it lets `transmittance` through. */
-static float specular_probability(const plastic *self, float transmittance) {
-    const float coat = (1.0f - transmittance) * self->specular_weight;
-    const float base = transmittance * (1.0f - self->specular_weight);
-    return coat + base > 0.0f ? coat / (coat + base) : 1.0f;
+static float factor(const void *data, float cosine) {
+    return transmittance(data, cosine);
 }
 
 /* The base is a cosine lobe but for the coat, which lets less through the flatter light comes. */
-static void add_base(aur_bsdf *bsdf, float (*factor)(const void *, float)) {
+static void add_base(aur_bsdf *bsdf) {
     aur_bsdf_lobe lobe = aur_diffuse_lobe();
     lobe.factor = factor;
     lobe.factor_data = bsdf->data;
     aur_bsdf_add_lobe(bsdf, &lobe);
 }
 
-/* --- smooth */
-
-static float smooth_factor(const void *data, float cosine) {
-    return smooth_transmittance(data, cosine);
-}
-
 static aur_result create_smooth(aur_parameters *parameters, aur_bsdf *bsdf, aur_error *error) {
     const aur_bsdf_lobe coat = {.shape = AUR_LOBE_SHAPE_SPECULAR, .sides = AUR_SIDE_FRONT};
     aur_bsdf_add_lobe(bsdf, &coat);
-    add_base(bsdf, smooth_factor);
+    add_base(bsdf);
     return read_coat(parameters, bsdf, error);
-}
-
-static aur_vector evaluate_smooth(const aur_bsdf *bsdf, aur_bsdf_part part, aur_bsdf_point point,
-                                  aur_vector view, aur_vector light) {
-    (void)part;
-    const plastic *const self = bsdf->data;
-    if (view.z <= 0.0f || light.z <= 0.0f)
-        return (aur_vector){0};
-    return aur_vector_scale(base_color(self, point), smooth_transmittance(self, view.z) *
-                                                         smooth_transmittance(self, light.z) * light.z /
-                                                         AUR_PI_F);
-}
-
-static float pdf_smooth(const aur_bsdf *bsdf, aur_bsdf_part part, aur_bsdf_point point, aur_vector view,
-                        aur_vector light) {
-    (void)part;
-    (void)point;
-    const plastic *const self = bsdf->data;
-    if (view.z <= 0.0f || light.z <= 0.0f)
-        return 0.0f;
-    return (1.0f - specular_probability(self, smooth_transmittance(self, view.z))) * light.z / AUR_PI_F;
-}
-
-static bool sample_smooth(const aur_bsdf *bsdf, aur_bsdf_part part, aur_bsdf_point point, aur_vector view,
-                          const float u[3], aur_bsdf_sample *drawn) {
-    (void)part;
-    const plastic *const self = bsdf->data;
-    if (view.z <= 0.0f)
-        return false;
-    const float through = smooth_transmittance(self, view.z);
-    const float probability = specular_probability(self, through);
-    if (u[0] < probability) {
-        *drawn = (aur_bsdf_sample){
-            .light = aur_mirror(view),
-            .weight = aur_vector_scale(aur_color_at(&self->specular, point), (1.0f - through) / probability),
-            .specular = true};
-        return true;
-    }
-    const aur_vector light = aur_sample_cosine(u[1], u[2]);
-    const float weight = through * smooth_transmittance(self, light.z) / (1.0f - probability);
-    *drawn = (aur_bsdf_sample){.light = light,
-                               .weight = aur_vector_scale(base_color(self, point), weight),
-                               .pdf = (1.0f - probability) * light.z / AUR_PI_F};
-    return drawn->pdf > 0.0f;
-}
-
-static void weigh_smooth(const aur_bsdf *bsdf, aur_bsdf_point point, aur_vector view, aur_bsdf_lobe *lobes) {
-    const plastic *const self = bsdf->data;
-    if (view.z <= 0.0f)
-        return;
-    const float mirrored = 1.0f - smooth_transmittance(self, view.z);
-    lobes[0].axis = aur_mirror(view);
-    lobes[0].coefficient = aur_vector_scale(aur_color_at(&self->specular, point), mirrored);
-    lobes[1].coefficient = aur_vector_scale(base_color(self, point), (1.0f - mirrored) / AUR_PI_F);
-}
-
-static aur_vector albedo_smooth(const aur_bsdf *bsdf, aur_bsdf_point point, float side) {
-    const plastic *const self = bsdf->data;
-    if (side <= 0.0f)
-        return (aur_vector){0};
-    return aur_vector_scale(base_color(self, point),
-                            smooth_transmittance(self, side) * self->outer_transmittance);
-}
-
-const aur_bsdf_descriptor aur_bsdf_plastic = {
-    .name = "plastic",
-    .summary = "a diffuse base under a smooth clear coat",
-    .source = "Jakob 2010 (Mitsuba)",
-    .size = sizeof(plastic),
-    .create = create_smooth,
-    .weigh = weigh_smooth,
-    .evaluate = evaluate_smooth,
-    .pdf = pdf_smooth,
-    .sample = sample_smooth,
-    .diffuse_albedo = albedo_smooth,
-};
-
-/* --- rough */
-
-static float rough_factor(const void *data, float cosine) {
-    return rough_transmittance(data, cosine);
 }
 
 static aur_result create_rough(aur_parameters *parameters, aur_bsdf *bsdf, aur_error *error) {
@@ -210,7 +111,8 @@ static aur_result create_rough(aur_parameters *parameters, aur_bsdf *bsdf, aur_e
     if (result != AUR_OK)
         return result;
     plastic *const self = bsdf->data;
-    add_base(bsdf, rough_factor);
+    self->rough = true;
+    add_base(bsdf);
     const aur_bsdf_lobe coat = {.shape = AUR_LOBE_SHAPE_SAMPLED, .sides = AUR_SIDE_FRONT};
     aur_bsdf_add_lobe(bsdf, &coat);
     result = aur_parameters_microfacet(parameters, &self->microfacet, error);
@@ -232,91 +134,122 @@ static aur_result create_rough(aur_parameters *parameters, aur_bsdf *bsdf, aur_e
     return AUR_OK;
 }
 
-static aur_vector evaluate_coat(const aur_bsdf *bsdf, aur_bsdf_point point, aur_vector view,
+/* The base's colour with its inner bounces, over ior^2: what is to be multiplied by both transmittances. */
+static aur_vector base_color(const plastic *self, aur_bsdf_point point) {
+    const aur_vector color = aur_color_at(&self->diffuse, point);
+    const float inner = self->inner_reflectance, scale = 1.0f / (self->ior * self->ior);
+    if (!self->nonlinear)
+        return aur_vector_scale(color, scale / (1.0f - inner));
+    return (aur_vector){color.x * scale / (1.0f - color.x * inner),
+                        color.y * scale / (1.0f - color.y * inner),
+                        color.z * scale / (1.0f - color.z * inner)};
+}
+
+/* How often the coat is drawn, where it lets `transmittance` through. */
+static float specular_probability(const plastic *self, float transmittance) {
+    const float coat = (1.0f - transmittance) * self->specular_weight;
+    const float base = transmittance * (1.0f - self->specular_weight);
+    return coat + base > 0.0f ? coat / (coat + base) : 1.0f;
+}
+
+static void weigh(const aur_bsdf *bsdf, aur_bsdf_point point, aur_vector view, aur_bsdf_lobe *lobes) {
+    const plastic *const self = bsdf->data;
+    if (view.z <= 0.0f)
+        return;
+    const float through = transmittance(self, view.z);
+    aur_bsdf_lobe *const base = &lobes[self->rough ? 0 : 1], *const coat = &lobes[self->rough ? 1 : 0];
+    base->coefficient = aur_vector_scale(base_color(self, point), through / AUR_PI_F);
+    coat->axis = aur_mirror(view);
+    coat->coefficient = self->rough ? (aur_vector){1.0f, 1.0f, 1.0f}
+                                    : aur_vector_scale(aur_color_at(&self->specular, point), 1.0f - through);
+}
+
+/* What the facets of a rough coat mirror; black for a smooth one. */
+static aur_vector evaluate_coat(const plastic *self, aur_bsdf_point point, aur_vector view,
                                 aur_vector light) {
+    float cosine;
+    const float facets = self->rough ? aur_microfacet_mirror(&self->microfacet, view, light, &cosine) : 0.0f;
+    if (!(facets > 0.0f))
+        return (aur_vector){0};
+    float refracted;
+    return aur_vector_scale(aur_color_at(&self->specular, point),
+                            facets * aur_fresnel_dielectric(cosine, self->ior, &refracted));
+}
+
+static aur_vector evaluate(const aur_bsdf *bsdf, aur_bsdf_part part, aur_bsdf_point point, aur_vector view,
+                           aur_vector light) {
     const plastic *const self = bsdf->data;
     if (view.z <= 0.0f || light.z <= 0.0f)
         return (aur_vector){0};
-    const aur_vector normal = aur_vector_normalize(aur_vector_add(view, light));
-    const float coat = aur_microfacet_density(&self->microfacet, normal) *
-                       aur_microfacet_masking(&self->microfacet, view, normal) *
-                       aur_microfacet_masking(&self->microfacet, light, normal) *
-                       (1.0f - smooth_transmittance(self, aur_vector_dot(view, normal))) / (4.0f * view.z);
-    return aur_vector_scale(aur_color_at(&self->specular, point), coat);
+    const aur_vector coat = evaluate_coat(self, point, view, light);
+    if (part == AUR_BSDF_SAMPLED_LOBES)
+        return coat;
+    const float base = transmittance(self, view.z) * transmittance(self, light.z) * light.z / AUR_PI_F;
+    return aur_vector_add_scaled(coat, base, base_color(self, point));
 }
 
-static float pdf_coat(const aur_bsdf *bsdf, aur_bsdf_point point, aur_vector view, aur_vector light) {
+/* The chance that the coat is drawn, seen from `view`. */
+static float coat_chance(const plastic *self, aur_bsdf_part part, aur_vector view) {
+    return part == AUR_BSDF_SAMPLED_LOBES ? 1.0f : specular_probability(self, transmittance(self, view.z));
+}
+
+static float pdf(const aur_bsdf *bsdf, aur_bsdf_part part, aur_bsdf_point point, aur_vector view,
+                 aur_vector light) {
     (void)point;
     const plastic *const self = bsdf->data;
     if (view.z <= 0.0f || light.z <= 0.0f)
         return 0.0f;
-    const aur_vector normal = aur_vector_normalize(aur_vector_add(view, light));
-    return aur_microfacet_pdf(&self->microfacet, view, normal) / (4.0f * aur_vector_dot(view, normal));
+    const float chance = coat_chance(self, part, view);
+    const float coat = self->rough ? aur_microfacet_mirror_pdf(&self->microfacet, view, light) : 0.0f;
+    return chance * coat + (1.0f - chance) * light.z / AUR_PI_F;
 }
 
-static aur_vector draw_coat(const plastic *self, aur_vector view, const float u[3]) {
-    const aur_vector normal = aur_microfacet_sample(&self->microfacet, view, u[1], u[2]);
-    return aur_vector_add_scaled(aur_vector_scale(view, -1.0f), 2.0f * aur_vector_dot(view, normal), normal);
-}
-
-static aur_vector evaluate_rough(const aur_bsdf *bsdf, aur_bsdf_part part, aur_bsdf_point point,
-                                 aur_vector view, aur_vector light) {
-    const plastic *const self = bsdf->data;
-    if (view.z <= 0.0f || light.z <= 0.0f)
-        return (aur_vector){0};
-    const aur_vector coat = evaluate_coat(bsdf, point, view, light);
-    if (part == AUR_BSDF_SAMPLED_LOBES)
-        return coat;
-    const float base =
-        rough_transmittance(self, view.z) * rough_transmittance(self, light.z) * light.z / AUR_PI_F;
-    return aur_vector_add_scaled(coat, base, base_color(self, point));
-}
-
-static float pdf_rough(const aur_bsdf *bsdf, aur_bsdf_part part, aur_bsdf_point point, aur_vector view,
-                       aur_vector light) {
-    const plastic *const self = bsdf->data;
-    if (view.z <= 0.0f || light.z <= 0.0f)
-        return 0.0f;
-    if (part == AUR_BSDF_SAMPLED_LOBES)
-        return pdf_coat(bsdf, point, view, light);
-    const float probability = specular_probability(self, rough_transmittance(self, view.z));
-    return probability * pdf_coat(bsdf, point, view, light) + (1.0f - probability) * light.z / AUR_PI_F;
-}
-
-static bool sample_rough(const aur_bsdf *bsdf, aur_bsdf_part part, aur_bsdf_point point, aur_vector view,
-                         const float u[3], aur_bsdf_sample *drawn) {
+static bool sample(const aur_bsdf *bsdf, aur_bsdf_part part, aur_bsdf_point point, aur_vector view,
+                   const float u[3], aur_bsdf_sample *drawn) {
     const plastic *const self = bsdf->data;
     if (view.z <= 0.0f)
         return false;
-    const float probability =
-        part == AUR_BSDF_SAMPLED_LOBES ? 1.0f : specular_probability(self, rough_transmittance(self, view.z));
-    const aur_vector light = u[0] < probability ? draw_coat(self, view, u) : aur_sample_cosine(u[1], u[2]);
-    const float density = pdf_rough(bsdf, part, point, view, light);
+    const float chance = coat_chance(self, part, view);
+    if (!self->rough && u[0] < chance) {
+        const float mirrored = 1.0f - transmittance(self, view.z);
+        *drawn = (aur_bsdf_sample){
+            .light = aur_mirror(view),
+            .weight = aur_vector_scale(aur_color_at(&self->specular, point), mirrored / chance),
+            .specular = true};
+        return true;
+    }
+    aur_vector normal;
+    const aur_vector light = u[0] < chance
+                                 ? aur_microfacet_draw_mirrored(&self->microfacet, view, u[1], u[2], &normal)
+                                 : aur_sample_cosine(u[1], u[2]);
+    const float density = pdf(bsdf, part, point, view, light);
     if (!(density > 0.0f))
         return false;
-    const aur_vector value = evaluate_rough(bsdf, part, point, view, light);
+    const aur_vector value = evaluate(bsdf, part, point, view, light);
     *drawn =
         (aur_bsdf_sample){.light = light, .weight = aur_vector_scale(value, 1.0f / density), .pdf = density};
     return true;
 }
 
-static void weigh_rough(const aur_bsdf *bsdf, aur_bsdf_point point, aur_vector view, aur_bsdf_lobe *lobes) {
-    const plastic *const self = bsdf->data;
-    if (view.z <= 0.0f)
-        return;
-    lobes[0].coefficient =
-        aur_vector_scale(base_color(self, point), rough_transmittance(self, view.z) / AUR_PI_F);
-    lobes[1].axis = aur_mirror(view);
-    lobes[1].coefficient = (aur_vector){1.0f, 1.0f, 1.0f};
-}
-
-static aur_vector albedo_rough(const aur_bsdf *bsdf, aur_bsdf_point point, float side) {
+static aur_vector diffuse_albedo(const aur_bsdf *bsdf, aur_bsdf_point point, float side) {
     const plastic *const self = bsdf->data;
     if (side <= 0.0f)
         return (aur_vector){0};
-    return aur_vector_scale(base_color(self, point),
-                            rough_transmittance(self, side) * self->outer_transmittance);
+    return aur_vector_scale(base_color(self, point), transmittance(self, side) * self->outer_transmittance);
 }
+
+const aur_bsdf_descriptor aur_bsdf_plastic = {
+    .name = "plastic",
+    .summary = "a diffuse base under a smooth clear coat",
+    .source = "Jakob 2010 (Mitsuba)",
+    .size = sizeof(plastic),
+    .create = create_smooth,
+    .weigh = weigh,
+    .evaluate = evaluate,
+    .pdf = pdf,
+    .sample = sample,
+    .diffuse_albedo = diffuse_albedo,
+};
 
 const aur_bsdf_descriptor aur_bsdf_roughplastic = {
     .name = "roughplastic",
@@ -324,9 +257,9 @@ const aur_bsdf_descriptor aur_bsdf_roughplastic = {
     .source = "Jakob 2010 (Mitsuba)",
     .size = sizeof(plastic),
     .create = create_rough,
-    .weigh = weigh_rough,
-    .evaluate = evaluate_rough,
-    .pdf = pdf_rough,
-    .sample = sample_rough,
-    .diffuse_albedo = albedo_rough,
+    .weigh = weigh,
+    .evaluate = evaluate,
+    .pdf = pdf,
+    .sample = sample,
+    .diffuse_albedo = diffuse_albedo,
 };

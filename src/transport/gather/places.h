@@ -41,9 +41,7 @@ aur_embree_order aur_gather_places_order(const aur_gather_places *places);
 
 /* Whether the place has that one of its material's lobes. */
 static inline bool aur_gather_place_has(const aur_gather_place *place, size_t lobe) {
-    return place->lobes[lobe].shape == AUR_LOBE_SHAPE_SAMPLED
-               ? (aur_bsdf_scatters(place->surface.bsdf, place->view.z) & AUR_SCATTERS_SAMPLED) != 0
-               : !aur_vector_is_zero(place->lobes[lobe].coefficient);
+    return !aur_vector_is_zero(place->lobes[lobe].coefficient);
 }
 
 /* The density of the directions that both lobes' merged samples have towards a local one, a steradian. */
