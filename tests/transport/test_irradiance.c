@@ -209,8 +209,10 @@ static void photons_come_from_any_set(void **state) {
     static const char *const sets[] = {"random", "halton", "r2", "niederreiter"};
     aur_scene *const scene = load_furnace();
     for (size_t i = 0; i < sizeof sets / sizeof sets[0]; ++i) {
+        aur_sampler *sampler;
+        assert_int_equal(aur_sampler_create(sets[i], 20000, NULL, &sampler, NULL), AUR_OK);
         aur_irradiance_options options = {
-            .photons = {.count = 20000, .max_edges = SIZE_MAX, .set = sets[i], .seed = 7},
+            .photons = {.count = 20000, .max_edges = SIZE_MAX, .sampler = sampler, .seed = 7},
             .photons_a_texel = 1e5};
         aur_irradiance_map *map = NULL;
         assert_int_equal(aur_irradiance_map_create(scene, &options, &map, NULL), AUR_OK);
@@ -219,6 +221,7 @@ static void photons_come_from_any_set(void **state) {
             power += (double)map->lights[k].irradiance.y * (double)map->lights[k].area;
         assert_relative(power, 24.0 * AUR_PI, 5.0 * sqrt(2.0 / (double)map->paths) / 2.0);
         aur_irradiance_map_destroy(map);
+        aur_sampler_destroy(sampler);
     }
     aur_scene_destroy(scene);
 }

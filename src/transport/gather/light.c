@@ -4,24 +4,25 @@
 #include <stdio.h>
 
 #include "core/error.h"
+#include "core/random.h"
 #include "transport/gather/rules.h"
 
 static void destroy_map(void *map) {
     aur_irradiance_map_destroy(map);
 }
 
-/* A photon map, shared by all renders that ask for the same one. */
-static aur_result find_map(const aur_gather_parameters *p, const aur_integrator_context *context,
-                           const aur_photon_options *photons, const aur_irradiance_map **found,
-                           aur_error *error) {
-    char key[512];
-    snprintf(key, sizeof key,
-             "irradiance kind=%d photons=%zu texel=%.17g edges=%zu seed=%" PRIu64 " set=%.300s",
-             (int)photons->kind, photons->count, p->photons_a_texel, photons->max_edges, photons->seed,
-             photons->set);
-    *found = aur_cache_find(context->cache, key);
-    if (*found != NULL)
-        return AUR_OK;
+/* Stands for all that a sampler has, also for points that come from a file. */
+static uint64_t digest(const aur_sampler *sampler) {
+    uint64_t hash = aur_hash2(sampler->kind, sampler->size);
+    for (size_t i = 0; i < sampler->size; ++i)
+        hash = aur_hash2(hash, (uint64_t)sampler->points[i][0] << 32 | sampler->points[i][1]);
+    return hash;
+}
+
+/* Makes a map and gives it to the cache under `key`. */
+static aur_result make_map(const aur_gather_parameters *p, const aur_integrator_context *context,
+                           const aur_photon_options *photons, const char *key,
+                           const aur_irradiance_map **made, aur_error *error) {
     const aur_irradiance_options options = {.photons = *photons, .photons_a_texel = p->photons_a_texel};
     aur_irradiance_map *map;
     const aur_result result = aur_irradiance_map_create(context->scene, &options, &map, error);
@@ -29,8 +30,28 @@ static aur_result find_map(const aur_gather_parameters *p, const aur_integrator_
         return result;
     if (aur_cache_store(context->cache, key, map, destroy_map) != AUR_OK)
         return aur_fail_memory(error);
-    *found = map;
+    *made = map;
     return AUR_OK;
+}
+
+/* A photon map, shared by all renders that ask for the same one. */
+static aur_result find_map(const aur_gather_parameters *p, const aur_integrator_context *context,
+                           aur_photon_options photons, const aur_irradiance_map **found, aur_error *error) {
+    aur_sampler *sampler;
+    aur_result result = aur_sampler_create(p->photon_set, photons.count, NULL, &sampler, error);
+    if (result != AUR_OK)
+        return result;
+    photons.sampler = sampler;
+    char key[256]; /* six numbers and their names */
+    snprintf(key, sizeof key,
+             "irradiance kind=%d photons=%zu texel=%.17g edges=%zu seed=%" PRIu64 " numbers=%" PRIu64,
+             (int)photons.kind, photons.count, p->photons_a_texel, photons.max_edges, photons.seed,
+             digest(sampler));
+    *found = aur_cache_find(context->cache, key);
+    if (*found == NULL)
+        result = make_map(p, context, &photons, key, found, error);
+    aur_sampler_destroy(sampler);
+    return result;
 }
 
 static aur_result find_maps(const aur_gather_parameters *p, const aur_integrator_context *context,
@@ -41,17 +62,16 @@ static aur_result find_maps(const aur_gather_parameters *p, const aur_integrator
                                    * seen without a gather ray. */
                                   .max_edges = p->max_depth < 0 ? SIZE_MAX : (size_t)p->max_depth - 2,
                                   .kind = apart ? AUR_PHOTONS_OTHER : AUR_PHOTONS_ALL,
-                                  .set = p->photon_set,
                                   .seed = context->seed,
                                   .threads = context->threads,
                                   .progress = context->progress,
                                   .warnings = context->warnings};
-    aur_result result = find_map(p, context, &photons, &light->map, error);
+    aur_result result = find_map(p, context, photons, &light->map, error);
     if (result != AUR_OK || !apart)
         return result;
     photons.count = (size_t)p->caustic_photons;
     photons.kind = AUR_PHOTONS_CAUSTIC;
-    result = find_map(p, context, &photons, &light->caustics, error);
+    result = find_map(p, context, photons, &light->caustics, error);
     if (result == AUR_OK && light->caustics->photons < photons.count)
         aur_warn_at(&context->warnings, (aur_location){0},
                     "finalgather: %zu caustic photons of %zu found: little light comes by specular bounces",

@@ -202,12 +202,6 @@ static aur_result trace_until_enough(aur_photon_map *map, batch *work, aur_error
     return AUR_OK;
 }
 
-static aur_result make_sampler(const aur_photon_options *options, aur_sampler **sampler, aur_error *error) {
-    const size_t most = (size_t)1 << 30;
-    return aur_sampler_create(options->set != NULL ? options->set : "sobol",
-                              options->count < most ? options->count : most, NULL, sampler, error);
-}
-
 /* Room for growth by halves, and for the texels' lists. */
 static aur_result check_memory(const aur_photon_options *options, aur_error *error) {
     const double gibibyte = 1024.0 * 1024.0 * 1024.0;
@@ -225,12 +219,13 @@ aur_result aur_photon_map_create(const aur_scene *scene, const aur_elements *ele
     *map = (aur_photon_map){0};
     if (aur_scene_emitter_count(scene) == 0)
         return aur_fail(error, AUR_ERROR_UNSUPPORTED, "photon map: the scene has no light");
-    aur_sampler *sampler;
+    aur_sampler *own = NULL;
     aur_result result = check_memory(options, error);
-    if (result == AUR_OK)
-        result = make_sampler(options, &sampler, error);
+    if (result == AUR_OK && options->sampler == NULL)
+        result = aur_sampler_create("sobol", 1, NULL, &own, error);
     if (result != AUR_OK)
         return result;
+    const aur_sampler *const sampler = own != NULL ? own : options->sampler;
     batch work = {.scene = scene,
                   .elements = elements,
                   .options = options,
@@ -240,7 +235,7 @@ aur_result aur_photon_map_create(const aur_scene *scene, const aur_elements *ele
     result = trace_until_enough(map, &work, error);
     for (size_t i = 0; i < CHUNKS_A_BATCH; ++i)
         free(work.chunks[i].photons);
-    aur_sampler_destroy(sampler);
+    aur_sampler_destroy(own);
     if (result != AUR_OK)
         aur_photon_map_release(map);
     return result;

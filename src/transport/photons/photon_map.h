@@ -3,6 +3,7 @@
 #ifndef AUR_TRANSPORT_PHOTONS_PHOTON_MAP_H
 #define AUR_TRANSPORT_PHOTONS_PHOTON_MAP_H
 
+#include "sampling/stream.h"
 #include "scene/elements.h"
 
 typedef struct aur_photon {
@@ -31,7 +32,7 @@ typedef struct aur_photon_options {
     size_t count; /* photons to store, at least; whole batches of paths are traced until there are so many */
     size_t max_edges; /* edges of a particle's path; SIZE_MAX: no limit but roulette's */
     aur_photon_kind kind;
-    const char *set; /* points of the square, SET syntax; NULL: sobol */
+    const aur_sampler *sampler; /* of the particles' numbers; NULL: Sobol points */
     uint64_t seed;
     size_t threads;
     aur_progress progress;
