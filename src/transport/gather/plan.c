@@ -8,7 +8,6 @@ static aur_gather_policy policy_of(const aur_gather_parameters *p, const aur_gat
                                    const aur_integrator_context *context) {
     return (aur_gather_policy){.component = p->component,
                                .direct = p->direct,
-                               .incident = p->incident,
                                .decorrelation = p->decorrelation,
                                .criterion = p->criterion,
                                .threshold = (float)p->threshold,
@@ -29,12 +28,12 @@ static aur_result compile(aur_gather_plan *plan, const aur_gather_parameters *p,
     if (result == AUR_OK)
         result = aur_shape_classes_create(context->scene, &plan->classes, error);
     /* Where gather rays go on from every surface, there is no use for photons. */
-    const bool wants_photons = policy->incident == AUR_INCIDENT_PHOTONS && policy->max_depth >= 3 &&
+    const bool wants_photons = p->incident == AUR_INCIDENT_PHOTONS && policy->max_depth >= 3 &&
                                (plan->rules.scatters & (AUR_SCATTERS_DIFFUSE | AUR_SCATTERS_GLOSSY)) != 0;
     if (result == AUR_OK)
         result = aur_gather_light_create(p, context, plan->classes, wants_photons, &plan->light, error);
     plan->counts_emitters = policy->direct == AUR_DIRECT_GATHER ||
-                            (policy->incident == AUR_INCIDENT_EMITTERS && policy->direct == AUR_DIRECT_NONE);
+                            (p->incident == AUR_INCIDENT_EMITTERS && policy->direct == AUR_DIRECT_NONE);
     plan->gathers = plan->light.map != NULL ||
                     (policy->max_depth >= 2 && (plan->counts_emitters || policy->direct == AUR_DIRECT_NEE));
     return result;

@@ -29,7 +29,6 @@
 typedef struct aur_gather_policy {
     aur_gather_component component;
     aur_gather_direct direct;
-    aur_gather_incident incident;
     aur_gather_decorrelation decorrelation;
     aur_gather_criterion criterion; /* of adaptive gathering */
     float threshold;                /* of the criterion: where a lobe's samples differ more it goes on */

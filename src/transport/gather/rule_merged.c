@@ -130,7 +130,6 @@ static aur_result create(aur_merged_rule *rule, const aur_merged_rule_options *o
     rule->subsets = options->subsets;
     rule->rotations = options->rotations;
     rule->exponent = options->exponent;
-    rule->mass = 2.0 * AUR_PI / (options->exponent + 1.0);
     rule->seed = options->seed;
     for (size_t pattern = 0; pattern < 2; ++pattern) {
         rule->count[pattern] = options->count[pattern];

@@ -46,7 +46,6 @@ typedef struct aur_merged_rule {
     size_t subsets, rotations;
     size_t count[2], subset_count[2]; /* directions of a pattern, and of it in one subset */
     double exponent;
-    double mass;            /* of the whole glossy lobe */
     float *direction[2][3]; /* x, y, z: rotation after rotation, about the pattern's axis */
     /* Directions a steradian that one subset has, by the cosine to the pattern's axis: what a light's own
      * sampling is weighed against. */
