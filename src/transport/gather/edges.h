@@ -1,6 +1,6 @@
 /* A pixel that sees several things - above all a part of a light - has its error from how much it sees of
  * each, not from the light that they reflect. So such pixels get more rays of the eye that only tell what
- * they meet, and these shares weigh the means of what was shaded. */
+ * they meet, and what parts of the pixel these are weighs the means of what was shaded. */
 #ifndef AUR_TRANSPORT_GATHER_EDGES_H
 #define AUR_TRANSPORT_GATHER_EDGES_H
 

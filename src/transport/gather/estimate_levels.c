@@ -15,7 +15,7 @@ static void add_value(spread *s, double value) {
 }
 
 /* 1 - H / log n of the samples' shares p = c / sum c, H = -sum p log p: 0 for constant light, 1 where one
- * sample has it all. Rigau, Feixas, Sbert 2003, turned so that it grows with variation. */
+ * sample has it all. Rigau, Feixas, Sbert 2003, as 1 less their figure so that it grows with variation. */
 static double entropy_contrast(const spread *s, double count) {
     if (!(s->sum > 0.0) || count < 2.0)
         return 0.0;

@@ -149,9 +149,8 @@ aur_result aur_merged_rule_create(const aur_merged_rule_options *options, aur_me
                         "weights of merged samples need prepared rotations: at least 1, not 0");
     if (options->subsets == 0 || options->count[0] % options->subsets != 0 ||
         options->count[1] % options->subsets != 0)
-        return aur_fail(error, AUR_ERROR_ARGUMENT,
-                        "%zu + %zu directions are not shared evenly by %zu samples", options->count[0],
-                        options->count[1], options->subsets);
+        return aur_fail(error, AUR_ERROR_ARGUMENT, "%zu + %zu directions are not split evenly by %zu samples",
+                        options->count[0], options->count[1], options->subsets);
     aur_merged_rule *const created = calloc(1, sizeof *created);
     if (created == NULL)
         return aur_fail_memory(error);

@@ -82,10 +82,11 @@ static void aim(const aur_occlusion_places *places, size_t first, aur_vector loc
 
 /* Every place by a randomisation of its own. */
 static void aim_apart(const aur_gather_rule *rule, const aur_occlusion_places *places, size_t first,
-                      const aur_gather_rotation turns[AUR_PACKET_SIZE], size_t index, struct RTCRay16 *rays) {
+                      const aur_gather_rotation rotations[AUR_PACKET_SIZE], size_t index,
+                      struct RTCRay16 *rays) {
     for (size_t k = 0; k < AUR_PACKET_SIZE; ++k) {
         aur_vector local;
-        aur_gather_rule_direction(rule, &turns[k], index, &local);
+        aur_gather_rule_direction(rule, &rotations[k], index, &local);
         float direction[3];
         for (size_t c = 0; c < 3; ++c)
             direction[c] = local.x * places->axis[0][c][first + k] + local.y * places->axis[1][c][first + k] +
@@ -121,19 +122,19 @@ size_t aur_occlusion_visit(const aur_occlusion *occlusion, const aur_occlusion_p
             continue;
         const aur_embree_order order = order_of(places, first);
         const bool together = rule->rotation_count > 0 || rule->scramble == AUR_SCRAMBLE_NONE;
-        aur_gather_rotation turns[AUR_PACKET_SIZE];
+        aur_gather_rotation rotations[AUR_PACKET_SIZE];
         for (size_t k = 0; k < (together ? 1 : AUR_PACKET_SIZE); ++k)
-            turns[k] = aur_gather_rule_rotation(
+            rotations[k] = aur_gather_rule_rotation(
                 rule, together ? tile + aur_group_rank((uint32_t)within)
                                : aur_hash2(occlusion->seed, places->pixel[first + k]));
         for (size_t i = index % occlusion->samples_per_pixel; i < rule->count;
              i += occlusion->samples_per_pixel) {
             if (together) {
                 aur_vector local;
-                aur_gather_rule_direction(rule, &turns[0], i, &local);
+                aur_gather_rule_direction(rule, &rotations[0], i, &local);
                 aim(places, first, local, &packet.query.ray);
             } else {
-                aim_apart(rule, places, first, turns, i, &packet.query.ray);
+                aim_apart(rule, places, first, rotations, i, &packet.query.ray);
             }
             set_distances(occlusion, &packet.query.ray);
             visit(context, first, order, &packet);
