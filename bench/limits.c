@@ -46,7 +46,7 @@ bool bench_limit_compare(const bench_options *options, const bench_limit_pair *p
     return measured;
 }
 
-/* --- memory --- */
+/* --- memory */
 
 typedef enum memory_form { FILL, FILL_STREAM, COPY, COPY_STREAM, READ } memory_form;
 enum { FORM_MASK = 15, IN_CACHE = 16 };
@@ -129,7 +129,7 @@ const bench_limit bench_limit_read_memory = {"read-memory", "GB", 1e9, open_memo
 const bench_limit bench_limit_read_cache = {"read-cache", "GB",         1e9,
                                             open_memory,  close_memory, READ | IN_CACHE};
 
-/* --- arithmetic --- */
+/* --- arithmetic */
 
 enum { FMA_ROUNDS = 1 << 14, PAIR_POINTS = 256 };
 

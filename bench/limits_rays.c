@@ -18,7 +18,7 @@ typedef struct ray_context {
     bool packets;
 } ray_context;
 
-/* --- the scenes --- */
+/* --- the scenes */
 
 static bool add_mesh(RTCDevice device, RTCScene scene, size_t vertex_count, const aur_vector *vertices,
                      size_t triangle_count, const uint32_t *indices) {
@@ -74,7 +74,7 @@ static bool add_bumpy_sphere(RTCDevice device, RTCScene scene, size_t rows) {
     return added;
 }
 
-/* --- the rays --- */
+/* --- the rays */
 
 static aur_ray primary_ray(size_t index) {
     size_t x, y;

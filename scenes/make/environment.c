@@ -37,7 +37,7 @@ static aur_result paint(color (*radiance)(vec direction), aur_image **image, aur
     return result;
 }
 
-/* --- the sky of Preetham, Shirley and Smits 1999 --- */
+/* --- the sky of Preetham, Shirley and Smits 1999 */
 
 enum { TURBIDITY = 3 };
 
@@ -104,7 +104,7 @@ static color sky(vec direction) {
     return plus(light, times((color){1.0, 0.86, 0.66}, 1900.0 * disk));
 }
 
-/* --- a studio --- */
+/* --- a studio */
 
 /* A lamp behind a sheet of cloth: brightest at its middle, with a soft edge. `half` is in tangents of angles.
  */

@@ -72,7 +72,7 @@ void mesh_smooth(mesh *m, size_t first, size_t first_triangle) {
         m->normals[i] = normalize(m->normals[i]);
 }
 
-/* --- grids --- */
+/* --- grids */
 
 typedef struct grid_ids {
     size_t rows, columns; /* vertices */
@@ -138,7 +138,7 @@ void mesh_grid(mesh *m, const grid *size, surface_function function, const void 
     mesh_smooth(m, first, first_triangle);
 }
 
-/* --- surfaces of revolution --- */
+/* --- surfaces of revolution */
 
 void profile_at(const profile *shape, double u, double point[2]) {
     /* The end points stand there three times. */
@@ -173,7 +173,7 @@ void mesh_revolve(mesh *m, const profile *shape, size_t rows, size_t columns) {
     mesh_grid(m, &size, revolved, shape);
 }
 
-/* --- tubes --- */
+/* --- tubes */
 
 static vec tangent_at(const tube *shape, double u) {
     const double step = 1e-4;
@@ -274,7 +274,7 @@ void mesh_place(mesh *m, size_t first, double size, double angle, vec move) {
     }
 }
 
-/* --- the file --- */
+/* --- the file */
 
 static char *put_vec(char *at, vec v) {
     const float values[3] = {(float)v.x, (float)v.y, (float)v.z};

@@ -9,7 +9,7 @@
 
 enum { PETALS = 18, CURLS = 420 };
 
-/* --- the throne --- */
+/* --- the throne */
 
 /* A row of petals about the axis, each a pointed shell that leans outwards. */
 static double petal_row(vec p, double radius, double foot, double height, double lean, double phase) {
@@ -54,7 +54,7 @@ static double throne(vec p) {
     return fmin(d, solid_ball((vec){r * cos(angle), p.y, r * sin(angle)}, (vec){0.735, 0.135, 0.0}, 0.021));
 }
 
-/* --- the head --- */
+/* --- the head */
 
 static const vec skull = {0.0, 1.545, 0.0};
 
@@ -150,7 +150,7 @@ static double head(vec p) {
     return solid_join(d, solid_cut(hair(p, cap), p.y - line, 0.012), 0.006);
 }
 
-/* --- the body --- */
+/* --- the body */
 
 /* The robe leaves the right shoulder (x < 0) bare. Positive where it lies. */
 static double robe_side(vec p) {

@@ -6,7 +6,7 @@
 
 #define COUNT(array) (sizeof(array) / sizeof(array)[0])
 
-/* --- the teapot --- */
+/* --- the teapot */
 
 static void add_teapot(mesh *m, size_t quads) {
     teapot_patch patches[TEAPOT_PATCH_COUNT];
@@ -35,7 +35,7 @@ static void build_teapot(mesh *m) {
     mesh_place(m, 0, 0.158, 2.75, (vec){0.60, 0.0, -0.18});
 }
 
-/* --- cups --- */
+/* --- cups */
 
 static const double cup_profile[][2] = {
     {0.0, 0.022},   {0.10, 0.022}, {0.105, 0.0},  {0.105, 0.0},  {0.118, 0.0},  {0.118, 0.022},
@@ -88,7 +88,7 @@ static void build_tea(mesh *m) {
     }
 }
 
-/* --- the bowl and its fruit --- */
+/* --- the bowl and its fruit */
 
 static const vec bowl_place = {-0.62, 0.0, -0.12};
 
@@ -260,7 +260,7 @@ static void build_grapes(mesh *m) {
     }
 }
 
-/* --- the cloth, over the table's front edge --- */
+/* --- the cloth, over the table's front edge */
 
 enum { CLOTH_ROWS = 220, CLOTH_COLUMNS = 170 };
 
@@ -291,7 +291,7 @@ static void build_cloth(mesh *m) {
     mesh_grid(m, &size, cloth_surface, NULL);
 }
 
-/* --- the wood of the table: rings of a tree that was cut lengthwise --- */
+/* --- the wood of the table: rings of a tree that was cut lengthwise */
 
 static aur_result paint_wood(aur_image **image, aur_error *error) {
     enum { WIDTH = 1536, HEIGHT = 640 };

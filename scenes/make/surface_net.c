@@ -220,7 +220,7 @@ void mesh_solid(mesh *m, const solid_box *box, solid function, const void *conte
     mesh_release(&made);
 }
 
-/* --- building blocks --- */
+/* --- building blocks */
 
 double solid_ellipsoid(vec p, vec center, vec radii) {
     const vec q = subtract(p, center);

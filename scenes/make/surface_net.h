@@ -17,7 +17,7 @@ typedef struct solid_box {
  * gradient as its normal; two triangles about each crossed edge. */
 void mesh_solid(mesh *m, const solid_box *box, solid function, const void *context);
 
-/* --- building blocks --- */
+/* --- building blocks */
 
 double solid_ellipsoid(vec p, vec center, vec radii); /* to first order */
 double solid_ball(vec p, vec center, double radius);

@@ -54,8 +54,7 @@ aur_result lab_run_experiment(const lab_experiment *experiment, const lab_option
                               lab_result *result, aur_error *error);
 void lab_result_release(lab_result *result);
 
-/* --- for experiments
- * ------------------------------------------------------------------------------------------- */
+/* --- for experiments */
 
 const lab_options *lab_run_options(const lab_run *run);
 /* Before any cell; `columns` must be static. */

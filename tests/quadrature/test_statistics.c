@@ -149,7 +149,7 @@ static void test_optimal_density(void **state) {
     aur_potential_destroy(potential);
 }
 
-/* --- smooth light --------------------------------------------------------------------------------------- */
+/* --- smooth light */
 
 enum { GAUSSIANS = 6 };
 
