@@ -22,7 +22,7 @@ typedef enum aur_key_type {
     AUR_KEY_TEXT,
     AUR_KEY_VECTOR,    /* three numbers; one stands for three equal ones */
     AUR_KEY_COLOR,     /* the same as RGB, or a texture */
-    AUR_KEY_TRANSFORM, /* an affine map */
+    AUR_KEY_TRANSFORM, /* an affine map: double[16], row major */
     AUR_KEY_ITEM       /* one of the things that `words` name: "bsdf", "number", "name of a metal", ... */
 } aur_key_type;
 
@@ -57,6 +57,7 @@ typedef struct aur_table {
     const char *kind;    /* "integrator": the word in messages and in `aureole help integrator` */
     const char *summary; /* one line */
     const aur_row *(*row)(size_t index); /* NULL beyond the last */
+    const aur_row *common;               /* the keys that every row takes besides its own; or NULL */
 } aur_table;
 
 /* The tables of point sets and of measures, one after the other; NULL beyond the last. Those of what pictures
@@ -74,7 +75,7 @@ AUR_API const char *aur_key_type_name(aur_key_type type);
 
 /* Parses the text of a value and puts it into the struct `fields`, at key->offset. On failure `expected`,
  * which holds `capacity` characters, is what the value must be: "a number", "between 1 and 2", "one of a, b".
- * Not for TRANSFORM and ITEM; a COLOR must be numbers. TEXT keeps the pointer. */
+ * Not for ITEM; a TRANSFORM must be "identity" and a COLOR numbers. TEXT keeps the pointer. */
 AUR_API bool aur_key_parse(const aur_key *key, const char *text, void *fields, size_t capacity,
                            char *expected) AUR_NONNULL(1, 2, 3, 5);
 

@@ -18,8 +18,6 @@ typedef struct cli_verb {
     int (*run)(int argc, char **argv); /* argv[0] is the verb; returns the exit status */
 } cli_verb;
 
-size_t cli_verb_count(void);
-const cli_verb *cli_verb_at(size_t index);
 void cli_print_verb_help(const cli_verb *verb);
 
 /* Prints "aureole: ..." on standard error and returns the exit status that belongs to the result. */

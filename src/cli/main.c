@@ -2,13 +2,12 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "cli/cli.h"
+#include "cli/verbs.h"
 
 /* A line a verb. */
 /* clang-format off */
 extern const cli_verb cli_verb_compare;
 extern const cli_verb cli_verb_convert;
-extern const cli_verb cli_verb_help;
 extern const cli_verb cli_verb_info;
 extern const cli_verb cli_verb_lab;
 extern const cli_verb cli_verb_measure;
@@ -16,6 +15,16 @@ extern const cli_verb cli_verb_points;
 extern const cli_verb cli_verb_render;
 extern const cli_verb cli_verb_sets;
 extern const cli_verb cli_verb_weights;
+
+static int run_help(int argc, char **argv);
+
+static const cli_verb verb_help = {
+    .name = "help",
+    .arguments = "[VERB | KIND [NAME]] [--format table|csv|json]",
+    .summary = "show the verbs, the options of one, or the keys of a thing",
+    .help = "",
+    .run = run_help,
+};
 
 static const cli_verb *const verbs[] = {
     &cli_verb_sets,
@@ -27,20 +36,18 @@ static const cli_verb *const verbs[] = {
     &cli_verb_convert,
     &cli_verb_lab,
     &cli_verb_info,
-    &cli_verb_help,
+    &verb_help,
 };
 /* clang-format on */
 
-size_t cli_verb_count(void) {
-    return sizeof verbs / sizeof verbs[0];
-}
+enum { VERB_COUNT = sizeof verbs / sizeof verbs[0] };
 
-const cli_verb *cli_verb_at(size_t index) {
-    return index < cli_verb_count() ? verbs[index] : NULL;
+static int run_help(int argc, char **argv) {
+    return cli_help(VERB_COUNT, verbs, argc, argv);
 }
 
 static const cli_verb *find_verb(const char *name) {
-    for (size_t i = 0; i < cli_verb_count(); ++i)
+    for (size_t i = 0; i < VERB_COUNT; ++i)
         if (strcmp(verbs[i]->name, name) == 0)
             return verbs[i];
     return NULL;
@@ -59,7 +66,7 @@ static int finish(int status) {
 int main(int argc, char **argv) {
     if (argc < 2) {
         char *help[] = {"help", NULL};
-        cli_verb_help.run(1, help);
+        run_help(1, help);
         return cli_bad_usage("a verb is missing: try 'aureole help'");
     }
     const char *const name = argv[1];
@@ -68,7 +75,7 @@ int main(int argc, char **argv) {
         return finish(CLI_SUCCESS);
     }
     if (strcmp(name, "--help") == 0 || strcmp(name, "-h") == 0)
-        return finish(cli_verb_help.run(1, (char *[]){"help", NULL}));
+        return finish(run_help(1, (char *[]){"help", NULL}));
     const cli_verb *const verb = find_verb(name);
     if (verb == NULL)
         return cli_bad_usage("unknown verb '%s': 'aureole help' lists them", name);

@@ -30,8 +30,8 @@ const aur_key *aur_row_find_key(const aur_row *row, const char *name) {
 }
 
 /* Integers without an exponent, other numbers as %g has them. */
-static void print_number(double value, char text[32]) {
-    aur_format(text, 32, fabs(value) < 1e15 && value == trunc(value) ? "%.0f" : "%g", value);
+static void print_number(const aur_key *key, double value, char text[32]) {
+    aur_format(text, 32, key->type == AUR_KEY_INTEGER ? "%.0f" : "%g", value);
 }
 
 static aur_names names_of_words(const char *const *words) {
@@ -52,8 +52,8 @@ size_t aur_key_range(const aur_key *key, size_t capacity, char *text) {
         aur_names_list(names_of_words(key->words), list, sizeof list);
     } else if (is_numeric(key) && (isfinite(key->minimum) || isfinite(key->maximum))) {
         char low[32], high[32];
-        print_number(key->minimum, low);
-        print_number(key->maximum, high);
+        print_number(key, key->minimum, low);
+        print_number(key, key->maximum, high);
         const char *const above = key->minimum_open ? "> " : "";
         const char *const below = key->maximum_open ? "< " : "";
         if (!isfinite(key->maximum))
@@ -69,8 +69,8 @@ size_t aur_key_range(const aur_key *key, size_t capacity, char *text) {
 /* "between 1 and 2", "above 1 and below 2", "at least 1", ... */
 static void say_range(const aur_key *key, size_t capacity, char *expected) {
     char low[32], high[32];
-    print_number(key->minimum, low);
-    print_number(key->maximum, high);
+    print_number(key, key->minimum, low);
+    print_number(key, key->maximum, high);
     const char *const above = key->minimum_open ? "above" : "at least";
     const char *const below = key->maximum_open ? "below" : "at most";
     if (isinf(key->maximum))
@@ -200,6 +200,10 @@ bool aur_key_parse(const aur_key *key, const char *text, void *fields, size_t ca
     case AUR_KEY_COLOR:
         return parse_vector(key, text, field, capacity, expected);
     case AUR_KEY_TRANSFORM:
+        aur_format(expected, capacity, "a transform");
+        for (size_t i = 0; i < 16; ++i)
+            ((double *)field)[i] = i % 5 == 0 ? 1.0 : 0.0;
+        return strcmp(text, "identity") == 0;
     case AUR_KEY_ITEM:
         break;
     }
@@ -271,6 +275,8 @@ aur_result aur_keys_read(size_t count, const aur_key *keys, aur_parameters *para
     char unused[EXPECTED_CAPACITY];
     for (size_t i = 0; i < count; ++i) {
         const aur_parameter *const item = aur_parameters_find(parameters, keys[i].name);
+        if (keys[i].size == 0)
+            continue;
         if (item != NULL) {
             const aur_result result = read_given(&keys[i], parameters, item, fields, error);
             if (result != AUR_OK)

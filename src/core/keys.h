@@ -45,12 +45,17 @@
     AUR_KEY_FIELD(AUR_KEY_COLOR, struct_, name_, field_, default_, help_), .maximum = (maximum_)
 /* The field is double[16], row major. */
 #define AUR_KEY_OF_TRANSFORM(struct_, name_, field_, help_)                                                  \
-    AUR_KEY_FIELD(AUR_KEY_TRANSFORM, struct_, name_, field_, "identity", help_), .computed = true
+    AUR_KEY_FIELD(AUR_KEY_TRANSFORM, struct_, name_, field_, "identity", help_)
 /* The field is a `const aur_parameter *`, for the thing itself to read; NULL when it is not given. */
 #define AUR_KEY_OF_ITEM(struct_, name_, field_, default_, help_, ...)                                        \
     AUR_KEY_FIELD(AUR_KEY_ITEM, struct_, name_, field_, default_, help_), .words = (const char *const[]) {   \
         __VA_ARGS__, NULL                                                                                    \
     }
+
+/* A key that the thing itself finds and reads: for listings, and so that its name is known. */
+#define AUR_KEY_READ_APART(type_, name_, default_, help_)                                                    \
+    .name = (name_), .type = (type_), .help = (help_), .default_text = (default_),                           \
+    .computed = (default_) != NULL
 
 /* The two fields of a row, of an array of keys. */
 #define AUR_ROW_KEYS(keys_) .key_count = sizeof(keys_) / sizeof(keys_)[0], .keys = (keys_)

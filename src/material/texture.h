@@ -55,6 +55,9 @@ static inline aur_vector aur_color_mean(const aur_color *color) {
     return color->texture == NULL ? color->constant : color->texture->mean;
 }
 
+/* aur_row_read for structs with keys of colours: a texture must not reach beyond a key's maximum. */
+aur_result aur_colors_read(const aur_row *row, aur_parameters *parameters, void *fields, aur_error *error);
+
 /* Reads a colour or texture whose values lie in [0, maximum]; *color keeps its default when absent. */
 aur_result aur_parameters_color(aur_parameters *parameters, const char *name, double maximum,
                                 aur_color *color, aur_error *error);

@@ -1,11 +1,24 @@
 /* The tables of libaureole-render: a line a table. */
 #include <aureole/render.h>
 
+#include "scene/emitter.h"
+#include "scene/filter.h"
+#include "scene/scene.h"
+#include "scene/sensor.h"
+#include "scene/shape.h"
 #include "transport/integrator.h"
 
+/* clang-format off */
 static const aur_table *const tables[] = {
     &aur_integrator_table,
+    &aur_shape_table,
+    &aur_emitter_table,
+    &aur_sensor_table,
+    &aur_film_table,
+    &aur_filter_table,
+    &aur_sampler_table,
 };
+/* clang-format on */
 
 const aur_table *aur_render_table_at(size_t index) {
     return index < sizeof tables / sizeof tables[0] ? tables[index] : NULL;

@@ -9,8 +9,7 @@
 typedef struct aur_emitter aur_emitter;
 
 typedef struct aur_emitter_descriptor {
-    const char *name;
-    const char *summary;
+    aur_row row;      /* first, so that a row of the table is its descriptor */
     bool needs_shape; /* stands inside a <shape> */
     aur_result (*create)(aur_parameters *parameters, aur_emitter *emitter, aur_error *error);
     /* Called when all shapes are there: makes tables and sets emitter->power. */
@@ -51,8 +50,7 @@ struct aur_emitter {
     void *data;
 };
 
-/* The table; NULL beyond it. */
-const aur_emitter_descriptor *aur_emitter_descriptor_at(size_t index);
+extern const aur_table aur_emitter_table;
 
 /* For lights that are infinitely far: a sample of the unit `direction` towards them, all but radiance and
  * pdf; and a ray from there through a uniform point of the disk that covers the scene. */

@@ -14,20 +14,7 @@ static const aur_filter filters[] = {
     {AUR_FILTER_MITCHELL, 1.0f},
 };
 
-static const char *const names[] = {"box", "tent", "gaussian", "mitchell"};
-
 enum { FILTER_COUNT = sizeof filters / sizeof filters[0] };
-
-const aur_filter *aur_filter_find(const char *name) {
-    for (size_t i = 0; i < FILTER_COUNT; ++i)
-        if (strcmp(names[i], name) == 0)
-            return &filters[i];
-    return NULL;
-}
-
-const char *aur_filter_name(const aur_filter *filter) {
-    return names[filter->kind];
-}
 
 /* The gaussian reaches 4 standard deviations, where it is lowered to 0: density ~ exp(-x^2/2) - exp(-8). */
 static const float cut = 4.0f;
@@ -129,17 +116,47 @@ float aur_filter_sample(const aur_filter *filter, float u) {
     return 2.0f * filter->scale * (u - 0.5f);
 }
 
+static const aur_key tent_keys[] = {
+    {AUR_KEY_OF_REAL(aur_filter, "radius", scale, 1e-3, 100.0, "1", "in pixels")},
+};
+
+static const aur_key gaussian_keys[] = {
+    {AUR_KEY_OF_REAL(aur_filter, "stddev", scale, 1e-3, 25.0, "0.5",
+                     "standard deviation in pixels; it ends at 4 of them")},
+};
+
+/* In the order of aur_filter_kind. */
+static const aur_row rows[] = {
+    {.name = "box", .summary = "the mean over the pixel", .source = ""},
+    {.name = "tent", .summary = "falls linearly to 0", .source = "", AUR_ROW_KEYS(tent_keys)},
+    {.name = "gaussian", .summary = "a bell", .source = "", AUR_ROW_KEYS(gaussian_keys)},
+    {.name = "mitchell",
+     .summary = "sharpens a little: it has negative parts",
+     .source = "Mitchell, Netravali 1988"},
+};
+
+static const aur_row *row_at(size_t index) {
+    return index < sizeof rows / sizeof rows[0] ? &rows[index] : NULL;
+}
+
+const aur_table aur_filter_table = {"rfilter", "how samples are weighed around a pixel", row_at, NULL};
+
+const aur_filter *aur_filter_find(const char *name) {
+    for (size_t i = 0; i < FILTER_COUNT; ++i)
+        if (strcmp(rows[i].name, name) == 0)
+            return &filters[i];
+    return NULL;
+}
+
+const char *aur_filter_name(const aur_filter *filter) {
+    return rows[filter->kind].name;
+}
+
 aur_result aur_filter_create(aur_parameters *parameters, aur_filter *filter, aur_error *error) {
-    const aur_filter *const known = aur_filter_find(parameters->plugin);
-    if (known == NULL)
-        return aur_fail_unknown_plugin(error, parameters, FILTER_COUNT, names);
-    *filter = *known;
-    double scale = filter->scale;
-    aur_result result = AUR_OK;
-    if (filter->kind == AUR_FILTER_TENT)
-        result = aur_parameters_float(parameters, "radius", 1e-3, 100.0, &scale, error);
-    if (filter->kind == AUR_FILTER_GAUSSIAN)
-        result = aur_parameters_float(parameters, "stddev", 1e-3, 25.0, &scale, error);
-    filter->scale = (float)scale;
-    return result != AUR_OK ? result : aur_parameters_finish(parameters, error);
+    const aur_row *row;
+    const aur_result result = aur_table_find(&aur_filter_table, parameters, &row, error);
+    if (result != AUR_OK)
+        return result;
+    *filter = filters[row - rows];
+    return aur_row_read(row, parameters, filter, error);
 }

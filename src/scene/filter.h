@@ -2,7 +2,7 @@
 #ifndef AUR_SCENE_FILTER_H
 #define AUR_SCENE_FILTER_H
 
-#include "core/parameters.h"
+#include "core/keys.h"
 #include "scene/scene.h"
 
 typedef enum aur_filter_kind {
@@ -17,6 +17,8 @@ struct aur_filter {
     float scale; /* pixels: box and tent their radius, gaussian its standard deviation, mitchell half its
                     radius */
 };
+
+extern const aur_table aur_filter_table;
 
 /* The filter that parameters->plugin names, with its parameters. */
 aur_result aur_filter_create(aur_parameters *parameters, aur_filter *filter, aur_error *error);

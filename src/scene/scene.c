@@ -64,7 +64,7 @@ static aur_result check_reach(const aur_scene *scene, aur_error *error) {
         if (!shape->grouped && reach_of(shape) > most)
             return aur_fail_at(error, shape->location, AUR_ERROR_FORMAT,
                                "shape '%s' reaches to %g from the origin; %g is the most",
-                               shape->descriptor->name, reach_of(shape), AUR_REACH);
+                               shape->descriptor->row.name, reach_of(shape), AUR_REACH);
     }
     if (reach > most)
         return aur_fail_at(error, scene->document.root->location, AUR_ERROR_FORMAT,

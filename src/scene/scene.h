@@ -4,6 +4,7 @@
 
 #include <aureole/scene.h>
 
+#include "core/keys.h"
 #include "material/bsdf.h"
 
 /* `direction` is of unit length. Hits are accepted for nearest < distance < farthest. */
@@ -196,5 +197,8 @@ aur_location aur_scene_shape_location(const aur_scene *scene, size_t shape);
  * that are no light. */
 aur_vector aur_scene_shape_emission(const aur_scene *scene, size_t shape, aur_bsdf_point point);
 bool aur_scene_shape_emission_varies(const aur_scene *scene, size_t shape);
+
+/* Tables of what the loader itself makes. */
+extern const aur_table aur_film_table, aur_sampler_table;
 
 #endif

@@ -20,31 +20,19 @@ static aur_result read_focal_length(const aur_parameters *parameters, const aur_
     return AUR_OK;
 }
 
-aur_result aur_sensor_read_lens(aur_parameters *parameters, aur_sensor *sensor, aur_error *error) {
-    static const char *const axes[] = {"x", "y", "diagonal", "smaller", "larger"};
-    double fov = 0.0, offset_x = 0.0, offset_y = 0.0;
-    size_t axis = AUR_FOV_X;
-    aur_result result = aur_parameters_float(parameters, "fov", 1e-6, 180.0 - 1e-6, &fov, error);
-    if (result == AUR_OK)
-        result = aur_parameters_choice(parameters, "fov_axis", 5, axes, &axis, error);
-    if (result == AUR_OK)
-        result = aur_parameters_float(parameters, "principal_point_offset_x", -1e3, 1e3, &offset_x, error);
-    if (result == AUR_OK)
-        result = aur_parameters_float(parameters, "principal_point_offset_y", -1e3, 1e3, &offset_y, error);
-    if (result != AUR_OK)
-        return result;
-    sensor->offset_x = (float)offset_x;
-    sensor->offset_y = (float)offset_y;
-    const aur_parameter *const focal = aur_parameters_find(parameters, "focal_length");
-    if (fov > 0.0 && focal != NULL)
+aur_result aur_sensor_set_lens(const aur_parameters *parameters, const aur_lens_keys *keys,
+                               aur_sensor *sensor, aur_error *error) {
+    const aur_parameter *const focal = keys->focal_length;
+    sensor->offset_x = (float)keys->offset_x;
+    sensor->offset_y = (float)keys->offset_y;
+    if (keys->fov > 0.0 && focal != NULL)
         return aur_fail_at(error, focal->location, AUR_ERROR_FORMAT,
                            "sensor '%s': give 'fov' or 'focal_length', not both", parameters->plugin);
-    if (focal != NULL)
-        return read_focal_length(parameters, focal, sensor, error);
-    if (fov == 0.0)
-        return read_focal_length(parameters, &(aur_parameter){.text = (char[]){"50mm"}}, sensor, error);
-    sensor->axis = (aur_fov_axis)axis;
-    sensor->tangent = (float)tan(0.5 * fov * AUR_PI / 180.0);
+    if (keys->fov == 0.0)
+        return read_focal_length(
+            parameters, focal != NULL ? focal : &(aur_parameter){.text = (char[]){"50mm"}}, sensor, error);
+    sensor->axis = keys->fov_axis;
+    sensor->tangent = (float)tan(0.5 * keys->fov * AUR_PI / 180.0);
     return AUR_OK;
 }
 

@@ -89,13 +89,12 @@ aur_result aur_shape_similarity(const aur_shape_input *input, const aur_transfor
                        input->parameters->plugin);
 }
 
-aur_result aur_shape_filename(const aur_shape_input *input, char **path, aur_error *error) {
-    const aur_parameters *const parameters = input->parameters;
-    const aur_parameter *const item = aur_parameters_find(input->parameters, "filename");
-    if (item == NULL)
+aur_result aur_shape_filename(const aur_shape_input *input, const char *filename, char **path,
+                              aur_error *error) {
+    aur_parameters *const parameters = input->parameters;
+    if (filename == NULL)
         return aur_fail_at(error, parameters->location, AUR_ERROR_FORMAT,
                            "%s '%s' needs the string 'filename'", parameters->kind, parameters->plugin);
-    const char *name = NULL;
-    const aur_result result = aur_parameters_string(input->parameters, "filename", &name, error);
-    return result != AUR_OK ? result : aur_xml_find_asset(input->document, item->location, name, path, error);
+    const aur_location place = aur_parameters_find(parameters, "filename")->location;
+    return aur_xml_find_asset(input->document, place, filename, path, error);
 }

@@ -53,6 +53,13 @@ struct aur_shape {
     bool grouped;     /* seen through instances only */
 };
 
+/* The keys that every shape takes. */
+typedef struct aur_shape_keys {
+    aur_transform to_world;
+    bool flip_normals;
+    const aur_parameter *bsdf, *emitter; /* for the loader */
+} aur_shape_keys;
+
 /* What every shape is made from. */
 typedef struct aur_shape_input {
     aur_parameters *parameters;
@@ -63,9 +70,8 @@ typedef struct aur_shape_input {
 } aur_shape_input;
 
 struct aur_shape_descriptor {
-    const char *name;
-    const char *summary;
-    /* Reads its own parameters and makes the shape in world coordinates (flips included). */
+    aur_row row; /* first, so that a row of the table is its descriptor */
+    /* Reads its own keys and makes the shape in world coordinates (flips included). */
     aur_result (*create)(const aur_shape_input *input, aur_shape *shape, aur_error *error);
 };
 
@@ -75,8 +81,7 @@ bool aur_first_root(double a, double b, double c, double nearest, double farthes
 /* A point of any shape drawn uniformly by area; u[0] chooses a triangle of a mesh by `triangles`. */
 aur_shape_point aur_shape_sample(const aur_shape *shape, const aur_distribution *triangles, const float u[3]);
 
-/* The table; NULL beyond it. */
-const aur_shape_descriptor *aur_shape_descriptor_at(size_t index);
+extern const aur_table aur_shape_table;
 
 /* Builds the shape that parameters->plugin names; the loader gives it a BSDF and an emitter. */
 aur_result aur_shape_create(aur_parameters *parameters, const aur_xml_document *document,
@@ -90,7 +95,8 @@ void aur_shape_place(const aur_shape_input *input, aur_shape *shape);
 aur_result aur_shape_similarity(const aur_shape_input *input, const aur_transform *to_world, double *scale,
                                 aur_error *error);
 
-/* The path of the file that the parameter `filename` names (malloc'ed). */
-aur_result aur_shape_filename(const aur_shape_input *input, char **path, aur_error *error);
+/* The path (malloc'ed) of the file that the key `filename` gives; NULL, when it is missing, is an error. */
+aur_result aur_shape_filename(const aur_shape_input *input, const char *filename, char **path,
+                              aur_error *error);
 
 #endif

@@ -178,12 +178,8 @@ bool aur_transform_is_within_reach(const aur_transform *a) {
     return aur_transform_inverse(a, &inverse) && is_within_reach(a, &inverse);
 }
 
-aur_result aur_parameters_to_world(aur_parameters *parameters, aur_transform *to_world,
-                                   aur_transform *to_local, aur_error *error) {
-    *to_world = aur_transform_identity();
-    const aur_result result = aur_parameters_transform(parameters, "to_world", to_world->m, error);
-    if (result != AUR_OK)
-        return result;
+aur_result aur_to_world_check(const aur_parameters *parameters, const aur_transform *to_world,
+                              aur_transform *to_local, aur_error *error) {
     if (!aur_transform_is_affine(to_world) || !aur_transform_inverse(to_world, to_local))
         return aur_fail_at(error, parameters->location, AUR_ERROR_FORMAT,
                            "%s '%s': 'to_world' must be affine: its last row is 0 0 0 1", parameters->kind,

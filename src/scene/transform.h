@@ -46,9 +46,9 @@ aur_vector aur_transform_normal_f(const aur_transform *inverse, aur_vector norma
 /* Whether an affine map moves by no more than AUR_REACH, and stretches and shrinks by no more. */
 bool aur_transform_is_within_reach(const aur_transform *a);
 
-/* The parameter `to_world`, an affine map within reach and its inverse; the identity when it is absent.
- * Errors: FORMAT. */
-aur_result aur_parameters_to_world(aur_parameters *parameters, aur_transform *to_world,
-                                   aur_transform *to_local, aur_error *error);
+/* Whether the value of the key `to_world` is affine, has an inverse, *to_local, and moves and scales nothing
+ * out of reach. Errors: FORMAT. */
+aur_result aur_to_world_check(const aur_parameters *parameters, const aur_transform *to_world,
+                              aur_transform *to_local, aur_error *error);
 
 #endif

@@ -6,18 +6,18 @@ aur_result aur_scene_check_triangles(const aur_scene *scene, aur_error *error) {
         const aur_shape *const shape = scene->shapes[i];
         if (shape->curved != NULL)
             return aur_fail_at(error, shape->location, AUR_ERROR_UNSUPPORTED,
-                               "shape '%s' is no mesh of triangles", shape->descriptor->name);
+                               "shape '%s' is no mesh of triangles", shape->descriptor->row.name);
         if (shape->grouped)
             return aur_fail_at(
                 error, shape->location, AUR_ERROR_UNSUPPORTED,
                 "shape '%s' stands in a shape group, whose copies have no triangles of their own",
-                shape->descriptor->name);
+                shape->descriptor->row.name);
     }
     for (size_t i = 0; i < scene->emitter_count; ++i)
         if (!scene->emitters[i]->descriptor->needs_shape)
             return aur_fail_at(error, scene->emitters[i]->location, AUR_ERROR_UNSUPPORTED,
                                "emitter '%s' is no surface: only 'area' lights are",
-                               scene->emitters[i]->descriptor->name);
+                               scene->emitters[i]->descriptor->row.name);
     return AUR_OK;
 }
 

@@ -28,7 +28,7 @@ static const aur_row *row_at(size_t index) {
     return index < ROW_COUNT ? &rows[index]->description.row : NULL;
 }
 
-static const aur_table measures = {"measure", "figures of the quality of points", row_at};
+static const aur_table measures = {"measure", "figures of the quality of points", row_at, NULL};
 
 const aur_table *aur_table_at(size_t index) {
     const aur_table *const tables[] = {&aur_set_table, &measures};

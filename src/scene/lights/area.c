@@ -7,9 +7,12 @@
 #include "scene/lights/spherical_rectangle.h"
 #include "scene/scene_data.h"
 
+static const aur_key keys[] = {
+    {AUR_KEY_OF_COLOR(aur_emitter, "radiance", radiance, 1e30, "1", "emitted radiance, RGB")},
+};
+
 static aur_result create(aur_parameters *parameters, aur_emitter *emitter, aur_error *error) {
-    emitter->radiance.constant = (aur_vector){1.0f, 1.0f, 1.0f};
-    return aur_parameters_color(parameters, "radiance", 1e30, &emitter->radiance, error);
+    return aur_colors_read(&emitter->descriptor->row, parameters, emitter, error);
 }
 
 static const aur_shape *shape_of(const aur_scene *scene, const aur_emitter *emitter) {
@@ -198,8 +201,10 @@ static bool emit(const aur_scene *scene, const aur_emitter *emitter, const float
 }
 
 const aur_emitter_descriptor aur_emitter_area = {
-    .name = "area",
-    .summary = "a shape that emits from the side of its normal",
+    .row = {.name = "area",
+            .summary = "a shape that emits from the side of its normal",
+            .source = "",
+            AUR_ROW_KEYS(keys)},
     .needs_shape = true,
     .create = create,
     .prepare = prepare,

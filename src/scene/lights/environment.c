@@ -26,9 +26,12 @@ aur_ray aur_emit_far(const aur_scene *scene, aur_vector direction, float u, floa
 
 /* --- constant */
 
+static const aur_key constant_keys[] = {
+    {AUR_KEY_OF_COLOR(aur_emitter, "radiance", radiance, 1e30, "1", "radiance from everywhere, RGB")},
+};
+
 static aur_result create_constant(aur_parameters *parameters, aur_emitter *emitter, aur_error *error) {
-    emitter->radiance.constant = (aur_vector){1.0f, 1.0f, 1.0f};
-    const aur_result result = aur_parameters_color(parameters, "radiance", 1e30, &emitter->radiance, error);
+    const aur_result result = aur_colors_read(&emitter->descriptor->row, parameters, emitter, error);
     if (result == AUR_OK && emitter->radiance.texture != NULL)
         return aur_fail_at(error, parameters->location, AUR_ERROR_UNSUPPORTED,
                            "emitter 'constant': 'radiance' cannot be a texture; use an envmap");
@@ -72,8 +75,10 @@ static bool emit_constant(const aur_scene *scene, const aur_emitter *emitter, co
 }
 
 const aur_emitter_descriptor aur_emitter_constant = {
-    .name = "constant",
-    .summary = "the same radiance from everywhere",
+    .row = {.name = "constant",
+            .summary = "the same radiance from everywhere",
+            .source = "",
+            AUR_ROW_KEYS(constant_keys)},
     .create = create_constant,
     .prepare = prepare_constant,
     .sample = sample_constant,
@@ -105,23 +110,31 @@ static void release_envmap(aur_emitter *emitter) {
     free(self);
 }
 
-static aur_result read_picture(aur_parameters *parameters, envmap *self, aur_error *error) {
-    const char *path = NULL;
-    double scale = 1.0;
-    aur_result result = aur_parameters_string(parameters, "filename", &path, error);
-    if (result == AUR_OK)
-        result = aur_parameters_float(parameters, "scale", 0.0, 1e30, &scale, error);
-    if (result != AUR_OK)
-        return result;
-    if (path == NULL)
+typedef struct envmap_keys {
+    const char *filename;
+    double scale;
+    aur_transform to_world;
+} envmap_keys;
+
+static const aur_key envmap_keys_table[] = {
+    {AUR_KEY_OF_TEXT(envmap_keys, "filename", filename, NULL,
+                     "the picture, beside the scene; must be given")},
+    {AUR_KEY_OF_REAL(envmap_keys, "scale", scale, 0.0, 1e30, "1", "radiance is the picture's times this")},
+    {AUR_KEY_OF_TRANSFORM(envmap_keys, "to_world", to_world, "a rotation")},
+};
+
+static aur_result read_picture(const aur_parameters *parameters, const envmap_keys *p, envmap *self,
+                               aur_error *error) {
+    if (p->filename == NULL)
         return aur_fail_at(error, parameters->location, AUR_ERROR_FORMAT,
                            "emitter 'envmap' needs the string 'filename'");
-    result = aur_read_rgb(path, parameters->location, &self->width, &self->height, &self->rgb, error);
+    const aur_result result =
+        aur_read_rgb(p->filename, parameters->location, &self->width, &self->height, &self->rgb, error);
     if (result == AUR_OK && (self->width < 2 || self->height < 2))
         return aur_fail_at(error, parameters->location, AUR_ERROR_FORMAT,
                            "emitter 'envmap': the picture must be at least 2 x 2");
     for (size_t i = 0; result == AUR_OK && i < 3 * self->width * self->height; ++i)
-        self->rgb[i] *= (float)scale;
+        self->rgb[i] *= (float)p->scale;
     return result;
 }
 
@@ -130,16 +143,19 @@ static aur_result create_envmap(aur_parameters *parameters, aur_emitter *emitter
     emitter->data = self;
     if (self == NULL)
         return aur_fail_at(error, parameters->location, AUR_ERROR_MEMORY, "out of memory");
-    aur_transform to_world, to_local;
-    aur_result result = aur_parameters_to_world(parameters, &to_world, &to_local, error);
+    envmap_keys p = {.filename = NULL};
+    aur_transform to_local;
+    aur_result result = aur_row_read(&emitter->descriptor->row, parameters, &p, error);
     if (result == AUR_OK)
-        result = read_picture(parameters, self, error);
+        result = aur_to_world_check(parameters, &p.to_world, &to_local, error);
+    if (result == AUR_OK)
+        result = read_picture(parameters, &p, self, error);
     if (result != AUR_OK)
         return result;
     aur_vector *const axes[3] = {&self->frame.x, &self->frame.y, &self->frame.z};
     for (size_t i = 0; i < 3; ++i)
-        *axes[i] =
-            aur_vector_normalize(aur_transform_direction_f(&to_world, (aur_vector){i == 0, i == 1, i == 2}));
+        *axes[i] = aur_vector_normalize(
+            aur_transform_direction_f(&p.to_world, (aur_vector){i == 0, i == 1, i == 2}));
     const float skew = fabsf(aur_vector_dot(self->frame.x, self->frame.y)) +
                        fabsf(aur_vector_dot(self->frame.y, self->frame.z)) +
                        fabsf(aur_vector_dot(self->frame.z, self->frame.x));
@@ -259,8 +275,10 @@ static bool emit_envmap(const aur_scene *scene, const aur_emitter *emitter, cons
 }
 
 const aur_emitter_descriptor aur_emitter_envmap = {
-    .name = "envmap",
-    .summary = "a latitude-longitude picture around the scene, +y up",
+    .row = {.name = "envmap",
+            .summary = "a latitude-longitude picture around the scene, +y up",
+            .source = "",
+            AUR_ROW_KEYS(envmap_keys_table)},
     .create = create_envmap,
     .prepare = prepare_envmap,
     .sample = sample_envmap,

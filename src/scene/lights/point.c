@@ -12,25 +12,57 @@ typedef struct point_light {
     float cosine_cutoff;
 } point_light;
 
-static aur_result allocate(aur_parameters *parameters, aur_emitter *emitter, aur_error *error) {
+typedef struct point_keys {
+    aur_color color;
+    aur_transform to_world;
+    double position[3], direction[3];
+    double cutoff, beam; /* degrees; beam -1: not given */
+} point_keys;
+
+static const aur_key point_table[] = {
+    {AUR_KEY_OF_COLOR(point_keys, "intensity", color, 1e30, "1", "power a steradian, RGB")},
+    {AUR_KEY_OF_VECTOR(point_keys, "position", position, -AUR_REACH, AUR_REACH, "0 0 0", "where it is")},
+    {AUR_KEY_OF_TRANSFORM(point_keys, "to_world", to_world, "applied to the position")},
+};
+
+static const aur_key spot_table[] = {
+    {AUR_KEY_OF_COLOR(point_keys, "intensity", color, 1e30, "1", "power a steradian along the axis, RGB")},
+    {AUR_KEY_OF_REAL(point_keys, "cutoff_angle", cutoff, 1e-3, 180.0, "20", "no light beyond, degrees")},
+    {AUR_KEY_OF_REAL(point_keys, "beam_width", beam, 0.0, 180.0, "3/4 of cutoff_angle",
+                     "full light within, degrees; at most cutoff_angle"),
+     .computed = true},
+    {AUR_KEY_OF_TRANSFORM(point_keys, "to_world", to_world, "from a spot at the origin along +z")},
+};
+
+static const aur_key directional_table[] = {
+    {AUR_KEY_OF_COLOR(point_keys, "irradiance", color, 1e30, "1", "on a plane across the light, RGB")},
+    {AUR_KEY_OF_VECTOR(point_keys, "direction", direction, -AUR_REACH, AUR_REACH, "+z by to_world",
+                       "where the light goes"),
+     .computed = true},
+    {AUR_KEY_OF_TRANSFORM(point_keys, "to_world", to_world, "in place of direction: from light along +z")},
+};
+
+/* Reads the keys and checks what all three have in common. */
+static aur_result read_keys(aur_parameters *parameters, aur_emitter *emitter, point_keys *p,
+                            aur_error *error) {
+    const aur_row *const row = &emitter->descriptor->row;
+    *p = (point_keys){.beam = -1.0};
     emitter->data = calloc(1, sizeof(point_light));
-    emitter->radiance.constant = (aur_vector){1.0f, 1.0f, 1.0f};
-    return emitter->data != NULL
-               ? AUR_OK
-               : aur_fail_at(error, parameters->location, AUR_ERROR_MEMORY, "out of memory");
+    if (emitter->data == NULL)
+        return aur_fail_at(error, parameters->location, AUR_ERROR_MEMORY, "out of memory");
+    aur_transform to_local;
+    aur_result result = aur_colors_read(row, parameters, p, error);
+    if (result == AUR_OK)
+        result = aur_to_world_check(parameters, &p->to_world, &to_local, error);
+    if (result == AUR_OK && p->color.texture != NULL)
+        return aur_fail_at(error, parameters->location, AUR_ERROR_UNSUPPORTED,
+                           "emitter '%s': '%s' cannot be a texture", row->name, row->keys[0].name);
+    emitter->radiance = p->color;
+    return result;
 }
 
 static void release(aur_emitter *emitter) {
     free(emitter->data);
-}
-
-static aur_result read_color(aur_parameters *parameters, const char *name, aur_emitter *emitter,
-                             aur_error *error) {
-    const aur_result result = aur_parameters_color(parameters, name, 1e30, &emitter->radiance, error);
-    if (result == AUR_OK && emitter->radiance.texture != NULL)
-        return aur_fail_at(error, parameters->location, AUR_ERROR_UNSUPPORTED,
-                           "emitter '%s': '%s' cannot be a texture", parameters->plugin, name);
-    return result;
 }
 
 static void aim(point_light *self, aur_vector direction) {
@@ -41,24 +73,18 @@ static void aim(point_light *self, aur_vector direction) {
 /* --- point */
 
 static aur_result create_point(aur_parameters *parameters, aur_emitter *emitter, aur_error *error) {
-    aur_transform to_world, to_local;
-    double position[3] = {0.0, 0.0, 0.0};
-    aur_result result = allocate(parameters, emitter, error);
-    if (result == AUR_OK)
-        result = read_color(parameters, "intensity", emitter, error);
-    if (result == AUR_OK)
-        result = aur_parameters_triple(parameters, "position", -AUR_REACH, AUR_REACH, position, error);
-    if (result == AUR_OK)
-        result = aur_parameters_to_world(parameters, &to_world, &to_local, error);
+    point_keys p;
+    const aur_result result = read_keys(parameters, emitter, &p, error);
     if (result != AUR_OK)
         return result;
+    const double *const position = p.position;
     const aur_transform place = aur_transform_translate(position[0], position[1], position[2]);
-    const aur_transform both = aur_transform_multiply(&to_world, &place);
+    const aur_transform both = aur_transform_multiply(&p.to_world, &place);
     if (!aur_transform_is_within_reach(&both))
         return aur_fail_at(error, parameters->location, AUR_ERROR_FORMAT,
                            "emitter 'point' must be within %g of the origin", AUR_REACH);
     ((point_light *)emitter->data)->position = aur_transform_point_f(
-        &to_world, (aur_vector){(float)position[0], (float)position[1], (float)position[2]});
+        &p.to_world, (aur_vector){(float)position[0], (float)position[1], (float)position[2]});
     return AUR_OK;
 }
 
@@ -104,8 +130,10 @@ static bool emit_point(const aur_scene *scene, const aur_emitter *emitter, const
 }
 
 const aur_emitter_descriptor aur_emitter_point = {
-    .name = "point",
-    .summary = "a point that shines evenly",
+    .row = {.name = "point",
+            .summary = "a point that shines evenly",
+            .source = "",
+            AUR_ROW_KEYS(point_table)},
     .create = create_point,
     .prepare = prepare_point,
     .sample = sample_point,
@@ -116,23 +144,18 @@ const aur_emitter_descriptor aur_emitter_point = {
 /* --- spot */
 
 static aur_result create_spot(aur_parameters *parameters, aur_emitter *emitter, aur_error *error) {
-    aur_transform to_world, to_local;
-    double cutoff = 20.0;
-    aur_result result = allocate(parameters, emitter, error);
-    if (result == AUR_OK)
-        result = read_color(parameters, "intensity", emitter, error);
-    if (result == AUR_OK)
-        result = aur_parameters_float(parameters, "cutoff_angle", 1e-3, 180.0, &cutoff, error);
-    double beam = 0.75 * cutoff;
-    if (result == AUR_OK)
-        result = aur_parameters_float(parameters, "beam_width", 0.0, cutoff, &beam, error);
-    if (result == AUR_OK)
-        result = aur_parameters_to_world(parameters, &to_world, &to_local, error);
+    point_keys p;
+    const aur_result result = read_keys(parameters, emitter, &p, error);
     if (result != AUR_OK)
         return result;
+    const double cutoff = p.cutoff, beam = p.beam < 0.0 ? 0.75 * cutoff : p.beam;
+    if (beam > cutoff)
+        return aur_fail_at(error, aur_parameters_find(parameters, "beam_width")->location, AUR_ERROR_FORMAT,
+                           "emitter 'spot': 'beam_width' must be at most the cutoff_angle %g, not %g", cutoff,
+                           beam);
     point_light *const self = emitter->data;
-    self->position = aur_transform_point_f(&to_world, (aur_vector){0.0f, 0.0f, 0.0f});
-    aim(self, aur_transform_direction_f(&to_world, (aur_vector){0.0f, 0.0f, 1.0f}));
+    self->position = aur_transform_point_f(&p.to_world, (aur_vector){0.0f, 0.0f, 0.0f});
+    aim(self, aur_transform_direction_f(&p.to_world, (aur_vector){0.0f, 0.0f, 1.0f}));
     self->cutoff = (float)(cutoff * AUR_PI / 180.0);
     self->beam = (float)(beam * AUR_PI / 180.0);
     self->cosine_cutoff = cosf(self->cutoff);
@@ -182,8 +205,10 @@ static bool emit_spot(const aur_scene *scene, const aur_emitter *emitter, const 
 }
 
 const aur_emitter_descriptor aur_emitter_spot = {
-    .name = "spot",
-    .summary = "a point that shines in a cone about +z",
+    .row = {.name = "spot",
+            .summary = "a point that shines in a cone about +z",
+            .source = "",
+            AUR_ROW_KEYS(spot_table)},
     .create = create_spot,
     .prepare = prepare_spot,
     .sample = sample_spot,
@@ -194,24 +219,17 @@ const aur_emitter_descriptor aur_emitter_spot = {
 /* --- directional */
 
 static aur_result create_directional(aur_parameters *parameters, aur_emitter *emitter, aur_error *error) {
-    aur_transform to_world, to_local;
-    double direction[3] = {0.0, 0.0, 0.0};
-    aur_result result = allocate(parameters, emitter, error);
-    if (result == AUR_OK)
-        result = read_color(parameters, "irradiance", emitter, error);
-    if (result == AUR_OK)
-        result = aur_parameters_triple(parameters, "direction", -AUR_REACH, AUR_REACH, direction, error);
-    if (result == AUR_OK)
-        result = aur_parameters_to_world(parameters, &to_world, &to_local, error);
+    point_keys p;
+    const aur_result result = read_keys(parameters, emitter, &p, error);
     if (result != AUR_OK)
         return result;
     const bool given = aur_parameters_find(parameters, "direction") != NULL;
     if (given && aur_parameters_find(parameters, "to_world") != NULL)
         return aur_fail_at(error, parameters->location, AUR_ERROR_FORMAT,
                            "emitter 'directional': give 'direction' or 'to_world', not both");
-    aur_vector way = {(float)direction[0], (float)direction[1], (float)direction[2]};
+    aur_vector way = {(float)p.direction[0], (float)p.direction[1], (float)p.direction[2]};
     if (!given)
-        way = aur_transform_direction_f(&to_world, (aur_vector){0.0f, 0.0f, 1.0f});
+        way = aur_transform_direction_f(&p.to_world, (aur_vector){0.0f, 0.0f, 1.0f});
     if (!(aur_vector_length(way) > (float)(1.0 / AUR_REACH)))
         return aur_fail_at(error, parameters->location, AUR_ERROR_FORMAT,
                            "emitter 'directional': 'direction' must not be 0 0 0, nor nearly so");
@@ -247,8 +265,10 @@ static bool emit_directional(const aur_scene *scene, const aur_emitter *emitter,
 }
 
 const aur_emitter_descriptor aur_emitter_directional = {
-    .name = "directional",
-    .summary = "parallel light along +z or `direction`",
+    .row = {.name = "directional",
+            .summary = "parallel light along +z or `direction`",
+            .source = "",
+            AUR_ROW_KEYS(directional_table)},
     .create = create_directional,
     .prepare = prepare_directional,
     .sample = sample_directional,

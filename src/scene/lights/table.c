@@ -11,35 +11,36 @@ extern const aur_emitter_descriptor aur_emitter_directional;
 extern const aur_emitter_descriptor aur_emitter_constant;
 extern const aur_emitter_descriptor aur_emitter_envmap;
 
-static const aur_emitter_descriptor *const table[] = {
-    &aur_emitter_area,        &aur_emitter_point,    &aur_emitter_spot,
-    &aur_emitter_directional, &aur_emitter_constant, &aur_emitter_envmap,
+/* clang-format off */
+static const aur_row *const rows[] = {
+    &aur_emitter_area.row,
+    &aur_emitter_point.row,
+    &aur_emitter_spot.row,
+    &aur_emitter_directional.row,
+    &aur_emitter_constant.row,
+    &aur_emitter_envmap.row,
 };
+/* clang-format on */
 
-enum { TABLE_SIZE = sizeof table / sizeof table[0] };
-
-const aur_emitter_descriptor *aur_emitter_descriptor_at(size_t index) {
-    return index < TABLE_SIZE ? table[index] : NULL;
+static const aur_row *row_at(size_t index) {
+    return index < sizeof rows / sizeof rows[0] ? rows[index] : NULL;
 }
+
+const aur_table aur_emitter_table = {"emitter", "lights", row_at, NULL};
 
 aur_result aur_emitter_create(aur_parameters *parameters, aur_emitter **emitter, aur_error *error) {
     *emitter = NULL;
-    const aur_emitter_descriptor *descriptor = NULL;
-    const char *names[TABLE_SIZE];
-    for (size_t i = 0; i < TABLE_SIZE; ++i) {
-        names[i] = table[i]->name;
-        if (strcmp(names[i], parameters->plugin) == 0)
-            descriptor = table[i];
-    }
-    if (descriptor == NULL)
-        return aur_fail_unknown_plugin(error, parameters, TABLE_SIZE, names);
+    const aur_row *row;
+    aur_result result = aur_table_find(&aur_emitter_table, parameters, &row, error);
+    if (result != AUR_OK)
+        return result;
     aur_emitter *const made = calloc(1, sizeof *made);
     if (made == NULL)
         return aur_fail_at(error, parameters->location, AUR_ERROR_MEMORY, "out of memory");
-    made->descriptor = descriptor;
+    made->descriptor = (const aur_emitter_descriptor *)row;
     made->location = parameters->location;
     made->shape = UINT32_MAX;
-    aur_result result = descriptor->create(parameters, made, error);
+    result = made->descriptor->create(parameters, made, error);
     if (result == AUR_OK)
         result = aur_parameters_finish(parameters, error);
     if (result != AUR_OK) {

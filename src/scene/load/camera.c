@@ -21,23 +21,67 @@ static void warn_unused(aur_loader *self, aur_parameters *parameters, const char
                     parameters->plugin, name, why);
 }
 
+/* Keys of films; -1: not given. */
+typedef struct film_keys {
+    int64_t width, height, crop_x, crop_y, crop_width, crop_height;
+    const aur_parameter *rfilter, *unused;
+} film_keys;
+
+enum { LARGEST_SIDE = 65536 };
+
+static const aur_key film_key_table[] = {
+    {AUR_KEY_OF_INTEGER(film_keys, "width", width, 1, LARGEST_SIDE, "768", "of the picture, pixels"),
+     .computed = true},
+    {AUR_KEY_OF_INTEGER(film_keys, "height", height, 1, LARGEST_SIDE, "576", "of the picture, pixels"),
+     .computed = true},
+    {AUR_KEY_OF_INTEGER(film_keys, "crop_offset_x", crop_x, 0, LARGEST_SIDE - 1, "0",
+                        "left edge of the part to render")},
+    {AUR_KEY_OF_INTEGER(film_keys, "crop_offset_y", crop_y, 0, LARGEST_SIDE - 1, "0",
+                        "upper edge of the part to render")},
+    {AUR_KEY_OF_INTEGER(film_keys, "crop_width", crop_width, 1, LARGEST_SIDE, "width",
+                        "of the part to render"),
+     .computed = true},
+    {AUR_KEY_OF_INTEGER(film_keys, "crop_height", crop_height, 1, LARGEST_SIDE, "height",
+                        "of the part to render"),
+     .computed = true},
+    {AUR_KEY_OF_ITEM(film_keys, "rfilter", rfilter, "gaussian", "how samples are weighed around a pixel",
+                     "rfilter")},
+    {AUR_KEY_OF_ITEM(film_keys, "file_format", unused, NULL, "of no effect: the output file's name says it",
+                     "text")},
+    {AUR_KEY_OF_ITEM(film_keys, "pixel_format", unused, NULL, "of no effect: pictures are RGB", "text")},
+    {AUR_KEY_OF_ITEM(film_keys, "component_format", unused, NULL,
+                     "of no effect: pictures are 32-bit floats where the format has them", "text")},
+    {AUR_KEY_OF_ITEM(film_keys, "banner", unused, NULL, "of no effect: pictures carry none", "boolean")},
+    {AUR_KEY_OF_ITEM(film_keys, "high_quality_edges", unused, NULL, "of no effect: all edges are",
+                     "boolean")},
+    {AUR_KEY_OF_ITEM(film_keys, "sample_border", unused, NULL,
+                     "of no effect: samples are drawn by the filter", "boolean")},
+    {AUR_KEY_OF_ITEM(film_keys, "compensate", unused, NULL, "of no effect: sums are exact enough",
+                     "boolean")},
+    {AUR_KEY_OF_ITEM(film_keys, "gamma", unused, NULL, "of no effect: pictures are linear, PNG is sRGB",
+                     "number")},
+};
+
+static const aur_row film_rows[] = {
+    {.name = "hdrfilm", .summary = "the picture", .source = "Mitsuba 3", AUR_ROW_KEYS(film_key_table)},
+    {.name = "ldrfilm", .summary = "read as hdrfilm", .source = "Mitsuba 0.6", AUR_ROW_KEYS(film_key_table)},
+};
+
+static const aur_row *film_row_at(size_t index) {
+    return index < sizeof film_rows / sizeof film_rows[0] ? &film_rows[index] : NULL;
+}
+
+const aur_table aur_film_table = {"film", "sizes of pictures", film_row_at, NULL};
+
 /* The part of the picture that is to be rendered. */
-static aur_result read_crop(aur_loader *self, aur_parameters *parameters, aur_film_settings *film) {
+static aur_result set_crop(const film_keys *p, const aur_parameters *parameters, aur_film_settings *film,
+                           aur_error *error) {
     const int64_t width = (int64_t)film->width, height = (int64_t)film->height;
-    int64_t x = 0, y = 0, wide = -1, high = -1;
-    aur_result result = aur_parameters_integer(parameters, "crop_offset_x", 0, 65535, &x, self->error);
-    if (result == AUR_OK)
-        result = aur_parameters_integer(parameters, "crop_offset_y", 0, 65535, &y, self->error);
-    if (result == AUR_OK)
-        result = aur_parameters_integer(parameters, "crop_width", 1, 65536, &wide, self->error);
-    if (result == AUR_OK)
-        result = aur_parameters_integer(parameters, "crop_height", 1, 65536, &high, self->error);
-    if (result != AUR_OK)
-        return result;
-    wide = wide < 0 ? width : wide;
-    high = high < 0 ? height : high;
+    const int64_t x = p->crop_x, y = p->crop_y;
+    const int64_t wide = p->crop_width < 0 ? width : p->crop_width;
+    const int64_t high = p->crop_height < 0 ? height : p->crop_height;
     if (x + wide > width || y + high > height)
-        return aur_fail_at(self->error, parameters->location, AUR_ERROR_FORMAT,
+        return aur_fail_at(error, parameters->location, AUR_ERROR_FORMAT,
                            "film '%s': the crop of %lld x %lld at %lld, %lld is not inside %lld x %lld",
                            parameters->plugin, (long long)wide, (long long)high, (long long)x, (long long)y,
                            (long long)width, (long long)height);
@@ -52,23 +96,23 @@ static aur_result read_crop(aur_loader *self, aur_parameters *parameters, aur_fi
 
 aur_result aur_build_film(aur_loader *self, aur_xml_node *node, aur_parameters *parameters, void **object) {
     (void)node;
-    static const char *const films[] = {"hdrfilm", "ldrfilm"};
     aur_film_settings *const film = &self->scene->film;
     *object = film;
-    if (strcmp(parameters->plugin, "ldrfilm") == 0)
-        aur_warn_at(self->warnings, parameters->location,
-                    "film 'ldrfilm' is read as 'hdrfilm': write to a .png file for 8 bits");
-    else if (strcmp(parameters->plugin, "hdrfilm") != 0)
-        return aur_fail_unknown_plugin(self->error, parameters, 2, films);
-    int64_t width = (int64_t)film->width, height = (int64_t)film->height;
-    aur_result result = aur_parameters_integer(parameters, "width", 1, 65536, &width, self->error);
-    if (result == AUR_OK)
-        result = aur_parameters_integer(parameters, "height", 1, 65536, &height, self->error);
+    const aur_row *row;
+    aur_result result = aur_table_find(&aur_film_table, parameters, &row, self->error);
     if (result != AUR_OK)
         return result;
-    film->width = (size_t)width;
-    film->height = (size_t)height;
-    result = read_crop(self, parameters, film);
+    if (strcmp(row->name, "ldrfilm") == 0)
+        aur_warn_at(self->warnings, parameters->location,
+                    "film 'ldrfilm' is read as 'hdrfilm': write to a .png file for 8 bits");
+    film_keys p = {
+        .width = (int64_t)film->width, .height = (int64_t)film->height, .crop_width = -1, .crop_height = -1};
+    result = aur_keys_read(row->key_count, row->keys, parameters, &p, self->error);
+    if (result != AUR_OK)
+        return result;
+    film->width = (size_t)p.width;
+    film->height = (size_t)p.height;
+    result = set_crop(&p, parameters, film, self->error);
     if (result != AUR_OK)
         return result;
     void *filter;
@@ -77,10 +121,6 @@ aur_result aur_build_film(aur_loader *self, aur_xml_node *node, aur_parameters *
         return result;
     if (filter != NULL)
         film->filter = filter;
-    /* The output file's name says these. */
-    aur_parameters_find(parameters, "file_format");
-    aur_parameters_find(parameters, "pixel_format");
-    aur_parameters_find(parameters, "component_format");
     warn_unused(self, parameters, "banner", "pictures carry none");
     warn_unused(self, parameters, "high_quality_edges", "all edges are");
     warn_unused(self, parameters, "sample_border", "samples are drawn by the filter");
@@ -113,16 +153,30 @@ static aur_result check_set(const aur_parameters *parameters, const char *set, a
     return strncmp(set, "file:", 5) == 0 ? AUR_OK : aur_fail_unknown_plugin(error, parameters, count, names);
 }
 
+static const aur_key sampler_keys[] = {
+    {AUR_KEY_FIELD(AUR_KEY_INTEGER, aur_scene, "sample_count", samples_per_pixel, "4", "samples a pixel"),
+     .minimum = 1.0, .maximum = AUR_SAMPLES_PER_PIXEL_MAX, .computed = true},
+};
+
+static const aur_row sampler_common = {
+    .name = "sampler", .summary = "what every sampler takes", .source = "", AUR_ROW_KEYS(sampler_keys)};
+
+static const aur_row *sampler_row_at(size_t index) {
+    const aur_set_description *const set = aur_set_at(index);
+    return set != NULL ? &set->row : NULL;
+}
+
+const aur_table aur_sampler_table = {"sampler", "the numbers of a camera's samples: any set of the square",
+                                     sampler_row_at, &sampler_common};
+
 aur_result aur_build_sampler(aur_loader *self, aur_xml_node *node, aur_parameters *parameters,
                              void **object) {
     (void)node;
     aur_scene *const scene = self->scene;
-    int64_t samples = (int64_t)scene->samples_per_pixel;
-    aur_result result = aur_parameters_integer(parameters, "sample_count", 1, AUR_SAMPLES_PER_PIXEL_MAX,
-                                               &samples, self->error);
+    aur_result result =
+        aur_keys_read(sampler_common.key_count, sampler_common.keys, parameters, scene, self->error);
     if (result != AUR_OK)
         return result;
-    scene->samples_per_pixel = (size_t)samples;
     warn_unused(self, parameters, "seed", "give it on the command line");
     /* The rest are the set's own keys. */
     char text[1024];

@@ -77,6 +77,11 @@ static aur_result build_group(aur_loader *self, const aur_xml_node *node, aur_pa
     return aur_parameters_finish(parameters, self->error);
 }
 
+static const aur_key instance_keys[] = {
+    {AUR_KEY_OF_TRANSFORM(aur_instance, "to_world", to_world,
+                          "from the group's own coordinates to the scene's")},
+};
+
 static aur_result build_instance(aur_loader *self, aur_parameters *parameters, void **object) {
     aur_scene *const scene = self->scene;
     aur_instance *const instance = calloc(1, sizeof *instance);
@@ -98,7 +103,10 @@ static aur_result build_instance(aur_loader *self, aur_parameters *parameters, v
     if (instance->group == NULL)
         return aur_fail_at(self->error, parameters->location, AUR_ERROR_FORMAT,
                            "shape 'instance' needs a reference to a shapegroup");
-    result = aur_parameters_to_world(parameters, &instance->to_world, &instance->to_local, self->error);
+    result = aur_keys_read(sizeof instance_keys / sizeof instance_keys[0], instance_keys, parameters,
+                           instance, self->error);
+    if (result == AUR_OK)
+        result = aur_to_world_check(parameters, &instance->to_world, &instance->to_local, self->error);
     if (result != AUR_OK)
         return result;
     instance->location = parameters->location;
@@ -123,7 +131,7 @@ aur_result aur_build_shape(aur_loader *self, aur_xml_node *node, aur_parameters 
         result = default_bsdf(self, emitter != NULL, &bsdf);
     if (result == AUR_OK && emitter != NULL && !emitter->descriptor->needs_shape)
         result = aur_fail_at(self->error, emitter->location, AUR_ERROR_FORMAT,
-                             "emitter '%s' cannot stand inside a shape", emitter->descriptor->name);
+                             "emitter '%s' cannot stand inside a shape", emitter->descriptor->row.name);
     if (result == AUR_OK && emitter != NULL && emitter->shape != UINT32_MAX)
         result = aur_fail_at(self->error, parameters->location, AUR_ERROR_FORMAT,
                              "the emitter of this shape already belongs to another one");

@@ -33,7 +33,7 @@ static aur_result build_top(aur_loader *self, aur_xml_node *node) {
     if (!emitter->descriptor->needs_shape)
         return AUR_OK;
     return aur_fail_at(self->error, node->location, AUR_ERROR_FORMAT,
-                       "emitter '%s' must stand inside a <shape>", emitter->descriptor->name);
+                       "emitter '%s' must stand inside a <shape>", emitter->descriptor->row.name);
 }
 
 aur_result aur_scene_build(aur_scene *scene, const aur_warnings *warnings, aur_error *error) {

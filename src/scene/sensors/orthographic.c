@@ -17,8 +17,7 @@ static void ray(const aur_sensor *sensor, float aspect, float x, float y, const 
 }
 
 const aur_sensor_descriptor aur_sensor_orthographic = {
-    .name = "orthographic",
-    .summary = "parallel rays along +z",
+    .row = {.name = "orthographic", .summary = "parallel rays along +z", .source = ""},
     .create = create,
     .ray = ray,
 };

@@ -9,27 +9,44 @@ static void ray(const aur_sensor *sensor, float aspect, float x, float y, const 
     result->direction = aur_sensor_direction(sensor, aur_sensor_half_width(sensor, aspect), aspect, x, y);
 }
 
+static const aur_key lens_keys[] = {AUR_LENS_KEYS};
+
+static aur_result create(aur_parameters *parameters, aur_sensor *sensor, aur_error *error) {
+    aur_lens_keys p = {.fov = 0.0};
+    const aur_result result = aur_row_read(&sensor->descriptor->row, parameters, &p, error);
+    return result == AUR_OK ? aur_sensor_set_lens(parameters, &p, sensor, error) : result;
+}
+
 const aur_sensor_descriptor aur_sensor_perspective = {
-    .name = "perspective",
-    .summary = "a pinhole camera",
-    .create = aur_sensor_read_lens,
+    .row = {.name = "perspective", .summary = "a pinhole camera", .source = "", AUR_ROW_KEYS(lens_keys)},
+    .create = create,
     .ray = ray,
     .is_pinhole = true,
 };
 
+typedef struct thinlens_keys {
+    aur_lens_keys lens;
+    double aperture_radius, focus_distance;
+} thinlens_keys;
+
+static const aur_key thinlens_table[] = {
+    AUR_LENS_KEYS,
+    {AUR_KEY_OF_REAL(thinlens_keys, "aperture_radius", aperture_radius, 0.0, AUR_REACH, NULL,
+                     "of the lens, scene units; must be given")},
+    {AUR_KEY_OF_REAL(thinlens_keys, "focus_distance", focus_distance, 1.0 / AUR_REACH, AUR_REACH, NULL,
+                     "of the plane that is sharp, scene units; must be given")},
+};
+
 static aur_result create_thinlens(aur_parameters *parameters, aur_sensor *sensor, aur_error *error) {
-    double radius = -1.0, distance = -1.0;
-    aur_result result = aur_sensor_read_lens(parameters, sensor, error);
+    thinlens_keys p = {.aperture_radius = -1.0, .focus_distance = -1.0};
+    aur_result result = aur_row_read(&sensor->descriptor->row, parameters, &p, error);
     if (result == AUR_OK)
-        result = aur_parameters_float(parameters, "aperture_radius", 0.0, AUR_REACH, &radius, error);
-    if (result == AUR_OK)
-        result =
-            aur_parameters_float(parameters, "focus_distance", 1.0 / AUR_REACH, AUR_REACH, &distance, error);
-    if (result == AUR_OK && (radius < 0.0 || distance < 0.0))
+        result = aur_sensor_set_lens(parameters, &p.lens, sensor, error);
+    if (result == AUR_OK && (p.aperture_radius < 0.0 || p.focus_distance < 0.0))
         return aur_fail_at(error, parameters->location, AUR_ERROR_FORMAT,
                            "sensor 'thinlens' needs 'aperture_radius' and 'focus_distance'");
-    sensor->aperture_radius = (float)radius;
-    sensor->focus_distance = (float)distance;
+    sensor->aperture_radius = (float)p.aperture_radius;
+    sensor->focus_distance = (float)p.focus_distance;
     return result;
 }
 
@@ -46,8 +63,10 @@ static void thinlens_ray(const aur_sensor *sensor, float aspect, float x, float 
 }
 
 const aur_sensor_descriptor aur_sensor_thinlens = {
-    .name = "thinlens",
-    .summary = "a camera with an aperture and a plane of focus",
+    .row = {.name = "thinlens",
+            .summary = "a camera with an aperture and a plane of focus",
+            .source = "",
+            AUR_ROW_KEYS(thinlens_table)},
     .create = create_thinlens,
     .ray = thinlens_ray,
 };

@@ -7,50 +7,65 @@ extern const aur_sensor_descriptor aur_sensor_perspective;
 extern const aur_sensor_descriptor aur_sensor_thinlens;
 extern const aur_sensor_descriptor aur_sensor_orthographic;
 
-static const aur_sensor_descriptor *const table[] = {
-    &aur_sensor_perspective,
-    &aur_sensor_thinlens,
-    &aur_sensor_orthographic,
+static const aur_row *const rows[] = {
+    &aur_sensor_perspective.row,
+    &aur_sensor_thinlens.row,
+    &aur_sensor_orthographic.row,
 };
 
-enum { TABLE_SIZE = sizeof table / sizeof table[0] };
+/* The keys that every sensor takes. */
+typedef struct sensor_keys {
+    aur_transform to_world;
+    double near_clip, far_clip;
+    const aur_parameter *film, *sampler; /* for the loader */
+} sensor_keys;
 
-const aur_sensor_descriptor *aur_sensor_descriptor_at(size_t index) {
-    return index < TABLE_SIZE ? table[index] : NULL;
+static const aur_key common_keys[] = {
+    {AUR_KEY_OF_TRANSFORM(sensor_keys, "to_world", to_world,
+                          "from a camera at the origin that looks along +z, +y up")},
+    {AUR_KEY_OF_REAL(sensor_keys, "near_clip", near_clip, 0.0, 1e30, "0.01", "nothing nearer is seen")},
+    {AUR_KEY_OF_REAL(sensor_keys, "far_clip", far_clip, 0.0, INFINITY, "10000", "nothing farther is seen")},
+    {AUR_KEY_OF_ITEM(sensor_keys, "film", film, NULL, "size and filter of the picture", "film")},
+    {AUR_KEY_OF_ITEM(sensor_keys, "sampler", sampler, NULL, "the numbers of the camera's samples",
+                     "sampler")},
+};
+
+static const aur_row common = {
+    .name = "sensor", .summary = "what every sensor takes", .source = "", AUR_ROW_KEYS(common_keys)};
+
+static const aur_row *row_at(size_t index) {
+    return index < sizeof rows / sizeof rows[0] ? rows[index] : NULL;
 }
 
+const aur_table aur_sensor_table = {"sensor", "cameras", row_at, &common};
+
 static aur_result read_common(aur_parameters *parameters, aur_sensor *sensor, aur_error *error) {
-    aur_transform to_world, to_local;
-    double near_clip = 1e-2, far_clip = 1e4;
-    aur_result result = aur_parameters_to_world(parameters, &to_world, &to_local, error);
+    sensor_keys p = {.film = NULL};
+    aur_transform to_local;
+    aur_result result = aur_keys_read(common.key_count, common.keys, parameters, &p, error);
     if (result == AUR_OK)
-        result = aur_parameters_float(parameters, "near_clip", 0.0, 1e30, &near_clip, error);
-    if (result == AUR_OK)
-        result = aur_parameters_float(parameters, "far_clip", 0.0, INFINITY, &far_clip, error);
+        result = aur_to_world_check(parameters, &p.to_world, &to_local, error);
     if (result != AUR_OK)
         return result;
-    if (!(near_clip < far_clip))
+    if (!(p.near_clip < p.far_clip))
         return aur_fail_at(error, parameters->location, AUR_ERROR_FORMAT,
                            "sensor '%s': near_clip (%g) must be less than far_clip (%g)", parameters->plugin,
-                           near_clip, far_clip);
+                           p.near_clip, p.far_clip);
     for (size_t i = 0; i < 12; ++i)
-        sensor->to_world[i] = (float)to_world.m[i];
-    sensor->near_clip = (float)near_clip;
-    sensor->far_clip = (float)far_clip;
+        sensor->to_world[i] = (float)p.to_world.m[i];
+    sensor->near_clip = (float)p.near_clip;
+    sensor->far_clip = (float)p.far_clip;
     return AUR_OK;
 }
 
 aur_result aur_sensor_create(aur_parameters *parameters, aur_sensor *sensor, aur_error *error) {
     *sensor = (aur_sensor){0};
-    const char *names[TABLE_SIZE];
-    for (size_t i = 0; i < TABLE_SIZE; ++i) {
-        names[i] = table[i]->name;
-        if (strcmp(names[i], parameters->plugin) == 0)
-            sensor->descriptor = table[i];
-    }
-    if (sensor->descriptor == NULL)
-        return aur_fail_unknown_plugin(error, parameters, TABLE_SIZE, names);
-    aur_result result = read_common(parameters, sensor, error);
+    const aur_row *row;
+    aur_result result = aur_table_find(&aur_sensor_table, parameters, &row, error);
+    if (result != AUR_OK)
+        return result;
+    sensor->descriptor = (const aur_sensor_descriptor *)row;
+    result = read_common(parameters, sensor, error);
     if (result == AUR_OK)
         result = sensor->descriptor->create(parameters, sensor, error);
     return result != AUR_OK ? result : aur_parameters_finish(parameters, error);

@@ -27,4 +27,5 @@ static aur_result create(const aur_shape_input *input, aur_shape *shape, aur_err
     return AUR_OK;
 }
 
-const aur_shape_descriptor aur_shape_cube = {"cube", "the cube [-1,1]^3 facing outwards", create};
+const aur_shape_descriptor aur_shape_cube = {
+    .row = {.name = "cube", .summary = "the cube [-1,1]^3 facing outwards", .source = ""}, .create = create};

@@ -72,20 +72,26 @@ static void equal_area(aur_bsdf_point texture, float coordinates[2]) {
 
 static const aur_curved curved = {bounds, intersect, surface, sample, NULL, NULL, equal_area};
 
+typedef struct cylinder_keys {
+    double p0[3], p1[3], radius;
+} cylinder_keys;
+
+static const aur_key keys[] = {
+    {AUR_KEY_OF_VECTOR(cylinder_keys, "p0", p0, -AUR_REACH, AUR_REACH, "0 0 0", "one end of its axis")},
+    {AUR_KEY_OF_VECTOR(cylinder_keys, "p1", p1, -AUR_REACH, AUR_REACH, "0 0 1", "the other end")},
+    {AUR_KEY_OF_REAL(cylinder_keys, "radius", radius, 1.0 / AUR_REACH, AUR_REACH, "1", "its radius")},
+};
+
 static aur_result create(const aur_shape_input *input, aur_shape *shape, aur_error *error) {
-    double from[3] = {0.0, 0.0, 0.0}, to[3] = {0.0, 0.0, 1.0}, radius = 1.0, scale;
-    aur_result result = aur_parameters_triple(input->parameters, "p0", -AUR_REACH, AUR_REACH, from, error);
-    if (result == AUR_OK)
-        result = aur_parameters_triple(input->parameters, "p1", -AUR_REACH, AUR_REACH, to, error);
-    if (result == AUR_OK)
-        result =
-            aur_parameters_float(input->parameters, "radius", 1.0 / AUR_REACH, AUR_REACH, &radius, error);
+    cylinder_keys p;
+    double scale;
+    aur_result result = aur_row_read(&shape->descriptor->row, input->parameters, &p, error);
     if (result == AUR_OK)
         result = aur_shape_similarity(input, &input->to_world, &scale, error);
     if (result != AUR_OK)
         return result;
-    const aur_vector start = {(float)from[0], (float)from[1], (float)from[2]};
-    const aur_vector end = {(float)to[0], (float)to[1], (float)to[2]};
+    const aur_vector start = {(float)p.p0[0], (float)p.p0[1], (float)p.p0[2]};
+    const aur_vector end = {(float)p.p1[0], (float)p.p1[1], (float)p.p1[2]};
     shape->center = aur_transform_point_f(&input->to_world, start);
     const aur_vector way = aur_vector_subtract(aur_transform_point_f(&input->to_world, end), shape->center);
     shape->length = aur_vector_length(way);
@@ -96,11 +102,15 @@ static aur_result create(const aur_shape_input *input, aur_shape *shape, aur_err
     shape->axis[0] = frame.x;
     shape->axis[1] = frame.y;
     shape->axis[2] = frame.z;
-    shape->radius = (float)(radius * scale);
+    shape->radius = (float)(p.radius * scale);
     shape->curved = &curved;
     shape->flipped = input->flip_normals;
     shape->area = 2.0 * AUR_PI * (double)shape->radius * (double)shape->length;
     return AUR_OK;
 }
 
-const aur_shape_descriptor aur_shape_cylinder = {"cylinder", "an open cylinder from `p0` to `p1`", create};
+const aur_shape_descriptor aur_shape_cylinder = {.row = {.name = "cylinder",
+                                                         .summary = "an open cylinder from `p0` to `p1`",
+                                                         .source = "",
+                                                         AUR_ROW_KEYS(keys)},
+                                                 .create = create};

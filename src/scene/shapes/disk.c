@@ -90,4 +90,5 @@ static aur_result create(const aur_shape_input *input, aur_shape *shape, aur_err
     return AUR_OK;
 }
 
-const aur_shape_descriptor aur_shape_disk = {"disk", "the unit disk facing +z", create};
+const aur_shape_descriptor aur_shape_disk = {
+    .row = {.name = "disk", .summary = "the unit disk facing +z", .source = ""}, .create = create};

@@ -269,22 +269,35 @@ static aur_result read_file(const char *path, bool face_normals, bool flip_v, au
     return result;
 }
 
+typedef struct obj_keys {
+    const char *filename;
+    bool face_normals, flip_v;
+} obj_keys;
+
+static const aur_key keys[] = {
+    {AUR_KEY_OF_TEXT(obj_keys, "filename", filename, NULL, "the file, beside the scene; must be given")},
+    {AUR_KEY_OF_BOOLEAN(obj_keys, "face_normals", face_normals, "false",
+                        "flat triangles, whatever normals the file has")},
+    {AUR_KEY_OF_BOOLEAN(obj_keys, "flip_tex_coords", flip_v, "true",
+                        "v of the texture coordinates is turned over")},
+};
+
 static aur_result create(const aur_shape_input *input, aur_shape *shape, aur_error *error) {
-    bool face_normals = false, flip_v = true;
+    obj_keys p = {.filename = NULL};
     char *path = NULL;
-    aur_result result = aur_parameters_boolean(input->parameters, "face_normals", &face_normals, error);
+    aur_result result = aur_row_read(&shape->descriptor->row, input->parameters, &p, error);
     if (result == AUR_OK)
-        result = aur_parameters_boolean(input->parameters, "flip_tex_coords", &flip_v, error);
+        result = aur_shape_filename(input, p.filename, &path, error);
     if (result == AUR_OK)
-        result = aur_shape_filename(input, &path, error);
-    if (result == AUR_OK)
-        result = read_file(path, face_normals, flip_v, &shape->mesh, error);
+        result = read_file(path, p.face_normals, p.flip_v, &shape->mesh, error);
     free(path);
     if (result != AUR_OK)
         return result;
-    const bool smooth = !face_normals && shape->mesh.normals == NULL;
+    const bool smooth = !p.face_normals && shape->mesh.normals == NULL;
     aur_shape_place(input, shape);
     return smooth ? aur_mesh_smooth(&shape->mesh, input->parameters->location, error) : AUR_OK;
 }
 
-const aur_shape_descriptor aur_shape_obj = {"obj", "a Wavefront OBJ file", create};
+const aur_shape_descriptor aur_shape_obj = {
+    .row = {.name = "obj", .summary = "a Wavefront OBJ file", .source = "", AUR_ROW_KEYS(keys)},
+    .create = create};

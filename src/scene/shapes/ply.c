@@ -462,20 +462,35 @@ static aur_result read_file(const char *path, bool face_normals, aur_mesh *mesh,
     return result;
 }
 
+typedef struct ply_keys {
+    const char *filename;
+    bool face_normals;
+} ply_keys;
+
+static const aur_key keys[] = {
+    {AUR_KEY_OF_TEXT(ply_keys, "filename", filename, NULL, "the file, beside the scene; must be given")},
+    {AUR_KEY_OF_BOOLEAN(ply_keys, "face_normals", face_normals, "false",
+                        "flat triangles, whatever normals the file has")},
+};
+
 static aur_result create(const aur_shape_input *input, aur_shape *shape, aur_error *error) {
-    bool face_normals = false;
+    ply_keys p = {.filename = NULL};
     char *path = NULL;
-    aur_result result = aur_parameters_boolean(input->parameters, "face_normals", &face_normals, error);
+    aur_result result = aur_row_read(&shape->descriptor->row, input->parameters, &p, error);
     if (result == AUR_OK)
-        result = aur_shape_filename(input, &path, error);
+        result = aur_shape_filename(input, p.filename, &path, error);
     if (result == AUR_OK)
-        result = read_file(path, face_normals, &shape->mesh, error);
+        result = read_file(path, p.face_normals, &shape->mesh, error);
     free(path);
     if (result != AUR_OK)
         return result;
-    const bool smooth = !face_normals && shape->mesh.normals == NULL;
+    const bool smooth = !p.face_normals && shape->mesh.normals == NULL;
     aur_shape_place(input, shape);
     return smooth ? aur_mesh_smooth(&shape->mesh, input->parameters->location, error) : AUR_OK;
 }
 
-const aur_shape_descriptor aur_shape_ply = {"ply", "a Stanford PLY file, ascii or binary", create};
+const aur_shape_descriptor aur_shape_ply = {.row = {.name = "ply",
+                                                    .summary = "a Stanford PLY file, ascii or binary",
+                                                    .source = "",
+                                                    AUR_ROW_KEYS(keys)},
+                                            .create = create};

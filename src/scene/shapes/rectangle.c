@@ -22,4 +22,5 @@ static aur_result create(const aur_shape_input *input, aur_shape *shape, aur_err
     return AUR_OK;
 }
 
-const aur_shape_descriptor aur_shape_rectangle = {"rectangle", "the square [-1,1]^2 facing +z", create};
+const aur_shape_descriptor aur_shape_rectangle = {
+    .row = {.name = "rectangle", .summary = "the square [-1,1]^2 facing +z", .source = ""}, .create = create};

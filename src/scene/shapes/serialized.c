@@ -167,17 +167,29 @@ static aur_result read_file(const char *path, size_t index, bool face_normals, a
     return result;
 }
 
+typedef struct serialized_keys {
+    const char *filename;
+    bool face_normals;
+    uint64_t shape_index;
+} serialized_keys;
+
+static const aur_key keys[] = {
+    {AUR_KEY_OF_TEXT(serialized_keys, "filename", filename, NULL,
+                     "the file, beside the scene; must be given")},
+    {AUR_KEY_OF_BOOLEAN(serialized_keys, "face_normals", face_normals, "false",
+                        "flat triangles, whatever normals the file has")},
+    {AUR_KEY_OF_INTEGER(serialized_keys, "shape_index", shape_index, 0, INFINITY, "0",
+                        "which mesh of the file")},
+};
+
 static aur_result create(const aur_shape_input *input, aur_shape *shape, aur_error *error) {
-    bool face_normals = false;
-    int64_t index = 0;
+    serialized_keys p = {.filename = NULL};
     char *path = NULL;
-    aur_result result = aur_parameters_boolean(input->parameters, "face_normals", &face_normals, error);
+    aur_result result = aur_row_read(&shape->descriptor->row, input->parameters, &p, error);
     if (result == AUR_OK)
-        result = aur_parameters_integer(input->parameters, "shape_index", 0, INT64_MAX, &index, error);
+        result = aur_shape_filename(input, p.filename, &path, error);
     if (result == AUR_OK)
-        result = aur_shape_filename(input, &path, error);
-    if (result == AUR_OK)
-        result = read_file(path, (size_t)index, face_normals, &shape->mesh, error);
+        result = read_file(path, p.shape_index, p.face_normals, &shape->mesh, error);
     free(path);
     if (result != AUR_OK)
         return result;
@@ -185,5 +197,8 @@ static aur_result create(const aur_shape_input *input, aur_shape *shape, aur_err
     return AUR_OK;
 }
 
-const aur_shape_descriptor aur_shape_serialized = {"serialized", "a mesh of Mitsuba's .serialized files",
-                                                   create};
+const aur_shape_descriptor aur_shape_serialized = {.row = {.name = "serialized",
+                                                           .summary = "a mesh of Mitsuba's .serialized files",
+                                                           .source = "",
+                                                           AUR_ROW_KEYS(keys)},
+                                                   .create = create};

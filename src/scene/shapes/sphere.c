@@ -90,20 +90,26 @@ static void equal_area(aur_bsdf_point texture, float coordinates[2]) {
 
 static const aur_curved curved = {bounds, intersect, surface, sample, sample_seen, pdf_seen, equal_area};
 
+typedef struct sphere_keys {
+    double center[3], radius;
+} sphere_keys;
+
+static const aur_key keys[] = {
+    {AUR_KEY_OF_VECTOR(sphere_keys, "center", center, -AUR_REACH, AUR_REACH, "0 0 0", "its centre")},
+    {AUR_KEY_OF_REAL(sphere_keys, "radius", radius, 1.0 / AUR_REACH, AUR_REACH, "1", "its radius")},
+};
+
 static aur_result create(const aur_shape_input *input, aur_shape *shape, aur_error *error) {
-    double center[3] = {0.0, 0.0, 0.0}, radius = 1.0, scale, moved[3];
-    aur_result result =
-        aur_parameters_triple(input->parameters, "center", -AUR_REACH, AUR_REACH, center, error);
-    if (result == AUR_OK)
-        result =
-            aur_parameters_float(input->parameters, "radius", 1.0 / AUR_REACH, AUR_REACH, &radius, error);
+    sphere_keys p;
+    double scale, moved[3];
+    aur_result result = aur_row_read(&shape->descriptor->row, input->parameters, &p, error);
     if (result == AUR_OK)
         result = aur_shape_similarity(input, &input->to_world, &scale, error);
     if (result != AUR_OK)
         return result;
-    aur_transform_point(&input->to_world, center, moved);
+    aur_transform_point(&input->to_world, p.center, moved);
     shape->center = (aur_vector){(float)moved[0], (float)moved[1], (float)moved[2]};
-    shape->radius = (float)(radius * scale);
+    shape->radius = (float)(p.radius * scale);
     for (size_t i = 0; i < 3; ++i) {
         const aur_vector axis = {i == 0, i == 1, i == 2};
         shape->axis[i] = aur_vector_normalize(aur_transform_direction_f(&input->to_world, axis));
@@ -114,4 +120,8 @@ static aur_result create(const aur_shape_input *input, aur_shape *shape, aur_err
     return AUR_OK;
 }
 
-const aur_shape_descriptor aur_shape_sphere = {"sphere", "a sphere of `center` and `radius`", create};
+const aur_shape_descriptor aur_shape_sphere = {.row = {.name = "sphere",
+                                                       .summary = "a sphere of `center` and `radius`",
+                                                       .source = "",
+                                                       AUR_ROW_KEYS(keys)},
+                                               .create = create};

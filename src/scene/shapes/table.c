@@ -13,55 +13,60 @@ extern const aur_shape_descriptor aur_shape_sphere;
 extern const aur_shape_descriptor aur_shape_disk;
 extern const aur_shape_descriptor aur_shape_cylinder;
 
-static const aur_shape_descriptor *const table[] = {
-    &aur_shape_rectangle,  &aur_shape_cube,   &aur_shape_obj,  &aur_shape_ply,
-    &aur_shape_serialized, &aur_shape_sphere, &aur_shape_disk, &aur_shape_cylinder,
+/* clang-format off */
+static const aur_row *const rows[] = {
+    &aur_shape_rectangle.row,
+    &aur_shape_cube.row,
+    &aur_shape_obj.row,
+    &aur_shape_ply.row,
+    &aur_shape_serialized.row,
+    &aur_shape_sphere.row,
+    &aur_shape_disk.row,
+    &aur_shape_cylinder.row,
+};
+/* clang-format on */
+
+static const aur_key common_keys[] = {
+    {AUR_KEY_OF_TRANSFORM(aur_shape_keys, "to_world", to_world,
+                          "from the shape's own coordinates to the scene's")},
+    {AUR_KEY_OF_BOOLEAN(aur_shape_keys, "flip_normals", flip_normals, "false",
+                        "normals point to the other side")},
+    {AUR_KEY_OF_ITEM(aur_shape_keys, "bsdf", bsdf, NULL,
+                     "what it is made of; else grey, or black for a light", "bsdf")},
+    {AUR_KEY_OF_ITEM(aur_shape_keys, "emitter", emitter, NULL, "makes it a light", "emitter")},
 };
 
-enum { TABLE_SIZE = sizeof table / sizeof table[0] };
+static const aur_row common = {
+    .name = "shape", .summary = "what every shape takes", .source = "", AUR_ROW_KEYS(common_keys)};
 
-const aur_shape_descriptor *aur_shape_descriptor_at(size_t index) {
-    return index < TABLE_SIZE ? table[index] : NULL;
+static const aur_row *row_at(size_t index) {
+    return index < sizeof rows / sizeof rows[0] ? rows[index] : NULL;
 }
 
-static aur_result find_descriptor(const aur_parameters *parameters, const aur_shape_descriptor **descriptor,
-                                  aur_error *error) {
-    const char *names[TABLE_SIZE];
-    for (size_t i = 0; i < TABLE_SIZE; ++i) {
-        names[i] = table[i]->name;
-        if (strcmp(names[i], parameters->plugin) == 0) {
-            *descriptor = table[i];
-            return AUR_OK;
-        }
-    }
-    return aur_fail_unknown_plugin(error, parameters, TABLE_SIZE, names);
-}
-
-static aur_result read_common(aur_shape_input *input, aur_error *error) {
-    const aur_result result =
-        aur_parameters_to_world(input->parameters, &input->to_world, &input->to_local, error);
-    return result != AUR_OK
-               ? result
-               : aur_parameters_boolean(input->parameters, "flip_normals", &input->flip_normals, error);
-}
+const aur_table aur_shape_table = {"shape", "surfaces", row_at, &common};
 
 aur_result aur_shape_create(aur_parameters *parameters, const aur_xml_document *document,
                             const aur_warnings *warnings, aur_shape **shape, aur_error *error) {
     *shape = NULL;
-    const aur_shape_descriptor *descriptor = NULL;
+    const aur_row *row;
+    aur_shape_keys keys = {.bsdf = NULL};
     aur_shape_input input = {.parameters = parameters, .document = document, .warnings = warnings};
-    aur_result result = find_descriptor(parameters, &descriptor, error);
+    aur_result result = aur_table_find(&aur_shape_table, parameters, &row, error);
     if (result == AUR_OK)
-        result = read_common(&input, error);
+        result = aur_keys_read(common.key_count, common.keys, parameters, &keys, error);
+    if (result == AUR_OK)
+        result = aur_to_world_check(parameters, &keys.to_world, &input.to_local, error);
     if (result != AUR_OK)
         return result;
+    input.to_world = keys.to_world;
+    input.flip_normals = keys.flip_normals;
     aur_shape *const made = calloc(1, sizeof *made);
     if (made == NULL)
         return aur_fail_at(error, parameters->location, AUR_ERROR_MEMORY, "out of memory");
-    made->descriptor = descriptor;
+    made->descriptor = (const aur_shape_descriptor *)row;
     made->location = parameters->location;
     made->emitter = AUR_NO_EMITTER;
-    result = descriptor->create(&input, made, error);
+    result = made->descriptor->create(&input, made, error);
     if (result == AUR_OK)
         result = aur_mesh_check(&made->mesh, parameters->location, error);
     if (result == AUR_OK)

@@ -31,7 +31,7 @@ static const aur_row *row_at(size_t index) {
     return set != NULL ? &set->row : NULL;
 }
 
-const aur_table aur_set_table = {"set", "point sets of the square, the cube and the sphere", row_at};
+const aur_table aur_set_table = {"set", "point sets of the square, the cube and the sphere", row_at, NULL};
 
 const aur_set_description *aur_set_find(const char *set) {
     const size_t length = strcspn(set, ":");

@@ -1,0 +1,54 @@
+#!/usr/bin/env bash
+# Writes docs/keys.md, every key of every table of the program, to standard output: scripts/keys_page.sh PROGRAM.
+# With --words, the names of all kinds, things, keys and choices instead, as a dictionary for fuzzers (fuzz/keys.dict).
+set -eu
+program=$1
+kinds='set measure integrator shape emitter sensor film rfilter sampler'
+
+if [ "${2:-}" = --words ]; then
+  for kind in $kinds; do
+    echo "$kind"
+    "$program" help "$kind" --format csv | tail -n +2 | cut -d, -f1 | while read -r name; do
+      echo "$name"
+      "$program" help "$kind" "$name" --format csv | tail -n +2 | cut -d, -f1
+      "$program" help "$kind" "$name" --format csv | awk -F'"' '/,choice,/ && NF > 1 { print $2 }' | tr ',' '\n' | tr -d ' '
+    done
+  done | LC_ALL=C sort -u | sed 's/.*/"&"/'
+  exit
+fi
+
+cat <<'HEAD'
+# Keys
+
+Every key that sets, integrators, shapes, lights, cameras and films take, in SET and `--integrator` texts
+(`NAME:key=value,...`) and as children of a scene's elements. This page is written by `scripts/keys_page.sh` from what
+`aureole help KIND NAME` prints, and a test compares them.
+HEAD
+for kind in $kinds; do
+  [ "$kind" = sampler ] && continue # the sets
+  printf '\n## %s\n' "$kind"
+  "$program" help "$kind" --format csv | tail -n +2 | cut -d, -f1 | while read -r name; do
+    # The first line says what it is.
+    printf '\n`%s`: %s.\n' "$name" "$("$program" help "$kind" "$name" | sed -n "1s/^$kind $name: //p")"
+    "$program" help "$kind" "$name" --format csv | awk '
+      # Splits a line of CSV into field[1..count]; quotes may hold commas and doubled quotes.
+      function split_csv(line, count, at, c, quoted, text) {
+        count = 1; text = ""
+        for (at = 1; at <= length(line); ++at) {
+          c = substr(line, at, 1)
+          if (quoted && c == "\"" && substr(line, at + 1, 1) == "\"") { text = text c; ++at }
+          else if (c == "\"") quoted = !quoted
+          else if (c == "," && !quoted) { field[count++] = text; text = "" }
+          else text = text c
+        }
+        field[count] = text
+      }
+      NR == 1 { next }
+      NR == 2 { print "\n| key | type | default | values | |\n|---|---|---|---|---|" }
+      {
+        split_csv($0)
+        for (i = 1; i <= 5; ++i) gsub(/\|/, "\\|", field[i])
+        printf "| `%s` | %s | %s | %s | %s |\n", field[1], field[2], field[3], field[4], field[5]
+      }'
+  done
+done

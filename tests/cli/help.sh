@@ -1,0 +1,37 @@
+#!/usr/bin/env bash
+# aureole help: the verbs, what there is of each kind, the keys of each thing, and the nearest name after a mistake.
+set -u
+aureole=$1
+status=0
+fail() {
+  echo "FAIL: $*"
+  status=1
+}
+expect() { # STATUS TEXT ARGUMENT...: the exit status, and what the output must hold
+  local wanted=$1 text=$2 output
+  shift 2
+  output=$("$aureole" "$@" 2>&1)
+  [ $? = "$wanted" ] || fail "aureole $*: exit status"
+  grep -qF -- "$text" <<<"$output" || fail "aureole $*: no '$text' in: $output"
+}
+expect 0 "aureole help KIND NAME" help
+expect 0 "aureole render SCENE.xml" help render
+expect 0 "quality figures of points" help measure # the verb: its measures are listed by --list
+expect 0 "final gathering over a photon map" help integrator
+expect 0 "diffuse_samples" help integrator finalgather
+expect 0 "strict_normals" help integrator path
+expect 0 "measure energy: distance energy" help measure energy
+expect 2 "did you mean 'integrator'?" help integrater
+expect 2 "did you mean 'finalgather'?" help integrator finalgathr
+expect 2 "unknown verb 'xyzzyplugh'" help xyzzyplugh
+expect 2 "one verb, or a kind and a name" help set sobol more
+# Every row of every kind can be asked for, and its keys come as CSV, one a line.
+for kind in set measure integrator shape emitter sensor rfilter film; do
+  "$aureole" help "$kind" --format csv | tail -n +2 | cut -d, -f1 >names
+  [ -s names ] || fail "no $kind"
+  while read -r name; do
+    "$aureole" help "$kind" "$name" --format csv >keys || fail "help $kind $name"
+    [ "$(head -1 keys)" = key,type,default,values,help ] || fail "help $kind $name: $(head -1 keys)"
+  done <names
+done
+exit $status
