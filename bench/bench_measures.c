@@ -57,7 +57,7 @@ static void run_distance_sum(void *data) {
 
 static void run_fibonacci_sum(void *data) {
     const size_t *const count = data;
-    const aur_measure_options options = {.threads = 1};
+    const aur_measure_options options = {.size = sizeof options, .threads = 1};
     aur_twofold sum = {0.0, 0.0};
     aur_fibonacci_distance_sum(*count, AUR_DOMAIN_SPHERE, &options, &sum, NULL);
     bench_keep(sum.high);
@@ -79,13 +79,13 @@ static bool bench_sums(const bench_options *options) {
     aur_points points;
     if (!make_points(AUR_DOMAIN_SPHERE, count, &points))
         return false;
-    sum_context fast = {.options = {.threads = 1, .fast = 1}};
+    sum_context fast = {.options = {.size = sizeof fast.options, .threads = 1, .fast = true}};
     bool good = aur_axes_create(&points, &fast.axes, NULL) == AUR_OK || bench_fail("out of memory");
     release(&points);
     if (!good)
         return false;
     sum_context exact = fast, shared = fast;
-    exact.options.fast = 0;
+    exact.options.fast = false;
     shared.options.threads = options->threads;
     const double units = pairs_of((double)count);
     const bench_work fast_work = {run_distance_sum, &fast, units};
@@ -123,7 +123,8 @@ static bool bench_seconds(const bench_options *options, const char *name, measur
 }
 
 static bool run(const bench_options *options) {
-    measure_context cap = {.metric = "cap"}, star = {.metric = "star"};
+    measure_context cap = {.metric = "cap", .options = aur_measure_options_default()};
+    measure_context star = {.metric = "star", .options = aur_measure_options_default()};
     const bool quick = options->quick;
     return bench_sums(options) &&
            bench_seconds(options, quick ? "cap, N = 64" : "cap, N = 512 (asked 3)", &cap, AUR_DOMAIN_SPHERE,

@@ -9,6 +9,8 @@
 #define AUREOLE_QUALITY_H
 
 #include <aureole/pointset.h>
+#include <stdbool.h>
+#include <string.h>
 
 #ifdef __cplusplus
 extern "C" {
@@ -32,12 +34,20 @@ AUR_API aur_result aur_measure_find(const char *metric, const aur_measure_descri
                                     aur_error *error) AUR_NONNULL(1, 2);
 
 typedef struct aur_measure_options {
+    size_t size;    /* of the caller's struct, so that it can grow */
     size_t threads; /* 0: all */
-    int fast;       /* sums over pairs to 2e-14 relative instead of the last bit, in half the time */
+    bool fast;      /* sums over pairs to 2e-14 relative instead of the last bit, in half the time */
     uint64_t seed;  /* of the measures that search at random */
     aur_progress progress;
     aur_warnings warnings;
 } aur_measure_options;
+
+static inline aur_measure_options aur_measure_options_default(void) {
+    aur_measure_options options;
+    memset(&options, 0, sizeof options);
+    options.size = sizeof options;
+    return options;
+}
 
 /* One measure, by name, of points with optional weights. `options` may be NULL. The result does not depend on
  * the number of threads. The value is finite but for riesz:S with S >= 0 and mesh-ratio of points that

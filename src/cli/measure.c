@@ -96,7 +96,7 @@ static bool parse_option(int option, cli_measure_arguments *arguments) {
     case OPTION_SEEDS:
         return cli_parse_size("--seeds", optarg, 2, 1u << 20, &arguments->seed_count);
     case OPTION_FAST:
-        arguments->options.fast = 1;
+        arguments->options.fast = true;
         return true;
     case OPTION_FORMAT:
         return cli_parse_format(optarg, &arguments->format);
@@ -169,7 +169,7 @@ static int print_list(cli_format format) {
 }
 
 static int run(int argc, char **argv) {
-    cli_measure_arguments arguments = {0};
+    cli_measure_arguments arguments = {.options = aur_measure_options_default()};
     int status = CLI_BAD_INPUT;
     bool good = true;
     optind = 0;

@@ -7,7 +7,7 @@
 static double measured(const char *metric, const aur_points *points, size_t threads) {
     double value = NAN;
     aur_error error = {0};
-    const aur_measure_options options = {.threads = threads};
+    const aur_measure_options options = {.size = sizeof options, .threads = threads};
     assert_int_equal(aur_measure(metric, points, &options, &value, &error), AUR_OK);
     return value;
 }

@@ -163,8 +163,8 @@ static void pair_sums_agree_with_long_double(void **state) {
         const double expected = (double)plain_sum(&points);
         aur_axes axes;
         assert_int_equal(aur_axes_create(&points, &axes, NULL), AUR_OK);
-        const aur_measure_options accurate = {0};
-        const aur_measure_options fast = {.fast = 1};
+        const aur_measure_options accurate = {.size = sizeof accurate};
+        const aur_measure_options fast = {.size = sizeof fast, .fast = true};
         aur_twofold sum;
         assert_int_equal(aur_distance_sum(&axes, &accurate, &sum, NULL), AUR_OK);
         assert_relative(sum.high, expected, 2.3e-16);
@@ -191,7 +191,7 @@ static void fast_sums_survive_coincident_points(void **state) {
     points.coordinates[3 * 1500] += 1e-12;
     aur_axes axes;
     assert_int_equal(aur_axes_create(&points, &axes, NULL), AUR_OK);
-    const aur_measure_options fast = {.fast = 1};
+    const aur_measure_options fast = {.size = sizeof fast, .fast = true};
     aur_twofold sum;
     assert_int_equal(aur_distance_sum(&axes, &fast, &sum, NULL), AUR_OK);
     assert_relative(sum.high, (double)plain_sum(&points), 2e-14);
@@ -205,7 +205,8 @@ static void neither_threads_nor_registers_change_a_bit(void **state) {
     for (int fast = 0; fast < 2; ++fast) {
         double values[3];
         for (size_t threads = 1; threads <= 3; ++threads) {
-            const aur_measure_options options = {.threads = threads, .fast = fast};
+            const aur_measure_options options = {
+                .size = sizeof options, .threads = threads, .fast = fast != 0};
             assert_int_equal(aur_measure("energy", &points, &options, &values[threads - 1], NULL), AUR_OK);
         }
         assert_memory_equal(&values[0], &values[1], sizeof values[0]);

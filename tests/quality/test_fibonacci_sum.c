@@ -8,7 +8,7 @@ static double relative_difference(size_t count, aur_domain domain) {
     aur_points points = spherical_fibonacci(count, domain);
     aur_axes axes;
     assert_int_equal(aur_axes_create(&points, &axes, NULL), AUR_OK);
-    const aur_measure_options options = {0};
+    const aur_measure_options options = {.size = sizeof options};
     aur_twofold pairs, lags;
     assert_int_equal(aur_distance_sum(&axes, &options, &pairs, NULL), AUR_OK);
     assert_int_equal(aur_fibonacci_distance_sum(count, domain, &options, &lags, NULL), AUR_OK);

@@ -92,7 +92,7 @@ static int stop(void *user, const char *what, uint64_t done, uint64_t total) {
 static void work_can_be_cancelled(void **state) {
     (void)state;
     aur_points points = random_directions(4000, 1);
-    const aur_measure_options options = {.progress = {stop, NULL}};
+    const aur_measure_options options = {.size = sizeof options, .progress = {stop, NULL}};
     double value = 0.0;
     aur_error error = {0};
     assert_int_equal(aur_measure("energy", &points, &options, &value, &error), AUR_ERROR_CANCELLED);
@@ -105,12 +105,32 @@ static void count_warning(void *user, const char *message) {
     ++*(int *)user;
 }
 
+static void options_can_grow(void **state) {
+    (void)state;
+    aur_points points = spherical_fibonacci(5, AUR_DOMAIN_SPHERE);
+    struct {
+        aur_measure_options known;
+        int wish;
+    } newer;
+    memset(&newer, 0, sizeof newer);
+    newer.known.size = sizeof newer;
+    double value = 0.0;
+    assert_int_equal(aur_measure("energy", &points, &newer.known, &value, NULL), AUR_OK);
+    newer.wish = 1;
+    assert_int_equal(aur_measure("energy", &points, &newer.known, &value, NULL), AUR_ERROR_UNSUPPORTED);
+    const aur_measure_options unset = {.size = 0};
+    assert_int_equal(aur_measure("energy", &points, &unset, &value, NULL), AUR_ERROR_ARGUMENT);
+    aur_series series;
+    assert_int_equal(aur_measure_series("spectrum", &points, &unset, &series, NULL), AUR_ERROR_ARGUMENT);
+    release_points(&points);
+}
+
 static void coincident_points_have_infinite_riesz_energy(void **state) {
     (void)state;
     aur_points points = spherical_fibonacci(5, AUR_DOMAIN_SPHERE);
     memcpy(points.coordinates, points.coordinates + 3, 3 * sizeof(double));
     int warnings = 0;
-    const aur_measure_options options = {.warnings = {count_warning, &warnings}};
+    const aur_measure_options options = {.size = sizeof options, .warnings = {count_warning, &warnings}};
     double value = 0.0;
     assert_int_equal(aur_measure("riesz:0", &points, &options, &value, NULL), AUR_OK);
     assert_true(isinf(value) && value > 0.0);
@@ -128,6 +148,7 @@ int main(void) {
         cmocka_unit_test(bad_input_is_refused_with_the_reason),
         cmocka_unit_test(nearly_unit_points_are_scaled),
         cmocka_unit_test(work_can_be_cancelled),
+        cmocka_unit_test(options_can_grow),
         cmocka_unit_test(coincident_points_have_infinite_riesz_energy),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

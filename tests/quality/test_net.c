@@ -104,7 +104,7 @@ static void star_bounds_are_bounds(void **state) {
     assert_true(measured("star-bound", &points) <= 1.0);
     double values[2];
     for (size_t threads = 1; threads <= 2; ++threads) {
-        const aur_measure_options options = {.threads = threads};
+        const aur_measure_options options = {.size = sizeof options, .threads = threads};
         assert_int_equal(aur_measure("star-bound:100", &points, &options, &values[threads - 1], NULL),
                          AUR_OK);
     }

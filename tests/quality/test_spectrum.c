@@ -4,7 +4,7 @@
 #include "square_sets.h"
 
 static aur_series table(const char *metric, const aur_points *points, size_t threads) {
-    const aur_measure_options options = {.threads = threads};
+    const aur_measure_options options = {.size = sizeof options, .threads = threads};
     aur_series series;
     aur_error error = {0};
     assert_int_equal(aur_measure_series(metric, points, &options, &series, &error), AUR_OK);

@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "core/names.h"
+#include "core/options.h"
 #include "core/text.h"
 #include "sphere/native.h"
 
@@ -203,13 +204,16 @@ typedef struct prepared {
 static aur_result prepare(const char *metric, const aur_points *points, const aur_measure_options *options,
                           prepared *p, aur_error *error) {
     *p = (prepared){.points = *points, .request.points = &p->points};
-    aur_result result = find_row(metric, &p->row, &p->request.parameter, error);
+    aur_measure_options *const own = &p->request.options;
+    *own = aur_measure_options_default();
+    aur_result result =
+        aur_options_read(options, sizeof *own, sizeof *own, own, "aur_measure_options", error);
+    if (result == AUR_OK)
+        result = find_row(metric, &p->row, &p->request.parameter, error);
     if (result == AUR_OK)
         result = check(p->row, points, error);
     if (result != AUR_OK)
         return result;
-    if (options != NULL)
-        p->request.options = *options;
     p->request.variant = p->row->variant;
     if (expected_dimension(points->domain) != 3)
         return AUR_OK;
