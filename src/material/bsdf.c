@@ -47,25 +47,25 @@ static void weigh_lobes(const aur_bsdf *bsdf, aur_bsdf_point point, aur_vector v
     }
 }
 
-static aur_vector value_of(const weighed_lobes *all, aur_vector light) {
+/* Their value and the density of drawing `light`, which have the powers in common. */
+static aur_vector value_of(const weighed_lobes *all, aur_vector light, float *pdf) {
     aur_vector sum = {0};
-    for (size_t i = 0; i < all->count; ++i)
-        if (!aur_vector_is_zero(all->lobes[i].coefficient))
-            sum = aur_vector_add(sum, aur_lobe_value(&all->lobes[i], light));
-    return sum;
-}
-
-static float density_of(const weighed_lobes *all, aur_vector light) {
-    float sum = 0.0f;
+    float density = 0.0f;
     for (size_t i = 0; i < all->count; ++i) {
         const aur_bsdf_lobe *const lobe = &all->lobes[i];
-        if (lobe->shape != AUR_LOBE_SHAPE_COSINE_POWER || !(all->chances[i] > 0.0f))
-            continue;
         const float cosine = aur_vector_dot(lobe->axis, light);
-        sum += all->chances[i] * (lobe->diffuse ? fmaxf(cosine, 0.0f) / AUR_PI_F
-                                                : aur_cosine_power_pdf(cosine, lobe->exponent));
+        if (lobe->shape != AUR_LOBE_SHAPE_COSINE_POWER || aur_vector_is_zero(lobe->coefficient) ||
+            cosine <= 0.0f)
+            continue;
+        const float power = lobe->exponent == 1.0f ? cosine : powf(cosine, lobe->exponent);
+        sum = aur_vector_add(sum, aur_lobe_value_of_power(lobe, power, light));
+        if (all->chances[i] > 0.0f)
+            density +=
+                all->chances[i] *
+                (lobe->diffuse ? power / AUR_PI_F : (lobe->exponent + 1.0f) / (2.0f * AUR_PI_F) * power);
     }
-    return all->total > 0.0f ? sum / all->total : 0.0f;
+    *pdf = all->total > 0.0f ? density / all->total : 0.0f;
+    return sum;
 }
 
 static bool has_formula(const aur_bsdf *bsdf, aur_vector view) {
@@ -73,20 +73,13 @@ static bool has_formula(const aur_bsdf *bsdf, aur_vector view) {
 }
 
 static aur_vector evaluate_lobes(const aur_bsdf *bsdf, aur_bsdf_point point, aur_vector view,
-                                 aur_vector light) {
+                                 aur_vector light, float *pdf) {
+    *pdf = 0.0f;
     if (!(view.z * light.z > 0.0f) || !has_formula(bsdf, view))
         return (aur_vector){0};
     weighed_lobes all;
     weigh_lobes(bsdf, point, view, &all);
-    return value_of(&all, light);
-}
-
-static float pdf_of_lobes(const aur_bsdf *bsdf, aur_bsdf_point point, aur_vector view, aur_vector light) {
-    if (!(view.z * light.z > 0.0f) || !has_formula(bsdf, view))
-        return 0.0f;
-    weighed_lobes all;
-    weigh_lobes(bsdf, point, view, &all);
-    return density_of(&all, light);
+    return value_of(&all, light, pdf);
 }
 
 /* The lobe that u in [0,1) chooses: small ones choose the last. */
@@ -120,10 +113,10 @@ static bool draw_lobe(const aur_bsdf *bsdf, aur_bsdf_point point, aur_vector vie
     const aur_vector light =
         aur_frame_to_world(&frame, lobe->diffuse ? aur_sample_cosine(u[1], u[2])
                                                  : aur_sample_cosine_power(u[1], u[2], lobe->exponent));
-    const float pdf = density_of(&all, light);
+    float pdf;
+    const aur_vector value = value_of(&all, light, &pdf);
     if (!(pdf > 0.0f) || !(view.z * light.z > 0.0f))
         return false;
-    const aur_vector value = value_of(&all, light);
     *drawn = (aur_bsdf_sample){.light = light, .weight = aur_vector_scale(value, 1.0f / pdf), .pdf = pdf};
     return aur_vector_max(value) > 0.0f;
 }
@@ -144,18 +137,33 @@ static aur_vector albedo_of_lobes(const aur_bsdf *bsdf, aur_bsdf_point point, fl
 
 /* --- what is asked */
 
+aur_vector aur_bsdf_evaluate_with_pdf(const aur_bsdf *bsdf, aur_bsdf_part part, aur_bsdf_point point,
+                                      aur_vector view, aur_vector light, float *pdf) {
+    const aur_bsdf_descriptor *const own = bsdf->descriptor;
+    if (own->evaluate == NULL)
+        return evaluate_lobes(bsdf, point, view, light, pdf);
+    if (own->evaluate_with_pdf != NULL)
+        return own->evaluate_with_pdf(bsdf, part, point, view, light, pdf);
+    *pdf = own->pdf(bsdf, part, point, view, light);
+    return own->evaluate(bsdf, part, point, view, light);
+}
+
 aur_vector aur_bsdf_evaluate(const aur_bsdf *bsdf, aur_bsdf_part part, aur_bsdf_point point, aur_vector view,
                              aur_vector light) {
     const aur_bsdf_descriptor *const own = bsdf->descriptor;
+    float pdf;
     return own->evaluate != NULL ? own->evaluate(bsdf, part, point, view, light)
-                                 : evaluate_lobes(bsdf, point, view, light);
+                                 : evaluate_lobes(bsdf, point, view, light, &pdf);
 }
 
 float aur_bsdf_pdf(const aur_bsdf *bsdf, aur_bsdf_part part, aur_bsdf_point point, aur_vector view,
                    aur_vector light) {
     const aur_bsdf_descriptor *const own = bsdf->descriptor;
-    return own->pdf != NULL ? own->pdf(bsdf, part, point, view, light)
-                            : pdf_of_lobes(bsdf, point, view, light);
+    if (own->pdf != NULL)
+        return own->pdf(bsdf, part, point, view, light);
+    float pdf;
+    evaluate_lobes(bsdf, point, view, light, &pdf);
+    return pdf;
 }
 
 bool aur_bsdf_draw(const aur_bsdf *bsdf, aur_bsdf_part part, aur_bsdf_point point, aur_vector view,

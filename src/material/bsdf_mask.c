@@ -44,6 +44,7 @@ const aur_bsdf_descriptor aur_bsdf_mask = {
     .weigh = aur_mixture_weigh,
     .evaluate = aur_mixture_evaluate,
     .pdf = aur_mixture_pdf,
+    .evaluate_with_pdf = aur_mixture_evaluate_with_pdf,
     .sample = aur_mixture_sample,
     .diffuse_albedo = aur_mixture_diffuse_albedo,
 };

@@ -63,6 +63,15 @@ static aur_vector turned(const aur_mixture *self, size_t k, aur_vector direction
     return self->by_side && k == 1 ? (aur_vector){direction.x, direction.y, -direction.z} : direction;
 }
 
+/* Of a mixture by sides, the part that alone answers for what is seen from a side; NULL: it has not what is
+ * asked for. */
+static const aur_bsdf *part_of_side(const aur_mixture *self, size_t k, aur_bsdf_part part) {
+    const aur_bsdf *const own = self->part[k];
+    const bool has =
+        part == AUR_BSDF_WHOLE || ((own->scatters[0] | own->scatters[1]) & AUR_SCATTERS_SAMPLED) != 0;
+    return has ? own : NULL;
+}
+
 void aur_mixture_weigh(const aur_bsdf *bsdf, aur_bsdf_point point, aur_vector view, aur_bsdf_lobe *lobes) {
     const aur_mixture *const self = bsdf->data;
     float weights[2];
@@ -85,6 +94,13 @@ void aur_mixture_weigh(const aur_bsdf *bsdf, aur_bsdf_point point, aur_vector vi
 aur_vector aur_mixture_evaluate(const aur_bsdf *bsdf, aur_bsdf_part part, aur_bsdf_point point,
                                 aur_vector view, aur_vector light) {
     const aur_mixture *const self = bsdf->data;
+    if (self->by_side) {
+        const size_t k = view.z < 0.0f;
+        const aur_bsdf *const own = part_of_side(self, k, part);
+        return own != NULL
+                   ? aur_bsdf_evaluate(own, part, point, turned(self, k, view), turned(self, k, light))
+                   : (aur_vector){0};
+    }
     float weights[2];
     asked_weights(self, part, point, view.z, weights);
     aur_vector sum = {0};
@@ -96,9 +112,27 @@ aur_vector aur_mixture_evaluate(const aur_bsdf *bsdf, aur_bsdf_part part, aur_bs
     return sum;
 }
 
+aur_vector aur_mixture_evaluate_with_pdf(const aur_bsdf *bsdf, aur_bsdf_part part, aur_bsdf_point point,
+                                         aur_vector view, aur_vector light, float *pdf) {
+    const aur_mixture *const self = bsdf->data;
+    const size_t k = view.z < 0.0f;
+    const aur_bsdf *const own = self->by_side ? part_of_side(self, k, part) : NULL;
+    if (own != NULL)
+        return aur_bsdf_evaluate_with_pdf(own, part, point, turned(self, k, view), turned(self, k, light),
+                                          pdf);
+    *pdf = aur_mixture_pdf(bsdf, part, point, view, light);
+    return aur_mixture_evaluate(bsdf, part, point, view, light);
+}
+
 float aur_mixture_pdf(const aur_bsdf *bsdf, aur_bsdf_part part, aur_bsdf_point point, aur_vector view,
                       aur_vector light) {
     const aur_mixture *const self = bsdf->data;
+    if (self->by_side) {
+        const size_t k = view.z < 0.0f;
+        const aur_bsdf *const own = part_of_side(self, k, part);
+        return own != NULL ? aur_bsdf_pdf(own, part, point, turned(self, k, view), turned(self, k, light))
+                           : 0.0f;
+    }
     float weights[2];
     const float total = asked_weights(self, part, point, view.z, weights);
     float sum = 0.0f;
@@ -116,6 +150,14 @@ static bool scatters_widely(const aur_bsdf *bsdf) {
 bool aur_mixture_sample(const aur_bsdf *bsdf, aur_bsdf_part part, aur_bsdf_point point, aur_vector view,
                         const float u[3], aur_bsdf_sample *drawn) {
     const aur_mixture *const self = bsdf->data;
+    if (self->by_side) {
+        const size_t side = view.z < 0.0f;
+        const aur_bsdf *const own = part_of_side(self, side, part);
+        if (own == NULL || !aur_bsdf_draw(own, part, point, turned(self, side, view), u, drawn))
+            return false;
+        drawn->light = turned(self, side, drawn->light);
+        return true;
+    }
     float weights[2];
     const float total = asked_weights(self, part, point, view.z, weights);
     if (!(total > 0.0f))

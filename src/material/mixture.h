@@ -23,6 +23,8 @@ aur_vector aur_mixture_evaluate(const aur_bsdf *bsdf, aur_bsdf_part part, aur_bs
                                 aur_vector view, aur_vector light);
 float aur_mixture_pdf(const aur_bsdf *bsdf, aur_bsdf_part part, aur_bsdf_point point, aur_vector view,
                       aur_vector light);
+aur_vector aur_mixture_evaluate_with_pdf(const aur_bsdf *bsdf, aur_bsdf_part part, aur_bsdf_point point,
+                                         aur_vector view, aur_vector light, float *pdf);
 bool aur_mixture_sample(const aur_bsdf *bsdf, aur_bsdf_part part, aur_bsdf_point point, aur_vector view,
                         const float u[3], aur_bsdf_sample *drawn);
 aur_vector aur_mixture_diffuse_albedo(const aur_bsdf *bsdf, aur_bsdf_point point, float side);

@@ -23,6 +23,18 @@ static inline aur_vector aur_shading_evaluate(const aur_shading *shading, aur_ve
     return aur_bsdf_evaluate(surface->bsdf, AUR_BSDF_WHOLE, surface->texture, shading->view, light);
 }
 
+/* With the density that aur_shading_sample has there. */
+static inline aur_vector aur_shading_evaluate_with_pdf(const aur_shading *shading, aur_vector light_world,
+                                                       float *pdf) {
+    const aur_surface *const surface = shading->surface;
+    const aur_vector light = aur_frame_to_local(&surface->frame, light_world);
+    *pdf = 0.0f;
+    if (aur_vector_dot(surface->geometric_normal, light_world) * light.z <= 0.0f)
+        return (aur_vector){0};
+    return aur_bsdf_evaluate_with_pdf(surface->bsdf, AUR_BSDF_WHOLE, surface->texture, shading->view, light,
+                                      pdf);
+}
+
 static inline float aur_shading_pdf(const aur_shading *shading, aur_vector light_world) {
     const aur_surface *const surface = shading->surface;
     const aur_vector light = aur_frame_to_local(&surface->frame, light_world);
