@@ -3,7 +3,7 @@
 # With --words, the names of all kinds, things, keys and choices instead, as a dictionary for fuzzers (fuzz/keys.dict).
 set -eu
 program=$1
-kinds='set measure integrator shape emitter sensor film rfilter sampler'
+kinds='set measure integrator bsdf texture shape emitter sensor film rfilter sampler'
 
 if [ "${2:-}" = --words ]; then
   for kind in $kinds; do
@@ -20,9 +20,9 @@ fi
 cat <<'HEAD'
 # Keys
 
-Every key that sets, integrators, shapes, lights, cameras and films take, in SET and `--integrator` texts
-(`NAME:key=value,...`) and as children of a scene's elements. This page is written by `scripts/keys_page.sh` from what
-`aureole help KIND NAME` prints, and a test compares them.
+Every key that sets, integrators, materials, textures, shapes, lights, cameras and films take, in SET and
+`--integrator` texts (`NAME:key=value,...`) and as children of a scene's elements. This page is written by
+`scripts/keys_page.sh` from what `aureole help KIND NAME` prints, and a test compares them.
 HEAD
 for kind in $kinds; do
   [ "$kind" = sampler ] && continue # the sets

@@ -1,17 +1,10 @@
 #include "core/parameters.h"
 
-#include <ctype.h>
-#include <errno.h>
-#include <inttypes.h>
-#include <math.h>
-#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <strings.h>
 
 #include "core/array.h"
 #include "core/names.h"
-#include "core/text.h"
 
 aur_result aur_parameters_init(aur_parameters *parameters, const char *kind, const char *plugin,
                                aur_location location, aur_error *error) {
@@ -168,137 +161,6 @@ aur_result aur_parameters_fail_value(const aur_parameters *parameters, const aur
                        : item->kind == AUR_PARAMETER_TRANSFORM ? "a transform"
                        : item->object_kind != NULL             ? item->object_kind
                                                                : "an object");
-}
-
-static aur_result fail_range(aur_error *error, const aur_parameters *parameters, const aur_parameter *item,
-                             double minimum, double maximum) {
-    char expected[128];
-    if (isinf(maximum))
-        aur_format(expected, sizeof expected, "at least %g", minimum);
-    else if (isinf(minimum))
-        aur_format(expected, sizeof expected, "at most %g", maximum);
-    else
-        aur_format(expected, sizeof expected, "between %g and %g", minimum, maximum);
-    return aur_parameters_fail_value(parameters, item, expected, error);
-}
-
-/* Whether a value of this kind may be read as `wanted`: text may be anything, an integer may be a float. */
-static bool kind_fits(const aur_parameter *item, aur_parameter_kind wanted) {
-    return item->kind == wanted || item->kind == AUR_PARAMETER_TEXT ||
-           (wanted == AUR_PARAMETER_FLOAT && item->kind == AUR_PARAMETER_INTEGER);
-}
-
-aur_result aur_parameters_float(aur_parameters *parameters, const char *name, double minimum, double maximum,
-                                double *value, aur_error *error) {
-    const aur_parameter *const item = aur_parameters_find(parameters, name);
-    if (item == NULL)
-        return AUR_OK;
-    double parsed;
-    if (!kind_fits(item, AUR_PARAMETER_FLOAT) || !aur_parse_double(item->text, &parsed))
-        return aur_parameters_fail_value(parameters, item, "a number", error);
-    if (parsed < minimum || parsed > maximum)
-        return fail_range(error, parameters, item, minimum, maximum);
-    *value = parsed;
-    return AUR_OK;
-}
-
-aur_result aur_parameters_integer(aur_parameters *parameters, const char *name, int64_t minimum,
-                                  int64_t maximum, int64_t *value, aur_error *error) {
-    const aur_parameter *const item = aur_parameters_find(parameters, name);
-    if (item == NULL)
-        return AUR_OK;
-    if (!kind_fits(item, AUR_PARAMETER_INTEGER))
-        return aur_parameters_fail_value(parameters, item, "an integer", error);
-    char *end;
-    errno = 0;
-    const long long parsed = strtoll(item->text, &end, 10);
-    const bool overflow = errno == ERANGE;
-    while (isspace((unsigned char)*end))
-        ++end;
-    if (end == item->text || *end != '\0')
-        return aur_parameters_fail_value(parameters, item, "an integer", error);
-    if (overflow || parsed < minimum || parsed > maximum) {
-        char expected[96];
-        if (maximum == INT64_MAX)
-            snprintf(expected, sizeof expected, "at least %" PRId64, minimum);
-        else
-            snprintf(expected, sizeof expected, "between %" PRId64 " and %" PRId64, minimum, maximum);
-        return aur_parameters_fail_value(parameters, item, expected, error);
-    }
-    *value = parsed;
-    return AUR_OK;
-}
-
-aur_result aur_parameters_boolean(aur_parameters *parameters, const char *name, bool *value,
-                                  aur_error *error) {
-    const aur_parameter *const item = aur_parameters_find(parameters, name);
-    if (item == NULL)
-        return AUR_OK;
-    if (kind_fits(item, AUR_PARAMETER_BOOLEAN) && strcasecmp(item->text, "true") == 0)
-        *value = true;
-    else if (kind_fits(item, AUR_PARAMETER_BOOLEAN) && strcasecmp(item->text, "false") == 0)
-        *value = false;
-    else
-        return aur_parameters_fail_value(parameters, item, "true or false", error);
-    return AUR_OK;
-}
-
-aur_result aur_parameters_string(aur_parameters *parameters, const char *name, const char **value,
-                                 aur_error *error) {
-    const aur_parameter *const item = aur_parameters_find(parameters, name);
-    if (item == NULL)
-        return AUR_OK;
-    if (!kind_fits(item, AUR_PARAMETER_STRING))
-        return aur_parameters_fail_value(parameters, item, "a string", error);
-    *value = item->text;
-    return AUR_OK;
-}
-
-aur_result aur_parameters_choice(aur_parameters *parameters, const char *name, size_t count,
-                                 const char *const *choices, size_t *value, aur_error *error) {
-    const aur_parameter *const item = aur_parameters_find(parameters, name);
-    if (item == NULL)
-        return AUR_OK;
-    const aur_names names = aur_names_of(count, choices);
-    const size_t found = kind_fits(item, AUR_PARAMETER_STRING) ? aur_names_find(names, item->text) : count;
-    if (found < count) {
-        *value = found;
-        return AUR_OK;
-    }
-    char expected[AUR_ERROR_MESSAGE_CAPACITY] = "one of ";
-    aur_names_list(names, expected + strlen(expected), sizeof expected - strlen(expected));
-    return aur_parameters_fail_value(parameters, item, expected, error);
-}
-
-aur_result aur_parameters_triple(aur_parameters *parameters, const char *name, double minimum, double maximum,
-                                 double value[3], aur_error *error) {
-    const aur_parameter *const item = aur_parameters_find(parameters, name);
-    if (item == NULL)
-        return AUR_OK;
-    double parsed[3];
-    const bool fits = kind_fits(item, AUR_PARAMETER_VECTOR) || kind_fits(item, AUR_PARAMETER_COLOR) ||
-                      kind_fits(item, AUR_PARAMETER_FLOAT);
-    const size_t count = fits ? aur_parse_doubles(item->text, parsed, 3) : 0;
-    if (count == 1)
-        parsed[2] = parsed[1] = parsed[0];
-    else if (count != 3)
-        return aur_parameters_fail_value(parameters, item, "one or three numbers", error);
-    for (size_t i = 0; i < 3; ++i)
-        if (parsed[i] < minimum || parsed[i] > maximum)
-            return fail_range(error, parameters, item, minimum, maximum);
-    memcpy(value, parsed, sizeof parsed);
-    return AUR_OK;
-}
-
-aur_result aur_parameters_transform(aur_parameters *parameters, const char *name, double value[16],
-                                    aur_error *error) {
-    const aur_parameter *const item = aur_parameters_find(parameters, name);
-    if (item == NULL)
-        return AUR_OK;
-    if (item->kind != AUR_PARAMETER_TRANSFORM)
-        return aur_parameters_fail_value(parameters, item, "a transform", error);
-    memcpy(value, item->transform, sizeof item->transform);
-    return AUR_OK;
 }
 
 aur_result aur_fail_unknown_plugin(aur_error *error, const aur_parameters *parameters, size_t count,

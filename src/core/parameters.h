@@ -1,7 +1,7 @@
 /* Named, typed values with the place they came from: what a plugin of a scene, an `--integrator
- * NAME:key=value` and a SET are built from. A getter parses, checks the range, marks the value as used and
- * remembers that the name is known; aur_parameters_finish then refuses what nobody asked for, with the
- * nearest known name. */
+ * NAME:key=value` and a SET are built from. Tables of keys (core/keys.h) read them: aur_parameters_find marks
+ * a value as used and remembers that the name is known; aur_parameters_finish then refuses what nobody asked
+ * for, with the nearest known name. */
 #ifndef AUR_CORE_PARAMETERS_H
 #define AUR_CORE_PARAMETERS_H
 
@@ -10,7 +10,7 @@
 #include "core/error.h"
 
 typedef enum aur_parameter_kind {
-    AUR_PARAMETER_TEXT, /* from key=value: the getter decides what it is */
+    AUR_PARAMETER_TEXT, /* from key=value: the key decides what it is */
     AUR_PARAMETER_BOOLEAN,
     AUR_PARAMETER_INTEGER,
     AUR_PARAMETER_FLOAT,
@@ -67,32 +67,11 @@ aur_result aur_parameters_add_object(aur_parameters *parameters, const char *nam
 /* The value of a name if it is there, marked as used; else NULL. `name` must be a string literal. */
 const aur_parameter *aur_parameters_find(aur_parameters *parameters, const char *name);
 
-/* Getters: *value keeps what it holds (the default) when the name is absent. Names and choices are string
- * literals. Infinite ends of a range are allowed; NaN never is, an infinite value only where the range
- * includes it. */
-aur_result aur_parameters_float(aur_parameters *parameters, const char *name, double minimum, double maximum,
-                                double *value, aur_error *error);
-aur_result aur_parameters_integer(aur_parameters *parameters, const char *name, int64_t minimum,
-                                  int64_t maximum, int64_t *value, aur_error *error);
-aur_result aur_parameters_boolean(aur_parameters *parameters, const char *name, bool *value,
-                                  aur_error *error);
-/* *value stays owned by the parameters. */
-aur_result aur_parameters_string(aur_parameters *parameters, const char *name, const char **value,
-                                 aur_error *error);
-/* One of `count` names; *value is its index. */
-aur_result aur_parameters_choice(aur_parameters *parameters, const char *name, size_t count,
-                                 const char *const *choices, size_t *value, aur_error *error);
-/* Three numbers, split by spaces or commas; a single number stands for three equal ones. */
-aur_result aur_parameters_triple(aur_parameters *parameters, const char *name, double minimum, double maximum,
-                                 double value[3], aur_error *error);
-aur_result aur_parameters_transform(aur_parameters *parameters, const char *name, double value[16],
-                                    aur_error *error);
-
 /* "KIND 'PLUGIN': 'NAME' must be EXPECTED, not 'VALUE'", with the value's place. */
 aur_result aur_parameters_fail_value(const aur_parameters *parameters, const aur_parameter *item,
                                      const char *expected, aur_error *error);
 
-/* An error for the first value that no getter asked for. */
+/* An error for the first value that nobody asked for. */
 aur_result aur_parameters_finish(const aur_parameters *parameters, aur_error *error);
 
 /* NAME error for a plugin that is none of `count` names: says the nearest one, or all of them. */

@@ -12,7 +12,7 @@
 
 #include <stdbool.h>
 
-#include "core/parameters.h"
+#include "core/keys.h"
 #include "core/vector.h"
 
 typedef struct aur_bsdf aur_bsdf;
@@ -80,12 +80,10 @@ enum {
 typedef enum aur_bsdf_part { AUR_BSDF_WHOLE, AUR_BSDF_SAMPLED_LOBES } aur_bsdf_part;
 
 typedef struct aur_bsdf_descriptor {
-    const char *name;
-    const char *summary;
-    const char *source;
-    size_t size; /* of what bsdf->data points to: zeroed before create, freed in the end */
-    /* Reads its parameters (aur_parameters_finish is called by aur_bsdf_create) into bsdf->data and adds its
-     * lobes; sets bsdf->anisotropic. */
+    aur_row row; /* first, so that a row of the table is its descriptor; its keys are read into bsdf->data */
+    size_t size; /* of what bsdf->data points to: zeroed before the keys are read, freed in the end */
+    /* Makes the rest of bsdf->data from what has been read and adds the lobes; sets bsdf->anisotropic. It
+     * reads those keys that the row only names (AUR_KEY_READ_APART). */
     aur_result (*create)(aur_parameters *parameters, aur_bsdf *bsdf, aur_error *error);
     /* Sets axis and coefficient of lobes[bsdf->lobe_count], a copy of bsdf->lobes; the coefficients come in
      * black, and stay so for lobes that are not seen from `view`. */
@@ -117,6 +115,8 @@ struct aur_bsdf {
     bool textured;             /* something varies over the surface, here or in a nested BSDF */
     bool plain_diffuse;        /* nothing but diffuse reflection, the same at every point of a surface */
 };
+
+extern const aur_table aur_bsdf_table;
 
 /* Builds the material that parameters->plugin names; errors name the file and line. Nested BSDFs are
  * parameters of kind AUR_PARAMETER_OBJECT with object_kind "bsdf", and outlive the one that uses them. */
@@ -188,5 +188,13 @@ size_t aur_bsdf_add_lobe(aur_bsdf *bsdf, const aur_bsdf_lobe *lobe);
  */
 aur_result aur_parameters_nested_bsdf(aur_parameters *parameters, const char *name, const aur_bsdf **bsdf,
                                       aur_error *error);
+
+/* A row for tables of keys, of what it reads. */
+#define AUR_NESTED_BSDF_KEY(name_, default_, help_)                                                          \
+    {                                                                                                        \
+        AUR_KEY_READ_APART(AUR_KEY_ITEM, name_, default_, help_), .words = (const char *const[]) {           \
+            "bsdf", NULL                                                                                     \
+        }                                                                                                    \
+    }
 
 #endif

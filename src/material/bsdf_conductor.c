@@ -6,36 +6,32 @@
 
 typedef struct conductor {
     aur_color reflectance;
-    aur_vector eta, k;
-    bool perfect; /* reflects all */
+    aur_metal metal;
     aur_microfacet microfacet;
 } conductor;
 
-static aur_result read_metal(aur_parameters *parameters, aur_bsdf *bsdf, aur_error *error) {
-    conductor *const self = bsdf->data;
-    self->reflectance.constant = (aur_vector){1.0f, 1.0f, 1.0f};
-    aur_result result = aur_parameters_conductor(parameters, &self->eta, &self->k, &self->perfect, error);
-    if (result == AUR_OK)
-        result = aur_parameters_color(parameters, "specular_reflectance", 1.0, &self->reflectance, error);
-    return result;
-}
+#define CONDUCTOR_KEYS                                                                                       \
+    AUR_METAL_KEYS(conductor), {                                                                             \
+        AUR_KEY_OF_COLOR(conductor, "specular_reflectance", reflectance, 1.0, "1",                           \
+                         "factor of what is reflected")                                                      \
+    }
+
+static const aur_key smooth_keys[] = {CONDUCTOR_KEYS};
+static const aur_key rough_keys[] = {CONDUCTOR_KEYS, AUR_MICROFACET_KEYS(conductor)};
 
 static aur_result create_rough(aur_parameters *parameters, aur_bsdf *bsdf, aur_error *error) {
-    aur_result result = read_metal(parameters, bsdf, error);
-    if (result != AUR_OK)
-        return result;
     conductor *const self = bsdf->data;
     const aur_bsdf_lobe lobe = {.shape = AUR_LOBE_SHAPE_SAMPLED, .sides = AUR_SIDE_FRONT};
     aur_bsdf_add_lobe(bsdf, &lobe);
-    result = aur_parameters_microfacet(parameters, &self->microfacet, error);
-    bsdf->anisotropic = self->microfacet.alpha_u != self->microfacet.alpha_v;
-    return result;
+    bsdf->anisotropic = aur_microfacet_complete(&self->microfacet);
+    return aur_metal_complete(parameters, &self->metal, error);
 }
 
 static aur_vector reflectance(const conductor *self, aur_bsdf_point point, float cosine) {
     const aur_vector color = aur_color_at(&self->reflectance, point);
-    return self->perfect ? color
-                         : aur_vector_multiply(color, aur_fresnel_conductor(cosine, self->eta, self->k));
+    return self->metal.perfect
+               ? color
+               : aur_vector_multiply(color, aur_fresnel_conductor(cosine, self->metal.eta, self->metal.k));
 }
 
 /* --- smooth */
@@ -43,7 +39,8 @@ static aur_vector reflectance(const conductor *self, aur_bsdf_point point, float
 static aur_result create_smooth(aur_parameters *parameters, aur_bsdf *bsdf, aur_error *error) {
     const aur_bsdf_lobe lobe = {.shape = AUR_LOBE_SHAPE_SPECULAR, .sides = AUR_SIDE_FRONT};
     aur_bsdf_add_lobe(bsdf, &lobe);
-    return read_metal(parameters, bsdf, error);
+    conductor *const self = bsdf->data;
+    return aur_metal_complete(parameters, &self->metal, error);
 }
 
 static void weigh_smooth(const aur_bsdf *bsdf, aur_bsdf_point point, aur_vector view, aur_bsdf_lobe *lobes) {
@@ -54,9 +51,10 @@ static void weigh_smooth(const aur_bsdf *bsdf, aur_bsdf_point point, aur_vector 
 }
 
 const aur_bsdf_descriptor aur_bsdf_conductor = {
-    .name = "conductor",
-    .summary = "a smooth metal mirror",
-    .source = "Fresnel 1823",
+    .row = {.name = "conductor",
+            .summary = "a smooth metal mirror",
+            .source = "Fresnel 1823",
+            AUR_ROW_KEYS(smooth_keys)},
     .size = sizeof(conductor),
     .create = create_smooth,
     .weigh = weigh_smooth,
@@ -110,9 +108,10 @@ static void weigh_rough(const aur_bsdf *bsdf, aur_bsdf_point point, aur_vector v
 }
 
 const aur_bsdf_descriptor aur_bsdf_roughconductor = {
-    .name = "roughconductor",
-    .summary = "a rough metal: beckmann or ggx facets",
-    .source = "Walter et al. 2007",
+    .row = {.name = "roughconductor",
+            .summary = "a rough metal: beckmann or ggx facets",
+            .source = "Walter et al. 2007",
+            AUR_ROW_KEYS(rough_keys)},
     .size = sizeof(conductor),
     .create = create_rough,
     .weigh = weigh_rough,

@@ -8,19 +8,21 @@ typedef struct dielectric {
     float ior; /* inside over outside; inside is where z < 0 */
 } dielectric;
 
+static const aur_key keys[] = {
+    AUR_IOR_KEYS("bk7"),
+    {AUR_KEY_OF_COLOR(dielectric, "specular_reflectance", reflectance, 1.0, "1",
+                      "factor of what is reflected")},
+    {AUR_KEY_OF_COLOR(dielectric, "specular_transmittance", transmittance, 1.0, "1",
+                      "factor of what goes through")},
+};
+
 static aur_result create(aur_parameters *parameters, aur_bsdf *bsdf, aur_error *error) {
     dielectric *const self = bsdf->data;
-    self->reflectance.constant = self->transmittance.constant = (aur_vector){1.0f, 1.0f, 1.0f};
     aur_bsdf_lobe lobe = {.shape = AUR_LOBE_SHAPE_SPECULAR, .sides = AUR_SIDES_BOTH, .transmits = true};
     aur_bsdf_add_lobe(bsdf, &lobe);
     lobe.transmits = false;
     aur_bsdf_add_lobe(bsdf, &lobe);
-    aur_result result = aur_parameters_ior(parameters, "bk7", &self->ior, error);
-    if (result == AUR_OK)
-        result = aur_parameters_color(parameters, "specular_reflectance", 1.0, &self->reflectance, error);
-    if (result == AUR_OK)
-        result = aur_parameters_color(parameters, "specular_transmittance", 1.0, &self->transmittance, error);
-    return result;
+    return aur_parameters_ior(parameters, "bk7", &self->ior, error);
 }
 
 /* `through` is where the light comes from that is not mirrored, and `ratio` the index of the view's side over
@@ -57,18 +59,20 @@ static void weigh_pane(const aur_bsdf *bsdf, aur_bsdf_point point, aur_vector vi
 }
 
 const aur_bsdf_descriptor aur_bsdf_dielectric = {
-    .name = "dielectric",
-    .summary = "a smooth boundary such as glass",
-    .source = "Fresnel 1823",
+    .row = {.name = "dielectric",
+            .summary = "a smooth boundary such as glass",
+            .source = "Fresnel 1823",
+            AUR_ROW_KEYS(keys)},
     .size = sizeof(dielectric),
     .create = create,
     .weigh = weigh_boundary,
 };
 
 const aur_bsdf_descriptor aur_bsdf_thindielectric = {
-    .name = "thindielectric",
-    .summary = "a thin pane that bends no light",
-    .source = "Stam 2001",
+    .row = {.name = "thindielectric",
+            .summary = "a thin pane that bends no light",
+            .source = "Stam 2001",
+            AUR_ROW_KEYS(keys)},
     .size = sizeof(dielectric),
     .create = create,
     .weigh = weigh_pane,

@@ -7,12 +7,17 @@ typedef struct diffuse {
     aur_color reflectance;
 } diffuse;
 
+static const aur_key keys[] = {
+    {AUR_KEY_OF_COLOR(diffuse, "reflectance", reflectance, 1.0, "0.5",
+                      "share of the light that is reflected")},
+};
+
 static aur_result create(aur_parameters *parameters, aur_bsdf *bsdf, aur_error *error) {
-    diffuse *const self = bsdf->data;
-    self->reflectance.constant = (aur_vector){0.5f, 0.5f, 0.5f};
+    (void)parameters;
+    (void)error;
     const aur_bsdf_lobe lobe = aur_diffuse_lobe();
     aur_bsdf_add_lobe(bsdf, &lobe);
-    return aur_parameters_color(parameters, "reflectance", 1.0, &self->reflectance, error);
+    return AUR_OK;
 }
 
 static void weigh(const aur_bsdf *bsdf, aur_bsdf_point point, aur_vector view, aur_bsdf_lobe *lobes) {
@@ -56,9 +61,10 @@ static aur_vector diffuse_albedo(const aur_bsdf *bsdf, aur_bsdf_point point, flo
 }
 
 const aur_bsdf_descriptor aur_bsdf_diffuse = {
-    .name = "diffuse",
-    .summary = "ideally diffuse reflection",
-    .source = "Lambert 1760",
+    .row = {.name = "diffuse",
+            .summary = "ideally diffuse reflection",
+            .source = "Lambert 1760",
+            AUR_ROW_KEYS(keys)},
     .size = sizeof(diffuse),
     .create = create,
     .weigh = weigh,

@@ -18,12 +18,15 @@ static const aur_bsdf nothing = {
     .lobes = {{.shape = AUR_LOBE_SHAPE_SPECULAR, .sides = AUR_SIDES_BOTH, .transmits = true}},
     .scatters = {AUR_SCATTERS_SPECULAR, AUR_SCATTERS_SPECULAR}};
 
+static const aur_key keys[] = {
+    {AUR_KEY_OF_COLOR(aur_mixture, "opacity", weight, 1.0, "0.5",
+                      "share of the light that meets the nested bsdf")},
+    AUR_NESTED_BSDF_KEY("bsdf", NULL, "what is there; must be given"),
+};
+
 static aur_result create(aur_parameters *parameters, aur_bsdf *bsdf, aur_error *error) {
     aur_mixture *const self = bsdf->data;
-    self->weight.constant = (aur_vector){0.5f, 0.5f, 0.5f};
-    aur_result result = aur_parameters_color(parameters, "opacity", 1.0, &self->weight, error);
-    if (result == AUR_OK)
-        result = aur_parameters_nested_bsdf(parameters, "bsdf", &self->part[0], error);
+    const aur_result result = aur_parameters_nested_bsdf(parameters, "bsdf", &self->part[0], error);
     if (result != AUR_OK)
         return result;
     if (self->part[0] == NULL)
@@ -36,9 +39,10 @@ static aur_result create(aur_parameters *parameters, aur_bsdf *bsdf, aur_error *
 }
 
 const aur_bsdf_descriptor aur_bsdf_mask = {
-    .name = "mask",
-    .summary = "the nested bsdf with an opacity",
-    .source = "Mitsuba 3",
+    .row = {.name = "mask",
+            .summary = "the nested bsdf with an opacity",
+            .source = "Mitsuba 3",
+            AUR_ROW_KEYS(keys)},
     .size = sizeof(aur_mixture),
     .create = create,
     .weigh = aur_mixture_weigh,

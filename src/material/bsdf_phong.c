@@ -9,8 +9,16 @@
 
 typedef struct phong {
     aur_color diffuse, specular;
+    float exponent;
     float scale; /* of k_s (u . u_r)^m */
 } phong;
+
+static const aur_key keys[] = {
+    {AUR_KEY_OF_COLOR(phong, "diffuse_reflectance", diffuse, 1.0, "0.5", "of the diffuse part")},
+    {AUR_KEY_OF_COLOR(phong, "specular_reflectance", specular, 1.0, "0.2",
+                      "of the lobe; the two add to at most 1")},
+    {AUR_KEY_OF_REAL(phong, "exponent", exponent, 0.0, 1e6, "30", "m: the higher, the narrower the lobe")},
+};
 
 static bool may_reflect(const aur_color *color) {
     return color->texture != NULL || aur_vector_max(color->constant) > 0.0f;
@@ -19,22 +27,12 @@ static bool may_reflect(const aur_color *color) {
 static aur_result create_with(aur_parameters *parameters, aur_bsdf *bsdf, bool times_cosine,
                               aur_error *error) {
     phong *const self = bsdf->data;
-    self->diffuse.constant = (aur_vector){0.5f, 0.5f, 0.5f};
-    self->specular.constant = (aur_vector){0.2f, 0.2f, 0.2f};
-    double exponent = 30.0;
-    aur_result result = aur_parameters_color(parameters, "diffuse_reflectance", 1.0, &self->diffuse, error);
-    if (result == AUR_OK)
-        result = aur_parameters_color(parameters, "specular_reflectance", 1.0, &self->specular, error);
-    if (result == AUR_OK)
-        result = aur_parameters_float(parameters, "exponent", 0.0, 1e6, &exponent, error);
-    if (result != AUR_OK)
-        return result;
-    self->scale = ((float)exponent + (times_cosine ? 2.0f : 1.0f)) / (2.0f * AUR_PI_F);
+    self->scale = (self->exponent + (times_cosine ? 2.0f : 1.0f)) / (2.0f * AUR_PI_F);
     const aur_bsdf_lobe diffuse = aur_diffuse_lobe();
     const aur_bsdf_lobe specular = {.shape = AUR_LOBE_SHAPE_COSINE_POWER,
                                     .times_cosine = times_cosine,
                                     .sides = AUR_SIDE_FRONT,
-                                    .exponent = (float)exponent};
+                                    .exponent = self->exponent};
     if (may_reflect(&self->diffuse))
         aur_bsdf_add_lobe(bsdf, &diffuse);
     if (may_reflect(&self->specular))
@@ -71,18 +69,20 @@ static void weigh(const aur_bsdf *bsdf, aur_bsdf_point point, aur_vector view, a
 }
 
 const aur_bsdf_descriptor aur_bsdf_phong = {
-    .name = "phong",
-    .summary = "modified Phong model: (m+2)/(2 pi) cos^m times the cosine",
-    .source = "Lafortune Willems 1994",
+    .row = {.name = "phong",
+            .summary = "modified Phong model: (m+2)/(2 pi) cos^m times the cosine",
+            .source = "Lafortune Willems 1994",
+            AUR_ROW_KEYS(keys)},
     .size = sizeof(phong),
     .create = create,
     .weigh = weigh,
 };
 
 const aur_bsdf_descriptor aur_bsdf_phong_lobe = {
-    .name = "phong_lobe",
-    .summary = "diffuse part and a pure cos^m lobe about the mirror direction; not reciprocal",
-    .source = "Marques 2013",
+    .row = {.name = "phong_lobe",
+            .summary = "diffuse part and a pure cos^m lobe about the mirror direction; not reciprocal",
+            .source = "Marques 2013",
+            AUR_ROW_KEYS(keys)},
     .size = sizeof(phong),
     .create = create_lobe,
     .weigh = weigh,

@@ -21,17 +21,22 @@ typedef struct plastic {
     float transmittance[TABLE_SIZE]; /* from outside, at cosines i / (TABLE_SIZE - 1) */
 } plastic;
 
-static aur_result read_coat(aur_parameters *parameters, aur_bsdf *bsdf, aur_error *error) {
+#define PLASTIC_KEYS                                                                                         \
+    AUR_IOR_KEYS("polypropylene"),                                                                           \
+        {AUR_KEY_OF_COLOR(plastic, "diffuse_reflectance", diffuse, 1.0, "0.5", "of the base")},              \
+        {AUR_KEY_OF_COLOR(plastic, "specular_reflectance", specular, 1.0, "1",                               \
+                          "factor of what the coat reflects")},                                              \
+    {                                                                                                        \
+        AUR_KEY_OF_BOOLEAN(plastic, "nonlinear", nonlinear, "false",                                         \
+                           "the colour deepens with each inner bounce")                                      \
+    }
+
+static const aur_key smooth_keys[] = {PLASTIC_KEYS};
+static const aur_key rough_keys[] = {PLASTIC_KEYS, AUR_MICROFACET_KEYS(plastic)};
+
+static aur_result make_coat(aur_parameters *parameters, aur_bsdf *bsdf, aur_error *error) {
     plastic *const self = bsdf->data;
-    self->diffuse.constant = (aur_vector){0.5f, 0.5f, 0.5f};
-    self->specular.constant = (aur_vector){1.0f, 1.0f, 1.0f};
-    aur_result result = aur_parameters_ior(parameters, "polypropylene", &self->ior, error);
-    if (result == AUR_OK)
-        result = aur_parameters_color(parameters, "diffuse_reflectance", 1.0, &self->diffuse, error);
-    if (result == AUR_OK)
-        result = aur_parameters_color(parameters, "specular_reflectance", 1.0, &self->specular, error);
-    if (result == AUR_OK)
-        result = aur_parameters_boolean(parameters, "nonlinear", &self->nonlinear, error);
+    const aur_result result = aur_parameters_ior(parameters, "polypropylene", &self->ior, error);
     if (result != AUR_OK)
         return result;
     self->inner_reflectance = aur_fresnel_diffuse(1.0f / self->ior);
@@ -103,11 +108,11 @@ static aur_result create_smooth(aur_parameters *parameters, aur_bsdf *bsdf, aur_
     const aur_bsdf_lobe coat = {.shape = AUR_LOBE_SHAPE_SPECULAR, .sides = AUR_SIDE_FRONT};
     aur_bsdf_add_lobe(bsdf, &coat);
     add_base(bsdf);
-    return read_coat(parameters, bsdf, error);
+    return make_coat(parameters, bsdf, error);
 }
 
 static aur_result create_rough(aur_parameters *parameters, aur_bsdf *bsdf, aur_error *error) {
-    aur_result result = read_coat(parameters, bsdf, error);
+    const aur_result result = make_coat(parameters, bsdf, error);
     if (result != AUR_OK)
         return result;
     plastic *const self = bsdf->data;
@@ -115,10 +120,7 @@ static aur_result create_rough(aur_parameters *parameters, aur_bsdf *bsdf, aur_e
     add_base(bsdf);
     const aur_bsdf_lobe coat = {.shape = AUR_LOBE_SHAPE_SAMPLED, .sides = AUR_SIDE_FRONT};
     aur_bsdf_add_lobe(bsdf, &coat);
-    result = aur_parameters_microfacet(parameters, &self->microfacet, error);
-    if (result != AUR_OK)
-        return result;
-    if (self->microfacet.alpha_u != self->microfacet.alpha_v)
+    if (aur_microfacet_complete(&self->microfacet))
         return aur_fail_at(error, parameters->location, AUR_ERROR_UNSUPPORTED,
                            "bsdf 'roughplastic': 'alpha_u' and 'alpha_v' must be equal: give 'alpha'");
     double inner = 0.0, outer = 0.0;
@@ -239,9 +241,10 @@ static aur_vector diffuse_albedo(const aur_bsdf *bsdf, aur_bsdf_point point, flo
 }
 
 const aur_bsdf_descriptor aur_bsdf_plastic = {
-    .name = "plastic",
-    .summary = "a diffuse base under a smooth clear coat",
-    .source = "Jakob 2010 (Mitsuba)",
+    .row = {.name = "plastic",
+            .summary = "a diffuse base under a smooth clear coat",
+            .source = "Jakob 2010 (Mitsuba)",
+            AUR_ROW_KEYS(smooth_keys)},
     .size = sizeof(plastic),
     .create = create_smooth,
     .weigh = weigh,
@@ -252,9 +255,10 @@ const aur_bsdf_descriptor aur_bsdf_plastic = {
 };
 
 const aur_bsdf_descriptor aur_bsdf_roughplastic = {
-    .name = "roughplastic",
-    .summary = "a diffuse base under a rough clear coat",
-    .source = "Jakob 2010 (Mitsuba)",
+    .row = {.name = "roughplastic",
+            .summary = "a diffuse base under a rough clear coat",
+            .source = "Jakob 2010 (Mitsuba)",
+            AUR_ROW_KEYS(rough_keys)},
     .size = sizeof(plastic),
     .create = create_rough,
     .weigh = weigh,

@@ -10,19 +10,20 @@ typedef struct rough {
     aur_microfacet microfacet;
 } rough;
 
+static const aur_key keys[] = {
+    AUR_IOR_KEYS("bk7"),
+    {AUR_KEY_OF_COLOR(rough, "specular_reflectance", reflectance, 1.0, "1", "factor of what is reflected")},
+    {AUR_KEY_OF_COLOR(rough, "specular_transmittance", transmittance, 1.0, "1",
+                      "factor of what goes through")},
+    AUR_MICROFACET_KEYS(rough),
+};
+
 static aur_result create(aur_parameters *parameters, aur_bsdf *bsdf, aur_error *error) {
     rough *const self = bsdf->data;
-    self->reflectance.constant = self->transmittance.constant = (aur_vector){1.0f, 1.0f, 1.0f};
     const aur_bsdf_lobe lobe = {.shape = AUR_LOBE_SHAPE_SAMPLED, .transmits = true, .sides = AUR_SIDES_BOTH};
     aur_bsdf_add_lobe(bsdf, &lobe);
-    aur_result result = aur_parameters_ior(parameters, "bk7", &self->ior, error);
-    if (result == AUR_OK)
-        result = aur_parameters_color(parameters, "specular_reflectance", 1.0, &self->reflectance, error);
-    if (result == AUR_OK)
-        result = aur_parameters_color(parameters, "specular_transmittance", 1.0, &self->transmittance, error);
-    if (result == AUR_OK)
-        result = aur_parameters_microfacet(parameters, &self->microfacet, error);
-    bsdf->anisotropic = self->microfacet.alpha_u != self->microfacet.alpha_v;
+    bsdf->anisotropic = aur_microfacet_complete(&self->microfacet);
+    const aur_result result = aur_parameters_ior(parameters, "bk7", &self->ior, error);
     if (result == AUR_OK && fabsf(self->ior - 1.0f) < 1e-4f)
         return aur_fail_at(error, parameters->location, AUR_ERROR_FORMAT,
                            "bsdf 'roughdielectric': 'int_ior' and 'ext_ior' must differ");
@@ -139,9 +140,10 @@ static void weigh(const aur_bsdf *bsdf, aur_bsdf_point point, aur_vector view, a
 }
 
 const aur_bsdf_descriptor aur_bsdf_roughdielectric = {
-    .name = "roughdielectric",
-    .summary = "a rough boundary such as ground glass",
-    .source = "Walter et al. 2007",
+    .row = {.name = "roughdielectric",
+            .summary = "a rough boundary such as ground glass",
+            .source = "Walter et al. 2007",
+            AUR_ROW_KEYS(keys)},
     .size = sizeof(rough),
     .create = create,
     .weigh = weigh,

@@ -2,7 +2,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "material/bsdf.h"
+#include "material/texture.h"
 
 extern const aur_bsdf_descriptor aur_bsdf_diffuse;
 extern const aur_bsdf_descriptor aur_bsdf_phong;
@@ -17,26 +17,28 @@ extern const aur_bsdf_descriptor aur_bsdf_plastic;
 extern const aur_bsdf_descriptor aur_bsdf_roughplastic;
 extern const aur_bsdf_descriptor aur_bsdf_mask;
 
-static const aur_bsdf_descriptor *const table[] = {
-    &aur_bsdf_diffuse,         &aur_bsdf_twosided,       &aur_bsdf_phong,        &aur_bsdf_phong_lobe,
-    &aur_bsdf_conductor,       &aur_bsdf_roughconductor, &aur_bsdf_dielectric,   &aur_bsdf_thindielectric,
-    &aur_bsdf_roughdielectric, &aur_bsdf_plastic,        &aur_bsdf_roughplastic, &aur_bsdf_mask,
+/* clang-format off */
+static const aur_row *const rows[] = {
+    &aur_bsdf_diffuse.row,
+    &aur_bsdf_twosided.row,
+    &aur_bsdf_phong.row,
+    &aur_bsdf_phong_lobe.row,
+    &aur_bsdf_conductor.row,
+    &aur_bsdf_roughconductor.row,
+    &aur_bsdf_dielectric.row,
+    &aur_bsdf_thindielectric.row,
+    &aur_bsdf_roughdielectric.row,
+    &aur_bsdf_plastic.row,
+    &aur_bsdf_roughplastic.row,
+    &aur_bsdf_mask.row,
 };
+/* clang-format on */
 
-enum { TABLE_SIZE = sizeof table / sizeof table[0] };
-
-static aur_result find_descriptor(const aur_parameters *parameters, const aur_bsdf_descriptor **descriptor,
-                                  aur_error *error) {
-    const char *names[TABLE_SIZE];
-    for (size_t i = 0; i < TABLE_SIZE; ++i) {
-        names[i] = table[i]->name;
-        if (strcmp(names[i], parameters->plugin) == 0) {
-            *descriptor = table[i];
-            return AUR_OK;
-        }
-    }
-    return aur_fail_unknown_plugin(error, parameters, TABLE_SIZE, names);
+static const aur_row *row_at(size_t index) {
+    return index < sizeof rows / sizeof rows[0] ? rows[index] : NULL;
 }
+
+const aur_table aur_bsdf_table = {"bsdf", "materials: how surfaces scatter light", row_at, NULL};
 
 /* What a material has from the textures and materials among its parameters. */
 static void inherit(const aur_parameters *parameters, aur_bsdf *bsdf) {
@@ -79,9 +81,9 @@ static aur_result fill(aur_parameters *parameters, aur_bsdf *bsdf, aur_error *er
     bsdf->data = calloc(1, bsdf->descriptor->size);
     if (bsdf->data == NULL)
         return aur_fail_at(error, parameters->location, AUR_ERROR_MEMORY, "out of memory");
-    aur_result result = bsdf->descriptor->create(parameters, bsdf, error);
+    aur_result result = aur_colors_read(&bsdf->descriptor->row, parameters, bsdf->data, error);
     if (result == AUR_OK)
-        result = aur_parameters_finish(parameters, error);
+        result = bsdf->descriptor->create(parameters, bsdf, error);
     if (result == AUR_OK && bsdf->lobe_count > AUR_BSDF_LOBE_CAPACITY)
         result = aur_fail_at(error, parameters->location, AUR_ERROR_UNSUPPORTED,
                              "bsdf '%s' has %zu lobes that differ, and at most %d can be rendered",
@@ -91,14 +93,14 @@ static aur_result fill(aur_parameters *parameters, aur_bsdf *bsdf, aur_error *er
 
 aur_result aur_bsdf_create(aur_parameters *parameters, aur_bsdf **bsdf, aur_error *error) {
     *bsdf = NULL;
-    const aur_bsdf_descriptor *descriptor = NULL;
-    aur_result result = find_descriptor(parameters, &descriptor, error);
+    const aur_row *row;
+    aur_result result = aur_table_find(&aur_bsdf_table, parameters, &row, error);
     if (result != AUR_OK)
         return result;
     aur_bsdf *const made = calloc(1, sizeof *made);
     if (made == NULL)
         return aur_fail_at(error, parameters->location, AUR_ERROR_MEMORY, "out of memory");
-    made->descriptor = descriptor;
+    made->descriptor = (const aur_bsdf_descriptor *)row;
     result = fill(parameters, made, error);
     if (result != AUR_OK) {
         aur_bsdf_destroy(made);

@@ -1,6 +1,11 @@
 /* A surface that scatters on both sides: one nested BSDF for both, or the second one for the back. */
 #include "material/mixture.h"
 
+static const aur_key keys[] = {
+    AUR_NESTED_BSDF_KEY("bsdf", NULL, "the front, and the back if bsdf2 is not given"),
+    AUR_NESTED_BSDF_KEY("bsdf2", "bsdf", "the back"),
+};
+
 static aur_result create(aur_parameters *parameters, aur_bsdf *bsdf, aur_error *error) {
     aur_mixture *const self = bsdf->data;
     self->by_side = true;
@@ -21,9 +26,10 @@ static aur_result create(aur_parameters *parameters, aur_bsdf *bsdf, aur_error *
 }
 
 const aur_bsdf_descriptor aur_bsdf_twosided = {
-    .name = "twosided",
-    .summary = "the nested bsdf on both sides, or a second one behind",
-    .source = "Mitsuba 3",
+    .row = {.name = "twosided",
+            .summary = "the nested bsdf on both sides, or a second one behind",
+            .source = "Mitsuba 3",
+            AUR_ROW_KEYS(keys)},
     .size = sizeof(aur_mixture),
     .create = create,
     .weigh = aur_mixture_weigh,

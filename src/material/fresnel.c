@@ -80,19 +80,29 @@ static aur_result fail_name(const aur_parameters *parameters, const aur_paramete
                        nearest != NULL ? "'?" : "");
 }
 
-static aur_result read_ior(aur_parameters *parameters, const char *name, double *ior, aur_error *error) {
-    const aur_parameter *const item = aur_parameters_find(parameters, name);
+typedef struct indices {
+    double inside, outside;
+} indices;
+
+/* Their keys where they are given by numbers. */
+static const aur_key numbers[] = {
+    {AUR_KEY_OF_REAL(indices, "int_ior", inside, 0.1, 100.0, NULL, NULL)},
+    {AUR_KEY_OF_REAL(indices, "ext_ior", outside, 0.1, 100.0, NULL, NULL)},
+};
+
+static aur_result read_ior(aur_parameters *parameters, const aur_key *key, indices *both, aur_error *error) {
+    const aur_parameter *const item = aur_parameters_find(parameters, key->name);
     if (item == NULL)
         return AUR_OK;
     double number;
     if (item->text == NULL || item->kind == AUR_PARAMETER_FLOAT || item->kind == AUR_PARAMETER_INTEGER ||
         aur_parse_double(item->text, &number))
-        return aur_parameters_float(parameters, name, 0.1, 100.0, ior, error);
+        return aur_keys_read(1, key, parameters, both, error);
     const char *names[SUBSTANCE_COUNT];
     for (size_t i = 0; i < SUBSTANCE_COUNT; ++i) {
         names[i] = substances[i].name;
         if (strcmp(names[i], item->text) == 0) {
-            *ior = substances[i].ior;
+            *(double *)((char *)both + key->offset) = substances[i].ior;
             return AUR_OK;
         }
     }
@@ -107,11 +117,11 @@ static double ior_of(const char *name) {
 }
 
 aur_result aur_parameters_ior(aur_parameters *parameters, const char *inside, float *ior, aur_error *error) {
-    double interior = ior_of(inside), exterior = ior_of("air");
-    aur_result result = read_ior(parameters, "int_ior", &interior, error);
+    indices both = {ior_of(inside), ior_of("air")};
+    aur_result result = read_ior(parameters, &numbers[0], &both, error);
     if (result == AUR_OK)
-        result = read_ior(parameters, "ext_ior", &exterior, error);
-    *ior = (float)(interior / exterior);
+        result = read_ior(parameters, &numbers[1], &both, error);
+    *ior = (float)(both.inside / both.outside);
     return result;
 }
 
@@ -148,39 +158,30 @@ static const struct {
 
 enum { METAL_COUNT = sizeof metals / sizeof metals[0] };
 
-aur_result aur_parameters_conductor(aur_parameters *parameters, aur_vector *eta, aur_vector *k, bool *perfect,
-                                    aur_error *error) {
+aur_result aur_metal_complete(aur_parameters *parameters, aur_metal *metal, aur_error *error) {
     const aur_parameter *const item = aur_parameters_find(parameters, "material");
-    const aur_parameter *const eta_item = aur_parameters_find(parameters, "eta");
-    const aur_parameter *const k_item = aur_parameters_find(parameters, "k");
-    *perfect = item == NULL && eta_item == NULL && k_item == NULL;
-    if (item != NULL && (eta_item != NULL || k_item != NULL))
+    const bool has_eta = aur_parameters_find(parameters, "eta") != NULL;
+    const bool has_k = aur_parameters_find(parameters, "k") != NULL;
+    metal->perfect = item == NULL && !has_eta && !has_k;
+    if (item != NULL && (has_eta || has_k))
         return aur_fail_at(error, item->location, AUR_ERROR_FORMAT,
                            "bsdf '%s': give 'material' or 'eta' and 'k'", parameters->plugin);
-    if (item == NULL) {
-        double values[2][3] = {{0.0, 0.0, 0.0}, {1.0, 1.0, 1.0}};
-        aur_result result = aur_parameters_triple(parameters, "eta", -1e3, 1e3, values[0], error);
-        if (result == AUR_OK)
-            result = aur_parameters_triple(parameters, "k", -1e3, 1e3, values[1], error);
-        if (result == AUR_OK && (eta_item == NULL) != (k_item == NULL))
-            return aur_fail_at(error, parameters->location, AUR_ERROR_FORMAT,
-                               "bsdf '%s': 'eta' and 'k' go together", parameters->plugin);
-        *eta = (aur_vector){(float)values[0][0], (float)values[0][1], (float)values[0][2]};
-        *k = (aur_vector){(float)values[1][0], (float)values[1][1], (float)values[1][2]};
-        return result;
-    }
+    if (item == NULL)
+        return has_eta == has_k ? AUR_OK
+                                : aur_fail_at(error, parameters->location, AUR_ERROR_FORMAT,
+                                              "bsdf '%s': 'eta' and 'k' go together", parameters->plugin);
     const char *names[METAL_COUNT + 1];
     for (size_t i = 0; i < METAL_COUNT; ++i) {
         names[i] = metals[i].name;
         if (item->text != NULL && strcmp(names[i], item->text) == 0) {
-            *eta = metals[i].eta;
-            *k = metals[i].k;
+            metal->eta = metals[i].eta;
+            metal->k = metals[i].k;
             return AUR_OK;
         }
     }
     names[METAL_COUNT] = "none";
     if (item->text == NULL || strcmp(item->text, "none") != 0)
         return fail_name(parameters, item, METAL_COUNT + 1, names, error);
-    *perfect = true;
+    metal->perfect = true;
     return AUR_OK;
 }

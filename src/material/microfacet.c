@@ -3,24 +3,12 @@
 #include "material/erf.h"
 #include "material/sampling.h"
 
-aur_result aur_parameters_microfacet(aur_parameters *parameters, aur_microfacet *microfacet,
-                                     aur_error *error) {
-    static const char *const names[] = {"beckmann", "ggx"};
-    size_t distribution = 0;
-    double alpha = 0.1;
-    bool visible = true;
-    aur_result result = aur_parameters_choice(parameters, "distribution", 2, names, &distribution, error);
-    if (result == AUR_OK)
-        result = aur_parameters_boolean(parameters, "sample_visible", &visible, error);
-    if (result == AUR_OK)
-        result = aur_parameters_float(parameters, "alpha", 1e-4, 10.0, &alpha, error);
-    double alpha_u = alpha, alpha_v = alpha;
-    if (result == AUR_OK)
-        result = aur_parameters_float(parameters, "alpha_u", 1e-4, 10.0, &alpha_u, error);
-    if (result == AUR_OK)
-        result = aur_parameters_float(parameters, "alpha_v", 1e-4, 10.0, &alpha_v, error);
-    *microfacet = (aur_microfacet){distribution == 0, (float)alpha_u, (float)alpha_v};
-    return result;
+bool aur_microfacet_complete(aur_microfacet *microfacet) {
+    if (microfacet->alpha_u == 0.0f)
+        microfacet->alpha_u = microfacet->alpha;
+    if (microfacet->alpha_v == 0.0f)
+        microfacet->alpha_v = microfacet->alpha;
+    return microfacet->alpha_u != microfacet->alpha_v;
 }
 
 float aur_microfacet_density(const aur_microfacet *microfacet, aur_vector normal) {
@@ -29,7 +17,7 @@ float aur_microfacet_density(const aur_microfacet *microfacet, aur_vector normal
     const float x = normal.x / microfacet->alpha_u, y = normal.y / microfacet->alpha_v;
     const float area = AUR_PI_F * microfacet->alpha_u * microfacet->alpha_v;
     const float z2 = normal.z * normal.z;
-    if (microfacet->beckmann)
+    if (microfacet->distribution == AUR_MICROFACET_BECKMANN)
         return expf(-(x * x + y * y) / z2) / (area * z2 * z2);
     const float sum = x * x + y * y + z2;
     return 1.0f / (area * sum * sum);
@@ -41,7 +29,7 @@ static float lambda(const aur_microfacet *microfacet, aur_vector direction) {
     const float tangent2 = (x * x + y * y) / (direction.z * direction.z); /* (alpha tan)^2 */
     if (!(tangent2 > 0.0f))
         return 0.0f;
-    if (!microfacet->beckmann)
+    if (microfacet->distribution != AUR_MICROFACET_BECKMANN)
         return 0.5f * (sqrtf(1.0f + tangent2) - 1.0f);
     const float a = 1.0f / sqrtf(tangent2);
     /* 0.564 = 1 / sqrt pi */
@@ -105,8 +93,9 @@ aur_vector aur_microfacet_sample(const aur_microfacet *microfacet, aur_vector vi
     const float a = microfacet->alpha_u, b = microfacet->alpha_v;
     /* Stretched, every ellipsoid is a hemisphere. */
     const aur_vector stretched = aur_vector_normalize((aur_vector){view.x * a, view.y * b, view.z});
-    const aur_vector normal =
-        microfacet->beckmann ? sample_beckmann(stretched, u, v) : sample_ggx(stretched, u, v);
+    const aur_vector normal = microfacet->distribution == AUR_MICROFACET_BECKMANN
+                                  ? sample_beckmann(stretched, u, v)
+                                  : sample_ggx(stretched, u, v);
     return aur_vector_normalize((aur_vector){normal.x * a, normal.y * b, fmaxf(normal.z, 1e-7f)});
 }
 

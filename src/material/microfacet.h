@@ -3,18 +3,35 @@
 #ifndef AUR_MATERIAL_MICROFACET_H
 #define AUR_MATERIAL_MICROFACET_H
 
-#include "core/parameters.h"
+#include "core/keys.h"
 #include "core/vector.h"
 
 typedef struct aur_microfacet {
-    bool beckmann; /* else GGX */
+    enum { AUR_MICROFACET_BECKMANN, AUR_MICROFACET_GGX } distribution;
     float alpha_u, alpha_v;
+    /* Read, and of no use afterwards: */
+    float alpha;
+    bool sample_visible;
 } aur_microfacet;
 
-/* Reads `distribution` (beckmann, ggx), `alpha`, or `alpha_u` and `alpha_v`; `sample_visible` is always so.
- */
-aur_result aur_parameters_microfacet(aur_parameters *parameters, aur_microfacet *microfacet,
-                                     aur_error *error);
+/* Rows for tables of keys; the struct is zeroed and has an aur_microfacet called microfacet. */
+#define AUR_MICROFACET_KEYS(struct_)                                                                         \
+    {AUR_KEY_OF_CHOICE(struct_, "distribution", microfacet.distribution, "beckmann",                         \
+                       "of the facets' normals", "beckmann", "ggx")},                                        \
+        {AUR_KEY_OF_BOOLEAN(struct_, "sample_visible", microfacet.sample_visible, "true",                    \
+                            "of no effect: it is always so")},                                               \
+        {AUR_KEY_OF_REAL(struct_, "alpha", microfacet.alpha, 1e-4, 10.0, "0.1", "roughness")},               \
+        {AUR_KEY_OF_REAL(struct_, "alpha_u", microfacet.alpha_u, 1e-4, 10.0, "alpha",                        \
+                         "roughness along the first texture coordinate"),                                    \
+         .computed = true},                                                                                  \
+    {                                                                                                        \
+        AUR_KEY_OF_REAL(struct_, "alpha_v", microfacet.alpha_v, 1e-4, 10.0, "alpha",                         \
+                        "roughness along the second"),                                                       \
+            .computed = true                                                                                 \
+    }
+
+/* `alpha` stands for what was not given of alpha_u and alpha_v. Returns whether the two differ. */
+bool aur_microfacet_complete(aur_microfacet *microfacet);
 
 /* Density of normals: its integral against the cosine is 1. */
 float aur_microfacet_density(const aur_microfacet *microfacet, aur_vector normal);

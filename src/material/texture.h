@@ -9,9 +9,8 @@
 typedef struct aur_texture aur_texture;
 
 typedef struct aur_texture_descriptor {
-    const char *name;
-    const char *summary;
-    /* Reads its parameters and sets texture->data and texture->mean. */
+    aur_row row; /* first, so that a row of the table is its descriptor */
+    /* Reads its keys (aur_colors_read) and sets texture->data and texture->mean. */
     aur_result (*create)(aur_parameters *parameters, aur_texture *texture, aur_error *error);
     void (*release)(aur_texture *texture);
     aur_vector (*evaluate)(const aur_texture *texture, float u, float v);
@@ -24,6 +23,8 @@ struct aur_texture {
     float maximum;   /* of any channel anywhere */
 };
 
+extern const aur_table aur_texture_table;
+
 /* Builds the texture that parameters->plugin names. A bitmap's `filename` must already be a path that opens.
  */
 aur_result aur_texture_create(aur_parameters *parameters, aur_texture **texture, aur_error *error);
@@ -34,7 +35,21 @@ typedef struct aur_uv_map {
     float m[6]; /* u' = m0 u + m1 v + m2, v' = m3 u + m4 v + m5 */
 } aur_uv_map;
 
-aur_result aur_parameters_uv_map(aur_parameters *parameters, aur_uv_map *map, aur_error *error);
+/* What is read of it: `to_uv`, or Mitsuba 0.6's way to say it. */
+typedef struct aur_uv_keys {
+    double to_uv[16], scale[2], offset[2];
+} aur_uv_keys;
+
+/* Rows for tables of keys; the struct has an aur_uv_keys called uv. */
+#define AUR_UV_KEYS(struct_)                                                                                 \
+    {AUR_KEY_OF_TRANSFORM(struct_, "to_uv", uv.to_uv, "applied to the texture coordinates")},                \
+        {AUR_KEY_OF_REAL(struct_, "uscale", uv.scale[0], -1e30, 1e30, "1", "factor of u")},                  \
+        {AUR_KEY_OF_REAL(struct_, "vscale", uv.scale[1], -1e30, 1e30, "1", "factor of v")},                  \
+        {AUR_KEY_OF_REAL(struct_, "uoffset", uv.offset[0], -1e30, 1e30, "0", "added to u")}, {               \
+        AUR_KEY_OF_REAL(struct_, "voffset", uv.offset[1], -1e30, 1e30, "0", "added to v")                    \
+    }
+
+aur_uv_map aur_uv_map_of(const aur_uv_keys *keys);
 
 static inline aur_bsdf_point aur_uv_map_apply(const aur_uv_map *map, float u, float v) {
     return (aur_bsdf_point){map->m[0] * u + map->m[1] * v + map->m[2],
@@ -57,9 +72,5 @@ static inline aur_vector aur_color_mean(const aur_color *color) {
 
 /* aur_row_read for structs with keys of colours: a texture must not reach beyond a key's maximum. */
 aur_result aur_colors_read(const aur_row *row, aur_parameters *parameters, void *fields, aur_error *error);
-
-/* Reads a colour or texture whose values lie in [0, maximum]; *color keeps its default when absent. */
-aur_result aur_parameters_color(aur_parameters *parameters, const char *name, double maximum,
-                                aur_color *color, aur_error *error);
 
 #endif

@@ -74,36 +74,44 @@ static void note_range(aur_texture *texture, const bitmap *self) {
     texture->mean = (aur_vector){(float)(sum[0] / n), (float)(sum[1] / n), (float)(sum[2] / n)};
 }
 
+typedef struct bitmap_keys {
+    enum { FILTER_BILINEAR, FILTER_NEAREST } filter;
+    wrap_mode wrap;
+    bool raw;
+    const char *path;
+    aur_uv_keys uv;
+} bitmap_keys;
+
+static const aur_key keys[] = {
+    {AUR_KEY_OF_CHOICE(bitmap_keys, "filter_type", filter, "bilinear", "between pixels", "bilinear",
+                       "nearest")},
+    {AUR_KEY_OF_CHOICE(bitmap_keys, "wrap_mode", wrap, "repeat", "beyond the picture", "repeat", "mirror",
+                       "clamp")},
+    {AUR_KEY_OF_BOOLEAN(bitmap_keys, "raw", raw, "false", "8-bit values are taken as they are, not as sRGB")},
+    {AUR_KEY_OF_TEXT(bitmap_keys, "filename", path, NULL, "the picture, beside the scene; must be given")},
+    AUR_UV_KEYS(bitmap_keys),
+};
+
 static aur_result create(aur_parameters *parameters, aur_texture *texture, aur_error *error) {
-    static const char *const filters[] = {"bilinear", "nearest"};
-    static const char *const wraps[] = {"repeat", "mirror", "clamp"};
     bitmap *const self = calloc(1, sizeof *self);
     texture->data = self;
     if (self == NULL)
         return aur_fail_at(error, parameters->location, AUR_ERROR_MEMORY, "out of memory");
-    size_t filter = 0, wrap = 0;
-    bool raw = false;
-    const char *path = NULL;
-    aur_result result = aur_parameters_choice(parameters, "filter_type", 2, filters, &filter, error);
-    if (result == AUR_OK)
-        result = aur_parameters_choice(parameters, "wrap_mode", 3, wraps, &wrap, error);
-    if (result == AUR_OK)
-        result = aur_parameters_boolean(parameters, "raw", &raw, error);
-    if (result == AUR_OK)
-        result = aur_parameters_uv_map(parameters, &self->to_uv, error);
-    if (result == AUR_OK)
-        result = aur_parameters_string(parameters, "filename", &path, error);
+    bitmap_keys given = {.path = NULL};
+    aur_result result = aur_row_read(&texture->descriptor->row, parameters, &given, error);
     if (result != AUR_OK)
         return result;
+    const char *const path = given.path;
     if (path == NULL)
         return aur_fail_at(error, parameters->location, AUR_ERROR_FORMAT,
                            "texture 'bitmap' needs the string 'filename'");
-    self->nearest = filter == 1;
-    self->wrap = (wrap_mode)wrap;
+    self->nearest = given.filter == FILTER_NEAREST;
+    self->wrap = given.wrap;
+    self->to_uv = aur_uv_map_of(&given.uv);
     result = aur_read_rgb(path, parameters->location, &self->width, &self->height, &self->rgb, error);
     if (result != AUR_OK)
         return result;
-    for (size_t i = 0; raw && has_8_bits(path) && i < 3 * self->width * self->height; ++i)
+    for (size_t i = 0; given.raw && has_8_bits(path) && i < 3 * self->width * self->height; ++i)
         self->rgb[i] = encode(self->rgb[i]);
     note_range(texture, self);
     return AUR_OK;
@@ -151,8 +159,10 @@ static aur_vector evaluate(const aur_texture *texture, float u, float v) {
 }
 
 const aur_texture_descriptor aur_texture_bitmap = {
-    .name = "bitmap",
-    .summary = "a picture from an EXR, PFM, HDR, PNG or JPEG file",
+    .row = {.name = "bitmap",
+            .summary = "a picture from an EXR, PFM, HDR, PNG or JPEG file",
+            .source = "",
+            AUR_ROW_KEYS(keys)},
     .create = create,
     .release = release,
     .evaluate = evaluate,

@@ -6,27 +6,31 @@
 typedef struct checkerboard {
     aur_color color[2];
     aur_uv_map to_uv;
+    aur_uv_keys uv;
 } checkerboard;
+
+static const aur_key keys[] = {
+    {AUR_KEY_OF_COLOR(checkerboard, "color0", color[0], 1e30, "0.4", "of the square at (0, 0)")},
+    {AUR_KEY_OF_COLOR(checkerboard, "color1", color[1], 1e30, "0.2", "of its neighbours")},
+    AUR_UV_KEYS(checkerboard),
+};
 
 static aur_result create(aur_parameters *parameters, aur_texture *texture, aur_error *error) {
     checkerboard *const self = calloc(1, sizeof *self);
     texture->data = self;
     if (self == NULL)
         return aur_fail_at(error, parameters->location, AUR_ERROR_MEMORY, "out of memory");
-    self->color[0].constant = (aur_vector){0.4f, 0.4f, 0.4f};
-    self->color[1].constant = (aur_vector){0.2f, 0.2f, 0.2f};
-    aur_result result = aur_parameters_color(parameters, "color0", 1e30, &self->color[0], error);
-    if (result == AUR_OK)
-        result = aur_parameters_color(parameters, "color1", 1e30, &self->color[1], error);
-    if (result == AUR_OK)
-        result = aur_parameters_uv_map(parameters, &self->to_uv, error);
+    const aur_result result = aur_colors_read(&texture->descriptor->row, parameters, self, error);
+    if (result != AUR_OK)
+        return result;
+    self->to_uv = aur_uv_map_of(&self->uv);
     const aur_vector a = aur_color_mean(&self->color[0]), b = aur_color_mean(&self->color[1]);
     texture->mean = aur_vector_scale(aur_vector_add(a, b), 0.5f);
     for (size_t i = 0; i < 2; ++i)
         texture->maximum =
             fmaxf(texture->maximum, self->color[i].texture != NULL ? self->color[i].texture->maximum
                                                                    : aur_vector_max(self->color[i].constant));
-    return result;
+    return AUR_OK;
 }
 
 static void release(aur_texture *texture) {
@@ -42,8 +46,7 @@ static aur_vector evaluate(const aur_texture *texture, float u, float v) {
 }
 
 const aur_texture_descriptor aur_texture_checkerboard = {
-    .name = "checkerboard",
-    .summary = "two colours in squares",
+    .row = {.name = "checkerboard", .summary = "two colours in squares", .source = "", AUR_ROW_KEYS(keys)},
     .create = create,
     .release = release,
     .evaluate = evaluate,

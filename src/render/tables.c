@@ -1,6 +1,7 @@
 /* The tables of libaureole-render: a line a table. */
 #include <aureole/render.h>
 
+#include "material/texture.h"
 #include "scene/emitter.h"
 #include "scene/filter.h"
 #include "scene/scene.h"
@@ -11,6 +12,8 @@
 /* clang-format off */
 static const aur_table *const tables[] = {
     &aur_integrator_table,
+    &aur_bsdf_table,
+    &aur_texture_table,
     &aur_shape_table,
     &aur_emitter_table,
     &aur_sensor_table,

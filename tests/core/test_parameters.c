@@ -2,7 +2,7 @@
 
 #include <string.h>
 
-#include "core/parameters.h"
+#include "core/keys.h"
 #include "core/text.h"
 
 static void parses_a_specification(void **state) {
@@ -12,15 +12,11 @@ static void parses_a_specification(void **state) {
     assert_int_equal(aur_parameters_parse(&parameters, "set", "esfg:base=64,levels=3,shift=final", &error),
                      AUR_OK);
     assert_string_equal(parameters.plugin, "esfg");
-    int64_t base = 0, levels = 0;
-    static const char *const shifts[] = {"per-level", "final"};
-    size_t shift = 0;
-    assert_int_equal(aur_parameters_integer(&parameters, "base", 1, 100, &base, &error), AUR_OK);
-    assert_int_equal(aur_parameters_integer(&parameters, "levels", 0, 10, &levels, &error), AUR_OK);
-    assert_int_equal(aur_parameters_choice(&parameters, "shift", 2, shifts, &shift, &error), AUR_OK);
-    assert_int_equal(base, 64);
-    assert_int_equal(levels, 3);
-    assert_int_equal(shift, 1);
+    assert_string_equal(aur_parameters_find(&parameters, "base")->text, "64");
+    assert_string_equal(aur_parameters_find(&parameters, "levels")->text, "3");
+    assert_int_equal(aur_parameters_finish(&parameters, &error), AUR_ERROR_NAME);
+    assert_string_equal(aur_parameters_find(&parameters, "shift")->text, "final");
+    assert_null(aur_parameters_find(&parameters, "scramble"));
     assert_int_equal(aur_parameters_finish(&parameters, &error), AUR_OK);
     aur_parameters_release(&parameters);
 }
@@ -30,14 +26,18 @@ static void keeps_commas_in_parentheses(void **state) {
     aur_parameters parameters;
     aur_error error = {0};
     assert_int_equal(aur_parameters_parse(&parameters, "integrator", "x:a=(y:b=1,c=2),d=3", &error), AUR_OK);
-    const char *a = NULL;
-    int64_t d = 0;
-    assert_int_equal(aur_parameters_string(&parameters, "a", &a, &error), AUR_OK);
-    assert_int_equal(aur_parameters_integer(&parameters, "d", 0, 9, &d, &error), AUR_OK);
-    assert_string_equal(a, "y:b=1,c=2");
-    assert_int_equal(d, 3);
+    assert_string_equal(aur_parameters_find(&parameters, "a")->text, "y:b=1,c=2");
+    assert_string_equal(aur_parameters_find(&parameters, "d")->text, "3");
     aur_parameters_release(&parameters);
 }
+
+typedef struct thing {
+    double a;
+} thing;
+
+static const aur_key keys[] = {{AUR_KEY_OF_REAL(thing, "a", a, 0, 10, "0", "a number")}};
+
+static const aur_row row = {.name = "x", .summary = "", .source = "", AUR_ROW_KEYS(keys)};
 
 static void refuses_what_is_wrong(void **state) {
     (void)state;
@@ -46,11 +46,8 @@ static void refuses_what_is_wrong(void **state) {
         aur_parameters parameters;
         aur_error error = {0};
         assert_int_equal(aur_parameters_parse(&parameters, "set", texts[i], &error), AUR_OK);
-        double value = 0;
-        aur_result result = aur_parameters_float(&parameters, "a", 0, 10, &value, &error);
-        if (result == AUR_OK)
-            result = aur_parameters_finish(&parameters, &error);
-        assert_int_not_equal(result, AUR_OK);
+        thing value;
+        assert_int_not_equal(aur_row_read(&row, &parameters, &value, &error), AUR_OK);
         assert_true(strlen(error.message) > 0);
         aur_parameters_release(&parameters);
     }

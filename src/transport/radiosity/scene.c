@@ -179,7 +179,7 @@ static void warn_about(const aur_scene *scene, size_t shape, const aur_radiosity
     if (kinds != AUR_SCATTERS_SPECULAR && (kinds & ~(unsigned)AUR_SCATTERS_DIFFUSE) != 0)
         aur_warn_at(warnings, location,
                     "radiosity: only the diffuse part of the material '%s' is taken into account",
-                    bsdf->descriptor->name);
+                    bsdf->descriptor->row.name);
     const size_t first = made->first[shape], count = aur_scene_shape_triangles(scene, shape);
     for (size_t i = first; i < first + count; ++i) {
         const float albedo =
