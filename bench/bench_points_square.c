@@ -16,7 +16,8 @@ typedef struct square_context {
 } square_context;
 
 static bool open_square(const char *text, aur_scramble scramble, square_context *context) {
-    const aur_pointset_options options = {.count = context->count, .scramble = scramble, .seed = 1};
+    const aur_pointset_options options = {
+        .size = sizeof options, .count = context->count, .scramble = scramble, .seed = 1};
     context->points = malloc(2 * context->count * sizeof *context->points);
     if (context->points == NULL ||
         (text != NULL && aur_pointset_create(text, &options, &context->set, NULL) != AUR_OK)) {

@@ -9,7 +9,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
     aur_error error = {0};
     aur_pointset *points = NULL;
     fuzz_write_file("fuzz-matrices", data, size);
-    const aur_pointset_options options = {.count = COUNT, .dimension = 2};
+    const aur_pointset_options options = {.size = sizeof options, .count = COUNT, .dimension = 2};
     const aur_result result = aur_pointset_create("matrices:file=fuzz-matrices", &options, &points, &error);
     if (result != AUR_OK) {
         fuzz_require(error.message[0] != '\0', "a failure without a message");

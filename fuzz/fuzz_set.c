@@ -13,7 +13,7 @@ static void require_error(aur_result result, const aur_error *error) {
 static void try_square(const char *set) {
     aur_error error = {0};
     aur_pointset *points = NULL;
-    const aur_pointset_options options = {.count = COUNT, .dimension = 2};
+    const aur_pointset_options options = {.size = sizeof options, .count = COUNT, .dimension = 2};
     const aur_result result = aur_pointset_create(set, &options, &points, &error);
     if (result != AUR_OK) {
         require_error(result, &error);

@@ -6,6 +6,8 @@
 #define AUREOLE_POINTSET_H
 
 #include <aureole/tables.h>
+#include <stdbool.h>
+#include <string.h>
 
 #ifdef __cplusplus
 extern "C" {
@@ -59,12 +61,22 @@ typedef struct aur_set_description {
 typedef struct aur_pointset aur_pointset;
 
 typedef struct aur_pointset_options {
-    uint64_t count;        /* the size of the set: at least 1; 0 stands for all points of file:PATH */
+    size_t size;           /* of the caller's struct, so that it can grow */
+    uint64_t count;        /* points of the set: at least 1; 0 stands for all points of file:PATH */
     size_t dimension;      /* 0 stands for 2, or for what a file, a vector or a set of one dimension has */
     aur_scramble scramble; /* NONE, DIGIT, OWEN, SHIFT or ROTATE */
     uint64_t seed;         /* of scrambling and of random sets */
     aur_warnings warnings; /* "n is not a power of two", ... */
 } aur_pointset_options;
+
+/* A set of two dimensions that is not scrambled. */
+static inline aur_pointset_options aur_pointset_options_default(uint64_t count) {
+    aur_pointset_options options;
+    memset(&options, 0, sizeof options);
+    options.size = sizeof options;
+    options.count = count;
+    return options;
+}
 
 /* Makes the set that `set` names ready. Errors: NAME for an unknown set or key, FORMAT, ARGUMENT for a count
  * or dimension that the set does not have, UNSUPPORTED for a scrambling that has no meaning there, MEMORY. */
@@ -259,12 +271,20 @@ AUR_API const char *aur_points_format_name(aur_points_format format);
 
 /* Where points come from: kept in the formats that have a place for it (JSON, PLY). */
 typedef struct aur_points_origin {
+    size_t size; /* of the caller's struct, so that it can grow */
     const char *set;
-    uint64_t size;  /* of the set, of which the points may be a part */
+    uint64_t count; /* of the set, of which the points may be a part */
     uint64_t first; /* the index of the first one */
     aur_scramble scramble;
     uint64_t seed;
 } aur_points_origin;
+
+static inline aur_points_origin aur_points_origin_default(void) {
+    aur_points_origin origin;
+    memset(&origin, 0, sizeof origin);
+    origin.size = sizeof origin;
+    return origin;
+}
 
 /* Writes points to `path`, "-" for standard output; the file is replaced whole or not at all. `origin` may be
  * NULL. Errors: UNSUPPORTED for a ply file of more than three coordinates, WRITE. */

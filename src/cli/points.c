@@ -213,8 +213,9 @@ static int warp(const char *path, aur_points *points) {
 static int write_points(const request *wanted, const aur_points *points) {
     aur_error error = {0};
     const uint64_t size = wanted->points.options.count; /* 0: all of a file */
-    const aur_points_origin origin = {.set = wanted->set,
-                                      .size = size != 0 ? size : wanted->points.first + points->count,
+    const aur_points_origin origin = {.size = sizeof origin,
+                                      .set = wanted->set,
+                                      .count = size != 0 ? size : wanted->points.first + points->count,
                                       .first = wanted->points.first,
                                       .scramble = wanted->points.options.scramble,
                                       .seed = wanted->points.options.seed};

@@ -12,8 +12,10 @@
 static aur_result fill_table(aur_sampler *sampler, const char *set, const aur_warnings *warnings,
                              aur_error *error) {
     aur_pointset *points = NULL;
-    const aur_pointset_options options = {
-        .count = sampler->size, .dimension = 2, .warnings = warnings != NULL ? *warnings : (aur_warnings){0}};
+    const aur_pointset_options options = {.size = sizeof options,
+                                          .count = sampler->size,
+                                          .dimension = 2,
+                                          .warnings = warnings != NULL ? *warnings : (aur_warnings){0}};
     aur_result result = aur_pointset_create(set, &options, &points, error);
     if (result != AUR_OK)
         return result;

@@ -75,13 +75,17 @@ static void reads_keys_of_sets(void **state) {
     (void)state;
     aur_error error = {0};
     aur_pointset *set;
-    assert_int_equal(aur_pointset_create("fibonacci-lattice:offset=0.5", &(aur_pointset_options){.count = 8},
-                                         &set, &error),
-                     AUR_OK);
+    assert_int_equal(
+        aur_pointset_create("fibonacci-lattice:offset=0.5",
+                            &(aur_pointset_options){.size = sizeof(aur_pointset_options), .count = 8}, &set,
+                            &error),
+        AUR_OK);
     aur_pointset_destroy(set);
-    assert_int_equal(aur_pointset_create("fibonacci-lattice:offset=1.5", &(aur_pointset_options){.count = 8},
-                                         &set, &error),
-                     AUR_ERROR_FORMAT);
+    assert_int_equal(
+        aur_pointset_create("fibonacci-lattice:offset=1.5",
+                            &(aur_pointset_options){.size = sizeof(aur_pointset_options), .count = 8}, &set,
+                            &error),
+        AUR_ERROR_FORMAT);
     assert_null(strstr(error.message, "0,"));
 }
 

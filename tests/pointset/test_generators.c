@@ -9,7 +9,8 @@
 static void lcg_is_minstd(void **state) {
     (void)state;
     /* Park and Miller 1988: from seed 1, value 10000 is 1043618065. */
-    aur_pointset *const set = make_set("lcg", (aur_pointset_options){.count = 5000});
+    aur_pointset *const set =
+        make_set("lcg", (aur_pointset_options){.size = sizeof(aur_pointset_options), .count = 5000});
     double first[2], last[2];
     assert_int_equal(aur_pointset_points(set, 0, 1, 2, first), AUR_OK);
     assert_int_equal(aur_pointset_points(set, 4999, 1, 2, last), AUR_OK);
@@ -25,7 +26,8 @@ static void icg_is_the_recursion(void **state) {
     (void)state;
     const uint64_t p = 2147483647;
     enum { COUNT = 3000 };
-    double *const points = make_points("icg", (aur_pointset_options){.count = COUNT, .dimension = 1});
+    double *const points = make_points(
+        "icg", (aur_pointset_options){.size = sizeof(aur_pointset_options), .count = COUNT, .dimension = 1});
     uint64_t x = 0;
     for (size_t i = 0; i < COUNT; ++i) {
         assert_near(points[i] * (double)p, (double)x, 1e-6);
@@ -38,7 +40,8 @@ static void icg_is_the_recursion(void **state) {
     }
     free(points);
     /* Jumping lands where walking does, and the period is full: the last value steps back to 0. */
-    aur_pointset *const set = make_set("icg", (aur_pointset_options){.count = p, .dimension = 1});
+    aur_pointset *const set = make_set(
+        "icg", (aur_pointset_options){.size = sizeof(aur_pointset_options), .count = p, .dimension = 1});
     double ends[2];
     assert_int_equal(aur_pointset_points(set, 2999, 1, 1, ends), AUR_OK);
     assert_int_equal(aur_pointset_points(set, p - 1, 1, 1, ends + 1), AUR_OK);
@@ -69,7 +72,8 @@ static void runs_are_their_points(void **state) {
                                         "faure:base=67,scramble=lower-triangular"};
     for (size_t k = 0; k < 4; ++k) {
         const uint64_t base = k % 2 == 0 ? 5 : 67, power = base * base * base * base;
-        const aur_pointset_options options = {.count = UINT64_C(1) << 40, .dimension = 5, .seed = 3};
+        const aur_pointset_options options = {
+            .size = sizeof options, .count = UINT64_C(1) << 40, .dimension = 5, .seed = 3};
         expect_run(faure[k], options, 0);
         expect_run(faure[k], options, power - 350);
         expect_run(faure[k], options, 3 * power * base - 17);
@@ -77,9 +81,13 @@ static void runs_are_their_points(void **state) {
     const uint64_t p = 2147483647;
     for (size_t dimension = 1; dimension <= 3; ++dimension) {
         const uint64_t start = aur_mix64(11) % p;
-        const aur_pointset_options options = {.count = p / dimension, .dimension = dimension, .seed = 11};
+        const aur_pointset_options options = {
+            .size = sizeof options, .count = p / dimension, .dimension = dimension, .seed = 11};
         expect_run("icg", options, (p - start) / dimension - 350);
-        expect_run("icg", (aur_pointset_options){.count = 1000, .dimension = dimension}, 0);
+        expect_run("icg",
+                   (aur_pointset_options){
+                       .size = sizeof(aur_pointset_options), .count = 1000, .dimension = dimension},
+                   0);
     }
 }
 
@@ -88,7 +96,9 @@ static void runs_are_their_points(void **state) {
 static void jittered_points_are_in_their_cells(void **state) {
     (void)state;
     for (size_t count = 1; count < 400; ++count) {
-        double *const points = make_points("jittered", (aur_pointset_options){.count = count, .seed = count});
+        double *const points = make_points(
+            "jittered",
+            (aur_pointset_options){.size = sizeof(aur_pointset_options), .count = count, .seed = count});
         const size_t columns = (size_t)sqrt((double)count);
         size_t index = 0;
         for (size_t c = 0; c < columns; ++c) {
@@ -125,10 +135,12 @@ static void faure_is_a_net_in_its_base(void **state) {
             count *= cases[k].base;
         for (size_t s = 0; s < 3; ++s) {
             const size_t dimension = cases[k].dimension;
-            double *const points = make_points(cases[k].text, (aur_pointset_options){.count = count,
-                                                                                     .dimension = dimension,
-                                                                                     .scramble = scrambles[s],
-                                                                                     .seed = 11});
+            double *const points =
+                make_points(cases[k].text, (aur_pointset_options){.size = sizeof(aur_pointset_options),
+                                                                  .count = count,
+                                                                  .dimension = dimension,
+                                                                  .scramble = scrambles[s],
+                                                                  .seed = 11});
             for (size_t a = 0; a < dimension; ++a)
                 for (size_t b = 0; b < a; ++b)
                     assert_true(is_net(cases[k].base, cases[k].m, points, dimension, a, b));
@@ -143,7 +155,8 @@ static void faure_begins_as_published(void **state) {
     (void)state;
     static const double ninths[9][3] = {{0, 0, 0}, {3, 3, 3}, {6, 6, 6}, {1, 4, 7}, {4, 7, 1},
                                         {7, 1, 4}, {2, 8, 5}, {5, 2, 8}, {8, 5, 2}};
-    double *const points = make_points("faure", (aur_pointset_options){.count = 9, .dimension = 3});
+    double *const points = make_points(
+        "faure", (aur_pointset_options){.size = sizeof(aur_pointset_options), .count = 9, .dimension = 3});
     for (size_t i = 0; i < 9; ++i)
         for (size_t d = 0; d < 3; ++d)
             assert_near(9.0 * points[3 * i + d], ninths[i][d], 1e-12);
@@ -157,10 +170,12 @@ static void niederreiter_has_its_quality_parameter(void **state) {
     enum { LOG = 9, COUNT = 1 << LOG, DIMENSION = 5 };
     static const unsigned degrees[DIMENSION] = {1, 1, 2, 3, 3};
     for (int scramble = AUR_SCRAMBLE_NONE; scramble <= AUR_SCRAMBLE_OWEN; ++scramble) {
-        double *const points = make_points(
-            "niederreiter",
-            (aur_pointset_options){
-                .count = COUNT, .dimension = DIMENSION, .scramble = (aur_scramble)scramble, .seed = 3});
+        double *const points =
+            make_points("niederreiter", (aur_pointset_options){.size = sizeof(aur_pointset_options),
+                                                               .count = COUNT,
+                                                               .dimension = DIMENSION,
+                                                               .scramble = (aur_scramble)scramble,
+                                                               .seed = 3});
         for (size_t a = 0; a < DIMENSION; ++a) {
             for (size_t b = 0; b < a; ++b) {
                 const unsigned t = degrees[a] + degrees[b] - 2;
@@ -181,8 +196,10 @@ static void niederreiter_has_its_quality_parameter(void **state) {
 
 static void niederreiter_begins_as_sobol(void **state) {
     (void)state;
-    double *const a = make_points("niederreiter", (aur_pointset_options){.count = 512});
-    double *const b = make_points("sobol", (aur_pointset_options){.count = 512});
+    double *const a = make_points("niederreiter",
+                                  (aur_pointset_options){.size = sizeof(aur_pointset_options), .count = 512});
+    double *const b =
+        make_points("sobol", (aur_pointset_options){.size = sizeof(aur_pointset_options), .count = 512});
     assert_memory_equal(a, b, 1024 * sizeof *a);
     free(a);
     free(b);
@@ -200,7 +217,7 @@ static void matrices_are_read(void **state) {
     static const char path[] = "test_matrices.tmp";
     /* Identity and Pascal's triangle: Sobol's first two coordinates. */
     write_text(path, "# a comment\nbase 2\n1 0 0\n0 1 0\n0 0 1\n\n111\n010\n001\n");
-    aur_pointset_options options = {.count = 8};
+    aur_pointset_options options = {.size = sizeof options, .count = 8};
     double *points = make_points("matrices:file=test_matrices.tmp", options);
     static const double expected[] = {0,    0,    .5,   .5,   .25,  .75,  .75,  .25,
                                       .125, .625, .625, .125, .375, .875, .875, .375};
@@ -246,16 +263,19 @@ static void matrices_are_read(void **state) {
 
 static void lattices_are_exact(void **state) {
     (void)state;
-    double *points = make_points("fibonacci-lattice", (aur_pointset_options){.count = 89});
+    double *points = make_points("fibonacci-lattice",
+                                 (aur_pointset_options){.size = sizeof(aur_pointset_options), .count = 89});
     for (size_t i = 0; i < 89; ++i) {
         assert_near(points[2 * i], (double)i / 89.0, 0.0);
         assert_near(points[2 * i + 1], (double)(i * 55 % 89) / 89.0, 0.0);
     }
-    double *const by_default = make_points("rank1", (aur_pointset_options){.count = 89});
+    double *const by_default =
+        make_points("rank1", (aur_pointset_options){.size = sizeof(aur_pointset_options), .count = 89});
     assert_memory_equal(points, by_default, 178 * sizeof *points);
     free(by_default);
     free(points);
-    points = make_points("rank1:vector=1/3/10", (aur_pointset_options){.count = 17});
+    points = make_points("rank1:vector=1/3/10",
+                         (aur_pointset_options){.size = sizeof(aur_pointset_options), .count = 17});
     for (size_t i = 0; i < 17; ++i)
         assert_near(points[3 * i + 2], (double)(i * 10 % 17) / 17.0, 0.0);
     free(points);
@@ -305,8 +325,9 @@ static void golden_phases_are_exact(void **state) {
         before = number;
         number = next;
     }
-    aur_pointset *const set =
-        make_set("golden", (aur_pointset_options){.count = UINT64_C(1) << 60, .dimension = 1});
+    aur_pointset *const set = make_set("golden", (aur_pointset_options){.size = sizeof(aur_pointset_options),
+                                                                        .count = UINT64_C(1) << 60,
+                                                                        .dimension = 1});
     for (uint64_t k = 0; k < 2000; ++k) {
         const uint64_t index = (k < 1000 ? UINT64_C(1000000000) : UINT64_C(1000000000000)) + k * 7919;
         double x;
@@ -345,7 +366,8 @@ static void golden_figures(void **state) {
         double discrepancy;
     } cases[] = {{"golden-set", .035574}, {"r2", .073908}, {"fibonacci-lattice:offset=0.5", .036170}};
     for (size_t k = 0; k < 3; ++k) {
-        double *const points = make_points(cases[k].text, (aur_pointset_options){.count = 64});
+        double *const points = make_points(
+            cases[k].text, (aur_pointset_options){.size = sizeof(aur_pointset_options), .count = 64});
         assert_near(brute_star_discrepancy(64, points), cases[k].discrepancy, 5e-7);
         free(points);
     }
@@ -355,7 +377,8 @@ static void golden_figures(void **state) {
 static void golden_set_of_two_seeds(void **state) {
     (void)state;
     double *const points =
-        make_points("golden-set:form=two-seeds,seed=0.25", (aur_pointset_options){.count = 1000, .seed = 9});
+        make_points("golden-set:form=two-seeds,seed=0.25",
+                    (aur_pointset_options){.size = sizeof(aur_pointset_options), .count = 1000, .seed = 9});
     for (size_t i = 1; i < 1000; ++i) {
         assert_true(points[2 * i] > points[2 * i - 2]);
         const double step = points[2 * i + 1] - points[2 * i - 1];
@@ -368,22 +391,24 @@ static void files_are_sets(void **state) {
     (void)state;
     static const char path[] = "test_file,set=x.tmp";
     write_text(path, "u,v\n0,0.5\n0.25,0.75\n0.5,0.125\n");
-    double *const points = make_points("file:test_file,set=x.tmp", (aur_pointset_options){0});
+    double *const points =
+        make_points("file:test_file,set=x.tmp", (aur_pointset_options){.size = sizeof(aur_pointset_options)});
     assert_near(points[5], 0.125, 0.0);
     free(points);
     aur_pointset *set;
     aur_error error = {0};
-    aur_pointset_options options = {.count = 4};
+    aur_pointset_options options = {.size = sizeof options, .count = 4};
     assert_int_equal(aur_pointset_create("file:test_file,set=x.tmp", &options, &set, &error),
                      AUR_ERROR_ARGUMENT);
-    options = (aur_pointset_options){.count = 2, .scramble = AUR_SCRAMBLE_OWEN};
+    options = (aur_pointset_options){
+        .size = sizeof(aur_pointset_options), .count = 2, .scramble = AUR_SCRAMBLE_OWEN};
     assert_int_equal(aur_pointset_create("file:test_file,set=x.tmp", &options, &set, &error),
                      AUR_ERROR_UNSUPPORTED);
-    options = (aur_pointset_options){.count = 2, .dimension = 3};
+    options = (aur_pointset_options){.size = sizeof(aur_pointset_options), .count = 2, .dimension = 3};
     assert_int_equal(aur_pointset_create("file:test_file,set=x.tmp", &options, &set, &error),
                      AUR_ERROR_ARGUMENT);
     write_text(path, "x,y,z\n0,0,1\n");
-    options = (aur_pointset_options){0};
+    options = (aur_pointset_options){.size = sizeof(aur_pointset_options)};
     assert_int_equal(aur_pointset_create("file:test_file,set=x.tmp", &options, &set, &error),
                      AUR_ERROR_UNSUPPORTED);
     remove(path);
@@ -403,21 +428,32 @@ static void expect(const char *text, aur_pointset_options options, aur_result ex
 
 static void bad_keys_are_refused(void **state) {
     (void)state;
-    const aur_pointset_options four = {.count = 4};
+    const aur_pointset_options four = {.size = sizeof four, .count = 4};
     expect("faure:base=4", four, AUR_ERROR_ARGUMENT);
     expect("faure:base=1", four, AUR_ERROR_FORMAT);
-    expect("faure:base=3", (aur_pointset_options){.count = 4, .dimension = 4}, AUR_ERROR_ARGUMENT);
+    expect("faure:base=3",
+           (aur_pointset_options){.size = sizeof(aur_pointset_options), .count = 4, .dimension = 4},
+           AUR_ERROR_ARGUMENT);
     expect("rank1:vector=1/", four, AUR_ERROR_FORMAT);
     expect("rank1:vector=1/-2", four, AUR_ERROR_FORMAT);
-    expect("rank1:vector=1/2/3", (aur_pointset_options){.count = 4, .dimension = 2}, AUR_ERROR_ARGUMENT);
-    expect("rank1", (aur_pointset_options){.count = 4, .dimension = 3}, AUR_ERROR_ARGUMENT);
+    expect("rank1:vector=1/2/3",
+           (aur_pointset_options){.size = sizeof(aur_pointset_options), .count = 4, .dimension = 2},
+           AUR_ERROR_ARGUMENT);
+    expect("rank1", (aur_pointset_options){.size = sizeof(aur_pointset_options), .count = 4, .dimension = 3},
+           AUR_ERROR_ARGUMENT);
     expect("golden-set:seed=1", four, AUR_ERROR_FORMAT);
     expect("golden-set:seed=nan", four, AUR_ERROR_FORMAT);
     expect("golden:seed=inf", four, AUR_ERROR_FORMAT);
-    expect("golden", (aur_pointset_options){.count = 4, .dimension = 2}, AUR_ERROR_ARGUMENT);
-    expect("lcg", (aur_pointset_options){.count = UINT64_C(1) << 31}, AUR_ERROR_ARGUMENT);
-    expect("icg", (aur_pointset_options){.count = UINT64_C(1) << 31}, AUR_ERROR_ARGUMENT);
-    expect("r2", (aur_pointset_options){.count = 4, .scramble = AUR_SCRAMBLE_OWEN}, AUR_ERROR_UNSUPPORTED);
+    expect("golden", (aur_pointset_options){.size = sizeof(aur_pointset_options), .count = 4, .dimension = 2},
+           AUR_ERROR_ARGUMENT);
+    expect("lcg", (aur_pointset_options){.size = sizeof(aur_pointset_options), .count = UINT64_C(1) << 31},
+           AUR_ERROR_ARGUMENT);
+    expect("icg", (aur_pointset_options){.size = sizeof(aur_pointset_options), .count = UINT64_C(1) << 31},
+           AUR_ERROR_ARGUMENT);
+    expect("r2",
+           (aur_pointset_options){
+               .size = sizeof(aur_pointset_options), .count = 4, .scramble = AUR_SCRAMBLE_OWEN},
+           AUR_ERROR_UNSUPPORTED);
 }
 
 int main(void) {

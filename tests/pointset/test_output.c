@@ -108,7 +108,7 @@ enum { CASE_COUNT = sizeof cases / sizeof cases[0], FIRST = 37, COUNT = 600 };
 static void check_case(size_t k, aur_scramble scramble) {
     const size_t dimension = cases[k].dimension;
     const aur_pointset_options options = {
-        .count = size, .dimension = dimension, .scramble = scramble, .seed = 4};
+        .size = sizeof options, .count = size, .dimension = dimension, .scramble = scramble, .seed = 4};
     const aur_randomization randomization = {scramble, 4};
     aur_pointset *const set = make_set(cases[k].text, options);
     const size_t capacity = COUNT * dimension;
@@ -189,7 +189,8 @@ static void instruction_sets_agree(void **state) {
     char *const saved = before != NULL ? strdup(before) : NULL;
     for (size_t trial = 0; trial < 2400; ++trial) {
         const size_t dimension = 1 + trial % 3;
-        const aur_pointset_options options = {.count = UINT64_C(1) << 53,
+        const aur_pointset_options options = {.size = sizeof options,
+                                              .count = UINT64_C(1) << 53,
                                               .dimension = dimension,
                                               .scramble = scrambles[trial / 3 % 4],
                                               .seed = trial};
@@ -235,10 +236,14 @@ static void randomisations_need_nothing_again(void **state) {
     for (size_t k = 0; k < 5; ++k) {
         const aur_scramble scramble = k < 3 ? AUR_SCRAMBLE_OWEN : AUR_SCRAMBLE_SHIFT;
         aur_pointset *const set =
-            make_set(texts[k], (aur_pointset_options){.count = 32, .scramble = scramble, .seed = 1});
+            make_set(texts[k],
+                     (aur_pointset_options){
+                         .size = sizeof(aur_pointset_options), .count = 32, .scramble = scramble, .seed = 1});
         for (uint64_t seed = 1; seed < 5; ++seed) {
-            aur_pointset *const other =
-                make_set(texts[k], (aur_pointset_options){.count = 32, .scramble = scramble, .seed = seed});
+            aur_pointset *const other = make_set(
+                texts[k],
+                (aur_pointset_options){
+                    .size = sizeof(aur_pointset_options), .count = 32, .scramble = scramble, .seed = seed});
             assert_int_equal(
                 aur_pointset_randomize(set, seed, 0, 32, &(aur_output){.capacity = 64, .doubles = a}),
                 AUR_OK);
@@ -248,7 +253,8 @@ static void randomisations_need_nothing_again(void **state) {
         }
         aur_pointset_destroy(set);
     }
-    aur_pointset *const set = make_set("sobol", (aur_pointset_options){.count = 32});
+    aur_pointset *const set =
+        make_set("sobol", (aur_pointset_options){.size = sizeof(aur_pointset_options), .count = 32});
     assert_int_equal(aur_pointset_randomize(set, 1, 0, 32, &(aur_output){.capacity = 64, .doubles = a}),
                      AUR_ERROR_UNSUPPORTED);
     aur_pointset_destroy(set);
@@ -327,7 +333,8 @@ static void outputs_are_checked(void **state) {
     assert_int_equal(aur_sobol_points(2, NULL, 0, 9, &wide), AUR_ERROR_CAPACITY);
     assert_int_equal(aur_output_capacity(AUR_LAYOUT_ARRAYS, 3, 5, 7), 19);
     assert_int_equal(aur_output_capacity(AUR_LAYOUT_POINTS, SIZE_MAX, 2, 0), SIZE_MAX);
-    aur_pointset *const set = make_set("sobol", (aur_pointset_options){.count = 8});
+    aur_pointset *const set =
+        make_set("sobol", (aur_pointset_options){.size = sizeof(aur_pointset_options), .count = 8});
     assert_true(isnan(aur_pointset_coordinate(set, 8, 0)));
     assert_true(isnan(aur_pointset_coordinate(set, 0, 2)));
     aur_pointset_destroy(set);
@@ -339,7 +346,8 @@ static void golden_sets_agree(void **state) {
     enum { N = 777 };
     static double whole[2 * N];
     static float floats[2 * N];
-    double *const prepared = make_points("golden-set:seed=0.375", (aur_pointset_options){.count = N});
+    double *const prepared = make_points(
+        "golden-set:seed=0.375", (aur_pointset_options){.size = sizeof(aur_pointset_options), .count = N});
     assert_int_equal(aur_golden_set_points(0.375, N, &(aur_output){.capacity = 2 * N, .doubles = whole}),
                      AUR_OK);
     assert_memory_equal(whole, prepared, sizeof whole);

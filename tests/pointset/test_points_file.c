@@ -82,7 +82,7 @@ static void the_domain_asked_for_decides(void **state) {
     assert_int_equal(error.line, 2);
 
     aur_pointset *set;
-    const aur_pointset_options options = {0};
+    const aur_pointset_options options = {.size = sizeof options};
     write_file(unit, sizeof unit - 1);
     assert_int_equal(aur_pointset_create("file:test_points_file.tmp", &options, &set, &error), AUR_OK);
     aur_pointset_destroy(set);

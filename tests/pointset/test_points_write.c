@@ -54,8 +54,12 @@ static void csv_is_as_documented(void **state) {
 /* The text of a set may hold what JSON must escape. */
 static void json_names_its_origin(void **state) {
     (void)state;
-    const aur_points_origin origin = {
-        .set = "file:a\"b\\c\n", .size = 9, .first = 3, .scramble = AUR_SCRAMBLE_OWEN, .seed = 5};
+    const aur_points_origin origin = {.size = sizeof origin,
+                                      .set = "file:a\"b\\c\n",
+                                      .count = 9,
+                                      .first = 3,
+                                      .scramble = AUR_SCRAMBLE_OWEN,
+                                      .seed = 5};
     expect_text(
         AUR_POINTS_JSON, &round_one, &origin,
         "{\n  \"set\": \"file:a\\\"b\\\\c\\u000a\",\n  \"n\": 9,\n  \"first\": 3,\n  \"scramble\": "
@@ -84,7 +88,7 @@ static void npy_is_what_numpy_reads(void **state) {
 
 static void ply_has_three_coordinates(void **state) {
     (void)state;
-    const aur_points_origin origin = {.set = "file:a\nb", .size = 2};
+    const aur_points_origin origin = {.size = sizeof origin, .set = "file:a\nb", .count = 2};
     assert_int_equal(aur_points_write(path, AUR_POINTS_PLY, &flat, &origin, NULL), AUR_OK);
     size_t size;
     char *const text = slurp(&size);

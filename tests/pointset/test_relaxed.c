@@ -147,13 +147,15 @@ static void points_are_blue(void **state) {
     static const char *const sets[] = {"blue-noise", "bnot"};
     enum { COUNT = 256 };
     for (size_t k = 0; k < 2; ++k) {
-        double *const points = make_points(sets[k], (aur_pointset_options){.count = COUNT, .seed = 3});
+        double *const points = make_points(
+            sets[k], (aur_pointset_options){.size = sizeof(aur_pointset_options), .count = COUNT, .seed = 3});
         assert_true(low_power(COUNT, points, 6) < 0.03);
         assert_true(least_distance(COUNT, points) > 0.6);
         assert_true(area_deviation(COUNT, points) < 0.1);
         free(points);
     }
-    double *const random = make_points("random", (aur_pointset_options){.count = COUNT, .seed = 3});
+    double *const random = make_points(
+        "random", (aur_pointset_options){.size = sizeof(aur_pointset_options), .count = COUNT, .seed = 3});
     assert_true(low_power(COUNT, random, 6) > 0.5);
     assert_true(area_deviation(COUNT, random) > 0.4);
     free(random);
@@ -162,8 +164,10 @@ static void points_are_blue(void **state) {
 static void every_small_size_works(void **state) {
     (void)state;
     for (uint64_t count = 1; count <= 12; ++count) {
-        free(make_points("blue-noise", (aur_pointset_options){.count = count}));
-        free(make_points("bnot", (aur_pointset_options){.count = count}));
+        free(make_points("blue-noise",
+                         (aur_pointset_options){.size = sizeof(aur_pointset_options), .count = count}));
+        free(make_points("bnot",
+                         (aur_pointset_options){.size = sizeof(aur_pointset_options), .count = count}));
     }
 }
 
@@ -173,7 +177,7 @@ static void results_are_kept(void **state) {
     snprintf(path, sizeof path, "%s/bnot-1-20-0000000000000005.points", folder);
     remove(path);
     setenv("AUREOLE_CACHE", folder, 1);
-    const aur_pointset_options options = {.count = 20, .seed = 5};
+    const aur_pointset_options options = {.size = sizeof options, .count = 20, .seed = 5};
     double *const computed = make_points("bnot", options);
     struct stat status;
     assert_int_equal(stat(path, &status), 0);
@@ -194,7 +198,8 @@ static void results_are_kept(void **state) {
     char other[256];
     snprintf(other, sizeof other, "%s/bnot-1-20-0000000000000006.points", folder);
     assert_int_equal(rename(path, other), 0);
-    double *const renamed = make_points("bnot", (aur_pointset_options){.count = 20, .seed = 6});
+    double *const renamed = make_points(
+        "bnot", (aur_pointset_options){.size = sizeof(aur_pointset_options), .count = 20, .seed = 6});
     assert_memory_not_equal(computed, renamed, 40 * sizeof *renamed);
     free(renamed);
     remove(other);

@@ -5,7 +5,7 @@
 #include "pointset/set.h"
 
 static aur_pointset_options options_of(uint64_t count) {
-    return (aur_pointset_options){.count = count};
+    return (aur_pointset_options){.size = sizeof(aur_pointset_options), .count = count};
 }
 
 static void larcher_pillichshammer_begins_as_published(void **state) {
@@ -24,7 +24,8 @@ static void halton_begins_as_published(void **state) {
     static const double base3[] = {0,      1. / 3, 2. / 3, 1. / 9, 4. / 9,
                                    7. / 9, 2. / 9, 5. / 9, 8. / 9, 1. / 27};
     static const double base2[] = {0, .5, .25, .75, .125, .625, .375, .875, .0625, .5625};
-    double *const points = make_points("halton", (aur_pointset_options){.count = 10, .dimension = 3});
+    double *const points = make_points(
+        "halton", (aur_pointset_options){.size = sizeof(aur_pointset_options), .count = 10, .dimension = 3});
     for (size_t i = 0; i < 10; ++i) {
         assert_near(points[3 * i], base2[i], 0.0);
         assert_near(points[3 * i + 1], base3[i], 1e-16);
@@ -40,7 +41,8 @@ static void sobol_begins_as_published(void **state) {
     /* Points 2 and 3 in Gray-code order are 3 and 2 here. */
     static const double second[] = {.25, .75, .75, .75, .25}; /* point 2, dimensions 0.. */
     static const double third[] = {.75, .25, .25, .25, .75};  /* point 3 */
-    double *const points = make_points("sobol", (aur_pointset_options){.count = 4, .dimension = 5});
+    double *const points = make_points(
+        "sobol", (aur_pointset_options){.size = sizeof(aur_pointset_options), .count = 4, .dimension = 5});
     for (size_t d = 0; d < 5; ++d) {
         assert_near(points[d], 0.0, 0.0);
         assert_near(points[5 + d], 0.5, 0.0);
@@ -53,8 +55,9 @@ static void sobol_begins_as_published(void **state) {
 static void sobol_is_stratified_in_every_dimension(void **state) {
     (void)state;
     enum { LOG = 7, COUNT = 1 << LOG, DIMENSION = 1500 };
-    double *const points =
-        make_points("sobol", (aur_pointset_options){.count = COUNT, .dimension = DIMENSION});
+    double *const points = make_points(
+        "sobol",
+        (aur_pointset_options){.size = sizeof(aur_pointset_options), .count = COUNT, .dimension = DIMENSION});
     for (size_t d = 0; d < DIMENSION; ++d) {
         unsigned char seen[COUNT] = {0};
         for (size_t i = 0; i < COUNT; ++i)
@@ -68,8 +71,9 @@ static void sobol_is_stratified_in_every_dimension(void **state) {
 static void sobol_repeats_are_uncorrelated(void **state) {
     (void)state;
     enum { COUNT = 1 << 12, DIMENSION = 2060 };
-    double *const points =
-        make_points("sobol", (aur_pointset_options){.count = COUNT, .dimension = DIMENSION});
+    double *const points = make_points(
+        "sobol",
+        (aur_pointset_options){.size = sizeof(aur_pointset_options), .count = COUNT, .dimension = DIMENSION});
     for (size_t d = 0; d < 12; ++d) {
         for (size_t repeat = d + 1024; repeat < DIMENSION; repeat += 1024) {
             double sum = 0.0;
@@ -90,9 +94,11 @@ static void nets_stay_nets(void **state) {
         for (unsigned m = 0; m <= 12; m += 3) {
             for (size_t s = 0; s < 3; ++s) {
                 for (uint64_t seed = 0; seed < 10; ++seed) {
-                    double *const points = make_points(
-                        names[n], (aur_pointset_options){
-                                      .count = UINT64_C(1) << m, .scramble = digital[s], .seed = seed});
+                    double *const points =
+                        make_points(names[n], (aur_pointset_options){.size = sizeof(aur_pointset_options),
+                                                                     .count = UINT64_C(1) << m,
+                                                                     .scramble = digital[s],
+                                                                     .seed = seed});
                     assert_true(is_net(2, m, points, 2, 0, 1));
                     free(points);
                 }
@@ -104,8 +110,9 @@ static void nets_stay_nets(void **state) {
 /* An aligned run of 2^m points anywhere in Sobol's sequence is a net as well. */
 static void sobol_is_a_sequence(void **state) {
     (void)state;
-    aur_pointset *const set =
-        make_set("sobol", (aur_pointset_options){.count = UINT64_C(1) << 53, .scramble = AUR_SCRAMBLE_OWEN});
+    aur_pointset *const set = make_set("sobol", (aur_pointset_options){.size = sizeof(aur_pointset_options),
+                                                                       .count = UINT64_C(1) << 53,
+                                                                       .scramble = AUR_SCRAMBLE_OWEN});
     static double points[2 << 10];
     static const uint64_t starts[] = {1024,
                                       UINT64_C(1) << 31,
@@ -129,7 +136,9 @@ static void scrambled_halton_is_stratified(void **state) {
                                              AUR_SCRAMBLE_NONE};
     for (size_t k = 0; k < 4; ++k) {
         double *const points = make_points(
-            texts[k], (aur_pointset_options){.count = COUNT, .scramble = scrambles[k], .seed = 7});
+            texts[k],
+            (aur_pointset_options){
+                .size = sizeof(aur_pointset_options), .count = COUNT, .scramble = scrambles[k], .seed = 7});
         unsigned char seen[COUNT] = {0};
         for (size_t i = 0; i < COUNT; ++i)
             assert_int_equal(seen[(size_t)(points[2 * i + 1] * COUNT + 1e-9)]++, 0);
@@ -177,8 +186,11 @@ static void every_set_is_random_access(void **state) {
             if ((kind->scramblings >> s & 1u) == 0 || (dimension < 2 && s == AUR_SCRAMBLE_ROTATE))
                 continue;
             enum { COUNT = 233 };
-            const aur_pointset_options options = {
-                .count = COUNT, .dimension = dimension, .scramble = (aur_scramble)s, .seed = 5};
+            const aur_pointset_options options = {.size = sizeof options,
+                                                  .count = COUNT,
+                                                  .dimension = dimension,
+                                                  .scramble = (aur_scramble)s,
+                                                  .seed = 5};
             double *const whole = make_points(kind->description.row.name, options);
             aur_pointset *const set = make_set(kind->description.row.name, options);
             for (size_t i = COUNT; i-- > 0;) {
@@ -201,10 +213,14 @@ static void extensible_sets_extend(void **state) {
         if (needs_a_file(kind->description.row.name))
             continue;
         const size_t dimension = kind->maximum_dimension < 2 ? kind->maximum_dimension : 2;
-        double *const small = make_points(kind->description.row.name,
-                                          (aur_pointset_options){.count = 55, .dimension = dimension});
-        double *const large = make_points(kind->description.row.name,
-                                          (aur_pointset_options){.count = 89, .dimension = dimension});
+        double *const small =
+            make_points(kind->description.row.name,
+                        (aur_pointset_options){
+                            .size = sizeof(aur_pointset_options), .count = 55, .dimension = dimension});
+        double *const large =
+            make_points(kind->description.row.name,
+                        (aur_pointset_options){
+                            .size = sizeof(aur_pointset_options), .count = 89, .dimension = dimension});
         const bool same = memcmp(small, large, 55 * dimension * sizeof *small) == 0;
         if (same != (kind->description.extensible != 0))
             print_error("%s\n", kind->description.row.name);
@@ -218,10 +234,14 @@ static void extensible_sets_extend(void **state) {
 static void the_seed_acts(void **state) {
     (void)state;
     for (int s = AUR_SCRAMBLE_DIGIT; s <= AUR_SCRAMBLE_ROTATE; ++s) {
-        double *const a =
-            make_points("sobol", (aur_pointset_options){.count = 16, .scramble = (aur_scramble)s, .seed = 1});
-        double *const b =
-            make_points("sobol", (aur_pointset_options){.count = 16, .scramble = (aur_scramble)s, .seed = 2});
+        double *const a = make_points("sobol", (aur_pointset_options){.size = sizeof(aur_pointset_options),
+                                                                      .count = 16,
+                                                                      .scramble = (aur_scramble)s,
+                                                                      .seed = 1});
+        double *const b = make_points("sobol", (aur_pointset_options){.size = sizeof(aur_pointset_options),
+                                                                      .count = 16,
+                                                                      .scramble = (aur_scramble)s,
+                                                                      .seed = 2});
         for (size_t i = 0; i < 16; ++i)
             assert_true(a[2 * i + 1] != b[2 * i + 1]);
         free(a);
@@ -234,7 +254,9 @@ static void rotate_shifts_the_azimuth(void **state) {
     (void)state;
     double *const plain = make_points("hammersley", options_of(32));
     double *const turned = make_points(
-        "hammersley", (aur_pointset_options){.count = 32, .scramble = AUR_SCRAMBLE_ROTATE, .seed = 3});
+        "hammersley",
+        (aur_pointset_options){
+            .size = sizeof(aur_pointset_options), .count = 32, .scramble = AUR_SCRAMBLE_ROTATE, .seed = 3});
     for (size_t i = 0; i < 32; ++i) {
         assert_near(turned[2 * i], plain[2 * i], 0.0);
         double difference = turned[2 * i + 1] - plain[2 * i + 1];
@@ -243,6 +265,26 @@ static void rotate_shifts_the_azimuth(void **state) {
     }
     free(plain);
     free(turned);
+}
+
+static void options_can_grow(void **state) {
+    (void)state;
+    struct {
+        aur_pointset_options known;
+        int wish;
+    } newer;
+    memset(&newer, 0, sizeof newer);
+    newer.known = aur_pointset_options_default(4);
+    newer.known.size = sizeof newer;
+    aur_pointset *set = NULL;
+    assert_int_equal(aur_pointset_create("sobol", &newer.known, &set, NULL), AUR_OK);
+    assert_int_equal(aur_pointset_size(set), 4);
+    aur_pointset_destroy(set);
+    newer.wish = 1;
+    assert_int_equal(aur_pointset_create("sobol", &newer.known, &set, NULL), AUR_ERROR_UNSUPPORTED);
+    const aur_pointset_options unset = {.count = 4};
+    assert_int_equal(aur_pointset_create("sobol", &unset, &set, NULL), AUR_ERROR_ARGUMENT);
+    assert_null(set);
 }
 
 static void expect_failure(const char *text, aur_pointset_options options, aur_result expected) {
@@ -266,12 +308,20 @@ static void bad_input_is_refused(void **state) {
     expect_failure("halton:permute", options_of(8), AUR_ERROR_FORMAT);
     expect_failure("sobol", options_of(0), AUR_ERROR_ARGUMENT);
     expect_failure("sobol", options_of((UINT64_C(1) << 53) + 1), AUR_ERROR_ARGUMENT);
-    expect_failure("larcher-pillichshammer", (aur_pointset_options){.count = 4, .dimension = 3},
+    expect_failure("larcher-pillichshammer",
+                   (aur_pointset_options){.size = sizeof(aur_pointset_options), .count = 4, .dimension = 3},
                    AUR_ERROR_ARGUMENT);
-    expect_failure("halton", (aur_pointset_options){.count = 4, .dimension = 100000}, AUR_ERROR_ARGUMENT);
-    expect_failure("sobol", (aur_pointset_options){.count = 4, .scramble = AUR_SCRAMBLE_ROTATE3D},
+    expect_failure(
+        "halton",
+        (aur_pointset_options){.size = sizeof(aur_pointset_options), .count = 4, .dimension = 100000},
+        AUR_ERROR_ARGUMENT);
+    expect_failure("sobol",
+                   (aur_pointset_options){
+                       .size = sizeof(aur_pointset_options), .count = 4, .scramble = AUR_SCRAMBLE_ROTATE3D},
                    AUR_ERROR_UNSUPPORTED);
-    expect_failure("sobol", (aur_pointset_options){.count = 4, .scramble = (aur_scramble)77},
+    expect_failure("sobol",
+                   (aur_pointset_options){
+                       .size = sizeof(aur_pointset_options), .count = 4, .scramble = (aur_scramble)77},
                    AUR_ERROR_ARGUMENT);
 
     aur_pointset *const set = make_set("sobol", options_of(8));
@@ -291,7 +341,8 @@ static void count_warning(void *user, const char *message) {
 static void incomplete_nets_are_told(void **state) {
     (void)state;
     int warnings = 0;
-    aur_pointset_options options = {.count = 64, .warnings = {count_warning, &warnings}};
+    aur_pointset_options options = {
+        .size = sizeof options, .count = 64, .warnings = {count_warning, &warnings}};
     free(make_points("sobol", options));
     assert_int_equal(warnings, 0);
     options.count = 100;
@@ -328,6 +379,7 @@ int main(void) {
         cmocka_unit_test(rotate_shifts_the_azimuth),
         cmocka_unit_test(bad_input_is_refused),
         cmocka_unit_test(incomplete_nets_are_told),
+        cmocka_unit_test(options_can_grow),
         cmocka_unit_test(names_of_scramblings_round_trip),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

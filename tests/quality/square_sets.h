@@ -31,7 +31,7 @@ static inline aur_points random_points(size_t count, size_t dimension, uint64_t 
 static inline aur_points scrambled_set(const char *set, size_t count, size_t dimension,
                                        aur_scramble scramble) {
     const aur_pointset_options options = {
-        .count = count, .dimension = dimension, .scramble = scramble, .seed = 5};
+        .size = sizeof options, .count = count, .dimension = dimension, .scramble = scramble, .seed = 5};
     aur_pointset *pointset = NULL;
     assert_int_equal(aur_pointset_create(set, &options, &pointset, NULL), AUR_OK);
     aur_points points = cube_points(count, dimension);

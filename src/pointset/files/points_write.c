@@ -8,6 +8,7 @@
 
 #include "core/file.h"
 #include "core/names.h"
+#include "core/options.h"
 
 static const char *const format_names[] = {"csv", "json", "npy", "ply"};
 enum { FORMAT_COUNT = sizeof format_names / sizeof format_names[0], NAME_CAPACITY = 24 };
@@ -58,7 +59,7 @@ static void write_json(const aur_points *points, const aur_points_origin *origin
         aur_json_name(&json, "set");
         aur_json_string(&json, origin->set);
         aur_json_name(&json, "n");
-        aur_json_integer(&json, origin->size);
+        aur_json_integer(&json, origin->count);
         aur_json_name(&json, "first");
         aur_json_integer(&json, origin->first);
         aur_json_name(&json, "scramble");
@@ -150,7 +151,7 @@ static aur_result write_ply(const aur_points *points, const aur_points_origin *o
     fputs("ply\nformat binary_little_endian 1.0\n", stream);
     if (origin != NULL && origin->set != NULL) {
         write_ply_comment("set", origin->set, stream);
-        fprintf(stream, "comment n %" PRIu64 "\n", origin->size);
+        fprintf(stream, "comment n %" PRIu64 "\n", origin->count);
         write_ply_comment("scramble", aur_scramble_name(origin->scramble), stream);
         fprintf(stream, "comment seed %" PRIu64 "\n", origin->seed);
     }
@@ -170,18 +171,22 @@ aur_result aur_points_write(const char *path, aur_points_format format, const au
         return aur_fail(error, AUR_ERROR_ARGUMENT, "unknown format %d", (int)format);
     if (aur_domain_name(points->domain) == NULL)
         return aur_fail(error, AUR_ERROR_ARGUMENT, "unknown domain %d", (int)points->domain);
+    aur_points_origin own = aur_points_origin_default();
     aur_file_writer writer;
-    aur_result result = aur_file_open(path, &writer, error);
+    aur_result result = aur_options_read(origin, sizeof own, sizeof own, &own, "aur_points_origin", error);
+    if (result == AUR_OK)
+        result = aur_file_open(path, &writer, error);
     if (result != AUR_OK)
         return result;
+    const aur_points_origin *const known = origin != NULL ? &own : NULL;
     if (format == AUR_POINTS_CSV)
         write_csv(points, writer.stream);
     else if (format == AUR_POINTS_JSON)
-        write_json(points, origin, writer.stream);
+        write_json(points, known, writer.stream);
     else if (format == AUR_POINTS_NPY)
         write_npy(points, writer.stream);
     else
-        result = write_ply(points, origin, writer.stream, error);
+        result = write_ply(points, known, writer.stream, error);
     if (result != AUR_OK) {
         aur_file_abandon(&writer);
         return result;

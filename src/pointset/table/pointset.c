@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "core/names.h"
+#include "core/options.h"
 #include "core/text.h"
 #include "pointset/sets.h"
 
@@ -71,8 +72,12 @@ static aur_result parse(const char *text, aur_parameters *keys, aur_error *error
 aur_result aur_pointset_create(const char *text, const aur_pointset_options *options, aur_pointset **pointset,
                                aur_error *error) {
     *pointset = NULL;
+    aur_pointset_options own = aur_pointset_options_default(0);
     aur_parameters keys;
-    aur_result result = parse(text, &keys, error);
+    aur_result result =
+        aur_options_read(options, sizeof own, sizeof own, &own, "aur_pointset_options", error);
+    if (result == AUR_OK)
+        result = parse(text, &keys, error);
     if (result != AUR_OK)
         return result;
     aur_pointset *const set = calloc(1, sizeof *set);
@@ -80,11 +85,11 @@ aur_result aur_pointset_create(const char *text, const aur_pointset_options *opt
         aur_parameters_release(&keys);
         return aur_fail_memory(error);
     }
-    set->size = options->count;
-    set->dimension = options->dimension;
-    set->scramble = options->scramble;
-    set->seed = options->seed;
-    result = make(set, &keys, options, error);
+    set->size = own.count;
+    set->dimension = own.dimension;
+    set->scramble = own.scramble;
+    set->seed = own.seed;
+    result = make(set, &keys, &own, error);
     aur_parameters_release(&keys);
     if (result != AUR_OK) {
         aur_pointset_destroy(set);

@@ -127,7 +127,8 @@ static aur_result open_native(const char *set, const aur_directions_options *opt
 
 static aur_result open_square(const char *set, const aur_directions_options *options, uint64_t count,
                               aur_scramble scramble, aur_directions *directions, aur_error *error) {
-    const aur_pointset_options wanted = {.count = count,
+    const aur_pointset_options wanted = {.size = sizeof wanted,
+                                         .count = count,
                                          .dimension = 2,
                                          .scramble = scramble,
                                          .seed = options->seed,

@@ -66,7 +66,8 @@ static aur_result generate_flat(const char *set, const aur_points_request *reque
     if (aur_native_find(set) != NULL)
         return aur_fail(error, AUR_ERROR_UNSUPPORTED,
                         "set '%s' lives on the sphere: ask for the disk, the hemisphere or the sphere", set);
-    const aur_pointset_options wanted = {.count = size,
+    const aur_pointset_options wanted = {.size = sizeof wanted,
+                                         .count = size,
                                          .dimension = dimension,
                                          .scramble = options->scramble,
                                          .seed = options->seed,

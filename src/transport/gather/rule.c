@@ -59,8 +59,11 @@ static aur_result fill_directions(const aur_gather_rule_options *options, aur_ga
 static aur_result fill_square(const aur_gather_rule_options *options, aur_gather_rule *rule,
                               aur_error *error) {
     aur_pointset *points = NULL;
-    const aur_pointset_options wanted = {
-        .count = options->count, .dimension = 2, .seed = options->set_seed, .warnings = options->warnings};
+    const aur_pointset_options wanted = {.size = sizeof wanted,
+                                         .count = options->count,
+                                         .dimension = 2,
+                                         .seed = options->set_seed,
+                                         .warnings = options->warnings};
     aur_result result = aur_pointset_create(options->set, &wanted, &points, error);
     if (result != AUR_OK)
         return result;

@@ -136,6 +136,7 @@ static aur_result make_set(const aur_radiosity *radiosity, size_t r, uint64_t co
                            aur_error *error) {
     const aur_radiosity_options *const options = &radiosity->options;
     const aur_pointset_options wanted = {
+        .size = sizeof wanted,
         .count = count,
         .dimension = 2 * options->bounces + 4,
         .scramble = options->scramble,
