@@ -1,24 +1,28 @@
-/* aureole: finds the verb and runs it. Adding a verb is one file and one line here. */
+/* aureole: finds the verb and runs it. Adding a verb is one file, which defines cli_verb_<name>, and one
+ * line here. */
 #include <stdio.h>
 #include <string.h>
 
 #include "cli/verbs.h"
 
-/* A line a verb. */
-/* clang-format off */
-extern const cli_verb cli_verb_compare;
-extern const cli_verb cli_verb_convert;
-extern const cli_verb cli_verb_info;
-extern const cli_verb cli_verb_lab;
-extern const cli_verb cli_verb_measure;
-extern const cli_verb cli_verb_points;
-extern const cli_verb cli_verb_render;
-extern const cli_verb cli_verb_sets;
-extern const cli_verb cli_verb_weights;
+#define VERBS(ROW)                                                                                           \
+    ROW(sets)                                                                                                \
+    ROW(points)                                                                                              \
+    ROW(measure)                                                                                             \
+    ROW(weights)                                                                                             \
+    ROW(render)                                                                                              \
+    ROW(compare)                                                                                             \
+    ROW(convert)                                                                                             \
+    ROW(lab)                                                                                                 \
+    ROW(info)                                                                                                \
+    ROW(help)
+
+#define DECLARE(name) extern const cli_verb cli_verb_##name;
+VERBS(DECLARE)
 
 static int run_help(int argc, char **argv);
 
-static const cli_verb verb_help = {
+const cli_verb cli_verb_help = {
     .name = "help",
     .arguments = "[VERB | KIND [NAME]] [--format table|csv|json]",
     .summary = "show the verbs, the options of one, or the keys of a thing",
@@ -26,19 +30,8 @@ static const cli_verb verb_help = {
     .run = run_help,
 };
 
-static const cli_verb *const verbs[] = {
-    &cli_verb_sets,
-    &cli_verb_points,
-    &cli_verb_measure,
-    &cli_verb_weights,
-    &cli_verb_render,
-    &cli_verb_compare,
-    &cli_verb_convert,
-    &cli_verb_lab,
-    &cli_verb_info,
-    &verb_help,
-};
-/* clang-format on */
+#define ADDRESS(name) &cli_verb_##name,
+static const cli_verb *const verbs[] = {VERBS(ADDRESS)};
 
 enum { VERB_COUNT = sizeof verbs / sizeof verbs[0] };
 

@@ -4,23 +4,19 @@
 
 #include "scene/emitter.h"
 
-extern const aur_emitter_descriptor aur_emitter_area;
-extern const aur_emitter_descriptor aur_emitter_point;
-extern const aur_emitter_descriptor aur_emitter_spot;
-extern const aur_emitter_descriptor aur_emitter_directional;
-extern const aur_emitter_descriptor aur_emitter_constant;
-extern const aur_emitter_descriptor aur_emitter_envmap;
+#define EMITTERS(ROW)                                                                                        \
+    ROW(area)                                                                                                \
+    ROW(point)                                                                                               \
+    ROW(spot)                                                                                                \
+    ROW(directional)                                                                                         \
+    ROW(constant)                                                                                            \
+    ROW(envmap)
 
-/* clang-format off */
-static const aur_row *const rows[] = {
-    &aur_emitter_area.row,
-    &aur_emitter_point.row,
-    &aur_emitter_spot.row,
-    &aur_emitter_directional.row,
-    &aur_emitter_constant.row,
-    &aur_emitter_envmap.row,
-};
-/* clang-format on */
+#define DECLARE(name) extern const aur_emitter_descriptor aur_emitter_##name;
+EMITTERS(DECLARE)
+
+#define ADDRESS(name) &aur_emitter_##name.row,
+static const aur_row *const rows[] = {EMITTERS(ADDRESS)};
 
 static const aur_row *row_at(size_t index) {
     return index < sizeof rows / sizeof rows[0] ? rows[index] : NULL;

@@ -3,15 +3,16 @@
 
 #include "scene/sensor.h"
 
-extern const aur_sensor_descriptor aur_sensor_perspective;
-extern const aur_sensor_descriptor aur_sensor_thinlens;
-extern const aur_sensor_descriptor aur_sensor_orthographic;
+#define SENSORS(ROW)                                                                                         \
+    ROW(perspective)                                                                                         \
+    ROW(thinlens)                                                                                            \
+    ROW(orthographic)
 
-static const aur_row *const rows[] = {
-    &aur_sensor_perspective.row,
-    &aur_sensor_thinlens.row,
-    &aur_sensor_orthographic.row,
-};
+#define DECLARE(name) extern const aur_sensor_descriptor aur_sensor_##name;
+SENSORS(DECLARE)
+
+#define ADDRESS(name) &aur_sensor_##name.row,
+static const aur_row *const rows[] = {SENSORS(ADDRESS)};
 
 /* The keys that every sensor takes. */
 typedef struct sensor_keys {

@@ -4,27 +4,21 @@
 
 #include "scene/shape.h"
 
-extern const aur_shape_descriptor aur_shape_rectangle;
-extern const aur_shape_descriptor aur_shape_cube;
-extern const aur_shape_descriptor aur_shape_obj;
-extern const aur_shape_descriptor aur_shape_ply;
-extern const aur_shape_descriptor aur_shape_serialized;
-extern const aur_shape_descriptor aur_shape_sphere;
-extern const aur_shape_descriptor aur_shape_disk;
-extern const aur_shape_descriptor aur_shape_cylinder;
+#define SHAPES(ROW)                                                                                          \
+    ROW(rectangle)                                                                                           \
+    ROW(cube)                                                                                                \
+    ROW(obj)                                                                                                 \
+    ROW(ply)                                                                                                 \
+    ROW(serialized)                                                                                          \
+    ROW(sphere)                                                                                              \
+    ROW(disk)                                                                                                \
+    ROW(cylinder)
 
-/* clang-format off */
-static const aur_row *const rows[] = {
-    &aur_shape_rectangle.row,
-    &aur_shape_cube.row,
-    &aur_shape_obj.row,
-    &aur_shape_ply.row,
-    &aur_shape_serialized.row,
-    &aur_shape_sphere.row,
-    &aur_shape_disk.row,
-    &aur_shape_cylinder.row,
-};
-/* clang-format on */
+#define DECLARE(name) extern const aur_shape_descriptor aur_shape_##name;
+SHAPES(DECLARE)
+
+#define ADDRESS(name) &aur_shape_##name.row,
+static const aur_row *const rows[] = {SHAPES(ADDRESS)};
 
 static const aur_key common_keys[] = {
     {AUR_KEY_OF_TRANSFORM(aur_shape_keys, "to_world", to_world,

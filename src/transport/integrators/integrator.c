@@ -1,28 +1,22 @@
-/* The table of integrators: a new one is one file and one line here. */
+/* The table of integrators: a new one is one file, which defines aur_integrator_<name>, and one line here. */
 #include "transport/integrator.h"
 
 #include <stdlib.h>
 
-extern const aur_integrator_descriptor aur_integrator_path;
-extern const aur_integrator_descriptor aur_integrator_final_gather;
-extern const aur_integrator_descriptor aur_integrator_ambient_occlusion;
-extern const aur_integrator_descriptor aur_integrator_direct;
-extern const aur_integrator_descriptor aur_integrator_depth;
-extern const aur_integrator_descriptor aur_integrator_aov;
-extern const aur_integrator_descriptor aur_integrator_radiosity;
+#define INTEGRATORS(ROW)                                                                                     \
+    ROW(path)                                                                                                \
+    ROW(final_gather)                                                                                        \
+    ROW(ambient_occlusion)                                                                                   \
+    ROW(direct)                                                                                              \
+    ROW(depth)                                                                                               \
+    ROW(aov)                                                                                                 \
+    ROW(radiosity)
 
-/* A line an integrator. */
-/* clang-format off */
-static const aur_row *const rows[] = {
-    &aur_integrator_path.row,
-    &aur_integrator_final_gather.row,
-    &aur_integrator_ambient_occlusion.row,
-    &aur_integrator_direct.row,
-    &aur_integrator_depth.row,
-    &aur_integrator_aov.row,
-    &aur_integrator_radiosity.row,
-};
-/* clang-format on */
+#define DECLARE(name) extern const aur_integrator_descriptor aur_integrator_##name;
+INTEGRATORS(DECLARE)
+
+#define ADDRESS(name) &aur_integrator_##name.row,
+static const aur_row *const rows[] = {INTEGRATORS(ADDRESS)};
 
 static const aur_row *row_at(size_t index) {
     return index < sizeof rows / sizeof rows[0] ? rows[index] : NULL;
