@@ -54,7 +54,7 @@ static void make_points_shared(void *data) {
 }
 
 static bool open_points(const char *set, aur_domain domain, points_context *context) {
-    aur_directions_options options = {.domain = domain};
+    aur_directions_options options = {.size = sizeof options, .domain = domain};
     options.count = context->count;
     context->xyz = malloc(3 * context->count * sizeof *context->xyz);
     if (context->xyz == NULL || aur_directions_create(set, &options, &context->directions, NULL) != AUR_OK) {

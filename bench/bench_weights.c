@@ -26,8 +26,10 @@ static void close_solve(solve_context *context) {
 }
 
 static bool make_points(size_t count, double exponent, double *xyz) {
-    const aur_directions_options options = {
-        .count = count, .domain = AUR_DOMAIN_HEMISPHERE, .lobe = {.exponent = exponent}};
+    const aur_directions_options options = {.size = sizeof options,
+                                            .count = count,
+                                            .domain = AUR_DOMAIN_HEMISPHERE,
+                                            .lobe = {.exponent = exponent}};
     aur_directions *directions;
     if (aur_directions_create("spherical-fibonacci", &options, &directions, NULL) != AUR_OK)
         return false;

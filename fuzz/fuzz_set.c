@@ -30,7 +30,8 @@ static void try_square(const char *set) {
 static void try_sphere(const char *set) {
     aur_error error = {0};
     aur_directions *directions = NULL;
-    const aur_directions_options options = {.count = COUNT, .domain = AUR_DOMAIN_SPHERE};
+    const aur_directions_options options = {
+        .size = sizeof options, .count = COUNT, .domain = AUR_DOMAIN_SPHERE};
     const aur_result result = aur_directions_create(set, &options, &directions, &error);
     if (result != AUR_OK) {
         require_error(result, &error);

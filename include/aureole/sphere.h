@@ -7,6 +7,8 @@
 #define AUREOLE_SPHERE_H
 
 #include <aureole/pointset.h>
+#include <stdbool.h>
+#include <string.h>
 
 #ifdef __cplusplus
 extern "C" {
@@ -134,17 +136,28 @@ AUR_API aur_result aur_fibonacci_neighbours(const aur_fibonacci_set *set, const 
 typedef struct aur_directions aur_directions;
 
 typedef struct aur_directions_options {
-    uint64_t count;      /* the size of the set: at least 1; 0 for a file: all of its points */
-    aur_domain domain;   /* HEMISPHERE or SPHERE */
-    double cap_degrees;  /* 0: all of the domain; else the cap of that polar angle about +z within it */
-    aur_map map;         /* for sets of the square; native sets ignore it */
-    aur_lobe lobe;       /* whole hemisphere only; zero is uniform */
-    int optimal_density; /* draw from lobe^{2/(s+1)} and weigh by p/q */
-    double smoothness;   /* s of the optimal density, in (1,2); 0 stands for 1.5 */
+    size_t size;          /* of the caller's struct, so that it can grow */
+    uint64_t count;       /* points of the set: at least 1; 0 for a file: all of its points */
+    aur_domain domain;    /* HEMISPHERE or SPHERE */
+    double cap_degrees;   /* 0: all of the domain; else the cap of that polar angle about +z within it */
+    aur_map map;          /* for sets of the square; native sets ignore it */
+    aur_lobe lobe;        /* whole hemisphere only; zero is uniform */
+    bool optimal_density; /* draw from lobe^{2/(s+1)} and weigh by p/q */
+    double smoothness;    /* s of the optimal density, in (1,2); 0 stands for 1.5 */
     aur_scramble scramble;
     uint64_t seed;
     aur_warnings warnings;
 } aur_directions_options;
+
+/* Uniform directions that are not scrambled, sets of the square by LAMBERT. */
+static inline aur_directions_options aur_directions_options_default(uint64_t count, aur_domain domain) {
+    aur_directions_options options;
+    memset(&options, 0, sizeof options);
+    options.size = sizeof options;
+    options.count = count;
+    options.domain = domain;
+    return options;
+}
 
 /* Makes the directions of a set of the square or of the sphere ready; `set` as in aur_pointset_create. A file
  * of directions is taken as it stands. Sets native to the sphere know the scramblings ROTATE and, on the
@@ -173,12 +186,22 @@ AUR_API aur_result aur_directions_arrays_float(const aur_directions *directions,
 
 /* Points of any set on any domain, for programs that want them all at once. */
 typedef struct aur_points_request {
-    aur_directions_options options; /* .domain may be any; .map lifts to the disk too */
-    int natural_domain;             /* non-zero: the set's own domain instead (a file's: what it holds) */
-    size_t dimension;               /* of the cube, or 2 for the square; 0: 2, or what the set has */
-    uint64_t first;                 /* of the set's points */
-    size_t count;                   /* 0: all from `first` on */
+    size_t size;                           /* of the caller's struct, so that it can grow */
+    const aur_directions_options *options; /* .domain may be any; .map lifts to the disk too */
+    bool natural_domain;                   /* the set's own domain instead (a file's: what it holds) */
+    size_t dimension;                      /* of the cube, or 2 for the square; 0: 2, or what the set has */
+    uint64_t first;                        /* of the set's points */
+    size_t count;                          /* 0: all from `first` on */
 } aur_points_request;
+
+/* All points of the set that the options describe, which must outlive the request. */
+static inline aur_points_request aur_points_request_default(const aur_directions_options *options) {
+    aur_points_request request;
+    memset(&request, 0, sizeof request);
+    request.size = sizeof request;
+    request.options = options;
+    return request;
+}
 
 /* Fills *points: release it with aur_points_release. Weights are there where they are not all equal. Native
  * sets come to the disk by the azimuthal map from the hemisphere. Errors: as aur_directions_create and

@@ -17,7 +17,8 @@ aur_scramble lab_scrambling(const char *set) {
 }
 
 aur_result lab_draw(const lab_samples *wanted, double *xyz, double *weights, aur_error *error) {
-    const aur_directions_options options = {.count = wanted->count,
+    const aur_directions_options options = {.size = sizeof options,
+                                            .count = wanted->count,
                                             .domain = AUR_DOMAIN_HEMISPHERE,
                                             .lobe = {.exponent = wanted->exponent},
                                             .optimal_density = wanted->optimal_density,

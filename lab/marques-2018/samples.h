@@ -10,7 +10,7 @@ typedef struct lab_samples {
     const char *set;
     size_t count;
     double exponent; /* of the cos^m lobe that they follow */
-    int optimal_density;
+    bool optimal_density;
     uint64_t seed; /* of random sets and of the scrambling */
 } lab_samples;
 

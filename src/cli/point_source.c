@@ -16,7 +16,7 @@ bool cli_succeeded(aur_result result, const aur_error *error) {
     return result == AUR_OK;
 }
 
-static bool parse_density(const char *text, int *optimal) {
+static bool parse_density(const char *text, bool *optimal) {
     static const char *const words[] = {"same", "optimal"};
     size_t index;
     if (!cli_parse_word("--density", text, 2, words, &index))
@@ -89,15 +89,17 @@ aur_result cli_load_points(const char *text, const cli_point_options *options, s
     if (cli_is_file(text))
         return load_file(text, options, points, error);
     const bool cube = options->domain == AUR_DOMAIN_SQUARE || options->domain == AUR_DOMAIN_CUBE;
-    const aur_points_request request = {.options = {.count = count,
-                                                    .domain = options->domain,
-                                                    .map = options->map,
-                                                    .lobe = options->lobe,
-                                                    .optimal_density = options->optimal_density,
-                                                    .smoothness = options->smoothness,
-                                                    .scramble = options->scramble,
-                                                    .seed = options->seed,
-                                                    .warnings = options->warnings},
-                                        .dimension = cube ? options->dimension : 0};
+    const aur_directions_options directions = {.size = sizeof directions,
+                                               .count = count,
+                                               .domain = options->domain,
+                                               .map = options->map,
+                                               .lobe = options->lobe,
+                                               .optimal_density = options->optimal_density,
+                                               .smoothness = options->smoothness,
+                                               .scramble = options->scramble,
+                                               .seed = options->seed,
+                                               .warnings = options->warnings};
+    aur_points_request request = aur_points_request_default(&directions);
+    request.dimension = cube ? options->dimension : 0;
     return aur_points_generate(text, &request, points, error);
 }

@@ -13,7 +13,7 @@ typedef struct cli_point_options {
     size_t dimension;  /* 0: not given */
     aur_map map;
     aur_lobe lobe;
-    int optimal_density;
+    bool optimal_density;
     double smoothness;
     aur_scramble scramble;
     uint64_t seed;

@@ -19,6 +19,7 @@ typedef struct request {
     const char *warp; /* a picture's path */
     size_t format;    /* index into format_words */
     bool format_given, map_given, lobe_given, domain_given, size_given, quiet;
+    aur_directions_options options; /* of points */
     aur_points_request points;
 } request;
 
@@ -29,7 +30,7 @@ static bool parse_domain(const char *text, request *wanted) {
     size_t index;
     if (!cli_parse_word("--domain", text, 4, words, &index))
         return false;
-    wanted->points.options.domain = domains[index];
+    wanted->options.domain = domains[index];
     wanted->domain_given = true;
     return true;
 }
@@ -39,7 +40,7 @@ static bool parse_density(const char *text, request *wanted) {
     size_t index;
     if (!cli_parse_word("--density", text, 2, words, &index))
         return false;
-    wanted->points.options.optimal_density = index == 1;
+    wanted->options.optimal_density = index == 1;
     return true;
 }
 
@@ -67,7 +68,7 @@ enum {
 };
 
 static bool parse_option(int option, const char *text, request *wanted) {
-    aur_directions_options *const options = &wanted->points.options;
+    aur_directions_options *const options = &wanted->options;
     aur_error error = {0};
     switch (option) {
     case 'n':
@@ -157,11 +158,11 @@ static bool complete(request *wanted) {
         return false;
     }
     if (!wanted->domain_given && wanted->lobe_given) {
-        wanted->points.options.domain = AUR_DOMAIN_HEMISPHERE;
+        wanted->options.domain = AUR_DOMAIN_HEMISPHERE;
         wanted->domain_given = true;
     }
     wanted->points.natural_domain = !wanted->domain_given;
-    if (wanted->map_given && (!wanted->domain_given || wanted->points.options.domain == AUR_DOMAIN_SQUARE)) {
+    if (wanted->map_given && (!wanted->domain_given || wanted->options.domain == AUR_DOMAIN_SQUARE)) {
         cli_bad_usage("--map: needs --domain disk, hemisphere or sphere");
         return false;
     }
@@ -212,13 +213,13 @@ static int warp(const char *path, aur_points *points) {
 
 static int write_points(const request *wanted, const aur_points *points) {
     aur_error error = {0};
-    const uint64_t size = wanted->points.options.count; /* 0: all of a file */
+    const uint64_t size = wanted->options.count; /* 0: all of a file */
     const aur_points_origin origin = {.size = sizeof origin,
                                       .set = wanted->set,
                                       .count = size != 0 ? size : wanted->points.first + points->count,
                                       .first = wanted->points.first,
-                                      .scramble = wanted->points.options.scramble,
-                                      .seed = wanted->points.options.seed};
+                                      .scramble = wanted->options.scramble,
+                                      .seed = wanted->options.seed};
     const aur_result result =
         wanted->format >= FORMAT_SVG
             ? cli_draw_points(wanted->path, wanted->format == FORMAT_PNG, points, &error)
@@ -227,10 +228,12 @@ static int write_points(const request *wanted, const aur_points *points) {
 }
 
 static int run(int argc, char **argv) {
-    request wanted = {.path = "-"};
+    request wanted = {.path = "-",
+                      .options = aur_directions_options_default(0, AUR_DOMAIN_SQUARE),
+                      .points = aur_points_request_default(&wanted.options)};
     if (!parse(argc, argv, &wanted) || !complete(&wanted))
         return CLI_BAD_INPUT;
-    wanted.points.options.warnings = cli_warnings(wanted.quiet);
+    wanted.options.warnings = cli_warnings(wanted.quiet);
     aur_error error = {0};
     aur_points points;
     if (aur_points_generate(wanted.set, &wanted.points, &points, &error) != AUR_OK)

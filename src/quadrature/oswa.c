@@ -26,7 +26,8 @@ static uint64_t pattern_seed(uint64_t seed, size_t which) {
 }
 
 static aur_result load_uniform(aur_oswa *oswa, size_t which, aur_error *error) {
-    const aur_directions_options options = {.count = oswa->count[which],
+    const aur_directions_options options = {.size = sizeof options,
+                                            .count = oswa->count[which],
                                             .domain = AUR_DOMAIN_HEMISPHERE,
                                             .map = oswa->options.map,
                                             .scramble = oswa->options.scramble,

@@ -178,6 +178,7 @@ static void test_reweighting(void **state) {
     enum { N = 64 };
     const double degrees = 50.0;
     const aur_directions_options options = {
+        .size = sizeof options,
         .count = N,
         .domain = AUR_DOMAIN_HEMISPHERE,
         .lobe = {.kind = AUR_LOBE_GGX, .alpha = 0.3, .view_degrees = degrees}};

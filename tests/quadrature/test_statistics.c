@@ -22,7 +22,8 @@ typedef struct request {
 } request;
 
 static void draw(const request *wanted, double *xyz, double *weights) {
-    const aur_directions_options options = {.count = wanted->count,
+    const aur_directions_options options = {.size = sizeof options,
+                                            .count = wanted->count,
                                             .domain = AUR_DOMAIN_HEMISPHERE,
                                             .lobe = {.exponent = wanted->exponent},
                                             .optimal_density = wanted->optimal,

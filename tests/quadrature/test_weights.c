@@ -192,8 +192,11 @@ static void test_many_densities(void **state) {
 /* One call makes what the pieces make. */
 static void test_rule(void **state) {
     (void)state;
-    const aur_rule_options optimal = {
-        .points = {.count = 64, .domain = AUR_DOMAIN_HEMISPHERE, .lobe = {.exponent = 20.0}}, .optimal = 1};
+    const aur_rule_options optimal = {.points = {.size = sizeof optimal.points,
+                                                 .count = 64,
+                                                 .domain = AUR_DOMAIN_HEMISPHERE,
+                                                 .lobe = {.exponent = 20.0}},
+                                      .optimal = 1};
     double xyz[3 * 64], weights[64], value;
     assert_int_equal(aur_rule_make(&optimal, 3 * 64, xyz, weights, NULL), AUR_OK);
     aur_potential *const potential = lobe_potential(20.0, 1.5);
@@ -201,7 +204,7 @@ static void test_rule(void **state) {
     assert_relative(value, 2.130088901918e-2, 1e-9);
     aur_rule_options ratio = optimal;
     ratio.optimal = 0;
-    ratio.points.optimal_density = 1;
+    ratio.points.optimal_density = true;
     assert_int_equal(aur_rule_make(&ratio, 3 * 64, xyz, weights, NULL), AUR_OK);
     assert_int_equal(aur_worst_case_error(64, xyz, weights, potential, 1, NULL, &value, NULL), AUR_OK);
     assert_near(value, 2.078e-2, 0.5e-5);

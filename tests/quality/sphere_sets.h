@@ -32,7 +32,8 @@ static inline void set_direction(aur_points *points, size_t index, double z, dou
 
 /* As the library makes them, so that a measure is tried on the points that it will be asked about. */
 static inline aur_points spherical_fibonacci(size_t count, aur_domain domain) {
-    const aur_points_request request = {.options = {.count = count, .domain = domain}};
+    const aur_directions_options options = aur_directions_options_default(count, domain);
+    const aur_points_request request = aur_points_request_default(&options);
     aur_points points = {0};
     aur_error error = {0};
     if (aur_points_generate("spherical-fibonacci", &request, &points, &error) != AUR_OK)

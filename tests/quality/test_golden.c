@@ -13,7 +13,8 @@ typedef struct golden {
 } golden;
 
 static double measured(const golden *g) {
-    const aur_points_request request = {.options = {.count = g->count, .domain = g->domain}};
+    const aur_directions_options options = aur_directions_options_default(g->count, g->domain);
+    const aur_points_request request = aur_points_request_default(&options);
     aur_points points;
     aur_error error = {0};
     if (aur_points_generate(g->set, &request, &points, &error) != AUR_OK)

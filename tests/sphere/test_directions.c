@@ -31,11 +31,13 @@ static void squares_are_lifted_by_the_map(void **state) {
         double uv[2 * COUNT];
         assert_int_equal(aur_pointset_points(square, 0, COUNT, 2 * COUNT, uv), AUR_OK);
         aur_pointset_destroy(square);
-        double *const xyz = check_directions("sobol", (aur_directions_options){.count = COUNT,
-                                                                               .domain = AUR_DOMAIN_SPHERE,
-                                                                               .map = maps[m],
-                                                                               .scramble = AUR_SCRAMBLE_DIGIT,
-                                                                               .seed = 9});
+        double *const xyz =
+            check_directions("sobol", (aur_directions_options){.size = sizeof(aur_directions_options),
+                                                               .count = COUNT,
+                                                               .domain = AUR_DOMAIN_SPHERE,
+                                                               .map = maps[m],
+                                                               .scramble = AUR_SCRAMBLE_DIGIT,
+                                                               .seed = 9});
         for (size_t i = 0; i < COUNT; ++i) {
             double expected[3];
             aur_map_to_sphere(maps[m], uv + 2 * i, expected);
@@ -52,10 +54,11 @@ static void layouts_agree(void **state) {
     static const char *const sets[] = {"sobol", "spherical-fibonacci", "esfg:base=7",
                                        "spherical-fibonacci:region=octant"};
     for (size_t s = 0; s < 4; ++s) {
-        const aur_directions_options options = {.count = COUNT,
+        const aur_directions_options options = {.size = sizeof options,
+                                                .count = COUNT,
                                                 .domain = AUR_DOMAIN_HEMISPHERE,
                                                 .lobe = lobe_of(s == 2 ? "uniform" : "phong:9"),
-                                                .optimal_density = 1,
+                                                .optimal_density = true,
                                                 .scramble = AUR_SCRAMBLE_ROTATE,
                                                 .seed = 3};
         aur_directions *const directions = open_set(sets[s], options);
@@ -91,11 +94,12 @@ static void weights_make_rules(void **state) {
     static const char *const lobes[] = {"uniform", "cosine", "phong:20"};
     static double xyz[3 * COUNT], weights[COUNT];
     for (size_t k = 0; k < 36; ++k) {
-        const aur_directions_options options = {.count = COUNT,
+        const aur_directions_options options = {.size = sizeof options,
+                                                .count = COUNT,
                                                 .domain = AUR_DOMAIN_HEMISPHERE,
                                                 .map = k / 18 == 0 ? AUR_MAP_CONCENTRIC : AUR_MAP_POLAR,
                                                 .lobe = lobe_of(lobes[k / 3 % 3]),
-                                                .optimal_density = k / 9 % 2,
+                                                .optimal_density = k / 9 % 2 != 0,
                                                 .scramble = AUR_SCRAMBLE_ROTATE};
         aur_directions *const directions = open_set(sets[k % 3], options);
         assert_int_equal(aur_directions_points(directions, 0, COUNT, 3 * COUNT, xyz, weights), AUR_OK);
@@ -116,8 +120,10 @@ static void weights_make_rules(void **state) {
 static void ggx_weighs_what_is_above_the_horizon(void **state) {
     (void)state;
     enum { COUNT = 20000 };
-    const aur_directions_options options = {
-        .count = COUNT, .domain = AUR_DOMAIN_HEMISPHERE, .lobe = lobe_of("ggx:0.5:70")};
+    const aur_directions_options options = {.size = sizeof options,
+                                            .count = COUNT,
+                                            .domain = AUR_DOMAIN_HEMISPHERE,
+                                            .lobe = lobe_of("ggx:0.5:70")};
     static double xyz[3 * COUNT], weights[COUNT];
     aur_directions *const directions = open_set("spherical-fibonacci", options);
     assert_int_equal(aur_directions_points(directions, 0, COUNT, 3 * COUNT, xyz, weights), AUR_OK);
@@ -127,8 +133,10 @@ static void ggx_weighs_what_is_above_the_horizon(void **state) {
         mass += weights[i];
         assert_true((xyz[3 * i + 2] < 0.0) == (weights[i] == 0.0));
     }
-    double *const above = check_directions(
-        "spherical-fibonacci", (aur_directions_options){.count = 400000, .domain = AUR_DOMAIN_HEMISPHERE});
+    double *const above = check_directions("spherical-fibonacci",
+                                           (aur_directions_options){.size = sizeof(aur_directions_options),
+                                                                    .count = 400000,
+                                                                    .domain = AUR_DOMAIN_HEMISPHERE});
     double integral = 0.0;
     for (size_t i = 0; i < 400000; ++i)
         integral += aur_lobe_pdf(&options.lobe, above + 3 * i) * 2.0 * AUR_PI / 400000.0;
@@ -168,7 +176,8 @@ static void rotations_are_rotations(void **state) {
 static void scrambling_by_rotation_keeps_the_set(void **state) {
     (void)state;
     enum { COUNT = 256 };
-    aur_directions_options options = {.count = COUNT, .domain = AUR_DOMAIN_SPHERE, .seed = 17};
+    aur_directions_options options = {
+        .size = sizeof options, .count = COUNT, .domain = AUR_DOMAIN_SPHERE, .seed = 17};
     double *const plain = check_directions("spherical-fibonacci", options);
     options.scramble = AUR_SCRAMBLE_ROTATE3D;
     double *const turned = check_directions("spherical-fibonacci", options);
@@ -185,9 +194,10 @@ static void scrambling_by_rotation_keeps_the_set(void **state) {
 static void octants_are_filled_evenly(void **state) {
     (void)state;
     for (size_t count = 1; count < 2000; count += 1 + count / 2) {
-        double *const xyz =
-            check_directions("spherical-fibonacci:region=octant",
-                             (aur_directions_options){.count = count, .domain = AUR_DOMAIN_SPHERE});
+        double *const xyz = check_directions("spherical-fibonacci:region=octant",
+                                             (aur_directions_options){.size = sizeof(aur_directions_options),
+                                                                      .count = count,
+                                                                      .domain = AUR_DOMAIN_SPHERE});
         double sum[3] = {0};
         for (size_t i = 0; i < count; ++i) {
             assert_true(xyz[3 * i] >= 0.0 && xyz[3 * i + 1] >= 0.0 && xyz[3 * i + 2] >= 0.0);
@@ -214,7 +224,7 @@ static void files_are_sets(void **state) {
     assert_int_equal(aur_points_write(path, AUR_POINTS_CSV, &points, NULL, NULL), AUR_OK);
     char set[64];
     snprintf(set, sizeof set, "file:%s", path);
-    const aur_directions_options options = {.domain = AUR_DOMAIN_SPHERE};
+    const aur_directions_options options = {.size = sizeof options, .domain = AUR_DOMAIN_SPHERE};
     aur_directions *directions = open_set(set, options);
     assert_int_equal(aur_directions_size(directions), 3);
     double read[9], read_weights[3];
@@ -227,7 +237,7 @@ static void files_are_sets(void **state) {
     assert_int_equal(aur_directions_create(set, &more, &directions, NULL), AUR_ERROR_ARGUMENT);
     xyz[8] = -0.6;
     assert_int_equal(aur_points_write(path, AUR_POINTS_NPY, &points, NULL, NULL), AUR_OK);
-    more = (aur_directions_options){.domain = AUR_DOMAIN_HEMISPHERE};
+    more = (aur_directions_options){.size = sizeof(aur_directions_options), .domain = AUR_DOMAIN_HEMISPHERE};
     assert_int_equal(aur_directions_create(set, &more, &directions, NULL), AUR_ERROR_ARGUMENT);
     double uv[] = {0.25, 0.5, 0.125, 0.75};
     const aur_points squares = {.domain = AUR_DOMAIN_SQUARE, .count = 2, .dimension = 2, .coordinates = uv};
@@ -242,7 +252,7 @@ static void files_are_sets(void **state) {
 
 static void refuses_what_is_wrong(void **state) {
     (void)state;
-    const aur_directions_options good = {.count = 10, .domain = AUR_DOMAIN_HEMISPHERE};
+    const aur_directions_options good = {.size = sizeof good, .count = 10, .domain = AUR_DOMAIN_HEMISPHERE};
     aur_directions_options wrong[12];
     for (size_t i = 0; i < 12; ++i)
         wrong[i] = good;
@@ -253,7 +263,7 @@ static void refuses_what_is_wrong(void **state) {
     wrong[4].lobe.exponent = -1.0;
     wrong[5].lobe.exponent = NAN;
     wrong[6].scramble = AUR_SCRAMBLE_ROTATE3D;
-    wrong[7].optimal_density = 1;
+    wrong[7].optimal_density = true;
     wrong[7].smoothness = 2.0;
     wrong[8].scramble = AUR_SCRAMBLE_OWEN; /* has no meaning for native sets */
     wrong[9].lobe.exponent = 2.0;
@@ -269,6 +279,30 @@ static void refuses_what_is_wrong(void **state) {
         assert_null(directions);
         assert_true(strlen(error.message) > 0);
     }
+}
+
+static void options_can_grow(void **state) {
+    (void)state;
+    struct {
+        aur_directions_options known;
+        int wish;
+    } newer;
+    memset(&newer, 0, sizeof newer);
+    newer.known = aur_directions_options_default(4, AUR_DOMAIN_SPHERE);
+    newer.known.size = sizeof newer;
+    const aur_points_request request = aur_points_request_default(&newer.known);
+    aur_points points;
+    assert_int_equal(aur_points_generate("spherical-fibonacci", &request, &points, NULL), AUR_OK);
+    assert_int_equal(points.count, 4);
+    aur_points_release(&points);
+    newer.wish = 1;
+    assert_int_equal(aur_points_generate("spherical-fibonacci", &request, &points, NULL),
+                     AUR_ERROR_UNSUPPORTED);
+    const aur_directions_options unset = {.count = 4, .domain = AUR_DOMAIN_SPHERE};
+    aur_directions *directions;
+    assert_int_equal(aur_directions_create("spherical-fibonacci", &unset, &directions, NULL),
+                     AUR_ERROR_ARGUMENT);
+    assert_null(directions);
 }
 
 /* The table of all sets: no name twice, nothing missing, and every set that it names can be made. */
@@ -295,6 +329,7 @@ int main(void) {
         cmocka_unit_test(octants_are_filled_evenly),
         cmocka_unit_test(files_are_sets),
         cmocka_unit_test(refuses_what_is_wrong),
+        cmocka_unit_test(options_can_grow),
         cmocka_unit_test(table_names_sets_that_exist),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

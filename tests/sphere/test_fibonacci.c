@@ -5,10 +5,12 @@
 #include "core/simd.h"
 #include "sphere/sets/fibonacci_kernels.h"
 
-static const aur_directions_options sphere = {.domain = AUR_DOMAIN_SPHERE};
+static const aur_directions_options sphere = {.size = sizeof sphere, .domain = AUR_DOMAIN_SPHERE};
 
 static double *fibonacci(const char *set, uint64_t count, aur_domain domain) {
-    return check_directions(set, (aur_directions_options){.count = count, .domain = domain});
+    return check_directions(
+        set,
+        (aur_directions_options){.size = sizeof(aur_directions_options), .count = count, .domain = domain});
 }
 
 /* Energy, smallest distance: the golden figures of Marques 2013's set. */
@@ -101,9 +103,11 @@ static void caps_are_filled_evenly(void **state) {
     enum { COUNT = 500 };
     static const double angles[] = {1e-3, 20.0, 90.0, 140.0, 180.0};
     for (size_t a = 0; a < 5; ++a) {
-        double *const xyz = check_directions(
-            "spherical-fibonacci",
-            (aur_directions_options){.count = COUNT, .domain = AUR_DOMAIN_SPHERE, .cap_degrees = angles[a]});
+        double *const xyz = check_directions("spherical-fibonacci",
+                                             (aur_directions_options){.size = sizeof(aur_directions_options),
+                                                                      .count = COUNT,
+                                                                      .domain = AUR_DOMAIN_SPHERE,
+                                                                      .cap_degrees = angles[a]});
         const double half = sin(angles[a] * AUR_PI / 360.0);
         const double height = 2.0 * half * half;
         double deepest = 0.0;

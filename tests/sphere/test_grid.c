@@ -10,7 +10,9 @@
 static double *grid(const char *keys, uint64_t count, aur_domain domain) {
     char set[128];
     snprintf(set, sizeof set, "esfg:%s", keys);
-    return check_directions(set, (aur_directions_options){.count = count, .domain = domain});
+    return check_directions(
+        set,
+        (aur_directions_options){.size = sizeof(aur_directions_options), .count = count, .domain = domain});
 }
 
 static double discrepancy(const char *keys, size_t count) {
@@ -46,7 +48,9 @@ static void shifts_of_each_level_are_as_good_as_fibonacci(void **state) {
         assert_true(final / fibonacci[l] > 1.045 && final / fibonacci[l] < 1.09);
     }
     double *const sfg = check_directions("spherical-fibonacci",
-                                         (aur_directions_options){.count = 96, .domain = AUR_DOMAIN_SPHERE});
+                                         (aur_directions_options){.size = sizeof(aur_directions_options),
+                                                                  .count = 96,
+                                                                  .domain = AUR_DOMAIN_SPHERE});
     const double ratio =
         discrepancy("base=64,levels=1,first-shift=paper", 96) * sqrt(2.0) / check_energy(96, sfg);
     free(sfg);
@@ -69,7 +73,8 @@ static void larger_grids_begin_with_smaller_ones(void **state) {
         aur_directions *directions;
         char set[128];
         snprintf(set, sizeof set, "esfg:%s", keys[s]);
-        const aur_directions_options options = {.count = sizes[s], .domain = AUR_DOMAIN_HEMISPHERE};
+        const aur_directions_options options = {
+            .size = sizeof options, .count = sizes[s], .domain = AUR_DOMAIN_HEMISPHERE};
         assert_int_equal(aur_directions_create(set, &options, &directions, NULL), AUR_OK);
         for (uint64_t i = 0; i < sizes[s]; i += 3) {
             double one[3];
@@ -209,8 +214,10 @@ static double distance_to_hemisphere(const double *p, size_t count, const double
 static void best_first_shift_is_the_best_on_the_hemisphere(void **state) {
     (void)state;
     enum { FINE = 4000, MOST = 40 };
-    double *const fine = check_directions(
-        "spherical-fibonacci", (aur_directions_options){.count = FINE, .domain = AUR_DOMAIN_HEMISPHERE});
+    double *const fine = check_directions("spherical-fibonacci",
+                                          (aur_directions_options){.size = sizeof(aur_directions_options),
+                                                                   .count = FINE,
+                                                                   .domain = AUR_DOMAIN_HEMISPHERE});
     for (uint64_t base = 8; base <= MOST; base += 4) {
         const uint64_t phases[] = {UINT64_C(1) << 63, AUR_GOLDEN_PHASE >> 1,
                                    (AUR_GOLDEN_PHASE >> 1) - (UINT64_C(1) << 63)};
@@ -292,8 +299,10 @@ static void incomplete_sizes_draw_a_warning(void **state) {
                  {"esfg:base=64", 65, 1}};
     for (size_t i = 0; i < sizeof cases / sizeof cases[0]; ++i) {
         heard h = {0};
-        const aur_directions_options options = {
-            .count = cases[i].count, .domain = AUR_DOMAIN_SPHERE, .warnings = {listen, &h}};
+        const aur_directions_options options = {.size = sizeof options,
+                                                .count = cases[i].count,
+                                                .domain = AUR_DOMAIN_SPHERE,
+                                                .warnings = {listen, &h}};
         aur_directions *directions;
         assert_int_equal(aur_directions_create(cases[i].set, &options, &directions, NULL), AUR_OK);
         aur_directions_destroy(directions);
@@ -309,7 +318,8 @@ static void refuses_what_is_wrong(void **state) {
                                        "esfg:first-shift=0",    "esfg:levels=25",
                                        "esfg:base=1e3",         "esfg:base=281474976710656,levels=1"};
     for (size_t i = 0; i < sizeof sets / sizeof sets[0]; ++i) {
-        const aur_directions_options options = {.count = 300, .domain = AUR_DOMAIN_SPHERE};
+        const aur_directions_options options = {
+            .size = sizeof options, .count = 300, .domain = AUR_DOMAIN_SPHERE};
         aur_directions *directions;
         aur_error error = {0};
         assert_int_not_equal(aur_directions_create(sets[i], &options, &directions, &error), AUR_OK);

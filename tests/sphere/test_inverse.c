@@ -49,8 +49,9 @@ static void check_nearest(const double *xyz, const double *q, size_t expected, u
 
 static void check_size(size_t size, aur_domain domain, size_t directions) {
     const aur_fibonacci_set set = {size, domain};
-    double *const xyz =
-        check_directions("spherical-fibonacci", (aur_directions_options){.count = size, .domain = domain});
+    double *const xyz = check_directions(
+        "spherical-fibonacci",
+        (aur_directions_options){.size = sizeof(aur_directions_options), .count = size, .domain = domain});
     for (size_t i = 0; i < directions; ++i) {
         double q[3];
         uint64_t index;
@@ -77,8 +78,10 @@ static void points_are_their_own_nearest(void **state) {
     for (size_t s = 0; s < 6; ++s) {
         const size_t size = sizes[s];
         const aur_fibonacci_set set = {size, AUR_DOMAIN_SPHERE};
-        double *const xyz = check_directions(
-            "spherical-fibonacci", (aur_directions_options){.count = size, .domain = AUR_DOMAIN_SPHERE});
+        double *const xyz = check_directions("spherical-fibonacci",
+                                             (aur_directions_options){.size = sizeof(aur_directions_options),
+                                                                      .count = size,
+                                                                      .domain = AUR_DOMAIN_SPHERE});
         uint64_t *const indices = malloc(size * sizeof *indices);
         assert_int_equal(aur_fibonacci_nearest(&set, size, xyz, size, indices), AUR_OK);
         for (size_t i = 0; i < size; ++i)
@@ -143,7 +146,9 @@ static void neighbours_agree_with_brute_force(void **state) {
         for (size_t domain = 0; domain < 2; ++domain) {
             const aur_fibonacci_set set = {size, domain == 0 ? AUR_DOMAIN_SPHERE : AUR_DOMAIN_HEMISPHERE};
             double *const xyz = check_directions(
-                "spherical-fibonacci", (aur_directions_options){.count = size, .domain = set.domain});
+                "spherical-fibonacci", (aur_directions_options){.size = sizeof(aur_directions_options),
+                                                                .count = size,
+                                                                .domain = set.domain});
             for (size_t w = 0; w < 6; ++w) {
                 const size_t k = wanted[w] < size ? wanted[w] : size;
                 for (uint64_t i = 0; i < 4; ++i) {

@@ -7,6 +7,7 @@
 #include <aureole/sphere.h>
 
 #include "core/error.h"
+#include "core/options.h"
 #include "core/text.h"
 #include "core/vector.h"
 #include "pointset/set.h"
@@ -194,13 +195,17 @@ static aur_result open_set(const char *set, const aur_directions_options *option
 aur_result aur_directions_create(const char *set, const aur_directions_options *options,
                                  aur_directions **directions, aur_error *error) {
     *directions = NULL;
-    aur_result result = check_options(options, error);
+    aur_directions_options own = aur_directions_options_default(0, AUR_DOMAIN_HEMISPHERE);
+    aur_result result =
+        aur_options_read(options, sizeof own, sizeof own, &own, "aur_directions_options", error);
+    if (result == AUR_OK)
+        result = check_options(&own, error);
     if (result != AUR_OK)
         return result;
     aur_directions *const made = calloc(1, sizeof *made);
     if (made == NULL)
         return aur_fail_memory(error);
-    result = open_set(set, options, made, error);
+    result = open_set(set, &own, made, error);
     if (result != AUR_OK) {
         aur_directions_destroy(made);
         return result;

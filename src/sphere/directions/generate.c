@@ -6,13 +6,14 @@
 #include <aureole/sphere.h>
 
 #include "core/error.h"
+#include "core/options.h"
 #include "sphere/native.h"
 
 /* Chooses domain and size when the request leaves them to the set. `file` is what a file holds, if it had to
  * be read for it. */
 static aur_result natural_domain(const char *set, const aur_points_request *request, aur_domain *domain,
                                  uint64_t *size, aur_points *file, aur_error *error) {
-    *domain = request->options.domain;
+    *domain = request->options->domain;
     if (request->natural_domain && !aur_set_is_file(set))
         *domain = aur_native_find(set) != NULL ? AUR_DOMAIN_SPHERE : AUR_DOMAIN_SQUARE;
     if (!aur_set_is_file(set) || (*size != 0 && !request->natural_domain && *domain != AUR_DOMAIN_DISK))
@@ -62,7 +63,7 @@ static aur_result fail_generation(aur_result result, aur_error *error) {
 /* On the square and the cube. */
 static aur_result generate_flat(const char *set, const aur_points_request *request, uint64_t size,
                                 size_t dimension, aur_points *points, aur_error *error) {
-    const aur_directions_options *const options = &request->options;
+    const aur_directions_options *const options = request->options;
     if (aur_native_find(set) != NULL)
         return aur_fail(error, AUR_ERROR_UNSUPPORTED,
                         "set '%s' lives on the sphere: ask for the disk, the hemisphere or the sphere", set);
@@ -88,7 +89,7 @@ static aur_result generate_flat(const char *set, const aur_points_request *reque
 
 static aur_result generate_disk(const char *set, const aur_points_request *request, uint64_t size,
                                 aur_points *points, aur_error *error) {
-    const aur_map map = request->options.map;
+    const aur_map map = request->options->map;
     const aur_result result = generate_flat(set, request, size, 2, points, error);
     if (result != AUR_OK)
         return result;
@@ -110,7 +111,7 @@ static aur_result generate_disk(const char *set, const aur_points_request *reque
 /* Points of a file that lie on the disk already. */
 static aur_result copy_disk(const aur_points *file, const aur_points_request *request, uint64_t size,
                             aur_points *points, aur_error *error) {
-    if (request->options.scramble != AUR_SCRAMBLE_NONE)
+    if (request->options->scramble != AUR_SCRAMBLE_NONE)
         return aur_fail(error, AUR_ERROR_UNSUPPORTED,
                         "points that are on the disk already take no scrambling");
     points->dimension = 2;
@@ -136,7 +137,7 @@ static void flatten(aur_points *points) {
 
 static aur_result generate_directions(const char *set, const aur_points_request *request, uint64_t size,
                                       aur_points *points, aur_error *error) {
-    aur_directions_options options = request->options;
+    aur_directions_options options = *request->options;
     options.domain = points->domain == AUR_DOMAIN_DISK ? AUR_DOMAIN_HEMISPHERE : points->domain;
     options.count = size;
     aur_directions *directions;
@@ -172,7 +173,7 @@ static aur_result generate(const char *set, const aur_points_request *request, u
     const aur_domain domain = points->domain;
     const int flat = domain == AUR_DOMAIN_SQUARE || domain == AUR_DOMAIN_CUBE;
     if (flat || domain == AUR_DOMAIN_DISK) {
-        const aur_result result = check_flat_options(&request->options, error);
+        const aur_result result = check_flat_options(request->options, error);
         if (result != AUR_OK)
             return result;
     }
@@ -190,14 +191,24 @@ static aur_result generate(const char *set, const aur_points_request *request, u
                       : generate_disk(set, request, size, points, error);
 }
 
-aur_result aur_points_generate(const char *set, const aur_points_request *request, aur_points *points,
+aur_result aur_points_generate(const char *set, const aur_points_request *given, aur_points *points,
                                aur_error *error) {
     *points = (aur_points){0};
-    aur_points file = {0};
-    uint64_t size = request->options.count;
-    aur_result result = natural_domain(set, request, &points->domain, &size, &file, error);
+    aur_directions_options options = aur_directions_options_default(0, AUR_DOMAIN_SQUARE);
+    aur_points_request request = aur_points_request_default(NULL);
+    aur_result result =
+        aur_options_read(given, sizeof request, sizeof request, &request, "aur_points_request", error);
     if (result == AUR_OK)
-        result = generate(set, request, size, &file, points, error);
+        result = aur_options_read(request.options, sizeof options, sizeof options, &options,
+                                  "aur_directions_options", error);
+    if (result != AUR_OK)
+        return result;
+    request.options = &options;
+    aur_points file = {0};
+    uint64_t size = options.count;
+    result = natural_domain(set, &request, &points->domain, &size, &file, error);
+    if (result == AUR_OK)
+        result = generate(set, &request, size, &file, points, error);
     aur_points_release(&file);
     if (result != AUR_OK) {
         aur_points_release(points);

@@ -22,7 +22,8 @@ static aur_vector warp(float x, float y, float z, double exponent) {
 static aur_result fill_directions(const aur_gather_rule_options *options, aur_gather_rule *rule,
                                   aur_error *error) {
     aur_directions *directions = NULL;
-    const aur_directions_options wanted = {.count = options->count,
+    const aur_directions_options wanted = {.size = sizeof wanted,
+                                           .count = options->count,
                                            .domain = AUR_DOMAIN_HEMISPHERE,
                                            .map = options->map,
                                            .seed = options->set_seed,

@@ -217,7 +217,8 @@ static aur_result solve(const radiosity_parameters *p, const aur_integrator_cont
 static aur_result prepare_gather(const radiosity_parameters *p, const aur_integrator_context *context,
                                  aur_radiosity_image *image, aur_error *error) {
     aur_rule_options rule = {.set = p->pattern,
-                             .points = {.count = (uint64_t)p->gather_samples,
+                             .points = {.size = sizeof rule.points,
+                                        .count = (uint64_t)p->gather_samples,
                                         .domain = AUR_DOMAIN_HEMISPHERE,
                                         .lobe = {.kind = AUR_LOBE_COSINE_POWER, .exponent = 1.0},
                                         .optimal_density = p->density == DENSITY_OPTIMAL,
