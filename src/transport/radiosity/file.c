@@ -5,7 +5,7 @@
 
 #include "core/file.h"
 #include "core/options.h"
-#include "core/random.h"
+#include "core/words.h"
 #include "transport/radiosity/solution.h"
 
 static const char magic[] = "aureole-radiosity 1\n";
@@ -13,35 +13,16 @@ enum { MAGIC_LENGTH = sizeof magic - 1, HEAD_NUMBERS = 11, TALLY_NUMBERS = 8, NA
 
 /* --- writing */
 
-typedef struct number_writer {
-    FILE *stream;
-    uint64_t hash;
-} number_writer;
-
-static void put(number_writer *out, uint64_t number) {
-    unsigned char bytes[8];
-    for (size_t i = 0; i < 8; ++i)
-        bytes[i] = (unsigned char)(number >> (8 * i));
-    fwrite(bytes, 1, sizeof bytes, out->stream);
-    out->hash = aur_hash2(out->hash, number);
-}
-
-static uint64_t bits_of(double value) {
-    uint64_t bits;
-    memcpy(&bits, &value, sizeof bits);
-    return bits;
-}
-
-static void put_sum(number_writer *out, const aur_exact_sum *sum) {
-    put(out, sum->low);
-    put(out, sum->high);
+static void put_sum(aur_word_writer *out, const aur_exact_sum *sum) {
+    aur_word_put(out, sum->low);
+    aur_word_put(out, sum->high);
 }
 
 /* The name's characters, one a number: it is short. */
-static void put_name(number_writer *out, const char *name) {
-    put(out, strlen(name));
+static void put_name(aur_word_writer *out, const char *name) {
+    aur_word_put(out, strlen(name));
     for (const char *c = name; *c != '\0'; ++c)
-        put(out, (unsigned char)*c);
+        aur_word_put(out, (unsigned char)*c);
 }
 
 aur_result aur_radiosity_save(const aur_radiosity *radiosity, const char *path, aur_error *error) {
@@ -49,13 +30,13 @@ aur_result aur_radiosity_save(const aur_radiosity *radiosity, const char *path, 
     const aur_result result = aur_file_open(path, &file, error);
     if (result != AUR_OK)
         return result;
-    number_writer out = {.stream = file.stream};
+    aur_word_writer out = {.stream = file.stream};
     fwrite(magic, 1, MAGIC_LENGTH, out.stream);
     const aur_radiosity_options *const o = &radiosity->options;
     const uint64_t head[HEAD_NUMBERS] = {radiosity->scene.hash,
                                          radiosity->scene.patch_count,
                                          radiosity->paths,
-                                         bits_of(radiosity->change),
+                                         aur_word_of_double(radiosity->change),
                                          (uint64_t)o->scramble,
                                          o->seed,
                                          (uint64_t)o->directions,
@@ -64,48 +45,29 @@ aur_result aur_radiosity_save(const aur_radiosity *radiosity, const char *path, 
                                          o->randomizations,
                                          o->variant};
     for (size_t i = 0; i < HEAD_NUMBERS; ++i)
-        put(&out, head[i]);
+        aur_word_put(&out, head[i]);
     put_name(&out, radiosity->sequence);
     for (size_t r = 0; r < o->randomizations; ++r) {
         const aur_radiosity_tally *const tally = &radiosity->tallies[r];
-        put(&out, tally->rays);
-        put(&out, tally->lost);
-        put(&out, tally->behind);
-        put(&out, tally->trapped);
+        aur_word_put(&out, tally->rays);
+        aur_word_put(&out, tally->lost);
+        aur_word_put(&out, tally->behind);
+        aur_word_put(&out, tally->trapped);
         put_sum(&out, &tally->last);
         put_sum(&out, &tally->rest);
         for (size_t i = 0; i < tally->patch_count; ++i)
             for (size_t c = 0; c < 3; ++c)
                 put_sum(&out, &tally->power[i][c]);
     }
-    put(&out, out.hash);
+    aur_word_put(&out, out.hash);
     return aur_file_commit(&file, error);
 }
 
 /* --- reading */
 
-typedef struct number_reader {
-    const unsigned char *at, *end;
-    uint64_t hash;
-    bool failed; /* the file has ended */
-} number_reader;
-
-static uint64_t get(number_reader *in) {
-    if (in->end - in->at < 8) {
-        in->failed = true;
-        return 0;
-    }
-    uint64_t number = 0;
-    for (size_t i = 0; i < 8; ++i)
-        number |= (uint64_t)in->at[i] << (8 * i);
-    in->at += 8;
-    in->hash = aur_hash2(in->hash, number);
-    return number;
-}
-
-static void get_sum(number_reader *in, aur_exact_sum *sum) {
-    sum->low = get(in);
-    sum->high = get(in);
+static void get_sum(aur_word_reader *in, aur_exact_sum *sum) {
+    sum->low = aur_word_get(in);
+    sum->high = aur_word_get(in);
 }
 
 typedef struct file_head {
@@ -121,15 +83,15 @@ static aur_result damaged(const char *path, const char *what, aur_error *error) 
 }
 
 /* What does not fit its type is refused here; the options' own limits are checked when they are used. */
-static aur_result read_head(number_reader *in, const char *path, file_head *head, aur_error *error) {
+static aur_result read_head(aur_word_reader *in, const char *path, file_head *head, aur_error *error) {
     uint64_t n[HEAD_NUMBERS];
     for (size_t i = 0; i < HEAD_NUMBERS; ++i)
-        n[i] = get(in);
-    const uint64_t length = get(in);
+        n[i] = aur_word_get(in);
+    const uint64_t length = aur_word_get(in);
     if (in->failed || length > NAME_LIMIT)
         return damaged(path, "its head is cut or damaged", error);
     for (size_t i = 0; i < length; ++i)
-        head->name[i] = (char)get(in);
+        head->name[i] = (char)aur_word_get(in);
     head->name[length] = '\0';
     if (in->failed || strlen(head->name) != length)
         return damaged(path, "its head is cut or damaged", error);
@@ -151,11 +113,11 @@ static aur_result read_head(number_reader *in, const char *path, file_head *head
     return AUR_OK;
 }
 
-static void read_tally(number_reader *in, aur_radiosity_tally *tally) {
-    tally->rays = get(in);
-    tally->lost = get(in);
-    tally->behind = get(in);
-    tally->trapped = get(in);
+static void read_tally(aur_word_reader *in, aur_radiosity_tally *tally) {
+    tally->rays = aur_word_get(in);
+    tally->lost = aur_word_get(in);
+    tally->behind = aur_word_get(in);
+    tally->trapped = aur_word_get(in);
     get_sum(in, &tally->last);
     get_sum(in, &tally->rest);
     for (size_t i = 0; i < tally->patch_count; ++i)
@@ -164,14 +126,14 @@ static void read_tally(number_reader *in, aur_radiosity_tally *tally) {
 }
 
 /* Whether what is left of the file holds so many sums, before memory is asked for. */
-static bool has_room(const number_reader *in, const file_head *head) {
-    const uint64_t left = (uint64_t)(in->end - in->at) / 8;
+static bool has_room(const aur_word_reader *in, const file_head *head) {
+    const uint64_t left = aur_words_left(in);
     return (in->end - in->at) % 8 == 0 && head->options.randomizations > 0 &&
            head->options.randomizations <= left && (head->patches <= left / 6) &&
            left == head->options.randomizations * (TALLY_NUMBERS + 6 * head->patches) + 1;
 }
 
-static aur_result read_solution(number_reader *in, const aur_scene *scene, const char *path,
+static aur_result read_solution(aur_word_reader *in, const aur_scene *scene, const char *path,
                                 const aur_radiosity_options *options, aur_radiosity **radiosity,
                                 aur_error *error) {
     file_head head;
@@ -194,8 +156,7 @@ static aur_result read_solution(number_reader *in, const aur_scene *scene, const
     made->change = head.change;
     for (size_t r = 0; r < made->options.randomizations; ++r)
         read_tally(in, &made->tallies[r]);
-    const uint64_t hash = in->hash;
-    if (get(in) != hash || in->failed)
+    if (!aur_word_check(in))
         return damaged(path, "its numbers are damaged", error);
     return AUR_OK;
 }
@@ -213,8 +174,8 @@ aur_result aur_radiosity_load(const aur_scene *scene, const char *path, const au
     result = aur_file_read(path, SIZE_MAX / 2, &data, &size, error);
     if (result != AUR_OK)
         return result;
-    number_reader in = {.at = (const unsigned char *)data + MAGIC_LENGTH,
-                        .end = (const unsigned char *)data + size};
+    aur_word_reader in = {.at = (const unsigned char *)data + MAGIC_LENGTH,
+                          .end = (const unsigned char *)data + size};
     if (size < MAGIC_LENGTH || memcmp(data, magic, MAGIC_LENGTH) != 0)
         result = damaged(path, "it does not begin with 'aureole-radiosity 1'", error);
     else
