@@ -286,7 +286,7 @@ const cli_verb cli_verb_render = {
     "  -D NAME=VALUE       set a <default> of the scene; may be repeated\n"
     "  --integrator SPEC   NAME[:key=value,...] instead of the scene's integrator\n"
     "  --sampler SET       instead of the scene's sampler ('aureole sets' lists them)\n"
-    "  --filter NAME       box, tent or gaussian instead of the scene's\n"
+    "  --filter NAME       instead of the scene's ('aureole help filter' lists them)\n"
     "  --spp N             samples a pixel\n"
     "  --width N, --height N  size of the whole picture in pixels\n"
     "  --crop x0,x1,y0,y1  render the pixels x0 <= x < x1, y0 <= y < y1 only\n"

@@ -16,11 +16,6 @@ static inline void aur_cross3(const double a[3], const double b[3], double c[3])
     c[2] = a[0] * b[1] - a[1] * b[0];
 }
 
-static inline void aur_subtract3(const double a[3], const double b[3], double c[3]) {
-    for (int d = 0; d < 3; ++d)
-        c[d] = a[d] - b[d];
-}
-
 static inline double aur_length3(const double a[3]) {
     return sqrt(aur_dot3(a, a));
 }

@@ -53,9 +53,4 @@ void aur_stream_pixels(const aur_sampler *sampler, size_t count, const uint64_t 
 /* A single number in [0,1), from a pair of its own. */
 float aur_stream_single(const aur_stream *stream, uint32_t pair);
 
-/* A hash of (pixel, index, what) for choices that need no even spread. */
-static inline uint64_t aur_stream_hash(const aur_stream *stream, uint64_t what) {
-    return aur_hash3(stream->pixel, stream->index, what);
-}
-
 #endif
