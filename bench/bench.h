@@ -13,8 +13,7 @@
  * All times are CPU seconds of the process, so that neighbours on the machine matter little and work on two
  * threads can be compared with the same work on one: the ratio of their rates is then 1 / (1 + the rise of
  * CPU time a unit). */
-#ifndef AUR_BENCH_BENCH_H
-#define AUR_BENCH_BENCH_H
+#pragma once
 
 #include <stdbool.h>
 #include <stddef.h>
@@ -65,5 +64,3 @@ double bench_cpu_seconds(void);
 void bench_keep(double value);
 /* Says on standard error why a bench cannot run; returns false. */
 bool bench_fail(const char *format, ...) __attribute__((format(printf, 1, 2)));
-
-#endif

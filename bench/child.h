@@ -1,6 +1,5 @@
 /* The program `aureole` as a process of its own: what a whole run costs, from load to written picture. */
-#ifndef AUR_BENCH_CHILD_H
-#define AUR_BENCH_CHILD_H
+#pragma once
 
 #include <stdbool.h>
 
@@ -15,5 +14,3 @@ bool bench_run_child(const char *const *arguments, bench_child_cost *cost);
 
 /* A folder beside this program for what is made once, made if it is not there; false after bench_fail. */
 bool bench_data_folder(char *folder, unsigned capacity);
-
-#endif

@@ -1,6 +1,5 @@
 /* A table of figures: what was asked of each, what was measured, and whether that meets it. */
-#ifndef AUR_BENCH_FIGURES_H
-#define AUR_BENCH_FIGURES_H
+#pragma once
 
 #include <stdbool.h>
 #include <stddef.h>
@@ -23,5 +22,3 @@ typedef struct bench_figures {
 void bench_figures_add(bench_figures *figures, bench_relation relation, double asked, double measured,
                        const char *unit, const char *name, ...) __attribute__((format(printf, 6, 7)));
 void bench_figures_print(const bench_figures *figures);
-
-#endif

@@ -1,7 +1,6 @@
 /* What `aureole-bench gather` measures inside one process: rays, look-ups, threads and memory. Each adds its
  * figures; false after bench_fail. */
-#ifndef AUR_BENCH_GATHER_RAYS_H
-#define AUR_BENCH_GATHER_RAYS_H
+#pragma once
 
 #include "bench.h"
 #include "figures.h"
@@ -13,5 +12,3 @@ bool bench_gather_rays(const bench_options *options, bench_figures *figures);
 bool bench_gather_lookups(const bench_options *options, bench_figures *figures);
 /* What a photon costs in memory at the peak. */
 bool bench_gather_memory(const bench_options *options, bench_figures *figures);
-
-#endif

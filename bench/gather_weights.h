@@ -1,6 +1,5 @@
 /* What optimal weights cost in a picture (Marques 2018, section 6: 7m40s against 7m36s). */
-#ifndef AUR_BENCH_GATHER_WEIGHTS_H
-#define AUR_BENCH_GATHER_WEIGHTS_H
+#pragma once
 
 #include "bench.h"
 #include "figures.h"
@@ -8,5 +7,3 @@
 /* The final gather of the glossy Cornell box, all preparation apart, by each kind of weights against equal
  * ones. Adds its figures; false after bench_fail. */
 bool bench_gather_weights_cost(const bench_options *options, bench_figures *figures);
-
-#endif

@@ -1,12 +1,9 @@
 /* The Cornell box with two bumpy spheres of very many triangles in the place of its blocks: written to a file
  * when it is first asked for. */
-#ifndef AUR_BENCH_HEAVY_BOX_H
-#define AUR_BENCH_HEAVY_BOX_H
+#pragma once
 
 #include <stdbool.h>
 #include <stddef.h>
 
 /* The path of a scene with about `triangles` triangles in `folder`; false after bench_fail. */
 bool bench_heavy_box(const char *folder, size_t triangles, char *path, size_t capacity);
-
-#endif

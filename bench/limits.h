@@ -1,8 +1,7 @@
 /* What the machine can do at best, each limit with the widest instruction set that aur_isa_available() gives
  * (Embree chooses its own). `units` of an open limit are bytes, flops, pairs or rays, as the comment beside
  * it says. */
-#ifndef AUR_BENCH_LIMITS_H
-#define AUR_BENCH_LIMITS_H
+#pragma once
 
 #include "bench.h"
 
@@ -64,5 +63,3 @@ extern const bench_limit bench_limit_rays_bumpy_secondary;
 extern const bench_limit bench_limit_rays_bumpy_secondary_packet;
 extern const bench_limit bench_limit_rays_bumpy_occluded;
 extern const bench_limit bench_limit_rays_bumpy_occluded_packet;
-
-#endif

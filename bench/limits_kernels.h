@@ -1,7 +1,6 @@
 /* The arithmetic and memory loops of limits.c, once for each instruction set (limits_portable.c,
  * limits_avx2.c, limits_avx512.c). */
-#ifndef AUR_BENCH_LIMITS_KERNELS_H
-#define AUR_BENCH_LIMITS_KERNELS_H
+#pragma once
 
 #include <stddef.h>
 
@@ -26,5 +25,3 @@ extern const bench_kernels bench_kernels_avx2;
 extern const bench_kernels bench_kernels_avx512;
 
 enum { BENCH_FMA_ACCUMULATORS = 12 };
-
-#endif

@@ -1,7 +1,6 @@
 /* Which packets of 16 rays a piece of code traces, by functions in front of Embree's as in recorder.h, and
  * the same packets again through Embree alone. */
-#ifndef AUR_BENCH_PACKET_RECORDER_H
-#define AUR_BENCH_PACKET_RECORDER_H
+#pragma once
 
 #include <stdbool.h>
 #include <stddef.h>
@@ -31,5 +30,3 @@ void bench_record_packets(bench_packet_recorder *recorder);
 
 /* Traces them again through Embree itself, each with its flag; how many rays hit something. */
 size_t bench_replay_packets(RTCScene scene, const bench_packet_recorder *recorder);
-
-#endif

@@ -3,8 +3,7 @@
  * The truth is two path-traced pictures with independent seeds, a and b, rendered once and kept beside the
  * program. The mean square error of a picture x is estimated by the mean of (x - a)(x - b): that has no bias
  * from the noise of a and b, so an error far below their own noise can be told. */
-#ifndef AUR_BENCH_QUALITY_H
-#define AUR_BENCH_QUALITY_H
+#pragma once
 
 #include <stdbool.h>
 #include <stddef.h>
@@ -38,5 +37,3 @@ extern const size_t bench_recipe_count;
 /* Final gathering by the recipes and our own path tracer beside it, for all subjects. False after
  * bench_fail. */
 bool bench_quality(const bench_options *options, bench_figures *figures);
-
-#endif

@@ -1,7 +1,6 @@
 /* Which rays a piece of code traces one by one. The program has an rtcIntersect1 and an rtcOccluded1 of its
  * own, which the libraries find before Embree's, so nothing that is measured has to know of it. */
-#ifndef AUR_BENCH_RECORDER_H
-#define AUR_BENCH_RECORDER_H
+#pragma once
 
 #include <stdbool.h>
 #include <stddef.h>
@@ -23,5 +22,3 @@ void bench_record(bench_recorder *recorder);
 
 /* Traces them again through Embree itself; how many hit something. */
 size_t bench_replay(RTCScene scene, const bench_recorder *recorder);
-
-#endif

@@ -1,6 +1,5 @@
 /* Stored rays through Embree itself, one by one and in packets of 16. */
-#ifndef AUR_BENCH_TRACE_H
-#define AUR_BENCH_TRACE_H
+#pragma once
 
 #include "experimental.h"
 
@@ -26,5 +25,3 @@ void bench_pixel(size_t index, size_t width, size_t *x, size_t *y);
 
 /* A cosine distributed direction about a unit normal, by a hash of `index`. */
 aur_vector bench_cosine_direction(aur_vector normal, size_t index);
-
-#endif

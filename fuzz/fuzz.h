@@ -1,7 +1,6 @@
 /* What a harness offers. libFuzzer wants the first function; the driver in driver.c, which needs no clang,
  * wants both. */
-#ifndef AUR_FUZZ_FUZZ_H
-#define AUR_FUZZ_FUZZ_H
+#pragma once
 
 #include <fcntl.h>
 #include <stddef.h>
@@ -53,5 +52,3 @@ static inline size_t fuzz_text_seed(size_t count, const char *const *texts, size
     memcpy(data, texts[index], size);
     return size;
 }
-
-#endif

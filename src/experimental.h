@@ -2,8 +2,7 @@
  * libraries' inside, beside <aureole/...>. They include this header and no other one of src. It is installed
  * nowhere, and what it shows may change at any time. Functions of core can be called as they are; those of
  * other rooms where AUR_EXPERIMENTAL stands before them, else the linker does not find them. */
-#ifndef AUR_EXPERIMENTAL_H
-#define AUR_EXPERIMENTAL_H
+#pragma once
 
 #include "core/cache.h"
 #include "core/file.h"
@@ -22,5 +21,3 @@
 #include "transport/integrator.h"
 #include "transport/occlusion/rays.h"
 #include "transport/photons/irradiance.h"
-
-#endif

@@ -1,6 +1,5 @@
 /* cmocka with what it needs before it and the assertions that it lacks. */
-#ifndef AUR_TESTS_CHECK_H
-#define AUR_TESTS_CHECK_H
+#pragma once
 
 #include <math.h>
 #include <setjmp.h>
@@ -24,5 +23,3 @@ static inline void check_near(double actual, double expected, double tolerance, 
 
 #define assert_relative(actual, expected, tolerance)                                                         \
     check_near((actual), (expected), fabs(expected) * (tolerance), #actual, __FILE__, __LINE__)
-
-#endif

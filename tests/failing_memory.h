@@ -1,7 +1,6 @@
 /* Memory that runs out when a test says so. Programs named test_*_memory are linked so that their calls of
  * the allocating functions, and those of the rooms, come here first. */
-#ifndef AUR_TESTS_FAILING_MEMORY_H
-#define AUR_TESTS_FAILING_MEMORY_H
+#pragma once
 
 #include <stdatomic.h>
 #include <stdlib.h>
@@ -45,5 +44,3 @@ void *__wrap_realloc(void *memory, size_t size) {
 void *__wrap_aligned_alloc(size_t alignment, size_t size) {
     return allocation_fails() ? NULL : __real_aligned_alloc(alignment, size);
 }
-
-#endif

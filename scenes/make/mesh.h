@@ -1,6 +1,5 @@
 /* Triangle meshes that grow, and the surfaces that bundled scenes are made of. */
-#ifndef AUR_SCENES_MESH_H
-#define AUR_SCENES_MESH_H
+#pragma once
 
 #include <aureole/core.h>
 #include <stdbool.h>
@@ -62,5 +61,3 @@ void mesh_place(mesh *m, size_t first, double size, double angle, vec move);
 
 /* Binary PLY with normals; the file is replaced whole or not at all. */
 aur_result mesh_write(const mesh *m, const char *path, aur_error *error);
-
-#endif

@@ -1,6 +1,5 @@
 /* Smooth noise from hashes. */
-#ifndef AUR_SCENES_NOISE_H
-#define AUR_SCENES_NOISE_H
+#pragma once
 
 #include "vec.h"
 
@@ -8,5 +7,3 @@
 double noise(vec p);
 /* The sum of `octaves` of it, each of twice the frequency and half the height. */
 double fractal_noise(vec p, int octaves);
-
-#endif

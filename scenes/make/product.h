@@ -1,6 +1,5 @@
 /* What aureole-scenes makes: one row a file in the table of main.c. */
-#ifndef AUR_SCENES_PRODUCT_H
-#define AUR_SCENES_PRODUCT_H
+#pragma once
 
 #include <aureole/image.h>
 
@@ -12,5 +11,3 @@ typedef struct product {
     void (*build)(mesh *m);
     aur_result (*paint)(aur_image **image, aur_error *error); /* instead of build: a picture */
 } product;
-
-#endif

@@ -1,6 +1,5 @@
 /* Solids told by signed distance, and their skin as triangles. */
-#ifndef AUR_SCENES_SURFACE_NET_H
-#define AUR_SCENES_SURFACE_NET_H
+#pragma once
 
 #include "mesh.h"
 
@@ -28,5 +27,3 @@ double solid_block(vec p, vec center, vec half, double rounding);
 /* The union with a fillet of about the size k; and the same for a cut with `b`. */
 double solid_join(double a, double b, double k);
 double solid_cut(double a, double b, double k);
-
-#endif

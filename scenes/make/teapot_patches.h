@@ -1,6 +1,5 @@
 /* The Utah teapot (Martin Newell 1975). */
-#ifndef AUR_SCENES_TEAPOT_PATCHES_H
-#define AUR_SCENES_TEAPOT_PATCHES_H
+#pragma once
 
 #include "vec.h"
 
@@ -13,5 +12,3 @@ typedef struct teapot_patch {
 void teapot_patches(teapot_patch patches[TEAPOT_PATCH_COUNT]);
 /* Position and outward normal (zero at the poles, where the patch has none). */
 void teapot_evaluate(const teapot_patch *source, double u, double v, vec *position, vec *normal);
-
-#endif

@@ -1,6 +1,5 @@
 /* Points and directions in double precision, by value; y is up in every scene. */
-#ifndef AUR_SCENES_VEC_H
-#define AUR_SCENES_VEC_H
+#pragma once
 
 #include <math.h>
 
@@ -73,5 +72,3 @@ static inline vec turn_z(vec p, double angle) {
     const double c = cos(angle), s = sin(angle);
     return (vec){c * p.x - s * p.y, s * p.x + c * p.y, p.z};
 }
-
-#endif

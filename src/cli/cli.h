@@ -1,6 +1,5 @@
 /* What the verbs share: options, errors, exit statuses, tables of results. */
-#ifndef AUR_CLI_CLI_H
-#define AUR_CLI_CLI_H
+#pragma once
 
 #include <aureole/core.h>
 #include <getopt.h>
@@ -63,5 +62,3 @@ void cli_table_number(cli_table *table, double value, int digits);
 void cli_table_integer(cli_table *table, uint64_t value);
 /* Prints to standard output and returns the exit status (CLI_FAILURE when it cannot be written). */
 int cli_table_print(const cli_table *table, cli_format format);
-
-#endif

@@ -1,6 +1,5 @@
 /* Pictures of points: the square, the disk, and the sphere from the side and from the pole. */
-#ifndef AUR_CLI_DRAW_H
-#define AUR_CLI_DRAW_H
+#pragma once
 
 #include <aureole/pointset.h>
 #include <stdbool.h>
@@ -10,5 +9,3 @@
  * sphere is seen from the side (x to the right, z up) and from the pole (x to the right, y up); points on the
  * far side are pale. */
 aur_result cli_draw_points(const char *path, bool png, const aur_points *points, aur_error *error);
-
-#endif

@@ -1,6 +1,5 @@
 /* The error of a picture against a reference while it is rendered. */
-#ifndef AUR_CLI_ERRORS_H
-#define AUR_CLI_ERRORS_H
+#pragma once
 
 #include <aureole/render.h>
 
@@ -14,5 +13,3 @@ void cli_errors_destroy(cli_errors *errors); /* NULL is allowed */
 aur_result cli_errors_render(cli_errors *errors, aur_render *render, aur_error *error);
 /* Writes samples a pixel, samples, rays, CPU seconds, RMSE and relative RMSE of every step as CSV. */
 aur_result cli_errors_write(const cli_errors *errors, const char *path, aur_error *error);
-
-#endif

@@ -1,6 +1,5 @@
 /* The parts of `aureole measure`. */
-#ifndef AUR_CLI_MEASURE_H
-#define AUR_CLI_MEASURE_H
+#pragma once
 
 #include <aureole/quality.h>
 
@@ -55,5 +54,3 @@ int cli_measure_series(const cli_measure_arguments *arguments);
 /* Figures against N on log-log axes with fitted slopes, a panel a metric; slopes go to standard error as
  * well. */
 int cli_measure_plot(const cli_measure_arguments *arguments, const cli_measure_table *table);
-
-#endif

@@ -1,6 +1,5 @@
 /* Pictures of figures by gnuplot. */
-#ifndef AUR_CLI_PLOT_H
-#define AUR_CLI_PLOT_H
+#pragma once
 
 #include <stdbool.h>
 #include <stdio.h>
@@ -21,5 +20,3 @@ bool cli_plot_open(const char *path, int width, int height, cli_plot *plot);
 void cli_plot_text(cli_plot *plot, const char *text);
 /* Ends gnuplot and puts the picture in its place; returns the exit status, after printing what went wrong. */
 int cli_plot_close(cli_plot *plot);
-
-#endif

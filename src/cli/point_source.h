@@ -1,6 +1,5 @@
 /* Where a verb's points come from: a set that is named, or a file. */
-#ifndef AUR_CLI_POINT_SOURCE_H
-#define AUR_CLI_POINT_SOURCE_H
+#pragma once
 
 #include <aureole/sphere.h>
 
@@ -47,5 +46,3 @@ bool cli_is_file(const char *text);
  * unless options->domain_given. Equal weights are left out. Free with aur_points_release. */
 aur_result cli_load_points(const char *text, const cli_point_options *options, size_t count,
                            aur_points *points, aur_error *error);
-
-#endif

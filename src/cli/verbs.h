@@ -1,6 +1,5 @@
 /* What the verbs `help` and `completion` do with the table of all verbs, which main.c has. */
-#ifndef AUR_CLI_VERBS_H
-#define AUR_CLI_VERBS_H
+#pragma once
 
 #include <aureole/tables.h>
 
@@ -10,5 +9,3 @@ int cli_help(size_t verb_count, const cli_verb *const *verbs, int argc, char **a
 
 /* The tables of both libraries, one after the other; NULL beyond the last. */
 const aur_table *cli_table_at(size_t index);
-
-#endif

@@ -1,6 +1,5 @@
 /* The parts of `aureole weights`. */
-#ifndef AUR_CLI_WEIGHTS_H
-#define AUR_CLI_WEIGHTS_H
+#pragma once
 
 #include <aureole/quadrature.h>
 
@@ -55,5 +54,3 @@ int cli_weights_table(const cli_weights_arguments *arguments);
 /* Reads a table and writes the samples and weights of one angle and rotation. Without a set any table will
  * do; with one it must have been built from the same options. */
 int cli_weights_look_up(const cli_weights_arguments *arguments);
-
-#endif

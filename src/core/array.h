@@ -1,6 +1,5 @@
 /* Arrays that grow, by products that are checked. */
-#ifndef AUR_CORE_ARRAY_H
-#define AUR_CORE_ARRAY_H
+#pragma once
 
 #include <stdbool.h>
 #include <stddef.h>
@@ -17,5 +16,3 @@ bool aur_array_reserve(void *array, size_t *capacity, size_t wanted, size_t size
 
 /* a * b into *product; false, and *product untouched, when a size_t cannot hold it. */
 bool aur_size_product(size_t a, size_t b, size_t *product);
-
-#endif

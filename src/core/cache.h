@@ -1,7 +1,6 @@
 /* Things that are costly to make and that several renders of one scene may share, found by a text that says
  * all that they depend on. Not for two threads at once. */
-#ifndef AUR_CORE_CACHE_H
-#define AUR_CORE_CACHE_H
+#pragma once
 
 #include <aureole/core.h>
 
@@ -15,5 +14,3 @@ void aur_cache_destroy(aur_cache *cache);
 void *aur_cache_find(const aur_cache *cache, const char *key);
 /* Takes ownership of `thing` in every case; `destroy` ends it. Fails with AUR_ERROR_MEMORY only. */
 aur_result aur_cache_store(aur_cache *cache, const char *key, void *thing, void (*destroy)(void *));
-
-#endif

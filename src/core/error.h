@@ -1,6 +1,5 @@
 /* Filling aur_error: each returns the result that it was given, so that `return aur_fail(...)` reads well. */
-#ifndef AUR_CORE_ERROR_H
-#define AUR_CORE_ERROR_H
+#pragma once
 
 #include <aureole/core.h>
 
@@ -27,5 +26,3 @@ void aur_warn_at(const aur_warnings *warnings, aur_location location, const char
 
 /* The one wording for memory that is not to be had. */
 aur_result aur_fail_memory(aur_error *error);
-
-#endif

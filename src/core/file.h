@@ -1,6 +1,5 @@
 /* Files that are replaced whole or not at all, and reading a whole file. */
-#ifndef AUR_CORE_FILE_H
-#define AUR_CORE_FILE_H
+#pragma once
 
 #include <stdbool.h>
 #include <stdio.h>
@@ -32,5 +31,3 @@ void aur_file_abandon(aur_file_writer *writer);
 /* Reads all of `path` ("-": standard input) into *data, allocated with malloc and followed by a zero byte
  * that is not counted. Refuses files beyond `limit` bytes. */
 aur_result aur_file_read(const char *path, size_t limit, char **data, size_t *size, aur_error *error);
-
-#endif

@@ -10,8 +10,7 @@
  *     };
  *
  * A choice's words stand in the order of the enum that the field has. */
-#ifndef AUR_CORE_KEYS_H
-#define AUR_CORE_KEYS_H
+#pragma once
 
 #include <aureole/tables.h>
 #include <math.h>
@@ -78,5 +77,3 @@ aur_result aur_row_read(const aur_row *row, aur_parameters *parameters, void *fi
 /* The row that parameters->plugin names, or a NAME error with the nearest name or all of them. */
 aur_result aur_table_find(const aur_table *table, const aur_parameters *parameters, const aur_row **row,
                           aur_error *error);
-
-#endif

@@ -1,6 +1,5 @@
 /* Tables whose rows have names: finding one, suggesting the nearest, listing them all in an error's text. */
-#ifndef AUR_CORE_NAMES_H
-#define AUR_CORE_NAMES_H
+#pragma once
 
 #include "core/error.h"
 
@@ -28,5 +27,3 @@ size_t aur_names_list(aur_names names, char *text, size_t capacity);
  * mean 'NAME'?" or, when nothing is near, "unknown KIND 'WANTED'; there are: a, b, c". */
 aur_result aur_names_choose(aur_names names, const char *kind, const char *wanted, aur_location location,
                             size_t *index, aur_error *error);
-
-#endif

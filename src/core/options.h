@@ -1,7 +1,6 @@
 /* Option structs that can grow. The first field of such a struct is `size_t size`, the caller's sizeof, so
  * that a program that was compiled with an older or a newer header than the library's is understood. */
-#ifndef AUR_CORE_OPTIONS_H
-#define AUR_CORE_OPTIONS_H
+#pragma once
 
 #include "core/error.h"
 
@@ -17,5 +16,3 @@ aur_result aur_options_read(const void *given, size_t first_size, size_t own_siz
  * `own_size` bytes: what both know is copied, what only the caller knows is zero. ARGUMENT as above. */
 aur_result aur_description_write(const void *own, size_t first_size, size_t own_size, void *given,
                                  const char *what, aur_error *error);
-
-#endif

@@ -1,7 +1,6 @@
 /* The one way in which Aureole uses threads. Work items are independent; a result must never depend on which
  * thread ran an item or when (architecture, law 1). */
-#ifndef AUR_CORE_PARALLEL_H
-#define AUR_CORE_PARALLEL_H
+#pragma once
 
 #include <aureole/core.h>
 #include <stdbool.h>
@@ -28,5 +27,3 @@ aur_result aur_parallel_for(const aur_parallel_options *options, size_t count, a
 /* The number of threads that `threads` stands for. 0: as many as there are processors for this process, or as
  * OMP_NUM_THREADS says. At most four a processor (but 16 on a small machine) and 1024. */
 size_t aur_parallel_threads(size_t threads);
-
-#endif

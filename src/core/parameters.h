@@ -2,8 +2,7 @@
  * NAME:key=value` and a SET are built from. Tables of keys (core/keys.h) read them: aur_parameters_find marks
  * a value as used and remembers that the name is known; aur_parameters_finish then refuses what nobody asked
  * for, with the nearest known name. */
-#ifndef AUR_CORE_PARAMETERS_H
-#define AUR_CORE_PARAMETERS_H
+#pragma once
 
 #include <stdbool.h>
 
@@ -77,5 +76,3 @@ aur_result aur_parameters_finish(const aur_parameters *parameters, aur_error *er
 /* NAME error for a plugin that is none of `count` names: says the nearest one, or all of them. */
 aur_result aur_fail_unknown_plugin(aur_error *error, const aur_parameters *parameters, size_t count,
                                    const char *const *names);
-
-#endif

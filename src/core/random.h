@@ -2,8 +2,7 @@
  *
  * The mixer is the 64-bit finalizer of SplitMix (Steele, Lea, Flood 2014, with Stafford's "Mix13" constants).
  */
-#ifndef AUR_CORE_RANDOM_H
-#define AUR_CORE_RANDOM_H
+#pragma once
 
 #include <stddef.h>
 #include <stdint.h>
@@ -49,5 +48,3 @@ static inline void aur_shuffle(size_t count, uint32_t *items, uint64_t seed) {
         items[j] = swap;
     }
 }
-
-#endif

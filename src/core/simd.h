@@ -2,8 +2,7 @@
  * core/simd_lanes.h or in loops without branches) that is compiled in a file for each instruction set
  * (*_avx2.c,
  * *_avx512.c, and a portable one), and its room chooses between them by AUR_KERNEL_HERE. */
-#ifndef AUR_CORE_SIMD_H
-#define AUR_CORE_SIMD_H
+#pragma once
 
 typedef enum aur_isa { AUR_ISA_PORTABLE = 0, AUR_ISA_AVX2 = 2, AUR_ISA_AVX512 = 5 } aur_isa;
 
@@ -39,6 +38,4 @@ const char *aur_isa_name(aur_isa isa);
 #define AUR_INDEPENDENT_LOOP _Pragma("GCC ivdep")
 #else
 #define AUR_INDEPENDENT_LOOP
-#endif
-
 #endif

@@ -2,8 +2,7 @@
  * for: the compiler's own vector types, whose operators work lane by lane on every processor, and what they
  * lack. Sums, products and roots are rounded as those of single numbers are, so that all widths give the same
  * bits. */
-#ifndef AUR_CORE_SIMD_LANES_H
-#define AUR_CORE_SIMD_LANES_H
+#pragma once
 
 #include <math.h>
 #include <stdbool.h>
@@ -199,5 +198,3 @@ static inline void aur_lanes_end_stream(void) {
     _mm_sfence();
 #endif
 }
-
-#endif

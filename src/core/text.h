@@ -1,7 +1,6 @@
 /* Reading numbers at a place in a text: the pieces of aur_parse_double, for parsers. Nothing here depends on
  * the locale of the process. */
-#ifndef AUR_CORE_TEXT_H
-#define AUR_CORE_TEXT_H
+#pragma once
 
 #include <aureole/text.h>
 #include <stdarg.h>
@@ -38,5 +37,3 @@ size_t aur_parse_doubles(const char *text, double *values, size_t capacity);
 
 /* vsnprintf whose numbers have a decimal point under every locale. */
 int aur_format_list(char *text, size_t capacity, const char *format, va_list arguments) AUR_PRINTF(3, 0);
-
-#endif

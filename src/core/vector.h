@@ -1,6 +1,5 @@
 /* Small float vectors for rays, radiance and frames. Everything is by value. */
-#ifndef AUR_CORE_VECTOR_H
-#define AUR_CORE_VECTOR_H
+#pragma once
 
 #include <math.h>
 #include <stdint.h>
@@ -108,5 +107,3 @@ static inline aur_vector aur_frame_to_local(const aur_frame *frame, aur_vector v
     return (aur_vector){aur_vector_dot(frame->x, v), aur_vector_dot(frame->y, v),
                         aur_vector_dot(frame->z, v)};
 }
-
-#endif

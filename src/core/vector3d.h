@@ -1,7 +1,6 @@
 /* Vectors of three doubles, for points, weights and geometry that is computed once. Rays use core/vector.h.
  */
-#ifndef AUR_CORE_VECTOR3D_H
-#define AUR_CORE_VECTOR3D_H
+#pragma once
 
 #include <math.h>
 #include <stdbool.h>
@@ -45,5 +44,3 @@ static inline void aur_frame3(const double z[3], double x[3], double y[3]) {
     y[1] = sign + z[1] * z[1] * a;
     y[2] = -z[1];
 }
-
-#endif

@@ -1,6 +1,5 @@
 /* Numbers in files: words of 8 bytes, the lowest byte first, with a hash of all of them. */
-#ifndef AUR_CORE_WORDS_H
-#define AUR_CORE_WORDS_H
+#pragma once
 
 #include <stdbool.h>
 #include <stdint.h>
@@ -67,5 +66,3 @@ static inline bool aur_word_check(aur_word_reader *reader) {
 static inline size_t aur_words_left(const aur_word_reader *reader) {
     return (size_t)(reader->end - reader->at) / 8;
 }
-
-#endif

@@ -1,6 +1,5 @@
 /* The inside of a film: sums of samples for each pixel, and how far each tile has come. */
-#ifndef AUR_FILM_FILM_H
-#define AUR_FILM_FILM_H
+#pragma once
 
 #include <aureole/film.h>
 
@@ -70,5 +69,3 @@ void aur_film_close_tile(aur_film *film, size_t index, const aur_tile *tile, con
 
 /* Samples that every pixel was given. */
 uint32_t aur_film_samples(const aur_film *film);
-
-#endif

@@ -1,7 +1,6 @@
 /* What an integrator sees of the film: a part of the picture, the camera samples of its pixels, and their
  * sums. */
-#ifndef AUR_FILM_TILE_H
-#define AUR_FILM_TILE_H
+#pragma once
 
 #include <aureole/render.h>
 
@@ -75,5 +74,3 @@ void aur_tile_add_mean(aur_tile *tile, size_t x, size_t y, uint32_t count, const
 void aur_tile_add_extra(aur_tile *tile, size_t x, size_t y, size_t channel, double value);
 /* One sample with all channels, the first three the radiance. */
 void aur_tile_add_channels(aur_tile *tile, size_t x, size_t y, float weight, const float *values);
-
-#endif

@@ -1,6 +1,5 @@
 /* What reading and writing EXR share. */
-#ifndef AUR_IMAGE_EXR_H
-#define AUR_IMAGE_EXR_H
+#pragma once
 
 #include <openexr.h>
 
@@ -32,5 +31,3 @@ void aur_exr_note(exr_const_context_t context, exr_result_t code, const char *me
 
 /* The result of a failed call: what was noted, or else the code's own text. */
 aur_result aur_exr_fail(const aur_exr_stream *stream, exr_result_t code);
-
-#endif

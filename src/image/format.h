@@ -1,6 +1,5 @@
 /* The table of file formats, and what its entries share. */
-#ifndef AUR_IMAGE_FORMAT_H
-#define AUR_IMAGE_FORMAT_H
+#pragma once
 
 #include <aureole/image.h>
 #include <stdbool.h>
@@ -55,5 +54,3 @@ aur_result aur_image_fail_encode(const aur_image_target *target, aur_error *erro
 /* Red, green and blue, or an ARGUMENT error that names the channels that there are. `name` may be NULL. */
 aur_result aur_image_require_color(const char *name, const aur_image *image, size_t channels[3],
                                    aur_error *error);
-
-#endif

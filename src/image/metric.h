@@ -1,6 +1,5 @@
 /* What the measures of difference share. */
-#ifndef AUR_IMAGE_METRIC_H
-#define AUR_IMAGE_METRIC_H
+#pragma once
 
 #include <aureole/image.h>
 
@@ -18,5 +17,3 @@ aur_result aur_image_check_finite(const char *what, const aur_image *image, cons
 /* ARGUMENT when sizes differ, there is no colour or a value is not finite. */
 aur_result aur_image_check_pair(const aur_image *reference, const aur_image *image, aur_color_pair *pair,
                                 aur_error *error);
-
-#endif

@@ -1,6 +1,5 @@
 /* Between radiance and what a screen is sent. */
-#ifndef AUR_IMAGE_TONE_H
-#define AUR_IMAGE_TONE_H
+#pragma once
 
 #include <aureole/image.h>
 
@@ -11,5 +10,3 @@ double aur_srgb_decode(double encoded);
 
 /* Radiance to [0,1] in linear light by a curve. */
 double aur_tone_apply(aur_tone tone, double radiance);
-
-#endif

@@ -1,8 +1,7 @@
 /* The papers' experiments: each is one file in lab/<author-year>/ and one line in the table of lab.c, made
  * from public API calls only. An experiment fills a table, says what it found in notes, and writes pictures.
  */
-#ifndef AUR_LAB_LAB_H
-#define AUR_LAB_LAB_H
+#pragma once
 
 #include <aureole/render.h>
 #include <stdbool.h>
@@ -72,5 +71,3 @@ aur_result lab_picture(lab_run *run, const char *name, const aur_image *image, f
 
 /* The mean of `values` and the half width of its 95 % interval (Student's t); half is 0 for one value. */
 void lab_mean_interval(size_t count, const double *values, double *mean, double *half);
-
-#endif

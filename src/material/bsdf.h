@@ -7,8 +7,7 @@
  *
  * Directions are unit vectors in the local shading frame, z along the shading normal on the side that the
  * shape's normal points to. `view` points to where light goes (the eye), `light` to where it comes from. */
-#ifndef AUR_MATERIAL_BSDF_H
-#define AUR_MATERIAL_BSDF_H
+#pragma once
 
 #include <stdbool.h>
 
@@ -196,5 +195,3 @@ aur_result aur_parameters_nested_bsdf(aur_parameters *parameters, const char *na
             "bsdf", NULL                                                                                     \
         }                                                                                                    \
     }
-
-#endif

@@ -1,9 +1,6 @@
 /* The inverse of the error function, for drawing from Gaussians. */
-#ifndef AUR_MATERIAL_ERF_H
-#define AUR_MATERIAL_ERF_H
+#pragma once
 
 /* x with erf(x) = y for -1 < y < 1, to a few parts in 10^7 (Giles 2012, "Approximating the erfinv function",
  * single precision). */
 float aur_inverse_erf(float y);
-
-#endif

@@ -1,6 +1,5 @@
 /* How much light a smooth boundary reflects, and refractive indices. */
-#ifndef AUR_MATERIAL_FRESNEL_H
-#define AUR_MATERIAL_FRESNEL_H
+#pragma once
 
 #include "core/keys.h"
 #include "core/vector.h"
@@ -50,5 +49,3 @@ aur_result aur_metal_complete(aur_parameters *parameters, aur_metal *metal, aur_
     {                                                                                                        \
         AUR_KEY_OF_VECTOR(struct_, "k", metal.k, -1e3, 1e3, NULL, "absorption for R, G, B")                  \
     }
-
-#endif

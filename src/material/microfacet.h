@@ -1,7 +1,6 @@
 /* Rough surfaces made of tiny mirrors: GGX (Walter 2007) and Beckmann distributions of their normals, Smith
  * shadowing, and drawing among the normals that are visible. Local frame, z up. */
-#ifndef AUR_MATERIAL_MICROFACET_H
-#define AUR_MATERIAL_MICROFACET_H
+#pragma once
 
 #include "core/keys.h"
 #include "core/vector.h"
@@ -52,5 +51,3 @@ float aur_microfacet_mirror_pdf(const aur_microfacet *microfacet, aur_vector vie
  * `view`. */
 aur_vector aur_microfacet_draw_mirrored(const aur_microfacet *microfacet, aur_vector view, float u, float v,
                                         aur_vector *normal);
-
-#endif

@@ -1,8 +1,7 @@
 /* Materials made of two others: one for each side of a surface, or both by a weight at each point. A BSDF of
  * this kind has an aur_mixture as its data, fills the public part of it in `create`, calls aur_mixture_join,
  * and names the functions below in its descriptor. */
-#ifndef AUR_MATERIAL_MIXTURE_H
-#define AUR_MATERIAL_MIXTURE_H
+#pragma once
 
 #include "material/texture.h"
 
@@ -28,5 +27,3 @@ aur_vector aur_mixture_evaluate_with_pdf(const aur_bsdf *bsdf, aur_bsdf_part par
 bool aur_mixture_sample(const aur_bsdf *bsdf, aur_bsdf_part part, aur_bsdf_point point, aur_vector view,
                         const float u[3], aur_bsdf_sample *drawn);
 aur_vector aur_mixture_diffuse_albedo(const aur_bsdf *bsdf, aur_bsdf_point point, float side);
-
-#endif

@@ -1,6 +1,5 @@
 /* Drawing directions from the densities that materials and lights share. Local frame, z up. */
-#ifndef AUR_MATERIAL_SAMPLING_H
-#define AUR_MATERIAL_SAMPLING_H
+#pragma once
 
 #include "core/vector.h"
 
@@ -65,5 +64,3 @@ static inline aur_vector aur_mirror(aur_vector direction) {
 static inline float aur_luminance(aur_vector color) {
     return 0.212671f * color.x + 0.715160f * color.y + 0.072169f * color.z;
 }
-
-#endif

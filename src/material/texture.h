@@ -1,7 +1,6 @@
 /* Values that vary over a surface. One texture a file (texture_*.c), with one line in texture_table.c.
  */
-#ifndef AUR_MATERIAL_TEXTURE_H
-#define AUR_MATERIAL_TEXTURE_H
+#pragma once
 
 #include "core/keys.h"
 #include "material/bsdf.h"
@@ -72,5 +71,3 @@ static inline aur_vector aur_color_mean(const aur_color *color) {
 
 /* aur_row_read for structs with keys of colours: a texture must not reach beyond a key's maximum. */
 aur_result aur_colors_read(const aur_row *row, aur_parameters *parameters, void *fields, aur_error *error);
-
-#endif

@@ -1,6 +1,5 @@
 /* Multiples i a modulo 1 of irrational numbers a, exact to a double: a is kept as a fraction of 128 bits. */
-#ifndef AUR_POINTSET_FRACTION128_H
-#define AUR_POINTSET_FRACTION128_H
+#pragma once
 
 #include <stdint.h>
 
@@ -26,5 +25,3 @@ static inline aur_wide aur_phase128(aur_fraction128 fraction, uint64_t index) {
 static inline uint64_t aur_phase(aur_fraction128 fraction, uint64_t index) {
     return (uint64_t)(aur_phase128(fraction, index) >> 64);
 }
-
-#endif

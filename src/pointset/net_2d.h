@@ -1,8 +1,7 @@
 /* The two-dimensional Sobol net and nested uniform scrambling on 32-bit words, a few instructions each and
  * without a table: for the inner loops of rendering, and as the scalar form that wider code is tested
  * against. A word x stands for the coordinate x / 2^32. */
-#ifndef AUR_POINTSET_NET_2D_H
-#define AUR_POINTSET_NET_2D_H
+#pragma once
 
 #include <stdint.h>
 
@@ -49,5 +48,3 @@ static inline uint32_t aur_nested_hash(uint32_t x, uint32_t seed) {
 static inline uint32_t aur_owen_scramble(uint32_t x, uint32_t seed) {
     return aur_reverse_bits(aur_nested_hash(aur_reverse_bits(x), seed));
 }
-
-#endif

@@ -1,6 +1,5 @@
 /* The inside of a point set: what each generator's file offers to the table (sets.h). */
-#ifndef AUR_POINTSET_SET_H
-#define AUR_POINTSET_SET_H
+#pragma once
 
 #include <aureole/pointset.h>
 #include <stdbool.h>
@@ -86,5 +85,3 @@ void aur_fill_table(const aur_pointset *set, const aur_block *block);
 
 /* The coordinate i/N of coordinate `d` of the block, with DIGIT and OWEN as in base 2. */
 void aur_fill_fraction(const aur_pointset *set, const aur_block *block, size_t d);
-
-#endif

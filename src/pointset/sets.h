@@ -1,7 +1,6 @@
 /* The sets of the square and the cube, in the order of listings: one line for each file of a generator, which
  * defines aur_set_<name>. */
-#ifndef AUR_POINTSET_SETS_H
-#define AUR_POINTSET_SETS_H
+#pragma once
 
 #include "pointset/set.h"
 
@@ -30,5 +29,3 @@
 #define AUR_DECLARE_SQUARE_SET(name) extern const aur_square_set aur_set_##name;
 AUR_SQUARE_SETS(AUR_DECLARE_SQUARE_SET)
 #undef AUR_DECLARE_SQUARE_SET
-
-#endif

@@ -1,7 +1,6 @@
 /* Coordinates as 64-bit fixed-point words (the first binary digit is the highest bit), and their scrambling.
  */
-#ifndef AUR_POINTSET_WORDS_H
-#define AUR_POINTSET_WORDS_H
+#pragma once
 
 #include <aureole/pointset.h>
 
@@ -73,5 +72,3 @@ static inline double aur_scrambled_fraction(aur_scramble scramble, uint64_t inde
         return aur_fraction(index, count);
     return aur_word_to_double(aur_scramble_word(scramble, aur_fraction_word(index, count), key));
 }
-
-#endif

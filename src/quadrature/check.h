@@ -1,6 +1,5 @@
 /* Checks of what callers pass in. */
-#ifndef AUR_QUADRATURE_CHECK_H
-#define AUR_QUADRATURE_CHECK_H
+#pragma once
 
 #include "core/error.h"
 
@@ -12,5 +11,3 @@ aur_result aur_check_capacity(size_t needed, size_t capacity, aur_error *error);
 
 /* ARGUMENT for an angle outside [0, pi/2]. */
 aur_result aur_check_angle(double radians, aur_error *error);
-
-#endif

@@ -4,8 +4,7 @@
  * terms subtracted one by one in this order, without contraction, and the division done as a product with
  * 1 / L_jj. Blocks, widths of registers and instruction sets change only which entries are worked on at one
  * time, so the bits are the same on every processor. */
-#ifndef AUR_QUADRATURE_CHOLESKY_H
-#define AUR_QUADRATURE_CHOLESKY_H
+#pragma once
 
 #include <stdbool.h>
 #include <stddef.h>
@@ -24,5 +23,3 @@ const aur_cholesky *aur_cholesky_best(void);
 size_t aur_cholesky_work(size_t size);
 
 extern const aur_cholesky aur_cholesky_portable, aur_cholesky_avx2, aur_cholesky_avx512;
-
-#endif

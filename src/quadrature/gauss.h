@@ -1,10 +1,7 @@
 /* Gauss-Legendre nodes. */
-#ifndef AUR_QUADRATURE_GAUSS_H
-#define AUR_QUADRATURE_GAUSS_H
+#pragma once
 
 #include <stddef.h>
 
 /* The rule with `count` nodes on [-1,1], exact for polynomials of degree 2 count - 1; nodes ascend. */
 void aur_gauss_legendre(size_t count, double *nodes, double *weights);
-
-#endif

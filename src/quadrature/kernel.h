@@ -1,6 +1,5 @@
 /* The generalised distance kernel of the Sobolev space H^s of the sphere (Marques 2018 eq. 3). */
-#ifndef AUR_QUADRATURE_KERNEL_H
-#define AUR_QUADRATURE_KERNEL_H
+#pragma once
 
 #include "core/error.h"
 
@@ -40,5 +39,3 @@ void aur_kernel_row_portable(double top, const double point[3], size_t count, au
                              double *row);
 void aur_kernel_row_avx2(double top, const double point[3], size_t count, aur_columns columns, double *row);
 void aur_kernel_row_avx512(double top, const double point[3], size_t count, aur_columns columns, double *row);
-
-#endif

@@ -1,8 +1,7 @@
 /* The body of the kernel's row for s = 3/2, compiled once for each instruction set. It is plain arithmetic
  * without contraction, so every set gives the same bits. Differences, not the dot product: near samples keep
  * their distance. */
-#ifndef AUR_QUADRATURE_KERNEL_ROW_H
-#define AUR_QUADRATURE_KERNEL_ROW_H
+#pragma once
 
 #include <math.h>
 
@@ -19,5 +18,3 @@ static inline void kernel_row(double top, const double point[3], size_t count, a
         row[j] = top - sqrt(dx * dx + dy * dy + dz * dz);
     }
 }
-
-#endif

@@ -3,8 +3,7 @@
  * With the lobe's axis a at the angle theta from the normal, v = cos(beta) (cos(psi) a + sin(psi) t) +
  * sin(beta) e, where t points down in the plane of a and the normal and e is that plane's normal, makes the
  * hidden part the rectangle pi/2 - theta < psi < pi/2 and p a product: cos^m(psi) cos^m(beta). */
-#ifndef AUR_QUADRATURE_LUNE_H
-#define AUR_QUADRATURE_LUNE_H
+#pragma once
 
 #include "quadrature/kernel.h"
 
@@ -32,5 +31,3 @@ double aur_lune_potential(const aur_lune *lune, const aur_kernel_rule *rule, con
  * functions that are smooth there; their sum is 1 - fraction. */
 enum { AUR_LUNE_VISIBLE = 2 * AUR_LUNE_SIDE * AUR_LUNE_ACROSS };
 void aur_lune_visible(const aur_lune *lune, double *xyz, double *weights);
-
-#endif

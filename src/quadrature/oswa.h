@@ -1,6 +1,5 @@
 /* What a pair of patterns holds, and solving at one angle for many turns. */
-#ifndef AUR_QUADRATURE_OSWA_H
-#define AUR_QUADRATURE_OSWA_H
+#pragma once
 
 #include <stdbool.h>
 
@@ -56,5 +55,3 @@ aur_result aur_oswa_solve_at(const aur_oswa *oswa, const aur_oswa_angle *angle, 
 
 /* A hash of the patterns: two programs that make a set differently do not share a table. */
 uint64_t aur_oswa_hash(const aur_oswa *oswa);
-
-#endif

@@ -1,6 +1,5 @@
 /* What a potential holds. */
-#ifndef AUR_QUADRATURE_POTENTIAL_H
-#define AUR_QUADRATURE_POTENTIAL_H
+#pragma once
 
 #include <aureole/quadrature.h>
 #include <stdbool.h>
@@ -31,5 +30,3 @@ aur_result aur_nodes_function(const aur_density *density, double *columns, doubl
 aur_result aur_nodes_ggx(const aur_density *density, double *columns, double *masses, aur_error *error);
 /* The GGX lobe, reflection times cosine, in 1/steradian. */
 double aur_ggx_value(const aur_density *density, const double direction[3]);
-
-#endif

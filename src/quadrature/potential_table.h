@@ -1,6 +1,5 @@
 /* The published look-up of z in a table: what aur_z_grid asks for. */
-#ifndef AUR_QUADRATURE_POTENTIAL_TABLE_H
-#define AUR_QUADRATURE_POTENTIAL_TABLE_H
+#pragma once
 
 #include <aureole/quadrature.h>
 
@@ -14,5 +13,3 @@ void aur_potential_table_destroy(aur_potential_table *table); /* NULL is allowed
 /* z of the normalised cos^m lobe at directions whose cosines to its axis are given. */
 void aur_potential_table_evaluate(const aur_potential_table *table, double exponent, size_t count,
                                   const double *cosines, double *z);
-
-#endif

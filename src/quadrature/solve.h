@@ -1,6 +1,5 @@
 /* Symmetric positive definite systems, on one thread. */
-#ifndef AUR_QUADRATURE_SOLVE_H
-#define AUR_QUADRATURE_SOLVE_H
+#pragma once
 
 #include <stddef.h>
 
@@ -19,5 +18,3 @@ double aur_hold_sum(size_t size, double *solution, const double *ones);
 /* Refuses a system of that size when its matrix is larger than the machine's memory, saying how much it
  * takes. */
 aur_result aur_check_system_size(size_t size, aur_error *error);
-
-#endif

@@ -1,7 +1,6 @@
 /* The rows of a table of weights, for renderers that keep them in another layout. The functions are exported
  * by the library for the rooms above, but they are no part of its interface. */
-#ifndef AUR_QUADRATURE_WEIGHT_ROWS_H
-#define AUR_QUADRATURE_WEIGHT_ROWS_H
+#pragma once
 
 #include <aureole/quadrature.h>
 
@@ -13,5 +12,3 @@ AUR_API const float *aur_weight_table_row(const aur_weight_table *table, size_t 
  * times row r plus *part times row r + 1. `rotation` must be in the table. */
 AUR_API size_t aur_weight_table_locate(const aur_weight_table *table, size_t rotation, float radians,
                                        float *part);
-
-#endif

@@ -1,6 +1,5 @@
 /* What a table of weights holds. */
-#ifndef AUR_QUADRATURE_WEIGHT_TABLE_H
-#define AUR_QUADRATURE_WEIGHT_TABLE_H
+#pragma once
 
 #include "core/vector.h"
 #include "quadrature/oswa.h"
@@ -55,5 +54,3 @@ aur_result aur_weight_table_parse(const char *name, size_t size, char *data, con
 
 /* What a file ends with: of all that stands before it. */
 uint64_t aur_weight_table_check_sum(const char *data, size_t size);
-
-#endif

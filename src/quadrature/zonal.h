@@ -1,6 +1,5 @@
 /* The potential of a cos^m lobe: a function of x = u.axis only. */
-#ifndef AUR_QUADRATURE_ZONAL_H
-#define AUR_QUADRATURE_ZONAL_H
+#pragma once
 
 #include <stddef.h>
 
@@ -27,5 +26,3 @@ aur_result aur_zonal_series(double exponent, double smoothness, size_t terms, si
 
 /* Terms after which the series is a good 1e-12 of its sum. */
 size_t aur_zonal_terms(double exponent, double smoothness);
-
-#endif

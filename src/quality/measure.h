@@ -1,6 +1,5 @@
 /* A measure is one aur_measure_row, defined in the file that computes it, and one line in measures.h. */
-#ifndef AUR_QUALITY_MEASURE_H
-#define AUR_QUALITY_MEASURE_H
+#pragma once
 
 #include <aureole/quality.h>
 #include <stdbool.h>
@@ -36,5 +35,3 @@ aur_result aur_series_create(aur_series *series, size_t row_count, size_t column
 
 /* The sum of squared weights (N without weights): the mean power of a random set's spectrum. */
 double aur_sum_of_squares(const aur_points *points);
-
-#endif

@@ -1,7 +1,6 @@
 /* The measures in the order of listings: one line for each aur_measure_<name>, which the file that computes
  * it defines. */
-#ifndef AUR_QUALITY_MEASURES_H
-#define AUR_QUALITY_MEASURES_H
+#pragma once
 
 #include "quality/measure.h"
 
@@ -33,5 +32,3 @@
 #define AUR_DECLARE_MEASURE(name) extern const aur_measure_row aur_measure_##name;
 AUR_MEASURES(AUR_DECLARE_MEASURE)
 #undef AUR_DECLARE_MEASURE
-
-#endif

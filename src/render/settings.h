@@ -1,7 +1,6 @@
 /* What a render is to do: the caller's options, with the scene's own values in the places that were left
  * open. */
-#ifndef AUR_RENDER_SETTINGS_H
-#define AUR_RENDER_SETTINGS_H
+#pragma once
 
 #include <aureole/render.h>
 
@@ -21,5 +20,3 @@ typedef struct aur_render_settings {
 /* Errors: NAME for a filter, ARGUMENT for a crop. */
 aur_result aur_render_settings_read(const aur_scene *scene, const aur_render_options *options,
                                     aur_render_settings *settings, aur_error *error);
-
-#endif

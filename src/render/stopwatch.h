@@ -1,6 +1,5 @@
 /* A stretch of work by two clocks. */
-#ifndef AUR_RENDER_STOPWATCH_H
-#define AUR_RENDER_STOPWATCH_H
+#pragma once
 
 #include <time.h>
 
@@ -23,5 +22,3 @@ static inline void aur_stopwatch_add(const aur_stopwatch *start, double *wall, d
     *wall += aur_clock_seconds(CLOCK_MONOTONIC) - start->wall;
     *cpu += aur_clock_seconds(CLOCK_PROCESS_CPUTIME_ID) - start->cpu;
 }
-
-#endif

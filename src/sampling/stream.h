@@ -1,8 +1,7 @@
 /* Random numbers of a light path: for every pixel, sample and dimension pair a point of one two-dimensional
  * set, randomised independently for each pixel and pair ("padding"). Any SET may serve; random access
  * throughout. */
-#ifndef AUR_SAMPLING_STREAM_H
-#define AUR_SAMPLING_STREAM_H
+#pragma once
 
 #include <aureole/core.h>
 
@@ -52,5 +51,3 @@ void aur_stream_pixels(const aur_sampler *sampler, size_t count, const uint64_t 
                        uint32_t pair, float *u, float *v);
 /* A single number in [0,1), from a pair of its own. */
 float aur_stream_single(const aur_stream *stream, uint32_t pair);
-
-#endif

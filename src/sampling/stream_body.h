@@ -1,7 +1,6 @@
 /* Sobol pairs, eight of one pixel or one of many pixels at once, compiled once for each instruction set.
  * Integers only, and one exact conversion: every set gives the same bits. */
-#ifndef AUR_SAMPLING_STREAM_BODY_H
-#define AUR_SAMPLING_STREAM_BODY_H
+#pragma once
 
 #include "pointset/net_2d.h"
 #include "sampling/stream_kernels.h"
@@ -38,5 +37,3 @@ static inline void sobol_pixels(size_t count, const uint64_t *restrict pixels, u
 /* What a file that is compiled for an instruction set has. */
 #define AUR_STREAM_KERNELS                                                                                   \
     { sobol_pairs, sobol_pixels }
-
-#endif

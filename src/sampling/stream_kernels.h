@@ -1,6 +1,5 @@
 /* The inner loops of the Sobol sampler for each instruction set; all give the same bits. */
-#ifndef AUR_SAMPLING_STREAM_KERNELS_H
-#define AUR_SAMPLING_STREAM_KERNELS_H
+#pragma once
 
 #include "sampling/stream.h"
 
@@ -15,5 +14,3 @@ struct aur_stream_kernels {
 extern const aur_stream_kernels aur_stream_kernels_portable;
 extern const aur_stream_kernels aur_stream_kernels_avx2;
 extern const aur_stream_kernels aur_stream_kernels_avx512;
-
-#endif

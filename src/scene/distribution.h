@@ -1,6 +1,5 @@
 /* Choosing among things in proportion to their weights. */
-#ifndef AUR_SCENE_DISTRIBUTION_H
-#define AUR_SCENE_DISTRIBUTION_H
+#pragma once
 
 #include "core/error.h"
 
@@ -24,5 +23,3 @@ size_t aur_distribution_choose_double(const aur_distribution *distribution, doub
 static inline double aur_distribution_probability(const aur_distribution *distribution, size_t index) {
     return (distribution->sums[index + 1] - distribution->sums[index]) / distribution->total;
 }
-
-#endif

@@ -1,8 +1,7 @@
 /* Elements: what a ray can hit, numbered one after another over the whole scene - every triangle, and every
  * curved shape as one. A shape of a group counts once for each of its instances. Photon maps and radiosity
  * keep what they know of surfaces by element. */
-#ifndef AUR_SCENE_ELEMENTS_H
-#define AUR_SCENE_ELEMENTS_H
+#pragma once
 
 #include "scene/scene.h"
 
@@ -55,5 +54,3 @@ bool aur_shape_is_curved(const aur_scene *scene, uint32_t shape);
 /* Whether it is a mesh whose triangles are flat: no normals at its vertices. */
 bool aur_shape_is_flat(const aur_scene *scene, uint32_t shape);
 uint32_t aur_shape_emitter(const aur_scene *scene, uint32_t shape); /* or AUR_NO_EMITTER */
-
-#endif

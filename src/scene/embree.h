@@ -1,7 +1,6 @@
 /* Embree 3 and 4 behind one face. Version 4 renamed the context of a query and moved it to an optional last
  * argument; nothing else that Aureole uses differs. FindEmbree.cmake sets AUR_EMBREE_VERSION. */
-#ifndef AUR_SCENE_EMBREE_H
-#define AUR_SCENE_EMBREE_H
+#pragma once
 
 #if AUR_EMBREE_VERSION >= 4
 #include <embree4/rtcore.h>
@@ -86,7 +85,5 @@ static inline void aur_embree_occluded16(RTCScene scene, aur_embree_order order,
     struct RTCIntersectContext context = aur_embree_context(order);
     rtcOccluded16(valid, scene, &context, rays);
 }
-
-#endif
 
 #endif

@@ -1,6 +1,5 @@
 /* Lights. One a file of lights, with one line in its table.c. */
-#ifndef AUR_SCENE_EMITTER_H
-#define AUR_SCENE_EMITTER_H
+#pragma once
 
 #include "material/texture.h"
 #include "scene/packet.h"
@@ -60,5 +59,3 @@ aur_ray aur_emit_far(const aur_scene *scene, aur_vector direction, float u, floa
 
 aur_result aur_emitter_create(aur_parameters *parameters, aur_emitter **emitter, aur_error *error);
 void aur_emitter_destroy(aur_emitter *emitter);
-
-#endif

@@ -1,6 +1,5 @@
 /* Reconstruction filters; aur_filter_find and aur_filter_sample are in scene.h. */
-#ifndef AUR_SCENE_FILTER_H
-#define AUR_SCENE_FILTER_H
+#pragma once
 
 #include "core/keys.h"
 #include "scene/scene.h"
@@ -22,5 +21,3 @@ extern const aur_table aur_filter_table;
 
 /* The filter that parameters->plugin names, with its parameters. */
 aur_result aur_filter_create(aur_parameters *parameters, aur_filter *filter, aur_error *error);
-
-#endif

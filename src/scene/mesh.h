@@ -1,6 +1,5 @@
 /* Triangle meshes as they are rendered: in world coordinates, counter-clockwise about the outside. */
-#ifndef AUR_SCENE_MESH_H
-#define AUR_SCENE_MESH_H
+#pragma once
 
 #include "core/error.h"
 #include "core/vector.h"
@@ -67,5 +66,3 @@ static inline aur_vector aur_triangle_normal(aur_vector a, aur_vector b) {
 /* The area of such a triangle. */
 double aur_triangle_area(aur_vector a, aur_vector b);
 double aur_mesh_triangle_area(const aur_mesh *mesh, size_t triangle);
-
-#endif

@@ -3,8 +3,7 @@
  *
  * A packet is filled lane by lane (aur_packet_set), or by writing query.ray's arrays org_x .. tfar and valid
  * in loops of 16. Lanes whose `valid` is 0 are not traced. */
-#ifndef AUR_SCENE_PACKET_H
-#define AUR_SCENE_PACKET_H
+#pragma once
 
 #include "scene/embree.h"
 #include "scene/scene.h"
@@ -75,5 +74,3 @@ typedef struct aur_light_lanes {
 /* `choice` is not read unless aur_light_chooses. */
 void aur_light_lanes_direct(const aur_scene *scene, const aur_lane_vectors *reference, float least,
                             const float *choice, const float *u, const float *v, aur_light_lanes *lights);
-
-#endif

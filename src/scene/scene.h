@@ -1,6 +1,5 @@
 /* What transport sees of a scene: rays and what they hit, lights, the camera, and the film's settings. */
-#ifndef AUR_SCENE_SCENE_H
-#define AUR_SCENE_SCENE_H
+#pragma once
 
 #include <aureole/scene.h>
 
@@ -200,5 +199,3 @@ bool aur_scene_shape_emission_varies(const aur_scene *scene, size_t shape);
 
 /* Tables of what the loader itself makes. */
 extern const aur_table aur_film_table, aur_sampler_table;
-
-#endif

@@ -1,6 +1,5 @@
 /* What a loaded scene is made of. */
-#ifndef AUR_SCENE_SCENE_DATA_H
-#define AUR_SCENE_SCENE_DATA_H
+#pragma once
 
 #include "scene/distribution.h"
 #include "scene/emitter.h"
@@ -62,5 +61,3 @@ aur_result aur_scene_build(aur_scene *scene, const aur_warnings *warnings, aur_e
 /* Hands the shapes to Embree (accel.c). */
 aur_result aur_scene_build_accel(aur_scene *scene, aur_error *error);
 void aur_scene_release_accel(aur_scene *scene);
-
-#endif

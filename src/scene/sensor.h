@@ -1,6 +1,5 @@
 /* Cameras. One a file of sensors, with one line in its table.c. */
-#ifndef AUR_SCENE_SENSOR_H
-#define AUR_SCENE_SENSOR_H
+#pragma once
 
 #include "core/keys.h"
 #include "scene/scene.h"
@@ -77,5 +76,3 @@ static inline aur_vector aur_sensor_direction(const aur_sensor *sensor, float ha
     return (aur_vector){(1.0f - 2.0f * (x + sensor->offset_x)) * half,
                         (1.0f - 2.0f * (y + sensor->offset_y)) * half / aspect, 1.0f};
 }
-
-#endif

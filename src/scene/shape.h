@@ -1,6 +1,5 @@
 /* Shapes. One a file of shapes, with one line in its table.c. */
-#ifndef AUR_SCENE_SHAPE_H
-#define AUR_SCENE_SHAPE_H
+#pragma once
 
 #include "scene/distribution.h"
 #include "scene/mesh.h"
@@ -98,5 +97,3 @@ aur_result aur_shape_similarity(const aur_shape_input *input, const aur_transfor
 /* The path (malloc'ed) of the file that the key `filename` gives; NULL, when it is missing, is an error. */
 aur_result aur_shape_filename(const aur_shape_input *input, const char *filename, char **path,
                               aur_error *error);
-
-#endif

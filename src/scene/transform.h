@@ -1,7 +1,6 @@
 /* Affine and projective maps as 4x4 matrices, row major, world = M * local. Double precision: they are
  * composed while loading and become float where rays meet them. */
-#ifndef AUR_SCENE_TRANSFORM_H
-#define AUR_SCENE_TRANSFORM_H
+#pragma once
 
 #include <stdbool.h>
 
@@ -50,5 +49,3 @@ bool aur_transform_is_within_reach(const aur_transform *a);
  * out of reach. Errors: FORMAT. */
 aur_result aur_to_world_check(const aur_parameters *parameters, const aur_transform *to_world,
                               aur_transform *to_local, aur_error *error);
-
-#endif

@@ -1,7 +1,6 @@
 /* The inside of a set that is native to the sphere: what each generator's file offers to the table of all
  * sets. */
-#ifndef AUR_SPHERE_NATIVE_H
-#define AUR_SPHERE_NATIVE_H
+#pragma once
 
 #include <aureole/sphere.h>
 #include <stdbool.h>
@@ -47,5 +46,3 @@ bool aur_set_is_file(const char *set);
 bool aur_directions_weighted(const aur_directions *directions);
 
 extern const aur_table aur_set_table;
-
-#endif

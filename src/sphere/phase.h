@@ -1,7 +1,6 @@
 /* Azimuths in 64-bit fixed point: a phase counts 2^-64 turns and wraps by itself, so that neither adding nor
  * multiplying by an index ever loses a digit. */
-#ifndef AUR_SPHERE_PHASE_H
-#define AUR_SPHERE_PHASE_H
+#pragma once
 
 #include <stdint.h>
 
@@ -59,5 +58,3 @@ static inline void aur_phase_sincos(uint64_t phase, double *sine, double *cosine
     *sine = (quadrant & 2) != 0 ? -turned_sine : turned_sine;
     *cosine = ((quadrant + 1) & 2) != 0 ? -turned_cosine : turned_cosine;
 }
-
-#endif

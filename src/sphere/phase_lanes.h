@@ -1,6 +1,5 @@
 /* aur_phase_sincos for all lanes of a vector: the same operations, so the same bits. */
-#ifndef AUR_SPHERE_PHASE_LANES_H
-#define AUR_SPHERE_PHASE_LANES_H
+#pragma once
 
 #include "core/simd_lanes.h"
 #include "sphere/phase.h"
@@ -27,5 +26,3 @@ static inline void aur_phase_sincos_lanes(aur_words phase, aur_reals *sine, aur_
     *sine = (aur_reals)((aur_words)aur_lanes_choose(odd, c, s) ^ (quadrant << 62 & sign));
     *cosine = (aur_reals)((aur_words)aur_lanes_choose(odd, s, c) ^ ((quadrant + 1) << 62 & sign));
 }
-
-#endif

@@ -1,7 +1,6 @@
 /* Integrators: how radiance along a camera ray is found. One a file, with one line in the table of
  * integrator.c. */
-#ifndef AUR_TRANSPORT_INTEGRATOR_H
-#define AUR_TRANSPORT_INTEGRATOR_H
+#pragma once
 
 #include <aureole/render.h>
 
@@ -71,5 +70,3 @@ static inline void aur_integrator_destroy(aur_integrator *integrator) {
         integrator->descriptor->release(integrator);
     free(integrator);
 }
-
-#endif

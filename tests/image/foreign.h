@@ -1,8 +1,7 @@
 /* EXR files as other programs write them, made with OpenEXR itself: tiles, windows, every type and
  * compression.
  */
-#ifndef AUR_TESTS_IMAGE_FOREIGN_H
-#define AUR_TESTS_IMAGE_FOREIGN_H
+#pragma once
 
 #include <math.h>
 #include <openexr.h>
@@ -112,5 +111,3 @@ static inline void write_foreign(const char *path, const foreign_file *file) {
     }
     must(exr_finish(&context));
 }
-
-#endif

@@ -1,6 +1,5 @@
 /* What the tests of pictures share: pictures with known pixels, and comparing two of them value by value. */
-#ifndef AUR_TESTS_IMAGE_PICTURE_H
-#define AUR_TESTS_IMAGE_PICTURE_H
+#pragma once
 
 #include <aureole/image.h>
 #include <stdio.h>
@@ -69,5 +68,3 @@ static inline unsigned char *read_bytes(const char *path, size_t *size) {
     fclose(file);
     return bytes;
 }
-
-#endif

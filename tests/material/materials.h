@@ -1,6 +1,5 @@
 /* The materials that every test of this room runs through, made from text. */
-#ifndef AUR_TESTS_MATERIALS_H
-#define AUR_TESTS_MATERIALS_H
+#pragma once
 
 #include "check.h"
 
@@ -97,5 +96,3 @@ static inline bool view_at(const aur_bsdf *bsdf, size_t index, aur_vector *view)
         view->z = -view->z;
     return true;
 }
-
-#endif

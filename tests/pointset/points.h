@@ -1,6 +1,5 @@
 /* Points of a set for tests, and brute-force oracles. */
-#ifndef AUR_TESTS_POINTSET_POINTS_H
-#define AUR_TESTS_POINTSET_POINTS_H
+#pragma once
 
 #include "check.h"
 
@@ -79,5 +78,3 @@ static inline double brute_star_discrepancy(size_t count, const double *points) 
     }
     return worst;
 }
-
-#endif

@@ -1,7 +1,6 @@
 /* Spherical Fibonacci points of a cos^m lobe, written out here so that these tests need nothing of the
  * sphere. */
-#ifndef AUR_TESTS_QUADRATURE_LOBES_H
-#define AUR_TESTS_QUADRATURE_LOBES_H
+#pragma once
 
 #include <math.h>
 #include <stddef.h>
@@ -39,5 +38,3 @@ static inline void tilt(size_t count, double radians, double *xyz) {
         xyz[3 * j + 2] = cos(radians) * z - sin(radians) * x;
     }
 }
-
-#endif

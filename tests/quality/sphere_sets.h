@@ -1,6 +1,5 @@
 /* Points for the tests of the measures. */
-#ifndef AUR_TESTS_SPHERE_SETS_H
-#define AUR_TESTS_SPHERE_SETS_H
+#pragma once
 
 #include <aureole/quality.h>
 #include <aureole/sphere.h>
@@ -56,5 +55,3 @@ static inline aur_points octahedron(void) {
         points.coordinates[i] = corners[i];
     return points;
 }
-
-#endif

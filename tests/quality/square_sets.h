@@ -1,6 +1,5 @@
 /* Points of the square and the cube for the tests of the measures. Include check.h first. */
-#ifndef AUR_TESTS_SQUARE_SETS_H
-#define AUR_TESTS_SQUARE_SETS_H
+#pragma once
 
 #include <aureole/quality.h>
 #include <stdlib.h>
@@ -39,5 +38,3 @@ static inline aur_points scrambled_set(const char *set, size_t count, size_t dim
     aur_pointset_destroy(pointset);
     return points;
 }
-
-#endif

@@ -1,6 +1,5 @@
 /* Loading scenes and meshes that stand as text in a test. */
-#ifndef AUR_TESTS_SCENE_TEXT_H
-#define AUR_TESTS_SCENE_TEXT_H
+#pragma once
 
 #include "check.h"
 
@@ -66,5 +65,3 @@ static inline aur_scene *must_load_body(const char *body) {
     }
     return scene;
 }
-
-#endif

@@ -1,6 +1,5 @@
 /* What the tests of the sphere share. */
-#ifndef AUR_TESTS_SPHERE_CHECK_H
-#define AUR_TESTS_SPHERE_CHECK_H
+#pragma once
 
 #include "check.h"
 
@@ -59,5 +58,3 @@ static inline void check_random_direction(uint64_t seed, uint64_t index, double 
     direction[1] = radius * sin(phi);
     direction[2] = z;
 }
-
-#endif

@@ -1,6 +1,5 @@
 /* The room that tests of radiosity trace, and how they do it. */
-#ifndef AUR_TEST_RADIOSITY_ROOM_H
-#define AUR_TEST_RADIOSITY_ROOM_H
+#pragma once
 
 #include <aureole/radiosity.h>
 
@@ -111,5 +110,3 @@ static inline void assert_same(const aur_radiosity *a, const aur_radiosity *b) {
     assert_int_equal(d.rays, e.rays);
     assert_true(d.tail == e.tail && d.lost == e.lost);
 }
-
-#endif

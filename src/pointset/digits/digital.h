@@ -1,6 +1,5 @@
 /* Digital sequences: the digits of a coordinate are a matrix times the digits of the index. */
-#ifndef AUR_POINTSET_DIGITAL_H
-#define AUR_POINTSET_DIGITAL_H
+#pragma once
 
 #include "pointset/set.h"
 
@@ -46,5 +45,3 @@ aur_digital_rule *aur_digital_rule_create(uint32_t base, size_t row_count, size_
 
 /* Fills a block from set->data, an aur_digital_rule. */
 void aur_fill_digital_rule(const aur_pointset *set, const aur_block *block);
-
-#endif

@@ -1,6 +1,5 @@
 /* The kernel of digital_kernels.h, compiled for one instruction set by the file that includes this. */
-#ifndef AUR_POINTSET_DIGITAL_BODY_H
-#define AUR_POINTSET_DIGITAL_BODY_H
+#pragma once
 
 #include "core/simd_lanes.h"
 #include "pointset/digits/digital_kernels.h"
@@ -152,5 +151,3 @@ static size_t run_kernel(const aur_digital_run *run) {
         return run->stream ? fill_groups(run, false, true, true) : fill_groups(run, false, true, false);
     return run->stream ? fill_groups(run, false, false, true) : fill_groups(run, false, false, false);
 }
-
-#endif

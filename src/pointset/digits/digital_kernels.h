@@ -1,7 +1,6 @@
 /* Runs of digital points in base 2 by wide registers. Every form writes the same bits as aur_fill_digital's
  * plain loop: words are exclusive sums, and their conversion is exact. */
-#ifndef AUR_POINTSET_DIGITAL_KERNELS_H
-#define AUR_POINTSET_DIGITAL_KERNELS_H
+#pragma once
 
 #include "pointset/digits/digital.h"
 
@@ -42,5 +41,3 @@ void aur_digital_flips(aur_scramble scramble, const uint64_t columns[AUR_DIGITAL
  * upper 32 digits reversed in the lower half, its lower 32 digits in the upper half. */
 void aur_digital_group_prepare(const aur_digital_run *run, size_t dimension, unsigned bits,
                                const unsigned char *order, aur_digital_group *group);
-
-#endif

@@ -1,6 +1,5 @@
 /* Numbers from digits in a prime base, plain or scrambled: radical inverses and digital sequences. */
-#ifndef AUR_POINTSET_RADICAL_INVERSE_H
-#define AUR_POINTSET_RADICAL_INVERSE_H
+#pragma once
 
 #include "pointset/set.h"
 
@@ -62,5 +61,3 @@ void aur_fill_radical_inverse(const aur_pointset *set, const aur_block *block, s
 /* Writes the first `count` primes. */
 void aur_primes(size_t count, uint32_t *primes);
 bool aur_is_prime(uint32_t n);
-
-#endif

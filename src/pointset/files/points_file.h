@@ -1,6 +1,5 @@
 /* A file of points as a matrix of numbers, before anyone has said what its columns mean. */
-#ifndef AUR_POINTSET_POINTS_FILE_H
-#define AUR_POINTSET_POINTS_FILE_H
+#pragma once
 
 #include <aureole/pointset.h>
 #include <stdbool.h>
@@ -18,5 +17,3 @@ aur_result aur_npy_parse(const char *path, const char *data, size_t size, aur_ma
                          aur_error *error);
 /* Whether the data begins as NPY files do. */
 int aur_npy_recognize(const char *data, size_t size);
-
-#endif

@@ -1,6 +1,5 @@
 /* Golden ratio sequences and sets (Schretter 2012). */
-#ifndef AUR_POINTSET_GOLDEN_H
-#define AUR_POINTSET_GOLDEN_H
+#pragma once
 
 #include "pointset/fraction128.h"
 #include "pointset/words.h"
@@ -31,5 +30,3 @@ static inline uint64_t aur_golden_next(const aur_golden_order *order, uint64_t i
     while (index >= order->count);
     return index;
 }
-
-#endif

@@ -1,6 +1,5 @@
 /* Rank-1 lattices and the golden-ratio limit of Fibonacci ones. */
-#ifndef AUR_POINTSET_LATTICE_H
-#define AUR_POINTSET_LATTICE_H
+#pragma once
 
 #include <stdbool.h>
 #include <stdint.h>
@@ -14,5 +13,3 @@ typedef struct aur_lattice {
 } aur_lattice;
 
 void aur_lattice_make_fibonacci(uint64_t size, double offset, aur_lattice *lattice);
-
-#endif

@@ -1,6 +1,5 @@
 /* The steps of Roberts' additive recurrences. */
-#ifndef AUR_POINTSET_R2_H
-#define AUR_POINTSET_R2_H
+#pragma once
 
 #include <stddef.h>
 
@@ -10,5 +9,3 @@ enum { AUR_R2_DIMENSIONS = 64 };
 
 /* steps[d] = t^(d+1), t^s + t^(s+1) = 1 in s dimensions. */
 void aur_r2_steps(size_t dimension, aur_fraction128 *steps);
-
-#endif

@@ -1,6 +1,5 @@
 /* Joe and Kuo's direction numbers for the dimensions after the first, which has none. */
-#ifndef AUR_POINTSET_SOBOL_TABLE_H
-#define AUR_POINTSET_SOBOL_TABLE_H
+#pragma once
 
 #include <stdint.h>
 
@@ -10,5 +9,3 @@ enum { AUR_SOBOL_DIMENSIONS = 1024 };
 extern const uint16_t aur_sobol_polynomials[AUR_SOBOL_DIMENSIONS - 1];
 /* As many odd numbers m_1, m_2, ... a polynomial as its degree, one polynomial after another. */
 extern const uint16_t aur_sobol_numbers[];
-
-#endif

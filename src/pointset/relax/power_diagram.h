@@ -1,7 +1,6 @@
 /* Power diagrams of weighted sites on the torus [0,1)^2: the cell of a site is where |x - site|^2 - weight is
  * least. */
-#ifndef AUR_POINTSET_POWER_DIAGRAM_H
-#define AUR_POINTSET_POWER_DIAGRAM_H
+#pragma once
 
 #include "pointset/relax/relaxation.h"
 
@@ -26,5 +25,3 @@ typedef struct aur_power_diagram {
 
 /* Computes all cells; they are independent of each other and of the number of threads. */
 void aur_power_diagram_compute(aur_power_diagram *diagram);
-
-#endif

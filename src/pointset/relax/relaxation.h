@@ -1,7 +1,6 @@
 /* What the two blue-noise sets share: random starts on the torus, wrapped differences, and a cache of
  * results. */
-#ifndef AUR_POINTSET_RELAXATION_H
-#define AUR_POINTSET_RELAXATION_H
+#pragma once
 
 #include "pointset/set.h"
 
@@ -54,5 +53,3 @@ typedef aur_result (*aur_relaxation)(uint64_t seed, size_t count, aur_point2 *si
  * check sum is not that of its points, is no error: the points are computed. `version` changes whenever the
  * points do. */
 aur_result aur_prepare_relaxed(aur_pointset *set, unsigned version, aur_relaxation relax, aur_error *error);
-
-#endif

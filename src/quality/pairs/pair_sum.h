@@ -1,7 +1,6 @@
 /* Sums over all pairs of points on the sphere: each unordered pair once, in tiles, in an order that the data
  * alone fixes. */
-#ifndef AUR_QUALITY_PAIR_SUM_H
-#define AUR_QUALITY_PAIR_SUM_H
+#pragma once
 
 #include "quality/measure.h"
 #include "quality/pairs/twofold.h"
@@ -42,5 +41,3 @@ typedef struct aur_distance_kernels {
 } aur_distance_kernels;
 
 extern const aur_distance_kernels aur_distance_portable, aur_distance_avx2, aur_distance_avx512;
-
-#endif

@@ -1,6 +1,5 @@
 /* Sums to twice the precision of a double (Knuth 1969, Dekker 1971). */
-#ifndef AUR_QUALITY_TWOFOLD_H
-#define AUR_QUALITY_TWOFOLD_H
+#pragma once
 
 #include <math.h>
 
@@ -40,5 +39,3 @@ static inline aur_twofold aur_twofold_ratio(double numerator, double denominator
     const double quotient = numerator / denominator;
     return (aur_twofold){quotient, fma(-quotient, denominator, numerator) / denominator};
 }
-
-#endif

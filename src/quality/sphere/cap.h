@@ -1,6 +1,5 @@
 /* Suprema over spherical caps of |mass inside - area|. */
-#ifndef AUR_QUALITY_CAP_H
-#define AUR_QUALITY_CAP_H
+#pragma once
 
 #include "quality/pairs/pair_sum.h"
 
@@ -14,5 +13,3 @@ typedef struct aur_height {
 /* The best value of closed caps about one centre: the greatest mass inside less area, over all heights.
  * `room` has space for count of them. */
 double aur_cap_best_about(const aur_axes *axes, const double centre[3], aur_height *room);
-
-#endif

@@ -1,6 +1,5 @@
 /* The sum of distances of spherical Fibonacci points in O(N log N). */
-#ifndef AUR_QUALITY_FIBONACCI_SUM_H
-#define AUR_QUALITY_FIBONACCI_SUM_H
+#pragma once
 
 #include "quality/measure.h"
 #include "quality/pairs/twofold.h"
@@ -14,5 +13,3 @@ int aur_is_spherical_fibonacci(const aur_points *points);
 AUR_EXPERIMENTAL aur_result aur_fibonacci_distance_sum(size_t count, aur_domain domain,
                                                        const aur_measure_options *options, aur_twofold *sum,
                                                        aur_error *error);
-
-#endif

@@ -1,6 +1,5 @@
 /* Mean distances on the hemisphere. */
-#ifndef AUR_QUALITY_HEMISPHERE_H
-#define AUR_QUALITY_HEMISPHERE_H
+#pragma once
 
 #include "quality/pairs/twofold.h"
 
@@ -12,5 +11,3 @@ double aur_hemisphere_potential(double z);
 static inline aur_twofold aur_hemisphere_mean_distance(void) {
     return (aur_twofold){1.1317684842090334, 7.806110843826092e-17};
 }
-
-#endif

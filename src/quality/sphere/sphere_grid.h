@@ -1,6 +1,5 @@
 /* Points of the sphere in cells of about equal area, for finding those near a direction. */
-#ifndef AUR_QUALITY_SPHERE_GRID_H
-#define AUR_QUALITY_SPHERE_GRID_H
+#pragma once
 
 #include <aureole/pointset.h>
 
@@ -29,5 +28,3 @@ typedef struct aur_neighbours {
 /* All points within `angle` of point `index` but itself, nearest first, ties by index. */
 aur_result aur_sphere_grid_near(const aur_sphere_grid *grid, size_t index, double angle,
                                 aur_neighbours *neighbours);
-
-#endif

@@ -1,6 +1,5 @@
 /* Voronoi cells on the sphere or, cut at the equator, on the hemisphere. */
-#ifndef AUR_QUALITY_VORONOI_H
-#define AUR_QUALITY_VORONOI_H
+#pragma once
 
 #include "quality/measure.h"
 
@@ -16,5 +15,3 @@ aur_result aur_voronoi_cells(const aur_measure_request *request, aur_voronoi_cel
 
 /* The angular radius of the smallest cap that holds all points, which must lie in one hemisphere. */
 double aur_smallest_cap(const aur_points *points);
-
-#endif

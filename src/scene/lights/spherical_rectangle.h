@@ -1,7 +1,6 @@
 /* Uniform points, by solid angle, of a rectangle seen from a point (Urena, Fajardo, King 2013: "An
  * Area-Preserving Parametrization for Spherical Rectangles"). */
-#ifndef AUR_SCENE_SPHERICAL_RECTANGLE_H
-#define AUR_SCENE_SPHERICAL_RECTANGLE_H
+#pragma once
 
 #include <stdbool.h>
 #include <stddef.h>
@@ -61,5 +60,3 @@ typedef struct aur_rectangle_kernels {
 } aur_rectangle_kernels;
 
 const aur_rectangle_kernels *aur_rectangle_kernels_here(void);
-
-#endif

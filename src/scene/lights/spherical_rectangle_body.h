@@ -1,8 +1,7 @@
 /* The arithmetic of spherical rectangles for one point, without branches and calls, so that loops over it
  * become vector code. Plain operations in one order without contraction: every instruction set gives the same
  * bits. */
-#ifndef AUR_SCENE_SPHERICAL_RECTANGLE_BODY_H
-#define AUR_SCENE_SPHERICAL_RECTANGLE_BODY_H
+#pragma once
 
 #include "core/simd.h"
 #include "scene/lights/spherical_rectangle.h"
@@ -178,5 +177,3 @@ static void rectangle_lanes_here(const aur_rectangle_light *light, float least,
 
 extern const aur_rectangle_kernels aur_rectangle_kernels_avx2;
 extern const aur_rectangle_kernels aur_rectangle_kernels_avx512;
-
-#endif

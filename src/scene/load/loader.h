@@ -1,6 +1,5 @@
 /* The walk from the tree of elements to the objects of a scene, and what builds an object of each kind. */
-#ifndef AUR_SCENE_LOAD_LOADER_H
-#define AUR_SCENE_LOAD_LOADER_H
+#pragma once
 
 #include "scene/scene_data.h"
 
@@ -45,5 +44,3 @@ aur_result aur_loader_append(aur_loader *self, size_t *count, size_t *capacity, 
 aur_object_builder aur_build_bsdf, aur_build_texture, aur_build_emitter, aur_build_shape;
 aur_object_builder aur_build_film, aur_build_filter, aur_build_sampler, aur_build_sensor;
 aur_object_builder aur_build_integrator;
-
-#endif

@@ -1,6 +1,5 @@
 /* Property elements (<float>, <rgb>, <transform>, ...) of an object's node become its parameters. */
-#ifndef AUR_SCENE_PROPERTIES_H
-#define AUR_SCENE_PROPERTIES_H
+#pragma once
 
 #include "core/parameters.h"
 #include "scene/xml/xml.h"
@@ -14,5 +13,3 @@ aur_result aur_xml_add_property(const aur_xml_node *node, aur_parameters *parame
 /* An error for a tag that is not known here. */
 aur_result aur_xml_fail_tag(const aur_xml_node *node, size_t count, const char *const *names,
                             aur_error *error);
-
-#endif

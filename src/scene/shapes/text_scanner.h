@@ -1,6 +1,5 @@
 /* Walks through the text of a mesh file: lines, words and numbers, fast enough for millions of them. */
-#ifndef AUR_SCENE_TEXT_SCANNER_H
-#define AUR_SCENE_TEXT_SCANNER_H
+#pragma once
 
 #include <stdbool.h>
 #include <stddef.h>
@@ -30,5 +29,3 @@ size_t aur_scan_word(aur_scanner *scanner, const char **word);
 bool aur_scan_double(aur_scanner *scanner, double *value);
 /* A whole number that fits 64 bits. */
 bool aur_scan_integer(aur_scanner *scanner, int64_t *value);
-
-#endif

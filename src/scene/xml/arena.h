@@ -1,6 +1,5 @@
 /* Memory that is freed all at once: nodes and strings of an XML document. */
-#ifndef AUR_SCENE_ARENA_H
-#define AUR_SCENE_ARENA_H
+#pragma once
 
 #include <stddef.h>
 
@@ -14,5 +13,3 @@ typedef struct aur_arena {
 void *aur_arena_allocate(aur_arena *arena, size_t size);
 char *aur_arena_copy(aur_arena *arena, const char *text, size_t length);
 void aur_arena_release(aur_arena *arena);
-
-#endif

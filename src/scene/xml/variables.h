@@ -1,6 +1,5 @@
 /* The $names of a scene: -D and <default>. */
-#ifndef AUR_SCENE_XML_VARIABLES_H
-#define AUR_SCENE_XML_VARIABLES_H
+#pragma once
 
 #include <aureole/scene.h>
 
@@ -32,5 +31,3 @@ aur_result aur_xml_variables_substitute(aur_xml_variables *variables, const char
                                         char **result, aur_error *error);
 /* An error for the first -D that nothing used. */
 aur_result aur_xml_variables_finish(const aur_xml_variables *variables, const char *file, aur_error *error);
-
-#endif

@@ -4,8 +4,7 @@
  * does; $name is replaced in every attribute, the longest name first, and \$ is a dollar; <include> goes 15
  * deep and is looked for beside the including file; <path> adds a folder; <alias> gives an object a second
  * id. */
-#ifndef AUR_SCENE_XML_H
-#define AUR_SCENE_XML_H
+#pragma once
 
 #include <aureole/scene.h>
 
@@ -83,5 +82,3 @@ aur_result aur_xml_find_folder(const aur_xml_document *document, aur_location lo
  * Texts that name none are copied. */
 aur_result aur_xml_find_set(const aur_xml_document *document, aur_location location, const char *set,
                             char **found, aur_error *error);
-
-#endif

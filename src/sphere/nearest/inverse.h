@@ -1,6 +1,5 @@
 /* The inside of the inverse map: the lattice of a spherical Fibonacci set and its kernels. */
-#ifndef AUR_SPHERE_INVERSE_H
-#define AUR_SPHERE_INVERSE_H
+#pragma once
 
 #include <stddef.h>
 #include <stdint.h>
@@ -28,5 +27,3 @@ void aur_sphere_lattice_nearest_avx2(const aur_sphere_lattice *lattice, size_t c
                                      double *indices);
 void aur_sphere_lattice_nearest_avx512(const aur_sphere_lattice *lattice, size_t count, const double *xyz,
                                        double *indices);
-
-#endif

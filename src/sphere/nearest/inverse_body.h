@@ -1,8 +1,7 @@
 /* The nearest spherical Fibonacci points, compiled for one instruction set by the file that includes this.
  * Loops over lanes have no branches, so that compilers turn them into vectors: as fast as intrinsics,
  * measured. */
-#ifndef AUR_SPHERE_INVERSE_BODY_H
-#define AUR_SPHERE_INVERSE_BODY_H
+#pragma once
 
 #include <math.h>
 #include <string.h>
@@ -117,5 +116,3 @@ static inline void nearest_points(const aur_sphere_lattice *lattice, size_t coun
     nearest_lanes(lattice, rest_xyz, rest);
     memcpy(indices + i, rest, (count - i) * sizeof *rest);
 }
-
-#endif

@@ -1,6 +1,5 @@
 /* Spherical Fibonacci points from their index. */
-#ifndef AUR_SPHERE_FIBONACCI_H
-#define AUR_SPHERE_FIBONACCI_H
+#pragma once
 
 #include <stddef.h>
 #include <stdint.h>
@@ -16,5 +15,3 @@ typedef void (*aur_fibonacci_kernel)(const aur_fibonacci *set, uint64_t first, s
 
 /* The kernel for this processor; all give the same bits. */
 aur_fibonacci_kernel aur_fibonacci_choose_kernel(void);
-
-#endif

@@ -1,6 +1,5 @@
 /* Spherical Fibonacci points, compiled for one instruction set by the file that includes this. */
-#ifndef AUR_SPHERE_FIBONACCI_BODY_H
-#define AUR_SPHERE_FIBONACCI_BODY_H
+#pragma once
 
 #include "sphere/phase_lanes.h"
 #include "sphere/sets/fibonacci_kernels.h"
@@ -52,5 +51,3 @@ static inline void fill_points(const aur_fibonacci *set, uint64_t first, size_t 
     }
     fill_one_by_one(set, first + done, count - done, xyz + 3 * done);
 }
-
-#endif

@@ -1,7 +1,6 @@
 /* The same points from three instruction sets, bit for bit: no kernel fuses a multiplication and an addition.
  */
-#ifndef AUR_SPHERE_FIBONACCI_KERNELS_H
-#define AUR_SPHERE_FIBONACCI_KERNELS_H
+#pragma once
 
 #include "sphere/sets/fibonacci.h"
 
@@ -11,5 +10,3 @@ void aur_fibonacci_points_avx512(const aur_fibonacci *set, uint64_t first, size_
 
 /* Bytes from which on the caches cannot hold the points, so that they are streamed past them. */
 enum { AUR_FIBONACCI_STREAM_BYTES = 8 << 20 };
-
-#endif

@@ -1,6 +1,5 @@
 /* Extensible spherical Fibonacci grids: the choice of the order in which sub-grids are added. */
-#ifndef AUR_SPHERE_GRID_H
-#define AUR_SPHERE_GRID_H
+#pragma once
 
 #include <stddef.h>
 #include <stdint.h>
@@ -17,5 +16,3 @@ size_t aur_grid_first_shift(uint64_t base, double stretch);
  * for the middle of each doubled grid. Grids of more than 2048 points are judged by the stretch that a cap
  * has on average. */
 size_t aur_grid_best_shift(uint64_t base, double height, double centre);
-
-#endif

@@ -1,6 +1,5 @@
 /* Directions of a rule made into gather rays at sixteen places. */
-#ifndef AUR_TRANSPORT_GATHER_AIM_H
-#define AUR_TRANSPORT_GATHER_AIM_H
+#pragma once
 
 #include "transport/gather/scratch.h"
 #include "transport/gather/sums.h"
@@ -51,5 +50,3 @@ void aur_gather_sweep_start(const aur_gather_plan *plan, const aur_gather_places
 uint32_t aur_gather_sweep_trace(const aur_gather_plan *plan, const aur_gather_places *places,
                                 const aur_gather_sweep *sweep, size_t index, bool weighed,
                                 aur_gather_rays *rays, aur_counters *counters, float factor[AUR_PACKET_SIZE]);
-
-#endif

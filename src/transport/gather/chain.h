@@ -1,6 +1,5 @@
 /* Radiance along one gather ray, which may go on from mirrors, glass and rough facets. */
-#ifndef AUR_TRANSPORT_GATHER_CHAIN_H
-#define AUR_TRANSPORT_GATHER_CHAIN_H
+#pragma once
 
 #include "transport/gather/plan.h"
 
@@ -17,5 +16,3 @@ typedef struct aur_gather_ray {
 /* `hit` is the ray's first one, or NULL when it left the scene. */
 aur_vector aur_gather_chain_radiance(const aur_gather_plan *plan, const aur_gather_ray *from,
                                      const aur_hit *hit, aur_counters *counters);
-
-#endif

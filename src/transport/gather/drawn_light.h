@@ -1,6 +1,5 @@
 /* Light of points drawn on lights and on bright texels: one packet of shadow rays a draw. */
-#ifndef AUR_TRANSPORT_GATHER_DRAWN_LIGHT_H
-#define AUR_TRANSPORT_GATHER_DRAWN_LIGHT_H
+#pragma once
 
 #include "transport/gather/scratch.h"
 #include "transport/gather/sums.h"
@@ -26,5 +25,3 @@ enum {
 static inline uint32_t aur_gather_first_pair(uint32_t bounces) {
     return AUR_PAIR_FIRST + AUR_GATHER_PAIRS * bounces;
 }
-
-#endif

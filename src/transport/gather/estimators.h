@@ -1,7 +1,6 @@
 /* Estimators: each adds to the sums the light that one lobe of some places gathers. Only shade.c calls them,
  * and none calls another. `lanes` are places whose lobe number `lobe` is gathered by `rule`. */
-#ifndef AUR_TRANSPORT_GATHER_ESTIMATORS_H
-#define AUR_TRANSPORT_GATHER_ESTIMATORS_H
+#pragma once
 
 #include "transport/gather/aim.h"
 
@@ -23,5 +22,3 @@ void aur_gather_by_sampling(const aur_gather_plan *plan, const aur_gather_places
  * that are left. */
 uint32_t aur_gather_by_merged(const aur_gather_plan *plan, const aur_gather_places *places,
                               aur_gather_sums *sums, aur_gather_scratch *scratch);
-
-#endif

@@ -1,6 +1,5 @@
 /* Radiance along gather rays. */
-#ifndef AUR_TRANSPORT_GATHER_INCIDENT_H
-#define AUR_TRANSPORT_GATHER_INCIDENT_H
+#pragma once
 
 #include "transport/gather/plan.h"
 #include "transport/packets/packet_rays.h"
@@ -29,5 +28,3 @@ uint32_t aur_gather_intersect(const aur_gather_plan *plan, aur_embree_order orde
                               aur_counters *counters);
 uint32_t aur_gather_occluded(const aur_gather_plan *plan, aur_embree_order order, aur_packet *packet,
                              aur_counters *counters);
-
-#endif

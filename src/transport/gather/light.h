@@ -1,7 +1,6 @@
 /* What gather rays find: light that photons brought to the surfaces, and how often it is drawn as lights are.
  */
-#ifndef AUR_TRANSPORT_GATHER_LIGHT_H
-#define AUR_TRANSPORT_GATHER_LIGHT_H
+#pragma once
 
 #include "transport/gather/parameters.h"
 #include "transport/integrator.h"
@@ -23,5 +22,3 @@ aur_result aur_gather_light_create(const aur_gather_parameters *p, const aur_int
                                    const aur_shape_class *classes, bool wants_photons,
                                    aur_gather_light *light, aur_error *error);
 void aur_gather_light_release(aur_gather_light *light);
-
-#endif

@@ -1,6 +1,5 @@
 /* What the keys of final gathering say. */
-#ifndef AUR_TRANSPORT_GATHER_PARAMETERS_H
-#define AUR_TRANSPORT_GATHER_PARAMETERS_H
+#pragma once
 
 #include <stdbool.h>
 #include <stddef.h>
@@ -65,5 +64,3 @@ typedef struct aur_gather_parameters {
 static inline bool aur_merges_samples(const aur_gather_parameters *p) {
     return p->weights == AUR_WEIGHTS_OSWA || p->weights == AUR_WEIGHTS_MIS || p->weights == AUR_WEIGHTS_SOLVE;
 }
-
-#endif

@@ -1,6 +1,5 @@
 /* The surface points that sixteen pixels see, where light is gathered. */
-#ifndef AUR_TRANSPORT_GATHER_PLACES_H
-#define AUR_TRANSPORT_GATHER_PLACES_H
+#pragma once
 
 #include "transport/gather/plan.h"
 #include "transport/packets/packet_rays.h"
@@ -55,5 +54,3 @@ static inline float aur_gather_place_merged_density(const aur_gather_place *plac
 static inline aur_vector aur_gather_place_axis(const aur_gather_place *place, size_t lobe) {
     return aur_frame_to_world(&place->surface.frame, place->lobes[lobe].axis);
 }
-
-#endif

@@ -17,8 +17,7 @@
  *                               neighbouring pixels have in common
  *     tile.c                    256 pixels: sixteen groups of sixteen (packets/interleave.h)
  */
-#ifndef AUR_TRANSPORT_GATHER_PLAN_H
-#define AUR_TRANSPORT_GATHER_PLAN_H
+#pragma once
 
 #include "transport/gather/light.h"
 #include "transport/gather/parameters.h"
@@ -67,5 +66,3 @@ static inline bool aur_gather_plan_gathers(const aur_gather_plan *plan, const au
     return plan->policy.component == AUR_COMPONENT_ALL ||
            lobe->diffuse == (plan->policy.component == AUR_COMPONENT_DIFFUSE);
 }
-
-#endif

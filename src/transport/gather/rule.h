@@ -1,8 +1,7 @@
 /* A quadrature rule of the hemisphere: one pattern of directions for lobes cos^m about +z, and how it is
  * randomised. Pattern and weights are compiled once a picture; at a shading point the pattern is only
  * rotated, or, for nets, its digits are scrambled. */
-#ifndef AUR_TRANSPORT_GATHER_RULE_H
-#define AUR_TRANSPORT_GATHER_RULE_H
+#pragma once
 
 #include <aureole/sphere.h>
 #include <stdbool.h>
@@ -71,5 +70,3 @@ float aur_gather_rule_direction(const aur_gather_rule *rule, const aur_gather_ro
  * unit square: its azimuth, and how far its height is from the pole. */
 void aur_gather_rule_square(const aur_gather_rule *rule, const aur_gather_rotation *rotation, size_t index,
                             float point[2]);
-
-#endif

@@ -1,7 +1,6 @@
 /* Lobes that dip below the surface: which part of them is above it, and the weights of samples mended so that
  * their sum is that part. */
-#ifndef AUR_TRANSPORT_GATHER_RULE_HORIZON_H
-#define AUR_TRANSPORT_GATHER_RULE_HORIZON_H
+#pragma once
 
 #include "transport/gather/rule.h"
 
@@ -20,5 +19,3 @@ void aur_gather_horizon_fill(double exponent, aur_gather_horizon *horizon);
  * surface's in the frame of the lobe. 1 where the whole lobe is visible, 0 where no sample is. */
 float aur_gather_horizon_factor(const aur_gather_rule *rule, const aur_gather_horizon *horizon,
                                 const aur_gather_rotation *rotation, aur_vector normal);
-
-#endif

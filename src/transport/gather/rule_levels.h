@@ -1,7 +1,6 @@
 /* Patterns that grow: the first `base` directions of an extensible grid, then `factor` times as many, and so
  * on, each level with weights of its own (Marques 2019, section 6.2). */
-#ifndef AUR_TRANSPORT_GATHER_RULE_LEVELS_H
-#define AUR_TRANSPORT_GATHER_RULE_LEVELS_H
+#pragma once
 
 #include "transport/gather/rule.h"
 
@@ -32,5 +31,3 @@ aur_result aur_gather_levels_set(const aur_gather_levels_options *options, size_
 aur_result aur_gather_levels_create(const aur_gather_levels_options *options, const aur_gather_rule *rule,
                                     aur_gather_levels *levels, aur_error *error);
 void aur_gather_levels_release(aur_gather_levels *levels);
-
-#endif

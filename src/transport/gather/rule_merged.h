@@ -5,8 +5,7 @@
  * and its mirror image, so what a sample weighs depends on the angle of reflection only: a look-up in a
  * table, made once a picture. The directions of a pattern are split among the samples of a pixel: subset s of
  * S has every S-th. */
-#ifndef AUR_TRANSPORT_GATHER_RULE_MERGED_H
-#define AUR_TRANSPORT_GATHER_RULE_MERGED_H
+#pragma once
 
 #include <aureole/quadrature.h>
 #include <stdbool.h>
@@ -88,5 +87,3 @@ static inline float aur_merged_rule_density(const aur_merged_rule *rule, float n
 
 /* The frames of the two patterns. `normal` is on the viewer's side, `mirror` the axis of the glossy lobe. */
 void aur_merged_rule_frames(aur_vector normal, aur_vector mirror, bool mirrored, aur_frame frames[2]);
-
-#endif

@@ -1,6 +1,5 @@
 /* Optimal weights of one rule for its own lobe, in the place of p/q (Marques 2018, section 5.2). */
-#ifndef AUR_TRANSPORT_GATHER_RULE_WEIGHTS_H
-#define AUR_TRANSPORT_GATHER_RULE_WEIGHTS_H
+#pragma once
 
 #include "transport/gather/rule.h"
 
@@ -9,5 +8,3 @@
  * the shading point. */
 aur_result aur_gather_rule_optimise(aur_gather_rule *rule, double smoothness, double regularization,
                                     aur_error *error);
-
-#endif

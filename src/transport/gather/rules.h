@@ -1,7 +1,6 @@
 /* What gathers each kind of lobe in the scene: one rule for diffuse lobes, one for each exponent of glossy
  * ones. */
-#ifndef AUR_TRANSPORT_GATHER_RULES_H
-#define AUR_TRANSPORT_GATHER_RULES_H
+#pragma once
 
 #include "transport/gather/parameters.h"
 #include "transport/gather/rule.h"
@@ -40,5 +39,3 @@ void aur_gather_rules_release(aur_gather_rules *rules);
 
 /* A count of directions or draws made one that the samples of a pixel split evenly: at least one each. */
 size_t aur_gather_split_count(int64_t wanted, size_t samples_per_pixel);
-
-#endif

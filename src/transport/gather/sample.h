@@ -1,6 +1,5 @@
 /* Samples of sixteen pixels at a time: what the eye sees, also by mirrors and through glass. */
-#ifndef AUR_TRANSPORT_GATHER_SAMPLE_H
-#define AUR_TRANSPORT_GATHER_SAMPLE_H
+#pragma once
 
 #include "transport/gather/strata.h"
 
@@ -25,5 +24,3 @@ void aur_gather_group_destroy(aur_gather_group *group); /* NULL is allowed */
 /* Adds the samples to the pixels of a tile: `strata` has AUR_TILE_PIXELS, row by row. */
 void aur_gather_add_samples(aur_gather_group *group, const aur_gather_task *task, aur_pixel_strata *strata,
                             aur_counters *counters);
-
-#endif

@@ -1,6 +1,5 @@
 /* Working memory of estimators. Nothing in it outlives a call. */
-#ifndef AUR_TRANSPORT_GATHER_SCRATCH_H
-#define AUR_TRANSPORT_GATHER_SCRATCH_H
+#pragma once
 
 #include "transport/gather/incident.h"
 
@@ -15,5 +14,3 @@ typedef struct aur_gather_scratch {
 /* NULL when out of memory. */
 aur_gather_scratch *aur_gather_scratch_create(const aur_gather_plan *plan);
 void aur_gather_scratch_destroy(aur_gather_scratch *scratch); /* NULL is allowed */
-
-#endif

@@ -1,6 +1,5 @@
 /* The light that leaves sixteen places towards the eye. */
-#ifndef AUR_TRANSPORT_GATHER_SHADE_H
-#define AUR_TRANSPORT_GATHER_SHADE_H
+#pragma once
 
 #include "transport/gather/scratch.h"
 #include "transport/gather/sums.h"
@@ -8,5 +7,3 @@
 /* Adds what the places reflect, by all lobes but specular ones, of direct and of gathered light. */
 void aur_gather_shade(const aur_gather_plan *plan, const aur_gather_places *places, aur_gather_sums *sums,
                       aur_gather_scratch *scratch);
-
-#endif

@@ -1,6 +1,5 @@
 /* What the samples of a pixel have seen, by the surfaces that they saw. */
-#ifndef AUR_TRANSPORT_GATHER_STRATA_H
-#define AUR_TRANSPORT_GATHER_STRATA_H
+#pragma once
 
 #include "transport/gather/sums.h"
 
@@ -39,5 +38,3 @@ void aur_pixel_strata_add(aur_pixel_strata *pixel, aur_stratum *stratum, const a
 
 /* The pixel's radiance, RGB: the mean of every stratum by its part of what the pixel sees. */
 void aur_pixel_strata_mean(const aur_pixel_strata *pixel, double mean[3]);
-
-#endif

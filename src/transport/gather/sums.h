@@ -1,6 +1,5 @@
 /* What is found for sixteen pixels: all that estimators write, beside working memory. */
-#ifndef AUR_TRANSPORT_GATHER_SUMS_H
-#define AUR_TRANSPORT_GATHER_SUMS_H
+#pragma once
 
 #include "transport/gather/places.h"
 
@@ -26,5 +25,3 @@ static inline void aur_gather_add(aur_gather_sums *sums, const aur_gather_places
     sums->radiance[lane] =
         aur_vector_add(sums->radiance[lane], aur_vector_multiply(places->throughput[lane], radiance));
 }
-
-#endif

@@ -1,7 +1,6 @@
 /* Direct light at a surface point by multiple importance sampling of lights and BSDF (Veach 1997, power
  * heuristic). */
-#ifndef AUR_TRANSPORT_LIGHTS_DIRECT_LIGHT_H
-#define AUR_TRANSPORT_LIGHTS_DIRECT_LIGHT_H
+#pragma once
 
 #include "transport/integrator.h"
 #include "transport/lights/shading.h"
@@ -27,5 +26,3 @@ typedef struct aur_shadow {
 /* choice is one number and position two, in [0,1). False: no light comes that way. */
 bool aur_direct_light_choose(const aur_scene *scene, const aur_shading *shading, float choice,
                              const float position[2], aur_shadow *shadow);
-
-#endif

@@ -1,6 +1,5 @@
 /* The surface that a camera ray sees. */
-#ifndef AUR_TRANSPORT_LIGHTS_FIRST_SURFACE_H
-#define AUR_TRANSPORT_LIGHTS_FIRST_SURFACE_H
+#pragma once
 
 #include "film/tile.h"
 
@@ -22,5 +21,3 @@ static inline bool aur_visible_surface(const aur_scene *scene, bool hide_emitter
     ++counters->cut;
     return false;
 }
-
-#endif

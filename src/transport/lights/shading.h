@@ -1,6 +1,5 @@
 /* A surface point seen from a direction: its BSDF asked in world directions. */
-#ifndef AUR_TRANSPORT_LIGHTS_SHADING_H
-#define AUR_TRANSPORT_LIGHTS_SHADING_H
+#pragma once
 
 #include "scene/scene.h"
 
@@ -50,5 +49,3 @@ static inline bool aur_shading_sample(const aur_shading *shading, const float u[
     sample->light = aur_frame_to_world(&surface->frame, sample->light);
     return aur_vector_dot(surface->geometric_normal, sample->light) * side > 0.0f;
 }
-
-#endif

@@ -1,6 +1,5 @@
 /* The rays of ambient occlusion, packet by packet: what the integrator traces and the bench compares with. */
-#ifndef AUR_TRANSPORT_OCCLUSION_RAYS_H
-#define AUR_TRANSPORT_OCCLUSION_RAYS_H
+#pragma once
 
 #include "scene/packet.h"
 #include "transport/gather/rule.h"
@@ -41,5 +40,3 @@ typedef void (*aur_occlusion_visitor)(void *context, size_t first_place, aur_emb
 AUR_EXPERIMENTAL size_t aur_occlusion_visit(const aur_occlusion *occlusion,
                                             const aur_occlusion_places *places, size_t x, size_t y,
                                             uint32_t index, aur_occlusion_visitor visit, void *context);
-
-#endif

@@ -1,7 +1,6 @@
 /* Whether the rays that leave 16 places in like directions make a coherent packet: where the places lie on
  * one plane, nearly. A function of positions and normals, never of timing. */
-#ifndef AUR_TRANSPORT_PACKETS_COHERENCE_H
-#define AUR_TRANSPORT_PACKETS_COHERENCE_H
+#pragma once
 
 #include "core/vector.h"
 
@@ -12,5 +11,3 @@ static inline uint32_t aur_is_off_plane(aur_vector offset, aur_vector normal, fl
     const float height = aur_vector_dot(offset, normal);
     return (uint32_t)(cosine < 0.995f) | (uint32_t)(height * height > 0.01f * aur_vector_dot(offset, offset));
 }
-
-#endif

@@ -1,7 +1,6 @@
 /* Interleaved pixels (Keller and Heidrich 2001): a tile of 16 x 16 pixels is done in 16 groups of 16 pixels,
  * which are those at one place of all 4 x 4 blocks of the tile. */
-#ifndef AUR_TRANSPORT_PACKETS_INTERLEAVE_H
-#define AUR_TRANSPORT_PACKETS_INTERLEAVE_H
+#pragma once
 
 #include "film/tile.h"
 #include "scene/packet.h"
@@ -48,5 +47,3 @@ static inline uint32_t aur_group_rank(uint32_t group) {
     static const uint8_t ranks[AUR_GROUP_COUNT] = {0, 8, 2, 10, 12, 4, 14, 6, 3, 11, 1, 9, 15, 7, 13, 5};
     return ranks[group];
 }
-
-#endif

@@ -4,8 +4,7 @@
  *     for (uint32_t rest = lanes; rest != 0; rest &= rest - 1) {
  *         const size_t lane = aur_first_lane(rest);
  */
-#ifndef AUR_TRANSPORT_PACKETS_LANES_H
-#define AUR_TRANSPORT_PACKETS_LANES_H
+#pragma once
 
 #include "scene/packet.h"
 
@@ -29,5 +28,3 @@ static inline uint32_t aur_lanes_set(const int flags[AUR_PACKET_SIZE]) {
         lanes |= (uint32_t)(flags[k] & 1) << k;
     return lanes;
 }
-
-#endif

@@ -1,6 +1,5 @@
 /* The rays of a packet, and which of its lanes have one. */
-#ifndef AUR_TRANSPORT_PACKETS_PACKET_RAYS_H
-#define AUR_TRANSPORT_PACKETS_PACKET_RAYS_H
+#pragma once
 
 #include <string.h>
 
@@ -25,5 +24,3 @@ static inline void aur_packet_set_lanes(aur_packet *packet, uint32_t lanes) {
     for (uint32_t k = 0; k < AUR_PACKET_SIZE; ++k)
         packet->valid[k] = -(int)(lanes >> k & 1u);
 }
-
-#endif

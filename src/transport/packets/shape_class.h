@@ -1,6 +1,5 @@
 /* What is known of each shape before a ray meets it, so that most hits need no look at their surface. */
-#ifndef AUR_TRANSPORT_PACKETS_SHAPE_CLASS_H
-#define AUR_TRANSPORT_PACKETS_SHAPE_CLASS_H
+#pragma once
 
 #include "scene/scene.h"
 
@@ -16,5 +15,3 @@ typedef struct aur_shape_class {
 
 /* One class a shape of the scene; to be freed by the caller. Errors: MEMORY. */
 aur_result aur_shape_classes_create(const aur_scene *scene, aur_shape_class **classes, aur_error *error);
-
-#endif

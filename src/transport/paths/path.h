@@ -1,7 +1,6 @@
 /* The path tracer from the inside: one path by itself (path_single.c) and sixteen pixels in lockstep
  * (path_group.c, with its arithmetic in path_lanes*). */
-#ifndef AUR_TRANSPORT_PATHS_PATH_H
-#define AUR_TRANSPORT_PATHS_PATH_H
+#pragma once
 
 #include "transport/integrator.h"
 #include "transport/packets/shape_class.h"
@@ -39,5 +38,3 @@ aur_vector aur_path_radiance(const aur_path *data, const aur_scene *scene, const
 void aur_path_add_tile_singly(const aur_path *data, const aur_scene *scene, aur_tile *tile);
 /* The same, sixteen pixels at a time. */
 void aur_path_add_tile(const aur_path *data, const aur_scene *scene, aur_tile *tile);
-
-#endif

@@ -1,6 +1,5 @@
 /* Sixteen light paths on plain surfaces: the arithmetic of one bounce, an array a number. */
-#ifndef AUR_TRANSPORT_PATHS_PATH_LANES_H
-#define AUR_TRANSPORT_PATHS_PATH_LANES_H
+#pragma once
 
 #include "scene/packet.h"
 
@@ -46,5 +45,3 @@ typedef struct aur_path_kernels {
 
 /* By this processor's instructions. */
 const aur_path_kernels *aur_path_kernels_here(void);
-
-#endif

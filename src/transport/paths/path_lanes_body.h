@@ -1,7 +1,6 @@
 /* The body of the path tracer's loops, compiled once for each instruction set. Without branches, so that they
  * become vector code; plain operations in one order without contraction: the bits are the same everywhere. */
-#ifndef AUR_TRANSPORT_PATHS_PATH_LANES_BODY_H
-#define AUR_TRANSPORT_PATHS_PATH_LANES_BODY_H
+#pragma once
 
 #include "material/sampling.h"
 #include "transport/lights/direct_light.h"
@@ -139,5 +138,3 @@ static void lanes_scatter(aur_path_lanes *restrict lanes, bool roulette, aur_pac
 
 extern const aur_path_kernels aur_path_kernels_avx2;
 extern const aur_path_kernels aur_path_kernels_avx512;
-
-#endif

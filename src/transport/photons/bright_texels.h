@@ -2,8 +2,7 @@
  * surfaces has much of the indirect light (a window's reveal, a lit page), directions about the normal find
  * it by chance only. Gather rays that meet such texels are weighed against these draws (Veach 1997, multiple
  * importance sampling), so nothing is counted twice. */
-#ifndef AUR_TRANSPORT_PHOTONS_BRIGHT_TEXELS_H
-#define AUR_TRANSPORT_PHOTONS_BRIGHT_TEXELS_H
+#pragma once
 
 #include "scene/distribution.h"
 #include "transport/packets/shape_class.h"
@@ -51,5 +50,3 @@ static inline float aur_bright_texels_density(const aur_bright_texels *bright, a
     const float excess = aur_vector_max(radiance) - bright->threshold;
     return excess > 0.0f ? bright->scale * excess : 0.0f;
 }
-
-#endif

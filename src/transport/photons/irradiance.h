@@ -1,7 +1,6 @@
 /* Irradiance on texels, from photons: what a gather ray meets has its radiance by one array read, and no
  * density estimate is made while a picture is rendered (after Christensen 1999). */
-#ifndef AUR_TRANSPORT_PHOTONS_IRRADIANCE_H
-#define AUR_TRANSPORT_PHOTONS_IRRADIANCE_H
+#pragma once
 
 #include "transport/photons/photon_map.h"
 #include "transport/photons/texels.h"
@@ -50,5 +49,3 @@ aur_irradiance_on_triangle(const aur_irradiance_map *map, uint32_t element, floa
  * and the cos^m lobes over the texel's photons. Emission and other lobes are no part of it. */
 aur_vector aur_irradiance_radiance(const aur_irradiance_map *map, const aur_scene *scene, const aur_hit *hit,
                                    const aur_surface *surface, aur_vector view);
-
-#endif

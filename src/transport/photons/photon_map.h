@@ -1,7 +1,6 @@
 /* Photons: particles from the lights, stored where they meet surfaces that reflect diffusely (Jensen 1996).
  * The map is a function of scene, options and seed; the number of threads changes nothing. */
-#ifndef AUR_TRANSPORT_PHOTONS_PHOTON_MAP_H
-#define AUR_TRANSPORT_PHOTONS_PHOTON_MAP_H
+#pragma once
 
 #include "sampling/stream.h"
 #include "scene/elements.h"
@@ -44,5 +43,3 @@ typedef struct aur_photon_options {
 aur_result aur_photon_map_create(const aur_scene *scene, const aur_elements *elements,
                                  const aur_photon_options *options, aur_photon_map *map, aur_error *error);
 void aur_photon_map_release(aur_photon_map *map);
-
-#endif

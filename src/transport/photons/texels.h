@@ -2,8 +2,7 @@
  * in side x side parts of equal area; small elements that lie together and face alike share one texel. So
  * the light at a hit is one array read, no photon counts for a surface that it did not meet, and the power in
  * the texels is the power of the photons. */
-#ifndef AUR_TRANSPORT_PHOTONS_TEXELS_H
-#define AUR_TRANSPORT_PHOTONS_TEXELS_H
+#pragma once
 
 #include "scene/elements.h"
 
@@ -50,5 +49,3 @@ static inline uint32_t aur_texel_of_square(aur_texel_range range, float u, float
     column = column < range.side ? column : range.side - 1;
     return range.first + row * range.side + column;
 }
-
-#endif

@@ -1,5 +1,4 @@
-#ifndef AUR_TRANSPORT_RADIOSITY_COINCIDENCE_H
-#define AUR_TRANSPORT_RADIOSITY_COINCIDENCE_H
+#pragma once
 
 #include "transport/radiosity/scene.h"
 
@@ -13,5 +12,3 @@ typedef struct aur_radiosity_coincidence {
 } aur_radiosity_coincidence;
 aur_result aur_radiosity_find_coincidences(const aur_radiosity_scene *scene, aur_radiosity_coincidence *found,
                                            aur_error *error);
-
-#endif

@@ -1,7 +1,6 @@
 /* Sums that do not depend on the order of their terms: non-negative terms in fixed point, added in 128 bits.
  */
-#ifndef AUR_TRANSPORT_RADIOSITY_EXACT_SUM_H
-#define AUR_TRANSPORT_RADIOSITY_EXACT_SUM_H
+#pragma once
 
 #include <stdint.h>
 
@@ -22,5 +21,3 @@ static inline void aur_exact_merge(aur_exact_sum *sum, const aur_exact_sum *othe
 static inline double aur_exact_value(const aur_exact_sum *sum) {
     return (double)sum->high * 0x1p64 + (double)sum->low;
 }
-
-#endif

@@ -1,6 +1,5 @@
 /* Pictures of a radiosity solution (Keller 1994, section 4): what the integrator and its pixels share. */
-#ifndef AUR_TRANSPORT_RADIOSITY_PICTURE_H
-#define AUR_TRANSPORT_RADIOSITY_PICTURE_H
+#pragma once
 
 #include "transport/integrator.h"
 #include "transport/radiosity/picture_gather.h"
@@ -34,5 +33,3 @@ typedef struct aur_radiosity_image {
 
 /* The `tile` of the integrator. */
 aur_result aur_radiosity_tile(const aur_integrator *integrator, aur_tile *tile);
-
-#endif

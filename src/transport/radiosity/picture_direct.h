@@ -1,6 +1,5 @@
 /* Direct light from triangles by solid angle (Keller 1994, eq. 6; Arvo 1995). */
-#ifndef AUR_TRANSPORT_RADIOSITY_PICTURE_DIRECT_H
-#define AUR_TRANSPORT_RADIOSITY_PICTURE_DIRECT_H
+#pragma once
 
 #include "transport/radiosity/scene.h"
 
@@ -29,5 +28,3 @@ static inline aur_ray aur_radiosity_leave(const aur_radiosity_scene *scene, cons
  * first. */
 aur_vector aur_radiosity_direct(const aur_radiosity_scene *scene, const aur_radiosity_place *place,
                                 uint32_t triangle, float u, float v, uint64_t *rays);
-
-#endif

@@ -1,7 +1,6 @@
 /* Indirect light at a point (Keller 1994, eq. 9): directions distributed as sin^2 theta, one pattern an image
  * turned at random at every point, and the solution's radiance where they end. */
-#ifndef AUR_TRANSPORT_RADIOSITY_PICTURE_GATHER_H
-#define AUR_TRANSPORT_RADIOSITY_PICTURE_GATHER_H
+#pragma once
 
 #include <aureole/quadrature.h>
 
@@ -24,5 +23,3 @@ void aur_radiosity_gather_release(aur_radiosity_gather *gather);
 /* The irradiance over pi at a place; `hash` turns the pattern. */
 aur_vector aur_radiosity_gather_at(const aur_radiosity_gather *gather, const aur_radiosity_place *place,
                                    uint64_t hash, uint64_t *rays);
-
-#endif

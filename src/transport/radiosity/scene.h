@@ -1,8 +1,7 @@
 /* A scene as radiosity sees it (Keller 1994, section 1): disjoint diffuse triangles, each with a local frame,
  * and mirrors. What receives light is a patch: the front of each triangle, in the scene's order, and after
  * those the backs of triangles that reflect on both sides. */
-#ifndef AUR_TRANSPORT_RADIOSITY_SCENE_H
-#define AUR_TRANSPORT_RADIOSITY_SCENE_H
+#pragma once
 
 #include "scene/scene.h"
 
@@ -79,5 +78,3 @@ typedef enum aur_radiosity_end {
 enum { AUR_RADIOSITY_HOPS = 32 };
 aur_radiosity_end aur_radiosity_reflect(const aur_radiosity_scene *scene, bool particle, uint64_t hash,
                                         aur_ray *ray, aur_hit *hit, aur_vector *throughput, uint64_t *rays);
-
-#endif

@@ -1,7 +1,6 @@
 /* A radiosity solution: the scene as its walk sees it, and the sums of all paths so far, apart for each
  * randomisation. It is not changed by pictures and files; one call at a time may trace it further. */
-#ifndef AUR_TRANSPORT_RADIOSITY_SOLUTION_H
-#define AUR_TRANSPORT_RADIOSITY_SOLUTION_H
+#pragma once
 
 #include "transport/radiosity/walk.h"
 
@@ -25,5 +24,3 @@ static inline uint64_t aur_radiosity_share(const aur_radiosity *radiosity, size_
     const uint64_t count = radiosity->options.randomizations;
     return paths / count + (r < paths % count);
 }
-
-#endif

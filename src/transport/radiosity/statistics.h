@@ -1,7 +1,6 @@
 /* What the sums of a solution say: powers, their errors and their change. Each works in time proportional to
  * the number of randomisations for one patch. */
-#ifndef AUR_TRANSPORT_RADIOSITY_STATISTICS_H
-#define AUR_TRANSPORT_RADIOSITY_STATISTICS_H
+#pragma once
 
 #include "transport/radiosity/solution.h"
 
@@ -22,5 +21,3 @@ void aur_radiosity_summarize(const aur_radiosity *radiosity, aur_radiosity_descr
 /* One triangle's row of aur_radiosity_results. */
 void aur_radiosity_result(const aur_radiosity *radiosity, size_t triangle,
                           aur_radiosity_triangle_result *out);
-
-#endif

@@ -1,7 +1,6 @@
 /* What the paths of one randomisation have left behind: the power that each patch received, and how the paths
  * ended. Sums are exact, so tallies of several threads can be added in any order. */
-#ifndef AUR_TRANSPORT_RADIOSITY_TALLY_H
-#define AUR_TRANSPORT_RADIOSITY_TALLY_H
+#pragma once
 
 #include <stdbool.h>
 
@@ -22,5 +21,3 @@ aur_result aur_radiosity_tally_create(size_t patch_count, aur_radiosity_tally *t
 void aur_radiosity_tally_release(aur_radiosity_tally *tally);
 /* Adds `other` and empties it. */
 void aur_radiosity_tally_take(aur_radiosity_tally *tally, aur_radiosity_tally *other);
-
-#endif

@@ -1,7 +1,6 @@
 /* The random walk of all triangles at once (Keller 1994, eq. 15): path i leaves a light and flies M + 1
  * times, each decision by two coordinates of point i; every triangle that it meets receives its power. */
-#ifndef AUR_TRANSPORT_RADIOSITY_WALK_H
-#define AUR_TRANSPORT_RADIOSITY_WALK_H
+#pragma once
 
 #include <aureole/radiosity.h>
 
@@ -31,5 +30,3 @@ enum { AUR_RADIOSITY_BLOCK = 512 };
  * apart. */
 void aur_radiosity_walk_block(const aur_radiosity_walk *walk, const aur_pointset *set, uint64_t key,
                               uint64_t first, size_t count, aur_radiosity_tally *tally);
-
-#endif
