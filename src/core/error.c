@@ -126,7 +126,11 @@ aur_result aur_error_set(aur_error *error, aur_result result, const char *format
 }
 
 aur_result aur_fail_memory(aur_error *error) {
-    return aur_fail(error, AUR_ERROR_MEMORY, "out of memory");
+    return aur_fail_memory_at(error, (aur_location){0});
+}
+
+aur_result aur_fail_memory_at(aur_error *error, aur_location location) {
+    return aur_fail_at(error, location, AUR_ERROR_MEMORY, "out of memory");
 }
 
 aur_result aur_fail_at(aur_error *error, aur_location location, aur_result result, const char *format, ...) {

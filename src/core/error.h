@@ -26,3 +26,4 @@ void aur_warn_at(const aur_warnings *warnings, aur_location location, const char
 
 /* The one wording for memory that is not to be had. */
 aur_result aur_fail_memory(aur_error *error);
+aur_result aur_fail_memory_at(aur_error *error, aur_location location);

@@ -144,7 +144,7 @@ static aur_result create_image(exr_reader *reader, const aur_image_source *sourc
     reader->place = calloc(count, sizeof *reader->place);
     if (order == NULL || reader->place == NULL) {
         free(order);
-        return aur_fail(error, AUR_ERROR_MEMORY, "out of memory");
+        return aur_fail_memory(error);
     }
     for (size_t c = 0; c < count; ++c)
         order[c] = (channel_order){.name = reader->channels->entries[c].name.str, .in_file = c};

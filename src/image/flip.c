@@ -254,7 +254,7 @@ static aur_result analyse(const aur_image *image, const size_t channels[3], flip
     *planes = (flip_planes){.width = image->width, .height = image->height};
     planes->memory = calloc(pixels, PLANE_COUNT * sizeof *planes->memory);
     if (planes->memory == NULL)
-        return aur_fail(error, AUR_ERROR_MEMORY, "out of memory");
+        return aur_fail_memory(error);
     float **const all[PLANE_COUNT] = {&planes->opponent[0], &planes->opponent[1], &planes->opponent[2],
                                       &planes->filtered[0], &planes->filtered[1], &planes->filtered[2],
                                       &planes->edge[0],     &planes->edge[1],     &planes->point[0],

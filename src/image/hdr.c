@@ -105,7 +105,7 @@ static aur_result decode_rows(const aur_image_source *source, hdr_input *input, 
     const size_t width = image->width;
     unsigned char *const planes = malloc(4 * width);
     if (planes == NULL)
-        return aur_fail(error, AUR_ERROR_MEMORY, "out of memory");
+        return aur_fail_memory(error);
     aur_result result = AUR_OK;
     for (size_t y = 0; y < image->height && result == AUR_OK; ++y) {
         if (!decode_row(input, width, planes)) {

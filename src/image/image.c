@@ -26,7 +26,7 @@ aur_result aur_image_create(size_t width, size_t height, size_t channel_count, a
                         width, height, channel_count);
     aur_image *const made = calloc(1, sizeof *made);
     if (made == NULL)
-        return aur_fail(error, AUR_ERROR_MEMORY, "out of memory");
+        return aur_fail_memory(error);
     made->width = width;
     made->height = height;
     made->channel_count = channel_count;

@@ -62,7 +62,7 @@ static aur_result read_ldr(const aur_image_source *source, const char *format, s
     decoded[2] = (int)size[2];
     float *const table = malloc(65536 * sizeof *table);
     if (table == NULL)
-        result = aur_fail(error, AUR_ERROR_MEMORY, "out of memory");
+        result = aur_fail_memory(error);
     if (result == AUR_OK)
         result = create_decoded(source, format, size, decoded, image, error);
     if (result == AUR_OK) {

@@ -104,7 +104,7 @@ static aur_result write_pfm(const aur_image_target *target, const aur_image *ima
     const size_t row_size = image->width * count * sizeof(float);
     unsigned char *const row = malloc(row_size);
     if (row == NULL)
-        return aur_fail(error, AUR_ERROR_MEMORY, "out of memory");
+        return aur_fail_memory(error);
     for (size_t y = image->height; y-- > 0;) {
         for (size_t i = 0; i < image->width * count; ++i)
             put_float(

@@ -80,7 +80,7 @@ static void summarise(aur_bsdf *bsdf) {
 static aur_result fill(aur_parameters *parameters, aur_bsdf *bsdf, aur_error *error) {
     bsdf->data = calloc(1, bsdf->descriptor->size);
     if (bsdf->data == NULL)
-        return aur_fail_at(error, parameters->location, AUR_ERROR_MEMORY, "out of memory");
+        return aur_fail_memory_at(error, parameters->location);
     aur_result result = aur_colors_read(&bsdf->descriptor->row, parameters, bsdf->data, error);
     if (result == AUR_OK)
         result = bsdf->descriptor->create(parameters, bsdf, error);
@@ -99,7 +99,7 @@ aur_result aur_bsdf_create(aur_parameters *parameters, aur_bsdf **bsdf, aur_erro
         return result;
     aur_bsdf *const made = calloc(1, sizeof *made);
     if (made == NULL)
-        return aur_fail_at(error, parameters->location, AUR_ERROR_MEMORY, "out of memory");
+        return aur_fail_memory_at(error, parameters->location);
     made->descriptor = (const aur_bsdf_descriptor *)row;
     result = fill(parameters, made, error);
     if (result != AUR_OK) {

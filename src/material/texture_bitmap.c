@@ -52,7 +52,7 @@ aur_result aur_read_rgb(const char *path, aur_location location, size_t *width, 
     *height = image->height;
     *rgb = malloc((3 * count + 1) * sizeof **rgb);
     if (*rgb == NULL)
-        result = aur_fail_at(error, location, AUR_ERROR_MEMORY, "out of memory");
+        result = aur_fail_memory_at(error, location);
     for (size_t i = 0; result == AUR_OK && i < count; ++i) {
         for (size_t k = 0; k < 3; ++k) {
             const float value = image->data[i * image->channel_count + channel[k]];
@@ -96,7 +96,7 @@ static aur_result create(aur_parameters *parameters, aur_texture *texture, aur_e
     bitmap *const self = calloc(1, sizeof *self);
     texture->data = self;
     if (self == NULL)
-        return aur_fail_at(error, parameters->location, AUR_ERROR_MEMORY, "out of memory");
+        return aur_fail_memory_at(error, parameters->location);
     bitmap_keys given = {.path = NULL};
     aur_result result = aur_row_read(&texture->descriptor->row, parameters, &given, error);
     if (result != AUR_OK)

@@ -19,7 +19,7 @@ static aur_result create(aur_parameters *parameters, aur_texture *texture, aur_e
     checkerboard *const self = calloc(1, sizeof *self);
     texture->data = self;
     if (self == NULL)
-        return aur_fail_at(error, parameters->location, AUR_ERROR_MEMORY, "out of memory");
+        return aur_fail_memory_at(error, parameters->location);
     const aur_result result = aur_colors_read(&texture->descriptor->row, parameters, self, error);
     if (result != AUR_OK)
         return result;

@@ -25,7 +25,7 @@ aur_result aur_texture_create(aur_parameters *parameters, aur_texture **texture,
         return result;
     aur_texture *const made = calloc(1, sizeof *made);
     if (made == NULL)
-        return aur_fail_at(error, parameters->location, AUR_ERROR_MEMORY, "out of memory");
+        return aur_fail_memory_at(error, parameters->location);
     made->descriptor = (const aur_texture_descriptor *)row;
     result = made->descriptor->create(parameters, made, error);
     if (result != AUR_OK) {

@@ -62,7 +62,7 @@ static aur_result prepare_pattern(aur_oswa *oswa, size_t which, aur_error *error
     const double *const pattern = oswa->pattern[which];
     double *const columns = malloc(3 * n * sizeof *columns);
     if (columns == NULL)
-        return aur_fail(error, AUR_ERROR_MEMORY, "out of memory");
+        return aur_fail_memory(error);
     const aur_columns split = aur_columns_split(n, pattern, columns);
     for (size_t i = 0; i < n; ++i) {
         aur_kernel_row(&oswa->whole[which]->rule, pattern + 3 * i, i, split, oswa->kernel[which] + i * n);
@@ -89,7 +89,7 @@ static aur_result allocate(aur_oswa *oswa, bool solves, aur_error *error) {
     oswa->storage = next;
     oswa->set = strdup(oswa->options.set != NULL ? oswa->options.set : "spherical-fibonacci");
     if (next == NULL || oswa->set == NULL)
-        return aur_fail(error, AUR_ERROR_MEMORY, "out of memory");
+        return aur_fail_memory(error);
     oswa->options.set = oswa->set;
     for (size_t which = 0; which < 2; ++which) {
         const size_t count = oswa->count[which];
@@ -160,7 +160,7 @@ aur_result aur_oswa_create_for(const aur_oswa_options *options, bool solves, aur
         return result;
     aur_oswa *const created = calloc(1, sizeof *created);
     if (created == NULL)
-        return aur_fail(error, AUR_ERROR_MEMORY, "out of memory");
+        return aur_fail_memory(error);
     created->options = *options;
     if (options->smoothness == 0.0)
         created->options.smoothness = 1.5;
@@ -377,7 +377,7 @@ static aur_result solve_plainly(const aur_oswa *oswa, const aur_oswa_angle *angl
     }
     double *const subset = malloc(5 * n * sizeof *subset);
     if (result == AUR_OK && subset == NULL)
-        result = aur_fail(error, AUR_ERROR_MEMORY, "out of memory");
+        result = aur_fail_memory(error);
     if (result == AUR_OK) {
         size_t kept = 0;
         for (size_t i = 0; i < n; ++i)
@@ -452,7 +452,7 @@ aur_result aur_oswa_solve(const aur_oswa *oswa, double radians, const double tur
     double *const scratch = malloc(aur_oswa_scratch(oswa) * sizeof *scratch);
     bool *const visible = malloc(n * sizeof *visible);
     if (result == AUR_OK && (scratch == NULL || visible == NULL))
-        result = aur_fail(error, AUR_ERROR_MEMORY, "out of memory");
+        result = aur_fail_memory(error);
     if (result == AUR_OK) {
         aur_oswa_visible(oswa, radians, turns, scratch, visible);
         result = aur_oswa_solve_at(oswa, &angle, turns, visible, scratch, weights, error);

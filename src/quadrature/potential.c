@@ -67,7 +67,7 @@ static aur_result create_nodes(aur_potential *potential, aur_error *error) {
         return aur_fail(error, AUR_ERROR_ARGUMENT, "a density of kind NODES needs its nodes and masses");
     potential->storage = malloc(4 * count * sizeof *potential->storage);
     if (potential->storage == NULL)
-        return aur_fail(error, AUR_ERROR_MEMORY, "out of memory");
+        return aur_fail_memory(error);
     double *const masses = potential->storage + 3 * count;
     aur_result result = AUR_OK;
     if (density->kind == AUR_DENSITY_FUNCTION)
@@ -121,7 +121,7 @@ aur_result aur_potential_create(const aur_density *density, double smoothness, a
                         "the smoothness must be between 1 and 2 (exclusive), not %g", smoothness);
     aur_potential *const created = calloc(1, sizeof *created);
     if (created == NULL)
-        return aur_fail(error, AUR_ERROR_MEMORY, "out of memory");
+        return aur_fail_memory(error);
     created->density = *density;
     created->rule = aur_kernel_rule_make(smoothness);
     if (density->axis[0] == 0.0 && density->axis[1] == 0.0 && density->axis[2] == 0.0)

@@ -30,7 +30,7 @@ aur_result aur_potential_table_create(const aur_z_grid *grid, double smoothness,
     if (created == NULL || z == NULL) {
         free(created);
         free(z);
-        return aur_fail(error, AUR_ERROR_MEMORY, "out of memory");
+        return aur_fail_memory(error);
     }
     *created = (aur_potential_table){angle_count, exponent_count, log1p(largest_exponent), z};
     double *const xyz = z + angle_count * exponent_count;

@@ -18,7 +18,7 @@ aur_result aur_weight_table_create(const aur_oswa_options *options, size_t angle
                         angle_count, rotation_count);
     aur_weight_table *const created = calloc(1, sizeof *created);
     if (created == NULL)
-        return aur_fail(error, AUR_ERROR_MEMORY, "out of memory");
+        return aur_fail_memory(error);
     const aur_result result = aur_oswa_create_for(options, solves, &created->oswa, error);
     if (result != AUR_OK) {
         free(created);

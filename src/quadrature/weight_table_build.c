@@ -217,7 +217,7 @@ static aur_result build_angle(void *context, size_t index) {
     aur_oswa_angle angle;
     aur_result result = aur_oswa_angle_init(table->oswa, aur_weight_table_angle(table, index), &angle, error);
     if (result == AUR_OK && (scratch == NULL || flags == NULL))
-        result = aur_fail(error, AUR_ERROR_MEMORY, "out of memory");
+        result = aur_fail_memory(error);
     if (result == AUR_OK) {
         const angle_work parts = {scratch, scratch + doubles, flags, flags + table->size};
         table->masses[index * AUR_WEIGHT_TABLE_MASS_STEPS] = (float)angle.mass;
@@ -235,7 +235,7 @@ static aur_result solve_all(aur_weight_table *table, size_t threads, const aur_p
                             aur_error *error) {
     build work = {table, calloc(table->angle_count, sizeof(aur_error))};
     if (work.errors == NULL)
-        return aur_fail(error, AUR_ERROR_MEMORY, "out of memory");
+        return aur_fail_memory(error);
     const aur_parallel_options parallel = {
         .threads = threads, .what = "weights", .progress = progress != NULL ? *progress : (aur_progress){0}};
     const aur_result result = aur_parallel_for(&parallel, table->angle_count, build_angle, &work);

@@ -91,7 +91,7 @@ aur_result aur_weight_table_save(const aur_weight_table *table, const char *path
     const size_t size = (size_t)length + 4 * words + 8;
     unsigned char *const data = malloc(size);
     if (data == NULL)
-        return aur_fail(error, AUR_ERROR_MEMORY, "out of memory");
+        return aur_fail_memory(error);
     memcpy(data, header, (size_t)length);
     unsigned char *target = put_floats(table->masses, aur_weight_table_mass_count(table), data + length);
     for (size_t i = 0; i < intervals; ++i)
@@ -276,7 +276,7 @@ static aur_result read_words(reader *in, size_t pieces, aur_weight_table *table)
         table->first = malloc((aur_weight_table_intervals(table) + 1) * sizeof *table->first);
         table->start = malloc(pieces * sizeof *table->start);
         if (table->first == NULL || table->start == NULL)
-            return aur_fail(in->error, AUR_ERROR_MEMORY, "out of memory");
+            return aur_fail_memory(in->error);
     }
     const aur_result result = aur_weight_table_allocate(table, in->error);
     if (result != AUR_OK)

@@ -42,7 +42,7 @@ aur_result aur_worst_case_error(size_t count, const double *xyz, const double *w
     const size_t block_count = (count + BLOCK - 1) / BLOCK;
     double *const storage = malloc((5 * count + block_count) * sizeof *storage);
     if (storage == NULL)
-        return aur_fail(error, AUR_ERROR_MEMORY, "out of memory");
+        return aur_fail_memory(error);
     double *const used = storage + 3 * count;
     double *const z = storage + 4 * count;
     for (size_t i = 0; i < count; ++i)

@@ -60,7 +60,7 @@ aur_result aur_zonal_series(double exponent, double smoothness, size_t terms, si
                             double *z, aur_error *error) {
     double *const storage = malloc(2 * terms * sizeof *storage);
     if (storage == NULL)
-        return aur_fail(error, AUR_ERROR_MEMORY, "out of memory");
+        return aur_fail_memory(error);
     series_terms(exponent, smoothness, terms, storage, storage + terms);
     legendre_sum(terms, storage, count, x, z);
     free(storage);
@@ -100,7 +100,7 @@ aur_result aur_zonal_create(double exponent, double smoothness, aur_zonal *zonal
     if (storage == NULL || coefficients == NULL) {
         free(storage);
         free(coefficients);
-        return aur_fail(error, AUR_ERROR_MEMORY, "out of memory");
+        return aur_fail_memory(error);
     }
     double *const series = storage;
     double *const moments = storage + terms;
@@ -182,7 +182,7 @@ aur_result aur_cross_energy(double exponent, double other_exponent, double cosin
     const size_t terms = aur_zonal_terms(fmax(exponent, other_exponent), smoothness);
     double *const storage = malloc(3 * terms * sizeof *storage);
     if (storage == NULL)
-        return aur_fail(error, AUR_ERROR_MEMORY, "out of memory");
+        return aur_fail_memory(error);
     series_terms(exponent, smoothness, terms, storage, storage + terms);
     lobe_moments(other_exponent, terms, storage + terms);
     for (size_t l = 0; l < terms; ++l)

@@ -23,7 +23,7 @@ aur_result aur_series_create(aur_series *series, size_t row_count, size_t column
     for (size_t c = 0; c < column_count; ++c)
         series->columns[c] = columns[c];
     series->values = calloc(row_count * column_count + 1, sizeof *series->values);
-    return series->values != NULL ? AUR_OK : aur_fail(error, AUR_ERROR_MEMORY, "out of memory");
+    return series->values != NULL ? AUR_OK : aur_fail_memory(error);
 }
 
 void aur_series_release(aur_series *series) {

@@ -30,7 +30,7 @@ aur_result aur_smallest_distance(const aur_points *points, double *distance, aur
     const size_t dimension = points->dimension;
     along_axis *const sorted = malloc(count * sizeof *sorted);
     if (sorted == NULL)
-        return aur_fail(error, AUR_ERROR_MEMORY, "out of memory");
+        return aur_fail_memory(error);
     for (size_t i = 0; i < count; ++i) {
         const double *const point = points->coordinates + i * dimension;
         sorted[i] = (along_axis){point[dimension - 1], point};

@@ -7,7 +7,7 @@ aur_result aur_distribution_create(aur_distribution *distribution, size_t count,
     distribution->count = count;
     distribution->sums = malloc((count + 1) * sizeof *distribution->sums);
     if (distribution->sums == NULL)
-        return aur_fail(error, AUR_ERROR_MEMORY, "out of memory");
+        return aur_fail_memory(error);
     distribution->sums[0] = 0.0;
     for (size_t i = 0; i < count; ++i)
         distribution->sums[i + 1] = distribution->sums[i] + weights[i];

@@ -81,7 +81,7 @@ aur_result aur_mesh_smooth(aur_mesh *mesh, aur_location location, aur_error *err
     free(mesh->normals);
     mesh->normals = calloc(3 * mesh->vertex_count + 1, sizeof(float));
     if (mesh->normals == NULL)
-        return aur_fail_at(error, location, AUR_ERROR_MEMORY, "out of memory");
+        return aur_fail_memory_at(error, location);
     for (size_t i = 0; i < mesh->triangle_count; ++i) {
         aur_vector corner[3];
         aur_mesh_corners(mesh, i, corner);

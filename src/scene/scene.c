@@ -82,7 +82,7 @@ static aur_result check_reach(const aur_scene *scene, aur_error *error) {
 static aur_result prepare_lights(aur_scene *scene, aur_error *error) {
     double *const powers = malloc((scene->emitter_count + 1) * sizeof *powers);
     if (powers == NULL)
-        return aur_fail(error, AUR_ERROR_MEMORY, "out of memory");
+        return aur_fail_memory(error);
     aur_result result = AUR_OK;
     for (size_t i = 0; i < scene->emitter_count && result == AUR_OK; ++i) {
         aur_emitter *const emitter = scene->emitters[i];

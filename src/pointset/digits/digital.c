@@ -111,7 +111,7 @@ aur_result aur_prepare_digital(aur_pointset *set, size_t count, aur_digital_matr
                                const aur_pointset_options *options, aur_error *error) {
     uint64_t(*const matrices)[AUR_DIGITAL_COLUMNS] = malloc(count * sizeof *matrices);
     if (matrices == NULL)
-        return aur_fail(error, AUR_ERROR_MEMORY, "out of memory");
+        return aur_fail_memory(error);
     for (size_t d = 0; d < count; ++d)
         make(d, matrices[d]);
     set->data = matrices;

@@ -75,7 +75,7 @@ static aur_result prepare(aur_pointset *set, aur_parameters *parameters, const a
     const size_t places = aur_digit_sum_places((uint32_t)base);
     aur_digital_rule *const rule = aur_digital_rule_create((uint32_t)base, places, places, set->dimension);
     if (rule == NULL)
-        return aur_fail(error, AUR_ERROR_MEMORY, "out of memory");
+        return aur_fail_memory(error);
     for (size_t d = 0; d < set->dimension; ++d) {
         uint16_t *const matrix = rule->digits + d * places * places;
         pascal_power(rule, (uint32_t)d, matrix);

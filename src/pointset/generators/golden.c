@@ -25,7 +25,7 @@ static aur_result prepare(aur_pointset *set, aur_parameters *parameters, const a
         return result;
     uint64_t *const word = malloc(sizeof *word);
     if (word == NULL)
-        return aur_fail(error, AUR_ERROR_MEMORY, "out of memory");
+        return aur_fail_memory(error);
     *word = aur_golden_start(p.seed);
     set->data = word;
     return AUR_OK;

@@ -61,7 +61,7 @@ static aur_result prepare(aur_pointset *set, aur_parameters *parameters, const a
         return result;
     golden_set *const data = malloc(sizeof *data + set->size * sizeof data->order[0]);
     if (data == NULL)
-        return aur_fail(error, AUR_ERROR_MEMORY, "out of memory");
+        return aur_fail_memory(error);
     data->two_seeds = p.form == TWO_SEEDS;
     data->seed_word = aur_seed_word(p.seed);
     if (!data->two_seeds)

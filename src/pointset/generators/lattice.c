@@ -79,7 +79,7 @@ static uint64_t golden_generator(uint64_t n) {
 static aur_lattice *create(aur_pointset *set, aur_error *error) {
     aur_lattice *const data = calloc(1, sizeof *data);
     if (data == NULL)
-        aur_fail(error, AUR_ERROR_MEMORY, "out of memory");
+        aur_fail_memory(error);
     set->data = data;
     return data;
 }

@@ -50,7 +50,7 @@ static aur_result put_digit(reader *r, uint64_t digit) {
         const size_t capacity = r->capacity == 0 ? 1024 : 2 * r->capacity;
         uint16_t *const digits = realloc(r->digits, capacity * sizeof *digits);
         if (digits == NULL)
-            return aur_fail(r->error, AUR_ERROR_MEMORY, "out of memory");
+            return aur_fail_memory(r->error);
         r->digits = digits;
         r->capacity = capacity;
     }
@@ -139,7 +139,7 @@ static aur_result make_rule(aur_pointset *set, const reader *r) {
     const size_t rows = r->row_count < places ? r->row_count : places;
     aur_digital_rule *const rule = aur_digital_rule_create(r->base, rows, r->column_count, set->dimension);
     if (rule == NULL)
-        return aur_fail(r->error, AUR_ERROR_MEMORY, "out of memory");
+        return aur_fail_memory(r->error);
     for (size_t d = 0; d < set->dimension; ++d)
         for (size_t c = 0; c < r->column_count; ++c)
             for (size_t row = 0; row < rows; ++row)

@@ -47,7 +47,7 @@ static aur_result prepare(aur_pointset *set, aur_parameters *keys, const aur_poi
     (void)options;
     aur_fraction128 *const steps = malloc(set->dimension * sizeof *steps);
     if (steps == NULL)
-        return aur_fail(error, AUR_ERROR_MEMORY, "out of memory");
+        return aur_fail_memory(error);
     aur_r2_steps(set->dimension, steps);
     set->data = steps;
     return AUR_OK;

@@ -198,7 +198,7 @@ static aur_result relax(uint64_t seed, size_t count, aur_point2 *sites, aur_erro
     t.gains = malloc(4 * capacity * sizeof *t.gains);
     aur_result result = AUR_OK;
     if (t.points == NULL || t.radii == NULL || t.gains == NULL || !aur_site_grid_create(&t.grid, count))
-        result = aur_fail(error, AUR_ERROR_MEMORY, "out of memory");
+        result = aur_fail_memory(error);
     if (result == AUR_OK)
         aur_set_jittered.fill(&(aur_pointset){.kind = &aur_set_jittered,
                                               .size = count * capacity,

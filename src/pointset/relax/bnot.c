@@ -173,7 +173,7 @@ static aur_result relax(uint64_t seed, size_t count, aur_point2 *sites, aur_erro
         aur_site_grid_destroy(&t.diagram.grid);
         free(vectors);
         free(t.diagram.cells);
-        return aur_fail(error, AUR_ERROR_MEMORY, "out of memory");
+        return aur_fail_memory(error);
     }
     t.weights = vectors;
     t.step = vectors + count;

@@ -20,7 +20,7 @@ aur_result aur_axes_create(const aur_points *points, aur_axes *axes, aur_error *
     if (axes->x == NULL || axes->y == NULL || axes->z == NULL ||
         (points->weights != NULL && axes->weights == NULL)) {
         aur_axes_release(axes);
-        return aur_fail(error, AUR_ERROR_MEMORY, "out of memory");
+        return aur_fail_memory(error);
     }
     for (size_t i = 0; i < points->count; ++i) {
         axes->x[i] = points->coordinates[3 * i];
@@ -73,7 +73,7 @@ aur_result aur_pair_sum(const aur_axes *axes, aur_pair_tile_function function, d
     const size_t count = side * (side + 1) / 2;
     tiles work = {axes, function, parameter, malloc(count * sizeof *work.sums)};
     if (work.sums == NULL)
-        return aur_fail(error, AUR_ERROR_MEMORY, "out of memory");
+        return aur_fail_memory(error);
     const aur_parallel_options parallel = {
         .threads = options->threads, .what = "summing pairs", .progress = options->progress};
     const aur_result result = aur_parallel_for(&parallel, count, sum_tile, &work);

@@ -143,8 +143,7 @@ static aur_result radial(const aur_measure_request *request, aur_series *series,
         return result;
     const size_t rings = p.limit + 1;
     double *const sums = calloc(4 * rings, sizeof *sums);
-    result = sums != NULL ? aur_series_create(series, p.limit, 3, columns, error)
-                          : aur_fail(error, AUR_ERROR_MEMORY, "out of memory");
+    result = sums != NULL ? aur_series_create(series, p.limit, 3, columns, error) : aur_fail_memory(error);
     if (result == AUR_OK) {
         sum_rings(&p, NULL, sums, sums + 2 * rings);
         sum_rings(&p, sums, sums + rings, sums + 3 * rings);

@@ -11,7 +11,7 @@ aur_result aur_cap_axes_create(const aur_points *points, aur_axes *axes, aur_err
     aur_points weighted = *points;
     double *const masses = malloc(points->count * sizeof *masses);
     if (masses == NULL)
-        return aur_fail(error, AUR_ERROR_MEMORY, "out of memory");
+        return aur_fail_memory(error);
     double sum = 0.0;
     for (size_t i = 0; i < points->count; ++i)
         sum += points->weights != NULL ? points->weights[i] : 1.0;

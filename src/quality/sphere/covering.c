@@ -12,7 +12,7 @@ static aur_result cells_of(const aur_measure_request *request, aur_voronoi_cell 
     *cells = malloc(count * sizeof **cells);
     *unbounded = 0;
     if (*cells == NULL)
-        return aur_fail(error, AUR_ERROR_MEMORY, "out of memory");
+        return aur_fail_memory(error);
     const aur_result result = aur_voronoi_cells(request, *cells, error);
     for (size_t i = 0; i < count && result == AUR_OK; ++i)
         *unbounded |= (*cells)[i].unbounded;

@@ -155,7 +155,7 @@ aur_result aur_fibonacci_distance_sum(size_t count, aur_domain domain, const aur
     const size_t items = (count + LAGS_PER_ITEM - 1) / LAGS_PER_ITEM;
     lags work = {.count = count, .domain = domain, .sums = malloc(items * sizeof *work.sums)};
     if (work.sums == NULL)
-        return aur_fail(error, AUR_ERROR_MEMORY, "out of memory");
+        return aur_fail_memory(error);
     aur_gauss_legendre(NODES, work.gauss.nodes, work.gauss.weights);
     for (int i = 0; i < NODES; ++i) {
         work.gauss.nodes[i] = 0.5 * (1.0 + work.gauss.nodes[i]);

@@ -58,7 +58,7 @@ aur_result aur_sphere_grid_create(const aur_points *points, aur_sphere_grid *gri
     }
     if (grid->band_cells == NULL || grid->order == NULL || grid->cell_start == NULL) {
         aur_sphere_grid_release(grid);
-        return aur_fail(error, AUR_ERROR_MEMORY, "out of memory");
+        return aur_fail_memory(error);
     }
     /* Counts two places on, so that filling leaves the starts behind it. */
     const size_t cells = grid->band_cells[grid->band_count];

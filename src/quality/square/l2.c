@@ -60,7 +60,7 @@ static aur_result discrepancy(const product_kernel *kernel, const aur_measure_re
     const size_t items = (points->count + ROWS_PER_ITEM - 1) / ROWS_PER_ITEM;
     double_sum work = {kernel, points, malloc(2 * items * sizeof *work.rows)};
     if (work.rows == NULL)
-        return aur_fail(error, AUR_ERROR_MEMORY, "out of memory");
+        return aur_fail_memory(error);
     const aur_parallel_options parallel = {
         .threads = request->options.threads, .what = "summing pairs", .progress = request->options.progress};
     const aur_result result = aur_parallel_for(&parallel, items, sum_rows, &work);

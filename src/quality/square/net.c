@@ -127,7 +127,7 @@ static aur_result net_parameter(const aur_measure_request *request, double *valu
     n.occupancy = malloc(count * sizeof *n.occupancy);
     n.shape = malloc(dimension * sizeof *n.shape);
     if (n.cells == NULL || n.powers == NULL || n.occupancy == NULL || n.shape == NULL) {
-        result = aur_fail(error, AUR_ERROR_MEMORY, "out of memory");
+        result = aur_fail_memory(error);
     } else {
         fill_cells(&n);
         result = strength_of(&n, &request->options, value, error);

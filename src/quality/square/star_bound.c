@@ -190,7 +190,7 @@ static aur_result star_bound(const aur_measure_request *request, double *value, 
     double best[TRIALS] = {0};
     double *const table = tabulate(request->points);
     if (table == NULL)
-        return aur_fail(error, AUR_ERROR_MEMORY, "out of memory");
+        return aur_fail_memory(error);
     walk w = {request->points,       table, table + request->points->count, (size_t)steps,
               request->options.seed, best};
     const aur_parallel_options parallel = {

@@ -219,7 +219,7 @@ static aur_result prepare(const char *metric, const aur_points *points, const au
         return AUR_OK;
     p->unit = unit_copy(points);
     p->points.coordinates = p->unit;
-    return p->unit != NULL ? AUR_OK : aur_fail(error, AUR_ERROR_MEMORY, "out of memory");
+    return p->unit != NULL ? AUR_OK : aur_fail_memory(error);
 }
 
 aur_result aur_measure(const char *metric, const aur_points *points, const aur_measure_options *options,

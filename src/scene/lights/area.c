@@ -45,7 +45,7 @@ static aur_result find_triangles(const aur_shape *shape, const aur_emitter *emit
     const size_t count = shape->mesh.triangle_count;
     double *const areas = malloc(count * sizeof *areas);
     if (areas == NULL)
-        return aur_fail_at(error, emitter->location, AUR_ERROR_MEMORY, "out of memory");
+        return aur_fail_memory_at(error, emitter->location);
     for (size_t i = 0; i < count; ++i)
         areas[i] = aur_mesh_triangle_area(&shape->mesh, i);
     const aur_result result = aur_distribution_create(triangles, count, areas, error);
@@ -62,7 +62,7 @@ static aur_result prepare(const aur_scene *scene, aur_emitter *emitter, aur_erro
     area_light *const light = calloc(1, sizeof *light);
     emitter->data = light;
     if (light == NULL)
-        return aur_fail_at(error, emitter->location, AUR_ERROR_MEMORY, "out of memory");
+        return aur_fail_memory_at(error, emitter->location);
     if (shape->parallelogram) {
         light->is_rectangle = find_rectangle(shape, &light->rectangle);
         light->normal = aur_shape_sample(shape, NULL, (const float[3]){0.0f}).normal;

@@ -142,7 +142,7 @@ static aur_result create_envmap(aur_parameters *parameters, aur_emitter *emitter
     envmap *const self = calloc(1, sizeof *self);
     emitter->data = self;
     if (self == NULL)
-        return aur_fail_at(error, parameters->location, AUR_ERROR_MEMORY, "out of memory");
+        return aur_fail_memory_at(error, parameters->location);
     envmap_keys p = {.filename = NULL};
     aur_transform to_local;
     aur_result result = aur_row_read(&emitter->descriptor->row, parameters, &p, error);
@@ -175,9 +175,8 @@ static aur_result prepare_envmap(const aur_scene *scene, aur_emitter *emitter, a
     const size_t rows = self->height - 1;
     double *const weights = malloc((self->width + rows) * sizeof *weights);
     self->cells = calloc(rows, sizeof *self->cells);
-    aur_result result = weights != NULL && self->cells != NULL
-                            ? AUR_OK
-                            : aur_fail_at(error, emitter->location, AUR_ERROR_MEMORY, "out of memory");
+    aur_result result =
+        weights != NULL && self->cells != NULL ? AUR_OK : aur_fail_memory_at(error, emitter->location);
     for (size_t j = 0; result == AUR_OK && j < rows; ++j) {
         for (size_t i = 0; i < self->width; ++i)
             weights[i] = 0.25 * (double)(aur_luminance(value_at(self, i, j)) +

@@ -49,7 +49,7 @@ static aur_result read_keys(aur_parameters *parameters, aur_emitter *emitter, po
     *p = (point_keys){.beam = -1.0};
     emitter->data = calloc(1, sizeof(point_light));
     if (emitter->data == NULL)
-        return aur_fail_at(error, parameters->location, AUR_ERROR_MEMORY, "out of memory");
+        return aur_fail_memory_at(error, parameters->location);
     aur_transform to_local;
     aur_result result = aur_colors_read(row, parameters, p, error);
     if (result == AUR_OK)

@@ -32,7 +32,7 @@ aur_result aur_emitter_create(aur_parameters *parameters, aur_emitter **emitter,
         return result;
     aur_emitter *const made = calloc(1, sizeof *made);
     if (made == NULL)
-        return aur_fail_at(error, parameters->location, AUR_ERROR_MEMORY, "out of memory");
+        return aur_fail_memory_at(error, parameters->location);
     made->descriptor = (const aur_emitter_descriptor *)row;
     made->location = parameters->location;
     made->shape = UINT32_MAX;

@@ -50,7 +50,7 @@ static aur_result build_group(aur_loader *self, const aur_xml_node *node, aur_pa
     aur_shape_group *const group = calloc(1, sizeof *group);
     aur_result result = group != NULL ? aur_loader_append(self, &scene->group_count, &scene->group_capacity,
                                                           (void ***)&scene->groups, group)
-                                      : aur_fail(self->error, AUR_ERROR_MEMORY, "out of memory");
+                                      : aur_fail_memory(self->error);
     if (result != AUR_OK) {
         free(group);
         return result;
@@ -60,7 +60,7 @@ static aur_result build_group(aur_loader *self, const aur_xml_node *node, aur_pa
         ++most;
     group->shapes = malloc((most + 1) * sizeof *group->shapes);
     if (group->shapes == NULL)
-        return aur_fail(self->error, AUR_ERROR_MEMORY, "out of memory");
+        return aur_fail_memory(self->error);
     for (aur_xml_node *child = node->first_child; child != NULL; child = child->next) {
         aur_xml_node *target;
         if (aur_xml_is_property(child->tag))
@@ -88,7 +88,7 @@ static aur_result build_instance(aur_loader *self, aur_parameters *parameters, v
     aur_result result = instance != NULL
                             ? aur_loader_append(self, &scene->instance_count, &scene->instance_capacity,
                                                 (void ***)&scene->instances, instance)
-                            : aur_fail(self->error, AUR_ERROR_MEMORY, "out of memory");
+                            : aur_fail_memory(self->error);
     if (result != AUR_OK) {
         free(instance);
         return result;

@@ -53,7 +53,7 @@ aur_result aur_scene_build(aur_scene *scene, const aur_warnings *warnings, aur_e
     if (!scene->has_sensor)
         return aur_fail_at(error, root->location, AUR_ERROR_FORMAT, "the scene has no <sensor>");
     if (scene->sampler == NULL && (scene->sampler = strdup("random")) == NULL)
-        return aur_fail(error, AUR_ERROR_MEMORY, "out of memory");
+        return aur_fail_memory(error);
     if (scene->has_integrator)
         return AUR_OK;
     return aur_parameters_init(&scene->integrator, "integrator", "path", root->location, error);

@@ -34,7 +34,7 @@ static aur_location here(const obj *self) {
 }
 
 static aur_result fail_memory(const obj *self) {
-    return aur_fail_at(self->error, here(self), AUR_ERROR_MEMORY, "out of memory");
+    return aur_fail_memory_at(self->error, here(self));
 }
 
 static aur_result read_values(obj *self, float_list *list, size_t least) {

@@ -70,7 +70,7 @@ static aur_location here(const ply *self) {
 }
 
 static aur_result fail_memory(const ply *self) {
-    return aur_fail_at(self->error, here(self), AUR_ERROR_MEMORY, "out of memory");
+    return aur_fail_memory_at(self->error, here(self));
 }
 
 /* --- the header */
@@ -448,7 +448,7 @@ static aur_result read_file(const char *path, bool face_normals, aur_mesh *mesh,
     ply *const self = calloc(1, sizeof *self);
     if (self == NULL) {
         free(data);
-        return aur_fail(error, AUR_ERROR_MEMORY, "out of memory");
+        return aur_fail_memory(error);
     }
     *self = (ply){.scanner = {data, data + size, 1}, .file = path, .error = error};
     result = read_header(self);

@@ -102,7 +102,7 @@ static aur_result read_mesh(serialized *self, uint64_t version, size_t compresse
     if (result == AUR_OK && (((flags & HAS_NORMALS) && !normals) || (flags & HAS_COLORS))) {
         skipped = malloc((3 * vertices + 1) * sizeof *skipped);
         if (skipped == NULL)
-            result = aur_fail_at(self->error, self->where, AUR_ERROR_MEMORY, "out of memory");
+            result = aur_fail_memory_at(self->error, self->where);
     }
     if (result == AUR_OK && (flags & HAS_NORMALS))
         result = read_floats(self, flags, 3 * vertices, normals ? mesh->normals : skipped);
@@ -154,7 +154,7 @@ static aur_result read_file(const char *path, size_t index, bool face_normals, a
     serialized self = {.where = {.file = path}, .error = error};
     result = find_mesh(data, size, index, self.where, &offset, &end, error);
     if (result == AUR_OK && inflateInit(&self.stream) != Z_OK)
-        result = aur_fail_at(error, self.where, AUR_ERROR_MEMORY, "out of memory");
+        result = aur_fail_memory_at(error, self.where);
     if (result == AUR_OK) {
         self.stream.next_in = (unsigned char *)data + offset + 4;
         self.left = end - offset - 4;

@@ -56,7 +56,7 @@ aur_result aur_shape_create(aur_parameters *parameters, const aur_xml_document *
     input.flip_normals = keys.flip_normals;
     aur_shape *const made = calloc(1, sizeof *made);
     if (made == NULL)
-        return aur_fail_at(error, parameters->location, AUR_ERROR_MEMORY, "out of memory");
+        return aur_fail_memory_at(error, parameters->location);
     made->descriptor = (const aur_shape_descriptor *)row;
     made->location = parameters->location;
     made->emitter = AUR_NO_EMITTER;

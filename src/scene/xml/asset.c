@@ -134,7 +134,7 @@ aur_result aur_xml_find_set(const aur_xml_document *document, aur_location locat
     const size_t head = start == NULL ? strlen(set) : (size_t)(start - set);
     char *const name = start != NULL ? strndup(start, length) : strdup("");
     char *path = NULL;
-    aur_result result = name != NULL ? AUR_OK : aur_fail(error, AUR_ERROR_MEMORY, "out of memory");
+    aur_result result = name != NULL ? AUR_OK : aur_fail_memory(error);
     if (result == AUR_OK && start != NULL)
         result = aur_xml_find_asset(document, location, name, &path, error);
     free(name);
@@ -146,5 +146,5 @@ aur_result aur_xml_find_set(const aur_xml_document *document, aur_location locat
         snprintf(*found, size, "%.*s%s%s", (int)head, set, path != NULL ? path : "",
                  start != NULL ? start + length : "");
     free(path);
-    return *found != NULL ? AUR_OK : aur_fail(error, AUR_ERROR_MEMORY, "out of memory");
+    return *found != NULL ? AUR_OK : aur_fail_memory(error);
 }

@@ -25,7 +25,7 @@ static aur_result add(aur_xml_variables *variables, const char *name, const char
     if (item.name == NULL || item.value == NULL) {
         free(item.name);
         free(item.value);
-        return aur_fail_at(error, location, AUR_ERROR_MEMORY, "out of memory");
+        return aur_fail_memory_at(error, location);
     }
     size_t place = variables->count++;
     for (; place > 0 && strlen(variables->items[place - 1].name) < strlen(name); --place)
@@ -151,7 +151,7 @@ aur_result aur_xml_variables_substitute(aur_xml_variables *variables, const char
                                  LONGEST_VALUE);
     }
     if (!enough)
-        status = aur_fail_at(error, location, AUR_ERROR_MEMORY, "out of memory");
+        status = aur_fail_memory_at(error, location);
     if (status != AUR_OK) {
         free(buffer.text);
         return status;

@@ -54,7 +54,7 @@ static void stop(file_reading *reader, aur_result result) {
 }
 
 static aur_result fail_memory(const file_reading *reader) {
-    return aur_fail_at(reader->shared->error, here(reader), AUR_ERROR_MEMORY, "out of memory");
+    return aur_fail_memory_at(reader->shared->error, here(reader));
 }
 
 /* "toWorld" to "to_world". */

@@ -265,7 +265,7 @@ static aur_result prepare(const aur_row *row, aur_parameters *parameters, const 
             (unsigned long long)request->count, (unsigned long long)g.base);
     grid *const kept = malloc(sizeof *kept);
     if (kept == NULL)
-        return aur_fail(error, AUR_ERROR_MEMORY, "out of memory");
+        return aur_fail_memory(error);
     *kept = g;
     *data = kept;
     return AUR_OK;
