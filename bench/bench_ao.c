@@ -72,12 +72,12 @@ static aur_result trace(void *data, size_t unused) {
 /* One item on one thread: with denormals flushed, as the renderer traces. */
 static void run_render(void *context) {
     static const aur_parallel_options one_thread = {.threads = 1, .flush_denormals = true};
-    aur_parallel_for(&one_thread, 1, render, context);
+    aur_parallel_for(&one_thread, 1, render, context, NULL);
 }
 
 static void run_trace(void *context) {
     static const aur_parallel_options one_thread = {.threads = 1, .flush_denormals = true};
-    aur_parallel_for(&one_thread, 1, trace, context);
+    aur_parallel_for(&one_thread, 1, trace, context, NULL);
 }
 
 static void store(void *context, size_t first, aur_embree_order order, aur_packet *packet) {

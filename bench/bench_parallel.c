@@ -22,7 +22,7 @@ static aur_result do_item(void *data, size_t index) {
 static void run_items(void *data) {
     sharing_context *const context = data;
     const aur_parallel_options options = {.threads = context->threads};
-    aur_parallel_for(&options, ITEMS, do_item, context);
+    aur_parallel_for(&options, ITEMS, do_item, context, NULL);
     bench_keep(context->results[ITEMS - 1]);
 }
 

@@ -116,7 +116,7 @@ static aur_result make_slice(void *data, size_t index) {
 static void make_points_shared(void *data) {
     const square_context *const context = data;
     const aur_parallel_options options = {.threads = context->threads};
-    aur_parallel_for(&options, SLICES, make_slice, data);
+    aur_parallel_for(&options, SLICES, make_slice, data, NULL);
     bench_keep(context->points[2 * context->count - 1]);
 }
 

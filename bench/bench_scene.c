@@ -56,7 +56,7 @@ static aur_result trace(void *data, size_t index) {
 /* One item on one thread: with denormals flushed, as the renderer traces. */
 static void run_trace(void *context) {
     static const aur_parallel_options one_thread = {.threads = 1, .flush_denormals = true};
-    aur_parallel_for(&one_thread, 1, trace, context);
+    aur_parallel_for(&one_thread, 1, trace, context, NULL);
 }
 
 static void compare(const bench_options *options, const aur_scene *scene, const char *name,

@@ -41,7 +41,7 @@ static aur_result replay(void *data, size_t index) {
 /* One item on one thread: with denormals flushed, as the renderer traces. */
 static void run_replay(void *context) {
     static const aur_parallel_options one_thread = {.threads = 1, .flush_denormals = true};
-    aur_parallel_for(&one_thread, 1, replay, context);
+    aur_parallel_for(&one_thread, 1, replay, context, NULL);
 }
 
 static bool record(gather_context *context) {

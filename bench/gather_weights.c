@@ -110,8 +110,8 @@ static bool compare(const bench_options *options, gather_context *context, const
     round_of_tiles round = {.ways = {equal, &way}};
     for (; round.number < rounds + 1 && good; ++round.number) {
         /* On one thread of ours: with denormals flushed, as the renderer traces. The first round warms up. */
-        good =
-            aur_parallel_for(&one_thread, 1, render_round, &round) == AUR_OK || bench_fail("out of memory");
+        good = aur_parallel_for(&one_thread, 1, render_round, &round, NULL) == AUR_OK ||
+               bench_fail("out of memory");
         if (good && round.number > 0)
             more[round.number - 1] = 100.0 * (way.seconds / equal->seconds - 1.0);
     }

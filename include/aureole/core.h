@@ -66,7 +66,7 @@ AUR_API const char *aur_error_place(const aur_error *error, size_t *line, size_t
 
 /* Fills `error` (NULL: nothing is filled) with a result and a formatted message, and returns that result: for
  * callbacks that fail, and for programs that report their own errors as the library's. */
-AUR_API aur_result aur_error_set(aur_error *error, aur_result result, const char *format, ...) AUR_NONNULL(3)
+AUR_API aur_result aur_fail(aur_error *error, aur_result result, const char *format, ...) AUR_NONNULL(3)
     AUR_PRINTF(3, 4);
 
 /* Called now and then, from any thread but by one at a time for each call of the library, with 0 <= done <=

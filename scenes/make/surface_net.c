@@ -189,9 +189,9 @@ void mesh_solid(mesh *m, const solid_box *box, solid function, const void *conte
         n.cells[a] = BLOCK * n.blocks[a];
     }
     if (allocate(&n)) {
-        aur_parallel_for(&all_threads, n.blocks[2], sample_blocks, &n);
+        aur_parallel_for(&all_threads, n.blocks[2], sample_blocks, &n, NULL);
         for (n.plane = 0; n.plane <= n.cells[2]; ++n.plane) {
-            aur_parallel_for(&all_threads, n.cells[1] + 1, sample_row, &n);
+            aur_parallel_for(&all_threads, n.cells[1] + 1, sample_row, &n, NULL);
             if (n.plane == 0)
                 continue;
             const size_t layer = n.plane - 1;
@@ -200,7 +200,7 @@ void mesh_solid(mesh *m, const solid_box *box, solid function, const void *conte
                     cell_vertex(&n, i, j, layer);
             layer_quads(&n, layer);
         }
-        aur_parallel_for(&all_threads, (made.vertex_count + CHUNK - 1) / CHUNK, finish_vertices, &n);
+        aur_parallel_for(&all_threads, (made.vertex_count + CHUNK - 1) / CHUNK, finish_vertices, &n, NULL);
     } else {
         made.out_of_memory = true;
     }

@@ -115,16 +115,6 @@ const char *aur_error_place(const aur_error *error, size_t *line, size_t *column
     return error->file;
 }
 
-aur_result aur_error_set(aur_error *error, aur_result result, const char *format, ...) {
-    if (error == NULL)
-        return result;
-    va_list arguments;
-    va_start(arguments, format);
-    fill(error, (aur_location){0}, result, format, arguments);
-    va_end(arguments);
-    return result;
-}
-
 aur_result aur_fail_memory(aur_error *error) {
     return aur_fail_memory_at(error, (aur_location){0});
 }

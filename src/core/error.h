@@ -14,9 +14,7 @@ typedef struct aur_location {
     size_t column;
 } aur_location;
 
-/* aur_error_set under the name that the libraries call it by. */
-aur_result aur_fail(aur_error *error, aur_result result, const char *format, ...) AUR_PRINTF(3, 4);
-
+/* aur_fail, which core.h declares, with a place. */
 aur_result aur_fail_at(aur_error *error, aur_location location, aur_result result, const char *format, ...)
     AUR_PRINTF(4, 5);
 

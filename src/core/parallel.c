@@ -10,6 +10,7 @@
 #include <stdlib.h>
 #include <unistd.h>
 
+#include "core/error.h"
 #include "core/text.h"
 
 #if defined(__x86_64__)
@@ -147,7 +148,7 @@ static size_t start_threads(shared_work *work, size_t wanted, pthread_t *threads
 }
 
 aur_result aur_parallel_for(const aur_parallel_options *options, size_t count, aur_parallel_function function,
-                            void *context) {
+                            void *context, aur_error *error) {
     static const aur_parallel_options defaults = {0};
     if (options == NULL)
         options = &defaults;
@@ -161,12 +162,16 @@ aur_result aur_parallel_for(const aur_parallel_options *options, size_t count, a
     atomic_init(&work.next, 0);
     atomic_init(&work.stop, false);
     if (pthread_mutex_init(&work.lock, NULL) != 0)
-        return AUR_ERROR_MEMORY;
+        return aur_fail_memory(error);
     pthread_t threads[MOST_THREADS];
     const size_t started = wanted > 1 ? start_threads(&work, wanted - 1, threads) : 0;
     do_items(&work);
     for (size_t i = 0; i < started; ++i)
         pthread_join(threads[i], NULL);
     pthread_mutex_destroy(&work.lock);
-    return work.result;
+    if (work.result == AUR_OK)
+        return AUR_OK;
+    const bool named = options->what != NULL;
+    return aur_fail(error, work.result, "%s%s%s", named ? options->what : "", named ? ": " : "",
+                    aur_result_string(work.result));
 }

@@ -10,7 +10,7 @@ typedef aur_result (*aur_parallel_function)(void *context, size_t index);
 
 typedef struct aur_parallel_options {
     size_t threads;        /* 0: as many as the machine offers */
-    const char *what;      /* names the work in progress reports */
+    const char *what;      /* names the work in progress reports and errors; NULL: no name */
     aur_progress progress; /* one call at a time for each piece of work; done counts finished items */
     /* Denormal numbers are zero inside the items, as Embree asks of who traces rays. Points, weights and
      * measures leave it false: the same function then gives the same bits inside and outside of an item. */
@@ -19,10 +19,11 @@ typedef struct aur_parallel_options {
 
 /* Runs items 0..count-1 on the calling thread and on others that last as long as the call; when the system
  * has no more threads to give, fewer do the work. When items fail, the result of the failing item with the
- * lowest index that was run is returned and no new item starts. Items may call this function, which then uses
- * their thread alone; so may progress callbacks, which run between items. */
+ * lowest index that was run is returned, `error` says "WHAT: the result's name", and no new item starts.
+ * Items may call this function, which then uses their thread alone; so may progress callbacks, which run
+ * between items. */
 aur_result aur_parallel_for(const aur_parallel_options *options, size_t count, aur_parallel_function function,
-                            void *context);
+                            void *context, aur_error *error);
 
 /* The number of threads that `threads` stands for. 0: as many as there are processors for this process, or as
  * OMP_NUM_THREADS says. At most four a processor (but 16 on a small machine) and 1024. */

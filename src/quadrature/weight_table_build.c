@@ -238,9 +238,8 @@ static aur_result solve_all(aur_weight_table *table, size_t threads, const aur_p
         return aur_fail_memory(error);
     const aur_parallel_options parallel = {
         .threads = threads, .what = "weights", .progress = progress != NULL ? *progress : (aur_progress){0}};
-    const aur_result result = aur_parallel_for(&parallel, table->angle_count, build_angle, &work);
+    const aur_result result = aur_parallel_for(&parallel, table->angle_count, build_angle, &work, error);
     if (result != AUR_OK) {
-        aur_fail(error, result, "%s", aur_result_string(result));
         for (size_t i = 0; i < table->angle_count; ++i) {
             if (work.errors[i].result == result && error != NULL) {
                 *error = work.errors[i];

@@ -52,7 +52,7 @@ aur_result aur_worst_case_error(size_t count, const double *xyz, const double *w
     const aur_parallel_options options = {.threads = threads,
                                           .what = "worst-case error",
                                           .progress = progress != NULL ? *progress : (aur_progress){0}};
-    result = aur_parallel_for(&options, block_count, add_block, &sum);
+    result = aur_parallel_for(&options, block_count, add_block, &sum, error);
     if (result == AUR_OK) {
         aur_potential_evaluate(potential, count, xyz, z);
         double pairs = 0.0, linear = 0.0;
@@ -61,8 +61,6 @@ aur_result aur_worst_case_error(size_t count, const double *xyz, const double *w
         for (size_t i = 0; i < count; ++i)
             linear += used[i] * z[i];
         *value = sqrt(fmax(0.0, pairs - 2.0 * linear + aur_potential_self_energy(potential)));
-    } else {
-        aur_fail(error, result, "%s", aur_result_string(result));
     }
     free(storage);
     return result;

@@ -249,16 +249,16 @@ aur_result aur_render_step(aur_render *render, size_t count, aur_error *error) {
                                            .what = "rendering",
                                            .progress = render->settings.progress,
                                            .flush_denormals = true};
-    const aur_result result = aur_parallel_for(&parallel, render->film->tile_count, render_tile, &work);
+    const aur_result result =
+        aur_parallel_for(&parallel, render->film->tile_count, render_tile, &work, error);
     aur_stopwatch_add(&start, &render->statistics.render_seconds, &render->statistics.cpu_seconds);
     add_counters(render, work.counters);
     free(work.counters);
     warn_of_losses(render);
     atomic_store(&render->cancelled, false);
-    if (result == AUR_OK)
-        return AUR_OK;
-    render->broken = result == AUR_ERROR_CANCELLED ? AUR_OK : result;
-    return aur_fail(error, result, "rendering: %s", aur_result_string(result));
+    if (result != AUR_OK && result != AUR_ERROR_CANCELLED)
+        render->broken = result;
+    return result;
 }
 
 void aur_render_cancel(aur_render *render) {

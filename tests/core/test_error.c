@@ -47,7 +47,7 @@ static void bindings_need_no_layout(void **state) {
     assert_non_null(error);
     assert_int_equal(aur_error_result(error), AUR_OK);
     assert_string_equal(aur_error_message(error), "");
-    assert_int_equal(aur_error_set(error, AUR_ERROR_NAME, "no %s", "such"), AUR_ERROR_NAME);
+    assert_int_equal(aur_fail(error, AUR_ERROR_NAME, "no %s", "such"), AUR_ERROR_NAME);
     assert_int_equal(aur_error_result(error), AUR_ERROR_NAME);
     assert_string_equal(aur_error_message(error), "no such");
     size_t line = 9, column = 9;

@@ -41,7 +41,7 @@ static void reads_and_writes_numbers(void **state) {
     assert_true(value == 1.234567890123456789012345e-7);
     assert_false(aur_parse_double("0,5", &value));
     aur_error error;
-    aur_error_set(&error, AUR_ERROR_ARGUMENT, "not %g", 0.25);
+    aur_fail(&error, AUR_ERROR_ARGUMENT, "not %g", 0.25);
     assert_string_equal(error.message, "not 0.25");
     snprintf(text, sizeof text, "%g", 0.5);
     assert_string_equal(text, "0,5"); /* the host's locale is as it was */

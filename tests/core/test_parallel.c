@@ -35,18 +35,21 @@ static void does_each_item_once(void **state) {
     for (size_t threads = 0; threads <= 5; ++threads) {
         visits v = {.failing = {ITEMS, ITEMS}};
         const aur_parallel_options options = {.threads = threads};
-        assert_int_equal(aur_parallel_for(&options, ITEMS, visit, &v), AUR_OK);
+        assert_int_equal(aur_parallel_for(&options, ITEMS, visit, &v, NULL), AUR_OK);
         for (size_t i = 0; i < ITEMS; ++i)
             assert_int_equal(atomic_load(&v.count[i]), 1);
     }
-    assert_int_equal(aur_parallel_for(NULL, 0, visit, NULL), AUR_OK);
+    assert_int_equal(aur_parallel_for(NULL, 0, visit, NULL, NULL), AUR_OK);
 }
 
 static void returns_the_first_failure(void **state) {
     (void)state;
     visits v = {.failing = {40, 41}};
-    const aur_parallel_options options = {.threads = 1};
-    assert_int_equal(aur_parallel_for(&options, ITEMS, visit, &v), AUR_ERROR_FORMAT);
+    const aur_parallel_options options = {.threads = 1, .what = "visiting"};
+    aur_error error;
+    assert_int_equal(aur_parallel_for(&options, ITEMS, visit, &v, &error), AUR_ERROR_FORMAT);
+    assert_int_equal(error.result, AUR_ERROR_FORMAT);
+    assert_string_equal(error.message, "visiting: malformed input");
     assert_int_equal(atomic_load(&v.count[40]), 1);
     assert_int_equal(atomic_load(&v.count[41]), 0);
 }
@@ -83,7 +86,7 @@ static void works_without_threads_to_be_had(void **state) {
             _exit(3);
         visits v = {.failing = {ITEMS, ITEMS}};
         const aur_parallel_options options = {.threads = 16};
-        int missing = aur_parallel_for(&options, ITEMS, visit, &v) != AUR_OK;
+        int missing = aur_parallel_for(&options, ITEMS, visit, &v, NULL) != AUR_OK;
         for (size_t i = 0; i < ITEMS; ++i)
             missing |= atomic_load(&v.count[i]) != 1;
         _exit(missing);
@@ -108,7 +111,7 @@ static aur_result count_inner(void *context, size_t index) {
 static aur_result work_inside(void *context, size_t index) {
     (void)index;
     const aur_parallel_options options = {.threads = 3};
-    return aur_parallel_for(&options, 10, count_inner, context);
+    return aur_parallel_for(&options, 10, count_inner, context, NULL);
 }
 
 static int work_in_callback(void *user, const char *what, uint64_t done, uint64_t total) {
@@ -119,7 +122,7 @@ static int work_in_callback(void *user, const char *what, uint64_t done, uint64_
     atomic_fetch_add(&n->calls, 1);
     const aur_progress silent = {.function = NULL};
     const aur_parallel_options options = {.threads = 3, .progress = silent};
-    return aur_parallel_for(&options, 10, count_inner, n) != AUR_OK;
+    return aur_parallel_for(&options, 10, count_inner, n, NULL) != AUR_OK;
 }
 
 /* A progress callback that called the library waited for itself for ever. */
@@ -128,7 +131,7 @@ static void nests_in_items_and_callbacks(void **state) {
     alarm(60);
     nest n = {0};
     const aur_parallel_options options = {.threads = 3, .progress = {work_in_callback, &n}};
-    assert_int_equal(aur_parallel_for(&options, 20, work_inside, &n), AUR_OK);
+    assert_int_equal(aur_parallel_for(&options, 20, work_inside, &n, NULL), AUR_OK);
     assert_int_equal(atomic_load(&n.calls), 20);
     assert_int_equal(atomic_load(&n.inner_items), 20 * 10 + 20 * 10);
     alarm(0);
@@ -153,7 +156,7 @@ static aur_result nothing(void *context, size_t index) {
 
 static void *report_once(void *unused) {
     const aur_parallel_options options = {.threads = 1, .progress = {meet, NULL}};
-    aur_parallel_for(&options, 1, nothing, NULL);
+    aur_parallel_for(&options, 1, nothing, NULL, NULL);
     return unused;
 }
 
@@ -182,7 +185,9 @@ static void cancels(void **state) {
     (void)state;
     visits v = {.failing = {ITEMS, ITEMS}};
     const aur_parallel_options options = {.threads = 1, .progress = {cancel_at_ten, NULL}};
-    assert_int_equal(aur_parallel_for(&options, ITEMS, visit, &v), AUR_ERROR_CANCELLED);
+    aur_error error;
+    assert_int_equal(aur_parallel_for(&options, ITEMS, visit, &v, &error), AUR_ERROR_CANCELLED);
+    assert_string_equal(error.message, "cancelled");
     assert_int_equal(atomic_load(&v.count[9]), 1);
     assert_int_equal(atomic_load(&v.count[10]), 0);
 }
@@ -202,8 +207,8 @@ static void denormals_are_the_same_inside(void **state) {
     halve(outside, 0);
     assert_true(outside[0] > 0.0);
     const aur_parallel_options plain = {.threads = 2}, rays = {.threads = 2, .flush_denormals = true};
-    assert_int_equal(aur_parallel_for(&plain, 4, halve, inside), AUR_OK);
-    assert_int_equal(aur_parallel_for(&rays, 4, halve, flushed), AUR_OK);
+    assert_int_equal(aur_parallel_for(&plain, 4, halve, inside, NULL), AUR_OK);
+    assert_int_equal(aur_parallel_for(&rays, 4, halve, flushed, NULL), AUR_OK);
     for (size_t i = 0; i < 4; ++i) {
         assert_true(inside[i] == outside[0]);
 #if defined(__x86_64__) || defined(__aarch64__)

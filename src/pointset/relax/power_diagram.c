@@ -148,5 +148,5 @@ void aur_power_diagram_compute(aur_power_diagram *diagram) {
     for (size_t i = 0; i < diagram->count; ++i)
         s.largest_weight = fmax(s.largest_weight, diagram->weights[i]);
     const aur_parallel_options options = {0};
-    (void)aur_parallel_for(&options, (diagram->count + BATCH - 1) / BATCH, compute_batch, &s);
+    (void)aur_parallel_for(&options, (diagram->count + BATCH - 1) / BATCH, compute_batch, &s, NULL);
 }

@@ -76,13 +76,12 @@ aur_result aur_pair_sum(const aur_axes *axes, aur_pair_tile_function function, d
         return aur_fail_memory(error);
     const aur_parallel_options parallel = {
         .threads = options->threads, .what = "summing pairs", .progress = options->progress};
-    const aur_result result = aur_parallel_for(&parallel, count, sum_tile, &work);
+    const aur_result result = aur_parallel_for(&parallel, count, sum_tile, &work, error);
     *sum = (aur_twofold){0.0, 0.0};
     for (size_t i = 0; i < count && result == AUR_OK; ++i)
         *sum = aur_twofold_add(*sum, work.sums[i]);
     free(work.sums);
-    return result == AUR_OK ? AUR_OK
-                            : aur_fail(error, result, "summing pairs: %s", aur_result_string(result));
+    return result;
 }
 
 aur_result aur_distance_sum(const aur_axes *axes, const aur_measure_options *options, aur_twofold *sum,

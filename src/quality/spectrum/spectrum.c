@@ -100,14 +100,14 @@ static aur_result make_periodogram(const aur_measure_request *request, periodogr
     p->power = malloc(count * sizeof *p->power);
     const aur_parallel_options parallel = {
         .threads = request->options.threads, .what = "transforming", .progress = request->options.progress};
-    result = p->power != NULL ? aur_parallel_for(&parallel, p->limit + 1, fill_row, p) : AUR_ERROR_MEMORY;
+    result = p->power != NULL ? aur_parallel_for(&parallel, p->limit + 1, fill_row, p, error)
+                              : aur_fail_memory(error);
     const double scale = 1.0 / aur_sum_of_squares(request->points);
     for (size_t i = 0; i < count && result == AUR_OK; ++i)
         p->power[i] *= scale;
-    if (result == AUR_OK)
-        return AUR_OK;
-    free(p->power);
-    return aur_fail(error, result, "spectrum: %s", aur_result_string(result));
+    if (result != AUR_OK)
+        free(p->power);
+    return result;
 }
 
 /* The ring of width 1 about an integer, or 0 when there is none. */

@@ -102,10 +102,9 @@ aur_result aur_angular_spectrum(const aur_measure_request *request, aur_series *
     work.power = calloc(side * side, sizeof *work.power);
     const aur_parallel_options parallel = {
         .threads = request->options.threads, .what = "transforming", .progress = request->options.progress};
-    result = work.power != NULL ? aur_parallel_for(&parallel, side, fill_order, &work) : AUR_ERROR_MEMORY;
-    if (result != AUR_OK)
-        aur_fail(error, result, "spectrum: %s", aur_result_string(result));
-    else
+    result = work.power != NULL ? aur_parallel_for(&parallel, side, fill_order, &work, error)
+                                : aur_fail_memory(error);
+    if (result == AUR_OK)
         result = aur_series_create(series, work.limit, 2, columns, error);
     const double scale = 4.0 * AUR_PI / aur_sum_of_squares(request->points);
     for (size_t l = 1; l <= work.limit && result == AUR_OK; ++l) {

@@ -237,12 +237,13 @@ static double best_about_points(const aur_axes *axes, aur_height *room) {
     return best;
 }
 
-static aur_result search(const aur_measure_request *request, const aur_axes *axes, double *value) {
+static aur_result search(const aur_measure_request *request, const aur_axes *axes, double *value,
+                         aur_error *error) {
     const size_t bins = 2 * ((axes->count + 63) / 64) * 32;
     double *const cosines = malloc(bins * sizeof *cosines);
     aur_height *const room = malloc(axes->count * sizeof *room);
-    aur_result result = AUR_ERROR_MEMORY;
-    if (cosines != NULL && room != NULL) {
+    aur_result result = cosines != NULL && room != NULL ? AUR_OK : aur_fail_memory(error);
+    if (result == AUR_OK) {
         for (size_t b = 0; b < bins; ++b)
             cosines[b] =
                 greatest_cosine(4.0 * (double)b / (double)bins, 4.0 * (double)(b + 1) / (double)bins);
@@ -252,7 +253,7 @@ static aur_result search(const aur_measure_request *request, const aur_axes *axe
         const aur_parallel_options parallel = {.threads = request->options.threads,
                                                .what = "turning caps",
                                                .progress = request->options.progress};
-        result = aur_parallel_for(&parallel, axes->count, turn_about_pairs_of, &work);
+        result = aur_parallel_for(&parallel, axes->count, turn_about_pairs_of, &work, error);
         *value = atomic_load(&best);
     }
     free(cosines);
@@ -265,9 +266,9 @@ static aur_result cap(const aur_measure_request *request, double *value, aur_err
     aur_result result = aur_cap_axes_create(request->points, &axes, error);
     if (result != AUR_OK)
         return result;
-    result = search(request, &axes, value);
+    result = search(request, &axes, value, error);
     aur_axes_release(&axes);
-    return result == AUR_OK ? AUR_OK : aur_fail(error, result, "turning caps: %s", aur_result_string(result));
+    return result;
 }
 
 const aur_measure_row aur_measure_cap = {

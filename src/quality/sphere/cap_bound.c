@@ -89,13 +89,14 @@ static aur_result cap_bound(const aur_measure_request *request, double *value, a
     centres work = {&axes, count, malloc(items * sizeof *work.best)};
     const aur_parallel_options parallel = {
         .threads = request->options.threads, .what = "trying caps", .progress = request->options.progress};
-    result = work.best != NULL ? aur_parallel_for(&parallel, items, try_centres, &work) : AUR_ERROR_MEMORY;
+    result = work.best != NULL ? aur_parallel_for(&parallel, items, try_centres, &work, error)
+                               : aur_fail_memory(error);
     *value = 0.0;
     for (size_t i = 0; i < items && result == AUR_OK; ++i)
         *value = fmax(*value, work.best[i]);
     free(work.best);
     aur_axes_release(&axes);
-    return result == AUR_OK ? AUR_OK : aur_fail(error, result, "trying caps: %s", aur_result_string(result));
+    return result;
 }
 
 const aur_measure_row aur_measure_cap_bound = {

@@ -168,14 +168,14 @@ aur_result aur_fibonacci_distance_sum(size_t count, aur_domain domain, const aur
     work.gauss.weights[NODES / 2] -= sum_of_weights.high;
     const aur_parallel_options parallel = {
         .threads = options->threads, .what = "summing lags", .progress = options->progress};
-    const aur_result result = aur_parallel_for(&parallel, items, sum_lags, &work);
+    const aur_result result = aur_parallel_for(&parallel, items, sum_lags, &work, error);
     *sum = (aur_twofold){0.0, 0.0};
     for (size_t i = 0; i < items && result == AUR_OK; ++i)
         *sum = aur_twofold_add(*sum, work.sums[i]);
     free(work.sums);
     const double points = (domain == AUR_DOMAIN_SPHERE ? 1.0 : 2.0) * (double)count;
     *sum = aur_twofold_multiply(*sum, aur_twofold_ratio(2.0, points));
-    return result == AUR_OK ? AUR_OK : aur_fail(error, result, "summing lags: %s", aur_result_string(result));
+    return result;
 }
 
 int aur_is_spherical_fibonacci(const aur_points *points) {

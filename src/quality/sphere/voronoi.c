@@ -159,8 +159,7 @@ aur_result aur_voronoi_cells(const aur_measure_request *request, aur_voronoi_cel
     const aur_parallel_options parallel = {
         .threads = request->options.threads, .what = "cutting cells", .progress = request->options.progress};
     status = aur_parallel_for(&parallel, (request->points->count + CELLS_PER_ITEM - 1) / CELLS_PER_ITEM,
-                              find_cells, &work);
+                              find_cells, &work, error);
     aur_sphere_grid_release(&grid);
-    return status == AUR_OK ? AUR_OK
-                            : aur_fail(error, status, "Voronoi cells: %s", aur_result_string(status));
+    return status;
 }

@@ -63,7 +63,7 @@ static aur_result discrepancy(const product_kernel *kernel, const aur_measure_re
         return aur_fail_memory(error);
     const aur_parallel_options parallel = {
         .threads = request->options.threads, .what = "summing pairs", .progress = request->options.progress};
-    const aur_result result = aur_parallel_for(&parallel, items, sum_rows, &work);
+    const aur_result result = aur_parallel_for(&parallel, items, sum_rows, &work, error);
     aur_twofold pairs = {0.0, 0.0}, singles = {0.0, 0.0}, mass = {0.0, 0.0};
     for (size_t i = 0; i < items && result == AUR_OK; ++i) {
         pairs = aur_twofold_add(pairs, work.rows[2 * i]);
@@ -71,7 +71,7 @@ static aur_result discrepancy(const product_kernel *kernel, const aur_measure_re
     }
     free(work.rows);
     if (result != AUR_OK)
-        return aur_fail(error, result, "summing pairs: %s", aur_result_string(result));
+        return result;
     for (size_t i = 0; i < points->count; ++i)
         mass = aur_twofold_add(mass, (aur_twofold){weight_of(points, i), 0.0});
     const aur_twofold constant =

@@ -195,12 +195,12 @@ static aur_result star_bound(const aur_measure_request *request, double *value, 
               request->options.seed, best};
     const aur_parallel_options parallel = {
         .threads = request->options.threads, .what = "trying boxes", .progress = request->options.progress};
-    result = aur_parallel_for(&parallel, TRIALS, do_trial, &w);
+    result = aur_parallel_for(&parallel, TRIALS, do_trial, &w, error);
     free(table);
     *value = 0.0;
     for (size_t i = 0; i < TRIALS; ++i)
         *value = fmax(*value, best[i]);
-    return result == AUR_OK ? AUR_OK : aur_fail(error, result, "trying boxes: %s", aur_result_string(result));
+    return result;
 }
 
 const aur_measure_row aur_measure_star_bound = {

@@ -168,6 +168,8 @@ static uint64_t paths_a_chunk(size_t photons) {
 static aur_result trace_until_enough(aur_photon_map *map, batch *work, aur_error *error) {
     const aur_photon_options *const options = work->options;
     const uint64_t most = (uint64_t)options->count * PATHS_A_PHOTON_LIMIT + PATHS_A_BATCH;
+    const aur_parallel_options parallel = {
+        .threads = options->threads, .what = "photon map", .flush_denormals = true};
     size_t capacity = 0;
     while (map->count < options->count) {
         if (map->paths >= most && options->kind == AUR_PHOTONS_CAUSTIC)
@@ -178,13 +180,11 @@ static aur_result trace_until_enough(aur_photon_map *map, batch *work, aur_error
                 "photon map: %zu photons stored after %llu particles: the lights do not reach the surfaces",
                 map->count, (unsigned long long)map->paths);
         work->first_path = map->paths;
-        aur_result result =
-            aur_parallel_for(&(aur_parallel_options){.threads = options->threads, .flush_denormals = true},
-                             CHUNKS_A_BATCH, trace_chunk, work);
-        if (result == AUR_OK)
-            result = append_batch(map, work, &capacity);
+        aur_result result = aur_parallel_for(&parallel, CHUNKS_A_BATCH, trace_chunk, work, error);
         if (result != AUR_OK)
-            return aur_fail(error, result, "photon map: %s", aur_result_string(result));
+            return result;
+        if (append_batch(map, work, &capacity) != AUR_OK)
+            return aur_fail_memory(error);
         map->paths += work->paths_a_chunk * CHUNKS_A_BATCH;
         const uint64_t done = map->count < options->count ? map->count : options->count;
         if (options->progress.function != NULL &&

@@ -244,9 +244,9 @@ static aur_result trace_batch(aur_radiosity *radiosity, const point_source *poin
         aur_radiosity_share(radiosity, 0, end) - aur_radiosity_share(radiosity, count - 1, radiosity->paths);
     work.blocks_each = (size_t)(longest / AUR_RADIOSITY_BLOCK + 1);
     atomic_init(&work.next, 0);
-    const aur_result result =
-        aur_parallel_for(&(aur_parallel_options){.threads = radiosity->lane_count, .flush_denormals = true},
-                         radiosity->lane_count, run_lane, &work);
+    const aur_parallel_options parallel = {
+        .threads = radiosity->lane_count, .what = "radiosity", .flush_denormals = true};
+    const aur_result result = aur_parallel_for(&parallel, radiosity->lane_count, run_lane, &work, error);
     bool not_finite = false;
     for (size_t i = 0; i < radiosity->lane_count * count; ++i)
         not_finite |= radiosity->lanes[i].not_finite;
@@ -260,7 +260,7 @@ static aur_result trace_batch(aur_radiosity *radiosity, const point_source *poin
     for (size_t i = 0; i < radiosity->lane_count * count; ++i)
         aur_radiosity_tally_take(&radiosity->tallies[i % count], &radiosity->lanes[i]);
     radiosity->paths = end;
-    return result == AUR_OK ? AUR_OK : aur_fail(error, result, "radiosity: %s", aur_result_string(result));
+    return result;
 }
 
 static void warn_of_ends(aur_radiosity *radiosity) {
