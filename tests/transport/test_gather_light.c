@@ -6,7 +6,7 @@
 #include <string.h>
 #include <unistd.h>
 
-#include "transport/gather/light.h"
+#include "transport/gather/plan.h"
 
 enum { PHOTONS = 500 };
 
@@ -22,14 +22,21 @@ static void write_points(const char *path, unsigned factor) {
 static const aur_irradiance_map *map_of(const aur_integrator_context *context, const char *path) {
     char set[1024];
     snprintf(set, sizeof set, "file:%s", path);
-    const aur_gather_parameters p = {
-        .photons = PHOTONS, .photons_a_texel = 16.0, .max_depth = -1, .light_samples = 1, .photon_set = set};
-    aur_gather_light light;
+    const aur_gather_parameters p = {.policy = {.max_depth = UINT32_MAX},
+                                     .rule = {.set = "spherical-fibonacci", .smoothness = 1.5},
+                                     .diffuse_samples = 4,
+                                     .glossy_samples = 4,
+                                     .photons = PHOTONS,
+                                     .photons_a_texel = 16.0,
+                                     .light_samples = 1,
+                                     .photon_set = set};
+    aur_gather_plan *plan;
     aur_error error = {0};
-    if (aur_gather_light_create(&p, context, NULL, true, &light, &error) != AUR_OK)
+    if (aur_gather_plan_create(&p, context, &plan, &error) != AUR_OK)
         fail_msg("%s", error.message);
-    aur_gather_light_release(&light);
-    return light.map;
+    const aur_irradiance_map *const map = plan->light.map;
+    aur_gather_plan_destroy(plan);
+    return map;
 }
 
 /* A file with other points is another set, whatever its name, and so are files whose long names differ at

@@ -3,7 +3,6 @@
 
 #include "check.h"
 
-#include "transport/gather/rule_horizon.h"
 #include "transport/gather/rule_weights.h"
 
 #define PI 3.14159265358979323846

@@ -10,19 +10,20 @@
 
 enum { DIFFUSE = 48, GLOSSY = 24, SIZE = DIFFUSE + GLOSSY, ROTATIONS = 3 };
 
-static aur_merged_rule_options options_of(aur_merged_method method, double exponent, bool clipped,
+static aur_merged_rule_options options_of(aur_gather_weights method, double exponent, bool clipped,
                                           size_t subsets) {
-    return (aur_merged_rule_options){.method = method,
-                                     .set = "sobol",
-                                     .count = {DIFFUSE, GLOSSY},
+    return (aur_merged_rule_options){.pattern = {.set = "sobol",
+                                                 .count = DIFFUSE,
+                                                 .rotations = ROTATIONS,
+                                                 .scramble = AUR_SCRAMBLE_DIGIT,
+                                                 .smoothness = 1.5,
+                                                 .seed = 77},
+                                     .method = method,
+                                     .glossy_count = GLOSSY,
                                      .subsets = subsets,
                                      .exponent = exponent,
-                                     .rotations = ROTATIONS,
-                                     .scramble = AUR_SCRAMBLE_DIGIT,
                                      .clipped = clipped,
-                                     .smoothness = 1.5,
-                                     .regularization = method == AUR_MERGED_SOLVE ? 0.5 : 1e-6,
-                                     .seed = 77,
+                                     .regularization = method == AUR_WEIGHTS_SOLVE ? 0.5 : 1e-6,
                                      .threads = 2};
 }
 
@@ -80,8 +81,8 @@ static void tables_are_solves(void **state) {
     } cases[] = {{20.0, true, false}, {20.0, false, true}, {150.0, true, true}, {3.3, true, false}};
     for (size_t c = 0; c < sizeof cases / sizeof *cases; ++c) {
         const double m = cases[c].exponent;
-        aur_merged_rule_options options = options_of(AUR_MERGED_OSWA, m, cases[c].clipped, 1);
-        options.optimal_density = cases[c].optimal;
+        aur_merged_rule_options options = options_of(AUR_WEIGHTS_OSWA, m, cases[c].clipped, 1);
+        options.pattern.optimal_density = cases[c].optimal;
         aur_merged_rule *const pair = create(&options);
         double looked_up_total = 0.0, solved_total = 0.0, equal_total = 0.0;
         for (size_t step = 0; step < 18; ++step) {
@@ -129,7 +130,7 @@ static void tables_are_solves(void **state) {
  * of the samples is hidden, over all subsets together. */
 static void constants_are_exact(void **state) {
     (void)state;
-    const aur_merged_rule_options options = options_of(AUR_MERGED_OSWA, 20.0, true, 4);
+    const aur_merged_rule_options options = options_of(AUR_WEIGHTS_OSWA, 20.0, true, 4);
     aur_merged_rule *const pair = create(&options);
     assert_int_equal(aur_merged_rule_samples(pair), SIZE / 4);
     for (size_t step = 0; step <= 30; ++step) {
@@ -159,9 +160,9 @@ static void constants_are_exact(void **state) {
 /* Shares are a permutation: together they hold the directions and weights of the whole. */
 static void shares_make_the_whole(void **state) {
     (void)state;
-    for (int method = AUR_MERGED_MIS; method <= AUR_MERGED_SOLVE; ++method) {
-        const aur_merged_rule_options one = options_of((aur_merged_method)method, 20.0, true, 1);
-        const aur_merged_rule_options four = options_of((aur_merged_method)method, 20.0, true, 4);
+    for (int method = AUR_WEIGHTS_MIS; method <= AUR_WEIGHTS_SOLVE; ++method) {
+        const aur_merged_rule_options one = options_of((aur_gather_weights)method, 20.0, true, 1);
+        const aur_merged_rule_options four = options_of((aur_gather_weights)method, 20.0, true, 4);
         aur_merged_rule *const whole = create(&one);
         aur_merged_rule *const shared = create(&four);
         float expected[2 * SIZE];
@@ -192,8 +193,8 @@ static void shares_make_the_whole(void **state) {
 static void balance_is_the_library_s(void **state) {
     (void)state;
     for (int optimal = 0; optimal < 2; ++optimal) {
-        aur_merged_rule_options options = options_of(AUR_MERGED_MIS, 20.0, true, 1);
-        options.optimal_density = optimal == 1;
+        aur_merged_rule_options options = options_of(AUR_WEIGHTS_MIS, 20.0, true, 1);
+        options.pattern.optimal_density = optimal == 1;
         aur_merged_rule *const pair = create(&options);
         for (size_t step = 0; step < 9; ++step) {
             const double angle = 10.0 * (double)step * PI / 180.0;
@@ -227,8 +228,8 @@ static void balance_is_the_library_s(void **state) {
 /* The density that a light's own sampling is weighed against is that of the directions. */
 static void densities(void **state) {
     (void)state;
-    aur_merged_rule_options options = options_of(AUR_MERGED_OSWA, 20.0, true, 4);
-    options.optimal_density = true;
+    aur_merged_rule_options options = options_of(AUR_WEIGHTS_OSWA, 20.0, true, 4);
+    options.pattern.optimal_density = true;
     aur_merged_rule *const pair = create(&options);
     for (float cosine = 0.05f; cosine <= 1.0f; cosine += 0.05f) {
         const double expected = 12.0 * 1.8 / (2.0 * PI) * pow((double)cosine, 0.8) +
@@ -243,16 +244,16 @@ static void refuses(void **state) {
     (void)state;
     aur_merged_rule *pair;
     aur_error error;
-    aur_merged_rule_options options = options_of(AUR_MERGED_OSWA, 20.0, true, 1);
-    options.rotations = 0;
+    aur_merged_rule_options options = options_of(AUR_WEIGHTS_OSWA, 20.0, true, 1);
+    options.pattern.rotations = 0;
     assert_int_equal(aur_merged_rule_create(&options, &pair, &error), AUR_ERROR_ARGUMENT);
     assert_null(pair);
-    options = options_of(AUR_MERGED_OSWA, 20.0, true, 5);
+    options = options_of(AUR_WEIGHTS_OSWA, 20.0, true, 5);
     assert_int_equal(aur_merged_rule_create(&options, &pair, &error), AUR_ERROR_ARGUMENT);
-    options = options_of(AUR_MERGED_OSWA, 20.0, true, 1);
-    options.set = "sobl";
+    options = options_of(AUR_WEIGHTS_OSWA, 20.0, true, 1);
+    options.pattern.set = "sobl";
     assert_int_equal(aur_merged_rule_create(&options, &pair, &error), AUR_ERROR_NAME);
-    options = options_of(AUR_MERGED_MIS, -1.0, true, 1);
+    options = options_of(AUR_WEIGHTS_MIS, -1.0, true, 1);
     assert_int_equal(aur_merged_rule_create(&options, &pair, &error), AUR_ERROR_ARGUMENT);
     assert_null(pair);
 }
@@ -261,7 +262,7 @@ static void refuses(void **state) {
  * result, which is too small because the rule forgets its second pattern. */
 static void unsolved_systems_are_said(void **state) {
     (void)state;
-    const aur_merged_rule_options options = options_of(AUR_MERGED_SOLVE, 20.0, true, 1);
+    const aur_merged_rule_options options = options_of(AUR_WEIGHTS_SOLVE, 20.0, true, 1);
     aur_merged_rule *const rule = create(&options);
     float weights[2 * SIZE];
     assert_true(aur_merged_rule_weights(rule, 0, 0, 0.5f, weights));

@@ -21,8 +21,8 @@ aur_gather_rotation aur_gather_rotation_at(const aur_gather_plan *plan, const au
         return aur_gather_rule_rotation(rule, 0);
     if (policy->decorrelation == AUR_DECORRELATION_RANDOM || rule->rotation_count == 0)
         return aur_gather_rule_rotation(rule,
-                                        aur_hash4(policy->seed, places->pixels[lane], places->bounces, lobe));
-    uint64_t tile = aur_hash4(policy->seed, places->tile, places->bounces, lobe);
+                                        aur_hash4(plan->seed, places->pixels[lane], places->bounces, lobe));
+    uint64_t tile = aur_hash4(plan->seed, places->tile, places->bounces, lobe);
     /* Where the samples of a pixel do not split a pattern, each has it rotated anew. */
     if (policy->adaptive)
         tile = aur_hash2(tile, places->index);

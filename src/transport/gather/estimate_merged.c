@@ -7,14 +7,15 @@
 
 /* Which of the prepared rotations a lane has, and whether mirrored. Under "blue" all lanes of the group have
  * the same. */
-static size_t rotation_of(const aur_gather_policy *policy, const aur_gather_places *places, size_t rotations,
+static size_t rotation_of(const aur_gather_plan *plan, const aur_gather_places *places, size_t rotations,
                           size_t lane, bool *mirrored) {
+    const aur_gather_policy *const policy = &plan->policy;
     *mirrored = false;
     if (policy->decorrelation == AUR_DECORRELATION_NONE)
         return 0;
     const bool random = policy->decorrelation == AUR_DECORRELATION_RANDOM;
     const uint64_t hash =
-        aur_hash3(policy->seed, random ? places->pixels[lane] : places->tile, places->bounces);
+        aur_hash3(plan->seed, random ? places->pixels[lane] : places->tile, places->bounces);
     *mirrored = hash >> 63 != 0;
     if (random)
         return (hash & UINT32_MAX) % rotations;
@@ -58,7 +59,7 @@ static void set_merged(merged *work, size_t lane, aur_gather_rays *rays, aur_cou
     const aur_vector mirror = aur_gather_place_axis(place, lobes[1]);
     bool mirrored;
     aur_frame frames[2];
-    const size_t rotation = rotation_of(&work->plan->policy, work->places, rule->rotations, lane, &mirrored);
+    const size_t rotation = rotation_of(work->plan, work->places, rule->rotations, lane, &mirrored);
     aur_merged_rule_frames(normal, mirror, mirrored, frames);
     rays->merged[lane] = rule;
     rays->axes[lane][0] = normal;
@@ -87,7 +88,7 @@ static void set_diffuse(merged *work, size_t lane, size_t lobe, aur_gather_rays 
     const aur_gather_lobe_rule *const lobe_rule = &work->plan->rules.lobes[0];
     const aur_gather_rule *const rule = &lobe_rule->rule;
     const aur_gather_place *const place = &work->places->at[lane];
-    const size_t parts = work->plan->policy.samples_per_pixel;
+    const size_t parts = work->plan->samples_per_pixel;
     const aur_gather_rotation rotation =
         aur_gather_rotation_at(work->plan, work->places, lobe_rule, lane, lobe);
     const aur_frame about = aur_frame_about(aur_gather_place_axis(place, lobe));
@@ -224,7 +225,7 @@ uint32_t aur_gather_by_merged(const aur_gather_plan *plan, const aur_gather_plac
     const aur_merged_rule *const first = plan->rules.merged;
     merged work = {.plan = plan,
                    .places = places,
-                   .subset = places->index % plan->policy.samples_per_pixel,
+                   .subset = places->index % plan->samples_per_pixel,
                    .subset_count = {first->subset_count[0], first->subset_count[1]},
                    .samples = aur_merged_rule_samples(first),
                    .weights = scratch->merged};

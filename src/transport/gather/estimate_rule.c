@@ -6,7 +6,7 @@
 /* What lobes that dip below the surface are multiplied by; 1 for the others. */
 static float horizon_factor(const aur_gather_sweep *sweep, size_t lane) {
     const aur_lobe_frames *const frames = &sweep->frames;
-    if (sweep->rule->horizon == NULL)
+    if (!sweep->rule->clipped)
         return 1.0f;
     aur_vector normal = {0};
     for (size_t c = 0; c < 3; ++c) {
@@ -14,7 +14,7 @@ static float horizon_factor(const aur_gather_sweep *sweep, size_t lane) {
         normal.y += frames->shading[c][lane] * frames->y[c][lane];
         normal.z += frames->shading[c][lane] * frames->z[c][lane];
     }
-    return aur_gather_horizon_factor(&sweep->rule->rule, sweep->rule->horizon, &sweep->rotations[lane],
+    return aur_gather_horizon_factor(&sweep->rule->rule, &sweep->rule->horizon, &sweep->rotations[lane],
                                      normal);
 }
 
@@ -37,7 +37,7 @@ void aur_gather_by_rule(const aur_gather_plan *plan, const aur_gather_places *pl
     aur_gather_sweep_start(plan, places, rule, lobe, lanes, &sweep, &scratch->rays);
     const bool splits = aur_gather_splits(plan, places, rule);
     /* The rule's directions are in so many parts, of which this is one. */
-    size_t parts = plan->policy.samples_per_pixel, part = places->index % parts;
+    size_t parts = plan->samples_per_pixel, part = places->index % parts;
     if (splits) {
         part = part * AUR_PACKET_SIZE + aur_group_rank(places->group);
         parts *= AUR_PACKET_SIZE;

@@ -27,7 +27,7 @@ void aur_gather_by_sampling(const aur_gather_plan *plan, const aur_gather_places
     aur_gather_rays *const rays = &scratch->rays;
     aur_gather_sweep sweep;
     aur_gather_sweep_start(plan, places, sampled, lobe, lanes, &sweep, rays);
-    const size_t first = aur_first_lane(lanes), parts = plan->policy.samples_per_pixel;
+    const size_t first = aur_first_lane(lanes), parts = plan->samples_per_pixel;
     for (size_t i = places->index % parts; i < sampled->rule.count; i += parts) {
         aur_vector value[AUR_PACKET_SIZE];
         float u[3] = {0.0f, 0.0f, 0.0f};

@@ -1,9 +1,7 @@
 /* What the keys of final gathering say. */
 #pragma once
 
-#include <stdbool.h>
-#include <stddef.h>
-#include <stdint.h>
+#include "transport/gather/rule.h"
 
 /* Which lobes are gathered. */
 typedef enum aur_gather_component {
@@ -21,8 +19,8 @@ typedef enum aur_gather_decorrelation {
     AUR_DECORRELATION_RANDOM,
     AUR_DECORRELATION_NONE
 } aur_gather_decorrelation;
-/* Of samples: p/q or 1; optimal for one lobe, for two lobes merged (OSWA); the balance heuristic; optimal as
- * published, a system solved at every place. */
+/* Of samples: p/q or 1; optimal for one lobe; and for two lobes merged: optimal (OSWA), by the balance
+ * heuristic, optimal as published with a system solved at every place. */
 typedef enum aur_gather_weights {
     AUR_WEIGHTS_RATIO,
     AUR_WEIGHTS_EQUAL,
@@ -37,30 +35,44 @@ typedef enum aur_density_choice {
     AUR_GATHER_DENSITY_OPTIMAL,
     AUR_GATHER_DENSITY_UNSAID
 } aur_density_choice;
-
 typedef enum aur_gather_pixel { AUR_PIXEL_FILTER, AUR_PIXEL_CENTRE } aur_gather_pixel;
 
-typedef struct aur_gather_parameters {
-    int64_t diffuse_samples, glossy_samples, rotations, photons, max_depth, edges;
-    int64_t levels, level_factor, caustic_photons, bright_samples, light_samples;
-    uint64_t pattern_seed;
-    double smoothness;
-    double regularization, threshold; /* negative until it is known what they default to */
-    double photons_a_texel;
-    const char *pattern, *map, *photon_set;
-    const char *scramble; /* NULL: by the pattern */
-    aur_density_choice density;
-    aur_gather_weights weights;
+/* What is asked for while the picture is rendered. */
+typedef struct aur_gather_policy {
     aur_gather_component component;
     aur_gather_direct direct;
-    aur_gather_incident incident;
-    aur_gather_pixel pixel;
     aur_gather_decorrelation decorrelation;
-    aur_gather_criterion criterion;
-    bool packets, clip, adaptive, share;
+    aur_gather_criterion criterion; /* of adaptive gathering */
+    /* Of the criterion: where a lobe's samples differ more, the next level is gathered. Negative until it is
+     * known what it defaults to. */
+    float threshold;
+    bool adaptive;
+    bool pools;   /* neighbouring pixels split the diffuse rule and pool the irradiance that they find */
+    bool packets; /* else every ray by itself: the same picture to rounding, for tests and measurements */
+    uint32_t max_depth;    /* edges of a light path; UINT32_MAX: no limit */
+    uint32_t edge_samples; /* camera rays more where a pixel sees several things */
+} aur_gather_policy;
+
+/* Texts are the caller's, and are read only while a plan is made. */
+typedef struct aur_gather_parameters {
+    aur_gather_policy policy;
+    aur_gather_rule_options rule; /* of all rules; their counts are the next two, each shared out */
+    size_t diffuse_samples, glossy_samples;
+    aur_density_choice density;
+    aur_gather_weights weights;
+    double regularization; /* of optimal weights; negative until it is known what it defaults to */
+    bool clip;             /* glossy lobes end at the surface's horizon */
+    size_t levels, level_factor;
+    aur_gather_incident incident;
+    size_t photons, caustic_photons, bright_samples;
+    uint32_t light_samples;
+    double photons_a_texel;
+    const char *photon_set;
+    const char *map, *scramble; /* of the rules; scramble NULL: by the pattern */
+    aur_gather_pixel pixel;
 } aur_gather_parameters;
 
 /* Whether both patterns' samples serve both lobes. */
-static inline bool aur_merges_samples(const aur_gather_parameters *p) {
-    return p->weights == AUR_WEIGHTS_OSWA || p->weights == AUR_WEIGHTS_MIS || p->weights == AUR_WEIGHTS_SOLVE;
+static inline bool aur_merges_samples(aur_gather_weights weights) {
+    return weights == AUR_WEIGHTS_OSWA || weights == AUR_WEIGHTS_MIS || weights == AUR_WEIGHTS_SOLVE;
 }

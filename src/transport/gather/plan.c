@@ -1,37 +1,106 @@
 #include "transport/gather/plan.h"
 
+#include <inttypes.h>
+#include <stdio.h>
 #include <stdlib.h>
 
 #include "core/error.h"
+#include "core/random.h"
 
-static aur_gather_policy policy_of(const aur_gather_parameters *p, const aur_gather_rule_options *pattern,
-                                   const aur_integrator_context *context) {
-    return (aur_gather_policy){.component = p->component,
-                               .direct = p->direct,
-                               .decorrelation = p->decorrelation,
-                               .criterion = p->criterion,
-                               .threshold = (float)p->threshold,
-                               .adaptive = p->adaptive,
-                               .pools = p->share,
-                               .packets = p->packets,
-                               .max_depth = p->max_depth < 0 ? UINT32_MAX : (uint32_t)p->max_depth,
-                               .edge_samples = (uint32_t)p->edges,
-                               .samples_per_pixel = context->samples_per_pixel,
-                               .seed = pattern->seed};
+/* --- light */
+
+static void destroy_map(void *map) {
+    aur_irradiance_map_destroy(map);
 }
 
+/* Stands for all that a sampler has, also for points that come from a file. */
+static uint64_t digest(const aur_sampler *sampler) {
+    uint64_t hash = aur_hash2(sampler->kind, sampler->size);
+    for (size_t i = 0; i < sampler->size; ++i)
+        hash = aur_hash2(hash, (uint64_t)sampler->points[i][0] << 32 | sampler->points[i][1]);
+    return hash;
+}
+
+/* A photon map, shared by all renders that ask for the same one. */
+static aur_result find_map(const aur_gather_parameters *p, const aur_integrator_context *context,
+                           aur_photon_options photons, const aur_irradiance_map **found, aur_error *error) {
+    aur_sampler *sampler;
+    aur_result result = aur_sampler_create(p->photon_set, photons.count, NULL, &sampler, error);
+    if (result != AUR_OK)
+        return result;
+    char key[256]; /* six numbers and their names */
+    snprintf(key, sizeof key,
+             "irradiance kind=%d photons=%zu texel=%.17g edges=%zu seed=%" PRIu64 " numbers=%" PRIu64,
+             (int)photons.kind, photons.count, p->photons_a_texel, photons.max_edges, photons.seed,
+             digest(sampler));
+    *found = aur_cache_find(context->cache, key);
+    if (*found == NULL) {
+        photons.sampler = sampler;
+        aur_irradiance_map *made;
+        result = aur_irradiance_map_create(
+            context->scene, &(aur_irradiance_options){photons, p->photons_a_texel}, &made, error);
+        if (result == AUR_OK && aur_cache_store(context->cache, key, made, destroy_map) != AUR_OK)
+            result = aur_fail_memory(error);
+        *found = result == AUR_OK ? made : NULL;
+    }
+    aur_sampler_destroy(sampler);
+    return result;
+}
+
+static aur_result find_maps(const aur_gather_parameters *p, const aur_integrator_context *context,
+                            aur_gather_light *light, aur_error *error) {
+    const bool apart = p->caustic_photons > 0;
+    aur_photon_options photons = {.count = p->photons,
+                                  /* What the eye sees at one gather ray's end is two edges on; caustics are
+                                   * seen without a gather ray. */
+                                  .max_edges =
+                                      p->policy.max_depth == UINT32_MAX ? SIZE_MAX : p->policy.max_depth - 2,
+                                  .kind = apart ? AUR_PHOTONS_OTHER : AUR_PHOTONS_ALL,
+                                  .seed = context->seed,
+                                  .threads = context->threads,
+                                  .progress = context->progress,
+                                  .warnings = context->warnings};
+    aur_result result = find_map(p, context, photons, &light->map, error);
+    if (result != AUR_OK || !apart)
+        return result;
+    photons.count = p->caustic_photons;
+    photons.kind = AUR_PHOTONS_CAUSTIC;
+    result = find_map(p, context, photons, &light->caustics, error);
+    if (result == AUR_OK && light->caustics->photons < photons.count)
+        aur_warn_at(&context->warnings, (aur_location){0},
+                    "finalgather: %zu caustic photons of %zu found: little light comes by specular bounces",
+                    light->caustics->photons, photons.count);
+    return result;
+}
+
+static aur_result find_light(const aur_gather_parameters *p, const aur_integrator_context *context,
+                             aur_gather_plan *plan, aur_error *error) {
+    aur_gather_light *const light = &plan->light;
+    light->draws = p->light_samples;
+    /* Where gather rays go on from every surface, there is no use for photons. */
+    const bool wants_photons = p->incident == AUR_INCIDENT_PHOTONS && p->policy.max_depth >= 3 &&
+                               (plan->rules.scatters & (AUR_SCATTERS_DIFFUSE | AUR_SCATTERS_GLOSSY)) != 0;
+    aur_result result = wants_photons ? find_maps(p, context, light, error) : AUR_OK;
+    if (result != AUR_OK || p->bright_samples == 0 || light->map == NULL ||
+        p->policy.component != AUR_COMPONENT_ALL)
+        return result;
+    const size_t samples = context->samples_per_pixel;
+    result = aur_bright_texels_create(context->scene, light->map, plan->classes, &light->bright, error);
+    if (result == AUR_OK && light->bright.distribution.total > 0.0)
+        light->bright_draws = (uint32_t)(aur_gather_split_count(p->bright_samples, samples) / samples);
+    return result;
+}
+
+/* --- the plan */
+
 static aur_result compile(aur_gather_plan *plan, const aur_gather_parameters *p,
-                          const aur_gather_rule_options *pattern, const aur_integrator_context *context,
-                          aur_error *error) {
+                          const aur_integrator_context *context, aur_error *error) {
     const aur_gather_policy *const policy = &plan->policy;
-    aur_result result = aur_gather_rules_create(p, pattern, context, &plan->rules, error);
+    aur_result result = aur_gather_rules_create(p, context, &plan->rules, error);
     if (result == AUR_OK)
         result = aur_shape_classes_create(context->scene, &plan->classes, error);
-    /* Where gather rays go on from every surface, there is no use for photons. */
-    const bool wants_photons = p->incident == AUR_INCIDENT_PHOTONS && policy->max_depth >= 3 &&
-                               (plan->rules.scatters & (AUR_SCATTERS_DIFFUSE | AUR_SCATTERS_GLOSSY)) != 0;
     if (result == AUR_OK)
-        result = aur_gather_light_create(p, context, plan->classes, wants_photons, &plan->light, error);
+        result = find_light(p, context, plan, error);
     plan->counts_emitters = policy->direct == AUR_DIRECT_GATHER ||
                             (p->incident == AUR_INCIDENT_EMITTERS && policy->direct == AUR_DIRECT_NONE);
     plan->gathers = plan->light.map != NULL ||
@@ -39,15 +108,16 @@ static aur_result compile(aur_gather_plan *plan, const aur_gather_parameters *p,
     return result;
 }
 
-aur_result aur_gather_plan_create(const aur_gather_parameters *p, const aur_gather_rule_options *pattern,
-                                  const aur_integrator_context *context, aur_gather_plan **plan,
-                                  aur_error *error) {
+aur_result aur_gather_plan_create(const aur_gather_parameters *p, const aur_integrator_context *context,
+                                  aur_gather_plan **plan, aur_error *error) {
     *plan = calloc(1, sizeof **plan);
     if (*plan == NULL)
         return aur_fail_memory(error);
     (*plan)->scene = context->scene;
-    (*plan)->policy = policy_of(p, pattern, context);
-    const aur_result result = compile(*plan, p, pattern, context, error);
+    (*plan)->policy = p->policy;
+    (*plan)->samples_per_pixel = context->samples_per_pixel;
+    (*plan)->seed = p->rule.seed;
+    const aur_result result = compile(*plan, p, context, error);
     if (result != AUR_OK) {
         aur_gather_plan_destroy(*plan);
         *plan = NULL;
@@ -59,7 +129,7 @@ void aur_gather_plan_destroy(aur_gather_plan *plan) {
     if (plan == NULL)
         return;
     aur_gather_rules_release(&plan->rules);
-    aur_gather_light_release(&plan->light);
+    aur_bright_texels_release(&plan->light.bright);
     free(plan->classes);
     free(plan);
 }

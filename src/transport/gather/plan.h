@@ -1,8 +1,7 @@
 /* What final gathering compiles once a picture, and nothing changes while the picture is rendered.
  *
  *     rules.c                   what gathers each kind of lobe, of rule.c and rule_*.c
- *     light.c                   maps of photons, and how often lights and bright texels are drawn
- *     plan.c                    the two above, and what the keys ask for
+ *     plan.c                    these rules, maps of photons, and what the keys ask for
  *
  * What happens at sixteen pixels at a time takes the plan, the places that the pixels see (places.h), the
  * sums to add to (sums.h) and working memory (scratch.h):
@@ -19,30 +18,26 @@
  */
 #pragma once
 
-#include "transport/gather/light.h"
-#include "transport/gather/parameters.h"
 #include "transport/gather/rules.h"
-#include "transport/packets/shape_class.h"
+#include "transport/photons/bright_texels.h"
 
-/* What the keys ask for. */
-typedef struct aur_gather_policy {
-    aur_gather_component component;
-    aur_gather_direct direct;
-    aur_gather_decorrelation decorrelation;
-    aur_gather_criterion criterion; /* of adaptive gathering */
-    float threshold;                /* of the criterion: where a lobe's samples differ more it goes on */
-    bool adaptive;
-    bool pools;   /* neighbouring pixels split the diffuse rule and pool the irradiance that they find */
-    bool packets; /* else every ray by itself: the same picture to rounding, for tests and measurements */
-    uint32_t max_depth; /* edges of a light path; UINT32_MAX: no limit */
-    uint32_t edge_samples;
-    size_t samples_per_pixel;
-    uint64_t seed; /* of the rules' rotations */
-} aur_gather_policy;
+/* What gather rays find: light that photons brought to the surfaces, and how often it is drawn as lights are.
+ */
+typedef struct aur_gather_light {
+    /* Owned by the cache. NULL when incident light is the emitters' alone. */
+    const aur_irradiance_map *map;
+    /* The light that specular bounces brought, which `map` then lacks; or NULL. Owned by the cache. */
+    const aur_irradiance_map *caustics;
+    uint32_t draws;        /* points on lights that one sample draws */
+    uint32_t bright_draws; /* points on bright texels that one sample draws; 0: there are none */
+    aur_bright_texels bright;
+} aur_gather_light;
 
 typedef struct aur_gather_plan {
     const aur_scene *scene;
     aur_gather_policy policy;
+    size_t samples_per_pixel;
+    uint64_t seed; /* of the rules' rotations */
     aur_gather_rules rules;
     aur_gather_light light;
     aur_shape_class *classes; /* one a shape */
@@ -52,11 +47,10 @@ typedef struct aur_gather_plan {
     bool gathers; /* whether gather rays can bring any light */
 } aur_gather_plan;
 
-/* `pattern` is what the rules have in common; the maps of photons come from the context's cache, which
- * outlives the plan. */
-aur_result aur_gather_plan_create(const aur_gather_parameters *p, const aur_gather_rule_options *pattern,
-                                  const aur_integrator_context *context, aur_gather_plan **plan,
-                                  aur_error *error);
+/* The maps of photons come from the context's cache, which outlives the plan. Errors: MEMORY, those of
+ * aur_irradiance_map_create, and what the patterns and weights say. */
+aur_result aur_gather_plan_create(const aur_gather_parameters *p, const aur_integrator_context *context,
+                                  aur_gather_plan **plan, aur_error *error);
 void aur_gather_plan_destroy(aur_gather_plan *plan); /* NULL is allowed */
 
 /* Whether the light of a lobe comes by gather rays. */

@@ -19,70 +19,58 @@ static aur_vector warp(float x, float y, float z, double exponent) {
     return (aur_vector){(float)(x * scale), (float)(y * scale), (float)warped};
 }
 
-static aur_result fill_directions(const aur_gather_rule_options *options, aur_gather_rule *rule,
-                                  aur_error *error) {
+/* The points of the set: three coordinates a direction of the hemisphere, or two a point of the square. */
+static aur_result find_points(const aur_gather_rule_options *options, bool on_square, double *points,
+                              aur_error *error) {
+    const size_t count = options->count;
     aur_directions *directions = NULL;
+    aur_pointset *square = NULL;
     const aur_directions_options wanted = {.size = sizeof wanted,
-                                           .count = options->count,
+                                           .count = count,
                                            .domain = AUR_DOMAIN_HEMISPHERE,
                                            .map = options->map,
                                            .seed = options->set_seed,
                                            .warnings = options->warnings};
-    aur_result result = aur_directions_create(options->set, &wanted, &directions, error);
+    const aur_pointset_options wanted_square = {.size = sizeof wanted_square,
+                                                .count = count,
+                                                .dimension = 2,
+                                                .seed = options->set_seed,
+                                                .warnings = options->warnings};
+    aur_result result = on_square ? aur_pointset_create(options->set, &wanted_square, &square, error)
+                                  : aur_directions_create(options->set, &wanted, &directions, error);
     if (result != AUR_OK)
         return result;
-    const size_t count = options->count;
-    double *const xyz = malloc(3 * count * sizeof *xyz);
-    rule->x = malloc(3 * count * sizeof *rule->x);
-    if (xyz == NULL || rule->x == NULL)
-        result = aur_fail(error, AUR_ERROR_MEMORY, "out of memory for %zu directions", count);
-    if (result == AUR_OK) {
-        result = aur_directions_points(directions, 0, count, 3 * count, xyz, NULL);
-        if (result != AUR_OK)
-            aur_fail(error, result, "pattern '%s': %s", options->set, aur_result_string(result));
-    }
-    if (result == AUR_OK) {
-        rule->y = rule->x + count;
-        rule->z = rule->y + count;
-        for (size_t i = 0; i < count; ++i) {
-            const aur_vector v =
-                warp((float)xyz[3 * i], (float)xyz[3 * i + 1], (float)xyz[3 * i + 2], rule->drawn_exponent);
-            rule->x[i] = v.x;
-            rule->y[i] = v.y;
-            rule->z[i] = v.z;
-        }
-    }
-    free(xyz);
+    result = on_square ? aur_pointset_points(square, 0, count, 2 * count, points)
+                       : aur_directions_points(directions, 0, count, 3 * count, points, NULL);
+    aur_pointset_destroy(square);
     aur_directions_destroy(directions);
-    return result;
+    return result == AUR_OK
+               ? AUR_OK
+               : aur_fail(error, result, "pattern '%s': %s", options->set, aur_result_string(result));
 }
 
-static aur_result fill_square(const aur_gather_rule_options *options, aur_gather_rule *rule,
-                              aur_error *error) {
-    aur_pointset *points = NULL;
-    const aur_pointset_options wanted = {.size = sizeof wanted,
-                                         .count = options->count,
-                                         .dimension = 2,
-                                         .seed = options->set_seed,
-                                         .warnings = options->warnings};
-    aur_result result = aur_pointset_create(options->set, &wanted, &points, error);
-    if (result != AUR_OK)
-        return result;
-    const size_t count = options->count;
-    double *const uv = malloc(2 * count * sizeof *uv);
-    rule->square = malloc(count * sizeof *rule->square);
-    if (uv == NULL || rule->square == NULL)
-        result = aur_fail(error, AUR_ERROR_MEMORY, "out of memory for %zu points", count);
-    if (result == AUR_OK) {
-        result = aur_pointset_points(points, 0, count, 2 * count, uv);
-        if (result != AUR_OK)
-            aur_fail(error, result, "pattern '%s': %s", options->set, aur_result_string(result));
+static void set_direction(aur_gather_rule *rule, size_t index, aur_vector direction) {
+    rule->x[index] = direction.x;
+    rule->y[index] = direction.y;
+    rule->z[index] = direction.z;
+}
+
+/* The words of the square's points, or the directions. */
+static aur_result fill(const aur_gather_rule_options *options, aur_gather_rule *rule, aur_error *error) {
+    const bool on_square = rule->square != NULL;
+    double *const points = malloc(3 * rule->count * sizeof *points);
+    if (points == NULL)
+        return aur_fail_memory(error);
+    const aur_result result = find_points(options, on_square, points, error);
+    for (size_t i = 0; i < rule->count && result == AUR_OK; ++i) {
+        const double *const at = points + (on_square ? 2 : 3) * i;
+        if (on_square)
+            for (size_t k = 0; k < 2; ++k)
+                rule->square[i][k] = (uint32_t)(at[k] * 0x1p32);
+        else
+            set_direction(rule, i, warp((float)at[0], (float)at[1], (float)at[2], rule->drawn_exponent));
     }
-    for (size_t i = 0; i < count && result == AUR_OK; ++i)
-        for (size_t k = 0; k < 2; ++k)
-            rule->square[i][k] = (uint32_t)(uv[2 * i + k] * 0x1p32);
-    free(uv);
-    aur_pointset_destroy(points);
+    free(points);
     return result;
 }
 
@@ -120,41 +108,23 @@ static aur_vector scrambled_direction(const aur_gather_rule *rule, const aur_gat
 }
 
 /* Rotations are spread evenly over the circle; scramblings are made into directions once and for all. */
-static aur_result prepare_rotations(const aur_gather_rule_options *options, aur_gather_rule *rule,
-                                    aur_error *error) {
-    const size_t rotations = options->rotations, count = options->count;
-    rule->rotations = malloc(rotations * sizeof *rule->rotations);
-    float *const scrambled = rule->square != NULL ? malloc(3 * rotations * count * sizeof *scrambled) : NULL;
-    if (rule->rotations == NULL || (rule->square != NULL && scrambled == NULL)) {
-        free(scrambled);
-        return aur_fail(error, AUR_ERROR_MEMORY, "out of memory for %zu rotations of %zu directions",
-                        rotations, count);
-    }
-    for (size_t k = 0; k < rotations; ++k) {
+static void prepare_rotations(uint64_t seed, aur_gather_rule *rule) {
+    for (size_t k = 0; k < rule->rotation_count; ++k) {
         aur_gather_rotation *const rotation = &rule->rotations[k];
-        *rotation = rotation_from_hash(aur_hash3(options->seed, 0x7475726e, k));
-        const double angle = 2.0 * AUR_PI * (double)k / (double)rotations;
+        *rotation = rotation_from_hash(aur_hash3(seed, 0x7475726e, k));
+        const double angle = 2.0 * AUR_PI * (double)k / (double)rule->rotation_count;
         rotation->cosine = (float)cos(angle);
         rotation->sine = (float)sin(angle);
         if (rule->square == NULL)
             continue;
-        for (size_t i = 0; i < count; ++i) {
-            const aur_vector v = scrambled_direction(rule, rotation, i);
-            scrambled[k * count + i] = v.x;
-            scrambled[(rotations + k) * count + i] = v.y;
-            scrambled[(2 * rotations + k) * count + i] = v.z;
-        }
-        *rotation = (aur_gather_rotation){.cosine = 1.0f, .first = k * count};
+        for (size_t i = 0; i < rule->count; ++i)
+            set_direction(rule, k * rule->count + i, scrambled_direction(rule, rotation, i));
+        *rotation = (aur_gather_rotation){.cosine = 1.0f, .first = k * rule->count};
     }
-    rule->rotation_count = rotations;
-    if (rule->square == NULL)
-        return AUR_OK;
+    if (rule->copies == 0)
+        return;
     free(rule->square);
     rule->square = NULL;
-    rule->x = scrambled;
-    rule->y = scrambled + rotations * count;
-    rule->z = scrambled + 2 * rotations * count;
-    return AUR_OK;
 }
 
 /* Density of the directions: (M'+1)/(2 pi) cos^M'; the integrand's known part: cos^M. */
@@ -169,41 +139,54 @@ static float weight_at(const aur_gather_rule *rule, float z) {
     return (float)(excess == 0.0 ? scale : scale * pow((double)z, excess));
 }
 
-static aur_result weigh(aur_gather_rule *rule, size_t count, aur_error *error) {
-    rule->weights = malloc(count * sizeof *rule->weights);
-    rule->densities = malloc(count * sizeof *rule->densities);
-    if (rule->weights == NULL || rule->densities == NULL)
-        return aur_fail(error, AUR_ERROR_MEMORY, "out of memory for %zu weights", count);
-    for (size_t i = 0; i < count; ++i) {
-        rule->weights[i] = weight_at(rule, rule->z[i]);
-        rule->densities[i] = aur_gather_rule_density(rule, rule->z[i]);
-    }
+static aur_result allocate(aur_gather_rule *rule, aur_error *error) {
+    const size_t count = rule->copies * rule->count;
+    rule->rotations = malloc((rule->rotation_count + 1) * sizeof *rule->rotations);
+    if (works_on_square(rule->scramble))
+        rule->square = malloc(rule->count * sizeof *rule->square);
+    if (count > 0)
+        rule->x = malloc(5 * count * sizeof *rule->x);
+    if (rule->rotations == NULL || (works_on_square(rule->scramble) && rule->square == NULL) ||
+        (count > 0 && rule->x == NULL))
+        return aur_fail(error, AUR_ERROR_MEMORY, "out of memory for %zu rotations of %zu directions",
+                        rule->rotation_count, rule->count);
+    if (count == 0)
+        return AUR_OK;
+    rule->y = rule->x + count;
+    rule->z = rule->y + count;
+    rule->weights = rule->z + count;
+    rule->densities = rule->weights + count;
     return AUR_OK;
 }
 
 aur_result aur_gather_rule_create(const aur_gather_rule_options *options, double exponent,
                                   aur_gather_rule *rule, aur_error *error) {
     const double power = options->optimal_density ? 2.0 / (options->smoothness + 1.0) : 1.0;
-    *rule = (aur_gather_rule){.count = options->count,
-                              .exponent = exponent,
-                              .drawn_exponent = exponent * power,
-                              .map = options->map,
-                              .scramble = options->scramble};
-    const bool on_square = works_on_square(options->scramble);
-    aur_result result = on_square ? fill_square(options, rule, error) : fill_directions(options, rule, error);
-    if (result == AUR_OK && options->rotations > 0 && options->scramble != AUR_SCRAMBLE_NONE)
-        result = prepare_rotations(options, rule, error);
-    if (result == AUR_OK && rule->x != NULL)
-        result = weigh(rule, on_square ? options->rotations * options->count : options->count, error);
-    if (result != AUR_OK)
+    *rule =
+        (aur_gather_rule){.count = options->count,
+                          .copies = works_on_square(options->scramble) ? options->rotations : 1,
+                          .exponent = exponent,
+                          .drawn_exponent = exponent * power,
+                          .map = options->map,
+                          .scramble = options->scramble,
+                          .rotation_count = options->scramble != AUR_SCRAMBLE_NONE ? options->rotations : 0};
+    aur_result result = allocate(rule, error);
+    if (result == AUR_OK)
+        result = fill(options, rule, error);
+    if (result != AUR_OK) {
         aur_gather_rule_release(rule);
-    return result;
+        return result;
+    }
+    prepare_rotations(options->seed, rule);
+    for (size_t i = 0; i < rule->copies * rule->count; ++i) {
+        rule->weights[i] = weight_at(rule, rule->z[i]);
+        rule->densities[i] = aur_gather_rule_density(rule, rule->z[i]);
+    }
+    return AUR_OK;
 }
 
 void aur_gather_rule_release(aur_gather_rule *rule) {
     free(rule->x);
-    free(rule->weights);
-    free(rule->densities);
     free(rule->square);
     free(rule->rotations);
     *rule = (aur_gather_rule){0};

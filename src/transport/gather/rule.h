@@ -31,9 +31,12 @@ typedef struct aur_gather_rotation {
     size_t first;            /* of the copy's directions in the rule's arrays */
 } aur_gather_rotation;
 
-/* Immutable. The arrays hold one pattern, or one copy for each prepared scrambling. */
+/* Immutable. */
 typedef struct aur_gather_rule {
     size_t count;
+    /* Of the pattern in the arrays: one for each prepared scrambling, else one; 0 where directions are made
+     * at the shading point. */
+    size_t copies;
     double exponent;       /* m of the lobe that is integrated */
     double drawn_exponent; /* of the density that the directions follow */
     aur_map map;

@@ -16,19 +16,21 @@ static size_t angle_count(double exponent) {
 }
 
 static aur_oswa_options oswa_options(const aur_merged_rule_options *options) {
-    return (aur_oswa_options){.set = options->set,
-                              .count = options->count[0],
-                              .mirror_count = options->count[1],
+    const aur_gather_rule_options *const pattern = &options->pattern;
+    const bool optimal = options->method == AUR_WEIGHTS_OSWA;
+    return (aur_oswa_options){.set = pattern->set,
+                              .count = pattern->count,
+                              .mirror_count = options->glossy_count,
                               .lobe = {.exponent = 1.0},
                               .mirror_lobe = {.exponent = options->exponent},
-                              .optimal_density = options->optimal_density,
-                              .clipped = options->clipped && options->method == AUR_MERGED_OSWA,
-                              .map = options->map,
-                              .scramble = options->scramble,
-                              .seed = options->seed,
-                              .smoothness = options->smoothness,
+                              .optimal_density = pattern->optimal_density,
+                              .clipped = options->clipped && optimal,
+                              .map = pattern->map,
+                              .scramble = pattern->scramble,
+                              .seed = pattern->seed,
+                              .smoothness = pattern->smoothness,
                               /* The paper has no constraint of the sum. */
-                              .weights = {options->regularization, options->method == AUR_MERGED_OSWA}};
+                              .weights = {options->regularization, optimal}};
 }
 
 /* Where sample `index` of a pattern stands in the order of subsets. */
@@ -112,10 +114,10 @@ static aur_result compile(aur_merged_rule *rule, aur_error *error) {
 static aur_result prepare(aur_merged_rule *rule, const aur_merged_rule_options *options, aur_error *error) {
     aur_oswa_options wanted = oswa_options(options);
     aur_result result = AUR_OK;
-    if (options->method == AUR_MERGED_OSWA)
-        result = aur_weight_table_build(&wanted, angle_count(options->exponent), options->rotations,
+    if (options->method == AUR_WEIGHTS_OSWA)
+        result = aur_weight_table_build(&wanted, angle_count(options->exponent), options->pattern.rotations,
                                         options->threads, &options->progress, &rule->table, error);
-    if (options->method == AUR_MERGED_SOLVE)
+    if (options->method == AUR_WEIGHTS_SOLVE)
         wanted.published_z = (aur_z_grid){64, 32, fmax(1.0, options->exponent)};
     if (result == AUR_OK)
         result = fill_directions(rule, &wanted, error);
@@ -125,17 +127,17 @@ static aur_result prepare(aur_merged_rule *rule, const aur_merged_rule_options *
 }
 
 static aur_result create(aur_merged_rule *rule, const aur_merged_rule_options *options, aur_error *error) {
-    const double power = options->optimal_density ? 2.0 / (options->smoothness + 1.0) : 1.0;
-    rule->method = options->method;
-    rule->subsets = options->subsets;
-    rule->rotations = options->rotations;
-    rule->exponent = options->exponent;
-    rule->seed = options->seed;
-    for (size_t pattern = 0; pattern < 2; ++pattern) {
-        rule->count[pattern] = options->count[pattern];
-        rule->subset_count[pattern] = options->count[pattern] / options->subsets;
-        rule->drawn_exponent[pattern] = power * (pattern == 0 ? 1.0 : options->exponent);
-    }
+    const aur_gather_rule_options *const shared = &options->pattern;
+    const double power = shared->optimal_density ? 2.0 / (shared->smoothness + 1.0) : 1.0;
+    *rule = (aur_merged_rule){.method = options->method,
+                              .subsets = options->subsets,
+                              .rotations = shared->rotations,
+                              .count = {shared->count, options->glossy_count},
+                              .exponent = options->exponent,
+                              .drawn_exponent = {power, power * options->exponent},
+                              .seed = shared->seed};
+    for (size_t pattern = 0; pattern < 2; ++pattern)
+        rule->subset_count[pattern] = rule->count[pattern] / rule->subsets;
     fill_densities(rule);
     const aur_result result = allocate(rule, error);
     return result == AUR_OK ? prepare(rule, options, error) : result;
@@ -143,14 +145,14 @@ static aur_result create(aur_merged_rule *rule, const aur_merged_rule_options *o
 
 aur_result aur_merged_rule_create(const aur_merged_rule_options *options, aur_merged_rule **rule,
                                   aur_error *error) {
+    const size_t diffuse = options->pattern.count, glossy = options->glossy_count, parts = options->subsets;
     *rule = NULL;
-    if (options->rotations == 0)
+    if (options->pattern.rotations == 0)
         return aur_fail(error, AUR_ERROR_ARGUMENT,
                         "weights of merged samples need prepared rotations: at least 1, not 0");
-    if (options->subsets == 0 || options->count[0] % options->subsets != 0 ||
-        options->count[1] % options->subsets != 0)
+    if (parts == 0 || diffuse % parts != 0 || glossy % parts != 0)
         return aur_fail(error, AUR_ERROR_ARGUMENT, "%zu + %zu directions are not split evenly by %zu samples",
-                        options->count[0], options->count[1], options->subsets);
+                        diffuse, glossy, parts);
     aur_merged_rule *const created = calloc(1, sizeof *created);
     if (created == NULL)
         return aur_fail_memory(error);
@@ -244,16 +246,12 @@ static bool solve(const aur_merged_rule *rule, size_t rotation, size_t subset, f
 bool aur_merged_rule_weights(const aur_merged_rule *rule, size_t rotation, size_t subset, float cosine,
                              float *weights) {
     const float inside = cosine > 0.0f ? (cosine < 1.0f ? cosine : 1.0f) : 0.0f;
-    switch (rule->method) {
-    case AUR_MERGED_OSWA:
-        look_up(rule, rotation, subset, acosf(inside), weights);
-        break;
-    case AUR_MERGED_MIS:
-        balance(rule, rotation, subset, inside, weights);
-        break;
-    case AUR_MERGED_SOLVE:
+    if (rule->method == AUR_WEIGHTS_SOLVE)
         return solve(rule, rotation, subset, acosf(inside), weights);
-    }
+    if (rule->method == AUR_WEIGHTS_OSWA)
+        look_up(rule, rotation, subset, acosf(inside), weights);
+    else
+        balance(rule, rotation, subset, inside, weights);
     return true;
 }
 

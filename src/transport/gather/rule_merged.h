@@ -8,30 +8,19 @@
 #pragma once
 
 #include <aureole/quadrature.h>
-#include <stdbool.h>
 
-#include "core/vector.h"
-
-typedef enum aur_merged_method {
-    AUR_MERGED_MIS,  /* multiple importance sampling, balance heuristic (Veach 1997) */
-    AUR_MERGED_OSWA, /* optimal weights, from a table */
-    AUR_MERGED_SOLVE /* optimal weights as published: z from a 2-D table, a system solved at every point */
-} aur_merged_method;
+#include "transport/gather/parameters.h"
 
 typedef struct aur_merged_rule_options {
-    aur_merged_method method;
-    const char *set;       /* SET syntax */
-    size_t count[2];       /* directions of the diffuse and the glossy pattern, multiples of `subsets` */
-    size_t subsets;        /* samples of a pixel */
-    double exponent;       /* of the glossy lobe */
-    size_t rotations;      /* prepared ones of the patterns: at least 1 */
-    aur_map map;           /* of sets of the square */
-    aur_scramble scramble; /* of the set, once */
-    bool optimal_density;  /* directions follow lobe^{2/(s+1)} */
-    bool clipped;          /* OSWA: the glossy lobe ends at the horizon */
-    double smoothness;     /* s, in (1, 2) */
+    /* Both patterns; its count is the diffuse one's. At least one rotation is prepared. The set is scrambled
+     * once. */
+    aur_gather_rule_options pattern;
+    aur_gather_weights method; /* OSWA, MIS or SOLVE */
+    size_t glossy_count;
+    size_t subsets;  /* samples of a pixel: both counts are multiples */
+    double exponent; /* of the glossy lobe */
+    bool clipped;    /* OSWA: the glossy lobe ends at the horizon */
     double regularization;
-    uint64_t seed;
     size_t threads; /* that make the table; 0: all */
     aur_progress progress;
 } aur_merged_rule_options;
@@ -41,7 +30,7 @@ enum { AUR_MERGED_DENSITY_STEPS = 1024 };
 /* Immutable. Patterns are numbered 0 (diffuse) and 1 (glossy). Their directions stand in the order of
  * subsets: those of subset s begin at s * count / subsets. */
 typedef struct aur_merged_rule {
-    aur_merged_method method;
+    aur_gather_weights method;
     size_t subsets, rotations;
     size_t count[2], subset_count[2]; /* directions of a pattern, and of it in one subset */
     double exponent;

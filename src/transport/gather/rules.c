@@ -4,11 +4,9 @@
 
 #include "core/error.h"
 #include "scene/packet.h"
-#include "transport/gather/rule_weights.h"
 
-size_t aur_gather_split_count(int64_t wanted, size_t samples_per_pixel) {
-    const size_t each = ((size_t)wanted + samples_per_pixel - 1) / samples_per_pixel;
-    return each * samples_per_pixel;
+size_t aur_gather_split_count(size_t wanted, size_t samples_per_pixel) {
+    return (wanted + samples_per_pixel - 1) / samples_per_pixel * samples_per_pixel;
 }
 
 /* What rules of one kind, diffuse or glossy, have in common. */
@@ -16,24 +14,18 @@ typedef struct rule_maker {
     const aur_gather_parameters *p;
     const aur_integrator_context *context;
     aur_gather_rule_options pattern;
-    aur_gather_levels_options growth; /* of adaptive rules */
-    size_t pixels;                    /* that split one pattern */
-    char set[80];                     /* of adaptive rules: extensible grids in place of the pattern */
+    size_t base;   /* directions that are asked for: of the first level, when adaptive */
+    size_t pixels; /* that split one pattern */
+    char set[80];  /* of adaptive rules: extensible grids in place of the pattern */
 } rule_maker;
 
-static aur_result prepare(rule_maker *maker, int64_t count, aur_error *error) {
-    const aur_gather_parameters *const p = maker->p;
-    maker->pattern.count = maker->pixels * aur_gather_split_count(count, maker->context->samples_per_pixel);
-    if (!p->adaptive)
+static aur_result prepare(rule_maker *maker, size_t base, aur_error *error) {
+    maker->base = base;
+    maker->pattern.count = maker->pixels * aur_gather_split_count(base, maker->context->samples_per_pixel);
+    if (!maker->p->policy.adaptive)
         return AUR_OK;
-    maker->growth = (aur_gather_levels_options){.base = (size_t)count,
-                                                .factor = (size_t)p->level_factor,
-                                                .extensions = (size_t)p->levels,
-                                                .smoothness = p->smoothness,
-                                                .optimal = p->weights == AUR_WEIGHTS_OSW,
-                                                .regularization = p->regularization};
     maker->pattern.set = maker->set;
-    return aur_gather_levels_set(&maker->growth, sizeof maker->set, maker->set, &maker->pattern.count, error);
+    return aur_gather_levels_set(maker->p, base, sizeof maker->set, maker->set, &maker->pattern.count, error);
 }
 
 /* A rule with its levels, or with its weights. */
@@ -43,44 +35,29 @@ static aur_result make(const rule_maker *maker, double exponent, aur_gather_lobe
     const aur_result result = aur_gather_rule_create(&maker->pattern, exponent, &lobe->rule, error);
     if (result != AUR_OK)
         return result;
-    if (p->adaptive) {
-        lobe->directions = (float)maker->growth.base;
-        return aur_gather_levels_create(&maker->growth, &lobe->rule, &lobe->levels, error);
+    if (p->policy.adaptive) {
+        lobe->directions = (float)maker->base;
+        return aur_gather_levels_create(p, maker->base, &lobe->rule, &lobe->levels, error);
     }
     lobe->directions = (float)(lobe->rule.count / (maker->pixels * maker->context->samples_per_pixel));
     const bool optimal =
         p->weights == AUR_WEIGHTS_OSW || p->weights == AUR_WEIGHTS_OSWA || p->weights == AUR_WEIGHTS_SOLVE;
-    return optimal ? aur_gather_rule_optimise(&lobe->rule, p->smoothness, p->regularization, error) : AUR_OK;
-}
-
-static aur_result add_horizon(aur_gather_lobe_rule *lobe, aur_error *error) {
-    lobe->horizon = malloc(sizeof *lobe->horizon);
-    if (lobe->horizon == NULL)
-        return aur_fail_memory(error);
-    aur_gather_horizon_fill(lobe->rule.exponent, lobe->horizon);
-    return AUR_OK;
+    return optimal ? aur_gather_rule_optimise(&lobe->rule, p->rule.smoothness, p->regularization, error)
+                   : AUR_OK;
 }
 
 static aur_result merge(const rule_maker *maker, const aur_gather_rule *diffuse, aur_gather_lobe_rule *lobe,
                         aur_error *error) {
-    const aur_gather_parameters *const p = maker->p;
-    const aur_merged_rule_options options = {.method = p->weights == AUR_WEIGHTS_OSWA  ? AUR_MERGED_OSWA
-                                                       : p->weights == AUR_WEIGHTS_MIS ? AUR_MERGED_MIS
-                                                                                       : AUR_MERGED_SOLVE,
-                                             .set = maker->pattern.set,
-                                             .count = {diffuse->count, lobe->rule.count},
-                                             .subsets = maker->context->samples_per_pixel,
-                                             .exponent = lobe->rule.exponent,
-                                             .rotations = maker->pattern.rotations,
-                                             .map = maker->pattern.map,
-                                             .scramble = maker->pattern.scramble,
-                                             .optimal_density = maker->pattern.optimal_density,
-                                             .clipped = p->clip,
-                                             .smoothness = p->smoothness,
-                                             .regularization = p->regularization,
-                                             .seed = maker->pattern.seed,
-                                             .threads = maker->context->threads,
-                                             .progress = maker->context->progress};
+    aur_merged_rule_options options = {.pattern = maker->pattern,
+                                       .method = maker->p->weights,
+                                       .glossy_count = lobe->rule.count,
+                                       .subsets = maker->context->samples_per_pixel,
+                                       .exponent = lobe->rule.exponent,
+                                       .clipped = maker->p->clip,
+                                       .regularization = maker->p->regularization,
+                                       .threads = maker->context->threads,
+                                       .progress = maker->context->progress};
+    options.pattern.count = diffuse->count;
     return aur_merged_rule_create(&options, &lobe->merged, error);
 }
 
@@ -95,12 +72,13 @@ static aur_result find_or_make(const rule_maker *maker, const aur_bsdf_lobe *wan
     if (i < rules->count)
         return AUR_OK;
     ++rules->count;
-    aur_result result = make(maker, wanted->exponent, lobe, error);
-    if (result == AUR_OK && maker->p->clip && !maker->p->adaptive)
-        result = add_horizon(lobe, error);
-    if (result == AUR_OK && aur_merges_samples(maker->p))
-        result = merge(maker, &rules->lobes[0].rule, lobe, error);
-    return result;
+    const aur_result result = make(maker, wanted->exponent, lobe, error);
+    lobe->clipped = maker->p->clip && !maker->p->policy.adaptive;
+    if (lobe->clipped)
+        aur_gather_horizon_fill(wanted->exponent, &lobe->horizon);
+    return result == AUR_OK && aur_merges_samples(maker->p->weights)
+               ? merge(maker, &rules->lobes[0].rule, lobe, error)
+               : result;
 }
 
 /* Rules for the lobes of all surfaces, also those that a texture makes black somewhere. */
@@ -120,15 +98,14 @@ static aur_result serve_shapes(const rule_maker *maker, aur_gather_rules *rules,
 /* Never adaptive, and weighed by the draws themselves. */
 static aur_result make_sampled(const rule_maker *maker, aur_gather_lobe_rule *sampled, aur_error *error) {
     aur_gather_rule_options options = maker->pattern;
-    options.set = maker->p->pattern;
+    options.set = maker->p->rule.set;
     options.count = aur_gather_split_count(maker->p->glossy_samples, maker->context->samples_per_pixel);
     sampled->directions = (float)(options.count / maker->context->samples_per_pixel);
     return aur_gather_rule_create(&options, 0.0, &sampled->rule, error);
 }
 
-aur_result aur_gather_rules_create(const aur_gather_parameters *p, const aur_gather_rule_options *pattern,
-                                   const aur_integrator_context *context, aur_gather_rules *rules,
-                                   aur_error *error) {
+aur_result aur_gather_rules_create(const aur_gather_parameters *p, const aur_integrator_context *context,
+                                   aur_gather_rules *rules, aur_error *error) {
     *rules = (aur_gather_rules){0};
     const size_t shapes = aur_scene_shape_count(context->scene);
     size_t most = 1;
@@ -139,7 +116,7 @@ aur_result aur_gather_rules_create(const aur_gather_parameters *p, const aur_gat
     if (rules->lobes == NULL || rules->of_shape == NULL)
         return aur_fail_memory(error);
     rule_maker maker = {
-        .p = p, .context = context, .pattern = *pattern, .pixels = p->share ? AUR_PACKET_SIZE : 1};
+        .p = p, .context = context, .pattern = p->rule, .pixels = p->policy.pools ? AUR_PACKET_SIZE : 1};
     rules->count = 1;
     aur_result result = prepare(&maker, p->diffuse_samples, error);
     if (result == AUR_OK)
@@ -160,7 +137,6 @@ static void release(aur_gather_lobe_rule *lobe) {
     aur_gather_rule_release(&lobe->rule);
     aur_gather_levels_release(&lobe->levels);
     aur_merged_rule_destroy(lobe->merged);
-    free(lobe->horizon);
 }
 
 void aur_gather_rules_release(aur_gather_rules *rules) {

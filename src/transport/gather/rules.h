@@ -2,19 +2,17 @@
  * ones. */
 #pragma once
 
-#include "transport/gather/parameters.h"
-#include "transport/gather/rule.h"
-#include "transport/gather/rule_horizon.h"
-#include "transport/gather/rule_levels.h"
 #include "transport/gather/rule_merged.h"
+#include "transport/gather/rule_weights.h"
 #include "transport/integrator.h"
 
 typedef struct aur_gather_lobe_rule {
     aur_gather_rule rule;
     float directions; /* that one sample of a pixel sends; when adaptive, those of the first level */
-    aur_gather_horizon *horizon; /* of glossy rules with clip=true, else NULL */
-    aur_gather_levels levels;    /* count 0: the rule is used whole */
-    aur_merged_rule *merged;     /* of glossy rules: serves the lobe together with a diffuse one; or NULL */
+    bool clipped;     /* the lobe ends at the horizon, and has a table of how much of it is left */
+    aur_gather_horizon horizon;
+    aur_gather_levels levels; /* count 0: the rule is used whole */
+    aur_merged_rule *merged;  /* of glossy rules: serves the lobe together with a diffuse one; or NULL */
 } aur_gather_lobe_rule;
 
 typedef struct aur_gather_rules {
@@ -32,10 +30,9 @@ typedef struct aur_gather_rules {
 } aur_gather_rules;
 
 /* Errors: MEMORY, and what the patterns and weights say. The rules are to be released in every case. */
-aur_result aur_gather_rules_create(const aur_gather_parameters *p, const aur_gather_rule_options *pattern,
-                                   const aur_integrator_context *context, aur_gather_rules *rules,
-                                   aur_error *error);
+aur_result aur_gather_rules_create(const aur_gather_parameters *p, const aur_integrator_context *context,
+                                   aur_gather_rules *rules, aur_error *error);
 void aur_gather_rules_release(aur_gather_rules *rules);
 
 /* A count of directions or draws made one that the samples of a pixel split evenly: at least one each. */
-size_t aur_gather_split_count(int64_t wanted, size_t samples_per_pixel);
+size_t aur_gather_split_count(size_t wanted, size_t samples_per_pixel);

@@ -18,14 +18,14 @@ static const aur_key keys[] = {
                         "directions a pixel for the diffuse lobe, shared out among its samples")},
     {AUR_KEY_OF_INTEGER(aur_gather_parameters, "glossy_samples", glossy_samples, 1, MOST, "64",
                         "directions a pixel for each glossy lobe")},
-    {AUR_KEY_OF_TEXT(aur_gather_parameters, "pattern", pattern, "spherical-fibonacci",
+    {AUR_KEY_OF_TEXT(aur_gather_parameters, "pattern", rule.set, "spherical-fibonacci",
                      "SET of the directions")},
     {AUR_KEY_OF_TEXT(aur_gather_parameters, "map", map, "lambert",
                      "map of a square set to the hemisphere: lambert, concentric, azimuthal or polar")},
     {AUR_KEY_OF_TEXT(aur_gather_parameters, "scramble", scramble, "rotate (nets: digit)",
                      "how a pattern is randomised: none, digit, owen, shift or rotate"),
      .computed = true},
-    {AUR_KEY_OF_INTEGER(aur_gather_parameters, "rotations", rotations, 0, 65536, "16",
+    {AUR_KEY_OF_INTEGER(aur_gather_parameters, "rotations", rule.rotations, 0, 65536, "16",
                         "randomisations made beforehand; 0 is one of its own for every pixel")},
     {AUR_KEY_OF_CHOICE(aur_gather_parameters, "density", density, "optimal (weights=equal: same)",
                        "directions follow the lobe, or its power 2/(s+1)", "same", "optimal"),
@@ -38,7 +38,7 @@ static const aur_key keys[] = {
     {AUR_KEY_OF_REAL(aur_gather_parameters, "regularization", regularization, 0.0, 1e6,
                      "1e-6 (oswa-solve: 0.5)", "added to the diagonal of optimal weights' systems"),
      .computed = true},
-    {AUR_KEY_OF_REAL(aur_gather_parameters, "smoothness", smoothness, 1.0, 2.0, "1.5",
+    {AUR_KEY_OF_REAL(aur_gather_parameters, "smoothness", rule.smoothness, 1.0, 2.0, "1.5",
                      "s of the optimal weights and density"),
      .minimum_open = true, .maximum_open = true},
     {AUR_KEY_OF_INTEGER(aur_gather_parameters, "photons", photons, 1, MOST, "500000",
@@ -53,31 +53,31 @@ static const aur_key keys[] = {
                      "SET of the photons' numbers")},
     {AUR_KEY_OF_REAL(aur_gather_parameters, "photons_per_texel", photons_a_texel, 1.0, 1e6, "16",
                      "photons that a texel of irradiance is the mean of")},
-    {AUR_KEY_OF_CHOICE(aur_gather_parameters, "decorrelation", decorrelation, "blue",
+    {AUR_KEY_OF_CHOICE(aur_gather_parameters, "decorrelation", policy.decorrelation, "blue",
                        "how pixels choose among the rotations", "blue", "random", "none")},
-    {AUR_KEY_OF_INTEGER(aur_gather_parameters, "edges", edges, 0, 65536, "32",
+    {AUR_KEY_OF_INTEGER(aur_gather_parameters, "edges", policy.edge_samples, 0, 65536, "32",
                         "camera rays more where a pixel sees several things")},
-    {AUR_KEY_OF_BOOLEAN(aur_gather_parameters, "packets", packets, "true",
+    {AUR_KEY_OF_BOOLEAN(aur_gather_parameters, "packets", policy.packets, "true",
                         "sixteen rays at a time, else one: the same picture to rounding")},
-    {AUR_KEY_OF_BOOLEAN(aur_gather_parameters, "share", share, "false",
+    {AUR_KEY_OF_BOOLEAN(aur_gather_parameters, "share", policy.pools, "false",
                         "neighbouring pixels share the diffuse light that they gather")},
-    {AUR_KEY_OF_BOOLEAN(aur_gather_parameters, "adaptive", adaptive, "false",
+    {AUR_KEY_OF_BOOLEAN(aur_gather_parameters, "adaptive", policy.adaptive, "false",
                         "more directions where the light varies (Marques 2019)")},
     {AUR_KEY_OF_INTEGER(aur_gather_parameters, "levels", levels, 1, AUR_GATHER_LEVEL_CAPACITY - 1, "2",
                         "extensions of an adaptive pattern")},
     {AUR_KEY_OF_INTEGER(aur_gather_parameters, "level_factor", level_factor, 2, 4, "4",
                         "directions of a level over those of the one before: 2 or 4")},
-    {AUR_KEY_OF_REAL(aur_gather_parameters, "threshold", threshold, 0.0, 1e6, "0.03 (entropy: 0.3)",
+    {AUR_KEY_OF_REAL(aur_gather_parameters, "threshold", policy.threshold, 0.0, 1e6, "0.03 (entropy: 0.3)",
                      "contrast above which the next level is gathered"),
      .computed = true},
-    {AUR_KEY_OF_CHOICE(aur_gather_parameters, "criterion", criterion, "variance",
+    {AUR_KEY_OF_CHOICE(aur_gather_parameters, "criterion", policy.criterion, "variance",
                        "how that contrast is measured", "entropy", "variance")},
     {AUR_KEY_OF_INTEGER(
-        aur_gather_parameters, "max_depth", max_depth, -1, 1 << 20, "-1",
+        aur_gather_parameters, "max_depth", policy.max_depth, -1, 1 << 20, "-1",
         "longest path in edges: 1 is emitted light only, 2 adds direct light; -1 is unlimited")},
-    {AUR_KEY_OF_CHOICE(aur_gather_parameters, "component", component, "all", "the lobes to gather", "all",
-                       "diffuse", "glossy")},
-    {AUR_KEY_OF_CHOICE(aur_gather_parameters, "direct", direct, "nee",
+    {AUR_KEY_OF_CHOICE(aur_gather_parameters, "component", policy.component, "all", "the lobes to gather",
+                       "all", "diffuse", "glossy")},
+    {AUR_KEY_OF_CHOICE(aur_gather_parameters, "direct", policy.direct, "nee",
                        "direct light by shadow rays, by the gather rays, or not at all", "nee", "gather",
                        "none")},
     {AUR_KEY_OF_CHOICE(aur_gather_parameters, "incident", incident, "photons",
@@ -85,7 +85,7 @@ static const aur_key keys[] = {
                        "emitters")},
     {AUR_KEY_OF_CHOICE(aur_gather_parameters, "pixel", pixel, "filter",
                        "camera rays over the pixel, or through its centre", "filter", "centre")},
-    {AUR_KEY_OF_INTEGER(aur_gather_parameters, "pattern_seed", pattern_seed, 0, INFINITY, "0",
+    {AUR_KEY_OF_INTEGER(aur_gather_parameters, "pattern_seed", rule.seed, 0, INFINITY, "0",
                         "another randomisation of the pattern under the same seed")},
 };
 
@@ -95,27 +95,28 @@ static aur_result complete(aur_gather_parameters *p, aur_error *error) {
         return aur_fail(
             error, AUR_ERROR_ARGUMENT,
             "finalgather: equal weights are for density=same; for density=optimal take weights=ratio");
-    if (aur_merges_samples(p) && p->rotations == 0)
+    if (aur_merges_samples(p->weights) && p->rule.rotations == 0)
         return aur_fail(error, AUR_ERROR_ARGUMENT,
                         "finalgather: weights of merged samples need prepared rotations, not rotations=0");
     if (p->density == AUR_GATHER_DENSITY_UNSAID)
         p->density = p->weights == AUR_WEIGHTS_EQUAL ? AUR_GATHER_DENSITY_SAME : AUR_GATHER_DENSITY_OPTIMAL;
     if (p->regularization < 0.0) /* as published for the published method */
         p->regularization = p->weights == AUR_WEIGHTS_SOLVE ? 0.5 : AUR_REGULARIZATION_DEFAULT;
-    if (p->threshold < 0.0) /* by measurement: see docs/rendering.md */
-        p->threshold = p->criterion == AUR_CRITERION_ENTROPY ? 0.3 : 0.03;
-    if (p->share && (p->adaptive || p->decorrelation != AUR_DECORRELATION_BLUE || aur_merges_samples(p)))
+    if (p->policy.threshold < 0.0f) /* by measurement: see docs/rendering.md */
+        p->policy.threshold = p->policy.criterion == AUR_CRITERION_ENTROPY ? 0.3f : 0.03f;
+    if (p->policy.pools && (p->policy.adaptive || p->policy.decorrelation != AUR_DECORRELATION_BLUE ||
+                            aur_merges_samples(p->weights)))
         return aur_fail(error, AUR_ERROR_UNSUPPORTED,
                         "finalgather: share=true splits one pattern among pixels: it goes with "
                         "decorrelation=blue and weights=ratio, equal or osw, and not with adaptive=true");
-    if (!p->adaptive)
+    if (!p->policy.adaptive)
         return AUR_OK;
-    if (aur_merges_samples(p))
+    if (aur_merges_samples(p->weights))
         return aur_fail(error, AUR_ERROR_UNSUPPORTED,
                         "finalgather: adaptive gathering grows each lobe's pattern by itself: weights of "
                         "merged samples (oswa, mis) do not go with it; take osw, ratio or equal");
     if ((p->scramble != NULL && strcmp(p->scramble, "rotate") != 0) ||
-        strcmp(p->pattern, "spherical-fibonacci") != 0)
+        strcmp(p->rule.set, "spherical-fibonacci") != 0)
         return aur_fail(error, AUR_ERROR_UNSUPPORTED,
                         "finalgather: adaptive gathering takes its patterns from extensible spherical "
                         "Fibonacci grids: leave 'pattern' and 'scramble' out");
@@ -130,19 +131,17 @@ static aur_scramble default_scramble(const char *pattern) {
     return row != NULL && row->binary_net ? AUR_SCRAMBLE_DIGIT : AUR_SCRAMBLE_ROTATE;
 }
 
-static aur_result read_options(const aur_gather_parameters *p, const aur_integrator_context *context,
-                               aur_gather_rule_options *options, aur_error *error) {
-    *options = (aur_gather_rule_options){.set = p->pattern,
-                                         .scramble = default_scramble(p->pattern),
-                                         .optimal_density = p->density == AUR_GATHER_DENSITY_OPTIMAL,
-                                         .smoothness = p->smoothness,
-                                         .rotations = (size_t)p->rotations,
-                                         .seed = aur_hash2(context->seed, p->pattern_seed),
-                                         .warnings = context->warnings};
-    aur_result result = aur_map_from_name(p->map, &options->map, error);
+static aur_result set_rule(aur_gather_parameters *p, const aur_integrator_context *context,
+                           aur_error *error) {
+    aur_gather_rule_options *const rule = &p->rule;
+    rule->scramble = default_scramble(rule->set);
+    rule->optimal_density = p->density == AUR_GATHER_DENSITY_OPTIMAL;
+    rule->seed = aur_hash2(context->seed, rule->seed);
+    rule->warnings = context->warnings;
+    aur_result result = aur_map_from_name(p->map, &rule->map, error);
     if (result == AUR_OK && p->scramble != NULL)
-        result = aur_scramble_from_name(p->scramble, &options->scramble, error);
-    if (result == AUR_OK && options->scramble == AUR_SCRAMBLE_ROTATE3D)
+        result = aur_scramble_from_name(p->scramble, &rule->scramble, error);
+    if (result == AUR_OK && rule->scramble == AUR_SCRAMBLE_ROTATE3D)
         result =
             aur_fail(error, AUR_ERROR_UNSUPPORTED,
                      "finalgather: 'rotate3d' would turn the pattern out of its hemisphere; use 'rotate'");
@@ -152,21 +151,20 @@ static aur_result read_options(const aur_gather_parameters *p, const aur_integra
 static aur_result create(aur_parameters *parameters, const aur_integrator_context *context,
                          aur_integrator *integrator, aur_error *error) {
     aur_gather_parameters p = {
-        .density = AUR_GATHER_DENSITY_UNSAID, .regularization = -1.0, .threshold = -1.0};
+        .density = AUR_GATHER_DENSITY_UNSAID, .regularization = -1.0, .policy = {.threshold = -1.0f}};
     aur_result result = aur_row_read(&integrator->descriptor->row, parameters, &p, error);
     if (result == AUR_OK)
         result = complete(&p, error);
-    aur_gather_rule_options pattern;
     if (result == AUR_OK)
-        result = read_options(&p, context, &pattern, error);
+        result = set_rule(&p, context, error);
     if (result != AUR_OK)
         return result;
     integrator->pixel_centre = p.pixel == AUR_PIXEL_CENTRE;
     static const char *const extra[] = {"directions"};
-    integrator->extra_count = p.adaptive ? 1 : 0;
+    integrator->extra_count = p.policy.adaptive ? 1 : 0;
     integrator->extra_names = extra;
     aur_gather_plan *plan = NULL;
-    result = aur_gather_plan_create(&p, &pattern, context, &plan, error);
+    result = aur_gather_plan_create(&p, context, &plan, error);
     integrator->data = plan;
     return result;
 }
