@@ -12,7 +12,8 @@ typedef struct sum_context {
 
 typedef struct measure_context {
     const char *metric;
-    aur_points points;
+    aur_points_view points;
+    double *coordinates; /* of the points */
     aur_measure_options options;
 } measure_context;
 
@@ -20,20 +21,15 @@ static double unit(uint64_t a, uint64_t b) {
     return aur_unit_double(aur_hash2(a, b));
 }
 
-static void release(aur_points *points) {
-    free(points->coordinates);
-    *points = (aur_points){0};
-}
-
 /* Random points: unit vectors by rejection, or of the square. */
-static bool make_points(aur_domain domain, size_t count, aur_points *points) {
+static bool make_points(aur_domain domain, size_t count, aur_points_view *points, double **coordinates) {
     const size_t dimension = domain == AUR_DOMAIN_SPHERE ? 3 : 2;
-    *points = (aur_points){.domain = domain, .count = count, .dimension = dimension};
-    points->coordinates = malloc(count * dimension * sizeof *points->coordinates);
-    if (points->coordinates == NULL)
+    *coordinates = malloc(count * dimension * sizeof **coordinates);
+    *points = aur_points_view_of(domain, count, dimension, *coordinates);
+    if (*coordinates == NULL)
         return bench_fail("out of memory");
     for (size_t i = 0; i < count; ++i) {
-        double *const x = points->coordinates + i * dimension;
+        double *const x = *coordinates + i * dimension;
         double square = 0.0;
         for (uint64_t try = 0; domain == AUR_DOMAIN_SPHERE && !(square > 0.01 && square <= 1.0); ++try) {
             square = 0.0;
@@ -76,12 +72,13 @@ static double pairs_of(double count) {
 
 static bool bench_sums(const bench_options *options) {
     const size_t count = options->quick ? 2048 : 16384;
-    aur_points points;
-    if (!make_points(AUR_DOMAIN_SPHERE, count, &points))
+    aur_points_view points;
+    double *coordinates;
+    if (!make_points(AUR_DOMAIN_SPHERE, count, &points, &coordinates))
         return false;
     sum_context fast = {.options = {.size = sizeof fast.options, .threads = 1, .fast = true}};
     bool good = aur_axes_create(&points, &fast.axes, NULL) == AUR_OK || bench_fail("out of memory");
-    release(&points);
+    free(coordinates);
     if (!good)
         return false;
     sum_context exact = fast, shared = fast;
@@ -110,7 +107,7 @@ static bool bench_sums(const bench_options *options) {
 /* CPU seconds of one measure of random points. */
 static bool bench_seconds(const bench_options *options, const char *name, measure_context *context,
                           aur_domain domain, size_t count) {
-    if (!make_points(domain, count, &context->points))
+    if (!make_points(domain, count, &context->points, &context->coordinates))
         return false;
     context->options.threads = 1;
     const bench_work work = {run_measure, context, 1.0};
@@ -118,7 +115,7 @@ static bool bench_seconds(const bench_options *options, const char *name, measur
     few.pairs = few.pairs < 3 ? few.pairs : 3;
     printf("  %-36s %9.4g CPU s\n", name, 1.0 / bench_rate(&few, &work));
     fflush(stdout);
-    release(&context->points);
+    free(context->coordinates);
     return true;
 }
 

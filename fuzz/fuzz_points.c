@@ -4,7 +4,7 @@
 #include "fuzz.h"
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
-    aur_points points;
+    aur_points *points;
     aur_error error = {0};
     fuzz_write_file("fuzz-points", data, size);
     const aur_result result = aur_points_read("fuzz-points", &points, &error);
@@ -13,14 +13,15 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
         fuzz_require(result != AUR_ERROR_INTERNAL && result != AUR_ERROR_OPEN, "a failure of the wrong kind");
         return 0;
     }
-    fuzz_require(points.dimension > 0 && points.coordinates != NULL, "points without coordinates");
+    const aur_points_view *const view = aur_points_look(points);
+    fuzz_require(view->dimension > 0 && view->coordinates != NULL, "points without coordinates");
     double sum = 0.0; /* every value can be read and is finite */
-    for (size_t i = 0; i < points.count * points.dimension; ++i)
-        sum += points.coordinates[i] * 0.0;
-    for (size_t i = 0; i < points.count && points.weights != NULL; ++i)
-        sum += points.weights[i] * 0.0;
+    for (size_t i = 0; i < view->count * view->dimension; ++i)
+        sum += view->coordinates[i] * 0.0;
+    for (size_t i = 0; i < view->count && view->weights != NULL; ++i)
+        sum += view->weights[i] * 0.0;
     fuzz_require(sum == 0.0, "a value that is not finite");
-    aur_points_release(&points);
+    aur_points_destroy(points);
     return 0;
 }
 

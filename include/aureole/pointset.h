@@ -228,29 +228,51 @@ AUR_API aur_result aur_golden_set_points(double s, size_t count, const aur_outpu
 AUR_API aur_result aur_golden_set_points_two_seeds(double s, double r, size_t count, const aur_output *output)
     AUR_NONNULL(4);
 
-/* Points as they stand in a file. */
-typedef struct aur_points {
+/* Points in arrays of the caller's: they are only read, and neither copied nor kept. What measures and writes
+ * points takes one of these, so that arrays of any program can be given as they are. */
+typedef struct aur_points_view {
+    size_t size; /* of the caller's struct, so that it can grow */
     aur_domain domain;
     size_t count;
-    /* coordinates a point: d on the cube, 2 on square and disk, 3 on hemisphere and sphere */
-    size_t dimension;
-    double *coordinates; /* count * dimension, one point after another */
-    double *weights;     /* count, or NULL */
-    size_t *lines;       /* count: the line of each point in its file, for messages; or NULL */
-} aur_points;
+    size_t
+        dimension; /* coordinates a point: d on the cube, 2 on square and disk, 3 on hemisphere and sphere */
+    size_t stride; /* doubles from one point to the next, at least `dimension`; 0 stands for it */
+    const double *coordinates;
+    const double *weights; /* count, or NULL */
+    const size_t *lines;   /* count: the line of each point in its file, for messages; or NULL */
+} aur_points_view;
+
+/* Points that lie one after another, without weights. */
+static inline aur_points_view aur_points_view_of(aur_domain domain, size_t count, size_t dimension,
+                                                 const double *coordinates) {
+    aur_points_view view;
+    memset(&view, 0, sizeof view);
+    view.size = sizeof view;
+    view.domain = domain;
+    view.count = count;
+    view.dimension = dimension;
+    view.stride = dimension;
+    view.coordinates = coordinates;
+    return view;
+}
+
+/* Points that the library made or read, and keeps until aur_points_destroy (NULL is allowed). */
+typedef struct aur_points aur_points;
+AUR_API void aur_points_destroy(aur_points *points);
+/* Their arrays, with all fields set, for as long as they are kept. */
+AUR_API const aur_points_view *aur_points_look(const aur_points *points) AUR_NONNULL(1);
 
 /* Reads CSV (header u,v for the square, x,y for the disk, x,y,z for directions, u1,u2,... for the cube, and w
  * after it where there are weights; without a header two columns are u,v and three are x,y,z) or NPY.
  * Directions that all have z >= 0 are of the hemisphere. Errors: OPEN, MEMORY, and FORMAT, which names the
- * line; then nothing is to be released, otherwise free with aur_points_release. */
-AUR_API aur_result aur_points_read(const char *path, aur_points *points, aur_error *error) AUR_NONNULL(1, 2);
+ * line; *points is then NULL. */
+AUR_API aur_result aur_points_read(const char *path, aur_points **points, aur_error *error) AUR_NONNULL(1, 2);
 /* The same where it is known which domain the points are of: x,y stands for the square too when SQUARE or
  * CUBE is asked for, and directions may be of the hemisphere or the sphere. CUBE takes any number of
  * coordinates. Errors: also UNSUPPORTED for points of another domain, FORMAT for directions below the
  * hemisphere. */
-AUR_API aur_result aur_points_read_on(const char *path, aur_domain domain, aur_points *points,
+AUR_API aur_result aur_points_read_on(const char *path, aur_domain domain, aur_points **points,
                                       aur_error *error) AUR_NONNULL(1, 3);
-AUR_API void aur_points_release(aur_points *points);
 
 /* How points are written. CSV: a header (u,v on the square, x,y on the disk, x,y,z on hemisphere and sphere,
  * u1,u2,... on the cube, and w where there are weights), 17 significant digits. JSON: an object with "points"
@@ -287,8 +309,9 @@ static inline aur_points_origin aur_points_origin_default(void) {
 }
 
 /* Writes points to `path`, "-" for standard output; the file is replaced whole or not at all. `origin` may be
- * NULL. Errors: UNSUPPORTED for a ply file of more than three coordinates, WRITE. */
-AUR_API aur_result aur_points_write(const char *path, aur_points_format format, const aur_points *points,
+ * NULL. Errors: ARGUMENT for an unknown format or domain or a stride below the dimension, UNSUPPORTED for a
+ * ply file of more than three coordinates, WRITE. */
+AUR_API aur_result aur_points_write(const char *path, aur_points_format format, const aur_points_view *points,
                                     const aur_points_origin *origin, aur_error *error) AUR_NONNULL(1, 3);
 
 #ifdef __cplusplus

@@ -1,10 +1,10 @@
 /* Figures of merit of point sets: how even they are.
  *
- * A measure is named NAME[:PARAMETER] everywhere (energy, riesz:1, ...). Coordinates are read as aur_points
- * says; directions within 1e-6 of unit length are scaled to it, others are refused. Weights, where there are
- * any, stand for masses and are divided by their sum (but for wce, which takes them as they are); without
- * weights each point has the mass 1/N. Distances are chords, angles radians, areas of Voronoi cells in units
- * of the mean area. */
+ * A measure is named NAME[:PARAMETER] everywhere (energy, riesz:1, ...). Coordinates are read as
+ * aur_points_view says; directions within 1e-6 of unit length are scaled to it, others are refused. Weights,
+ * where there are any, stand for masses and are divided by their sum (but for wce, which takes them as they
+ * are); without weights each point has the mass 1/N. Distances are chords, angles radians, areas of Voronoi
+ * cells in units of the mean area. */
 #ifndef AUREOLE_QUALITY_H
 #define AUREOLE_QUALITY_H
 
@@ -52,28 +52,32 @@ static inline aur_measure_options aur_measure_options_default(void) {
 /* One measure, by name, of points with optional weights. `options` may be NULL. The result does not depend on
  * the number of threads. The value is finite but for riesz:S with S >= 0 and mesh-ratio of points that
  * coincide, which are infinite. Errors: NAME, ARGUMENT (a parameter, a point or a weight that is out of
- * range, too few points), UNSUPPORTED for a measure that has no meaning on the points' domain, CANCELLED,
- * MEMORY. When one point is at fault, the message counts points from 1, and error->line is the point's line
- * where points->lines are there. */
-AUR_API aur_result aur_measure(const char *metric, const aur_points *points,
+ * range, too few points, a stride below the dimension), UNSUPPORTED for a measure that has no meaning on the
+ * points' domain, CANCELLED, MEMORY. When one point is at fault, the message counts points from 1, and
+ * error->line is the point's line where points->lines are there. */
+AUR_API aur_result aur_measure(const char *metric, const aur_points_view *points,
                                const aur_measure_options *options, double *value, aur_error *error)
     AUR_NONNULL(1, 2, 4);
 
 enum { AUR_SERIES_COLUMNS_MAX = 6 };
 
-/* A table of numbers: values[row * column_count + column]. */
-typedef struct aur_series {
-    size_t row_count, column_count;
-    const char *columns[AUR_SERIES_COLUMNS_MAX]; /* static storage */
-    double *values;
-} aur_series;
+/* A table of numbers that a measure made. */
+typedef struct aur_series aur_series;
+
+AUR_API size_t aur_series_row_count(const aur_series *series) AUR_NONNULL(1);
+AUR_API size_t aur_series_column_count(const aur_series *series) AUR_NONNULL(1);
+/* The name of a column, static storage; NULL beyond the last. No table has more than AUR_SERIES_COLUMNS_MAX.
+ */
+AUR_API const char *aur_series_column(const aur_series *series, size_t column) AUR_NONNULL(1);
+/* The number at row * column count + column, for as long as the series is kept. */
+AUR_API const double *aur_series_values(const aur_series *series) AUR_NONNULL(1);
+AUR_API void aur_series_destroy(aur_series *series); /* NULL is allowed */
 
 /* A measure that is a table: `series` is set in its description. Errors as for aur_measure; UNSUPPORTED for a
- * measure that is one value. Free with aur_series_release. */
-AUR_API aur_result aur_measure_series(const char *metric, const aur_points *points,
-                                      const aur_measure_options *options, aur_series *series,
+ * measure that is one value; *series is then NULL. Free with aur_series_destroy. */
+AUR_API aur_result aur_measure_series(const char *metric, const aur_points_view *points,
+                                      const aur_measure_options *options, aur_series **series,
                                       aur_error *error) AUR_NONNULL(1, 2, 4);
-AUR_API void aur_series_release(aur_series *series); /* safe on a zero series */
 
 #ifdef __cplusplus
 }

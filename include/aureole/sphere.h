@@ -203,11 +203,11 @@ static inline aur_points_request aur_points_request_default(const aur_directions
     return request;
 }
 
-/* Fills *points: release it with aur_points_release. Weights are there where they are not all equal. Native
+/* Makes *points: free with aur_points_destroy. Weights are there where they are not all equal. Native
  * sets come to the disk by the azimuthal map from the hemisphere. Errors: as aur_directions_create and
  * aur_pointset_create; UNSUPPORTED for a native set on the square. */
-AUR_API aur_result aur_points_generate(const char *set, const aur_points_request *request, aur_points *points,
-                                       aur_error *error) AUR_NONNULL(1, 2, 3);
+AUR_API aur_result aur_points_generate(const char *set, const aur_points_request *request,
+                                       aur_points **points, aur_error *error) AUR_NONNULL(1, 2, 3);
 
 /* The table of all sets, of the square and of the sphere. */
 AUR_API size_t aur_set_count(void);

@@ -27,7 +27,7 @@ typedef struct panel {
 typedef struct drawing {
     size_t panel_count;
     panel panels[2];
-    const aur_points *points;
+    const aur_points_view *points;
     double radius; /* of a dot of mean weight, in pixels */
 } drawing;
 
@@ -35,7 +35,7 @@ typedef struct mark {
     double x, y, radius, shade;
 } mark;
 
-static drawing compose(const aur_points *points) {
+static drawing compose(const aur_points_view *points) {
     static const panel square = {"", false, 0, 1, 0, 0.0, 2.0, -1.0};
     static const panel disk = {"", true, 0, 1, 0, 0.0, 1.0, 0.0};
     static const panel side = {"side", true, 0, 2, 1, -1.0, 1.0, 0.0};
@@ -72,7 +72,7 @@ static double panel_left(size_t p) {
  * wanted). */
 static bool place(const drawing *d, size_t p, size_t i, bool near, mark *m) {
     const panel *const to = &d->panels[p];
-    const double *const at = d->points->coordinates + i * d->points->dimension;
+    const double *const at = d->points->coordinates + i * d->points->stride;
     const bool is_near = to->depth_sign == 0.0 || at[to->depth] * to->depth_sign >= 0.0;
     if (is_near != near)
         return false;
@@ -196,7 +196,7 @@ static aur_result write_png(const char *path, const drawing *d, aur_error *error
     return result;
 }
 
-aur_result cli_draw_points(const char *path, bool png, const aur_points *points, aur_error *error) {
+aur_result cli_draw_points(const char *path, bool png, const aur_points_view *points, aur_error *error) {
     if (points->count > POINT_LIMIT)
         return fail(error, AUR_ERROR_ARGUMENT, "a picture shows at most %d points, not %zu: use --count",
                     POINT_LIMIT, points->count);

@@ -8,4 +8,4 @@
  * with its weight. The square has v upwards; a point set on the cube shows its first two coordinates. The
  * sphere is seen from the side (x to the right, z up) and from the pole (x to the right, y up); points on the
  * far side are pale. */
-aur_result cli_draw_points(const char *path, bool png, const aur_points *points, aur_error *error);
+aur_result cli_draw_points(const char *path, bool png, const aur_points_view *points, aur_error *error);

@@ -164,31 +164,32 @@ static int describe_picture(const char *path, const char *format, const info_opt
 }
 
 static int describe_points(const char *path, const info_options *options) {
-    aur_points points;
+    aur_points *points;
     aur_error error;
     if (aur_points_read(path, &points, &error) != AUR_OK)
         return cli_fail(&error);
     static const char *const columns[] = {"domain", "points",  "coordinate", "minimum",
                                           "mean",   "maximum", "not_finite"};
     cli_table *const table = cli_table_create(sizeof columns / sizeof columns[0], columns);
-    const size_t column_count = points.dimension + (points.weights != NULL);
+    const aur_points_view *const view = aur_points_look(points);
+    const size_t column_count = view->dimension + (view->weights != NULL);
     for (size_t c = 0; c < column_count; ++c) {
-        const bool weight = c == points.dimension;
+        const bool weight = c == view->dimension;
         info_summary summary;
         summary_start(&summary);
-        for (size_t i = 0; i < points.count; ++i)
-            summary_add(&summary, weight ? points.weights[i] : points.coordinates[i * points.dimension + c]);
-        summary_finish(&summary, points.count);
+        for (size_t i = 0; i < view->count; ++i)
+            summary_add(&summary, weight ? view->weights[i] : view->coordinates[i * view->stride + c]);
+        summary_finish(&summary, view->count);
         char number[32];
-        const bool named = points.dimension <= 3 && points.domain != AUR_DOMAIN_CUBE;
+        const bool named = view->dimension <= 3 && view->domain != AUR_DOMAIN_CUBE;
         snprintf(number, sizeof number, "u%zu", c + 1);
-        const char *const letters = points.domain == AUR_DOMAIN_SQUARE ? "u\0v" : "x\0y\0z";
-        cli_table_text(table, aur_domain_name(points.domain));
-        cli_table_integer(table, points.count);
+        const char *const letters = view->domain == AUR_DOMAIN_SQUARE ? "u\0v" : "x\0y\0z";
+        cli_table_text(table, aur_domain_name(view->domain));
+        cli_table_integer(table, view->count);
         cli_table_text(table, weight ? "w" : named ? letters + 2 * c : number);
         put_summary(table, &summary);
     }
-    aur_points_release(&points);
+    aur_points_destroy(points);
     const int status = cli_table_print(table, options->format);
     cli_table_destroy(table);
     return status;

@@ -11,17 +11,18 @@ static aur_result measure_points(const cli_measure_arguments *arguments, const c
                                  uint64_t seed, cli_measure_row *row, double *values, aur_error *error) {
     cli_point_options options = arguments->points;
     options.seed = seed;
-    aur_points points;
-    aur_result result = cli_load_points(source, &options, count, &points, error);
+    aur_points *points;
+    aur_points_view view;
+    aur_result result = cli_load_points(source, &options, count, &points, &view, error);
     if (result != AUR_OK)
         return result;
-    row->count = points.count;
-    row->domain = points.domain;
+    row->count = view.count;
+    row->domain = view.domain;
     for (size_t m = 0; m < arguments->metric_count && result == AUR_OK; ++m)
-        result = aur_measure(arguments->metrics[m], &points, &arguments->options, &values[m], error);
+        result = aur_measure(arguments->metrics[m], &view, &arguments->options, &values[m], error);
     if (result != AUR_OK && error->file[0] == '\0')
         snprintf(error->file, sizeof error->file, "%s", source);
-    aur_points_release(&points);
+    aur_points_destroy(points);
     return result;
 }
 

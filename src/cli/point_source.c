@@ -63,31 +63,18 @@ bool cli_is_file(const char *text) {
 }
 
 /* Weights of 1/N say nothing. */
-static void drop_equal_weights(aur_points *points) {
-    for (size_t i = 0; i < points->count; ++i)
-        if (!(fabs(points->weights[i] * (double)points->count - 1.0) <= 1e-12))
-            return;
-    free(points->weights);
-    points->weights = NULL;
+static bool are_equal(size_t count, const double *weights) {
+    for (size_t i = 0; i < count; ++i)
+        if (!(fabs(weights[i] * (double)count - 1.0) <= 1e-12))
+            return false;
+    return true;
 }
 
-static aur_result load_file(const char *path, const cli_point_options *options, aur_points *points,
-                            aur_error *error) {
-    const aur_result result = options->domain_given ? aur_points_read_on(path, options->domain, points, error)
-                                                    : aur_points_read(path, points, error);
-    if (result != AUR_OK)
-        return result;
-    if (points->weights != NULL)
-        drop_equal_weights(points);
-    return AUR_OK;
-}
-
-aur_result cli_load_points(const char *text, const cli_point_options *options, size_t count,
-                           aur_points *points, aur_error *error) {
-    *points = (aur_points){0};
-    *error = (aur_error){0};
+static aur_result load(const char *text, const cli_point_options *options, size_t count, aur_points **points,
+                       aur_error *error) {
     if (cli_is_file(text))
-        return load_file(text, options, points, error);
+        return options->domain_given ? aur_points_read_on(text, options->domain, points, error)
+                                     : aur_points_read(text, points, error);
     const bool cube = options->domain == AUR_DOMAIN_SQUARE || options->domain == AUR_DOMAIN_CUBE;
     const aur_directions_options directions = {.size = sizeof directions,
                                                .count = count,
@@ -102,4 +89,16 @@ aur_result cli_load_points(const char *text, const cli_point_options *options, s
     aur_points_request request = aur_points_request_default(&directions);
     request.dimension = cube ? options->dimension : 0;
     return aur_points_generate(text, &request, points, error);
+}
+
+aur_result cli_load_points(const char *text, const cli_point_options *options, size_t count,
+                           aur_points **points, aur_points_view *view, aur_error *error) {
+    *error = (aur_error){0};
+    const aur_result result = load(text, options, count, points, error);
+    if (result != AUR_OK)
+        return result;
+    *view = *aur_points_look(*points);
+    if (cli_is_file(text) && view->weights != NULL && are_equal(view->count, view->weights))
+        view->weights = NULL;
+    return AUR_OK;
 }

@@ -43,6 +43,7 @@ bool cli_parse_domain(const char *text, aur_domain *domain);
 bool cli_is_file(const char *text);
 
 /* The points of a set, `count` of them, on options->domain; of a file, all of them, on the file's domain
- * unless options->domain_given. Equal weights are left out. Free with aur_points_release. */
+ * unless options->domain_given. `view` is of all of them, without weights where these are equal, until
+ * aur_points_destroy. */
 aur_result cli_load_points(const char *text, const cli_point_options *options, size_t count,
-                           aur_points *points, aur_error *error);
+                           aur_points **points, aur_points_view *view, aur_error *error);

@@ -198,20 +198,24 @@ static int read_density(const char *path, aur_density_image **density) {
     return good ? CLI_SUCCESS : cli_fail(&error);
 }
 
-static int warp(const char *path, aur_points *points) {
+/* Moves the points into an array of their own, which the caller frees. */
+static int warp(const char *path, aur_points_view *points, double **warped) {
     if (points->domain != AUR_DOMAIN_SQUARE)
         return cli_bad_usage("--warp: needs points of the square");
     aur_density_image *density;
     const int status = read_density(path, &density);
     if (status != CLI_SUCCESS)
         return status;
-    for (size_t i = 0; i < points->count; ++i)
-        aur_density_image_warp(density, points->coordinates + 2 * i, points->coordinates + 2 * i);
+    *warped = malloc(2 * points->count * sizeof **warped);
+    for (size_t i = 0; i < points->count && *warped != NULL; ++i)
+        aur_density_image_warp(density, points->coordinates + 2 * i, *warped + 2 * i);
     aur_density_image_destroy(density);
-    return CLI_SUCCESS;
+    points->coordinates = *warped;
+    return *warped != NULL ? CLI_SUCCESS
+                           : cli_fail(&(aur_error){.result = AUR_ERROR_MEMORY, .message = "out of memory"});
 }
 
-static int write_points(const request *wanted, const aur_points *points) {
+static int write_points(const request *wanted, const aur_points_view *points) {
     aur_error error = {0};
     const uint64_t size = wanted->options.count; /* 0: all of a file */
     const aur_points_origin origin = {.size = sizeof origin,
@@ -235,13 +239,16 @@ static int run(int argc, char **argv) {
         return CLI_BAD_INPUT;
     wanted.options.warnings = cli_warnings(wanted.quiet);
     aur_error error = {0};
-    aur_points points;
+    aur_points *points;
     if (aur_points_generate(wanted.set, &wanted.points, &points, &error) != AUR_OK)
         return cli_fail(&error);
-    int status = wanted.warp != NULL ? warp(wanted.warp, &points) : CLI_SUCCESS;
+    aur_points_view view = *aur_points_look(points);
+    double *warped = NULL;
+    int status = wanted.warp != NULL ? warp(wanted.warp, &view, &warped) : CLI_SUCCESS;
     if (status == CLI_SUCCESS)
-        status = write_points(&wanted, &points);
-    aur_points_release(&points);
+        status = write_points(&wanted, &view);
+    free(warped);
+    aur_points_destroy(points);
     return status;
 }
 

@@ -73,25 +73,29 @@ static aur_result load_one(weights_job *task, aur_error *error) {
     const cli_weights_arguments *const arguments = task->arguments;
     cli_point_options options = arguments->points;
     options.domain_given = !cli_is_file(arguments->source) || options.domain_given;
-    aur_points points;
-    const aur_result result = cli_load_points(arguments->source, &options, arguments->size, &points, error);
+    aur_points *points;
+    aur_points_view view;
+    const aur_result result =
+        cli_load_points(arguments->source, &options, arguments->size, &points, &view, error);
     if (result != AUR_OK)
         return result;
-    if (points.dimension != 3) {
-        aur_points_release(&points);
+    double *const xyz = view.dimension == 3 ? malloc(3 * view.count * sizeof *xyz) : NULL;
+    if (xyz != NULL)
+        memcpy(xyz, view.coordinates, 3 * view.count * sizeof *xyz);
+    aur_points_destroy(points);
+    if (view.dimension != 3)
         return fail(error, AUR_ERROR_UNSUPPORTED,
                     "weights are for directions: the file must have the columns x,y,z");
-    }
-    task->result->count = points.count;
-    task->result->xyz = points.coordinates;
-    free(points.weights);
-    free(points.lines);
-    for (size_t i = 0; arguments->points.domain == AUR_DOMAIN_HEMISPHERE && i < points.count; ++i)
-        if (points.coordinates[3 * i + 2] < -1e-9 && arguments->points.lobe.kind != AUR_LOBE_GGX) {
+    if (xyz == NULL)
+        return out_of_memory(error);
+    task->result->count = view.count;
+    task->result->xyz = xyz;
+    for (size_t i = 0; arguments->points.domain == AUR_DOMAIN_HEMISPHERE && i < view.count; ++i)
+        if (xyz[3 * i + 2] < -1e-9 && arguments->points.lobe.kind != AUR_LOBE_GGX) {
             char message[160];
             snprintf(message, sizeof message,
                      "point %zu lies below the hemisphere (z = %g): is it --domain sphere?", i,
-                     points.coordinates[3 * i + 2]);
+                     xyz[3 * i + 2]);
             return fail(error, AUR_ERROR_ARGUMENT, message);
         }
     return AUR_OK;

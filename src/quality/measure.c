@@ -26,12 +26,30 @@ aur_result aur_series_create(aur_series *series, size_t row_count, size_t column
     return series->values != NULL ? AUR_OK : aur_fail_memory(error);
 }
 
-void aur_series_release(aur_series *series) {
+void aur_series_destroy(aur_series *series) {
+    if (series == NULL)
+        return;
     free(series->values);
-    *series = (aur_series){0};
+    free(series);
 }
 
-double aur_sum_of_squares(const aur_points *points) {
+size_t aur_series_row_count(const aur_series *series) {
+    return series->row_count;
+}
+
+size_t aur_series_column_count(const aur_series *series) {
+    return series->column_count;
+}
+
+const char *aur_series_column(const aur_series *series, size_t column) {
+    return column < series->column_count ? series->columns[column] : NULL;
+}
+
+const double *aur_series_values(const aur_series *series) {
+    return series->values;
+}
+
+double aur_sum_of_squares(const aur_points_view *points) {
     double sum = 0.0;
     for (size_t i = 0; i < points->count; ++i)
         sum += points->weights != NULL ? points->weights[i] * points->weights[i] : 1.0;

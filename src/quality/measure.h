@@ -5,11 +5,13 @@
 #include <stdbool.h>
 
 #include "core/error.h"
+#include "pointset/points.h"
 
 /* What a measure is given: points on one of its domains, at least `minimum_count` of them, finite coordinates
- * inside the domain (directions scaled to unit length), finite weights with a positive sum. */
+ * inside the domain, finite weights with a positive sum. Directions have unit length and lie one after
+ * another; points of the other domains are reached through aur_point_at. */
 typedef struct aur_measure_request {
-    const aur_points *points;
+    const aur_points_view *points;
     const char *parameter; /* what follows the first ':', or NULL */
     size_t variant;        /* of the row */
     aur_measure_options options;
@@ -25,6 +27,12 @@ typedef struct aur_measure_row {
     aur_result (*tabulate)(const aur_measure_request *request, aur_series *series, aur_error *error);
 } aur_measure_row;
 
+struct aur_series {
+    size_t row_count, column_count;
+    const char *columns[AUR_SERIES_COLUMNS_MAX];
+    double *values;
+};
+
 /* A number within [minimum, maximum] from the parameter, or `missing` when there is no parameter. */
 aur_result aur_measure_number(const aur_measure_request *request, double minimum, double maximum,
                               double missing, double *value, aur_error *error);
@@ -34,4 +42,4 @@ aur_result aur_series_create(aur_series *series, size_t row_count, size_t column
                              const char *const *columns, aur_error *error);
 
 /* The sum of squared weights (N without weights): the mean power of a random set's spectrum. */
-double aur_sum_of_squares(const aur_points *points);
+double aur_sum_of_squares(const aur_points_view *points);

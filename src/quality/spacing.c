@@ -25,14 +25,14 @@ static double square_distance(const double *p, const double *q, size_t dimension
 }
 
 /* Sweep along the last axis: a pair farther apart in it than the best distance so far cannot be nearer. */
-aur_result aur_smallest_distance(const aur_points *points, double *distance, aur_error *error) {
+aur_result aur_smallest_distance(const aur_points_view *points, double *distance, aur_error *error) {
     const size_t count = points->count;
     const size_t dimension = points->dimension;
     along_axis *const sorted = malloc(count * sizeof *sorted);
     if (sorted == NULL)
         return aur_fail_memory(error);
     for (size_t i = 0; i < count; ++i) {
-        const double *const point = points->coordinates + i * dimension;
+        const double *const point = aur_point_at(points, i);
         sorted[i] = (along_axis){point[dimension - 1], point};
     }
     qsort(sorted, count, sizeof *sorted, by_coordinate);

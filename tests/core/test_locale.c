@@ -52,20 +52,21 @@ static void writes_and_reads_points(void **state) {
     aur_error error = {0};
     double coordinates[] = {0.5, 0.25, 0.125, 0.75};
     double weights[] = {1.5, 0.5};
-    const aur_points points = {.domain = AUR_DOMAIN_SQUARE,
-                               .count = 2,
-                               .dimension = 2,
-                               .coordinates = coordinates,
-                               .weights = weights};
+    const aur_points_view points = {.size = sizeof points,
+                                    .domain = AUR_DOMAIN_SQUARE,
+                                    .count = 2,
+                                    .dimension = 2,
+                                    .coordinates = coordinates,
+                                    .weights = weights};
     assert_int_equal(aur_points_write("points.csv", AUR_POINTS_CSV, &points, NULL, &error), AUR_OK);
     assert_true(file_contains("points.csv", "u,v,w\n0.5,0.25,1.5\n0.125,0.75,0.5\n"));
     assert_int_equal(aur_points_write("points.json", AUR_POINTS_JSON, &points, NULL, &error), AUR_OK);
     assert_true(file_contains("points.json", "[0.5, 0.25]"));
-    aur_points read;
+    aur_points *read;
     assert_int_equal(aur_points_read("points.csv", &read, &error), AUR_OK);
-    assert_memory_equal(read.coordinates, coordinates, sizeof coordinates);
-    assert_memory_equal(read.weights, weights, sizeof weights);
-    aur_points_release(&read);
+    assert_memory_equal(aur_points_look(read)->coordinates, coordinates, sizeof coordinates);
+    assert_memory_equal(aur_points_look(read)->weights, weights, sizeof weights);
+    aur_points_destroy(read);
     assert_int_equal(aur_weights_write("weights.csv", 1, (const double[]){0.0, 0.6, 0.8}, 1, weights, &error),
                      AUR_OK);
     assert_true(file_contains("weights.csv", "0,0.59999999999999998,0.80000000000000004,1.5\n"));

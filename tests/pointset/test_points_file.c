@@ -14,9 +14,9 @@ static void write_file(const char *data, size_t size) {
     assert_int_equal(fclose(file), 0);
 }
 
-static aur_points read_text(const char *text) {
+static aur_points *read_text(const char *text) {
     write_file(text, strlen(text));
-    aur_points points;
+    aur_points *points;
     aur_error error = {0};
     const aur_result result = aur_points_read(path, &points, &error);
     if (result != AUR_OK)
@@ -45,15 +45,15 @@ static void headers_say_what_columns_are(void **state) {
         {"u,v,w\n0,0.5,1\n", AUR_DOMAIN_SQUARE, 2, true},
     };
     for (size_t k = 0; k < sizeof cases / sizeof cases[0]; ++k) {
-        aur_points points = read_text(cases[k].text);
-        assert_int_equal(points.domain, cases[k].domain);
-        assert_int_equal(points.dimension, cases[k].dimension);
-        assert_int_equal(points.weights != NULL, cases[k].weights);
-        aur_points_release(&points);
+        aur_points *points = read_text(cases[k].text);
+        assert_int_equal(aur_points_look(points)->domain, cases[k].domain);
+        assert_int_equal(aur_points_look(points)->dimension, cases[k].dimension);
+        assert_int_equal(aur_points_look(points)->weights != NULL, cases[k].weights);
+        aur_points_destroy(points);
     }
 }
 
-static aur_result read_on(aur_domain domain, const char *text, aur_points *points, aur_error *error) {
+static aur_result read_on(aur_domain domain, const char *text, aur_points **points, aur_error *error) {
     write_file(text, strlen(text));
     return aur_points_read_on(path, domain, points, error);
 }
@@ -62,11 +62,11 @@ static aur_result read_on(aur_domain domain, const char *text, aur_points *point
 static void the_domain_asked_for_decides(void **state) {
     (void)state;
     static const char unit[] = "x,y\n0.9,0.9\n";
-    aur_points points;
+    aur_points *points;
     aur_error error = {0};
     assert_int_equal(read_on(AUR_DOMAIN_SQUARE, unit, &points, &error), AUR_OK);
-    assert_int_equal(points.domain, AUR_DOMAIN_SQUARE);
-    aur_points_release(&points);
+    assert_int_equal(aur_points_look(points)->domain, AUR_DOMAIN_SQUARE);
+    aur_points_destroy(points);
     assert_int_equal(aur_points_read(path, &points, &error), AUR_ERROR_FORMAT);
     assert_non_null(strstr(error.message, "header x,y"));
     assert_int_equal(read_on(AUR_DOMAIN_DISK, unit, &points, &error), AUR_ERROR_FORMAT);
@@ -76,8 +76,8 @@ static void the_domain_asked_for_decides(void **state) {
     assert_int_equal(read_on(AUR_DOMAIN_SPHERE, "u1,u2,u3\n0,0.5,0.25\n", &points, &error),
                      AUR_ERROR_UNSUPPORTED);
     assert_int_equal(read_on(AUR_DOMAIN_SPHERE, "x,y,z\n0,0,1\n", &points, &error), AUR_OK);
-    assert_int_equal(points.domain, AUR_DOMAIN_SPHERE);
-    aur_points_release(&points);
+    assert_int_equal(aur_points_look(points)->domain, AUR_DOMAIN_SPHERE);
+    aur_points_destroy(points);
     assert_int_equal(read_on(AUR_DOMAIN_HEMISPHERE, "x,y,z\n0,0,-1\n", &points, &error), AUR_ERROR_FORMAT);
     assert_int_equal(error.line, 2);
 
@@ -102,14 +102,14 @@ static void domains_have_names(void **state) {
 
 static void numbers_come_back(void **state) {
     (void)state;
-    aur_points points = read_text("u,v,w\n0.10000000000000001,2.5e-1,3\n0.99999999999999989,0,-1\n");
-    assert_int_equal(points.count, 2);
-    assert_near(points.coordinates[0], 0.1, 0.0);
-    assert_near(points.coordinates[1], 0.25, 0.0);
-    assert_near(points.coordinates[2], 0.99999999999999989, 0.0);
-    assert_near(points.weights[0], 3.0, 0.0);
-    assert_near(points.weights[1], -1.0, 0.0);
-    aur_points_release(&points);
+    aur_points *points = read_text("u,v,w\n0.10000000000000001,2.5e-1,3\n0.99999999999999989,0,-1\n");
+    assert_int_equal(aur_points_look(points)->count, 2);
+    assert_near(aur_points_look(points)->coordinates[0], 0.1, 0.0);
+    assert_near(aur_points_look(points)->coordinates[1], 0.25, 0.0);
+    assert_near(aur_points_look(points)->coordinates[2], 0.99999999999999989, 0.0);
+    assert_near(aur_points_look(points)->weights[0], 3.0, 0.0);
+    assert_near(aur_points_look(points)->weights[1], -1.0, 0.0);
+    aur_points_destroy(points);
 }
 
 static void bad_text_names_its_line(void **state) {
@@ -134,14 +134,14 @@ static void bad_text_names_its_line(void **state) {
     };
     for (size_t k = 0; k < sizeof cases / sizeof cases[0]; ++k) {
         write_file(cases[k].text, strlen(cases[k].text));
-        aur_points points;
+        aur_points *points;
         aur_error error = {0};
         assert_int_equal(aur_points_read(path, &points, &error), AUR_ERROR_FORMAT);
         assert_string_equal(error.file, path);
         assert_int_equal(error.line, cases[k].line);
-        assert_null(points.coordinates);
+        assert_null(points);
     }
-    aur_points points;
+    aur_points *points;
     write_file("", 0);
     assert_int_equal(aur_points_read(path, &points, NULL), AUR_ERROR_FORMAT);
     write_file("u,v\n", 4);
@@ -164,35 +164,35 @@ static void write_npy(const char *header, const void *numbers, size_t size) {
 static void arrays_come_back(void **state) {
     (void)state;
     static const double rows[] = {0.125, 0.25, 0.5, 0.625, 0.75, 0.875};
-    aur_points points;
+    aur_points *points;
     write_npy("{'descr': '<f8', 'fortran_order': False, 'shape': (3, 2), }\n", rows, sizeof rows);
     assert_int_equal(aur_points_read(path, &points, NULL), AUR_OK);
-    assert_int_equal(points.domain, AUR_DOMAIN_SQUARE);
-    assert_int_equal(points.count, 3);
-    assert_memory_equal(points.coordinates, rows, sizeof rows);
-    aur_points_release(&points);
+    assert_int_equal(aur_points_look(points)->domain, AUR_DOMAIN_SQUARE);
+    assert_int_equal(aur_points_look(points)->count, 3);
+    assert_memory_equal(aur_points_look(points)->coordinates, rows, sizeof rows);
+    aur_points_destroy(points);
 
     write_npy("{'descr': '<f8', 'fortran_order': True, 'shape': (3, 2), }\n", rows, sizeof rows);
     assert_int_equal(aur_points_read(path, &points, NULL), AUR_OK);
     for (size_t r = 0; r < 3; ++r)
         for (size_t c = 0; c < 2; ++c)
-            assert_near(points.coordinates[2 * r + c], rows[3 * c + r], 0.0);
-    aur_points_release(&points);
+            assert_near(aur_points_look(points)->coordinates[2 * r + c], rows[3 * c + r], 0.0);
+    aur_points_destroy(points);
 
     static const unsigned char half[] = {0x3f, 0, 0, 0};
     write_npy("{'descr': '>f4', 'fortran_order': False, 'shape': (1,), }\n", half, sizeof half);
     assert_int_equal(aur_points_read(path, &points, NULL), AUR_OK);
-    assert_int_equal(points.domain, AUR_DOMAIN_CUBE);
-    assert_int_equal(points.dimension, 1);
-    assert_near(points.coordinates[0], 0.5, 0.0);
-    aur_points_release(&points);
+    assert_int_equal(aur_points_look(points)->domain, AUR_DOMAIN_CUBE);
+    assert_int_equal(aur_points_look(points)->dimension, 1);
+    assert_near(aur_points_look(points)->coordinates[0], 0.5, 0.0);
+    aur_points_destroy(points);
 
     static const float pole[] = {0, 0, -1, 0.25f};
     write_npy("{'descr': '<f4', 'fortran_order': False, 'shape': (1, 4), }\n", pole, sizeof pole);
     assert_int_equal(aur_points_read(path, &points, NULL), AUR_OK);
-    assert_int_equal(points.domain, AUR_DOMAIN_SPHERE);
-    assert_near(points.weights[0], 0.25, 0.0);
-    aur_points_release(&points);
+    assert_int_equal(aur_points_look(points)->domain, AUR_DOMAIN_SPHERE);
+    assert_near(aur_points_look(points)->weights[0], 0.25, 0.0);
+    aur_points_destroy(points);
 }
 
 static void bad_arrays_are_refused(void **state) {
@@ -213,12 +213,12 @@ static void bad_arrays_are_refused(void **state) {
     };
     for (size_t k = 0; k < sizeof headers / sizeof headers[0]; ++k) {
         write_npy(headers[k], rows, sizeof rows);
-        aur_points points;
+        aur_points *points;
         aur_error error = {0};
         assert_int_equal(aur_points_read(path, &points, &error), AUR_ERROR_FORMAT);
-        assert_null(points.coordinates);
+        assert_null(points);
     }
-    aur_points points;
+    aur_points *points;
     write_file("\x93NUMPY\x01", 8);
     assert_int_equal(aur_points_read(path, &points, NULL), AUR_ERROR_FORMAT);
     write_file("\x93NUMPY\x01\0\xff\xff{}          ", 20);

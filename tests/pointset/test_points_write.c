@@ -19,8 +19,8 @@ static char *slurp(size_t *size) {
     return text;
 }
 
-static void expect_text(aur_points_format format, const aur_points *points, const aur_points_origin *origin,
-                        const char *expected) {
+static void expect_text(aur_points_format format, const aur_points_view *points,
+                        const aur_points_origin *origin, const char *expected) {
     assert_int_equal(aur_points_write(path, format, points, origin, NULL), AUR_OK);
     size_t size;
     char *const text = slurp(&size);
@@ -32,10 +32,14 @@ static double square[] = {0.0, 0.1, 0.5, 0.75};
 static double direction[] = {0.0, 0.6, 0.8};
 static double weight[] = {0.25, 0.125};
 
-static const aur_points flat = {
-    .domain = AUR_DOMAIN_SQUARE, .count = 2, .dimension = 2, .coordinates = square};
-static const aur_points round_one = {
-    .domain = AUR_DOMAIN_SPHERE, .count = 1, .dimension = 3, .coordinates = direction, .weights = weight};
+static const aur_points_view flat = {
+    .size = sizeof flat, .domain = AUR_DOMAIN_SQUARE, .count = 2, .dimension = 2, .coordinates = square};
+static const aur_points_view round_one = {.size = sizeof round_one,
+                                          .domain = AUR_DOMAIN_SPHERE,
+                                          .count = 1,
+                                          .dimension = 3,
+                                          .coordinates = direction,
+                                          .weights = weight};
 
 /* Headers by domain, weights last, 17 digits. */
 static void csv_is_as_documented(void **state) {
@@ -43,11 +47,12 @@ static void csv_is_as_documented(void **state) {
     expect_text(AUR_POINTS_CSV, &flat, NULL, "u,v\n0,0.10000000000000001\n0.5,0.75\n");
     expect_text(AUR_POINTS_CSV, &round_one, NULL,
                 "x,y,z,w\n0,0.59999999999999998,0.80000000000000004,0.25\n");
-    aur_points disk = flat;
+    aur_points_view disk = flat;
     disk.domain = AUR_DOMAIN_DISK;
     disk.weights = weight;
     expect_text(AUR_POINTS_CSV, &disk, NULL, "x,y,w\n0,0.10000000000000001,0.25\n0.5,0.75,0.125\n");
-    const aur_points cube = {.domain = AUR_DOMAIN_CUBE, .count = 1, .dimension = 4, .coordinates = square};
+    const aur_points_view cube = {
+        .size = sizeof cube, .domain = AUR_DOMAIN_CUBE, .count = 1, .dimension = 4, .coordinates = square};
     expect_text(AUR_POINTS_CSV, &cube, NULL, "u1,u2,u3,u4\n0,0.10000000000000001,0.5,0.75\n");
 }
 
@@ -111,7 +116,8 @@ static int exists(const char *name) {
 static void failures_leave_the_old_file(void **state) {
     (void)state;
     expect_text(AUR_POINTS_CSV, &flat, NULL, "u,v\n0,0.10000000000000001\n0.5,0.75\n");
-    const aur_points cube = {.domain = AUR_DOMAIN_CUBE, .count = 1, .dimension = 4, .coordinates = square};
+    const aur_points_view cube = {
+        .size = sizeof cube, .domain = AUR_DOMAIN_CUBE, .count = 1, .dimension = 4, .coordinates = square};
     aur_error error = {0};
     assert_int_equal(aur_points_write(path, AUR_POINTS_PLY, &cube, NULL, &error), AUR_ERROR_UNSUPPORTED);
     assert_true(strlen(error.message) > 0);

@@ -1,39 +1,38 @@
 /* Points of the square and the cube for the tests of the measures. Include check.h first. */
 #pragma once
 
-#include <aureole/quality.h>
-#include <stdlib.h>
-
 #include "core/random.h"
+#include "own_points.h"
 
-static inline double measured(const char *metric, const aur_points *points) {
+static inline double measured(const char *metric, const own_points *points) {
     double value = NAN;
     aur_error error = {0};
-    assert_int_equal(aur_measure(metric, points, NULL, &value, &error), AUR_OK);
+    assert_int_equal(aur_measure(metric, (const aur_points_view[]){seen(points)}, NULL, &value, &error),
+                     AUR_OK);
     return value;
 }
 
-static inline aur_points cube_points(size_t count, size_t dimension) {
-    return (aur_points){.domain = dimension == 2 ? AUR_DOMAIN_SQUARE : AUR_DOMAIN_CUBE,
+static inline own_points cube_points(size_t count, size_t dimension) {
+    return (own_points){.domain = dimension == 2 ? AUR_DOMAIN_SQUARE : AUR_DOMAIN_CUBE,
                         .count = count,
                         .dimension = dimension,
                         .coordinates = malloc(count * dimension * sizeof(double))};
 }
 
-static inline aur_points random_points(size_t count, size_t dimension, uint64_t seed) {
-    aur_points points = cube_points(count, dimension);
+static inline own_points random_points(size_t count, size_t dimension, uint64_t seed) {
+    own_points points = cube_points(count, dimension);
     for (size_t i = 0; i < count * dimension; ++i)
         points.coordinates[i] = aur_unit_double(aur_hash2(seed, i));
     return points;
 }
 
-static inline aur_points scrambled_set(const char *set, size_t count, size_t dimension,
+static inline own_points scrambled_set(const char *set, size_t count, size_t dimension,
                                        aur_scramble scramble) {
     const aur_pointset_options options = {
         .size = sizeof options, .count = count, .dimension = dimension, .scramble = scramble, .seed = 5};
     aur_pointset *pointset = NULL;
     assert_int_equal(aur_pointset_create(set, &options, &pointset, NULL), AUR_OK);
-    aur_points points = cube_points(count, dimension);
+    own_points points = cube_points(count, dimension);
     assert_int_equal(aur_pointset_points(pointset, 0, count, dimension * count, points.coordinates), AUR_OK);
     aur_pointset_destroy(pointset);
     return points;

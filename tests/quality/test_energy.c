@@ -8,17 +8,18 @@
 
 #include "core/simd.h"
 
-static double measured(const char *metric, const aur_points *points) {
+static double measured(const char *metric, const own_points *points) {
     double value = NAN;
     aur_error error = {0};
-    assert_int_equal(aur_measure(metric, points, NULL, &value, &error), AUR_OK);
+    assert_int_equal(aur_measure(metric, (const aur_points_view[]){seen(points)}, NULL, &value, &error),
+                     AUR_OK);
     return value;
 }
 
 /* E_64 = 4.01610e-2, E_1024 = 4.98051e-3, C(64) = 0.8258, C(1024) = 0.8128. */
 static void spherical_fibonacci_has_the_golden_energy(void **state) {
     (void)state;
-    aur_points points = spherical_fibonacci(64, AUR_DOMAIN_SPHERE);
+    own_points points = spherical_fibonacci(64, AUR_DOMAIN_SPHERE);
     const double e64 = measured("energy", &points);
     assert_near(e64, 4.01610e-2, 0.5e-7);
     assert_near(e64 * e64 * 512.0, 0.8258, 0.5e-4);
@@ -41,7 +42,7 @@ static void spherical_fibonacci_has_the_golden_energy(void **state) {
 
 static void small_sets_have_their_closed_forms(void **state) {
     (void)state;
-    aur_points points = octahedron();
+    own_points points = octahedron();
     /* 6 * (4 sqrt 2 + 2) / 36 is the mean distance. */
     assert_near(measured("energy", &points), sqrt(4.0 / 3.0 - (4.0 * sqrt(2.0) + 2.0) / 6.0), 1e-15);
     assert_near(measured("riesz:1", &points), 6.0 * (4.0 / sqrt(2.0) + 0.5), 1e-13);
@@ -71,7 +72,7 @@ static void random_sets_have_the_exact_expectation(void **state) {
     enum { SETS = 400, COUNT = 32 };
     double sum = 0.0, squares = 0.0;
     for (uint64_t seed = 0; seed < SETS; ++seed) {
-        aur_points points = random_directions(COUNT, seed);
+        own_points points = random_directions(COUNT, seed);
         const double energy = measured("energy", &points);
         const double scaled = energy * energy * COUNT;
         sum += scaled;
@@ -88,9 +89,9 @@ static void weights_are_masses(void **state) {
     (void)state;
     static const char *const metrics[] = {"energy", "riesz:-1"};
     for (int hemisphere = 0; hemisphere < 2; ++hemisphere) {
-        aur_points thrice = spherical_fibonacci(3, hemisphere ? AUR_DOMAIN_HEMISPHERE : AUR_DOMAIN_SPHERE);
+        own_points thrice = spherical_fibonacci(3, hemisphere ? AUR_DOMAIN_HEMISPHERE : AUR_DOMAIN_SPHERE);
         memcpy(thrice.coordinates + 6, thrice.coordinates, 3 * sizeof(double));
-        aur_points weighted = thrice;
+        own_points weighted = thrice;
         double weights[3] = {2.0, 1.0, 0.0};
         weighted.count = 2;
         weighted.weights = weights;
@@ -136,7 +137,7 @@ static void the_potential_of_the_hemisphere_is_exact(void **state) {
 }
 
 /* The sum in long double, pair by pair. */
-static long double plain_sum(const aur_points *points) {
+static long double plain_sum(const own_points *points) {
     long double sum = 0.0L;
     for (size_t i = 0; i < points->count; ++i)
         for (size_t j = 0; j < i; ++j) {
@@ -159,10 +160,10 @@ static void pair_sums_agree_with_long_double(void **state) {
     (void)state;
     static const size_t counts[] = {1, 2, 3, 7, 8, 9, 100, 1023, 1024, 1025, 2053, 3000};
     for (size_t c = 0; c < sizeof counts / sizeof counts[0]; ++c) {
-        aur_points points = random_directions(counts[c], 7 + c);
+        own_points points = random_directions(counts[c], 7 + c);
         const double expected = (double)plain_sum(&points);
         aur_axes axes;
-        assert_int_equal(aur_axes_create(&points, &axes, NULL), AUR_OK);
+        assert_int_equal(aur_axes_create((const aur_points_view[]){seen(&points)}, &axes, NULL), AUR_OK);
         const aur_measure_options accurate = {.size = sizeof accurate};
         const aur_measure_options fast = {.size = sizeof fast, .fast = true};
         aur_twofold sum;
@@ -174,7 +175,7 @@ static void pair_sums_agree_with_long_double(void **state) {
         points.weights = malloc(counts[c] * sizeof(double));
         for (size_t i = 0; i < counts[c]; ++i)
             points.weights[i] = aur_unit_double(aur_hash2(c, i));
-        assert_int_equal(aur_axes_create(&points, &axes, NULL), AUR_OK);
+        assert_int_equal(aur_axes_create((const aur_points_view[]){seen(&points)}, &axes, NULL), AUR_OK);
         assert_int_equal(aur_distance_sum(&axes, &fast, &sum, NULL), AUR_OK);
         assert_relative(sum.high, (double)plain_sum(&points), 2e-14);
         aur_axes_release(&axes);
@@ -185,12 +186,12 @@ static void pair_sums_agree_with_long_double(void **state) {
 /* Nearly coincident and coincident points: the reciprocal root must survive them. */
 static void fast_sums_survive_coincident_points(void **state) {
     (void)state;
-    aur_points points = random_directions(2048, 3);
+    own_points points = random_directions(2048, 3);
     for (size_t i = 1024; i < 2048; ++i)
         memcpy(points.coordinates + 3 * i, points.coordinates + 3 * (i % 1024), 3 * sizeof(double));
     points.coordinates[3 * 1500] += 1e-12;
     aur_axes axes;
-    assert_int_equal(aur_axes_create(&points, &axes, NULL), AUR_OK);
+    assert_int_equal(aur_axes_create((const aur_points_view[]){seen(&points)}, &axes, NULL), AUR_OK);
     const aur_measure_options fast = {.size = sizeof fast, .fast = true};
     aur_twofold sum;
     assert_int_equal(aur_distance_sum(&axes, &fast, &sum, NULL), AUR_OK);
@@ -201,20 +202,22 @@ static void fast_sums_survive_coincident_points(void **state) {
 
 static void neither_threads_nor_registers_change_a_bit(void **state) {
     (void)state;
-    aur_points points = random_directions(5000, 11);
+    own_points points = random_directions(5000, 11);
     for (int fast = 0; fast < 2; ++fast) {
         double values[3];
         for (size_t threads = 1; threads <= 3; ++threads) {
             const aur_measure_options options = {
                 .size = sizeof options, .threads = threads, .fast = fast != 0};
-            assert_int_equal(aur_measure("energy", &points, &options, &values[threads - 1], NULL), AUR_OK);
+            assert_int_equal(aur_measure("energy", (const aur_points_view[]){seen(&points)}, &options,
+                                         &values[threads - 1], NULL),
+                             AUR_OK);
         }
         assert_memory_equal(&values[0], &values[1], sizeof values[0]);
         assert_memory_equal(&values[0], &values[2], sizeof values[0]);
     }
 #if defined(__x86_64__)
     aur_axes axes;
-    assert_int_equal(aur_axes_create(&points, &axes, NULL), AUR_OK);
+    assert_int_equal(aur_axes_create((const aur_points_view[]){seen(&points)}, &axes, NULL), AUR_OK);
     const aur_pair_tile tile = {4096, 5000, 1024, 2048};
     const aur_twofold portable = aur_distance_portable.exact(&axes, tile, 0.0);
     const aur_isa isa = aur_isa_available();

@@ -5,9 +5,9 @@
 #include "sphere_sets.h"
 
 static double relative_difference(size_t count, aur_domain domain) {
-    aur_points points = spherical_fibonacci(count, domain);
+    own_points points = spherical_fibonacci(count, domain);
     aur_axes axes;
-    assert_int_equal(aur_axes_create(&points, &axes, NULL), AUR_OK);
+    assert_int_equal(aur_axes_create((const aur_points_view[]){seen(&points)}, &axes, NULL), AUR_OK);
     const aur_measure_options options = {.size = sizeof options};
     aur_twofold pairs, lags;
     assert_int_equal(aur_distance_sum(&axes, &options, &pairs, NULL), AUR_OK);
@@ -37,40 +37,41 @@ static void lags_agree_with_pairs(void **state) {
 static void large_sets_are_near_the_limit(void **state) {
     (void)state;
     const size_t count = 200000;
-    aur_points points = spherical_fibonacci(count, AUR_DOMAIN_SPHERE);
-    assert_true(aur_is_spherical_fibonacci(&points));
+    own_points points = spherical_fibonacci(count, AUR_DOMAIN_SPHERE);
+    assert_true(aur_is_spherical_fibonacci((const aur_points_view[]){seen(&points)}));
     double energy = 0.0;
-    assert_int_equal(aur_measure("energy", &points, NULL, &energy, NULL), AUR_OK);
+    assert_int_equal(aur_measure("energy", (const aur_points_view[]){seen(&points)}, NULL, &energy, NULL),
+                     AUR_OK);
     assert_near(energy * energy * pow((double)count, 1.5), 0.8115, 1e-4);
     release_points(&points);
 }
 
 static void the_set_is_recognised(void **state) {
     (void)state;
-    aur_points points = spherical_fibonacci(5000, AUR_DOMAIN_SPHERE);
-    assert_true(aur_is_spherical_fibonacci(&points));
+    own_points points = spherical_fibonacci(5000, AUR_DOMAIN_SPHERE);
+    assert_true(aur_is_spherical_fibonacci((const aur_points_view[]){seen(&points)}));
     for (size_t i = 0; i < points.count; ++i) { /* a rotation about z */
         double *const x = points.coordinates + 3 * i;
         const double old = x[0];
         x[0] = 0.6 * old - 0.8 * x[1];
         x[1] = 0.8 * old + 0.6 * x[1];
     }
-    assert_true(aur_is_spherical_fibonacci(&points));
+    assert_true(aur_is_spherical_fibonacci((const aur_points_view[]){seen(&points)}));
     points.coordinates[3 * 4000] += 1e-13;
-    assert_false(aur_is_spherical_fibonacci(&points));
+    assert_false(aur_is_spherical_fibonacci((const aur_points_view[]){seen(&points)}));
     points.coordinates[3 * 4000] -= 1e-13;
     points.domain = AUR_DOMAIN_HEMISPHERE;
-    assert_false(aur_is_spherical_fibonacci(&points));
+    assert_false(aur_is_spherical_fibonacci((const aur_points_view[]){seen(&points)}));
     release_points(&points);
     points = spherical_fibonacci(3000, AUR_DOMAIN_HEMISPHERE);
-    assert_true(aur_is_spherical_fibonacci(&points));
+    assert_true(aur_is_spherical_fibonacci((const aur_points_view[]){seen(&points)}));
     points.weights = malloc(points.count * sizeof(double));
     for (size_t i = 0; i < points.count; ++i)
         points.weights[i] = 1.0;
-    assert_false(aur_is_spherical_fibonacci(&points));
+    assert_false(aur_is_spherical_fibonacci((const aur_points_view[]){seen(&points)}));
     release_points(&points);
     points = random_directions(100, 1);
-    assert_false(aur_is_spherical_fibonacci(&points));
+    assert_false(aur_is_spherical_fibonacci((const aur_points_view[]){seen(&points)}));
     release_points(&points);
 }
 

@@ -15,13 +15,13 @@ typedef struct golden {
 static double measured(const golden *g) {
     const aur_directions_options options = aur_directions_options_default(g->count, g->domain);
     const aur_points_request request = aur_points_request_default(&options);
-    aur_points points;
+    aur_points *points;
     aur_error error = {0};
     if (aur_points_generate(g->set, &request, &points, &error) != AUR_OK)
         print_error("%s: %s\n", g->set, error.message);
     double value = NAN;
-    assert_int_equal(aur_measure(g->metric, &points, NULL, &value, &error), AUR_OK);
-    aur_points_release(&points);
+    assert_int_equal(aur_measure(g->metric, aur_points_look(points), NULL, &value, &error), AUR_OK);
+    aur_points_destroy(points);
     return value;
 }
 

@@ -7,10 +7,11 @@
 #include "quality/sphere/voronoi.h"
 #include "sphere_sets.h"
 
-static double measured(const char *metric, const aur_points *points) {
+static double measured(const char *metric, const own_points *points) {
     double value = NAN;
     aur_error error = {0};
-    assert_int_equal(aur_measure(metric, points, NULL, &value, &error), AUR_OK);
+    assert_int_equal(aur_measure(metric, (const aur_points_view[]){seen(points)}, NULL, &value, &error),
+                     AUR_OK);
     return value;
 }
 
@@ -20,11 +21,11 @@ static double dot(const double *a, const double *b) {
 
 static void the_grid_finds_all_neighbours(void **state) {
     (void)state;
-    aur_points points = random_directions(700, 3);
+    own_points points = random_directions(700, 3);
     points.coordinates[0] = points.coordinates[1] = 0.0; /* a pole */
     points.coordinates[2] = 1.0;
     aur_sphere_grid grid;
-    assert_int_equal(aur_sphere_grid_create(&points, &grid, NULL), AUR_OK);
+    assert_int_equal(aur_sphere_grid_create((const aur_points_view[]){seen(&points)}, &grid, NULL), AUR_OK);
     aur_neighbours near = {0};
     for (size_t i = 0; i < points.count; i += 7) {
         const double angle = 0.01 * (double)(1 + i % 400);
@@ -50,18 +51,19 @@ static void the_grid_finds_all_neighbours(void **state) {
 
 static void regular_sets_have_regular_cells(void **state) {
     (void)state;
-    aur_points points = octahedron();
+    own_points points = octahedron();
     assert_near(measured("covering", &points), acos(1.0 / sqrt(3.0)), 1e-9);
     assert_near(measured("mesh-ratio", &points), acos(1.0 / sqrt(3.0)) / (AUR_PI / 4.0), 1e-9);
     assert_near(measured("voronoi-min", &points), 1.0, 1e-9);
     assert_near(measured("voronoi-max", &points), 1.0, 1e-9);
-    aur_series series;
-    assert_int_equal(aur_measure_series("voronoi", &points, NULL, &series, NULL), AUR_OK);
-    assert_int_equal(series.row_count, 6);
-    assert_string_equal(series.columns[3], "sides");
+    aur_series *series;
+    assert_int_equal(
+        aur_measure_series("voronoi", (const aur_points_view[]){seen(&points)}, NULL, &series, NULL), AUR_OK);
+    assert_int_equal(aur_series_row_count(series), 6);
+    assert_string_equal(aur_series_column(series, 3), "sides");
     for (size_t i = 0; i < 6; ++i)
-        assert_near(series.values[4 * i + 3], 4.0, 0.0);
-    aur_series_release(&series);
+        assert_near(aur_series_values(series)[4 * i + 3], 4.0, 0.0);
+    aur_series_destroy(series);
     /* A corner of the octahedron twice: the two share a cell. */
     points.coordinates = realloc(points.coordinates, 21 * sizeof(double));
     memcpy(points.coordinates + 18, points.coordinates, 3 * sizeof(double));
@@ -75,19 +77,21 @@ static void regular_sets_have_regular_cells(void **state) {
 static void areas_add_up(void **state) {
     (void)state;
     for (uint64_t seed = 0; seed < 4; ++seed) {
-        aur_points points = random_directions(300, seed);
+        own_points points = random_directions(300, seed);
         if (seed % 2 == 1) {
             points.domain = AUR_DOMAIN_HEMISPHERE;
             for (size_t i = 0; i < points.count; ++i)
                 points.coordinates[3 * i + 2] = fabs(points.coordinates[3 * i + 2]);
         }
-        aur_series series;
-        assert_int_equal(aur_measure_series("voronoi", &points, NULL, &series, NULL), AUR_OK);
+        aur_series *series;
+        assert_int_equal(
+            aur_measure_series("voronoi", (const aur_points_view[]){seen(&points)}, NULL, &series, NULL),
+            AUR_OK);
         double sum = 0.0;
-        for (size_t i = 0; i < series.row_count; ++i)
-            sum += series.values[4 * i + 1];
+        for (size_t i = 0; i < aur_series_row_count(series); ++i)
+            sum += aur_series_values(series)[4 * i + 1];
         assert_relative(sum, (double)points.count, 1e-9);
-        aur_series_release(&series);
+        aur_series_destroy(series);
         release_points(&points);
     }
 }
@@ -97,7 +101,7 @@ static void areas_add_up(void **state) {
 static void covering_agrees_with_all_triples(void **state) {
     (void)state;
     for (uint64_t seed = 0; seed < 12; ++seed) {
-        aur_points points = random_directions(4 + 3 * seed, seed);
+        own_points points = random_directions(4 + 3 * seed, seed);
         const double *const x = points.coordinates;
         double best = 1.0;
         for (size_t i = 0; i < points.count; ++i)
@@ -130,7 +134,7 @@ static void covering_agrees_with_all_triples(void **state) {
 /* One point, two points, and points of one hemisphere only. */
 static void covering_beyond_ninety_degrees(void **state) {
     (void)state;
-    aur_points points = spherical_fibonacci(200, AUR_DOMAIN_HEMISPHERE);
+    own_points points = spherical_fibonacci(200, AUR_DOMAIN_HEMISPHERE);
     points.domain = AUR_DOMAIN_SPHERE;
     for (size_t i = 0; i < points.count; ++i) /* all within a cap of 60 degrees, the rim at z = 1/2 + 1/800 */
         set_direction(&points, i, 0.5 + 0.5 * points.coordinates[3 * i + 2],
@@ -144,8 +148,11 @@ static void covering_beyond_ninety_degrees(void **state) {
     assert_near(measured("covering", &points), AUR_PI - 0.5 * angle, 1e-9);
     double value = 0.0;
     aur_error error = {0};
-    assert_int_equal(aur_measure("voronoi-min", &points, NULL, &value, &error), AUR_ERROR_UNSUPPORTED);
-    assert_int_equal(aur_measure("voronoi", &points, NULL, &value, &error), AUR_ERROR_UNSUPPORTED);
+    assert_int_equal(
+        aur_measure("voronoi-min", (const aur_points_view[]){seen(&points)}, NULL, &value, &error),
+        AUR_ERROR_UNSUPPORTED);
+    assert_int_equal(aur_measure("voronoi", (const aur_points_view[]){seen(&points)}, NULL, &value, &error),
+                     AUR_ERROR_UNSUPPORTED);
     release_points(&points);
 }
 
@@ -153,7 +160,7 @@ static void smallest_distance_agrees_with_all_pairs(void **state) {
     (void)state;
     for (size_t dimension = 1; dimension < 5; ++dimension) {
         const size_t count = 200;
-        aur_points points = {.domain = AUR_DOMAIN_CUBE,
+        own_points points = {.domain = AUR_DOMAIN_CUBE,
                              .count = count,
                              .dimension = dimension,
                              .coordinates = malloc(count * dimension * sizeof(double))};
@@ -171,7 +178,8 @@ static void smallest_distance_agrees_with_all_pairs(void **state) {
                 best = fmin(best, square);
             }
         double found = 0.0;
-        assert_int_equal(aur_smallest_distance(&points, &found, NULL), AUR_OK);
+        assert_int_equal(aur_smallest_distance((const aur_points_view[]){seen(&points)}, &found, NULL),
+                         AUR_OK);
         assert_near(found, sqrt(best), 1e-15);
         release_points(&points);
     }

@@ -219,8 +219,12 @@ static void files_are_sets(void **state) {
     static const char path[] = "directions-of-a-file.csv";
     double xyz[] = {0, 0, 1, 0.6, 0, 0.8, 0, -0.8, 0.6};
     double weights[] = {0.5, 0.25, 0.25};
-    const aur_points points = {
-        .domain = AUR_DOMAIN_HEMISPHERE, .count = 3, .dimension = 3, .coordinates = xyz, .weights = weights};
+    const aur_points_view points = {.size = sizeof points,
+                                    .domain = AUR_DOMAIN_HEMISPHERE,
+                                    .count = 3,
+                                    .dimension = 3,
+                                    .coordinates = xyz,
+                                    .weights = weights};
     assert_int_equal(aur_points_write(path, AUR_POINTS_CSV, &points, NULL, NULL), AUR_OK);
     char set[64];
     snprintf(set, sizeof set, "file:%s", path);
@@ -240,7 +244,8 @@ static void files_are_sets(void **state) {
     more = (aur_directions_options){.size = sizeof(aur_directions_options), .domain = AUR_DOMAIN_HEMISPHERE};
     assert_int_equal(aur_directions_create(set, &more, &directions, NULL), AUR_ERROR_ARGUMENT);
     double uv[] = {0.25, 0.5, 0.125, 0.75};
-    const aur_points squares = {.domain = AUR_DOMAIN_SQUARE, .count = 2, .dimension = 2, .coordinates = uv};
+    const aur_points_view squares = {
+        .size = sizeof squares, .domain = AUR_DOMAIN_SQUARE, .count = 2, .dimension = 2, .coordinates = uv};
     assert_int_equal(aur_points_write(path, AUR_POINTS_CSV, &squares, NULL, NULL), AUR_OK);
     directions = open_set(set, options);
     assert_int_equal(aur_directions_points(directions, 0, 2, 6, read, NULL), AUR_OK);
@@ -291,10 +296,10 @@ static void options_can_grow(void **state) {
     newer.known = aur_directions_options_default(4, AUR_DOMAIN_SPHERE);
     newer.known.size = sizeof newer;
     const aur_points_request request = aur_points_request_default(&newer.known);
-    aur_points points;
+    aur_points *points;
     assert_int_equal(aur_points_generate("spherical-fibonacci", &request, &points, NULL), AUR_OK);
-    assert_int_equal(points.count, 4);
-    aur_points_release(&points);
+    assert_int_equal(aur_points_look(points)->count, 4);
+    aur_points_destroy(points);
     newer.wish = 1;
     assert_int_equal(aur_points_generate("spherical-fibonacci", &request, &points, NULL),
                      AUR_ERROR_UNSUPPORTED);

@@ -3,6 +3,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "pointset/points.h"
 #include "pointset/set.h"
 
 /* What follows "file:" is the path as it stands. */
@@ -23,25 +24,26 @@ static aur_result prepare(aur_pointset *set, aur_parameters *parameters, const a
     const char *const path = p.path;
     if (path == NULL || path[0] == '\0')
         return aur_fail(error, AUR_ERROR_FORMAT, "a file of points is named by file:PATH");
-    aur_points points;
+    aur_points *points;
     result = aur_points_read_on(path, AUR_DOMAIN_CUBE, &points, error);
     if (result != AUR_OK)
         return result;
     const aur_location where = {.file = path};
     if (options->count == 0)
-        set->size = points.count;
+        set->size = points->view.count;
     if (options->dimension == 0)
-        set->dimension = points.dimension;
-    if (set->size > points.count)
-        result = aur_fail_at(error, where, AUR_ERROR_ARGUMENT, "the file has only %zu points", points.count);
-    else if (set->dimension != points.dimension)
+        set->dimension = points->view.dimension;
+    if (set->size > points->view.count)
+        result =
+            aur_fail_at(error, where, AUR_ERROR_ARGUMENT, "the file has only %zu points", points->view.count);
+    else if (set->dimension != points->view.dimension)
         result = aur_fail_at(error, where, AUR_ERROR_ARGUMENT, "the points have %zu coordinates, not %zu",
-                             points.dimension, set->dimension);
+                             points->view.dimension, set->dimension);
     if (result == AUR_OK) {
-        set->data = points.coordinates;
-        points.coordinates = NULL;
+        set->data = points->coordinates;
+        points->coordinates = NULL;
     }
-    aur_points_release(&points);
+    aur_points_destroy(points);
     return result;
 }
 

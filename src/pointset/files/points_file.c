@@ -9,6 +9,7 @@
 #include "core/file.h"
 #include "core/text.h"
 #include "core/vector3d.h"
+#include "pointset/points.h"
 
 static const size_t file_limit = (size_t)1 << 34;
 
@@ -116,22 +117,13 @@ static aur_result find_meaning(const char *path, const aur_matrix *matrix, const
     return result == AUR_OK && wanted != NULL ? check_domain(path, matrix, m, *wanted, error) : result;
 }
 
-static aur_result interpret(const char *path, const aur_domain *wanted, aur_matrix *matrix,
-                            aur_points *points, aur_error *error) {
-    meaning m = {0};
-    const aur_result result = find_meaning(path, matrix, wanted, &m, error);
-    if (result != AUR_OK)
-        return result;
-    points->count = matrix->row_count;
-    points->dimension = m.dimension;
-    points->coordinates = malloc(points->count * m.dimension * sizeof *points->coordinates);
-    points->weights = m.weights ? malloc(points->count * sizeof *points->weights) : NULL;
-    if (points->coordinates == NULL || (m.weights && points->weights == NULL))
-        return aur_fail_memory(error);
+/* Checks each row and copies it. */
+static aur_result copy_rows(const char *path, const aur_domain *wanted, const aur_matrix *matrix,
+                            const meaning *m, aur_points *points, aur_error *error) {
     bool below_horizon = false;
     for (size_t r = 0; r < matrix->row_count; ++r) {
         const double *const row = matrix->values + r * matrix->column_count;
-        const char *const wrong = off_domain(&m, row);
+        const char *const wrong = off_domain(m, row);
         const aur_location where = {.file = path, .line = matrix->lines != NULL ? matrix->lines[r] : 0};
         if (wrong != NULL && matrix->lines != NULL)
             return aur_fail_at(error, where, AUR_ERROR_FORMAT, "%s", wrong);
@@ -140,22 +132,35 @@ static aur_result interpret(const char *path, const aur_domain *wanted, aur_matr
         if (wanted != NULL && *wanted == AUR_DOMAIN_HEMISPHERE && row[2] < 0.0)
             return aur_fail_at(error, where, AUR_ERROR_FORMAT,
                                "point %zu has z = %g, below the hemisphere z >= 0", r + 1, row[2]);
-        memcpy(points->coordinates + r * m.dimension, row, m.dimension * sizeof *row);
-        if (m.weights)
-            points->weights[r] = row[m.dimension];
-        below_horizon |= m.domain == AUR_DOMAIN_SPHERE && row[2] < 0.0;
+        memcpy(points->coordinates + r * m->dimension, row, m->dimension * sizeof *row);
+        if (m->weights)
+            points->weights[r] = row[m->dimension];
+        below_horizon |= m->domain == AUR_DOMAIN_SPHERE && row[2] < 0.0;
     }
-    points->domain = m.domain;
-    if (m.domain == AUR_DOMAIN_SPHERE && (wanted != NULL ? *wanted == AUR_DOMAIN_HEMISPHERE : !below_horizon))
-        points->domain = AUR_DOMAIN_HEMISPHERE;
-    points->lines = matrix->lines;
+    if (m->domain == AUR_DOMAIN_SPHERE &&
+        (wanted != NULL ? *wanted == AUR_DOMAIN_HEMISPHERE : !below_horizon))
+        points->view.domain = AUR_DOMAIN_HEMISPHERE;
+    return AUR_OK;
+}
+
+static aur_result interpret(const char *path, const aur_domain *wanted, aur_matrix *matrix,
+                            aur_points **points, aur_error *error) {
+    meaning m = {0};
+    aur_result result = find_meaning(path, matrix, wanted, &m, error);
+    if (result == AUR_OK)
+        result = aur_points_create(m.domain, matrix->row_count, m.dimension, m.weights, points, error);
+    if (result == AUR_OK)
+        result = copy_rows(path, wanted, matrix, &m, *points, error);
+    if (result != AUR_OK)
+        return result;
+    (*points)->view.lines = (*points)->lines = matrix->lines;
     matrix->lines = NULL;
     return AUR_OK;
 }
 
-static aur_result read_points(const char *path, const aur_domain *wanted, aur_points *points,
+static aur_result read_points(const char *path, const aur_domain *wanted, aur_points **points,
                               aur_error *error) {
-    *points = (aur_points){0};
+    *points = NULL;
     char *data;
     size_t size;
     aur_result result = aur_file_read(path, file_limit, &data, &size, error);
@@ -171,24 +176,17 @@ static aur_result read_points(const char *path, const aur_domain *wanted, aur_po
         result = interpret(path, wanted, &matrix, points, error);
     free(matrix.values);
     free(matrix.lines);
-    if (result != AUR_OK)
-        aur_points_release(points);
+    if (result != AUR_OK) {
+        aur_points_destroy(*points);
+        *points = NULL;
+    }
     return result;
 }
 
-aur_result aur_points_read(const char *path, aur_points *points, aur_error *error) {
+aur_result aur_points_read(const char *path, aur_points **points, aur_error *error) {
     return read_points(path, NULL, points, error);
 }
 
-aur_result aur_points_read_on(const char *path, aur_domain domain, aur_points *points, aur_error *error) {
+aur_result aur_points_read_on(const char *path, aur_domain domain, aur_points **points, aur_error *error) {
     return read_points(path, &domain, points, error);
-}
-
-void aur_points_release(aur_points *points) {
-    if (points == NULL)
-        return;
-    free(points->coordinates);
-    free(points->weights);
-    free(points->lines);
-    *points = (aur_points){0};
 }

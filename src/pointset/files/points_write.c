@@ -9,6 +9,7 @@
 #include "core/file.h"
 #include "core/names.h"
 #include "core/options.h"
+#include "pointset/points.h"
 
 static const char *const format_names[] = {"csv", "json", "npy", "ply"};
 enum { FORMAT_COUNT = sizeof format_names / sizeof format_names[0], NAME_CAPACITY = 24 };
@@ -27,7 +28,7 @@ const char *aur_points_format_name(aur_points_format format) {
 }
 
 /* The name of a column: u,v on the square, x,y on the disk, x,y,z on the sphere, u1,u2,... on the cube. */
-static void column_name(const aur_points *points, size_t column, char name[NAME_CAPACITY]) {
+static void column_name(const aur_points_view *points, size_t column, char name[NAME_CAPACITY]) {
     static const char letters[] = "xyz";
     if (points->domain == AUR_DOMAIN_CUBE)
         snprintf(name, NAME_CAPACITY, "u%zu", column + 1);
@@ -36,7 +37,7 @@ static void column_name(const aur_points *points, size_t column, char name[NAME_
                  points->domain == AUR_DOMAIN_SQUARE ? (column == 0 ? 'u' : 'v') : letters[column % 3]);
 }
 
-static void write_csv(const aur_points *points, FILE *stream) {
+static void write_csv(const aur_points_view *points, FILE *stream) {
     for (size_t d = 0; d < points->dimension; ++d) {
         char name[NAME_CAPACITY];
         column_name(points, d, name);
@@ -45,14 +46,14 @@ static void write_csv(const aur_points *points, FILE *stream) {
     fputs(points->weights != NULL ? ",w\n" : "\n", stream);
     for (size_t i = 0; i < points->count; ++i) {
         for (size_t d = 0; d < points->dimension; ++d)
-            aur_print(stream, "%s%.17g", d > 0 ? "," : "", points->coordinates[i * points->dimension + d]);
+            aur_print(stream, "%s%.17g", d > 0 ? "," : "", aur_point_at(points, i)[d]);
         if (points->weights != NULL)
             aur_print(stream, ",%.17g", points->weights[i]);
         fputc('\n', stream);
     }
 }
 
-static void write_json(const aur_points *points, const aur_points_origin *origin, FILE *stream) {
+static void write_json(const aur_points_view *points, const aur_points_origin *origin, FILE *stream) {
     aur_json json = {.stream = stream};
     aur_json_open(&json, '{', true);
     if (origin != NULL && origin->set != NULL) {
@@ -76,7 +77,7 @@ static void write_json(const aur_points *points, const aur_points_origin *origin
     for (size_t i = 0; i < points->count; ++i) {
         aur_json_open(&json, '[', false);
         for (size_t d = 0; d < points->dimension; ++d)
-            aur_json_number(&json, points->coordinates[i * points->dimension + d]);
+            aur_json_number(&json, aur_point_at(points, i)[d]);
         aur_json_close(&json, ']');
     }
     aur_json_close(&json, ']');
@@ -105,10 +106,10 @@ static void write_doubles(const double *values, size_t count, FILE *stream) {
 }
 
 /* Each point's coordinates, `padding` zeros, and its weight where there are weights. */
-static void write_binary_rows(const aur_points *points, size_t padding, FILE *stream) {
+static void write_binary_rows(const aur_points_view *points, size_t padding, FILE *stream) {
     static const double zeros[3] = {0.0};
     for (size_t i = 0; i < points->count; ++i) {
-        write_doubles(points->coordinates + i * points->dimension, points->dimension, stream);
+        write_doubles(aur_point_at(points, i), points->dimension, stream);
         write_doubles(zeros, padding, stream);
         if (points->weights != NULL)
             write_doubles(points->weights + i, 1, stream);
@@ -117,7 +118,7 @@ static void write_binary_rows(const aur_points *points, size_t padding, FILE *st
 
 /* NumPy's format, version 1.0: an array of float64 with a row a point, whose last column is the weight where
  * there are weights. */
-static void write_npy(const aur_points *points, FILE *stream) {
+static void write_npy(const aur_points_view *points, FILE *stream) {
     char header[118];
     const size_t columns = points->dimension + (points->weights != NULL);
     const int length =
@@ -142,7 +143,7 @@ static void write_ply_comment(const char *name, const char *text, FILE *stream) 
 
 /* Binary little-endian vertices x,y,z (0 where there is no such coordinate), with a property `quality` for
  * the weight, which is where mesh viewers look for a scalar. */
-static aur_result write_ply(const aur_points *points, const aur_points_origin *origin, FILE *stream,
+static aur_result write_ply(const aur_points_view *points, const aur_points_origin *origin, FILE *stream,
                             aur_error *error) {
     if (points->dimension > 3)
         return aur_fail(error, AUR_ERROR_UNSUPPORTED,
@@ -165,15 +166,17 @@ static aur_result write_ply(const aur_points *points, const aur_points_origin *o
     return AUR_OK;
 }
 
-aur_result aur_points_write(const char *path, aur_points_format format, const aur_points *points,
+aur_result aur_points_write(const char *path, aur_points_format format, const aur_points_view *given,
                             const aur_points_origin *origin, aur_error *error) {
     if (aur_points_format_name(format) == NULL)
         return aur_fail(error, AUR_ERROR_ARGUMENT, "unknown format %d", (int)format);
-    if (aur_domain_name(points->domain) == NULL)
-        return aur_fail(error, AUR_ERROR_ARGUMENT, "unknown domain %d", (int)points->domain);
     aur_points_origin own = aur_points_origin_default();
     aur_file_writer writer;
-    aur_result result = aur_options_read(origin, sizeof own, sizeof own, &own, "aur_points_origin", error);
+    aur_points_view view;
+    const aur_points_view *const points = &view;
+    aur_result result = aur_points_view_read(given, &view, error);
+    if (result == AUR_OK)
+        result = aur_options_read(origin, sizeof own, sizeof own, &own, "aur_points_origin", error);
     if (result == AUR_OK)
         result = aur_file_open(path, &writer, error);
     if (result != AUR_OK)

@@ -12,7 +12,7 @@ static double *axis(size_t padded) {
     return values;
 }
 
-aur_result aur_axes_create(const aur_points *points, aur_axes *axes, aur_error *error) {
+aur_result aur_axes_create(const aur_points_view *points, aur_axes *axes, aur_error *error) {
     const size_t padded = (points->count + 7) / 8 * 8;
     *axes = (aur_axes){.count = points->count, .x = axis(padded), .y = axis(padded), .z = axis(padded)};
     if (points->weights != NULL)

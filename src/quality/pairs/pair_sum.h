@@ -14,7 +14,7 @@ typedef struct aur_axes {
     double *weights; /* NULL: all equal to 1 */
 } aur_axes;
 
-AUR_EXPERIMENTAL aur_result aur_axes_create(const aur_points *points, aur_axes *axes, aur_error *error);
+AUR_EXPERIMENTAL aur_result aur_axes_create(const aur_points_view *points, aur_axes *axes, aur_error *error);
 AUR_EXPERIMENTAL void aur_axes_release(aur_axes *axes);
 
 /* Rows [first_row, last_row) against columns [first_column, last_column); when both ranges are the same, the

@@ -14,7 +14,7 @@ enum { BLOCK = 256, LANES = 8 };
 /* Powers at the frequencies (kx, ky), 0 <= kx <= F, -F <= ky <= F, row by row: the others are mirror images.
  */
 typedef struct periodogram {
-    const aur_points *points;
+    const aur_points_view *points;
     size_t limit; /* F */
     double *power;
 } periodogram;
@@ -25,11 +25,12 @@ typedef struct wave_block {
     double up_re[BLOCK], up_im[BLOCK], down_re[BLOCK], down_im[BLOCK], step_re[BLOCK], step_im[BLOCK];
 } wave_block;
 
-static void start_block(const aur_points *points, size_t first, size_t count, double kx, wave_block *block) {
+static void start_block(const aur_points_view *points, size_t first, size_t count, double kx,
+                        wave_block *block) {
     for (size_t i = 0; i < BLOCK; ++i) {
         block->up_re[i] = block->up_im[i] = block->step_re[i] = block->step_im[i] = 0.0;
         if (i < count) {
-            const double *const x = points->coordinates + 2 * (first + i);
+            const double *const x = aur_point_at(points, first + i);
             const double weight = points->weights != NULL ? points->weights[first + i] : 1.0;
             const double phase = kx * x[0];
             const double angle = -2.0 * AUR_PI * (phase - floor(phase));

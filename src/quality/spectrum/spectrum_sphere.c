@@ -14,7 +14,7 @@ enum {
 };
 
 typedef struct harmonics {
-    const aur_points *points;
+    const aur_points_view *points;
     size_t limit;  /* L */
     double *power; /* (L+1) * (L+1): |sum_i w_i Y_lm|^2, both signs of m together, at [m * (L+1) + l] */
 } harmonics;
@@ -24,7 +24,7 @@ typedef struct harmonic_block {
     double before[BLOCK], here[BLOCK];     /* the Legendre functions of two degrees */
 } harmonic_block;
 
-static void start_block(const aur_points *points, size_t first, size_t count, size_t m, double factor,
+static void start_block(const aur_points_view *points, size_t first, size_t count, size_t m, double factor,
                         harmonic_block *b) {
     for (size_t i = 0; i < BLOCK; ++i) {
         b->z[i] = b->re[i] = b->im[i] = b->before[i] = b->here[i] = 0.0;

@@ -7,8 +7,8 @@
 #include "core/vector.h"
 #include "quality/sphere/cap.h"
 
-aur_result aur_cap_axes_create(const aur_points *points, aur_axes *axes, aur_error *error) {
-    aur_points weighted = *points;
+aur_result aur_cap_axes_create(const aur_points_view *points, aur_axes *axes, aur_error *error) {
+    aur_points_view weighted = *points;
     double *const masses = malloc(points->count * sizeof *masses);
     if (masses == NULL)
         return aur_fail_memory(error);

@@ -62,7 +62,7 @@ static aur_result mesh_ratio(const aur_measure_request *request, double *value, 
 }
 
 /* The mean area of a cell is 1 in all figures of areas. */
-static double mean_area(const aur_points *points) {
+static double mean_area(const aur_points_view *points) {
     return (points->domain == AUR_DOMAIN_HEMISPHERE ? 2.0 : 4.0) * AUR_PI / (double)points->count;
 }
 

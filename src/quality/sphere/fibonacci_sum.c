@@ -178,7 +178,7 @@ aur_result aur_fibonacci_distance_sum(size_t count, aur_domain domain, const aur
     return result;
 }
 
-int aur_is_spherical_fibonacci(const aur_points *points) {
+int aur_is_spherical_fibonacci(const aur_points_view *points) {
     static const double tolerance = 4e-15;
     if (points->dimension != 3 || points->weights != NULL || points->count == 0)
         return 0;

@@ -6,7 +6,7 @@
 
 /* Whether the points are those of Marques 2013 eq. 4 in their order, to rounding and up to a rotation about
  * z. */
-int aur_is_spherical_fibonacci(const aur_points *points);
+int aur_is_spherical_fibonacci(const aur_points_view *points);
 
 /* The sum of |x_i - x_j| over the unordered pairs of the `count` points of a spherical Fibonacci set, on the
  * sphere or (the first half of a set of 2 * count) on the hemisphere. */

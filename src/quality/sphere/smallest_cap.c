@@ -12,7 +12,7 @@ typedef struct sphere_cap {
 
 /* The points in an order that a hash has mixed: every stride-th, with a stride that is prime to the count. */
 typedef struct mixed_points {
-    const aur_points *points;
+    const aur_points_view *points;
     uint64_t stride;
 } mixed_points;
 
@@ -29,7 +29,7 @@ static int coprime(uint64_t a, uint64_t b) {
     return a == 1;
 }
 
-static mixed_points mix(const aur_points *points) {
+static mixed_points mix(const aur_points_view *points) {
     mixed_points mixed = {points, aur_hash2(points->count, 1) % points->count};
     while (!coprime(mixed.stride, points->count))
         ++mixed.stride;
@@ -86,7 +86,7 @@ static sphere_cap cap_with(const mixed_points *mixed, size_t i) {
     return cap;
 }
 
-double aur_smallest_cap(const aur_points *points) {
+double aur_smallest_cap(const aur_points_view *points) {
     const mixed_points mixed = mix(points);
     sphere_cap cap = cap_of_one(point_at(&mixed, 0));
     for (size_t i = 1; i < points->count; ++i)

@@ -41,7 +41,7 @@ void aur_sphere_grid_release(aur_sphere_grid *grid) {
     *grid = (aur_sphere_grid){0};
 }
 
-aur_result aur_sphere_grid_create(const aur_points *points, aur_sphere_grid *grid, aur_error *error) {
+aur_result aur_sphere_grid_create(const aur_points_view *points, aur_sphere_grid *grid, aur_error *error) {
     const double spacing = sqrt(4.0 * AUR_PI / (double)points->count);
     *grid =
         (aur_sphere_grid){.points = points, .spacing = spacing, .band_count = (size_t)ceil(AUR_PI / spacing)};

@@ -4,15 +4,15 @@
 #include <aureole/pointset.h>
 
 typedef struct aur_sphere_grid {
-    const aur_points *points; /* not owned */
-    double spacing;           /* the side of a cell, radians */
+    const aur_points_view *points; /* not owned */
+    double spacing;                /* the side of a cell, radians */
     size_t band_count;
     size_t *band_cells; /* band_count + 1: the first cell of each band */
     size_t *cell_start; /* the first entry of each cell in `order`, one more than there are cells */
     size_t *order;      /* indices of the points, cell by cell */
 } aur_sphere_grid;
 
-aur_result aur_sphere_grid_create(const aur_points *points, aur_sphere_grid *grid, aur_error *error);
+aur_result aur_sphere_grid_create(const aur_points_view *points, aur_sphere_grid *grid, aur_error *error);
 void aur_sphere_grid_release(aur_sphere_grid *grid);
 
 typedef struct aur_neighbour {

@@ -93,7 +93,7 @@ enum { CELLS_PER_ITEM = 256 };
 
 /* Cuts the cell of point `index` by all neighbours within `angle`; the number that share its place is added
  * up. */
-static int cut_cell(const aur_points *points, size_t index, const aur_neighbours *near, polygon *p,
+static int cut_cell(const aur_points_view *points, size_t index, const aur_neighbours *near, polygon *p,
                     size_t *coincident) {
     const double *const x = points->coordinates + 3 * index;
     double first[3], second[3];

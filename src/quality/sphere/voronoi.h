@@ -14,4 +14,4 @@ typedef struct aur_voronoi_cell {
 aur_result aur_voronoi_cells(const aur_measure_request *request, aur_voronoi_cell *cells, aur_error *error);
 
 /* The angular radius of the smallest cap that holds all points, which must lie in one hemisphere. */
-double aur_smallest_cap(const aur_points *points);
+double aur_smallest_cap(const aur_points_view *points);

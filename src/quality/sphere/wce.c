@@ -25,7 +25,7 @@ static aur_result parse(const char *text, double *smoothness, aur_lobe *lobe, au
 
 /* Weights as they are given: those of a rule for the density normalised to integral 1. */
 static aur_result wce(const aur_measure_request *request, double *value, aur_error *error) {
-    const aur_points *const points = request->points;
+    const aur_points_view *const points = request->points;
     double smoothness;
     aur_lobe lobe;
     aur_density density;

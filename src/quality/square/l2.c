@@ -16,33 +16,33 @@ typedef struct product_kernel {
 
 typedef struct double_sum {
     const product_kernel *kernel;
-    const aur_points *points;
+    const aur_points_view *points;
     aur_twofold *rows; /* 2 * tile_count: sums of pairs and of points */
 } double_sum;
 
 enum { ROWS_PER_ITEM = 64 };
 
-static double weight_of(const aur_points *points, size_t i) {
+static double weight_of(const aur_points_view *points, size_t i) {
     return points->weights != NULL ? points->weights[i] : 1.0;
 }
 
 /* Rows of the lower triangle: pairs below the diagonal count twice. */
 static aur_result sum_rows(void *context, size_t index) {
     const double_sum *const work = context;
-    const aur_points *const points = work->points;
+    const aur_points_view *const points = work->points;
     const size_t dimension = points->dimension;
     const size_t first = index * ROWS_PER_ITEM;
     const size_t last = first + ROWS_PER_ITEM < points->count ? first + ROWS_PER_ITEM : points->count;
     aur_twofold pairs = {0.0, 0.0}, singles = {0.0, 0.0};
     for (size_t i = first; i < last; ++i) {
-        const double *const x = points->coordinates + i * dimension;
+        const double *const x = aur_point_at(points, i);
         const double weight = weight_of(points, i);
         double single = weight;
         for (size_t d = 0; d < dimension; ++d)
             single *= work->kernel->point(x[d]);
         singles = aur_twofold_add(singles, (aur_twofold){single, 0.0});
         for (size_t j = 0; j <= i; ++j) {
-            const double *const y = points->coordinates + j * dimension;
+            const double *const y = aur_point_at(points, j);
             double pair = weight * weight_of(points, j) * (j < i ? 2.0 : 1.0);
             for (size_t d = 0; d < dimension; ++d)
                 pair *= work->kernel->pair(x[d], y[d]);
@@ -56,7 +56,7 @@ static aur_result sum_rows(void *context, size_t index) {
 
 static aur_result discrepancy(const product_kernel *kernel, const aur_measure_request *request, double *value,
                               aur_error *error) {
-    const aur_points *const points = request->points;
+    const aur_points_view *const points = request->points;
     const size_t items = (points->count + ROWS_PER_ITEM - 1) / ROWS_PER_ITEM;
     double_sum work = {kernel, points, malloc(2 * items * sizeof *work.rows)};
     if (work.rows == NULL)

@@ -14,7 +14,7 @@ static const double edge_tolerance = 1e-6;
 static const double work_limit = 1e12;
 
 typedef struct net {
-    const aur_points *points;
+    const aur_points_view *points;
     uint64_t base;
     size_t digits;       /* m */
     uint64_t *cells;     /* count * dimension: coordinates in units of b^-m */
@@ -83,10 +83,13 @@ static void fill_cells(net *n) {
     for (size_t i = 1; i <= n->digits; ++i)
         n->powers[i] = n->powers[i - 1] * n->base;
     const double size = (double)n->points->count;
-    for (size_t i = 0; i < n->points->count * n->points->dimension; ++i) {
-        const double slack = n->base == 2 ? 0.0 : edge_tolerance;
-        const uint64_t cell = (uint64_t)(n->points->coordinates[i] * size + slack);
-        n->cells[i] = cell < n->points->count ? cell : n->points->count - 1;
+    const double slack = n->base == 2 ? 0.0 : edge_tolerance;
+    const size_t dimension = n->points->dimension;
+    for (size_t i = 0; i < n->points->count; ++i) {
+        for (size_t d = 0; d < dimension; ++d) {
+            const uint64_t cell = (uint64_t)(aur_point_at(n->points, i)[d] * size + slack);
+            n->cells[i * dimension + d] = cell < n->points->count ? cell : n->points->count - 1;
+        }
     }
 }
 

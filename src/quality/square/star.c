@@ -163,7 +163,8 @@ static aur_result heights_create(heights *h, size_t count) {
 }
 
 /* Points sorted by x, and the slot of each. Masses add up to 1. */
-static aur_result sort_points(const aur_points *source, planar_point *points, size_t *slots, heights *h) {
+static aur_result sort_points(const aur_points_view *source, planar_point *points, size_t *slots,
+                              heights *h) {
     height_order *const order = malloc(source->count * sizeof *order);
     if (order == NULL)
         return AUR_ERROR_MEMORY;
@@ -173,7 +174,7 @@ static aur_result sort_points(const aur_points *source, planar_point *points, si
     for (size_t i = 0; i < count; ++i)
         mass += source->weights != NULL ? source->weights[i] : 1.0;
     for (size_t i = 0; i < count; ++i) {
-        const double *const x = source->coordinates + i * source->dimension;
+        const double *const x = aur_point_at(source, i);
         const double weight = source->weights != NULL ? source->weights[i] : 1.0;
         points[i] = (planar_point){x[0], line ? 0.0 : x[1], weight / mass};
     }
@@ -222,7 +223,7 @@ static double star_on_the_line(const planar_point *points, size_t count) {
 }
 
 static aur_result star(const aur_measure_request *request, double *value, aur_error *error) {
-    const aur_points *const source = request->points;
+    const aur_points_view *const source = request->points;
     if (source->dimension > 2)
         return aur_fail(
             error, AUR_ERROR_UNSUPPORTED,

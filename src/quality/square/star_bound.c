@@ -13,7 +13,7 @@
 enum { TRIALS = 16, DEFAULT_STEPS = 4096 };
 
 typedef struct walk {
-    const aur_points *points;
+    const aur_points_view *points;
     const double *masses; /* count, adding up to 1 */
     const double *sorted; /* dimension * (count + 1): the coordinates in order, and 1 */
     size_t steps;
@@ -41,7 +41,7 @@ static double difference(const walk *w, const box *b) {
     double closed = 0.0, open = 0.0;
     memset(b->low, 0, dimension * sizeof *b->low);
     for (size_t i = 0; i < w->points->count; ++i) {
-        const double *const x = w->points->coordinates + i * dimension;
+        const double *const x = aur_point_at(w->points, i);
         int in_closed = 1, in_open = 1;
         for (size_t d = 0; d < dimension && in_closed; ++d) {
             in_closed = x[d] <= b->upper[d];
@@ -67,7 +67,7 @@ static double grow(const walk *w, const box *b) {
     for (size_t d = 0; d < dimension; ++d) {
         double limit = 1.0;
         for (size_t i = 0; i < w->points->count; ++i) {
-            const double *const x = w->points->coordinates + i * dimension;
+            const double *const x = aur_point_at(w->points, i);
             int inside = 1;
             for (size_t e = 0; e < dimension && inside; ++e)
                 inside = e == d || x[e] < b->high[e];
@@ -79,7 +79,7 @@ static double grow(const walk *w, const box *b) {
     for (size_t i = 0; i < w->points->count; ++i) {
         int inside = 1;
         for (size_t d = 0; d < dimension && inside; ++d)
-            inside = w->points->coordinates[i * dimension + d] < b->high[d];
+            inside = aur_point_at(w->points, i)[d] < b->high[d];
         open += inside ? w->masses[i] : 0.0;
     }
     return volume(b->high, dimension) - open;
@@ -162,7 +162,7 @@ static int ascending(const void *a, const void *b) {
 }
 
 /* Masses, then the sorted coordinates of each axis with 1 at the end. */
-static double *tabulate(const aur_points *points) {
+static double *tabulate(const aur_points_view *points) {
     const size_t count = points->count, dimension = points->dimension;
     double *const table = malloc((count + dimension * (count + 1)) * sizeof *table);
     if (table == NULL)
@@ -175,7 +175,7 @@ static double *tabulate(const aur_points *points) {
     for (size_t d = 0; d < dimension; ++d) {
         double *const axis = table + count + d * (count + 1);
         for (size_t i = 0; i < count; ++i)
-            axis[i] = points->coordinates[i * dimension + d];
+            axis[i] = aur_point_at(points, i)[d];
         axis[count] = 1.0;
         qsort(axis, count, sizeof *axis, ascending);
     }

@@ -87,13 +87,13 @@ static bool lists(const char *list, const char *name) {
 }
 
 /* Where in its file a point stands, as far as it is known; the caller knows the file. */
-static aur_location line_of(const aur_points *points, size_t index) {
+static aur_location line_of(const aur_points_view *points, size_t index) {
     return (aur_location){.line = points->lines != NULL ? points->lines[index] : 0};
 }
 
-static aur_result check_point(const aur_points *points, size_t index, aur_error *error) {
+static aur_result check_point(const aur_points_view *points, size_t index, aur_error *error) {
     const aur_location where = line_of(points, index);
-    const double *const x = points->coordinates + index * points->dimension;
+    const double *const x = aur_point_at(points, index);
     for (size_t d = 0; d < points->dimension; ++d)
         if (!isfinite(x[d]))
             return aur_fail_at(error, where, AUR_ERROR_ARGUMENT,
@@ -123,7 +123,7 @@ static aur_result check_point(const aur_points *points, size_t index, aur_error 
     return AUR_OK;
 }
 
-static aur_result check_weights(const aur_measure_row *row, const aur_points *points, aur_error *error) {
+static aur_result check_weights(const aur_measure_row *row, const aur_points_view *points, aur_error *error) {
     double sum = 0.0;
     for (size_t i = 0; i < points->count; ++i) {
         const double weight = points->weights[i];
@@ -156,7 +156,7 @@ static size_t expected_dimension(aur_domain domain) {
     return 0;
 }
 
-static aur_result check(const aur_measure_row *row, const aur_points *points, aur_error *error) {
+static aur_result check(const aur_measure_row *row, const aur_points_view *points, aur_error *error) {
     const char *const name = row->description.row.name;
     const char *const domain = aur_domain_name(points->domain);
     if (!lists(row->description.domains, domain))
@@ -178,32 +178,45 @@ static aur_result check(const aur_measure_row *row, const aur_points *points, au
     return points->weights != NULL ? check_weights(row, points, error) : AUR_OK;
 }
 
-/* A copy whose directions have unit length to the last bit, so that seven-digit files are measured as meant.
- */
-static double *unit_copy(const aur_points *points) {
+/* A vector that is unit to rounding stays as it is. */
+static double unit_scale(const double x[3]) {
+    const double square = x[0] * x[0] + x[1] * x[1] + x[2] * x[2];
+    return fabs(square - 1.0) <= 1e-15 ? 1.0 : 1.0 / sqrt(square);
+}
+
+/* Whether directions can be measured where they are: one after another, of unit length to the last bit. */
+static bool are_unit(const aur_points_view *points) {
+    bool unit = points->stride == 3;
+    for (size_t i = 0; i < points->count && unit; ++i)
+        unit = unit_scale(aur_point_at(points, i)) == 1.0;
+    return unit;
+}
+
+/* A copy that is so, so that seven-digit files are measured as meant. */
+static double *unit_copy(const aur_points_view *points) {
     double *const copy = malloc(points->count * 3 * sizeof *copy);
     for (size_t i = 0; i < points->count && copy != NULL; ++i) {
-        const double *const x = points->coordinates + 3 * i;
-        const double square = x[0] * x[0] + x[1] * x[1] + x[2] * x[2];
-        /* A vector that is unit to rounding stays as it is. */
-        const double scale = fabs(square - 1.0) <= 1e-15 ? 1.0 : 1.0 / sqrt(square);
+        const double *const x = aur_point_at(points, i);
+        const double scale = unit_scale(x);
         for (size_t d = 0; d < 3; ++d)
             copy[3 * i + d] = x[d] * scale;
     }
     return copy;
 }
 
-/* The row, a checked request, and the copy of the coordinates that it points to (free it). */
+/* The row, a checked request, and the copy of the coordinates that it points to (free it), NULL where it
+ * points to the caller's. */
 typedef struct prepared {
     const aur_measure_row *row;
     aur_measure_request request;
-    aur_points points;
+    aur_points_view points;
     double *unit;
 } prepared;
 
-static aur_result prepare(const char *metric, const aur_points *points, const aur_measure_options *options,
-                          prepared *p, aur_error *error) {
-    *p = (prepared){.points = *points, .request.points = &p->points};
+static aur_result prepare(const char *metric, const aur_points_view *given,
+                          const aur_measure_options *options, prepared *p, aur_error *error) {
+    aur_points_view *const points = &p->points;
+    *p = (prepared){.request.points = points};
     aur_measure_options *const own = &p->request.options;
     *own = aur_measure_options_default();
     aur_result result =
@@ -211,18 +224,21 @@ static aur_result prepare(const char *metric, const aur_points *points, const au
     if (result == AUR_OK)
         result = find_row(metric, &p->row, &p->request.parameter, error);
     if (result == AUR_OK)
+        result = aur_points_view_read(given, points, error);
+    if (result == AUR_OK)
         result = check(p->row, points, error);
     if (result != AUR_OK)
         return result;
     p->request.variant = p->row->variant;
-    if (expected_dimension(points->domain) != 3)
+    if (expected_dimension(points->domain) != 3 || are_unit(points))
         return AUR_OK;
     p->unit = unit_copy(points);
-    p->points.coordinates = p->unit;
+    points->coordinates = p->unit;
+    points->stride = 3;
     return p->unit != NULL ? AUR_OK : aur_fail_memory(error);
 }
 
-aur_result aur_measure(const char *metric, const aur_points *points, const aur_measure_options *options,
+aur_result aur_measure(const char *metric, const aur_points_view *points, const aur_measure_options *options,
                        double *value, aur_error *error) {
     prepared p;
     aur_result result = prepare(metric, points, options, &p, error);
@@ -237,20 +253,25 @@ aur_result aur_measure(const char *metric, const aur_points *points, const aur_m
     return result;
 }
 
-aur_result aur_measure_series(const char *metric, const aur_points *points,
-                              const aur_measure_options *options, aur_series *series, aur_error *error) {
-    *series = (aur_series){0};
+aur_result aur_measure_series(const char *metric, const aur_points_view *points,
+                              const aur_measure_options *options, aur_series **series, aur_error *error) {
+    *series = NULL;
     prepared p;
     aur_result result = prepare(metric, points, options, &p, error);
     if (result != AUR_OK)
         return result;
-    if (p.row->tabulate != NULL)
-        result = p.row->tabulate(&p.request, series, error);
-    else
+    aur_series *made = NULL;
+    if (p.row->tabulate != NULL) {
+        made = calloc(1, sizeof *made);
+        result = made != NULL ? p.row->tabulate(&p.request, made, error) : aur_fail_memory(error);
+    } else {
         result = aur_fail(error, AUR_ERROR_UNSUPPORTED, "measure '%s' is one value, not a table",
                           p.row->description.row.name);
-    if (result != AUR_OK)
-        aur_series_release(series);
+    }
+    if (result == AUR_OK)
+        *series = made;
+    else
+        aur_series_destroy(made);
     free(p.unit);
     return result;
 }

@@ -20,7 +20,7 @@ struct aur_directions {
     const aur_native_set *native; /* NULL: a set of the square, or a file */
     void *native_data;
     aur_pointset *square;
-    aur_points file; /* of directions; count 0 when it is something else */
+    aur_points *file; /* of directions; NULL when it is something else */
     aur_map map;
     double height;
     aur_lobe lobe;    /* what the weights are for */
@@ -143,11 +143,11 @@ static aur_result open_square(const char *set, const aur_directions_options *opt
 
 static aur_result open_file(const char *set, const aur_directions_options *options, aur_scramble scramble,
                             aur_directions *directions, aur_error *error) {
-    aur_points *const file = &directions->file;
     const char *const path = set + sizeof file_prefix - 1;
-    const aur_result result = aur_points_read(path, file, error);
+    const aur_result result = aur_points_read(path, &directions->file, error);
     if (result != AUR_OK)
         return result;
+    const aur_points_view *const file = aur_points_look(directions->file);
     const uint64_t count = options->count != 0 ? options->count : file->count;
     if (count > file->count)
         return aur_fail(error, AUR_ERROR_ARGUMENT, "%s has %zu points, not %llu", path, file->count,
@@ -157,8 +157,8 @@ static aur_result open_file(const char *set, const aur_directions_options *optio
             error, (aur_location){.file = path}, AUR_ERROR_UNSUPPORTED,
             "its points are on the disk (header x,y), neither directions nor on the square (u,v)");
     if (file->domain != AUR_DOMAIN_HEMISPHERE && file->domain != AUR_DOMAIN_SPHERE) {
-        aur_points_release(file);
-        *file = (aur_points){0};
+        aur_points_destroy(directions->file);
+        directions->file = NULL;
         return open_square(set, options, count, scramble, directions, error);
     }
     if (scramble != AUR_SCRAMBLE_NONE)
@@ -218,7 +218,7 @@ void aur_directions_destroy(aur_directions *directions) {
     if (directions == NULL)
         return;
     aur_pointset_destroy(directions->square);
-    aur_points_release(&directions->file);
+    aur_points_destroy(directions->file);
     free(directions->native_data);
     free(directions);
 }
@@ -245,7 +245,7 @@ static aur_result lift(const aur_directions *directions, uint64_t first, size_t 
 
 static void take_from_file(const aur_directions *directions, uint64_t first, size_t count, double *xyz,
                            double *weights) {
-    const aur_points *const file = &directions->file;
+    const aur_points_view *const file = aur_points_look(directions->file);
     memcpy(xyz, file->coordinates + 3 * first, 3 * count * sizeof *xyz);
     if (weights != NULL && file->weights != NULL)
         memcpy(weights, file->weights + first, count * sizeof *weights);

@@ -1,0 +1,25 @@
+/* Points of a test's own, which it changes and frees, and how the library sees them. */
+#pragma once
+
+#include <aureole/quality.h>
+#include <stdlib.h>
+#include <string.h>
+
+typedef struct own_points {
+    aur_domain domain;
+    size_t count, dimension;
+    double *coordinates, *weights;
+} own_points;
+
+static inline aur_points_view seen(const own_points *points) {
+    aur_points_view view =
+        aur_points_view_of(points->domain, points->count, points->dimension, points->coordinates);
+    view.weights = points->weights;
+    return view;
+}
+
+static inline void release_points(own_points *points) {
+    free(points->coordinates);
+    free(points->weights);
+    *points = (own_points){0};
+}
