@@ -9,6 +9,7 @@ floors='
 cli
 lab
 render
+lighting
 transport/integrators
 transport/occlusion
 transport/gather transport/paths transport/radiosity

@@ -13,6 +13,7 @@
 #include <aureole/tables.h>
 #include <aureole/text.h>
 #include <aureole/version.h>
+#include <aureole/view_factors.h>
 
 extern const char *aureole_headers_compile_as_cxx();
 
