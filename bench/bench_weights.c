@@ -53,7 +53,7 @@ static bool open_solve(size_t count, size_t potential_count, const double *expon
     context->weights = context->columns + 3 * count;
     context->work = context->system + doubles;
     for (size_t k = 0; k < potential_count; ++k) {
-        const aur_density density = {.exponent = exponents[k]};
+        const aur_density density = {.size = sizeof(aur_density), .exponent = exponents[k]};
         if (aur_potential_create(&density, 1.5, &context->potentials[k], NULL) != AUR_OK)
             return bench_fail("weights: no potential");
         aur_potential_evaluate(context->potentials[k], count, context->xyz,
@@ -73,7 +73,7 @@ static void run_solve(void *data) {
     solve_context *const context = data;
     const aur_potential *const potentials[] = {context->potentials[0], context->potentials[1]};
     aur_weights_solve(context->count, context->xyz, context->potential_count, potentials, NULL,
-                      context->weights, NULL, NULL, NULL);
+                      context->potential_count * context->count, context->weights, NULL, NULL, NULL);
     bench_keep(context->weights[0]);
 }
 
@@ -125,11 +125,11 @@ static bool bench_solves(const bench_options *options) {
 
 enum { ANGLES = 64, ROTATIONS = 16, DIFFUSE = 64, GLOSSY = 32, SAMPLES = DIFFUSE + GLOSSY };
 
-static const aur_oswa_options pair_options = {.count = DIFFUSE,
+static const aur_oswa_options pair_options = {.size = sizeof(aur_oswa_options),
+                                              .count = DIFFUSE,
                                               .mirror_count = GLOSSY,
                                               .lobe = {.exponent = 1.0},
-                                              .mirror_lobe = {.exponent = 20.0},
-                                              .weights = {AUR_REGULARIZATION_DEFAULT, 1}};
+                                              .mirror_lobe = {.exponent = 20.0}};
 
 static void run_table(void *data) {
     const size_t *const size = data; /* angles, rotations */

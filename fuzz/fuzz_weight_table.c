@@ -42,15 +42,15 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
 size_t aur_fuzz_seed(size_t index, size_t capacity, uint8_t *data) {
     if (index > 2)
         return 0;
-    const aur_oswa_options options = {.set = index == 0 ? "sobol" : NULL,
+    const aur_oswa_options options = {.size = sizeof(aur_oswa_options),
+                                      .set = index == 0 ? "sobol" : NULL,
                                       .count = 4,
                                       .mirror_count = 3,
                                       .lobe = {.exponent = 1.0},
                                       .mirror_lobe = index == 2
                                                          ? (aur_lobe){.kind = AUR_LOBE_GGX, .alpha = 0.5}
                                                          : (aur_lobe){.exponent = 20.0},
-                                      .clipped = index == 1,
-                                      .weights = {1e-6, 1}};
+                                      .clipped = index == 1};
     aur_weight_table *table;
     aur_error error;
     fuzz_require(aur_weight_table_build(&options, 3, 2, 1, NULL, &table, &error) == AUR_OK, "no seed");

@@ -11,6 +11,7 @@
 
 #include <aureole/sphere.h>
 #include <stdbool.h>
+#include <string.h>
 
 #ifdef __cplusplus
 extern "C" {
@@ -26,30 +27,44 @@ typedef enum aur_density_kind {
     AUR_DENSITY_NODES         /* point masses: any measure, and any quadrature of one */
 } aur_density_kind;
 
-/* p at a unit vector, up to a factor; finite and >= 0. Called from one thread. */
+/* p at a unit vector, up to a factor; finite and >= 0. It is called while the potential is made, and by
+ * aur_potential_density on the thread that asks. */
 typedef double (*aur_density_function)(void *user, const double direction[3]);
 
-/* Fields that a kind does not name are ignored; zero is the uniform hemisphere about +z. */
+/* The kinds that a field belongs to stand before it; other kinds ignore it. Zero but for the size is the
+ * uniform hemisphere about +z. */
 typedef struct aur_density {
+    size_t size; /* of the caller's struct, so that it can grow */
     aur_density_kind kind;
-    double axis[3];      /* COSINE_POWER, FUNCTION: unit vector; all zero stands for +z */
-    double exponent;     /* COSINE_POWER: m in [0, AUR_EXPONENT_MAXIMUM]. FUNCTION: of the lobe about the axis
-                            that     the nodes are drawn from, which must cover the support of p */
-    bool clipped;        /* COSINE_POWER: only the part above the surface, z > 0 */
-    double alpha;        /* GGX: roughness in (0,1] */
-    double view_degrees; /* GGX: of the view direction from +z towards +x, in [0,90) */
-    aur_density_function function; /* FUNCTION */
-    void *user;
-    bool whole_sphere;    /* FUNCTION: draw the nodes evenly from the whole sphere instead */
-    size_t node_count;    /* NODES; for GGX and FUNCTION 0 stands for 4096 */
-    const double *nodes;  /* NODES: 3 * node_count; copied */
-    const double *masses; /* NODES: node_count, >= 0; copied */
+    /* COSINE_POWER, FUNCTION: a unit vector; all zero stands for +z. */
+    double axis[3];
+    /* COSINE_POWER: m in [0, AUR_EXPONENT_MAXIMUM]. FUNCTION: m of the lobe about the axis that the nodes are
+     * drawn from, which must cover the support of p. */
+    double exponent;
+    bool clipped;                  /* COSINE_POWER: only the part above the surface, z > 0 */
+    double alpha;                  /* GGX: roughness in [1e-4, 1] */
+    double view_degrees;           /* GGX: of the view direction from +z towards +x, in [0,90) */
+    aur_density_function function; /* FUNCTION: required */
+    void *user;                    /* FUNCTION: handed to it */
+    bool whole_sphere;             /* FUNCTION: the nodes are drawn evenly from the whole sphere instead */
+    size_t node_count;             /* NODES: 1 to 2^24; GGX and FUNCTION: 0 stands for 4096 */
+    const double *nodes;           /* NODES: unit vectors, 3 * node_count; copied */
+    const double *masses;          /* NODES: node_count, >= 0, not all 0; copied */
 } aur_density;
 
 #define AUR_EXPONENT_MAXIMUM 1e5
 
-/* The density that points of a lobe on a domain are drawn for: cos^M or GGX on the hemisphere, 1 on the
- * sphere (where only the uniform lobe has a meaning: else UNSUPPORTED). */
+/* The uniform hemisphere about +z. */
+static inline aur_density aur_density_default(void) {
+    aur_density density;
+    memset(&density, 0, sizeof density);
+    density.size = sizeof density;
+    return density;
+}
+
+/* Makes *density, whose `size` must be set, the one that points of a lobe on a domain are drawn for: cos^M or
+ * GGX on the hemisphere, 1 on the sphere, where only the uniform lobe has a meaning. Errors: UNSUPPORTED for
+ * another lobe on the sphere and for other domains; ARGUMENT for a size that was not set. */
 AUR_API aur_result aur_density_from_lobe(const aur_lobe *lobe, aur_domain domain, aur_density *density,
                                          aur_error *error) AUR_NONNULL(1, 3);
 
@@ -61,11 +76,13 @@ AUR_API aur_result aur_density_from_lobe(const aur_lobe *lobe, aur_domain domain
  * are exact for the sum over their nodes. */
 typedef struct aur_potential aur_potential;
 
-/* `smoothness` in (1,2), 0 stands for 1.5. Errors: ARGUMENT (which, and the range), MEMORY. */
+/* `smoothness` in (1,2), 0 stands for 1.5. Nothing that `density` points to is needed afterwards but its
+ * function. Errors: ARGUMENT (which, and the range), MEMORY. On failure *potential is NULL. */
 AUR_API aur_result aur_potential_create(const aur_density *density, double smoothness,
                                         aur_potential **potential, aur_error *error) AUR_NONNULL(1, 3);
 AUR_API void aur_potential_destroy(aur_potential *potential); /* NULL is allowed */
 
+/* s, as it was given or stood for. */
 AUR_API double aur_potential_smoothness(const aur_potential *potential) AUR_NONNULL(1);
 /* The integral of the density as it is written, before p is normalised, in steradians for COSINE_POWER and
  * SPHERE: 2 pi/(m+1) times the part above the surface, 4 pi. */
@@ -104,12 +121,20 @@ AUR_API aur_result aur_worst_case_error(size_t count, const double *xyz, const d
 #define AUR_REGULARIZATION_DEFAULT 1e-6
 
 typedef struct aur_weights_options {
-    double regularization; /* added to the diagonal of K: >= 0 */
+    size_t size;           /* of the caller's struct, so that it can grow */
+    double regularization; /* added to the diagonal of K: >= 0 and finite */
     bool sum_constraint;   /* sum of weights = 1, so that constants are integrated exactly */
 } aur_weights_options;
 
 /* Regularisation 1e-6, sum constraint on. */
-AUR_API aur_weights_options aur_weights_options_default(void);
+static inline aur_weights_options aur_weights_options_default(void) {
+    aur_weights_options options;
+    memset(&options, 0, sizeof options);
+    options.size = sizeof options;
+    options.regularization = AUR_REGULARIZATION_DEFAULT;
+    options.sum_constraint = true;
+    return options;
+}
 
 typedef struct aur_weights_report {
     double equal_error;   /* worst-case error with equal weights, 1/visible */
@@ -118,38 +143,54 @@ typedef struct aur_weights_report {
     size_t visible; /* samples that take part */
 } aur_weights_report;
 
-/* Optimal weights of `count` samples for each of `potential_count` densities (Marques 2018 eq. 14, with one
- * more right-hand side for the sum constraint): weights[potential_count * count], those of the first density
- * first. Two lobes and the union of their samples make this OSWA. All potentials must have the same
- * smoothness. When one of them is clipped or GGX, samples below the surface (z < 0) get weight 0 and take no
- * part. Samples at one place share their weight. `reports` (potential_count) and `condition` (an estimate of
- * the 1-norm condition number of the regularised matrix) may be NULL and are then not computed.
+/* Optimal weights of the caller's `count` samples xyz[3 * count] for each of `potential_count` densities
+ * (Marques 2018 eq. 14, with one more right-hand side for the sum constraint): weights[potential_count *
+ * count], those of the first density first; `capacity` counts them. Two lobes and the union of their samples
+ * make this OSWA. All potentials must have the same smoothness. When one of them is clipped or GGX, samples
+ * below the surface (z < 0) get weight 0 and take no part. Samples at one place share their weight. `options`
+ * NULL: the default. `reports` (potential_count) and `condition` (an estimate of the 1-norm condition number
+ * of the regularised matrix) may be NULL and are then not computed. O(count^3) time, count^2 numbers of
+ * memory.
  *
- * Errors: ARGUMENT for a vector that is not of unit length (which), no visible sample, or options out of
- * range; MEMORY with what it would take; INTERNAL for a matrix that is not positive definite. */
+ * Errors: ARGUMENT for a vector that is not of unit length (which), no sample, no visible sample, or options
+ * out of range; CAPACITY; MEMORY with what it would take; INTERNAL for a matrix that is not positive
+ * definite. */
 AUR_API aur_result aur_weights_solve(size_t count, const double *xyz, size_t potential_count,
                                      const aur_potential *const *potentials,
-                                     const aur_weights_options *options, double *weights,
+                                     const aur_weights_options *options, size_t capacity, double *weights,
                                      aur_weights_report *reports, double *condition, aur_error *error)
-    AUR_NONNULL(2, 4, 6);
+    AUR_NONNULL(2, 4, 7);
 
 /* A set of directions with its weights in one call: what an image is gathered with. */
 typedef struct aur_rule_options {
-    const char *set;               /* as in aur_directions_create; NULL: spherical-fibonacci */
-    aur_directions_options points; /* size, domain, lobe, density, scrambling; smoothness 0 stands for 1.5 */
-    bool optimal;                  /* optimal weights; else equal ones, or p/q where q is not the lobe */
-    aur_weights_options weights;   /* of the optimal ones */
+    size_t size;     /* of the caller's struct, so that it can grow */
+    const char *set; /* as in aur_directions_create; NULL: spherical-fibonacci */
+    /* Required: count, domain, lobe, density, scrambling; smoothness 0 stands for 1.5. */
+    const aur_directions_options *points;
+    bool optimal;                       /* optimal weights; else equal ones, or p/q where q is not the lobe */
+    const aur_weights_options *weights; /* of the optimal ones; NULL: the default */
 } aur_rule_options;
 
-/* Fills xyz[3 * points.count] and weights[points.count], for integrals against the lobe normalised to 1
- * (plain weights of a GGX lobe: against the density of its visible normals, which has no masking).
- * `capacity` counts doubles of xyz; weights has room for a third as many. Errors: CAPACITY; as
- * aur_directions_create, aur_potential_create and aur_weights_solve. */
+/* The Fibonacci set of the points that the options describe, which must outlive the rule's; equal weights. */
+static inline aur_rule_options aur_rule_options_default(const aur_directions_options *points) {
+    aur_rule_options options;
+    memset(&options, 0, sizeof options);
+    options.size = sizeof options;
+    options.points = points;
+    return options;
+}
+
+/* Fills xyz[3 * count] and weights[count] with the options' count of points, for integrals against the lobe
+ * normalised to 1 (plain weights of a GGX lobe: against the density of its visible normals, which has no
+ * masking). `capacity` counts doubles of xyz; weights has room for a third as many. Errors: ARGUMENT where
+ * the points are missing or none, or the set has another number of them; CAPACITY; as aur_directions_create,
+ * aur_potential_create and aur_weights_solve. */
 AUR_API aur_result aur_rule_make(const aur_rule_options *options, size_t capacity, double *xyz,
                                  double *weights, aur_error *error) AUR_NONNULL(1, 3, 4);
 
-/* Writes x,y,z and the weights of one or more densities as the columns w, w2, w3, ... of a CSV file ("-":
- * standard output), 17 significant digits; the file is replaced whole or not at all. Errors: WRITE. */
+/* Writes x,y,z and the weights of one or more densities, density after density, as the columns w, w2, w3, ...
+ * of a CSV file ("-": standard output), 17 significant digits; the file is replaced whole or not at all.
+ * Errors: WRITE. */
 AUR_API aur_result aur_weights_write(const char *path, size_t count, const double *xyz, size_t density_count,
                                      const double *weights, aur_error *error) AUR_NONNULL(1, 3, 5);
 
@@ -168,26 +209,39 @@ typedef struct aur_z_grid {
  * angle as its view angle. Both patterns may be turned about their axes by turns in [0,1), parts of a whole
  * turn. */
 typedef struct aur_oswa_options {
+    size_t size;                /* of the caller's struct, so that it can grow */
     const char *set;            /* as in aur_directions_create; NULL: spherical-fibonacci */
     size_t count, mirror_count; /* samples of the first and of the second pattern */
-    aur_lobe lobe, mirror_lobe; /* about the normal: COSINE_POWER; about the mirror direction: either kind */
+    aur_lobe lobe;              /* about the normal: COSINE_POWER */
+    aur_lobe mirror_lobe;       /* about the mirror direction: either kind */
     bool optimal_density;       /* points follow lobe^{2/(s+1)}; GGX keeps its own density */
-    bool clipped; /* the mirror lobe ends at the horizon and hidden samples take no part; a GGX lobe
-                    always does */
+    /* The mirror lobe ends at the horizon and hidden samples take no part; a GGX lobe always does. */
+    bool clipped;
     aur_map map;
     aur_scramble scramble;
-    uint64_t seed;               /* of the set, its scrambling, and of the table's turns */
-    double smoothness;           /* 0 stands for 1.5 */
-    aur_weights_options weights; /* regularisation 0 is 0 */
-    aur_z_grid published_z;      /* z as published, for unclipped COSINE_POWER lobes; all zero: exact z */
+    uint64_t seed;                      /* of the set, its scrambling, and of the table's turns */
+    double smoothness;                  /* 0 stands for 1.5 */
+    const aur_weights_options *weights; /* NULL: the default */
+    aur_z_grid published_z; /* z as published, for unclipped COSINE_POWER lobes; all zero: exact z */
 } aur_oswa_options;
+
+/* Two uniform lobes, whole, of so many samples of the Fibonacci set. */
+static inline aur_oswa_options aur_oswa_options_default(size_t count, size_t mirror_count) {
+    aur_oswa_options options;
+    memset(&options, 0, sizeof options);
+    options.size = sizeof options;
+    options.count = count;
+    options.mirror_count = mirror_count;
+    return options;
+}
 
 /* Both patterns with all that does not depend on the angle: the two constant blocks of K and their z (Marques
  * 2018 section 6.2). Immutable, for any number of threads. */
 typedef struct aur_oswa aur_oswa;
 
-/* O(size^2) memory and time. Errors: ARGUMENT (which option, and the range), NAME of the set, UNSUPPORTED for
- * a first lobe that is no COSINE_POWER or a grid of z for a clipped or GGX lobe, MEMORY. */
+/* O(size^2) memory and time. The options, and what they point to, are copied. Errors: ARGUMENT (which option,
+ * and the range), NAME of the set, UNSUPPORTED for a first lobe that is no COSINE_POWER or a grid of z for a
+ * clipped or GGX lobe, MEMORY. On failure *oswa is NULL. */
 AUR_API aur_result aur_oswa_create(const aur_oswa_options *options, aur_oswa **oswa, aur_error *error)
     AUR_NONNULL(1, 2);
 AUR_API void aur_oswa_destroy(aur_oswa *oswa);                     /* NULL is allowed */
@@ -230,8 +284,10 @@ AUR_API aur_result aur_weight_table_save(const aur_weight_table *table, const ch
 AUR_API aur_result aur_weight_table_load(const char *path, const aur_oswa_options *expected,
                                          aur_weight_table **table, aur_error *error) AUR_NONNULL(1, 3);
 
-/* What the table was built from; owned by the table. */
+/* What the table was built from, its weights' options filled in; owned by the table. `size` says how many
+ * bytes this library knows. */
 AUR_API const aur_oswa_options *aur_weight_table_options(const aur_weight_table *table) AUR_NONNULL(1);
+/* How many angles and rotations the table was built for. */
 AUR_API size_t aur_weight_table_angles(const aur_weight_table *table) AUR_NONNULL(1);
 AUR_API size_t aur_weight_table_rotations(const aur_weight_table *table) AUR_NONNULL(1);
 /* The merged samples xyz[3 * size] that a rotation's weights belong to, at an angle in [0, pi/2]; their turns

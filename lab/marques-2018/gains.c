@@ -13,20 +13,22 @@ static const char *const columns[] = {"set", "figure", "published", "mean", "spr
 /* One scrambling: the four gains in percent. */
 static aur_result measure(const char *set, uint64_t seed, const aur_potential *const potentials[2],
                           double gains[GAINS], aur_error *error) {
-    const aur_weights_options unconstrained = {AUR_REGULARIZATION_DEFAULT, 0};
+    const aur_weights_options unconstrained = {.size = sizeof unconstrained,
+                                               .regularization = AUR_REGULARIZATION_DEFAULT};
     double xyz[3 * ALL], weights[2 * ALL];
     aur_weights_report diffuse, glossy, all[2];
     aur_result result = lab_draw(&(lab_samples){set, DIFFUSE, 1.0, 0, 2 * seed}, xyz, NULL, error);
     if (result == AUR_OK)
         result = lab_draw(&(lab_samples){set, GLOSSY, 20.0, 0, 2 * seed + 1}, xyz + 3 * DIFFUSE, NULL, error);
     if (result == AUR_OK)
+        result = aur_weights_solve(DIFFUSE, xyz, 1, potentials, &unconstrained, DIFFUSE, weights, &diffuse,
+                                   NULL, error);
+    if (result == AUR_OK)
+        result = aur_weights_solve(GLOSSY, xyz + 3 * DIFFUSE, 1, potentials + 1, &unconstrained, GLOSSY,
+                                   weights, &glossy, NULL, error);
+    if (result == AUR_OK)
         result =
-            aur_weights_solve(DIFFUSE, xyz, 1, potentials, &unconstrained, weights, &diffuse, NULL, error);
-    if (result == AUR_OK)
-        result = aur_weights_solve(GLOSSY, xyz + 3 * DIFFUSE, 1, potentials + 1, &unconstrained, weights,
-                                   &glossy, NULL, error);
-    if (result == AUR_OK)
-        result = aur_weights_solve(ALL, xyz, 2, potentials, &unconstrained, weights, all, NULL, error);
+            aur_weights_solve(ALL, xyz, 2, potentials, &unconstrained, 2 * ALL, weights, all, NULL, error);
     if (result != AUR_OK)
         return result;
     const double merged = all[0].optimal_error + all[1].optimal_error;

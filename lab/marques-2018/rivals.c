@@ -55,8 +55,12 @@ typedef struct study {
     double *truth;           /* 6 * TRUTH: points of either lobe */
 } study;
 
+/* The paper regularises much, and has no constraint of the sum. */
+static const aur_weights_options published = {.size = sizeof published, .regularization = 0.5};
+
 static aur_oswa_options pair(const study *s, method m, uint64_t seed) {
-    aur_oswa_options options = {.set = s->set,
+    aur_oswa_options options = {.size = sizeof(aur_oswa_options),
+                                .set = s->set,
                                 .count = DIFFUSE,
                                 .mirror_count = GLOSSY,
                                 .lobe = {.exponent = 1.0},
@@ -64,11 +68,11 @@ static aur_oswa_options pair(const study *s, method m, uint64_t seed) {
                                 .optimal_density = m == DENSE,
                                 .clipped = m == CLIPPED || m == TABLE || m == DENSE || m == SCALED,
                                 .scramble = lab_scrambling(s->set),
-                                .seed = seed,
-                                .weights = aur_weights_options_default()};
+                                .seed = seed};
     if (m == PUBLISHED) {
-        options.weights = (aur_weights_options){0.5, 0};
-        options.published_z = (aur_z_grid){64, 32, 100.0};
+        options.weights = &published;
+        options.published_z =
+            (aur_z_grid){.angle_count = 64, .exponent_count = 32, .largest_exponent = 100.0};
     }
     return options;
 }
@@ -91,7 +95,9 @@ static aur_result from_table(const study *s, uint64_t seed, rule *r, aur_error *
 /* Weights that take no merged solve. */
 static aur_result separate(const study *s, method m, rule *r, aur_error *error) {
     const double axis[3] = {-sin(s->radians), 0.0, cos(s->radians)};
-    aur_density densities[2] = {{.exponent = 1.0}, {.exponent = 20.0}};
+    aur_density densities[2] = {aur_density_default(), aur_density_default()};
+    densities[0].exponent = 1.0;
+    densities[1].exponent = 20.0;
     aur_strategy strategies[2] = {{.count = DIFFUSE, .sampled = {.exponent = 1.0}},
                                   {.count = GLOSSY, .sampled = {.exponent = 20.0}}};
     memcpy(densities[1].axis, axis, sizeof axis);
@@ -110,8 +116,8 @@ static aur_result separate(const study *s, method m, rule *r, aur_error *error) 
         for (size_t i = first[k]; i < first[k] + count[k]; ++i)
             seen += m != SCALED || r->xyz[3 * i + 2] >= 0.0;
         if (m == OSW)
-            result =
-                aur_weights_solve(count[k], r->xyz + 3 * first[k], 1, &one, NULL, own, NULL, NULL, error);
+            result = aur_weights_solve(count[k], r->xyz + 3 * first[k], 1, &one, NULL, count[k], own, NULL,
+                                       NULL, error);
         else if (m == BALANCE || m == POWER)
             result = aur_mis_weights(m == POWER ? AUR_MIS_POWER : AUR_MIS_BALANCE, 2, strategies, potential,
                                      DIFFUSE + GLOSSY, r->xyz, r->weights[k], error);

@@ -35,7 +35,8 @@ aur_result lab_draw(const lab_samples *wanted, double *xyz, double *weights, aur
 
 aur_result lab_lobe_potential(double exponent, double smoothness, aur_potential **potential,
                               aur_error *error) {
-    const aur_density density = {.kind = AUR_DENSITY_COSINE_POWER, .exponent = exponent};
+    const aur_density density = {
+        .size = sizeof(aur_density), .kind = AUR_DENSITY_COSINE_POWER, .exponent = exponent};
     return aur_potential_create(&density, smoothness, potential, error);
 }
 

@@ -17,7 +17,7 @@ typedef struct choice {
 /* The gain in percent over equal weights, by root mean squares over seeds. */
 static aur_result add_row(lab_run *run, const choice *c, aur_error *error) {
     const size_t seeds = lab_run_options(run)->quick ? 8 : 100;
-    const aur_weights_options options = {c->regularization, 0};
+    const aur_weights_options options = {.size = sizeof options, .regularization = c->regularization};
     aur_potential *maker = NULL, *judge = NULL;
     aur_result result = lab_lobe_potential(c->exponent, c->made_for, &maker, error);
     if (result == AUR_OK)
@@ -28,7 +28,7 @@ static aur_result add_row(lab_run *run, const choice *c, aur_error *error) {
         double xyz[3 * COUNT], weights[COUNT], plain, optimal;
         result = lab_draw(&(lab_samples){c->set, COUNT, c->exponent, 0, seed}, xyz, NULL, error);
         if (result == AUR_OK)
-            result = aur_weights_solve(COUNT, xyz, 1, &made, &options, weights, NULL, NULL, error);
+            result = aur_weights_solve(COUNT, xyz, 1, &made, &options, COUNT, weights, NULL, NULL, error);
         if (result == AUR_OK)
             result = aur_worst_case_error(COUNT, xyz, NULL, judge, 1, NULL, &plain, error);
         if (result == AUR_OK)

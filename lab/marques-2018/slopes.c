@@ -29,7 +29,8 @@ static double slope(const line *l) {
 /* Root mean squares over seeds. */
 static aur_result measure(const lab_samples *first, size_t seeds, const aur_potential *potential,
                           double *room, double rms[2], aur_error *error) {
-    const aur_weights_options unconstrained = {AUR_REGULARIZATION_DEFAULT, 0};
+    const aur_weights_options unconstrained = {.size = sizeof unconstrained,
+                                               .regularization = AUR_REGULARIZATION_DEFAULT};
     double *const xyz = room, *const weights = room + 3 * LARGEST;
     double squares[2] = {0};
     for (uint64_t seed = 0; seed < seeds; ++seed) {
@@ -38,8 +39,8 @@ static aur_result measure(const lab_samples *first, size_t seeds, const aur_pote
         aur_weights_report report;
         aur_result result = lab_draw(&wanted, xyz, NULL, error);
         if (result == AUR_OK)
-            result = aur_weights_solve(wanted.count, xyz, 1, &potential, &unconstrained, weights, &report,
-                                       NULL, error);
+            result = aur_weights_solve(wanted.count, xyz, 1, &potential, &unconstrained, wanted.count,
+                                       weights, &report, NULL, error);
         if (result != AUR_OK)
             return result;
         squares[0] += report.equal_error * report.equal_error;

@@ -215,8 +215,8 @@ static int describe_weight_table(const char *path, const info_options *options) 
     add_text(&facts, "horizon", o->clipped || o->mirror_lobe.kind == AUR_LOBE_GGX ? "clipped" : "ignored");
     add_number(&facts, "seed", (double)o->seed);
     add_number(&facts, "smoothness", o->smoothness);
-    add_number(&facts, "regularization", o->weights.regularization);
-    add_text(&facts, "sum", o->weights.sum_constraint ? "1" : "free");
+    add_number(&facts, "regularization", o->weights->regularization);
+    add_text(&facts, "sum", o->weights->sum_constraint ? "1" : "free");
     add_number(&facts, "angles", (double)aur_weight_table_angles(table));
     add_number(&facts, "rotations", (double)aur_weight_table_rotations(table));
     const int status = print_facts(&facts, options->format);

@@ -128,14 +128,14 @@ static bool parse_option(int option, const char *text, cli_weights_arguments *ar
     case OPTION_N2:
         return cli_parse_size("--n2", text, 1, SIZE_MAX, &arguments->mirror_size);
     case OPTION_CLIP:
-        arguments->clipped = 1;
+        arguments->clipped = true;
         return true;
     case OPTION_METHOD:
         return parse_method(text, arguments);
     case OPTION_REGULARIZATION:
         return cli_parse_number("--regularization", text, 0.0, 1e300, &arguments->weights.regularization);
     case OPTION_UNCONSTRAINED:
-        arguments->weights.sum_constraint = 0;
+        arguments->weights.sum_constraint = false;
         return true;
     case OPTION_REPORT:
         arguments->report = true;

@@ -21,7 +21,7 @@ typedef struct cli_weights_arguments {
     size_t size, mirror_size;
     aur_lobe mirror;
     double degrees;
-    int clipped;
+    bool clipped;
     aur_weights_options weights;
     cli_method method;
     const char *method_name, *lobe_text, *mirror_text;

@@ -48,7 +48,7 @@ static aur_result prepare_lobes(weights_job *task, aur_error *error) {
         aur_lobe lobe = k == 0 ? points->lobe : arguments->mirror;
         if (k == 1 && lobe.kind == AUR_LOBE_GGX)
             lobe.view_degrees = arguments->degrees;
-        aur_density density;
+        aur_density density = aur_density_default();
         aur_result result = aur_density_from_lobe(&lobe, points->domain, &density, error);
         if (result != AUR_OK)
             return result;
@@ -103,7 +103,8 @@ static aur_result load_one(weights_job *task, aur_error *error) {
 
 aur_oswa_options cli_weights_oswa(const cli_weights_arguments *arguments) {
     const cli_point_options *const points = &arguments->points;
-    return (aur_oswa_options){.set = arguments->source,
+    return (aur_oswa_options){.size = sizeof(aur_oswa_options),
+                              .set = arguments->source,
                               .count = arguments->size,
                               .mirror_count = arguments->mirror_size,
                               .lobe = points->lobe,
@@ -114,7 +115,7 @@ aur_oswa_options cli_weights_oswa(const cli_weights_arguments *arguments) {
                               .scramble = points->scramble,
                               .seed = points->seed,
                               .smoothness = points->smoothness,
-                              .weights = arguments->weights};
+                              .weights = &arguments->weights};
 }
 
 static aur_result load_two(weights_job *task, aur_error *error) {
@@ -179,13 +180,14 @@ static aur_result optimal_weights(weights_job *task, aur_error *error) {
     double *const condition = task->arguments->report ? &result->condition : NULL;
     if (task->arguments->method == CLI_METHOD_OSWA || result->lobe_count == 1 || task->own[1] == 0)
         return aur_weights_solve(result->count, result->xyz, result->lobe_count, potentials,
-                                 &task->arguments->weights, result->weights, NULL, condition, error);
+                                 &task->arguments->weights, result->lobe_count * result->count,
+                                 result->weights, NULL, condition, error);
     memset(result->weights, 0, 2 * result->count * sizeof *result->weights);
     for (size_t k = 0; k < 2; ++k) {
         const size_t first = first_of(task, k);
         const aur_result solved = aur_weights_solve(
             count_of(task, k), result->xyz + 3 * first, 1, potentials + k, &task->arguments->weights,
-            result->weights + k * result->count + first, NULL, NULL, error);
+            count_of(task, k), result->weights + k * result->count + first, NULL, NULL, error);
         if (solved != AUR_OK)
             return solved;
     }

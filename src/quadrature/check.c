@@ -2,6 +2,7 @@
 
 #include <math.h>
 
+#include "core/options.h"
 #include "core/vector.h"
 #include "core/vector3d.h"
 
@@ -13,6 +14,31 @@ aur_result aur_check_directions(size_t count, const double *xyz, aur_error *erro
                             u[0], u[1], u[2]);
     }
     return AUR_OK;
+}
+
+aur_result aur_weights_options_read(const aur_weights_options *given, aur_weights_options *own,
+                                    aur_error *error) {
+    const aur_result result =
+        aur_options_read(given, sizeof *own, sizeof *own, own, "aur_weights_options", error);
+    if (result == AUR_OK && !(own->regularization >= 0.0 && isfinite(own->regularization)))
+        return aur_fail(error, AUR_ERROR_ARGUMENT, "the regularisation must be at least 0 and finite, not %g",
+                        own->regularization);
+    return result;
+}
+
+aur_result aur_points_of_set(const char *set, const aur_directions_options *options, double *xyz,
+                             double *weights, aur_error *error) {
+    aur_directions *directions;
+    aur_result result = aur_directions_create(set, options, &directions, error);
+    if (result != AUR_OK)
+        return result;
+    const uint64_t size = aur_directions_size(directions), count = options->count;
+    result = size == count
+                 ? aur_directions_points(directions, 0, (size_t)count, 3 * (size_t)count, xyz, weights)
+                 : aur_fail(error, AUR_ERROR_ARGUMENT, "set '%s' has %llu points, not %llu", set,
+                            (unsigned long long)size, (unsigned long long)count);
+    aur_directions_destroy(directions);
+    return result;
 }
 
 aur_result aur_check_capacity(size_t needed, size_t capacity, aur_error *error) {

@@ -1,10 +1,23 @@
 /* Checks of what callers pass in. */
 #pragma once
 
+#include <aureole/quadrature.h>
+
 #include "core/error.h"
 
 /* ARGUMENT for the first of `count` vectors that is not of unit length. */
 aur_result aur_check_directions(size_t count, const double *xyz, aur_error *error);
+
+/* The set where none is named. */
+static const char aur_set_default[] = "spherical-fibonacci";
+
+/* Reads the caller's options, which may be NULL, over the defaults in *own. */
+aur_result aur_weights_options_read(const aur_weights_options *given, aur_weights_options *own,
+                                    aur_error *error);
+
+/* The points of a set, and their weights unless NULL: options->count of them, which the set must have. */
+aur_result aur_points_of_set(const char *set, const aur_directions_options *options, double *xyz,
+                             double *weights, aur_error *error);
 
 /* CAPACITY unless `needed` numbers fit into `capacity`. */
 aur_result aur_check_capacity(size_t needed, size_t capacity, aur_error *error);

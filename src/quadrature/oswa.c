@@ -6,6 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "core/options.h"
 #include "core/random.h"
 #include "core/vector.h"
 #include "core/vector3d.h"
@@ -32,18 +33,7 @@ static aur_result load_uniform(aur_oswa *oswa, size_t which, aur_error *error) {
                                             .map = oswa->options.map,
                                             .scramble = oswa->options.scramble,
                                             .seed = pattern_seed(oswa->options.seed, which)};
-    aur_directions *directions;
-    aur_result result = aur_directions_create(oswa->set, &options, &directions, error);
-    if (result != AUR_OK)
-        return result;
-    if (aur_directions_size(directions) != oswa->count[which])
-        result = aur_fail(error, AUR_ERROR_ARGUMENT, "set '%s' has %llu points, not %zu", oswa->set,
-                          (unsigned long long)aur_directions_size(directions), oswa->count[which]);
-    else
-        result = aur_directions_points(directions, 0, oswa->count[which], 3 * oswa->count[which],
-                                       oswa->uniform[which], NULL);
-    aur_directions_destroy(directions);
-    return result;
+    return aur_points_of_set(oswa->set, &options, oswa->uniform[which], NULL, error);
 }
 
 static void warp_pattern(aur_oswa *oswa, size_t which) {
@@ -54,7 +44,7 @@ static void warp_pattern(aur_oswa *oswa, size_t which) {
 /* The block of K and the z of a pattern within itself. */
 static aur_result prepare_pattern(aur_oswa *oswa, size_t which, aur_error *error) {
     const size_t n = oswa->count[which];
-    const aur_density density = {.kind = AUR_DENSITY_COSINE_POWER, .exponent = oswa->lobe[which].exponent};
+    const aur_density density = {.size = sizeof density, .exponent = oswa->lobe[which].exponent};
     const aur_result result =
         aur_potential_create(&density, oswa->options.smoothness, &oswa->whole[which], error);
     if (result != AUR_OK)
@@ -66,7 +56,7 @@ static aur_result prepare_pattern(aur_oswa *oswa, size_t which, aur_error *error
     const aur_columns split = aur_columns_split(n, pattern, columns);
     for (size_t i = 0; i < n; ++i) {
         aur_kernel_row(&oswa->whole[which]->rule, pattern + 3 * i, i, split, oswa->kernel[which] + i * n);
-        oswa->kernel[which][i * n + i] = oswa->whole[which]->rule.top + oswa->options.weights.regularization;
+        oswa->kernel[which][i * n + i] = oswa->whole[which]->rule.top + oswa->weights.regularization;
     }
     const aur_potential_table *const published = oswa->published_z;
     if (published != NULL)
@@ -87,7 +77,7 @@ static aur_result allocate(aur_oswa *oswa, bool solves, aur_error *error) {
     const size_t doubles = 7 * n + blocks[0] + blocks[1];
     double *next = malloc(doubles * sizeof *next);
     oswa->storage = next;
-    oswa->set = strdup(oswa->options.set != NULL ? oswa->options.set : "spherical-fibonacci");
+    oswa->set = strdup(oswa->options.set);
     if (next == NULL || oswa->set == NULL)
         return aur_fail_memory(error);
     oswa->options.set = oswa->set;
@@ -117,27 +107,38 @@ static aur_result check(const aur_oswa_options *options, aur_error *error) {
         (options->clipped || options->mirror_lobe.kind == AUR_LOBE_GGX))
         return aur_fail(error, AUR_ERROR_UNSUPPORTED,
                         "the published table of z knows whole cos^m lobes only");
-    const double sigma = options->weights.regularization;
-    if (!(sigma >= 0.0 && isfinite(sigma)))
-        return aur_fail(error, AUR_ERROR_ARGUMENT, "the regularisation must be at least 0 and finite, not %g",
-                        sigma);
     return AUR_OK;
 }
 
-static aur_result create(aur_oswa *oswa, bool solves, aur_error *error) {
-    const aur_oswa_options *const options = &oswa->options;
+aur_result aur_oswa_options_read(const aur_oswa_options *given, aur_oswa_options *own,
+                                 aur_weights_options *weights, aur_error *error) {
+    *own = aur_oswa_options_default(0, 0);
+    *weights = aur_weights_options_default();
+    aur_result result = aur_options_read(given, sizeof *own, sizeof *own, own, "aur_oswa_options", error);
+    if (result == AUR_OK)
+        result = aur_weights_options_read(own->weights, weights, error);
+    own->set = own->set != NULL ? own->set : aur_set_default;
+    own->smoothness = own->smoothness != 0.0 ? own->smoothness : 1.5;
+    own->weights = weights;
+    return result == AUR_OK ? check(own, error) : result;
+}
+
+static aur_result create(aur_oswa *oswa, const aur_oswa_options *given, bool solves, aur_error *error) {
+    aur_oswa_options *const options = &oswa->options;
+    aur_result result = aur_oswa_options_read(given, options, &oswa->weights, error);
+    if (result != AUR_OK)
+        return result;
     for (size_t which = 0; which < 2; ++which) {
         oswa->lobe[which] = which == 0 ? options->lobe : options->mirror_lobe;
         oswa->sampled[which] = oswa->lobe[which];
         oswa->count[which] = which == 0 ? options->count : options->mirror_count;
         if (options->optimal_density && oswa->lobe[which].kind == AUR_LOBE_COSINE_POWER) {
-            const aur_result result =
-                aur_lobe_optimal(&oswa->lobe[which], options->smoothness, &oswa->sampled[which], error);
+            result = aur_lobe_optimal(&oswa->lobe[which], options->smoothness, &oswa->sampled[which], error);
             if (result != AUR_OK)
                 return result;
         }
     }
-    aur_result result = allocate(oswa, solves, error);
+    result = allocate(oswa, solves, error);
     if (result == AUR_OK && solves && options->published_z.angle_count > 0)
         result =
             aur_potential_table_create(&options->published_z, options->smoothness, &oswa->published_z, error);
@@ -155,16 +156,10 @@ static aur_result create(aur_oswa *oswa, bool solves, aur_error *error) {
 aur_result aur_oswa_create_for(const aur_oswa_options *options, bool solves, aur_oswa **oswa,
                                aur_error *error) {
     *oswa = NULL;
-    aur_result result = check(options, error);
-    if (result != AUR_OK)
-        return result;
     aur_oswa *const created = calloc(1, sizeof *created);
     if (created == NULL)
         return aur_fail_memory(error);
-    created->options = *options;
-    if (options->smoothness == 0.0)
-        created->options.smoothness = 1.5;
-    result = create(created, solves, error);
+    const aur_result result = create(created, options, solves, error);
     if (result != AUR_OK) {
         aur_oswa_destroy(created);
         return result;
@@ -272,7 +267,7 @@ aur_result aur_oswa_angle_init(const aur_oswa *oswa, double radians, aur_oswa_an
         return result;
     if (is_ggx(oswa)) {
         const aur_lobe lobe = ggx_at(oswa, radians);
-        aur_density density;
+        aur_density density = aur_density_default();
         result = aur_density_from_lobe(&lobe, AUR_DOMAIN_HEMISPHERE, &density, error);
         if (result == AUR_OK)
             result = aur_potential_create(&density, oswa->options.smoothness, &angle->potential, error);
@@ -369,7 +364,7 @@ static aur_result solve_plainly(const aur_oswa *oswa, const aur_oswa_angle *angl
     aur_potential *mirror = angle->potential;
     aur_result result = AUR_OK;
     if (mirror == NULL) {
-        const aur_density density = {.kind = AUR_DENSITY_COSINE_POWER,
+        const aur_density density = {.size = sizeof density,
                                      .axis = {-sin(angle->radians), 0.0, fmax(0.0, cos(angle->radians))},
                                      .exponent = oswa->lobe[1].exponent,
                                      .clipped = oswa->options.clipped};
@@ -386,7 +381,7 @@ static aur_result solve_plainly(const aur_oswa *oswa, const aur_oswa_angle *angl
         const aur_potential *const potentials[] = {oswa->whole[0], mirror};
         double *const found = subset + 3 * n;
         result =
-            aur_weights_solve(kept, subset, 2, potentials, &oswa->options.weights, found, NULL, NULL, error);
+            aur_weights_solve(kept, subset, 2, potentials, &oswa->weights, 2 * n, found, NULL, NULL, error);
         for (size_t k = 0, at = 0; k < 2 && result == AUR_OK; ++k)
             for (size_t i = 0; i < n; ++i)
                 weights[k * n + i] = taken[i] ? found[at++] : 0.0;
@@ -423,7 +418,7 @@ aur_result aur_oswa_solve_at(const aur_oswa *oswa, const aur_oswa_angle *angle, 
     fill_matrix(oswa, xyz, columns, matrix);
     fill_z(oswa, angle, 0, xyz, cosines, right, right + n);
     fill_z(oswa, angle, 1, xyz + 3 * first, cosines, right + first, right + n + first);
-    const bool constrained = oswa->options.weights.sum_constraint;
+    const bool constrained = oswa->weights.sum_constraint;
     for (size_t i = 0; i < n; ++i)
         right[2 * n + i] = 1.0;
     const size_t kept = drop(n, taken, matrix, right, 3);

@@ -8,7 +8,9 @@
 
 /* The patterns are numbered 0 (about the normal) and 1 (about the mirror direction). */
 struct aur_oswa {
-    aur_oswa_options options; /* its set is `set` below; smoothness is filled in */
+    /* Its set and its weights are those below; smoothness is filled in. */
+    aur_oswa_options options;
+    aur_weights_options weights;
     char *set;
     size_t count[2];
     aur_lobe lobe[2];        /* that the weights are for */
@@ -21,6 +23,11 @@ struct aur_oswa {
     aur_potential_table *published_z; /* NULL: z is exact */
     void *storage;
 };
+
+/* Checks the caller's options and copies them, with all defaults filled in, to *own, whose set is the
+ * caller's and whose weights are *weights. */
+aur_result aur_oswa_options_read(const aur_oswa_options *given, aur_oswa_options *own,
+                                 aur_weights_options *weights, aur_error *error);
 
 /* Without `solves` the patterns alone, which is all that a table of weights needs to be read. */
 aur_result aur_oswa_create_for(const aur_oswa_options *options, bool solves, aur_oswa **oswa,

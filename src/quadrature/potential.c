@@ -3,7 +3,7 @@
 #include <math.h>
 #include <stdlib.h>
 
-#include "core/error.h"
+#include "core/options.h"
 #include "core/vector.h"
 #include "core/vector3d.h"
 #include "quadrature/check.h"
@@ -122,11 +122,13 @@ aur_result aur_potential_create(const aur_density *density, double smoothness, a
     aur_potential *const created = calloc(1, sizeof *created);
     if (created == NULL)
         return aur_fail_memory(error);
-    created->density = *density;
     created->rule = aur_kernel_rule_make(smoothness);
-    if (density->axis[0] == 0.0 && density->axis[1] == 0.0 && density->axis[2] == 0.0)
-        created->density.axis[2] = 1.0;
-    const aur_result result = create(created, error);
+    aur_density *const own = &created->density;
+    aur_result result = aur_options_read(density, sizeof *own, sizeof *own, own, "aur_density", error);
+    if (own->axis[0] == 0.0 && own->axis[1] == 0.0 && own->axis[2] == 0.0)
+        own->axis[2] = 1.0;
+    if (result == AUR_OK)
+        result = create(created, error);
     if (result != AUR_OK) {
         aur_potential_destroy(created);
         return result;
@@ -240,25 +242,18 @@ double aur_potential_density(const aur_potential *potential, const double direct
 
 aur_result aur_density_from_lobe(const aur_lobe *lobe, aur_domain domain, aur_density *density,
                                  aur_error *error) {
-    *density = (aur_density){0};
-    const int uniform = lobe->kind == AUR_LOBE_COSINE_POWER && lobe->exponent == 0.0;
-    if (domain == AUR_DOMAIN_SPHERE) {
-        density->kind = AUR_DENSITY_SPHERE;
-        return uniform ? AUR_OK
-                       : aur_fail(error, AUR_ERROR_UNSUPPORTED,
-                                  "on the sphere the lobe must be uniform: others live on the hemisphere");
-    }
-    if (domain != AUR_DOMAIN_HEMISPHERE)
+    aur_density own = aur_density_default();
+    const bool sphere = domain == AUR_DOMAIN_SPHERE, ggx = lobe->kind == AUR_LOBE_GGX;
+    if (sphere && (ggx || lobe->exponent != 0.0))
+        return aur_fail(error, AUR_ERROR_UNSUPPORTED,
+                        "on the sphere the lobe must be uniform: others live on the hemisphere");
+    if (!sphere && domain != AUR_DOMAIN_HEMISPHERE)
         return aur_fail(
             error, AUR_ERROR_UNSUPPORTED,
             "densities are on the hemisphere or the sphere: points of the square need a map first");
-    if (lobe->kind == AUR_LOBE_GGX) {
-        density->kind = AUR_DENSITY_GGX;
-        density->alpha = lobe->alpha;
-        density->view_degrees = lobe->view_degrees;
-        return AUR_OK;
-    }
-    density->kind = AUR_DENSITY_COSINE_POWER;
-    density->exponent = lobe->exponent;
-    return AUR_OK;
+    own.kind = sphere ? AUR_DENSITY_SPHERE : ggx ? AUR_DENSITY_GGX : AUR_DENSITY_COSINE_POWER;
+    own.exponent = lobe->exponent;
+    own.alpha = lobe->alpha;
+    own.view_degrees = lobe->view_degrees;
+    return aur_description_write(&own, sizeof own, sizeof own, density, "aur_density", error);
 }

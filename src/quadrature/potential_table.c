@@ -43,7 +43,7 @@ aur_result aur_potential_table_create(const aur_z_grid *grid, double smoothness,
     aur_result result = AUR_OK;
     for (size_t j = 0; j < exponent_count && result == AUR_OK; ++j) {
         const double m = expm1(created->largest * (double)j / (double)(exponent_count - 1));
-        const aur_density density = {.kind = AUR_DENSITY_COSINE_POWER, .exponent = m};
+        const aur_density density = {.size = sizeof density, .exponent = m};
         aur_potential *potential;
         result = aur_potential_create(&density, smoothness, &potential, error);
         if (result == AUR_OK)

@@ -1,6 +1,5 @@
 /* Tables of weights as files: lines of text that say what they are, then the numbers as little-endian floats,
  * then a check sum of all that stands before it. */
-#include <errno.h>
 #include <inttypes.h>
 #include <limits.h>
 #include <stdlib.h>
@@ -11,105 +10,205 @@
 #include "core/text.h"
 #include "quadrature/weight_table.h"
 
-enum { VERSION = 2, HEADER_CAPACITY = 4096 };
+enum { VERSION = 2, HEADER_CAPACITY = 4096, VALUE_CAPACITY = 64, HASH_BYTES = 8 };
 
-static const char magic[] = "aureole weight table\n";
+static const char magic[] = "aureole weight table\n", header_end[] = "end\n";
 static const size_t file_limit = (size_t)1 << 34;
 
-uint64_t aur_weight_table_check_sum(const char *data, size_t size) {
-    uint64_t hash = size;
-    for (; size >= 8; data += 8, size -= 8) {
-        uint64_t word = 0;
-        for (unsigned i = 0; i < 8; ++i)
-            word |= (uint64_t)(unsigned char)data[i] << 8 * i;
-        hash = aur_mix64(hash ^ word) + UINT64_C(0x9e3779b97f4a7c15);
-    }
-    for (; size > 0; ++data, --size)
-        hash = aur_mix64(hash ^ (unsigned char)*data) + UINT64_C(0x9e3779b97f4a7c15);
-    return hash;
+static unsigned char *put(uint64_t word, size_t bytes, unsigned char *target) {
+    for (size_t i = 0; i < bytes; ++i)
+        target[i] = (unsigned char)(word >> 8 * i);
+    return target + bytes;
 }
 
-/* All options in a fixed form: tables are of one kind when these texts are equal. Lines are `key value`. */
-static int print_header(const aur_weight_table *table, char *text, size_t capacity) {
-    const aur_oswa_options *const o = &table->oswa->options;
-    return aur_format(
-        text, capacity,
-        "%sversion %d\nset %s\ncount %zu\nmirror_count %zu\nlobe %.17g\nmirror_kind %d\n"
-        "mirror_exponent %.17g\nmirror_alpha %.17g\noptimal_density %d\nclipped %d\nmap %d\nscramble %d\n"
-        "seed %" PRIu64 "\nsmoothness %.17g\nregularization %.17g\nsum_constraint %d\nangles %zu\n"
-        "rotations %zu\npieces %zu\npatterns %016" PRIx64 "\nend\n",
-        magic, VERSION, o->set, o->count, o->mirror_count, o->lobe.exponent, (int)o->mirror_lobe.kind,
-        o->mirror_lobe.exponent, o->mirror_lobe.alpha, o->optimal_density, o->clipped, (int)o->map,
-        (int)o->scramble, o->seed, o->smoothness, o->weights.regularization, o->weights.sum_constraint,
-        table->angle_count, table->rotation_count, table->piece_count, aur_oswa_hash(table->oswa));
-}
-
-static unsigned char *put_word(uint32_t word, unsigned char *target) {
-    for (unsigned k = 0; k < 4; ++k)
-        target[k] = (unsigned char)(word >> 8 * k);
-    return target + 4;
+static uint64_t get(const char *source, size_t bytes) {
+    uint64_t word = 0;
+    for (size_t i = 0; i < bytes; ++i)
+        word |= (uint64_t)(unsigned char)source[i] << 8 * i;
+    return word;
 }
 
 static unsigned char *put_floats(const float *values, size_t count, unsigned char *target) {
     for (size_t i = 0; i < count; ++i) {
         uint32_t bits;
         memcpy(&bits, &values[i], sizeof bits);
-        target = put_word(bits, target);
+        target = put(bits, 4, target);
     }
     return target;
 }
 
-static uint32_t get_word(const char *source) {
-    uint32_t word = 0;
-    for (unsigned k = 0; k < 4; ++k)
-        word |= (uint32_t)(unsigned char)source[k] << 8 * k;
-    return word;
-}
-
 static const char *get_floats(const char *source, size_t count, float *values) {
     for (size_t i = 0; i < count; ++i, source += 4) {
-        const uint32_t bits = get_word(source);
+        const uint32_t bits = (uint32_t)get(source, 4);
         memcpy(&values[i], &bits, sizeof bits);
     }
     return source;
+}
+
+uint64_t aur_weight_table_check_sum(const char *data, size_t size) {
+    uint64_t hash = size;
+    for (; size >= 8; data += 8, size -= 8)
+        hash = aur_mix64(hash ^ get(data, 8)) + UINT64_C(0x9e3779b97f4a7c15);
+    for (; size > 0; ++data, --size)
+        hash = aur_mix64(hash ^ (unsigned char)*data) + UINT64_C(0x9e3779b97f4a7c15);
+    return hash;
+}
+
+/* --- the header */
+
+typedef struct header {
+    uint64_t version, angles, rotations, pieces;
+    aur_oswa_options options;
+    aur_weights_options weights;
+    const char *patterns; /* a hash of the directions, in hexadecimal digits */
+} header;
+
+typedef enum value_type { TYPE_TEXT, TYPE_REAL, TYPE_SIZE, TYPE_FLAG, TYPE_WORD, TYPE_NUMBER } value_type;
+
+/* The lines `key value` of the header, in this order. */
+typedef struct header_line {
+    const char *key;
+    const char *what; /* in messages, for options that a reader may expect; NULL for what it takes as it is */
+    value_type type;
+    size_t offset; /* in the header */
+    uint64_t most;
+} header_line;
+
+static const header_line lines[] = {
+    {"version", NULL, TYPE_NUMBER, offsetof(header, version), INT_MAX},
+    {"set", "set", TYPE_TEXT, offsetof(header, options.set), 0},
+    {"count", "samples of the first lobe", TYPE_SIZE, offsetof(header, options.count), INT_MAX},
+    {"mirror_count", "samples of the mirror lobe", TYPE_SIZE, offsetof(header, options.mirror_count),
+     INT_MAX},
+    {"lobe", "exponent of the first lobe", TYPE_REAL, offsetof(header, options.lobe.exponent), 0},
+    {"mirror_kind", "kind of the mirror lobe", TYPE_WORD, offsetof(header, options.mirror_lobe.kind),
+     AUR_LOBE_GGX},
+    {"mirror_exponent", "exponent of the mirror lobe", TYPE_REAL,
+     offsetof(header, options.mirror_lobe.exponent), 0},
+    {"mirror_alpha", "roughness of the mirror lobe", TYPE_REAL, offsetof(header, options.mirror_lobe.alpha),
+     0},
+    {"optimal_density", "optimal density", TYPE_FLAG, offsetof(header, options.optimal_density), 1},
+    {"clipped", "clipping", TYPE_FLAG, offsetof(header, options.clipped), 1},
+    {"map", "map", TYPE_WORD, offsetof(header, options.map), AUR_MAP_POLAR},
+    {"scramble", "scrambling", TYPE_WORD, offsetof(header, options.scramble), AUR_SCRAMBLE_ROTATE3D},
+    {"seed", "seed", TYPE_NUMBER, offsetof(header, options.seed), UINT64_MAX},
+    {"smoothness", "smoothness", TYPE_REAL, offsetof(header, options.smoothness), 0},
+    {"regularization", "regularisation", TYPE_REAL, offsetof(header, weights.regularization), 0},
+    {"sum_constraint", "sum constraint", TYPE_FLAG, offsetof(header, weights.sum_constraint), 1},
+    {"angles", NULL, TYPE_NUMBER, offsetof(header, angles), 1 << 16},
+    {"rotations", NULL, TYPE_NUMBER, offsetof(header, rotations), 1 << 16},
+    {"pieces", NULL, TYPE_NUMBER, offsetof(header, pieces), UINT32_MAX},
+    {"patterns", NULL, TYPE_TEXT, offsetof(header, patterns), 0},
+};
+
+enum { LINE_COUNT = sizeof lines / sizeof lines[0] };
+
+/* A line's value, in `buffer` or where the header has it; 17 digits tell any two numbers apart. */
+static const char *value_text(const header_line *line, const header *h, int digits, char *buffer) {
+    const void *const at = (const char *)h + line->offset;
+    switch (line->type) {
+    case TYPE_TEXT:
+        return *(const char *const *)at;
+    case TYPE_REAL:
+        aur_format(buffer, VALUE_CAPACITY, "%.*g", digits, *(const double *)at);
+        break;
+    case TYPE_SIZE:
+        aur_format(buffer, VALUE_CAPACITY, "%zu", *(const size_t *)at);
+        break;
+    case TYPE_FLAG:
+        aur_format(buffer, VALUE_CAPACITY, "%d", *(const bool *)at);
+        break;
+    case TYPE_WORD:
+        aur_format(buffer, VALUE_CAPACITY, "%u", *(const unsigned *)at);
+        break;
+    case TYPE_NUMBER:
+        aur_format(buffer, VALUE_CAPACITY, "%" PRIu64, *(const uint64_t *)at);
+        break;
+    }
+    return buffer;
+}
+
+/* False for a text that is no value of that line. */
+static bool parse_value(const header_line *line, const char *text, header *h) {
+    void *const at = (char *)h + line->offset;
+    uint64_t number = 0;
+    const char *end = "";
+    if (line->type == TYPE_REAL)
+        end = aur_read_double(text, AUR_NUMBER_ANY, at);
+    else if (line->type != TYPE_TEXT)
+        end = aur_read_integer(text, line->most, &number);
+    if (end == NULL || *end != '\0')
+        return false;
+    if (line->type == TYPE_TEXT)
+        *(const char **)at = text;
+    else if (line->type == TYPE_SIZE)
+        *(size_t *)at = (size_t)number;
+    else if (line->type == TYPE_FLAG)
+        *(bool *)at = number != 0;
+    else if (line->type == TYPE_WORD)
+        *(unsigned *)at = (unsigned)number;
+    else if (line->type == TYPE_NUMBER)
+        *(uint64_t *)at = number;
+    return true;
+}
+
+/* The length of the header, or more than HEADER_CAPACITY for one that does not fit. */
+static size_t print_header(const header *h, char text[HEADER_CAPACITY]) {
+    char buffer[VALUE_CAPACITY];
+    size_t length = (size_t)aur_format(text, HEADER_CAPACITY, "%s", magic);
+    for (size_t i = 0; i < LINE_COUNT && length < HEADER_CAPACITY; ++i)
+        length +=
+            (size_t)aur_format(text + length, HEADER_CAPACITY - length, "%s %s\n%s", lines[i].key,
+                               value_text(&lines[i], h, 17, buffer), i + 1 < LINE_COUNT ? "" : header_end);
+    return length;
 }
 
 static size_t weight_count(const aur_weight_table *table) {
     return 2 * table->size * aur_weight_table_rows(table);
 }
 
+/* --- writing */
+
 aur_result aur_weight_table_save(const aur_weight_table *table, const char *path, aur_error *error) {
     if (table->oswa->options.published_z.angle_count > 0)
         return aur_fail(error, AUR_ERROR_UNSUPPORTED, "a table made with the published z is not for keeping");
+    char text[HEADER_CAPACITY], patterns[VALUE_CAPACITY];
+    aur_format(patterns, sizeof patterns, "%016" PRIx64, aur_oswa_hash(table->oswa));
+    const header h = {VERSION,
+                      table->angle_count,
+                      table->rotation_count,
+                      table->piece_count,
+                      table->oswa->options,
+                      table->oswa->weights,
+                      patterns};
+    const size_t length = print_header(&h, text);
+    if (length >= sizeof text)
+        return aur_fail(error, AUR_ERROR_ARGUMENT, "the name of the set is too long for a table");
     const size_t intervals = table->apart ? aur_weight_table_intervals(table) : 0;
     const size_t words =
         weight_count(table) + aur_weight_table_mass_count(table) + intervals + table->piece_count;
-    char header[HEADER_CAPACITY];
-    const int length = print_header(table, header, sizeof header);
-    if (length < 0 || (size_t)length >= sizeof header)
-        return aur_fail(error, AUR_ERROR_ARGUMENT, "the name of the set is too long for a table");
-    const size_t size = (size_t)length + 4 * words + 8;
-    unsigned char *const data = malloc(size);
+    const size_t size = length + 4 * words;
+    unsigned char *const data = malloc(size + HASH_BYTES);
     if (data == NULL)
         return aur_fail_memory(error);
-    memcpy(data, header, (size_t)length);
+    memcpy(data, text, length);
     unsigned char *target = put_floats(table->masses, aur_weight_table_mass_count(table), data + length);
     for (size_t i = 0; i < intervals; ++i)
-        target = put_word(table->first[i + 1] - table->first[i], target);
+        target = put(table->first[i + 1] - table->first[i], 4, target);
     target = put_floats(table->start, table->piece_count, target);
-    put_floats(table->weights, weight_count(table), target);
-    const uint64_t sum = aur_weight_table_check_sum((const char *)data, size - 8);
-    for (unsigned k = 0; k < 8; ++k)
-        data[size - 8 + k] = (unsigned char)(sum >> 8 * k);
+    target = put_floats(table->weights, weight_count(table), target);
+    put(aur_weight_table_check_sum((const char *)data, size), HASH_BYTES, target);
     aur_file_writer writer;
     aur_result result = aur_file_open(path, &writer, error);
     if (result == AUR_OK) {
-        fwrite(data, 1, size, writer.stream);
+        fwrite(data, 1, size + HASH_BYTES, writer.stream);
         result = aur_file_commit(&writer, error);
     }
     free(data);
     return result;
 }
+
+/* --- reading */
 
 typedef struct reader {
     aur_location where; /* line: of the header */
@@ -117,126 +216,75 @@ typedef struct reader {
     aur_error *error;
 } reader;
 
-/* The value of the next header line, which must have that key; NULL after an error. */
-static char *next_value(reader *in, const char *key) {
+/* Reads the next line of the header, which must be this one. */
+static aur_result read_line(reader *in, const header_line *line, header *h) {
     ++in->where.line;
-    char *const line = in->rest;
-    char *const end = strchr(line, '\n');
-    const size_t length = strlen(key);
-    if (end == NULL || strncmp(line, key, length) != 0 || line[length] != ' ') {
-        aur_fail_at(in->error, in->where, AUR_ERROR_FORMAT, "expected '%s VALUE' in a weight table's header",
-                    key);
-        return NULL;
-    }
+    char *const text = in->rest;
+    char *const end = strchr(text, '\n');
+    const size_t length = strlen(line->key);
+    if (end == NULL || strncmp(text, line->key, length) != 0 || text[length] != ' ')
+        return aur_fail_at(in->error, in->where, AUR_ERROR_FORMAT,
+                           "expected '%s VALUE' in a weight table's header", line->key);
     *end = '\0';
     in->rest = end + 1;
-    return line + length + 1;
+    return parse_value(line, text + length + 1, h)
+               ? AUR_OK
+               : aur_fail_at(in->error, in->where, AUR_ERROR_FORMAT, "'%s' is not a valid %s",
+                             text + length + 1, line->key);
 }
 
-static bool next_double(reader *in, const char *key, double *value) {
-    const char *const text = next_value(in, key);
-    if (text == NULL)
-        return false;
-    const char *const end = aur_read_double(text, AUR_NUMBER_ANY, value);
-    if (end != NULL && *end == '\0')
-        return true;
-    aur_fail_at(in->error, in->where, AUR_ERROR_FORMAT, "'%s' is not a number", text);
-    return false;
-}
-
-static bool next_integer(reader *in, const char *key, int base, uint64_t limit, uint64_t *value) {
-    const char *const text = next_value(in, key);
-    if (text == NULL)
-        return false;
-    char *end;
-    errno = 0;
-    *value = strtoull(text, &end, base);
-    if (end != text && *end == '\0' && errno == 0 && text[0] != '-' && *value <= limit)
-        return true;
-    aur_fail_at(in->error, in->where, AUR_ERROR_FORMAT, "'%s' is not a valid %s", text, key);
-    return false;
-}
-
-typedef struct header {
-    aur_oswa_options options;
-    uint64_t angles, rotations, pieces, patterns;
-} header;
-
-/* Reads the lines after the version; they stand in the order that print_header gives them. */
-static bool read_header(reader *in, header *h) {
-    aur_oswa_options *const o = &h->options;
-    uint64_t count, mirror_count, kind, optimal, clipped, map, scramble, constraint;
-    const bool good =
-        (o->set = next_value(in, "set")) != NULL && next_integer(in, "count", 10, INT_MAX, &count) &&
-        next_integer(in, "mirror_count", 10, INT_MAX, &mirror_count) &&
-        next_double(in, "lobe", &o->lobe.exponent) &&
-        next_integer(in, "mirror_kind", 10, AUR_LOBE_GGX, &kind) &&
-        next_double(in, "mirror_exponent", &o->mirror_lobe.exponent) &&
-        next_double(in, "mirror_alpha", &o->mirror_lobe.alpha) &&
-        next_integer(in, "optimal_density", 10, 1, &optimal) &&
-        next_integer(in, "clipped", 10, 1, &clipped) && next_integer(in, "map", 10, AUR_MAP_POLAR, &map) &&
-        next_integer(in, "scramble", 10, AUR_SCRAMBLE_ROTATE3D, &scramble) &&
-        next_integer(in, "seed", 10, UINT64_MAX, &o->seed) && next_double(in, "smoothness", &o->smoothness) &&
-        next_double(in, "regularization", &o->weights.regularization) &&
-        next_integer(in, "sum_constraint", 10, 1, &constraint) &&
-        next_integer(in, "angles", 10, 1 << 16, &h->angles) &&
-        next_integer(in, "rotations", 10, 1 << 16, &h->rotations) &&
-        next_integer(in, "pieces", 10, UINT32_MAX, &h->pieces) &&
-        next_integer(in, "patterns", 16, UINT64_MAX, &h->patterns);
-    if (!good)
-        return false;
-    ++in->where.line;
-    if (strncmp(in->rest, "end\n", 4) != 0) {
-        aur_fail_at(in->error, in->where, AUR_ERROR_FORMAT, "expected 'end' after a weight table's header");
-        return false;
-    }
-    in->rest += 4;
-    o->count = (size_t)count;
-    o->mirror_count = (size_t)mirror_count;
-    o->mirror_lobe.kind = (aur_lobe_kind)kind;
-    o->optimal_density = (int)optimal;
-    o->clipped = (int)clipped;
-    o->map = (aur_map)map;
-    o->scramble = (aur_scramble)scramble;
-    o->weights.sum_constraint = (int)constraint;
-    return true;
-}
-
-/* The first option in which a file differs from what is wanted. */
-static aur_result compare(reader *in, const aur_oswa_options *has, const aur_oswa_options *wanted) {
+/* An error that no line of the header has. */
+static aur_result refuse(reader *in, const char *message) {
     in->where.line = 0;
-    const char *const set = wanted->set != NULL ? wanted->set : "spherical-fibonacci";
-    const double smoothness = wanted->smoothness == 0.0 ? 1.5 : wanted->smoothness;
-    if (strcmp(has->set, set) != 0)
-        return aur_fail_at(in->error, in->where, AUR_ERROR_FORMAT, "the table is for the set '%s', not '%s'",
-                           has->set, set);
-    const struct {
-        const char *name;
-        double has, wanted;
-    } numbers[] = {
-        {"samples of the first lobe", (double)has->count, (double)wanted->count},
-        {"samples of the mirror lobe", (double)has->mirror_count, (double)wanted->mirror_count},
-        {"exponent of the first lobe", has->lobe.exponent, wanted->lobe.exponent},
-        {"kind of the mirror lobe", has->mirror_lobe.kind, wanted->mirror_lobe.kind},
-        {"exponent of the mirror lobe", has->mirror_lobe.exponent, wanted->mirror_lobe.exponent},
-        {"roughness of the mirror lobe", has->mirror_lobe.alpha, wanted->mirror_lobe.alpha},
-        {"optimal density", has->optimal_density, wanted->optimal_density != 0},
-        {"clipping", has->clipped, wanted->clipped != 0},
-        {"map", has->map, wanted->map},
-        {"scrambling", has->scramble, wanted->scramble},
-        {"smoothness", has->smoothness, smoothness},
-        {"regularisation", has->weights.regularization, wanted->weights.regularization},
-        {"sum constraint", has->weights.sum_constraint, wanted->weights.sum_constraint != 0},
-    };
-    for (size_t i = 0; i < sizeof numbers / sizeof numbers[0]; ++i)
-        if (numbers[i].has != numbers[i].wanted)
-            return aur_fail_at(in->error, in->where, AUR_ERROR_FORMAT,
-                               "the table was built with another %s: %g, not %g", numbers[i].name,
-                               numbers[i].has, numbers[i].wanted);
-    if (has->seed != wanted->seed)
+    return aur_fail_at(in->error, in->where, AUR_ERROR_FORMAT, "%s", message);
+}
+
+/* `data` ends with a zero byte that `size`, which leaves the check sum out, does not count. */
+static aur_result read_header(reader *in, size_t size, header *h) {
+    const char *const data = in->rest;
+    /* The lines are cut where they end, so the sum comes first. */
+    const bool whole = aur_weight_table_check_sum(data, size) == get(data + size, HASH_BYTES);
+    in->rest += sizeof magic - 1;
+    in->where.line = 1;
+    aur_result result = read_line(in, &lines[0], h);
+    if (result != AUR_OK)
+        return result;
+    if (h->version != VERSION)
         return aur_fail_at(in->error, in->where, AUR_ERROR_FORMAT,
-                           "the table was built with another seed: %" PRIu64 ", not %" PRIu64, has->seed,
-                           wanted->seed);
+                           "the table has version %" PRIu64 "; this program reads version %d", h->version,
+                           VERSION);
+    if (!whole)
+        return refuse(in, "the table is damaged: its check sum does not match");
+    for (size_t i = 1; i < LINE_COUNT && result == AUR_OK; ++i)
+        result = read_line(in, &lines[i], h);
+    if (result != AUR_OK)
+        return result;
+    ++in->where.line;
+    if (strncmp(in->rest, header_end, sizeof header_end - 1) != 0)
+        return aur_fail_at(in->error, in->where, AUR_ERROR_FORMAT,
+                           "expected 'end' after a weight table's header");
+    in->rest += sizeof header_end - 1;
+    in->where.line = 0;
+    h->options.weights = &h->weights;
+    return AUR_OK;
+}
+
+/* Refuses a file for the first option in which it differs from what is wanted. */
+static aur_result compare(reader *in, const header *has, const aur_oswa_options *expected) {
+    header wanted = {.version = VERSION};
+    const aur_result result = aur_oswa_options_read(expected, &wanted.options, &wanted.weights, in->error);
+    if (result != AUR_OK)
+        return result;
+    for (size_t i = 0; i < LINE_COUNT; ++i) {
+        char a[VALUE_CAPACITY], b[VALUE_CAPACITY];
+        const char *const quote = lines[i].type == TYPE_TEXT ? "'" : "";
+        if (lines[i].what != NULL &&
+            strcmp(value_text(&lines[i], has, 17, a), value_text(&lines[i], &wanted, 17, b)) != 0)
+            return aur_fail_at(in->error, in->where, AUR_ERROR_FORMAT,
+                               "the table was built with another %s: %s%s%s, not %s%s%s", lines[i].what,
+                               quote, value_text(&lines[i], has, 6, a), quote, quote,
+                               value_text(&lines[i], &wanted, 6, b), quote);
+    }
     return AUR_OK;
 }
 
@@ -245,7 +293,7 @@ static const char *read_pieces(const char *source, aur_weight_table *table) {
     const size_t intervals = aur_weight_table_intervals(table);
     uint64_t total = 0;
     for (size_t i = 0; i < intervals; ++i, source += 4) {
-        const uint32_t count = get_word(source);
+        const uint32_t count = (uint32_t)get(source, 4);
         table->first[i] = (uint32_t)total;
         total += count;
         if (count == 0 || total > table->piece_count)
@@ -285,40 +333,20 @@ static aur_result read_words(reader *in, size_t pieces, aur_weight_table *table)
     if (table->apart)
         source = read_pieces(source, table);
     if (source == NULL)
-        return aur_fail_at(in->error, in->where, AUR_ERROR_FORMAT,
-                           "the pieces of the table's intervals are out of order");
+        return refuse(in, "the pieces of the table's intervals are out of order");
     get_floats(source, weight_count(table), table->weights);
     return AUR_OK;
 }
 
-/* `data` ends with a zero byte that `size` does not count. */
 static aur_result parse(reader *in, size_t size, const aur_oswa_options *expected, aur_weight_table **table) {
-    char *const data = in->rest;
-    const size_t magic_length = sizeof magic - 1;
-    if (size < magic_length + 8 || memcmp(data, magic, magic_length) != 0)
-        return aur_fail_at(in->error, in->where, AUR_ERROR_FORMAT, "this is not a weight table");
-    const uint64_t sum = aur_weight_table_check_sum(data, size - 8);
-    uint64_t stored = 0;
-    for (unsigned k = 0; k < 8; ++k)
-        stored |= (uint64_t)(unsigned char)data[size - 8 + k] << 8 * k;
-    in->rest += magic_length;
-    in->where.line = 1;
-    uint64_t version;
-    if (!next_integer(in, "version", 10, INT_MAX, &version))
-        return AUR_ERROR_FORMAT;
-    if (version != VERSION)
-        return aur_fail_at(in->error, in->where, AUR_ERROR_FORMAT,
-                           "the table has version %" PRIu64 "; this program reads version %d", version,
-                           VERSION);
-    in->where.line = 0;
-    if (sum != stored)
-        return aur_fail_at(in->error, in->where, AUR_ERROR_FORMAT,
-                           "the table is damaged: its check sum does not match");
-    in->where.line = 2;
-    header h = {0};
-    if (!read_header(in, &h))
-        return AUR_ERROR_FORMAT;
-    aur_result result = expected != NULL ? compare(in, &h.options, expected) : AUR_OK;
+    const char *const data = in->rest;
+    if (size < sizeof magic - 1 + HASH_BYTES || memcmp(data, magic, sizeof magic - 1) != 0)
+        return refuse(in, "this is not a weight table");
+    size -= HASH_BYTES;
+    header h = {.options = aur_oswa_options_default(0, 0), .weights = aur_weights_options_default()};
+    aur_result result = read_header(in, size, &h);
+    if (result == AUR_OK && expected != NULL)
+        result = compare(in, &h, expected);
     if (result != AUR_OK)
         return result;
     /* The size must fit before anything of that size is allocated. */
@@ -328,14 +356,15 @@ static aur_result parse(reader *in, size_t size, const aur_oswa_options *expecte
     const double masses = (angles - 1.0) * AUR_WEIGHT_TABLE_MASS_STEPS + 1.0;
     const double words = masses + (apart ? rotations * (angles - 1.0) + pieces : 0.0) +
                          2.0 * rows * (double)(h.options.count + h.options.mirror_count);
-    if ((double)(size - 8 - (size_t)(in->rest - data)) != 4.0 * words)
-        return aur_fail_at(in->error, in->where, AUR_ERROR_FORMAT,
-                           "the table is not of the size that it says");
+    if ((double)(size - (size_t)(in->rest - data)) != 4.0 * words)
+        return refuse(in, "the table is not of the size that it says");
     result =
         aur_weight_table_create(&h.options, (size_t)h.angles, (size_t)h.rotations, false, table, in->error);
     if (result != AUR_OK)
         return result;
-    if (aur_oswa_hash((*table)->oswa) != h.patterns)
+    char patterns[VALUE_CAPACITY];
+    aur_format(patterns, sizeof patterns, "%016" PRIx64, aur_oswa_hash((*table)->oswa));
+    if (strcmp(h.patterns, patterns) != 0)
         return aur_fail_at(in->error, in->where, AUR_ERROR_FORMAT,
                            "the table's set '%s' has other points than this program makes: build it again",
                            h.options.set);

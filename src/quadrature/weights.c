@@ -11,10 +11,6 @@
 /* Samples whose kernel values differ by less than rounding in the matrix are one sample. */
 static const double same_place = 1e-13;
 
-aur_weights_options aur_weights_options_default(void) {
-    return (aur_weights_options){.regularization = AUR_REGULARIZATION_DEFAULT, .sum_constraint = 1};
-}
-
 typedef struct weights_system {
     const aur_kernel_rule *rule;
     const aur_weights_options *options;
@@ -205,13 +201,9 @@ static aur_result solve(weights_system *system, size_t potential_count,
 }
 
 static aur_result check(size_t count, const double *xyz, size_t potential_count,
-                        const aur_potential *const *potentials, const aur_weights_options *options,
-                        aur_error *error) {
+                        const aur_potential *const *potentials, aur_error *error) {
     if (count == 0 || potential_count == 0)
         return aur_fail(error, AUR_ERROR_ARGUMENT, "weights need at least one sample and one density");
-    if (!(options->regularization >= 0.0 && isfinite(options->regularization)))
-        return aur_fail(error, AUR_ERROR_ARGUMENT, "the regularisation must be at least 0 and finite, not %g",
-                        options->regularization);
     for (size_t k = 1; k < potential_count; ++k)
         if (aur_potential_smoothness(potentials[k]) != aur_potential_smoothness(potentials[0]))
             return aur_fail(error, AUR_ERROR_ARGUMENT, "the densities have different smoothness: %g and %g",
@@ -221,14 +213,17 @@ static aur_result check(size_t count, const double *xyz, size_t potential_count,
 
 aur_result aur_weights_solve(size_t count, const double *xyz, size_t potential_count,
                              const aur_potential *const *potentials, const aur_weights_options *options,
-                             double *weights, aur_weights_report *reports, double *condition,
+                             size_t capacity, double *weights, aur_weights_report *reports, double *condition,
                              aur_error *error) {
-    const aur_weights_options defaults = aur_weights_options_default();
-    const aur_weights_options *const used = options != NULL ? options : &defaults;
-    aur_result result = check(count, xyz, potential_count, potentials, used, error);
+    aur_weights_options own = aur_weights_options_default();
+    aur_result result = aur_weights_options_read(options, &own, error);
+    if (result == AUR_OK)
+        result = check(count, xyz, potential_count, potentials, error);
+    if (result == AUR_OK)
+        result = aur_check_capacity(count, capacity / potential_count, error);
     if (result != AUR_OK)
         return result;
-    weights_system system = {.rule = &potentials[0]->rule, .options = used};
+    weights_system system = {.rule = &potentials[0]->rule, .options = &own};
     result = allocate(&system, count, potential_count, error);
     if (result == AUR_OK)
         result = prepare(&system, count, xyz, potential_count, potentials, error);

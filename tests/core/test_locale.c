@@ -93,8 +93,11 @@ static void reads_keys_of_sets(void **state) {
 static void saves_and_loads_weight_tables(void **state) {
     (void)state;
     aur_error error = {0};
-    const aur_oswa_options options = {
-        .count = 4, .mirror_count = 4, .lobe = {.exponent = 1}, .mirror_lobe = {.exponent = 7.5}};
+    const aur_oswa_options options = {.size = sizeof(aur_oswa_options),
+                                      .count = 4,
+                                      .mirror_count = 4,
+                                      .lobe = {.exponent = 1},
+                                      .mirror_lobe = {.exponent = 7.5}};
     aur_weight_table *table;
     assert_int_equal(aur_weight_table_build(&options, 2, 1, 1, NULL, &table, &error), AUR_OK);
     assert_int_equal(aur_weight_table_save(table, "table.wt", &error), AUR_OK);

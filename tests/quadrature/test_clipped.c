@@ -87,8 +87,10 @@ static double integrate(const end_rule *rule, double exponent, double smoothness
 }
 
 static aur_potential *tilted(double exponent, double radians, double smoothness) {
-    const aur_density density = {
-        .exponent = exponent, .axis = {sin(radians), 0.0, cos(radians)}, .clipped = 1};
+    const aur_density density = {.size = sizeof(aur_density),
+                                 .exponent = exponent,
+                                 .axis = {sin(radians), 0.0, cos(radians)},
+                                 .clipped = true};
     aur_potential *potential;
     assert_int_equal(aur_potential_create(&density, smoothness, &potential, NULL), AUR_OK);
     return potential;

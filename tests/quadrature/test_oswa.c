@@ -11,16 +11,16 @@
 
 #define PI 3.14159265358979323846
 
-static aur_oswa_options pair(double m, int clipped) {
-    return (aur_oswa_options){.set = "sobol",
+static aur_oswa_options pair(double m, bool clipped) {
+    return (aur_oswa_options){.size = sizeof(aur_oswa_options),
+                              .set = "sobol",
                               .count = 64,
                               .mirror_count = 32,
                               .lobe = {.exponent = 1.0},
                               .mirror_lobe = {.exponent = m},
                               .clipped = clipped,
                               .scramble = AUR_SCRAMBLE_DIGIT,
-                              .seed = 11,
-                              .weights = {AUR_REGULARIZATION_DEFAULT, 1}};
+                              .seed = 11};
 }
 
 static aur_potential *create(const aur_density *density) {
@@ -48,12 +48,15 @@ static void test_solve_is_the_plain_one(void **state) {
             assert_int_equal(aur_oswa_solve(oswa, angle, turns, 2 * aur_oswa_size(oswa), fast, &mass, NULL),
                              AUR_OK);
             const double up = fmax(0.0, cos(angle));
-            aur_potential *const diffuse = create(&(aur_density){.exponent = 1.0});
-            aur_potential *const glossy =
-                create(&(aur_density){.exponent = 20.0, .axis = {-sin(angle), 0.0, up}, .clipped = clipped});
+            aur_potential *const diffuse =
+                create(&(aur_density){.size = sizeof(aur_density), .exponent = 1.0});
+            aur_potential *const glossy = create(&(aur_density){.size = sizeof(aur_density),
+                                                                .exponent = 20.0,
+                                                                .axis = {-sin(angle), 0.0, up},
+                                                                .clipped = clipped});
             const aur_potential *const potentials[] = {diffuse, glossy};
-            assert_int_equal(
-                aur_weights_solve(96, xyz, 2, potentials, &options.weights, plain, NULL, NULL, NULL), AUR_OK);
+            assert_int_equal(aur_weights_solve(96, xyz, 2, potentials, NULL, 2 * 96, plain, NULL, NULL, NULL),
+                             AUR_OK);
             for (int i = 0; i < 2 * 96; ++i)
                 assert_near(fast[i], plain[i], 1e-11);
             assert_relative(mass, aur_potential_mass(glossy), 1e-12);
@@ -77,8 +80,8 @@ static void test_mirror_image(void **state) {
     assert_int_equal(aur_oswa_points(oswa, 1.0, turns, true, 3 * aur_oswa_size(oswa), mirrored, NULL),
                      AUR_OK);
     assert_int_equal(aur_oswa_solve(oswa, 1.0, turns, 2 * aur_oswa_size(oswa), weights, NULL, NULL), AUR_OK);
-    aur_potential *const glossy =
-        create(&(aur_density){.exponent = 20.0, .axis = {-sin(1.0), 0.0, cos(1.0)}, .clipped = 1});
+    aur_potential *const glossy = create(&(aur_density){
+        .size = sizeof(aur_density), .exponent = 20.0, .axis = {-sin(1.0), 0.0, cos(1.0)}, .clipped = true});
     assert_true(straight[1] == -mirrored[1] && straight[1] != 0.0);
     aur_worst_case_error(96, straight, weights + 96, glossy, 1, NULL, &error[0], NULL);
     aur_worst_case_error(96, mirrored, weights + 96, glossy, 1, NULL, &error[1], NULL);
@@ -139,8 +142,11 @@ static void test_ggx(void **state) {
 static void test_published_table(void **state) {
     (void)state;
     aur_potential_table *table;
-    assert_int_equal(aur_potential_table_create(&(aur_z_grid){64, 32, 200.0}, 1.5, &table, NULL), AUR_OK);
-    aur_potential *const potential = create(&(aur_density){.exponent = 20.0});
+    assert_int_equal(aur_potential_table_create(
+                         &(aur_z_grid){.angle_count = 64, .exponent_count = 32, .largest_exponent = 200.0},
+                         1.5, &table, NULL),
+                     AUR_OK);
+    aur_potential *const potential = create(&(aur_density){.size = sizeof(aur_density), .exponent = 20.0});
     double worst = 0.0;
     for (int i = 0; i <= 100; ++i) {
         const double x = cos(PI * i / 100.0), u[3] = {sin(PI * i / 100.0), 0.0, x};
@@ -155,14 +161,16 @@ static void test_published_table(void **state) {
     const double pole = 1.0;
     double value;
     aur_potential_table_evaluate(table, 0.0, 1, &pole, &value);
-    aur_potential *const uniform = create(&(aur_density){.exponent = 0.0});
+    aur_potential *const uniform = create(&(aur_density){.size = sizeof(aur_density), .exponent = 0.0});
     double exact;
     aur_potential_evaluate(uniform, 1, (double[]){0, 0, 1}, &exact);
     assert_near(value, exact, 1e-14);
     aur_potential_destroy(uniform);
     aur_potential_destroy(potential);
     aur_potential_table_destroy(table);
-    assert_int_equal(aur_potential_table_create(&(aur_z_grid){1, 32, 200.0}, 1.5, &table, NULL),
+    assert_int_equal(aur_potential_table_create(
+                         &(aur_z_grid){.angle_count = 1, .exponent_count = 32, .largest_exponent = 200.0},
+                         1.5, &table, NULL),
                      AUR_ERROR_ARGUMENT);
 }
 
@@ -218,8 +226,10 @@ static void check_table(double m, int clipped, size_t angles) {
             looked_up[k] = seen ? (double)found[k] : 0.0;
             equal[k] = k >= 64 && seen ? 1.0 / (double)visible : 0.0;
         }
-        aur_potential *const glossy = create(&(aur_density){
-            .exponent = m, .axis = {-sin(angle), 0.0, fmax(0.0, cos(angle))}, .clipped = clipped});
+        aur_potential *const glossy = create(&(aur_density){.size = sizeof(aur_density),
+                                                            .exponent = m,
+                                                            .axis = {-sin(angle), 0.0, fmax(0.0, cos(angle))},
+                                                            .clipped = clipped});
         aur_worst_case_error(96, xyz, exact + 96, glossy, 1, NULL, &errors[0], NULL);
         aur_worst_case_error(96, xyz, looked_up, glossy, 1, NULL, &errors[1], NULL);
         aur_worst_case_error(96, xyz, equal, glossy, 1, NULL, &errors[2], NULL);
@@ -388,7 +398,8 @@ static void test_build_errors(void **state) {
     options.set = "sobl";
     assert_int_equal(aur_weight_table_build(&options, 16, 1, 1, NULL, &table, &error), AUR_ERROR_NAME);
     options = pair(20.0, 0);
-    options.weights.regularization = -1.0;
+    const aur_weights_options negative = {.size = sizeof negative, .regularization = -1.0};
+    options.weights = &negative;
     assert_int_equal(aur_weight_table_build(&options, 16, 1, 1, NULL, &table, &error), AUR_ERROR_ARGUMENT);
     options = pair(20.0, 0);
     aur_oswa *oswa;

@@ -20,7 +20,8 @@ static void test_golden(void **state) {
     (void)state;
     const double energies[][2] = {{1.0, 1.70089089347496}, {20.0, 2.29101831718286}};
     for (size_t i = 0; i < 2; ++i) {
-        aur_potential *const potential = create(&(aur_density){.exponent = energies[i][0]}, 1.5);
+        aur_potential *const potential =
+            create(&(aur_density){.size = sizeof(aur_density), .exponent = energies[i][0]}, 1.5);
         assert_relative(aur_potential_self_energy(potential), energies[i][1], 1e-12);
         double cross;
         assert_int_equal(aur_cross_energy(energies[i][0], energies[i][0], 1.0, 1.5, &cross, NULL), AUR_OK);
@@ -28,7 +29,8 @@ static void test_golden(void **state) {
         assert_relative(aur_potential_mass(potential), 2.0 * PI / (energies[i][0] + 1.0), 1e-14);
         aur_potential_destroy(potential);
     }
-    aur_potential *const potential = create(&(aur_density){.exponent = 1.0}, 1.5);
+    aur_potential *const potential =
+        create(&(aur_density){.size = sizeof(aur_density), .exponent = 1.0}, 1.5);
     const double xyz[] = {0, 0, 1, 1, 0, 0};
     double z[2];
     aur_potential_evaluate(potential, 2, xyz, z);
@@ -45,7 +47,8 @@ static void test_long_series(void **state) {
     const double smoothness[] = {1.1, 1.5, 1.9};
     for (size_t e = 0; e < sizeof exponents / sizeof exponents[0]; ++e) {
         for (size_t s = 0; s < 3; ++s) {
-            aur_potential *const potential = create(&(aur_density){.exponent = exponents[e]}, smoothness[s]);
+            aur_potential *const potential =
+                create(&(aur_density){.size = sizeof(aur_density), .exponent = exponents[e]}, smoothness[s]);
             double x[COUNT], xyz[3 * COUNT], z[COUNT], expected[COUNT];
             for (int i = 0; i < COUNT; ++i) {
                 x[i] = cos(PI * i / (COUNT - 1));
@@ -105,7 +108,8 @@ static void test_definition(void **state) {
     double *const nodes = brute_nodes(axis, 3.5);
     const double smoothness[] = {1.2, 1.5, 1.8};
     for (size_t s = 0; s < 3; ++s) {
-        aur_potential *const potential = create(&(aur_density){.exponent = 3.5}, smoothness[s]);
+        aur_potential *const potential =
+            create(&(aur_density){.size = sizeof(aur_density), .exponent = 3.5}, smoothness[s]);
         const double points[] = {0.6, 0.0, 0.8, 0.36, 0.48, 0.8, -0.8, 0.0, -0.6};
         double z[3];
         aur_potential_evaluate(potential, 3, points, z);
@@ -125,8 +129,10 @@ static void test_clipped(void **state) {
     for (size_t e = 0; e < 3; ++e) {
         for (size_t d = 0; d < 4; ++d) {
             const double angle = degrees[d] * PI / 180.0;
-            const aur_density density = {
-                .exponent = exponents[e], .axis = {sin(angle), 0.0, cos(angle)}, .clipped = 1};
+            const aur_density density = {.size = sizeof(aur_density),
+                                         .exponent = exponents[e],
+                                         .axis = {sin(angle), 0.0, cos(angle)},
+                                         .clipped = true};
             double *const nodes = brute_nodes(density.axis, density.exponent);
             aur_potential *const potential = create(&density, 1.5);
             double xyz[3 * 8], z[8];
@@ -161,13 +167,17 @@ static void test_clipped(void **state) {
         }
     }
     /* At grazing incidence half the lobe is hidden, exactly. */
-    aur_potential *const half =
-        create(&(aur_density){.exponent = 7.0, .axis = {1.0, 0.0, 0.0}, .clipped = 1}, 1.5);
+    aur_potential *const half = create(
+        &(aur_density){
+            .size = sizeof(aur_density), .exponent = 7.0, .axis = {1.0, 0.0, 0.0}, .clipped = true},
+        1.5);
     assert_relative(aur_potential_mass(half), PI / 8.0, 1e-12);
     aur_potential_destroy(half);
     /* m = 1: the mass above the surface is pi (1 + cos angle)/2. */
-    aur_potential *const cosine =
-        create(&(aur_density){.exponent = 1.0, .axis = {sin(1.0), 0.0, cos(1.0)}, .clipped = 1}, 1.5);
+    aur_potential *const cosine = create(
+        &(aur_density){
+            .size = sizeof(aur_density), .exponent = 1.0, .axis = {sin(1.0), 0.0, cos(1.0)}, .clipped = true},
+        1.5);
     assert_relative(aur_potential_mass(cosine), 0.5 * PI * (1.0 + cos(1.0)), 1e-12);
     aur_potential_destroy(cosine);
 }
@@ -187,12 +197,13 @@ static double clipped_value(void *user, const double direction[3]) {
 static void test_function(void **state) {
     (void)state;
     clipped_lobe lobe = {.axis = {sin(1.1), 0.0, cos(1.1)}, .exponent = 20.0};
-    aur_density density = {.kind = AUR_DENSITY_FUNCTION,
+    aur_density density = {.size = sizeof(aur_density),
+                           .kind = AUR_DENSITY_FUNCTION,
                            .exponent = 20.0,
                            .function = clipped_value,
                            .user = &lobe,
                            .node_count = 16384};
-    aur_density exact = {.exponent = 20.0, .clipped = 1};
+    aur_density exact = {.size = sizeof(aur_density), .exponent = 20.0, .clipped = true};
     memcpy(density.axis, lobe.axis, sizeof density.axis);
     memcpy(exact.axis, lobe.axis, sizeof exact.axis);
     aur_potential *const sampled = create(&density, 1.5);
@@ -208,8 +219,11 @@ static void test_function(void **state) {
     aur_potential_destroy(sampled);
 
     /* Drawn from the whole sphere, without the horizon's edge: the error is that of a smooth function. */
-    aur_density even = {
-        .kind = AUR_DENSITY_FUNCTION, .function = clipped_value, .user = &lobe, .whole_sphere = 1};
+    aur_density even = {.size = sizeof(aur_density),
+                        .kind = AUR_DENSITY_FUNCTION,
+                        .function = clipped_value,
+                        .user = &lobe,
+                        .whole_sphere = 1};
     aur_potential *const whole = create(&even, 1.5);
     aur_potential_evaluate(whole, 30, xyz, a);
     for (int i = 0; i < 30; ++i)
@@ -224,7 +238,7 @@ static void test_cross_energy(void **state) {
     enum { ACROSS = 60, AROUND = 120 };
     double node[ACROSS], weight[ACROSS];
     aur_gauss_legendre(ACROSS, node, weight);
-    aur_potential *const diffuse = create(&(aur_density){.exponent = 1.0}, 1.5);
+    aur_potential *const diffuse = create(&(aur_density){.size = sizeof(aur_density), .exponent = 1.0}, 1.5);
     double energy = 0.0;
     for (size_t i = 0; i < ACROSS; ++i) {
         const double cosine = 0.5 * (node[i] + 1.0);
@@ -281,9 +295,10 @@ static void test_kernel_rows(void **state) {
 static void test_missing(void **state) {
     (void)state;
     const double node[3] = {0.0, 0.0, 1.0};
-    const aur_density densities[] = {{.kind = AUR_DENSITY_FUNCTION},
-                                     {.kind = AUR_DENSITY_NODES, .node_count = 1},
-                                     {.kind = AUR_DENSITY_NODES, .node_count = 1, .nodes = node}};
+    const aur_density densities[] = {
+        {.size = sizeof(aur_density), .kind = AUR_DENSITY_FUNCTION},
+        {.size = sizeof(aur_density), .kind = AUR_DENSITY_NODES, .node_count = 1},
+        {.size = sizeof(aur_density), .kind = AUR_DENSITY_NODES, .node_count = 1, .nodes = node}};
     for (size_t i = 0; i < 3; ++i) {
         aur_potential *potential;
         aur_error error;

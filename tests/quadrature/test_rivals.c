@@ -30,7 +30,8 @@ static void test_mis(void **state) {
     double *const xyz = malloc(4 * (A + B) * sizeof *xyz);
     double *const weights = xyz + 3 * (A + B);
     draw_two(A, B, 20.0, 0.8, xyz);
-    const aur_density glossy = {.exponent = 20.0, .axis = {sin(0.8), 0.0, cos(0.8)}};
+    const aur_density glossy = {
+        .size = sizeof(aur_density), .exponent = 20.0, .axis = {sin(0.8), 0.0, cos(0.8)}};
     aur_potential *const target = create(&glossy);
     aur_strategy strategies[2] = {{.count = A, .sampled = {.exponent = 1.0}},
                                   {.count = B, .sampled = {.exponent = 20.0}}};
@@ -70,10 +71,14 @@ static void test_mis(void **state) {
 
 static void test_refused_strategies(void **state) {
     (void)state;
-    const aur_density cosine = {.exponent = 1.0};
+    const aur_density cosine = {.size = sizeof(aur_density), .exponent = 1.0};
     aur_potential *const target = create(&cosine);
     const double node[3] = {0.0, 0.0, 1.0}, mass = 1.0;
-    const aur_density point = {.kind = AUR_DENSITY_NODES, .node_count = 1, .nodes = node, .masses = &mass};
+    const aur_density point = {.size = sizeof(aur_density),
+                               .kind = AUR_DENSITY_NODES,
+                               .node_count = 1,
+                               .nodes = node,
+                               .masses = &mass};
     aur_potential *const nodes = create(&point);
     const aur_strategy good = {.count = 1, .sampled = {.exponent = 1.0}};
     aur_strategy kind = good, exponent = good, axis = good;
@@ -146,8 +151,8 @@ static void test_ggx(void **state) {
     for (size_t d = 0; d < 3; ++d) {
         const double angle = degrees[d] * PI / 180.0;
         ggx g = {0.3, {sin(angle), 0.0, cos(angle)}};
-        aur_potential *const potential =
-            create(&(aur_density){.kind = AUR_DENSITY_GGX, .alpha = 0.3, .view_degrees = degrees[d]});
+        aur_potential *const potential = create(&(aur_density){
+            .size = sizeof(aur_density), .kind = AUR_DENSITY_GGX, .alpha = 0.3, .view_degrees = degrees[d]});
         const double u[3] = {-0.36, 0.48, 0.8};
         double mass = 0.0, z = 0.0, found;
         for (size_t i = 0; i < RINGS; ++i) {
@@ -187,19 +192,19 @@ static void test_reweighting(void **state) {
     double xyz[3 * N], ratio[N], exact[N], fitted[N];
     aur_directions_points(directions, 0, N, 3 * N, xyz, ratio);
     aur_directions_destroy(directions);
-    aur_potential *const ggx_lobe =
-        create(&(aur_density){.kind = AUR_DENSITY_GGX, .alpha = 0.3, .view_degrees = degrees});
+    aur_potential *const ggx_lobe = create(&(aur_density){
+        .size = sizeof(aur_density), .kind = AUR_DENSITY_GGX, .alpha = 0.3, .view_degrees = degrees});
     const aur_potential *const wanted[] = {ggx_lobe};
     aur_weights_report report;
-    assert_int_equal(aur_weights_solve(N, xyz, 1, wanted, NULL, exact, &report, NULL, NULL), AUR_OK);
+    assert_int_equal(aur_weights_solve(N, xyz, 1, wanted, NULL, N, exact, &report, NULL, NULL), AUR_OK);
     /* The best of many fits, about the mirror direction, is still worse. */
     double best = 1e9, best_exponent = 0.0;
     for (double m = 2.0; m < 40.0; m *= 1.2) {
         const double mirror = -degrees * PI / 180.0;
-        aur_potential *const phong =
-            create(&(aur_density){.exponent = m, .axis = {sin(mirror), 0.0, cos(mirror)}});
+        aur_potential *const phong = create(&(aur_density){
+            .size = sizeof(aur_density), .exponent = m, .axis = {sin(mirror), 0.0, cos(mirror)}});
         const aur_potential *const one[] = {phong};
-        assert_int_equal(aur_weights_solve(N, xyz, 1, one, NULL, fitted, NULL, NULL, NULL), AUR_OK);
+        assert_int_equal(aur_weights_solve(N, xyz, 1, one, NULL, N, fitted, NULL, NULL, NULL), AUR_OK);
         double value;
         for (size_t i = 0; i < N; ++i)
             if (aur_potential_density(phong, xyz + 3 * i) < 1e-6)
@@ -228,16 +233,18 @@ static void test_reweighting(void **state) {
 static void test_published_method(void **state) {
     (void)state;
     enum { N = 64 };
-    const aur_weights_options heavy = {.regularization = 0.5, .sum_constraint = 0};
+    const aur_weights_options heavy = {
+        .size = sizeof(aur_weights_options), .regularization = 0.5, .sum_constraint = false};
     const double exponents[] = {20.0, 200.0};
     for (size_t e = 0; e < 2; ++e) {
         double xyz[3 * N], weights[N];
         fibonacci_lobe(N, exponents[e], xyz);
-        aur_potential *const potential = create(&(aur_density){.exponent = exponents[e]});
+        aur_potential *const potential =
+            create(&(aur_density){.size = sizeof(aur_density), .exponent = exponents[e]});
         const aur_potential *const one[] = {potential};
         aur_weights_report light, published;
-        aur_weights_solve(N, xyz, 1, one, NULL, weights, &light, NULL, NULL);
-        aur_weights_solve(N, xyz, 1, one, &heavy, weights, &published, NULL, NULL);
+        aur_weights_solve(N, xyz, 1, one, NULL, N, weights, &light, NULL, NULL);
+        aur_weights_solve(N, xyz, 1, one, &heavy, N, weights, &published, NULL, NULL);
         print_message("m %g: gain %.2f %% with sigma 1e-6, %.2f %% with 0.5\n", exponents[e],
                       100.0 * (1.0 - light.optimal_error / light.equal_error),
                       100.0 * (1.0 - published.optimal_error / published.equal_error));
@@ -246,16 +253,21 @@ static void test_published_method(void **state) {
         aur_potential_destroy(potential);
     }
     /* Through OSWA, with the table of z: worse than with exact z. */
-    aur_oswa_options options = {.count = 64,
+    const aur_weights_options unconstrained = {.size = sizeof unconstrained,
+                                               .regularization = AUR_REGULARIZATION_DEFAULT};
+    aur_oswa_options options = {.size = sizeof(aur_oswa_options),
+                                .count = 64,
                                 .mirror_count = 32,
                                 .lobe = {.exponent = 1.0},
                                 .mirror_lobe = {.exponent = 20.0},
-                                .weights = {AUR_REGULARIZATION_DEFAULT, 0}};
+                                .weights = &unconstrained};
     double errors[2], xyz[3 * 96], weights[2 * 96];
-    aur_potential *const glossy =
-        create(&(aur_density){.exponent = 20.0, .axis = {-sin(0.6), 0.0, cos(0.6)}});
+    aur_potential *const glossy = create(
+        &(aur_density){.size = sizeof(aur_density), .exponent = 20.0, .axis = {-sin(0.6), 0.0, cos(0.6)}});
     for (int published = 0; published < 2; ++published) {
-        options.published_z = published ? (aur_z_grid){64, 32, 100.0} : (aur_z_grid){0};
+        options.published_z =
+            published ? (aur_z_grid){.angle_count = 64, .exponent_count = 32, .largest_exponent = 100.0}
+                      : (aur_z_grid){0};
         aur_oswa *oswa;
         assert_int_equal(aur_oswa_create(&options, &oswa, NULL), AUR_OK);
         assert_int_equal(
@@ -268,7 +280,7 @@ static void test_published_method(void **state) {
     }
     print_message("z by a 64 x 32 table: wce %.4e, exact %.4e\n", errors[1], errors[0]);
     assert_true(errors[1] > errors[0]);
-    options.clipped = 1;
+    options.clipped = true;
     aur_oswa *oswa;
     assert_int_equal(aur_oswa_create(&options, &oswa, NULL), AUR_ERROR_UNSUPPORTED);
     aur_potential_destroy(glossy);

@@ -10,7 +10,8 @@
 
 #define PI 3.14159265358979323846
 
-static const aur_weights_options unconstrained = {AUR_REGULARIZATION_DEFAULT, 0};
+static const aur_weights_options unconstrained = {.size = sizeof unconstrained,
+                                                  .regularization = AUR_REGULARIZATION_DEFAULT};
 
 typedef struct request {
     const char *set;
@@ -48,8 +49,8 @@ static aur_potential *create(const aur_density *density, double smoothness) {
 static void test_published_gains(void **state) {
     (void)state;
     enum { SEEDS = 200, DIFFUSE = 128, GLOSSY = 64, ALL = DIFFUSE + GLOSSY };
-    aur_potential *const diffuse = create(&(aur_density){.exponent = 1.0}, 1.5);
-    aur_potential *const glossy = create(&(aur_density){.exponent = 20.0}, 1.5);
+    aur_potential *const diffuse = create(&(aur_density){.size = sizeof(aur_density), .exponent = 1.0}, 1.5);
+    aur_potential *const glossy = create(&(aur_density){.size = sizeof(aur_density), .exponent = 20.0}, 1.5);
     const aur_potential *const potentials[] = {diffuse, glossy};
     aur_moments gains[4] = {0};
     for (uint64_t seed = 0; seed < SEEDS; ++seed) {
@@ -57,10 +58,10 @@ static void test_published_gains(void **state) {
         draw(&(request){"sobol", DIFFUSE, 1.0, 0, AUR_SCRAMBLE_DIGIT, 2 * seed}, xyz, NULL);
         draw(&(request){"sobol", GLOSSY, 20.0, 0, AUR_SCRAMBLE_DIGIT, 2 * seed + 1}, xyz + 3 * DIFFUSE, NULL);
         aur_weights_report d, g, all[2];
-        aur_weights_solve(DIFFUSE, xyz, 1, potentials, &unconstrained, weights, &d, NULL, NULL);
-        aur_weights_solve(GLOSSY, xyz + 3 * DIFFUSE, 1, potentials + 1, &unconstrained, weights, &g, NULL,
-                          NULL);
-        aur_weights_solve(ALL, xyz, 2, potentials, &unconstrained, weights, all, NULL, NULL);
+        aur_weights_solve(DIFFUSE, xyz, 1, potentials, &unconstrained, DIFFUSE, weights, &d, NULL, NULL);
+        aur_weights_solve(GLOSSY, xyz + 3 * DIFFUSE, 1, potentials + 1, &unconstrained, GLOSSY, weights, &g,
+                          NULL, NULL);
+        aur_weights_solve(ALL, xyz, 2, potentials, &unconstrained, 2 * ALL, weights, all, NULL, NULL);
         const double merged = all[0].optimal_error + all[1].optimal_error;
         aur_moments_add(&gains[0], 100.0 * (1.0 - d.optimal_error / d.equal_error));
         aur_moments_add(&gains[1], 100.0 * (1.0 - g.optimal_error / g.equal_error));
@@ -85,7 +86,8 @@ static void slopes(const request *wanted, size_t seeds, double slope[2], double 
     enum { SIZES = 7, MOST = 1024 };
     double *const xyz = malloc(4 * MOST * sizeof *xyz);
     double *const weights = xyz + 3 * MOST;
-    aur_potential *const potential = create(&(aur_density){.exponent = wanted->exponent}, 1.5);
+    aur_potential *const potential =
+        create(&(aur_density){.size = sizeof(aur_density), .exponent = wanted->exponent}, 1.5);
     const aur_potential *const potentials[] = {potential};
     double x[SIZES], y[2][SIZES];
     for (size_t i = 0; i < SIZES; ++i) {
@@ -95,8 +97,8 @@ static void slopes(const request *wanted, size_t seeds, double slope[2], double 
         for (drawn.seed = 0; drawn.seed < seeds; ++drawn.seed) {
             aur_weights_report report;
             draw(&drawn, xyz, NULL);
-            assert_int_equal(aur_weights_solve(drawn.count, xyz, 1, potentials, &unconstrained, weights,
-                                               &report, NULL, NULL),
+            assert_int_equal(aur_weights_solve(drawn.count, xyz, 1, potentials, &unconstrained, drawn.count,
+                                               weights, &report, NULL, NULL),
                              AUR_OK);
             squares[0] += report.equal_error * report.equal_error;
             squares[1] += report.optimal_error * report.optimal_error;
@@ -139,13 +141,14 @@ static void test_optimal_density(void **state) {
     (void)state;
     double xyz[3 * 64], ratio[64], weights[64], plain;
     draw(&(request){"spherical-fibonacci", 64, 20.0, 1, AUR_SCRAMBLE_NONE, 0}, xyz, ratio);
-    aur_potential *const potential = create(&(aur_density){.exponent = 20.0}, 1.5);
+    aur_potential *const potential =
+        create(&(aur_density){.size = sizeof(aur_density), .exponent = 20.0}, 1.5);
     const aur_potential *const potentials[] = {potential};
     aur_weights_report report;
     assert_int_equal(aur_worst_case_error(64, xyz, ratio, potential, 0, NULL, &plain, NULL), AUR_OK);
     assert_near(plain, 2.078e-2, 0.5e-5);
-    assert_int_equal(aur_weights_solve(64, xyz, 1, potentials, &unconstrained, weights, &report, NULL, NULL),
-                     AUR_OK);
+    assert_int_equal(
+        aur_weights_solve(64, xyz, 1, potentials, &unconstrained, 64, weights, &report, NULL, NULL), AUR_OK);
     assert_near(report.optimal_error, 2.055e-2, 0.5e-5);
     aur_potential_destroy(potential);
 }
@@ -203,13 +206,13 @@ static double estimate(const light *l, size_t count, const double *xyz, const do
 static void check_clipping(double degrees) {
     enum { LIGHTS = 60, DIFFUSE = 64, GLOSSY = 32, ALL = DIFFUSE + GLOSSY, TRUTH = 20000 };
     const double angle = degrees * PI / 180.0;
-    aur_oswa_options options = {.set = "sobol",
+    aur_oswa_options options = {.size = sizeof(aur_oswa_options),
+                                .set = "sobol",
                                 .count = DIFFUSE,
                                 .mirror_count = GLOSSY,
                                 .lobe = {.exponent = 1.0},
                                 .mirror_lobe = {.exponent = 20.0},
-                                .scramble = AUR_SCRAMBLE_DIGIT,
-                                .weights = aur_weights_options_default()};
+                                .scramble = AUR_SCRAMBLE_DIGIT};
     double *const truth_xyz = malloc(3 * TRUTH * sizeof *truth_xyz);
     double errors[3] = {0};
     for (uint64_t i = 0; i < LIGHTS; ++i) {

@@ -9,10 +9,12 @@
 
 #define PI 3.14159265358979323846
 
-static const aur_weights_options plain = {.regularization = 0.0, .sum_constraint = 0};
+static const aur_weights_options plain = {
+    .size = sizeof(aur_weights_options), .regularization = 0.0, .sum_constraint = false};
 
 static aur_potential *lobe_potential(double m, double smoothness) {
-    const aur_density density = {.kind = AUR_DENSITY_COSINE_POWER, .exponent = m};
+    const aur_density density = {
+        .size = sizeof(aur_density), .kind = AUR_DENSITY_COSINE_POWER, .exponent = m};
     aur_potential *potential;
     assert_int_equal(aur_potential_create(&density, smoothness, &potential, NULL), AUR_OK);
     return potential;
@@ -24,7 +26,8 @@ static void check_golden(double m, double equal, double optimal, double sum) {
     aur_potential *const potential = lobe_potential(m, 1.5);
     const aur_potential *const potentials[] = {potential};
     aur_weights_report report;
-    assert_int_equal(aur_weights_solve(64, xyz, 1, potentials, &plain, weights, &report, NULL, NULL), AUR_OK);
+    assert_int_equal(aur_weights_solve(64, xyz, 1, potentials, &plain, 64, weights, &report, NULL, NULL),
+                     AUR_OK);
     assert_relative(report.equal_error, equal, 1e-9);
     assert_relative(report.optimal_error, optimal, 1e-9);
     if (sum > 0.0)
@@ -53,16 +56,18 @@ static void test_sum_constraint(void **state) {
     aur_potential *const potential = lobe_potential(1.0, 1.5);
     const aur_potential *const potentials[] = {potential};
     aur_weights_report constrained, free_of_it;
-    assert_int_equal(aur_weights_solve(64, xyz, 1, potentials, NULL, weights, &constrained, NULL, NULL),
+    assert_int_equal(aur_weights_solve(64, xyz, 1, potentials, NULL, 64, weights, &constrained, NULL, NULL),
                      AUR_OK);
     double sum = 0.0;
     for (int i = 0; i < 64; ++i)
         sum += weights[i];
     assert_near(sum, 1.0, 1e-12);
     assert_near(constrained.weight_sum, 1.0, 1e-12);
-    const aur_weights_options options = {.regularization = AUR_REGULARIZATION_DEFAULT, .sum_constraint = 0};
-    assert_int_equal(aur_weights_solve(64, xyz, 1, potentials, &options, weights, &free_of_it, NULL, NULL),
-                     AUR_OK);
+    const aur_weights_options options = {.size = sizeof(aur_weights_options),
+                                         .regularization = AUR_REGULARIZATION_DEFAULT,
+                                         .sum_constraint = false};
+    assert_int_equal(
+        aur_weights_solve(64, xyz, 1, potentials, &options, 64, weights, &free_of_it, NULL, NULL), AUR_OK);
     assert_near(free_of_it.weight_sum - 1.0, -0.00164, 5e-6);
     /* What the constraint costs: about 0.2 % of the error. */
     assert_true(constrained.optimal_error >= free_of_it.optimal_error);
@@ -79,7 +84,8 @@ static void test_is_minimum(void **state) {
     aur_potential *const potential = lobe_potential(3.3, 1.3);
     const aur_potential *const potentials[] = {potential};
     aur_weights_report report;
-    assert_int_equal(aur_weights_solve(N, xyz, 1, potentials, &plain, weights, &report, NULL, NULL), AUR_OK);
+    assert_int_equal(aur_weights_solve(N, xyz, 1, potentials, &plain, N, weights, &report, NULL, NULL),
+                     AUR_OK);
     for (int i = 0; i < N; ++i) {
         double error[2];
         for (int side = 0; side < 2; ++side) {
@@ -100,7 +106,7 @@ static void test_is_minimum(void **state) {
 static void test_sphere(void **state) {
     (void)state;
     const double octahedron[] = {1, 0, 0, -1, 0, 0, 0, 1, 0, 0, -1, 0, 0, 0, 1, 0, 0, -1};
-    const aur_density density = {.kind = AUR_DENSITY_SPHERE};
+    const aur_density density = {.size = sizeof(aur_density), .kind = AUR_DENSITY_SPHERE};
     aur_potential *potential;
     assert_int_equal(aur_potential_create(&density, 0.0, &potential, NULL), AUR_OK);
     const aur_potential *const potentials[] = {potential};
@@ -108,7 +114,7 @@ static void test_sphere(void **state) {
     assert_near(aur_potential_mass(potential), 4.0 * PI, 1e-14);
     double weights[6];
     aur_weights_report report;
-    assert_int_equal(aur_weights_solve(6, octahedron, 1, potentials, NULL, weights, &report, NULL, NULL),
+    assert_int_equal(aur_weights_solve(6, octahedron, 1, potentials, NULL, 6, weights, &report, NULL, NULL),
                      AUR_OK);
     for (int i = 0; i < 6; ++i)
         assert_near(weights[i], 1.0 / 6.0, 1e-14);
@@ -118,7 +124,7 @@ static void test_sphere(void **state) {
     /* Golden E_64 of spherical Fibonacci points, and weights improve it. */
     double xyz[3 * 64], more[64];
     fibonacci_sphere(64, xyz);
-    assert_int_equal(aur_weights_solve(64, xyz, 1, potentials, NULL, more, &report, NULL, NULL), AUR_OK);
+    assert_int_equal(aur_weights_solve(64, xyz, 1, potentials, NULL, 64, more, &report, NULL, NULL), AUR_OK);
     assert_relative(report.equal_error, 4.01610e-2, 2e-6);
     assert_true(report.optimal_error < report.equal_error);
     aur_potential_destroy(potential);
@@ -135,13 +141,14 @@ static void test_duplicates(void **state) {
     aur_potential *const potential = lobe_potential(5.0, 1.5);
     const aur_potential *const potentials[] = {potential};
     for (int constrained = 0; constrained < 2; ++constrained) {
-        const aur_weights_options options = {.sum_constraint = constrained};
+        const aur_weights_options options = {.size = sizeof(aur_weights_options),
+                                             .sum_constraint = constrained};
         aur_weights_report once, shared;
-        assert_int_equal(aur_weights_solve(N, xyz, 1, potentials, &options, single, &once, NULL, NULL),
+        assert_int_equal(aur_weights_solve(N, xyz, 1, potentials, &options, N, single, &once, NULL, NULL),
                          AUR_OK);
-        assert_int_equal(
-            aur_weights_solve(N + COPIES, xyz, 1, potentials, &options, weights, &shared, NULL, NULL),
-            AUR_OK);
+        assert_int_equal(aur_weights_solve(N + COPIES, xyz, 1, potentials, &options, N + COPIES, weights,
+                                           &shared, NULL, NULL),
+                         AUR_OK);
         assert_near(shared.optimal_error, once.optimal_error, 1e-12);
         for (int i = 0; i < N; ++i)
             assert_near(weights[i], single[i] / (i == 7 ? 3.0 : i == 31 ? 2.0 : 1.0), 1e-13);
@@ -149,9 +156,11 @@ static void test_duplicates(void **state) {
                     weights[N + 2] == weights[31]);
     }
     /* With regularisation the merged system is the full one: check the normal equations of the full one. */
-    const aur_weights_options options = {.regularization = 0.01, .sum_constraint = 0};
-    assert_int_equal(aur_weights_solve(N + COPIES, xyz, 1, potentials, &options, weights, NULL, NULL, NULL),
-                     AUR_OK);
+    const aur_weights_options options = {
+        .size = sizeof(aur_weights_options), .regularization = 0.01, .sum_constraint = false};
+    assert_int_equal(
+        aur_weights_solve(N + COPIES, xyz, 1, potentials, &options, N + COPIES, weights, NULL, NULL, NULL),
+        AUR_OK);
     double z[N + COPIES];
     aur_potential_evaluate(potential, N + COPIES, xyz, z);
     for (int i = 0; i < N + COPIES; ++i) {
@@ -177,9 +186,11 @@ static void test_many_densities(void **state) {
     aur_potential *const glossy = lobe_potential(20.0, 1.5);
     const aur_potential *const potentials[] = {diffuse, glossy};
     double condition;
-    assert_int_equal(aur_weights_solve(N, xyz, 2, potentials, &plain, both, NULL, &condition, NULL), AUR_OK);
+    assert_int_equal(aur_weights_solve(N, xyz, 2, potentials, &plain, 2 * N, both, NULL, &condition, NULL),
+                     AUR_OK);
     for (size_t k = 0; k < 2; ++k) {
-        assert_int_equal(aur_weights_solve(N, xyz, 1, potentials + k, &plain, one, NULL, NULL, NULL), AUR_OK);
+        assert_int_equal(aur_weights_solve(N, xyz, 1, potentials + k, &plain, N, one, NULL, NULL, NULL),
+                         AUR_OK);
         for (size_t i = 0; i < N; ++i)
             assert_near(both[k * N + i], one[i], 1e-13);
     }
@@ -192,19 +203,18 @@ static void test_many_densities(void **state) {
 /* One call makes what the pieces make. */
 static void test_rule(void **state) {
     (void)state;
-    const aur_rule_options optimal = {.points = {.size = sizeof optimal.points,
-                                                 .count = 64,
-                                                 .domain = AUR_DOMAIN_HEMISPHERE,
-                                                 .lobe = {.exponent = 20.0}},
-                                      .optimal = 1};
+    aur_directions_options points = aur_directions_options_default(64, AUR_DOMAIN_HEMISPHERE);
+    points.lobe.exponent = 20.0;
+    const aur_rule_options optimal = {
+        .size = sizeof optimal, .points = &points, .optimal = true, .weights = &plain};
     double xyz[3 * 64], weights[64], value;
     assert_int_equal(aur_rule_make(&optimal, 3 * 64, xyz, weights, NULL), AUR_OK);
     aur_potential *const potential = lobe_potential(20.0, 1.5);
     assert_int_equal(aur_worst_case_error(64, xyz, weights, potential, 1, NULL, &value, NULL), AUR_OK);
     assert_relative(value, 2.130088901918e-2, 1e-9);
     aur_rule_options ratio = optimal;
-    ratio.optimal = 0;
-    ratio.points.optimal_density = true;
+    ratio.optimal = false;
+    points.optimal_density = true;
     assert_int_equal(aur_rule_make(&ratio, 3 * 64, xyz, weights, NULL), AUR_OK);
     assert_int_equal(aur_worst_case_error(64, xyz, weights, potential, 1, NULL, &value, NULL), AUR_OK);
     assert_near(value, 2.078e-2, 0.5e-5);
@@ -219,7 +229,7 @@ static void test_bad_input(void **state) {
     (void)state;
     aur_error error;
     aur_potential *potential;
-    aur_density density = {.kind = AUR_DENSITY_COSINE_POWER, .exponent = -1.0};
+    aur_density density = {.size = sizeof(aur_density), .kind = AUR_DENSITY_COSINE_POWER, .exponent = -1.0};
     assert_int_equal(aur_potential_create(&density, 1.5, &potential, &error), AUR_ERROR_ARGUMENT);
     assert_non_null(strstr(error.message, "between 0 and"));
     assert_null(potential);
@@ -238,17 +248,17 @@ static void test_bad_input(void **state) {
     const aur_potential *const potentials[] = {potential};
     double weights[2];
     const double off[] = {0, 0, 1, 0, 0.5, 0.5};
-    assert_int_equal(aur_weights_solve(2, off, 1, potentials, NULL, weights, NULL, NULL, &error),
+    assert_int_equal(aur_weights_solve(2, off, 1, potentials, NULL, 2, weights, NULL, NULL, &error),
                      AUR_ERROR_ARGUMENT);
     assert_non_null(strstr(error.message, "point 1"));
     double value;
     assert_int_equal(aur_worst_case_error(2, off, NULL, potential, 1, NULL, &value, &error),
                      AUR_ERROR_ARGUMENT);
     const double nan_point[] = {0, 0, (double)NAN};
-    assert_int_equal(aur_weights_solve(1, nan_point, 1, potentials, NULL, weights, NULL, NULL, &error),
+    assert_int_equal(aur_weights_solve(1, nan_point, 1, potentials, NULL, 1, weights, NULL, NULL, &error),
                      AUR_ERROR_ARGUMENT);
-    const aur_weights_options negative = {.regularization = -1.0};
-    assert_int_equal(aur_weights_solve(1, off, 1, potentials, &negative, weights, NULL, NULL, &error),
+    const aur_weights_options negative = {.size = sizeof(aur_weights_options), .regularization = -1.0};
+    assert_int_equal(aur_weights_solve(1, off, 1, potentials, &negative, 1, weights, NULL, NULL, &error),
                      AUR_ERROR_ARGUMENT);
     /* Beyond memory: says how much. The check comes before anything is read. */
     assert_int_equal(aur_check_system_size((size_t)1 << 27, &error), AUR_ERROR_MEMORY);

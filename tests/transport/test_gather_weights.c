@@ -34,7 +34,8 @@ static void optimal_weights(void **state) {
                          : rule_of("spherical-fibonacci", AUR_SCRAMBLE_ROTATE, m, optimal == 1, 3);
             assert_int_equal(aur_gather_rule_optimise(&rule, 1.5, 1e-6, NULL), AUR_OK);
             aur_potential *potential;
-            assert_int_equal(aur_potential_create(&(aur_density){.exponent = m}, 1.5, &potential, NULL),
+            assert_int_equal(aur_potential_create(&(aur_density){.size = sizeof(aur_density), .exponent = m},
+                                                  1.5, &potential, NULL),
                              AUR_OK);
             const aur_potential *const potentials[] = {potential};
             for (uint64_t k = 0; k < 3; ++k) {
@@ -52,7 +53,8 @@ static void optimal_weights(void **state) {
                 }
                 assert_relative(sum, mass, 1e-6);
                 assert_int_equal(
-                    aur_weights_solve(COUNT, xyz, 1, potentials, NULL, expected, NULL, NULL, NULL), AUR_OK);
+                    aur_weights_solve(COUNT, xyz, 1, potentials, NULL, COUNT, expected, NULL, NULL, NULL),
+                    AUR_OK);
                 for (size_t i = 0; i < COUNT; ++i)
                     assert_near(weights[i], mass * expected[i], 1e-4 * mass / COUNT);
             }
@@ -75,8 +77,10 @@ static void visible_part(void **state) {
         aur_gather_horizon_fill(exponents[e], &horizon);
         for (size_t i = 0; i <= AUR_HORIZON_STEPS; i += 16) {
             const double angle = 0.5 * PI * (double)i / AUR_HORIZON_STEPS;
-            const aur_density density = {
-                .axis = {sin(angle), 0.0, fmax(0.0, cos(angle))}, .exponent = exponents[e], .clipped = 1};
+            const aur_density density = {.size = sizeof(aur_density),
+                                         .axis = {sin(angle), 0.0, fmax(0.0, cos(angle))},
+                                         .exponent = exponents[e],
+                                         .clipped = true};
             aur_potential *potential;
             assert_int_equal(aur_potential_create(&density, 1.5, &potential, NULL), AUR_OK);
             assert_near(horizon.visible[i], aur_potential_mass(potential) * (exponents[e] + 1.0) / (2.0 * PI),

@@ -58,8 +58,10 @@ static void place(const aur_merged_rule *pair, size_t rotation, size_t subset, d
 
 static aur_potential *lobe_at(double exponent, double angle, bool clipped) {
     aur_potential *potential;
-    const aur_density density = {
-        .exponent = exponent, .axis = {-sin(angle), 0.0, fmax(0.0, cos(angle))}, .clipped = clipped};
+    const aur_density density = {.size = sizeof(aur_density),
+                                 .exponent = exponent,
+                                 .axis = {-sin(angle), 0.0, fmax(0.0, cos(angle))},
+                                 .clipped = clipped};
     assert_int_equal(aur_potential_create(&density, 1.5, &potential, NULL), AUR_OK);
     return potential;
 }
@@ -93,8 +95,8 @@ static void tables_are_solves(void **state) {
             aur_merged_rule_weights(pair, step % ROTATIONS, 0, (float)cos(angle), weights);
             aur_potential *const lobes[2] = {lobe_at(1.0, 0.0, false), lobe_at(m, angle, cases[c].clipped)};
             const aur_potential *const potentials[2] = {lobes[0], lobes[1]};
-            assert_int_equal(aur_weights_solve(SIZE, xyz, 2, potentials, NULL, exact, NULL, NULL, NULL),
-                             AUR_OK);
+            assert_int_equal(
+                aur_weights_solve(SIZE, xyz, 2, potentials, NULL, 2 * SIZE, exact, NULL, NULL, NULL), AUR_OK);
             for (size_t lobe = 0; lobe < 2; ++lobe) {
                 const double mass = aur_potential_mass(lobes[lobe]);
                 size_t visible = 0;

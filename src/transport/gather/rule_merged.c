@@ -15,22 +15,22 @@ static size_t angle_count(double exponent) {
     return count;
 }
 
-static aur_oswa_options oswa_options(const aur_merged_rule_options *options) {
+static aur_oswa_options oswa_options(const aur_merged_rule_options *options,
+                                     const aur_weights_options *weights) {
     const aur_gather_rule_options *const pattern = &options->pattern;
-    const bool optimal = options->method == AUR_WEIGHTS_OSWA;
-    return (aur_oswa_options){.set = pattern->set,
+    return (aur_oswa_options){.size = sizeof(aur_oswa_options),
+                              .set = pattern->set,
                               .count = pattern->count,
                               .mirror_count = options->glossy_count,
                               .lobe = {.exponent = 1.0},
                               .mirror_lobe = {.exponent = options->exponent},
                               .optimal_density = pattern->optimal_density,
-                              .clipped = options->clipped && optimal,
+                              .clipped = options->clipped && options->method == AUR_WEIGHTS_OSWA,
                               .map = pattern->map,
                               .scramble = pattern->scramble,
                               .seed = pattern->seed,
                               .smoothness = pattern->smoothness,
-                              /* The paper has no constraint of the sum. */
-                              .weights = {options->regularization, optimal}};
+                              .weights = weights};
 }
 
 /* Where sample `index` of a pattern stands in the order of subsets. */
@@ -112,13 +112,18 @@ static aur_result compile(aur_merged_rule *rule, aur_error *error) {
 }
 
 static aur_result prepare(aur_merged_rule *rule, const aur_merged_rule_options *options, aur_error *error) {
-    aur_oswa_options wanted = oswa_options(options);
+    /* The published method has no constraint of the sum. */
+    const aur_weights_options weights = {.size = sizeof weights,
+                                         .regularization = options->regularization,
+                                         .sum_constraint = options->method == AUR_WEIGHTS_OSWA};
+    aur_oswa_options wanted = oswa_options(options, &weights);
     aur_result result = AUR_OK;
     if (options->method == AUR_WEIGHTS_OSWA)
         result = aur_weight_table_build(&wanted, angle_count(options->exponent), options->pattern.rotations,
                                         options->threads, &options->progress, &rule->table, error);
     if (options->method == AUR_WEIGHTS_SOLVE)
-        wanted.published_z = (aur_z_grid){64, 32, fmax(1.0, options->exponent)};
+        wanted.published_z = (aur_z_grid){
+            .angle_count = 64, .exponent_count = 32, .largest_exponent = fmax(1.0, options->exponent)};
     if (result == AUR_OK)
         result = fill_directions(rule, &wanted, error);
     if (result == AUR_OK && rule->table != NULL)

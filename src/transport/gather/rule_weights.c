@@ -21,9 +21,10 @@ static void widen(const aur_gather_rule *rule, size_t first, size_t count, doubl
 /* Optimal weights for the lobe of a potential; their sum is its mass. */
 static aur_result solve(size_t count, const double *xyz, const aur_potential *potential,
                         double regularization, double *weights, aur_error *error) {
-    const aur_weights_options options = {.regularization = regularization, .sum_constraint = 1};
+    const aur_weights_options options = {
+        .size = sizeof options, .regularization = regularization, .sum_constraint = true};
     const aur_result result =
-        aur_weights_solve(count, xyz, 1, &potential, &options, weights, NULL, NULL, error);
+        aur_weights_solve(count, xyz, 1, &potential, &options, count, weights, NULL, NULL, error);
     for (size_t i = 0; i < count && result == AUR_OK; ++i)
         weights[i] *= aur_potential_mass(potential);
     return result;
@@ -32,7 +33,7 @@ static aur_result solve(size_t count, const double *xyz, const aur_potential *po
 /* Memory for so many directions and as many numbers, and the potential of the rule's lobe. */
 static aur_result begin(const aur_gather_rule *rule, size_t count, double smoothness, double **xyz,
                         aur_potential **potential, aur_error *error) {
-    const aur_density density = {.kind = AUR_DENSITY_COSINE_POWER, .exponent = rule->exponent};
+    const aur_density density = {.size = sizeof density, .exponent = rule->exponent};
     *xyz = malloc(5 * count * sizeof **xyz);
     *potential = NULL;
     return *xyz != NULL ? aur_potential_create(&density, smoothness, potential, error)

@@ -216,20 +216,19 @@ static aur_result solve(const radiosity_parameters *p, const aur_integrator_cont
 
 static aur_result prepare_gather(const radiosity_parameters *p, const aur_integrator_context *context,
                                  aur_radiosity_image *image, aur_error *error) {
-    aur_rule_options rule = {.set = p->pattern,
-                             .points = {.size = sizeof rule.points,
-                                        .count = (uint64_t)p->gather_samples,
-                                        .domain = AUR_DOMAIN_HEMISPHERE,
-                                        .lobe = {.kind = AUR_LOBE_COSINE_POWER, .exponent = 1.0},
-                                        .optimal_density = p->density == DENSITY_OPTIMAL,
-                                        .smoothness = p->smoothness,
-                                        .seed = context->seed,
-                                        .warnings = context->warnings},
-                             .optimal = p->weights == WEIGHTS_OPTIMAL,
-                             .weights = aur_weights_options_default()};
-    aur_result result = aur_map_from_name(p->map, &rule.points.map, error);
+    aur_directions_options points = {.size = sizeof points,
+                                     .count = (uint64_t)p->gather_samples,
+                                     .domain = AUR_DOMAIN_HEMISPHERE,
+                                     .lobe = {.kind = AUR_LOBE_COSINE_POWER, .exponent = 1.0},
+                                     .optimal_density = p->density == DENSITY_OPTIMAL,
+                                     .smoothness = p->smoothness,
+                                     .seed = context->seed,
+                                     .warnings = context->warnings};
+    const aur_rule_options rule = {
+        .size = sizeof rule, .set = p->pattern, .points = &points, .optimal = p->weights == WEIGHTS_OPTIMAL};
+    aur_result result = aur_map_from_name(p->map, &points.map, error);
     if (result == AUR_OK)
-        result = aur_scramble_from_name(p->pattern_scramble, &rule.points.scramble, error);
+        result = aur_scramble_from_name(p->pattern_scramble, &points.scramble, error);
     if (result == AUR_OK)
         result = aur_radiosity_gather_create(image->solution, &rule, &image->gather, error);
     return result;

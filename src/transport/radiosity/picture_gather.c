@@ -7,7 +7,7 @@
 #include "transport/radiosity/statistics.h"
 
 static aur_result make_pattern(const aur_rule_options *rule, aur_radiosity_gather *gather, aur_error *error) {
-    const size_t count = (size_t)rule->points.count;
+    const size_t count = (size_t)rule->points->count;
     double *const numbers = malloc(4 * count * sizeof *numbers);
     gather->x = malloc(4 * count * sizeof *gather->x);
     aur_result result = AUR_OK;
