@@ -137,33 +137,11 @@ static aur_vector albedo_of_lobes(const aur_bsdf *bsdf, aur_bsdf_point point, fl
 
 /* --- what is asked */
 
-aur_vector aur_bsdf_evaluate_with_pdf(const aur_bsdf *bsdf, aur_bsdf_part part, aur_bsdf_point point,
-                                      aur_vector view, aur_vector light, float *pdf) {
-    const aur_bsdf_descriptor *const own = bsdf->descriptor;
-    if (own->evaluate == NULL)
-        return evaluate_lobes(bsdf, point, view, light, pdf);
-    if (own->evaluate_with_pdf != NULL)
-        return own->evaluate_with_pdf(bsdf, part, point, view, light, pdf);
-    *pdf = own->pdf(bsdf, part, point, view, light);
-    return own->evaluate(bsdf, part, point, view, light);
-}
-
 aur_vector aur_bsdf_evaluate(const aur_bsdf *bsdf, aur_bsdf_part part, aur_bsdf_point point, aur_vector view,
-                             aur_vector light) {
+                             aur_vector light, float *pdf) {
     const aur_bsdf_descriptor *const own = bsdf->descriptor;
-    float pdf;
-    return own->evaluate != NULL ? own->evaluate(bsdf, part, point, view, light)
-                                 : evaluate_lobes(bsdf, point, view, light, &pdf);
-}
-
-float aur_bsdf_pdf(const aur_bsdf *bsdf, aur_bsdf_part part, aur_bsdf_point point, aur_vector view,
-                   aur_vector light) {
-    const aur_bsdf_descriptor *const own = bsdf->descriptor;
-    if (own->pdf != NULL)
-        return own->pdf(bsdf, part, point, view, light);
-    float pdf;
-    evaluate_lobes(bsdf, point, view, light, &pdf);
-    return pdf;
+    return own->evaluate != NULL ? own->evaluate(bsdf, part, point, view, light, pdf)
+                                 : evaluate_lobes(bsdf, point, view, light, pdf);
 }
 
 bool aur_bsdf_draw(const aur_bsdf *bsdf, aur_bsdf_part part, aur_bsdf_point point, aur_vector view,

@@ -88,16 +88,11 @@ typedef struct aur_bsdf_descriptor {
      * black, and stay so for lobes that are not seen from `view`. */
     void (*weigh)(const aur_bsdf *bsdf, aur_bsdf_point point, aur_vector view, aur_bsdf_lobe *lobes);
     /* The material's own forms of what is asked below, each of which may be NULL: then it follows from the
-     * lobes. A material with a sampled lobe has the first three. */
+     * lobes. A material with a sampled lobe has the first two. */
     aur_vector (*evaluate)(const aur_bsdf *bsdf, aur_bsdf_part part, aur_bsdf_point point, aur_vector view,
-                           aur_vector light);
-    float (*pdf)(const aur_bsdf *bsdf, aur_bsdf_part part, aur_bsdf_point point, aur_vector view,
-                 aur_vector light);
+                           aur_vector light, float *pdf);
     bool (*sample)(const aur_bsdf *bsdf, aur_bsdf_part part, aur_bsdf_point point, aur_vector view,
                    const float u[3], aur_bsdf_sample *sample);
-    /* Both of the first two; NULL: one after the other. */
-    aur_vector (*evaluate_with_pdf)(const aur_bsdf *bsdf, aur_bsdf_part part, aur_bsdf_point point,
-                                    aur_vector view, aur_vector light, float *pdf);
     aur_vector (*diffuse_albedo)(const aur_bsdf *bsdf, aur_bsdf_point point, float side);
 } aur_bsdf_descriptor;
 
@@ -132,15 +127,10 @@ static inline unsigned aur_bsdf_scatters(const aur_bsdf *bsdf, float side) {
     return bsdf->scatters[side < 0.0f ? 1 : 0];
 }
 
-/* BSDF * |light.z|, RGB, for radiance; 0 where nothing scatters. */
+/* BSDF * |light.z|, RGB, for radiance; 0 where nothing scatters. *pdf is the density, a steradian, with which
+ * aur_bsdf_draw draws `light`. */
 aur_vector aur_bsdf_evaluate(const aur_bsdf *bsdf, aur_bsdf_part part, aur_bsdf_point point, aur_vector view,
-                             aur_vector light);
-/* The density with which aur_bsdf_sample draws `light`, a steradian. */
-float aur_bsdf_pdf(const aur_bsdf *bsdf, aur_bsdf_part part, aur_bsdf_point point, aur_vector view,
-                   aur_vector light);
-/* Both at once, which takes less time than one after the other. */
-aur_vector aur_bsdf_evaluate_with_pdf(const aur_bsdf *bsdf, aur_bsdf_part part, aur_bsdf_point point,
-                                      aur_vector view, aur_vector light, float *pdf);
+                             aur_vector light, float *pdf);
 /* u[0] chooses among lobes, u[1], u[2] a direction; false when the sample is absorbed. */
 bool aur_bsdf_draw(const aur_bsdf *bsdf, aur_bsdf_part part, aur_bsdf_point point, aur_vector view,
                    const float u[3], aur_bsdf_sample *sample);

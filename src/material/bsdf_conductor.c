@@ -63,20 +63,12 @@ const aur_bsdf_descriptor aur_bsdf_conductor = {
 /* --- rough */
 
 static aur_vector evaluate_rough(const aur_bsdf *bsdf, aur_bsdf_part part, aur_bsdf_point point,
-                                 aur_vector view, aur_vector light) {
+                                 aur_vector view, aur_vector light, float *pdf) {
     (void)part;
     const conductor *const self = bsdf->data;
     float cosine;
-    const float value = aur_microfacet_mirror(&self->microfacet, view, light, &cosine);
+    const float value = aur_microfacet_mirror(&self->microfacet, view, light, &cosine, pdf);
     return value > 0.0f ? aur_vector_scale(reflectance(self, point, cosine), value) : (aur_vector){0};
-}
-
-static float pdf_rough(const aur_bsdf *bsdf, aur_bsdf_part part, aur_bsdf_point point, aur_vector view,
-                       aur_vector light) {
-    (void)part;
-    (void)point;
-    const conductor *const self = bsdf->data;
-    return aur_microfacet_mirror_pdf(&self->microfacet, view, light);
 }
 
 static bool sample_rough(const aur_bsdf *bsdf, aur_bsdf_part part, aur_bsdf_point point, aur_vector view,
@@ -116,6 +108,5 @@ const aur_bsdf_descriptor aur_bsdf_roughconductor = {
     .create = create_rough,
     .weigh = weigh_rough,
     .evaluate = evaluate_rough,
-    .pdf = pdf_rough,
     .sample = sample_rough,
 };

@@ -27,20 +27,11 @@ static void weigh(const aur_bsdf *bsdf, aur_bsdf_point point, aur_vector view, a
 }
 
 static aur_vector evaluate(const aur_bsdf *bsdf, aur_bsdf_part part, aur_bsdf_point point, aur_vector view,
-                           aur_vector light) {
+                           aur_vector light, float *pdf) {
     (void)part;
     const diffuse *const self = bsdf->data;
-    if (view.z <= 0.0f || light.z <= 0.0f)
-        return (aur_vector){0};
-    return aur_vector_scale(aur_color_at(&self->reflectance, point), light.z / AUR_PI_F);
-}
-
-static float pdf(const aur_bsdf *bsdf, aur_bsdf_part part, aur_bsdf_point point, aur_vector view,
-                 aur_vector light) {
-    (void)bsdf;
-    (void)part;
-    (void)point;
-    return view.z > 0.0f && light.z > 0.0f ? light.z / AUR_PI_F : 0.0f;
+    *pdf = view.z > 0.0f && light.z > 0.0f ? light.z / AUR_PI_F : 0.0f;
+    return *pdf > 0.0f ? aur_vector_scale(aur_color_at(&self->reflectance, point), *pdf) : (aur_vector){0};
 }
 
 static bool sample(const aur_bsdf *bsdf, aur_bsdf_part part, aur_bsdf_point point, aur_vector view,
@@ -69,7 +60,6 @@ const aur_bsdf_descriptor aur_bsdf_diffuse = {
     .create = create,
     .weigh = weigh,
     .evaluate = evaluate,
-    .pdf = pdf,
     .sample = sample,
     .diffuse_albedo = diffuse_albedo,
 };

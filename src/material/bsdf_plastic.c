@@ -166,44 +166,25 @@ static void weigh(const aur_bsdf *bsdf, aur_bsdf_point point, aur_vector view, a
                                     : aur_vector_scale(aur_color_at(&self->specular, point), 1.0f - through);
 }
 
-/* What the facets of a rough coat mirror; black for a smooth one. */
-static aur_vector evaluate_coat(const plastic *self, aur_bsdf_point point, aur_vector view,
-                                aur_vector light) {
-    float cosine;
-    const float facets = self->rough ? aur_microfacet_mirror(&self->microfacet, view, light, &cosine) : 0.0f;
-    if (!(facets > 0.0f))
-        return (aur_vector){0};
-    float refracted;
-    return aur_vector_scale(aur_color_at(&self->specular, point),
-                            facets * aur_fresnel_dielectric(cosine, self->ior, &refracted));
-}
-
 static aur_vector evaluate(const aur_bsdf *bsdf, aur_bsdf_part part, aur_bsdf_point point, aur_vector view,
-                           aur_vector light) {
+                           aur_vector light, float *pdf) {
     const plastic *const self = bsdf->data;
+    aur_vector sum = {0};
+    *pdf = 0.0f;
     if (view.z <= 0.0f || light.z <= 0.0f)
-        return (aur_vector){0};
-    const aur_vector coat = evaluate_coat(self, point, view, light);
+        return sum;
+    float cosine, refracted;
+    const float facets =
+        self->rough ? aur_microfacet_mirror(&self->microfacet, view, light, &cosine, pdf) : 0.0f;
+    if (facets > 0.0f)
+        sum = aur_vector_scale(aur_color_at(&self->specular, point),
+                               facets * aur_fresnel_dielectric(cosine, self->ior, &refracted));
     if (part == AUR_BSDF_SAMPLED_LOBES)
-        return coat;
-    const float base = transmittance(self, view.z) * transmittance(self, light.z) * light.z / AUR_PI_F;
-    return aur_vector_add_scaled(coat, base, base_color(self, point));
-}
-
-/* The chance that the coat is drawn, seen from `view`. */
-static float coat_chance(const plastic *self, aur_bsdf_part part, aur_vector view) {
-    return part == AUR_BSDF_SAMPLED_LOBES ? 1.0f : specular_probability(self, transmittance(self, view.z));
-}
-
-static float pdf(const aur_bsdf *bsdf, aur_bsdf_part part, aur_bsdf_point point, aur_vector view,
-                 aur_vector light) {
-    (void)point;
-    const plastic *const self = bsdf->data;
-    if (view.z <= 0.0f || light.z <= 0.0f)
-        return 0.0f;
-    const float chance = coat_chance(self, part, view);
-    const float coat = self->rough ? aur_microfacet_mirror_pdf(&self->microfacet, view, light) : 0.0f;
-    return chance * coat + (1.0f - chance) * light.z / AUR_PI_F;
+        return sum;
+    const float through = transmittance(self, view.z), chance = specular_probability(self, through);
+    *pdf = chance * *pdf + (1.0f - chance) * light.z / AUR_PI_F;
+    const float base = through * transmittance(self, light.z) * light.z / AUR_PI_F;
+    return aur_vector_add_scaled(sum, base, base_color(self, point));
 }
 
 static bool sample(const aur_bsdf *bsdf, aur_bsdf_part part, aur_bsdf_point point, aur_vector view,
@@ -211,12 +192,12 @@ static bool sample(const aur_bsdf *bsdf, aur_bsdf_part part, aur_bsdf_point poin
     const plastic *const self = bsdf->data;
     if (view.z <= 0.0f)
         return false;
-    const float chance = coat_chance(self, part, view);
+    const float through = transmittance(self, view.z);
+    const float chance = part == AUR_BSDF_SAMPLED_LOBES ? 1.0f : specular_probability(self, through);
     if (!self->rough && u[0] < chance) {
-        const float mirrored = 1.0f - transmittance(self, view.z);
         *drawn = (aur_bsdf_sample){
             .light = aur_mirror(view),
-            .weight = aur_vector_scale(aur_color_at(&self->specular, point), mirrored / chance),
+            .weight = aur_vector_scale(aur_color_at(&self->specular, point), (1.0f - through) / chance),
             .specular = true};
         return true;
     }
@@ -224,13 +205,11 @@ static bool sample(const aur_bsdf *bsdf, aur_bsdf_part part, aur_bsdf_point poin
     const aur_vector light = u[0] < chance
                                  ? aur_microfacet_draw_mirrored(&self->microfacet, view, u[1], u[2], &normal)
                                  : aur_sample_cosine(u[1], u[2]);
-    const float density = pdf(bsdf, part, point, view, light);
-    if (!(density > 0.0f))
-        return false;
-    const aur_vector value = evaluate(bsdf, part, point, view, light);
+    float density;
+    const aur_vector value = evaluate(bsdf, part, point, view, light, &density);
     *drawn =
         (aur_bsdf_sample){.light = light, .weight = aur_vector_scale(value, 1.0f / density), .pdf = density};
-    return true;
+    return density > 0.0f;
 }
 
 static aur_vector diffuse_albedo(const aur_bsdf *bsdf, aur_bsdf_point point, float side) {
@@ -249,7 +228,6 @@ const aur_bsdf_descriptor aur_bsdf_plastic = {
     .create = create_smooth,
     .weigh = weigh,
     .evaluate = evaluate,
-    .pdf = pdf,
     .sample = sample,
     .diffuse_albedo = diffuse_albedo,
 };
@@ -263,7 +241,6 @@ const aur_bsdf_descriptor aur_bsdf_roughplastic = {
     .create = create_rough,
     .weigh = weigh,
     .evaluate = evaluate,
-    .pdf = pdf,
     .sample = sample,
     .diffuse_albedo = diffuse_albedo,
 };

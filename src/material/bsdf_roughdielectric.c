@@ -85,19 +85,14 @@ static aur_vector value_of(const rough *self, aur_bsdf_point point, aur_vector v
 }
 
 static aur_vector evaluate(const aur_bsdf *bsdf, aur_bsdf_part part, aur_bsdf_point point, aur_vector view,
-                           aur_vector light) {
+                           aur_vector light, float *pdf) {
     (void)part;
     facet at;
-    return find_facet(bsdf->data, view, light, &at) ? value_of(bsdf->data, point, view, light, &at)
-                                                    : (aur_vector){0};
-}
-
-static float pdf(const aur_bsdf *bsdf, aur_bsdf_part part, aur_bsdf_point point, aur_vector view,
-                 aur_vector light) {
-    (void)part;
-    (void)point;
-    facet at;
-    return find_facet(bsdf->data, view, light, &at) ? pdf_of(bsdf->data, view, &at) : 0.0f;
+    *pdf = 0.0f;
+    if (!find_facet(bsdf->data, view, light, &at))
+        return (aur_vector){0};
+    *pdf = pdf_of(bsdf->data, view, &at);
+    return value_of(bsdf->data, point, view, light, &at);
 }
 
 static bool sample(const aur_bsdf *bsdf, aur_bsdf_part part, aur_bsdf_point point, aur_vector view,
@@ -148,6 +143,5 @@ const aur_bsdf_descriptor aur_bsdf_roughdielectric = {
     .create = create,
     .weigh = weigh,
     .evaluate = evaluate,
-    .pdf = pdf,
     .sample = sample,
 };

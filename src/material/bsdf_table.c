@@ -1,38 +1,29 @@
-/* The table of BSDFs, and making them by name. */
+/* The table of materials, and making them by name: a new one is one file, which defines aur_bsdf_<name>, and
+ * one line here. */
 #include <stdlib.h>
 #include <string.h>
 
 #include "material/texture.h"
 
-extern const aur_bsdf_descriptor aur_bsdf_diffuse;
-extern const aur_bsdf_descriptor aur_bsdf_phong;
-extern const aur_bsdf_descriptor aur_bsdf_phong_lobe;
-extern const aur_bsdf_descriptor aur_bsdf_twosided;
-extern const aur_bsdf_descriptor aur_bsdf_conductor;
-extern const aur_bsdf_descriptor aur_bsdf_roughconductor;
-extern const aur_bsdf_descriptor aur_bsdf_dielectric;
-extern const aur_bsdf_descriptor aur_bsdf_thindielectric;
-extern const aur_bsdf_descriptor aur_bsdf_roughdielectric;
-extern const aur_bsdf_descriptor aur_bsdf_plastic;
-extern const aur_bsdf_descriptor aur_bsdf_roughplastic;
-extern const aur_bsdf_descriptor aur_bsdf_mask;
+#define MATERIALS(ROW)                                                                                       \
+    ROW(diffuse)                                                                                             \
+    ROW(twosided)                                                                                            \
+    ROW(phong)                                                                                               \
+    ROW(phong_lobe)                                                                                          \
+    ROW(conductor)                                                                                           \
+    ROW(roughconductor)                                                                                      \
+    ROW(dielectric)                                                                                          \
+    ROW(thindielectric)                                                                                      \
+    ROW(roughdielectric)                                                                                     \
+    ROW(plastic)                                                                                             \
+    ROW(roughplastic)                                                                                        \
+    ROW(mask)
 
-/* clang-format off */
-static const aur_row *const rows[] = {
-    &aur_bsdf_diffuse.row,
-    &aur_bsdf_twosided.row,
-    &aur_bsdf_phong.row,
-    &aur_bsdf_phong_lobe.row,
-    &aur_bsdf_conductor.row,
-    &aur_bsdf_roughconductor.row,
-    &aur_bsdf_dielectric.row,
-    &aur_bsdf_thindielectric.row,
-    &aur_bsdf_roughdielectric.row,
-    &aur_bsdf_plastic.row,
-    &aur_bsdf_roughplastic.row,
-    &aur_bsdf_mask.row,
-};
-/* clang-format on */
+#define DECLARE(name) extern const aur_bsdf_descriptor aur_bsdf_##name;
+MATERIALS(DECLARE)
+
+#define ADDRESS(name) &aur_bsdf_##name.row,
+static const aur_row *const rows[] = {MATERIALS(ADDRESS)};
 
 static const aur_row *row_at(size_t index) {
     return index < sizeof rows / sizeof rows[0] ? rows[index] : NULL;

@@ -100,20 +100,16 @@ aur_vector aur_microfacet_sample(const aur_microfacet *microfacet, aur_vector vi
 }
 
 float aur_microfacet_mirror(const aur_microfacet *microfacet, aur_vector view, aur_vector light,
-                            float *cosine) {
+                            float *cosine, float *pdf) {
+    *pdf = 0.0f;
     if (view.z <= 0.0f || light.z <= 0.0f)
         return 0.0f;
     const aur_vector normal = aur_vector_normalize(aur_vector_add(view, light));
     *cosine = aur_vector_dot(view, normal);
-    return aur_microfacet_density(microfacet, normal) * aur_microfacet_masking(microfacet, view, normal) *
-           aur_microfacet_masking(microfacet, light, normal) / (4.0f * view.z);
-}
-
-float aur_microfacet_mirror_pdf(const aur_microfacet *microfacet, aur_vector view, aur_vector light) {
-    if (view.z <= 0.0f || light.z <= 0.0f)
-        return 0.0f;
-    const aur_vector normal = aur_vector_normalize(aur_vector_add(view, light));
-    return aur_microfacet_pdf(microfacet, view, normal) / (4.0f * aur_vector_dot(view, normal));
+    const float seen =
+        aur_microfacet_density(microfacet, normal) * aur_microfacet_masking(microfacet, view, normal);
+    *pdf = seen * fmaxf(*cosine, 0.0f) / view.z / (4.0f * *cosine);
+    return seen * aur_microfacet_masking(microfacet, light, normal) / (4.0f * view.z);
 }
 
 aur_vector aur_microfacet_draw_mirrored(const aur_microfacet *microfacet, aur_vector view, float u, float v,

@@ -41,12 +41,10 @@ float aur_microfacet_pdf(const aur_microfacet *microfacet, aur_vector view, aur_
 aur_vector aur_microfacet_sample(const aur_microfacet *microfacet, aur_vector view, float u, float v);
 
 /* What facets that mirror all light scatter from `light` to `view`, times |light.z|; 0 unless both are above.
- * Their reflectance at *cosine, the angle between either direction and the facet, is left out. */
+ * Their reflectance is left out: it is that at *cosine, of the angle between either direction and the facet.
+ * *pdf is the density, a steradian, with which aur_microfacet_draw_mirrored draws `light`. */
 float aur_microfacet_mirror(const aur_microfacet *microfacet, aur_vector view, aur_vector light,
-                            float *cosine);
-/* The density, a steradian, with which aur_microfacet_draw_mirrored draws `light`; 0 unless both are above.
- */
-float aur_microfacet_mirror_pdf(const aur_microfacet *microfacet, aur_vector view, aur_vector light);
+                            float *cosine, float *pdf);
 /* Where light comes from that a facet drawn by aur_microfacet_sample, its normal in *normal, mirrors to
  * `view`. */
 aur_vector aur_microfacet_draw_mirrored(const aur_microfacet *microfacet, aur_vector view, float u, float v,

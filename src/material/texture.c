@@ -5,8 +5,9 @@
 void aur_texture_destroy(aur_texture *texture) {
     if (texture == NULL)
         return;
-    if (texture->data != NULL)
+    if (texture->data != NULL && texture->descriptor->release != NULL)
         texture->descriptor->release(texture);
+    free(texture->data);
     free(texture);
 }
 

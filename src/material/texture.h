@@ -1,5 +1,4 @@
-/* Values that vary over a surface. One texture a file (texture_*.c), with one line in texture_table.c.
- */
+/* Values that vary over a surface. One texture a file (texture_*.c), with one line in texture_table.c. */
 #pragma once
 
 #include "core/keys.h"
@@ -9,9 +8,10 @@ typedef struct aur_texture aur_texture;
 
 typedef struct aur_texture_descriptor {
     aur_row row; /* first, so that a row of the table is its descriptor */
-    /* Reads its keys (aur_colors_read) and sets texture->data and texture->mean. */
+    size_t size; /* of what texture->data points to: zeroed before `create`, freed in the end */
+    /* Reads its keys (aur_colors_read), fills texture->data and sets texture->mean and texture->maximum. */
     aur_result (*create)(aur_parameters *parameters, aur_texture *texture, aur_error *error);
-    void (*release)(aur_texture *texture);
+    void (*release)(aur_texture *texture); /* what texture->data points to further; NULL: nothing */
     aur_vector (*evaluate)(const aur_texture *texture, float u, float v);
 } aur_texture_descriptor;
 
@@ -57,8 +57,7 @@ static inline aur_bsdf_point aur_uv_map_apply(const aur_uv_map *map, float u, fl
 
 /* A picture's R, G and B (or its Y three times), the top row first; *rgb is malloc'ed. What is negative or
  * not finite becomes 0. */
-aur_result aur_read_rgb(const char *path, aur_location location, size_t *width, size_t *height, float **rgb,
-                        aur_error *error);
+aur_result aur_read_rgb(const char *path, size_t *width, size_t *height, float **rgb, aur_error *error);
 
 static inline aur_vector aur_color_at(const aur_color *color, aur_bsdf_point point) {
     return color->texture == NULL ? color->constant

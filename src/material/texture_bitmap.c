@@ -12,9 +12,13 @@ typedef enum wrap_mode { WRAP_REPEAT, WRAP_MIRROR, WRAP_CLAMP } wrap_mode;
 typedef struct bitmap {
     size_t width, height;
     float *rgb; /* 3 * width * height */
-    bool nearest;
-    wrap_mode wrap;
     aur_uv_map to_uv;
+    enum { FILTER_BILINEAR, FILTER_NEAREST } filter;
+    wrap_mode wrap;
+    /* Read, and of no use afterwards: */
+    bool raw;
+    const char *path;
+    aur_uv_keys uv;
 } bitmap;
 
 /* What sRGB stores for a linear value: undoes the reader's decoding for `raw` pictures of 8 bits. */
@@ -38,8 +42,7 @@ static size_t find_channel(const aur_image *image, const char *name, size_t othe
     return otherwise;
 }
 
-aur_result aur_read_rgb(const char *path, aur_location location, size_t *width, size_t *height, float **rgb,
-                        aur_error *error) {
+aur_result aur_read_rgb(const char *path, size_t *width, size_t *height, float **rgb, aur_error *error) {
     aur_image *image;
     aur_result result = aur_image_read(path, &image, error);
     if (result != AUR_OK)
@@ -52,7 +55,7 @@ aur_result aur_read_rgb(const char *path, aur_location location, size_t *width, 
     *height = image->height;
     *rgb = malloc((3 * count + 1) * sizeof **rgb);
     if (*rgb == NULL)
-        result = aur_fail_memory_at(error, location);
+        result = aur_fail_memory(error);
     for (size_t i = 0; result == AUR_OK && i < count; ++i) {
         for (size_t k = 0; k < 3; ++k) {
             const float value = image->data[i * image->channel_count + channel[k]];
@@ -74,53 +77,34 @@ static void note_range(aur_texture *texture, const bitmap *self) {
     texture->mean = (aur_vector){(float)(sum[0] / n), (float)(sum[1] / n), (float)(sum[2] / n)};
 }
 
-typedef struct bitmap_keys {
-    enum { FILTER_BILINEAR, FILTER_NEAREST } filter;
-    wrap_mode wrap;
-    bool raw;
-    const char *path;
-    aur_uv_keys uv;
-} bitmap_keys;
-
 static const aur_key keys[] = {
-    {AUR_KEY_OF_CHOICE(bitmap_keys, "filter_type", filter, "bilinear", "between pixels", "bilinear",
-                       "nearest")},
-    {AUR_KEY_OF_CHOICE(bitmap_keys, "wrap_mode", wrap, "repeat", "beyond the picture", "repeat", "mirror",
+    {AUR_KEY_OF_CHOICE(bitmap, "filter_type", filter, "bilinear", "between pixels", "bilinear", "nearest")},
+    {AUR_KEY_OF_CHOICE(bitmap, "wrap_mode", wrap, "repeat", "beyond the picture", "repeat", "mirror",
                        "clamp")},
-    {AUR_KEY_OF_BOOLEAN(bitmap_keys, "raw", raw, "false", "8-bit values are taken as they are, not as sRGB")},
-    {AUR_KEY_OF_TEXT(bitmap_keys, "filename", path, NULL, "the picture, beside the scene; must be given")},
-    AUR_UV_KEYS(bitmap_keys),
+    {AUR_KEY_OF_BOOLEAN(bitmap, "raw", raw, "false", "8-bit values are taken as they are, not as sRGB")},
+    {AUR_KEY_OF_TEXT(bitmap, "filename", path, NULL, "the picture, beside the scene; must be given")},
+    AUR_UV_KEYS(bitmap),
 };
 
 static aur_result create(aur_parameters *parameters, aur_texture *texture, aur_error *error) {
-    bitmap *const self = calloc(1, sizeof *self);
-    texture->data = self;
-    if (self == NULL)
-        return aur_fail_memory_at(error, parameters->location);
-    bitmap_keys given = {.path = NULL};
-    aur_result result = aur_row_read(&texture->descriptor->row, parameters, &given, error);
+    bitmap *const self = texture->data;
+    aur_result result = aur_row_read(&texture->descriptor->row, parameters, self, error);
+    if (result == AUR_OK && self->path == NULL)
+        result = aur_fail_at(error, parameters->location, AUR_ERROR_FORMAT,
+                             "texture 'bitmap' needs the string 'filename'");
+    if (result == AUR_OK)
+        result = aur_read_rgb(self->path, &self->width, &self->height, &self->rgb, error);
     if (result != AUR_OK)
         return result;
-    const char *const path = given.path;
-    if (path == NULL)
-        return aur_fail_at(error, parameters->location, AUR_ERROR_FORMAT,
-                           "texture 'bitmap' needs the string 'filename'");
-    self->nearest = given.filter == FILTER_NEAREST;
-    self->wrap = given.wrap;
-    self->to_uv = aur_uv_map_of(&given.uv);
-    result = aur_read_rgb(path, parameters->location, &self->width, &self->height, &self->rgb, error);
-    if (result != AUR_OK)
-        return result;
-    for (size_t i = 0; given.raw && has_8_bits(path) && i < 3 * self->width * self->height; ++i)
+    self->to_uv = aur_uv_map_of(&self->uv);
+    for (size_t i = 0; self->raw && has_8_bits(self->path) && i < 3 * self->width * self->height; ++i)
         self->rgb[i] = encode(self->rgb[i]);
     note_range(texture, self);
     return AUR_OK;
 }
 
 static void release(aur_texture *texture) {
-    bitmap *const self = texture->data;
-    free(self->rgb);
-    free(self);
+    free(((bitmap *)texture->data)->rgb);
 }
 
 static size_t wrapped(int64_t index, size_t size, wrap_mode mode) {
@@ -143,13 +127,13 @@ static aur_vector texel(const bitmap *self, int64_t x, int64_t y) {
 static aur_vector evaluate(const aur_texture *texture, float u, float v) {
     const bitmap *const self = texture->data;
     const aur_bsdf_point at = aur_uv_map_apply(&self->to_uv, u, v);
-    const float offset = self->nearest ? 0.0f : 0.5f;
+    const float offset = self->filter == FILTER_NEAREST ? 0.0f : 0.5f;
     const float x = at.u * (float)self->width - offset, y = at.v * (float)self->height - offset;
     if (!(fabsf(x) < 1e15f) || !(fabsf(y) < 1e15f))
         return (aur_vector){0};
     const float left = floorf(x), top = floorf(y);
     const int64_t i = (int64_t)left, j = (int64_t)top;
-    if (self->nearest)
+    if (self->filter == FILTER_NEAREST)
         return texel(self, i, j);
     const float s = x - left, t = y - top;
     aur_vector sum = aur_vector_scale(texel(self, i, j), (1.0f - s) * (1.0f - t));
@@ -163,6 +147,7 @@ const aur_texture_descriptor aur_texture_bitmap = {
             .summary = "a picture from an EXR, PFM, HDR, PNG or JPEG file",
             .source = "",
             AUR_ROW_KEYS(keys)},
+    .size = sizeof(bitmap),
     .create = create,
     .release = release,
     .evaluate = evaluate,

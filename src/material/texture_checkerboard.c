@@ -1,6 +1,4 @@
 /* Two colours in squares of half a unit. */
-#include <stdlib.h>
-
 #include "material/texture.h"
 
 typedef struct checkerboard {
@@ -16,10 +14,7 @@ static const aur_key keys[] = {
 };
 
 static aur_result create(aur_parameters *parameters, aur_texture *texture, aur_error *error) {
-    checkerboard *const self = calloc(1, sizeof *self);
-    texture->data = self;
-    if (self == NULL)
-        return aur_fail_memory_at(error, parameters->location);
+    checkerboard *const self = texture->data;
     const aur_result result = aur_colors_read(&texture->descriptor->row, parameters, self, error);
     if (result != AUR_OK)
         return result;
@@ -33,10 +28,6 @@ static aur_result create(aur_parameters *parameters, aur_texture *texture, aur_e
     return AUR_OK;
 }
 
-static void release(aur_texture *texture) {
-    free(texture->data);
-}
-
 static aur_vector evaluate(const aur_texture *texture, float u, float v) {
     const checkerboard *const self = texture->data;
     const aur_bsdf_point at = aur_uv_map_apply(&self->to_uv, u, v);
@@ -47,7 +38,7 @@ static aur_vector evaluate(const aur_texture *texture, float u, float v) {
 
 const aur_texture_descriptor aur_texture_checkerboard = {
     .row = {.name = "checkerboard", .summary = "two colours in squares", .source = "", AUR_ROW_KEYS(keys)},
+    .size = sizeof(checkerboard),
     .create = create,
-    .release = release,
     .evaluate = evaluate,
 };

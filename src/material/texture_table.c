@@ -1,15 +1,18 @@
-/* The table of textures, and making them by name. */
+/* The table of textures, and making them by name: a new one is one file, which defines aur_texture_<name>,
+ * and one line here. */
 #include <stdlib.h>
 
 #include "material/texture.h"
 
-extern const aur_texture_descriptor aur_texture_bitmap;
-extern const aur_texture_descriptor aur_texture_checkerboard;
+#define TEXTURES(ROW)                                                                                        \
+    ROW(bitmap)                                                                                              \
+    ROW(checkerboard)
 
-static const aur_row *const rows[] = {
-    &aur_texture_bitmap.row,
-    &aur_texture_checkerboard.row,
-};
+#define DECLARE(name) extern const aur_texture_descriptor aur_texture_##name;
+TEXTURES(DECLARE)
+
+#define ADDRESS(name) &aur_texture_##name.row,
+static const aur_row *const rows[] = {TEXTURES(ADDRESS)};
 
 static const aur_row *row_at(size_t index) {
     return index < sizeof rows / sizeof rows[0] ? rows[index] : NULL;
@@ -27,7 +30,9 @@ aur_result aur_texture_create(aur_parameters *parameters, aur_texture **texture,
     if (made == NULL)
         return aur_fail_memory_at(error, parameters->location);
     made->descriptor = (const aur_texture_descriptor *)row;
-    result = made->descriptor->create(parameters, made, error);
+    made->data = calloc(1, made->descriptor->size);
+    result = made->data != NULL ? made->descriptor->create(parameters, made, error)
+                                : aur_fail_memory_at(error, parameters->location);
     if (result != AUR_OK) {
         aur_texture_destroy(made);
         return result;

@@ -5,6 +5,17 @@
 
 static const aur_bsdf_point point = {0.3f, 0.6f};
 
+static aur_vector value_of(const aur_bsdf *bsdf, aur_bsdf_part part, aur_vector view, aur_vector light) {
+    float pdf;
+    return aur_bsdf_evaluate(bsdf, part, point, view, light, &pdf);
+}
+
+static float pdf_of(const aur_bsdf *bsdf, aur_bsdf_part part, aur_vector view, aur_vector light) {
+    float pdf;
+    aur_bsdf_evaluate(bsdf, part, point, view, light, &pdf);
+    return pdf;
+}
+
 /* Integral of pdf over the whole sphere, cell by cell. */
 enum { CELLS_Z = 20, CELLS_PHI = 24, PARTS = 10, CELL_COUNT = CELLS_Z * CELLS_PHI };
 
@@ -26,8 +37,7 @@ static void integrate_pdf(const aur_bsdf *bsdf, aur_vector view, size_t parts, d
             const double offset_phi = (double)(k / 2 % parts) + 0.5;
             const double z = -1.0 + 2.0 * (cell_z + offset_z / (double)parts) / CELLS_Z;
             const double phi = (cell_phi + offset_phi / (double)parts) / CELLS_PHI;
-            mass[cell] += (double)aur_bsdf_pdf(bsdf, AUR_BSDF_WHOLE, point, view,
-                                               aur_direction_at((float)z, (float)phi));
+            mass[cell] += (double)pdf_of(bsdf, AUR_BSDF_WHOLE, view, aur_direction_at((float)z, (float)phi));
         }
         mass[cell] *= 4.0 * AUR_PI / (CELL_COUNT * (double)(2 * parts * parts));
     }
@@ -105,10 +115,8 @@ static void samples_agree_with_evaluation(void **state) {
                 assert_near(aur_vector_length(sample.light), 1.0, 1e-5);
                 if (sample.specular)
                     continue;
-                const aur_vector value =
-                    aur_bsdf_evaluate(made.bsdf, AUR_BSDF_WHOLE, point, view, sample.light);
-                assert_relative(sample.pdf,
-                                aur_bsdf_pdf(made.bsdf, AUR_BSDF_WHOLE, point, view, sample.light), 1e-3);
+                const aur_vector value = value_of(made.bsdf, AUR_BSDF_WHOLE, view, sample.light);
+                assert_relative(sample.pdf, pdf_of(made.bsdf, AUR_BSDF_WHOLE, view, sample.light), 1e-3);
                 assert_relative(sample.weight.y * sample.pdf, value.y, 1e-3);
                 assert_true(sample.weight.y >= 0.0f && isfinite(sample.weight.y));
             }
@@ -136,10 +144,8 @@ static void is_reciprocal(void **state) {
             const bool glass = strncmp(material_rows[m].text, "roughdielectric", 15) == 0;
             const float above = glass && a.z < 0.0f ? 2.25f : 1.0f,
                         below = glass && b.z < 0.0f ? 2.25f : 1.0f;
-            const float there =
-                aur_bsdf_evaluate(made.bsdf, AUR_BSDF_WHOLE, point, a, b).x / fabsf(b.z) / above;
-            const float back =
-                aur_bsdf_evaluate(made.bsdf, AUR_BSDF_WHOLE, point, b, a).x / fabsf(a.z) / below;
+            const float there = value_of(made.bsdf, AUR_BSDF_WHOLE, a, b).x / fabsf(b.z) / above;
+            const float back = value_of(made.bsdf, AUR_BSDF_WHOLE, b, a).x / fabsf(a.z) / below;
             assert_near(there, back, 2e-3 * fabs((double)there) + 1e-6);
         }
         drop_material(&made);
@@ -181,7 +187,7 @@ static aur_vector lobe_value(const aur_bsdf *bsdf, aur_vector view, const aur_bs
     if (lobe->shape == AUR_LOBE_SHAPE_SPECULAR)
         return (aur_vector){0};
     if (lobe->shape == AUR_LOBE_SHAPE_SAMPLED)
-        return aur_bsdf_evaluate(bsdf, AUR_BSDF_SAMPLED_LOBES, point, view, light);
+        return value_of(bsdf, AUR_BSDF_SAMPLED_LOBES, view, light);
     const float cosine = aur_vector_dot(lobe->axis, light);
     const float power = cosine > 0.0f ? powf(cosine, lobe->exponent) : 0.0f;
     const float factor = aur_lobe_factor(lobe, fabsf(light.z));
@@ -224,7 +230,7 @@ static void lobes_are_the_material(void **state) {
                 double sum = 0.0;
                 for (size_t k = 0; k < count; ++k)
                     sum += (double)lobe_value(made.bsdf, view, &lobes[k], light).x;
-                const double value = aur_bsdf_evaluate(made.bsdf, AUR_BSDF_WHOLE, point, view, light).x;
+                const double value = value_of(made.bsdf, AUR_BSDF_WHOLE, view, light).x;
                 assert_near(sum, value, 1e-4 * value + 1e-7);
             }
         }
@@ -309,9 +315,8 @@ static void sampled_lobes_are_drawn_alone(void **state) {
                 aur_bsdf_sample sample;
                 if (!aur_bsdf_draw(made.bsdf, AUR_BSDF_SAMPLED_LOBES, point, view, u, &sample))
                     continue;
-                const double value =
-                    aur_bsdf_evaluate(made.bsdf, AUR_BSDF_SAMPLED_LOBES, point, view, sample.light).x /
-                    (double)aur_bsdf_pdf(made.bsdf, AUR_BSDF_SAMPLED_LOBES, point, view, sample.light);
+                const double value = value_of(made.bsdf, AUR_BSDF_SAMPLED_LOBES, view, sample.light).x /
+                                     (double)pdf_of(made.bsdf, AUR_BSDF_SAMPLED_LOBES, view, sample.light);
                 assert_near(value, sample.weight.x, 2e-3 * value + 1e-6);
                 sum += (double)sample.weight.x;
                 squares += (double)(sample.weight.x * sample.weight.x);
@@ -323,8 +328,7 @@ static void sampled_lobes_are_drawn_alone(void **state) {
             for (size_t i = 0; i < (size_t)SIDE * SIDE; ++i) {
                 const float z = 2.0f * ((float)(i / SIDE) + 0.5f) / SIDE - 1.0f;
                 const aur_vector light = aur_direction_at(z, ((float)(i % SIDE) + 0.5f) / SIDE);
-                integral +=
-                    (double)aur_bsdf_evaluate(made.bsdf, AUR_BSDF_SAMPLED_LOBES, point, view, light).x;
+                integral += (double)value_of(made.bsdf, AUR_BSDF_SAMPLED_LOBES, view, light).x;
             }
             integral *= 4.0 * AUR_PI / ((double)SIDE * SIDE);
             assert_near(mean, integral, 5.0 * sigma + 0.01 * integral + 1e-6);

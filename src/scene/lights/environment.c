@@ -128,8 +128,7 @@ static aur_result read_picture(const aur_parameters *parameters, const envmap_ke
     if (p->filename == NULL)
         return aur_fail_at(error, parameters->location, AUR_ERROR_FORMAT,
                            "emitter 'envmap' needs the string 'filename'");
-    const aur_result result =
-        aur_read_rgb(p->filename, parameters->location, &self->width, &self->height, &self->rgb, error);
+    const aur_result result = aur_read_rgb(p->filename, &self->width, &self->height, &self->rgb, error);
     if (result == AUR_OK && (self->width < 2 || self->height < 2))
         return aur_fail_at(error, parameters->location, AUR_ERROR_FORMAT,
                            "emitter 'envmap': the picture must be at least 2 x 2");

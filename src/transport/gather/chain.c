@@ -36,8 +36,9 @@ static bool draw_onward(const aur_shading *shading, surface_lobes kinds, const f
     if (drawn->specular || !kinds.sampled)
         return drawn->specular;
     const aur_vector light = aur_frame_to_local(&surface->frame, drawn->light);
+    float pdf;
     const aur_vector value =
-        aur_bsdf_evaluate(bsdf, AUR_BSDF_SAMPLED_LOBES, surface->texture, shading->view, light);
+        aur_bsdf_evaluate(bsdf, AUR_BSDF_SAMPLED_LOBES, surface->texture, shading->view, light, &pdf);
     drawn->weight = aur_vector_scale(value, 1.0f / drawn->pdf);
     return drawn->pdf > 0.0f;
 }
@@ -136,12 +137,13 @@ static aur_vector sampled_light(const aur_gather_plan *plan, const aur_shading *
     if (aur_vector_dot(surface->geometric_normal, light.direction) * local.z <= 0.0f)
         return black;
     const aur_bsdf *const bsdf = surface->bsdf;
+    float rival;
     const aur_vector value =
-        aur_bsdf_evaluate(bsdf, AUR_BSDF_SAMPLED_LOBES, surface->texture, shading->view, local);
+        aur_bsdf_evaluate(bsdf, AUR_BSDF_SAMPLED_LOBES, surface->texture, shading->view, local, &rival);
     if (aur_vector_is_zero(value))
         return black;
-    const aur_bsdf_part part = kinds.mirrors ? AUR_BSDF_WHOLE : AUR_BSDF_SAMPLED_LOBES;
-    const float rival = aur_bsdf_pdf(bsdf, part, surface->texture, shading->view, local);
+    if (kinds.mirrors)
+        aur_bsdf_evaluate(bsdf, AUR_BSDF_WHOLE, surface->texture, shading->view, local, &rival);
     const float weight = light.delta ? 1.0f : aur_power_heuristic(light.pdf, rival);
     const aur_vector radiance =
         aur_vector_scale(aur_vector_multiply(value, light.radiance), weight / light.pdf);

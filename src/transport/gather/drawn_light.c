@@ -18,10 +18,8 @@ static aur_vector weighted_value(const aur_gather_plan *plan, const aur_gather_p
         float density = 0.0f;
         if (lobe->shape == AUR_LOBE_SHAPE_SAMPLED) {
             value = aur_bsdf_evaluate(surface->bsdf, AUR_BSDF_SAMPLED_LOBES, surface->texture, place->view,
-                                      local);
-            density =
-                aur_bsdf_pdf(surface->bsdf, AUR_BSDF_SAMPLED_LOBES, surface->texture, place->view, local) *
-                plan->rules.sampled.directions;
+                                      local, &density);
+            density *= plan->rules.sampled.directions;
         } else if (lobe->shape == AUR_LOBE_SHAPE_COSINE_POWER && place->view.z * local.z > 0.0f) {
             value = aur_lobe_value(lobe, local);
             const aur_gather_lobe_rule *const rule = place->rules[i];

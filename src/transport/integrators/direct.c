@@ -69,30 +69,15 @@ static void release(aur_integrator *integrator) {
     free(integrator->data);
 }
 
-/* The weight of one of `count` samples of density `pdf`, beside `rivals` of density `other`. */
-static float weight_of(uint32_t count, float pdf, uint32_t rivals, float other) {
-    return aur_power_heuristic((float)count * pdf, (float)rivals * other) / (float)count;
-}
-
 static aur_vector sample_light(const aur_scene *scene, const direct_data *data, const aur_shading *shading,
                                const float u[3], aur_counters *counters) {
-    const aur_vector black = {0};
-    aur_light_sample light;
-    if (!aur_light_sample_direct(scene, shading->surface->position, AUR_LEAST_LIGHT_SEEN, u, &light))
-        return black;
-    const aur_vector radiance =
-        aur_vector_multiply(aur_shading_evaluate(shading, light.direction), light.radiance);
-    if (!(light.pdf > 0.0f) || aur_vector_is_zero(radiance))
-        return black;
-    float distance;
-    const aur_ray shadow = aur_surface_ray_to(shading->surface, light.position, &distance);
+    const aur_light_draws draws = {AUR_LEAST_LIGHT_SEEN, (float)data->emitter_samples,
+                                   (float)data->bsdf_samples};
+    aur_shadow shadow;
+    if (!aur_direct_light_choose(scene, shading, &draws, u, &shadow))
+        return (aur_vector){0};
     ++counters->rays;
-    if (aur_scene_occluded(scene, &shadow))
-        return black;
-    const float weight = light.delta ? 1.0f / (float)data->emitter_samples
-                                     : weight_of(data->emitter_samples, light.pdf, data->bsdf_samples,
-                                                 aur_shading_pdf(shading, light.direction));
-    return aur_vector_scale(radiance, weight / light.pdf);
+    return aur_scene_occluded(scene, &shadow.ray) ? (aur_vector){0} : shadow.radiance;
 }
 
 static aur_vector sample_bsdf(const aur_scene *scene, const direct_data *data, const aur_shading *shading,
@@ -117,10 +102,11 @@ static aur_vector sample_bsdf(const aur_scene *scene, const direct_data *data, c
     }
     if (aur_vector_is_zero(light))
         return black;
+    const float count = (float)data->bsdf_samples;
     const float weight = sample.specular
-                             ? 1.0f / (float)data->bsdf_samples
-                             : weight_of(data->bsdf_samples, sample.pdf, data->emitter_samples, rival);
-    return aur_vector_scale(aur_vector_multiply(sample.weight, light), weight);
+                             ? 1.0f
+                             : aur_power_heuristic(count * sample.pdf, (float)data->emitter_samples * rival);
+    return aur_vector_scale(aur_vector_multiply(sample.weight, light), weight / count);
 }
 
 static aur_vector radiance(const aur_integrator *integrator, const aur_camera_sample *sample,

@@ -19,10 +19,20 @@ static inline float aur_power_heuristic(float pdf, float other) {
 
 /* A light sample before it is known whether anything lies between. */
 typedef struct aur_shadow {
-    aur_ray ray;         /* from the surface to the light */
-    aur_vector radiance; /* reflected towards the viewer if nothing does, weighted beside BSDF sampling */
+    aur_ray ray; /* from the surface to the light */
+    aur_vector
+        radiance; /* reflected towards the viewer if nothing does, by its share in the sum of samples */
 } aur_shadow;
 
-/* choice is one number and position two, in [0,1). False: no light comes that way. */
-bool aur_direct_light_choose(const aur_scene *scene, const aur_shading *shading, float choice,
-                             const float position[2], aur_shadow *shadow);
+/* How many light samples there are at a surface, and how many BSDF samples rival with them. */
+typedef struct aur_light_draws {
+    float least_light; /* one of the two above */
+    float count, rivals;
+} aur_light_draws;
+
+static const aur_light_draws AUR_LIGHT_DRAWS_OF_PATHS = {0.15f, 1.0f, 1.0f};
+
+/* One of the light samples; u[0] chooses the light and the others a point on it, in [0,1). False: no light
+ * comes that way. */
+bool aur_direct_light_choose(const aur_scene *scene, const aur_shading *shading, const aur_light_draws *draws,
+                             const float u[3], aur_shadow *shadow);

@@ -12,32 +12,16 @@ static inline aur_shading aur_shading_at(const aur_surface *surface, aur_vector 
     return (aur_shading){surface, aur_frame_to_local(&surface->frame, view_world)};
 }
 
-/* BSDF * |cos| towards a world direction. A light on one side of the surface and shaded on the other is
- * black. */
-static inline aur_vector aur_shading_evaluate(const aur_shading *shading, aur_vector light_world) {
-    const aur_surface *const surface = shading->surface;
-    const aur_vector light = aur_frame_to_local(&surface->frame, light_world);
-    if (aur_vector_dot(surface->geometric_normal, light_world) * light.z <= 0.0f)
-        return (aur_vector){0};
-    return aur_bsdf_evaluate(surface->bsdf, AUR_BSDF_WHOLE, surface->texture, shading->view, light);
-}
-
-/* With the density that aur_shading_sample has there. */
-static inline aur_vector aur_shading_evaluate_with_pdf(const aur_shading *shading, aur_vector light_world,
-                                                       float *pdf) {
+/* BSDF * |cos| towards a world direction, and the density that aur_shading_sample has there. A light on one
+ * side of the surface and shaded on the other is black. */
+static inline aur_vector aur_shading_evaluate(const aur_shading *shading, aur_vector light_world,
+                                              float *pdf) {
     const aur_surface *const surface = shading->surface;
     const aur_vector light = aur_frame_to_local(&surface->frame, light_world);
     *pdf = 0.0f;
     if (aur_vector_dot(surface->geometric_normal, light_world) * light.z <= 0.0f)
         return (aur_vector){0};
-    return aur_bsdf_evaluate_with_pdf(surface->bsdf, AUR_BSDF_WHOLE, surface->texture, shading->view, light,
-                                      pdf);
-}
-
-static inline float aur_shading_pdf(const aur_shading *shading, aur_vector light_world) {
-    const aur_surface *const surface = shading->surface;
-    const aur_vector light = aur_frame_to_local(&surface->frame, light_world);
-    return aur_bsdf_pdf(surface->bsdf, AUR_BSDF_WHOLE, surface->texture, shading->view, light);
+    return aur_bsdf_evaluate(surface->bsdf, AUR_BSDF_WHOLE, surface->texture, shading->view, light, pdf);
 }
 
 /* sample->light comes back in world coordinates. */

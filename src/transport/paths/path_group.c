@@ -127,11 +127,10 @@ static aur_vector view_of(const group *g, size_t k) {
 
 static void shadow_one(group *g, size_t k, const aur_surface *surface) {
     const aur_shading shading = aur_shading_at(surface, view_of(g, k));
-    const float position[2] = {g->lanes.light_u[k], g->lanes.light_v[k]};
-    const float choice = g->chooses ? g->lanes.choice[k] : 0.5f;
+    const float u[3] = {g->chooses ? g->lanes.choice[k] : 0.5f, g->lanes.light_u[k], g->lanes.light_v[k]};
     aur_shadow shadow;
     g->lanes.lit[k] = 0;
-    if (!aur_direct_light_choose(g->scene, &shading, choice, position, &shadow))
+    if (!aur_direct_light_choose(g->scene, &shading, &AUR_LIGHT_DRAWS_OF_PATHS, u, &shadow))
         return;
     g->lanes.lit[k] = -1;
     aur_packet_set(&g->shadows, k, &shadow.ray);

@@ -40,12 +40,13 @@ static void add_emission(const aur_scene *scene, const aur_surface *surface, aur
 static bool scatter(const aur_path *data, const aur_scene *scene, const aur_surface *surface, aur_vector view,
                     uint32_t depth, const float (*pairs)[2], aur_path_walk *walk, aur_counters *counters) {
     const aur_shading shading = aur_shading_at(surface, view);
-    const float *const direction = pairs[AUR_PATH_DIRECTION];
+    const float *const position = pairs[AUR_PATH_POSITION], *const direction = pairs[AUR_PATH_DIRECTION];
     /* Both directions before the shadow ray: the processor works at them together. */
     aur_shadow shadow;
     const bool lit = aur_scene_emitter_count(scene) > 0 &&
-                     aur_direct_light_choose(scene, &shading, pairs[AUR_PATH_CHOICE][0],
-                                             pairs[AUR_PATH_POSITION], &shadow);
+                     aur_direct_light_choose(
+                         scene, &shading, &AUR_LIGHT_DRAWS_OF_PATHS,
+                         (const float[3]){pairs[AUR_PATH_CHOICE][0], position[0], position[1]}, &shadow);
     aur_bsdf_sample drawn;
     const bool goes_on = aur_shading_sample(
         &shading, (const float[3]){pairs[AUR_PATH_LOBE][0], direction[0], direction[1]}, &drawn);

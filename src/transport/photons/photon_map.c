@@ -59,7 +59,9 @@ static aur_vector adjoint_weight(const aur_shading *shading, const aur_bsdf_samp
     const aur_shading reversed = aur_shading_at(shading->surface, sample->light);
     const float cos_in = fmaxf(fabsf(shading->view.z), 0.01f);
     const float cos_out = fabsf(reversed.view.z);
-    return aur_vector_scale(aur_shading_evaluate(&reversed, in_world), cos_out / (cos_in * sample->pdf));
+    float pdf;
+    return aur_vector_scale(aur_shading_evaluate(&reversed, in_world, &pdf),
+                            cos_out / (cos_in * sample->pdf));
 }
 
 enum { PAIR_LIGHT = 0, PAIR_POSITION = 1, PAIR_DIRECTION = 2, PAIR_BOUNCE = 3, PAIRS_A_BOUNCE = 2 };
