@@ -28,7 +28,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
                  "no parameters");
     const aur_xml_document document = {0};
     aur_shape *shape = NULL;
-    const aur_result result = aur_shape_create(&parameters, &document, NULL, &shape, &error);
+    const aur_result result = aur_shape_create(&parameters, &document, &shape, &error);
     aur_parameters_release(&parameters);
     unlink(input_path());
     if (result != AUR_OK) {

@@ -63,6 +63,15 @@ const char *aur_names_nearest(aur_names names, const char *wanted) {
     return best;
 }
 
+const char *aur_names_hint(aur_names names, const char *wanted, const char *quotes,
+                           char hint[AUR_HINT_CAPACITY]) {
+    const char *const nearest = aur_names_nearest(names, wanted);
+    hint[0] = '\0';
+    if (nearest != NULL)
+        snprintf(hint, AUR_HINT_CAPACITY, "; did you mean %c%s%c?", quotes[0], nearest, quotes[1]);
+    return hint;
+}
+
 size_t aur_names_list(aur_names names, char *text, size_t capacity) {
     size_t used = 0;
     if (capacity > 0)

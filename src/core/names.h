@@ -19,6 +19,13 @@ size_t aur_names_find(aur_names names, const char *wanted);
 /* The nearest name by edit distance, or NULL when none is near enough to suggest. */
 const char *aur_names_nearest(aur_names names, const char *wanted);
 
+enum { AUR_HINT_CAPACITY = 96 };
+
+/* The end of a message about an unknown name, written into `hint` and returned: "; did you mean 'NAME'?",
+ * with the two characters of `quotes` around it, or nothing when no name is near. */
+const char *aur_names_hint(aur_names names, const char *wanted, const char *quotes,
+                           char hint[AUR_HINT_CAPACITY]);
+
 /* Writes "a, b, c" into text[capacity], always terminated; returns the length of the whole list, as snprintf
  * does. */
 size_t aur_names_list(aur_names names, char *text, size_t capacity);

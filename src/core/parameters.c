@@ -5,6 +5,7 @@
 
 #include "core/array.h"
 #include "core/names.h"
+#include "core/text.h"
 
 aur_result aur_parameters_init(aur_parameters *parameters, const char *kind, const char *plugin,
                                aur_location location, aur_error *error) {
@@ -151,6 +152,17 @@ const aur_parameter *aur_parameters_find(aur_parameters *parameters, const char 
         }
     }
     return NULL;
+}
+
+aur_result aur_parameters_fail(const aur_parameters *parameters, aur_error *error, aur_result result,
+                               const char *format, ...) {
+    char text[AUR_ERROR_MESSAGE_CAPACITY];
+    va_list arguments;
+    va_start(arguments, format);
+    aur_format_list(text, sizeof text, format, arguments);
+    va_end(arguments);
+    return aur_fail_at(error, parameters->location, result, "%s '%s': %s", parameters->kind,
+                       parameters->plugin, text);
 }
 
 aur_result aur_parameters_fail_value(const aur_parameters *parameters, const aur_parameter *item,

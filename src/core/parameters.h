@@ -66,6 +66,10 @@ aur_result aur_parameters_add_object(aur_parameters *parameters, const char *nam
 /* The value of a name if it is there, marked as used; else NULL. `name` must be a string literal. */
 const aur_parameter *aur_parameters_find(aur_parameters *parameters, const char *name);
 
+/* "KIND 'PLUGIN': " and the formatted text, with the place of the whole. */
+aur_result aur_parameters_fail(const aur_parameters *parameters, aur_error *error, aur_result result,
+                               const char *format, ...) AUR_PRINTF(4, 5);
+
 /* "KIND 'PLUGIN': 'NAME' must be EXPECTED, not 'VALUE'", with the value's place. */
 aur_result aur_parameters_fail_value(const aur_parameters *parameters, const aur_parameter *item,
                                      const char *expected, aur_error *error);

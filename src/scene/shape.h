@@ -63,7 +63,6 @@ typedef struct aur_shape_keys {
 typedef struct aur_shape_input {
     aur_parameters *parameters;
     const aur_xml_document *document; /* finds assets */
-    const aur_warnings *warnings;
     aur_transform to_world, to_local; /* affine */
     bool flip_normals;
 } aur_shape_input;
@@ -83,8 +82,8 @@ aur_shape_point aur_shape_sample(const aur_shape *shape, const aur_distribution 
 extern const aur_table aur_shape_table;
 
 /* Builds the shape that parameters->plugin names; the loader gives it a BSDF and an emitter. */
-aur_result aur_shape_create(aur_parameters *parameters, const aur_xml_document *document,
-                            const aur_warnings *warnings, aur_shape **shape, aur_error *error);
+aur_result aur_shape_create(aur_parameters *parameters, const aur_xml_document *document, aur_shape **shape,
+                            aur_error *error);
 void aur_shape_destroy(aur_shape *shape);
 
 /* For shapes made in local coordinates: moves the mesh into the world and flips it where asked. */

@@ -7,24 +7,28 @@
 #include "core/text.h"
 #include "scene/load/loader.h"
 
-aur_result aur_build_filter(aur_loader *self, aur_xml_node *node, aur_parameters *parameters, void **object) {
-    (void)node;
+aur_result aur_build_filter(aur_loader *self, aur_parameters *parameters, void **object) {
     *object = &self->scene->filter;
     return aur_filter_create(parameters, &self->scene->filter, self->error);
 }
 
-/* Tells that a parameter is known and has no effect. */
-static void warn_unused(aur_loader *self, aur_parameters *parameters, const char *name, const char *why) {
-    const aur_parameter *const item = aur_parameters_find(parameters, name);
-    if (item != NULL)
-        aur_warn_at(self->warnings, item->location, "%s '%s': '%s' has no effect: %s", parameters->kind,
-                    parameters->plugin, name, why);
+/* Warns of the parameters whose keys say in their help that they are of no effect. */
+static void warn_unused(aur_loader *self, aur_parameters *parameters, const aur_row *row) {
+    static const char start[] = "of no effect: ";
+    for (size_t i = 0; i < row->key_count; ++i) {
+        const aur_key *const key = &row->keys[i];
+        const bool unused = strncmp(key->help, start, sizeof start - 1) == 0;
+        const aur_parameter *const item = unused ? aur_parameters_find(parameters, key->name) : NULL;
+        if (item != NULL)
+            aur_warn_at(self->warnings, item->location, "%s '%s': '%s' has no effect: %s", parameters->kind,
+                        parameters->plugin, key->name, key->help + sizeof start - 1);
+    }
 }
 
 /* Keys of films; -1: not given. */
 typedef struct film_keys {
     int64_t width, height, crop_x, crop_y, crop_width, crop_height;
-    const aur_parameter *rfilter, *unused;
+    const aur_parameter *rfilter;
 } film_keys;
 
 enum { LARGEST_SIDE = 65536 };
@@ -46,20 +50,17 @@ static const aur_key film_key_table[] = {
      .computed = true},
     {AUR_KEY_OF_ITEM(film_keys, "rfilter", rfilter, "gaussian", "how samples are weighed around a pixel",
                      "rfilter")},
-    {AUR_KEY_OF_ITEM(film_keys, "file_format", unused, NULL, "of no effect: the output file's name says it",
-                     "text")},
-    {AUR_KEY_OF_ITEM(film_keys, "pixel_format", unused, NULL, "of no effect: pictures are RGB", "text")},
-    {AUR_KEY_OF_ITEM(film_keys, "component_format", unused, NULL,
-                     "of no effect: pictures are 32-bit floats where the format has them", "text")},
-    {AUR_KEY_OF_ITEM(film_keys, "banner", unused, NULL, "of no effect: pictures carry none", "boolean")},
-    {AUR_KEY_OF_ITEM(film_keys, "high_quality_edges", unused, NULL, "of no effect: all edges are",
-                     "boolean")},
-    {AUR_KEY_OF_ITEM(film_keys, "sample_border", unused, NULL,
-                     "of no effect: samples are drawn by the filter", "boolean")},
-    {AUR_KEY_OF_ITEM(film_keys, "compensate", unused, NULL, "of no effect: sums are exact enough",
-                     "boolean")},
-    {AUR_KEY_OF_ITEM(film_keys, "gamma", unused, NULL, "of no effect: pictures are linear, PNG is sRGB",
-                     "number")},
+    {AUR_KEY_READ_APART(AUR_KEY_TEXT, "file_format", NULL, "not needed: the output file's name says it")},
+    {AUR_KEY_READ_APART(AUR_KEY_TEXT, "pixel_format", NULL, "not needed: pictures are RGB")},
+    {AUR_KEY_READ_APART(AUR_KEY_TEXT, "component_format", NULL,
+                        "not needed: pictures are 32-bit floats where the format has them")},
+    {AUR_KEY_READ_APART(AUR_KEY_BOOLEAN, "banner", NULL, "of no effect: pictures carry none")},
+    {AUR_KEY_READ_APART(AUR_KEY_BOOLEAN, "high_quality_edges", NULL, "of no effect: all edges are")},
+    {AUR_KEY_READ_APART(AUR_KEY_BOOLEAN, "sample_border", NULL,
+                        "of no effect: samples are drawn by the filter")},
+    {AUR_KEY_READ_APART(AUR_KEY_BOOLEAN, "compensate", NULL, "of no effect: sums are exact enough")},
+    {AUR_KEY_READ_APART(AUR_KEY_REAL, "gamma", NULL, "of no effect: pictures are linear, PNG is sRGB"),
+     .maximum = INFINITY},
 };
 
 static const aur_row film_rows[] = {
@@ -76,26 +77,25 @@ const aur_table aur_film_table = {"film", "sizes of pictures", film_row_at, NULL
 /* The part of the picture that is to be rendered. */
 static aur_result set_crop(const film_keys *p, const aur_parameters *parameters, aur_film_settings *film,
                            aur_error *error) {
-    const int64_t width = (int64_t)film->width, height = (int64_t)film->height;
-    const int64_t x = p->crop_x, y = p->crop_y;
-    const int64_t wide = p->crop_width < 0 ? width : p->crop_width;
-    const int64_t high = p->crop_height < 0 ? height : p->crop_height;
-    if (x + wide > width || y + high > height)
-        return aur_fail_at(error, parameters->location, AUR_ERROR_FORMAT,
-                           "film '%s': the crop of %lld x %lld at %lld, %lld is not inside %lld x %lld",
-                           parameters->plugin, (long long)wide, (long long)high, (long long)x, (long long)y,
-                           (long long)width, (long long)height);
-    if (wide == width && high == height)
+    const int64_t wide = p->crop_width < 0 ? p->width : p->crop_width;
+    const int64_t high = p->crop_height < 0 ? p->height : p->crop_height;
+    film->width = (size_t)p->width;
+    film->height = (size_t)p->height;
+    if (p->crop_x + wide > p->width || p->crop_y + high > p->height)
+        return aur_parameters_fail(parameters, error, AUR_ERROR_FORMAT,
+                                   "the crop of %lld x %lld at %lld, %lld is not inside %zu x %zu",
+                                   (long long)wide, (long long)high, (long long)p->crop_x,
+                                   (long long)p->crop_y, film->width, film->height);
+    if (wide == p->width && high == p->height)
         return AUR_OK;
-    film->crop_x0 = (size_t)x;
-    film->crop_x1 = (size_t)(x + wide);
-    film->crop_y0 = (size_t)y;
-    film->crop_y1 = (size_t)(y + high);
+    film->crop_x0 = (size_t)p->crop_x;
+    film->crop_x1 = (size_t)(p->crop_x + wide);
+    film->crop_y0 = (size_t)p->crop_y;
+    film->crop_y1 = (size_t)(p->crop_y + high);
     return AUR_OK;
 }
 
-aur_result aur_build_film(aur_loader *self, aur_xml_node *node, aur_parameters *parameters, void **object) {
-    (void)node;
+aur_result aur_build_film(aur_loader *self, aur_parameters *parameters, void **object) {
     aur_film_settings *const film = &self->scene->film;
     *object = film;
     const aur_row *row;
@@ -107,25 +107,17 @@ aur_result aur_build_film(aur_loader *self, aur_xml_node *node, aur_parameters *
                     "film 'ldrfilm' is read as 'hdrfilm': write to a .png file for 8 bits");
     film_keys p = {
         .width = (int64_t)film->width, .height = (int64_t)film->height, .crop_width = -1, .crop_height = -1};
+    void *filter = NULL;
     result = aur_keys_read(row->key_count, row->keys, parameters, &p, self->error);
-    if (result != AUR_OK)
-        return result;
-    film->width = (size_t)p.width;
-    film->height = (size_t)p.height;
-    result = set_crop(&p, parameters, film, self->error);
-    if (result != AUR_OK)
-        return result;
-    void *filter;
-    result = aur_loader_nested(self, parameters, "rfilter", &filter);
+    if (result == AUR_OK)
+        result = set_crop(&p, parameters, film, self->error);
+    if (result == AUR_OK)
+        result = aur_loader_nested(self, parameters, "rfilter", &filter);
     if (result != AUR_OK)
         return result;
     if (filter != NULL)
         film->filter = filter;
-    warn_unused(self, parameters, "banner", "pictures carry none");
-    warn_unused(self, parameters, "high_quality_edges", "all edges are");
-    warn_unused(self, parameters, "sample_border", "samples are drawn by the filter");
-    warn_unused(self, parameters, "compensate", "sums are exact enough");
-    warn_unused(self, parameters, "gamma", "pictures are linear, PNG is sRGB");
+    warn_unused(self, parameters, row);
     return aur_parameters_finish(parameters, self->error);
 }
 
@@ -156,6 +148,8 @@ static aur_result check_set(const aur_parameters *parameters, const char *set, a
 static const aur_key sampler_keys[] = {
     {AUR_KEY_FIELD(AUR_KEY_INTEGER, aur_scene, "sample_count", samples_per_pixel, "4", "samples a pixel"),
      .minimum = 1.0, .maximum = AUR_SAMPLES_PER_PIXEL_MAX, .computed = true},
+    {AUR_KEY_READ_APART(AUR_KEY_INTEGER, "seed", NULL, "of no effect: give it on the command line"),
+     .maximum = INFINITY},
 };
 
 static const aur_row sampler_common = {
@@ -169,15 +163,13 @@ static const aur_row *sampler_row_at(size_t index) {
 const aur_table aur_sampler_table = {"sampler", "the numbers of a camera's samples: any set of the square",
                                      sampler_row_at, &sampler_common};
 
-aur_result aur_build_sampler(aur_loader *self, aur_xml_node *node, aur_parameters *parameters,
-                             void **object) {
-    (void)node;
+aur_result aur_build_sampler(aur_loader *self, aur_parameters *parameters, void **object) {
     aur_scene *const scene = self->scene;
     aur_result result =
         aur_keys_read(sampler_common.key_count, sampler_common.keys, parameters, scene, self->error);
     if (result != AUR_OK)
         return result;
-    warn_unused(self, parameters, "seed", "give it on the command line");
+    warn_unused(self, parameters, &sampler_common);
     /* The rest are the set's own keys. */
     char text[1024];
     const char *const set = set_for_sampler(parameters->plugin);
@@ -205,8 +197,7 @@ aur_result aur_build_sampler(aur_loader *self, aur_xml_node *node, aur_parameter
     if (result != AUR_OK)
         return result;
     if (used >= (int)sizeof text)
-        return aur_fail_at(self->error, parameters->location, AUR_ERROR_FORMAT,
-                           "the sampler's keys are too long");
+        return aur_parameters_fail(parameters, self->error, AUR_ERROR_FORMAT, "its keys are too long");
     free(scene->sampler);
     scene->sampler = NULL;
     result = aur_xml_find_set(&scene->document, parameters->location, text, &scene->sampler, self->error);
@@ -214,8 +205,7 @@ aur_result aur_build_sampler(aur_loader *self, aur_xml_node *node, aur_parameter
     return result;
 }
 
-aur_result aur_build_sensor(aur_loader *self, aur_xml_node *node, aur_parameters *parameters, void **object) {
-    (void)node;
+aur_result aur_build_sensor(aur_loader *self, aur_parameters *parameters, void **object) {
     aur_scene *const scene = self->scene;
     *object = &scene->sensor;
     /* Nested film and sampler have set the scene's own. */
@@ -226,44 +216,36 @@ aur_result aur_build_sensor(aur_loader *self, aur_xml_node *node, aur_parameters
     if (result != AUR_OK)
         return result;
     scene->has_sensor = true;
-    warn_unused(self, parameters, "shutter_open", "nothing moves");
-    warn_unused(self, parameters, "shutter_close", "nothing moves");
+    warn_unused(self, parameters, aur_sensor_table.common);
     return aur_sensor_create(parameters, &scene->sensor, self->error);
 }
 
-/* Sets that a scene names in files are looked for where its meshes are. */
-static aur_result resolve_set(aur_loader *self, aur_parameter *item) {
-    char *set;
-    const aur_result result =
-        aur_xml_find_set(&self->scene->document, item->location, item->text, &set, self->error);
-    if (result != AUR_OK)
-        return result;
-    free(item->text);
-    item->text = set;
-    return AUR_OK;
-}
-
-aur_result aur_build_integrator(aur_loader *self, aur_xml_node *node, aur_parameters *parameters,
-                                void **object) {
+aur_result aur_build_integrator(aur_loader *self, aur_parameters *parameters, void **object) {
     aur_scene *const scene = self->scene;
-    const bool nested = node != self->top;
+    const bool nested = self->node != self->top;
     bool *const has = nested ? &scene->has_nested_integrator : &scene->has_integrator;
     aur_parameters *const made = nested ? &scene->nested_integrator : &scene->integrator;
     *object = made;
     if (*has && nested)
-        return aur_fail_at(self->error, node->location, AUR_ERROR_UNSUPPORTED,
+        return aur_fail_at(self->error, parameters->location, AUR_ERROR_UNSUPPORTED,
                            "a second <integrator> inside another: one is the most");
     if (*has) {
-        aur_warn_at(self->warnings, node->location, "a second integrator is left out");
+        aur_warn_at(self->warnings, parameters->location, "a second integrator is left out");
         return AUR_OK;
     }
     *has = true;
     for (size_t i = 0; i < parameters->count; ++i) {
-        const aur_result result = parameters->items[i].kind == AUR_PARAMETER_STRING
-                                      ? resolve_set(self, &parameters->items[i])
-                                      : AUR_OK;
+        aur_parameter *const item = &parameters->items[i];
+        char *set;
+        if (item->kind != AUR_PARAMETER_STRING)
+            continue;
+        /* Sets that a scene names in files are looked for where its meshes are. */
+        const aur_result result =
+            aur_xml_find_set(&scene->document, item->location, item->text, &set, self->error);
         if (result != AUR_OK)
             return result;
+        free(item->text);
+        item->text = set;
     }
     return aur_parameters_copy(parameters, made, self->error);
 }

@@ -4,19 +4,17 @@
 
 #include "scene/load/loader.h"
 
-aur_result aur_build_bsdf(aur_loader *self, aur_xml_node *node, aur_parameters *parameters, void **object) {
-    (void)node;
+aur_result aur_build_bsdf(aur_loader *self, aur_parameters *parameters, void **object) {
     aur_scene *const scene = self->scene;
-    aur_bsdf *bsdf;
-    aur_result result = aur_bsdf_create(parameters, &bsdf, self->error);
+    aur_result result = aur_loader_reserve(self, &scene->bsdfs, scene->bsdf_count, &scene->bsdf_capacity);
+    aur_bsdf **const made = scene->bsdfs + scene->bsdf_count;
+    if (result == AUR_OK)
+        result = aur_bsdf_create(parameters, made, self->error);
     if (result != AUR_OK)
         return result;
-    result =
-        aur_loader_append(self, &scene->bsdf_count, &scene->bsdf_capacity, (void ***)&scene->bsdfs, bsdf);
-    if (result != AUR_OK)
-        aur_bsdf_destroy(bsdf);
-    *object = bsdf;
-    return result;
+    *object = *made;
+    ++scene->bsdf_count;
+    return AUR_OK;
 }
 
 /* A picture's `filename` becomes a path that opens. */
@@ -36,41 +34,32 @@ static aur_result resolve_filename(aur_loader *self, aur_parameters *parameters)
     return AUR_OK;
 }
 
-aur_result aur_build_texture(aur_loader *self, aur_xml_node *node, aur_parameters *parameters,
-                             void **object) {
-    (void)node;
+aur_result aur_build_texture(aur_loader *self, aur_parameters *parameters, void **object) {
     aur_scene *const scene = self->scene;
-    aur_texture *texture;
     aur_result result = resolve_filename(self, parameters);
     if (result == AUR_OK)
-        result = aur_texture_create(parameters, &texture, self->error);
+        result = aur_loader_reserve(self, &scene->textures, scene->texture_count, &scene->texture_capacity);
+    aur_texture **const made = scene->textures + scene->texture_count;
+    if (result == AUR_OK)
+        result = aur_texture_create(parameters, made, self->error);
     if (result != AUR_OK)
         return result;
-    result = aur_loader_append(self, &scene->texture_count, &scene->texture_capacity,
-                               (void ***)&scene->textures, texture);
-    if (result != AUR_OK)
-        aur_texture_destroy(texture);
-    *object = texture;
-    return result;
+    *object = *made;
+    ++scene->texture_count;
+    return AUR_OK;
 }
 
-aur_result aur_build_emitter(aur_loader *self, aur_xml_node *node, aur_parameters *parameters,
-                             void **object) {
-    (void)node;
+aur_result aur_build_emitter(aur_loader *self, aur_parameters *parameters, void **object) {
     aur_scene *const scene = self->scene;
-    aur_emitter *emitter;
     aur_result result = resolve_filename(self, parameters);
     if (result == AUR_OK)
-        result = aur_emitter_create(parameters, &emitter, self->error);
+        result = aur_loader_reserve(self, &scene->emitters, scene->emitter_count, &scene->emitter_capacity);
+    aur_emitter **const made = scene->emitters + scene->emitter_count;
+    if (result == AUR_OK)
+        result = aur_emitter_create(parameters, made, self->error);
     if (result != AUR_OK)
         return result;
-    result = aur_loader_append(self, &scene->emitter_count, &scene->emitter_capacity,
-                               (void ***)&scene->emitters, emitter);
-    if (result != AUR_OK) {
-        aur_emitter_destroy(emitter);
-        return result;
-    }
-    emitter->index = (uint32_t)(scene->emitter_count - 1);
-    *object = emitter;
+    *object = *made;
+    (*made)->index = (uint32_t)scene->emitter_count++;
     return AUR_OK;
 }

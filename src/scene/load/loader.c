@@ -30,11 +30,9 @@ aur_result aur_loader_nested(aur_loader *self, aur_parameters *parameters, const
     return AUR_OK;
 }
 
-aur_result aur_loader_append(aur_loader *self, size_t *count, size_t *capacity, void ***items, void *item) {
-    if (!aur_array_reserve(items, capacity, *count + 1, sizeof **items))
-        return aur_fail_memory(self->error);
-    (*items)[(*count)++] = item;
-    return AUR_OK;
+aur_result aur_loader_reserve(aur_loader *self, void *array, size_t count, size_t *capacity) {
+    return aur_array_reserve(array, capacity, count + 1, sizeof(void *)) ? AUR_OK
+                                                                         : aur_fail_memory(self->error);
 }
 
 /* The name under which a nested object is asked for: a texture has a name of its own, any other object is
@@ -42,19 +40,15 @@ aur_result aur_loader_append(aur_loader *self, size_t *count, size_t *capacity, 
 static aur_result nested_name(aur_loader *self, const aur_xml_node *child, const char *tag,
                               const aur_parameters *parameters, char *name, size_t capacity) {
     const char *const given = aur_xml_attribute_value(child, "name");
-    if (strcmp(tag, "texture") == 0) {
-        if (given == NULL)
-            return aur_fail_at(self->error, child->location, AUR_ERROR_FORMAT,
-                               "a texture inside an object needs a 'name': what it is for");
-        snprintf(name, capacity, "%s", given);
-        return AUR_OK;
-    }
+    const bool texture = strcmp(tag, "texture") == 0;
+    if (texture && given == NULL)
+        return aur_xml_fail(child, self->error, "a texture inside an object needs a 'name': what it is for");
     size_t count = 1;
     for (size_t i = 0; i < parameters->count; ++i)
         count += parameters->items[i].kind == AUR_PARAMETER_OBJECT &&
                  strcmp(parameters->items[i].object_kind, tag) == 0;
-    if (count == 1)
-        snprintf(name, capacity, "%s", tag);
+    if (texture || count == 1)
+        snprintf(name, capacity, "%s", texture ? given : tag);
     else
         snprintf(name, capacity, "%s%zu", tag, count);
     return AUR_OK;
@@ -65,41 +59,35 @@ static const char *id_at(const void *ids, size_t index) {
 }
 
 static aur_result find_reference(aur_loader *self, const aur_xml_node *node, aur_xml_node **target) {
-    static const char *const names[] = {"id", "name"};
-    const char *id;
-    aur_result result = aur_xml_check_attributes(node, 2, names, self->error);
-    if (result == AUR_OK)
-        result = aur_xml_require(node, "id", &id, self->error);
+    static const aur_xml_rule rule = {"ref", 1, {"id", "name"}};
+    const aur_result result = aur_xml_check(node, &rule, self->error);
     if (result != AUR_OK)
         return result;
     const aur_xml_document *const document = &self->scene->document;
+    const char *const id = aur_xml_attribute_value(node, "id");
     const aur_xml_id *const known = aur_xml_find_id(document, id);
-    if (known != NULL) {
+    char hint[AUR_HINT_CAPACITY];
+    if (known != NULL)
         *target = known->node;
-        return AUR_OK;
-    }
-    const char *const nearest = aur_names_nearest((aur_names){document->id_count, id_at, document->ids}, id);
-    if (nearest == NULL)
-        return aur_fail_at(self->error, node->location, AUR_ERROR_NAME, "there is no object with the id '%s'",
-                           id);
-    return aur_fail_at(self->error, node->location, AUR_ERROR_NAME,
-                       "there is no object with the id '%s'; did you mean '%s'?", id, nearest);
+    else
+        aur_names_hint((aur_names){document->id_count, id_at, document->ids}, id, "''", hint);
+    return known != NULL ? AUR_OK
+                         : aur_fail_at(self->error, node->location, AUR_ERROR_NAME,
+                                       "there is no object with the id '%s'%s", id, hint);
 }
 
 aur_result aur_loader_find_target(aur_loader *self, aur_xml_node *child, aur_xml_node **target) {
     *target = child;
-    if (strcmp(child->tag, "ref") == 0) {
-        const aur_result result = find_reference(self, child, target);
-        if (result != AUR_OK)
-            return result;
-    }
+    const aur_result result = strcmp(child->tag, "ref") == 0 ? find_reference(self, child, target) : AUR_OK;
+    if (result != AUR_OK)
+        return result;
+    const aur_location location = (*target)->location;
     if (aur_loader_find_kind(self, (*target)->tag) == NULL)
-        return aur_fail_at(self->error, child->location, AUR_ERROR_FORMAT, "<%s> is no object to refer to",
-                           (*target)->tag);
+        return aur_xml_fail(child, self->error, "<%s> is no object to refer to", (*target)->tag);
     if ((*target)->state == AUR_XML_BUILDING)
-        return aur_fail_at(self->error, child->location, AUR_ERROR_FORMAT,
-                           "this refers to the object at %s:%zu:%zu, which contains it: a cycle",
-                           (*target)->location.file, (*target)->location.line, (*target)->location.column);
+        return aur_xml_fail(child, self->error,
+                            "this refers to the object at %s:%zu:%zu, which contains it: a cycle",
+                            location.file, location.line, location.column);
     return AUR_OK;
 }
 
@@ -143,28 +131,27 @@ static aur_result collect(aur_loader *self, const aur_xml_node *node, aur_parame
 }
 
 aur_result aur_loader_build(aur_loader *self, aur_xml_node *node) {
-    static const char *const names[] = {"type", "id", "name"};
+    static const aur_xml_rule rule = {"object", 1, {"type", "id", "name"}};
     if (node->state == AUR_XML_BUILT)
         return AUR_OK;
-    const char *type;
-    aur_result result = aur_xml_check_attributes(node, 3, names, self->error);
-    if (result == AUR_OK)
-        result = aur_xml_require(node, "type", &type, self->error);
+    aur_result result = aur_xml_check(node, &rule, self->error);
     if (result != AUR_OK)
         return result;
     if (self->depth == DEEPEST_OBJECT)
-        return aur_fail_at(self->error, node->location, AUR_ERROR_FORMAT,
-                           "objects refer to each other in a chain of more than %d", DEEPEST_OBJECT);
+        return aur_xml_fail(node, self->error, "objects refer to each other in a chain of more than %d",
+                            DEEPEST_OBJECT);
     node->state = AUR_XML_BUILDING;
     aur_parameters parameters;
-    result = aur_parameters_init(&parameters, node->tag, type, node->location, self->error);
+    result = aur_parameters_init(&parameters, node->tag, aur_xml_attribute_value(node, "type"),
+                                 node->location, self->error);
     if (result != AUR_OK)
         return result;
     ++self->depth;
     result = collect(self, node, &parameters);
     --self->depth;
+    self->node = node;
     if (result == AUR_OK)
-        result = aur_loader_find_kind(self, node->tag)->build(self, node, &parameters, &node->object);
+        result = aur_loader_find_kind(self, node->tag)->build(self, &parameters, &node->object);
     aur_parameters_release(&parameters);
     node->state = AUR_XML_BUILT;
     return result;

@@ -5,9 +5,8 @@
 
 typedef struct aur_loader aur_loader;
 
-/* Builds the object that a node is; `parameters` holds its properties and nested objects. */
-typedef aur_result aur_object_builder(aur_loader *self, aur_xml_node *node, aur_parameters *parameters,
-                                      void **object);
+/* Builds the object that the loader's `node` is; `parameters` holds its properties and nested objects. */
+typedef aur_result aur_object_builder(aur_loader *self, aur_parameters *parameters, void **object);
 
 typedef struct aur_object_kind {
     const char *tag;
@@ -21,7 +20,8 @@ struct aur_loader {
     const aur_object_kind *kinds;
     const aur_bsdf *default_bsdf; /* of shapes that name none */
     const aur_bsdf *black_bsdf;   /* of lights that name none */
-    const aur_xml_node *top;      /* the child of <scene> that is being built */
+    const aur_xml_node *top;      /* the child of <scene> that is being built, */
+    const aur_xml_node *node;     /* and what of it or in it is */
     size_t depth;                 /* objects that are being built, each inside the one before */
     aur_error *error;
 };
@@ -38,8 +38,8 @@ aur_result aur_loader_find_target(aur_loader *self, aur_xml_node *child, aur_xml
 /* The nested object that is called by its kind, or NULL when it is absent. A texture may be given any name,
  * and a number or a string too: they are refused. */
 aur_result aur_loader_nested(aur_loader *self, aur_parameters *parameters, const char *kind, void **object);
-/* Appends to one of the scene's arrays of pointers. */
-aur_result aur_loader_append(aur_loader *self, size_t *count, size_t *capacity, void ***items, void *item);
+/* Makes room for one more pointer in one of the scene's arrays, `array` being its address. */
+aur_result aur_loader_reserve(aur_loader *self, void *array, size_t count, size_t *capacity);
 
 aur_object_builder aur_build_bsdf, aur_build_texture, aur_build_emitter, aur_build_shape;
 aur_object_builder aur_build_film, aur_build_filter, aur_build_sampler, aur_build_sensor;

@@ -2,6 +2,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "core/array.h"
 #include "scene/load/loader.h"
 #include "scene/load/properties.h"
 
@@ -22,7 +23,7 @@ static aur_result default_bsdf(aur_loader *self, bool light, const aur_bsdf **bs
     result = aur_parameters_add_text(&parameters, AUR_PARAMETER_FLOAT, "reflectance", light ? "0" : "0.5",
                                      (aur_location){0}, self->error);
     if (result == AUR_OK)
-        result = aur_build_bsdf(self, NULL, &parameters, &object);
+        result = aur_build_bsdf(self, &parameters, &object);
     *bsdf = *known = object;
     aur_parameters_release(&parameters);
     return result;
@@ -33,8 +34,8 @@ static aur_result add_to_group(aur_loader *self, aur_shape_group *group, const a
     const char *const plugin = aur_xml_attribute_value(target, "type");
     aur_shape *const shape = target->object;
     if (strcmp(plugin, AUR_GROUP_PLUGIN) == 0 || strcmp(plugin, instance_plugin) == 0 || shape->grouped)
-        return aur_fail_at(self->error, child->location, AUR_ERROR_FORMAT,
-                           "a shapegroup takes shapes of its own, no instances or other groups");
+        return aur_xml_fail(child, self->error,
+                            "a shapegroup takes shapes of its own, no instances or other groups");
     if (shape->emitter != AUR_NO_EMITTER)
         return aur_fail_at(self->error, child->location, AUR_ERROR_UNSUPPORTED,
                            "a shape in a shapegroup cannot be a light");
@@ -44,36 +45,30 @@ static aur_result add_to_group(aur_loader *self, aur_shape_group *group, const a
 }
 
 /* <shape type="shapegroup">: its shapes leave the scene and are seen through instances only. */
-static aur_result build_group(aur_loader *self, const aur_xml_node *node, aur_parameters *parameters,
-                              void **object) {
+static aur_result build_group(aur_loader *self, aur_parameters *parameters, void **object) {
     aur_scene *const scene = self->scene;
+    aur_result result = aur_loader_reserve(self, &scene->groups, scene->group_count, &scene->group_capacity);
     aur_shape_group *const group = calloc(1, sizeof *group);
-    aur_result result = group != NULL ? aur_loader_append(self, &scene->group_count, &scene->group_capacity,
-                                                          (void ***)&scene->groups, group)
-                                      : aur_fail_memory(self->error);
-    if (result != AUR_OK) {
+    if (result != AUR_OK || group == NULL) {
         free(group);
-        return result;
-    }
-    size_t most = 0;
-    for (const aur_xml_node *child = node->first_child; child != NULL; child = child->next)
-        ++most;
-    group->shapes = malloc((most + 1) * sizeof *group->shapes);
-    if (group->shapes == NULL)
         return aur_fail_memory(self->error);
-    for (aur_xml_node *child = node->first_child; child != NULL; child = child->next) {
+    }
+    scene->groups[scene->group_count++] = *object = group;
+    size_t capacity = 0;
+    for (aur_xml_node *child = self->node->first_child; child != NULL; child = child->next) {
         aur_xml_node *target;
         if (aur_xml_is_property(child->tag))
             continue;
+        if (!aur_array_reserve(&group->shapes, &capacity, group->count + 1, sizeof *group->shapes))
+            return aur_fail_memory(self->error);
         result = aur_loader_find_target(self, child, &target);
         if (result == AUR_OK && strcmp(target->tag, "shape") == 0)
             result = add_to_group(self, group, child, target);
         if (result != AUR_OK)
             return result;
     }
-    *object = group;
     if (group->count == 0)
-        return aur_fail_at(self->error, parameters->location, AUR_ERROR_FORMAT, "a shapegroup needs a shape");
+        return aur_xml_fail(self->node, self->error, "a shapegroup needs a shape");
     return aur_parameters_finish(parameters, self->error);
 }
 
@@ -84,16 +79,16 @@ static const aur_key instance_keys[] = {
 
 static aur_result build_instance(aur_loader *self, aur_parameters *parameters, void **object) {
     aur_scene *const scene = self->scene;
-    aur_instance *const instance = calloc(1, sizeof *instance);
-    aur_result result = instance != NULL
-                            ? aur_loader_append(self, &scene->instance_count, &scene->instance_capacity,
-                                                (void ***)&scene->instances, instance)
-                            : aur_fail_memory(self->error);
-    if (result != AUR_OK) {
-        free(instance);
-        return result;
-    }
     void *wanted;
+    aur_result result =
+        aur_loader_reserve(self, &scene->instances, scene->instance_count, &scene->instance_capacity);
+    aur_instance *const instance = calloc(1, sizeof *instance);
+    if (result != AUR_OK || instance == NULL) {
+        free(instance);
+        return aur_fail_memory(self->error);
+    }
+    scene->instances[scene->instance_count++] = *object = instance;
+    instance->location = parameters->location;
     result = aur_loader_nested(self, parameters, "shape", &wanted);
     if (result != AUR_OK)
         return result;
@@ -101,26 +96,21 @@ static aur_result build_instance(aur_loader *self, aur_parameters *parameters, v
         if (scene->groups[i] == wanted)
             instance->group = scene->groups[i];
     if (instance->group == NULL)
-        return aur_fail_at(self->error, parameters->location, AUR_ERROR_FORMAT,
-                           "shape 'instance' needs a reference to a shapegroup");
+        return aur_parameters_fail(parameters, self->error, AUR_ERROR_FORMAT,
+                                   "it needs a reference to a shapegroup");
     result = aur_keys_read(sizeof instance_keys / sizeof instance_keys[0], instance_keys, parameters,
                            instance, self->error);
     if (result == AUR_OK)
         result = aur_to_world_check(parameters, &instance->to_world, &instance->to_local, self->error);
-    if (result != AUR_OK)
-        return result;
-    instance->location = parameters->location;
-    *object = instance;
-    return aur_parameters_finish(parameters, self->error);
+    return result == AUR_OK ? aur_parameters_finish(parameters, self->error) : result;
 }
 
-aur_result aur_build_shape(aur_loader *self, aur_xml_node *node, aur_parameters *parameters, void **object) {
+aur_result aur_build_shape(aur_loader *self, aur_parameters *parameters, void **object) {
     if (strcmp(parameters->plugin, AUR_GROUP_PLUGIN) == 0)
-        return build_group(self, node, parameters, object);
+        return build_group(self, parameters, object);
     if (strcmp(parameters->plugin, instance_plugin) == 0)
         return build_instance(self, parameters, object);
     aur_scene *const scene = self->scene;
-    aur_shape *shape;
     void *found = NULL;
     aur_result result = aur_loader_nested(self, parameters, "emitter", &found);
     aur_emitter *const emitter = found;
@@ -133,24 +123,21 @@ aur_result aur_build_shape(aur_loader *self, aur_xml_node *node, aur_parameters 
         result = aur_fail_at(self->error, emitter->location, AUR_ERROR_FORMAT,
                              "emitter '%s' cannot stand inside a shape", emitter->descriptor->row.name);
     if (result == AUR_OK && emitter != NULL && emitter->shape != UINT32_MAX)
-        result = aur_fail_at(self->error, parameters->location, AUR_ERROR_FORMAT,
-                             "the emitter of this shape already belongs to another one");
+        result =
+            aur_xml_fail(self->node, self->error, "the emitter of this shape already belongs to another one");
     if (result == AUR_OK)
-        result = aur_shape_create(parameters, &scene->document, self->warnings, &shape, self->error);
+        result = aur_loader_reserve(self, &scene->shapes, scene->shape_count, &scene->shape_capacity);
+    aur_shape **const made = scene->shapes + scene->shape_count;
+    if (result == AUR_OK)
+        result = aur_shape_create(parameters, &scene->document, made, self->error);
     if (result != AUR_OK)
         return result;
-    result =
-        aur_loader_append(self, &scene->shape_count, &scene->shape_capacity, (void ***)&scene->shapes, shape);
-    if (result != AUR_OK) {
-        aur_shape_destroy(shape);
-        return result;
-    }
-    shape->bsdf = bsdf;
-    shape->index = (uint32_t)(scene->shape_count - 1);
+    *object = *made;
+    (*made)->bsdf = bsdf;
+    (*made)->index = (uint32_t)scene->shape_count++;
     if (emitter != NULL) {
-        emitter->shape = shape->index;
-        shape->emitter = emitter->index;
+        emitter->shape = (*made)->index;
+        (*made)->emitter = emitter->index;
     }
-    *object = shape;
     return AUR_OK;
 }

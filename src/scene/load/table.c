@@ -16,9 +16,8 @@ static aur_result build_top(aur_loader *self, aur_xml_node *node) {
     static const char *const inner[] = {"film", "rfilter", "sampler"};
     for (size_t i = 0; i < 3; ++i)
         if (strcmp(node->tag, inner[i]) == 0)
-            return aur_fail_at(self->error, node->location, AUR_ERROR_FORMAT,
-                               "<%s> cannot stand here: it belongs inside a <%s>", node->tag,
-                               i == 1 ? "film" : "sensor");
+            return aur_xml_fail(node, self->error, "<%s> cannot stand here: it belongs inside a <%s>",
+                                node->tag, i == 1 ? "film" : "sensor");
     if (aur_loader_find_kind(self, node->tag) == NULL)
         return aur_xml_fail_tag(node, sizeof names / sizeof names[0], names, self->error);
     if (strcmp(node->tag, "sensor") == 0 && self->scene->has_sensor) {
@@ -32,8 +31,8 @@ static aur_result build_top(aur_loader *self, aur_xml_node *node) {
     const aur_emitter *const emitter = node->object;
     if (!emitter->descriptor->needs_shape)
         return AUR_OK;
-    return aur_fail_at(self->error, node->location, AUR_ERROR_FORMAT,
-                       "emitter '%s' must stand inside a <shape>", emitter->descriptor->row.name);
+    return aur_xml_fail(node, self->error, "emitter '%s' must stand inside a <shape>",
+                        emitter->descriptor->row.name);
 }
 
 aur_result aur_scene_build(aur_scene *scene, const aur_warnings *warnings, aur_error *error) {
@@ -51,7 +50,7 @@ aur_result aur_scene_build(aur_scene *scene, const aur_warnings *warnings, aur_e
             return result;
     }
     if (!scene->has_sensor)
-        return aur_fail_at(error, root->location, AUR_ERROR_FORMAT, "the scene has no <sensor>");
+        return aur_xml_fail(root, error, "the scene has no <sensor>");
     if (scene->sampler == NULL && (scene->sampler = strdup("random")) == NULL)
         return aur_fail_memory(error);
     if (scene->has_integrator)

@@ -39,12 +39,12 @@ static const aur_row *row_at(size_t index) {
 
 const aur_table aur_shape_table = {"shape", "surfaces", row_at, &common};
 
-aur_result aur_shape_create(aur_parameters *parameters, const aur_xml_document *document,
-                            const aur_warnings *warnings, aur_shape **shape, aur_error *error) {
+aur_result aur_shape_create(aur_parameters *parameters, const aur_xml_document *document, aur_shape **shape,
+                            aur_error *error) {
     *shape = NULL;
     const aur_row *row;
     aur_shape_keys keys = {.bsdf = NULL};
-    aur_shape_input input = {.parameters = parameters, .document = document, .warnings = warnings};
+    aur_shape_input input = {.parameters = parameters, .document = document};
     aur_result result = aur_table_find(&aur_shape_table, parameters, &row, error);
     if (result == AUR_OK)
         result = aur_keys_read(common.key_count, common.keys, parameters, &keys, error);

@@ -7,7 +7,8 @@
 #include "core/array.h"
 #include "core/names.h"
 
-#include "core/text.h"
+/* A few kilobytes of <default>s that double each other must not become an endless scene. */
+enum { MOST_SUBSTITUTED = 1 << 26 };
 
 static aur_xml_variable *find(const aur_xml_variables *variables, const char *name) {
     for (size_t i = 0; i < variables->count; ++i)
@@ -17,16 +18,14 @@ static aur_xml_variable *find(const aur_xml_variables *variables, const char *na
 }
 
 static aur_result add(aur_xml_variables *variables, const char *name, const char *value, bool defined,
-                      aur_location location, aur_error *error) {
-    if (!aur_array_reserve(&variables->items, &variables->capacity, variables->count + 1,
+                      aur_error *error) {
+    const aur_xml_variable item = {.name = aur_arena_copy(variables->arena, name, strlen(name)),
+                                   .value = aur_arena_copy(variables->arena, value, strlen(value)),
+                                   .defined = defined};
+    if (item.name == NULL || item.value == NULL ||
+        !aur_array_reserve(&variables->items, &variables->capacity, variables->count + 1,
                            sizeof *variables->items))
         return aur_fail_memory(error);
-    const aur_xml_variable item = {strdup(name), strdup(value), false, defined};
-    if (item.name == NULL || item.value == NULL) {
-        free(item.name);
-        free(item.value);
-        return aur_fail_memory_at(error, location);
-    }
     size_t place = variables->count++;
     for (; place > 0 && strlen(variables->items[place - 1].name) < strlen(name); --place)
         variables->items[place] = variables->items[place - 1];
@@ -34,34 +33,20 @@ static aur_result add(aur_xml_variables *variables, const char *name, const char
     return AUR_OK;
 }
 
-aur_result aur_xml_variables_init(aur_xml_variables *variables, const aur_scene_options *options,
-                                  aur_error *error) {
-    *variables = (aur_xml_variables){0};
-    for (size_t i = 0; options != NULL && i < options->definition_count; ++i) {
+aur_result aur_xml_variables_define(aur_xml_variables *variables, const aur_scene_options *options,
+                                    aur_error *error) {
+    for (size_t i = 0; i < options->definition_count; ++i) {
         const aur_definition *const definition = &options->definitions[i];
-        aur_result result = AUR_OK;
         if (definition->name[0] == '\0')
-            result =
-                aur_fail(error, AUR_ERROR_ARGUMENT, "-D: a name is missing before '=%s'", definition->value);
-        else if (find(variables, definition->name) != NULL)
-            result = aur_fail(error, AUR_ERROR_ARGUMENT, "-D: '%s' is given twice", definition->name);
-        else
-            result = add(variables, definition->name, definition->value, true, (aur_location){0}, error);
-        if (result != AUR_OK) {
-            aur_xml_variables_release(variables);
+            return aur_fail(error, AUR_ERROR_ARGUMENT, "-D: a name is missing before '=%s'",
+                            definition->value);
+        if (find(variables, definition->name) != NULL)
+            return aur_fail(error, AUR_ERROR_ARGUMENT, "-D: '%s' is given twice", definition->name);
+        const aur_result result = add(variables, definition->name, definition->value, true, error);
+        if (result != AUR_OK)
             return result;
-        }
     }
     return AUR_OK;
-}
-
-void aur_xml_variables_release(aur_xml_variables *variables) {
-    for (size_t i = 0; i < variables->count; ++i) {
-        free(variables->items[i].name);
-        free(variables->items[i].value);
-    }
-    free(variables->items);
-    *variables = (aur_xml_variables){0};
 }
 
 aur_result aur_xml_variables_default(aur_xml_variables *variables, const char *name, const char *value,
@@ -70,7 +55,7 @@ aur_result aur_xml_variables_default(aur_xml_variables *variables, const char *n
         return aur_fail_at(error, location, AUR_ERROR_FORMAT, "<default>: the name is empty");
     aur_xml_variable *const known = find(variables, name);
     if (known == NULL)
-        return add(variables, name, value, false, location, error);
+        return add(variables, name, value, false, error);
     known->used = true;
     return AUR_OK;
 }
@@ -89,75 +74,64 @@ static const char *name_at(const void *items, size_t index) {
 
 static aur_result fail_undefined(const aur_xml_variables *variables, const char *text, aur_location location,
                                  aur_error *error) {
-    char name[64];
+    char name[64], hint[AUR_HINT_CAPACITY];
     size_t length = 0;
-    while (length + 1 < sizeof name && (isalnum((unsigned char)text[length]) || text[length] == '_')) {
+    for (; length + 1 < sizeof name && (isalnum((unsigned char)text[length]) || text[length] == '_');
+         ++length)
         name[length] = text[length];
-        ++length;
-    }
     name[length] = '\0';
-    const char *const nearest =
-        aur_names_nearest((aur_names){variables->count, name_at, variables->items}, name);
-    if (nearest != NULL)
-        return aur_fail_at(error, location, AUR_ERROR_NAME, "$%s is not defined; did you mean '$%s'?", name,
-                           nearest);
+    aur_names_hint((aur_names){variables->count, name_at, variables->items}, name, "''", hint);
+    if (hint[0] != '\0')
+        return aur_fail_at(error, location, AUR_ERROR_NAME, "$%s is not defined%s", name, hint);
     return aur_fail_at(error, location, AUR_ERROR_NAME,
                        "$%s is not defined: give it a <default>, or a value by -D %s=...", name, name);
 }
 
-typedef struct text_buffer {
-    char *text;
-    size_t length, capacity;
-} text_buffer;
-
-static bool append(text_buffer *buffer, const char *text, size_t length) {
-    if (!aur_array_reserve(&buffer->text, &buffer->capacity, buffer->length + length + 1, 1))
-        return false;
-    memcpy(buffer->text + buffer->length, text, length);
-    buffer->length += length;
-    buffer->text[buffer->length] = '\0';
-    return true;
+/* Puts the text with its $names replaced into `out`, if it is given, and its length into *length. */
+static aur_result write_text(const aur_xml_variables *variables, const char *text, aur_location location,
+                             char *out, size_t *length, aur_error *error) {
+    const char *const start = text;
+    for (*length = 0; *text != '\0';) {
+        const char *piece = text;
+        size_t size = strcspn(text, "$\\"), taken = size;
+        if (text[0] == '$') {
+            aur_xml_variable *const variable = match(variables, text + 1);
+            if (variable == NULL)
+                return fail_undefined(variables, text + 1, location, error);
+            variable->used = true;
+            piece = variable->value;
+            size = strlen(piece);
+            taken = 1 + strlen(variable->name);
+        } else if (text[0] == '\\') {
+            taken = text[1] == '$' ? 2 : 1;
+            piece = &text[taken - 1];
+            size = 1;
+        }
+        if (out != NULL)
+            memcpy(out + *length, piece, size);
+        *length += size;
+        text += taken;
+        if (*length > (size_t)(text - start) + MOST_SUBSTITUTED - variables->substituted_bytes)
+            return aur_fail_at(error, location, AUR_ERROR_FORMAT,
+                               "the values of $names make the scene more than %d bytes longer",
+                               MOST_SUBSTITUTED);
+    }
+    return AUR_OK;
 }
-
-enum { LONGEST_VALUE = 1 << 24 };
 
 aur_result aur_xml_variables_substitute(aur_xml_variables *variables, const char *text, aur_location location,
                                         char **result, aur_error *error) {
-    text_buffer buffer = {0};
-    aur_result status = AUR_OK;
-    bool enough = append(&buffer, "", 0);
-    while (enough && status == AUR_OK && *text != '\0') {
-        const size_t plain = strcspn(text, "$\\");
-        enough = append(&buffer, text, plain);
-        text += plain;
-        if (text[0] == '\\' && text[1] == '$') {
-            enough = enough && append(&buffer, "$", 1);
-            text += 2;
-        } else if (text[0] == '\\') {
-            enough = enough && append(&buffer, "\\", 1);
-            ++text;
-        } else if (text[0] == '$') {
-            aur_xml_variable *const variable = match(variables, text + 1);
-            if (variable == NULL) {
-                status = fail_undefined(variables, text + 1, location, error);
-                break;
-            }
-            variable->used = true;
-            enough = enough && append(&buffer, variable->value, strlen(variable->value));
-            text += 1 + strlen(variable->name);
-        }
-        if (buffer.length > LONGEST_VALUE)
-            status = aur_fail_at(error, location, AUR_ERROR_FORMAT, "a value is longer than %d bytes",
-                                 LONGEST_VALUE);
-    }
-    if (!enough)
-        status = aur_fail_memory_at(error, location);
-    if (status != AUR_OK) {
-        free(buffer.text);
+    size_t length;
+    const aur_result status = write_text(variables, text, location, NULL, &length, error);
+    if (status != AUR_OK)
         return status;
-    }
-    *result = buffer.text;
-    return AUR_OK;
+    *result = aur_arena_allocate(variables->arena, length + 1);
+    if (*result == NULL)
+        return aur_fail_memory(error);
+    const size_t before = strlen(text);
+    const aur_result written = write_text(variables, text, location, *result, &length, error);
+    variables->substituted_bytes += length > before ? length - before : 0;
+    return written;
 }
 
 aur_result aur_xml_variables_finish(const aur_xml_variables *variables, const char *file, aur_error *error) {
@@ -165,23 +139,16 @@ aur_result aur_xml_variables_finish(const aur_xml_variables *variables, const ch
         const aur_xml_variable *const item = &variables->items[i];
         if (!item->defined || item->used)
             continue;
-        const aur_location location = {.file = file};
-        const char **const names = malloc(variables->count * sizeof *names);
+        const char **const used = malloc(variables->count * sizeof *used);
         size_t count = 0;
-        for (size_t k = 0; names != NULL && k < variables->count; ++k)
+        for (size_t k = 0; used != NULL && k < variables->count; ++k)
             if (variables->items[k].used)
-                names[count++] = variables->items[k].name;
-        const char *const nearest = names != NULL ? aur_nearest_name(item->name, count, names) : NULL;
-        aur_result result;
-        if (nearest != NULL)
-            result = aur_fail_at(error, location, AUR_ERROR_NAME,
-                                 "-D %s=...: the scene has no $%s; did you mean '%s'?", item->name,
-                                 item->name, nearest);
-        else
-            result = aur_fail_at(error, location, AUR_ERROR_NAME, "-D %s=...: the scene has no $%s",
-                                 item->name, item->name);
-        free(names);
-        return result;
+                used[count++] = variables->items[k].name;
+        char hint[AUR_HINT_CAPACITY];
+        aur_names_hint(aur_names_of(count, used), item->name, "''", hint);
+        free(used);
+        return aur_fail_at(error, (aur_location){.file = file}, AUR_ERROR_NAME,
+                           "-D %s=...: the scene has no $%s%s", item->name, item->name, hint);
     }
     return AUR_OK;
 }

@@ -32,24 +32,19 @@ struct aur_xml_node {
     void *object;
 };
 
-typedef struct aur_xml_folder {
-    const char *path;
-    struct aur_xml_folder *next;
-} aur_xml_folder;
-
 typedef struct aur_xml_id {
     const char *id;
     aur_xml_node *node;
-    aur_location location;
-    size_t order;
+    size_t order; /* in the files */
 } aur_xml_id;
 
 typedef struct aur_xml_document {
-    aur_arena arena; /* holds all that follows */
+    aur_arena arena; /* holds the nodes and all texts */
     aur_xml_node *root;
-    aur_xml_folder *folders; /* of <path> */
-    size_t id_count;
-    aur_xml_id *ids; /* sorted; malloc */
+    size_t folder_count, folder_capacity;
+    const char **folders; /* of <path> */
+    size_t id_count, id_capacity;
+    aur_xml_id *ids; /* sorted */
 } aur_xml_document;
 
 /* From the file at `path`, or from `data`, where it is given. On failure *document needs no release. */
@@ -59,15 +54,24 @@ void aur_xml_release(aur_xml_document *document);
 
 /* NULL when absent. */
 const char *aur_xml_attribute_value(const aur_xml_node *node, const char *name);
-/* An error when the node has another attribute than the `count` named ones. */
-aur_result aur_xml_check_attributes(const aur_xml_node *node, size_t count, const char *const *names,
-                                    aur_error *error);
 
-/* The attribute, or an error that names it. */
-aur_result aur_xml_require(const aur_xml_node *node, const char *name, const char **value, aur_error *error);
+enum { AUR_XML_MOST_NAMES = 5 };
+
+/* What attributes an element may have; the first `required` of them must be given. */
+typedef struct aur_xml_rule {
+    const char *tag;
+    size_t required;
+    const char *names[AUR_XML_MOST_NAMES + 1]; /* ends with NULL */
+} aur_xml_rule;
+
+/* Errors: NAME for an attribute that the rule does not name, FORMAT for one that is missing. */
+aur_result aur_xml_check(const aur_xml_node *node, const aur_xml_rule *rule, aur_error *error);
+
+/* A FORMAT error at the node. */
+aur_result aur_xml_fail(const aur_xml_node *node, aur_error *error, const char *format, ...) AUR_PRINTF(3, 4);
 
 /* NULL when there is none. */
-const aur_xml_id *aur_xml_find_id(const aur_xml_document *document, const char *id);
+aur_xml_id *aur_xml_find_id(const aur_xml_document *document, const char *id);
 
 /* The path of a regular file under which an asset named in `location.file` can be read: beside that file,
  * beside the scene, in a <path>, or in the working folder. `found` is allocated with malloc. The error names
