@@ -5,7 +5,7 @@
 #include <unistd.h>
 
 #include "fuzz.h"
-#include "quadrature/weight_table.h"
+#include "quadrature/tables/weight_table.h"
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
     char *const text = malloc(size + 1);

@@ -23,6 +23,9 @@ quality/table
 quality/sphere quality/square quality/spectrum
 quality/pairs
 quality
+quadrature/tables
+quadrature/weights
+quadrature/potential quadrature/linear
 quadrature
 scene/load
 scene/shapes scene/lights scene/sensors

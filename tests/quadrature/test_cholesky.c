@@ -7,8 +7,8 @@
 #include <string.h>
 
 #include "core/simd.h"
-#include "quadrature/cholesky.h"
-#include "quadrature/solve.h"
+#include "quadrature/linear/cholesky.h"
+#include "quadrature/linear/solve.h"
 
 /* The kernel for s = 3/2 of a spiral of points, with the default regularisation: what the weights ask for. */
 static double *kernel_matrix(size_t n) {

@@ -6,8 +6,8 @@
 #include <string.h>
 
 #include "check.h"
-#include "quadrature/potential_table.h"
-#include "quadrature/weight_rows.h"
+#include "quadrature/potential/potential_table.h"
+#include "quadrature/tables/weight_rows.h"
 
 #define PI 3.14159265358979323846
 

@@ -4,9 +4,9 @@
 #include <string.h>
 
 #include "check.h"
-#include "quadrature/gauss.h"
 #include "quadrature/lobes.h"
-#include "quadrature/potential.h"
+#include "quadrature/potential/gauss.h"
+#include "quadrature/potential/potential.h"
 
 #define PI 3.14159265358979323846
 

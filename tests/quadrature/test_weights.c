@@ -4,8 +4,8 @@
 #include <string.h>
 
 #include "check.h"
+#include "quadrature/linear/solve.h"
 #include "quadrature/lobes.h"
-#include "quadrature/solve.h"
 
 #define PI 3.14159265358979323846
 

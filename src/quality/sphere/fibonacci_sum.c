@@ -12,7 +12,7 @@
 
 #include "core/parallel.h"
 #include "core/vector.h"
-#include "quadrature/gauss.h"
+#include "quadrature/potential/gauss.h"
 #include "sphere/phase.h"
 
 enum {

@@ -3,7 +3,7 @@
 #include <stdlib.h>
 
 #include "core/error.h"
-#include "quadrature/weight_rows.h"
+#include "quadrature/tables/weight_rows.h"
 
 /* --- making one */
 

@@ -2,7 +2,7 @@
 
 #define LANES 2
 #define ROWS 4
-#include "quadrature/cholesky_body.h"
+#include "quadrature/linear/cholesky_body.h"
 
 const aur_cholesky aur_cholesky_portable = {factor, solve};
 

@@ -1,13 +1,13 @@
 /* OSWA weights at many angles and turns, so that rendering needs no solve: what a table is, and looking it
  * up. */
-#include "quadrature/weight_table.h"
+#include "quadrature/tables/weight_table.h"
 
 #include <stdlib.h>
 
 #include "core/memory.h"
 #include "core/vector.h"
 #include "quadrature/check.h"
-#include "quadrature/solve.h"
+#include "quadrature/linear/solve.h"
 
 aur_result aur_weight_table_create(const aur_oswa_options *options, size_t angle_count, size_t rotation_count,
                                    bool solves, aur_weight_table **table, aur_error *error) {

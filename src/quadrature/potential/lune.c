@@ -1,10 +1,10 @@
-#include "quadrature/lune.h"
+#include "quadrature/potential/lune.h"
 
 #include <math.h>
 
 #include "core/vector.h"
 #include "core/vector3d.h"
-#include "quadrature/gauss.h"
+#include "quadrature/potential/gauss.h"
 
 static const double negligible = 1e-13;
 

@@ -1,6 +1,6 @@
 /* Two lobes and the union of their samples (Marques 2018 sections 5.3 and 6.2), at any angle, whole or
  * clipped. */
-#include "quadrature/oswa.h"
+#include "quadrature/tables/oswa.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -11,7 +11,7 @@
 #include "core/vector.h"
 #include "core/vector3d.h"
 #include "quadrature/check.h"
-#include "quadrature/solve.h"
+#include "quadrature/linear/solve.h"
 
 static bool is_ggx(const aur_oswa *oswa) {
     return oswa->lobe[1].kind == AUR_LOBE_GGX;

@@ -5,8 +5,8 @@
 
 #include "core/memory.h"
 #include "core/parallel.h"
-#include "quadrature/solve.h"
-#include "quadrature/weight_table.h"
+#include "quadrature/linear/solve.h"
+#include "quadrature/tables/weight_table.h"
 
 typedef struct build {
     aur_weight_table *table;

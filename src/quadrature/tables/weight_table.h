@@ -2,8 +2,8 @@
 #pragma once
 
 #include "core/vector.h"
-#include "quadrature/oswa.h"
-#include "quadrature/weight_rows.h"
+#include "quadrature/tables/oswa.h"
+#include "quadrature/tables/weight_rows.h"
 
 /* A row holds the weights of both lobes at one angle. Where samples can be hidden, the intervals between
  * angles are cut into pieces where a sample crosses the horizon, so that within a piece the same samples take

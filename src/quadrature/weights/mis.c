@@ -4,7 +4,7 @@
 
 #include "core/error.h"
 #include "core/vector3d.h"
-#include "quadrature/potential.h"
+#include "quadrature/potential/potential.h"
 
 static double square(double x) {
     return x * x;

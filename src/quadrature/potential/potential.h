@@ -5,8 +5,8 @@
 #include <stdbool.h>
 
 #include "quadrature/kernel.h"
-#include "quadrature/lune.h"
-#include "quadrature/zonal.h"
+#include "quadrature/potential/lune.h"
+#include "quadrature/potential/zonal.h"
 
 struct aur_potential {
     aur_density density; /* its axis a unit vector, node_count what it stands for */

@@ -8,7 +8,7 @@
 #include "core/file.h"
 #include "core/random.h"
 #include "core/text.h"
-#include "quadrature/weight_table.h"
+#include "quadrature/tables/weight_table.h"
 
 enum { VERSION = 2, HEADER_CAPACITY = 4096, VALUE_CAPACITY = 64, HASH_BYTES = 8 };
 

@@ -4,7 +4,7 @@
 
 #include "core/vector.h"
 #include "core/vector3d.h"
-#include "quadrature/potential.h"
+#include "quadrature/potential/potential.h"
 
 /* Point i of `count` even ones on the hemisphere about +z, or on the whole sphere. */
 static void even_direction(size_t i, size_t count, int whole_sphere, double direction[3]) {

@@ -1,6 +1,6 @@
 #include "core/file.h"
 #include "core/text.h"
-#include "quadrature/potential.h"
+#include "quadrature/potential/potential.h"
 
 aur_result aur_weights_write(const char *path, size_t count, const double *xyz, size_t density_count,
                              const double *weights, aur_error *error) {

@@ -1,5 +1,5 @@
 /* Legendre series of the kernel and of cos^m; see docs/papers/marques-2018.md for the derivation. */
-#include "quadrature/zonal.h"
+#include "quadrature/potential/zonal.h"
 
 #include <aureole/quadrature.h>
 #include <math.h>

@@ -5,8 +5,8 @@
 #include <string.h>
 
 #include "quadrature/check.h"
-#include "quadrature/potential.h"
-#include "quadrature/solve.h"
+#include "quadrature/linear/solve.h"
+#include "quadrature/potential/potential.h"
 
 /* Samples whose kernel values differ by less than rounding in the matrix are one sample. */
 static const double same_place = 1e-13;

@@ -1,10 +1,10 @@
-#include "quadrature/solve.h"
+#include "quadrature/linear/solve.h"
 
 #include <math.h>
 #include <stdlib.h>
 
 #include "core/memory.h"
-#include "quadrature/cholesky.h"
+#include "quadrature/linear/cholesky.h"
 
 aur_result aur_check_system_size(size_t size, aur_error *error) {
     const double needed = (double)size * (double)size * sizeof(double);

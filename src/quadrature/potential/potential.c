@@ -1,4 +1,4 @@
-#include "quadrature/potential.h"
+#include "quadrature/potential/potential.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -3,8 +3,8 @@
 
 #include <stdbool.h>
 
-#include "quadrature/potential.h"
-#include "quadrature/potential_table.h"
+#include "quadrature/potential/potential.h"
+#include "quadrature/potential/potential_table.h"
 
 /* The patterns are numbered 0 (about the normal) and 1 (about the mirror direction). */
 struct aur_oswa {

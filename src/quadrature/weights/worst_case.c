@@ -3,7 +3,7 @@
 
 #include "core/parallel.h"
 #include "quadrature/check.h"
-#include "quadrature/potential.h"
+#include "quadrature/potential/potential.h"
 
 enum { BLOCK = 64 };
 

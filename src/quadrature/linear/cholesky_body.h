@@ -3,7 +3,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "quadrature/cholesky.h"
+#include "quadrature/linear/cholesky.h"
 
 typedef double lanes __attribute__((vector_size(8 * LANES)));
 

@@ -1,4 +1,4 @@
-#include "quadrature/gauss.h"
+#include "quadrature/potential/gauss.h"
 
 #include <math.h>
 

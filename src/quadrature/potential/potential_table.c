@@ -1,4 +1,4 @@
-#include "quadrature/potential_table.h"
+#include "quadrature/potential/potential_table.h"
 
 #include <math.h>
 #include <stdlib.h>
