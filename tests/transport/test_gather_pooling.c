@@ -3,8 +3,7 @@
 
 #include <stdlib.h>
 
-#include "transport/gather/pooling.h"
-#include "transport/packets/interleave.h"
+#include "transport/gather/strata.h"
 
 enum { SIDE = AUR_TILE_SIZE, BLOCK = AUR_GROUPS_A_SIDE };
 

@@ -1,7 +1,6 @@
 /* Directions of a rule made into gather rays at sixteen places. */
 #pragma once
 
-#include "transport/gather/scratch.h"
 #include "transport/gather/sums.h"
 
 /* Frames of the lobes, and normals on the side that is seen, an array a coordinate. */

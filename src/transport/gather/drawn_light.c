@@ -1,5 +1,4 @@
-#include "transport/gather/drawn_light.h"
-
+#include "transport/gather/estimators.h"
 #include "transport/lights/direct_light.h"
 
 /* BSDF * cos towards a light, each lobe less the part that its gather rays find. */
@@ -95,28 +94,17 @@ void aur_gather_add_direct_light(const aur_gather_plan *plan, const aur_gather_p
 static aur_light_sample light_from(const aur_gather_plan *plan, const aur_bright_point *point,
                                    aur_vector position) {
     const aur_gather_light *const from = &plan->light;
-    const aur_vector albedo = plan->classes[point->shape].albedo_on_pi[point->behind];
-    const aur_texel_light *const light =
-        aur_irradiance_on_triangle(from->map, point->element, point->u, point->v, point->behind);
-    const aur_vector known = aur_vector_multiply(albedo, light->irradiance);
+    aur_vector known;
+    const aur_vector radiance = aur_gather_plan_radiance(plan, point->shape, point->element, point->u,
+                                                         point->v, point->behind, &known);
     const aur_vector offset = aur_vector_subtract(point->position, position);
-    const float square = aur_vector_dot(offset, offset), distance = sqrtf(square);
-    const aur_vector direction = aur_vector_scale(offset, 1.0f / distance);
+    const float square = aur_vector_dot(offset, offset);
+    const aur_vector direction = aur_vector_scale(offset, 1.0f / sqrtf(square));
     const float cosine = -aur_vector_dot(direction, point->normal);
-    aur_light_sample sample = {.position = point->position,
-                               .normal = point->normal,
-                               .direction = direction,
-                               .distance = distance,
-                               .radiance = known};
-    if (!(cosine > 0.0f) || !(square > 0.0f))
-        return sample;
-    sample.pdf =
-        aur_bright_texels_density(&from->bright, known) * (float)from->bright_draws * square / cosine;
-    if (from->caustics != NULL) {
-        const aur_texel_light *const caustic =
-            aur_irradiance_on_triangle(from->caustics, point->element, point->u, point->v, point->behind);
-        sample.radiance = aur_vector_add(sample.radiance, aur_vector_multiply(albedo, caustic->irradiance));
-    }
+    aur_light_sample sample = {.position = point->position, .direction = direction, .radiance = radiance};
+    if (cosine > 0.0f && square > 0.0f)
+        sample.pdf =
+            aur_bright_texels_density(&from->bright, known) * (float)from->bright_draws * square / cosine;
     return sample;
 }
 

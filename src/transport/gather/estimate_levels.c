@@ -100,7 +100,7 @@ void aur_gather_by_levels(const aur_gather_plan *plan, const aur_gather_places *
                           aur_gather_sums *sums, aur_gather_scratch *scratch) {
     aur_gather_sweep sweep;
     aur_gather_sweep_start(plan, places, rule, lobe, lanes, &sweep, &scratch->rays);
-    adaptive_state state = {.values = scratch->values};
+    adaptive_state state = {.values = scratch->numbers};
     for (size_t level = 0; sweep.lanes != 0; ++level) {
         add_level(plan, places, &sweep, level, &state, &scratch->rays, sums->counters);
         for (uint32_t rest = sweep.lanes; rest != 0; rest &= rest - 1) {

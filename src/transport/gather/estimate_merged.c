@@ -228,7 +228,7 @@ uint32_t aur_gather_by_merged(const aur_gather_plan *plan, const aur_gather_plac
                    .subset = places->index % plan->samples_per_pixel,
                    .subset_count = {first->subset_count[0], first->subset_count[1]},
                    .samples = aur_merged_rule_samples(first),
-                   .weights = scratch->merged};
+                   .weights = scratch->numbers};
     const uint32_t lanes = prepare(&work, &scratch->rays, sums->counters);
     if (lanes == 0)
         return places->lanes;

@@ -1,9 +1,12 @@
-/* Where a ray's hit is plainly diffuse, its radiance is one read of the irradiance map; else it is what
- * chain.c finds. */
+/* Where a gather ray meets a plainly diffuse surface, its radiance is one read of the irradiance map. At
+ * every other one it finds the light that the surface emits, what the photon maps know of the light that it
+ * scatters, and, by lobes that they do not answer for - mirrors, glass, rough facets -, light drawn from the
+ * lights; and it goes on by one of those lobes. */
 #include "transport/gather/incident.h"
 
-#include "transport/gather/chain.h"
 #include "transport/lights/direct_light.h"
+
+/* --- packets */
 
 uint32_t aur_gather_intersect(const aur_gather_plan *plan, aur_embree_order order, aur_packet *packet,
                               aur_counters *counters) {
@@ -28,11 +31,175 @@ uint32_t aur_gather_occluded(const aur_gather_plan *plan, aur_embree_order order
     return stopped;
 }
 
-static void set_radiance(aur_gather_rays *rays, size_t lane, aur_vector radiance) {
-    rays->radiance[0][lane] = radiance.x;
-    rays->radiance[1][lane] = radiance.y;
-    rays->radiance[2][lane] = radiance.z;
+/* --- a ray that goes on */
+
+/* The ray, and how it came to where it is. */
+typedef struct gather_chain {
+    aur_ray ray;
+    uint64_t hash;        /* of what chance decides on its way */
+    uint32_t length;      /* bounces since the gathering point */
+    bool specular;        /* all of them */
+    bool mirrored;        /* the last one: lights are not sampled for it */
+    aur_vector reference; /* where the ray began */
+    float density;        /* with which its direction was drawn, a steradian, times how often */
+    float light_draws;    /* points on lights that were drawn there */
+} gather_chain;
+
+/* A draw of the lobes that the photon map does not answer for; light in world coordinates. */
+static bool draw_onward(const aur_shading *shading, unsigned kinds, const float u[3],
+                        aur_bsdf_sample *drawn) {
+    if ((kinds & AUR_SCATTERS_SPECULAR) == 0)
+        return aur_shading_draw(shading, AUR_BSDF_SAMPLED_LOBES, u, drawn);
+    if (!aur_shading_sample(shading, u, drawn))
+        return false;
+    if (drawn->specular || (kinds & AUR_SCATTERS_SAMPLED) == 0)
+        return drawn->specular;
+    const aur_surface *const surface = shading->surface;
+    const aur_vector light = aur_frame_to_local(&surface->frame, drawn->light);
+    float pdf;
+    const aur_vector value = aur_bsdf_evaluate(surface->bsdf, AUR_BSDF_SAMPLED_LOBES, surface->texture,
+                                               shading->view, light, &pdf);
+    drawn->weight = aur_vector_scale(value, 1.0f / drawn->pdf);
+    return drawn->pdf > 0.0f;
 }
+
+/* The light that a surface emits along the ray, or the sky where there is none: the part of it that the ray
+ * counts. The rest is found by sampling the light. */
+static aur_vector emitted_radiance(const aur_gather_plan *plan, const gather_chain *chain,
+                                   const aur_surface *surface) {
+    const aur_vector direction = chain->ray.direction, black = {0};
+    if (plan->policy.direct != AUR_DIRECT_NEE && !plan->counts_emitters)
+        return black;
+    const aur_vector emission =
+        surface != NULL ? aur_surface_emission(plan->scene, surface, aur_vector_scale(direction, -1.0f))
+                        : aur_scene_environment(plan->scene, direction);
+    if (aur_vector_is_zero(emission) || plan->counts_emitters)
+        return emission;
+    /* Light that a mirror throws here is found by caustic photons, if there are. */
+    if (chain->mirrored)
+        return plan->light.caustics != NULL && chain->specular ? black : emission;
+    const float pdf = surface != NULL
+                          ? aur_light_pdf_direct(plan->scene, chain->reference, AUR_LEAST_LIGHT_SEEN, surface)
+                          : aur_environment_pdf_direct(plan->scene, direction);
+    return aur_vector_scale(emission, aur_power_heuristic(chain->density, chain->light_draws * pdf));
+}
+
+/* What the photon maps know of the light that leaves a surface. */
+static aur_vector scattered_radiance(const aur_gather_plan *plan, const aur_hit *hit,
+                                     const aur_surface *surface, aur_vector view) {
+    aur_vector sum = {0};
+    if (plan->light.map != NULL)
+        sum = aur_irradiance_radiance(plan->light.map, plan->scene, hit, surface, view);
+    if (plan->light.caustics != NULL)
+        sum = aur_vector_add(sum,
+                             aur_irradiance_radiance(plan->light.caustics, plan->scene, hit, surface, view));
+    return sum;
+}
+
+/* Weak reflections are followed now and then, so many times as often as they are strong. */
+static const float BOOST = 8.0f;
+
+static float draw_unit(uint64_t *hash) {
+    *hash = aur_mix64(*hash + 1);
+    return aur_unit_float((uint32_t)(*hash >> 32));
+}
+
+static void draw_units(uint64_t *hash, float u[3]) {
+    for (size_t i = 0; i < 3; ++i)
+        u[i] = draw_unit(hash);
+}
+
+/* A point on a light, reflected by the sampled lobe, weighed beside the ray that goes on. What is weak beside
+ * the radiance `known` of the surface is asked for now and then. */
+static aur_vector sampled_light(const aur_gather_plan *plan, const aur_shading *shading, unsigned kinds,
+                                aur_vector known, uint64_t *hash, aur_counters *counters) {
+    const aur_vector black = {0};
+    const aur_surface *const surface = shading->surface;
+    float u[3];
+    aur_light_sample light;
+    draw_units(hash, u);
+    if (!aur_light_sample_direct(plan->scene, surface->position, AUR_LEAST_LIGHT_SEEN, u, &light) ||
+        !(light.pdf > 0.0f))
+        return black;
+    const aur_vector local = aur_frame_to_local(&surface->frame, light.direction);
+    if (aur_vector_dot(surface->geometric_normal, light.direction) * local.z <= 0.0f)
+        return black;
+    const aur_bsdf *const bsdf = surface->bsdf;
+    float rival;
+    const aur_vector value =
+        aur_bsdf_evaluate(bsdf, AUR_BSDF_SAMPLED_LOBES, surface->texture, shading->view, local, &rival);
+    if (aur_vector_is_zero(value))
+        return black;
+    if ((kinds & AUR_SCATTERS_SPECULAR) != 0)
+        aur_bsdf_evaluate(bsdf, AUR_BSDF_WHOLE, surface->texture, shading->view, local, &rival);
+    const float weight = light.delta ? 1.0f : aur_power_heuristic(light.pdf, rival);
+    const aur_vector radiance =
+        aur_vector_scale(aur_vector_multiply(value, light.radiance), weight / light.pdf);
+    const float strength = aur_vector_max(radiance);
+    const float survival = fminf(1.0f, BOOST * strength / (strength + aur_vector_max(known)));
+    if (!(draw_unit(hash) < survival))
+        return black;
+    float distance;
+    const aur_ray shadow = aur_surface_ray_to(surface, light.position, &distance);
+    ++counters->rays;
+    return aur_scene_occluded(plan->scene, &shadow) ? black : aur_vector_scale(radiance, 1.0f / survival);
+}
+
+/* `hit` is the ray's first one, or NULL when it left the scene. */
+static aur_vector chain_radiance(const aur_gather_plan *plan, gather_chain chain, const aur_hit *hit,
+                                 aur_counters *counters) {
+    const aur_scene *const scene = plan->scene;
+    const bool samples_lights =
+        plan->policy.direct == AUR_DIRECT_NEE && !plan->counts_emitters && aur_scene_emitter_count(scene) > 0;
+    aur_vector sum = {0}, throughput = {1.0f, 1.0f, 1.0f};
+    aur_hit next;
+    for (;; ++chain.length) {
+        if (hit == NULL) {
+            const aur_vector sky = emitted_radiance(plan, &chain, NULL);
+            return aur_vector_add(sum, aur_vector_multiply(throughput, sky));
+        }
+        aur_surface surface;
+        aur_scene_surface(scene, &chain.ray, hit, &surface);
+        const aur_vector view = aur_vector_scale(chain.ray.direction, -1.0f);
+        const aur_shading shading = aur_shading_at(&surface, view);
+        const unsigned kinds = aur_bsdf_scatters(surface.bsdf, shading.view.z);
+        aur_vector radiance = emitted_radiance(plan, &chain, &surface);
+        /* Two edges led here, and one for each link of the chain; a photon came by one more at least. */
+        const bool deeper = chain.length + 3 <= plan->policy.max_depth;
+        if ((kinds & (AUR_SCATTERS_DIFFUSE | AUR_SCATTERS_GLOSSY)) != 0 && deeper)
+            radiance = aur_vector_add(radiance, scattered_radiance(plan, hit, &surface, view));
+        if ((kinds & AUR_SCATTERS_SAMPLED) != 0 && deeper && samples_lights)
+            radiance = aur_vector_add(radiance,
+                                      sampled_light(plan, &shading, kinds, radiance, &chain.hash, counters));
+        sum = aur_vector_add(sum, aur_vector_multiply(throughput, radiance));
+        if ((kinds & (AUR_SCATTERS_SPECULAR | AUR_SCATTERS_SAMPLED)) == 0 || !deeper)
+            return sum;
+        float u[3];
+        aur_bsdf_sample drawn;
+        draw_units(&chain.hash, u);
+        if (!draw_onward(&shading, kinds, u, &drawn))
+            return sum;
+        throughput = aur_vector_multiply(throughput, drawn.weight);
+        const float survival = fminf(1.0f, BOOST * aur_vector_max(throughput));
+        if (!(draw_unit(&chain.hash) < survival))
+            return sum;
+        if (chain.length == AUR_LONGEST_CHAIN) {
+            ++counters->cut;
+            return sum;
+        }
+        throughput = aur_vector_scale(throughput, 1.0f / survival);
+        chain.specular = chain.specular && drawn.specular;
+        chain.mirrored = drawn.specular;
+        chain.reference = surface.position;
+        chain.density = drawn.pdf;
+        chain.light_draws = 1.0f;
+        chain.ray = aur_surface_ray(&surface, drawn.light);
+        ++counters->rays;
+        hit = aur_scene_intersect(scene, &chain.ray, &next) ? &next : NULL;
+    }
+}
+
+/* --- sixteen rays */
 
 static float density_of(const aur_gather_rays *rays, size_t lane) {
     if (rays->merged[lane] == NULL)
@@ -70,17 +237,11 @@ static bool plain_radiance(const aur_gather_plan *plan, const aur_gather_rays *r
                             query->hit.Ng_z[lane] * query->ray.dir_z[lane] >
                         0.0f;
     const uint32_t element = plan->light.map->texels.elements.shape_first[shape] + query->hit.primID[lane];
-    const aur_texel_light *const light =
-        aur_irradiance_on_triangle(plan->light.map, element, query->hit.u[lane], query->hit.v[lane], behind);
-    const aur_vector albedo = plan->classes[shape].albedo_on_pi[behind];
-    *radiance = aur_vector_multiply(albedo, light->irradiance);
-    const float weight = plan->light.bright_draws > 0 ? bright_weight(plan, rays, lane, *radiance) : 1.0f;
-    if (plan->light.caustics != NULL) {
-        const aur_texel_light *const caustic = aur_irradiance_on_triangle(
-            plan->light.caustics, element, query->hit.u[lane], query->hit.v[lane], behind);
-        *radiance = aur_vector_add(*radiance, aur_vector_multiply(albedo, caustic->irradiance));
-    }
-    *radiance = aur_vector_scale(*radiance, weight);
+    aur_vector known;
+    *radiance = aur_gather_plan_radiance(plan, shape, element, query->hit.u[lane], query->hit.v[lane], behind,
+                                         &known);
+    if (plan->light.bright_draws > 0)
+        *radiance = aur_vector_scale(*radiance, bright_weight(plan, rays, lane, known));
     return true;
 }
 
@@ -94,20 +255,24 @@ void aur_gather_rays_trace(const aur_gather_plan *plan, aur_embree_order order, 
             rays->radiance[c][k] = 0.0f;
     for (uint32_t rest = has_sky ? lanes : found; rest != 0; rest &= rest - 1) {
         const size_t lane = aur_first_lane(rest);
-        const bool hits = (found >> lane & 1u) != 0;
+        const bool hits = aur_has_lane(found, lane);
         aur_vector radiance;
         if (!hits || !plain_radiance(plan, rays, lane, &radiance)) {
             /* Only light that is sampled too asks for the density. */
             const bool weighed = !hits || plan->classes[rays->packet.query.hit.geomID[lane]].emits;
-            const aur_gather_ray from = {.ray = aur_packet_ray(&rays->packet, lane),
-                                         .reference = rays->reference[lane],
-                                         .density = weighed ? density_of(rays, lane) : 0.0f,
-                                         .hash = aur_hash2(rays->hash, lane)};
+            const gather_chain chain = {.ray = aur_packet_ray(&rays->packet, lane),
+                                        .hash = aur_hash2(rays->hash, lane),
+                                        .specular = true,
+                                        .reference = rays->reference[lane],
+                                        .density = weighed ? density_of(rays, lane) : 0.0f,
+                                        .light_draws = (float)plan->light.draws};
             aur_hit hit = {0};
             if (hits)
                 hit = aur_packet_hit(plan->scene, &rays->packet, lane);
-            radiance = aur_gather_chain_radiance(plan, &from, hits ? &hit : NULL, counters);
+            radiance = chain_radiance(plan, chain, hits ? &hit : NULL, counters);
         }
-        set_radiance(rays, lane, radiance);
+        rays->radiance[0][lane] = radiance.x;
+        rays->radiance[1][lane] = radiance.y;
+        rays->radiance[2][lane] = radiance.z;
     }
 }

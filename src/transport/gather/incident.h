@@ -4,6 +4,8 @@
 #include "transport/gather/plan.h"
 #include "transport/packets/packet_rays.h"
 
+enum { AUR_LONGEST_CHAIN = 16 }; /* bounces in a row that are followed */
+
 /* Sixteen gather rays and what comes along them. */
 typedef struct aur_gather_rays {
     aur_packet packet;

@@ -4,17 +4,17 @@
  *     plan.c                    these rules, maps of photons, and what the keys ask for
  *
  * What happens at sixteen pixels at a time takes the plan, the places that the pixels see (places.h), the
- * sums to add to (sums.h) and working memory (scratch.h):
+ * sums to add to and working memory (sums.h):
  *
- *     incident.c, chain.c       radiance along gather rays: where it is one array read, and where it is not
+ *     incident.c                radiance along gather rays
  *     aim.c                     directions of a rule made into rays at the places, and traced
- *     estimate_*.c              the light of one lobe by such rays; no estimator calls another
+ *     estimate_*.c              the light of a lobe by such rays; no estimator calls another
  *     drawn_light.c             the light of points on lights and on bright texels
  *     shade.c                   all of these for all lobes of the places
- *     sample.c                  one sample of sixteen pixels: what the eye sees, through mirrors and glass
- * too strata.c, edges.c, pooling.c   what a pixel's samples have seen; more samples at edges; irradiance that
+ *     strata.c, pooling.c       what a pixel's samples have seen, where edges are, and irradiance that
  *                               neighbouring pixels have in common
- *     tile.c                    256 pixels: sixteen groups of sixteen (packets/interleave.h)
+ *     tile.c                    what the eye sees, also through mirrors and glass: sixteen groups of sixteen
+ *                               pixels (packets/interleave.h)
  */
 #pragma once
 
@@ -59,4 +59,19 @@ static inline bool aur_gather_plan_gathers(const aur_gather_plan *plan, const au
         return false;
     return plan->policy.component == AUR_COMPONENT_ALL ||
            lobe->diffuse == (plan->policy.component == AUR_COMPONENT_DIFFUSE);
+}
+
+/* The radiance of a point of a plain triangle by what the photon maps know; `known` is that of the first map
+ * alone. */
+static inline aur_vector aur_gather_plan_radiance(const aur_gather_plan *plan, uint32_t shape,
+                                                  uint32_t element, float u, float v, bool behind,
+                                                  aur_vector *known) {
+    const aur_gather_light *const light = &plan->light;
+    const aur_vector albedo = plan->classes[shape].albedo_on_pi[behind];
+    *known = aur_vector_multiply(albedo,
+                                 aur_irradiance_on_triangle(light->map, element, u, v, behind)->irradiance);
+    if (light->caustics == NULL)
+        return *known;
+    const aur_texel_light *const caustic = aur_irradiance_on_triangle(light->caustics, element, u, v, behind);
+    return aur_vector_add(*known, aur_vector_multiply(albedo, caustic->irradiance));
 }

@@ -1,8 +1,6 @@
-#include "transport/gather/pooling.h"
-
 #include <stdlib.h>
 
-#include "transport/packets/interleave.h"
+#include "transport/gather/strata.h"
 
 /* Pixels pool where their normals differ by less than 8 degrees from those of the first pixel seen of a
  * surface, and they lie near its plane. */

@@ -1,8 +1,130 @@
-/* The one file that calls estimators: for each lobe it takes the one that the plan has for it. */
-#include "transport/gather/shade.h"
-
-#include "transport/gather/drawn_light.h"
+/* Light that leaves the places by all of their lobes, each by the estimator that the plan has for it. */
+#include "core/random.h"
 #include "transport/gather/estimators.h"
+#include "transport/lights/shading.h"
+#include "transport/packets/interleave.h"
+
+/* --- the fixed rule: the same directions at every place but for their rotation */
+
+/* What lobes that dip below the surface are multiplied by; 1 for the others. */
+static float horizon_factor(const aur_gather_sweep *sweep, size_t lane) {
+    const aur_lobe_frames *const frames = &sweep->frames;
+    if (!sweep->rule->clipped)
+        return 1.0f;
+    aur_vector normal = {0};
+    for (size_t c = 0; c < 3; ++c) {
+        normal.x += frames->shading[c][lane] * frames->x[c][lane];
+        normal.y += frames->shading[c][lane] * frames->y[c][lane];
+        normal.z += frames->shading[c][lane] * frames->z[c][lane];
+    }
+    return aur_gather_horizon_factor(&sweep->rule->rule, &sweep->rule->horizon, &sweep->rotations[lane],
+                                     normal);
+}
+
+/* Keeps the gathered irradiance for the pool instead of adding it. */
+static void keep_for_pool(const aur_gather_places *places, const aur_gather_sweep *sweep, size_t lane,
+                          aur_vector gathered, aur_gather_sums *sums) {
+    const aur_gather_place *const place = &places->at[lane];
+    sums->pooled_lanes |= 1u << lane;
+    sums->pooled[lane] = (aur_gather_pooled){
+        .irradiance = aur_vector_scale(gathered, 1.0f / sweep->rule->directions),
+        .coefficient = aur_vector_multiply(places->throughput[lane], place->lobes[sweep->lobe].coefficient),
+        .position = place->surface.position,
+        .normal = aur_vector_scale(place->surface.frame.z, place->side)};
+}
+
+/* By this sample's part of the rule. */
+static void by_rule(const aur_gather_plan *plan, const aur_gather_places *places,
+                    const aur_gather_lobe_rule *rule, size_t lobe, uint32_t lanes, aur_gather_sums *sums,
+                    aur_gather_scratch *scratch) {
+    aur_gather_sweep sweep;
+    aur_gather_sweep_start(plan, places, rule, lobe, lanes, &sweep, &scratch->rays);
+    const bool splits = aur_gather_splits(plan, places, rule);
+    /* The rule's directions are in so many parts, of which this is one. */
+    size_t parts = plan->samples_per_pixel, part = places->index % parts;
+    if (splits) {
+        part = part * AUR_PACKET_SIZE + aur_group_rank(places->group);
+        parts *= AUR_PACKET_SIZE;
+    }
+    float sum[3][AUR_PACKET_SIZE] = {0};
+    for (size_t i = part; i < rule->rule.count; i += parts) {
+        float factor[AUR_PACKET_SIZE];
+        if (aur_gather_sweep_trace(plan, places, &sweep, i, true, &scratch->rays, sums->counters, factor) ==
+            0)
+            continue;
+        for (size_t c = 0; c < 3; ++c)
+            for (size_t k = 0; k < AUR_PACKET_SIZE; ++k)
+                sum[c][k] += factor[k] * scratch->rays.radiance[c][k];
+    }
+    for (uint32_t rest = lanes; rest != 0; rest &= rest - 1) {
+        const size_t lane = aur_first_lane(rest);
+        const aur_vector gathered = {sum[0][lane], sum[1][lane], sum[2][lane]};
+        if (splits) {
+            keep_for_pool(places, &sweep, lane, gathered, sums);
+            continue;
+        }
+        const aur_vector reflected = aur_vector_multiply(gathered, places->at[lane].lobes[lobe].coefficient);
+        sums->radiance[lane] =
+            aur_vector_add_scaled(sums->radiance[lane], horizon_factor(&sweep, lane) / rule->directions,
+                                  aur_vector_multiply(places->throughput[lane], reflected));
+    }
+}
+
+/* --- lobes without a formula: the rule's points of the square choose among the BSDF's own draws */
+
+/* A draw of a place's sampled lobe becomes the lane's ray; false: there is none. */
+static bool aim_draw(const aur_gather_place *place, size_t lane, const float u[3], float draws,
+                     aur_gather_rays *rays, aur_vector *value) {
+    const aur_surface *const surface = &place->surface;
+    const aur_shading shading = {surface, place->view};
+    aur_bsdf_sample drawn;
+    if (!aur_shading_draw(&shading, AUR_BSDF_SAMPLED_LOBES, u, &drawn) || !(drawn.pdf > 0.0f))
+        return false;
+    *value = aur_vector_scale(drawn.weight, 1.0f / draws);
+    const aur_ray ray = aur_surface_ray(surface, drawn.light);
+    aur_packet_set(&rays->packet, lane, &ray);
+    rays->density[lane] = drawn.pdf * draws;
+    rays->reference[lane] = surface->position;
+    return true;
+}
+
+/* Lobes that have no formula, by the BSDF's own sampling. */
+static void by_sampling(const aur_gather_plan *plan, const aur_gather_places *places, size_t lobe,
+                        uint32_t lanes, aur_gather_sums *sums, aur_gather_scratch *scratch) {
+    const aur_gather_lobe_rule *const sampled = &plan->rules.sampled;
+    aur_gather_rays *const rays = &scratch->rays;
+    aur_gather_sweep sweep;
+    aur_gather_sweep_start(plan, places, sampled, lobe, lanes, &sweep, rays);
+    const size_t first = aur_first_lane(lanes), parts = plan->samples_per_pixel;
+    for (size_t i = places->index % parts; i < sampled->rule.count; i += parts) {
+        aur_vector value[AUR_PACKET_SIZE];
+        float u[3] = {0.0f, 0.0f, 0.0f};
+        uint32_t aimed = 0;
+        aur_packet_empty(&rays->packet);
+        rays->hash = aur_hash3(places->pixels[first], i, lobe);
+        if (sweep.together)
+            aur_gather_rule_square(&sampled->rule, &sweep.rotations[first], i, &u[1]);
+        for (uint32_t rest = lanes; rest != 0; rest &= rest - 1) {
+            const size_t lane = aur_first_lane(rest);
+            if (!sweep.together)
+                aur_gather_rule_square(&sampled->rule, &sweep.rotations[lane], i, &u[1]);
+            u[0] = aur_unit_float((uint32_t)aur_hash2(rays->hash, ~(uint64_t)lane));
+            aimed |= (uint32_t)aim_draw(&places->at[lane], lane, u, sampled->directions, rays, &value[lane])
+                     << lane;
+        }
+        if (aimed == 0)
+            continue;
+        aur_gather_rays_trace(plan, places->order, rays, sums->counters);
+        for (uint32_t rest = aimed; rest != 0; rest &= rest - 1) {
+            const size_t lane = aur_first_lane(rest);
+            const aur_vector incident = {rays->radiance[0][lane], rays->radiance[1][lane],
+                                         rays->radiance[2][lane]};
+            aur_gather_add(sums, places, lane, aur_vector_multiply(value[lane], incident));
+        }
+    }
+}
+
+/* --- all lobes */
 
 /* The lanes, among `lanes`, whose lobe number `lobe` is gathered by the rule. */
 static uint32_t lanes_of_rule(const aur_gather_places *places, uint32_t lanes, size_t lobe,
@@ -38,11 +160,11 @@ static void gather_lobe(const aur_gather_plan *plan, const aur_gather_places *pl
         if (rule->levels.count > 0)
             aur_gather_by_levels(plan, places, rule, lobe, alike, sums, scratch);
         else
-            aur_gather_by_rule(plan, places, rule, lobe, alike, sums, scratch);
+            by_rule(plan, places, rule, lobe, alike, sums, scratch);
         ruled &= ~alike;
     }
     if (sampled != 0)
-        aur_gather_by_sampling(plan, places, lobe, sampled, sums, scratch);
+        by_sampling(plan, places, lobe, sampled, sums, scratch);
 }
 
 void aur_gather_shade(const aur_gather_plan *plan, const aur_gather_places *places, aur_gather_sums *sums,

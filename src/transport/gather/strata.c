@@ -68,3 +68,115 @@ void aur_pixel_strata_mean(const aur_pixel_strata *pixel, double mean[3]) {
     for (size_t c = 0; c < 3; ++c)
         mean[c] = seen != 0.0 ? mean[c] / seen : 0.0;
 }
+
+/* --- edges */
+
+enum { NO_EDGE, PLAIN_EDGE, LIGHT_EDGE };
+
+static bool has_key(const aur_pixel_strata *pixel, uint64_t key) {
+    for (uint32_t i = 0; i < pixel->count; ++i)
+        if (pixel->strata[i].key == key)
+            return true;
+    return false;
+}
+
+static int edge_of(uint64_t key, uint64_t other) {
+    return ((key | other) & AUR_SURFACE_KEY_EMITS) != 0 ? LIGHT_EDGE : PLAIN_EDGE;
+}
+
+/* The edge between two pixels, from what only one of them has seen. */
+static int edge_between(const aur_pixel_strata *a, const aur_pixel_strata *b) {
+    int edge = NO_EDGE;
+    for (uint32_t i = 0; i < b->count; ++i)
+        if (!has_key(a, b->strata[i].key)) {
+            const int kind = edge_of(b->strata[i].key, a->count > 0 ? a->strata[0].key : 0);
+            edge = kind > edge ? kind : edge;
+        }
+    return edge;
+}
+
+static int edge_within(const aur_pixel_strata *pixel) {
+    int edge = NO_EDGE;
+    for (uint32_t i = 1; i < pixel->count; ++i) {
+        const int kind = edge_of(pixel->strata[0].key, pixel->strata[i].key);
+        edge = kind > edge ? kind : edge;
+    }
+    return edge;
+}
+
+enum { SIDE = AUR_TILE_SIZE, APRON = SIDE + 2, RING = 4 * SIDE + 4 };
+
+/* Pixels beside the tile, 16 at a time: what the first sample of each sees. */
+static void look_at(const aur_gather_plan *plan, const aur_view *view, size_t count, const size_t *x,
+                    const size_t *y, aur_pixel_strata *pixels, aur_counters *counters) {
+    aur_packet packet;
+    aur_camera_sample samples[AUR_PACKET_SIZE];
+    float weights[AUR_PACKET_SIZE];
+    aur_packet_clear(&packet);
+    aur_view_samples(view, count, x, y, 0, samples, weights);
+    for (size_t k = 0; k < count; ++k)
+        aur_packet_set(&packet, k, &samples[k].ray);
+    const uint32_t found = aur_gather_intersect(plan, AUR_EMBREE_COHERENT, &packet, counters);
+    for (size_t k = 0; k < count; ++k) {
+        const uint64_t key = (found >> k & 1u) != 0 ? aur_gather_surface_key(plan->classes, &packet, k) : 0;
+        pixels[k] = (aur_pixel_strata){.count = 1, .strata = {{.key = key}}};
+    }
+}
+
+/* The ring of pixels around the tile; what lies beyond the picture sees nothing and makes no edge. */
+static void look_around(const aur_gather_plan *plan, const aur_view *view, size_t left, size_t top,
+                        const aur_pixel_strata *strata, aur_pixel_strata ring[RING],
+                        const aur_pixel_strata *at[APRON * APRON], aur_counters *counters) {
+    size_t x[RING], y[RING], used = 0;
+    for (size_t i = 0; i < APRON * APRON; ++i) {
+        const size_t column = i % APRON, row = i / APRON;
+        at[i] = NULL;
+        if (column > 0 && column <= SIDE && row > 0 && row <= SIDE) {
+            at[i] = &strata[(row - 1) * SIDE + (column - 1)];
+            continue;
+        }
+        x[used] = left + column; /* one too many, against underflow */
+        y[used] = top + row;
+        if (x[used] == 0 || y[used] == 0 || x[used] > view->width || y[used] > view->height)
+            continue;
+        --x[used];
+        --y[used];
+        at[i] = &ring[used++];
+    }
+    for (size_t first = 0; first < used; first += AUR_PACKET_SIZE) {
+        const size_t count = used - first < AUR_PACKET_SIZE ? used - first : AUR_PACKET_SIZE;
+        look_at(plan, view, count, &x[first], &y[first], &ring[first], counters);
+    }
+}
+
+static int edge_at(const aur_pixel_strata *const at[APRON * APRON], size_t x, size_t y) {
+    const aur_pixel_strata *const pixel = at[(y + 1) * APRON + x + 1];
+    int edge = edge_within(pixel);
+    for (size_t dy = 0; dy < 3; ++dy)
+        for (size_t dx = 0; dx < 3; ++dx) {
+            const aur_pixel_strata *const other = at[(y + dy) * APRON + x + dx];
+            /* Pixels beyond the picture's edge have no samples. */
+            if (other == NULL || other->count == 0)
+                continue;
+            const int kind = edge_between(pixel, other);
+            edge = kind > edge ? kind : edge;
+        }
+    return edge;
+}
+
+void aur_gather_find_edges(const aur_gather_plan *plan, const aur_view *view, size_t x, size_t y,
+                           const aur_pixel_strata *strata, aur_gather_edges *edges, aur_counters *counters) {
+    aur_pixel_strata ring[RING];
+    const aur_pixel_strata *at[APRON * APRON];
+    look_around(plan, view, x, y, strata, ring, at, counters);
+    *edges = (aur_gather_edges){0};
+    for (uint32_t group = 0; group < AUR_GROUP_COUNT; ++group)
+        for (size_t lane = 0; lane < AUR_PACKET_SIZE; ++lane) {
+            const size_t pixel = aur_group_pixel(group, lane);
+            if (strata[pixel].count == 0)
+                continue;
+            const int edge = edge_at(at, pixel % SIDE, pixel / SIDE);
+            edges->any[group] |= (uint32_t)(edge != NO_EDGE) << lane;
+            edges->lights[group] |= (uint32_t)(edge == LIGHT_EDGE) << lane;
+        }
+}

@@ -1,6 +1,8 @@
-/* What is found for sixteen pixels: all that estimators write, beside working memory. */
+/* What estimators write: what is found for sixteen pixels, and working memory, of which nothing outlives a
+ * call. */
 #pragma once
 
+#include "transport/gather/incident.h"
 #include "transport/gather/places.h"
 
 /* Diffuse light that goes into the pool of neighbouring pixels instead of the radiance: it is the product of
@@ -25,3 +27,10 @@ static inline void aur_gather_add(aur_gather_sums *sums, const aur_gather_places
     sums->radiance[lane] =
         aur_vector_add(sums->radiance[lane], aur_vector_multiply(places->throughput[lane], radiance));
 }
+
+typedef struct aur_gather_scratch {
+    aur_gather_rays rays;
+    /* Weights of merged samples, a sample's sixteen lanes together, for one lobe and then the other, and
+     * behind them room for one lane's. Of adaptive gathering: 3 * AUR_PACKET_SIZE for each direction. */
+    float *numbers;
+} aur_gather_scratch;

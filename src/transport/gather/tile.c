@@ -1,75 +1,259 @@
 #include "transport/gather/tile.h"
 
 #include <stdlib.h>
+#include <string.h>
 
-#include "transport/gather/edges.h"
-#include "transport/gather/pooling.h"
-#include "transport/gather/sample.h"
+#include "core/random.h"
+#include "transport/gather/estimators.h"
+#include "transport/gather/strata.h"
+#include "transport/lights/shading.h"
+#include "transport/packets/interleave.h"
 
-/* Edges that are none of a light's get so small a part of the samples. */
-enum { PLAIN_EDGE_PART = 16 };
+/* One tile, done by samples of sixteen pixels at a time: places.group and places.index say which. */
+typedef struct gather_tile {
+    const aur_gather_plan *plan;
+    const aur_view *view;
+    size_t x, y;   /* of the tile's corner in the picture */
+    bool only_new; /* only strata of which a pixel has no radiance yet are shaded */
+    aur_gather_places places;
+    aur_gather_sums sums;
+    aur_gather_scratch scratch;
+    aur_camera_sample samples[AUR_PACKET_SIZE]; /* the rays become those after the last bounce */
+    float weights[AUR_PACKET_SIZE];
+    aur_stratum *stratum[AUR_PACKET_SIZE]; /* that the lanes' samples go to; NULL: none */
+    aur_pixel_strata strata[AUR_TILE_PIXELS];
+} gather_tile;
 
-/* The group's lanes that lie in the picture. A crop does not matter: packets must be those of the whole tile,
- * or its pixels would differ in the last bits. */
-static uint32_t lanes_of(const aur_gather_task *task) {
+/* NULL when out of memory. */
+static gather_tile *create(const aur_gather_plan *plan, const aur_tile *tile) {
+    const aur_gather_rules *const rules = &plan->rules;
+    /* For each direction of the largest adaptive rule, or for the samples of merged ones. */
+    size_t numbers =
+        rules->merged != NULL ? 2 * aur_merged_rule_samples(rules->merged) * (AUR_PACKET_SIZE + 1) : 0;
+    for (size_t i = 0; i < rules->count && plan->policy.adaptive; ++i)
+        if (3 * AUR_PACKET_SIZE * rules->lobes[i].rule.count > numbers)
+            numbers = 3 * AUR_PACKET_SIZE * rules->lobes[i].rule.count;
+    gather_tile *const work = aligned_alloc(64, (sizeof *work + 63) / 64 * 64);
+    if (work == NULL)
+        return NULL;
+    memset(work, 0, sizeof *work);
+    aur_packet_clear(&work->scratch.rays.packet);
+    work->scratch.numbers = calloc(numbers + 1, sizeof *work->scratch.numbers);
+    work->plan = plan;
+    work->view = tile->view;
+    work->x = tile->x0 / AUR_TILE_SIZE * AUR_TILE_SIZE;
+    work->y = tile->y0 / AUR_TILE_SIZE * AUR_TILE_SIZE;
+    work->places.tile = aur_hash2(work->y, work->x);
+    work->places.sampler = tile->view->sampler;
+    if (work->scratch.numbers != NULL)
+        return work;
+    free(work);
+    return NULL;
+}
+
+/* --- one sample of sixteen pixels: what the eye sees, also by mirrors and through glass */
+
+static aur_pixel_strata *pixel_of(gather_tile *work, size_t lane) {
+    return &work->strata[aur_group_pixel(work->places.group, lane)];
+}
+
+static void begin(gather_tile *work, uint32_t lanes) {
+    aur_gather_places *const places = &work->places;
+    aur_gather_sums *const sums = &work->sums;
     size_t x[AUR_PACKET_SIZE], y[AUR_PACKET_SIZE];
-    aur_group_pixels(task->group, task->x, task->y, x, y);
-    return aur_group_lanes_within(x, y, 0, task->view->width, 0, task->view->height);
-}
-
-/* Samples that tell how much pixels see of what is around an edge. */
-static void refine_edges(aur_gather_group *group, aur_gather_task task, uint32_t first_index,
-                         aur_pixel_strata *strata, aur_counters *counters) {
-    const uint32_t count = task.plan->policy.edge_samples;
-    aur_gather_edges edges;
-    aur_gather_find_edges(task.plan, task.view, task.x, task.y, strata, &edges, counters);
-    task.only_new = true;
-    for (task.group = 0; task.group < AUR_GROUP_COUNT; ++task.group)
-        for (uint32_t i = 0; i < count; ++i) {
-            task.index = first_index + i;
-            task.lanes = i < count / PLAIN_EDGE_PART ? edges.any[task.group] : edges.lights[task.group];
-            if (task.lanes != 0)
-                aur_gather_add_samples(group, &task, strata, counters);
-        }
-}
-
-static bool add_tile(const aur_gather_plan *plan, aur_tile *tile, aur_gather_group *group,
-                     aur_pixel_strata *strata) {
-    aur_gather_task task = {.plan = plan,
-                            .view = tile->view,
-                            .x = tile->x0 / AUR_TILE_SIZE * AUR_TILE_SIZE,
-                            .y = tile->y0 / AUR_TILE_SIZE * AUR_TILE_SIZE};
-    for (task.group = 0; task.group < AUR_GROUP_COUNT; ++task.group) {
-        task.lanes = lanes_of(&task);
-        for (uint32_t i = 0; i < tile->count; ++i) {
-            task.index = tile->first + i;
-            if (task.lanes != 0)
-                aur_gather_add_samples(group, &task, strata, &tile->counters);
-        }
+    aur_group_pixels(places->group, work->x, work->y, x, y);
+    aur_view_samples(work->view, AUR_PACKET_SIZE, x, y, places->index, work->samples, work->weights);
+    places->lanes = lanes;
+    sums->pooled_lanes = 0;
+    for (size_t lane = 0; lane < AUR_PACKET_SIZE; ++lane) {
+        places->pixels[lane] = work->samples[lane].stream.pixel;
+        places->throughput[lane] = (aur_vector){1.0f, 1.0f, 1.0f};
+        sums->radiance[lane] = (aur_vector){0};
+        sums->directions[lane] = 0;
+        work->stratum[lane] = NULL;
     }
-    if (plan->policy.edge_samples > 0)
-        refine_edges(group, task, tile->first + tile->count, strata, &tile->counters);
-    if (plan->policy.pools && !aur_gather_pool_irradiance(strata))
+}
+
+/* Traces the rays of all lanes; returns those that hit something. */
+static uint32_t trace(gather_tile *work) {
+    aur_packet *const packet = &work->scratch.rays.packet;
+    aur_packet_empty(packet);
+    for (uint32_t rest = work->places.lanes; rest != 0; rest &= rest - 1) {
+        const size_t lane = aur_first_lane(rest);
+        aur_packet_set(packet, lane, &work->samples[lane].ray);
+    }
+    const aur_embree_order order = work->places.bounces == 0 ? AUR_EMBREE_COHERENT : AUR_EMBREE_INCOHERENT;
+    return aur_gather_intersect(work->plan, order, packet, work->sums.counters);
+}
+
+/* Counts what the eye's rays met. Lanes that need no shading for it are taken out. */
+static void count_seen(gather_tile *work, uint32_t found) {
+    const aur_packet *const packet = &work->scratch.rays.packet;
+    for (uint32_t rest = work->places.lanes; rest != 0; rest &= rest - 1) {
+        const size_t lane = aur_first_lane(rest);
+        const uint64_t key =
+            aur_has_lane(found, lane) ? aur_gather_surface_key(work->plan->classes, packet, lane) : 0;
+        bool known;
+        aur_stratum *const stratum = aur_pixel_strata_find(pixel_of(work, lane), key, &known);
+        stratum->seen += (double)work->weights[lane];
+        if (work->only_new && known && stratum->shaded > 0.0)
+            work->places.lanes &= ~(1u << lane);
+        else
+            work->stratum[lane] = stratum;
+    }
+}
+
+/* Light from beyond the scene, for lanes whose ray left it. */
+static void add_sky(gather_tile *work, uint32_t lanes) {
+    const aur_gather_plan *const plan = work->plan;
+    if (plan->policy.direct == AUR_DIRECT_NONE || !aur_scene_has_environment(plan->scene))
+        return;
+    for (uint32_t rest = lanes; rest != 0; rest &= rest - 1) {
+        const size_t lane = aur_first_lane(rest);
+        aur_gather_add(&work->sums, &work->places, lane,
+                       aur_scene_environment(plan->scene, work->samples[lane].ray.direction));
+    }
+}
+
+/* The surfaces that the rays met, with the light that reaches the eye from them without being gathered:
+ * caustics, and what they emit. */
+static void set_places(gather_tile *work) {
+    const aur_gather_plan *const plan = work->plan;
+    const aur_scene *const scene = plan->scene;
+    const aur_irradiance_map *const caustics = plan->light.caustics;
+    for (uint32_t rest = work->places.lanes; rest != 0; rest &= rest - 1) {
+        const size_t lane = aur_first_lane(rest);
+        const aur_hit hit = aur_packet_hit(scene, &work->scratch.rays.packet, lane);
+        const aur_ray *const ray = &work->samples[lane].ray;
+        const aur_surface *const surface = &work->places.at[lane].surface;
+        aur_gather_place_set(plan, ray, &hit, &work->places.at[lane]);
+        if (plan->policy.direct == AUR_DIRECT_NONE)
+            continue;
+        const aur_vector view = aur_vector_scale(ray->direction, -1.0f);
+        if (caustics != NULL)
+            aur_gather_add(&work->sums, &work->places, lane,
+                           aur_irradiance_radiance(caustics, scene, &hit, surface, view));
+        if (surface->emitter != AUR_NO_EMITTER)
+            aur_gather_add(&work->sums, &work->places, lane, aur_surface_emission(scene, surface, view));
+    }
+    work->places.order = aur_gather_places_order(&work->places);
+}
+
+/* A lane's ray in the direction of a specular lobe; false where there is none, or it absorbs the light. */
+static bool bounce_lane(gather_tile *work, size_t lane) {
+    const aur_gather_place *const place = &work->places.at[lane];
+    if ((aur_bsdf_scatters(place->surface.bsdf, place->view.z) & AUR_SCATTERS_SPECULAR) == 0)
         return false;
+    const uint32_t pair = aur_gather_first_pair(work->places.bounces);
+    const aur_stream *const stream = &work->samples[lane].stream;
+    float lobe[2], direction[2];
+    aur_stream_pair(stream, pair + AUR_GATHER_PAIR_LOBE, lobe);
+    aur_stream_pair(stream, pair + AUR_GATHER_PAIR_BOUNCE, direction);
+    const aur_shading shading = {&place->surface, place->view};
+    aur_bsdf_sample drawn;
+    if (!aur_shading_sample(&shading, (const float[3]){lobe[0], direction[0], direction[1]}, &drawn) ||
+        !drawn.specular)
+        return false;
+    aur_vector *const throughput = &work->places.throughput[lane];
+    *throughput = aur_vector_multiply(*throughput, drawn.weight);
+    work->samples[lane].ray = aur_surface_ray(&place->surface, drawn.light);
+    return true;
+}
+
+/* Lanes whose surface has a specular lobe go on in its direction; the others are done. The other lobes of
+ * either have been gathered for. */
+static void bounce(gather_tile *work) {
+    for (uint32_t rest = work->places.lanes; rest != 0; rest &= rest - 1)
+        if (!bounce_lane(work, aur_first_lane(rest)))
+            work->places.lanes &= ~(1u << aur_first_lane(rest));
+}
+
+/* Adds sample `index` of a group's pixels to their strata. */
+static void add_samples(gather_tile *work, uint32_t group, uint32_t index, uint32_t lanes) {
+    const aur_gather_plan *const plan = work->plan;
+    aur_gather_places *const places = &work->places;
+    if (lanes == 0)
+        return;
+    places->group = group;
+    places->index = index;
+    begin(work, lanes);
+    for (places->bounces = 0; places->bounces <= AUR_LONGEST_CHAIN && places->lanes != 0; ++places->bounces) {
+        const uint32_t found = trace(work);
+        if (places->bounces == 0)
+            count_seen(work, found);
+        add_sky(work, places->lanes & ~found);
+        places->lanes &= found;
+        if (places->lanes == 0)
+            break;
+        set_places(work);
+        aur_gather_shade(plan, places, &work->sums, &work->scratch);
+        bounce(work);
+    }
+    work->sums.counters->cut += aur_lane_count(places->lanes);
+    for (uint32_t rest = lanes; rest != 0; rest &= rest - 1) {
+        const size_t lane = aur_first_lane(rest);
+        if (work->stratum[lane] != NULL)
+            aur_pixel_strata_add(pixel_of(work, lane), work->stratum[lane], &work->sums, lane,
+                                 work->weights[lane]);
+    }
+}
+
+/* --- the tile */
+
+/* Samples that tell how much pixels see of what is around an edge. Edges that are none of a light's get a
+ * small part of them. */
+static void refine_edges(gather_tile *work, uint32_t first_index) {
+    enum { PLAIN_EDGE_PART = 16 };
+    const uint32_t count = work->plan->policy.edge_samples;
+    aur_gather_edges edges;
+    aur_gather_find_edges(work->plan, work->view, work->x, work->y, work->strata, &edges,
+                          work->sums.counters);
+    work->only_new = true;
+    for (uint32_t group = 0; group < AUR_GROUP_COUNT; ++group)
+        for (uint32_t i = 0; i < count; ++i)
+            add_samples(work, group, first_index + i,
+                        i < count / PLAIN_EDGE_PART ? edges.any[group] : edges.lights[group]);
+}
+
+/* Packets are those of the whole tile within the picture, whatever its crop: else pixels would differ in the
+ * last bits. */
+static void shade_tile(gather_tile *work, const aur_tile *tile) {
+    for (uint32_t group = 0; group < AUR_GROUP_COUNT; ++group) {
+        size_t x[AUR_PACKET_SIZE], y[AUR_PACKET_SIZE];
+        aur_group_pixels(group, work->x, work->y, x, y);
+        const uint32_t lanes = aur_group_lanes_within(x, y, 0, work->view->width, 0, work->view->height);
+        for (uint32_t i = 0; i < tile->count; ++i)
+            add_samples(work, group, tile->first + i, lanes);
+    }
+    if (work->plan->policy.edge_samples > 0)
+        refine_edges(work, tile->first + tile->count);
+}
+
+static void add_means(const gather_tile *work, aur_tile *tile) {
     for (size_t y = tile->y0; y < tile->y1; ++y)
         for (size_t x = tile->x0; x < tile->x1; ++x) {
-            const aur_pixel_strata *const pixel = &strata[(y - task.y) * AUR_TILE_SIZE + (x - task.x)];
+            const aur_pixel_strata *const pixel =
+                &work->strata[(y - work->y) * AUR_TILE_SIZE + (x - work->x)];
             if (pixel->samples == 0)
                 continue;
             double mean[3];
             aur_pixel_strata_mean(pixel, mean);
             aur_tile_add_mean(tile, x, y, tile->count, mean);
-            if (plan->policy.adaptive)
+            if (work->plan->policy.adaptive)
                 aur_tile_add_extra(tile, x, y, 0, (double)tile->count * (double)pixel->directions);
         }
-    return true;
 }
 
 aur_result aur_gather_tile(const aur_gather_plan *plan, aur_tile *tile) {
-    aur_gather_group *const group = aur_gather_group_create(plan);
-    aur_pixel_strata *const strata = calloc(AUR_TILE_PIXELS, sizeof *strata);
-    const bool good = group != NULL && strata != NULL && add_tile(plan, tile, group, strata);
-    free(strata);
-    aur_gather_group_destroy(group);
+    gather_tile *const work = create(plan, tile);
+    if (work == NULL)
+        return AUR_ERROR_MEMORY;
+    work->sums.counters = &tile->counters;
+    shade_tile(work, tile);
+    const bool good = !plan->policy.pools || aur_gather_pool_irradiance(work->strata);
+    if (good)
+        add_means(work, tile);
+    free(work->scratch.numbers);
+    free(work);
     return good ? AUR_OK : AUR_ERROR_MEMORY;
 }

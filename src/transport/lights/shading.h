@@ -25,11 +25,16 @@ static inline aur_vector aur_shading_evaluate(const aur_shading *shading, aur_ve
 }
 
 /* sample->light comes back in world coordinates. */
-static inline bool aur_shading_sample(const aur_shading *shading, const float u[3], aur_bsdf_sample *sample) {
+static inline bool aur_shading_draw(const aur_shading *shading, aur_bsdf_part part, const float u[3],
+                                    aur_bsdf_sample *sample) {
     const aur_surface *const surface = shading->surface;
-    if (!aur_bsdf_draw(surface->bsdf, AUR_BSDF_WHOLE, surface->texture, shading->view, u, sample))
+    if (!aur_bsdf_draw(surface->bsdf, part, surface->texture, shading->view, u, sample))
         return false;
     const float side = sample->light.z;
     sample->light = aur_frame_to_world(&surface->frame, sample->light);
     return aur_vector_dot(surface->geometric_normal, sample->light) * side > 0.0f;
+}
+
+static inline bool aur_shading_sample(const aur_shading *shading, const float u[3], aur_bsdf_sample *sample) {
+    return aur_shading_draw(shading, AUR_BSDF_WHOLE, u, sample);
 }
