@@ -51,12 +51,13 @@ static bool measure(adaptive_context *context, const char *keys, size_t seed, ou
     aur_image *image = NULL;
     if (!render(context, keys, seed, &image, &found->rays))
         return false;
+    const float *const picture = aur_image_data(image);
+    const float *const reference = aur_image_data(context->reference);
     double sum = 0.0;
     for (size_t pixel = 0; pixel < context->side * context->side; ++pixel)
         for (size_t c = 0; c < 3; ++c) {
-            const double off =
-                (double)image->data[pixel * image->channel_count + c] -
-                (double)context->reference->data[pixel * context->reference->channel_count + c];
+            const double off = (double)picture[pixel * aur_image_channel_count(image) + c] -
+                               (double)reference[pixel * aur_image_channel_count(context->reference) + c];
             sum += off * off;
         }
     found->error = sqrt(sum / (double)(3 * context->side * context->side));

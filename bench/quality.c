@@ -133,14 +133,16 @@ static bool open_truth(study *self) {
  * left out. */
 static double mean_square_error(const study *self, const aur_image *image, size_t block) {
     const size_t across = self->width / block, down = self->height / block;
+    const float *const x = aur_image_data(image);
+    const float *const a = aur_image_data(self->truth[0]), *const b = aur_image_data(self->truth[1]);
     double sum = 0.0;
     for (size_t i = 0; i < across * down * 3; ++i) {
         const size_t x0 = i / 3 % across * block, y0 = i / 3 / across * block;
         double to_a = 0.0, to_b = 0.0;
         for (size_t k = 0; k < block * block; ++k) {
             const size_t at = 3 * ((y0 + k / block) * self->width + x0 + k % block) + i % 3;
-            to_a += (double)image->data[at] - (double)self->truth[0]->data[at];
-            to_b += (double)image->data[at] - (double)self->truth[1]->data[at];
+            to_a += (double)x[at] - (double)a[at];
+            to_b += (double)x[at] - (double)b[at];
         }
         sum += to_a * to_b;
     }

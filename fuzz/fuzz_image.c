@@ -20,7 +20,9 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
                      "a failure of the wrong kind");
         return 0;
     }
-    fuzz_require(image->width > 0 && image->height > 0 && image->channel_count > 0, "an empty picture");
+    fuzz_require(aur_image_width(image) > 0 && aur_image_height(image) > 0 &&
+                     aur_image_channel_count(image) > 0,
+                 "an empty picture");
     double value[4];
     const aur_result compared = aur_image_compare(image, image, AUR_IMAGE_RELMSE, value, &error);
     fuzz_require(compared == AUR_ERROR_ARGUMENT || (compared == AUR_OK && value[3] == 0.0),
@@ -38,7 +40,7 @@ static aur_image *make_picture(size_t channel_count) {
     aur_image *image;
     fuzz_require(aur_image_create(19, 18, channel_count, &image, NULL) == AUR_OK, "no picture");
     for (size_t i = 0; i < 19 * 18 * channel_count; ++i)
-        image->data[i] = (float)(i % 57) / 40.0f + (i % 11 == 0 ? 0.3f : 0.0f);
+        aur_image_data(image)[i] = (float)(i % 57) / 40.0f + (i % 11 == 0 ? 0.3f : 0.0f);
     return image;
 }
 

@@ -12,18 +12,29 @@ extern "C" {
 
 enum { AUR_CHANNEL_NAME_CAPACITY = 256 };
 
-/* data[(y * width + x) * channel_count + c]; the top row first. Free with aur_image_destroy. */
-typedef struct aur_image {
-    size_t width, height, channel_count;
-    float *data;
-    char (*channel_names)[AUR_CHANNEL_NAME_CAPACITY]; /* "R", "G", "B", "albedo.R", ... */
-} aur_image;
+typedef struct aur_image aur_image;
 
 /* Zero filled. The channels are named Y; Y, A; R, G, B; R, G, B, A when there are one to four; more are to be
  * named by the caller. Errors: ARGUMENT for a size of zero or beyond 2^30 values, MEMORY. */
 AUR_API aur_result aur_image_create(size_t width, size_t height, size_t channel_count, aur_image **image,
                                     aur_error *error) AUR_NONNULL(4);
+/* The same about the caller's values, which are not copied, lie as aur_image_data says, and must outlive the
+ * image. */
+AUR_API aur_result aur_image_wrap(size_t width, size_t height, size_t channel_count, float *data,
+                                  aur_image **image, aur_error *error) AUR_NONNULL(4, 5);
 AUR_API void aur_image_destroy(aur_image *image); /* NULL is allowed */
+
+AUR_API size_t aur_image_width(const aur_image *image) AUR_NONNULL(1);
+AUR_API size_t aur_image_height(const aur_image *image) AUR_NONNULL(1);
+AUR_API size_t aur_image_channel_count(const aur_image *image) AUR_NONNULL(1);
+/* data[(y * width + x) * channel_count + c], the top row first: for reading and writing, as long as the image
+ * is there. */
+AUR_API float *aur_image_data(const aur_image *image) AUR_NONNULL(1);
+/* "R", "G", "B", "albedo.R", ...; NULL beyond the channels. */
+AUR_API const char *aur_image_channel_name(const aur_image *image, size_t channel) AUR_NONNULL(1);
+/* Errors: ARGUMENT for a channel that is not there or a name of AUR_CHANNEL_NAME_CAPACITY bytes or more. */
+AUR_API aur_result aur_image_name_channel(aur_image *image, size_t channel, const char *name,
+                                          aur_error *error) AUR_NONNULL(1, 3);
 
 /* By content: EXR (scan lines or tiles; half, float or uint; the full-size level of the first part), PFM,
  * HDR, PNG, JPEG. "-" is standard input. PNG and JPEG are decoded from sRGB to linear. Colour comes as

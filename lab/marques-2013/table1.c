@@ -90,10 +90,12 @@ static aur_result render(const table_study *study, const char *set, const char *
 }
 
 static double mean_product(const aur_image *x, const aur_image *a, const aur_image *b) {
-    const size_t count = x->width * x->height * x->channel_count;
+    const size_t count = aur_image_width(x) * aur_image_height(x) * aur_image_channel_count(x);
+    const float *const of_x = aur_image_data(x), *const of_a = aur_image_data(a);
+    const float *const of_b = aur_image_data(b);
     double sum = 0.0;
     for (size_t i = 0; i < count; ++i)
-        sum += ((double)x->data[i] - (double)a->data[i]) * ((double)x->data[i] - (double)b->data[i]);
+        sum += ((double)of_x[i] - (double)of_a[i]) * ((double)of_x[i] - (double)of_b[i]);
     return sum / (double)count;
 }
 

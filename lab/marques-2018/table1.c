@@ -99,20 +99,23 @@ static aur_result render(const picture_study *study, const char *set, const char
     return aur_renderer_render(study->renderer, &options, image, NULL, error);
 }
 
+static double value_at(const aur_image *image, size_t pixel, size_t channel) {
+    return (double)aur_image_data(image)[pixel * aur_image_channel_count(image) + channel];
+}
+
 /* Mean square errors over the pixels with both lobes, and over the picture. */
 static void judge(const picture_study *study, const aur_image *image, double *both, double *all) {
     const aur_image *const reference = study->reference;
-    const size_t pixels = reference->width * reference->height;
+    const size_t pixels = aur_image_width(reference) * aur_image_height(reference);
     double sums[2] = {0.0, 0.0};
     size_t marked = 0;
     for (size_t i = 0; i < pixels; ++i) {
         double square = 0.0;
         bool glossy = false;
         for (size_t c = 0; c < 3; ++c) {
-            const double off = (double)image->data[i * image->channel_count + c] -
-                               (double)reference->data[i * reference->channel_count + c];
+            const double off = value_at(image, i, c) - value_at(reference, i, c);
             square += off * off / 3.0;
-            glossy = glossy || study->mask->data[i * study->mask->channel_count + c] > 0.0f;
+            glossy = glossy || value_at(study->mask, i, c) > 0.0;
         }
         sums[0] += glossy ? square : 0.0;
         sums[1] += square;

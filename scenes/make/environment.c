@@ -29,7 +29,7 @@ static aur_result paint(color (*radiance)(vec direction), aur_image **image, aur
                 const double phi = 2.0 * PI * ((double)x + ((double)(k % 4) + 0.5) / 4.0) / WIDTH;
                 sum = plus(sum, radiance((vec){sin(theta) * sin(phi), cos(theta), -sin(theta) * cos(phi)}));
             }
-            float *const pixel = &(*image)->data[3 * (y * WIDTH + x)];
+            float *const pixel = aur_image_data(*image) + 3 * (y * WIDTH + x);
             pixel[0] = (float)(sum.r / 16.0);
             pixel[1] = (float)(sum.g / 16.0);
             pixel[2] = (float)(sum.b / 16.0);

@@ -61,7 +61,7 @@ static aur_result make_picture(const product *p, const char *path, aur_error *er
     if (result == AUR_OK)
         result = aur_image_write(path, image, NULL, error);
     if (result == AUR_OK)
-        printf("%s: %zu x %zu\n", path, image->width, image->height);
+        printf("%s: %zu x %zu\n", path, aur_image_width(image), aur_image_height(image));
     aur_image_destroy(image);
     return result;
 }

@@ -312,7 +312,7 @@ static aur_result paint_wood(aur_image **image, aur_error *error) {
                                  (0.25 + 0.75 * seam);
             const double tint[3] = {0.40, 0.205, 0.095};
             for (size_t c = 0; c < 3; ++c)
-                (*image)->data[3 * (y * WIDTH + x) + c] =
+                aur_image_data(*image)[3 * (y * WIDTH + x) + c] =
                     (float)fmax(0.004, tint[c] * pow(shade, 1.0 + 0.25 * (double)c));
         }
     return result;

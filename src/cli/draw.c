@@ -141,7 +141,7 @@ static aur_result write_svg(const char *path, const drawing *d, aur_error *error
 
 /* Darkens a pixel towards a shade (as the eye counts it) by `coverage`. */
 static void paint(aur_image *image, size_t x, size_t y, double shade, double coverage) {
-    float *const pixel = image->data + y * image->width + x;
+    float *const pixel = aur_image_data(image) + y * aur_image_width(image) + x;
     const double linear = pow(shade, 2.2);
     *pixel = (float)((double)*pixel * (1.0 - coverage) + linear * coverage);
 }
@@ -149,8 +149,8 @@ static void paint(aur_image *image, size_t x, size_t y, double shade, double cov
 /* A disk, or a ring one pixel wide, with edges smoothed over a pixel. */
 static void paint_circle(aur_image *image, const mark *m, bool ring) {
     const double reach = m->radius + 1.5;
-    const size_t right = (size_t)fmin(m->x + reach, (double)image->width - 1.0);
-    const size_t bottom = (size_t)fmin(m->y + reach, (double)image->height - 1.0);
+    const size_t right = (size_t)fmin(m->x + reach, (double)aur_image_width(image) - 1.0);
+    const size_t bottom = (size_t)fmin(m->y + reach, (double)aur_image_height(image) - 1.0);
     for (size_t y = (size_t)fmax(m->y - reach, 0.0); y <= bottom; ++y) {
         for (size_t x = (size_t)fmax(m->x - reach, 0.0); x <= right; ++x) {
             const double distance = hypot((double)x + 0.5 - m->x, (double)y + 0.5 - m->y);
@@ -186,8 +186,8 @@ static aur_result write_png(const char *path, const drawing *d, aur_error *error
     aur_result result = aur_image_create((size_t)width_of(d), (size_t)height_of(d), 1, &image, error);
     if (result != AUR_OK)
         return result;
-    for (size_t i = 0; i < image->width * image->height; ++i)
-        image->data[i] = 1.0f;
+    for (size_t i = 0; i < aur_image_width(image) * aur_image_height(image); ++i)
+        aur_image_data(image)[i] = 1.0f;
     for (size_t p = 0; p < d->panel_count; ++p)
         paint_panel(d, p, image);
     const aur_image_write_options options = {.size = sizeof options, .format = "png"};

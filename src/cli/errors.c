@@ -49,7 +49,7 @@ static aur_result note_image(cli_errors *errors, const aur_image *image,
     }
     if (errors->used + LINE_CAPACITY > sizeof errors->text)
         return AUR_OK;
-    const uint64_t pixels = (uint64_t)image->width * image->height;
+    const uint64_t pixels = (uint64_t)aur_image_width(image) * aur_image_height(image);
     errors->used += (size_t)snprintf(errors->text + errors->used, LINE_CAPACITY,
                                      "%" PRIu64 ",%" PRIu64 ",%" PRIu64 ",%.6g,%.17g,%.17g\n",
                                      statistics->samples / pixels, statistics->samples, statistics->rays,

@@ -144,17 +144,19 @@ static int describe_picture(const char *path, const char *format, const info_opt
     static const char *const columns[] = {"format",  "width", "height",  "channel",
                                           "minimum", "mean",  "maximum", "not_finite"};
     cli_table *const table = cli_table_create(sizeof columns / sizeof columns[0], columns);
-    const size_t pixels = image->width * image->height;
-    for (size_t c = 0; c < image->channel_count; ++c) {
+    const size_t width = aur_image_width(image), height = aur_image_height(image);
+    const size_t pixels = width * height, channel_count = aur_image_channel_count(image);
+    const float *const data = aur_image_data(image);
+    for (size_t c = 0; c < channel_count; ++c) {
         info_summary summary;
         summary_start(&summary);
         for (size_t i = 0; i < pixels; ++i)
-            summary_add(&summary, (double)image->data[i * image->channel_count + c]);
+            summary_add(&summary, (double)data[i * channel_count + c]);
         summary_finish(&summary, pixels);
         cli_table_text(table, format);
-        cli_table_integer(table, image->width);
-        cli_table_integer(table, image->height);
-        cli_table_text(table, image->channel_names[c]);
+        cli_table_integer(table, width);
+        cli_table_integer(table, height);
+        cli_table_text(table, aur_image_channel_name(image, c));
         put_summary(table, &summary);
     }
     const int printed = cli_table_print(table, options->format);

@@ -182,16 +182,17 @@ static int read_density(const char *path, aur_density_image **density) {
         return cli_bad_usage("--warp: %s must have one channel (or Y), or R, G and B, to have a brightness",
                              path);
     }
-    const size_t count = image->width * image->height;
+    const size_t width = aur_image_width(image), height = aur_image_height(image);
+    const size_t count = width * height, channel_count = aur_image_channel_count(image);
     float *const luminance = malloc(count * sizeof *luminance);
     aur_error error = {.result = AUR_ERROR_MEMORY, .message = "out of memory"};
     for (size_t i = 0; i < count && luminance != NULL; ++i) {
-        const float *const pixel = image->data + i * image->channel_count;
+        const float *const pixel = aur_image_data(image) + i * channel_count;
         luminance[i] =
             0.2126f * pixel[channels[0]] + 0.7152f * pixel[channels[1]] + 0.0722f * pixel[channels[2]];
     }
-    const bool good = luminance != NULL && aur_density_image_create(image->width, image->height, luminance,
-                                                                    density, &error) == AUR_OK;
+    const bool good =
+        luminance != NULL && aur_density_image_create(width, height, luminance, density, &error) == AUR_OK;
     free(luminance);
     aur_image_destroy(image);
     snprintf(error.file, sizeof error.file, "%s", path);

@@ -7,6 +7,7 @@
 
 #include "core/error.h"
 #include "core/options.h"
+#include "image/image.h"
 
 static bool is_good(const aur_film_layout *layout) {
     enum { LARGEST_SIDE = 1 << 24, MOST_CHANNELS = 1 << 16 };

@@ -1,7 +1,7 @@
 /* The table of file formats, and what its entries share. */
 #pragma once
 
-#include <aureole/image.h>
+#include "image/image.h"
 #include <stdbool.h>
 #include <stdio.h>
 

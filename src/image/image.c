@@ -17,8 +17,9 @@ static bool size_is_allowed(size_t width, size_t height, size_t channel_count) {
     return channel_count <= AUR_IMAGE_VALUES_MAX / (width * height);
 }
 
-aur_result aur_image_create(size_t width, size_t height, size_t channel_count, aur_image **image,
-                            aur_error *error) {
+/* `data` NULL: zeros of the image's own. */
+static aur_result create(size_t width, size_t height, size_t channel_count, float *data, aur_image **image,
+                         aur_error *error) {
     *image = NULL;
     if (!size_is_allowed(width, height, channel_count))
         return aur_fail(error, AUR_ERROR_ARGUMENT,
@@ -30,7 +31,8 @@ aur_result aur_image_create(size_t width, size_t height, size_t channel_count, a
     made->width = width;
     made->height = height;
     made->channel_count = channel_count;
-    made->data = calloc(width * height * channel_count, sizeof *made->data);
+    made->data_is_owned = data == NULL;
+    made->data = data != NULL ? data : calloc(width * height * channel_count, sizeof *made->data);
     made->channel_names = calloc(channel_count, sizeof *made->channel_names);
     if (made->data == NULL || made->channel_names == NULL) {
         aur_image_destroy(made);
@@ -43,12 +45,52 @@ aur_result aur_image_create(size_t width, size_t height, size_t channel_count, a
     return AUR_OK;
 }
 
+aur_result aur_image_create(size_t width, size_t height, size_t channel_count, aur_image **image,
+                            aur_error *error) {
+    return create(width, height, channel_count, NULL, image, error);
+}
+
+aur_result aur_image_wrap(size_t width, size_t height, size_t channel_count, float *data, aur_image **image,
+                          aur_error *error) {
+    return create(width, height, channel_count, data, image, error);
+}
+
 void aur_image_destroy(aur_image *image) {
     if (image == NULL)
         return;
-    free(image->data);
+    if (image->data_is_owned)
+        free(image->data);
     free(image->channel_names);
     free(image);
+}
+
+size_t aur_image_width(const aur_image *image) {
+    return image->width;
+}
+
+size_t aur_image_height(const aur_image *image) {
+    return image->height;
+}
+
+size_t aur_image_channel_count(const aur_image *image) {
+    return image->channel_count;
+}
+
+float *aur_image_data(const aur_image *image) {
+    return image->data;
+}
+
+const char *aur_image_channel_name(const aur_image *image, size_t channel) {
+    return channel < image->channel_count ? image->channel_names[channel] : NULL;
+}
+
+aur_result aur_image_name_channel(aur_image *image, size_t channel, const char *name, aur_error *error) {
+    if (channel >= image->channel_count || strlen(name) >= AUR_CHANNEL_NAME_CAPACITY)
+        return aur_fail(error, AUR_ERROR_ARGUMENT,
+                        "channel %zu of %zu cannot be named '%s': names have at most %d bytes", channel,
+                        image->channel_count, name, AUR_CHANNEL_NAME_CAPACITY - 1);
+    strcpy(image->channel_names[channel], name);
+    return AUR_OK;
 }
 
 aur_result aur_image_check_size(const aur_image_source *source, size_t width, size_t height,

@@ -1,9 +1,8 @@
 /* What the measures of difference share. */
 #pragma once
 
-#include <aureole/image.h>
-
 #include "core/error.h"
+#include "image/image.h"
 
 /* The places of red, green and blue in two pictures that can be compared. */
 typedef struct aur_color_pair {

@@ -1,10 +1,9 @@
 /* A picture; (0, 0) is its top left corner and (1, 1) its bottom right one. */
-#include <aureole/image.h>
-
 #include <stdlib.h>
 #include <string.h>
 #include <strings.h>
 
+#include "image/image.h"
 #include "material/texture.h"
 
 typedef enum wrap_mode { WRAP_REPEAT, WRAP_MIRROR, WRAP_CLAMP } wrap_mode;

@@ -10,6 +10,7 @@
 #include "core/options.h"
 #include "core/parallel.h"
 #include "film/film.h"
+#include "image/image.h"
 #include "render/settings.h"
 #include "render/stopwatch.h"
 #include "transport/integrator.h"

@@ -13,6 +13,7 @@
 
 #include "core/file.h"
 #include "core/text.h"
+#include "image/image.h"
 
 static void write_text(const char *path, const char *text) {
     assert_int_equal(aur_file_write(path, strlen(text), text, NULL), AUR_OK);

@@ -7,6 +7,8 @@
 
 #include <aureole/render.h>
 
+#include "image/image.h"
+
 static aur_scene *load(const char *name) {
     char path[1024];
     aur_scene *scene = NULL;

@@ -3,6 +3,8 @@
 #include <aureole/render.h>
 #include <string.h>
 
+#include "image/image.h"
+
 static aur_image *render(const aur_scene *scene, const char *integrator, const size_t crop[4]) {
     aur_renderer *renderer = NULL;
     aur_image *image = NULL;

@@ -1,7 +1,6 @@
 /* What the tests of pictures share: pictures with known pixels, and comparing two of them value by value. */
 #pragma once
 
-#include <aureole/image.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -9,6 +8,7 @@
 
 #include "check.h"
 #include "core/random.h"
+#include "image/image.h"
 
 static inline void assert_success(aur_result result, const aur_error *error) {
     if (result != AUR_OK)

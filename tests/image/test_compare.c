@@ -218,6 +218,34 @@ static void test_sizes_are_checked(void **state) {
     aur_image_destroy(NULL);
 }
 
+/* A caller's own array is read and written in place, and is not freed. */
+static void test_wrap(void **state) {
+    (void)state;
+    float values[2 * 1 * 3] = {0.0f, 1.0f, 2.0f, 3.0f, 4.0f, 5.0f};
+    aur_image *image, *selected;
+    aur_error error;
+    assert_success(aur_image_wrap(2, 1, 3, values, &image, &error), &error);
+    assert_int_equal(aur_image_width(image), 2);
+    assert_int_equal(aur_image_height(image), 1);
+    assert_int_equal(aur_image_channel_count(image), 3);
+    assert_ptr_equal(aur_image_data(image), values);
+    assert_string_equal(aur_image_channel_name(image, 1), "G");
+    assert_null(aur_image_channel_name(image, 3));
+    assert_success(aur_image_name_channel(image, 1, "depth", &error), &error);
+    const char *const names[] = {"depth"};
+    assert_success(aur_image_select(image, 1, names, &selected, &error), &error);
+    assert_true(aur_image_data(selected)[0] == 1.0f && aur_image_data(selected)[1] == 4.0f);
+    aur_image_destroy(selected);
+
+    char name[AUR_CHANNEL_NAME_CAPACITY + 1];
+    memset(name, 'x', AUR_CHANNEL_NAME_CAPACITY);
+    name[AUR_CHANNEL_NAME_CAPACITY] = '\0';
+    assert_int_equal(aur_image_name_channel(image, 0, name, &error), AUR_ERROR_ARGUMENT);
+    assert_int_equal(aur_image_name_channel(image, 3, "Z", &error), AUR_ERROR_ARGUMENT);
+    aur_image_destroy(image);
+    assert_true(values[5] == 5.0f);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_flat_pictures),
@@ -228,6 +256,7 @@ int main(void) {
         cmocka_unit_test(test_downsample),
         cmocka_unit_test(test_select),
         cmocka_unit_test(test_sizes_are_checked),
+        cmocka_unit_test(test_wrap),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -5,8 +5,7 @@
 #include <string.h>
 #include <unistd.h>
 
-#include <aureole/image.h>
-
+#include "image/image.h"
 #include "material/texture.h"
 
 /* 2 x 2: red, green / blue, white. */

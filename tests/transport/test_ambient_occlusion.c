@@ -3,6 +3,7 @@
 
 #include <aureole/render.h>
 
+#include "image/image.h"
 #include "scene/scene.h"
 
 static aur_image *must_render(const aur_scene *scene, const aur_render_options *options) {

@@ -3,6 +3,7 @@
 #include <aureole/render.h>
 
 #include "core/random.h"
+#include "image/image.h"
 #include "transport/radiosity/picture_direct.h"
 
 #define WALL                                                                                                 \

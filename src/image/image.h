@@ -1,0 +1,11 @@
+/* The inside of a picture. */
+#pragma once
+
+#include <aureole/image.h>
+
+struct aur_image {
+    size_t width, height, channel_count;
+    float *data;        /* data[(y * width + x) * channel_count + c]; the top row first */
+    bool data_is_owned; /* false: the caller's, see aur_image_wrap */
+    char (*channel_names)[AUR_CHANNEL_NAME_CAPACITY];
+};
