@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
 # Writes docs/keys.md, every key of every table of the program, to standard output: scripts/keys_page.sh PROGRAM.
-# With --words, the names of all kinds, things, keys and choices instead, as a dictionary for fuzzers (fuzz/keys.dict).
+# With --options, docs/options.md, every option of every verb. With --words, the names of all kinds, things, keys and
+# choices instead, as a dictionary for fuzzers (fuzz/keys.dict).
 set -eu
 program=$1
 kinds='set measure integrator bsdf texture shape emitter sensor film rfilter sampler'
@@ -17,6 +18,45 @@ if [ "${2:-}" = --words ]; then
   exit
 fi
 
+# Turns the CSV of keys into a table.
+table() {
+  awk '
+  # Splits a line of CSV into field[1..count]; quotes may hold commas and doubled quotes.
+  function split_csv(line, count, at, c, quoted, text) {
+    count = 1; text = ""
+    for (at = 1; at <= length(line); ++at) {
+      c = substr(line, at, 1)
+      if (quoted && c == "\"" && substr(line, at + 1, 1) == "\"") { text = text c; ++at }
+      else if (c == "\"") quoted = !quoted
+      else if (c == "," && !quoted) { field[count++] = text; text = "" }
+      else text = text c
+    }
+    field[count] = text
+  }
+  NR == 1 { next }
+  NR == 2 { print "\n| key | type | default | values | |\n|---|---|---|---|---|" }
+  {
+    split_csv($0)
+    for (i = 1; i <= 5; ++i) gsub(/\|/, "\\|", field[i])
+    printf "| `%s` | %s | %s | %s | %s |\n", field[1], field[2], field[3], field[4], field[5]
+  }'
+}
+
+if [ "${2:-}" = --options ]; then
+  cat <<'HEAD'
+# Options
+
+Every verb of the program with its options. This page is written by `scripts/keys_page.sh PROGRAM --options` from what
+`aureole help verb NAME` prints, and a test compares them.
+HEAD
+  "$program" help verb --format csv | tail -n +2 | cut -d, -f1 | while read -r name; do
+    printf '\n## %s\n\n`%s`: %s.\n' "$name" "$("$program" help verb "$name" | head -1)" \
+      "$("$program" help verb | sed -n "s/^$name  *//p")"
+    "$program" help verb "$name" --format csv | table
+  done
+  exit
+fi
+
 cat <<'HEAD'
 # Keys
 
@@ -30,25 +70,6 @@ for kind in $kinds; do
   "$program" help "$kind" --format csv | tail -n +2 | cut -d, -f1 | while read -r name; do
     # The first line says what it is.
     printf '\n`%s`: %s.\n' "$name" "$("$program" help "$kind" "$name" | sed -n "1s/^$kind $name: //p")"
-    "$program" help "$kind" "$name" --format csv | awk '
-      # Splits a line of CSV into field[1..count]; quotes may hold commas and doubled quotes.
-      function split_csv(line, count, at, c, quoted, text) {
-        count = 1; text = ""
-        for (at = 1; at <= length(line); ++at) {
-          c = substr(line, at, 1)
-          if (quoted && c == "\"" && substr(line, at + 1, 1) == "\"") { text = text c; ++at }
-          else if (c == "\"") quoted = !quoted
-          else if (c == "," && !quoted) { field[count++] = text; text = "" }
-          else text = text c
-        }
-        field[count] = text
-      }
-      NR == 1 { next }
-      NR == 2 { print "\n| key | type | default | values | |\n|---|---|---|---|---|" }
-      {
-        split_csv($0)
-        for (i = 1; i <= 5; ++i) gsub(/\|/, "\\|", field[i])
-        printf "| `%s` | %s | %s | %s | %s |\n", field[1], field[2], field[3], field[4], field[5]
-      }'
+    "$program" help "$kind" "$name" --format csv | table
   done
 done

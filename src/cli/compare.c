@@ -2,104 +2,42 @@
 #include <aureole/image.h>
 #include <math.h>
 #include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
 
-#include "cli/cli.h"
 #include "cli/picture.h"
 
-enum { METRIC_CAPACITY = 16 };
-
 typedef struct compare_options {
-    size_t metric_count;
-    aur_image_metric metrics[METRIC_CAPACITY];
+    cli_list metrics;
     double tolerance;
     double scale;
-    size_t downsample;
-    const char *channels;
+    cli_picture picture;
     const char *outfile;
     cli_format format;
 } compare_options;
 
-static bool parse_metrics(const char *text, compare_options *options) {
-    char *const copy = strdup(text);
-    bool good = copy != NULL;
-    options->metric_count = 0;
-    for (char *rest = copy; good && rest != NULL;) {
-        char *const comma = strchr(rest, ',');
-        if (comma != NULL)
-            *comma = '\0';
-        aur_error error;
-        if (options->metric_count == METRIC_CAPACITY)
-            good = cli_bad_usage("--metric: at most %d metrics", METRIC_CAPACITY) == CLI_SUCCESS;
-        else if (aur_image_metric_from_name(rest, &options->metrics[options->metric_count], &error) != AUR_OK)
-            good = cli_fail(&error) == CLI_SUCCESS;
-        ++options->metric_count;
-        rest = comma != NULL ? comma + 1 : NULL;
-    }
-    free(copy);
-    return good;
-}
+static const cli_option rows[] = {
+    {.key = {"metric", AUR_KEY_TEXT, "the figures", "rmse", CLI_FIELD(compare_options, metrics)},
+     .value = "NAME",
+     .list = true,
+     .name = aur_image_metric_name},
+    {.key = {"tolerance", AUR_KEY_REAL, "every metric named may be at most T; 0: identical", "0",
+             .maximum = INFINITY, CLI_FIELD(compare_options, tolerance)},
+     .value = "T"},
+    {.key = {"outfile", AUR_KEY_TEXT,
+             "write the absolute difference (FLIP's map when the first metric is flip) in false colour (PNG, "
+             "EXR, ...)",
+             CLI_FIELD(compare_options, outfile)},
+     .letter = 'o',
+     .value = "FILE",
+     .content = "file"},
+    {.key = {"scale", AUR_KEY_REAL, "the value that is drawn brightest", "the largest; 1 for flip",
+             .computed = true, .maximum = INFINITY, CLI_FIELD(compare_options, scale)},
+     .value = "D"},
+    {.key = {0}}};
 
-static bool parse_options(int argc, char **argv, compare_options *options) {
-    static const struct option long_options[] = {
-        {"metric", required_argument, NULL, 'm'},     {"tolerance", required_argument, NULL, 't'},
-        {"outfile", required_argument, NULL, 'o'},    {"scale", required_argument, NULL, 's'},
-        {"downsample", required_argument, NULL, 'd'}, {"channels", required_argument, NULL, 'c'},
-        {"format", required_argument, NULL, 'f'},     {0}};
-    *options = (compare_options){.metric_count = 1, .metrics = {AUR_IMAGE_RMSE}, .downsample = 1};
-    optind = 0;
-    for (int option; (option = cli_next_option(argc, argv, "o:", long_options)) != -1;) {
-        bool good = true;
-        switch (option) {
-        case 'm':
-            good = parse_metrics(optarg, options);
-            break;
-        case 't':
-            good = cli_parse_number("--tolerance", optarg, 0.0, INFINITY, &options->tolerance);
-            break;
-        case 's':
-            good = cli_parse_number("--scale", optarg, 0.0, INFINITY, &options->scale);
-            break;
-        case 'd':
-            good = cli_parse_size("--downsample", optarg, 1, SIZE_MAX, &options->downsample);
-            break;
-        case 'o':
-            options->outfile = optarg;
-            break;
-        case 'c':
-            options->channels = optarg;
-            break;
-        case 'f':
-            good = cli_parse_format(optarg, &options->format);
-            break;
-        default:
-            return false;
-        }
-        if (!good)
-            return false;
-    }
-    const int count = argc - optind;
-    if (count < 2)
-        cli_bad_usage("compare: a reference and at least one picture are needed: try 'aureole help compare'");
-    else if (options->outfile != NULL && count > 2)
-        cli_bad_usage("compare: --outfile shows the difference of one picture, not of %d", count - 1);
-    return count == 2 || (count > 2 && options->outfile == NULL);
-}
-
-/* Reads a picture and makes of it what the options ask for. */
-static int read_picture(const char *path, const compare_options *options, aur_image **image) {
-    const int status = cli_read_picture(path, options->channels, image);
-    if (status != CLI_SUCCESS || options->downsample == 1)
-        return status;
-    aur_error error;
-    aur_image *smaller;
-    const aur_result result = aur_image_downsample(*image, options->downsample, &smaller, &error);
-    if (result != AUR_OK)
-        return cli_fail(&error);
-    aur_image_destroy(*image);
-    *image = smaller;
-    return CLI_SUCCESS;
+static aur_image_metric metric_at(const compare_options *options, size_t index) {
+    aur_image_metric metric;
+    aur_image_metric_from_name(cli_list_at(&options->metrics, index), &metric, NULL);
+    return metric;
 }
 
 /* Says which picture an error without a file is about. */
@@ -113,8 +51,8 @@ static int add_row(const char *path, const aur_image *reference, const aur_image
     aur_error error;
     double value[4], mean[4];
     cli_table_text(table, path);
-    for (size_t i = 0; i < options->metric_count; ++i) {
-        if (aur_image_compare(reference, image, options->metrics[i], value, &error) != AUR_OK)
+    for (size_t i = 0; i < options->metrics.count; ++i) {
+        if (aur_image_compare(reference, image, metric_at(options, i), value, &error) != AUR_OK)
             return fail_about(path, &error);
         cli_table_number(table, value[3], 6);
         *within = *within && value[3] <= options->tolerance;
@@ -133,15 +71,14 @@ static int add_row(const char *path, const aur_image *reference, const aur_image
 }
 
 static cli_table *create_table(const compare_options *options) {
-    const char *columns[METRIC_CAPACITY + 8] = {"image"};
-    size_t count = 1;
-    for (size_t i = 0; i < options->metric_count; ++i)
-        columns[count++] = aur_image_metric_name(options->metrics[i]);
     static const char *const others[] = {"relative_rmse",    "mean_r",           "mean_g",          "mean_b",
                                          "reference_mean_r", "reference_mean_g", "reference_mean_b"};
+    cli_table *const table = cli_table_create(1, (const char *const[]){"image"});
+    for (size_t i = 0; i < options->metrics.count; ++i)
+        cli_table_column(table, aur_image_metric_name(metric_at(options, i)));
     for (size_t i = 0; i < sizeof others / sizeof others[0]; ++i)
-        columns[count++] = others[i];
-    return cli_table_create(count, columns);
+        cli_table_column(table, others[i]);
+    return table;
 }
 
 /* Of FLIP its map, of every other metric the absolute difference. */
@@ -150,7 +87,7 @@ static int write_difference(const aur_image *reference, const aur_image *image,
     aur_error error;
     aur_image *map = NULL, *colored = NULL;
     aur_result result;
-    if (options->metrics[0] == AUR_IMAGE_FLIP) {
+    if (metric_at(options, 0) == AUR_IMAGE_FLIP) {
         result = aur_image_flip(reference, image, &map, &error);
         if (result == AUR_OK)
             result =
@@ -162,46 +99,49 @@ static int write_difference(const aur_image *reference, const aur_image *image,
         result = aur_image_write(options->outfile, colored, NULL, &error);
     aur_image_destroy(colored);
     aur_image_destroy(map);
-    return result == AUR_OK ? CLI_SUCCESS : cli_fail(&error);
+    return cli_status(result, &error);
 }
 
-static int run(int argc, char **argv) {
-    compare_options options;
-    if (!parse_options(argc, argv, &options))
-        return CLI_BAD_INPUT;
+static int run(const cli_call *call) {
+    const compare_options *const options = call->options;
+    if (options->outfile != NULL && call->operand_count > 2)
+        return cli_bad_usage("compare: --outfile shows the difference of one picture, not of %zu",
+                             call->operand_count - 1);
     aur_image *reference = NULL;
-    int status = read_picture(argv[optind], &options, &reference);
-    cli_table *const table = create_table(&options);
+    int status = cli_read_picture(call->operands[0], &options->picture, &reference);
+    cli_table *const table = create_table(options);
     bool within = true;
-    for (int i = optind + 1; i < argc && status == CLI_SUCCESS; ++i) {
+    for (size_t i = 1; i < call->operand_count && status == CLI_SUCCESS; ++i) {
         aur_image *image = NULL;
-        status = read_picture(argv[i], &options, &image);
+        status = cli_read_picture(call->operands[i], &options->picture, &image);
         if (status == CLI_SUCCESS)
-            status = add_row(argv[i], reference, image, &options, table, &within);
-        if (status == CLI_SUCCESS && options.outfile != NULL)
-            status = write_difference(reference, image, &options);
+            status = add_row(call->operands[i], reference, image, options, table, &within);
+        if (status == CLI_SUCCESS && options->outfile != NULL)
+            status = write_difference(reference, image, options);
         aur_image_destroy(image);
     }
     if (status == CLI_SUCCESS)
-        status = cli_table_print(table, options.format);
-    cli_table_destroy(table);
+        status = cli_table_finish(table, options->format);
+    else
+        cli_table_destroy(table);
     aur_image_destroy(reference);
     return status == CLI_SUCCESS && !within ? CLI_DIFFERENCE : status;
 }
 
 const cli_verb cli_verb_compare = {
-    "compare", "REFERENCE IMAGE... [options]", "RMSE and other figures of the difference between pictures",
-    "  --metric NAME[,NAME...]  rmse (default), mse, mae, relmse, mrse, relative-rmse, flip\n"
-    "  --tolerance T            every metric named may be at most T (default 0: identical)\n"
-    "  -o, --outfile FILE       write the absolute difference (FLIP's map when the first metric is\n"
-    "                           flip) in false colour (PNG, EXR, ...)\n"
-    "  --scale D                the value that is drawn brightest (default: the largest; 1 for flip)\n"
-    "  --downsample N           compare after averaging blocks of N x N pixels\n"
-    "  --channels NAME[,...]    compare these channels (one or three) instead of R, G, B\n"
-    "  --format table|csv|json  how the figures are printed\n"
-    "\n"
-    "Pictures are EXR, PFM, HDR, PNG or JPEG. relative_rmse is RMSE divided by the reference's mean; mean_r "
-    "to\n"
-    "reference_mean_b are the mean radiances of both pictures. The exit status is 0 when every picture is\n"
-    "within the tolerance, 1 when one is not, 2 on an error.\n",
-    run};
+    .name = "compare",
+    .summary = "RMSE and other figures of the difference between pictures",
+    .notes =
+        "Pictures are EXR, PFM, HDR, PNG or JPEG. --channels names one or three to compare instead of R, G, "
+        "B. relative_rmse is RMSE divided by the reference's mean; mean_r to reference_mean_b are the mean "
+        "radiances of both pictures. The exit status is 0 when every picture is within the tolerance, 1 when "
+        "one is not, 2 on an error.",
+    .too_few = "a reference and at least one picture are needed",
+    .operands = {{"REFERENCE", "the picture that the others are compared with", .content = "file"},
+                 {"IMAGE", "pictures of the same size", .repeated = true, .content = "file"}},
+    .groups = {{rows},
+               {cli_picture_options, offsetof(compare_options, picture)},
+               {cli_format_option, offsetof(compare_options, format)}},
+    .size = sizeof(compare_options),
+    .run = run,
+};

@@ -4,7 +4,6 @@
 
 #include <aureole/image.h>
 #include <math.h>
-#include <stdarg.h>
 #include <stdio.h>
 #include <stdlib.h>
 
@@ -84,18 +83,6 @@ static bool place(const drawing *d, size_t p, size_t i, bool near, mark *m) {
     return true;
 }
 
-static aur_result fail(aur_error *error, aur_result result, const char *format, ...)
-    __attribute__((format(printf, 3, 4)));
-
-static aur_result fail(aur_error *error, aur_result result, const char *format, ...) {
-    *error = (aur_error){.result = result};
-    va_list arguments;
-    va_start(arguments, format);
-    vsnprintf(error->message, sizeof error->message, format, arguments);
-    va_end(arguments);
-    return result;
-}
-
 static void write_panel(const drawing *d, size_t p, FILE *to) {
     const double left = panel_left(p);
     if (d->panels[p].round)
@@ -122,7 +109,7 @@ static aur_result write_svg(const char *path, const drawing *d, aur_error *error
     size_t size = 0;
     FILE *const to = open_memstream(&text, &size);
     if (to == NULL)
-        return fail(error, AUR_ERROR_MEMORY, "out of memory");
+        return aur_fail(error, AUR_ERROR_MEMORY, "out of memory");
     fprintf(to,
             "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"%g\" height=\"%g\" viewBox=\"0 0 %g %g\">\n"
             "<style>.frame{fill:none;stroke:#999}.near{fill:#0d0d0d}.far{fill:#c7c7c7}"
@@ -133,7 +120,7 @@ static aur_result write_svg(const char *path, const drawing *d, aur_error *error
         write_panel(d, p, to);
     fputs("</svg>\n", to);
     const bool failed = fclose(to) != 0;
-    const aur_result result = failed ? fail(error, AUR_ERROR_MEMORY, "out of memory for the picture")
+    const aur_result result = failed ? aur_fail(error, AUR_ERROR_MEMORY, "out of memory for the picture")
                                      : aur_file_write(path, size, text, error);
     free(text);
     return result;
@@ -198,8 +185,8 @@ static aur_result write_png(const char *path, const drawing *d, aur_error *error
 
 aur_result cli_draw_points(const char *path, bool png, const aur_points_view *points, aur_error *error) {
     if (points->count > POINT_LIMIT)
-        return fail(error, AUR_ERROR_ARGUMENT, "a picture shows at most %d points, not %zu: use --count",
-                    POINT_LIMIT, points->count);
+        return aur_fail(error, AUR_ERROR_ARGUMENT, "a picture shows at most %d points, not %zu: use --count",
+                        POINT_LIMIT, points->count);
     const drawing d = compose(points);
     return png ? write_png(path, &d, error) : write_svg(path, &d, error);
 }

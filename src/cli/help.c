@@ -1,48 +1,131 @@
 /* aureole help: the verbs, one verb's options, the kinds of things to choose from, and the keys of each
  * thing. */
-#include <aureole/render.h>
 #include <aureole/text.h>
+#include <math.h>
 #include <stdio.h>
 #include <string.h>
 
-#include "cli/cli.h"
-#include "cli/verbs.h"
+#include "cli/kinds.h"
 
-const aur_table *cli_table_at(size_t index) {
-    size_t count = 0;
-    while (aur_table_at(count) != NULL)
-        ++count;
-    return index < count ? aur_table_at(index) : aur_render_table_at(index - count);
+enum { LINE_WIDTH = 80, OPTION_COLUMN = 26, NAME_COLUMN = 13, TEXT_CAPACITY = 1024 };
+
+/* Prints words from a column on, in lines of at most LINE_WIDTH columns that begin at `indent`. */
+static void print_paragraph(size_t column, size_t indent, const char *text) {
+    while (*text != '\0') {
+        const size_t length = strcspn(text, " \n");
+        if (column > indent && column + 1 + length > LINE_WIDTH) {
+            printf("\n%*s", (int)indent, "");
+            column = indent;
+        } else if (column > indent) {
+            putchar(' ');
+            ++column;
+        }
+        printf("%.*s", (int)length, text);
+        column += length;
+        text += length;
+        if (*text == '\n') {
+            printf("\n%*s", (int)indent, "");
+            column = indent;
+        }
+        text += *text != '\0';
+    }
+    putchar('\n');
 }
 
-static const aur_table *find_table(const char *kind) {
-    for (size_t i = 0; cli_table_at(i) != NULL; ++i)
-        if (strcmp(cli_table_at(i)->kind, kind) == 0)
-            return cli_table_at(i);
-    return NULL;
+/* Prints what is described, and the description in its column. */
+static void print_entry(const char *what, int column, const char *help) {
+    if (printf("  %-*s ", column - 3, what) > column)
+        printf("\n%*s", column, "");
+    print_paragraph((size_t)column, (size_t)column, help);
 }
 
-void cli_print_verb_help(const cli_verb *verb) {
-    printf("aureole %s %s\n\n%s\n", verb->name, verb->arguments, verb->summary);
-    if (verb->help[0] != '\0')
-        printf("\n%s", verb->help);
+/* The names or the range that a value may have. */
+static void list_values(const cli_option *option, char text[TEXT_CAPACITY]) {
+    aur_key_range(&option->key, TEXT_CAPACITY, text);
+    for (unsigned i = 0; option->name != NULL && option->name(i) != NULL; ++i) {
+        const size_t used = i > 0 ? strlen(text) : 0;
+        aur_format(text + used, TEXT_CAPACITY - used, "%s%s", i > 0 ? ", " : "", option->name(i));
+    }
 }
+
+/* "-n, --count N[,N...]" */
+static void write_option(const cli_option *option, bool aligned, char text[TEXT_CAPACITY]) {
+    const char *const name = option->key.name;
+    const char *const value = option->value != NULL ? option->value : "";
+    char letter[8] = "";
+    if (name[1] == '\0')
+        aur_format(text, TEXT_CAPACITY, "-%s %s", name, value);
+    if (name[1] == '\0')
+        return;
+    if (option->letter != '\0')
+        aur_format(letter, sizeof letter, "-%c, ", option->letter);
+    aur_format(text, TEXT_CAPACITY, "%*s--%s%s%s", aligned ? 4 : 0, letter, name, value[0] != '\0' ? " " : "",
+               value);
+    const size_t used = strlen(text);
+    if (option->list)
+        aur_format(text + used, TEXT_CAPACITY - used, "[,%s...]", value);
+}
+
+static void print_option(const cli_option *option) {
+    char what[TEXT_CAPACITY], values[TEXT_CAPACITY], help[2 * TEXT_CAPACITY + 256];
+    write_option(option, true, what);
+    list_values(option, values);
+    const aur_key *const key = &option->key;
+    const bool named = cli_option_name(option, 0) != NULL;
+    const bool open = key->minimum == 0.0 && isinf(key->maximum); /* says nothing */
+    const bool shown = option->value != NULL && values[0] != '\0' && !open;
+    aur_format(help, sizeof help, "%s%s%s%s%s%s%s", key->help, shown ? named ? ": " : " [" : "",
+               shown ? values : "", shown && !named ? "]" : "",
+               key->default_text != NULL ? " (default: " : "",
+               key->default_text != NULL ? key->default_text : "", key->default_text != NULL ? ")" : "");
+    print_entry(what, OPTION_COLUMN, help);
+}
+
+int cli_print_verb_help(const cli_verb *verb) {
+    printf("aureole %s", verb->name);
+    for (const cli_operand *operand = verb->operands; operand->word != NULL; ++operand)
+        printf(" %s%s%s%s", operand->optional ? "[" : "", operand->word, operand->repeated ? "..." : "",
+               operand->optional ? "]" : "");
+    puts(verb->groups[0].options != NULL ? " [OPTION...]\n" : "\n");
+    print_paragraph(0, 0, verb->summary);
+    putchar('\n');
+    for (const cli_operand *operand = verb->operands; operand->word != NULL; ++operand)
+        print_entry(operand->word, OPTION_COLUMN, operand->help);
+    if (verb->operands[0].word != NULL)
+        putchar('\n');
+    const cli_option *option;
+    for (size_t i = 0; (option = cli_option_at(verb, i, NULL)) != NULL; ++i)
+        print_option(option);
+    if (verb->notes != NULL) {
+        putchar('\n');
+        print_paragraph(0, 0, verb->notes);
+    }
+    return CLI_SUCCESS;
+}
+
+/* One row of the table of keys or of options. */
+static void add_key(cli_table *table, const aur_key *key, const char *name, const char *type,
+                    const char *values) {
+    cli_table_text(table, name);
+    cli_table_text(table, type);
+    cli_table_text(table, key->default_text != NULL ? key->default_text : "");
+    cli_table_text(table, values);
+    cli_table_text(table, key->help);
+}
+
+static const char *const key_columns[] = {"key", "type", "default", "values", "help"};
+enum { KEY_COLUMNS = sizeof key_columns / sizeof key_columns[0] };
 
 static void add_keys(cli_table *table, const aur_row *row) {
     for (size_t i = 0; aur_row_key(row, i) != NULL; ++i) {
         const aur_key *const key = aur_row_key(row, i);
-        char range[512];
+        char range[TEXT_CAPACITY];
         aur_key_range(key, sizeof range, range);
-        cli_table_text(table, key->name);
-        cli_table_text(table, aur_key_type_name(key->type));
-        cli_table_text(table, key->default_text != NULL ? key->default_text : "");
-        cli_table_text(table, range);
-        cli_table_text(table, key->help);
+        add_key(table, key, key->name, aur_key_type_name(key->type), range);
     }
 }
 
 static int print_row(const aur_table *kind, const aur_row *row, cli_format format) {
-    static const char *const columns[] = {"key", "type", "default", "values", "help"};
     if (format == CLI_TABLE)
         printf("%s %s: %s%s%s%s\n", kind->kind, row->name, row->summary, row->source[0] != '\0' ? " (" : "",
                row->source, row->source[0] != '\0' ? ")" : "");
@@ -50,91 +133,135 @@ static int print_row(const aur_table *kind, const aur_row *row, cli_format forma
         return CLI_SUCCESS;
     if (format == CLI_TABLE)
         printf("\n");
-    cli_table *const table = cli_table_create(sizeof columns / sizeof columns[0], columns);
+    cli_table *const table = cli_table_create(KEY_COLUMNS, key_columns);
     add_keys(table, row);
     if (kind->common != NULL)
         add_keys(table, kind->common);
-    const int status = cli_table_print(table, format);
-    cli_table_destroy(table);
-    return status;
+    return cli_table_finish(table, format);
 }
 
 static int print_kind(const aur_table *kind, cli_format format) {
-    static const char *const columns[] = {"name", "summary", "source"};
-    cli_table *const table = cli_table_create(sizeof columns / sizeof columns[0], columns);
+    cli_table *const table = cli_table_create(3, (const char *const[]){"name", "summary", "source"});
     for (size_t i = 0; kind->row(i) != NULL; ++i) {
         cli_table_text(table, kind->row(i)->name);
         cli_table_text(table, kind->row(i)->summary);
         cli_table_text(table, kind->row(i)->source);
     }
-    const int status = cli_table_print(table, format);
-    cli_table_destroy(table);
-    return status;
+    return cli_table_finish(table, format);
 }
 
-static int help_on_row(const aur_table *kind, const char *name, cli_format format) {
-    enum { MOST_NAMES = 256 };
-    const char *names[MOST_NAMES];
-    size_t count = 0;
-    for (; count < MOST_NAMES && kind->row(count) != NULL; ++count) {
-        names[count] = kind->row(count)->name;
-        if (strcmp(names[count], name) == 0)
-            return print_row(kind, kind->row(count), format);
+/* The options of a verb as a table, for programs. */
+static int print_options(const cli_verb *verb, cli_format format) {
+    cli_table *const table = cli_table_create(KEY_COLUMNS, key_columns);
+    const cli_option *option;
+    for (size_t i = 0; (option = cli_option_at(verb, i, NULL)) != NULL; ++i) {
+        char what[TEXT_CAPACITY], values[TEXT_CAPACITY];
+        const bool choice = option->name != NULL || option->key.type == AUR_KEY_CHOICE;
+        write_option(option, false, what);
+        list_values(option, values);
+        add_key(table, &option->key, what,
+                option->value == NULL ? "flag"
+                : choice              ? "choice"
+                                      : aur_key_type_name(option->key.type),
+                option->value != NULL ? values : "");
     }
-    const char *const nearest = aur_nearest_name(name, count, names);
-    if (nearest != NULL)
-        return cli_bad_usage("help: unknown %s '%s'; did you mean '%s'?", kind->kind, name, nearest);
-    return cli_bad_usage("help: unknown %s '%s': 'aureole help %s' lists them", kind->kind, name, kind->kind);
+    return cli_table_finish(table, format);
 }
 
-static int fail_topic(size_t verb_count, const cli_verb *const *verbs, const char *topic) {
-    enum { MOST_NAMES = 64 };
-    const char *names[MOST_NAMES];
-    size_t count = 0;
-    for (size_t i = 0; i < verb_count && count < MOST_NAMES; ++i)
-        names[count++] = verbs[i]->name;
-    for (size_t i = 0; cli_table_at(i) != NULL && count < MOST_NAMES; ++i)
-        names[count++] = cli_table_at(i)->kind;
-    const char *const nearest = aur_nearest_name(topic, count, names);
-    if (nearest != NULL)
-        return cli_bad_usage("help: unknown verb '%s'; did you mean '%s'?", topic, nearest);
-    return cli_bad_usage("help: unknown verb '%s': 'aureole help' lists them", topic);
+static int print_verbs(const cli_verb *const *verbs, cli_format format) {
+    cli_table *const table = cli_table_create(2, (const char *const[]){"name", "summary"});
+    for (; *verbs != NULL; ++verbs) {
+        cli_table_text(table, (*verbs)->name);
+        cli_table_text(table, (*verbs)->summary);
+    }
+    return cli_table_finish(table, format);
 }
 
-static int print_overview(size_t verb_count, const cli_verb *const *verbs) {
+static int print_overview(const cli_verb *const *verbs) {
     printf("aureole: quasi-Monte Carlo points, weights and light transport\n\n");
-    for (size_t i = 0; i < verb_count; ++i)
-        printf("  %-10s %s\n", verbs[i]->name, verbs[i]->summary);
-    printf(
-        "\n'aureole help VERB' shows a verb's options; 'aureole --version' the version.\n"
-        "'aureole help KIND' lists what there is of a kind, 'aureole help KIND NAME' the keys of one:\n\n");
+    for (; *verbs != NULL; ++verbs)
+        print_entry((*verbs)->name, NAME_COLUMN, (*verbs)->summary);
+    print_paragraph(0, 0,
+                    "\n'aureole help VERB' shows a verb's options; 'aureole --version' the version. 'aureole "
+                    "help KIND' lists what there is of a kind, 'aureole help KIND NAME' the keys of one:\n");
     for (size_t i = 0; cli_table_at(i) != NULL; ++i)
-        printf("  %-10s %s\n", cli_table_at(i)->kind, cli_table_at(i)->summary);
+        print_entry(cli_table_at(i)->kind, NAME_COLUMN, cli_table_at(i)->summary);
     return CLI_SUCCESS;
 }
 
-int cli_help(size_t verb_count, const cli_verb *const *verbs, int argc, char **argv) {
-    static const struct option options[] = {{"format", required_argument, NULL, 'f'}, {0}};
-    cli_format format = CLI_TABLE;
-    bool as_table = false; /* a kind, where a verb has the same name */
-    optind = 0;
-    for (int option; (option = cli_next_option(argc, argv, "", options)) != -1; as_table = true)
-        if (option != 'f' || !cli_parse_format(optarg, &format))
-            return CLI_BAD_INPUT;
-    const int count = argc - optind;
-    if (count == 0)
-        return print_overview(verb_count, verbs);
-    const char *const topic = argv[optind];
-    const aur_table *const kind = find_table(topic);
-    for (size_t i = 0; i < verb_count && count == 1 && !as_table; ++i) {
-        if (strcmp(verbs[i]->name, topic) == 0) {
-            cli_print_verb_help(verbs[i]);
-            return CLI_SUCCESS;
-        }
-    }
-    if (kind == NULL && count == 1)
-        return fail_topic(verb_count, verbs, topic);
-    if (kind == NULL || count > 2)
-        return cli_bad_usage("help: one verb, or a kind and a name: 'aureole help' lists them");
-    return count == 1 ? print_kind(kind, format) : help_on_row(kind, argv[optind + 1], format);
+/* What may stand after a word of `aureole help`: verbs and kinds, or the rows of a kind. */
+typedef struct name_list {
+    size_t count;
+    const char *names[CLI_NAME_LIMIT];
+} name_list;
+
+static void add_name(name_list *list, const char *name) {
+    if (list->count < CLI_NAME_LIMIT)
+        list->names[list->count++] = name;
 }
+
+static int refuse_name(const name_list *list, const char *kind, const char *name, const char *topic) {
+    const char *const nearest = aur_nearest_name(name, list->count, list->names);
+    if (nearest != NULL)
+        return cli_bad_usage("help: unknown %s '%s'; did you mean '%s'?", kind, name, nearest);
+    return cli_bad_usage("help: unknown %s '%s': 'aureole help%s' lists them", kind, name, topic);
+}
+
+static int help_on_row(const aur_table *kind, const char *name, cli_format format) {
+    name_list list = {0};
+    for (size_t i = 0; kind->row(i) != NULL; ++i) {
+        add_name(&list, kind->row(i)->name);
+        if (strcmp(kind->row(i)->name, name) == 0)
+            return print_row(kind, kind->row(i), format);
+    }
+    char topic[64];
+    aur_format(topic, sizeof topic, " %s", kind->kind);
+    return refuse_name(&list, kind->kind, name, topic);
+}
+
+static int help_on_verb(const cli_verb *const *verbs, const char *name, cli_format format, bool or_kind) {
+    name_list list = {0};
+    for (; *verbs != NULL; ++verbs) {
+        add_name(&list, (*verbs)->name);
+        if (strcmp((*verbs)->name, name) == 0)
+            return format == CLI_TABLE ? cli_print_verb_help(*verbs) : print_options(*verbs, format);
+    }
+    for (size_t i = 0; or_kind && cli_table_at(i) != NULL; ++i)
+        add_name(&list, cli_table_at(i)->kind);
+    return refuse_name(&list, "verb", name, "");
+}
+
+static int run(const cli_call *call) {
+    const cli_format format = *(const cli_format *)call->options;
+    if (call->operand_count == 0)
+        return print_overview(call->verbs);
+    const char *const topic = call->operands[0];
+    const char *const name = call->operand_count > 1 ? call->operands[1] : NULL;
+    if (strcmp(topic, "verb") == 0)
+        return name != NULL ? help_on_verb(call->verbs, name, format, false)
+                            : print_verbs(call->verbs, format);
+    const aur_table *const kind = cli_find_table(topic);
+    if (kind == NULL && name != NULL)
+        return cli_bad_usage("help: %s: 'aureole help' lists them", call->verb->too_many);
+    if (name != NULL)
+        return help_on_row(kind, name, format);
+    /* A kind may be called as a verb is: then --format asks for the kind. */
+    bool verb_too = false;
+    for (size_t i = 0; call->verbs[i] != NULL; ++i)
+        verb_too = verb_too || strcmp(call->verbs[i]->name, topic) == 0;
+    if (kind != NULL && (!verb_too || cli_given(call, "format") != NULL))
+        return print_kind(kind, format);
+    return help_on_verb(call->verbs, topic, format, true);
+}
+
+const cli_verb cli_verb_help = {
+    .name = "help",
+    .summary = "show the verbs, the options of one, or the keys of a thing",
+    .too_many = "one verb, or a kind and a name",
+    .operands = {{"TOPIC", "a verb, a kind of things, or the word verb", .optional = true,
+                  .content = "topic"},
+                 {"NAME", "one of the kind", .optional = true, .content = "row"}},
+    .groups = {{cli_format_option}},
+    .size = sizeof(cli_format),
+    .run = run,
+};

@@ -4,20 +4,43 @@
 #include <string.h>
 #include <sys/stat.h>
 
-#include "cli/cli.h"
+#include "cli/options.h"
 #include "lab/lab.h"
 
-static int list(int argc, char **argv) {
-    enum { FORMAT = 256 };
-    static const struct option options[] = {{"format", required_argument, NULL, FORMAT}, {NULL, 0, NULL, 0}};
-    cli_format format = CLI_TABLE;
-    int option;
-    optind = 0;
-    while ((option = cli_next_option(argc, argv, "", options)) != -1)
-        if (option != FORMAT || !cli_parse_format(optarg, &format))
-            return CLI_BAD_INPUT;
-    if (optind != argc)
-        return cli_bad_usage("lab list: takes no names");
+typedef struct lab_command {
+    lab_options lab;
+    bool quiet;
+    cli_format format;
+} lab_command;
+
+static const cli_option options[] = {
+    {.key = {"output", AUR_KEY_TEXT, "folder of the results", "lab-results",
+             CLI_FIELD(lab_command, lab.folder)},
+     .letter = 'o',
+     .value = "DIR",
+     .content = "folder"},
+    {.key = {"quick", .help = "a form that takes seconds, with wider intervals",
+             CLI_FIELD(lab_command, lab.quick)}},
+    {.key = {"set", AUR_KEY_TEXT, "compare one more point set", CLI_FIELD(lab_command, lab.set)},
+     .value = "SET",
+     .content = "set"},
+    {.key = {"scenes", AUR_KEY_TEXT, "the bundled scenes", "./scenes, else those of the source tree",
+             .computed = true, CLI_FIELD(lab_command, lab.scenes)},
+     .value = "DIR",
+     .content = "folder"},
+    {.key = {0}}};
+
+static const char *experiment_name(unsigned index) {
+    const lab_experiment *const experiment = lab_experiment_at(index);
+    return experiment != NULL ? experiment->name : NULL;
+}
+
+static const char *action_name(unsigned index) {
+    static const char *const names[] = {"list", "run"};
+    return index < 2 ? names[index] : NULL;
+}
+
+static int list(cli_format format) {
     static const char *const columns[] = {"experiment", "reproduces", "what it shows"};
     cli_table *const table = cli_table_create(3, columns);
     for (size_t i = 0; i < lab_experiment_count(); ++i) {
@@ -25,9 +48,7 @@ static int list(int argc, char **argv) {
         cli_table_text(table, lab_experiment_at(i)->reproduces);
         cli_table_text(table, lab_experiment_at(i)->summary);
     }
-    const int status = cli_table_print(table, format);
-    cli_table_destroy(table);
-    return status;
+    return cli_table_finish(table, format);
 }
 
 static const lab_experiment *find(const char *name) {
@@ -47,8 +68,7 @@ static int print_result(const lab_experiment *experiment, const lab_result *resu
         else
             cli_table_text(table, result->cells[i].text);
     }
-    const int status = cli_table_print(table, format);
-    cli_table_destroy(table);
+    const int status = cli_table_finish(table, format);
     if (format != CLI_TABLE)
         return status;
     if (result->note_count > 0)
@@ -61,82 +81,60 @@ static int print_result(const lab_experiment *experiment, const lab_result *resu
     return status;
 }
 
-static int run_one(const lab_experiment *experiment, const lab_options *options, cli_format format) {
+static int run_one(const lab_experiment *experiment, const lab_options *lab, cli_format format) {
     lab_result result;
     aur_error error = {0};
-    const aur_result outcome = lab_run_experiment(experiment, options, &result, &error);
+    const aur_result outcome = lab_run_experiment(experiment, lab, &result, &error);
     cli_progress_clear();
     const int status = outcome == AUR_OK ? print_result(experiment, &result, format) : cli_fail(&error);
     lab_result_release(&result);
     return status;
 }
 
-static int run_experiments(int argc, char **argv) {
-    enum { QUICK = 256, SET, SCENES, FORMAT };
-    static const struct option options[] = {
-        {"quick", no_argument, NULL, QUICK},         {"set", required_argument, NULL, SET},
-        {"scenes", required_argument, NULL, SCENES}, {"format", required_argument, NULL, FORMAT},
-        {"output", required_argument, NULL, 'o'},    {"threads", required_argument, NULL, 't'},
-        {"quiet", no_argument, NULL, 'q'},           {NULL, 0, NULL, 0}};
-    lab_options lab = {.folder = "lab-results"};
-    cli_format format = CLI_TABLE;
-    bool quiet = false;
-    int option;
-    optind = 0;
-    while ((option = cli_next_option(argc, argv, "o:t:q", options)) != -1) {
-        bool good = true;
-        if (option == QUICK)
-            lab.quick = true;
-        else if (option == SET)
-            lab.set = optarg;
-        else if (option == SCENES)
-            lab.scenes = optarg;
-        else if (option == FORMAT)
-            good = cli_parse_format(optarg, &format);
-        else if (option == 'o')
-            lab.folder = optarg;
-        else if (option == 't')
-            good = cli_parse_size("-t", optarg, 1, 1024, &lab.threads);
-        else if (option == 'q')
-            quiet = true;
-        else
-            good = false;
-        if (!good)
-            return CLI_BAD_INPUT;
-    }
-    if (optind == argc)
+static int run_experiments(lab_command *command, size_t count, char **names) {
+    if (count == 0)
         return cli_bad_usage("lab run: an experiment is missing: 'aureole lab list' names them");
-    for (int i = optind; i < argc; ++i)
-        if (find(argv[i]) == NULL)
-            return cli_bad_usage("lab run: unknown experiment '%s': 'aureole lab list' names them", argv[i]);
-    if (mkdir(lab.folder, 0777) != 0 && errno != EEXIST) {
-        fprintf(stderr, "aureole: %s: cannot make the folder: %s\n", lab.folder, strerror(errno));
+    for (size_t i = 0; i < count; ++i)
+        if (find(names[i]) == NULL)
+            return cli_bad_usage("lab run: unknown experiment '%s': 'aureole lab list' names them", names[i]);
+    lab_options *const lab = &command->lab;
+    if (mkdir(lab->folder, 0777) != 0 && errno != EEXIST) {
+        fprintf(stderr, "aureole: %s: cannot make the folder: %s\n", lab->folder, strerror(errno));
         return CLI_FAILURE;
     }
-    lab.progress = cli_progress(quiet);
-    lab.warnings = cli_warnings(quiet);
+    lab->progress = cli_progress(command->quiet);
+    lab->warnings = cli_warnings(command->quiet);
     int status = CLI_SUCCESS;
-    for (int i = optind; i < argc && status == CLI_SUCCESS; ++i)
-        status = run_one(find(argv[i]), &lab, format);
+    for (size_t i = 0; i < count && status == CLI_SUCCESS; ++i)
+        status = run_one(find(names[i]), lab, command->format);
     return status;
 }
 
-static int run(int argc, char **argv) {
-    if (argc >= 2 && strcmp(argv[1], "list") == 0)
-        return list(argc - 1, argv + 1);
-    if (argc >= 2 && strcmp(argv[1], "run") == 0)
-        return run_experiments(argc - 1, argv + 1);
-    return cli_bad_usage("lab: 'list' or 'run' is wanted: try 'aureole help lab'");
+static int run(const cli_call *call) {
+    lab_command *const command = call->options;
+    const char *const action = call->operands[0];
+    if (strcmp(action, "run") == 0)
+        return run_experiments(command, call->operand_count - 1, call->operands + 1);
+    if (strcmp(action, "list") != 0)
+        return cli_bad_usage("lab: %s: try 'aureole help lab'", call->verb->too_few);
+    if (call->operand_count > 1)
+        return cli_bad_usage("lab list: takes no names");
+    return list(command->format);
 }
 
 const cli_verb cli_verb_lab = {
-    "lab", "list | run NAME... [options]", "the papers' experiments, measured",
-    "  list                the experiments and what each reproduces\n"
-    "  run NAME...         run experiments; writes CSV and pictures and prints the table\n"
-    "  -o DIR              folder of the results (default: lab-results)\n"
-    "  --quick             a form that takes seconds, with wider intervals\n"
-    "  --set SET           compare one more point set\n"
-    "  --scenes DIR        the bundled scenes (default: ./scenes, else those of the source tree)\n"
-    "  --format F          table, csv or json\n"
-    "  -t N, -q            threads; no progress bar and no warnings\n",
-    run};
+    .name = "lab",
+    .summary = "the papers' experiments, measured",
+    .too_few = "'list' or 'run' is wanted",
+    .operands = {{"ACTION",
+                  "list: the experiments and what each reproduces; run: run experiments, write CSV and "
+                  "pictures, print the tables",
+                  .name = action_name},
+                 {"NAME", "experiments to run", .optional = true, .repeated = true, .name = experiment_name}},
+    .groups = {{options},
+               {cli_format_option, offsetof(lab_command, format)},
+               {cli_threads_option, offsetof(lab_command, lab.threads)},
+               {cli_quiet_option, offsetof(lab_command, quiet)}},
+    .size = sizeof(lab_command),
+    .run = run,
+};

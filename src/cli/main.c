@@ -1,9 +1,10 @@
-/* aureole: finds the verb and runs it. Adding a verb is one file, which defines cli_verb_<name>, and one
- * line here. */
+/* aureole: finds the verb, reads its options and runs it. Adding a verb is one file, which defines
+ * cli_verb_<name>, and one line here. */
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
-#include "cli/verbs.h"
+#include "cli/kinds.h"
 
 #define VERBS(ROW)                                                                                           \
     ROW(sets)                                                                                                \
@@ -20,30 +21,29 @@
 #define DECLARE(name) extern const cli_verb cli_verb_##name;
 VERBS(DECLARE)
 
-static int run_help(int argc, char **argv);
-
-const cli_verb cli_verb_help = {
-    .name = "help",
-    .arguments = "[VERB | KIND [NAME]] [--format table|csv|json]",
-    .summary = "show the verbs, the options of one, or the keys of a thing",
-    .help = "",
-    .run = run_help,
-};
-
 #define ADDRESS(name) &cli_verb_##name,
-static const cli_verb *const verbs[] = {VERBS(ADDRESS)};
-
-enum { VERB_COUNT = sizeof verbs / sizeof verbs[0] };
-
-static int run_help(int argc, char **argv) {
-    return cli_help(VERB_COUNT, verbs, argc, argv);
-}
+static const cli_verb *const verbs[] = {VERBS(ADDRESS) NULL};
 
 static const cli_verb *find_verb(const char *name) {
-    for (size_t i = 0; i < VERB_COUNT; ++i)
+    for (size_t i = 0; verbs[i] != NULL; ++i)
         if (strcmp(verbs[i]->name, name) == 0)
             return verbs[i];
     return NULL;
+}
+
+/* argv[0] is the verb. */
+static int run(const cli_verb *verb, int argc, char **argv) {
+    for (int i = 1; i < argc && strcmp(argv[i], "--") != 0; ++i)
+        if (strcmp(argv[i], "--help") == 0)
+            return cli_print_verb_help(verb);
+    cli_call call = {.verbs = verbs, .options = calloc(1, verb->size + 1)};
+    int status = CLI_BAD_INPUT;
+    if (call.options == NULL)
+        status = cli_fail(&(aur_error){.result = AUR_ERROR_MEMORY, .message = "out of memory"});
+    else if (cli_read_options(verb, argc, argv, &call))
+        status = verb->run(&call);
+    free(call.options);
+    return status;
 }
 
 /* A result that cannot be delivered (a full disk behind standard output) is a failure. */
@@ -57,26 +57,18 @@ static int finish(int status) {
 }
 
 int main(int argc, char **argv) {
-    if (argc < 2) {
-        char *help[] = {"help", NULL};
-        run_help(1, help);
-        return cli_bad_usage("a verb is missing: try 'aureole help'");
+    char *const name = argc < 2 ? "" : argv[1];
+    const bool help = strcmp(name, "--help") == 0 || strcmp(name, "-h") == 0;
+    if (argc < 2 || help) {
+        const int status = run(&cli_verb_help, 1, (char *[]){"help", NULL});
+        return finish(help ? status : cli_bad_usage("a verb is missing: try 'aureole help'"));
     }
-    const char *const name = argv[1];
     if (strcmp(name, "--version") == 0) {
         printf("aureole %s\n", aur_version());
         return finish(CLI_SUCCESS);
     }
-    if (strcmp(name, "--help") == 0 || strcmp(name, "-h") == 0)
-        return finish(run_help(1, (char *[]){"help", NULL}));
     const cli_verb *const verb = find_verb(name);
     if (verb == NULL)
         return cli_bad_usage("unknown verb '%s': 'aureole help' lists them", name);
-    for (int i = 2; i < argc && strcmp(argv[i], "--") != 0; ++i) {
-        if (strcmp(argv[i], "--help") == 0) {
-            cli_print_verb_help(verb);
-            return finish(CLI_SUCCESS);
-        }
-    }
-    return finish(verb->run(argc - 1, argv + 1));
+    return finish(run(verb, argc - 1, argv + 1));
 }

@@ -1,147 +1,83 @@
 /* aureole measure: quality figures of points. */
 #include "cli/measure.h"
 
+#include <aureole/text.h>
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
-static const char help[] =
-    "  -n, --count N[,N...]      sizes of the sets; files are measured whole\n"
-    "  -m, --metric NAME[,...]   the figures (--list names them)\n"
-    "      --list                list the measures with their domains and sources\n"
-    "      --domain DOMAIN       square, cube, hemisphere or sphere; else what the first measure is for,\n"
-    "                            or what a file holds\n"
-    "      --dim D               dimension, for sets on the cube\n"
-    "      --map MAP             lambert, concentric, azimuthal or polar, for sets of the square on the "
-    "sphere\n"
-    "      --lobe LOBE           uniform, cosine, phong:M or ggx:ALPHA[:VIEW_DEGREES], on the hemisphere\n"
-    "      --density same|optimal, --smoothness S\n"
-    "                            the density that the points follow, as for 'aureole points'\n"
-    "      --scramble SCRAMBLE   none, digit, owen, shift, rotate or rotate3d\n"
-    "      --seed S              of scrambling and of random sets\n"
-    "      --seeds K             mean, spread and root mean square over K seeds from S\n"
-    "      --fast                sums over pairs to 2e-14 instead of the last bit\n"
-    "      --format FORMAT       table, csv or json\n"
-    "      --plot FILE.svg       draw the figures against N with fitted slopes (needs gnuplot)\n"
-    "  -t, --threads T           0: all\n"
-    "  -q, --quiet               no progress bar and no warnings\n"
-    "\n"
-    "A SET is NAME[:key=value,...] ('aureole sets' lists them), a FILE CSV or NPY; '-' is standard input.\n"
-    "Directions within 1e-6 of unit length are scaled to it; weights are divided by their sum.\n";
-
-enum { OPTION_SEEDS = 256, OPTION_FAST, OPTION_FORMAT, OPTION_PLOT, OPTION_LIST };
-
-static const struct option long_options[] = {{"count", required_argument, NULL, 'n'},
-                                             {"metric", required_argument, NULL, 'm'},
-                                             {"domain", required_argument, NULL, CLI_POINTS_DOMAIN},
-                                             {"dim", required_argument, NULL, CLI_POINTS_DIM},
-                                             {"map", required_argument, NULL, CLI_POINTS_MAP},
-                                             {"lobe", required_argument, NULL, CLI_POINTS_LOBE},
-                                             {"density", required_argument, NULL, CLI_POINTS_DENSITY},
-                                             {"smoothness", required_argument, NULL, CLI_POINTS_SMOOTHNESS},
-                                             {"scramble", required_argument, NULL, CLI_POINTS_SCRAMBLE},
-                                             {"seed", required_argument, NULL, CLI_POINTS_SEED},
-                                             {"seeds", required_argument, NULL, OPTION_SEEDS},
-                                             {"fast", no_argument, NULL, OPTION_FAST},
-                                             {"format", required_argument, NULL, OPTION_FORMAT},
-                                             {"plot", required_argument, NULL, OPTION_PLOT},
-                                             {"list", no_argument, NULL, OPTION_LIST},
-                                             {"threads", required_argument, NULL, 't'},
-                                             {"quiet", no_argument, NULL, 'q'},
-                                             {NULL, 0, NULL, 0}};
-
-static bool parse_metrics(cli_measure_arguments *arguments, const char *text) {
-    size_t count = 1;
-    for (const char *c = text; *c != '\0'; ++c)
-        count += *c == ',';
-    free(arguments->metric_text);
-    free(arguments->metrics);
-    arguments->metric_text = strdup(text);
-    arguments->metrics = malloc(count * sizeof *arguments->metrics);
-    arguments->metric_count = 0;
-    if (arguments->metric_text == NULL || arguments->metrics == NULL)
-        return false;
-    size_t series = 0;
-    char *rest = arguments->metric_text;
-    while (rest != NULL) {
-        char *const comma = strchr(rest, ',');
-        if (comma != NULL)
-            *comma = '\0';
-        arguments->metrics[arguments->metric_count++] = rest;
-        const aur_measure_description *description;
-        aur_error error = {0};
-        if (!cli_succeeded(aur_measure_find(rest, &description, &error), &error))
-            return false;
-        series += description->series;
-        rest = comma != NULL ? comma + 1 : NULL;
-    }
-    arguments->series = series > 0;
-    if (series > 0 && arguments->metric_count > 1)
-        return cli_bad_usage("--metric: a measure that is a table stands alone, not with others"), false;
-    return true;
+static aur_result check_metric(const char *text, void *field, aur_error *error) {
+    const aur_measure_description **const description = field;
+    return aur_measure_find(text, description, error);
 }
 
-static bool parse_option(int option, cli_measure_arguments *arguments) {
-    switch (option) {
-    case 'n':
-        free(arguments->sizes);
-        return cli_parse_sizes("-n", optarg, &arguments->size_count, &arguments->sizes);
-    case 'm':
-        return parse_metrics(arguments, optarg);
-    case 't':
-        return cli_parse_size("-t", optarg, 0, 4096, &arguments->options.threads);
-    case 'q':
-        arguments->quiet = true;
-        return true;
-    case OPTION_SEEDS:
-        return cli_parse_size("--seeds", optarg, 2, 1u << 20, &arguments->seed_count);
-    case OPTION_FAST:
-        arguments->options.fast = true;
-        return true;
-    case OPTION_FORMAT:
-        return cli_parse_format(optarg, &arguments->format);
-    case OPTION_PLOT:
-        arguments->plot = optarg;
-        return true;
-    case OPTION_LIST:
-        arguments->list = true;
-        return true;
-    default:
-        return cli_parse_point_option(option, optarg, &arguments->points);
-    }
-}
+static const cli_option options[] = {
+    {.key = {"count", AUR_KEY_INTEGER, "sizes of the sets; files are measured whole", .minimum = 1,
+             .maximum = INFINITY, CLI_FIELD(cli_measure_arguments, sizes)},
+     .letter = 'n',
+     .value = "N",
+     .list = true},
+    {.key = {"metric", AUR_KEY_TEXT, "the figures (--list names them)",
+             CLI_FIELD(cli_measure_arguments, metrics)},
+     .letter = 'm',
+     .value = "NAME",
+     .list = true,
+     .parse = check_metric,
+     .content = "measure"},
+    {.key = {"list", .help = "list the measures with their domains and sources",
+             CLI_FIELD(cli_measure_arguments, list)}},
+    {.key = {"seeds", AUR_KEY_INTEGER, "mean, spread and root mean square over K seeds from --seed on",
+             .minimum = 2, .maximum = 1 << 20, CLI_FIELD(cli_measure_arguments, seed_count)},
+     .value = "K"},
+    {.key = {"fast", .help = "sums over pairs to 2e-14 instead of the last bit",
+             CLI_FIELD(cli_measure_arguments, options.fast)}},
+    {.key = {"plot", AUR_KEY_TEXT,
+             "draw the figures against N with fitted slopes, .svg or .png (needs gnuplot)",
+             CLI_FIELD(cli_measure_arguments, plot)},
+     .value = "FILE",
+     .content = "file"},
+    {.key = {0}}};
 
 /* The domain that the first word of the first measure's list names, or the one that the dimension asks for.
  */
-static void choose_domain(cli_measure_arguments *arguments) {
-    cli_point_options *const points = &arguments->points;
-    if (points->domain_given)
-        return;
+static aur_domain choose_domain(const cli_measure_arguments *arguments) {
     const aur_measure_description *description = NULL;
-    points->domain = AUR_DOMAIN_SPHERE;
-    if (points->dimension > 0)
-        points->domain = AUR_DOMAIN_CUBE;
-    else if (aur_measure_find(arguments->metrics[0], &description, NULL) == AUR_OK) {
-        char first[32] = "";
+    aur_domain domain = AUR_DOMAIN_SPHERE;
+    if (arguments->points.dimension > 0)
+        return AUR_DOMAIN_CUBE;
+    if (aur_measure_find(cli_metric(arguments, 0), &description, NULL) == AUR_OK) {
+        char first[32];
         snprintf(first, sizeof first, "%.*s", (int)strcspn(description->domains, ","), description->domains);
-        cli_parse_domain(first, &points->domain);
+        aur_domain_from_name(first, &domain, NULL);
     }
+    return domain;
 }
 
-static bool check_arguments(cli_measure_arguments *arguments) {
+/* What the options mean together. */
+static bool complete(cli_measure_arguments *arguments) {
     if (arguments->source_count == 0)
         return cli_bad_usage("measure: a file or a set is missing: try 'aureole help measure'"), false;
-    if (arguments->metric_count == 0)
+    if (arguments->metrics.count == 0)
         return cli_bad_usage("measure: --metric is missing: 'aureole measure --list' lists them"), false;
+    size_t series = 0;
+    for (size_t i = 0; i < arguments->metrics.count; ++i) {
+        const aur_measure_description *description;
+        series +=
+            aur_measure_find(cli_metric(arguments, i), &description, NULL) == AUR_OK && description->series;
+    }
+    arguments->series = series > 0;
+    if (series > 0 && arguments->metrics.count > 1)
+        return cli_bad_usage("--metric: a measure that is a table stands alone, not with others"), false;
+    if (series > 0 && arguments->seed_count > 0)
+        return cli_bad_usage("--seeds: there are no statistics of tables"), false;
     for (size_t i = 0; i < arguments->source_count; ++i)
-        if (arguments->size_count == 0 && !cli_is_file(arguments->sources[i]) &&
-            strncmp(arguments->sources[i], "file:", 5) != 0)
+        if (arguments->sizes.count == 0 && !cli_has_size(arguments->sources[i]))
             return cli_bad_usage("measure: -n is missing for the set '%s' (there is no such file)",
                                  arguments->sources[i]),
                    false;
-    if (arguments->series && arguments->seed_count > 0)
-        return cli_bad_usage("--seeds: there are no statistics of tables"), false;
-    choose_domain(arguments);
+    if (!arguments->points.domain_given)
+        arguments->points.options.domain = choose_domain(arguments);
     return true;
 }
 
@@ -163,34 +99,119 @@ static int print_list(cli_format format) {
         cli_table_text(table, row->row.summary);
         cli_table_text(table, row->row.source);
     }
-    const int status = cli_table_print(table, format);
-    cli_table_destroy(table);
-    return status;
+    return cli_table_finish(table, format);
 }
 
-static int run(int argc, char **argv) {
-    cli_measure_arguments arguments = {.options = aur_measure_options_default()};
-    int status = CLI_BAD_INPUT;
-    bool good = true;
-    optind = 0;
-    for (int option; good && (option = cli_next_option(argc, argv, "n:m:t:q", long_options)) != -1;)
-        good = option != '?' && parse_option(option, &arguments);
-    arguments.source_count = (size_t)(argc - optind);
-    arguments.sources = argv + optind;
-    arguments.points.warnings = cli_warnings(arguments.quiet);
-    arguments.options.warnings = arguments.points.warnings;
-    arguments.options.seed = arguments.points.seed;
-    if (good && arguments.list) {
-        status = print_list(arguments.format);
-    } else if (good && check_arguments(&arguments)) {
-        arguments.options.progress = cli_progress(arguments.quiet);
-        status = arguments.series ? cli_measure_series(&arguments) : cli_measure_rows(&arguments);
+static int print_rows(const cli_measure_arguments *arguments, const cli_measure_rows *rows) {
+    const size_t per = cli_figures_per_metric(arguments);
+    const aur_series *const first = rows->items[0].series;
+    const size_t columns =
+        arguments->series ? aur_series_column_count(first) : arguments->metrics.count * per;
+    static const char *const suffixes[] = {"", "-spread", "-rms"};
+    cli_table *const table = cli_table_create(3, (const char *const[]){"set", "n", "domain"});
+    for (size_t c = 0; c < columns; ++c) {
+        char name[96];
+        if (arguments->series)
+            snprintf(name, sizeof name, "%s", aur_series_column(first, c));
+        else
+            snprintf(name, sizeof name, "%s%s", cli_metric(arguments, c / per), suffixes[c % per]);
+        cli_table_column(table, name);
     }
-    free(arguments.sizes);
-    free(arguments.metrics);
-    free(arguments.metric_text);
-    return status;
+    for (size_t i = 0; i < rows->count; ++i) {
+        const cli_measure_row *const row = &rows->items[i];
+        const double *const values = arguments->series ? aur_series_values(row->series) : row->figures;
+        const size_t lines = arguments->series ? aur_series_row_count(row->series) : 1;
+        for (size_t k = 0; k < lines; ++k) {
+            cli_table_text(table, row->source);
+            cli_table_integer(table, row->count);
+            cli_table_text(table, aur_domain_name(row->domain));
+            for (size_t c = 0; c < columns; ++c)
+                cli_table_number(table, values[k * columns + c], 6);
+        }
+    }
+    const int status = cli_table_finish(table, arguments->format);
+    if (status != CLI_SUCCESS || arguments->plot == NULL)
+        return status;
+    return arguments->series ? cli_measure_plot_series(arguments, rows) : cli_measure_plot(arguments, rows);
 }
 
-const cli_verb cli_verb_measure = {"measure", "FILE|SET... [-n N[,N...]] --metric NAME[,NAME...]",
-                                   "quality figures of points", help, run};
+/* A row for each source and size; rows that are finished are kept when the work ends early. */
+static aur_result measure(const cli_measure_arguments *arguments, cli_measure_rows *rows, aur_error *error) {
+    for (size_t s = 0; s < arguments->source_count; ++s) {
+        char *const source = arguments->sources[s];
+        /* Without sizes all points of file:PATH. */
+        const bool whole = cli_is_file(source) || arguments->sizes.count == 0;
+        for (size_t i = 0; i < (whole ? 1 : arguments->sizes.count); ++i) {
+            cli_measure_row *const row = &rows->items[rows->count];
+            uint64_t size = 0;
+            if (!whole)
+                aur_parse_integer(cli_list_at(&arguments->sizes, i), SIZE_MAX, &size);
+            row->source = source;
+            const aur_result result = cli_measure_figures(arguments, source, (size_t)size, row, error);
+            if (result != AUR_OK)
+                return result;
+            ++rows->count;
+        }
+    }
+    return AUR_OK;
+}
+
+static int measure_all(const cli_measure_arguments *arguments) {
+    const size_t sizes = arguments->sizes.count > 0 ? arguments->sizes.count : 1;
+    const size_t most = arguments->source_count * sizes;
+    cli_measure_rows rows = {.items = calloc(most, sizeof *rows.items)};
+    aur_error error = {0};
+    const aur_result result = rows.items != NULL ? measure(arguments, &rows, &error) : AUR_ERROR_MEMORY;
+    cli_progress_clear();
+    int status = CLI_SUCCESS;
+    if (rows.count > 0)
+        status = print_rows(arguments, &rows);
+    if (result == AUR_ERROR_CANCELLED) {
+        error = (aur_error){0};
+        aur_fail(&error, result, "interrupted after %zu finished row%s", rows.count,
+                 rows.count == 1 ? "" : "s");
+    }
+    error.result = result;
+    for (size_t i = 0; rows.items != NULL && i < most; ++i) {
+        free(rows.items[i].figures);
+        aur_series_destroy(rows.items[i].series);
+    }
+    free(rows.items);
+    return result == AUR_OK ? status : cli_fail(&error);
+}
+
+static int run(const cli_call *call) {
+    cli_measure_arguments *const arguments = call->options;
+    arguments->source_count = call->operand_count;
+    arguments->sources = call->operands;
+    arguments->points.domain_given = cli_given(call, "domain") != NULL;
+    arguments->points.options.warnings = cli_warnings(arguments->quiet);
+    arguments->options.size = sizeof arguments->options;
+    arguments->options.warnings = arguments->points.options.warnings;
+    arguments->options.seed = arguments->points.options.seed;
+    if (arguments->list)
+        return print_list(arguments->format);
+    if (!complete(arguments))
+        return CLI_BAD_INPUT;
+    arguments->options.progress = cli_progress(arguments->quiet);
+    return measure_all(arguments);
+}
+
+const cli_verb cli_verb_measure = {
+    .name = "measure",
+    .summary = "quality figures of points",
+    .notes =
+        "A SET is NAME[:key=value,...] ('aureole sets' lists them), a FILE CSV or NPY; '-' is standard "
+        "input. "
+        "Without --domain the points of sets are where the first measure wants them. Directions within 1e-6 "
+        "of unit length are scaled to it; weights are divided by their sum.",
+    .operands = {{"FILE|SET", "points to measure", .optional = true, .repeated = true, .content = "set"}},
+    .groups = {{options},
+               {cli_points_options, offsetof(cli_measure_arguments, points.options)},
+               {cli_dimension_option, offsetof(cli_measure_arguments, points.dimension)},
+               {cli_format_option, offsetof(cli_measure_arguments, format)},
+               {cli_threads_option, offsetof(cli_measure_arguments, options.threads)},
+               {cli_quiet_option, offsetof(cli_measure_arguments, quiet)}},
+    .size = sizeof(cli_measure_arguments),
+    .run = run,
+};

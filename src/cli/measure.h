@@ -6,51 +6,48 @@
 #include "cli/point_source.h"
 
 typedef struct cli_measure_arguments {
-    cli_point_options points;
+    cli_points points;
     size_t source_count;
     char **sources;
-    size_t size_count;
-    size_t *sizes; /* malloc */
-    size_t metric_count;
-    char **metrics; /* into metric_text */
-    char *metric_text;
+    cli_list sizes; /* of no count: files only */
+    cli_list metrics;
     size_t seed_count; /* 0: one set, no statistics */
     aur_measure_options options;
     cli_format format;
     const char *plot; /* NULL: none */
-    bool quiet;
+    bool quiet, list;
     bool series; /* the one metric is a table */
-    bool list;
 } cli_measure_arguments;
 
-/* One row of figures: value, spread and root mean square of each metric; the last two with seeds only. */
+/* What was measured of one source and size: a table, or of each metric the value, with seeds also the spread
+ * and the root mean square. */
 typedef struct cli_measure_row {
     const char *source;
     aur_domain domain;
     size_t count;
-    double *figures; /* metric_count * cli_figures_per_metric() */
+    double *figures;    /* metrics.count * cli_figures_per_metric() */
+    aur_series *series; /* NULL: figures */
 } cli_measure_row;
 
-typedef struct cli_measure_table {
-    size_t count, capacity;
+typedef struct cli_measure_rows {
+    size_t count;
     cli_measure_row *items;
-} cli_measure_table;
+} cli_measure_rows;
 
 static inline size_t cli_figures_per_metric(const cli_measure_arguments *arguments) {
     return arguments->seed_count > 0 ? 3 : 1;
 }
 
-/* Calls `step` for each source and size (0: all points of a file), then `print` with what is finished, even
- * when the work ends early. Returns the exit status. */
-typedef aur_result (*cli_measure_step)(const cli_measure_arguments *arguments, const char *source,
-                                       size_t count, void *context, aur_error *error);
-int cli_measure_each(const cli_measure_arguments *arguments, void *context, cli_measure_step step,
-                     int (*print)(const cli_measure_arguments *arguments, void *context));
+static inline const char *cli_metric(const cli_measure_arguments *arguments, size_t index) {
+    return cli_list_at(&arguments->metrics, index);
+}
 
-/* Figures, and tables: compute, print and plot; return the exit status. */
-int cli_measure_rows(const cli_measure_arguments *arguments);
-int cli_measure_series(const cli_measure_arguments *arguments);
+/* Fills a row, but for its source, with what is measured of a source and size (0: all points of a file). */
+aur_result cli_measure_figures(const cli_measure_arguments *arguments, const char *source, size_t count,
+                               cli_measure_row *row, aur_error *error);
 
 /* Figures against N on log-log axes with fitted slopes, a panel a metric; slopes go to standard error as
- * well. */
-int cli_measure_plot(const cli_measure_arguments *arguments, const cli_measure_table *table);
+ * well. And tables: the second column against the first, a periodogram as a picture. Both return the exit
+ * status. */
+int cli_measure_plot(const cli_measure_arguments *arguments, const cli_measure_rows *rows);
+int cli_measure_plot_series(const cli_measure_arguments *arguments, const cli_measure_rows *rows);

@@ -21,12 +21,12 @@ static bool drawable(double value) {
     return isfinite(value) && value > 0.0;
 }
 
-static power_law fit(const cli_measure_arguments *arguments, const cli_measure_table *table,
-                     const char *source, size_t metric) {
+static power_law fit(const cli_measure_arguments *arguments, const cli_measure_rows *rows, const char *source,
+                     size_t metric) {
     double x = 0.0, y = 0.0, xx = 0.0, xy = 0.0;
     size_t count = 0;
-    for (size_t r = 0; r < table->count; ++r) {
-        const cli_measure_row *const row = &table->items[r];
+    for (size_t r = 0; r < rows->count; ++r) {
+        const cli_measure_row *const row = &rows->items[r];
         const double value = figure_of(arguments, row, metric, 0);
         if (row->source != source || !drawable(value))
             continue;
@@ -53,16 +53,16 @@ static void print_title(cli_plot *plot, const char *source, const power_law *law
     fputs("' noenhanced", plot->script);
 }
 
-static void draw_panel(const cli_measure_arguments *arguments, const cli_measure_table *table, size_t metric,
+static void draw_panel(const cli_measure_arguments *arguments, const cli_measure_rows *rows, size_t metric,
                        cli_plot *plot) {
     FILE *const script = plot->script;
     const bool spread = arguments->seed_count > 0;
     const char *separator = "plot ";
     fputs("set ylabel '", script);
-    cli_plot_text(plot, arguments->metrics[metric]);
+    cli_plot_text(plot, cli_metric(arguments, metric));
     fputs("' noenhanced\n", script);
     for (size_t s = 0; s < arguments->source_count; ++s) {
-        const power_law law = fit(arguments, table, arguments->sources[s], metric);
+        const power_law law = fit(arguments, rows, arguments->sources[s], metric);
         fprintf(script, "%s'-' with %s lt %zu ", separator, spread ? "yerrorbars" : "points", s + 1);
         print_title(plot, arguments->sources[s], &law);
         if (law.count > 0)
@@ -71,8 +71,8 @@ static void draw_panel(const cli_measure_arguments *arguments, const cli_measure
     }
     fputc('\n', script);
     for (size_t s = 0; s < arguments->source_count; ++s) {
-        for (size_t r = 0; r < table->count; ++r) {
-            const cli_measure_row *const row = &table->items[r];
+        for (size_t r = 0; r < rows->count; ++r) {
+            const cli_measure_row *const row = &rows->items[r];
             const double value = figure_of(arguments, row, metric, 0);
             if (row->source != arguments->sources[s] || !drawable(value))
                 continue;
@@ -87,45 +87,44 @@ static void draw_panel(const cli_measure_arguments *arguments, const cli_measure
     }
 }
 
-static void print_slopes(const cli_measure_arguments *arguments, const cli_measure_table *table) {
-    for (size_t m = 0; m < arguments->metric_count; ++m)
+static void print_slopes(const cli_measure_arguments *arguments, const cli_measure_rows *rows) {
+    for (size_t m = 0; m < arguments->metrics.count; ++m)
         for (size_t s = 0; s < arguments->source_count; ++s) {
-            const power_law law = fit(arguments, table, arguments->sources[s], m);
+            const power_law law = fit(arguments, rows, arguments->sources[s], m);
             if (law.count > 0)
-                fprintf(stderr, "%s of %s: slope %.4f over %zu sizes\n", arguments->metrics[m],
+                fprintf(stderr, "%s of %s: slope %.4f over %zu sizes\n", cli_metric(arguments, m),
                         arguments->sources[s], law.slope, law.count);
         }
 }
 
-static bool has_values(const cli_measure_arguments *arguments, const cli_measure_table *table,
-                       size_t metric) {
-    for (size_t r = 0; r < table->count; ++r)
-        if (drawable(figure_of(arguments, &table->items[r], metric, 0)))
+static bool has_values(const cli_measure_arguments *arguments, const cli_measure_rows *rows, size_t metric) {
+    for (size_t r = 0; r < rows->count; ++r)
+        if (drawable(figure_of(arguments, &rows->items[r], metric, 0)))
             return true;
     cli_bad_usage(
         "--plot: no value of '%s' is positive and finite, so none has a place on a logarithmic axis",
-        arguments->metrics[metric]);
+        cli_metric(arguments, metric));
     return false;
 }
 
-int cli_measure_plot(const cli_measure_arguments *arguments, const cli_measure_table *table) {
-    for (size_t m = 0; m < arguments->metric_count; ++m)
-        if (!has_values(arguments, table, m))
+int cli_measure_plot(const cli_measure_arguments *arguments, const cli_measure_rows *rows) {
+    for (size_t m = 0; m < arguments->metrics.count; ++m)
+        if (!has_values(arguments, rows, m))
             return CLI_BAD_INPUT;
     cli_plot plot;
-    const int height = 120 + 320 * (int)arguments->metric_count;
+    const int height = 120 + 320 * (int)arguments->metrics.count;
     if (!cli_plot_open(arguments->plot, 900, height, &plot))
         return CLI_BAD_INPUT;
     fputs("set logscale xy\nset grid\nset xlabel 'N'\nset key outside\nset format y '%.0e'\nset "
           "pointsize 0.7\n"
           "set offsets graph 0.03, graph 0.03, graph 0.03, graph 0.03\n",
           plot.script);
-    fprintf(plot.script, "set multiplot layout %zu,1\n", arguments->metric_count);
-    for (size_t m = 0; m < arguments->metric_count; ++m)
-        draw_panel(arguments, table, m, &plot);
+    fprintf(plot.script, "set multiplot layout %zu,1\n", arguments->metrics.count);
+    for (size_t m = 0; m < arguments->metrics.count; ++m)
+        draw_panel(arguments, rows, m, &plot);
     fputs("unset multiplot\n", plot.script);
     const int status = cli_plot_close(&plot);
     if (status == CLI_SUCCESS && !arguments->quiet)
-        print_slopes(arguments, table);
+        print_slopes(arguments, rows);
     return status;
 }

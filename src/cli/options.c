@@ -1,146 +1,276 @@
-/* Reading the command line, with messages that say what would be right. */
+/* Reading the command line by a verb's rows, with messages that say what would be right. */
+#include "cli/options.h"
+
 #include <aureole/text.h>
-#include <ctype.h>
-#include <stdarg.h>
+#include <getopt.h>
 #include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 
-#include "cli/cli.h"
+const cli_option cli_format_option[] = {
+    {.key = {"format", AUR_KEY_CHOICE, "how results are printed", "table", .size = sizeof(cli_format),
+             .words = (const char *const[]){"table", "csv", "json", NULL}},
+     .value = "FORMAT"},
+    {.key = {0}}};
 
-static int exit_status(aur_result result) {
-    switch (result) {
-    case AUR_OK:
-        return CLI_SUCCESS;
-    case AUR_ERROR_INTERNAL:
-    case AUR_ERROR_MEMORY:
-    case AUR_ERROR_CANCELLED:
-    case AUR_ERROR_WRITE:
-        return CLI_FAILURE;
-    default:
-        return CLI_BAD_INPUT;
+const cli_option cli_quiet_option[] = {
+    {.key = {"quiet", .help = "no progress bar and no warnings"}, .letter = 'q'}, {.key = {0}}};
+
+const cli_option cli_threads_option[] = {
+    {.key = {"threads", AUR_KEY_INTEGER,
+             "how many threads work, 0 for one a processor; results do not depend on it", "0",
+             .maximum = 4096, .size = sizeof(size_t)},
+     .letter = 't',
+     .value = "N"},
+    {.key = {0}}};
+
+static aur_result add_definition(const char *text, void *field, aur_error *error) {
+    cli_definitions *const definitions = field;
+    char *const equals = strchr(text, '=');
+    if (equals == NULL || equals == text)
+        return aur_fail(error, AUR_ERROR_ARGUMENT, "-D: '%s' is not of the form name=value", text);
+    if (definitions->count == CLI_DEFINITION_LIMIT)
+        return aur_fail(error, AUR_ERROR_ARGUMENT, "-D: more than %d definitions", CLI_DEFINITION_LIMIT);
+    *equals = '\0';
+    definitions->items[definitions->count++] = (aur_definition){text, equals + 1};
+    return AUR_OK;
+}
+
+const cli_option cli_definitions_option[] = {
+    {.key = {"define", AUR_KEY_TEXT, "set a <default> of the scene; may be repeated"},
+     .letter = 'D',
+     .value = "NAME=VALUE",
+     .parse = add_definition},
+    {.key = {0}}};
+
+const cli_option *cli_option_at(const cli_verb *verb, size_t index, size_t *offset) {
+    for (const cli_group *group = verb->groups; group->options != NULL; ++group) {
+        for (const cli_option *option = group->options; option->key.name != NULL; ++option) {
+            if (index-- != 0)
+                continue;
+            if (offset != NULL)
+                *offset = group->offset + option->key.offset;
+            return option;
+        }
     }
+    return NULL;
 }
 
-int cli_fail(const aur_error *error) {
-    char text[AUR_ERROR_FILE_CAPACITY + AUR_ERROR_MESSAGE_CAPACITY + 64];
-    aur_error_format(error, text, sizeof text);
-    cli_progress_clear();
-    fprintf(stderr, "aureole: %s\n", text[0] != '\0' ? text : aur_result_string(error->result));
-    return exit_status(error->result);
+const char *cli_given(const cli_call *call, const char *name) {
+    const cli_option *option;
+    for (size_t i = 0; (option = cli_option_at(call->verb, i, NULL)) != NULL; ++i)
+        if (strcmp(option->key.name, name) == 0)
+            return call->texts[i];
+    return NULL;
 }
 
-int cli_bad_usage(const char *format, ...) {
-    cli_progress_clear();
-    fputs("aureole: ", stderr);
-    va_list arguments;
-    va_start(arguments, format);
-    vfprintf(stderr, format, arguments);
-    va_end(arguments);
-    fputc('\n', stderr);
-    return CLI_BAD_INPUT;
+cli_list cli_split(char *text) {
+    cli_list list = {.count = 1, .text = text};
+    for (char *comma = strchr(text, ','); comma != NULL; comma = strchr(comma + 1, ',')) {
+        *comma = '\0';
+        ++list.count;
+    }
+    return list;
 }
 
-int cli_next_option(int argc, char **argv, const char *short_options, const struct option *long_options) {
-    opterr = 0;
-    const int value = getopt_long(argc, argv, short_options, long_options, NULL);
-    if (value != '?')
-        return value;
-    const char *const at = optind > 0 && optind <= argc ? argv[optind - 1] : "";
-    const bool is_short = optopt > 0 && optopt < 256 && isprint(optopt);
-    const char *const known = is_short ? strchr(short_options, optopt) : NULL;
-    if (known != NULL && known[1] == ':')
-        cli_bad_usage("%s: option '-%c' needs a value: try 'aureole help %s'", argv[0], optopt, argv[0]);
-    else if (is_short && (at[0] != '-' || at[1] != '-'))
-        cli_bad_usage("%s: unknown option '-%c': try 'aureole help %s'", argv[0], optopt, argv[0]);
-    else if (optopt != 0)
-        cli_bad_usage("%s: option '%s' needs a value or takes none: try 'aureole help %s'", argv[0], at,
-                      argv[0]);
-    else
-        cli_bad_usage("%s: unknown option '%s': try 'aureole help %s'", argv[0], at, argv[0]);
-    return '?';
+const char *cli_list_at(const cli_list *list, size_t index) {
+    const char *item = list->text;
+    while (index-- > 0)
+        item += strlen(item) + 1;
+    return item;
 }
 
-bool cli_parse_u64(const char *name, const char *text, uint64_t *value) {
-    if (aur_parse_integer(text, UINT64_MAX, value))
-        return true;
-    cli_bad_usage("%s: '%s' is not a whole number", name, text);
+/* "--spp", or "-n" for an option that has no long name. */
+static bool refuse(const cli_option *option, const char *expected, const char *text, const char *nearest) {
+    cli_bad_usage("%s%s: must be %s, not '%s'%s%s%s", option->key.name[1] != '\0' ? "--" : "-",
+                  option->key.name, expected, text, nearest != NULL ? "; did you mean '" : "",
+                  nearest != NULL ? nearest : "", nearest != NULL ? "'?" : "");
     return false;
 }
 
-bool cli_parse_size(const char *name, const char *text, size_t minimum, size_t maximum, size_t *value) {
-    uint64_t parsed;
-    if (!cli_parse_u64(name, text, &parsed))
-        return false;
-    if (parsed < minimum || parsed > maximum) {
-        if (maximum == SIZE_MAX)
-            cli_bad_usage("%s: must be at least %zu, not %s", name, minimum, text);
-        else
-            cli_bad_usage("%s: must be between %zu and %zu, not %s", name, minimum, maximum, text);
-        return false;
-    }
-    *value = (size_t)parsed;
-    return true;
+const char *cli_option_name(const cli_option *option, unsigned index) {
+    if (option->name != NULL)
+        return option->name(index);
+    for (unsigned i = 0; option->key.words != NULL && option->key.words[i] != NULL; ++i)
+        if (i == index)
+            return option->key.words[i];
+    return NULL;
 }
 
-bool cli_parse_number(const char *name, const char *text, double minimum, double maximum, double *value) {
-    double parsed;
-    if (!aur_parse_double(text, &parsed)) {
-        cli_bad_usage("%s: '%s' is not a number", name, text);
-        return false;
-    }
-    if (parsed < minimum || parsed > maximum) {
-        cli_bad_usage("%s: must be between %g and %g, not %s", name, minimum, maximum, text);
-        return false;
-    }
-    *value = parsed;
-    return true;
+/* A name as text, or its place among the names as an enum or bool. */
+static void put_name(const aur_key *key, const char *name, unsigned value, void *field) {
+    if (key->type == AUR_KEY_TEXT)
+        *(const char **)field = name;
+    else if (key->size == sizeof(bool))
+        *(bool *)field = value != 0;
+    else
+        *(unsigned *)field = value;
 }
 
-bool cli_parse_word(const char *name, const char *text, size_t count, const char *const *words,
-                    size_t *value) {
-    for (size_t i = 0; i < count; ++i) {
-        if (strcmp(words[i], text) == 0) {
-            *value = i;
+static bool read_name(const cli_option *option, const char *text, void *field) {
+    const char *names[CLI_NAME_LIMIT];
+    unsigned count = 0;
+    for (const char *name; count < CLI_NAME_LIMIT && (name = cli_option_name(option, count)) != NULL;
+         ++count) {
+        names[count] = name;
+        if (strcmp(name, text) == 0) {
+            put_name(&option->key, name, count, field);
             return true;
         }
     }
-    char list[AUR_ERROR_MESSAGE_CAPACITY];
-    aur_list_names(count, words, list, sizeof list);
-    cli_bad_usage("%s: must be one of %s, not '%s'", name, list, text);
-    return false;
+    char expected[AUR_ERROR_MESSAGE_CAPACITY] = "one of ";
+    aur_list_names(count, names, expected + strlen(expected), sizeof expected - strlen(expected));
+    const char *const nearest = aur_nearest_name(text, count, names);
+    return refuse(option, expected, text, nearest);
 }
 
-bool cli_parse_sizes(const char *name, const char *text, size_t *count, size_t **values) {
-    size_t pieces = 1;
-    for (const char *c = text; *c != '\0'; ++c)
-        pieces += *c == ',';
-    char *const copy = strdup(text);
-    *values = malloc(pieces * sizeof **values);
-    *count = 0;
-    bool good = copy != NULL && *values != NULL;
-    char *rest = copy;
-    while (good && rest != NULL) {
-        char *const comma = strchr(rest, ',');
-        if (comma != NULL)
-            *comma = '\0';
-        good = cli_parse_size(name, rest, 1, SIZE_MAX, &(*values)[*count]);
-        ++*count;
-        rest = comma != NULL ? comma + 1 : NULL;
+/* Reads one value, or one item of a list. */
+static bool read_value(const cli_option *option, const char *text, void *field) {
+    if (option->parse != NULL) {
+        aur_error error = {0};
+        return cli_status(option->parse(text, field, &error), &error) == CLI_SUCCESS;
     }
-    free(copy);
-    if (!good) {
-        free(*values);
-        *values = NULL;
-    }
-    return good;
+    if (cli_option_name(option, 0) != NULL)
+        return read_name(option, text, field);
+    aur_key key = option->key;
+    char expected[AUR_ERROR_MESSAGE_CAPACITY];
+    key.offset = 0;
+    return aur_key_parse(&key, text, field, sizeof expected, expected) ||
+           refuse(option, expected, text, NULL);
 }
 
-bool cli_parse_format(const char *text, cli_format *format) {
-    static const char *const words[] = {"table", "csv", "json"};
-    size_t index = 0;
-    if (!cli_parse_word("--format", text, 3, words, &index))
-        return false;
-    *format = (cli_format)index;
+static bool read_option(const cli_option *option, char *text, void *field) {
+    if (option->value == NULL) {
+        *(bool *)field = true;
+        return true;
+    }
+    if (!option->list)
+        return read_value(option, text, field);
+    const cli_list list = *(cli_list *)field = cli_split(text);
+    for (size_t i = 0; i < list.count; ++i) {
+        uint64_t item[8]; /* only checked here */
+        if (!read_value(option, cli_list_at(&list, i), item))
+            return false;
+    }
     return true;
+}
+
+/* Zero is the default of what has a parser of its own. */
+static bool put_defaults(const cli_verb *verb, char *fields) {
+    const cli_option *option;
+    size_t offset;
+    for (size_t i = 0; (option = cli_option_at(verb, i, &offset)) != NULL; ++i) {
+        const char *const text = option->key.default_text;
+        if (text == NULL || option->key.computed || option->parse != NULL)
+            continue;
+        if (option->list)
+            *(cli_list *)(void *)(fields + offset) = (cli_list){1, text};
+        else if (!read_value(option, text, fields + offset))
+            return false;
+    }
+    return true;
+}
+
+/* What getopt makes of the rows. A long option is LONG_OPTION and its index, a short one its letter. */
+enum { LONG_OPTION = 256 };
+
+typedef struct getopt_options {
+    size_t count;
+    char letters[2 * CLI_OPTION_LIMIT + 2];
+    struct option names[CLI_OPTION_LIMIT + 1];
+} getopt_options;
+
+static getopt_options list_options(const cli_verb *verb) {
+    getopt_options list = {.letters = ":"};
+    size_t letters = 1, names = 0;
+    for (const cli_option *option; (option = cli_option_at(verb, list.count, NULL)) != NULL; ++list.count) {
+        const bool is_long = option->key.name[1] != '\0';
+        const char letter = is_long ? option->letter : option->key.name[0];
+        if (letter != '\0')
+            list.letters[letters++] = letter;
+        if (letter != '\0' && option->value != NULL)
+            list.letters[letters++] = ':';
+        if (is_long)
+            list.names[names++] =
+                (struct option){option->key.name, option->value != NULL ? required_argument : no_argument,
+                                NULL, LONG_OPTION + (int)list.count};
+    }
+    return list;
+}
+
+static size_t index_of(const cli_verb *verb, int code) {
+    if (code >= LONG_OPTION)
+        return (size_t)(code - LONG_OPTION);
+    size_t i = 0;
+    for (const cli_option *option; (option = cli_option_at(verb, i, NULL)) != NULL; ++i)
+        if (option->letter == code || (option->key.name[0] == code && option->key.name[1] == '\0'))
+            break;
+    return i;
+}
+
+/* Says what getopt does not like: `text` is the argument that it was reading. */
+static int refuse_option(const cli_verb *verb, const getopt_options *list, int code, const char *text) {
+    const bool is_long = optopt == 0 || optopt >= LONG_OPTION;
+    char given[AUR_ERROR_MESSAGE_CAPACITY];
+    if (is_long)
+        aur_format(given, sizeof given, "%.*s", (int)strcspn(text, "="), text);
+    else
+        aur_format(given, sizeof given, "-%c", optopt);
+    if (code == ':' || optopt >= LONG_OPTION)
+        return cli_bad_usage("%s: option '%s' %s: try 'aureole help %s'", verb->name, given,
+                             code == ':' ? "needs a value" : "takes no value", verb->name);
+    const char *names[CLI_OPTION_LIMIT];
+    char alike[AUR_ERROR_MESSAGE_CAPACITY] = "";
+    size_t count = 0;
+    for (; list->names[count].name != NULL; ++count) {
+        names[count] = list->names[count].name;
+        const size_t used = strlen(alike);
+        if (is_long && strncmp(names[count], given + 2, strlen(given + 2)) == 0)
+            aur_format(alike + used, sizeof alike - used, "%s--%s", used > 0 ? ", " : "", names[count]);
+    }
+    const char *const nearest = is_long ? aur_nearest_name(given + 2, count, names) : NULL;
+    if (alike[0] != '\0')
+        return cli_bad_usage("%s: option '%s' may be %s", verb->name, given, alike);
+    if (nearest != NULL)
+        return cli_bad_usage("%s: unknown option '%s'; did you mean '--%s'?", verb->name, given, nearest);
+    return cli_bad_usage("%s: unknown option '%s': try 'aureole help %s'", verb->name, given, verb->name);
+}
+
+static bool check_operands(const cli_verb *verb, const cli_call *call) {
+    size_t least = 0, most = 0;
+    for (const cli_operand *operand = verb->operands; operand->word != NULL; ++operand) {
+        least += !operand->optional;
+        most = operand->repeated ? SIZE_MAX : most + 1;
+    }
+    if (call->operand_count < least)
+        cli_bad_usage("%s: %s: try 'aureole help %s'", verb->name, verb->too_few, verb->name);
+    else if (call->operand_count > most && verb->too_many != NULL)
+        cli_bad_usage("%s: %s: try 'aureole help %s'", verb->name, verb->too_many, verb->name);
+    else if (call->operand_count > most)
+        cli_bad_usage("%s: unexpected argument '%s'", verb->name, call->operands[most]);
+    return call->operand_count >= least && call->operand_count <= most;
+}
+
+bool cli_read_options(const cli_verb *verb, int argc, char **argv, cli_call *call) {
+    const getopt_options list = list_options(verb);
+    char *const fields = call->options;
+    call->verb = verb;
+    if (!put_defaults(verb, fields))
+        return false;
+    opterr = 0;
+    optind = 0;
+    for (int code; (code = getopt_long(argc, argv, list.letters, list.names, NULL)) != -1;) {
+        if (code == '?' || code == ':') {
+            refuse_option(verb, &list, code, argv[optind - 1]);
+            return false;
+        }
+        const size_t index = index_of(verb, code);
+        size_t offset = 0;
+        const cli_option *const option = cli_option_at(verb, index, &offset);
+        call->texts[index] = optarg != NULL ? optarg : "";
+        if (!read_option(option, optarg, fields + offset))
+            return false;
+    }
+    call->operand_count = (size_t)(argc - optind);
+    call->operands = argv + optind;
+    return check_operands(verb, call);
 }

@@ -1,44 +1,44 @@
 #include "cli/picture.h"
 
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
-#include <string.h>
 
-#include "cli/cli.h"
+const cli_option cli_picture_options[] = {
+    {.key = {"channels", AUR_KEY_TEXT, "only these channels, in this order",
+             CLI_FIELD(cli_picture, channels)},
+     .value = "NAME",
+     .list = true},
+    {.key = {"downsample", AUR_KEY_INTEGER, "average blocks of N x N pixels", "1", .minimum = 1,
+             .maximum = INFINITY, CLI_FIELD(cli_picture, downsample)},
+     .value = "N"},
+    {.key = {0}}};
 
-static aur_result select_channels(const char *path, const char *channels, aur_image **image,
-                                  aur_error *error) {
-    size_t count = 1;
-    for (const char *c = channels; *c != '\0'; ++c)
-        count += *c == ',';
-    char *const copy = strdup(channels);
-    const char **const names = calloc(count, sizeof *names);
-    aur_result result = AUR_ERROR_MEMORY;
-    *error = (aur_error){.result = result};
-    if (copy != NULL && names != NULL) {
-        char *rest = copy;
-        for (size_t i = 0; i < count; ++i) {
-            names[i] = rest;
-            rest += strcspn(rest, ",");
-            *rest++ = '\0';
-        }
-        aur_image *selected;
-        result = aur_image_select(*image, count, names, &selected, error);
-        snprintf(error->file, sizeof error->file, "%s", path);
-        if (result == AUR_OK) {
-            aur_image_destroy(*image);
-            *image = selected;
-        }
-    }
+static aur_result select_channels(const cli_list *channels, aur_image **image, aur_error *error) {
+    const char **const names = calloc(channels->count, sizeof *names);
+    if (names == NULL)
+        return aur_fail(error, AUR_ERROR_MEMORY, "out of memory");
+    for (size_t i = 0; i < channels->count; ++i)
+        names[i] = cli_list_at(channels, i);
+    aur_image *const all = *image;
+    const aur_result result = aur_image_select(all, channels->count, names, image, error);
+    aur_image_destroy(all);
     free(names);
-    free(copy);
     return result;
 }
 
-int cli_read_picture(const char *path, const char *channels, aur_image **image) {
+int cli_read_picture(const char *path, const cli_picture *options, aur_image **image) {
     aur_error error;
     aur_result result = aur_image_read(path, image, &error);
-    if (result == AUR_OK && channels != NULL)
-        result = select_channels(path, channels, image, &error);
-    return result == AUR_OK ? CLI_SUCCESS : cli_fail(&error);
+    if (result == AUR_OK && options->channels.count > 0) {
+        result = select_channels(&options->channels, image, &error);
+        snprintf(error.file, sizeof error.file, "%s", path);
+    }
+    if (result == AUR_OK && options->downsample > 1) {
+        aur_image *const whole = *image;
+        *image = NULL;
+        result = aur_image_downsample(whole, options->downsample, image, &error);
+        aur_image_destroy(whole);
+    }
+    return cli_status(result, &error);
 }

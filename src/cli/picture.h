@@ -3,6 +3,16 @@
 
 #include <aureole/image.h>
 
-/* Reads a picture; `channels` (NAME[,NAME...], or NULL for all) selects some. Prints what is wrong and
- * returns the exit status. */
-int cli_read_picture(const char *path, const char *channels, aur_image **image);
+#include "cli/options.h"
+
+/* Which part of a picture is read. */
+typedef struct cli_picture {
+    cli_list channels; /* of no count: all */
+    size_t downsample; /* 1: as it is */
+} cli_picture;
+
+extern const cli_option cli_picture_options[]; /* of a cli_picture */
+
+/* Reads a picture and makes of it what the options ask for. Prints what is wrong and returns the exit
+ * status. */
+int cli_read_picture(const char *path, const cli_picture *options, aur_image **image);

@@ -1,65 +1,58 @@
 #include "cli/point_source.h"
 
 #include <math.h>
-#include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
 
-bool cli_parse_domain(const char *text, aur_domain *domain) {
-    aur_error error = {0};
-    return cli_succeeded(aur_domain_from_name(text, domain, &error), &error);
+static aur_result parse_lobe(const char *text, void *field, aur_error *error) {
+    return aur_lobe_parse(text, field, error);
 }
 
-bool cli_succeeded(aur_result result, const aur_error *error) {
-    if (result != AUR_OK)
-        cli_fail(error);
-    return result == AUR_OK;
-}
+const cli_option cli_points_options[] = {
+    {.key = {"domain", .help = "where the points are", .default_text = "follows from the rest",
+             .computed = true, CLI_FIELD(aur_directions_options, domain)},
+     .value = "DOMAIN",
+     .name = aur_domain_name},
+    {.key = {"map", .help = "how sets of the square come to other domains", .default_text = "lambert",
+             CLI_FIELD(aur_directions_options, map)},
+     .value = "MAP",
+     .name = aur_map_name},
+    {.key = {"lobe", AUR_KEY_TEXT, "what points of the hemisphere follow", "uniform",
+             .words = (const char *const[]){"uniform", "cosine", "phong:M", "ggx:ALPHA[:VIEW_DEGREES]", NULL},
+             CLI_FIELD(aur_directions_options, lobe)},
+     .value = "LOBE",
+     .parse = parse_lobe},
+    {.key = {"density", AUR_KEY_CHOICE, "follow the lobe, or its power 2/(s+1) with weights", "same",
+             .words = (const char *const[]){"same", "optimal", NULL},
+             CLI_FIELD(aur_directions_options, optimal_density)},
+     .value = "DENSITY"},
+    {.key = {"smoothness", AUR_KEY_REAL, "s of the integrand, of which the optimal density is made", "1.5",
+             .minimum = 1, .maximum = 2, .minimum_open = true, .maximum_open = true,
+             CLI_FIELD(aur_directions_options, smoothness)},
+     .value = "S"},
+    {.key = {"scramble", .help = "how the points are randomised", .default_text = "none",
+             CLI_FIELD(aur_directions_options, scramble)},
+     .value = "SCRAMBLE",
+     .name = aur_scramble_name},
+    {.key = {"seed", AUR_KEY_INTEGER, "of random sets and of scrambling", "0", .maximum = INFINITY,
+             CLI_FIELD(aur_directions_options, seed)},
+     .value = "S"},
+    {.key = {0}}};
 
-static bool parse_density(const char *text, bool *optimal) {
-    static const char *const words[] = {"same", "optimal"};
-    size_t index;
-    if (!cli_parse_word("--density", text, 2, words, &index))
-        return false;
-    *optimal = index == 1;
-    return true;
-}
-
-bool cli_parse_point_option(int option, const char *text, cli_point_options *points) {
-    aur_error error = {0};
-    switch (option) {
-    case CLI_POINTS_DOMAIN:
-        points->domain_given = true;
-        return cli_parse_domain(text, &points->domain);
-    case CLI_POINTS_DIM:
-        return cli_parse_size("--dim", text, 1, 1u << 20, &points->dimension);
-    case CLI_POINTS_MAP:
-        return cli_succeeded(aur_map_from_name(text, &points->map, &error), &error);
-    case CLI_POINTS_LOBE:
-        return cli_succeeded(aur_lobe_parse(text, &points->lobe, &error), &error);
-    case CLI_POINTS_DENSITY:
-        return parse_density(text, &points->optimal_density);
-    case CLI_POINTS_SMOOTHNESS:
-        return cli_parse_number("--smoothness", text, 1.0, 2.0, &points->smoothness);
-    case CLI_POINTS_SCRAMBLE:
-        return cli_succeeded(aur_scramble_from_name(text, &points->scramble, &error), &error);
-    case CLI_POINTS_SEED:
-        return cli_parse_u64("--seed", text, &points->seed);
-    default:
-        return false;
-    }
-}
+const cli_option cli_dimension_option[] = {
+    {.key = {"dim", AUR_KEY_INTEGER, "coordinates a point, for sets on the cube", "2", .computed = true,
+             .minimum = 1, .maximum = INFINITY, .size = sizeof(size_t)},
+     .value = "D"},
+    {.key = {0}}};
 
 bool cli_is_file(const char *text) {
-    const size_t length = strcspn(text, ":");
-    for (size_t i = 0; i < aur_set_count(); ++i) {
-        const char *const name = aur_set_at(i)->row.name;
-        if (strlen(name) == length && strncmp(name, text, length) == 0)
-            return false;
-    }
-    if (strncmp(text, "file:", 5) == 0)
+    if (aur_set_find(text) != NULL || strncmp(text, "file:", 5) == 0)
         return false;
     return strcmp(text, "-") == 0 || access(text, F_OK) == 0;
+}
+
+bool cli_has_size(const char *text) {
+    return cli_is_file(text) || strncmp(text, "file:", 5) == 0;
 }
 
 /* Weights of 1/N say nothing. */
@@ -70,31 +63,25 @@ static bool are_equal(size_t count, const double *weights) {
     return true;
 }
 
-static aur_result load(const char *text, const cli_point_options *options, size_t count, aur_points **points,
+static aur_result load(const char *text, const cli_points *from, size_t count, aur_points **points,
                        aur_error *error) {
+    const aur_domain domain = from->options.domain;
     if (cli_is_file(text))
-        return options->domain_given ? aur_points_read_on(text, options->domain, points, error)
-                                     : aur_points_read(text, points, error);
-    const bool cube = options->domain == AUR_DOMAIN_SQUARE || options->domain == AUR_DOMAIN_CUBE;
-    const aur_directions_options directions = {.size = sizeof directions,
-                                               .count = count,
-                                               .domain = options->domain,
-                                               .map = options->map,
-                                               .lobe = options->lobe,
-                                               .optimal_density = options->optimal_density,
-                                               .smoothness = options->smoothness,
-                                               .scramble = options->scramble,
-                                               .seed = options->seed,
-                                               .warnings = options->warnings};
-    aur_points_request request = aur_points_request_default(&directions);
-    request.dimension = cube ? options->dimension : 0;
+        return from->domain_given ? aur_points_read_on(text, domain, points, error)
+                                  : aur_points_read(text, points, error);
+    aur_directions_options options = from->options;
+    options.size = sizeof options;
+    options.count = count;
+    aur_points_request request = aur_points_request_default(&options);
+    const bool cube = domain == AUR_DOMAIN_SQUARE || domain == AUR_DOMAIN_CUBE;
+    request.dimension = cube ? from->dimension : 0;
     return aur_points_generate(text, &request, points, error);
 }
 
-aur_result cli_load_points(const char *text, const cli_point_options *options, size_t count,
-                           aur_points **points, aur_points_view *view, aur_error *error) {
+aur_result cli_load_points(const char *text, const cli_points *from, size_t count, aur_points **points,
+                           aur_points_view *view, aur_error *error) {
     *error = (aur_error){0};
-    const aur_result result = load(text, options, count, points, error);
+    const aur_result result = load(text, from, count, points, error);
     if (result != AUR_OK)
         return result;
     *view = *aur_points_look(*points);

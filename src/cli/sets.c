@@ -3,7 +3,7 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "cli/cli.h"
+#include "cli/options.h"
 
 /* Where a set's points can be: sets of the square come to the other domains by a map. */
 static void add_domains(cli_table *table, const aur_set_description *set) {
@@ -32,15 +32,7 @@ static void add_keys(cli_table *table, const aur_row *row) {
     cli_table_text(table, text);
 }
 
-static int run(int argc, char **argv) {
-    static const struct option options[] = {{"format", required_argument, NULL, 'f'}, {0}};
-    cli_format format = CLI_TABLE;
-    optind = 0;
-    for (int option; (option = cli_next_option(argc, argv, "", options)) != -1;)
-        if (option != 'f' || !cli_parse_format(optarg, &format))
-            return CLI_BAD_INPUT;
-    if (optind < argc)
-        return cli_bad_usage("sets: unexpected argument '%s'", argv[optind]);
+static int run(const cli_call *call) {
     static const char *const columns[] = {"set",        "keys",   "domains", "sizes",
                                           "extensible", "source", "summary"};
     cli_table *const table = cli_table_create(7, columns);
@@ -54,15 +46,14 @@ static int run(int argc, char **argv) {
         cli_table_text(table, set->row.source);
         cli_table_text(table, set->row.summary);
     }
-    const int status = cli_table_print(table, format);
-    cli_table_destroy(table);
-    return status;
+    return cli_table_finish(table, *(const cli_format *)call->options);
 }
 
 const cli_verb cli_verb_sets = {
-    "sets",
-    "[--format table|csv|json]",
-    "list the point sets: keys, domains, sizes, extensible or not, source",
-    "A set is named NAME[:key=value[,key=value...]] or file:PATH.\n",
-    run,
+    .name = "sets",
+    .summary = "list the point sets: keys, domains, sizes, extensible or not, source",
+    .notes = "A set is named NAME[:key=value[,key=value...]] or file:PATH.",
+    .groups = {{cli_format_option}},
+    .size = sizeof(cli_format),
+    .run = run,
 };

@@ -20,20 +20,14 @@ struct cli_table {
     char **columns;
     size_t count, capacity;
     cell *cells;
-    bool failed;
+    bool facts;
+    bool failed; /* out of memory */
 };
 
 cli_table *cli_table_create(size_t column_count, const char *const *columns) {
     cli_table *const table = calloc(1, sizeof *table);
-    if (table == NULL)
-        return NULL;
-    table->column_count = column_count;
-    table->columns = calloc(column_count, sizeof *table->columns);
-    table->failed = table->columns == NULL;
-    for (size_t i = 0; i < column_count && !table->failed; ++i) {
-        table->columns[i] = strdup(columns[i]);
-        table->failed = table->columns[i] == NULL;
-    }
+    for (size_t i = 0; i < column_count; ++i)
+        cli_table_column(table, columns[i]);
     return table;
 }
 
@@ -42,11 +36,25 @@ void cli_table_destroy(cli_table *table) {
         return;
     for (size_t i = 0; i < table->count; ++i)
         free(table->cells[i].text);
-    for (size_t i = 0; i < table->column_count && table->columns != NULL; ++i)
+    for (size_t i = 0; i < table->column_count; ++i)
         free(table->columns[i]);
     free(table->columns);
     free(table->cells);
     free(table);
+}
+
+void cli_table_column(cli_table *table, const char *name) {
+    if (table == NULL || table->failed)
+        return;
+    char **const larger = realloc(table->columns, (table->column_count + 1) * sizeof *larger);
+    char *const copy = strdup(name);
+    if (larger != NULL)
+        table->columns = larger;
+    table->failed = larger == NULL || copy == NULL;
+    if (table->failed)
+        free(copy);
+    else
+        table->columns[table->column_count++] = copy;
 }
 
 static void add(cli_table *table, const char *text, cell added) {
@@ -80,6 +88,18 @@ void cli_table_integer(cli_table *table, uint64_t value) {
     char text[32];
     snprintf(text, sizeof text, "%" PRIu64, value);
     add(table, text, (cell){.kind = INTEGER, .integer = value});
+}
+
+void cli_fact_text(cli_table *table, const char *name, const char *text) {
+    cli_table_column(table, name);
+    cli_table_text(table, text);
+    if (table != NULL)
+        table->facts = true;
+}
+
+void cli_fact_number(cli_table *table, const char *name, double value) {
+    cli_table_column(table, name);
+    cli_table_number(table, value, 9);
 }
 
 /* The columns a UTF-8 text takes on a terminal, for the letters that we use. */
@@ -171,16 +191,28 @@ static void print_json(const cli_table *table) {
     aur_json_close(&json, ']');
 }
 
-int cli_table_print(const cli_table *table, cli_format format) {
-    if (table == NULL || table->failed) {
-        fprintf(stderr, "aureole: out of memory\n");
-        return CLI_FAILURE;
+/* For people, a line a fact. */
+static void print_facts(const cli_table *table) {
+    cli_table *const lines = cli_table_create(2, (const char *const[]){"property", "value"});
+    for (size_t i = 0; i < table->count; ++i) {
+        cli_table_text(lines, table->columns[i]);
+        add(lines, table->cells[i].text, table->cells[i]);
     }
-    if (format == CLI_TABLE)
+    cli_table_finish(lines, CLI_TABLE);
+}
+
+int cli_table_finish(cli_table *table, cli_format format) {
+    const bool good = table != NULL && !table->failed;
+    if (!good)
+        fprintf(stderr, "aureole: out of memory\n");
+    else if (format == CLI_TABLE && table->facts)
+        print_facts(table);
+    else if (format == CLI_TABLE)
         print_text(table);
     else if (format == CLI_CSV)
         print_csv(table);
     else
         print_json(table);
-    return CLI_SUCCESS;
+    cli_table_destroy(table);
+    return good ? CLI_SUCCESS : CLI_FAILURE;
 }

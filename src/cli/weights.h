@@ -15,13 +15,12 @@ typedef enum cli_method {
 } cli_method;
 
 typedef struct cli_weights_arguments {
-    const char *source;
-    cli_point_options points;
-    bool lobe_given, mirror_given, size_given, method_given, angle_given, look_up, mirrored, report, quiet;
+    const char *source; /* NULL: none */
+    cli_points points;
+    bool look_up, mirrored, report, quiet, two, clipped, unconstrained;
     size_t size, mirror_size;
-    aur_lobe mirror;
+    aur_lobe mirror; /* of two lobes */
     double degrees;
-    bool clipped;
     aur_weights_options weights;
     cli_method method;
     const char *method_name, *lobe_text, *mirror_text;

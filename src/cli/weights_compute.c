@@ -18,19 +18,8 @@ typedef struct weights_job {
 
 static const double pi = 3.14159265358979323846;
 
-static aur_result out_of_memory(aur_error *error) {
-    *error = (aur_error){.result = AUR_ERROR_MEMORY, .message = "out of memory"};
-    return AUR_ERROR_MEMORY;
-}
-
-static aur_result fail(aur_error *error, aur_result result, const char *message) {
-    *error = (aur_error){.result = result};
-    strncpy(error->message, message, sizeof error->message - 1);
-    return result;
-}
-
 static bool from_file(const weights_job *task) {
-    return cli_is_file(task->arguments->source) || strncmp(task->arguments->source, "file:", 5) == 0;
+    return cli_has_size(task->arguments->source);
 }
 
 static void mirror_axis(const weights_job *task, double axis[3]) {
@@ -43,7 +32,7 @@ static void mirror_axis(const weights_job *task, double axis[3]) {
 /* Potentials, and the lobes that samples are drawn from. */
 static aur_result prepare_lobes(weights_job *task, aur_error *error) {
     const cli_weights_arguments *const arguments = task->arguments;
-    const cli_point_options *const points = &arguments->points;
+    const aur_directions_options *const points = &arguments->points.options;
     for (size_t k = 0; k < task->result->lobe_count; ++k) {
         aur_lobe lobe = k == 0 ? points->lobe : arguments->mirror;
         if (k == 1 && lobe.kind == AUR_LOBE_GGX)
@@ -59,8 +48,7 @@ static aur_result prepare_lobes(weights_job *task, aur_error *error) {
         task->strategies[k] = (aur_strategy){.count = task->own[k], .sampled = lobe};
         memcpy(task->strategies[k].axis, density.axis, sizeof density.axis);
         if (points->optimal_density && lobe.kind == AUR_LOBE_COSINE_POWER)
-            result = aur_lobe_optimal(&lobe, points->smoothness != 0.0 ? points->smoothness : 1.5,
-                                      &task->strategies[k].sampled, error);
+            result = aur_lobe_optimal(&lobe, points->smoothness, &task->strategies[k].sampled, error);
         if (result == AUR_OK)
             result = aur_potential_create(&density, points->smoothness, &task->potentials[k], error);
         if (result != AUR_OK)
@@ -71,12 +59,10 @@ static aur_result prepare_lobes(weights_job *task, aur_error *error) {
 
 static aur_result load_one(weights_job *task, aur_error *error) {
     const cli_weights_arguments *const arguments = task->arguments;
-    cli_point_options options = arguments->points;
-    options.domain_given = !cli_is_file(arguments->source) || options.domain_given;
     aur_points *points;
     aur_points_view view;
     const aur_result result =
-        cli_load_points(arguments->source, &options, arguments->size, &points, &view, error);
+        cli_load_points(arguments->source, &arguments->points, arguments->size, &points, &view, error);
     if (result != AUR_OK)
         return result;
     double *const xyz = view.dimension == 3 ? malloc(3 * view.count * sizeof *xyz) : NULL;
@@ -84,25 +70,23 @@ static aur_result load_one(weights_job *task, aur_error *error) {
         memcpy(xyz, view.coordinates, 3 * view.count * sizeof *xyz);
     aur_points_destroy(points);
     if (view.dimension != 3)
-        return fail(error, AUR_ERROR_UNSUPPORTED,
-                    "weights are for directions: the file must have the columns x,y,z");
+        return aur_fail(error, AUR_ERROR_UNSUPPORTED,
+                        "weights are for directions: the file must have the columns x,y,z");
     if (xyz == NULL)
-        return out_of_memory(error);
+        return aur_fail(error, AUR_ERROR_MEMORY, "out of memory");
     task->result->count = view.count;
     task->result->xyz = xyz;
-    for (size_t i = 0; arguments->points.domain == AUR_DOMAIN_HEMISPHERE && i < view.count; ++i)
-        if (xyz[3 * i + 2] < -1e-9 && arguments->points.lobe.kind != AUR_LOBE_GGX) {
-            char message[160];
-            snprintf(message, sizeof message,
-                     "point %zu lies below the hemisphere (z = %g): is it --domain sphere?", i,
-                     xyz[3 * i + 2]);
-            return fail(error, AUR_ERROR_ARGUMENT, message);
-        }
+    const aur_directions_options *const options = &arguments->points.options;
+    for (size_t i = 0; options->domain == AUR_DOMAIN_HEMISPHERE && i < view.count; ++i)
+        if (xyz[3 * i + 2] < -1e-9 && options->lobe.kind != AUR_LOBE_GGX)
+            return aur_fail(error, AUR_ERROR_ARGUMENT,
+                            "point %zu lies below the hemisphere (z = %g): is it --domain sphere?", i,
+                            xyz[3 * i + 2]);
     return AUR_OK;
 }
 
 aur_oswa_options cli_weights_oswa(const cli_weights_arguments *arguments) {
-    const cli_point_options *const points = &arguments->points;
+    const aur_directions_options *const points = &arguments->points.options;
     return (aur_oswa_options){.size = sizeof(aur_oswa_options),
                               .set = arguments->source,
                               .count = arguments->size,
@@ -127,7 +111,7 @@ static aur_result load_two(weights_job *task, aur_error *error) {
     task->result->count = aur_oswa_size(oswa);
     task->result->xyz = malloc(3 * task->result->count * sizeof(double));
     if (task->result->xyz == NULL)
-        result = out_of_memory(error);
+        result = aur_fail(error, AUR_ERROR_MEMORY, "out of memory");
     else
         result = aur_oswa_points(oswa, task->arguments->degrees * pi / 180.0, (const double[2]){0.0, 0.0},
                                  false, 3 * task->result->count, task->result->xyz, error);
@@ -149,7 +133,7 @@ static size_t count_of(const weights_job *task, size_t k) {
 /* 1/N over the samples of a lobe that its density can see. */
 static void equal_weights(const weights_job *task, size_t k, double *weights) {
     const size_t first = first_of(task, k), count = count_of(task, k);
-    const aur_lobe *const lobe = k == 0 ? &task->arguments->points.lobe : &task->arguments->mirror;
+    const aur_lobe *const lobe = k == 0 ? &task->arguments->points.options.lobe : &task->arguments->mirror;
     const bool hides = lobe->kind == AUR_LOBE_GGX || (k == 1 && task->arguments->clipped);
     size_t visible = 0;
     for (size_t i = first; i < first + count; ++i)
@@ -164,9 +148,9 @@ static aur_result ratio_weights(const weights_job *task, size_t k, double *weigh
     const size_t first = first_of(task, k);
     memset(weights, 0, task->result->count * sizeof *weights);
     if (task->own[k] == 0)
-        return fail(error, AUR_ERROR_UNSUPPORTED,
-                    "a file does not say what density its points were drawn from");
-    if (task->arguments->points.domain == AUR_DOMAIN_SPHERE) {
+        return aur_fail(error, AUR_ERROR_UNSUPPORTED,
+                        "a file does not say what density its points were drawn from");
+    if (task->arguments->points.options.domain == AUR_DOMAIN_SPHERE) {
         equal_weights(task, k, weights); /* only the uniform density is there */
         return AUR_OK;
     }
@@ -205,8 +189,8 @@ static aur_result rival_weights(weights_job *task, aur_error *error) {
         else if (method == CLI_METHOD_RATIO)
             made = ratio_weights(task, k, weights, error);
         else if (result->lobe_count == 1 || task->own[1] == 0)
-            made = fail(error, AUR_ERROR_UNSUPPORTED,
-                        "multiple importance sampling needs a set and two lobes: give --lobe2");
+            made = aur_fail(error, AUR_ERROR_UNSUPPORTED,
+                            "multiple importance sampling needs a set and two lobes: give --lobe2");
         else
             made = aur_mis_weights(method == CLI_METHOD_POWER ? AUR_MIS_POWER : AUR_MIS_BALANCE, 2,
                                    task->strategies, task->potentials[k], result->count, result->xyz, weights,
@@ -221,7 +205,7 @@ static aur_result judge(weights_job *task, aur_error *error) {
     cli_weights_result *const result = task->result;
     double *const plain = malloc(result->count * sizeof *plain);
     if (plain == NULL)
-        return out_of_memory(error);
+        return aur_fail(error, AUR_ERROR_MEMORY, "out of memory");
     const aur_progress progress = cli_progress(task->arguments->quiet);
     aur_result judged = AUR_OK;
     for (size_t k = 0; k < result->lobe_count && judged == AUR_OK; ++k) {
@@ -234,7 +218,7 @@ static aur_result judge(weights_job *task, aur_error *error) {
         if (judged == AUR_OK)
             judged = aur_worst_case_error(result->count, result->xyz, plain, task->potentials[k],
                                           task->arguments->threads, &progress, &result->equal[k], error);
-        const bool drawn = task->arguments->points.optimal_density && !from_file(task);
+        const bool drawn = task->arguments->points.options.optimal_density && !from_file(task);
         if (judged == AUR_OK && drawn) {
             result->has_ratio = true;
             judged = ratio_weights(task, k, plain, error);
@@ -250,7 +234,7 @@ static aur_result judge(weights_job *task, aur_error *error) {
 
 static aur_result compute(weights_job *task, aur_error *error) {
     cli_weights_result *const result = task->result;
-    const bool two_patterns = task->arguments->mirror_given && !from_file(task);
+    const bool two_patterns = task->arguments->two && !from_file(task);
     aur_result made = two_patterns ? load_two(task, error) : load_one(task, error);
     if (made == AUR_OK && !two_patterns && !from_file(task))
         task->own[0] = result->count;
@@ -260,7 +244,7 @@ static aur_result compute(weights_job *task, aur_error *error) {
         return made;
     result->weights = malloc(result->lobe_count * result->count * sizeof *result->weights);
     if (result->weights == NULL)
-        return out_of_memory(error);
+        return aur_fail(error, AUR_ERROR_MEMORY, "out of memory");
     const bool optimal =
         task->arguments->method == CLI_METHOD_OSW || task->arguments->method == CLI_METHOD_OSWA;
     made = optimal ? optimal_weights(task, error) : rival_weights(task, error);
@@ -269,10 +253,10 @@ static aur_result compute(weights_job *task, aur_error *error) {
 
 int cli_weights_compute(const cli_weights_arguments *arguments, cli_weights_result *result) {
     weights_job task = {.arguments = arguments, .result = result};
-    result->lobe_count = arguments->mirror_given ? 2 : 1;
+    result->lobe_count = arguments->two ? 2 : 1;
     aur_error error = {0};
     const aur_result made = compute(&task, &error);
     aur_potential_destroy(task.potentials[0]);
     aur_potential_destroy(task.potentials[1]);
-    return made == AUR_OK ? CLI_SUCCESS : cli_fail(&error);
+    return cli_status(made, &error);
 }

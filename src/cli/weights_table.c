@@ -16,7 +16,7 @@ int cli_weights_table(const cli_weights_arguments *arguments) {
     if (result == AUR_OK)
         result = aur_weight_table_save(table, arguments->table, &error);
     aur_weight_table_destroy(table);
-    return result == AUR_OK ? CLI_SUCCESS : cli_fail(&error);
+    return cli_status(result, &error);
 }
 
 static aur_result write_entry(const cli_weights_arguments *arguments, const aur_weight_table *table,
@@ -27,7 +27,7 @@ static aur_result write_entry(const cli_weights_arguments *arguments, const aur_
     float *const found = malloc(size * sizeof *found);
     aur_result result = AUR_ERROR_MEMORY;
     if (xyz == NULL || found == NULL) {
-        *error = (aur_error){.result = result, .message = "out of memory"};
+        aur_fail(error, result, "out of memory");
     } else {
         const double radians = arguments->look_up_degrees * degree;
         double *const weights = xyz + 3 * size;

@@ -1,8 +1,9 @@
-/* The progress bar and warnings. The only state of the program that outlives a function: the terminal has one
- * bar. */
+/* What goes to standard error: errors, warnings and the progress bar, which is the only state of the program
+ * that outlives a function: the terminal has one bar. */
 #include <inttypes.h>
 #include <math.h>
 #include <signal.h>
+#include <stdarg.h>
 #include <stdio.h>
 #include <string.h>
 #include <time.h>
@@ -106,4 +107,41 @@ static void warn(void *user, const char *message) {
 
 aur_warnings cli_warnings(bool quiet) {
     return (aur_warnings){.function = quiet ? NULL : warn};
+}
+
+static int exit_status(aur_result result) {
+    switch (result) {
+    case AUR_OK:
+        return CLI_SUCCESS;
+    case AUR_ERROR_INTERNAL:
+    case AUR_ERROR_MEMORY:
+    case AUR_ERROR_CANCELLED:
+    case AUR_ERROR_WRITE:
+        return CLI_FAILURE;
+    default:
+        return CLI_BAD_INPUT;
+    }
+}
+
+int cli_fail(const aur_error *error) {
+    char text[AUR_ERROR_FILE_CAPACITY + AUR_ERROR_MESSAGE_CAPACITY + 64];
+    aur_error_format(error, text, sizeof text);
+    cli_progress_clear();
+    fprintf(stderr, "aureole: %s\n", text[0] != '\0' ? text : aur_result_string(error->result));
+    return exit_status(error->result);
+}
+
+int cli_status(aur_result result, const aur_error *error) {
+    return result == AUR_OK ? CLI_SUCCESS : cli_fail(error);
+}
+
+int cli_bad_usage(const char *format, ...) {
+    cli_progress_clear();
+    fputs("aureole: ", stderr);
+    va_list arguments;
+    va_start(arguments, format);
+    vfprintf(stderr, format, arguments);
+    va_end(arguments);
+    fputc('\n', stderr);
+    return CLI_BAD_INPUT;
 }

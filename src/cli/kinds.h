@@ -1,0 +1,12 @@
+/* The tables of what there is to choose from, for help and completion. */
+#pragma once
+
+#include "cli/options.h"
+
+/* The tables of both libraries, one after the other; NULL beyond the last. */
+const aur_table *cli_table_at(size_t index);
+/* The table of a kind, or NULL. */
+const aur_table *cli_find_table(const char *kind);
+
+/* What `aureole help VERB` prints; returns CLI_SUCCESS. */
+int cli_print_verb_help(const cli_verb *verb);

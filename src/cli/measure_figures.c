@@ -1,0 +1,78 @@
+/* The figures of `aureole measure` for one set or file and size. */
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "cli/measure.h"
+
+/* All metrics of one set of points into values[metrics.count], or the table; messages name the file. */
+static aur_result measure_points(const cli_measure_arguments *arguments, const char *source, size_t count,
+                                 uint64_t seed, cli_measure_row *row, double *values, aur_error *error) {
+    cli_points from = arguments->points;
+    from.options.seed = seed;
+    aur_points *points;
+    aur_points_view view;
+    aur_result result = cli_load_points(source, &from, count, &points, &view, error);
+    if (result != AUR_OK)
+        return result;
+    row->count = view.count;
+    row->domain = view.domain;
+    if (arguments->series)
+        result =
+            aur_measure_series(cli_metric(arguments, 0), &view, &arguments->options, &row->series, error);
+    for (size_t m = 0; m < arguments->metrics.count && !arguments->series && result == AUR_OK; ++m)
+        result = aur_measure(cli_metric(arguments, m), &view, &arguments->options, &values[m], error);
+    if (result != AUR_OK && error->file[0] == '\0')
+        snprintf(error->file, sizeof error->file, "%s", source);
+    aur_points_destroy(points);
+    return result;
+}
+
+/* Mean, spread (the sample's standard deviation) and root mean square over seeds. */
+static aur_result measure_seeds(const cli_measure_arguments *arguments, const char *source, size_t count,
+                                cli_measure_row *row, double *values, aur_error *error) {
+    const size_t metrics = arguments->metrics.count;
+    double *const means = row->figures;
+    aur_result result = AUR_OK;
+    for (size_t k = 0; k < arguments->seed_count && result == AUR_OK; ++k) {
+        result =
+            measure_points(arguments, source, count, arguments->points.options.seed + k, row, values, error);
+        for (size_t m = 0; m < metrics && result == AUR_OK; ++m) {
+            /* Welford's update of mean and sum of squares. */
+            double *const figure = means + 3 * m;
+            const double difference = values[m] - figure[0];
+            figure[0] += difference / (double)(k + 1);
+            figure[1] += difference * (values[m] - figure[0]);
+        }
+    }
+    for (size_t m = 0; m < metrics; ++m) {
+        double *const figure = means + 3 * m;
+        const double squares = figure[1];
+        figure[2] = sqrt(figure[0] * figure[0] + squares / (double)arguments->seed_count);
+        figure[1] = sqrt(squares / (double)(arguments->seed_count - 1));
+    }
+    return result;
+}
+
+aur_result cli_measure_figures(const cli_measure_arguments *arguments, const char *source, size_t count,
+                               cli_measure_row *row, aur_error *error) {
+    const size_t metrics = arguments->metrics.count, per = cli_figures_per_metric(arguments);
+    double *const values = calloc(metrics, sizeof *values);
+    row->figures = calloc(metrics * per, sizeof *row->figures);
+    aur_result result = AUR_OK;
+    if (values == NULL || row->figures == NULL)
+        result = aur_fail(error, AUR_ERROR_MEMORY, "out of memory");
+    else if (arguments->seed_count > 0 && !cli_is_file(source))
+        result = measure_seeds(arguments, source, count, row, values, error);
+    else {
+        result = measure_points(arguments, source, count, arguments->points.options.seed, row, values, error);
+        for (size_t m = 0; m < metrics; ++m) {
+            row->figures[m * per] = values[m];
+            if (per == 3)
+                row->figures[m * per + 2] = fabs(values[m]);
+        }
+    }
+    free(values);
+    return result;
+}

@@ -1,0 +1,103 @@
+/* Verbs and their options as tables: reading the command line, checking it, help, completion and the
+ * documentation go by these rows. A new option is one row, and its use. */
+#pragma once
+
+#include <aureole/scene.h>
+#include <aureole/tables.h>
+#include <stddef.h>
+
+#include "cli/cli.h"
+
+enum { CLI_OPTION_LIMIT = 48, CLI_NAME_LIMIT = 256 }; /* options of a verb, names of a choice or table */
+
+/* Where an option's value goes: two fields of its key. */
+#define CLI_FIELD(struct_, field_) .offset = offsetof(struct_, field_), .size = sizeof(((struct_ *)0)->field_)
+
+/* One option. The key has its long name without the dashes (one letter alone stands for an option that has
+ * no long name), type, range, default and line of help. */
+typedef struct cli_option {
+    aur_key key;
+    char letter;       /* -n; 0: there is none */
+    const char *value; /* the value's word in the help, "N"; NULL: a flag, which makes its bool true */
+    bool list;         /* VALUE[,VALUE...]: the field is a cli_list */
+    /* The names of an enum from 0 on, NULL beyond the last, where they are not the key's words. */
+    const char *(*name)(unsigned value);
+    /* Reads what is none of the types of keys; the text outlives the verb. */
+    aur_result (*parse)(const char *text, void *field, aur_error *error);
+    const char *content; /* for completion: "file", "folder" or a kind of `aureole help`; or NULL */
+} cli_option;
+
+/* What stands on the command line without dashes. */
+typedef struct cli_operand {
+    const char *word; /* "SCENE" */
+    const char *help;
+    bool optional, repeated;             /* only the last operands may be either */
+    const char *(*name)(unsigned value); /* as for options */
+    const char *content; /* as for options, or "row": a name of the kind that the operand before is */
+} cli_operand;
+
+/* Options that stand together in a verb's struct; several verbs may share one. */
+typedef struct cli_group {
+    const cli_option *options; /* ends with a row without a name */
+    size_t offset;             /* of the struct that the options write to, in the verb's own */
+} cli_group;
+
+typedef struct cli_call cli_call;
+
+/* One verb: its file defines `const cli_verb cli_verb_<name>`, and main.c has the table. */
+typedef struct cli_verb {
+    const char *name;
+    const char *summary;              /* one line for the list */
+    const char *notes;                /* what is to be said after the options; or NULL */
+    const char *too_few, *too_many;   /* what is wrong with such operands; NULL where it is not said so */
+    const cli_operand operands[3];    /* end with one without a word */
+    const cli_group groups[8];        /* end with one without options */
+    size_t size;                      /* of the struct that the options write to */
+    int (*run)(const cli_call *call); /* returns the exit status */
+} cli_verb;
+
+/* A command line that has been read. */
+struct cli_call {
+    const cli_verb *const *verbs; /* all of them; NULL at the end */
+    const cli_verb *verb;
+    void *options; /* the verb's struct: zero but for defaults and what was given */
+    size_t operand_count;
+    char **operands;
+    const char *texts[CLI_OPTION_LIMIT]; /* what was given, by the option's index; NULL: nothing */
+};
+
+/* Option `index` of a verb, group after group, NULL beyond the last; *offset (unless NULL) is the place of
+ * its field in the verb's struct. */
+const cli_option *cli_option_at(const cli_verb *verb, size_t index, size_t *offset);
+
+/* Reads argv[1..argc-1] into a call whose `options` point to zeros. Prints what is wrong and returns false.
+ */
+bool cli_read_options(const cli_verb *verb, int argc, char **argv, cli_call *call);
+/* The text that was given for an option, "" for a flag, or NULL when it was not given. */
+const char *cli_given(const cli_call *call, const char *name);
+
+/* Name `index` of those that the value may have, or NULL. */
+const char *cli_option_name(const cli_option *option, unsigned index);
+
+/* A text that is cut at its commas. */
+typedef struct cli_list {
+    size_t count;
+    const char *text; /* the items one after the other, each with its zero byte */
+} cli_list;
+cli_list cli_split(char *text);
+const char *cli_list_at(const cli_list *list, size_t index);
+
+/* --- options that verbs share, each a group of one row */
+
+extern const cli_option cli_format_option[];  /* cli_format: of a table of results */
+extern const cli_option cli_quiet_option[];   /* bool */
+extern const cli_option cli_threads_option[]; /* size_t */
+
+enum { CLI_DEFINITION_LIMIT = 64 };
+
+/* What -D says about a scene, as often as it is given. */
+typedef struct cli_definitions {
+    size_t count;
+    aur_definition items[CLI_DEFINITION_LIMIT];
+} cli_definitions;
+extern const cli_option cli_definitions_option[];
