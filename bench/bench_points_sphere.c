@@ -18,7 +18,8 @@ typedef struct points_context {
 
 static void make_points(void *data) {
     const points_context *const context = data;
-    aur_directions_points(context->directions, 0, context->count, 3 * context->count, context->xyz, NULL);
+    aur_directions_points(context->directions, 0, context->count, 3 * context->count, context->xyz, NULL,
+                          NULL);
     bench_keep(context->xyz[3 * context->count - 1]);
 }
 
@@ -42,7 +43,7 @@ static aur_result make_slice(void *data, size_t index) {
     aur_result result = AUR_OK;
     for (size_t round = 0; round < ROUNDS && result == AUR_OK; ++round)
         result = aur_directions_points(context->directions, index * part, part, 3 * part,
-                                       context->xyz + 3 * index * part, NULL);
+                                       context->xyz + 3 * index * part, NULL, NULL);
     return result;
 }
 
@@ -128,7 +129,8 @@ typedef struct inverse_context {
 
 static void find_nearest(void *data) {
     const inverse_context *const context = data;
-    aur_fibonacci_nearest(&context->set, context->count, context->xyz, context->count, context->indices);
+    aur_fibonacci_nearest(&context->set, context->count, context->xyz, context->count, context->indices,
+                          NULL);
     bench_keep((double)context->indices[context->count - 1]);
 }
 

@@ -34,14 +34,14 @@ static void close_square(square_context *context) {
 
 static void make_points(void *data) {
     const square_context *const context = data;
-    aur_pointset_points(context->set, 0, context->count, 2 * context->count, context->points);
+    aur_pointset_points(context->set, 0, context->count, 2 * context->count, context->points, NULL);
     bench_keep(context->points[2 * context->count - 1]);
 }
 
 static void make_golden_set(void *data) {
     const square_context *const context = data;
     const aur_output output = {.capacity = 2 * context->count, .doubles = context->points};
-    aur_golden_set_points(0.25, context->count, &output);
+    aur_golden_set_points(0.25, context->count, &output, NULL);
     bench_keep(context->points[2 * context->count - 1]);
 }
 
@@ -109,7 +109,7 @@ static aur_result make_slice(void *data, size_t index) {
     aur_result result = AUR_OK;
     for (size_t round = 0; round < context->rounds && result == AUR_OK; ++round)
         result = aur_pointset_points(context->set, index * part, part, 2 * part,
-                                     context->points + 2 * index * part);
+                                     context->points + 2 * index * part, NULL);
     return result;
 }
 

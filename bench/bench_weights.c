@@ -33,7 +33,7 @@ static bool make_points(size_t count, double exponent, double *xyz) {
     aur_directions *directions;
     if (aur_directions_create("spherical-fibonacci", &options, &directions, NULL) != AUR_OK)
         return false;
-    const aur_result result = aur_directions_points(directions, 0, count, 3 * count, xyz, NULL);
+    const aur_result result = aur_directions_points(directions, 0, count, 3 * count, xyz, NULL, NULL);
     aur_directions_destroy(directions);
     return result == AUR_OK;
 }

@@ -17,7 +17,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
         return 0;
     }
     double coordinates[2 * COUNT];
-    fuzz_require(aur_pointset_points(points, 0, COUNT, 2 * COUNT, coordinates) == AUR_OK, "no points");
+    fuzz_require(aur_pointset_points(points, 0, COUNT, 2 * COUNT, coordinates, NULL) == AUR_OK, "no points");
     for (size_t i = 0; i < 2 * COUNT; ++i)
         fuzz_require(coordinates[i] >= 0.0 && coordinates[i] < 1.0, "a point outside the square");
     aur_pointset_destroy(points);

@@ -21,7 +21,7 @@ static void try_square(const char *set) {
     }
     double coordinates[2 * COUNT];
     const size_t size = aur_pointset_size(points) < COUNT ? (size_t)aur_pointset_size(points) : COUNT;
-    fuzz_require(aur_pointset_points(points, 0, size, 2 * COUNT, coordinates) == AUR_OK, "no points");
+    fuzz_require(aur_pointset_points(points, 0, size, 2 * COUNT, coordinates, NULL) == AUR_OK, "no points");
     for (size_t i = 0; i < 2 * size; ++i)
         fuzz_require(coordinates[i] >= 0.0 && coordinates[i] < 1.0, "a point outside the square");
     aur_pointset_destroy(points);
@@ -40,7 +40,8 @@ static void try_sphere(const char *set) {
     double xyz[3 * COUNT];
     const size_t size =
         aur_directions_size(directions) < COUNT ? (size_t)aur_directions_size(directions) : COUNT;
-    fuzz_require(aur_directions_points(directions, 0, size, 3 * COUNT, xyz, NULL) == AUR_OK, "no directions");
+    fuzz_require(aur_directions_points(directions, 0, size, 3 * COUNT, xyz, NULL, NULL) == AUR_OK,
+                 "no directions");
     for (size_t i = 0; i < size; ++i) {
         const double *const d = xyz + 3 * i;
         const double length2 = d[0] * d[0] + d[1] * d[1] + d[2] * d[2];

@@ -124,13 +124,13 @@ enum { AUR_FIBONACCI_NEIGHBOURS_MAX = 256 };
 /* indices[i] is the nearest point of direction xyz[3 i ...] (Keinert 2015); `capacity` counts indices.
  * Errors: ARGUMENT for a set or a direction out of its range (then nothing is written), CAPACITY. */
 AUR_API aur_result aur_fibonacci_nearest(const aur_fibonacci_set *set, size_t count, const double *xyz,
-                                         size_t capacity, uint64_t *indices) AUR_NONNULL(1);
+                                         size_t capacity, uint64_t *indices, aur_error *error) AUR_NONNULL(1);
 /* The `count` nearest points of one direction, nearest first; at most AUR_FIBONACCI_NEIGHBOURS_MAX and no
  * more than the set has. Errors: ARGUMENT for a larger count, a set or a direction out of its range, CAPACITY
  * where `capacity` indices are fewer than `count`; then nothing is written. */
 AUR_API aur_result aur_fibonacci_neighbours(const aur_fibonacci_set *set, const double direction[3],
-                                            size_t count, size_t capacity, uint64_t *indices)
-    AUR_NONNULL(1, 2, 5);
+                                            size_t count, size_t capacity, uint64_t *indices,
+                                            aur_error *error) AUR_NONNULL(1, 2, 5);
 
 /* A set of directions made ready: immutable, for any number of threads. */
 typedef struct aur_directions aur_directions;
@@ -173,16 +173,13 @@ AUR_API uint64_t aur_directions_size(const aur_directions *directions) AUR_NONNU
  * against 1/area), 1/N each where the density is the lobe itself, p/(q N) where it is not, 0 below the
  * horizon of a GGX lobe. Errors: ARGUMENT for a range beyond the set, CAPACITY. */
 AUR_API aur_result aur_directions_points(const aur_directions *directions, uint64_t first, size_t count,
-                                         size_t capacity, double *xyz, double *weights) AUR_NONNULL(1, 5);
-/* The same rounded to float, and as separate arrays of `capacity` numbers each. Errors: as above. */
-AUR_API aur_result aur_directions_points_float(const aur_directions *directions, uint64_t first, size_t count,
-                                               size_t capacity, float *xyz, float *weights) AUR_NONNULL(1, 5);
-AUR_API aur_result aur_directions_arrays(const aur_directions *directions, uint64_t first, size_t count,
-                                         size_t capacity, double *x, double *y, double *z, double *weights)
-    AUR_NONNULL(1, 5, 6, 7);
-AUR_API aur_result aur_directions_arrays_float(const aur_directions *directions, uint64_t first, size_t count,
-                                               size_t capacity, float *x, float *y, float *z, float *weights)
-    AUR_NONNULL(1, 5, 6, 7);
+                                         size_t capacity, double *xyz, double *weights, aur_error *error)
+    AUR_NONNULL(1, 5);
+/* The same in any layout, floats being the doubles rounded: `xyz` takes three coordinates, `weights` (NULL:
+ * none are wanted) one. Errors: also ARGUMENT for an output that contradicts itself. */
+AUR_API aur_result aur_directions_generate(const aur_directions *directions, uint64_t first, size_t count,
+                                           const aur_output *xyz, const aur_output *weights, aur_error *error)
+    AUR_NONNULL(1, 4);
 
 /* Points of any set on any domain, for programs that want them all at once. */
 typedef struct aur_points_request {

@@ -28,7 +28,7 @@ aur_result lab_draw(const lab_samples *wanted, double *xyz, double *weights, aur
     aur_result result = aur_directions_create(wanted->set, &options, &directions, error);
     if (result != AUR_OK)
         return result;
-    result = aur_directions_points(directions, 0, wanted->count, 3 * wanted->count, xyz, weights);
+    result = aur_directions_points(directions, 0, wanted->count, 3 * wanted->count, xyz, weights, NULL);
     aur_directions_destroy(directions);
     return result;
 }

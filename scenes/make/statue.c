@@ -71,7 +71,7 @@ static double hair(vec p, double cap) {
     const double direction[3] = {axis.x, axis.z, axis.y};
     const aur_fibonacci_set curls = {CURLS, AUR_DOMAIN_SPHERE};
     uint64_t index = 0;
-    aur_fibonacci_nearest(&curls, 1, direction, 1, &index);
+    aur_fibonacci_nearest(&curls, 1, direction, 1, &index, NULL);
     const double height = 1.0 - (2.0 * (double)index + 1.0) / CURLS, radius = sqrt(1.0 - height * height);
     const double phi = 2.0 * PI * (double)index * 0.61803398874989484820;
     const vec curl = {radius * cos(phi), height, radius * sin(phi)};

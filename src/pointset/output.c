@@ -1,4 +1,5 @@
 /* From a set to the caller's buffer: ranges, capacities, layouts, floats. */
+#include <inttypes.h>
 #include <math.h>
 
 #include "pointset/set.h"
@@ -53,33 +54,49 @@ static void fill_doubles(const aur_pointset *set, aur_block block) {
     }
 }
 
-aur_result aur_output_check(const aur_output *output, size_t dimension, size_t count) {
-    if ((output->doubles == NULL) == (output->floats == NULL) ||
-        (output->layout != AUR_LAYOUT_POINTS && output->layout != AUR_LAYOUT_ARRAYS))
-        return AUR_ERROR_ARGUMENT;
-    if (output->layout == AUR_LAYOUT_ARRAYS && output->stride != 0 && output->stride < count)
-        return AUR_ERROR_ARGUMENT;
+aur_result aur_check_range(uint64_t size, uint64_t first, uint64_t count, aur_error *error) {
+    if (first <= size && count <= size - first)
+        return AUR_OK;
+    return aur_fail(error, AUR_ERROR_ARGUMENT,
+                    "a set of %" PRIu64 " points has no points %" PRIu64 " to %" PRIu64, size, first,
+                    first + (count > 0 ? count - 1 : 0));
+}
+
+aur_result aur_output_open(const aur_output *output, size_t dimension, size_t count, aur_strides *strides,
+                           aur_error *error) {
+    const bool arrays = output->layout == AUR_LAYOUT_ARRAYS;
+    if ((output->doubles == NULL) == (output->floats == NULL))
+        return aur_fail(error, AUR_ERROR_ARGUMENT, "an output has either doubles or floats");
+    if (!arrays && output->layout != AUR_LAYOUT_POINTS)
+        return aur_fail(error, AUR_ERROR_ARGUMENT, "%d is not a layout", (int)output->layout);
+    if (arrays && output->stride != 0 && output->stride < count)
+        return aur_fail(error, AUR_ERROR_ARGUMENT, "a stride of %zu is too short for %zu points",
+                        output->stride, count);
     const size_t needed = aur_output_capacity(output->layout, dimension, count, output->stride);
-    return needed == SIZE_MAX || needed > output->capacity ? AUR_ERROR_CAPACITY : AUR_OK;
+    if (needed == SIZE_MAX || needed > output->capacity)
+        return aur_fail(error, AUR_ERROR_CAPACITY,
+                        "%zu points of %zu coordinates do not fit into %zu elements", count, dimension,
+                        output->capacity);
+    *strides =
+        arrays ? (aur_strides){1, output->stride != 0 ? output->stride : count} : (aur_strides){dimension, 1};
+    return AUR_OK;
 }
 
 /* Coordinates dimension .. dimension + dimension_count - 1. */
 static aur_result emit(const aur_pointset *set, uint64_t seed, size_t dimension, size_t dimension_count,
-                       uint64_t first, size_t count, const aur_output *output) {
-    if (first > set->size || count > set->size - first)
-        return AUR_ERROR_ARGUMENT;
-    const aur_result result = aur_output_check(output, dimension_count, count);
+                       uint64_t first, size_t count, const aur_output *output, aur_error *error) {
+    aur_strides strides;
+    aur_result result = aur_check_range(set->size, first, count, error);
+    if (result == AUR_OK)
+        result = aur_output_open(output, dimension_count, count, &strides, error);
     if (result != AUR_OK || count == 0 || dimension_count == 0)
         return result;
-    const bool arrays = output->layout == AUR_LAYOUT_ARRAYS;
     aur_block block = {.first = first,
                        .count = count,
                        .first_dimension = dimension,
                        .dimension_count = dimension_count,
-                       .point_stride = arrays ? 1 : dimension_count,
-                       .coordinate_stride = !arrays               ? 1
-                                            : output->stride != 0 ? output->stride
-                                                                  : count,
+                       .point_stride = strides.point,
+                       .coordinate_stride = strides.coordinate,
                        .seed = seed,
                        .data = output->doubles};
     if (output->doubles != NULL) {
@@ -89,39 +106,42 @@ static aur_result emit(const aur_pointset *set, uint64_t seed, size_t dimension,
     block.dimension_count = 1;
     for (size_t d = 0; d < dimension_count; ++d) {
         block.first_dimension = dimension + d;
-        fill_floats(set, block, output->floats + d * block.coordinate_stride);
+        fill_floats(set, block, output->floats + d * strides.coordinate);
     }
     return AUR_OK;
 }
 
 aur_result aur_pointset_emit(const aur_pointset *set, uint64_t seed, uint64_t first, size_t count,
-                             const aur_output *output) {
-    return emit(set, seed, 0, set->dimension, first, count, output);
+                             const aur_output *output, aur_error *error) {
+    return emit(set, seed, 0, set->dimension, first, count, output, error);
 }
 
 aur_result aur_pointset_coordinates(const aur_pointset *pointset, size_t dimension, size_t dimension_count,
-                                    uint64_t first, size_t count, const aur_output *output) {
+                                    uint64_t first, size_t count, const aur_output *output,
+                                    aur_error *error) {
     if (dimension > pointset->dimension || dimension_count > pointset->dimension - dimension)
-        return AUR_ERROR_ARGUMENT;
-    return emit(pointset, pointset->seed, dimension, dimension_count, first, count, output);
+        return aur_fail(error, AUR_ERROR_ARGUMENT,
+                        "a set of %zu dimensions has no %zu of them from dimension %zu on",
+                        pointset->dimension, dimension_count, dimension);
+    return emit(pointset, pointset->seed, dimension, dimension_count, first, count, output, error);
 }
 
 aur_result aur_pointset_generate(const aur_pointset *pointset, uint64_t first, size_t count,
-                                 const aur_output *output) {
-    return aur_pointset_emit(pointset, pointset->seed, first, count, output);
+                                 const aur_output *output, aur_error *error) {
+    return aur_pointset_emit(pointset, pointset->seed, first, count, output, error);
 }
 
 aur_result aur_pointset_randomize(const aur_pointset *pointset, uint64_t seed, uint64_t first, size_t count,
-                                  const aur_output *output) {
+                                  const aur_output *output, aur_error *error) {
     if (pointset->scramble == AUR_SCRAMBLE_NONE)
-        return AUR_ERROR_UNSUPPORTED;
-    return aur_pointset_emit(pointset, seed, first, count, output);
+        return aur_fail(error, AUR_ERROR_UNSUPPORTED, "a set that is not scrambled has no other scramblings");
+    return aur_pointset_emit(pointset, seed, first, count, output, error);
 }
 
 aur_result aur_pointset_points(const aur_pointset *pointset, uint64_t first, size_t count, size_t capacity,
-                               double *points) {
+                               double *points, aur_error *error) {
     return aur_pointset_generate(pointset, first, count,
-                                 &(aur_output){.capacity = capacity, .doubles = points});
+                                 &(aur_output){.capacity = capacity, .doubles = points}, error);
 }
 
 double aur_pointset_coordinate(const aur_pointset *pointset, uint64_t index, size_t dimension) {

@@ -67,12 +67,21 @@ const aur_square_set *aur_square_set_at(size_t index);
 /* Size, dimension and scrambling against what the kind of set has. */
 aur_result aur_pointset_check(const aur_pointset *set, aur_error *error);
 
-/* Whether the output fits `count` points. */
-aur_result aur_output_check(const aur_output *output, size_t dimension, size_t count);
+/* Whether a set of `size` points has the points first .. first+count-1. Errors: ARGUMENT. */
+aur_result aur_check_range(uint64_t size, uint64_t first, uint64_t count, aur_error *error);
+
+/* Where in an output's buffer the coordinates of a point are: coordinate d of point i at i * point_stride +
+ * d * coordinate_stride. Errors: ARGUMENT for an output that contradicts itself, CAPACITY where `count`
+ * points do not fit. */
+typedef struct aur_strides {
+    size_t point, coordinate;
+} aur_strides;
+aur_result aur_output_open(const aur_output *output, size_t dimension, size_t count, aur_strides *strides,
+                           aur_error *error);
 
 /* Points into the caller's buffer, scrambled with `seed`. */
 aur_result aur_pointset_emit(const aur_pointset *set, uint64_t seed, uint64_t first, size_t count,
-                             const aur_output *output);
+                             const aur_output *output, aur_error *error);
 
 /* The coordinates of a block with every scrambling applied. The block must be within the set. */
 void aur_pointset_fill(const aur_pointset *set, const aur_block *block);

@@ -34,7 +34,7 @@ aur_result aur_points_of_set(const char *set, const aur_directions_options *opti
         return result;
     const uint64_t size = aur_directions_size(directions), count = options->count;
     result = size == count
-                 ? aur_directions_points(directions, 0, (size_t)count, 3 * (size_t)count, xyz, weights)
+                 ? aur_directions_points(directions, 0, (size_t)count, 3 * (size_t)count, xyz, weights, error)
                  : aur_fail(error, AUR_ERROR_ARGUMENT, "set '%s' has %llu points, not %llu", set,
                             (unsigned long long)size, (unsigned long long)count);
     aur_directions_destroy(directions);

@@ -23,11 +23,8 @@ static aur_result fill_table(aur_sampler *sampler, const char *set, const aur_wa
     sampler->points = malloc(sizeof *sampler->points * sampler->size);
     if (values == NULL || sampler->points == NULL)
         result = aur_fail(error, AUR_ERROR_MEMORY, "out of memory for a sampler of %u points", sampler->size);
-    if (result == AUR_OK) {
-        result = aur_pointset_points(points, 0, sampler->size, 2 * (size_t)sampler->size, values);
-        if (result != AUR_OK)
-            aur_fail(error, result, "sampler '%s': %s", set, aur_result_string(result));
-    }
+    if (result == AUR_OK)
+        result = aur_pointset_points(points, 0, sampler->size, 2 * (size_t)sampler->size, values, error);
     for (size_t i = 0; i < sampler->size && result == AUR_OK; ++i)
         for (size_t k = 0; k < 2; ++k)
             sampler->points[i][k] = (uint32_t)(values[2 * i + k] * 0x1p32);

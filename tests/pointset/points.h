@@ -25,7 +25,7 @@ static inline double *make_points(const char *text, aur_pointset_options options
     const size_t dimension = aur_pointset_dimension(set);
     double *const points = malloc(count * dimension * sizeof *points);
     assert_non_null(points);
-    assert_int_equal(aur_pointset_points(set, 0, count, count * dimension, points), AUR_OK);
+    assert_int_equal(aur_pointset_points(set, 0, count, count * dimension, points, NULL), AUR_OK);
     for (size_t i = 0; i < count * dimension; ++i)
         assert_true(points[i] >= 0.0 && points[i] < 1.0);
     aur_pointset_destroy(set);

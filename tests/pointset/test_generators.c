@@ -12,8 +12,8 @@ static void lcg_is_minstd(void **state) {
     aur_pointset *const set =
         make_set("lcg", (aur_pointset_options){.size = sizeof(aur_pointset_options), .count = 5000});
     double first[2], last[2];
-    assert_int_equal(aur_pointset_points(set, 0, 1, 2, first), AUR_OK);
-    assert_int_equal(aur_pointset_points(set, 4999, 1, 2, last), AUR_OK);
+    assert_int_equal(aur_pointset_points(set, 0, 1, 2, first, NULL), AUR_OK);
+    assert_int_equal(aur_pointset_points(set, 4999, 1, 2, last, NULL), AUR_OK);
     assert_near(first[0] * 2147483647.0, 16807.0, 1e-6);
     assert_near(first[1] * 2147483647.0, 282475249.0, 1e-6);
     assert_near(last[1] * 2147483647.0, 1043618065.0, 1e-6);
@@ -43,8 +43,8 @@ static void icg_is_the_recursion(void **state) {
     aur_pointset *const set = make_set(
         "icg", (aur_pointset_options){.size = sizeof(aur_pointset_options), .count = p, .dimension = 1});
     double ends[2];
-    assert_int_equal(aur_pointset_points(set, 2999, 1, 1, ends), AUR_OK);
-    assert_int_equal(aur_pointset_points(set, p - 1, 1, 1, ends + 1), AUR_OK);
+    assert_int_equal(aur_pointset_points(set, 2999, 1, 1, ends, NULL), AUR_OK);
+    assert_int_equal(aur_pointset_points(set, p - 1, 1, 1, ends + 1, NULL), AUR_OK);
     const uint64_t last = (uint64_t)(ends[1] * (double)p + 0.5);
     /* 9102 / last + 36884165 = 0 */
     assert_int_equal((9102 + last * 36884165 % p) % p, 0);
@@ -55,7 +55,7 @@ static void expect_run(const char *text, aur_pointset_options options, uint64_t 
     enum { COUNT = 700 };
     double *const run = malloc(COUNT * options.dimension * sizeof *run);
     aur_pointset *const set = make_set(text, options);
-    assert_int_equal(aur_pointset_points(set, first, COUNT, COUNT * options.dimension, run), AUR_OK);
+    assert_int_equal(aur_pointset_points(set, first, COUNT, COUNT * options.dimension, run, NULL), AUR_OK);
     for (size_t i = 0; i < COUNT; ++i)
         for (size_t d = 0; d < options.dimension; ++d)
             assert_true(aur_pointset_coordinate(set, first + i, d) == run[i * options.dimension + d]);
@@ -331,7 +331,7 @@ static void golden_phases_are_exact(void **state) {
     for (uint64_t k = 0; k < 2000; ++k) {
         const uint64_t index = (k < 1000 ? UINT64_C(1000000000) : UINT64_C(1000000000000)) + k * 7919;
         double x;
-        assert_int_equal(aur_pointset_points(set, index, 1, 1, &x), AUR_OK);
+        assert_int_equal(aur_pointset_points(set, index, 1, 1, &x, NULL), AUR_OK);
         const uint64_t rest = (uint64_t)((wide)(index + 1) * before % number);
         assert_near(x, (double)rest / (double)number, 0x1p-52);
     }

@@ -12,71 +12,76 @@ typedef aur_result (*direct_function)(const aur_randomization *randomization, ui
 
 static aur_result direct_halton(const aur_randomization *r, uint64_t first, size_t count,
                                 const aur_output *out) {
-    return aur_halton_points(3, r, first, count, out);
+    return aur_halton_points(3, r, first, count, out, NULL);
+}
+
+static aur_result direct_van_der_corput(const aur_randomization *r, uint64_t first, size_t count,
+                                        const aur_output *out) {
+    return aur_van_der_corput_points(r, first, count, out, NULL);
 }
 
 static aur_result direct_hammersley(const aur_randomization *r, uint64_t first, size_t count,
                                     const aur_output *out) {
-    return aur_hammersley_points(3, size, r, first, count, out);
+    return aur_hammersley_points(3, size, r, first, count, out, NULL);
 }
 
 static aur_result direct_sobol(const aur_randomization *r, uint64_t first, size_t count,
                                const aur_output *out) {
-    return aur_sobol_points(2, r, first, count, out);
+    return aur_sobol_points(2, r, first, count, out, NULL);
 }
 
 static aur_result direct_sobol_cube(const aur_randomization *r, uint64_t first, size_t count,
                                     const aur_output *out) {
-    return aur_sobol_points(1027, r, first, count, out);
+    return aur_sobol_points(1027, r, first, count, out, NULL);
 }
 
 static aur_result direct_niederreiter(const aur_randomization *r, uint64_t first, size_t count,
                                       const aur_output *out) {
-    return aur_niederreiter_points(5, r, first, count, out);
+    return aur_niederreiter_points(5, r, first, count, out, NULL);
 }
 
 static aur_result direct_larcher(const aur_randomization *r, uint64_t first, size_t count,
                                  const aur_output *out) {
-    return aur_larcher_pillichshammer_points(size, r, first, count, out);
+    return aur_larcher_pillichshammer_points(size, r, first, count, out, NULL);
 }
 
 static aur_result direct_fibonacci(const aur_randomization *r, uint64_t first, size_t count,
                                    const aur_output *out) {
-    return aur_fibonacci_lattice_points(size, 0.5, r, first, count, out);
+    return aur_fibonacci_lattice_points(size, 0.5, r, first, count, out, NULL);
 }
 
 static aur_result direct_rank1(const aur_randomization *r, uint64_t first, size_t count,
                                const aur_output *out) {
-    return aur_rank1_points(2, vector, size, r, first, count, out);
+    return aur_rank1_points(2, vector, size, r, first, count, out, NULL);
 }
 
 static aur_result direct_r2(const aur_randomization *r, uint64_t first, size_t count, const aur_output *out) {
-    return aur_r2_points(2, r, first, count, out);
+    return aur_r2_points(2, r, first, count, out, NULL);
 }
 
 static aur_result direct_golden(const aur_randomization *r, uint64_t first, size_t count,
                                 const aur_output *out) {
-    return aur_golden_points(0.25, r, first, count, out);
+    return aur_golden_points(0.25, r, first, count, out, NULL);
 }
 
 static aur_result direct_random(const aur_randomization *r, uint64_t first, size_t count,
                                 const aur_output *out) {
-    return aur_random_points(3, r->seed, first, count, out);
+    return aur_random_points(3, r->seed, first, count, out, NULL);
 }
 
 static aur_result direct_lcg(const aur_randomization *r, uint64_t first, size_t count,
                              const aur_output *out) {
-    return aur_lcg_points(2, r->seed, first, count, out);
+    return aur_lcg_points(2, r->seed, first, count, out, NULL);
 }
 
 static aur_result direct_icg(const aur_randomization *r, uint64_t first, size_t count,
                              const aur_output *out) {
-    return aur_icg_points(2, r->seed, first, count, out);
+    return aur_icg_points(2, r->seed, first, count, out, NULL);
 }
 
 static aur_result direct_jittered(const aur_randomization *r, uint64_t first, size_t count,
                                   const aur_output *out) {
-    return aur_jittered_points(size, r->seed, first, count, out);
+    return aur_jittered_points(size, r->seed, first, count, out, NULL);
 }
 
 static const struct {
@@ -87,7 +92,7 @@ static const struct {
 } cases[] = {
     {"halton", 3, direct_halton, true},
     {"hammersley", 3, direct_hammersley, true},
-    {"van-der-corput", 1, aur_van_der_corput_points, true},
+    {"van-der-corput", 1, direct_van_der_corput, true},
     {"sobol", 2, direct_sobol, true},
     {"sobol", 1027, direct_sobol_cube, true},
     {"niederreiter", 5, direct_niederreiter, true},
@@ -116,18 +121,18 @@ static void check_case(size_t k, aur_scramble scramble) {
     double *const doubles = malloc(capacity * sizeof *doubles);
     float *const floats = malloc(capacity * sizeof *floats);
     assert_true(points != NULL && doubles != NULL && floats != NULL);
-    assert_int_equal(aur_pointset_points(set, FIRST, COUNT, capacity, points), AUR_OK);
+    assert_int_equal(aur_pointset_points(set, FIRST, COUNT, capacity, points, NULL), AUR_OK);
     assert_int_equal(cases[k].direct(&randomization, FIRST, COUNT,
                                      &(aur_output){.capacity = capacity, .doubles = doubles}),
                      AUR_OK);
     assert_memory_equal(points, doubles, capacity * sizeof *points);
+    assert_int_equal(aur_pointset_generate(
+                         set, FIRST, COUNT,
+                         &(aur_output){.layout = AUR_LAYOUT_ARRAYS, .capacity = capacity, .doubles = doubles},
+                         NULL),
+                     AUR_OK);
     assert_int_equal(
-        aur_pointset_generate(
-            set, FIRST, COUNT,
-            &(aur_output){.layout = AUR_LAYOUT_ARRAYS, .capacity = capacity, .doubles = doubles}),
-        AUR_OK);
-    assert_int_equal(
-        aur_pointset_generate(set, FIRST, COUNT, &(aur_output){.capacity = capacity, .floats = floats}),
+        aur_pointset_generate(set, FIRST, COUNT, &(aur_output){.capacity = capacity, .floats = floats}, NULL),
         AUR_OK);
     for (size_t i = 0; i < COUNT; ++i) {
         for (size_t d = 0; d < dimension; ++d) {
@@ -199,10 +204,10 @@ static void instruction_sets_agree(void **state) {
         const size_t count = 90 + trial * 7 % (LONGEST - 90);
         const size_t offset = trial / 2 % 8;
         hold_isa("portable");
-        assert_int_equal(aur_pointset_points(set, first, count, 3 * LONGEST, plain + offset), AUR_OK);
+        assert_int_equal(aur_pointset_points(set, first, count, 3 * LONGEST, plain + offset, NULL), AUR_OK);
         hold_isa(isas[trial % 2]);
         plain[offset + count * dimension] = wide[offset + count * dimension] = -1.0;
-        assert_int_equal(aur_pointset_points(set, first, count, 3 * LONGEST, wide + offset), AUR_OK);
+        assert_int_equal(aur_pointset_points(set, first, count, 3 * LONGEST, wide + offset, NULL), AUR_OK);
         assert_memory_equal(plain + offset, wide + offset, (count * dimension + 1) * sizeof *plain);
         aur_pointset_destroy(set);
     }
@@ -219,10 +224,10 @@ static void long_runs_agree(void **state) {
     assert_true(whole != NULL && part != NULL);
     const aur_randomization owen = {AUR_SCRAMBLE_OWEN, 6};
     const aur_output output = {.capacity = 2 * LONG, .doubles = whole};
-    assert_int_equal(aur_sobol_points(2, &owen, 5, LONG, &output), AUR_OK);
+    assert_int_equal(aur_sobol_points(2, &owen, 5, LONG, &output, NULL), AUR_OK);
     for (size_t begin = 0; begin < LONG; begin += 1000) {
         const aur_output small = {.capacity = 2000, .doubles = part};
-        assert_int_equal(aur_sobol_points(2, &owen, 5 + begin, 1000, &small), AUR_OK);
+        assert_int_equal(aur_sobol_points(2, &owen, 5 + begin, 1000, &small, NULL), AUR_OK);
         assert_memory_equal(part, whole + 2 * begin, 2000 * sizeof *part);
     }
     free(whole);
@@ -245,9 +250,9 @@ static void randomisations_need_nothing_again(void **state) {
                 (aur_pointset_options){
                     .size = sizeof(aur_pointset_options), .count = 32, .scramble = scramble, .seed = seed});
             assert_int_equal(
-                aur_pointset_randomize(set, seed, 0, 32, &(aur_output){.capacity = 64, .doubles = a}),
+                aur_pointset_randomize(set, seed, 0, 32, &(aur_output){.capacity = 64, .doubles = a}, NULL),
                 AUR_OK);
-            assert_int_equal(aur_pointset_points(other, 0, 32, 64, b), AUR_OK);
+            assert_int_equal(aur_pointset_points(other, 0, 32, 64, b, NULL), AUR_OK);
             assert_memory_equal(a, b, sizeof a);
             aur_pointset_destroy(other);
         }
@@ -255,7 +260,7 @@ static void randomisations_need_nothing_again(void **state) {
     }
     aur_pointset *const set =
         make_set("sobol", (aur_pointset_options){.size = sizeof(aur_pointset_options), .count = 32});
-    assert_int_equal(aur_pointset_randomize(set, 1, 0, 32, &(aur_output){.capacity = 64, .doubles = a}),
+    assert_int_equal(aur_pointset_randomize(set, 1, 0, 32, &(aur_output){.capacity = 64, .doubles = a}, NULL),
                      AUR_ERROR_UNSUPPORTED);
     aur_pointset_destroy(set);
 }
@@ -301,36 +306,46 @@ static void owen_is_nested(void **state) {
     }
 }
 
+/* The result that is expected, with a message. */
+static void refused(aur_result result, aur_result expected, aur_error *error) {
+    assert_int_equal(result, expected);
+    assert_int_equal(error->result, expected);
+    assert_true(strlen(error->message) > 0);
+    *error = (aur_error){0};
+}
+
 static void outputs_are_checked(void **state) {
     (void)state;
     double doubles[64];
     float floats[64];
     const aur_output good = {.capacity = 64, .doubles = doubles};
-    assert_int_equal(aur_sobol_points(2, NULL, 0, 32, &good), AUR_OK);
-    assert_int_equal(aur_sobol_points(2, NULL, 0, 33, &good), AUR_ERROR_CAPACITY);
-    assert_int_equal(aur_sobol_points(2, NULL, 0, SIZE_MAX, &good), AUR_ERROR_ARGUMENT);
-    assert_int_equal(aur_random_points(2, 0, 0, SIZE_MAX, &good), AUR_ERROR_CAPACITY);
-    assert_int_equal(aur_sobol_points(0, NULL, 0, 32, &good), AUR_ERROR_ARGUMENT);
-    assert_int_equal(aur_halton_points(6543, NULL, 0, 1, &good), AUR_ERROR_ARGUMENT);
-    assert_int_equal(aur_hammersley_points(2, 0, NULL, 0, 0, &good), AUR_ERROR_ARGUMENT);
-    assert_int_equal(aur_lcg_points(0, 0, 0, 1, &good), AUR_ERROR_ARGUMENT);
-    assert_int_equal(aur_golden_points(NAN, NULL, 0, 1, &good), AUR_ERROR_ARGUMENT);
-    assert_int_equal(aur_fibonacci_lattice_points(8, INFINITY, NULL, 0, 1, &good), AUR_ERROR_ARGUMENT);
-    assert_int_equal(aur_fibonacci_lattice_points(UINT64_MAX, 0, NULL, 0, 1, &good), AUR_ERROR_ARGUMENT);
-    assert_int_equal(aur_rank1_points(2, (const uint64_t[]){1, UINT64_MAX}, 8, NULL, 0, 1, &good),
-                     AUR_ERROR_ARGUMENT);
-    assert_int_equal(aur_golden_set_points(1.0, 8, &good), AUR_ERROR_ARGUMENT);
-    assert_int_equal(aur_golden_set_points(0.0, 0, &good), AUR_ERROR_ARGUMENT);
-    assert_int_equal(aur_golden_set_points_two_seeds(0.0, NAN, 8, &good), AUR_ERROR_ARGUMENT);
+    assert_int_equal(aur_sobol_points(2, NULL, 0, 32, &good, NULL), AUR_OK);
+    aur_error error = {0};
+    refused(aur_sobol_points(2, NULL, 0, 33, &good, &error), AUR_ERROR_CAPACITY, &error);
+    refused(aur_sobol_points(2, NULL, 0, SIZE_MAX, &good, &error), AUR_ERROR_ARGUMENT, &error);
+    refused(aur_random_points(2, 0, 0, SIZE_MAX, &good, &error), AUR_ERROR_CAPACITY, &error);
+    refused(aur_sobol_points(0, NULL, 0, 32, &good, &error), AUR_ERROR_ARGUMENT, &error);
+    refused(aur_halton_points(6543, NULL, 0, 1, &good, &error), AUR_ERROR_ARGUMENT, &error);
+    refused(aur_hammersley_points(2, 0, NULL, 0, 0, &good, &error), AUR_ERROR_ARGUMENT, &error);
+    refused(aur_lcg_points(0, 0, 0, 1, &good, &error), AUR_ERROR_ARGUMENT, &error);
+    refused(aur_golden_points(NAN, NULL, 0, 1, &good, &error), AUR_ERROR_ARGUMENT, &error);
+    refused(aur_fibonacci_lattice_points(8, INFINITY, NULL, 0, 1, &good, &error), AUR_ERROR_ARGUMENT, &error);
+    refused(aur_fibonacci_lattice_points(UINT64_MAX, 0, NULL, 0, 1, &good, &error), AUR_ERROR_ARGUMENT,
+            &error);
+    refused(aur_rank1_points(2, (const uint64_t[]){1, UINT64_MAX}, 8, NULL, 0, 1, &good, &error),
+            AUR_ERROR_ARGUMENT, &error);
+    refused(aur_golden_set_points(1.0, 8, &good, &error), AUR_ERROR_ARGUMENT, &error);
+    refused(aur_golden_set_points(0.0, 0, &good, &error), AUR_ERROR_ARGUMENT, &error);
+    refused(aur_golden_set_points_two_seeds(0.0, NAN, 8, &good, &error), AUR_ERROR_ARGUMENT, &error);
     const aur_randomization owen = {AUR_SCRAMBLE_OWEN, 0};
-    assert_int_equal(aur_r2_points(2, &owen, 0, 1, &good), AUR_ERROR_UNSUPPORTED);
+    refused(aur_r2_points(2, &owen, 0, 1, &good, &error), AUR_ERROR_UNSUPPORTED, &error);
     const aur_output both = {.capacity = 64, .doubles = doubles, .floats = floats};
-    assert_int_equal(aur_sobol_points(2, NULL, 0, 1, &both), AUR_ERROR_ARGUMENT);
+    refused(aur_sobol_points(2, NULL, 0, 1, &both, &error), AUR_ERROR_ARGUMENT, &error);
     const aur_output narrow = {.layout = AUR_LAYOUT_ARRAYS, .stride = 7, .capacity = 64, .doubles = doubles};
-    assert_int_equal(aur_sobol_points(2, NULL, 0, 8, &narrow), AUR_ERROR_ARGUMENT);
+    refused(aur_sobol_points(2, NULL, 0, 8, &narrow, &error), AUR_ERROR_ARGUMENT, &error);
     const aur_output wide = {.layout = AUR_LAYOUT_ARRAYS, .stride = 56, .capacity = 64, .doubles = doubles};
-    assert_int_equal(aur_sobol_points(2, NULL, 0, 8, &wide), AUR_OK);
-    assert_int_equal(aur_sobol_points(2, NULL, 0, 9, &wide), AUR_ERROR_CAPACITY);
+    assert_int_equal(aur_sobol_points(2, NULL, 0, 8, &wide, NULL), AUR_OK);
+    refused(aur_sobol_points(2, NULL, 0, 9, &wide, &error), AUR_ERROR_CAPACITY, &error);
     assert_int_equal(aur_output_capacity(AUR_LAYOUT_ARRAYS, 3, 5, 7), 19);
     assert_int_equal(aur_output_capacity(AUR_LAYOUT_POINTS, SIZE_MAX, 2, 0), SIZE_MAX);
     aur_pointset *const set =
@@ -348,18 +363,18 @@ static void golden_sets_agree(void **state) {
     static float floats[2 * N];
     double *const prepared = make_points(
         "golden-set:seed=0.375", (aur_pointset_options){.size = sizeof(aur_pointset_options), .count = N});
-    assert_int_equal(aur_golden_set_points(0.375, N, &(aur_output){.capacity = 2 * N, .doubles = whole}),
-                     AUR_OK);
+    assert_int_equal(
+        aur_golden_set_points(0.375, N, &(aur_output){.capacity = 2 * N, .doubles = whole}, NULL), AUR_OK);
     assert_memory_equal(whole, prepared, sizeof whole);
     const aur_output arrays = {.layout = AUR_LAYOUT_ARRAYS, .capacity = 2 * N, .floats = floats};
-    assert_int_equal(aur_golden_set_points(0.375, N, &arrays), AUR_OK);
+    assert_int_equal(aur_golden_set_points(0.375, N, &arrays, NULL), AUR_OK);
     for (size_t i = 0; i < N; ++i)
         assert_true(floats[N + i] <= prepared[2 * i + 1] &&
                     prepared[2 * i + 1] < (double)floats[N + i] + 0x1p-24);
     free(prepared);
-    assert_int_equal(
-        aur_golden_set_points_two_seeds(0.375, 0.5, N, &(aur_output){.capacity = 2 * N, .doubles = whole}),
-        AUR_OK);
+    assert_int_equal(aur_golden_set_points_two_seeds(
+                         0.375, 0.5, N, &(aur_output){.capacity = 2 * N, .doubles = whole}, NULL),
+                     AUR_OK);
     assert_near(whole[1], 0.5, 0.0);
     for (size_t i = 1; i < N; ++i)
         assert_true(whole[2 * i] > whole[2 * i - 2]);

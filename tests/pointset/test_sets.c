@@ -121,7 +121,7 @@ static void sobol_is_a_sequence(void **state) {
                                       (UINT64_C(1) << 40) + 5 * 1024,
                                       (UINT64_C(1) << 53) - 1024};
     for (size_t k = 0; k < sizeof starts / sizeof starts[0]; ++k) {
-        assert_int_equal(aur_pointset_points(set, starts[k], 1024, 2048, points), AUR_OK);
+        assert_int_equal(aur_pointset_points(set, starts[k], 1024, 2048, points, NULL), AUR_OK);
         assert_true(is_net(2, 10, points, 2, 0, 1));
     }
     aur_pointset_destroy(set);
@@ -196,7 +196,7 @@ static void every_set_is_random_access(void **state) {
             for (size_t i = COUNT; i-- > 0;) {
                 const size_t run = i % 7 < COUNT - i ? i % 7 : COUNT - i;
                 double part[14];
-                assert_int_equal(aur_pointset_points(set, i, run, 14, part), AUR_OK);
+                assert_int_equal(aur_pointset_points(set, i, run, 14, part, NULL), AUR_OK);
                 assert_memory_equal(part, whole + i * dimension, run * dimension * sizeof *part);
             }
             aur_pointset_destroy(set);
@@ -326,10 +326,10 @@ static void bad_input_is_refused(void **state) {
 
     aur_pointset *const set = make_set("sobol", options_of(8));
     double points[16];
-    assert_int_equal(aur_pointset_points(set, 0, 9, 18, points), AUR_ERROR_ARGUMENT);
-    assert_int_equal(aur_pointset_points(set, UINT64_MAX, 2, 16, points), AUR_ERROR_ARGUMENT);
-    assert_int_equal(aur_pointset_points(set, 0, 8, 15, points), AUR_ERROR_CAPACITY);
-    assert_int_equal(aur_pointset_points(set, 8, 0, 0, points), AUR_OK);
+    assert_int_equal(aur_pointset_points(set, 0, 9, 18, points, NULL), AUR_ERROR_ARGUMENT);
+    assert_int_equal(aur_pointset_points(set, UINT64_MAX, 2, 16, points, NULL), AUR_ERROR_ARGUMENT);
+    assert_int_equal(aur_pointset_points(set, 0, 8, 15, points, NULL), AUR_ERROR_CAPACITY);
+    assert_int_equal(aur_pointset_points(set, 8, 0, 0, points, NULL), AUR_OK);
     aur_pointset_destroy(set);
 }
 

@@ -190,7 +190,7 @@ static void test_reweighting(void **state) {
     aur_directions *directions;
     assert_int_equal(aur_directions_create("spherical-fibonacci", &options, &directions, NULL), AUR_OK);
     double xyz[3 * N], ratio[N], exact[N], fitted[N];
-    aur_directions_points(directions, 0, N, 3 * N, xyz, ratio);
+    aur_directions_points(directions, 0, N, 3 * N, xyz, ratio, NULL);
     aur_directions_destroy(directions);
     aur_potential *const ggx_lobe = create(&(aur_density){
         .size = sizeof(aur_density), .kind = AUR_DENSITY_GGX, .alpha = 0.3, .view_degrees = degrees});

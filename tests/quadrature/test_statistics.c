@@ -32,8 +32,8 @@ static void draw(const request *wanted, double *xyz, double *weights) {
                                             .seed = wanted->seed};
     aur_directions *directions;
     assert_int_equal(aur_directions_create(wanted->set, &options, &directions, NULL), AUR_OK);
-    assert_int_equal(aur_directions_points(directions, 0, wanted->count, 3 * wanted->count, xyz, weights),
-                     AUR_OK);
+    assert_int_equal(
+        aur_directions_points(directions, 0, wanted->count, 3 * wanted->count, xyz, weights, NULL), AUR_OK);
     aur_directions_destroy(directions);
 }
 

@@ -31,7 +31,7 @@ static inline own_points spherical_fibonacci(size_t count, aur_domain domain) {
     aur_directions *directions = NULL;
     aur_error error = {0};
     if (aur_directions_create("spherical-fibonacci", &options, &directions, &error) != AUR_OK ||
-        aur_directions_points(directions, 0, count, 3 * count, points.coordinates, NULL) != AUR_OK)
+        aur_directions_points(directions, 0, count, 3 * count, points.coordinates, NULL, NULL) != AUR_OK)
         fail_msg("%s", error.message);
     aur_directions_destroy(directions);
     return points;

@@ -33,7 +33,8 @@ static inline own_points scrambled_set(const char *set, size_t count, size_t dim
     aur_pointset *pointset = NULL;
     assert_int_equal(aur_pointset_create(set, &options, &pointset, NULL), AUR_OK);
     own_points points = cube_points(count, dimension);
-    assert_int_equal(aur_pointset_points(pointset, 0, count, dimension * count, points.coordinates), AUR_OK);
+    assert_int_equal(aur_pointset_points(pointset, 0, count, dimension * count, points.coordinates, NULL),
+                     AUR_OK);
     aur_pointset_destroy(pointset);
     return points;
 }

@@ -27,7 +27,7 @@ static inline double *check_directions(const char *set, aur_directions_options o
     const size_t count = (size_t)aur_directions_size(directions);
     double *const xyz = malloc(3 * count * sizeof *xyz);
     assert_non_null(xyz);
-    assert_int_equal(aur_directions_points(directions, 0, count, 3 * count, xyz, NULL), AUR_OK);
+    assert_int_equal(aur_directions_points(directions, 0, count, 3 * count, xyz, NULL, NULL), AUR_OK);
     aur_directions_destroy(directions);
     return xyz;
 }

@@ -29,7 +29,7 @@ static void squares_are_lifted_by_the_map(void **state) {
             .size = sizeof wanted, .count = COUNT, .scramble = AUR_SCRAMBLE_DIGIT, .seed = 9};
         assert_int_equal(aur_pointset_create("sobol", &wanted, &square, NULL), AUR_OK);
         double uv[2 * COUNT];
-        assert_int_equal(aur_pointset_points(square, 0, COUNT, 2 * COUNT, uv), AUR_OK);
+        assert_int_equal(aur_pointset_points(square, 0, COUNT, 2 * COUNT, uv, NULL), AUR_OK);
         aur_pointset_destroy(square);
         double *const xyz =
             check_directions("sobol", (aur_directions_options){.size = sizeof(aur_directions_options),
@@ -62,25 +62,39 @@ static void layouts_agree(void **state) {
                                                 .scramble = AUR_SCRAMBLE_ROTATE,
                                                 .seed = 3};
         aur_directions *const directions = open_set(sets[s], options);
-        static double xyz[3 * COUNT], w[COUNT], x[COUNT], y[COUNT], z[COUNT], w2[COUNT];
-        static float fxyz[3 * COUNT], fw[COUNT], fx[COUNT], fy[COUNT], fz[COUNT], fw2[COUNT];
-        assert_int_equal(aur_directions_points(directions, 0, COUNT, 3 * COUNT, xyz, w), AUR_OK);
-        assert_int_equal(aur_directions_arrays(directions, FIRST, PART, PART, x, y, z, w2), AUR_OK);
-        assert_int_equal(aur_directions_points_float(directions, FIRST, PART, 3 * PART, fxyz, fw), AUR_OK);
-        assert_int_equal(aur_directions_arrays_float(directions, FIRST, PART, PART, fx, fy, fz, fw2), AUR_OK);
+        static double xyz[3 * COUNT], w[COUNT], axes[3][COUNT], w2[COUNT];
+        static float fxyz[3 * COUNT], fw[COUNT], faxes[3][COUNT], fw2[COUNT];
+        const aur_output arrays = {AUR_LAYOUT_ARRAYS, COUNT, 3 * COUNT, axes[0], NULL};
+        const aur_output rows_float = {AUR_LAYOUT_POINTS, 0, 3 * PART, NULL, fxyz};
+        const aur_output arrays_float = {AUR_LAYOUT_ARRAYS, COUNT, 3 * COUNT, NULL, faxes[0]};
+        const aur_output weights = {.capacity = PART, .doubles = w2};
+        const aur_output weights_float = {.capacity = PART, .floats = fw};
+        const aur_output again_float = {AUR_LAYOUT_ARRAYS, 0, PART, NULL, fw2};
+        assert_int_equal(aur_directions_points(directions, 0, COUNT, 3 * COUNT, xyz, w, NULL), AUR_OK);
+        assert_int_equal(aur_directions_generate(directions, FIRST, PART, &arrays, &weights, NULL), AUR_OK);
+        assert_int_equal(aur_directions_generate(directions, FIRST, PART, &rows_float, &weights_float, NULL),
+                         AUR_OK);
+        assert_int_equal(aur_directions_generate(directions, FIRST, PART, &arrays_float, &again_float, NULL),
+                         AUR_OK);
         for (size_t i = 0; i < PART; ++i) {
             const double *const p = xyz + 3 * (FIRST + i);
-            assert_true(x[i] == p[0] && y[i] == p[1] && z[i] == p[2] && w2[i] == w[FIRST + i]);
-            assert_true(fx[i] == (float)p[0] && fy[i] == (float)p[1] && fz[i] == (float)p[2]);
-            assert_true(fw[i] == (float)w[FIRST + i] && fw2[i] == fw[i]);
+            assert_true(w2[i] == w[FIRST + i] && fw[i] == (float)w[FIRST + i] && fw2[i] == fw[i]);
             for (size_t d = 0; d < 3; ++d)
-                assert_true(fxyz[3 * i + d] == (float)p[d]);
+                assert_true(axes[d][i] == p[d] && fxyz[3 * i + d] == (float)p[d] &&
+                            faxes[d][i] == (float)p[d]);
         }
-        assert_int_equal(aur_directions_points(directions, 0, COUNT, 3 * COUNT - 1, xyz, w),
+        assert_int_equal(aur_directions_points(directions, 0, COUNT, 3 * COUNT - 1, xyz, w, NULL),
                          AUR_ERROR_CAPACITY);
-        assert_int_equal(aur_directions_arrays(directions, 0, 2, 1, x, y, z, NULL), AUR_ERROR_CAPACITY);
-        assert_int_equal(aur_directions_points(directions, 1, COUNT, 3 * COUNT, xyz, w), AUR_ERROR_ARGUMENT);
-        assert_int_equal(aur_directions_points(directions, UINT64_MAX, 1, 3, xyz, w), AUR_ERROR_ARGUMENT);
+        assert_int_equal(aur_directions_generate(directions, 0, PART + 1, &arrays, &weights, NULL),
+                         AUR_ERROR_CAPACITY);
+        aur_error error = {0};
+        assert_int_equal(aur_directions_generate(directions, 0, PART + 1, &rows_float, NULL, &error),
+                         AUR_ERROR_CAPACITY);
+        assert_string_equal(error.message, "452 points of 3 coordinates do not fit into 1353 elements");
+        assert_int_equal(aur_directions_points(directions, 1, COUNT, 3 * COUNT, xyz, w, NULL),
+                         AUR_ERROR_ARGUMENT);
+        assert_int_equal(aur_directions_points(directions, UINT64_MAX, 1, 3, xyz, w, NULL),
+                         AUR_ERROR_ARGUMENT);
         aur_directions_destroy(directions);
     }
 }
@@ -102,7 +116,7 @@ static void weights_make_rules(void **state) {
                                                 .optimal_density = k / 9 % 2 != 0,
                                                 .scramble = AUR_SCRAMBLE_ROTATE};
         aur_directions *const directions = open_set(sets[k % 3], options);
-        assert_int_equal(aur_directions_points(directions, 0, COUNT, 3 * COUNT, xyz, weights), AUR_OK);
+        assert_int_equal(aur_directions_points(directions, 0, COUNT, 3 * COUNT, xyz, weights, NULL), AUR_OK);
         aur_directions_destroy(directions);
         double mass = 0.0, moment = 0.0;
         for (size_t i = 0; i < COUNT; ++i) {
@@ -126,7 +140,7 @@ static void ggx_weighs_what_is_above_the_horizon(void **state) {
                                             .lobe = lobe_of("ggx:0.5:70")};
     static double xyz[3 * COUNT], weights[COUNT];
     aur_directions *const directions = open_set("spherical-fibonacci", options);
-    assert_int_equal(aur_directions_points(directions, 0, COUNT, 3 * COUNT, xyz, weights), AUR_OK);
+    assert_int_equal(aur_directions_points(directions, 0, COUNT, 3 * COUNT, xyz, weights, NULL), AUR_OK);
     aur_directions_destroy(directions);
     double mass = 0.0;
     for (size_t i = 0; i < COUNT; ++i) {
@@ -232,7 +246,7 @@ static void files_are_sets(void **state) {
     aur_directions *directions = open_set(set, options);
     assert_int_equal(aur_directions_size(directions), 3);
     double read[9], read_weights[3];
-    assert_int_equal(aur_directions_points(directions, 0, 3, 9, read, read_weights), AUR_OK);
+    assert_int_equal(aur_directions_points(directions, 0, 3, 9, read, read_weights, NULL), AUR_OK);
     assert_memory_equal(read, xyz, sizeof xyz);
     assert_memory_equal(read_weights, weights, sizeof weights);
     aur_directions_destroy(directions);
@@ -248,7 +262,7 @@ static void files_are_sets(void **state) {
         .size = sizeof squares, .domain = AUR_DOMAIN_SQUARE, .count = 2, .dimension = 2, .coordinates = uv};
     assert_int_equal(aur_points_write(path, AUR_POINTS_CSV, &squares, NULL, NULL), AUR_OK);
     directions = open_set(set, options);
-    assert_int_equal(aur_directions_points(directions, 0, 2, 6, read, NULL), AUR_OK);
+    assert_int_equal(aur_directions_points(directions, 0, 2, 6, read, NULL, NULL), AUR_OK);
     assert_near(read[2], 0.5, 1e-15);
     assert_near(read[5], 0.75, 1e-15);
     aur_directions_destroy(directions);

@@ -66,7 +66,7 @@ static void phases_stay_golden_to_a_thousand_million(void **state) {
     assert_int_equal(aur_directions_create("spherical-fibonacci", &options, &directions, NULL), AUR_OK);
     for (size_t p = 0; p < sizeof places / sizeof places[0]; ++p) {
         double xyz[3 * 64];
-        assert_int_equal(aur_directions_points(directions, places[p], 64, 3 * 64, xyz, NULL), AUR_OK);
+        assert_int_equal(aur_directions_points(directions, places[p], 64, 3 * 64, xyz, NULL, NULL), AUR_OK);
         for (size_t i = 0; i < 64; ++i) {
             const uint64_t j = places[p] + i;
             const double angle = 2.0 * AUR_PI * exact_turns(j);
@@ -137,7 +137,8 @@ static void parts_do_not_depend_on_the_asking(void **state) {
         const uint64_t first = aur_hash2(1, trial) % COUNT;
         const size_t count = (size_t)(aur_hash2(2, trial) % (COUNT - first + 1));
         double part[3 * COUNT];
-        assert_int_equal(aur_directions_points(directions, first, count, 3 * count, part, NULL), AUR_OK);
+        assert_int_equal(aur_directions_points(directions, first, count, 3 * count, part, NULL, NULL),
+                         AUR_OK);
         assert_memory_equal(part, whole + 3 * first, 3 * count * sizeof *part);
     }
     aur_directions_destroy(directions);

@@ -78,7 +78,8 @@ static void larger_grids_begin_with_smaller_ones(void **state) {
         assert_int_equal(aur_directions_create(set, &options, &directions, NULL), AUR_OK);
         for (uint64_t i = 0; i < sizes[s]; i += 3) {
             double one[3];
-            assert_int_equal(aur_directions_points(directions, sizes[s] - 1 - i, 1, 3, one, NULL), AUR_OK);
+            assert_int_equal(aur_directions_points(directions, sizes[s] - 1 - i, 1, 3, one, NULL, NULL),
+                             AUR_OK);
             assert_memory_equal(one, whole + 3 * (sizes[s] - 1 - i), sizeof one);
         }
         aur_directions_destroy(directions);

@@ -56,7 +56,7 @@ static void check_size(size_t size, aur_domain domain, size_t directions) {
         double q[3];
         uint64_t index;
         sample_direction(size, i, domain, q);
-        assert_int_equal(aur_fibonacci_nearest(&set, 1, q, 1, &index), AUR_OK);
+        assert_int_equal(aur_fibonacci_nearest(&set, 1, q, 1, &index, NULL), AUR_OK);
         assert_true(index < size);
         check_nearest(xyz, q, nearest_by_force(size, xyz, q), index);
     }
@@ -83,7 +83,7 @@ static void points_are_their_own_nearest(void **state) {
                                                                       .count = size,
                                                                       .domain = AUR_DOMAIN_SPHERE});
         uint64_t *const indices = malloc(size * sizeof *indices);
-        assert_int_equal(aur_fibonacci_nearest(&set, size, xyz, size, indices), AUR_OK);
+        assert_int_equal(aur_fibonacci_nearest(&set, size, xyz, size, indices, NULL), AUR_OK);
         for (size_t i = 0; i < size; ++i)
             assert_int_equal(indices[i], i);
         free(indices);
@@ -101,8 +101,8 @@ static void nearest_agrees_with_its_neighbours(void **state) {
             double q[3];
             uint64_t nearest, neighbours[64];
             sample_direction(sizes[s], i, AUR_DOMAIN_SPHERE, q);
-            assert_int_equal(aur_fibonacci_nearest(&set, 1, q, 1, &nearest), AUR_OK);
-            assert_int_equal(aur_fibonacci_neighbours(&set, q, 64, 64, neighbours), AUR_OK);
+            assert_int_equal(aur_fibonacci_nearest(&set, 1, q, 1, &nearest, NULL), AUR_OK);
+            assert_int_equal(aur_fibonacci_neighbours(&set, q, 64, 64, neighbours, NULL), AUR_OK);
             assert_int_equal(nearest, neighbours[0]);
         }
     }
@@ -155,7 +155,7 @@ static void neighbours_agree_with_brute_force(void **state) {
                     double q[3];
                     uint64_t found[256];
                     sample_direction(size, 4 * w + i, set.domain, q);
-                    assert_int_equal(aur_fibonacci_neighbours(&set, q, k, k, found), AUR_OK);
+                    assert_int_equal(aur_fibonacci_neighbours(&set, q, k, k, found, NULL), AUR_OK);
                     /* ordered, different, and nothing else is nearer than the last */
                     const double last = squared(xyz + 3 * found[k - 1], q);
                     size_t nearer = 0;
@@ -187,15 +187,15 @@ static void refuses_what_is_wrong(void **state) {
     const double endless[3] = {INFINITY, 0, 0};
     const double zero[3] = {0, 0, 0};
     uint64_t found[300];
-    assert_int_equal(aur_fibonacci_nearest(&sphere, 1, up, 0, found), AUR_ERROR_CAPACITY);
-    assert_int_equal(aur_fibonacci_nearest(&empty, 1, up, 1, found), AUR_ERROR_ARGUMENT);
-    assert_int_equal(aur_fibonacci_nearest(&flat, 1, up, 1, found), AUR_ERROR_ARGUMENT);
-    assert_int_equal(aur_fibonacci_nearest(&half, 1, down, 1, found), AUR_ERROR_ARGUMENT);
-    assert_int_equal(aur_fibonacci_nearest(&sphere, 1, none, 1, found), AUR_ERROR_ARGUMENT);
-    assert_int_equal(aur_fibonacci_nearest(&sphere, 1, endless, 1, found), AUR_ERROR_ARGUMENT);
-    assert_int_equal(aur_fibonacci_nearest(&sphere, 1, zero, 1, found), AUR_ERROR_ARGUMENT);
-    assert_int_equal(aur_fibonacci_neighbours(&sphere, up, 101, 300, found), AUR_ERROR_ARGUMENT);
-    assert_int_equal(aur_fibonacci_neighbours(&sphere, up, 9, 8, found), AUR_ERROR_CAPACITY);
+    assert_int_equal(aur_fibonacci_nearest(&sphere, 1, up, 0, found, NULL), AUR_ERROR_CAPACITY);
+    assert_int_equal(aur_fibonacci_nearest(&empty, 1, up, 1, found, NULL), AUR_ERROR_ARGUMENT);
+    assert_int_equal(aur_fibonacci_nearest(&flat, 1, up, 1, found, NULL), AUR_ERROR_ARGUMENT);
+    assert_int_equal(aur_fibonacci_nearest(&half, 1, down, 1, found, NULL), AUR_ERROR_ARGUMENT);
+    assert_int_equal(aur_fibonacci_nearest(&sphere, 1, none, 1, found, NULL), AUR_ERROR_ARGUMENT);
+    assert_int_equal(aur_fibonacci_nearest(&sphere, 1, endless, 1, found, NULL), AUR_ERROR_ARGUMENT);
+    assert_int_equal(aur_fibonacci_nearest(&sphere, 1, zero, 1, found, NULL), AUR_ERROR_ARGUMENT);
+    assert_int_equal(aur_fibonacci_neighbours(&sphere, up, 101, 300, found, NULL), AUR_ERROR_ARGUMENT);
+    assert_int_equal(aur_fibonacci_neighbours(&sphere, up, 9, 8, found, NULL), AUR_ERROR_CAPACITY);
 }
 
 int main(void) {

@@ -94,17 +94,15 @@ static void fill(const aur_pointset *set, const aur_block *block) {
 
 /* Numbers in ascending order beside a sequence, without a table. `sorted` is the coordinate of the former. */
 static aur_result make_whole(uint64_t seed_word, uint64_t sequence_word, size_t sorted, size_t count,
-                             const aur_output *output) {
+                             const aur_output *output, aur_error *error) {
     if (count == 0 || count > UINT64_C(1) << 32)
-        return AUR_ERROR_ARGUMENT;
-    const aur_result result = aur_output_check(output, 2, count);
+        return aur_fail(error, AUR_ERROR_ARGUMENT, "a golden set has 1 to 2^32 points, not %zu", count);
+    aur_strides strides;
+    const aur_result result = aur_output_open(output, 2, count, &strides, error);
     if (result != AUR_OK)
         return result;
-    const bool arrays = output->layout == AUR_LAYOUT_ARRAYS;
-    const size_t point_stride = arrays ? 1 : 2;
-    const size_t coordinate_stride = !arrays ? 1 : output->stride != 0 ? output->stride : count;
-    const size_t a = sorted * coordinate_stride;
-    const size_t b = (1 - sorted) * coordinate_stride;
+    const size_t a = sorted * strides.coordinate;
+    const size_t b = (1 - sorted) * strides.coordinate;
     const aur_golden_order order = aur_golden_order_of(seed_word, count);
     const aur_wide step = aur_phase128(aur_golden_fraction, 1);
     const aur_wide up = aur_phase128(aur_golden_fraction, order.increment);
@@ -116,11 +114,11 @@ static aur_result make_whole(uint64_t seed_word, uint64_t sequence_word, size_t 
         const uint64_t x = (uint64_t)(ascending >> 64);
         const uint64_t y = (uint64_t)(sequence >> 64);
         if (output->doubles != NULL) {
-            output->doubles[i * point_stride + a] = aur_word_to_double(x);
-            output->doubles[i * point_stride + b] = aur_word_to_double(y);
+            output->doubles[i * strides.point + a] = aur_word_to_double(x);
+            output->doubles[i * strides.point + b] = aur_word_to_double(y);
         } else {
-            output->floats[i * point_stride + a] = aur_unit_float((uint32_t)(x >> 32));
-            output->floats[i * point_stride + b] = aur_unit_float((uint32_t)(y >> 32));
+            output->floats[i * strides.point + a] = aur_unit_float((uint32_t)(x >> 32));
+            output->floats[i * strides.point + b] = aur_unit_float((uint32_t)(y >> 32));
         }
         sequence += step;
         /* aur_golden_next with the phase beside the index; the last step leads out of the set. */
@@ -133,16 +131,25 @@ static aur_result make_whole(uint64_t seed_word, uint64_t sequence_word, size_t 
     return AUR_OK;
 }
 
-aur_result aur_golden_set_points(double s, size_t count, const aur_output *output) {
-    if (!(s >= 0.0 && s < 1.0))
-        return AUR_ERROR_ARGUMENT;
-    return make_whole(aur_golden_start(s), aur_golden_start(s), 1, count, output);
+static aur_result check_seed(double seed, aur_error *error) {
+    return seed >= 0.0 && seed < 1.0
+               ? AUR_OK
+               : aur_fail(error, AUR_ERROR_ARGUMENT, "a seed must be at least 0 and below 1, not %g", seed);
 }
 
-aur_result aur_golden_set_points_two_seeds(double s, double r, size_t count, const aur_output *output) {
-    if (!(s >= 0.0 && s < 1.0) || !(r >= 0.0 && r < 1.0))
-        return AUR_ERROR_ARGUMENT;
-    return make_whole(aur_seed_word(s), aur_seed_word(r), 0, count, output);
+aur_result aur_golden_set_points(double s, size_t count, const aur_output *output, aur_error *error) {
+    const aur_result result = check_seed(s, error);
+    return result != AUR_OK ? result
+                            : make_whole(aur_golden_start(s), aur_golden_start(s), 1, count, output, error);
+}
+
+aur_result aur_golden_set_points_two_seeds(double s, double r, size_t count, const aur_output *output,
+                                           aur_error *error) {
+    aur_result result = check_seed(s, error);
+    if (result == AUR_OK)
+        result = check_seed(r, error);
+    return result != AUR_OK ? result
+                            : make_whole(aur_seed_word(s), aur_seed_word(r), 0, count, output, error);
 }
 
 const aur_square_set aur_set_golden_set = {

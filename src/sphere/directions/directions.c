@@ -25,8 +25,8 @@ struct aur_directions {
     double height;
     aur_lobe lobe;    /* what the weights are for */
     aur_lobe density; /* what the points follow */
-    int weighted;     /* the density is not the lobe, or the map is not uniform */
-    int warped, rotated;
+    bool weighted;    /* the density is not the lobe, or the map is not uniform */
+    bool warped, rotated;
     aur_rotation rotation;
 };
 
@@ -49,7 +49,7 @@ static aur_result check_options(const aur_directions_options *options, aur_error
     const aur_result result = aur_lobe_check(&options->lobe, error);
     if (result != AUR_OK)
         return result;
-    const int uniform = options->lobe.kind == AUR_LOBE_COSINE_POWER && options->lobe.exponent == 0.0;
+    const bool uniform = options->lobe.kind == AUR_LOBE_COSINE_POWER && options->lobe.exponent == 0.0;
     if (!uniform && (options->domain != AUR_DOMAIN_HEMISPHERE || options->cap_degrees != 0.0))
         return aur_fail(error, AUR_ERROR_UNSUPPORTED, "a lobe needs the whole hemisphere as its domain");
     if (options->scramble == AUR_SCRAMBLE_ROTATE3D &&
@@ -78,7 +78,7 @@ static aur_result choose_density(aur_directions *directions, const aur_direction
         if (result != AUR_OK)
             return result;
     }
-    const int ggx = options->lobe.kind == AUR_LOBE_GGX;
+    const bool ggx = options->lobe.kind == AUR_LOBE_GGX;
     directions->warped = ggx || directions->density.exponent != 0.0;
     directions->weighted = ggx || directions->density.exponent != directions->lobe.exponent;
     return AUR_OK;
@@ -86,7 +86,7 @@ static aur_result choose_density(aur_directions *directions, const aur_direction
 
 /* Scramblings that are rotations happen here, after the map; the others belong to the square. */
 static aur_scramble choose_rotation(aur_directions *directions, const aur_directions_options *options) {
-    directions->rotated = 1;
+    directions->rotated = true;
     if (options->scramble == AUR_SCRAMBLE_ROTATE) {
         aur_rotation_axial(options->seed, &directions->rotation);
         return AUR_SCRAMBLE_NONE;
@@ -95,7 +95,7 @@ static aur_scramble choose_rotation(aur_directions *directions, const aur_direct
         aur_rotation_uniform(options->seed, &directions->rotation);
         return AUR_SCRAMBLE_NONE;
     }
-    directions->rotated = 0;
+    directions->rotated = false;
     return options->scramble;
 }
 
@@ -232,9 +232,9 @@ bool aur_directions_weighted(const aur_directions *directions) {
 }
 
 static aur_result lift(const aur_directions *directions, uint64_t first, size_t count, double *xyz,
-                       double *weights) {
+                       double *weights, aur_error *error) {
     double square[2 * CHUNK];
-    const aur_result result = aur_pointset_points(directions->square, first, count, 2 * CHUNK, square);
+    const aur_result result = aur_pointset_points(directions->square, first, count, 2 * CHUNK, square, error);
     for (size_t i = 0; i < count && result == AUR_OK; ++i) {
         aur_map_to_cap(directions->map, directions->height, square + 2 * i, xyz + 3 * i);
         if (weights != NULL)
@@ -262,14 +262,14 @@ static double density_weight(const aur_directions *directions, const double dire
 
 /* At most CHUNK points, within the set. */
 static aur_result fill_chunk(const aur_directions *directions, uint64_t first, size_t count, double *xyz,
-                             double *weights) {
+                             double *weights, aur_error *error) {
     aur_result result = AUR_OK;
     for (size_t i = 0; i < count && weights != NULL; ++i)
         weights[i] = 1.0 / (double)directions->size;
     if (directions->native != NULL)
         directions->native->fill(directions->native_data, first, count, xyz);
     else if (directions->square != NULL)
-        result = lift(directions, first, count, xyz, weights);
+        result = lift(directions, first, count, xyz, weights, error);
     else
         take_from_file(directions, first, count, xyz, weights);
     for (size_t i = 0; i < count && directions->warped && result == AUR_OK; ++i) {
@@ -282,72 +282,54 @@ static aur_result fill_chunk(const aur_directions *directions, uint64_t first, s
     return result;
 }
 
-/* Where points go: one of the four layouts, and weights or none. */
-typedef struct sink {
-    double *xyz, *axes[3], *weights;
-    float *xyz_float, *axes_float[3], *weights_float;
-} sink;
-
-static void store(const sink *to, size_t at, size_t count, const double *xyz, const double *weights) {
-    for (size_t i = 0; i < 3 * count && to->xyz_float != NULL; ++i)
-        to->xyz_float[3 * at + i] = (float)xyz[i];
-    for (size_t axis = 0; axis < 3; ++axis) {
-        for (size_t i = 0; i < count && to->axes[axis] != NULL; ++i)
-            to->axes[axis][at + i] = xyz[3 * i + axis];
-        for (size_t i = 0; i < count && to->axes_float[axis] != NULL; ++i)
-            to->axes_float[axis][at + i] = (float)xyz[3 * i + axis];
+/* Coordinates of points `at` .. at+count-1 from values[dimension * count] to where they are wanted. */
+static void store(const aur_output *to, const aur_strides *strides, size_t dimension, size_t at, size_t count,
+                  const double *values) {
+    for (size_t d = 0; d < dimension; ++d) {
+        const size_t first = at * strides->point + d * strides->coordinate;
+        for (size_t i = 0; i < count && to->doubles != NULL; ++i)
+            to->doubles[first + i * strides->point] = values[dimension * i + d];
+        for (size_t i = 0; i < count && to->floats != NULL; ++i)
+            to->floats[first + i * strides->point] = (float)values[dimension * i + d];
     }
-    for (size_t i = 0; i < count && to->weights_float != NULL; ++i)
-        to->weights_float[at + i] = (float)weights[i];
 }
 
-static aur_result generate(const aur_directions *directions, uint64_t first, size_t count, size_t room,
-                           const sink *to) {
-    if (first > directions->size || count > directions->size - first)
-        return AUR_ERROR_ARGUMENT;
-    if (count > room)
-        return AUR_ERROR_CAPACITY;
-    if (directions->native != NULL && !directions->warped && !directions->rotated && to->xyz != NULL &&
-        to->weights == NULL) {
-        directions->native->fill(directions->native_data, first, count, to->xyz);
+aur_result aur_directions_generate(const aur_directions *directions, uint64_t first, size_t count,
+                                   const aur_output *xyz, const aur_output *weights, aur_error *error) {
+    aur_strides xyz_strides, weight_strides;
+    aur_result result = aur_check_range(directions->size, first, count, error);
+    if (result == AUR_OK)
+        result = aur_output_open(xyz, 3, count, &xyz_strides, error);
+    if (result == AUR_OK && weights != NULL)
+        result = aur_output_open(weights, 1, count, &weight_strides, error);
+    if (result != AUR_OK)
+        return result;
+    const bool in_place = xyz->doubles != NULL && xyz->layout == AUR_LAYOUT_POINTS;
+    if (directions->native != NULL && !directions->warped && !directions->rotated && in_place &&
+        weights == NULL) {
+        directions->native->fill(directions->native_data, first, count, xyz->doubles);
         return AUR_OK;
     }
-    double xyz[3 * CHUNK];
-    double weights[CHUNK];
+    double part_xyz[3 * CHUNK];
+    double part_weights[CHUNK];
     for (size_t done = 0; done < count; done += CHUNK) {
         const size_t part = count - done < CHUNK ? count - done : CHUNK;
-        double *const part_xyz = to->xyz != NULL ? to->xyz + 3 * done : xyz;
-        double *const part_weights = to->weights != NULL         ? to->weights + done
-                                     : to->weights_float != NULL ? weights
-                                                                 : NULL;
-        const aur_result result = fill_chunk(directions, first + done, part, part_xyz, part_weights);
+        double *const to = in_place ? xyz->doubles + 3 * done : part_xyz;
+        result = fill_chunk(directions, first + done, part, to, weights != NULL ? part_weights : NULL, error);
         if (result != AUR_OK)
             return result;
-        store(to, done, part, part_xyz, part_weights);
+        if (!in_place)
+            store(xyz, &xyz_strides, 3, done, part, part_xyz);
+        if (weights != NULL)
+            store(weights, &weight_strides, 1, done, part, part_weights);
     }
     return AUR_OK;
 }
 
 aur_result aur_directions_points(const aur_directions *directions, uint64_t first, size_t count,
-                                 size_t capacity, double *xyz, double *weights) {
-    const sink to = {.xyz = xyz, .weights = weights};
-    return generate(directions, first, count, capacity / 3, &to);
-}
-
-aur_result aur_directions_points_float(const aur_directions *directions, uint64_t first, size_t count,
-                                       size_t capacity, float *xyz, float *weights) {
-    const sink to = {.xyz_float = xyz, .weights_float = weights};
-    return generate(directions, first, count, capacity / 3, &to);
-}
-
-aur_result aur_directions_arrays(const aur_directions *directions, uint64_t first, size_t count,
-                                 size_t capacity, double *x, double *y, double *z, double *weights) {
-    const sink to = {.axes = {x, y, z}, .weights = weights};
-    return generate(directions, first, count, capacity, &to);
-}
-
-aur_result aur_directions_arrays_float(const aur_directions *directions, uint64_t first, size_t count,
-                                       size_t capacity, float *x, float *y, float *z, float *weights) {
-    const sink to = {.axes_float = {x, y, z}, .weights_float = weights};
-    return generate(directions, first, count, capacity, &to);
+                                 size_t capacity, double *xyz, double *weights, aur_error *error) {
+    const aur_output to = {.capacity = capacity, .doubles = xyz};
+    const aur_output weights_to = {.capacity = capacity / 3, .doubles = weights};
+    return aur_directions_generate(directions, first, count, &to, weights != NULL ? &weights_to : NULL,
+                                   error);
 }

@@ -6,6 +6,7 @@
 #include "core/error.h"
 #include "core/options.h"
 #include "pointset/points.h"
+#include "pointset/set.h"
 #include "sphere/native.h"
 
 /* What is asked for, once domain and size are known. */
@@ -56,18 +57,13 @@ static aur_result choose_domain(job *j) {
 static aur_result allocate(const job *j, uint64_t size, size_t dimension, bool weighted,
                            aur_points **points) {
     const aur_points_request *const request = j->request;
-    if (request->first > size || request->count > size - request->first)
-        return aur_fail(j->error, AUR_ERROR_ARGUMENT, "a set of %llu points has no points %llu to %llu",
-                        (unsigned long long)size, (unsigned long long)request->first,
-                        (unsigned long long)(request->first + (request->count > 0 ? request->count - 1 : 0)));
+    const aur_result result = aur_check_range(size, request->first, request->count, j->error);
+    if (result != AUR_OK)
+        return result;
     const uint64_t count = request->count != 0 ? request->count : size - request->first;
     if (count == 0)
         return aur_fail(j->error, AUR_ERROR_ARGUMENT, "no points are asked for");
     return aur_points_create(j->domain, count, dimension, weighted, points, j->error);
-}
-
-static aur_result fail_generation(aur_result result, aur_error *error) {
-    return result == AUR_OK ? AUR_OK : aur_fail(error, result, "%s", aur_result_string(result));
 }
 
 /* On the square and the cube, with room for weights where they are wanted. */
@@ -90,9 +86,8 @@ static aur_result generate_flat(const job *j, size_t dimension, bool weighted, a
     result = allocate(j, aur_pointset_size(pointset), dimension, weighted, points);
     if (result == AUR_OK) {
         const size_t count = (*points)->view.count;
-        result = fail_generation(aur_pointset_points(pointset, j->request->first, count, count * dimension,
-                                                     (*points)->coordinates),
-                                 j->error);
+        result = aur_pointset_points(pointset, j->request->first, count, count * dimension,
+                                     (*points)->coordinates, j->error);
     }
     if (result == AUR_OK && is_flat(j->domain))
         (*points)->view.domain = dimension == 2 ? AUR_DOMAIN_SQUARE : AUR_DOMAIN_CUBE;
@@ -151,9 +146,8 @@ static aur_result generate_directions(const job *j, aur_points **points) {
     result = allocate(j, aur_directions_size(directions), 3, aur_directions_weighted(directions), points);
     if (result == AUR_OK) {
         const size_t count = (*points)->view.count;
-        result = fail_generation(aur_directions_points(directions, j->request->first, count, 3 * count,
-                                                       (*points)->coordinates, (*points)->weights),
-                                 j->error);
+        result = aur_directions_points(directions, j->request->first, count, 3 * count,
+                                       (*points)->coordinates, (*points)->weights, j->error);
     }
     aur_directions_destroy(directions);
     if (result == AUR_OK && j->domain == AUR_DOMAIN_DISK)

@@ -22,23 +22,34 @@ void aur_sphere_lattice_nearest_portable(const aur_sphere_lattice *lattice, size
 /* 2^50 points keep an index and its neighbours exact. */
 static const uint64_t size_limit = UINT64_C(1) << 50;
 
-static aur_result make_lattice(const aur_fibonacci_set *set, aur_sphere_lattice *lattice) {
+static aur_result make_lattice(const aur_fibonacci_set *set, aur_sphere_lattice *lattice, aur_error *error) {
     if (set->size == 0 || set->size > size_limit)
-        return AUR_ERROR_ARGUMENT;
+        return aur_fail(error, AUR_ERROR_ARGUMENT, "a spherical Fibonacci set has 1 to 2^50 points, not %llu",
+                        (unsigned long long)set->size);
     const double size = (double)set->size;
     if (set->domain == AUR_DOMAIN_SPHERE)
         *lattice = (aur_sphere_lattice){2.0 / size, size, size};
     else if (set->domain == AUR_DOMAIN_HEMISPHERE)
         *lattice = (aur_sphere_lattice){1.0 / size, 2.0 * size, size};
     else
-        return AUR_ERROR_ARGUMENT;
+        return aur_fail(error, AUR_ERROR_ARGUMENT,
+                        "a spherical Fibonacci set is on the hemisphere or the sphere");
     return AUR_OK;
 }
 
 /* Near enough to the unit sphere, and to the hemisphere where that is the domain. NaN fails. */
-static int is_direction(const aur_sphere_lattice *lattice, const double *q) {
+static aur_result check_direction(const aur_sphere_lattice *lattice, const double *q, aur_error *error) {
     const double square = q[0] * q[0] + q[1] * q[1] + q[2] * q[2];
-    return fabs(square - 1.0) <= 1e-4 && (lattice->limit == lattice->whole || q[2] >= -1e-4);
+    if (fabs(square - 1.0) <= 1e-4 && (lattice->limit == lattice->whole || q[2] >= -1e-4))
+        return AUR_OK;
+    return aur_fail(error, AUR_ERROR_ARGUMENT, "%g, %g, %g is not a unit vector of the domain", q[0], q[1],
+                    q[2]);
+}
+
+static aur_result check_capacity(size_t count, size_t capacity, aur_error *error) {
+    return count <= capacity
+               ? AUR_OK
+               : aur_fail(error, AUR_ERROR_CAPACITY, "%zu indices do not fit into %zu", count, capacity);
 }
 
 /* The nearest ones so far, by distance and then by index. */
@@ -147,34 +158,35 @@ static void find_neighbours(const aur_sphere_lattice *lattice, const double *q, 
 }
 
 aur_result aur_fibonacci_neighbours(const aur_fibonacci_set *set, const double direction[3], size_t count,
-                                    size_t capacity, uint64_t *indices) {
+                                    size_t capacity, uint64_t *indices, aur_error *error) {
     aur_sphere_lattice lattice;
-    const aur_result result = make_lattice(set, &lattice);
-    if (result != AUR_OK)
+    aur_result result = make_lattice(set, &lattice, error);
+    if (result == AUR_OK && (count > AUR_FIBONACCI_NEIGHBOURS_MAX || count > set->size))
+        result =
+            aur_fail(error, AUR_ERROR_ARGUMENT, "%zu neighbours are more than the set's points or than %d",
+                     count, AUR_FIBONACCI_NEIGHBOURS_MAX);
+    if (result == AUR_OK)
+        result = check_direction(&lattice, direction, error);
+    if (result == AUR_OK)
+        result = check_capacity(count, capacity, error);
+    if (result != AUR_OK || count == 0)
         return result;
-    if (count > AUR_FIBONACCI_NEIGHBOURS_MAX || count > set->size || !is_direction(&lattice, direction))
-        return AUR_ERROR_ARGUMENT;
-    if (count > capacity)
-        return AUR_ERROR_CAPACITY;
-    if (count == 0)
-        return AUR_OK;
     candidates kept = {.capacity = count, .indices = indices};
     find_neighbours(&lattice, direction, &kept);
     return AUR_OK;
 }
 
 aur_result aur_fibonacci_nearest(const aur_fibonacci_set *set, size_t count, const double *xyz,
-                                 size_t capacity, uint64_t *indices) {
+                                 size_t capacity, uint64_t *indices, aur_error *error) {
     enum { CHUNK = 256 };
     aur_sphere_lattice lattice;
-    const aur_result result = make_lattice(set, &lattice);
+    aur_result result = make_lattice(set, &lattice, error);
+    if (result == AUR_OK)
+        result = check_capacity(count, capacity, error);
+    for (size_t i = 0; i < count && result == AUR_OK; ++i)
+        result = check_direction(&lattice, xyz + 3 * i, error);
     if (result != AUR_OK)
         return result;
-    if (count > capacity)
-        return AUR_ERROR_CAPACITY;
-    for (size_t i = 0; i < count; ++i)
-        if (!is_direction(&lattice, xyz + 3 * i))
-            return AUR_ERROR_ARGUMENT;
     const aur_sphere_lattice_kernel find = AUR_KERNEL_HERE(aur_sphere_lattice_nearest);
     double found[CHUNK];
     for (size_t done = 0; done < count; done += CHUNK) {

@@ -40,13 +40,11 @@ static aur_result find_points(const aur_gather_rule_options *options, bool on_sq
                                   : aur_directions_create(options->set, &wanted, &directions, error);
     if (result != AUR_OK)
         return result;
-    result = on_square ? aur_pointset_points(square, 0, count, 2 * count, points)
-                       : aur_directions_points(directions, 0, count, 3 * count, points, NULL);
+    result = on_square ? aur_pointset_points(square, 0, count, 2 * count, points, error)
+                       : aur_directions_points(directions, 0, count, 3 * count, points, NULL, error);
     aur_pointset_destroy(square);
     aur_directions_destroy(directions);
-    return result == AUR_OK
-               ? AUR_OK
-               : aur_fail(error, result, "pattern '%s': %s", options->set, aur_result_string(result));
+    return result;
 }
 
 static void set_direction(aur_gather_rule *rule, size_t index, aur_vector direction) {

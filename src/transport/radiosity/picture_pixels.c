@@ -254,7 +254,8 @@ aur_result aur_radiosity_tile(const aur_integrator *integrator, aur_tile *tile) 
     if (good) {
         const workspace work = {image, tile->view, &tile->counters, order, tile->first, halton};
         const aur_output output = {.capacity = HALTON_DIMENSIONS * (size_t)tile->count, .doubles = halton[0]};
-        aur_halton_points(HALTON_DIMENSIONS, NULL, tile->first, tile->count, &output); /* it cannot fail */
+        aur_halton_points(HALTON_DIMENSIONS, NULL, tile->first, tile->count, &output,
+                          NULL); /* it cannot fail */
         for (size_t i = 0; i < pixel_count; ++i) {
             pixels[i].points = points + i * tile->count;
             make_pixel(&work, a.x0 + i % a.columns, a.y0 + i / a.columns, tile->first, tile->count,

@@ -111,7 +111,7 @@ typedef struct block {
 static void fill_coordinates(block *b, size_t dimension) {
     const aur_output output = {
         .layout = AUR_LAYOUT_ARRAYS, .stride = BLOCK, .capacity = 2 * BLOCK, .doubles = b->u};
-    aur_pointset_coordinates(b->set, dimension, 2, b->first, b->count, &output);
+    aur_pointset_coordinates(b->set, dimension, 2, b->first, b->count, &output, NULL);
 }
 
 static void leave_lights(block *b) {
