@@ -101,23 +101,16 @@ void aur_shape_corners(const aur_scene *scene, uint32_t shape, uint32_t primitiv
     aur_mesh_corners(&scene->shapes[shape]->mesh, primitive, corner);
 }
 
-static double mean_scale(const aur_transform *t) {
-    const double *const m = t->m;
-    const double determinant = m[0] * (m[5] * m[10] - m[6] * m[9]) - m[1] * (m[4] * m[10] - m[6] * m[8]) +
-                               m[2] * (m[4] * m[9] - m[5] * m[8]);
-    return cbrt(fabs(determinant));
-}
-
 double aur_element_area(const aur_scene *scene, const aur_placement *placement, uint32_t primitive) {
     if (placement->curved) {
         const aur_instance *const instance = instance_of(scene, placement);
-        const double scale = instance != NULL ? mean_scale(&instance->to_world) : 1.0;
+        const double scale =
+            instance != NULL ? cbrt(fabs(aur_transform_determinant(&instance->to_world))) : 1.0;
         return scene->shapes[placement->shape]->area * scale * scale;
     }
     aur_vector corner[3];
     world_corners(scene, placement, primitive, corner);
-    return aur_triangle_area(aur_vector_subtract(corner[1], corner[0]),
-                             aur_vector_subtract(corner[2], corner[0]));
+    return aur_triangle_area(corner);
 }
 
 void aur_element_middle(const aur_scene *scene, const aur_placement *placement, uint32_t primitive,
@@ -137,8 +130,7 @@ void aur_element_middle(const aur_scene *scene, const aur_placement *placement, 
     world_corners(scene, placement, primitive, corner);
     *position =
         aur_vector_scale(aur_vector_add(aur_vector_add(corner[0], corner[1]), corner[2]), 1.0f / 3.0f);
-    const aur_vector unit = aur_triangle_normal(aur_vector_subtract(corner[1], corner[0]),
-                                                aur_vector_subtract(corner[2], corner[0]));
+    const aur_vector unit = aur_triangle_normal(corner);
     if (!aur_vector_is_zero(unit))
         *normal = unit;
 }
@@ -146,10 +138,10 @@ void aur_element_middle(const aur_scene *scene, const aur_placement *placement, 
 void aur_element_coordinates(const aur_scene *scene, const aur_hit *hit, const aur_surface *surface,
                              float coordinates[2]) {
     const aur_shape *const shape = scene->shapes[hit->shape];
-    coordinates[0] = hit->u;
-    coordinates[1] = hit->v;
-    if (shape->curved != NULL)
-        shape->curved->equal_area(surface->texture, coordinates);
+    coordinates[0] = shape->curved == NULL ? hit->u : surface->texture.u;
+    coordinates[1] = shape->curved == NULL ? hit->v : surface->texture.v;
+    if (shape->curved != NULL && shape->curved->equal_area != NULL)
+        shape->curved->equal_area(coordinates);
 }
 
 bool aur_shape_is_curved(const aur_scene *scene, uint32_t shape) {

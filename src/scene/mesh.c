@@ -35,6 +35,23 @@ void aur_mesh_release(aur_mesh *mesh) {
     *mesh = (aur_mesh){0};
 }
 
+void aur_mesh_take_indices(aur_mesh *mesh, size_t count, uint32_t **indices) {
+    free(mesh->indices);
+    mesh->indices = *indices;
+    mesh->triangle_count = count / 3;
+    *indices = NULL;
+}
+
+static aur_vector vector_at(const float *values) {
+    return (aur_vector){values[0], values[1], values[2]};
+}
+
+static void put(float *values, aur_vector v) {
+    values[0] = v.x;
+    values[1] = v.y;
+    values[2] = v.z;
+}
+
 static void turn_winding(aur_mesh *mesh) {
     for (size_t i = 0; i < mesh->triangle_count; ++i) {
         const uint32_t second = mesh->indices[3 * i + 1];
@@ -44,20 +61,11 @@ static void turn_winding(aur_mesh *mesh) {
 }
 
 void aur_mesh_transform(aur_mesh *mesh, const aur_transform *to_world, const aur_transform *to_local) {
-    for (size_t i = 0; i < mesh->vertex_count; ++i) {
-        float *const p = &mesh->positions[3 * i];
-        double moved[3];
-        aur_transform_point(to_world, (double[3]){p[0], p[1], p[2]}, moved);
-        for (size_t k = 0; k < 3; ++k)
-            p[k] = (float)moved[k];
-    }
-    for (size_t i = 0; mesh->normals != NULL && i < mesh->vertex_count; ++i) {
-        float *const p = &mesh->normals[3 * i];
-        const aur_vector n =
-            aur_vector_normalize(aur_transform_normal_f(to_local, (aur_vector){p[0], p[1], p[2]}));
-        p[0] = n.x;
-        p[1] = n.y;
-        p[2] = n.z;
+    for (size_t i = 0; i < 3 * mesh->vertex_count; i += 3) {
+        put(&mesh->positions[i], aur_transform_point_f(to_world, vector_at(&mesh->positions[i])));
+        if (mesh->normals != NULL)
+            put(&mesh->normals[i],
+                aur_vector_normalize(aur_transform_normal_f(to_local, vector_at(&mesh->normals[i]))));
     }
     if (aur_transform_determinant(to_world) < 0.0)
         turn_winding(mesh);
@@ -85,29 +93,24 @@ aur_result aur_mesh_smooth(aur_mesh *mesh, aur_location location, aur_error *err
     for (size_t i = 0; i < mesh->triangle_count; ++i) {
         aur_vector corner[3];
         aur_mesh_corners(mesh, i, corner);
-        const aur_vector normal = aur_triangle_normal(aur_vector_subtract(corner[1], corner[0]),
-                                                      aur_vector_subtract(corner[2], corner[0]));
+        const aur_vector normal = aur_triangle_normal(corner);
         for (size_t k = 0; k < 3; ++k) {
             const aur_vector here = corner[k];
             const float angle = angle_between(aur_vector_subtract(corner[(k + 1) % 3], here),
                                               aur_vector_subtract(corner[(k + 2) % 3], here));
             float *const sum = &mesh->normals[3 * (size_t)mesh->indices[3 * i + k]];
-            sum[0] += angle * normal.x;
-            sum[1] += angle * normal.y;
-            sum[2] += angle * normal.z;
+            put(sum, aur_vector_add_scaled(vector_at(sum), angle, normal));
         }
     }
-    for (size_t i = 0; i < mesh->vertex_count; ++i) {
-        float *const n = &mesh->normals[3 * i];
-        const aur_vector unit = aur_vector_normalize((aur_vector){n[0], n[1], n[2]});
-        n[0] = unit.x;
-        n[1] = unit.y;
-        n[2] = unit.z;
-    }
+    for (size_t i = 0; i < 3 * mesh->vertex_count; i += 3)
+        put(&mesh->normals[i], aur_vector_normalize(vector_at(&mesh->normals[i])));
     return AUR_OK;
 }
 
 aur_result aur_mesh_check(const aur_mesh *mesh, aur_location location, aur_error *error) {
+    if (mesh->triangle_count > UINT32_MAX - 1)
+        return aur_fail_at(error, location, AUR_ERROR_FORMAT,
+                           "%zu triangles are too many: the limit is 2^32 - 2", mesh->triangle_count);
     for (size_t i = 0; i < 3 * mesh->vertex_count; ++i)
         if (!isfinite(mesh->positions[i]))
             return aur_fail_at(error, location, AUR_ERROR_FORMAT, "vertex %zu is not finite", i / 3);
@@ -133,18 +136,13 @@ aur_vector aur_extreme_triangle_normal(aur_vector a, aur_vector b, double *doubl
     return length > 0.0f && isfinite(length) ? aur_vector_scale(cross, 1.0f / length) : (aur_vector){0};
 }
 
-double aur_triangle_area(aur_vector a, aur_vector b) {
+double aur_triangle_area(const aur_vector corner[3]) {
+    const aur_vector a = aur_vector_subtract(corner[1], corner[0]);
+    const aur_vector b = aur_vector_subtract(corner[2], corner[0]);
     const aur_vector cross = aur_vector_cross(a, b);
     const float squared = aur_vector_dot(cross, cross);
     double doubled = (double)sqrtf(squared);
     if (!aur_is_usual_square(squared))
         aur_extreme_triangle_normal(a, b, &doubled);
     return 0.5 * doubled;
-}
-
-double aur_mesh_triangle_area(const aur_mesh *mesh, size_t triangle) {
-    aur_vector corner[3];
-    aur_mesh_corners(mesh, triangle, corner);
-    return aur_triangle_area(aur_vector_subtract(corner[1], corner[0]),
-                             aur_vector_subtract(corner[2], corner[0]));
 }

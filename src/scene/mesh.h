@@ -21,6 +21,8 @@ enum { AUR_MESH_POSITIONS_ONLY = 0, AUR_MESH_NORMALS = 1, AUR_MESH_UVS = 2 };
 aur_result aur_mesh_allocate(aur_mesh *mesh, size_t vertex_count, size_t triangle_count, unsigned parts,
                              aur_location location, aur_error *error);
 void aur_mesh_release(aur_mesh *mesh);
+/* Makes the `count` indices, of malloc, those of the mesh: *indices becomes NULL. */
+void aur_mesh_take_indices(aur_mesh *mesh, size_t count, uint32_t **indices);
 
 /* Moves positions by the affine map and normals with them. A map that mirrors turns the winding, so that
  * what was outside stays outside. */
@@ -30,7 +32,8 @@ void aur_mesh_flip(aur_mesh *mesh);
 /* Normals at vertices: those of the triangles around, by their angle there (Thuermer and Wuethrich 1998). */
 aur_result aur_mesh_smooth(aur_mesh *mesh, aur_location location, aur_error *error);
 
-/* An error when an index is no vertex or a coordinate is not finite. */
+/* An error when an index is no vertex, a coordinate is not finite, or triangles are more than 32 bits count.
+ */
 aur_result aur_mesh_check(const aur_mesh *mesh, aur_location location, aur_error *error);
 
 static inline aur_vector aur_mesh_position(const aur_mesh *mesh, uint32_t vertex) {
@@ -44,8 +47,8 @@ static inline void aur_mesh_corners(const aur_mesh *mesh, size_t triangle, aur_v
         corner[i] = aur_mesh_position(mesh, mesh->indices[3 * triangle + i]);
 }
 
-/* As aur_triangle_normal, for a triangle whose product of sides leaves the range of floats: with sides longer
- * than 1e9 or shorter than 1e-9. *doubled_area may be NULL. */
+/* As aur_triangle_normal, by the sides from the first corner, for a triangle whose product of sides leaves
+ * the range of floats: with sides longer than 1e9 or shorter than 1e-9. *doubled_area may be NULL. */
 aur_vector aur_extreme_triangle_normal(aur_vector a, aur_vector b, double *doubled_area);
 
 /* Whether the squared length of the product of two sides can be used as it is. */
@@ -53,9 +56,10 @@ static inline bool aur_is_usual_square(float squared) {
     return squared > 1e-37f && squared < 1e38f;
 }
 
-/* The unit normal of a triangle whose sides from its first corner are `a` and `b`. Zero when the triangle has
- * no area. */
-static inline aur_vector aur_triangle_normal(aur_vector a, aur_vector b) {
+/* The unit normal of a triangle. Zero when it has no area. */
+static inline aur_vector aur_triangle_normal(const aur_vector corner[3]) {
+    const aur_vector a = aur_vector_subtract(corner[1], corner[0]);
+    const aur_vector b = aur_vector_subtract(corner[2], corner[0]);
     const aur_vector cross = aur_vector_cross(a, b);
     const float squared = aur_vector_dot(cross, cross);
     if (aur_is_usual_square(squared))
@@ -63,6 +67,4 @@ static inline aur_vector aur_triangle_normal(aur_vector a, aur_vector b) {
     return aur_extreme_triangle_normal(a, b, NULL);
 }
 
-/* The area of such a triangle. */
-double aur_triangle_area(aur_vector a, aur_vector b);
-double aur_mesh_triangle_area(const aur_mesh *mesh, size_t triangle);
+double aur_triangle_area(const aur_vector corner[3]);

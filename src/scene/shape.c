@@ -19,19 +19,6 @@ bool aur_first_root(double a, double b, double c, double nearest, double farthes
     return *root > nearest && *root < farthest;
 }
 
-static aur_bsdf_point texture_at(const aur_mesh *mesh, size_t triangle, float b1, float b2) {
-    if (mesh->uvs == NULL)
-        return (aur_bsdf_point){b1, b2};
-    const uint32_t *const index = &mesh->indices[3 * triangle];
-    const float weight[3] = {1.0f - b1 - b2, b1, b2};
-    aur_bsdf_point point = {0.0f, 0.0f};
-    for (size_t i = 0; i < 3; ++i) {
-        point.u += weight[i] * mesh->uvs[2 * (size_t)index[i]];
-        point.v += weight[i] * mesh->uvs[2 * (size_t)index[i] + 1];
-    }
-    return point;
-}
-
 aur_shape_point aur_shape_sample(const aur_shape *shape, const aur_distribution *triangles,
                                  const float u[3]) {
     if (shape->curved != NULL)
@@ -42,8 +29,7 @@ aur_shape_point aur_shape_sample(const aur_shape *shape, const aur_distribution 
     aur_vector corner[3];
     aur_mesh_corners(mesh, triangle, corner);
     aur_shape_point point;
-    point.normal = aur_triangle_normal(aur_vector_subtract(corner[1], corner[0]),
-                                       aur_vector_subtract(corner[2], corner[0]));
+    point.normal = aur_triangle_normal(corner);
     if (shape->parallelogram) {
         const aur_vector origin = aur_mesh_position(mesh, 0);
         const aur_vector x = aur_vector_subtract(aur_mesh_position(mesh, 1), origin);
@@ -58,7 +44,7 @@ aur_shape_point aur_shape_sample(const aur_shape *shape, const aur_distribution 
     point.position = aur_vector_scale(corner[0], 1.0f - b1 - b2);
     point.position = aur_vector_add_scaled(point.position, b1, corner[1]);
     point.position = aur_vector_add_scaled(point.position, b2, corner[2]);
-    point.texture = texture_at(mesh, triangle, b1, b2);
+    point.texture = aur_mesh_texture(mesh, triangle, b1, b2);
     return point;
 }
 
@@ -68,9 +54,8 @@ void aur_shape_place(const aur_shape_input *input, aur_shape *shape) {
         aur_mesh_flip(&shape->mesh);
 }
 
-aur_result aur_shape_similarity(const aur_shape_input *input, const aur_transform *to_world, double *scale,
-                                aur_error *error) {
-    const double *const m = to_world->m;
+aur_result aur_shape_similarity(const aur_shape_input *input, double *scale, aur_error *error) {
+    const double *const m = input->to_world.m;
     double product[6]; /* of columns: xx, yy, zz, xy, yz, zx */
     for (size_t i = 0; i < 3; ++i) {
         product[i] = m[i] * m[i] + m[4 + i] * m[4 + i] + m[8 + i] * m[8 + i];
@@ -79,22 +64,9 @@ aur_result aur_shape_similarity(const aur_shape_input *input, const aur_transfor
     }
     *scale = sqrt((product[0] + product[1] + product[2]) / 3.0);
     bool similar = true;
-    for (size_t i = 0; i < 3; ++i)
-        similar = similar && fabs(product[i] - *scale * *scale) <= 1e-4 * *scale * *scale &&
-                  fabs(product[3 + i]) <= 1e-4 * *scale * *scale;
-    if (similar)
-        return AUR_OK;
-    return aur_fail_at(error, input->parameters->location, AUR_ERROR_UNSUPPORTED,
-                       "shape '%s': 'to_world' may turn, move and scale it evenly, but not stretch it",
-                       input->parameters->plugin);
-}
-
-aur_result aur_shape_filename(const aur_shape_input *input, const char *filename, char **path,
-                              aur_error *error) {
-    aur_parameters *const parameters = input->parameters;
-    if (filename == NULL)
-        return aur_fail_at(error, parameters->location, AUR_ERROR_FORMAT,
-                           "%s '%s' needs the string 'filename'", parameters->kind, parameters->plugin);
-    const aur_location place = aur_parameters_find(parameters, "filename")->location;
-    return aur_xml_find_asset(input->document, place, filename, path, error);
+    for (size_t i = 0; i < 6; ++i)
+        similar = similar && fabs(product[i] - (i < 3 ? *scale * *scale : 0.0)) <= 1e-4 * *scale * *scale;
+    return similar ? AUR_OK
+                   : aur_parameters_fail(input->parameters, error, AUR_ERROR_UNSUPPORTED,
+                                         "'to_world' may turn, move and scale it evenly, but not stretch it");
 }

@@ -10,6 +10,9 @@ typedef struct aur_shape_descriptor aur_shape_descriptor;
 
 typedef struct aur_shape aur_shape;
 
+/* A file that a mesh is read from (shapes/mesh_file.h). */
+typedef struct aur_mesh_file aur_mesh_file;
+
 /* A point of a shape, drawn uniformly by area. */
 typedef struct aur_shape_point {
     aur_vector position, normal;
@@ -30,8 +33,8 @@ typedef struct aur_curved {
     bool (*sample_seen)(const aur_shape *shape, aur_vector reference, float u, float v,
                         aur_shape_point *point, float *pdf);
     float (*pdf_seen)(const aur_shape *shape, aur_vector reference);
-    /* Texture coordinates taken to the unit square such that equal areas stay equal. */
-    void (*equal_area)(aur_bsdf_point texture, float coordinates[2]);
+    /* Moves texture coordinates in the unit square such that equal areas stay equal. NULL: they do. */
+    void (*equal_area)(float coordinates[2]);
 } aur_curved;
 
 struct aur_shape {
@@ -68,9 +71,13 @@ typedef struct aur_shape_input {
 } aur_shape_input;
 
 struct aur_shape_descriptor {
-    aur_row row; /* first, so that a row of the table is its descriptor */
+    aur_row row;              /* first, so that a row of the table is its descriptor */
+    const aur_curved *curved; /* NULL: a mesh */
     /* Reads its own keys and makes the shape in world coordinates (flips included). */
     aur_result (*create)(const aur_shape_input *input, aur_shape *shape, aur_error *error);
+    /* For meshes from files, whose `create` is aur_mesh_file_create. */
+    aur_result (*read_file)(aur_mesh_file *file, aur_mesh *mesh);
+    bool smooths; /* where the file has no normals */
 };
 
 /* The first root of a t^2 + 2 b t + c with nearest < t < farthest. */
@@ -89,10 +96,30 @@ void aur_shape_destroy(aur_shape *shape);
 /* For shapes made in local coordinates: moves the mesh into the world and flips it where asked. */
 void aur_shape_place(const aur_shape_input *input, aur_shape *shape);
 
-/* A shape's to_world times `local` must keep angles and ratios: then *scale is its factor. */
-aur_result aur_shape_similarity(const aur_shape_input *input, const aur_transform *to_world, double *scale,
-                                aur_error *error);
+/* A shape's to_world must keep angles and ratios: then *scale is its factor. Errors: UNSUPPORTED. */
+aur_result aur_shape_similarity(const aur_shape_input *input, double *scale, aur_error *error);
 
-/* The path (malloc'ed) of the file that the key `filename` gives; NULL, when it is missing, is an error. */
-aur_result aur_shape_filename(const aur_shape_input *input, const char *filename, char **path,
-                              aur_error *error);
+/* Double-precision `a` times b, for shapes whose rays need it. */
+static inline double aur_shape_dot(const double a[3], aur_vector b) {
+    return a[0] * (double)b.x + a[1] * (double)b.y + a[2] * (double)b.z;
+}
+
+/* The angle from x to y as a part of a whole turn, in [0,1]. */
+static inline float aur_shape_azimuth(float x, float y) {
+    const float azimuth = atan2f(y, x) / (2.0f * AUR_PI_F);
+    return azimuth - floorf(azimuth);
+}
+
+/* The texture coordinates at barycentric coordinates of a triangle: those, where the mesh has no others. */
+static inline aur_bsdf_point aur_mesh_texture(const aur_mesh *mesh, size_t triangle, float b1, float b2) {
+    if (mesh->uvs == NULL)
+        return (aur_bsdf_point){b1, b2};
+    const float weight[3] = {1.0f - b1 - b2, b1, b2};
+    aur_bsdf_point sum = {0.0f, 0.0f};
+    for (size_t i = 0; i < 3; ++i) {
+        const float *const uv = &mesh->uvs[2 * (size_t)mesh->indices[3 * triangle + i]];
+        sum.u += weight[i] * uv[0];
+        sum.v += weight[i] * uv[1];
+    }
+    return sum;
+}

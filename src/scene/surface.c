@@ -10,15 +10,6 @@ static aur_vector interpolate(const float *values, const uint32_t *index, const 
     return sum;
 }
 
-static aur_bsdf_point mesh_texture(const aur_mesh *mesh, const uint32_t *index, const float weight[3]) {
-    aur_bsdf_point sum = {0.0f, 0.0f};
-    for (size_t i = 0; i < 3; ++i) {
-        sum.u += weight[i] * mesh->uvs[2 * (size_t)index[i]];
-        sum.v += weight[i] * mesh->uvs[2 * (size_t)index[i] + 1];
-    }
-    return sum;
-}
-
 /* The direction in which u grows and v stays. */
 static aur_vector mesh_tangent(const aur_mesh *mesh, const uint32_t *index, const aur_vector edge[2]) {
     if (mesh->uvs == NULL)
@@ -42,7 +33,7 @@ static void mesh_surface(const aur_shape *shape, const aur_ray *ray, const aur_h
     aur_mesh_corners(mesh, hit->primitive, corner);
     const aur_vector edge[2] = {aur_vector_subtract(corner[1], corner[0]),
                                 aur_vector_subtract(corner[2], corner[0])};
-    aur_vector normal = aur_triangle_normal(edge[0], edge[1]);
+    aur_vector normal = aur_triangle_normal(corner);
     /* A triangle too thin for its normal faces the ray. */
     if (aur_vector_is_zero(normal))
         normal = aur_vector_scale(ray->direction, -1.0f);
@@ -57,8 +48,7 @@ static void mesh_surface(const aur_shape *shape, const aur_ray *ray, const aur_h
         if (size > 1e-12f)
             surface->frame.z = aur_vector_scale(smooth, 1.0f / sqrtf(size));
     }
-    surface->texture =
-        mesh->uvs != NULL ? mesh_texture(mesh, index, weight) : (aur_bsdf_point){hit->u, hit->v};
+    surface->texture = aur_mesh_texture(mesh, hit->primitive, hit->u, hit->v);
     surface->frame.x = shape->bsdf->anisotropic ? mesh_tangent(mesh, index, edge) : edge[0];
 }
 

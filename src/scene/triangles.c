@@ -31,13 +31,9 @@ size_t aur_scene_shape_triangles(const aur_scene *scene, size_t shape) {
 
 void aur_scene_triangle(const aur_scene *scene, size_t shape, size_t index, aur_triangle *triangle) {
     const aur_mesh *const mesh = &scene->shapes[shape]->mesh;
-    /* Without texture coordinates they are barycentric, as at hits. */
-    *triangle = (aur_triangle){.texture = {{0.0f, 0.0f}, {1.0f, 0.0f}, {0.0f, 1.0f}}};
     aur_mesh_corners(mesh, index, triangle->corner);
-    for (size_t i = 0; i < 3 && mesh->uvs != NULL; ++i) {
-        const float *const uv = &mesh->uvs[2 * (size_t)mesh->indices[3 * index + i]];
-        triangle->texture[i] = (aur_bsdf_point){uv[0], uv[1]};
-    }
+    for (size_t i = 0; i < 3; ++i)
+        triangle->texture[i] = aur_mesh_texture(mesh, index, i == 1 ? 1.0f : 0.0f, i == 2 ? 1.0f : 0.0f);
 }
 
 const aur_bsdf *aur_scene_shape_bsdf(const aur_scene *scene, size_t shape) {

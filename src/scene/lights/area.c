@@ -46,8 +46,11 @@ static aur_result find_triangles(const aur_shape *shape, const aur_emitter *emit
     double *const areas = malloc(count * sizeof *areas);
     if (areas == NULL)
         return aur_fail_memory_at(error, emitter->location);
-    for (size_t i = 0; i < count; ++i)
-        areas[i] = aur_mesh_triangle_area(&shape->mesh, i);
+    for (size_t i = 0; i < count; ++i) {
+        aur_vector corner[3];
+        aur_mesh_corners(&shape->mesh, i, corner);
+        areas[i] = aur_triangle_area(corner);
+    }
     const aur_result result = aur_distribution_create(triangles, count, areas, error);
     free(areas);
     return result;

@@ -13,19 +13,15 @@ static void bounds(const aur_shape *shape, double lower[3], double upper[3]) {
     }
 }
 
-static double dot(const double a[3], aur_vector b) {
-    return a[0] * (double)b.x + a[1] * (double)b.y + a[2] * (double)b.z;
-}
-
 static bool intersect(const aur_shape *shape, const double origin[3], const double direction[3],
                       double nearest, double farthest, double *distance) {
     const double offset[3] = {origin[0] - (double)shape->center.x, origin[1] - (double)shape->center.y,
                               origin[2] - (double)shape->center.z};
     const double radius = shape->radius;
-    const double ox = dot(offset, shape->axis[0]), oy = dot(offset, shape->axis[1]),
-                 oz = dot(offset, shape->axis[2]);
-    const double dx = dot(direction, shape->axis[0]), dy = dot(direction, shape->axis[1]),
-                 dz = dot(direction, shape->axis[2]);
+    const double ox = aur_shape_dot(offset, shape->axis[0]), oy = aur_shape_dot(offset, shape->axis[1]),
+                 oz = aur_shape_dot(offset, shape->axis[2]);
+    const double dx = aur_shape_dot(direction, shape->axis[0]), dy = aur_shape_dot(direction, shape->axis[1]),
+                 dz = aur_shape_dot(direction, shape->axis[2]);
     const double a = dx * dx + dy * dy, b = ox * dx + oy * dy, c = ox * ox + oy * oy - radius * radius;
     /* The first root may lie beyond an end, the second within. */
     double from = nearest;
@@ -45,10 +41,9 @@ static aur_shape_point point_at(const aur_shape *shape, float cosine, float sine
     normal = aur_vector_add_scaled(normal, sine, shape->axis[1]);
     aur_vector position = aur_vector_add_scaled(shape->center, shape->radius, normal);
     position = aur_vector_add_scaled(position, z, shape->axis[2]);
-    const float azimuth = atan2f(sine, cosine) / (2.0f * AUR_PI_F);
     return (aur_shape_point){position,
                              aur_vector_scale(normal, shape->flipped ? -1.0f : 1.0f),
-                             {azimuth - floorf(azimuth), z / shape->length}};
+                             {aur_shape_azimuth(cosine, sine), z / shape->length}};
 }
 
 static void surface(const aur_shape *shape, aur_vector position, aur_shape_point *point,
@@ -65,12 +60,7 @@ static aur_shape_point sample(const aur_shape *shape, float u, float v) {
     return point_at(shape, cosf(angle), sinf(angle), v * shape->length);
 }
 
-static void equal_area(aur_bsdf_point texture, float coordinates[2]) {
-    coordinates[0] = texture.u;
-    coordinates[1] = texture.v;
-}
-
-static const aur_curved curved = {bounds, intersect, surface, sample, NULL, NULL, equal_area};
+static const aur_curved curved = {bounds, intersect, surface, sample, NULL, NULL, NULL};
 
 typedef struct cylinder_keys {
     double p0[3], p1[3], radius;
@@ -87,7 +77,7 @@ static aur_result create(const aur_shape_input *input, aur_shape *shape, aur_err
     double scale;
     aur_result result = aur_row_read(&shape->descriptor->row, input->parameters, &p, error);
     if (result == AUR_OK)
-        result = aur_shape_similarity(input, &input->to_world, &scale, error);
+        result = aur_shape_similarity(input, &scale, error);
     if (result != AUR_OK)
         return result;
     const aur_vector start = {(float)p.p0[0], (float)p.p0[1], (float)p.p0[2]};
@@ -96,15 +86,12 @@ static aur_result create(const aur_shape_input *input, aur_shape *shape, aur_err
     const aur_vector way = aur_vector_subtract(aur_transform_point_f(&input->to_world, end), shape->center);
     shape->length = aur_vector_length(way);
     if (!(shape->length > 0.0f) || !isfinite(shape->length))
-        return aur_fail_at(error, input->parameters->location, AUR_ERROR_FORMAT,
-                           "shape 'cylinder': 'p0' and 'p1' must differ");
+        return aur_parameters_fail(input->parameters, error, AUR_ERROR_FORMAT, "'p0' and 'p1' must differ");
     const aur_frame frame = aur_frame_about(aur_vector_scale(way, 1.0f / shape->length));
     shape->axis[0] = frame.x;
     shape->axis[1] = frame.y;
     shape->axis[2] = frame.z;
     shape->radius = (float)(p.radius * scale);
-    shape->curved = &curved;
-    shape->flipped = input->flip_normals;
     shape->area = 2.0 * AUR_PI * (double)shape->radius * (double)shape->length;
     return AUR_OK;
 }
@@ -113,4 +100,5 @@ const aur_shape_descriptor aur_shape_cylinder = {.row = {.name = "cylinder",
                                                          .summary = "an open cylinder from `p0` to `p1`",
                                                          .source = "",
                                                          AUR_ROW_KEYS(keys)},
+                                                 .curved = &curved,
                                                  .create = create};

@@ -2,10 +2,6 @@
 #include "material/sampling.h"
 #include "scene/shape.h"
 
-static aur_vector normal_of(const aur_shape *shape) {
-    return shape->axis[2];
-}
-
 static void bounds(const aur_shape *shape, double lower[3], double upper[3]) {
     const float center[3] = {shape->center.x, shape->center.y, shape->center.z};
     const float half[3] = {hypotf(shape->axis[0].x, shape->axis[1].x),
@@ -17,15 +13,11 @@ static void bounds(const aur_shape *shape, double lower[3], double upper[3]) {
     }
 }
 
-static double dot(const double a[3], aur_vector b) {
-    return a[0] * (double)b.x + a[1] * (double)b.y + a[2] * (double)b.z;
-}
-
 /* Coordinates along the two (perhaps oblique) axes. */
 static void local(const aur_shape *shape, const double way[3], double *x, double *y) {
     const aur_vector a = shape->axis[0], b = shape->axis[1];
     const double aa = aur_vector_dot(a, a), ab = aur_vector_dot(a, b), bb = aur_vector_dot(b, b);
-    const double wa = dot(way, a), wb = dot(way, b), determinant = aa * bb - ab * ab;
+    const double wa = aur_shape_dot(way, a), wb = aur_shape_dot(way, b), determinant = aa * bb - ab * ab;
     *x = (wa * bb - wb * ab) / determinant;
     *y = (wb * aa - wa * ab) / determinant;
 }
@@ -34,7 +26,7 @@ static bool intersect(const aur_shape *shape, const double origin[3], const doub
                       double nearest, double farthest, double *distance) {
     const double to_center[3] = {(double)shape->center.x - origin[0], (double)shape->center.y - origin[1],
                                  (double)shape->center.z - origin[2]};
-    const double t = dot(to_center, normal_of(shape)) / dot(direction, normal_of(shape));
+    const double t = aur_shape_dot(to_center, shape->axis[2]) / aur_shape_dot(direction, shape->axis[2]);
     if (!(t > nearest) || !(t < farthest))
         return false;
     const double way[3] = {t * direction[0] - to_center[0], t * direction[1] - to_center[1],
@@ -49,9 +41,8 @@ static aur_shape_point point_at(const aur_shape *shape, float x, float y) {
     aur_shape_point point;
     point.position = aur_vector_add_scaled(shape->center, x, shape->axis[0]);
     point.position = aur_vector_add_scaled(point.position, y, shape->axis[1]);
-    point.normal = aur_vector_scale(normal_of(shape), shape->flipped ? -1.0f : 1.0f);
-    const float azimuth = atan2f(y, x) / (2.0f * AUR_PI_F);
-    point.texture = (aur_bsdf_point){hypotf(x, y), azimuth - floorf(azimuth)};
+    point.normal = aur_vector_scale(shape->axis[2], shape->flipped ? -1.0f : 1.0f);
+    point.texture = (aur_bsdf_point){hypotf(x, y), aur_shape_azimuth(x, y)};
     return point;
 }
 
@@ -70,17 +61,14 @@ static aur_shape_point sample(const aur_shape *shape, float u, float v) {
     return point_at(shape, x, y);
 }
 
-static void equal_area(aur_bsdf_point texture, float coordinates[2]) {
-    coordinates[0] = texture.u * texture.u;
-    coordinates[1] = texture.v;
+static void equal_area(float coordinates[2]) {
+    coordinates[0] *= coordinates[0];
 }
 
 static const aur_curved curved = {bounds, intersect, surface, sample, NULL, NULL, equal_area};
 
 static aur_result create(const aur_shape_input *input, aur_shape *shape, aur_error *error) {
     (void)error;
-    shape->curved = &curved;
-    shape->flipped = input->flip_normals;
     shape->center = aur_transform_point_f(&input->to_world, (aur_vector){0.0f, 0.0f, 0.0f});
     shape->axis[0] = aur_transform_direction_f(&input->to_world, (aur_vector){1.0f, 0.0f, 0.0f});
     shape->axis[1] = aur_transform_direction_f(&input->to_world, (aur_vector){0.0f, 1.0f, 0.0f});
@@ -91,4 +79,6 @@ static aur_result create(const aur_shape_input *input, aur_shape *shape, aur_err
 }
 
 const aur_shape_descriptor aur_shape_disk = {
-    .row = {.name = "disk", .summary = "the unit disk facing +z", .source = ""}, .create = create};
+    .row = {.name = "disk", .summary = "the unit disk facing +z", .source = ""},
+    .curved = &curved,
+    .create = create};

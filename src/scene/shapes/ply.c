@@ -1,14 +1,10 @@
 /* Stanford PLY: ascii and both binary forms; polygons become fans; properties that a mesh has no use for are
  * left out. */
-#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
-#include "core/file.h"
-#include "scene/shape.h"
-#include "scene/shapes/text_scanner.h"
-
-#define LARGEST_FILE ((size_t)1 << 35)
+#include "core/array.h"
+#include "scene/shapes/mesh_file.h"
 
 enum { MOST_ELEMENTS = 32, MOST_PROPERTIES = 64 };
 
@@ -20,11 +16,18 @@ typedef enum ply_type {
     PLY_INT32,
     PLY_UINT32,
     PLY_FLOAT,
-    PLY_DOUBLE
+    PLY_DOUBLE,
+    PLY_TYPE_COUNT
 } ply_type;
 
 static const size_t type_sizes[] = {1, 1, 2, 2, 4, 4, 4, 8};
 
+/* Two names for each type. */
+static const char *const type_names[] = {"char",   "int8",    "uchar",  "uint8",  "short", "int16",
+                                         "ushort", "uint16",  "int",    "int32",  "uint",  "uint32",
+                                         "float",  "float32", "double", "float64"};
+
+/* Of vertices, and at last the indices of faces. */
 typedef enum ply_role {
     PLY_X,
     PLY_Y,
@@ -39,10 +42,30 @@ typedef enum ply_role {
     PLY_ROLE_COUNT
 } ply_role;
 
+static const struct {
+    const char *name;
+    ply_role role;
+} roles[] = {{"x", PLY_X},
+             {"y", PLY_Y},
+             {"z", PLY_Z},
+             {"nx", PLY_NX},
+             {"ny", PLY_NY},
+             {"nz", PLY_NZ},
+             {"u", PLY_U},
+             {"v", PLY_V},
+             {"s", PLY_U},
+             {"t", PLY_V},
+             {"texture_u", PLY_U},
+             {"texture_v", PLY_V},
+             {"vertex_indices", PLY_INDICES},
+             {"vertex_index", PLY_INDICES}};
+
 typedef struct ply_property {
     bool list;
     ply_type count_type, type;
     ply_role role;
+    float *values; /* where it goes: that of vertex i to values[stride * i]; or NULL */
+    size_t stride;
 } ply_property;
 
 typedef struct ply_element {
@@ -54,106 +77,52 @@ typedef struct ply_element {
 typedef enum ply_format { PLY_ASCII, PLY_LITTLE, PLY_BIG } ply_format;
 
 typedef struct ply {
-    aur_scanner scanner; /* ascii: at the next value; binary: `at` is the next byte */
-    const char *file;
-    aur_error *error;
+    aur_mesh_file *file; /* ascii: at the next value; binary: `at` is the next byte */
     ply_format format;
     size_t element_count;
     ply_element elements[MOST_ELEMENTS];
+    const ply_element *vertices; /* the first element of that name, or NULL */
     bool has[PLY_ROLE_COUNT];
     size_t index_count, index_capacity;
     uint32_t *indices;
 } ply;
 
-static aur_location here(const ply *self) {
-    return (aur_location){self->file, self->format == PLY_ASCII ? self->scanner.line : 0, 0};
-}
-
-static aur_result fail_memory(const ply *self) {
-    return aur_fail_memory_at(self->error, here(self));
-}
-
 /* --- the header */
 
-static bool word_is(const char *word, size_t length, const char *text) {
-    return strlen(text) == length && memcmp(word, text, length) == 0;
-}
-
-static bool find_type(const char *word, size_t length, ply_type *type) {
-    static const struct {
-        const char *name;
-        ply_type type;
-    } rows[] = {
-        {"char", PLY_INT8},   {"int8", PLY_INT8},     {"uchar", PLY_UINT8},   {"uint8", PLY_UINT8},
-        {"short", PLY_INT16}, {"int16", PLY_INT16},   {"ushort", PLY_UINT16}, {"uint16", PLY_UINT16},
-        {"int", PLY_INT32},   {"int32", PLY_INT32},   {"uint", PLY_UINT32},   {"uint32", PLY_UINT32},
-        {"float", PLY_FLOAT}, {"float32", PLY_FLOAT}, {"double", PLY_DOUBLE}, {"float64", PLY_DOUBLE}};
-    for (size_t i = 0; i < sizeof rows / sizeof rows[0]; ++i) {
-        if (word_is(word, length, rows[i].name)) {
-            *type = rows[i].type;
-            return true;
-        }
-    }
-    return false;
-}
-
-static ply_role find_role(const char *word, size_t length) {
-    static const struct {
-        const char *name;
-        ply_role role;
-    } rows[] = {{"x", PLY_X},
-                {"y", PLY_Y},
-                {"z", PLY_Z},
-                {"nx", PLY_NX},
-                {"ny", PLY_NY},
-                {"nz", PLY_NZ},
-                {"u", PLY_U},
-                {"v", PLY_V},
-                {"s", PLY_U},
-                {"t", PLY_V},
-                {"texture_u", PLY_U},
-                {"texture_v", PLY_V},
-                {"vertex_indices", PLY_INDICES},
-                {"vertex_index", PLY_INDICES}};
-    for (size_t i = 0; i < sizeof rows / sizeof rows[0]; ++i)
-        if (word_is(word, length, rows[i].name))
-            return rows[i].role;
-    return PLY_LEFT_OUT;
+static bool find_type(aur_word word, ply_type *type) {
+    *type = (ply_type)(aur_word_find(word, 2 * PLY_TYPE_COUNT, type_names) / 2);
+    return *type < PLY_TYPE_COUNT;
 }
 
 static aur_result fail_header(const ply *self, const char *what) {
-    return aur_fail_at(self->error, (aur_location){self->file, self->scanner.line, 0}, AUR_ERROR_FORMAT,
-                       "PLY header: %s", what);
+    return aur_mesh_file_fail(self->file, "PLY header: %s", what);
 }
 
 static aur_result read_format(ply *self) {
-    const char *word;
-    size_t length = aur_scan_word(&self->scanner, &word);
-    if (word_is(word, length, "ascii"))
-        self->format = PLY_ASCII;
-    else if (word_is(word, length, "binary_little_endian"))
-        self->format = PLY_LITTLE;
-    else if (word_is(word, length, "binary_big_endian"))
-        self->format = PLY_BIG;
-    else
+    static const char *const formats[] = {"ascii", "binary_little_endian", "binary_big_endian"};
+    const size_t format = aur_word_find(aur_scan_word(&self->file->scanner), 3, formats);
+    if (format == 3)
         return fail_header(self, "the format must be ascii, binary_little_endian or binary_big_endian");
-    length = aur_scan_word(&self->scanner, &word);
-    return word_is(word, length, "1.0") ? AUR_OK : fail_header(self, "the version must be 1.0");
+    self->format = (ply_format)format;
+    return aur_word_is(aur_scan_word(&self->file->scanner), "1.0")
+               ? AUR_OK
+               : fail_header(self, "the version must be 1.0");
 }
 
 static aur_result read_element(ply *self) {
     if (self->element_count == MOST_ELEMENTS)
         return fail_header(self, "too many elements");
-    ply_element *const element = &self->elements[self->element_count];
-    const char *word;
-    const size_t length = aur_scan_word(&self->scanner, &word);
+    ply_element *const element = &self->elements[self->element_count++];
+    aur_scanner *const scanner = &self->file->scanner;
+    const aur_word word = aur_scan_word(scanner);
     int64_t count;
-    if (length == 0 || length >= sizeof element->name || !aur_scan_integer(&self->scanner, &count) ||
-        count < 0 || !aur_scan_line_done(&self->scanner))
+    if (word.length == 0 || word.length >= sizeof element->name || !aur_scan_integer(scanner, &count) ||
+        count < 0 || !aur_scan_line_done(scanner))
         return fail_header(self, "an element needs a name and a count");
-    memcpy(element->name, word, length);
+    memcpy(element->name, word.text, word.length);
     element->count = (size_t)count;
-    ++self->element_count;
+    if (self->vertices == NULL && aur_word_is(word, "vertex"))
+        self->vertices = element;
     return AUR_OK;
 }
 
@@ -164,54 +133,52 @@ static aur_result read_property(ply *self) {
     if (element->property_count == MOST_PROPERTIES)
         return fail_header(self, "too many properties");
     ply_property *const property = &element->properties[element->property_count++];
-    const char *word;
-    size_t length = aur_scan_word(&self->scanner, &word);
-    if (word_is(word, length, "list")) {
-        property->list = true;
-        length = aur_scan_word(&self->scanner, &word);
-        if (!find_type(word, length, &property->count_type) || property->count_type >= PLY_FLOAT)
+    aur_scanner *const scanner = &self->file->scanner;
+    aur_word word = aur_scan_word(scanner);
+    property->list = aur_word_is(word, "list");
+    if (property->list) {
+        if (!find_type(aur_scan_word(scanner), &property->count_type) || property->count_type >= PLY_FLOAT)
             return fail_header(self, "the count of a list needs a whole type such as uchar");
-        length = aur_scan_word(&self->scanner, &word);
+        word = aur_scan_word(scanner);
     }
-    if (!find_type(word, length, &property->type))
+    if (!find_type(word, &property->type))
         return fail_header(self, "a property needs a type such as float, int or uchar");
-    length = aur_scan_word(&self->scanner, &word);
-    if (length == 0)
+    word = aur_scan_word(scanner);
+    if (word.length == 0)
         return fail_header(self, "a property needs a name");
-    const bool vertex = strcmp(element->name, "vertex") == 0, face = strcmp(element->name, "face") == 0;
-    const ply_role role = find_role(word, length);
     property->role = PLY_LEFT_OUT;
-    if ((vertex && !property->list && role < PLY_INDICES) ||
-        (face && property->list && role == PLY_INDICES && property->type < PLY_FLOAT)) {
-        property->role = role;
-        self->has[role] = true;
+    for (size_t i = 0; i < sizeof roles / sizeof roles[0]; ++i) {
+        const bool fits = roles[i].role == PLY_INDICES ? property->list && property->type < PLY_FLOAT &&
+                                                             strcmp(element->name, "face") == 0
+                                                       : !property->list && element == self->vertices;
+        if (fits && aur_word_is(word, roles[i].name))
+            property->role = roles[i].role;
     }
+    self->has[property->role] = true;
     return AUR_OK;
 }
 
 static aur_result read_header(ply *self) {
-    const char *word;
-    size_t length = aur_scan_word(&self->scanner, &word);
-    if (!word_is(word, length, "ply"))
+    aur_scanner *const scanner = &self->file->scanner;
+    if (!aur_word_is(aur_scan_word(scanner), "ply"))
         return fail_header(self, "the file must begin with 'ply'");
     bool has_format = false;
-    for (;;) {
-        aur_scan_next_line(&self->scanner);
-        if (self->scanner.at >= self->scanner.end)
+    for (bool done = false; !done;) {
+        static const char *const words[] = {"end_header", "format",   "element", "property",
+                                            "comment",    "obj_info", ""};
+        aur_scan_next_line(scanner);
+        if (scanner->at >= scanner->end)
             return fail_header(self, "'end_header' is missing");
-        length = aur_scan_word(&self->scanner, &word);
-        aur_result result = AUR_OK;
-        if (word_is(word, length, "end_header"))
-            break;
-        if (word_is(word, length, "format"))
-            result = read_format(self), has_format = true;
-        else if (word_is(word, length, "element"))
-            result = read_element(self);
-        else if (word_is(word, length, "property"))
-            result = read_property(self);
-        else if (length > 0 && !word_is(word, length, "comment") && !word_is(word, length, "obj_info"))
-            result =
-                fail_header(self, "a line must begin with format, element, property, comment or end_header");
+        const size_t which = aur_word_find(aur_scan_word(scanner), sizeof words / sizeof words[0], words);
+        done = which == 0;
+        has_format = has_format || which == 1;
+        const aur_result result = which == 1   ? read_format(self)
+                                  : which == 2 ? read_element(self)
+                                  : which == 3 ? read_property(self)
+                                  : which < 7
+                                      ? AUR_OK
+                                      : fail_header(self, "a line must begin with format, element, property, "
+                                                          "comment or end_header");
         if (result != AUR_OK)
             return result;
     }
@@ -221,40 +188,31 @@ static aur_result read_header(ply *self) {
         return fail_header(self, "element vertex needs the properties x, y and z");
     if (!self->has[PLY_INDICES])
         return fail_header(self, "element face needs the list vertex_indices");
-    aur_scan_next_line(&self->scanner);
+    aur_scan_next_line(scanner);
     return AUR_OK;
 }
 
 /* --- values */
 
-static void skip_ascii_space(ply *self) {
-    while (self->scanner.at < self->scanner.end) {
-        aur_scan_blanks(&self->scanner);
-        if (*self->scanner.at != '\n')
-            return;
-        ++self->scanner.at;
-        ++self->scanner.line;
+static void skip_ascii_space(aur_scanner *scanner) {
+    for (aur_scan_blanks(scanner); scanner->at < scanner->end && *scanner->at == '\n';
+         aur_scan_blanks(scanner)) {
+        ++scanner->at;
+        ++scanner->line;
     }
 }
 
 static double read_binary(const char *at, ply_type type, bool big) {
-    unsigned char bytes[8] = {0};
     const size_t size = type_sizes[type];
-    for (size_t i = 0; i < size; ++i)
-        bytes[i] = (unsigned char)at[big ? size - 1 - i : i];
     uint64_t bits = 0;
-    for (size_t i = 0; i < 8; ++i)
-        bits |= (uint64_t)bytes[i] << (8 * i);
+    for (size_t i = 0; i < size; ++i)
+        bits |= (uint64_t)(unsigned char)at[big ? size - 1 - i : i] << (8 * i);
+    const uint32_t half = (uint32_t)bits;
     float single;
     double wide;
-    const uint32_t half = (uint32_t)bits;
     switch (type) {
     case PLY_INT8:
         return (int8_t)bits;
-    case PLY_UINT8:
-    case PLY_UINT16:
-    case PLY_UINT32:
-        return (double)bits;
     case PLY_INT16:
         return (int16_t)bits;
     case PLY_INT32:
@@ -263,127 +221,88 @@ static double read_binary(const char *at, ply_type type, bool big) {
         memcpy(&single, &half, sizeof single);
         return (double)single;
     case PLY_DOUBLE:
-        break;
+        memcpy(&wide, &bits, sizeof wide);
+        return wide;
+    default: /* without a sign */
+        return (double)bits;
     }
-    memcpy(&wide, &bits, sizeof wide);
-    return wide;
 }
 
 static aur_result read_value(ply *self, ply_type type, const ply_element *element, size_t index,
                              double *value) {
+    aur_scanner *const scanner = &self->file->scanner;
     if (self->format == PLY_ASCII) {
-        skip_ascii_space(self);
-        if (aur_scan_double(&self->scanner, value))
+        skip_ascii_space(scanner);
+        if (aur_scan_double(scanner, value))
             return AUR_OK;
-    } else if ((size_t)(self->scanner.end - self->scanner.at) >= type_sizes[type]) {
-        *value = read_binary(self->scanner.at, type, self->format == PLY_BIG);
-        self->scanner.at += type_sizes[type];
+    } else if ((size_t)(scanner->end - scanner->at) >= type_sizes[type]) {
+        *value = read_binary(scanner->at, type, self->format == PLY_BIG);
+        scanner->at += type_sizes[type];
         return AUR_OK;
     }
-    if (self->scanner.at >= self->scanner.end || self->format != PLY_ASCII)
-        return aur_fail_at(self->error, here(self), AUR_ERROR_FORMAT, "the file ends in %s %zu of %zu",
-                           element->name, index, element->count);
-    return aur_fail_at(self->error, here(self), AUR_ERROR_FORMAT, "%s %zu: a number is expected",
-                       element->name, index);
+    if (scanner->at >= scanner->end || self->format != PLY_ASCII)
+        return aur_mesh_file_fail(self->file, "the file ends in %s %zu of %zu", element->name, index,
+                                  element->count);
+    return aur_mesh_file_fail(self->file, "%s %zu: a number is expected", element->name, index);
 }
 
-/* The number of values in a list. */
-static aur_result read_count(ply *self, const ply_property *property, const ply_element *element,
-                             size_t index, size_t *count) {
-    double value;
-    const aur_result result = read_value(self, property->count_type, element, index, &value);
-    if (result != AUR_OK)
-        return result;
-    if (!(value >= 0.0) || value > 1e6 || value != floor(value))
-        return aur_fail_at(self->error, here(self), AUR_ERROR_FORMAT, "%s %zu: a list cannot have %g values",
-                           element->name, index, value);
-    *count = (size_t)value;
+/* A corner of a polygon; from the third on, each makes a triangle with the first and the one before. */
+static aur_result add_corner(ply *self, size_t face, size_t corner, double value) {
+    const size_t vertex_count = self->vertices->count;
+    if (!(value >= 0.0) || !(value < (double)vertex_count) || value != floor(value))
+        return aur_mesh_file_fail(self->file, "face %zu: index %.10g is no vertex: there are %zu", face,
+                                  value, vertex_count);
+    if (!aur_array_reserve(&self->indices, &self->index_capacity, self->index_count + 3,
+                           sizeof *self->indices))
+        return aur_fail_memory(self->file->error);
+    uint32_t *const end = &self->indices[self->index_count];
+    if (corner >= 3) {
+        end[0] = end[-3];
+        end[1] = end[-1];
+        self->index_count += 2;
+    }
+    self->indices[self->index_count++] = (uint32_t)value;
     return AUR_OK;
 }
 
-static aur_result skip_property(ply *self, const ply_property *property, const ply_element *element,
-                                size_t index) {
-    size_t count = 1;
+static aur_result take_value(ply *self, const ply_property *property, size_t index, size_t place,
+                             double value) {
+    if (property->role == PLY_INDICES)
+        return add_corner(self, index, place, value);
+    if (property->values == NULL)
+        return AUR_OK;
+    if (!(fabs(value) <= 1e30))
+        return aur_mesh_file_fail(self->file, "vertex %zu is not finite, or beyond 1e30", index);
+    property->values[property->stride * index] = (float)value;
+    return AUR_OK;
+}
+
+static aur_result read_values(ply *self, const ply_element *element, const ply_property *property,
+                              size_t index) {
+    double value = 1.0;
     aur_result result = AUR_OK;
-    if (property->list)
-        result = read_count(self, property, element, index, &count);
-    double value;
-    for (size_t i = 0; result == AUR_OK && i < count; ++i)
+    if (property->list) {
+        result = read_value(self, property->count_type, element, index, &value);
+        if (result == AUR_OK && (!(value >= 0.0) || value > 1e6 || value != floor(value)))
+            return aur_mesh_file_fail(self->file, "%s %zu: a list cannot have %g values", element->name,
+                                      index, value);
+        if (result == AUR_OK && property->role == PLY_INDICES && value < 3.0)
+            return aur_mesh_file_fail(self->file, "face %zu has %g corners", index, value);
+    }
+    const size_t count = (size_t)value;
+    for (size_t i = 0; i < count && result == AUR_OK; ++i) {
         result = read_value(self, property->type, element, index, &value);
+        if (result == AUR_OK)
+            result = take_value(self, property, index, i, value);
+    }
     return result;
 }
 
-static aur_result read_vertices(ply *self, const ply_element *element, aur_mesh *mesh) {
-    for (size_t i = 0; i < element->count; ++i) {
+static aur_result read_rows(ply *self, const ply_element *element) {
+    /* Without properties there are no bytes, however many rows there are said to be. */
+    for (size_t i = 0; element->property_count > 0 && i < element->count; ++i) {
         for (size_t p = 0; p < element->property_count; ++p) {
-            const ply_property *const property = &element->properties[p];
-            double value = 0.0;
-            const aur_result result = property->list ? skip_property(self, property, element, i)
-                                                     : read_value(self, property->type, element, i, &value);
-            if (result != AUR_OK)
-                return result;
-            if (property->role == PLY_LEFT_OUT)
-                continue;
-            if (!(fabs(value) <= 1e30))
-                return aur_fail_at(self->error, here(self), AUR_ERROR_FORMAT,
-                                   "vertex %zu is not finite, or beyond 1e30", i);
-            if (property->role <= PLY_Z)
-                mesh->positions[3 * i + property->role] = (float)value;
-            else if (property->role <= PLY_NZ && mesh->normals != NULL)
-                mesh->normals[3 * i + (property->role - PLY_NX)] = (float)value;
-            else if (property->role >= PLY_U && mesh->uvs != NULL)
-                mesh->uvs[2 * i + (property->role - PLY_U)] = (float)value;
-        }
-    }
-    return AUR_OK;
-}
-
-static aur_result add_triangle(ply *self, const uint32_t index[3]) {
-    if (self->index_count + 3 > self->index_capacity) {
-        const size_t capacity = self->index_capacity == 0 ? 3072 : 2 * self->index_capacity;
-        uint32_t *const larger = realloc(self->indices, capacity * sizeof *larger);
-        if (larger == NULL)
-            return fail_memory(self);
-        self->indices = larger;
-        self->index_capacity = capacity;
-    }
-    memcpy(&self->indices[self->index_count], index, 3 * sizeof *index);
-    self->index_count += 3;
-    return AUR_OK;
-}
-
-static aur_result read_polygon(ply *self, const ply_property *property, const ply_element *element,
-                               size_t face, size_t vertex_count) {
-    size_t count;
-    aur_result result = read_count(self, property, element, face, &count);
-    uint32_t corner[3] = {0, 0, 0};
-    for (size_t i = 0; result == AUR_OK && i < count; ++i) {
-        double value;
-        result = read_value(self, property->type, element, face, &value);
-        if (result != AUR_OK)
-            return result;
-        if (!(value >= 0.0) || !(value < (double)vertex_count) || value != floor(value))
-            return aur_fail_at(self->error, here(self), AUR_ERROR_FORMAT,
-                               "face %zu: index %.10g is no vertex: there are %zu", face, value,
-                               vertex_count);
-        corner[i == 0 ? 0 : 2] = (uint32_t)value;
-        if (i >= 2)
-            result = add_triangle(self, corner);
-        corner[1] = corner[2];
-    }
-    if (result == AUR_OK && count < 3)
-        return aur_fail_at(self->error, here(self), AUR_ERROR_FORMAT, "face %zu has %zu corners", face,
-                           count);
-    return result;
-}
-
-static aur_result read_faces(ply *self, const ply_element *element, size_t vertex_count) {
-    for (size_t i = 0; i < element->count; ++i) {
-        for (size_t p = 0; p < element->property_count; ++p) {
-            const ply_property *const property = &element->properties[p];
-            const aur_result result = property->role == PLY_INDICES
-                                          ? read_polygon(self, property, element, i, vertex_count)
-                                          : skip_property(self, property, element, i);
+            const aur_result result = read_values(self, element, &element->properties[p], i);
             if (result != AUR_OK)
                 return result;
         }
@@ -393,104 +312,59 @@ static aur_result read_faces(ply *self, const ply_element *element, size_t verte
 
 /* --- the whole */
 
-static const ply_element *find_element(const ply *self, const char *name) {
-    for (size_t i = 0; i < self->element_count; ++i)
-        if (strcmp(self->elements[i].name, name) == 0)
-            return &self->elements[i];
-    return NULL;
+/* Where the properties of vertices go. */
+static void set_targets(ply_element *vertices, const aur_mesh *mesh) {
+    float *const arrays[] = {mesh->positions, mesh->normals, mesh->uvs};
+    for (size_t p = 0; p < vertices->property_count; ++p) {
+        ply_property *const property = &vertices->properties[p];
+        float *const array = property->role < PLY_INDICES ? arrays[property->role / 3] : NULL;
+        property->stride = property->role < PLY_U ? 3 : 2;
+        property->values = array != NULL ? array + property->role % 3 : NULL;
+    }
 }
 
-static aur_result read_body(ply *self, unsigned parts, aur_mesh *mesh) {
-    const ply_element *const vertices = find_element(self, "vertex");
+static aur_result read_body(ply *self, aur_mesh *mesh) {
+    aur_mesh_file *const file = self->file;
     /* A count that lies is found out before memory is asked for. */
-    const size_t left = (size_t)(self->scanner.end - self->scanner.at);
-    if (vertices->count > left)
-        return aur_fail_at(self->error, here(self), AUR_ERROR_FORMAT, "%zu vertices cannot be in %zu bytes",
-                           vertices->count, left);
-    aur_result result = aur_mesh_allocate(mesh, vertices->count, 0, parts, here(self), self->error);
-    bool seen = false;
-    for (size_t i = 0; result == AUR_OK && i < self->element_count; ++i) {
-        const ply_element *const element = &self->elements[i];
-        if (element->property_count == 0)
-            continue; /* no bytes, however many there are said to be */
-        if (element == vertices) {
-            result = read_vertices(self, element, mesh);
-            seen = true;
-        } else if (strcmp(element->name, "face") == 0) {
-            if (!seen)
-                return aur_fail_at(self->error, here(self), AUR_ERROR_FORMAT,
-                                   "faces stand before the vertices");
-            result = read_faces(self, element, vertices->count);
-        } else {
-            for (size_t k = 0; result == AUR_OK && k < element->count; ++k)
-                for (size_t p = 0; result == AUR_OK && p < element->property_count; ++p)
-                    result = skip_property(self, &element->properties[p], element, k);
-        }
-    }
-    if (result != AUR_OK)
-        return result;
-    if (self->index_count == 0)
-        return aur_fail_at(self->error, (aur_location){.file = self->file}, AUR_ERROR_FORMAT,
-                           "no face in this file");
-    free(mesh->indices);
-    mesh->indices = self->indices;
-    mesh->triangle_count = self->index_count / 3;
-    self->indices = NULL;
-    return AUR_OK;
-}
-
-static aur_result read_file(const char *path, bool face_normals, aur_mesh *mesh, aur_error *error) {
-    char *data;
-    size_t size;
-    aur_result result = aur_file_read(path, LARGEST_FILE, &data, &size, error);
-    if (result != AUR_OK)
-        return result;
-    ply *const self = calloc(1, sizeof *self);
-    if (self == NULL) {
-        free(data);
-        return aur_fail_memory(error);
-    }
-    *self = (ply){.scanner = {data, data + size, 1}, .file = path, .error = error};
-    result = read_header(self);
-    const unsigned normals = self->has[PLY_NX] && self->has[PLY_NY] && self->has[PLY_NZ] && !face_normals;
-    const unsigned uvs = self->has[PLY_U] && self->has[PLY_V];
+    const size_t left = (size_t)(file->scanner.end - file->scanner.at);
+    if (self->vertices->count > left)
+        return aur_mesh_file_fail(file, "%zu vertices cannot be in %zu bytes", self->vertices->count, left);
+    const bool normals = self->has[PLY_NX] && self->has[PLY_NY] && self->has[PLY_NZ] && !file->face_normals;
+    const unsigned parts =
+        (normals ? AUR_MESH_NORMALS : 0u) | (self->has[PLY_U] && self->has[PLY_V] ? AUR_MESH_UVS : 0u);
+    aur_result result = aur_mesh_allocate(mesh, self->vertices->count, 0, parts,
+                                          (aur_location){.file = file->path}, file->error);
     if (result == AUR_OK)
-        result = read_body(self, (normals ? AUR_MESH_NORMALS : 0u) | (uvs ? AUR_MESH_UVS : 0u), mesh);
-    free(self->indices);
-    free(self);
-    free(data);
+        set_targets(&self->elements[self->vertices - self->elements], mesh);
+    for (size_t i = 0; result == AUR_OK && i < self->element_count; ++i)
+        result = read_rows(self, &self->elements[i]);
     return result;
 }
 
-typedef struct ply_keys {
-    const char *filename;
-    bool face_normals;
-} ply_keys;
-
-static const aur_key keys[] = {
-    {AUR_KEY_OF_TEXT(ply_keys, "filename", filename, NULL, "the file, beside the scene; must be given")},
-    {AUR_KEY_OF_BOOLEAN(ply_keys, "face_normals", face_normals, "false",
-                        "flat triangles, whatever normals the file has")},
-};
-
-static aur_result create(const aur_shape_input *input, aur_shape *shape, aur_error *error) {
-    ply_keys p = {.filename = NULL};
-    char *path = NULL;
-    aur_result result = aur_row_read(&shape->descriptor->row, input->parameters, &p, error);
+static aur_result read_file(aur_mesh_file *file, aur_mesh *mesh) {
+    ply *const self = calloc(1, sizeof *self);
+    if (self == NULL)
+        return aur_fail_memory(file->error);
+    self->file = file;
+    file->scanner.line = 1;
+    aur_result result = read_header(self);
+    if (self->format != PLY_ASCII)
+        file->scanner.line = 0;
     if (result == AUR_OK)
-        result = aur_shape_filename(input, p.filename, &path, error);
+        result = read_body(self, mesh);
     if (result == AUR_OK)
-        result = read_file(path, p.face_normals, &shape->mesh, error);
-    free(path);
-    if (result != AUR_OK)
-        return result;
-    const bool smooth = !p.face_normals && shape->mesh.normals == NULL;
-    aur_shape_place(input, shape);
-    return smooth ? aur_mesh_smooth(&shape->mesh, input->parameters->location, error) : AUR_OK;
+        aur_mesh_take_indices(mesh, self->index_count, &self->indices);
+    free(self->indices);
+    free(self);
+    return result;
 }
+
+static const aur_key keys[] = {AUR_MESH_FILE_KEYS};
 
 const aur_shape_descriptor aur_shape_ply = {.row = {.name = "ply",
                                                     .summary = "a Stanford PLY file, ascii or binary",
                                                     .source = "",
                                                     AUR_ROW_KEYS(keys)},
-                                            .create = create};
+                                            .create = aur_mesh_file_create,
+                                            .read_file = read_file,
+                                            .smooths = true};

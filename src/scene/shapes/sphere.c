@@ -29,11 +29,9 @@ static aur_shape_point point_at(const aur_shape *shape, aur_vector normal) {
     const float x = aur_vector_dot(normal, shape->axis[0]);
     const float y = aur_vector_dot(normal, shape->axis[1]);
     const float z = aur_vector_dot(normal, shape->axis[2]);
-    float azimuth = atan2f(y, x) / (2.0f * AUR_PI_F);
-    azimuth -= floorf(azimuth);
     return (aur_shape_point){aur_vector_add_scaled(shape->center, shape->radius, normal),
                              aur_vector_scale(normal, shape->flipped ? -1.0f : 1.0f),
-                             {azimuth, acosf(fminf(fmaxf(z, -1.0f), 1.0f)) / AUR_PI_F}};
+                             {aur_shape_azimuth(x, y), acosf(fminf(fmaxf(z, -1.0f), 1.0f)) / AUR_PI_F}};
 }
 
 static void surface(const aur_shape *shape, aur_vector position, aur_shape_point *point,
@@ -83,9 +81,8 @@ static bool sample_seen(const aur_shape *shape, aur_vector reference, float u, f
     return true;
 }
 
-static void equal_area(aur_bsdf_point texture, float coordinates[2]) {
-    coordinates[0] = texture.u;
-    coordinates[1] = 0.5f - 0.5f * cosf(AUR_PI_F * texture.v);
+static void equal_area(float coordinates[2]) {
+    coordinates[1] = 0.5f - 0.5f * cosf(AUR_PI_F * coordinates[1]);
 }
 
 static const aur_curved curved = {bounds, intersect, surface, sample, sample_seen, pdf_seen, equal_area};
@@ -104,7 +101,7 @@ static aur_result create(const aur_shape_input *input, aur_shape *shape, aur_err
     double scale, moved[3];
     aur_result result = aur_row_read(&shape->descriptor->row, input->parameters, &p, error);
     if (result == AUR_OK)
-        result = aur_shape_similarity(input, &input->to_world, &scale, error);
+        result = aur_shape_similarity(input, &scale, error);
     if (result != AUR_OK)
         return result;
     aur_transform_point(&input->to_world, p.center, moved);
@@ -114,8 +111,6 @@ static aur_result create(const aur_shape_input *input, aur_shape *shape, aur_err
         const aur_vector axis = {i == 0, i == 1, i == 2};
         shape->axis[i] = aur_vector_normalize(aur_transform_direction_f(&input->to_world, axis));
     }
-    shape->curved = &curved;
-    shape->flipped = input->flip_normals;
     shape->area = 4.0 * AUR_PI * (double)shape->radius * (double)shape->radius;
     return AUR_OK;
 }
@@ -124,4 +119,5 @@ const aur_shape_descriptor aur_shape_sphere = {.row = {.name = "sphere",
                                                        .summary = "a sphere of `center` and `radius`",
                                                        .source = "",
                                                        AUR_ROW_KEYS(keys)},
+                                               .curved = &curved,
                                                .create = create};

@@ -60,6 +60,8 @@ aur_result aur_shape_create(aur_parameters *parameters, const aur_xml_document *
     made->descriptor = (const aur_shape_descriptor *)row;
     made->location = parameters->location;
     made->emitter = AUR_NO_EMITTER;
+    made->curved = made->descriptor->curved;
+    made->flipped = keys.flip_normals;
     result = made->descriptor->create(&input, made, error);
     if (result == AUR_OK)
         result = aur_mesh_check(&made->mesh, parameters->location, error);
@@ -70,7 +72,9 @@ aur_result aur_shape_create(aur_parameters *parameters, const aur_xml_document *
         return result;
     }
     for (size_t i = 0; i < made->mesh.triangle_count; ++i) {
-        const double area = aur_mesh_triangle_area(&made->mesh, i);
+        aur_vector corner[3];
+        aur_mesh_corners(&made->mesh, i, corner);
+        const double area = aur_triangle_area(corner);
         const float squared = (float)(4.0 * area * area);
         made->area += area;
         made->extreme = made->extreme || (area > 0.0 && !aur_is_usual_square(squared));

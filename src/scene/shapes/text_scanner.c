@@ -26,12 +26,23 @@ bool aur_scan_line_done(aur_scanner *scanner) {
     return *scanner->at == '\n' || *scanner->at == '\0' || *scanner->at == '#';
 }
 
-size_t aur_scan_word(aur_scanner *scanner, const char **word) {
+aur_word aur_scan_word(aur_scanner *scanner) {
     aur_scan_blanks(scanner);
-    *word = scanner->at;
+    const char *const start = scanner->at;
     while (!aur_is_blank(*scanner->at) && *scanner->at != '\n' && *scanner->at != '\0')
         ++scanner->at;
-    return (size_t)(scanner->at - *word);
+    return (aur_word){(size_t)(scanner->at - start), start};
+}
+
+size_t aur_word_find(aur_word word, size_t count, const char *const *names) {
+    size_t i = 0;
+    while (i < count && (strlen(names[i]) != word.length || memcmp(names[i], word.text, word.length) != 0))
+        ++i;
+    return i;
+}
+
+bool aur_word_is(aur_word word, const char *name) {
+    return aur_word_find(word, 1, &name) == 0;
 }
 
 bool aur_scan_double(aur_scanner *scanner, double *value) {

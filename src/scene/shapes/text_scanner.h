@@ -12,6 +12,12 @@ typedef struct aur_scanner {
     size_t line;
 } aur_scanner;
 
+/* A piece of the text. */
+typedef struct aur_word {
+    size_t length;
+    const char *text;
+} aur_word;
+
 static inline bool aur_is_blank(char c) {
     return c == ' ' || c == '\t' || c == '\r';
 }
@@ -23,7 +29,10 @@ void aur_scan_next_line(aur_scanner *scanner);
 /* Whether nothing but a comment is left in the line. */
 bool aur_scan_line_done(aur_scanner *scanner);
 /* The next word of the line; its length is 0 at the end. */
-size_t aur_scan_word(aur_scanner *scanner, const char **word);
+aur_word aur_scan_word(aur_scanner *scanner);
+/* Which of `count` names the word is; `count` for none. */
+size_t aur_word_find(aur_word word, size_t count, const char *const *names);
+bool aur_word_is(aur_word word, const char *name);
 /* A number, the nearest double; false when there is none. inf and nan are numbers here: the caller refuses
  * them. */
 bool aur_scan_double(aur_scanner *scanner, double *value);
