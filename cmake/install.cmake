@@ -15,6 +15,19 @@ install(TARGETS aureole aureole-render EXPORT aureole-targets INCLUDES DESTINATI
 install(TARGETS aureole-program)
 install(DIRECTORY include/aureole DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
 
+# Completion, where the shells look for it.
+foreach(shell_file bash:bash-completion/completions/aureole zsh:zsh/site-functions/_aureole
+                   fish:fish/vendor_completions.d/aureole.fish)
+    string(REGEX MATCH "^([a-z]+):(.*)/(.*)$" matched "${shell_file}")
+    set(script "${PROJECT_BINARY_DIR}/completion/${CMAKE_MATCH_3}")
+    add_custom_command(OUTPUT "${script}" VERBATIM DEPENDS aureole-program
+        COMMAND "${CMAKE_COMMAND}" -E make_directory "${PROJECT_BINARY_DIR}/completion"
+        COMMAND aureole-program completion ${CMAKE_MATCH_1} > "${script}")
+    list(APPEND completion_scripts "${script}")
+    install(FILES "${script}" DESTINATION ${CMAKE_INSTALL_DATAROOTDIR}/${CMAKE_MATCH_2})
+endforeach()
+add_custom_target(completion-scripts ALL DEPENDS ${completion_scripts})
+
 # A static build would have to hand on its own dependencies, so only the shared one is a package.
 if(BUILD_SHARED_LIBS)
     set(package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/aureole)

@@ -16,6 +16,7 @@
     ROW(convert)                                                                                             \
     ROW(lab)                                                                                                 \
     ROW(info)                                                                                                \
+    ROW(completion)                                                                                          \
     ROW(help)
 
 #define DECLARE(name) extern const cli_verb cli_verb_##name;

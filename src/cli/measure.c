@@ -205,7 +205,8 @@ const cli_verb cli_verb_measure = {
         "input. "
         "Without --domain the points of sets are where the first measure wants them. Directions within 1e-6 "
         "of unit length are scaled to it; weights are divided by their sum.",
-    .operands = {{"FILE|SET", "points to measure", .optional = true, .repeated = true, .content = "set"}},
+    .operands = {{"FILE|SET", "points to measure", .optional = true, .repeated = true,
+                  .content = "file or set"}},
     .groups = {{options},
                {cli_points_options, offsetof(cli_measure_arguments, points.options)},
                {cli_dimension_option, offsetof(cli_measure_arguments, points.dimension)},

@@ -24,7 +24,8 @@ typedef struct cli_option {
     const char *(*name)(unsigned value);
     /* Reads what is none of the types of keys; the text outlives the verb. */
     aur_result (*parse)(const char *text, void *field, aur_error *error);
-    const char *content; /* for completion: "file", "folder" or a kind of `aureole help`; or NULL */
+    /* What is completed: "file", "folder", a kind of `aureole help`, or "file or KIND"; or NULL. */
+    const char *content;
 } cli_option;
 
 /* What stands on the command line without dashes. */
@@ -33,7 +34,8 @@ typedef struct cli_operand {
     const char *help;
     bool optional, repeated;             /* only the last operands may be either */
     const char *(*name)(unsigned value); /* as for options */
-    const char *content; /* as for options, or "row": a name of the kind that the operand before is */
+    /* As for options; "topic": verbs and kinds, "row": one of the kind that the operand before names. */
+    const char *content;
 } cli_operand;
 
 /* Options that stand together in a verb's struct; several verbs may share one. */

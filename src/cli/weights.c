@@ -207,7 +207,7 @@ const cli_verb cli_verb_weights = {
         "integral 1: equal ones are 1/N. They are worth most for random, irregular and partial sets. With "
         "--lookup a set and its options must be those that the table has been built from; they may be left "
         "out.",
-    .operands = {{"FILE|SET", "the samples", .optional = true, .content = "set"}},
+    .operands = {{"FILE|SET", "the samples", .optional = true, .content = "file or set"}},
     .groups = {{options},
                {cli_points_options, offsetof(cli_weights_arguments, points.options)},
                {cli_format_option, offsetof(cli_weights_arguments, format)},

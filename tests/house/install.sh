@@ -9,6 +9,9 @@ cmake --install "$build" --prefix "$PWD/prefix" >install.log || { cat install.lo
 mv prefix moved
 prefix=$PWD/moved
 version=$("$prefix/bin/aureole" --version)
+for script in bash-completion/completions/aureole zsh/site-functions/_aureole fish/vendor_completions.d/aureole.fish; do
+  grep -q "completion words" "$prefix/share/$script" || { echo "no completion in share/$script"; exit 1; }
+done
 
 mkdir consumer
 cat >consumer/consumer.c <<'C'
