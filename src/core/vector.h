@@ -20,6 +20,12 @@ static inline aur_vector aur_vector_subtract(aur_vector a, aur_vector b) {
     return (aur_vector){a.x - b.x, a.y - b.y, a.z - b.z};
 }
 
+static inline void aur_vector_to_doubles(aur_vector a, double d[3]) {
+    d[0] = (double)a.x;
+    d[1] = (double)a.y;
+    d[2] = (double)a.z;
+}
+
 static inline aur_vector aur_vector_scale(aur_vector a, float s) {
     return (aur_vector){a.x * s, a.y * s, a.z * s};
 }

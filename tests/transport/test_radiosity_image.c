@@ -4,7 +4,7 @@
 
 #include "core/random.h"
 #include "image/image.h"
-#include "transport/radiosity/picture_direct.h"
+#include "transport/radiosity/picture.h"
 
 #define WALL                                                                                                 \
     "<bsdf type='diffuse'><rgb name='reflectance' value='0.5'/></bsdf>"                                      \

@@ -230,7 +230,7 @@ static aur_result prepare_gather(const radiosity_parameters *p, const aur_integr
     if (result == AUR_OK)
         result = aur_scramble_from_name(p->pattern_scramble, &points.scramble, error);
     if (result == AUR_OK)
-        result = aur_radiosity_gather_create(image->solution, &rule, &image->gather, error);
+        result = aur_radiosity_image_prepare(&rule, image, error);
     return result;
 }
 
@@ -254,16 +254,12 @@ static aur_result create(aur_parameters *parameters, const aur_integrator_contex
     image->samples_per_pixel = context->samples_per_pixel;
     image->seed = context->seed;
     result = solve(&p, context, image, error);
-    if (result != AUR_OK)
-        return result;
-    image->light_count = image->solution->walk.light_count;
-    image->lights = image->solution->walk.lights;
-    return prepare_gather(&p, context, image, error);
+    return result == AUR_OK ? prepare_gather(&p, context, image, error) : result;
 }
 
 static void release(aur_integrator *integrator) {
     aur_radiosity_image *const image = integrator->data;
-    aur_radiosity_gather_release(&image->gather);
+    aur_radiosity_image_release(image);
     free(image);
 }
 

@@ -83,18 +83,16 @@ static bool coincide(const aur_radiosity_triangle *a, const aur_radiosity_triang
 static void make_items(search *s) {
     for (size_t i = 0; i < s->scene->triangle_count; ++i) {
         const aur_radiosity_triangle *const t = &s->scene->triangles[i];
-        aur_vector corner[3];
-        corners_of(t, corner);
-        const float x[3] = {corner[0].x, corner[1].x, corner[2].x},
-                    y[3] = {corner[0].y, corner[1].y, corner[2].y},
-                    z[3] = {corner[0].z, corner[1].z, corner[2].z};
-        const float *const coordinates[3] = {x, y, z};
-        s->items[i].triangle = (uint32_t)i;
-        for (size_t k = 0; k < 3; ++k) {
-            const float *const c = coordinates[k];
-            s->items[i].bounds.low[k] = fminf(c[0], fminf(c[1], c[2])) - slack_of(t);
-            s->items[i].bounds.high[k] = fmaxf(c[0], fmaxf(c[1], c[2])) + slack_of(t);
-        }
+        const float slack = slack_of(t);
+        aur_vector p[3];
+        corners_of(t, p);
+        s->items[i] = (item){.bounds = {{fminf(p[0].x, fminf(p[1].x, p[2].x)) - slack,
+                                         fminf(p[0].y, fminf(p[1].y, p[2].y)) - slack,
+                                         fminf(p[0].z, fminf(p[1].z, p[2].z)) - slack},
+                                        {fmaxf(p[0].x, fmaxf(p[1].x, p[2].x)) + slack,
+                                         fmaxf(p[0].y, fmaxf(p[1].y, p[2].y)) + slack,
+                                         fmaxf(p[0].z, fmaxf(p[1].z, p[2].z)) + slack}},
+                             .triangle = (uint32_t)i};
     }
 }
 
@@ -138,31 +136,19 @@ static void make_node(search *s, size_t index, size_t first, size_t count) {
     make_node(s, 2 * index + 2, first + (count - count / 2), count / 2);
 }
 
-/* Nodes of a tree whose first children have the greater half. */
-static size_t node_count(size_t items) {
-    size_t count = 1, level = 1;
-    for (; items > LEAF; items -= items / 2) {
-        level *= 2;
-        count += level;
-    }
-    return count;
-}
-
 /* --- the search */
 
 static void test_pair(search *s, const item *a, const item *b) {
-    const uint32_t low = a->triangle < b->triangle ? a->triangle : b->triangle;
-    const uint32_t high = a->triangle < b->triangle ? b->triangle : a->triangle;
+    const bool ordered = a->triangle < b->triangle;
+    const uint32_t low = ordered ? a->triangle : b->triangle, high = ordered ? b->triangle : a->triangle;
     if (!boxes_meet(s, &a->bounds, &b->bounds) ||
         !coincide(&s->scene->triangles[low], &s->scene->triangles[high]))
         return;
-    aur_radiosity_coincidence *const found = s->found;
-    const bool is_first = found->pairs++ == 0 || low < found->triangles[0] ||
-                          (low == found->triangles[0] && high < found->triangles[1]);
-    if (is_first) {
-        found->triangles[0] = low;
-        found->triangles[1] = high;
-    }
+    uint32_t *const first = s->found->triangles;
+    if (s->found->pairs++ > 0 && (low > first[0] || (low == first[0] && high > first[1])))
+        return;
+    first[0] = low;
+    first[1] = high;
 }
 
 static void test_leaves(search *s, const node *a, const node *b) {
@@ -171,24 +157,26 @@ static void test_leaves(search *s, const node *a, const node *b) {
             test_pair(s, &s->items[i], &s->items[j]);
 }
 
-/* All pairs of an item of node a and another of node b. */
+/* All pairs of an item of node a and another of node b: the greater node is split, or both where they are
+ * one.
+ */
 static void join(search *s, size_t a, size_t b) {
     const node *const left = &s->nodes[a], *const right = &s->nodes[b];
     if (s->found->pairs >= AUR_RADIOSITY_MOST_COINCIDENCES || !boxes_meet(s, &left->bounds, &right->bounds))
         return;
     if (left->count <= LEAF && right->count <= LEAF) {
         test_leaves(s, left, right);
-    } else if (a == b) {
-        join(s, 2 * a + 1, 2 * a + 1);
-        join(s, 2 * a + 1, 2 * a + 2);
-        join(s, 2 * a + 2, 2 * a + 2);
-    } else if (left->count >= right->count) {
-        join(s, 2 * a + 1, b);
-        join(s, 2 * a + 2, b);
-    } else {
+        return;
+    }
+    if (left->count < right->count) {
         join(s, a, 2 * b + 1);
         join(s, a, 2 * b + 2);
+        return;
     }
+    join(s, 2 * a + 1, a == b ? 2 * a + 1 : b);
+    if (a == b)
+        join(s, 2 * a + 1, 2 * a + 2);
+    join(s, 2 * a + 2, a == b ? 2 * a + 2 : b);
 }
 
 aur_result aur_radiosity_find_coincidences(const aur_radiosity_scene *scene, aur_radiosity_coincidence *found,
@@ -196,7 +184,8 @@ aur_result aur_radiosity_find_coincidences(const aur_radiosity_scene *scene, aur
     const size_t count = scene->triangle_count;
     search s = {.scene = scene,
                 .items = malloc(count * sizeof *s.items),
-                .nodes = malloc(node_count(count) * sizeof *s.nodes),
+                .nodes =
+                    malloc((count + 1) * sizeof *s.nodes), /* halves of more than LEAF items take fewer */
                 .found = found};
     *found = (aur_radiosity_coincidence){0};
     aur_result result = AUR_OK;

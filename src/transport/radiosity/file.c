@@ -11,11 +11,23 @@
 static const char magic[] = "aureole-radiosity 1\n";
 enum { MAGIC_LENGTH = sizeof magic - 1, HEAD_NUMBERS = 11, TALLY_NUMBERS = 8, NAME_LIMIT = 4096 };
 
+/* Calls `visit` with each number of a tally, in the order that files have. */
+static void each_number(aur_radiosity_tally *tally, void (*visit)(void *file, uint64_t *number), void *file) {
+    uint64_t *const counts[] = {&tally->rays,     &tally->lost,      &tally->behind,   &tally->trapped,
+                                &tally->last.low, &tally->last.high, &tally->rest.low, &tally->rest.high};
+    for (size_t i = 0; i < TALLY_NUMBERS; ++i)
+        visit(file, counts[i]);
+    for (size_t i = 0; i < tally->patch_count; ++i)
+        for (size_t c = 0; c < 3; ++c) {
+            visit(file, &tally->power[i][c].low);
+            visit(file, &tally->power[i][c].high);
+        }
+}
+
 /* --- writing */
 
-static void put_sum(aur_word_writer *out, const aur_exact_sum *sum) {
-    aur_word_put(out, sum->low);
-    aur_word_put(out, sum->high);
+static void put_number(void *file, uint64_t *number) {
+    aur_word_put(file, *number);
 }
 
 /* The name's characters, one a number: it is short. */
@@ -47,32 +59,20 @@ aur_result aur_radiosity_save(const aur_radiosity *radiosity, const char *path, 
     for (size_t i = 0; i < HEAD_NUMBERS; ++i)
         aur_word_put(&out, head[i]);
     put_name(&out, radiosity->sequence);
-    for (size_t r = 0; r < o->randomizations; ++r) {
-        const aur_radiosity_tally *const tally = &radiosity->tallies[r];
-        aur_word_put(&out, tally->rays);
-        aur_word_put(&out, tally->lost);
-        aur_word_put(&out, tally->behind);
-        aur_word_put(&out, tally->trapped);
-        put_sum(&out, &tally->last);
-        put_sum(&out, &tally->rest);
-        for (size_t i = 0; i < tally->patch_count; ++i)
-            for (size_t c = 0; c < 3; ++c)
-                put_sum(&out, &tally->power[i][c]);
-    }
+    for (size_t r = 0; r < o->randomizations; ++r)
+        each_number(&radiosity->tallies[r], put_number, &out);
     aur_word_put(&out, out.hash);
     return aur_file_commit(&file, error);
 }
 
 /* --- reading */
 
-static void get_sum(aur_word_reader *in, aur_exact_sum *sum) {
-    sum->low = aur_word_get(in);
-    sum->high = aur_word_get(in);
+static void get_number(void *file, uint64_t *number) {
+    *number = aur_word_get(file);
 }
 
 typedef struct file_head {
-    uint64_t hash, patches, paths;
-    double change;
+    uint64_t numbers[HEAD_NUMBERS]; /* hash of the scene, patches, paths, change, then options */
     aur_radiosity_options options;
     char name[NAME_LIMIT + 1];
 } file_head;
@@ -84,21 +84,15 @@ static aur_result damaged(const char *path, const char *what, aur_error *error) 
 
 /* What does not fit its type is refused here; the options' own limits are checked when they are used. */
 static aur_result read_head(aur_word_reader *in, const char *path, file_head *head, aur_error *error) {
-    uint64_t n[HEAD_NUMBERS];
+    uint64_t *const n = head->numbers;
     for (size_t i = 0; i < HEAD_NUMBERS; ++i)
         n[i] = aur_word_get(in);
     const uint64_t length = aur_word_get(in);
-    if (in->failed || length > NAME_LIMIT)
-        return damaged(path, "its head is cut or damaged", error);
-    for (size_t i = 0; i < length; ++i)
+    for (size_t i = 0; i < length && length <= NAME_LIMIT; ++i)
         head->name[i] = (char)aur_word_get(in);
-    head->name[length] = '\0';
-    if (in->failed || strlen(head->name) != length)
+    if (in->failed || length > NAME_LIMIT || memchr(head->name, '\0', length) != NULL)
         return damaged(path, "its head is cut or damaged", error);
-    head->hash = n[0];
-    head->patches = n[1];
-    head->paths = n[2];
-    memcpy(&head->change, &n[3], sizeof head->change);
+    head->name[length] = '\0';
     if (n[4] > AUR_SCRAMBLE_ROTATE3D || n[6] > AUR_RADIOSITY_UNIFORM_ANGLE || n[7] > AUR_RADIOSITY_BY_AREA)
         return damaged(path, "its head has choices that do not exist", error);
     head->options = (aur_radiosity_options){.size = sizeof head->options,
@@ -113,24 +107,12 @@ static aur_result read_head(aur_word_reader *in, const char *path, file_head *he
     return AUR_OK;
 }
 
-static void read_tally(aur_word_reader *in, aur_radiosity_tally *tally) {
-    tally->rays = aur_word_get(in);
-    tally->lost = aur_word_get(in);
-    tally->behind = aur_word_get(in);
-    tally->trapped = aur_word_get(in);
-    get_sum(in, &tally->last);
-    get_sum(in, &tally->rest);
-    for (size_t i = 0; i < tally->patch_count; ++i)
-        for (size_t c = 0; c < 3; ++c)
-            get_sum(in, &tally->power[i][c]);
-}
-
 /* Whether what is left of the file holds so many sums, before memory is asked for. */
 static bool has_room(const aur_word_reader *in, const file_head *head) {
-    const uint64_t left = aur_words_left(in);
-    return (in->end - in->at) % 8 == 0 && head->options.randomizations > 0 &&
-           head->options.randomizations <= left && (head->patches <= left / 6) &&
-           left == head->options.randomizations * (TALLY_NUMBERS + 6 * head->patches) + 1;
+    const uint64_t left = aur_words_left(in), count = head->options.randomizations,
+                   patches = head->numbers[1];
+    return (in->end - in->at) % 8 == 0 && count > 0 && count <= left && patches <= left / 6 &&
+           left == count * (TALLY_NUMBERS + 6 * patches) + 1;
 }
 
 static aur_result read_solution(aur_word_reader *in, const aur_scene *scene, const char *path,
@@ -149,13 +131,13 @@ static aur_result read_solution(aur_word_reader *in, const aur_scene *scene, con
     if (result != AUR_OK)
         return result;
     aur_radiosity *const made = *radiosity;
-    if (made->scene.hash != head.hash || made->scene.patch_count != head.patches)
+    if (made->scene.hash != head.numbers[0] || made->scene.patch_count != head.numbers[1])
         return aur_fail_at(error, (aur_location){.file = path}, AUR_ERROR_FORMAT,
                            "the solution was made for another scene: triangles, materials or lights differ");
-    made->paths = head.paths;
-    made->change = head.change;
+    made->paths = head.numbers[2];
+    memcpy(&made->change, &head.numbers[3], sizeof made->change);
     for (size_t r = 0; r < made->options.randomizations; ++r)
-        read_tally(in, &made->tallies[r]);
+        each_number(&made->tallies[r], get_number, in);
     if (!aur_word_check(in))
         return damaged(path, "its numbers are damaged", error);
     return AUR_OK;

@@ -62,46 +62,16 @@ static float camera_ray(const workspace *work, size_t x, size_t y, uint32_t inde
 
 /* --- light at a hit point */
 
-/* Finds the surface that a ray of the eye meets, by way of mirrors. False when it leaves the scene or ends
- * between mirrors. */
-static bool find_place(const workspace *work, aur_ray ray, uint64_t hash, aur_radiosity_place *place,
-                       aur_vector *throughput) {
-    const aur_radiosity_scene *const scene = work->image->gather.scene;
-    aur_hit hit;
-    *throughput = (aur_vector){1.0f, 1.0f, 1.0f};
-    ++work->counters->rays;
-    if (!aur_scene_intersect(scene->scene, &ray, &hit))
-        return false;
-    uint32_t index = aur_radiosity_triangle_at(scene, &hit);
-    if ((scene->triangles[index].flags & AUR_RADIOSITY_MIRROR) != 0) {
-        if (aur_radiosity_reflect(scene, false, hash, &ray, &hit, throughput, &work->counters->rays) !=
-            AUR_RADIOSITY_MET)
-            return false;
-        index = aur_radiosity_triangle_at(scene, &hit);
-    }
-    const aur_radiosity_triangle *const met = &scene->triangles[index];
-    const bool front = aur_vector_dot(ray.direction, met->frame.z) < 0.0f;
-    *place = (aur_radiosity_place){.position = aur_radiosity_point(met, hit.u, hit.v),
-                                   .normal = aur_vector_scale(met->frame.z, front ? 1.0f : -1.0f),
-                                   .triangle = index,
-                                   .front = front};
-    if (front || met->back != AUR_NO_PATCH)
-        place->albedo = aur_radiosity_albedo(scene, index, front, &ray, &hit);
-    if (front && (met->flags & AUR_RADIOSITY_GLOWS) != 0)
-        place->emission = aur_radiosity_emitted(scene, index, hit.u, hit.v);
-    return true;
-}
-
 static aur_vector light_sample(const workspace *work, const aur_radiosity_place *place, uint64_t pixel,
                                size_t light, uint32_t index) {
-    const uint32_t triangle = work->image->lights[light];
+    const uint32_t triangle = work->image->solution->walk.lights[light];
     if (triangle == place->triangle)
         return (aur_vector){0};
     /* The R2 sequence, shifted for each pixel and light. */
     const uint64_t shift = aur_hash3(pixel, 0x6c69676874, light);
     const float u = aur_unit_float((uint32_t)shift + (index + 1) * 3242174889u);
     const float v = aur_unit_float((uint32_t)(shift >> 32) + (index + 1) * 2447445414u);
-    return aur_radiosity_direct(work->image->gather.scene, place, triangle, u, v, &work->counters->rays);
+    return aur_radiosity_direct(&work->image->solution->scene, place, triangle, u, v, &work->counters->rays);
 }
 
 /* Light number p of the pixel's order is taken by hit point p mod `points` alone, `points` times: over the
@@ -110,7 +80,8 @@ static aur_vector direct_light(const workspace *work, const aur_radiosity_place 
                                uint32_t index, uint32_t points) {
     const bool permuted = work->image->permuted;
     aur_vector sum = {0};
-    for (size_t p = permuted ? index % points : 0; p < work->image->light_count; p += permuted ? points : 1)
+    for (size_t p = permuted ? index % points : 0; p < work->image->solution->walk.light_count;
+         p += permuted ? points : 1)
         sum = aur_vector_add(sum, light_sample(work, place, pixel, permuted ? work->order[p] : p, index));
     return permuted ? aur_vector_scale(sum, (float)points) : sum;
 }
@@ -122,13 +93,18 @@ static bool wants(const workspace *work, aur_radiosity_component component) {
 /* Hit point `index`, one of `points` that share out the lights. */
 static hit_point make_point(const workspace *work, size_t x, size_t y, uint32_t index, uint32_t points) {
     const uint64_t pixel = pixel_hash(work, x, y), hash = aur_hash2(pixel, index);
+    const aur_radiosity_scene *const scene = &work->image->solution->scene;
+    uint64_t *const rays = &work->counters->rays;
     aur_ray ray;
     hit_point made = {.triangle = AUR_NO_PATCH, .weight = camera_ray(work, x, y, index, &ray)};
+    aur_hit hit;
     aur_radiosity_place place;
     aur_vector path;
-    if (!find_place(work, ray, hash, &place, &path))
+    ++*rays;
+    if (!aur_scene_intersect(scene->scene, &ray, &hit) ||
+        !aur_radiosity_see(scene, hash, ray, hit, &place, &path, rays))
         return made;
-    made.triangle = place.triangle << 1 | place.front;
+    made.triangle = place.triangle << 1 | (place.patch == place.triangle);
     made.throughput = aur_vector_multiply(path, place.albedo);
     if (wants(work, AUR_RADIOSITY_EMISSION))
         made.rest = aur_vector_multiply(path, place.emission);
@@ -138,8 +114,7 @@ static hit_point make_point(const workspace *work, size_t x, size_t y, uint32_t 
         made.rest = aur_vector_add(
             made.rest, aur_vector_multiply(path, direct_light(work, &place, pixel, index, points)));
     if (wants(work, AUR_RADIOSITY_INDIRECT))
-        made.irradiance =
-            aur_radiosity_gather_at(&work->image->gather, &place, aur_mix64(hash + 1), &work->counters->rays);
+        made.irradiance = aur_radiosity_gather(work->image, &place, aur_mix64(hash + 1), rays);
     return made;
 }
 
@@ -172,98 +147,86 @@ static void make_pixel(const workspace *work, size_t x, size_t y, uint32_t first
             return;
         if (work->image->permuted && i / points != round) {
             round = i / points;
-            for (uint32_t k = 0; k < work->image->light_count; ++k)
+            for (uint32_t k = 0; k < work->image->solution->walk.light_count; ++k)
                 work->order[k] = k;
-            aur_shuffle(work->image->light_count, work->order, aur_hash2(pixel_hash(work, x, y), round));
+            aur_shuffle(work->image->solution->walk.light_count, work->order,
+                        aur_hash2(pixel_hash(work, x, y), round));
         }
         made->points[made->count++] = make_point(work, x, y, i, points);
     }
 }
 
-/* The irradiance of all hit points on one triangle in the pixel and its neighbours. */
-static aur_vector pooled(size_t neighbour_count, const pixel_points *const *neighbours, uint32_t triangle) {
+/* The pixels that are made: those of the tile, and one more around them within the picture when pixels share.
+ */
+typedef struct area {
+    size_t x0, y0, columns, rows;
+    pixel_points *pixels;
+} area;
+
+static area area_of(const aur_tile *tile, bool shared) {
+    const size_t rim = shared ? 1 : 0;
+    const size_t x0 = tile->x0 > 0 ? tile->x0 - rim : 0, y0 = tile->y0 > 0 ? tile->y0 - rim : 0;
+    const size_t x1 = tile->x1 < tile->view->width ? tile->x1 + rim : tile->x1;
+    const size_t y1 = tile->y1 < tile->view->height ? tile->y1 + rim : tile->y1;
+    return (area){x0, y0, x1 - x0, y1 - y0, NULL};
+}
+
+/* The mean irradiance of all hit points on one triangle in a pixel and those around it. */
+static aur_vector pooled(const area *a, size_t column, size_t row, uint32_t triangle) {
     aur_vector sum = {0};
     size_t count = 0;
-    for (size_t n = 0; n < neighbour_count; ++n)
-        for (size_t i = 0; i < neighbours[n]->count; ++i)
-            if (neighbours[n]->points[i].triangle == triangle) {
-                sum = aur_vector_add(sum, neighbours[n]->points[i].irradiance);
-                ++count;
-            }
+    for (size_t r = row > 0 ? row - 1 : 0; r < a->rows && r <= row + 1; ++r)
+        for (size_t c = column > 0 ? column - 1 : 0; c < a->columns && c <= column + 1; ++c) {
+            const pixel_points *const pixel = &a->pixels[r * a->columns + c];
+            for (size_t i = 0; i < pixel->count; ++i)
+                if (pixel->points[i].triangle == triangle) {
+                    sum = aur_vector_add(sum, pixel->points[i].irradiance);
+                    ++count;
+                }
+        }
     return aur_vector_scale(sum, 1.0f / (float)count);
 }
 
-/* A pixel that shares with the eight around it. */
-static void add_shared(aur_tile *tile, size_t x, size_t y, const pixel_points *self, size_t neighbour_count,
-                       const pixel_points *const *neighbours) {
+static void add_pixel(aur_tile *tile, size_t x, size_t y, const area *a, bool shared) {
+    const size_t column = x - a->x0, row = y - a->y0;
+    const pixel_points *const pixel = &a->pixels[row * a->columns + column];
     uint32_t last = AUR_NO_PATCH;
     aur_vector irradiance = {0};
-    for (size_t i = 0; i < self->count; ++i) {
-        const hit_point *const point = &self->points[i];
-        if (point->triangle != AUR_NO_PATCH && point->triangle != last) {
-            irradiance = pooled(neighbour_count, neighbours, point->triangle);
-            last = point->triangle;
-        }
+    for (size_t i = 0; i < pixel->count; ++i) {
+        const hit_point *const point = &pixel->points[i];
+        if (!shared)
+            irradiance = point->irradiance;
+        else if (point->triangle != AUR_NO_PATCH && point->triangle != last)
+            irradiance = pooled(a, column, row, last = point->triangle);
         aur_tile_add(tile, x, y, point->weight, radiance_of(point, irradiance));
     }
 }
 
-/* The part of the picture whose pixels are made: the tile, and one more pixel around it for sharing. */
-typedef struct area {
-    size_t x0, y0, columns, rows;
-} area;
-
-static area area_of(const aur_tile *tile, bool shared) {
-    if (!shared)
-        return (area){tile->x0, tile->y0, tile->x1 - tile->x0, tile->y1 - tile->y0};
-    const size_t x0 = tile->x0 > 0 ? tile->x0 - 1 : 0, y0 = tile->y0 > 0 ? tile->y0 - 1 : 0;
-    const size_t x1 = tile->x1 < tile->view->width ? tile->x1 + 1 : tile->x1;
-    const size_t y1 = tile->y1 < tile->view->height ? tile->y1 + 1 : tile->y1;
-    return (area){x0, y0, x1 - x0, y1 - y0};
-}
-
-static void add_all(aur_tile *tile, const area *a, const pixel_points *pixels, bool shared) {
-    for (size_t y = tile->y0; y < tile->y1; ++y)
-        for (size_t x = tile->x0; x < tile->x1; ++x) {
-            const size_t column = x - a->x0, row = y - a->y0;
-            const pixel_points *const self = &pixels[row * a->columns + column];
-            if (!shared) {
-                for (size_t i = 0; i < self->count; ++i)
-                    aur_tile_add(tile, x, y, self->points[i].weight,
-                                 radiance_of(&self->points[i], self->points[i].irradiance));
-                continue;
-            }
-            const pixel_points *neighbours[9];
-            size_t count = 0;
-            for (size_t r = row > 0 ? row - 1 : 0; r < a->rows && r <= row + 1; ++r)
-                for (size_t c = column > 0 ? column - 1 : 0; c < a->columns && c <= column + 1; ++c)
-                    neighbours[count++] = &pixels[r * a->columns + c];
-            add_shared(tile, x, y, self, count, neighbours);
-        }
-}
-
 aur_result aur_radiosity_tile(const aur_integrator *integrator, aur_tile *tile) {
     const aur_radiosity_image *const image = integrator->data;
-    const area a = area_of(tile, image->share_neighbours);
+    const bool shared = image->share_neighbours;
+    area a = area_of(tile, shared);
     const size_t pixel_count = a.columns * a.rows;
-    pixel_points *const pixels = malloc(pixel_count * sizeof *pixels);
+    a.pixels = malloc(pixel_count * sizeof *a.pixels);
     hit_point *const points = malloc(pixel_count * tile->count * sizeof *points + 1);
-    uint32_t *const order = malloc((image->light_count + 1) * sizeof *order);
+    uint32_t *const order = malloc((image->solution->walk.light_count + 1) * sizeof *order);
     double(*const halton)[HALTON_DIMENSIONS] = malloc(tile->count * sizeof *halton + 1);
-    const bool good = pixels != NULL && points != NULL && order != NULL && halton != NULL;
+    const bool good = a.pixels != NULL && points != NULL && order != NULL && halton != NULL;
     if (good) {
         const workspace work = {image, tile->view, &tile->counters, order, tile->first, halton};
         const aur_output output = {.capacity = HALTON_DIMENSIONS * (size_t)tile->count, .doubles = halton[0]};
         aur_halton_points(HALTON_DIMENSIONS, NULL, tile->first, tile->count, &output,
                           NULL); /* it cannot fail */
         for (size_t i = 0; i < pixel_count; ++i) {
-            pixels[i].points = points + i * tile->count;
+            a.pixels[i].points = points + i * tile->count;
             make_pixel(&work, a.x0 + i % a.columns, a.y0 + i / a.columns, tile->first, tile->count,
-                       &pixels[i]);
+                       &a.pixels[i]);
         }
-        add_all(tile, &a, pixels, image->share_neighbours);
+        for (size_t y = tile->y0; y < tile->y1; ++y)
+            for (size_t x = tile->x0; x < tile->x1; ++x)
+                add_pixel(tile, x, y, &a, shared);
     }
-    free(pixels);
+    free(a.pixels);
     free(points);
     free(order);
     free(halton);

@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "core/random.h"
+#include "core/vector3d.h"
 #include "transport/lights/shading.h"
 
 enum { LINE = 64, MEAN_POINTS = 1024 };
@@ -44,45 +45,35 @@ static aur_bsdf_point texture_at(const aur_triangle *triangle, float u, float v)
 }
 
 /* Point i of the R2 sequence, which shares no period with a texture, folded onto the triangle. */
-static void mean_point(size_t i, float *u, float *v) {
-    *u = aur_unit_float((uint32_t)(i + 1) * 3242174889u);
-    *v = aur_unit_float((uint32_t)(i + 1) * 2447445414u);
-    if (*u + *v > 1.0f) {
-        *u = 1.0f - *u;
-        *v = 1.0f - *v;
-    }
+static aur_bsdf_point mean_point(const aur_triangle *triangle, size_t i) {
+    const float u = aur_unit_float((uint32_t)(i + 1) * 3242174889u);
+    const float v = aur_unit_float((uint32_t)(i + 1) * 2447445414u);
+    return u + v > 1.0f ? texture_at(triangle, 1.0f - u, 1.0f - v) : texture_at(triangle, u, v);
 }
 
-static aur_vector mean_albedo(const aur_bsdf *bsdf, const aur_triangle *triangle, float side) {
-    if (!bsdf->textured)
-        return aur_bsdf_diffuse_albedo(bsdf, texture_at(triangle, 0.3f, 0.3f), side);
+/* The mean over a triangle of its albedo on a side, 1 or -1, or of what it emits where `side` is 0. */
+static aur_vector mean_over(const aur_scene *scene, size_t shape, const aur_triangle *triangle, float side) {
+    const aur_bsdf *const bsdf = aur_scene_shape_bsdf(scene, shape);
+    const bool emitted = side == 0.0f;
+    const bool varies = emitted ? aur_scene_shape_emission_varies(scene, shape) : bsdf->textured;
+    const size_t count = varies ? MEAN_POINTS : 1;
     aur_vector sum = {0};
-    for (size_t i = 0; i < MEAN_POINTS; ++i) {
-        float u, v;
-        mean_point(i, &u, &v);
-        sum = aur_vector_add(sum, aur_bsdf_diffuse_albedo(bsdf, texture_at(triangle, u, v), side));
+    for (size_t i = 0; i < count; ++i) {
+        const aur_bsdf_point at = mean_point(triangle, i);
+        sum = aur_vector_add(sum, emitted ? aur_scene_shape_emission(scene, shape, at)
+                                          : aur_bsdf_diffuse_albedo(bsdf, at, side));
     }
-    return aur_vector_scale(sum, 1.0f / MEAN_POINTS);
-}
-
-static aur_vector mean_emission(const aur_scene *scene, size_t shape, const aur_triangle *triangle) {
-    if (!aur_scene_shape_emission_varies(scene, shape))
-        return aur_scene_shape_emission(scene, shape, triangle->texture[0]);
-    aur_vector sum = {0};
-    for (size_t i = 0; i < MEAN_POINTS; ++i) {
-        float u, v;
-        mean_point(i, &u, &v);
-        sum = aur_vector_add(sum, aur_scene_shape_emission(scene, shape, texture_at(triangle, u, v)));
-    }
-    return aur_vector_scale(sum, 1.0f / MEAN_POINTS);
+    return aur_vector_scale(sum, 1.0f / (float)count);
 }
 
 /* --- triangles */
 
 static double area_of(const aur_vector edge[2]) {
-    const double a[3] = {edge[0].x, edge[0].y, edge[0].z}, b[3] = {edge[1].x, edge[1].y, edge[1].z};
-    const double x = a[1] * b[2] - a[2] * b[1], y = a[2] * b[0] - a[0] * b[2], z = a[0] * b[1] - a[1] * b[0];
-    return 0.5 * sqrt(x * x + y * y + z * z);
+    double a[3], b[3], normal[3];
+    aur_vector_to_doubles(edge[0], a);
+    aur_vector_to_doubles(edge[1], b);
+    aur_cross3(a, b, normal);
+    return 0.5 * aur_length3(normal);
 }
 
 static aur_frame frame_of(const aur_vector edge[2], uint64_t variant, size_t index) {
@@ -106,17 +97,11 @@ static float offset_of(const aur_triangle *triangle) {
     return 1.5e-6f * size + 1e-9f;
 }
 
-static uint64_t hash_floats(uint64_t hash, size_t count, const float *values) {
-    for (size_t i = 0; i < count; ++i) {
-        uint32_t bits;
-        memcpy(&bits, &values[i], sizeof bits);
-        hash = aur_hash2(hash, bits);
-    }
-    return hash;
-}
-
 static uint64_t hash_vector(uint64_t hash, aur_vector v) {
-    return hash_floats(hash, 3, (const float[3]){v.x, v.y, v.z});
+    const float values[3] = {v.x, v.y, v.z};
+    uint32_t bits[3];
+    memcpy(bits, values, sizeof bits);
+    return aur_hash2(aur_hash2(aur_hash2(hash, bits[0]), bits[1]), bits[2]);
 }
 
 static aur_result add_shape(const aur_scene *scene, size_t shape, uint64_t variant, aur_radiosity_scene *made,
@@ -137,25 +122,22 @@ static aur_result add_shape(const aur_scene *scene, size_t shape, uint64_t varia
                                       .shape = (uint32_t)shape};
         t->frame = frame_of(t->edge, variant, *next);
         t->flags = (mirror ? AUR_RADIOSITY_MIRROR : 0u) | (bsdf->textured ? AUR_RADIOSITY_TEXTURED : 0u);
-        t->albedo[0] = mean_albedo(bsdf, &corners, 1.0f);
+        t->albedo[0] = mean_over(scene, shape, &corners, 1.0f);
         if (bsdf->scatters_from_behind && !mirror)
-            t->albedo[1] = mean_albedo(bsdf, &corners, -1.0f);
+            t->albedo[1] = mean_over(scene, shape, &corners, -1.0f);
         if (!aur_vector_is_zero(t->albedo[1])) {
             made->behind[made->patch_count - made->triangle_count] = (uint32_t)*next;
             t->back = (uint32_t)made->patch_count++;
         }
         made->areas[*next] = area_of(t->edge);
         made->area += made->areas[*next];
-        const aur_vector emission = mean_emission(scene, shape, &corners);
+        const aur_vector emission = mean_over(scene, shape, &corners, 0.0f);
         made->emission[*next] = emission;
-        if (!isfinite(made->areas[*next]))
+        if (!isfinite(made->areas[*next]) || !aur_vector_is_finite(emission))
             return aur_fail_at(error, aur_scene_shape_location(scene, shape), AUR_ERROR_FORMAT,
-                               "radiosity: triangle %zu of this shape is too large: its area is not finite",
-                               i);
-        if (!aur_vector_is_finite(emission))
-            return aur_fail_at(error, aur_scene_shape_location(scene, shape), AUR_ERROR_FORMAT,
-                               "radiosity: triangle %zu of this shape emits a radiance that is not finite",
-                               i);
+                               "radiosity: triangle %zu of this shape %s", i,
+                               !isfinite(made->areas[*next]) ? "is too large: its area is not finite"
+                                                             : "emits a radiance that is not finite");
         if (!aur_vector_is_zero(emission)) {
             t->flags |= AUR_RADIOSITY_GLOWS;
             if (aur_scene_shape_emission_varies(scene, shape))

@@ -52,16 +52,16 @@ static aur_result make(aur_radiosity *made, const aur_scene *scene, aur_error *e
     const aur_radiosity_options *const options = &made->options;
     made->change = NAN;
     made->sequence = strdup(options->sequence != NULL ? options->sequence : "sobol");
-    made->tallies = calloc(options->randomizations, sizeof *made->tallies);
-    if (made->sequence == NULL || made->tallies == NULL)
+    if (made->sequence == NULL)
         return aur_fail_memory(error);
     made->options.sequence = made->sequence;
     aur_result result =
         aur_radiosity_scene_create(scene, options->variant, &options->warnings, &made->scene, error);
     if (result == AUR_OK)
         result = aur_radiosity_walk_create(&made->scene, options, &made->walk, error);
-    for (size_t r = 0; r < options->randomizations && result == AUR_OK; ++r)
-        result = aur_radiosity_tally_create(made->scene.patch_count, &made->tallies[r], error);
+    if (result == AUR_OK)
+        result = aur_radiosity_tallies_create(options->randomizations, made->scene.patch_count,
+                                              &made->tallies, error);
     return result == AUR_OK ? look_for_coincidences(made, error) : result;
 }
 
@@ -89,9 +89,8 @@ aur_result aur_radiosity_create(const aur_scene *scene, const aur_radiosity_opti
 }
 
 static void release_lanes(aur_radiosity *radiosity) {
-    for (size_t i = 0; i < radiosity->lane_count * radiosity->options.randomizations; ++i)
-        aur_radiosity_tally_release(&radiosity->lanes[i]);
-    free(radiosity->lanes);
+    aur_radiosity_tallies_release(radiosity->lane_count * radiosity->options.randomizations,
+                                  radiosity->lanes);
     radiosity->lanes = NULL;
     radiosity->lane_count = 0;
 }
@@ -100,9 +99,7 @@ void aur_radiosity_destroy(aur_radiosity *radiosity) {
     if (radiosity == NULL)
         return;
     release_lanes(radiosity);
-    for (size_t r = 0; radiosity->tallies != NULL && r < radiosity->options.randomizations; ++r)
-        aur_radiosity_tally_release(&radiosity->tallies[r]);
-    free(radiosity->tallies);
+    aur_radiosity_tallies_release(radiosity->options.randomizations, radiosity->tallies);
     aur_radiosity_walk_release(&radiosity->walk);
     aur_radiosity_scene_release(&radiosity->scene);
     free(radiosity->sequence);
@@ -166,13 +163,12 @@ static aur_result make_points(const aur_radiosity *radiosity, uint64_t paths, po
         return aur_fail_memory(error);
     const uint64_t most = aur_radiosity_share(radiosity, 0, paths);
     aur_result result = make_set(radiosity, 0, most, &points->sets[0], error);
-    if (result == AUR_OK && begins_with_zero(points->sets[0])) {
-        points->skipped = 1;
+    points->skipped = result == AUR_OK && begins_with_zero(points->sets[0]);
+    if (points->skipped > 0) {
         aur_pointset_destroy(points->sets[0]);
         points->sets[0] = NULL;
-        result = make_set(radiosity, 0, most + 1, &points->sets[0], error);
     }
-    for (size_t r = 1; r < points->count && result == AUR_OK; ++r)
+    for (size_t r = points->skipped > 0 ? 0 : 1; r < points->count && result == AUR_OK; ++r)
         result = make_set(radiosity, r, most + points->skipped, &points->sets[r], error);
     if (result == AUR_OK && radiosity->paths > 0 && !aur_set_find(radiosity->sequence)->extensible)
         result =
@@ -220,19 +216,12 @@ static aur_result run_lane(void *context, size_t lane) {
 
 static aur_result prepare_lanes(aur_radiosity *radiosity, aur_error *error) {
     const size_t lanes = aur_parallel_threads(radiosity->options.threads);
-    const size_t count = radiosity->options.randomizations;
     if (radiosity->lane_count == lanes)
         return AUR_OK;
     release_lanes(radiosity);
-    radiosity->lanes = calloc(lanes, count * sizeof *radiosity->lanes);
-    if (radiosity->lanes == NULL)
-        return aur_fail_memory(error);
-    radiosity->lane_count = lanes;
-    aur_result result = AUR_OK;
-    for (size_t i = 0; i < lanes * count && result == AUR_OK; ++i)
-        result = aur_radiosity_tally_create(radiosity->scene.patch_count, &radiosity->lanes[i], error);
-    if (result != AUR_OK)
-        release_lanes(radiosity);
+    const aur_result result = aur_radiosity_tallies_create(
+        lanes * radiosity->options.randomizations, radiosity->scene.patch_count, &radiosity->lanes, error);
+    radiosity->lane_count = result == AUR_OK ? lanes : 0;
     return result;
 }
 
@@ -264,15 +253,14 @@ static aur_result trace_batch(aur_radiosity *radiosity, const point_source *poin
 }
 
 static void warn_of_ends(aur_radiosity *radiosity) {
+    if (radiosity->warned)
+        return;
     aur_radiosity_description d;
     aur_radiosity_summarize(radiosity, &d);
     const aur_warnings *const warnings = &radiosity->options.warnings;
-    if (radiosity->warned)
-        return;
     uint64_t cut = 0;
     for (size_t r = 0; r < radiosity->options.randomizations; ++r)
         cut += radiosity->tallies[r].cut;
-    radiosity->warned = d.lost > 0 || d.behind > 0 || d.trapped > 0 || cut > 0;
     if (cut > 0)
         aur_warn_at(
             warnings, (aur_location){0},
@@ -280,21 +268,19 @@ static void warn_of_ends(aur_radiosity *radiosity) {
             " times a path had more than 2^20 times the power that the brightest light gives it: what "
             "is beyond that is cut off",
             cut);
-    const double percent = 100.0 / (double)d.paths;
-    if (d.lost > 0)
-        aur_warn_at(warnings, (aur_location){0},
-                    "radiosity: %" PRIu64 " of %" PRIu64 " paths (%.3g %%) left the scene: it is open%s",
-                    d.lost, d.paths, percent * (double)d.lost,
-                    d.coincident > 0 ? ", or surfaces lie on each other" : "");
-    if (d.behind > 0)
-        aur_warn_at(warnings, (aur_location){0},
-                    "radiosity: %" PRIu64 " of %" PRIu64
-                    " paths (%.3g %%) ended on the back of a one-sided surface",
-                    d.behind, d.paths, percent * (double)d.behind);
-    if (d.trapped > 0)
-        aur_warn_at(warnings, (aur_location){0},
-                    "radiosity: %" PRIu64 " of %" PRIu64 " paths (%.3g %%) ended between mirrors", d.trapped,
-                    d.paths, percent * (double)d.trapped);
+    const struct {
+        uint64_t count;
+        const char *what;
+    } ends[] = {{d.lost, d.coincident > 0 ? "left the scene: it is open, or surfaces lie on each other"
+                                          : "left the scene: it is open"},
+                {d.behind, "ended on the back of a one-sided surface"},
+                {d.trapped, "ended between mirrors"}};
+    for (size_t i = 0; i < sizeof ends / sizeof ends[0]; ++i)
+        if (ends[i].count > 0)
+            aur_warn_at(warnings, (aur_location){0},
+                        "radiosity: %" PRIu64 " of %" PRIu64 " paths (%.3g %%) %s", ends[i].count, d.paths,
+                        100.0 / (double)d.paths * (double)ends[i].count, ends[i].what);
+    radiosity->warned = d.lost > 0 || d.behind > 0 || d.trapped > 0 || cut > 0;
 }
 
 aur_result aur_radiosity_trace(aur_radiosity *radiosity, uint64_t paths, aur_error *error) {

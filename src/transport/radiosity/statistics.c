@@ -3,6 +3,7 @@
 #include <string.h>
 
 #include "core/options.h"
+#include "core/vector3d.h"
 
 void aur_radiosity_power(const aur_radiosity *radiosity, size_t patch, double power[3]) {
     const double scale = radiosity->paths > 0 ? radiosity->walk.quantum / (double)radiosity->paths : 0.0;
@@ -33,66 +34,56 @@ void aur_radiosity_power_error(const aur_radiosity *radiosity, size_t patch, dou
 
 /* --- over all patches */
 
-/* The sum of L0 A over the lights: its length as a colour. */
-static double light_measure(const aur_radiosity *radiosity) {
-    double sum[3] = {0};
+/* The sum of L0 A over the lights. */
+static void sum_emission(const aur_radiosity *radiosity, double sum[3]) {
+    sum[0] = sum[1] = sum[2] = 0.0;
     for (size_t i = 0; i < radiosity->scene.triangle_count; ++i) {
-        const aur_vector l = radiosity->scene.emission[i];
-        sum[0] += (double)l.x * radiosity->scene.areas[i];
-        sum[1] += (double)l.y * radiosity->scene.areas[i];
-        sum[2] += (double)l.z * radiosity->scene.areas[i];
+        double radiance[3];
+        aur_vector_to_doubles(radiosity->scene.emission[i], radiance);
+        for (size_t c = 0; c < 3; ++c)
+            sum[c] += radiance[c] * radiosity->scene.areas[i];
     }
-    return sqrt(sum[0] * sum[0] + sum[1] * sum[1] + sum[2] * sum[2]);
-}
-
-static double squared_length(const double v[3]) {
-    return v[0] * v[0] + v[1] * v[1] + v[2] * v[2];
 }
 
 static double patch_area(const aur_radiosity *radiosity, size_t patch) {
     return radiosity->scene.areas[aur_radiosity_triangle_of(&radiosity->scene, patch)];
 }
 
-double aur_radiosity_standard_error(const aur_radiosity *radiosity) {
-    double sum = 0.0, area = 0.0;
+/* The root of the mean square of a power's deviation, over that of the lights: the unit of epsilon. */
+static double relative_deviation(const aur_radiosity *radiosity, double (*before)[3]) {
+    double sum = 0.0, area = 0.0, lights[3];
     for (size_t i = 0; i < radiosity->scene.patch_count; ++i) {
-        double error[3];
-        aur_radiosity_power_error(radiosity, i, error);
+        double deviation[3], now[3];
+        if (before == NULL)
+            aur_radiosity_power_error(radiosity, i, deviation);
+        else
+            aur_radiosity_power(radiosity, i, now);
+        for (size_t c = 0; c < 3 && before != NULL; ++c) {
+            deviation[c] = now[c] - before[i][c];
+            before[i][c] = now[c];
+        }
         const double a = patch_area(radiosity, i);
-        sum += squared_length(error) * a;
+        sum += aur_dot3(deviation, deviation) * a;
         area += a;
     }
-    return sqrt(sum / area) / light_measure(radiosity);
+    sum_emission(radiosity, lights);
+    return sqrt(sum / area) / aur_length3(lights);
+}
+
+double aur_radiosity_standard_error(const aur_radiosity *radiosity) {
+    return relative_deviation(radiosity, NULL);
 }
 
 double aur_radiosity_measure_change(const aur_radiosity *radiosity, double (*before)[3]) {
-    double sum = 0.0, area = 0.0;
-    for (size_t i = 0; i < radiosity->scene.patch_count; ++i) {
-        double now[3];
-        aur_radiosity_power(radiosity, i, now);
-        const double change[3] = {now[0] - before[i][0], now[1] - before[i][1], now[2] - before[i][2]};
-        const double a = patch_area(radiosity, i);
-        sum += squared_length(change) * a;
-        area += a;
-        for (size_t c = 0; c < 3; ++c)
-            before[i][c] = now[c];
-    }
-    return sqrt(sum / area) / light_measure(radiosity);
+    return relative_deviation(radiosity, before);
 }
 
 /* --- what the caller asks for */
 
-static double total_emitted(const aur_radiosity *radiosity) {
-    double sum = 0.0;
-    for (size_t i = 0; i < radiosity->scene.triangle_count; ++i) {
-        const aur_vector l = radiosity->scene.emission[i];
-        sum += AUR_PI * radiosity->scene.areas[i] * ((double)l.x + (double)l.y + (double)l.z);
-    }
-    return sum;
-}
-
 void aur_radiosity_summarize(const aur_radiosity *radiosity, aur_radiosity_description *d) {
     const aur_radiosity_scene *const scene = &radiosity->scene;
+    double lights[3];
+    sum_emission(radiosity, lights);
     *d = (aur_radiosity_description){.size = sizeof *d,
                                      .triangles = scene->triangle_count,
                                      .patches = scene->patch_count,
@@ -102,7 +93,7 @@ void aur_radiosity_summarize(const aur_radiosity *radiosity, aur_radiosity_descr
                                      .paths = radiosity->paths,
                                      .coincident = radiosity->coincident,
                                      .change = radiosity->change,
-                                     .emitted = total_emitted(radiosity),
+                                     .emitted = AUR_PI * (lights[0] + lights[1] + lights[2]),
                                      .error = aur_radiosity_standard_error(radiosity)};
     double last = 0.0, rest = 0.0, received = 0.0;
     for (size_t r = 0; r < radiosity->options.randomizations; ++r) {
@@ -128,12 +119,10 @@ void aur_radiosity_summarize(const aur_radiosity *radiosity, aur_radiosity_descr
 void aur_radiosity_result(const aur_radiosity *radiosity, size_t triangle,
                           aur_radiosity_triangle_result *out) {
     const aur_radiosity_scene *const scene = &radiosity->scene;
-    const aur_vector albedo = scene->triangles[triangle].albedo[0], emission = scene->emission[triangle];
-    *out = (aur_radiosity_triangle_result){
-        .area = scene->areas[triangle],
-        .albedo = {(double)albedo.x, (double)albedo.y, (double)albedo.z},
-        .emission = {(double)emission.x, (double)emission.y, (double)emission.z}};
     double error[3];
+    *out = (aur_radiosity_triangle_result){.area = scene->areas[triangle]};
+    aur_vector_to_doubles(scene->triangles[triangle].albedo[0], out->albedo);
+    aur_vector_to_doubles(scene->emission[triangle], out->emission);
     aur_radiosity_power(radiosity, triangle, out->power);
     aur_radiosity_power_error(radiosity, triangle, error);
     for (size_t c = 0; c < 3; ++c) {

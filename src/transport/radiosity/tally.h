@@ -3,9 +3,29 @@
 #pragma once
 
 #include <stdbool.h>
+#include <stdint.h>
 
 #include "core/error.h"
-#include "transport/radiosity/exact_sum.h"
+
+/* A sum that does not depend on the order of its terms: non-negative ones in fixed point, added in 128 bits.
+ */
+typedef struct aur_exact_sum {
+    uint64_t low, high;
+} aur_exact_sum;
+
+static inline void aur_exact_add(aur_exact_sum *sum, uint64_t term) {
+    sum->low += term;
+    sum->high += sum->low < term;
+}
+
+static inline void aur_exact_merge(aur_exact_sum *sum, const aur_exact_sum *other) {
+    aur_exact_add(sum, other->low);
+    sum->high += other->high;
+}
+
+static inline double aur_exact_value(const aur_exact_sum *sum) {
+    return (double)sum->high * 0x1p64 + (double)sum->low;
+}
 
 typedef struct aur_radiosity_tally {
     size_t patch_count;
@@ -17,7 +37,9 @@ typedef struct aur_radiosity_tally {
     bool not_finite; /* one of them was no finite number: the sums are worth nothing */
 } aur_radiosity_tally;
 
-aur_result aur_radiosity_tally_create(size_t patch_count, aur_radiosity_tally *tally, aur_error *error);
-void aur_radiosity_tally_release(aur_radiosity_tally *tally);
+/* So many empty tallies; NULL on failure. Errors: MEMORY. */
+aur_result aur_radiosity_tallies_create(size_t count, size_t patch_count, aur_radiosity_tally **tallies,
+                                        aur_error *error);
+void aur_radiosity_tallies_release(size_t count, aur_radiosity_tally *tallies); /* NULL is allowed */
 /* Adds `other` and empties it. */
 void aur_radiosity_tally_take(aur_radiosity_tally *tally, aur_radiosity_tally *other);

@@ -45,14 +45,12 @@ static void find_start(aur_radiosity_walk *walk) {
     double greatest = 0.0;
     for (size_t i = 0; i < walk->light_count; ++i) {
         const uint32_t light = walk->lights[i];
-        const aur_vector radiance = walk->scene->emission[light];
         const double probability = aur_distribution_probability(&walk->choice, i);
         const double share = probability > 0.0 ? AUR_PI * walk->scene->areas[light] / probability : 0.0;
-        const double power[3] = {share * (double)radiance.x, share * (double)radiance.y,
-                                 share * (double)radiance.z};
+        aur_vector_to_doubles(walk->scene->emission[light], walk->start[i]);
         for (size_t c = 0; c < 3; ++c) {
-            walk->start[i][c] = power[c];
-            greatest = fmax(greatest, power[c]);
+            walk->start[i][c] *= share;
+            greatest = fmax(greatest, walk->start[i][c]);
         }
     }
     int exponent;
@@ -188,6 +186,12 @@ static inline uint64_t quanta(double power, aur_radiosity_tally *tally) {
     return (uint64_t)MOST_QUANTA;
 }
 
+static inline void multiply(double power[3], aur_vector kept) {
+    power[0] *= (double)kept.x;
+    power[1] *= (double)kept.y;
+    power[2] *= (double)kept.z;
+}
+
 static uint64_t channels(const double power[3], aur_radiosity_tally *tally) {
     return quanta(power[0], tally) + quanta(power[1], tally) + quanta(power[2], tally);
 }
@@ -220,19 +224,13 @@ static bool meet(block *b, size_t i, size_t flight, aur_ray *ray, aur_hit *hit) 
     if ((scene->triangles[aur_radiosity_triangle_at(scene, hit)].flags & AUR_RADIOSITY_MIRROR) == 0)
         return true;
     aur_vector kept = {1.0f, 1.0f, 1.0f};
-    switch (aur_radiosity_reflect(scene, true, path_hash(b, i, flight), ray, hit, &kept, &b->tally->rays)) {
-    case AUR_RADIOSITY_NONE:
-        ++b->tally->lost;
+    const aur_radiosity_end end =
+        aur_radiosity_reflect(scene, true, path_hash(b, i, flight), ray, hit, &kept, &b->tally->rays);
+    if (end != AUR_RADIOSITY_MET) {
+        ++*(end == AUR_RADIOSITY_NONE ? &b->tally->lost : &b->tally->trapped);
         return false;
-    case AUR_RADIOSITY_TRAPPED:
-        ++b->tally->trapped;
-        return false;
-    case AUR_RADIOSITY_MET:
-        break;
     }
-    p->power[0] *= (double)kept.x;
-    p->power[1] *= (double)kept.y;
-    p->power[2] *= (double)kept.z;
+    multiply(p->power, kept);
     return true;
 }
 
@@ -263,9 +261,7 @@ static bool fly(block *b, size_t i, size_t flight) {
     if (is_last)
         aur_exact_add(&tally->last, channels(p->power, tally));
     const aur_vector albedo = aur_radiosity_albedo(scene, index, front, &ray, &hit);
-    p->power[0] *= (double)albedo.x;
-    p->power[1] *= (double)albedo.y;
-    p->power[2] *= (double)albedo.z;
+    multiply(p->power, albedo);
     if (is_last)
         aur_exact_add(&tally->rest, channels(p->power, tally));
     p->position = aur_radiosity_point(met, hit.u, hit.v);
