@@ -7,14 +7,15 @@
 
 /* --- randomisations of the patterns */
 
-bool aur_gather_splits(const aur_gather_plan *plan, const aur_gather_places *places,
-                       const aur_gather_lobe_rule *rule) {
+bool aur_gather_splits(const aur_gather_places *places, const aur_gather_lobe_rule *rule) {
+    const aur_gather_plan *const plan = places->plan;
     return plan->policy.pools && rule == &plan->rules.lobes[0] && places->bounces == 0;
 }
 
-aur_gather_rotation aur_gather_rotation_at(const aur_gather_plan *plan, const aur_gather_places *places,
+aur_gather_rotation aur_gather_rotation_at(const aur_gather_places *places,
                                            const aur_gather_lobe_rule *lobe_rule, size_t lane,
                                            uint64_t lobe) {
+    const aur_gather_plan *const plan = places->plan;
     const aur_gather_policy *const policy = &plan->policy;
     const aur_gather_rule *const rule = &lobe_rule->rule;
     if (policy->decorrelation == AUR_DECORRELATION_NONE)
@@ -26,7 +27,7 @@ aur_gather_rotation aur_gather_rotation_at(const aur_gather_plan *plan, const au
     /* Where the samples of a pixel do not split a pattern, each has it rotated anew. */
     if (policy->adaptive)
         tile = aur_hash2(tile, places->index);
-    const uint32_t rank = aur_gather_splits(plan, places, lobe_rule) ? 0 : aur_group_rank(places->group);
+    const uint32_t rank = aur_gather_splits(places, lobe_rule) ? 0 : aur_group_rank(places->group);
     /* Sixteen patterns would show as texture, were they the same in every tile. */
     if (rule->scramble != AUR_SCRAMBLE_ROTATE) {
         const uint64_t k = (rank ^ (tile & 15u)) * rule->rotation_count / 16;
@@ -100,11 +101,10 @@ uint32_t aur_gather_aim(uint32_t lanes, const aur_lobe_frames *restrict frames,
 
 /* --- a rule, direction by direction */
 
-void aur_gather_sweep_start(const aur_gather_plan *plan, const aur_gather_places *places,
-                            const aur_gather_lobe_rule *rule, size_t lobe, uint32_t lanes,
-                            aur_gather_sweep *sweep, aur_gather_rays *rays) {
+void aur_gather_sweep_start(const aur_gather_places *places, const aur_gather_lobe_rule *rule, size_t lobe,
+                            uint32_t lanes, aur_gather_sweep *sweep, aur_gather_rays *rays) {
     *sweep = (aur_gather_sweep){
-        .rule = rule, .lobe = lobe, .lanes = lanes, .together = rotate_together(plan, &rule->rule)};
+        .rule = rule, .lobe = lobe, .lanes = lanes, .together = rotate_together(places->plan, &rule->rule)};
     const size_t first = aur_first_lane(lanes);
     for (uint32_t rest = lanes; rest != 0; rest &= rest - 1) {
         const size_t lane = aur_first_lane(rest);
@@ -115,7 +115,7 @@ void aur_gather_sweep_start(const aur_gather_plan *plan, const aur_gather_places
         sweep->times_cosine[lane] = own->times_cosine;
         sweep->rotations[lane] = sweep->together && lane != first
                                      ? sweep->rotations[first]
-                                     : aur_gather_rotation_at(plan, places, rule, lane, lobe);
+                                     : aur_gather_rotation_at(places, rule, lane, lobe);
         const aur_frame frame = aur_frame_about(aur_gather_place_axis(place, lobe));
         aur_gather_set_frame(place, lane, &frame, &sweep->frames, rays);
     }
@@ -151,17 +151,16 @@ static void set_directions(const aur_gather_sweep *sweep, size_t index, float lo
     }
 }
 
-uint32_t aur_gather_sweep_trace(const aur_gather_plan *plan, const aur_gather_places *places,
-                                const aur_gather_sweep *sweep, size_t index, bool weighed,
-                                aur_gather_rays *rays, aur_counters *counters,
-                                float factor[AUR_PACKET_SIZE]) {
+uint32_t aur_gather_sweep_trace(const aur_gather_places *places, const aur_gather_sweep *sweep, size_t index,
+                                bool weighed, aur_gather_sums *sums, float factor[AUR_PACKET_SIZE]) {
+    aur_gather_rays *const rays = &sums->rays;
     float local[3][AUR_PACKET_SIZE] = {0}, cosine[AUR_PACKET_SIZE], weight[AUR_PACKET_SIZE] = {0};
     set_directions(sweep, index, local, weight, rays->density);
     const uint32_t aimed = aur_gather_aim(sweep->lanes, &sweep->frames, local, &rays->packet, cosine);
     if (aimed == 0)
         return 0;
     rays->hash = aur_hash3(places->pixels[aur_first_lane(sweep->lanes)], index, sweep->lobe);
-    aur_gather_rays_trace(plan, places->order, rays, counters);
+    aur_gather_rays_trace(places->plan, places->order, rays, sums->counters);
     for (size_t k = 0; k < AUR_PACKET_SIZE; ++k)
         factor[k] = (weighed ? weight[k] : 1.0f) * (sweep->times_cosine[k] ? cosine[k] : 1.0f);
     for (uint32_t rest = sweep->factored & aimed; rest != 0; rest &= rest - 1) {

@@ -20,12 +20,11 @@ uint32_t aur_gather_aim(uint32_t lanes, const aur_lobe_frames *restrict frames,
 
 /* What a lane's pattern for its lobe number `lobe` is randomised by. Under "blue" all lanes of the group have
  * the same rotation. */
-aur_gather_rotation aur_gather_rotation_at(const aur_gather_plan *plan, const aur_gather_places *places,
-                                           const aur_gather_lobe_rule *rule, size_t lane, uint64_t lobe);
+aur_gather_rotation aur_gather_rotation_at(const aur_gather_places *places, const aur_gather_lobe_rule *rule,
+                                           size_t lane, uint64_t lobe);
 
 /* Whether the pixels of a block split this rule, each one's directions being a part of one pattern. */
-bool aur_gather_splits(const aur_gather_plan *plan, const aur_gather_places *places,
-                       const aur_gather_lobe_rule *rule);
+bool aur_gather_splits(const aur_gather_places *places, const aur_gather_lobe_rule *rule);
 
 /* One rule at the places of some lanes, to be traced direction by direction for their lobe number `lobe`. */
 typedef struct aur_gather_sweep {
@@ -39,13 +38,11 @@ typedef struct aur_gather_sweep {
     aur_lobe_frames frames;
 } aur_gather_sweep;
 
-void aur_gather_sweep_start(const aur_gather_plan *plan, const aur_gather_places *places,
-                            const aur_gather_lobe_rule *rule, size_t lobe, uint32_t lanes,
-                            aur_gather_sweep *sweep, aur_gather_rays *rays);
+void aur_gather_sweep_start(const aur_gather_places *places, const aur_gather_lobe_rule *rule, size_t lobe,
+                            uint32_t lanes, aur_gather_sweep *sweep, aur_gather_rays *rays);
 
-/* Traces direction `index`; rays->radiance has what came along it. Returns the lanes above whose surface it
- * lies, and what their radiance is to be multiplied by: the rule's weight where it is `weighed`, times what
- * the lobe has beside the power. The radiance of other lanes is 0. */
-uint32_t aur_gather_sweep_trace(const aur_gather_plan *plan, const aur_gather_places *places,
-                                const aur_gather_sweep *sweep, size_t index, bool weighed,
-                                aur_gather_rays *rays, aur_counters *counters, float factor[AUR_PACKET_SIZE]);
+/* Traces direction `index`; sums->rays.radiance has what came along it. Returns the lanes above whose surface
+ * it lies, and what their radiance is to be multiplied by: the rule's weight where it is `weighed`, times
+ * what the lobe has beside the power. The radiance of other lanes is 0. */
+uint32_t aur_gather_sweep_trace(const aur_gather_places *places, const aur_gather_sweep *sweep, size_t index,
+                                bool weighed, aur_gather_sums *sums, float factor[AUR_PACKET_SIZE]);

@@ -35,9 +35,9 @@ static aur_vector weighted_value(const aur_gather_plan *plan, const aur_gather_p
 }
 
 /* Adds the light of one point a lane if nothing lies between; the pdfs count all draws of a sample. */
-static void add_lights(const aur_gather_plan *plan, const aur_gather_places *places, aur_embree_order order,
-                       const aur_light_sample lights[AUR_PACKET_SIZE], aur_gather_sums *sums,
-                       aur_packet *packet) {
+static void add_lights(const aur_gather_places *places, aur_embree_order order,
+                       const aur_light_sample lights[AUR_PACKET_SIZE], aur_gather_sums *sums) {
+    aur_packet *const packet = &sums->rays.packet;
     aur_vector contribution[AUR_PACKET_SIZE];
     uint32_t aimed = 0;
     aur_packet_empty(packet);
@@ -47,7 +47,7 @@ static void add_lights(const aur_gather_plan *plan, const aur_gather_places *pla
         const aur_light_sample *const light = &lights[lane];
         if (!(light->pdf > 0.0f))
             continue;
-        const aur_vector value = weighted_value(plan, place, light);
+        const aur_vector value = weighted_value(places->plan, place, light);
         contribution[lane] = aur_vector_scale(aur_vector_multiply(value, light->radiance), 1.0f / light->pdf);
         if (aur_vector_is_zero(contribution[lane]))
             continue;
@@ -58,13 +58,13 @@ static void add_lights(const aur_gather_plan *plan, const aur_gather_places *pla
     }
     if (aimed == 0)
         return;
-    const uint32_t lit = aimed & ~aur_gather_occluded(plan, order, packet, sums->counters);
+    const uint32_t lit = aimed & ~aur_gather_occluded(places->plan, order, packet, sums->counters);
     for (uint32_t rest = lit; rest != 0; rest &= rest - 1)
         aur_gather_add(sums, places, aur_first_lane(rest), contribution[aur_first_lane(rest)]);
 }
 
-void aur_gather_add_direct_light(const aur_gather_plan *plan, const aur_gather_places *places,
-                                 aur_gather_sums *sums, aur_gather_scratch *scratch) {
+void aur_gather_add_direct_light(const aur_gather_places *places, aur_gather_sums *sums) {
+    const aur_gather_plan *const plan = places->plan;
     /* Lanes without a place stand where the first one is: their samples are drawn and thrown away. */
     aur_vector references[AUR_PACKET_SIZE];
     for (size_t lane = 0; lane < AUR_PACKET_SIZE; ++lane) {
@@ -86,7 +86,7 @@ void aur_gather_add_direct_light(const aur_gather_plan *plan, const aur_gather_p
                                  chooses ? choice : NULL, u, v, lights);
         for (size_t lane = 0; lane < AUR_PACKET_SIZE; ++lane)
             lights[lane].pdf *= (float)draws;
-        add_lights(plan, places, places->order, lights, sums, &scratch->rays.packet);
+        add_lights(places, places->order, lights, sums);
     }
 }
 
@@ -108,8 +108,8 @@ static aur_light_sample light_from(const aur_gather_plan *plan, const aur_bright
     return sample;
 }
 
-void aur_gather_add_bright_light(const aur_gather_plan *plan, const aur_gather_places *places,
-                                 aur_gather_sums *sums, aur_gather_scratch *scratch) {
+void aur_gather_add_bright_light(const aur_gather_places *places, aur_gather_sums *sums) {
+    const aur_gather_plan *const plan = places->plan;
     const aur_gather_light *const from = &plan->light;
     const uint32_t pair = aur_gather_first_pair(places->bounces);
     for (uint32_t k = 0; k < from->bright_draws; ++k) {
@@ -127,6 +127,6 @@ void aur_gather_add_bright_light(const aur_gather_plan *plan, const aur_gather_p
                                          (const float[2]){u[lane], v[lane]});
             lights[lane] = light_from(plan, &point, places->at[lane].surface.position);
         }
-        add_lights(plan, places, AUR_EMBREE_INCOHERENT, lights, sums, &scratch->rays.packet);
+        add_lights(places, AUR_EMBREE_INCOHERENT, lights, sums);
     }
 }

@@ -50,24 +50,21 @@ static double contrast_of(aur_gather_criterion criterion, const aur_gather_level
 typedef struct adaptive_state {
     spread spreads[AUR_PACKET_SIZE][3];
     uint32_t samples[AUR_PACKET_SIZE]; /* that were above the surface */
-    uint32_t directions[AUR_PACKET_SIZE];
     float *values; /* of direction i, channel c, lane k: values[(3 * i + c) * AUR_PACKET_SIZE + k] */
 } adaptive_state;
 
 /* Traces the directions of one level. */
-static void add_level(const aur_gather_plan *plan, const aur_gather_places *places,
-                      const aur_gather_sweep *sweep, size_t level, adaptive_state *state,
-                      aur_gather_rays *rays, aur_counters *counters) {
+static void add_level(const aur_gather_places *places, const aur_gather_sweep *sweep, size_t level,
+                      adaptive_state *state, aur_gather_sums *sums) {
     const aur_gather_levels *const levels = &sweep->rule->levels;
     const float *const weights = sweep->rule->rule.weights;
-    const size_t first = level > 0 ? levels->ends[level - 1] : 0;
-    for (size_t i = first; i < levels->ends[level]; ++i) {
+    for (size_t i = level > 0 ? levels->ends[level - 1] : 0; i < levels->ends[level]; ++i) {
         float factor[AUR_PACKET_SIZE];
-        const uint32_t aimed = aur_gather_sweep_trace(plan, places, sweep, i, false, rays, counters, factor);
+        const uint32_t aimed = aur_gather_sweep_trace(places, sweep, i, false, sums, factor);
         for (size_t c = 0; c < 3; ++c)
             for (size_t k = 0; k < AUR_PACKET_SIZE; ++k)
                 state->values[(3 * i + c) * AUR_PACKET_SIZE + k] =
-                    aur_has_lane(aimed, k) ? factor[k] * rays->radiance[c][k] : 0.0f;
+                    aur_has_lane(aimed, k) ? factor[k] * sums->rays.radiance[c][k] : 0.0f;
         for (uint32_t rest = aimed; rest != 0; rest &= rest - 1) {
             const size_t lane = aur_first_lane(rest);
             ++state->samples[lane];
@@ -75,41 +72,39 @@ static void add_level(const aur_gather_plan *plan, const aur_gather_places *plac
                 add_value(&state->spreads[lane][c],
                           (double)(state->values[(3 * i + c) * AUR_PACKET_SIZE + lane] * weights[i]));
         }
-        for (uint32_t rest = sweep->lanes; rest != 0; rest &= rest - 1)
-            ++state->directions[aur_first_lane(rest)];
     }
 }
 
 /* A lane's integral with the weights of its last level. */
 static void finish_lane(const aur_gather_places *places, const aur_gather_sweep *sweep, size_t level,
-                        const adaptive_state *state, size_t lane, aur_gather_sums *sums) {
+                        const float *values, size_t lane, aur_gather_sums *sums) {
     const aur_gather_levels *const levels = &sweep->rule->levels;
     float sum[3] = {0};
     for (size_t i = 0; i < levels->ends[level]; ++i)
         for (size_t c = 0; c < 3; ++c)
-            sum[c] += levels->weights[level][i] * state->values[(3 * i + c) * AUR_PACKET_SIZE + lane];
+            sum[c] += levels->weights[level][i] * values[(3 * i + c) * AUR_PACKET_SIZE + lane];
     aur_gather_add(sums, places, lane,
                    aur_vector_multiply((aur_vector){sum[0], sum[1], sum[2]},
                                        places->at[lane].lobes[sweep->lobe].coefficient));
-    sums->directions[lane] += state->directions[lane];
+    sums->directions[lane] += (uint32_t)levels->ends[level];
     ++sums->counters->levels[level];
 }
 
-void aur_gather_by_levels(const aur_gather_plan *plan, const aur_gather_places *places,
-                          const aur_gather_lobe_rule *rule, size_t lobe, uint32_t lanes,
-                          aur_gather_sums *sums, aur_gather_scratch *scratch) {
+void aur_gather_by_levels(const aur_gather_places *places, const aur_gather_lobe_rule *rule, size_t lobe,
+                          uint32_t lanes, aur_gather_sums *sums) {
+    const aur_gather_policy *const policy = &places->plan->policy;
     aur_gather_sweep sweep;
-    aur_gather_sweep_start(plan, places, rule, lobe, lanes, &sweep, &scratch->rays);
-    adaptive_state state = {.values = scratch->numbers};
+    aur_gather_sweep_start(places, rule, lobe, lanes, &sweep, &sums->rays);
+    adaptive_state state = {.values = sums->numbers};
     for (size_t level = 0; sweep.lanes != 0; ++level) {
-        add_level(plan, places, &sweep, level, &state, &scratch->rays, sums->counters);
+        add_level(places, &sweep, level, &state, sums);
         for (uint32_t rest = sweep.lanes; rest != 0; rest &= rest - 1) {
             const size_t lane = aur_first_lane(rest);
-            const bool last = level + 1 == rule->levels.count;
-            if (!last && contrast_of(plan->policy.criterion, &rule->levels, level, state.spreads[lane],
-                                     (double)state.samples[lane]) > (double)plan->policy.threshold)
+            if (level + 1 < rule->levels.count &&
+                contrast_of(policy->criterion, &rule->levels, level, state.spreads[lane],
+                            (double)state.samples[lane]) > (double)policy->threshold)
                 continue;
-            finish_lane(places, &sweep, level, &state, lane, sums);
+            finish_lane(places, &sweep, level, state.values, lane, sums);
             sweep.lanes &= ~(1u << lane);
         }
     }

@@ -7,15 +7,14 @@
 
 /* Which of the prepared rotations a lane has, and whether mirrored. Under "blue" all lanes of the group have
  * the same. */
-static size_t rotation_of(const aur_gather_plan *plan, const aur_gather_places *places, size_t rotations,
-                          size_t lane, bool *mirrored) {
-    const aur_gather_policy *const policy = &plan->policy;
+static size_t rotation_of(const aur_gather_places *places, size_t rotations, size_t lane, bool *mirrored) {
+    const aur_gather_policy *const policy = &places->plan->policy;
     *mirrored = false;
     if (policy->decorrelation == AUR_DECORRELATION_NONE)
         return 0;
     const bool random = policy->decorrelation == AUR_DECORRELATION_RANDOM;
     const uint64_t hash =
-        aur_hash3(plan->seed, random ? places->pixels[lane] : places->tile, places->bounces);
+        aur_hash3(places->plan->seed, random ? places->pixels[lane] : places->tile, places->bounces);
     *mirrored = hash >> 63 != 0;
     if (random)
         return (hash & UINT32_MAX) % rotations;
@@ -33,7 +32,6 @@ typedef struct merged_pattern {
 
 /* One subset of both patterns at the places of a group. */
 typedef struct merged {
-    const aur_gather_plan *plan;
     const aur_gather_places *places;
     merged_pattern patterns[2];
     uint32_t diffuse;                        /* lanes that send the first pattern only, their rule's */
@@ -59,7 +57,7 @@ static void set_merged(merged *work, size_t lane, aur_gather_rays *rays, aur_cou
     const aur_vector mirror = aur_gather_place_axis(place, lobes[1]);
     bool mirrored;
     aur_frame frames[2];
-    const size_t rotation = rotation_of(work->plan, work->places, rule->rotations, lane, &mirrored);
+    const size_t rotation = rotation_of(work->places, rule->rotations, lane, &mirrored);
     aur_merged_rule_frames(normal, mirror, mirrored, frames);
     rays->merged[lane] = rule;
     rays->axes[lane][0] = normal;
@@ -67,13 +65,13 @@ static void set_merged(merged *work, size_t lane, aur_gather_rays *rays, aur_cou
     work->times_cosine[lane] = place->lobes[lobes[1]].times_cosine ? 1.0f : 0.0f;
     for (size_t k = 0; k < 2; ++k) {
         merged_pattern *const pattern = &work->patterns[k];
-        const aur_merged_rule *const from = k == 0 ? work->plan->rules.merged : rule;
+        const aur_merged_rule *const from = k == 0 ? work->places->plan->rules.merged : rule;
         const size_t first = rotation * rule->count[k] + work->subset * rule->subset_count[k];
         for (size_t c = 0; c < 3; ++c)
             pattern->directions[c][lane] = from->direction[k][c] + first;
         pattern->stride[lane] = 1;
         aur_gather_set_frame(place, lane, &frames[k], &pattern->frames, rays);
-        if (aur_gather_plan_gathers(work->plan, &place->lobes[lobes[k]]))
+        if (aur_gather_plan_gathers(work->places->plan, &place->lobes[lobes[k]]))
             work->coefficients[lane][k] = place->lobes[lobes[k]].coefficient;
     }
     float *const looked_up = weights_of(work, 2, 0);
@@ -85,12 +83,11 @@ static void set_merged(merged *work, size_t lane, aur_gather_rays *rays, aur_cou
 
 /* A diffuse place has its rule's directions and weights. */
 static void set_diffuse(merged *work, size_t lane, size_t lobe, aur_gather_rays *rays) {
-    const aur_gather_lobe_rule *const lobe_rule = &work->plan->rules.lobes[0];
+    const aur_gather_lobe_rule *const lobe_rule = &work->places->plan->rules.lobes[0];
     const aur_gather_rule *const rule = &lobe_rule->rule;
     const aur_gather_place *const place = &work->places->at[lane];
-    const size_t parts = work->plan->samples_per_pixel;
-    const aur_gather_rotation rotation =
-        aur_gather_rotation_at(work->plan, work->places, lobe_rule, lane, lobe);
+    const size_t parts = work->places->plan->samples_per_pixel;
+    const aur_gather_rotation rotation = aur_gather_rotation_at(work->places, lobe_rule, lane, lobe);
     const aur_frame about = aur_frame_about(aur_gather_place_axis(place, lobe));
     const aur_frame rotated = {
         aur_vector_add_scaled(aur_vector_scale(about.x, rotation.cosine), rotation.sine, about.y),
@@ -142,7 +139,7 @@ static void finish_pattern(merged_pattern *pattern) {
 
 /* Frames, directions and weights of all lanes; returns those that are served. */
 static uint32_t prepare(merged *work, aur_gather_rays *rays, aur_counters *counters) {
-    const aur_gather_plan *const plan = work->plan;
+    const aur_gather_plan *const plan = work->places->plan;
     const uint32_t lanes = work->places->lanes;
     uint32_t merged_lanes = 0, diffuse = 0;
     for (uint32_t rest = lanes; rest != 0; rest &= rest - 1) {
@@ -205,7 +202,8 @@ static void add_radiance(merged *work, size_t sample, const float cosine[AUR_PAC
     }
 }
 
-static void trace_pattern(merged *work, size_t k, aur_gather_rays *rays, aur_counters *counters) {
+static void trace_pattern(merged *work, size_t k, aur_gather_sums *sums) {
+    aur_gather_rays *const rays = &sums->rays;
     const merged_pattern *const pattern = &work->patterns[k];
     const uint64_t pixel = work->places->pixels[aur_first_lane(pattern->lanes)];
     for (size_t i = 0; i < work->subset_count[k]; ++i) {
@@ -215,27 +213,25 @@ static void trace_pattern(merged *work, size_t k, aur_gather_rays *rays, aur_cou
         if (aur_gather_aim(pattern->lanes, &pattern->frames, local, &rays->packet, cosine) == 0)
             continue;
         rays->hash = aur_hash3(pixel, sample, 0);
-        aur_gather_rays_trace(work->plan, work->places->order, rays, counters);
+        aur_gather_rays_trace(work->places->plan, work->places->order, rays, sums->counters);
         add_radiance(work, sample, cosine, rays);
     }
 }
 
-uint32_t aur_gather_by_merged(const aur_gather_plan *plan, const aur_gather_places *places,
-                              aur_gather_sums *sums, aur_gather_scratch *scratch) {
-    const aur_merged_rule *const first = plan->rules.merged;
-    merged work = {.plan = plan,
-                   .places = places,
-                   .subset = places->index % plan->samples_per_pixel,
+uint32_t aur_gather_by_merged(const aur_gather_places *places, aur_gather_sums *sums) {
+    const aur_merged_rule *const first = places->plan->rules.merged;
+    merged work = {.places = places,
+                   .subset = places->index % places->plan->samples_per_pixel,
                    .subset_count = {first->subset_count[0], first->subset_count[1]},
                    .samples = aur_merged_rule_samples(first),
-                   .weights = scratch->numbers};
-    const uint32_t lanes = prepare(&work, &scratch->rays, sums->counters);
+                   .weights = sums->numbers};
+    const uint32_t lanes = prepare(&work, &sums->rays, sums->counters);
     if (lanes == 0)
         return places->lanes;
     for (size_t k = 0; k < 2; ++k)
-        trace_pattern(&work, k, &scratch->rays, sums->counters);
+        trace_pattern(&work, k, sums);
     for (size_t lane = 0; lane < AUR_PACKET_SIZE; ++lane)
-        scratch->rays.merged[lane] = NULL;
+        sums->rays.merged[lane] = NULL;
     for (uint32_t rest = lanes; rest != 0; rest &= rest - 1) {
         const size_t lane = aur_first_lane(rest);
         aur_vector reflected = {0};

@@ -5,26 +5,21 @@
 #include "transport/gather/aim.h"
 
 /* What the places reflect, by all lobes but specular ones, of direct and of gathered light. */
-void aur_gather_shade(const aur_gather_plan *plan, const aur_gather_places *places, aur_gather_sums *sums,
-                      aur_gather_scratch *scratch);
+void aur_gather_shade(const aur_gather_places *places, aur_gather_sums *sums);
 
 /* One lobe, which `rule` gathers in these lanes, by as many levels of it as the light asks for (Marques 2019,
  * section 6.2). */
-void aur_gather_by_levels(const aur_gather_plan *plan, const aur_gather_places *places,
-                          const aur_gather_lobe_rule *rule, size_t lobe, uint32_t lanes,
-                          aur_gather_sums *sums, aur_gather_scratch *scratch);
+void aur_gather_by_levels(const aur_gather_places *places, const aur_gather_lobe_rule *rule, size_t lobe,
+                          uint32_t lanes, aur_gather_sums *sums);
 
 /* All lobes of places that have a merged rule, and of diffuse places that are among them. Returns the places
  * that are left. */
-uint32_t aur_gather_by_merged(const aur_gather_plan *plan, const aur_gather_places *places,
-                              aur_gather_sums *sums, aur_gather_scratch *scratch);
+uint32_t aur_gather_by_merged(const aur_gather_places *places, aur_gather_sums *sums);
 
 /* Points drawn on lights and on bright texels: one packet of shadow rays a draw. Both weigh each lobe's light
  * beside what its gather rays find of it. */
-void aur_gather_add_direct_light(const aur_gather_plan *plan, const aur_gather_places *places,
-                                 aur_gather_sums *sums, aur_gather_scratch *scratch);
-void aur_gather_add_bright_light(const aur_gather_plan *plan, const aur_gather_places *places,
-                                 aur_gather_sums *sums, aur_gather_scratch *scratch);
+void aur_gather_add_direct_light(const aur_gather_places *places, aur_gather_sums *sums);
+void aur_gather_add_bright_light(const aur_gather_places *places, aur_gather_sums *sums);
 
 /* Dimension pairs of one surface along a chain of specular bounces. */
 enum {

@@ -20,6 +20,7 @@ typedef struct aur_gather_place {
 
 /* What all sixteen are gathered with; estimators only read it. */
 typedef struct aur_gather_places {
+    const aur_gather_plan *plan;
     uint32_t lanes;         /* those that have a place */
     uint32_t bounces;       /* specular ones on the way from the eye */
     aur_embree_order order; /* of packets of rays that leave the places in one direction each */

@@ -34,14 +34,13 @@ static void keep_for_pool(const aur_gather_places *places, const aur_gather_swee
 }
 
 /* By this sample's part of the rule. */
-static void by_rule(const aur_gather_plan *plan, const aur_gather_places *places,
-                    const aur_gather_lobe_rule *rule, size_t lobe, uint32_t lanes, aur_gather_sums *sums,
-                    aur_gather_scratch *scratch) {
+static void by_rule(const aur_gather_places *places, const aur_gather_lobe_rule *rule, size_t lobe,
+                    uint32_t lanes, aur_gather_sums *sums) {
     aur_gather_sweep sweep;
-    aur_gather_sweep_start(plan, places, rule, lobe, lanes, &sweep, &scratch->rays);
-    const bool splits = aur_gather_splits(plan, places, rule);
+    aur_gather_sweep_start(places, rule, lobe, lanes, &sweep, &sums->rays);
+    const bool splits = aur_gather_splits(places, rule);
     /* The rule's directions are in so many parts, of which this is one. */
-    size_t parts = plan->samples_per_pixel, part = places->index % parts;
+    size_t parts = places->plan->samples_per_pixel, part = places->index % parts;
     if (splits) {
         part = part * AUR_PACKET_SIZE + aur_group_rank(places->group);
         parts *= AUR_PACKET_SIZE;
@@ -49,12 +48,11 @@ static void by_rule(const aur_gather_plan *plan, const aur_gather_places *places
     float sum[3][AUR_PACKET_SIZE] = {0};
     for (size_t i = part; i < rule->rule.count; i += parts) {
         float factor[AUR_PACKET_SIZE];
-        if (aur_gather_sweep_trace(plan, places, &sweep, i, true, &scratch->rays, sums->counters, factor) ==
-            0)
+        if (aur_gather_sweep_trace(places, &sweep, i, true, sums, factor) == 0)
             continue;
         for (size_t c = 0; c < 3; ++c)
             for (size_t k = 0; k < AUR_PACKET_SIZE; ++k)
-                sum[c][k] += factor[k] * scratch->rays.radiance[c][k];
+                sum[c][k] += factor[k] * sums->rays.radiance[c][k];
     }
     for (uint32_t rest = lanes; rest != 0; rest &= rest - 1) {
         const size_t lane = aur_first_lane(rest);
@@ -89,12 +87,12 @@ static bool aim_draw(const aur_gather_place *place, size_t lane, const float u[3
 }
 
 /* Lobes that have no formula, by the BSDF's own sampling. */
-static void by_sampling(const aur_gather_plan *plan, const aur_gather_places *places, size_t lobe,
-                        uint32_t lanes, aur_gather_sums *sums, aur_gather_scratch *scratch) {
+static void by_sampling(const aur_gather_places *places, size_t lobe, uint32_t lanes, aur_gather_sums *sums) {
+    const aur_gather_plan *const plan = places->plan;
     const aur_gather_lobe_rule *const sampled = &plan->rules.sampled;
-    aur_gather_rays *const rays = &scratch->rays;
+    aur_gather_rays *const rays = &sums->rays;
     aur_gather_sweep sweep;
-    aur_gather_sweep_start(plan, places, sampled, lobe, lanes, &sweep, rays);
+    aur_gather_sweep_start(places, sampled, lobe, lanes, &sweep, rays);
     const size_t first = aur_first_lane(lanes), parts = plan->samples_per_pixel;
     for (size_t i = places->index % parts; i < sampled->rule.count; i += parts) {
         aur_vector value[AUR_PACKET_SIZE];
@@ -139,14 +137,13 @@ static uint32_t lanes_of_rule(const aur_gather_places *places, uint32_t lanes, s
 }
 
 /* The lobe number `lobe` of all lanes that have one. */
-static void gather_lobe(const aur_gather_plan *plan, const aur_gather_places *places, uint32_t lanes,
-                        size_t lobe, aur_gather_sums *sums, aur_gather_scratch *scratch) {
+static void gather_lobe(const aur_gather_places *places, uint32_t lanes, size_t lobe, aur_gather_sums *sums) {
     uint32_t ruled = 0, sampled = 0;
     for (uint32_t rest = lanes; rest != 0; rest &= rest - 1) {
         const size_t lane = aur_first_lane(rest);
         const aur_gather_place *const place = &places->at[lane];
         const aur_bsdf_lobe *const own = &place->lobes[lobe];
-        if (lobe >= place->lobe_count || !aur_gather_plan_gathers(plan, own) ||
+        if (lobe >= place->lobe_count || !aur_gather_plan_gathers(places->plan, own) ||
             !aur_gather_place_has(place, lobe))
             continue;
         if (own->shape == AUR_LOBE_SHAPE_SAMPLED)
@@ -158,26 +155,25 @@ static void gather_lobe(const aur_gather_plan *plan, const aur_gather_places *pl
         const aur_gather_lobe_rule *const rule = places->at[aur_first_lane(ruled)].rules[lobe];
         const uint32_t alike = lanes_of_rule(places, ruled, lobe, rule);
         if (rule->levels.count > 0)
-            aur_gather_by_levels(plan, places, rule, lobe, alike, sums, scratch);
+            aur_gather_by_levels(places, rule, lobe, alike, sums);
         else
-            by_rule(plan, places, rule, lobe, alike, sums, scratch);
+            by_rule(places, rule, lobe, alike, sums);
         ruled &= ~alike;
     }
     if (sampled != 0)
-        by_sampling(plan, places, lobe, sampled, sums, scratch);
+        by_sampling(places, lobe, sampled, sums);
 }
 
-void aur_gather_shade(const aur_gather_plan *plan, const aur_gather_places *places, aur_gather_sums *sums,
-                      aur_gather_scratch *scratch) {
+void aur_gather_shade(const aur_gather_places *places, aur_gather_sums *sums) {
+    const aur_gather_plan *const plan = places->plan;
     if (plan->policy.direct == AUR_DIRECT_NEE && plan->policy.max_depth >= 2 &&
         aur_scene_emitter_count(plan->scene) > 0)
-        aur_gather_add_direct_light(plan, places, sums, scratch);
+        aur_gather_add_direct_light(places, sums);
     if (plan->light.bright_draws > 0)
-        aur_gather_add_bright_light(plan, places, sums, scratch);
+        aur_gather_add_bright_light(places, sums);
     if (!plan->gathers)
         return;
-    const uint32_t lanes =
-        plan->rules.merged != NULL ? aur_gather_by_merged(plan, places, sums, scratch) : places->lanes;
+    const uint32_t lanes = plan->rules.merged != NULL ? aur_gather_by_merged(places, sums) : places->lanes;
     for (size_t lobe = 0; lobe < AUR_BSDF_LOBE_CAPACITY && lanes != 0; ++lobe)
-        gather_lobe(plan, places, lanes, lobe, sums, scratch);
+        gather_lobe(places, lanes, lobe, sums);
 }

@@ -19,6 +19,11 @@ typedef struct aur_gather_sums {
     uint32_t pooled_lanes; /* those that have something for the pool */
     aur_gather_pooled pooled[AUR_PACKET_SIZE];
     uint32_t directions[AUR_PACKET_SIZE]; /* gathered with, when adaptive */
+    /* Working memory. */
+    aur_gather_rays rays;
+    /* Weights of merged samples, a sample's sixteen lanes together, for one lobe and then the other, and
+     * behind them room for one lane's. Of adaptive gathering: 3 * AUR_PACKET_SIZE for each direction. */
+    float *numbers;
 } aur_gather_sums;
 
 /* Adds radiance that leaves a lane's place towards the eye. */
@@ -27,10 +32,3 @@ static inline void aur_gather_add(aur_gather_sums *sums, const aur_gather_places
     sums->radiance[lane] =
         aur_vector_add(sums->radiance[lane], aur_vector_multiply(places->throughput[lane], radiance));
 }
-
-typedef struct aur_gather_scratch {
-    aur_gather_rays rays;
-    /* Weights of merged samples, a sample's sixteen lanes together, for one lobe and then the other, and
-     * behind them room for one lane's. Of adaptive gathering: 3 * AUR_PACKET_SIZE for each direction. */
-    float *numbers;
-} aur_gather_scratch;

@@ -11,13 +11,11 @@
 
 /* One tile, done by samples of sixteen pixels at a time: places.group and places.index say which. */
 typedef struct gather_tile {
-    const aur_gather_plan *plan;
     const aur_view *view;
     size_t x, y;   /* of the tile's corner in the picture */
     bool only_new; /* only strata of which a pixel has no radiance yet are shaded */
     aur_gather_places places;
     aur_gather_sums sums;
-    aur_gather_scratch scratch;
     aur_camera_sample samples[AUR_PACKET_SIZE]; /* the rays become those after the last bounce */
     float weights[AUR_PACKET_SIZE];
     aur_stratum *stratum[AUR_PACKET_SIZE]; /* that the lanes' samples go to; NULL: none */
@@ -37,15 +35,15 @@ static gather_tile *create(const aur_gather_plan *plan, const aur_tile *tile) {
     if (work == NULL)
         return NULL;
     memset(work, 0, sizeof *work);
-    aur_packet_clear(&work->scratch.rays.packet);
-    work->scratch.numbers = calloc(numbers + 1, sizeof *work->scratch.numbers);
-    work->plan = plan;
+    aur_packet_clear(&work->sums.rays.packet);
+    work->sums.numbers = calloc(numbers + 1, sizeof *work->sums.numbers);
+    work->places.plan = plan;
     work->view = tile->view;
     work->x = tile->x0 / AUR_TILE_SIZE * AUR_TILE_SIZE;
     work->y = tile->y0 / AUR_TILE_SIZE * AUR_TILE_SIZE;
     work->places.tile = aur_hash2(work->y, work->x);
     work->places.sampler = tile->view->sampler;
-    if (work->scratch.numbers != NULL)
+    if (work->sums.numbers != NULL)
         return work;
     free(work);
     return NULL;
@@ -76,23 +74,23 @@ static void begin(gather_tile *work, uint32_t lanes) {
 
 /* Traces the rays of all lanes; returns those that hit something. */
 static uint32_t trace(gather_tile *work) {
-    aur_packet *const packet = &work->scratch.rays.packet;
+    aur_packet *const packet = &work->sums.rays.packet;
     aur_packet_empty(packet);
     for (uint32_t rest = work->places.lanes; rest != 0; rest &= rest - 1) {
         const size_t lane = aur_first_lane(rest);
         aur_packet_set(packet, lane, &work->samples[lane].ray);
     }
     const aur_embree_order order = work->places.bounces == 0 ? AUR_EMBREE_COHERENT : AUR_EMBREE_INCOHERENT;
-    return aur_gather_intersect(work->plan, order, packet, work->sums.counters);
+    return aur_gather_intersect(work->places.plan, order, packet, work->sums.counters);
 }
 
 /* Counts what the eye's rays met. Lanes that need no shading for it are taken out. */
 static void count_seen(gather_tile *work, uint32_t found) {
-    const aur_packet *const packet = &work->scratch.rays.packet;
+    const aur_packet *const packet = &work->sums.rays.packet;
     for (uint32_t rest = work->places.lanes; rest != 0; rest &= rest - 1) {
         const size_t lane = aur_first_lane(rest);
         const uint64_t key =
-            aur_has_lane(found, lane) ? aur_gather_surface_key(work->plan->classes, packet, lane) : 0;
+            aur_has_lane(found, lane) ? aur_gather_surface_key(work->places.plan->classes, packet, lane) : 0;
         bool known;
         aur_stratum *const stratum = aur_pixel_strata_find(pixel_of(work, lane), key, &known);
         stratum->seen += (double)work->weights[lane];
@@ -105,7 +103,7 @@ static void count_seen(gather_tile *work, uint32_t found) {
 
 /* Light from beyond the scene, for lanes whose ray left it. */
 static void add_sky(gather_tile *work, uint32_t lanes) {
-    const aur_gather_plan *const plan = work->plan;
+    const aur_gather_plan *const plan = work->places.plan;
     if (plan->policy.direct == AUR_DIRECT_NONE || !aur_scene_has_environment(plan->scene))
         return;
     for (uint32_t rest = lanes; rest != 0; rest &= rest - 1) {
@@ -118,12 +116,12 @@ static void add_sky(gather_tile *work, uint32_t lanes) {
 /* The surfaces that the rays met, with the light that reaches the eye from them without being gathered:
  * caustics, and what they emit. */
 static void set_places(gather_tile *work) {
-    const aur_gather_plan *const plan = work->plan;
+    const aur_gather_plan *const plan = work->places.plan;
     const aur_scene *const scene = plan->scene;
     const aur_irradiance_map *const caustics = plan->light.caustics;
     for (uint32_t rest = work->places.lanes; rest != 0; rest &= rest - 1) {
         const size_t lane = aur_first_lane(rest);
-        const aur_hit hit = aur_packet_hit(scene, &work->scratch.rays.packet, lane);
+        const aur_hit hit = aur_packet_hit(scene, &work->sums.rays.packet, lane);
         const aur_ray *const ray = &work->samples[lane].ray;
         const aur_surface *const surface = &work->places.at[lane].surface;
         aur_gather_place_set(plan, ray, &hit, &work->places.at[lane]);
@@ -170,7 +168,6 @@ static void bounce(gather_tile *work) {
 
 /* Adds sample `index` of a group's pixels to their strata. */
 static void add_samples(gather_tile *work, uint32_t group, uint32_t index, uint32_t lanes) {
-    const aur_gather_plan *const plan = work->plan;
     aur_gather_places *const places = &work->places;
     if (lanes == 0)
         return;
@@ -186,7 +183,7 @@ static void add_samples(gather_tile *work, uint32_t group, uint32_t index, uint3
         if (places->lanes == 0)
             break;
         set_places(work);
-        aur_gather_shade(plan, places, &work->sums, &work->scratch);
+        aur_gather_shade(places, &work->sums);
         bounce(work);
     }
     work->sums.counters->cut += aur_lane_count(places->lanes);
@@ -204,9 +201,9 @@ static void add_samples(gather_tile *work, uint32_t group, uint32_t index, uint3
  * small part of them. */
 static void refine_edges(gather_tile *work, uint32_t first_index) {
     enum { PLAIN_EDGE_PART = 16 };
-    const uint32_t count = work->plan->policy.edge_samples;
+    const uint32_t count = work->places.plan->policy.edge_samples;
     aur_gather_edges edges;
-    aur_gather_find_edges(work->plan, work->view, work->x, work->y, work->strata, &edges,
+    aur_gather_find_edges(work->places.plan, work->view, work->x, work->y, work->strata, &edges,
                           work->sums.counters);
     work->only_new = true;
     for (uint32_t group = 0; group < AUR_GROUP_COUNT; ++group)
@@ -225,7 +222,7 @@ static void shade_tile(gather_tile *work, const aur_tile *tile) {
         for (uint32_t i = 0; i < tile->count; ++i)
             add_samples(work, group, tile->first + i, lanes);
     }
-    if (work->plan->policy.edge_samples > 0)
+    if (work->places.plan->policy.edge_samples > 0)
         refine_edges(work, tile->first + tile->count);
 }
 
@@ -239,7 +236,7 @@ static void add_means(const gather_tile *work, aur_tile *tile) {
             double mean[3];
             aur_pixel_strata_mean(pixel, mean);
             aur_tile_add_mean(tile, x, y, tile->count, mean);
-            if (work->plan->policy.adaptive)
+            if (work->places.plan->policy.adaptive)
                 aur_tile_add_extra(tile, x, y, 0, (double)tile->count * (double)pixel->directions);
         }
 }
@@ -253,7 +250,7 @@ aur_result aur_gather_tile(const aur_gather_plan *plan, aur_tile *tile) {
     const bool good = !plan->policy.pools || aur_gather_pool_irradiance(work->strata);
     if (good)
         add_means(work, tile);
-    free(work->scratch.numbers);
+    free(work->sums.numbers);
     free(work);
     return good ? AUR_OK : AUR_ERROR_MEMORY;
 }

@@ -3,111 +3,96 @@
 #include <stdlib.h>
 
 #include "core/array.h"
+#include "core/error.h"
 
 /* A texel is bright from so many times the mean radiance of the lit ones on. */
 static const double BRIGHTNESS = 2.0;
 
-typedef struct patch_visit {
-    aur_bright_patch patch;
-    double area;
-    float radiance;
-} patch_visit;
-
 typedef struct patch_search {
-    const aur_scene *scene;
     const aur_irradiance_map *map;
-    const aur_shape_class *classes;
+    aur_bright_texels *bright;
     double flux, area; /* of what is lit */
     size_t count, patch_capacity, weight_capacity;
     double *weights;
-    aur_bright_texels *bright;
 } patch_search;
 
-static aur_result measure(patch_search *search, const patch_visit *at) {
-    if (!(at->radiance > 0.0f))
-        return AUR_OK;
-    search->flux += at->area * (double)at->radiance;
-    search->area += at->area;
-    return AUR_OK;
-}
-
-static aur_result collect(patch_search *search, const patch_visit *at) {
-    const float excess = at->radiance - search->bright->threshold;
+/* Adds a patch of the area that is brighter than the threshold. */
+static bool collect(patch_search *search, const aur_bright_patch *patch, double area, float radiance) {
+    aur_bright_texels *const bright = search->bright;
+    const float excess = radiance - bright->threshold;
     if (!(excess > 0.0f))
-        return AUR_OK;
+        return true;
     const size_t wanted = search->count + 1;
-    if (!aur_array_reserve(&search->bright->patches, &search->patch_capacity, wanted,
-                           sizeof *search->bright->patches) ||
+    if (!aur_array_reserve(&bright->patches, &search->patch_capacity, wanted, sizeof *bright->patches) ||
         !aur_array_reserve(&search->weights, &search->weight_capacity, wanted, sizeof *search->weights))
-        return AUR_ERROR_MEMORY;
-    search->bright->patches[search->count] = at->patch;
-    search->weights[search->count++] = at->area * (double)excess;
-    return AUR_OK;
+        return false;
+    bright->patches[search->count] = *patch;
+    search->weights[search->count++] = area * (double)excess;
+    return true;
 }
 
-static aur_result visit_triangle(patch_search *search, patch_visit *at, double triangle_area,
-                                 const aur_vector albedo_on_pi[2],
-                                 aur_result (*visit)(patch_search *, const patch_visit *)) {
-    const aur_texel_range range = search->map->texels.ranges[at->patch.element];
-    at->area = triangle_area / ((double)range.side * (double)range.side);
-    uint32_t texel = range.first;
+/* Both sides of all texels of a triangle: measures what is lit, or collects what is bright. */
+static bool visit_triangle(patch_search *search, aur_bright_patch patch, double triangle_area,
+                           const aur_vector albedo_on_pi[2], bool collects) {
+    const aur_texel_range range = search->map->texels.ranges[patch.element];
+    const double area = triangle_area / ((double)range.side * (double)range.side);
+    size_t light = 2 * (size_t)range.first;
     for (uint32_t row = 0; row < range.side; ++row)
-        for (uint32_t k = 0; k < 2 * (range.side - row) - 1; ++k, ++texel) {
-            at->patch.row = (uint16_t)row;
-            at->patch.column = (uint16_t)(k / 2);
-            at->patch.upper = k % 2 == 1;
-            for (size_t side = 0; side < 2; ++side) {
-                const aur_texel_light *const light = &search->map->lights[2 * (size_t)texel + side];
-                at->patch.behind = side == 1;
-                at->radiance = aur_vector_max(aur_vector_multiply(albedo_on_pi[side], light->irradiance));
-                const aur_result result = visit(search, at);
-                if (result != AUR_OK)
-                    return result;
+        for (uint32_t k = 0; k < 2 * (2 * (range.side - row) - 1); ++k, ++light) {
+            patch.row = (uint16_t)row;
+            patch.column = (uint16_t)(k / 4);
+            patch.upper = k / 2 % 2 == 1;
+            patch.behind = k % 2 == 1;
+            const aur_vector irradiance = search->map->lights[light].irradiance;
+            const float radiance =
+                aur_vector_max(aur_vector_multiply(albedo_on_pi[patch.behind], irradiance));
+            if (collects && !collect(search, &patch, area, radiance))
+                return false;
+            if (!collects && radiance > 0.0f) {
+                search->flux += area * (double)radiance;
+                search->area += area;
             }
         }
-    return AUR_OK;
+    return true;
 }
 
-/* Calls `visit` for every side of every texel of plain triangles. */
-static aur_result visit_all(patch_search *search, aur_result (*visit)(patch_search *, const patch_visit *)) {
+/* All plain triangles. False: out of memory. */
+static bool visit_all(patch_search *search, const aur_scene *scene, const aur_shape_class *classes,
+                      bool collects) {
     const aur_elements *const elements = &search->map->texels.elements;
     for (size_t i = 0; i < elements->placement_count; ++i) {
         const aur_placement *const placement = &elements->placements[i];
-        const aur_shape_class *const class = &search->classes[placement->shape];
+        const aur_shape_class *const class = &classes[placement->shape];
         if (placement->instance != AUR_NO_INSTANCE || !class->plain)
             continue;
         for (uint32_t k = 0; k < placement->count; ++k) {
-            patch_visit at = {
-                .patch = {.element = placement->first + k, .shape = placement->shape, .primitive = k}};
-            const aur_result result = visit_triangle(
-                search, &at, aur_element_area(search->scene, placement, k), class->albedo_on_pi, visit);
-            if (result != AUR_OK)
-                return result;
+            const aur_bright_patch patch = {
+                .element = placement->first + k, .shape = placement->shape, .primitive = k};
+            if (!visit_triangle(search, patch, aur_element_area(scene, placement, k), class->albedo_on_pi,
+                                collects))
+                return false;
         }
     }
-    return AUR_OK;
+    return true;
 }
 
 aur_result aur_bright_texels_create(const aur_scene *scene, const aur_irradiance_map *map,
                                     const aur_shape_class *classes, aur_bright_texels *bright,
                                     aur_error *error) {
     *bright = (aur_bright_texels){0};
-    patch_search search = {.scene = scene, .map = map, .classes = classes, .bright = bright};
-    visit_all(&search, measure);
+    patch_search search = {.map = map, .bright = bright};
+    visit_all(&search, scene, classes, false);
     bright->threshold = search.area > 0.0 ? (float)(BRIGHTNESS * search.flux / search.area) : 0.0f;
-    aur_result result = visit_all(&search, collect);
-    if (result == AUR_OK)
-        result = aur_distribution_create(&bright->distribution, search.count, search.weights, error);
-    else
-        aur_fail(error, result, "bright texels: %s", aur_result_string(result));
+    const aur_result result =
+        visit_all(&search, scene, classes, true)
+            ? aur_distribution_create(&bright->distribution, search.count, search.weights, error)
+            : aur_fail_memory(error);
     free(search.weights);
-    if (result != AUR_OK) {
+    if (result != AUR_OK)
         aur_bright_texels_release(bright);
-        return result;
-    }
-    if (bright->distribution.total > 0.0)
+    else if (bright->distribution.total > 0.0)
         bright->scale = (float)(1.0 / bright->distribution.total);
-    return AUR_OK;
+    return result;
 }
 
 void aur_bright_texels_release(aur_bright_texels *bright) {
