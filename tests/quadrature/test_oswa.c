@@ -7,7 +7,7 @@
 
 #include "check.h"
 #include "quadrature/potential/potential_table.h"
-#include "quadrature/tables/weight_rows.h"
+#include "quadrature/tables/weight_table.h"
 
 #define PI 3.14159265358979323846
 
@@ -264,7 +264,7 @@ static void test_threads(void **state) {
     const size_t floats = 2 * (options.count + options.mirror_count);
     for (size_t repeat = 0; repeat < 25; ++repeat) {
         aur_weight_table *const many = build(&options, 32, 8, 8);
-        for (size_t row = 0; row < aur_weight_table_row_count(one); ++row)
+        for (size_t row = 0; row < aur_weight_table_rows(one); ++row)
             assert_memory_equal(aur_weight_table_row(one, row), aur_weight_table_row(many, row),
                                 floats * sizeof(float));
         aur_weight_table_destroy(many);

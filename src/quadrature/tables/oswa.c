@@ -2,6 +2,7 @@
  * clipped. */
 #include "quadrature/tables/oswa.h"
 
+#include <float.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -21,75 +22,63 @@ bool aur_oswa_hides(const aur_oswa *oswa) {
     return oswa->options.clipped || is_ggx(oswa);
 }
 
-/* The second pattern has a seed of its own, which is not the first one's of another pair. */
-static uint64_t pattern_seed(uint64_t seed, size_t which) {
-    return which == 0 ? seed : aur_hash2(UINT64_C(0x6d6972726f72), seed);
-}
+/* --- making one */
 
-static aur_result load_uniform(aur_oswa *oswa, size_t which, aur_error *error) {
-    const aur_directions_options options = {.size = sizeof options,
-                                            .count = oswa->count[which],
-                                            .domain = AUR_DOMAIN_HEMISPHERE,
-                                            .map = oswa->options.map,
-                                            .scramble = oswa->options.scramble,
-                                            .seed = pattern_seed(oswa->options.seed, which)};
-    return aur_points_of_set(oswa->set, &options, oswa->uniform[which], NULL, error);
-}
-
-static void warp_pattern(aur_oswa *oswa, size_t which) {
-    for (size_t i = 0; i < oswa->count[which]; ++i)
-        aur_lobe_warp(&oswa->sampled[which], oswa->uniform[which] + 3 * i, oswa->pattern[which] + 3 * i);
-}
-
-/* The block of K and the z of a pattern within itself. */
-static aur_result prepare_pattern(aur_oswa *oswa, size_t which, aur_error *error) {
+/* The block of K and the z of a pattern within itself; `columns` has room for its points. */
+static aur_result prepare_pattern(aur_oswa *oswa, size_t which, double *columns, aur_error *error) {
     const size_t n = oswa->count[which];
-    const aur_density density = {.size = sizeof density, .exponent = oswa->lobe[which].exponent};
+    const double exponent = oswa->lobe[which].exponent;
+    const aur_density density = {.size = sizeof density, .exponent = exponent};
     const aur_result result =
         aur_potential_create(&density, oswa->options.smoothness, &oswa->whole[which], error);
     if (result != AUR_OK)
         return result;
+    const aur_kernel_rule *const rule = &oswa->whole[which]->rule;
     const double *const pattern = oswa->pattern[which];
-    double *const columns = malloc(3 * n * sizeof *columns);
-    if (columns == NULL)
-        return aur_fail_memory(error);
     const aur_columns split = aur_columns_split(n, pattern, columns);
     for (size_t i = 0; i < n; ++i) {
-        aur_kernel_row(&oswa->whole[which]->rule, pattern + 3 * i, i, split, oswa->kernel[which] + i * n);
-        oswa->kernel[which][i * n + i] = oswa->whole[which]->rule.top + oswa->weights.regularization;
+        aur_kernel_row(rule, pattern + 3 * i, i, split, oswa->kernel[which] + i * n);
+        oswa->kernel[which][i * n + i] = rule->top + oswa->weights.regularization;
     }
-    const aur_potential_table *const published = oswa->published_z;
-    if (published != NULL)
-        aur_potential_table_evaluate(published, density.exponent, n, split.z, oswa->own[which]);
+    if (oswa->published_z != NULL)
+        aur_potential_table_evaluate(oswa->published_z, exponent, n, split.z, oswa->own[which]);
     else
         aur_potential_evaluate(oswa->whole[which], n, pattern, oswa->own[which]);
-    free(columns);
     return AUR_OK;
 }
 
-static aur_result allocate(aur_oswa *oswa, bool solves, aur_error *error) {
-    const size_t n = oswa->count[0] + oswa->count[1];
-    const aur_result result = aur_check_system_size(solves ? n : 1, error);
+static aur_result create_pattern(aur_oswa *oswa, size_t which, bool solves, aur_error *error) {
+    const aur_oswa_options *const o = &oswa->options;
+    const aur_lobe *const lobe = &oswa->lobe[which];
+    const size_t n = oswa->count[which];
+    const bool whole = lobe->kind == AUR_LOBE_COSINE_POWER;
+    oswa->sampled[which] = *lobe;
+    aur_result result = AUR_OK;
+    if (o->optimal_density && whole)
+        result = aur_lobe_optimal(lobe, o->smoothness, &oswa->sampled[which], error);
     if (result != AUR_OK)
         return result;
-    const size_t blocks[2] = {solves ? oswa->count[0] * oswa->count[0] : 0,
-                              solves ? oswa->count[1] * oswa->count[1] : 0};
-    const size_t doubles = 7 * n + blocks[0] + blocks[1];
-    double *next = malloc(doubles * sizeof *next);
-    oswa->storage = next;
-    oswa->set = strdup(oswa->options.set);
-    if (next == NULL || oswa->set == NULL)
+    double *const storage = malloc((10 * n + (solves && whole ? n * n : 0)) * sizeof *storage);
+    if (storage == NULL)
         return aur_fail_memory(error);
-    oswa->options.set = oswa->set;
-    for (size_t which = 0; which < 2; ++which) {
-        const size_t count = oswa->count[which];
-        oswa->uniform[which] = next;
-        oswa->pattern[which] = next + 3 * count;
-        oswa->own[which] = next + 6 * count;
-        oswa->kernel[which] = next + 7 * count;
-        next += 7 * count + blocks[which];
-    }
-    return AUR_OK;
+    oswa->uniform[which] = storage;
+    oswa->pattern[which] = storage + 3 * n;
+    oswa->own[which] = storage + 9 * n;
+    oswa->kernel[which] = storage + 10 * n;
+    /* The second pattern has a seed of its own, which is not the first one's of another pair. */
+    const aur_directions_options directions = {
+        .size = sizeof directions,
+        .count = n,
+        .domain = AUR_DOMAIN_HEMISPHERE,
+        .map = o->map,
+        .scramble = o->scramble,
+        .seed = which == 0 ? o->seed : aur_hash2(UINT64_C(0x6d6972726f72), o->seed)};
+    result = aur_points_of_set(o->set, &directions, storage, NULL, error);
+    if (result != AUR_OK || !whole)
+        return result;
+    for (size_t i = 0; i < n; ++i)
+        aur_lobe_warp(&oswa->sampled[which], storage + 3 * i, oswa->pattern[which] + 3 * i);
+    return solves ? prepare_pattern(oswa, which, storage + 6 * n, error) : AUR_OK;
 }
 
 static aur_result check(const aur_oswa_options *options, aur_error *error) {
@@ -128,28 +117,19 @@ static aur_result create(aur_oswa *oswa, const aur_oswa_options *given, bool sol
     aur_result result = aur_oswa_options_read(given, options, &oswa->weights, error);
     if (result != AUR_OK)
         return result;
-    for (size_t which = 0; which < 2; ++which) {
-        oswa->lobe[which] = which == 0 ? options->lobe : options->mirror_lobe;
-        oswa->sampled[which] = oswa->lobe[which];
-        oswa->count[which] = which == 0 ? options->count : options->mirror_count;
-        if (options->optimal_density && oswa->lobe[which].kind == AUR_LOBE_COSINE_POWER) {
-            result = aur_lobe_optimal(&oswa->lobe[which], options->smoothness, &oswa->sampled[which], error);
-            if (result != AUR_OK)
-                return result;
-        }
-    }
-    result = allocate(oswa, solves, error);
+    options->set = oswa->set = strdup(options->set);
+    if (options->set == NULL)
+        return aur_fail_memory(error);
+    oswa->count[0] = options->count;
+    oswa->count[1] = options->mirror_count;
+    oswa->lobe[0] = options->lobe;
+    oswa->lobe[1] = options->mirror_lobe;
+    result = aur_check_system_size(solves ? aur_oswa_size(oswa) : 1, error);
     if (result == AUR_OK && solves && options->published_z.angle_count > 0)
         result =
             aur_potential_table_create(&options->published_z, options->smoothness, &oswa->published_z, error);
-    for (size_t which = 0; which < 2 && result == AUR_OK; ++which) {
-        result = load_uniform(oswa, which, error);
-        if (result != AUR_OK || oswa->lobe[which].kind != AUR_LOBE_COSINE_POWER)
-            continue;
-        warp_pattern(oswa, which);
-        if (solves)
-            result = prepare_pattern(oswa, which, error);
-    }
+    for (size_t which = 0; which < 2 && result == AUR_OK; ++which)
+        result = create_pattern(oswa, which, solves, error);
     return result;
 }
 
@@ -160,12 +140,11 @@ aur_result aur_oswa_create_for(const aur_oswa_options *options, bool solves, aur
     if (created == NULL)
         return aur_fail_memory(error);
     const aur_result result = create(created, options, solves, error);
-    if (result != AUR_OK) {
+    if (result == AUR_OK)
+        *oswa = created;
+    else
         aur_oswa_destroy(created);
-        return result;
-    }
-    *oswa = created;
-    return AUR_OK;
+    return result;
 }
 
 aur_result aur_oswa_create(const aur_oswa_options *options, aur_oswa **oswa, aur_error *error) {
@@ -175,10 +154,11 @@ aur_result aur_oswa_create(const aur_oswa_options *options, aur_oswa **oswa, aur
 void aur_oswa_destroy(aur_oswa *oswa) {
     if (oswa == NULL)
         return;
-    aur_potential_destroy(oswa->whole[0]);
-    aur_potential_destroy(oswa->whole[1]);
+    for (size_t which = 0; which < 2; ++which) {
+        aur_potential_destroy(oswa->whole[which]);
+        free(oswa->uniform[which]);
+    }
     aur_potential_table_destroy(oswa->published_z);
-    free(oswa->storage);
     free(oswa->set);
     free(oswa);
 }
@@ -186,6 +166,8 @@ void aur_oswa_destroy(aur_oswa *oswa) {
 size_t aur_oswa_size(const aur_oswa *oswa) {
     return oswa->count[0] + oswa->count[1];
 }
+
+/* --- where the samples are */
 
 /* Turns about +z. */
 static void turn(double turns, size_t count, const double *from, double *to) {
@@ -214,18 +196,23 @@ static aur_lobe ggx_at(const aur_oswa *oswa, double radians) {
     return lobe;
 }
 
-static void place(const aur_oswa *oswa, double radians, const double turns[2], double *xyz) {
-    double *const second = xyz + 3 * oswa->count[0];
-    turn(turns[0], oswa->count[0], oswa->pattern[0], xyz);
+/* Samples first .. first + count - 1 of the pattern about the mirror direction. */
+static void place_mirror(const aur_oswa *oswa, double radians, double turns, size_t first, size_t count,
+                         double *xyz) {
     if (!is_ggx(oswa)) {
-        turn(turns[1], oswa->count[1], oswa->pattern[1], second);
-        tilt(radians, oswa->count[1], second);
+        turn(turns, count, oswa->pattern[1] + 3 * first, xyz);
+        tilt(radians, count, xyz);
         return;
     }
     const aur_lobe lobe = ggx_at(oswa, radians);
-    turn(turns[1], oswa->count[1], oswa->uniform[1], second);
-    for (size_t i = 0; i < oswa->count[1]; ++i)
-        aur_lobe_warp(&lobe, second + 3 * i, second + 3 * i);
+    turn(turns, count, oswa->uniform[1] + 3 * first, xyz);
+    for (size_t i = 0; i < count; ++i)
+        aur_lobe_warp(&lobe, xyz + 3 * i, xyz + 3 * i);
+}
+
+static void place(const aur_oswa *oswa, double radians, const double turns[2], double *xyz) {
+    turn(turns[0], oswa->count[0], oswa->pattern[0], xyz);
+    place_mirror(oswa, radians, turns[1], 0, oswa->count[1], xyz + 3 * oswa->count[0]);
 }
 
 void aur_oswa_turns(uint64_t seed, size_t rotation, double turns[2]) {
@@ -235,15 +222,15 @@ void aur_oswa_turns(uint64_t seed, size_t rotation, double turns[2]) {
 
 double aur_oswa_height(const aur_oswa *oswa, double radians, double turns, size_t index) {
     double u[3];
-    if (is_ggx(oswa)) {
-        const aur_lobe lobe = ggx_at(oswa, radians);
-        turn(turns, 1, oswa->uniform[1] + 3 * index, u);
-        aur_lobe_warp(&lobe, u, u);
-    } else {
-        turn(turns, 1, oswa->pattern[1] + 3 * index, u);
-        tilt(radians, 1, u);
-    }
+    place_mirror(oswa, radians, turns, index, 1, u);
     return u[2];
+}
+
+void aur_oswa_visible(const aur_oswa *oswa, double radians, const double turns[2], double *xyz,
+                      bool *visible) {
+    place(oswa, radians, turns, xyz);
+    for (size_t i = 0; i < aur_oswa_size(oswa); ++i)
+        visible[i] = !aur_oswa_hides(oswa) || xyz[3 * i + 2] >= 0.0;
 }
 
 aur_result aur_oswa_points(const aur_oswa *oswa, double radians, const double turns[2], bool mirrored,
@@ -258,6 +245,8 @@ aur_result aur_oswa_points(const aur_oswa *oswa, double radians, const double tu
         xyz[3 * i + 1] = -xyz[3 * i + 1];
     return AUR_OK;
 }
+
+/* --- solving */
 
 aur_result aur_oswa_angle_init(const aur_oswa *oswa, double radians, aur_oswa_angle *angle,
                                aur_error *error) {
@@ -357,9 +346,10 @@ static size_t drop(size_t n, const bool *taken, double *matrix, double *right, s
     return kept;
 }
 
-/* The way that knows nothing in advance: GGX, and systems that only merged samples make positive definite. */
-static aur_result solve_plainly(const aur_oswa *oswa, const aur_oswa_angle *angle, const bool *taken,
-                                const double *xyz, double *weights, aur_error *error) {
+/* The way that knows nothing in advance: GGX, and systems that only merged samples make positive definite. It
+ * leaves out by itself what is below the surface. */
+static aur_result solve_plainly(const aur_oswa *oswa, const aur_oswa_angle *angle, const double *xyz,
+                                double *weights, aur_error *error) {
     const size_t n = aur_oswa_size(oswa);
     aur_potential *mirror = angle->potential;
     aur_result result = AUR_OK;
@@ -370,33 +360,12 @@ static aur_result solve_plainly(const aur_oswa *oswa, const aur_oswa_angle *angl
                                      .clipped = oswa->options.clipped};
         result = aur_potential_create(&density, oswa->options.smoothness, &mirror, error);
     }
-    double *const subset = malloc(5 * n * sizeof *subset);
-    if (result == AUR_OK && subset == NULL)
-        result = aur_fail_memory(error);
-    if (result == AUR_OK) {
-        size_t kept = 0;
-        for (size_t i = 0; i < n; ++i)
-            if (taken[i])
-                memcpy(subset + 3 * kept++, xyz + 3 * i, 3 * sizeof *xyz);
-        const aur_potential *const potentials[] = {oswa->whole[0], mirror};
-        double *const found = subset + 3 * n;
-        result =
-            aur_weights_solve(kept, subset, 2, potentials, &oswa->weights, 2 * n, found, NULL, NULL, error);
-        for (size_t k = 0, at = 0; k < 2 && result == AUR_OK; ++k)
-            for (size_t i = 0; i < n; ++i)
-                weights[k * n + i] = taken[i] ? found[at++] : 0.0;
-    }
-    free(subset);
+    const aur_potential *const potentials[] = {oswa->whole[0], mirror};
+    if (result == AUR_OK)
+        result = aur_weights_solve(n, xyz, 2, potentials, &oswa->weights, 2 * n, weights, NULL, NULL, error);
     if (mirror != angle->potential)
         aur_potential_destroy(mirror);
     return result;
-}
-
-void aur_oswa_visible(const aur_oswa *oswa, double radians, const double turns[2], double *xyz,
-                      bool *visible) {
-    place(oswa, radians, turns, xyz);
-    for (size_t i = 0; i < aur_oswa_size(oswa); ++i)
-        visible[i] = !aur_oswa_hides(oswa) || xyz[3 * i + 2] >= 0.0;
 }
 
 aur_result aur_oswa_solve_at(const aur_oswa *oswa, const aur_oswa_angle *angle, const double turns[2],
@@ -408,12 +377,11 @@ aur_result aur_oswa_solve_at(const aur_oswa *oswa, const aur_oswa_angle *angle, 
     double *const right = columns + 3 * n;
     double *const cosines = right + 3 * n;
     place(oswa, angle->radians, turns, xyz);
-    /* At a crossing rounding may leave a sample just below the horizon. */
+    /* At a crossing rounding may leave a sample just on the wrong side of the horizon. */
     for (size_t i = 0; i < n && aur_oswa_hides(oswa); ++i)
-        if (taken[i])
-            xyz[3 * i + 2] = fmax(0.0, xyz[3 * i + 2]);
+        xyz[3 * i + 2] = taken[i] ? fmax(0.0, xyz[3 * i + 2]) : fmin(-DBL_MIN, xyz[3 * i + 2]);
     if (is_ggx(oswa))
-        return solve_plainly(oswa, angle, taken, xyz, weights, error);
+        return solve_plainly(oswa, angle, xyz, weights, error);
     const size_t first = oswa->count[0];
     fill_matrix(oswa, xyz, columns, matrix);
     fill_z(oswa, angle, 0, xyz, cosines, right, right + n);
@@ -423,7 +391,7 @@ aur_result aur_oswa_solve_at(const aur_oswa *oswa, const aur_oswa_angle *angle, 
         right[2 * n + i] = 1.0;
     const size_t kept = drop(n, taken, matrix, right, 3);
     if (aur_solve_positive(kept, matrix, constrained ? 3 : 2, right, NULL, NULL) != AUR_OK)
-        return solve_plainly(oswa, angle, taken, xyz, weights, error);
+        return solve_plainly(oswa, angle, xyz, weights, error);
     for (size_t k = 0; k < 2; ++k) {
         double *const solution = right + k * kept;
         if (constrained)

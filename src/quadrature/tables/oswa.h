@@ -15,13 +15,12 @@ struct aur_oswa {
     size_t count[2];
     aur_lobe lobe[2];        /* that the weights are for */
     aur_lobe sampled[2];     /* that the points follow */
-    double *uniform[2];      /* even directions of the hemisphere */
+    double *uniform[2];      /* even directions of the hemisphere; owns what the next three point to */
     double *pattern[2];      /* warped, about +z; GGX: unused */
     double *kernel[2];       /* count * count, lower triangle: the constant blocks; GGX: [1] is NULL */
     double *own[2];          /* z of each pattern for its own lobe, unclipped; GGX: [1] is NULL */
     aur_potential *whole[2]; /* of each lobe about +z, unclipped; GGX: [1] is NULL */
     aur_potential_table *published_z; /* NULL: z is exact */
-    void *storage;
 };
 
 /* Checks the caller's options and copies them, with all defaults filled in, to *own, whose set is the

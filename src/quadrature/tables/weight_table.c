@@ -5,9 +5,7 @@
 #include <stdlib.h>
 
 #include "core/memory.h"
-#include "core/vector.h"
 #include "quadrature/check.h"
-#include "quadrature/linear/solve.h"
 
 aur_result aur_weight_table_create(const aur_oswa_options *options, size_t angle_count, size_t rotation_count,
                                    bool solves, aur_weight_table **table, aur_error *error) {
@@ -28,21 +26,25 @@ aur_result aur_weight_table_create(const aur_oswa_options *options, size_t angle
     created->rotation_count = rotation_count;
     created->size = aur_oswa_size(created->oswa);
     created->apart = aur_oswa_hides(created->oswa);
-    created->piece_count = created->apart ? aur_weight_table_intervals(created) : 0;
     *table = created;
     return AUR_OK;
 }
 
-aur_result aur_weight_table_allocate(aur_weight_table *table, aur_error *error) {
-    const double floats = (double)aur_weight_table_rows(table) * 2.0 * (double)table->size;
-    if (floats * sizeof(float) <= aur_machine_memory()) {
-        table->weights = malloc((size_t)floats * sizeof *table->weights);
-        table->masses = malloc(aur_weight_table_mass_count(table) * sizeof *table->masses);
-    }
-    if (table->weights != NULL && table->masses != NULL)
+aur_result aur_weight_table_check_memory(const aur_weight_table *table, aur_error *error) {
+    const double bytes = 2.0 * (double)aur_weight_table_rows(table) * (double)table->size * sizeof(float);
+    if (bytes <= aur_machine_memory())
         return AUR_OK;
     return aur_fail(error, AUR_ERROR_MEMORY, "a table of %zu angles and %zu rotations takes %.3g GB",
-                    table->angle_count, table->rotation_count, 1e-9 * floats * sizeof(float));
+                    table->angle_count, table->rotation_count, 1e-9 * bytes);
+}
+
+aur_result aur_weight_table_allocate(aur_weight_table *table, aur_error *error) {
+    const aur_result result = aur_weight_table_check_memory(table, error);
+    if (result != AUR_OK)
+        return result;
+    table->weights = malloc(2 * aur_weight_table_rows(table) * table->size * sizeof *table->weights);
+    table->masses = malloc(aur_weight_table_mass_count(table) * sizeof *table->masses);
+    return table->weights != NULL && table->masses != NULL ? AUR_OK : aur_fail_memory(error);
 }
 
 void aur_weight_table_destroy(aur_weight_table *table) {
@@ -117,14 +119,6 @@ size_t aur_weight_table_locate(const aur_weight_table *table, size_t rotation, f
     return 2 * piece;
 }
 
-size_t aur_weight_table_row_count(const aur_weight_table *table) {
-    return aur_weight_table_rows(table);
-}
-
-const float *aur_weight_table_row(const aur_weight_table *table, size_t row) {
-    return table->weights + 2 * row * table->size;
-}
-
 aur_result aur_weight_table_look_up(const aur_weight_table *table, size_t lobe, size_t rotation,
                                     double radians, size_t capacity, float *weights, aur_error *error) {
     if (lobe > 1)
@@ -134,11 +128,10 @@ aur_result aur_weight_table_look_up(const aur_weight_table *table, size_t lobe, 
         return result;
     float part;
     const size_t row = aur_weight_table_locate(table, rotation, (float)radians, &part);
-    const float *restrict below = table->weights + (2 * row + lobe) * table->size;
-    const float *restrict above = below + 2 * table->size;
-    float *restrict target = weights;
+    const float *const below = aur_weight_table_row(table, row) + lobe * table->size;
+    const float *const above = below + 2 * table->size;
     for (size_t i = 0; i < table->size; ++i)
-        target[i] = below[i] + part * (above[i] - below[i]);
+        weights[i] = below[i] + part * (above[i] - below[i]);
     return AUR_OK;
 }
 

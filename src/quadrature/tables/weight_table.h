@@ -1,9 +1,9 @@
-/* What a table of weights holds. */
+/* The inside of a table of OSWA weights, and what its builder, its files and renderers that keep its rows in
+ * another layout need. A table does not change once it is built or read. */
 #pragma once
 
 #include "core/vector.h"
 #include "quadrature/tables/oswa.h"
-#include "quadrature/tables/weight_rows.h"
 
 /* A row holds the weights of both lobes at one angle. Where samples can be hidden, the intervals between
  * angles are cut into pieces where a sample crosses the horizon, so that within a piece the same samples take
@@ -14,12 +14,12 @@ struct aur_weight_table {
     size_t angle_count, rotation_count, size;
     bool apart;
     size_t piece_count;
-    uint32_t
-        *first;     /* apart: the first piece of each interval, rotation by rotation, and one past the last */
+    /* Apart: the first piece of each interval, rotation by rotation, and one past the last. */
+    uint32_t *first;
     float *start;   /* apart: the angle where each piece begins */
     float *weights; /* row, lobe, sample */
-    float
-        *masses; /* of the mirror lobe, at MASS_STEPS steps an interval: near the horizon it bends sharply */
+    /* Of the mirror lobe, at MASS_STEPS steps an interval: near the horizon it bends sharply. */
+    float *masses;
 };
 
 enum { AUR_WEIGHT_TABLE_MASS_STEPS = 8 };
@@ -40,11 +40,22 @@ static inline double aur_weight_table_angle(const aur_weight_table *table, size_
     return 0.5 * AUR_PI * (double)index / (double)(table->angle_count - 1);
 }
 
-/* A table with patterns but no weights yet; `solves` as for aur_oswa_create_for. Where samples can be hidden
- * it has one piece an interval, and `first` and `start` are still to be filled. */
+/* The weights of the first lobe and, behind them, of the mirror lobe. */
+static inline float *aur_weight_table_row(const aur_weight_table *table, size_t row) {
+    return table->weights + 2 * row * table->size;
+}
+
+/* The row r at the lower end of where an angle (clamped to [0, pi/2]) lies; the weights there are (1 - *part)
+ * times row r plus *part times row r + 1. `rotation` must be in the table. Exported for the renderer, but no
+ * part of the interface. */
+AUR_API size_t aur_weight_table_locate(const aur_weight_table *table, size_t rotation, float radians,
+                                       float *part);
+
+/* A table with patterns but neither pieces nor weights yet; `solves` as for aur_oswa_create_for. */
 aur_result aur_weight_table_create(const aur_oswa_options *options, size_t angle_count, size_t rotation_count,
                                    bool solves, aur_weight_table **table, aur_error *error);
-/* Memory for the weights, once piece_count is known. */
+/* Whether the machine has memory for the weights, once piece_count is known, and taking it. */
+aur_result aur_weight_table_check_memory(const aur_weight_table *table, aur_error *error);
 aur_result aur_weight_table_allocate(aur_weight_table *table, aur_error *error);
 
 /* Reads a table from the bytes of a file: data[size] is a zero, and lines of the header are cut there. `name`

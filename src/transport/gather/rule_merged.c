@@ -3,7 +3,7 @@
 #include <stdlib.h>
 
 #include "core/error.h"
-#include "quadrature/tables/weight_rows.h"
+#include "quadrature/tables/weight_table.h"
 
 /* --- making one */
 
@@ -90,7 +90,7 @@ static void fill_densities(aur_merged_rule *rule) {
  * the diffuse lobe; that of the glossy one depends on the angle and is left for the look-up. */
 static aur_result compile(aur_merged_rule *rule, aur_error *error) {
     const size_t size = rule->count[0] + rule->count[1];
-    const size_t row_count = aur_weight_table_row_count(rule->table);
+    const size_t row_count = aur_weight_table_rows(rule->table);
     rule->rows = malloc(row_count * 2 * size * sizeof *rule->rows);
     if (rule->rows == NULL)
         return aur_fail(error, AUR_ERROR_MEMORY, "out of memory for the weights of %zu directions", size);
