@@ -47,6 +47,21 @@ aur_result aur_check_capacity(size_t needed, size_t capacity, aur_error *error) 
                                          "there is room for %zu numbers, not for %zu", capacity, needed);
 }
 
+aur_result aur_check_exponent(double exponent, aur_error *error) {
+    return exponent >= 0.0 && exponent <= AUR_EXPONENT_MAXIMUM
+               ? AUR_OK
+               : aur_fail(error, AUR_ERROR_ARGUMENT,
+                          "the exponent of a lobe must be between 0 and %g, not %g", AUR_EXPONENT_MAXIMUM,
+                          exponent);
+}
+
+aur_result aur_check_smoothness(double smoothness, aur_error *error) {
+    return smoothness > 1.0 && smoothness < 2.0
+               ? AUR_OK
+               : aur_fail(error, AUR_ERROR_ARGUMENT,
+                          "the smoothness must be between 1 and 2 (exclusive), not %g", smoothness);
+}
+
 aur_result aur_check_angle(double radians, aur_error *error) {
     return radians >= 0.0 && radians <= 0.5 * AUR_PI + 1e-9
                ? AUR_OK

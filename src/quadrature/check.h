@@ -22,5 +22,10 @@ aur_result aur_points_of_set(const char *set, const aur_directions_options *opti
 /* CAPACITY unless `needed` numbers fit into `capacity`. */
 aur_result aur_check_capacity(size_t needed, size_t capacity, aur_error *error);
 
+/* ARGUMENT for an exponent of a cos^m lobe outside [0, AUR_EXPONENT_MAXIMUM], and for a smoothness outside
+ * (1,2). */
+aur_result aur_check_exponent(double exponent, aur_error *error);
+aur_result aur_check_smoothness(double smoothness, aur_error *error);
+
 /* ARGUMENT for an angle outside [0, pi/2]. */
 aur_result aur_check_angle(double radians, aur_error *error);

@@ -39,6 +39,27 @@ static void test_golden(void **state) {
     aur_potential_destroy(potential);
 }
 
+/* The potential of a cos^m lobe at the cosine x as the sum of k_l mu_l P_l(x), where k_l are the coefficients
+ * of the kernel and mu_l = (m+1) times the integral over [0,1] of x^m P_l(x); P_l by the recurrence of
+ * Bonnet.
+ */
+static double legendre_series(double m, double smoothness, double x) {
+    enum { TERMS = 20000 };
+    static double k[TERMS], mu[TERMS];
+    aur_kernel_coefficients(smoothness, TERMS, k);
+    mu[0] = 1.0;
+    mu[1] = (m + 1.0) / (m + 2.0);
+    double before = 1.0, value = x, sum = k[0] + k[1] * mu[1] * x;
+    for (int l = 2; l < TERMS; ++l) {
+        mu[l] = mu[l - 2] * (m - (l - 2)) / (m + l + 1.0);
+        const double next = ((2.0 * l - 1.0) * x * value - (l - 1.0) * before) / l;
+        before = value;
+        value = next;
+        sum += k[l] * mu[l] * value;
+    }
+    return sum;
+}
+
 /* The fast form against 20000 terms, for every kind of exponent and smoothness. */
 static void test_long_series(void **state) {
     (void)state;
@@ -57,8 +78,8 @@ static void test_long_series(void **state) {
                 xyz[3 * i + 2] = x[i];
             }
             aur_potential_evaluate(potential, COUNT, xyz, z);
-            assert_int_equal(aur_zonal_series(exponents[e], smoothness[s], 20000, COUNT, x, expected, NULL),
-                             AUR_OK);
+            for (int i = 0; i < COUNT; ++i)
+                expected[i] = legendre_series(exponents[e], smoothness[s], x[i]);
             /* The slower the decay (m + 2s), the fewer digits; at s = 1.1 and m < 1 20000 terms are good to
              * 1e-9. */
             const double decay = exponents[e] + 2.0 * smoothness[s];

@@ -8,10 +8,6 @@
 
 static const double negligible = 1e-13;
 
-static double lesser(double a, double b) {
-    return a < b ? a : b;
-}
-
 /* Nodes, their cosines, and weights on [from, to] for cos^exponent, by the Gauss rule of `count` nodes on
  * [-1,1]; `to` is the end where the cosine vanishes or nearly does. There cos^exponent has no derivatives
  * when a small exponent is no integer: the substitution t = x^power of the distance t to that end gives them
@@ -76,7 +72,7 @@ void aur_lune_init(aur_lune *lune, const double axis[3], double exponent) {
         lune->sine[i] = sin(psi[i]);
         sum += lune->across_weight[i];
     }
-    lune->fraction = lesser(1.0, peak(lune) * aside_integral(exponent) * sum);
+    lune->fraction = fmin(1.0, peak(lune) * aside_integral(exponent) * sum);
 }
 
 double aur_lune_potential(const aur_lune *lune, const aur_kernel_rule *rule, const double u[3]) {
@@ -95,9 +91,8 @@ double aur_lune_potential(const aur_lune *lune, const aur_kernel_rule *rule, con
         lobe_rule(middle, end, lune->exponent + 1.0, AUR_LUNE_SIDE, lune->side, lune->side_weight, beta + at,
                   cosine + at, aside_weight + at);
     }
-    for (size_t i = 0; i < ASIDE; ++i) {
+    for (size_t i = 0; i < ASIDE; ++i)
         sine[i] = sin(beta[i]);
-    }
     double x[COUNT], y[COUNT], z[COUNT], weight[COUNT];
     for (size_t j = 0; j < AUR_LUNE_ACROSS; ++j) {
         for (size_t i = 0; i < ASIDE; ++i) {
@@ -115,7 +110,7 @@ void aur_lune_visible(const aur_lune *lune, double *xyz, double *weights) {
     double node[AUR_LUNE_ACROSS], share[AUR_LUNE_ACROSS], psi[AUR_LUNE_ACROSS], psi_weight[AUR_LUNE_ACROSS];
     double beta[AUR_LUNE_SIDE], beta_weight[AUR_LUNE_SIDE], cosine[AUR_LUNE_ACROSS];
     aur_gauss_legendre(AUR_LUNE_ACROSS, node, share);
-    lobe_rule(lesser(lune->horizon, lune->psi_reach), -lune->psi_reach, lune->exponent, AUR_LUNE_ACROSS, node,
+    lobe_rule(fmin(lune->horizon, lune->psi_reach), -lune->psi_reach, lune->exponent, AUR_LUNE_ACROSS, node,
               share, psi, cosine, psi_weight);
     lobe_rule(0.0, lune->beta_reach, lune->exponent + 1.0, AUR_LUNE_SIDE, lune->side, lune->side_weight, beta,
               cosine, beta_weight);

@@ -16,9 +16,8 @@ typedef struct aur_lune {
     double fraction;              /* of the lobe that is hidden */
     double psi_reach, beta_reach; /* beyond these the lobe is 1e-13 of its peak */
     double side[AUR_LUNE_SIDE], side_weight[AUR_LUNE_SIDE];
-    double cosine[AUR_LUNE_ACROSS],
-        sine[AUR_LUNE_ACROSS]; /* of the nodes in psi, and their weights times p: */
-    double across_weight[AUR_LUNE_ACROSS];
+    /* Of the nodes in psi, and their weights times p. */
+    double cosine[AUR_LUNE_ACROSS], sine[AUR_LUNE_ACROSS], across_weight[AUR_LUNE_ACROSS];
 } aur_lune;
 
 /* `axis` is a unit vector that does not point below the surface. */

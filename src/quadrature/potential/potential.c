@@ -11,13 +11,11 @@
 enum { NODES_DEFAULT = 4096, NODES_MOST = 1 << 24 };
 
 static aur_result check_lobe(const aur_density *density, aur_error *error) {
-    if (!(density->exponent >= 0.0 && density->exponent <= AUR_EXPONENT_MAXIMUM))
-        return aur_fail(error, AUR_ERROR_ARGUMENT, "the exponent of a lobe must be between 0 and %g, not %g",
-                        AUR_EXPONENT_MAXIMUM, density->exponent);
-    if (!aur_is_unit(density->axis))
+    const aur_result result = aur_check_exponent(density->exponent, error);
+    if (result == AUR_OK && !aur_is_unit(density->axis))
         return aur_fail(error, AUR_ERROR_ARGUMENT, "the axis (%g, %g, %g) of a lobe is not a unit vector",
                         density->axis[0], density->axis[1], density->axis[2]);
-    return AUR_OK;
+    return result;
 }
 
 static aur_result create_lobe(aur_potential *potential, aur_error *error) {
@@ -44,13 +42,21 @@ static aur_result copy_nodes(const aur_density *density, double *columns, double
         return result;
     aur_columns_split(count, density->nodes, columns);
     for (size_t i = 0; i < count; ++i) {
-        if (!(density->masses[i] >= 0.0 && isfinite(density->masses[i])))
-            return aur_fail(error, AUR_ERROR_ARGUMENT,
-                            "the mass of node %zu is %g: it must be finite and not negative", i,
-                            density->masses[i]);
         masses[i] = density->masses[i];
+        if (!(masses[i] >= 0.0 && isfinite(masses[i])))
+            return aur_fail(error, AUR_ERROR_ARGUMENT,
+                            "the mass of node %zu is %g: it must be finite and not negative", i, masses[i]);
     }
     return AUR_OK;
+}
+
+static aur_result fill_nodes(const aur_density *density, double *columns, double *masses, aur_error *error) {
+    if (density->kind == AUR_DENSITY_GGX)
+        return aur_nodes_ggx(density, columns, masses, error);
+    if (density->kind == AUR_DENSITY_NODES)
+        return copy_nodes(density, columns, masses, error);
+    const aur_result result = check_lobe(density, error);
+    return result == AUR_OK ? aur_nodes_function(density, columns, masses, error) : result;
 }
 
 static aur_result create_nodes(aur_potential *potential, aur_error *error) {
@@ -65,26 +71,16 @@ static aur_result create_nodes(aur_potential *potential, aur_error *error) {
         return aur_fail(error, AUR_ERROR_ARGUMENT, "a density of kind FUNCTION needs its function");
     if (density->kind == AUR_DENSITY_NODES && (density->nodes == NULL || density->masses == NULL))
         return aur_fail(error, AUR_ERROR_ARGUMENT, "a density of kind NODES needs its nodes and masses");
-    potential->storage = malloc(4 * count * sizeof *potential->storage);
-    if (potential->storage == NULL)
+    double *const columns = malloc(4 * count * sizeof *columns);
+    if (columns == NULL)
         return aur_fail_memory(error);
-    double *const masses = potential->storage + 3 * count;
-    aur_result result = AUR_OK;
-    if (density->kind == AUR_DENSITY_FUNCTION)
-        result = check_lobe(density, error);
-    if (result == AUR_OK) {
-        if (density->kind == AUR_DENSITY_FUNCTION)
-            result = aur_nodes_function(density, potential->storage, masses, error);
-        else if (density->kind == AUR_DENSITY_GGX)
-            result = aur_nodes_ggx(density, potential->storage, masses, error);
-        else
-            result = copy_nodes(density, potential->storage, masses, error);
-    }
+    double *const masses = columns + 3 * count;
+    potential->storage = columns;
+    potential->nodes = (aur_columns){columns, columns + count, columns + 2 * count};
+    potential->node_masses = masses;
+    const aur_result result = fill_nodes(density, columns, masses, error);
     if (result != AUR_OK)
         return result;
-    potential->nodes =
-        (aur_columns){potential->storage, potential->storage + count, potential->storage + 2 * count};
-    potential->node_masses = masses;
     density->nodes = NULL;
     density->masses = NULL;
     for (size_t i = 0; i < count; ++i)
@@ -116,25 +112,24 @@ aur_result aur_potential_create(const aur_density *density, double smoothness, a
     *potential = NULL;
     if (smoothness == 0.0)
         smoothness = 1.5;
-    if (!(smoothness > 1.0 && smoothness < 2.0))
-        return aur_fail(error, AUR_ERROR_ARGUMENT,
-                        "the smoothness must be between 1 and 2 (exclusive), not %g", smoothness);
+    aur_result result = aur_check_smoothness(smoothness, error);
+    if (result != AUR_OK)
+        return result;
     aur_potential *const created = calloc(1, sizeof *created);
     if (created == NULL)
         return aur_fail_memory(error);
     created->rule = aur_kernel_rule_make(smoothness);
     aur_density *const own = &created->density;
-    aur_result result = aur_options_read(density, sizeof *own, sizeof *own, own, "aur_density", error);
+    result = aur_options_read(density, sizeof *own, sizeof *own, own, "aur_density", error);
     if (own->axis[0] == 0.0 && own->axis[1] == 0.0 && own->axis[2] == 0.0)
         own->axis[2] = 1.0;
     if (result == AUR_OK)
         result = create(created, error);
-    if (result != AUR_OK) {
+    if (result == AUR_OK)
+        *potential = created;
+    else
         aur_potential_destroy(created);
-        return result;
-    }
-    *potential = created;
-    return AUR_OK;
+    return result;
 }
 
 void aur_potential_destroy(aur_potential *potential) {
@@ -161,14 +156,12 @@ static double sphere_potential(const aur_potential *potential) {
 }
 
 static void evaluate_lobe(const aur_potential *potential, size_t count, const double *xyz, double *z) {
-    for (size_t i = 0; i < count; ++i)
-        z[i] = aur_dot3(xyz + 3 * i, potential->density.axis);
     enum { BLOCK = 256 };
     double cosine[BLOCK];
     for (size_t first = 0; first < count; first += BLOCK) {
         const size_t size = count - first < BLOCK ? count - first : BLOCK;
         for (size_t i = 0; i < size; ++i)
-            cosine[i] = z[first + i];
+            cosine[i] = aur_dot3(xyz + 3 * (first + i), potential->density.axis);
         aur_zonal_evaluate(&potential->zonal, size, cosine, z + first);
     }
     if (potential->lune.fraction <= 0.0)

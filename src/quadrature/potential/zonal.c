@@ -7,6 +7,7 @@
 #include <string.h>
 
 #include "core/vector.h"
+#include "quadrature/check.h"
 #include "quadrature/kernel.h"
 
 enum { LANES = 16, MOST_TERMS = 20000 };
@@ -54,17 +55,6 @@ static void legendre_sum(size_t term_count, const double *terms, size_t count, c
         }
         memcpy(z + first, next, size * sizeof *z);
     }
-}
-
-aur_result aur_zonal_series(double exponent, double smoothness, size_t terms, size_t count, const double *x,
-                            double *z, aur_error *error) {
-    double *const storage = malloc(2 * terms * sizeof *storage);
-    if (storage == NULL)
-        return aur_fail_memory(error);
-    series_terms(exponent, smoothness, terms, storage, storage + terms);
-    legendre_sum(terms, storage, count, x, z);
-    free(storage);
-    return AUR_OK;
 }
 
 /* Chebyshev coefficients of a function known at the `count` roots cos(pi (i + 1/2) / count). */
@@ -167,17 +157,15 @@ void aur_zonal_evaluate(const aur_zonal *zonal, size_t count, const double *x, d
 
 aur_result aur_cross_energy(double exponent, double other_exponent, double cosine, double smoothness,
                             double *energy, aur_error *error) {
-    const double exponents[2] = {exponent, other_exponent};
-    for (size_t k = 0; k < 2; ++k)
-        if (!(exponents[k] >= 0.0 && exponents[k] <= AUR_EXPONENT_MAXIMUM))
-            return aur_fail(error, AUR_ERROR_ARGUMENT,
-                            "the exponent of a lobe must be between 0 and %g, not %g", AUR_EXPONENT_MAXIMUM,
-                            exponents[k]);
-    if (!(fabs(cosine) <= 1.0))
-        return aur_fail(error, AUR_ERROR_ARGUMENT, "a cosine must be between -1 and 1, not %g", cosine);
-    if (!(smoothness > 1.0 && smoothness < 2.0))
-        return aur_fail(error, AUR_ERROR_ARGUMENT,
-                        "the smoothness must be between 1 and 2 (exclusive), not %g", smoothness);
+    aur_result result = aur_check_exponent(exponent, error);
+    if (result == AUR_OK)
+        result = aur_check_exponent(other_exponent, error);
+    if (result == AUR_OK)
+        result = aur_check_smoothness(smoothness, error);
+    if (result == AUR_OK && !(fabs(cosine) <= 1.0))
+        result = aur_fail(error, AUR_ERROR_ARGUMENT, "a cosine must be between -1 and 1, not %g", cosine);
+    if (result != AUR_OK)
+        return result;
     /* The product of the moments decays as l^-(m+m'+3), so one lobe's count is more than enough. */
     const size_t terms = aur_zonal_terms(fmax(exponent, other_exponent), smoothness);
     double *const storage = malloc(3 * terms * sizeof *storage);

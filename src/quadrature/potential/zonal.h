@@ -19,10 +19,5 @@ void aur_zonal_release(aur_zonal *zonal);
 /* z[i] at x[i] in [-1,1]. */
 void aur_zonal_evaluate(const aur_zonal *zonal, size_t count, const double *x, double *z);
 
-/* What the Chebyshev series stand for: the Legendre series of the potential with `terms` terms, at x[count].
- */
-aur_result aur_zonal_series(double exponent, double smoothness, size_t terms, size_t count, const double *x,
-                            double *z, aur_error *error);
-
 /* Terms after which the series is a good 1e-12 of its sum. */
 size_t aur_zonal_terms(double exponent, double smoothness);
