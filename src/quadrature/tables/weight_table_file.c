@@ -29,19 +29,15 @@ static uint64_t get(const char *source, size_t bytes) {
 }
 
 static unsigned char *put_floats(const float *values, size_t count, unsigned char *target) {
-    for (size_t i = 0; i < count; ++i) {
-        uint32_t bits;
+    uint32_t bits;
+    for (size_t i = 0; i < count; ++i, target = put(bits, 4, target))
         memcpy(&bits, &values[i], sizeof bits);
-        target = put(bits, 4, target);
-    }
     return target;
 }
 
 static const char *get_floats(const char *source, size_t count, float *values) {
-    for (size_t i = 0; i < count; ++i, source += 4) {
-        const uint32_t bits = (uint32_t)get(source, 4);
-        memcpy(&values[i], &bits, sizeof bits);
-    }
+    for (size_t i = 0; i < count; ++i, source += 4)
+        memcpy(&values[i], &(uint32_t){(uint32_t)get(source, 4)}, 4);
     return source;
 }
 
@@ -63,68 +59,58 @@ typedef struct header {
     const char *patterns; /* a hash of the directions, in hexadecimal digits */
 } header;
 
-typedef enum value_type { TYPE_TEXT, TYPE_REAL, TYPE_SIZE, TYPE_FLAG, TYPE_WORD, TYPE_NUMBER } value_type;
-
-/* The lines `key value` of the header, in this order. */
+/* A line `key value` of the header. */
 typedef struct header_line {
     const char *key;
-    const char *what; /* in messages, for options that a reader may expect; NULL for what it takes as it is */
-    value_type type;
-    size_t offset; /* in the header */
-    uint64_t most;
+    /* In messages, for options that a reader may expect; NULL for what it takes as it is. */
+    const char *what;
+    enum { TEXT, REAL, INTEGER } type;
+    size_t offset, size; /* of the member */
+    uint64_t most;       /* of an integer */
 } header_line;
 
 static const header_line lines[] = {
-    {"version", NULL, TYPE_NUMBER, offsetof(header, version), INT_MAX},
-    {"set", "set", TYPE_TEXT, offsetof(header, options.set), 0},
-    {"count", "samples of the first lobe", TYPE_SIZE, offsetof(header, options.count), INT_MAX},
-    {"mirror_count", "samples of the mirror lobe", TYPE_SIZE, offsetof(header, options.mirror_count),
-     INT_MAX},
-    {"lobe", "exponent of the first lobe", TYPE_REAL, offsetof(header, options.lobe.exponent), 0},
-    {"mirror_kind", "kind of the mirror lobe", TYPE_WORD, offsetof(header, options.mirror_lobe.kind),
+    {"version", NULL, INTEGER, offsetof(header, version), 8, INT_MAX},
+    {"set", "set", TEXT, offsetof(header, options.set), 0, 0},
+    {"count", "samples of the first lobe", INTEGER, offsetof(header, options.count), sizeof(size_t), INT_MAX},
+    {"mirror_count", "samples of the mirror lobe", INTEGER, offsetof(header, options.mirror_count),
+     sizeof(size_t), INT_MAX},
+    {"lobe", "exponent of the first lobe", REAL, offsetof(header, options.lobe.exponent), 8, 0},
+    {"mirror_kind", "kind of the mirror lobe", INTEGER, offsetof(header, options.mirror_lobe.kind), 4,
      AUR_LOBE_GGX},
-    {"mirror_exponent", "exponent of the mirror lobe", TYPE_REAL,
-     offsetof(header, options.mirror_lobe.exponent), 0},
-    {"mirror_alpha", "roughness of the mirror lobe", TYPE_REAL, offsetof(header, options.mirror_lobe.alpha),
-     0},
-    {"optimal_density", "optimal density", TYPE_FLAG, offsetof(header, options.optimal_density), 1},
-    {"clipped", "clipping", TYPE_FLAG, offsetof(header, options.clipped), 1},
-    {"map", "map", TYPE_WORD, offsetof(header, options.map), AUR_MAP_POLAR},
-    {"scramble", "scrambling", TYPE_WORD, offsetof(header, options.scramble), AUR_SCRAMBLE_ROTATE3D},
-    {"seed", "seed", TYPE_NUMBER, offsetof(header, options.seed), UINT64_MAX},
-    {"smoothness", "smoothness", TYPE_REAL, offsetof(header, options.smoothness), 0},
-    {"regularization", "regularisation", TYPE_REAL, offsetof(header, weights.regularization), 0},
-    {"sum_constraint", "sum constraint", TYPE_FLAG, offsetof(header, weights.sum_constraint), 1},
-    {"angles", NULL, TYPE_NUMBER, offsetof(header, angles), 1 << 16},
-    {"rotations", NULL, TYPE_NUMBER, offsetof(header, rotations), 1 << 16},
-    {"pieces", NULL, TYPE_NUMBER, offsetof(header, pieces), UINT32_MAX},
-    {"patterns", NULL, TYPE_TEXT, offsetof(header, patterns), 0},
+    {"mirror_exponent", "exponent of the mirror lobe", REAL, offsetof(header, options.mirror_lobe.exponent),
+     8, 0},
+    {"mirror_alpha", "roughness of the mirror lobe", REAL, offsetof(header, options.mirror_lobe.alpha), 8, 0},
+    {"optimal_density", "optimal density", INTEGER, offsetof(header, options.optimal_density), 1, 1},
+    {"clipped", "clipping", INTEGER, offsetof(header, options.clipped), 1, 1},
+    {"map", "map", INTEGER, offsetof(header, options.map), 4, AUR_MAP_POLAR},
+    {"scramble", "scrambling", INTEGER, offsetof(header, options.scramble), 4, AUR_SCRAMBLE_ROTATE3D},
+    {"seed", "seed", INTEGER, offsetof(header, options.seed), 8, UINT64_MAX},
+    {"smoothness", "smoothness", REAL, offsetof(header, options.smoothness), 8, 0},
+    {"regularization", "regularisation", REAL, offsetof(header, weights.regularization), 8, 0},
+    {"sum_constraint", "sum constraint", INTEGER, offsetof(header, weights.sum_constraint), 1, 1},
+    {"angles", NULL, INTEGER, offsetof(header, angles), 8, 1 << 16},
+    {"rotations", NULL, INTEGER, offsetof(header, rotations), 8, 1 << 16},
+    {"pieces", NULL, INTEGER, offsetof(header, pieces), 8, UINT32_MAX},
+    {"patterns", NULL, TEXT, offsetof(header, patterns), 0, 0},
 };
 
 enum { LINE_COUNT = sizeof lines / sizeof lines[0] };
 
+_Static_assert(sizeof(bool) == 1 && sizeof(aur_map) == 4, "members of the header have other sizes");
+
 /* A line's value, in `buffer` or where the header has it; 17 digits tell any two numbers apart. */
 static const char *value_text(const header_line *line, const header *h, int digits, char *buffer) {
     const void *const at = (const char *)h + line->offset;
-    switch (line->type) {
-    case TYPE_TEXT:
+    if (line->type == TEXT)
         return *(const char *const *)at;
-    case TYPE_REAL:
+    if (line->type == REAL)
         aur_format(buffer, VALUE_CAPACITY, "%.*g", digits, *(const double *)at);
-        break;
-    case TYPE_SIZE:
-        aur_format(buffer, VALUE_CAPACITY, "%zu", *(const size_t *)at);
-        break;
-    case TYPE_FLAG:
-        aur_format(buffer, VALUE_CAPACITY, "%d", *(const bool *)at);
-        break;
-    case TYPE_WORD:
-        aur_format(buffer, VALUE_CAPACITY, "%u", *(const unsigned *)at);
-        break;
-    case TYPE_NUMBER:
-        aur_format(buffer, VALUE_CAPACITY, "%" PRIu64, *(const uint64_t *)at);
-        break;
-    }
+    else
+        aur_format(buffer, VALUE_CAPACITY, "%" PRIu64,
+                   line->size == 1   ? *(const bool *)at
+                   : line->size == 4 ? *(const uint32_t *)at
+                                     : *(const uint64_t *)at);
     return buffer;
 }
 
@@ -133,21 +119,19 @@ static bool parse_value(const header_line *line, const char *text, header *h) {
     void *const at = (char *)h + line->offset;
     uint64_t number = 0;
     const char *end = "";
-    if (line->type == TYPE_REAL)
+    if (line->type == TEXT)
+        *(const char **)at = text;
+    else if (line->type == REAL)
         end = aur_read_double(text, AUR_NUMBER_ANY, at);
-    else if (line->type != TYPE_TEXT)
+    else
         end = aur_read_integer(text, line->most, &number);
     if (end == NULL || *end != '\0')
         return false;
-    if (line->type == TYPE_TEXT)
-        *(const char **)at = text;
-    else if (line->type == TYPE_SIZE)
-        *(size_t *)at = (size_t)number;
-    else if (line->type == TYPE_FLAG)
+    if (line->type == INTEGER && line->size == 1)
         *(bool *)at = number != 0;
-    else if (line->type == TYPE_WORD)
-        *(unsigned *)at = (unsigned)number;
-    else if (line->type == TYPE_NUMBER)
+    else if (line->type == INTEGER && line->size == 4)
+        *(uint32_t *)at = (uint32_t)number;
+    else if (line->type == INTEGER)
         *(uint64_t *)at = number;
     return true;
 }
@@ -161,6 +145,16 @@ static size_t print_header(const header *h, char text[HEADER_CAPACITY]) {
             (size_t)aur_format(text + length, HEADER_CAPACITY - length, "%s %s\n%s", lines[i].key,
                                value_text(&lines[i], h, 17, buffer), i + 1 < LINE_COUNT ? "" : header_end);
     return length;
+}
+
+/* How many words of four bytes stand behind a header; exact below 2^53. */
+static double word_count(const header *h) {
+    const bool apart = h->options.clipped || h->options.mirror_lobe.kind == AUR_LOBE_GGX;
+    const double angles = (double)h->angles, rotations = (double)h->rotations, pieces = (double)h->pieces;
+    const double rows = apart ? 2.0 * pieces : rotations * angles;
+    const double masses = (angles - 1.0) * AUR_WEIGHT_TABLE_MASS_STEPS + 1.0;
+    return masses + (apart ? rotations * (angles - 1.0) + pieces : 0.0) +
+           2.0 * rows * (double)(h->options.count + h->options.mirror_count);
 }
 
 static size_t weight_count(const aur_weight_table *table) {
@@ -184,16 +178,13 @@ aur_result aur_weight_table_save(const aur_weight_table *table, const char *path
     const size_t length = print_header(&h, text);
     if (length >= sizeof text)
         return aur_fail(error, AUR_ERROR_ARGUMENT, "the name of the set is too long for a table");
-    const size_t intervals = table->apart ? aur_weight_table_intervals(table) : 0;
-    const size_t words =
-        weight_count(table) + aur_weight_table_mass_count(table) + intervals + table->piece_count;
-    const size_t size = length + 4 * words;
+    const size_t size = length + 4 * (size_t)word_count(&h);
     unsigned char *const data = malloc(size + HASH_BYTES);
     if (data == NULL)
         return aur_fail_memory(error);
     memcpy(data, text, length);
     unsigned char *target = put_floats(table->masses, aur_weight_table_mass_count(table), data + length);
-    for (size_t i = 0; i < intervals; ++i)
+    for (size_t i = 0; table->apart && i < aur_weight_table_intervals(table); ++i)
         target = put(table->first[i + 1] - table->first[i], 4, target);
     target = put_floats(table->start, table->piece_count, target);
     target = put_floats(table->weights, weight_count(table), target);
@@ -277,7 +268,7 @@ static aur_result compare(reader *in, const header *has, const aur_oswa_options 
         return result;
     for (size_t i = 0; i < LINE_COUNT; ++i) {
         char a[VALUE_CAPACITY], b[VALUE_CAPACITY];
-        const char *const quote = lines[i].type == TYPE_TEXT ? "'" : "";
+        const char *const quote = lines[i].type == TEXT ? "'" : "";
         if (lines[i].what != NULL &&
             strcmp(value_text(&lines[i], has, 17, a), value_text(&lines[i], &wanted, 17, b)) != 0)
             return aur_fail_at(in->error, in->where, AUR_ERROR_FORMAT,
@@ -350,13 +341,7 @@ static aur_result parse(reader *in, size_t size, const aur_oswa_options *expecte
     if (result != AUR_OK)
         return result;
     /* The size must fit before anything of that size is allocated. */
-    const bool apart = h.options.clipped || h.options.mirror_lobe.kind == AUR_LOBE_GGX;
-    const double angles = (double)h.angles, rotations = (double)h.rotations, pieces = (double)h.pieces;
-    const double rows = apart ? 2.0 * pieces : rotations * angles;
-    const double masses = (angles - 1.0) * AUR_WEIGHT_TABLE_MASS_STEPS + 1.0;
-    const double words = masses + (apart ? rotations * (angles - 1.0) + pieces : 0.0) +
-                         2.0 * rows * (double)(h.options.count + h.options.mirror_count);
-    if ((double)(size - (size_t)(in->rest - data)) != 4.0 * words)
+    if ((double)(size - (size_t)(in->rest - data)) != 4.0 * word_count(&h))
         return refuse(in, "the table is not of the size that it says");
     result =
         aur_weight_table_create(&h.options, (size_t)h.angles, (size_t)h.rotations, false, table, in->error);
