@@ -19,7 +19,7 @@ extern "C" {
 /* One row of the table of measures. */
 typedef struct aur_measure_description {
     aur_row row;           /* name, summary and source; a measure has a parameter instead of keys */
-    const char *parameter; /* "S" for riesz:S, "[B]" where it may be left out, empty for none */
+    const char *parameter; /* ":S" for riesz:S, "[:B]" where it may be left out, NULL for none */
     const char *domains;   /* "sphere, hemisphere": the first is the one to take when nothing is said */
     bool bound;            /* the value is a lower bound of what is measured */
     bool series;           /* a table rather than one value: ask aur_measure_series */

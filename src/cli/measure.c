@@ -87,13 +87,7 @@ static int print_list(cli_format format) {
     for (size_t i = 0; i < aur_measure_count(); ++i) {
         const aur_measure_description *const row = aur_measure_at(i);
         char name[64];
-        /* riesz:S, cap-bound[:CENTRES] */
-        const bool optional = row->parameter[0] == '[';
-        snprintf(name, sizeof name, "%s%s%s", row->row.name,
-                 optional                    ? "[:"
-                 : row->parameter[0] != '\0' ? ":"
-                                             : "",
-                 row->parameter + optional);
+        snprintf(name, sizeof name, "%s%s", row->row.name, row->parameter != NULL ? row->parameter : "");
         cli_table_text(table, name);
         cli_table_text(table, row->domains);
         cli_table_text(table, row->row.summary);

@@ -17,6 +17,13 @@ aur_result aur_measure_number(const aur_measure_request *request, double minimum
     return AUR_OK;
 }
 
+aur_result aur_measure_items(const aur_measure_options *options, const char *what, size_t count,
+                             aur_parallel_function function, void *context, aur_error *error) {
+    const aur_parallel_options parallel = {
+        .threads = options->threads, .what = what, .progress = options->progress};
+    return aur_parallel_for(&parallel, count, function, context, error);
+}
+
 aur_result aur_series_create(aur_series *series, size_t row_count, size_t column_count,
                              const char *const *columns, aur_error *error) {
     *series = (aur_series){.row_count = row_count, .column_count = column_count};
@@ -52,6 +59,6 @@ const double *aur_series_values(const aur_series *series) {
 double aur_sum_of_squares(const aur_points_view *points) {
     double sum = 0.0;
     for (size_t i = 0; i < points->count; ++i)
-        sum += points->weights != NULL ? points->weights[i] * points->weights[i] : 1.0;
+        sum += aur_weight_at(points, i) * aur_weight_at(points, i);
     return sum;
 }

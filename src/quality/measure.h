@@ -4,17 +4,21 @@
 #include <aureole/quality.h>
 #include <stdbool.h>
 
+#include "core/arena.h"
 #include "core/error.h"
+#include "core/parallel.h"
 #include "pointset/points.h"
 
 /* What a measure is given: points on one of its domains, at least `minimum_count` of them, finite coordinates
  * inside the domain, finite weights with a positive sum. Directions have unit length and lie one after
- * another; points of the other domains are reached through aur_point_at. */
+ * another; points of the other domains are reached through aur_point_at. For rows with `masses` the points
+ * have weights, and they add up to 1. */
 typedef struct aur_measure_request {
     const aur_points_view *points;
     const char *parameter; /* what follows the first ':', or NULL */
     size_t variant;        /* of the row */
     aur_measure_options options;
+    aur_arena *arena; /* what the measure takes from it is freed when it ends */
 } aur_measure_request;
 
 typedef struct aur_measure_row {
@@ -36,6 +40,14 @@ struct aur_series {
 /* A number within [minimum, maximum] from the parameter, or `missing` when there is no parameter. */
 aur_result aur_measure_number(const aur_measure_request *request, double minimum, double maximum,
                               double missing, double *value, aur_error *error);
+
+/* Runs items of work with the threads and the progress of the options; `what` names it. */
+aur_result aur_measure_items(const aur_measure_options *options, const char *what, size_t count,
+                             aur_parallel_function function, void *context, aur_error *error);
+
+static inline double aur_weight_at(const aur_points_view *points, size_t index) {
+    return points->weights != NULL ? points->weights[index] : 1.0;
+}
 
 /* Gives the series its columns and room for rows * columns values. */
 aur_result aur_series_create(aur_series *series, size_t row_count, size_t column_count,

@@ -25,10 +25,11 @@ static double square_distance(const double *p, const double *q, size_t dimension
 }
 
 /* Sweep along the last axis: a pair farther apart in it than the best distance so far cannot be nearer. */
-aur_result aur_smallest_distance(const aur_points_view *points, double *distance, aur_error *error) {
+aur_result aur_smallest_distance(const aur_measure_request *request, double *distance, aur_error *error) {
+    const aur_points_view *const points = request->points;
     const size_t count = points->count;
     const size_t dimension = points->dimension;
-    along_axis *const sorted = malloc(count * sizeof *sorted);
+    along_axis *const sorted = aur_arena_allocate(request->arena, count * sizeof *sorted);
     if (sorted == NULL)
         return aur_fail_memory(error);
     for (size_t i = 0; i < count; ++i) {
@@ -45,20 +46,14 @@ aur_result aur_smallest_distance(const aur_points_view *points, double *distance
             best = fmin(best, square_distance(sorted[i].point, sorted[j].point, dimension));
         }
     }
-    free(sorted);
     *distance = sqrt(best);
     return AUR_OK;
-}
-
-static aur_result min_distance(const aur_measure_request *request, double *value, aur_error *error) {
-    return aur_smallest_distance(request->points, value, error);
 }
 
 const aur_measure_row aur_measure_min_distance = {
     {.row = {.name = "min-distance",
              .summary = "the smallest distance between two points (on the sphere the chord)",
              .source = "Marques 2013 sec. 3.2"},
-     .parameter = "",
      .domains = "sphere, hemisphere, square, cube, disk"},
     .minimum_count = 2,
-    .compute = min_distance};
+    .compute = aur_smallest_distance};

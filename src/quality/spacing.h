@@ -3,4 +3,4 @@
 #include "quality/measure.h"
 
 /* The smallest Euclidean distance of two of at least two points. */
-aur_result aur_smallest_distance(const aur_points_view *points, double *distance, aur_error *error);
+aur_result aur_smallest_distance(const aur_measure_request *request, double *distance, aur_error *error);

@@ -14,7 +14,7 @@ static void the_table_is_consistent(void **state) {
         const aur_measure_description *found = NULL;
         char name[64];
         snprintf(name, sizeof name, "%s%s", row->row.name,
-                 row->parameter[0] != '\0' && row->parameter[0] != '[' ? ":1" : "");
+                 row->parameter != NULL && row->parameter[0] == ':' ? ":1" : "");
         assert_int_equal(aur_measure_find(name, &found, NULL), AUR_OK);
         assert_ptr_equal(found, row);
     }

@@ -24,8 +24,10 @@ static void the_grid_finds_all_neighbours(void **state) {
     own_points points = random_directions(700, 3);
     points.coordinates[0] = points.coordinates[1] = 0.0; /* a pole */
     points.coordinates[2] = 1.0;
+    const aur_points_view view = seen(&points);
+    aur_arena arena = {0};
     aur_sphere_grid grid;
-    assert_int_equal(aur_sphere_grid_create((const aur_points_view[]){seen(&points)}, &grid, NULL), AUR_OK);
+    assert_int_equal(aur_sphere_grid_create(&view, &arena, &grid, NULL), AUR_OK);
     aur_neighbours near = {0};
     for (size_t i = 0; i < points.count; i += 7) {
         const double angle = 0.01 * (double)(1 + i % 400);
@@ -45,7 +47,7 @@ static void the_grid_finds_all_neighbours(void **state) {
             assert_true(near.items[n - 1].square <= near.items[n].square);
     }
     free(near.items);
-    aur_sphere_grid_release(&grid);
+    aur_arena_release(&arena);
     release_points(&points);
 }
 
@@ -178,8 +180,11 @@ static void smallest_distance_agrees_with_all_pairs(void **state) {
                 best = fmin(best, square);
             }
         double found = 0.0;
-        assert_int_equal(aur_smallest_distance((const aur_points_view[]){seen(&points)}, &found, NULL),
-                         AUR_OK);
+        const aur_points_view view = seen(&points);
+        aur_arena arena = {0};
+        const aur_measure_request request = {.points = &view, .arena = &arena};
+        assert_int_equal(aur_smallest_distance(&request, &found, NULL), AUR_OK);
+        aur_arena_release(&arena);
         assert_near(found, sqrt(best), 1e-15);
         release_points(&points);
     }

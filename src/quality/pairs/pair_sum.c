@@ -1,27 +1,22 @@
 #include "quality/pairs/pair_sum.h"
 
 #include <stdlib.h>
+#include <string.h>
 
-#include "core/parallel.h"
 #include "core/simd.h"
-
-static double *axis(size_t padded) {
-    double *const values = aligned_alloc(64, padded * sizeof *values);
-    for (size_t i = 0; i < padded && values != NULL; ++i)
-        values[i] = 0.0;
-    return values;
-}
 
 aur_result aur_axes_create(const aur_points_view *points, aur_axes *axes, aur_error *error) {
     const size_t padded = (points->count + 7) / 8 * 8;
-    *axes = (aur_axes){.count = points->count, .x = axis(padded), .y = axis(padded), .z = axis(padded)};
-    if (points->weights != NULL)
-        axes->weights = axis(padded);
-    if (axes->x == NULL || axes->y == NULL || axes->z == NULL ||
-        (points->weights != NULL && axes->weights == NULL)) {
-        aur_axes_release(axes);
+    const size_t size = (points->weights != NULL ? 4 : 3) * padded * sizeof(double);
+    double *const values = aligned_alloc(64, size);
+    if (values == NULL)
         return aur_fail_memory(error);
-    }
+    memset(values, 0, size);
+    *axes = (aur_axes){.count = points->count,
+                       .x = values,
+                       .y = values + padded,
+                       .z = values + 2 * padded,
+                       .weights = points->weights != NULL ? values + 3 * padded : NULL};
     for (size_t i = 0; i < points->count; ++i) {
         axes->x[i] = points->coordinates[3 * i];
         axes->y[i] = points->coordinates[3 * i + 1];
@@ -34,9 +29,6 @@ aur_result aur_axes_create(const aur_points_view *points, aur_axes *axes, aur_er
 
 void aur_axes_release(aur_axes *axes) {
     free(axes->x);
-    free(axes->y);
-    free(axes->z);
-    free(axes->weights);
     *axes = (aur_axes){0};
 }
 
@@ -74,9 +66,7 @@ aur_result aur_pair_sum(const aur_axes *axes, aur_pair_tile_function function, d
     tiles work = {axes, function, parameter, malloc(count * sizeof *work.sums)};
     if (work.sums == NULL)
         return aur_fail_memory(error);
-    const aur_parallel_options parallel = {
-        .threads = options->threads, .what = "summing pairs", .progress = options->progress};
-    const aur_result result = aur_parallel_for(&parallel, count, sum_tile, &work, error);
+    const aur_result result = aur_measure_items(options, "summing pairs", count, sum_tile, &work, error);
     *sum = (aur_twofold){0.0, 0.0};
     for (size_t i = 0; i < count && result == AUR_OK; ++i)
         *sum = aur_twofold_add(*sum, work.sums[i]);

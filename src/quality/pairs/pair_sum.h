@@ -7,7 +7,7 @@
 
 enum { AUR_TILE_POINTS = 1024 }; /* a tile's coordinates stay in the first-level cache */
 
-/* Coordinates one array an axis, each padded to a multiple of 8 and 64-byte aligned. */
+/* Coordinates one array an axis, each padded to a multiple of 8 and 64-byte aligned. One allocation, at x. */
 typedef struct aur_axes {
     size_t count;
     double *x, *y, *z;

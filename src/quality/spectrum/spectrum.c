@@ -6,7 +6,6 @@
 #include <stdlib.h>
 
 #include "core/error.h"
-#include "core/parallel.h"
 #include "core/vector.h"
 
 enum { BLOCK = 256, LANES = 8 };
@@ -31,7 +30,7 @@ static void start_block(const aur_points_view *points, size_t first, size_t coun
         block->up_re[i] = block->up_im[i] = block->step_re[i] = block->step_im[i] = 0.0;
         if (i < count) {
             const double *const x = aur_point_at(points, first + i);
-            const double weight = points->weights != NULL ? points->weights[first + i] : 1.0;
+            const double weight = aur_weight_at(points, first + i);
             const double phase = kx * x[0];
             const double angle = -2.0 * AUR_PI * (phase - floor(phase));
             block->up_re[i] = weight * cos(angle);
@@ -98,16 +97,13 @@ static aur_result make_periodogram(const aur_measure_request *request, periodogr
         return result;
     *p = (periodogram){request->points, (size_t)limit, NULL};
     const size_t count = (p->limit + 1) * (2 * p->limit + 1);
-    p->power = malloc(count * sizeof *p->power);
-    const aur_parallel_options parallel = {
-        .threads = request->options.threads, .what = "transforming", .progress = request->options.progress};
-    result = p->power != NULL ? aur_parallel_for(&parallel, p->limit + 1, fill_row, p, error)
-                              : aur_fail_memory(error);
+    p->power = aur_arena_allocate(request->arena, count * sizeof *p->power);
+    if (p->power == NULL)
+        return aur_fail_memory(error);
+    result = aur_measure_items(&request->options, "transforming", p->limit + 1, fill_row, p, error);
     const double scale = 1.0 / aur_sum_of_squares(request->points);
     for (size_t i = 0; i < count && result == AUR_OK; ++i)
         p->power[i] *= scale;
-    if (result != AUR_OK)
-        free(p->power);
     return result;
 }
 
@@ -143,7 +139,7 @@ static aur_result radial(const aur_measure_request *request, aur_series *series,
     if (result != AUR_OK)
         return result;
     const size_t rings = p.limit + 1;
-    double *const sums = calloc(4 * rings, sizeof *sums);
+    double *const sums = aur_arena_allocate(request->arena, 4 * rings * sizeof *sums);
     result = sums != NULL ? aur_series_create(series, p.limit, 3, columns, error) : aur_fail_memory(error);
     if (result == AUR_OK) {
         sum_rings(&p, NULL, sums, sums + 2 * rings);
@@ -156,8 +152,6 @@ static aur_result radial(const aur_measure_request *request, aur_series *series,
         row[1] = mean;
         row[2] = mean > 0.0 ? sums[rings + ring] / (mean * mean) : 0.0;
     }
-    free(sums);
-    free(p.power);
     return result;
 }
 
@@ -182,7 +176,6 @@ static aur_result full_periodogram(const aur_measure_request *request, aur_serie
         series->values[3 * i + 1] = (double)column - (double)p.limit;
         series->values[3 * i + 2] = p.power[kx * side + (mirrored ? side - 1 - column : column)];
     }
-    free(p.power);
     return result;
 }
 
@@ -191,7 +184,7 @@ const aur_measure_row aur_measure_spectrum = {
              .summary = "table of the power at frequencies up to F (2 sqrt N; 4 sqrt "
                         "N): radial mean on the square, by degree on the sphere",
              .source = "Ulichney 1988; Pilleboue 2015"},
-     .parameter = "[F]",
+     .parameter = "[:F]",
      .domains = "square, sphere",
      .series = true},
     .tabulate = spectrum};
@@ -200,7 +193,7 @@ const aur_measure_row aur_measure_periodogram = {
     {.row = {.name = "periodogram",
              .summary = "table of the power at each frequency (kx, ky) up to F (2 sqrt N)",
              .source = "Ulichney 1988"},
-     .parameter = "[F]",
+     .parameter = "[:F]",
      .domains = "square",
      .series = true},
     .tabulate = full_periodogram};

@@ -4,7 +4,6 @@
 #include <stdlib.h>
 
 #include "core/error.h"
-#include "core/parallel.h"
 #include "core/vector.h"
 #include "quality/spectrum/spectrum.h"
 
@@ -31,7 +30,7 @@ static void start_block(const aur_points_view *points, size_t first, size_t coun
         if (i >= count)
             continue;
         const double *const x = points->coordinates + 3 * (first + i);
-        const double weight = points->weights != NULL ? points->weights[first + i] : 1.0;
+        const double weight = aur_weight_at(points, first + i);
         const double angle = (double)m * atan2(x[1], x[0]);
         b->z[i] = x[2];
         b->re[i] = weight * cos(angle);
@@ -99,11 +98,10 @@ aur_result aur_angular_spectrum(const aur_measure_request *request, aur_series *
         return result;
     harmonics work = {request->points, (size_t)limit, NULL};
     const size_t side = work.limit + 1;
-    work.power = calloc(side * side, sizeof *work.power);
-    const aur_parallel_options parallel = {
-        .threads = request->options.threads, .what = "transforming", .progress = request->options.progress};
-    result = work.power != NULL ? aur_parallel_for(&parallel, side, fill_order, &work, error)
-                                : aur_fail_memory(error);
+    work.power = aur_arena_allocate(request->arena, side * side * sizeof *work.power);
+    if (work.power == NULL)
+        return aur_fail_memory(error);
+    result = aur_measure_items(&request->options, "transforming", side, fill_order, &work, error);
     if (result == AUR_OK)
         result = aur_series_create(series, work.limit, 2, columns, error);
     const double scale = 4.0 * AUR_PI / aur_sum_of_squares(request->points);
@@ -114,6 +112,5 @@ aur_result aur_angular_spectrum(const aur_measure_request *request, aur_series *
         series->values[2 * (l - 1)] = (double)l;
         series->values[2 * (l - 1) + 1] = scale * sum / (2.0 * (double)l + 1.0);
     }
-    free(work.power);
     return result;
 }

@@ -15,7 +15,6 @@
 #include <stdlib.h>
 
 #include "core/error.h"
-#include "core/parallel.h"
 #include "core/vector3d.h"
 
 /* What counts as on the boundary. A cap that is greater by this much holds those points, and its area differs
@@ -237,36 +236,24 @@ static double best_about_points(const aur_axes *axes, aur_height *room) {
     return best;
 }
 
-static aur_result search(const aur_measure_request *request, const aur_axes *axes, double *value,
-                         aur_error *error) {
-    const size_t bins = 2 * ((axes->count + 63) / 64) * 32;
-    double *const cosines = malloc(bins * sizeof *cosines);
-    aur_height *const room = malloc(axes->count * sizeof *room);
-    aur_result result = cosines != NULL && room != NULL ? AUR_OK : aur_fail_memory(error);
-    if (result == AUR_OK) {
-        for (size_t b = 0; b < bins; ++b)
-            cosines[b] =
-                greatest_cosine(4.0 * (double)b / (double)bins, 4.0 * (double)(b + 1) / (double)bins);
-        _Atomic double best;
-        atomic_init(&best, best_about_points(axes, room));
-        pencils work = {axes, bins, cosines, &best};
-        const aur_parallel_options parallel = {.threads = request->options.threads,
-                                               .what = "turning caps",
-                                               .progress = request->options.progress};
-        result = aur_parallel_for(&parallel, axes->count, turn_about_pairs_of, &work, error);
-        *value = atomic_load(&best);
-    }
-    free(cosines);
-    free(room);
-    return result;
-}
-
 static aur_result cap(const aur_measure_request *request, double *value, aur_error *error) {
+    const size_t bins = 2 * ((request->points->count + 63) / 64) * 32;
+    double *const cosines = aur_arena_allocate(request->arena, bins * sizeof *cosines);
+    aur_height *const room = aur_arena_allocate(request->arena, request->points->count * sizeof *room);
+    if (cosines == NULL || room == NULL)
+        return aur_fail_memory(error);
     aur_axes axes;
-    aur_result result = aur_cap_axes_create(request->points, &axes, error);
+    aur_result result = aur_axes_create(request->points, &axes, error);
     if (result != AUR_OK)
         return result;
-    result = search(request, &axes, value, error);
+    for (size_t b = 0; b < bins; ++b)
+        cosines[b] = greatest_cosine(4.0 * (double)b / (double)bins, 4.0 * (double)(b + 1) / (double)bins);
+    _Atomic double best;
+    atomic_init(&best, best_about_points(&axes, room));
+    pencils work = {&axes, bins, cosines, &best};
+    result =
+        aur_measure_items(&request->options, "turning caps", axes.count, turn_about_pairs_of, &work, error);
+    *value = atomic_load(&best);
     aur_axes_release(&axes);
     return result;
 }
@@ -277,7 +264,6 @@ const aur_measure_row aur_measure_cap = {
           .summary =
               "supremum over spherical caps of |share of points - share of area|, exact; time grows as N^3",
           .source = "Marques 2013 sec. 2.1"},
-     .parameter = "",
      .domains = "sphere"},
     .masses = 1,
     .compute = cap};

@@ -3,9 +3,6 @@
 
 #include "quality/pairs/pair_sum.h"
 
-/* Axes with masses that add up to 1. */
-aur_result aur_cap_axes_create(const aur_points_view *points, aur_axes *axes, aur_error *error);
-
 typedef struct aur_height {
     double height, mass;
 } aur_height;

@@ -3,25 +3,8 @@
 #include <stdlib.h>
 
 #include "core/error.h"
-#include "core/parallel.h"
 #include "core/vector.h"
 #include "quality/sphere/cap.h"
-
-aur_result aur_cap_axes_create(const aur_points_view *points, aur_axes *axes, aur_error *error) {
-    aur_points_view weighted = *points;
-    double *const masses = malloc(points->count * sizeof *masses);
-    if (masses == NULL)
-        return aur_fail_memory(error);
-    double sum = 0.0;
-    for (size_t i = 0; i < points->count; ++i)
-        sum += points->weights != NULL ? points->weights[i] : 1.0;
-    for (size_t i = 0; i < points->count; ++i)
-        masses[i] = (points->weights != NULL ? points->weights[i] : 1.0) / sum;
-    weighted.weights = masses;
-    const aur_result result = aur_axes_create(&weighted, axes, error);
-    free(masses);
-    return result;
-}
 
 static int highest_first(const void *a, const void *b) {
     const aur_height *const p = a;
@@ -79,22 +62,19 @@ static aur_result try_centres(void *context, size_t index) {
 static aur_result cap_bound(const aur_measure_request *request, double *value, aur_error *error) {
     double wanted;
     aur_result result = aur_measure_number(request, 1.0, 1e9, 4096.0, &wanted, error);
-    aur_axes axes;
-    if (result == AUR_OK)
-        result = aur_cap_axes_create(request->points, &axes, error);
     if (result != AUR_OK)
         return result;
     const size_t count = (size_t)wanted;
     const size_t items = (count + CENTRES_PER_ITEM - 1) / CENTRES_PER_ITEM;
-    centres work = {&axes, count, malloc(items * sizeof *work.best)};
-    const aur_parallel_options parallel = {
-        .threads = request->options.threads, .what = "trying caps", .progress = request->options.progress};
-    result = work.best != NULL ? aur_parallel_for(&parallel, items, try_centres, &work, error)
-                               : aur_fail_memory(error);
+    aur_axes axes;
+    centres work = {&axes, count, aur_arena_allocate(request->arena, items * sizeof *work.best)};
+    result = work.best != NULL ? aur_axes_create(request->points, &axes, error) : aur_fail_memory(error);
+    if (result != AUR_OK)
+        return result;
+    result = aur_measure_items(&request->options, "trying caps", items, try_centres, &work, error);
     *value = 0.0;
     for (size_t i = 0; i < items && result == AUR_OK; ++i)
         *value = fmax(*value, work.best[i]);
-    free(work.best);
     aur_axes_release(&axes);
     return result;
 }
@@ -104,7 +84,7 @@ const aur_measure_row aur_measure_cap_bound = {
              .summary = "lower bound of 'cap' from all caps about CENTRES (4096) spherical Fibonacci "
                         "centres, for large N",
              .source = "Marques 2013 sec. 2.1"},
-     .parameter = "[CENTRES]",
+     .parameter = "[:CENTRES]",
      .domains = "sphere",
      .bound = true},
     .masses = 1,

@@ -1,26 +1,9 @@
 /* Figures of the Voronoi cells: how far from the points one can be, and how equal the cells are. */
 #include <math.h>
-#include <stdlib.h>
 
 #include "core/vector.h"
 #include "quality/spacing.h"
 #include "quality/sphere/voronoi.h"
-
-static aur_result cells_of(const aur_measure_request *request, aur_voronoi_cell **cells, int *unbounded,
-                           aur_error *error) {
-    const size_t count = request->points->count;
-    *cells = malloc(count * sizeof **cells);
-    *unbounded = 0;
-    if (*cells == NULL)
-        return aur_fail_memory(error);
-    const aur_result result = aur_voronoi_cells(request, *cells, error);
-    for (size_t i = 0; i < count && result == AUR_OK; ++i)
-        *unbounded |= (*cells)[i].unbounded;
-    if (result == AUR_OK)
-        return AUR_OK;
-    free(*cells);
-    return result;
-}
 
 static aur_result fail_unbounded(aur_error *error) {
     return aur_fail(error, AUR_ERROR_UNSUPPORTED,
@@ -30,14 +13,13 @@ static aur_result fail_unbounded(aur_error *error) {
 /* Radians. */
 static aur_result covering(const aur_measure_request *request, double *value, aur_error *error) {
     aur_voronoi_cell *cells;
-    int unbounded = 0;
-    const aur_result result = cells_of(request, &cells, &unbounded, error);
+    bool unbounded;
+    const aur_result result = aur_voronoi_cells(request, &cells, &unbounded, error);
     if (result != AUR_OK)
         return result;
     *value = 0.0;
     for (size_t i = 0; i < request->points->count; ++i)
         *value = fmax(*value, cells[i].radius);
-    free(cells);
     if (!unbounded)
         return AUR_OK;
     if (request->points->domain == AUR_DOMAIN_HEMISPHERE)
@@ -49,7 +31,7 @@ static aur_result covering(const aur_measure_request *request, double *value, au
 
 static aur_result mesh_ratio(const aur_measure_request *request, double *value, aur_error *error) {
     double chord = 0.0;
-    aur_result result = aur_smallest_distance(request->points, &chord, error);
+    aur_result result = aur_smallest_distance(request, &chord, error);
     if (result == AUR_OK)
         result = covering(request, value, error);
     if (result != AUR_OK)
@@ -70,8 +52,8 @@ enum { LEAST, GREATEST, DEVIATION, FIGURES };
 
 static aur_result area_figure(const aur_measure_request *request, double *value, aur_error *error) {
     aur_voronoi_cell *cells;
-    int unbounded = 0;
-    const aur_result result = cells_of(request, &cells, &unbounded, error);
+    bool unbounded;
+    const aur_result result = aur_voronoi_cells(request, &cells, &unbounded, error);
     if (result != AUR_OK)
         return result;
     const double mean = mean_area(request->points);
@@ -83,7 +65,6 @@ static aur_result area_figure(const aur_measure_request *request, double *value,
         squares += (area - 1.0) * (area - 1.0);
     }
     figures[DEVIATION] = sqrt(squares / (double)request->points->count);
-    free(cells);
     *value = figures[request->variant];
     return unbounded ? fail_unbounded(error) : AUR_OK;
 }
@@ -91,8 +72,8 @@ static aur_result area_figure(const aur_measure_request *request, double *value,
 static aur_result voronoi(const aur_measure_request *request, aur_series *series, aur_error *error) {
     static const char *const columns[] = {"point", "area", "radius", "sides"};
     aur_voronoi_cell *cells;
-    int unbounded = 0;
-    aur_result result = cells_of(request, &cells, &unbounded, error);
+    bool unbounded;
+    aur_result result = aur_voronoi_cells(request, &cells, &unbounded, error);
     if (result != AUR_OK)
         return result;
     result = unbounded ? fail_unbounded(error)
@@ -104,7 +85,6 @@ static aur_result voronoi(const aur_measure_request *request, aur_series *series
         row[2] = cells[i].radius;
         row[3] = (double)cells[i].sides;
     }
-    free(cells);
     return result;
 }
 
@@ -114,7 +94,6 @@ const aur_measure_row aur_measure_covering = {
           .summary =
               "covering radius (mesh norm): the largest angle from a direction to its nearest point, radians",
           .source = "Brauchart and Grabner 2015"},
-     .parameter = "",
      .domains = "sphere, hemisphere"},
     .compute = covering};
 
@@ -122,7 +101,6 @@ const aur_measure_row aur_measure_mesh_ratio = {
     {.row = {.name = "mesh-ratio",
              .summary = "covering radius over half the smallest angle between points: at least 1",
              .source = "Brauchart and Grabner 2015"},
-     .parameter = "",
      .domains = "sphere, hemisphere"},
     .minimum_count = 2,
     .compute = mesh_ratio};
@@ -131,7 +109,6 @@ const aur_measure_row aur_measure_voronoi_min = {
     {.row = {.name = "voronoi-min",
              .summary = "area of the smallest Voronoi cell, in mean areas",
              .source = "Augenbaum and Peskin 1985"},
-     .parameter = "",
      .domains = "sphere, hemisphere"},
     .variant = LEAST,
     .compute = area_figure};
@@ -140,7 +117,6 @@ const aur_measure_row aur_measure_voronoi_max = {
     {.row = {.name = "voronoi-max",
              .summary = "area of the largest Voronoi cell, in mean areas",
              .source = "Augenbaum and Peskin 1985"},
-     .parameter = "",
      .domains = "sphere, hemisphere"},
     .variant = GREATEST,
     .compute = area_figure};
@@ -149,7 +125,6 @@ const aur_measure_row aur_measure_voronoi_deviation = {
     {.row = {.name = "voronoi-deviation",
              .summary = "standard deviation of the areas of Voronoi cells, in mean areas",
              .source = "Augenbaum and Peskin 1985"},
-     .parameter = "",
      .domains = "sphere, hemisphere"},
     .variant = DEVIATION,
     .compute = area_figure};
@@ -158,7 +133,6 @@ const aur_measure_row aur_measure_voronoi = {
     {.row = {.name = "voronoi",
              .summary = "table of the Voronoi cells: area in mean areas, radius in radians, sides",
              .source = "Augenbaum and Peskin 1985"},
-     .parameter = "",
      .domains = "sphere, hemisphere",
      .series = true},
     .tabulate = voronoi};

@@ -69,7 +69,6 @@ const aur_measure_row aur_measure_energy = {
     {.row = {.name = "energy",
              .summary = "distance energy E_N: the worst-case error for the kernel of distances",
              .source = "Marques 2013 eq. 3; on the hemisphere with the mean-distance potential"},
-     .parameter = "",
      .domains = "sphere, hemisphere"},
     .variant = 1,
     .compute = energy};
@@ -78,7 +77,6 @@ const aur_measure_row aur_measure_scd = {
     {.row = {.name = "scd",
              .summary = "spherical cap discrepancy as E-SFG has it: energy / sqrt 2",
              .source = "Marques 2019 eq. 57"},
-     .parameter = "",
      .domains = "sphere, hemisphere"},
     .variant = 2,
     .compute = energy};
@@ -87,7 +85,6 @@ const aur_measure_row aur_measure_l2_cap = {
     {.row = {.name = "l2-cap",
              .summary = "L2 discrepancy of spherical caps, heights by dt: energy / 2",
              .source = "Stolarsky 1973"},
-     .parameter = "",
      .domains = "sphere, hemisphere"},
     .variant = 4,
     .compute = energy};
@@ -96,7 +93,6 @@ const aur_measure_row aur_measure_l2_cap_mean = {
     {.row = {.name = "l2-cap-mean",
              .summary = "root mean square discrepancy of caps, heights by dt/2: energy / sqrt 8",
              .source = "Stolarsky 1973"},
-     .parameter = "",
      .domains = "sphere, hemisphere"},
     .variant = 8,
     .compute = energy};

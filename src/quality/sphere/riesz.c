@@ -68,6 +68,6 @@ const aur_measure_row aur_measure_riesz = {
              .summary = "Riesz energy: the sum of |x_i - x_j|^-S over ordered pairs, S = 0 the logarithm of "
                         "1/|x_i - x_j|",
              .source = "Hardin and Saff 2004"},
-     .parameter = "S",
+     .parameter = ":S",
      .domains = "sphere, hemisphere"},
     .compute = riesz};

@@ -3,6 +3,7 @@
 #include <math.h>
 #include <stdlib.h>
 
+#include "core/array.h"
 #include "core/error.h"
 #include "core/vector.h"
 
@@ -34,34 +35,25 @@ static size_t cell_of_point(const aur_sphere_grid *grid, size_t index) {
     return cell_of(grid, band_of(grid, polar_angle(x)), atan2(x[1], x[0]));
 }
 
-void aur_sphere_grid_release(aur_sphere_grid *grid) {
-    free(grid->band_cells);
-    free(grid->cell_start);
-    free(grid->order);
-    *grid = (aur_sphere_grid){0};
-}
-
-aur_result aur_sphere_grid_create(const aur_points_view *points, aur_sphere_grid *grid, aur_error *error) {
+aur_result aur_sphere_grid_create(const aur_points_view *points, aur_arena *arena, aur_sphere_grid *grid,
+                                  aur_error *error) {
     const double spacing = sqrt(4.0 * AUR_PI / (double)points->count);
     *grid =
         (aur_sphere_grid){.points = points, .spacing = spacing, .band_count = (size_t)ceil(AUR_PI / spacing)};
-    grid->band_cells = malloc((grid->band_count + 1) * sizeof *grid->band_cells);
-    grid->order = malloc(points->count * sizeof *grid->order);
-    if (grid->band_cells != NULL) {
-        grid->band_cells[0] = 0;
-        for (size_t b = 0; b < grid->band_count; ++b) {
-            const double middle = AUR_PI * ((double)b + 0.5) / (double)grid->band_count;
-            const size_t cells = (size_t)(2.0 * AUR_PI * sin(middle) / spacing);
-            grid->band_cells[b + 1] = grid->band_cells[b] + (cells > 0 ? cells : 1);
-        }
-        grid->cell_start = calloc(grid->band_cells[grid->band_count] + 2, sizeof *grid->cell_start);
-    }
-    if (grid->band_cells == NULL || grid->order == NULL || grid->cell_start == NULL) {
-        aur_sphere_grid_release(grid);
+    grid->band_cells = aur_arena_allocate(arena, (grid->band_count + 1) * sizeof *grid->band_cells);
+    grid->order = aur_arena_allocate(arena, points->count * sizeof *grid->order);
+    if (grid->band_cells == NULL || grid->order == NULL)
         return aur_fail_memory(error);
+    for (size_t b = 0; b < grid->band_count; ++b) {
+        const double middle = AUR_PI * ((double)b + 0.5) / (double)grid->band_count;
+        const size_t cells = (size_t)(2.0 * AUR_PI * sin(middle) / spacing);
+        grid->band_cells[b + 1] = grid->band_cells[b] + (cells > 0 ? cells : 1);
     }
-    /* Counts two places on, so that filling leaves the starts behind it. */
     const size_t cells = grid->band_cells[grid->band_count];
+    grid->cell_start = aur_arena_allocate(arena, (cells + 2) * sizeof *grid->cell_start);
+    if (grid->cell_start == NULL)
+        return aur_fail_memory(error);
+    /* Counts two places on, so that filling leaves the starts behind it. */
     for (size_t i = 0; i < points->count; ++i)
         ++grid->cell_start[cell_of_point(grid, i) + 2];
     for (size_t c = 2; c < cells + 2; ++c)
@@ -79,19 +71,6 @@ static int nearest_first(const void *a, const void *b) {
     return (p->index > q->index) - (p->index < q->index);
 }
 
-static int append(aur_neighbours *neighbours, aur_neighbour item) {
-    if (neighbours->count == neighbours->capacity) {
-        const size_t capacity = neighbours->capacity == 0 ? 64 : 2 * neighbours->capacity;
-        aur_neighbour *const larger = realloc(neighbours->items, capacity * sizeof *larger);
-        if (larger == NULL)
-            return 0;
-        neighbours->items = larger;
-        neighbours->capacity = capacity;
-    }
-    neighbours->items[neighbours->count++] = item;
-    return 1;
-}
-
 typedef struct search {
     const aur_sphere_grid *grid;
     size_t index;
@@ -100,17 +79,21 @@ typedef struct search {
     aur_neighbours *found;
 } search;
 
-static int search_cell(const search *s, size_t cell) {
+static bool search_cell(const search *s, size_t cell) {
     for (size_t o = s->grid->cell_start[cell]; o < s->grid->cell_start[cell + 1]; ++o) {
         const size_t i = s->grid->order[o];
         const double *const x = s->grid->points->coordinates + 3 * i;
         double square = 0.0;
         for (size_t d = 0; d < 3; ++d)
             square += (x[d] - s->centre[d]) * (x[d] - s->centre[d]);
-        if (i != s->index && square <= s->limit && !append(s->found, (aur_neighbour){square, i}))
-            return 0;
+        if (i == s->index || square > s->limit)
+            continue;
+        aur_neighbours *const found = s->found;
+        if (!aur_array_reserve(&found->items, &found->capacity, found->count + 1, sizeof *found->items))
+            return false;
+        found->items[found->count++] = (aur_neighbour){square, i};
     }
-    return 1;
+    return true;
 }
 
 aur_result aur_sphere_grid_near(const aur_sphere_grid *grid, size_t index, double angle,

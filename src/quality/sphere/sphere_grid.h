@@ -3,6 +3,8 @@
 
 #include <aureole/pointset.h>
 
+#include "core/arena.h"
+
 typedef struct aur_sphere_grid {
     const aur_points_view *points; /* not owned */
     double spacing;                /* the side of a cell, radians */
@@ -12,8 +14,9 @@ typedef struct aur_sphere_grid {
     size_t *order;      /* indices of the points, cell by cell */
 } aur_sphere_grid;
 
-aur_result aur_sphere_grid_create(const aur_points_view *points, aur_sphere_grid *grid, aur_error *error);
-void aur_sphere_grid_release(aur_sphere_grid *grid);
+/* The arena holds the grid. */
+aur_result aur_sphere_grid_create(const aur_points_view *points, aur_arena *arena, aur_sphere_grid *grid,
+                                  aur_error *error);
 
 typedef struct aur_neighbour {
     double square; /* of the chord */

@@ -6,7 +6,7 @@
 #include <math.h>
 #include <stdlib.h>
 
-#include "core/parallel.h"
+#include "core/array.h"
 #include "core/vector.h"
 #include "core/vector3d.h"
 #include "quality/sphere/sphere_grid.h"
@@ -19,27 +19,23 @@ typedef struct corner {
 } corner;
 
 typedef struct polygon {
-    size_t count, capacity;
+    size_t count, capacity; /* of both arrays together */
     corner *corners, *spare;
+    corner *storage; /* of both */
 } polygon;
 
 typedef struct line {
     double a, b, c; /* keeps a p + b q <= c */
 } line;
 
-static int reserve(polygon *p, size_t capacity) {
-    if (capacity <= p->capacity)
-        return 1;
-    corner *const corners = realloc(p->corners, capacity * sizeof *corners);
-    if (corners != NULL)
-        p->corners = corners;
-    corner *const spare = realloc(p->spare, capacity * sizeof *spare);
-    if (spare != NULL)
-        p->spare = spare;
-    if (corners == NULL || spare == NULL)
-        return 0;
-    p->capacity = capacity;
-    return 1;
+/* An empty polygon with room for `capacity` corners. */
+static bool reserve(polygon *p, size_t capacity) {
+    p->count = 0;
+    if (!aur_array_reserve(&p->storage, &p->capacity, 2 * capacity, sizeof *p->storage))
+        return false;
+    p->corners = p->storage;
+    p->spare = p->storage + capacity;
+    return true;
 }
 
 /* A convex polygon gains one corner at most. */
@@ -93,8 +89,8 @@ enum { CELLS_PER_ITEM = 256 };
 
 /* Cuts the cell of point `index` by all neighbours within `angle`; the number that share its place is added
  * up. */
-static int cut_cell(const aur_points_view *points, size_t index, const aur_neighbours *near, polygon *p,
-                    size_t *coincident) {
+static bool cut_cell(const aur_points_view *points, size_t index, const aur_neighbours *near, polygon *p,
+                     size_t *coincident) {
     const double *const x = points->coordinates + 3 * index;
     double first[3], second[3];
     aur_frame3(x, first, second);
@@ -144,22 +140,25 @@ static aur_result find_cells(void *context, size_t item) {
     for (size_t i = item * CELLS_PER_ITEM; i < (item + 1) * CELLS_PER_ITEM && i < count && result == AUR_OK;
          ++i)
         result = find_cell(work, i, &p, &near);
-    free(p.corners);
-    free(p.spare);
+    free(p.storage);
     free(near.items);
     return result;
 }
 
-aur_result aur_voronoi_cells(const aur_measure_request *request, aur_voronoi_cell *result, aur_error *error) {
+aur_result aur_voronoi_cells(const aur_measure_request *request, aur_voronoi_cell **found, bool *unbounded,
+                             aur_error *error) {
+    const size_t count = request->points->count;
     aur_sphere_grid grid;
-    aur_result status = aur_sphere_grid_create(request->points, &grid, error);
-    if (status != AUR_OK)
-        return status;
-    cells work = {&grid, result};
-    const aur_parallel_options parallel = {
-        .threads = request->options.threads, .what = "cutting cells", .progress = request->options.progress};
-    status = aur_parallel_for(&parallel, (request->points->count + CELLS_PER_ITEM - 1) / CELLS_PER_ITEM,
-                              find_cells, &work, error);
-    aur_sphere_grid_release(&grid);
-    return status;
+    cells work = {&grid, aur_arena_allocate(request->arena, count * sizeof *work.result)};
+    aur_result result = work.result != NULL
+                            ? aur_sphere_grid_create(request->points, request->arena, &grid, error)
+                            : aur_fail_memory(error);
+    if (result == AUR_OK)
+        result = aur_measure_items(&request->options, "cutting cells",
+                                   (count + CELLS_PER_ITEM - 1) / CELLS_PER_ITEM, find_cells, &work, error);
+    *unbounded = false;
+    for (size_t i = 0; i < count && result == AUR_OK; ++i)
+        *unbounded |= work.result[i].unbounded;
+    *found = work.result;
+    return result;
 }

@@ -47,6 +47,6 @@ const aur_measure_row aur_measure_wce = {
              .summary = "worst-case error as a rule for the density LOBE (uniform), smoothness S; weights "
                         "are taken as they are",
              .source = "Marques 2018 eq. 9"},
-     .parameter = "S[:LOBE]",
+     .parameter = ":S[:LOBE]",
      .domains = "hemisphere, sphere"},
     .compute = wce};

@@ -1,10 +1,8 @@
 /* L2 discrepancies on the cube in any dimension: constant - 2 mean p(x_i) + mean k(x_i, x_j), where p and k
  * are products over dimensions. */
 #include <math.h>
-#include <stdlib.h>
 
 #include "core/error.h"
-#include "core/parallel.h"
 #include "quality/measure.h"
 #include "quality/pairs/twofold.h"
 
@@ -22,10 +20,6 @@ typedef struct double_sum {
 
 enum { ROWS_PER_ITEM = 64 };
 
-static double weight_of(const aur_points_view *points, size_t i) {
-    return points->weights != NULL ? points->weights[i] : 1.0;
-}
-
 /* Rows of the lower triangle: pairs below the diagonal count twice. */
 static aur_result sum_rows(void *context, size_t index) {
     const double_sum *const work = context;
@@ -36,14 +30,14 @@ static aur_result sum_rows(void *context, size_t index) {
     aur_twofold pairs = {0.0, 0.0}, singles = {0.0, 0.0};
     for (size_t i = first; i < last; ++i) {
         const double *const x = aur_point_at(points, i);
-        const double weight = weight_of(points, i);
+        const double weight = aur_weight_at(points, i);
         double single = weight;
         for (size_t d = 0; d < dimension; ++d)
             single *= work->kernel->point(x[d]);
         singles = aur_twofold_add(singles, (aur_twofold){single, 0.0});
         for (size_t j = 0; j <= i; ++j) {
             const double *const y = aur_point_at(points, j);
-            double pair = weight * weight_of(points, j) * (j < i ? 2.0 : 1.0);
+            double pair = weight * aur_weight_at(points, j) * (j < i ? 2.0 : 1.0);
             for (size_t d = 0; d < dimension; ++d)
                 pair *= work->kernel->pair(x[d], y[d]);
             pairs = aur_twofold_add(pairs, (aur_twofold){pair, 0.0});
@@ -58,22 +52,20 @@ static aur_result discrepancy(const product_kernel *kernel, const aur_measure_re
                               aur_error *error) {
     const aur_points_view *const points = request->points;
     const size_t items = (points->count + ROWS_PER_ITEM - 1) / ROWS_PER_ITEM;
-    double_sum work = {kernel, points, malloc(2 * items * sizeof *work.rows)};
+    double_sum work = {kernel, points, aur_arena_allocate(request->arena, 2 * items * sizeof *work.rows)};
     if (work.rows == NULL)
         return aur_fail_memory(error);
-    const aur_parallel_options parallel = {
-        .threads = request->options.threads, .what = "summing pairs", .progress = request->options.progress};
-    const aur_result result = aur_parallel_for(&parallel, items, sum_rows, &work, error);
+    const aur_result result =
+        aur_measure_items(&request->options, "summing pairs", items, sum_rows, &work, error);
+    if (result != AUR_OK)
+        return result;
     aur_twofold pairs = {0.0, 0.0}, singles = {0.0, 0.0}, mass = {0.0, 0.0};
-    for (size_t i = 0; i < items && result == AUR_OK; ++i) {
+    for (size_t i = 0; i < items; ++i) {
         pairs = aur_twofold_add(pairs, work.rows[2 * i]);
         singles = aur_twofold_add(singles, work.rows[2 * i + 1]);
     }
-    free(work.rows);
-    if (result != AUR_OK)
-        return result;
     for (size_t i = 0; i < points->count; ++i)
-        mass = aur_twofold_add(mass, (aur_twofold){weight_of(points, i), 0.0});
+        mass = aur_twofold_add(mass, (aur_twofold){aur_weight_at(points, i), 0.0});
     const aur_twofold constant =
         aur_twofold_scale(aur_twofold_multiply(mass, mass), kernel->constant((double)points->dimension));
     const aur_twofold cross = aur_twofold_scale(aur_twofold_multiply(mass, singles), -2.0);
@@ -135,14 +127,12 @@ const aur_measure_row aur_measure_l2_star = {
     {.row = {.name = "l2-star",
              .summary = "L2 star discrepancy, the root mean square over boxes at the origin",
              .source = "Warnock 1972"},
-     .parameter = "",
      .domains = "square, cube"},
     .variant = STAR,
     .compute = product_discrepancy};
 
 const aur_measure_row aur_measure_centered = {
     {.row = {.name = "centered", .summary = "centred L2 discrepancy (its root)", .source = "Hickernell 1998"},
-     .parameter = "",
      .domains = "square, cube"},
     .variant = CENTERED,
     .compute = product_discrepancy};
@@ -150,7 +140,6 @@ const aur_measure_row aur_measure_centered = {
 const aur_measure_row aur_measure_wraparound = {{.row = {.name = "wraparound",
                                                          .summary = "wrap-around L2 discrepancy (its root)",
                                                          .source = "Hickernell 1998"},
-                                                 .parameter = "",
                                                  .domains = "square, cube"},
                                                 .variant = WRAPAROUND,
                                                 .compute = product_discrepancy};

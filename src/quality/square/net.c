@@ -1,7 +1,6 @@
 /* The quality parameter t of a net: the smallest t for which every elementary interval of volume b^(t-m)
  * holds b^t of the b^m points (Niederreiter 1987). */
 #include <math.h>
-#include <stdlib.h>
 #include <string.h>
 
 #include "core/error.h"
@@ -125,27 +124,21 @@ static aur_result net_parameter(const aur_measure_request *request, double *valu
     if (result != AUR_OK)
         return result;
     const size_t count = n.points->count, dimension = n.points->dimension;
-    n.cells = malloc(count * dimension * sizeof *n.cells);
-    n.powers = malloc((n.digits + 1) * sizeof *n.powers);
-    n.occupancy = malloc(count * sizeof *n.occupancy);
-    n.shape = malloc(dimension * sizeof *n.shape);
-    if (n.cells == NULL || n.powers == NULL || n.occupancy == NULL || n.shape == NULL) {
-        result = aur_fail_memory(error);
-    } else {
-        fill_cells(&n);
-        result = strength_of(&n, &request->options, value, error);
-    }
-    free(n.cells);
-    free(n.powers);
-    free(n.occupancy);
-    free(n.shape);
-    return result;
+    aur_arena *const arena = request->arena;
+    n.cells = aur_arena_allocate(arena, count * dimension * sizeof *n.cells);
+    n.powers = aur_arena_allocate(arena, (n.digits + 1) * sizeof *n.powers);
+    n.occupancy = aur_arena_allocate(arena, count * sizeof *n.occupancy);
+    n.shape = aur_arena_allocate(arena, dimension * sizeof *n.shape);
+    if (n.cells == NULL || n.powers == NULL || n.occupancy == NULL || n.shape == NULL)
+        return aur_fail_memory(error);
+    fill_cells(&n);
+    return strength_of(&n, &request->options, value, error);
 }
 
 const aur_measure_row aur_measure_net = {
     {.row = {.name = "net",
              .summary = "t of the points as a (t,m,s)-net in base B (2): 0 is best, m is no net at all",
              .source = "Niederreiter 1987"},
-     .parameter = "[B]",
+     .parameter = "[:B]",
      .domains = "square, cube"},
     .compute = net_parameter};

@@ -131,52 +131,34 @@ static int by_y(const void *a, const void *b) {
     return (p->point > q->point) - (p->point < q->point);
 }
 
-static void heights_release(heights *h) {
-    free(h->y);
-    free(h->weight);
-    free(h->entered);
-    free(h->blocks);
-    free(h->closed);
-    free(h->open);
-}
-
-static aur_result heights_create(heights *h, size_t count) {
+static bool heights_create(heights *h, size_t count, aur_arena *arena) {
     const size_t side = (size_t)ceil(sqrt((double)count));
     *h = (heights){.slot_count = count, .block_size = side, .block_count = (count + side - 1) / side};
-    h->y = malloc(count * sizeof *h->y);
-    h->weight = calloc(count, sizeof *h->weight);
-    h->entered = calloc(count, sizeof *h->entered);
-    h->blocks = calloc(h->block_count, sizeof *h->blocks);
-    h->closed = malloc(count * sizeof *h->closed);
-    h->open = malloc(count * sizeof *h->open);
+    h->y = aur_arena_allocate(arena, count * sizeof *h->y);
+    h->weight = aur_arena_allocate(arena, count * sizeof *h->weight);
+    h->entered = aur_arena_allocate(arena, count * sizeof *h->entered);
+    h->blocks = aur_arena_allocate(arena, h->block_count * sizeof *h->blocks);
+    h->closed = aur_arena_allocate(arena, count * sizeof *h->closed);
+    h->open = aur_arena_allocate(arena, count * sizeof *h->open);
     if (h->y == NULL || h->weight == NULL || h->entered == NULL || h->blocks == NULL || h->closed == NULL ||
-        h->open == NULL) {
-        heights_release(h);
-        return AUR_ERROR_MEMORY;
-    }
+        h->open == NULL)
+        return false;
     for (size_t b = 0; b < h->block_count; ++b) {
         const size_t first = b * side;
         h->blocks[b].first = first;
         h->blocks[b].count = first + side <= count ? side : count - first;
     }
-    return AUR_OK;
+    return true;
 }
 
-/* Points sorted by x, and the slot of each. Masses add up to 1. */
-static aur_result sort_points(const aur_points_view *source, planar_point *points, size_t *slots,
-                              heights *h) {
-    height_order *const order = malloc(source->count * sizeof *order);
-    if (order == NULL)
-        return AUR_ERROR_MEMORY;
+/* Points sorted by x, and the slot of each. */
+static void sort_points(const aur_points_view *source, planar_point *points, size_t *slots,
+                        height_order *order, heights *h) {
     const size_t count = source->count;
-    const int line = source->dimension == 1;
-    double mass = 0.0;
-    for (size_t i = 0; i < count; ++i)
-        mass += source->weights != NULL ? source->weights[i] : 1.0;
+    const bool line = source->dimension == 1;
     for (size_t i = 0; i < count; ++i) {
         const double *const x = aur_point_at(source, i);
-        const double weight = source->weights != NULL ? source->weights[i] : 1.0;
-        points[i] = (planar_point){x[0], line ? 0.0 : x[1], weight / mass};
+        points[i] = (planar_point){x[0], line ? 0.0 : x[1], source->weights[i]};
     }
     qsort(points, count, sizeof *points, by_x);
     for (size_t i = 0; i < count; ++i)
@@ -186,12 +168,10 @@ static aur_result sort_points(const aur_points_view *source, planar_point *point
         h->y[s] = order[s].y;
         slots[order[s].point] = s;
     }
-    free(order);
-    return AUR_OK;
 }
 
 static aur_result sweep(const aur_measure_request *request, const planar_point *points, const size_t *slots,
-                        heights *h, double *value) {
+                        heights *h, double *value, aur_error *error) {
     const size_t count = request->points->count;
     const aur_progress *const progress = &request->options.progress;
     double best = 0.0, mass = 0.0;
@@ -205,7 +185,7 @@ static aur_result sweep(const aur_measure_request *request, const planar_point *
         best = fmax(best, greatest_closed(h, x));
         if (i % 1024 == 0 && progress->function != NULL &&
             progress->function(progress->user, "sweeping", i, count) != 0)
-            return AUR_ERROR_CANCELLED;
+            return aur_fail(error, AUR_ERROR_CANCELLED, "star discrepancy: cancelled");
     }
     *value = fmax(best, greatest_open(h, 1.0));
     return AUR_OK;
@@ -230,24 +210,18 @@ static aur_result star(const aur_measure_request *request, double *value, aur_er
             "the exact star discrepancy is for one and two dimensions, not %zu: 'star-bound' bounds "
             "it from below",
             source->dimension);
-    planar_point *const points = malloc(source->count * sizeof *points);
-    size_t *const slots = malloc(source->count * sizeof *slots);
-    heights h = {0};
-    aur_result result = points != NULL && slots != NULL ? AUR_OK : AUR_ERROR_MEMORY;
-    if (result == AUR_OK)
-        result = heights_create(&h, source->count);
-    if (result == AUR_OK) {
-        result = sort_points(source, points, slots, &h);
-        if (result == AUR_OK && source->dimension == 1)
-            *value = star_on_the_line(points, source->count);
-        else if (result == AUR_OK)
-            result = sweep(request, points, slots, &h, value);
-        heights_release(&h);
-    }
-    free(points);
-    free(slots);
-    return result == AUR_OK ? AUR_OK
-                            : aur_fail(error, result, "star discrepancy: %s", aur_result_string(result));
+    const size_t count = source->count;
+    planar_point *const points = aur_arena_allocate(request->arena, count * sizeof *points);
+    size_t *const slots = aur_arena_allocate(request->arena, count * sizeof *slots);
+    height_order *const order = aur_arena_allocate(request->arena, count * sizeof *order);
+    heights h;
+    if (points == NULL || slots == NULL || order == NULL || !heights_create(&h, count, request->arena))
+        return aur_fail_memory(error);
+    sort_points(source, points, slots, order, &h);
+    if (source->dimension > 1)
+        return sweep(request, points, slots, &h, value, error);
+    *value = star_on_the_line(points, count);
+    return AUR_OK;
 }
 
 const aur_measure_row aur_measure_star = {
@@ -255,7 +229,6 @@ const aur_measure_row aur_measure_star = {
              .summary =
                  "exact star discrepancy D*, the supremum over boxes at the origin (one and two dimensions)",
              .source = "Bundschuh and Zhu 1993"},
-     .parameter = "",
      .domains = "square, cube"},
     .masses = 1,
     .compute = star};

@@ -6,7 +6,6 @@
 #include <string.h>
 
 #include "core/error.h"
-#include "core/parallel.h"
 #include "core/random.h"
 #include "quality/measure.h"
 
@@ -14,7 +13,6 @@ enum { TRIALS = 16, DEFAULT_STEPS = 4096 };
 
 typedef struct walk {
     const aur_points_view *points;
-    const double *masses; /* count, adding up to 1 */
     const double *sorted; /* dimension * (count + 1): the coordinates in order, and 1 */
     size_t steps;
     uint64_t seed;
@@ -49,8 +47,8 @@ static double difference(const walk *w, const box *b) {
         }
         if (!in_closed)
             continue;
-        closed += w->masses[i];
-        open += in_open ? w->masses[i] : 0.0;
+        closed += w->points->weights[i];
+        open += in_open ? w->points->weights[i] : 0.0;
         for (size_t d = 0; d < dimension; ++d)
             b->low[d] = fmax(b->low[d], x[d]);
     }
@@ -80,7 +78,7 @@ static double grow(const walk *w, const box *b) {
         int inside = 1;
         for (size_t d = 0; d < dimension && inside; ++d)
             inside = aur_point_at(w->points, i)[d] < b->high[d];
-        open += inside ? w->masses[i] : 0.0;
+        open += inside ? w->points->weights[i] : 0.0;
     }
     return volume(b->high, dimension) - open;
 }
@@ -161,19 +159,12 @@ static int ascending(const void *a, const void *b) {
     return (x > y) - (x < y);
 }
 
-/* Masses, then the sorted coordinates of each axis with 1 at the end. */
-static double *tabulate(const aur_points_view *points) {
+/* The coordinates of each axis in order, with 1 at the end. */
+static double *tabulate(const aur_points_view *points, aur_arena *arena) {
     const size_t count = points->count, dimension = points->dimension;
-    double *const table = malloc((count + dimension * (count + 1)) * sizeof *table);
-    if (table == NULL)
-        return NULL;
-    double mass = 0.0;
-    for (size_t i = 0; i < count; ++i)
-        mass += points->weights != NULL ? points->weights[i] : 1.0;
-    for (size_t i = 0; i < count; ++i)
-        table[i] = (points->weights != NULL ? points->weights[i] : 1.0) / mass;
-    for (size_t d = 0; d < dimension; ++d) {
-        double *const axis = table + count + d * (count + 1);
+    double *const table = aur_arena_allocate(arena, dimension * (count + 1) * sizeof *table);
+    for (size_t d = 0; d < dimension && table != NULL; ++d) {
+        double *const axis = table + d * (count + 1);
         for (size_t i = 0; i < count; ++i)
             axis[i] = aur_point_at(points, i)[d];
         axis[count] = 1.0;
@@ -188,15 +179,11 @@ static aur_result star_bound(const aur_measure_request *request, double *value, 
     if (result != AUR_OK)
         return result;
     double best[TRIALS] = {0};
-    double *const table = tabulate(request->points);
+    double *const table = tabulate(request->points, request->arena);
     if (table == NULL)
         return aur_fail_memory(error);
-    walk w = {request->points,       table, table + request->points->count, (size_t)steps,
-              request->options.seed, best};
-    const aur_parallel_options parallel = {
-        .threads = request->options.threads, .what = "trying boxes", .progress = request->options.progress};
-    result = aur_parallel_for(&parallel, TRIALS, do_trial, &w, error);
-    free(table);
+    walk w = {request->points, table, (size_t)steps, request->options.seed, best};
+    result = aur_measure_items(&request->options, "trying boxes", TRIALS, do_trial, &w, error);
     *value = 0.0;
     for (size_t i = 0; i < TRIALS; ++i)
         *value = fmax(*value, best[i]);
@@ -208,7 +195,7 @@ const aur_measure_row aur_measure_star_bound = {
              .summary = "lower bound of the star discrepancy by threshold accepting, STEPS (4096) boxes in "
                         "each of 16 walks",
              .source = "Winker and Fang 1997; Gnewuch, Wahlström and Winzen 2012"},
-     .parameter = "[STEPS]",
+     .parameter = "[:STEPS]",
      .domains = "square, cube",
      .bound = true},
     .masses = 1,

@@ -54,11 +54,11 @@ static aur_result find_row(const char *metric, const aur_measure_row **row, cons
     *row = rows[index];
     *parameter = metric[length] == ':' ? metric + length + 1 : NULL;
     const char *const wanted = rows[index]->description.parameter;
-    if (*parameter != NULL && wanted[0] == '\0')
+    if (*parameter != NULL && wanted == NULL)
         return aur_fail(error, AUR_ERROR_ARGUMENT, "measure '%s' takes no parameter, not '%s'", name,
                         *parameter);
-    if (wanted[0] != '\0' && wanted[0] != '[' && (*parameter == NULL || (*parameter)[0] == '\0'))
-        return aur_fail(error, AUR_ERROR_ARGUMENT, "measure '%s' needs a parameter: %s:%s", name, name,
+    if (wanted != NULL && wanted[0] == ':' && (*parameter == NULL || (*parameter)[0] == '\0'))
+        return aur_fail(error, AUR_ERROR_ARGUMENT, "measure '%s' needs a parameter: %s%s", name, name,
                         wanted);
     return AUR_OK;
 }
@@ -193,8 +193,8 @@ static bool are_unit(const aur_points_view *points) {
 }
 
 /* A copy that is so, so that seven-digit files are measured as meant. */
-static double *unit_copy(const aur_points_view *points) {
-    double *const copy = malloc(points->count * 3 * sizeof *copy);
+static double *unit_copy(const aur_points_view *points, aur_arena *arena) {
+    double *const copy = aur_arena_allocate(arena, points->count * 3 * sizeof *copy);
     for (size_t i = 0; i < points->count && copy != NULL; ++i) {
         const double *const x = aur_point_at(points, i);
         const double scale = unit_scale(x);
@@ -204,19 +204,30 @@ static double *unit_copy(const aur_points_view *points) {
     return copy;
 }
 
-/* The row, a checked request, and the copy of the coordinates that it points to (free it), NULL where it
- * points to the caller's. */
+/* Weights that add up to 1. */
+static double *masses_of(const aur_points_view *points, aur_arena *arena) {
+    double *const masses = aur_arena_allocate(arena, points->count * sizeof *masses);
+    double sum = 0.0;
+    for (size_t i = 0; i < points->count; ++i)
+        sum += aur_weight_at(points, i);
+    for (size_t i = 0; i < points->count && masses != NULL; ++i)
+        masses[i] = aur_weight_at(points, i) / sum;
+    return masses;
+}
+
+/* The row and a checked request, with what that points to. The arena is to be released even after an error.
+ */
 typedef struct prepared {
     const aur_measure_row *row;
     aur_measure_request request;
     aur_points_view points;
-    double *unit;
+    aur_arena arena;
 } prepared;
 
 static aur_result prepare(const char *metric, const aur_points_view *given,
                           const aur_measure_options *options, prepared *p, aur_error *error) {
     aur_points_view *const points = &p->points;
-    *p = (prepared){.request.points = points};
+    *p = (prepared){.request = {.points = points, .arena = &p->arena}};
     aur_measure_options *const own = &p->request.options;
     *own = aur_measure_options_default();
     aur_result result =
@@ -230,26 +241,26 @@ static aur_result prepare(const char *metric, const aur_points_view *given,
     if (result != AUR_OK)
         return result;
     p->request.variant = p->row->variant;
-    if (expected_dimension(points->domain) != 3 || are_unit(points))
-        return AUR_OK;
-    p->unit = unit_copy(points);
-    points->coordinates = p->unit;
-    points->stride = 3;
-    return p->unit != NULL ? AUR_OK : aur_fail_memory(error);
+    if (expected_dimension(points->domain) == 3 && !are_unit(points)) {
+        points->coordinates = unit_copy(points, &p->arena);
+        points->stride = 3;
+    }
+    if (p->row->masses)
+        points->weights = masses_of(points, &p->arena);
+    const bool complete = points->coordinates != NULL && (points->weights != NULL || !p->row->masses);
+    return complete ? AUR_OK : aur_fail_memory(error);
 }
 
 aur_result aur_measure(const char *metric, const aur_points_view *points, const aur_measure_options *options,
                        double *value, aur_error *error) {
     prepared p;
     aur_result result = prepare(metric, points, options, &p, error);
-    if (result != AUR_OK)
-        return result;
-    if (p.row->compute != NULL)
+    if (result == AUR_OK && p.row->compute != NULL)
         result = p.row->compute(&p.request, value, error);
-    else
+    else if (result == AUR_OK)
         result = aur_fail(error, AUR_ERROR_UNSUPPORTED, "measure '%s' is a table, not one value",
                           p.row->description.row.name);
-    free(p.unit);
+    aur_arena_release(&p.arena);
     return result;
 }
 
@@ -258,20 +269,18 @@ aur_result aur_measure_series(const char *metric, const aur_points_view *points,
     *series = NULL;
     prepared p;
     aur_result result = prepare(metric, points, options, &p, error);
-    if (result != AUR_OK)
-        return result;
     aur_series *made = NULL;
-    if (p.row->tabulate != NULL) {
-        made = calloc(1, sizeof *made);
-        result = made != NULL ? p.row->tabulate(&p.request, made, error) : aur_fail_memory(error);
-    } else {
+    if (result == AUR_OK && p.row->tabulate == NULL)
         result = aur_fail(error, AUR_ERROR_UNSUPPORTED, "measure '%s' is one value, not a table",
                           p.row->description.row.name);
+    if (result == AUR_OK) {
+        made = calloc(1, sizeof *made);
+        result = made != NULL ? p.row->tabulate(&p.request, made, error) : aur_fail_memory(error);
     }
     if (result == AUR_OK)
         *series = made;
     else
         aur_series_destroy(made);
-    free(p.unit);
+    aur_arena_release(&p.arena);
     return result;
 }

@@ -3,8 +3,8 @@
 
 #include <aureole/scene.h>
 
+#include "core/arena.h"
 #include "core/error.h"
-#include "scene/xml/arena.h"
 
 #include <stdbool.h>
 

@@ -1,4 +1,4 @@
-#include "scene/xml/arena.h"
+#include "core/arena.h"
 
 #include <stdalign.h>
 #include <stdint.h>

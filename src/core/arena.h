@@ -1,4 +1,5 @@
-/* Memory that is freed all at once: nodes and strings of an XML document. */
+/* Memory that is freed all at once: the nodes of a document, what a measure needs until it ends. Not for two
+ * threads at once. */
 #pragma once
 
 #include <stddef.h>
