@@ -7,31 +7,41 @@
 
 typedef struct aur_emitter aur_emitter;
 
+/* Where a light is seen from, and what draws a point of it: u[0] is what is left after the choice of the
+ * light.
+ */
+typedef struct aur_light_query {
+    aur_vector reference;
+    float least; /* steradians, as aur_light_sample_direct has it */
+    float u[3];
+} aur_light_query;
+
 typedef struct aur_emitter_descriptor {
     aur_row row;      /* first, so that a row of the table is its descriptor */
     bool needs_shape; /* stands inside a <shape> */
+    bool is_far;      /* infinitely far: its power grows with the scene's section */
+    /* Reads its keys and sets emitter->extent, unless that takes the scene. */
     aur_result (*create)(aur_parameters *parameters, aur_emitter *emitter, aur_error *error);
-    /* Called when all shapes are there: makes tables and sets emitter->power. */
-    aur_result (*prepare)(const aur_scene *scene, aur_emitter *emitter, aur_error *error);
-    /* As aur_light_sample_direct for this light alone: u[0] is what is left of it after the choice. */
-    bool (*sample)(const aur_scene *scene, const aur_emitter *emitter, aur_vector reference, float least,
-                   const float u[3], aur_light_sample *drawn);
+    /* Called when all shapes are there: makes tables, and may set emitter->extent and ->brightness. May be
+     * NULL.
+     */
+    aur_result (*prepare)(aur_emitter *emitter, aur_error *error);
+    /* As aur_light_sample_direct for this light alone. */
+    bool (*sample)(const aur_emitter *emitter, const aur_light_query *query, aur_light_sample *drawn);
     /* `sample` for `count` (at most AUR_LIGHT_LANES) references; drawn[k].pdf is 0 where it fails. May be
      * NULL.
      */
-    void (*samples)(const aur_scene *scene, const aur_emitter *emitter, size_t count,
-                    const aur_vector *references, float least, const float *u, const float *v,
-                    aur_light_sample *drawn);
+    void (*samples)(const aur_emitter *emitter, size_t count, const aur_vector *references, float least,
+                    const float *u, const float *v, aur_light_sample *drawn);
     /* `sample` for the sixteen lanes of a packet; false: it is left to `sample`. May be NULL. */
-    bool (*lanes)(const aur_scene *scene, const aur_emitter *emitter, const aur_lane_vectors *reference,
-                  float least, const float *u, const float *v, aur_light_lanes *drawn);
+    bool (*lanes)(const aur_emitter *emitter, const aur_lane_vectors *reference, float least, const float *u,
+                  const float *v, aur_light_lanes *drawn);
     /* As aur_light_emit for this light alone. */
-    bool (*emit)(const aur_scene *scene, const aur_emitter *emitter, const float u[5], aur_ray *ray,
-                 aur_vector *power);
-    void (*release)(aur_emitter *emitter);
+    bool (*emit)(const aur_emitter *emitter, const float u[5], aur_ray *ray, aur_vector *power);
+    void (*release)(aur_emitter *emitter); /* frees what emitter->data owns, not `data`; may be NULL */
     /* For shapes only: the density, a steradian, with which `sample` draws the points that `reference` sees;
      * 0 says that it draws them by area. */
-    float (*pdf_seen)(const aur_scene *scene, const aur_emitter *emitter, aur_vector reference, float least);
+    float (*pdf_seen)(const aur_emitter *emitter, aur_vector reference, float least);
     /* For environments only: the radiance from a direction, and the density with which `sample` draws it. */
     aur_vector (*radiance_from)(const aur_emitter *emitter, aur_vector direction);
     float (*pdf_from)(const aur_emitter *emitter, aur_vector direction);
@@ -39,10 +49,14 @@ typedef struct aur_emitter_descriptor {
 
 struct aur_emitter {
     const aur_emitter_descriptor *descriptor;
+    const aur_scene *scene; /* which it lights; set before `prepare` */
     aur_location location;
     uint32_t index; /* among the emitters of the scene */
     uint32_t shape; /* for lights that are shapes */
     aur_color radiance;
+    /* The watts it gives are its brightness times its extent, for far lights times the scene's squared
+     * radius. The brightness is the luminance of its mean radiance, unless `prepare` says something else. */
+    double extent, brightness;
     double power;      /* luminance of the watts it gives: lights are chosen in proportion */
     float probability; /* that the light is chosen */
     bool needs_choice; /* u[0] matters even where this is the only light */

@@ -9,12 +9,12 @@ static const aur_emitter *choose(const aur_scene *scene, float *u) {
 
 bool aur_light_sample_direct(const aur_scene *scene, aur_vector reference, float least, const float u[3],
                              aur_light_sample *sample) {
-    float rest[3] = {u[0], u[1], u[2]};
-    const aur_emitter *const emitter = choose(scene, &rest[0]);
+    aur_light_query query = {reference, least, {u[0], u[1], u[2]}};
+    const aur_emitter *const emitter = choose(scene, &query.u[0]);
     if (emitter == NULL)
         return false;
     *sample = (aur_light_sample){0};
-    if (!emitter->descriptor->sample(scene, emitter, reference, least, rest, sample))
+    if (!emitter->descriptor->sample(emitter, &query, sample))
         return false;
     sample->pdf *= emitter->probability;
     return true;
@@ -26,7 +26,7 @@ void aur_light_samples_direct(const aur_scene *scene, size_t count, const aur_ve
     const aur_emitter *const only = scene->emitter_count == 1 ? scene->emitters[0] : NULL;
     /* Meshes choose their triangle by what the choice of the light leaves. */
     if (only != NULL && only->descriptor->samples != NULL && !only->needs_choice) {
-        only->descriptor->samples(scene, only, count, references, least, u, v, samples);
+        only->descriptor->samples(only, count, references, least, u, v, samples);
         for (size_t k = 0; k < count; ++k)
             samples[k].pdf *= only->probability;
         return;
@@ -53,7 +53,7 @@ float aur_light_pdf_direct(const aur_scene *scene, aur_vector reference, float l
     const float cosine = -aur_vector_dot(way, surface->geometric_normal) / sqrtf(squared);
     if (!(cosine > 0.0f))
         return 0.0f;
-    float pdf = emitter->descriptor->pdf_seen(scene, emitter, reference, least);
+    float pdf = emitter->descriptor->pdf_seen(emitter, reference, least);
     if (pdf == 0.0f)
         pdf = squared / (cosine * (float)shape->area);
     return isfinite(pdf) ? emitter->probability * pdf : 0.0f;
@@ -68,7 +68,7 @@ aur_vector aur_surface_emission(const aur_scene *scene, const aur_surface *surfa
 bool aur_light_emit(const aur_scene *scene, const float u[5], aur_ray *ray, aur_vector *power) {
     float rest[5] = {u[0], u[1], u[2], u[3], u[4]};
     const aur_emitter *const emitter = choose(scene, &rest[0]);
-    if (emitter == NULL || !emitter->descriptor->emit(scene, emitter, rest, ray, power))
+    if (emitter == NULL || !emitter->descriptor->emit(emitter, rest, ray, power))
         return false;
     *power = aur_vector_scale(*power, 1.0f / emitter->probability);
     return true;

@@ -110,8 +110,7 @@ void aur_light_lanes_direct(const aur_scene *scene, const aur_lane_vectors *refe
     const bool chooses = aur_light_chooses(scene);
     if (!chooses && scene->emitter_count == 1) {
         const aur_emitter *const only = scene->emitters[0];
-        if (only->descriptor->lanes != NULL &&
-            only->descriptor->lanes(scene, only, reference, least, u, v, lights))
+        if (only->descriptor->lanes != NULL && only->descriptor->lanes(only, reference, least, u, v, lights))
             return;
     }
     for (size_t k = 0; k < AUR_PACKET_SIZE; ++k)

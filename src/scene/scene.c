@@ -3,6 +3,7 @@
 #include <string.h>
 
 #include "core/options.h"
+#include "material/sampling.h"
 #include "scene/scene_data.h"
 
 static void find_sphere(aur_scene *scene) {
@@ -86,8 +87,14 @@ static aur_result prepare_lights(aur_scene *scene, aur_error *error) {
     aur_result result = AUR_OK;
     for (size_t i = 0; i < scene->emitter_count && result == AUR_OK; ++i) {
         aur_emitter *const emitter = scene->emitters[i];
-        result = emitter->descriptor->prepare(scene, emitter, error);
-        powers[i] = emitter->power;
+        emitter->scene = scene;
+        emitter->brightness = (double)aur_luminance(aur_color_mean(&emitter->radiance));
+        if (emitter->descriptor->prepare != NULL)
+            result = emitter->descriptor->prepare(emitter, error);
+        emitter->power = emitter->extent;
+        if (emitter->descriptor->is_far)
+            emitter->power = emitter->power * (double)scene->radius * (double)scene->radius;
+        powers[i] = emitter->power *= emitter->brightness;
         if (emitter->descriptor->radiance_from == NULL)
             continue;
         if (scene->environment != NULL && result == AUR_OK)

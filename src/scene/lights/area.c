@@ -2,7 +2,6 @@
 #include <stdlib.h>
 
 #include "material/sampling.h"
-#include "scene/distribution.h"
 #include "scene/emitter.h"
 #include "scene/lights/spherical_rectangle.h"
 #include "scene/scene_data.h"
@@ -15,16 +14,12 @@ static aur_result create(aur_parameters *parameters, aur_emitter *emitter, aur_e
     return aur_colors_read(&emitter->descriptor->row, parameters, emitter, error);
 }
 
-static const aur_shape *shape_of(const aur_scene *scene, const aur_emitter *emitter) {
-    return scene->shapes[emitter->shape];
-}
-
 /* How points of the shape are drawn. */
 typedef struct area_light {
+    const aur_shape *shape;
     aur_distribution triangles; /* of meshes, by area */
     bool is_mesh, is_rectangle;
-    aur_rectangle rectangle; /* by the solid angle under which it is seen */
-    aur_vector normal;       /* of the rectangle */
+    aur_rectangle_light rectangle; /* drawn by the solid angle under which it is seen */
     const aur_rectangle_kernels *kernels;
 } area_light;
 
@@ -40,92 +35,91 @@ static bool find_rectangle(const aur_shape *shape, aur_rectangle *rectangle) {
     return fabsf(aur_vector_dot(rectangle->x, rectangle->y)) < 1e-4f;
 }
 
-static aur_result find_triangles(const aur_shape *shape, const aur_emitter *emitter,
-                                 aur_distribution *triangles, aur_error *error) {
-    const size_t count = shape->mesh.triangle_count;
-    double *const areas = malloc(count * sizeof *areas);
+static aur_result find_triangles(area_light *light, aur_error *error) {
+    const aur_mesh *const mesh = &light->shape->mesh;
+    double *const areas = malloc(mesh->triangle_count * sizeof *areas);
     if (areas == NULL)
-        return aur_fail_memory_at(error, emitter->location);
-    for (size_t i = 0; i < count; ++i) {
+        return aur_fail_memory(error);
+    for (size_t i = 0; i < mesh->triangle_count; ++i) {
         aur_vector corner[3];
-        aur_mesh_corners(&shape->mesh, i, corner);
+        aur_mesh_corners(mesh, i, corner);
         areas[i] = aur_triangle_area(corner);
     }
-    const aur_result result = aur_distribution_create(triangles, count, areas, error);
+    const aur_result result = aur_distribution_create(&light->triangles, mesh->triangle_count, areas, error);
     free(areas);
     return result;
 }
 
-static aur_result prepare(const aur_scene *scene, aur_emitter *emitter, aur_error *error) {
-    const aur_shape *const shape = shape_of(scene, emitter);
+static aur_result prepare(aur_emitter *emitter, aur_error *error) {
+    const aur_shape *const shape = emitter->scene->shapes[emitter->shape];
     if (!(shape->area > 0.0))
         return aur_fail_at(error, emitter->location, AUR_ERROR_FORMAT,
                            "emitter 'area': its shape has no area, so it gives no light");
-    emitter->power = AUR_PI * shape->area * (double)aur_luminance(aur_color_mean(&emitter->radiance));
-    area_light *const light = calloc(1, sizeof *light);
-    emitter->data = light;
+    emitter->extent = AUR_PI * shape->area;
+    area_light *const light = emitter->data = calloc(1, sizeof *light);
     if (light == NULL)
         return aur_fail_memory_at(error, emitter->location);
-    if (shape->parallelogram) {
-        light->is_rectangle = find_rectangle(shape, &light->rectangle);
-        light->normal = aur_shape_sample(shape, NULL, (const float[3]){0.0f}).normal;
-        light->kernels = aur_rectangle_kernels_here();
-        return AUR_OK;
-    }
-    light->is_mesh = emitter->needs_choice = shape->curved == NULL;
-    return light->is_mesh ? find_triangles(shape, emitter, &light->triangles, error) : AUR_OK;
+    light->shape = shape;
+    light->is_mesh = emitter->needs_choice = shape->curved == NULL && !shape->parallelogram;
+    light->is_rectangle = shape->parallelogram && find_rectangle(shape, &light->rectangle.rectangle);
+    light->rectangle.area = (float)shape->area;
+    light->rectangle.radiance = emitter->radiance.constant;
+    if (light->is_rectangle)
+        light->rectangle.normal = aur_shape_sample(shape, NULL, (const float[3]){0.0f}).normal;
+    light->kernels = aur_rectangle_kernels_here();
+    return light->is_mesh ? find_triangles(light, error) : AUR_OK;
 }
 
 static void release(aur_emitter *emitter) {
-    area_light *const light = emitter->data;
-    if (light != NULL)
-        aur_distribution_release(&light->triangles);
-    free(light);
+    aur_distribution_release(&((area_light *)emitter->data)->triangles);
 }
 
-static aur_shape_point sample_area(const aur_shape *shape, const area_light *light, const float u[3]) {
+static aur_shape_point sample_area(const area_light *light, const float u[3]) {
     if (light->is_rectangle) {
-        const aur_rectangle *const r = &light->rectangle;
+        const aur_rectangle *const r = &light->rectangle.rectangle;
         const aur_vector along = aur_vector_add_scaled(r->corner, u[1] * r->width, r->x);
         return (aur_shape_point){.position = aur_vector_add_scaled(along, u[2] * r->height, r->y),
-                                 .normal = light->normal,
+                                 .normal = light->rectangle.normal,
                                  .texture = {u[1], u[2]}};
     }
-    return aur_shape_sample(shape, light->is_mesh ? &light->triangles : NULL, u);
+    return aur_shape_sample(light->shape, light->is_mesh ? &light->triangles : NULL, u);
 }
 
-/* By what `reference` sees of the shape; *pdf stays 0 when that is not to be had and area must do. */
-static aur_shape_point sample_seen(const aur_shape *shape, const area_light *light, aur_vector reference,
-                                   float least, const float u[3], float *pdf) {
+/* By what the reference sees of the shape; *pdf stays 0 when that is not to be had and area must do. */
+static aur_shape_point sample_seen(const area_light *light, const aur_light_query *query, float *pdf) {
+    const aur_curved *const curved = light->shape->curved;
+    const float *const u = query->u;
     aur_shape_point point;
     *pdf = 0.0f;
-    if (shape->curved != NULL && shape->curved->sample_seen != NULL &&
-        shape->curved->sample_seen(shape, reference, u[1], u[2], &point, pdf))
+    if (curved != NULL && curved->sample_seen != NULL &&
+        curved->sample_seen(light->shape, query->reference, u[1], u[2], &point, pdf))
         return point;
     aur_spherical_rectangle seen;
-    if (light->is_rectangle && aur_spherical_rectangle_create(&light->rectangle, reference, least, &seen)) {
+    if (light->is_rectangle &&
+        aur_spherical_rectangle_create(&light->rectangle.rectangle, query->reference, query->least, &seen)) {
         float along[3] = {0.0f};
         aur_spherical_rectangle_sample(&seen, u[1], u[2], &along[1], &along[2]);
         *pdf = 1.0f / seen.solid_angle;
-        return sample_area(shape, light, along);
+        return sample_area(light, along);
     }
-    return sample_area(shape, light, u);
+    return sample_area(light, u);
 }
 
-static float pdf_seen(const aur_scene *scene, const aur_emitter *emitter, aur_vector reference, float least) {
-    const aur_shape *const shape = shape_of(scene, emitter);
-    if (shape->curved != NULL)
-        return shape->curved->pdf_seen != NULL ? shape->curved->pdf_seen(shape, reference) : 0.0f;
+static float pdf_seen(const aur_emitter *emitter, aur_vector reference, float least) {
     const area_light *const light = emitter->data;
+    const aur_curved *const curved = light->shape->curved;
+    if (curved != NULL)
+        return curved->pdf_seen != NULL ? curved->pdf_seen(light->shape, reference) : 0.0f;
     aur_spherical_rectangle seen;
-    if (light->is_rectangle && aur_spherical_rectangle_create(&light->rectangle, reference, least, &seen))
+    if (light->is_rectangle &&
+        aur_spherical_rectangle_create(&light->rectangle.rectangle, reference, least, &seen))
         return 1.0f / seen.solid_angle;
     return 0.0f;
 }
 
 /* What a point of the shape gives to the reference; `pdf` of 0 says that it was drawn by area. */
-static bool finish_sample(const aur_shape *shape, const aur_emitter *emitter, aur_vector reference,
-                          const aur_shape_point *point, float pdf, aur_light_sample *drawn) {
+static bool finish_sample(const aur_emitter *emitter, aur_vector reference, const aur_shape_point *point,
+                          float pdf, aur_light_sample *drawn) {
     const aur_vector way = aur_vector_subtract(point->position, reference);
     const float squared = aur_vector_dot(way, way);
     drawn->delta = false;
@@ -137,22 +131,18 @@ static bool finish_sample(const aur_shape *shape, const aur_emitter *emitter, au
     drawn->position = point->position;
     drawn->normal = point->normal;
     drawn->radiance = aur_color_at(&emitter->radiance, point->texture);
-    drawn->pdf = pdf > 0.0f ? pdf : squared / (cosine * (float)shape->area);
+    drawn->pdf = pdf > 0.0f ? pdf : squared / (cosine * ((const area_light *)emitter->data)->rectangle.area);
     return isfinite(drawn->pdf);
 }
 
-static bool sample(const aur_scene *scene, const aur_emitter *emitter, aur_vector reference, float least,
-                   const float u[3], aur_light_sample *drawn) {
-    const aur_shape *const shape = shape_of(scene, emitter);
+static bool sample(const aur_emitter *emitter, const aur_light_query *query, aur_light_sample *drawn) {
     float pdf;
-    const aur_shape_point point = sample_seen(shape, emitter->data, reference, least, u, &pdf);
-    return finish_sample(shape, emitter, reference, &point, pdf, drawn);
+    const aur_shape_point point = sample_seen(emitter->data, query, &pdf);
+    return finish_sample(emitter, query->reference, &point, pdf, drawn);
 }
 
-static void samples(const aur_scene *scene, const aur_emitter *emitter, size_t count,
-                    const aur_vector *references, float least, const float *u, const float *v,
-                    aur_light_sample *drawn) {
-    const aur_shape *const shape = shape_of(scene, emitter);
+static void samples(const aur_emitter *emitter, size_t count, const aur_vector *references, float least,
+                    const float *u, const float *v, aur_light_sample *drawn) {
     const area_light *const light = emitter->data;
     float x[AUR_LIGHT_LANES], y[AUR_LIGHT_LANES], z[AUR_LIGHT_LANES];
     float s[AUR_LIGHT_LANES], t[AUR_LIGHT_LANES], angle[AUR_LIGHT_LANES] = {0};
@@ -162,44 +152,37 @@ static void samples(const aur_scene *scene, const aur_emitter *emitter, size_t c
         z[k] = references[k].z;
     }
     if (light->is_rectangle)
-        light->kernels->samples(&light->rectangle, least, count, (aur_rectangle_points){x, y, z, u, v},
-                                (aur_rectangle_samples){s, t, angle});
+        light->kernels->samples(&light->rectangle.rectangle, least, count,
+                                (aur_rectangle_points){x, y, z, u, v}, (aur_rectangle_samples){s, t, angle});
     for (size_t k = 0; k < count; ++k) {
-        aur_shape_point point;
-        float pdf;
-        if (angle[k] > 0.0f) {
-            pdf = 1.0f / angle[k];
-            point = sample_area(shape, light, (const float[3]){0.0f, s[k], t[k]});
-        } else {
-            point = sample_seen(shape, light, references[k], least, (const float[3]){0.0f, u[k], v[k]}, &pdf);
-        }
-        if (!finish_sample(shape, emitter, references[k], &point, pdf, &drawn[k]))
+        float pdf = 1.0f / angle[k];
+        const aur_shape_point point =
+            angle[k] > 0.0f
+                ? sample_area(light, (const float[3]){0.0f, s[k], t[k]})
+                : sample_seen(light, &(aur_light_query){references[k], least, {0.0f, u[k], v[k]}}, &pdf);
+        if (!finish_sample(emitter, references[k], &point, pdf, &drawn[k]))
             drawn[k].pdf = 0.0f;
     }
 }
 
-static bool lanes(const aur_scene *scene, const aur_emitter *emitter, const aur_lane_vectors *reference,
-                  float least, const float *u, const float *v, aur_light_lanes *drawn) {
+static bool lanes(const aur_emitter *emitter, const aur_lane_vectors *reference, float least, const float *u,
+                  const float *v, aur_light_lanes *drawn) {
     const area_light *const light = emitter->data;
     if (!light->is_rectangle || emitter->radiance.texture != NULL)
         return false;
-    const aur_rectangle_light all = {.rectangle = light->rectangle,
-                                     .normal = light->normal,
-                                     .radiance = emitter->radiance.constant,
-                                     .area = (float)shape_of(scene, emitter)->area,
-                                     .probability = emitter->probability};
+    aur_rectangle_light all = light->rectangle;
+    all.probability = emitter->probability;
     light->kernels->lanes(&all, least, reference, u, v, drawn);
     return true;
 }
 
-static bool emit(const aur_scene *scene, const aur_emitter *emitter, const float u[5], aur_ray *ray,
-                 aur_vector *power) {
-    const aur_shape_point point = sample_area(shape_of(scene, emitter), emitter->data, u);
+static bool emit(const aur_emitter *emitter, const float u[5], aur_ray *ray, aur_vector *power) {
+    const aur_shape_point point = sample_area(emitter->data, u);
     const aur_frame frame = aur_frame_about(point.normal);
     const aur_surface surface = {.position = point.position, .geometric_normal = point.normal};
     *ray = aur_surface_ray(&surface, aur_frame_to_world(&frame, aur_sample_cosine(u[3], u[4])));
     *power = aur_vector_scale(aur_color_at(&emitter->radiance, point.texture),
-                              AUR_PI_F * (float)shape_of(scene, emitter)->area);
+                              AUR_PI_F * ((const area_light *)emitter->data)->rectangle.area);
     return true;
 }
 

@@ -33,17 +33,10 @@ static const aur_key constant_keys[] = {
 static aur_result create_constant(aur_parameters *parameters, aur_emitter *emitter, aur_error *error) {
     const aur_result result = aur_colors_read(&emitter->descriptor->row, parameters, emitter, error);
     if (result == AUR_OK && emitter->radiance.texture != NULL)
-        return aur_fail_at(error, parameters->location, AUR_ERROR_UNSUPPORTED,
-                           "emitter 'constant': 'radiance' cannot be a texture; use an envmap");
+        return aur_parameters_fail(parameters, error, AUR_ERROR_UNSUPPORTED,
+                                   "'radiance' cannot be a texture; use an envmap");
+    emitter->extent = 4.0 * AUR_PI * AUR_PI;
     return result;
-}
-
-static aur_result prepare_constant(const aur_scene *scene, aur_emitter *emitter, aur_error *error) {
-    (void)error;
-    const double radius = scene->radius;
-    emitter->power =
-        4.0 * AUR_PI * AUR_PI * radius * radius * (double)aur_luminance(emitter->radiance.constant);
-    return AUR_OK;
 }
 
 static aur_vector constant_from(const aur_emitter *emitter, aur_vector direction) {
@@ -57,20 +50,18 @@ static float constant_pdf(const aur_emitter *emitter, aur_vector direction) {
     return 0.25f / AUR_PI_F;
 }
 
-static bool sample_constant(const aur_scene *scene, const aur_emitter *emitter, aur_vector reference,
-                            float least, const float u[3], aur_light_sample *drawn) {
-    (void)least;
-    aur_sample_far(scene, reference, aur_sample_sphere(u[1], u[2]), drawn);
+static bool sample_constant(const aur_emitter *emitter, const aur_light_query *query,
+                            aur_light_sample *drawn) {
+    aur_sample_far(emitter->scene, query->reference, aur_sample_sphere(query->u[1], query->u[2]), drawn);
     drawn->radiance = emitter->radiance.constant;
     drawn->pdf = 0.25f / AUR_PI_F;
     return true;
 }
 
-static bool emit_constant(const aur_scene *scene, const aur_emitter *emitter, const float u[5], aur_ray *ray,
-                          aur_vector *power) {
-    *ray = aur_emit_far(scene, aur_sample_sphere(u[1], u[2]), u[3], u[4]);
-    *power = aur_vector_scale(emitter->radiance.constant,
-                              4.0f * AUR_PI_F * AUR_PI_F * scene->radius * scene->radius);
+static bool emit_constant(const aur_emitter *emitter, const float u[5], aur_ray *ray, aur_vector *power) {
+    const float radius = emitter->scene->radius;
+    *ray = aur_emit_far(emitter->scene, aur_sample_sphere(u[1], u[2]), u[3], u[4]);
+    *power = aur_vector_scale(emitter->radiance.constant, 4.0f * AUR_PI_F * AUR_PI_F * radius * radius);
     return true;
 }
 
@@ -79,8 +70,8 @@ const aur_emitter_descriptor aur_emitter_constant = {
             .summary = "the same radiance from everywhere",
             .source = "",
             AUR_ROW_KEYS(constant_keys)},
+    .is_far = true,
     .create = create_constant,
-    .prepare = prepare_constant,
     .sample = sample_constant,
     .emit = emit_constant,
     .radiance_from = constant_from,
@@ -107,7 +98,6 @@ static void release_envmap(aur_emitter *emitter) {
     free(self->cells);
     aur_distribution_release(&self->rows);
     free(self->rgb);
-    free(self);
 }
 
 typedef struct envmap_keys {
@@ -130,16 +120,14 @@ static aur_result read_picture(const aur_parameters *parameters, const envmap_ke
                            "emitter 'envmap' needs the string 'filename'");
     const aur_result result = aur_read_rgb(p->filename, &self->width, &self->height, &self->rgb, error);
     if (result == AUR_OK && (self->width < 2 || self->height < 2))
-        return aur_fail_at(error, parameters->location, AUR_ERROR_FORMAT,
-                           "emitter 'envmap': the picture must be at least 2 x 2");
+        return aur_parameters_fail(parameters, error, AUR_ERROR_FORMAT, "the picture must be at least 2 x 2");
     for (size_t i = 0; result == AUR_OK && i < 3 * self->width * self->height; ++i)
         self->rgb[i] *= (float)p->scale;
     return result;
 }
 
 static aur_result create_envmap(aur_parameters *parameters, aur_emitter *emitter, aur_error *error) {
-    envmap *const self = calloc(1, sizeof *self);
-    emitter->data = self;
+    envmap *const self = emitter->data = calloc(1, sizeof *self);
     if (self == NULL)
         return aur_fail_memory_at(error, parameters->location);
     envmap_keys p = {.filename = NULL};
@@ -159,8 +147,8 @@ static aur_result create_envmap(aur_parameters *parameters, aur_emitter *emitter
                        fabsf(aur_vector_dot(self->frame.y, self->frame.z)) +
                        fabsf(aur_vector_dot(self->frame.z, self->frame.x));
     if (skew > 1e-3f)
-        return aur_fail_at(error, parameters->location, AUR_ERROR_UNSUPPORTED,
-                           "emitter 'envmap': 'to_world' may only turn");
+        return aur_parameters_fail(parameters, error, AUR_ERROR_UNSUPPORTED, "'to_world' may only turn");
+    emitter->extent = AUR_PI;
     return AUR_OK;
 }
 
@@ -169,7 +157,7 @@ static aur_vector value_at(const envmap *self, size_t i, size_t j) {
     return (aur_vector){rgb[0], rgb[1], rgb[2]};
 }
 
-static aur_result prepare_envmap(const aur_scene *scene, aur_emitter *emitter, aur_error *error) {
+static aur_result prepare_envmap(aur_emitter *emitter, aur_error *error) {
     envmap *const self = emitter->data;
     const size_t rows = self->height - 1;
     double *const weights = malloc((self->width + rows) * sizeof *weights);
@@ -190,52 +178,44 @@ static aur_result prepare_envmap(const aur_scene *scene, aur_emitter *emitter, a
     if (result == AUR_OK)
         result = aur_distribution_create(&self->rows, rows, weights + self->width, error);
     free(weights);
-    if (result != AUR_OK)
-        return result;
-    const double integral = self->rows.total * 2.0 * AUR_PI / (double)self->width;
-    emitter->power = AUR_PI * (double)scene->radius * (double)scene->radius * integral;
-    return AUR_OK;
+    emitter->brightness = self->rows.total * 2.0 * AUR_PI / (double)self->width;
+    return result;
 }
 
-/* Places in units of patches: x in [0, width), y in [0, height - 1]. */
-static void place_of(const envmap *self, aur_vector direction, float *x, float *y) {
+/* A place in patch (i, j), 0 <= s, t <= 1. */
+typedef struct patch_place {
+    size_t i, j;
+    float s, t;
+} patch_place;
+
+static patch_place place_of(const envmap *self, aur_vector direction) {
     const aur_vector local = aur_frame_to_local(&self->frame, direction);
     float azimuth = atan2f(local.x, -local.z) / (2.0f * AUR_PI_F);
     azimuth -= 0.5f / (float)self->width;
     azimuth -= floorf(azimuth);
-    *x = fminf(azimuth, 0x1.fffffep-1f) * (float)self->width;
-    *y = acosf(fminf(fmaxf(local.y, -1.0f), 1.0f)) / AUR_PI_F * (float)(self->height - 1);
-}
-
-static aur_vector radiance_at(const envmap *self, float x, float y) {
+    const float x = fminf(azimuth, 0x1.fffffep-1f) * (float)self->width;
+    const float y = acosf(fminf(fmaxf(local.y, -1.0f), 1.0f)) / AUR_PI_F * (float)(self->height - 1);
     const size_t i = (size_t)x, j = y < (float)(self->height - 2) ? (size_t)y : self->height - 2;
-    const float s = x - (float)i, t = y - (float)j;
-    aur_vector sum = aur_vector_scale(value_at(self, i, j), (1.0f - s) * (1.0f - t));
-    sum = aur_vector_add_scaled(sum, s * (1.0f - t), value_at(self, i + 1, j));
-    sum = aur_vector_add_scaled(sum, (1.0f - s) * t, value_at(self, i, j + 1));
-    return aur_vector_add_scaled(sum, s * t, value_at(self, i + 1, j + 1));
-}
-
-/* Within a patch azimuth and height are uniform, so the density of a direction is the patch's. */
-static float pdf_of(const envmap *self, float x, float y) {
-    if (!(self->rows.total > 0.0))
-        return 0.0f;
-    const size_t i = (size_t)x, j = y < (float)(self->height - 2) ? (size_t)y : self->height - 2;
-    const aur_distribution *const row = &self->cells[j];
-    const double brightness = row->sums[i + 1] - row->sums[i];
-    return (float)(brightness / self->rows.total * (double)self->width / (2.0 * AUR_PI));
+    return (patch_place){i, j, x - (float)i, y - (float)j};
 }
 
 static aur_vector envmap_from(const aur_emitter *emitter, aur_vector direction) {
-    float x, y;
-    place_of(emitter->data, direction, &x, &y);
-    return radiance_at(emitter->data, x, y);
+    const envmap *const self = emitter->data;
+    const patch_place at = place_of(self, direction);
+    aur_vector sum = aur_vector_scale(value_at(self, at.i, at.j), (1.0f - at.s) * (1.0f - at.t));
+    sum = aur_vector_add_scaled(sum, at.s * (1.0f - at.t), value_at(self, at.i + 1, at.j));
+    sum = aur_vector_add_scaled(sum, (1.0f - at.s) * at.t, value_at(self, at.i, at.j + 1));
+    return aur_vector_add_scaled(sum, at.s * at.t, value_at(self, at.i + 1, at.j + 1));
 }
 
+/* Within a patch azimuth and height are uniform, so the density of a direction is the patch's. */
 static float envmap_pdf(const aur_emitter *emitter, aur_vector direction) {
-    float x, y;
-    place_of(emitter->data, direction, &x, &y);
-    return pdf_of(emitter->data, x, y);
+    const envmap *const self = emitter->data;
+    if (!(self->rows.total > 0.0))
+        return 0.0f;
+    const patch_place at = place_of(self, direction);
+    const double *const sums = &self->cells[at.j].sums[at.i];
+    return (float)((sums[1] - sums[0]) / self->rows.total * (double)self->width / (2.0 * AUR_PI));
 }
 
 static aur_vector draw_direction(const envmap *self, float u, float v) {
@@ -250,25 +230,22 @@ static aur_vector draw_direction(const envmap *self, float u, float v) {
                               (aur_vector){radius * sinf(azimuth), height, -radius * cosf(azimuth)});
 }
 
-static bool sample_envmap(const aur_scene *scene, const aur_emitter *emitter, aur_vector reference,
-                          float least, const float u[3], aur_light_sample *drawn) {
-    (void)least;
-    aur_sample_far(scene, reference, draw_direction(emitter->data, u[1], u[2]), drawn);
+static bool sample_envmap(const aur_emitter *emitter, const aur_light_query *query, aur_light_sample *drawn) {
+    const aur_vector direction = draw_direction(emitter->data, query->u[1], query->u[2]);
+    aur_sample_far(emitter->scene, query->reference, direction, drawn);
     /* Asked for afterwards, so that rounding cannot part the two. */
     drawn->radiance = envmap_from(emitter, drawn->direction);
     drawn->pdf = envmap_pdf(emitter, drawn->direction);
     return drawn->pdf > 0.0f;
 }
 
-static bool emit_envmap(const aur_scene *scene, const aur_emitter *emitter, const float u[5], aur_ray *ray,
-                        aur_vector *power) {
+static bool emit_envmap(const aur_emitter *emitter, const float u[5], aur_ray *ray, aur_vector *power) {
     const aur_vector direction = draw_direction(emitter->data, u[1], u[2]);
-    const float pdf = envmap_pdf(emitter, direction);
+    const float pdf = envmap_pdf(emitter, direction), radius = emitter->scene->radius;
     if (!(pdf > 0.0f))
         return false;
-    *ray = aur_emit_far(scene, direction, u[3], u[4]);
-    *power =
-        aur_vector_scale(envmap_from(emitter, direction), AUR_PI_F * scene->radius * scene->radius / pdf);
+    *ray = aur_emit_far(emitter->scene, direction, u[3], u[4]);
+    *power = aur_vector_scale(envmap_from(emitter, direction), AUR_PI_F * radius * radius / pdf);
     return true;
 }
 
@@ -277,6 +254,7 @@ const aur_emitter_descriptor aur_emitter_envmap = {
             .summary = "a latitude-longitude picture around the scene, +y up",
             .source = "",
             AUR_ROW_KEYS(envmap_keys_table)},
+    .is_far = true,
     .create = create_envmap,
     .prepare = prepare_envmap,
     .sample = sample_envmap,

@@ -6,9 +6,10 @@
 #include "scene/scene_data.h"
 
 typedef struct point_light {
-    aur_vector position, direction; /* unit; where a spot points, or directional light goes */
-    aur_frame frame;                /* z is the direction */
-    float cutoff, beam;             /* radians */
+    aur_vector position;
+    aur_frame frame; /* z is where a spot points, or directional light goes */
+    /* Radians: light falls from all within the beam to nothing at the cutoff. A point's are beyond pi. */
+    float cutoff, beam;
     float cosine_cutoff;
 } point_light;
 
@@ -42,106 +43,58 @@ static const aur_key directional_table[] = {
     {AUR_KEY_OF_TRANSFORM(point_keys, "to_world", to_world, "in place of direction: from light along +z")},
 };
 
-/* Reads the keys and checks what all three have in common. */
+static aur_vector to_vector(const double v[3]) {
+    return (aur_vector){(float)v[0], (float)v[1], (float)v[2]};
+}
+
+/* Reads the keys, and places and aims the light. */
 static aur_result read_keys(aur_parameters *parameters, aur_emitter *emitter, point_keys *p,
                             aur_error *error) {
     const aur_row *const row = &emitter->descriptor->row;
     *p = (point_keys){.beam = -1.0};
-    emitter->data = calloc(1, sizeof(point_light));
-    if (emitter->data == NULL)
+    point_light *const self = emitter->data = calloc(1, sizeof *self);
+    if (self == NULL)
         return aur_fail_memory_at(error, parameters->location);
     aur_transform to_local;
     aur_result result = aur_colors_read(row, parameters, p, error);
     if (result == AUR_OK)
         result = aur_to_world_check(parameters, &p->to_world, &to_local, error);
     if (result == AUR_OK && p->color.texture != NULL)
-        return aur_fail_at(error, parameters->location, AUR_ERROR_UNSUPPORTED,
-                           "emitter '%s': '%s' cannot be a texture", row->name, row->keys[0].name);
+        return aur_parameters_fail(parameters, error, AUR_ERROR_UNSUPPORTED, "'%s' cannot be a texture",
+                                   row->keys[0].name);
+    if (result != AUR_OK)
+        return result;
+    const bool aimed = aur_parameters_find(parameters, "direction") != NULL;
+    if (aimed && aur_parameters_find(parameters, "to_world") != NULL)
+        return aur_parameters_fail(parameters, error, AUR_ERROR_FORMAT,
+                                   "give 'direction' or 'to_world', not both");
+    const aur_vector way = aimed ? to_vector(p->direction)
+                                 : aur_transform_direction_f(&p->to_world, (aur_vector){0.0f, 0.0f, 1.0f});
+    if (emitter->descriptor->is_far && !(aur_vector_length(way) > (float)(1.0 / AUR_REACH)))
+        return aur_parameters_fail(parameters, error, AUR_ERROR_FORMAT,
+                                   "'direction' must not be 0 0 0, nor nearly so");
+    self->position = aur_transform_point_f(&p->to_world, to_vector(p->position));
+    self->frame = aur_frame_about(aur_vector_normalize(way));
     emitter->radiance = p->color;
-    return result;
+    return AUR_OK;
 }
 
-static void release(aur_emitter *emitter) {
-    free(emitter->data);
-}
-
-static void aim(point_light *self, aur_vector direction) {
-    self->direction = aur_vector_normalize(direction);
-    self->frame = aur_frame_about(self->direction);
-}
-
-/* --- point */
+/* --- point and spot */
 
 static aur_result create_point(aur_parameters *parameters, aur_emitter *emitter, aur_error *error) {
     point_keys p;
     const aur_result result = read_keys(parameters, emitter, &p, error);
     if (result != AUR_OK)
         return result;
-    const double *const position = p.position;
-    const aur_transform place = aur_transform_translate(position[0], position[1], position[2]);
+    const aur_transform place = aur_transform_translate(p.position[0], p.position[1], p.position[2]);
     const aur_transform both = aur_transform_multiply(&p.to_world, &place);
     if (!aur_transform_is_within_reach(&both))
-        return aur_fail_at(error, parameters->location, AUR_ERROR_FORMAT,
-                           "emitter 'point' must be within %g of the origin", AUR_REACH);
-    ((point_light *)emitter->data)->position = aur_transform_point_f(
-        &p.to_world, (aur_vector){(float)position[0], (float)position[1], (float)position[2]});
+        return aur_parameters_fail(parameters, error, AUR_ERROR_FORMAT, "it must be within %g of the origin",
+                                   AUR_REACH);
+    ((point_light *)emitter->data)->beam = 4.0f;
+    emitter->extent = 4.0 * AUR_PI;
     return AUR_OK;
 }
-
-static aur_result prepare_point(const aur_scene *scene, aur_emitter *emitter, aur_error *error) {
-    (void)scene;
-    (void)error;
-    emitter->power = 4.0 * AUR_PI * (double)aur_luminance(emitter->radiance.constant);
-    return AUR_OK;
-}
-
-/* Towards a light at a place; radiance / pdf is intensity over the squared distance. */
-static bool sample_place(const aur_emitter *emitter, aur_vector reference, aur_light_sample *drawn) {
-    const point_light *const self = emitter->data;
-    const aur_vector way = aur_vector_subtract(self->position, reference);
-    const float squared = aur_vector_dot(way, way);
-    if (!(squared > 0.0f))
-        return false;
-    drawn->position = self->position;
-    drawn->distance = sqrtf(squared);
-    drawn->direction = aur_vector_scale(way, 1.0f / drawn->distance);
-    drawn->normal = aur_vector_scale(drawn->direction, -1.0f);
-    drawn->radiance = aur_vector_scale(emitter->radiance.constant, 1.0f / squared);
-    drawn->pdf = 1.0f;
-    drawn->delta = true;
-    return true;
-}
-
-static bool sample_point(const aur_scene *scene, const aur_emitter *emitter, aur_vector reference,
-                         float least, const float u[3], aur_light_sample *drawn) {
-    (void)least;
-    (void)scene;
-    (void)u;
-    return sample_place(emitter, reference, drawn);
-}
-
-static bool emit_point(const aur_scene *scene, const aur_emitter *emitter, const float u[5], aur_ray *ray,
-                       aur_vector *power) {
-    (void)scene;
-    const point_light *const self = emitter->data;
-    *ray = (aur_ray){self->position, 0.0f, aur_sample_sphere(u[3], u[4]), INFINITY};
-    *power = aur_vector_scale(emitter->radiance.constant, 4.0f * AUR_PI_F);
-    return true;
-}
-
-const aur_emitter_descriptor aur_emitter_point = {
-    .row = {.name = "point",
-            .summary = "a point that shines evenly",
-            .source = "",
-            AUR_ROW_KEYS(point_table)},
-    .create = create_point,
-    .prepare = prepare_point,
-    .sample = sample_point,
-    .emit = emit_point,
-    .release = release,
-};
-
-/* --- spot */
 
 static aur_result create_spot(aur_parameters *parameters, aur_emitter *emitter, aur_error *error) {
     point_keys p;
@@ -154,47 +107,50 @@ static aur_result create_spot(aur_parameters *parameters, aur_emitter *emitter, 
                            "emitter 'spot': 'beam_width' must be at most the cutoff_angle %g, not %g", cutoff,
                            beam);
     point_light *const self = emitter->data;
-    self->position = aur_transform_point_f(&p.to_world, (aur_vector){0.0f, 0.0f, 0.0f});
-    aim(self, aur_transform_direction_f(&p.to_world, (aur_vector){0.0f, 0.0f, 1.0f}));
     self->cutoff = (float)(cutoff * AUR_PI / 180.0);
     self->beam = (float)(beam * AUR_PI / 180.0);
     self->cosine_cutoff = cosf(self->cutoff);
+    const double mean = 0.5 * (cos((double)self->beam) + (double)self->cosine_cutoff);
+    emitter->extent = 2.0 * AUR_PI * (1.0 - mean);
     return AUR_OK;
 }
 
 /* Full within the beam, then falling linearly with the angle to 0 at the cutoff. */
 static float falloff(const point_light *self, float cosine) {
+    if (self->beam > AUR_PI_F)
+        return 1.0f;
     if (!(cosine > self->cosine_cutoff))
         return 0.0f;
     const float angle = acosf(fminf(cosine, 1.0f));
     return angle <= self->beam ? 1.0f : fmaxf((self->cutoff - angle) / (self->cutoff - self->beam), 0.0f);
 }
 
-static aur_result prepare_spot(const aur_scene *scene, aur_emitter *emitter, aur_error *error) {
-    (void)scene;
-    (void)error;
+/* radiance / pdf is intensity over the squared distance. */
+static bool sample_place(const aur_emitter *emitter, const aur_light_query *query, aur_light_sample *drawn) {
     const point_light *const self = emitter->data;
-    const double mean = 0.5 * (cos((double)self->beam) + (double)self->cosine_cutoff);
-    emitter->power = 2.0 * AUR_PI * (1.0 - mean) * (double)aur_luminance(emitter->radiance.constant);
-    return AUR_OK;
-}
-
-static bool sample_spot(const aur_scene *scene, const aur_emitter *emitter, aur_vector reference, float least,
-                        const float u[3], aur_light_sample *drawn) {
-    (void)least;
-    (void)scene;
-    (void)u;
-    const point_light *const self = emitter->data;
-    if (!sample_place(emitter, reference, drawn))
+    const aur_vector way = aur_vector_subtract(self->position, query->reference);
+    const float squared = aur_vector_dot(way, way);
+    if (!(squared > 0.0f))
         return false;
-    const float share = falloff(self, -aur_vector_dot(drawn->direction, self->direction));
-    drawn->radiance = aur_vector_scale(drawn->radiance, share);
+    drawn->position = self->position;
+    drawn->distance = sqrtf(squared);
+    drawn->direction = aur_vector_scale(way, 1.0f / drawn->distance);
+    drawn->normal = aur_vector_scale(drawn->direction, -1.0f);
+    const float share = falloff(self, -aur_vector_dot(drawn->direction, self->frame.z));
+    drawn->radiance = aur_vector_scale(aur_vector_scale(emitter->radiance.constant, 1.0f / squared), share);
+    drawn->pdf = 1.0f;
+    drawn->delta = true;
     return share > 0.0f;
 }
 
-static bool emit_spot(const aur_scene *scene, const aur_emitter *emitter, const float u[5], aur_ray *ray,
-                      aur_vector *power) {
-    (void)scene;
+static bool emit_point(const aur_emitter *emitter, const float u[5], aur_ray *ray, aur_vector *power) {
+    const point_light *const self = emitter->data;
+    *ray = (aur_ray){self->position, 0.0f, aur_sample_sphere(u[3], u[4]), INFINITY};
+    *power = aur_vector_scale(emitter->radiance.constant, 4.0f * AUR_PI_F);
+    return true;
+}
+
+static bool emit_spot(const aur_emitter *emitter, const float u[5], aur_ray *ray, aur_vector *power) {
     const point_light *const self = emitter->data;
     const float cap = 1.0f - self->cosine_cutoff;
     const float cosine = 1.0f - u[3] * cap;
@@ -204,63 +160,51 @@ static bool emit_spot(const aur_scene *scene, const aur_emitter *emitter, const 
     return true;
 }
 
+const aur_emitter_descriptor aur_emitter_point = {
+    .row = {.name = "point",
+            .summary = "a point that shines evenly",
+            .source = "",
+            AUR_ROW_KEYS(point_table)},
+    .create = create_point,
+    .sample = sample_place,
+    .emit = emit_point,
+};
+
 const aur_emitter_descriptor aur_emitter_spot = {
     .row = {.name = "spot",
             .summary = "a point that shines in a cone about +z",
             .source = "",
             AUR_ROW_KEYS(spot_table)},
     .create = create_spot,
-    .prepare = prepare_spot,
-    .sample = sample_spot,
+    .sample = sample_place,
     .emit = emit_spot,
-    .release = release,
 };
 
 /* --- directional */
 
 static aur_result create_directional(aur_parameters *parameters, aur_emitter *emitter, aur_error *error) {
     point_keys p;
-    const aur_result result = read_keys(parameters, emitter, &p, error);
-    if (result != AUR_OK)
-        return result;
-    const bool given = aur_parameters_find(parameters, "direction") != NULL;
-    if (given && aur_parameters_find(parameters, "to_world") != NULL)
-        return aur_fail_at(error, parameters->location, AUR_ERROR_FORMAT,
-                           "emitter 'directional': give 'direction' or 'to_world', not both");
-    aur_vector way = {(float)p.direction[0], (float)p.direction[1], (float)p.direction[2]};
-    if (!given)
-        way = aur_transform_direction_f(&p.to_world, (aur_vector){0.0f, 0.0f, 1.0f});
-    if (!(aur_vector_length(way) > (float)(1.0 / AUR_REACH)))
-        return aur_fail_at(error, parameters->location, AUR_ERROR_FORMAT,
-                           "emitter 'directional': 'direction' must not be 0 0 0, nor nearly so");
-    aim(emitter->data, way);
-    return AUR_OK;
+    emitter->extent = AUR_PI;
+    return read_keys(parameters, emitter, &p, error);
 }
 
-static aur_result prepare_directional(const aur_scene *scene, aur_emitter *emitter, aur_error *error) {
-    (void)error;
-    const double radius = scene->radius;
-    emitter->power = AUR_PI * radius * radius * (double)aur_luminance(emitter->radiance.constant);
-    return AUR_OK;
+static aur_vector towards_light(const aur_emitter *emitter) {
+    return aur_vector_scale(((const point_light *)emitter->data)->frame.z, -1.0f);
 }
 
-static bool sample_directional(const aur_scene *scene, const aur_emitter *emitter, aur_vector reference,
-                               float least, const float u[3], aur_light_sample *drawn) {
-    (void)least;
-    (void)u;
-    const point_light *const self = emitter->data;
-    aur_sample_far(scene, reference, aur_vector_scale(self->direction, -1.0f), drawn);
+static bool sample_directional(const aur_emitter *emitter, const aur_light_query *query,
+                               aur_light_sample *drawn) {
+    aur_sample_far(emitter->scene, query->reference, towards_light(emitter), drawn);
     drawn->radiance = emitter->radiance.constant;
     drawn->pdf = 1.0f;
     drawn->delta = true;
     return true;
 }
 
-static bool emit_directional(const aur_scene *scene, const aur_emitter *emitter, const float u[5],
-                             aur_ray *ray, aur_vector *power) {
-    const point_light *const self = emitter->data;
-    *ray = aur_emit_far(scene, aur_vector_scale(self->direction, -1.0f), u[1], u[2]);
-    *power = aur_vector_scale(emitter->radiance.constant, AUR_PI_F * scene->radius * scene->radius);
+static bool emit_directional(const aur_emitter *emitter, const float u[5], aur_ray *ray, aur_vector *power) {
+    const float radius = emitter->scene->radius;
+    *ray = aur_emit_far(emitter->scene, towards_light(emitter), u[1], u[2]);
+    *power = aur_vector_scale(emitter->radiance.constant, AUR_PI_F * radius * radius);
     return true;
 }
 
@@ -269,9 +213,8 @@ const aur_emitter_descriptor aur_emitter_directional = {
             .summary = "parallel light along +z or `direction`",
             .source = "",
             AUR_ROW_KEYS(directional_table)},
+    .is_far = true,
     .create = create_directional,
-    .prepare = prepare_directional,
     .sample = sample_directional,
     .emit = emit_directional,
-    .release = release,
 };

@@ -1,6 +1,5 @@
 /* Every light by name. One new light is one new file and one line here. */
 #include <stdlib.h>
-#include <string.h>
 
 #include "scene/emitter.h"
 
@@ -50,7 +49,8 @@ aur_result aur_emitter_create(aur_parameters *parameters, aur_emitter **emitter,
 void aur_emitter_destroy(aur_emitter *emitter) {
     if (emitter == NULL)
         return;
-    if (emitter->data != NULL)
+    if (emitter->data != NULL && emitter->descriptor->release != NULL)
         emitter->descriptor->release(emitter);
+    free(emitter->data);
     free(emitter);
 }
