@@ -1,9 +1,11 @@
-/* Runs a harness on its seeds and on mutations of them: run R of seed S is always the same input.
+/* Runs a harness on its seeds and on mutations of them: run R of seed S is always the same input, as long as
+ * the seeds and the dictionary are the same.
  *
- *     fuzz_NAME [--runs N] [--seed S] [--only R] [FILE...]
+ *     fuzz_NAME [--runs N] [--seed S] [--only R] [--dictionary WORDS] [FILE...]
  *
- * FILEs are seeds beside those of the harness; with --runs 0 they are only tried as they are. When a run goes
- * wrong its number is printed, and `--only R` repeats it alone and leaves its input in fuzz-input. */
+ * FILEs are seeds beside those of the harness; with --runs 0 they are only tried as they are. WORDS has a
+ * word in quotes a line, as libFuzzer's -dict has (keys.dict). When a run goes wrong its number is printed,
+ * and `--only R` repeats it alone and leaves its input in fuzz-input. */
 #include <aureole/core.h>
 #include <signal.h>
 #include <stdbool.h>
@@ -13,7 +15,7 @@
 #include "core/random.h"
 #include "fuzz.h"
 
-enum { SEED_CAPACITY = 256, INPUT_CAPACITY = 1 << 16, SECONDS_A_RUN = 60, EDITS = 6 };
+enum { SEED_CAPACITY = 256, WORD_CAPACITY = 4096, INPUT_CAPACITY = 1 << 16, SECONDS_A_RUN = 60, EDITS = 6 };
 
 /* Sanitizers end by SIGABRT, so that the handler below can say which run it was; an allocation beyond 4 GiB
  * fails instead of ending the program. */
@@ -36,6 +38,8 @@ typedef struct fuzz_seed {
 typedef struct fuzz_corpus {
     size_t count;
     fuzz_seed seeds[SEED_CAPACITY];
+    size_t word_count;
+    fuzz_seed words[WORD_CAPACITY]; /* of the dictionary */
 } fuzz_corpus;
 
 /* The one thing that a signal handler can be told. */
@@ -133,11 +137,18 @@ static size_t find_word(const uint8_t *data, size_t size, size_t from, size_t *b
     return length;
 }
 
-/* A word becomes a word of some seed: a name of one thing stands where the name of another one should. */
+/* A word becomes a word of some seed or of the dictionary: a name of one thing stands where the name of
+ * another one should. */
 static void edit_name(fuzz_input *input, const fuzz_corpus *corpus, fuzz_dice *dice) {
-    const fuzz_seed *const other = &corpus->seeds[roll(dice, corpus->count)];
+    const bool known = corpus->word_count > 0 && roll(dice, 2) == 0;
+    const fuzz_seed *const other =
+        known ? &corpus->words[roll(dice, corpus->word_count)] : &corpus->seeds[roll(dice, corpus->count)];
     size_t at, from;
     const size_t removed = find_word(input->data, input->size, (size_t)roll(dice, input->size), &at);
+    if (known) {
+        replace(input, at, removed, other->data, other->size);
+        return;
+    }
     const size_t length = find_word(other->data, other->size, (size_t)roll(dice, other->size), &from);
     replace(input, at, removed, other->data + from, length);
 }
@@ -214,12 +225,28 @@ static void run_input(const fuzz_input *input, size_t run) {
     free(exact);
 }
 
-static void add_seed(fuzz_corpus *corpus, const uint8_t *data, size_t size) {
-    fuzz_require(corpus->count < SEED_CAPACITY, "too many seeds");
-    fuzz_seed *const seed = &corpus->seeds[corpus->count++];
+static void add(size_t capacity, fuzz_seed *seeds, size_t *count, const uint8_t *data, size_t size) {
+    fuzz_require(*count < capacity, "too many seeds or words");
+    fuzz_seed *const seed = &seeds[(*count)++];
     *seed = (fuzz_seed){.size = size, .data = malloc(size > 0 ? size : 1)};
     fuzz_require(seed->data != NULL, "out of memory");
     memcpy(seed->data, data, size);
+}
+
+static void add_seed(fuzz_corpus *corpus, const uint8_t *data, size_t size) {
+    add(SEED_CAPACITY, corpus->seeds, &corpus->count, data, size);
+}
+
+static void add_words(fuzz_corpus *corpus, const char *path) {
+    FILE *const file = fopen(path, "r");
+    fuzz_require(file != NULL, "the dictionary cannot be read");
+    char line[256];
+    while (fgets(line, sizeof line, file) != NULL) {
+        const size_t length = strcspn(line, "\n");
+        fuzz_require(length >= 2 && line[0] == '"' && line[length - 1] == '"', "a word without its quotes");
+        add(WORD_CAPACITY, corpus->words, &corpus->word_count, (const uint8_t *)line + 1, length - 2);
+    }
+    fclose(file);
 }
 
 static void add_seeds(fuzz_corpus *corpus, int file_count, char **files) {
@@ -252,6 +279,7 @@ int main(int argc, char **argv) {
     uint64_t seed = 1;
     size_t runs = 10000, only = SIZE_MAX;
     int first_file = 1;
+    const char *dictionary = NULL;
     for (; first_file + 1 < argc && argv[first_file][0] == '-'; first_file += 2) {
         const char *const name = argv[first_file];
         const uint64_t value = strtoull(argv[first_file + 1], NULL, 10);
@@ -261,17 +289,22 @@ int main(int argc, char **argv) {
             seed = value;
         else if (strcmp(name, "--only") == 0)
             only = (size_t)value;
+        else if (strcmp(name, "--dictionary") == 0)
+            dictionary = argv[first_file + 1];
         else
             break;
     }
     if (first_file < argc && argv[first_file][0] == '-') {
-        fprintf(stderr, "usage: %s [--runs N] [--seed S] [--only R] [FILE...]\n", argv[0]);
+        fprintf(stderr, "usage: %s [--runs N] [--seed S] [--only R] [--dictionary WORDS] [FILE...]\n",
+                argv[0]);
         return 2;
     }
     /* The sanitizer catches the others itself, prints the stack and aborts. */
     signal(SIGABRT, on_signal);
     signal(SIGALRM, on_signal);
     static fuzz_corpus corpus;
+    if (dictionary != NULL)
+        add_words(&corpus, dictionary);
     add_seeds(&corpus, argc - first_file, argv + first_file);
     fuzz_require(corpus.count > 0, "there are no seeds");
     fuzz_input input = {.data = malloc(INPUT_CAPACITY)};
@@ -285,6 +318,8 @@ int main(int argc, char **argv) {
     }
     for (size_t i = 0; i < corpus.count; ++i)
         free(corpus.seeds[i].data);
+    for (size_t i = 0; i < corpus.word_count; ++i)
+        free(corpus.words[i].data);
     free(input.data);
     printf("%zu seeds, %zu mutations of seed %llu: no complaint\n", corpus.count, runs,
            (unsigned long long)seed);
