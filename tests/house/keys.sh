@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# docs/keys.md, docs/options.md and fuzz/keys.dict say what the program's tables say, and every key of the table of finalgather that
-# docs/rendering.md explains is one.
+# docs/keys.md, docs/options.md and fuzz/keys.dict say what the program's tables say, and the tables of
+# docs/rendering.md have the integrators' keys and defaults.
 set -u
 program=$1 source_tree=$2
 status=0
@@ -14,14 +14,27 @@ for pair in docs/keys.md docs/options.md fuzz/keys.dict; do
     status=1
   fi
 done
-# Defaults in the tables of docs/rendering.md, where a row names one key.
-known=$("$program" help integrator finalgather --format csv | tail -n +2 | cut -d, -f1)
-sed -n '/^## finalgather/,/^### Weights/p' "$source_tree/docs/rendering.md" | grep '^| `' | cut -d'|' -f2 |
-  grep -o '`[a-z_]*`' | tr -d '`' >told
-while read -r key; do
-  grep -qx "$key" <<<"$known" || { echo "docs/rendering.md: finalgather has no key '$key'"; status=1; }
-done <told
-for key in $known; do
-  grep -qx "$key" told || { echo "docs/rendering.md: finalgather's key '$key' is missing"; status=1; }
+# The tables of docs/rendering.md with a column of defaults have every key of their section's integrator, and its default:
+# one default for all keys of a row, or one for each; blank where the text says it.
+awk '
+  function clean(text) { gsub(/[`(]/, " ", text); split(text, word, " "); return word[1] }
+  /^## / { section = $2 }
+  /^\| key \| default/ { on = 1; next }
+  !/^\|/ { on = 0 }
+  on && /^\| `/ {
+    split($0, cell, "|")
+    keys = split(cell[2], key, ","); values = split(cell[3], value, ",")
+    for (i = 1; i <= keys; ++i) print section, clean(key[i]), clean(value[keys == 1 || values == 1 ? 1 : i])
+  }' "$source_tree/docs/rendering.md" >told
+for integrator in finalgather radiosity ao; do
+  "$program" help integrator "$integrator" --format csv | tail -n +2 | awk -F, '{ split($3, word, " "); print $1, word[1] }' >known
+  awk -v integrator="$integrator" '
+    function bad(what) { print "docs/rendering.md: " integrator ": " what; status = 1 }
+    FNR == NR { known[$1] = $2; next }
+    $1 != integrator { next }
+    !($2 in known) { bad("there is no key " $2) }
+    $3 != "" && $3 != known[$2] { bad("the default of " $2 " is " known[$2] ", not " $3) }
+    { told[$2] }
+    END { for (key in known) if (!(key in told)) bad("the key " key " is missing"); exit status }' known told || status=1
 done
 exit $status
