@@ -47,7 +47,7 @@ typedef struct aur_key {
 typedef struct aur_row {
     const char *name;
     const char *summary; /* one line */
-    const char *source;  /* "author year, ..."; may be empty */
+    const char *source;  /* "author year, ..."; NULL or empty for none */
     size_t key_count;
     const aur_key *keys;
 } aur_row;

@@ -125,10 +125,16 @@ static void add_keys(cli_table *table, const aur_row *row) {
     }
 }
 
+/* "" for none. */
+static const char *source_of(const aur_row *row) {
+    return row->source != NULL ? row->source : "";
+}
+
 static int print_row(const aur_table *kind, const aur_row *row, cli_format format) {
+    const char *const source = source_of(row);
     if (format == CLI_TABLE)
-        printf("%s %s: %s%s%s%s\n", kind->kind, row->name, row->summary, row->source[0] != '\0' ? " (" : "",
-               row->source, row->source[0] != '\0' ? ")" : "");
+        printf("%s %s: %s%s%s%s\n", kind->kind, row->name, row->summary, source[0] != '\0' ? " (" : "",
+               source, source[0] != '\0' ? ")" : "");
     if (format == CLI_TABLE && row->key_count == 0 && kind->common == NULL)
         return CLI_SUCCESS;
     if (format == CLI_TABLE)
@@ -145,7 +151,7 @@ static int print_kind(const aur_table *kind, cli_format format) {
     for (size_t i = 0; kind->row(i) != NULL; ++i) {
         cli_table_text(table, kind->row(i)->name);
         cli_table_text(table, kind->row(i)->summary);
-        cli_table_text(table, kind->row(i)->source);
+        cli_table_text(table, source_of(kind->row(i)));
     }
     return cli_table_finish(table, format);
 }

@@ -6,12 +6,18 @@
 #include "scene/embree.h"
 #include "scene/scene_data.h"
 
-static aur_result fail(const aur_scene *scene, aur_error *error) {
-    const enum RTCError code =
-        scene->device != NULL ? rtcGetDeviceError(scene->device) : rtcGetDeviceError(NULL);
-    if (code == RTC_ERROR_OUT_OF_MEMORY)
-        return aur_fail(error, AUR_ERROR_MEMORY, "out of memory while building the ray-tracing structure");
-    return aur_fail(error, AUR_ERROR_INTERNAL, "Embree failed with error %d", (int)code);
+static aur_result fail(const aur_scene *scene, enum RTCError code, aur_error *error) {
+    if (code == RTC_ERROR_NONE)
+        code = rtcGetDeviceError(scene->device); /* of the thread, where there is no device */
+    return aur_fail(error, code == RTC_ERROR_OUT_OF_MEMORY ? AUR_ERROR_MEMORY : AUR_ERROR_INTERNAL,
+                    "the ray-tracing structure cannot be built (Embree error %d)", (int)code);
+}
+
+static bool attach(aur_embree_scene to, RTCGeometry geometry, size_t id) {
+    rtcCommitGeometry(geometry);
+    rtcAttachGeometryByID(to, geometry, (uint32_t)id);
+    rtcReleaseGeometry(geometry);
+    return true;
 }
 
 static bool attach_mesh(aur_scene *scene, aur_embree_scene to, const aur_shape *shape, uint32_t id) {
@@ -23,10 +29,7 @@ static bool attach_mesh(aur_scene *scene, aur_embree_scene to, const aur_shape *
                                3 * sizeof(float), mesh->vertex_count);
     rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, mesh->indices, 0,
                                3 * sizeof(uint32_t), mesh->triangle_count);
-    rtcCommitGeometry(geometry);
-    rtcAttachGeometryByID(to, geometry, id);
-    rtcReleaseGeometry(geometry);
-    return true;
+    return attach(to, geometry, id);
 }
 
 /* --- shapes that are no meshes: Embree asks us */
@@ -35,20 +38,13 @@ static void curved_bounds(const struct RTCBoundsFunctionArguments *arguments) {
     const aur_shape *const shape = arguments->geometryUserPtr;
     double lower[3], upper[3];
     shape->curved->bounds(shape, lower, upper);
-    struct RTCBounds *const bounds = arguments->bounds_o;
-    /* A hair wider than the rounding to float. */
-    float low[3], high[3];
+    /* Six floats and two gaps. A hair wider than the rounding to float. */
+    float *const low = &arguments->bounds_o->lower_x, *const high = &arguments->bounds_o->upper_x;
     for (size_t i = 0; i < 3; ++i) {
         const double slack = 1e-6 * fmax(fabs(lower[i]), fabs(upper[i]));
         low[i] = (float)(lower[i] - slack);
         high[i] = (float)(upper[i] + slack);
     }
-    bounds->lower_x = low[0];
-    bounds->lower_y = low[1];
-    bounds->lower_z = low[2];
-    bounds->upper_x = high[0];
-    bounds->upper_y = high[1];
-    bounds->upper_z = high[2];
 }
 
 /* Packets of N rays are arrays of N, one a field; Embree's accessors for them are C++ only. */
@@ -105,13 +101,10 @@ static bool attach_curved(aur_scene *scene, aur_embree_scene to, aur_shape *shap
     rtcSetGeometryBoundsFunction(geometry, curved_bounds, NULL);
     rtcSetGeometryIntersectFunction(geometry, curved_intersect);
     rtcSetGeometryOccludedFunction(geometry, curved_occluded);
-    rtcCommitGeometry(geometry);
-    rtcAttachGeometryByID(to, geometry, id);
-    rtcReleaseGeometry(geometry);
-    return true;
+    return attach(to, geometry, id);
 }
 
-static bool attach(aur_scene *scene, aur_embree_scene to, uint32_t id) {
+static bool attach_shape(aur_scene *scene, aur_embree_scene to, uint32_t id) {
     aur_shape *const shape = scene->shapes[id];
     return shape->curved != NULL ? attach_curved(scene, to, shape, id) : attach_mesh(scene, to, shape, id);
 }
@@ -127,7 +120,7 @@ static aur_embree_scene new_scene(const aur_scene *scene) {
 static bool build_group(aur_scene *scene, aur_shape_group *group) {
     group->accel = new_scene(scene);
     for (size_t i = 0; group->accel != NULL && i < group->count; ++i)
-        if (!attach(scene, group->accel, group->shapes[i]))
+        if (!attach_shape(scene, group->accel, group->shapes[i]))
             return false;
     if (group->accel != NULL)
         rtcCommitScene(group->accel);
@@ -145,10 +138,7 @@ static bool attach_instance(aur_scene *scene, size_t index) {
         matrix[i] = (float)instance->to_world.m[i];
     rtcSetGeometryInstancedScene(geometry, instance->group->accel);
     rtcSetGeometryTransform(geometry, 0, RTC_FORMAT_FLOAT3X4_ROW_MAJOR, matrix);
-    rtcCommitGeometry(geometry);
-    rtcAttachGeometryByID(scene->accel, geometry, (uint32_t)(scene->shape_count + index));
-    rtcReleaseGeometry(geometry);
-    return true;
+    return attach(scene->accel, geometry, scene->shape_count + index);
 }
 
 static bool attach_all(aur_scene *scene) {
@@ -157,7 +147,7 @@ static bool attach_all(aur_scene *scene) {
         good = build_group(scene, scene->groups[i]);
     for (size_t i = 0; good && i < scene->shape_count; ++i)
         if (!scene->shapes[i]->grouped)
-            good = attach(scene, scene->accel, (uint32_t)i);
+            good = attach_shape(scene, scene->accel, (uint32_t)i);
     for (size_t i = 0; good && i < scene->instance_count; ++i)
         good = attach_instance(scene, i);
     return good;
@@ -180,16 +170,13 @@ static const char *device_configuration(void) {
 
 aur_result aur_scene_build_accel(aur_scene *scene, aur_error *error) {
     scene->device = rtcNewDevice(device_configuration());
-    if (scene->device == NULL)
-        return fail(scene, error);
-    scene->accel = new_scene(scene);
+    scene->accel = scene->device != NULL ? new_scene(scene) : NULL;
     if (scene->accel == NULL || !attach_all(scene))
-        return fail(scene, error);
+        return fail(scene, RTC_ERROR_NONE, error);
     rtcCommitScene(scene->accel);
     const enum RTCError code = rtcGetDeviceError(scene->device);
     if (code != RTC_ERROR_NONE)
-        return aur_fail(error, code == RTC_ERROR_OUT_OF_MEMORY ? AUR_ERROR_MEMORY : AUR_ERROR_INTERNAL,
-                        "the ray-tracing structure cannot be built (Embree error %d)", (int)code);
+        return fail(scene, code, error);
     struct RTCBounds bounds;
     rtcGetSceneBounds(scene->accel, &bounds);
     scene->lower = (aur_vector){bounds.lower_x, bounds.lower_y, bounds.lower_z};

@@ -127,9 +127,9 @@ static const aur_key gaussian_keys[] = {
 
 /* In the order of aur_filter_kind. */
 static const aur_row rows[] = {
-    {.name = "box", .summary = "the mean over the pixel", .source = ""},
-    {.name = "tent", .summary = "falls linearly to 0", .source = "", AUR_ROW_KEYS(tent_keys)},
-    {.name = "gaussian", .summary = "a bell", .source = "", AUR_ROW_KEYS(gaussian_keys)},
+    {.name = "box", .summary = "the mean over the pixel"},
+    {.name = "tent", .summary = "falls linearly to 0", AUR_ROW_KEYS(tent_keys)},
+    {.name = "gaussian", .summary = "a bell", AUR_ROW_KEYS(gaussian_keys)},
     {.name = "mitchell",
      .summary = "sharpens a little: it has negative parts",
      .source = "Mitchell, Netravali 1988"},

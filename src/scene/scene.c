@@ -166,10 +166,10 @@ void aur_scene_destroy(aur_scene *scene) {
         aur_bsdf_destroy(scene->bsdfs[i]);
     for (size_t i = 0; i < scene->texture_count; ++i)
         aur_texture_destroy(scene->textures[i]);
-    for (size_t i = 0; i < scene->group_count; ++i)
+    for (size_t i = 0; i < scene->group_count; ++i) {
         free(scene->groups[i]->shapes);
-    for (size_t i = 0; i < scene->group_count; ++i)
         free(scene->groups[i]);
+    }
     for (size_t i = 0; i < scene->instance_count; ++i)
         free(scene->instances[i]);
     free(scene->groups);
@@ -205,71 +205,6 @@ aur_result aur_scene_describe(const aur_scene *scene, aur_scene_description *des
     for (size_t i = 0; i < scene->shape_count; ++i)
         own.triangles += scene->shapes[i]->mesh.triangle_count;
     return aur_description_write(&own, sizeof own, sizeof own, description, "aur_scene_description", error);
-}
-
-static aur_vector to_world_direction(const float m[12], aur_vector v) {
-    return (aur_vector){m[0] * v.x + m[1] * v.y + m[2] * v.z, m[4] * v.x + m[5] * v.y + m[6] * v.z,
-                        m[8] * v.x + m[9] * v.y + m[10] * v.z};
-}
-
-void aur_camera_ray(const aur_scene *scene, size_t width, size_t height, float x, float y,
-                    const float lens[2], aur_ray *ray) {
-    const aur_sensor *const sensor = &scene->sensor;
-    const float aspect = (float)width / (float)height;
-    aur_ray local;
-    sensor->descriptor->ray(sensor, aspect, x / (float)width, y / (float)height, lens, &local);
-    const aur_vector origin = to_world_direction(sensor->to_world, local.origin);
-    ray->origin =
-        aur_vector_add(origin, (aur_vector){sensor->to_world[3], sensor->to_world[7], sensor->to_world[11]});
-    /* The clip depths are along local z; a scaled camera scales them. */
-    const aur_vector direction = to_world_direction(sensor->to_world, local.direction);
-    const float unit_depth = aur_vector_length(direction) / local.direction.z;
-    ray->direction = aur_vector_normalize(direction);
-    ray->nearest = sensor->near_clip * unit_depth;
-    ray->farthest = sensor->far_clip * unit_depth;
-}
-
-static void pinhole_rays(const aur_sensor *given, float width, float height, const float *restrict x,
-                         const float *restrict y, aur_camera_lanes *restrict rays) {
-    const aur_sensor sensor = *given; /* which the rays cannot overlap */
-    const float aspect = width / height, half = aur_sensor_half_width(&sensor, aspect);
-    for (size_t k = 0; k < AUR_CAMERA_LANES; ++k) {
-        const aur_vector local = aur_sensor_direction(&sensor, half, aspect, x[k] / width, y[k] / height);
-        const aur_vector direction = to_world_direction(sensor.to_world, local);
-        const float length = aur_vector_length(direction), scale = 1.0f / length;
-        rays->direction[0][k] = direction.x * scale;
-        rays->direction[1][k] = direction.y * scale;
-        rays->direction[2][k] = direction.z * scale;
-        rays->nearest[k] = sensor.near_clip * length;
-        rays->farthest[k] = sensor.far_clip * length;
-    }
-    for (size_t c = 0; c < 3; ++c)
-        for (size_t k = 0; k < AUR_CAMERA_LANES; ++k)
-            rays->origin[c][k] = sensor.to_world[4 * c + 3];
-}
-
-void aur_camera_rays(const aur_scene *scene, size_t width, size_t height, const float *x, const float *y,
-                     const float *lens_u, const float *lens_v, aur_camera_lanes *rays) {
-    if (scene->sensor.descriptor->is_pinhole) {
-        pinhole_rays(&scene->sensor, (float)width, (float)height, x, y, rays);
-        return;
-    }
-    for (size_t k = 0; k < AUR_CAMERA_LANES; ++k) {
-        aur_ray ray;
-        aur_camera_ray(scene, width, height, x[k], y[k], (const float[2]){lens_u[k], lens_v[k]}, &ray);
-        const float origin[3] = {ray.origin.x, ray.origin.y, ray.origin.z};
-        const float direction[3] = {ray.direction.x, ray.direction.y, ray.direction.z};
-        for (size_t c = 0; c < 3; ++c) {
-            rays->origin[c][k] = origin[c];
-            rays->direction[c][k] = direction[c];
-        }
-        rays->nearest[k] = ray.nearest;
-        rays->farthest[k] = ray.farthest;
-    }
-}
-
-bool aur_camera_has_lens(const aur_scene *scene) {
-    return scene->sensor.aperture_radius > 0.0f;
 }
 
 const aur_film_settings *aur_scene_film(const aur_scene *scene) {

@@ -1,40 +1,7 @@
+/* Rays of the camera, one and sixteen. */
 #include "scene/sensor.h"
 
-#include <stdlib.h>
-#include <string.h>
-
-#include "core/text.h"
-
-/* "50mm" on 35 mm film, whose diagonal is that of 36 mm by 24 mm. */
-static aur_result read_focal_length(const aur_parameters *parameters, const aur_parameter *item,
-                                    aur_sensor *sensor, aur_error *error) {
-    double length = 0.0;
-    const char *const end =
-        item->text != NULL ? aur_read_double(aur_skip_spaces(item->text), AUR_NUMBER_FINITE, &length) : NULL;
-    if (end == NULL || !(length > 0.0) || (*end != '\0' && strcmp(end, "mm") != 0))
-        return aur_fail_at(error, item->location, AUR_ERROR_FORMAT,
-                           "sensor '%s': 'focal_length' must be millimetres such as 50mm",
-                           parameters->plugin);
-    sensor->axis = AUR_FOV_DIAGONAL;
-    sensor->tangent = (float)(sqrt(36.0 * 36.0 + 24.0 * 24.0) / (2.0 * length));
-    return AUR_OK;
-}
-
-aur_result aur_sensor_set_lens(const aur_parameters *parameters, const aur_lens_keys *keys,
-                               aur_sensor *sensor, aur_error *error) {
-    const aur_parameter *const focal = keys->focal_length;
-    sensor->offset_x = (float)keys->offset_x;
-    sensor->offset_y = (float)keys->offset_y;
-    if (keys->fov > 0.0 && focal != NULL)
-        return aur_fail_at(error, focal->location, AUR_ERROR_FORMAT,
-                           "sensor '%s': give 'fov' or 'focal_length', not both", parameters->plugin);
-    if (keys->fov == 0.0)
-        return read_focal_length(
-            parameters, focal != NULL ? focal : &(aur_parameter){.text = (char[]){"50mm"}}, sensor, error);
-    sensor->axis = keys->fov_axis;
-    sensor->tangent = (float)tan(0.5 * keys->fov * AUR_PI / 180.0);
-    return AUR_OK;
-}
+#include "scene/scene_data.h"
 
 float aur_sensor_half_width(const aur_sensor *sensor, float aspect) {
     switch (sensor->axis) {
@@ -50,4 +17,69 @@ float aur_sensor_half_width(const aur_sensor *sensor, float aspect) {
         return aspect > 1.0f ? sensor->tangent : sensor->tangent * aspect;
     }
     return sensor->tangent;
+}
+
+static aur_vector to_world_direction(const float m[12], aur_vector v) {
+    return (aur_vector){m[0] * v.x + m[1] * v.y + m[2] * v.z, m[4] * v.x + m[5] * v.y + m[6] * v.z,
+                        m[8] * v.x + m[9] * v.y + m[10] * v.z};
+}
+
+void aur_camera_ray(const aur_scene *scene, size_t width, size_t height, float x, float y,
+                    const float lens[2], aur_ray *ray) {
+    const aur_sensor *const sensor = &scene->sensor;
+    const float aspect = (float)width / (float)height;
+    aur_ray local = {.origin = {0.0f, 0.0f, 0.0f}};
+    sensor->descriptor->ray(sensor, aspect, x / (float)width, y / (float)height, lens, &local);
+    const aur_vector origin = to_world_direction(sensor->to_world, local.origin);
+    ray->origin =
+        aur_vector_add(origin, (aur_vector){sensor->to_world[3], sensor->to_world[7], sensor->to_world[11]});
+    /* The clip depths are along local z; a scaled camera scales them. */
+    const aur_vector direction = to_world_direction(sensor->to_world, local.direction);
+    const float unit_depth = aur_vector_length(direction) / local.direction.z;
+    ray->direction = aur_vector_normalize(direction);
+    ray->nearest = sensor->near_clip * unit_depth;
+    ray->farthest = sensor->far_clip * unit_depth;
+}
+
+static void pinhole_rays(const aur_sensor *given, float width, float height, const float *restrict x,
+                         const float *restrict y, aur_camera_lanes *restrict rays) {
+    const aur_sensor sensor = *given; /* which the rays cannot overlap */
+    const float aspect = width / height, half = aur_sensor_half_width(&sensor, aspect);
+    for (size_t k = 0; k < AUR_CAMERA_LANES; ++k) {
+        const aur_vector local = aur_sensor_direction(&sensor, half, aspect, x[k] / width, y[k] / height);
+        const aur_vector direction = to_world_direction(sensor.to_world, local);
+        const float length = aur_vector_length(direction), scale = 1.0f / length;
+        rays->direction[0][k] = direction.x * scale;
+        rays->direction[1][k] = direction.y * scale;
+        rays->direction[2][k] = direction.z * scale;
+        rays->nearest[k] = sensor.near_clip * length;
+        rays->farthest[k] = sensor.far_clip * length;
+    }
+    for (size_t c = 0; c < 3; ++c)
+        for (size_t k = 0; k < AUR_CAMERA_LANES; ++k)
+            rays->origin[c][k] = sensor.to_world[4 * c + 3];
+}
+
+void aur_camera_rays(const aur_scene *scene, size_t width, size_t height, const float *x, const float *y,
+                     const float *lens_u, const float *lens_v, aur_camera_lanes *rays) {
+    if (scene->sensor.descriptor->is_pinhole) {
+        pinhole_rays(&scene->sensor, (float)width, (float)height, x, y, rays);
+        return;
+    }
+    for (size_t k = 0; k < AUR_CAMERA_LANES; ++k) {
+        aur_ray ray;
+        aur_camera_ray(scene, width, height, x[k], y[k], (const float[2]){lens_u[k], lens_v[k]}, &ray);
+        rays->origin[0][k] = ray.origin.x;
+        rays->origin[1][k] = ray.origin.y;
+        rays->origin[2][k] = ray.origin.z;
+        rays->direction[0][k] = ray.direction.x;
+        rays->direction[1][k] = ray.direction.y;
+        rays->direction[2][k] = ray.direction.z;
+        rays->nearest[k] = ray.nearest;
+        rays->farthest[k] = ray.farthest;
+    }
+}
+
+bool aur_camera_has_lens(const aur_scene *scene) {
+    return scene->sensor.aperture_radius > 0.0f;
 }

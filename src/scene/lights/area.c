@@ -187,10 +187,7 @@ static bool emit(const aur_emitter *emitter, const float u[5], aur_ray *ray, aur
 }
 
 const aur_emitter_descriptor aur_emitter_area = {
-    .row = {.name = "area",
-            .summary = "a shape that emits from the side of its normal",
-            .source = "",
-            AUR_ROW_KEYS(keys)},
+    .row = {.name = "area", .summary = "a shape that emits from the side of its normal", AUR_ROW_KEYS(keys)},
     .needs_shape = true,
     .create = create,
     .prepare = prepare,

@@ -66,10 +66,7 @@ static bool emit_constant(const aur_emitter *emitter, const float u[5], aur_ray 
 }
 
 const aur_emitter_descriptor aur_emitter_constant = {
-    .row = {.name = "constant",
-            .summary = "the same radiance from everywhere",
-            .source = "",
-            AUR_ROW_KEYS(constant_keys)},
+    .row = {.name = "constant", .summary = "the same radiance from everywhere", AUR_ROW_KEYS(constant_keys)},
     .is_far = true,
     .create = create_constant,
     .sample = sample_constant,
@@ -252,7 +249,6 @@ static bool emit_envmap(const aur_emitter *emitter, const float u[5], aur_ray *r
 const aur_emitter_descriptor aur_emitter_envmap = {
     .row = {.name = "envmap",
             .summary = "a latitude-longitude picture around the scene, +y up",
-            .source = "",
             AUR_ROW_KEYS(envmap_keys_table)},
     .is_far = true,
     .create = create_envmap,

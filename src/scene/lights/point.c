@@ -161,20 +161,14 @@ static bool emit_spot(const aur_emitter *emitter, const float u[5], aur_ray *ray
 }
 
 const aur_emitter_descriptor aur_emitter_point = {
-    .row = {.name = "point",
-            .summary = "a point that shines evenly",
-            .source = "",
-            AUR_ROW_KEYS(point_table)},
+    .row = {.name = "point", .summary = "a point that shines evenly", AUR_ROW_KEYS(point_table)},
     .create = create_point,
     .sample = sample_place,
     .emit = emit_point,
 };
 
 const aur_emitter_descriptor aur_emitter_spot = {
-    .row = {.name = "spot",
-            .summary = "a point that shines in a cone about +z",
-            .source = "",
-            AUR_ROW_KEYS(spot_table)},
+    .row = {.name = "spot", .summary = "a point that shines in a cone about +z", AUR_ROW_KEYS(spot_table)},
     .create = create_spot,
     .sample = sample_place,
     .emit = emit_spot,
@@ -211,7 +205,6 @@ static bool emit_directional(const aur_emitter *emitter, const float u[5], aur_r
 const aur_emitter_descriptor aur_emitter_directional = {
     .row = {.name = "directional",
             .summary = "parallel light along +z or `direction`",
-            .source = "",
             AUR_ROW_KEYS(directional_table)},
     .is_far = true,
     .create = create_directional,

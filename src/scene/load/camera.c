@@ -153,7 +153,7 @@ static const aur_key sampler_keys[] = {
 };
 
 static const aur_row sampler_common = {
-    .name = "sampler", .summary = "what every sampler takes", .source = "", AUR_ROW_KEYS(sampler_keys)};
+    .name = "sampler", .summary = "what every sampler takes", AUR_ROW_KEYS(sampler_keys)};
 
 static const aur_row *sampler_row_at(size_t index) {
     const aur_set_description *const set = aur_set_at(index);

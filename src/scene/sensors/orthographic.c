@@ -1,13 +1,6 @@
 /* Parallel rays; the film spans [-1, 1] from right to left in local coordinates. */
 #include "scene/sensor.h"
 
-static aur_result create(aur_parameters *parameters, aur_sensor *sensor, aur_error *error) {
-    (void)parameters;
-    (void)sensor;
-    (void)error;
-    return AUR_OK;
-}
-
 static void ray(const aur_sensor *sensor, float aspect, float x, float y, const float lens[2],
                 aur_ray *result) {
     (void)sensor;
@@ -17,7 +10,6 @@ static void ray(const aur_sensor *sensor, float aspect, float x, float y, const 
 }
 
 const aur_sensor_descriptor aur_sensor_orthographic = {
-    .row = {.name = "orthographic", .summary = "parallel rays along +z", .source = ""},
-    .create = create,
+    .row = {.name = "orthographic", .summary = "parallel rays along +z"},
     .ray = ray,
 };

@@ -1,6 +1,4 @@
 /* Every camera by name. One new camera is one new file and one line here. */
-#include <string.h>
-
 #include "scene/sensor.h"
 
 #define SENSORS(ROW)                                                                                         \
@@ -36,7 +34,7 @@ static const aur_key common_keys[] = {
 };
 
 static const aur_row common = {
-    .name = "sensor", .summary = "what every sensor takes", .source = "", AUR_ROW_KEYS(common_keys)};
+    .name = "sensor", .summary = "what every sensor takes", AUR_ROW_KEYS(common_keys)};
 
 static const aur_row *row_at(size_t index) {
     return index < sizeof rows / sizeof rows[0] ? rows[index] : NULL;
@@ -53,9 +51,8 @@ static aur_result read_common(aur_parameters *parameters, aur_sensor *sensor, au
     if (result != AUR_OK)
         return result;
     if (!(p.near_clip < p.far_clip))
-        return aur_fail_at(error, parameters->location, AUR_ERROR_FORMAT,
-                           "sensor '%s': near_clip (%g) must be less than far_clip (%g)", parameters->plugin,
-                           p.near_clip, p.far_clip);
+        return aur_parameters_fail(parameters, error, AUR_ERROR_FORMAT,
+                                   "near_clip (%g) must be less than far_clip (%g)", p.near_clip, p.far_clip);
     for (size_t i = 0; i < 12; ++i)
         sensor->to_world[i] = (float)p.to_world.m[i];
     sensor->near_clip = (float)p.near_clip;
@@ -71,7 +68,7 @@ aur_result aur_sensor_create(aur_parameters *parameters, aur_sensor *sensor, aur
         return result;
     sensor->descriptor = (const aur_sensor_descriptor *)row;
     result = read_common(parameters, sensor, error);
-    if (result == AUR_OK)
+    if (result == AUR_OK && sensor->descriptor->create != NULL)
         result = sensor->descriptor->create(parameters, sensor, error);
     return result != AUR_OK ? result : aur_parameters_finish(parameters, error);
 }

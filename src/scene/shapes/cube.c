@@ -28,4 +28,4 @@ static aur_result create(const aur_shape_input *input, aur_shape *shape, aur_err
 }
 
 const aur_shape_descriptor aur_shape_cube = {
-    .row = {.name = "cube", .summary = "the cube [-1,1]^3 facing outwards", .source = ""}, .create = create};
+    .row = {.name = "cube", .summary = "the cube [-1,1]^3 facing outwards"}, .create = create};

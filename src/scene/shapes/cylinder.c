@@ -96,9 +96,7 @@ static aur_result create(const aur_shape_input *input, aur_shape *shape, aur_err
     return AUR_OK;
 }
 
-const aur_shape_descriptor aur_shape_cylinder = {.row = {.name = "cylinder",
-                                                         .summary = "an open cylinder from `p0` to `p1`",
-                                                         .source = "",
-                                                         AUR_ROW_KEYS(keys)},
-                                                 .curved = &curved,
-                                                 .create = create};
+const aur_shape_descriptor aur_shape_cylinder = {
+    .row = {.name = "cylinder", .summary = "an open cylinder from `p0` to `p1`", AUR_ROW_KEYS(keys)},
+    .curved = &curved,
+    .create = create};

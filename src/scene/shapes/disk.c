@@ -79,6 +79,4 @@ static aur_result create(const aur_shape_input *input, aur_shape *shape, aur_err
 }
 
 const aur_shape_descriptor aur_shape_disk = {
-    .row = {.name = "disk", .summary = "the unit disk facing +z", .source = ""},
-    .curved = &curved,
-    .create = create};
+    .row = {.name = "disk", .summary = "the unit disk facing +z"}, .curved = &curved, .create = create};

@@ -221,7 +221,7 @@ static const aur_key keys[] = {
 };
 
 const aur_shape_descriptor aur_shape_obj = {
-    .row = {.name = "obj", .summary = "a Wavefront OBJ file", .source = "", AUR_ROW_KEYS(keys)},
+    .row = {.name = "obj", .summary = "a Wavefront OBJ file", AUR_ROW_KEYS(keys)},
     .create = aur_mesh_file_create,
     .read_file = read_file,
     .smooths = true};

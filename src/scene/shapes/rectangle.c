@@ -23,4 +23,4 @@ static aur_result create(const aur_shape_input *input, aur_shape *shape, aur_err
 }
 
 const aur_shape_descriptor aur_shape_rectangle = {
-    .row = {.name = "rectangle", .summary = "the square [-1,1]^2 facing +z", .source = ""}, .create = create};
+    .row = {.name = "rectangle", .summary = "the square [-1,1]^2 facing +z"}, .create = create};

@@ -141,9 +141,7 @@ static const aur_key keys[] = {
                         "which mesh of the file")},
 };
 
-const aur_shape_descriptor aur_shape_serialized = {.row = {.name = "serialized",
-                                                           .summary = "a mesh of Mitsuba's .serialized files",
-                                                           .source = "",
-                                                           AUR_ROW_KEYS(keys)},
-                                                   .create = aur_mesh_file_create,
-                                                   .read_file = read_file};
+const aur_shape_descriptor aur_shape_serialized = {
+    .row = {.name = "serialized", .summary = "a mesh of Mitsuba's .serialized files", AUR_ROW_KEYS(keys)},
+    .create = aur_mesh_file_create,
+    .read_file = read_file};

@@ -115,9 +115,7 @@ static aur_result create(const aur_shape_input *input, aur_shape *shape, aur_err
     return AUR_OK;
 }
 
-const aur_shape_descriptor aur_shape_sphere = {.row = {.name = "sphere",
-                                                       .summary = "a sphere of `center` and `radius`",
-                                                       .source = "",
-                                                       AUR_ROW_KEYS(keys)},
-                                               .curved = &curved,
-                                               .create = create};
+const aur_shape_descriptor aur_shape_sphere = {
+    .row = {.name = "sphere", .summary = "a sphere of `center` and `radius`", AUR_ROW_KEYS(keys)},
+    .curved = &curved,
+    .create = create};

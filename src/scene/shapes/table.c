@@ -31,7 +31,7 @@ static const aur_key common_keys[] = {
 };
 
 static const aur_row common = {
-    .name = "shape", .summary = "what every shape takes", .source = "", AUR_ROW_KEYS(common_keys)};
+    .name = "shape", .summary = "what every shape takes", AUR_ROW_KEYS(common_keys)};
 
 static const aur_row *row_at(size_t index) {
     return index < sizeof rows / sizeof rows[0] ? rows[index] : NULL;
