@@ -1,7 +1,7 @@
 /* What radiosity refuses, and what it reports. */
 #include "core/random.h"
 #include "radiosity_room.h"
-#include "transport/radiosity/coincidence.h"
+#include "transport/radiosity/scene.h"
 #include "transport/radiosity/solution.h"
 
 /* --- bad input */

@@ -33,15 +33,8 @@ static aur_oswa_options oswa_options(const aur_merged_rule_options *options,
                               .weights = weights};
 }
 
-/* Where sample `index` of a pattern stands in the order of subsets. */
-static size_t slot_of(const aur_merged_rule *rule, size_t pattern, size_t index) {
-    return index % rule->subsets * rule->subset_count[pattern] + index / rule->subsets;
-}
-
 static aur_result allocate(aur_merged_rule *rule, aur_error *error) {
-    const size_t samples = rule->rotations * (rule->count[0] + rule->count[1]);
-    float *next = malloc(3 * samples * sizeof *next);
-    rule->storage = next;
+    float *next = malloc(3 * rule->rotations * (rule->count[0] + rule->count[1]) * sizeof *next);
     if (next == NULL)
         return aur_fail(error, AUR_ERROR_MEMORY, "out of memory for %zu rotations of %zu + %zu directions",
                         rule->rotations, rule->count[0], rule->count[1]);
@@ -68,10 +61,12 @@ static aur_result fill_directions(aur_merged_rule *rule, const aur_oswa_options 
                      : aur_oswa_points(rule->oswa, 0.0, angles, false, 3 * size, xyz, error);
         const double *u = xyz;
         for (size_t pattern = 0; pattern < 2 && result == AUR_OK; ++pattern)
-            for (size_t i = 0; i < rule->count[pattern]; ++i, u += 3)
+            for (size_t i = 0; i < rule->count[pattern]; ++i, u += 3) {
+                const size_t at = rotation * rule->count[pattern] +
+                                  i % rule->subsets * rule->subset_count[pattern] + i / rule->subsets;
                 for (size_t k = 0; k < 3; ++k)
-                    rule->direction[pattern][k][rotation * rule->count[pattern] + slot_of(rule, pattern, i)] =
-                        (float)u[k];
+                    rule->direction[pattern][k][at] = (float)u[k];
+            }
     }
     free(xyz);
     return result;
@@ -86,28 +81,30 @@ static void fill_densities(aur_merged_rule *rule) {
     }
 }
 
-/* The table's rows in the order of subsets, for integrals of the lobes as they are written: of mass pi for
- * the diffuse lobe; that of the glossy one depends on the angle and is left for the look-up. */
+/* Where the weight of sample i, of both patterns', for a lobe stands in the order of subsets, each of which
+ * has 2 * samples one after another. */
+static size_t slot_of(const aur_merged_rule *rule, size_t lobe, size_t i) {
+    const size_t samples = aur_merged_rule_samples(rule);
+    const size_t pattern = i < rule->count[0] ? 0 : 1, index = i - pattern * rule->count[0];
+    return index % rule->subsets * 2 * samples + lobe * samples + pattern * rule->subset_count[0] +
+           index / rule->subsets;
+}
+
+/* The table's rows in that order, for integrals of the lobes as they are written: of mass pi for the diffuse
+ * lobe; that of the glossy one depends on the angle and is left for the look-up. */
 static aur_result compile(aur_merged_rule *rule, aur_error *error) {
     const size_t size = rule->count[0] + rule->count[1];
     const size_t row_count = aur_weight_table_rows(rule->table);
     rule->rows = malloc(row_count * 2 * size * sizeof *rule->rows);
     if (rule->rows == NULL)
         return aur_fail(error, AUR_ERROR_MEMORY, "out of memory for the weights of %zu directions", size);
-    const size_t subset = aur_merged_rule_samples(rule);
-    for (size_t row = 0; row < row_count; ++row) {
-        for (size_t lobe = 0; lobe < 2; ++lobe) {
-            const float *const from = aur_weight_table_row(rule->table, row) + lobe * size;
-            const float scale = (float)rule->subsets * (lobe == 0 ? AUR_PI_F : 1.0f);
-            for (size_t i = 0; i < size; ++i) {
-                const size_t pattern = i < rule->count[0] ? 0 : 1;
-                const size_t index = i - pattern * rule->count[0];
-                float *const block = rule->rows + row * 2 * size + index % rule->subsets * 2 * subset;
-                block[lobe * subset + pattern * rule->subset_count[0] + index / rule->subsets] =
-                    scale * from[i];
-            }
+    for (size_t row = 0; row < row_count; ++row)
+        for (size_t i = 0; i < 2 * size; ++i) {
+            const size_t lobe = i / size;
+            rule->rows[row * 2 * size + slot_of(rule, lobe, i % size)] =
+                (float)rule->subsets * (lobe == 0 ? AUR_PI_F : 1.0f) *
+                aur_weight_table_row(rule->table, row)[i];
         }
-    }
     return AUR_OK;
 }
 
@@ -176,7 +173,7 @@ void aur_merged_rule_destroy(aur_merged_rule *rule) {
     aur_weight_table_destroy(rule->table);
     aur_oswa_destroy(rule->oswa);
     free(rule->rows);
-    free(rule->storage);
+    free(rule->direction[0][0]);
     free(rule);
 }
 
@@ -228,21 +225,20 @@ static void balance(const aur_merged_rule *rule, size_t rotation, size_t subset,
 
 static bool solve(const aur_merged_rule *rule, size_t rotation, size_t subset, float radians,
                   float *weights) {
-    const size_t size = rule->count[0] + rule->count[1], samples = aur_merged_rule_samples(rule);
+    const size_t size = rule->count[0] + rule->count[1], row = 2 * aur_merged_rule_samples(rule);
     double angles[2], mass = 0.0;
     aur_oswa_turns(rule->seed, rotation, angles);
     double *const found = malloc(2 * size * sizeof *found);
     bool solved = found != NULL &&
                   aur_oswa_solve(rule->oswa, (double)radians, angles, 2 * size, found, &mass, NULL) == AUR_OK;
-    for (size_t lobe = 0, at = 0; lobe < 2; ++lobe) {
-        const double scale = (double)rule->subsets * (lobe == 0 ? AUR_PI : mass);
-        for (size_t i = 0; i < samples; ++i, ++at) {
-            const size_t pattern = i < rule->subset_count[0] ? 0 : 1;
-            const size_t index = (i - pattern * rule->subset_count[0]) * rule->subsets + subset;
-            weights[at] =
-                solved ? (float)(scale * found[lobe * size + pattern * rule->count[0] + index]) : NAN;
-            solved = solved && isfinite(weights[at]);
-        }
+    for (size_t i = 0; i < row; ++i)
+        weights[i] = NAN;
+    for (size_t i = 0; i < 2 * size && solved; ++i) {
+        const size_t lobe = i / size, at = slot_of(rule, lobe, i % size);
+        if (at / row != subset)
+            continue;
+        weights[at % row] = (float)((double)rule->subsets * (lobe == 0 ? AUR_PI : mass) * found[i]);
+        solved = isfinite(weights[at % row]);
     }
     free(found);
     return solved;

@@ -45,7 +45,6 @@ typedef struct aur_merged_rule {
     /* OSWA: for each row of the table, for each subset, weights of its samples for one lobe, then the other.
      */
     float *rows;
-    void *storage; /* of the directions */
 } aur_merged_rule;
 
 aur_result aur_merged_rule_create(const aur_merged_rule_options *options, aur_merged_rule **rule,

@@ -80,26 +80,18 @@ static bool has_key(const aur_pixel_strata *pixel, uint64_t key) {
     return false;
 }
 
-static int edge_of(uint64_t key, uint64_t other) {
-    return ((key | other) & AUR_SURFACE_KEY_EMITS) != 0 ? LIGHT_EDGE : PLAIN_EDGE;
-}
-
-/* The edge between two pixels, from what only one of them has seen. */
-static int edge_between(const aur_pixel_strata *a, const aur_pixel_strata *b) {
+/* The greatest edge between a pixel and another one, from what only the other has seen; of a pixel with
+ * itself, between the first thing that it has seen and the rest. */
+static int edge_between(const aur_pixel_strata *pixel, const aur_pixel_strata *other) {
+    const uint64_t own = pixel->count > 0 ? pixel->strata[0].key : 0;
     int edge = NO_EDGE;
-    for (uint32_t i = 0; i < b->count; ++i)
-        if (!has_key(a, b->strata[i].key)) {
-            const int kind = edge_of(b->strata[i].key, a->count > 0 ? a->strata[0].key : 0);
-            edge = kind > edge ? kind : edge;
-        }
-    return edge;
-}
-
-static int edge_within(const aur_pixel_strata *pixel) {
-    int edge = NO_EDGE;
-    for (uint32_t i = 1; i < pixel->count; ++i) {
-        const int kind = edge_of(pixel->strata[0].key, pixel->strata[i].key);
-        edge = kind > edge ? kind : edge;
+    for (uint32_t i = 0; i < other->count; ++i) {
+        const uint64_t key = other->strata[i].key;
+        if (pixel == other ? i == 0 : has_key(pixel, key))
+            continue;
+        if (((key | own) & AUR_SURFACE_KEY_EMITS) != 0)
+            return LIGHT_EDGE;
+        edge = PLAIN_EDGE;
     }
     return edge;
 }
@@ -151,7 +143,7 @@ static void look_around(const aur_gather_plan *plan, const aur_view *view, size_
 
 static int edge_at(const aur_pixel_strata *const at[APRON * APRON], size_t x, size_t y) {
     const aur_pixel_strata *const pixel = at[(y + 1) * APRON + x + 1];
-    int edge = edge_within(pixel);
+    int edge = NO_EDGE;
     for (size_t dy = 0; dy < 3; ++dy)
         for (size_t dx = 0; dx < 3; ++dx) {
             const aur_pixel_strata *const other = at[(y + dy) * APRON + x + dx];

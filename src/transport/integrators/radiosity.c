@@ -6,7 +6,6 @@
 #include <string.h>
 
 #include "transport/radiosity/picture.h"
-#include "transport/radiosity/statistics.h"
 
 typedef struct radiosity_parameters {
     /* the solution */

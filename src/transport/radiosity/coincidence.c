@@ -1,7 +1,7 @@
 /* Triangles that lie on each other: a box that stands exactly on a floor, say. Particles between them are on
  * the wrong side of one, so that they leave the scene. Found by a tree of boxes that is held against itself.
  */
-#include "transport/radiosity/coincidence.h"
+#include "transport/radiosity/scene.h"
 
 #include <stdlib.h>
 

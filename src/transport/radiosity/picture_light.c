@@ -5,7 +5,6 @@
 #include "core/vector3d.h"
 #include "scene/packet.h"
 #include "transport/radiosity/picture.h"
-#include "transport/radiosity/statistics.h"
 
 /* --- solid angles */
 

@@ -3,7 +3,7 @@
 
 #include "core/file.h"
 #include "image/tone.h"
-#include "transport/radiosity/statistics.h"
+#include "transport/radiosity/solution.h"
 
 /* PLY of this machine's byte order. */
 static const char *byte_order(void) {

@@ -9,8 +9,7 @@
 #include "core/options.h"
 #include "core/parallel.h"
 #include "core/random.h"
-#include "transport/radiosity/coincidence.h"
-#include "transport/radiosity/statistics.h"
+#include "transport/radiosity/scene.h"
 
 /* --- making */
 

@@ -1,4 +1,4 @@
-#include "transport/radiosity/statistics.h"
+#include "transport/radiosity/solution.h"
 
 #include <string.h>
 

@@ -1,4 +1,4 @@
-#include "transport/radiosity/tally.h"
+#include "transport/radiosity/walk.h"
 
 #include <stdlib.h>
 #include <string.h>

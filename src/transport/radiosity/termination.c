@@ -3,7 +3,7 @@
 #include <stdlib.h>
 
 #include "core/options.h"
-#include "transport/radiosity/statistics.h"
+#include "transport/radiosity/solution.h"
 
 static aur_result check_rule(const aur_radiosity *radiosity, const aur_radiosity_termination *rule,
                              aur_error *error) {

@@ -13,8 +13,8 @@ static const double QUANTA = 0x1p42, MOST_QUANTA = 0x1p62;
 
 /* --- lights */
 
-static aur_result choose_lights(aur_radiosity_walk *walk, const aur_radiosity_options *options,
-                                aur_error *error) {
+static aur_result choose_lights(aur_radiosity_walk *walk, aur_error *error) {
+    const aur_radiosity_options *const options = walk->options;
     const aur_radiosity_scene *const scene = walk->scene;
     walk->lights = malloc(scene->triangle_count * sizeof *walk->lights);
     walk->start = malloc(scene->triangle_count * sizeof *walk->start);
@@ -63,11 +63,8 @@ static void find_start(aur_radiosity_walk *walk) {
 
 aur_result aur_radiosity_walk_create(const aur_radiosity_scene *scene, const aur_radiosity_options *options,
                                      aur_radiosity_walk *walk, aur_error *error) {
-    *walk = (aur_radiosity_walk){.scene = scene,
-                                 .directions = options->directions,
-                                 .bounces = options->bounces,
-                                 .seed = options->seed};
-    const aur_result result = choose_lights(walk, options, error);
+    *walk = (aur_radiosity_walk){.scene = scene, .options = options};
+    const aur_result result = choose_lights(walk, error);
     if (result != AUR_OK) {
         aur_radiosity_walk_release(walk);
         return result;
@@ -153,7 +150,7 @@ static inline void sine_cosine(float turn, float *sine, float *cosine) {
 static const float LEAST_COSINE = 1e-6f;
 
 static void make_directions(block *b) {
-    const bool uniform = b->walk->directions == AUR_RADIOSITY_UNIFORM_ANGLE;
+    const bool uniform = b->walk->options->directions == AUR_RADIOSITY_UNIFORM_ANGLE;
     const double *const u = b->u, *const v = b->u + BLOCK;
     /* The loops run over whole blocks, so that the compiler knows their length; what is beyond the count is
      * not used. */
@@ -198,7 +195,7 @@ static uint64_t channels(const double power[3], aur_radiosity_tally *tally) {
 
 /* The particle's hash for what mirrors and glass choose. */
 static uint64_t path_hash(const block *b, size_t index, size_t flight) {
-    return aur_hash4(b->walk->seed, b->key, b->first + index, flight);
+    return aur_hash4(b->walk->options->seed, b->key, b->first + index, flight);
 }
 
 static inline aur_ray departure(const block *b, size_t i, const aur_radiosity_triangle *from) {
@@ -252,12 +249,12 @@ static bool fly(block *b, size_t i, size_t flight) {
         ++tally->behind;
         return false;
     }
-    if (walk->directions == AUR_RADIOSITY_UNIFORM_ANGLE)
+    if (walk->options->directions == AUR_RADIOSITY_UNIFORM_ANGLE)
         for (size_t c = 0; c < 3; ++c)
             p->power[c] *= (double)b->factor[i];
     for (size_t c = 0; c < 3; ++c)
         aur_exact_add(&tally->power[patch][c], quanta(p->power[c], tally));
-    const bool is_last = flight == walk->bounces;
+    const bool is_last = flight == walk->options->bounces;
     if (is_last)
         aur_exact_add(&tally->last, channels(p->power, tally));
     const aur_vector albedo = aur_radiosity_albedo(scene, index, front, &ray, &hit);
@@ -275,7 +272,7 @@ void aur_radiosity_walk_block(const aur_radiosity_walk *walk, const aur_pointset
     block b = {.walk = walk, .set = set, .key = key, .first = first, .count = count, .tally = tally};
     fill_coordinates(&b, 0);
     leave_lights(&b);
-    for (size_t flight = 0; flight <= walk->bounces; ++flight) {
+    for (size_t flight = 0; flight <= walk->options->bounces; ++flight) {
         fill_coordinates(&b, 2 * flight + 2);
         make_directions(&b);
         for (size_t i = 0; i < count; ++i)

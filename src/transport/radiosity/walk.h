@@ -6,13 +6,49 @@
 
 #include "scene/distribution.h"
 #include "transport/radiosity/scene.h"
-#include "transport/radiosity/tally.h"
+
+/* A sum that does not depend on the order of its terms: non-negative ones in fixed point, added in 128 bits.
+ */
+typedef struct aur_exact_sum {
+    uint64_t low, high;
+} aur_exact_sum;
+
+static inline void aur_exact_add(aur_exact_sum *sum, uint64_t term) {
+    sum->low += term;
+    sum->high += sum->low < term;
+}
+
+static inline void aur_exact_merge(aur_exact_sum *sum, const aur_exact_sum *other) {
+    aur_exact_add(sum, other->low);
+    sum->high += other->high;
+}
+
+static inline double aur_exact_value(const aur_exact_sum *sum) {
+    return (double)sum->high * 0x1p64 + (double)sum->low;
+}
+
+/* What the paths of one randomisation have left behind: the power that each patch received, and how the paths
+ * ended. Sums are exact, so tallies of several threads can be added in any order. */
+typedef struct aur_radiosity_tally {
+    size_t patch_count;
+    aur_exact_sum (*power)[3]; /* patch -> quanta received */
+    aur_exact_sum last;        /* received by the last flight, all channels */
+    aur_exact_sum rest;        /* carried on after it */
+    uint64_t rays, lost, behind, trapped;
+    uint64_t cut;    /* terms that were greater than a sum takes; not kept in files */
+    bool not_finite; /* one of them was no finite number: the sums are worth nothing */
+} aur_radiosity_tally;
+
+/* So many empty tallies; NULL on failure. Errors: MEMORY. */
+aur_result aur_radiosity_tallies_create(size_t count, size_t patch_count, aur_radiosity_tally **tallies,
+                                        aur_error *error);
+void aur_radiosity_tallies_release(size_t count, aur_radiosity_tally *tallies); /* NULL is allowed */
+/* Adds `other` and empties it. */
+void aur_radiosity_tally_take(aur_radiosity_tally *tally, aur_radiosity_tally *other);
 
 typedef struct aur_radiosity_walk {
     const aur_radiosity_scene *scene;
-    aur_radiosity_directions directions;
-    size_t bounces;
-    uint64_t seed; /* of choices at glass */
+    const aur_radiosity_options *options;
     size_t light_count;
     uint32_t *lights;   /* triangles, in the order of the choice */
     double (*start)[3]; /* light -> power of one path that leaves it, in quanta, for a path alone */
