@@ -1,7 +1,5 @@
 #include "transport/gather/aim.h"
 
-#include <string.h>
-
 #include "core/random.h"
 #include "transport/packets/interleave.h"
 
@@ -50,21 +48,15 @@ static bool rotate_together(const aur_gather_plan *plan, const aur_gather_rule *
 
 /* --- rays */
 
-static void set_column(float column[3][AUR_PACKET_SIZE], size_t lane, aur_vector v) {
-    column[0][lane] = v.x;
-    column[1][lane] = v.y;
-    column[2][lane] = v.z;
-}
-
 void aur_gather_set_frame(const aur_gather_place *place, size_t lane, const aur_frame *frame,
                           aur_lobe_frames *frames, aur_gather_rays *gather_rays) {
     struct RTCRay16 *const rays = &gather_rays->packet.query.ray;
     const aur_surface *const surface = &place->surface;
-    set_column(frames->x, lane, frame->x);
-    set_column(frames->y, lane, frame->y);
-    set_column(frames->z, lane, frame->z);
-    set_column(frames->shading, lane, aur_vector_scale(surface->frame.z, place->side));
-    set_column(frames->geometric, lane, aur_vector_scale(surface->geometric_normal, place->side));
+    aur_lane_set(&frames->x, lane, frame->x);
+    aur_lane_set(&frames->y, lane, frame->y);
+    aur_lane_set(&frames->z, lane, frame->z);
+    aur_lane_set(&frames->shading, lane, aur_vector_scale(surface->frame.z, place->side));
+    aur_lane_set(&frames->geometric, lane, aur_vector_scale(surface->geometric_normal, place->side));
     rays->org_x[lane] = place->origin.x;
     rays->org_y[lane] = place->origin.y;
     rays->org_z[lane] = place->origin.z;
@@ -72,18 +64,18 @@ void aur_gather_set_frame(const aur_gather_place *place, size_t lane, const aur_
     gather_rays->reference[lane] = surface->position;
 }
 
-uint32_t aur_gather_aim(uint32_t lanes, const aur_lobe_frames *restrict frames,
-                        float local[3][AUR_PACKET_SIZE], aur_packet *packet, float cosine[AUR_PACKET_SIZE]) {
+uint32_t aur_gather_aim(uint32_t lanes, const aur_lobe_frames *restrict frames, const aur_lane_vectors *local,
+                        aur_packet *packet, float cosine[AUR_PACKET_SIZE]) {
     struct RTCRay16 *const rays = &packet->query.ray;
     float above[AUR_PACKET_SIZE];
     for (size_t k = 0; k < AUR_PACKET_SIZE; ++k) {
-        const float x = local[0][k], y = local[1][k], z = local[2][k];
-        const float dx = frames->x[0][k] * x + frames->y[0][k] * y + frames->z[0][k] * z;
-        const float dy = frames->x[1][k] * x + frames->y[1][k] * y + frames->z[1][k] * z;
-        const float dz = frames->x[2][k] * x + frames->y[2][k] * y + frames->z[2][k] * z;
-        cosine[k] = frames->shading[0][k] * dx + frames->shading[1][k] * dy + frames->shading[2][k] * dz;
+        const float x = local->x[k], y = local->y[k], z = local->z[k];
+        const float dx = frames->x.x[k] * x + frames->y.x[k] * y + frames->z.x[k] * z;
+        const float dy = frames->x.y[k] * x + frames->y.y[k] * y + frames->z.y[k] * z;
+        const float dz = frames->x.z[k] * x + frames->y.z[k] * y + frames->z.z[k] * z;
+        cosine[k] = frames->shading.x[k] * dx + frames->shading.y[k] * dy + frames->shading.z[k] * dz;
         const float beyond =
-            frames->geometric[0][k] * dx + frames->geometric[1][k] * dy + frames->geometric[2][k] * dz;
+            frames->geometric.x[k] * dx + frames->geometric.y[k] * dy + frames->geometric.z[k] * dz;
         above[k] = beyond < cosine[k] ? beyond : cosine[k];
         rays->dir_x[k] = dx;
         rays->dir_y[k] = dy;
@@ -123,7 +115,7 @@ void aur_gather_sweep_start(const aur_gather_places *places, const aur_gather_lo
 
 /* Direction `index` in the frames of all lanes, with its weights and the densities that rivals are weighed
  * against. */
-static void set_directions(const aur_gather_sweep *sweep, size_t index, float local[3][AUR_PACKET_SIZE],
+static void set_directions(const aur_gather_sweep *sweep, size_t index, aur_lane_vectors *local,
                            float weight[AUR_PACKET_SIZE], float density[AUR_PACKET_SIZE]) {
     const aur_gather_rule *const rule = &sweep->rule->rule;
     const float directions = sweep->rule->directions;
@@ -133,9 +125,7 @@ static void set_directions(const aur_gather_sweep *sweep, size_t index, float lo
         const float one = aur_gather_rule_direction(rule, rotation, index, &direction);
         const float drawn = rule->densities[rotation->first + index] * directions;
         for (size_t k = 0; k < AUR_PACKET_SIZE; ++k) {
-            local[0][k] = direction.x;
-            local[1][k] = direction.y;
-            local[2][k] = direction.z;
+            aur_lane_set(local, k, direction);
             weight[k] = one;
             density[k] = drawn;
         }
@@ -145,7 +135,7 @@ static void set_directions(const aur_gather_sweep *sweep, size_t index, float lo
         const size_t lane = aur_first_lane(rest);
         const aur_gather_rotation *const rotation = &sweep->rotations[lane];
         weight[lane] = aur_gather_rule_direction(rule, rotation, index, &direction);
-        set_column(local, lane, direction);
+        aur_lane_set(local, lane, direction);
         density[lane] = directions * (rule->square != NULL ? aur_gather_rule_density(rule, direction.z)
                                                            : rule->densities[rotation->first + index]);
     }
@@ -154,9 +144,10 @@ static void set_directions(const aur_gather_sweep *sweep, size_t index, float lo
 uint32_t aur_gather_sweep_trace(const aur_gather_places *places, const aur_gather_sweep *sweep, size_t index,
                                 bool weighed, aur_gather_sums *sums, float factor[AUR_PACKET_SIZE]) {
     aur_gather_rays *const rays = &sums->rays;
-    float local[3][AUR_PACKET_SIZE] = {0}, cosine[AUR_PACKET_SIZE], weight[AUR_PACKET_SIZE] = {0};
-    set_directions(sweep, index, local, weight, rays->density);
-    const uint32_t aimed = aur_gather_aim(sweep->lanes, &sweep->frames, local, &rays->packet, cosine);
+    aur_lane_vectors local = {0};
+    float cosine[AUR_PACKET_SIZE], weight[AUR_PACKET_SIZE] = {0};
+    set_directions(sweep, index, &local, weight, rays->density);
+    const uint32_t aimed = aur_gather_aim(sweep->lanes, &sweep->frames, &local, &rays->packet, cosine);
     if (aimed == 0)
         return 0;
     rays->hash = aur_hash3(places->pixels[aur_first_lane(sweep->lanes)], index, sweep->lobe);

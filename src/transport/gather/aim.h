@@ -5,8 +5,7 @@
 
 /* Frames of the lobes, and normals on the side that is seen, an array a coordinate. */
 typedef struct aur_lobe_frames {
-    float x[3][AUR_PACKET_SIZE], y[3][AUR_PACKET_SIZE], z[3][AUR_PACKET_SIZE];
-    float shading[3][AUR_PACKET_SIZE], geometric[3][AUR_PACKET_SIZE];
+    aur_lane_vectors x, y, z, shading, geometric;
 } aur_lobe_frames;
 
 /* Sets one lane's frame and normals, and makes its ray begin at its place. */
@@ -15,8 +14,8 @@ void aur_gather_set_frame(const aur_gather_place *place, size_t lane, const aur_
 
 /* Directions local to the frames made into rays of the packet; the lanes' origins have been set. Those below
  * the surface are left out. Returns the lanes that have a ray, and their cosines at the surface. */
-uint32_t aur_gather_aim(uint32_t lanes, const aur_lobe_frames *restrict frames,
-                        float local[3][AUR_PACKET_SIZE], aur_packet *packet, float cosine[AUR_PACKET_SIZE]);
+uint32_t aur_gather_aim(uint32_t lanes, const aur_lobe_frames *restrict frames, const aur_lane_vectors *local,
+                        aur_packet *packet, float cosine[AUR_PACKET_SIZE]);
 
 /* What a lane's pattern for its lobe number `lobe` is randomised by. Under "blue" all lanes of the group have
  * the same rotation. */

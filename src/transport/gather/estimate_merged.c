@@ -37,7 +37,7 @@ typedef struct merged {
     uint32_t diffuse;                        /* lanes that send the first pattern only, their rule's */
     size_t subset;                           /* this sample's */
     size_t subset_count[2], samples;         /* directions in a subset, of each pattern and of both */
-    float *weights;                          /* see aur_gather_scratch */
+    float *weights;                          /* see aur_gather_sums */
     const float *densities[AUR_PACKET_SIZE]; /* of the first pattern's directions, in diffuse lanes */
     aur_vector coefficients[AUR_PACKET_SIZE][2];
     float times_cosine[AUR_PACKET_SIZE]; /* 1: what the glossy lobe gathers is times the cosine, else 0 */
@@ -166,19 +166,15 @@ static uint32_t prepare(merged *work, aur_gather_rays *rays, aur_counters *count
 }
 
 /* Direction `index` of a pattern's part in every lane's frame. */
-static void set_directions(const merged *work, size_t k, size_t index, float local[3][AUR_PACKET_SIZE],
+static void set_directions(const merged *work, size_t k, size_t index, aur_lane_vectors *local,
                            aur_gather_rays *rays) {
     const merged_pattern *const pattern = &work->patterns[k];
+    float *const to[3] = {local->x, local->y, local->z};
     for (size_t c = 0; c < 3; ++c) {
         const float *const *const from = pattern->directions[c];
-        if (pattern->alike) {
-            const float one = from[0][index * pattern->stride[0]];
-            for (size_t lane = 0; lane < AUR_PACKET_SIZE; ++lane)
-                local[c][lane] = one;
-        } else {
-            for (size_t lane = 0; lane < AUR_PACKET_SIZE; ++lane)
-                local[c][lane] = from[lane][index * pattern->stride[lane]];
-        }
+        const float one = from[0][index * pattern->stride[0]];
+        for (size_t lane = 0; lane < AUR_PACKET_SIZE; ++lane)
+            to[c][lane] = pattern->alike ? one : from[lane][index * pattern->stride[lane]];
     }
     for (uint32_t rest = k == 0 ? work->diffuse : 0; rest != 0; rest &= rest - 1) {
         const size_t lane = aur_first_lane(rest);
@@ -208,9 +204,10 @@ static void trace_pattern(merged *work, size_t k, aur_gather_sums *sums) {
     const uint64_t pixel = work->places->pixels[aur_first_lane(pattern->lanes)];
     for (size_t i = 0; i < work->subset_count[k]; ++i) {
         const size_t sample = k * work->subset_count[0] + i;
-        float local[3][AUR_PACKET_SIZE], cosine[AUR_PACKET_SIZE];
-        set_directions(work, k, i, local, rays);
-        if (aur_gather_aim(pattern->lanes, &pattern->frames, local, &rays->packet, cosine) == 0)
+        aur_lane_vectors local;
+        float cosine[AUR_PACKET_SIZE];
+        set_directions(work, k, i, &local, rays);
+        if (aur_gather_aim(pattern->lanes, &pattern->frames, &local, &rays->packet, cosine) == 0)
             continue;
         rays->hash = aur_hash3(pixel, sample, 0);
         aur_gather_rays_trace(work->places->plan, work->places->order, rays, sums->counters);

@@ -53,6 +53,10 @@ aur_result aur_gather_plan_create(const aur_gather_parameters *p, const aur_inte
                                   aur_gather_plan **plan, aur_error *error);
 void aur_gather_plan_destroy(aur_gather_plan *plan); /* NULL is allowed */
 
+/* Adds the means of the tile's samples to its pixels, and the directions that were gathered with to an extra
+ * channel when the plan is adaptive. Fails with MEMORY only. */
+aur_result aur_gather_tile(const aur_gather_plan *plan, aur_tile *tile);
+
 /* Whether the light of a lobe comes by gather rays. */
 static inline bool aur_gather_plan_gathers(const aur_gather_plan *plan, const aur_bsdf_lobe *lobe) {
     if (!plan->gathers || lobe->shape == AUR_LOBE_SHAPE_SPECULAR)

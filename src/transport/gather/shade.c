@@ -11,12 +11,9 @@ static float horizon_factor(const aur_gather_sweep *sweep, size_t lane) {
     const aur_lobe_frames *const frames = &sweep->frames;
     if (!sweep->rule->clipped)
         return 1.0f;
-    aur_vector normal = {0};
-    for (size_t c = 0; c < 3; ++c) {
-        normal.x += frames->shading[c][lane] * frames->x[c][lane];
-        normal.y += frames->shading[c][lane] * frames->y[c][lane];
-        normal.z += frames->shading[c][lane] * frames->z[c][lane];
-    }
+    const aur_frame frame = {aur_lane_vector(&frames->x, lane), aur_lane_vector(&frames->y, lane),
+                             aur_lane_vector(&frames->z, lane)};
+    const aur_vector normal = aur_frame_to_local(&frame, aur_lane_vector(&frames->shading, lane));
     return aur_gather_horizon_factor(&sweep->rule->rule, &sweep->rule->horizon, &sweep->rotations[lane],
                                      normal);
 }

@@ -42,8 +42,9 @@ void aur_pixel_strata_mean(const aur_pixel_strata *pixel, double mean[3]);
 
 /* A pixel that sees several things - above all a part of a light - has its error from how much it sees of
  * each, not from the light that they reflect. So such pixels get more rays of the eye that only tell what
- * they meet, and what parts of the pixel these are weighs the means of what was shaded. */
-/* Pixels of a tile that see, or whose neighbours see, more than one thing: lanes of each group. */
+ * they meet, and what parts of the pixel these are weighs the means of what was shaded.
+ *
+ * Pixels of a tile that see, or whose neighbours see, more than one thing: lanes of each group. */
 typedef struct aur_gather_edges {
     uint32_t any[AUR_GROUP_COUNT];
     uint32_t lights[AUR_GROUP_COUNT]; /* those where one of the things is a light */
@@ -59,7 +60,8 @@ void aur_gather_find_edges(const aur_gather_plan *plan, const aur_view *view, si
  *
  * A pixel's pool is the window of 5 x 5 pixels about it whose outer rows and columns count half. Like every
  * 4 x 4 window it has each part of the pattern once, and its middle is the pixel: light that changes linearly
- * over it is not blurred. Windows at the tile's rim are 4 wide and lie beside their pixel. *
+ * over it is not blurred. Windows at the tile's rim are 4 wide and lie beside their pixel.
+ *
  * Adds to every stratum of a tile, AUR_TILE_PIXELS row by row, its diffuse light by the irradiance that
  * neighbouring pixels pool. False: out of memory. */
 bool aur_gather_pool_irradiance(aur_pixel_strata *strata);

@@ -1,5 +1,3 @@
-#include "transport/gather/tile.h"
-
 #include <stdlib.h>
 #include <string.h>
 

@@ -7,7 +7,7 @@
 
 #include "core/error.h"
 #include "core/random.h"
-#include "transport/gather/tile.h"
+#include "transport/gather/plan.h"
 
 /* --- keys */
 

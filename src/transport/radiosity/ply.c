@@ -1,17 +1,7 @@
 /* A solution as a coloured mesh. */
-#include <string.h>
-
 #include "core/file.h"
 #include "image/tone.h"
 #include "transport/radiosity/solution.h"
-
-/* PLY of this machine's byte order. */
-static const char *byte_order(void) {
-    const uint16_t one = 1;
-    unsigned char first;
-    memcpy(&first, &one, 1);
-    return first == 1 ? "binary_little_endian" : "binary_big_endian";
-}
 
 aur_result aur_radiosity_write_ply(const aur_radiosity *radiosity, const char *path, double exposure,
                                    aur_error *error) {
@@ -31,7 +21,8 @@ aur_result aur_radiosity_write_ply(const aur_radiosity *radiosity, const char *p
         "property float y\nproperty float z\nproperty uchar red\nproperty uchar green\nproperty uchar blue\n"
         "property float radiance_r\nproperty float radiance_g\nproperty float radiance_b\n"
         "element face %zu\nproperty list uchar int vertex_indices\nend_header\n",
-        byte_order(), (unsigned long long)radiosity->paths, 3 * count, count);
+        __BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__ ? "binary_little_endian" : "binary_big_endian",
+        (unsigned long long)radiosity->paths, 3 * count, count);
     const double scale = exp2(exposure);
     for (size_t i = 0; i < count; ++i) {
         const aur_radiosity_triangle *const t = &scene->triangles[i];
