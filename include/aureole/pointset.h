@@ -47,15 +47,33 @@ AUR_API aur_result aur_scramble_from_name(const char *name, aur_scramble *scramb
     AUR_NONNULL(1, 2);
 AUR_API const char *aur_scramble_name(aur_scramble scramble);
 
+/* Sizes at which a set is better than at others. */
+typedef enum aur_sizes {
+    AUR_SIZES_ANY,       /* none are */
+    AUR_SIZES_POWERS,    /* powers of a base: the points are then a complete net */
+    AUR_SIZES_FIBONACCI, /* Fibonacci numbers: the points are then a lattice */
+    AUR_SIZES_GRIDS      /* 1, 2, 3 and 4 times BASE * 4^LEVELS: no sub-grid is then left incomplete */
+} aur_sizes;
+
 /* One row of the table of sets. */
 typedef struct aur_set_description {
     aur_row row;
-    unsigned domains;  /* bit 1 << aur_domain: where its points are by themselves. Those of the square come to
-                          the disk, the hemisphere and the sphere by a map */
-    const char *sizes; /* "any", "1..2^32; a lattice at F_k", ... */
-    bool extensible;   /* the first n points of a larger set are the smaller set */
-    bool binary_net;   /* 2^k points are a net in base 2: digit and Owen scrambling keep its evenness */
+    /* Bit 1 << aur_domain: where its points are by themselves. Those of the square come to the disk, the
+     * hemisphere and the sphere by a map. */
+    unsigned domains;
+    size_t dimensions[2];    /* least and most; {3, 3} for sets that are native to the sphere */
+    uint64_t maximum_size;   /* the most points; UINT64_MAX: as many as are asked for */
+    bool counts_coordinates; /* maximum_size is points times dimension, the length of a stream of numbers */
+    bool sized_by_file;      /* a file of the user's says how many points there are at most */
+    aur_sizes best_sizes;
+    uint32_t size_base; /* of POWERS; 0 where a key or a file says it */
+    bool extensible;    /* the first n points of a larger set are the smaller set */
+    bool binary_net;    /* 2^k points are a net in base 2: digit and Owen scrambling keep its evenness */
 } aur_set_description;
+
+/* The sizes in a few words, "any", "1..2^48; a lattice at F_k": written into text[capacity], always
+ * terminated. Returns the length of the whole text, as snprintf does. */
+AUR_API size_t aur_set_sizes(const aur_set_description *set, size_t capacity, char *text) AUR_NONNULL(1);
 
 /* A set made ready: an immutable table or rule that any number of threads may read. */
 typedef struct aur_pointset aur_pointset;

@@ -41,7 +41,9 @@ static int run(const cli_call *call) {
         cli_table_text(table, set->row.name);
         add_keys(table, &set->row);
         add_domains(table, set);
-        cli_table_text(table, set->sizes);
+        char sizes[96];
+        aur_set_sizes(set, sizeof sizes, sizes);
+        cli_table_text(table, sizes);
         cli_table_text(table, set->extensible ? "yes" : "no");
         cli_table_text(table, set->row.source);
         cli_table_text(table, set->row.summary);

@@ -21,20 +21,26 @@ const char *aur_scramble_name(aur_scramble scramble) {
     return (size_t)scramble < SCRAMBLE_COUNT ? scramble_names[scramble] : NULL;
 }
 
+uint64_t aur_size_limit(const aur_set_description *set, size_t dimension) {
+    return set->counts_coordinates && dimension > 0 ? set->maximum_size / dimension : set->maximum_size;
+}
+
 aur_result aur_pointset_check(const aur_pointset *set, aur_error *error) {
-    const aur_square_set *const kind = set->kind;
-    const char *const name = kind->description.row.name;
-    if (set->size == 0 && !kind->own_size)
+    const aur_set_description *const kind = &set->kind->description;
+    const char *const name = kind->row.name;
+    const size_t least = kind->dimensions[0], most = kind->dimensions[1];
+    if (set->dimension != least && least == most)
+        return aur_fail(error, AUR_ERROR_ARGUMENT, "set '%s' has %zu dimensions, not %zu", name, least,
+                        set->dimension);
+    if (set->dimension < least || set->dimension > most)
+        return aur_fail(error, AUR_ERROR_ARGUMENT, "set '%s' has %zu to %zu dimensions, not %zu", name, least,
+                        most, set->dimension);
+    if (set->size == 0 && !kind->sized_by_file)
         return aur_fail(error, AUR_ERROR_ARGUMENT, "set '%s': the number of points must be at least 1", name);
-    if (set->size > kind->maximum_size)
+    const uint64_t limit = aur_size_limit(kind, set->dimension);
+    if (set->size > limit)
         return aur_fail(error, AUR_ERROR_ARGUMENT, "set '%s' has at most %" PRIu64 " points, not %" PRIu64,
-                        name, kind->maximum_size, set->size);
-    if (set->dimension != kind->minimum_dimension && kind->minimum_dimension == kind->maximum_dimension)
-        return aur_fail(error, AUR_ERROR_ARGUMENT, "set '%s' has %zu dimensions, not %zu", name,
-                        kind->minimum_dimension, set->dimension);
-    if (set->dimension < kind->minimum_dimension || set->dimension > kind->maximum_dimension)
-        return aur_fail(error, AUR_ERROR_ARGUMENT, "set '%s' has %zu to %zu dimensions, not %zu", name,
-                        kind->minimum_dimension, kind->maximum_dimension, set->dimension);
+                        name, limit, set->size);
     const char *const scramble = aur_scramble_name(set->scramble);
     if (scramble == NULL)
         return aur_fail(error, AUR_ERROR_ARGUMENT, "%d is not a scrambling", (int)set->scramble);
@@ -44,21 +50,11 @@ aur_result aur_pointset_check(const aur_pointset *set, aur_error *error) {
     if (set->scramble == AUR_SCRAMBLE_ROTATE && set->dimension < 2)
         return aur_fail(error, AUR_ERROR_UNSUPPORTED,
                         "rotate shifts the second coordinate, and one dimension has none");
-    if ((kind->scramblings >> set->scramble & 1u) == 0)
+    if ((set->kind->scramblings >> set->scramble & 1u) == 0)
         return aur_fail(error, AUR_ERROR_UNSUPPORTED,
                         "set '%s' has no digits to scramble: it takes none, shift or rotate, not %s", name,
                         scramble);
     return AUR_OK;
-}
-
-void aur_warn_incomplete_net(const aur_pointset *set, const aur_pointset_options *options, uint64_t base) {
-    uint64_t rest = set->size;
-    while (rest % base == 0)
-        rest /= base;
-    if (rest != 1)
-        aur_warn_at(&options->warnings, (aur_location){0},
-                    "set '%s': %" PRIu64 " points are not a power of %" PRIu64 ", so the net is incomplete",
-                    set->kind->description.row.name, set->size, base);
 }
 
 void aur_fill_fraction(const aur_pointset *set, const aur_block *block, size_t d) {

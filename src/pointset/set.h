@@ -38,15 +38,12 @@ enum {
 /* One row of the table of square sets. */
 typedef struct aur_square_set {
     aur_set_description description;
-    size_t minimum_dimension, maximum_dimension;
-    uint64_t maximum_size;
-    bool own_size;        /* a size of 0 stands for what prepare() finds */
     bool pairs;           /* fill() makes two coordinates that lie beside each other in one go */
     unsigned scramblings; /* bit 1 << aur_scramble: what has a meaning here */
     /* Reads the keys and makes set->data ready (NULL: there are none and nothing is to be made ready). Size,
-     * dimension, scrambling and seed are set and within the limits above; a file's own may change them. */
-    aur_result (*prepare)(aur_pointset *set, aur_parameters *keys, const aur_pointset_options *options,
-                          aur_error *error);
+     * dimension, scrambling, seed and net_base are set and within the limits above; what a key or a file says
+     * may change them. */
+    aur_result (*prepare)(aur_pointset *set, aur_parameters *keys, aur_error *error);
     /* Coordinates in [0,1) with NONE, DIGIT and OWEN applied; SHIFT and ROTATE are added by the caller. */
     void (*fill)(const aur_pointset *set, const aur_block *block);
 } aur_square_set;
@@ -57,12 +54,17 @@ struct aur_pointset {
     size_t dimension;
     aur_scramble scramble;
     uint64_t seed;
-    void *data; /* the generator's own, one allocation; NULL when it needs none */
+    uint64_t net_base;                   /* the points are a complete net at its powers; 0: no net */
+    const aur_pointset_options *options; /* while the set is made ready; then NULL */
+    void *data;                          /* the generator's own, one allocation; NULL when it needs none */
 };
 
 /* The table, for the listing of all sets. */
 size_t aur_square_set_count(void);
 const aur_square_set *aur_square_set_at(size_t index);
+
+/* The most points that such a set has. */
+uint64_t aur_size_limit(const aur_set_description *set, size_t dimension);
 
 /* Size, dimension and scrambling against what the kind of set has. */
 aur_result aur_pointset_check(const aur_pointset *set, aur_error *error);
@@ -85,9 +87,6 @@ aur_result aur_pointset_emit(const aur_pointset *set, uint64_t seed, uint64_t fi
 
 /* The coordinates of a block with every scrambling applied. The block must be within the set. */
 void aur_pointset_fill(const aur_pointset *set, const aur_block *block);
-
-/* A warning when the size is not a power of the base: the points are then no complete net. */
-void aur_warn_incomplete_net(const aur_pointset *set, const aur_pointset_options *options, uint64_t base);
 
 /* Fills a block from set->data, size * dimension doubles. */
 void aur_fill_table(const aur_pointset *set, const aur_block *block);

@@ -18,7 +18,6 @@ typedef struct aur_native_request {
 
 typedef struct aur_native_set {
     aur_set_description description;
-    uint64_t maximum_size;
     /* Reads the keys and makes *data, one allocation, ready. */
     aur_result (*prepare)(const aur_row *row, aur_parameters *parameters, const aur_native_request *request,
                           void **data, aur_error *error);

@@ -182,7 +182,8 @@ static void every_set_is_random_access(void **state) {
         if (needs_a_file(kind->description.row.name))
             continue;
         for (int s = AUR_SCRAMBLE_NONE; s <= AUR_SCRAMBLE_ROTATE; ++s) {
-            const size_t dimension = kind->maximum_dimension < 2 ? kind->maximum_dimension : 2;
+            const size_t dimension =
+                kind->description.dimensions[1] < 2 ? kind->description.dimensions[1] : 2;
             if ((kind->scramblings >> s & 1u) == 0 || (dimension < 2 && s == AUR_SCRAMBLE_ROTATE))
                 continue;
             enum { COUNT = 233 };
@@ -212,7 +213,7 @@ static void extensible_sets_extend(void **state) {
         const aur_square_set *const kind = aur_square_set_at(k);
         if (needs_a_file(kind->description.row.name))
             continue;
-        const size_t dimension = kind->maximum_dimension < 2 ? kind->maximum_dimension : 2;
+        const size_t dimension = kind->description.dimensions[1] < 2 ? kind->description.dimensions[1] : 2;
         double *const small =
             make_points(kind->description.row.name,
                         (aur_pointset_options){

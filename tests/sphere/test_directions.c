@@ -331,16 +331,47 @@ static void table_names_sets_that_exist(void **state) {
     for (size_t i = 0; i < aur_set_count(); ++i) {
         const aur_set_description *const set = aur_set_at(i);
         assert_true(set->row.name != NULL && set->row.summary != NULL && set->domains != 0 &&
-                    set->sizes != NULL && set->row.source != NULL);
+                    aur_set_sizes(set, 0, NULL) > 0 && set->row.source != NULL);
         for (size_t k = 0; k < i; ++k)
             assert_string_not_equal(set->row.name, aur_set_at(k)->row.name);
     }
+}
+
+/* The sizes of sets are data, and a text that is made of them. */
+static void sets_say_their_sizes(void **state) {
+    (void)state;
+    static const struct {
+        const char *set, *text;
+        uint64_t maximum;
+        aur_sizes best;
+        uint32_t base;
+    } cases[] = {
+        {"random", "any", UINT64_MAX, AUR_SIZES_ANY, 0},
+        {"sobol", "1..2^53; a net at 2^m", UINT64_C(1) << 53, AUR_SIZES_POWERS, 2},
+        {"faure", "1..2^48; a net at base^m", UINT64_C(1) << 48, AUR_SIZES_POWERS, 0},
+        {"lcg", "1..(2^31-2)/dimension", 2147483646, AUR_SIZES_ANY, 0},
+        {"fibonacci-lattice", "1..2^48; a lattice at F_k", UINT64_C(1) << 48, AUR_SIZES_FIBONACCI, 0},
+        {"esfg", "1..2^48; base*4^levels times 1, 2, 3, 4 is even", UINT64_C(1) << 48, AUR_SIZES_GRIDS, 0},
+        {"file", "up to the file's", UINT64_MAX, AUR_SIZES_ANY, 0},
+    };
+    for (size_t i = 0; i < sizeof cases / sizeof cases[0]; ++i) {
+        const aur_set_description *const set = aur_set_find(cases[i].set);
+        char text[64];
+        assert_int_equal(aur_set_sizes(set, sizeof text, text), strlen(cases[i].text));
+        assert_string_equal(text, cases[i].text);
+        assert_true(set->maximum_size == cases[i].maximum && set->best_sizes == cases[i].best &&
+                    set->size_base == cases[i].base);
+    }
+    const aur_pointset_options options = aur_pointset_options_default(1073741824); /* of 2 dimensions */
+    aur_pointset *pointset;
+    assert_int_equal(aur_pointset_create("lcg", &options, &pointset, NULL), AUR_ERROR_ARGUMENT);
 }
 
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(squares_are_lifted_by_the_map),
         cmocka_unit_test(layouts_agree),
+        cmocka_unit_test(sets_say_their_sizes),
         cmocka_unit_test(weights_make_rules),
         cmocka_unit_test(ggx_weighs_what_is_above_the_horizon),
         cmocka_unit_test(rotations_are_rotations),

@@ -107,15 +107,13 @@ static void fill_pair(const aur_pointset *set, const uint64_t *const columns[2],
     fill_run(&run);
 }
 
-aur_result aur_prepare_digital(aur_pointset *set, size_t count, aur_digital_matrix make,
-                               const aur_pointset_options *options, aur_error *error) {
+aur_result aur_prepare_digital(aur_pointset *set, size_t count, aur_digital_matrix make, aur_error *error) {
     uint64_t(*const matrices)[AUR_DIGITAL_COLUMNS] = malloc(count * sizeof *matrices);
     if (matrices == NULL)
         return aur_fail_memory(error);
     for (size_t d = 0; d < count; ++d)
         make(d, matrices[d]);
     set->data = matrices;
-    aur_warn_incomplete_net(set, options, 2);
     return AUR_OK;
 }
 

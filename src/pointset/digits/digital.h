@@ -16,9 +16,8 @@ static inline uint64_t aur_digital_word(const uint64_t columns[AUR_DIGITAL_COLUM
 /* Writes the matrix of a dimension. */
 typedef void (*aur_digital_matrix)(size_t dimension, uint64_t columns[AUR_DIGITAL_COLUMNS]);
 
-/* Makes the first `count` matrices ready as set->data and warns of an incomplete net. */
-aur_result aur_prepare_digital(aur_pointset *set, size_t count, aur_digital_matrix make,
-                               const aur_pointset_options *options, aur_error *error);
+/* Makes the first `count` matrices ready as set->data. */
+aur_result aur_prepare_digital(aur_pointset *set, size_t count, aur_digital_matrix make, aur_error *error);
 
 /* The matrix that is ready, or one that is made in `columns` when set->data is NULL. */
 const uint64_t *aur_digital_matrix_of(const aur_pointset *set, size_t dimension, aur_digital_matrix make,

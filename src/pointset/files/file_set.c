@@ -15,8 +15,7 @@ static const aur_key keys[] = {
     {AUR_KEY_OF_TEXT(file_keys, "PATH", path, NULL, "the file, in place of key=value: file:PATH")},
 };
 
-static aur_result prepare(aur_pointset *set, aur_parameters *parameters, const aur_pointset_options *options,
-                          aur_error *error) {
+static aur_result prepare(aur_pointset *set, aur_parameters *parameters, aur_error *error) {
     file_keys p = {NULL};
     aur_result result = aur_row_read(&set->kind->description.row, parameters, &p, error);
     if (result != AUR_OK)
@@ -29,9 +28,9 @@ static aur_result prepare(aur_pointset *set, aur_parameters *parameters, const a
     if (result != AUR_OK)
         return result;
     const aur_location where = {.file = path};
-    if (options->count == 0)
+    if (set->options->count == 0)
         set->size = points->view.count;
-    if (options->dimension == 0)
+    if (set->options->dimension == 0)
         set->dimension = points->view.dimension;
     if (set->size > points->view.count)
         result =
@@ -53,12 +52,10 @@ const aur_square_set aur_set_file = {
                             .source = "the user",
                             AUR_ROW_KEYS(keys)},
                     .domains = AUR_ON_SQUARE | AUR_ON_CUBE,
-                    .sizes = "up to the file's",
+                    .dimensions = {1, SIZE_MAX},
+                    .maximum_size = UINT64_MAX,
+                    .sized_by_file = true,
                     .extensible = true},
-    .minimum_dimension = 1,
-    .maximum_dimension = SIZE_MAX,
-    .maximum_size = UINT64_MAX,
-    .own_size = true,
     .scramblings = AUR_SCRAMBLES_SHIFT,
     .prepare = prepare,
     .fill = aur_fill_table,

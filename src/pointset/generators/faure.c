@@ -61,8 +61,7 @@ static const aur_key keys[] = {
                        "random lower-triangular matrices (Matousek 1998)", "none", "lower-triangular")},
 };
 
-static aur_result prepare(aur_pointset *set, aur_parameters *parameters, const aur_pointset_options *options,
-                          aur_error *error) {
+static aur_result prepare(aur_pointset *set, aur_parameters *parameters, aur_error *error) {
     faure_keys p = {.base = smallest_base(set->dimension)};
     const aur_result result = aur_row_read(&set->kind->description.row, parameters, &p, error);
     if (result != AUR_OK)
@@ -83,7 +82,7 @@ static aur_result prepare(aur_pointset *set, aur_parameters *parameters, const a
             scramble_lower(rule, aur_hash3(UINT64_C(0x6661757265), set->seed, d), matrix);
     }
     set->data = rule;
-    aur_warn_incomplete_net(set, options, (uint64_t)base);
+    set->net_base = (uint64_t)base;
     return AUR_OK;
 }
 
@@ -95,11 +94,10 @@ const aur_square_set aur_set_faure = {
                  .source = "Faure 1982; Matousek 1998",
                  AUR_ROW_KEYS(keys)},
          .domains = AUR_ON_SQUARE | AUR_ON_CUBE,
-         .sizes = "1..2^48; a net at base^m",
+         .dimensions = {1, 4096},
+         .maximum_size = AUR_INDEX_LIMIT,
+         .best_sizes = AUR_SIZES_POWERS,
          .extensible = true},
-    .minimum_dimension = 1,
-    .maximum_dimension = 4096,
-    .maximum_size = AUR_INDEX_LIMIT,
     .scramblings = AUR_SCRAMBLES_ALL,
     .prepare = prepare,
     .fill = aur_fill_digital_rule,

@@ -16,9 +16,7 @@ static const aur_key keys[] = {
      .maximum_open = true},
 };
 
-static aur_result prepare(aur_pointset *set, aur_parameters *parameters, const aur_pointset_options *options,
-                          aur_error *error) {
-    (void)options;
+static aur_result prepare(aur_pointset *set, aur_parameters *parameters, aur_error *error) {
     golden_keys p;
     const aur_result result = aur_row_read(&set->kind->description.row, parameters, &p, error);
     if (result != AUR_OK)
@@ -44,11 +42,9 @@ const aur_square_set aur_set_golden = {
                             .source = "Schretter 2012",
                             AUR_ROW_KEYS(keys)},
                     .domains = AUR_ON_CUBE,
-                    .sizes = "any",
+                    .dimensions = {1, 1},
+                    .maximum_size = UINT64_MAX,
                     .extensible = true},
-    .minimum_dimension = 1,
-    .maximum_dimension = 1,
-    .maximum_size = UINT64_MAX,
     .scramblings = AUR_SCRAMBLES_SHIFT,
     .prepare = prepare,
     .fill = fill,

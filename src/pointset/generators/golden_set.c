@@ -53,8 +53,7 @@ static const aur_key keys[] = {
      .maximum_open = true},
 };
 
-static aur_result prepare(aur_pointset *set, aur_parameters *parameters, const aur_pointset_options *options,
-                          aur_error *error) {
+static aur_result prepare(aur_pointset *set, aur_parameters *parameters, aur_error *error) {
     golden_set_keys p;
     const aur_result result = aur_row_read(&set->kind->description.row, parameters, &p, error);
     if (result != AUR_OK)
@@ -66,7 +65,7 @@ static aur_result prepare(aur_pointset *set, aur_parameters *parameters, const a
     data->seed_word = aur_seed_word(p.seed);
     if (!data->two_seeds)
         data->seed_word += aur_phase(aur_golden_fraction, 1);
-    data->second_word = aur_hash2(UINT64_C(0x676f6c64656e), options->seed);
+    data->second_word = aur_hash2(UINT64_C(0x676f6c64656e), set->seed);
     const aur_golden_order order = aur_golden_order_of(data->seed_word, set->size);
     uint64_t index = order.first;
     for (uint64_t i = 0; i < set->size; ++i) {
@@ -158,11 +157,8 @@ const aur_square_set aur_set_golden_set = {
                             .source = "Schretter 2012",
                             AUR_ROW_KEYS(keys)},
                     .domains = AUR_ON_SQUARE,
-                    .sizes = "1..2^32",
-                    .extensible = false},
-    .minimum_dimension = 2,
-    .maximum_dimension = 2,
-    .maximum_size = UINT64_C(1) << 32,
+                    .dimensions = {2, 2},
+                    .maximum_size = UINT64_C(1) << 32},
     .scramblings = AUR_SCRAMBLES_SHIFT,
     .prepare = prepare,
     .fill = fill,

@@ -21,9 +21,7 @@ static const aur_key keys[] = {
 };
 
 /* Of both sets: hammersley has no keys. */
-static aur_result prepare(aur_pointset *set, aur_parameters *parameters, const aur_pointset_options *options,
-                          aur_error *error) {
-    (void)options;
+static aur_result prepare(aur_pointset *set, aur_parameters *parameters, aur_error *error) {
     halton_keys p = {PERMUTE_NONE};
     const aur_result result = aur_row_read(&set->kind->description.row, parameters, &p, error);
     if (result != AUR_OK)
@@ -78,11 +76,9 @@ const aur_square_set aur_set_halton = {
                             .source = "Halton 1960; permutations Owen 2017",
                             AUR_ROW_KEYS(keys)},
                     .domains = AUR_ON_SQUARE | AUR_ON_CUBE,
-                    .sizes = "1..2^48",
+                    .dimensions = {1, AUR_RADICAL_PRIMES},
+                    .maximum_size = AUR_INDEX_LIMIT,
                     .extensible = true},
-    .minimum_dimension = 1,
-    .maximum_dimension = AUR_RADICAL_PRIMES,
-    .maximum_size = AUR_INDEX_LIMIT,
     .scramblings = AUR_SCRAMBLES_ALL,
     .prepare = prepare,
     .fill = fill_halton,
@@ -93,12 +89,9 @@ const aur_square_set aur_set_hammersley = {
                             .summary = "i/N, then radical inverses in the first primes",
                             .source = "Hammersley 1960"},
                     .domains = AUR_ON_SQUARE | AUR_ON_CUBE,
-                    .sizes = "1..2^48",
-                    .extensible = false,
+                    .dimensions = {1, AUR_RADICAL_PRIMES},
+                    .maximum_size = AUR_INDEX_LIMIT,
                     .binary_net = true},
-    .minimum_dimension = 1,
-    .maximum_dimension = AUR_RADICAL_PRIMES,
-    .maximum_size = AUR_INDEX_LIMIT,
     .scramblings = AUR_SCRAMBLES_ALL,
     .prepare = prepare,
     .fill = fill_hammersley,

@@ -91,17 +91,6 @@ static void go_on(run *r) {
     r->p = p;
 }
 
-static aur_result prepare(aur_pointset *set, aur_parameters *keys, const aur_pointset_options *options,
-                          aur_error *error) {
-    (void)keys;
-    (void)options;
-    if (set->size > modulus / set->dimension)
-        return aur_fail(error, AUR_ERROR_ARGUMENT,
-                        "set 'icg': its period holds no more than %u points of %zu dimensions",
-                        (unsigned)(modulus / set->dimension), set->dimension);
-    return AUR_OK;
-}
-
 static void fill(const aur_pointset *set, const aur_block *block) {
     const uint64_t start = set->seed == 0 ? 0 : aur_mix64(set->seed) % modulus;
     const matrix jump = power_of_step(set->dimension);
@@ -132,12 +121,10 @@ const aur_square_set aur_set_icg = {
                             .summary = "inversive congruential generator of full period",
                             .source = "Eichenauer, Lehn 1986"},
                     .domains = AUR_ON_SQUARE | AUR_ON_CUBE,
-                    .sizes = "1..(2^31-1)/dimension",
+                    .dimensions = {1, (UINT64_C(1) << 31) - 1},
+                    .maximum_size = (UINT64_C(1) << 31) - 1,
+                    .counts_coordinates = true,
                     .extensible = true},
-    .minimum_dimension = 1,
-    .maximum_dimension = (UINT64_C(1) << 31) - 1,
-    .maximum_size = (UINT64_C(1) << 31) - 1,
     .scramblings = AUR_SCRAMBLES_ALL,
-    .prepare = prepare,
     .fill = fill,
 };

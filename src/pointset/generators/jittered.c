@@ -31,11 +31,8 @@ const aur_square_set aur_set_jittered = {
                             .summary = "a random point in each of N cells of equal area",
                             .source = "Cook 1986"},
                     .domains = AUR_ON_SQUARE,
-                    .sizes = "1..2^40",
-                    .extensible = false},
-    .minimum_dimension = 2,
-    .maximum_dimension = 2,
-    .maximum_size = UINT64_C(1) << 40,
+                    .dimensions = {2, 2},
+                    .maximum_size = UINT64_C(1) << 40},
     .scramblings = AUR_SCRAMBLES_SHIFT,
     .fill = fill,
 };

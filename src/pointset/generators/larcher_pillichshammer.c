@@ -15,26 +15,16 @@ static void fill(const aur_pointset *set, const aur_block *block) {
     }
 }
 
-static aur_result prepare(aur_pointset *set, aur_parameters *keys, const aur_pointset_options *options,
-                          aur_error *error) {
-    (void)keys;
-    (void)error;
-    aur_warn_incomplete_net(set, options, 2);
-    return AUR_OK;
-}
-
 const aur_square_set aur_set_larcher_pillichshammer = {
     .description = {.row = {.name = "larcher-pillichshammer",
                             .summary = "(0,m,2)-net of very low star discrepancy",
                             .source = "Larcher, Pillichshammer 2001; Kollig, Keller 2002"},
                     .domains = AUR_ON_SQUARE,
-                    .sizes = "any; a net at 2^m",
-                    .extensible = false,
+                    .dimensions = {2, 2},
+                    .maximum_size = AUR_INDEX_LIMIT,
+                    .best_sizes = AUR_SIZES_POWERS,
+                    .size_base = 2,
                     .binary_net = true},
-    .minimum_dimension = 2,
-    .maximum_dimension = 2,
-    .maximum_size = AUR_INDEX_LIMIT,
     .scramblings = AUR_SCRAMBLES_ALL,
-    .prepare = prepare,
     .fill = fill,
 };

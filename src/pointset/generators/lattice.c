@@ -100,8 +100,7 @@ static const aur_key fibonacci_keys[] = {
      .maximum_open = true},
 };
 
-static aur_result prepare_rank1(aur_pointset *set, aur_parameters *parameters,
-                                const aur_pointset_options *options, aur_error *error) {
+static aur_result prepare_rank1(aur_pointset *set, aur_parameters *parameters, aur_error *error) {
     aur_lattice *const data = create(set, error);
     if (data == NULL)
         return AUR_ERROR_MEMORY;
@@ -123,7 +122,7 @@ static aur_result prepare_rank1(aur_pointset *set, aur_parameters *parameters,
                 "such as 1/55/21, not '%s'",
                 AUR_LATTICE_CAPACITY, text);
     }
-    if (options->dimension == 0)
+    if (set->options->dimension == 0)
         set->dimension = count;
     if (set->dimension != count)
         return aur_fail(error, AUR_ERROR_ARGUMENT,
@@ -146,8 +145,7 @@ void aur_lattice_make_fibonacci(uint64_t size, double offset, aur_lattice *latti
     lattice->golden = number != size;
 }
 
-static aur_result prepare_fibonacci(aur_pointset *set, aur_parameters *parameters,
-                                    const aur_pointset_options *options, aur_error *error) {
+static aur_result prepare_fibonacci(aur_pointset *set, aur_parameters *parameters, aur_error *error) {
     aur_lattice *const data = create(set, error);
     if (data == NULL)
         return AUR_ERROR_MEMORY;
@@ -158,7 +156,7 @@ static aur_result prepare_fibonacci(aur_pointset *set, aur_parameters *parameter
     aur_lattice_make_fibonacci(set->size, p.offset, data);
     if (data->golden)
         aur_warn_at(
-            &options->warnings, (aur_location){0},
+            &set->options->warnings, (aur_location){0},
             "set 'fibonacci-lattice': the number of points is no Fibonacci number, so the points are no "
             "lattice; the golden ratio stands for its ratios");
     return AUR_OK;
@@ -171,11 +169,8 @@ const aur_square_set aur_set_rank1 = {
                             .source = "Korobov 1959; Sloan, Joe 1994",
                             AUR_ROW_KEYS(rank1_keys)},
                     .domains = AUR_ON_SQUARE | AUR_ON_CUBE,
-                    .sizes = "1..2^48",
-                    .extensible = false},
-    .minimum_dimension = 1,
-    .maximum_dimension = AUR_LATTICE_CAPACITY,
-    .maximum_size = AUR_INDEX_LIMIT,
+                    .dimensions = {1, AUR_LATTICE_CAPACITY},
+                    .maximum_size = AUR_INDEX_LIMIT},
     .scramblings = AUR_SCRAMBLES_SHIFT,
     .prepare = prepare_rank1,
     .fill = fill,
@@ -187,11 +182,9 @@ const aur_square_set aur_set_fibonacci_lattice = {
                             .source = "Zaremba 1966; Niederreiter, Sloan 1994",
                             AUR_ROW_KEYS(fibonacci_keys)},
                     .domains = AUR_ON_SQUARE,
-                    .sizes = "1..2^48; a lattice at F_k",
-                    .extensible = false},
-    .minimum_dimension = 2,
-    .maximum_dimension = 2,
-    .maximum_size = AUR_INDEX_LIMIT,
+                    .dimensions = {2, 2},
+                    .maximum_size = AUR_INDEX_LIMIT,
+                    .best_sizes = AUR_SIZES_FIBONACCI},
     .scramblings = AUR_SCRAMBLES_SHIFT,
     .prepare = prepare_fibonacci,
     .fill = fill,

@@ -16,17 +16,6 @@ static uint64_t power(uint64_t base, uint64_t exponent) {
     return result;
 }
 
-static aur_result prepare(aur_pointset *set, aur_parameters *keys, const aur_pointset_options *options,
-                          aur_error *error) {
-    (void)keys;
-    (void)options;
-    if (set->size > (modulus - 1) / set->dimension)
-        return aur_fail(error, AUR_ERROR_ARGUMENT,
-                        "set 'lcg': its period holds no more than %u points of %zu dimensions",
-                        (unsigned)((modulus - 1) / set->dimension), set->dimension);
-    return AUR_OK;
-}
-
 static void fill(const aur_pointset *set, const aur_block *block) {
     const uint64_t start = set->seed == 0 ? 1 : 1 + aur_mix64(set->seed) % (modulus - 1);
     const uint64_t stride = power(multiplier, set->dimension);
@@ -47,12 +36,10 @@ const aur_square_set aur_set_lcg = {
                             .summary = "minimal standard linear congruential generator",
                             .source = "Park, Miller 1988"},
                     .domains = AUR_ON_SQUARE | AUR_ON_CUBE,
-                    .sizes = "1..(2^31-2)/dimension",
+                    .dimensions = {1, (UINT64_C(1) << 31) - 2},
+                    .maximum_size = (UINT64_C(1) << 31) - 2,
+                    .counts_coordinates = true,
                     .extensible = true},
-    .minimum_dimension = 1,
-    .maximum_dimension = (UINT64_C(1) << 31) - 2,
-    .maximum_size = (UINT64_C(1) << 31) - 2,
     .scramblings = AUR_SCRAMBLES_ALL,
-    .prepare = prepare,
     .fill = fill,
 };

@@ -158,8 +158,7 @@ static const aur_key keys[] = {
                      "text file of the generator matrices; must be given")},
 };
 
-static aur_result prepare(aur_pointset *set, aur_parameters *parameters, const aur_pointset_options *options,
-                          aur_error *error) {
+static aur_result prepare(aur_pointset *set, aur_parameters *parameters, aur_error *error) {
     matrices_keys p = {NULL};
     aur_result result = aur_row_read(&set->kind->description.row, parameters, &p, error);
     const char *const path = p.file;
@@ -178,8 +177,7 @@ static aur_result prepare(aur_pointset *set, aur_parameters *parameters, const a
         result = make_rule(set, &r);
     free(text);
     free(r.digits);
-    if (result == AUR_OK)
-        aur_warn_incomplete_net(set, options, r.base);
+    set->net_base = r.base;
     return result;
 }
 
@@ -190,11 +188,11 @@ const aur_square_set aur_set_matrices = {
                             .source = "Niederreiter 1992",
                             AUR_ROW_KEYS(keys)},
                     .domains = AUR_ON_SQUARE | AUR_ON_CUBE,
-                    .sizes = "1..base^columns",
+                    .dimensions = {1, SIZE_MAX},
+                    .maximum_size = AUR_INDEX_LIMIT,
+                    .sized_by_file = true,
+                    .best_sizes = AUR_SIZES_POWERS,
                     .extensible = true},
-    .minimum_dimension = 1,
-    .maximum_dimension = SIZE_MAX,
-    .maximum_size = AUR_INDEX_LIMIT,
     .scramblings = AUR_SCRAMBLES_ALL,
     .prepare = prepare,
     .fill = aur_fill_digital_rule,

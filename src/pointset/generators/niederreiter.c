@@ -69,10 +69,9 @@ static void fill(const aur_pointset *set, const aur_block *block) {
     aur_fill_digital_block(set, block, make_matrix);
 }
 
-static aur_result prepare(aur_pointset *set, aur_parameters *keys, const aur_pointset_options *options,
-                          aur_error *error) {
+static aur_result prepare(aur_pointset *set, aur_parameters *keys, aur_error *error) {
     (void)keys;
-    return aur_prepare_digital(set, set->dimension, make_matrix, options, error);
+    return aur_prepare_digital(set, set->dimension, make_matrix, error);
 }
 
 const aur_square_set aur_set_niederreiter = {
@@ -80,12 +79,12 @@ const aur_square_set aur_set_niederreiter = {
                             .summary = "(t,s)-sequence in base 2 from irreducible polynomials",
                             .source = "Niederreiter 1988; Bratley, Fox, Niederreiter 1992"},
                     .domains = AUR_ON_SQUARE | AUR_ON_CUBE,
-                    .sizes = "1..2^53; a net at 2^m",
+                    .dimensions = {1, DIMENSIONS},
+                    .maximum_size = UINT64_C(1) << 53,
+                    .best_sizes = AUR_SIZES_POWERS,
+                    .size_base = 2,
                     .extensible = true,
                     .binary_net = true},
-    .minimum_dimension = 1,
-    .maximum_dimension = DIMENSIONS,
-    .maximum_size = UINT64_C(1) << 53,
     .pairs = true,
     .scramblings = AUR_SCRAMBLES_ALL,
     .prepare = prepare,

@@ -41,10 +41,8 @@ void aur_r2_steps(size_t dimension, aur_fraction128 *steps) {
     }
 }
 
-static aur_result prepare(aur_pointset *set, aur_parameters *keys, const aur_pointset_options *options,
-                          aur_error *error) {
+static aur_result prepare(aur_pointset *set, aur_parameters *keys, aur_error *error) {
     (void)keys;
-    (void)options;
     aur_fraction128 *const steps = malloc(set->dimension * sizeof *steps);
     if (steps == NULL)
         return aur_fail_memory(error);
@@ -70,11 +68,9 @@ const aur_square_set aur_set_r2 = {
                                 "additive recurrence of the plastic number (its kin in other dimensions)",
                             .source = "Roberts 2018"},
                     .domains = AUR_ON_SQUARE | AUR_ON_CUBE,
-                    .sizes = "any",
+                    .dimensions = {1, AUR_R2_DIMENSIONS},
+                    .maximum_size = UINT64_MAX,
                     .extensible = true},
-    .minimum_dimension = 1,
-    .maximum_dimension = AUR_R2_DIMENSIONS,
-    .maximum_size = UINT64_MAX,
     .scramblings = AUR_SCRAMBLES_SHIFT,
     .prepare = prepare,
     .fill = fill,

@@ -19,11 +19,9 @@ const aur_square_set aur_set_random = {
                             .summary = "independent uniform random points, counter-based",
                             .source = "Salmon 2011 (counter-based generation)"},
                     .domains = AUR_ON_SQUARE | AUR_ON_CUBE,
-                    .sizes = "any",
+                    .dimensions = {1, SIZE_MAX},
+                    .maximum_size = UINT64_MAX,
                     .extensible = true},
-    .minimum_dimension = 1,
-    .maximum_dimension = SIZE_MAX,
-    .maximum_size = UINT64_MAX,
     .scramblings = AUR_SCRAMBLES_ALL,
     .fill = fill,
 };

@@ -72,11 +72,10 @@ static void fill(const aur_pointset *set, const aur_block *block) {
     }
 }
 
-static aur_result prepare(aur_pointset *set, aur_parameters *keys, const aur_pointset_options *options,
-                          aur_error *error) {
+static aur_result prepare(aur_pointset *set, aur_parameters *keys, aur_error *error) {
     (void)keys;
     const size_t count = set->dimension < AUR_SOBOL_DIMENSIONS ? set->dimension : AUR_SOBOL_DIMENSIONS;
-    return aur_prepare_digital(set, count, make_matrix, options, error);
+    return aur_prepare_digital(set, count, make_matrix, error);
 }
 
 const aur_square_set aur_set_sobol = {
@@ -84,12 +83,12 @@ const aur_square_set aur_set_sobol = {
                             .summary = "(t,s)-sequence in base 2 of any dimension",
                             .source = "Sobol 1967; Joe, Kuo 2008; Burley 2020"},
                     .domains = AUR_ON_SQUARE | AUR_ON_CUBE,
-                    .sizes = "1..2^53; a net at 2^m",
+                    .dimensions = {1, SIZE_MAX},
+                    .maximum_size = UINT64_C(1) << 53,
+                    .best_sizes = AUR_SIZES_POWERS,
+                    .size_base = 2,
                     .extensible = true,
                     .binary_net = true},
-    .minimum_dimension = 1,
-    .maximum_dimension = SIZE_MAX,
-    .maximum_size = UINT64_C(1) << 53,
     .pairs = true,
     .scramblings = AUR_SCRAMBLES_ALL,
     .prepare = prepare,

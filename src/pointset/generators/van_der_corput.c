@@ -12,11 +12,9 @@ const aur_square_set aur_set_van_der_corput = {
                             .summary = "radical inverse in base 2, one dimension",
                             .source = "van der Corput 1935"},
                     .domains = AUR_ON_CUBE,
-                    .sizes = "1..2^48",
+                    .dimensions = {1, 1},
+                    .maximum_size = AUR_INDEX_LIMIT,
                     .extensible = true},
-    .minimum_dimension = 1,
-    .maximum_dimension = 1,
-    .maximum_size = AUR_INDEX_LIMIT,
     .scramblings = AUR_SCRAMBLES_ALL,
     .fill = fill,
 };

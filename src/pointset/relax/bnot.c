@@ -190,10 +190,8 @@ static aur_result relax(uint64_t seed, size_t count, aur_point2 *sites, aur_erro
     return AUR_OK;
 }
 
-static aur_result prepare(aur_pointset *set, aur_parameters *keys, const aur_pointset_options *options,
-                          aur_error *error) {
+static aur_result prepare(aur_pointset *set, aur_parameters *keys, aur_error *error) {
     (void)keys;
-    (void)options;
     return aur_prepare_relaxed(set, VERSION, relax, error);
 }
 
@@ -202,11 +200,8 @@ const aur_square_set aur_set_bnot = {
                             .summary = "blue noise through optimal transport, periodic",
                             .source = "de Goes, Breeden, Ostromoukhov, Desbrun 2012"},
                     .domains = AUR_ON_SQUARE,
-                    .sizes = "1..65536",
-                    .extensible = false},
-    .minimum_dimension = 2,
-    .maximum_dimension = 2,
-    .maximum_size = 1 << 16,
+                    .dimensions = {2, 2},
+                    .maximum_size = 1 << 16},
     .scramblings = AUR_SCRAMBLES_SHIFT,
     .prepare = prepare,
     .fill = aur_fill_table,

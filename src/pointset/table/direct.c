@@ -14,7 +14,7 @@ static aur_result emit(aur_pointset set, const aur_randomization *randomization,
         set.seed = randomization->seed;
     }
     if (set.size == 0)
-        set.size = set.kind->maximum_size;
+        set.size = aur_size_limit(&set.kind->description, set.dimension);
     const aur_result result = aur_pointset_check(&set, error);
     return result != AUR_OK ? result : aur_pointset_emit(&set, set.seed, first, count, output, error);
 }
@@ -35,17 +35,6 @@ static aur_result emit_sized(aur_pointset set, uint64_t size, const aur_randomiz
     return emit(set, randomization, first, count, output, error);
 }
 
-/* A stream of numbers that is consumed point by point and has so many of them. */
-static aur_result emit_stream(const aur_square_set *kind, size_t dimension, uint64_t seed, uint64_t first,
-                              size_t count, const aur_output *output, aur_error *error) {
-    const aur_result result = check_dimension(dimension, kind->maximum_dimension, error);
-    if (result != AUR_OK)
-        return result;
-    const aur_pointset set = {
-        .kind = kind, .size = kind->maximum_size / dimension, .dimension = dimension, .seed = seed};
-    return emit(set, NULL, first, count, output, error);
-}
-
 aur_result aur_random_points(size_t dimension, uint64_t seed, uint64_t first, size_t count,
                              const aur_output *output, aur_error *error) {
     const aur_pointset set = {.kind = &aur_set_random, .dimension = dimension, .seed = seed};
@@ -54,12 +43,14 @@ aur_result aur_random_points(size_t dimension, uint64_t seed, uint64_t first, si
 
 aur_result aur_lcg_points(size_t dimension, uint64_t seed, uint64_t first, size_t count,
                           const aur_output *output, aur_error *error) {
-    return emit_stream(&aur_set_lcg, dimension, seed, first, count, output, error);
+    const aur_pointset set = {.kind = &aur_set_lcg, .dimension = dimension, .seed = seed};
+    return emit(set, NULL, first, count, output, error);
 }
 
 aur_result aur_icg_points(size_t dimension, uint64_t seed, uint64_t first, size_t count,
                           const aur_output *output, aur_error *error) {
-    return emit_stream(&aur_set_icg, dimension, seed, first, count, output, error);
+    const aur_pointset set = {.kind = &aur_set_icg, .dimension = dimension, .seed = seed};
+    return emit(set, NULL, first, count, output, error);
 }
 
 aur_result aur_jittered_points(uint64_t size, uint64_t seed, uint64_t first, size_t count,

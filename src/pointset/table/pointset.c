@@ -1,6 +1,7 @@
 /* The table of the sets of the square, and making one of them ready from its text. */
 #include <aureole/pointset.h>
 
+#include <inttypes.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -39,17 +40,31 @@ static aur_result find_set(const char *name, const aur_square_set **kind, aur_er
     return result;
 }
 
-static aur_result make(aur_pointset *set, aur_parameters *keys, const aur_pointset_options *options,
-                       aur_error *error) {
+/* A size that is no power of its base leaves a net incomplete. */
+static void warn_incomplete_net(const aur_pointset *set) {
+    uint64_t rest = set->size;
+    while (set->net_base != 0 && rest % set->net_base == 0)
+        rest /= set->net_base;
+    if (set->net_base != 0 && rest != 1)
+        aur_warn_at(&set->options->warnings, (aur_location){0},
+                    "set '%s': %" PRIu64 " points are not a power of %" PRIu64 ", so the net is incomplete",
+                    set->kind->description.row.name, set->size, set->net_base);
+}
+
+static aur_result make(aur_pointset *set, aur_parameters *keys, aur_error *error) {
     aur_result result = find_set(keys->plugin, &set->kind, error);
-    if (result == AUR_OK && options->dimension == 0)
-        set->dimension = set->kind->maximum_dimension < 2 ? set->kind->maximum_dimension : 2;
+    if (result == AUR_OK && set->dimension == 0)
+        set->dimension = set->kind->description.dimensions[1] < 2 ? 1 : 2;
     if (result == AUR_OK)
         result = aur_pointset_check(set, error);
+    if (result == AUR_OK)
+        set->net_base = set->kind->description.size_base;
     if (result == AUR_OK && set->kind->prepare != NULL)
-        result = set->kind->prepare(set, keys, options, error);
+        result = set->kind->prepare(set, keys, error);
     if (result == AUR_OK)
         result = aur_parameters_finish(keys, error);
+    if (result == AUR_OK)
+        warn_incomplete_net(set);
     return result;
 }
 
@@ -89,7 +104,9 @@ aur_result aur_pointset_create(const char *text, const aur_pointset_options *opt
     set->dimension = own.dimension;
     set->scramble = own.scramble;
     set->seed = own.seed;
-    result = make(set, &keys, &own, error);
+    set->options = &own;
+    result = make(set, &keys, error);
+    set->options = NULL;
     aur_parameters_release(&keys);
     if (result != AUR_OK) {
         aur_pointset_destroy(set);

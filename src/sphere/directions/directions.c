@@ -109,10 +109,11 @@ static aur_result refuse_scramble(const char *set, aur_scramble scramble, aur_er
 static aur_result open_native(const char *set, const aur_directions_options *options,
                               aur_directions *directions, aur_error *error) {
     const aur_native_set *const native = directions->native;
-    if (options->count == 0 || options->count > native->maximum_size)
+    char sizes[64];
+    aur_set_sizes(&native->description, sizeof sizes, sizes);
+    if (options->count == 0 || options->count > native->description.maximum_size)
         return aur_fail(error, AUR_ERROR_ARGUMENT, "set '%s' has sizes %s, not %llu",
-                        native->description.row.name, native->description.sizes,
-                        (unsigned long long)options->count);
+                        native->description.row.name, sizes, (unsigned long long)options->count);
     aur_parameters keys;
     aur_result result = aur_parameters_parse(&keys, "set", set, error);
     if (result != AUR_OK)

@@ -1,4 +1,5 @@
 /* The table of all sets: those of the square, then those that are native to the sphere. */
+#include <inttypes.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -69,4 +70,33 @@ aur_result aur_set_check_name(const char *set, aur_error *error) {
     if (nearest != NULL)
         return aur_fail(error, AUR_ERROR_NAME, "unknown set '%s'; did you mean '%s'?", wanted, nearest);
     return aur_fail(error, AUR_ERROR_NAME, "unknown set '%s': 'aureole sets' lists them", wanted);
+}
+
+/* 2^k, 2^k-1 and 2^k-2 as such where they are large. */
+static void print_size(uint64_t size, size_t capacity, char *text) {
+    for (unsigned k = 10; k < 64; ++k)
+        for (unsigned below = 0; below < 3; ++below)
+            if (size == (UINT64_C(1) << k) - below) {
+                snprintf(text, capacity, below > 0 ? "(2^%u-%u)" : "2^%u", k, below);
+                return;
+            }
+    snprintf(text, capacity, "%" PRIu64, size);
+}
+
+size_t aur_set_sizes(const aur_set_description *set, size_t capacity, char *text) {
+    char most[32], range[64];
+    print_size(set->maximum_size, sizeof most, most);
+    snprintf(range, sizeof range, "1..%s%s", most, set->counts_coordinates ? "/dimension" : "");
+    const char *const reach = set->maximum_size < UINT64_MAX ? range
+                              : set->sized_by_file           ? "up to the file's"
+                                                             : "any";
+    const char *best = "";
+    if (set->best_sizes == AUR_SIZES_POWERS)
+        best = set->size_base == 2 ? "; a net at 2^m" : "; a net at base^m";
+    else if (set->best_sizes == AUR_SIZES_FIBONACCI)
+        best = "; a lattice at F_k";
+    else if (set->best_sizes == AUR_SIZES_GRIDS)
+        best = "; base*4^levels times 1, 2, 3, 4 is even";
+    const int length = snprintf(text, capacity, "%s%s", reach, best);
+    return length > 0 ? (size_t)length : 0;
 }

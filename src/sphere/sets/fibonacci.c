@@ -132,9 +132,8 @@ const aur_native_set aur_native_fibonacci = {
                             .source = "Swinbank 2006, Marques 2013",
                             AUR_ROW_KEYS(keys)},
                     .domains = AUR_ON_SPHERE | AUR_ON_HEMISPHERE | AUR_ON_DISK,
-                    .sizes = "1..2^50",
-                    .extensible = false},
-    .maximum_size = UINT64_C(1) << 50,
+                    .dimensions = {3, 3},
+                    .maximum_size = UINT64_C(1) << 50},
     .prepare = prepare,
     .fill = fill,
 };

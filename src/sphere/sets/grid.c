@@ -300,9 +300,10 @@ const aur_native_set aur_native_grid = {
                             .source = "Marques 2019",
                             AUR_ROW_KEYS(keys)},
                     .domains = AUR_ON_SPHERE | AUR_ON_HEMISPHERE | AUR_ON_DISK,
-                    .sizes = "1..2^48; base*4^levels times 1, 2, 3, 4 is even",
+                    .dimensions = {3, 3},
+                    .maximum_size = UINT64_C(1) << 48,
+                    .best_sizes = AUR_SIZES_GRIDS,
                     .extensible = true},
-    .maximum_size = UINT64_C(1) << 48,
     .prepare = prepare,
     .fill = fill,
 };
