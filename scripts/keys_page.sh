@@ -4,7 +4,7 @@
 # choices instead, as a dictionary for fuzzers (fuzz/keys.dict).
 set -eu
 program=$1
-kinds='set measure integrator bsdf texture shape emitter sensor film rfilter sampler'
+kinds='set measure integrator bsdf texture shape emitter sensor film rfilter sampler picture'
 
 if [ "${2:-}" = --words ]; then
   for kind in $kinds; do
@@ -61,7 +61,7 @@ cat <<'HEAD'
 # Keys
 
 Every key that sets, integrators, materials, textures, shapes, lights, cameras and films take, in SET and
-`--integrator` texts (`NAME:key=value,...`) and as children of a scene's elements. This page is written by
+`--integrator` texts (`NAME:key=value,...`) and as children of a scene's elements; those of pictures are options of `aureole convert`. This page is written by
 `scripts/keys_page.sh` from what `aureole help KIND NAME` prints, and a test compares them.
 HEAD
 for kind in $kinds; do

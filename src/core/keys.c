@@ -3,7 +3,6 @@
 #include <string.h>
 #include <strings.h>
 
-#include "core/names.h"
 #include "core/text.h"
 
 enum { EXPECTED_CAPACITY = 512 };
@@ -299,14 +298,18 @@ static const char *row_name(const void *table, size_t index) {
     return ((const aur_table *)table)->row(index)->name;
 }
 
+aur_names aur_names_of_table(const aur_table *table) {
+    aur_names names = {.at = row_name, .table = table};
+    while (table->row(names.count) != NULL)
+        ++names.count;
+    return names;
+}
+
 aur_result aur_table_find(const aur_table *table, const aur_parameters *parameters, const aur_row **row,
                           aur_error *error) {
-    size_t index = 0;
-    while (table->row(index) != NULL)
-        ++index;
-    const aur_names names = {.count = index, .at = row_name, .table = table};
-    const aur_result result =
-        aur_names_choose(names, table->kind, parameters->plugin, parameters->location, &index, error);
+    size_t index;
+    const aur_result result = aur_names_choose(aur_names_of_table(table), table->kind, parameters->plugin,
+                                               parameters->location, &index, error);
     *row = result == AUR_OK ? table->row(index) : NULL;
     return result;
 }

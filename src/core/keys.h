@@ -15,6 +15,7 @@
 #include <aureole/tables.h>
 #include <math.h>
 
+#include "core/names.h"
 #include "core/parameters.h"
 #include "core/vector.h"
 
@@ -73,6 +74,9 @@ aur_result aur_keys_read(size_t count, const aur_key *keys, aur_parameters *para
                          aur_error *error);
 /* The same for a row, and then aur_parameters_finish. */
 aur_result aur_row_read(const aur_row *row, aur_parameters *parameters, void *fields, aur_error *error);
+
+/* The names of a table's rows. */
+aur_names aur_names_of_table(const aur_table *table);
 
 /* The row that parameters->plugin names, or a NAME error with the nearest name or all of them. */
 aur_result aur_table_find(const aur_table *table, const aur_parameters *parameters, const aur_row **row,

@@ -267,4 +267,17 @@ static aur_result read_exr(const aur_image_source *source, aur_image **image, au
     return result;
 }
 
-const aur_image_format aur_image_format_exr = {"EXR", "exr", recognize, read_exr, aur_image_write_exr};
+static const aur_key keys[] = {
+    {AUR_KEY_OF_BOOLEAN(aur_image_write_options, "half", half, "false",
+                        "write floats of 16 bits, not of 32")},
+};
+
+const aur_image_format aur_image_format_exr = {
+    .row = {.name = "exr",
+            .summary = "OpenEXR: any channels, floats of 32 or 16 bits; flat, with scan lines or tiles",
+            .source = "",
+            AUR_ROW_KEYS(keys)},
+    .name = "EXR",
+    .recognize = recognize,
+    .read = read_exr,
+    .write = aur_image_write_exr};

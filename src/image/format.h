@@ -1,4 +1,5 @@
-/* The table of file formats, and what its entries share. */
+/* File formats, and what they share. A format is one aur_image_format_<name>, defined in the file that reads
+ * it, and one line in AUR_IMAGE_FORMATS. */
 #pragma once
 
 #include "image/image.h"
@@ -6,6 +7,7 @@
 #include <stdio.h>
 
 #include "core/error.h"
+#include "core/keys.h"
 
 /* Values (pixels times channels) that a picture may have: 4 GiB of floats. A file that claims more lies. */
 #define AUR_IMAGE_VALUES_MAX ((size_t)1 << 30)
@@ -24,19 +26,26 @@ typedef struct aur_image_target {
 } aur_image_target;
 
 typedef struct aur_image_format {
-    const char *name;
-    const char *extension; /* without the dot, lower case */
+    aur_row row;      /* its name is the extension, its keys are fields of aur_image_write_options */
+    const char *name; /* what aur_image_format_of returns */
     bool (*recognize)(const aur_image_source *source);
     aur_result (*read)(const aur_image_source *source, aur_image **image, aur_error *error);
     /* Errors of the stream are left to whoever commits the file. NULL: read only. */
     aur_result (*write)(const aur_image_target *target, const aur_image *image, aur_error *error);
 } aur_image_format;
 
-extern const aur_image_format aur_image_format_exr;
-extern const aur_image_format aur_image_format_pfm;
-extern const aur_image_format aur_image_format_hdr;
-extern const aur_image_format aur_image_format_png;
-extern const aur_image_format aur_image_format_jpeg;
+#define AUR_IMAGE_FORMATS(ROW)                                                                               \
+    ROW(exr)                                                                                                 \
+    ROW(pfm)                                                                                                 \
+    ROW(hdr)                                                                                                 \
+    ROW(png)                                                                                                 \
+    ROW(jpeg)
+
+#define AUR_DECLARE_IMAGE_FORMAT(name) extern const aur_image_format aur_image_format_##name;
+AUR_IMAGE_FORMATS(AUR_DECLARE_IMAGE_FORMAT)
+#undef AUR_DECLARE_IMAGE_FORMAT
+
+extern const aur_table aur_image_format_table;
 
 aur_result aur_image_write_exr(const aur_image_target *target, const aur_image *image, aur_error *error);
 

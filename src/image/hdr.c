@@ -183,4 +183,11 @@ static aur_result write_hdr(const aur_image_target *target, const aur_image *ima
     return result;
 }
 
-const aur_image_format aur_image_format_hdr = {"HDR", "hdr", recognize, read_hdr, write_hdr};
+const aur_image_format aur_image_format_hdr = {
+    .row = {.name = "hdr",
+            .summary = "Radiance's RGBE: R, G, B, 8 bits each and a common exponent",
+            .source = "Ward 1991"},
+    .name = "HDR",
+    .recognize = recognize,
+    .read = read_hdr,
+    .write = write_hdr};

@@ -135,5 +135,25 @@ static aur_result write_png(const aur_image_target *target, const aur_image *ima
     return result;
 }
 
-const aur_image_format aur_image_format_png = {"PNG", "png", recognize_png, read_png, write_png};
-const aur_image_format aur_image_format_jpeg = {"JPEG", "jpg", recognize_jpeg, read_jpeg, NULL};
+static const aur_key png_keys[] = {
+    {AUR_KEY_OF_REAL(aur_image_write_options, "exposure", exposure, -INFINITY, INFINITY, "0",
+                     "radiance is multiplied by 2 to this power")},
+    {AUR_KEY_OF_CHOICE(aur_image_write_options, "tone", tone, "srgb",
+                       "the tone curve; with srgb radiance 1 is white", "srgb", "filmic")},
+};
+
+const aur_image_format aur_image_format_png = {
+    .row = {.name = "png",
+            .summary = "PNG: one to four channels of 8 or 16 bits, sRGB; written with 8, as grey or R, G, B",
+            .source = "",
+            AUR_ROW_KEYS(png_keys)},
+    .name = "PNG",
+    .recognize = recognize_png,
+    .read = read_png,
+    .write = write_png};
+
+const aur_image_format aur_image_format_jpeg = {
+    .row = {.name = "jpg", .summary = "JPEG: grey or R, G, B, 8 bits, sRGB; is read only", .source = ""},
+    .name = "JPEG",
+    .recognize = recognize_jpeg,
+    .read = read_jpeg};

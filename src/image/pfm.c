@@ -116,4 +116,11 @@ static aur_result write_pfm(const aur_image_target *target, const aur_image *ima
     return AUR_OK;
 }
 
-const aur_image_format aur_image_format_pfm = {"PFM", "pfm", recognize, read_pfm, write_pfm};
+const aur_image_format aur_image_format_pfm = {
+    .row = {.name = "pfm",
+            .summary = "portable float map: one channel or R, G, B, floats of 32 bits",
+            .source = "Debevec 2001"},
+    .name = "PFM",
+    .recognize = recognize,
+    .read = read_pfm,
+    .write = write_pfm};

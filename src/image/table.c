@@ -4,17 +4,22 @@
 #include <string.h>
 #include <strings.h>
 
+#include <aureole/text.h>
+
 #include "core/file.h"
 #include "core/options.h"
 #include "image/format.h"
 
-/* One new format is one new file and one line here. */
-static const aur_image_format *const formats[] = {
-    &aur_image_format_exr, &aur_image_format_pfm,  &aur_image_format_hdr,
-    &aur_image_format_png, &aur_image_format_jpeg,
-};
+#define ROW_OF(name) &aur_image_format_##name,
+static const aur_image_format *const formats[] = {AUR_IMAGE_FORMATS(ROW_OF)};
 
 enum { FORMAT_COUNT = sizeof formats / sizeof formats[0] };
+
+static const aur_row *row_at(size_t index) {
+    return index < FORMAT_COUNT ? &formats[index]->row : NULL;
+}
+
+const aur_table aur_image_format_table = {"picture", "formats of picture files, by extension", row_at, NULL};
 
 static const aur_image_format *recognize(const aur_image_source *source) {
     for (size_t i = 0; i < FORMAT_COUNT; ++i)
@@ -33,10 +38,13 @@ aur_result aur_image_read_memory(const char *name, size_t size, const void *data
     *image = NULL;
     const aur_image_source source = {.name = name, .size = size, .data = data};
     const aur_image_format *const format = recognize(&source);
-    if (format == NULL)
+    if (format == NULL) {
+        char list[128];
+        aur_names_list(aur_names_of_table(&aur_image_format_table), list, sizeof list);
         return aur_fail_at(error, (aur_location){.file = name}, AUR_ERROR_FORMAT,
-                           size == 0 ? "is empty, not a picture"
-                                     : "is not a picture that can be read: EXR, PFM, HDR, PNG or JPEG");
+                           size == 0 ? "is empty, not a picture" : "is not a picture that can be read: %s",
+                           list);
+    }
     return format->read(&source, image, error);
 }
 
@@ -61,11 +69,20 @@ static const aur_image_format *find_writer(const char *path, const char *wanted,
         const char *const dot = strrchr(slash != NULL ? slash : path, '.');
         extension = strcmp(path, "-") == 0 ? "exr" : dot != NULL ? dot + 1 : "";
     }
-    for (size_t i = 0; i < FORMAT_COUNT; ++i)
-        if (formats[i]->write != NULL && strcasecmp(extension, formats[i]->extension) == 0)
+    const char *names[FORMAT_COUNT];
+    size_t count = 0;
+    for (size_t i = 0; i < FORMAT_COUNT; ++i) {
+        if (formats[i]->write == NULL)
+            continue;
+        if (strcasecmp(extension, formats[i]->row.name) == 0)
             return formats[i];
+        names[count++] = formats[i]->row.name;
+    }
+    char list[128];
+    aur_list_names(count - 1, names, list, sizeof list);
     aur_fail_at(error, (aur_location){.file = path}, AUR_ERROR_NAME,
-                "cannot tell how to write a picture from '%s': use exr, pfm, hdr or png", extension);
+                "cannot tell how to write a picture from '%s': use %s or %s", extension, list,
+                names[count - 1]);
     return NULL;
 }
 

@@ -1,21 +1,14 @@
 #include "render/settings.h"
 
 #include "core/error.h"
-#include "core/names.h"
 #include "scene/filter.h"
-
-static const char *filter_name(const void *table, size_t index) {
-    return ((const aur_table *)table)->row(index)->name;
-}
 
 static aur_result read_filter(const char *name, aur_render_settings *s, aur_error *error) {
     if (name == NULL)
         return AUR_OK;
-    aur_names names = {.at = filter_name, .table = &aur_filter_table};
-    while (aur_filter_table.row(names.count) != NULL)
-        ++names.count;
     size_t index;
-    const aur_result result = aur_names_choose(names, "filter", name, (aur_location){0}, &index, error);
+    const aur_result result = aur_names_choose(aur_names_of_table(&aur_filter_table), "filter", name,
+                                               (aur_location){0}, &index, error);
     if (result == AUR_OK)
         s->filter = aur_filter_find(name);
     return result;

@@ -1,6 +1,7 @@
 /* The tables of libaureole-render: a line a table. */
 #include <aureole/render.h>
 
+#include "image/format.h"
 #include "material/texture.h"
 #include "scene/emitter.h"
 #include "scene/filter.h"
@@ -20,6 +21,7 @@ static const aur_table *const tables[] = {
     &aur_film_table,
     &aur_filter_table,
     &aur_sampler_table,
+    &aur_image_format_table,
 };
 /* clang-format on */
 

@@ -26,7 +26,7 @@ expect 2 "did you mean 'finalgather'?" help integrator finalgathr
 expect 2 "unknown verb 'xyzzyplugh'" help xyzzyplugh
 expect 2 "one verb, or a kind and a name" help set sobol more
 # Every row of every kind can be asked for, and its keys come as CSV, one a line.
-for kind in set measure integrator shape emitter sensor rfilter film; do
+for kind in set measure integrator shape emitter sensor rfilter film picture; do
   "$aureole" help "$kind" --format csv | tail -n +2 | cut -d, -f1 >names
   [ -s names ] || fail "no $kind"
   while read -r name; do

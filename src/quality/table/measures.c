@@ -5,7 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "core/names.h"
+#include "core/keys.h"
 #include "core/options.h"
 #include "core/text.h"
 #include "sphere/native.h"
@@ -36,19 +36,14 @@ const aur_table *aur_table_at(size_t index) {
     return index < sizeof tables / sizeof tables[0] ? tables[index] : NULL;
 }
 
-static const char *name_at(const void *table, size_t index) {
-    (void)table;
-    return rows[index]->description.row.name;
-}
-
 static aur_result find_row(const char *metric, const aur_measure_row **row, const char **parameter,
                            aur_error *error) {
     const size_t length = strcspn(metric, ":");
     char name[64];
     aur_format(name, sizeof name, "%.*s", (int)(length < sizeof name ? length : sizeof name - 1), metric);
     size_t index;
-    const aur_result result = aur_names_choose((aur_names){ROW_COUNT, name_at, NULL}, "measure", name,
-                                               (aur_location){0}, &index, error);
+    const aur_result result =
+        aur_names_choose(aur_names_of_table(&measures), "measure", name, (aur_location){0}, &index, error);
     if (result != AUR_OK)
         return result;
     *row = rows[index];
