@@ -3,6 +3,8 @@
 #define AUREOLE_VIEW_FACTORS_H
 
 #include <aureole/scene.h>
+#include <stdbool.h>
+#include <string.h>
 
 #ifdef __cplusplus
 extern "C" {
@@ -17,6 +19,133 @@ extern "C" {
 AUR_API aur_result aur_view_factor_polygons(size_t from_count, const double *from, size_t to_count,
                                             const double *to, double *factor, aur_error *error)
     AUR_NONNULL(2, 4, 5);
+
+/* --- facets: what light goes between */
+
+/* The triangles of a mesh or of a scene's meshes. They see along their normals (corners are counter-clockwise
+ * seen from the front), and hide what is behind them from both sides. Immutable once loaded. */
+typedef struct aur_facets aur_facets;
+
+/* All zero but `size`, as aur_facets_options_default makes it: a row for the front of every triangle. */
+typedef struct aur_facets_options {
+    size_t size;     /* of the caller's struct, so that it can grow */
+    bool group;      /* a row for each group of an OBJ, or each shape of a scene or PLY */
+    bool both_sides; /* facets see on their backs too: the rows of the backs follow those of the fronts */
+    size_t definition_count;
+    const aur_definition *definitions; /* of scenes, as in aur_scene_options */
+    /* One for each kind of oddity, with how many there are and the first place: facets without area, facets
+     * that lie on each other, open or inconsistent edges. */
+    aur_warnings warnings;
+} aur_facets_options;
+
+static inline aur_facets_options aur_facets_options_default(void) {
+    aur_facets_options options;
+    memset(&options, 0, sizeof options);
+    options.size = sizeof options;
+    return options;
+}
+
+/* Reads an OBJ, a PLY or a scene (.xml). `options` may be NULL. Errors: OPEN, FORMAT (with file and line),
+ * UNSUPPORTED (other files; shapes that are no meshes, or instances), those of aur_scene_load, MEMORY. */
+AUR_API aur_result aur_facets_load(const char *path, const aur_facets_options *options, aur_facets **facets,
+                                   aur_error *error) AUR_NONNULL(1, 3);
+AUR_API void aur_facets_destroy(aur_facets *facets); /* NULL is allowed */
+/* The number of rows, and the area of each of them in squared units of length; owned by the facets. */
+AUR_API size_t aur_facets_rows(const aur_facets *facets) AUR_NONNULL(1);
+AUR_API const double *aur_facets_areas(const aur_facets *facets) AUR_NONNULL(1);
+/* The name of the row's group, owned by the facets; NULL when rows are single facets. */
+AUR_API const char *aur_facets_name(const aur_facets *facets, size_t row) AUR_NONNULL(1);
+
+/* --- the matrix */
+
+/* All zero but `size`, as aur_view_factors_options_default makes it, takes the defaults. */
+typedef struct aur_view_factors_options {
+    size_t size;           /* of the caller's struct, so that it can grow */
+    size_t rays;           /* from each facet and side, all randomisations together; 0: 4096 */
+    size_t randomizations; /* independent ones, 2 .. 64, from which intervals come; 0: 8 */
+    const char *set;       /* a SET of four dimensions: place and direction; NULL: "sobol" */
+    uint64_t seed;
+    bool rays_only;    /* no closed forms: for comparisons */
+    double confidence; /* of the intervals, in (0,1); 0: 0.95 */
+    size_t threads;    /* 0: all */
+    aur_progress progress;
+    aur_warnings warnings; /* backs that are seen, rows that cannot be made to add up */
+} aur_view_factors_options;
+
+static inline aur_view_factors_options aur_view_factors_options_default(void) {
+    aur_view_factors_options options;
+    memset(&options, 0, sizeof options);
+    options.size = sizeof options;
+    return options;
+}
+
+typedef struct aur_view_factors aur_view_factors;
+
+/* The view factors between all rows of `facets`, which need not outlive them. Pairs of facets that certainly
+ * see each other wholly have the contour integral: nothing that is there crosses the hull of the two, to the
+ * precision of the mesh's coordinates. All others are counted along rays, with independent randomisations.
+ * Then the sampled factors are moved as little as possible (least squares, in proportion to their variances)
+ * so that every row with sky and backs adds up to 1 and A_i F_ij = A_j F_ji; no factor is negative. The
+ * result is a function of the facets and the options, whatever the threads. Errors: NAME, ARGUMENT (options
+ * out of range), UNSUPPORTED (a set without four dimensions), CANCELLED, MEMORY. */
+AUR_API aur_result aur_view_factors_create(const aur_facets *facets, const aur_view_factors_options *options,
+                                           aur_view_factors **factors, aur_error *error) AUR_NONNULL(1, 3);
+AUR_API void aur_view_factors_destroy(aur_view_factors *factors); /* NULL is allowed */
+
+/* The matrix in compressed rows, owned by the view factors: row i has the entries starts[i] .. starts[i+1]-1,
+ * columns ascending. `half_widths` are those of the intervals, 0 for closed forms. `sky` is what leaves the
+ * scene and `back` what arrives at backs of facets that only see on their fronts: with them a row is 1. */
+typedef struct aur_view_factors_matrix {
+    size_t size; /* of the caller's struct, so that it can grow */
+    size_t rows;
+    const uint64_t *starts;    /* rows + 1 */
+    const uint32_t *columns;   /* starts[rows] */
+    const double *values;      /* starts[rows] */
+    const double *half_widths; /* starts[rows] */
+    const double *areas;       /* rows, as for all that follow */
+    const double *sky, *sky_half_widths;
+    const double *back;
+} aur_view_factors_matrix;
+
+/* Errors: ARGUMENT when `size` is not set. */
+AUR_API aur_result aur_view_factors_get_matrix(const aur_view_factors *factors,
+                                               aur_view_factors_matrix *matrix, aur_error *error)
+    AUR_NONNULL(1, 2);
+
+/* How it came about. `size` is set by the caller. */
+typedef struct aur_view_factors_description {
+    size_t size;
+    uint64_t rays;         /* traced */
+    uint64_t closed_pairs; /* pairs of patches that have the closed form */
+    uint64_t sampled_pairs;
+    double closed_share;      /* of all light between patches, what closed forms carry */
+    double largest_row_error; /* |sum of a row with sky and back - 1|: what could not be taken away */
+    double raw_row_error;     /* root mean square of the same before the factors were moved, by area */
+    double moved;             /* sum of |changes| of A_i F_ij over their sum */
+} aur_view_factors_description;
+
+/* Errors: ARGUMENT when `size` is not set. */
+AUR_API aur_result aur_view_factors_describe(const aur_view_factors *factors,
+                                             aur_view_factors_description *description, aur_error *error)
+    AUR_NONNULL(1, 2);
+
+/* Writes the matrix. Formats: "npz" (scipy.sparse.load_npz reads it; the other arrays stand beside it),
+ * "csv" (one line an entry; the sky has the column -1, backs -2), "view3d" (the text of View3D's output: all
+ * rows * rows factors). Errors: NAME, WRITE, MEMORY. */
+AUR_API aur_result aur_view_factors_write(const aur_view_factors *factors, const char *format,
+                                          const char *path, aur_error *error) AUR_NONNULL(1, 2, 3);
+/* Writes the facets as an input of View3D (.vs3), with its groups as combined surfaces. Errors: WRITE,
+ * MEMORY.
+ */
+AUR_API aur_result aur_facets_write_vs3(const aur_facets *facets, const char *path, aur_error *error)
+    AUR_NONNULL(1, 2);
+
+/* y = F x and the sky factors without the matrix: rays alone, each of which brings home the x of the row that
+ * it meets. The same options are the same linear map. x, y and sky (may be NULL) have one number a row. Rows
+ * add up to 1 but A_i F_ij = A_j F_ji holds within the error only. Errors as for aur_view_factors_create. */
+AUR_API aur_result aur_view_factors_product(const aur_facets *facets, const aur_view_factors_options *options,
+                                            const double *x, double *y, double *sky, aur_error *error)
+    AUR_NONNULL(1, 3, 4);
 
 #ifdef __cplusplus
 }

@@ -12,6 +12,7 @@
     ROW(measure)                                                                                             \
     ROW(weights)                                                                                             \
     ROW(render)                                                                                              \
+    ROW(viewfactors)                                                                                         \
     ROW(compare)                                                                                             \
     ROW(convert)                                                                                             \
     ROW(lab)                                                                                                 \

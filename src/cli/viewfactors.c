@@ -1,0 +1,176 @@
+/* aureole viewfactors: how much of what leaves each facet arrives at each other one. */
+#include <aureole/view_factors.h>
+#include <math.h>
+#include <string.h>
+
+#include "cli/options.h"
+#include "cli/viewfactors.h"
+
+typedef struct factor_command {
+    aur_facets_options facets;
+    aur_view_factors_options factors;
+    cli_definitions definitions;
+    const char *output, *format;
+    bool quiet, matrix_free;
+    double reflectance;
+    cli_format table;
+} factor_command;
+
+static const cli_option options[] = {
+    {.key =
+         {"output", AUR_KEY_TEXT,
+          ".npz (scipy.sparse.load_npz reads it), .csv, .txt or .vf (View3D's output), .vs3 (the facets as "
+          "View3D's input)",
+          "a summary is printed", .computed = true, CLI_FIELD(factor_command, output)},
+     .letter = 'o',
+     .value = "FILE",
+     .content = "file"},
+    {.key = {"to", AUR_KEY_TEXT, "the format, where the name of FILE does not tell",
+             .words = (const char *const[]){"npz", "csv", "view3d", "vs3", NULL},
+             CLI_FIELD(factor_command, format)},
+     .value = "FORMAT"},
+    {.key = {"group", .help = "a row for each group of an OBJ, or each shape of a scene",
+             CLI_FIELD(factor_command, facets.group)}},
+    {.key = {"both-sides", .help = "facets see on their backs too: these rows follow the others",
+             CLI_FIELD(factor_command, facets.both_sides)}},
+    {.key = {"rays", AUR_KEY_INTEGER, "from each facet and side", "4096", .minimum = 2, .maximum = 1 << 22,
+             CLI_FIELD(factor_command, factors.rays)},
+     .value = "N"},
+    {.key = {"randomizations", AUR_KEY_INTEGER, "independent parts of the rays, from which intervals come",
+             "8", .minimum = 2, .maximum = 64, CLI_FIELD(factor_command, factors.randomizations)},
+     .value = "R"},
+    {.key = {"set", AUR_KEY_TEXT, "directions and places of the rays, in four dimensions", "sobol",
+             CLI_FIELD(factor_command, factors.set)},
+     .value = "SET",
+     .content = "set"},
+    {.key = {"seed", AUR_KEY_INTEGER, "of the randomisations", "0", .maximum = INFINITY,
+             CLI_FIELD(factor_command, factors.seed)},
+     .value = "S"},
+    {.key = {"confidence", AUR_KEY_REAL, "of the intervals", "0.95", .minimum = 0.01, .maximum = 0.999999,
+             CLI_FIELD(factor_command, factors.confidence)},
+     .value = "P"},
+    {.key = {"rays-only", .help = "no closed forms", CLI_FIELD(factor_command, factors.rays_only)}},
+    {.key = {"radiosity", AUR_KEY_REAL,
+             "instead of factors each row's area, sky factor and radiosity under a sky of radiosity 1, when "
+             "all "
+             "facets reflect RHO: CSV, to FILE or printed",
+             .maximum = 1, CLI_FIELD(factor_command, reflectance)},
+     .value = "RHO"},
+    {.key = {"matrix-free",
+             .help = "for --radiosity: rays are traced anew for each product, no matrix is kept",
+             CLI_FIELD(factor_command, matrix_free)}},
+    {.key = {0}}};
+
+/* The format that the output's name tells. */
+static bool find_format(factor_command *given) {
+    if (given->format != NULL || given->output == NULL)
+        return true;
+    const char *const dot = strrchr(given->output, '.');
+    const char *const ending = dot != NULL ? dot + 1 : "";
+    if (strcmp(ending, "npz") == 0 || strcmp(ending, "csv") == 0 || strcmp(ending, "vs3") == 0)
+        given->format = ending;
+    else if (strcmp(ending, "txt") == 0 || strcmp(ending, "vf") == 0)
+        given->format = "view3d";
+    if (given->format != NULL)
+        return true;
+    cli_bad_usage("viewfactors: the name '%s' tells no format: end it in .npz, .csv, .txt, .vf or .vs3, or "
+                  "say --to",
+                  given->output);
+    return false;
+}
+
+static bool options_fit(const cli_call *call) {
+    factor_command *const given = call->options;
+    const bool radiosity = cli_given(call, "radiosity") != NULL;
+    if (given->matrix_free && !radiosity) {
+        cli_bad_usage("viewfactors: --matrix-free makes no matrix: ask for what it is for, --radiosity RHO");
+        return false;
+    }
+    if (radiosity && given->format != NULL) {
+        cli_bad_usage("viewfactors: --radiosity writes a table of CSV, no matrix: leave --to out");
+        return false;
+    }
+    return radiosity || find_format(given);
+}
+
+/* What has been done, for people. */
+static int print_summary(const aur_view_factors *factors, cli_format format) {
+    aur_view_factors_description d = {.size = sizeof d};
+    aur_view_factors_matrix m = {.size = sizeof m};
+    aur_view_factors_describe(factors, &d, NULL);
+    aur_view_factors_get_matrix(factors, &m, NULL);
+    cli_table *const table = cli_table_create(0, NULL);
+    cli_fact_number(table, "rows", (double)m.rows);
+    cli_fact_number(table, "entries", (double)m.starts[m.rows]);
+    cli_fact_number(table, "rays", (double)d.rays);
+    cli_fact_number(table, "closed_pairs", (double)d.closed_pairs);
+    cli_fact_number(table, "sampled_pairs", (double)d.sampled_pairs);
+    cli_fact_number(table, "closed_share", d.closed_share);
+    cli_fact_number(table, "raw_row_error", d.raw_row_error);
+    cli_fact_number(table, "moved", d.moved);
+    cli_fact_number(table, "largest_row_error", d.largest_row_error);
+    return cli_table_finish(table, format);
+}
+
+static int write_matrix(const aur_facets *facets, const factor_command *given) {
+    aur_error error;
+    aur_view_factors *factors = NULL;
+    aur_result result = aur_view_factors_create(facets, &given->factors, &factors, &error);
+    cli_progress_clear();
+    if (result == AUR_OK && given->format != NULL)
+        result = aur_view_factors_write(factors, given->format, given->output != NULL ? given->output : "-",
+                                        &error);
+    int status = cli_status(result, &error);
+    if (result == AUR_OK && given->format == NULL)
+        status = print_summary(factors, given->table);
+    aur_view_factors_destroy(factors);
+    return status;
+}
+
+static int run(const cli_call *call) {
+    factor_command *const given = call->options;
+    if (!options_fit(call))
+        return CLI_BAD_INPUT;
+    given->facets.size = sizeof given->facets;
+    given->facets.definition_count = given->definitions.count;
+    given->facets.definitions = given->definitions.items;
+    given->facets.warnings = given->factors.warnings = cli_warnings(given->quiet);
+    given->factors.size = sizeof given->factors;
+    given->factors.progress = cli_progress(given->quiet);
+    aur_error error;
+    aur_facets *facets = NULL;
+    if (aur_facets_load(call->operands[0], &given->facets, &facets, &error) != AUR_OK)
+        return cli_fail(&error);
+    int status;
+    if (cli_given(call, "radiosity") != NULL)
+        status = cli_viewfactors_radiosity(facets, &given->factors, given->matrix_free, given->reflectance,
+                                           given->output);
+    else if (given->format != NULL && strcmp(given->format, "vs3") == 0)
+        status = cli_status(aur_facets_write_vs3(facets, given->output != NULL ? given->output : "-", &error),
+                            &error);
+    else
+        status = write_matrix(facets, given);
+    aur_facets_destroy(facets);
+    return status;
+}
+
+const cli_verb cli_verb_viewfactors = {
+    .name = "viewfactors",
+    .summary = "view factors between the facets of a mesh",
+    .notes =
+        "Facets see along their normals, which corners that are counter-clockwise for who looks at them "
+        "have. "
+        "Pairs of facets that certainly see each other wholly have closed forms, others are counted along "
+        "rays. Rows and the sky add up to 1, and areas times factors are symmetric. See "
+        "docs/view-factors.md.",
+    .too_few = "one mesh or scene is needed",
+    .too_many = "one mesh or scene is needed",
+    .operands = {{"MESH", "an OBJ, a PLY or a scene (.xml)", .content = "file"}},
+    .groups = {{options},
+               {cli_definitions_option, offsetof(factor_command, definitions)},
+               {cli_threads_option, offsetof(factor_command, factors.threads)},
+               {cli_format_option, offsetof(factor_command, table)},
+               {cli_quiet_option, offsetof(factor_command, quiet)}},
+    .size = sizeof(factor_command),
+    .run = run,
+};

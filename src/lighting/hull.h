@@ -1,0 +1,25 @@
+/* Whether anything stands between two facets: the hull of two polygons, held against all facets. */
+#pragma once
+
+#include "lighting/box_tree.h"
+
+enum { AUR_HULL_CORNERS = 4, AUR_HULL_PLANES = 2 + 4 * AUR_HULL_CORNERS * AUR_HULL_CORNERS };
+
+/* The hull of two polygons, each of at most four corners and in front of the other's plane: where all light
+ * between them is. Everything in it is in front of all planes. */
+typedef struct aur_hull {
+    size_t corner_count, plane_count;
+    double corners[2 * AUR_HULL_CORNERS][3];
+    double lower[3], upper[3];
+    aur_plane planes[AUR_HULL_PLANES];
+    double slack; /* to which positions are known */
+} aur_hull;
+
+void aur_hull_make(const aur_plane planes[2], const size_t counts[2], double (*const polygons[2])[3],
+                   double slack, aur_hull *hull);
+
+/* Whether certainly no facet but the given two crosses the hull. That a facet does not is known when a plane
+ * of the hull or the facet's own parts the two; touching is no crossing. So "false" may be wrong, and "true"
+ * is not, but for what is thinner than the slack. */
+bool aur_hull_is_empty(const aur_hull *hull, const aur_facets *facets, const aur_box_tree *tree,
+                       const size_t facet[2]);

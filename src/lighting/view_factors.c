@@ -1,0 +1,207 @@
+/* The view factors of facets: rays, closed forms, and the balance of both. */
+#include <aureole/view_factors.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "core/options.h"
+#include "lighting/exchange.h"
+#include "lighting/view_factors.h"
+
+enum { MOST_RAYS = UINT16_MAX, DEFAULT_RAYS = 4096, DEFAULT_RANDOMIZATIONS = 8, MOST_RANDOMIZATIONS = 64 };
+
+aur_result aur_view_factors_read_options(const aur_view_factors_options *given,
+                                         aur_view_factors_options *options, aur_error *error) {
+    *options = aur_view_factors_options_default();
+    const aur_result result =
+        aur_options_read(given, sizeof *options, sizeof *options, options, "aur_view_factors_options", error);
+    if (result != AUR_OK)
+        return result;
+    if (options->rays == 0)
+        options->rays = DEFAULT_RAYS;
+    if (options->randomizations == 0)
+        options->randomizations = DEFAULT_RANDOMIZATIONS;
+    if (options->set == NULL)
+        options->set = "sobol";
+    if (options->confidence == 0.0)
+        options->confidence = 0.95;
+    if (!(options->confidence > 0.0 && options->confidence < 1.0))
+        return aur_fail(error, AUR_ERROR_ARGUMENT, "the confidence must be in (0,1), not %g",
+                        options->confidence);
+    if (options->randomizations < 2 || options->randomizations > MOST_RANDOMIZATIONS)
+        return aur_fail(error, AUR_ERROR_ARGUMENT, "there must be 2 to %d randomisations, not %zu",
+                        MOST_RANDOMIZATIONS, options->randomizations);
+    if (options->rays < options->randomizations || options->rays > MOST_RAYS * options->randomizations)
+        return aur_fail(
+            error, AUR_ERROR_ARGUMENT,
+            "there must be 1 to %d rays for each of %zu randomisations, %zu to %zu in all, not %zu",
+            MOST_RAYS, options->randomizations, options->randomizations, MOST_RAYS * options->randomizations,
+            options->rays);
+    return AUR_OK;
+}
+
+/* Exchanges become factors. */
+static void finish(aur_exchange *g, aur_view_factors *made) {
+    made->columns = g->columns;
+    made->starts = g->starts;
+    made->values = g->values;
+    made->half_widths = g->half_widths;
+    made->areas = g->areas;
+    made->sky = g->sky;
+    made->sky_half_widths = g->sky_half_widths;
+    made->back = g->back;
+    made->rows = g->rows;
+    g->columns = NULL;
+    g->starts = NULL;
+    g->values = g->half_widths = g->areas = g->sky = g->sky_half_widths = g->back = NULL;
+    double total = 0.0;
+    for (size_t a = 0; a < made->rows; ++a) {
+        const double area = made->areas[a] > 0.0 ? made->areas[a] : 1.0;
+        for (uint64_t e = made->starts[a]; e < made->starts[a + 1]; ++e) {
+            total += made->values[e];
+            made->values[e] /= area;
+            made->half_widths[e] /= area;
+        }
+        made->sky[a] /= area;
+        made->sky_half_widths[a] /= area;
+        made->back[a] /= area;
+    }
+    made->description.closed_share = total > 0.0 ? fmin(g->closed_total / total, 1.0) : 0.0;
+}
+
+static aur_result copy_names(const aur_facets *facets, aur_view_factors *made, aur_error *error) {
+    if (!facets->grouped)
+        return AUR_OK;
+    for (size_t i = 0; i < facets->group_count; ++i)
+        if (strlen(facets->names[i]) > made->name_width)
+            made->name_width = strlen(facets->names[i]);
+    made->name_width += made->name_width == 0;
+    made->names = calloc(made->rows, made->name_width);
+    if (made->names == NULL)
+        return aur_fail_memory(error);
+    for (size_t i = 0; i < made->rows; ++i) {
+        const char *const name = aur_facets_name(facets, i);
+        memcpy(&made->names[made->name_width * i], name, strlen(name));
+    }
+    return AUR_OK;
+}
+
+static void warn(const aur_facets *facets, const aur_view_factors *made, const aur_balance *balance,
+                 const aur_warnings *warnings) {
+    const aur_location place = {.file = facets->path};
+    size_t count = 0;
+    double most = 0.0;
+    for (size_t a = 0; a < made->rows; ++a) {
+        count += made->back[a] > 0.0;
+        most = fmax(most, made->back[a]);
+    }
+    if (count > 0)
+        aur_warn_at(warnings, place,
+                    "%zu rows see backs of facets, up to %.3g of what leaves them: the surfaces are open, or "
+                    "inside out, or see on both sides",
+                    count, most);
+    if (balance->unbalanced > 0)
+        aur_warn_at(
+            warnings, place,
+            "%zu rows cannot be made to add up to 1 with symmetric exchanges, the worst is off by %.3g",
+            balance->unbalanced, balance->after);
+}
+
+static aur_result compute(const aur_facets *facets, const aur_view_factors_options *options,
+                          aur_view_factors *made, aur_error *error) {
+    const aur_parallel_options parallel = {.threads = options->threads, .progress = options->progress};
+    aur_facet_pattern pattern = {0};
+    aur_visits visits = {0};
+    aur_closed_pairs closed = {.patch_count = facets->patch_count,
+                               .rows = calloc(facets->patch_count, sizeof *closed.rows)};
+    aur_exchange exchange = {0};
+    aur_balance balance = {0};
+    aur_result result = closed.rows != NULL ? AUR_OK : aur_fail_memory(error);
+    if (result == AUR_OK)
+        result = aur_facet_pattern_create(options->set, options->rays / options->randomizations,
+                                          options->seed, &pattern, error);
+    if (result == AUR_OK)
+        result = aur_visits_trace(facets, &pattern, options->randomizations, &parallel, &visits, error);
+    if (result == AUR_OK && !options->rays_only) {
+        aur_closed_pairs_release(&closed);
+        result = aur_closed_pairs_find(facets, &visits, &parallel, &closed, error);
+    }
+    if (result == AUR_OK)
+        result =
+            aur_exchange_assemble(facets, &visits, &closed, options->confidence, &parallel, &exchange, error);
+    if (result == AUR_OK)
+        result = aur_exchange_balance(&exchange, &parallel, &balance, error);
+    if (result == AUR_OK) {
+        made->description = (aur_view_factors_description){.size = sizeof made->description,
+                                                           .rays = (uint64_t)facets->patch_count *
+                                                                   visits.rays * visits.randomizations,
+                                                           .closed_pairs = exchange.closed_pairs,
+                                                           .sampled_pairs = exchange.sampled_pairs,
+                                                           .largest_row_error = balance.after,
+                                                           .raw_row_error = balance.before,
+                                                           .moved = balance.moved};
+        finish(&exchange, made);
+        result = copy_names(facets, made, error);
+        warn(facets, made, &balance, &options->warnings);
+    }
+    aur_facet_pattern_release(&pattern);
+    aur_visits_release(&visits);
+    aur_closed_pairs_release(&closed);
+    aur_exchange_release(&exchange);
+    return result;
+}
+
+aur_result aur_view_factors_create(const aur_facets *facets, const aur_view_factors_options *given,
+                                   aur_view_factors **factors, aur_error *error) {
+    *factors = NULL;
+    aur_view_factors_options options;
+    aur_result result = aur_view_factors_read_options(given, &options, error);
+    if (result != AUR_OK)
+        return result;
+    aur_view_factors *const made = calloc(1, sizeof *made);
+    if (made == NULL)
+        return aur_fail_memory(error);
+    result = compute(facets, &options, made, error);
+    if (result != AUR_OK) {
+        aur_view_factors_destroy(made);
+        return result;
+    }
+    *factors = made;
+    return AUR_OK;
+}
+
+void aur_view_factors_destroy(aur_view_factors *factors) {
+    if (factors == NULL)
+        return;
+    free(factors->starts);
+    free(factors->columns);
+    free(factors->values);
+    free(factors->half_widths);
+    free(factors->areas);
+    free(factors->sky);
+    free(factors->sky_half_widths);
+    free(factors->back);
+    free(factors->names);
+    free(factors);
+}
+
+aur_result aur_view_factors_get_matrix(const aur_view_factors *factors, aur_view_factors_matrix *matrix,
+                                       aur_error *error) {
+    const aur_view_factors_matrix own = {.size = sizeof own,
+                                         .rows = factors->rows,
+                                         .starts = factors->starts,
+                                         .columns = factors->columns,
+                                         .values = factors->values,
+                                         .half_widths = factors->half_widths,
+                                         .areas = factors->areas,
+                                         .sky = factors->sky,
+                                         .sky_half_widths = factors->sky_half_widths,
+                                         .back = factors->back};
+    return aur_description_write(&own, sizeof own, sizeof own, matrix, "aur_view_factors_matrix", error);
+}
+
+aur_result aur_view_factors_describe(const aur_view_factors *factors,
+                                     aur_view_factors_description *description, aur_error *error) {
+    const aur_view_factors_description *const own = &factors->description;
+    return aur_description_write(own, sizeof *own, sizeof *own, description, "aur_view_factors_description",
+                                 error);
+}

@@ -1,0 +1,122 @@
+#!/usr/bin/env bash
+# aureole viewfactors: its files, what it reports of odd meshes, and what it refuses.
+set -u
+aureole=$1
+failures=0
+fail() {
+  echo "FAILED: $*"
+  failures=$((failures + 1))
+}
+# refused STATUS TEXT ARGUMENTS...: the verb ends with the status and says the text.
+refused() {
+  local status=$1 text=$2 said
+  shift 2
+  said=$("$aureole" viewfactors "$@" 2>&1 >/dev/null)
+  [ $? = "$status" ] || fail "$*: status is not $status: $said"
+  grep -qF -- "$text" <<<"$said" || fail "$*: '$text' is not in: $said"
+}
+
+corners='v 0 0 0
+v 1 0 0
+v 0 1 0
+v 1 1 0
+v 0 0 1
+v 1 0 1
+v 0 1 1
+v 1 1 1'
+{
+  echo "$corners"
+  printf 'g floor\nf 1 2 4 3\ng ceiling of glass\nf 5 7 8 6\ng walls\nf 1 5 6 2\nf 3 4 8 7\nf 1 3 7 5\nf 2 6 8 4\n'
+} >room.obj
+
+# --- formats
+"$aureole" viewfactors room.obj --group -o room.csv || fail "csv"
+awk -F, '$1 == 0 && $2 == 1 { found = ($3 > .199824894 && $3 < .199824898) } END { exit !found }' room.csv ||
+  fail "the cube's opposite sides: $(cat room.csv)"
+[ "$(grep -c ',-1,0,0$' room.csv)" = 3 ] || fail "a closed room sees sky: $(cat room.csv)"
+"$aureole" viewfactors room.obj --to view3d >room.vf || fail "view3d"
+[ "$(sed -n 1p room.vf | wc -c)" = 31 ] || fail "the first line of View3D's output has 30 characters"
+[ "$(sed -n 3p room.vf | wc -w)" = 12 ] || fail "a row of View3D's output has all columns"
+[ "$(wc -l <room.vf)" = 15 ] || fail "View3D's output has a line for each row and three more"
+"$aureole" viewfactors room.obj --group -o room.vs3 || fail "vs3"
+[ "$(grep -c '^V ' room.vs3)" = 8 ] && [ "$(grep -c '^S ' room.vs3)" = 12 ] || fail "vs3: $(cat room.vs3)"
+grep -q '^S 4 .* 0 0 3 1.0 ceiling_of_glass$' room.vs3 || fail "vs3 combines the surfaces of a group: $(cat room.vs3)"
+"$aureole" viewfactors room.obj --group -o room.npz || fail "npz"
+if command -v python3 >/dev/null; then
+  python3 - room.npz <<'PYTHON' || fail "the archive is not what NumPy reads"
+import struct, sys, zipfile
+with zipfile.ZipFile(sys.argv[1]) as archive:
+    assert archive.testzip() is None
+    def read(name):
+        raw = archive.read(name + ".npy")
+        assert raw[:8] == b"\x93NUMPY\x01\x00"
+        end = 10 + struct.unpack("<H", raw[8:10])[0]
+        assert end % 64 == 0
+        return eval(raw[10:end]), raw[end:]
+    head, data = read("data")
+    count = head["shape"][0]
+    values = struct.unpack(f"<{count}d", data)
+    starts = struct.unpack("<4q", read("indptr")[1])
+    assert read("format")[1] == b"csr" and struct.unpack("<2q", read("shape")[1]) == (3, 3)
+    assert starts[0] == 0 and starts[3] == count == len(read("indices")[1]) // 4
+    for i in range(3):
+        assert abs(sum(values[starts[i]:starts[i + 1]]) - 1) < 1e-12
+    assert read("names")[1].split(b"\0")[0].startswith(b"floor")
+PYTHON
+fi
+"$aureole" viewfactors room.obj --format csv | grep -q '^12,120,49152,60,0,1,' || fail "the summary"
+
+# --- a scene's shapes by their ids, and radiosities
+cat >scene.xml <<'XML'
+<scene version="3.0.0"><sensor type="perspective"/>
+<shape type="rectangle" id="ground"/>
+<shape type="cube" id="house"><transform name="to_world"><scale value="0.3"/><translate z="0.31"/></transform></shape>
+</scene>
+XML
+"$aureole" viewfactors scene.xml --group --to npz 2>/dev/null | grep -qa 'ground.*house' || fail "names of shapes"
+"$aureole" viewfactors scene.xml --radiosity 0.5 -q >matrix.csv || fail "radiosity"
+"$aureole" viewfactors scene.xml --radiosity 0.5 --matrix-free -q >free.csv || fail "matrix-free"
+paste -d, matrix.csv free.csv | awk -F, 'NR > 1 && ($4 - $8) ^ 2 > .0004 { bad = 1 } END { exit bad || NR != 15 }' ||
+  fail "radiosities with and without the matrix: $(paste -d, matrix.csv free.csv)"
+refused 2 "no row sees the sky" room.obj --radiosity 0.5
+
+# --- odd meshes: counted warnings
+{
+  cat room.obj
+  printf 'f 1 2 4\nf 4 2 1\nf 1 1 2\n'
+} >odd.obj
+said=$("$aureole" viewfactors odd.obj 2>&1 >/dev/null)
+grep -q 'odd.obj:20: 1 facets have no area' <<<"$said" || fail "a facet without area: $said"
+grep -q 'odd.obj:18: 1 facets lie on others that look the same way' <<<"$said" || fail "a doubled facet: $said"
+grep -q '1 facets lie back to back with others' <<<"$said" || fail "a sheet: $said"
+{
+  echo "$corners"
+  printf 'f 1 2 4 3\nf 1 2 6 5\n'
+} >open.obj
+said=$("$aureole" viewfactors open.obj 2>&1 >/dev/null)
+grep -q 'open.obj:9: 6 edges belong to one facet only' <<<"$said" || fail "an open mesh: $said"
+grep -q '1 edges join facets of which one looks inwards' <<<"$said" || fail "an inconsistent mesh: $said"
+grep -q 'rows see backs of facets' <<<"$said" || fail "backs that are seen: $said"
+[ -z "$("$aureole" viewfactors open.obj --both-sides --group -q --to csv | grep -e ',-2,')" ] || fail "backs are rows"
+
+# --- bad input
+refused 2 "missing.obj" missing.obj
+printf 'v 0 0 0\nf 1 2 3\n' >bad.obj
+refused 2 "bad.obj:2" bad.obj
+printf 'v 0 0 nan\n' >nan.obj
+refused 2 "nan.obj:1" nan.obj
+: >empty.obj
+refused 2 "no face" empty.obj
+refused 2 "end in .obj, .ply or .xml" "$0"
+printf '<scene version="3.0.0"><sensor type="perspective"/>\n<shape type="sphere"/></scene>\n' >round.xml
+refused 2 "round.xml:2" round.xml
+refused 2 "tells no format" room.obj -o room.what
+refused 2 "--matrix-free makes no matrix" room.obj --matrix-free
+refused 2 "randomisations" room.obj --rays 4
+refused 2 "one mesh or scene is needed" room.obj room.obj
+refused 2 "no-such-set" room.obj --set no-such-set
+mkdir -p 'a & <b> $c'
+cp room.obj 'a & <b> $c/"room".obj'
+"$aureole" viewfactors 'a & <b> $c/"room".obj' >/dev/null || fail "a path with characters that XML escapes"
+
+[ "$failures" = 0 ]
