@@ -90,8 +90,8 @@ AUR_API double aur_potential_mass(const aur_potential *potential) AUR_NONNULL(1)
 /* p at a unit vector, normalised to integral 1, in 1/steradian; NaN for NODES, which have no density. */
 AUR_API double aur_potential_density(const aur_potential *potential, const double direction[3])
     AUR_NONNULL(1, 2);
-/* z[count] at `count` unit vectors xyz[3 * count], which are not checked: NaN gives NaN. O(count) for
- * COSINE_POWER and SPHERE, O(count * nodes) for the others. */
+/* z[count] at `count` unit vectors xyz[3 * count], which are not checked: NaN gives NaN but for
+ * SPHERE, which is constant. O(count) for COSINE_POWER and SPHERE, O(count * nodes) for the others. */
 AUR_API void aur_potential_evaluate(const aur_potential *potential, size_t count, const double *xyz,
                                     double *z) AUR_NONNULL(1, 3, 4);
 /* V. The square of the node count in kernel evaluations for densities made of nodes. */

@@ -141,8 +141,9 @@ void aur_zonal_evaluate(const aur_zonal *zonal, size_t count, const double *x, d
         size_t used = 0;
         for (size_t i = 0; i < count; ++i) {
             if ((x[i] < 0.0) == (side == 1)) {
+                const double distance = fabs(x[i]);
                 at[used] = i;
-                t[used++] = 2.0 * fmin(fabs(x[i]), 1.0) - 1.0;
+                t[used++] = 2.0 * (distance > 1.0 ? 1.0 : distance) - 1.0; /* NaN stays NaN */
             }
             if (used == LANES || (i + 1 == count && used > 0)) {
                 chebyshev_sum(zonal->count[side], zonal->coefficients[side], t, value);

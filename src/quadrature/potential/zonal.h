@@ -16,7 +16,7 @@ typedef struct aur_zonal {
 aur_result aur_zonal_create(double exponent, double smoothness, aur_zonal *zonal, aur_error *error);
 void aur_zonal_release(aur_zonal *zonal);
 
-/* z[i] at x[i] in [-1,1]. */
+/* z[i] at x[i] in [-1,1]; rounding may lead a little beyond. NaN gives NaN. */
 void aur_zonal_evaluate(const aur_zonal *zonal, size_t count, const double *x, double *z);
 
 /* Terms after which the series is a good 1e-12 of its sum. */
