@@ -6,10 +6,6 @@
 #include "core/vector3d.h"
 #include "quadrature/potential/potential.h"
 
-static double square(double x) {
-    return x * x;
-}
-
 static bool is_default_axis(const double axis[3]) {
     return axis[0] == 0.0 && axis[1] == 0.0 && axis[2] == 0.0;
 }
@@ -31,7 +27,7 @@ static double share(aur_mis_heuristic heuristic, size_t strategy_count, const au
     double all = 0.0, mine = 0.0;
     for (size_t t = 0; t < strategy_count; ++t) {
         const double drawn = (double)strategies[t].count * drawn_density(&strategies[t], direction);
-        all += heuristic == AUR_MIS_POWER ? square(drawn) : drawn;
+        all += heuristic == AUR_MIS_POWER ? drawn * drawn : drawn;
         mine = t == own ? drawn : mine;
     }
     return (heuristic == AUR_MIS_POWER ? mine : 1.0) / all;

@@ -12,33 +12,30 @@
 static const double same_place = 1e-13;
 
 typedef struct weights_system {
+    aur_weights_options options;
+    size_t potential_count;
+    const aur_potential *const *potentials;
     const aur_kernel_rule *rule;
-    const aur_weights_options *options;
-    size_t count;       /* samples that take part */
-    size_t *sample;     /* their places among all samples */
-    double *xyz;        /* 3 * count */
-    double *columns;    /* 3 * count */
-    double *matrix;     /* count * count; the lower triangle is filled */
-    double *right;      /* (potential_count + 1) * count: z of each density, then ones */
-    double *z;          /* potential_count * count, kept for the report */
-    size_t *group;      /* count: which of group_count places a sample is at */
-    size_t *group_size; /* count */
-    size_t *first;      /* count: the sample that stands for a place */
+    size_t count;         /* samples that take part */
+    size_t *sample;       /* their places among all samples */
+    double *xyz;          /* 3 * count */
+    double *columns;      /* 3 * count */
+    double *matrix;       /* count * count; the lower triangle is filled */
+    double *right, *ones; /* potential_count * count: z of each density; then count ones */
+    double *z;            /* potential_count * count, kept for the report */
+    size_t *group;        /* count: which of group_count places a sample is at */
+    size_t *group_size;   /* count */
+    size_t *first;        /* count: the sample that stands for a place */
     size_t group_count;
     double pair_sum; /* of all entries of K */
     void *storage;
 } weights_system;
 
-static void release(weights_system *system) {
-    free(system->storage);
-    free(system->matrix);
-}
-
-static aur_result allocate(weights_system *system, size_t count, size_t potential_count, aur_error *error) {
+static aur_result allocate(weights_system *system, size_t count, aur_error *error) {
     const aur_result result = aur_check_system_size(count, error);
     if (result != AUR_OK)
         return result;
-    const size_t doubles = count * (6 + 2 * potential_count + 1);
+    const size_t each = system->potential_count * count, doubles = 7 * count + 2 * each;
     system->storage = malloc(doubles * sizeof(double) + 4 * count * sizeof(size_t));
     system->matrix = malloc(count * count * sizeof *system->matrix);
     if (system->storage == NULL || system->matrix == NULL)
@@ -46,9 +43,9 @@ static aur_result allocate(weights_system *system, size_t count, size_t potentia
                         count, 1e-9 * (double)count * (double)count * sizeof(double));
     system->xyz = system->storage;
     system->columns = system->xyz + 3 * count;
-    system->right = system->columns + 3 * count;
-    system->z = system->right + (potential_count + 1) * count;
-    system->sample = (size_t *)(void *)(system->z + potential_count * count);
+    system->z = system->columns + 3 * count;
+    system->right = system->z + each;
+    system->sample = (size_t *)(void *)(system->xyz + doubles);
     system->group = system->sample + count;
     system->group_size = system->group + count;
     system->first = system->group_size + count;
@@ -93,7 +90,7 @@ static bool assemble(weights_system *system) {
 
 /* One unknown for each place: c samples that share the weight W add sigma W^2 / c to what is made small. The
  * first sample of a place stands for it. */
-static void merge(weights_system *system, size_t potential_count) {
+static void merge(weights_system *system) {
     const size_t n = system->count;
     const double limit = system->rule->top * (1.0 - same_place);
     size_t *const first = system->first;
@@ -115,18 +112,17 @@ static void merge(weights_system *system, size_t potential_count) {
     for (size_t g = 0; g < groups; ++g)
         for (size_t h = 0; h <= g; ++h)
             system->matrix[g * groups + h] = system->matrix[first[g] * n + first[h]];
-    for (size_t k = 0; k <= potential_count; ++k)
+    for (size_t k = 0; k < system->potential_count; ++k)
         for (size_t g = 0; g < groups; ++g)
-            system->right[k * groups + g] = system->right[k * n + first[g]];
+            system->right[k * groups + g] = system->z[k * n + first[g]];
     system->group_count = groups;
 }
 
 /* Chooses the samples that take part and fills the system. */
-static aur_result prepare(weights_system *system, size_t count, const double *xyz, size_t potential_count,
-                          const aur_potential *const *potentials, aur_error *error) {
+static aur_result prepare(weights_system *system, size_t count, const double *xyz, aur_error *error) {
     bool hides = false;
-    for (size_t k = 0; k < potential_count; ++k)
-        hides = hides || aur_potential_hides(potentials[k]);
+    for (size_t k = 0; k < system->potential_count; ++k)
+        hides = hides || aur_potential_hides(system->potentials[k]);
     for (size_t i = 0; i < count; ++i) {
         if (hides && xyz[3 * i + 2] < 0.0)
             continue;
@@ -136,68 +132,47 @@ static aur_result prepare(weights_system *system, size_t count, const double *xy
     const size_t n = system->count;
     if (n == 0)
         return aur_fail(error, AUR_ERROR_ARGUMENT, "no sample lies above the surface");
-    for (size_t k = 0; k < potential_count; ++k)
-        aur_potential_evaluate(potentials[k], n, system->xyz, system->z + k * n);
-    memcpy(system->right, system->z, potential_count * n * sizeof *system->right);
-    for (size_t i = 0; i < n; ++i)
-        system->right[potential_count * n + i] = 1.0;
+    for (size_t k = 0; k < system->potential_count; ++k)
+        aur_potential_evaluate(system->potentials[k], n, system->xyz, system->z + k * n);
+    memcpy(system->right, system->z, system->potential_count * n * sizeof *system->right);
     if (assemble(system))
-        merge(system, potential_count);
+        merge(system);
+    system->ones = system->right + system->potential_count * system->group_count;
+    for (size_t g = 0; g < system->group_count; ++g) {
+        system->ones[g] = 1.0;
+        system->matrix[g * system->group_count + g] +=
+            system->options.regularization / (double)system->group_size[g];
+    }
     return AUR_OK;
 }
 
-static double sum_of(size_t count, const double *values) {
-    double sum = 0.0;
-    for (size_t i = 0; i < count; ++i)
-        sum += values[i];
-    return sum;
-}
-
-/* From the solution of the system to the weights of one density; `z` are its potentials at the samples. */
-static void distribute(const weights_system *system, const aur_potential *potential, double *solution,
-                       const double *ones, const double *z, double *weights, aur_weights_report *report) {
-    const double sigma = system->options->regularization;
+/* From the solution of the system to the weights of density k. */
+static void distribute(const weights_system *system, size_t k, double *weights, aur_weights_report *report) {
+    double *const solution = system->right + k * system->group_count;
+    const double *const z = system->z + k * system->count;
     const double multiplier =
-        system->options->sum_constraint ? aur_hold_sum(system->group_count, solution, ones) : 0.0;
-    double total = 0.0, linear = 0.0, squares = 0.0;
+        system->options.sum_constraint ? aur_hold_sum(system->group_count, solution, system->ones) : 0.0;
+    double total = 0.0, linear = 0.0, squares = 0.0, plain = 0.0;
     for (size_t i = 0; i < system->count; ++i) {
         const size_t g = system->group[i];
         const double weight = solution[g] / (double)system->group_size[g];
         weights[system->sample[i]] = weight;
         total += weight;
         linear += weight * z[i];
+        plain += z[i];
         squares += weight * weight;
     }
     if (report == NULL)
         return;
     const double n = (double)system->count;
-    const double self = aur_potential_self_energy(potential);
+    const double self = aur_potential_self_energy(system->potentials[k]);
     /* (K + sigma) W = Z - multiplier, so W'KW needs no matrix. */
-    const double pairs = linear - multiplier * total - sigma * squares;
-    *report = (aur_weights_report){
-        .equal_error =
-            sqrt(fmax(0.0, system->pair_sum / (n * n) - 2.0 * sum_of(system->count, z) / n + self)),
-        .optimal_error = sqrt(fmax(0.0, pairs - 2.0 * linear + self)),
-        .weight_sum = total,
-        .visible = system->count};
-}
-
-static aur_result solve(weights_system *system, size_t potential_count,
-                        const aur_potential *const *potentials, size_t count, double *weights,
-                        aur_weights_report *reports, double *condition, aur_error *error) {
-    const size_t groups = system->group_count;
-    const size_t columns = potential_count + (system->options->sum_constraint ? 1 : 0);
-    for (size_t g = 0; g < groups; ++g)
-        system->matrix[g * groups + g] += system->options->regularization / (double)system->group_size[g];
-    const aur_result result =
-        aur_solve_positive(groups, system->matrix, columns, system->right, condition, error);
-    if (result != AUR_OK)
-        return result;
-    for (size_t k = 0; k < potential_count; ++k)
-        distribute(system, potentials[k], system->right + k * groups,
-                   system->right + potential_count * groups, system->z + k * system->count,
-                   weights + k * count, reports != NULL ? &reports[k] : NULL);
-    return AUR_OK;
+    const double pairs = linear - multiplier * total - system->options.regularization * squares;
+    *report = (aur_weights_report){.equal_error =
+                                       sqrt(fmax(0.0, system->pair_sum / (n * n) - 2.0 * plain / n + self)),
+                                   .optimal_error = sqrt(fmax(0.0, pairs - 2.0 * linear + self)),
+                                   .weight_sum = total,
+                                   .visible = system->count};
 }
 
 static aur_result check(size_t count, const double *xyz, size_t potential_count,
@@ -223,14 +198,22 @@ aur_result aur_weights_solve(size_t count, const double *xyz, size_t potential_c
         result = aur_check_capacity(count, capacity / potential_count, error);
     if (result != AUR_OK)
         return result;
-    weights_system system = {.rule = &potentials[0]->rule, .options = &own};
-    result = allocate(&system, count, potential_count, error);
+    weights_system system = {.options = own,
+                             .potential_count = potential_count,
+                             .potentials = potentials,
+                             .rule = &potentials[0]->rule};
+    result = allocate(&system, count, error);
     if (result == AUR_OK)
-        result = prepare(&system, count, xyz, potential_count, potentials, error);
-    if (result == AUR_OK) {
+        result = prepare(&system, count, xyz, error);
+    if (result == AUR_OK)
+        result = aur_solve_positive(system.group_count, system.matrix,
+                                    potential_count + (own.sum_constraint ? 1 : 0), system.right, condition,
+                                    error);
+    if (result == AUR_OK)
         memset(weights, 0, potential_count * count * sizeof *weights);
-        result = solve(&system, potential_count, potentials, count, weights, reports, condition, error);
-    }
-    release(&system);
+    for (size_t k = 0; k < potential_count && result == AUR_OK; ++k)
+        distribute(&system, k, weights + k * count, reports != NULL ? &reports[k] : NULL);
+    free(system.storage);
+    free(system.matrix);
     return result;
 }
