@@ -34,20 +34,6 @@ static double one_norm(size_t size, const double *matrix, double *sums) {
     return norm;
 }
 
-static aur_result not_positive(aur_error *error, size_t size) {
-    return aur_fail(
-        error, AUR_ERROR_INTERNAL,
-        "the %zu by %zu system of the weights is not positive definite: a larger regularisation helps", size,
-        size);
-}
-
-static double sum_of_absolutes(size_t size, const double *x) {
-    double sum = 0.0;
-    for (size_t i = 0; i < size; ++i)
-        sum += fabs(x[i]);
-    return sum;
-}
-
 /* A factored system, and room for two vectors. */
 typedef struct factored {
     size_t size;
@@ -55,9 +41,13 @@ typedef struct factored {
     double *x, *signs;
 } factored;
 
+/* The 1-norm of what x becomes. */
 static double solve_in_place(const factored *system) {
     aur_cholesky_best()->solve(system->size, system->matrix, system->inverse, 1, system->x);
-    return sum_of_absolutes(system->size, system->x);
+    double sum = 0.0;
+    for (size_t i = 0; i < system->size; ++i)
+        sum += fabs(system->x[i]);
+    return sum;
 }
 
 /* An estimate of the 1-norm of the inverse, a lower bound that is seldom less than a third of it (Higham
@@ -113,7 +103,11 @@ aur_result aur_solve_positive(size_t size, double *matrix, size_t columns, doubl
     free(storage);
     for (size_t i = 0; i < size * columns && good; ++i)
         good = isfinite(right[i]);
-    return good ? AUR_OK : not_positive(error, size);
+    return good ? AUR_OK
+                : aur_fail(error, AUR_ERROR_INTERNAL,
+                           "the %zu by %zu system of the weights is not positive definite: a larger "
+                           "regularisation helps",
+                           size, size);
 }
 
 double aur_hold_sum(size_t size, double *solution, const double *ones) {

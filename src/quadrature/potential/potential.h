@@ -1,4 +1,6 @@
-/* What a potential holds. */
+/* The inside of a potential: the density it was made from and, by its kind, what z is evaluated with. A lobe
+ * has the series of its potential along the axis and, clipped, the hidden part of it; the other kinds but the
+ * constant one of the sphere are sums over nodes. It does not change once it is made. */
 #pragma once
 
 #include <aureole/quadrature.h>
@@ -16,7 +18,7 @@ struct aur_potential {
     aur_lune lune;   /* COSINE_POWER, clipped */
     double *storage; /* NODES, FUNCTION, GGX: x, y, z and masses of sum 1, node_count each */
     aur_columns nodes;
-    const double *node_masses;
+    const double *node_masses; /* NULL: the density has no nodes */
 };
 
 /* Whether samples below the surface are hidden. */

@@ -325,24 +325,18 @@ static size_t drop(size_t n, const bool *taken, double *matrix, double *right, s
     size_t kept = 0;
     for (size_t i = 0; i < n; ++i)
         kept += taken[i];
-    if (kept == n)
-        return n;
-    size_t row = 0;
-    for (size_t i = 0; i < n; ++i) {
+    for (size_t i = 0, row = 0; i < n && kept < n; ++i) {
         if (!taken[i])
             continue;
-        size_t column = 0;
-        for (size_t j = 0; j <= i; ++j)
+        for (size_t j = 0, column = 0; j <= i; ++j)
             if (taken[j])
                 matrix[row * kept + column++] = matrix[i * n + j];
         ++row;
     }
-    for (size_t k = 0; k < columns; ++k) {
-        row = 0;
-        for (size_t i = 0; i < n; ++i)
+    for (size_t k = 0; k < columns && kept < n; ++k)
+        for (size_t i = 0, row = 0; i < n; ++i)
             if (taken[i])
                 right[k * kept + row++] = right[k * n + i];
-    }
     return kept;
 }
 
@@ -407,23 +401,24 @@ aur_result aur_oswa_solve_at(const aur_oswa *oswa, const aur_oswa_angle *angle, 
 
 aur_result aur_oswa_solve(const aur_oswa *oswa, double radians, const double turns[2], size_t capacity,
                           double *weights, double *mass, aur_error *error) {
-    const size_t n = aur_oswa_size(oswa);
-    aur_oswa_angle angle = {0};
+    const size_t n = aur_oswa_size(oswa), doubles = aur_oswa_scratch(oswa);
+    aur_oswa_angle angle;
     aur_result result = aur_check_capacity(2 * n, capacity, error);
     if (result == AUR_OK)
         result = aur_oswa_angle_init(oswa, radians, &angle, error);
-    double *const scratch = malloc(aur_oswa_scratch(oswa) * sizeof *scratch);
-    bool *const visible = malloc(n * sizeof *visible);
-    if (result == AUR_OK && (scratch == NULL || visible == NULL))
-        result = aur_fail_memory(error);
-    if (result == AUR_OK) {
+    if (result != AUR_OK)
+        return result;
+    double *const scratch = malloc(doubles * sizeof *scratch + n * sizeof(bool));
+    if (scratch != NULL) {
+        bool *const visible = (bool *)(scratch + doubles);
         aur_oswa_visible(oswa, radians, turns, scratch, visible);
         result = aur_oswa_solve_at(oswa, &angle, turns, visible, scratch, weights, error);
+    } else {
+        result = aur_fail_memory(error);
     }
     if (result == AUR_OK && mass != NULL)
         *mass = angle.mass;
     free(scratch);
-    free(visible);
     aur_oswa_angle_release(&angle);
     return result;
 }

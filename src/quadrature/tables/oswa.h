@@ -1,4 +1,5 @@
-/* What a pair of patterns holds, and solving at one angle for many turns. */
+/* The inside of a pair of patterns, and solving at one angle for many turns. The patterns, their blocks of
+ * the matrix and their own z are made once; what depends on the angle is in an aur_oswa_angle. */
 #pragma once
 
 #include <stdbool.h>

@@ -70,23 +70,20 @@ size_t aur_weight_table_rotations(const aur_weight_table *table) {
     return table->rotation_count;
 }
 
-static aur_result check(const aur_weight_table *table, double radians, size_t rotation, size_t needed,
-                        size_t capacity, aur_error *error) {
-    if (rotation >= table->rotation_count)
-        return aur_fail(error, AUR_ERROR_ARGUMENT, "the table has rotations 0 to %zu, not %zu",
-                        table->rotation_count - 1, rotation);
-    const aur_result result = aur_check_angle(radians, error);
-    return result == AUR_OK ? aur_check_capacity(needed, capacity, error) : result;
+static aur_result check_rotation(const aur_weight_table *table, size_t rotation, aur_error *error) {
+    return rotation < table->rotation_count
+               ? AUR_OK
+               : aur_fail(error, AUR_ERROR_ARGUMENT, "the table has rotations 0 to %zu, not %zu",
+                          table->rotation_count - 1, rotation);
 }
 
 aur_result aur_weight_table_points(const aur_weight_table *table, double radians, size_t rotation,
                                    bool mirrored, size_t capacity, double *xyz, aur_error *error) {
-    const aur_result result = check(table, radians, rotation, 3 * table->size, capacity, error);
-    if (result != AUR_OK)
-        return result;
     double turns[2];
     aur_oswa_turns(table->oswa->options.seed, rotation, turns);
-    return aur_oswa_points(table->oswa, radians, turns, mirrored, capacity, xyz, error);
+    const aur_result result = check_rotation(table, rotation, error);
+    return result == AUR_OK ? aur_oswa_points(table->oswa, radians, turns, mirrored, capacity, xyz, error)
+                            : result;
 }
 
 /* Where an angle lies among `steps` equal parts of [0, pi/2]: the part's number, and how far in it. */
@@ -123,15 +120,20 @@ aur_result aur_weight_table_look_up(const aur_weight_table *table, size_t lobe, 
                                     double radians, size_t capacity, float *weights, aur_error *error) {
     if (lobe > 1)
         return aur_fail(error, AUR_ERROR_ARGUMENT, "a table has the lobes 0 and 1, not %zu", lobe);
-    const aur_result result = check(table, radians, rotation, table->size, capacity, error);
+    aur_result result = check_rotation(table, rotation, error);
+    if (result == AUR_OK)
+        result = aur_check_angle(radians, error);
+    if (result == AUR_OK)
+        result = aur_check_capacity(table->size, capacity, error);
     if (result != AUR_OK)
         return result;
     float part;
     const size_t row = aur_weight_table_locate(table, rotation, (float)radians, &part);
-    const float *const below = aur_weight_table_row(table, row) + lobe * table->size;
-    const float *const above = below + 2 * table->size;
+    const float *restrict below = aur_weight_table_row(table, row) + lobe * table->size;
+    const float *restrict above = below + 2 * table->size;
+    float *restrict target = weights;
     for (size_t i = 0; i < table->size; ++i)
-        weights[i] = below[i] + part * (above[i] - below[i]);
+        target[i] = below[i] + part * (above[i] - below[i]);
     return AUR_OK;
 }
 

@@ -171,13 +171,10 @@ static aur_result build_masses(const aur_weight_table *table, size_t index, aur_
 
 static aur_result build_angle(const aur_weight_table *table, size_t index, aur_error *error) {
     const size_t doubles = aur_oswa_scratch(table->oswa);
-    double *const scratch = malloc((doubles + 2 * table->size) * sizeof *scratch);
-    bool *const flags = malloc(2 * table->size * sizeof *flags);
-    if (scratch == NULL || flags == NULL) {
-        free(scratch);
-        free(flags);
+    double *const scratch = malloc((doubles + 2 * table->size) * sizeof *scratch + 2 * table->size);
+    if (scratch == NULL)
         return aur_fail_memory(error);
-    }
+    bool *const flags = (bool *)(scratch + doubles + 2 * table->size);
     angle_work work = {.table = table,
                        .scratch = scratch,
                        .weights = scratch + doubles,
@@ -193,7 +190,6 @@ static aur_result build_angle(const aur_weight_table *table, size_t index, aur_e
         result = build_rotation(&work, index, rotation, error);
     }
     free(scratch);
-    free(flags);
     aur_oswa_angle_release(&work.angle);
     return result;
 }
