@@ -46,7 +46,8 @@ static aur_image *make_picture(size_t channel_count) {
 
 static void write_own(const aur_image_format *format, size_t channel_count, int half, FILE *stream) {
     aur_image *const image = make_picture(channel_count);
-    const aur_image_target target = {.name = "seed", .stream = stream, .options = {.half = half}};
+    aur_image_target target = {.name = "seed", .stream = stream, .options = {.half = half}};
+    fuzz_require(aur_image_color_channels(image, target.channels), "a seed has no colour");
     fuzz_require(format->write(&target, image, NULL) == AUR_OK, "a seed cannot be written");
     aur_image_destroy(image);
 }

@@ -66,20 +66,23 @@ size_t aur_error_format(const aur_error *error, char *text, size_t capacity) {
     return used + (length < 0 ? 0 : (size_t)length);
 }
 
+/* A path that does not fit keeps its end, which names the file. */
+static void set_file(aur_error *error, const char *file) {
+    const size_t length = strlen(file);
+    const size_t room = sizeof error->file - 1;
+    const char *const tail = length > room ? file + (length - room) : file;
+    memmove(error->file, tail, strlen(tail) + 1);
+}
+
 static void fill(aur_error *error, aur_location location, aur_result result, const char *format,
                  va_list arguments) {
     error->result = result;
     error->line = location.line;
     error->column = location.column;
-    /* A path that does not fit keeps its end, which names the file. */
-    const char *file = location.file != NULL ? location.file : "";
-    const size_t length = strlen(file);
-    const size_t room = sizeof error->file - 1;
-    const char *tail = length > room ? file + (length - room) : file;
     /* The caller may pass the file or the message of this very error. */
     char message[AUR_ERROR_MESSAGE_CAPACITY];
     aur_format_list(message, sizeof message, format, arguments);
-    memmove(error->file, tail, strlen(tail) + 1);
+    set_file(error, location.file != NULL ? location.file : "");
     memcpy(error->message, message, strlen(message) + 1);
 }
 
@@ -130,6 +133,12 @@ aur_result aur_fail_at(aur_error *error, aur_location location, aur_result resul
     va_start(arguments, format);
     fill(error, location, result, format, arguments);
     va_end(arguments);
+    return result;
+}
+
+aur_result aur_fail_in(aur_error *error, aur_result result, const char *file) {
+    if (result != AUR_OK && error != NULL && error->file[0] == '\0')
+        set_file(error, file);
     return result;
 }
 

@@ -18,6 +18,9 @@ typedef struct aur_location {
 aur_result aur_fail_at(aur_error *error, aur_location location, aur_result result, const char *format, ...)
     AUR_PRINTF(4, 5);
 
+/* Names `file` in an error that names none, unless the result is AUR_OK; returns the result. */
+aur_result aur_fail_in(aur_error *error, aur_result result, const char *file);
+
 /* Sends one formatted warning, if anyone listens; a location is put before it as in aur_error_format. */
 void aur_warn_at(const aur_warnings *warnings, aur_location location, const char *format, ...)
     AUR_PRINTF(3, 4);

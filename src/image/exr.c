@@ -14,8 +14,8 @@ static aur_result result_of(exr_result_t code) {
 
 static aur_result fail_with(const aur_exr_stream *stream, exr_result_t code, const char *message) {
     const aur_result result = result_of(code);
-    return aur_fail_at(stream->error, (aur_location){.file = stream->name}, result, "%s: %s",
-                       result == AUR_ERROR_FORMAT ? "broken EXR" : "EXR", message);
+    return aur_fail(stream->error, result, "%s: %s", result == AUR_ERROR_FORMAT ? "broken EXR" : "EXR",
+                    message);
 }
 
 static _Thread_local aur_exr_stream *listening;

@@ -7,7 +7,6 @@
 
 /* What a context of OpenEXR Core carries for its callbacks. */
 typedef struct aur_exr_stream {
-    const char *name;
     aur_result result; /* of the first message */
     aur_error *error;
     const unsigned char *input; /* reading */

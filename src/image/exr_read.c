@@ -60,6 +60,7 @@ static int compare_channels(const void *left, const void *right) {
 
 /* A file that is being decoded. */
 typedef struct exr_reader {
+    aur_exr_stream stream;
     exr_context_t context;
     const exr_attr_chlist_t *channels;
     exr_attr_box2i_t window;
@@ -133,7 +134,7 @@ static exr_result_t check_chunk_table(exr_reader *reader, exr_storage_t storage)
 }
 
 /* The image, with its channels named and their places known. */
-static aur_result create_image(exr_reader *reader, const aur_image_source *source, aur_error *error) {
+static aur_result create_image(exr_reader *reader, aur_error *error) {
     const size_t count = (size_t)reader->channels->num_channels;
     const size_t width = (size_t)((int64_t)reader->window.max.x - reader->window.min.x + 1);
     const size_t height = (size_t)((int64_t)reader->window.max.y - reader->window.min.y + 1);
@@ -152,9 +153,8 @@ static aur_result create_image(exr_reader *reader, const aur_image_source *sourc
     for (size_t i = 0; i < count; ++i) {
         reader->place[order[i].in_file] = i;
         if (strlen(order[i].name) >= AUR_CHANNEL_NAME_CAPACITY)
-            result = aur_fail_at(error, (aur_location){.file = source->name}, AUR_ERROR_FORMAT,
-                                 "broken EXR: a channel name of more than %d bytes",
-                                 AUR_CHANNEL_NAME_CAPACITY - 1);
+            result = aur_fail(error, AUR_ERROR_FORMAT, "broken EXR: a channel name of more than %d bytes",
+                              AUR_CHANNEL_NAME_CAPACITY - 1);
         else
             strcpy(reader->image->channel_names[i], order[i].name);
     }
@@ -177,48 +177,44 @@ static uint64_t largest_ratio(exr_compression_t compression) {
 }
 
 /* Refuses a header that claims more pixels than the file can hold, before memory is taken for them. */
-static aur_result check_length(const exr_reader *reader, const aur_image_source *source, uint64_t pixels,
-                               aur_error *error) {
+static aur_result check_length(const exr_reader *reader, uint64_t pixels, aur_error *error) {
     exr_compression_t compression = EXR_COMPRESSION_NONE;
     exr_get_compression(reader->context, 0, &compression);
     uint64_t bytes = 0;
     for (int c = 0; c < reader->channels->num_channels; ++c)
         bytes += reader->channels->entries[c].pixel_type == EXR_PIXEL_HALF ? pixels * 2 : pixels * 4;
-    if (bytes / largest_ratio(compression) <= source->size)
+    if (bytes / largest_ratio(compression) <= reader->stream.size)
         return AUR_OK;
-    return aur_fail_at(error, (aur_location){.file = source->name}, AUR_ERROR_FORMAT,
-                       "broken EXR: %zu bytes cannot hold the %llu pixels that it claims", source->size,
-                       (unsigned long long)pixels);
+    return aur_fail(error, AUR_ERROR_FORMAT,
+                    "broken EXR: %zu bytes cannot hold the %llu pixels that it claims", reader->stream.size,
+                    (unsigned long long)pixels);
 }
 
-static aur_result check_header(exr_reader *reader, const aur_image_source *source, exr_storage_t storage,
-                               aur_error *error) {
-    const aur_location where = {.file = source->name};
+static aur_result check_header(exr_reader *reader, exr_storage_t storage, aur_error *error) {
     if (storage != EXR_STORAGE_SCANLINE && storage != EXR_STORAGE_TILED)
-        return aur_fail_at(error, where, AUR_ERROR_UNSUPPORTED, "a deep EXR: only flat pictures can be read");
+        return aur_fail(error, AUR_ERROR_UNSUPPORTED, "a deep EXR: only flat pictures can be read");
     const int64_t width = (int64_t)reader->window.max.x - reader->window.min.x + 1;
     const int64_t height = (int64_t)reader->window.max.y - reader->window.min.y + 1;
     const int count = reader->channels->num_channels;
-    const aur_result result = aur_image_check_size(source, width > 0 ? (size_t)width : 0,
+    const aur_result result = aur_image_check_size(width > 0 ? (size_t)width : 0,
                                                    height > 0 ? (size_t)height : 0, (size_t)count, error);
     if (result != AUR_OK)
         return result;
     if (!aur_exr_rows_fit((size_t)width, (size_t)count))
-        return aur_fail_at(error, where, AUR_ERROR_UNSUPPORTED,
-                           "rows of %lld pixels with %d channels are too long for EXR", (long long)width,
-                           count);
+        return aur_fail(error, AUR_ERROR_UNSUPPORTED,
+                        "rows of %lld pixels with %d channels are too long for EXR", (long long)width, count);
     for (int c = 0; c < count; ++c) {
         const exr_attr_chlist_entry_t *const entry = &reader->channels->entries[c];
         if (entry->x_sampling != 1 || entry->y_sampling != 1)
-            return aur_fail_at(error, where, AUR_ERROR_UNSUPPORTED,
-                               "the EXR's channel %s is subsampled: only full channels can be read",
-                               entry->name.str);
+            return aur_fail(error, AUR_ERROR_UNSUPPORTED,
+                            "the EXR's channel %s is subsampled: only full channels can be read",
+                            entry->name.str);
     }
-    return check_length(reader, source, (uint64_t)width * (uint64_t)height, error);
+    return check_length(reader, (uint64_t)width * (uint64_t)height, error);
 }
 
-static aur_result read_part(exr_reader *reader, const aur_image_source *source, const aur_exr_stream *stream,
-                            aur_error *error) {
+static aur_result read_part(exr_reader *reader) {
+    aur_error *const error = reader->stream.error;
     exr_storage_t storage = EXR_STORAGE_SCANLINE;
     exr_result_t code = exr_get_storage(reader->context, 0, &storage);
     if (code == EXR_ERR_SUCCESS)
@@ -226,44 +222,40 @@ static aur_result read_part(exr_reader *reader, const aur_image_source *source, 
     if (code == EXR_ERR_SUCCESS)
         code = exr_get_channels(reader->context, 0, &reader->channels);
     if (code != EXR_ERR_SUCCESS)
-        return aur_exr_fail(stream, code);
-    aur_result result = check_header(reader, source, storage, error);
+        return aur_exr_fail(&reader->stream, code);
+    aur_result result = check_header(reader, storage, error);
     if (result != AUR_OK)
         return result;
     code = check_chunk_table(reader, storage);
     if (code != EXR_ERR_SUCCESS)
-        return aur_exr_fail(stream, code);
-    result = create_image(reader, source, error);
+        return aur_exr_fail(&reader->stream, code);
+    result = create_image(reader, error);
     if (result != AUR_OK)
         return result;
     code = storage == EXR_STORAGE_TILED ? decode_tiles(reader) : decode_lines(reader);
-    return code == EXR_ERR_SUCCESS ? AUR_OK : aur_exr_fail(stream, code);
+    return code == EXR_ERR_SUCCESS ? AUR_OK : aur_exr_fail(&reader->stream, code);
 }
 
 static aur_result read_exr(const aur_image_source *source, aur_image **image, aur_error *error) {
-    aur_exr_stream stream = {
-        .name = source->name, .error = error, .input = source->data, .size = source->size};
+    exr_reader reader = {.stream = {.error = error, .input = source->data, .size = source->size},
+                         .pipeline = EXR_DECODE_PIPELINE_INITIALIZER};
     exr_context_initializer_t setup = EXR_DEFAULT_CONTEXT_INITIALIZER;
     setup.error_handler_fn = aur_exr_note;
-    setup.user_data = &stream;
+    setup.user_data = &reader.stream;
     setup.read_fn = read_bytes;
     setup.size_fn = stream_size;
     setup.flags = EXR_CONTEXT_FLAG_DISABLE_CHUNK_RECONSTRUCTION;
-    exr_reader reader = {.pipeline = EXR_DECODE_PIPELINE_INITIALIZER};
-    aur_exr_listen(&stream);
+    aur_exr_listen(&reader.stream);
     const exr_result_t code = exr_start_read(&reader.context, source->name, &setup);
     const aur_result result =
-        code == EXR_ERR_SUCCESS ? read_part(&reader, source, &stream, error) : aur_exr_fail(&stream, code);
+        code == EXR_ERR_SUCCESS ? read_part(&reader) : aur_exr_fail(&reader.stream, code);
     if (reader.started)
         exr_decoding_destroy(reader.context, &reader.pipeline);
     if (code == EXR_ERR_SUCCESS)
         exr_finish(&reader.context);
     aur_exr_listen(NULL);
     free(reader.place);
-    if (result == AUR_OK)
-        *image = reader.image;
-    else
-        aur_image_destroy(reader.image);
+    *image = reader.image;
     return result;
 }
 
@@ -278,6 +270,7 @@ const aur_image_format aur_image_format_exr = {
             .source = "",
             AUR_ROW_KEYS(keys)},
     .name = "EXR",
+    .every_channel = true,
     .recognize = recognize,
     .read = read_exr,
     .write = aur_image_write_exr};

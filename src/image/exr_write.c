@@ -4,43 +4,37 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "core/array.h"
 #include "image/exr.h"
 
 static int64_t write_bytes(exr_const_context_t context, void *user, const void *buffer, uint64_t count,
                            uint64_t offset, exr_stream_error_func_ptr_t fail) {
     aur_exr_stream *const stream = user;
     const size_t end = (size_t)(offset + count);
-    if (end > stream->capacity) {
-        const size_t wanted = end > SIZE_MAX / 2 ? end : 2 * end;
-        unsigned char *const larger = realloc(stream->output, wanted);
-        if (larger == NULL) {
-            fail(context, EXR_ERR_OUT_OF_MEMORY, "out of memory");
-            return -1;
-        }
-        memset(larger + stream->capacity, 0, wanted - stream->capacity);
-        stream->output = larger;
-        stream->capacity = wanted;
+    const size_t before = stream->capacity;
+    if (!aur_array_reserve(&stream->output, &stream->capacity, end, 1)) {
+        fail(context, EXR_ERR_OUT_OF_MEMORY, "out of memory");
+        return -1;
     }
+    memset(stream->output + before, 0, stream->capacity - before);
     memcpy(stream->output + offset, buffer, count);
     if (end > stream->size)
         stream->size = end;
     return (int64_t)count;
 }
 
-static aur_result check_names(const aur_image_target *target, const aur_image *image, aur_error *error) {
+static aur_result check_names(const aur_image *image, aur_error *error) {
     for (size_t c = 0; c < image->channel_count; ++c) {
         const char *const name = image->channel_names[c];
         if (name[0] == '\0')
-            return aur_fail_at(error, (aur_location){.file = target->name}, AUR_ERROR_ARGUMENT,
-                               "channel %zu has no name, which EXR needs", c);
+            return aur_fail(error, AUR_ERROR_ARGUMENT, "channel %zu has no name, which EXR needs", c);
         if (aur_image_find_channel(image, name) != c)
-            return aur_fail_at(error, (aur_location){.file = target->name}, AUR_ERROR_ARGUMENT,
-                               "two channels are named '%s'", name);
+            return aur_fail(error, AUR_ERROR_ARGUMENT, "two channels are named '%s'", name);
     }
     if (!aur_exr_rows_fit(image->width, image->channel_count) || image->height > INT32_MAX)
-        return aur_fail_at(error, (aur_location){.file = target->name}, AUR_ERROR_UNSUPPORTED,
-                           "rows of %zu pixels with %zu channels are too long for EXR", image->width,
-                           image->channel_count);
+        return aur_fail(error, AUR_ERROR_UNSUPPORTED,
+                        "rows of %zu pixels with %zu channels are too long for EXR", image->width,
+                        image->channel_count);
     return AUR_OK;
 }
 
@@ -140,10 +134,10 @@ static exr_result_t write_pixels(exr_context_t context, const aur_image *image, 
 }
 
 aur_result aur_image_write_exr(const aur_image_target *target, const aur_image *image, aur_error *error) {
-    aur_result result = check_names(target, image, error);
+    aur_result result = check_names(image, error);
     if (result != AUR_OK)
         return result;
-    aur_exr_stream stream = {.name = target->name, .error = error};
+    aur_exr_stream stream = {.error = error};
     exr_context_initializer_t setup = EXR_DEFAULT_CONTEXT_INITIALIZER;
     setup.error_handler_fn = aur_exr_note;
     setup.user_data = &stream;

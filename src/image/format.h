@@ -23,12 +23,15 @@ typedef struct aur_image_target {
     const char *name;
     FILE *stream;
     aur_image_write_options options;
+    size_t channels[3]; /* red, green and blue; not for formats with every_channel */
 } aur_image_target;
 
 typedef struct aur_image_format {
-    aur_row row;      /* its name is the extension, its keys are fields of aur_image_write_options */
-    const char *name; /* what aur_image_format_of returns */
+    aur_row row;        /* its name is the extension, its keys are fields of aur_image_write_options */
+    const char *name;   /* what aur_image_format_of returns */
+    bool every_channel; /* all channels are written, not a colour */
     bool (*recognize)(const aur_image_source *source);
+    /* Both leave the file's name in errors, and a picture that has only been begun, to their caller. */
     aur_result (*read)(const aur_image_source *source, aur_image **image, aur_error *error);
     /* Errors of the stream are left to whoever commits the file. NULL: read only. */
     aur_result (*write)(const aur_image_target *target, const aur_image *image, aur_error *error);
@@ -49,16 +52,15 @@ extern const aur_table aur_image_format_table;
 
 aur_result aur_image_write_exr(const aur_image_target *target, const aur_image *image, aur_error *error);
 
-/* FORMAT with the source's name when a file claims a size that no picture may have. */
-aur_result aur_image_check_size(const aur_image_source *source, size_t width, size_t height,
-                                size_t channel_count, aur_error *error);
+/* FORMAT when a file claims a size that no picture may have. */
+aur_result aur_image_check_size(size_t width, size_t height, size_t channel_count, aur_error *error);
 
 /* Does the source begin with these bytes? */
 bool aur_image_begins(const aur_image_source *source, const char *bytes, size_t count);
 
 /* For stb's writers: the context is a stream, whose errors are left to whoever commits the file. */
 void aur_image_put_bytes(void *stream, void *bytes, int count);
-aur_result aur_image_fail_encode(const aur_image_target *target, aur_error *error);
+aur_result aur_image_fail_encode(aur_error *error);
 
 /* Red, green and blue, or an ARGUMENT error that names the channels that there are. `name` may be NULL. */
 aur_result aur_image_require_color(const char *name, const aur_image *image, size_t channels[3],

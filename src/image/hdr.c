@@ -13,8 +13,8 @@ static bool recognize(const aur_image_source *source) {
     return aur_image_begins(source, "#?RADIANCE\n", 11) || aur_image_begins(source, "#?RGBE\n", 7);
 }
 
-static aur_result fail_broken(const aur_image_source *source, const char *what, aur_error *error) {
-    return aur_fail_at(error, (aur_location){.file = source->name}, AUR_ERROR_FORMAT, "broken HDR: %s", what);
+static aur_result fail_broken(const char *what, aur_error *error) {
+    return aur_fail(error, AUR_ERROR_FORMAT, "broken HDR: %s", what);
 }
 
 /* What is left of a file. */
@@ -34,27 +34,26 @@ static bool next_line(hdr_input *input, char line[256]) {
 }
 
 /* Past the header: its lines, an empty one, "-Y height +X width". */
-static aur_result read_header(const aur_image_source *source, hdr_input *input, size_t size[2],
-                              aur_error *error) {
+static aur_result read_header(hdr_input *input, size_t size[2], aur_error *error) {
     char line[256];
     bool format = false;
     do {
         if (!next_line(input, line))
-            return fail_broken(source, "its header does not end", error);
+            return fail_broken("its header does not end", error);
         format = format || strcmp(line, "FORMAT=32-bit_rle_rgbe") == 0;
     } while (line[0] != '\0');
     if (!format)
-        return fail_broken(source, "its header has no FORMAT=32-bit_rle_rgbe", error);
+        return fail_broken("its header has no FORMAT=32-bit_rle_rgbe", error);
     if (!next_line(input, line))
-        return fail_broken(source, "it has no size", error);
+        return fail_broken("it has no size", error);
     uint64_t height = 0, width = 0;
     const char *end = strncmp(line, "-Y ", 3) == 0 ? aur_read_integer(line + 3, UINT32_MAX, &height) : NULL;
     end = end != NULL && strncmp(end, " +X ", 4) == 0 ? aur_read_integer(end + 4, UINT32_MAX, &width) : NULL;
     if (end == NULL)
-        return fail_broken(source, "its size is not of the form '-Y height +X width'", error);
+        return fail_broken("its size is not of the form '-Y height +X width'", error);
     size[0] = (size_t)width;
     size[1] = (size_t)height;
-    return aur_image_check_size(source, size[0], size[1], 3, error);
+    return aur_image_check_size(size[0], size[1], 3, error);
 }
 
 /* One component of a row in run lengths: above 128 a run, else bytes as they are. */
@@ -100,8 +99,7 @@ static bool decode_row(hdr_input *input, size_t width, unsigned char *planes) {
     return true;
 }
 
-static aur_result decode_rows(const aur_image_source *source, hdr_input *input, const aur_image *image,
-                              aur_error *error) {
+static aur_result decode_rows(hdr_input *input, const aur_image *image, aur_error *error) {
     const size_t width = image->width;
     unsigned char *const planes = malloc(4 * width);
     if (planes == NULL)
@@ -109,7 +107,7 @@ static aur_result decode_rows(const aur_image_source *source, hdr_input *input, 
     aur_result result = AUR_OK;
     for (size_t y = 0; y < image->height && result == AUR_OK; ++y) {
         if (!decode_row(input, width, planes)) {
-            result = fail_broken(source, "its pixels are damaged or cut short", error);
+            result = fail_broken("its pixels are damaged or cut short", error);
             break;
         }
         for (size_t x = 0; x < width; ++x) {
@@ -126,20 +124,14 @@ static aur_result decode_rows(const aur_image_source *source, hdr_input *input, 
 static aur_result read_hdr(const aur_image_source *source, aur_image **image, aur_error *error) {
     hdr_input input = {source->data, source->data + source->size};
     size_t size[2] = {0, 0};
-    aur_result result = read_header(source, &input, size, error);
+    aur_result result = read_header(&input, size, error);
     if (result != AUR_OK)
         return result;
     /* Two bytes make 127 bytes of a row at most, and four bytes are a pixel. */
     if (size[0] * size[1] / 16 > source->size)
-        return fail_broken(source, "it claims more pixels than it can hold", error);
+        return fail_broken("it claims more pixels than it can hold", error);
     result = aur_image_create(size[0], size[1], 3, image, error);
-    if (result == AUR_OK)
-        result = decode_rows(source, &input, *image, error);
-    if (result != AUR_OK) {
-        aur_image_destroy(*image);
-        *image = NULL;
-    }
-    return result;
+    return result == AUR_OK ? decode_rows(&input, *image, error) : result;
 }
 
 /* The largest radiance that RGBE holds: mantissa 255/256, exponent 127. */
@@ -163,24 +155,19 @@ static void round_to_rgbe(float rgb[3]) {
 }
 
 static aur_result write_hdr(const aur_image_target *target, const aur_image *image, aur_error *error) {
-    size_t channels[3];
-    aur_result result = aur_image_require_color(target->name, image, channels, error);
-    if (result != AUR_OK)
-        return result;
     const size_t pixels = image->width * image->height;
     float *const values = malloc(pixels * 3 * sizeof *values);
     if (values == NULL)
-        return aur_image_fail_encode(target, error);
+        return aur_image_fail_encode(error);
     for (size_t i = 0; i < pixels; ++i) {
         for (size_t c = 0; c < 3; ++c)
-            values[3 * i + c] = hdr_value(image->data[i * image->channel_count + channels[c]]);
+            values[3 * i + c] = hdr_value(image->data[i * image->channel_count + target->channels[c]]);
         round_to_rgbe(values + 3 * i);
     }
-    if (!stbi_write_hdr_to_func(aur_image_put_bytes, target->stream, (int)image->width, (int)image->height, 3,
-                                values))
-        result = aur_image_fail_encode(target, error);
+    const int written = stbi_write_hdr_to_func(aur_image_put_bytes, target->stream, (int)image->width,
+                                               (int)image->height, 3, values);
     free(values);
-    return result;
+    return written != 0 ? AUR_OK : aur_image_fail_encode(error);
 }
 
 const aur_image_format aur_image_format_hdr = {

@@ -101,18 +101,16 @@ void aur_image_put_bytes(void *stream, void *bytes, int count) {
     fwrite(bytes, 1, (size_t)count, stream);
 }
 
-aur_result aur_image_fail_encode(const aur_image_target *target, aur_error *error) {
-    return aur_fail_at(error, (aur_location){.file = target->name}, AUR_ERROR_MEMORY,
-                       "cannot encode the picture: out of memory");
+aur_result aur_image_fail_encode(aur_error *error) {
+    return aur_fail(error, AUR_ERROR_MEMORY, "cannot encode the picture: out of memory");
 }
 
-aur_result aur_image_check_size(const aur_image_source *source, size_t width, size_t height,
-                                size_t channel_count, aur_error *error) {
+aur_result aur_image_check_size(size_t width, size_t height, size_t channel_count, aur_error *error) {
     if (size_is_allowed(width, height, channel_count))
         return AUR_OK;
-    return aur_fail_at(error, (aur_location){.file = source->name}, AUR_ERROR_FORMAT,
-                       "claims %zu x %zu pixels with %zu channels: there must be 1 to 2^30 values", width,
-                       height, channel_count);
+    return aur_fail(error, AUR_ERROR_FORMAT,
+                    "claims %zu x %zu pixels with %zu channels: there must be 1 to 2^30 values", width,
+                    height, channel_count);
 }
 
 size_t aur_image_find_channel(const aur_image *image, const char *name) {

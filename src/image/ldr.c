@@ -8,10 +8,10 @@
 #include "image/format.h"
 #include "image/tone.h"
 
-static aur_result fail_stb(const aur_image_source *source, const char *format, aur_error *error) {
+static aur_result fail_stb(const char *format, aur_error *error) {
     const char *const reason = stbi_failure_reason();
-    return aur_fail_at(error, (aur_location){.file = source->name}, AUR_ERROR_FORMAT, "broken %s: %s", format,
-                       reason != NULL ? reason : "cannot be decoded");
+    return aur_fail(error, AUR_ERROR_FORMAT, "broken %s: %s", format,
+                    reason != NULL ? reason : "cannot be decoded");
 }
 
 /* Size and channels, refused when no file of this length can hold so many pixels: the decoders allocate
@@ -20,30 +20,28 @@ static aur_result read_header(const aur_image_source *source, const char *format
                               size_t size[3], aur_error *error) {
     int width, height, channel_count;
     if (source->size > INT32_MAX)
-        return aur_fail_at(error, (aur_location){.file = source->name}, AUR_ERROR_UNSUPPORTED,
-                           "a %s of more than 2 GiB", format);
+        return aur_fail(error, AUR_ERROR_UNSUPPORTED, "a %s of more than 2 GiB", format);
     if (!stbi_info_from_memory(source->data, (int)source->size, &width, &height, &channel_count))
-        return fail_stb(source, format, error);
+        return fail_stb(format, error);
     size[0] = width > 0 ? (size_t)width : 0;
     size[1] = height > 0 ? (size_t)height : 0;
     size[2] = channel_count > 0 ? (size_t)channel_count : 0;
-    const aur_result result = aur_image_check_size(source, size[0], size[1], size[2], error);
+    const aur_result result = aur_image_check_size(size[0], size[1], size[2], error);
     if (result != AUR_OK)
         return result;
     if (size[0] * size[1] / pixels_a_byte > source->size)
-        return aur_fail_at(error, (aur_location){.file = source->name}, AUR_ERROR_FORMAT,
-                           "claims %zu x %zu pixels, which %zu bytes of %s cannot hold", size[0], size[1],
-                           source->size, format);
+        return aur_fail(error, AUR_ERROR_FORMAT, "claims %zu x %zu pixels, which %zu bytes of %s cannot hold",
+                        size[0], size[1], source->size, format);
     return AUR_OK;
 }
 
 /* Does what the decoder gave agree with the header? If so an image of that size. */
-static aur_result create_decoded(const aur_image_source *source, const char *format, const size_t size[3],
-                                 const int decoded[3], aur_image **image, aur_error *error) {
+static aur_result create_decoded(const char *format, const size_t size[3], const int decoded[3],
+                                 aur_image **image, aur_error *error) {
     for (size_t i = 0; i < 3; ++i)
         if (decoded[i] < 0 || (size_t)decoded[i] != size[i])
-            return aur_fail_at(error, (aur_location){.file = source->name}, AUR_ERROR_FORMAT,
-                               "broken %s: its header disagrees with its pixels", format);
+            return aur_fail(error, AUR_ERROR_FORMAT, "broken %s: its header disagrees with its pixels",
+                            format);
     return aur_image_create(size[0], size[1], size[2], image, error);
 }
 
@@ -58,13 +56,13 @@ static aur_result read_ldr(const aur_image_source *source, const char *format, s
     stbi_us *const values = stbi_load_16_from_memory(source->data, (int)source->size, &decoded[0],
                                                      &decoded[1], &decoded[2], (int)size[2]);
     if (values == NULL)
-        return fail_stb(source, format, error);
+        return fail_stb(format, error);
     decoded[2] = (int)size[2];
     float *const table = malloc(65536 * sizeof *table);
     if (table == NULL)
         result = aur_fail_memory(error);
     if (result == AUR_OK)
-        result = create_decoded(source, format, size, decoded, image, error);
+        result = create_decoded(format, size, decoded, image, error);
     if (result == AUR_OK) {
         for (size_t i = 0; i < 65536; ++i)
             table[i] = (float)aur_srgb_decode((double)i / 65535.0);
@@ -102,24 +100,19 @@ static bool has_jpeg_end(const aur_image_source *source) {
 static aur_result read_jpeg(const aur_image_source *source, aur_image **image, aur_error *error) {
     const size_t block_pixels = 64, bits = 8; /* at least one bit a block */
     if (!has_jpeg_end(source))
-        return aur_fail_at(error, (aur_location){.file = source->name}, AUR_ERROR_FORMAT,
-                           "broken JPEG: it is cut short");
+        return aur_fail(error, AUR_ERROR_FORMAT, "broken JPEG: it is cut short");
     return read_ldr(source, "JPEG", block_pixels * bits, image, error);
 }
 
 static aur_result write_png(const aur_image_target *target, const aur_image *image, aur_error *error) {
-    size_t channels[3];
-    aur_result result = aur_image_require_color(target->name, image, channels, error);
-    if (result != AUR_OK)
-        return result;
+    const size_t *const channels = target->channels;
     const size_t count = channels[0] == channels[1] ? 1 : 3;
     const size_t pixels = image->width * image->height;
     if (image->width * count > INT32_MAX)
-        return aur_fail_at(error, (aur_location){.file = target->name}, AUR_ERROR_UNSUPPORTED,
-                           "a PNG of %zu columns is too wide", image->width);
+        return aur_fail(error, AUR_ERROR_UNSUPPORTED, "a PNG of %zu columns is too wide", image->width);
     unsigned char *const bytes = malloc(pixels * count);
     if (bytes == NULL)
-        return aur_image_fail_encode(target, error);
+        return aur_image_fail_encode(error);
     const double factor = exp2((double)target->options.exposure);
     for (size_t i = 0; i < pixels; ++i) {
         for (size_t c = 0; c < count; ++c) {
@@ -128,11 +121,11 @@ static aur_result write_png(const aur_image_target *target, const aur_image *ima
             bytes[i * count + c] = (unsigned char)(shown * 255.0 + 0.5);
         }
     }
-    if (!stbi_write_png_to_func(aur_image_put_bytes, target->stream, (int)image->width, (int)image->height,
-                                (int)count, bytes, (int)(image->width * count)))
-        result = aur_image_fail_encode(target, error);
+    const int written =
+        stbi_write_png_to_func(aur_image_put_bytes, target->stream, (int)image->width, (int)image->height,
+                               (int)count, bytes, (int)(image->width * count));
     free(bytes);
-    return result;
+    return written != 0 ? AUR_OK : aur_image_fail_encode(error);
 }
 
 static const aur_key png_keys[] = {

@@ -61,22 +61,21 @@ static float float_at(const unsigned char *bytes, bool big_endian) {
 }
 
 static aur_result read_pfm(const aur_image_source *source, aur_image **image, aur_error *error) {
-    const aur_location where = {.file = source->name};
     const size_t channel_count = source->data[1] == 'F' ? 3 : 1;
     pfm_cursor cursor = {.source = source, .at = 2};
     size_t width, height;
     double scale;
     if (!next_size(&cursor, &width) || !next_size(&cursor, &height) || !next_scale(&cursor, &scale))
-        return aur_fail_at(error, where, AUR_ERROR_FORMAT,
-                           "broken PFM header: there must be width, height and a scale that is not zero");
-    aur_result result = aur_image_check_size(source, width, height, channel_count, error);
+        return aur_fail(error, AUR_ERROR_FORMAT,
+                        "broken PFM header: there must be width, height and a scale that is not zero");
+    aur_result result = aur_image_check_size(width, height, channel_count, error);
     if (result != AUR_OK)
         return result;
     const size_t row_values = width * channel_count;
     if (source->size - cursor.at < row_values * height * sizeof(float))
-        return aur_fail_at(error, where, AUR_ERROR_FORMAT,
-                           "is cut short: %zu x %zu pixels need %zu bytes, there are %zu", width, height,
-                           row_values * height * sizeof(float), source->size - cursor.at);
+        return aur_fail(error, AUR_ERROR_FORMAT,
+                        "is cut short: %zu x %zu pixels need %zu bytes, there are %zu", width, height,
+                        row_values * height * sizeof(float), source->size - cursor.at);
     result = aur_image_create(width, height, channel_count, image, error);
     if (result != AUR_OK)
         return result;
@@ -95,10 +94,7 @@ static void put_float(float value, unsigned char *bytes) {
 }
 
 static aur_result write_pfm(const aur_image_target *target, const aur_image *image, aur_error *error) {
-    size_t channels[3];
-    const aur_result result = aur_image_require_color(target->name, image, channels, error);
-    if (result != AUR_OK)
-        return result;
+    const size_t *const channels = target->channels;
     const size_t count = channels[0] == channels[1] ? 1 : 3;
     fprintf(target->stream, "%s\n%zu %zu\n-1.0\n", count == 3 ? "PF" : "Pf", image->width, image->height);
     const size_t row_size = image->width * count * sizeof(float);

@@ -45,7 +45,12 @@ aur_result aur_image_read_memory(const char *name, size_t size, const void *data
                            size == 0 ? "is empty, not a picture" : "is not a picture that can be read: %s",
                            list);
     }
-    return format->read(&source, image, error);
+    const aur_result result = format->read(&source, image, error);
+    if (result != AUR_OK) {
+        aur_image_destroy(*image);
+        *image = NULL;
+    }
+    return aur_fail_in(error, result, name);
 }
 
 aur_result aur_image_read(const char *path, aur_image **image, aur_error *error) {
@@ -80,35 +85,41 @@ static const aur_image_format *find_writer(const char *path, const char *wanted,
     }
     char list[128];
     aur_list_names(count - 1, names, list, sizeof list);
-    aur_fail_at(error, (aur_location){.file = path}, AUR_ERROR_NAME,
-                "cannot tell how to write a picture from '%s': use %s or %s", extension, list,
-                names[count - 1]);
+    aur_fail(error, AUR_ERROR_NAME, "cannot tell how to write a picture from '%s': use %s or %s", extension,
+             list, names[count - 1]);
     return NULL;
+}
+
+static aur_result write_image(const char *path, const aur_image *image,
+                              const aur_image_write_options *options, aur_error *error) {
+    aur_image_target target = {.name = path, .options = aur_image_write_options_default()};
+    aur_image_write_options *const own = &target.options;
+    aur_result result =
+        aur_options_read(options, sizeof *own, sizeof *own, own, "aur_image_write_options", error);
+    if (result != AUR_OK)
+        return result;
+    if (!isfinite(own->exposure) || (size_t)own->tone >= AUR_TONE_COUNT)
+        return aur_fail(error, AUR_ERROR_ARGUMENT,
+                        "cannot write a picture with exposure %g and tone curve %d", (double)own->exposure,
+                        (int)own->tone);
+    const aur_image_format *const format = find_writer(path, own->format, error);
+    if (format == NULL)
+        return AUR_ERROR_NAME;
+    if (!format->every_channel)
+        result = aur_image_require_color(path, image, target.channels, error);
+    aur_file_writer writer = {0};
+    if (result == AUR_OK)
+        result = aur_file_open(path, &writer, error);
+    target.stream = writer.stream;
+    if (result == AUR_OK)
+        result = format->write(&target, image, error);
+    if (result == AUR_OK)
+        return aur_file_commit(&writer, error);
+    aur_file_abandon(&writer);
+    return result;
 }
 
 aur_result aur_image_write(const char *path, const aur_image *image, const aur_image_write_options *options,
                            aur_error *error) {
-    aur_image_write_options own = aur_image_write_options_default();
-    aur_result result =
-        aur_options_read(options, sizeof own, sizeof own, &own, "aur_image_write_options", error);
-    if (result != AUR_OK)
-        return result;
-    if (!isfinite(own.exposure) || (size_t)own.tone >= AUR_TONE_COUNT)
-        return aur_fail_at(error, (aur_location){.file = path}, AUR_ERROR_ARGUMENT,
-                           "cannot write a picture with exposure %g and tone curve %d", (double)own.exposure,
-                           (int)own.tone);
-    const aur_image_format *const format = find_writer(path, own.format, error);
-    if (format == NULL)
-        return AUR_ERROR_NAME;
-    aur_file_writer writer;
-    result = aur_file_open(path, &writer, error);
-    if (result != AUR_OK)
-        return result;
-    result = format->write(&(aur_image_target){.name = path, .stream = writer.stream, .options = own}, image,
-                           error);
-    if (result != AUR_OK) {
-        aur_file_abandon(&writer);
-        return result;
-    }
-    return aur_file_commit(&writer, error);
+    return aur_fail_in(error, write_image(path, image, options, error), path);
 }
