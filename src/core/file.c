@@ -56,17 +56,20 @@ static int take_name(aur_file_writer *writer, int nameless) {
     return -1;
 }
 
+/* Opens the folder that `path` is in; -1 with errno when that fails. */
+static int open_folder(const char *path, int flags) {
+    const size_t length = folder_length(path);
+    char *const folder = length > 0 ? strndup(path, length) : strdup(".");
+    const int descriptor = folder != NULL ? open(folder, flags | O_CLOEXEC, 0666) : -1;
+    free(folder);
+    return descriptor;
+}
+
 /* A file that has no name until it is complete, so that nothing is left behind when the process is killed; -1
  * where the system has no such files. */
 static int open_nameless(const char *path) {
 #if defined(O_TMPFILE)
-    if (access("/proc/self/fd", X_OK) != 0)
-        return -1;
-    const size_t length = folder_length(path);
-    char *const folder = length > 0 ? strndup(path, length) : strdup(".");
-    const int descriptor = folder != NULL ? open(folder, O_TMPFILE | O_WRONLY | O_CLOEXEC, 0666) : -1;
-    free(folder);
-    return descriptor;
+    return access("/proc/self/fd", X_OK) == 0 ? open_folder(path, O_TMPFILE | O_WRONLY) : -1;
 #else
     (void)path;
     return -1;
@@ -131,14 +134,11 @@ static int reason_of_failure(FILE *stream) {
 /* Makes the rename last beyond a loss of power. Some file systems cannot do this for folders; the file is
  * complete even so. */
 static void sync_folder(const char *path) {
-    const size_t length = folder_length(path);
-    char *const folder = length > 0 ? strndup(path, length) : strdup(".");
-    const int descriptor = folder != NULL ? open(folder, O_RDONLY | O_DIRECTORY | O_CLOEXEC) : -1;
+    const int descriptor = open_folder(path, O_RDONLY | O_DIRECTORY);
     if (descriptor >= 0) {
         (void)fsync(descriptor);
         close(descriptor);
     }
-    free(folder);
 }
 
 aur_result aur_file_commit(aur_file_writer *writer, aur_error *error) {

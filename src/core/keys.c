@@ -96,57 +96,47 @@ static void put_integer(const aur_key *key, uint64_t value, void *field) {
         *(uint64_t *)field = value;
 }
 
-/* Each parser below leaves `expected` alone for a number that is one but out of range, and returns false. */
-static bool parse_integer(const aur_key *key, const char *text, void *field, size_t capacity,
-                          char *expected) {
+/* What a text is to a key. */
+typedef enum reading { READ, OUT_OF_RANGE, OF_OTHER_TYPE } reading;
+
+static reading parse_integer(const aur_key *key, const char *text, void *field) {
     const char *const digits = aur_skip_spaces(text);
     const bool negative = *digits == '-';
     const char *const start = digits + (negative || *digits == '+');
     uint64_t magnitude = UINT64_MAX;
     const size_t count = strspn(start, "0123456789");
-    if (count == 0 || *aur_skip_spaces(start + count) != '\0') {
-        aur_format(expected, capacity, "an integer");
-        return false;
-    }
-    if (aur_read_integer(start, negative ? (uint64_t)INT64_MAX : UINT64_MAX, &magnitude) == NULL)
-        return false;
-    if (!in_range(key, negative ? -(double)magnitude : (double)magnitude))
-        return false;
+    if (count == 0 || *aur_skip_spaces(start + count) != '\0')
+        return OF_OTHER_TYPE;
+    if (aur_read_integer(start, negative ? (uint64_t)INT64_MAX : UINT64_MAX, &magnitude) == NULL ||
+        !in_range(key, negative ? -(double)magnitude : (double)magnitude))
+        return OUT_OF_RANGE;
     put_integer(key, negative ? 0 - magnitude : magnitude, field);
-    return true;
+    return READ;
 }
 
-static void put_real(const aur_key *key, double value, void *field) {
+static reading parse_real(const aur_key *key, const char *text, void *field) {
+    double value;
+    if (!aur_parse_double(text, &value))
+        return OF_OTHER_TYPE;
+    if (!in_range(key, value))
+        return OUT_OF_RANGE;
     if (key->size == sizeof(float))
         *(float *)field = (float)value;
     else
         *(double *)field = value;
+    return READ;
 }
 
-static bool parse_real(const aur_key *key, const char *text, void *field, size_t capacity, char *expected) {
-    double value;
-    if (!aur_parse_double(text, &value)) {
-        aur_format(expected, capacity, "a number");
-        return false;
-    }
-    if (!in_range(key, value))
-        return false;
-    put_real(key, value, field);
-    return true;
-}
-
-static bool parse_vector(const aur_key *key, const char *text, void *field, size_t capacity, char *expected) {
+static reading parse_vector(const aur_key *key, const char *text, void *field) {
     double value[3];
     const size_t count = aur_parse_doubles(text, value, 3);
-    if (count == 1) {
+    if (count == 1)
         value[2] = value[1] = value[0];
-    } else if (count != 3) {
-        aur_format(expected, capacity, "one or three numbers");
-        return false;
-    }
+    else if (count != 3)
+        return OF_OTHER_TYPE;
     for (size_t i = 0; i < 3; ++i)
         if (!in_range(key, value[i]))
-            return false;
+            return OUT_OF_RANGE;
     if (key->type == AUR_KEY_COLOR)
         *(aur_color *)field = (aur_color){{(float)value[0], (float)value[1], (float)value[2]}, NULL};
     for (size_t i = 0; key->type == AUR_KEY_VECTOR && i < 3; ++i) {
@@ -155,59 +145,69 @@ static bool parse_vector(const aur_key *key, const char *text, void *field, size
         else
             ((float *)field)[i] = (float)value[i];
     }
-    return true;
+    return READ;
 }
 
-static bool parse_choice(const aur_key *key, const char *text, void *field, size_t capacity, char *expected) {
-    const aur_names names = names_of_words(key->words);
-    const size_t index = aur_names_find(names, text);
-    if (index == names.count) {
-        const int used = aur_format(expected, capacity, "one of ");
-        aur_names_list(names, expected + used, capacity - (size_t)used);
-        return false;
-    }
-    put_integer(key, index, field);
-    return true;
-}
-
-static bool parse_boolean(const char *text, void *field, size_t capacity, char *expected) {
-    const bool yes = strcasecmp(text, "true") == 0;
-    if (!yes && strcasecmp(text, "false") != 0) {
-        aur_format(expected, capacity, "true or false");
-        return false;
-    }
-    *(bool *)field = yes;
-    return true;
-}
-
-bool aur_key_parse(const aur_key *key, const char *text, void *fields, size_t capacity, char *expected) {
-    void *const field = (char *)fields + key->offset;
-    say_range(key, capacity, expected);
+static reading parse(const aur_key *key, const char *text, void *field) {
     switch (key->type) {
-    case AUR_KEY_BOOLEAN:
-        return parse_boolean(text, field, capacity, expected);
+    case AUR_KEY_BOOLEAN: {
+        const bool yes = strcasecmp(text, "true") == 0;
+        if (!yes && strcasecmp(text, "false") != 0)
+            return OF_OTHER_TYPE;
+        *(bool *)field = yes;
+        return READ;
+    }
     case AUR_KEY_INTEGER:
-        return parse_integer(key, text, field, capacity, expected);
+        return parse_integer(key, text, field);
     case AUR_KEY_REAL:
-        return parse_real(key, text, field, capacity, expected);
-    case AUR_KEY_CHOICE:
-        return parse_choice(key, text, field, capacity, expected);
+        return parse_real(key, text, field);
+    case AUR_KEY_CHOICE: {
+        const aur_names names = names_of_words(key->words);
+        const size_t index = aur_names_find(names, text);
+        if (index == names.count)
+            return OF_OTHER_TYPE;
+        put_integer(key, index, field);
+        return READ;
+    }
     case AUR_KEY_TEXT:
         *(const char **)field = text;
-        return true;
+        return READ;
     case AUR_KEY_VECTOR:
     case AUR_KEY_COLOR:
-        return parse_vector(key, text, field, capacity, expected);
+        return parse_vector(key, text, field);
     case AUR_KEY_TRANSFORM:
-        aur_format(expected, capacity, "a transform");
         for (size_t i = 0; i < 16; ++i)
             ((double *)field)[i] = i % 5 == 0 ? 1.0 : 0.0;
-        return strcmp(text, "identity") == 0;
+        return strcmp(text, "identity") == 0 ? READ : OF_OTHER_TYPE;
     case AUR_KEY_ITEM:
         break;
     }
-    aur_format(expected, capacity, "something else than text");
-    return false;
+    return OF_OTHER_TYPE;
+}
+
+/* What a value of the type is called before its range is looked at. */
+static void say_type(const aur_key *key, size_t capacity, char *expected) {
+    static const char *const types[] = {"true or false",
+                                        "an integer",
+                                        "a number",
+                                        "one of ",
+                                        "a string",
+                                        "one or three numbers",
+                                        "one or three numbers or a texture",
+                                        "a transform",
+                                        "something else than text"};
+    const int used = aur_format(expected, capacity, "%s", types[key->type]);
+    if (key->type == AUR_KEY_CHOICE && (size_t)used < capacity)
+        aur_names_list(names_of_words(key->words), expected + used, capacity - (size_t)used);
+}
+
+bool aur_key_parse(const aur_key *key, const char *text, void *fields, size_t capacity, char *expected) {
+    const reading result = parse(key, text, (char *)fields + key->offset);
+    if (result == OUT_OF_RANGE)
+        say_range(key, capacity, expected);
+    else if (result == OF_OTHER_TYPE)
+        say_type(key, capacity, expected);
+    return result == READ;
 }
 
 /* Whether a value of this kind may be read as a key of that type: text may be anything. */
@@ -227,23 +227,6 @@ static bool kind_fits(aur_parameter_kind kind, aur_key_type type) {
     return kind == AUR_PARAMETER_TEXT ? type != AUR_KEY_TRANSFORM : (kinds[type] >> kind & 1u) != 0;
 }
 
-/* What a value of the type is called before its range is looked at. */
-static const char *type_wanted(const aur_key *key, size_t capacity, char *expected) {
-    static const char *const wanted[] = {"true or false",
-                                         "an integer",
-                                         "a number",
-                                         "",
-                                         "a string",
-                                         "one or three numbers",
-                                         "one or three numbers or a texture",
-                                         "a transform"};
-    if (key->type == AUR_KEY_CHOICE)
-        parse_choice(key, "", &(uint64_t){0}, capacity, expected);
-    else
-        aur_format(expected, capacity, "%s", wanted[key->type]);
-    return expected;
-}
-
 static aur_result read_given(const aur_key *key, const aur_parameters *parameters, const aur_parameter *item,
                              void *fields, aur_error *error) {
     void *const field = (char *)fields + key->offset;
@@ -257,9 +240,10 @@ static aur_result read_given(const aur_key *key, const aur_parameters *parameter
         *(aur_color *)field = (aur_color){.texture = item->object};
         return AUR_OK;
     }
-    if (!kind_fits(item->kind, key->type))
-        return aur_parameters_fail_value(parameters, item, type_wanted(key, sizeof expected, expected),
-                                         error);
+    if (!kind_fits(item->kind, key->type)) {
+        say_type(key, sizeof expected, expected);
+        return aur_parameters_fail_value(parameters, item, expected, error);
+    }
     if (key->type == AUR_KEY_TRANSFORM) {
         memcpy(field, item->transform, sizeof item->transform);
         return AUR_OK;

@@ -84,6 +84,16 @@ size_t aur_names_list(aur_names names, char *text, size_t capacity) {
     return used;
 }
 
+const char *aur_names_suggest(aur_names names, const char *wanted, const char *others,
+                              char text[AUR_ERROR_MESSAGE_CAPACITY]) {
+    if (aur_names_hint(names, wanted, "''", text)[0] == '\0') {
+        const size_t used = (size_t)snprintf(text, AUR_ERROR_MESSAGE_CAPACITY, "; %s: ", others);
+        /* What does not fit here does not fit the message either. */
+        aur_names_list(names, text + used, AUR_ERROR_MESSAGE_CAPACITY - used);
+    }
+    return text;
+}
+
 aur_result aur_names_choose(aur_names names, const char *kind, const char *wanted, aur_location location,
                             size_t *index, aur_error *error) {
     const size_t found = aur_names_find(names, wanted);
@@ -91,13 +101,9 @@ aur_result aur_names_choose(aur_names names, const char *kind, const char *wante
         *index = found;
         return AUR_OK;
     }
-    const char *const nearest = aur_names_nearest(names, wanted);
-    if (nearest != NULL)
-        return aur_fail_at(error, location, AUR_ERROR_NAME, "unknown %s '%s'; did you mean '%s'?", kind,
-                           wanted, nearest);
-    char list[AUR_ERROR_MESSAGE_CAPACITY]; /* what does not fit here does not fit the message either */
-    aur_names_list(names, list, sizeof list);
-    return aur_fail_at(error, location, AUR_ERROR_NAME, "unknown %s '%s'; there are: %s", kind, wanted, list);
+    char help[AUR_ERROR_MESSAGE_CAPACITY];
+    return aur_fail_at(error, location, AUR_ERROR_NAME, "unknown %s '%s'%s", kind, wanted,
+                       aur_names_suggest(names, wanted, "there are", help));
 }
 
 const char *aur_nearest_name(const char *wanted, size_t count, const char *const *names) {

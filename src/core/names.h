@@ -26,6 +26,11 @@ enum { AUR_HINT_CAPACITY = 96 };
 const char *aur_names_hint(aur_names names, const char *wanted, const char *quotes,
                            char hint[AUR_HINT_CAPACITY]);
 
+/* The end of a message about an unknown name, written into `text` and returned: "; did you mean 'NAME'?", or
+ * "; OTHERS: a, b, c" when no name is near. */
+const char *aur_names_suggest(aur_names names, const char *wanted, const char *others,
+                              char text[AUR_ERROR_MESSAGE_CAPACITY]);
+
 /* Writes "a, b, c" into text[capacity], always terminated; returns the length of the whole list, as snprintf
  * does. */
 size_t aur_names_list(aur_names names, char *text, size_t capacity);

@@ -34,13 +34,12 @@ static aur_result add(aur_parameters *parameters, aur_parameter item, const char
     for (size_t i = 0; i < parameters->count; ++i) {
         if (strcmp(parameters->items[i].name, name) != 0)
             continue;
+        char first[48] = "";
         const size_t line = parameters->items[i].location.line;
-        if (line == 0)
-            return aur_fail_at(error, item.location, AUR_ERROR_FORMAT, "%s '%s': '%s' is given twice",
-                               parameters->kind, parameters->plugin, name);
-        return aur_fail_at(error, item.location, AUR_ERROR_FORMAT,
-                           "%s '%s': '%s' is given twice, first in line %zu", parameters->kind,
-                           parameters->plugin, name, line);
+        if (line > 0)
+            snprintf(first, sizeof first, ", first in line %zu", line);
+        return aur_fail_at(error, item.location, AUR_ERROR_FORMAT, "%s '%s': '%s' is given twice%s",
+                           parameters->kind, parameters->plugin, name, first);
     }
     if (!aur_array_reserve(&parameters->items, &parameters->capacity, parameters->count + 1,
                            sizeof *parameters->items))
@@ -188,19 +187,11 @@ aur_result aur_parameters_finish(const aur_parameters *parameters, aur_error *er
         if (item->used)
             continue;
         const aur_names names = aur_names_of(parameters->known_count, parameters->known);
-        const char *const nearest = aur_names_nearest(names, item->name);
-        if (nearest != NULL)
-            return aur_fail_at(error, item->location, AUR_ERROR_NAME,
-                               "%s '%s' has no '%s'; did you mean '%s'?", parameters->kind,
-                               parameters->plugin, item->name, nearest);
-        char known[AUR_ERROR_MESSAGE_CAPACITY];
-        aur_names_list(names, known, sizeof known);
-        if (known[0] == '\0')
-            return aur_fail_at(error, item->location, AUR_ERROR_NAME,
-                               "%s '%s' has no '%s': it takes no parameters", parameters->kind,
-                               parameters->plugin, item->name);
-        return aur_fail_at(error, item->location, AUR_ERROR_NAME, "%s '%s' has no '%s'; it has: %s",
-                           parameters->kind, parameters->plugin, item->name, known);
+        char help[AUR_ERROR_MESSAGE_CAPACITY];
+        return aur_fail_at(error, item->location, AUR_ERROR_NAME, "%s '%s' has no '%s'%s", parameters->kind,
+                           parameters->plugin, item->name,
+                           names.count > 0 ? aur_names_suggest(names, item->name, "it has", help)
+                                           : ": it takes no parameters");
     }
     return AUR_OK;
 }
