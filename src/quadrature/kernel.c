@@ -4,12 +4,8 @@
 #include <math.h>
 
 #include "core/simd.h"
-#include "quadrature/kernel_row.h"
-
-void aur_kernel_row_portable(double top, const double point[3], size_t count, aur_columns columns,
-                             double *row) {
-    kernel_row(top, point, count, columns, row);
-}
+#define ROW aur_kernel_row_portable
+#include "quadrature/kernel_body.h"
 
 aur_kernel_rule aur_kernel_rule_make(double smoothness) {
     aur_kernel_rule rule = {.smoothness = smoothness,

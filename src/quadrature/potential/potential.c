@@ -98,6 +98,7 @@ static aur_result create(aur_potential *potential, aur_error *error) {
         return create_lobe(potential, error);
     case AUR_DENSITY_SPHERE:
         potential->mass = 4.0 * AUR_PI;
+        aur_kernel_coefficients(potential->rule.smoothness, 1, &potential->zonal.self_energy);
         return AUR_OK;
     case AUR_DENSITY_GGX:
     case AUR_DENSITY_FUNCTION:
@@ -121,7 +122,7 @@ aur_result aur_potential_create(const aur_density *density, double smoothness, a
     created->rule = aur_kernel_rule_make(smoothness);
     aur_density *const own = &created->density;
     result = aur_options_read(density, sizeof *own, sizeof *own, own, "aur_density", error);
-    if (own->axis[0] == 0.0 && own->axis[1] == 0.0 && own->axis[2] == 0.0)
+    if (aur_is_default_axis(own->axis))
         own->axis[2] = 1.0;
     if (result == AUR_OK)
         result = create(created, error);
@@ -148,13 +149,6 @@ double aur_potential_mass(const aur_potential *potential) {
     return potential->mass;
 }
 
-/* The constant that the sphere's potential is: k_0. */
-static double sphere_potential(const aur_potential *potential) {
-    double constant;
-    aur_kernel_coefficients(potential->rule.smoothness, 1, &constant);
-    return constant;
-}
-
 static void evaluate_lobe(const aur_potential *potential, size_t count, const double *xyz, double *z) {
     enum { BLOCK = 256 };
     double cosine[BLOCK];
@@ -176,10 +170,9 @@ void aur_potential_evaluate(const aur_potential *potential, size_t count, const 
         evaluate_lobe(potential, count, xyz, z);
         return;
     }
-    const double constant = potential->density.kind == AUR_DENSITY_SPHERE ? sphere_potential(potential) : 0.0;
     for (size_t i = 0; i < count; ++i)
         z[i] = potential->node_masses == NULL
-                   ? constant
+                   ? potential->zonal.self_energy /* of the sphere: its z is the same everywhere */
                    : aur_kernel_sum(&potential->rule, xyz + 3 * i, potential->density.node_count,
                                     potential->nodes, potential->node_masses);
 }
@@ -195,14 +188,10 @@ static double clipped_self_energy(const aur_potential *potential) {
 }
 
 double aur_potential_self_energy(const aur_potential *potential) {
-    switch (potential->density.kind) {
-    case AUR_DENSITY_COSINE_POWER:
-        return potential->lune.fraction > 0.0 ? clipped_self_energy(potential) : potential->zonal.self_energy;
-    case AUR_DENSITY_SPHERE:
-        return sphere_potential(potential);
-    default:
-        break;
-    }
+    if (potential->lune.fraction > 0.0)
+        return clipped_self_energy(potential);
+    if (potential->node_masses == NULL)
+        return potential->zonal.self_energy;
     double energy = 0.0;
     for (size_t i = 0; i < potential->density.node_count; ++i) {
         const double point[3] = {potential->nodes.x[i], potential->nodes.y[i], potential->nodes.z[i]};

@@ -14,7 +14,7 @@ struct aur_potential {
     aur_density density; /* its axis a unit vector, node_count what it stands for */
     aur_kernel_rule rule;
     double mass;
-    aur_zonal zonal; /* COSINE_POWER */
+    aur_zonal zonal; /* COSINE_POWER; SPHERE: its self-energy alone */
     aur_lune lune;   /* COSINE_POWER, clipped */
     double *storage; /* NODES, FUNCTION, GGX: x, y, z and masses of sum 1, node_count each */
     aur_columns nodes;
@@ -25,6 +25,11 @@ struct aur_potential {
 static inline bool aur_potential_hides(const aur_potential *potential) {
     const aur_density_kind kind = potential->density.kind;
     return kind == AUR_DENSITY_GGX || (kind == AUR_DENSITY_COSINE_POWER && potential->density.clipped);
+}
+
+/* All zero, which stands for +z. */
+static inline bool aur_is_default_axis(const double axis[3]) {
+    return axis[0] == 0.0 && axis[1] == 0.0 && axis[2] == 0.0;
 }
 
 /* Unnormalised densities as nodes: fill columns x, y, z and masses, node_count each. */

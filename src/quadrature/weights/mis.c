@@ -6,14 +6,10 @@
 #include "core/vector3d.h"
 #include "quadrature/potential/potential.h"
 
-static bool is_default_axis(const double axis[3]) {
-    return axis[0] == 0.0 && axis[1] == 0.0 && axis[2] == 0.0;
-}
-
 /* The density that a strategy draws a direction with. */
 static double drawn_density(const aur_strategy *strategy, const double direction[3]) {
     const double *const axis = strategy->axis;
-    if (strategy->sampled.kind == AUR_LOBE_GGX || is_default_axis(axis))
+    if (strategy->sampled.kind == AUR_LOBE_GGX || aur_is_default_axis(axis))
         return aur_lobe_pdf(&strategy->sampled, direction);
     /* A cos^m lobe asks for the angle to its axis only. */
     const double cosine = aur_dot3(direction, axis);
@@ -46,7 +42,7 @@ static aur_result check_strategies(aur_mis_heuristic heuristic, size_t strategy_
         const aur_result result = aur_lobe_check(&strategy->sampled, error);
         if (result != AUR_OK)
             return result;
-        if (!is_default_axis(strategy->axis) && !aur_is_unit(strategy->axis))
+        if (!aur_is_default_axis(strategy->axis) && !aur_is_unit(strategy->axis))
             return aur_fail(error, AUR_ERROR_ARGUMENT,
                             "the axis (%g, %g, %g) of strategy %zu is not a unit vector", strategy->axis[0],
                             strategy->axis[1], strategy->axis[2], t);

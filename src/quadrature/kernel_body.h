@@ -1,14 +1,11 @@
-/* The body of the kernel's row for s = 3/2, compiled once for each instruction set. It is plain arithmetic
- * without contraction, so every set gives the same bits. Differences, not the dot product: near samples keep
- * their distance. */
-#pragma once
-
+/* The kernel's row for s = 3/2, compiled once for each instruction set: a file that includes this defines
+ * ROW, the function's name. It is plain arithmetic without contraction, so every set gives the same bits.
+ * Differences, not the dot product: near samples keep their distance. */
 #include <math.h>
 
 #include "quadrature/kernel.h"
 
-static inline void kernel_row(double top, const double point[3], size_t count, aur_columns columns,
-                              double *restrict row) {
+void ROW(double top, const double point[3], size_t count, aur_columns columns, double *restrict row) {
     const double *restrict x = columns.x;
     const double *restrict y = columns.y;
     const double *restrict z = columns.z;
