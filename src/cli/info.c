@@ -1,6 +1,7 @@
 /* aureole info: what is in a scene, a picture, a file of points or a table of weights. */
 #include <aureole/image.h>
 #include <aureole/quadrature.h>
+#include <aureole/render.h>
 #include <aureole/scene.h>
 #include <ctype.h>
 #include <errno.h>
@@ -27,6 +28,10 @@ static int describe_scene(const char *path, const info_options *options) {
                                              .warnings = cli_warnings(options->quiet)};
     if (aur_scene_load(path, &scene_options, &scene, &error) != AUR_OK)
         return cli_fail(&error);
+    if (aur_render_check_scene(scene, &error) != AUR_OK) {
+        aur_scene_destroy(scene);
+        return cli_fail(&error);
+    }
     aur_scene_description d = {.size = sizeof d};
     aur_scene_describe(scene, &d, NULL);
     cli_table *const facts = cli_table_create(0, NULL);

@@ -54,6 +54,15 @@ void aur_renderer_destroy(aur_renderer *renderer) {
     free(renderer);
 }
 
+aur_result aur_render_check_scene(const aur_scene *scene, aur_error *error) {
+    aur_parameters parameters;
+    aur_result result = aur_parameters_copy(aur_scene_integrator(scene), &parameters, error);
+    if (result == AUR_OK)
+        result = aur_integrator_check(&parameters, error);
+    aur_parameters_release(&parameters);
+    return result;
+}
+
 /* --- preparation */
 
 /* The integrator that the options or the scene name. */
@@ -162,15 +171,7 @@ typedef struct render_work {
 static aur_result add_samples(const aur_integrator *integrator, aur_tile *tile) {
     if (integrator->descriptor->tile != NULL)
         return integrator->descriptor->tile(integrator, tile);
-    for (size_t y = tile->y0; y < tile->y1; ++y)
-        for (size_t x = tile->x0; x < tile->x1; ++x)
-            for (uint32_t i = 0; i < tile->count; ++i) {
-                aur_camera_sample sample;
-                const float weight = aur_view_sample(tile->view, x, y, tile->first + i, &sample);
-                const aur_vector radiance =
-                    integrator->descriptor->radiance(integrator, &sample, &tile->counters);
-                aur_tile_add(tile, x, y, weight, radiance);
-            }
+    aur_integrator_add_samples(integrator, tile);
     return AUR_OK;
 }
 

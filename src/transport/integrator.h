@@ -33,16 +33,22 @@ struct aur_integrator_context {
 
 typedef struct aur_integrator_descriptor {
     aur_row row; /* first, so that a row of the table is its descriptor */
-    /* Reads its keys and prepares what all rays share (a photon map, say), on several threads. Sets
-     * integrator->data. */
+    /* Of what integrator->data points to: `initial`, or zeros where that is NULL, and then what the keys say.
+     * Freed in the end. */
+    size_t size;
+    const void *initial;
+    /* Prepares what all rays share (a photon map, say), on several threads; NULL: nothing. Texts among the
+     * keys are the caller's and are gone afterwards. */
     aur_result (*create)(aur_parameters *parameters, const aur_integrator_context *context,
                          aur_integrator *integrator, aur_error *error);
+    /* Frees what integrator->data points to further, if it was prepared; NULL: nothing. */
     void (*release)(aur_integrator *integrator);
     /* Radiance that arrives along the camera ray. */
     aur_vector (*radiance)(const aur_integrator *integrator, const aur_camera_sample *sample,
                            aur_counters *counters);
-    /* Instead of it, for integrators that treat pixels together or fill more channels: adds the samples of a
-     * tile. The sums of a pixel must not depend on which of its neighbours are wanted. */
+    /* Adds the samples of a tile, for integrators that treat pixels together or fill more channels; NULL: one
+     * camera ray after the other, as aur_integrator_add_samples does. The sums of a pixel must not depend on
+     * which of its neighbours are wanted. */
     aur_result (*tile)(const aur_integrator *integrator, aur_tile *tile);
 } aur_integrator_descriptor;
 
@@ -61,12 +67,28 @@ struct aur_integrator {
 
 extern const aur_table aur_integrator_table;
 
+/* Adds the samples of a tile, each the radiance along a camera ray. */
+static inline void aur_integrator_add_samples(const aur_integrator *integrator, aur_tile *tile) {
+    for (size_t y = tile->y0; y < tile->y1; ++y)
+        for (size_t x = tile->x0; x < tile->x1; ++x)
+            for (uint32_t i = 0; i < tile->count; ++i) {
+                aur_camera_sample sample;
+                const float weight = aur_view_sample(tile->view, x, y, tile->first + i, &sample);
+                aur_tile_add(tile, x, y, weight,
+                             integrator->descriptor->radiance(integrator, &sample, &tile->counters));
+            }
+}
+
 AUR_EXPERIMENTAL aur_integrator_factory aur_integrator_create;
+/* Whether the parameters name an integrator and its keys can be read: what aur_integrator_create asks first.
+ */
+aur_result aur_integrator_check(aur_parameters *parameters, aur_error *error);
 
 static inline void aur_integrator_destroy(aur_integrator *integrator) {
     if (integrator == NULL)
         return;
-    if (integrator->data != NULL)
+    if (integrator->data != NULL && integrator->descriptor->release != NULL)
         integrator->descriptor->release(integrator);
+    free(integrator->data);
     free(integrator);
 }

@@ -36,6 +36,17 @@ described=$(awk -F, 'NR == 1 { for (i = 1; i <= NF; ++i) name[i] = $i }
                   value["lower_x"], value["upper_z"], value["filter"], value["integrator"] }' out)
 [ "$described" = "2 14 1 48 16 -1 1 box path" ] || fail "scene: $described"
 
+# What render refuses of an integrator, info refuses in the same words.
+for change in 's/"path"/"pth"/' 's/type="path"\/>/type="path"><integer name="max_dept" value="3"\/><\/integrator>/'; do
+  sed -e "$change" scene.txt >unknown.xml
+  for verb in info "render -o unknown.exr"; do
+    # shellcheck disable=SC2086
+    "$aureole" $verb unknown.xml >/dev/null 2>"said-${verb%% *}"
+    [ $? = 2 ] || fail "$verb: $change: not refused"
+  done
+  cmp -s said-info said-render || fail "$change: info and render refuse in other words"
+done
+
 printf 'Pf\n2 1\n-1\n\x00\x00\x80\x3f\x00\x00\x40\x40' >picture.csv
 says picture.csv "PFM,2,1,Y,1,2,3,0"
 printf 'Pf\n2 1\n-1\n\x00\x00\xc0\x7f\x00\x00\x40\x40' >picture.csv

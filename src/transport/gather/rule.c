@@ -11,6 +11,20 @@ static bool works_on_square(aur_scramble scramble) {
     return scramble == AUR_SCRAMBLE_DIGIT || scramble == AUR_SCRAMBLE_OWEN || scramble == AUR_SCRAMBLE_SHIFT;
 }
 
+aur_result aur_gather_rule_options_name(aur_gather_rule_options *options, const char *integrator,
+                                        const char *map, const char *scramble, aur_error *error) {
+    const aur_set_description *const row = aur_set_find(options->set);
+    options->scramble = row != NULL && row->binary_net ? AUR_SCRAMBLE_DIGIT : AUR_SCRAMBLE_ROTATE;
+    aur_result result = aur_map_from_name(map, &options->map, error);
+    if (result == AUR_OK && scramble != NULL)
+        result = aur_scramble_from_name(scramble, &options->scramble, error);
+    if (result == AUR_OK && options->scramble == AUR_SCRAMBLE_ROTATE3D)
+        result =
+            aur_fail(error, AUR_ERROR_UNSUPPORTED,
+                     "%s: 'rotate3d' would turn the pattern out of its hemisphere; use 'rotate'", integrator);
+    return result;
+}
+
 /* z -> z^{1/(M+1)} takes the uniform hemisphere to the density ~ cos^M about the axis; the azimuth stays. */
 static aur_vector warp(float x, float y, float z, double exponent) {
     const double warped = pow(z, 1.0 / (exponent + 1.0));

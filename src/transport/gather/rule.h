@@ -49,6 +49,12 @@ typedef struct aur_gather_rule {
     aur_gather_rotation *rotations;
 } aur_gather_rule;
 
+/* Sets map and scrambling by name. When `scramble` is NULL, digits of nets are scrambled, and every other
+ * pattern is turned about its axis (Marques 2013, section 6.1). Errors, NAME and UNSUPPORTED, begin with the
+ * integrator's name. */
+aur_result aur_gather_rule_options_name(aur_gather_rule_options *options, const char *integrator,
+                                        const char *map, const char *scramble, aur_error *error);
+
 aur_result aur_gather_rule_create(const aur_gather_rule_options *options, double exponent,
                                   aur_gather_rule *rule, aur_error *error);
 void aur_gather_rule_release(aur_gather_rule *rule);

@@ -1,88 +1,61 @@
 /* Ambient occlusion: the part of the hemisphere over a point, weighted by the cosine, that is open (Zhukov
  * 1998; Schretter 2012, fig. 5). One pattern of directions an image, shared out among the samples of a pixel
  * as final gathering does it, its rotations interleaved over blocks of 4 by 4 pixels. */
-#include <stdlib.h>
-
 #include "transport/integrator.h"
 #include "transport/occlusion/rays.h"
 
-static void release(aur_integrator *integrator) {
-    aur_occlusion *const data = integrator->data;
-    aur_gather_rule_release(&data->rule);
-    free(data);
-}
-
-typedef struct occlusion_parameters {
-    int64_t samples, rotations, max_depth;
-    uint64_t pattern_seed;
-    const char *pattern, *map, *scramble; /* scramble NULL: not given */
-    double max_distance;
+typedef struct occlusion_data {
+    aur_occlusion occlusion; /* first: what the bench reads */
+    aur_gather_rule_options pattern;
+    const char *map, *scramble; /* scramble NULL: not given */
+    int64_t max_depth;
     bool cosine;
     enum { PIXEL_FILTER, PIXEL_CENTRE } pixel;
-} occlusion_parameters;
+} occlusion_data;
 
 static const aur_key keys[] = {
-    {AUR_KEY_OF_INTEGER(occlusion_parameters, "samples", samples, 1, 1 << 30, "64",
+    {AUR_KEY_OF_INTEGER(occlusion_data, "samples", pattern.count, 1, 1 << 30, "64",
                         "directions a pixel, shared out among its samples")},
-    {AUR_KEY_OF_TEXT(occlusion_parameters, "pattern", pattern, "spherical-fibonacci",
-                     "SET of the directions")},
-    {AUR_KEY_OF_TEXT(occlusion_parameters, "map", map, "lambert",
+    {AUR_KEY_OF_TEXT(occlusion_data, "pattern", pattern.set, "spherical-fibonacci", "SET of the directions")},
+    {AUR_KEY_OF_TEXT(occlusion_data, "map", map, "lambert",
                      "map of a square set to the hemisphere: lambert, concentric, azimuthal or polar")},
-    {AUR_KEY_OF_TEXT(occlusion_parameters, "scramble", scramble, "rotate (nets: digit)",
+    {AUR_KEY_OF_TEXT(occlusion_data, "scramble", scramble, "rotate (nets: digit)",
                      "how a pattern is randomised: none, digit, owen, shift or rotate"),
      .computed = true},
-    {AUR_KEY_OF_INTEGER(occlusion_parameters, "rotations", rotations, 0, 65536, "16",
+    {AUR_KEY_OF_INTEGER(occlusion_data, "rotations", pattern.rotations, 0, 65536, "16",
                         "randomisations made beforehand; 0 is one of its own for every pixel")},
-    {AUR_KEY_OF_REAL(occlusion_parameters, "max_distance", max_distance, 0.0, INFINITY, "infinity",
+    {AUR_KEY_OF_REAL(occlusion_data, "max_distance", occlusion.max_distance, 0.0, INFINITY, "infinity",
                      "what is farther, in scene units, does not occlude")},
-    {AUR_KEY_OF_BOOLEAN(occlusion_parameters, "cosine", cosine, "true",
+    {AUR_KEY_OF_BOOLEAN(occlusion_data, "cosine", cosine, "true",
                         "directions weighted by the cosine, else evenly")},
-    {AUR_KEY_OF_CHOICE(occlusion_parameters, "pixel", pixel, "filter",
+    {AUR_KEY_OF_CHOICE(occlusion_data, "pixel", pixel, "filter",
                        "camera rays over the pixel, or through its centre", "filter", "centre")},
-    {AUR_KEY_OF_INTEGER(occlusion_parameters, "pattern_seed", pattern_seed, 0, INFINITY, "0",
+    {AUR_KEY_OF_INTEGER(occlusion_data, "pattern_seed", pattern.seed, 0, INFINITY, "0",
                         "another randomisation of the pattern under the same seed")},
-    {AUR_KEY_OF_INTEGER(occlusion_parameters, "max_depth", max_depth, -1, 1 << 20, "-1",
+    {AUR_KEY_OF_INTEGER(occlusion_data, "max_depth", max_depth, -1, 1 << 20, "-1",
                         "of no effect: scenes set it for whatever integrator is asked for")},
 };
 
-static aur_result make_rule(const occlusion_parameters *p, const aur_integrator_context *context,
-                            aur_occlusion *data, aur_error *error) {
-    const aur_set_description *const row = aur_set_find(p->pattern);
-    const bool net = row != NULL && row->binary_net;
-    const size_t shares = context->samples_per_pixel;
-    aur_gather_rule_options options = {.set = p->pattern,
-                                       .count = ((size_t)p->samples + shares - 1) / shares * shares,
-                                       .scramble = net ? AUR_SCRAMBLE_DIGIT : AUR_SCRAMBLE_ROTATE,
-                                       .rotations = (size_t)p->rotations,
-                                       .seed = data->seed,
-                                       .set_seed = data->seed,
-                                       .warnings = context->warnings};
-    aur_result result = aur_map_from_name(p->map, &options.map, error);
-    if (result == AUR_OK && p->scramble != NULL)
-        result = aur_scramble_from_name(p->scramble, &options.scramble, error);
-    if (result == AUR_OK && options.scramble == AUR_SCRAMBLE_ROTATE3D)
-        result = aur_fail(error, AUR_ERROR_UNSUPPORTED,
-                          "ao: 'rotate3d' would turn the pattern out of its hemisphere; use 'rotate'");
-    if (result == AUR_OK)
-        result = aur_gather_rule_create(&options, p->cosine ? 1.0 : 0.0, &data->rule, error);
-    return result;
-}
-
 static aur_result create(aur_parameters *parameters, const aur_integrator_context *context,
                          aur_integrator *integrator, aur_error *error) {
-    occlusion_parameters p = {.scramble = NULL};
-    const aur_result result = aur_row_read(&integrator->descriptor->row, parameters, &p, error);
-    if (result != AUR_OK)
-        return result;
-    aur_occlusion *const data = calloc(1, sizeof *data);
-    if (data == NULL)
-        return aur_fail_memory(error);
-    integrator->data = data;
-    integrator->pixel_centre = p.pixel == PIXEL_CENTRE;
-    data->samples_per_pixel = context->samples_per_pixel;
-    data->seed = aur_hash2(context->seed, p.pattern_seed);
-    data->max_distance = (float)p.max_distance;
-    return make_rule(&p, context, data, error);
+    (void)parameters;
+    occlusion_data *const data = integrator->data;
+    aur_gather_rule_options *const pattern = &data->pattern;
+    const size_t shares = context->samples_per_pixel;
+    integrator->pixel_centre = data->pixel == PIXEL_CENTRE;
+    data->occlusion.samples_per_pixel = shares;
+    data->occlusion.seed = aur_hash2(context->seed, pattern->seed);
+    pattern->count = (pattern->count + shares - 1) / shares * shares;
+    pattern->seed = pattern->set_seed = data->occlusion.seed;
+    pattern->warnings = context->warnings;
+    const aur_result result = aur_gather_rule_options_name(pattern, "ao", data->map, data->scramble, error);
+    return result == AUR_OK
+               ? aur_gather_rule_create(pattern, data->cosine ? 1.0 : 0.0, &data->occlusion.rule, error)
+               : result;
+}
+
+static void release(aur_integrator *integrator) {
+    aur_gather_rule_release(&((occlusion_data *)integrator->data)->occlusion.rule);
 }
 
 typedef struct occlusion_sums {
@@ -125,6 +98,7 @@ const aur_integrator_descriptor aur_integrator_ambient_occlusion = {
             .summary = "ambient occlusion: how much of the hemisphere over a point is open",
             .source = "Zhukov 1998, Schretter 2012",
             AUR_ROW_KEYS(keys)},
+    .size = sizeof(occlusion_data),
     .create = create,
     .release = release,
     .tile = tile,

@@ -85,20 +85,11 @@ static const aov_type types[] = {
 
 enum { TYPE_COUNT = sizeof types / sizeof types[0] };
 
-typedef struct aov_parameters {
-    const char *aovs;
-    const aur_parameter *integrator;
-} aov_parameters;
-
-static const aur_key keys[] = {
-    {AUR_KEY_OF_TEXT(aov_parameters, "aovs", aovs,
-                     "albedo:albedo,normal:sh_normal,position:position,shape:shape_index,"
-                     "primitive:prim_index,samples:sample_count,variance:variance",
-                     "name:type,...: the channels beside the picture")},
-    {AUR_KEY_OF_ITEM(aov_parameters, "integrator", integrator, "path", "whose picture it is", "integrator")},
-};
-
 typedef struct aov_data {
+    /* Of the keys, and gone afterwards: */
+    const char *list;
+    const aur_parameter *item;
+
     aur_integrator *nested;
     size_t count;
     const aov_type *aovs[CHANNEL_CAPACITY];
@@ -108,10 +99,17 @@ typedef struct aov_data {
     const char *name_list[CHANNEL_CAPACITY];
 } aov_data;
 
+static const aur_key keys[] = {
+    {AUR_KEY_OF_TEXT(aov_data, "aovs", list,
+                     "albedo:albedo,normal:sh_normal,position:position,shape:shape_index,"
+                     "primitive:prim_index,samples:sample_count,variance:variance",
+                     "name:type,...: the channels beside the picture")},
+    {AUR_KEY_OF_ITEM(aov_data, "integrator", item, "path", "whose picture it is", "integrator")},
+};
+
 static void release(aur_integrator *integrator) {
     aov_data *const data = integrator->data;
     aur_integrator_destroy(data->nested);
-    free(data);
 }
 
 static const aov_type *find_type(const char *name, size_t length) {
@@ -206,16 +204,10 @@ static aur_result create_nested(const aur_parameters *parameters, const aur_para
 
 static aur_result create(aur_parameters *parameters, const aur_integrator_context *context,
                          aur_integrator *integrator, aur_error *error) {
-    aov_data *const data = calloc(1, sizeof *data);
-    integrator->data = data;
-    if (data == NULL)
-        return aur_fail_memory(error);
-    aov_parameters p = {.integrator = NULL};
-    aur_result result = aur_row_read(&integrator->descriptor->row, parameters, &p, error);
+    aov_data *const data = integrator->data;
+    aur_result result = read_aovs(data, data->list, parameters->location, error);
     if (result == AUR_OK)
-        result = read_aovs(data, p.aovs, parameters->location, error);
-    if (result == AUR_OK)
-        result = create_nested(parameters, p.integrator, context, data, error);
+        result = create_nested(parameters, data->item, context, data, error);
     if (result != AUR_OK)
         return result;
     integrator->pixel_centre = data->nested->pixel_centre;
@@ -264,6 +256,7 @@ const aur_integrator_descriptor aur_integrator_aov = {
             .summary = "albedo, normals, positions and more in channels beside another integrator's",
             .source = "Mitsuba 3",
             AUR_ROW_KEYS(keys)},
+    .size = sizeof(aov_data),
     .create = create,
     .release = release,
     .tile = add_tile,

@@ -1,17 +1,5 @@
 /* How far the camera sees: the distance along the ray in all three channels, 0 where there is nothing. */
-#include <stdlib.h>
-
 #include "transport/integrator.h"
-
-static aur_result create(aur_parameters *parameters, const aur_integrator_context *context,
-                         aur_integrator *integrator, aur_error *error) {
-    (void)context;
-    return aur_row_read(&integrator->descriptor->row, parameters, NULL, error);
-}
-
-static void release(aur_integrator *integrator) {
-    (void)integrator;
-}
 
 static aur_vector radiance(const aur_integrator *integrator, const aur_camera_sample *sample,
                            aur_counters *counters) {
@@ -24,7 +12,5 @@ static aur_vector radiance(const aur_integrator *integrator, const aur_camera_sa
 
 const aur_integrator_descriptor aur_integrator_depth = {
     .row = {.name = "depth", .summary = "the distance to what the camera sees", .source = "Mitsuba 3"},
-    .create = create,
-    .release = release,
     .radiance = radiance,
 };

@@ -1,72 +1,50 @@
 /* Direct light alone: what the lights send to the surfaces that the camera sees, by sampling lights and BSDF
  * with any number of samples each, weighted by the power heuristic (Veach 1997). A mirror shows the lights.
  */
-#include <stdlib.h>
-
 #include "transport/integrator.h"
 #include "transport/lights/direct_light.h"
 #include "transport/lights/first_surface.h"
 
 typedef struct direct_data {
-    uint32_t emitter_samples, bsdf_samples;
+    int64_t shading_samples, emitter_samples, bsdf_samples; /* -1: not given */
     bool hide_emitters;
 } direct_data;
 
-typedef struct direct_parameters {
-    int64_t shading, emitter, bsdf; /* -1: not given */
-    bool hide_emitters;
-} direct_parameters;
+static const direct_data initial = {.shading_samples = -1, .emitter_samples = -1, .bsdf_samples = -1};
 
 enum { MOST_SAMPLES = 1 << 16 };
 
 static const aur_key keys[] = {
-    {AUR_KEY_OF_INTEGER(direct_parameters, "shading_samples", shading, 1, MOST_SAMPLES, "1",
+    {AUR_KEY_OF_INTEGER(direct_data, "shading_samples", shading_samples, 1, MOST_SAMPLES, "1",
                         "samples of lights and of the BSDF each"),
      .computed = true},
-    {AUR_KEY_OF_INTEGER(direct_parameters, "emitter_samples", emitter, 0, MOST_SAMPLES, "1",
+    {AUR_KEY_OF_INTEGER(direct_data, "emitter_samples", emitter_samples, 0, MOST_SAMPLES, "1",
                         "samples of lights, in place of shading_samples"),
      .computed = true},
-    {AUR_KEY_OF_INTEGER(direct_parameters, "bsdf_samples", bsdf, 0, MOST_SAMPLES, "1",
+    {AUR_KEY_OF_INTEGER(direct_data, "bsdf_samples", bsdf_samples, 0, MOST_SAMPLES, "1",
                         "samples of the BSDF, in place of shading_samples"),
      .computed = true},
-    {AUR_KEY_OF_BOOLEAN(direct_parameters, "hide_emitters", hide_emitters, "false",
+    {AUR_KEY_OF_BOOLEAN(direct_data, "hide_emitters", hide_emitters, "false",
                         "lights are black to the camera")},
 };
-
-/* What the keys mean together. */
-static aur_result check(const direct_parameters *p, aur_location location, aur_error *error) {
-    if (p->shading >= 0 && (p->emitter >= 0 || p->bsdf >= 0))
-        return aur_fail_at(error, location, AUR_ERROR_FORMAT,
-                           "integrator 'direct': give either 'shading_samples' or 'emitter_samples' and "
-                           "'bsdf_samples'");
-    if (p->emitter == 0 && p->bsdf == 0)
-        return aur_fail_at(error, location, AUR_ERROR_FORMAT,
-                           "integrator 'direct': 'emitter_samples' and 'bsdf_samples' cannot both be 0");
-    return AUR_OK;
-}
 
 static aur_result create(aur_parameters *parameters, const aur_integrator_context *context,
                          aur_integrator *integrator, aur_error *error) {
     (void)context;
-    direct_parameters p = {.shading = -1, .emitter = -1, .bsdf = -1};
-    aur_result result = aur_row_read(&integrator->descriptor->row, parameters, &p, error);
-    if (result == AUR_OK)
-        result = check(&p, parameters->location, error);
-    if (result != AUR_OK)
-        return result;
-    const int64_t each = p.shading >= 0 ? p.shading : 1;
-    direct_data *const data = malloc(sizeof *data);
-    if (data == NULL)
-        return aur_fail_memory(error);
-    *data = (direct_data){.emitter_samples = (uint32_t)(p.emitter >= 0 ? p.emitter : each),
-                          .bsdf_samples = (uint32_t)(p.bsdf >= 0 ? p.bsdf : each),
-                          .hide_emitters = p.hide_emitters};
-    integrator->data = data;
+    direct_data *const data = integrator->data;
+    if (data->shading_samples >= 0 && (data->emitter_samples >= 0 || data->bsdf_samples >= 0))
+        return aur_fail_at(error, parameters->location, AUR_ERROR_FORMAT,
+                           "integrator 'direct': give either 'shading_samples' or 'emitter_samples' and "
+                           "'bsdf_samples'");
+    if (data->emitter_samples == 0 && data->bsdf_samples == 0)
+        return aur_fail_at(error, parameters->location, AUR_ERROR_FORMAT,
+                           "integrator 'direct': 'emitter_samples' and 'bsdf_samples' cannot both be 0");
+    const int64_t each = data->shading_samples >= 0 ? data->shading_samples : 1;
+    if (data->emitter_samples < 0)
+        data->emitter_samples = each;
+    if (data->bsdf_samples < 0)
+        data->bsdf_samples = each;
     return AUR_OK;
-}
-
-static void release(aur_integrator *integrator) {
-    free(integrator->data);
 }
 
 static aur_vector sample_light(const aur_scene *scene, const direct_data *data, const aur_shading *shading,
@@ -123,7 +101,7 @@ static aur_vector radiance(const aur_integrator *integrator, const aur_camera_sa
         return sum;
     const aur_shading shading = aur_shading_at(&surface, view);
     uint32_t pair = AUR_PAIR_FIRST; /* two a sample: choice, then position or direction */
-    for (uint32_t i = 0; i < data->emitter_samples + data->bsdf_samples; ++i, pair += 2) {
+    for (int64_t i = 0; i < data->emitter_samples + data->bsdf_samples; ++i, pair += 2) {
         float u[2][2];
         aur_stream_pairs(&sample->stream, pair, 2, u);
         const float numbers[3] = {u[0][0], u[1][0], u[1][1]};
@@ -139,7 +117,8 @@ const aur_integrator_descriptor aur_integrator_direct = {
             .summary = "direct light by sampling lights and materials",
             .source = "Veach 1997",
             AUR_ROW_KEYS(keys)},
+    .size = sizeof(direct_data),
+    .initial = &initial,
     .create = create,
-    .release = release,
     .radiance = radiance,
 };

@@ -11,6 +11,14 @@
 
 /* --- keys */
 
+typedef struct gather_data {
+    aur_gather_parameters keys; /* first: what the table below is of */
+    aur_gather_plan *plan;
+} gather_data;
+
+static const gather_data initial = {
+    .keys = {.density = AUR_GATHER_DENSITY_UNSAID, .regularization = -1.0, .policy = {.threshold = -1.0f}}};
+
 enum { MOST = 1 << 30 };
 
 static const aur_key keys[] = {
@@ -125,56 +133,32 @@ static aur_result complete(aur_gather_parameters *p, aur_error *error) {
     return AUR_OK;
 }
 
-/* Digits of nets are scrambled, every other pattern is turned about its axis (Marques 2013, section 6.1). */
-static aur_scramble default_scramble(const char *pattern) {
-    const aur_set_description *const row = aur_set_find(pattern);
-    return row != NULL && row->binary_net ? AUR_SCRAMBLE_DIGIT : AUR_SCRAMBLE_ROTATE;
-}
-
-static aur_result set_rule(aur_gather_parameters *p, const aur_integrator_context *context,
-                           aur_error *error) {
-    aur_gather_rule_options *const rule = &p->rule;
-    rule->scramble = default_scramble(rule->set);
-    rule->optimal_density = p->density == AUR_GATHER_DENSITY_OPTIMAL;
-    rule->seed = aur_hash2(context->seed, rule->seed);
-    rule->warnings = context->warnings;
-    aur_result result = aur_map_from_name(p->map, &rule->map, error);
-    if (result == AUR_OK && p->scramble != NULL)
-        result = aur_scramble_from_name(p->scramble, &rule->scramble, error);
-    if (result == AUR_OK && rule->scramble == AUR_SCRAMBLE_ROTATE3D)
-        result =
-            aur_fail(error, AUR_ERROR_UNSUPPORTED,
-                     "finalgather: 'rotate3d' would turn the pattern out of its hemisphere; use 'rotate'");
-    return result;
-}
-
 static aur_result create(aur_parameters *parameters, const aur_integrator_context *context,
                          aur_integrator *integrator, aur_error *error) {
-    aur_gather_parameters p = {
-        .density = AUR_GATHER_DENSITY_UNSAID, .regularization = -1.0, .policy = {.threshold = -1.0f}};
-    aur_result result = aur_row_read(&integrator->descriptor->row, parameters, &p, error);
+    (void)parameters;
+    gather_data *const data = integrator->data;
+    aur_gather_parameters *const p = &data->keys;
+    aur_result result = complete(p, error);
+    p->rule.optimal_density = p->density == AUR_GATHER_DENSITY_OPTIMAL;
+    p->rule.seed = aur_hash2(context->seed, p->rule.seed);
+    p->rule.warnings = context->warnings;
     if (result == AUR_OK)
-        result = complete(&p, error);
-    if (result == AUR_OK)
-        result = set_rule(&p, context, error);
+        result = aur_gather_rule_options_name(&p->rule, "finalgather", p->map, p->scramble, error);
     if (result != AUR_OK)
         return result;
-    integrator->pixel_centre = p.pixel == AUR_PIXEL_CENTRE;
+    integrator->pixel_centre = p->pixel == AUR_PIXEL_CENTRE;
     static const char *const extra[] = {"directions"};
-    integrator->extra_count = p.policy.adaptive ? 1 : 0;
+    integrator->extra_count = p->policy.adaptive ? 1 : 0;
     integrator->extra_names = extra;
-    aur_gather_plan *plan = NULL;
-    result = aur_gather_plan_create(&p, context, &plan, error);
-    integrator->data = plan;
-    return result;
+    return aur_gather_plan_create(p, context, &data->plan, error);
 }
 
 static void release(aur_integrator *integrator) {
-    aur_gather_plan_destroy(integrator->data);
+    aur_gather_plan_destroy(((gather_data *)integrator->data)->plan);
 }
 
 static aur_result tile(const aur_integrator *integrator, aur_tile *tile) {
-    return aur_gather_tile(integrator->data, tile);
+    return aur_gather_tile(((const gather_data *)integrator->data)->plan, tile);
 }
 
 const aur_integrator_descriptor aur_integrator_final_gather = {
@@ -182,6 +166,8 @@ const aur_integrator_descriptor aur_integrator_final_gather = {
             .summary = "final gathering over a photon map, one pattern of directions an image",
             .source = "Christensen 1999, Marques 2013, Marques 2018, Marques 2019",
             AUR_ROW_KEYS(keys)},
+    .size = sizeof(gather_data),
+    .initial = &initial,
     .create = create,
     .release = release,
     .tile = tile,

@@ -4,56 +4,36 @@
 
 #include "transport/paths/path.h"
 
-typedef struct path_parameters {
-    int64_t max_depth, rr_depth;
-    bool hide_emitters, strict_normals, packets, interleaved;
-} path_parameters;
-
 static const aur_key keys[] = {
     {AUR_KEY_OF_INTEGER(
-        path_parameters, "max_depth", max_depth, -1, 1 << 20, "-1",
+        aur_path, "max_depth", max_depth, -1, 1 << 20, "-1",
         "longest path in edges: 1 is emitted light only, 2 adds direct light; -1 is unlimited")},
-    {AUR_KEY_OF_INTEGER(path_parameters, "rr_depth", rr_depth, 1, 1 << 20, "5",
+    {AUR_KEY_OF_INTEGER(aur_path, "rr_depth", rr_depth, 1, 1 << 20, "5",
                         "Russian roulette from this depth on")},
-    {AUR_KEY_OF_BOOLEAN(path_parameters, "strict_normals", strict_normals, "false",
+    {AUR_KEY_OF_BOOLEAN(aur_path, "strict_normals", strict_normals, "false",
                         "of no effect: it is always so")},
-    {AUR_KEY_OF_BOOLEAN(path_parameters, "hide_emitters", hide_emitters, "false",
-                        "lights are black to the camera")},
-    {AUR_KEY_OF_BOOLEAN(path_parameters, "packets", packets, "true",
+    {AUR_KEY_OF_BOOLEAN(aur_path, "hide_emitters", hide_emitters, "false", "lights are black to the camera")},
+    {AUR_KEY_OF_BOOLEAN(aur_path, "packets", packets, "true",
                         "sixteen pixels in lockstep, else one path at a time: the same picture")},
-    {AUR_KEY_OF_BOOLEAN(path_parameters, "interleaved", interleaved, "false",
+    {AUR_KEY_OF_BOOLEAN(aur_path, "interleaved", interleaved, "false",
                         "the pixels of a packet share the random numbers of all but their camera rays")},
 };
 
 static aur_result create(aur_parameters *parameters, const aur_integrator_context *context,
                          aur_integrator *integrator, aur_error *error) {
-    path_parameters p;
-    const aur_result result = aur_row_read(&integrator->descriptor->row, parameters, &p, error);
-    if (result != AUR_OK)
-        return result;
+    aur_path *const data = integrator->data;
     if (aur_parameters_find(parameters, "strict_normals") != NULL)
         aur_warn_at(&context->warnings, parameters->location,
                     "integrator 'path': 'strict_normals' has no effect: it is always so");
-    if (p.interleaved && (!p.packets || p.hide_emitters))
+    if (data->interleaved && (!data->packets || data->hide_emitters))
         return aur_fail_at(error, parameters->location, AUR_ERROR_FORMAT,
                            "integrator 'path': 'interleaved' goes neither with 'packets=false' nor with "
                            "'hide_emitters=true'");
-    aur_path *const data = calloc(1, sizeof *data);
-    if (data == NULL)
-        return aur_fail_memory(error);
-    *data = (aur_path){.max_depth = p.max_depth < 0 ? UINT32_MAX : (uint32_t)p.max_depth,
-                       .rr_depth = (uint32_t)p.rr_depth,
-                       .hide_emitters = p.hide_emitters,
-                       .packets = p.packets,
-                       .interleaved = p.interleaved};
-    integrator->data = data;
     return aur_path_prepare(data, context->scene, error);
 }
 
 static void release(aur_integrator *integrator) {
-    aur_path *const data = integrator->data;
-    free(data->classes);
-    free(data);
+    free(((aur_path *)integrator->data)->classes);
 }
 
 static aur_vector radiance(const aur_integrator *integrator, const aur_camera_sample *sample,
@@ -66,7 +46,7 @@ static aur_result tile(const aur_integrator *integrator, aur_tile *tile) {
     if (data->packets && !data->hide_emitters)
         aur_path_add_tile(data, integrator->scene, tile);
     else
-        aur_path_add_tile_singly(data, integrator->scene, tile);
+        aur_integrator_add_samples(integrator, tile);
     return AUR_OK;
 }
 
@@ -75,6 +55,7 @@ const aur_integrator_descriptor aur_integrator_path = {
             .summary = "unidirectional path tracing with multiple importance sampling, the reference",
             .source = "Kajiya 1986, Veach 1997",
             AUR_ROW_KEYS(keys)},
+    .size = sizeof(aur_path),
     .create = create,
     .release = release,
     .radiance = radiance,

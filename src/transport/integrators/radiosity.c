@@ -7,86 +7,81 @@
 
 #include "transport/radiosity/picture.h"
 
-typedef struct radiosity_parameters {
+typedef struct radiosity_data {
+    aur_radiosity_image image; /* first: what aur_radiosity_tile reads */
     /* the solution */
-    int64_t paths; /* -1: not given */
-    int64_t bounces, interval, window, randomizations;
-    uint64_t variant;
+    uint64_t paths; /* 0: not given */
+    uint64_t bounces, interval, window, randomizations, variant;
     double epsilon, ply_exposure;
     const char *sequence, *scramble, *save, *load, *ply; /* NULL: not given */
     aur_radiosity_directions directions;
     aur_radiosity_emission emission;
     /* the picture */
-    int64_t gather_samples;
-    double smoothness, threshold;
+    uint64_t gather_samples;
+    double smoothness;
     const char *pattern, *map, *pattern_scramble;
     enum { WEIGHTS_EQUAL, WEIGHTS_OPTIMAL } weights;
     enum { DENSITY_SAME, DENSITY_OPTIMAL } density;
     enum { LIGHTS_PERMUTED, LIGHTS_ALL } light_sampling;
-    aur_radiosity_oversampling oversampling;
-    aur_radiosity_component component;
-    bool share_neighbours;
-} radiosity_parameters;
+} radiosity_data;
 
 enum { MOST = 1 << 30 };
 
 static const aur_key keys[] = {
-    {AUR_KEY_OF_INTEGER(radiosity_parameters, "paths", paths, 1, INT64_C(1) << 40, "100000",
+    {AUR_KEY_OF_INTEGER(radiosity_data, "paths", paths, 1, INT64_C(1) << 40, "100000",
                         "paths of the walk; with epsilon the most that are tried (2^28)"),
      .computed = true},
-    {AUR_KEY_OF_TEXT(radiosity_parameters, "sequence", sequence, "sobol", "SET of the walk's numbers"),
+    {AUR_KEY_OF_TEXT(radiosity_data, "sequence", sequence, "sobol", "SET of the walk's numbers"),
      .computed = true},
-    {AUR_KEY_OF_TEXT(radiosity_parameters, "scramble", scramble, "none", "of the sequence"),
-     .computed = true},
-    {AUR_KEY_OF_CHOICE(radiosity_parameters, "directions", directions, "cosine",
+    {AUR_KEY_OF_TEXT(radiosity_data, "scramble", scramble, "none", "of the sequence"), .computed = true},
+    {AUR_KEY_OF_CHOICE(radiosity_data, "directions", directions, "cosine",
                        "how two numbers become a direction (uniform_angle: the paper's eq. 15)", "cosine",
                        "uniform_angle")},
-    {AUR_KEY_OF_CHOICE(radiosity_parameters, "emission", emission, "power",
+    {AUR_KEY_OF_CHOICE(radiosity_data, "emission", emission, "power",
                        "where paths begin: on lights by their power, or by area (the paper)", "power",
                        "area")},
-    {AUR_KEY_OF_INTEGER(radiosity_parameters, "bounces", bounces, 1, AUR_RADIOSITY_MOST_BOUNCES, "6",
+    {AUR_KEY_OF_INTEGER(radiosity_data, "bounces", bounces, 1, AUR_RADIOSITY_MOST_BOUNCES, "6",
                         "the paper's M: paths have M + 1 flights")},
-    {AUR_KEY_OF_REAL(radiosity_parameters, "epsilon", epsilon, 0.0, 1.0, "0",
+    {AUR_KEY_OF_REAL(radiosity_data, "epsilon", epsilon, 0.0, 1.0, "0",
                      "walk on until the solution changes by less; 0 is a fixed number of paths")},
-    {AUR_KEY_OF_INTEGER(radiosity_parameters, "interval", interval, 1, MOST, "1000",
+    {AUR_KEY_OF_INTEGER(radiosity_data, "interval", interval, 1, MOST, "1000",
                         "paths between two looks at the change")},
-    {AUR_KEY_OF_INTEGER(radiosity_parameters, "window", window, 1, MOST, "2",
+    {AUR_KEY_OF_INTEGER(radiosity_data, "window", window, 1, MOST, "2",
                         "looks in a row that must be below epsilon")},
-    {AUR_KEY_OF_INTEGER(radiosity_parameters, "randomizations", randomizations, 1,
+    {AUR_KEY_OF_INTEGER(radiosity_data, "randomizations", randomizations, 1,
                         AUR_RADIOSITY_MOST_RANDOMIZATIONS, "1",
                         "randomisations of the sequence; from 2 on there are standard errors")},
-    {AUR_KEY_OF_INTEGER(radiosity_parameters, "variant", variant, 0, INFINITY, "0",
+    {AUR_KEY_OF_INTEGER(radiosity_data, "variant", variant, 0, INFINITY, "0",
                         "another order of the lights and another turn of the triangles' frames; 0 is none")},
-    {AUR_KEY_OF_TEXT(radiosity_parameters, "save", save, NULL, "file to which the solution is written")},
-    {AUR_KEY_OF_TEXT(radiosity_parameters, "load", load, NULL, "file of a solution to go on from")},
-    {AUR_KEY_OF_TEXT(radiosity_parameters, "ply", ply, NULL, "file for the scene as coloured triangles")},
-    {AUR_KEY_OF_REAL(radiosity_parameters, "ply_exposure", ply_exposure, -64.0, 64.0, "0",
+    {AUR_KEY_OF_TEXT(radiosity_data, "save", save, NULL, "file to which the solution is written")},
+    {AUR_KEY_OF_TEXT(radiosity_data, "load", load, NULL, "file of a solution to go on from")},
+    {AUR_KEY_OF_TEXT(radiosity_data, "ply", ply, NULL, "file for the scene as coloured triangles")},
+    {AUR_KEY_OF_REAL(radiosity_data, "ply_exposure", ply_exposure, -64.0, 64.0, "0",
                      "stops by which the colours of that file are brighter")},
-    {AUR_KEY_OF_INTEGER(radiosity_parameters, "gather_samples", gather_samples, 1, 1 << 20, "16",
+    {AUR_KEY_OF_INTEGER(radiosity_data, "gather_samples", gather_samples, 1, 1 << 20, "16",
                         "directions at every point that the eye sees")},
-    {AUR_KEY_OF_TEXT(radiosity_parameters, "pattern", pattern, "spherical-fibonacci",
-                     "SET of these directions")},
-    {AUR_KEY_OF_TEXT(radiosity_parameters, "map", map, "lambert",
+    {AUR_KEY_OF_TEXT(radiosity_data, "pattern", pattern, "spherical-fibonacci", "SET of these directions")},
+    {AUR_KEY_OF_TEXT(radiosity_data, "map", map, "lambert",
                      "map of a square set to the hemisphere: lambert, concentric, azimuthal or polar")},
-    {AUR_KEY_OF_TEXT(radiosity_parameters, "pattern_scramble", pattern_scramble, "none",
+    {AUR_KEY_OF_TEXT(radiosity_data, "pattern_scramble", pattern_scramble, "none",
                      "how the pattern is randomised: none, digit, owen, shift or rotate")},
-    {AUR_KEY_OF_CHOICE(radiosity_parameters, "weights", weights, "equal",
+    {AUR_KEY_OF_CHOICE(radiosity_data, "weights", weights, "equal",
                        "of the directions; osw are optimal (Marques 2018)", "equal", "osw")},
-    {AUR_KEY_OF_CHOICE(radiosity_parameters, "density", density, "same",
+    {AUR_KEY_OF_CHOICE(radiosity_data, "density", density, "same",
                        "directions follow the cosine, or its power 2/(s+1)", "same", "optimal")},
-    {AUR_KEY_OF_REAL(radiosity_parameters, "smoothness", smoothness, 1.0, 2.0, "1.5",
+    {AUR_KEY_OF_REAL(radiosity_data, "smoothness", smoothness, 1.0, 2.0, "1.5",
                      "s of the optimal weights and density"),
      .minimum_open = true, .maximum_open = true},
-    {AUR_KEY_OF_CHOICE(radiosity_parameters, "light_sampling", light_sampling, "permuted",
+    {AUR_KEY_OF_CHOICE(radiosity_data, "light_sampling", light_sampling, "permuted",
                        "each light at one of a pixel's points, or all lights at each", "permuted", "all")},
-    {AUR_KEY_OF_BOOLEAN(radiosity_parameters, "share_neighbours", share_neighbours, "false",
+    {AUR_KEY_OF_BOOLEAN(radiosity_data, "share_neighbours", image.share_neighbours, "false",
                         "neighbouring pixels share what they gather")},
-    {AUR_KEY_OF_CHOICE(radiosity_parameters, "oversampling", oversampling, "halton",
+    {AUR_KEY_OF_CHOICE(radiosity_data, "oversampling", image.oversampling, "halton",
                        "samples of a pixel: Halton points, these until nothing changes, or the sampler's",
                        "halton", "adaptive", "sampler")},
-    {AUR_KEY_OF_REAL(radiosity_parameters, "threshold", threshold, 0.0, 1.0, "0.01",
+    {AUR_KEY_OF_REAL(radiosity_data, "threshold", image.threshold, 0.0, 1.0, "0.01",
                      "change at which adaptive oversampling ends")},
-    {AUR_KEY_OF_CHOICE(radiosity_parameters, "component", component, "all", "the part of the light to show",
+    {AUR_KEY_OF_CHOICE(radiosity_data, "component", image.component, "all", "the part of the light to show",
                        "all", "emission", "direct", "indirect")},
 };
 
@@ -107,7 +102,7 @@ static aur_result refuse_files_of_scenes(aur_parameters *parameters, aur_error *
 
 /* --- the solution */
 
-static aur_result start(const radiosity_parameters *p, const aur_integrator_context *context,
+static aur_result start(const radiosity_data *p, const aur_integrator_context *context,
                         aur_radiosity **radiosity, aur_error *error) {
     aur_radiosity_options options = {.size = sizeof options,
                                      .sequence = p->sequence,
@@ -128,20 +123,20 @@ static aur_result start(const radiosity_parameters *p, const aur_integrator_cont
     return result == AUR_OK ? aur_radiosity_create(context->scene, &options, radiosity, error) : result;
 }
 
-static aur_result go_on(const radiosity_parameters *p, const aur_integrator_context *context,
+static aur_result go_on(const radiosity_data *p, const aur_integrator_context *context,
                         aur_radiosity *radiosity, aur_error *error) {
     enum { USUAL_PATHS = 100000, USUAL_LIMIT = 1 << 28 };
     const bool loaded = p->load != NULL;
     if (p->epsilon == 0.0) {
-        if (loaded && p->paths < 0)
+        if (loaded && p->paths == 0)
             return AUR_OK;
-        return aur_radiosity_trace(radiosity, p->paths < 0 ? USUAL_PATHS : (uint64_t)p->paths, error);
+        return aur_radiosity_trace(radiosity, p->paths == 0 ? USUAL_PATHS : p->paths, error);
     }
     const aur_radiosity_termination rule = {.size = sizeof rule,
                                             .epsilon = p->epsilon,
-                                            .interval = (uint64_t)p->interval,
-                                            .window = (uint64_t)p->window,
-                                            .limit = p->paths < 0 ? USUAL_LIMIT : (uint64_t)p->paths};
+                                            .interval = p->interval,
+                                            .window = p->window,
+                                            .limit = p->paths == 0 ? USUAL_LIMIT : p->paths};
     bool converged = false;
     const aur_result result = aur_radiosity_terminate(radiosity, &rule, &converged, error);
     if (result == AUR_OK && !converged)
@@ -151,8 +146,7 @@ static aur_result go_on(const radiosity_parameters *p, const aur_integrator_cont
     return result;
 }
 
-static aur_result write_files(const radiosity_parameters *p, const aur_radiosity *radiosity,
-                              aur_error *error) {
+static aur_result write_files(const radiosity_data *p, const aur_radiosity *radiosity, aur_error *error) {
     aur_result result = AUR_OK;
     if (p->save != NULL)
         result = aur_radiosity_save(radiosity, p->save, error);
@@ -180,12 +174,12 @@ static void destroy_solution(void *radiosity) {
 }
 
 /* The solution, shared by all pictures that ask for the same one. */
-static aur_result solve(const radiosity_parameters *p, const aur_integrator_context *context,
+static aur_result solve(const radiosity_data *p, const aur_integrator_context *context,
                         aur_radiosity_image *image, aur_error *error) {
     char key[1024];
     const int length =
         snprintf(key, sizeof key,
-                 "radiosity %" PRId64 " %s %s %u %u %" PRId64 " %a %" PRId64 " %" PRId64 " %" PRId64
+                 "radiosity %" PRIu64 " %s %s %u %u %" PRIu64 " %a %" PRIu64 " %" PRIu64 " %" PRIu64
                  " %" PRIu64 " %s %" PRIu64,
                  p->paths, p->sequence != NULL ? p->sequence : "", p->scramble != NULL ? p->scramble : "",
                  p->directions, p->emission, p->bounces, p->epsilon, p->interval, p->window,
@@ -213,10 +207,10 @@ static aur_result solve(const radiosity_parameters *p, const aur_integrator_cont
 
 /* --- the picture */
 
-static aur_result prepare_gather(const radiosity_parameters *p, const aur_integrator_context *context,
+static aur_result prepare_gather(const radiosity_data *p, const aur_integrator_context *context,
                                  aur_radiosity_image *image, aur_error *error) {
     aur_directions_options points = {.size = sizeof points,
-                                     .count = (uint64_t)p->gather_samples,
+                                     .count = p->gather_samples,
                                      .domain = AUR_DOMAIN_HEMISPHERE,
                                      .lobe = {.kind = AUR_LOBE_COSINE_POWER, .exponent = 1.0},
                                      .optimal_density = p->density == DENSITY_OPTIMAL,
@@ -235,31 +229,19 @@ static aur_result prepare_gather(const radiosity_parameters *p, const aur_integr
 
 static aur_result create(aur_parameters *parameters, const aur_integrator_context *context,
                          aur_integrator *integrator, aur_error *error) {
-    radiosity_parameters p = {.paths = -1};
+    radiosity_data *const data = integrator->data;
     aur_result result = refuse_files_of_scenes(parameters, error);
-    if (result == AUR_OK)
-        result = aur_row_read(&integrator->descriptor->row, parameters, &p, error);
     if (result != AUR_OK)
         return result;
-    aur_radiosity_image *const image = calloc(1, sizeof *image);
-    if (image == NULL)
-        return aur_fail_memory(error);
-    integrator->data = image;
-    image->permuted = p.light_sampling == LIGHTS_PERMUTED;
-    image->share_neighbours = p.share_neighbours;
-    image->oversampling = p.oversampling;
-    image->threshold = (float)p.threshold;
-    image->component = p.component;
-    image->samples_per_pixel = context->samples_per_pixel;
-    image->seed = context->seed;
-    result = solve(&p, context, image, error);
-    return result == AUR_OK ? prepare_gather(&p, context, image, error) : result;
+    data->image.permuted = data->light_sampling == LIGHTS_PERMUTED;
+    data->image.samples_per_pixel = context->samples_per_pixel;
+    data->image.seed = context->seed;
+    result = solve(data, context, &data->image, error);
+    return result == AUR_OK ? prepare_gather(data, context, &data->image, error) : result;
 }
 
 static void release(aur_integrator *integrator) {
-    aur_radiosity_image *const image = integrator->data;
-    aur_radiosity_image_release(image);
-    free(image);
+    aur_radiosity_image_release(integrator->data);
 }
 
 const aur_integrator_descriptor aur_integrator_radiosity = {
@@ -267,6 +249,7 @@ const aur_integrator_descriptor aur_integrator_radiosity = {
             .summary = "particles give every triangle its radiance, which is gathered once",
             .source = "Keller 1994",
             AUR_ROW_KEYS(keys)},
+    .size = sizeof(radiosity_data),
     .create = create,
     .release = release,
     .tile = aur_radiosity_tile,

@@ -7,11 +7,12 @@
 #include "transport/paths/path_lanes.h"
 
 typedef struct aur_path {
-    uint32_t max_depth; /* UINT32_MAX: no limit; 1 is visible light only, 2 adds direct light */
-    uint32_t rr_depth;  /* Russian roulette from this depth on */
-    bool hide_emitters; /* from the camera */
-    bool packets;       /* 16 pixels in lockstep */
-    bool interleaved;   /* which share their numbers but for the camera's */
+    uint32_t max_depth;  /* UINT32_MAX: no limit; 1 is visible light only, 2 adds direct light */
+    uint32_t rr_depth;   /* Russian roulette from this depth on */
+    bool hide_emitters;  /* from the camera */
+    bool strict_normals; /* of no effect */
+    bool packets;        /* 16 pixels in lockstep */
+    bool interleaved;    /* which share their numbers but for the camera's */
     const aur_path_kernels *kernels;
     aur_shape_class *classes; /* one a shape */
 } aur_path;
@@ -34,7 +35,5 @@ aur_result aur_path_prepare(aur_path *data, const aur_scene *scene, aur_error *e
 /* Radiance along one camera ray. */
 aur_vector aur_path_radiance(const aur_path *data, const aur_scene *scene, const aur_camera_sample *sample,
                              aur_counters *counters);
-/* Adds the samples of a tile, each path by itself. */
-void aur_path_add_tile_singly(const aur_path *data, const aur_scene *scene, aur_tile *tile);
-/* The same, sixteen pixels at a time. */
+/* Adds the samples of a tile, sixteen pixels at a time. */
 void aur_path_add_tile(const aur_path *data, const aur_scene *scene, aur_tile *tile);

@@ -96,13 +96,3 @@ aur_vector aur_path_radiance(const aur_path *data, const aur_scene *scene, const
     }
     return walk.sum;
 }
-
-void aur_path_add_tile_singly(const aur_path *data, const aur_scene *scene, aur_tile *tile) {
-    for (size_t y = tile->y0; y < tile->y1; ++y)
-        for (size_t x = tile->x0; x < tile->x1; ++x)
-            for (uint32_t i = 0; i < tile->count; ++i) {
-                aur_camera_sample sample;
-                const float weight = aur_view_sample(tile->view, x, y, tile->first + i, &sample);
-                aur_tile_add(tile, x, y, weight, aur_path_radiance(data, scene, &sample, &tile->counters));
-            }
-}
