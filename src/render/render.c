@@ -22,7 +22,8 @@ struct aur_renderer {
 
 struct aur_render {
     aur_renderer *renderer;
-    aur_render_settings settings;
+    /* Complete; their texts are the caller's and gone once the render is made. */
+    aur_render_options settings;
     aur_sampler *sampler;
     aur_integrator *integrator;
     aur_view view;
@@ -66,12 +67,12 @@ aur_result aur_render_check_scene(const aur_scene *scene, aur_error *error) {
 /* --- preparation */
 
 /* The integrator that the options or the scene name. */
-static aur_result make_integrator(aur_render *render, const char *integrator, aur_error *error) {
+static aur_result make_integrator(aur_render *render, aur_error *error) {
     aur_renderer *const renderer = render->renderer;
-    const aur_render_settings *const s = &render->settings;
+    const aur_render_options *const s = &render->settings;
     aur_parameters parameters;
-    aur_result result = integrator != NULL
-                            ? aur_parameters_parse(&parameters, "integrator", integrator, error)
+    aur_result result = s->integrator != NULL
+                            ? aur_parameters_parse(&parameters, "integrator", s->integrator, error)
                             : aur_parameters_copy(aur_scene_integrator(renderer->scene), &parameters, error);
     if (result != AUR_OK)
         return result;
@@ -88,14 +89,14 @@ static aur_result make_integrator(aur_render *render, const char *integrator, au
 }
 
 static aur_result make_film(aur_render *render, aur_error *error) {
-    const aur_render_settings *const s = &render->settings;
+    const aur_render_options *const s = &render->settings;
     const aur_integrator *const integrator = render->integrator;
     const aur_film_layout layout = {.width = s->width,
                                     .height = s->height,
-                                    .x0 = s->x0,
-                                    .x1 = s->x1,
-                                    .y0 = s->y0,
-                                    .y1 = s->y1,
+                                    .x0 = s->crop_x0,
+                                    .x1 = s->crop_x1,
+                                    .y0 = s->crop_y0,
+                                    .y1 = s->crop_y1,
                                     .channel_count = 3 + integrator->extra_count};
     const aur_result result = aur_film_create(&layout, &render->film, error);
     for (size_t c = 0; result == AUR_OK && c < integrator->extra_count; ++c) {
@@ -106,21 +107,22 @@ static aur_result make_film(aur_render *render, aur_error *error) {
     return result;
 }
 
-static aur_result prepare(aur_render *render, const aur_render_options *options, aur_error *error) {
+static aur_result prepare(aur_render *render, aur_error *error) {
     const aur_scene *const scene = render->renderer->scene;
-    aur_render_settings *const s = &render->settings;
-    aur_result result = aur_render_settings_read(scene, options, s, error);
+    aur_render_options *const s = &render->settings;
+    const aur_filter *filter;
+    aur_result result = aur_render_options_complete(scene, s, &filter, error);
     if (result == AUR_OK)
         result = aur_sampler_create(s->sampler, s->samples_per_pixel, &s->warnings, &render->sampler, error);
     if (result == AUR_OK)
-        result = make_integrator(render, options->integrator, error);
+        result = make_integrator(render, error);
     if (result == AUR_OK)
         result = make_film(render, error);
     if (result != AUR_OK)
         return result;
     render->view = (aur_view){.scene = scene,
                               .sampler = render->sampler,
-                              .filter = s->filter,
+                              .filter = filter,
                               .width = s->width,
                               .height = s->height,
                               .seed = s->seed,
@@ -138,10 +140,11 @@ aur_result aur_render_create(aur_renderer *renderer, const aur_render_options *o
     render->renderer = renderer;
     atomic_init(&render->cancelled, false);
     const aur_stopwatch start = aur_stopwatch_start();
-    aur_render_options own = aur_render_options_default();
-    aur_result result = aur_options_read(options, sizeof own, sizeof own, &own, "aur_render_options", error);
+    aur_render_options *const own = &render->settings;
+    *own = aur_render_options_default();
+    aur_result result = aur_options_read(options, sizeof *own, sizeof *own, own, "aur_render_options", error);
     if (result == AUR_OK)
-        result = prepare(render, &own, error);
+        result = prepare(render, error);
     aur_stopwatch_add(&start, &render->statistics.prepare_seconds, &render->statistics.cpu_seconds);
     if (result != AUR_OK) {
         aur_render_destroy(render);

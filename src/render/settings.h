@@ -1,22 +1,11 @@
-/* What a render is to do: the caller's options, with the scene's own values in the places that were left
- * open. */
+/* What a render is to do. */
 #pragma once
 
 #include <aureole/render.h>
 
 #include "scene/scene.h"
 
-typedef struct aur_render_settings {
-    size_t width, height, samples_per_pixel;
-    size_t x0, x1, y0, y1;
-    const aur_filter *filter;
-    const char *sampler;
-    uint64_t seed;
-    size_t threads;
-    aur_progress progress;
-    aur_warnings warnings;
-} aur_render_settings;
-
-/* Errors: NAME for a filter, ARGUMENT for a crop. */
-aur_result aur_render_settings_read(const aur_scene *scene, const aur_render_options *options,
-                                    aur_render_settings *settings, aur_error *error);
+/* Puts the scene's own values into the options in the places that were left open, and finds the filter.
+ * Errors: NAME for a filter, ARGUMENT for a crop. */
+aur_result aur_render_options_complete(const aur_scene *scene, aur_render_options *options,
+                                       const aur_filter **filter, aur_error *error);

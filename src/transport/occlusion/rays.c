@@ -68,38 +68,25 @@ static aur_embree_order order_of(const aur_occlusion_places *places, size_t firs
     return apart == 0 ? AUR_EMBREE_COHERENT : AUR_EMBREE_INCOHERENT;
 }
 
-/* One local direction in the frames of 16 places. */
-static void aim(const aur_occlusion_places *places, size_t first, aur_vector local, struct RTCRay16 *rays) {
+/* Direction `index` of the rule in the frames of 16 places, which have one randomisation together or one
+ * each. */
+static void aim(const aur_gather_rule *rule, const aur_occlusion_places *places, size_t first,
+                const aur_gather_rotation *rotations, bool together, size_t index, struct RTCRay16 *rays) {
+    aur_lane_vectors local;
+    aur_vector direction;
+    for (size_t k = 0; k < AUR_PACKET_SIZE; ++k) {
+        if (k == 0 || !together)
+            aur_gather_rule_direction(rule, &rotations[k], index, &direction);
+        aur_lane_set(&local, k, direction);
+    }
     float *const out[3] = {rays->dir_x, rays->dir_y, rays->dir_z};
     for (size_t c = 0; c < 3; ++c) {
         const float *const x = places->axis[0][c] + first;
         const float *const y = places->axis[1][c] + first;
         const float *const z = places->axis[2][c] + first;
         for (size_t k = 0; k < AUR_PACKET_SIZE; ++k)
-            out[c][k] = local.x * x[k] + local.y * y[k] + local.z * z[k];
+            out[c][k] = local.x[k] * x[k] + local.y[k] * y[k] + local.z[k] * z[k];
     }
-}
-
-/* Every place by a randomisation of its own. */
-static void aim_apart(const aur_gather_rule *rule, const aur_occlusion_places *places, size_t first,
-                      const aur_gather_rotation rotations[AUR_PACKET_SIZE], size_t index,
-                      struct RTCRay16 *rays) {
-    for (size_t k = 0; k < AUR_PACKET_SIZE; ++k) {
-        aur_vector local;
-        aur_gather_rule_direction(rule, &rotations[k], index, &local);
-        float direction[3];
-        for (size_t c = 0; c < 3; ++c)
-            direction[c] = local.x * places->axis[0][c][first + k] + local.y * places->axis[1][c][first + k] +
-                           local.z * places->axis[2][c][first + k];
-        rays->dir_x[k] = direction[0];
-        rays->dir_y[k] = direction[1];
-        rays->dir_z[k] = direction[2];
-    }
-}
-
-static void set_distances(const aur_occlusion *occlusion, struct RTCRay16 *rays) {
-    for (size_t k = 0; k < AUR_PACKET_SIZE; ++k)
-        rays->tfar[k] = occlusion->max_distance;
 }
 
 size_t aur_occlusion_visit(const aur_occlusion *occlusion, const aur_occlusion_places *places, size_t x,
@@ -129,14 +116,9 @@ size_t aur_occlusion_visit(const aur_occlusion *occlusion, const aur_occlusion_p
                                : aur_hash2(occlusion->seed, places->pixel[first + k]));
         for (size_t i = index % occlusion->samples_per_pixel; i < rule->count;
              i += occlusion->samples_per_pixel) {
-            if (together) {
-                aur_vector local;
-                aur_gather_rule_direction(rule, &rotations[0], i, &local);
-                aim(places, first, local, &packet.query.ray);
-            } else {
-                aim_apart(rule, places, first, rotations, i, &packet.query.ray);
-            }
-            set_distances(occlusion, &packet.query.ray);
+            aim(rule, places, first, rotations, together, i, &packet.query.ray);
+            for (size_t k = 0; k < AUR_PACKET_SIZE; ++k)
+                packet.query.ray.tfar[k] = occlusion->max_distance;
             visit(context, first, order, &packet);
         }
     }
