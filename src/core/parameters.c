@@ -174,13 +174,6 @@ aur_result aur_parameters_fail_value(const aur_parameters *parameters, const aur
                                                                : "an object");
 }
 
-aur_result aur_fail_unknown_plugin(aur_error *error, const aur_parameters *parameters, size_t count,
-                                   const char *const *names) {
-    size_t index;
-    return aur_names_choose(aur_names_of(count, names), parameters->kind, parameters->plugin,
-                            parameters->location, &index, error);
-}
-
 aur_result aur_parameters_finish(const aur_parameters *parameters, aur_error *error) {
     for (size_t i = 0; i < parameters->count; ++i) {
         const aur_parameter *const item = &parameters->items[i];

@@ -76,7 +76,3 @@ aur_result aur_parameters_fail_value(const aur_parameters *parameters, const aur
 
 /* An error for the first value that nobody asked for. */
 aur_result aur_parameters_finish(const aur_parameters *parameters, aur_error *error);
-
-/* NAME error for a plugin that is none of `count` names: says the nearest one, or all of them. */
-aur_result aur_fail_unknown_plugin(aur_error *error, const aur_parameters *parameters, size_t count,
-                                   const char *const *names);

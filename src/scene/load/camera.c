@@ -134,17 +134,6 @@ static const char *set_for_sampler(const char *plugin) {
     return plugin;
 }
 
-static aur_result check_set(const aur_parameters *parameters, const char *set, aur_error *error) {
-    const char *names[128];
-    size_t count = 0;
-    for (; count < 128 && aur_set_at(count) != NULL; ++count) {
-        names[count] = aur_set_at(count)->row.name;
-        if (strcmp(names[count], set) == 0)
-            return AUR_OK;
-    }
-    return strncmp(set, "file:", 5) == 0 ? AUR_OK : aur_fail_unknown_plugin(error, parameters, count, names);
-}
-
 static const aur_key sampler_keys[] = {
     {AUR_KEY_FIELD(AUR_KEY_INTEGER, aur_scene, "sample_count", samples_per_pixel, "4", "samples a pixel"),
      .minimum = 1.0, .maximum = AUR_SAMPLES_PER_PIXEL_MAX, .computed = true},
@@ -173,7 +162,9 @@ aur_result aur_build_sampler(aur_loader *self, aur_parameters *parameters, void 
     /* The rest are the set's own keys. */
     char text[1024];
     const char *const set = set_for_sampler(parameters->plugin);
-    result = check_set(parameters, set, self->error);
+    const aur_row *row;
+    if (set == parameters->plugin && strncmp(set, "file:", 5) != 0)
+        result = aur_table_find(&aur_sampler_table, parameters, &row, self->error);
     if (result != AUR_OK)
         return result;
     int used = snprintf(text, sizeof text, "%s", set);
