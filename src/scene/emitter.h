@@ -28,11 +28,6 @@ typedef struct aur_emitter_descriptor {
     aur_result (*prepare)(aur_emitter *emitter, aur_error *error);
     /* As aur_light_sample_direct for this light alone. */
     bool (*sample)(const aur_emitter *emitter, const aur_light_query *query, aur_light_sample *drawn);
-    /* `sample` for `count` (at most AUR_LIGHT_LANES) references; drawn[k].pdf is 0 where it fails. May be
-     * NULL.
-     */
-    void (*samples)(const aur_emitter *emitter, size_t count, const aur_vector *references, float least,
-                    const float *u, const float *v, aur_light_sample *drawn);
     /* `sample` for the sixteen lanes of a packet; false: it is left to `sample`. May be NULL. */
     bool (*lanes)(const aur_emitter *emitter, const aur_lane_vectors *reference, float least, const float *u,
                   const float *v, aur_light_lanes *drawn);

@@ -20,24 +20,6 @@ bool aur_light_sample_direct(const aur_scene *scene, aur_vector reference, float
     return true;
 }
 
-void aur_light_samples_direct(const aur_scene *scene, size_t count, const aur_vector *references, float least,
-                              const float *choice, const float *u, const float *v,
-                              aur_light_sample *samples) {
-    const aur_emitter *const only = scene->emitter_count == 1 ? scene->emitters[0] : NULL;
-    /* Meshes choose their triangle by what the choice of the light leaves. */
-    if (only != NULL && only->descriptor->samples != NULL && !only->needs_choice) {
-        only->descriptor->samples(only, count, references, least, u, v, samples);
-        for (size_t k = 0; k < count; ++k)
-            samples[k].pdf *= only->probability;
-        return;
-    }
-    for (size_t k = 0; k < count; ++k)
-        if (!aur_light_sample_direct(scene, references[k], least,
-                                     (const float[3]){choice != NULL ? choice[k] : 0.5f, u[k], v[k]},
-                                     &samples[k]))
-            samples[k].pdf = 0.0f;
-}
-
 bool aur_light_chooses(const aur_scene *scene) {
     return scene->emitter_count > 1 || (scene->emitter_count == 1 && scene->emitters[0]->needs_choice);
 }

@@ -64,13 +64,14 @@ static inline void aur_lane_set(aur_lane_vectors *vectors, size_t lane, aur_vect
 void aur_packet_corners(const aur_scene *scene, const aur_packet *packet, uint32_t lanes,
                         aur_lane_vectors corner[3]);
 
-/* aur_light_samples_direct of sixteen points. */
+/* aur_light_sample_direct of sixteen points. */
 typedef struct aur_light_lanes {
     aur_lane_vectors position, radiance;
     aur_lane_numbers pdf;    /* 0: no light from there */
     aur_lane_numbers rivals; /* 1, or 0 for lights that no ray finds */
 } aur_light_lanes;
 
-/* `choice` is not read unless aur_light_chooses. */
+/* `choice` is not read unless aur_light_chooses, and may then be NULL. A light that stands alone and is a
+ * rectangle is drawn by vector code: the single samples, but for rounding. */
 void aur_light_lanes_direct(const aur_scene *scene, const aur_lane_vectors *reference, float least,
                             const float *choice, const float *u, const float *v, aur_light_lanes *lights);

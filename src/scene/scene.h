@@ -94,12 +94,7 @@ typedef struct aur_light_sample {
  * area, which is faster and has more noise. An integrator has one `least` for all that it draws and asks. */
 bool aur_light_sample_direct(const aur_scene *scene, aur_vector reference, float least, const float u[3],
                              aur_light_sample *sample);
-/* The same for `count` (at most AUR_LIGHT_LANES) references with three numbers each; samples[k].pdf is 0
- * where it fails. `choice` may be NULL unless aur_light_chooses. */
-enum { AUR_LIGHT_LANES = 16 };
 bool aur_light_chooses(const aur_scene *scene); /* u[0] matters: several lights, or a mesh */
-void aur_light_samples_direct(const aur_scene *scene, size_t count, const aur_vector *references, float least,
-                              const float *choice, const float *u, const float *v, aur_light_sample *samples);
 /* The pdf with which aur_light_sample_direct would draw the point `surface` of a light, from `reference`. */
 float aur_light_pdf_direct(const aur_scene *scene, aur_vector reference, float least,
                            const aur_surface *surface);

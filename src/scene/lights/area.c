@@ -141,30 +141,6 @@ static bool sample(const aur_emitter *emitter, const aur_light_query *query, aur
     return finish_sample(emitter, query->reference, &point, pdf, drawn);
 }
 
-static void samples(const aur_emitter *emitter, size_t count, const aur_vector *references, float least,
-                    const float *u, const float *v, aur_light_sample *drawn) {
-    const area_light *const light = emitter->data;
-    float x[AUR_LIGHT_LANES], y[AUR_LIGHT_LANES], z[AUR_LIGHT_LANES];
-    float s[AUR_LIGHT_LANES], t[AUR_LIGHT_LANES], angle[AUR_LIGHT_LANES] = {0};
-    for (size_t k = 0; k < count; ++k) {
-        x[k] = references[k].x;
-        y[k] = references[k].y;
-        z[k] = references[k].z;
-    }
-    if (light->is_rectangle)
-        light->kernels->samples(&light->rectangle.rectangle, least, count,
-                                (aur_rectangle_points){x, y, z, u, v}, (aur_rectangle_samples){s, t, angle});
-    for (size_t k = 0; k < count; ++k) {
-        float pdf = 1.0f / angle[k];
-        const aur_shape_point point =
-            angle[k] > 0.0f
-                ? sample_area(light, (const float[3]){0.0f, s[k], t[k]})
-                : sample_seen(light, &(aur_light_query){references[k], least, {0.0f, u[k], v[k]}}, &pdf);
-        if (!finish_sample(emitter, references[k], &point, pdf, &drawn[k]))
-            drawn[k].pdf = 0.0f;
-    }
-}
-
 static bool lanes(const aur_emitter *emitter, const aur_lane_vectors *reference, float least, const float *u,
                   const float *v, aur_light_lanes *drawn) {
     const area_light *const light = emitter->data;
@@ -192,7 +168,6 @@ const aur_emitter_descriptor aur_emitter_area = {
     .create = create,
     .prepare = prepare,
     .sample = sample,
-    .samples = samples,
     .lanes = lanes,
     .emit = emit,
     .release = release,

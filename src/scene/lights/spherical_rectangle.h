@@ -26,19 +26,6 @@ bool aur_spherical_rectangle_create(const aur_rectangle *rectangle, aur_vector r
 void aur_spherical_rectangle_sample(const aur_spherical_rectangle *seen, float u, float v, float *s,
                                     float *t);
 
-/* Many points that see one rectangle, each with two numbers in [0,1); arrays of `count`. */
-typedef struct aur_rectangle_points {
-    const float *x, *y, *z, *u, *v;
-} aur_rectangle_points;
-
-typedef struct aur_rectangle_samples {
-    float *s, *t;
-    float *solid_angle; /* 0: too small, and s, t are of no use */
-} aur_rectangle_samples;
-
-typedef void (*aur_rectangle_function)(const aur_rectangle *rectangle, float least, size_t count,
-                                       aur_rectangle_points in, aur_rectangle_samples out);
-
 /* A light on a rectangle: what samples of it have in common. */
 typedef struct aur_rectangle_light {
     aur_rectangle rectangle;
@@ -53,9 +40,8 @@ typedef void (*aur_rectangle_lanes_function)(const aur_rectangle_light *light, f
                                              const aur_lane_vectors *reference, const float *u,
                                              const float *v, aur_light_lanes *drawn);
 
-/* For many points at once, by this processor's instructions. */
+/* By this processor's instructions. */
 typedef struct aur_rectangle_kernels {
-    aur_rectangle_function samples; /* aur_spherical_rectangle_create and _sample */
     aur_rectangle_lanes_function lanes;
 } aur_rectangle_kernels;
 

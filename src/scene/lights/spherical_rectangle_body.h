@@ -105,22 +105,6 @@ static inline void rectangle_point(const aur_spherical_rectangle *seen, float u,
     *t = rectangle_part((y - seen->y0) / height);
 }
 
-static inline void rectangle_points(const aur_rectangle *rectangle, float least, size_t count,
-                                    aur_rectangle_points in, aur_rectangle_samples out) {
-    const aur_rectangle r = *rectangle; /* which the outputs cannot overlap */
-    const aur_vector normal = aur_vector_cross(r.x, r.y);
-    const float *restrict const px = in.x, *restrict const py = in.y, *restrict const pz = in.z;
-    const float *restrict const u = in.u, *restrict const v = in.v;
-    float *restrict const s = out.s, *restrict const t = out.t, *restrict const angle = out.solid_angle;
-    /* More arrays than the compiler would check for overlaps. */
-    AUR_INDEPENDENT_LOOP
-    for (size_t k = 0; k < count; ++k) {
-        const aur_spherical_rectangle seen = rectangle_seen(&r, normal, px[k], py[k], pz[k], least);
-        rectangle_point(&seen, u[k], v[k], &s[k], &t[k]);
-        angle[k] = seen.solid_angle;
-    }
-}
-
 static inline bool rectangle_any_sees(const aur_rectangle *rectangle, aur_vector normal, float least,
                                       const aur_lane_vectors *reference) {
     const aur_rectangle r = *rectangle;
@@ -138,10 +122,16 @@ static inline void rectangle_lanes(const aur_rectangle_light *given, float least
     const aur_rectangle_light light = *given; /* which the outputs cannot overlap */
     const aur_rectangle *const r = &light.rectangle;
     aur_lane_numbers s = {0}, t = {0}, angle = {0};
-    if (rectangle_any_sees(r, light.normal, least, reference))
-        rectangle_points(r, least, AUR_PACKET_SIZE,
-                         (aur_rectangle_points){reference->x, reference->y, reference->z, u, v},
-                         (aur_rectangle_samples){s, t, angle});
+    const aur_vector normal = aur_vector_cross(r->x, r->y);
+    if (rectangle_any_sees(r, light.normal, least, reference)) {
+        AUR_INDEPENDENT_LOOP
+        for (size_t k = 0; k < AUR_PACKET_SIZE; ++k) {
+            const aur_spherical_rectangle seen =
+                rectangle_seen(r, normal, reference->x[k], reference->y[k], reference->z[k], least);
+            rectangle_point(&seen, u[k], v[k], &s[k], &t[k]);
+            angle[k] = seen.solid_angle;
+        }
+    }
     const aur_vector x = aur_vector_scale(r->x, r->width), y = aur_vector_scale(r->y, r->height);
     AUR_INDEPENDENT_LOOP
     for (size_t k = 0; k < AUR_PACKET_SIZE; ++k) {
@@ -161,11 +151,6 @@ static inline void rectangle_lanes(const aur_rectangle_light *given, float least
     }
 }
 
-static void rectangle_points_here(const aur_rectangle *rectangle, float least, size_t count,
-                                  aur_rectangle_points in, aur_rectangle_samples out) {
-    rectangle_points(rectangle, least, count, in, out);
-}
-
 static void rectangle_lanes_here(const aur_rectangle_light *light, float least,
                                  const aur_lane_vectors *reference, const float *u, const float *v,
                                  aur_light_lanes *drawn) {
@@ -173,7 +158,7 @@ static void rectangle_lanes_here(const aur_rectangle_light *light, float least,
 }
 
 #define AUR_RECTANGLE_KERNELS                                                                                \
-    { rectangle_points_here, rectangle_lanes_here }
+    { rectangle_lanes_here }
 
 extern const aur_rectangle_kernels aur_rectangle_kernels_avx2;
 extern const aur_rectangle_kernels aur_rectangle_kernels_avx512;

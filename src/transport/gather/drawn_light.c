@@ -66,10 +66,10 @@ static void add_lights(const aur_gather_places *places, aur_embree_order order,
 void aur_gather_add_direct_light(const aur_gather_places *places, aur_gather_sums *sums) {
     const aur_gather_plan *const plan = places->plan;
     /* Lanes without a place stand where the first one is: their samples are drawn and thrown away. */
-    aur_vector references[AUR_PACKET_SIZE];
+    aur_lane_vectors reference;
     for (size_t lane = 0; lane < AUR_PACKET_SIZE; ++lane) {
         const size_t from = aur_has_lane(places->lanes, lane) ? lane : aur_first_lane(places->lanes);
-        references[lane] = places->at[from].surface.position;
+        aur_lane_set(&reference, lane, places->at[from].surface.position);
     }
     const bool chooses = aur_light_chooses(plan->scene);
     const uint32_t pair = aur_gather_first_pair(places->bounces), draws = plan->light.draws;
@@ -81,11 +81,18 @@ void aur_gather_add_direct_light(const aur_gather_places *places, aur_gather_sum
                               pair + AUR_GATHER_PAIR_CHOICE, choice, unused);
         aur_stream_pixels(places->sampler, AUR_PACKET_SIZE, places->pixels, index,
                           pair + AUR_GATHER_PAIR_POSITION, u, v);
+        aur_light_lanes drawn;
+        aur_light_lanes_direct(plan->scene, &reference, AUR_LEAST_LIGHT_SEEN, choice, u, v, &drawn);
         aur_light_sample lights[AUR_PACKET_SIZE];
-        aur_light_samples_direct(plan->scene, AUR_PACKET_SIZE, references, AUR_LEAST_LIGHT_SEEN,
-                                 chooses ? choice : NULL, u, v, lights);
-        for (size_t lane = 0; lane < AUR_PACKET_SIZE; ++lane)
-            lights[lane].pdf *= (float)draws;
+        for (size_t lane = 0; lane < AUR_PACKET_SIZE; ++lane) {
+            const aur_vector position = aur_lane_vector(&drawn.position, lane);
+            const aur_vector way = aur_vector_subtract(position, aur_lane_vector(&reference, lane));
+            lights[lane] = (aur_light_sample){.position = position,
+                                              .direction = aur_vector_normalize(way),
+                                              .radiance = aur_lane_vector(&drawn.radiance, lane),
+                                              .pdf = drawn.pdf[lane] * (float)draws,
+                                              .delta = drawn.rivals[lane] == 0.0f};
+        }
         add_lights(places, places->order, lights, sums);
     }
 }
