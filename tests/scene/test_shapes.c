@@ -267,6 +267,23 @@ static void normals_are_finite(void **state) {
     aur_scene_destroy(scene);
 }
 
+/* Elements of a PLY file may stand in any order. */
+static void reads_faces_before_vertices(void **state) {
+    (void)state;
+    write_text(
+        "first.ply",
+        "ply\nformat ascii 1.0\nelement face 1\nproperty list uchar int vertex_indices\nelement vertex 4\n"
+        "property float x\nproperty float y\nproperty float z\nend_header\n4 0 1 2 3\n0 0 0\n1 0 0\n1 1 0\n"
+        "0 1 0\n");
+    aur_scene *const scene =
+        must_load_body("<shape type='ply'><string name='filename' value='first.ply'/></shape>");
+    assert_int_equal(aur_scene_shape_triangles(scene, 0), 2);
+    aur_vector lower, upper;
+    aur_scene_bounds(scene, &lower, &upper);
+    assert_near(upper.x - lower.x, 1.0, 1e-6);
+    aur_scene_destroy(scene);
+}
+
 /* What a mesh file may get wrong, and the line and message that tell. */
 static const struct bad_mesh {
     const char *file, *text;
@@ -419,15 +436,11 @@ static void bears_degenerate_triangles(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(hits_curved_shapes),
-        cmocka_unit_test(reads_ply_in_three_forms),
-        cmocka_unit_test(reads_serialized_meshes),
-        cmocka_unit_test(reads_obj),
-        cmocka_unit_test(smooths_without_normals),
-        cmocka_unit_test(normals_are_finite),
-        cmocka_unit_test(says_what_is_wrong_in_meshes),
-        cmocka_unit_test(bears_degenerate_triangles),
-        cmocka_unit_test(copies_groups),
+        cmocka_unit_test(hits_curved_shapes),          cmocka_unit_test(reads_ply_in_three_forms),
+        cmocka_unit_test(reads_serialized_meshes),     cmocka_unit_test(reads_obj),
+        cmocka_unit_test(smooths_without_normals),     cmocka_unit_test(normals_are_finite),
+        cmocka_unit_test(reads_faces_before_vertices), cmocka_unit_test(says_what_is_wrong_in_meshes),
+        cmocka_unit_test(bears_degenerate_triangles),  cmocka_unit_test(copies_groups),
     };
     return cmocka_run_group_tests(tests, enter_folder, leave_folder);
 }
