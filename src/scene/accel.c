@@ -8,7 +8,7 @@
 
 static aur_result fail(const aur_scene *scene, enum RTCError code, aur_error *error) {
     if (code == RTC_ERROR_NONE)
-        code = rtcGetDeviceError(scene->device); /* of the thread, where there is no device */
+        code = rtcGetDeviceError(scene->device); /* without a device, the last error of this thread */
     return aur_fail(error, code == RTC_ERROR_OUT_OF_MEMORY ? AUR_ERROR_MEMORY : AUR_ERROR_INTERNAL,
                     "the ray-tracing structure cannot be built (Embree error %d)", (int)code);
 }
@@ -38,13 +38,20 @@ static void curved_bounds(const struct RTCBoundsFunctionArguments *arguments) {
     const aur_shape *const shape = arguments->geometryUserPtr;
     double lower[3], upper[3];
     shape->curved->bounds(shape, lower, upper);
-    /* Six floats and two gaps. A hair wider than the rounding to float. */
-    float *const low = &arguments->bounds_o->lower_x, *const high = &arguments->bounds_o->upper_x;
+    struct RTCBounds *const bounds = arguments->bounds_o;
+    /* The bounds are wider than rounding to float can make them too narrow. */
+    float low[3], high[3];
     for (size_t i = 0; i < 3; ++i) {
         const double slack = 1e-6 * fmax(fabs(lower[i]), fabs(upper[i]));
         low[i] = (float)(lower[i] - slack);
         high[i] = (float)(upper[i] + slack);
     }
+    bounds->lower_x = low[0];
+    bounds->lower_y = low[1];
+    bounds->lower_z = low[2];
+    bounds->upper_x = high[0];
+    bounds->upper_y = high[1];
+    bounds->upper_z = high[2];
 }
 
 /* Packets of N rays are arrays of N, one a field; Embree's accessors for them are C++ only. */

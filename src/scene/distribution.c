@@ -33,7 +33,7 @@ size_t aur_distribution_choose_double(const aur_distribution *distribution, doub
         else
             high = middle;
     }
-    /* Rounding may lead to an item of weight 0 at the end. */
+    /* Rounding may lead beyond the last item whose weight is not 0. */
     while (low > 0 && distribution->sums[low + 1] <= distribution->sums[low])
         --low;
     const double width = distribution->sums[low + 1] - distribution->sums[low];

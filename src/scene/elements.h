@@ -35,7 +35,7 @@ static inline uint32_t aur_element_of(const aur_elements *elements, const aur_hi
 /* Whether the element is a whole curved shape. */
 bool aur_element_is_curved(const aur_elements *elements, uint32_t element);
 
-/* Area, square scene units; for curved shapes under an instance's map, of the map's mean scale. */
+/* The area in square scene units. A curved shape in an instance is scaled by the mean scale of its map. */
 double aur_element_area(const aur_scene *scene, const aur_placement *placement, uint32_t primitive);
 /* A point in the middle of a triangle, or of a curved shape's box, and the triangle's unit normal. */
 void aur_element_middle(const aur_scene *scene, const aur_placement *placement, uint32_t primitive,

@@ -1,4 +1,4 @@
-/* Lights. One a file of lights, with one line in its table.c. */
+/* Lights. Each stands in a file of the folder lights and has one line in lights/table.c. */
 #pragma once
 
 #include "material/texture.h"
@@ -20,7 +20,7 @@ typedef struct aur_emitter_descriptor {
     aur_row row;      /* first, so that a row of the table is its descriptor */
     bool needs_shape; /* stands inside a <shape> */
     bool is_far;      /* infinitely far: its power grows with the scene's section */
-    /* Reads its keys and sets emitter->extent, unless that takes the scene. */
+    /* Reads its keys, and sets emitter->extent where that does not depend on the scene. */
     aur_result (*create)(aur_parameters *parameters, aur_emitter *emitter, aur_error *error);
     /* Called when all shapes are there: makes tables, and may set emitter->extent and ->brightness. May be
      * NULL.

@@ -51,7 +51,7 @@ static float gaussian_centre(float t) {
     return t * above / below;
 }
 
-/* Standard deviations from the centre. */
+/* The offset in standard deviations from the centre. */
 static float sample_gaussian(float u) {
     const float t = fabsf(2.0f * u - 1.0f);
     const float x = t <= 0.9f ? gaussian_centre(t) : gaussian_tail(t);

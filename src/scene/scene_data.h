@@ -11,7 +11,7 @@
 typedef struct RTCDeviceTy *aur_embree_device;
 typedef struct RTCSceneTy *aur_embree_scene;
 
-/* Shapes that are drawn by their instances only. */
+/* Shapes that are seen through the instances of their group only. */
 typedef struct aur_shape_group {
     size_t count;
     uint32_t *shapes;
@@ -48,7 +48,7 @@ struct aur_scene {
     size_t samples_per_pixel;
     aur_parameters integrator;
     bool has_nested_integrator;
-    aur_parameters nested_integrator; /* one that stands inside it */
+    aur_parameters nested_integrator; /* the one that stands inside the integrator, as for `aov` */
     aur_embree_device device;
     aur_embree_scene accel;
     aur_vector lower, upper;

@@ -1,4 +1,4 @@
-/* Cameras. One a file of sensors, with one line in its table.c. */
+/* Cameras. Each stands in a file of the folder sensors and has one line in sensors/table.c. */
 #pragma once
 
 #include "core/keys.h"

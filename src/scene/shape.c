@@ -7,7 +7,7 @@ bool aur_first_root(double a, double b, double c, double nearest, double farthes
     const double discriminant = b * b - a * c;
     if (!(discriminant >= 0.0) || !(a > 0.0))
         return false;
-    /* Without the cancellation of b and the square root. */
+    /* This form has no cancellation between b and the square root. */
     const double q = -(b + copysign(sqrt(discriminant), b));
     double first = q / a, second = q != 0.0 ? c / q : first;
     if (first > second) {

@@ -1,4 +1,4 @@
-/* Shapes. One a file of shapes, with one line in its table.c. */
+/* Shapes. Each has a file in the folder shapes and one line in shapes/table.c. */
 #pragma once
 
 #include "scene/distribution.h"
@@ -19,7 +19,8 @@ typedef struct aur_shape_point {
     aur_bsdf_point texture;
 } aur_shape_point;
 
-/* What a shape that is no mesh can do; all in world coordinates. Its hits have primitive 0. */
+/* The functions of a shape that is not a mesh. All coordinates are the world's, and all hits have primitive
+ * 0. */
 typedef struct aur_curved {
     void (*bounds)(const aur_shape *shape, double lower[3], double upper[3]);
     /* The nearest hit with nearest < distance < farthest; `direction` is of any length. */
@@ -45,14 +46,14 @@ struct aur_shape {
     aur_mesh mesh;
     bool parallelogram; /* two triangles sampled by one continuous map: corners 0, 1, 2, 3 in order */
     bool flipped;       /* curved shapes: the normal points to the other side */
-    aur_vector center;  /* curved shapes: where they are, */
-    aur_vector axis[3]; /* their local axes and */
+    aur_vector center;  /* curved shapes: the origin of their own coordinates */
+    aur_vector axis[3]; /* curved shapes: the axes of their own coordinates */
     float radius, length;
-    bool extreme; /* a mesh of which some triangle is no aur_is_usual_square */
+    bool extreme; /* a mesh with a triangle that is not aur_is_usual_square */
     double area;
     const aur_bsdf *bsdf;
-    uint32_t emitter; /* or AUR_NO_EMITTER */
-    bool grouped;     /* seen through instances only */
+    uint32_t emitter; /* index of the light that the shape is, or AUR_NO_EMITTER */
+    bool grouped;     /* belongs to a group: rays meet its instances only */
 };
 
 /* The keys that every shape takes. */
@@ -77,7 +78,7 @@ struct aur_shape_descriptor {
     aur_result (*create)(const aur_shape_input *input, aur_shape *shape, aur_error *error);
     /* For meshes from files, whose `create` is aur_mesh_file_create. */
     aur_result (*read_file)(aur_mesh_file *file, aur_mesh *mesh);
-    bool smooths; /* where the file has no normals */
+    bool smooths; /* makes normals at vertices where the file has none */
 };
 
 /* The first root of a t^2 + 2 b t + c with nearest < t < farthest. */

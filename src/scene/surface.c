@@ -93,7 +93,7 @@ static void shape_surface(const aur_shape *shape, const aur_ray *ray, const aur_
         mesh_surface(shape, ray, hit, surface);
 }
 
-/* In the group's own space, and then moved. */
+/* Finds the surface in the group's own space, and then moves it to the instance. */
 static void instance_surface(const aur_instance *instance, const aur_shape *shape, const aur_ray *ray,
                              const aur_hit *hit, aur_surface *surface) {
     aur_ray local = *ray;

@@ -24,13 +24,14 @@ bool aur_transform_look_at(const double origin[3], const double target[3], const
 bool aur_transform_inverse(const aur_transform *a, aur_transform *inverse);
 /* Whether the last row is 0 0 0 1. */
 bool aur_transform_is_affine(const aur_transform *a);
-/* Of the upper left 3x3. */
+/* Determinant of the upper left 3x3. */
 double aur_transform_determinant(const aur_transform *a);
 
-/* Affine application. */
+/* Apply an affine map. */
 void aur_transform_point(const aur_transform *a, const double point[3], double result[3]);
 void aur_transform_direction(const aur_transform *a, const double direction[3], double result[3]);
-/* By the transposed inverse: `inverse` is the inverse of the map. Not normalised. */
+/* Applies the map whose inverse is `inverse` to a normal, by the transposed inverse. The result's length is
+ * not 1. */
 void aur_transform_normal(const aur_transform *inverse, const double normal[3], double result[3]);
 
 aur_vector aur_transform_point_f(const aur_transform *a, aur_vector point);

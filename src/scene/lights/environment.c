@@ -230,7 +230,8 @@ static aur_vector draw_direction(const envmap *self, float u, float v) {
 static bool sample_envmap(const aur_emitter *emitter, const aur_light_query *query, aur_light_sample *drawn) {
     const aur_vector direction = draw_direction(emitter->data, query->u[1], query->u[2]);
     aur_sample_far(emitter->scene, query->reference, direction, drawn);
-    /* Asked for afterwards, so that rounding cannot part the two. */
+    /* Radiance and density are asked for by the direction, as rays that find the light ask: rounding cannot
+     * make the two differ. */
     drawn->radiance = envmap_from(emitter, drawn->direction);
     drawn->pdf = envmap_pdf(emitter, drawn->direction);
     return drawn->pdf > 0.0f;

@@ -25,7 +25,7 @@ static void warn_unused(aur_loader *self, aur_parameters *parameters, const aur_
     }
 }
 
-/* Keys of films; -1: not given. */
+/* What is read of a film; a crop of -1 is not given. */
 typedef struct film_keys {
     int64_t width, height, crop_x, crop_y, crop_width, crop_height;
     const aur_parameter *rfilter;
@@ -159,7 +159,7 @@ aur_result aur_build_sampler(aur_loader *self, aur_parameters *parameters, void 
     if (result != AUR_OK)
         return result;
     warn_unused(self, parameters, &sampler_common);
-    /* The rest are the set's own keys. */
+    /* Parameters that are left are keys of the set. */
     char text[1024];
     const char *const set = set_for_sampler(parameters->plugin);
     const aur_row *row;
@@ -199,7 +199,7 @@ aur_result aur_build_sampler(aur_loader *self, aur_parameters *parameters, void 
 aur_result aur_build_sensor(aur_loader *self, aur_parameters *parameters, void **object) {
     aur_scene *const scene = self->scene;
     *object = &scene->sensor;
-    /* Nested film and sampler have set the scene's own. */
+    /* A nested film and sampler have been built, and have set those of the scene. */
     void *inner;
     aur_result result = aur_loader_nested(self, parameters, "film", &inner);
     if (result == AUR_OK)

@@ -17,7 +17,7 @@ aur_result aur_build_bsdf(aur_loader *self, aur_parameters *parameters, void **o
     return AUR_OK;
 }
 
-/* A picture's `filename` becomes a path that opens. */
+/* Replaces a picture's `filename` by the path under which it can be read. */
 static aur_result resolve_filename(aur_loader *self, aur_parameters *parameters) {
     for (size_t i = 0; i < parameters->count; ++i) {
         aur_parameter *const item = &parameters->items[i];

@@ -109,7 +109,7 @@ static aur_result add_nested(aur_loader *self, aur_xml_node *child, aur_paramete
                                                         child->location, self->error);
 }
 
-/* All that stands inside a node becomes parameters. */
+/* Makes parameters of all that stands inside a node. */
 static aur_result collect(aur_loader *self, const aur_xml_node *node, aur_parameters *parameters) {
     for (aur_xml_node *child = node->first_child; child != NULL; child = child->next) {
         aur_result result;

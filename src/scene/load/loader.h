@@ -18,10 +18,10 @@ struct aur_loader {
     const aur_warnings *warnings;
     size_t kind_count;
     const aur_object_kind *kinds;
-    const aur_bsdf *default_bsdf; /* of shapes that name none */
-    const aur_bsdf *black_bsdf;   /* of lights that name none */
-    const aur_xml_node *top;      /* the child of <scene> that is being built, */
-    const aur_xml_node *node;     /* and what of it or in it is */
+    const aur_bsdf *default_bsdf; /* of shapes that name none; NULL before the first */
+    const aur_bsdf *black_bsdf;   /* of lights that name none; NULL before the first */
+    const aur_xml_node *top;      /* the child of <scene> that is being built */
+    const aur_xml_node *node;     /* the node, that one or one inside it, whose builder runs */
     size_t depth;                 /* objects that are being built, each inside the one before */
     aur_error *error;
 };

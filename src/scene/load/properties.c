@@ -49,7 +49,7 @@ aur_result aur_xml_fail_tag(const aur_xml_node *node, size_t count, const char *
                        aur_names_hint(aur_names_of(count, names), node->tag, "<>", hint));
 }
 
-/* Three numbers from `value`, or from x, y, z, of which the missing ones are `missing`. */
+/* Reads three numbers from `value`, or from x, y, z; those that are not given become `missing`. */
 static aur_result read_triple(const aur_xml_node *node, double missing, double triple[3], aur_error *error) {
     static const char *const axes[] = {"x", "y", "z"};
     const char *const value = aur_xml_attribute_value(node, "value");

@@ -6,7 +6,8 @@
 #include "scene/load/loader.h"
 #include "scene/load/properties.h"
 
-/* Its objects, too, are no aur_shape. */
+/* The type of instances. Their objects are an aur_instance and those of groups an aur_shape_group, not an
+ * aur_shape. */
 static const char *const instance_plugin = "instance";
 
 /* What a shape without a bsdf is made of: grey, or black when it is a light. */

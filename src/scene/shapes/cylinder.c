@@ -23,7 +23,7 @@ static bool intersect(const aur_shape *shape, const double origin[3], const doub
     const double dx = aur_shape_dot(direction, shape->axis[0]), dy = aur_shape_dot(direction, shape->axis[1]),
                  dz = aur_shape_dot(direction, shape->axis[2]);
     const double a = dx * dx + dy * dy, b = ox * dx + oy * dy, c = ox * ox + oy * oy - radius * radius;
-    /* The first root may lie beyond an end, the second within. */
+    /* The first root may lie beyond an end of the cylinder, and the second between the ends. */
     double from = nearest;
     for (size_t i = 0; i < 2; ++i) {
         if (!aur_first_root(a, b, c, from, farthest, distance))

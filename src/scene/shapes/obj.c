@@ -91,7 +91,7 @@ static aur_result read_face(obj *self) {
     return count >= 3 ? AUR_OK : aur_mesh_file_fail(self->file, "a face needs at least 3 corners");
 }
 
-/* The first four are read, the others left out. */
+/* The keywords of the format. Lines of the first four are read, those of the others are skipped. */
 static const char *const keywords[] = {
     "v",    "vt",         "vn",        "f",     "g",     "o",    "s",     "usemtl", "mtllib",   "l",
     "p",    "vp",         "cstype",    "deg",   "end",   "curv", "curv2", "surf",   "parm",     "trim",

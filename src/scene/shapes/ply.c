@@ -22,12 +22,12 @@ typedef enum ply_type {
 
 static const size_t type_sizes[] = {1, 1, 2, 2, 4, 4, 4, 8};
 
-/* Two names for each type. */
+/* Each type has two names. */
 static const char *const type_names[] = {"char",   "int8",    "uchar",  "uint8",  "short", "int16",
                                          "ushort", "uint16",  "int",    "int32",  "uint",  "uint32",
                                          "float",  "float32", "double", "float64"};
 
-/* Of vertices, and at last the indices of faces. */
+/* What a property is for: those of vertices come first, then the indices of faces. */
 typedef enum ply_role {
     PLY_X,
     PLY_Y,
@@ -64,7 +64,7 @@ typedef struct ply_property {
     bool list;
     ply_type count_type, type;
     ply_role role;
-    float *values; /* where it goes: that of vertex i to values[stride * i]; or NULL */
+    float *values; /* the value of vertex i goes to values[stride * i]; NULL: it is left out */
     size_t stride;
 } ply_property;
 
@@ -223,7 +223,7 @@ static double read_binary(const char *at, ply_type type, bool big) {
     case PLY_DOUBLE:
         memcpy(&wide, &bits, sizeof wide);
         return wide;
-    default: /* without a sign */
+    default: /* the unsigned types */
         return (double)bits;
     }
 }

@@ -24,7 +24,7 @@ static bool intersect(const aur_shape *shape, const double origin[3], const doub
     return aur_first_root(a, b, c, nearest, farthest, distance);
 }
 
-/* Where a unit normal (before flipping) stands. */
+/* The point that has this unit normal before flipping. */
 static aur_shape_point point_at(const aur_shape *shape, aur_vector normal) {
     const float x = aur_vector_dot(normal, shape->axis[0]);
     const float y = aur_vector_dot(normal, shape->axis[1]);
@@ -57,7 +57,7 @@ static float pdf_seen(const aur_shape *shape, aur_vector reference) {
     return cap < 2.0f ? 1.0f / (2.0f * AUR_PI_F * cap) : 0.0f;
 }
 
-/* Uniform in the cone that the sphere fills. */
+/* Draws a direction uniformly in the cone that the sphere fills. */
 static bool sample_seen(const aur_shape *shape, aur_vector reference, float u, float v,
                         aur_shape_point *point, float *pdf) {
     const float cap = seen_cap(shape, reference);

@@ -14,7 +14,7 @@ typedef struct folder {
     const char *path;
 } folder;
 
-/* Up to and with the last slash. */
+/* The folder of a file: its path up to the last slash, which is included. */
 static folder folder_of(const char *file) {
     const char *const slash = strrchr(file, '/');
     return (folder){slash != NULL ? (size_t)(slash - file) + 1 : 0, file};
@@ -78,7 +78,7 @@ static aur_result fail(const aur_xml_document *document, aur_location location, 
         if (i == 0)
             first = in;
         if (i == 1 && in.length == first.length && strncmp(in.path, first.path, in.length) == 0)
-            continue; /* the scene's own file */
+            continue; /* the name stands in the main file: one folder, not two */
         if (used < sizeof places)
             used += (size_t)snprintf(places + used, sizeof places - used, "%s%.*s", i > 0 ? ", " : "",
                                      in.length > 0 ? (int)in.length : 2, in.length > 0 ? in.path : "./");
