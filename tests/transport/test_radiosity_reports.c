@@ -68,7 +68,7 @@ static void options_out_of_range_are_refused(void **state) {
         {"jittered", 6, 1, 100, AUR_ERROR_ARGUMENT, "has 2 dimensions, not 16"},
         {"faure", 3000, 1, 100, AUR_ERROR_ARGUMENT, "dimensions, not 6004"},
         {"lcg", 6, 1, UINT64_C(1) << 40, AUR_ERROR_ARGUMENT, "at most"},
-        {"lcg", 6, 1, UINT64_C(1) << 30, AUR_ERROR_ARGUMENT, "no more than"},
+        {"lcg", 6, 1, UINT64_C(1) << 30, AUR_ERROR_ARGUMENT, "has at most 134217727 points"},
         {"sobbol", 6, 1, 100, AUR_ERROR_NAME, "did you mean 'sobol'"},
         {"sobol", 6, 2, 100, AUR_ERROR_UNSUPPORTED, "need a scrambling"},
     };
