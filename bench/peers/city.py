@@ -45,7 +45,7 @@ def main():
     options.add_argument("--facets", type=int, default=22000)
     options.add_argument("--seed", type=int, default=1)
     given = options.parse_args()
-    towers = 1
+    towers = max(1, int((given.facets / 220) ** 0.5))  # a tower has some 150 facets
     while 2 * sum(map(len, (quads := make(towers, given.seed)).values())) < given.facets:
         towers += 1
     numbers = {}

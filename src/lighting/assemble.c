@@ -2,17 +2,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "lighting/exchange.h"
+#include "lighting/upper_row.h"
 
 enum { BLOCK = 32 };
-
-/* The entries of a row from the diagonal on. */
-typedef struct upper_row {
-    size_t count;
-    uint32_t *columns;
-    double *closed, *sampled, *half_widths;
-    uint64_t closed_pairs, sampled_pairs;
-} upper_row;
 
 typedef struct assembly {
     const aur_facets *facets;
@@ -21,7 +13,7 @@ typedef struct assembly {
     double student; /* half an interval over its standard error */
     size_t *starts; /* of the patches of each row, in `patches` */
     uint32_t *patches;
-    upper_row *rows;
+    aur_upper_row *rows;
     aur_exchange *exchange;
 } assembly;
 
@@ -31,7 +23,6 @@ typedef struct scratch {
     uint32_t *slots, *met;
     double *closed; /* [met] */
     double *sums;   /* [met][randomizations] */
-    uint32_t *order;
 } scratch;
 
 static bool reserve(scratch *s, size_t width) {
@@ -119,7 +110,7 @@ static int compare_numbers(const void *left, const void *right) {
     return (a > b) - (a < b);
 }
 
-static bool keep_row(const assembly *work, scratch *s, upper_row *row) {
+static bool keep_row(const assembly *work, scratch *s, aur_upper_row *row) {
     const size_t width = work->visits->randomizations;
     row->count = s->met_count;
     row->columns = malloc((s->met_count + 1) * sizeof *row->columns);
@@ -200,57 +191,6 @@ static bool list_patches(assembly *work) {
     return true;
 }
 
-static void put(aur_exchange *exchange, uint64_t at, size_t column, const upper_row *row, size_t k,
-                double variance_scale) {
-    exchange->columns[at] = (uint32_t)column;
-    exchange->values[at] = row->closed[k] + row->sampled[k];
-    exchange->variances[at] = variance_scale * row->sampled[k];
-    exchange->half_widths[at] = row->half_widths[k];
-}
-
-/* The whole matrix from its upper triangle. Rows come in order, so that columns ascend. */
-static bool mirror(const assembly *work) {
-    aur_exchange *const exchange = work->exchange;
-    const size_t rows = exchange->rows;
-    uint64_t *const next = calloc(rows + 1, sizeof *next);
-    if (next == NULL)
-        return false;
-    for (size_t a = 0; a < rows; ++a) {
-        const upper_row *const row = &work->rows[a];
-        exchange->closed_pairs += row->closed_pairs;
-        exchange->sampled_pairs += row->sampled_pairs;
-        for (size_t k = 0; k < row->count; ++k) {
-            ++next[a];
-            next[row->columns[k]] += row->columns[k] != a;
-            exchange->closed_total += (row->columns[k] != a ? 2.0 : 1.0) * row->closed[k];
-        }
-    }
-    for (size_t a = 0; a < rows; ++a) {
-        exchange->starts[a + 1] = exchange->starts[a] + next[a];
-        next[a] = exchange->starts[a];
-    }
-    const size_t entries = exchange->starts[rows];
-    exchange->columns = malloc((entries + 1) * sizeof *exchange->columns);
-    exchange->values = malloc((entries + 1) * sizeof *exchange->values);
-    exchange->variances = malloc((entries + 1) * sizeof *exchange->variances);
-    exchange->half_widths = malloc((entries + 1) * sizeof *exchange->half_widths);
-    const bool good = exchange->columns != NULL && exchange->values != NULL && exchange->variances != NULL &&
-                      exchange->half_widths != NULL;
-    for (size_t a = 0; good && a < rows; ++a) {
-        const upper_row *const row = &work->rows[a];
-        for (size_t k = 0; k < row->count; ++k) {
-            const size_t b = row->columns[k];
-            const double scale =
-                exchange->areas[a] * exchange->areas[b] / (exchange->areas[a] + exchange->areas[b]);
-            put(exchange, next[a]++, b, row, k, scale);
-            if (b != a)
-                put(exchange, next[b]++, a, row, k, scale);
-        }
-    }
-    free(next);
-    return good;
-}
-
 static bool allocate(const aur_facets *facets, aur_exchange *exchange) {
     const size_t rows = facets->row_count;
     *exchange = (aur_exchange){.rows = rows,
@@ -285,7 +225,7 @@ aur_result aur_exchange_assemble(const aur_facets *facets, const aur_visits *vis
     if (result == AUR_OK)
         result =
             aur_parallel_for(&options, (facets->row_count + BLOCK - 1) / BLOCK, assemble_block, &work, error);
-    if (result == AUR_OK && !mirror(&work))
+    if (result == AUR_OK && !aur_exchange_mirror(work.rows, exchange))
         result = aur_fail_memory(error);
     for (size_t i = 0; i < facets->row_count && work.rows != NULL; ++i) {
         free(work.rows[i].columns);
