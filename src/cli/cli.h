@@ -4,6 +4,8 @@
 #include <aureole/core.h>
 #include <stdbool.h>
 
+#include "report/report.h"
+
 /* The exit statuses of the command line. */
 enum { CLI_SUCCESS = 0, CLI_DIFFERENCE = 1, CLI_BAD_INPUT = 2, CLI_FAILURE = 3 };
 
@@ -22,25 +24,5 @@ aur_progress cli_progress(bool quiet);
 /* Takes the bar off the terminal. */
 void cli_progress_clear(void);
 
-/* A table of results that prints as aligned text, CSV or a JSON array of objects. */
-typedef enum cli_format { CLI_TABLE, CLI_CSV, CLI_JSON } cli_format;
-
-typedef struct cli_table cli_table;
-/* Returns NULL when out of memory; the functions below accept NULL and then do nothing, and cli_table_finish
- * fails. */
-cli_table *cli_table_create(size_t column_count, const char *const *columns);
-/* One more column, before the first cell. */
-void cli_table_column(cli_table *table, const char *name);
-void cli_table_destroy(cli_table *table);
-/* Cells fill the table row by row. Numbers are printed with `digits` significant digits in text, 17 in CSV
- * and JSON. */
-void cli_table_text(cli_table *table, const char *text);
-void cli_table_number(cli_table *table, double value, int digits);
-void cli_table_integer(cli_table *table, uint64_t value);
-/* Prints to standard output, destroys the table, and returns the exit status. A table of one row that was
- * filled by the functions below is printed for people as a line a cell. */
-int cli_table_finish(cli_table *table, cli_format format);
-
-/* A column and its cell: what is known of one thing. */
-void cli_fact_text(cli_table *table, const char *name, const char *text);
-void cli_fact_number(cli_table *table, const char *name, double value);
+/* Prints a table to standard output, destroys it, and returns the exit status. */
+int cli_finish(report_table *table, report_format format);

@@ -11,27 +11,21 @@ typedef struct compare_options {
     double scale;
     cli_picture picture;
     const char *outfile;
-    cli_format format;
+    cli_common common;
 } compare_options;
 
 static const cli_option rows[] = {
-    {.key = {"metric", AUR_KEY_TEXT, "the figures", "rmse", CLI_FIELD(compare_options, metrics)},
-     .value = "NAME",
-     .list = true,
+    {CLI_TEXT(compare_options, metrics, "metric", "NAME", "rmse", "the figures"), .list = true,
      .name = aur_image_metric_name},
-    {.key = {"tolerance", AUR_KEY_REAL, "every metric named may be at most T; 0: identical", "0",
-             .maximum = INFINITY, CLI_FIELD(compare_options, tolerance)},
-     .value = "T"},
-    {.key = {"outfile", AUR_KEY_TEXT,
-             "write the absolute difference (FLIP's map when the first metric is flip) in false colour (PNG, "
-             "EXR, ...)",
-             CLI_FIELD(compare_options, outfile)},
-     .letter = 'o',
-     .value = "FILE",
-     .content = "file"},
-    {.key = {"scale", AUR_KEY_REAL, "the value that is drawn brightest", "the largest; 1 for flip",
-             .computed = true, .maximum = INFINITY, CLI_FIELD(compare_options, scale)},
-     .value = "D"},
+    {CLI_REAL(compare_options, tolerance, "tolerance", "T", 0, INFINITY, "0",
+              "every metric named may be at most T; 0: identical")},
+    {CLI_TEXT(compare_options, outfile, "outfile", "FILE", NULL,
+              "write the absolute difference (FLIP's map when the first metric is flip) in false colour "
+              "(PNG, EXR, ...)"),
+     .letter = 'o', .content = "file"},
+    {CLI_REAL(compare_options, scale, "scale", "D", 0, INFINITY, "the largest; 1 for flip",
+              "the value that is drawn brightest"),
+     .key.computed = true},
     {.key = {0}}};
 
 static aur_image_metric metric_at(const compare_options *options, size_t index) {
@@ -47,37 +41,37 @@ static int fail_about(const char *path, aur_error *error) {
 }
 
 static int add_row(const char *path, const aur_image *reference, const aur_image *image,
-                   const compare_options *options, cli_table *table, bool *within) {
+                   const compare_options *options, report_table *table, bool *within) {
     aur_error error;
     double value[4], mean[4];
-    cli_table_text(table, path);
+    report_text(table, path);
     for (size_t i = 0; i < options->metrics.count; ++i) {
         if (aur_image_compare(reference, image, metric_at(options, i), value, &error) != AUR_OK)
             return fail_about(path, &error);
-        cli_table_number(table, value[3], 6);
+        report_number(table, value[3], 6);
         *within = *within && value[3] <= options->tolerance;
     }
     if (aur_image_compare(reference, image, AUR_IMAGE_RELATIVE_RMSE, value, &error) != AUR_OK)
         return fail_about(path, &error);
-    cli_table_number(table, value[3], 6);
+    report_number(table, value[3], 6);
     const aur_image *const both[] = {image, reference};
     for (size_t i = 0; i < 2; ++i) {
         if (aur_image_mean(both[i], mean, &error) != AUR_OK)
             return fail_about(path, &error);
         for (size_t c = 0; c < 3; ++c)
-            cli_table_number(table, mean[c], 6);
+            report_number(table, mean[c], 6);
     }
     return CLI_SUCCESS;
 }
 
-static cli_table *create_table(const compare_options *options) {
+static report_table *create_table(const compare_options *options) {
     static const char *const others[] = {"relative_rmse",    "mean_r",           "mean_g",          "mean_b",
                                          "reference_mean_r", "reference_mean_g", "reference_mean_b"};
-    cli_table *const table = cli_table_create(1, (const char *const[]){"image"});
+    report_table *const table = report_create(1, (const char *const[]){"image"});
     for (size_t i = 0; i < options->metrics.count; ++i)
-        cli_table_column(table, aur_image_metric_name(metric_at(options, i)));
+        report_column(table, aur_image_metric_name(metric_at(options, i)));
     for (size_t i = 0; i < sizeof others / sizeof others[0]; ++i)
-        cli_table_column(table, others[i]);
+        report_column(table, others[i]);
     return table;
 }
 
@@ -109,7 +103,7 @@ static int run(const cli_call *call) {
                              call->operand_count - 1);
     aur_image *reference = NULL;
     int status = cli_read_picture(call->operands[0], &options->picture, &reference);
-    cli_table *const table = create_table(options);
+    report_table *const table = create_table(options);
     bool within = true;
     for (size_t i = 1; i < call->operand_count && status == CLI_SUCCESS; ++i) {
         aur_image *image = NULL;
@@ -121,9 +115,9 @@ static int run(const cli_call *call) {
         aur_image_destroy(image);
     }
     if (status == CLI_SUCCESS)
-        status = cli_table_finish(table, options->format);
+        status = cli_finish(table, options->common.format);
     else
-        cli_table_destroy(table);
+        report_destroy(table);
     aur_image_destroy(reference);
     return status == CLI_SUCCESS && !within ? CLI_DIFFERENCE : status;
 }
@@ -139,9 +133,9 @@ const cli_verb cli_verb_compare = {
     .too_few = "a reference and at least one picture are needed",
     .operands = {{"REFERENCE", "the picture that the others are compared with", .content = "file"},
                  {"IMAGE", "pictures of the same size", .repeated = true, .content = "file"}},
-    .groups = {{rows},
+    .groups = {{rows, 0},
                {cli_picture_options, offsetof(compare_options, picture)},
-               {cli_format_option, offsetof(compare_options, format)}},
+               {cli_format_option, offsetof(compare_options, common)}},
     .size = sizeof(compare_options),
     .run = run,
 };

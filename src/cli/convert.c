@@ -10,18 +10,15 @@ typedef struct convert_options {
 } convert_options;
 
 static const cli_option options[] = {
-    {.key = {"exposure", AUR_KEY_REAL, "multiply radiance by 2^STOPS (PNG)", "0", .minimum = -100,
-             .maximum = 100, CLI_FIELD(convert_options, write.exposure)},
-     .value = "STOPS"},
-    {.key = {"tone", AUR_KEY_CHOICE, "the tone curve (PNG); without one radiance 1 is white", "srgb",
-             .words = (const char *const[]){"srgb", "filmic", NULL}, CLI_FIELD(convert_options, write.tone)},
-     .value = "CURVE"},
-    {.key = {"half", .help = "16-bit floats instead of 32-bit ones (EXR)",
-             CLI_FIELD(convert_options, write.half)}},
-    {.key = {"to", AUR_KEY_TEXT, "the format, where the name of OUT does not tell",
-             .words = (const char *const[]){"exr", "pfm", "hdr", "png", NULL},
-             CLI_FIELD(convert_options, write.format)},
-     .value = "FORMAT"},
+    {CLI_REAL(convert_options, write.exposure, "exposure", "STOPS", -100, 100, "0",
+              "multiply radiance by 2^STOPS (PNG)")},
+    {CLI_CHOICE(convert_options, write.tone, "tone", "CURVE", "srgb",
+                "the tone curve (PNG); without one radiance 1 is white"),
+     .key.words = (const char *const[]){"srgb", "filmic", NULL}},
+    {CLI_FLAG(convert_options, write.half, "half", "16-bit floats instead of 32-bit ones (EXR)")},
+    {CLI_TEXT(convert_options, write.format, "to", "FORMAT", NULL,
+              "the format, where the name of OUT does not tell"),
+     .key.words = (const char *const[]){"exr", "pfm", "hdr", "png", NULL}},
     {.key = {0}}};
 
 /* Options that would have no effect are mistakes. */
@@ -70,7 +67,7 @@ const cli_verb cli_verb_convert = {
     .too_many = "one input and one output are needed",
     .operands = {{"IN", "the picture that is read", .content = "file"},
                  {"OUT", "the picture that is written", .content = "file"}},
-    .groups = {{options}, {cli_picture_options, offsetof(convert_options, picture)}},
+    .groups = {{options, 0}, {cli_picture_options, offsetof(convert_options, picture)}},
     .size = sizeof(convert_options),
     .run = run,
 };

@@ -1,22 +1,18 @@
 #include "cli/errors.h"
 
-#include <inttypes.h>
 #include <stdio.h>
 #include <stdlib.h>
-#include <string.h>
 
 #include "cli/cli.h"
-
-enum { LINE_CAPACITY = 256, STEP_CAPACITY = 64 }; /* steps double: 2^30 samples are 31 of them */
 
 struct cli_errors {
     const char *path; /* of the reference */
     aur_image *reference;
-    size_t used;
-    char text[LINE_CAPACITY * STEP_CAPACITY];
+    report_table *table;
 };
 
 cli_errors *cli_errors_create(const char *reference) {
+    static const char *const columns[] = {"spp", "samples", "rays", "cpu_seconds", "rmse", "relative_rmse"};
     cli_errors *const errors = calloc(1, sizeof *errors);
     aur_error error = {.result = AUR_ERROR_MEMORY, .message = "out of memory"};
     if (errors == NULL || aur_image_read(reference, &errors->reference, &error) != AUR_OK) {
@@ -25,8 +21,7 @@ cli_errors *cli_errors_create(const char *reference) {
         return NULL;
     }
     errors->path = reference;
-    errors->used =
-        (size_t)snprintf(errors->text, LINE_CAPACITY, "spp,samples,rays,cpu_seconds,rmse,relative_rmse\n");
+    errors->table = report_create(sizeof columns / sizeof columns[0], columns);
     return errors;
 }
 
@@ -34,6 +29,7 @@ void cli_errors_destroy(cli_errors *errors) {
     if (errors == NULL)
         return;
     aur_image_destroy(errors->reference);
+    report_destroy(errors->table);
     free(errors);
 }
 
@@ -47,13 +43,13 @@ static aur_result note_image(cli_errors *errors, const aur_image *image,
         snprintf(error->file, sizeof error->file, "%s", errors->path);
         return result;
     }
-    if (errors->used + LINE_CAPACITY > sizeof errors->text)
-        return AUR_OK;
     const uint64_t pixels = (uint64_t)aur_image_width(image) * aur_image_height(image);
-    errors->used += (size_t)snprintf(errors->text + errors->used, LINE_CAPACITY,
-                                     "%" PRIu64 ",%" PRIu64 ",%" PRIu64 ",%.6g,%.17g,%.17g\n",
-                                     statistics->samples / pixels, statistics->samples, statistics->rays,
-                                     statistics->cpu_seconds, rmse[3], rmse[3] / mean[3]);
+    report_integer(errors->table, statistics->samples / pixels);
+    report_integer(errors->table, statistics->samples);
+    report_integer(errors->table, statistics->rays);
+    report_number(errors->table, statistics->cpu_seconds, 6);
+    report_number(errors->table, rmse[3], 6);
+    report_number(errors->table, rmse[3] / mean[3], 6);
     return AUR_OK;
 }
 
@@ -81,5 +77,5 @@ aur_result cli_errors_render(cli_errors *errors, aur_render *render, aur_error *
 }
 
 aur_result cli_errors_write(const cli_errors *errors, const char *path, aur_error *error) {
-    return aur_file_write(path, errors->used, errors->text, error);
+    return report_save(errors->table, NULL, path, error);
 }

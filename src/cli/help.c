@@ -104,19 +104,19 @@ int cli_print_verb_help(const cli_verb *verb) {
 }
 
 /* One row of the table of keys or of options. */
-static void add_key(cli_table *table, const aur_key *key, const char *name, const char *type,
+static void add_key(report_table *table, const aur_key *key, const char *name, const char *type,
                     const char *values) {
-    cli_table_text(table, name);
-    cli_table_text(table, type);
-    cli_table_text(table, key->default_text != NULL ? key->default_text : "");
-    cli_table_text(table, values);
-    cli_table_text(table, key->help);
+    report_text(table, name);
+    report_text(table, type);
+    report_text(table, key->default_text);
+    report_text(table, values);
+    report_text(table, key->help);
 }
 
 static const char *const key_columns[] = {"key", "type", "default", "values", "help"};
 enum { KEY_COLUMNS = sizeof key_columns / sizeof key_columns[0] };
 
-static void add_keys(cli_table *table, const aur_row *row) {
+static void add_keys(report_table *table, const aur_row *row) {
     for (size_t i = 0; aur_row_key(row, i) != NULL; ++i) {
         const aur_key *const key = aur_row_key(row, i);
         char range[TEXT_CAPACITY];
@@ -125,40 +125,35 @@ static void add_keys(cli_table *table, const aur_row *row) {
     }
 }
 
-/* "" for none. */
-static const char *source_of(const aur_row *row) {
-    return row->source != NULL ? row->source : "";
-}
-
-static int print_row(const aur_table *kind, const aur_row *row, cli_format format) {
-    const char *const source = source_of(row);
-    if (format == CLI_TABLE)
-        printf("%s %s: %s%s%s%s\n", kind->kind, row->name, row->summary, source[0] != '\0' ? " (" : "",
-               source, source[0] != '\0' ? ")" : "");
-    if (format == CLI_TABLE && row->key_count == 0 && kind->common == NULL)
+static int print_row(const aur_table *kind, const aur_row *row, report_format format) {
+    if (format == REPORT_TABLE && row->source != NULL && row->source[0] != '\0')
+        printf("%s %s: %s (%s)\n", kind->kind, row->name, row->summary, row->source);
+    else if (format == REPORT_TABLE)
+        printf("%s %s: %s\n", kind->kind, row->name, row->summary);
+    if (format == REPORT_TABLE && row->key_count == 0 && kind->common == NULL)
         return CLI_SUCCESS;
-    if (format == CLI_TABLE)
+    if (format == REPORT_TABLE)
         printf("\n");
-    cli_table *const table = cli_table_create(KEY_COLUMNS, key_columns);
+    report_table *const table = report_create(KEY_COLUMNS, key_columns);
     add_keys(table, row);
     if (kind->common != NULL)
         add_keys(table, kind->common);
-    return cli_table_finish(table, format);
+    return cli_finish(table, format);
 }
 
-static int print_kind(const aur_table *kind, cli_format format) {
-    cli_table *const table = cli_table_create(3, (const char *const[]){"name", "summary", "source"});
+static int print_kind(const aur_table *kind, report_format format) {
+    report_table *const table = report_create(3, (const char *const[]){"name", "summary", "source"});
     for (size_t i = 0; kind->row(i) != NULL; ++i) {
-        cli_table_text(table, kind->row(i)->name);
-        cli_table_text(table, kind->row(i)->summary);
-        cli_table_text(table, source_of(kind->row(i)));
+        report_text(table, kind->row(i)->name);
+        report_text(table, kind->row(i)->summary);
+        report_text(table, kind->row(i)->source);
     }
-    return cli_table_finish(table, format);
+    return cli_finish(table, format);
 }
 
 /* The options of a verb as a table, for programs. */
-static int print_options(const cli_verb *verb, cli_format format) {
-    cli_table *const table = cli_table_create(KEY_COLUMNS, key_columns);
+static int print_options(const cli_verb *verb, report_format format) {
+    report_table *const table = report_create(KEY_COLUMNS, key_columns);
     const cli_option *option;
     for (size_t i = 0; (option = cli_option_at(verb, i, NULL)) != NULL; ++i) {
         char what[TEXT_CAPACITY], values[TEXT_CAPACITY];
@@ -171,16 +166,16 @@ static int print_options(const cli_verb *verb, cli_format format) {
                                       : aur_key_type_name(option->key.type),
                 option->value != NULL ? values : "");
     }
-    return cli_table_finish(table, format);
+    return cli_finish(table, format);
 }
 
-static int print_verbs(const cli_verb *const *verbs, cli_format format) {
-    cli_table *const table = cli_table_create(2, (const char *const[]){"name", "summary"});
+static int print_verbs(const cli_verb *const *verbs, report_format format) {
+    report_table *const table = report_create(2, (const char *const[]){"name", "summary"});
     for (; *verbs != NULL; ++verbs) {
-        cli_table_text(table, (*verbs)->name);
-        cli_table_text(table, (*verbs)->summary);
+        report_text(table, (*verbs)->name);
+        report_text(table, (*verbs)->summary);
     }
-    return cli_table_finish(table, format);
+    return cli_finish(table, format);
 }
 
 static int print_overview(const cli_verb *const *verbs) {
@@ -213,7 +208,7 @@ static int refuse_name(const name_list *list, const char *kind, const char *name
     return cli_bad_usage("help: unknown %s '%s': 'aureole help%s' lists them", kind, name, topic);
 }
 
-static int help_on_row(const aur_table *kind, const char *name, cli_format format) {
+static int help_on_row(const aur_table *kind, const char *name, report_format format) {
     name_list list = {0};
     for (size_t i = 0; kind->row(i) != NULL; ++i) {
         add_name(&list, kind->row(i)->name);
@@ -225,12 +220,12 @@ static int help_on_row(const aur_table *kind, const char *name, cli_format forma
     return refuse_name(&list, kind->kind, name, topic);
 }
 
-static int help_on_verb(const cli_verb *const *verbs, const char *name, cli_format format, bool or_kind) {
+static int help_on_verb(const cli_verb *const *verbs, const char *name, report_format format, bool or_kind) {
     name_list list = {0};
     for (; *verbs != NULL; ++verbs) {
         add_name(&list, (*verbs)->name);
         if (strcmp((*verbs)->name, name) == 0)
-            return format == CLI_TABLE ? cli_print_verb_help(*verbs) : print_options(*verbs, format);
+            return format == REPORT_TABLE ? cli_print_verb_help(*verbs) : print_options(*verbs, format);
     }
     for (size_t i = 0; or_kind && cli_table_at(i) != NULL; ++i)
         add_name(&list, cli_table_at(i)->kind);
@@ -238,7 +233,7 @@ static int help_on_verb(const cli_verb *const *verbs, const char *name, cli_form
 }
 
 static int run(const cli_call *call) {
-    const cli_format format = *(const cli_format *)call->options;
+    const report_format format = ((const cli_common *)call->options)->format;
     if (call->operand_count == 0)
         return print_overview(call->verbs);
     const char *const topic = call->operands[0];
@@ -267,7 +262,7 @@ const cli_verb cli_verb_help = {
     .operands = {{"TOPIC", "a verb, a kind of things, or the word verb", .optional = true,
                   .content = "topic"},
                  {"NAME", "one of the kind", .optional = true, .content = "row"}},
-    .groups = {{cli_format_option}},
-    .size = sizeof(cli_format),
+    .groups = {{cli_format_option, 0}},
+    .size = sizeof(cli_common),
     .run = run,
 };

@@ -15,8 +15,7 @@ enum { START_CAPACITY = 4096 };
 
 typedef struct info_options {
     cli_definitions definitions;
-    bool quiet;
-    cli_format format;
+    cli_common common;
 } info_options;
 
 static int describe_scene(const char *path, const info_options *options) {
@@ -25,7 +24,7 @@ static int describe_scene(const char *path, const info_options *options) {
     const aur_scene_options scene_options = {.size = sizeof scene_options,
                                              .definition_count = options->definitions.count,
                                              .definitions = options->definitions.items,
-                                             .warnings = cli_warnings(options->quiet)};
+                                             .warnings = cli_warnings(options->common.quiet)};
     if (aur_scene_load(path, &scene_options, &scene, &error) != AUR_OK)
         return cli_fail(&error);
     if (aur_render_check_scene(scene, &error) != AUR_OK) {
@@ -34,30 +33,30 @@ static int describe_scene(const char *path, const info_options *options) {
     }
     aur_scene_description d = {.size = sizeof d};
     aur_scene_describe(scene, &d, NULL);
-    cli_table *const facts = cli_table_create(0, NULL);
-    cli_fact_text(facts, "kind", "scene");
-    cli_fact_number(facts, "shapes", (double)d.shapes);
-    cli_fact_number(facts, "triangles", (double)d.triangles);
-    cli_fact_number(facts, "emitters", (double)d.emitters);
-    cli_fact_number(facts, "materials", (double)d.materials);
+    report_table *const facts = report_create(0, NULL);
+    report_fact_text(facts, "kind", "scene");
+    report_fact_number(facts, "shapes", (double)d.shapes);
+    report_fact_number(facts, "triangles", (double)d.triangles);
+    report_fact_number(facts, "emitters", (double)d.emitters);
+    report_fact_number(facts, "materials", (double)d.materials);
     static const char *const bounds[2][3] = {{"lower_x", "lower_y", "lower_z"},
                                              {"upper_x", "upper_y", "upper_z"}};
     for (size_t i = 0; i < 3; ++i) {
-        cli_fact_number(facts, bounds[0][i], (double)d.lower[i]);
-        cli_fact_number(facts, bounds[1][i], (double)d.upper[i]);
+        report_fact_number(facts, bounds[0][i], (double)d.lower[i]);
+        report_fact_number(facts, bounds[1][i], (double)d.upper[i]);
     }
-    cli_fact_number(facts, "width", (double)d.width);
-    cli_fact_number(facts, "height", (double)d.height);
-    cli_fact_number(facts, "samples_per_pixel", (double)d.samples_per_pixel);
-    cli_fact_text(facts, "filter", d.filter);
-    cli_fact_text(facts, "integrator", d.integrator);
-    cli_fact_text(facts, "sampler", d.sampler);
+    report_fact_number(facts, "width", (double)d.width);
+    report_fact_number(facts, "height", (double)d.height);
+    report_fact_number(facts, "samples_per_pixel", (double)d.samples_per_pixel);
+    report_fact_text(facts, "filter", d.filter);
+    report_fact_text(facts, "integrator", d.integrator);
+    report_fact_text(facts, "sampler", d.sampler);
     aur_scene_destroy(scene);
-    return cli_table_finish(facts, options->format);
+    return cli_finish(facts, options->common.format);
 }
 
 /* Range and mean of a column of `count` values, which stand `stride` apart, over the finite ones. */
-static void put_summary(cli_table *table, size_t count, size_t stride, const float *floats,
+static void put_summary(report_table *table, size_t count, size_t stride, const float *floats,
                         const double *doubles) {
     double minimum = INFINITY, maximum = -INFINITY, sum = 0.0;
     uint64_t finite = 0;
@@ -70,10 +69,10 @@ static void put_summary(cli_table *table, size_t count, size_t stride, const flo
         sum += value;
         ++finite;
     }
-    cli_table_number(table, finite > 0 ? minimum : NAN, 6);
-    cli_table_number(table, finite > 0 ? sum / (double)finite : NAN, 6);
-    cli_table_number(table, finite > 0 ? maximum : NAN, 6);
-    cli_table_integer(table, count - finite);
+    report_number(table, finite > 0 ? minimum : NAN, 6);
+    report_number(table, finite > 0 ? sum / (double)finite : NAN, 6);
+    report_number(table, finite > 0 ? maximum : NAN, 6);
+    report_integer(table, count - finite);
 }
 
 static int describe_picture(const char *path, const char *format, const info_options *options) {
@@ -83,18 +82,18 @@ static int describe_picture(const char *path, const char *format, const info_opt
         return cli_fail(&error);
     static const char *const columns[] = {"format",  "width", "height",  "channel",
                                           "minimum", "mean",  "maximum", "not_finite"};
-    cli_table *const table = cli_table_create(sizeof columns / sizeof columns[0], columns);
+    report_table *const table = report_create(sizeof columns / sizeof columns[0], columns);
     const size_t width = aur_image_width(image), height = aur_image_height(image);
     const size_t channel_count = aur_image_channel_count(image);
     for (size_t c = 0; c < channel_count; ++c) {
-        cli_table_text(table, format);
-        cli_table_integer(table, width);
-        cli_table_integer(table, height);
-        cli_table_text(table, aur_image_channel_name(image, c));
+        report_text(table, format);
+        report_integer(table, width);
+        report_integer(table, height);
+        report_text(table, aur_image_channel_name(image, c));
         put_summary(table, width * height, channel_count, aur_image_data(image) + c, NULL);
     }
     aur_image_destroy(image);
-    return cli_table_finish(table, options->format);
+    return cli_finish(table, options->common.format);
 }
 
 static int describe_points(const char *path, const info_options *options) {
@@ -104,7 +103,7 @@ static int describe_points(const char *path, const info_options *options) {
         return cli_fail(&error);
     static const char *const columns[] = {"domain", "points",  "coordinate", "minimum",
                                           "mean",   "maximum", "not_finite"};
-    cli_table *const table = cli_table_create(sizeof columns / sizeof columns[0], columns);
+    report_table *const table = report_create(sizeof columns / sizeof columns[0], columns);
     const aur_points_view *const view = aur_points_look(points);
     const size_t column_count = view->dimension + (view->weights != NULL);
     for (size_t c = 0; c < column_count; ++c) {
@@ -113,14 +112,14 @@ static int describe_points(const char *path, const info_options *options) {
         const bool named = view->dimension <= 3 && view->domain != AUR_DOMAIN_CUBE;
         snprintf(number, sizeof number, "u%zu", c + 1);
         const char *const letters = view->domain == AUR_DOMAIN_SQUARE ? "u\0v" : "x\0y\0z";
-        cli_table_text(table, aur_domain_name(view->domain));
-        cli_table_integer(table, view->count);
-        cli_table_text(table, weight ? "w" : named ? letters + 2 * c : number);
+        report_text(table, aur_domain_name(view->domain));
+        report_integer(table, view->count);
+        report_text(table, weight ? "w" : named ? letters + 2 * c : number);
         put_summary(table, view->count, weight ? 1 : view->stride, NULL,
                     weight ? view->weights : view->coordinates + c);
     }
     aur_points_destroy(points);
-    return cli_table_finish(table, options->format);
+    return cli_finish(table, options->common.format);
 }
 
 static int describe_weight_table(const char *path, const info_options *options) {
@@ -129,27 +128,27 @@ static int describe_weight_table(const char *path, const info_options *options) 
     if (aur_weight_table_load(path, NULL, &table, &error) != AUR_OK)
         return cli_fail(&error);
     const aur_oswa_options *const o = aur_weight_table_options(table);
-    cli_table *const facts = cli_table_create(0, NULL);
-    cli_fact_text(facts, "kind", "weight table");
-    cli_fact_text(facts, "set", o->set);
-    cli_fact_number(facts, "samples", (double)o->count);
-    cli_fact_number(facts, "mirror_samples", (double)o->mirror_count);
-    cli_fact_number(facts, "exponent", o->lobe.exponent);
+    report_table *const facts = report_create(0, NULL);
+    report_fact_text(facts, "kind", "weight table");
+    report_fact_text(facts, "set", o->set);
+    report_fact_number(facts, "samples", (double)o->count);
+    report_fact_number(facts, "mirror_samples", (double)o->mirror_count);
+    report_fact_number(facts, "exponent", o->lobe.exponent);
     if (o->mirror_lobe.kind == AUR_LOBE_GGX)
-        cli_fact_number(facts, "mirror_alpha", o->mirror_lobe.alpha);
+        report_fact_number(facts, "mirror_alpha", o->mirror_lobe.alpha);
     else
-        cli_fact_number(facts, "mirror_exponent", o->mirror_lobe.exponent);
-    cli_fact_text(facts, "density", o->optimal_density ? "optimal" : "same");
-    cli_fact_text(facts, "horizon",
-                  o->clipped || o->mirror_lobe.kind == AUR_LOBE_GGX ? "clipped" : "ignored");
-    cli_fact_number(facts, "seed", (double)o->seed);
-    cli_fact_number(facts, "smoothness", o->smoothness);
-    cli_fact_number(facts, "regularization", o->weights->regularization);
-    cli_fact_text(facts, "sum", o->weights->sum_constraint ? "1" : "free");
-    cli_fact_number(facts, "angles", (double)aur_weight_table_angles(table));
-    cli_fact_number(facts, "rotations", (double)aur_weight_table_rotations(table));
+        report_fact_number(facts, "mirror_exponent", o->mirror_lobe.exponent);
+    report_fact_text(facts, "density", o->optimal_density ? "optimal" : "same");
+    report_fact_text(facts, "horizon",
+                     o->clipped || o->mirror_lobe.kind == AUR_LOBE_GGX ? "clipped" : "ignored");
+    report_fact_number(facts, "seed", (double)o->seed);
+    report_fact_number(facts, "smoothness", o->smoothness);
+    report_fact_number(facts, "regularization", o->weights->regularization);
+    report_fact_text(facts, "sum", o->weights->sum_constraint ? "1" : "free");
+    report_fact_number(facts, "angles", (double)aur_weight_table_angles(table));
+    report_fact_number(facts, "rotations", (double)aur_weight_table_rotations(table));
     aur_weight_table_destroy(table);
-    return cli_table_finish(facts, options->format);
+    return cli_finish(facts, options->common.format);
 }
 
 /* XML begins with '<', after a byte order mark and white space. */
@@ -195,8 +194,8 @@ const cli_verb cli_verb_info = {
     .too_many = "one file is needed",
     .operands = {{"FILE", "a scene, a picture, points or a table of weights", .content = "file"}},
     .groups = {{cli_definitions_option, offsetof(info_options, definitions)},
-               {cli_format_option, offsetof(info_options, format)},
-               {cli_quiet_option, offsetof(info_options, quiet)}},
+               {cli_format_option, offsetof(info_options, common)},
+               {cli_quiet_option, offsetof(info_options, common)}},
     .size = sizeof(info_options),
     .run = run,
 };

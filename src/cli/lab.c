@@ -9,25 +9,17 @@
 
 typedef struct lab_command {
     lab_options lab;
-    bool quiet;
-    cli_format format;
+    cli_common common;
 } lab_command;
 
 static const cli_option options[] = {
-    {.key = {"output", AUR_KEY_TEXT, "folder of the results", "lab-results",
-             CLI_FIELD(lab_command, lab.folder)},
-     .letter = 'o',
-     .value = "DIR",
-     .content = "folder"},
-    {.key = {"quick", .help = "a form that takes seconds, with wider intervals",
-             CLI_FIELD(lab_command, lab.quick)}},
-    {.key = {"set", AUR_KEY_TEXT, "compare one more point set", CLI_FIELD(lab_command, lab.set)},
-     .value = "SET",
-     .content = "set"},
-    {.key = {"scenes", AUR_KEY_TEXT, "the bundled scenes", "./scenes, else those of the source tree",
-             .computed = true, CLI_FIELD(lab_command, lab.scenes)},
-     .value = "DIR",
-     .content = "folder"},
+    {CLI_TEXT(lab_command, lab.folder, "output", "DIR", "lab-results", "folder of the results"),
+     .letter = 'o', .content = "folder"},
+    {CLI_FLAG(lab_command, lab.quick, "quick", "a form that takes seconds, with wider intervals")},
+    {CLI_TEXT(lab_command, lab.set, "set", "SET", NULL, "compare one more point set"), .content = "set"},
+    {CLI_TEXT(lab_command, lab.scenes, "scenes", "DIR", "./scenes, else those of the source tree",
+              "the bundled scenes"),
+     .key.computed = true, .content = "folder"},
     {.key = {0}}};
 
 static const char *experiment_name(unsigned index) {
@@ -40,15 +32,15 @@ static const char *action_name(unsigned index) {
     return index < 2 ? names[index] : NULL;
 }
 
-static int list(cli_format format) {
+static int list(report_format format) {
     static const char *const columns[] = {"experiment", "reproduces", "what it shows"};
-    cli_table *const table = cli_table_create(3, columns);
+    report_table *const table = report_create(3, columns);
     for (size_t i = 0; i < lab_experiment_count(); ++i) {
-        cli_table_text(table, lab_experiment_at(i)->name);
-        cli_table_text(table, lab_experiment_at(i)->reproduces);
-        cli_table_text(table, lab_experiment_at(i)->summary);
+        report_text(table, lab_experiment_at(i)->name);
+        report_text(table, lab_experiment_at(i)->reproduces);
+        report_text(table, lab_experiment_at(i)->summary);
     }
-    return cli_table_finish(table, format);
+    return cli_finish(table, format);
 }
 
 static const lab_experiment *find(const char *name) {
@@ -58,30 +50,32 @@ static const lab_experiment *find(const char *name) {
     return NULL;
 }
 
-static int print_result(const lab_experiment *experiment, const lab_result *result, cli_format format) {
-    if (format == CLI_TABLE)
-        printf("%s (%s)\n\n", experiment->name, experiment->reproduces);
-    cli_table *const table = cli_table_create(result->column_count, result->columns);
-    for (size_t i = 0; i < result->cell_count; ++i) {
-        if (result->cells[i].is_number)
-            cli_table_number(table, result->cells[i].number, 4);
-        else
-            cli_table_text(table, result->cells[i].text);
+/* Indents the lines of a text. */
+static void print_lines(const char *text, const char *indent) {
+    while (text != NULL && *text != '\0') {
+        const size_t length = strcspn(text, "\n");
+        printf("%s%.*s\n", indent, (int)length, text);
+        text += length + (text[length] == '\n');
     }
-    const int status = cli_table_finish(table, format);
-    if (format != CLI_TABLE)
+}
+
+static int print_result(const lab_experiment *experiment, lab_result *result, report_format format) {
+    if (format == REPORT_TABLE)
+        printf("%s (%s)\n\n", experiment->name, experiment->reproduces);
+    report_table *const table = result->table;
+    result->table = NULL; /* cli_finish ends it */
+    const int status = cli_finish(table, format);
+    if (format != REPORT_TABLE)
         return status;
-    if (result->note_count > 0)
+    if (result->notes != NULL && result->notes[0] != '\0')
         putchar('\n');
-    for (size_t i = 0; i < result->note_count; ++i)
-        printf("%s\n", result->notes[i]);
+    print_lines(result->notes, "");
     printf("\nwritten:\n");
-    for (size_t i = 0; i < result->file_count; ++i)
-        printf("  %s\n", result->files[i]);
+    print_lines(result->files, "  ");
     return status;
 }
 
-static int run_one(const lab_experiment *experiment, const lab_options *lab, cli_format format) {
+static int run_one(const lab_experiment *experiment, const lab_options *lab, report_format format) {
     lab_result result;
     aur_error error = {0};
     const aur_result outcome = lab_run_experiment(experiment, lab, &result, &error);
@@ -102,11 +96,12 @@ static int run_experiments(lab_command *command, size_t count, char **names) {
         fprintf(stderr, "aureole: %s: cannot make the folder: %s\n", lab->folder, strerror(errno));
         return CLI_FAILURE;
     }
-    lab->progress = cli_progress(command->quiet);
-    lab->warnings = cli_warnings(command->quiet);
+    lab->threads = command->common.threads;
+    lab->progress = cli_progress(command->common.quiet);
+    lab->warnings = cli_warnings(command->common.quiet);
     int status = CLI_SUCCESS;
     for (size_t i = 0; i < count && status == CLI_SUCCESS; ++i)
-        status = run_one(find(names[i]), lab, command->format);
+        status = run_one(find(names[i]), lab, command->common.format);
     return status;
 }
 
@@ -119,7 +114,7 @@ static int run(const cli_call *call) {
         return cli_bad_usage("lab: %s: try 'aureole help lab'", call->verb->too_few);
     if (call->operand_count > 1)
         return cli_bad_usage("lab list: takes no names");
-    return list(command->format);
+    return list(command->common.format);
 }
 
 const cli_verb cli_verb_lab = {
@@ -131,10 +126,10 @@ const cli_verb cli_verb_lab = {
                   "pictures, print the tables",
                   .name = action_name},
                  {"NAME", "experiments to run", .optional = true, .repeated = true, .name = experiment_name}},
-    .groups = {{options},
-               {cli_format_option, offsetof(lab_command, format)},
-               {cli_threads_option, offsetof(lab_command, lab.threads)},
-               {cli_quiet_option, offsetof(lab_command, quiet)}},
+    .groups = {{options, 0},
+               {cli_format_option, offsetof(lab_command, common)},
+               {cli_threads_option, offsetof(lab_command, common)},
+               {cli_quiet_option, offsetof(lab_command, common)}},
     .size = sizeof(lab_command),
     .run = run,
 };

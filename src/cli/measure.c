@@ -13,29 +13,18 @@ static aur_result check_metric(const char *text, void *field, aur_error *error) 
 }
 
 static const cli_option options[] = {
-    {.key = {"count", AUR_KEY_INTEGER, "sizes of the sets; files are measured whole", .minimum = 1,
-             .maximum = INFINITY, CLI_FIELD(cli_measure_arguments, sizes)},
-     .letter = 'n',
-     .value = "N",
-     .list = true},
-    {.key = {"metric", AUR_KEY_TEXT, "the figures (--list names them)",
-             CLI_FIELD(cli_measure_arguments, metrics)},
-     .letter = 'm',
-     .value = "NAME",
-     .list = true,
-     .parse = check_metric,
-     .content = "measure"},
-    {.key = {"list", .help = "list the measures with their domains and sources",
-             CLI_FIELD(cli_measure_arguments, list)}},
-    {.key = {"seeds", AUR_KEY_INTEGER, "mean, spread and root mean square over K seeds from --seed on",
-             .minimum = 2, .maximum = 1 << 20, CLI_FIELD(cli_measure_arguments, seed_count)},
-     .value = "K"},
-    {.key = {"fast", .help = "sums over pairs to 2e-14 instead of the last bit",
-             CLI_FIELD(cli_measure_arguments, options.fast)}},
-    {.key = {"plot", AUR_KEY_TEXT,
-             "draw the figures against N with fitted slopes, .svg or .png (needs gnuplot)",
-             CLI_FIELD(cli_measure_arguments, plot)},
-     .value = "FILE",
+    {CLI_INTEGER(cli_measure_arguments, sizes, "count", "N", 1, INFINITY, NULL,
+                 "sizes of the sets; files are measured whole"),
+     .letter = 'n', .list = true},
+    {CLI_TEXT(cli_measure_arguments, metrics, "metric", "NAME", NULL, "the figures (--list names them)"),
+     .letter = 'm', .list = true, .parse = check_metric, .content = "measure"},
+    {CLI_FLAG(cli_measure_arguments, list, "list", "list the measures with their domains and sources")},
+    {CLI_INTEGER(cli_measure_arguments, seed_count, "seeds", "K", 2, 1 << 20, NULL,
+                 "mean, spread and root mean square over K seeds from --seed on")},
+    {CLI_FLAG(cli_measure_arguments, options.fast, "fast",
+              "sums over pairs to 2e-14 instead of the last bit")},
+    {CLI_TEXT(cli_measure_arguments, plot, "plot", "FILE", NULL,
+              "draw the figures against N with fitted slopes, .svg or .png (needs gnuplot)"),
      .content = "file"},
     {.key = {0}}};
 
@@ -81,19 +70,19 @@ static bool complete(cli_measure_arguments *arguments) {
     return true;
 }
 
-static int print_list(cli_format format) {
+static int print_list(report_format format) {
     static const char *const columns[] = {"name", "domains", "summary", "source"};
-    cli_table *const table = cli_table_create(4, columns);
+    report_table *const table = report_create(4, columns);
     for (size_t i = 0; i < aur_measure_count(); ++i) {
         const aur_measure_description *const row = aur_measure_at(i);
         char name[64];
         snprintf(name, sizeof name, "%s%s", row->row.name, row->parameter != NULL ? row->parameter : "");
-        cli_table_text(table, name);
-        cli_table_text(table, row->domains);
-        cli_table_text(table, row->row.summary);
-        cli_table_text(table, row->row.source);
+        report_text(table, name);
+        report_text(table, row->domains);
+        report_text(table, row->row.summary);
+        report_text(table, row->row.source);
     }
-    return cli_table_finish(table, format);
+    return cli_finish(table, format);
 }
 
 static int print_rows(const cli_measure_arguments *arguments, const cli_measure_rows *rows) {
@@ -102,28 +91,28 @@ static int print_rows(const cli_measure_arguments *arguments, const cli_measure_
     const size_t columns =
         arguments->series ? aur_series_column_count(first) : arguments->metrics.count * per;
     static const char *const suffixes[] = {"", "-spread", "-rms"};
-    cli_table *const table = cli_table_create(3, (const char *const[]){"set", "n", "domain"});
+    report_table *const table = report_create(3, (const char *const[]){"set", "n", "domain"});
     for (size_t c = 0; c < columns; ++c) {
         char name[96];
         if (arguments->series)
             snprintf(name, sizeof name, "%s", aur_series_column(first, c));
         else
             snprintf(name, sizeof name, "%s%s", cli_metric(arguments, c / per), suffixes[c % per]);
-        cli_table_column(table, name);
+        report_column(table, name);
     }
     for (size_t i = 0; i < rows->count; ++i) {
         const cli_measure_row *const row = &rows->items[i];
         const double *const values = arguments->series ? aur_series_values(row->series) : row->figures;
         const size_t lines = arguments->series ? aur_series_row_count(row->series) : 1;
         for (size_t k = 0; k < lines; ++k) {
-            cli_table_text(table, row->source);
-            cli_table_integer(table, row->count);
-            cli_table_text(table, aur_domain_name(row->domain));
+            report_text(table, row->source);
+            report_integer(table, row->count);
+            report_text(table, aur_domain_name(row->domain));
             for (size_t c = 0; c < columns; ++c)
-                cli_table_number(table, values[k * columns + c], 6);
+                report_number(table, values[k * columns + c], 6);
         }
     }
-    const int status = cli_table_finish(table, arguments->format);
+    const int status = cli_finish(table, arguments->common.format);
     if (status != CLI_SUCCESS || arguments->plot == NULL)
         return status;
     return arguments->series ? cli_measure_plot_series(arguments, rows) : cli_measure_plot(arguments, rows);
@@ -179,15 +168,16 @@ static int run(const cli_call *call) {
     arguments->source_count = call->operand_count;
     arguments->sources = call->operands;
     arguments->points.domain_given = cli_given(call, "domain") != NULL;
-    arguments->points.options.warnings = cli_warnings(arguments->quiet);
+    arguments->points.options.warnings = cli_warnings(arguments->common.quiet);
+    arguments->options.threads = arguments->common.threads;
     arguments->options.size = sizeof arguments->options;
     arguments->options.warnings = arguments->points.options.warnings;
     arguments->options.seed = arguments->points.options.seed;
     if (arguments->list)
-        return print_list(arguments->format);
+        return print_list(arguments->common.format);
     if (!complete(arguments))
         return CLI_BAD_INPUT;
-    arguments->options.progress = cli_progress(arguments->quiet);
+    arguments->options.progress = cli_progress(arguments->common.quiet);
     return measure_all(arguments);
 }
 
@@ -201,12 +191,12 @@ const cli_verb cli_verb_measure = {
         "of unit length are scaled to it; weights are divided by their sum.",
     .operands = {{"FILE|SET", "points to measure", .optional = true, .repeated = true,
                   .content = "file or set"}},
-    .groups = {{options},
-               {cli_points_options, offsetof(cli_measure_arguments, points.options)},
-               {cli_dimension_option, offsetof(cli_measure_arguments, points.dimension)},
-               {cli_format_option, offsetof(cli_measure_arguments, format)},
-               {cli_threads_option, offsetof(cli_measure_arguments, options.threads)},
-               {cli_quiet_option, offsetof(cli_measure_arguments, quiet)}},
+    .groups = {{options, 0},
+               {cli_points_options, offsetof(cli_measure_arguments, points)},
+               {cli_dimension_option, offsetof(cli_measure_arguments, points)},
+               {cli_format_option, offsetof(cli_measure_arguments, common)},
+               {cli_threads_option, offsetof(cli_measure_arguments, common)},
+               {cli_quiet_option, offsetof(cli_measure_arguments, common)}},
     .size = sizeof(cli_measure_arguments),
     .run = run,
 };

@@ -13,9 +13,9 @@ typedef struct cli_measure_arguments {
     cli_list metrics;
     size_t seed_count; /* 0: one set, no statistics */
     aur_measure_options options;
-    cli_format format;
+    cli_common common;
     const char *plot; /* NULL: none */
-    bool quiet, list;
+    bool list;
     bool series; /* the one metric is a table */
 } cli_measure_arguments;
 

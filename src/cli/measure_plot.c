@@ -124,7 +124,7 @@ int cli_measure_plot(const cli_measure_arguments *arguments, const cli_measure_r
         draw_panel(arguments, rows, m, &plot);
     fputs("unset multiplot\n", plot.script);
     const int status = cli_plot_close(&plot);
-    if (status == CLI_SUCCESS && !arguments->quiet)
+    if (status == CLI_SUCCESS && !arguments->common.quiet)
         print_slopes(arguments, rows);
     return status;
 }

@@ -64,7 +64,7 @@ static void draw(const char *what, double fraction, double elapsed) {
     bar.shown = true;
 }
 
-static int report(void *user, const char *what, uint64_t done, uint64_t total) {
+static int show(void *user, const char *what, uint64_t done, uint64_t total) {
     if (interrupted)
         return 1;
     if (user == NULL)
@@ -96,7 +96,7 @@ aur_progress cli_progress(bool quiet) {
     action.sa_flags = (int)SA_RESETHAND; /* a second interrupt kills */
     sigaction(SIGINT, &action, NULL);
     const bool draws = !quiet && isatty(STDERR_FILENO);
-    return (aur_progress){.function = report, .user = draws ? &bar : NULL};
+    return (aur_progress){.function = show, .user = draws ? &bar : NULL};
 }
 
 static void warn(void *user, const char *message) {
@@ -133,6 +133,13 @@ int cli_fail(const aur_error *error) {
 
 int cli_status(aur_result result, const aur_error *error) {
     return result == AUR_OK ? CLI_SUCCESS : cli_fail(error);
+}
+
+int cli_finish(report_table *table, report_format format) {
+    aur_error error = {0};
+    const aur_result result = report_write(table, format, stdout, &error);
+    report_destroy(table);
+    return cli_status(result, &error);
 }
 
 int cli_bad_usage(const char *format, ...) {

@@ -7,24 +7,21 @@
 #include <string.h>
 
 const cli_option cli_format_option[] = {
-    {.key = {"format", AUR_KEY_CHOICE, "how results are printed", "table", .size = sizeof(cli_format),
-             .words = (const char *const[]){"table", "csv", "json", NULL}},
-     .value = "FORMAT"},
+    {CLI_CHOICE(cli_common, format, "format", "FORMAT", "table", "how results are printed"),
+     .key.words = (const char *const[]){"table", "csv", "json", NULL}},
     {.key = {0}}};
 
 const cli_option cli_quiet_option[] = {
-    {.key = {"quiet", .help = "no progress bar and no warnings"}, .letter = 'q'}, {.key = {0}}};
+    {CLI_FLAG(cli_common, quiet, "quiet", "no progress bar and no warnings"), .letter = 'q'}, {.key = {0}}};
 
 const cli_option cli_threads_option[] = {
-    {.key = {"threads", AUR_KEY_INTEGER,
-             "how many threads work, 0 for one a processor; results do not depend on it", "0",
-             .maximum = 4096, .size = sizeof(size_t)},
-     .letter = 't',
-     .value = "N"},
+    {CLI_INTEGER(cli_common, threads, "threads", "N", 0, 4096, "0",
+                 "how many threads work, 0 for one a processor; results do not depend on it"),
+     .letter = 't'},
     {.key = {0}}};
 
 static aur_result add_definition(const char *text, void *field, aur_error *error) {
-    cli_definitions *const definitions = field;
+    cli_definitions *const definitions = field; /* begins with its count */
     char *const equals = strchr(text, '=');
     if (equals == NULL || equals == text)
         return aur_fail(error, AUR_ERROR_ARGUMENT, "-D: '%s' is not of the form name=value", text);
@@ -35,12 +32,10 @@ static aur_result add_definition(const char *text, void *field, aur_error *error
     return AUR_OK;
 }
 
-const cli_option cli_definitions_option[] = {
-    {.key = {"define", AUR_KEY_TEXT, "set a <default> of the scene; may be repeated"},
-     .letter = 'D',
-     .value = "NAME=VALUE",
-     .parse = add_definition},
-    {.key = {0}}};
+const cli_option cli_definitions_option[] = {{CLI_TEXT(cli_definitions, count, "define", "NAME=VALUE", NULL,
+                                                       "set a <default> of the scene; may be repeated"),
+                                              .letter = 'D', .parse = add_definition},
+                                             {.key = {0}}};
 
 const cli_option *cli_option_at(const cli_verb *verb, size_t index, size_t *offset) {
     for (const cli_group *group = verb->groups; group->options != NULL; ++group) {

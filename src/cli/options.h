@@ -10,9 +10,6 @@
 
 enum { CLI_OPTION_LIMIT = 48, CLI_NAME_LIMIT = 256 }; /* options of a verb, names of a choice or table */
 
-/* Where an option's value goes: two fields of its key. */
-#define CLI_FIELD(struct_, field_) .offset = offsetof(struct_, field_), .size = sizeof(((struct_ *)0)->field_)
-
 /* One option. The key has its long name without the dashes (one letter alone stands for an option that has
  * no long name), type, range, default and line of help. */
 typedef struct cli_option {
@@ -27,6 +24,25 @@ typedef struct cli_option {
     /* What is completed: "file", "folder", a kind of `aureole help`, or "file or KIND"; or NULL. */
     const char *content;
 } cli_option;
+
+/* Rows of options: the struct and the field that the value goes to, the name, the value's word, the range of
+ * a number (ends included, unless .key.minimum_open or .key.maximum_open is set too), the default (NULL:
+ * none; with .key.computed = true it says what follows from other things) and the help. */
+#define CLI_FIELD(type_, struct_, field_, name_, default_, help_)                                            \
+    .key.name = (name_), .key.type = (type_), .key.help = (help_), .key.default_text = (default_),           \
+    .key.offset = offsetof(struct_, field_), .key.size = sizeof(((struct_ *)0)->field_)
+#define CLI_FLAG(struct_, field_, name_, help_)                                                              \
+    CLI_FIELD(AUR_KEY_BOOLEAN, struct_, field_, name_, NULL, help_)
+#define CLI_TEXT(struct_, field_, name_, value_, default_, help_)                                            \
+    CLI_FIELD(AUR_KEY_TEXT, struct_, field_, name_, default_, help_), .value = (value_)
+#define CLI_CHOICE(struct_, field_, name_, value_, default_, help_)                                          \
+    CLI_FIELD(AUR_KEY_CHOICE, struct_, field_, name_, default_, help_), .value = (value_)
+#define CLI_INTEGER(struct_, field_, name_, value_, minimum_, maximum_, default_, help_)                     \
+    CLI_FIELD(AUR_KEY_INTEGER, struct_, field_, name_, default_, help_),                                     \
+        .value = (value_), .key.minimum = (minimum_), .key.maximum = (maximum_)
+#define CLI_REAL(struct_, field_, name_, value_, minimum_, maximum_, default_, help_)                        \
+    CLI_FIELD(AUR_KEY_REAL, struct_, field_, name_, default_, help_),                                        \
+        .value = (value_), .key.minimum = (minimum_), .key.maximum = (maximum_)
 
 /* What stands on the command line without dashes. */
 typedef struct cli_operand {
@@ -89,11 +105,14 @@ typedef struct cli_list {
 cli_list cli_split(char *text);
 const char *cli_list_at(const cli_list *list, size_t index);
 
-/* --- options that verbs share, each a group of one row */
+/* --- options that verbs share: each a group of one row */
 
-extern const cli_option cli_format_option[];  /* cli_format: of a table of results */
-extern const cli_option cli_quiet_option[];   /* bool */
-extern const cli_option cli_threads_option[]; /* size_t */
+typedef struct cli_common {
+    report_format format; /* of a table of results */
+    size_t threads;       /* 0: one a processor */
+    bool quiet;
+} cli_common;
+extern const cli_option cli_format_option[], cli_threads_option[], cli_quiet_option[]; /* of a cli_common */
 
 enum { CLI_DEFINITION_LIMIT = 64 };
 
@@ -102,4 +121,4 @@ typedef struct cli_definitions {
     size_t count;
     aur_definition items[CLI_DEFINITION_LIMIT];
 } cli_definitions;
-extern const cli_option cli_definitions_option[];
+extern const cli_option cli_definitions_option[]; /* of a cli_definitions */

@@ -5,13 +5,10 @@
 #include <stdlib.h>
 
 const cli_option cli_picture_options[] = {
-    {.key = {"channels", AUR_KEY_TEXT, "only these channels, in this order",
-             CLI_FIELD(cli_picture, channels)},
-     .value = "NAME",
+    {CLI_TEXT(cli_picture, channels, "channels", "NAME", NULL, "only these channels, in this order"),
      .list = true},
-    {.key = {"downsample", AUR_KEY_INTEGER, "average blocks of N x N pixels", "1", .minimum = 1,
-             .maximum = INFINITY, CLI_FIELD(cli_picture, downsample)},
-     .value = "N"},
+    {CLI_INTEGER(cli_picture, downsample, "downsample", "N", 1, INFINITY, "1",
+                 "average blocks of N x N pixels")},
     {.key = {0}}};
 
 static aur_result select_channels(const cli_list *channels, aur_image **image, aur_error *error) {

@@ -9,41 +9,32 @@ static aur_result parse_lobe(const char *text, void *field, aur_error *error) {
 }
 
 const cli_option cli_points_options[] = {
-    {.key = {"domain", .help = "where the points are", .default_text = "follows from the rest",
-             .computed = true, CLI_FIELD(aur_directions_options, domain)},
-     .value = "DOMAIN",
-     .name = aur_domain_name},
-    {.key = {"map", .help = "how sets of the square come to other domains", .default_text = "lambert",
-             CLI_FIELD(aur_directions_options, map)},
-     .value = "MAP",
+    {CLI_CHOICE(cli_points, options.domain, "domain", "DOMAIN", "follows from the rest",
+                "where the points are"),
+     .key.computed = true, .name = aur_domain_name},
+    {CLI_CHOICE(cli_points, options.map, "map", "MAP", "lambert",
+                "how sets of the square come to other domains"),
      .name = aur_map_name},
-    {.key = {"lobe", AUR_KEY_TEXT, "what points of the hemisphere follow", "uniform",
-             .words = (const char *const[]){"uniform", "cosine", "phong:M", "ggx:ALPHA[:VIEW_DEGREES]", NULL},
-             CLI_FIELD(aur_directions_options, lobe)},
-     .value = "LOBE",
+    {CLI_TEXT(cli_points, options.lobe, "lobe", "LOBE", "uniform", "what points of the hemisphere follow"),
+     .key.words = (const char *const[]){"uniform", "cosine", "phong:M", "ggx:ALPHA[:VIEW_DEGREES]", NULL},
      .parse = parse_lobe},
-    {.key = {"density", AUR_KEY_CHOICE, "follow the lobe, or its power 2/(s+1) with weights", "same",
-             .words = (const char *const[]){"same", "optimal", NULL},
-             CLI_FIELD(aur_directions_options, optimal_density)},
-     .value = "DENSITY"},
-    {.key = {"smoothness", AUR_KEY_REAL, "s of the integrand, of which the optimal density is made", "1.5",
-             .minimum = 1, .maximum = 2, .minimum_open = true, .maximum_open = true,
-             CLI_FIELD(aur_directions_options, smoothness)},
-     .value = "S"},
-    {.key = {"scramble", .help = "how the points are randomised", .default_text = "none",
-             CLI_FIELD(aur_directions_options, scramble)},
-     .value = "SCRAMBLE",
+    {CLI_CHOICE(cli_points, options.optimal_density, "density", "DENSITY", "same",
+                "follow the lobe, or its power 2/(s+1) with weights"),
+     .key.words = (const char *const[]){"same", "optimal", NULL}},
+    {CLI_REAL(cli_points, options.smoothness, "smoothness", "S", 1, 2, "1.5",
+              "s of the integrand, of which the optimal density is made"),
+     .key.minimum_open = true, .key.maximum_open = true},
+    {CLI_CHOICE(cli_points, options.scramble, "scramble", "SCRAMBLE", "none",
+                "how the points are randomised"),
      .name = aur_scramble_name},
-    {.key = {"seed", AUR_KEY_INTEGER, "of random sets and of scrambling", "0", .maximum = INFINITY,
-             CLI_FIELD(aur_directions_options, seed)},
-     .value = "S"},
+    {CLI_INTEGER(cli_points, options.seed, "seed", "S", 0, INFINITY, "0",
+                 "of random sets and of scrambling")},
     {.key = {0}}};
 
-const cli_option cli_dimension_option[] = {
-    {.key = {"dim", AUR_KEY_INTEGER, "coordinates a point, for sets on the cube", "2", .computed = true,
-             .minimum = 1, .maximum = INFINITY, .size = sizeof(size_t)},
-     .value = "D"},
-    {.key = {0}}};
+const cli_option cli_dimension_option[] = {{CLI_INTEGER(cli_points, dimension, "dim", "D", 1, INFINITY, "2",
+                                                        "coordinates a point, for sets on the cube"),
+                                            .key.computed = true},
+                                           {.key = {0}}};
 
 bool cli_is_file(const char *text) {
     if (aur_set_find(text) != NULL || strncmp(text, "file:", 5) == 0)

@@ -14,8 +14,8 @@ typedef struct points_command {
     const char *path;
     const char *warp; /* a picture's path */
     unsigned format;
-    bool quiet;
-    aur_directions_options options; /* of points */
+    cli_common common;
+    cli_points from;
     aur_points_request points;
 } points_command;
 
@@ -27,30 +27,22 @@ static const char *format_name(unsigned format) {
 }
 
 static const cli_option options[] = {
-    {.key = {"n", AUR_KEY_INTEGER, "the size of the set", "all of a file", .computed = true, .minimum = 1,
-             .maximum = INFINITY, CLI_FIELD(points_command, options.count)},
-     .value = "N"},
-    {.key = {"first", AUR_KEY_INTEGER, "leave out the points before this one", "0", .maximum = INFINITY,
-             CLI_FIELD(points_command, points.first)},
-     .value = "K"},
-    {.key = {"count", AUR_KEY_INTEGER, "write only so many points", "all", .computed = true, .minimum = 1,
-             .maximum = INFINITY, CLI_FIELD(points_command, points.count)},
-     .value = "C"},
-    {.key = {"cap", AUR_KEY_REAL, "only the cap of this polar angle about +z, filled with N points",
-             .minimum = 1e-6, .maximum = 180, CLI_FIELD(points_command, options.cap_degrees)},
-     .value = "DEGREES"},
-    {.key = {"warp", AUR_KEY_TEXT, "move points of the square so that they follow the picture's brightness",
-             CLI_FIELD(points_command, warp)},
-     .value = "IMAGE",
+    {CLI_INTEGER(points_command, from.options.count, "n", "N", 1, INFINITY, "all of a file",
+                 "the size of the set"),
+     .key.computed = true},
+    {CLI_INTEGER(points_command, points.first, "first", "K", 0, INFINITY, "0",
+                 "leave out the points before this one")},
+    {CLI_INTEGER(points_command, points.count, "count", "C", 1, INFINITY, "all", "write only so many points"),
+     .key.computed = true},
+    {CLI_REAL(points_command, from.options.cap_degrees, "cap", "DEGREES", 1e-6, 180, NULL,
+              "only the cap of this polar angle about +z, filled with N points")},
+    {CLI_TEXT(points_command, warp, "warp", "IMAGE", NULL,
+              "move points of the square so that they follow the picture's brightness"),
      .content = "file"},
-    {.key = {"format", .help = "how points are written; svg and png are pictures",
-             .default_text = "by the file's name; csv", .computed = true, CLI_FIELD(points_command, format)},
-     .value = "FORMAT",
-     .name = format_name},
-    {.key = {"output", AUR_KEY_TEXT, "where to; '-' is standard output", "-",
-             CLI_FIELD(points_command, path)},
-     .letter = 'o',
-     .value = "FILE",
+    {CLI_CHOICE(points_command, format, "format", "FORMAT", "by the file's name; csv",
+                "how points are written; svg and png are pictures"),
+     .key.computed = true, .name = format_name},
+    {CLI_TEXT(points_command, path, "output", "FILE", "-", "where to; '-' is standard output"), .letter = 'o',
      .content = "file"},
     {.key = {0}}};
 
@@ -63,11 +55,11 @@ static bool complete(const cli_call *call) {
         return false;
     }
     if (!domain_given && cli_given(call, "lobe") != NULL) {
-        wanted->options.domain = AUR_DOMAIN_HEMISPHERE;
+        wanted->from.options.domain = AUR_DOMAIN_HEMISPHERE;
         domain_given = true;
     }
     wanted->points.natural_domain = !domain_given;
-    if (cli_given(call, "map") != NULL && (!domain_given || wanted->options.domain <= AUR_DOMAIN_CUBE)) {
+    if (cli_given(call, "map") != NULL && (!domain_given || wanted->from.options.domain <= AUR_DOMAIN_CUBE)) {
         cli_bad_usage("--map: needs --domain disk, hemisphere or sphere");
         return false;
     }
@@ -126,13 +118,13 @@ static int warp(const char *path, aur_points_view *points, double **warped) {
 
 static int write_points(const char *set, const points_command *wanted, const aur_points_view *points) {
     aur_error error = {0};
-    const uint64_t size = wanted->options.count; /* 0: all of a file */
+    const uint64_t size = wanted->from.options.count; /* 0: all of a file */
     const aur_points_origin origin = {.size = sizeof origin,
                                       .set = set,
                                       .count = size != 0 ? size : wanted->points.first + points->count,
                                       .first = wanted->points.first,
-                                      .scramble = wanted->options.scramble,
-                                      .seed = wanted->options.seed};
+                                      .scramble = wanted->from.options.scramble,
+                                      .seed = wanted->from.options.seed};
     const aur_result result =
         wanted->format >= FORMAT_SVG
             ? cli_draw_points(wanted->path, wanted->format == FORMAT_PNG, points, &error)
@@ -145,10 +137,11 @@ static int run(const cli_call *call) {
     const char *const set = call->operands[0];
     if (!complete(call))
         return CLI_BAD_INPUT;
-    wanted->options.size = sizeof wanted->options;
-    wanted->options.warnings = cli_warnings(wanted->quiet);
+    wanted->from.options.size = sizeof wanted->from.options;
+    wanted->from.options.warnings = cli_warnings(wanted->common.quiet);
     wanted->points.size = sizeof wanted->points;
-    wanted->points.options = &wanted->options;
+    wanted->points.options = &wanted->from.options;
+    wanted->points.dimension = wanted->from.dimension;
     aur_error error = {0};
     aur_points *points;
     if (aur_points_generate(set, &wanted->points, &points, &error) != AUR_OK)
@@ -168,10 +161,10 @@ const cli_verb cli_verb_points = {
     .summary = "write points of a set on the square, disk, hemisphere or sphere",
     .too_few = "a set is missing: 'aureole sets' lists them",
     .operands = {{"SET", "NAME[:key=value,...] or file:PATH; 'aureole sets' lists them", .content = "set"}},
-    .groups = {{options},
-               {cli_points_options, offsetof(points_command, options)},
-               {cli_dimension_option, offsetof(points_command, points.dimension)},
-               {cli_quiet_option, offsetof(points_command, quiet)}},
+    .groups = {{options, 0},
+               {cli_points_options, offsetof(points_command, from)},
+               {cli_dimension_option, offsetof(points_command, from)},
+               {cli_quiet_option, offsetof(points_command, common)}},
     .size = sizeof(points_command),
     .run = run,
 };

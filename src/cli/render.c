@@ -16,7 +16,8 @@ typedef struct render_command {
     cli_definitions definitions;
     aur_render_options options;
     const char *reference, *errors;
-    bool quiet, statistics;
+    bool statistics;
+    cli_common common;
 } render_command;
 
 enum { LARGEST_SIDE = 65536 };
@@ -46,51 +47,38 @@ static aur_result parse_crop(const char *text, void *field, aur_error *error) {
 }
 
 static const cli_option options[] = {
-    {.key = {"output", AUR_KEY_TEXT, "where the picture goes: .exr, .pfm, .hdr or .png",
-             "SCENE.exr in the current folder", .computed = true, CLI_FIELD(render_command, output)},
-     .letter = 'o',
-     .value = "FILE",
-     .content = "file"},
-    {.key = {"integrator", AUR_KEY_TEXT, "NAME[:key=value,...] instead of the scene's integrator",
-             CLI_FIELD(render_command, options.integrator)},
-     .value = "SPEC",
+    {CLI_TEXT(render_command, output, "output", "FILE", "SCENE.exr in the current folder",
+              "where the picture goes: .exr, .pfm, .hdr or .png"),
+     .letter = 'o', .key.computed = true, .content = "file"},
+    {CLI_TEXT(render_command, options.integrator, "integrator", "SPEC", NULL,
+              "NAME[:key=value,...] instead of the scene's integrator"),
      .content = "integrator"},
-    {.key = {"sampler", AUR_KEY_TEXT, "instead of the scene's sampler ('aureole sets' lists them)",
-             CLI_FIELD(render_command, options.sampler)},
-     .value = "SET",
+    {CLI_TEXT(render_command, options.sampler, "sampler", "SET", NULL,
+              "instead of the scene's sampler ('aureole sets' lists them)"),
      .content = "set"},
-    {.key = {"filter", AUR_KEY_TEXT, "instead of the scene's ('aureole help rfilter' lists them)",
-             CLI_FIELD(render_command, options.filter)},
-     .value = "NAME",
+    {CLI_TEXT(render_command, options.filter, "filter", "NAME", NULL,
+              "instead of the scene's ('aureole help rfilter' lists them)"),
      .content = "rfilter"},
-    {.key = {"spp", AUR_KEY_INTEGER, "samples a pixel", "the scene's", .computed = true, .minimum = 1,
-             .maximum = 1 << 30, CLI_FIELD(render_command, options.samples_per_pixel)},
-     .value = "N"},
-    {.key = {"width", AUR_KEY_INTEGER, "of the whole picture in pixels", "the scene's", .computed = true,
-             .minimum = 1, .maximum = LARGEST_SIDE, CLI_FIELD(render_command, options.width)},
-     .value = "N"},
-    {.key = {"height", AUR_KEY_INTEGER, "of the whole picture in pixels", "the scene's", .computed = true,
-             .minimum = 1, .maximum = LARGEST_SIDE, CLI_FIELD(render_command, options.height)},
-     .value = "N"},
-    {.key = {"crop", AUR_KEY_TEXT, "render the pixels x0 <= x < x1, y0 <= y < y1 only",
-             CLI_FIELD(render_command, options)},
-     .value = "x0,x1,y0,y1",
+    {CLI_INTEGER(render_command, options.samples_per_pixel, "spp", "N", 1, 1 << 30, "the scene's",
+                 "samples a pixel"),
+     .key.computed = true},
+    {CLI_INTEGER(render_command, options.width, "width", "N", 1, LARGEST_SIDE, "the scene's",
+                 "of the whole picture in pixels"),
+     .key.computed = true},
+    {CLI_INTEGER(render_command, options.height, "height", "N", 1, LARGEST_SIDE, "the scene's",
+                 "of the whole picture in pixels"),
+     .key.computed = true},
+    {CLI_TEXT(render_command, options, "crop", "x0,x1,y0,y1", NULL,
+              "render the pixels x0 <= x < x1, y0 <= y < y1 only"),
      .parse = parse_crop},
-    {.key = {"seed", AUR_KEY_INTEGER, "of all random numbers", "0", .maximum = INFINITY,
-             CLI_FIELD(render_command, options.seed)},
-     .value = "N"},
-    {.key = {"reference", AUR_KEY_TEXT, "the picture that --errors compares with",
-             CLI_FIELD(render_command, reference)},
-     .value = "REF",
+    {CLI_INTEGER(render_command, options.seed, "seed", "N", 0, INFINITY, "0", "of all random numbers")},
+    {CLI_TEXT(render_command, reference, "reference", "REF", NULL, "the picture that --errors compares with"),
      .content = "file"},
-    {.key = {"errors", AUR_KEY_TEXT,
-             "samples, rays, CPU seconds and RMSE against the reference after 1, 2, 4, ... samples a pixel",
-             CLI_FIELD(render_command, errors)},
-     .value = "CSV",
+    {CLI_TEXT(render_command, errors, "errors", "CSV", NULL,
+              "samples, rays, CPU seconds and RMSE against the reference after 1, 2, 4, ... samples a pixel"),
      .content = "file"},
-    {.key = {"stats", .help = "say how many rays and how much time it took",
-             CLI_FIELD(render_command, statistics)}},
-    {.key = {"verbose", .help = "the same as --stats", CLI_FIELD(render_command, statistics)}, .letter = 'v'},
+    {CLI_FLAG(render_command, statistics, "stats", "say how many rays and how much time it took")},
+    {CLI_FLAG(render_command, statistics, "verbose", "the same as --stats"), .letter = 'v'},
     {.key = {0}}};
 
 /* SCENE.exr in the current folder, from the scene's file name. */
@@ -203,8 +191,9 @@ static int run(const cli_call *call) {
     if (!check_output(command->output))
         return CLI_BAD_INPUT;
     command->options.size = sizeof command->options;
-    command->options.progress = cli_progress(command->quiet);
-    command->options.warnings = cli_warnings(command->quiet);
+    command->options.threads = command->common.threads;
+    command->options.progress = cli_progress(command->common.quiet);
+    command->options.warnings = cli_warnings(command->common.quiet);
     if (command->reference == NULL)
         return render(scene, command, NULL);
     cli_errors *const errors = cli_errors_create(command->reference);
@@ -219,10 +208,10 @@ const cli_verb cli_verb_render = {
     .too_few = "a scene is missing",
     .too_many = "one scene at a time",
     .operands = {{"SCENE", "the scene's file, in Mitsuba's form", .content = "file"}},
-    .groups = {{options},
+    .groups = {{options, 0},
                {cli_definitions_option, offsetof(render_command, definitions)},
-               {cli_threads_option, offsetof(render_command, options.threads)},
-               {cli_quiet_option, offsetof(render_command, quiet)}},
+               {cli_threads_option, offsetof(render_command, common)},
+               {cli_quiet_option, offsetof(render_command, common)}},
     .size = sizeof(render_command),
     .run = run,
 };

@@ -6,7 +6,7 @@
 #include "cli/options.h"
 
 /* Where a set's points can be: sets of the square come to the other domains by a map. */
-static void add_domains(cli_table *table, const aur_set_description *set) {
+static void add_domains(report_table *table, const aur_set_description *set) {
     enum { LIFTED = 1 << AUR_DOMAIN_DISK | 1 << AUR_DOMAIN_HEMISPHERE | 1 << AUR_DOMAIN_SPHERE };
     const bool square = (set->domains >> AUR_DOMAIN_SQUARE & 1u) != 0;
     const unsigned domains = square ? set->domains | LIFTED : set->domains;
@@ -17,11 +17,11 @@ static void add_domains(cli_table *table, const aur_set_description *set) {
             snprintf(text + used, sizeof text - used, "%s%s", used > 0 ? ", " : "",
                      aur_domain_name((aur_domain)d));
     }
-    cli_table_text(table, text);
+    report_text(table, text);
 }
 
 /* "offset=0.5,epsilon=none" */
-static void add_keys(cli_table *table, const aur_row *row) {
+static void add_keys(report_table *table, const aur_row *row) {
     char text[512] = "";
     for (size_t i = 0; i < row->key_count; ++i) {
         const aur_key *const key = aur_row_key(row, i);
@@ -29,33 +29,33 @@ static void add_keys(cli_table *table, const aur_row *row) {
         snprintf(text + used, sizeof text - used, "%s%s%s%s", i > 0 ? "," : "", key->name,
                  key->default_text != NULL ? "=" : "", key->default_text != NULL ? key->default_text : "");
     }
-    cli_table_text(table, text);
+    report_text(table, text);
 }
 
 static int run(const cli_call *call) {
     static const char *const columns[] = {"set",        "keys",   "domains", "sizes",
                                           "extensible", "source", "summary"};
-    cli_table *const table = cli_table_create(7, columns);
+    report_table *const table = report_create(7, columns);
     for (size_t i = 0; i < aur_set_count(); ++i) {
         const aur_set_description *const set = aur_set_at(i);
-        cli_table_text(table, set->row.name);
+        report_text(table, set->row.name);
         add_keys(table, &set->row);
         add_domains(table, set);
         char sizes[96];
         aur_set_sizes(set, sizeof sizes, sizes);
-        cli_table_text(table, sizes);
-        cli_table_text(table, set->extensible ? "yes" : "no");
-        cli_table_text(table, set->row.source);
-        cli_table_text(table, set->row.summary);
+        report_text(table, sizes);
+        report_text(table, set->extensible ? "yes" : "no");
+        report_text(table, set->row.source);
+        report_text(table, set->row.summary);
     }
-    return cli_table_finish(table, *(const cli_format *)call->options);
+    return cli_finish(table, ((const cli_common *)call->options)->format);
 }
 
 const cli_verb cli_verb_sets = {
     .name = "sets",
     .summary = "list the point sets: keys, domains, sizes, extensible or not, source",
     .notes = "A set is named NAME[:key=value[,key=value...]] or file:PATH.",
-    .groups = {{cli_format_option}},
-    .size = sizeof(cli_format),
+    .groups = {{cli_format_option, 0}},
+    .size = sizeof(cli_common),
     .run = run,
 };

@@ -11,54 +11,40 @@ typedef struct factor_command {
     aur_view_factors_options factors;
     cli_definitions definitions;
     const char *output, *format;
-    bool quiet, matrix_free;
+    bool matrix_free;
     double reflectance;
-    cli_format table;
+    cli_common common;
 } factor_command;
 
 static const cli_option options[] = {
-    {.key =
-         {"output", AUR_KEY_TEXT,
-          ".npz (scipy.sparse.load_npz reads it), .csv, .txt or .vf (View3D's output), .vs3 (the facets as "
-          "View3D's input)",
-          "a summary is printed", .computed = true, CLI_FIELD(factor_command, output)},
-     .letter = 'o',
-     .value = "FILE",
-     .content = "file"},
-    {.key = {"to", AUR_KEY_TEXT, "the format, where the name of FILE does not tell",
-             .words = (const char *const[]){"npz", "csv", "view3d", "vs3", NULL},
-             CLI_FIELD(factor_command, format)},
-     .value = "FORMAT"},
-    {.key = {"group", .help = "a row for each group of an OBJ, or each shape of a scene",
-             CLI_FIELD(factor_command, facets.group)}},
-    {.key = {"both-sides", .help = "facets see on their backs too: these rows follow the others",
-             CLI_FIELD(factor_command, facets.both_sides)}},
-    {.key = {"rays", AUR_KEY_INTEGER, "from each facet and side", "4096", .minimum = 2, .maximum = 1 << 22,
-             CLI_FIELD(factor_command, factors.rays)},
-     .value = "N"},
-    {.key = {"randomizations", AUR_KEY_INTEGER, "independent parts of the rays, from which intervals come",
-             "8", .minimum = 2, .maximum = 64, CLI_FIELD(factor_command, factors.randomizations)},
-     .value = "R"},
-    {.key = {"set", AUR_KEY_TEXT, "directions and places of the rays, in four dimensions", "sobol",
-             CLI_FIELD(factor_command, factors.set)},
-     .value = "SET",
+    {CLI_TEXT(
+         factor_command, output, "output", "FILE", "a summary is printed",
+         ".npz (scipy.sparse.load_npz reads it), .csv, .txt or .vf (View3D's output), .vs3 (the facets as "
+         "View3D's input)"),
+     .letter = 'o', .key.computed = true, .content = "file"},
+    {CLI_TEXT(factor_command, format, "to", "FORMAT", NULL,
+              "the format, where the name of FILE does not tell"),
+     .key.words = (const char *const[]){"npz", "csv", "view3d", "vs3", NULL}},
+    {CLI_FLAG(factor_command, facets.group, "group",
+              "a row for each group of an OBJ, or each shape of a scene")},
+    {CLI_FLAG(factor_command, facets.both_sides, "both-sides",
+              "facets see on their backs too: these rows follow the others")},
+    {CLI_INTEGER(factor_command, factors.rays, "rays", "N", 2, 1 << 22, "4096", "from each facet and side")},
+    {CLI_INTEGER(factor_command, factors.randomizations, "randomizations", "R", 2, 64, "8",
+                 "independent parts of the rays, from which intervals come")},
+    {CLI_TEXT(factor_command, factors.set, "set", "SET", "sobol",
+              "directions and places of the rays, in four dimensions"),
      .content = "set"},
-    {.key = {"seed", AUR_KEY_INTEGER, "of the randomisations", "0", .maximum = INFINITY,
-             CLI_FIELD(factor_command, factors.seed)},
-     .value = "S"},
-    {.key = {"confidence", AUR_KEY_REAL, "of the intervals", "0.95", .minimum = 0.01, .maximum = 0.999999,
-             CLI_FIELD(factor_command, factors.confidence)},
-     .value = "P"},
-    {.key = {"rays-only", .help = "no closed forms", CLI_FIELD(factor_command, factors.rays_only)}},
-    {.key = {"radiosity", AUR_KEY_REAL,
-             "instead of factors each row's area, sky factor and radiosity under a sky of radiosity 1, when "
-             "all "
-             "facets reflect RHO: CSV, to FILE or printed",
-             .maximum = 1, CLI_FIELD(factor_command, reflectance)},
-     .value = "RHO"},
-    {.key = {"matrix-free",
-             .help = "for --radiosity: rays are traced anew for each product, no matrix is kept",
-             CLI_FIELD(factor_command, matrix_free)}},
+    {CLI_INTEGER(factor_command, factors.seed, "seed", "S", 0, INFINITY, "0", "of the randomisations")},
+    {CLI_REAL(factor_command, factors.confidence, "confidence", "P", 0.01, 0.999999, "0.95",
+              "of the intervals")},
+    {CLI_FLAG(factor_command, factors.rays_only, "rays-only", "no closed forms")},
+    {CLI_REAL(
+        factor_command, reflectance, "radiosity", "RHO", 0, 1, NULL,
+        "instead of factors each row's area, sky factor and radiosity under a sky of radiosity 1, when all "
+        "facets reflect RHO: CSV, to FILE or printed")},
+    {CLI_FLAG(factor_command, matrix_free, "matrix-free",
+              "for --radiosity: rays are traced anew for each product, no matrix is kept")},
     {.key = {0}}};
 
 /* The format that the output's name tells. */
@@ -94,22 +80,22 @@ static bool options_fit(const cli_call *call) {
 }
 
 /* What has been done, for people. */
-static int print_summary(const aur_view_factors *factors, cli_format format) {
+static int print_summary(const aur_view_factors *factors, report_format format) {
     aur_view_factors_description d = {.size = sizeof d};
     aur_view_factors_matrix m = {.size = sizeof m};
     aur_view_factors_describe(factors, &d, NULL);
     aur_view_factors_get_matrix(factors, &m, NULL);
-    cli_table *const table = cli_table_create(0, NULL);
-    cli_fact_number(table, "rows", (double)m.rows);
-    cli_fact_number(table, "entries", (double)m.starts[m.rows]);
-    cli_fact_number(table, "rays", (double)d.rays);
-    cli_fact_number(table, "closed_pairs", (double)d.closed_pairs);
-    cli_fact_number(table, "sampled_pairs", (double)d.sampled_pairs);
-    cli_fact_number(table, "closed_share", d.closed_share);
-    cli_fact_number(table, "raw_row_error", d.raw_row_error);
-    cli_fact_number(table, "moved", d.moved);
-    cli_fact_number(table, "largest_row_error", d.largest_row_error);
-    return cli_table_finish(table, format);
+    report_table *const table = report_create(0, NULL);
+    report_fact_number(table, "rows", (double)m.rows);
+    report_fact_number(table, "entries", (double)m.starts[m.rows]);
+    report_fact_number(table, "rays", (double)d.rays);
+    report_fact_number(table, "closed_pairs", (double)d.closed_pairs);
+    report_fact_number(table, "sampled_pairs", (double)d.sampled_pairs);
+    report_fact_number(table, "closed_share", d.closed_share);
+    report_fact_number(table, "raw_row_error", d.raw_row_error);
+    report_fact_number(table, "moved", d.moved);
+    report_fact_number(table, "largest_row_error", d.largest_row_error);
+    return cli_finish(table, format);
 }
 
 static int write_matrix(const aur_facets *facets, const factor_command *given) {
@@ -122,7 +108,7 @@ static int write_matrix(const aur_facets *facets, const factor_command *given) {
                                         &error);
     int status = cli_status(result, &error);
     if (result == AUR_OK && given->format == NULL)
-        status = print_summary(factors, given->table);
+        status = print_summary(factors, given->common.format);
     aur_view_factors_destroy(factors);
     return status;
 }
@@ -134,9 +120,10 @@ static int run(const cli_call *call) {
     given->facets.size = sizeof given->facets;
     given->facets.definition_count = given->definitions.count;
     given->facets.definitions = given->definitions.items;
-    given->facets.warnings = given->factors.warnings = cli_warnings(given->quiet);
+    given->facets.warnings = given->factors.warnings = cli_warnings(given->common.quiet);
+    given->factors.threads = given->common.threads;
     given->factors.size = sizeof given->factors;
-    given->factors.progress = cli_progress(given->quiet);
+    given->factors.progress = cli_progress(given->common.quiet);
     aur_error error;
     aur_facets *facets = NULL;
     if (aur_facets_load(call->operands[0], &given->facets, &facets, &error) != AUR_OK)
@@ -166,11 +153,11 @@ const cli_verb cli_verb_viewfactors = {
     .too_few = "one mesh or scene is needed",
     .too_many = "one mesh or scene is needed",
     .operands = {{"MESH", "an OBJ, a PLY or a scene (.xml)", .content = "file"}},
-    .groups = {{options},
+    .groups = {{options, 0},
                {cli_definitions_option, offsetof(factor_command, definitions)},
-               {cli_threads_option, offsetof(factor_command, factors.threads)},
-               {cli_format_option, offsetof(factor_command, table)},
-               {cli_quiet_option, offsetof(factor_command, quiet)}},
+               {cli_threads_option, offsetof(factor_command, common)},
+               {cli_format_option, offsetof(factor_command, common)},
+               {cli_quiet_option, offsetof(factor_command, common)}},
     .size = sizeof(factor_command),
     .run = run,
 };

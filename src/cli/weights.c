@@ -15,71 +15,48 @@ static const char *method_name(unsigned method) {
 }
 
 static const cli_option options[] = {
-    {.key = {"n", AUR_KEY_INTEGER, "samples of the set", "all of a file", .computed = true, .minimum = 1,
-             .maximum = INFINITY, CLI_FIELD(cli_weights_arguments, size)},
-     .value = "N"},
-    {.key =
-         {"lobe2", AUR_KEY_TEXT,
-          "a second lobe about the mirror direction of a view, with samples of its own; its weights are the "
-          "column w2",
-          .words = (const char *const[]){"uniform", "cosine", "phong:M", "ggx:ALPHA", NULL},
-          CLI_FIELD(cli_weights_arguments, mirror)},
-     .value = "LOBE",
+    {CLI_INTEGER(cli_weights_arguments, size, "n", "N", 1, INFINITY, "all of a file", "samples of the set"),
+     .key.computed = true},
+    {CLI_TEXT(cli_weights_arguments, mirror, "lobe2", "LOBE", NULL,
+              "a second lobe about the mirror direction of a view, with samples of its own; its weights are "
+              "the column w2"),
+     .key.words = (const char *const[]){"uniform", "cosine", "phong:M", "ggx:ALPHA", NULL},
      .parse = parse_lobe},
-    {.key = {"angle", AUR_KEY_REAL, "of the view, for the second lobe", .maximum = 90,
-             CLI_FIELD(cli_weights_arguments, degrees)},
-     .value = "DEGREES"},
-    {.key = {"n2", AUR_KEY_INTEGER, "samples of the second lobe", "as many as of the first", .computed = true,
-             .minimum = 1, .maximum = INFINITY, CLI_FIELD(cli_weights_arguments, mirror_size)},
-     .value = "N"},
-    {.key = {"clip", .help = "the second lobe ends at the horizon; hidden samples get weight 0",
-             CLI_FIELD(cli_weights_arguments, clipped)}},
-    {.key =
-         {"method",
-          .help =
-              "optimal weights, of two lobes each from its own samples (osw) or from all (oswa); balance or "
-              "power heuristic (mis, mis-power), 1/N (equal) or p/(q N) (ratio)",
-          .default_text = "osw for one lobe, oswa for two", .computed = true,
-          CLI_FIELD(cli_weights_arguments, method)},
-     .value = "METHOD",
-     .name = method_name},
-    {.key = {"regularization", AUR_KEY_REAL, "added to the diagonal", "1e-6", .maximum = INFINITY,
-             .maximum_open = true, CLI_FIELD(cli_weights_arguments, weights.regularization)},
-     .value = "R"},
-    {.key = {"unconstrained", .help = "do not fix the sum of the weights to 1",
-             CLI_FIELD(cli_weights_arguments, unconstrained)}},
-    {.key = {"report",
-             .help = "print worst-case errors with equal and optimal weights and the gain instead of samples",
-             CLI_FIELD(cli_weights_arguments, report)}},
-    {.key = {"output", AUR_KEY_TEXT, "write x,y,z,w there as CSV",
-             "standard output, unless there is a report", .computed = true,
-             CLI_FIELD(cli_weights_arguments, path)},
-     .letter = 'o',
-     .value = "FILE",
+    {CLI_REAL(cli_weights_arguments, degrees, "angle", "DEGREES", 0, 90, NULL,
+              "of the view, for the second lobe")},
+    {CLI_INTEGER(cli_weights_arguments, mirror_size, "n2", "N", 1, INFINITY, "as many as of the first",
+                 "samples of the second lobe"),
+     .key.computed = true},
+    {CLI_FLAG(cli_weights_arguments, clipped, "clip",
+              "the second lobe ends at the horizon; hidden samples get weight 0")},
+    {CLI_CHOICE(cli_weights_arguments, method, "method", "METHOD", "osw for one lobe, oswa for two",
+                "optimal weights, of two lobes each from its own samples (osw) or from all (oswa); balance "
+                "or power heuristic (mis, mis-power), 1/N (equal) or p/(q N) (ratio)"),
+     .key.computed = true, .name = method_name},
+    {CLI_REAL(cli_weights_arguments, weights.regularization, "regularization", "R", 0, INFINITY, "1e-6",
+              "added to the diagonal"),
+     .key.maximum_open = true},
+    {CLI_FLAG(cli_weights_arguments, unconstrained, "unconstrained",
+              "do not fix the sum of the weights to 1")},
+    {CLI_FLAG(cli_weights_arguments, report, "report",
+              "print worst-case errors with equal and optimal weights and the gain instead of samples")},
+    {CLI_TEXT(cli_weights_arguments, path, "output", "FILE", "standard output, unless there is a report",
+              "write x,y,z,w there as CSV"),
+     .letter = 'o', .key.computed = true, .content = "file"},
+    {CLI_TEXT(cli_weights_arguments, plot, "plot", "FILE", NULL,
+              "draw the samples coloured by weight, .svg or .png (needs gnuplot)"),
      .content = "file"},
-    {.key = {"plot", AUR_KEY_TEXT, "draw the samples coloured by weight, .svg or .png (needs gnuplot)",
-             CLI_FIELD(cli_weights_arguments, plot)},
-     .value = "FILE",
+    {CLI_TEXT(cli_weights_arguments, table, "table", "FILE", NULL,
+              "build a table of OSWA weights for the two lobes, or read one with --lookup"),
      .content = "file"},
-    {.key = {"table", AUR_KEY_TEXT,
-             "build a table of OSWA weights for the two lobes, or read one with --lookup",
-             CLI_FIELD(cli_weights_arguments, table)},
-     .value = "FILE",
-     .content = "file"},
-    {.key = {"angles", AUR_KEY_INTEGER, "of the view in a table", "64", .minimum = 2, .maximum = 1 << 16,
-             CLI_FIELD(cli_weights_arguments, angles)},
-     .value = "T"},
-    {.key = {"rotations", AUR_KEY_INTEGER, "of the patterns in a table", "16", .minimum = 1,
-             .maximum = 1 << 16, CLI_FIELD(cli_weights_arguments, rotations)},
-     .value = "K"},
-    {.key = {"lookup", AUR_KEY_REAL, "write the samples and weights of a table at that angle of the view",
-             .maximum = 90, CLI_FIELD(cli_weights_arguments, look_up_degrees)},
-     .value = "DEGREES"},
-    {.key = {"rotation", AUR_KEY_INTEGER, "which rotation of the table is looked up", "0",
-             .maximum = (1 << 16) - 1, CLI_FIELD(cli_weights_arguments, rotation)},
-     .value = "K"},
-    {.key = {"mirrored", .help = "the mirror image of what is looked up",
-             CLI_FIELD(cli_weights_arguments, mirrored)}},
+    {CLI_INTEGER(cli_weights_arguments, angles, "angles", "T", 2, 1 << 16, "64", "of the view in a table")},
+    {CLI_INTEGER(cli_weights_arguments, rotations, "rotations", "K", 1, 1 << 16, "16",
+                 "of the patterns in a table")},
+    {CLI_REAL(cli_weights_arguments, look_up_degrees, "lookup", "DEGREES", 0, 90, NULL,
+              "write the samples and weights of a table at that angle of the view")},
+    {CLI_INTEGER(cli_weights_arguments, rotation, "rotation", "K", 0, (1 << 16) - 1, "0",
+                 "which rotation of the table is looked up")},
+    {CLI_FLAG(cli_weights_arguments, mirrored, "mirrored", "the mirror image of what is looked up")},
     {.key = {0}}};
 
 /* What the options mean together; the first rule that they break, or NULL. */
@@ -125,32 +102,32 @@ static int complete(const cli_call *call, cli_weights_arguments *arguments) {
 
 static int print_report(const cli_weights_arguments *arguments, const cli_weights_result *result) {
     const bool optimal = arguments->method == CLI_METHOD_OSW || arguments->method == CLI_METHOD_OSWA;
-    cli_table *const table =
-        cli_table_create(5, (const char *const[]){"set", "n", "lobe", "method", "equal"});
+    report_table *const table =
+        report_create(5, (const char *const[]){"set", "n", "lobe", "method", "equal"});
     if (result->has_ratio)
-        cli_table_column(table, "ratio");
-    cli_table_column(table, optimal ? "optimal" : "weighted");
-    cli_table_column(table, "gain_percent");
-    cli_table_column(table, "weight_sum");
+        report_column(table, "ratio");
+    report_column(table, optimal ? "optimal" : "weighted");
+    report_column(table, "gain_percent");
+    report_column(table, "weight_sum");
     if (result->condition > 0.0)
-        cli_table_column(table, "condition");
+        report_column(table, "condition");
     for (size_t k = 0; k < result->lobe_count; ++k) {
         /* What the points would give without a solve. */
         const double plain = result->has_ratio ? result->ratio[k] : result->equal[k];
-        cli_table_text(table, arguments->source);
-        cli_table_integer(table, result->count);
-        cli_table_text(table, k == 0 ? arguments->lobe_text : arguments->mirror_text);
-        cli_table_text(table, arguments->method_name);
-        cli_table_number(table, result->equal[k], 8);
+        report_text(table, arguments->source);
+        report_integer(table, result->count);
+        report_text(table, k == 0 ? arguments->lobe_text : arguments->mirror_text);
+        report_text(table, arguments->method_name);
+        report_number(table, result->equal[k], 8);
         if (result->has_ratio)
-            cli_table_number(table, result->ratio[k], 8);
-        cli_table_number(table, result->weighted[k], 8);
-        cli_table_number(table, 100.0 * (1.0 - result->weighted[k] / plain), 4);
-        cli_table_number(table, result->sum[k], 10);
+            report_number(table, result->ratio[k], 8);
+        report_number(table, result->weighted[k], 8);
+        report_number(table, 100.0 * (1.0 - result->weighted[k] / plain), 4);
+        report_number(table, result->sum[k], 10);
         if (result->condition > 0.0)
-            cli_table_number(table, result->condition, 3);
+            report_number(table, result->condition, 3);
     }
-    return cli_table_finish(table, arguments->format);
+    return cli_finish(table, arguments->common.format);
 }
 
 static int write_points(const cli_weights_arguments *arguments, const cli_weights_result *result) {
@@ -185,7 +162,7 @@ static int run(const cli_call *call) {
     arguments->look_up = cli_given(call, "lookup") != NULL;
     arguments->weights.size = sizeof arguments->weights;
     arguments->weights.sum_constraint = !arguments->unconstrained;
-    arguments->points.options.warnings = cli_warnings(arguments->quiet);
+    arguments->points.options.warnings = cli_warnings(arguments->common.quiet);
     if (arguments->look_up && (arguments->table == NULL || arguments->report || arguments->plot != NULL))
         return cli_bad_usage("--lookup: needs a table to read, --table FILE, and neither reports nor draws");
     if (call->operand_count == 0 && !arguments->look_up)
@@ -208,11 +185,11 @@ const cli_verb cli_verb_weights = {
         "--lookup a set and its options must be those that the table has been built from; they may be left "
         "out.",
     .operands = {{"FILE|SET", "the samples", .optional = true, .content = "file or set"}},
-    .groups = {{options},
-               {cli_points_options, offsetof(cli_weights_arguments, points.options)},
-               {cli_format_option, offsetof(cli_weights_arguments, format)},
-               {cli_threads_option, offsetof(cli_weights_arguments, threads)},
-               {cli_quiet_option, offsetof(cli_weights_arguments, quiet)}},
+    .groups = {{options, 0},
+               {cli_points_options, offsetof(cli_weights_arguments, points)},
+               {cli_format_option, offsetof(cli_weights_arguments, common)},
+               {cli_threads_option, offsetof(cli_weights_arguments, common)},
+               {cli_quiet_option, offsetof(cli_weights_arguments, common)}},
     .size = sizeof(cli_weights_arguments),
     .run = run,
 };

@@ -17,16 +17,16 @@ typedef enum cli_method {
 typedef struct cli_weights_arguments {
     const char *source; /* NULL: none */
     cli_points points;
-    bool look_up, mirrored, report, quiet, two, clipped, unconstrained;
+    bool look_up, mirrored, report, two, clipped, unconstrained;
     size_t size, mirror_size;
     aur_lobe mirror; /* of two lobes */
     double degrees;
     aur_weights_options weights;
     cli_method method;
     const char *method_name, *lobe_text, *mirror_text;
-    cli_format format;
+    cli_common common;
     const char *path, *plot, *table;
-    size_t angles, rotations, threads;
+    size_t angles, rotations;
     double look_up_degrees;
     size_t rotation;
 } cli_weights_arguments;

@@ -5,7 +5,6 @@
 #include <stdarg.h>
 #include <stdio.h>
 #include <stdlib.h>
-#include <string.h>
 #include <unistd.h>
 
 #ifndef AUR_SCENES_FOLDER
@@ -42,75 +41,33 @@ const lab_experiment *lab_experiment_at(size_t index) {
 struct lab_run {
     const lab_experiment *experiment;
     const lab_options *options;
-    lab_result *result;
-    bool out_of_memory;
+    report_table *table;
+    FILE *notes, *files; /* in memory */
 };
 
 const lab_options *lab_run_options(const lab_run *run) {
     return run->options;
 }
 
-/* Makes room for one more element; false, and remembered, when there is no memory. */
-static bool grow(lab_run *run, void **elements, size_t size, size_t count, size_t *capacity) {
-    if (count < *capacity)
-        return true;
-    const size_t larger = *capacity == 0 ? 32 : 2 * *capacity;
-    void *const moved = realloc(*elements, larger * size);
-    if (moved == NULL) {
-        run->out_of_memory = true;
-        return false;
-    }
-    *elements = moved;
-    *capacity = larger;
-    return true;
-}
-
 void lab_columns(lab_run *run, size_t count, const char *const *columns) {
-    run->result->column_count = count;
-    run->result->columns = columns;
-}
-
-static void add_cell(lab_run *run, const lab_cell *cell) {
-    lab_result *const result = run->result;
-    void *cells = result->cells;
-    if (grow(run, &cells, sizeof *result->cells, result->cell_count, &result->cell_capacity)) {
-        result->cells = cells;
-        result->cells[result->cell_count++] = *cell;
-    }
+    for (size_t i = 0; i < count; ++i)
+        report_column(run->table, columns[i]);
 }
 
 void lab_text(lab_run *run, const char *text) {
-    lab_cell cell = {0};
-    snprintf(cell.text, sizeof cell.text, "%s", text);
-    add_cell(run, &cell);
+    report_text(run->table, text);
 }
 
 void lab_number(lab_run *run, double value) {
-    lab_cell cell = {.number = value, .is_number = true};
-    snprintf(cell.text, sizeof cell.text, "%.4g", value);
-    add_cell(run, &cell);
-}
-
-static void add_string(lab_run *run, char ***strings, size_t *count, size_t *capacity, const char *text) {
-    void *list = *strings;
-    if (!grow(run, &list, sizeof **strings, *count, capacity))
-        return;
-    *strings = list;
-    (*strings)[*count] = strdup(text);
-    if ((*strings)[*count] != NULL)
-        ++*count;
-    else
-        run->out_of_memory = true;
+    report_number(run->table, value, 4);
 }
 
 void lab_note(lab_run *run, const char *format, ...) {
-    char text[512];
     va_list arguments;
     va_start(arguments, format);
-    vsnprintf(text, sizeof text, format, arguments);
+    vfprintf(run->notes, format, arguments);
     va_end(arguments);
-    lab_result *const result = run->result;
-    add_string(run, &result->notes, &result->note_count, &result->note_capacity, text);
+    fputc('\n', run->notes);
 }
 
 aur_result lab_load_scene(const lab_run *run, const char *path, size_t definition_count,
@@ -134,68 +91,51 @@ aur_result lab_picture(lab_run *run, const char *name, const aur_image *image, f
     const aur_image_write_options options = {.size = sizeof options, .exposure = exposure};
     const aur_result result = aur_image_write(path, image, &options, error);
     if (result == AUR_OK)
-        add_string(run, &run->result->files, &run->result->file_count, &run->result->file_capacity, path);
+        fprintf(run->files, "%s\n", path);
     return result;
 }
 
 /* The table as CSV, with the notes as comments after it. */
-static aur_result write_csv(lab_run *run, aur_error *error) {
-    const lab_result *const table = run->result;
-    char *text = NULL;
-    size_t size = 0;
-    FILE *const stream = open_memstream(&text, &size);
-    if (stream == NULL) {
-        run->out_of_memory = true;
-        return AUR_OK;
-    }
-    for (size_t i = 0; i < table->column_count; ++i)
-        fprintf(stream, "%s%c", table->columns[i], i + 1 < table->column_count ? ',' : '\n');
-    for (size_t i = 0; i < table->cell_count; ++i) {
-        const char end = (i + 1) % table->column_count != 0 ? ',' : '\n';
-        if (table->cells[i].is_number)
-            fprintf(stream, "%.17g%c", table->cells[i].number, end);
-        else
-            fprintf(stream, "%s%c", table->cells[i].text, end);
-    }
-    for (size_t i = 0; i < table->note_count; ++i)
-        fprintf(stream, "# %s\n", table->notes[i]);
-    aur_result result = AUR_OK;
-    if (fclose(stream) != 0) {
-        run->out_of_memory = true;
-    } else {
-        char path[AUR_ERROR_FILE_CAPACITY];
-        snprintf(path, sizeof path, "%s/%s.csv", run->options->folder, run->experiment->name);
-        result = aur_file_write(path, size, text, error);
-        if (result == AUR_OK)
-            add_string(run, &run->result->files, &run->result->file_count, &run->result->file_capacity, path);
-    }
-    free(text);
+static aur_result write_csv(lab_run *run, const char *notes, aur_error *error) {
+    char path[AUR_ERROR_FILE_CAPACITY];
+    snprintf(path, sizeof path, "%s/%s.csv", run->options->folder, run->experiment->name);
+    const aur_result result = report_save(run->table, notes, path, error);
+    if (result == AUR_OK)
+        fprintf(run->files, "%s\n", path);
     return result;
+}
+
+/* Ends a text that was written to memory; false when there was not enough. */
+static bool finish(FILE *stream) {
+    return stream != NULL && fclose(stream) == 0;
 }
 
 aur_result lab_run_experiment(const lab_experiment *experiment, const lab_options *options,
                               lab_result *result, aur_error *error) {
-    *result = (lab_result){0};
-    lab_run run = {.experiment = experiment, .options = options, .result = result};
-    aur_result outcome = experiment->run(&run, error);
-    if (outcome == AUR_OK)
-        outcome = write_csv(&run, error);
-    if (outcome == AUR_OK && run.out_of_memory) {
-        outcome = AUR_ERROR_MEMORY;
-        if (error != NULL)
-            *error = (aur_error){.result = outcome, .message = "out of memory"};
-    }
+    *result = (lab_result){.table = report_create(0, NULL)};
+    size_t note_size, file_size;
+    lab_run run = {.experiment = experiment,
+                   .options = options,
+                   .table = result->table,
+                   .notes = open_memstream(&result->notes, &note_size),
+                   .files = open_memstream(&result->files, &file_size)};
+    aur_result outcome = AUR_OK;
+    const bool ready = run.notes != NULL && run.files != NULL;
+    if (ready)
+        outcome = experiment->run(&run, error);
+    const bool noted = finish(run.notes);
+    if (outcome == AUR_OK && ready && noted)
+        outcome = write_csv(&run, result->notes, error);
+    const bool listed = finish(run.files);
+    if (outcome == AUR_OK && !(ready && noted && listed))
+        outcome = aur_fail(error, AUR_ERROR_MEMORY, "out of memory");
     return outcome;
 }
 
 void lab_result_release(lab_result *result) {
-    for (size_t i = 0; i < result->note_count; ++i)
-        free(result->notes[i]);
-    for (size_t i = 0; i < result->file_count; ++i)
-        free(result->files[i]);
+    report_destroy(result->table);
     free(result->notes);
     free(result->files);
-    free(result->cells);
     *result = (lab_result){0};
 }
 

@@ -6,6 +6,8 @@
 #include <aureole/render.h>
 #include <stdbool.h>
 
+#include "report/report.h"
+
 typedef struct lab_run lab_run;
 
 typedef struct lab_experiment {
@@ -29,22 +31,11 @@ typedef struct lab_options {
     aur_warnings warnings;
 } lab_options;
 
-/* Cells of the result's table; text cells have is_number 0. */
-typedef struct lab_cell {
-    char text[64];
-    double number;
-    bool is_number;
-} lab_cell;
-
+/* What an experiment found. */
 typedef struct lab_result {
-    size_t column_count;
-    const char *const *columns; /* static storage, from the experiment */
-    size_t cell_count, cell_capacity;
-    lab_cell *cells; /* row by row */
-    size_t note_count, note_capacity;
-    char **notes;
-    size_t file_count, file_capacity;
-    char **files; /* written, by path */
+    report_table *table;
+    char *notes; /* lines; NULL when there are none */
+    char *files; /* the paths of what was written, a line each; or NULL */
 } lab_result;
 
 /* Runs it, and writes NAME.csv beside its pictures. The result is to be released even after an error: what
@@ -56,7 +47,7 @@ void lab_result_release(lab_result *result);
 /* --- for experiments */
 
 const lab_options *lab_run_options(const lab_run *run);
-/* Before any cell; `columns` must be static. */
+/* Before any cell. */
 void lab_columns(lab_run *run, size_t count, const char *const *columns);
 void lab_text(lab_run *run, const char *text);
 void lab_number(lab_run *run, double value);

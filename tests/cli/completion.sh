@@ -48,7 +48,7 @@ silent points -- --d
 aureole help verb --format csv | tail -n +2 | cut -d, -f1 >verbs
 while read -r verb; do
   offers "$verb" "$verb"
-  aureole help verb "$verb" --format csv | tail -n +2 | grep -oE -- '--[a-z0-9]+' | while read -r option; do
+  aureole help verb "$verb" --format csv | tail -n +2 | grep -oE -- '--[a-z0-9-]*[a-z0-9]' | while read -r option; do
     offers "$option" "$verb" "$option"
   done
 done <verbs

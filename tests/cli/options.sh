@@ -51,7 +51,7 @@ while read -r verb; do
   "$aureole" help "$verb" >help || fail "help $verb"
   "$aureole" "$verb" --help | cmp -s help || fail "$verb --help differs from help $verb"
   awk -v verb="$verb" 'length($0) > 80 { print "FAILED: " verb ": wider than 80: " $0; bad = 1 } END { exit bad }' help || status=1
-  "$aureole" help verb "$verb" --format csv | tail -n +2 | grep -oE -- '--[a-z0-9]+' | sort -u | while read -r option; do
+  "$aureole" help verb "$verb" --format csv | tail -n +2 | grep -oE -- '--[a-z0-9-]*[a-z0-9]' | sort -u | while read -r option; do
     grep -q -- "  $option\|, $option" help || echo "$verb: help has no $option"
   done >missing
   [ -s missing ] && fail "$(cat missing)"

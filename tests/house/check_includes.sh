@@ -8,6 +8,7 @@ source_tree=$2
 floors='
 cli
 lab
+report
 render
 lighting
 transport/integrators
@@ -87,8 +88,9 @@ core
       if (there == "") { bad("unknown room of \"" target "\""); next }
       if (floor[there] < floor[here]) bad(here " must not call " there ", which is above it")
       if (floor[there] == floor[here] && there != here) bad(here " must not call " there ", which stands beside it")
-      if (here == "cli" && there != "cli" && there != "lab") bad("the program uses <aureole/...> only")
-      if (here == "lab" && there != "lab") bad("the lab uses <aureole/...> only")
+      if (here == "cli" && there !~ /^(cli|lab|report)$/) bad("the program uses <aureole/...> only")
+      if (here == "lab" && there !~ /^(lab|report)$/) bad("the lab uses <aureole/...> only")
+      if (here == "report" && there != "report") bad("tables of results use <aureole/...> only")
     }
     END { exit status }
   ' || exit 1

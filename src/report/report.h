@@ -1,0 +1,31 @@
+/* Tables of results, as aligned text, CSV or JSON. */
+#pragma once
+
+#include <aureole/core.h>
+#include <stdbool.h>
+#include <stdio.h>
+
+typedef enum report_format { REPORT_TABLE, REPORT_CSV, REPORT_JSON } report_format;
+
+typedef struct report_table report_table;
+
+/* Returns NULL when out of memory; the functions below accept NULL and then do nothing, and writing fails. */
+report_table *report_create(size_t column_count, const char *const *columns);
+void report_destroy(report_table *table);
+/* One more column, before the first cell. */
+void report_column(report_table *table, const char *name);
+
+/* Cells fill the table row by row. Numbers are printed with `digits` significant digits in text, 17 in CSV
+ * and JSON; a text that is NULL is empty. */
+void report_text(report_table *table, const char *text);
+void report_number(report_table *table, double value, int digits);
+void report_integer(report_table *table, uint64_t value);
+/* A column and its cell: what is known of one thing. Such a table is printed for people as a line a cell. */
+void report_fact_text(report_table *table, const char *name, const char *text);
+void report_fact_number(report_table *table, const char *name, double value);
+
+/* Writes a table, in JSON as an array of objects; the stream keeps its own errors. Errors: MEMORY. */
+aur_result report_write(const report_table *table, report_format format, FILE *stream, aur_error *error);
+/* Replaces the file `path` by the table as CSV, and the lines of `notes` (NULL: none) after it as comments.
+ * Errors: MEMORY, WRITE. */
+aur_result report_save(const report_table *table, const char *notes, const char *path, aur_error *error);
