@@ -1,19 +1,16 @@
 /* Measures against the hardware's square root, and the time of the exact suprema. */
+#include <aureole/quality.h>
+#include <aureole/sphere.h>
 #include <stdio.h>
 #include <stdlib.h>
 
 #include "experimental.h"
 #include "limits.h"
 
-typedef struct sum_context {
-    aur_axes axes;
-    aur_measure_options options;
-} sum_context;
-
 typedef struct measure_context {
     const char *metric;
     aur_points_view points;
-    double *coordinates; /* of the points */
+    double *coordinates; /* of the points; the caller frees them */
     aur_measure_options options;
 } measure_context;
 
@@ -44,21 +41,6 @@ static bool make_points(aur_domain domain, size_t count, aur_points_view *points
     return true;
 }
 
-static void run_distance_sum(void *data) {
-    sum_context *const context = data;
-    aur_twofold sum = {0.0, 0.0};
-    aur_distance_sum(&context->axes, &context->options, &sum, NULL);
-    bench_keep(sum.high);
-}
-
-static void run_fibonacci_sum(void *data) {
-    const size_t *const count = data;
-    const aur_measure_options options = {.size = sizeof options, .threads = 1};
-    aur_twofold sum = {0.0, 0.0};
-    aur_fibonacci_distance_sum(*count, AUR_DOMAIN_SPHERE, &options, &sum, NULL);
-    bench_keep(sum.high);
-}
-
 static void run_measure(void *data) {
     measure_context *const context = data;
     double value = 0.0;
@@ -72,35 +54,43 @@ static double pairs_of(double count) {
 
 static bool bench_sums(const bench_options *options) {
     const size_t count = options->quick ? 2048 : 16384;
-    aur_points_view points;
-    double *coordinates;
-    if (!make_points(AUR_DOMAIN_SPHERE, count, &points, &coordinates))
+    const size_t many = options->quick ? 20000 : 1000000;
+    measure_context fast = {.metric = "energy", .options = aur_measure_options_default()};
+    fast.options.threads = 1;
+    fast.options.fast = true;
+    measure_context structured = fast;
+    aur_points *fibonacci = NULL;
+    aur_directions_options set = aur_directions_options_default(many, AUR_DOMAIN_SPHERE);
+    const aur_points_request request = aur_points_request_default(&set);
+    if (!make_points(AUR_DOMAIN_SPHERE, count, &fast.points, &fast.coordinates))
         return false;
-    sum_context fast = {.options = {.size = sizeof fast.options, .threads = 1, .fast = true}};
-    bool good = aur_axes_create(&points, &fast.axes, NULL) == AUR_OK || bench_fail("out of memory");
-    free(coordinates);
-    if (!good)
-        return false;
-    sum_context exact = fast, shared = fast;
+    if (aur_points_generate("spherical-fibonacci", &request, &fibonacci, NULL) != AUR_OK) {
+        free(fast.coordinates);
+        return bench_fail("out of memory");
+    }
+    structured.points = *aur_points_look(fibonacci);
+    structured.options.fast = false;
+    measure_context exact = fast, shared = fast;
     exact.options.fast = false;
     shared.options.threads = options->threads;
     const double units = pairs_of((double)count);
-    const bench_work fast_work = {run_distance_sum, &fast, units};
-    const bench_work exact_work = {run_distance_sum, &exact, units};
-    const bench_work shared_work = {run_distance_sum, &shared, units};
-    good = bench_against(options, "pair sum, fast (asked 1.6)", &fast_work, &bench_limit_pairs_f64) &&
-           bench_against(options, "pair sum, compensated", &exact_work, &bench_limit_pairs_f64);
+    const bench_work fast_work = {run_measure, &fast, units};
+    const bench_work exact_work = {run_measure, &exact, units};
+    const bench_work shared_work = {run_measure, &shared, units};
+    const bool good =
+        bench_against(options, "pair sum, fast (asked 1.6)", &fast_work, &bench_limit_pairs_f64) &&
+        bench_against(options, "pair sum, compensated", &exact_work, &bench_limit_pairs_f64);
     const bench_pair scaling = bench_compare(options, &shared_work, &fast_work);
     bench_print_pair("pair sum, all threads (asked 0.91)", "one thread", "Gpair", 1e9, &scaling);
-    size_t many = options->quick ? 20000 : 1000000;
-    const bench_work lags = {run_fibonacci_sum, &many, pairs_of((double)many)};
+    const bench_work lags = {run_measure, &structured, pairs_of((double)many)};
     bench_options few = *options;
     few.pairs = few.pairs < 5 ? few.pairs : 5;
-    const bench_pair structured = bench_compare(&few, &lags, &fast_work);
+    const bench_pair by_lags = bench_compare(&few, &lags, &fast_work);
     bench_print_pair(options->quick ? "Fibonacci by lags, N = 20000"
                                     : "Fibonacci by lags, N = 1e6 (asked 50)",
-                     "our pair sum", "Gpair", 1e9, &structured);
-    aur_axes_release(&fast.axes);
+                     "our pair sum", "Gpair", 1e9, &by_lags);
+    free(fast.coordinates);
+    aur_points_destroy(fibonacci);
     return good;
 }
 

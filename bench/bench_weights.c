@@ -1,4 +1,5 @@
 /* Optimal weights against the linear algebra that they cannot do without. */
+#include <aureole/quadrature.h>
 #include <lapacke.h>
 #include <math.h>
 #include <stdlib.h>
@@ -16,6 +17,7 @@ typedef struct solve_context {
     lapack_int right_count;
     size_t potential_count;
     aur_potential *potentials[2];
+    aur_kernel_rule rule;
 } solve_context;
 
 static void close_solve(solve_context *context) {
@@ -43,8 +45,10 @@ static bool open_solve(size_t count, size_t potential_count, const double *expon
                        solve_context *context) {
     const size_t right = potential_count + 1; /* the sum constraint is one more */
     const size_t doubles = count * (count + right);
-    *context =
-        (solve_context){.count = count, .right_count = (lapack_int)right, .potential_count = potential_count};
+    *context = (solve_context){.count = count,
+                               .right_count = (lapack_int)right,
+                               .potential_count = potential_count,
+                               .rule = aur_kernel_rule_make(1.5)};
     context->xyz = malloc((6 + potential_count) * count * sizeof *context->xyz);
     context->system = malloc(2 * doubles * sizeof *context->system);
     if (context->xyz == NULL || context->system == NULL || !make_points(count, exponents[0], context->xyz))
@@ -61,8 +65,7 @@ static bool open_solve(size_t count, size_t potential_count, const double *expon
     }
     const aur_columns columns = aur_columns_split(count, context->xyz, context->columns);
     for (size_t i = 0; i < count; ++i) {
-        aur_kernel_row(&context->potentials[0]->rule, context->xyz + 3 * i, count, columns,
-                       context->system + i * count);
+        aur_kernel_row(&context->rule, context->xyz + 3 * i, count, columns, context->system + i * count);
         context->system[i * count + i] += AUR_REGULARIZATION_DEFAULT;
         context->system[count * (count + potential_count) + i] = 1.0;
     }
@@ -92,8 +95,7 @@ static void run_assembly(void *data) {
     const size_t n = context->count;
     const aur_columns columns = aur_columns_split(n, context->xyz, context->columns);
     for (size_t i = 0; i < n; ++i)
-        aur_kernel_row(&context->potentials[0]->rule, context->xyz + 3 * i, i, columns,
-                       context->work + i * n);
+        aur_kernel_row(&context->rule, context->xyz + 3 * i, i, columns, context->work + i * n);
     bench_keep(context->work[n]);
 }
 
@@ -156,6 +158,7 @@ static bool bench_table(const bench_options *options) {
 
 typedef struct look_up_context {
     aur_weight_table *table;
+    float *rows; /* as many as the table has */
     float weights[SAMPLES];
 } look_up_context;
 
@@ -175,13 +178,12 @@ static void run_look_up(void *data) {
 
 static void run_copy(void *data) {
     look_up_context *const context = data;
-    const size_t rows = aur_weight_table_rows(context->table) / ROTATIONS;
     for (uint64_t i = 0; i < LOOK_UPS; ++i) {
         const uint64_t hash = aur_mix64(i);
         const float radians = 1.57f * aur_unit_float((uint32_t)hash);
-        const size_t row = (hash >> 32) % ROTATIONS * rows + (size_t)(radians * (float)(rows - 1) / 1.5708f);
-        memcpy(context->weights, context->table->weights + (2 * row + (hash >> 63)) * SAMPLES,
-               sizeof context->weights);
+        const size_t row =
+            (hash >> 32) % ROTATIONS * ANGLES + (size_t)(radians * (float)(ANGLES - 1) / 1.5708f);
+        memcpy(context->weights, context->rows + (2 * row + (hash >> 63)) * SAMPLES, sizeof context->weights);
         bench_keep((double)context->weights[0]);
     }
 }
@@ -190,8 +192,9 @@ static bool bench_look_up(const bench_options *options) {
     for (int clipped = 0; clipped < 2; ++clipped) {
         aur_oswa_options pair_of = pair_options;
         pair_of.clipped = clipped;
-        look_up_context context;
-        if (aur_weight_table_build(&pair_of, ANGLES, ROTATIONS, 1, NULL, &context.table, NULL) != AUR_OK)
+        look_up_context context = {.rows = calloc(2 * ROTATIONS * ANGLES * SAMPLES, sizeof(float))};
+        if (context.rows == NULL ||
+            aur_weight_table_build(&pair_of, ANGLES, ROTATIONS, 1, NULL, &context.table, NULL) != AUR_OK)
             return bench_fail("weights: no table");
         const bench_work limit = {run_copy, &context, LOOK_UPS};
         const bench_work subject = {run_look_up, &context, LOOK_UPS};
@@ -199,6 +202,7 @@ static bool bench_look_up(const bench_options *options) {
         bench_print_pair(clipped ? "look-up of 96 weights, clipped" : "look-up of 96 weights",
                          "copy of 96 floats", "Mlookup", 1e6, &pair);
         aur_weight_table_destroy(context.table);
+        free(context.rows);
     }
     return true;
 }

@@ -11,6 +11,7 @@
 #include <string.h>
 
 #include "experimental.h"
+#include "make/sheet.h"
 #include "make/teapot_patches.h"
 
 enum { VERTEX_CAPACITY = 4096, TRIANGLE_CAPACITY = 4096, PROFILE_CAPACITY = 64 };
@@ -26,7 +27,8 @@ typedef struct group {
 typedef struct writer {
     const char *folder, *scene;
     size_t triangle_count; /* of the scene so far */
-    aur_file_writer analytic;
+    sheet analytic;
+    char path[1024]; /* of the analytic form */
     group group;
     aur_error error;
     aur_result result; /* the first failure */
@@ -254,12 +256,11 @@ static void keep(writer *w, aur_result result) {
 }
 
 static void begin_scene(writer *w, const char *scene) {
-    char path[1024];
     w->scene = scene;
     w->triangle_count = 0;
-    snprintf(path, sizeof path, "%s/%s-analytic.xml", w->folder, scene);
+    snprintf(w->path, sizeof w->path, "%s/%s-analytic.xml", w->folder, scene);
     if (w->result == AUR_OK)
-        w->result = aur_file_open(path, &w->analytic, &w->error);
+        w->result = sheet_open(&w->analytic, &w->error);
     if (w->result != AUR_OK)
         return;
     fprintf(
@@ -285,9 +286,9 @@ static void end_group(writer *w, const char *name, bool textured) {
     char path[1024];
     snprintf(path, sizeof path, "%s/meshes/%s-%s.obj", w->folder, w->scene, name);
     w->triangle_count += g->triangle_count;
-    aur_file_writer file;
+    sheet file;
     if (w->result == AUR_OK)
-        w->result = aur_file_open(path, &file, &w->error);
+        w->result = sheet_open(&file, &w->error);
     if (w->result != AUR_OK)
         return;
     fprintf(file.stream, "# Made by scenes/keller.c. Metres, z up.\n");
@@ -303,7 +304,7 @@ static void end_group(writer *w, const char *name, bool textured) {
         else
             fprintf(file.stream, "f %zu %zu %zu\n", a, b, c);
     }
-    keep(w, aur_file_commit(&file, &w->error));
+    keep(w, sheet_write(&file, path, &w->error));
     fprintf(w->analytic.stream,
             "\n    <shape type=\"obj\">\n        <string name=\"filename\" value=\"meshes/%s-%s.obj\"/>\n"
             "        <boolean name=\"face_normals\" value=\"true\"/>\n        <ref id=\"half\"/>\n"
@@ -315,11 +316,11 @@ static void end_group(writer *w, const char *name, bool textured) {
 
 static void end_scene(writer *w, size_t triangles) {
     if (w->result != AUR_OK) {
-        aur_file_abandon(&w->analytic);
+        sheet_abandon(&w->analytic);
         return;
     }
     fprintf(w->analytic.stream, "</scene>\n");
-    keep(w, aur_file_commit(&w->analytic, &w->error));
+    keep(w, sheet_write(&w->analytic, w->path, &w->error));
     if (w->triangle_count == triangles || w->result != AUR_OK)
         return;
     w->result = AUR_ERROR_INTERNAL;

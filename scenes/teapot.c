@@ -6,6 +6,7 @@
 #include <stdlib.h>
 
 #include "experimental.h"
+#include "make/sheet.h"
 #include "make/teapot_patches.h"
 
 enum { SUBDIVISIONS_MAXIMUM = 128 };
@@ -68,25 +69,25 @@ static vec unit_normal(const mesh *teapot, size_t index) {
 }
 
 static aur_result write_mesh(const mesh *teapot, const char *path, aur_error *error) {
-    aur_file_writer writer;
-    const aur_result result = aur_file_open(path, &writer, error);
+    sheet file;
+    const aur_result result = sheet_open(&file, error);
     if (result != AUR_OK)
         return result;
-    fprintf(writer.stream, "# The Utah teapot (Martin Newell 1975), made by scenes/teapot.c. z up.\n");
+    fprintf(file.stream, "# The Utah teapot (Martin Newell 1975), made by scenes/teapot.c. z up.\n");
     for (size_t i = 0; i < teapot->vertex_count; ++i) {
         const vec p = teapot->vertices[i];
-        fprintf(writer.stream, "v %.6g %.6g %.6g\n", p.x + 0.0, p.y + 0.0, p.z + 0.0);
+        fprintf(file.stream, "v %.6g %.6g %.6g\n", p.x + 0.0, p.y + 0.0, p.z + 0.0);
     }
     for (size_t i = 0; i < teapot->vertex_count; ++i) {
         const vec n = unit_normal(teapot, i);
-        fprintf(writer.stream, "vn %.4f %.4f %.4f\n", n.x, n.y, n.z);
+        fprintf(file.stream, "vn %.4f %.4f %.4f\n", n.x, n.y, n.z);
     }
     for (size_t i = 0; i < teapot->triangle_count; ++i) {
         const size_t *const t = teapot->triangles[i];
-        fprintf(writer.stream, "f %zu//%zu %zu//%zu %zu//%zu\n", t[0] + 1, t[0] + 1, t[1] + 1, t[1] + 1,
+        fprintf(file.stream, "f %zu//%zu %zu//%zu %zu//%zu\n", t[0] + 1, t[0] + 1, t[1] + 1, t[1] + 1,
                 t[2] + 1, t[2] + 1);
     }
-    return aur_file_commit(&writer, error);
+    return sheet_write(&file, path, error);
 }
 
 static int fail(const aur_error *error) {

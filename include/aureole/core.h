@@ -16,6 +16,9 @@
 #define AUR_PRINTF(text, first)
 #endif
 
+/* In the place of AUR_API where a function, its structs and what it computes may change in any version. */
+#define AUR_EXPERIMENTAL AUR_API
+
 #ifdef __cplusplus
 extern "C" {
 #endif

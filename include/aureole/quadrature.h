@@ -5,7 +5,10 @@
  * aur_potential_mass for the density as it is written. The kernel is K(u,v) = 2^{2s-1}/s - |u-v|^{2s-2}, 1 <
  * s < 2 (Marques 2018 eq. 3); z(u) = integral of K(u,v) p(v) (eq. 12) is called the potential of p, V =
  * integral of z p (eq. 10) its self-energy. Directions are unit vectors x,y,z, one after another; the surface
- * normal is +z. Weights have the same bits on every processor and for any number of threads. */
+ * normal is +z. Weights have the same bits on every processor and for any number of threads.
+ *
+ * Experimental: merged patterns (aur_oswa) and tables of weights (aur_weight_table) may change in any
+ * version. */
 #ifndef AUREOLE_QUADRATURE_H
 #define AUREOLE_QUADRATURE_H
 
@@ -242,26 +245,27 @@ typedef struct aur_oswa aur_oswa;
 /* O(size^2) memory and time. The options, and what they point to, are copied. Errors: ARGUMENT (which option,
  * and the range), NAME of the set, UNSUPPORTED for a first lobe that is no COSINE_POWER or a grid of z for a
  * clipped or GGX lobe, MEMORY. On failure *oswa is NULL. */
-AUR_API aur_result aur_oswa_create(const aur_oswa_options *options, aur_oswa **oswa, aur_error *error)
-    AUR_NONNULL(1, 2);
-AUR_API void aur_oswa_destroy(aur_oswa *oswa);                     /* NULL is allowed */
-AUR_API size_t aur_oswa_size(const aur_oswa *oswa) AUR_NONNULL(1); /* count + mirror_count */
+AUR_EXPERIMENTAL aur_result aur_oswa_create(const aur_oswa_options *options, aur_oswa **oswa,
+                                            aur_error *error) AUR_NONNULL(1, 2);
+AUR_EXPERIMENTAL void aur_oswa_destroy(aur_oswa *oswa);                     /* NULL is allowed */
+AUR_EXPERIMENTAL size_t aur_oswa_size(const aur_oswa *oswa) AUR_NONNULL(1); /* count + mirror_count */
 
 /* The merged samples xyz[3 * size], the first pattern first, for an angle in [0, pi/2]; mirrored: reflected
  * in the plane of the view (y to -y), for which the same weights are optimal. `capacity` counts doubles.
  * Errors: ARGUMENT for another angle, CAPACITY. */
-AUR_API aur_result aur_oswa_points(const aur_oswa *oswa, double radians, const double turns[2], bool mirrored,
-                                   size_t capacity, double *xyz, aur_error *error) AUR_NONNULL(1, 3, 6);
+AUR_EXPERIMENTAL aur_result aur_oswa_points(const aur_oswa *oswa, double radians, const double turns[2],
+                                            bool mirrored, size_t capacity, double *xyz, aur_error *error)
+    AUR_NONNULL(1, 3, 6);
 /* weights[2 * size]: of every sample for the first lobe, then for the mirror lobe, both of integral 1.
  * `radians` in [0, pi/2]; `capacity` counts doubles; *mass, unless NULL, is the integral of the mirror lobe
  * as it is written. O(size^3) time. Errors: ARGUMENT, CAPACITY, MEMORY, INTERNAL for a system that is not
  * positive definite. */
-AUR_API aur_result aur_oswa_solve(const aur_oswa *oswa, double radians, const double turns[2],
-                                  size_t capacity, double *weights, double *mass, aur_error *error)
+AUR_EXPERIMENTAL aur_result aur_oswa_solve(const aur_oswa *oswa, double radians, const double turns[2],
+                                           size_t capacity, double *weights, double *mass, aur_error *error)
     AUR_NONNULL(1, 3, 5);
 
 /* The turns that prepared rotation number `rotation` has: hashed from the seed. Those of tables, too. */
-AUR_API void aur_oswa_turns(uint64_t seed, size_t rotation, double turns[2]) AUR_NONNULL(3);
+AUR_EXPERIMENTAL void aur_oswa_turns(uint64_t seed, size_t rotation, double turns[2]) AUR_NONNULL(3);
 
 /* --- OSWA from a table */
 
@@ -271,40 +275,43 @@ typedef struct aur_weight_table aur_weight_table;
 
 /* 2 to 65536 angles, 1 to 65536 rotations; angles * rotations systems are solved. Each entry is computed
  * alone: no bit depends on `threads` (0: all). Errors: as aur_oswa_create and aur_oswa_solve, CANCELLED. */
-AUR_API aur_result aur_weight_table_build(const aur_oswa_options *options, size_t angle_count,
-                                          size_t rotation_count, size_t threads, const aur_progress *progress,
-                                          aur_weight_table **table, aur_error *error) AUR_NONNULL(1, 6);
-AUR_API void aur_weight_table_destroy(aur_weight_table *table); /* NULL is allowed */
+AUR_EXPERIMENTAL aur_result aur_weight_table_build(const aur_oswa_options *options, size_t angle_count,
+                                                   size_t rotation_count, size_t threads,
+                                                   const aur_progress *progress, aur_weight_table **table,
+                                                   aur_error *error) AUR_NONNULL(1, 6);
+AUR_EXPERIMENTAL void aur_weight_table_destroy(aur_weight_table *table); /* NULL is allowed */
 
 /* A file with version, options, patterns' hash and check sum. Loading refuses, saying which, a file of
  * another version, a damaged one, and, unless `expected` is NULL, one that was built with other options.
  * Errors: OPEN, FORMAT, MEMORY; saving: WRITE, and UNSUPPORTED for a table made with a grid of z. */
-AUR_API aur_result aur_weight_table_save(const aur_weight_table *table, const char *path, aur_error *error)
-    AUR_NONNULL(1, 2);
-AUR_API aur_result aur_weight_table_load(const char *path, const aur_oswa_options *expected,
-                                         aur_weight_table **table, aur_error *error) AUR_NONNULL(1, 3);
+AUR_EXPERIMENTAL aur_result aur_weight_table_save(const aur_weight_table *table, const char *path,
+                                                  aur_error *error) AUR_NONNULL(1, 2);
+AUR_EXPERIMENTAL aur_result aur_weight_table_load(const char *path, const aur_oswa_options *expected,
+                                                  aur_weight_table **table, aur_error *error)
+    AUR_NONNULL(1, 3);
 
 /* What the table was built from, its weights' options filled in; owned by the table. `size` says how many
  * bytes this library knows. */
-AUR_API const aur_oswa_options *aur_weight_table_options(const aur_weight_table *table) AUR_NONNULL(1);
+AUR_EXPERIMENTAL const aur_oswa_options *aur_weight_table_options(const aur_weight_table *table)
+    AUR_NONNULL(1);
 /* How many angles and rotations the table was built for. */
-AUR_API size_t aur_weight_table_angles(const aur_weight_table *table) AUR_NONNULL(1);
-AUR_API size_t aur_weight_table_rotations(const aur_weight_table *table) AUR_NONNULL(1);
+AUR_EXPERIMENTAL size_t aur_weight_table_angles(const aur_weight_table *table) AUR_NONNULL(1);
+AUR_EXPERIMENTAL size_t aur_weight_table_rotations(const aur_weight_table *table) AUR_NONNULL(1);
 /* The merged samples xyz[3 * size] that a rotation's weights belong to, at an angle in [0, pi/2]; their turns
  * are aur_oswa_turns of the options' seed. `capacity` counts doubles. Errors: ARGUMENT for another angle or a
  * rotation that is not in the table, CAPACITY. */
-AUR_API aur_result aur_weight_table_points(const aur_weight_table *table, double radians, size_t rotation,
-                                           bool mirrored, size_t capacity, double *xyz, aur_error *error)
-    AUR_NONNULL(1, 6);
+AUR_EXPERIMENTAL aur_result aur_weight_table_points(const aur_weight_table *table, double radians,
+                                                    size_t rotation, bool mirrored, size_t capacity,
+                                                    double *xyz, aur_error *error) AUR_NONNULL(1, 6);
 
 /* weights[count + mirror_count] for one lobe (0: the first, 1: the mirror lobe), of integral 1, at an angle
  * in [0, pi/2]. They are floats, as the table keeps them for renderers; `capacity` counts floats. Errors:
  * ARGUMENT for another angle, another lobe or a rotation that is not in the table, CAPACITY. */
-AUR_API aur_result aur_weight_table_look_up(const aur_weight_table *table, size_t lobe, size_t rotation,
-                                            double radians, size_t capacity, float *weights, aur_error *error)
-    AUR_NONNULL(1, 6);
+AUR_EXPERIMENTAL aur_result aur_weight_table_look_up(const aur_weight_table *table, size_t lobe,
+                                                     size_t rotation, double radians, size_t capacity,
+                                                     float *weights, aur_error *error) AUR_NONNULL(1, 6);
 /* The mass of the mirror lobe at an angle (clamped to [0, pi/2]), interpolated likewise. */
-AUR_API double aur_weight_table_mass(const aur_weight_table *table, double radians) AUR_NONNULL(1);
+AUR_EXPERIMENTAL double aur_weight_table_mass(const aur_weight_table *table, double radians) AUR_NONNULL(1);
 
 /* --- the rivals: no system to solve */
 

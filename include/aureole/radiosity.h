@@ -3,7 +3,9 @@
  * a mean radiance for every triangle.
  *
  * A solution is a function of the scene and the options, whatever the threads and however its paths are
- * divided into calls: sums are kept in fixed point, so their order has no meaning. */
+ * divided into calls: sums are kept in fixed point, so their order has no meaning.
+ *
+ * Experimental: all of this header may change in any version. */
 #ifndef AUREOLE_RADIOSITY_H
 #define AUREOLE_RADIOSITY_H
 
@@ -63,13 +65,14 @@ typedef struct aur_radiosity aur_radiosity;
 /* A solution without paths. The scene must outlive it; `options` may be NULL. Errors: UNSUPPORTED for scenes
  * that are not made of triangle meshes, without lights, or with lights of no area (each with its place);
  * ARGUMENT, NAME for options; MEMORY. */
-AUR_API aur_result aur_radiosity_create(const aur_scene *scene, const aur_radiosity_options *options,
-                                        aur_radiosity **radiosity, aur_error *error) AUR_NONNULL(1, 3);
-AUR_API void aur_radiosity_destroy(aur_radiosity *radiosity); /* NULL is allowed */
+AUR_EXPERIMENTAL aur_result aur_radiosity_create(const aur_scene *scene, const aur_radiosity_options *options,
+                                                 aur_radiosity **radiosity, aur_error *error)
+    AUR_NONNULL(1, 3);
+AUR_EXPERIMENTAL void aur_radiosity_destroy(aur_radiosity *radiosity); /* NULL is allowed */
 
 /* Goes on until there are `paths` paths in all; what is there already stays. Errors: ARGUMENT for 0 paths or
  * fewer than there are, UNSUPPORTED when a set that is not extensible is to be continued, CANCELLED. */
-AUR_API aur_result aur_radiosity_trace(aur_radiosity *radiosity, uint64_t paths, aur_error *error)
+AUR_EXPERIMENTAL aur_result aur_radiosity_trace(aur_radiosity *radiosity, uint64_t paths, aur_error *error)
     AUR_NONNULL(1);
 
 /* Adaptive termination (Keller 1994, section 4): after every `interval` paths the change of the solution is
@@ -98,8 +101,9 @@ static inline aur_radiosity_termination aur_radiosity_termination_default(double
 /* Goes on from the paths that are there, which must be a multiple of the interval. *converged (may be NULL)
  * becomes true when the changes fell below epsilon, and false when the limit of paths came first. Errors:
  * ARGUMENT for an epsilon, interval or limit out of range, and those of aur_radiosity_trace. */
-AUR_API aur_result aur_radiosity_terminate(aur_radiosity *radiosity, const aur_radiosity_termination *rule,
-                                           bool *converged, aur_error *error) AUR_NONNULL(1, 2);
+AUR_EXPERIMENTAL aur_result aur_radiosity_terminate(aur_radiosity *radiosity,
+                                                    const aur_radiosity_termination *rule, bool *converged,
+                                                    aur_error *error) AUR_NONNULL(1, 2);
 
 /* What a solution is and how it came about. `size` is set by the caller to the size of his struct. */
 typedef struct aur_radiosity_description {
@@ -126,8 +130,8 @@ typedef struct aur_radiosity_description {
 } aur_radiosity_description;
 
 /* Errors: ARGUMENT when `size` is not set. */
-AUR_API aur_result aur_radiosity_describe(const aur_radiosity *radiosity,
-                                          aur_radiosity_description *description, aur_error *error)
+AUR_EXPERIMENTAL aur_result aur_radiosity_describe(const aur_radiosity *radiosity,
+                                                   aur_radiosity_description *description, aur_error *error)
     AUR_NONNULL(1, 2);
 
 /* A triangle, seen from the side of its normal; RGB. Triangles are numbered shape by shape in the order of
@@ -143,23 +147,24 @@ typedef struct aur_radiosity_triangle_result {
 
 /* All triangles into results[capacity]; `size` is sizeof *results, so that the struct can grow. Errors:
  * CAPACITY; ARGUMENT for a size that no version of the struct has. */
-AUR_API aur_result aur_radiosity_results(const aur_radiosity *radiosity, size_t capacity, size_t size,
-                                         aur_radiosity_triangle_result *results, aur_error *error)
-    AUR_NONNULL(1, 4);
+AUR_EXPERIMENTAL aur_result aur_radiosity_results(const aur_radiosity *radiosity, size_t capacity,
+                                                  size_t size, aur_radiosity_triangle_result *results,
+                                                  aur_error *error) AUR_NONNULL(1, 4);
 
 /* Writes the solution with all that is needed to go on; loading it for another scene is an error. Of
  * `options` only threads, progress and warnings are used. Errors: WRITE; OPEN, FORMAT (which says what is
  * wrong). */
-AUR_API aur_result aur_radiosity_save(const aur_radiosity *radiosity, const char *path, aur_error *error)
-    AUR_NONNULL(1, 2);
-AUR_API aur_result aur_radiosity_load(const aur_scene *scene, const char *path,
-                                      const aur_radiosity_options *options, aur_radiosity **radiosity,
-                                      aur_error *error) AUR_NONNULL(1, 2, 4);
+AUR_EXPERIMENTAL aur_result aur_radiosity_save(const aur_radiosity *radiosity, const char *path,
+                                               aur_error *error) AUR_NONNULL(1, 2);
+AUR_EXPERIMENTAL aur_result aur_radiosity_load(const aur_scene *scene, const char *path,
+                                               const aur_radiosity_options *options,
+                                               aur_radiosity **radiosity, aur_error *error)
+    AUR_NONNULL(1, 2, 4);
 
 /* Triangles coloured by their radiance: a binary PLY file of 3 vertices a triangle, sRGB bytes at `exposure`
  * stops and the radiance itself as floats. Errors: WRITE, UNSUPPORTED beyond 715 million triangles. */
-AUR_API aur_result aur_radiosity_write_ply(const aur_radiosity *radiosity, const char *path, double exposure,
-                                           aur_error *error) AUR_NONNULL(1, 2);
+AUR_EXPERIMENTAL aur_result aur_radiosity_write_ply(const aur_radiosity *radiosity, const char *path,
+                                                    double exposure, aur_error *error) AUR_NONNULL(1, 2);
 
 #ifdef __cplusplus
 }

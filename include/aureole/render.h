@@ -1,5 +1,7 @@
 /* Rendering a scene into a picture, in one call or in steps. The picture is a function of the scene, the
- * options, the seed and the steps: the number of threads changes no bit of it. */
+ * options, the seed and the steps: the number of threads changes no bit of it.
+ *
+ * Experimental: all of this header may change in any version. */
 #ifndef AUREOLE_RENDER_H
 #define AUREOLE_RENDER_H
 
@@ -15,7 +17,7 @@ extern "C" {
 
 /* What a picture is made with: the tables of integrators, materials, shapes and so on; NULL beyond the last.
  * Those of sets and measures are aur_table_at's. */
-AUR_API const aur_table *aur_render_table_at(size_t index);
+AUR_EXPERIMENTAL const aur_table *aur_render_table_at(size_t index);
 
 enum { AUR_RENDER_LEVELS = 8 };
 
@@ -62,9 +64,9 @@ static inline aur_render_options aur_render_options_default(void) {
 typedef struct aur_renderer aur_renderer;
 
 /* Errors: MEMORY. */
-AUR_API aur_result aur_renderer_create(const aur_scene *scene, aur_renderer **renderer, aur_error *error)
-    AUR_NONNULL(1, 2);
-AUR_API void aur_renderer_destroy(aur_renderer *renderer); /* NULL is allowed */
+AUR_EXPERIMENTAL aur_result aur_renderer_create(const aur_scene *scene, aur_renderer **renderer,
+                                                aur_error *error) AUR_NONNULL(1, 2);
+AUR_EXPERIMENTAL void aur_renderer_destroy(aur_renderer *renderer); /* NULL is allowed */
 
 /* Whether the scene's own integrator is one, and its keys can be read: what a render asks first whose options
  * name no other. Errors: as those of aur_render_create, with their place in the scene file. */
@@ -75,9 +77,9 @@ AUR_API aur_result aur_render_check_scene(const aur_scene *scene, aur_error *err
  * *image is the picture so far; with every other error it is NULL. Errors: NAME (no such integrator, sampler,
  * filter or key), ARGUMENT (a value or a crop out of range), UNSUPPORTED (keys or a scene that do not go
  * together), CANCELLED, MEMORY, and those of files that an integrator reads. */
-AUR_API aur_result aur_renderer_render(aur_renderer *renderer, const aur_render_options *options,
-                                       aur_image **image, aur_render_statistics *statistics, aur_error *error)
-    AUR_NONNULL(1, 3);
+AUR_EXPERIMENTAL aur_result aur_renderer_render(aur_renderer *renderer, const aur_render_options *options,
+                                                aur_image **image, aur_render_statistics *statistics,
+                                                aur_error *error) AUR_NONNULL(1, 3);
 
 /* --- a render in steps: for a viewer, a checkpoint, or whoever decides on the way when it is enough */
 
@@ -85,9 +87,9 @@ typedef struct aur_render aur_render;
 
 /* Prepares all that comes before the first sample. The renderer must outlive the render, and so must what the
  * options' callbacks use; texts are copied. Errors as for aur_renderer_render. */
-AUR_API aur_result aur_render_create(aur_renderer *renderer, const aur_render_options *options,
-                                     aur_render **render, aur_error *error) AUR_NONNULL(1, 3);
-AUR_API void aur_render_destroy(aur_render *render); /* NULL is allowed */
+AUR_EXPERIMENTAL aur_result aur_render_create(aur_renderer *renderer, const aur_render_options *options,
+                                              aur_render **render, aur_error *error) AUR_NONNULL(1, 3);
+AUR_EXPERIMENTAL void aur_render_destroy(aur_render *render); /* NULL is allowed */
 
 /* Gives every pixel `count` more samples; 0 or too many: all that remain of the options' samples_per_pixel.
  * Where a tile is ahead of the others because an earlier step was cancelled, the others catch up first.
@@ -95,25 +97,27 @@ AUR_API void aur_render_destroy(aur_render *render); /* NULL is allowed */
  * same light for other steps. Errors: CANCELLED by aur_render_cancel or the progress callback: tiles that
  * were finished keep their samples, and the next step goes on where this one was stopped; MEMORY and others,
  * after which the render can only be destroyed. */
-AUR_API aur_result aur_render_step(aur_render *render, size_t count, aur_error *error) AUR_NONNULL(1);
+AUR_EXPERIMENTAL aur_result aur_render_step(aur_render *render, size_t count, aur_error *error)
+    AUR_NONNULL(1);
 /* Stops the step that another thread is in. May be called from any thread and from a signal handler. */
-AUR_API void aur_render_cancel(aur_render *render) AUR_NONNULL(1);
+AUR_EXPERIMENTAL void aur_render_cancel(aur_render *render) AUR_NONNULL(1);
 
 /* Samples that every pixel has, and that it will have. */
-AUR_API size_t aur_render_samples(const aur_render *render) AUR_NONNULL(1);
-AUR_API size_t aur_render_samples_wanted(const aur_render *render) AUR_NONNULL(1);
+AUR_EXPERIMENTAL size_t aur_render_samples(const aur_render *render) AUR_NONNULL(1);
+AUR_EXPERIMENTAL size_t aur_render_samples_wanted(const aur_render *render) AUR_NONNULL(1);
 
 /* The film so far, owned by the render: aur_film_develop makes the picture, aur_film_error tells its error,
  * aur_film_save keeps it. */
-AUR_API const aur_film *aur_render_film(const aur_render *render) AUR_NONNULL(1);
+AUR_EXPERIMENTAL const aur_film *aur_render_film(const aur_render *render) AUR_NONNULL(1);
 /* Takes over the samples of a film of the same scene, options and seed, such as one saved earlier: the render
  * goes on where that one ended. Errors as for aur_film_merge. */
-AUR_API aur_result aur_render_merge(aur_render *render, const aur_film *film, aur_error *error)
+AUR_EXPERIMENTAL aur_result aur_render_merge(aur_render *render, const aur_film *film, aur_error *error)
     AUR_NONNULL(1, 2);
 
 /* What preparing and the steps so far have cost. Errors: ARGUMENT when `size` is not set. */
-AUR_API aur_result aur_render_get_statistics(const aur_render *render, aur_render_statistics *statistics,
-                                             aur_error *error) AUR_NONNULL(1, 2);
+AUR_EXPERIMENTAL aur_result aur_render_get_statistics(const aur_render *render,
+                                                      aur_render_statistics *statistics, aur_error *error)
+    AUR_NONNULL(1, 2);
 
 #ifdef __cplusplus
 }

@@ -1,4 +1,6 @@
-/* Scenes: Mitsuba 3 XML, loaded into shapes, materials, lights and a camera. */
+/* Scenes: Mitsuba 3 XML, loaded into shapes, materials, lights and a camera.
+ *
+ * Experimental: all of this header may change in any version. */
 #ifndef AUREOLE_SCENE_H
 #define AUREOLE_SCENE_H
 
@@ -39,15 +41,15 @@ static inline aur_scene_options aur_scene_options_default(void) {
  * line and column: OPEN (a file is not there or is no regular file), FORMAT (what is written cannot be
  * meant), NAME (an unknown element, plugin, parameter or definition; the message suggests the nearest),
  * UNSUPPORTED (Mitsuba has it, Aureole has not), ARGUMENT (`options`), MEMORY. */
-AUR_API aur_result aur_scene_load(const char *path, const aur_scene_options *options, aur_scene **scene,
-                                  aur_error *error) AUR_NONNULL(1, 3);
+AUR_EXPERIMENTAL aur_result aur_scene_load(const char *path, const aur_scene_options *options,
+                                           aur_scene **scene, aur_error *error) AUR_NONNULL(1, 3);
 /* The same from the `bytes` bytes of a scene file in memory. `name` stands for its path: in messages, and as
  * the place beside which files are looked for. */
-AUR_API aur_result aur_scene_load_memory(const char *name, size_t bytes, const void *data,
-                                         const aur_scene_options *options, aur_scene **scene,
-                                         aur_error *error) AUR_NONNULL(1, 3, 5);
+AUR_EXPERIMENTAL aur_result aur_scene_load_memory(const char *name, size_t bytes, const void *data,
+                                                  const aur_scene_options *options, aur_scene **scene,
+                                                  aur_error *error) AUR_NONNULL(1, 3, 5);
 /* Not while a renderer of the scene lives. */
-AUR_API void aur_scene_destroy(aur_scene *scene); /* NULL is allowed */
+AUR_EXPERIMENTAL void aur_scene_destroy(aur_scene *scene); /* NULL is allowed */
 
 /* What is in a scene, for people and for `aureole info`. `size` is set by the caller to that of the struct.
  */
@@ -62,8 +64,8 @@ typedef struct aur_scene_description {
 } aur_scene_description;
 
 /* Errors: ARGUMENT when `size` is not set. */
-AUR_API aur_result aur_scene_describe(const aur_scene *scene, aur_scene_description *description,
-                                      aur_error *error) AUR_NONNULL(1, 2);
+AUR_EXPERIMENTAL aur_result aur_scene_describe(const aur_scene *scene, aur_scene_description *description,
+                                               aur_error *error) AUR_NONNULL(1, 2);
 
 #ifdef __cplusplus
 }

@@ -80,23 +80,25 @@ AUR_API double aur_lobe_pdf(const aur_lobe *lobe, const double direction[3]) AUR
 AUR_API aur_result aur_lobe_optimal(const aur_lobe *lobe, double smoothness, aur_lobe *density,
                                     aur_error *error) AUR_NONNULL(1, 3);
 
-/* A density on the unit square from a picture, made ready: immutable. */
+/* A density on the unit square from a picture, made ready: immutable. Experimental. */
 typedef struct aur_density_image aur_density_image;
 
 /* density[width * height] with the top row first, finite and not negative, not all 0; u runs along a row and
  * v upwards, 1 to 65536 pixels a side. The density is constant within a pixel. */
-AUR_API aur_result aur_density_image_create(size_t width, size_t height, const float *density,
-                                            aur_density_image **image, aur_error *error) AUR_NONNULL(3, 4);
-AUR_API void aur_density_image_destroy(aur_density_image *image); /* NULL is allowed */
+AUR_EXPERIMENTAL aur_result aur_density_image_create(size_t width, size_t height, const float *density,
+                                                     aur_density_image **image, aur_error *error)
+    AUR_NONNULL(3, 4);
+AUR_EXPERIMENTAL void aur_density_image_destroy(aur_density_image *image); /* NULL is allowed */
 /* A uniform point of the square to one that follows the density, by inversion: rows first by v, then along
  * the row by u (Schretter 2012 fig. 4), and back. What comes out is in [0,1); what goes in is moved to the
  * nearer end of [0,1) where it is outside, NaN to 0. The arrays may be one and the same. */
-AUR_API void aur_density_image_warp(const aur_density_image *image, const double square[2], double warped[2])
-    AUR_NONNULL(1, 2, 3);
-AUR_API void aur_density_image_unwarp(const aur_density_image *image, const double warped[2],
-                                      double square[2]) AUR_NONNULL(1, 2, 3);
+AUR_EXPERIMENTAL void aur_density_image_warp(const aur_density_image *image, const double square[2],
+                                             double warped[2]) AUR_NONNULL(1, 2, 3);
+AUR_EXPERIMENTAL void aur_density_image_unwarp(const aur_density_image *image, const double warped[2],
+                                               double square[2]) AUR_NONNULL(1, 2, 3);
 /* The density at a point of the square, moved into it as above; its integral is 1. */
-AUR_API double aur_density_image_pdf(const aur_density_image *image, const double point[2]) AUR_NONNULL(1, 2);
+AUR_EXPERIMENTAL double aur_density_image_pdf(const aur_density_image *image, const double point[2])
+    AUR_NONNULL(1, 2);
 
 /* A rotation, row by row: rotated[i] = sum over k of m[3 i + k] v[k]. */
 typedef struct aur_rotation {

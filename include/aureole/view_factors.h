@@ -1,4 +1,6 @@
-/* View factors: how much of what leaves one surface, diffusely, arrives at another. */
+/* View factors: how much of what leaves one surface, diffusely, arrives at another.
+ *
+ * Experimental: all of this header may change in any version. */
 #ifndef AUREOLE_VIEW_FACTORS_H
 #define AUREOLE_VIEW_FACTORS_H
 
@@ -16,8 +18,8 @@ extern "C" {
  * edge and by Gauss's rule along the other (Sparrow 1963): about twelve digits. Errors: ARGUMENT for fewer
  * than 3 or more than 2^16 corners, corners that are not finite, not in a plane (to 1e-6 of the polygon's
  * size) or not convex, and polygons without area; MEMORY. */
-AUR_API aur_result aur_view_factor_polygons(size_t from_count, const double *from, size_t to_count,
-                                            const double *to, double *factor, aur_error *error)
+AUR_EXPERIMENTAL aur_result aur_view_factor_polygons(size_t from_count, const double *from, size_t to_count,
+                                                     const double *to, double *factor, aur_error *error)
     AUR_NONNULL(2, 4, 5);
 
 /* --- facets: what light goes between */

@@ -3,10 +3,6 @@
 
 #include <aureole/core.h>
 
-/* What the bench and the makers of scenes may call beside the public functions (experimental.h): shown by the
- * libraries, but declared by no header that is installed. All of core is shown without it. */
-#define AUR_EXPERIMENTAL AUR_API
-
 /* Where in a file something stands; file may be NULL, line and column 0 when unknown. */
 typedef struct aur_location {
     const char *file;

@@ -18,7 +18,7 @@ typedef struct aur_kernel_rule {
 } aur_kernel_rule;
 
 /* `smoothness` must lie in (1,2). */
-aur_kernel_rule aur_kernel_rule_make(double smoothness);
+AUR_EXPERIMENTAL aur_kernel_rule aur_kernel_rule_make(double smoothness);
 
 /* row[j] = K(point, columns[j]), 0 <= j < count. The same bits on every instruction set. */
 AUR_EXPERIMENTAL void aur_kernel_row(const aur_kernel_rule *rule, const double point[3], size_t count,

@@ -14,8 +14,8 @@ typedef struct aur_axes {
     double *weights; /* NULL: all equal to 1 */
 } aur_axes;
 
-AUR_EXPERIMENTAL aur_result aur_axes_create(const aur_points_view *points, aur_axes *axes, aur_error *error);
-AUR_EXPERIMENTAL void aur_axes_release(aur_axes *axes);
+aur_result aur_axes_create(const aur_points_view *points, aur_axes *axes, aur_error *error);
+void aur_axes_release(aur_axes *axes);
 
 /* Rows [first_row, last_row) against columns [first_column, last_column); when both ranges are the same, the
  * pairs below the diagonal only. */
@@ -31,8 +31,8 @@ aur_result aur_pair_sum(const aur_axes *axes, aur_pair_tile_function function, d
 
 /* The sum of w_i w_j |x_i - x_j| over unordered pairs; relative error about 1e-16, or 2e-14 when
  * options->fast. */
-AUR_EXPERIMENTAL aur_result aur_distance_sum(const aur_axes *axes, const aur_measure_options *options,
-                                             aur_twofold *sum, aur_error *error);
+aur_result aur_distance_sum(const aur_axes *axes, const aur_measure_options *options, aur_twofold *sum,
+                            aur_error *error);
 
 /* The sum over a tile: `exact` compensated, the same bits on every processor; `fast` to 2e-14, for equal
  * weights only. */

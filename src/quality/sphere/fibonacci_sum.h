@@ -10,6 +10,5 @@ int aur_is_spherical_fibonacci(const aur_points_view *points);
 
 /* The sum of |x_i - x_j| over the unordered pairs of the `count` points of a spherical Fibonacci set, on the
  * sphere or (the first half of a set of 2 * count) on the hemisphere. */
-AUR_EXPERIMENTAL aur_result aur_fibonacci_distance_sum(size_t count, aur_domain domain,
-                                                       const aur_measure_options *options, aur_twofold *sum,
-                                                       aur_error *error);
+aur_result aur_fibonacci_distance_sum(size_t count, aur_domain domain, const aur_measure_options *options,
+                                      aur_twofold *sum, aur_error *error);

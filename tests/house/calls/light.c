@@ -1,0 +1,187 @@
+/* Calls each function of image.h, scene.h, film.h, render.h and radiosity.h, most of them with bad input too.
+ */
+#include <aureole/radiosity.h>
+#include <aureole/render.h>
+#include <aureole/view_factors.h>
+
+#include "calls.h"
+
+static aur_error error;
+
+/* A square that shines on another one which faces it. */
+static const char scene_text[] =
+    "<scene version=\"3.0.0\">\n"
+    "<integrator type=\"path\"/>\n"
+    "<sensor type=\"perspective\"><float name=\"fov\" value=\"40\"/>\n"
+    "<transform name=\"to_world\"><lookat origin=\"0,-6,1\" target=\"0,0,1\" up=\"0,0,1\"/></transform>\n"
+    "<sampler type=\"independent\"><integer name=\"sample_count\" value=\"2\"/></sampler>\n"
+    "<film type=\"hdrfilm\"><integer name=\"width\" value=\"8\"/><integer name=\"height\" "
+    "value=\"8\"/></film></sensor>\n"
+    "<shape type=\"rectangle\"><bsdf type=\"diffuse\"/></shape>\n"
+    "<shape type=\"rectangle\"><transform name=\"to_world\"><rotate x=\"1\" angle=\"180\"/><translate "
+    "z=\"2\"/></transform>\n"
+    "<emitter type=\"area\"><rgb name=\"radiance\" value=\"1\"/></emitter></shape>\n"
+    "</scene>\n";
+
+static void pictures(void) {
+    aur_image *image = NULL, *other = NULL;
+    refuse(aur_image_create(0, 4, 3, &image, &error), AUR_ERROR_ARGUMENT, &error);
+    accept(aur_image_create(4, 4, 3, &image, &error), &error);
+    require(aur_image_width(image) == 4 && aur_image_height(image) == 4 &&
+                aur_image_channel_count(image) == 3,
+            "a picture's size");
+    for (size_t i = 0; i < 48; ++i)
+        aur_image_data(image)[i] = (float)(i % 5) / 4.0f;
+    require(strcmp(aur_image_channel_name(image, 0), "R") == 0 && aur_image_find_channel(image, "G") == 1,
+            "channels by name");
+    accept(aur_image_name_channel(image, 2, "B", &error), &error);
+    size_t channels[3];
+    require(aur_image_color_channels(image, channels) && channels[2] == 2, "aur_image_color_channels");
+    aur_image_write_options options = aur_image_write_options_default();
+    accept(aur_tone_from_name("filmic", &options.tone, &error), &error);
+    refuse(aur_tone_from_name("loud", &options.tone, &error), AUR_ERROR_NAME, &error);
+    accept(aur_image_write("calls.pfm", image, &options, &error), &error);
+    refuse(aur_image_write("calls.doc", image, NULL, &error), AUR_ERROR_NAME, &error);
+    refuse(aur_image_read("no such folder/calls.pfm", &other, &error), AUR_ERROR_OPEN, &error);
+    accept(aur_image_read("calls.pfm", &other, &error), &error);
+    remove("calls.pfm");
+    double value[4], mean[4];
+    aur_image_metric metric;
+    accept(aur_image_metric_from_name("rmse", &metric, &error), &error);
+    require(strcmp(aur_image_metric_name(metric), "rmse") == 0, "aur_image_metric_name");
+    accept(aur_image_compare(image, other, metric, value, &error), &error);
+    require(value[3] == 0.0, "a picture comes back from its file");
+    accept(aur_image_mean(image, mean, &error), &error);
+    aur_image_destroy(other);
+    static const char bytes[] = "PF\n1 1\n-1.0\n............";
+    require(strcmp(aur_image_format_of(sizeof bytes - 1, bytes), "PFM") == 0, "aur_image_format_of");
+    accept(aur_image_read_memory("calls", sizeof bytes - 1, bytes, &other, &error), &error);
+    refuse(aur_image_compare(image, other, metric, value, &error), AUR_ERROR_ARGUMENT, &error);
+    aur_image_destroy(other);
+    refuse(aur_image_read_memory("calls", 4, bytes, &other, &error), AUR_ERROR_FORMAT, &error);
+    const char *const green[] = {"G"};
+    accept(aur_image_select(image, 1, green, &other, &error), &error);
+    aur_image *made[4];
+    accept(aur_image_downsample(image, 2, &made[0], &error), &error);
+    accept(aur_image_flip(image, image, &made[1], &error), &error);
+    accept(aur_image_false_color(other, 1.0, &made[2], &error), &error);
+    accept(aur_image_difference(image, image, 1.0, &made[3], &error), &error);
+    for (size_t i = 0; i < 4; ++i)
+        aur_image_destroy(made[i]);
+    aur_image_destroy(other);
+    aur_image_destroy(image);
+    float pixel = 1.0f;
+    accept(aur_image_wrap(1, 1, 1, &pixel, &image, &error), &error);
+    require(aur_image_data(image) == &pixel, "aur_image_wrap");
+    aur_image_destroy(image);
+}
+
+static aur_scene *scenes(void) {
+    aur_scene *scene = NULL;
+    const aur_scene_options options = aur_scene_options_default();
+    refuse(aur_scene_load("no such folder/calls.xml", &options, &scene, &error), AUR_ERROR_OPEN, &error);
+    refuse(aur_scene_load_memory("calls", 3, "<a>", &options, &scene, &error), AUR_ERROR_FORMAT, &error);
+    accept(aur_scene_load_memory("calls", sizeof scene_text - 1, scene_text, &options, &scene, &error),
+           &error);
+    aur_scene_description d = {.size = sizeof d};
+    accept(aur_scene_describe(scene, &d, &error), &error);
+    require(d.shapes == 2 && d.width == 8, "aur_scene_describe");
+    d.size = 0;
+    refuse(aur_scene_describe(scene, &d, &error), AUR_ERROR_ARGUMENT, &error);
+    return scene;
+}
+
+static void films(const aur_film *film) {
+    aur_film_description d = {.size = sizeof d};
+    accept(aur_film_describe(film, &d, &error), &error);
+    require(d.width == 8 && aur_film_channel_name(film, d.channel_count) == NULL, "aur_film_describe");
+    accept(aur_film_save(film, "calls.film", &error), &error);
+    aur_film *loaded = NULL;
+    refuse(aur_film_load("no such folder/calls.film", &loaded, &error), AUR_ERROR_OPEN, &error);
+    refuse(aur_film_load_memory("calls", 4, "film", &loaded, &error), AUR_ERROR_FORMAT, &error);
+    accept(aur_film_load("calls.film", &loaded, &error), &error);
+    accept(aur_film_merge(loaded, film, &error), &error);
+    aur_image *image = NULL;
+    accept(aur_film_develop(loaded, &image, &error), &error);
+    aur_image_destroy(image);
+    double rmse[4];
+    accept(aur_film_error(film, rmse, NULL, &error), &error);
+    aur_film_destroy(loaded);
+}
+
+static void renders(const aur_scene *scene) {
+    require(aur_render_table_at(0) != NULL && aur_render_table_at(1000) == NULL, "aur_render_table_at");
+    aur_renderer *renderer = NULL;
+    accept(aur_renderer_create(scene, &renderer, &error), &error);
+    aur_render_options options = aur_render_options_default();
+    aur_render *render = NULL;
+    options.integrator = "nothing";
+    refuse(aur_render_create(renderer, &options, &render, &error), AUR_ERROR_NAME, &error);
+    options.integrator = NULL;
+    aur_image *image = NULL;
+    accept(aur_renderer_render(renderer, &options, &image, NULL, &error), &error);
+    aur_image_destroy(image);
+    accept(aur_render_create(renderer, &options, &render, &error), &error);
+    accept(aur_render_step(render, 1, &error), &error);
+    accept(aur_render_step(render, 1, &error), &error);
+    require(aur_render_samples(render) == 2 && aur_render_samples_wanted(render) == 2, "a render's samples");
+    aur_render_statistics statistics = {.size = sizeof statistics};
+    accept(aur_render_get_statistics(render, &statistics, &error), &error);
+    require(statistics.samples == 128, "aur_render_get_statistics");
+    films(aur_render_film(render));
+    aur_film *film = NULL;
+    accept(aur_film_load("calls.film", &film, &error), &error);
+    accept(aur_render_merge(render, film, &error), &error);
+    aur_film_destroy(film);
+    remove("calls.film");
+    aur_render_cancel(render);
+    aur_render_destroy(render);
+    aur_renderer_destroy(renderer);
+}
+
+static void radiosity_solutions(const aur_scene *scene) {
+    aur_radiosity_options options = aur_radiosity_options_default();
+    aur_radiosity *radiosity = NULL;
+    options.bounces = 0;
+    refuse(aur_radiosity_create(scene, &options, &radiosity, &error), AUR_ERROR_ARGUMENT, &error);
+    options.bounces = 3;
+    accept(aur_radiosity_create(scene, &options, &radiosity, &error), &error);
+    accept(aur_radiosity_trace(radiosity, 64, &error), &error);
+    aur_radiosity_termination rule = aur_radiosity_termination_default(0.5);
+    rule.interval = 64;
+    bool converged = false;
+    accept(aur_radiosity_terminate(radiosity, &rule, &converged, &error), &error);
+    aur_radiosity_description d = {.size = sizeof d};
+    accept(aur_radiosity_describe(radiosity, &d, &error), &error);
+    aur_radiosity_triangle_result results[4];
+    require(d.triangles == 4, "aur_radiosity_describe");
+    accept(aur_radiosity_results(radiosity, 4, sizeof results[0], results, &error), &error);
+    refuse(aur_radiosity_results(radiosity, 3, sizeof results[0], results, &error), AUR_ERROR_CAPACITY,
+           &error);
+    accept(aur_radiosity_save(radiosity, "calls.radiosity", &error), &error);
+    accept(aur_radiosity_write_ply(radiosity, "calls.ply", 0.0, &error), &error);
+    remove("calls.ply");
+    aur_radiosity_destroy(radiosity);
+    accept(aur_radiosity_load(scene, "calls.radiosity", &options, &radiosity, &error), &error);
+    remove("calls.radiosity");
+    aur_radiosity_destroy(radiosity);
+}
+
+static void view_factors(void) {
+    static const double floor[] = {0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0};
+    static const double ceiling[] = {0, 0, 1, 0, 1, 1, 1, 1, 1, 1, 0, 1};
+    double factor = 0.0;
+    accept(aur_view_factor_polygons(4, floor, 4, ceiling, &factor, &error), &error);
+    require(fabs(factor - 0.1998) < 1e-4, "the view factor of two facing unit squares"); /* Howell C-11 */
+    refuse(aur_view_factor_polygons(2, floor, 4, ceiling, &factor, &error), AUR_ERROR_ARGUMENT, &error);
+}
+
+int main(void) {
+    pictures();
+    aur_scene *const scene = scenes();
+    renders(scene);
+    radiosity_solutions(scene);
+    aur_scene_destroy(scene);
+    view_factors();
+    return 0;
+}

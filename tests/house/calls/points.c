@@ -1,0 +1,232 @@
+/* Calls each function of pointset.h, sphere.h and quality.h, most of them with bad input too, and those of
+ * quadrature.h that the tests of that room do not call. */
+#include <aureole/quadrature.h>
+#include <aureole/quality.h>
+#include <aureole/sphere.h>
+
+#include "calls.h"
+
+enum { COUNT = 16 };
+
+static double buffer[3 * COUNT];
+static const aur_output output = {.capacity = 3 * COUNT, .doubles = buffer};
+static const aur_output small = {.capacity = 1, .doubles = buffer};
+static aur_error error;
+
+static void names(void) {
+    aur_domain domain;
+    aur_scramble scramble;
+    aur_points_format format;
+    aur_map map;
+    accept(aur_domain_from_name("disk", &domain, &error), &error);
+    accept(aur_scramble_from_name("owen", &scramble, &error), &error);
+    accept(aur_points_format_from_name("npy", &format, &error), &error);
+    accept(aur_map_from_name("polar", &map, &error), &error);
+    require(strcmp(aur_domain_name(domain), "disk") == 0 &&
+                strcmp(aur_scramble_name(scramble), "owen") == 0 &&
+                strcmp(aur_points_format_name(format), "npy") == 0 && strcmp(aur_map_name(map), "polar") == 0,
+            "names and values");
+    require(aur_domain_name((aur_domain)9) == NULL && aur_scramble_name((aur_scramble)9) == NULL &&
+                aur_points_format_name((aur_points_format)9) == NULL && aur_map_name((aur_map)9) == NULL,
+            "a value without a name has one");
+    refuse(aur_domain_from_name("ball", &domain, &error), AUR_ERROR_NAME, &error);
+    refuse(aur_scramble_from_name("eggs", &scramble, &error), AUR_ERROR_NAME, &error);
+    refuse(aur_points_format_from_name("doc", &format, &error), AUR_ERROR_NAME, &error);
+    refuse(aur_map_from_name("mercator", &map, &error), AUR_ERROR_NAME, &error);
+    const aur_set_description *const set = aur_set_find("sobol");
+    char text[64];
+    require(set != NULL && aur_set_find("nothing") == NULL && aur_set_at(aur_set_count()) == NULL,
+            "the table of sets");
+    require(aur_set_sizes(set, sizeof text, text) == strlen(text), "aur_set_sizes");
+}
+
+static void prepared_sets(void) {
+    aur_pointset_options options = aur_pointset_options_default(COUNT);
+    aur_pointset *set = NULL;
+    refuse(aur_pointset_create("nothing", &options, &set, &error), AUR_ERROR_NAME, &error);
+    accept(aur_pointset_create("sobol", &options, &set, &error), &error);
+    refuse(aur_pointset_randomize(set, 1, 0, COUNT, &output, &error), AUR_ERROR_UNSUPPORTED, &error);
+    aur_pointset_destroy(set);
+    options.scramble = AUR_SCRAMBLE_OWEN;
+    accept(aur_pointset_create("sobol", &options, &set, &error), &error);
+    require(aur_pointset_dimension(set) == 2 && aur_pointset_size(set) == COUNT, "the size of a set");
+    accept(aur_pointset_points(set, 0, COUNT, 3 * COUNT, buffer, &error), &error);
+    require(aur_pointset_coordinate(set, 3, 1) == buffer[7] && isnan(aur_pointset_coordinate(set, COUNT, 0)),
+            "aur_pointset_coordinate");
+    accept(aur_pointset_generate(set, 0, COUNT, &output, &error), &error);
+    accept(aur_pointset_coordinates(set, 1, 1, 0, COUNT, &output, &error), &error);
+    accept(aur_pointset_randomize(set, 1, 0, COUNT, &output, &error), &error);
+    refuse(aur_pointset_points(set, 0, COUNT, COUNT, buffer, &error), AUR_ERROR_CAPACITY, &error);
+    refuse(aur_pointset_generate(set, 1, COUNT, &output, &error), AUR_ERROR_ARGUMENT, &error);
+    refuse(aur_pointset_coordinates(set, 1, 2, 0, COUNT, &output, &error), AUR_ERROR_ARGUMENT, &error);
+    aur_pointset_destroy(set);
+    aur_pointset_destroy(NULL);
+    require(aur_output_capacity(AUR_LAYOUT_ARRAYS, 2, COUNT, 0) == 2 * COUNT, "aur_output_capacity");
+}
+
+static void direct_generators(void) {
+    const aur_randomization shift = {AUR_SCRAMBLE_SHIFT, 1};
+    const uint64_t vector[] = {1, 5};
+    accept(aur_random_points(3, 1, 0, COUNT, &output, &error), &error);
+    accept(aur_lcg_points(3, 1, 0, COUNT, &output, &error), &error);
+    accept(aur_icg_points(3, 1, 0, COUNT, &output, &error), &error);
+    accept(aur_jittered_points(COUNT, 1, 0, COUNT, &output, &error), &error);
+    accept(aur_van_der_corput_points(&shift, 0, COUNT, &output, &error), &error);
+    accept(aur_halton_points(3, &shift, 0, COUNT, &output, &error), &error);
+    accept(aur_hammersley_points(3, COUNT, &shift, 0, COUNT, &output, &error), &error);
+    accept(aur_sobol_points(3, &shift, 0, COUNT, &output, &error), &error);
+    accept(aur_niederreiter_points(3, &shift, 0, COUNT, &output, &error), &error);
+    accept(aur_larcher_pillichshammer_points(COUNT, &shift, 0, COUNT, &output, &error), &error);
+    accept(aur_fibonacci_lattice_points(COUNT, 0.5, &shift, 0, COUNT, &output, &error), &error);
+    accept(aur_rank1_points(2, vector, COUNT, &shift, 0, COUNT, &output, &error), &error);
+    accept(aur_r2_points(3, &shift, 0, COUNT, &output, &error), &error);
+    accept(aur_golden_points(0.5, &shift, 0, COUNT, &output, &error), &error);
+    accept(aur_golden_set_points(0.5, COUNT, &output, &error), &error);
+    accept(aur_golden_set_points_two_seeds(0.5, 0.25, COUNT, &output, &error), &error);
+    refuse(aur_random_points(3, 1, 0, COUNT, &small, &error), AUR_ERROR_CAPACITY, &error);
+    refuse(aur_lcg_points(0, 1, 0, COUNT, &output, &error), AUR_ERROR_ARGUMENT, &error);
+    refuse(aur_icg_points(1, 1, UINT64_MAX, COUNT, &output, &error), AUR_ERROR_ARGUMENT, &error);
+    refuse(aur_jittered_points(0, 1, 0, COUNT, &output, &error), AUR_ERROR_ARGUMENT, &error);
+    refuse(aur_van_der_corput_points(NULL, 0, COUNT, &small, &error), AUR_ERROR_CAPACITY, &error);
+    refuse(aur_halton_points(6543, NULL, 0, 1, &output, &error), AUR_ERROR_ARGUMENT, &error);
+    refuse(aur_hammersley_points(3, 0, NULL, 0, 1, &output, &error), AUR_ERROR_ARGUMENT, &error);
+    refuse(aur_sobol_points(0, NULL, 0, 1, &output, &error), AUR_ERROR_ARGUMENT, &error);
+    refuse(aur_niederreiter_points(1025, NULL, 0, 1, &output, &error), AUR_ERROR_ARGUMENT, &error);
+    refuse(aur_larcher_pillichshammer_points(COUNT, NULL, 1, COUNT, &output, &error), AUR_ERROR_ARGUMENT,
+           &error);
+    refuse(aur_fibonacci_lattice_points(COUNT, 1.0, NULL, 0, 1, &output, &error), AUR_ERROR_ARGUMENT, &error);
+    refuse(aur_rank1_points(257, vector, COUNT, NULL, 0, 1, &output, &error), AUR_ERROR_ARGUMENT, &error);
+    refuse(aur_r2_points(65, NULL, 0, 1, &output, &error), AUR_ERROR_ARGUMENT, &error);
+    refuse(aur_golden_points(NAN, NULL, 0, 1, &output, &error), AUR_ERROR_ARGUMENT, &error);
+    refuse(aur_golden_set_points(0.5, 0, &output, &error), AUR_ERROR_ARGUMENT, &error);
+    refuse(aur_golden_set_points_two_seeds(0.5, 1.0, COUNT, &output, &error), AUR_ERROR_ARGUMENT, &error);
+}
+
+static void maps_and_lobes(void) {
+    const double square[2] = {0.25, 0.5};
+    double disk[2], direction[3], back[2];
+    aur_map_to_disk(AUR_MAP_CONCENTRIC, square, disk);
+    aur_map_from_disk(AUR_MAP_CONCENTRIC, disk, back);
+    require(fabs(back[0] - 0.25) < 1e-14, "the disk and back");
+    aur_map_to_hemisphere(AUR_MAP_LAMBERT, square, direction);
+    aur_map_from_hemisphere(AUR_MAP_LAMBERT, direction, back);
+    require(fabs(back[0] - 0.25) < 1e-14, "the hemisphere and back");
+    aur_map_to_sphere(AUR_MAP_LAMBERT, square, direction);
+    aur_map_from_sphere(AUR_MAP_LAMBERT, direction, back);
+    require(fabs(back[0] - 0.25) < 1e-14, "the sphere and back");
+    aur_map_to_cap(AUR_MAP_LAMBERT, 0.5, square, direction);
+    aur_map_from_cap(AUR_MAP_LAMBERT, 0.5, direction, back);
+    require(fabs(back[0] - 0.25) < 1e-14, "a cap and back");
+    require(aur_map_weight(AUR_MAP_POLAR, square) == 0.5, "aur_map_weight");
+    aur_lobe lobe, density;
+    refuse(aur_lobe_parse("round", &lobe, &error), AUR_ERROR_NAME, &error);
+    accept(aur_lobe_parse("phong:3", &lobe, &error), &error);
+    accept(aur_lobe_check(&lobe, &error), &error);
+    double bent[3], again[3];
+    aur_lobe_warp(&lobe, direction, bent);
+    aur_lobe_unwarp(&lobe, bent, again);
+    require(fabs(again[2] - direction[2]) < 1e-14 && aur_lobe_pdf(&lobe, bent) > 0.0, "a lobe and back");
+    accept(aur_lobe_optimal(&lobe, 1.5, &density, &error), &error);
+    refuse(aur_lobe_optimal(&lobe, 2.0, &density, &error), AUR_ERROR_ARGUMENT, &error);
+    aur_density_image *image = NULL;
+    const float pixels[] = {0.0f, 1.0f}, black[] = {0.0f};
+    refuse(aur_density_image_create(1, 1, black, &image, &error), AUR_ERROR_ARGUMENT, &error);
+    accept(aur_density_image_create(2, 1, pixels, &image, &error), &error);
+    aur_density_image_warp(image, square, back);
+    require(aur_density_image_pdf(image, back) == 2.0, "aur_density_image_pdf");
+    aur_density_image_unwarp(image, back, back);
+    require(fabs(back[0] - 0.25) < 1e-14, "a density and back");
+    aur_density_image_destroy(image);
+}
+
+static void directions(void) {
+    aur_rotation axial, uniform;
+    aur_rotation_axial(1, &axial);
+    aur_rotation_uniform(1, &uniform);
+    double north[3] = {0.0, 0.0, 1.0};
+    aur_rotation_apply(&axial, 1, north);
+    require(north[2] == 1.0, "an axial rotation moves the pole");
+    aur_rotation_apply(&uniform, 1, north);
+    const aur_fibonacci_set fibonacci = {COUNT, AUR_DOMAIN_SPHERE};
+    uint64_t indices[2];
+    accept(aur_fibonacci_nearest(&fibonacci, 1, north, 2, indices, &error), &error);
+    const uint64_t nearest = indices[0];
+    accept(aur_fibonacci_neighbours(&fibonacci, north, 2, 2, indices, &error), &error);
+    require(indices[0] == nearest, "the first neighbour is not the nearest point");
+    refuse(aur_fibonacci_nearest(&fibonacci, 1, north, 0, indices, &error), AUR_ERROR_CAPACITY, &error);
+    refuse(aur_fibonacci_neighbours(&fibonacci, buffer + 3 * COUNT - 3, COUNT + 1, 2, indices, &error),
+           AUR_ERROR_ARGUMENT, &error);
+    const aur_directions_options options = aur_directions_options_default(COUNT, AUR_DOMAIN_SPHERE);
+    aur_directions *set = NULL;
+    refuse(aur_directions_create("nothing", &options, &set, &error), AUR_ERROR_NAME, &error);
+    accept(aur_directions_create("spherical-fibonacci", &options, &set, &error), &error);
+    require(aur_directions_size(set) == COUNT, "aur_directions_size");
+    accept(aur_directions_points(set, 0, COUNT, 3 * COUNT, buffer, NULL, &error), &error);
+    accept(aur_directions_generate(set, 0, COUNT, &output, NULL, &error), &error);
+    refuse(aur_directions_points(set, 1, COUNT, 3 * COUNT, buffer, NULL, &error), AUR_ERROR_ARGUMENT, &error);
+    refuse(aur_directions_generate(set, 0, COUNT, &small, NULL, &error), AUR_ERROR_CAPACITY, &error);
+    aur_directions_destroy(set);
+}
+
+/* Made, written, read again and measured. */
+static void points_and_measures(void) {
+    const aur_directions_options options = aur_directions_options_default(COUNT, AUR_DOMAIN_SPHERE);
+    const aur_points_request request = aur_points_request_default(&options);
+    aur_points *points = NULL;
+    refuse(aur_points_generate("nothing", &request, &points, &error), AUR_ERROR_NAME, &error);
+    accept(aur_points_generate("spherical-fibonacci", &request, &points, &error), &error);
+    accept(aur_points_write("calls.csv", AUR_POINTS_CSV, aur_points_look(points), NULL, &error), &error);
+    aur_points_destroy(points);
+    refuse(aur_points_read("no such folder/calls.csv", &points, &error), AUR_ERROR_OPEN, &error);
+    refuse(aur_points_read_on("calls.csv", AUR_DOMAIN_SQUARE, &points, &error), AUR_ERROR_UNSUPPORTED,
+           &error);
+    accept(aur_points_read("calls.csv", &points, &error), &error);
+    aur_points_destroy(points);
+    accept(aur_points_read_on("calls.csv", AUR_DOMAIN_SPHERE, &points, &error), &error);
+    remove("calls.csv");
+    const aur_points_view *const view = aur_points_look(points);
+    const aur_measure_description *description = NULL;
+    accept(aur_measure_find("energy", &description, &error), &error);
+    refuse(aur_measure_find("enargy", &description, &error), AUR_ERROR_NAME, &error);
+    require(aur_measure_at(aur_measure_count()) == NULL, "aur_measure_at");
+    double value = 0.0;
+    accept(aur_measure("energy", view, NULL, &value, &error), &error);
+    refuse(aur_measure("star", view, NULL, &value, &error), AUR_ERROR_UNSUPPORTED, &error);
+    aur_series *series = NULL;
+    refuse(aur_measure_series("energy", view, NULL, &series, &error), AUR_ERROR_UNSUPPORTED, &error);
+    accept(aur_measure_series("voronoi", view, NULL, &series, &error), &error);
+    const size_t columns = aur_series_column_count(series);
+    require(aur_series_row_count(series) == COUNT && aur_series_column(series, columns) == NULL &&
+                strcmp(aur_series_column(series, 0), "point") == 0 &&
+                aur_series_values(series)[columns] == 2.0,
+            "a table of cells");
+    aur_series_destroy(series);
+    aur_points_destroy(points);
+}
+
+static void weights(void) {
+    const aur_lobe lobe = {.exponent = 3.0};
+    aur_density density = {.size = sizeof density};
+    accept(aur_density_from_lobe(&lobe, AUR_DOMAIN_HEMISPHERE, &density, &error), &error);
+    refuse(aur_density_from_lobe(&lobe, AUR_DOMAIN_SQUARE, &density, &error), AUR_ERROR_UNSUPPORTED, &error);
+    aur_potential *potential = NULL;
+    accept(aur_potential_create(&density, 1.25, &potential, &error), &error);
+    require(aur_potential_smoothness(potential) == 1.25, "aur_potential_smoothness");
+    aur_potential_destroy(potential);
+    const double north[3] = {0.0, 0.0, 1.0}, weight = 1.0;
+    accept(aur_weights_write("calls.csv", 1, north, 1, &weight, &error), &error);
+    remove("calls.csv");
+    refuse(aur_weights_write("no such folder/calls.csv", 1, north, 1, &weight, &error), AUR_ERROR_WRITE,
+           &error);
+}
+
+int main(void) {
+    weights();
+    names();
+    prepared_sets();
+    direct_generators();
+    maps_and_lobes();
+    directions();
+    points_and_measures();
+    return 0;
+}
