@@ -31,19 +31,25 @@ AUR_API const char *aur_map_name(aur_map map); /* NULL for a value out of range 
  * 1e-15 of the domain's size. */
 AUR_API void aur_map_to_disk(aur_map map, const double square[2], double disk[2]) AUR_NONNULL(2, 3);
 AUR_API void aur_map_from_disk(aur_map map, const double disk[2], double square[2]) AUR_NONNULL(2, 3);
-/* u,v in [0,1) to the unit directions with z >= 0, to all of them, and back. */
-AUR_API void aur_map_to_hemisphere(aur_map map, const double square[2], double direction[3])
-    AUR_NONNULL(2, 3);
-AUR_API void aur_map_from_hemisphere(aur_map map, const double direction[3], double square[2])
-    AUR_NONNULL(2, 3);
-AUR_API void aur_map_to_sphere(aur_map map, const double square[2], double direction[3]) AUR_NONNULL(2, 3);
-AUR_API void aur_map_from_sphere(aur_map map, const double direction[3], double square[2]) AUR_NONNULL(2, 3);
-/* The same for the cap z >= 1 - height about +z, height in (0,2]: 1 is the hemisphere and 2 the sphere. A
+/* u,v in [0,1) to the unit directions of the cap z >= 1 - height about +z, height in (0,2], and back. A
  * direction outside the cap comes back as the nearest one on its rim. */
 AUR_API void aur_map_to_cap(aur_map map, double height, const double square[2], double direction[3])
     AUR_NONNULL(3, 4);
 AUR_API void aur_map_from_cap(aur_map map, double height, const double direction[3], double square[2])
     AUR_NONNULL(3, 4);
+/* The cap of height 1 is the hemisphere z >= 0, that of height 2 the sphere. */
+static inline void aur_map_to_hemisphere(aur_map map, const double square[2], double direction[3]) {
+    aur_map_to_cap(map, 1.0, square, direction);
+}
+static inline void aur_map_from_hemisphere(aur_map map, const double direction[3], double square[2]) {
+    aur_map_from_cap(map, 1.0, direction, square);
+}
+static inline void aur_map_to_sphere(aur_map map, const double square[2], double direction[3]) {
+    aur_map_to_cap(map, 2.0, square, direction);
+}
+static inline void aur_map_from_sphere(aur_map map, const double direction[3], double square[2]) {
+    aur_map_from_cap(map, 2.0, direction, square);
+}
 /* The uniform density over the map's own: 1, and 2u for POLAR. Its mean over the square is 1. */
 AUR_API double aur_map_weight(aur_map map, const double square[2]) AUR_NONNULL(2);
 

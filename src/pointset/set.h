@@ -39,6 +39,7 @@ enum {
 typedef struct aur_square_set {
     aur_set_description description;
     bool pairs;           /* fill() makes two coordinates that lie beside each other in one go */
+    const void *own;      /* what prepare() and fill() of several kinds tell them apart by; or NULL */
     unsigned scramblings; /* bit 1 << aur_scramble: what has a meaning here */
     /* Reads the keys and makes set->data ready (NULL: there are none and nothing is to be made ready). Size,
      * dimension, scrambling, seed and net_base are set and within the limits above; what a key or a file says

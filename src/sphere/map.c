@@ -3,11 +3,10 @@
  * All but POLAR preserve area. A disk of squared radius a = r^2 is lifted to a cap of height h about +z by
  * z = 1 - h a, which is Archimedes' theorem: h = 1 is the hemisphere, h = 2 the sphere. */
 #include <math.h>
-#include <string.h>
 
 #include <aureole/sphere.h>
 
-#include "core/error.h"
+#include "core/names.h"
 #include "core/vector.h"
 #include "sphere/phase.h"
 
@@ -15,14 +14,12 @@ static const char *const names[] = {"lambert", "concentric", "azimuthal", "polar
 enum { NAME_COUNT = sizeof names / sizeof names[0] };
 
 aur_result aur_map_from_name(const char *name, aur_map *map, aur_error *error) {
-    for (size_t i = 0; i < NAME_COUNT; ++i) {
-        if (strcmp(names[i], name) == 0) {
-            *map = (aur_map)i;
-            return AUR_OK;
-        }
-    }
-    return aur_fail(error, AUR_ERROR_NAME,
-                    "unknown map '%s'; it must be lambert, concentric, azimuthal or polar", name);
+    size_t index;
+    const aur_result result =
+        aur_names_choose(aur_names_of(NAME_COUNT, names), "map", name, (aur_location){0}, &index, error);
+    if (result == AUR_OK)
+        *map = (aur_map)index;
+    return result;
 }
 
 const char *aur_map_name(aur_map map) {
@@ -128,22 +125,6 @@ void aur_map_from_cap(aur_map map, double height, const double direction[3], dou
     }
     square[0] = clamp_unit(square[0]);
     square[1] = clamp_unit(square[1]);
-}
-
-void aur_map_to_hemisphere(aur_map map, const double square[2], double direction[3]) {
-    aur_map_to_cap(map, 1.0, square, direction);
-}
-
-void aur_map_from_hemisphere(aur_map map, const double direction[3], double square[2]) {
-    aur_map_from_cap(map, 1.0, direction, square);
-}
-
-void aur_map_to_sphere(aur_map map, const double square[2], double direction[3]) {
-    aur_map_to_cap(map, 2.0, square, direction);
-}
-
-void aur_map_from_sphere(aur_map map, const double direction[3], double square[2]) {
-    aur_map_from_cap(map, 2.0, direction, square);
 }
 
 double aur_map_weight(aur_map map, const double square[2]) {

@@ -1,4 +1,5 @@
-/* Halton 1960: coordinate d of point i is the radical inverse of i in the d-th prime base. Hammersley 1960:
+/* van der Corput 1935: the radical inverse in base 2, one dimension, equally spaced when n is a power of two.
+ * Halton 1960: coordinate d of point i is the radical inverse of i in the d-th prime base. Hammersley 1960:
  * the first coordinate is i/N and the others are Halton's. Random access, up to 6542 dimensions (primes below
  * 2^16), n below 2^48; any n is as good as another. Error O(log^d N / N), log^(d-1) for Hammersley. In many
  * dimensions neighbouring large bases are correlated unless digits are permuted. */
@@ -95,4 +96,16 @@ const aur_square_set aur_set_hammersley = {
     .scramblings = AUR_SCRAMBLES_ALL,
     .prepare = prepare,
     .fill = fill_hammersley,
+};
+
+const aur_square_set aur_set_van_der_corput = {
+    .description = {.row = {.name = "van-der-corput",
+                            .summary = "radical inverse in base 2, one dimension",
+                            .source = "van der Corput 1935"},
+                    .domains = AUR_ON_CUBE,
+                    .dimensions = {1, 1},
+                    .maximum_size = AUR_INDEX_LIMIT,
+                    .extensible = true},
+    .scramblings = AUR_SCRAMBLES_ALL,
+    .fill = fill_halton,
 };

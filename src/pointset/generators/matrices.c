@@ -10,6 +10,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "core/array.h"
 #include "core/file.h"
 #include "pointset/digits/digital.h"
 #include "pointset/digits/radical_inverse.h"
@@ -46,14 +47,8 @@ static aur_result end_matrix(reader *r) {
 static aur_result put_digit(reader *r, uint64_t digit) {
     if (digit >= r->base)
         return fail(r, "a digit must be less than the base", r->base);
-    if (r->digit_count == r->capacity) {
-        const size_t capacity = r->capacity == 0 ? 1024 : 2 * r->capacity;
-        uint16_t *const digits = realloc(r->digits, capacity * sizeof *digits);
-        if (digits == NULL)
-            return aur_fail_memory(r->error);
-        r->digits = digits;
-        r->capacity = capacity;
-    }
+    if (!aur_array_reserve(&r->digits, &r->capacity, r->digit_count + 1, sizeof *r->digits))
+        return aur_fail_memory(r->error);
     r->digits[r->digit_count++] = (uint16_t)digit;
     return AUR_OK;
 }

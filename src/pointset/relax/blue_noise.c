@@ -228,11 +228,6 @@ static aur_result relax(uint64_t seed, size_t count, aur_point2 *sites, aur_erro
     return result;
 }
 
-static aur_result prepare(aur_pointset *set, aur_parameters *keys, aur_error *error) {
-    (void)keys;
-    return aur_prepare_relaxed(set, VERSION, relax, error);
-}
-
 const aur_square_set aur_set_blue_noise = {
     .description = {.row = {.name = "blue-noise",
                             .summary = "capacity-constrained Voronoi tessellation, periodic",
@@ -241,6 +236,7 @@ const aur_square_set aur_set_blue_noise = {
                     .dimensions = {2, 2},
                     .maximum_size = 1 << 16},
     .scramblings = AUR_SCRAMBLES_SHIFT,
-    .prepare = prepare,
+    .own = &(const aur_relaxation){VERSION, relax},
+    .prepare = aur_prepare_relaxed,
     .fill = aur_fill_table,
 };

@@ -190,11 +190,6 @@ static aur_result relax(uint64_t seed, size_t count, aur_point2 *sites, aur_erro
     return AUR_OK;
 }
 
-static aur_result prepare(aur_pointset *set, aur_parameters *keys, aur_error *error) {
-    (void)keys;
-    return aur_prepare_relaxed(set, VERSION, relax, error);
-}
-
 const aur_square_set aur_set_bnot = {
     .description = {.row = {.name = "bnot",
                             .summary = "blue noise through optimal transport, periodic",
@@ -203,6 +198,7 @@ const aur_square_set aur_set_bnot = {
                     .dimensions = {2, 2},
                     .maximum_size = 1 << 16},
     .scramblings = AUR_SCRAMBLES_SHIFT,
-    .prepare = prepare,
+    .own = &(const aur_relaxation){VERSION, relax},
+    .prepare = aur_prepare_relaxed,
     .fill = aur_fill_table,
 };

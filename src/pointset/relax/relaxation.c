@@ -84,24 +84,13 @@ static bool cache_path(const aur_pointset *set, unsigned version, const char *fo
     return length > 0 && length < PATH_CAPACITY;
 }
 
-/* What stands before the points in a file of the cache, in the machine's own order of bytes. */
-typedef struct cache_header {
-    uint64_t magic, key, check_sum;
-} cache_header;
-
-static const uint64_t cache_magic = UINT64_C(0x61757265706f696e);
-
-/* What the points follow from. */
-static uint64_t cache_key(const aur_pointset *set, unsigned version) {
-    uint64_t key = aur_hash3(version, set->size, set->seed);
+/* A hash of the points, and of what they follow from: a file of the cache is 8 bytes of it and the points, in
+ * the machine's own order of bytes. */
+static uint64_t check_sum(const aur_pointset *set, unsigned version, const aur_point2 *sites) {
+    uint64_t sum = aur_hash3(version, set->size, set->seed);
     for (const char *c = set->kind->description.row.name; *c != '\0'; ++c)
-        key = aur_hash2(key, (unsigned char)*c);
-    return key;
-}
-
-static uint64_t check_sum(size_t count, const aur_point2 *sites) {
-    uint64_t sum = count;
-    for (size_t i = 0; i < count; ++i) {
+        sum = aur_hash2(sum, (unsigned char)*c);
+    for (size_t i = 0; i < set->size; ++i) {
         uint64_t bits[2];
         memcpy(bits, &sites[i], sizeof bits);
         sum = aur_hash3(sum, bits[0], bits[1]);
@@ -109,54 +98,50 @@ static uint64_t check_sum(size_t count, const aur_point2 *sites) {
     return sum;
 }
 
-/* The points of a file, or NULL when it is not the one that was written. */
-static aur_point2 *read_cache(const char *path, uint64_t key, size_t count) {
-    const size_t bytes = count * sizeof(aur_point2);
-    cache_header header;
+/* The points of a file; false when it is not the one that was written. */
+static bool read_cache(const char *path, const aur_pointset *set, unsigned version, aur_point2 *sites) {
+    const size_t bytes = set->size * sizeof *sites;
+    uint64_t sum;
     char *data;
     size_t size;
-    if (aur_file_read(path, sizeof header + bytes, &data, &size, NULL) != AUR_OK)
-        return NULL;
-    aur_point2 *sites = size == sizeof header + bytes ? malloc(bytes) : NULL;
-    if (sites != NULL) {
-        memcpy(&header, data, sizeof header);
-        memcpy(sites, data + sizeof header, bytes);
-        if (header.magic != cache_magic || header.key != key || header.check_sum != check_sum(count, sites)) {
-            free(sites);
-            sites = NULL;
-        }
+    if (aur_file_read(path, sizeof sum + bytes, &data, &size, NULL) != AUR_OK)
+        return false;
+    const bool whole = size == sizeof sum + bytes;
+    if (whole) {
+        memcpy(&sum, data, sizeof sum);
+        memcpy(sites, data + sizeof sum, bytes);
     }
     free(data);
-    return sites;
+    return whole && sum == check_sum(set, version, sites);
 }
 
-static void write_cache(const char *path, uint64_t key, size_t count, const aur_point2 *sites) {
-    const cache_header header = {cache_magic, key, check_sum(count, sites)};
+static void write_cache(const char *path, const aur_pointset *set, unsigned version,
+                        const aur_point2 *sites) {
+    const uint64_t sum = check_sum(set, version, sites);
     aur_file_writer writer;
     if (aur_file_open(path, &writer, NULL) != AUR_OK)
         return;
-    fwrite(&header, sizeof header, 1, writer.stream);
-    fwrite(sites, sizeof *sites, count, writer.stream);
+    fwrite(&sum, sizeof sum, 1, writer.stream);
+    fwrite(sites, sizeof *sites, set->size, writer.stream);
     (void)aur_file_commit(&writer, NULL);
 }
 
-aur_result aur_prepare_relaxed(aur_pointset *set, unsigned version, aur_relaxation relax, aur_error *error) {
-    const size_t count = (size_t)set->size;
+aur_result aur_prepare_relaxed(aur_pointset *set, aur_parameters *keys, aur_error *error) {
+    (void)keys;
+    const aur_relaxation *const how = set->kind->own;
     char folder[PATH_CAPACITY];
     char path[PATH_CAPACITY];
-    const bool cached = cache_folder(folder) && cache_path(set, version, folder, path);
-    const uint64_t key = cache_key(set, version);
-    set->data = cached ? read_cache(path, key, count) : NULL;
-    if (set->data != NULL)
-        return AUR_OK;
-    aur_point2 *const sites = malloc(count * sizeof *sites);
+    const bool cached = cache_folder(folder) && cache_path(set, how->version, folder, path);
+    aur_point2 *const sites = malloc(set->size * sizeof *sites);
     if (sites == NULL)
         return aur_fail_memory(error);
     set->data = sites;
-    const aur_result result = relax(set->seed, count, sites, error);
+    if (cached && read_cache(path, set, how->version, sites))
+        return AUR_OK;
+    const aur_result result = how->relax(set->seed, (size_t)set->size, sites, error);
     if (result == AUR_OK && cached) {
         make_folders(folder);
-        write_cache(path, key, count, sites);
+        write_cache(path, set, how->version, sites);
     }
     return result;
 }

@@ -43,13 +43,16 @@ bool aur_site_grid_create(aur_site_grid *grid, size_t count); /* false: out of m
 void aur_site_grid_destroy(aur_site_grid *grid);
 void aur_site_grid_fill(aur_site_grid *grid, size_t count, const aur_point2 *sites);
 
-/* Writes set->size points or fails. */
-typedef aur_result (*aur_relaxation)(uint64_t seed, size_t count, aur_point2 *sites, aur_error *error);
+/* How points are relaxed: kind->own of a set whose prepare() is aur_prepare_relaxed. */
+typedef struct aur_relaxation {
+    unsigned version; /* changes whenever the points do */
+    /* Writes `count` points or fails. */
+    aur_result (*relax)(uint64_t seed, size_t count, aur_point2 *sites, aur_error *error);
+} aur_relaxation;
 
-/* Makes set->data a table of the points that `relax` computes from the seed, or takes it from a file that an
+/* Makes set->data a table of the points that are computed from the seed, or takes it from a file that an
  * earlier call has left. The file is <folder>/<name>-<version>-<count>-<seed>.points, where the folder is the
  * value of the environment variable AUREOLE_CACHE, else aureole in XDG_CACHE_HOME, else .cache/aureole in
  * HOME; an empty AUREOLE_CACHE means that nothing is kept. A file that cannot be read or written, or whose
- * check sum is not that of its points, is no error: the points are computed. `version` changes whenever the
- * points do. */
-aur_result aur_prepare_relaxed(aur_pointset *set, unsigned version, aur_relaxation relax, aur_error *error);
+ * check sum is not that of its points, is no error: the points are computed. */
+aur_result aur_prepare_relaxed(aur_pointset *set, aur_parameters *keys, aur_error *error);

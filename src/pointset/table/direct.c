@@ -1,9 +1,8 @@
 /* The direct generators: a set on the stack, with the generator's own data where it needs any. */
 #include <math.h>
 
-#include "pointset/generators/golden.h"
 #include "pointset/generators/lattice.h"
-#include "pointset/generators/r2.h"
+#include "pointset/generators/recurrence.h"
 #include "pointset/sets.h"
 
 /* `size` 0 stands for as many points as the set has at most. */
@@ -129,9 +128,9 @@ aur_result aur_r2_points(size_t dimension, const aur_randomization *randomizatio
     const aur_result result = check_dimension(dimension, AUR_R2_DIMENSIONS, error);
     if (result != AUR_OK)
         return result;
-    aur_fraction128 steps[AUR_R2_DIMENSIONS];
-    aur_r2_steps(dimension, steps);
-    const aur_pointset set = {.kind = &aur_set_r2, .dimension = dimension, .data = steps};
+    aur_recurrence recurrence;
+    aur_recurrence_r2(dimension, &recurrence);
+    const aur_pointset set = {.kind = &aur_set_r2, .dimension = dimension, .data = &recurrence};
     return emit(set, randomization, first, count, output, error);
 }
 
@@ -139,7 +138,8 @@ aur_result aur_golden_points(double s, const aur_randomization *randomization, u
                              const aur_output *output, aur_error *error) {
     if (!(s >= 0.0 && s < 1.0))
         return aur_fail(error, AUR_ERROR_ARGUMENT, "the start must be at least 0 and below 1, not %g", s);
-    uint64_t start = aur_golden_start(s);
-    const aur_pointset set = {.kind = &aur_set_golden, .dimension = 1, .data = &start};
+    aur_recurrence recurrence;
+    aur_recurrence_golden(s, &recurrence);
+    const aur_pointset set = {.kind = &aur_set_golden, .dimension = 1, .data = &recurrence};
     return emit(set, randomization, first, count, output, error);
 }
