@@ -8,7 +8,7 @@
 #include "core/parameters.h"
 #include "core/text.h"
 #include "core/vector.h"
-#include "sphere/lobe_ggx.h"
+#include "core/vector3d.h"
 
 enum { MAXIMUM_EXPONENT = 1000000000 };
 
@@ -68,6 +68,87 @@ aur_result aur_lobe_parse(const char *text, aur_lobe *lobe, aur_error *error) {
                     "'%s' is no lobe; it must be uniform, cosine, phong:M or ggx:ALPHA[:VIEW_DEGREES]", text);
 }
 
+/* --- GGX: reflection by the visible normals of a surface
+ *
+ * Stretching the surface by 1/alpha makes it a hemisphere, whose visible normals reflect the stretched view
+ * direction uniformly into the cap z > -view.z (Dupuy and Benyoub 2023, "Sampling visible GGX normals with
+ * spherical caps"). So a uniform direction of the hemisphere becomes one of that cap by a linear map of z at
+ * the same azimuth, and everything has an inverse. */
+
+static void view_of(const aur_lobe *lobe, double view[3]) {
+    const double angle = lobe->view_degrees * (AUR_PI / 180.0);
+    view[0] = sin(angle);
+    view[1] = 0.0;
+    view[2] = cos(angle);
+}
+
+/* From the surface to the space where it is a hemisphere (scale = alpha for directions, 1/alpha for normals).
+ */
+static void stretch(double v[3], double scale) {
+    v[0] *= scale;
+    v[1] *= scale;
+    aur_normalize3(v);
+}
+
+/* The point of a cap at height `z` with the azimuth of `from`. */
+static void at_height(const double from[3], double z, double to[3]) {
+    const double across = from[0] * from[0] + from[1] * from[1];
+    const double scale = across > 0.0 ? sqrt(fmax((1.0 - z) * (1.0 + z), 0.0) / across) : 0.0;
+    to[0] = from[0] * scale;
+    to[1] = from[1] * scale;
+    to[2] = z;
+}
+
+/* The view reflected by a normal, of unit length. */
+static void reflect(const double view[3], const double normal[3], double out[3]) {
+    const double twice = 2.0 * aur_dot3(view, normal);
+    for (size_t i = 0; i < 3; ++i)
+        out[i] = twice * normal[i] - view[i];
+    aur_normalize3(out);
+}
+
+static void ggx_warp(const aur_lobe *lobe, const double uniform[3], double direction[3]) {
+    double view[3], standard[3], normal[3];
+    view_of(lobe, view);
+    view_of(lobe, standard);
+    stretch(standard, lobe->alpha);
+    at_height(uniform, uniform[2] * (1.0 + standard[2]) - standard[2], normal);
+    for (size_t i = 0; i < 3; ++i)
+        normal[i] += standard[i];
+    stretch(normal, lobe->alpha);
+    reflect(view, normal, direction);
+}
+
+static void ggx_unwarp(const aur_lobe *lobe, const double direction[3], double uniform[3]) {
+    double view[3], standard[3], cap[3];
+    view_of(lobe, view);
+    view_of(lobe, standard);
+    stretch(standard, lobe->alpha);
+    double normal[3] = {direction[0] + view[0], direction[1] + view[1], direction[2] + view[2]};
+    stretch(normal, 1.0 / lobe->alpha);
+    reflect(standard, normal, cap);
+    const double z = (cap[2] + standard[2]) / (1.0 + standard[2]);
+    at_height(cap, fmin(fmax(z, 0.0), 1.0), uniform);
+}
+
+static double ggx_pdf(const aur_lobe *lobe, const double direction[3]) {
+    double view[3];
+    view_of(lobe, view);
+    double normal[3] = {direction[0] + view[0], direction[1] + view[1], direction[2] + view[2]};
+    aur_normalize3(normal);
+    if (normal[2] <= 0.0 || aur_dot3(view, normal) <= 0.0)
+        return 0.0;
+    /* G1(view) D(normal) / (4 view.z), Heitz 2018 eqs 1-3 with the Jacobian of the reflection. */
+    const double alpha2 = lobe->alpha * lobe->alpha;
+    const double across = normal[0] * normal[0] + normal[1] * normal[1];
+    const double shape = across / alpha2 + normal[2] * normal[2];
+    const double distribution = 1.0 / (AUR_PI * alpha2 * shape * shape);
+    const double projected = view[2] + sqrt(view[2] * view[2] + alpha2 * view[0] * view[0]);
+    return distribution / (2.0 * projected);
+}
+
+/* --- powers of the cosine, and the choice between the two */
+
 /* ln z of a unit vector of the upper hemisphere, to full relative precision about the pole too. */
 static double log_cosine(const double direction[3], double across) {
     return direction[2] > 0.5 ? log1p(-across / (1.0 + direction[2])) : log(fmax(direction[2], 0.0));
@@ -87,7 +168,7 @@ static void raise_cosine(double power, const double from[3], double to[3]) {
 
 void aur_lobe_warp(const aur_lobe *lobe, const double uniform[3], double direction[3]) {
     if (lobe->kind == AUR_LOBE_GGX)
-        aur_ggx_warp(lobe, uniform, direction);
+        ggx_warp(lobe, uniform, direction);
     else if (lobe->exponent != 0.0)
         raise_cosine(1.0 / (lobe->exponent + 1.0), uniform, direction);
     else
@@ -96,7 +177,7 @@ void aur_lobe_warp(const aur_lobe *lobe, const double uniform[3], double directi
 
 void aur_lobe_unwarp(const aur_lobe *lobe, const double direction[3], double uniform[3]) {
     if (lobe->kind == AUR_LOBE_GGX)
-        aur_ggx_unwarp(lobe, direction, uniform);
+        ggx_unwarp(lobe, direction, uniform);
     else if (lobe->exponent != 0.0)
         raise_cosine(lobe->exponent + 1.0, direction, uniform);
     else
@@ -105,7 +186,7 @@ void aur_lobe_unwarp(const aur_lobe *lobe, const double direction[3], double uni
 
 double aur_lobe_pdf(const aur_lobe *lobe, const double direction[3]) {
     if (lobe->kind == AUR_LOBE_GGX)
-        return aur_ggx_pdf(lobe, direction);
+        return ggx_pdf(lobe, direction);
     if (direction[2] < 0.0)
         return 0.0;
     const double m = lobe->exponent;

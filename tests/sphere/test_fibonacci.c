@@ -3,7 +3,7 @@
 #include <string.h>
 
 #include "core/simd.h"
-#include "sphere/sets/fibonacci_kernels.h"
+#include "sphere/sets/fibonacci.h"
 
 static const aur_directions_options sphere = {.size = sizeof sphere, .domain = AUR_DOMAIN_SPHERE};
 

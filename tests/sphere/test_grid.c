@@ -4,7 +4,7 @@
 #include <string.h>
 
 #include "sphere/phase.h"
-#include "sphere/sets/fibonacci_kernels.h"
+#include "sphere/sets/fibonacci.h"
 #include "sphere/sets/grid.h"
 
 static double *grid(const char *keys, uint64_t count, aur_domain domain) {

@@ -83,7 +83,7 @@ void aur_fill_digital(const aur_pointset *set, const uint64_t columns[AUR_DIGITA
         fill_plainly(&run, 0, block->point_stride, out);
         return;
     }
-    /* Make it without gaps, then spread it. */
+    /* The run is made without gaps in a buffer and then spread. */
     _Alignas(64) double buffer[BUFFER_LENGTH];
     run.out = buffer;
     for (size_t begin = 0; begin < block->count; begin += run.count) {

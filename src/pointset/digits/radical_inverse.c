@@ -56,7 +56,7 @@ double aur_radical_inverse(uint32_t base, uint64_t index, aur_digits digits, uin
     return aur_digit_sum_value(&sum);
 }
 
-/* Base 2: the identity matrix. */
+/* In base 2 the radical inverse is the digital sequence of the identity matrix. */
 static void fill_binary(const aur_pointset *set, const aur_block *block, size_t d) {
     uint64_t columns[AUR_DIGITAL_COLUMNS];
     for (unsigned k = 0; k < AUR_DIGITAL_COLUMNS; ++k)

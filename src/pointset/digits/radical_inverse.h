@@ -48,7 +48,7 @@ void aur_digit_sum_put(aur_digit_sum *sum, uint32_t digit);
 /* In [0,1). */
 double aur_digit_sum_value(const aur_digit_sum *sum);
 
-/* How many digits fit. */
+/* How many digits of the base fit into the fraction. */
 size_t aur_digit_sum_places(uint32_t base);
 
 /* In [0,1). `index` is below AUR_INDEX_LIMIT. */

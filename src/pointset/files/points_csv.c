@@ -26,7 +26,7 @@ static char *skip_spaces(char *text) {
     return text;
 }
 
-/* To the next field, over one comma at most. */
+/* Goes to the next field: over blanks and over one comma at most. */
 static char *skip_separator(char *text) {
     text = skip_spaces(text);
     return *text == ',' ? skip_spaces(text + 1) : text;
@@ -40,13 +40,15 @@ static bool grow(reader *r) {
            aur_array_reserve(&matrix->lines, &r->line_capacity, matrix->row_count + 1, sizeof *matrix->lines);
 }
 
+/* A field ends at a comma, a blank or the end of the line. */
+static size_t field_length(const char *text) {
+    return strcspn(text, ", \t\r");
+}
+
 static size_t count_fields(char *text) {
     size_t count = 0;
-    for (text = skip_spaces(text); *text != '\0'; text = skip_separator(text)) {
+    for (text = skip_spaces(text); *text != '\0'; text = skip_separator(text + field_length(text)))
         ++count;
-        while (*text != '\0' && *text != ',' && *text != ' ' && *text != '\t' && *text != '\r')
-            ++text;
-    }
     return count;
 }
 
@@ -55,16 +57,14 @@ static aur_result read_header(reader *r, char *text) {
     char *const header = r->matrix->header;
     size_t used = 0;
     for (text = skip_spaces(text); *text != '\0'; text = skip_separator(text)) {
-        if (used > 0 && used < sizeof r->matrix->header)
+        const char *const end = text + field_length(text);
+        if (used + (size_t)(end - text) + 2 > sizeof r->matrix->header)
+            return aur_fail_at(r->error, here(r), AUR_ERROR_FORMAT, "the header is too long");
+        if (used > 0)
             header[used++] = ',';
-        while (*text != '\0' && *text != ',' && *text != ' ' && *text != '\t' && *text != '\r') {
-            if (used < sizeof r->matrix->header)
-                header[used++] = (char)tolower((unsigned char)*text);
-            ++text;
-        }
+        while (text < end)
+            header[used++] = (char)tolower((unsigned char)*text++);
     }
-    if (used >= sizeof r->matrix->header)
-        return aur_fail_at(r->error, here(r), AUR_ERROR_FORMAT, "the header is too long");
     header[used] = '\0';
     return AUR_OK;
 }
@@ -81,12 +81,11 @@ static aur_result read_row(reader *r, char *text) {
     text = skip_spaces(text);
     for (size_t c = 0; c < fields; ++c, text = skip_separator(text)) {
         const char *const end = aur_read_double(text, AUR_NUMBER_FINITE, &row[c]);
-        if (end == NULL || !(*end == '\0' || *end == ',' || *end == ' ' || *end == '\t' || *end == '\r')) {
-            const int length = (int)strcspn(text, ", \t\r");
+        const size_t length = field_length(text);
+        if (end != text + length)
             return aur_fail_at(r->error, here(r), AUR_ERROR_FORMAT,
-                               "column %zu: '%.*s' is not a finite number", c + 1, length, text);
-        }
-        text += end - text;
+                               "column %zu: '%.*s' is not a finite number", c + 1, (int)length, text);
+        text += length;
     }
     matrix->lines[matrix->row_count++] = r->line;
     return AUR_OK;

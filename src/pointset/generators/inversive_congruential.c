@@ -22,7 +22,7 @@ static matrix multiply(matrix m, matrix n) {
                     (m.c * n.a + m.d * n.c) % modulus, (m.c * n.b + m.d * n.d) % modulus};
 }
 
-/* By Fermat's little theorem; 0 goes to 0. */
+/* 1/x modulo the prime, by Fermat's little theorem; 0 for 0. */
 static uint64_t inverse(uint64_t x) {
     uint64_t result = 1;
     for (uint64_t exponent = modulus - 2; exponent > 0; exponent >>= 1) {
@@ -80,7 +80,7 @@ static void go_on(run *r) {
     const bool leaves_zero = r->k == 0;
     r->k += r->stride;
     if (leaves_zero || r->k >= modulus) {
-        /* Infinity is stepped over. */
+        /* The generator has no infinity: the run goes on behind it. */
         r->k %= modulus;
         r->p = value_at(r->k);
         r->q = 1;

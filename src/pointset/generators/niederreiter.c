@@ -39,7 +39,7 @@ static uint64_t divide_series(uint64_t series, uint32_t polynomial, unsigned deg
     return quotient;
 }
 
-/* Of the irreducible polynomials in ascending order: x, x + 1, x^2 + x + 1, ... */
+/* The irreducible polynomial of a dimension, in ascending order: x, x + 1, x^2 + x + 1, ... */
 static uint32_t polynomial_of(size_t dimension) {
     uint32_t polynomial = 2;
     for (size_t d = 0; !is_irreducible(polynomial) || d++ < dimension; ++polynomial)

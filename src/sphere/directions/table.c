@@ -45,12 +45,10 @@ const aur_set_description *aur_set_find(const char *set) {
 }
 
 const aur_native_set *aur_native_find(const char *set) {
-    const size_t length = strcspn(set, ":");
-    for (size_t i = 0; i < NATIVE_COUNT; ++i) {
-        const char *const name = natives[i]->description.row.name;
-        if (strlen(name) == length && strncmp(name, set, length) == 0)
+    const aur_set_description *const row = aur_set_find(set);
+    for (size_t i = 0; i < NATIVE_COUNT; ++i)
+        if (&natives[i]->description == row)
             return natives[i];
-    }
     return NULL;
 }
 

@@ -37,7 +37,8 @@ static aur_result make_lattice(const aur_fibonacci_set *set, aur_sphere_lattice 
     return AUR_OK;
 }
 
-/* Near enough to the unit sphere, and to the hemisphere where that is the domain. NaN fails. */
+/* A direction must be of unit length within 1e-4, and not below the hemisphere where that is the domain; NaN
+ * fails. */
 static aur_result check_direction(const aur_sphere_lattice *lattice, const double *q, aur_error *error) {
     const double square = q[0] * q[0] + q[1] * q[1] + q[2] * q[2];
     if (fabs(square - 1.0) <= 1e-4 && (lattice->limit == lattice->whole || q[2] >= -1e-4))

@@ -15,3 +15,11 @@ typedef void (*aur_fibonacci_kernel)(const aur_fibonacci *set, uint64_t first, s
 
 /* The kernel for this processor; all give the same bits. */
 aur_fibonacci_kernel aur_fibonacci_choose_kernel(void);
+
+/* What it chooses from: no kernel fuses a multiplication and an addition. */
+void aur_fibonacci_points_portable(const aur_fibonacci *set, uint64_t first, size_t count, double *xyz);
+void aur_fibonacci_points_avx2(const aur_fibonacci *set, uint64_t first, size_t count, double *xyz);
+void aur_fibonacci_points_avx512(const aur_fibonacci *set, uint64_t first, size_t count, double *xyz);
+
+/* Bytes from which on the caches cannot hold the points, so that they are streamed past them. */
+enum { AUR_FIBONACCI_STREAM_BYTES = 8 << 20 };

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "sphere/phase_lanes.h"
-#include "sphere/sets/fibonacci_kernels.h"
+#include "sphere/sets/fibonacci.h"
 
 static inline void fill_one_by_one(const aur_fibonacci *set, uint64_t first, size_t count, double *xyz) {
     for (size_t i = 0; i < count; ++i) {
