@@ -49,14 +49,14 @@ static inline aur_facets_options aur_facets_options_default(void) {
 
 /* Reads an OBJ, a PLY or a scene (.xml). `options` may be NULL. Errors: OPEN, FORMAT (with file and line),
  * UNSUPPORTED (other files; shapes that are no meshes, or instances), those of aur_scene_load, MEMORY. */
-AUR_API aur_result aur_facets_load(const char *path, const aur_facets_options *options, aur_facets **facets,
-                                   aur_error *error) AUR_NONNULL(1, 3);
-AUR_API void aur_facets_destroy(aur_facets *facets); /* NULL is allowed */
+AUR_EXPERIMENTAL aur_result aur_facets_load(const char *path, const aur_facets_options *options,
+                                            aur_facets **facets, aur_error *error) AUR_NONNULL(1, 3);
+AUR_EXPERIMENTAL void aur_facets_destroy(aur_facets *facets); /* NULL is allowed */
 /* The number of rows, and the area of each of them in squared units of length; owned by the facets. */
-AUR_API size_t aur_facets_rows(const aur_facets *facets) AUR_NONNULL(1);
-AUR_API const double *aur_facets_areas(const aur_facets *facets) AUR_NONNULL(1);
+AUR_EXPERIMENTAL size_t aur_facets_rows(const aur_facets *facets) AUR_NONNULL(1);
+AUR_EXPERIMENTAL const double *aur_facets_areas(const aur_facets *facets) AUR_NONNULL(1);
 /* The name of the row's group, owned by the facets; NULL when rows are single facets. */
-AUR_API const char *aur_facets_name(const aur_facets *facets, size_t row) AUR_NONNULL(1);
+AUR_EXPERIMENTAL const char *aur_facets_name(const aur_facets *facets, size_t row) AUR_NONNULL(1);
 
 /* --- the matrix */
 
@@ -90,9 +90,11 @@ typedef struct aur_view_factors aur_view_factors;
  * so that every row with sky and backs adds up to 1 and A_i F_ij = A_j F_ji; no factor is negative. The
  * result is a function of the facets and the options, whatever the threads. Errors: NAME, ARGUMENT (options
  * out of range), UNSUPPORTED (a set without four dimensions), CANCELLED, MEMORY. */
-AUR_API aur_result aur_view_factors_create(const aur_facets *facets, const aur_view_factors_options *options,
-                                           aur_view_factors **factors, aur_error *error) AUR_NONNULL(1, 3);
-AUR_API void aur_view_factors_destroy(aur_view_factors *factors); /* NULL is allowed */
+AUR_EXPERIMENTAL aur_result aur_view_factors_create(const aur_facets *facets,
+                                                    const aur_view_factors_options *options,
+                                                    aur_view_factors **factors, aur_error *error)
+    AUR_NONNULL(1, 3);
+AUR_EXPERIMENTAL void aur_view_factors_destroy(aur_view_factors *factors); /* NULL is allowed */
 
 /* The matrix in compressed rows, owned by the view factors: row i has the entries starts[i] .. starts[i+1]-1,
  * columns ascending. `half_widths` are those of the intervals, 0 for closed forms. `sky` is what leaves the
@@ -110,8 +112,8 @@ typedef struct aur_view_factors_matrix {
 } aur_view_factors_matrix;
 
 /* Errors: ARGUMENT when `size` is not set. */
-AUR_API aur_result aur_view_factors_get_matrix(const aur_view_factors *factors,
-                                               aur_view_factors_matrix *matrix, aur_error *error)
+AUR_EXPERIMENTAL aur_result aur_view_factors_get_matrix(const aur_view_factors *factors,
+                                                        aur_view_factors_matrix *matrix, aur_error *error)
     AUR_NONNULL(1, 2);
 
 /* How it came about. `size` is set by the caller. */
@@ -127,26 +129,27 @@ typedef struct aur_view_factors_description {
 } aur_view_factors_description;
 
 /* Errors: ARGUMENT when `size` is not set. */
-AUR_API aur_result aur_view_factors_describe(const aur_view_factors *factors,
-                                             aur_view_factors_description *description, aur_error *error)
-    AUR_NONNULL(1, 2);
+AUR_EXPERIMENTAL aur_result aur_view_factors_describe(const aur_view_factors *factors,
+                                                      aur_view_factors_description *description,
+                                                      aur_error *error) AUR_NONNULL(1, 2);
 
 /* Writes the matrix. Formats: "npz" (scipy.sparse.load_npz reads it; the other arrays stand beside it),
  * "csv" (one line an entry; the sky has the column -1, backs -2), "view3d" (the text of View3D's output: all
  * rows * rows factors). Errors: NAME, WRITE, MEMORY. */
-AUR_API aur_result aur_view_factors_write(const aur_view_factors *factors, const char *format,
-                                          const char *path, aur_error *error) AUR_NONNULL(1, 2, 3);
+AUR_EXPERIMENTAL aur_result aur_view_factors_write(const aur_view_factors *factors, const char *format,
+                                                   const char *path, aur_error *error) AUR_NONNULL(1, 2, 3);
 /* Writes the facets as an input of View3D (.vs3), with its groups as combined surfaces. Errors: WRITE,
  * MEMORY.
  */
-AUR_API aur_result aur_facets_write_vs3(const aur_facets *facets, const char *path, aur_error *error)
+AUR_EXPERIMENTAL aur_result aur_facets_write_vs3(const aur_facets *facets, const char *path, aur_error *error)
     AUR_NONNULL(1, 2);
 
 /* y = F x and the sky factors without the matrix: rays alone, each of which brings home the x of the row that
  * it meets. The same options are the same linear map. x, y and sky (may be NULL) have one number a row. Rows
  * add up to 1 but A_i F_ij = A_j F_ji holds within the error only. Errors as for aur_view_factors_create. */
-AUR_API aur_result aur_view_factors_product(const aur_facets *facets, const aur_view_factors_options *options,
-                                            const double *x, double *y, double *sky, aur_error *error)
+AUR_EXPERIMENTAL aur_result aur_view_factors_product(const aur_facets *facets,
+                                                     const aur_view_factors_options *options, const double *x,
+                                                     double *y, double *sky, aur_error *error)
     AUR_NONNULL(1, 3, 4);
 
 #ifdef __cplusplus
