@@ -159,8 +159,8 @@ static void constants_are_exact(void **state) {
     aur_merged_rule_destroy(pair);
 }
 
-/* Shares are a permutation: together they hold the directions and weights of the whole. */
-static void shares_make_the_whole(void **state) {
+/* Subsets are a permutation: together they hold the directions and weights of the whole. */
+static void parts_make_the_whole(void **state) {
     (void)state;
     for (int method = AUR_WEIGHTS_MIS; method <= AUR_WEIGHTS_SOLVE; ++method) {
         const aur_merged_rule_options one = options_of((aur_gather_weights)method, 20.0, true, 1);
@@ -282,7 +282,7 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(tables_are_solves),
         cmocka_unit_test(constants_are_exact),
-        cmocka_unit_test(shares_make_the_whole),
+        cmocka_unit_test(parts_make_the_whole),
         cmocka_unit_test(balance_is_the_library_s),
         cmocka_unit_test(densities),
         cmocka_unit_test(refuses),

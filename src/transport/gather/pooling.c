@@ -56,7 +56,7 @@ static void find_surfaces(pooled_tile *tile) {
 }
 
 /* Along one axis: where the window of a pixel begins, and what its pixels count. */
-static size_t place_window(size_t at, float weights[WINDOW]) {
+static size_t set_window(size_t at, float weights[WINDOW]) {
     const bool inside = at >= REACH && at + REACH < SIDE;
     for (size_t i = 0; i < WINDOW; ++i)
         weights[i] = i > 0 && i + 1 < WINDOW ? 1.0f : 0.5f;
@@ -70,7 +70,7 @@ static size_t place_window(size_t at, float weights[WINDOW]) {
 /* The mean irradiance of a surface over the window of a pixel. */
 static aur_vector pooled_irradiance(const pooled_tile *tile, size_t x, size_t y, int surface) {
     float across[WINDOW], down[WINDOW];
-    const size_t left = place_window(x, across), top = place_window(y, down);
+    const size_t left = set_window(x, across), top = set_window(y, down);
     aur_vector sum = {0};
     float gathers = 0.0f;
     for (size_t i = 0; i < WINDOW * WINDOW; ++i) {

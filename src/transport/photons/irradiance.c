@@ -65,70 +65,62 @@ static aur_result collect_members(aur_irradiance_map *map, const aur_photon_map 
 }
 
 /* Takes the elements over. */
-static aur_result lay_out(aur_irradiance_map *map, const aur_scene *scene, aur_elements *elements,
-                          const aur_photon_map *photons, double photons_a_texel) {
-    uint32_t *const hits = calloc(elements->count + 1, sizeof *hits);
-    if (hits == NULL)
-        return AUR_ERROR_MEMORY;
-    for (size_t i = 0; i < photons->count; ++i)
-        ++hits[photons->photons[i].element];
-    const aur_result result = aur_texels_create(scene, *elements, hits, photons_a_texel, &map->texels);
-    *elements = (aur_elements){0};
-    free(hits);
-    return result;
-}
-
-static aur_result fill_lights(aur_irradiance_map *map, const aur_photon_map *photons) {
-    map->lights = calloc(2 * map->texels.count + 1, sizeof *map->lights);
-    uint32_t *const lights = malloc((photons->count + 1) * sizeof *lights);
-    aur_result result = AUR_ERROR_MEMORY;
-    if (map->lights != NULL && lights != NULL) {
-        find_lights(map, photons, lights);
-        add_power(map, photons, lights);
-        result = collect_members(map, photons, lights);
-    }
-    free(lights);
-    return result;
-}
-
-static aur_result fill(const aur_scene *scene, const aur_irradiance_options *options, aur_irradiance_map *map,
-                       aur_error *error) {
-    aur_elements elements;
-    aur_result result = aur_elements_create(scene, &elements);
-    if (result != AUR_OK)
-        return aur_fail(error, result, "photon map: %s", aur_result_string(result));
-    aur_photon_map photons;
-    result = aur_photon_map_create(scene, &elements, &options->photons, &photons, error);
-    if (result != AUR_OK) {
+static aur_result fill(aur_irradiance_map *map, const aur_scene *scene, aur_elements elements,
+                       const aur_photon_map *photons, double photons_a_texel) {
+    /* Photons of each element, and later the light of each photon. */
+    uint32_t *const numbers =
+        calloc((elements.count > photons->count ? elements.count : photons->count) + 1, sizeof *numbers);
+    if (numbers == NULL) {
         aur_elements_release(&elements);
-        return result;
+        return AUR_ERROR_MEMORY;
     }
-    result = lay_out(map, scene, &elements, &photons, options->photons_a_texel);
+    for (size_t i = 0; i < photons->count; ++i)
+        ++numbers[photons->photons[i].element];
+    aur_result result = aur_texels_create(scene, elements, numbers, photons_a_texel, &map->texels);
     if (result == AUR_OK)
-        result = fill_lights(map, &photons);
-    map->photons = photons.count;
-    map->paths = photons.paths;
-    map->rays = photons.rays;
-    aur_photon_map_release(&photons);
-    if (result == AUR_ERROR_ARGUMENT)
-        return aur_fail(error, result,
-                        "photon map: more texels than 32-bit numbers can name; use fewer photons");
-    return result == AUR_OK ? AUR_OK : aur_fail(error, result, "photon map: %s", aur_result_string(result));
+        map->lights = calloc(2 * map->texels.count + 1, sizeof *map->lights);
+    if (result == AUR_OK && map->lights == NULL)
+        result = AUR_ERROR_MEMORY;
+    if (result == AUR_OK) {
+        find_lights(map, photons, numbers);
+        add_power(map, photons, numbers);
+        result = collect_members(map, photons, numbers);
+    }
+    free(numbers);
+    return result;
 }
 
 aur_result aur_irradiance_map_create(const aur_scene *scene, const aur_irradiance_options *options,
                                      aur_irradiance_map **out, aur_error *error) {
     *out = NULL;
-    aur_irradiance_map *const map = calloc(1, sizeof *map);
-    if (map == NULL)
-        return aur_fail_memory(error);
-    const aur_result result = fill(scene, options, map, error);
+    aur_elements elements;
+    aur_photon_map photons;
+    aur_result result = aur_elements_create(scene, &elements);
+    if (result != AUR_OK)
+        return aur_fail(error, result, "photon map: %s", aur_result_string(result));
+    result = aur_photon_map_create(scene, &elements, &options->photons, &photons, error);
     if (result != AUR_OK) {
-        aur_irradiance_map_destroy(map);
+        aur_elements_release(&elements);
         return result;
     }
-    *out = map;
-    return AUR_OK;
+    aur_irradiance_map *const map = calloc(1, sizeof *map);
+    if (map == NULL) {
+        aur_elements_release(&elements);
+        result = AUR_ERROR_MEMORY;
+    } else {
+        *map = (aur_irradiance_map){.photons = photons.count, .paths = photons.paths, .rays = photons.rays};
+        result = fill(map, scene, elements, &photons, options->photons_a_texel);
+    }
+    aur_photon_map_release(&photons);
+    if (result == AUR_OK) {
+        *out = map;
+        return AUR_OK;
+    }
+    aur_irradiance_map_destroy(map);
+    return aur_fail(error, result, "photon map: %s",
+                    result == AUR_ERROR_ARGUMENT
+                        ? "more texels than 32-bit numbers can name; use fewer photons"
+                        : aur_result_string(result));
 }
 
 void aur_irradiance_map_destroy(aur_irradiance_map *map) {

@@ -42,13 +42,6 @@ static bool store(photon_chunk *chunk, aur_photon photon) {
     return true;
 }
 
-/* What a surface reflects of photons: bit 0 diffusely, bit 1 by glossy lobes. Gather rays go on by the
- * others, and ask for no photons. */
-static unsigned reflecting_parts(const aur_surface *surface, aur_vector view) {
-    const unsigned kinds = aur_bsdf_scatters(surface->bsdf, view.z);
-    return ((kinds & AUR_SCATTERS_DIFFUSE) != 0 ? 1u : 0u) | ((kinds & AUR_SCATTERS_GLOSSY) != 0 ? 2u : 0u);
-}
-
 /* Particles are scattered by the adjoint BSDF: light that arrives from `in` and leaves to `out`, where the
  * sampling routine thinks of `in` as the view. They differ for BSDFs that are not reciprocal. */
 static aur_vector adjoint_weight(const aur_shading *shading, const aur_bsdf_sample *sample,
@@ -94,7 +87,9 @@ static bool trace_path(const batch *work, uint64_t path, photon_chunk *chunk) {
         const aur_vector in = aur_vector_scale(ray.direction, -1.0f);
         const aur_shading shading = aur_shading_at(&surface, in);
         const float side = aur_vector_dot(surface.geometric_normal, in);
-        const unsigned parts = reflecting_parts(&surface, shading.view);
+        /* Gather rays go on by the other lobes, and ask for no photons. */
+        const unsigned parts = aur_bsdf_scatters(surface.bsdf, shading.view.z) &
+                               (unsigned)(AUR_SCATTERS_DIFFUSE | AUR_SCATTERS_GLOSSY);
         const bool is_caustic = specular_so_far && edge > 1;
         if (parts != 0 && (kind == AUR_PHOTONS_ALL || is_caustic == (kind == AUR_PHOTONS_CAUSTIC))) {
             aur_photon photon = {.position = surface.position,
@@ -104,7 +99,7 @@ static bool trace_path(const batch *work, uint64_t path, photon_chunk *chunk) {
                                  .power = power,
                                  .element = aur_element_of(work->elements, &hit),
                                  .behind = side < 0.0f,
-                                 .glossy = (parts & 2u) != 0};
+                                 .glossy = (parts & AUR_SCATTERS_GLOSSY) != 0};
             aur_element_coordinates(work->scene, &hit, &surface, photon.coordinates);
             if (aur_vector_is_finite(power) && !store(chunk, photon))
                 return false;

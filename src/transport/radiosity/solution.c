@@ -160,7 +160,7 @@ static aur_result make_points(const aur_radiosity *radiosity, uint64_t paths, po
     points->sets = calloc(points->count, sizeof(aur_pointset *));
     if (points->sets == NULL)
         return aur_fail_memory(error);
-    const uint64_t most = aur_radiosity_share(radiosity, 0, paths);
+    const uint64_t most = aur_radiosity_paths_of(radiosity, 0, paths);
     aur_result result = make_set(radiosity, 0, most, &points->sets[0], error);
     points->skipped = result == AUR_OK && begins_with_zero(points->sets[0]);
     if (points->skipped > 0) {
@@ -201,8 +201,8 @@ static aur_result run_lane(void *context, size_t lane) {
         if (item >= count * work->blocks_each)
             return AUR_OK;
         const size_t r = item / work->blocks_each;
-        const uint64_t end = aur_radiosity_share(radiosity, r, work->end);
-        const uint64_t first = aur_radiosity_share(radiosity, r, work->begin) +
+        const uint64_t end = aur_radiosity_paths_of(radiosity, r, work->end);
+        const uint64_t first = aur_radiosity_paths_of(radiosity, r, work->begin) +
                                item % work->blocks_each * (uint64_t)AUR_RADIOSITY_BLOCK;
         if (first >= end)
             continue;
@@ -228,8 +228,8 @@ static aur_result trace_batch(aur_radiosity *radiosity, const point_source *poin
                               aur_error *error) {
     const size_t count = radiosity->options.randomizations;
     batch work = {.radiosity = radiosity, .points = points, .begin = radiosity->paths, .end = end};
-    const uint64_t longest =
-        aur_radiosity_share(radiosity, 0, end) - aur_radiosity_share(radiosity, count - 1, radiosity->paths);
+    const uint64_t longest = aur_radiosity_paths_of(radiosity, 0, end) -
+                             aur_radiosity_paths_of(radiosity, count - 1, radiosity->paths);
     work.blocks_each = (size_t)(longest / AUR_RADIOSITY_BLOCK + 1);
     atomic_init(&work.next, 0);
     const aur_parallel_options parallel = {

@@ -20,7 +20,7 @@ struct aur_radiosity {
 enum { AUR_RADIOSITY_MOST_BOUNCES = 10000, AUR_RADIOSITY_MOST_RANDOMIZATIONS = 1024 };
 
 /* Paths that randomisation r has among the first `paths`. */
-static inline uint64_t aur_radiosity_share(const aur_radiosity *radiosity, size_t r, uint64_t paths) {
+static inline uint64_t aur_radiosity_paths_of(const aur_radiosity *radiosity, size_t r, uint64_t paths) {
     const uint64_t count = radiosity->options.randomizations;
     return paths / count + (r < paths % count);
 }

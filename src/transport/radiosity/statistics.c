@@ -20,7 +20,7 @@ void aur_radiosity_power_error(const aur_radiosity *radiosity, size_t patch, dou
     for (size_t c = 0; c < 3; ++c) {
         double sum = 0.0, squares = 0.0;
         for (size_t r = 0; r < count; ++r) {
-            const uint64_t paths = aur_radiosity_share(radiosity, r, radiosity->paths);
+            const uint64_t paths = aur_radiosity_paths_of(radiosity, r, radiosity->paths);
             const double value = radiosity->walk.quantum *
                                  aur_exact_value(&radiosity->tallies[r].power[patch][c]) / (double)paths;
             sum += value;
@@ -126,9 +126,9 @@ void aur_radiosity_result(const aur_radiosity *radiosity, size_t triangle,
     aur_radiosity_power(radiosity, triangle, out->power);
     aur_radiosity_power_error(radiosity, triangle, error);
     for (size_t c = 0; c < 3; ++c) {
-        const double share = out->area > 0.0 ? out->albedo[c] / (AUR_PI * out->area) : 0.0;
-        out->radiance[c] = out->emission[c] + share * out->power[c];
-        out->standard_error[c] = share * error[c];
+        const double scale = out->area > 0.0 ? out->albedo[c] / (AUR_PI * out->area) : 0.0;
+        out->radiance[c] = out->emission[c] + scale * out->power[c];
+        out->standard_error[c] = scale * error[c];
     }
 }
 

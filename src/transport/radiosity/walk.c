@@ -46,10 +46,10 @@ static void find_start(aur_radiosity_walk *walk) {
     for (size_t i = 0; i < walk->light_count; ++i) {
         const uint32_t light = walk->lights[i];
         const double probability = aur_distribution_probability(&walk->choice, i);
-        const double share = probability > 0.0 ? AUR_PI * walk->scene->areas[light] / probability : 0.0;
+        const double scale = probability > 0.0 ? AUR_PI * walk->scene->areas[light] / probability : 0.0;
         aur_vector_to_doubles(walk->scene->emission[light], walk->start[i]);
         for (size_t c = 0; c < 3; ++c) {
-            walk->start[i][c] *= share;
+            walk->start[i][c] *= scale;
             greatest = fmax(greatest, walk->start[i][c]);
         }
     }
