@@ -99,6 +99,12 @@ AUR_EXPERIMENTAL void aur_render_destroy(aur_render *render); /* NULL is allowed
  * after which the render can only be destroyed. */
 AUR_EXPERIMENTAL aur_result aur_render_step(aur_render *render, size_t count, aur_error *error)
     AUR_NONNULL(1);
+/* The same tile by tile: tile i of the film (16 x 16 pixels on a grid over the whole picture, row by row)
+ * gets the samples that it lacks up to targets[i], so that samples can go where they are needed. Errors as
+ * above; ARGUMENT when the film has not `tile_count` tiles, or a target is beyond samples_per_pixel. */
+AUR_EXPERIMENTAL aur_result aur_render_step_tiles(aur_render *render, size_t tile_count,
+                                                  const uint32_t *targets, aur_error *error)
+    AUR_NONNULL(1, 3);
 /* Stops the step that another thread is in. May be called from any thread and from a signal handler. */
 AUR_EXPERIMENTAL void aur_render_cancel(aur_render *render) AUR_NONNULL(1);
 

@@ -8,6 +8,7 @@
 #include <string.h>
 #include <unistd.h>
 
+#include "cli/ask.h"
 #include "cli/errors.h"
 #include "cli/options.h"
 
@@ -16,6 +17,7 @@ typedef struct render_command {
     cli_definitions definitions;
     aur_render_options options;
     const char *reference, *errors;
+    cli_wish wish;
     bool statistics;
     cli_common common;
 } render_command;
@@ -137,11 +139,34 @@ static void print_statistics(const aur_render *render) {
 }
 
 /* All samples, in the steps that the errors ask for; *image is what there is in the end. */
-static aur_result render_samples(aur_render *render, cli_errors *errors, aur_image **image,
-                                 aur_error *error) {
-    const aur_result result =
-        errors != NULL ? cli_errors_render(errors, render, error) : aur_render_step(render, 0, error);
-    return result == AUR_OK ? aur_film_develop(aur_render_film(render), image, error) : result;
+static aur_result render_samples(aur_renderer *renderer, const render_command *command, cli_errors *errors,
+                                 aur_image **image, aur_error *error) {
+    aur_render *render = NULL;
+    aur_result result = aur_render_create(renderer, &command->options, &render, error);
+    if (result == AUR_OK)
+        result =
+            errors != NULL ? cli_errors_render(errors, render, error) : aur_render_step(render, 0, error);
+    cli_progress_clear();
+    if (render != NULL && (result == AUR_OK || result == AUR_ERROR_CANCELLED)) {
+        const aur_result developed = aur_film_develop(aur_render_film(render), image, error);
+        result = developed != AUR_OK ? developed : result;
+    }
+    if (result == AUR_OK && command->statistics)
+        print_statistics(render);
+    aur_render_destroy(render);
+    return result;
+}
+
+/* What an interrupted render has goes beside the picture, as OUT.partial.exr. */
+static void write_partial(const char *output, const aur_image *image) {
+    char path[PATH_MAX];
+    aur_error error = {0};
+    const char *const dot = strrchr(output, '.');
+    snprintf(path, sizeof path, "%.*s.partial.exr", (int)(dot - output), output);
+    if (aur_image_write(path, image, NULL, &error) == AUR_OK)
+        fprintf(stderr, "aureole: what there is of the picture is in %s\n", path);
+    else
+        cli_fail(&error);
 }
 
 static int render(const char *path, const render_command *command, cli_errors *errors) {
@@ -156,35 +181,51 @@ static int render(const char *path, const render_command *command, cli_errors *e
                                              .warnings = command->options.warnings};
     aur_scene *scene = NULL;
     aur_renderer *renderer = NULL;
-    aur_render *work = NULL;
     aur_image *image = NULL;
     aur_result result = aur_scene_load(path, &scene_options, &scene, &error);
     if (result == AUR_OK)
         result = aur_renderer_create(scene, &renderer, &error);
     if (result == AUR_OK)
-        result = aur_render_create(renderer, &command->options, &work, &error);
-    if (result == AUR_OK)
-        result = render_samples(work, errors, &image, &error);
+        result = cli_is_wish(&command->wish)
+                     ? cli_render_wish(renderer, &command->options, &command->wish, command->output,
+                                       command->common.quiet, &image, &error)
+                     : render_samples(renderer, command, errors, &image, &error);
     cli_progress_clear();
+    if (result == AUR_ERROR_CANCELLED && image != NULL)
+        write_partial(command->output, image);
     if (result == AUR_OK)
         result = aur_image_write(command->output, image, NULL, &error);
     if (result == AUR_OK && errors != NULL)
         result = cli_errors_write(errors, command->errors, &error);
-    if (result == AUR_OK && command->statistics)
-        print_statistics(work);
     aur_image_destroy(image);
-    aur_render_destroy(work);
     aur_renderer_destroy(renderer);
     aur_scene_destroy(scene);
     return cli_status(result, &error);
+}
+
+/* NULL, or why options do not go together. */
+static const char *conflict(const cli_call *call, const render_command *command) {
+    if ((command->reference == NULL) != (command->errors == NULL))
+        return "render: '--reference' and '--errors' are wanted together";
+    if (!cli_is_wish(&command->wish))
+        return command->wish.error_map ? "render: '--error-map' goes with '--error', '--time' or '--rays'"
+                                       : NULL;
+    if (command->reference != NULL)
+        return "render: '--errors' does not go with '--error', '--time', '--rays' or '--rounds'";
+    if (cli_given(call, "spp") != NULL)
+        return "render: '--spp' does not go with '--error', '--time', '--rays' or '--rounds', which choose "
+               "the "
+               "samples";
+    return NULL;
 }
 
 static int run(const cli_call *call) {
     render_command *const command = call->options;
     const char *const scene = call->operands[0];
     char output[PATH_MAX];
-    if ((command->reference == NULL) != (command->errors == NULL))
-        return cli_bad_usage("render: '--reference' and '--errors' are wanted together");
+    const char *const wrong = conflict(call, command);
+    if (wrong != NULL)
+        return cli_bad_usage("%s", wrong);
     default_output(scene, sizeof output, output);
     if (command->output == NULL)
         command->output = output;
@@ -209,6 +250,7 @@ const cli_verb cli_verb_render = {
     .too_many = "one scene at a time",
     .operands = {{"SCENE", "the scene's file, in Mitsuba's form", .content = "file"}},
     .groups = {{options, 0},
+               {cli_wish_options, offsetof(render_command, wish)},
                {cli_definitions_option, offsetof(render_command, definitions)},
                {cli_threads_option, offsetof(render_command, common)},
                {cli_quiet_option, offsetof(render_command, common)}},

@@ -137,17 +137,9 @@ static aur_vector albedo_of_lobes(const aur_bsdf *bsdf, aur_bsdf_point point, fl
 
 /* --- what is asked */
 
-static bool has(const aur_bsdf *bsdf, aur_bsdf_part part) {
-    return part == AUR_BSDF_WHOLE || ((bsdf->scatters[0] | bsdf->scatters[1]) & AUR_SCATTERS_SAMPLED) != 0;
-}
-
 aur_vector aur_bsdf_evaluate(const aur_bsdf *bsdf, aur_bsdf_part part, aur_bsdf_point point, aur_vector view,
                              aur_vector light, float *pdf) {
     const aur_bsdf_descriptor *const own = bsdf->descriptor;
-    if (!has(bsdf, part)) {
-        *pdf = 0.0f;
-        return (aur_vector){0};
-    }
     return own->evaluate != NULL ? own->evaluate(bsdf, part, point, view, light, pdf)
                                  : evaluate_lobes(bsdf, point, view, light, pdf);
 }
@@ -155,8 +147,6 @@ aur_vector aur_bsdf_evaluate(const aur_bsdf *bsdf, aur_bsdf_part part, aur_bsdf_
 bool aur_bsdf_draw(const aur_bsdf *bsdf, aur_bsdf_part part, aur_bsdf_point point, aur_vector view,
                    const float u[3], aur_bsdf_sample *drawn) {
     const aur_bsdf_descriptor *const own = bsdf->descriptor;
-    if (!has(bsdf, part))
-        return false;
     return own->sample != NULL ? own->sample(bsdf, part, point, view, u, drawn)
                                : draw_lobe(bsdf, point, view, u, drawn);
 }

@@ -95,10 +95,6 @@ static void weigh(const aur_bsdf *bsdf, aur_bsdf_point point, aur_vector view, a
 static aur_vector evaluate(const aur_bsdf *bsdf, aur_bsdf_part part, aur_bsdf_point point, aur_vector view,
                            aur_vector light, float *pdf) {
     const mixture *const self = bsdf->data;
-    const size_t side = view.z < 0.0f;
-    if (self->by_side)
-        return aur_bsdf_evaluate(self->part[side], part, point, turned(self, side, view),
-                                 turned(self, side, light), pdf);
     float weights[2];
     const float total = weigh_parts(self, part, point, view.z, weights);
     aur_vector sum = {0};
@@ -107,7 +103,8 @@ static aur_vector evaluate(const aur_bsdf *bsdf, aur_bsdf_part part, aur_bsdf_po
         if (!(weights[k] > 0.0f))
             continue;
         float density;
-        const aur_vector value = aur_bsdf_evaluate(self->part[k], part, point, view, light, &density);
+        const aur_vector value = aur_bsdf_evaluate(self->part[k], part, point, turned(self, k, view),
+                                                   turned(self, k, light), &density);
         sum = aur_vector_add_scaled(sum, weights[k], value);
         *pdf += weights[k] / total * density;
     }
@@ -117,13 +114,6 @@ static aur_vector evaluate(const aur_bsdf *bsdf, aur_bsdf_part part, aur_bsdf_po
 static bool sample(const aur_bsdf *bsdf, aur_bsdf_part part, aur_bsdf_point point, aur_vector view,
                    const float u[3], aur_bsdf_sample *drawn) {
     const mixture *const self = bsdf->data;
-    const size_t side = view.z < 0.0f;
-    if (self->by_side) {
-        if (!aur_bsdf_draw(self->part[side], part, point, turned(self, side, view), u, drawn))
-            return false;
-        drawn->light = turned(self, side, drawn->light);
-        return true;
-    }
     float weights[2];
     const float total = weigh_parts(self, part, point, view.z, weights);
     if (!(total > 0.0f))
@@ -133,8 +123,9 @@ static bool sample(const aur_bsdf *bsdf, aur_bsdf_part part, aur_bsdf_point poin
     const float chance = weights[k] / total;
     const float rest = (k == 0 ? u[0] : u[0] - first) / chance;
     const float own[3] = {fminf(rest, 0x1.fffffep-1f), u[1], u[2]};
-    if (!aur_bsdf_draw(self->part[k], part, point, view, own, drawn))
+    if (!aur_bsdf_draw(self->part[k], part, point, turned(self, k, view), own, drawn))
         return false;
+    drawn->light = turned(self, k, drawn->light);
     drawn->pdf *= chance;
     drawn->weight = aur_vector_scale(drawn->weight, total);
     if (drawn->specular || !(weights[1 - k] > 0.0f) ||

@@ -2,6 +2,7 @@
  * threads nor the order of tiles can change it. */
 #include <aureole/render.h>
 
+#include <inttypes.h>
 #include <stdatomic.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -11,6 +12,7 @@
 #include "core/parallel.h"
 #include "film/film.h"
 #include "image/image.h"
+#include "render/renderer.h"
 #include "render/settings.h"
 #include "render/stopwatch.h"
 #include "transport/integrator.h"
@@ -62,6 +64,10 @@ aur_result aur_render_check_scene(const aur_scene *scene, aur_error *error) {
         result = aur_integrator_check(&parameters, error);
     aur_parameters_release(&parameters);
     return result;
+}
+
+const aur_scene *aur_renderer_scene(const aur_renderer *renderer) {
+    return renderer->scene;
 }
 
 /* --- preparation */
@@ -167,7 +173,8 @@ void aur_render_destroy(aur_render *render) {
 
 typedef struct render_work {
     aur_render *render;
-    uint32_t target;        /* samples that each tile is to have */
+    const uint32_t *targets; /* samples that each tile is to have; NULL: `target` */
+    uint32_t target;
     aur_counters *counters; /* one a tile */
 } render_work;
 
@@ -185,7 +192,8 @@ static aur_result render_tile(void *context, size_t index) {
         return AUR_ERROR_CANCELLED;
     aur_tile tile = {.view = &render->view};
     aur_film_before before;
-    if (!aur_film_open_tile(render->film, index, work->target, &tile, &before))
+    const uint32_t target = work->targets != NULL ? work->targets[index] : work->target;
+    if (!aur_film_open_tile(render->film, index, target, &tile, &before))
         return AUR_OK;
     const aur_result result = add_samples(render->integrator, &tile);
     if (result != AUR_OK)
@@ -235,35 +243,52 @@ static void add_counters(aur_render *render, const aur_counters *counters) {
     }
 }
 
-aur_result aur_render_step(aur_render *render, size_t count, aur_error *error) {
-    const size_t wanted = render->settings.samples_per_pixel, done = aur_render_samples(render);
+static aur_result do_work(aur_render *render, render_work *work, aur_error *error) {
     if (render->broken != AUR_OK)
         return aur_fail(error, render->broken, "rendering: an earlier step failed: %s",
                         aur_result_string(render->broken));
-    if (done >= wanted)
-        return AUR_OK;
-    if (count == 0 || count > wanted - done)
-        count = wanted - done;
-    render_work work = {.render = render,
-                        .target = (uint32_t)(done + count),
-                        .counters = calloc(render->film->tile_count, sizeof *work.counters)};
-    if (work.counters == NULL)
+    work->render = render;
+    work->counters = calloc(render->film->tile_count, sizeof *work->counters);
+    if (work->counters == NULL)
         return aur_fail_memory(error);
     const aur_stopwatch start = aur_stopwatch_start();
     const aur_parallel_options parallel = {.threads = render->settings.threads,
                                            .what = "rendering",
                                            .progress = render->settings.progress,
                                            .flush_denormals = true};
-    const aur_result result =
-        aur_parallel_for(&parallel, render->film->tile_count, render_tile, &work, error);
+    const aur_result result = aur_parallel_for(&parallel, render->film->tile_count, render_tile, work, error);
     aur_stopwatch_add(&start, &render->statistics.render_seconds, &render->statistics.cpu_seconds);
-    add_counters(render, work.counters);
-    free(work.counters);
+    add_counters(render, work->counters);
+    free(work->counters);
     warn_of_losses(render);
     atomic_store(&render->cancelled, false);
     if (result != AUR_OK && result != AUR_ERROR_CANCELLED)
         render->broken = result;
     return result;
+}
+
+aur_result aur_render_step(aur_render *render, size_t count, aur_error *error) {
+    const size_t wanted = render->settings.samples_per_pixel, done = aur_render_samples(render);
+    if (done >= wanted && render->broken == AUR_OK)
+        return AUR_OK;
+    if (count == 0 || count > wanted - done)
+        count = wanted - done;
+    render_work work = {.target = (uint32_t)(done + count)};
+    return do_work(render, &work, error);
+}
+
+aur_result aur_render_step_tiles(aur_render *render, size_t tile_count, const uint32_t *targets,
+                                 aur_error *error) {
+    if (tile_count != render->film->tile_count)
+        return aur_fail(error, AUR_ERROR_ARGUMENT, "targets of %zu tiles for a film of %zu", tile_count,
+                        render->film->tile_count);
+    for (size_t i = 0; i < tile_count; ++i)
+        if (targets[i] > render->settings.samples_per_pixel)
+            return aur_fail(error, AUR_ERROR_ARGUMENT,
+                            "tile %zu is to have %" PRIu32 " samples a pixel, more than the options' %zu", i,
+                            targets[i], render->settings.samples_per_pixel);
+    render_work work = {.targets = targets};
+    return do_work(render, &work, error);
 }
 
 void aur_render_cancel(aur_render *render) {

@@ -9,6 +9,7 @@ floors='
 cli
 lab
 report
+ask
 render
 lighting
 transport/integrators

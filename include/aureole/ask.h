@@ -1,0 +1,85 @@
+/* Rendering until a picture is good enough: to an error, for a time, for a number of rays. Several
+ * independent renderings of the scene with different random numbers are made side by side; their mean is the
+ * picture, and their differences say how far it is from the truth. More samples go to the parts of the
+ * picture that need them. The picture is a function of scene, options and seed, on any number of threads. */
+#ifndef AUREOLE_ASK_H
+#define AUREOLE_ASK_H
+
+#include <aureole/render.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* `size` is the caller's. Rendering ends after the first round of samples that meets one of the wishes that
+ * are not zero; with none, after the round that brings the error below one per cent. */
+typedef struct aur_ask_options {
+    size_t size;
+    /* The root mean square error over all pixels and the channels R, G, B, divided by their mean; the upper
+     * end of its interval is to be below. In (0, 1]. */
+    double error;
+    double
+        seconds; /* by the clock, preparation included: the only wish whose picture depends on the machine */
+    uint64_t rays;
+    uint64_t rounds;
+    double confidence; /* of the interval, in [.5, .9999]; 0: .95 */
+    size_t replicas;   /* independent renderings, 3 to 16; 0: 4 */
+} aur_ask_options;
+
+static inline aur_ask_options aur_ask_options_default(void) {
+    aur_ask_options options;
+    memset(&options, 0, sizeof options);
+    options.size = sizeof options;
+    return options;
+}
+
+typedef struct aur_ask aur_ask;
+
+/* `render` as for aur_render_create: its `samples_per_pixel` is without meaning, its `sampler` NULL stands
+ * for Owen-scrambled Sobol points, and `integrator` NULL for the scene's own where that is one that looks at
+ * a scene in its own way (`ao`, `direct`, `radiosity`, `depth`, `aov`), else for `path` with the scene's
+ * max_depth. Both options may be NULL. The renderer must outlive the asking. Errors: those of
+ * aur_render_create, ARGUMENT for a wish out of range. */
+AUR_EXPERIMENTAL aur_result aur_ask_create(aur_renderer *renderer, const aur_render_options *render,
+                                           const aur_ask_options *options, aur_ask **ask, aur_error *error)
+    AUR_NONNULL(1, 4);
+AUR_EXPERIMENTAL void aur_ask_destroy(aur_ask *ask); /* NULL is allowed */
+
+/* Renders rounds until the wish is met. CANCELLED leaves the picture as it was after the last whole round. */
+AUR_EXPERIMENTAL aur_result aur_ask_run(aur_ask *ask, aur_error *error) AUR_NONNULL(1);
+/* Stops aur_ask_run in another thread; may be called from a signal handler. */
+AUR_EXPERIMENTAL void aur_ask_cancel(aur_ask *ask) AUR_NONNULL(1);
+
+/* `size` is set by the caller to the size of his struct. */
+typedef struct aur_ask_report {
+    size_t size;
+    /* Relative to `mean`: of the picture as it is, not of its like with other seeds. Infinite before the
+     * first round, and for a picture that is black. */
+    double error, error_low, error_high;
+    double mean; /* over all pixels and channels R, G, B */
+    /* Independent values that the error consists of: about one a pixel and channel for noise, few where all
+     * pixels share an error, such as a photon map's. */
+    double degrees;
+    uint64_t rounds;
+    double samples_per_pixel; /* mean over the picture, of all replicas together */
+    size_t replicas;
+    aur_render_statistics statistics; /* of all replicas together; its size is set here */
+} aur_ask_report;
+
+/* Errors: ARGUMENT when `size` is not set. */
+AUR_EXPERIMENTAL aur_result aur_ask_get_report(const aur_ask *ask, aur_ask_report *report, aur_error *error)
+    AUR_NONNULL(1, 2);
+
+/* The integrator with its keys, as aur_render_options take it. The asking owns the text. */
+AUR_EXPERIMENTAL const char *aur_ask_integrator(const aur_ask *ask) AUR_NONNULL(1);
+
+/* The picture, a new one with channels R, G, B; with `errors` also error.R, error.G, error.B, the standard
+ * error of each value as the replicas tell it. Errors: MEMORY. */
+AUR_EXPERIMENTAL aur_result aur_ask_develop(const aur_ask *ask, bool errors, aur_image **image,
+                                            aur_error *error) AUR_NONNULL(1, 3);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

@@ -1,0 +1,42 @@
+/* How far the mean of independent, equally distributed pictures is from the truth, told from how far the
+ * pictures are from each other. */
+#pragma once
+
+#include <stddef.h>
+
+enum { AUR_REPLICAS_MAX = 16 };
+
+/* Products of the deviations of `count` pictures from their mean, summed over the values of a block of pixels
+ * and channels: the Gram matrix of the block. */
+typedef struct aur_gram {
+    size_t count;
+    double products[AUR_REPLICAS_MAX][AUR_REPLICAS_MAX];
+} aur_gram;
+
+/* What the Gram matrices of all blocks of a picture say together. With C the covariance of one replica's
+ * values, whose blocks are taken to be independent of each other. Start with zero. */
+typedef struct aur_deviations {
+    double trace;          /* the sum of tr W; expectation (count - 1) tr C */
+    double spread;         /* the sum of estimates of tr C^2 */
+    double square_spreads; /* the sum of their squares */
+} aur_deviations;
+
+/* W has Wishart's distribution with n = count - 1 degrees for normal values: (tr W^2 - (tr W)^2 / n) / ((n -
+ * 1)(n + 2)) is an unbiased estimate of tr C^2. For values with rare large deviations it is too large, which
+ * makes the interval a little too wide; estimates from products of disjoint pairs alone have no such bias,
+ * but miss what few pixels with rare deviations bring, and the interval is then far too narrow. */
+void aur_deviations_add(aur_deviations *sum, const aur_gram *block);
+
+typedef struct aur_error_interval {
+    double estimate, low, high; /* of the root mean square error, in the picture's units */
+    double degrees;             /* independent values of equal size that would make such an error */
+} aur_error_interval;
+
+/* The error of the mean of `count` >= 3 pictures of `values` values, and the interval that holds it with
+ * probability `confidence` in (0,1). It is the error of this mean, not its expectation over other seeds: the
+ * two vary independently, which makes the interval wider by a factor 1 + 1/(count - 1) in variance. The
+ * interval is made on the scale of cube roots, where sums of squares of (tr C)^2 / tr C^2 degrees
+ * (Satterthwaite 1946) are nearly normal (Wilson and Hilferty 1931), with Student's quantile for the
+ * uncertainty of tr C^2. */
+aur_error_interval aur_replica_interval(const aur_deviations *sum, size_t count, size_t values,
+                                        double confidence);

@@ -1,0 +1,123 @@
+#include "ask/replicas.h"
+
+#include <math.h>
+
+#include "core/random.h"
+#include "film/film.h"
+
+aur_result aur_replicas_create(aur_renderer *renderer, const aur_render_options *options, size_t count,
+                               aur_replicas *replicas, aur_error *error) {
+    *replicas = (aur_replicas){.count = count};
+    for (size_t r = 0; r < count; ++r) {
+        aur_render_options own = *options;
+        own.seed = aur_hash3(UINT64_C(0x7265706c696361), options->seed, r);
+        if (r > 0) /* the first has said it */
+            own.warnings = (aur_warnings){0};
+        const aur_result result = aur_render_create(renderer, &own, &replicas->renders[r], error);
+        if (result != AUR_OK)
+            return result;
+    }
+    const aur_film *const film = aur_render_film(replicas->renders[0]);
+    replicas->tile_count = film->tile_count;
+    replicas->pixel_count = aur_film_pixel_count(film);
+    return AUR_OK;
+}
+
+void aur_replicas_release(aur_replicas *replicas) {
+    for (size_t r = 0; r < replicas->count; ++r)
+        aur_render_destroy(replicas->renders[r]);
+}
+
+/* The deviations of the replicas' values of channel R, G or B of a pixel from their mean, which is returned.
+ */
+static double deviations_at(const aur_replicas *replicas, size_t pixel, size_t channel, double *deviations) {
+    double mean = 0.0;
+    for (size_t r = 0; r < replicas->count; ++r) {
+        const aur_film *const film = aur_render_film(replicas->renders[r]);
+        const double sum = film->sums[pixel * film->layout.channel_count + channel];
+        deviations[r] = film->counts[pixel] > 0 ? sum / (double)film->counts[pixel] : 0.0;
+        mean += deviations[r] / (double)replicas->count;
+    }
+    for (size_t r = 0; r < replicas->count; ++r)
+        deviations[r] -= mean;
+    return mean;
+}
+
+/* Correlation between pixels is seen within blocks of so many pixels a side, a part of a tile. */
+enum { BLOCK = 8 };
+_Static_assert((int)AUR_TILE_SIZE % (int)BLOCK == 0, "no block lies in two tiles");
+
+/* The pixels of a film that lie in cell `index` of a grid over the whole picture. */
+typedef struct pixel_range {
+    size_t x0, x1, y0, y1; /* from the film's corner on */
+} pixel_range;
+
+static pixel_range cell_of(const aur_film_layout *layout, size_t column, size_t row) {
+    const size_t x = column * BLOCK, y = row * BLOCK;
+    return (pixel_range){.x0 = (x > layout->x0 ? x : layout->x0) - layout->x0,
+                         .x1 = (x + BLOCK < layout->x1 ? x + BLOCK : layout->x1) - layout->x0,
+                         .y0 = (y > layout->y0 ? y : layout->y0) - layout->y0,
+                         .y1 = (y + BLOCK < layout->y1 ? y + BLOCK : layout->y1) - layout->y0};
+}
+
+/* Adds a block's values to the mean, and returns its Gram matrix. */
+static aur_gram measure_block(const aur_replicas *replicas, pixel_range block, double *mean) {
+    const aur_film_layout *const layout = &aur_render_film(replicas->renders[0])->layout;
+    aur_gram gram = {.count = replicas->count};
+    for (size_t y = block.y0; y < block.y1; ++y)
+        for (size_t x = block.x0; x < block.x1; ++x)
+            for (size_t channel = 0; channel < 3; ++channel) {
+                double d[AUR_REPLICAS_MAX];
+                *mean += deviations_at(replicas, y * (layout->x1 - layout->x0) + x, channel, d);
+                for (size_t r = 0; r < replicas->count; ++r)
+                    for (size_t s = 0; s <= r; ++s)
+                        gram.products[r][s] += d[r] * d[s];
+            }
+    for (size_t r = 0; r < replicas->count; ++r)
+        for (size_t s = 0; s < r; ++s)
+            gram.products[s][r] = gram.products[r][s];
+    return gram;
+}
+
+void aur_replicas_measure(const aur_replicas *replicas, aur_replica_measure *measure, double *variances) {
+    const aur_film *const film = aur_render_film(replicas->renders[0]);
+    const aur_film_layout *const layout = &film->layout;
+    enum { BLOCKS = AUR_TILE_SIZE / BLOCK };
+    *measure = (aur_replica_measure){0};
+    for (size_t tile = 0; tile < replicas->tile_count; ++tile)
+        variances[tile] = 0.0;
+    for (size_t row = layout->y0 / BLOCK; row * BLOCK < layout->y1; ++row)
+        for (size_t column = layout->x0 / BLOCK; column * BLOCK < layout->x1; ++column) {
+            const aur_gram gram = measure_block(replicas, cell_of(layout, column, row), &measure->mean);
+            aur_deviations_add(&measure->deviations, &gram);
+            const size_t tile = (row / BLOCKS - film->row0) * film->columns + column / BLOCKS - film->column0;
+            for (size_t r = 0; r < replicas->count; ++r)
+                variances[tile] += gram.products[r][r] / (double)(replicas->count - 1);
+        }
+    measure->mean /= 3.0 * (double)replicas->pixel_count;
+}
+
+aur_result aur_replicas_develop(const aur_replicas *replicas, bool errors, aur_image **image,
+                                aur_error *error) {
+    static const char *const names[] = {"R", "G", "B", "error.R", "error.G", "error.B"};
+    const aur_film_layout *const layout = &aur_render_film(replicas->renders[0])->layout;
+    const size_t channels = errors ? 6 : 3;
+    const aur_result result =
+        aur_image_create(layout->x1 - layout->x0, layout->y1 - layout->y0, channels, image, error);
+    if (result != AUR_OK)
+        return result;
+    float *const data = aur_image_data(*image);
+    for (size_t c = 0; c < channels; ++c)
+        aur_image_name_channel(*image, c, names[c], NULL);
+    for (size_t pixel = 0; pixel < replicas->pixel_count; ++pixel)
+        for (size_t c = 0; c < 3; ++c) {
+            double d[AUR_REPLICAS_MAX], squares = 0.0;
+            data[pixel * channels + c] = (float)deviations_at(replicas, pixel, c, d);
+            for (size_t r = 0; r < replicas->count; ++r)
+                squares += d[r] * d[r];
+            if (errors)
+                data[pixel * channels + 3 + c] =
+                    (float)sqrt(squares / ((double)replicas->count * (double)(replicas->count - 1)));
+        }
+    return AUR_OK;
+}

@@ -1,0 +1,33 @@
+/* Independent renderings of one picture: the same everything but the seed. Their mean is the picture, and
+ * their differences say how good it is. */
+#pragma once
+
+#include <aureole/render.h>
+
+#include "ask/interval.h"
+
+typedef struct aur_replicas {
+    size_t count;
+    aur_render *renders[AUR_REPLICAS_MAX];
+    size_t tile_count, pixel_count;
+} aur_replicas;
+
+/* `options` as for aur_render_create; the seeds follow from options->seed. Errors as there. The replicas are
+ * to be released in every case. */
+aur_result aur_replicas_create(aur_renderer *renderer, const aur_render_options *options, size_t count,
+                               aur_replicas *replicas, aur_error *error);
+void aur_replicas_release(aur_replicas *replicas);
+
+/* What the samples so far say. */
+typedef struct aur_replica_measure {
+    aur_deviations deviations; /* of blocks of 8 x 8 pixels */
+    double mean;               /* over pixels and channels R, G, B */
+} aur_replica_measure;
+
+/* `variances`[tile_count] gets the sum over a tile's pixels and channels of the variance of one replica's
+ * value. */
+void aur_replicas_measure(const aur_replicas *replicas, aur_replica_measure *measure, double *variances);
+
+/* The mean of the replicas, and with `errors` three more channels with its standard error. Errors: MEMORY. */
+aur_result aur_replicas_develop(const aur_replicas *replicas, bool errors, aur_image **image,
+                                aur_error *error);

@@ -1,0 +1,52 @@
+#include "ask/rounds.h"
+
+#include <math.h>
+
+enum { MOST_GROWTH = 4 };
+
+static double clamp(double value, double low, double high) {
+    return fmin(fmax(value, low), high);
+}
+
+/* The samples of a tile at the price `price` a sample: where one more would save as much as it costs. */
+static double samples_at(double price, double variance, uint32_t samples) {
+    return clamp(sqrt(variance * samples / price), samples, (double)MOST_GROWTH * samples);
+}
+
+static double variance_at(double price, size_t tile_count, const double *variances, const uint32_t *targets) {
+    double sum = 0.0;
+    for (size_t i = 0; i < tile_count; ++i)
+        sum += variances[i] * targets[i] / samples_at(price, variances[i], targets[i]);
+    return sum;
+}
+
+bool aur_raise_targets(size_t tile_count, const double *variances, double factor, uint32_t most,
+                       uint32_t *targets) {
+    double sum = 0.0, high = 0.0;
+    for (size_t i = 0; i < tile_count; ++i) {
+        sum += variances[i];
+        high = fmax(high, variances[i] / targets[i]);
+    }
+    /* At the highest price nobody buys, at a sixteenth of the lowest gain all buy as much as they may. */
+    double low = high;
+    for (size_t i = 0; i < tile_count; ++i)
+        if (variances[i] > 0.0)
+            low = fmin(low, variances[i] / targets[i]);
+    low /= (double)MOST_GROWTH * MOST_GROWTH;
+    for (int k = 0; k < 64; ++k) {
+        const double price = sqrt(low * high);
+        if (variance_at(price, tile_count, variances, targets) > factor * sum)
+            high = price;
+        else
+            low = price;
+    }
+    bool raised = false;
+    for (size_t i = 0; i < tile_count; ++i) {
+        const double wanted =
+            variances[i] > 0.0 ? ceil(samples_at(low, variances[i], targets[i])) : targets[i];
+        const uint32_t target = (uint32_t)fmin(wanted, most);
+        raised = raised || target > targets[i];
+        targets[i] = target > targets[i] ? target : targets[i];
+    }
+    return raised;
+}

@@ -1,0 +1,120 @@
+#include "cli/ask.h"
+
+#include <aureole/text.h>
+#include <inttypes.h>
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+/* A positive number with one of a unit's names; *factor is the unit's, 1 where there is none. */
+typedef struct unit {
+    const char *name;
+    double factor;
+} unit;
+
+static bool parse_quantity(const char *text, size_t unit_count, const unit *units, double *value) {
+    char number[64];
+    const size_t length = strlen(text);
+    double factor = 1.0;
+    size_t cut = 0;
+    for (size_t i = 0; i < unit_count; ++i) {
+        const size_t suffix = strlen(units[i].name);
+        if (suffix > cut && length > suffix && strcmp(text + length - suffix, units[i].name) == 0) {
+            factor = units[i].factor;
+            cut = suffix;
+        }
+    }
+    if (length - cut >= sizeof number)
+        return false;
+    memcpy(number, text, length - cut);
+    number[length - cut] = '\0';
+    if (!aur_parse_double(number, value) || !(*value > 0.0))
+        return false;
+    *value *= factor;
+    return true;
+}
+
+static aur_result parse_error(const char *text, void *field, aur_error *error) {
+    static const unit units[] = {{"%", 0.01}};
+    double *const value = field;
+    if (parse_quantity(text, 1, units, value) && *value <= 1.0)
+        return AUR_OK;
+    return aur_fail(error, AUR_ERROR_ARGUMENT,
+                    "--error: '%s' is no error: 1%% or .01 is wanted, from above 0 to 100%%", text);
+}
+
+static aur_result parse_time(const char *text, void *field, aur_error *error) {
+    static const unit units[] = {{"s", 1.0}, {"min", 60.0}, {"m", 60.0}, {"h", 3600.0}};
+    if (parse_quantity(text, sizeof units / sizeof units[0], units, field))
+        return AUR_OK;
+    return aur_fail(error, AUR_ERROR_ARGUMENT, "--time: '%s' is no time: 30s, 5min or 1h is wanted", text);
+}
+
+static aur_result parse_rays(const char *text, void *field, aur_error *error) {
+    double value = 0.0;
+    if (!parse_quantity(text, 0, NULL, &value) || value < 1.0 || value > 1e18)
+        return aur_fail(error, AUR_ERROR_ARGUMENT, "--rays: '%s' is no number of rays: 1e9, say, is wanted",
+                        text);
+    *(uint64_t *)field = (uint64_t)value;
+    return AUR_OK;
+}
+
+const cli_option cli_wish_options[] = {
+    {CLI_TEXT(cli_wish, error, "error", "1%", NULL,
+              "render until the root mean square error is below this part of the picture's mean"),
+     .parse = parse_error},
+    {CLI_TEXT(cli_wish, seconds, "time", "30s", NULL,
+              "render for so long, and say the command that makes the same picture"),
+     .parse = parse_time},
+    {CLI_TEXT(cli_wish, rays, "rays", "1e9", NULL, "render with so many rays"), .parse = parse_rays},
+    {CLI_INTEGER(cli_wish, rounds, "rounds", "N", 1, 1000, NULL,
+                 "render so many rounds of samples, as --time says afterwards")},
+    {CLI_FLAG(cli_wish, error_map, "error-map",
+              "the standard error of each pixel as channels error.R, error.G, error.B")},
+    {.key = {0}}};
+
+bool cli_is_wish(const cli_wish *wish) {
+    return wish->error > 0.0 || wish->seconds > 0.0 || wish->rays > 0 || wish->rounds > 0;
+}
+
+static void say(const aur_ask *ask, const cli_wish *wish, const char *output) {
+    aur_ask_report report = {.size = sizeof report};
+    aur_ask_get_report(ask, &report, NULL);
+    const aur_render_statistics *const spent = &report.statistics;
+    if (!(report.mean > 0.0)) {
+        aur_print(stderr, "aureole: %s is black: no light of the scene reaches the camera\n", output);
+        return;
+    }
+    if (wish->seconds > 0.0)
+        aur_print(stderr,
+                  "aureole: the same picture without a clock: '--rounds %" PRIu64 "' instead of '--time'\n",
+                  report.rounds);
+    aur_print(stderr,
+              "aureole: %s has an error of %.3g %% of its mean, between %.3g and %.3g (95 %%), after %.4g "
+              "samples a "
+              "pixel, %.3g rays, %.1f s\n",
+              output, 100.0 * report.error, 100.0 * report.error_low, 100.0 * report.error_high,
+              report.samples_per_pixel, (double)spent->rays, spent->prepare_seconds + spent->render_seconds);
+}
+
+aur_result cli_render_wish(aur_renderer *renderer, const aur_render_options *options, const cli_wish *wish,
+                           const char *output, bool quiet, aur_image **image, aur_error *error) {
+    aur_ask_options own = aur_ask_options_default();
+    own.error = wish->error;
+    own.seconds = wish->seconds;
+    own.rays = wish->rays;
+    own.rounds = wish->rounds;
+    aur_ask *ask = NULL;
+    aur_result result = aur_ask_create(renderer, options, &own, &ask, error);
+    if (result == AUR_OK)
+        result = aur_ask_run(ask, error);
+    cli_progress_clear();
+    if (result == AUR_OK || (result == AUR_ERROR_CANCELLED && ask != NULL)) {
+        const aur_result developed = aur_ask_develop(ask, wish->error_map, image, error);
+        result = developed != AUR_OK ? developed : result;
+    }
+    if (result == AUR_OK && !quiet)
+        say(ask, wish, output);
+    aur_ask_destroy(ask);
+    return result;
+}

@@ -1,0 +1,162 @@
+/* Rendering to a wish: what stops it, that threads change nothing, and that what it says of its error is so.
+ */
+#include "check.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#include <aureole/ask.h>
+
+typedef struct fixture {
+    aur_scene *scene;
+    aur_renderer *renderer;
+} fixture;
+
+static int set_up(void **state) {
+    static fixture f;
+    assert_int_equal(
+        aur_scene_load(AUR_SOURCE_DIR "/scenes/cornell-box/cornell-box.xml", NULL, &f.scene, NULL), AUR_OK);
+    assert_int_equal(aur_renderer_create(f.scene, &f.renderer, NULL), AUR_OK);
+    *state = &f;
+    return 0;
+}
+
+static int tear_down(void **state) {
+    const fixture *const f = *state;
+    aur_renderer_destroy(f->renderer);
+    aur_scene_destroy(f->scene);
+    return 0;
+}
+
+static aur_render_options small(size_t threads) {
+    aur_render_options options = aur_render_options_default();
+    options.width = 40;
+    options.height = 24;
+    options.threads = threads;
+    return options;
+}
+
+static aur_ask *ask(const fixture *f, const aur_render_options *render, const aur_ask_options *wish) {
+    aur_ask *made = NULL;
+    assert_int_equal(aur_ask_create(f->renderer, render, wish, &made, NULL), AUR_OK);
+    assert_int_equal(aur_ask_run(made, NULL), AUR_OK);
+    return made;
+}
+
+static aur_ask_report report_of(const aur_ask *asked) {
+    aur_ask_report report = {.size = sizeof report};
+    assert_int_equal(aur_ask_get_report(asked, &report, NULL), AUR_OK);
+    return report;
+}
+
+static aur_image *picture_of(const aur_ask *asked) {
+    aur_image *image = NULL;
+    assert_int_equal(aur_ask_develop(asked, true, &image, NULL), AUR_OK);
+    return image;
+}
+
+static void assert_same_picture(const aur_ask *a, const aur_ask *b) {
+    aur_image *const x = picture_of(a), *const y = picture_of(b);
+    assert_int_equal(aur_image_channel_count(x), 6);
+    assert_memory_equal(aur_image_data(x), aur_image_data(y),
+                        aur_image_width(x) * aur_image_height(x) * 6 * sizeof(float));
+    aur_image_destroy(x);
+    aur_image_destroy(y);
+}
+
+/* The upper end of the interval is below what was asked, and one thread makes the bits of three. */
+static void test_error(void **state) {
+    const fixture *const f = *state;
+    aur_ask_options wish = aur_ask_options_default();
+    wish.error = 0.2;
+    const aur_render_options one = small(1), three = small(3);
+    aur_ask *const a = ask(f, &one, &wish), *const b = ask(f, &three, &wish);
+    const aur_ask_report report = report_of(a);
+    assert_true(report.error_low < report.error && report.error < report.error_high);
+    assert_true(report.error_high <= 0.2);
+    assert_true(report.rounds > 1 && report.degrees >= 1.0);
+    assert_true(report.statistics.samples == (uint64_t)(report.samples_per_pixel * 40 * 24 + 0.5));
+    assert_same_picture(a, b);
+    assert_string_equal(aur_ask_integrator(a), "path:max_depth=-1"); /* as the scene says */
+    aur_ask_destroy(a);
+    aur_ask_destroy(b);
+}
+
+/* Rounds that a clock would have stopped are made again without one. */
+static void test_rounds_and_rays(void **state) {
+    const fixture *const f = *state;
+    const aur_render_options options = small(0);
+    aur_ask_options rounds = aur_ask_options_default(), seconds = rounds, rays = rounds;
+    seconds.seconds = 0.05;
+    aur_ask *const by_clock = ask(f, &options, &seconds);
+    rounds.rounds = report_of(by_clock).rounds;
+    aur_ask *const by_rounds = ask(f, &options, &rounds);
+    assert_same_picture(by_clock, by_rounds);
+    rays.rays = 400000;
+    aur_ask *const by_rays = ask(f, &options, &rays);
+    const uint64_t traced = report_of(by_rays).statistics.rays;
+    assert_in_range(traced, 400000, 600000); /* a round adds at most a half */
+    aur_ask_destroy(by_clock);
+    aur_ask_destroy(by_rounds);
+    aur_ask_destroy(by_rays);
+}
+
+static int stop_at_once(void *user, const char *what, uint64_t done, uint64_t total) {
+    (void)what;
+    ++*(size_t *)user;
+    return done > total / 2;
+}
+
+static void test_cancelled_picture_is_kept(void **state) {
+    const fixture *const f = *state;
+    aur_render_options options = small(1);
+    size_t calls = 0;
+    options.progress = (aur_progress){stop_at_once, &calls};
+    aur_ask_options wish = aur_ask_options_default();
+    wish.error = 0.1;
+    aur_ask *asked = NULL;
+    aur_error error = {0};
+    assert_int_equal(aur_ask_create(f->renderer, &options, &wish, &asked, NULL), AUR_OK);
+    assert_int_equal(aur_ask_run(asked, &error), AUR_ERROR_CANCELLED);
+    assert_true(calls > 0);
+    aur_image *const image = picture_of(asked);
+    double sum = 0.0;
+    for (size_t i = 0; i < aur_image_width(image) * aur_image_height(image) * 6; ++i)
+        sum += (double)aur_image_data(image)[i];
+    assert_true(sum > 0.0);
+    aur_image_destroy(image);
+    aur_ask_destroy(asked);
+}
+
+static void test_bad_wishes(void **state) {
+    const fixture *const f = *state;
+    static const aur_ask_options bad[] = {
+        {.size = sizeof bad[0], .error = -0.1},
+        {.size = sizeof bad[0], .error = 1.5},
+        {.size = sizeof bad[0], .seconds = -1.0},
+        {.size = sizeof bad[0], .confidence = 1.0},
+        {.size = sizeof bad[0], .replicas = 2},
+        {.size = sizeof bad[0], .replicas = 17},
+        {.size = 0},
+    };
+    for (size_t i = 0; i < sizeof bad / sizeof bad[0]; ++i) {
+        aur_ask *asked = NULL;
+        aur_error error = {0};
+        assert_int_equal(aur_ask_create(f->renderer, NULL, &bad[i], &asked, &error), AUR_ERROR_ARGUMENT);
+        assert_null(asked);
+        assert_true(error.message[0] != '\0');
+    }
+    aur_render_options options = small(1);
+    options.integrator = "finalgahter";
+    aur_ask *asked = NULL;
+    assert_int_equal(aur_ask_create(f->renderer, &options, NULL, &asked, NULL), AUR_ERROR_NAME);
+    assert_null(asked);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {cmocka_unit_test(test_error), cmocka_unit_test(test_rounds_and_rays),
+                                       cmocka_unit_test(test_cancelled_picture_is_kept),
+                                       cmocka_unit_test(test_bad_wishes)};
+    return cmocka_run_group_tests(tests, set_up, tear_down);
+}

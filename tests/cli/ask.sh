@@ -1,0 +1,63 @@
+#!/usr/bin/env bash
+# `aureole render` to an error: what it says, the same picture on any number of threads and again by rounds, wishes that
+# cannot be, and what an interrupt leaves.
+set -euo pipefail
+aureole=$1
+scene=$2/scenes/cornell-box/cornell-box.xml
+small=(--width 48 --height 32)
+fail() { echo "$*" >&2; exit 1; }
+
+# The error that is said is not above the one that was asked, and the last line names the picture.
+"$aureole" render "$scene" "${small[@]}" --error 20% --error-map -o a.exr -t 1 2> said
+grep -Eq '^aureole: a.exr has an error of [0-9.]+ % of its mean, between [0-9.]+ and [0-9.]+ \(95 %\), after' said ||
+  fail "no line about the error: $(cat said)"
+high=$(sed -n 's/.* and \([0-9.]*\) (95 %).*/\1/p' said)
+awk -v high="$high" 'BEGIN { exit !(high <= 20) }' || fail "asked for 20 %, got up to $high %"
+"$aureole" info a.exr | grep -q 'error.B' || fail "the error map's channels are missing"
+"$aureole" render "$scene" "${small[@]}" --error 20% --error-map -o b.exr -t 3 -q 2> quiet
+cmp a.exr b.exr || fail "threads changed the picture"
+[ ! -s quiet ] || fail "-q says something: $(cat quiet)"
+
+# A clock's picture is made again without one, by the option that is said.
+"$aureole" render "$scene" "${small[@]}" --time .1s -o c.exr 2> said
+rounds=$(sed -n "s/.*'--rounds \([0-9]*\)'.*/\1/p" said)
+"$aureole" render "$scene" "${small[@]}" --rounds "$rounds" -o d.exr -q
+cmp c.exr d.exr || fail "--rounds $rounds makes another picture than --time"
+
+# A dark scene says so.
+printf '%s\n' '<scene version="3.0.0"><integrator type="path"/><sensor type="perspective"><film type="hdrfilm">' \
+  '<integer name="width" value="16"/><integer name="height" value="16"/></film></sensor><shape type="sphere"/></scene>' > dark.xml
+"$aureole" render dark.xml --error 1% -o dark.exr 2> said
+grep -q 'no light of the scene reaches the camera' said || fail "a dark scene: $(cat said)"
+
+refuses() { # WORDS OPTION...
+  local words=$1 status=0
+  shift
+  "$aureole" render "$scene" -o no.exr "$@" 2> said || status=$?
+  [ "$status" = 2 ] || fail "'$*' ends with $status, not 2"
+  grep -q -e "$words" said || fail "'$*' says: $(cat said)"
+  [ ! -e no.exr ] || fail "'$*' left a picture"
+}
+refuses "'abc' is no error" --error abc
+refuses "'0' is no error" --error 0
+refuses "'200%' is no error" --error 200%
+refuses "'-3s' is no time" --time -3s
+refuses "'3x' is no time" --time 3x
+refuses "'many' is no number of rays" --rays many
+refuses "--spp' does not go with" --error 1% --spp 4
+refuses "--error-map' goes with" --error-map
+
+# An interrupt leaves what there is beside the picture of before, with and without a wish.
+for wish in "--error .01%" "--spp 5000"; do
+  echo old > e.exr
+  rm -f e.partial.exr
+  # shellcheck disable=SC2086
+  "$aureole" render "$scene" --width 96 --height 96 $wish -o e.exr -q 2> said &
+  sleep 1
+  kill -INT $!
+  status=0
+  wait $! || status=$?
+  [ "$status" = 3 ] || fail "interrupted '$wish' ends with $status, not 3"
+  [ "$(cat e.exr)" = old ] || fail "interrupted '$wish' replaced the picture"
+  "$aureole" info e.partial.exr > /dev/null || fail "interrupted '$wish' left no partial picture: $(cat said)"
+done
