@@ -44,8 +44,11 @@ static inline aur_reals aur_lanes_sqrt(aur_reals x) {
 #elif defined(__AVX2__)
     return (aur_reals)_mm256_sqrt_pd((__m256d)x);
 #else
+    double roots[AUR_LANES]; /* gcc makes one instruction of a loop over an array only */
+    memcpy(roots, &x, sizeof roots);
     for (unsigned l = 0; l < AUR_LANES; ++l)
-        x[l] = sqrt(x[l]);
+        roots[l] = sqrt(roots[l]);
+    memcpy(&x, roots, sizeof x);
     return x;
 #endif
 }

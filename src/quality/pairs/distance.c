@@ -1,4 +1,3 @@
-#define LANES 2
 #include "quality/pairs/distance_body.h"
 
 const aur_distance_kernels aur_distance_portable = {distance_tile, distance_tile};

@@ -1,4 +1,3 @@
-#define LANES 4
 #include "quality/pairs/distance_body.h"
 
 const aur_distance_kernels aur_distance_avx2 = {distance_tile, distance_tile};

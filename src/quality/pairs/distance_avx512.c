@@ -1,5 +1,4 @@
 /* The fast kernel is by hand: estimates of reciprocal roots take half the time of roots. */
-#define LANES 8
 #include "quality/pairs/distance_body.h"
 
 #include <immintrin.h>

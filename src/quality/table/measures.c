@@ -8,6 +8,7 @@
 #include "core/keys.h"
 #include "core/options.h"
 #include "core/text.h"
+#include "core/vector3d.h"
 #include "sphere/native.h"
 
 #define ROW_OF(name) &aur_measure_##name,
@@ -107,7 +108,7 @@ static aur_result check_point(const aur_points_view *points, size_t index, aur_e
                                "point %zu is at radius %.17g, outside the unit disk", index + 1, radius);
         return AUR_OK;
     }
-    const double length = sqrt(x[0] * x[0] + x[1] * x[1] + x[2] * x[2]);
+    const double length = aur_length3(x);
     if (!(fabs(length - 1.0) <= unit_tolerance))
         return aur_fail_at(error, where, AUR_ERROR_ARGUMENT,
                            "point %zu has the length %.9g: directions must be unit vectors within 1e-6",
@@ -137,18 +138,14 @@ static aur_result check_weights(const aur_measure_row *row, const aur_points_vie
     return AUR_OK;
 }
 
+/* 0: any. */
 static size_t expected_dimension(aur_domain domain) {
-    switch (domain) {
-    case AUR_DOMAIN_SQUARE:
-    case AUR_DOMAIN_DISK:
-        return 2;
-    case AUR_DOMAIN_HEMISPHERE:
-    case AUR_DOMAIN_SPHERE:
-        return 3;
-    case AUR_DOMAIN_CUBE:
-        break;
-    }
-    return 0;
+    static const size_t dimensions[] = {[AUR_DOMAIN_SQUARE] = 2,
+                                        [AUR_DOMAIN_CUBE] = 0,
+                                        [AUR_DOMAIN_DISK] = 2,
+                                        [AUR_DOMAIN_HEMISPHERE] = 3,
+                                        [AUR_DOMAIN_SPHERE] = 3};
+    return dimensions[domain];
 }
 
 static aur_result check(const aur_measure_row *row, const aur_points_view *points, aur_error *error) {
@@ -175,7 +172,7 @@ static aur_result check(const aur_measure_row *row, const aur_points_view *point
 
 /* A vector that is unit to rounding stays as it is. */
 static double unit_scale(const double x[3]) {
-    const double square = x[0] * x[0] + x[1] * x[1] + x[2] * x[2];
+    const double square = aur_dot3(x, x);
     return fabs(square - 1.0) <= 1e-15 ? 1.0 : 1.0 / sqrt(square);
 }
 
