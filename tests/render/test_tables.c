@@ -23,7 +23,6 @@ static void check_table(const aur_table *table) {
     for (size_t r = 0; table->row(r) != NULL; ++r) {
         const aur_row *const row = table->row(r);
         assert_true(row->name[0] != '\0' && row->summary[0] != '\0');
-        assert_non_null(row->source);
         for (size_t k = 0; aur_row_key(row, k) != NULL; ++k)
             check_key(table, row, aur_row_key(row, k));
     }

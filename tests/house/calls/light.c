@@ -1,5 +1,7 @@
-/* Calls each function of image.h, scene.h, film.h, render.h and radiosity.h, most of them with bad input too.
+/* Calls each function of image.h, scene.h, film.h, render.h, ask.h and radiosity.h, most of them with bad
+ * input too.
  */
+#include <aureole/ask.h>
 #include <aureole/radiosity.h>
 #include <aureole/render.h>
 #include <aureole/view_factors.h>
@@ -123,7 +125,9 @@ static void renders(const aur_scene *scene) {
     aur_image_destroy(image);
     accept(aur_render_create(renderer, &options, &render, &error), &error);
     accept(aur_render_step(render, 1, &error), &error);
-    accept(aur_render_step(render, 1, &error), &error);
+    const uint32_t targets[] = {2, 2};
+    refuse(aur_render_step_tiles(render, 2, targets, &error), AUR_ERROR_ARGUMENT, &error);
+    accept(aur_render_step_tiles(render, 1, targets, &error), &error);
     require(aur_render_samples(render) == 2 && aur_render_samples_wanted(render) == 2, "a render's samples");
     aur_render_statistics statistics = {.size = sizeof statistics};
     accept(aur_render_get_statistics(render, &statistics, &error), &error);
@@ -136,6 +140,32 @@ static void renders(const aur_scene *scene) {
     remove("calls.film");
     aur_render_cancel(render);
     aur_render_destroy(render);
+    aur_renderer_destroy(renderer);
+}
+
+static void asks(const aur_scene *scene) {
+    aur_renderer *renderer = NULL;
+    accept(aur_renderer_create(scene, &renderer, &error), &error);
+    aur_ask_options wish = aur_ask_options_default();
+    aur_ask *ask = NULL;
+    wish.error = -1.0;
+    refuse(aur_ask_create(renderer, NULL, &wish, &ask, &error), AUR_ERROR_ARGUMENT, &error);
+    wish.error = 0.5;
+    accept(aur_ask_create(renderer, NULL, &wish, &ask, &error), &error);
+    require(strcmp(aur_ask_integrator(ask), "path") == 0, "aur_ask_integrator");
+    aur_ask_cancel(ask);
+    refuse(aur_ask_run(ask, &error), AUR_ERROR_CANCELLED, &error);
+    accept(aur_ask_run(ask, &error), &error);
+    aur_ask_report report = {.size = sizeof report};
+    accept(aur_ask_get_report(ask, &report, &error), &error);
+    require(report.error_high <= 0.5 && report.rounds > 0, "aur_ask_get_report");
+    report.size = 0;
+    refuse(aur_ask_get_report(ask, &report, &error), AUR_ERROR_ARGUMENT, &error);
+    aur_image *image = NULL;
+    accept(aur_ask_develop(ask, true, &image, &error), &error);
+    require(aur_image_channel_count(image) == 6, "aur_ask_develop");
+    aur_image_destroy(image);
+    aur_ask_destroy(ask);
     aur_renderer_destroy(renderer);
 }
 
@@ -180,6 +210,7 @@ int main(void) {
     pictures();
     aur_scene *const scene = scenes();
     renders(scene);
+    asks(scene);
     radiosity_solutions(scene);
     aur_scene_destroy(scene);
     view_factors();
