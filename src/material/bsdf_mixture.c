@@ -92,13 +92,28 @@ static void weigh(const aur_bsdf *bsdf, aur_bsdf_point point, aur_vector view, a
     }
 }
 
+/* The one part that is seen from a side, which nothing needs to be weighed for. */
+static size_t part_seen(aur_vector view) {
+    return view.z < 0.0f ? 1 : 0;
+}
+
+static bool has_part(const mixture *self, aur_bsdf_part part, size_t k) {
+    return part == AUR_BSDF_WHOLE || has_any(self->part[k], AUR_SCATTERS_SAMPLED);
+}
+
 static aur_vector evaluate(const aur_bsdf *bsdf, aur_bsdf_part part, aur_bsdf_point point, aur_vector view,
                            aur_vector light, float *pdf) {
     const mixture *const self = bsdf->data;
+    *pdf = 0.0f;
+    if (self->by_side) {
+        const size_t k = part_seen(view);
+        return has_part(self, part, k) ? aur_bsdf_evaluate(self->part[k], part, point, turned(self, k, view),
+                                                           turned(self, k, light), pdf)
+                                       : (aur_vector){0};
+    }
     float weights[2];
     const float total = weigh_parts(self, part, point, view.z, weights);
     aur_vector sum = {0};
-    *pdf = 0.0f;
     for (size_t k = 0; k < 2; ++k) {
         if (!(weights[k] > 0.0f))
             continue;
@@ -114,6 +129,14 @@ static aur_vector evaluate(const aur_bsdf *bsdf, aur_bsdf_part part, aur_bsdf_po
 static bool sample(const aur_bsdf *bsdf, aur_bsdf_part part, aur_bsdf_point point, aur_vector view,
                    const float u[3], aur_bsdf_sample *drawn) {
     const mixture *const self = bsdf->data;
+    if (self->by_side) {
+        const size_t k = part_seen(view);
+        if (!has_part(self, part, k) ||
+            !aur_bsdf_draw(self->part[k], part, point, turned(self, k, view), u, drawn))
+            return false;
+        drawn->light = turned(self, k, drawn->light);
+        return true;
+    }
     float weights[2];
     const float total = weigh_parts(self, part, point, view.z, weights);
     if (!(total > 0.0f))
