@@ -24,6 +24,13 @@ static aur_vector mesh_tangent(const aur_mesh *mesh, const uint32_t *index, cons
                             1.0f / determinant);
 }
 
+/* Of a triangle so large or thin that its sides' product leaves the range of floats; one without area faces
+ * the ray. */
+static aur_vector unusual_normal(const aur_vector edge[2], const aur_ray *ray) {
+    const aur_vector normal = aur_extreme_triangle_normal(edge[0], edge[1], NULL);
+    return aur_vector_is_zero(normal) ? aur_vector_scale(ray->direction, -1.0f) : normal;
+}
+
 static void mesh_surface(const aur_shape *shape, const aur_ray *ray, const aur_hit *hit,
                          aur_surface *surface) {
     const aur_mesh *const mesh = &shape->mesh;
@@ -33,10 +40,13 @@ static void mesh_surface(const aur_shape *shape, const aur_ray *ray, const aur_h
     aur_mesh_corners(mesh, hit->primitive, corner);
     const aur_vector edge[2] = {aur_vector_subtract(corner[1], corner[0]),
                                 aur_vector_subtract(corner[2], corner[0])};
-    aur_vector normal = aur_triangle_normal(corner);
-    /* A triangle too thin for its normal faces the ray. */
-    if (aur_vector_is_zero(normal))
-        normal = aur_vector_scale(ray->direction, -1.0f);
+    const aur_vector cross = aur_vector_cross(edge[0], edge[1]);
+    const float squared = aur_vector_dot(cross, cross);
+    aur_vector normal;
+    if (aur_is_usual_square(squared))
+        normal = aur_vector_scale(cross, 1.0f / sqrtf(squared));
+    else
+        normal = unusual_normal(edge, ray);
     surface->position = aur_vector_add_scaled(
         aur_vector_add_scaled(aur_vector_scale(corner[0], weight[0]), weight[1], corner[1]), weight[2],
         corner[2]);
