@@ -45,7 +45,10 @@ AUR_EXPERIMENTAL aur_result aur_ask_create(aur_renderer *renderer, const aur_ren
     AUR_NONNULL(1, 4);
 AUR_EXPERIMENTAL void aur_ask_destroy(aur_ask *ask); /* NULL is allowed */
 
-/* Renders rounds until the wish is met. CANCELLED leaves the picture as it was after the last whole round. */
+/* Renders rounds until the wish is met. Errors: CANCELLED by aur_ask_cancel or the progress callback: the
+ * picture keeps the samples of tiles that were finished, the report is that of the last whole round, and
+ * another call goes on to the same picture as if nothing had been; MEMORY and others, after which the asking
+ * can only be destroyed. */
 AUR_EXPERIMENTAL aur_result aur_ask_run(aur_ask *ask, aur_error *error) AUR_NONNULL(1);
 /* Stops aur_ask_run in another thread; may be called from a signal handler. */
 AUR_EXPERIMENTAL void aur_ask_cancel(aur_ask *ask) AUR_NONNULL(1);
@@ -74,7 +77,8 @@ AUR_EXPERIMENTAL aur_result aur_ask_get_report(const aur_ask *ask, aur_ask_repor
 AUR_EXPERIMENTAL const char *aur_ask_integrator(const aur_ask *ask) AUR_NONNULL(1);
 
 /* The picture, a new one with channels R, G, B; with `errors` also error.R, error.G, error.B, the standard
- * error of each value as the replicas tell it. Errors: MEMORY. */
+ * error of each value as the replicas tell it, in the picture's units. Channels that an integrator adds are
+ * left out, which aur_ask_create warns of. Errors: MEMORY. */
 AUR_EXPERIMENTAL aur_result aur_ask_develop(const aur_ask *ask, bool errors, aur_image **image,
                                             aur_error *error) AUR_NONNULL(1, 3);
 

@@ -6,6 +6,7 @@
 #include "ask/choose.h"
 #include "ask/replicas.h"
 #include "ask/rounds.h"
+#include "core/error.h"
 #include "core/options.h"
 #include "film/film.h"
 #include "render/renderer.h"
@@ -25,6 +26,7 @@ struct aur_ask {
     double rate;                 /* the error's square falls as samples^-rate */
     double samples;              /* a pixel, all replicas together */
     uint64_t rounds;
+    bool begun; /* a round that was stopped before its end */
     atomic_bool cancelled;
     /* For the progress callback: replicas done of this round, and what is rendered in all. */
     size_t replica;
@@ -86,6 +88,11 @@ static aur_result prepare(aur_ask *ask, aur_renderer *renderer, const aur_render
     result = aur_replicas_create(renderer, &own, ask->wish.replicas, &ask->replicas, error);
     if (result != AUR_OK)
         return result;
+    if (aur_render_film(ask->replicas.renders[0])->layout.channel_count > 3)
+        aur_warn_at(
+            &own.warnings, (aur_location){0},
+            "a picture to an error, a time or a number of rays has R, G and B alone: the channels that "
+            "the integrator adds are left out");
     ask->targets = calloc(ask->replicas.tile_count, sizeof *ask->targets);
     ask->variances = calloc(ask->replicas.tile_count, sizeof *ask->variances);
     return ask->targets != NULL && ask->variances != NULL ? AUR_OK : aur_fail_memory(error);
@@ -208,9 +215,12 @@ static aur_result render_round(aur_ask *ask, aur_error *error) {
         if (result == AUR_OK)
             result = aur_render_step_tiles(ask->replicas.renders[ask->replica], ask->replicas.tile_count,
                                            ask->targets, error);
-        if (result != AUR_OK)
+        if (result != AUR_OK) {
+            ask->samples = ask->before;
             return result;
+        }
     }
+    ask->begun = false;
     ++ask->rounds;
     ask->samples = mean_samples(ask);
     aur_replicas_measure(&ask->replicas, &ask->measure, ask->variances);
@@ -225,18 +235,22 @@ static aur_result render_round(aur_ask *ask, aur_error *error) {
     return AUR_OK;
 }
 
+/* False when all tiles have all the samples that they can have. */
+static bool plan_round(aur_ask *ask) {
+    if (ask->rounds > 0)
+        return aur_raise_targets(ask->replicas.tile_count, ask->variances, next_factor(ask), MOST_SAMPLES,
+                                 ask->targets);
+    for (size_t i = 0; i < ask->replicas.tile_count; ++i)
+        ask->targets[i] = 1;
+    return true;
+}
+
 aur_result aur_ask_run(aur_ask *ask, aur_error *error) {
     aur_result result = AUR_OK;
-    while (result == AUR_OK && (ask->rounds == 0 || !is_met(ask))) {
-        bool raised = ask->rounds == 0;
-        if (raised)
-            for (size_t i = 0; i < ask->replicas.tile_count; ++i)
-                ask->targets[i] = 1;
-        else
-            raised = aur_raise_targets(ask->replicas.tile_count, ask->variances, next_factor(ask),
-                                       MOST_SAMPLES, ask->targets);
-        if (!raised)
+    while (result == AUR_OK && (ask->rounds == 0 || ask->begun || !is_met(ask))) {
+        if (!ask->begun && !plan_round(ask))
             break;
+        ask->begun = true;
         result = render_round(ask, error);
     }
     atomic_store(&ask->cancelled, false);

@@ -6,7 +6,7 @@
 
 /* Integrators that look at a scene in their own way: another one would make another picture. */
 static bool has_its_own_picture(const char *name) {
-    static const char *const names[] = {"ao", "direct", "radiosity", "depth", "aov", "moment"};
+    static const char *const names[] = {"ao", "direct", "radiosity", "depth", "aov"};
     for (size_t i = 0; i < sizeof names / sizeof names[0]; ++i)
         if (strcmp(name, names[i]) == 0)
             return true;

@@ -118,8 +118,7 @@ static aur_vector evaluate(const aur_bsdf *bsdf, aur_bsdf_part part, aur_bsdf_po
         if (!(weights[k] > 0.0f))
             continue;
         float density;
-        const aur_vector value = aur_bsdf_evaluate(self->part[k], part, point, turned(self, k, view),
-                                                   turned(self, k, light), &density);
+        const aur_vector value = aur_bsdf_evaluate(self->part[k], part, point, view, light, &density);
         sum = aur_vector_add_scaled(sum, weights[k], value);
         *pdf += weights[k] / total * density;
     }
@@ -146,9 +145,8 @@ static bool sample(const aur_bsdf *bsdf, aur_bsdf_part part, aur_bsdf_point poin
     const float chance = weights[k] / total;
     const float rest = (k == 0 ? u[0] : u[0] - first) / chance;
     const float own[3] = {fminf(rest, 0x1.fffffep-1f), u[1], u[2]};
-    if (!aur_bsdf_draw(self->part[k], part, point, turned(self, k, view), own, drawn))
+    if (!aur_bsdf_draw(self->part[k], part, point, view, own, drawn))
         return false;
-    drawn->light = turned(self, k, drawn->light);
     drawn->pdf *= chance;
     drawn->weight = aur_vector_scale(drawn->weight, total);
     if (drawn->specular || !(weights[1 - k] > 0.0f) ||
