@@ -132,7 +132,7 @@ static void read_file(load_context *context) {
 }
 
 static void build(const grid *g) {
-    const RTCDevice device = rtcNewDevice("threads=1");
+    const RTCDevice device = rtcNewDevice(aur_embree_configuration());
     const RTCScene scene = rtcNewScene(device);
     rtcSetSceneFlags(scene, RTC_SCENE_FLAG_ROBUST);
     const RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);

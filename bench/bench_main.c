@@ -1,6 +1,8 @@
-/* aureole-bench list | NAME... [--quick]. Adding a bench is one file and one line here. */
+/* aureole-bench list | NAME... [--quick] [--isa SET]. Adding a bench is one file and one line here. */
+#define _DEFAULT_SOURCE /* setenv */
 #include <getopt.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include "bench.h"
@@ -55,7 +57,11 @@ static void print_list(void) {
 
 static void print_help(void) {
     puts("usage: aureole-bench list\n"
-         "       aureole-bench all|NAME... [--quick]\n"
+         "       aureole-bench all|NAME... [--quick] [--isa portable|avx2|avx512]\n"
+         "  --quick  small work, to see whether all runs: figures of no worth\n"
+         "  --isa    instructions that our kernels and Embree's may use, as if the processor had no wider "
+         "ones;\n"
+         "           else AUREOLE_ISA's, or all it has. What a bench used is printed behind its name\n"
          "Rates are units a CPU second; [low, high] are the quartiles of a ratio over the pairs.");
 }
 
@@ -72,18 +78,42 @@ static void print_machine(const bench_options *options) {
     }
     if (file != NULL)
         fclose(file);
-    printf("%zu threads, our own kernels with %s instructions%s\n", options->threads,
-           aur_isa_name(aur_isa_available()), options->quick ? "; quick: figures of no worth" : "");
+    printf("%zu threads%s\n", options->threads, options->quick ? "; quick: figures of no worth" : "");
+}
+
+/* Holds our kernels and Embree's, and those of the programs that benches start. */
+static bool hold_isa(const char *name) {
+    aur_error error;
+    if (aur_isa_check(name, &error) != AUR_OK)
+        return bench_fail("--isa: %s", error.message);
+    if (setenv("AUREOLE_ISA", name, 1) != 0 || unsetenv("AUREOLE_EMBREE_ISA") != 0)
+        return bench_fail("out of memory");
+    aur_isa_ask_again();
+    return true;
+}
+
+static bool run(const bench *chosen, const bench_options *options) {
+    printf("%s: %s [our kernels: %s; Embree's: %s]\n", chosen->name, chosen->summary,
+           aur_isa_name(aur_isa_available()), aur_isa_name(aur_isa_of_rays()));
+    fflush(stdout);
+    return chosen->run(options);
 }
 
 int main(int argc, char **argv) {
-    static const struct option long_options[] = {
-        {"quick", no_argument, NULL, 'q'}, {"help", no_argument, NULL, 'h'}, {NULL, 0, NULL, 0}};
+    static const struct option long_options[] = {{"quick", no_argument, NULL, 'q'},
+                                                 {"isa", required_argument, NULL, 'i'},
+                                                 {"help", no_argument, NULL, 'h'},
+                                                 {NULL, 0, NULL, 0}};
     bench_options options = {.pairs = 15, .seconds = 0.05, .threads = aur_parallel_threads(0)};
     for (int option; (option = getopt_long(argc, argv, "", long_options, NULL)) != -1;) {
         if (option == 'h') {
             print_help();
             return 0;
+        }
+        if (option == 'i') {
+            if (!hold_isa(optarg))
+                return 2;
+            continue;
         }
         if (option != 'q')
             return 2;
@@ -107,11 +137,8 @@ int main(int argc, char **argv) {
         }
     print_machine(&options);
     const size_t count = all ? BENCH_COUNT : (size_t)(argc - optind);
-    for (size_t i = 0; i < count; ++i) {
-        const bench *const chosen = all ? benches[i] : find(argv[optind + (int)i]);
-        printf("%s: %s\n", chosen->name, chosen->summary);
-        if (!chosen->run(&options))
+    for (size_t i = 0; i < count; ++i)
+        if (!run(all ? benches[i] : find(argv[optind + (int)i]), &options))
             return 3;
-    }
     return 0;
 }

@@ -7,7 +7,7 @@
 
 #include "experimental.h"
 
-enum { WIDTH = 128, QUICK_WIDTH = 32, CHANNELS = 3, ROUNDS = 2 };
+enum { WIDTH = 128, QUICK_WIDTH = 16, CHANNELS = 3, ROUNDS = 2 };
 
 typedef struct gather_context {
     const aur_scene *scene;
@@ -29,8 +29,10 @@ typedef struct gather_way {
 
 static bool prepare(gather_context *context, const char *keys, gather_way *way) {
     char text[256];
-    snprintf(text, sizeof text, "finalgather:photons=%d,diffuse_samples=64,glossy_samples=32,density=same,%s",
-             context->width == WIDTH ? 500000 : 20000, keys);
+    const char *const sizes = context->width == WIDTH
+                                  ? "photons=500000,diffuse_samples=64,glossy_samples=32"
+                                  : "photons=2000,diffuse_samples=16,glossy_samples=8,rotations=2";
+    snprintf(text, sizeof text, "finalgather:%s,density=same,%s", sizes, keys);
     const aur_integrator_context wanted = {
         .scene = context->scene, .samples_per_pixel = 1, .threads = 1, .cache = context->cache};
     aur_parameters parameters;

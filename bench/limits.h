@@ -1,6 +1,6 @@
 /* What the machine can do at best, each limit with the widest instruction set that aur_isa_available() gives
- * (Embree chooses its own). `units` of an open limit are bytes, flops, pairs or rays, as the comment beside
- * it says. */
+ * and Embree's kernels no wider ones. `units` of an open limit are bytes, flops, pairs or rays, as the
+ * comment beside it says. */
 #pragma once
 
 #include "bench.h"

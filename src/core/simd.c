@@ -2,7 +2,13 @@
 
 #include <stdatomic.h>
 #include <stdlib.h>
-#include <string.h>
+
+#include "core/names.h"
+
+/* From the narrowest to the widest. */
+static const aur_isa sets[] = {AUR_ISA_PORTABLE, AUR_ISA_AVX2, AUR_ISA_AVX512};
+static const char *const names[] = {"portable", "avx2", "avx512"};
+enum { SET_COUNT = sizeof sets / sizeof sets[0] };
 
 static aur_isa processor_isa(void) {
 #if defined(__x86_64__) && defined(__GNUC__)
@@ -15,14 +21,10 @@ static aur_isa processor_isa(void) {
     return AUR_ISA_PORTABLE;
 }
 
+/* A limit of an unknown name is none. */
 static aur_isa limited(aur_isa processor, const char *limit) {
-    if (limit == NULL)
-        return processor;
-    if (strcmp(limit, "portable") == 0)
-        return AUR_ISA_PORTABLE;
-    if (strcmp(limit, "avx2") == 0 && processor > AUR_ISA_AVX2)
-        return AUR_ISA_AVX2;
-    return processor;
+    const size_t found = limit == NULL ? SET_COUNT : aur_names_find(aur_names_of(SET_COUNT, names), limit);
+    return found < SET_COUNT && sets[found] < processor ? sets[found] : processor;
 }
 
 /* The answer, or -1 while nobody has asked: the environment is read once, since kernels are chosen often. Two
@@ -48,13 +50,21 @@ aur_isa aur_isa_of_rays(void) {
 }
 
 const char *aur_isa_name(aur_isa isa) {
-    switch (isa) {
-    case AUR_ISA_PORTABLE:
-        return "portable";
-    case AUR_ISA_AVX2:
-        return "avx2";
-    case AUR_ISA_AVX512:
-        return "avx512";
-    }
+    for (size_t i = 0; i < SET_COUNT; ++i)
+        if (sets[i] == isa)
+            return names[i];
     return "unknown";
+}
+
+aur_result aur_isa_check(const char *name, aur_error *error) {
+    size_t found;
+    const aur_result result = aur_names_choose(aur_names_of(SET_COUNT, names), "instruction set", name,
+                                               (aur_location){0}, &found, error);
+    if (result != AUR_OK)
+        return result;
+    if (sets[found] > processor_isa())
+        return aur_fail(error, AUR_ERROR_UNSUPPORTED,
+                        "this processor has no %s instructions; the widest set that it has is %s", name,
+                        aur_isa_name(processor_isa()));
+    return AUR_OK;
 }

@@ -4,6 +4,8 @@
  * *_avx512.c, and a portable one), and its room chooses between them by AUR_KERNEL_HERE. */
 #pragma once
 
+#include "core/error.h"
+
 typedef enum aur_isa { AUR_ISA_PORTABLE = 0, AUR_ISA_AVX2 = 2, AUR_ISA_AVX512 = 5 } aur_isa;
 
 /* The widest set that both the processor and the environment variable AUREOLE_ISA (portable, avx2, avx512; a
@@ -19,6 +21,10 @@ void aur_isa_ask_again(void);
 aur_isa aur_isa_of_rays(void);
 
 const char *aur_isa_name(aur_isa isa);
+
+/* AUR_OK where the processor has the set called `name`, whatever the environment says. Errors: NAME where no
+ * set is called so, with the nearest; UNSUPPORTED where the processor is without it. */
+aur_result aur_isa_check(const char *name, aur_error *error);
 
 /* Of kernel_portable, kernel_avx2 and kernel_avx512, functions or tables of functions which one body makes in
  * files that are compiled for these instruction sets, the one to use here. Builds for other processors than

@@ -163,7 +163,7 @@ static bool attach_all(aur_scene *scene) {
 /* One thread builds the same tree each time: with it, which of two hits at one distance wins is settled.
  * Embree obeys the limit of AUREOLE_ISA too, so that a test on one machine meets the kernels that others
  * have. */
-static const char *device_configuration(void) {
+const char *aur_embree_configuration(void) {
     switch (aur_isa_of_rays()) {
     case AUR_ISA_PORTABLE:
         return "threads=1,isa=sse2";
@@ -176,7 +176,7 @@ static const char *device_configuration(void) {
 }
 
 aur_result aur_scene_build_accel(aur_scene *scene, aur_error *error) {
-    scene->device = rtcNewDevice(device_configuration());
+    scene->device = rtcNewDevice(aur_embree_configuration());
     scene->accel = scene->device != NULL ? new_scene(scene) : NULL;
     if (scene->accel == NULL || !attach_all(scene))
         return fail(scene, RTC_ERROR_NONE, error);
