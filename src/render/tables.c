@@ -5,6 +5,7 @@
 #include "material/texture.h"
 #include "scene/emitter.h"
 #include "scene/filter.h"
+#include "scene/load/spectrum.h"
 #include "scene/scene.h"
 #include "scene/sensor.h"
 #include "scene/shape.h"
@@ -15,6 +16,7 @@ static const aur_table *const tables[] = {
     &aur_integrator_table,
     &aur_bsdf_table,
     &aur_texture_table,
+    &aur_spectrum_table,
     &aur_shape_table,
     &aur_emitter_table,
     &aur_sensor_table,

@@ -91,6 +91,31 @@ static void maps_samplers_to_sets(void **state) {
     }
 }
 
+/* Emitters, samplers, films and filters at scene level are used where something refers to them. */
+static void refers_to_parts(void **state) {
+    (void)state;
+    static const char text[] =
+        "<scene version='3.0.0'><integrator type='moment'><integrator type='path' name='inner'/></integrator>"
+        "<sampler type='multijitter' id='s'><integer name='sample_count' value='25'/></sampler>"
+        "<sampler type='halton' id='unused'/><film type='hdrfilm' id='f'><integer name='width' value='7'/>"
+        "<ref id='box'/></film><rfilter type='box' id='box'/><emitter type='area' id='lamp'/>"
+        "<sensor type='perspective'><float name='focus_distance' value='2'/><ref id='s'/><ref "
+        "id='f'/></sensor>"
+        "<shape type='sphere'><ref id='lamp'/></shape></scene>";
+    aur_scene *scene;
+    aur_error error = {0};
+    assert_int_equal(aur_scene_load(write_text("parts.xml", text), NULL, &scene, &error), AUR_OK);
+    aur_scene_description description = {.size = sizeof description};
+    aur_scene_describe(scene, &description, NULL);
+    assert_string_equal(description.integrator, "path");
+    assert_string_equal(description.sampler, "sobol");
+    assert_string_equal(description.filter, "box");
+    assert_int_equal(description.samples_per_pixel, 25);
+    assert_int_equal(description.width, 7);
+    assert_int_equal(description.emitters, 1);
+    aur_scene_destroy(scene);
+}
+
 static void substitutes_names(void **state) {
     (void)state;
     static const char body[] =
@@ -352,8 +377,29 @@ static const struct bad_row {
     {"<alias id='q' as='r'/>", 2, 1, "there is no id 'q'"},
     {"<bsdf type='diffuse'><texture type='checkerbord' name='reflectance'/></bsdf>", 2, 22,
      "unknown texture"},
-    {"<bsdf type='diffuse'><spectrum name='reflectance' value='400:0.1, 700:0.2'/></bsdf>", 2, 22,
-     "wavelengths are not supported"},
+    {"<bsdf type='diffuse'><spectrum name='reflectance' value='400:0.1, 300:0.2'/></bsdf>", 2, 22,
+     "must increase, but 300 nm comes after 400 nm"},
+    {"<bsdf type='diffuse'><spectrum name='reflectance' value='400:0.1'/></bsdf>", 2, 22,
+     "at least two wavelengths, not 1"},
+    {"<bsdf type='diffuse'><spectrum name='reflectance' value='400:0.1, 500'/></bsdf>", 2, 22,
+     "pairs such as 400:0.1, not '500'"},
+    {"<bsdf type='diffuse'><spectrum name='reflectance' value='400:0.1, 500:-1'/></bsdf>", 2, 22,
+     "the value at 500 nm must not be negative"},
+    {"<bsdf type='diffuse'><spectrum name='reflectance'/></bsdf>", 2, 22,
+     "one of 'value', 'filename' and 'type'"},
+    {"<bsdf type='diffuse'><spectrum name='reflectance' type='d6'/></bsdf>", 2, 22, "did you mean 'd65'"},
+    {"<bsdf type='diffuse'><spectrum name='reflectance' type='blackbody'/></bsdf>", 2, 22,
+     "it needs 'temperature'"},
+    {"<bsdf type='diffuse'><spectrum name='reflectance' type='uniform'><spectrum name='value' "
+     "value='1'/></spectrum></bsdf>",
+     2, 66, "<spectrum> cannot stand inside <spectrum>"},
+    {"<bsdf type='diffuse'><spectrum name='reflectance' type='irregular'><string name='values' "
+     "value='1,2'/><string name='wavelengths' value='400'/></spectrum></bsdf>",
+     2, 22, "it has 1 wavelengths and 2 values"},
+    {"<bsdf type='diffuse'><spectrum name='reflectance' filename='no.spd'/></bsdf>", 2, 22,
+     "cannot find 'no.spd'"},
+    {"<integrator type='moment'/>", 2, 1, "needs an <integrator> inside"},
+    {"<emitter type='area' id='lamp'/>", 2, 1, "must stand inside a <shape>, or a shape refer to it"},
 };
 
 static void says_what_is_wrong(void **state) {
@@ -527,6 +573,7 @@ int main(void) {
         cmocka_unit_test(loads_a_small_scene),
         cmocka_unit_test(maps_samplers_to_sets),
         cmocka_unit_test(gives_default_materials),
+        cmocka_unit_test(refers_to_parts),
         cmocka_unit_test(substitutes_names),
         cmocka_unit_test(includes_files),
         cmocka_unit_test(reads_old_versions),

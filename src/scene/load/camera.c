@@ -207,8 +207,28 @@ aur_result aur_build_sensor(aur_loader *self, aur_parameters *parameters, void *
     if (result != AUR_OK)
         return result;
     scene->has_sensor = true;
+    const aur_row *row;
     warn_unused(self, parameters, aur_sensor_table.common);
+    result = aur_table_find(&aur_sensor_table, parameters, &row, self->error);
+    if (result != AUR_OK)
+        return result;
+    warn_unused(self, parameters, row);
     return aur_sensor_create(parameters, &scene->sensor, self->error);
+}
+
+/* <integrator type="moment">: what stands inside takes its place. */
+static aur_result unwrap_moment(aur_loader *self, aur_parameters *parameters) {
+    aur_scene *const scene = self->scene;
+    if (aur_parameters_find(parameters, "integrator") == NULL || !scene->has_nested_integrator)
+        return aur_parameters_fail(parameters, self->error, AUR_ERROR_FORMAT,
+                                   "it needs an <integrator> inside");
+    aur_warn_at(self->warnings, parameters->location,
+                "integrator 'moment' is read as the one inside it, '%s', without second moments",
+                scene->nested_integrator.plugin);
+    scene->integrator = scene->nested_integrator;
+    scene->nested_integrator = (aur_parameters){0};
+    scene->has_nested_integrator = false;
+    return aur_parameters_finish(parameters, self->error);
 }
 
 aur_result aur_build_integrator(aur_loader *self, aur_parameters *parameters, void **object) {
@@ -225,6 +245,8 @@ aur_result aur_build_integrator(aur_loader *self, aur_parameters *parameters, vo
         return AUR_OK;
     }
     *has = true;
+    if (!nested && strcmp(parameters->plugin, "moment") == 0)
+        return unwrap_moment(self, parameters);
     for (size_t i = 0; i < parameters->count; ++i) {
         aur_parameter *const item = &parameters->items[i];
         char *set;

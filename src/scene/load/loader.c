@@ -114,7 +114,7 @@ static aur_result collect(aur_loader *self, const aur_xml_node *node, aur_parame
     for (aur_xml_node *child = node->first_child; child != NULL; child = child->next) {
         aur_result result;
         if (aur_xml_is_property(child->tag)) {
-            result = aur_xml_add_property(child, parameters, self->error);
+            result = aur_loader_add_property(self, child, parameters);
         } else if (strcmp(child->tag, "ref") == 0 || aur_loader_find_kind(self, child->tag) != NULL) {
             result = add_nested(self, child, parameters);
         } else {

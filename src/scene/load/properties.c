@@ -1,11 +1,12 @@
 #include "scene/load/properties.h"
 
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
-#include "core/names.h"
 #include "core/text.h"
-#include "scene/transform.h"
+#include "scene/load/spectrum.h"
+#include "scene/load/transforms.h"
 
 typedef struct property {
     aur_xml_rule rule;
@@ -20,7 +21,7 @@ static const property properties[] = {
     {{"point", 1, {"name", "value", "x", "y", "z"}}, AUR_PARAMETER_VECTOR},
     {{"vector", 1, {"name", "value", "x", "y", "z"}}, AUR_PARAMETER_VECTOR},
     {{"rgb", 2, {"name", "value"}}, AUR_PARAMETER_COLOR},
-    {{"spectrum", 2, {"name", "value"}}, AUR_PARAMETER_COLOR},
+    {{"spectrum", 1, {"name", "value", "filename", "type", "id"}}, AUR_PARAMETER_COLOR},
     {{"transform", 1, {"name"}}, AUR_PARAMETER_TRANSFORM},
 };
 
@@ -37,161 +38,15 @@ bool aur_xml_is_property(const char *tag) {
     return find(tag) != NULL;
 }
 
-aur_result aur_xml_fail_tag(const aur_xml_node *node, size_t count, const char *const *names,
+/* What a property is a colour of: the names under which materials take indices of refraction, and lights. */
+static aur_spectrum_use use_of(const aur_parameters *parameters, const char *name) {
+    if (strcmp(parameters->kind, "emitter") == 0)
+        return AUR_SPECTRUM_EMITS;
+    return strcmp(name, "eta") == 0 || strcmp(name, "k") == 0 ? AUR_SPECTRUM_REFRACTS : AUR_SPECTRUM_REFLECTS;
+}
+
+static aur_result add_plain(const property *found, const aur_xml_node *node, aur_parameters *parameters,
                             aur_error *error) {
-    static const char *const refused[] = {"medium", "phase", "volume"};
-    char hint[AUR_HINT_CAPACITY];
-    for (size_t i = 0; i < 3; ++i)
-        if (strcmp(node->tag, refused[i]) == 0)
-            return aur_fail_at(error, node->location, AUR_ERROR_UNSUPPORTED,
-                               "<%s>: Aureole renders surfaces only, no participating media", node->tag);
-    return aur_fail_at(error, node->location, AUR_ERROR_NAME, "unknown element <%s>%s", node->tag,
-                       aur_names_hint(aur_names_of(count, names), node->tag, "<>", hint));
-}
-
-/* Reads three numbers from `value`, or from x, y, z; those that are not given become `missing`. */
-static aur_result read_triple(const aur_xml_node *node, double missing, double triple[3], aur_error *error) {
-    static const char *const axes[] = {"x", "y", "z"};
-    const char *const value = aur_xml_attribute_value(node, "value");
-    bool given = false;
-    for (size_t i = 0; i < 3; ++i) {
-        const char *const text = aur_xml_attribute_value(node, axes[i]);
-        triple[i] = missing;
-        given = given || text != NULL;
-        if (text != NULL && !aur_parse_double(text, &triple[i]))
-            return aur_xml_fail(node, error, "<%s>: '%s' must be a number, not '%s'", node->tag, axes[i],
-                                text);
-    }
-    if (value == NULL)
-        return given ? AUR_OK
-                     : aur_xml_fail(node, error, "<%s> needs 'value' or 'x', 'y' and 'z'", node->tag);
-    if (given)
-        return aur_xml_fail(node, error, "<%s>: give 'value' or 'x', 'y', 'z', not both", node->tag);
-    const size_t count = aur_parse_doubles(value, triple, 3);
-    if (count == 1)
-        triple[2] = triple[1] = triple[0];
-    if (count == 1 || count == 3)
-        return AUR_OK;
-    return aur_xml_fail(node, error, "<%s>: 'value' must be one or three numbers, not '%s'", node->tag,
-                        value);
-}
-
-static aur_result read_translate(const aur_xml_node *node, aur_transform *step, aur_error *error) {
-    double v[3];
-    const aur_result result = read_triple(node, 0.0, v, error);
-    if (result == AUR_OK)
-        *step = aur_transform_translate(v[0], v[1], v[2]);
-    return result;
-}
-
-static aur_result read_scale(const aur_xml_node *node, aur_transform *step, aur_error *error) {
-    double v[3];
-    const aur_result result = read_triple(node, 1.0, v, error);
-    if (result != AUR_OK)
-        return result;
-    if (v[0] == 0.0 || v[1] == 0.0 || v[2] == 0.0)
-        return aur_xml_fail(node, error, "<scale> by 0 leaves nothing");
-    *step = aur_transform_scale(v[0], v[1], v[2]);
-    return AUR_OK;
-}
-
-static aur_result read_rotate(const aur_xml_node *node, aur_transform *step, aur_error *error) {
-    double axis[3], degrees;
-    const char *const text = aur_xml_attribute_value(node, "angle");
-    const aur_result result = read_triple(node, 0.0, axis, error);
-    if (result != AUR_OK)
-        return result;
-    if (!aur_parse_double(text, &degrees))
-        return aur_xml_fail(node, error, "<rotate>: 'angle' must be degrees, not '%s'", text);
-    if (!aur_transform_rotate(axis, degrees, step))
-        return aur_xml_fail(node, error, "<rotate> needs an axis other than 0 0 0");
-    return AUR_OK;
-}
-
-static aur_result read_matrix(const aur_xml_node *node, aur_transform *step, aur_error *error) {
-    double values[16];
-    const size_t count = aur_parse_doubles(aur_xml_attribute_value(node, "value"), values, 16);
-    *step = aur_transform_identity();
-    if (count != 16 && count != 9)
-        return aur_xml_fail(node, error, "<matrix>: 'value' must be 16 numbers, row by row (or 9), not %s",
-                            count == SIZE_MAX ? "something that is no number" : "another count of them");
-    const size_t side = count == 16 ? 4 : 3;
-    for (size_t i = 0; i < count; ++i)
-        step->m[4 * (i / side) + i % side] = values[i];
-    return AUR_OK;
-}
-
-static aur_result read_look_at(const aur_xml_node *node, aur_transform *step, aur_error *error) {
-    static const char *const names[] = {"origin", "target", "up"};
-    double v[3][3] = {{0.0}};
-    for (size_t i = 0; i < 3; ++i) {
-        const char *const text = aur_xml_attribute_value(node, names[i]);
-        if (text != NULL && aur_parse_doubles(text, v[i], 3) != 3)
-            return aur_xml_fail(node, error, "<%s>: '%s' must be three numbers, not '%s'", node->tag,
-                                names[i], text);
-    }
-    const double *const origin = v[0], *const target = v[1];
-    double *const up = v[2];
-    if (up[0] == 0.0 && up[1] == 0.0 && up[2] == 0.0) {
-        /* Any axis that is not along the view will do. */
-        const bool along_z =
-            fabs(target[2] - origin[2]) > fabs(target[0] - origin[0]) + fabs(target[1] - origin[1]);
-        up[along_z ? 1 : 2] = 1.0;
-    }
-    if (aur_transform_look_at(origin, target, up, step))
-        return AUR_OK;
-    return aur_xml_fail(
-        node, error, "<lookat>: 'target' must differ from 'origin', and 'up' must not point along the view");
-}
-
-typedef struct transform_step {
-    aur_xml_rule rule;
-    aur_result (*read)(const aur_xml_node *node, aur_transform *step, aur_error *error);
-} transform_step;
-
-static const transform_step steps[] = {
-    {{"translate", 0, {"value", "x", "y", "z"}}, read_translate},
-    {{"scale", 0, {"value", "x", "y", "z"}}, read_scale},
-    {{"rotate", 1, {"angle", "value", "x", "y", "z"}}, read_rotate},
-    {{"matrix", 1, {"value"}}, read_matrix},
-    {{"lookat", 2, {"origin", "target", "up"}}, read_look_at},
-};
-
-enum { STEP_COUNT = sizeof steps / sizeof steps[0] };
-
-static aur_result read_step(const aur_xml_node *node, aur_transform *step, aur_error *error) {
-    const char *names[STEP_COUNT];
-    for (size_t i = 0; i < STEP_COUNT; ++i) {
-        names[i] = steps[i].rule.tag;
-        if (strcmp(node->tag, names[i]) != 0)
-            continue;
-        const aur_result result = aur_xml_check(node, &steps[i].rule, error);
-        return result == AUR_OK ? steps[i].read(node, step, error) : result;
-    }
-    return aur_xml_fail_tag(node, STEP_COUNT, names, error);
-}
-
-static aur_result add_transform(const aur_xml_node *node, aur_parameters *parameters, aur_error *error) {
-    aur_transform transform = aur_transform_identity(), step, inverse;
-    for (const aur_xml_node *child = node->first_child; child != NULL; child = child->next) {
-        const aur_result result = read_step(child, &step, error);
-        if (result != AUR_OK)
-            return result;
-        transform = aur_transform_multiply(&step, &transform);
-    }
-    if (!aur_transform_inverse(&transform, &inverse))
-        return aur_xml_fail(node, error, "<transform>: the matrix has no inverse");
-    return aur_parameters_add_transform(parameters, aur_xml_attribute_value(node, "name"), transform.m,
-                                        node->location, error);
-}
-
-aur_result aur_xml_add_property(const aur_xml_node *node, aur_parameters *parameters, aur_error *error) {
-    const property *const found = find(node->tag);
-    aur_result result = aur_xml_check(node, &found->rule, error);
-    if (result != AUR_OK)
-        return result;
-    if (found->kind == AUR_PARAMETER_TRANSFORM)
-        return add_transform(node, parameters, error);
     if (node->first_child != NULL)
         return aur_xml_fail(node->first_child, error, "<%s> cannot stand inside <%s>", node->first_child->tag,
                             node->tag);
@@ -199,15 +54,97 @@ aur_result aur_xml_add_property(const aur_xml_node *node, aur_parameters *parame
     char text[96];
     if (found->kind == AUR_PARAMETER_VECTOR) {
         double triple[3];
-        result = read_triple(node, 0.0, triple, error);
+        const aur_result result = aur_xml_read_triple(node, 0.0, triple, error);
         if (result != AUR_OK)
             return result;
         aur_format(text, sizeof text, "%.17g %.17g %.17g", triple[0], triple[1], triple[2]);
         value = text;
     }
-    if (strcmp(node->tag, "spectrum") == 0 && strchr(value, ':') != NULL)
-        return aur_fail_at(error, node->location, AUR_ERROR_UNSUPPORTED,
-                           "<spectrum>: wavelengths are not supported; give one number, or <rgb>");
     return aur_parameters_add_text(parameters, found->kind, aur_xml_attribute_value(node, "name"), value,
                                    node->location, error);
+}
+
+/* <spectrum type="...">: its own properties say what it is. */
+static aur_result read_typed(const aur_xml_node *node, aur_spectrum_use use, double rgb[3],
+                             aur_error *error) {
+    aur_parameters own;
+    aur_result result =
+        aur_parameters_init(&own, "spectrum", aur_xml_attribute_value(node, "type"), node->location, error);
+    if (result != AUR_OK)
+        return result;
+    for (const aur_xml_node *child = node->first_child; child != NULL && result == AUR_OK;
+         child = child->next) {
+        const property *const inner = find(child->tag);
+        if (inner == NULL || strcmp(child->tag, "spectrum") == 0 || inner->kind == AUR_PARAMETER_TRANSFORM)
+            result = aur_xml_fail(child, error, "<%s> cannot stand inside <spectrum>", child->tag);
+        if (result == AUR_OK)
+            result = aur_xml_check(child, &inner->rule, error);
+        if (result == AUR_OK)
+            result = add_plain(inner, child, &own, error);
+    }
+    if (result == AUR_OK)
+        result = aur_spectrum_create(&own, use, rgb, error);
+    aur_parameters_release(&own);
+    return result;
+}
+
+static aur_result read_file(aur_loader *self, const aur_xml_node *node, aur_spectrum_use use, double rgb[3]) {
+    char *path;
+    aur_result result = aur_xml_find_asset(&self->scene->document, node->location,
+                                           aur_xml_attribute_value(node, "filename"), &path, self->error);
+    if (result != AUR_OK)
+        return result;
+    result = aur_spectrum_read(path, node->location, use, rgb, self->error);
+    free(path);
+    return result;
+}
+
+/* A colour by wavelength: pairs, a file of them, or a type. One number alone is grey, but for lights the
+ * illuminant E of that radiance, as in Mitsuba 3. */
+static aur_result add_spectrum(aur_loader *self, const aur_xml_node *node, aur_parameters *parameters) {
+    const char *const name = aur_xml_attribute_value(node, "name");
+    const char *const value = aur_xml_attribute_value(node, "value");
+    const bool typed = aur_xml_attribute_value(node, "type") != NULL;
+    const bool from_file = aur_xml_attribute_value(node, "filename") != NULL;
+    if ((value != NULL) + typed + from_file != 1)
+        return aur_xml_fail(node, self->error, "<spectrum> needs one of 'value', 'filename' and 'type'");
+    if (!typed && node->first_child != NULL)
+        return aur_xml_fail(node->first_child, self->error,
+                            "<%s> cannot stand inside <spectrum> without 'type'", node->first_child->tag);
+    const aur_spectrum_use use = use_of(parameters, name);
+    double rgb[3], constant;
+    aur_result result;
+    if (typed) {
+        result = read_typed(node, use, rgb, self->error);
+    } else if (from_file) {
+        result = read_file(self, node, use, rgb);
+    } else if (strchr(value, ':') != NULL) {
+        result = aur_spectrum_parse(value, node->location, use, rgb, self->error);
+    } else if (use == AUR_SPECTRUM_EMITS && aur_parse_double(value, &constant) && constant >= 0.0) {
+        aur_spectrum_equal_energy(constant, rgb);
+        result = AUR_OK;
+    } else {
+        return aur_parameters_add_text(parameters, AUR_PARAMETER_COLOR, name, value, node->location,
+                                       self->error);
+    }
+    if (result != AUR_OK)
+        return result;
+    if (aur_spectrum_clamp(use, rgb))
+        aur_warn_at(self->warnings, node->location,
+                    "<spectrum> '%s' is no colour of sRGB: it is clamped to %g, %g, %g", name, rgb[0], rgb[1],
+                    rgb[2]);
+    char text[96];
+    aur_format(text, sizeof text, "%.17g %.17g %.17g", rgb[0], rgb[1], rgb[2]);
+    return aur_parameters_add_text(parameters, AUR_PARAMETER_COLOR, name, text, node->location, self->error);
+}
+
+aur_result aur_loader_add_property(aur_loader *self, const aur_xml_node *node, aur_parameters *parameters) {
+    const property *const found = find(node->tag);
+    const aur_result result = aur_xml_check(node, &found->rule, self->error);
+    if (result != AUR_OK)
+        return result;
+    if (strcmp(node->tag, "spectrum") == 0)
+        return add_spectrum(self, node, parameters);
+    return found->kind == AUR_PARAMETER_TRANSFORM ? aur_xml_add_transform(node, parameters, self->error)
+                                                  : add_plain(found, node, parameters, self->error);
 }

@@ -10,14 +10,27 @@ static const aur_object_kind kinds[] = {
     {"rfilter", aur_build_filter},  {"sampler", aur_build_sampler}, {"integrator", aur_build_integrator},
 };
 
+/* Whether a child of <scene> is a part of something else: it is built when that refers to it. */
+static bool is_part(const aur_xml_node *node) {
+    static const char *const parts[] = {"film", "rfilter", "sampler"};
+    for (size_t i = 0; i < sizeof parts / sizeof parts[0]; ++i)
+        if (strcmp(node->tag, parts[i]) == 0)
+            return true;
+    return false;
+}
+
 static aur_result build_top(aur_loader *self, aur_xml_node *node) {
-    static const char *const names[] = {"integrator", "sensor", "shape",   "bsdf", "emitter", "texture",
-                                        "default",    "alias",  "include", "path", "ref"};
-    static const char *const inner[] = {"film", "rfilter", "sampler"};
-    for (size_t i = 0; i < 3; ++i)
-        if (strcmp(node->tag, inner[i]) == 0)
-            return aur_xml_fail(node, self->error, "<%s> cannot stand here: it belongs inside a <%s>",
-                                node->tag, i == 1 ? "film" : "sensor");
+    static const char *const names[] = {"integrator", "sensor", "shape",   "bsdf",   "emitter",
+                                        "texture",    "film",   "default", "alias",  "include",
+                                        "path",       "ref",    "rfilter", "sampler"};
+    if (is_part(node))
+        return aur_xml_attribute_value(node, "id") != NULL
+                   ? AUR_OK
+                   : aur_xml_fail(
+                         node, self->error,
+                         "<%s> cannot stand here: it belongs inside a <%s>, or needs an 'id' by which "
+                         "one refers to it",
+                         node->tag, strcmp(node->tag, "rfilter") == 0 ? "film" : "sensor");
     if (aur_loader_find_kind(self, node->tag) == NULL)
         return aur_xml_fail_tag(node, sizeof names / sizeof names[0], names, self->error);
     if (strcmp(node->tag, "sensor") == 0 && self->scene->has_sensor) {
@@ -25,13 +38,19 @@ static aur_result build_top(aur_loader *self, aur_xml_node *node) {
         return AUR_OK;
     }
     self->top = node;
-    const aur_result result = aur_loader_build(self, node);
-    if (result != AUR_OK || strcmp(node->tag, "emitter") != 0)
-        return result;
-    const aur_emitter *const emitter = node->object;
-    if (!emitter->descriptor->needs_shape)
+    return aur_loader_build(self, node);
+}
+
+/* What only the whole scene can tell of a child of <scene>: whether something refers to it. */
+static aur_result check_top(aur_loader *self, const aur_xml_node *node) {
+    if (is_part(node) && node->state == AUR_XML_UNBUILT)
+        aur_warn_at(self->warnings, node->location, "nothing refers to this <%s>: it is left out", node->tag);
+    if (strcmp(node->tag, "emitter") != 0)
         return AUR_OK;
-    return aur_xml_fail(node, self->error, "emitter '%s' must stand inside a <shape>",
+    const aur_emitter *const emitter = node->object;
+    if (!emitter->descriptor->needs_shape || emitter->shape != UINT32_MAX)
+        return AUR_OK;
+    return aur_xml_fail(node, self->error, "emitter '%s' must stand inside a <shape>, or a shape refer to it",
                         emitter->descriptor->row.name);
 }
 
@@ -46,6 +65,11 @@ aur_result aur_scene_build(aur_scene *scene, const aur_warnings *warnings, aur_e
     aur_xml_node *const root = scene->document.root;
     for (aur_xml_node *node = root->first_child; node != NULL; node = node->next) {
         const aur_result result = build_top(&self, node);
+        if (result != AUR_OK)
+            return result;
+    }
+    for (const aur_xml_node *node = root->first_child; node != NULL; node = node->next) {
+        const aur_result result = check_top(&self, node);
         if (result != AUR_OK)
             return result;
     }

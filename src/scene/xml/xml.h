@@ -70,6 +70,10 @@ aur_result aur_xml_check(const aur_xml_node *node, const aur_xml_rule *rule, aur
 /* A FORMAT error at the node. */
 aur_result aur_xml_fail(const aur_xml_node *node, aur_error *error, const char *format, ...) AUR_PRINTF(3, 4);
 
+/* An error for a tag that is none of the `count` known here. */
+aur_result aur_xml_fail_tag(const aur_xml_node *node, size_t count, const char *const *names,
+                            aur_error *error);
+
 /* NULL when there is none. */
 aur_xml_id *aur_xml_find_id(const aur_xml_document *document, const char *id);
 
