@@ -14,17 +14,20 @@ extern "C" {
 #endif
 
 /* Where points live. The disk is the unit disk; hemisphere and sphere have z up, polar angle theta from +z,
- * azimuth phi from +x towards +y, and unit radius. AUR_DOMAIN_CUBE is [0,1)^d with d other than 2. */
+ * azimuth phi from +x towards +y, and unit radius. AUR_DOMAIN_CUBE is [0,1)^d with d other than 2. AXES are
+ * directions without a sense, the projective plane: x and -x are one axis, and sets give the one with
+ * z >= 0. */
 typedef enum aur_domain {
     AUR_DOMAIN_SQUARE,
     AUR_DOMAIN_CUBE,
     AUR_DOMAIN_DISK,
     AUR_DOMAIN_HEMISPHERE,
-    AUR_DOMAIN_SPHERE
+    AUR_DOMAIN_SPHERE,
+    AUR_DOMAIN_AXES
 } aur_domain;
 
-/* "square", "cube", "disk", "hemisphere", "sphere" to the value and back. Errors: NAME; the name of a value
- * out of range is NULL. */
+/* "square", "cube", "disk", "hemisphere", "sphere", "axes" to the value and back. Errors: NAME; the name of a
+ * value out of range is NULL. */
 AUR_API aur_result aur_domain_from_name(const char *name, aur_domain *domain, aur_error *error)
     AUR_NONNULL(1, 2);
 AUR_API const char *aur_domain_name(aur_domain domain);

@@ -146,7 +146,7 @@ typedef struct aur_directions aur_directions;
 typedef struct aur_directions_options {
     size_t size;          /* of the caller's struct, so that it can grow */
     uint64_t count;       /* points of the set: at least 1; 0 for a file: all of its points */
-    aur_domain domain;    /* HEMISPHERE or SPHERE */
+    aur_domain domain;    /* HEMISPHERE, SPHERE or AXES */
     double cap_degrees;   /* 0: all of the domain; else the cap of that polar angle about +z within it */
     aur_map map;          /* for sets of the square; native sets ignore it */
     aur_lobe lobe;        /* whole hemisphere only; zero is uniform */
@@ -169,7 +169,7 @@ static inline aur_directions_options aur_directions_options_default(uint64_t cou
 
 /* Makes the directions of a set of the square or of the sphere ready; `set` as in aur_pointset_create. A file
  * of directions is taken as it stands. Sets native to the sphere know the scramblings ROTATE and, on the
- * sphere, ROTATE3D; sets of the square know these after the map and the others before it. */
+ * sphere and for axes, ROTATE3D; sets of the square know these after the map and the others before it. */
 AUR_API aur_result aur_directions_create(const char *set, const aur_directions_options *options,
                                          aur_directions **directions, aur_error *error) AUR_NONNULL(1, 2, 3);
 AUR_API void aur_directions_destroy(aur_directions *directions); /* NULL is allowed */

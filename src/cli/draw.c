@@ -42,7 +42,7 @@ static drawing compose(const aur_points_view *points) {
     drawing d = {.panel_count = 1, .points = points};
     if (points->domain == AUR_DOMAIN_DISK) {
         d.panels[0] = disk;
-    } else if (points->domain == AUR_DOMAIN_HEMISPHERE || points->domain == AUR_DOMAIN_SPHERE) {
+    } else if (points->domain >= AUR_DOMAIN_HEMISPHERE) {
         d.panel_count = 2;
         d.panels[0] = side;
         d.panels[1] = pole;

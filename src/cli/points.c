@@ -60,7 +60,7 @@ static bool complete(const cli_call *call) {
     }
     wanted->points.natural_domain = !domain_given;
     if (cli_given(call, "map") != NULL && (!domain_given || wanted->from.options.domain <= AUR_DOMAIN_CUBE)) {
-        cli_bad_usage("--map: needs --domain disk, hemisphere or sphere");
+        cli_bad_usage("--map: needs --domain disk, hemisphere, sphere or axes");
         return false;
     }
     const char *const dot = strrchr(wanted->path, '.');
@@ -158,7 +158,7 @@ static int run(const cli_call *call) {
 
 const cli_verb cli_verb_points = {
     .name = "points",
-    .summary = "write points of a set on the square, disk, hemisphere or sphere",
+    .summary = "write points of a set on the square, disk, hemisphere or sphere, or as axes",
     .too_few = "a set is missing: 'aureole sets' lists them",
     .operands = {{"SET", "NAME[:key=value,...] or file:PATH; 'aureole sets' lists them", .content = "set"}},
     .groups = {{options, 0},

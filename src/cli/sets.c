@@ -7,7 +7,10 @@
 
 /* Where a set's points can be: sets of the square come to the other domains by a map. */
 static void add_domains(report_table *table, const aur_set_description *set) {
-    enum { LIFTED = 1 << AUR_DOMAIN_DISK | 1 << AUR_DOMAIN_HEMISPHERE | 1 << AUR_DOMAIN_SPHERE };
+    enum {
+        LIFTED =
+            1 << AUR_DOMAIN_DISK | 1 << AUR_DOMAIN_HEMISPHERE | 1 << AUR_DOMAIN_SPHERE | 1 << AUR_DOMAIN_AXES
+    };
     const bool square = (set->domains >> AUR_DOMAIN_SQUARE & 1u) != 0;
     const unsigned domains = square ? set->domains | LIFTED : set->domains;
     char text[160] = "";

@@ -32,7 +32,8 @@ enum {
     AUR_ON_CUBE = 1 << AUR_DOMAIN_CUBE,
     AUR_ON_DISK = 1 << AUR_DOMAIN_DISK,
     AUR_ON_HEMISPHERE = 1 << AUR_DOMAIN_HEMISPHERE,
-    AUR_ON_SPHERE = 1 << AUR_DOMAIN_SPHERE
+    AUR_ON_SPHERE = 1 << AUR_DOMAIN_SPHERE,
+    AUR_ON_AXES = 1 << AUR_DOMAIN_AXES
 };
 
 /* One row of the table of square sets. */

@@ -13,6 +13,7 @@
     ROW(cap)                                                                                                 \
     ROW(cap_bound)                                                                                           \
     ROW(min_distance)                                                                                        \
+    ROW(min_angle)                                                                                           \
     ROW(covering)                                                                                            \
     ROW(mesh_ratio)                                                                                          \
     ROW(voronoi_min)                                                                                         \

@@ -50,10 +50,26 @@ aur_result aur_smallest_distance(const aur_measure_request *request, double *dis
     return AUR_OK;
 }
 
+/* Radians. */
+static aur_result smallest_angle(const aur_measure_request *request, double *angle, aur_error *error) {
+    double chord = 0.0;
+    const aur_result result = aur_smallest_distance(request, &chord, error);
+    *angle = 2.0 * asin(fmin(0.5 * chord, 1.0));
+    return result;
+}
+
 const aur_measure_row aur_measure_min_distance = {
     {.row = {.name = "min-distance",
              .summary = "the smallest distance between two points (on the sphere the chord)",
              .source = "Marques 2013 sec. 3.2"},
-     .domains = "sphere, hemisphere, square, cube, disk"},
+     .domains = "sphere, hemisphere, square, cube, disk, axes"},
     .minimum_count = 2,
     .compute = aur_smallest_distance};
+
+const aur_measure_row aur_measure_min_angle = {
+    {.row = {.name = "min-angle",
+             .summary = "the smallest angle between two directions or two axes, radians",
+             .source = "Jones, Horsfield and Simmons 1999"},
+     .domains = "sphere, hemisphere, axes"},
+    .minimum_count = 2,
+    .compute = smallest_angle};

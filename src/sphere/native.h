@@ -7,10 +7,10 @@
 
 #include "pointset/set.h"
 
-/* What a native set fills: `count` points spread uniformly over the cap z >= 1 - height (1 hemisphere, 2
- * sphere).
- */
+/* What a native set fills: `count` points spread uniformly over the cap z >= 1 - height (1 hemisphere and
+ * axes, 2 sphere). */
 typedef struct aur_native_request {
+    aur_domain domain;
     uint64_t count;
     double height;
     const aur_warnings *warnings;
@@ -29,7 +29,8 @@ typedef struct aur_native_set {
  * aur_native_<name>. */
 #define AUR_NATIVE_SETS(ROW)                                                                                 \
     ROW(fibonacci)                                                                                           \
-    ROW(grid)
+    ROW(grid)                                                                                                \
+    ROW(electrostatic)
 
 #define AUR_DECLARE_NATIVE_SET(name) extern const aur_native_set aur_native_##name;
 AUR_NATIVE_SETS(AUR_DECLARE_NATIVE_SET)

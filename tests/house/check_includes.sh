@@ -36,6 +36,7 @@ scene/xml
 material
 sphere/directions
 sphere/sets sphere/nearest
+sphere/repulsion
 sphere
 image
 pointset/table

@@ -25,12 +25,9 @@ seen=0
 while IFS= read -r line; do
   set=${line%%,*}
   [ "$set" = set ] && continue
-  # the field in quotes, or none
-  case $line in
-    *square*) domains="square disk hemisphere sphere" ;;
-    *sphere*) domains="disk hemisphere sphere" ;;
-    *) domains="own" ;;
-  esac
+  one='(square|cube|disk|hemisphere|sphere|axes)'
+  domains=$(grep -oE "[,\"]$one(, $one)*[,\"]" <<<"$line" | head -1 | grep -oE "[a-z]+" | grep -vx cube)
+  [ -n "$domains" ] || domains=own
   n=$count
   [ "$set" = matrices ] && n=4
   for domain in $domains; do

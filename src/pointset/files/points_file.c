@@ -93,7 +93,8 @@ static const char *off_domain(const meaning *m, const double *row) {
 /* Whether points of the file's domain can stand on the one that is asked for. */
 static aur_result check_domain(const char *path, const aur_matrix *matrix, const meaning *m,
                                aur_domain wanted, aur_error *error) {
-    const bool directions = wanted == AUR_DOMAIN_HEMISPHERE || wanted == AUR_DOMAIN_SPHERE;
+    const bool directions =
+        wanted == AUR_DOMAIN_HEMISPHERE || wanted == AUR_DOMAIN_SPHERE || wanted == AUR_DOMAIN_AXES;
     if (m->domain == wanted || (m->domain == AUR_DOMAIN_SPHERE && directions) ||
         (m->domain == AUR_DOMAIN_SQUARE && wanted == AUR_DOMAIN_CUBE))
         return AUR_OK;
@@ -140,6 +141,8 @@ static aur_result copy_rows(const char *path, const aur_domain *wanted, const au
     if (m->domain == AUR_DOMAIN_SPHERE &&
         (wanted != NULL ? *wanted == AUR_DOMAIN_HEMISPHERE : !below_horizon))
         points->view.domain = AUR_DOMAIN_HEMISPHERE;
+    if (wanted != NULL && *wanted == AUR_DOMAIN_AXES)
+        points->view.domain = AUR_DOMAIN_AXES;
     return AUR_OK;
 }
 

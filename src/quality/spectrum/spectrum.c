@@ -156,8 +156,8 @@ static aur_result radial(const aur_measure_request *request, aur_series *series,
 }
 
 static aur_result spectrum(const aur_measure_request *request, aur_series *series, aur_error *error) {
-    return request->points->domain == AUR_DOMAIN_SPHERE ? aur_angular_spectrum(request, series, error)
-                                                        : radial(request, series, error);
+    return request->points->domain == AUR_DOMAIN_SQUARE ? radial(request, series, error)
+                                                        : aur_angular_spectrum(request, series, error);
 }
 
 static aur_result full_periodogram(const aur_measure_request *request, aur_series *series, aur_error *error) {
@@ -185,7 +185,7 @@ const aur_measure_row aur_measure_spectrum = {
                         "N): radial mean on the square, by degree on the sphere",
              .source = "Ulichney 1988; Pilleboue 2015"},
      .parameter = "[:F]",
-     .domains = "square, sphere",
+     .domains = "square, sphere, axes",
      .series = true},
     .tabulate = spectrum};
 

@@ -104,7 +104,9 @@ aur_result aur_angular_spectrum(const aur_measure_request *request, aur_series *
     result = aur_measure_items(&request->options, "transforming", side, fill_order, &work, error);
     if (result == AUR_OK)
         result = aur_series_create(series, work.limit, 2, columns, error);
-    const double scale = 4.0 * AUR_PI / aur_sum_of_squares(request->points);
+    /* Two opposite ends are one axis: they add up where l is even, and cancel where it is odd. */
+    const double ends = request->points->domain == AUR_DOMAIN_AXES ? 2.0 : 1.0;
+    const double scale = 4.0 * AUR_PI / (ends * aur_sum_of_squares(request->points));
     for (size_t l = 1; l <= work.limit && result == AUR_OK; ++l) {
         double sum = 0.0;
         for (size_t m = 0; m <= l; ++m)

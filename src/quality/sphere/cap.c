@@ -264,6 +264,6 @@ const aur_measure_row aur_measure_cap = {
           .summary =
               "supremum over spherical caps of |share of points - share of area|, exact; time grows as N^3",
           .source = "Marques 2013 sec. 2.1"},
-     .domains = "sphere"},
+     .domains = "sphere, axes"},
     .masses = 1,
     .compute = cap};

@@ -85,7 +85,7 @@ const aur_measure_row aur_measure_cap_bound = {
                         "centres, for large N",
              .source = "Marques 2013 sec. 2.1"},
      .parameter = "[:CENTRES]",
-     .domains = "sphere",
+     .domains = "sphere, axes",
      .bound = true},
     .masses = 1,
     .compute = cap_bound};

@@ -24,6 +24,10 @@ static aur_result covering(const aur_measure_request *request, double *value, au
         return AUR_OK;
     if (request->points->domain == AUR_DOMAIN_HEMISPHERE)
         return fail_unbounded(error);
+    if (request->points->domain == AUR_DOMAIN_AXES) { /* all in one plane, to which there is a normal */
+        *value = 0.5 * AUR_PI;
+        return AUR_OK;
+    }
     /* All points are in one hemisphere: the farthest place is opposite the middle of the smallest cap. */
     *value = AUR_PI - aur_smallest_cap(request->points);
     return AUR_OK;
@@ -71,13 +75,14 @@ static aur_result area_figure(const aur_measure_request *request, double *value,
 
 static aur_result voronoi(const aur_measure_request *request, aur_series *series, aur_error *error) {
     static const char *const columns[] = {"point", "area", "radius", "sides"};
+    const size_t ends = request->points->domain == AUR_DOMAIN_AXES ? 2 : 1;
+    const size_t given = request->points->count / ends;
     aur_voronoi_cell *cells;
     bool unbounded;
     aur_result result = aur_voronoi_cells(request, &cells, &unbounded, error);
     if (result != AUR_OK)
         return result;
-    result = unbounded ? fail_unbounded(error)
-                       : aur_series_create(series, request->points->count, 4, columns, error);
+    result = unbounded ? fail_unbounded(error) : aur_series_create(series, given, 4, columns, error);
     for (size_t i = 0; i < series->row_count && result == AUR_OK; ++i) {
         double *const row = series->values + 4 * i;
         row[0] = (double)(i + 1);
@@ -94,14 +99,14 @@ const aur_measure_row aur_measure_covering = {
           .summary =
               "covering radius (mesh norm): the largest angle from a direction to its nearest point, radians",
           .source = "Brauchart and Grabner 2015"},
-     .domains = "sphere, hemisphere"},
+     .domains = "sphere, hemisphere, axes"},
     .compute = covering};
 
 const aur_measure_row aur_measure_mesh_ratio = {
     {.row = {.name = "mesh-ratio",
              .summary = "covering radius over half the smallest angle between points: at least 1",
              .source = "Brauchart and Grabner 2015"},
-     .domains = "sphere, hemisphere"},
+     .domains = "sphere, hemisphere, axes"},
     .minimum_count = 2,
     .compute = mesh_ratio};
 
@@ -109,7 +114,7 @@ const aur_measure_row aur_measure_voronoi_min = {
     {.row = {.name = "voronoi-min",
              .summary = "area of the smallest Voronoi cell, in mean areas",
              .source = "Augenbaum and Peskin 1985"},
-     .domains = "sphere, hemisphere"},
+     .domains = "sphere, hemisphere, axes"},
     .variant = LEAST,
     .compute = area_figure};
 
@@ -117,7 +122,7 @@ const aur_measure_row aur_measure_voronoi_max = {
     {.row = {.name = "voronoi-max",
              .summary = "area of the largest Voronoi cell, in mean areas",
              .source = "Augenbaum and Peskin 1985"},
-     .domains = "sphere, hemisphere"},
+     .domains = "sphere, hemisphere, axes"},
     .variant = GREATEST,
     .compute = area_figure};
 
@@ -125,7 +130,7 @@ const aur_measure_row aur_measure_voronoi_deviation = {
     {.row = {.name = "voronoi-deviation",
              .summary = "standard deviation of the areas of Voronoi cells, in mean areas",
              .source = "Augenbaum and Peskin 1985"},
-     .domains = "sphere, hemisphere"},
+     .domains = "sphere, hemisphere, axes"},
     .variant = DEVIATION,
     .compute = area_figure};
 
@@ -133,6 +138,6 @@ const aur_measure_row aur_measure_voronoi = {
     {.row = {.name = "voronoi",
              .summary = "table of the Voronoi cells: area in mean areas, radius in radians, sides",
              .source = "Augenbaum and Peskin 1985"},
-     .domains = "sphere, hemisphere",
+     .domains = "sphere, hemisphere, axes",
      .series = true},
     .tabulate = voronoi};

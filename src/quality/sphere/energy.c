@@ -69,7 +69,7 @@ const aur_measure_row aur_measure_energy = {
     {.row = {.name = "energy",
              .summary = "distance energy E_N: the worst-case error for the kernel of distances",
              .source = "Marques 2013 eq. 3; on the hemisphere with the mean-distance potential"},
-     .domains = "sphere, hemisphere"},
+     .domains = "sphere, hemisphere, axes"},
     .variant = 1,
     .compute = energy};
 
@@ -77,7 +77,7 @@ const aur_measure_row aur_measure_scd = {
     {.row = {.name = "scd",
              .summary = "spherical cap discrepancy as E-SFG has it: energy / sqrt 2",
              .source = "Marques 2019 eq. 57"},
-     .domains = "sphere, hemisphere"},
+     .domains = "sphere, hemisphere, axes"},
     .variant = 2,
     .compute = energy};
 
@@ -85,7 +85,7 @@ const aur_measure_row aur_measure_l2_cap = {
     {.row = {.name = "l2-cap",
              .summary = "L2 discrepancy of spherical caps, heights by dt: energy / 2",
              .source = "Stolarsky 1973"},
-     .domains = "sphere, hemisphere"},
+     .domains = "sphere, hemisphere, axes"},
     .variant = 4,
     .compute = energy};
 
@@ -93,6 +93,6 @@ const aur_measure_row aur_measure_l2_cap_mean = {
     {.row = {.name = "l2-cap-mean",
              .summary = "root mean square discrepancy of caps, heights by dt/2: energy / sqrt 8",
              .source = "Stolarsky 1973"},
-     .domains = "sphere, hemisphere"},
+     .domains = "sphere, hemisphere, axes"},
     .variant = 8,
     .compute = energy};

@@ -51,8 +51,16 @@ static aur_result riesz(const aur_measure_request *request, double *value, aur_e
             double mass = 0.0;
             for (size_t i = 0; i < axes.count; ++i)
                 mass += axes.weights[i];
-            const double unit = (double)axes.count / mass;
+            const double unit = (double)axes.count / mass; /* the same for axes: twice over twice */
             scale *= unit * unit;
+        }
+        /* Of axes each pair of ends once, and no axis against itself. */
+        if (request->points->domain == AUR_DOMAIN_AXES) {
+            double squares = 0.0;
+            for (size_t i = 0; i < axes.count; ++i)
+                squares += axes.weights != NULL ? 0.5 * axes.weights[i] * axes.weights[i] : 0.5;
+            sum = aur_twofold_add(sum, aur_two_product(-squares, kernel(4.0, exponent)));
+            scale *= 0.5;
         }
         *value = isfinite(sum.high) ? scale * (sum.high + sum.low) : INFINITY;
         if (isinf(*value))
@@ -69,5 +77,5 @@ const aur_measure_row aur_measure_riesz = {
                         "1/|x_i - x_j|",
              .source = "Hardin and Saff 2004"},
      .parameter = ":S",
-     .domains = "sphere, hemisphere"},
+     .domains = "sphere, hemisphere, axes"},
     .compute = riesz};

@@ -140,11 +140,9 @@ static aur_result check_weights(const aur_measure_row *row, const aur_points_vie
 
 /* 0: any. */
 static size_t expected_dimension(aur_domain domain) {
-    static const size_t dimensions[] = {[AUR_DOMAIN_SQUARE] = 2,
-                                        [AUR_DOMAIN_CUBE] = 0,
-                                        [AUR_DOMAIN_DISK] = 2,
-                                        [AUR_DOMAIN_HEMISPHERE] = 3,
-                                        [AUR_DOMAIN_SPHERE] = 3};
+    static const size_t dimensions[] = {
+        [AUR_DOMAIN_SQUARE] = 2,     [AUR_DOMAIN_CUBE] = 0,   [AUR_DOMAIN_DISK] = 2,
+        [AUR_DOMAIN_HEMISPHERE] = 3, [AUR_DOMAIN_SPHERE] = 3, [AUR_DOMAIN_AXES] = 3};
     return dimensions[domain];
 }
 
@@ -196,6 +194,26 @@ static double *unit_copy(const aur_points_view *points, aur_arena *arena) {
     return copy;
 }
 
+/* Each axis by both of its ends: all of them as they are given, then their opposites. */
+static bool add_opposites(aur_points_view *points, aur_arena *arena) {
+    const size_t count = points->count;
+    double *const both = aur_arena_allocate(arena, 6 * count * sizeof *both);
+    double *const weights = aur_arena_allocate(arena, 2 * count * sizeof *weights);
+    if (both == NULL || weights == NULL)
+        return false;
+    for (size_t i = 0; i < 3 * count; ++i) {
+        both[i] = points->coordinates[i];
+        both[3 * count + i] = -points->coordinates[i];
+    }
+    for (size_t i = 0; i < count; ++i)
+        weights[i] = weights[count + i] = aur_weight_at(points, i);
+    points->coordinates = both;
+    points->weights = points->weights != NULL ? weights : NULL;
+    points->lines = NULL;
+    points->count = 2 * count;
+    return true;
+}
+
 /* Weights that add up to 1. */
 static double *masses_of(const aur_points_view *points, aur_arena *arena) {
     double *const masses = aur_arena_allocate(arena, points->count * sizeof *masses);
@@ -237,6 +255,8 @@ static aur_result prepare(const char *metric, const aur_points_view *given,
         points->coordinates = unit_copy(points, &p->arena);
         points->stride = 3;
     }
+    if (points->domain == AUR_DOMAIN_AXES && points->coordinates != NULL && !add_opposites(points, &p->arena))
+        return aur_fail_memory(error);
     if (p->row->masses)
         points->weights = masses_of(points, &p->arena);
     const bool complete = points->coordinates != NULL && (points->weights != NULL || !p->row->masses);

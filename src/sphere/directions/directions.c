@@ -27,6 +27,7 @@ struct aur_directions {
     aur_lobe density; /* what the points follow */
     bool weighted;    /* the density is not the lobe, or the map is not uniform */
     bool warped, rotated;
+    bool axes; /* each stands for its opposite too, and is given with z >= 0 */
     aur_rotation rotation;
 };
 
@@ -37,8 +38,10 @@ bool aur_set_is_file(const char *set) {
 }
 
 static aur_result check_options(const aur_directions_options *options, aur_error *error) {
-    if (options->domain != AUR_DOMAIN_HEMISPHERE && options->domain != AUR_DOMAIN_SPHERE)
-        return aur_fail(error, AUR_ERROR_ARGUMENT, "directions live on the hemisphere or the sphere");
+    if (options->domain != AUR_DOMAIN_HEMISPHERE && options->domain != AUR_DOMAIN_SPHERE &&
+        options->domain != AUR_DOMAIN_AXES)
+        return aur_fail(error, AUR_ERROR_ARGUMENT,
+                        "directions live on the hemisphere or the sphere, or they are axes");
     if (aur_map_name(options->map) == NULL)
         return aur_fail(error, AUR_ERROR_ARGUMENT, "unknown map %d", (int)options->map);
     const double widest = options->domain == AUR_DOMAIN_SPHERE ? 180.0 : 90.0;
@@ -53,9 +56,9 @@ static aur_result check_options(const aur_directions_options *options, aur_error
     if (!uniform && (options->domain != AUR_DOMAIN_HEMISPHERE || options->cap_degrees != 0.0))
         return aur_fail(error, AUR_ERROR_UNSUPPORTED, "a lobe needs the whole hemisphere as its domain");
     if (options->scramble == AUR_SCRAMBLE_ROTATE3D &&
-        (options->domain != AUR_DOMAIN_SPHERE || options->cap_degrees != 0.0))
+        (options->domain == AUR_DOMAIN_HEMISPHERE || options->cap_degrees != 0.0))
         return aur_fail(error, AUR_ERROR_UNSUPPORTED,
-                        "scrambling 'rotate3d' needs the whole sphere as its domain: use rotate");
+                        "scrambling 'rotate3d' needs the whole sphere or axes as its domain: use rotate");
     return AUR_OK;
 }
 
@@ -118,7 +121,11 @@ static aur_result open_native(const char *set, const aur_directions_options *opt
     aur_result result = aur_parameters_parse(&keys, "set", set, error);
     if (result != AUR_OK)
         return result;
-    const aur_native_request request = {options->count, directions->height, &options->warnings};
+    if ((native->description.domains >> options->domain & 1u) == 0)
+        return aur_fail(error, AUR_ERROR_UNSUPPORTED, "set '%s' has no points of the domain '%s'",
+                        native->description.row.name, aur_domain_name(options->domain));
+    const aur_native_request request = {options->domain, options->count, directions->height,
+                                        &options->warnings};
     result = native->prepare(&native->description.row, &keys, &request, &directions->native_data, error);
     if (result == AUR_OK)
         result = aur_parameters_finish(&keys, error);
@@ -164,7 +171,7 @@ static aur_result open_file(const char *set, const aur_directions_options *optio
     }
     if (scramble != AUR_SCRAMBLE_NONE)
         return refuse_scramble(set, scramble, error);
-    for (size_t i = 0; i < count; ++i)
+    for (size_t i = 0; i < count && !directions->axes; ++i)
         if (file->coordinates[3 * i + 2] < 1.0 - directions->height)
             return aur_fail(error, AUR_ERROR_ARGUMENT, "%s: point %zu lies off the domain", path, i);
     directions->size = count;
@@ -180,6 +187,7 @@ static aur_result open_set(const char *set, const aur_directions_options *option
     const aur_scramble scramble = choose_rotation(directions, options);
     directions->map = options->map;
     directions->height = cap_height(options);
+    directions->axes = options->domain == AUR_DOMAIN_AXES;
     if (aur_set_is_file(set))
         return open_file(set, options, scramble, directions, error);
     directions->native = aur_native_find(set);
@@ -261,6 +269,15 @@ static double density_weight(const aur_directions *directions, const double dire
     return p != q ? (p + 1.0) / (q + 1.0) * pow(direction[2], p - q) : 1.0;
 }
 
+/* The end of each axis that is not below the horizon. */
+static void turn_up(size_t count, double *xyz) {
+    for (size_t i = 0; i < count; ++i) {
+        const double sign = xyz[3 * i + 2] < 0.0 ? -1.0 : 1.0;
+        for (size_t d = 0; d < 3; ++d)
+            xyz[3 * i + d] *= sign;
+    }
+}
+
 /* At most CHUNK points, within the set. */
 static aur_result fill_chunk(const aur_directions *directions, uint64_t first, size_t count, double *xyz,
                              double *weights, aur_error *error) {
@@ -280,6 +297,8 @@ static aur_result fill_chunk(const aur_directions *directions, uint64_t first, s
     }
     if (directions->rotated)
         aur_rotation_apply(&directions->rotation, count, xyz);
+    if (directions->axes)
+        turn_up(count, xyz);
     return result;
 }
 
@@ -306,8 +325,8 @@ aur_result aur_directions_generate(const aur_directions *directions, uint64_t fi
     if (result != AUR_OK)
         return result;
     const bool in_place = xyz->doubles != NULL && xyz->layout == AUR_LAYOUT_POINTS;
-    if (directions->native != NULL && !directions->warped && !directions->rotated && in_place &&
-        weights == NULL) {
+    if (directions->native != NULL && !directions->warped && !directions->rotated && !directions->axes &&
+        in_place && weights == NULL) {
         directions->native->fill(directions->native_data, first, count, xyz->doubles);
         return AUR_OK;
     }

@@ -131,7 +131,7 @@ const aur_native_set aur_native_fibonacci = {
                                 "a spiral of golden angles at equal heights; the most uniform there is",
                             .source = "Swinbank 2006, Marques 2013",
                             AUR_ROW_KEYS(keys)},
-                    .domains = AUR_ON_SPHERE | AUR_ON_HEMISPHERE | AUR_ON_DISK,
+                    .domains = AUR_ON_SPHERE | AUR_ON_HEMISPHERE | AUR_ON_DISK | AUR_ON_AXES,
                     .dimensions = {3, 3},
                     .maximum_size = UINT64_C(1) << 50},
     .prepare = prepare,

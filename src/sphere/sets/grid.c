@@ -299,7 +299,7 @@ const aur_native_set aur_native_grid = {
                                 "spherical Fibonacci grids that double or quadruple and keep their points",
                             .source = "Marques 2019",
                             AUR_ROW_KEYS(keys)},
-                    .domains = AUR_ON_SPHERE | AUR_ON_HEMISPHERE | AUR_ON_DISK,
+                    .domains = AUR_ON_SPHERE | AUR_ON_HEMISPHERE | AUR_ON_DISK | AUR_ON_AXES,
                     .dimensions = {3, 3},
                     .maximum_size = UINT64_C(1) << 48,
                     .best_sizes = AUR_SIZES_GRIDS,
