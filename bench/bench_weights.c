@@ -158,7 +158,8 @@ static bool bench_table(const bench_options *options) {
 
 typedef struct look_up_context {
     aur_weight_table *table;
-    float *rows; /* as many as the table has */
+    size_t row_count;
+    float *rows; /* as many as the table has, and as far apart in memory */
     float weights[SAMPLES];
 } look_up_context;
 
@@ -178,11 +179,11 @@ static void run_look_up(void *data) {
 
 static void run_copy(void *data) {
     look_up_context *const context = data;
+    const size_t rows = context->row_count / ROTATIONS;
     for (uint64_t i = 0; i < LOOK_UPS; ++i) {
         const uint64_t hash = aur_mix64(i);
         const float radians = 1.57f * aur_unit_float((uint32_t)hash);
-        const size_t row =
-            (hash >> 32) % ROTATIONS * ANGLES + (size_t)(radians * (float)(ANGLES - 1) / 1.5708f);
+        const size_t row = (hash >> 32) % ROTATIONS * rows + (size_t)(radians * (float)(rows - 1) / 1.5708f);
         memcpy(context->weights, context->rows + (2 * row + (hash >> 63)) * SAMPLES, sizeof context->weights);
         bench_keep((double)context->weights[0]);
     }
@@ -192,10 +193,16 @@ static bool bench_look_up(const bench_options *options) {
     for (int clipped = 0; clipped < 2; ++clipped) {
         aur_oswa_options pair_of = pair_options;
         pair_of.clipped = clipped;
-        look_up_context context = {.rows = calloc(2 * ROTATIONS * ANGLES * SAMPLES, sizeof(float))};
-        if (context.rows == NULL ||
-            aur_weight_table_build(&pair_of, ANGLES, ROTATIONS, 1, NULL, &context.table, NULL) != AUR_OK)
+        look_up_context context = {0};
+        if (aur_weight_table_build(&pair_of, ANGLES, ROTATIONS, 1, NULL, &context.table, NULL) != AUR_OK)
             return bench_fail("weights: no table");
+        context.row_count = aur_weight_table_rows(context.table);
+        const size_t floats = 2 * context.row_count * SAMPLES;
+        context.rows = malloc(floats * sizeof *context.rows);
+        if (context.rows == NULL)
+            return bench_fail("weights: no memory for %zu rows", context.row_count);
+        for (size_t i = 0; i < floats; ++i) /* pages that nobody wrote would all be one in the cache */
+            context.rows[i] = 1.0f;
         const bench_work limit = {run_copy, &context, LOOK_UPS};
         const bench_work subject = {run_look_up, &context, LOOK_UPS};
         const bench_pair pair = bench_compare(options, &subject, &limit);

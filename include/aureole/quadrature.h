@@ -297,6 +297,10 @@ AUR_EXPERIMENTAL const aur_oswa_options *aur_weight_table_options(const aur_weig
 /* How many angles and rotations the table was built for. */
 AUR_EXPERIMENTAL size_t aur_weight_table_angles(const aur_weight_table *table) AUR_NONNULL(1);
 AUR_EXPERIMENTAL size_t aur_weight_table_rotations(const aur_weight_table *table) AUR_NONNULL(1);
+/* How many rows it keeps, each of 2 (count + mirror_count) floats, the weights of both lobes: one for each
+ * angle and rotation. A clipped table has two for each piece of an interval, and pieces end where a sample
+ * crosses the horizon. */
+AUR_EXPERIMENTAL size_t aur_weight_table_rows(const aur_weight_table *table) AUR_NONNULL(1);
 /* The merged samples xyz[3 * size] that a rotation's weights belong to, at an angle in [0, pi/2]; their turns
  * are aur_oswa_turns of the options' seed. `capacity` counts doubles. Errors: ARGUMENT for another angle or a
  * rotation that is not in the table, CAPACITY. */

@@ -3,7 +3,6 @@
 #include <math.h>
 
 #include "core/options.h"
-#include "core/vector.h"
 #include "core/vector3d.h"
 
 aur_result aur_check_directions(size_t count, const double *xyz, aur_error *error) {
@@ -41,12 +40,6 @@ aur_result aur_points_of_set(const char *set, const aur_directions_options *opti
     return result;
 }
 
-aur_result aur_check_capacity(size_t needed, size_t capacity, aur_error *error) {
-    return needed <= capacity ? AUR_OK
-                              : aur_fail(error, AUR_ERROR_CAPACITY,
-                                         "there is room for %zu numbers, not for %zu", capacity, needed);
-}
-
 aur_result aur_check_exponent(double exponent, aur_error *error) {
     return exponent >= 0.0 && exponent <= AUR_EXPONENT_MAXIMUM
                ? AUR_OK
@@ -60,10 +53,4 @@ aur_result aur_check_smoothness(double smoothness, aur_error *error) {
                ? AUR_OK
                : aur_fail(error, AUR_ERROR_ARGUMENT,
                           "the smoothness must be between 1 and 2 (exclusive), not %g", smoothness);
-}
-
-aur_result aur_check_angle(double radians, aur_error *error) {
-    return radians >= 0.0 && radians <= 0.5 * AUR_PI + 1e-9
-               ? AUR_OK
-               : aur_fail(error, AUR_ERROR_ARGUMENT, "the angle must be between 0 and pi/2, not %g", radians);
 }

@@ -250,6 +250,8 @@ static void test_tables(void **state) {
     assert_int_equal(aur_weight_table_build(&options, 3, 2, 1, NULL, &table, NULL), AUR_OK);
     assert_int_equal(aur_weight_table_angles(table), 3);
     assert_int_equal(aur_weight_table_rotations(table), 2);
+    const size_t rows = aur_weight_table_rows(table); /* two ends of at least one piece an interval */
+    assert_true(rows >= 2 * 2 * (3 - 1) && rows % 2 == 0);
     assert_int_equal(aur_weight_table_options(table)->size, sizeof options);
     assert_true(aur_weight_table_options(table)->weights->regularization == AUR_REGULARIZATION_DEFAULT);
     assert_int_equal(aur_weight_table_points(table, 0.5, 1, true, 3 * SIZE, xyz, NULL), AUR_OK);

@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "check.h"
+#include "core/simd.h"
 #include "quadrature/potential/potential_table.h"
 #include "quadrature/tables/weight_table.h"
 
@@ -189,6 +190,8 @@ static void check_table(double m, int clipped, size_t angles) {
     const aur_oswa_options options = pair(m, clipped);
     aur_weight_table *const table = build(&options, angles, 1, 1);
     aur_weight_table *const again = build(&options, angles, 1, 3);
+    if (!clipped)
+        assert_int_equal(aur_weight_table_rows(table), angles);
     aur_oswa *oswa;
     assert_int_equal(aur_oswa_create(&options, &oswa, NULL), AUR_OK);
     float found[96], other[96];
@@ -421,6 +424,31 @@ static void test_build_errors(void **state) {
     aur_oswa_destroy(oswa);
 }
 
+/* The kernels that this processor can run give the bits of the formula, and write nothing behind the end. */
+static void test_blend(void **state) {
+    (void)state;
+    enum { MOST = 67 };
+    aur_weight_blend *kernels[3] = {aur_weight_blend_portable};
+#if !defined(AUR_PORTABLE)
+    kernels[1] = aur_isa_available() >= AUR_ISA_AVX2 ? aur_weight_blend_avx2 : NULL;
+    kernels[2] = aur_isa_available() >= AUR_ISA_AVX512 ? aur_weight_blend_avx512 : NULL;
+#endif
+    float rows[2 * MOST], found[MOST + 1];
+    for (size_t i = 0; i < 2 * MOST; ++i)
+        rows[i] = cosf((float)(i * i));
+    for (size_t kernel = 0; kernel < 3; ++kernel)
+        for (size_t count = 0; kernels[kernel] != NULL && count <= MOST; ++count) {
+            const float part = (float)count / 41.0f;
+            found[count] = 7.0f;
+            kernels[kernel](count, rows, rows + MOST, part, found);
+            for (size_t i = 0; i < count; ++i) {
+                const float expected = rows[i] + part * (rows[MOST + i] - rows[i]);
+                assert_memory_equal(&found[i], &expected, sizeof expected);
+            }
+            assert_true(found[count] == 7.0f);
+        }
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_solve_is_the_plain_one),
@@ -429,6 +457,7 @@ int main(void) {
         cmocka_unit_test(test_ggx),
         cmocka_unit_test(test_published_table),
         cmocka_unit_test(test_table),
+        cmocka_unit_test(test_blend),
         cmocka_unit_test(test_threads),
         cmocka_unit_test(test_file),
         cmocka_unit_test(test_build_errors),

@@ -5,7 +5,10 @@
 #include <stdlib.h>
 
 #include "core/memory.h"
+#include "core/simd.h"
 #include "quadrature/check.h"
+#define BLEND aur_weight_blend_portable
+#include "quadrature/tables/blend_body.h"
 
 aur_result aur_weight_table_create(const aur_oswa_options *options, size_t angle_count, size_t rotation_count,
                                    bool solves, aur_weight_table **table, aur_error *error) {
@@ -26,6 +29,7 @@ aur_result aur_weight_table_create(const aur_oswa_options *options, size_t angle
     created->rotation_count = rotation_count;
     created->size = aur_oswa_size(created->oswa);
     created->apart = aur_oswa_hides(created->oswa);
+    created->blend = AUR_KERNEL_HERE(aur_weight_blend);
     *table = created;
     return AUR_OK;
 }
@@ -68,6 +72,10 @@ size_t aur_weight_table_angles(const aur_weight_table *table) {
 
 size_t aur_weight_table_rotations(const aur_weight_table *table) {
     return table->rotation_count;
+}
+
+size_t aur_weight_table_rows(const aur_weight_table *table) {
+    return table->apart ? 2 * table->piece_count : table->rotation_count * table->angle_count;
 }
 
 static aur_result check_rotation(const aur_weight_table *table, size_t rotation, aur_error *error) {
@@ -129,11 +137,8 @@ aur_result aur_weight_table_look_up(const aur_weight_table *table, size_t lobe, 
         return result;
     float part;
     const size_t row = aur_weight_table_locate(table, rotation, (float)radians, &part);
-    const float *restrict below = aur_weight_table_row(table, row) + lobe * table->size;
-    const float *restrict above = below + 2 * table->size;
-    float *restrict target = weights;
-    for (size_t i = 0; i < table->size; ++i)
-        target[i] = below[i] + part * (above[i] - below[i]);
+    const float *const below = aur_weight_table_row(table, row) + lobe * table->size;
+    table->blend(table->size, below, below + 2 * table->size, part, weights);
     return AUR_OK;
 }
 

@@ -5,6 +5,11 @@
 #include "core/vector.h"
 #include "quadrature/tables/oswa.h"
 
+/* Of `count` numbers of two rows, (1 - part) times the first and `part` times the second. */
+typedef void aur_weight_blend(size_t count, const float *below, const float *above, float part,
+                              float *target);
+aur_weight_blend aur_weight_blend_portable, aur_weight_blend_avx2, aur_weight_blend_avx512;
+
 /* A row holds the weights of both lobes at one angle. Where samples can be hidden, the intervals between
  * angles are cut into pieces where a sample crosses the horizon, so that within a piece the same samples take
  * part and the weights are smooth; the two ends of a piece then have rows of their own. Otherwise
@@ -20,6 +25,7 @@ struct aur_weight_table {
     float *weights; /* row, lobe, sample */
     /* Of the mirror lobe, at MASS_STEPS steps an interval: near the horizon it bends sharply. */
     float *masses;
+    aur_weight_blend *blend; /* for the instructions of this machine */
 };
 
 enum { AUR_WEIGHT_TABLE_MASS_STEPS = 8 };
@@ -30,10 +36,6 @@ static inline size_t aur_weight_table_mass_count(const aur_weight_table *table) 
 
 static inline size_t aur_weight_table_intervals(const aur_weight_table *table) {
     return table->rotation_count * (table->angle_count - 1);
-}
-
-static inline size_t aur_weight_table_rows(const aur_weight_table *table) {
-    return table->apart ? 2 * table->piece_count : table->rotation_count * table->angle_count;
 }
 
 static inline double aur_weight_table_angle(const aur_weight_table *table, size_t index) {

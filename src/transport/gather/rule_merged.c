@@ -185,14 +185,11 @@ static void look_up(const aur_merged_rule *rule, size_t rotation, size_t subset,
     const size_t row = aur_weight_table_locate(rule->table, rotation, radians, &part);
     const size_t samples = aur_merged_rule_samples(rule);
     const size_t row_size = 2 * samples * rule->subsets;
-    const float *restrict below = rule->rows + row * row_size + subset * 2 * samples;
-    const float *restrict above = below + row_size;
-    float *restrict target = weights;
-    for (size_t i = 0; i < samples; ++i)
-        target[i] = below[i] + part * (above[i] - below[i]);
+    const float *const below = rule->rows + row * row_size + subset * 2 * samples;
+    rule->table->blend(2 * samples, below, below + row_size, part, weights);
     const float mass = (float)aur_weight_table_mass(rule->table, (double)radians);
     for (size_t i = samples; i < 2 * samples; ++i)
-        target[i] = mass * (below[i] + part * (above[i] - below[i]));
+        weights[i] *= mass;
 }
 
 /* cos^exponent / (n q + n' q') for each lobe and sample; below the surface there is no light. */
