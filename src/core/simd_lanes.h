@@ -9,7 +9,7 @@
 #include <stdint.h>
 #include <string.h>
 
-#if defined(__AVX2__)
+#if defined(__x86_64__)
 #include <immintrin.h>
 #endif
 
@@ -87,6 +87,20 @@ static inline void aur_lanes_put(double *to, aur_reals values, bool stream) {
     (void)stream;
     memcpy(to, &values, sizeof values);
 #endif
+}
+
+/* Writes one number, as aur_lanes_put does, at any address. */
+static inline void aur_lanes_put_one(double *to, double value, bool stream) {
+#if defined(__AVX2__)
+    if (stream) {
+        long long bits;
+        memcpy(&bits, &value, sizeof bits);
+        _mm_stream_si64((long long *)(void *)to, bits);
+        return;
+    }
+#endif
+    (void)stream;
+    *to = value;
 }
 
 /* Writes x0, y0, z0, x1, y1, z1, ..., as aur_lanes_put does. */
@@ -195,9 +209,10 @@ static inline aur_halves aur_lanes_reverse_bits(aur_halves x) {
 #endif
 }
 
-/* Ends a run of streamed stores: other threads see them in order from here on. */
+/* Ends a run of streamed stores, of a file for any instruction set: other threads see them in order from here
+ * on. */
 static inline void aur_lanes_end_stream(void) {
-#if defined(__AVX2__)
+#if defined(__x86_64__)
     _mm_sfence();
 #endif
 }

@@ -230,8 +230,8 @@ static void best_first_shift_is_the_best_on_the_hemisphere(void **state) {
             const aur_fibonacci grids[] = {{1.0 / (double)base, 0.5 - 0.5 * moved, 0},
                                            {1.0 / (double)base, 0.5 + 0.5 * moved, phases[s]}};
             const size_t count = 2 * (size_t)base;
-            aur_fibonacci_points_portable(&grids[0], 0, (size_t)base, xyz);
-            aur_fibonacci_points_portable(&grids[1], 0, (size_t)base, xyz + 3 * base);
+            aur_fibonacci_points_portable(&grids[0], 0, (size_t)base, false, xyz);
+            aur_fibonacci_points_portable(&grids[1], 0, (size_t)base, false, xyz + 3 * base);
             double domain = 0.0;
             double pairs = 0.0;
             for (size_t i = 0; i < count; ++i) {

@@ -6,7 +6,7 @@
  * epsilon)/(N - 1 + 2 epsilon) (Roberts 2020): above 1/2 it widens the smallest distance and spoils the
  * energy. `region=octant` keeps x, y, z >= 0, N points by a table of their indices. Any N up to 2^50; the
  * azimuth is exact to 3e-12 turn at j = 1e9 (the 64 digits of the golden ratio, times j). The cost is that of
- * a square root and two polynomials of degree 8. */
+ * a square root and a complex product. */
 #include "sphere/sets/fibonacci.h"
 
 #include <math.h>
@@ -17,8 +17,9 @@
 #include "sphere/native.h"
 #include "sphere/sets/fibonacci_body.h"
 
-void aur_fibonacci_points_portable(const aur_fibonacci *set, uint64_t first, size_t count, double *xyz) {
-    fill_points(set, first, count, xyz);
+void aur_fibonacci_points_portable(const aur_fibonacci *set, uint64_t first, size_t count, bool stream,
+                                   double *xyz) {
+    fill_points(set, first, count, stream, xyz);
 }
 
 aur_fibonacci_kernel aur_fibonacci_choose_kernel(void) {
@@ -118,11 +119,14 @@ static aur_result prepare(const aur_row *row, aur_parameters *parameters, const 
 static void fill(const void *data, uint64_t first, size_t count, double *xyz) {
     const fibonacci_set *const set = data;
     if (!set->octant) {
-        set->kernel(&set->points, first, count, xyz);
+        const bool stream = aur_fibonacci_streams(count);
+        set->kernel(&set->points, first, count, stream, xyz);
+        if (stream)
+            aur_lanes_end_stream();
         return;
     }
     for (size_t i = 0; i < count; ++i)
-        fill_one_by_one(&set->points, set->indices[first + i], 1, xyz + 3 * i);
+        fill_some(&set->points, set->indices[first + i], 1, false, xyz + 3 * i);
 }
 
 const aur_native_set aur_native_fibonacci = {

@@ -1,6 +1,7 @@
 /* Spherical Fibonacci points from their index. */
 #pragma once
 
+#include <stdbool.h>
 #include <stddef.h>
 #include <stdint.h>
 
@@ -10,16 +11,29 @@ typedef struct aur_fibonacci {
     uint64_t phase;
 } aur_fibonacci;
 
-/* Points first .. first+count-1 as x,y,z triples. */
-typedef void (*aur_fibonacci_kernel)(const aur_fibonacci *set, uint64_t first, size_t count, double *xyz);
+/* Azimuths are added: point j turns by (j mod 64)/Phi, from a table, from where point j - (j mod 64) stands,
+ * by one complex product. So any point comes from its index alone, to 4.5e-16, and a sine costs a product. */
+enum { AUR_FIBONACCI_BLOCK = 64, AUR_FIBONACCI_WRAPPED = 7 };
+extern const double aur_golden_cosines[AUR_FIBONACCI_BLOCK + AUR_FIBONACCI_WRAPPED];
+extern const double aur_golden_sines[AUR_FIBONACCI_BLOCK + AUR_FIBONACCI_WRAPPED];
+
+/* Points first .. first+count-1 as x,y,z triples; `stream` writes past the caches, and
+ * aur_lanes_end_stream is to follow. */
+typedef void (*aur_fibonacci_kernel)(const aur_fibonacci *set, uint64_t first, size_t count, bool stream,
+                                     double *xyz);
 
 /* The kernel for this processor; all give the same bits. */
 aur_fibonacci_kernel aur_fibonacci_choose_kernel(void);
 
 /* What it chooses from: no kernel fuses a multiplication and an addition. */
-void aur_fibonacci_points_portable(const aur_fibonacci *set, uint64_t first, size_t count, double *xyz);
-void aur_fibonacci_points_avx2(const aur_fibonacci *set, uint64_t first, size_t count, double *xyz);
-void aur_fibonacci_points_avx512(const aur_fibonacci *set, uint64_t first, size_t count, double *xyz);
+void aur_fibonacci_points_portable(const aur_fibonacci *set, uint64_t first, size_t count, bool stream,
+                                   double *xyz);
+void aur_fibonacci_points_avx2(const aur_fibonacci *set, uint64_t first, size_t count, bool stream,
+                               double *xyz);
+void aur_fibonacci_points_avx512(const aur_fibonacci *set, uint64_t first, size_t count, bool stream,
+                                 double *xyz);
 
-/* Bytes from which on the caches cannot hold the points, so that they are streamed past them. */
-enum { AUR_FIBONACCI_STREAM_BYTES = 8 << 20 };
+/* Whether the caches cannot hold so many points, so that they are better streamed past them. */
+static inline bool aur_fibonacci_streams(size_t count) {
+    return count >= (8 << 20) / (3 * sizeof(double));
+}

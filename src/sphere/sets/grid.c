@@ -17,6 +17,7 @@
 #include <stdlib.h>
 
 #include "core/error.h"
+#include "core/simd_lanes.h"
 #include "core/vector.h"
 #include "sphere/native.h"
 #include "sphere/phase.h"
@@ -118,8 +119,8 @@ static void doubled_grid(uint64_t count, size_t s, double height, double centre,
     const aur_fibonacci base = {step, centre, 0};
     const aur_fibonacci copy = {step, centre + half.index, half.phase};
     const aur_fibonacci_kernel kernel = aur_fibonacci_choose_kernel();
-    kernel(&base, 0, (size_t)count, xyz);
-    kernel(&copy, 0, (size_t)count, xyz + 3 * count);
+    kernel(&base, 0, (size_t)count, false, xyz);
+    kernel(&copy, 0, (size_t)count, false, xyz + 3 * count);
 }
 
 size_t aur_grid_best_shift(uint64_t base, double height, double centre) {
@@ -144,7 +145,7 @@ size_t aur_grid_best_shift(uint64_t base, double height, double centre) {
 typedef struct grid {
     uint64_t base;
     size_t levels;
-    size_t order[3]; /* the shifts in the order in which they are added */
+    shift shifts[LEVEL_LIMIT + 1][4]; /* of a level and its digit */
     double step;
     double centre; /* N d */
     aur_fibonacci_kernel kernel;
@@ -161,9 +162,9 @@ static double mean_index_shift(const grid *g, uint64_t blocks) {
         const double inside = 0.5 * (1.0 - ldexp(1.0, -(int)(level - 1)));
         const uint64_t digit = left / block;
         for (uint64_t d = 0; d < digit; ++d)
-            sum += (double)block * (above + inside + (d > 0 ? shift_of(g->order[d - 1], level).index : 0.0));
-        if (digit > 0 && digit < 4)
-            above += shift_of(g->order[digit - 1], level).index;
+            sum += (double)block * (above + inside + g->shifts[level][d].index);
+        if (digit < 4)
+            above += g->shifts[level][digit].index;
         left -= digit * block;
     }
     return (sum + (double)left * above) / (double)blocks;
@@ -239,8 +240,9 @@ static void choose_order(grid *g, const grid_keys *p, double height) {
         first = p->first_shift == FIRST_SHIFT_BEST
                     ? aur_grid_best_shift(g->base, height, p->shift == SHIFT_FINAL ? g->centre : -1.0)
                     : aur_grid_first_shift(g->base, 1.0);
-    for (size_t i = 0; i < 3; ++i)
-        g->order[i] = (first + i) % 3;
+    for (size_t level = 1; level <= g->levels; ++level)
+        for (size_t i = 0; i < 3; ++i)
+            g->shifts[level][i + 1] = shift_of((first + i) % 3, level);
 }
 
 static aur_result prepare(const aur_row *row, aur_parameters *parameters, const aur_native_request *request,
@@ -273,24 +275,24 @@ static aur_result prepare(const aur_row *row, aur_parameters *parameters, const 
 
 static void fill(const void *data, uint64_t first, size_t count, double *xyz) {
     const grid *const g = data;
+    const bool stream = aur_fibonacci_streams(count);
     while (count > 0) {
         const uint64_t block = first / g->base;
         const uint64_t j = first % g->base;
         const size_t part = count < g->base - j ? count : (size_t)(g->base - j);
         aur_fibonacci base = {.step = g->step, .offset = g->centre};
         for (size_t level = 1; level <= g->levels; ++level) {
-            const size_t digit = block >> (2 * (level - 1)) & 3;
-            if (digit == 0)
-                continue;
-            const shift moved = shift_of(g->order[digit - 1], level);
+            const shift moved = g->shifts[level][block >> (2 * (level - 1)) & 3];
             base.offset += moved.index;
             base.phase += moved.phase;
         }
-        g->kernel(&base, j, part, xyz);
+        g->kernel(&base, j, part, stream, xyz);
         first += part;
         count -= part;
         xyz += 3 * part;
     }
+    if (stream)
+        aur_lanes_end_stream();
 }
 
 const aur_native_set aur_native_grid = {
