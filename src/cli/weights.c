@@ -1,4 +1,4 @@
-/* aureole weights: optimal weights of samples, their rivals, and what they gain. */
+/* aureole weights: optimal and exact weights of samples, their rivals, and what they gain. */
 #include "cli/weights.h"
 
 #include <math.h>
@@ -10,7 +10,8 @@ static aur_result parse_lobe(const char *text, void *field, aur_error *error) {
 
 /* In the order of cli_method. */
 static const char *method_name(unsigned method) {
-    static const char *const names[] = {"osw", "oswa", "mis", "mis-power", "equal", "ratio"};
+    static const char *const names[] = {"osw",   "oswa",  "mis",   "mis-power",
+                                        "equal", "ratio", "exact", "voronoi"};
     return method < sizeof names / sizeof names[0] ? names[method] : NULL;
 }
 
@@ -29,17 +30,29 @@ static const cli_option options[] = {
      .key.computed = true},
     {CLI_FLAG(cli_weights_arguments, clipped, "clip",
               "the second lobe ends at the horizon; hidden samples get weight 0")},
-    {CLI_CHOICE(cli_weights_arguments, method, "method", "METHOD", "osw for one lobe, oswa for two",
-                "optimal weights, of two lobes each from its own samples (osw) or from all (oswa); balance "
-                "or power heuristic (mis, mis-power), 1/N (equal) or p/(q N) (ratio)"),
+    {CLI_CHOICE(
+         cli_weights_arguments, method, "method", "METHOD", "osw for one lobe, oswa for two",
+         "optimal weights, of two lobes each from its own samples (osw) or from all (oswa); balance "
+         "or power heuristic (mis, mis-power), 1/N (equal), p/(q N) (ratio), the nearest to equal ones "
+         "that integrate polynomials exactly (exact) or areas of Voronoi cells (voronoi)"),
      .key.computed = true, .name = method_name},
+    {CLI_INTEGER(cli_weights_arguments, degree, "degree", "L", 0, AUR_EXACT_DEGREE_MAX,
+                 "the largest with positive weights", "of the polynomials that --method exact integrates"),
+     .key.computed = true},
+    {CLI_FLAG(cli_weights_arguments, negative, "negative",
+              "weights of a --degree that is given may be negative")},
+    {CLI_FLAG(cli_weights_arguments, near, "near", "exact weights near to those of the file, its column w")},
+    {CLI_REAL(cli_weights_arguments, points.options.cap_degrees, "cap", "DEGREES", 1e-6, 180, NULL,
+              "exact weights of the cap of this polar angle about +z")},
     {CLI_REAL(cli_weights_arguments, weights.regularization, "regularization", "R", 0, INFINITY, "1e-6",
               "added to the diagonal"),
      .key.maximum_open = true},
     {CLI_FLAG(cli_weights_arguments, unconstrained, "unconstrained",
               "do not fix the sum of the weights to 1")},
-    {CLI_FLAG(cli_weights_arguments, report, "report",
-              "print worst-case errors with equal and optimal weights and the gain instead of samples")},
+    {CLI_FLAG(
+        cli_weights_arguments, report, "report",
+        "print worst-case errors with equal and optimal weights and the gain instead of samples; of exact "
+        "weights the degree, the error that is left, and the least and largest weight times N")},
     {CLI_TEXT(cli_weights_arguments, path, "output", "FILE", "standard output, unless there is a report",
               "write x,y,z,w there as CSV"),
      .letter = 'o', .key.computed = true, .content = "file"},
@@ -74,6 +87,14 @@ static const char *broken_rule(const cli_call *call, const cli_weights_arguments
         return "--table: needs two lobes: give --lobe2";
     if (arguments->method == CLI_METHOD_OSWA && !two)
         return "--method oswa: needs two lobes: give --lobe2";
+    const bool exact = arguments->method == CLI_METHOD_EXACT;
+    if (two && (exact || arguments->method == CLI_METHOD_VORONOI))
+        return "--lobe2: exact weights and areas of cells are for one lobe";
+    if (!exact && (arguments->degree != AUR_DEGREE_LARGEST || arguments->negative || arguments->near ||
+                   arguments->points.options.cap_degrees > 0.0))
+        return "--degree, --negative, --near and --cap are for --method exact";
+    if (arguments->near && !cli_has_size(arguments->source))
+        return "--near: only a file has weights to stay near to";
     return NULL;
 }
 
@@ -92,6 +113,8 @@ static int complete(const cli_call *call, cli_weights_arguments *arguments) {
                              arguments->source);
     if (cli_given(call, "method") == NULL)
         arguments->method = arguments->two ? CLI_METHOD_OSWA : CLI_METHOD_OSW;
+    if (cli_given(call, "degree") == NULL)
+        arguments->degree = AUR_DEGREE_LARGEST;
     const char *const rule = broken_rule(call, arguments);
     if (rule != NULL)
         return cli_bad_usage("%s", rule);
@@ -101,6 +124,8 @@ static int complete(const cli_call *call, cli_weights_arguments *arguments) {
 }
 
 static int print_report(const cli_weights_arguments *arguments, const cli_weights_result *result) {
+    if (arguments->method == CLI_METHOD_EXACT)
+        return cli_weights_exact_report(arguments, result);
     const bool optimal = arguments->method == CLI_METHOD_OSW || arguments->method == CLI_METHOD_OSWA;
     report_table *const table =
         report_create(5, (const char *const[]){"set", "n", "lobe", "method", "equal"});
@@ -150,6 +175,7 @@ static int weigh(const cli_weights_arguments *arguments) {
         status = write_points(arguments, &result);
     free(result.xyz);
     free(result.weights);
+    free(result.near);
     return status;
 }
 
@@ -177,7 +203,7 @@ static int run(const cli_call *call) {
 
 const cli_verb cli_verb_weights = {
     .name = "weights",
-    .summary = "optimal weights of samples, and what they gain",
+    .summary = "optimal and exact weights of samples, and what they gain",
     .notes =
         "Points are directions of the hemisphere (of the sphere, where the lobe is uniform), and the lobe is "
         "what the integrand is multiplied by: the points of a set follow it. Weights are for densities of "

@@ -1,6 +1,7 @@
 /* The parts of `aureole weights`. */
 #pragma once
 
+#include <aureole/exact.h>
 #include <aureole/quadrature.h>
 
 #include "cli/point_source.h"
@@ -11,7 +12,9 @@ typedef enum cli_method {
     CLI_METHOD_MIS,   /* multiple importance sampling, balance heuristic */
     CLI_METHOD_POWER, /* power heuristic */
     CLI_METHOD_EQUAL, /* 1/N */
-    CLI_METHOD_RATIO  /* p/(q N) */
+    CLI_METHOD_RATIO, /* p/(q N) */
+    CLI_METHOD_EXACT, /* exact to a degree */
+    CLI_METHOD_VORONOI
 } cli_method;
 
 typedef struct cli_weights_arguments {
@@ -29,6 +32,8 @@ typedef struct cli_weights_arguments {
     size_t angles, rotations;
     double look_up_degrees;
     size_t rotation;
+    size_t degree; /* AUR_DEGREE_LARGEST: the largest */
+    bool near, negative;
 } cli_weights_arguments;
 
 /* Samples, weights and their figures, lobe by lobe. */
@@ -37,6 +42,8 @@ typedef struct cli_weights_result {
     size_t lobe_count;
     double *xyz;     /* 3 * count */
     double *weights; /* lobe_count * count */
+    double *near;    /* of the file, where they are asked for and there; else NULL */
+    aur_exact_report exact;
     double equal[2], weighted[2], sum[2];
     double ratio[2]; /* with has_ratio: of the weights p/(q N) */
     bool has_ratio;
@@ -48,6 +55,12 @@ aur_oswa_options cli_weights_oswa(const cli_weights_arguments *arguments);
 
 /* Each returns the exit status, after printing what went wrong. */
 int cli_weights_compute(const cli_weights_arguments *arguments, cli_weights_result *result);
+/* Exact weights, and Voronoi cells, of one lobe's samples. */
+aur_result cli_weights_by_degree(const cli_weights_arguments *arguments, cli_weights_result *result,
+                                 aur_error *error);
+aur_result cli_weights_by_cells(const cli_weights_arguments *arguments, cli_weights_result *result,
+                                aur_error *error);
+int cli_weights_exact_report(const cli_weights_arguments *arguments, const cli_weights_result *result);
 int cli_weights_plot(const cli_weights_arguments *arguments, const cli_weights_result *result);
 int cli_weights_table(const cli_weights_arguments *arguments);
 /* Reads a table and writes the samples and weights of one angle and rotation. Without a set any table will

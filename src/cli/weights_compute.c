@@ -68,6 +68,11 @@ static aur_result load_one(weights_job *task, aur_error *error) {
     double *const xyz = view.dimension == 3 ? malloc(3 * view.count * sizeof *xyz) : NULL;
     if (xyz != NULL)
         memcpy(xyz, view.coordinates, 3 * view.count * sizeof *xyz);
+    if (arguments->near && view.weights != NULL) {
+        task->result->near = malloc(view.count * sizeof *view.weights);
+        if (task->result->near != NULL)
+            memcpy(task->result->near, view.weights, view.count * sizeof *view.weights);
+    }
     aur_points_destroy(points);
     if (view.dimension != 3)
         return aur_fail(error, AUR_ERROR_UNSUPPORTED,
@@ -181,6 +186,8 @@ static aur_result optimal_weights(weights_job *task, aur_error *error) {
 static aur_result rival_weights(weights_job *task, aur_error *error) {
     cli_weights_result *const result = task->result;
     const cli_method method = task->arguments->method;
+    if (method == CLI_METHOD_VORONOI)
+        return cli_weights_by_cells(task->arguments, result, error);
     for (size_t k = 0; k < result->lobe_count; ++k) {
         double *const weights = result->weights + k * result->count;
         aur_result made = AUR_OK;
@@ -241,13 +248,16 @@ static aur_result compute(weights_job *task, aur_error *error) {
     aur_result made = two_patterns ? load_two(task, error) : load_one(task, error);
     if (made == AUR_OK && !two_patterns && !from_file(task))
         task->own[0] = result->count;
-    if (made == AUR_OK)
+    const bool exact = task->arguments->method == CLI_METHOD_EXACT;
+    if (made == AUR_OK && !exact)
         made = prepare_lobes(task, error);
     if (made != AUR_OK)
         return made;
     result->weights = malloc(result->lobe_count * result->count * sizeof *result->weights);
     if (result->weights == NULL)
         return aur_fail(error, AUR_ERROR_MEMORY, "out of memory");
+    if (exact)
+        return cli_weights_by_degree(task->arguments, result, error);
     const bool optimal =
         task->arguments->method == CLI_METHOD_OSW || task->arguments->method == CLI_METHOD_OSWA;
     made = optimal ? optimal_weights(task, error) : rival_weights(task, error);

@@ -35,6 +35,23 @@ cmp points.csv again.csv || fail "weights of a file differ from weights of its s
 "$program" weights sobol -n 32 --domain sphere --method equal | awk -F, 'NR > 1 && $4 != 0.03125 { exit 1 }' ||
   fail "equal weights are 1/N"
 
+# Exact to a degree: the golden figures of spherical Fibonacci sets; weights that go in as a file are kept where they do.
+"$program" weights $sf -n 1000 --domain sphere --method exact --report --format csv >exact || exit 1
+check exact degree 30 0
+check exact least .869413059 1e-6
+check exact largest 1.138763250 1e-6
+awk -v r="$(column exact residual)" 'BEGIN { exit !(r <= 1.5e-15) }' || fail "residual $(column exact residual)"
+"$program" weights sobol -n 256 --lobe cosine --method exact --degree 4 -o exact.csv || exit 1
+"$program" weights exact.csv --lobe cosine --method exact --degree 4 --near >kept.csv || exit 1
+paste -d, exact.csv kept.csv | awk -F, 'NR > 1 { d = $4 - $8; if (d < -1e-15 || d > 1e-15) exit 1 }' || fail "weights near to exact ones"
+"$program" weights $sf -n 300 --cap 30 --method exact --report --format csv | grep -q ",exact," || fail "a cap"
+printf 'x,y,z\n0,0,1\n0,0,1\n0,0,-1\n' >doubled.csv
+"$program" weights doubled.csv --domain sphere --method exact >shared.csv 2>message || exit 1
+grep -q "share" message || fail "doubled points: $(cat message)"
+[ "$(tail -1 shared.csv)" = "0,0,-1,0.5" ] || fail "doubled points: $(cat shared.csv)"
+"$program" weights sobol -n 256 --domain sphere --method voronoi --report --format csv >cells || exit 1
+awk -v a="$(column cells weighted)" -v b="$(column cells equal)" 'BEGIN { exit !(a < b) }' || fail "gain of Voronoi cells"
+
 # GGX: the ratio weights carry the masking, and both they and the optimal ones leave hidden samples out.
 for method in ratio osw; do
   "$program" weights sobol -n 256 --lobe ggx:0.3:70 --method $method --report --format csv >ggx.$method || exit 1
@@ -129,6 +146,13 @@ refused "angle" sobol -n 8 --lobe cosine --lobe2 phong:20
 refused "hemisphere" sobol -n 8 --domain sphere --lobe cosine
 refused "missing" --lobe cosine
 refused "must be one of" sobol -n 8 --method best
+refused "1024 polynomials of degree 31" $sf -n 1000 --domain sphere --method exact --degree 31
+refused "negative weights, the least of them -" random -n 256 --domain sphere --method exact --degree 13
+refused "for --method exact" sobol -n 8 --lobe cosine --degree 3
+refused "only a file" sobol -n 8 --lobe cosine --method exact --near
+refused "one lobe" sobol -n 8 --lobe cosine --lobe2 phong:20 --angle 3 --method exact
+refused "uniform, cosine and phong" sobol -n 8 --lobe ggx:0.3 --method exact
+refused "90 degrees" doubled.csv --domain sphere --method voronoi
 # Tables: of another set, of other options, of another version, damaged, not there.
 refused "'spherical-fibonacci', not 'sobol'" sobol -n 16 --n2 8 --lobe cosine --lobe2 phong:20 --clip --table a.table --lookup 10
 refused "exponent of the mirror lobe: 20, not 21" $sf -n 16 --n2 8 --lobe cosine --lobe2 phong:21 --clip --table a.table --lookup 10

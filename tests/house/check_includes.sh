@@ -26,7 +26,7 @@ quality/sphere quality/square quality/spectrum
 quality/pairs
 quality
 quadrature/tables
-quadrature/weights
+quadrature/exact quadrature/weights
 quadrature/potential quadrature/linear
 quadrature
 scene/load

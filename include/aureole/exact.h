@@ -1,0 +1,74 @@
+/* Weights that make a quadrature of any points exact to a degree.
+ *
+ * On the sphere, the hemisphere or a cap about +z a rule is exact to degree L when it integrates every
+ * polynomial in x, y, z of degree L or less without error: on the sphere all spherical harmonics to degree L,
+ * (L+1)^2 of them. Of all such weights these are the nearest to equal ones, or to given ones. Everywhere the
+ * density that is integrated against is normalised to integral 1, so that equal weights are 1/N and the
+ * weights sum to 1: multiply by the area (4 pi, 2 pi, ...) for integrals over solid angle. */
+#ifndef AUREOLE_EXACT_H
+#define AUREOLE_EXACT_H
+
+#include <aureole/sphere.h>
+#include <stdbool.h>
+#include <string.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* In the place of a degree: the largest that keeps every weight positive. */
+#define AUR_DEGREE_LARGEST SIZE_MAX
+/* No degree is larger. */
+#define AUR_EXACT_DEGREE_MAX 1500
+/* No exponent of a lobe is larger. */
+#define AUR_EXACT_EXPONENT_MAX 1e4
+
+typedef struct aur_exact_options {
+    size_t size;        /* of the caller's struct, so that it can grow */
+    aur_domain domain;  /* SPHERE or HEMISPHERE */
+    double cap_degrees; /* 0: all of the domain; else the cap of that polar angle about +z */
+    double exponent;    /* the density is cos^exponent theta: 0 unless the domain is the whole HEMISPHERE */
+    size_t degree;      /* AUR_DEGREE_LARGEST, or 0 to AUR_EXACT_DEGREE_MAX */
+    bool negative;      /* a given degree may take negative weights */
+    const double *near; /* the weights to stay near to: one a point, >= 0, not all 0; NULL: equal ones */
+    size_t threads;     /* 0: all; no bit depends on it */
+    aur_progress progress;
+} aur_exact_options;
+
+/* The largest degree, near to equal weights, on a whole domain. */
+static inline aur_exact_options aur_exact_options_default(aur_domain domain) {
+    aur_exact_options options;
+    memset(&options, 0, sizeof options);
+    options.size = sizeof options;
+    options.domain = domain;
+    options.degree = AUR_DEGREE_LARGEST;
+    return options;
+}
+
+typedef struct aur_exact_report {
+    size_t degree;
+    double residual;       /* the worst error among functions of mean square 1 to the degree */
+    double least, largest; /* weight times the number of points */
+    size_t places;         /* points at different places */
+    size_t iterations;     /* of conjugate gradients; 0: solved by a factorisation */
+} aur_exact_report;
+
+/* weights[count] for unit vectors xyz[3 * count]: of all weights that are exact to the degree those that make
+ * the sum of (w - near)^2 / near least, where the near ones are scaled to sum 1. Points at one place share
+ * the weight of one point, unless near ones are given; points with the near weight 0 keep it. Up to 2048
+ * points every degree is tried by one factorisation that grows, O(count degree^4); more points are solved by
+ * conjugate gradients, O(count degree^2) a step, at most 1200 steps, and the largest degree is found by
+ * bisection. `capacity` counts weights; `report` may be NULL.
+ *
+ * Errors: ARGUMENT for no point, a vector that is not of unit length or lies outside the domain (which),
+ * options out of range, a degree that no weights of these points have (and the error that is left), a degree
+ * that needs negative weights unless they are allowed (and the least one); CAPACITY; MEMORY; CANCELLED. */
+AUR_API aur_result aur_weights_exact(size_t count, const double *xyz, const aur_exact_options *options,
+                                     size_t capacity, double *weights, aur_exact_report *report,
+                                     aur_error *error) AUR_NONNULL(2, 3, 5);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

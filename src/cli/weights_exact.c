@@ -1,0 +1,55 @@
+/* aureole weights --method exact and voronoi: weights that depend on one domain and its samples alone. */
+#include <aureole/quality.h>
+
+#include "cli/weights.h"
+
+aur_result cli_weights_by_degree(const cli_weights_arguments *arguments, cli_weights_result *result,
+                                 aur_error *error) {
+    const aur_directions_options *const points = &arguments->points.options;
+    if (points->lobe.kind != AUR_LOBE_COSINE_POWER)
+        return aur_fail(error, AUR_ERROR_UNSUPPORTED,
+                        "exact weights are for uniform, cosine and phong:M lobes");
+    aur_exact_options options = aur_exact_options_default(points->domain);
+    options.cap_degrees = points->cap_degrees;
+    options.exponent = points->lobe.exponent;
+    options.degree = arguments->degree;
+    options.negative = arguments->negative;
+    options.near = result->near;
+    options.threads = arguments->common.threads;
+    options.progress = cli_progress(arguments->common.quiet);
+    const aur_result made = aur_weights_exact(result->count, result->xyz, &options, result->count,
+                                              result->weights, &result->exact, error);
+    cli_progress_clear();
+    const aur_warnings warnings = points->warnings;
+    if (made == AUR_OK && result->exact.places < result->count && warnings.function != NULL)
+        warnings.function(warnings.user, "points lie on each other and share their weights");
+    return made;
+}
+
+aur_result cli_weights_by_cells(const cli_weights_arguments *arguments, cli_weights_result *result,
+                                aur_error *error) {
+    const aur_directions_options *const points = &arguments->points.options;
+    aur_measure_options options = aur_measure_options_default();
+    options.threads = arguments->common.threads;
+    options.progress = cli_progress(arguments->common.quiet);
+    const aur_result made = aur_weights_voronoi(result->count, result->xyz, points->domain, &points->lobe,
+                                                &options, result->count, result->weights, error);
+    cli_progress_clear();
+    return made;
+}
+
+int cli_weights_exact_report(const cli_weights_arguments *arguments, const cli_weights_result *result) {
+    report_table *const table =
+        report_create(9, (const char *const[]){"set", "n", "lobe", "method", "degree", "residual", "least",
+                                               "largest", "places"});
+    report_text(table, arguments->source);
+    report_integer(table, result->count);
+    report_text(table, arguments->lobe_text);
+    report_text(table, arguments->method_name);
+    report_integer(table, result->exact.degree);
+    report_number(table, result->exact.residual, 3);
+    report_number(table, result->exact.least, 8);
+    report_number(table, result->exact.largest, 8);
+    report_integer(table, result->exact.places);
+    return cli_finish(table, arguments->common.format);
+}

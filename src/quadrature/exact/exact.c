@@ -1,0 +1,234 @@
+#include <aureole/exact.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "core/options.h"
+#include "core/vector.h"
+#include "quadrature/check.h"
+#include "quadrature/exact/system.h"
+
+/* Points this far below the rim still belong to a domain: rounding. */
+static const double rim = 1e-9;
+
+static aur_result check_options(aur_exact_options *o, double *lowest, aur_error *error) {
+    const bool sphere = o->domain == AUR_DOMAIN_SPHERE;
+    if (!sphere && o->domain != AUR_DOMAIN_HEMISPHERE)
+        return aur_fail(error, AUR_ERROR_UNSUPPORTED,
+                        "exact weights are for the sphere, the hemisphere and caps, not for the domain '%s'",
+                        aur_domain_name(o->domain));
+    const double most = sphere ? 180.0 : 90.0;
+    if (!(o->cap_degrees >= 0.0 && o->cap_degrees <= most))
+        return aur_fail(error, AUR_ERROR_ARGUMENT, "the cap must be between 0 and %g degrees, not %g", most,
+                        o->cap_degrees);
+    if (o->cap_degrees == 0.0)
+        o->cap_degrees = most;
+    if (!(o->exponent >= 0.0 && o->exponent <= AUR_EXACT_EXPONENT_MAX))
+        return aur_fail(error, AUR_ERROR_ARGUMENT,
+                        "the exponent of a lobe of exact weights must be between 0 and %g, not %g",
+                        AUR_EXACT_EXPONENT_MAX, o->exponent);
+    if (o->exponent > 0.0 && o->cap_degrees != 90.0)
+        return aur_fail(error, AUR_ERROR_UNSUPPORTED, "a lobe is for the whole hemisphere");
+    if (o->degree != AUR_DEGREE_LARGEST && o->degree > AUR_BASIS_DEGREE_MAX)
+        return aur_fail(error, AUR_ERROR_ARGUMENT, "the degree must be at most %d, not %zu",
+                        AUR_BASIS_DEGREE_MAX, o->degree);
+    *lowest = o->cap_degrees == 180.0  ? -1.0
+              : o->cap_degrees == 90.0 ? 0.0
+                                       : cos(o->cap_degrees / 180.0 * AUR_PI);
+    return AUR_OK;
+}
+
+static int compare(const void *a, const void *b) {
+    const double *const x = *(const double *const *)a, *const y = *(const double *const *)b;
+    for (int d = 0; d < 3; ++d)
+        if (x[d] != y[d])
+            return x[d] < y[d] ? -1 : 1;
+    return 0;
+}
+
+/* Fills near[count], unless they are given equal ones which points at one place share, and returns the number
+ * of different places of points that have weight. */
+static size_t share(size_t count, const double *xyz, const double *given, const double **order,
+                    double *near) {
+    size_t used = 0, places = 0;
+    double sum = 0.0;
+    for (size_t i = 0; i < count; ++i)
+        if (given == NULL || given[i] > 0.0)
+            order[used++] = xyz + 3 * i;
+    qsort(order, used, sizeof *order, compare);
+    for (size_t first = 0, next; first < used; first = next) {
+        for (next = first + 1; next < used && compare(&order[first], &order[next]) == 0; ++next) {
+        }
+        for (size_t k = first; k < next; ++k)
+            near[(size_t)(order[k] - xyz) / 3] = 1.0 / (double)(next - first);
+        ++places;
+    }
+    for (size_t i = 0; i < count; ++i) {
+        near[i] = given != NULL ? given[i] : near[i];
+        sum += near[i];
+    }
+    for (size_t i = 0; i < count; ++i)
+        near[i] /= sum;
+    return places;
+}
+
+static aur_result check_points(size_t count, const double *xyz, const aur_exact_options *o, double lowest,
+                               aur_error *error) {
+    if (count == 0)
+        return aur_fail(error, AUR_ERROR_ARGUMENT, "weights need at least one point");
+    const aur_result result = aur_check_directions(count, xyz, error);
+    bool some = o->near == NULL;
+    for (size_t i = 0; i < count && result == AUR_OK; ++i) {
+        if (xyz[3 * i + 2] < lowest - rim)
+            return aur_fail(error, AUR_ERROR_ARGUMENT, "point %zu (z = %g) lies outside the %s", i,
+                            xyz[3 * i + 2], o->cap_degrees == 90.0 ? "hemisphere" : "cap");
+        if (o->near == NULL)
+            continue;
+        if (!(o->near[i] >= 0.0 && o->near[i] < INFINITY))
+            return aur_fail(error, AUR_ERROR_ARGUMENT, "weight %zu must be at least 0 and finite, not %g", i,
+                            o->near[i]);
+        some = some || o->near[i] > 0.0;
+    }
+    if (result == AUR_OK && !some)
+        return aur_fail(error, AUR_ERROR_ARGUMENT, "all weights to stay near to are 0");
+    return result;
+}
+
+/* The degrees that so many places can have: a polynomial of degree k that vanishes at all of them exists for
+ * (k+1)^2 > places, and its square has a positive integral. */
+static size_t degree_bound(size_t places) {
+    const size_t bound = 2 * (size_t)sqrt((double)places) - 1;
+    return bound < AUR_BASIS_DEGREE_MAX ? bound : AUR_BASIS_DEGREE_MAX;
+}
+
+/* A search for the largest degree by solving for one after the other. */
+typedef struct ladder {
+    const aur_exact_system *system;
+    double *best, *trial;
+    aur_exact_found *found;
+    aur_error *error;
+    aur_result result;
+} ladder;
+
+static bool climbs(ladder *l, size_t degree) {
+    aur_exact_found found;
+    if (l->result == AUR_OK)
+        l->result = aur_exact_iterate(l->system, degree, l->trial, &found, l->error);
+    if (l->result != AUR_OK || !found.exact || found.least <= 0.0)
+        return false;
+    double *const trial = l->trial;
+    l->trial = l->best;
+    l->best = trial;
+    *l->found = found;
+    return true;
+}
+
+/* Bisection from a first guess, and two degrees more: weights next to the limit need not be positive for all
+ * lower degrees. */
+static aur_result search(const aur_exact_system *system, size_t bound, double *weights,
+                         aur_exact_found *found, aur_error *error) {
+    const size_t count = system->points.count;
+    double *const storage = malloc(2 * count * sizeof *storage);
+    if (storage == NULL)
+        return aur_fail_memory(error);
+    ladder l = {system, storage, storage + count, found, error, AUR_OK};
+    climbs(&l, 0);
+    size_t low = 0, high = bound + 1, next = (size_t)sqrt((double)system->places / 1.3);
+    for (size_t step = 1; low + 1 < high && l.result == AUR_OK;) {
+        if (next >= high || next <= low)
+            next = low + (high - low) / 2;
+        if (climbs(&l, next)) {
+            low = next;
+            next = low + step; /* sets differ little above the guess: small steps first */
+            step *= 2;
+        } else {
+            high = next;
+            next = low + (high - low) / 2;
+        }
+    }
+    for (size_t more = low + 2; more <= low + 3 && more <= bound && l.result == AUR_OK; ++more)
+        climbs(&l, more);
+    memcpy(weights, l.best, count * sizeof *weights);
+    free(storage);
+    return l.result;
+}
+
+static aur_result judge(const aur_exact_options *o, const aur_exact_system *system,
+                        const aur_exact_found *found, aur_error *error) {
+    const size_t count = system->points.count;
+    if (!found->exact)
+        return aur_fail(
+            error, AUR_ERROR_ARGUMENT,
+            "no weights of these %zu points at %zu places integrate all %zu polynomials of degree "
+            "%zu: ask for the largest degree that has some",
+            count, system->places, (o->degree + 1) * (o->degree + 1), o->degree);
+    if (found->least <= 0.0 && !o->negative)
+        return aur_fail(error, AUR_ERROR_ARGUMENT,
+                        "degree %zu needs negative weights, the least of them %.4g/N: allow them, or ask for "
+                        "the largest degree with positive ones",
+                        found->degree, found->least * (double)count);
+    return AUR_OK;
+}
+
+static aur_result solve(const aur_exact_options *o, const aur_exact_system *system, double *weights,
+                        aur_exact_report *report, aur_error *error) {
+    const bool largest = o->degree == AUR_DEGREE_LARGEST;
+    const size_t bound = degree_bound(system->places);
+    aur_exact_found found = {.degree = o->degree};
+    aur_result result = AUR_OK;
+    if (!largest && o->degree > bound)
+        return judge(o, system, &found, error);
+    if (system->points.count <= AUR_EXACT_DIRECT_POINTS)
+        result = aur_exact_direct(system, largest ? bound : o->degree, largest, weights, &found, error);
+    else if (largest)
+        result = search(system, bound, weights, &found, error);
+    else
+        result = aur_exact_iterate(system, o->degree, weights, &found, error);
+    if (result == AUR_OK && found.exact) {
+        aur_exact_positive(system, weights, &found);
+        result = aur_exact_residual(system, found.degree, weights, &found, error);
+        found.exact = found.residual <= AUR_EXACT_TOLERANCE;
+    }
+    if (result == AUR_OK)
+        result = judge(o, system, &found, error);
+    const double count = (double)system->points.count;
+    if (report != NULL)
+        *report = (aur_exact_report){found.degree,          found.residual, found.least * count,
+                                     found.largest * count, system->places, found.iterations};
+    return result;
+}
+
+aur_result aur_weights_exact(size_t count, const double *xyz, const aur_exact_options *options,
+                             size_t capacity, double *weights, aur_exact_report *report, aur_error *error) {
+    aur_exact_options own = aur_exact_options_default(AUR_DOMAIN_SPHERE);
+    double lowest = -1.0;
+    aur_result result = aur_options_read(options, sizeof own, sizeof own, &own, "aur_exact_options", error);
+    if (result == AUR_OK)
+        result = check_options(&own, &lowest, error);
+    if (result == AUR_OK)
+        result = check_points(count, xyz, &own, lowest, error);
+    if (result == AUR_OK)
+        result = aur_check_capacity(count, capacity, error);
+    if (result != AUR_OK)
+        return result;
+    double *const storage = calloc(6 * count, sizeof *storage);
+    const double **const order = malloc(count * sizeof *order);
+    if (storage == NULL || order == NULL) {
+        result = aur_fail_memory(error);
+    } else {
+        double *const near = storage + 4 * count, *const found = near + count;
+        const aur_exact_system system = {.points = aur_polar_points_make(count, xyz, storage),
+                                         .places = share(count, xyz, own.near, order, near),
+                                         .near = near,
+                                         .lowest = lowest,
+                                         .exponent = own.exponent,
+                                         .threads = own.threads,
+                                         .progress = own.progress};
+        result = solve(&own, &system, found, report, error);
+        if (result == AUR_OK)
+            memcpy(weights, found, count * sizeof *weights);
+    }
+    free(storage);
+    free(order);
+    return result;
+}

@@ -1,0 +1,150 @@
+/* Conjugate gradients on A D A' x = b - A near, D the weights to stay near to; w = near + D A' x. For sets
+ * that are even the matrix is near to the identity, unless there are hardly more points than functions. */
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "quadrature/exact/system.h"
+
+enum { LARGEST_STEPS = 600 };
+/* Where the steps end, and how often they begin anew with what is missing in truth. */
+static const double enough = 2e-15;
+enum { PASSES = 2 };
+
+typedef struct gradients {
+    const aur_exact_system *system;
+    aur_transform transform;
+    size_t size;                          /* of coefficients */
+    double *rest, *direction, *image, *t; /* t is of points */
+    double *storage;
+} gradients;
+
+static double square(size_t count, const double *a, const double *b) {
+    double sum[8] = {0};
+    for (size_t i = 0; i < count; ++i)
+        sum[i % 8] += a[i] * b[i];
+    return ((sum[0] + sum[4]) + (sum[1] + sum[5])) + ((sum[2] + sum[6]) + (sum[3] + sum[7]));
+}
+
+/* rest = b - A w. */
+static aur_result find_rest(const gradients *g, const double *weights, aur_error *error) {
+    const aur_result result = aur_transform_analyse(&g->transform, weights, g->rest, error);
+    for (size_t j = 0; j < g->size; ++j)
+        g->rest[j] = (j == 0 ? 1.0 : 0.0) - g->rest[j];
+    return result;
+}
+
+static aur_result descend(const gradients *g, double *weights, size_t *steps, aur_error *error) {
+    const aur_exact_system *const system = g->system;
+    memcpy(g->direction, g->rest, g->size * sizeof *g->direction);
+    double rest = square(g->size, g->rest, g->rest);
+    while (rest > enough * enough && *steps < LARGEST_STEPS) {
+        if (system->progress.function != NULL &&
+            system->progress.function(system->progress.user, "solving", *steps, LARGEST_STEPS) != 0)
+            return aur_fail(error, AUR_ERROR_CANCELLED, "solving: cancelled");
+        aur_result result = aur_transform_synthesise(&g->transform, g->direction, g->t, error);
+        for (size_t i = 0; i < system->points.count; ++i)
+            g->t[i] *= system->near[i];
+        if (result == AUR_OK)
+            result = aur_transform_analyse(&g->transform, g->t, g->image, error);
+        if (result != AUR_OK)
+            return result;
+        ++*steps;
+        const double curvature = square(g->size, g->direction, g->image);
+        if (!(curvature > 1e-14 * square(g->size, g->direction, g->direction)))
+            return AUR_OK; /* what is left no weights change */
+        const double length = rest / curvature;
+        for (size_t i = 0; i < system->points.count; ++i)
+            weights[i] += length * g->t[i];
+        for (size_t j = 0; j < g->size; ++j)
+            g->rest[j] -= length * g->image[j];
+        const double next = square(g->size, g->rest, g->rest);
+        for (size_t j = 0; j < g->size; ++j)
+            g->direction[j] = g->rest[j] + next / rest * g->direction[j];
+        rest = next;
+    }
+    return AUR_OK;
+}
+
+static aur_result solve(const gradients *g, double *weights, aur_exact_found *found, aur_error *error) {
+    memcpy(weights, g->system->near, g->system->points.count * sizeof *weights);
+    aur_result result = AUR_OK;
+    for (int pass = 0; pass < PASSES && result == AUR_OK; ++pass) {
+        result = find_rest(g, weights, error);
+        if (result == AUR_OK)
+            result = descend(g, weights, &found->iterations, error);
+    }
+    if (result == AUR_OK)
+        result = find_rest(g, weights, error);
+    found->residual = 0.0;
+    for (size_t j = 0; j < g->size; ++j)
+        found->residual = fmax(found->residual, fabs(g->rest[j]));
+    found->exact = found->residual <= AUR_EXACT_TOLERANCE;
+    return result;
+}
+
+/* The transforms to a degree, ready, and room for the steps. */
+static aur_result open_gradients(const aur_exact_system *system, size_t degree, aur_basis *basis,
+                                 gradients *g, aur_error *error) {
+    const aur_result result = aur_basis_create(degree, system->lowest, system->exponent, basis, error);
+    if (result != AUR_OK)
+        return result;
+    const size_t size = aur_coefficient_count(degree),
+                 room = AUR_TRANSFORM_BANDS * aur_transform_room(degree);
+    *g = (gradients){.system = system,
+                     .transform = {basis, &system->points, system->threads, NULL},
+                     .size = size,
+                     .storage = malloc((room + 3 * size + system->points.count) * sizeof(double))};
+    if (g->storage == NULL) {
+        aur_basis_release(basis);
+        return aur_fail_memory(error);
+    }
+    g->transform.sums = g->storage;
+    g->rest = g->storage + room;
+    g->direction = g->rest + size;
+    g->image = g->direction + size;
+    g->t = g->image + size;
+    return AUR_OK;
+}
+
+aur_result aur_exact_iterate(const aur_exact_system *system, size_t degree, double *weights,
+                             aur_exact_found *found, aur_error *error) {
+    aur_basis basis;
+    gradients g;
+    aur_result result = open_gradients(system, degree, &basis, &g, error);
+    if (result != AUR_OK)
+        return result;
+    *found = (aur_exact_found){.degree = degree};
+    result = solve(&g, weights, found, error);
+    aur_exact_positive(system, weights, found);
+    free(g.storage);
+    aur_basis_release(&basis);
+    return result;
+}
+
+aur_result aur_exact_residual(const aur_exact_system *system, size_t degree, const double *weights,
+                              aur_exact_found *found, aur_error *error) {
+    aur_basis basis;
+    gradients g;
+    aur_result result = open_gradients(system, degree, &basis, &g, error);
+    if (result != AUR_OK)
+        return result;
+    result = find_rest(&g, weights, error);
+    found->residual = 0.0;
+    for (size_t j = 0; j < g.size; ++j)
+        found->residual = fmax(found->residual, fabs(g.rest[j]));
+    free(g.storage);
+    aur_basis_release(&basis);
+    return result;
+}
+
+bool aur_exact_positive(const aur_exact_system *system, const double *weights, aur_exact_found *found) {
+    found->least = INFINITY;
+    found->largest = -INFINITY;
+    for (size_t i = 0; i < system->points.count; ++i)
+        if (system->near[i] > 0.0) {
+            found->least = fmin(found->least, weights[i]);
+            found->largest = fmax(found->largest, weights[i]);
+        }
+    return found->least > 0.0;
+}

@@ -1,0 +1,3 @@
+#include "quadrature/exact/transform_body.h"
+
+const aur_transform_kernel aur_transform_kernel_avx2 = {analyse, synthesise, dots};
