@@ -134,24 +134,107 @@ static inline void aur_lanes_store3(double *to, aur_reals x, aur_reals y, aur_re
     }
 #endif
 }
-/* Every second lane of a and b, interleaved: a0, b0, a2, b2, ..., and a1, b1, a3, b3, ... */
-static inline aur_reals aur_lanes_even(aur_reals a, aur_reals b) {
+/* Writes x0, y0, x1, y1, ..., as aur_lanes_put does. */
+static inline void aur_lanes_store2(double *to, aur_reals x, aur_reals y, bool stream) {
 #if defined(__AVX512F__)
-    return __builtin_shufflevector(a, b, 0, 8, 2, 10, 4, 12, 6, 14);
+    aur_lanes_put(to, __builtin_shufflevector(x, y, 0, 8, 1, 9, 2, 10, 3, 11), stream);
+    aur_lanes_put(to + 8, __builtin_shufflevector(x, y, 4, 12, 5, 13, 6, 14, 7, 15), stream);
 #elif defined(__AVX2__)
-    return __builtin_shufflevector(a, b, 0, 4, 2, 6);
+    const aur_reals even = __builtin_shufflevector(x, y, 0, 4, 2, 6);
+    const aur_reals odd = __builtin_shufflevector(x, y, 1, 5, 3, 7);
+    aur_lanes_put(to, __builtin_shufflevector(even, odd, 0, 1, 4, 5), stream);
+    aur_lanes_put(to + 4, __builtin_shufflevector(even, odd, 2, 3, 6, 7), stream);
 #else
-    return __builtin_shufflevector(a, b, 0, 2);
+    aur_lanes_put(to, __builtin_shufflevector(x, y, 0, 2), stream);
+    aur_lanes_put(to + 2, __builtin_shufflevector(x, y, 1, 3), stream);
 #endif
 }
 
-static inline aur_reals aur_lanes_odd(aur_reals a, aur_reals b) {
+#if defined(__AVX2__)
+/* Writes the lanes whose mask is set one after another, and whatever up to AUR_LANES numbers on; returns how
+ * many it kept. */
+static inline size_t aur_lanes_keep(double *to, aur_words mask, aur_reals values) {
 #if defined(__AVX512F__)
-    return __builtin_shufflevector(a, b, 1, 9, 3, 11, 5, 13, 7, 15);
-#elif defined(__AVX2__)
-    return __builtin_shufflevector(a, b, 1, 5, 3, 7);
+    const __mmask8 kept = _mm512_movepi64_mask((__m512i)mask);
+    _mm512_storeu_pd(to, _mm512_maskz_compress_pd(kept, (__m512d)values));
+    return (size_t)__builtin_popcount(kept);
 #else
-    return __builtin_shufflevector(a, b, 1, 3);
+    /* For each mask the halves of the lanes that it keeps. */
+    static const uint8_t halves[16][8] = {{0},
+                                          {0, 1},
+                                          {2, 3},
+                                          {0, 1, 2, 3},
+                                          {4, 5},
+                                          {0, 1, 4, 5},
+                                          {2, 3, 4, 5},
+                                          {0, 1, 2, 3, 4, 5},
+                                          {6, 7},
+                                          {0, 1, 6, 7},
+                                          {2, 3, 6, 7},
+                                          {0, 1, 2, 3, 6, 7},
+                                          {4, 5, 6, 7},
+                                          {0, 1, 4, 5, 6, 7},
+                                          {2, 3, 4, 5, 6, 7},
+                                          {0, 1, 2, 3, 4, 5, 6, 7}};
+    const unsigned kept = (unsigned)_mm256_movemask_pd((__m256d)mask);
+    const __m256i order = _mm256_cvtepu8_epi32(_mm_loadl_epi64((const __m128i *)(const void *)halves[kept]));
+    _mm256_storeu_pd(to, (__m256d)_mm256_permutevar8x32_epi32((__m256i)values, order));
+    return (size_t)__builtin_popcount(kept);
+#endif
+}
+
+/* Products of the lower halves of words. */
+static inline aur_words aur_lanes_multiply_low(aur_words a, aur_words b) {
+#if defined(__AVX512F__)
+    return (aur_words)_mm512_mul_epu32((__m512i)a, (__m512i)b);
+#else
+    return (aur_words)_mm256_mul_epu32((__m256i)a, (__m256i)b);
+#endif
+}
+
+/* Whole numbers below b, 0 < b <= 2^48, divided by b, whose rounded inverse is `inverse`: rounded as a
+ * division is. The first quotient q is off by 2^-52 of itself at most, so the remainder a - q b is a whole
+ * number of units of q's last place, fewer than 2^53 of them, and exact; what it adds is off by 2^-52 of a
+ * last place, whereas a quotient of such numbers is at least 2^-49 of one away from where rounding turns
+ * (after Markstein 1990). */
+static inline aur_reals aur_lanes_quotient(aur_reals a, aur_reals b, aur_reals inverse) {
+#if defined(__AVX512F__)
+    const __m512d q = (__m512d)(a * inverse);
+    const __m512d rest = _mm512_fnmadd_pd(q, (__m512d)b, (__m512d)a);
+    return (aur_reals)_mm512_fmadd_pd(rest, (__m512d)inverse, q);
+#else
+    const __m256d q = (__m256d)(a * inverse);
+    const __m256d rest = _mm256_fnmadd_pd(q, (__m256d)b, (__m256d)a);
+    return (aur_reals)_mm256_fmadd_pd(rest, (__m256d)inverse, q);
+#endif
+}
+#endif
+
+/* a, b, a, b, ... */
+static inline aur_words aur_lanes_of_pair(const uint64_t pair[2]) {
+#if defined(__AVX512F__)
+    return (aur_words)_mm512_broadcast_i32x4(_mm_loadu_si128((const __m128i *)(const void *)pair));
+#elif defined(__AVX2__)
+    return (aur_words)_mm256_broadcastsi128_si256(_mm_loadu_si128((const __m128i *)(const void *)pair));
+#else
+    return (aur_words){pair[0], pair[1]};
+#endif
+}
+
+/* The upper 53 bits as numbers in [0,1). Without an instruction for it 21 and 32 of them become the mantissas
+ * of 2^31 and 1/2, whose difference and sum are exact. */
+static inline aur_reals aur_lanes_unit(aur_words x) {
+#if defined(__AVX512DQ__)
+    return (aur_reals)_mm512_cvtepi64_pd((__m512i)(x >> 11)) * 0x1p-53;
+#else
+    const aur_words high = x >> 43 | UINT64_C(0x41e0000000000000);
+#if defined(__AVX2__)
+    const aur_words low = (aur_words)_mm256_blend_epi32(
+        (__m256i)(x >> 11), _mm256_set1_epi64x(INT64_C(0x3fe0000000000000)), 0xaa);
+#else
+    const aur_words low = (x >> 11 & 0xffffffff) | UINT64_C(0x3fe0000000000000);
+#endif
+    return ((aur_reals)high - (0x1p31 + 0.5)) + (aur_reals)low;
 #endif
 }
 
@@ -182,23 +265,26 @@ static inline aur_words aur_lanes_last_words(aur_halves low, aur_halves high) {
 /* The 32 bits of each half in the reverse order: nibbles by a table, then bytes. */
 static inline aur_halves aur_lanes_reverse_bits(aur_halves x) {
 #if defined(__AVX2__)
-    static const uint8_t reversed[16] = {0x0, 0x8, 0x4, 0xc, 0x2, 0xa, 0x6, 0xe,
-                                         0x1, 0x9, 0x5, 0xd, 0x3, 0xb, 0x7, 0xf};
-    static const uint8_t bytes[16] = {3, 2, 1, 0, 7, 6, 5, 4, 11, 10, 9, 8, 15, 14, 13, 12};
-    const __m128i table = _mm_loadu_si128((const __m128i *)(const void *)reversed);
-    const __m128i order = _mm_loadu_si128((const __m128i *)(const void *)bytes);
+    static const uint8_t lower[16] = {0x0, 0x8, 0x4, 0xc, 0x2, 0xa, 0x6, 0xe,
+                                      0x1, 0x9, 0x5, 0xd, 0x3, 0xb, 0x7, 0xf};
+    static const uint8_t upper[16] = {0x00, 0x80, 0x40, 0xc0, 0x20, 0xa0, 0x60, 0xe0,
+                                      0x10, 0x90, 0x50, 0xd0, 0x30, 0xb0, 0x70, 0xf0};
+    static const uint8_t order[16] = {3, 2, 1, 0, 7, 6, 5, 4, 11, 10, 9, 8, 15, 14, 13, 12};
+    const __m128i to_lower = _mm_loadu_si128((const __m128i *)(const void *)lower);
+    const __m128i to_upper = _mm_loadu_si128((const __m128i *)(const void *)upper);
+    const __m128i bytes = _mm_loadu_si128((const __m128i *)(const void *)order);
     const aur_halves low = x & 0x0f0f0f0f;
     const aur_halves high = x >> 4 & 0x0f0f0f0f;
 #if defined(__AVX512BW__)
-    const __m512i tables = _mm512_broadcast_i32x4(table);
-    const aur_halves nibbles = (aur_halves)_mm512_shuffle_epi8(tables, (__m512i)low) << 4 |
-                               (aur_halves)_mm512_shuffle_epi8(tables, (__m512i)high);
-    return (aur_halves)_mm512_shuffle_epi8((__m512i)nibbles, _mm512_broadcast_i32x4(order));
+    const __m512i swapped =
+        _mm512_or_si512(_mm512_shuffle_epi8(_mm512_broadcast_i32x4(to_upper), (__m512i)low),
+                        _mm512_shuffle_epi8(_mm512_broadcast_i32x4(to_lower), (__m512i)high));
+    return (aur_halves)_mm512_shuffle_epi8(swapped, _mm512_broadcast_i32x4(bytes));
 #else
-    const __m256i tables = _mm256_broadcastsi128_si256(table);
-    const aur_halves nibbles = (aur_halves)_mm256_shuffle_epi8(tables, (__m256i)low) << 4 |
-                               (aur_halves)_mm256_shuffle_epi8(tables, (__m256i)high);
-    return (aur_halves)_mm256_shuffle_epi8((__m256i)nibbles, _mm256_broadcastsi128_si256(order));
+    const __m256i swapped =
+        _mm256_or_si256(_mm256_shuffle_epi8(_mm256_broadcastsi128_si256(to_upper), (__m256i)low),
+                        _mm256_shuffle_epi8(_mm256_broadcastsi128_si256(to_lower), (__m256i)high));
+    return (aur_halves)_mm256_shuffle_epi8(swapped, _mm256_broadcastsi128_si256(bytes));
 #endif
 #else
     x = (x >> 1 & 0x55555555) | (x & 0x55555555) << 1;

@@ -2,12 +2,14 @@
 #include <inttypes.h>
 #include <math.h>
 
+#include "pointset/runs.h"
 #include "pointset/set.h"
 
 enum {
     BUFFER_LENGTH = 512,
+    PART_LENGTH = 1 << 12, /* coordinates that the first cache keeps until their points are whole */
     LEAST_PART = 128,
-    PART_LENGTH = 1 << 14 /* coordinates that a first or second cache keeps until the point is whole */
+    STREAM_BYTES = 4 << 20 /* larger outputs go past the caches */
 };
 
 size_t aur_output_capacity(aur_layout layout, size_t dimension, size_t count, size_t stride) {
@@ -22,36 +24,94 @@ size_t aur_output_capacity(aur_layout layout, size_t dimension, size_t count, si
     return (dimension - 1) * stride + count;
 }
 
+void aur_output_put(const aur_output *output, aur_strides strides, size_t first, size_t count,
+                    const double *values) {
+    if (output->doubles != NULL) {
+        double *const out = output->doubles + first * strides.point;
+        for (size_t i = 0; i < count; ++i)
+            out[i * strides.point] = values[i];
+        return;
+    }
+    float *const out = output->floats + first * strides.point;
+    for (size_t i = 0; i < count; ++i)
+        out[i * strides.point] = (float)(int32_t)(values[i] * 0x1p24) * 0x1p-24f;
+}
+
+size_t aur_output_stream_start(size_t count, const double *points) {
+    enum { POINT_BYTES = 2 * sizeof *points };
+    const size_t beyond = (uintptr_t)points % 64;
+    if (count <= STREAM_BYTES / POINT_BYTES || beyond % POINT_BYTES != 0)
+        return SIZE_MAX;
+    return beyond == 0 ? 0 : (64 - beyond) / POINT_BYTES;
+}
+
 /* A run of one coordinate as floats. */
-static void fill_floats(const aur_pointset *set, aur_block block, float *out) {
+static void fill_floats(const aur_pointset *set, aur_block block, float *out, size_t stride) {
     double buffer[BUFFER_LENGTH];
-    const size_t stride = block.point_stride;
     const size_t count = block.count;
     const uint64_t first = block.first;
+    const aur_output output = {.floats = out};
     block.data = buffer;
-    block.point_stride = 1;
     for (size_t begin = 0; begin < count; begin += block.count) {
         block.first = first + begin;
         block.count = count - begin < BUFFER_LENGTH ? count - begin : BUFFER_LENGTH;
         aur_pointset_fill(set, &block);
-        for (size_t i = 0; i < block.count; ++i)
-            out[(begin + i) * stride] = (float)(int32_t)(buffer[i] * 0x1p24) * 0x1p-24f;
+        aur_output_put(&output, (aur_strides){stride, 1}, begin, block.count, buffer);
     }
 }
 
-/* Coordinates are made one after another: part by part, so that memory is passed once. */
-static void fill_doubles(const aur_pointset *set, aur_block block) {
-    const bool at_once = block.dimension_count == 1 || block.point_stride == 1 ||
-                         (block.dimension_count == 2 && set->kind->pairs);
-    const size_t room = PART_LENGTH / block.dimension_count;
-    const size_t part = at_once ? block.count : room > LEAST_PART ? room : LEAST_PART;
-    size_t left = block.count;
-    for (; left > 0; left -= block.count) {
-        block.count = left < part ? left : part;
+/* Points of two coordinates. */
+static void fill_pairs(const aur_pointset *set, aur_block block) {
+    double buffer[PART_LENGTH];
+    const size_t start = aur_output_stream_start(block.count, block.data);
+    double *out = block.data;
+    const size_t all = block.count;
+    block.data = buffer;
+    block.coordinate_stride = PART_LENGTH / 2;
+    for (size_t done = 0; done < all; done += block.count) {
+        const size_t most = done < start && start < PART_LENGTH / 2 ? start - done : PART_LENGTH / 2;
+        block.count = all - done < most ? all - done : most;
         aur_pointset_fill(set, &block);
+        aur_runs()->pairs(block.count, buffer, buffer + PART_LENGTH / 2, done >= start, out);
         block.first += block.count;
-        block.data += block.count * block.point_stride;
+        out += 2 * block.count;
     }
+}
+
+/* Points of any number of coordinates, which are made one after another, part by part. */
+static void fill_points(const aur_pointset *set, aur_block block) {
+    double buffer[PART_LENGTH];
+    double *const out = block.data;
+    const aur_block all = block;
+    const size_t room = PART_LENGTH / all.dimension_count;
+    const size_t part = room > LEAST_PART ? room : LEAST_PART;
+    const size_t width = PART_LENGTH / part;
+    block.data = buffer;
+    block.coordinate_stride = part;
+    for (size_t begin = 0; begin < all.count; begin += part) {
+        block.first = all.first + begin;
+        block.count = all.count - begin < part ? all.count - begin : part;
+        for (size_t d = 0; d < all.dimension_count; d += width) {
+            block.first_dimension = all.first_dimension + d;
+            block.dimension_count = all.dimension_count - d < width ? all.dimension_count - d : width;
+            aur_pointset_fill(set, &block);
+            for (size_t i = 0; i < block.count; ++i)
+                for (size_t k = 0; k < block.dimension_count; ++k)
+                    out[(begin + i) * all.dimension_count + d + k] = buffer[k * part + i];
+        }
+    }
+}
+
+static void fill_doubles(const aur_pointset *set, const aur_block *block, size_t point_stride) {
+    const bool shifted = set->scramble == AUR_SCRAMBLE_SHIFT || set->scramble == AUR_SCRAMBLE_ROTATE;
+    if (point_stride == 1)
+        aur_pointset_fill(set, block);
+    else if (block->dimension_count != 2)
+        fill_points(set, *block);
+    else if (set->kind->fill_pairs != NULL && block->first_dimension == 0 && !shifted)
+        set->kind->fill_pairs(set, block);
+    else
+        fill_pairs(set, *block);
 }
 
 aur_result aur_check_range(uint64_t size, uint64_t first, uint64_t count, aur_error *error) {
@@ -95,18 +155,17 @@ static aur_result emit(const aur_pointset *set, uint64_t seed, size_t dimension,
                        .count = count,
                        .first_dimension = dimension,
                        .dimension_count = dimension_count,
-                       .point_stride = strides.point,
                        .coordinate_stride = strides.coordinate,
                        .seed = seed,
                        .data = output->doubles};
     if (output->doubles != NULL) {
-        fill_doubles(set, block);
+        fill_doubles(set, &block, strides.point);
         return AUR_OK;
     }
     block.dimension_count = 1;
     for (size_t d = 0; d < dimension_count; ++d) {
         block.first_dimension = dimension + d;
-        fill_floats(set, block, output->floats + d * strides.coordinate);
+        fill_floats(set, block, output->floats + d * strides.coordinate, strides.point);
     }
     return AUR_OK;
 }
@@ -152,7 +211,6 @@ double aur_pointset_coordinate(const aur_pointset *pointset, uint64_t index, siz
                                              .count = 1,
                                              .first_dimension = dimension,
                                              .dimension_count = 1,
-                                             .point_stride = 1,
                                              .coordinate_stride = 1,
                                              .seed = pointset->seed,
                                              .data = &value});

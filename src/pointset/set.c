@@ -4,6 +4,7 @@
 #include <inttypes.h>
 
 #include "core/names.h"
+#include "pointset/runs.h"
 
 static const char *const scramble_names[] = {"none", "digit", "owen", "shift", "rotate", "rotate3d"};
 enum { SCRAMBLE_COUNT = sizeof scramble_names / sizeof scramble_names[0] };
@@ -60,16 +61,12 @@ aur_result aur_pointset_check(const aur_pointset *set, aur_error *error) {
 void aur_fill_fraction(const aur_pointset *set, const aur_block *block, size_t d) {
     double *const out = block->data + d * block->coordinate_stride;
     if (set->scramble != AUR_SCRAMBLE_DIGIT && set->scramble != AUR_SCRAMBLE_OWEN) {
-        /* Below 2^53 a quotient of integers is never rounded up to 1. */
-        const double size = (double)set->size;
-        for (size_t i = 0; i < block->count; ++i)
-            out[i * block->point_stride] = (double)(int64_t)(block->first + i) / size;
+        aur_runs()->multiples(block->first, 1, set->size, block->count, out);
         return;
     }
     const uint64_t key = aur_scramble_key(block->seed, block->first_dimension + d);
     for (size_t i = 0; i < block->count; ++i)
-        out[i * block->point_stride] =
-            aur_scrambled_fraction(set->scramble, block->first + i, set->size, key);
+        out[i] = aur_scrambled_fraction(set->scramble, block->first + i, set->size, key);
 }
 
 void aur_fill_table(const aur_pointset *set, const aur_block *block) {
@@ -77,7 +74,7 @@ void aur_fill_table(const aur_pointset *set, const aur_block *block) {
     for (size_t i = 0; i < block->count; ++i) {
         const double *const point = table + (block->first + i) * set->dimension + block->first_dimension;
         for (size_t d = 0; d < block->dimension_count; ++d)
-            block->data[i * block->point_stride + d * block->coordinate_stride] = point[d];
+            block->data[i + d * block->coordinate_stride] = point[d];
     }
 }
 
@@ -90,8 +87,8 @@ static void shift(const aur_pointset *set, const aur_block *block) {
         const double offset = aur_word_to_double(aur_scramble_key(block->seed, dimension));
         double *const out = block->data + d * block->coordinate_stride;
         for (size_t i = 0; i < block->count; ++i) {
-            const double sum = out[i * block->point_stride] + offset;
-            out[i * block->point_stride] = sum < 1.0 ? sum : sum - 1.0;
+            const double sum = out[i] + offset;
+            out[i] = sum < 1.0 ? sum : sum - 1.0;
         }
     }
 }

@@ -8,12 +8,12 @@
 #include "pointset/words.h"
 
 /* Which coordinates of which points, and where they go: coordinate first_dimension + d of point first + i is
- * written to data[i * point_stride + d * coordinate_stride]. */
+ * written to data[i + d * coordinate_stride]. */
 typedef struct aur_block {
     uint64_t first;
     size_t count;
     size_t first_dimension, dimension_count;
-    size_t point_stride, coordinate_stride;
+    size_t coordinate_stride;
     uint64_t seed; /* of the scrambling */
     double *data;
 } aur_block;
@@ -39,7 +39,6 @@ enum {
 /* One row of the table of square sets. */
 typedef struct aur_square_set {
     aur_set_description description;
-    bool pairs;           /* fill() makes two coordinates that lie beside each other in one go */
     const void *own;      /* what prepare() and fill() of several kinds tell them apart by; or NULL */
     unsigned scramblings; /* bit 1 << aur_scramble: what has a meaning here */
     /* Reads the keys and makes set->data ready (NULL: there are none and nothing is to be made ready). Size,
@@ -48,6 +47,8 @@ typedef struct aur_square_set {
     aur_result (*prepare)(aur_pointset *set, aur_parameters *keys, aur_error *error);
     /* Coordinates in [0,1) with NONE, DIGIT and OWEN applied; SHIFT and ROTATE are added by the caller. */
     void (*fill)(const aur_pointset *set, const aur_block *block);
+    /* The same for the first two coordinates, written to data[2 i + d], where that is faster; or NULL. */
+    void (*fill_pairs)(const aur_pointset *set, const aur_block *block);
 } aur_square_set;
 
 struct aur_pointset {
@@ -82,6 +83,14 @@ typedef struct aur_strides {
 } aur_strides;
 aur_result aur_output_open(const aur_output *output, size_t dimension, size_t count, aur_strides *strides,
                            aur_error *error);
+
+/* Writes coordinates to points first .. first + count - 1 of an output that begins with this coordinate.
+ * Floats are cut to 24 binary digits. */
+void aur_output_put(const aur_output *output, aur_strides strides, size_t first, size_t count,
+                    const double *values);
+/* From which point on `count` points of two doubles go past the caches: there they begin at a multiple of 64
+ * bytes. SIZE_MAX: from none. */
+size_t aur_output_stream_start(size_t count, const double *points);
 
 /* Points into the caller's buffer, scrambled with `seed`. */
 aur_result aur_pointset_emit(const aur_pointset *set, uint64_t seed, uint64_t first, size_t count,

@@ -183,29 +183,51 @@ static void hold_isa(const char *name) {
 /* Prefixes of various lengths, starts and addresses, so that every lane, wrap and tail of a group is met. */
 static void instruction_sets_agree(void **state) {
     (void)state;
-    enum { LONGEST = 700 };
+    enum { LONGEST = 3000 };
     static const aur_scramble scrambles[] = {AUR_SCRAMBLE_NONE, AUR_SCRAMBLE_DIGIT, AUR_SCRAMBLE_OWEN,
                                              AUR_SCRAMBLE_SHIFT};
     static const char *const isas[] = {"avx2", "avx512"};
-    static const char *const sets[] = {"sobol", "niederreiter"};
+    static const struct {
+        const char *text;
+        uint64_t size;
+        bool digits, plane; /* has digits to scramble; has two dimensions only */
+    } sets[] = {
+        {"sobol", UINT64_C(1) << 53, true, false},
+        {"niederreiter", UINT64_C(1) << 53, true, false},
+        {"random", UINT64_MAX, true, false},
+        {"halton", UINT64_C(1) << 48, true, false},
+        {"hammersley", (UINT64_C(1) << 48) - 1, true, false},
+        {"larcher-pillichshammer", UINT64_C(1) << 48, true, true},
+        {"r2", UINT64_MAX, false, false},
+        {"rank1", UINT64_C(269887340401663), false, true},
+        {"rank1:vector=1/70000", 5000, false, true},
+        {"fibonacci-lattice", UINT64_C(1) << 47, false, true},
+        {"fibonacci-lattice", 4181, false, true},
+        {"golden-set", 5000, false, true},
+    };
+    enum { SETS = sizeof sets / sizeof sets[0] };
     static const uint64_t bases[] = {0, 1000, (UINT64_C(1) << 32) - 300, (UINT64_C(1) << 52) + 12345};
     _Alignas(64) static double plain[3 * LONGEST + 8], wide[3 * LONGEST + 8];
     const char *const before = getenv("AUREOLE_ISA");
     char *const saved = before != NULL ? strdup(before) : NULL;
-    for (size_t trial = 0; trial < 2400; ++trial) {
-        const size_t dimension = 1 + trial % 3;
-        const aur_pointset_options options = {.size = sizeof options,
-                                              .count = UINT64_C(1) << 53,
-                                              .dimension = dimension,
-                                              .scramble = scrambles[trial / 3 % 4],
-                                              .seed = trial};
-        aur_pointset *const set = make_set(sets[trial / 12 % 2], options);
-        const uint64_t first = bases[trial / 24 % 4] + trial % 67;
-        const size_t count = 90 + trial * 7 % (LONGEST - 90);
-        const size_t offset = trial / 2 % 8;
+    for (size_t trial = 0; trial < 600 * SETS; ++trial) {
+        const size_t k = trial % SETS;
+        const size_t round = trial / SETS;
+        const size_t dimension = sets[k].plane ? 2 : 1 + round % 3;
+        const aur_pointset_options options = {
+            .size = sizeof options,
+            .count = sets[k].size,
+            .dimension = dimension,
+            .scramble = scrambles[sets[k].digits ? round / 3 % 4 : 3 * (round / 3 % 2)],
+            .seed = trial};
+        aur_pointset *const set = make_set(sets[k].text, options);
+        const size_t count = 1 + round * 7 % (round % 10 == 0 ? LONGEST : 300);
+        const uint64_t base = bases[round / 12 % 4] + round % 67;
+        const uint64_t first = base <= sets[k].size - count ? base : sets[k].size - count;
+        const size_t offset = round / 2 % 8;
         hold_isa("portable");
         assert_int_equal(aur_pointset_points(set, first, count, 3 * LONGEST, plain + offset, NULL), AUR_OK);
-        hold_isa(isas[trial % 2]);
+        hold_isa(isas[round % 2]);
         plain[offset + count * dimension] = wide[offset + count * dimension] = -1.0;
         assert_int_equal(aur_pointset_points(set, first, count, 3 * LONGEST, wide + offset, NULL), AUR_OK);
         assert_memory_equal(plain + offset, wide + offset, (count * dimension + 1) * sizeof *plain);

@@ -6,20 +6,21 @@
 #include "pointset/digits/digital_body.h"
 
 enum {
-    SHORT_RUN = 16, /* shorter ones are computed one index at a time */
-    WIDE_RUN = 96,  /* shorter ones are not worth preparing wide registers for */
-    BUFFER_LENGTH = 512,
+    SHORT_RUN = 16,        /* shorter ones are computed one index at a time */
+    WIDE_RUN = 48,         /* shorter ones are not worth preparing wide registers for */
     STREAM_BYTES = 4 << 20 /* larger outputs go past the caches */
 };
 
-size_t aur_digital_run_portable(const aur_digital_run *run) {
-    return run_kernel(run);
+void aur_digital_run_portable(const aur_digital_run *run) {
+    run_kernel(run);
 }
 
-/* A run of one dimension with any stride. */
-static void fill_plainly(const aur_digital_run *run, size_t dimension, size_t stride, double *out) {
-    const uint64_t *const columns = run->columns[dimension];
-    const uint64_t key = run->keys[dimension];
+/* One coordinate of a run. */
+static void fill_plainly(const aur_digital_run *run, size_t d) {
+    const uint64_t *const columns = run->columns[d];
+    const uint64_t key = run->keys[d];
+    const size_t stride = run->dimension_count;
+    double *const out = run->out + d;
     if (run->count < SHORT_RUN) {
         for (size_t i = 0; i < run->count; ++i)
             out[i * stride] = aur_word_to_double(
@@ -27,7 +28,9 @@ static void fill_plainly(const aur_digital_run *run, size_t dimension, size_t st
         return;
     }
     uint64_t flips[AUR_DIGITAL_COLUMNS];
-    aur_digital_flips(AUR_SCRAMBLE_NONE, columns, 0, flips);
+    uint64_t sum = 0;
+    for (unsigned k = 0; k < AUR_DIGITAL_COLUMNS; ++k)
+        flips[k] = sum ^= columns[k];
     uint64_t word = aur_digital_word(columns, run->first);
     for (size_t i = 0; i < run->count; ++i) {
         out[i * stride] = aur_word_to_double(aur_scramble_word(run->scramble, word, key));
@@ -35,75 +38,42 @@ static void fill_plainly(const aur_digital_run *run, size_t dimension, size_t st
     }
 }
 
-static void fill_plainly_part(const aur_digital_run *run, size_t begin, size_t count) {
-    aur_digital_run part = *run;
-    part.first += begin;
-    part.count = count;
-    for (size_t d = 0; d < run->dimension_count; ++d)
-        fill_plainly(&part, d, run->dimension_count, run->out + begin * run->dimension_count + d);
-}
-
-/* One dimension, or two beside each other, without gaps. */
 static void fill_run(const aur_digital_run *run) {
+    const aur_digital_kernel kernel = AUR_KERNEL_HERE(aur_digital_run);
     const size_t point_bytes = run->dimension_count * sizeof *run->out;
     const size_t beyond = (uintptr_t)run->out % 64;
-    const size_t before = beyond == 0 ? 0 : (64 - beyond) / point_bytes;
-    if (run->count < WIDE_RUN || beyond % point_bytes != 0) {
-        fill_plainly_part(run, 0, run->count);
+    aur_digital_run part = *run;
+    part.stream = run->count * point_bytes > STREAM_BYTES && beyond % point_bytes == 0;
+    if (part.stream) {
+        part.count = beyond == 0 ? 0 : (64 - beyond) / point_bytes;
+    } else if (run->count >= WIDE_RUN) {
+        kernel(&part);
         return;
     }
-    fill_plainly_part(run, 0, before);
-    aur_digital_run wide = *run;
-    wide.first += before;
-    wide.count -= before;
-    wide.out += before * run->dimension_count;
-    wide.stream = wide.count * point_bytes > STREAM_BYTES;
-    const aur_digital_kernel kernel = AUR_KERNEL_HERE(aur_digital_run);
-    const size_t done = before + kernel(&wide);
-    fill_plainly_part(run, done, run->count - done);
+    for (size_t d = 0; d < run->dimension_count; ++d)
+        fill_plainly(&part, d);
+    if (!part.stream)
+        return;
+    part.first += part.count;
+    part.out += part.count * run->dimension_count;
+    part.count = run->count - part.count;
+    kernel(&part);
 }
 
 static aur_digital_run run_of(const aur_pointset *set, const aur_block *block) {
-    return (aur_digital_run){
-        .dimension_count = 1, .scramble = set->scramble, .first = block->first, .count = block->count};
+    return (aur_digital_run){.dimension_count = 1,
+                             .scramble = set->scramble,
+                             .first = block->first,
+                             .count = block->count,
+                             .out = block->data};
 }
 
 void aur_fill_digital(const aur_pointset *set, const uint64_t columns[AUR_DIGITAL_COLUMNS],
                       const aur_block *block, size_t d) {
-    double *const out = block->data + d * block->coordinate_stride;
     aur_digital_run run = run_of(set, block);
     run.columns[0] = columns;
     run.keys[0] = aur_scramble_key(block->seed, block->first_dimension + d);
-    run.out = out;
-    if (block->point_stride == 1) {
-        fill_run(&run);
-        return;
-    }
-    if (block->count < WIDE_RUN) {
-        fill_plainly(&run, 0, block->point_stride, out);
-        return;
-    }
-    /* The run is made without gaps in a buffer and then spread. */
-    _Alignas(64) double buffer[BUFFER_LENGTH];
-    run.out = buffer;
-    for (size_t begin = 0; begin < block->count; begin += run.count) {
-        run.first = block->first + begin;
-        run.count = block->count - begin < BUFFER_LENGTH ? block->count - begin : BUFFER_LENGTH;
-        fill_run(&run);
-        for (size_t i = 0; i < run.count; ++i)
-            out[(begin + i) * block->point_stride] = buffer[i];
-    }
-}
-
-/* Two coordinates that lie beside each other. */
-static void fill_pair(const aur_pointset *set, const uint64_t *const columns[2], const aur_block *block) {
-    aur_digital_run run = run_of(set, block);
-    run.dimension_count = 2;
-    for (size_t d = 0; d < 2; ++d) {
-        run.columns[d] = columns[d];
-        run.keys[d] = aur_scramble_key(block->seed, block->first_dimension + d);
-    }
-    run.out = block->data;
+    run.out += d * block->coordinate_stride;
     fill_run(&run);
 }
 
@@ -127,16 +97,21 @@ const uint64_t *aur_digital_matrix_of(const aur_pointset *set, size_t dimension,
 }
 
 void aur_fill_digital_block(const aur_pointset *set, const aur_block *block, aur_digital_matrix make) {
-    uint64_t columns[2][AUR_DIGITAL_COLUMNS];
-    const size_t first = block->first_dimension;
-    if (block->dimension_count == 2 && block->point_stride == 2 && block->coordinate_stride == 1 &&
-        block->count >= WIDE_RUN) {
-        fill_pair(set,
-                  (const uint64_t *const[]){aur_digital_matrix_of(set, first, make, columns[0]),
-                                            aur_digital_matrix_of(set, first + 1, make, columns[1])},
-                  block);
-        return;
+    for (size_t d = 0; d < block->dimension_count; ++d) {
+        uint64_t columns[AUR_DIGITAL_COLUMNS];
+        aur_fill_digital(set, aur_digital_matrix_of(set, block->first_dimension + d, make, columns), block,
+                         d);
     }
-    for (size_t d = 0; d < block->dimension_count; ++d)
-        aur_fill_digital(set, aur_digital_matrix_of(set, first + d, make, columns[0]), block, d);
+}
+
+void aur_fill_digital_pairs(const aur_pointset *set, const aur_block *block, aur_digital_matrix make) {
+    uint64_t columns[2][AUR_DIGITAL_COLUMNS];
+    aur_digital_run run = run_of(set, block);
+    run.dimension_count = 2;
+    for (size_t d = 0; d < 2; ++d) {
+        const size_t dimension = block->first_dimension + d;
+        run.columns[d] = aur_digital_matrix_of(set, dimension, make, columns[d]);
+        run.keys[d] = aur_scramble_key(block->seed, dimension);
+    }
+    fill_run(&run);
 }

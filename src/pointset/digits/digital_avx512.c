@@ -1,5 +1,5 @@
 #include "pointset/digits/digital_body.h"
 
-size_t aur_digital_run_avx512(const aur_digital_run *run) {
-    return run_kernel(run);
+void aur_digital_run_avx512(const aur_digital_run *run) {
+    run_kernel(run);
 }

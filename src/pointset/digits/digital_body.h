@@ -4,42 +4,14 @@
 #include "core/simd_lanes.h"
 #include "pointset/digits/digital_kernels.h"
 
-/* A group is 2^BITS points: two vectors of doubles. */
-enum { HALF = AUR_LANES, GROUP = 2 * AUR_LANES, BITS = AUR_LANES == 8 ? 4 : AUR_LANES == 4 ? 3 : 2 };
-
-/* The words of a group in one coordinate. Plain: its first half in `a`, the second in `b`. Owen: the lower
- * halves of all words in `a`, the upper halves in `b`. */
-typedef struct words {
-    aur_words a, b;
-} words;
-
-typedef struct coordinate {
-    aur_digital_group group;
-    words now;     /* the lanes, as if all of them belonged to the group that begins the vector */
-    words wrapped; /* all ones in lanes that belong to the next group */
-    uint32_t key_low, key_high;
-} coordinate;
-
-/* Which point each lane holds, so that unpacking leaves the points in order. Pairs of doubles: the even lanes
- * of a half make its first points. Owen words: each 128 bits give two words to either half. */
-static void make_order(bool owen, bool pairs, unsigned char order[GROUP]) {
-    unsigned char doubles[GROUP];
-    for (unsigned p = 0; p < GROUP; ++p) {
-        const unsigned within = p % HALF;
-        const unsigned point = pairs ? within / 2 + (within % 2) * (HALF / 2) : within;
-        doubles[p] = (unsigned char)(p - within + point);
-    }
-    for (unsigned p = 0; p < GROUP; ++p)
-        order[p] = owen ? doubles[p / 4 * 2 + p % 2 + (p % 4 / 2) * HALF] : doubles[p];
-}
-
-static inline words broadcast(uint64_t word, bool owen) {
-    const aur_words zero = {0};
-    if (!owen)
-        return (words){zero + word, zero + word};
-    return (words){zero + (uint32_t)word * UINT64_C(0x100000001),
-                   zero + (word >> 32) * UINT64_C(0x100000001)};
-}
+/* Vectors that are made at once, so that what each waits for is hidden by the others: those of words, and
+ * those of halves of words for Owen's hashes. A group is as many points as fill them. */
+enum {
+    VECTORS = 4,
+    SLOTS = VECTORS * AUR_LANES,
+    OWEN_VECTORS = 4,
+    OWEN_SLOTS = OWEN_VECTORS * 2 * AUR_LANES
+};
 
 static inline aur_words load(const void *from) {
     aur_words vector;
@@ -47,107 +19,162 @@ static inline aur_words load(const void *from) {
     return vector;
 }
 
-static void prepare(const aur_digital_run *run, size_t dimension, bool owen, coordinate *c) {
-    unsigned char order[GROUP];
-    make_order(owen, run->dimension_count == 2, order);
-    aur_digital_group_prepare(run, dimension, BITS, order, &c->group);
-    const unsigned start = (unsigned)(run->first % GROUP);
-    uint32_t low[GROUP];
-    uint32_t high[GROUP];
-    uint32_t wrapped[GROUP];
-    uint64_t wide_wrapped[GROUP];
-    for (unsigned l = 0; l < GROUP; ++l) {
-        low[l] = (uint32_t)c->group.lanes[l];
-        high[l] = (uint32_t)(c->group.lanes[l] >> 32);
-        wide_wrapped[l] = start + order[l] >= GROUP ? UINT64_MAX : 0;
-        wrapped[l] = (uint32_t)wide_wrapped[l];
+/* A group, and on to the next one, whose number is `next`. */
+typedef struct plain_groups {
+    aur_words lanes[VECTORS], wrapped[VECTORS];
+    aur_words now;
+} plain_groups;
+
+static inline void step_plain(const aur_digital_group *group, plain_groups *p, uint64_t next, bool stream,
+                              double *out) {
+    const aur_words flip = aur_lanes_of_pair(group->flips[__builtin_ctzll(next)]);
+    for (unsigned v = 0; v < VECTORS; ++v)
+        aur_lanes_put(out + v * AUR_LANES, aur_lanes_unit(p->now ^ p->lanes[v] ^ (p->wrapped[v] & flip)),
+                      stream);
+    p->now ^= flip;
+}
+
+static inline __attribute__((always_inline)) void fill_plain(const aur_digital_run *run,
+                                                             const aur_digital_group *group, bool stream) {
+    plain_groups p = {.now = aur_lanes_of_pair(group->words)};
+    for (unsigned v = 0; v < VECTORS; ++v) {
+        p.lanes[v] = load(group->lanes + v * AUR_LANES);
+        p.wrapped[v] = load(group->wrapped + v * AUR_LANES);
     }
-    if (owen) {
-        c->wrapped = (words){load(wrapped), load(wrapped)};
-        c->now = (words){load(low), load(high)};
-    } else {
-        c->wrapped = (words){load(wide_wrapped), load(wide_wrapped + HALF)};
-        c->now = (words){load(c->group.lanes), load(c->group.lanes + HALF)};
-    }
-    const words first = broadcast(c->group.word, owen);
-    c->now = (words){c->now.a ^ first.a, c->now.b ^ first.b};
-    c->key_low = (uint32_t)run->keys[dimension];
-    c->key_high = (uint32_t)(run->keys[dimension] >> 32);
-}
-
-/* The words of the group, and on to the next one, whose number is `next`. */
-static inline words step(coordinate *c, uint64_t next, bool owen) {
-    const words flip = broadcast(c->group.flips[__builtin_ctzll(next)], owen);
-    const words result = {c->now.a ^ (c->wrapped.a & flip.a), c->now.b ^ (c->wrapped.b & flip.b)};
-    c->now = (words){c->now.a ^ flip.a, c->now.b ^ flip.b};
-    return result;
-}
-
-/* aur_owen_word of a group, back to plain words. */
-static inline words owen_words(const coordinate *c, words w) {
-    aur_halves x = (aur_halves)w.a;
-    x ^= x * 0x3d20adeau;
-    x = (x + c->key_low) * (c->key_low >> 16 | 1u);
-    x ^= x * 0x05526c56u;
-    x ^= x * 0x53a22864u;
-    aur_halves tail = x ^ c->key_high;
-    tail = (tail ^ tail >> 16) * 0x7feb352du;
-    tail = (tail ^ tail >> 15) * 0x846ca68bu;
-    tail = tail ^ tail >> 16 ^ (aur_halves)w.b;
-    const aur_halves head = aur_lanes_reverse_bits(x);
-    return (words){aur_lanes_first_words(tail, head), aur_lanes_last_words(tail, head)};
-}
-
-/* aur_word_to_double */
-static inline aur_reals to_double(aur_words word) {
-    return aur_lanes_from_signed(word >> 11) * 0x1p-53;
-}
-
-static inline __attribute__((always_inline)) size_t fill_groups(const aur_digital_run *run, bool owen,
-                                                                bool pairs, bool stream) {
-    coordinate c[2];
-    prepare(run, 0, owen, &c[0]);
-    if (pairs)
-        prepare(run, 1, owen, &c[1]);
-    const size_t groups = run->count / GROUP;
-    uint64_t next = run->first / GROUP + 1;
+    uint64_t next = group->next;
     double *out = run->out;
-    for (size_t g = 0; g < groups; ++g, ++next) {
-        words x = step(&c[0], next, owen);
-        if (owen)
-            x = owen_words(&c[0], x);
-        const aur_reals xa = to_double(x.a);
-        const aur_reals xb = to_double(x.b);
-        if (!pairs) {
-            aur_lanes_put(out, xa, stream);
-            aur_lanes_put(out + HALF, xb, stream);
-            out += GROUP;
-            continue;
-        }
-        words y = step(&c[1], next, owen);
-        if (owen)
-            y = owen_words(&c[1], y);
-        const aur_reals ya = to_double(y.a);
-        const aur_reals yb = to_double(y.b);
-        aur_lanes_put(out, aur_lanes_even(xa, ya), stream);
-        aur_lanes_put(out + HALF, aur_lanes_odd(xa, ya), stream);
-        aur_lanes_put(out + GROUP, aur_lanes_even(xb, yb), stream);
-        aur_lanes_put(out + GROUP + HALF, aur_lanes_odd(xb, yb), stream);
-        out += 2 * GROUP;
+    size_t left = run->count * run->dimension_count;
+    for (; left >= SLOTS; left -= SLOTS, out += SLOTS)
+        step_plain(group, &p, next++, stream, out);
+    if (left > 0) {
+        double rest[SLOTS];
+        step_plain(group, &p, next, false, rest);
+        memcpy(out, rest, left * sizeof *out);
     }
-    if (stream)
-        aur_lanes_end_stream();
-    return groups * GROUP;
 }
 
-static size_t run_kernel(const aur_digital_run *run) {
-    const bool pairs = run->dimension_count == 2;
-    if (run->scramble == AUR_SCRAMBLE_OWEN) {
-        if (pairs)
-            return run->stream ? fill_groups(run, true, true, true) : fill_groups(run, true, true, false);
-        return run->stream ? fill_groups(run, true, false, true) : fill_groups(run, true, false, false);
+/* Owen's words in two parts: heads are the upper 32 digits reversed, tails the lower ones. A vector has two
+ * halves of each 128 bits for its first doubles, and two for its last ones. */
+typedef struct owen_groups {
+    aur_halves heads[OWEN_VECTORS], tails[OWEN_VECTORS], wrapped[OWEN_VECTORS];
+    aur_halves head_now, tail_now;
+    aur_halves key_low, key_high, factor;
+} owen_groups;
+
+static void prepare_owen(const aur_digital_run *run, const aur_digital_group *group, owen_groups *o) {
+    for (unsigned v = 0; v < OWEN_VECTORS; ++v) {
+        enum { HALVES = 2 * AUR_LANES };
+        uint32_t heads[HALVES];
+        uint32_t tails[HALVES];
+        uint32_t wrapped[HALVES];
+        for (unsigned h = 0; h < HALVES; ++h) {
+            const unsigned slot = v * HALVES + h / 4 * 2 + h % 2 + h % 4 / 2 * AUR_LANES;
+            heads[h] = aur_reverse_bits((uint32_t)(group->lanes[slot] >> 32));
+            tails[h] = (uint32_t)group->lanes[slot];
+            wrapped[h] = (uint32_t)group->wrapped[slot];
+        }
+        o->heads[v] = (aur_halves)load(heads);
+        o->tails[v] = (aur_halves)load(tails);
+        o->wrapped[v] = (aur_halves)load(wrapped);
     }
-    if (pairs)
-        return run->stream ? fill_groups(run, false, true, true) : fill_groups(run, false, true, false);
-    return run->stream ? fill_groups(run, false, false, true) : fill_groups(run, false, false, false);
+    const uint64_t *const keys = run->keys;
+    const size_t last = run->dimension_count - 1;
+    const aur_words zero = {0};
+    o->head_now = (aur_halves)(zero + group->words[0]);
+    o->tail_now = (aur_halves)(zero + group->words[1]);
+    o->key_low = (aur_halves)(zero + ((uint32_t)keys[0] | keys[last] << 32));
+    o->key_high = (aur_halves)(zero + (keys[0] >> 32 | keys[last] >> 32 << 32));
+    o->factor = o->key_low >> 16 | 1;
+}
+
+/* A head is the mantissa of 2^20, the upper 21 digits of a tail that of 1/2; difference and sum are exact. */
+static inline aur_reals owen_double(aur_words head, aur_words tail) {
+    return ((aur_reals)head - (0x1p20 + 0.5)) + (aur_reals)tail;
+}
+
+/* aur_owen_word, to doubles. */
+static inline void step_owen(const aur_digital_group *group, owen_groups *o, uint64_t next, bool tails,
+                             bool stream, double *out) {
+    const aur_words zero = {0};
+    const uint64_t *const flip = group->flips[__builtin_ctzll(next)];
+    const aur_halves head_flip = (aur_halves)(zero + flip[0]);
+    const aur_halves tail_flip = (aur_halves)(zero + flip[1]);
+    aur_halves heads[OWEN_VECTORS];
+    aur_halves rest[OWEN_VECTORS];
+    for (unsigned v = 0; v < OWEN_VECTORS; ++v)
+        heads[v] = o->head_now ^ o->heads[v] ^ (o->wrapped[v] & head_flip);
+    for (unsigned v = 0; v < OWEN_VECTORS; ++v)
+        heads[v] ^= heads[v] * 0x3d20adeau;
+    for (unsigned v = 0; v < OWEN_VECTORS; ++v)
+        heads[v] = (heads[v] + o->key_low) * o->factor;
+    for (unsigned v = 0; v < OWEN_VECTORS; ++v)
+        heads[v] ^= heads[v] * 0x05526c56u;
+    for (unsigned v = 0; v < OWEN_VECTORS; ++v)
+        heads[v] ^= heads[v] * 0x53a22864u;
+    for (unsigned v = 0; v < OWEN_VECTORS; ++v) {
+        rest[v] = heads[v] ^ o->key_high;
+        rest[v] = (rest[v] ^ rest[v] >> 16) * 0x7feb352du;
+    }
+    for (unsigned v = 0; v < OWEN_VECTORS; ++v)
+        rest[v] = (rest[v] ^ rest[v] >> 15) * 0x846ca68bu;
+    for (unsigned v = 0; v < OWEN_VECTORS; ++v) {
+        rest[v] ^= rest[v] >> 16;
+        if (tails)
+            rest[v] ^= o->tail_now ^ o->tails[v] ^ (o->wrapped[v] & tail_flip);
+        rest[v] >>= 11;
+        heads[v] = aur_lanes_reverse_bits(heads[v]);
+    }
+    const aur_halves of_head = (aur_halves){0} + 0x41300000;
+    const aur_halves of_rest = (aur_halves){0} + 0x3fe00000;
+    for (unsigned v = 0; v < OWEN_VECTORS; ++v) {
+        aur_lanes_put(
+            out + 2 * v * AUR_LANES,
+            owen_double(aur_lanes_first_words(heads[v], of_head), aur_lanes_first_words(rest[v], of_rest)),
+            stream);
+        aur_lanes_put(
+            out + (2 * v + 1) * AUR_LANES,
+            owen_double(aur_lanes_last_words(heads[v], of_head), aur_lanes_last_words(rest[v], of_rest)),
+            stream);
+    }
+    o->head_now ^= head_flip;
+    o->tail_now ^= tail_flip;
+}
+
+static inline __attribute__((always_inline)) void
+fill_owen(const aur_digital_run *run, const aur_digital_group *group, bool tails, bool stream) {
+    owen_groups o;
+    prepare_owen(run, group, &o);
+    uint64_t next = group->next;
+    double *out = run->out;
+    size_t left = run->count * run->dimension_count;
+    for (; left >= OWEN_SLOTS; left -= OWEN_SLOTS, out += OWEN_SLOTS)
+        step_owen(group, &o, next++, tails, stream, out);
+    if (left > 0) {
+        double rest[OWEN_SLOTS];
+        step_owen(group, &o, next, tails, false, rest);
+        memcpy(out, rest, left * sizeof *out);
+    }
+}
+
+static void run_kernel(const aur_digital_run *run) {
+    aur_digital_group group;
+    aur_digital_group_prepare(run, run->scramble == AUR_SCRAMBLE_OWEN ? OWEN_SLOTS : SLOTS, &group);
+    if (run->scramble != AUR_SCRAMBLE_OWEN) {
+        if (run->stream)
+            fill_plain(run, &group, true);
+        else
+            fill_plain(run, &group, false);
+    } else if (group.tails) {
+        if (run->stream)
+            fill_owen(run, &group, true, true);
+        else
+            fill_owen(run, &group, true, false);
+    } else {
+        if (run->stream)
+            fill_owen(run, &group, false, true);
+        else
+            fill_owen(run, &group, false, false);
+    }
+    if (run->stream)
+        aur_lanes_end_stream();
 }

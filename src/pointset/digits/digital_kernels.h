@@ -12,32 +12,33 @@ typedef struct aur_digital_run {
     aur_scramble scramble; /* DIGIT and OWEN are applied */
     uint64_t first;
     size_t count;
-    double *out; /* on a multiple of 64 bytes */
-    bool stream; /* go past the caches */
+    double *out;
+    bool stream; /* go past the caches: `out` is a multiple of 64 bytes */
 } aur_digital_run;
 
-/* Each does whole groups of points, as many as fit, and returns how many it did. */
-typedef size_t (*aur_digital_kernel)(const aur_digital_run *run);
-size_t aur_digital_run_portable(const aur_digital_run *run);
-size_t aur_digital_run_avx2(const aur_digital_run *run);
-size_t aur_digital_run_avx512(const aur_digital_run *run);
+typedef void (*aur_digital_kernel)(const aur_digital_run *run);
+void aur_digital_run_portable(const aur_digital_run *run);
+void aur_digital_run_avx2(const aur_digital_run *run);
+void aur_digital_run_avx512(const aur_digital_run *run);
 
-enum { AUR_DIGITAL_GROUP = 16 }; /* the largest group */
+enum { AUR_DIGITAL_SLOTS = 64 }; /* coordinates of the largest group */
 
-/* What a group of 2^bits points needs of a matrix. Point first + l of the sequence, l < 2^bits, has the word
- * lanes[l] ^ (word of 2^bits q or of 2^bits (q + 1)), q the group in which the run begins. */
+/* What a group of points needs of the matrices. A slot is a coordinate of a point, in the order of the
+ * output. In group q after the one in which the run begins, slot s has the word lanes[s], changed by `words`
+ * and by the flips of all groups before q, and by that from q to q + 1 where `wrapped` is set: a group of the
+ * run begins in the middle of one of the sequence. From group n - 1 to group n words change by flips[trailing
+ * zeros of n]: the lowest bits of the number flip, as many as there are trailing zeros and one more.
+ *
+ * Words and flips are pairs, of the two coordinates or twice of the one. For OWEN they are in the form that
+ * hashing wants: first the reversed upper 32 digits of both, then the lower ones of both. */
 typedef struct aur_digital_group {
-    uint64_t lanes[AUR_DIGITAL_GROUP];
-    uint64_t flips[AUR_DIGITAL_COLUMNS]; /* from group q to q + 1: flips[trailing zeros of q + 1] */
-    uint64_t word;                       /* of the first index of group q */
+    uint64_t lanes[AUR_DIGITAL_SLOTS];
+    uint64_t wrapped[AUR_DIGITAL_SLOTS]; /* all bits or none */
+    uint64_t flips[AUR_DIGITAL_COLUMNS][2];
+    uint64_t words[2];
+    uint64_t next; /* the number of the group after that in which the run begins */
+    bool tails;    /* some word has digits beyond the 32nd */
 } aur_digital_group;
 
-/* flips[z] is what a word changes by from group q to group q + 1 of 2^bits points, z the number of trailing
- * zeros of q + 1: the lowest bits of the number flip, as many as there are trailing ones and one more. */
-void aur_digital_flips(aur_scramble scramble, const uint64_t columns[AUR_DIGITAL_COLUMNS], unsigned bits,
-                       uint64_t flips[AUR_DIGITAL_COLUMNS]);
-
-/* `order[l]` is the point (from 0) that lane l holds. For OWEN a word is in the form that hashing wants: its
- * upper 32 digits reversed in the lower half, its lower 32 digits in the upper half. */
-void aur_digital_group_prepare(const aur_digital_run *run, size_t dimension, unsigned bits,
-                               const unsigned char *order, aur_digital_group *group);
+/* `slots` is a power of two and more than two. */
+void aur_digital_group_prepare(const aur_digital_run *run, size_t slots, aur_digital_group *group);

@@ -88,7 +88,7 @@ static bool fill_by_counting(const aur_digital_rule *rule, const uint16_t *matri
     uint32_t lowest = (uint32_t)(block->first % base);
     uint64_t above = block->first / base;
     for (size_t i = 0; i < block->count; ++i) {
-        out[i * block->point_stride] = aur_fraction(r.numerator, r.denominator);
+        out[i] = aur_fraction(r.numerator, r.denominator);
         add_column(&r, base, used, matrix);
         if (++lowest < base)
             continue;
@@ -115,6 +115,6 @@ void aur_fill_digital_rule(const aur_pointset *set, const aur_block *block) {
             fill_by_counting(rule, matrix, block, out))
             continue;
         for (size_t i = 0; i < block->count; ++i)
-            out[i * block->point_stride] = coordinate(rule, matrix, block->first + i, digits, key);
+            out[i] = coordinate(rule, matrix, block->first + i, digits, key);
     }
 }

@@ -4,15 +4,41 @@
  * (sorted G_s, G_r(i)) as in the appendix, r drawn from the options' seed. Error about O(log N / N)
  * (measured). */
 #include <stdlib.h>
+#include <string.h>
 
 #include "pointset/generators/golden.h"
+#include "pointset/runs.h"
 #include "pointset/set.h"
+
+enum { PART_LENGTH = 2048 };
 
 typedef struct golden_set {
     bool two_seeds;
     uint64_t seed_word, second_word;
     uint32_t order[];
 } golden_set;
+
+/* The index of the smallest value of G_s(0..count-1), by the records on the way to it: the next smaller value
+ * after a record is as many indices on as the first number whose multiple of the golden ratio lies below the
+ * next whole number by no more than the record. Numbers that come nearer to it than all before are the
+ * Fibonacci numbers of every other rank (1/Phi is above 1/2, so 1, 3, 8, ...). */
+static uint64_t smallest_of(uint64_t seed_word, uint64_t count) {
+    uint64_t index = 0;
+    uint64_t down = 1;
+    uint64_t up = 1;
+    aur_wide value = (aur_wide)seed_word << 64;
+    while (down < count - index) {
+        const aur_wide fall = 0 - aur_phase128(aur_golden_fraction, down);
+        if (fall <= value) {
+            index += down;
+            value -= fall;
+        } else {
+            up += down;
+            down += up;
+        }
+    }
+    return index;
+}
 
 aur_golden_order aur_golden_order_of(uint64_t seed_word, uint64_t count) {
     /* Gaps between the values of indices that are Fibonacci numbers apart: one of even and one of odd rank,
@@ -28,15 +54,7 @@ aur_golden_order aur_golden_order_of(uint64_t seed_word, uint64_t count) {
     }
     aur_golden_order order = {.count = count, .increment = odd ? larger : smaller};
     order.decrement = odd ? smaller : larger;
-    const aur_wide step = aur_phase128(aur_golden_fraction, 1);
-    aur_wide phase = (aur_wide)seed_word << 64;
-    uint64_t smallest = seed_word;
-    for (uint64_t i = 1; i < count; ++i) {
-        phase += step;
-        const uint64_t word = (uint64_t)(phase >> 64);
-        order.first = word < smallest ? i : order.first;
-        smallest = word < smallest ? word : smallest;
-    }
+    order.first = smallest_of(seed_word, count);
     return order;
 }
 
@@ -86,9 +104,17 @@ static void fill(const aur_pointset *set, const aur_block *block) {
         for (size_t i = 0; i < block->count; ++i) {
             const uint64_t index = block->first + i;
             const uint64_t rank = sorted ? data->order[index] : index;
-            out[i * block->point_stride] = aur_word_to_double(start + aur_phase(aur_golden_fraction, rank));
+            out[i] = aur_word_to_double(start + aur_phase(aur_golden_fraction, rank));
         }
     }
+}
+
+static void put_part(const aur_output *output, aur_strides strides, size_t coordinate, size_t first,
+                     size_t count, const double *values) {
+    const aur_output from = {
+        .doubles = output->doubles != NULL ? output->doubles + coordinate * strides.coordinate : NULL,
+        .floats = output->floats != NULL ? output->floats + coordinate * strides.coordinate : NULL};
+    aur_output_put(&from, strides, first, count, values);
 }
 
 /* Numbers in ascending order beside a sequence, without a table. `sorted` is the coordinate of the former. */
@@ -100,32 +126,33 @@ static aur_result make_whole(uint64_t seed_word, uint64_t sequence_word, size_t 
     const aur_result result = aur_output_open(output, 2, count, &strides, error);
     if (result != AUR_OK)
         return result;
-    const size_t a = sorted * strides.coordinate;
-    const size_t b = (1 - sorted) * strides.coordinate;
     const aur_golden_order order = aur_golden_order_of(seed_word, count);
-    const aur_wide step = aur_phase128(aur_golden_fraction, 1);
-    const aur_wide up = aur_phase128(aur_golden_fraction, order.increment);
-    const aur_wide down = aur_phase128(aur_golden_fraction, order.decrement);
-    uint64_t index = order.first;
-    aur_wide ascending = aur_phase128(aur_golden_fraction, index) + ((aur_wide)seed_word << 64);
-    aur_wide sequence = (aur_wide)sequence_word << 64;
-    for (size_t i = 0; i < count; ++i) {
-        const uint64_t x = (uint64_t)(ascending >> 64);
-        const uint64_t y = (uint64_t)(sequence >> 64);
-        if (output->doubles != NULL) {
-            output->doubles[i * strides.point + a] = aur_word_to_double(x);
-            output->doubles[i * strides.point + b] = aur_word_to_double(y);
+    aur_ascent ascent = {.start = seed_word,
+                         .count = count,
+                         .step = order.increment,
+                         .modulus = order.increment + order.decrement,
+                         .index = order.first};
+    const size_t start = strides.point == 2 && output->doubles != NULL
+                             ? aur_output_stream_start(count, output->doubles)
+                             : SIZE_MAX;
+    double ascending[PART_LENGTH + AUR_RUN_SLACK], sequence[PART_LENGTH];
+    size_t ready = 0; /* ascending values that are made and not written */
+    size_t part;
+    for (size_t done = 0; done < count; done += part) {
+        ready += aur_runs()->ascent(&ascent, PART_LENGTH + AUR_RUN_SLACK - ready, ascending + ready);
+        part =
+            done < start && start < PART_LENGTH - AUR_RUN_SLACK ? start - done : PART_LENGTH - AUR_RUN_SLACK;
+        part = count - done < part ? count - done : part;
+        aur_runs()->recurrence(sequence_word, aur_golden_fraction, done, part, sequence);
+        if (start != SIZE_MAX) {
+            aur_runs()->pairs(part, sorted == 0 ? ascending : sequence, sorted == 0 ? sequence : ascending,
+                              done >= start, output->doubles + 2 * done);
         } else {
-            output->floats[i * strides.point + a] = aur_unit_float((uint32_t)(x >> 32));
-            output->floats[i * strides.point + b] = aur_unit_float((uint32_t)(y >> 32));
+            put_part(output, strides, sorted, done, part, ascending);
+            put_part(output, strides, 1 - sorted, done, part, sequence);
         }
-        sequence += step;
-        /* aur_golden_next with the phase beside the index; the last step leads out of the set. */
-        do {
-            const bool below = index < order.decrement;
-            index = below ? index + order.increment : index - order.decrement;
-            ascending += below ? up : 0 - down;
-        } while (index >= count && i + 1 < count);
+        ready -= part;
+        memmove(ascending, ascending + part, ready * sizeof ascending[0]);
     }
     return AUR_OK;
 }

@@ -110,8 +110,7 @@ static void fill(const aur_pointset *set, const aur_block *block) {
             }
             divide_all(count, numerators, denominators, values);
             for (size_t i = 0; i < count; ++i)
-                out[(begin + i) * block->point_stride] =
-                    aur_scrambled_fraction(set->scramble, values[i], modulus, key);
+                out[begin + i] = aur_scrambled_fraction(set->scramble, values[i], modulus, key);
         }
     }
 }

@@ -21,7 +21,7 @@ static void fill(const aur_pointset *set, const aur_block *block) {
             const double jitter = aur_word_to_double(aur_hash2(stream, index));
             const double x = dimension == 0 ? ((double)begin + jitter * (double)cells) / (double)n
                                             : ((double)(index - begin) + jitter) / (double)cells;
-            out[i * block->point_stride] = fmin(x, AUR_BELOW_ONE);
+            out[i] = fmin(x, AUR_BELOW_ONE);
         }
     }
 }

@@ -8,7 +8,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "pointset/fraction128.h"
+#include "pointset/runs.h"
 #include "pointset/set.h"
 
 static uint64_t multiply_modulo(uint64_t a, uint64_t b, uint64_t n) {
@@ -20,20 +20,21 @@ static void fill(const aur_pointset *set, const aur_block *block) {
     const aur_lattice *const data = set->data;
     for (size_t d = 0; d < block->dimension_count; ++d) {
         const size_t dimension = block->first_dimension + d;
-        const uint64_t step = data->vector[dimension] % set->size;
         double *const out = block->data + d * block->coordinate_stride;
-        uint64_t position = multiply_modulo(block->first % set->size, step, set->size);
-        for (size_t i = 0; i < block->count; ++i) {
-            double x = aur_fraction(position, set->size);
-            if (data->golden && dimension == 1)
-                x = aur_word_to_double(aur_phase(aur_golden_fraction, block->first + i));
-            else if (dimension == 0 && data->offset > 0.0)
-                x = ((double)position + data->offset) / (double)set->size;
-            out[i * block->point_stride] = x < 1.0 ? x : AUR_BELOW_ONE;
-            position += step;
-            if (position >= set->size)
-                position -= set->size;
+        if (data->golden && dimension == 1) {
+            aur_runs()->recurrence(0, aur_golden_fraction, block->first, block->count, out);
+            continue;
         }
+        if (dimension == 0 && data->offset > 0.0) {
+            for (size_t i = 0; i < block->count; ++i) {
+                const double x = ((double)(int64_t)(block->first + i) + data->offset) / (double)set->size;
+                out[i] = x < 1.0 ? x : AUR_BELOW_ONE;
+            }
+            continue;
+        }
+        const uint64_t step = data->vector[dimension] % set->size;
+        aur_runs()->multiples(multiply_modulo(block->first % set->size, step, set->size), step, set->size,
+                              block->count, out);
     }
 }
 

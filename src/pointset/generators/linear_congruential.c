@@ -25,7 +25,7 @@ static void fill(const aur_pointset *set, const aur_block *block) {
         const uint64_t key = aur_scramble_key(block->seed, block->first_dimension + d);
         double *const out = block->data + d * block->coordinate_stride;
         for (size_t i = 0; i < block->count; ++i) {
-            out[i * block->point_stride] = aur_scrambled_fraction(set->scramble, x, modulus, key);
+            out[i] = aur_scrambled_fraction(set->scramble, x, modulus, key);
             x = x * stride % modulus;
         }
     }

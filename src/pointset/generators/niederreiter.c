@@ -69,6 +69,10 @@ static void fill(const aur_pointset *set, const aur_block *block) {
     aur_fill_digital_block(set, block, make_matrix);
 }
 
+static void fill_pairs(const aur_pointset *set, const aur_block *block) {
+    aur_fill_digital_pairs(set, block, make_matrix);
+}
+
 static aur_result prepare(aur_pointset *set, aur_parameters *keys, aur_error *error) {
     (void)keys;
     return aur_prepare_digital(set, set->dimension, make_matrix, error);
@@ -85,8 +89,8 @@ const aur_square_set aur_set_niederreiter = {
                     .size_base = 2,
                     .extensible = true,
                     .binary_net = true},
-    .pairs = true,
     .scramblings = AUR_SCRAMBLES_ALL,
     .prepare = prepare,
     .fill = fill,
+    .fill_pairs = fill_pairs,
 };

@@ -1,4 +1,5 @@
 /* Independent random points, each coordinate a hash of (seed, dimension, index): error N^-1/2. */
+#include "pointset/runs.h"
 #include "pointset/set.h"
 
 static void fill(const aur_pointset *set, const aur_block *block) {
@@ -7,9 +8,13 @@ static void fill(const aur_pointset *set, const aur_block *block) {
         const uint64_t stream = aur_hash3(UINT64_C(0x72616e646f6d), set->seed, dimension);
         const uint64_t key = aur_scramble_key(block->seed, dimension);
         double *const out = block->data + d * block->coordinate_stride;
+        if (set->scramble != AUR_SCRAMBLE_DIGIT && set->scramble != AUR_SCRAMBLE_OWEN) {
+            aur_runs()->hashes(stream, block->first, block->count, out);
+            continue;
+        }
         for (size_t i = 0; i < block->count; ++i) {
             const uint64_t word = aur_hash2(stream, block->first + i);
-            out[i * block->point_stride] = aur_word_to_double(aur_scramble_word(set->scramble, word, key));
+            out[i] = aur_word_to_double(aur_scramble_word(set->scramble, word, key));
         }
     }
 }

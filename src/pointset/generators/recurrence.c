@@ -11,6 +11,7 @@
 #include <stdlib.h>
 
 #include "pointset/generators/golden.h"
+#include "pointset/runs.h"
 #include "pointset/set.h"
 
 /* The upper 128 bits of the product of two 128-bit fractions, cut; at most a few units too small. */
@@ -83,13 +84,9 @@ static aur_result prepare_r2(aur_pointset *set, aur_parameters *parameters, aur_
 
 static void fill(const aur_pointset *set, const aur_block *block) {
     const aur_recurrence *const recurrence = set->data;
-    const uint64_t start = recurrence->start;
-    for (size_t d = 0; d < block->dimension_count; ++d) {
-        const aur_fraction128 step = recurrence->steps[block->first_dimension + d];
-        double *const out = block->data + d * block->coordinate_stride;
-        for (size_t i = 0; i < block->count; ++i)
-            out[i * block->point_stride] = aur_word_to_double(start + aur_phase(step, block->first + i));
-    }
+    for (size_t d = 0; d < block->dimension_count; ++d)
+        aur_runs()->recurrence(recurrence->start, recurrence->steps[block->first_dimension + d], block->first,
+                               block->count, block->data + d * block->coordinate_stride);
 }
 
 const aur_square_set aur_set_golden = {

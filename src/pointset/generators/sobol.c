@@ -54,7 +54,7 @@ static void fill_repeat(const aur_pointset *set, const uint64_t *columns, const 
     for (size_t i = 0; i < block->count; ++i) {
         const uint64_t word =
             aur_owen_word(aur_digital_word(columns, shuffle_index(block->first + i, repeat)), fixed);
-        out[i * block->point_stride] = aur_word_to_double(aur_scramble_word(set->scramble, word, key));
+        out[i] = aur_word_to_double(aur_scramble_word(set->scramble, word, key));
     }
 }
 
@@ -70,6 +70,10 @@ static void fill(const aur_pointset *set, const aur_block *block) {
         const size_t dimension = (block->first_dimension + d) % AUR_SOBOL_DIMENSIONS;
         fill_repeat(set, aur_digital_matrix_of(set, dimension, make_matrix, columns), block, d);
     }
+}
+
+static void fill_pairs(const aur_pointset *set, const aur_block *block) {
+    aur_fill_digital_pairs(set, block, make_matrix);
 }
 
 static aur_result prepare(aur_pointset *set, aur_parameters *keys, aur_error *error) {
@@ -89,8 +93,8 @@ const aur_square_set aur_set_sobol = {
                     .size_base = 2,
                     .extensible = true,
                     .binary_net = true},
-    .pairs = true,
     .scramblings = AUR_SCRAMBLES_ALL,
     .prepare = prepare,
     .fill = fill,
+    .fill_pairs = fill_pairs,
 };

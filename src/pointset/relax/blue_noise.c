@@ -200,15 +200,13 @@ static aur_result relax(uint64_t seed, size_t count, aur_point2 *sites, aur_erro
     if (t.points == NULL || t.radii == NULL || t.gains == NULL || !aur_site_grid_create(&t.grid, count))
         result = aur_fail_memory(error);
     if (result == AUR_OK)
-        aur_set_jittered.fill(&(aur_pointset){.kind = &aur_set_jittered,
-                                              .size = count * capacity,
-                                              .dimension = 2,
-                                              .seed = aur_hash2(seed, 2)},
-                              &(aur_block){.count = count * capacity,
-                                           .dimension_count = 2,
-                                           .point_stride = 2,
-                                           .coordinate_stride = 1,
-                                           .data = &t.points[0].x});
+        result = aur_pointset_emit(&(aur_pointset){.kind = &aur_set_jittered,
+                                                   .size = count * capacity,
+                                                   .dimension = 2,
+                                                   .seed = aur_hash2(seed, 2)},
+                                   0, 0, count * capacity,
+                                   &(aur_output){.capacity = 2 * count * capacity, .doubles = &t.points[0].x},
+                                   error);
     if (result == AUR_OK) {
         aur_random_sites(aur_hash2(seed, 1), count, sites);
         assign(capacity, count, sites, t.points, true);
