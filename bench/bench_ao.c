@@ -10,15 +10,20 @@
 
 enum { SIDE = 128, TILES = SIDE / AUR_TILE_SIZE * (SIDE / AUR_TILE_SIZE), SAMPLES = 64 };
 
+/* Sixteen rays, in packets of as many as the processor has registers for: each is rows of so many numbers, in
+ * the order of struct RTCRay16. */
+enum { ROWS = sizeof(struct RTCRay16) / sizeof(float[AUR_PACKET_SIZE]), TFAR = 8 };
+
 typedef struct stored_packet {
     _Alignas(64) int valid[AUR_PACKET_SIZE];
-    struct RTCRay16 rays;
+    _Alignas(64) float rows[ROWS * AUR_PACKET_SIZE];
     aur_embree_order order;
 } stored_packet;
 
 typedef struct occlusion_bench {
     const aur_integrator *integrator;
     const aur_view *view;
+    size_t size; /* rays of a packet */
     float farthest;
     size_t packet_count, ray_count;
     stored_packet *packets;
@@ -58,12 +63,15 @@ static aur_result trace(void *data, size_t unused) {
     size_t stopped = 0;
     for (size_t i = 0; i < self->packet_count; ++i) {
         stored_packet *const packet = &self->packets[i];
-        for (size_t k = 0; k < AUR_PACKET_SIZE; ++k)
-            packet->rays.tfar[k] = self->farthest;
-        aur_embree_occluded16(aur_scene_embree(self->view->scene), packet->order, packet->valid,
-                              &packet->rays);
-        for (size_t k = 0; k < AUR_PACKET_SIZE; ++k)
-            stopped += packet->valid[k] != 0 && packet->rays.tfar[k] < 0.0f;
+        for (size_t first = 0; first < AUR_PACKET_SIZE; first += self->size) {
+            float *const rows = packet->rows + ROWS * first, *const farthest = rows + TFAR * self->size;
+            for (size_t k = 0; k < self->size; ++k)
+                farthest[k] = self->farthest;
+            aur_embree_occluded_packet(aur_scene_embree(self->view->scene), packet->order, self->size,
+                                       packet->valid + first, rows);
+            for (size_t k = 0; k < self->size; ++k)
+                stopped += packet->valid[first + k] != 0 && farthest[k] < 0.0f;
+        }
     }
     bench_keep((double)stopped);
     return AUR_OK;
@@ -85,7 +93,11 @@ static void store(void *context, size_t first, aur_embree_order order, aur_packe
     occlusion_bench *const self = context;
     stored_packet *const stored = &self->packets[self->packet_count++];
     memcpy(stored->valid, packet->valid, sizeof stored->valid);
-    stored->rays = packet->query.ray;
+    for (size_t at = 0; at < AUR_PACKET_SIZE; at += self->size)
+        for (size_t row = 0; row < ROWS; ++row)
+            memcpy(stored->rows + ROWS * at + row * self->size,
+                   (const char *)&packet->query.ray + (row * AUR_PACKET_SIZE + at) * sizeof(float),
+                   self->size * sizeof(float));
     stored->order = order;
     self->farthest = packet->query.ray.tfar[0];
     for (size_t k = 0; k < AUR_PACKET_SIZE; ++k)
@@ -109,7 +121,13 @@ static bool compare(const bench_options *options, const char *name, const aur_sc
         return bench_fail("out of memory");
     const aur_view view = {
         .scene = scene, .sampler = sampler, .filter = aur_filter_find("box"), .width = SIDE, .height = SIDE};
-    occlusion_bench context = {.integrator = integrator, .view = &view};
+    occlusion_bench context = {.integrator = integrator,
+                               .view = &view,
+                               .size = aur_embree_packet_size(rtcGetSceneDevice(aur_scene_embree(scene)))};
+    if (context.size == 0) {
+        aur_sampler_destroy(sampler);
+        return bench_fail("this Embree is built without packets");
+    }
     const size_t most = (size_t)SIDE * SIDE * SAMPLES / AUR_PACKET_SIZE;
     context.packets = aligned_alloc(_Alignof(stored_packet), most * sizeof *context.packets);
     if (context.packets == NULL) {

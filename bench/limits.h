@@ -49,8 +49,9 @@ extern const bench_limit bench_limit_pairs_f64;
 
 /* Embree alone on one thread: closest hits (or any hit: `occluded`) of stored rays in a closed box of 12
  * triangles and in a room with a bumpy sphere of 500,000 (5,000 when quick). `primary` rays leave one point
- * through neighbouring pixels; `secondary` rays leave the surfaces with a cosine distribution. `packet`: 16
- * rays a call, with the coherent flag for primary rays. Units: rays. */
+ * through neighbouring pixels; `secondary` rays leave the surfaces with a cosine distribution. `packet`: as
+ * many rays a call as the processor has registers for (16, 8 or 4), with the coherent flag for primary rays.
+ * Units: rays. */
 extern const bench_limit bench_limit_rays_box_primary;
 extern const bench_limit bench_limit_rays_box_primary_packet;
 extern const bench_limit bench_limit_rays_box_secondary;

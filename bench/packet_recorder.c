@@ -11,11 +11,15 @@ void bench_record_packets(bench_packet_recorder *recorder) {
     current = recorder;
 }
 
-static void keep(const int *valid, const struct RTCRay16 *rays, bool coherent, bool occluded) {
+/* A packet of `size` rays is rows of so many numbers, in the order of struct RTCRayHit16. */
+enum { ORIGIN = 0, NEAREST = 3, DIRECTION = 4, FARTHEST = 8, MASK = 9, GEOMETRY = 18, INSTANCE = 19 };
+enum { ROWS = sizeof(struct RTCRayHit16) / sizeof(float[BENCH_RECORDED_LANES]) };
+
+static void keep(size_t size, const int *valid, const void *rays, bool coherent, bool occluded) {
     if (current == NULL)
         return;
     uint16_t lanes = 0;
-    for (size_t k = 0; k < BENCH_RECORDED_LANES; ++k)
+    for (size_t k = 0; k < size; ++k)
         lanes |= (uint16_t)((valid[k] != 0) << k);
     const size_t count = (size_t)__builtin_popcount(lanes);
     current->rays += count;
@@ -23,98 +27,189 @@ static void keep(const int *valid, const struct RTCRay16 *rays, bool coherent, b
     if (current->count++ >= current->capacity)
         return;
     bench_recorded_packet *const packet = &current->packets[current->count - 1];
-    memcpy(packet->origin[0], rays->org_x, sizeof rays->org_x);
-    memcpy(packet->origin[1], rays->org_y, sizeof rays->org_y);
-    memcpy(packet->origin[2], rays->org_z, sizeof rays->org_z);
-    memcpy(packet->direction[0], rays->dir_x, sizeof rays->dir_x);
-    memcpy(packet->direction[1], rays->dir_y, sizeof rays->dir_y);
-    memcpy(packet->direction[2], rays->dir_z, sizeof rays->dir_z);
-    memcpy(packet->nearest, rays->tnear, sizeof rays->tnear);
-    memcpy(packet->farthest, rays->tfar, sizeof rays->tfar);
+    const float *const rows = rays;
+    const size_t bytes = size * sizeof *rows;
+    for (size_t c = 0; c < 3; ++c) {
+        memcpy(packet->origin[c], rows + (ORIGIN + c) * size, bytes);
+        memcpy(packet->direction[c], rows + (DIRECTION + c) * size, bytes);
+    }
+    memcpy(packet->nearest, rows + NEAREST * size, bytes);
+    memcpy(packet->farthest, rows + FARTHEST * size, bytes);
+    packet->size = (uint8_t)size;
     packet->lanes = lanes;
     packet->occluded = occluded;
     packet->coherent = coherent;
 }
 
 /* Embree's own functions, which the program's of the same names hide from the libraries. */
-static __typeof__(rtcIntersect16) *real_intersect;
-static __typeof__(rtcOccluded16) *real_occluded;
+static __typeof__(rtcIntersect4) *real_intersect4;
+static __typeof__(rtcOccluded4) *real_occluded4;
+static __typeof__(rtcIntersect8) *real_intersect8;
+static __typeof__(rtcOccluded8) *real_occluded8;
+static __typeof__(rtcIntersect16) *real_intersect16;
+static __typeof__(rtcOccluded16) *real_occluded16;
+
+static void find(const char *name, void *function) {
+    void *const found = dlsym(RTLD_NEXT, name);
+    memcpy(function, &found, sizeof found);
+}
 
 __attribute__((constructor)) static void find_real(void) {
-    void *const intersect = dlsym(RTLD_NEXT, "rtcIntersect16"), *const occluded =
-                                                                    dlsym(RTLD_NEXT, "rtcOccluded16");
-    memcpy(&real_intersect, &intersect, sizeof intersect);
-    memcpy(&real_occluded, &occluded, sizeof occluded);
+    find("rtcIntersect4", &real_intersect4);
+    find("rtcOccluded4", &real_occluded4);
+    find("rtcIntersect8", &real_intersect8);
+    find("rtcOccluded8", &real_occluded8);
+    find("rtcIntersect16", &real_intersect16);
+    find("rtcOccluded16", &real_occluded16);
 }
 
 #if AUR_EMBREE_VERSION >= 4
 
+static bool is_coherent(const struct RTCIntersectArguments *arguments) {
+    return arguments != NULL && (arguments->flags & RTC_RAY_QUERY_FLAG_COHERENT) != 0;
+}
+
+static bool is_coherent_shadow(const struct RTCOccludedArguments *arguments) {
+    return arguments != NULL && (arguments->flags & RTC_RAY_QUERY_FLAG_COHERENT) != 0;
+}
+
+void rtcIntersect4(const int *valid, RTCScene scene, struct RTCRayHit4 *query,
+                   struct RTCIntersectArguments *arguments) {
+    keep(4, valid, query, is_coherent(arguments), false);
+    real_intersect4(valid, scene, query, arguments);
+}
+
+void rtcOccluded4(const int *valid, RTCScene scene, struct RTCRay4 *query,
+                  struct RTCOccludedArguments *arguments) {
+    keep(4, valid, query, is_coherent_shadow(arguments), true);
+    real_occluded4(valid, scene, query, arguments);
+}
+
+void rtcIntersect8(const int *valid, RTCScene scene, struct RTCRayHit8 *query,
+                   struct RTCIntersectArguments *arguments) {
+    keep(8, valid, query, is_coherent(arguments), false);
+    real_intersect8(valid, scene, query, arguments);
+}
+
+void rtcOccluded8(const int *valid, RTCScene scene, struct RTCRay8 *query,
+                  struct RTCOccludedArguments *arguments) {
+    keep(8, valid, query, is_coherent_shadow(arguments), true);
+    real_occluded8(valid, scene, query, arguments);
+}
+
 void rtcIntersect16(const int *valid, RTCScene scene, struct RTCRayHit16 *query,
                     struct RTCIntersectArguments *arguments) {
-    keep(valid, &query->ray, arguments != NULL && (arguments->flags & RTC_RAY_QUERY_FLAG_COHERENT) != 0,
-         false);
-    real_intersect(valid, scene, query, arguments);
+    keep(16, valid, query, is_coherent(arguments), false);
+    real_intersect16(valid, scene, query, arguments);
 }
 
 void rtcOccluded16(const int *valid, RTCScene scene, struct RTCRay16 *query,
                    struct RTCOccludedArguments *arguments) {
-    keep(valid, query, arguments != NULL && (arguments->flags & RTC_RAY_QUERY_FLAG_COHERENT) != 0, true);
-    real_occluded(valid, scene, query, arguments);
+    keep(16, valid, query, is_coherent_shadow(arguments), true);
+    real_occluded16(valid, scene, query, arguments);
 }
 
 #else
 
+static bool is_coherent(const struct RTCIntersectContext *context) {
+    return (context->flags & RTC_INTERSECT_CONTEXT_FLAG_COHERENT) != 0;
+}
+
+void rtcIntersect4(const int *valid, RTCScene scene, struct RTCIntersectContext *context,
+                   struct RTCRayHit4 *query) {
+    keep(4, valid, query, is_coherent(context), false);
+    real_intersect4(valid, scene, context, query);
+}
+
+void rtcOccluded4(const int *valid, RTCScene scene, struct RTCIntersectContext *context,
+                  struct RTCRay4 *query) {
+    keep(4, valid, query, is_coherent(context), true);
+    real_occluded4(valid, scene, context, query);
+}
+
+void rtcIntersect8(const int *valid, RTCScene scene, struct RTCIntersectContext *context,
+                   struct RTCRayHit8 *query) {
+    keep(8, valid, query, is_coherent(context), false);
+    real_intersect8(valid, scene, context, query);
+}
+
+void rtcOccluded8(const int *valid, RTCScene scene, struct RTCIntersectContext *context,
+                  struct RTCRay8 *query) {
+    keep(8, valid, query, is_coherent(context), true);
+    real_occluded8(valid, scene, context, query);
+}
+
 void rtcIntersect16(const int *valid, RTCScene scene, struct RTCIntersectContext *context,
                     struct RTCRayHit16 *query) {
-    keep(valid, &query->ray, (context->flags & RTC_INTERSECT_CONTEXT_FLAG_COHERENT) != 0, false);
-    real_intersect(valid, scene, context, query);
+    keep(16, valid, query, is_coherent(context), false);
+    real_intersect16(valid, scene, context, query);
 }
 
 void rtcOccluded16(const int *valid, RTCScene scene, struct RTCIntersectContext *context,
                    struct RTCRay16 *query) {
-    keep(valid, query, (context->flags & RTC_INTERSECT_CONTEXT_FLAG_COHERENT) != 0, true);
-    real_occluded(valid, scene, context, query);
+    keep(16, valid, query, is_coherent(context), true);
+    real_occluded16(valid, scene, context, query);
 }
 
 #endif
 
-static void restore(const bench_recorded_packet *packet, int *valid, struct RTCRay16 *rays) {
-    memcpy(rays->org_x, packet->origin[0], sizeof rays->org_x);
-    memcpy(rays->org_y, packet->origin[1], sizeof rays->org_y);
-    memcpy(rays->org_z, packet->origin[2], sizeof rays->org_z);
-    memcpy(rays->dir_x, packet->direction[0], sizeof rays->dir_x);
-    memcpy(rays->dir_y, packet->direction[1], sizeof rays->dir_y);
-    memcpy(rays->dir_z, packet->direction[2], sizeof rays->dir_z);
-    memcpy(rays->tnear, packet->nearest, sizeof rays->tnear);
-    memcpy(rays->tfar, packet->farthest, sizeof rays->tfar);
-    for (size_t k = 0; k < BENCH_RECORDED_LANES; ++k)
+static inline void restore(const bench_recorded_packet *packet, size_t size, int *valid, float *rows) {
+    const size_t bytes = size * sizeof *rows;
+    for (size_t c = 0; c < 3; ++c) {
+        memcpy(rows + (ORIGIN + c) * size, packet->origin[c], bytes);
+        memcpy(rows + (DIRECTION + c) * size, packet->direction[c], bytes);
+    }
+    memcpy(rows + NEAREST * size, packet->nearest, bytes);
+    memcpy(rows + FARTHEST * size, packet->farthest, bytes);
+    for (size_t k = 0; k < size; ++k)
         valid[k] = -(int)(packet->lanes >> k & 1u);
 }
 
-size_t bench_replay_packets(RTCScene scene, const bench_packet_recorder *recorder) {
+/* One packet; `rows` keep what no packet has of its own. */
+static inline size_t replay(RTCScene scene, size_t size, const bench_recorded_packet *packet, float *rows) {
     _Alignas(64) int valid[BENCH_RECORDED_LANES];
-    _Alignas(64) struct RTCRayHit16 query;
-    memset(&query, 0, sizeof query);
-    for (size_t k = 0; k < BENCH_RECORDED_LANES; ++k)
-        query.ray.mask[k] = UINT32_MAX;
+    const aur_embree_order order = packet->coherent ? AUR_EMBREE_COHERENT : AUR_EMBREE_INCOHERENT;
+    size_t hits = 0;
+    restore(packet, size, valid, rows);
+    if (packet->occluded) {
+        aur_embree_occluded_packet(scene, order, size, valid, rows);
+        for (size_t k = 0; k < size; ++k)
+            hits += valid[k] != 0 && rows[FARTHEST * size + k] < 0.0f;
+        return hits;
+    }
+    memset(rows + GEOMETRY * size, 0xff, size * sizeof *rows);
+    memset(rows + INSTANCE * size, 0xff, size * sizeof *rows);
+    aur_embree_intersect_packet(scene, order, size, valid, rows);
+    for (size_t k = 0; k < size; ++k) {
+        uint32_t geometry;
+        memcpy(&geometry, rows + GEOMETRY * size + k, sizeof geometry);
+        hits += valid[k] != 0 && geometry != RTC_INVALID_GEOMETRY_ID;
+    }
+    return hits;
+}
+
+/* The sizes are constants where the loops over lanes are. */
+static size_t replay_any(RTCScene scene, const bench_recorded_packet *packet, float *rows) {
+    switch (packet->size) {
+    case 16:
+        return replay(scene, 16, packet, rows);
+    case 8:
+        return replay(scene, 8, packet, rows);
+    default:
+        return replay(scene, 4, packet, rows);
+    }
+}
+
+size_t bench_replay_packets(RTCScene scene, const bench_packet_recorder *recorder) {
+    const size_t size = recorder->count > 0 ? recorder->packets[0].size : BENCH_RECORDED_LANES;
+    _Alignas(64) float rows[ROWS * BENCH_RECORDED_LANES] = {0};
+    memset(rows + MASK * size, 0xff, size * sizeof rows[0]);
     size_t hits = 0;
     for (size_t i = 0; i < recorder->count; ++i) {
         const bench_recorded_packet *const packet = &recorder->packets[i];
-        const aur_embree_order order = packet->coherent ? AUR_EMBREE_COHERENT : AUR_EMBREE_INCOHERENT;
         for (size_t line = 0; line < sizeof *packet; line += 64)
             __builtin_prefetch((const char *)(packet + 2) + line);
-        restore(packet, valid, &query.ray);
-        if (packet->occluded) {
-            aur_embree_occluded16(scene, order, valid, &query.ray);
-            for (size_t k = 0; k < BENCH_RECORDED_LANES; ++k)
-                hits += valid[k] != 0 && query.ray.tfar[k] < 0.0f;
-            continue;
-        }
-        memset(query.hit.geomID, 0xff, sizeof query.hit.geomID);
-        memset(query.hit.instID, 0xff, sizeof query.hit.instID);
-        aur_embree_intersect16(scene, order, valid, &query);
-        for (size_t k = 0; k < BENCH_RECORDED_LANES; ++k)
-            hits += valid[k] != 0 && query.hit.geomID[k] != RTC_INVALID_GEOMETRY_ID;
+        hits += replay_any(scene, packet, rows);
     }
     return hits;
 }

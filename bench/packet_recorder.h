@@ -1,5 +1,5 @@
-/* Which packets of 16 rays a piece of code traces, by functions in front of Embree's as in recorder.h, and
- * the same packets again through Embree alone. */
+/* Which packets of rays, of one size, a piece of code traces, by functions in front of Embree's as in
+ * recorder.h, and the same packets again through Embree alone. */
 #pragma once
 
 #include <stdbool.h>
@@ -15,6 +15,7 @@ typedef struct bench_recorded_packet {
     float origin[3][BENCH_RECORDED_LANES], direction[3][BENCH_RECORDED_LANES];
     float nearest[BENCH_RECORDED_LANES], farthest[BENCH_RECORDED_LANES];
     uint16_t lanes;
+    uint8_t size;  /* 4, 8 or 16 */
     bool occluded; /* any hit, else the closest */
     bool coherent; /* the flag that it was traced with */
 } bench_recorded_packet;

@@ -35,30 +35,36 @@ size_t bench_trace_single(const bench_rays *rays) {
 size_t bench_trace_packets(const bench_rays *rays) {
     static const _Alignas(64) int valid[BENCH_PACKET_SIZE] = {-1, -1, -1, -1, -1, -1, -1, -1,
                                                               -1, -1, -1, -1, -1, -1, -1, -1};
-    _Alignas(64) struct RTCRayHit16 query;
-    memset(&query, 0, sizeof query);
+    const size_t size = aur_embree_packet_size(rtcGetSceneDevice(rays->scene));
+    if (size == 0)
+        return bench_trace_single(rays);
+    /* Packets of all sizes are rows of `size` numbers, in the order of struct RTCRayHit16. */
+    enum { ROWS = sizeof(struct RTCRayHit16) / sizeof(float[BENCH_PACKET_SIZE]) };
+    enum { TFAR = 8, MASK = 9, GEOMETRY = 18, INSTANCE = 19 };
+    _Alignas(64) float rows[ROWS * BENCH_PACKET_SIZE] = {0};
+    const size_t row_bytes = size * sizeof rows[0];
+    memset(rows + MASK * size, 0xff, row_bytes);
     size_t hits = 0;
-    for (size_t first = 0; first < rays->count; first += BENCH_PACKET_SIZE) {
-        for (size_t k = 0; k < BENCH_PACKET_SIZE; ++k) {
+    for (size_t first = 0; first < rays->count; first += size) {
+        for (size_t k = 0; k < size; ++k) {
             const aur_ray *const ray = &rays->rays[first + k];
-            query.ray.org_x[k] = ray->origin.x;
-            query.ray.org_y[k] = ray->origin.y;
-            query.ray.org_z[k] = ray->origin.z;
-            query.ray.tnear[k] = ray->nearest;
-            query.ray.dir_x[k] = ray->direction.x;
-            query.ray.dir_y[k] = ray->direction.y;
-            query.ray.dir_z[k] = ray->direction.z;
-            query.ray.tfar[k] = ray->farthest;
-            query.ray.mask[k] = UINT32_MAX;
-            query.hit.geomID[k] = query.hit.instID[0][k] = RTC_INVALID_GEOMETRY_ID;
+            const float numbers[TFAR + 1] = {
+                ray->origin.x,    ray->origin.y,    ray->origin.z, ray->nearest, ray->direction.x,
+                ray->direction.y, ray->direction.z, 0.0f,          ray->farthest};
+            for (size_t row = 0; row <= TFAR; ++row)
+                rows[row * size + k] = numbers[row];
         }
+        memset(rows + GEOMETRY * size, 0xff, row_bytes);
+        memset(rows + INSTANCE * size, 0xff, row_bytes);
         if (rays->occluded)
-            aur_embree_occluded16(rays->scene, rays->order, valid, &query.ray);
+            aur_embree_occluded_packet(rays->scene, rays->order, size, valid, rows);
         else
-            aur_embree_intersect16(rays->scene, rays->order, valid, &query);
-        for (size_t k = 0; k < BENCH_PACKET_SIZE; ++k)
-            hits +=
-                rays->occluded ? query.ray.tfar[k] < 0.0f : query.hit.geomID[k] != RTC_INVALID_GEOMETRY_ID;
+            aur_embree_intersect_packet(rays->scene, rays->order, size, valid, rows);
+        for (size_t k = 0; k < size; ++k) {
+            uint32_t geometry;
+            memcpy(&geometry, rows + GEOMETRY * size + k, sizeof geometry);
+            hits += rays->occluded ? rows[TFAR * size + k] < 0.0f : geometry != RTC_INVALID_GEOMETRY_ID;
+        }
     }
     return hits;
 }

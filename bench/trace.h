@@ -1,4 +1,5 @@
-/* Stored rays through Embree itself, one by one and in packets of 16. */
+/* Stored rays through Embree itself, one by one and in packets of as many as the processor has registers for,
+ * at most 16. */
 #pragma once
 
 #include "experimental.h"

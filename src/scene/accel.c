@@ -180,6 +180,7 @@ aur_result aur_scene_build_accel(aur_scene *scene, aur_error *error) {
     scene->accel = scene->device != NULL ? new_scene(scene) : NULL;
     if (scene->accel == NULL || !attach_all(scene))
         return fail(scene, RTC_ERROR_NONE, error);
+    scene->packet_size = aur_embree_packet_size(scene->device);
     rtcCommitScene(scene->accel);
     const enum RTCError code = rtcGetDeviceError(scene->device);
     if (code != RTC_ERROR_NONE)

@@ -2,11 +2,24 @@
  * argument; nothing else that Aureole uses differs. FindEmbree.cmake sets AUR_EMBREE_VERSION. */
 #pragma once
 
+#include <stddef.h>
+
 #if AUR_EMBREE_VERSION >= 4
 #include <embree4/rtcore.h>
 #else
 #include <embree3/rtcore.h>
 #endif
+
+/* Packets have 4, 8 or 16 rays, the most that the processor has registers for: larger ones Embree traces as a
+ * stream of rays, which takes twice the time of single rays, and those that are not there are traced too. 0
+ * where Embree is built without packets. */
+static inline size_t aur_embree_packet_size(RTCDevice device) {
+    if (rtcGetDeviceProperty(device, RTC_DEVICE_PROPERTY_NATIVE_RAY16_SUPPORTED) != 0)
+        return 16;
+    if (rtcGetDeviceProperty(device, RTC_DEVICE_PROPERTY_NATIVE_RAY8_SUPPORTED) != 0)
+        return 8;
+    return rtcGetDeviceProperty(device, RTC_DEVICE_PROPERTY_NATIVE_RAY4_SUPPORTED) != 0 ? 4 : 0;
+}
 
 /* What is known of a packet's rays. Coherent: nearby origins and directions. The flag halves the speed of
  * rays that are not. */
@@ -34,11 +47,17 @@ static inline void aur_embree_intersect1(RTCScene scene, struct RTCRayHit *ray) 
     rtcIntersect1(scene, ray, NULL);
 }
 
-/* valid[16] is -1 for the rays that are there and 0 for the others. */
-static inline void aur_embree_intersect16(RTCScene scene, aur_embree_order order, const int *valid,
-                                          struct RTCRayHit16 *rays) {
+/* `rays` is a struct RTCRayHit4, RTCRayHit8 or RTCRayHit16; valid[size] is -1 for the rays that are there and
+ * 0 for the others. */
+static inline void aur_embree_intersect_packet(RTCScene scene, aur_embree_order order, size_t size,
+                                               const int *valid, void *rays) {
     struct RTCIntersectArguments arguments = aur_embree_intersect_arguments(order);
-    rtcIntersect16(valid, scene, rays, &arguments);
+    if (size == 16)
+        rtcIntersect16(valid, scene, rays, &arguments);
+    else if (size == 8)
+        rtcIntersect8(valid, scene, rays, &arguments);
+    else
+        rtcIntersect4(valid, scene, rays, &arguments);
 }
 
 /* Sets ray->tfar to minus infinity when anything is hit. */
@@ -46,10 +65,15 @@ static inline void aur_embree_occluded1(RTCScene scene, struct RTCRay *ray) {
     rtcOccluded1(scene, ray, NULL);
 }
 
-static inline void aur_embree_occluded16(RTCScene scene, aur_embree_order order, const int *valid,
-                                         struct RTCRay16 *rays) {
+static inline void aur_embree_occluded_packet(RTCScene scene, aur_embree_order order, size_t size,
+                                              const int *valid, void *rays) {
     struct RTCOccludedArguments arguments = aur_embree_occluded_arguments(order);
-    rtcOccluded16(valid, scene, rays, &arguments);
+    if (size == 16)
+        rtcOccluded16(valid, scene, rays, &arguments);
+    else if (size == 8)
+        rtcOccluded8(valid, scene, rays, &arguments);
+    else
+        rtcOccluded4(valid, scene, rays, &arguments);
 }
 
 #else
@@ -67,11 +91,17 @@ static inline void aur_embree_intersect1(RTCScene scene, struct RTCRayHit *ray) 
     rtcIntersect1(scene, &context, ray);
 }
 
-/* valid[16] is -1 for the rays that are there and 0 for the others. */
-static inline void aur_embree_intersect16(RTCScene scene, aur_embree_order order, const int *valid,
-                                          struct RTCRayHit16 *rays) {
+/* `rays` is a struct RTCRayHit4, RTCRayHit8 or RTCRayHit16; valid[size] is -1 for the rays that are there and
+ * 0 for the others. */
+static inline void aur_embree_intersect_packet(RTCScene scene, aur_embree_order order, size_t size,
+                                               const int *valid, void *rays) {
     struct RTCIntersectContext context = aur_embree_context(order);
-    rtcIntersect16(valid, scene, &context, rays);
+    if (size == 16)
+        rtcIntersect16(valid, scene, &context, rays);
+    else if (size == 8)
+        rtcIntersect8(valid, scene, &context, rays);
+    else
+        rtcIntersect4(valid, scene, &context, rays);
 }
 
 /* Sets ray->tfar to minus infinity when anything is hit. */
@@ -80,10 +110,15 @@ static inline void aur_embree_occluded1(RTCScene scene, struct RTCRay *ray) {
     rtcOccluded1(scene, &context, ray);
 }
 
-static inline void aur_embree_occluded16(RTCScene scene, aur_embree_order order, const int *valid,
-                                         struct RTCRay16 *rays) {
+static inline void aur_embree_occluded_packet(RTCScene scene, aur_embree_order order, size_t size,
+                                              const int *valid, void *rays) {
     struct RTCIntersectContext context = aur_embree_context(order);
-    rtcOccluded16(valid, scene, &context, rays);
+    if (size == 16)
+        rtcOccluded16(valid, scene, &context, rays);
+    else if (size == 8)
+        rtcOccluded8(valid, scene, &context, rays);
+    else
+        rtcOccluded4(valid, scene, &context, rays);
 }
 
 #endif

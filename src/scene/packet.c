@@ -1,5 +1,6 @@
 #include "scene/packet.h"
 
+#include <stddef.h>
 #include <string.h>
 
 #include "scene/scene_data.h"
@@ -9,12 +10,85 @@ void aur_packet_clear(aur_packet *packet) {
     memset(packet->query.ray.mask, 0xff, sizeof packet->query.ray.mask);
 }
 
+/* --- packets of the processor's size
+ *
+ * Embree's packets are rows of 4 bytes a ray, a row a number: those of the rays, then those of their hits. A
+ * part of a packet is the same rows, shorter. */
+
+enum {
+    NUMBER = sizeof(float),
+    RAY_ROWS = sizeof(struct RTCRay16) / (AUR_PACKET_SIZE * NUMBER),
+    ROWS = sizeof(struct RTCRayHit16) / (AUR_PACKET_SIZE * NUMBER),
+    FARTHEST = offsetof(struct RTCRay16, tfar) / (AUR_PACKET_SIZE * NUMBER),
+    MOST_OF_PART = 8
+};
+
+typedef struct packet_part {
+    _Alignas(32) int valid[MOST_OF_PART];
+    _Alignas(32) unsigned char rows[ROWS * MOST_OF_PART * NUMBER];
+} packet_part;
+
+/* Lanes first .. first + size - 1; false where no lane of them has a ray. */
+static inline bool take_part(const aur_packet *packet, size_t first, size_t size, size_t rows,
+                             packet_part *part) {
+    int any = 0;
+    for (size_t k = 0; k < size; ++k) {
+        part->valid[k] = packet->valid[first + k];
+        any |= part->valid[k];
+    }
+    const unsigned char *const from = (const unsigned char *)&packet->query + first * NUMBER;
+    for (size_t row = 0; row < rows && any != 0; ++row)
+        memcpy(part->rows + row * size * NUMBER, from + row * AUR_PACKET_SIZE * NUMBER, size * NUMBER);
+    return any != 0;
+}
+
+static inline void put_row(const packet_part *part, size_t row, size_t first, size_t size,
+                           aur_packet *packet) {
+    memcpy((unsigned char *)&packet->query + (row * AUR_PACKET_SIZE + first) * NUMBER,
+           part->rows + row * size * NUMBER, size * NUMBER);
+}
+
+static inline void intersect_parts(const aur_scene *scene, aur_embree_order order, size_t size,
+                                   aur_packet *packet) {
+    packet_part part;
+    for (size_t first = 0; first < AUR_PACKET_SIZE; first += size) {
+        if (!take_part(packet, first, size, ROWS, &part))
+            continue;
+        aur_embree_intersect_packet(scene->accel, order, size, part.valid, part.rows);
+        put_row(&part, FARTHEST, first, size, packet);
+        for (size_t row = RAY_ROWS; row < ROWS; ++row)
+            put_row(&part, row, first, size, packet);
+    }
+}
+
+static inline void occluded_parts(const aur_scene *scene, aur_embree_order order, size_t size,
+                                  aur_packet *packet) {
+    packet_part part;
+    for (size_t first = 0; first < AUR_PACKET_SIZE; first += size) {
+        if (!take_part(packet, first, size, RAY_ROWS, &part))
+            continue;
+        aur_embree_occluded_packet(scene->accel, order, size, part.valid, part.rows);
+        put_row(&part, FARTHEST, first, size, packet);
+    }
+}
+
 uint32_t aur_scene_intersect16(const aur_scene *scene, aur_embree_order order, aur_packet *packet) {
     struct RTCHit16 *const hits = &packet->query.hit;
     memset(hits->geomID, 0xff, sizeof hits->geomID); /* RTC_INVALID_GEOMETRY_ID */
     memset(hits->instID, 0xff, sizeof hits->instID);
-    aur_embree_intersect16(scene->accel, order, packet->valid, &packet->query);
-    /* Embree 3.13 without AVX-512 writes hits into invalid lanes of incoherent packets too. */
+    switch (scene->packet_size) {
+    case 16:
+        aur_embree_intersect_packet(scene->accel, order, 16, packet->valid, &packet->query);
+        break;
+    case 8:
+        intersect_parts(scene, order, 8, packet);
+        break;
+    case 4:
+        intersect_parts(scene, order, 4, packet);
+        break;
+    default:
+        return aur_scene_intersect_each(scene, packet);
+    }
     uint32_t found = 0;
     for (size_t k = 0; k < AUR_PACKET_SIZE; ++k)
         found |= (uint32_t)(packet->valid[k] != 0 && hits->geomID[k] != RTC_INVALID_GEOMETRY_ID) << k;
@@ -70,10 +144,31 @@ aur_hit aur_packet_hit(const aur_scene *scene, const aur_packet *packet, size_t 
 
 uint32_t aur_scene_occluded16(const aur_scene *scene, aur_embree_order order, aur_packet *packet) {
     struct RTCRay16 *const rays = &packet->query.ray;
-    aur_embree_occluded16(scene->accel, order, packet->valid, rays);
+    switch (scene->packet_size) {
+    case 16:
+        aur_embree_occluded_packet(scene->accel, order, 16, packet->valid, rays);
+        break;
+    case 8:
+        occluded_parts(scene, order, 8, packet);
+        break;
+    case 4:
+        occluded_parts(scene, order, 4, packet);
+        break;
+    default:
+        return aur_scene_occluded_each(scene, packet);
+    }
     uint32_t stopped = 0;
     for (size_t k = 0; k < AUR_PACKET_SIZE; ++k)
         stopped |= (uint32_t)(packet->valid[k] != 0 && rays->tfar[k] < 0.0f) << k;
+    return stopped;
+}
+
+uint32_t aur_scene_occluded_each(const aur_scene *scene, const aur_packet *packet) {
+    uint32_t stopped = 0;
+    for (size_t k = 0; k < AUR_PACKET_SIZE; ++k) {
+        const aur_ray ray = aur_packet_ray(packet, k);
+        stopped |= (uint32_t)(packet->valid[k] != 0 && aur_scene_occluded(scene, &ray)) << k;
+    }
     return stopped;
 }
 

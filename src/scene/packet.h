@@ -1,5 +1,6 @@
 /* Sixteen rays at once, in Embree's own layout: an array a field, so that rays are made where they are traced
- * and nothing is copied.
+ * and nothing is copied. Where the processor has registers for fewer, sixteen rays are traced as two packets
+ * of 8 or four of 4, which are copies: a rule of the processor, and nothing that depends on time.
  *
  * A packet is filled lane by lane (aur_packet_set), or by writing query.ray's arrays org_x .. tfar and valid
  * in loops of 16. Lanes whose `valid` is 0 are not traced. */
@@ -31,15 +32,26 @@ static inline void aur_packet_set(aur_packet *packet, size_t lane, const aur_ray
     rays->tfar[lane] = ray->farthest;
 }
 
+/* The ray of a lane, which ends at its hit once the packet has been traced. */
+static inline aur_ray aur_packet_ray(const aur_packet *packet, size_t lane) {
+    const struct RTCRay16 *const rays = &packet->query.ray;
+    return (aur_ray){.origin = {rays->org_x[lane], rays->org_y[lane], rays->org_z[lane]},
+                     .nearest = rays->tnear[lane],
+                     .direction = {rays->dir_x[lane], rays->dir_y[lane], rays->dir_z[lane]},
+                     .farthest = rays->tfar[lane]};
+}
+
 /* The nearest hits. Bit k of the result is set when the ray of lane k hits something; aur_packet_hit tells
  * what. A hit's distance takes the place of tfar, so tfar must be set again before the next call. */
 uint32_t aur_scene_intersect16(const aur_scene *scene, aur_embree_order order, aur_packet *packet);
-/* The same by sixteen single rays: the oracle of packets, and their rival. */
+/* The same by single rays: the oracle of packets, and their rival. */
 uint32_t aur_scene_intersect_each(const aur_scene *scene, aur_packet *packet);
 aur_hit aur_packet_hit(const aur_scene *scene, const aur_packet *packet, size_t lane);
 
 /* Whether anything lies between: bit k for lane k. Changes tfar of the rays that are stopped. */
 uint32_t aur_scene_occluded16(const aur_scene *scene, aur_embree_order order, aur_packet *packet);
+/* The same by single rays; changes nothing. */
+uint32_t aur_scene_occluded_each(const aur_scene *scene, const aur_packet *packet);
 
 /* --- what the sixteen hits need, an array a coordinate */
 

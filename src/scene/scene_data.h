@@ -51,6 +51,7 @@ struct aur_scene {
     aur_parameters nested_integrator; /* the one that stands inside the integrator, as for `aov` */
     aur_embree_device device;
     aur_embree_scene accel;
+    size_t packet_size; /* 16, 8, 4 or 0: aur_embree_packet_size */
     aur_vector lower, upper;
     aur_vector center; /* of a sphere around the scene */
     float radius;

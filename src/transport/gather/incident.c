@@ -19,16 +19,10 @@ uint32_t aur_gather_intersect(const aur_gather_plan *plan, aur_embree_order orde
 
 uint32_t aur_gather_occluded(const aur_gather_plan *plan, aur_embree_order order, aur_packet *packet,
                              aur_counters *counters) {
-    uint32_t lanes = aur_lanes_set(packet->valid), stopped = 0;
-    counters->rays += aur_lane_count(lanes);
+    counters->rays += aur_lane_count(aur_lanes_set(packet->valid));
     if (plan->policy.packets)
         return aur_scene_occluded16(plan->scene, order, packet);
-    for (; lanes != 0; lanes &= lanes - 1) {
-        const size_t lane = aur_first_lane(lanes);
-        const aur_ray ray = aur_packet_ray(packet, lane);
-        stopped |= (uint32_t)aur_scene_occluded(plan->scene, &ray) << lane;
-    }
-    return stopped;
+    return aur_scene_occluded_each(plan->scene, packet);
 }
 
 /* --- a ray that goes on */

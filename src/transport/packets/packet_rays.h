@@ -5,15 +5,6 @@
 
 #include "transport/packets/lanes.h"
 
-/* The ray of a lane, which ends at its hit once the packet has been traced. */
-static inline aur_ray aur_packet_ray(const aur_packet *packet, size_t lane) {
-    const struct RTCRay16 *const rays = &packet->query.ray;
-    return (aur_ray){.origin = {rays->org_x[lane], rays->org_y[lane], rays->org_z[lane]},
-                     .nearest = rays->tnear[lane],
-                     .direction = {rays->dir_x[lane], rays->dir_y[lane], rays->dir_z[lane]},
-                     .farthest = rays->tfar[lane]};
-}
-
 /* Takes all rays out of the packet. */
 static inline void aur_packet_empty(aur_packet *packet) {
     memset(packet->valid, 0, sizeof packet->valid);
