@@ -14,7 +14,8 @@ render
 lighting
 transport/integrators
 transport/occlusion
-transport/gather transport/paths transport/radiosity
+transport/gather
+transport/paths transport/radiosity
 transport/photons
 transport/packets
 transport/lights

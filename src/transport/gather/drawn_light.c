@@ -97,21 +97,36 @@ void aur_gather_add_direct_light(const aur_gather_places *places, aur_gather_sum
     }
 }
 
-/* A point on a bright texel as a light seen from `position`. */
+/* A point on a bright texel as a light seen from `position`; the hash is that of a path that corrects it. */
 static aur_light_sample light_from(const aur_gather_plan *plan, const aur_bright_point *point,
-                                   aur_vector position) {
+                                   aur_vector position, uint64_t hash, aur_counters *counters) {
     const aur_gather_light *const from = &plan->light;
     aur_vector known;
-    const aur_vector radiance = aur_gather_plan_radiance(plan, point->shape, point->element, point->u,
-                                                         point->v, point->behind, &known);
+    aur_vector radiance = aur_gather_plan_radiance(plan, point->shape, point->element, point->u, point->v,
+                                                   point->behind, &known);
     const aur_vector offset = aur_vector_subtract(point->position, position);
     const float square = aur_vector_dot(offset, offset);
     const aur_vector direction = aur_vector_scale(offset, 1.0f / sqrtf(square));
     const float cosine = -aur_vector_dot(direction, point->normal);
-    aur_light_sample sample = {.position = point->position, .direction = direction, .radiance = radiance};
-    if (cosine > 0.0f && square > 0.0f)
+    aur_light_sample sample = {.position = point->position, .direction = direction};
+    if (cosine > 0.0f && square > 0.0f) {
         sample.pdf =
             aur_bright_texels_density(&from->bright, known) * (float)from->bright_draws * square / cosine;
+        if (plan->debias && aur_onward_is_due(&plan->onward, hash)) {
+            const aur_ray ray = {position, 0.0f, direction, INFINITY};
+            const aur_hit hit = {.distance = sqrtf(square),
+                                 .u = point->u,
+                                 .v = point->v,
+                                 .shape = point->shape,
+                                 .primitive = point->primitive,
+                                 .instance = AUR_NO_INSTANCE};
+            aur_surface surface;
+            aur_scene_surface(plan->scene, &ray, &hit, &surface);
+            radiance = aur_onward_correct(&plan->onward, &surface, aur_vector_scale(direction, -1.0f), 2,
+                                          hash, radiance, counters);
+        }
+    }
+    sample.radiance = radiance;
     return sample;
 }
 
@@ -132,7 +147,9 @@ void aur_gather_add_bright_light(const aur_gather_places *places, aur_gather_sum
             const aur_bright_point point =
                 aur_bright_texels_sample(&from->bright, plan->scene, from->map, (double)choice[lane],
                                          (const float[2]){u[lane], v[lane]});
-            lights[lane] = light_from(plan, &point, places->at[lane].surface.position);
+            lights[lane] =
+                light_from(plan, &point, places->at[lane].surface.position,
+                           aur_hash4(places->pixels[lane], index, pair, plan->seed), sums->counters);
         }
         add_lights(places, AUR_EMBREE_INCOHERENT, lights, sums);
     }

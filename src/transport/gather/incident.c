@@ -160,8 +160,13 @@ static aur_vector chain_radiance(const aur_gather_plan *plan, gather_chain chain
         aur_vector radiance = emitted_radiance(plan, &chain, &surface);
         /* Two edges led here, and one for each link of the chain; a photon came by one more at least. */
         const bool deeper = chain.length + 3 <= plan->policy.max_depth;
-        if ((kinds & (AUR_SCATTERS_DIFFUSE | AUR_SCATTERS_GLOSSY)) != 0 && deeper)
-            radiance = aur_vector_add(radiance, scattered_radiance(plan, hit, &surface, view));
+        if ((kinds & (AUR_SCATTERS_DIFFUSE | AUR_SCATTERS_GLOSSY)) != 0 && deeper) {
+            aur_vector scattered = scattered_radiance(plan, hit, &surface, view);
+            if (plan->debias)
+                scattered = aur_onward_correct(&plan->onward, &surface, view, chain.length + 2,
+                                               aur_hash2(chain.hash, chain.length), scattered, counters);
+            radiance = aur_vector_add(radiance, scattered);
+        }
         if ((kinds & AUR_SCATTERS_SAMPLED) != 0 && deeper && samples_lights)
             radiance = aur_vector_add(radiance,
                                       sampled_light(plan, &shading, kinds, radiance, &chain.hash, counters));
@@ -220,7 +225,7 @@ static float bright_weight(const aur_gather_plan *plan, const aur_gather_rays *r
 
 /* Diffuse, without emission, no instance: true when that was all. */
 static bool plain_radiance(const aur_gather_plan *plan, const aur_gather_rays *rays, size_t lane,
-                           aur_vector *radiance) {
+                           aur_vector *radiance, aur_counters *counters) {
     const struct RTCRayHit16 *const query = &rays->packet.query;
     const uint32_t shape = query->hit.geomID[lane];
     if (query->hit.instID[0][lane] != RTC_INVALID_GEOMETRY_ID || plan->light.map == NULL ||
@@ -234,6 +239,15 @@ static bool plain_radiance(const aur_gather_plan *plan, const aur_gather_rays *r
     aur_vector known;
     *radiance = aur_gather_plan_radiance(plan, shape, element, query->hit.u[lane], query->hit.v[lane], behind,
                                          &known);
+    const uint64_t hash = aur_hash2(rays->hash, lane);
+    if (plan->debias && aur_onward_is_due(&plan->onward, hash)) {
+        const aur_ray ray = aur_packet_ray(&rays->packet, lane);
+        const aur_hit hit = aur_packet_hit(plan->scene, &rays->packet, lane);
+        aur_surface surface;
+        aur_scene_surface(plan->scene, &ray, &hit, &surface);
+        *radiance = aur_onward_correct(&plan->onward, &surface, aur_vector_scale(ray.direction, -1.0f), 2,
+                                       hash, *radiance, counters);
+    }
     if (plan->light.bright_draws > 0)
         *radiance = aur_vector_scale(*radiance, bright_weight(plan, rays, lane, known));
     return true;
@@ -251,7 +265,7 @@ void aur_gather_rays_trace(const aur_gather_plan *plan, aur_embree_order order, 
         const size_t lane = aur_first_lane(rest);
         const bool hits = aur_has_lane(found, lane);
         aur_vector radiance;
-        if (!hits || !plain_radiance(plan, rays, lane, &radiance)) {
+        if (!hits || !plain_radiance(plan, rays, lane, &radiance, counters)) {
             /* Only light that is sampled too asks for the density. */
             const bool weighed = !hits || plan->classes[rays->packet.query.hit.geomID[lane]].emits;
             const gather_chain chain = {.ray = aur_packet_ray(&rays->packet, lane),

@@ -67,6 +67,8 @@ typedef struct aur_gather_parameters {
     size_t photons, caustic_photons, bright_samples;
     uint32_t light_samples;
     double photons_a_texel;
+    bool debias;
+    double continued; /* share of the looks at the map that a path corrects */
     const char *photon_set;
     const char *map, *scramble; /* of the rules; scramble NULL: by the pattern */
     aur_gather_pixel pixel;

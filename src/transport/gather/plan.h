@@ -19,6 +19,7 @@
 #pragma once
 
 #include "transport/gather/rules.h"
+#include "transport/paths/path_onward.h"
 #include "transport/photons/bright_texels.h"
 
 /* What gather rays find: light that photons brought to the surfaces, and how often it is drawn as lights are.
@@ -45,6 +46,8 @@ typedef struct aur_gather_plan {
      * them by multiple importance sampling. */
     bool counts_emitters;
     bool gathers; /* whether gather rays can bring any light */
+    bool debias;  /* paths take away what the map is wrong by */
+    aur_onward onward;
 } aur_gather_plan;
 
 /* The maps of photons come from the context's cache, which outlives the plan. Errors: MEMORY, those of

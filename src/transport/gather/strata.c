@@ -37,7 +37,7 @@ void aur_pixel_strata_add(aur_pixel_strata *pixel, aur_stratum *stratum, const a
                           size_t lane, float sample_weight) {
     const aur_vector radiance = sums->radiance[lane];
     const double weight = (double)sample_weight;
-    if (!aur_is_radiance(radiance)) {
+    if (!(sums->corrected ? aur_vector_is_finite(radiance) : aur_is_radiance(radiance))) {
         ++sums->counters->invalid;
         stratum->seen -= weight;
         return;

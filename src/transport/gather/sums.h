@@ -15,6 +15,7 @@ typedef struct aur_gather_pooled {
 
 typedef struct aur_gather_sums {
     aur_counters *counters;
+    bool corrected; /* by paths: a sample may be negative */
     aur_vector radiance[AUR_PACKET_SIZE];
     uint32_t pooled_lanes; /* those that have something for the pool */
     aur_gather_pooled pooled[AUR_PACKET_SIZE];

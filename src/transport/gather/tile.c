@@ -244,6 +244,7 @@ aur_result aur_gather_tile(const aur_gather_plan *plan, aur_tile *tile) {
     if (work == NULL)
         return AUR_ERROR_MEMORY;
     work->sums.counters = &tile->counters;
+    work->sums.corrected = plan->debias;
     shade_tile(work, tile);
     const bool good = !plan->policy.pools || aur_gather_pool_irradiance(work->strata);
     if (good)

@@ -61,6 +61,11 @@ static const aur_key keys[] = {
                      "SET of the photons' numbers")},
     {AUR_KEY_OF_REAL(aur_gather_parameters, "photons_per_texel", photons_a_texel, 1.0, 1e6, "16",
                      "photons that a texel of irradiance is the mean of")},
+    {AUR_KEY_OF_BOOLEAN(aur_gather_parameters, "debias", debias, "false",
+                        "paths take away what the photon map is wrong by")},
+    {AUR_KEY_OF_REAL(aur_gather_parameters, "continued", continued, 0.0, 1.0, "0.25",
+                     "of debias: the share of gather rays that go on as paths"),
+     .minimum_open = true},
     {AUR_KEY_OF_CHOICE(aur_gather_parameters, "decorrelation", policy.decorrelation, "blue",
                        "how pixels choose among the rotations", "blue", "random", "none")},
     {AUR_KEY_OF_INTEGER(aur_gather_parameters, "edges", policy.edge_samples, 0, 65536, "32",
@@ -117,6 +122,14 @@ static aur_result complete(aur_gather_parameters *p, aur_error *error) {
         return aur_fail(error, AUR_ERROR_UNSUPPORTED,
                         "finalgather: share=true splits one pattern among pixels: it goes with "
                         "decorrelation=blue and weights=ratio, equal or osw, and not with adaptive=true");
+    if (p->debias && (p->policy.pools || p->policy.adaptive || p->caustic_photons > 0))
+        return aur_fail(
+            error, AUR_ERROR_UNSUPPORTED,
+            "finalgather: debias=true takes the bias of the photon map away, not that of %s: leave "
+            "it out",
+            p->policy.pools      ? "share=true"
+            : p->policy.adaptive ? "adaptive=true"
+                                 : "caustic_photons");
     if (!p->policy.adaptive)
         return AUR_OK;
     if (aur_merges_samples(p->weights))

@@ -118,6 +118,7 @@ aur_bright_point aur_bright_texels_sample(const aur_bright_texels *bright, const
     const float side = (float)map->texels.ranges[patch->element].side;
     aur_bright_point point = {.element = patch->element,
                               .shape = patch->shape,
+                              .primitive = patch->primitive,
                               .u = ((float)patch->row + a) / side,
                               .v = ((float)patch->column + b) / side,
                               .behind = patch->behind};

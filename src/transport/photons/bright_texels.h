@@ -26,7 +26,7 @@ typedef struct aur_bright_texels {
 
 /* A point on a bright texel. */
 typedef struct aur_bright_point {
-    uint32_t element, shape;
+    uint32_t element, shape, primitive;
     float u, v; /* barycentric */
     bool behind;
     aur_vector position;
