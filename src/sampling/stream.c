@@ -33,9 +33,9 @@ static aur_result fill_table(aur_sampler *sampler, const char *set, const aur_wa
     return result;
 }
 
-const aur_stream_kernels aur_stream_kernels_portable = AUR_STREAM_KERNELS;
+const aur_stream_kernel_sets aur_stream_kernels_portable = AUR_STREAM_KERNELS;
 
-static const aur_stream_kernels *kernels_here(void) {
+static const aur_stream_kernel_sets *kernels_here(void) {
     return &AUR_KERNEL_HERE(aur_stream_kernels);
 }
 
@@ -51,9 +51,10 @@ aur_result aur_sampler_create(const char *set, size_t count, const aur_warnings 
     aur_result result = AUR_OK;
     if (strcmp(set, "random") == 0) {
         sampler->kind = AUR_SAMPLER_RANDOM;
+        sampler->kernels = &kernels_here()->random;
     } else if (strcmp(set, "sobol") == 0) {
         sampler->kind = AUR_SAMPLER_SOBOL;
-        sampler->kernels = kernels_here();
+        sampler->kernels = &kernels_here()->sobol;
     } else {
         const aur_set_description *const row = aur_set_find(set);
         sampler->kind = row != NULL && row->binary_net ? AUR_SAMPLER_NET : AUR_SAMPLER_TABLE;
@@ -101,42 +102,43 @@ static uint32_t permute(uint32_t index, uint32_t size, uint32_t seed) {
     return index;
 }
 
-/* Of every kind but SOBOL. */
-static void pair_words(const aur_stream *stream, uint32_t pair, uint32_t words[2]) {
+/* Of a table. */
+static void table_words(const aur_stream *stream, uint64_t hash, uint32_t words[2]) {
     const aur_sampler *const sampler = stream->sampler;
-    uint64_t hash = aur_hash2(stream->pixel, pair);
     /* Beyond its end a table begins anew with another randomisation. */
-    if (sampler->size > 0 && stream->index >= sampler->size)
+    if (stream->index >= sampler->size)
         hash = aur_hash2(hash, stream->index / sampler->size);
     const uint32_t shuffle = (uint32_t)aur_mix64(hash + 1);
     uint32_t index;
-    switch (sampler->kind) {
-    case AUR_SAMPLER_NET:
+    if (sampler->kind == AUR_SAMPLER_NET) {
         index = aur_owen_scramble(stream->index, shuffle) & (sampler->size - 1);
         words[0] = aur_owen_scramble(sampler->points[index][0], (uint32_t)hash);
         words[1] = aur_owen_scramble(sampler->points[index][1], (uint32_t)(hash >> 32));
         return;
-    case AUR_SAMPLER_TABLE:
-        index = permute(stream->index % sampler->size, sampler->size, shuffle);
-        words[0] = sampler->points[index][0] + (uint32_t)hash;
-        words[1] = sampler->points[index][1] + (uint32_t)(hash >> 32);
-        return;
-    default: {
-        const uint64_t number = aur_hash2(hash, stream->index);
-        words[0] = (uint32_t)number;
-        words[1] = (uint32_t)(number >> 32);
-        return;
     }
+    index = permute(stream->index % sampler->size, sampler->size, shuffle);
+    words[0] = sampler->points[index][0] + (uint32_t)hash;
+    words[1] = sampler->points[index][1] + (uint32_t)(hash >> 32);
+}
+
+static void one_pair(const aur_stream *stream, uint32_t pair, float u[2]) {
+    const uint64_t hash = aur_hash2(stream->pixel, pair);
+    uint32_t words[2];
+    switch (stream->sampler->kind) {
+    case AUR_SAMPLER_SOBOL:
+        sobol_pair(aur_reverse_bits(stream->index), hash, &u[0], &u[1]);
+        return;
+    case AUR_SAMPLER_RANDOM:
+        random_pair(stream->index, hash, &u[0], &u[1]);
+        return;
+    default:
+        table_words(stream, hash, words);
+        u[0] = aur_unit_float(words[0]);
+        u[1] = aur_unit_float(words[1]);
     }
 }
 
-static void sobol_blocks(const aur_stream *stream, uint32_t first, size_t count, float (*u)[2]) {
-    if (count <= 2) {
-        for (uint32_t i = 0; i < count; ++i)
-            sobol_pair(aur_reverse_bits(stream->index), aur_hash2(stream->pixel, first + i), &u[i][0],
-                       &u[i][1]);
-        return;
-    }
+static void blocks(const aur_stream *stream, uint32_t first, size_t count, float (*u)[2]) {
     const aur_stream_kernels *const kernels = stream->sampler->kernels;
     for (; count >= AUR_STREAM_BLOCK; first += AUR_STREAM_BLOCK, count -= AUR_STREAM_BLOCK) {
         kernels->pairs(stream, first, u);
@@ -150,16 +152,12 @@ static void sobol_blocks(const aur_stream *stream, uint32_t first, size_t count,
 }
 
 void aur_stream_pairs(const aur_stream *stream, uint32_t first, size_t count, float (*u)[2]) {
-    if (stream->sampler->kind == AUR_SAMPLER_SOBOL) {
-        sobol_blocks(stream, first, count, u);
+    if (count > 2 && stream->sampler->kernels != NULL) {
+        blocks(stream, first, count, u);
         return;
     }
-    for (uint32_t i = 0; i < count; ++i) {
-        uint32_t words[2];
-        pair_words(stream, first + i, words);
-        u[i][0] = aur_unit_float(words[0]);
-        u[i][1] = aur_unit_float(words[1]);
-    }
+    for (uint32_t i = 0; i < count; ++i)
+        one_pair(stream, first + i, u[i]);
 }
 
 void aur_stream_pair(const aur_stream *stream, uint32_t pair, float u[2]) {
@@ -168,7 +166,7 @@ void aur_stream_pair(const aur_stream *stream, uint32_t pair, float u[2]) {
 
 void aur_stream_pixels(const aur_sampler *sampler, size_t count, const uint64_t *pixels, uint32_t index,
                        uint32_t pair, float *u, float *v) {
-    if (sampler->kind == AUR_SAMPLER_SOBOL) {
+    if (sampler->kernels != NULL) {
         sampler->kernels->pixels(count, pixels, index, pair, u, v);
         return;
     }

@@ -24,7 +24,7 @@ enum { AUR_STREAM_BLOCK = 8 }; /* pairs that are made at once */
 
 typedef struct aur_sampler {
     aur_sampler_kind kind;
-    /* Of SOBOL, by this processor's instructions. */
+    /* By this processor's instructions; NULL for tables. */
     const aur_stream_kernels *kernels;
     uint32_t size;         /* points in the table; a power of two for nets */
     uint32_t (*points)[2]; /* words: x / 2^32 */

@@ -72,4 +72,5 @@ static void sobol_pairs_avx512(const aur_stream *stream, uint32_t first, float u
     _mm512_storeu_ps(u, values);
 }
 
-const aur_stream_kernels aur_stream_kernels_avx512 = {sobol_pairs_avx512, sobol_pixels};
+const aur_stream_kernel_sets aur_stream_kernels_avx512 = {{sobol_pairs_avx512, sobol_pixels},
+                                                          {random_pairs, random_pixels}};

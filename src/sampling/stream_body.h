@@ -1,5 +1,5 @@
-/* Sobol pairs, eight of one pixel or one of many pixels at once, compiled once for each instruction set.
- * Integers only, and one exact conversion: every set gives the same bits. */
+/* Sobol and random pairs, eight of one pixel or one of many pixels at once, compiled once for each
+ * instruction set. Integers only, and one exact conversion: every set gives the same bits. */
 #pragma once
 
 #include "pointset/net_2d.h"
@@ -34,6 +34,34 @@ static inline void sobol_pixels(size_t count, const uint64_t *restrict pixels, u
         sobol_pair(reversed, aur_hash2(pixels[k], pair), &u[k], &v[k]);
 }
 
+static inline void random_pair(uint32_t index, uint64_t hash, float *u, float *v) {
+    const uint64_t number = aur_hash2(hash, index);
+    *u = aur_unit_float((uint32_t)number);
+    *v = aur_unit_float((uint32_t)(number >> 32));
+}
+
+static inline void random_pairs(const aur_stream *stream, uint32_t first, float pairs[AUR_STREAM_BLOCK][2]) {
+    const uint32_t index = stream->index;
+    const uint64_t pixel = stream->pixel;
+    float u[AUR_STREAM_BLOCK], v[AUR_STREAM_BLOCK];
+    for (uint32_t i = 0; i < AUR_STREAM_BLOCK; ++i)
+        random_pair(index, aur_hash2(pixel, first + i), &u[i], &v[i]);
+    for (size_t i = 0; i < AUR_STREAM_BLOCK; ++i) {
+        pairs[i][0] = u[i];
+        pairs[i][1] = v[i];
+    }
+}
+
+static inline void random_pixels(size_t count, const uint64_t *restrict pixels, uint32_t index, uint32_t pair,
+                                 float *restrict u, float *restrict v) {
+    for (size_t k = 0; k < count; ++k)
+        random_pair(index, aur_hash2(pixels[k], pair), &u[k], &v[k]);
+}
+
 /* What a file that is compiled for an instruction set has. */
 #define AUR_STREAM_KERNELS                                                                                   \
-    { sobol_pairs, sobol_pixels }
+    {                                                                                                        \
+        {sobol_pairs, sobol_pixels}, {                                                                       \
+            random_pairs, random_pixels                                                                      \
+        }                                                                                                    \
+    }

@@ -1,4 +1,4 @@
-/* The inner loops of the Sobol sampler for each instruction set; all give the same bits. */
+/* The inner loops of the samplers that need no table, for each instruction set; all give the same bits. */
 #pragma once
 
 #include "sampling/stream.h"
@@ -10,7 +10,11 @@ struct aur_stream_kernels {
     void (*pixels)(size_t count, const uint64_t *pixels, uint32_t index, uint32_t pair, float *u, float *v);
 };
 
+typedef struct aur_stream_kernel_sets {
+    aur_stream_kernels sobol, random;
+} aur_stream_kernel_sets;
+
 /* In plain C; in stream.c. */
-extern const aur_stream_kernels aur_stream_kernels_portable;
-extern const aur_stream_kernels aur_stream_kernels_avx2;
-extern const aur_stream_kernels aur_stream_kernels_avx512;
+extern const aur_stream_kernel_sets aur_stream_kernels_portable;
+extern const aur_stream_kernel_sets aur_stream_kernels_avx2;
+extern const aur_stream_kernel_sets aur_stream_kernels_avx512;

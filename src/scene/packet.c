@@ -200,15 +200,18 @@ static void light_lane(const aur_scene *scene, const aur_lane_vectors *reference
     lights->rivals[lane] = one.delta ? 0.0f : 1.0f;
 }
 
-void aur_light_lanes_direct(const aur_scene *scene, const aur_lane_vectors *reference, float least,
-                            const float *choice, const float *u, const float *v, aur_light_lanes *lights) {
+void aur_light_lanes_direct(const aur_scene *scene, uint32_t lanes, const aur_lane_vectors *reference,
+                            float least, const float *choice, const float *u, const float *v,
+                            aur_light_lanes *lights) {
     const bool chooses = aur_light_chooses(scene);
     if (!chooses && scene->emitter_count == 1) {
         const aur_emitter *const only = scene->emitters[0];
         if (only->descriptor->lanes != NULL && only->descriptor->lanes(only, reference, least, u, v, lights))
             return;
     }
-    for (size_t k = 0; k < AUR_PACKET_SIZE; ++k)
+    for (uint32_t rest = lanes; rest != 0; rest &= rest - 1) {
+        const size_t k = (size_t)__builtin_ctz(rest);
         light_lane(scene, reference, least, (const float[3]){chooses ? choice[k] : 0.5f, u[k], v[k]}, k,
                    lights);
+    }
 }

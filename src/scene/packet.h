@@ -83,7 +83,9 @@ typedef struct aur_light_lanes {
     aur_lane_numbers rivals; /* 1, or 0 for lights that no ray finds */
 } aur_light_lanes;
 
-/* `choice` is not read unless aur_light_chooses, and may then be NULL. A light that stands alone and is a
- * rectangle is drawn by vector code: the single samples, but for rounding. */
-void aur_light_lanes_direct(const aur_scene *scene, const aur_lane_vectors *reference, float least,
-                            const float *choice, const float *u, const float *v, aur_light_lanes *lights);
+/* For the lanes whose bit is set; what the others have afterwards means nothing. `choice` is not read unless
+ * aur_light_chooses, and may then be NULL. A light that stands alone and is a rectangle is drawn by vector
+ * code: the single samples, but for rounding. */
+void aur_light_lanes_direct(const aur_scene *scene, uint32_t lanes, const aur_lane_vectors *reference,
+                            float least, const float *choice, const float *u, const float *v,
+                            aur_light_lanes *lights);

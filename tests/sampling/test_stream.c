@@ -99,15 +99,17 @@ static void tables_are_permuted(void **state) {
 /* Pairs in blocks are those one by one, to the bit, for every count and instruction set. */
 static void blocks_are_single_pairs(void **state) {
     (void)state;
-    static const aur_stream_kernels *const forms[] = {&aur_stream_kernels_portable, &aur_stream_kernels_avx2,
-                                                      &aur_stream_kernels_avx512};
+    static const aur_stream_kernel_sets *const forms[] = {
+        &aur_stream_kernels_portable, &aur_stream_kernels_avx2, &aur_stream_kernels_avx512};
     static const aur_isa needs[] = {AUR_ISA_PORTABLE, AUR_ISA_AVX2, AUR_ISA_AVX512};
     for (size_t s = 0; s < sizeof sets / sizeof sets[0]; ++s) {
         aur_sampler *const sampler = make(sets[s], 48);
         for (size_t form = 0; form < sizeof forms / sizeof forms[0]; ++form) {
-            if (sampler->kind != AUR_SAMPLER_SOBOL ? form > 0 : needs[form] > aur_isa_available())
+            if (sampler->kernels == NULL ? form > 0 : needs[form] > aur_isa_available())
                 continue;
-            sampler->kernels = forms[form];
+            if (sampler->kernels != NULL)
+                sampler->kernels =
+                    sampler->kind == AUR_SAMPLER_SOBOL ? &forms[form]->sobol : &forms[form]->random;
             for (uint32_t count = 0; count <= 20; ++count) {
                 const aur_stream stream = {sampler, aur_hash2(3, count), 0x9e3779b9u * count};
                 float together[20][2], alone[2];

@@ -65,7 +65,7 @@ static void add_lights(const aur_gather_places *places, aur_embree_order order,
 
 void aur_gather_add_direct_light(const aur_gather_places *places, aur_gather_sums *sums) {
     const aur_gather_plan *const plan = places->plan;
-    /* Lanes without a place stand where the first one is: their samples are drawn and thrown away. */
+    /* Lanes without a place stand where the first one is: nothing is drawn for them, or it is thrown away. */
     aur_lane_vectors reference;
     for (size_t lane = 0; lane < AUR_PACKET_SIZE; ++lane) {
         const size_t from = aur_has_lane(places->lanes, lane) ? lane : aur_first_lane(places->lanes);
@@ -81,8 +81,9 @@ void aur_gather_add_direct_light(const aur_gather_places *places, aur_gather_sum
                               pair + AUR_GATHER_PAIR_CHOICE, choice, unused);
         aur_stream_pixels(places->sampler, AUR_PACKET_SIZE, places->pixels, index,
                           pair + AUR_GATHER_PAIR_POSITION, u, v);
-        aur_light_lanes drawn;
-        aur_light_lanes_direct(plan->scene, &reference, AUR_LEAST_LIGHT_SEEN, choice, u, v, &drawn);
+        aur_light_lanes drawn = {0};
+        aur_light_lanes_direct(plan->scene, places->lanes, &reference, AUR_LEAST_LIGHT_SEEN, choice, u, v,
+                               &drawn);
         aur_light_sample lights[AUR_PACKET_SIZE];
         for (size_t lane = 0; lane < AUR_PACKET_SIZE; ++lane) {
             const aur_vector position = aur_lane_vector(&drawn.position, lane);

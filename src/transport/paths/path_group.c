@@ -54,8 +54,23 @@ static void shared_numbers(group *g, uint32_t depth) {
     share(pair[AUR_PATH_DIRECTION][1], lanes->direction_v);
 }
 
+/* Of the paths that are alive; where they are few, in one block. */
 static void own_pair(const group *g, uint32_t pair, float *u, float *v) {
-    aur_stream_pixels(g->sampler, AUR_PACKET_SIZE, g->pixels, g->index, pair, u, v);
+    if (aur_lane_count(g->alive) > AUR_STREAM_BLOCK) {
+        aur_stream_pixels(g->sampler, AUR_PACKET_SIZE, g->pixels, g->index, pair, u, v);
+        return;
+    }
+    uint64_t pixels[AUR_STREAM_BLOCK] = {0};
+    float few_u[AUR_STREAM_BLOCK], few_v[AUR_STREAM_BLOCK];
+    size_t i = 0;
+    for (uint32_t rest = g->alive; rest != 0; rest &= rest - 1)
+        pixels[i++] = g->pixels[aur_first_lane(rest)];
+    aur_stream_pixels(g->sampler, AUR_STREAM_BLOCK, pixels, g->index, pair, few_u, few_v);
+    i = 0;
+    for (uint32_t rest = g->alive; rest != 0; rest &= rest - 1, ++i) {
+        u[aur_first_lane(rest)] = few_u[i];
+        v[aur_first_lane(rest)] = few_v[i];
+    }
 }
 
 /* Of each lane, only those that are asked for; `mixed`: not all surfaces are plain. */
@@ -195,7 +210,7 @@ static uint32_t trace(group *g, bool coherent) {
 static void add_direct(group *g, uint32_t plain, bool coherent, const aur_surface *surfaces) {
     aur_path_lanes *const lanes = &g->lanes;
     if (plain != 0) {
-        aur_light_lanes_direct(g->scene, &lanes->position, AUR_LEAST_LIGHT_OF_PATHS, lanes->choice,
+        aur_light_lanes_direct(g->scene, plain, &lanes->position, AUR_LEAST_LIGHT_OF_PATHS, lanes->choice,
                                lanes->light_u, lanes->light_v, &lanes->light);
         g->data->kernels->shadow(lanes, &g->shadows);
     }
