@@ -9,6 +9,7 @@ enum {
     BUFFER_LENGTH = 512,
     PART_LENGTH = 1 << 12, /* coordinates that the first cache keeps until their points are whole */
     LEAST_PART = 128,
+    LEAST_PAIRS = 48,      /* fewer are not worth preparing wide registers for */
     STREAM_BYTES = 4 << 20 /* larger outputs go past the caches */
 };
 
@@ -72,10 +73,11 @@ static void fill_pairs(const aur_pointset *set, aur_block block) {
         const size_t most = done < start && start < PART_LENGTH / 2 ? start - done : PART_LENGTH / 2;
         block.count = all - done < most ? all - done : most;
         aur_pointset_fill(set, &block);
-        aur_runs()->pairs(block.count, buffer, buffer + PART_LENGTH / 2, done >= start, out);
+        aur_runs(SIZE_MAX)->pairs(block.count, buffer, buffer + PART_LENGTH / 2, done >= start, out);
         block.first += block.count;
         out += 2 * block.count;
     }
+    aur_runs(SIZE_MAX)->end_stream();
 }
 
 /* Points of any number of coordinates, which are made one after another, part by part. */
@@ -104,13 +106,13 @@ static void fill_points(const aur_pointset *set, aur_block block) {
 
 static void fill_doubles(const aur_pointset *set, const aur_block *block, size_t point_stride) {
     const bool shifted = set->scramble == AUR_SCRAMBLE_SHIFT || set->scramble == AUR_SCRAMBLE_ROTATE;
+    const bool whole = set->kind->fill_pairs != NULL && block->first_dimension == 0 && !shifted &&
+                       block->count >= LEAST_PAIRS;
     if (point_stride == 1)
         aur_pointset_fill(set, block);
     else if (block->dimension_count != 2)
         fill_points(set, *block);
-    else if (set->kind->fill_pairs != NULL && block->first_dimension == 0 && !shifted)
-        set->kind->fill_pairs(set, block);
-    else
+    else if (!whole || !set->kind->fill_pairs(set, block))
         fill_pairs(set, *block);
 }
 

@@ -3,28 +3,32 @@
 
 #include "pointset/words.h"
 
-static void multiples(uint64_t position, uint64_t step, uint64_t size, size_t count, double *out) {
-    const double divisor = (double)(int64_t)size;
+static void multiples(aur_multiples *run, size_t count, double *out) {
+    const double divisor = (double)(int64_t)run->size;
+    uint64_t position = run->position;
     for (size_t i = 0; i < count; ++i) {
         out[i] = (double)(int64_t)position / divisor;
-        position += step;
-        position -= position >= size ? size : 0;
+        position += run->step;
+        position -= position >= run->size ? run->size : 0;
     }
+    run->position = position;
+}
+
+static void fractions(aur_multiples_of_fraction *run, size_t count, double *out) {
+    for (size_t i = 0; i < count; ++i)
+        out[i] = aur_word_to_double(run->start + aur_phase(run->step, run->first + i));
+    run->first += count;
+}
+
+static void hashes(aur_hashes *run, size_t count, double *out) {
+    for (size_t i = 0; i < count; ++i)
+        out[i] = aur_word_to_double(aur_hash2(run->stream, run->first + i));
+    run->first += count;
 }
 
 static void quotients(double base, const double *numerators, double divisor, size_t count, double *out) {
     for (size_t i = 0; i < count; ++i)
         out[i] = (base + numerators[i]) / divisor;
-}
-
-static void recurrence(uint64_t start, aur_fraction128 step, uint64_t first, size_t count, double *out) {
-    for (size_t i = 0; i < count; ++i)
-        out[i] = aur_word_to_double(start + aur_phase(step, first + i));
-}
-
-static void hashes(uint64_t stream, uint64_t first, size_t count, double *out) {
-    for (size_t i = 0; i < count; ++i)
-        out[i] = aur_word_to_double(aur_hash2(stream, first + i));
 }
 
 static size_t ascent(aur_ascent *ascent, size_t capacity, double *out) {
@@ -46,6 +50,9 @@ static void pairs(size_t count, const double *x, const double *y, bool stream, d
         out[2 * i] = x[i];
         out[2 * i + 1] = y[i];
     }
+}
+
+static void end_stream(void) {
 }
 
 const aur_run_kernels aur_runs_portable = AUR_RUN_KERNELS;

@@ -28,32 +28,42 @@ static inline void put_group(const aur_reals values[VECTORS], size_t count, doub
 }
 
 /* Whole numbers below 2^53 are added exactly. */
-static void multiples(uint64_t position, uint64_t step, uint64_t size, size_t count, double *out) {
-    const aur_reals zero = {0};
-    const double modulus = (double)(int64_t)size;
-    const double inverse = 1.0 / modulus;
-    double starts[GROUP];
-    uint64_t next = position;
+static void start_multiples(aur_multiples *run) {
+    uint64_t next = run->position;
     for (unsigned k = 0; k < GROUP; ++k) {
-        starts[k] = (double)(int64_t)next;
-        next += step;
-        next -= next >= size ? size : 0;
+        run->positions[k] = (double)(int64_t)next;
+        next += run->step;
+        next -= next >= run->size ? run->size : 0;
     }
     /* From group to group, less the size: at most 0. */
-    const double jump =
-        next >= position ? (double)(int64_t)(next - position) - modulus : -(double)(int64_t)(position - next);
+    const double size = (double)(int64_t)run->size;
+    run->jump = next >= run->position ? (double)(int64_t)(next - run->position) - size
+                                      : -(double)(int64_t)(run->position - next);
+    run->inverse = 1.0 / size;
+    run->started = true;
+}
+
+static void multiples(aur_multiples *run, size_t count, double *out) {
+    if (!run->started)
+        start_multiples(run);
+    const aur_reals zero = {0};
+    const aur_reals size = zero + (double)(int64_t)run->size;
+    const aur_reals inverse = zero + run->inverse;
+    const aur_reals jump = zero + run->jump;
     aur_reals positions[VECTORS];
     for (unsigned v = 0; v < VECTORS; ++v)
-        positions[v] = load(starts + v * AUR_LANES);
+        positions[v] = load(run->positions + v * AUR_LANES);
     for (size_t i = 0; i < count; i += GROUP) {
         aur_reals values[VECTORS];
         for (unsigned v = 0; v < VECTORS; ++v) {
-            values[v] = aur_lanes_quotient(positions[v], zero + modulus, zero + inverse);
+            values[v] = aur_lanes_quotient(positions[v], size, inverse);
             const aur_reals moved = positions[v] + jump;
-            positions[v] = moved + (aur_reals)((aur_words)(moved < zero) & (aur_words)(zero + modulus));
+            positions[v] = moved + (aur_reals)((aur_words)(moved < zero) & (aur_words)size);
         }
         put_group(values, count - i, out + i);
     }
+    for (unsigned v = 0; v < VECTORS; ++v)
+        aur_lanes_put(run->positions + v * AUR_LANES, positions[v], false);
 }
 
 static void quotients(double base, const double *numerators, double divisor, size_t count, double *out) {
@@ -70,17 +80,22 @@ static void quotients(double base, const double *numerators, double divisor, siz
 }
 
 /* Phases in two words, whose lower one has its sign flipped: whether it overflows, signed numbers tell. */
-static void recurrence(uint64_t start, aur_fraction128 step, uint64_t first, size_t count, double *out) {
+static void fractions(aur_multiples_of_fraction *run, size_t count, double *out) {
     typedef int64_t signed_words __attribute__((vector_size(sizeof(aur_words))));
     const uint64_t sign = UINT64_C(1) << 63;
+    if (!run->started) {
+        aur_wide phase = aur_phase128(run->step, run->first);
+        for (unsigned k = 0; k < GROUP; ++k, phase += aur_phase128(run->step, 1)) {
+            run->low[k] = (uint64_t)phase ^ sign;
+            run->high[k] = (uint64_t)(phase >> 64) + run->start;
+        }
+        run->started = true;
+    }
     aur_words low[VECTORS];
     aur_words high[VECTORS];
-    for (unsigned k = 0; k < GROUP; ++k) {
-        const aur_wide phase = aur_phase128(step, first + k);
-        low[k / AUR_LANES][k % AUR_LANES] = (uint64_t)phase ^ sign;
-        high[k / AUR_LANES][k % AUR_LANES] = (uint64_t)(phase >> 64) + start;
-    }
-    const aur_wide jump = aur_phase128(step, GROUP);
+    memcpy(low, run->low, sizeof low);
+    memcpy(high, run->high, sizeof high);
+    const aur_wide jump = aur_phase128(run->step, GROUP);
     const aur_words zero = {0};
     const aur_words jump_low = zero + (uint64_t)jump;
     const aur_words jump_high = zero + (uint64_t)(jump >> 64);
@@ -94,12 +109,14 @@ static void recurrence(uint64_t start, aur_fraction128 step, uint64_t first, siz
         }
         put_group(values, count - i, out + i);
     }
+    memcpy(run->low, low, sizeof low);
+    memcpy(run->high, high, sizeof high);
 }
 
-static void hashes(uint64_t stream, uint64_t first, size_t count, double *out) {
-    const uint64_t key = aur_mix64(stream + UINT64_C(0x9e3779b97f4a7c15));
+static void hashes(aur_hashes *run, size_t count, double *out) {
+    const uint64_t key = aur_mix64(run->stream + UINT64_C(0x9e3779b97f4a7c15));
     const uint64_t factor = UINT64_C(0xd6e8feb86659fd93);
-    aur_words spread = (first + aur_lanes_count()) * factor;
+    aur_words spread = (run->first + aur_lanes_count()) * factor;
     for (size_t i = 0; i < count; i += GROUP) {
         aur_reals values[VECTORS];
         for (unsigned v = 0; v < VECTORS; ++v) {
@@ -111,6 +128,7 @@ static void hashes(uint64_t stream, uint64_t first, size_t count, double *out) {
         }
         put_group(values, count - i, out + i);
     }
+    run->first += count;
 }
 
 /* Indices that count are below 2^32, and the golden fraction's four quarters are multiplied by them. */
@@ -143,15 +161,17 @@ static size_t ascent(aur_ascent *ascent, size_t capacity, double *out) {
 
 static void pairs(size_t count, const double *x, const double *y, bool stream, double *out) {
     size_t i = 0;
-    if (stream) {
+    if (stream)
         for (; i + AUR_LANES <= count; i += AUR_LANES)
             aur_lanes_store2(out + 2 * i, load(x + i), load(y + i), true);
-        aur_lanes_end_stream();
-    }
     for (; i + AUR_LANES <= count; i += AUR_LANES)
         aur_lanes_store2(out + 2 * i, load(x + i), load(y + i), false);
     for (; i < count; ++i) {
         out[2 * i] = x[i];
         out[2 * i + 1] = y[i];
     }
+}
+
+static void end_stream(void) {
+    aur_lanes_end_stream();
 }

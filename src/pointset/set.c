@@ -61,7 +61,8 @@ aur_result aur_pointset_check(const aur_pointset *set, aur_error *error) {
 void aur_fill_fraction(const aur_pointset *set, const aur_block *block, size_t d) {
     double *const out = block->data + d * block->coordinate_stride;
     if (set->scramble != AUR_SCRAMBLE_DIGIT && set->scramble != AUR_SCRAMBLE_OWEN) {
-        aur_runs()->multiples(block->first, 1, set->size, block->count, out);
+        aur_multiples run = {.position = block->first, .step = 1 % set->size, .size = set->size};
+        aur_runs(block->count)->multiples(&run, block->count, out);
         return;
     }
     const uint64_t key = aur_scramble_key(block->seed, block->first_dimension + d);

@@ -47,8 +47,9 @@ typedef struct aur_square_set {
     aur_result (*prepare)(aur_pointset *set, aur_parameters *keys, aur_error *error);
     /* Coordinates in [0,1) with NONE, DIGIT and OWEN applied; SHIFT and ROTATE are added by the caller. */
     void (*fill)(const aur_pointset *set, const aur_block *block);
-    /* The same for the first two coordinates, written to data[2 i + d], where that is faster; or NULL. */
-    void (*fill_pairs)(const aur_pointset *set, const aur_block *block);
+    /* The same for the first two coordinates, written to data[2 i + d]: true where it has a faster way. Or
+     * NULL. */
+    bool (*fill_pairs)(const aur_pointset *set, const aur_block *block);
 } aur_square_set;
 
 struct aur_pointset {

@@ -237,22 +237,30 @@ static void instruction_sets_agree(void **state) {
     free(saved);
 }
 
-/* Outputs beyond the caches are written past them: the same bits. */
+/* Outputs beyond the caches are written past them: the same bits, from whatever address on. */
 static void long_runs_agree(void **state) {
     (void)state;
-    enum { LONG = 300000 };
-    double *const whole = malloc(2 * LONG * sizeof *whole);
-    double *const part = malloc(2 * 1000 * sizeof *part);
-    assert_true(whole != NULL && part != NULL);
-    const aur_randomization owen = {AUR_SCRAMBLE_OWEN, 6};
-    const aur_output output = {.capacity = 2 * LONG, .doubles = whole};
-    assert_int_equal(aur_sobol_points(2, &owen, 5, LONG, &output, NULL), AUR_OK);
-    for (size_t begin = 0; begin < LONG; begin += 1000) {
-        const aur_output small = {.capacity = 2000, .doubles = part};
-        assert_int_equal(aur_sobol_points(2, &owen, 5 + begin, 1000, &small, NULL), AUR_OK);
-        assert_memory_equal(part, whole + 2 * begin, 2000 * sizeof *part);
+    enum { LONG = 300000, PART = 1000 };
+    static const char *const sets[] = {"sobol",   "random", "r2", "rank1", "halton", "larcher-pillichshammer",
+                                       "jittered"};
+    double *const room = malloc((2 * LONG + 8) * sizeof *room);
+    double *const part = malloc(sizeof(double[2 * PART]));
+    assert_true(room != NULL && part != NULL);
+    for (size_t k = 0; k < 2 * sizeof sets / sizeof sets[0]; ++k) {
+        double *const whole = room + k % 8;
+        const aur_pointset_options options = {.size = sizeof options,
+                                              .count = LONG + 5,
+                                              .scramble = k == 0 ? AUR_SCRAMBLE_OWEN : AUR_SCRAMBLE_NONE,
+                                              .seed = 6};
+        aur_pointset *const set = make_set(sets[k / 2], options);
+        assert_int_equal(aur_pointset_points(set, 5, LONG, 2 * LONG, whole, NULL), AUR_OK);
+        for (size_t begin = 0; begin < LONG; begin += PART) {
+            assert_int_equal(aur_pointset_points(set, 5 + begin, PART, 2 * PART, part, NULL), AUR_OK);
+            assert_memory_equal(part, whole + 2 * begin, sizeof(double[2 * PART]));
+        }
+        aur_pointset_destroy(set);
     }
-    free(whole);
+    free(room);
     free(part);
 }
 
@@ -380,8 +388,8 @@ static void outputs_are_checked(void **state) {
 /* The whole golden set at once is the prepared one, in both forms and layouts. */
 static void golden_sets_agree(void **state) {
     (void)state;
-    enum { N = 777 };
-    static double whole[2 * N];
+    enum { N = 300777 };
+    static double whole[2 * N]; /* so many that they go past the caches */
     static float floats[2 * N];
     double *const prepared = make_points(
         "golden-set:seed=0.375", (aur_pointset_options){.size = sizeof(aur_pointset_options), .count = N});

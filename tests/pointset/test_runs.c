@@ -33,9 +33,12 @@ static void quotients_are_divisions(void **state) {
         const uint64_t size = trial < 700 ? trial + 1 : power - aur_hash2(trial, 0) % (trial % 9 + 1) % power;
         const uint64_t position = aur_hash2(trial, 1) % size;
         const uint64_t step = aur_hash2(trial, 2) % size;
-        aur_runs_portable.multiples(position, step, size, COUNT, plain);
+        aur_runs_portable.multiples(&(aur_multiples){.position = position, .step = step, .size = size}, COUNT,
+                                    plain);
         for (size_t f = 1; f < form_count; ++f) {
-            forms[f]->multiples(position, step, size, COUNT, wide);
+            aur_multiples run = {.position = position, .step = step, .size = size};
+            forms[f]->multiples(&run, AUR_RUN_GROUP, wide);
+            forms[f]->multiples(&run, COUNT - AUR_RUN_GROUP, wide + AUR_RUN_GROUP);
             assert_memory_equal(plain, wide, sizeof plain);
         }
         double numerators[COUNT];

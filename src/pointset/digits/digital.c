@@ -6,24 +6,22 @@
 #include "pointset/digits/digital_body.h"
 
 enum {
-    SHORT_RUN = 16,        /* shorter ones are computed one index at a time */
-    WIDE_RUN = 48,         /* shorter ones are not worth preparing wide registers for */
-    STREAM_BYTES = 4 << 20 /* larger outputs go past the caches */
+    SHORT_RUN = 16, /* shorter ones are computed one index at a time */
+    WIDE_RUN = 48   /* shorter ones are not worth preparing wide registers for */
 };
 
-void aur_digital_run_portable(const aur_digital_run *run) {
-    run_kernel(run);
+void aur_digital_run_portable(aur_digital_run *run, size_t count, bool stream, double *out) {
+    run_kernel(run, count, stream, out);
 }
 
-/* One coordinate of a run. */
-static void fill_plainly(const aur_digital_run *run, size_t d) {
+/* The first `count` points of coordinate `d` of a run. */
+static void fill_plainly(const aur_digital_run *run, size_t d, size_t count, double *out) {
     const uint64_t *const columns = run->columns[d];
     const uint64_t key = run->keys[d];
     const size_t stride = run->dimension_count;
-    double *const out = run->out + d;
-    if (run->count < SHORT_RUN) {
-        for (size_t i = 0; i < run->count; ++i)
-            out[i * stride] = aur_word_to_double(
+    if (count < SHORT_RUN) {
+        for (size_t i = 0; i < count; ++i)
+            out[i * stride + d] = aur_word_to_double(
                 aur_scramble_word(run->scramble, aur_digital_word(columns, run->first + i), key));
         return;
     }
@@ -32,40 +30,34 @@ static void fill_plainly(const aur_digital_run *run, size_t d) {
     for (unsigned k = 0; k < AUR_DIGITAL_COLUMNS; ++k)
         flips[k] = sum ^= columns[k];
     uint64_t word = aur_digital_word(columns, run->first);
-    for (size_t i = 0; i < run->count; ++i) {
-        out[i * stride] = aur_word_to_double(aur_scramble_word(run->scramble, word, key));
+    for (size_t i = 0; i < count; ++i) {
+        out[i * stride + d] = aur_word_to_double(aur_scramble_word(run->scramble, word, key));
         word ^= flips[__builtin_ctzll(run->first + i + 1)];
     }
 }
 
-static void fill_run(const aur_digital_run *run) {
+static void fill_run(aur_digital_run *run, double *out) {
     const aur_digital_kernel kernel = AUR_KERNEL_HERE(aur_digital_run);
-    const size_t point_bytes = run->dimension_count * sizeof *run->out;
-    const size_t beyond = (uintptr_t)run->out % 64;
-    aur_digital_run part = *run;
-    part.stream = run->count * point_bytes > STREAM_BYTES && beyond % point_bytes == 0;
-    if (part.stream) {
-        part.count = beyond == 0 ? 0 : (64 - beyond) / point_bytes;
-    } else if (run->count >= WIDE_RUN) {
-        kernel(&part);
+    const size_t count = (size_t)(run->last - run->first);
+    const size_t start = run->dimension_count == 2 ? aur_output_stream_start(count, out) : SIZE_MAX;
+    if (start == SIZE_MAX && count >= WIDE_RUN) {
+        kernel(run, count, false, out);
         return;
     }
+    const size_t before = start < count ? start : count;
     for (size_t d = 0; d < run->dimension_count; ++d)
-        fill_plainly(&part, d);
-    if (!part.stream)
+        fill_plainly(run, d, before, out);
+    if (before == count)
         return;
-    part.first += part.count;
-    part.out += part.count * run->dimension_count;
-    part.count = run->count - part.count;
-    kernel(&part);
+    run->first += before;
+    kernel(run, count - before, true, out + 2 * before);
 }
 
 static aur_digital_run run_of(const aur_pointset *set, const aur_block *block) {
     return (aur_digital_run){.dimension_count = 1,
                              .scramble = set->scramble,
                              .first = block->first,
-                             .count = block->count,
-                             .out = block->data};
+                             .last = block->first + block->count};
 }
 
 void aur_fill_digital(const aur_pointset *set, const uint64_t columns[AUR_DIGITAL_COLUMNS],
@@ -73,8 +65,7 @@ void aur_fill_digital(const aur_pointset *set, const uint64_t columns[AUR_DIGITA
     aur_digital_run run = run_of(set, block);
     run.columns[0] = columns;
     run.keys[0] = aur_scramble_key(block->seed, block->first_dimension + d);
-    run.out += d * block->coordinate_stride;
-    fill_run(&run);
+    fill_run(&run, block->data + d * block->coordinate_stride);
 }
 
 aur_result aur_prepare_digital(aur_pointset *set, size_t count, aur_digital_matrix make, aur_error *error) {
@@ -104,7 +95,7 @@ void aur_fill_digital_block(const aur_pointset *set, const aur_block *block, aur
     }
 }
 
-void aur_fill_digital_pairs(const aur_pointset *set, const aur_block *block, aur_digital_matrix make) {
+bool aur_fill_digital_pairs(const aur_pointset *set, const aur_block *block, aur_digital_matrix make) {
     uint64_t columns[2][AUR_DIGITAL_COLUMNS];
     aur_digital_run run = run_of(set, block);
     run.dimension_count = 2;
@@ -113,5 +104,6 @@ void aur_fill_digital_pairs(const aur_pointset *set, const aur_block *block, aur
         run.columns[d] = aur_digital_matrix_of(set, dimension, make, columns[d]);
         run.keys[d] = aur_scramble_key(block->seed, dimension);
     }
-    fill_run(&run);
+    fill_run(&run, block->data);
+    return true;
 }

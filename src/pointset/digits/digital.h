@@ -27,9 +27,9 @@ const uint64_t *aur_digital_matrix_of(const aur_pointset *set, size_t dimension,
 void aur_fill_digital(const aur_pointset *set, const uint64_t columns[AUR_DIGITAL_COLUMNS],
                       const aur_block *block, size_t d);
 
-/* Fill a block, and one of two coordinates that lie beside each other. */
+/* Fill a block, and one of two coordinates that lie beside each other (aur_square_set.fill_pairs). */
 void aur_fill_digital_block(const aur_pointset *set, const aur_block *block, aur_digital_matrix make);
-void aur_fill_digital_pairs(const aur_pointset *set, const aur_block *block, aur_digital_matrix make);
+bool aur_fill_digital_pairs(const aur_pointset *set, const aur_block *block, aur_digital_matrix make);
 
 /* Any prime base: matrices of row_count x column_count digits, one after another, column by column; digit 0
  * of the index is the lowest one, row 0 makes the coarsest digit of the coordinate. One allocation. */

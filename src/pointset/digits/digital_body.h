@@ -34,23 +34,23 @@ static inline void step_plain(const aur_digital_group *group, plain_groups *p, u
     p->now ^= flip;
 }
 
-static inline __attribute__((always_inline)) void fill_plain(const aur_digital_run *run,
-                                                             const aur_digital_group *group, bool stream) {
+static inline __attribute__((always_inline)) void fill_plain(aur_digital_group *group, size_t slots,
+                                                             bool stream, double *out) {
     plain_groups p = {.now = aur_lanes_of_pair(group->words)};
     for (unsigned v = 0; v < VECTORS; ++v) {
         p.lanes[v] = load(group->lanes + v * AUR_LANES);
         p.wrapped[v] = load(group->wrapped + v * AUR_LANES);
     }
     uint64_t next = group->next;
-    double *out = run->out;
-    size_t left = run->count * run->dimension_count;
-    for (; left >= SLOTS; left -= SLOTS, out += SLOTS)
+    for (; slots >= SLOTS; slots -= SLOTS, out += SLOTS)
         step_plain(group, &p, next++, stream, out);
-    if (left > 0) {
+    if (slots > 0) {
         double rest[SLOTS];
         step_plain(group, &p, next, false, rest);
-        memcpy(out, rest, left * sizeof *out);
+        memcpy(out, rest, slots * sizeof *out);
     }
+    group->next = next;
+    memcpy(group->words, &p.now, sizeof group->words);
 }
 
 /* Owen's words in two parts: heads are the upper 32 digits reversed, tails the lower ones. A vector has two
@@ -140,41 +140,45 @@ static inline void step_owen(const aur_digital_group *group, owen_groups *o, uin
     o->tail_now ^= tail_flip;
 }
 
-static inline __attribute__((always_inline)) void
-fill_owen(const aur_digital_run *run, const aur_digital_group *group, bool tails, bool stream) {
+static inline __attribute__((always_inline)) void fill_owen(aur_digital_run *run, size_t slots, bool tails,
+                                                            bool stream, double *out) {
+    aur_digital_group *const group = &run->group;
     owen_groups o;
     prepare_owen(run, group, &o);
     uint64_t next = group->next;
-    double *out = run->out;
-    size_t left = run->count * run->dimension_count;
-    for (; left >= OWEN_SLOTS; left -= OWEN_SLOTS, out += OWEN_SLOTS)
+    for (; slots >= OWEN_SLOTS; slots -= OWEN_SLOTS, out += OWEN_SLOTS)
         step_owen(group, &o, next++, tails, stream, out);
-    if (left > 0) {
+    if (slots > 0) {
         double rest[OWEN_SLOTS];
         step_owen(group, &o, next, tails, false, rest);
-        memcpy(out, rest, left * sizeof *out);
+        memcpy(out, rest, slots * sizeof *out);
     }
+    group->next = next;
+    memcpy(&group->words[0], &o.head_now, sizeof group->words[0]);
+    memcpy(&group->words[1], &o.tail_now, sizeof group->words[1]);
 }
 
-static void run_kernel(const aur_digital_run *run) {
-    aur_digital_group group;
-    aur_digital_group_prepare(run, run->scramble == AUR_SCRAMBLE_OWEN ? OWEN_SLOTS : SLOTS, &group);
-    if (run->scramble != AUR_SCRAMBLE_OWEN) {
-        if (run->stream)
-            fill_plain(run, &group, true);
+static void run_kernel(aur_digital_run *run, size_t count, bool stream, double *out) {
+    const bool owen = run->scramble == AUR_SCRAMBLE_OWEN;
+    const size_t slots = count * run->dimension_count;
+    if (!run->started)
+        aur_digital_run_start(run, owen ? OWEN_SLOTS : SLOTS);
+    if (!owen) {
+        if (stream)
+            fill_plain(&run->group, slots, true, out);
         else
-            fill_plain(run, &group, false);
-    } else if (group.tails) {
-        if (run->stream)
-            fill_owen(run, &group, true, true);
+            fill_plain(&run->group, slots, false, out);
+    } else if (run->group.tails) {
+        if (stream)
+            fill_owen(run, slots, true, true, out);
         else
-            fill_owen(run, &group, true, false);
+            fill_owen(run, slots, true, false, out);
     } else {
-        if (run->stream)
-            fill_owen(run, &group, false, true);
+        if (stream)
+            fill_owen(run, slots, false, true, out);
         else
-            fill_owen(run, &group, false, false);
+            fill_owen(run, slots, false, false, out);
     }
-    if (run->stream)
+    if (stream)
         aur_lanes_end_stream();
 }

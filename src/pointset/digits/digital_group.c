@@ -10,7 +10,8 @@ static void put_form(aur_scramble scramble, const uint64_t words[2], uint64_t fo
     form[1] = owen ? b << 32 | (uint32_t)a : b;
 }
 
-void aur_digital_group_prepare(const aur_digital_run *run, size_t slots, aur_digital_group *group) {
+void aur_digital_run_start(aur_digital_run *run, size_t slots) {
+    aur_digital_group *const group = &run->group;
     const size_t dimensions = run->dimension_count;
     const uint64_t size = slots / dimensions;
     const unsigned bits = (unsigned)__builtin_ctzll(size);
@@ -40,7 +41,7 @@ void aur_digital_group_prepare(const aur_digital_run *run, size_t slots, aur_dig
     uint64_t digits = words[0] | words[1];
     for (size_t s = 0; s < slots; ++s)
         digits |= group->lanes[s];
-    const uint64_t numbers = (run->first + run->count) / size + 1;
+    const uint64_t numbers = run->last / size + 1;
     for (unsigned z = 0; numbers >> z != 0; ++z) {
         sums[0] ^= run->columns[0][bits + z];
         sums[1] ^= run->columns[last][bits + z];
@@ -48,4 +49,5 @@ void aur_digital_group_prepare(const aur_digital_run *run, size_t slots, aur_dig
         put_form(run->scramble, sums, group->flips[z]);
     }
     group->tails = (uint32_t)digits != 0;
+    run->started = true;
 }

@@ -4,29 +4,12 @@
 
 #include "pointset/digits/digital.h"
 
-/* Points first .. first + count - 1 of one coordinate, or of two beside each other. */
-typedef struct aur_digital_run {
-    size_t dimension_count; /* 1: out[i]; 2: out[2 i + d] */
-    const uint64_t *columns[2];
-    uint64_t keys[2];
-    aur_scramble scramble; /* DIGIT and OWEN are applied */
-    uint64_t first;
-    size_t count;
-    double *out;
-    bool stream; /* go past the caches: `out` is a multiple of 64 bytes */
-} aur_digital_run;
-
-typedef void (*aur_digital_kernel)(const aur_digital_run *run);
-void aur_digital_run_portable(const aur_digital_run *run);
-void aur_digital_run_avx2(const aur_digital_run *run);
-void aur_digital_run_avx512(const aur_digital_run *run);
-
 enum { AUR_DIGITAL_SLOTS = 64 }; /* coordinates of the largest group */
 
 /* What a group of points needs of the matrices. A slot is a coordinate of a point, in the order of the
- * output. In group q after the one in which the run begins, slot s has the word lanes[s], changed by `words`
- * and by the flips of all groups before q, and by that from q to q + 1 where `wrapped` is set: a group of the
- * run begins in the middle of one of the sequence. From group n - 1 to group n words change by flips[trailing
+ * output. Slot s has the word lanes[s], changed by `words`, which follow the groups of the sequence, and
+ * where `wrapped` is set by the flips to the next group, too: a group of the run begins in the middle of one
+ * of the sequence. From group n - 1 to group n words change by flips[trailing
  * zeros of n]: the lowest bits of the number flip, as many as there are trailing zeros and one more.
  *
  * Words and flips are pairs, of the two coordinates or twice of the one. For OWEN they are in the form that
@@ -36,9 +19,27 @@ typedef struct aur_digital_group {
     uint64_t wrapped[AUR_DIGITAL_SLOTS]; /* all bits or none */
     uint64_t flips[AUR_DIGITAL_COLUMNS][2];
     uint64_t words[2];
-    uint64_t next; /* the number of the group after that in which the run begins */
+    uint64_t next; /* the number of the group after that where the run is now */
     bool tails;    /* some word has digits beyond the 32nd */
 } aur_digital_group;
 
-/* `slots` is a power of two and more than two. */
-void aur_digital_group_prepare(const aur_digital_run *run, size_t slots, aur_digital_group *group);
+/* Points of one coordinate, or of two beside each other. */
+typedef struct aur_digital_run {
+    size_t dimension_count; /* 1: out[i]; 2: out[2 i + d] */
+    const uint64_t *columns[2];
+    uint64_t keys[2];
+    aur_scramble scramble; /* DIGIT and OWEN are applied */
+    uint64_t first, last;  /* the points of the whole run */
+    bool started;
+    aur_digital_group group; /* the kernel's own */
+} aur_digital_run;
+
+/* The next `count` points: a multiple of AUR_DIGITAL_SLOTS where there are more to come. `stream` goes past
+ * the caches: `out` is a multiple of 64 bytes. */
+typedef void (*aur_digital_kernel)(aur_digital_run *run, size_t count, bool stream, double *out);
+void aur_digital_run_portable(aur_digital_run *run, size_t count, bool stream, double *out);
+void aur_digital_run_avx2(aur_digital_run *run, size_t count, bool stream, double *out);
+void aur_digital_run_avx512(aur_digital_run *run, size_t count, bool stream, double *out);
+
+/* Makes run->group ready. `slots` is a power of two and more than two. */
+void aur_digital_run_start(aur_digital_run *run, size_t slots);

@@ -1,9 +1,8 @@
 #include "pointset/digits/radical_inverse.h"
 
 #include "pointset/digits/digital.h"
-#include "pointset/runs.h"
 
-enum { SHORT_RUN = 8, TABLE_LENGTH = 1024 };
+enum { SHORT_RUN = 8 };
 
 static uint32_t below(uint64_t hash, uint32_t limit) {
     return (uint32_t)(((hash & UINT64_C(0xffffffff)) * limit) >> 32);
@@ -58,78 +57,40 @@ double aur_radical_inverse(uint32_t base, uint64_t index, aur_digits digits, uin
 }
 
 /* In base 2 the radical inverse is the digital sequence of the identity matrix. */
-static void fill_binary(const aur_pointset *set, const aur_block *block, size_t d) {
-    uint64_t columns[AUR_DIGITAL_COLUMNS];
+static void binary_columns(uint64_t columns[AUR_DIGITAL_COLUMNS]) {
     for (unsigned k = 0; k < AUR_DIGITAL_COLUMNS; ++k)
         columns[k] = UINT64_C(1) << (63 - k);
-    aur_fill_digital(set, columns, block, d);
 }
 
-/* Numerators of points over one denominator: the point whose lower digits are `lower` has table[lower], and
- * what its higher digits add all points share that have the same. */
-typedef struct reversed_digits {
-    uint64_t base, denominator;
-    uint64_t span; /* a power of the base: how many sequences of lower digits there are */
-    size_t width;  /* how many of them the table holds: `span`, or the first ones of a large base */
-    double table[TABLE_LENGTH];
-} reversed_digits;
-
-static void make_table(reversed_digits *r, size_t count) {
-    for (r->span = r->base; r->span * r->base <= TABLE_LENGTH && r->span < count;)
-        r->span *= r->base;
-    r->width = r->span < TABLE_LENGTH ? (size_t)r->span : TABLE_LENGTH;
-    r->table[0] = 0.0;
-    uint64_t unit = r->denominator;
-    for (size_t made = 1; made < r->width;) {
-        unit /= r->base;
-        const size_t before = made;
-        for (; made < r->base * before && made < r->width; ++made)
-            r->table[made] = r->table[made % before] + (double)(int64_t)(made / before * unit);
+bool aur_run_of_base(const aur_pointset *set, const aur_block *block, size_t dimension, uint32_t base,
+                     aur_run *run) {
+    if (base == 2) {
+        uint64_t columns[AUR_DIGITAL_COLUMNS];
+        binary_columns(columns);
+        aur_run_of_digits(columns, set->scramble, aur_scramble_key(block->seed, dimension), block->first,
+                          block->first + block->count, run);
+        return true;
     }
-}
-
-/* In reversed digits over one denominator, which all of the run's points share. A fraction of two integers
- * below 2^53 is rounded correctly whatever its terms, so the bits are those of random access. False when the
- * denominator is not below 2^53. */
-static bool fill_by_table(const aur_block *block, uint32_t base, double *out) {
-    const uint64_t last = block->first + block->count - 1;
-    reversed_digits r = {.base = base, .denominator = base};
-    for (uint64_t rest = last / base; rest > 0; rest /= base) {
-        r.denominator *= base;
-        if (r.denominator > UINT64_C(1) << 53)
-            return false;
-    }
-    make_table(&r, block->count);
-    for (size_t i = 0; i < block->count;) {
-        const uint64_t index = block->first + i;
-        const uint64_t lower = index % r.span;
-        const size_t within = (size_t)(lower % r.width);
-        uint64_t unit = r.denominator / r.span;
-        /* Where the table is too short for the lowest digit it begins anew. */
-        uint64_t shared = (lower - within) * unit;
-        for (uint64_t rest = index / r.span; rest > 0; rest /= base) {
-            unit /= base;
-            shared += rest % base * unit;
-        }
-        const uint64_t here = r.span - lower < r.width - within ? r.span - lower : r.width - within;
-        const size_t count = here < block->count - i ? (size_t)here : block->count - i;
-        aur_runs()->quotients((double)(int64_t)shared, r.table + within, (double)(int64_t)r.denominator,
-                              count, out + i);
-        i += count;
-    }
-    return true;
+    return aur_digits_of(set->scramble) == AUR_DIGITS_PLAIN &&
+           aur_run_of_radical_inverse(base, block->first, block->first + block->count, run);
 }
 
 void aur_fill_radical_inverse(const aur_pointset *set, const aur_block *block, size_t d, uint32_t base,
                               aur_digits digits) {
     if (base == 2 && digits != AUR_DIGITS_PERMUTE) {
-        fill_binary(set, block, d);
+        uint64_t columns[AUR_DIGITAL_COLUMNS];
+        binary_columns(columns);
+        aur_fill_digital(set, columns, block, d);
         return;
     }
     const size_t dimension = block->first_dimension + d;
     double *const out = block->data + d * block->coordinate_stride;
-    if (digits == AUR_DIGITS_PLAIN && block->count >= SHORT_RUN && fill_by_table(block, base, out))
+    aur_run run;
+    if (digits == AUR_DIGITS_PLAIN && block->count >= SHORT_RUN &&
+        aur_run_of_radical_inverse(base, block->first, block->first + block->count, &run)) {
+        run.next(&run, block->count, out);
         return;
+    }
     /* Permutations belong to the set and stay when it is scrambled again. */
     const uint64_t key = aur_scramble_key(digits == AUR_DIGITS_PERMUTE ? set->seed : block->seed, dimension);
     for (size_t i = 0; i < block->count; ++i)

@@ -1,7 +1,7 @@
 /* Numbers from digits in a prime base, plain or scrambled: radical inverses and digital sequences. */
 #pragma once
 
-#include "pointset/set.h"
+#include "pointset/digits/run.h"
 
 enum { AUR_RADICAL_PRIMES = 6542, AUR_RADICAL_BASE_LIMIT = 1 << 16 }; /* primes below the limit */
 
@@ -57,6 +57,11 @@ double aur_radical_inverse(uint32_t base, uint64_t index, aur_digits digits, uin
 /* The same for points of a block, coordinate `d` of it, with base 2 by bits. */
 void aur_fill_radical_inverse(const aur_pointset *set, const aur_block *block, size_t d, uint32_t base,
                               aur_digits digits);
+
+/* Radical inverses of a dimension of a block as a run, with digits as the set is scrambled; false where there
+ * is none. */
+bool aur_run_of_base(const aur_pointset *set, const aur_block *block, size_t dimension, uint32_t base,
+                     aur_run *run);
 
 /* Writes the first `count` primes. */
 void aur_primes(size_t count, uint32_t *primes);

@@ -4,13 +4,12 @@
  * (sorted G_s, G_r(i)) as in the appendix, r drawn from the options' seed. Error about O(log N / N)
  * (measured). */
 #include <stdlib.h>
-#include <string.h>
 
+#include "pointset/digits/run.h"
 #include "pointset/generators/golden.h"
-#include "pointset/runs.h"
 #include "pointset/set.h"
 
-enum { PART_LENGTH = 2048 };
+enum { PART_LENGTH = 512 };
 
 typedef struct golden_set {
     bool two_seeds;
@@ -132,27 +131,22 @@ static aur_result make_whole(uint64_t seed_word, uint64_t sequence_word, size_t 
                          .step = order.increment,
                          .modulus = order.increment + order.decrement,
                          .index = order.first};
-    const size_t start = strides.point == 2 && output->doubles != NULL
-                             ? aur_output_stream_start(count, output->doubles)
-                             : SIZE_MAX;
-    double ascending[PART_LENGTH + AUR_RUN_SLACK], sequence[PART_LENGTH];
-    size_t ready = 0; /* ascending values that are made and not written */
+    aur_run ascending, sequence;
+    aur_run_of_ascent(&ascent, &ascending);
+    aur_run_of_fraction(sequence_word, aur_golden_fraction, 0, &sequence);
+    if (output->doubles != NULL && strides.point == 2) {
+        aur_run_pairs(sorted == 0 ? &ascending : &sequence, sorted == 0 ? &sequence : &ascending, count,
+                      output->doubles);
+        return AUR_OK;
+    }
     size_t part;
     for (size_t done = 0; done < count; done += part) {
-        ready += aur_runs()->ascent(&ascent, PART_LENGTH + AUR_RUN_SLACK - ready, ascending + ready);
-        part =
-            done < start && start < PART_LENGTH - AUR_RUN_SLACK ? start - done : PART_LENGTH - AUR_RUN_SLACK;
-        part = count - done < part ? count - done : part;
-        aur_runs()->recurrence(sequence_word, aur_golden_fraction, done, part, sequence);
-        if (start != SIZE_MAX) {
-            aur_runs()->pairs(part, sorted == 0 ? ascending : sequence, sorted == 0 ? sequence : ascending,
-                              done >= start, output->doubles + 2 * done);
-        } else {
-            put_part(output, strides, sorted, done, part, ascending);
-            put_part(output, strides, 1 - sorted, done, part, sequence);
-        }
-        ready -= part;
-        memmove(ascending, ascending + part, ready * sizeof ascending[0]);
+        double values[PART_LENGTH];
+        part = count - done < PART_LENGTH ? count - done : PART_LENGTH;
+        ascending.next(&ascending, part, values);
+        put_part(output, strides, sorted, done, part, values);
+        sequence.next(&sequence, part, values);
+        put_part(output, strides, 1 - sorted, done, part, values);
     }
     return AUR_OK;
 }

@@ -59,6 +59,16 @@ static void fill_halton(const aur_pointset *set, const aur_block *block) {
         aur_fill_radical_inverse(set, block, d, prime_of(data, block->first_dimension + d), digits);
 }
 
+static bool fill_halton_pairs(const aur_pointset *set, const aur_block *block) {
+    const halton *const data = set->data;
+    aur_run x, y;
+    if ((data != NULL && data->permuted) || !aur_run_of_base(set, block, 0, 2, &x) ||
+        !aur_run_of_base(set, block, 1, 3, &y))
+        return false;
+    aur_run_pairs(&x, &y, block->count, block->data);
+    return true;
+}
+
 static void fill_hammersley(const aur_pointset *set, const aur_block *block) {
     const halton *const data = set->data;
     for (size_t d = 0; d < block->dimension_count; ++d) {
@@ -69,6 +79,15 @@ static void fill_hammersley(const aur_pointset *set, const aur_block *block) {
             aur_fill_radical_inverse(set, block, d, prime_of(data, dimension - 1),
                                      aur_digits_of(set->scramble));
     }
+}
+
+static bool fill_hammersley_pairs(const aur_pointset *set, const aur_block *block) {
+    aur_run x, y;
+    if (set->scramble != AUR_SCRAMBLE_NONE || !aur_run_of_base(set, block, 1, 2, &y))
+        return false;
+    aur_run_of_multiples(block->first, 1 % set->size, set->size, &x);
+    aur_run_pairs(&x, &y, block->count, block->data);
+    return true;
 }
 
 const aur_square_set aur_set_halton = {
@@ -83,6 +102,7 @@ const aur_square_set aur_set_halton = {
     .scramblings = AUR_SCRAMBLES_ALL,
     .prepare = prepare,
     .fill = fill_halton,
+    .fill_pairs = fill_halton_pairs,
 };
 
 const aur_square_set aur_set_hammersley = {
@@ -96,6 +116,7 @@ const aur_square_set aur_set_hammersley = {
     .scramblings = AUR_SCRAMBLES_ALL,
     .prepare = prepare,
     .fill = fill_hammersley,
+    .fill_pairs = fill_hammersley_pairs,
 };
 
 const aur_square_set aur_set_van_der_corput = {

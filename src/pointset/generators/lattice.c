@@ -8,34 +8,49 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "pointset/runs.h"
-#include "pointset/set.h"
+#include "pointset/digits/run.h"
 
 static uint64_t multiply_modulo(uint64_t a, uint64_t b, uint64_t n) {
     __extension__ typedef unsigned __int128 wide;
     return (uint64_t)((wide)a * b % n);
 }
 
+/* False for coordinates with an offset, which are no fractions of whole numbers. */
+static bool make_run(const aur_pointset *set, size_t dimension, uint64_t first, aur_run *run) {
+    const aur_lattice *const data = set->data;
+    if (dimension == 0 && data->offset > 0.0)
+        return false;
+    if (data->golden && dimension == 1) {
+        aur_run_of_fraction(0, aur_golden_fraction, first, run);
+        return true;
+    }
+    const uint64_t step = data->vector[dimension] % set->size;
+    aur_run_of_multiples(multiply_modulo(first % set->size, step, set->size), step, set->size, run);
+    return true;
+}
+
 static void fill(const aur_pointset *set, const aur_block *block) {
     const aur_lattice *const data = set->data;
     for (size_t d = 0; d < block->dimension_count; ++d) {
-        const size_t dimension = block->first_dimension + d;
         double *const out = block->data + d * block->coordinate_stride;
-        if (data->golden && dimension == 1) {
-            aur_runs()->recurrence(0, aur_golden_fraction, block->first, block->count, out);
+        aur_run run;
+        if (make_run(set, block->first_dimension + d, block->first, &run)) {
+            run.next(&run, block->count, out);
             continue;
         }
-        if (dimension == 0 && data->offset > 0.0) {
-            for (size_t i = 0; i < block->count; ++i) {
-                const double x = ((double)(int64_t)(block->first + i) + data->offset) / (double)set->size;
-                out[i] = x < 1.0 ? x : AUR_BELOW_ONE;
-            }
-            continue;
+        for (size_t i = 0; i < block->count; ++i) {
+            const double x = ((double)(int64_t)(block->first + i) + data->offset) / (double)set->size;
+            out[i] = x < 1.0 ? x : AUR_BELOW_ONE;
         }
-        const uint64_t step = data->vector[dimension] % set->size;
-        aur_runs()->multiples(multiply_modulo(block->first % set->size, step, set->size), step, set->size,
-                              block->count, out);
     }
+}
+
+static bool fill_pairs(const aur_pointset *set, const aur_block *block) {
+    aur_run x, y;
+    if (!make_run(set, 0, block->first, &x) || !make_run(set, 1, block->first, &y))
+        return false;
+    aur_run_pairs(&x, &y, block->count, block->data);
+    return true;
 }
 
 /* "1/a/b" */
@@ -175,6 +190,7 @@ const aur_square_set aur_set_rank1 = {
     .scramblings = AUR_SCRAMBLES_SHIFT,
     .prepare = prepare_rank1,
     .fill = fill,
+    .fill_pairs = fill_pairs,
 };
 
 const aur_square_set aur_set_fibonacci_lattice = {
@@ -189,4 +205,5 @@ const aur_square_set aur_set_fibonacci_lattice = {
     .scramblings = AUR_SCRAMBLES_SHIFT,
     .prepare = prepare_fibonacci,
     .fill = fill,
+    .fill_pairs = fill_pairs,
 };

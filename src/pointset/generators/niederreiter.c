@@ -69,8 +69,8 @@ static void fill(const aur_pointset *set, const aur_block *block) {
     aur_fill_digital_block(set, block, make_matrix);
 }
 
-static void fill_pairs(const aur_pointset *set, const aur_block *block) {
-    aur_fill_digital_pairs(set, block, make_matrix);
+static bool fill_pairs(const aur_pointset *set, const aur_block *block) {
+    return aur_fill_digital_pairs(set, block, make_matrix);
 }
 
 static aur_result prepare(aur_pointset *set, aur_parameters *keys, aur_error *error) {

@@ -10,8 +10,8 @@
 
 #include <stdlib.h>
 
+#include "pointset/digits/run.h"
 #include "pointset/generators/golden.h"
-#include "pointset/runs.h"
 #include "pointset/set.h"
 
 /* The upper 128 bits of the product of two 128-bit fractions, cut; at most a few units too small. */
@@ -84,9 +84,21 @@ static aur_result prepare_r2(aur_pointset *set, aur_parameters *parameters, aur_
 
 static void fill(const aur_pointset *set, const aur_block *block) {
     const aur_recurrence *const recurrence = set->data;
-    for (size_t d = 0; d < block->dimension_count; ++d)
-        aur_runs()->recurrence(recurrence->start, recurrence->steps[block->first_dimension + d], block->first,
-                               block->count, block->data + d * block->coordinate_stride);
+    for (size_t d = 0; d < block->dimension_count; ++d) {
+        aur_multiples_of_fraction run = {.step = recurrence->steps[block->first_dimension + d],
+                                         .start = recurrence->start,
+                                         .first = block->first};
+        aur_runs(block->count)->fractions(&run, block->count, block->data + d * block->coordinate_stride);
+    }
+}
+
+static bool fill_pairs(const aur_pointset *set, const aur_block *block) {
+    const aur_recurrence *const recurrence = set->data;
+    aur_run x, y;
+    aur_run_of_fraction(recurrence->start, recurrence->steps[0], block->first, &x);
+    aur_run_of_fraction(recurrence->start, recurrence->steps[1], block->first, &y);
+    aur_run_pairs(&x, &y, block->count, block->data);
+    return true;
 }
 
 const aur_square_set aur_set_golden = {
@@ -115,4 +127,5 @@ const aur_square_set aur_set_r2 = {
     .scramblings = AUR_SCRAMBLES_SHIFT,
     .prepare = prepare_r2,
     .fill = fill,
+    .fill_pairs = fill_pairs,
 };
