@@ -56,8 +56,9 @@ typedef struct aur_row {
 typedef struct aur_table {
     const char *kind;    /* "integrator": the word in messages and in `aureole help integrator` */
     const char *summary; /* one line */
-    const aur_row *(*row)(size_t index); /* NULL beyond the last */
-    const aur_row *common;               /* the keys that every row takes besides its own; or NULL */
+    size_t count;
+    const aur_row *const *rows;
+    const aur_row *common; /* the keys that every row takes besides its own; or NULL */
 } aur_table;
 
 /* The tables of point sets and of measures, one after the other; NULL beyond the last. Those of what pictures

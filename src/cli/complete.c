@@ -59,8 +59,8 @@ static void offer_rows(const partial *word, const aur_table *kind) {
     const char *const name = word->typed + word->kept;
     const size_t length = strcspn(name, ":");
     const partial key = name[length] == ':' ? after_last(*word, ":,") : *word;
-    for (size_t i = 0; kind->row(i) != NULL; ++i) {
-        const aur_row *const row = kind->row(i);
+    for (size_t i = 0; i < kind->count; ++i) {
+        const aur_row *const row = kind->rows[i];
         if (key.kept == word->kept)
             offer_name(word, row->name, row->summary);
         else if (strlen(row->name) == length && strncmp(row->name, name, length) == 0)

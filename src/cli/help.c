@@ -143,10 +143,10 @@ static int print_row(const aur_table *kind, const aur_row *row, report_format fo
 
 static int print_kind(const aur_table *kind, report_format format) {
     report_table *const table = report_create(3, (const char *const[]){"name", "summary", "source"});
-    for (size_t i = 0; kind->row(i) != NULL; ++i) {
-        report_text(table, kind->row(i)->name);
-        report_text(table, kind->row(i)->summary);
-        report_text(table, kind->row(i)->source);
+    for (size_t i = 0; i < kind->count; ++i) {
+        report_text(table, kind->rows[i]->name);
+        report_text(table, kind->rows[i]->summary);
+        report_text(table, kind->rows[i]->source);
     }
     return cli_finish(table, format);
 }
@@ -210,10 +210,10 @@ static int refuse_name(const name_list *list, const char *kind, const char *name
 
 static int help_on_row(const aur_table *kind, const char *name, report_format format) {
     name_list list = {0};
-    for (size_t i = 0; kind->row(i) != NULL; ++i) {
-        add_name(&list, kind->row(i)->name);
-        if (strcmp(kind->row(i)->name, name) == 0)
-            return print_row(kind, kind->row(i), format);
+    for (size_t i = 0; i < kind->count; ++i) {
+        add_name(&list, kind->rows[i]->name);
+        if (strcmp(kind->rows[i]->name, name) == 0)
+            return print_row(kind, kind->rows[i], format);
     }
     char topic[64];
     aur_format(topic, sizeof topic, " %s", kind->kind);

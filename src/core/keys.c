@@ -279,14 +279,11 @@ aur_result aur_row_read(const aur_row *row, aur_parameters *parameters, void *fi
 }
 
 static const char *row_name(const void *table, size_t index) {
-    return ((const aur_table *)table)->row(index)->name;
+    return ((const aur_table *)table)->rows[index]->name;
 }
 
 aur_names aur_names_of_table(const aur_table *table) {
-    aur_names names = {.at = row_name, .table = table};
-    while (table->row(names.count) != NULL)
-        ++names.count;
-    return names;
+    return (aur_names){table->count, row_name, table};
 }
 
 aur_result aur_table_find(const aur_table *table, const aur_parameters *parameters, const aur_row **row,
@@ -294,6 +291,6 @@ aur_result aur_table_find(const aur_table *table, const aur_parameters *paramete
     size_t index;
     const aur_result result = aur_names_choose(aur_names_of_table(table), table->kind, parameters->plugin,
                                                parameters->location, &index, error);
-    *row = result == AUR_OK ? table->row(index) : NULL;
+    *row = result == AUR_OK ? table->rows[index] : NULL;
     return result;
 }

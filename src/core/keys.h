@@ -59,6 +59,8 @@
 
 /* The two fields of a row, of an array of keys. */
 #define AUR_ROW_KEYS(keys_) .key_count = sizeof(keys_) / sizeof(keys_)[0], .keys = (keys_)
+/* The two fields of a table, of an array of pointers to rows. */
+#define AUR_TABLE_ROWS(rows_) .count = sizeof(rows_) / sizeof(rows_)[0], .rows = (rows_)
 
 /* A colour of a material or light: one for the whole surface, or a texture. */
 typedef struct aur_color {

@@ -10,16 +10,16 @@
 #include "core/options.h"
 #include "image/format.h"
 
-#define ROW_OF(name) &aur_image_format_##name,
-static const aur_image_format *const formats[] = {AUR_IMAGE_FORMATS(ROW_OF)};
+#define FORMAT_OF(name) &aur_image_format_##name,
+static const aur_image_format *const formats[] = {AUR_IMAGE_FORMATS(FORMAT_OF)};
+
+#define ROW_OF(name) &aur_image_format_##name.row,
+static const aur_row *const rows[] = {AUR_IMAGE_FORMATS(ROW_OF)};
 
 enum { FORMAT_COUNT = sizeof formats / sizeof formats[0] };
 
-static const aur_row *row_at(size_t index) {
-    return index < FORMAT_COUNT ? &formats[index]->row : NULL;
-}
-
-const aur_table aur_image_format_table = {"picture", "formats of picture files, by extension", row_at, NULL};
+const aur_table aur_image_format_table = {
+    .kind = "picture", .summary = "formats of picture files, by extension", AUR_TABLE_ROWS(rows)};
 
 static const aur_image_format *recognize(const aur_image_source *source) {
     for (size_t i = 0; i < FORMAT_COUNT; ++i)

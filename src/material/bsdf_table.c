@@ -25,11 +25,8 @@ MATERIALS(DECLARE)
 #define ADDRESS(name) &aur_bsdf_##name.row,
 static const aur_row *const rows[] = {MATERIALS(ADDRESS)};
 
-static const aur_row *row_at(size_t index) {
-    return index < sizeof rows / sizeof rows[0] ? rows[index] : NULL;
-}
-
-const aur_table aur_bsdf_table = {"bsdf", "materials: how surfaces scatter light", row_at, NULL};
+const aur_table aur_bsdf_table = {
+    .kind = "bsdf", .summary = "materials: how surfaces scatter light", AUR_TABLE_ROWS(rows)};
 
 /* What a material has from the textures and materials among its parameters. */
 static void inherit(const aur_parameters *parameters, aur_bsdf *bsdf) {

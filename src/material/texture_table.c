@@ -14,11 +14,8 @@ TEXTURES(DECLARE)
 #define ADDRESS(name) &aur_texture_##name.row,
 static const aur_row *const rows[] = {TEXTURES(ADDRESS)};
 
-static const aur_row *row_at(size_t index) {
-    return index < sizeof rows / sizeof rows[0] ? rows[index] : NULL;
-}
-
-const aur_table aur_texture_table = {"texture", "colours that vary over a surface", row_at, NULL};
+const aur_table aur_texture_table = {
+    .kind = "texture", .summary = "colours that vary over a surface", AUR_TABLE_ROWS(rows)};
 
 aur_result aur_texture_create(aur_parameters *parameters, aur_texture **texture, aur_error *error) {
     *texture = NULL;

@@ -63,10 +63,6 @@ struct aur_pointset {
     void *data;                          /* the generator's own, one allocation; NULL when it needs none */
 };
 
-/* The table, for the listing of all sets. */
-size_t aur_square_set_count(void);
-const aur_square_set *aur_square_set_at(size_t index);
-
 /* The most points that such a set has. */
 uint64_t aur_size_limit(const aur_set_description *set, size_t dimension);
 

@@ -125,31 +125,28 @@ static const aur_key gaussian_keys[] = {
                      "standard deviation in pixels; it ends at 4 of them")},
 };
 
+static const aur_row box = {.name = "box", .summary = "the mean over the pixel"};
+static const aur_row tent = {.name = "tent", .summary = "falls linearly to 0", AUR_ROW_KEYS(tent_keys)};
+static const aur_row gaussian = {.name = "gaussian", .summary = "a bell", AUR_ROW_KEYS(gaussian_keys)};
+static const aur_row mitchell = {.name = "mitchell",
+                                 .summary = "sharpens a little: it has negative parts",
+                                 .source = "Mitchell, Netravali 1988"};
+
 /* In the order of aur_filter_kind. */
-static const aur_row rows[] = {
-    {.name = "box", .summary = "the mean over the pixel"},
-    {.name = "tent", .summary = "falls linearly to 0", AUR_ROW_KEYS(tent_keys)},
-    {.name = "gaussian", .summary = "a bell", AUR_ROW_KEYS(gaussian_keys)},
-    {.name = "mitchell",
-     .summary = "sharpens a little: it has negative parts",
-     .source = "Mitchell, Netravali 1988"},
-};
+static const aur_row *const rows[] = {&box, &tent, &gaussian, &mitchell};
 
-static const aur_row *row_at(size_t index) {
-    return index < sizeof rows / sizeof rows[0] ? &rows[index] : NULL;
-}
-
-const aur_table aur_filter_table = {"rfilter", "how samples are weighed around a pixel", row_at, NULL};
+const aur_table aur_filter_table = {
+    .kind = "rfilter", .summary = "how samples are weighed around a pixel", AUR_TABLE_ROWS(rows)};
 
 const aur_filter *aur_filter_find(const char *name) {
     for (size_t i = 0; i < FILTER_COUNT; ++i)
-        if (strcmp(rows[i].name, name) == 0)
+        if (strcmp(rows[i]->name, name) == 0)
             return &filters[i];
     return NULL;
 }
 
 const char *aur_filter_name(const aur_filter *filter) {
-    return rows[filter->kind].name;
+    return rows[filter->kind]->name;
 }
 
 aur_result aur_filter_create(aur_parameters *parameters, aur_filter *filter, aur_error *error) {
@@ -157,6 +154,6 @@ aur_result aur_filter_create(aur_parameters *parameters, aur_filter *filter, aur
     const aur_result result = aur_table_find(&aur_filter_table, parameters, &row, error);
     if (result != AUR_OK)
         return result;
-    *filter = filters[row - rows];
+    *filter = *aur_filter_find(row->name);
     return aur_row_read(row, parameters, filter, error);
 }

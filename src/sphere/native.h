@@ -5,7 +5,7 @@
 #include <aureole/sphere.h>
 #include <stdbool.h>
 
-#include "pointset/set.h"
+#include "pointset/sets.h"
 
 /* What a native set fills: `count` points spread uniformly over the cap z >= 1 - height (1 hemisphere and
  * axes, 2 sphere). */
@@ -35,6 +35,16 @@ typedef struct aur_native_set {
 #define AUR_DECLARE_NATIVE_SET(name) extern const aur_native_set aur_native_##name;
 AUR_NATIVE_SETS(AUR_DECLARE_NATIVE_SET)
 #undef AUR_DECLARE_NATIVE_SET
+
+#define AUR_ONE_MORE(name) +1
+enum {
+    AUR_SQUARE_SET_COUNT = 0 AUR_SQUARE_SETS(AUR_ONE_MORE),
+    AUR_SET_COUNT = AUR_SQUARE_SET_COUNT AUR_NATIVE_SETS(AUR_ONE_MORE)
+};
+#undef AUR_ONE_MORE
+
+/* Of all sets; for the table of samplers, too, in the other library. */
+AUR_EXPERIMENTAL extern const aur_row *const aur_set_rows[AUR_SET_COUNT];
 
 /* The native set that a SET's text names, or NULL. */
 const aur_native_set *aur_native_find(const char *set);

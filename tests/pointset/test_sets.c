@@ -2,7 +2,7 @@
  */
 #include "points.h"
 
-#include "pointset/set.h"
+#include "sphere/native.h"
 
 static aur_pointset_options options_of(uint64_t count) {
     return (aur_pointset_options){.size = sizeof(aur_pointset_options), .count = count};
@@ -177,8 +177,8 @@ static bool needs_a_file(const char *name) {
  */
 static void every_set_is_random_access(void **state) {
     (void)state;
-    for (size_t k = 0; k < aur_square_set_count(); ++k) {
-        const aur_square_set *const kind = aur_square_set_at(k);
+    for (size_t k = 0; k < AUR_SQUARE_SET_COUNT; ++k) {
+        const aur_square_set *const kind = (const aur_square_set *)aur_set_rows[k];
         if (needs_a_file(kind->description.row.name))
             continue;
         for (int s = AUR_SCRAMBLE_NONE; s <= AUR_SCRAMBLE_ROTATE; ++s) {
@@ -209,8 +209,8 @@ static void every_set_is_random_access(void **state) {
 /* The first points of a larger set are the smaller set, where the table says so. */
 static void extensible_sets_extend(void **state) {
     (void)state;
-    for (size_t k = 0; k < aur_square_set_count(); ++k) {
-        const aur_square_set *const kind = aur_square_set_at(k);
+    for (size_t k = 0; k < AUR_SQUARE_SET_COUNT; ++k) {
+        const aur_square_set *const kind = (const aur_square_set *)aur_set_rows[k];
         if (needs_a_file(kind->description.row.name))
             continue;
         const size_t dimension = kind->description.dimensions[1] < 2 ? kind->description.dimensions[1] : 2;

@@ -19,9 +19,9 @@ static void check_key(const aur_table *table, const aur_row *row, const aur_key 
 }
 
 static void check_table(const aur_table *table) {
-    assert_non_null(table->row(0));
-    for (size_t r = 0; table->row(r) != NULL; ++r) {
-        const aur_row *const row = table->row(r);
+    assert_non_null(table->rows[0]);
+    for (size_t r = 0; r < table->count; ++r) {
+        const aur_row *const row = table->rows[r];
         assert_true(row->name[0] != '\0' && row->summary[0] != '\0');
         for (size_t k = 0; aur_row_key(row, k) != NULL; ++k)
             check_key(table, row, aur_row_key(row, k));

@@ -18,14 +18,6 @@ static const aur_square_set *const sets[] = {
 
 enum { SET_COUNT = sizeof sets / sizeof sets[0] };
 
-size_t aur_square_set_count(void) {
-    return SET_COUNT;
-}
-
-const aur_square_set *aur_square_set_at(size_t index) {
-    return index < SET_COUNT ? sets[index] : NULL;
-}
-
 static const char *name_of(const void *table, size_t index) {
     (void)table;
     return sets[index]->description.row.name;

@@ -11,26 +11,21 @@
 #include "core/vector3d.h"
 #include "sphere/native.h"
 
-#define ROW_OF(name) &aur_measure_##name,
-static const aur_measure_row *const rows[] = {AUR_MEASURES(ROW_OF)};
+#define ROW_OF(name) &aur_measure_##name.description.row,
+static const aur_row *const rows[] = {AUR_MEASURES(ROW_OF)};
 
-enum { ROW_COUNT = sizeof rows / sizeof rows[0] };
+static const aur_table measures = {
+    .kind = "measure", .summary = "figures of the quality of points", AUR_TABLE_ROWS(rows)};
 
 static const double unit_tolerance = 1e-6;
 
 size_t aur_measure_count(void) {
-    return ROW_COUNT;
+    return measures.count;
 }
 
 const aur_measure_description *aur_measure_at(size_t index) {
-    return index < ROW_COUNT ? &rows[index]->description : NULL;
+    return index < measures.count ? &((const aur_measure_row *)rows[index])->description : NULL;
 }
-
-static const aur_row *row_at(size_t index) {
-    return index < ROW_COUNT ? &rows[index]->description.row : NULL;
-}
-
-static const aur_table measures = {"measure", "figures of the quality of points", row_at, NULL};
 
 const aur_table *aur_table_at(size_t index) {
     const aur_table *const tables[] = {&aur_set_table, &measures};
@@ -47,9 +42,9 @@ static aur_result find_row(const char *metric, const aur_measure_row **row, cons
         aur_names_choose(aur_names_of_table(&measures), "measure", name, (aur_location){0}, &index, error);
     if (result != AUR_OK)
         return result;
-    *row = rows[index];
+    *row = (const aur_measure_row *)rows[index];
     *parameter = metric[length] == ':' ? metric + length + 1 : NULL;
-    const char *const wanted = rows[index]->description.parameter;
+    const char *const wanted = (*row)->description.parameter;
     if (*parameter != NULL && wanted == NULL)
         return aur_fail(error, AUR_ERROR_ARGUMENT, "measure '%s' takes no parameter, not '%s'", name,
                         *parameter);

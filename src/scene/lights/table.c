@@ -17,11 +17,7 @@ EMITTERS(DECLARE)
 #define ADDRESS(name) &aur_emitter_##name.row,
 static const aur_row *const rows[] = {EMITTERS(ADDRESS)};
 
-static const aur_row *row_at(size_t index) {
-    return index < sizeof rows / sizeof rows[0] ? rows[index] : NULL;
-}
-
-const aur_table aur_emitter_table = {"emitter", "lights", row_at, NULL};
+const aur_table aur_emitter_table = {.kind = "emitter", .summary = "lights", AUR_TABLE_ROWS(rows)};
 
 aur_result aur_emitter_create(aur_parameters *parameters, aur_emitter **emitter, aur_error *error) {
     *emitter = NULL;

@@ -6,6 +6,7 @@
 
 #include "core/text.h"
 #include "scene/load/loader.h"
+#include "sphere/native.h"
 
 aur_result aur_build_filter(aur_loader *self, aur_parameters *parameters, void **object) {
     *object = &self->scene->filter;
@@ -63,16 +64,13 @@ static const aur_key film_key_table[] = {
      .maximum = INFINITY},
 };
 
-static const aur_row film_rows[] = {
-    {.name = "hdrfilm", .summary = "the picture", .source = "Mitsuba 3", AUR_ROW_KEYS(film_key_table)},
-    {.name = "ldrfilm", .summary = "read as hdrfilm", .source = "Mitsuba 0.6", AUR_ROW_KEYS(film_key_table)},
-};
+static const aur_row hdrfilm = {
+    .name = "hdrfilm", .summary = "the picture", .source = "Mitsuba 3", AUR_ROW_KEYS(film_key_table)};
+static const aur_row ldrfilm = {
+    .name = "ldrfilm", .summary = "read as hdrfilm", .source = "Mitsuba 0.6", AUR_ROW_KEYS(film_key_table)};
+static const aur_row *const film_rows[] = {&hdrfilm, &ldrfilm};
 
-static const aur_row *film_row_at(size_t index) {
-    return index < sizeof film_rows / sizeof film_rows[0] ? &film_rows[index] : NULL;
-}
-
-const aur_table aur_film_table = {"film", "sizes of pictures", film_row_at, NULL};
+const aur_table aur_film_table = {.kind = "film", .summary = "sizes of pictures", AUR_TABLE_ROWS(film_rows)};
 
 /* The part of the picture that is to be rendered. */
 static aur_result set_crop(const film_keys *p, const aur_parameters *parameters, aur_film_settings *film,
@@ -144,13 +142,10 @@ static const aur_key sampler_keys[] = {
 static const aur_row sampler_common = {
     .name = "sampler", .summary = "what every sampler takes", AUR_ROW_KEYS(sampler_keys)};
 
-static const aur_row *sampler_row_at(size_t index) {
-    const aur_set_description *const set = aur_set_at(index);
-    return set != NULL ? &set->row : NULL;
-}
-
-const aur_table aur_sampler_table = {"sampler", "the numbers of a camera's samples: any set of the square",
-                                     sampler_row_at, &sampler_common};
+const aur_table aur_sampler_table = {.kind = "sampler",
+                                     .summary = "the numbers of a camera's samples: any set of the square",
+                                     AUR_TABLE_ROWS(aur_set_rows),
+                                     .common = &sampler_common};
 
 aur_result aur_build_sampler(aur_loader *self, aur_parameters *parameters, void **object) {
     aur_scene *const scene = self->scene;

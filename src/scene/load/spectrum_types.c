@@ -135,29 +135,22 @@ static aur_result create_sampled(const aur_parameters *parameters, const spectru
     return result;
 }
 
-static const spectrum_type types[] = {
-    {{.name = "uniform", .summary = "the same in all channels", AUR_ROW_KEYS(uniform_keys)}, create_grey},
-    {{.name = "rawconstant", .summary = "read as uniform", AUR_ROW_KEYS(uniform_keys)}, create_grey},
-    {{.name = "d65", .summary = "daylight: white", AUR_ROW_KEYS(d65_keys)}, create_grey},
-    {{.name = "srgb", .summary = "a colour", AUR_ROW_KEYS(srgb_keys)}, create_srgb},
-    {{.name = "blackbody",
-      .summary = "a glowing body",
-      .source = "Planck 1900",
-      AUR_ROW_KEYS(blackbody_keys)},
-     create_blackbody},
-    {{.name = "regular", .summary = "linear between values at equal steps", AUR_ROW_KEYS(regular_keys)},
-     create_sampled},
-    {{.name = "irregular",
-      .summary = "linear between values at any wavelengths",
-      AUR_ROW_KEYS(irregular_keys)},
-     create_sampled},
+#define TYPE(create_, ...) &(const spectrum_type){{__VA_ARGS__}, create_}.row
+static const aur_row *const rows[] = {
+    TYPE(create_grey, .name = "uniform", .summary = "the same in all channels", AUR_ROW_KEYS(uniform_keys)),
+    TYPE(create_grey, .name = "rawconstant", .summary = "read as uniform", AUR_ROW_KEYS(uniform_keys)),
+    TYPE(create_grey, .name = "d65", .summary = "daylight: white", AUR_ROW_KEYS(d65_keys)),
+    TYPE(create_srgb, .name = "srgb", .summary = "a colour", AUR_ROW_KEYS(srgb_keys)),
+    TYPE(create_blackbody, .name = "blackbody", .summary = "a glowing body", .source = "Planck 1900",
+         AUR_ROW_KEYS(blackbody_keys)),
+    TYPE(create_sampled, .name = "regular", .summary = "linear between values at equal steps",
+         AUR_ROW_KEYS(regular_keys)),
+    TYPE(create_sampled, .name = "irregular", .summary = "linear between values at any wavelengths",
+         AUR_ROW_KEYS(irregular_keys)),
 };
 
-static const aur_row *row_at(size_t index) {
-    return index < sizeof types / sizeof types[0] ? &types[index].row : NULL;
-}
-
-const aur_table aur_spectrum_table = {"spectrum", "colours by wavelength", row_at, NULL};
+const aur_table aur_spectrum_table = {
+    .kind = "spectrum", .summary = "colours by wavelength", AUR_TABLE_ROWS(rows)};
 
 aur_result aur_spectrum_create(aur_parameters *parameters, aur_spectrum_use use, double rgb[3],
                                aur_error *error) {

@@ -36,11 +36,8 @@ static const aur_key common_keys[] = {
 static const aur_row common = {
     .name = "sensor", .summary = "what every sensor takes", AUR_ROW_KEYS(common_keys)};
 
-static const aur_row *row_at(size_t index) {
-    return index < sizeof rows / sizeof rows[0] ? rows[index] : NULL;
-}
-
-const aur_table aur_sensor_table = {"sensor", "cameras", row_at, &common};
+const aur_table aur_sensor_table = {
+    .kind = "sensor", .summary = "cameras", AUR_TABLE_ROWS(rows), .common = &common};
 
 static aur_result read_common(aur_parameters *parameters, aur_sensor *sensor, aur_error *error) {
     sensor_keys p = {.film = NULL};

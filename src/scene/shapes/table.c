@@ -33,11 +33,8 @@ static const aur_key common_keys[] = {
 static const aur_row common = {
     .name = "shape", .summary = "what every shape takes", AUR_ROW_KEYS(common_keys)};
 
-static const aur_row *row_at(size_t index) {
-    return index < sizeof rows / sizeof rows[0] ? rows[index] : NULL;
-}
-
-const aur_table aur_shape_table = {"shape", "surfaces", row_at, &common};
+const aur_table aur_shape_table = {
+    .kind = "shape", .summary = "surfaces", AUR_TABLE_ROWS(rows), .common = &common};
 
 aur_result aur_shape_create(aur_parameters *parameters, const aur_xml_document *document, aur_shape **shape,
                             aur_error *error) {

@@ -5,34 +5,26 @@
 
 #include <aureole/sphere.h>
 
-#include "core/names.h"
-#include "pointset/set.h"
+#include "core/keys.h"
 #include "sphere/native.h"
 
-static const aur_native_set *const natives[] = {
-#define ROW(name) &aur_native_##name,
-    AUR_NATIVE_SETS(ROW)
-#undef ROW
-};
-enum { NATIVE_COUNT = sizeof natives / sizeof natives[0], NAME_CAPACITY = 64 };
+enum { NAME_CAPACITY = 64 };
+
+#define SQUARE(name) &aur_set_##name.description.row,
+#define NATIVE(name) &aur_native_##name.description.row,
+const aur_row *const aur_set_rows[AUR_SET_COUNT] = {AUR_SQUARE_SETS(SQUARE) AUR_NATIVE_SETS(NATIVE)};
+
+const aur_table aur_set_table = {.kind = "set",
+                                 .summary = "point sets of the square, the cube and the sphere",
+                                 AUR_TABLE_ROWS(aur_set_rows)};
 
 size_t aur_set_count(void) {
-    return aur_square_set_count() + NATIVE_COUNT;
+    return AUR_SET_COUNT;
 }
 
 const aur_set_description *aur_set_at(size_t index) {
-    const size_t squares = aur_square_set_count();
-    if (index < squares)
-        return &aur_square_set_at(index)->description;
-    return index < squares + NATIVE_COUNT ? &natives[index - squares]->description : NULL;
+    return index < AUR_SET_COUNT ? (const aur_set_description *)aur_set_rows[index] : NULL;
 }
-
-static const aur_row *row_at(size_t index) {
-    const aur_set_description *const set = aur_set_at(index);
-    return set != NULL ? &set->row : NULL;
-}
-
-const aur_table aur_set_table = {"set", "point sets of the square, the cube and the sphere", row_at, NULL};
 
 const aur_set_description *aur_set_find(const char *set) {
     const size_t length = strcspn(set, ":");
@@ -46,19 +38,14 @@ const aur_set_description *aur_set_find(const char *set) {
 
 const aur_native_set *aur_native_find(const char *set) {
     const aur_set_description *const row = aur_set_find(set);
-    for (size_t i = 0; i < NATIVE_COUNT; ++i)
-        if (&natives[i]->description == row)
-            return natives[i];
+    for (size_t i = AUR_SQUARE_SET_COUNT; row != NULL && i < AUR_SET_COUNT; ++i)
+        if (aur_set_rows[i] == &row->row)
+            return (const aur_native_set *)row;
     return NULL;
 }
 
-static const char *name_of(const void *table, size_t index) {
-    (void)table;
-    return aur_set_at(index)->row.name;
-}
-
 aur_result aur_set_check_name(const char *set, aur_error *error) {
-    const aur_names all = {aur_set_count(), name_of, NULL};
+    const aur_names all = aur_names_of_table(&aur_set_table);
     char wanted[NAME_CAPACITY];
     const size_t length = strcspn(set, ":");
     snprintf(wanted, sizeof wanted, "%.*s", (int)(length < sizeof wanted ? length : sizeof wanted - 1), set);

@@ -19,14 +19,10 @@ INTEGRATORS(DECLARE)
 #define ADDRESS(name) &aur_integrator_##name.row,
 static const aur_row *const rows[] = {INTEGRATORS(ADDRESS)};
 
-static const aur_row *row_at(size_t index) {
-    return index < sizeof rows / sizeof rows[0] ? rows[index] : NULL;
-}
-
 const aur_table aur_integrator_table = {
     .kind = "integrator",
     .summary = "how the light that reaches the camera is found",
-    .row = row_at,
+    AUR_TABLE_ROWS(rows),
 };
 
 /* An integrator whose keys have been read. */

@@ -73,9 +73,9 @@ static void tables(void) {
     const aur_table *const sets = aur_table_at(0);
     require(sets != NULL && aur_table_at(1000) == NULL, "aur_table_at");
     const aur_row *row = NULL;
-    for (size_t i = 0; sets->row(i) != NULL && row == NULL; ++i)
-        if (strcmp(sets->row(i)->name, "faure") == 0)
-            row = sets->row(i);
+    for (size_t i = 0; i < sets->count && row == NULL; ++i)
+        if (strcmp(sets->rows[i]->name, "faure") == 0)
+            row = sets->rows[i];
     require(row != NULL && aur_row_key(row, 0) != NULL && aur_row_key(row, 1000) == NULL, "aur_row_key");
     const aur_key *const key = aur_row_find_key(row, "base");
     require(key != NULL && aur_row_find_key(row, "nothing") == NULL, "aur_row_find_key");
