@@ -6,8 +6,7 @@
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
     aur_points *points;
     aur_error error = {0};
-    fuzz_write_file("fuzz-points", data, size);
-    const aur_result result = aur_points_read("fuzz-points", &points, &error);
+    const aur_result result = aur_points_read_memory("fuzz-points", size, data, NULL, &points, &error);
     if (result != AUR_OK) {
         fuzz_require(error.message[0] != '\0', "a failure without a message");
         fuzz_require(result != AUR_ERROR_INTERNAL && result != AUR_ERROR_OPEN, "a failure of the wrong kind");

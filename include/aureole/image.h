@@ -2,7 +2,7 @@
 #ifndef AUREOLE_IMAGE_H
 #define AUREOLE_IMAGE_H
 
-#include <aureole/core.h>
+#include <aureole/tables.h>
 #include <stdbool.h>
 #include <string.h>
 
@@ -56,16 +56,13 @@ typedef enum aur_tone {
 
 enum { AUR_TONE_COUNT = AUR_TONE_FILMIC + 1 };
 
-/* "srgb", "filmic" */
-AUR_API aur_result aur_tone_from_name(const char *name, aur_tone *tone, aur_error *error) AUR_NONNULL(1, 2);
-
 /* All zero but `size`, as aur_image_write_options_default makes it, writes radiance as it is. */
 typedef struct aur_image_write_options {
     size_t size;        /* of the caller's struct, so that it can grow */
     float exposure;     /* stops, finite; PNG only */
     aur_tone tone;      /* PNG only */
     bool half;          /* EXR: 16-bit floats; finite values are kept finite (at most 65504) */
-    const char *format; /* "exr", "pfm", "hdr", "png"; NULL: by extension */
+    const char *format; /* an extension: "exr", ...; NULL: that of the path, and exr for "-" */
 } aur_image_write_options;
 
 static inline aur_image_write_options aur_image_write_options_default(void) {
@@ -74,6 +71,12 @@ static inline aur_image_write_options aur_image_write_options_default(void) {
     options.size = sizeof options;
     return options;
 }
+
+/* The row, of the table "picture", of the format that aur_image_write writes to this path: its name is the
+ * extension, its keys the options that it takes. `format` as in the options, or NULL. NAME when there is none
+ * that can be written; *row is NULL then. */
+AUR_API aur_result aur_image_find_writer(const char *path, const char *format, const aur_row **row,
+                                         aur_error *error) AUR_NONNULL(1, 3);
 
 /* EXR holds every channel; the others R, G, B (or a single channel: PFM and PNG as grey, HDR as three equal
  * ones). The file is replaced whole or not at all; "-" is standard output, as EXR unless the options say

@@ -298,6 +298,11 @@ AUR_API aur_result aur_points_read(const char *path, aur_points **points, aur_er
  * hemisphere. */
 AUR_API aur_result aur_points_read_on(const char *path, aur_domain domain, aur_points **points,
                                       aur_error *error) AUR_NONNULL(1, 3);
+/* The same from the bytes of a file, data[size]; `name` stands in messages. `domain` as for
+ * aur_points_read_on, or NULL. */
+AUR_API aur_result aur_points_read_memory(const char *name, size_t size, const void *data,
+                                          const aur_domain *domain, aur_points **points, aur_error *error)
+    AUR_NONNULL(1, 3, 5);
 
 /* How points are written. CSV: a header (u,v on the square, x,y on the disk, x,y,z on hemisphere and sphere,
  * u1,u2,... on the cube, and w where there are weights), 17 significant digits. JSON: an object with "points"

@@ -1,7 +1,4 @@
 /* aureole convert: from one picture format to another. */
-#include <string.h>
-#include <strings.h>
-
 #include "cli/picture.h"
 
 typedef struct convert_options {
@@ -18,38 +15,32 @@ static const cli_option options[] = {
     {CLI_FLAG(convert_options, write.half, "half", "16-bit floats instead of 32-bit ones (EXR)")},
     {CLI_TEXT(convert_options, write.format, "to", "FORMAT", NULL,
               "the format, where the name of OUT does not tell"),
-     .key.words = (const char *const[]){"exr", "pfm", "hdr", "png", NULL}},
+     .name = cli_picture_format},
     {.key = {0}}};
 
 /* Options that would have no effect are mistakes. */
-static bool options_fit(const cli_call *call, const char *output) {
-    const convert_options *const given = call->options;
-    const char *format = given->write.format;
-    if (format == NULL) {
-        const char *const dot = strrchr(output, '.');
-        format = dot != NULL ? dot + 1 : "exr";
-    }
-    if ((cli_given(call, "exposure") != NULL || cli_given(call, "tone") != NULL) &&
-        strcasecmp(format, "png") != 0) {
-        cli_bad_usage("convert: --exposure and --tone are for PNG: %s holds radiance as it is", format);
-        return false;
-    }
-    if (given->write.half && strcasecmp(format, "exr") != 0) {
-        cli_bad_usage("convert: --half is for EXR, not %s", format);
-        return false;
-    }
+static bool options_fit(const cli_call *call, const aur_row *format) {
+    static const char *const some[] = {"exposure", "tone", "half"};
+    for (size_t i = 0; i < sizeof some / sizeof some[0]; ++i)
+        if (cli_given(call, some[i]) != NULL && aur_row_find_key(format, some[i]) == NULL) {
+            cli_bad_usage("convert: --%s is not for %s: 'aureole help picture' tells what is", some[i],
+                          format->name);
+            return false;
+        }
     return true;
 }
 
 static int run(const cli_call *call) {
     convert_options *const given = call->options;
     const char *const output = call->operands[1];
-    if (!options_fit(call, output))
+    const aur_row *format;
+    aur_error error;
+    int status = cli_status(aur_image_find_writer(output, given->write.format, &format, &error), &error);
+    if (status != CLI_SUCCESS || !options_fit(call, format))
         return CLI_BAD_INPUT;
     aur_image *image = NULL;
-    int status = cli_read_picture(call->operands[0], &given->picture, &image);
+    status = cli_read_picture(call->operands[0], &given->picture, &image);
     if (status == CLI_SUCCESS) {
-        aur_error error;
         given->write.size = sizeof given->write;
         status = cli_status(aur_image_write(output, image, &given->write, &error), &error);
     }

@@ -13,6 +13,9 @@ typedef struct cli_picture {
 
 extern const cli_option cli_picture_options[]; /* of a cli_picture */
 
+/* The formats that a picture can be written in, by extension; NULL beyond the last. */
+const char *cli_picture_format(unsigned index);
+
 /* Reads a picture and makes of it what the options ask for. Prints what is wrong and returns the exit
  * status. */
 int cli_read_picture(const char *path, const cli_picture *options, aur_image **image);

@@ -50,7 +50,7 @@ static aur_result parse_crop(const char *text, void *field, aur_error *error) {
 
 static const cli_option options[] = {
     {CLI_TEXT(render_command, output, "output", "FILE", "SCENE.exr in the current folder",
-              "where the picture goes: .exr, .pfm, .hdr or .png"),
+              "where the picture goes: .exr, .png, ... (aureole help picture)"),
      .letter = 'o', .key.computed = true, .content = "file"},
     {CLI_TEXT(render_command, options.integrator, "integrator", "SPEC", NULL,
               "NAME[:key=value,...] instead of the scene's integrator"),
@@ -94,15 +94,12 @@ static void default_output(const char *scene, size_t capacity, char *output) {
 
 /* What can be known to fail is said before an hour is spent. */
 static bool check_output(const char *path) {
-    static const char *const extensions[] = {".exr", ".pfm", ".hdr", ".png"};
-    const char *const dot = strrchr(path, '.');
-    bool known = false;
-    for (size_t i = 0; i < sizeof extensions / sizeof extensions[0]; ++i)
-        known = known || (dot != NULL && strcmp(dot, extensions[i]) == 0);
-    if (!known) {
-        cli_bad_usage("-o: '%s' must end in .exr, .pfm, .hdr or .png", path);
-        return false;
-    }
+    aur_error error;
+    const aur_row *format;
+    if (aur_image_find_writer(path, NULL, &format, &error) != AUR_OK)
+        return cli_bad_usage("-o: %s", error.message), false;
+    if (strcmp(path, "-") == 0)
+        return cli_bad_usage("-o: a picture is rendered into a file, not to standard output"), false;
     return true;
 }
 

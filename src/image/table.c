@@ -66,9 +66,10 @@ aur_result aur_image_read(const char *path, aur_image **image, aur_error *error)
     return result;
 }
 
-/* The format to write, or NULL after an error. */
-static const aur_image_format *find_writer(const char *path, const char *wanted, aur_error *error) {
-    const char *extension = wanted;
+aur_result aur_image_find_writer(const char *path, const char *format, const aur_row **row,
+                                 aur_error *error) {
+    *row = NULL;
+    const char *extension = format;
     if (extension == NULL) {
         const char *const slash = strrchr(path, '/');
         const char *const dot = strrchr(slash != NULL ? slash : path, '.');
@@ -79,15 +80,16 @@ static const aur_image_format *find_writer(const char *path, const char *wanted,
     for (size_t i = 0; i < FORMAT_COUNT; ++i) {
         if (formats[i]->write == NULL)
             continue;
-        if (strcasecmp(extension, formats[i]->row.name) == 0)
-            return formats[i];
+        if (strcasecmp(extension, formats[i]->row.name) == 0) {
+            *row = &formats[i]->row;
+            return AUR_OK;
+        }
         names[count++] = formats[i]->row.name;
     }
     char list[128];
     aur_list_names(count - 1, names, list, sizeof list);
-    aur_fail(error, AUR_ERROR_NAME, "cannot tell how to write a picture from '%s': use %s or %s", extension,
-             list, names[count - 1]);
-    return NULL;
+    return aur_fail(error, AUR_ERROR_NAME, "cannot tell how to write a picture from '%s': use %s or %s",
+                    extension, list, names[count - 1]);
 }
 
 static aur_result write_image(const char *path, const aur_image *image,
@@ -102,9 +104,11 @@ static aur_result write_image(const char *path, const aur_image *image,
         return aur_fail(error, AUR_ERROR_ARGUMENT,
                         "cannot write a picture with exposure %g and tone curve %d", (double)own->exposure,
                         (int)own->tone);
-    const aur_image_format *const format = find_writer(path, own->format, error);
-    if (format == NULL)
-        return AUR_ERROR_NAME;
+    const aur_row *row;
+    result = aur_image_find_writer(path, own->format, &row, error);
+    if (result != AUR_OK)
+        return result;
+    const aur_image_format *const format = (const aur_image_format *)row;
     if (!format->every_channel)
         result = aur_image_require_color(path, image, target.channels, error);
     aur_file_writer writer = {0};

@@ -2,8 +2,6 @@
 
 #include <math.h>
 
-#include "core/names.h"
-
 static double clamp_unit(double value) {
     if (!(value > 0.0))
         return 0.0;
@@ -37,14 +35,4 @@ double aur_tone_apply(aur_tone tone, double radiance) {
     if (!(radiance > 0.0))
         return 0.0;
     return tone == AUR_TONE_FILMIC ? filmic(radiance) : clamp_unit(radiance);
-}
-
-aur_result aur_tone_from_name(const char *name, aur_tone *tone, aur_error *error) {
-    static const char *const names[] = {"srgb", "filmic"};
-    size_t index;
-    const aur_result result = aur_names_choose(aur_names_of(AUR_TONE_COUNT, names), "tone curve", name,
-                                               (aur_location){0}, &index, error);
-    if (result == AUR_OK)
-        *tone = (aur_tone)index;
-    return result;
 }

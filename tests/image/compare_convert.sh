@@ -85,9 +85,9 @@ expect 2 convert nan.exr kept.exr
 expect 2 convert a.exr a.gif
 complains "exr, pfm, hdr or png"
 expect 2 convert a.exr b.exr --exposure 1
-complains "--exposure and --tone are for PNG"
+complains "--exposure is not for exr"
 expect 2 convert a.exr b.png --half
-complains "--half is for EXR"
+complains "--half is not for png"
 expect 2 convert a.exr
 complains "one input and one output"
 expect 2 convert a.exr b.png --tone cinema

@@ -39,17 +39,6 @@ static void test_filmic(void **state) {
     }
 }
 
-static void test_names(void **state) {
-    (void)state;
-    aur_tone tone = AUR_TONE_SRGB;
-    aur_error error;
-    assert_success(aur_tone_from_name("filmic", &tone, &error), &error);
-    assert_int_equal(tone, AUR_TONE_FILMIC);
-    assert_success(aur_tone_from_name("srgb", &tone, &error), &error);
-    assert_int_equal(tone, AUR_TONE_SRGB);
-    assert_int_equal(aur_tone_from_name("Filmic", &tone, &error), AUR_ERROR_NAME);
-}
-
 static void test_options_are_checked(void **state) {
     (void)state;
     aur_image *image;
@@ -71,7 +60,6 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_srgb),
         cmocka_unit_test(test_filmic),
-        cmocka_unit_test(test_names),
         cmocka_unit_test(test_options_are_checked),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

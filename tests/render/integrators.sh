@@ -98,7 +98,7 @@ expect() {
 expect "both be 0" --integrator direct:emitter_samples=0,bsdf_samples=0
 expect "either 'shading_samples' or" --integrator direct:shading_samples=1,bsdf_samples=1
 expect "takes no parameters" --integrator depth:far=1
-expect "'normals' is none of albedo, depth" --integrator aov:aovs=a:normals
+expect "unknown kind of channel 'normals'; there are: albedo, depth" --integrator aov:aovs=a:normals
 expect "'albedo' is not of the form name:type" --integrator aov:aovs=albedo
 expect "two channels are called 'a.T'" --integrator 'aov:aovs=(a:depth,a:depth)'
 expect "'finalgather' treats pixels together" --integrator aov:integrator=finalgather

@@ -161,22 +161,14 @@ static aur_result interpret(const char *path, const aur_domain *wanted, aur_matr
     return AUR_OK;
 }
 
-static aur_result read_points(const char *path, const aur_domain *wanted, aur_points **points,
-                              aur_error *error) {
-    *points = NULL;
-    char *data;
-    size_t size;
-    aur_result result = aur_file_read(path, file_limit, &data, &size, error);
-    if (result != AUR_OK)
-        return result;
+/* `data`, which is changed, ends with a zero behind its `size` bytes. */
+static aur_result parse_points(const char *name, size_t size, char *data, const aur_domain *wanted,
+                               aur_points **points, aur_error *error) {
     aur_matrix matrix;
-    if (aur_npy_recognize(data, size))
-        result = aur_npy_parse(path, data, size, &matrix, error);
-    else
-        result = aur_csv_parse(path, data, size, &matrix, error);
-    free(data);
+    aur_result result = aur_npy_recognize(data, size) ? aur_npy_parse(name, data, size, &matrix, error)
+                                                      : aur_csv_parse(name, data, size, &matrix, error);
     if (result == AUR_OK)
-        result = interpret(path, wanted, &matrix, points, error);
+        result = interpret(name, wanted, &matrix, points, error);
     free(matrix.values);
     free(matrix.lines);
     if (result != AUR_OK) {
@@ -186,10 +178,36 @@ static aur_result read_points(const char *path, const aur_domain *wanted, aur_po
     return result;
 }
 
+static aur_result read_points(const char *path, const aur_domain *wanted, aur_points **points,
+                              aur_error *error) {
+    *points = NULL;
+    char *data;
+    size_t size;
+    aur_result result = aur_file_read(path, file_limit, &data, &size, error);
+    if (result != AUR_OK)
+        return result;
+    result = parse_points(path, size, data, wanted, points, error);
+    free(data);
+    return result;
+}
+
 aur_result aur_points_read(const char *path, aur_points **points, aur_error *error) {
     return read_points(path, NULL, points, error);
 }
 
 aur_result aur_points_read_on(const char *path, aur_domain domain, aur_points **points, aur_error *error) {
     return read_points(path, &domain, points, error);
+}
+
+aur_result aur_points_read_memory(const char *name, size_t size, const void *data, const aur_domain *domain,
+                                  aur_points **points, aur_error *error) {
+    *points = NULL;
+    char *const copy = size < file_limit ? malloc(size + 1) : NULL;
+    if (copy == NULL)
+        return aur_fail_memory_at(error, (aur_location){.file = name});
+    memcpy(copy, data, size);
+    copy[size] = '\0';
+    const aur_result result = parse_points(name, size, copy, domain, points, error);
+    free(copy);
+    return result;
 }

@@ -4,6 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "core/names.h"
 #include "transport/integrator.h"
 
 enum { NAME_CAPACITY = 96, CHANNEL_CAPACITY = AUR_EXTRA_CHANNELS_MAX };
@@ -112,20 +113,9 @@ static void release(aur_integrator *integrator) {
     aur_integrator_destroy(data->nested);
 }
 
-static const aov_type *find_type(const char *name, size_t length) {
-    for (size_t i = 0; i < TYPE_COUNT; ++i)
-        if (strlen(types[i].name) == length && memcmp(types[i].name, name, length) == 0)
-            return &types[i];
-    return NULL;
-}
-
-static aur_result fail_type(const char *name, size_t length, aur_location location, aur_error *error) {
-    char list[256];
-    size_t used = 0;
-    for (size_t i = 0; i < TYPE_COUNT; ++i)
-        used += (size_t)snprintf(list + used, sizeof list - used, "%s%s", i == 0 ? "" : ", ", types[i].name);
-    return aur_fail_at(error, location, AUR_ERROR_NAME, "integrator 'aov': '%.*s' is none of %s",
-                       length < 64 ? (int)length : 64, name, list);
+static const char *type_name(const void *table, size_t index) {
+    (void)table;
+    return types[index].name;
 }
 
 static aur_channel_kind channel_kind(const aov_type *type, size_t channel) {
@@ -144,9 +134,14 @@ static aur_result add_aov(aov_data *data, const char *text, size_t length, aur_l
         return aur_fail_at(error, location, AUR_ERROR_FORMAT,
                            "integrator 'aov': '%.*s' is not of the form name:type, with a name of at most %d",
                            length < 64 ? (int)length : 64, text, NAME_CAPACITY - 3);
-    const aov_type *const type = find_type(colon + 1, length - name_length - 1);
-    if (type == NULL)
-        return fail_type(colon + 1, length - name_length - 1, location, error);
+    char wanted[NAME_CAPACITY];
+    size_t index;
+    snprintf(wanted, sizeof wanted, "%.*s", (int)(length - name_length - 1), colon + 1);
+    const aur_result result = aur_names_choose((aur_names){TYPE_COUNT, type_name, NULL}, "kind of channel",
+                                               wanted, location, &index, error);
+    if (result != AUR_OK)
+        return result;
+    const aov_type *const type = &types[index];
     const size_t channels = strlen(type->letters);
     if (data->channel_count + channels > CHANNEL_CAPACITY)
         return aur_fail_at(error, location, AUR_ERROR_ARGUMENT, "integrator 'aov': more than %d channels",

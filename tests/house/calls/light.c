@@ -40,8 +40,12 @@ static void pictures(void) {
     size_t channels[3];
     require(aur_image_color_channels(image, channels) && channels[2] == 2, "aur_image_color_channels");
     aur_image_write_options options = aur_image_write_options_default();
-    accept(aur_tone_from_name("filmic", &options.tone, &error), &error);
-    refuse(aur_tone_from_name("loud", &options.tone, &error), AUR_ERROR_NAME, &error);
+    const aur_row *row;
+    accept(aur_image_find_writer("calls.png", NULL, &row, &error), &error);
+    require(aur_row_find_key(row, "tone") != NULL && aur_row_find_key(row, "half") == NULL, "keys of PNG");
+    accept(aur_image_find_writer("-", NULL, &row, &error), &error);
+    require(strcmp(row->name, "exr") == 0, "aur_image_find_writer");
+    refuse(aur_image_find_writer("calls.png", "jpg", &row, &error), AUR_ERROR_NAME, &error);
     accept(aur_image_write("calls.pfm", image, &options, &error), &error);
     refuse(aur_image_write("calls.doc", image, NULL, &error), AUR_ERROR_NAME, &error);
     refuse(aur_image_read("no such folder/calls.pfm", &other, &error), AUR_ERROR_OPEN, &error);

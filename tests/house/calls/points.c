@@ -180,6 +180,11 @@ static void points_and_measures(void) {
     refuse(aur_points_read("no such folder/calls.csv", &points, &error), AUR_ERROR_OPEN, &error);
     refuse(aur_points_read_on("calls.csv", AUR_DOMAIN_SQUARE, &points, &error), AUR_ERROR_UNSUPPORTED,
            &error);
+    refuse(aur_points_read_memory("text", 6, "u,v\n2,", NULL, &points, &error), AUR_ERROR_FORMAT, &error);
+    const aur_domain square = AUR_DOMAIN_SQUARE;
+    accept(aur_points_read_memory("text", 10, "x,y\n.5,.25", &square, &points, &error), &error);
+    require(aur_points_look(points)->coordinates[1] == .25, "aur_points_read_memory");
+    aur_points_destroy(points);
     accept(aur_points_read("calls.csv", &points, &error), &error);
     aur_points_destroy(points);
     accept(aur_points_read_on("calls.csv", AUR_DOMAIN_SPHERE, &points, &error), &error);
