@@ -57,8 +57,9 @@ typedef struct aur_exact_report {
  * the sum of (w - near)^2 / near least, where the near ones are scaled to sum 1. Points at one place share
  * the weight of one point, unless near ones are given; points with the near weight 0 keep it. Up to 2048
  * points every degree is tried by one factorisation that grows, O(count degree^4); more points are solved by
- * conjugate gradients, O(count degree^2) a step, at most 1200 steps, and the largest degree is found by
- * bisection. `capacity` counts weights; `report` may be NULL.
+ * conjugate gradients until the residual is 1e-15 or so, or ends below 1e-10 after 600 steps, each O(count +
+ * degree^3) on the whole sphere and O(count degree^2) elsewhere; the largest degree is then found by
+ * bisection with 150 steps each. `capacity` counts weights; `report` may be NULL.
  *
  * Errors: ARGUMENT for no point, a vector that is not of unit length or lies outside the domain (which),
  * options out of range, a degree that no weights of these points have (and the error that is left), a degree

@@ -8,6 +8,7 @@
 #include "check.h"
 #include "core/simd.h"
 #include "core/vector.h"
+#include "quadrature/exact/fast.h"
 #include "quadrature/exact/system.h"
 
 static double *points_of(const char *set, size_t count, aur_domain domain, double exponent, double cap) {
@@ -154,7 +155,7 @@ static void two_ways(void **state) {
     aur_error error;
     assert_int_equal(aur_exact_direct(&system, DEGREE, false, direct, &found, &error), AUR_OK);
     assert_true(found.exact);
-    assert_int_equal(aur_exact_iterate(&system, DEGREE, iterated, &found, &error), AUR_OK);
+    assert_int_equal(aur_exact_iterate(&system, DEGREE, AUR_EXACT_STEPS, iterated, &found, &error), AUR_OK);
     assert_true(found.exact && found.iterations > 5);
     for (size_t i = 0; i < N; ++i) /* residuals of 1e-15 times a condition of some 1e3 */
         assert_near(direct[i] * N, iterated[i] * N, 1e-11);
@@ -206,6 +207,62 @@ static void transforms(void **state) {
     assert_near(sums[0][2 * (aur_basis_at(DEGREE, 2) + 1)], sum, 1e-12);
     aur_basis_release(&basis);
     free(room);
+    free(xyz);
+}
+
+/* The fast transforms against the plain ones, poles, seams and doubled points among them, at an even and an
+ * odd degree; no bit depends on threads, and both directions are adjoint. The window errs by 1e-11 of the
+ * largest value. */
+static void fast_transforms(void **state) {
+    (void)state;
+    enum { N = 500 };
+    double *const xyz = points_of("random", N, AUR_DOMAIN_SPHERE, 0.0, 0.0);
+    const double special[] = {0, 0, 1, 0, 0, -1, 1, 0, 0, -1, 0, 0, -1, -0.0, 0, 0, -1, 0, 0, -1, 0};
+    memcpy(xyz, special, sizeof special);
+    double storage[4 * N], weights[N], values[2][N];
+    const aur_polar_points points = aur_polar_points_make(N, xyz, storage);
+    aur_error error;
+    for (size_t degree = 33; degree <= 64; degree += 31) {
+        const size_t size = aur_coefficient_count(degree);
+        double *const sums =
+            malloc((2 * size + AUR_TRANSFORM_BANDS * aur_transform_room(degree)) * sizeof *sums);
+        aur_basis basis;
+        assert_int_equal(aur_basis_create(degree, -1.0, 0.0, &basis, &error), AUR_OK);
+        const aur_transform transform = {&basis, &points, 1, sums + 2 * size};
+        for (size_t i = 0; i < N; ++i)
+            weights[i] = sin(3.0 * (double)i);
+        assert_int_equal(aur_transform_analyse(&transform, weights, sums, &error), AUR_OK);
+        assert_int_equal(aur_transform_synthesise(&transform, sums, values[0], &error), AUR_OK);
+        double largest = 0.0, most = 0.0;
+        for (size_t i = 0; i < N; ++i)
+            largest = fmax(largest, fabs(values[0][i]));
+        for (size_t threads = 1; threads <= 3; threads += 2) {
+            aur_fast_transform *fast;
+            double *const found = sums + size;
+            assert_int_equal(aur_fast_transform_create(&basis, &points, threads, &fast, &error), AUR_OK);
+            assert_int_equal(aur_fast_transform_analyse(fast, weights, found, &error), AUR_OK);
+            for (size_t j = 0; j < size; ++j)
+                most = fmax(most, fabs(found[j]));
+            for (size_t j = 0; j < size; ++j)
+                assert_near(found[j], sums[j], 1e-11 * most);
+            double before[N];
+            memcpy(before, values[1], sizeof before);
+            assert_int_equal(aur_fast_transform_synthesise(fast, sums, values[1], &error), AUR_OK);
+            for (size_t i = 0; i < N; ++i)
+                assert_near(values[1][i], values[0][i], 1e-11 * largest);
+            if (threads > 1)
+                assert_memory_equal(before, values[1], sizeof before);
+            double left = 0.0, right = 0.0;
+            for (size_t j = 0; j < size; ++j)
+                left += found[j] * sums[j];
+            for (size_t i = 0; i < N; ++i)
+                right += weights[i] * values[1][i];
+            assert_relative(left, right, 1e-13);
+            aur_fast_transform_destroy(fast);
+        }
+        aur_basis_release(&basis);
+        free(sums);
+    }
     free(xyz);
 }
 
@@ -330,9 +387,10 @@ static void cells(void **state) {
 }
 
 int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(golden),    cmocka_unit_test(monomials),  cmocka_unit_test(designs),
-        cmocka_unit_test(two_ways),  cmocka_unit_test(transforms), cmocka_unit_test(many_points),
-        cmocka_unit_test(bad_input), cmocka_unit_test(negative),   cmocka_unit_test(cells)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(golden),      cmocka_unit_test(monomials),
+                                       cmocka_unit_test(designs),     cmocka_unit_test(two_ways),
+                                       cmocka_unit_test(transforms),  cmocka_unit_test(fast_transforms),
+                                       cmocka_unit_test(many_points), cmocka_unit_test(bad_input),
+                                       cmocka_unit_test(negative),    cmocka_unit_test(cells)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

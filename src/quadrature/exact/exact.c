@@ -113,7 +113,7 @@ typedef struct ladder {
 static bool climbs(ladder *l, size_t degree) {
     aur_exact_found found;
     if (l->result == AUR_OK)
-        l->result = aur_exact_iterate(l->system, degree, l->trial, &found, l->error);
+        l->result = aur_exact_iterate(l->system, degree, AUR_EXACT_SEARCH_STEPS, l->trial, &found, l->error);
     if (l->result != AUR_OK || !found.exact || found.least <= 0.0)
         return false;
     double *const trial = l->trial;
@@ -183,7 +183,7 @@ static aur_result solve(const aur_exact_options *o, const aur_exact_system *syst
     else if (largest)
         result = search(system, bound, weights, &found, error);
     else
-        result = aur_exact_iterate(system, o->degree, weights, &found, error);
+        result = aur_exact_iterate(system, o->degree, AUR_EXACT_STEPS, weights, &found, error);
     if (result == AUR_OK && found.exact) {
         aur_exact_positive(system, weights, &found);
         result = aur_exact_residual(system, found.degree, weights, &found, error);

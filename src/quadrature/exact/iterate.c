@@ -4,17 +4,21 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "quadrature/exact/fast.h"
 #include "quadrature/exact/system.h"
 
-enum { LARGEST_STEPS = 600 };
+/* From so many points and degrees on the steps are taken by fast transforms. */
+enum { FAST_POINTS = 4096, FAST_DEGREE = 24 };
+
 /* Where the steps end, and how often they begin anew with what is missing in truth. */
 static const double enough = 2e-15;
-enum { PASSES = 2 };
+enum { PASSES = 3 };
 
 typedef struct gradients {
     const aur_exact_system *system;
-    aur_transform transform;
-    size_t size;                          /* of coefficients */
+    aur_transform transform;              /* to the last bits: what is missing */
+    aur_fast_transform *fast;             /* for the steps; NULL: `transform` is fast enough */
+    size_t size, limit;                   /* of coefficients; of steps */
     double *rest, *direction, *image, *t; /* t is of points */
     double *storage;
 } gradients;
@@ -38,15 +42,18 @@ static aur_result descend(const gradients *g, double *weights, size_t *steps, au
     const aur_exact_system *const system = g->system;
     memcpy(g->direction, g->rest, g->size * sizeof *g->direction);
     double rest = square(g->size, g->rest, g->rest);
-    while (rest > enough * enough && *steps < LARGEST_STEPS) {
+    while (rest > enough * enough && *steps < g->limit) {
         if (system->progress.function != NULL &&
-            system->progress.function(system->progress.user, "solving", *steps, LARGEST_STEPS) != 0)
+            system->progress.function(system->progress.user, "solving", *steps, g->limit) != 0)
             return aur_fail(error, AUR_ERROR_CANCELLED, "solving: cancelled");
-        aur_result result = aur_transform_synthesise(&g->transform, g->direction, g->t, error);
+        aur_result result = g->fast != NULL
+                                ? aur_fast_transform_synthesise(g->fast, g->direction, g->t, error)
+                                : aur_transform_synthesise(&g->transform, g->direction, g->t, error);
         for (size_t i = 0; i < system->points.count; ++i)
             g->t[i] *= system->near[i];
         if (result == AUR_OK)
-            result = aur_transform_analyse(&g->transform, g->t, g->image, error);
+            result = g->fast != NULL ? aur_fast_transform_analyse(g->fast, g->t, g->image, error)
+                                     : aur_transform_analyse(&g->transform, g->t, g->image, error);
         if (result != AUR_OK)
             return result;
         ++*steps;
@@ -107,7 +114,7 @@ static aur_result open_gradients(const aur_exact_system *system, size_t degree, 
     return AUR_OK;
 }
 
-aur_result aur_exact_iterate(const aur_exact_system *system, size_t degree, double *weights,
+aur_result aur_exact_iterate(const aur_exact_system *system, size_t degree, size_t steps, double *weights,
                              aur_exact_found *found, aur_error *error) {
     aur_basis basis;
     gradients g;
@@ -115,7 +122,13 @@ aur_result aur_exact_iterate(const aur_exact_system *system, size_t degree, doub
     if (result != AUR_OK)
         return result;
     *found = (aur_exact_found){.degree = degree};
-    result = solve(&g, weights, found, error);
+    g.limit = steps;
+    const bool fast = system->lowest == -1.0 && system->points.count >= FAST_POINTS && degree >= FAST_DEGREE;
+    if (fast)
+        result = aur_fast_transform_create(&basis, &system->points, system->threads, &g.fast, error);
+    if (result == AUR_OK)
+        result = solve(&g, weights, found, error);
+    aur_fast_transform_destroy(g.fast);
     aur_exact_positive(system, weights, found);
     free(g.storage);
     aur_basis_release(&basis);

@@ -16,7 +16,7 @@ typedef struct aur_exact_system {
 
 /* Weights are exact when no function is integrated worse than this, the function's root mean square being 1:
  * far above rounding, far below what a missing degree costs. */
-#define AUR_EXACT_TOLERANCE 1e-11
+#define AUR_EXACT_TOLERANCE 1e-10
 
 typedef struct aur_exact_found {
     bool exact;    /* there are such weights; else nothing else is set but `degree` and `residual` */
@@ -39,6 +39,8 @@ enum { AUR_EXACT_DIRECT_POINTS = 2048 };
 aur_result aur_exact_direct(const aur_exact_system *system, size_t degree, bool search, double *weights,
                             aur_exact_found *found, aur_error *error);
 
-/* By conjugate gradients: O(points * degree^2) a step. */
-aur_result aur_exact_iterate(const aur_exact_system *system, size_t degree, double *weights,
+/* By at most so many steps of conjugate gradients, of O(points + degree^3) on the sphere and O(points *
+ * degree^2) elsewhere. */
+enum { AUR_EXACT_STEPS = 600, AUR_EXACT_SEARCH_STEPS = 150 };
+aur_result aur_exact_iterate(const aur_exact_system *system, size_t degree, size_t steps, double *weights,
                              aur_exact_found *found, aur_error *error);

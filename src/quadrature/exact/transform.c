@@ -2,7 +2,8 @@
 #include "core/simd.h"
 #include "quadrature/exact/transform_body.h"
 
-const aur_transform_kernel aur_transform_kernel_portable = {analyse, synthesise, dots};
+const aur_transform_kernel aur_transform_kernel_portable = {analyse, synthesise, analyse_order,
+                                                            synthesise_order, dots};
 
 const aur_transform_kernel *aur_transform_kernel_best(void) {
     return &AUR_KERNEL_HERE(aur_transform_kernel);

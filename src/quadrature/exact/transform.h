@@ -41,6 +41,16 @@ aur_result aur_transform_analyse(const aur_transform *transform, const double *w
 aur_result aur_transform_synthesise(const aur_transform *transform, const double *coefficients,
                                     double *values, aur_error *error);
 
+/* The functions of one order m at `count` points, a multiple of 16: `start` is q_mm, `steps` those of m,
+ * and a and b belong to the cosine and the sine. */
+typedef struct aur_transform_order {
+    size_t degrees; /* degree + 1 - m */
+    const aur_basis_step *steps;
+    size_t count;
+    const double *z, *start;
+    double *a, *b;
+} aur_transform_order;
+
 /* The work on the points from `first` to `last`, once for each instruction set. `analyse` adds to the
  * coefficients at `sums`, which has the room of a band. */
 typedef struct aur_transform_kernel {
@@ -48,6 +58,10 @@ typedef struct aur_transform_kernel {
                     const double *weights, double *sums);
     void (*synthesise)(const aur_basis *basis, const aur_polar_points *points, size_t first, size_t last,
                        const double *coefficients, double *values);
+    /* Adds the sums of a and b times the functions to sums[2 * degrees]; `room` has 16 * degrees numbers. */
+    void (*analyse_order)(const aur_transform_order *order, double *sums, double *room);
+    /* Fills a and b with the sums over the degrees. */
+    void (*synthesise_order)(const aur_transform_order *order, const double *coefficients);
     /* sums[r] = the dot product of row[count] and rows[r][count], of `row_count` rows that lie `stride`
      * apart; sums lie `step` apart. */
     void (*dots)(size_t count, const double *row, size_t row_count, size_t stride, const double *rows,

@@ -58,10 +58,10 @@ typedef struct block {
     aur_reals z[VECTORS], here[VECTORS], before[VECTORS];
 } block;
 
-static inline void open_block(block *b, const chunk *c, size_t first) {
+static inline void open_block(block *b, const aur_transform_order *o, size_t first) {
     for (size_t v = 0; v < VECTORS; ++v) {
-        b->z[v] = load(c->z + first + v * AUR_LANES);
-        b->here[v] = load(c->start + first + v * AUR_LANES);
+        b->z[v] = load(o->z + first + v * AUR_LANES);
+        b->here[v] = load(o->start + first + v * AUR_LANES);
         b->before[v] = (aur_reals){0};
     }
 }
@@ -75,18 +75,17 @@ static inline void next_degree(block *b, const aur_basis_step *step) {
     }
 }
 
-static void analyse_block(const chunk *c, size_t first, size_t degrees, const aur_basis_step *steps,
-                          double (*restrict sums)[2 * GROUP]) {
+static void analyse_block(const aur_transform_order *o, size_t first, double (*restrict sums)[2 * GROUP]) {
     block b;
-    open_block(&b, c, first);
+    open_block(&b, o, first);
     aur_reals cosine[VECTORS], sine[VECTORS];
     for (size_t v = 0; v < VECTORS; ++v) {
-        cosine[v] = load(c->a + first + v * AUR_LANES);
-        sine[v] = load(c->b + first + v * AUR_LANES);
+        cosine[v] = load(o->a + first + v * AUR_LANES);
+        sine[v] = load(o->b + first + v * AUR_LANES);
     }
-    for (size_t k = 0; k < degrees; ++k) {
+    for (size_t k = 0; k < o->degrees; ++k) {
         if (k > 0)
-            next_degree(&b, steps + k);
+            next_degree(&b, o->steps + k);
         for (size_t p = 0; p < PARTS; ++p) {
             double *const at = sums[k] + p * AUR_LANES;
             store(at, load(at) + (b.here[p] * cosine[p] + b.here[p + PARTS] * cosine[p + PARTS]));
@@ -99,10 +98,20 @@ static double add_group(const double *g) {
     return ((g[0] + g[4]) + (g[1] + g[5])) + ((g[2] + g[6]) + (g[3] + g[7]));
 }
 
+static void analyse_order(const aur_transform_order *o, double *sums, double *room) {
+    double(*const groups)[2 * GROUP] = (double(*)[2 * GROUP])(void *)room;
+    memset(groups, 0, o->degrees * sizeof *groups);
+    for (size_t i = 0; i < o->count; i += BLOCK)
+        analyse_block(o, i, groups);
+    for (size_t k = 0; k < o->degrees; ++k) {
+        sums[2 * k] += add_group(groups[k]);
+        sums[2 * k + 1] += add_group(groups[k] + GROUP);
+    }
+}
+
 static void analyse(const aur_basis *basis, const aur_polar_points *points, size_t first, size_t last,
                     const double *weights, double *sums) {
-    double(*const room)[2 * GROUP] =
-        (double(*)[2 * GROUP])(void *)(sums + aur_coefficient_count(basis->degree));
+    double *const room = sums + aur_coefficient_count(basis->degree);
     chunk c;
     double w[CHUNK];
     for (size_t at = first; at < last; at += CHUNK) {
@@ -116,30 +125,32 @@ static void analyse(const aur_basis *basis, const aur_polar_points *points, size
                 c.a[i] = w[i] * c.cosine[i];
                 c.b[i] = w[i] * c.azimuth_sine[i];
             }
-            const size_t degrees = basis->degree + 1 - m, place = aur_basis_at(basis->degree, m);
-            memset(room, 0, degrees * sizeof *room);
-            for (size_t i = 0; i < c.count; i += BLOCK)
-                analyse_block(&c, i, degrees, basis->steps + place, room);
-            for (size_t k = 0; k < degrees; ++k) {
-                sums[2 * (place + k)] += add_group(room[k]);
-                sums[2 * (place + k) + 1] += add_group(room[k] + GROUP);
-            }
+            const size_t place = aur_basis_at(basis->degree, m);
+            const aur_transform_order order = {
+                basis->degree + 1 - m, basis->steps + place, c.count, c.z, c.start, c.a, c.b};
+            analyse_order(&order, sums + 2 * place, room);
         }
     }
 }
 
-static void synthesise_block(const chunk *c, size_t first, size_t degrees, const aur_basis_step *steps,
-                             const double *coefficients, aur_reals cosine[VECTORS], aur_reals sine[VECTORS]) {
-    block b;
-    open_block(&b, c, first);
-    for (size_t v = 0; v < VECTORS; ++v)
-        cosine[v] = sine[v] = (aur_reals){0};
-    for (size_t k = 0; k < degrees; ++k) {
-        if (k > 0)
-            next_degree(&b, steps + k);
+static void synthesise_order(const aur_transform_order *o, const double *coefficients) {
+    for (size_t first = 0; first < o->count; first += BLOCK) {
+        block b;
+        open_block(&b, o, first);
+        aur_reals cosine[VECTORS], sine[VECTORS];
+        for (size_t v = 0; v < VECTORS; ++v)
+            cosine[v] = sine[v] = (aur_reals){0};
+        for (size_t k = 0; k < o->degrees; ++k) {
+            if (k > 0)
+                next_degree(&b, o->steps + k);
+            for (size_t v = 0; v < VECTORS; ++v) {
+                cosine[v] += coefficients[2 * k] * b.here[v];
+                sine[v] += coefficients[2 * k + 1] * b.here[v];
+            }
+        }
         for (size_t v = 0; v < VECTORS; ++v) {
-            cosine[v] += coefficients[2 * k] * b.here[v];
-            sine[v] += coefficients[2 * k + 1] * b.here[v];
+            store(o->a + first + v * AUR_LANES, cosine[v]);
+            store(o->b + first + v * AUR_LANES, sine[v]);
         }
     }
 }
@@ -147,26 +158,22 @@ static void synthesise_block(const chunk *c, size_t first, size_t degrees, const
 static void synthesise(const aur_basis *basis, const aur_polar_points *points, size_t first, size_t last,
                        const double *coefficients, double *values) {
     chunk c;
+    double sum[CHUNK];
     for (size_t at = first; at < last; at += CHUNK) {
         const size_t count = last - at < CHUNK ? last - at : CHUNK;
         open_chunk(&c, points, at, count);
-        memset(c.a, 0, sizeof c.a);
+        memset(sum, 0, sizeof sum);
         for (size_t m = 0; m <= basis->degree; ++m) {
             if (m > 0)
                 next_order(&c, basis->start[m]);
             const size_t place = aur_basis_at(basis->degree, m);
-            for (size_t i = 0; i < c.count; i += BLOCK) {
-                aur_reals cosine[VECTORS], sine[VECTORS];
-                synthesise_block(&c, i, basis->degree + 1 - m, basis->steps + place, coefficients + 2 * place,
-                                 cosine, sine);
-                for (size_t v = 0; v < VECTORS; ++v) {
-                    const size_t j = i + v * AUR_LANES;
-                    store(c.a + j, load(c.a + j) +
-                                       (cosine[v] * load(c.cosine + j) + sine[v] * load(c.azimuth_sine + j)));
-                }
-            }
+            const aur_transform_order order = {
+                basis->degree + 1 - m, basis->steps + place, c.count, c.z, c.start, c.a, c.b};
+            synthesise_order(&order, coefficients + 2 * place);
+            for (size_t i = 0; i < c.count; ++i)
+                sum[i] += c.a[i] * c.cosine[i] + c.b[i] * c.azimuth_sine[i];
         }
-        memcpy(values + at, c.a, count * sizeof *values);
+        memcpy(values + at, sum, count * sizeof *values);
     }
 }
 
