@@ -200,6 +200,61 @@ static void fast_sums_survive_coincident_points(void **state) {
     release_points(&points);
 }
 
+/* The kernels of the instruction sets that are here. */
+static size_t kernels_here(const aur_distance_kernels *kernels[3]) {
+    size_t count = 0;
+    kernels[count++] = &aur_distance_portable;
+#if !defined(AUR_PORTABLE)
+    if (aur_isa_available() >= AUR_ISA_AVX2)
+        kernels[count++] = &aur_distance_avx2;
+    if (aur_isa_available() >= AUR_ISA_AVX512)
+        kernels[count++] = &aur_distance_avx512;
+#endif
+    return count;
+}
+
+/* Four rows and one column have four equal distances, of lengths of all mantissas and many exponents: each
+ * root is within 2e-14, down to 1e-19, where estimates in single precision end. */
+static void estimated_roots_are_within_their_error(void **state) {
+    (void)state;
+    enum { COLUMNS = 8, ROW = 8, COUNT = 12 };
+    const aur_distance_kernels *kernels[3];
+    const size_t here = kernels_here(kernels);
+    double coordinates[3 * COUNT] = {0};
+    const aur_points_view points = aur_points_view_of(AUR_DOMAIN_SPHERE, COUNT, 3, coordinates);
+    aur_axes axes;
+    assert_int_equal(aur_axes_create(&points, &axes, NULL), AUR_OK);
+    for (uint64_t trial = 0; trial < 20000; ++trial) {
+        const double length = ldexp(1.0 + aur_unit_double(aur_hash2(5, trial)), -(int)(trial % 60));
+        for (size_t row = ROW; row < COUNT; ++row)
+            axes.x[row] = length;
+        for (size_t k = 0; k < here; ++k) {
+            const aur_pair_tile column = {ROW, COUNT, trial % COLUMNS, trial % COLUMNS + 1};
+            assert_relative(kernels[k]->fast(&axes, column, 0.0).high, 4.0 * length, 4.5e-16);
+        }
+    }
+    aur_axes_release(&axes);
+}
+
+/* Tiles off the diagonal of all shapes, coincident points among them. */
+static void fast_tiles_agree_with_exact_ones(void **state) {
+    (void)state;
+    const aur_distance_kernels *kernels[3];
+    const size_t here = kernels_here(kernels);
+    own_points points = random_directions(600, 23);
+    memcpy(points.coordinates, points.coordinates + 3 * 300, 3 * 20 * sizeof(double));
+    aur_axes axes;
+    assert_int_equal(aur_axes_create((const aur_points_view[]){seen(&points)}, &axes, NULL), AUR_OK);
+    for (uint64_t trial = 0; trial < 200; ++trial) {
+        const aur_pair_tile tile = {300, 301 + aur_hash2(1, trial) % 300, 0, 1 + aur_hash2(2, trial) % 300};
+        const double exact = aur_distance_portable.exact(&axes, tile, 0.0).high;
+        for (size_t k = 0; k < here; ++k)
+            assert_near(kernels[k]->fast(&axes, tile, 0.0).high, exact, 2e-14 * exact);
+    }
+    aur_axes_release(&axes);
+    release_points(&points);
+}
+
 static void neither_threads_nor_registers_change_a_bit(void **state) {
     (void)state;
     own_points points = random_directions(5000, 11);
@@ -215,22 +270,17 @@ static void neither_threads_nor_registers_change_a_bit(void **state) {
         assert_memory_equal(&values[0], &values[1], sizeof values[0]);
         assert_memory_equal(&values[0], &values[2], sizeof values[0]);
     }
-#if defined(__x86_64__)
+    const aur_distance_kernels *kernels[3];
+    const size_t here = kernels_here(kernels);
     aur_axes axes;
     assert_int_equal(aur_axes_create((const aur_points_view[]){seen(&points)}, &axes, NULL), AUR_OK);
     const aur_pair_tile tile = {4096, 5000, 1024, 2048};
     const aur_twofold portable = aur_distance_portable.exact(&axes, tile, 0.0);
-    const aur_isa isa = aur_isa_available();
-    if (isa >= AUR_ISA_AVX2) {
-        const aur_twofold wide = aur_distance_avx2.exact(&axes, tile, 0.0);
-        assert_memory_equal(&portable, &wide, sizeof wide);
-    }
-    if (isa >= AUR_ISA_AVX512) {
-        const aur_twofold wide = aur_distance_avx512.exact(&axes, tile, 0.0);
+    for (size_t k = 1; k < here; ++k) {
+        const aur_twofold wide = kernels[k]->exact(&axes, tile, 0.0);
         assert_memory_equal(&portable, &wide, sizeof wide);
     }
     aur_axes_release(&axes);
-#endif
     release_points(&points);
 }
 
@@ -243,6 +293,8 @@ int main(void) {
         cmocka_unit_test(the_potential_of_the_hemisphere_is_exact),
         cmocka_unit_test(pair_sums_agree_with_long_double),
         cmocka_unit_test(fast_sums_survive_coincident_points),
+        cmocka_unit_test(estimated_roots_are_within_their_error),
+        cmocka_unit_test(fast_tiles_agree_with_exact_ones),
         cmocka_unit_test(neither_threads_nor_registers_change_a_bit),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

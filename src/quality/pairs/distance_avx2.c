@@ -1,3 +1,3 @@
-#include "quality/pairs/distance_body.h"
+#include "quality/pairs/distance_fast_body.h"
 
-const aur_distance_kernels aur_distance_avx2 = {distance_tile, distance_tile};
+const aur_distance_kernels aur_distance_avx2 = {distance_tile, fast_tile};
