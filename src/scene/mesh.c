@@ -107,6 +107,28 @@ aur_result aur_mesh_smooth(aur_mesh *mesh, aur_location location, aur_error *err
     return AUR_OK;
 }
 
+/* Normals are rounded to floats, and so are products of sides: 1e-6 is some ten times that. */
+static bool is_flat(const aur_mesh *mesh) {
+    for (size_t i = 0; i < mesh->triangle_count; ++i) {
+        aur_vector corner[3];
+        aur_mesh_corners(mesh, i, corner);
+        const aur_vector normal = aur_triangle_normal(corner);
+        for (size_t k = 0; k < 3 && !aur_vector_is_zero(normal); ++k) {
+            const aur_vector here = vector_at(&mesh->normals[3 * (size_t)mesh->indices[3 * i + k]]);
+            if (!(aur_vector_length(aur_vector_subtract(here, normal)) <= 1e-6f))
+                return false;
+        }
+    }
+    return true;
+}
+
+void aur_mesh_drop_flat_normals(aur_mesh *mesh) {
+    if (mesh->normals == NULL || !is_flat(mesh))
+        return;
+    free(mesh->normals);
+    mesh->normals = NULL;
+}
+
 aur_result aur_mesh_check(const aur_mesh *mesh, aur_location location, aur_error *error) {
     if (mesh->triangle_count > UINT32_MAX - 1)
         return aur_fail_at(error, location, AUR_ERROR_FORMAT,

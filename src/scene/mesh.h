@@ -31,6 +31,9 @@ void aur_mesh_transform(aur_mesh *mesh, const aur_transform *to_world, const aur
 void aur_mesh_flip(aur_mesh *mesh);
 /* Normals at vertices: those of the triangles around, by their angle there (Thuermer and Wuethrich 1998). */
 aur_result aur_mesh_smooth(aur_mesh *mesh, aur_location location, aur_error *error);
+/* Frees normals that are everywhere those of the triangles, but for rounding: what is flat has faster ways to
+ * be rendered. */
+void aur_mesh_drop_flat_normals(aur_mesh *mesh);
 
 /* An error when an index is no vertex, a coordinate is not finite, or triangles are more than 32 bits count.
  */

@@ -5,6 +5,7 @@
 
 #include "core/random.h"
 #include "material/sampling.h"
+#include "scene/elements.h"
 
 static float unit(uint64_t a, uint64_t b) {
     return aur_unit_float((uint32_t)(aur_hash2(a, b) >> 32));
@@ -254,6 +255,30 @@ static void smooths_without_normals(void **state) {
     }
 }
 
+/* A wall that turns nowhere is flat, whether the file has its normals or not; a roof's ridge is not, and
+ * neither are normals that lean. */
+static void drops_flat_normals(void **state) {
+    (void)state;
+    static const struct {
+        const char *text;
+        bool flat;
+    } rows[] = {
+        {"v .1 0 0\nv 1 .3 0\nv 1 .3 7\nv .1 0 7\nf 1 2 3 4\n", true},
+        {"v 0 0 0\nv 1 0 0\nv 1 1 0\nvn 0 0 1\nf 1//1 2//1 3//1\n", true},
+        {"v 0 0 0\nv 1 0 0\nv 1 1 0\nvn 0 0 1\nvn 0 .001 1\nf 1//1 2//1 3//2\n", false},
+        {"v 0 0 0\nv 1 0 0\nv 1 1 0\nvn 0 0 -1\nf 1//1 2//1 3//1\n", false},
+        {"v -1 0 0\nv 0 0 1\nv 1 0 0\nv -1 1 0\nv 0 1 1\nv 1 1 0\nf 1 2 5 4\nf 2 3 6 5\n", false},
+    };
+    for (size_t i = 0; i < sizeof rows / sizeof rows[0]; ++i) {
+        write_text("wall.obj", rows[i].text);
+        aur_scene *const scene = must_load_body(
+            "<shape type='obj'><string name='filename' value='wall.obj'/><transform name='to_world'>"
+            "<rotate x='1' y='2' z='3' angle='77'/></transform></shape>");
+        assert_int_equal(aur_shape_is_flat(scene, 0), rows[i].flat);
+        aur_scene_destroy(scene);
+    }
+}
+
 /* Coordinates whose products overflow give no normal rather than NaN. */
 static void normals_are_finite(void **state) {
     (void)state;
@@ -436,11 +461,17 @@ static void bears_degenerate_triangles(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(hits_curved_shapes),          cmocka_unit_test(reads_ply_in_three_forms),
-        cmocka_unit_test(reads_serialized_meshes),     cmocka_unit_test(reads_obj),
-        cmocka_unit_test(smooths_without_normals),     cmocka_unit_test(normals_are_finite),
-        cmocka_unit_test(reads_faces_before_vertices), cmocka_unit_test(says_what_is_wrong_in_meshes),
-        cmocka_unit_test(bears_degenerate_triangles),  cmocka_unit_test(copies_groups),
+        cmocka_unit_test(hits_curved_shapes),
+        cmocka_unit_test(reads_ply_in_three_forms),
+        cmocka_unit_test(reads_serialized_meshes),
+        cmocka_unit_test(reads_obj),
+        cmocka_unit_test(smooths_without_normals),
+        cmocka_unit_test(drops_flat_normals),
+        cmocka_unit_test(normals_are_finite),
+        cmocka_unit_test(reads_faces_before_vertices),
+        cmocka_unit_test(says_what_is_wrong_in_meshes),
+        cmocka_unit_test(bears_degenerate_triangles),
+        cmocka_unit_test(copies_groups),
     };
     return cmocka_run_group_tests(tests, enter_folder, leave_folder);
 }
