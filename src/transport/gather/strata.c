@@ -73,29 +73,6 @@ void aur_pixel_strata_mean(const aur_pixel_strata *pixel, double mean[3]) {
 
 enum { NO_EDGE, PLAIN_EDGE, LIGHT_EDGE };
 
-static bool has_key(const aur_pixel_strata *pixel, uint64_t key) {
-    for (uint32_t i = 0; i < pixel->count; ++i)
-        if (pixel->strata[i].key == key)
-            return true;
-    return false;
-}
-
-/* The greatest edge between a pixel and another one, from what only the other has seen; of a pixel with
- * itself, between the first thing that it has seen and the rest. */
-static int edge_between(const aur_pixel_strata *pixel, const aur_pixel_strata *other) {
-    const uint64_t own = pixel->count > 0 ? pixel->strata[0].key : 0;
-    int edge = NO_EDGE;
-    for (uint32_t i = 0; i < other->count; ++i) {
-        const uint64_t key = other->strata[i].key;
-        if (pixel == other ? i == 0 : has_key(pixel, key))
-            continue;
-        if (((key | own) & AUR_SURFACE_KEY_EMITS) != 0)
-            return LIGHT_EDGE;
-        edge = PLAIN_EDGE;
-    }
-    return edge;
-}
-
 enum { SIDE = AUR_TILE_SIZE, APRON = SIDE + 2, RING = 4 * SIDE + 4 };
 
 /* Pixels beside the tile, 16 at a time: what the first sample of each sees. */
@@ -141,19 +118,27 @@ static void look_around(const aur_gather_plan *plan, const aur_view *view, size_
     }
 }
 
+/* The greatest edge among what the eight neighbours of a pixel have seen. What the pixel itself has seen has
+ * no say: else those that met a small light by chance would look again, and keep less of it than the others
+ * lack. */
 static int edge_at(const aur_pixel_strata *const at[APRON * APRON], size_t x, size_t y) {
-    const aur_pixel_strata *const pixel = at[(y + 1) * APRON + x + 1];
-    int edge = NO_EDGE;
-    for (size_t dy = 0; dy < 3; ++dy)
-        for (size_t dx = 0; dx < 3; ++dx) {
-            const aur_pixel_strata *const other = at[(y + dy) * APRON + x + dx];
-            /* Pixels beyond the picture's edge have no samples. */
-            if (other == NULL || other->count == 0)
-                continue;
-            const int kind = edge_between(pixel, other);
-            edge = kind > edge ? kind : edge;
+    const aur_stratum *first = NULL;
+    bool several = false, light = false;
+    for (size_t i = 0; i < 9; ++i) {
+        const aur_pixel_strata *const other = at[(y + i / 3) * APRON + x + i % 3];
+        /* Pixels beyond the picture's edge have no samples. */
+        if (i == 4 || other == NULL)
+            continue;
+        for (uint32_t k = 0; k < other->count; ++k) {
+            const aur_stratum *const stratum = &other->strata[k];
+            first = first == NULL ? stratum : first;
+            several = several || stratum->key != first->key;
+            light = light || (stratum->key & AUR_SURFACE_KEY_EMITS) != 0;
         }
-    return edge;
+    }
+    if (!several)
+        return NO_EDGE;
+    return light ? LIGHT_EDGE : PLAIN_EDGE;
 }
 
 void aur_gather_find_edges(const aur_gather_plan *plan, const aur_view *view, size_t x, size_t y,
