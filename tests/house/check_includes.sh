@@ -27,6 +27,7 @@ quality/sphere quality/square quality/spectrum
 quality/pairs
 quality
 quadrature/tables
+quadrature/integrate
 quadrature/exact quadrature/weights
 quadrature/potential quadrature/linear
 quadrature

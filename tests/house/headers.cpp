@@ -3,6 +3,7 @@
 #include <aureole/exact.h>
 #include <aureole/film.h>
 #include <aureole/image.h>
+#include <aureole/integrate.h>
 #include <aureole/pointset.h>
 #include <aureole/quadrature.h>
 #include <aureole/quality.h>
