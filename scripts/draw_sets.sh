@@ -40,8 +40,8 @@ draw() { # file, then the arguments of `aureole points`
 
 Made by `scripts/draw_sets.sh` from the table that `aureole sets` prints. Each set is drawn with 128 points: on the square,
 and on the sphere from the side and from the pole by Lambert's cylindrical map (sets that are native to the sphere as they
-are; points on the far side are pale). What to look for is what figure 2 of Marques 2013 shows: clumps and holes in
-the square become clumps and holes on the sphere, and lines of points that are parallel to an edge become circles about the
+are; points on the far side are pale; of rotations the vector part of the quaternion). What to look for is what figure 2 of
+Marques 2013 shows: clumps and holes in the square become clumps and holes on the sphere, and lines of points that are parallel to an edge become circles about the
 poles. Names, keys and domains are those of the command line, of scene files and of the API.
 
 | set | square | sphere |
@@ -61,6 +61,7 @@ HEAD
             sphere=$(draw "$set-sphere.svg" "$set" -n $n --domain sphere)
             ;;
           *sphere*) sphere=$(draw "$set-sphere.svg" "$set" -n $n) ;;
+          *rotations*) sphere=$(draw "$set-rotations.svg" "$set" -n $n) ;;
           *) square=$(draw "$set-square.svg" "$set" -n $n) ;;
         esac
         ;;

@@ -16,18 +16,19 @@ extern "C" {
 /* Where points live. The disk is the unit disk; hemisphere and sphere have z up, polar angle theta from +z,
  * azimuth phi from +x towards +y, and unit radius. AUR_DOMAIN_CUBE is [0,1)^d with d other than 2. AXES are
  * directions without a sense, the projective plane: x and -x are one axis, and sets give the one with
- * z >= 0. */
+ * z >= 0. ROTATIONS are unit quaternions w,x,y,z, of which q and -q are one rotation. */
 typedef enum aur_domain {
     AUR_DOMAIN_SQUARE,
     AUR_DOMAIN_CUBE,
     AUR_DOMAIN_DISK,
     AUR_DOMAIN_HEMISPHERE,
     AUR_DOMAIN_SPHERE,
-    AUR_DOMAIN_AXES
+    AUR_DOMAIN_AXES,
+    AUR_DOMAIN_ROTATIONS
 } aur_domain;
 
-/* "square", "cube", "disk", "hemisphere", "sphere", "axes" to the value and back. Errors: NAME; the name of a
- * value out of range is NULL. */
+/* "square", "cube", "disk", "hemisphere", "sphere", "axes", "rotations" to the value and back. Errors: NAME;
+ * the name of a value out of range is NULL. */
 AUR_API aur_result aur_domain_from_name(const char *name, aur_domain *domain, aur_error *error)
     AUR_NONNULL(1, 2);
 AUR_API const char *aur_domain_name(aur_domain domain);
@@ -287,10 +288,10 @@ AUR_API void aur_points_destroy(aur_points *points);
 /* Their arrays, with all fields set, for as long as they are kept. */
 AUR_API const aur_points_view *aur_points_look(const aur_points *points) AUR_NONNULL(1);
 
-/* Reads CSV (header u,v for the square, x,y for the disk, x,y,z for directions, u1,u2,... for the cube, and w
- * after it where there are weights; without a header two columns are u,v and three are x,y,z) or NPY.
- * Directions that all have z >= 0 are of the hemisphere. Errors: OPEN, MEMORY, and FORMAT, which names the
- * line; *points is then NULL. */
+/* Reads CSV (header u,v for the square, x,y for the disk, x,y,z for directions, w,x,y,z for rotations,
+ * u1,u2,... for the cube, and w after it where there are weights; without a header two columns are u,v and
+ * three are x,y,z) or NPY. Directions that all have z >= 0 are of the hemisphere. Errors: OPEN, MEMORY, and
+ * FORMAT, which names the line; *points is then NULL. */
 AUR_API aur_result aur_points_read(const char *path, aur_points **points, aur_error *error) AUR_NONNULL(1, 2);
 /* The same where it is known which domain the points are of: x,y stands for the square too when SQUARE or
  * CUBE is asked for, and directions may be of the hemisphere or the sphere. CUBE takes any number of

@@ -39,8 +39,15 @@ static drawing compose(const aur_points_view *points) {
     static const panel disk = {"", true, 0, 1, 0, 0.0, 1.0, 0.0};
     static const panel side = {"side", true, 0, 2, 1, -1.0, 1.0, 0.0};
     static const panel pole = {"pole", true, 0, 1, 2, 1.0, 1.0, 0.0};
+    /* The vector part of quaternions, a ball. */
+    static const panel turned_side = {"side", true, 1, 3, 2, -1.0, 1.0, 0.0};
+    static const panel turned_pole = {"pole", true, 1, 2, 3, 1.0, 1.0, 0.0};
     drawing d = {.panel_count = 1, .points = points};
-    if (points->domain == AUR_DOMAIN_DISK) {
+    if (points->domain == AUR_DOMAIN_ROTATIONS) {
+        d.panel_count = 2;
+        d.panels[0] = turned_side;
+        d.panels[1] = turned_pole;
+    } else if (points->domain == AUR_DOMAIN_DISK) {
         d.panels[0] = disk;
     } else if (points->domain >= AUR_DOMAIN_HEMISPHERE) {
         d.panel_count = 2;

@@ -1,5 +1,6 @@
 /* aureole points: writes points of any set on any domain. */
 #include <aureole/image.h>
+#include <aureole/rotations.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -14,6 +15,8 @@ typedef struct points_command {
     const char *path;
     const char *warp; /* a picture's path */
     unsigned format;
+    aur_symmetry symmetry;
+    bool symmetric, matrices; /* of rotations */
     cli_common common;
     cli_points from;
     aur_points_request points;
@@ -39,6 +42,10 @@ static const cli_option options[] = {
     {CLI_TEXT(points_command, warp, "warp", "IMAGE", NULL,
               "move points of the square so that they follow the picture's brightness"),
      .content = "file"},
+    {CLI_CHOICE(points_command, symmetry, "symmetry", "GROUP", "1",
+                "only the rotations in the fundamental zone of a crystal's symmetry, 432 for a cubic one"),
+     .name = aur_symmetry_name},
+    {CLI_FLAG(points_command, matrices, "matrices", "write rotations as matrices, row by row")},
     {CLI_CHOICE(points_command, format, "format", "FORMAT", "by the file's name; csv",
                 "how points are written; svg and png are pictures"),
      .key.computed = true, .name = format_name},
@@ -58,6 +65,7 @@ static bool complete(const cli_call *call) {
         wanted->from.options.domain = AUR_DOMAIN_HEMISPHERE;
         domain_given = true;
     }
+    wanted->symmetric = cli_given(call, "symmetry") != NULL;
     wanted->points.natural_domain = !domain_given;
     if (cli_given(call, "map") != NULL && (!domain_given || wanted->from.options.domain <= AUR_DOMAIN_CUBE)) {
         cli_bad_usage("--map: needs --domain disk, hemisphere, sphere or axes");
@@ -116,6 +124,40 @@ static int warp(const char *path, aur_points_view *points, double **warped) {
                            : cli_fail(&(aur_error){.result = AUR_ERROR_MEMORY, .message = "out of memory"});
 }
 
+/* Rotations into an array of their own, which the caller frees: those in the fundamental zone, as matrices
+ * where these are wanted. */
+static int change_rotations(const points_command *wanted, aur_points_view *points, double **changed) {
+    if (!wanted->symmetric && !wanted->matrices)
+        return CLI_SUCCESS;
+    if (points->domain != AUR_DOMAIN_ROTATIONS)
+        return cli_bad_usage("--%s: needs --domain rotations", wanted->matrices ? "matrices" : "symmetry");
+    if (points->weights != NULL && wanted->symmetric)
+        return cli_bad_usage("--symmetry: the rotations have weights, which would no longer add up to 1");
+    const size_t dimension = wanted->matrices ? 9 : 4;
+    *changed = malloc(9 * points->count * sizeof **changed);
+    double *const quaternions = malloc(4 * points->count * sizeof *quaternions);
+    const bool good = *changed != NULL && quaternions != NULL;
+    for (size_t i = 0; i < 4 * points->count && good; ++i)
+        quaternions[i] = points->coordinates[i / 4 * points->stride + i % 4];
+    if (good && wanted->symmetric)
+        points->count = aur_symmetry_select(wanted->symmetry, points->count, quaternions);
+    for (size_t i = 0; i < points->count && good; ++i) {
+        aur_rotation rotation;
+        aur_rotation_from_quaternion(quaternions + 4 * i, &rotation);
+        memcpy(*changed + dimension * i, wanted->matrices ? rotation.m : quaternions + 4 * i,
+               dimension * sizeof **changed);
+    }
+    free(quaternions);
+    if (!good)
+        return cli_fail(&(aur_error){.result = AUR_ERROR_MEMORY, .message = "out of memory"});
+    if (points->count == 0)
+        return cli_bad_usage(
+            "--symmetry: none of the rotations is in the fundamental zone: take a larger -n");
+    points->coordinates = *changed;
+    points->dimension = points->stride = dimension;
+    return CLI_SUCCESS;
+}
+
 static int write_points(const char *set, const points_command *wanted, const aur_points_view *points) {
     aur_error error = {0};
     const uint64_t size = wanted->from.options.count; /* 0: all of a file */
@@ -149,6 +191,8 @@ static int run(const cli_call *call) {
     aur_points_view view = *aur_points_look(points);
     double *warped = NULL;
     int status = wanted->warp != NULL ? warp(wanted->warp, &view, &warped) : CLI_SUCCESS;
+    if (status == CLI_SUCCESS && wanted->warp == NULL)
+        status = change_rotations(wanted, &view, &warped);
     if (status == CLI_SUCCESS)
         status = write_points(set, wanted, &view);
     free(warped);
@@ -158,7 +202,7 @@ static int run(const cli_call *call) {
 
 const cli_verb cli_verb_points = {
     .name = "points",
-    .summary = "write points of a set on the square, disk, hemisphere or sphere, or as axes",
+    .summary = "write points of a set on the square, disk, hemisphere or sphere, as axes or as rotations",
     .too_few = "a set is missing: 'aureole sets' lists them",
     .operands = {{"SET", "NAME[:key=value,...] or file:PATH; 'aureole sets' lists them", .content = "set"}},
     .groups = {{options, 0},

@@ -3,7 +3,7 @@
 
 #include "core/names.h"
 
-static const char *const names[] = {"square", "cube", "disk", "hemisphere", "sphere", "axes"};
+static const char *const names[] = {"square", "cube", "disk", "hemisphere", "sphere", "axes", "rotations"};
 enum { DOMAIN_COUNT = sizeof names / sizeof names[0] };
 
 aur_result aur_domain_from_name(const char *name, aur_domain *domain, aur_error *error) {

@@ -33,7 +33,8 @@ enum {
     AUR_ON_DISK = 1 << AUR_DOMAIN_DISK,
     AUR_ON_HEMISPHERE = 1 << AUR_DOMAIN_HEMISPHERE,
     AUR_ON_SPHERE = 1 << AUR_DOMAIN_SPHERE,
-    AUR_ON_AXES = 1 << AUR_DOMAIN_AXES
+    AUR_ON_AXES = 1 << AUR_DOMAIN_AXES,
+    AUR_ON_ROTATIONS = 1 << AUR_DOMAIN_ROTATIONS
 };
 
 /* One row of the table of square sets. */

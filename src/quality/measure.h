@@ -13,7 +13,8 @@
  * inside the domain, finite weights with a positive sum. Directions have unit length and lie one after
  * another; points of the other domains are reached through aur_point_at. For rows with `masses` the points
  * have weights, and they add up to 1. Axes come as points of the sphere: the given ones in the first half of
- * the points, their opposites in the same order in the second half. */
+ * the points, their opposites in the same order in the second half; and so do rotations, in four dimensions.
+ */
 typedef struct aur_measure_request {
     const aur_points_view *points;
     const char *parameter; /* what follows the first ':', or NULL */

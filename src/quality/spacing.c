@@ -50,11 +50,12 @@ aur_result aur_smallest_distance(const aur_measure_request *request, double *dis
     return AUR_OK;
 }
 
-/* Radians. */
+/* Radians. Quaternions are half as far apart as the rotations. */
 static aur_result smallest_angle(const aur_measure_request *request, double *angle, aur_error *error) {
     double chord = 0.0;
     const aur_result result = aur_smallest_distance(request, &chord, error);
-    *angle = 2.0 * asin(fmin(0.5 * chord, 1.0));
+    const double turn = request->points->domain == AUR_DOMAIN_ROTATIONS ? 2.0 : 1.0;
+    *angle = turn * 2.0 * asin(fmin(0.5 * chord, 1.0));
     return result;
 }
 
@@ -68,8 +69,8 @@ const aur_measure_row aur_measure_min_distance = {
 
 const aur_measure_row aur_measure_min_angle = {
     {.row = {.name = "min-angle",
-             .summary = "the smallest angle between two directions or two axes, radians",
+             .summary = "the smallest angle between two directions, axes or rotations, radians",
              .source = "Jones, Horsfield and Simmons 1999"},
-     .domains = "sphere, hemisphere, axes"},
+     .domains = "sphere, hemisphere, axes, rotations"},
     .minimum_count = 2,
     .compute = smallest_angle};

@@ -8,7 +8,7 @@
 #include "pointset/sets.h"
 
 /* What a native set fills: `count` points spread uniformly over the cap z >= 1 - height (1 hemisphere and
- * axes, 2 sphere). */
+ * axes, 2 sphere), or over the rotations. */
 typedef struct aur_native_request {
     aur_domain domain;
     uint64_t count;
@@ -21,8 +21,9 @@ typedef struct aur_native_set {
     /* Reads the keys and makes *data, one allocation, ready. */
     aur_result (*prepare)(const aur_row *row, aur_parameters *parameters, const aur_native_request *request,
                           void **data, aur_error *error);
-    /* Unit vectors first .. first+count-1, which are within the set. */
-    void (*fill)(const void *data, uint64_t first, size_t count, double *xyz);
+    /* Unit vectors first .. first+count-1, which are within the set; quaternions w,x,y,z of a set of
+     * rotations. */
+    void (*fill)(const void *data, uint64_t first, size_t count, double *points);
 } aur_native_set;
 
 /* The native sets, in the order of listings: one line for each file of a generator, which defines
@@ -30,7 +31,9 @@ typedef struct aur_native_set {
 #define AUR_NATIVE_SETS(ROW)                                                                                 \
     ROW(fibonacci)                                                                                           \
     ROW(grid)                                                                                                \
-    ROW(electrostatic)
+    ROW(electrostatic)                                                                                       \
+    ROW(super_fibonacci)                                                                                     \
+    ROW(super_fibonacci_grid)
 
 #define AUR_DECLARE_NATIVE_SET(name) extern const aur_native_set aur_native_##name;
 AUR_NATIVE_SETS(AUR_DECLARE_NATIVE_SET)
@@ -48,6 +51,10 @@ AUR_EXPERIMENTAL extern const aur_row *const aur_set_rows[AUR_SET_COUNT];
 
 /* The native set that a SET's text names, or NULL. */
 const aur_native_set *aur_native_find(const char *set);
+/* Makes a native set ready; *data is its own. Errors: ARGUMENT for a size that it does not have, UNSUPPORTED
+ * for a domain, those of its keys. */
+aur_result aur_native_open(const aur_native_set *native, const char *set, const aur_native_request *request,
+                           void **data, aur_error *error);
 /* AUR_OK if a SET's text names a set of either kind, else NAME with a suggestion. */
 aur_result aur_set_check_name(const char *set, aur_error *error);
 /* Whether a SET's text is file:PATH, whose path starts at set + 5. */

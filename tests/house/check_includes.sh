@@ -24,7 +24,7 @@ film
 sampling
 quality/table
 quality/sphere quality/square quality/spectrum
-quality/pairs
+quality/rotations quality/pairs
 quality
 quadrature/tables
 quadrature/integrate
@@ -38,7 +38,7 @@ scene/xml
 material
 sphere/directions
 sphere/sets sphere/nearest
-sphere/repulsion
+sphere/repulsion sphere/rotations
 sphere
 image
 pointset/table

@@ -9,6 +9,7 @@
 #include <aureole/quality.h>
 #include <aureole/radiosity.h>
 #include <aureole/render.h>
+#include <aureole/rotations.h>
 #include <aureole/scene.h>
 #include <aureole/sphere.h>
 #include <aureole/statistics.h>

@@ -25,7 +25,7 @@ seen=0
 while IFS= read -r line; do
   set=${line%%,*}
   [ "$set" = set ] && continue
-  one='(square|cube|disk|hemisphere|sphere|axes)'
+  one='(square|cube|disk|hemisphere|sphere|axes|rotations)'
   domains=$(grep -oE "[,\"]$one(, $one)*[,\"]" <<<"$line" | head -1 | grep -oE "[a-z]+" | grep -vx cube)
   [ -n "$domains" ] || domains=own
   n=$count
@@ -34,6 +34,7 @@ while IFS= read -r line; do
     where=(--domain "$domain")
     [ "$domain" = own ] && where=()
     for format in csv json npy ply svg png; do
+      [ "$domain" = rotations ] && [ $format = ply ] && continue # has three coordinates
       out=$set-$domain.$format.out
       message=$("$aureole" points "$(text_of "$set")" -n $n -q "${where[@]}" --format $format -o "$out" 2>&1) ||
         fail "$set on $domain as $format: $message"
@@ -63,6 +64,13 @@ done
 "$aureole" points spherical-fibonacci -n 20 --domain hemisphere -o dome.csv || fail "a hemisphere"
 "$aureole" points file:dome.csv --domain disk -o flat.csv || fail "a hemisphere on the disk"
 [ "$(wc -l < flat.csv)" = 21 ] || fail "a hemisphere on the disk"
+"$aureole" points super-fibonacci -n 20 -o turns.csv || fail "rotations"
+"$aureole" points file:turns.csv | cmp -s - turns.csv || fail "rotations do not come back as they went"
+head -1 turns.csv | grep -qx 'w,x,y,z' || fail "the header of rotations"
+"$aureole" points sobol -n 8 --domain rotations --scramble owen --matrices | awk -F, '
+  NR > 1 { d = $1*($5*$9-$6*$8) - $2*($4*$9-$6*$7) + $3*($4*$8-$5*$7); if (d < 1 - 1e-12 || d > 1 + 1e-12) bad = 1 }
+  END { exit bad || NR != 9 }' || fail "matrices of rotations"
+[ "$("$aureole" points super-fibonacci -n 4800 --symmetry 432 | wc -l)" -gt 190 ] || fail "a fundamental zone"
 head -1 whole.csv | grep -qx 'x,y,z' || fail "the header of directions"
 "$aureole" points sobol -n 4 --lobe phong:20 --density optimal | head -1 | grep -qx 'x,y,z,w' || fail "weights"
 "$aureole" points sobol -n 8 --dim 3 | head -1 | grep -qx 'u1,u2,u3' || fail "the cube"
@@ -101,6 +109,13 @@ refuse sobol -n 99999999999999999999
 refuse sobol -n 99999999999999999
 refuse sobol halton -n 4
 refuse sobl -n 4
+refuse sobol -n 4 --symmetry 432
+refuse sobol -n 4 --domain sphere --matrices
+refuse super-fibonacci -n 4 --symmetry 532
+refuse super-fibonacci -n 4 --domain sphere
+refuse super-fibonacci -n 4 --cap 30
+refuse super-fibonacci -n 4 --lobe cosine
+refuse fibonacci-lattice -n 4 --domain rotations
 refuse sobl -n 4 --domain sphere
 refuse sobol:x=1 -n 4
 refuse sobol -n 4 --dim 0

@@ -51,23 +51,31 @@ static aur_result by_header(const char *path, const aur_matrix *matrix, const au
         m->domain = AUR_DOMAIN_SQUARE;
     else if (strcmp(header, "x,y,z") == 0)
         m->domain = AUR_DOMAIN_SPHERE;
+    else if (strcmp(header, "w,x,y,z") == 0)
+        m->domain = AUR_DOMAIN_ROTATIONS;
     else if (strcmp(header, "x,y") == 0)
         m->domain = wanted != NULL && is_flat(*wanted) ? AUR_DOMAIN_SQUARE : AUR_DOMAIN_DISK;
     else if (strcmp(header, "u") == 0 || is_cube_header(header, m->dimension))
         m->domain = m->dimension == 2 ? AUR_DOMAIN_SQUARE : AUR_DOMAIN_CUBE;
     else
-        return aur_fail_at(error, (aur_location){.file = path, .line = 1}, AUR_ERROR_FORMAT,
-                           "the header '%s' must be u,v (square), x,y (disk), x,y,z (sphere) or u1,u2,... "
-                           "(cube), and w for weights after it",
-                           matrix->header);
+        return aur_fail_at(
+            error, (aur_location){.file = path, .line = 1}, AUR_ERROR_FORMAT,
+            "the header '%s' must be u,v (square), x,y (disk), x,y,z (sphere), w,x,y,z (rotations) or "
+            "u1,u2,... (cube), and w for weights after it",
+            matrix->header);
     return AUR_OK;
 }
 
 /* Without names: two columns are u,v, three unit vectors, four unit vectors with weights; any other number
- * are coordinates on the cube, and so are the three or four columns of an array that are no unit vectors. */
-static void by_columns(const aur_matrix *matrix, meaning *m) {
+ * are coordinates on the cube, and so are the three or four columns of an array that are no unit vectors.
+ * Where rotations are asked for four columns are quaternions, and a fifth their weights. */
+static void by_columns(const aur_matrix *matrix, const aur_domain *wanted, meaning *m) {
     const size_t columns = matrix->column_count;
     *m = (meaning){AUR_DOMAIN_CUBE, columns, false};
+    if (wanted != NULL && *wanted == AUR_DOMAIN_ROTATIONS && (columns == 4 || columns == 5)) {
+        *m = (meaning){AUR_DOMAIN_ROTATIONS, 4, columns == 5};
+        return;
+    }
     if (columns == 2)
         m->domain = AUR_DOMAIN_SQUARE;
     const bool unit = columns >= 3 && matrix->row_count > 0 && aur_is_unit(matrix->values);
@@ -79,6 +87,10 @@ static void by_columns(const aur_matrix *matrix, meaning *m) {
 static const char *off_domain(const meaning *m, const double *row) {
     if (m->domain == AUR_DOMAIN_SPHERE)
         return aur_is_unit(row) ? NULL : "a direction must have length 1";
+    if (m->domain == AUR_DOMAIN_ROTATIONS) {
+        const double square = row[0] * row[0] + aur_dot3(row + 1, row + 1);
+        return fabs(square - 1.0) <= 2e-6 ? NULL : "a rotation must be a quaternion w,x,y,z of length 1";
+    }
     if (m->domain == AUR_DOMAIN_DISK)
         return row[0] * row[0] + row[1] * row[1] <= 1.0 ? NULL
                                                         : "a point of the disk must have x^2 + y^2 <= 1 (the "
@@ -112,7 +124,7 @@ static aur_result find_meaning(const char *path, const aur_matrix *matrix, const
         return aur_fail_at(error, (aur_location){.file = path}, AUR_ERROR_FORMAT, "no points");
     aur_result result = AUR_OK;
     if (matrix->header[0] == '\0')
-        by_columns(matrix, m);
+        by_columns(matrix, wanted, m);
     else
         result = by_header(path, matrix, wanted, m, error);
     return result == AUR_OK && wanted != NULL ? check_domain(path, matrix, m, *wanted, error) : result;

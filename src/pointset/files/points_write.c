@@ -27,11 +27,16 @@ const char *aur_points_format_name(aur_points_format format) {
     return (size_t)format < FORMAT_COUNT ? format_names[format] : NULL;
 }
 
-/* The name of a column: u,v on the square, x,y on the disk, x,y,z on the sphere, u1,u2,... on the cube. */
+/* The name of a column: u,v on the square, x,y on the disk, x,y,z on the sphere, u1,u2,... on the cube,
+ * w,x,y,z or m11,m12,... of rotations. */
 static void column_name(const aur_points_view *points, size_t column, char name[NAME_CAPACITY]) {
     static const char letters[] = "xyz";
     if (points->domain == AUR_DOMAIN_CUBE)
         snprintf(name, NAME_CAPACITY, "u%zu", column + 1);
+    else if (points->domain == AUR_DOMAIN_ROTATIONS && points->dimension == 9)
+        snprintf(name, NAME_CAPACITY, "m%zu%zu", column / 3 + 1, column % 3 + 1);
+    else if (points->domain == AUR_DOMAIN_ROTATIONS)
+        snprintf(name, NAME_CAPACITY, "%c", "wxyz"[column % 4]);
     else
         snprintf(name, NAME_CAPACITY, "%c",
                  points->domain == AUR_DOMAIN_SQUARE ? (column == 0 ? 'u' : 'v') : letters[column % 3]);

@@ -2,6 +2,7 @@
 #include <math.h>
 
 #include "core/vector.h"
+#include "quality/rotations/rotations.h"
 #include "quality/spacing.h"
 #include "quality/sphere/voronoi.h"
 
@@ -12,6 +13,8 @@ static aur_result fail_unbounded(aur_error *error) {
 
 /* Radians. */
 static aur_result covering(const aur_measure_request *request, double *value, aur_error *error) {
+    if (request->points->domain == AUR_DOMAIN_ROTATIONS)
+        return aur_rotation_covering(request, value, error);
     aur_voronoi_cell *cells;
     bool unbounded;
     const aur_result result = aur_voronoi_cells(request, &cells, &unbounded, error);
@@ -40,7 +43,8 @@ static aur_result mesh_ratio(const aur_measure_request *request, double *value, 
         result = covering(request, value, error);
     if (result != AUR_OK)
         return result;
-    *value /= asin(fmin(0.5 * chord, 1.0));
+    const double turn = request->points->domain == AUR_DOMAIN_ROTATIONS ? 2.0 : 1.0;
+    *value /= turn * asin(fmin(0.5 * chord, 1.0));
     if (chord == 0.0)
         aur_warn_at(&request->options.warnings, (aur_location){0},
                     "points coincide: the mesh ratio is infinite");
@@ -99,14 +103,14 @@ const aur_measure_row aur_measure_covering = {
           .summary =
               "covering radius (mesh norm): the largest angle from a direction to its nearest point, radians",
           .source = "Brauchart and Grabner 2015"},
-     .domains = "sphere, hemisphere, axes"},
+     .domains = "sphere, hemisphere, axes, rotations"},
     .compute = covering};
 
 const aur_measure_row aur_measure_mesh_ratio = {
     {.row = {.name = "mesh-ratio",
              .summary = "covering radius over half the smallest angle between points: at least 1",
              .source = "Brauchart and Grabner 2015"},
-     .domains = "sphere, hemisphere, axes"},
+     .domains = "sphere, hemisphere, axes, rotations"},
     .minimum_count = 2,
     .compute = mesh_ratio};
 

@@ -3,6 +3,7 @@
 
 #include "core/error.h"
 #include "quality/pairs/pair_sum.h"
+#include "quality/rotations/rotations.h"
 #include "quality/sphere/fibonacci_sum.h"
 #include "quality/sphere/hemisphere.h"
 
@@ -60,7 +61,9 @@ static aur_result square_energy(const aur_measure_request *request, double *squa
 /* The published names divide E^2 by the row's variant. */
 static aur_result energy(const aur_measure_request *request, double *value, aur_error *error) {
     double square = 0.0;
-    const aur_result result = square_energy(request, &square, error);
+    const aur_result result = request->points->domain == AUR_DOMAIN_ROTATIONS
+                                  ? aur_rotation_energy(request, &square, error)
+                                  : square_energy(request, &square, error);
     *value = sqrt(square / (double)request->variant);
     return result;
 }
@@ -69,7 +72,7 @@ const aur_measure_row aur_measure_energy = {
     {.row = {.name = "energy",
              .summary = "distance energy E_N: the worst-case error for the kernel of distances",
              .source = "Marques 2013 eq. 3; on the hemisphere with the mean-distance potential"},
-     .domains = "sphere, hemisphere, axes"},
+     .domains = "sphere, hemisphere, axes, rotations"},
     .variant = 1,
     .compute = energy};
 

@@ -3,6 +3,7 @@
 
 #include "core/error.h"
 #include "quality/pairs/pair_sum.h"
+#include "quality/rotations/rotations.h"
 
 static double kernel(double square, double exponent) {
     if (exponent == 0.0)
@@ -35,12 +36,12 @@ static aur_twofold riesz_tile(const aur_axes *axes, aur_pair_tile tile, double e
     return total;
 }
 
-static aur_result riesz(const aur_measure_request *request, double *value, aur_error *error) {
-    double exponent;
-    aur_result result = aur_measure_number(request, -64.0, 64.0, 0.0, &exponent, error);
+/* The sum over unordered pairs of points, the unit of their masses, and what an axis does to its other end.
+ */
+static aur_result sum_of_directions(const aur_measure_request *request, double exponent, double *value,
+                                    aur_error *error) {
     aur_axes axes;
-    if (result == AUR_OK)
-        result = aur_axes_create(request->points, &axes, error);
+    aur_result result = aur_axes_create(request->points, &axes, error);
     if (result != AUR_OK)
         return result;
     aur_twofold sum = {0.0, 0.0};
@@ -63,11 +64,32 @@ static aur_result riesz(const aur_measure_request *request, double *value, aur_e
             scale *= 0.5;
         }
         *value = isfinite(sum.high) ? scale * (sum.high + sum.low) : INFINITY;
-        if (isinf(*value))
-            aur_warn_at(&request->options.warnings, (aur_location){0},
-                        "points coincide: the Riesz energy is infinite");
     }
     aur_axes_release(&axes);
+    return result;
+}
+
+/* Of two rotations whose nearer quaternions have this squared distance: the farther ones have the rest of 4.
+ */
+static double both_quaternions(double square, double exponent) {
+    if (square == 0.0 && exponent >= 0.0)
+        return INFINITY;
+    return kernel(square, exponent) + kernel(4.0 - square, exponent);
+}
+
+static aur_result riesz(const aur_measure_request *request, double *value, aur_error *error) {
+    double exponent;
+    aur_result result = aur_measure_number(request, -64.0, 64.0, 0.0, &exponent, error);
+    if (result == AUR_OK && request->points->domain == AUR_DOMAIN_ROTATIONS) {
+        result = aur_rotation_pair_sum(request, both_quaternions, exponent, value, error);
+        const double count = 0.5 * (double)request->points->count;
+        *value *= 2.0 * count * count;
+    } else if (result == AUR_OK) {
+        result = sum_of_directions(request, exponent, value, error);
+    }
+    if (result == AUR_OK && isinf(*value))
+        aur_warn_at(&request->options.warnings, (aur_location){0},
+                    "points coincide: the Riesz energy is infinite");
     return result;
 }
 
@@ -77,5 +99,5 @@ const aur_measure_row aur_measure_riesz = {
                         "1/|x_i - x_j|",
              .source = "Hardin and Saff 2004"},
      .parameter = ":S",
-     .domains = "sphere, hemisphere, axes"},
+     .domains = "sphere, hemisphere, axes, rotations"},
     .compute = riesz};

@@ -8,7 +8,6 @@
 #include "core/keys.h"
 #include "core/options.h"
 #include "core/text.h"
-#include "core/vector3d.h"
 #include "sphere/native.h"
 
 #define ROW_OF(name) &aur_measure_##name.description.row,
@@ -82,6 +81,13 @@ static aur_location line_of(const aur_points_view *points, size_t index) {
     return (aur_location){.line = points->lines != NULL ? points->lines[index] : 0};
 }
 
+static double square_length(size_t dimension, const double *x) {
+    double square = 0.0;
+    for (size_t d = 0; d < dimension; ++d)
+        square += x[d] * x[d];
+    return square;
+}
+
 static aur_result check_point(const aur_points_view *points, size_t index, aur_error *error) {
     const aur_location where = line_of(points, index);
     const double *const x = aur_point_at(points, index);
@@ -103,7 +109,7 @@ static aur_result check_point(const aur_points_view *points, size_t index, aur_e
                                "point %zu is at radius %.17g, outside the unit disk", index + 1, radius);
         return AUR_OK;
     }
-    const double length = aur_length3(x);
+    const double length = sqrt(square_length(points->dimension, x));
     if (!(fabs(length - 1.0) <= unit_tolerance))
         return aur_fail_at(error, where, AUR_ERROR_ARGUMENT,
                            "point %zu has the length %.9g: directions must be unit vectors within 1e-6",
@@ -137,7 +143,8 @@ static aur_result check_weights(const aur_measure_row *row, const aur_points_vie
 static size_t expected_dimension(aur_domain domain) {
     static const size_t dimensions[] = {
         [AUR_DOMAIN_SQUARE] = 2,     [AUR_DOMAIN_CUBE] = 0,   [AUR_DOMAIN_DISK] = 2,
-        [AUR_DOMAIN_HEMISPHERE] = 3, [AUR_DOMAIN_SPHERE] = 3, [AUR_DOMAIN_AXES] = 3};
+        [AUR_DOMAIN_HEMISPHERE] = 3, [AUR_DOMAIN_SPHERE] = 3, [AUR_DOMAIN_AXES] = 3,
+        [AUR_DOMAIN_ROTATIONS] = 4};
     return dimensions[domain];
 }
 
@@ -164,41 +171,43 @@ static aur_result check(const aur_measure_row *row, const aur_points_view *point
 }
 
 /* A vector that is unit to rounding stays as it is. */
-static double unit_scale(const double x[3]) {
-    const double square = aur_dot3(x, x);
+static double unit_scale(size_t dimension, const double *x) {
+    const double square = square_length(dimension, x);
     return fabs(square - 1.0) <= 1e-15 ? 1.0 : 1.0 / sqrt(square);
 }
 
 /* Whether directions can be measured where they are: one after another, of unit length to the last bit. */
 static bool are_unit(const aur_points_view *points) {
-    bool unit = points->stride == 3;
+    bool unit = points->stride == points->dimension;
     for (size_t i = 0; i < points->count && unit; ++i)
-        unit = unit_scale(aur_point_at(points, i)) == 1.0;
+        unit = unit_scale(points->dimension, aur_point_at(points, i)) == 1.0;
     return unit;
 }
 
 /* A copy that is so, so that seven-digit files are measured as meant. */
 static double *unit_copy(const aur_points_view *points, aur_arena *arena) {
-    double *const copy = aur_arena_allocate(arena, points->count * 3 * sizeof *copy);
+    const size_t dimension = points->dimension;
+    double *const copy = aur_arena_allocate(arena, points->count * dimension * sizeof *copy);
     for (size_t i = 0; i < points->count && copy != NULL; ++i) {
         const double *const x = aur_point_at(points, i);
-        const double scale = unit_scale(x);
-        for (size_t d = 0; d < 3; ++d)
-            copy[3 * i + d] = x[d] * scale;
+        const double scale = unit_scale(dimension, x);
+        for (size_t d = 0; d < dimension; ++d)
+            copy[dimension * i + d] = x[d] * scale;
     }
     return copy;
 }
 
-/* Each axis by both of its ends: all of them as they are given, then their opposites. */
+/* Each axis by both of its ends, each rotation by both of its quaternions: all of them as they are given,
+ * then their opposites. */
 static bool add_opposites(aur_points_view *points, aur_arena *arena) {
-    const size_t count = points->count;
-    double *const both = aur_arena_allocate(arena, 6 * count * sizeof *both);
+    const size_t count = points->count, size = points->dimension * count;
+    double *const both = aur_arena_allocate(arena, 2 * size * sizeof *both);
     double *const weights = aur_arena_allocate(arena, 2 * count * sizeof *weights);
     if (both == NULL || weights == NULL)
         return false;
-    for (size_t i = 0; i < 3 * count; ++i) {
+    for (size_t i = 0; i < size; ++i) {
         both[i] = points->coordinates[i];
-        both[3 * count + i] = -points->coordinates[i];
+        both[size + i] = -points->coordinates[i];
     }
     for (size_t i = 0; i < count; ++i)
         weights[i] = weights[count + i] = aur_weight_at(points, i);
@@ -246,11 +255,12 @@ static aur_result prepare(const char *metric, const aur_points_view *given,
     if (result != AUR_OK)
         return result;
     p->request.variant = p->row->variant;
-    if (expected_dimension(points->domain) == 3 && !are_unit(points)) {
+    if (expected_dimension(points->domain) >= 3 && !are_unit(points)) {
         points->coordinates = unit_copy(points, &p->arena);
-        points->stride = 3;
+        points->stride = points->dimension;
     }
-    if (points->domain == AUR_DOMAIN_AXES && points->coordinates != NULL && !add_opposites(points, &p->arena))
+    const bool twofold = points->domain == AUR_DOMAIN_AXES || points->domain == AUR_DOMAIN_ROTATIONS;
+    if (twofold && points->coordinates != NULL && !add_opposites(points, &p->arena))
         return aur_fail_memory(error);
     if (p->row->masses)
         points->weights = masses_of(points, &p->arena);

@@ -109,31 +109,6 @@ static aur_result refuse_scramble(const char *set, aur_scramble scramble, aur_er
                     name != NULL ? name : "?");
 }
 
-static aur_result open_native(const char *set, const aur_directions_options *options,
-                              aur_directions *directions, aur_error *error) {
-    const aur_native_set *const native = directions->native;
-    char sizes[64];
-    aur_set_sizes(&native->description, sizeof sizes, sizes);
-    if (options->count == 0 || options->count > native->description.maximum_size)
-        return aur_fail(error, AUR_ERROR_ARGUMENT, "set '%s' has sizes %s, not %llu",
-                        native->description.row.name, sizes, (unsigned long long)options->count);
-    aur_parameters keys;
-    aur_result result = aur_parameters_parse(&keys, "set", set, error);
-    if (result != AUR_OK)
-        return result;
-    if ((native->description.domains >> options->domain & 1u) == 0)
-        return aur_fail(error, AUR_ERROR_UNSUPPORTED, "set '%s' has no points of the domain '%s'",
-                        native->description.row.name, aur_domain_name(options->domain));
-    const aur_native_request request = {options->domain, options->count, directions->height,
-                                        &options->warnings};
-    result = native->prepare(&native->description.row, &keys, &request, &directions->native_data, error);
-    if (result == AUR_OK)
-        result = aur_parameters_finish(&keys, error);
-    aur_parameters_release(&keys);
-    directions->size = options->count;
-    return result;
-}
-
 static aur_result open_square(const char *set, const aur_directions_options *options, uint64_t count,
                               aur_scramble scramble, aur_directions *directions, aur_error *error) {
     const aur_pointset_options wanted = {.size = sizeof wanted,
@@ -198,7 +173,10 @@ static aur_result open_set(const char *set, const aur_directions_options *option
         return open_square(set, options, options->count, scramble, directions, error);
     if (scramble != AUR_SCRAMBLE_NONE)
         return refuse_scramble(set, scramble, error);
-    return open_native(set, options, directions, error);
+    const aur_native_request request = {options->domain, options->count, directions->height,
+                                        &options->warnings};
+    directions->size = options->count;
+    return aur_native_open(directions->native, set, &request, &directions->native_data, error);
 }
 
 aur_result aur_directions_create(const char *set, const aur_directions_options *options,

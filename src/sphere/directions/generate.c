@@ -1,7 +1,7 @@
 /* Points of any set on any domain, in arrays of their own. */
 #include <string.h>
 
-#include <aureole/sphere.h>
+#include <aureole/rotations.h>
 
 #include "core/error.h"
 #include "core/options.h"
@@ -24,6 +24,12 @@ static bool is_flat(aur_domain domain) {
     return domain == AUR_DOMAIN_SQUARE || domain == AUR_DOMAIN_CUBE;
 }
 
+static aur_domain natural_domain(const aur_native_set *native) {
+    if (native == NULL)
+        return AUR_DOMAIN_SQUARE;
+    return (native->description.domains & AUR_ON_ROTATIONS) != 0 ? AUR_DOMAIN_ROTATIONS : AUR_DOMAIN_SPHERE;
+}
+
 /* Chooses domain and size when the request leaves them to the set. */
 static aur_result choose_domain(job *j) {
     const aur_points_request *const request = j->request;
@@ -31,7 +37,7 @@ static aur_result choose_domain(job *j) {
     j->size = j->options->count;
     if (!aur_set_is_file(j->set)) {
         if (request->natural_domain)
-            j->domain = aur_native_find(j->set) != NULL ? AUR_DOMAIN_SPHERE : AUR_DOMAIN_SQUARE;
+            j->domain = natural_domain(aur_native_find(j->set));
         return AUR_OK;
     }
     if (j->size != 0 && !request->natural_domain && j->domain != AUR_DOMAIN_DISK)
@@ -155,10 +161,42 @@ static aur_result generate_directions(const job *j, aur_points **points) {
     return result;
 }
 
+static aur_result generate_rotations(const job *j, aur_points **points) {
+    const aur_rotations_options wanted = {.size = sizeof wanted,
+                                          .count = j->size,
+                                          .scramble = j->options->scramble,
+                                          .seed = j->options->seed,
+                                          .warnings = j->options->warnings};
+    aur_rotations *rotations;
+    aur_result result = aur_rotations_create(j->set, &wanted, &rotations, j->error);
+    if (result != AUR_OK)
+        return result;
+    result = allocate(j, aur_rotations_size(rotations), 4, false, points);
+    if (result == AUR_OK)
+        result = aur_rotations_points(rotations, j->request->first, (*points)->view.count,
+                                      4 * (*points)->view.count, (*points)->coordinates, j->error);
+    aur_rotations_destroy(rotations);
+    return result;
+}
+
+/* Rotations of a file, as they stand. */
+static aur_result copy_rotations(const job *j, aur_points **points) {
+    const aur_points_view *const held = aur_points_look(j->file);
+    const aur_result result = allocate(j, j->size, 4, held->weights != NULL, points);
+    if (result != AUR_OK)
+        return result;
+    const size_t count = (*points)->view.count;
+    memcpy((*points)->coordinates, aur_point_at(held, j->request->first), 4 * count * sizeof(double));
+    if (held->weights != NULL)
+        memcpy((*points)->weights, held->weights + j->request->first, count * sizeof(double));
+    return AUR_OK;
+}
+
 static aur_result generate(const job *j, aur_points **points) {
     const aur_directions_options *const options = j->options;
     const aur_points_view *const held = j->file != NULL ? aur_points_look(j->file) : NULL;
-    if (is_flat(j->domain) || j->domain == AUR_DOMAIN_DISK) {
+    const bool rotations = j->domain == AUR_DOMAIN_ROTATIONS;
+    if (is_flat(j->domain) || j->domain == AUR_DOMAIN_DISK || rotations) {
         if (options->lobe.kind != AUR_LOBE_COSINE_POWER || options->lobe.exponent != 0.0)
             return aur_fail(j->error, AUR_ERROR_UNSUPPORTED, "a lobe needs the hemisphere as its domain");
         if (options->cap_degrees != 0.0)
@@ -169,6 +207,11 @@ static aur_result generate(const job *j, aur_points **points) {
         return generate_flat(j, j->request->dimension, false, points);
     if (j->request->dimension != 0 && j->request->dimension != 2)
         return aur_fail(j->error, AUR_ERROR_ARGUMENT, "only the square has other dimensions than its own");
+    if (rotations && held != NULL && held->domain == AUR_DOMAIN_ROTATIONS &&
+        options->scramble == AUR_SCRAMBLE_NONE)
+        return copy_rotations(j, points);
+    if (rotations)
+        return generate_rotations(j, points);
     if (j->domain != AUR_DOMAIN_DISK)
         return generate_directions(j, points);
     if (held != NULL && held->domain == AUR_DOMAIN_DISK)

@@ -44,6 +44,28 @@ const aur_native_set *aur_native_find(const char *set) {
     return NULL;
 }
 
+aur_result aur_native_open(const aur_native_set *native, const char *set, const aur_native_request *request,
+                           void **data, aur_error *error) {
+    const aur_set_description *const description = &native->description;
+    char sizes[64];
+    aur_set_sizes(description, sizeof sizes, sizes);
+    if (request->count == 0 || request->count > description->maximum_size)
+        return aur_fail(error, AUR_ERROR_ARGUMENT, "set '%s' has sizes %s, not %llu", description->row.name,
+                        sizes, (unsigned long long)request->count);
+    if ((description->domains >> request->domain & 1u) == 0)
+        return aur_fail(error, AUR_ERROR_UNSUPPORTED, "set '%s' has no points of the domain '%s'",
+                        description->row.name, aur_domain_name(request->domain));
+    aur_parameters keys;
+    aur_result result = aur_parameters_parse(&keys, "set", set, error);
+    if (result != AUR_OK)
+        return result;
+    result = native->prepare(&description->row, &keys, request, data, error);
+    if (result == AUR_OK)
+        result = aur_parameters_finish(&keys, error);
+    aur_parameters_release(&keys);
+    return result;
+}
+
 aur_result aur_set_check_name(const char *set, aur_error *error) {
     const aur_names all = aur_names_of_table(&aur_set_table);
     char wanted[NAME_CAPACITY];

@@ -2,6 +2,7 @@
  * quadrature.h that the tests of that room do not call. */
 #include <aureole/quadrature.h>
 #include <aureole/quality.h>
+#include <aureole/rotations.h>
 #include <aureole/sphere.h>
 
 #include "calls.h"
@@ -100,6 +101,29 @@ static void direct_generators(void) {
     refuse(aur_golden_points(NAN, NULL, 0, 1, &output, &error), AUR_ERROR_ARGUMENT, &error);
     refuse(aur_golden_set_points(0.5, 0, &output, &error), AUR_ERROR_ARGUMENT, &error);
     refuse(aur_golden_set_points_two_seeds(0.5, 1.0, COUNT, &output, &error), AUR_ERROR_ARGUMENT, &error);
+}
+
+static void rotations(void) {
+    aur_rotations_options options = aur_rotations_options_default(4);
+    aur_rotations *set = NULL;
+    aur_rotation rotation;
+    aur_symmetry symmetry;
+    double group[4 * AUR_SYMMETRY_ORDER_MAX];
+    accept(aur_rotations_create("super-fibonacci", &options, &set, &error), &error);
+    require(aur_rotations_size(set) == 4, "aur_rotations_size");
+    accept(aur_rotations_points(set, 0, 4, 3 * COUNT, buffer, &error), &error);
+    refuse(aur_rotations_points(set, 1, 4, 3 * COUNT, buffer, &error), AUR_ERROR_ARGUMENT, &error);
+    refuse(aur_rotations_points(set, 0, 4, 15, buffer, &error), AUR_ERROR_CAPACITY, &error);
+    aur_rotations_destroy(set);
+    aur_rotations_destroy(NULL);
+    refuse(aur_rotations_create("nothing", &options, &set, &error), AUR_ERROR_NAME, &error);
+    aur_rotation_from_quaternion(buffer, &rotation);
+    aur_rotation_to_quaternion(&rotation, buffer + 4);
+    accept(aur_symmetry_from_name("432", &symmetry, &error), &error);
+    require(strcmp(aur_symmetry_name(symmetry), "432") == 0 && aur_symmetry_group(symmetry, group) == 24,
+            "the rotations of a cube");
+    accept(aur_symmetry_reduce(symmetry, 2, buffer, &error), &error);
+    require(aur_symmetry_select(symmetry, 2, buffer) == 2, "aur_symmetry_select");
 }
 
 static void maps_and_lobes(void) {
@@ -231,6 +255,7 @@ int main(void) {
     prepared_sets();
     direct_generators();
     maps_and_lobes();
+    rotations();
     directions();
     points_and_measures();
     return 0;
