@@ -21,6 +21,7 @@ typedef struct aur_power_diagram {
     const double *weights;
     aur_site_grid grid; /* filled with the sites */
     aur_power_cell *cells;
+    bool warm; /* the cells are those of sites and weights that were much like these: where to begin */
 } aur_power_diagram;
 
 /* Computes all cells; they are independent of each other and of the number of threads. */

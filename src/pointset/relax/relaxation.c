@@ -11,12 +11,6 @@
 
 enum { PATH_CAPACITY = 4096 };
 
-void aur_random_sites(uint64_t seed, size_t count, aur_point2 *sites) {
-    for (size_t i = 0; i < count; ++i)
-        sites[i] =
-            (aur_point2){aur_unit_double(aur_hash3(seed, i, 0)), aur_unit_double(aur_hash3(seed, i, 1))};
-}
-
 bool aur_site_grid_create(aur_site_grid *grid, size_t count) {
     grid->side = 1;
     while ((grid->side + 1) * (grid->side + 1) <= count)

@@ -1,5 +1,4 @@
-/* What the two blue-noise sets share: random starts on the torus, wrapped differences, and a cache of
- * results. */
+/* What the two blue-noise sets share: wrapped differences, a grid of sites, and a cache of results. */
 #pragma once
 
 #include "pointset/set.h"
@@ -27,9 +26,6 @@ static inline double aur_unwrap(double x) {
         x -= 1.0;
     return x >= 0.0 && x < 1.0 ? x : 0.0;
 }
-
-/* Independent uniform points. */
-void aur_random_sites(uint64_t seed, size_t count, aur_point2 *sites);
 
 /* Sites by cell of a square grid with about one site a cell: sites[start[c]] .. sites[start[c + 1] - 1] are
  * those of cell c = row * side + column, in ascending order. */
