@@ -49,7 +49,8 @@ typedef struct aur_exact_report {
     size_t degree;
     double residual;       /* the worst error among functions of mean square 1 to the degree */
     double least, largest; /* weight times the number of points */
-    size_t places;         /* points at different places */
+    size_t points;         /* how many were weighed */
+    size_t places;         /* of them at different places */
     size_t iterations;     /* of conjugate gradients; 0: solved by a factorisation */
 } aur_exact_report;
 
@@ -67,6 +68,18 @@ typedef struct aur_exact_report {
 AUR_API aur_result aur_weights_exact(size_t count, const double *xyz, const aur_exact_options *options,
                                      size_t capacity, double *weights, aur_exact_report *report,
                                      aur_error *error) AUR_NONNULL(2, 3, 5);
+
+/* Nested rules: the same for the first counts[k] points of a set, for each of `level_count` ascending counts,
+ * of which the last may be less than all. weights[level_count * count] are those of the first level first, 0
+ * for points behind it, so that one function value a point gives an integral for every level, and the
+ * differences of neighbours estimate the error: of the lower of the two for smooth functions, of either for
+ * rough ones (docs/choosing.md has how often they hold). Made for the levels of extensible grids (esfg) and
+ * for prefixes of sequences. `reports`, unless NULL, has room for level_count; `near` of the options is of
+ * all points. Errors: as aur_weights_exact, with the level; ARGUMENT for counts that do not ascend from 1. */
+AUR_API aur_result aur_weights_nested(size_t count, const double *xyz, size_t level_count,
+                                      const size_t *counts, const aur_exact_options *options, size_t capacity,
+                                      double *weights, aur_exact_report *reports, aur_error *error)
+    AUR_NONNULL(2, 4, 5, 7);
 
 #ifdef __cplusplus
 }

@@ -69,12 +69,13 @@ typedef struct aur_integral {
 } aur_integral;
 
 /* The integral of a function. On the whole sphere each replicate is a grid (esfg, Marques 2019) turned at
- * random, whose levels have exact weights of their own (exact.h) to about the degree sqrt(points / 2.2) - 1;
- * elsewhere it is a Sobol sequence with a random Owen scrambling and equal weights. Both are without bias at
- * a fixed level. The grid doubles until the error is as wanted; nothing is evaluated twice. Intervals hold a
- * little less often than `confidence` says, because they also end the work: docs/choosing.md has the measured
- * coverage. The integral's size must be set. Errors: ARGUMENT (which option, and the range; a value that is
- * not finite, and where), UNSUPPORTED, MEMORY, CANCELLED, and what the function returns. */
+ * random, whose levels of up to 1024 points have exact weights of their own (exact.h) to about the degree
+ * sqrt(points / 2.2) - 1; elsewhere it is a Sobol sequence with a random Owen scrambling and equal weights.
+ * Both are without bias at a fixed level. The grid doubles until the error is as wanted; nothing is evaluated
+ * twice. Intervals hold a little less often than `confidence` says, because they also end the work:
+ * docs/choosing.md has the measured coverage. The integral's size must be set. Errors: ARGUMENT (which
+ * option, and the range; a value that is not finite, and where), UNSUPPORTED, MEMORY, CANCELLED, and what the
+ * function returns. */
 AUR_API aur_result aur_integrate(aur_integrand function, void *user, const aur_integrate_options *options,
                                  aur_integral *integral, aur_error *error) AUR_NONNULL(1, 3, 4);
 

@@ -39,6 +39,9 @@ static const cli_option options[] = {
     {CLI_INTEGER(cli_weights_arguments, degree, "degree", "L", 0, AUR_EXACT_DEGREE_MAX,
                  "the largest with positive weights", "of the polynomials that --method exact integrates"),
      .key.computed = true},
+    {CLI_TEXT(cli_weights_arguments, levels, "levels", "N,N,...", NULL,
+              "exact weights for the first so many samples each: the columns w, w2, ..."),
+     .list = true},
     {CLI_FLAG(cli_weights_arguments, negative, "negative",
               "weights of a --degree that is given may be negative")},
     {CLI_FLAG(cli_weights_arguments, near, "near", "exact weights near to those of the file, its column w")},
@@ -91,8 +94,12 @@ static const char *broken_rule(const cli_call *call, const cli_weights_arguments
     if (two && (exact || arguments->method == CLI_METHOD_VORONOI))
         return "--lobe2: exact weights and areas of cells are for one lobe";
     if (!exact && (arguments->degree != AUR_DEGREE_LARGEST || arguments->negative || arguments->near ||
-                   arguments->points.options.cap_degrees > 0.0))
-        return "--degree, --negative, --near and --cap are for --method exact";
+                   arguments->levels.count > 0 || arguments->points.options.cap_degrees > 0.0))
+        return "--degree, --levels, --negative, --near and --cap are for --method exact";
+    if (arguments->levels.count > CLI_LEVEL_LIMIT)
+        return "--levels: there may be at most 32";
+    if (arguments->levels.count > 0 && arguments->plot != NULL)
+        return "--plot: draws one level: leave --levels out";
     if (arguments->near && !cli_has_size(arguments->source))
         return "--near: only a file has weights to stay near to";
     return NULL;

@@ -34,16 +34,19 @@ typedef struct cli_weights_arguments {
     size_t rotation;
     size_t degree; /* AUR_DEGREE_LARGEST: the largest */
     bool near, negative;
+    cli_list levels; /* of nested exact weights */
 } cli_weights_arguments;
+
+enum { CLI_LEVEL_LIMIT = 32 };
 
 /* Samples, weights and their figures, lobe by lobe. */
 typedef struct cli_weights_result {
-    size_t count; /* samples */
-    size_t lobe_count;
-    double *xyz;     /* 3 * count */
-    double *weights; /* lobe_count * count */
-    double *near;    /* of the file, where they are asked for and there; else NULL */
-    aur_exact_report exact;
+    size_t count;      /* samples */
+    size_t lobe_count; /* or levels of exact weights */
+    double *xyz;       /* 3 * count */
+    double *weights;   /* lobe_count * count */
+    double *near;      /* of the file, where they are asked for and there; else NULL */
+    aur_exact_report exact[CLI_LEVEL_LIMIT];
     double equal[2], weighted[2], sum[2];
     double ratio[2]; /* with has_ratio: of the weights p/(q N) */
     bool has_ratio;

@@ -253,6 +253,8 @@ static aur_result compute(weights_job *task, aur_error *error) {
         made = prepare_lobes(task, error);
     if (made != AUR_OK)
         return made;
+    if (task->arguments->levels.count > 0)
+        result->lobe_count = task->arguments->levels.count;
     result->weights = malloc(result->lobe_count * result->count * sizeof *result->weights);
     if (result->weights == NULL)
         return aur_fail(error, AUR_ERROR_MEMORY, "out of memory");

@@ -1,5 +1,6 @@
 /* aureole weights --method exact and voronoi: weights that depend on one domain and its samples alone. */
 #include <aureole/quality.h>
+#include <aureole/text.h>
 
 #include "cli/weights.h"
 
@@ -17,11 +18,25 @@ aur_result cli_weights_by_degree(const cli_weights_arguments *arguments, cli_wei
     options.near = result->near;
     options.threads = arguments->common.threads;
     options.progress = cli_progress(arguments->common.quiet);
-    const aur_result made = aur_weights_exact(result->count, result->xyz, &options, result->count,
-                                              result->weights, &result->exact, error);
+    size_t counts[CLI_LEVEL_LIMIT] = {result->count};
+    for (size_t k = 0; k < arguments->levels.count; ++k) {
+        const char *const text = cli_list_at(&arguments->levels, k);
+        uint64_t number;
+        if (!aur_parse_integer(text, SIZE_MAX, &number))
+            return aur_fail(error, AUR_ERROR_ARGUMENT, "--levels: must be numbers of samples, not '%s'",
+                            text);
+        counts[k] = (size_t)number;
+    }
+    const aur_result made =
+        arguments->levels.count == 0
+            ? aur_weights_exact(result->count, result->xyz, &options, result->count, result->weights,
+                                result->exact, error)
+            : aur_weights_nested(result->count, result->xyz, result->lobe_count, counts, &options,
+                                 result->lobe_count * result->count, result->weights, result->exact, error);
     cli_progress_clear();
     const aur_warnings warnings = points->warnings;
-    if (made == AUR_OK && result->exact.places < result->count && warnings.function != NULL)
+    const size_t last = result->lobe_count - 1;
+    if (made == AUR_OK && result->exact[last].places < counts[last] && warnings.function != NULL)
         warnings.function(warnings.user, "points lie on each other and share their weights");
     return made;
 }
@@ -42,14 +57,17 @@ int cli_weights_exact_report(const cli_weights_arguments *arguments, const cli_w
     report_table *const table =
         report_create(9, (const char *const[]){"set", "n", "lobe", "method", "degree", "residual", "least",
                                                "largest", "places"});
-    report_text(table, arguments->source);
-    report_integer(table, result->count);
-    report_text(table, arguments->lobe_text);
-    report_text(table, arguments->method_name);
-    report_integer(table, result->exact.degree);
-    report_number(table, result->exact.residual, 3);
-    report_number(table, result->exact.least, 8);
-    report_number(table, result->exact.largest, 8);
-    report_integer(table, result->exact.places);
+    for (size_t k = 0; k < result->lobe_count; ++k) {
+        const aur_exact_report *const exact = &result->exact[k];
+        report_text(table, arguments->source);
+        report_integer(table, exact->points);
+        report_text(table, arguments->lobe_text);
+        report_text(table, arguments->method_name);
+        report_integer(table, exact->degree);
+        report_number(table, exact->residual, 3);
+        report_number(table, exact->least, 8);
+        report_number(table, exact->largest, 8);
+        report_integer(table, exact->places);
+    }
     return cli_finish(table, arguments->common.format);
 }

@@ -45,6 +45,10 @@ awk -v r="$(column exact residual)" 'BEGIN { exit !(r <= 1.5e-15) }' || fail "re
 "$program" weights exact.csv --lobe cosine --method exact --degree 4 --near >kept.csv || exit 1
 paste -d, exact.csv kept.csv | awk -F, 'NR > 1 { d = $4 - $8; if (d < -1e-15 || d > 1e-15) exit 1 }' || fail "weights near to exact ones"
 "$program" weights $sf -n 300 --cap 30 --method exact --report --format csv | grep -q ",exact," || fail "a cap"
+"$program" weights esfg -n 256 --domain sphere --method exact --degree 4 --levels 64,128,256 -o nested.csv || exit 1
+awk -F, 'NR == 1 { if ($0 != "x,y,z,w,w2,w3") exit 1; next } { a += $4; b += $5; c += $6; if (NR > 65 && $4 != 0) exit 1 }
+  END { exit !(a > 1 - 1e-14 && a < 1 + 1e-14 && b > 1 - 1e-14 && b < 1 + 1e-14 && c > 1 - 1e-14 && c < 1 + 1e-14) }' nested.csv ||
+  fail "nested weights"
 printf 'x,y,z\n0,0,1\n0,0,1\n0,0,-1\n' >doubled.csv
 "$program" weights doubled.csv --domain sphere --method exact >shared.csv 2>message || exit 1
 grep -q "share" message || fail "doubled points: $(cat message)"
@@ -150,6 +154,8 @@ refused "1024 polynomials of degree 31" $sf -n 1000 --domain sphere --method exa
 refused "negative weights, the least of them -" random -n 256 --domain sphere --method exact --degree 13
 refused "for --method exact" sobol -n 8 --lobe cosine --degree 3
 refused "only a file" sobol -n 8 --lobe cosine --method exact --near
+refused "level 1 has 9 points" sobol -n 8 --lobe cosine --method exact --levels 4,9
+refused "not 'x'" sobol -n 8 --lobe cosine --method exact --levels 4,x
 refused "one lobe" sobol -n 8 --lobe cosine --lobe2 phong:20 --angle 3 --method exact
 refused "uniform, cosine and phong" sobol -n 8 --lobe ggx:0.3 --method exact
 refused "90 degrees" doubled.csv --domain sphere --method voronoi

@@ -353,6 +353,42 @@ static void negative(void **state) {
     free(xyz);
 }
 
+/* Each level of a grid is exact by itself, and what stands behind it has no weight. */
+static void nested(void **state) {
+    (void)state;
+    enum { N = 512, LEVELS = 4 };
+    const size_t counts[LEVELS] = {64, 128, 256, 512};
+    double *const xyz = points_of("esfg:base=64", N, AUR_DOMAIN_SPHERE, 0.0, 0.0);
+    double weights[LEVELS * N];
+    aur_exact_options options = aur_exact_options_default(AUR_DOMAIN_SPHERE);
+    options.degree = 4;
+    aur_exact_report reports[LEVELS];
+    aur_error error;
+    assert_int_equal(
+        aur_weights_nested(N, xyz, LEVELS, counts, &options, LEVELS * N, weights, reports, &error), AUR_OK);
+    for (size_t k = 0; k < LEVELS; ++k) {
+        assert_true(reports[k].least > 0.0);
+        assert_true(worst_monomial(N, xyz, weights + k * N, 4, -1.0, 0.0) < 1e-14);
+        for (size_t i = counts[k]; i < N; ++i)
+            assert_true(weights[k * N + i] == 0.0);
+    }
+    options.degree = 20; /* too much for the first level */
+    assert_int_equal(
+        aur_weights_nested(N, xyz, LEVELS, counts, &options, LEVELS * N, weights, reports, &error),
+        AUR_ERROR_ARGUMENT);
+    assert_int_equal(strncmp(error.message, "level 0: ", 9), 0);
+    assert_int_equal(
+        aur_weights_nested(N, xyz, LEVELS, counts, &options, LEVELS * N - 1, weights, reports, &error),
+        AUR_ERROR_CAPACITY);
+    assert_int_equal(
+        aur_weights_nested(300, xyz, LEVELS, counts, &options, LEVELS * N, weights, NULL, &error),
+        AUR_ERROR_ARGUMENT);
+    assert_int_equal(
+        aur_weights_nested(N, xyz, 2, (const size_t[]){64, 64}, &options, LEVELS * N, weights, NULL, &error),
+        AUR_ERROR_ARGUMENT);
+    free(xyz);
+}
+
 /* Areas of cells, which are cut from squares of side 1e6 and lose digits by it: the cube's vertices have one
  * each; doubled points share; the cosine multiplies. */
 static void cells(void **state) {
@@ -387,10 +423,10 @@ static void cells(void **state) {
 }
 
 int main(void) {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(golden),      cmocka_unit_test(monomials),
-                                       cmocka_unit_test(designs),     cmocka_unit_test(two_ways),
-                                       cmocka_unit_test(transforms),  cmocka_unit_test(fast_transforms),
-                                       cmocka_unit_test(many_points), cmocka_unit_test(bad_input),
-                                       cmocka_unit_test(negative),    cmocka_unit_test(cells)};
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(golden),      cmocka_unit_test(monomials),  cmocka_unit_test(designs),
+        cmocka_unit_test(two_ways),    cmocka_unit_test(transforms), cmocka_unit_test(fast_transforms),
+        cmocka_unit_test(many_points), cmocka_unit_test(bad_input),  cmocka_unit_test(negative),
+        cmocka_unit_test(cells),       cmocka_unit_test(nested)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

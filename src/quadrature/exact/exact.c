@@ -193,8 +193,13 @@ static aur_result solve(const aur_exact_options *o, const aur_exact_system *syst
         result = judge(o, system, &found, error);
     const double count = (double)system->points.count;
     if (report != NULL)
-        *report = (aur_exact_report){found.degree,          found.residual, found.least * count,
-                                     found.largest * count, system->places, found.iterations};
+        *report = (aur_exact_report){.degree = found.degree,
+                                     .residual = found.residual,
+                                     .least = found.least * count,
+                                     .largest = found.largest * count,
+                                     .points = system->points.count,
+                                     .places = system->places,
+                                     .iterations = found.iterations};
     return result;
 }
 

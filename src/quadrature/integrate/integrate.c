@@ -11,7 +11,9 @@
 #include "core/vector.h"
 #include "quadrature/integrate/replicates.h"
 
-enum { FIRST = 64 };
+/* Points of the first level, and of the last whose weights are exact: what is not smooth enough to be done
+ * then gains nothing by them. */
+enum { FIRST = 64, EXACT_POINTS = 1024 };
 
 static aur_result check(const aur_integrate_options *o, aur_error *error) {
     const double most = o->domain == AUR_DOMAIN_SPHERE ? 180.0 : 90.0;
@@ -101,7 +103,7 @@ static aur_result weigh(const integration *work, size_t count, aur_error *error)
     const aur_directions *const grid = aur_replicates_grid(work->replicates);
     for (size_t i = 0; i < count; ++i)
         work->weights[i] = 1.0 / (double)count;
-    if (grid == NULL)
+    if (grid == NULL || count > EXACT_POINTS)
         return AUR_OK;
     double *const xyz = malloc(3 * count * sizeof *xyz);
     if (xyz == NULL)
