@@ -11,6 +11,7 @@
 #define AUR_SCENES_FOLDER "scenes"
 #endif
 
+extern const lab_experiment lab_integrate_coverage;
 extern const lab_experiment lab_keller_1994_table1;
 extern const lab_experiment lab_keller_1994_table2;
 extern const lab_experiment lab_keller_1994_table3;
@@ -22,12 +23,14 @@ extern const lab_experiment lab_marques_2018_sensitivity;
 extern const lab_experiment lab_marques_2018_slopes;
 extern const lab_experiment lab_marques_2018_table1;
 extern const lab_experiment lab_schretter_2012_fig5;
+extern const lab_experiment lab_weights_choosing;
 
 static const lab_experiment *const experiments[] = {
-    &lab_keller_1994_table1,  &lab_keller_1994_table2,       &lab_keller_1994_table3,
-    &lab_marques_2013_gather, &lab_marques_2013_table1,      &lab_marques_2018_gains,
-    &lab_marques_2018_rivals, &lab_marques_2018_sensitivity, &lab_marques_2018_slopes,
-    &lab_marques_2018_table1, &lab_schretter_2012_fig5,
+    &lab_integrate_coverage,  &lab_keller_1994_table1,  &lab_keller_1994_table2,
+    &lab_keller_1994_table3,  &lab_marques_2013_gather, &lab_marques_2013_table1,
+    &lab_marques_2018_gains,  &lab_marques_2018_rivals, &lab_marques_2018_sensitivity,
+    &lab_marques_2018_slopes, &lab_marques_2018_table1, &lab_schretter_2012_fig5,
+    &lab_weights_choosing,
 };
 
 size_t lab_experiment_count(void) {

@@ -1,0 +1,140 @@
+/* Which weights for which integrand: equal, optimal (Marques 2018), areas of Voronoi cells and exact to the
+ * largest degree, on the whole sphere, as relative root mean square errors over axes and scramblings. */
+#include <aureole/exact.h>
+#include <aureole/quadrature.h>
+#include <aureole/quality.h>
+#include <math.h>
+#include <stdlib.h>
+
+#include "integrands.h"
+#include "lab/lab.h"
+
+enum { LARGEST = 1024, EQUAL = 0, OPTIMAL, VORONOI, EXACT, METHODS, AXES = 64 };
+
+static const char *const columns[] = {"set",     "n",       "integrand", "equal",
+                                      "optimal", "voronoi", "exact",     "degree"};
+
+typedef struct weighed {
+    size_t count;
+    double *xyz, *weights[METHODS];
+    size_t degree; /* the mean one, times the seeds */
+    double squares[LAB_CLASSES][METHODS];
+} weighed;
+
+/* Whether a set has one form, which is true of those of the sphere itself. */
+static bool is_fixed(const char *set) {
+    const aur_set_description *const row = aur_set_find(set);
+    return row != NULL && row->dimensions[0] == 3;
+}
+
+static aur_result draw(const char *set, size_t count, uint64_t seed, double *xyz, aur_error *error) {
+    aur_directions_options options = aur_directions_options_default(count, AUR_DOMAIN_SPHERE);
+    options.scramble = is_fixed(set) || strcmp(set, "random") == 0 ? AUR_SCRAMBLE_NONE : AUR_SCRAMBLE_OWEN;
+    options.seed = seed;
+    aur_directions *directions;
+    aur_result result = aur_directions_create(set, &options, &directions, error);
+    if (result != AUR_OK)
+        return result;
+    result = aur_directions_points(directions, 0, count, 3 * count, xyz, NULL, error);
+    aur_directions_destroy(directions);
+    return result;
+}
+
+static aur_result weigh(weighed *w, const aur_potential *potential, size_t threads, aur_error *error) {
+    const size_t n = w->count;
+    for (size_t i = 0; i < n; ++i)
+        w->weights[EQUAL][i] = 1.0 / (double)n;
+    aur_measure_options measure = aur_measure_options_default();
+    measure.threads = threads;
+    aur_exact_options exact = aur_exact_options_default(AUR_DOMAIN_SPHERE);
+    exact.threads = threads;
+    aur_exact_report report = {0};
+    aur_result result =
+        aur_weights_solve(n, w->xyz, 1, &potential, NULL, n, w->weights[OPTIMAL], NULL, NULL, error);
+    if (result == AUR_OK)
+        result =
+            aur_weights_voronoi(n, w->xyz, AUR_DOMAIN_SPHERE, NULL, &measure, n, w->weights[VORONOI], error);
+    if (result == AUR_OK)
+        result = aur_weights_exact(n, w->xyz, &exact, n, w->weights[EXACT], &report, error);
+    w->degree += report.degree;
+    return result;
+}
+
+/* Adds the squared relative errors for the axes of one seed. */
+static void judge(weighed *w, uint64_t seed) {
+    const double sphere = 4.0 * 3.14159265358979323846;
+    for (lab_class kind = LAB_SMOOTH; kind < LAB_CLASSES; ++kind)
+        for (uint64_t axis = 0; axis < AXES; ++axis) {
+            const lab_integrand integrand = lab_integrand_make(kind, seed * AXES + axis);
+            double sums[METHODS] = {0};
+            for (size_t i = 0; i < w->count; ++i) {
+                const double value = lab_integrand_value(&integrand, w->xyz + 3 * i);
+                for (size_t k = 0; k < METHODS; ++k)
+                    sums[k] += w->weights[k][i] * value;
+            }
+            for (size_t k = 0; k < METHODS; ++k) {
+                const double error = sphere * sums[k] / lab_integrand_integral(&integrand) - 1.0;
+                w->squares[kind][k] += error * error;
+            }
+        }
+}
+
+static aur_result study(lab_run *run, const char *set, weighed *w, const aur_potential *potential,
+                        aur_error *error) {
+    const bool quick = lab_run_options(run)->quick;
+    const uint64_t seeds = quick ? 2 : 16;
+    w->degree = 0;
+    memset(w->squares, 0, sizeof w->squares);
+    aur_result result = AUR_OK;
+    for (uint64_t seed = 0; seed < seeds && result == AUR_OK; ++seed) {
+        if (seed == 0 || !is_fixed(set)) {
+            result = draw(set, w->count, seed, w->xyz, error);
+            if (result == AUR_OK)
+                result = weigh(w, potential, lab_run_options(run)->threads, error);
+        }
+        if (result == AUR_OK)
+            judge(w, seed);
+    }
+    const size_t forms = is_fixed(set) ? 1 : (size_t)seeds;
+    for (lab_class kind = LAB_SMOOTH; kind < LAB_CLASSES && result == AUR_OK; ++kind) {
+        lab_text(run, set);
+        lab_number(run, (double)w->count);
+        lab_text(run, lab_class_name(kind));
+        for (size_t k = 0; k < METHODS; ++k)
+            lab_number(run, sqrt(w->squares[kind][k] / (double)(seeds * AXES)));
+        lab_number(run, (double)w->degree / (double)forms);
+    }
+    return result;
+}
+
+static aur_result run(lab_run *run, aur_error *error) {
+    lab_columns(run, sizeof columns / sizeof columns[0], columns);
+    aur_density density = aur_density_default();
+    density.kind = AUR_DENSITY_SPHERE;
+    aur_potential *potential;
+    aur_result result = aur_potential_create(&density, 0.0, &potential, error);
+    if (result != AUR_OK)
+        return result;
+    double *const room = malloc((3 + METHODS) * LARGEST * sizeof *room);
+    if (room == NULL)
+        result = aur_fail(error, AUR_ERROR_MEMORY, "out of memory");
+    weighed w = {.xyz = room};
+    for (size_t k = 0; k < METHODS && room != NULL; ++k)
+        w.weights[k] = room + (3 + k) * LARGEST;
+    const char *const sets[] = {"random", "sobol", "spherical-fibonacci", lab_run_options(run)->set};
+    for (size_t i = 0; i < 4; ++i)
+        for (w.count = 64; w.count <= LARGEST && result == AUR_OK && sets[i] != NULL; w.count *= 4)
+            if (w.count < LARGEST || !lab_run_options(run)->quick)
+                result = study(run, sets[i], &w, potential, error);
+    free(room);
+    aur_potential_destroy(potential);
+    return result;
+}
+
+const lab_experiment lab_weights_choosing = {
+    .name = "weights-choosing",
+    .reproduces = "docs/choosing.md",
+    .summary =
+        "equal, optimal, Voronoi and exact weights for smooth, clipped, discontinuous and spiky integrands",
+    .run = run,
+};
