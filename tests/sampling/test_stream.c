@@ -100,7 +100,12 @@ static void tables_are_permuted(void **state) {
 static void blocks_are_single_pairs(void **state) {
     (void)state;
     static const aur_stream_kernel_sets *const forms[] = {
-        &aur_stream_kernels_portable, &aur_stream_kernels_avx2, &aur_stream_kernels_avx512};
+        &aur_stream_kernels_portable,
+#if !defined(AUR_PORTABLE)
+        &aur_stream_kernels_avx2,
+        &aur_stream_kernels_avx512
+#endif
+    };
     static const aur_isa needs[] = {AUR_ISA_PORTABLE, AUR_ISA_AVX2, AUR_ISA_AVX512};
     for (size_t s = 0; s < sizeof sets / sizeof sets[0]; ++s) {
         aur_sampler *const sampler = make(sets[s], 48);
