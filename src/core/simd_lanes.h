@@ -38,6 +38,10 @@ static inline aur_reals aur_lanes_choose(aur_words mask, aur_reals a, aur_reals 
     return (aur_reals)((mask & (aur_words)a) | (~mask & (aur_words)b));
 }
 
+static inline aur_reals aur_lanes_absolute(aur_reals x) {
+    return (aur_reals)((aur_words)x & ~(UINT64_C(1) << 63));
+}
+
 static inline aur_reals aur_lanes_sqrt(aur_reals x) {
 #if defined(__AVX512F__)
     return (aur_reals)_mm512_sqrt_pd((__m512d)x);
@@ -51,6 +55,23 @@ static inline aur_reals aur_lanes_sqrt(aur_reals x) {
     memcpy(&x, roots, sizeof x);
     return x;
 #endif
+}
+
+static inline aur_reals aur_lanes_floor(aur_reals x) {
+#if defined(__AVX512F__)
+    return (aur_reals)_mm512_floor_pd((__m512d)x);
+#elif defined(__AVX2__)
+    return (aur_reals)_mm256_floor_pd((__m256d)x);
+#else
+    for (unsigned l = 0; l < AUR_LANES; ++l)
+        x[l] = floor(x[l]);
+    return x;
+#endif
+}
+
+/* Words of whole numbers from 0 to 2^52: the mantissa of 2^52 + x is x. */
+static inline aur_words aur_lanes_from_whole(aur_reals x) {
+    return (aur_words)(x + 0x1p52) ^ UINT64_C(0x4330000000000000);
 }
 
 /* Signed 64-bit integers to doubles, rounded once. Without an instruction for it the halves become the
@@ -134,6 +155,46 @@ static inline void aur_lanes_store3(double *to, aur_reals x, aur_reals y, aur_re
     }
 #endif
 }
+/* Reads what aur_lanes_store3 wrote. */
+static inline void aur_lanes_load3(const double *from, aur_reals *x, aur_reals *y, aur_reals *z) {
+#if defined(__AVX2__)
+    aur_reals a, b, c;
+    memcpy(&a, from, sizeof a);
+    memcpy(&b, from + AUR_LANES, sizeof b);
+    memcpy(&c, from + 2 * AUR_LANES, sizeof c);
+#endif
+#if defined(__AVX512F__)
+    *x = __builtin_shufflevector(__builtin_shufflevector(a, b, 0, 3, 6, 9, 12, 15, 0, 0), c, 0, 1, 2, 3, 4, 5,
+                                 10, 13);
+    *y = __builtin_shufflevector(__builtin_shufflevector(a, b, 1, 4, 7, 10, 13, 0, 0, 0), c, 0, 1, 2, 3, 4, 8,
+                                 11, 14);
+    *z = __builtin_shufflevector(__builtin_shufflevector(a, b, 2, 5, 8, 11, 14, 0, 0, 0), c, 0, 1, 2, 3, 4, 9,
+                                 12, 15);
+#elif defined(__AVX2__)
+    *x = __builtin_shufflevector(__builtin_shufflevector(a, b, 0, 3, 6, 0), c, 0, 1, 2, 5);
+    *y = __builtin_shufflevector(__builtin_shufflevector(a, b, 1, 4, 7, 0), c, 0, 1, 2, 6);
+    *z = __builtin_shufflevector(__builtin_shufflevector(a, b, 2, 5, 0, 0), c, 0, 1, 4, 7);
+#else
+    for (unsigned l = 0; l < AUR_LANES; ++l) {
+        (*x)[l] = from[3 * l];
+        (*y)[l] = from[3 * l + 1];
+        (*z)[l] = from[3 * l + 2];
+    }
+#endif
+}
+
+/* table[at] of each lane. */
+static inline aur_reals aur_lanes_look_up(const double *table, aur_words at) {
+#if defined(__AVX512F__)
+    return (aur_reals)_mm512_i64gather_pd((__m512i)at, table, 8);
+#else
+    aur_reals found;
+    for (unsigned l = 0; l < AUR_LANES; ++l)
+        found[l] = table[at[l]];
+    return found;
+#endif
+}
+
 /* Writes x0, y0, x1, y1, ..., as aur_lanes_put does. */
 static inline void aur_lanes_store2(double *to, aur_reals x, aur_reals y, bool stream) {
 #if defined(__AVX512F__)

@@ -17,11 +17,11 @@ static inline aur_reals fused(aur_reals a, aur_reals b, aur_reals c) {
 #endif
 }
 
-/* With an estimate y of 1/sqrt(d2) and e = 1 - d2 y^2, sqrt(d2) = d2 y (1 + e/2 + 3/8 e^2 + 5/16 e^3 + 35/128
- * e^4
- * + O(e^5)). AVX-512 estimates within |e| <= 2^-13, where the last term is below 1e-16. Estimates of AVX2
- * have single precision, |e| <= 7.4e-4, and distances below 1e-19 come out shorter; every second row takes
- * the unit for roots, which computes meanwhile. */
+/* With an estimate y of 1/sqrt(d2) and e = 1 - d2 y^2, sqrt(d2) is d2 y times
+ *     1 + e/2 + 3/8 e^2 + 5/16 e^3 + 35/128 e^4 + O(e^5).
+ * AVX-512 estimates within |e| <= 2^-13, where the last term is below 1e-16. Estimates of AVX2 have single
+ * precision, |e| <= 7.4e-4, and distances below 1e-19 come out shorter; every second row takes the unit for
+ * roots, which computes meanwhile. */
 static inline estimate root_of(size_t row, aur_reals square) {
     const aur_reals none = {0};
 #if defined(__AVX512F__)

@@ -140,7 +140,7 @@ static void offer_cap(const aur_sphere_lattice *lattice, const double *q, double
     const double centre = atan2(q[1], q[0]) / (2.0 * AUR_PI);
     const double half = asin(sine / across) / (2.0 * AUR_PI) + 1e-12;
     offer_box(lattice, q, index, (interval){centre - half, centre + half},
-              zone_of(lattice->whole, across * across), kept);
+              (int64_t)zone_of(lattice->whole, (aur_reals){across * across})[0], kept);
 }
 
 /* A cap that holds the wanted points on average, and then larger ones until the last point kept is within. */
