@@ -96,11 +96,12 @@ static void default_output(const char *scene, size_t capacity, char *output) {
 static bool check_output(const char *path) {
     aur_error error;
     const aur_row *format;
-    if (aur_image_find_writer(path, NULL, &format, &error) != AUR_OK)
-        return cli_bad_usage("-o: %s", error.message), false;
-    if (strcmp(path, "-") == 0)
-        return cli_bad_usage("-o: a picture is rendered into a file, not to standard output"), false;
-    return true;
+    const bool known = aur_image_find_writer(path, NULL, &format, &error) == AUR_OK;
+    if (!known)
+        cli_bad_usage("-o: %s", error.message);
+    else if (strcmp(path, "-") == 0)
+        cli_bad_usage("-o: a picture is rendered into a file, not to standard output");
+    return known && strcmp(path, "-") != 0;
 }
 
 static aur_result check_folder(const char *path, aur_error *error) {
