@@ -11,6 +11,7 @@
 /* A line a bench. */
 /* clang-format off */
 extern const bench bench_ao;
+extern const bench bench_defaults;
 extern const bench bench_gather;
 extern const bench bench_gather_weights;
 extern const bench bench_limits;
@@ -26,6 +27,7 @@ extern const bench bench_weights;
 
 static const bench *const benches[] = {
     &bench_ao,
+    &bench_defaults,
     &bench_gather,
     &bench_gather_weights,
     &bench_limits,
