@@ -20,15 +20,29 @@ static const char *depth_of(const aur_parameters *parameters) {
     return NULL;
 }
 
+/* What final gathering needs besides where nobody knows how many samples a pixel will have: patterns of few
+ * samples, which their first samples cover too. */
+static const char *split_of(const char *wanted) {
+    static const char name[] = "finalgather";
+    const size_t length = sizeof name - 1;
+    if (strncmp(wanted, name, length) != 0 || strstr(wanted, "split=") != NULL ||
+        (wanted[length] != '\0' && wanted[length] != ':'))
+        return "";
+    return wanted[length] == ':' ? ",split=8" : ":split=8";
+}
+
 aur_result aur_ask_choose(const aur_scene *scene, const char *wanted, char **integrator, aur_error *error) {
     const aur_parameters *const own = aur_scene_integrator(scene);
     *integrator = NULL;
     if (wanted == NULL && has_its_own_picture(own->plugin))
         return AUR_OK;
     const char *const depth = wanted == NULL ? depth_of(own) : NULL;
-    char text[64];
-    if (depth != NULL)
-        snprintf(text, sizeof text, "path:max_depth=%s", depth);
-    *integrator = strdup(wanted != NULL ? wanted : depth != NULL ? text : "path");
-    return *integrator != NULL ? AUR_OK : aur_fail_memory(error);
+    const char *const text = wanted != NULL ? wanted : depth != NULL ? "path:max_depth=" : "path";
+    const char *const more = wanted != NULL ? split_of(wanted) : depth != NULL ? depth : "";
+    const size_t capacity = strlen(text) + strlen(more) + 1;
+    *integrator = malloc(capacity);
+    if (*integrator == NULL)
+        return aur_fail_memory(error);
+    snprintf(*integrator, capacity, "%s%s", text, more);
+    return AUR_OK;
 }

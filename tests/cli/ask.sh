@@ -18,6 +18,12 @@ awk -v high="$high" 'BEGIN { exit !(high <= 20) }' || fail "asked for 20 %, got 
 cmp a.exr b.exr || fail "threads changed the picture"
 [ ! -s quiet ] || fail "-q says something: $(cat quiet)"
 
+# Final gathering shares patterns among few samples, for nobody knows how many there will be; it needed gigabytes once.
+gather=finalgather:photons=5000,edges=0,debias=true
+(ulimit -v 4000000; "$aureole" render "$scene" "${small[@]}" --integrator $gather --rays 2e6 -o g.exr -t 1 -q) || fail "$gather"
+"$aureole" render "$scene" "${small[@]}" --integrator $gather,split=8 --rays 2e6 -o h.exr -t 3 -q
+cmp g.exr h.exr || fail "threads changed the picture, or the split is another one"
+
 # A clock's picture is made again without one, by the option that is said.
 "$aureole" render "$scene" "${small[@]}" --time .1s -o c.exr 2> said
 rounds=$(sed -n "s/.*'--rounds \([0-9]*\)'.*/\1/p" said)

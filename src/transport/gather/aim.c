@@ -19,9 +19,11 @@ aur_gather_rotation aur_gather_rotation_at(const aur_gather_places *places,
     if (policy->decorrelation == AUR_DECORRELATION_NONE)
         return aur_gather_rule_rotation(rule, 0);
     if (policy->decorrelation == AUR_DECORRELATION_RANDOM || rule->rotation_count == 0)
-        return aur_gather_rule_rotation(rule,
-                                        aur_hash4(plan->seed, places->pixels[lane], places->bounces, lobe));
-    uint64_t tile = aur_hash4(plan->seed, places->tile, places->bounces, lobe);
+        return aur_gather_rule_rotation(rule, aur_hash4(plan->seed,
+                                                        aur_gather_places_hash(places, places->pixels[lane]),
+                                                        places->bounces, lobe));
+    uint64_t tile =
+        aur_hash4(plan->seed, aur_gather_places_hash(places, places->tile), places->bounces, lobe);
     /* Where the samples of a pixel do not split a pattern, each has it rotated anew. */
     if (policy->adaptive)
         tile = aur_hash2(tile, places->index);
@@ -150,7 +152,8 @@ uint32_t aur_gather_sweep_trace(const aur_gather_places *places, const aur_gathe
     const uint32_t aimed = aur_gather_aim(sweep->lanes, &sweep->frames, &local, &rays->packet, cosine);
     if (aimed == 0)
         return 0;
-    rays->hash = aur_hash3(places->pixels[aur_first_lane(sweep->lanes)], index, sweep->lobe);
+    rays->hash = aur_hash3(aur_gather_places_hash(places, places->pixels[aur_first_lane(sweep->lanes)]),
+                           index, sweep->lobe);
     aur_gather_rays_trace(places->plan, places->order, rays, sums->counters);
     for (size_t k = 0; k < AUR_PACKET_SIZE; ++k)
         factor[k] = (weighed ? weight[k] : 1.0f) * (sweep->times_cosine[k] ? cosine[k] : 1.0f);

@@ -13,8 +13,9 @@ static size_t rotation_of(const aur_gather_places *places, size_t rotations, siz
     if (policy->decorrelation == AUR_DECORRELATION_NONE)
         return 0;
     const bool random = policy->decorrelation == AUR_DECORRELATION_RANDOM;
-    const uint64_t hash =
-        aur_hash3(places->plan->seed, random ? places->pixels[lane] : places->tile, places->bounces);
+    const uint64_t hash = aur_hash3(
+        places->plan->seed, aur_gather_places_hash(places, random ? places->pixels[lane] : places->tile),
+        places->bounces);
     *mirrored = hash >> 63 != 0;
     if (random)
         return (hash & UINT32_MAX) % rotations;
@@ -86,7 +87,7 @@ static void set_diffuse(merged *work, size_t lane, size_t lobe, aur_gather_rays 
     const aur_gather_lobe_rule *const lobe_rule = &work->places->plan->rules.lobes[0];
     const aur_gather_rule *const rule = &lobe_rule->rule;
     const aur_gather_place *const place = &work->places->at[lane];
-    const size_t parts = work->places->plan->samples_per_pixel;
+    const size_t parts = work->places->plan->samples_per_pattern;
     const aur_gather_rotation rotation = aur_gather_rotation_at(work->places, lobe_rule, lane, lobe);
     const aur_frame about = aur_frame_about(aur_gather_place_axis(place, lobe));
     const aur_frame rotated = {
@@ -201,7 +202,8 @@ static void add_radiance(merged *work, size_t sample, const float cosine[AUR_PAC
 static void trace_pattern(merged *work, size_t k, aur_gather_sums *sums) {
     aur_gather_rays *const rays = &sums->rays;
     const merged_pattern *const pattern = &work->patterns[k];
-    const uint64_t pixel = work->places->pixels[aur_first_lane(pattern->lanes)];
+    const uint64_t pixel =
+        aur_gather_places_hash(work->places, work->places->pixels[aur_first_lane(pattern->lanes)]);
     for (size_t i = 0; i < work->subset_count[k]; ++i) {
         const size_t sample = k * work->subset_count[0] + i;
         aur_lane_vectors local;
@@ -218,7 +220,7 @@ static void trace_pattern(merged *work, size_t k, aur_gather_sums *sums) {
 uint32_t aur_gather_by_merged(const aur_gather_places *places, aur_gather_sums *sums) {
     const aur_merged_rule *const first = places->plan->rules.merged;
     merged work = {.places = places,
-                   .subset = places->index % places->plan->samples_per_pixel,
+                   .subset = places->index % places->plan->samples_per_pattern,
                    .subset_count = {first->subset_count[0], first->subset_count[1]},
                    .samples = aur_merged_rule_samples(first),
                    .weights = sums->numbers};

@@ -1,6 +1,7 @@
 /* The surface points that sixteen pixels see, where light is gathered. */
 #pragma once
 
+#include "core/random.h"
 #include "transport/gather/plan.h"
 #include "transport/packets/packet_rays.h"
 
@@ -35,6 +36,14 @@ typedef struct aur_gather_places {
 /* The place where a ray of the eye meets a surface. */
 void aur_gather_place_set(const aur_gather_plan *plan, const aur_ray *ray, const aur_hit *hit,
                           aur_gather_place *place);
+
+/* A hash of what has randomisations of its own at the places, a tile or a pixel, and in it of those samples
+ * that share a pattern. */
+static inline uint64_t aur_gather_places_hash(const aur_gather_places *places, uint64_t of) {
+    const aur_gather_plan *const plan = places->plan;
+    const uint64_t pattern = plan->renews ? places->index / plan->samples_per_pattern : 0;
+    return pattern > 0 ? aur_hash2(of, pattern) : of;
+}
 
 /* How packets are traced whose rays leave the places in like directions. */
 aur_embree_order aur_gather_places_order(const aur_gather_places *places);

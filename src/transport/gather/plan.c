@@ -118,11 +118,15 @@ aur_result aur_gather_plan_create(const aur_gather_parameters *p, const aur_inte
     *plan = calloc(1, sizeof **plan);
     if (*plan == NULL)
         return aur_fail_memory(error);
+    aur_integrator_context own = *context;
+    if (p->split > 0)
+        own.samples_per_pixel = p->split;
     (*plan)->scene = context->scene;
     (*plan)->policy = p->policy;
-    (*plan)->samples_per_pixel = context->samples_per_pixel;
+    (*plan)->samples_per_pattern = own.samples_per_pixel;
+    (*plan)->renews = p->split > 0;
     (*plan)->seed = p->rule.seed;
-    const aur_result result = compile(*plan, p, context, error);
+    const aur_result result = compile(*plan, p, &own, error);
     if (result != AUR_OK) {
         aur_gather_plan_destroy(*plan);
         *plan = NULL;

@@ -37,8 +37,9 @@ typedef struct aur_gather_light {
 typedef struct aur_gather_plan {
     const aur_scene *scene;
     aur_gather_policy policy;
-    size_t samples_per_pixel;
-    uint64_t seed; /* of the rules' rotations */
+    size_t samples_per_pattern; /* among which the directions of a pattern are shared out */
+    bool renews;                /* samples after those have other patterns, else the same again */
+    uint64_t seed;              /* of the rules' rotations */
     aur_gather_rules rules;
     aur_gather_light light;
     aur_shape_class *classes; /* one a shape */

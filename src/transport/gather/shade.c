@@ -37,7 +37,7 @@ static void by_rule(const aur_gather_places *places, const aur_gather_lobe_rule 
     aur_gather_sweep_start(places, rule, lobe, lanes, &sweep, &sums->rays);
     const bool splits = aur_gather_splits(places, rule);
     /* The rule's directions are in so many parts, of which this is one. */
-    size_t parts = places->plan->samples_per_pixel, part = places->index % parts;
+    size_t parts = places->plan->samples_per_pattern, part = places->index % parts;
     if (splits) {
         part = part * AUR_PACKET_SIZE + aur_group_rank(places->group);
         parts *= AUR_PACKET_SIZE;
@@ -90,13 +90,13 @@ static void by_sampling(const aur_gather_places *places, size_t lobe, uint32_t l
     aur_gather_rays *const rays = &sums->rays;
     aur_gather_sweep sweep;
     aur_gather_sweep_start(places, sampled, lobe, lanes, &sweep, rays);
-    const size_t first = aur_first_lane(lanes), parts = plan->samples_per_pixel;
+    const size_t first = aur_first_lane(lanes), parts = plan->samples_per_pattern;
     for (size_t i = places->index % parts; i < sampled->rule.count; i += parts) {
         aur_vector value[AUR_PACKET_SIZE];
         float u[3] = {0.0f, 0.0f, 0.0f};
         uint32_t aimed = 0;
         aur_packet_empty(&rays->packet);
-        rays->hash = aur_hash3(places->pixels[first], i, lobe);
+        rays->hash = aur_hash3(aur_gather_places_hash(places, places->pixels[first]), i, lobe);
         if (sweep.together)
             aur_gather_rule_square(&sampled->rule, &sweep.rotations[first], i, &u[1]);
         for (uint32_t rest = lanes; rest != 0; rest &= rest - 1) {

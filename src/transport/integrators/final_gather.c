@@ -53,6 +53,9 @@ static const aur_key keys[] = {
                         "photons of the map that gather rays look up")},
     {AUR_KEY_OF_INTEGER(aur_gather_parameters, "caustic_photons", caustic_photons, 0, MOST, "0",
                         "photons of a map of caustics alone; 0 leaves them in the one map")},
+    {AUR_KEY_OF_INTEGER(aur_gather_parameters, "split", split, 0, AUR_SAMPLES_PER_PIXEL_MAX, "0",
+                        "samples among which a pattern is shared out, the next ones share another; 0: all of "
+                        "a pixel")},
     {AUR_KEY_OF_INTEGER(aur_gather_parameters, "light_samples", light_samples, 1, 65536, "1",
                         "points on lights that each sample's shadow rays aim at")},
     {AUR_KEY_OF_INTEGER(aur_gather_parameters, "bright_samples", bright_samples, 0, 65536, "0",
