@@ -51,7 +51,8 @@ HEAD
     fields "$line"
     set=${field[0]} keys=${field[1]} domains=${field[2]} sizes=${field[3]} extensible=${field[4]}
     source=${field[5]} summary=${field[6]}
-    square="" sphere=""
+    square="" sphere="" n=128
+    [ "$set" = healpix ] && n=192 # 12 k^2
     case $set in
       matrices | file) square="your own" sphere="your own" ;;
       *)

@@ -10,6 +10,7 @@
     ROW(sets)                                                                                                \
     ROW(points)                                                                                              \
     ROW(measure)                                                                                             \
+    ROW(nearest)                                                                                             \
     ROW(weights)                                                                                             \
     ROW(render)                                                                                              \
     ROW(viewfactors)                                                                                         \

@@ -31,6 +31,7 @@ typedef struct aur_native_set {
 #define AUR_NATIVE_SETS(ROW)                                                                                 \
     ROW(fibonacci)                                                                                           \
     ROW(grid)                                                                                                \
+    ROW(healpix)                                                                                             \
     ROW(electrostatic)                                                                                       \
     ROW(super_fibonacci)                                                                                     \
     ROW(super_fibonacci_grid)

@@ -22,4 +22,14 @@ done
 awk '$1 == "power" { power = $2 } $1 == "interval" { interval = $2 } $1 == "off" { off = $3 }
      END { exit !(power > 0 && interval <= 1e-3 * power && off <= 3 * interval) }' integrate.txt || fail "$(cat integrate.txt)"
 grep -q "ended by *the tolerance" integrate.txt || fail "$(cat integrate.txt)"
+
+# The mean square of the shift is delta^2 / 5, to a part in 10^5 from the even set.
+awk '$1 == "spherical-fibonacci" { exit !($3 < 1e-3 && $3 > -1e-3 && $6 > 179.99 && $6 < 180.01) }' powder.txt || fail "$(cat powder.txt)"
+# Six values of q; the rods' peak of width 1/(q L) is the least smooth at the largest.
+awk '{ off = $4 - $6 } off > 6e-4 || off < -6e-4 { bad = 1 } END { exit bad || NR != 6 }' cylinder.txt || fail "$(cat cylinder.txt)"
+# No direction is turned by more than the covering radius of 64 charges at rest, .30.
+awk '$1 == "flux" { off = $2 - $4; flux = off < 1e-6 && off > -1e-6 } $1 == "turned" { turned = $2 < 0.31 && $4 < $2 }
+     END { exit !(flux && turned) }' transport.txt || fail "$(cat transport.txt)"
+# 32 charges at rest are the corners and faces of an icosahedron, exact to degree 5.
+awk '$1 == "charges" { exit !($2 < 1e-7) }' ambisonics.txt || fail "$(cat ambisonics.txt)"
 exit 0

@@ -30,6 +30,7 @@ while IFS= read -r line; do
   [ -n "$domains" ] || domains=own
   n=$count
   [ "$set" = matrices ] && n=4
+  [ "$set" = healpix ] && n=12
   for domain in $domains; do
     where=(--domain "$domain")
     [ "$domain" = own ] && where=()
@@ -109,6 +110,9 @@ refuse sobol -n 99999999999999999999
 refuse sobol -n 99999999999999999
 refuse sobol halton -n 4
 refuse sobl -n 4
+refuse healpix -n 16
+refuse healpix -n 12 --domain hemisphere
+refuse healpix -n 12 --cap 30
 refuse sobol -n 4 --symmetry 432
 refuse sobol -n 4 --domain sphere --matrices
 refuse super-fibonacci -n 4 --symmetry 532

@@ -1,5 +1,6 @@
 /* Calls each function of pointset.h, sphere.h and quality.h, most of them with bad input too, and those of
  * quadrature.h that the tests of that room do not call. */
+#include <aureole/nearest.h>
 #include <aureole/quadrature.h>
 #include <aureole/quality.h>
 #include <aureole/rotations.h>
@@ -101,6 +102,26 @@ static void direct_generators(void) {
     refuse(aur_golden_points(NAN, NULL, 0, 1, &output, &error), AUR_ERROR_ARGUMENT, &error);
     refuse(aur_golden_set_points(0.5, 0, &output, &error), AUR_ERROR_ARGUMENT, &error);
     refuse(aur_golden_set_points_two_seeds(0.5, 1.0, COUNT, &output, &error), AUR_ERROR_ARGUMENT, &error);
+}
+
+static void neighbours(void) {
+    const double axes[] = {1.0, 0.0, 0.0, 0.0, 1.0, 0.0}, query[] = {-2.0, 0.1, 0.0},
+                 nowhere[] = {0.0, 0.0, 0.0};
+    aur_points_view points = aur_points_view_of(AUR_DOMAIN_AXES, 2, 3, axes);
+    aur_nearest_options options = aur_nearest_options_default();
+    aur_nearest *nearest = NULL;
+    size_t indices[2];
+    options.neighbours = 2;
+    accept(aur_nearest_create(&points, &nearest, &error), &error);
+    accept(aur_nearest_find(nearest, &options, 1, query, indices, buffer, &error), &error);
+    require(indices[0] == 0 && indices[1] == 1 && fabs(buffer[0] - atan(0.05)) < 1e-15, "the nearest axis");
+    refuse(aur_nearest_find(nearest, NULL, 1, nowhere, indices, NULL, &error), AUR_ERROR_ARGUMENT, &error);
+    options.neighbours = 3;
+    refuse(aur_nearest_find(nearest, &options, 1, query, indices, NULL, &error), AUR_ERROR_ARGUMENT, &error);
+    aur_nearest_destroy(nearest);
+    aur_nearest_destroy(NULL);
+    points.count = 0;
+    refuse(aur_nearest_create(&points, &nearest, &error), AUR_ERROR_ARGUMENT, &error);
 }
 
 static void rotations(void) {
@@ -255,6 +276,7 @@ int main(void) {
     prepared_sets();
     direct_generators();
     maps_and_lobes();
+    neighbours();
     rotations();
     directions();
     points_and_measures();

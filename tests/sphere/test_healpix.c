@@ -1,0 +1,70 @@
+#include "sphere_check.h"
+
+#include <string.h>
+
+static double *pixels(size_t side) {
+    return check_directions("healpix", aur_directions_options_default(12 * side * side, AUR_DOMAIN_SPHERE));
+}
+
+/* Rings of the published scheme: for k = 2 the latitudes z = 11/12, 2/3, 1/3, 0, ... with 4, 8, 8, 8, ...
+ * pixels, and the first azimuths pi/4, pi/8, 0, pi/8, 0 (Gorski 2005, eqs 4, 5, 8 and 9). */
+static void pixels_of_side_two_stand_where_they_should(void **state) {
+    (void)state;
+    static const struct {
+        size_t first;
+        double z, azimuth;
+    } known[] = {{0, 11.0 / 12.0, 0.25},  {4, 2.0 / 3.0, 0.125},    {5, 2.0 / 3.0, 0.375},
+                 {12, 1.0 / 3.0, 0.0},    {20, 0.0, 0.125},         {28, -1.0 / 3.0, 0.0},
+                 {36, -2.0 / 3.0, 0.125}, {44, -11.0 / 12.0, 0.25}, {47, -11.0 / 12.0, 1.75}};
+    double *const xyz = pixels(2);
+    for (size_t k = 0; k < sizeof known / sizeof known[0]; ++k) {
+        const double *const x = xyz + 3 * known[k].first;
+        double azimuth = atan2(x[1], x[0]) / AUR_PI;
+        azimuth += azimuth < -1e-12 ? 2.0 : 0.0;
+        assert_near(x[2], known[k].z, 1e-15);
+        assert_near(azimuth, known[k].azimuth, 1e-15);
+    }
+    free(xyz);
+}
+
+/* Points of equal areas: the sphere's own moments, but for an error that falls as 1/N; and each has its
+ * opposite. */
+static void pixels_are_symmetric_and_equal(void **state) {
+    (void)state;
+    for (size_t side = 1; side < 40; side += 6) {
+        const size_t count = 12 * side * side;
+        double *const xyz = pixels(side);
+        double squares[3] = {0.0};
+        for (size_t i = 0; i < count; ++i) {
+            assert_near(check_dot(xyz + 3 * i, xyz + 3 * i), 1.0, 1e-14);
+            for (size_t d = 0; d < 3; ++d) {
+                squares[d] += xyz[3 * i + d] * xyz[3 * i + d] / (double)count;
+                assert_near(xyz[3 * i + 2], -xyz[3 * (count - 1 - i) + 2], 1e-15);
+            }
+        }
+        for (size_t d = 0; d < 3; ++d)
+            assert_near(squares[d], 1.0 / 3.0, 0.5 / (double)count);
+        if (side > 1)
+            assert_true(check_smallest_distance(count < 2000 ? count : 2000, xyz) >
+                        1.8 / sqrt((double)count));
+        free(xyz);
+    }
+}
+
+static void other_sizes_are_refused(void **state) {
+    (void)state;
+    aur_directions_options options = aur_directions_options_default(100, AUR_DOMAIN_SPHERE);
+    aur_directions *directions;
+    aur_error error = {0};
+    assert_int_equal(aur_directions_create("healpix", &options, &directions, &error), AUR_ERROR_ARGUMENT);
+    assert_non_null(strstr(error.message, "108, 192"));
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(pixels_of_side_two_stand_where_they_should),
+        cmocka_unit_test(pixels_are_symmetric_and_equal),
+        cmocka_unit_test(other_sizes_are_refused),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
