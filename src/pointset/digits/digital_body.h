@@ -19,12 +19,12 @@ static inline aur_words load(const void *from) {
     return vector;
 }
 
-/* A group, and on to the next one, whose number is `next`. */
 typedef struct plain_groups {
     aur_words lanes[VECTORS], wrapped[VECTORS];
     aur_words now;
 } plain_groups;
 
+/* A group, and on to the next one, whose number is `next`. */
 static inline void step_plain(const aur_digital_group *group, plain_groups *p, uint64_t next, bool stream,
                               double *out) {
     const aur_words flip = aur_lanes_of_pair(group->flips[__builtin_ctzll(next)]);
@@ -92,7 +92,7 @@ static inline aur_reals owen_double(aur_words head, aur_words tail) {
     return ((aur_reals)head - (0x1p20 + 0.5)) + (aur_reals)tail;
 }
 
-/* aur_owen_word, to doubles. */
+/* The same of aur_owen_word. */
 static inline void step_owen(const aur_digital_group *group, owen_groups *o, uint64_t next, bool tails,
                              bool stream, double *out) {
     const aur_words zero = {0};
