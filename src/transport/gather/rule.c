@@ -26,9 +26,9 @@ aur_result aur_gather_rule_options_name(aur_gather_rule_options *options, const 
 }
 
 /* z -> z^{1/(M+1)} takes the uniform hemisphere to the density ~ cos^M about the axis; the azimuth stays. */
-static aur_vector warp(float x, float y, float z, double exponent) {
+static aur_vector warp(double x, double y, double z, double exponent) {
     const double warped = pow(z, 1.0 / (exponent + 1.0));
-    const double radius = sqrt((double)x * x + (double)y * y);
+    const double radius = sqrt(x * x + y * y);
     const double scale = radius > 0.0 ? sqrt(fmax(0.0, 1.0 - warped * warped)) / radius : 0.0;
     return (aur_vector){(float)(x * scale), (float)(y * scale), (float)warped};
 }
@@ -116,7 +116,7 @@ static aur_vector scrambled_direction(const aur_gather_rule *rule, const aur_gat
     const double point[2] = {((double)u + 0.5) * 0x1p-32, ((double)v + 0.5) * 0x1p-32};
     double xyz[3];
     aur_map_to_hemisphere(rule->map, point, xyz);
-    return warp((float)xyz[0], (float)xyz[1], (float)xyz[2], rule->drawn_exponent);
+    return warp(xyz[0], xyz[1], xyz[2], rule->drawn_exponent);
 }
 
 /* Rotations are spread evenly over the circle; scramblings are made into directions once and for all. */
