@@ -161,7 +161,7 @@ static aur_result judge(const aur_exact_options *o, const aur_exact_system *syst
             error, AUR_ERROR_ARGUMENT,
             "no weights of these %zu points at %zu places integrate all %zu polynomials of degree "
             "%zu: ask for the largest degree that has some",
-            count, system->places, (o->degree + 1) * (o->degree + 1), o->degree);
+            count, system->places, (found->degree + 1) * (found->degree + 1), found->degree);
     if (found->least <= 0.0 && !o->negative)
         return aur_fail(error, AUR_ERROR_ARGUMENT,
                         "degree %zu needs negative weights, the least of them %.4g/N: allow them, or ask for "
@@ -170,25 +170,37 @@ static aur_result judge(const aur_exact_options *o, const aur_exact_system *syst
     return AUR_OK;
 }
 
+/* By the factorisation; where rounding hid that a degree has no exact weights, by the next lower one. */
+static aur_result factor(const aur_exact_system *system, size_t degree, bool search, double *weights,
+                         aur_exact_found *found, aur_error *error) {
+    for (;;) {
+        aur_result result = aur_exact_direct(system, degree, search, weights, found, error);
+        if (result != AUR_OK || !found->exact)
+            return result;
+        result = aur_exact_residual(system, found->degree, weights, found, error);
+        found->exact = found->residual <= AUR_EXACT_TOLERANCE;
+        if (result != AUR_OK || found->exact || !search || found->degree == 0)
+            return result;
+        degree = found->degree - 1;
+    }
+}
+
 static aur_result solve(const aur_exact_options *o, const aur_exact_system *system, double *weights,
                         aur_exact_report *report, aur_error *error) {
     const bool largest = o->degree == AUR_DEGREE_LARGEST;
     const size_t bound = degree_bound(system->places);
-    aur_exact_found found = {.degree = o->degree};
+    aur_exact_found found = {.degree = largest ? 0 : o->degree};
     aur_result result = AUR_OK;
     if (!largest && o->degree > bound)
         return judge(o, system, &found, error);
     if (system->points.count <= AUR_EXACT_DIRECT_POINTS)
-        result = aur_exact_direct(system, largest ? bound : o->degree, largest, weights, &found, error);
+        result = factor(system, largest ? bound : o->degree, largest, weights, &found, error);
     else if (largest)
         result = search(system, bound, weights, &found, error);
     else
         result = aur_exact_iterate(system, o->degree, AUR_EXACT_STEPS, weights, &found, error);
-    if (result == AUR_OK && found.exact) {
+    if (result == AUR_OK && found.exact)
         aur_exact_positive(system, weights, &found);
-        result = aur_exact_residual(system, found.degree, weights, &found, error);
-        found.exact = found.residual <= AUR_EXACT_TOLERANCE;
-    }
     if (result == AUR_OK)
         result = judge(o, system, &found, error);
     const double count = (double)system->points.count;

@@ -11,7 +11,7 @@
 enum { FAST_POINTS = 4096, FAST_DEGREE = 24 };
 
 /* Where the steps end, and how often they begin anew with what is missing in truth. */
-static const double enough = 2e-15;
+static const double enough = 2e-15, fine = 1e-15;
 enum { PASSES = 3 };
 
 typedef struct gradients {
@@ -30,9 +30,17 @@ static double square(size_t count, const double *a, const double *b) {
     return ((sum[0] + sum[4]) + (sum[1] + sum[5])) + ((sum[2] + sum[6]) + (sum[3] + sum[7]));
 }
 
+/* By the fast transforms, or where there are none by the plain ones. */
+static aur_result analyse(const gradients *g, aur_fast_transform *fast, const double *weights,
+                          double *coefficients, aur_error *error) {
+    return fast != NULL ? aur_fast_transform_analyse(fast, weights, coefficients, error)
+                        : aur_transform_analyse(&g->transform, weights, coefficients, error);
+}
+
 /* rest = b - A w. */
-static aur_result find_rest(const gradients *g, const double *weights, aur_error *error) {
-    const aur_result result = aur_transform_analyse(&g->transform, weights, g->rest, error);
+static aur_result find_rest(const gradients *g, aur_fast_transform *fast, const double *weights,
+                            aur_error *error) {
+    const aur_result result = analyse(g, fast, weights, g->rest, error);
     for (size_t j = 0; j < g->size; ++j)
         g->rest[j] = (j == 0 ? 1.0 : 0.0) - g->rest[j];
     return result;
@@ -52,8 +60,7 @@ static aur_result descend(const gradients *g, double *weights, size_t *steps, au
         for (size_t i = 0; i < system->points.count; ++i)
             g->t[i] *= system->near[i];
         if (result == AUR_OK)
-            result = g->fast != NULL ? aur_fast_transform_analyse(g->fast, g->t, g->image, error)
-                                     : aur_transform_analyse(&g->transform, g->t, g->image, error);
+            result = analyse(g, g->fast, g->t, g->image, error);
         if (result != AUR_OK)
             return result;
         ++*steps;
@@ -73,19 +80,25 @@ static aur_result descend(const gradients *g, double *weights, size_t *steps, au
     return AUR_OK;
 }
 
+static double largest_rest(const gradients *g) {
+    double largest = 0.0;
+    for (size_t j = 0; j < g->size; ++j)
+        largest = fmax(largest, fabs(g->rest[j]));
+    return largest;
+}
+
+/* What is missing is found by the plain transforms: the error of the fast ones would have to be solved for
+ * too. */
 static aur_result solve(const gradients *g, double *weights, aur_exact_found *found, aur_error *error) {
     memcpy(weights, g->system->near, g->system->points.count * sizeof *weights);
-    aur_result result = AUR_OK;
-    for (int pass = 0; pass < PASSES && result == AUR_OK; ++pass) {
-        result = find_rest(g, weights, error);
+    aur_result result = find_rest(g, NULL, weights, error);
+    found->residual = INFINITY;
+    for (int pass = 0; pass < PASSES && result == AUR_OK && found->residual > fine; ++pass) {
+        result = descend(g, weights, &found->iterations, error);
         if (result == AUR_OK)
-            result = descend(g, weights, &found->iterations, error);
+            result = find_rest(g, NULL, weights, error);
+        found->residual = largest_rest(g);
     }
-    if (result == AUR_OK)
-        result = find_rest(g, weights, error);
-    found->residual = 0.0;
-    for (size_t j = 0; j < g->size; ++j)
-        found->residual = fmax(found->residual, fabs(g->rest[j]));
     found->exact = found->residual <= AUR_EXACT_TOLERANCE;
     return result;
 }
@@ -142,10 +155,8 @@ aur_result aur_exact_residual(const aur_exact_system *system, size_t degree, con
     aur_result result = open_gradients(system, degree, &basis, &g, error);
     if (result != AUR_OK)
         return result;
-    result = find_rest(&g, weights, error);
-    found->residual = 0.0;
-    for (size_t j = 0; j < g.size; ++j)
-        found->residual = fmax(found->residual, fabs(g.rest[j]));
+    result = find_rest(&g, NULL, weights, error);
+    found->residual = largest_rest(&g);
     free(g.storage);
     aur_basis_release(&basis);
     return result;
