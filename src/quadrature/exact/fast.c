@@ -40,7 +40,7 @@ struct aur_fast_transform {
 /* --- making it */
 
 static double window_at(const aur_fast_transform *f, double x) {
-    /* b: the decay that aliases allow (Barnett et al. 2019, eq. 4.5 for any oversampling). */
+    /* The shape parameter that balances aliases and the cut of the window (Barnett et al. 2019). */
     const double cells = (double)f->side / (2.0 * (double)f->basis->degree + 1.0);
     const double b = 0.98 * AUR_PI * WIDTH * (1.0 - 0.5 / cells);
     return x * x < 1.0 ? exp(b * (sqrt(1.0 - x * x) - 1.0)) : 0.0;
