@@ -122,15 +122,18 @@ const char *aur_read_double(const char *text, aur_number_class allowed, double *
 }
 
 const char *aur_read_integer(const char *text, uint64_t maximum, uint64_t *value) {
+    enum { SAFE_DIGITS = 19 }; /* so many fit 64 bits, whatever they are */
     uint64_t parsed = 0;
     const char *c = text;
+    for (; aur_is_digit(*c) && c - text < SAFE_DIGITS; ++c)
+        parsed = 10 * parsed + (uint64_t)(*c - '0');
     for (; aur_is_digit(*c); ++c) {
         const uint64_t digit = (uint64_t)(*c - '0');
-        if (digit > maximum || parsed > (maximum - digit) / 10)
+        if (parsed > (UINT64_MAX - digit) / 10)
             return NULL;
         parsed = 10 * parsed + digit;
     }
-    if (c == text)
+    if (c == text || parsed > maximum)
         return NULL;
     *value = parsed;
     return c;

@@ -35,8 +35,11 @@ aur_word aur_scan_word(aur_scanner *scanner) {
 }
 
 size_t aur_word_find(aur_word word, size_t count, const char *const *names) {
+    /* The first character tells most words apart without a call. */
+    const char first = word.length > 0 ? *word.text : '\0';
     size_t i = 0;
-    while (i < count && (strlen(names[i]) != word.length || memcmp(names[i], word.text, word.length) != 0))
+    while (i < count && (*names[i] != first || strlen(names[i]) != word.length ||
+                         memcmp(names[i], word.text, word.length) != 0))
         ++i;
     return i;
 }
