@@ -53,6 +53,8 @@ HEAD
     source=${field[5]} summary=${field[6]}
     square="" sphere="" n=128
     [ "$set" = healpix ] && n=192 # 12 k^2
+    [ "$set" = t-design ] && n=122
+    [ "$set" = lebedev ] && n=110
     case $set in
       matrices | file) square="your own" sphere="your own" ;;
       *)

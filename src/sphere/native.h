@@ -24,6 +24,8 @@ typedef struct aur_native_set {
     /* Unit vectors first .. first+count-1, which are within the set; quaternions w,x,y,z of a set of
      * rotations. */
     void (*fill)(const void *data, uint64_t first, size_t count, double *points);
+    /* The weights of points first .. first+count-1, which add up to 1 over the set; NULL: all equal. */
+    void (*weigh)(const void *data, uint64_t first, size_t count, double *weights);
 } aur_native_set;
 
 /* The native sets, in the order of listings: one line for each file of a generator, which defines
@@ -32,6 +34,8 @@ typedef struct aur_native_set {
     ROW(fibonacci)                                                                                           \
     ROW(grid)                                                                                                \
     ROW(healpix)                                                                                             \
+    ROW(t_design)                                                                                            \
+    ROW(lebedev)                                                                                             \
     ROW(electrostatic)                                                                                       \
     ROW(super_fibonacci)                                                                                     \
     ROW(super_fibonacci_grid)

@@ -31,6 +31,8 @@ while IFS= read -r line; do
   n=$count
   [ "$set" = matrices ] && n=4
   [ "$set" = healpix ] && n=12
+  [ "$set" = t-design ] && n=8
+  [ "$set" = lebedev ] && n=14
   for domain in $domains; do
     where=(--domain "$domain")
     [ "$domain" = own ] && where=()
@@ -111,6 +113,9 @@ refuse sobol -n 99999999999999999
 refuse sobol halton -n 4
 refuse sobl -n 4
 refuse healpix -n 16
+refuse t-design -n 9
+refuse lebedev -n 100
+refuse lebedev -n 14 --domain axes
 refuse healpix -n 12 --domain hemisphere
 refuse healpix -n 12 --cap 30
 refuse sobol -n 4 --symmetry 432

@@ -25,7 +25,7 @@ struct aur_directions {
     double height;
     aur_lobe lobe;    /* what the weights are for */
     aur_lobe density; /* what the points follow */
-    bool weighted;    /* the density is not the lobe, or the map is not uniform */
+    bool weighted;    /* the density is not the lobe, the map not uniform, or the set has weights */
     bool warped, rotated;
     bool axes; /* each stands for its opposite too, and is given with z >= 0 */
     aur_rotation rotation;
@@ -176,6 +176,7 @@ static aur_result open_set(const char *set, const aur_directions_options *option
     const aur_native_request request = {options->domain, options->count, directions->height,
                                         &options->warnings};
     directions->size = options->count;
+    directions->weighted = directions->weighted || directions->native->weigh != NULL;
     return aur_native_open(directions->native, set, &request, &directions->native_data, error);
 }
 
@@ -262,9 +263,11 @@ static aur_result fill_chunk(const aur_directions *directions, uint64_t first, s
     aur_result result = AUR_OK;
     for (size_t i = 0; i < count && weights != NULL; ++i)
         weights[i] = 1.0 / (double)directions->size;
-    if (directions->native != NULL)
+    if (directions->native != NULL) {
         directions->native->fill(directions->native_data, first, count, xyz);
-    else if (directions->square != NULL)
+        if (weights != NULL && directions->native->weigh != NULL)
+            directions->native->weigh(directions->native_data, first, count, weights);
+    } else if (directions->square != NULL)
         result = lift(directions, first, count, xyz, weights, error);
     else
         take_from_file(directions, first, count, xyz, weights);
