@@ -21,7 +21,7 @@ refuses() {
 refuses "unknown option '--smothness'; did you mean '--smoothness'?" points sobol -n 4 --smothness 1.5
 refuses "unknown option '--xyzzy': try 'aureole help points'" points sobol --xyzzy=3
 refuses "unknown option '-x'" points sobol -qx
-refuses "'--s' may be --smoothness, --scramble, --seed" points sobol --s 1
+refuses "'--s' may be --symmetry, --smoothness, --scramble, --seed" points sobol --s 1
 refuses "option '-n' needs a value" points sobol -n
 refuses "option '--seed' needs a value" points sobol --seed
 refuses "option '--quiet' takes no value" points sobol --quiet=yes
