@@ -123,7 +123,7 @@ static bool compare(const bench_options *options, const char *name, const aur_sc
         .scene = scene, .sampler = sampler, .filter = aur_filter_find("box"), .width = SIDE, .height = SIDE};
     occlusion_bench context = {.integrator = integrator,
                                .view = &view,
-                               .size = aur_embree_packet_size(rtcGetSceneDevice(aur_scene_embree(scene)))};
+                               .size = aur_embree_scene_packet_size(aur_scene_embree(scene))};
     if (context.size == 0) {
         aur_sampler_destroy(sampler);
         return bench_fail("this Embree is built without packets");

@@ -114,7 +114,7 @@ static bool run_scene(const bench_options *options, const char *path, const char
     context.scene = scene;
     /* A group's lanes need not have one rule, nor be full: room for four times as many packets as full ones.
      * Two packets more for the replay's prefetch. */
-    const size_t size = aur_embree_packet_size(rtcGetSceneDevice(aur_scene_embree(scene)));
+    const size_t size = aur_embree_scene_packet_size(aur_scene_embree(scene));
     context.recorder.capacity = 4 * side * side * (DIRECTIONS + 1) / (size > 0 ? size : 1);
     context.recorder.packets = malloc((context.recorder.capacity + 3) * sizeof *context.recorder.packets);
     bool good = context.recorder.packets != NULL || bench_fail("out of memory");

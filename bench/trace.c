@@ -35,7 +35,7 @@ size_t bench_trace_single(const bench_rays *rays) {
 size_t bench_trace_packets(const bench_rays *rays) {
     static const _Alignas(64) int valid[BENCH_PACKET_SIZE] = {-1, -1, -1, -1, -1, -1, -1, -1,
                                                               -1, -1, -1, -1, -1, -1, -1, -1};
-    const size_t size = aur_embree_packet_size(rtcGetSceneDevice(rays->scene));
+    const size_t size = aur_embree_scene_packet_size(rays->scene);
     if (size == 0)
         return bench_trace_single(rays);
     /* Packets of all sizes are rows of `size` numbers, in the order of struct RTCRayHit16. */

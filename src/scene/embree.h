@@ -21,6 +21,14 @@ static inline size_t aur_embree_packet_size(RTCDevice device) {
     return rtcGetDeviceProperty(device, RTC_DEVICE_PROPERTY_NATIVE_RAY4_SUPPORTED) != 0 ? 4 : 0;
 }
 
+/* The same for the device of a scene, to which Embree gives a reference of one's own. */
+static inline size_t aur_embree_scene_packet_size(RTCScene scene) {
+    const RTCDevice device = rtcGetSceneDevice(scene);
+    const size_t size = aur_embree_packet_size(device);
+    rtcReleaseDevice(device);
+    return size;
+}
+
 /* What is known of a packet's rays. Coherent: nearby origins and directions. The flag halves the speed of
  * rays that are not. */
 typedef enum aur_embree_order { AUR_EMBREE_INCOHERENT, AUR_EMBREE_COHERENT } aur_embree_order;
