@@ -39,6 +39,17 @@ static inline float aur_unit_float(uint32_t bits) {
     return (float)(bits >> 8) * 0x1p-24f;
 }
 
+/* The next number in [0, 1) of a sequence of hashes, which it steps on. */
+static inline float aur_draw_unit(uint64_t *hash) {
+    *hash = aur_mix64(*hash + 1);
+    return aur_unit_float((uint32_t)(*hash >> 32));
+}
+
+static inline void aur_draw_units(uint64_t *hash, float u[3]) {
+    for (size_t i = 0; i < 3; ++i)
+        u[i] = aur_draw_unit(hash);
+}
+
 /* Puts items into a random order, by hashes (Fisher and Yates). */
 static inline void aur_shuffle(size_t count, uint32_t *items, uint64_t seed) {
     for (size_t i = count; i > 1; --i) {

@@ -93,16 +93,6 @@ static aur_vector scattered_radiance(const aur_gather_plan *plan, const aur_hit 
 /* Weak reflections are followed now and then, so many times as often as they are strong. */
 static const float BOOST = 8.0f;
 
-static float draw_unit(uint64_t *hash) {
-    *hash = aur_mix64(*hash + 1);
-    return aur_unit_float((uint32_t)(*hash >> 32));
-}
-
-static void draw_units(uint64_t *hash, float u[3]) {
-    for (size_t i = 0; i < 3; ++i)
-        u[i] = draw_unit(hash);
-}
-
 /* A point on a light, reflected by the sampled lobe, weighed beside the ray that goes on. What is weak beside
  * the radiance `known` of the surface is asked for now and then. */
 static aur_vector sampled_light(const aur_gather_plan *plan, const aur_shading *shading, unsigned kinds,
@@ -111,7 +101,7 @@ static aur_vector sampled_light(const aur_gather_plan *plan, const aur_shading *
     const aur_surface *const surface = shading->surface;
     float u[3];
     aur_light_sample light;
-    draw_units(hash, u);
+    aur_draw_units(hash, u);
     if (!aur_light_sample_direct(plan->scene, surface->position, AUR_LEAST_LIGHT_SEEN, u, &light) ||
         !(light.pdf > 0.0f))
         return black;
@@ -131,7 +121,7 @@ static aur_vector sampled_light(const aur_gather_plan *plan, const aur_shading *
         aur_vector_scale(aur_vector_multiply(value, light.radiance), weight / light.pdf);
     const float strength = aur_vector_max(radiance);
     const float survival = fminf(1.0f, BOOST * strength / (strength + aur_vector_max(known)));
-    if (!(draw_unit(hash) < survival))
+    if (!(aur_draw_unit(hash) < survival))
         return black;
     float distance;
     const aur_ray shadow = aur_surface_ray_to(surface, light.position, &distance);
@@ -175,12 +165,12 @@ static aur_vector chain_radiance(const aur_gather_plan *plan, gather_chain chain
             return sum;
         float u[3];
         aur_bsdf_sample drawn;
-        draw_units(&chain.hash, u);
+        aur_draw_units(&chain.hash, u);
         if (!draw_onward(&shading, kinds, u, &drawn))
             return sum;
         throughput = aur_vector_multiply(throughput, drawn.weight);
         const float survival = fminf(1.0f, BOOST * aur_vector_max(throughput));
-        if (!(draw_unit(&chain.hash) < survival))
+        if (!(aur_draw_unit(&chain.hash) < survival))
             return sum;
         if (chain.length == AUR_LONGEST_CHAIN) {
             ++counters->cut;
@@ -223,6 +213,20 @@ static float bright_weight(const aur_gather_plan *plan, const aur_gather_rays *r
     return along > 0.0f ? aur_power_heuristic(density_of(rays, lane), rival) : 1.0f;
 }
 
+/* What the map knows of a lane's hit, now and then corrected by a path. */
+static aur_vector corrected_radiance(const aur_gather_plan *plan, const aur_gather_rays *rays, size_t lane,
+                                     aur_vector known, aur_counters *counters) {
+    const uint64_t hash = aur_hash2(rays->hash, lane);
+    if (!aur_onward_is_due(&plan->onward, hash))
+        return known;
+    const aur_ray ray = aur_packet_ray(&rays->packet, lane);
+    const aur_hit hit = aur_packet_hit(plan->scene, &rays->packet, lane);
+    aur_surface surface;
+    aur_scene_surface(plan->scene, &ray, &hit, &surface);
+    return aur_onward_correct(&plan->onward, &surface, aur_vector_scale(ray.direction, -1.0f), 2, hash, known,
+                              counters);
+}
+
 /* Diffuse, without emission, no instance: true when that was all. */
 static bool plain_radiance(const aur_gather_plan *plan, const aur_gather_rays *rays, size_t lane,
                            aur_vector *radiance, aur_counters *counters) {
@@ -239,15 +243,8 @@ static bool plain_radiance(const aur_gather_plan *plan, const aur_gather_rays *r
     aur_vector known;
     *radiance = aur_gather_plan_radiance(plan, shape, element, query->hit.u[lane], query->hit.v[lane], behind,
                                          &known);
-    const uint64_t hash = aur_hash2(rays->hash, lane);
-    if (plan->debias && aur_onward_is_due(&plan->onward, hash)) {
-        const aur_ray ray = aur_packet_ray(&rays->packet, lane);
-        const aur_hit hit = aur_packet_hit(plan->scene, &rays->packet, lane);
-        aur_surface surface;
-        aur_scene_surface(plan->scene, &ray, &hit, &surface);
-        *radiance = aur_onward_correct(&plan->onward, &surface, aur_vector_scale(ray.direction, -1.0f), 2,
-                                       hash, *radiance, counters);
-    }
+    if (plan->debias)
+        *radiance = corrected_radiance(plan, rays, lane, *radiance, counters);
     if (plan->light.bright_draws > 0)
         *radiance = aur_vector_scale(*radiance, bright_weight(plan, rays, lane, known));
     return true;

@@ -13,16 +13,6 @@ typedef struct onward_walk {
     bool specular; /* no light sample could have found what the ray meets */
 } onward_walk;
 
-static float draw_unit(uint64_t *hash) {
-    *hash = aur_mix64(*hash + 1);
-    return aur_unit_float((uint32_t)(*hash >> 32));
-}
-
-static void draw_units(uint64_t *hash, float u[3]) {
-    for (size_t i = 0; i < 3; ++i)
-        u[i] = draw_unit(hash);
-}
-
 /* BSDF * |cos| and the density of the whole BSDF's draws. `known_only`: of the lobes that a photon map
  * answers for, which are all but the specular and the sampled ones. */
 static aur_vector evaluate(const aur_shading *shading, bool known_only, aur_vector light, float *pdf) {
@@ -43,7 +33,7 @@ static void add_direct_light(const aur_onward *onward, const aur_shading *shadin
                              onward_walk *walk, aur_counters *counters) {
     float u[3], pdf, distance;
     aur_light_sample light;
-    draw_units(&walk->hash, u);
+    aur_draw_units(&walk->hash, u);
     if (aur_scene_emitter_count(onward->scene) == 0 ||
         !aur_light_sample_direct(onward->scene, shading->surface->position, AUR_LEAST_LIGHT_OF_PATHS, u,
                                  &light) ||
@@ -65,7 +55,7 @@ static void add_direct_light(const aur_onward *onward, const aur_shading *shadin
 static bool scatter(const aur_shading *shading, bool known_only, onward_walk *walk) {
     float u[3];
     aur_bsdf_sample drawn;
-    draw_units(&walk->hash, u);
+    aur_draw_units(&walk->hash, u);
     if (!aur_shading_sample(shading, u, &drawn) || (known_only && drawn.specular))
         return false;
     if (known_only) {
@@ -112,7 +102,7 @@ static bool survives(const aur_onward *onward, const aur_hit *hit, const aur_sha
             aur_vector_multiply(walk->throughput, aur_irradiance_radiance(onward->map, onward->scene, hit,
                                                                           shading->surface, view));
     walk->sum = aur_vector_add(walk->sum, estimate);
-    if (!(draw_unit(&walk->hash) < survival))
+    if (!(aur_draw_unit(&walk->hash) < survival))
         return false;
     walk->throughput = aur_vector_scale(walk->throughput, 1.0f / survival);
     walk->sum = aur_vector_add_scaled(walk->sum, -1.0f / survival, estimate);
