@@ -11,6 +11,7 @@
     ROW(points)                                                                                              \
     ROW(measure)                                                                                             \
     ROW(nearest)                                                                                             \
+    ROW(voronoi)                                                                                             \
     ROW(weights)                                                                                             \
     ROW(render)                                                                                              \
     ROW(viewfactors)                                                                                         \

@@ -20,6 +20,7 @@
     ROW(voronoi_max)                                                                                         \
     ROW(voronoi_deviation)                                                                                   \
     ROW(voronoi)                                                                                             \
+    ROW(voronoi_cells)                                                                                       \
     ROW(star)                                                                                                \
     ROW(star_bound)                                                                                          \
     ROW(l2_star)                                                                                             \

@@ -98,6 +98,71 @@ static void areas_add_up(void **state) {
     }
 }
 
+/* Twice the area of the flat triangle, with the sign of its sense of turning as seen from outside. */
+static double turn(const double *a, const double *b, const double *c) {
+    return a[0] * (b[1] * c[2] - b[2] * c[1]) + a[1] * (b[2] * c[0] - b[0] * c[2]) +
+           a[2] * (b[0] * c[1] - b[1] * c[0]);
+}
+
+/* Cells are cut from squares of a side of 2e6, whose first corners are off by about 1e-16 of that. */
+static const double corner_error = 1e-9;
+
+/* No point is nearer to a corner than the cell's own, and two others are as near; the corners turn
+ * counter-clockwise about the point, and the triangles between make the cell's area. */
+static void check_corners(const own_points *points, aur_domain domain, size_t threads) {
+    aur_points_view view = seen(points);
+    view.domain = domain;
+    aur_measure_options options = aur_measure_options_default();
+    options.threads = threads;
+    aur_series *cells, *corners;
+    assert_int_equal(aur_measure_series("voronoi", &view, &options, &cells, NULL), AUR_OK);
+    assert_int_equal(aur_measure_series("voronoi-cells", &view, &options, &corners, NULL), AUR_OK);
+    const double *const figures = aur_series_values(cells), *row = aur_series_values(corners);
+    const double mean = (domain == AUR_DOMAIN_SPHERE ? 4.0 : 2.0) * AUR_PI / (double)points->count;
+    for (size_t i = 0; i < points->count; ++i) {
+        const double *const x = points->coordinates + 3 * i;
+        const size_t sides = (size_t)figures[4 * i + 3];
+        double area = 0.0;
+        for (size_t k = 0; k < sides; ++k) {
+            const double *const corner = row + 4 * k + 1, *const next = row + 4 * ((k + 1) % sides) + 1;
+            assert_true(row[4 * k] == (double)(i + 1));
+            const double own = dot(corner, x);
+            size_t as_near = domain == AUR_DOMAIN_HEMISPHERE && fabs(corner[2]) < corner_error;
+            for (size_t j = 0; j < points->count; ++j) {
+                const double other = dot(corner, points->coordinates + 3 * j);
+                const double near = domain == AUR_DOMAIN_AXES ? fabs(other) : other;
+                assert_true(near < own + corner_error);
+                as_near += j != i && near > own - corner_error;
+            }
+            assert_true(as_near >= 2);
+            assert_true(turn(x, corner, next) > -corner_error);
+            area += 2.0 * atan2(turn(x, corner, next), 1.0 + own + dot(next, x) + dot(corner, next));
+        }
+        assert_relative(area, figures[4 * i + 1] * mean, corner_error);
+        row += 4 * sides;
+    }
+    assert_true(row == aur_series_values(corners) + 4 * aur_series_row_count(corners));
+    aur_series_destroy(cells);
+    aur_series_destroy(corners);
+}
+
+static void corners_are_as_far_from_three_points(void **state) {
+    (void)state;
+    own_points points = random_directions(300, 5);
+    check_corners(&points, AUR_DOMAIN_SPHERE, 1);
+    check_corners(&points, AUR_DOMAIN_SPHERE, 3);
+    check_corners(&points, AUR_DOMAIN_AXES, 1);
+    for (size_t i = 0; i < points.count; ++i)
+        points.coordinates[3 * i + 2] = fabs(points.coordinates[3 * i + 2]);
+    check_corners(&points, AUR_DOMAIN_HEMISPHERE, 1);
+    points.count = 3;
+    aur_series *corners;
+    assert_int_equal(
+        aur_measure_series("voronoi-cells", (const aur_points_view[]){seen(&points)}, NULL, &corners, NULL),
+        AUR_ERROR_UNSUPPORTED);
+    release_points(&points);
+}
+
 /* The covering radius against circumcentres of all triples: those of empty caps are the corners of the cells.
  */
 static void covering_agrees_with_all_triples(void **state) {
@@ -195,6 +260,7 @@ int main(void) {
         cmocka_unit_test(the_grid_finds_all_neighbours),
         cmocka_unit_test(regular_sets_have_regular_cells),
         cmocka_unit_test(areas_add_up),
+        cmocka_unit_test(corners_are_as_far_from_three_points),
         cmocka_unit_test(covering_agrees_with_all_triples),
         cmocka_unit_test(covering_beyond_ninety_degrees),
         cmocka_unit_test(smallest_distance_agrees_with_all_pairs),

@@ -77,16 +77,20 @@ static aur_result area_figure(const aur_measure_request *request, double *value,
     return unbounded ? fail_unbounded(error) : AUR_OK;
 }
 
+/* The points as they were given: of an axis the first end. */
+static size_t given_count(const aur_points_view *points) {
+    return points->domain == AUR_DOMAIN_AXES ? points->count / 2 : points->count;
+}
+
 static aur_result voronoi(const aur_measure_request *request, aur_series *series, aur_error *error) {
     static const char *const columns[] = {"point", "area", "radius", "sides"};
-    const size_t ends = request->points->domain == AUR_DOMAIN_AXES ? 2 : 1;
-    const size_t given = request->points->count / ends;
     aur_voronoi_cell *cells;
     bool unbounded;
     aur_result result = aur_voronoi_cells(request, &cells, &unbounded, error);
     if (result != AUR_OK)
         return result;
-    result = unbounded ? fail_unbounded(error) : aur_series_create(series, given, 4, columns, error);
+    result = unbounded ? fail_unbounded(error)
+                       : aur_series_create(series, given_count(request->points), 4, columns, error);
     for (size_t i = 0; i < series->row_count && result == AUR_OK; ++i) {
         double *const row = series->values + 4 * i;
         row[0] = (double)(i + 1);
@@ -95,6 +99,21 @@ static aur_result voronoi(const aur_measure_request *request, aur_series *series
         row[3] = (double)cells[i].sides;
     }
     return result;
+}
+
+static aur_result voronoi_cells(const aur_measure_request *request, aur_series *series, aur_error *error) {
+    static const char *const columns[AUR_CORNER_COLUMNS] = {"point", "x", "y", "z"};
+    const size_t count = given_count(request->points);
+    aur_voronoi_cell *cells;
+    bool unbounded;
+    aur_result result = aur_voronoi_cells(request, &cells, &unbounded, error);
+    if (result != AUR_OK || unbounded)
+        return result != AUR_OK ? result : fail_unbounded(error);
+    size_t sides = 0;
+    for (size_t i = 0; i < count; ++i)
+        sides += cells[i].sides;
+    result = aur_series_create(series, sides, AUR_CORNER_COLUMNS, columns, error);
+    return result == AUR_OK ? aur_voronoi_corners(request, count, cells, series->values, error) : result;
 }
 
 const aur_measure_row aur_measure_covering = {
@@ -145,3 +164,13 @@ const aur_measure_row aur_measure_voronoi = {
      .domains = "sphere, hemisphere, axes",
      .series = true},
     .tabulate = voronoi};
+
+const aur_measure_row aur_measure_voronoi_cells = {
+    {.row = {.name = "voronoi-cells",
+             .summary =
+                 "table of the corners of the Voronoi cells, counter-clockwise from outside: the point's "
+                 "number, x, y, z",
+             .source = "Augenbaum and Peskin 1985"},
+     .domains = "sphere, hemisphere, axes",
+     .series = true},
+    .tabulate = voronoi_cells};

@@ -80,9 +80,13 @@ static double solid_angle(const polygon *p) {
     return sum;
 }
 
+/* What is wanted of the cells of the first `count` points: figures, or corners where `rows` is set. */
 typedef struct cells {
     const aur_sphere_grid *grid;
+    size_t count;
     aur_voronoi_cell *result;
+    const size_t *first_row; /* of each cell */
+    double *rows;            /* of AUR_CORNER_COLUMNS */
 } cells;
 
 enum { CELLS_PER_ITEM = 256 };
@@ -115,6 +119,20 @@ static bool cut_cell(const aur_points_view *points, size_t index, const aur_neig
     return 1;
 }
 
+static void keep_corners(const cells *work, size_t index, const polygon *p) {
+    const double *const x = work->grid->points->coordinates + 3 * index;
+    double first[3], second[3];
+    aur_frame3(x, first, second);
+    for (size_t i = 0; i < p->count; ++i) {
+        double *const row = work->rows + AUR_CORNER_COLUMNS * (work->first_row[index] + i);
+        const corner c = p->corners[i];
+        const double length = sqrt(1.0 + c.p * c.p + c.q * c.q);
+        row[0] = (double)(index + 1);
+        for (size_t d = 0; d < 3; ++d)
+            row[1 + d] = (x[d] + c.p * first[d] + c.q * second[d]) / length;
+    }
+}
+
 static aur_result find_cell(const cells *work, size_t index, polygon *p, aur_neighbours *near) {
     for (double angle = 3.0 * work->grid->spacing;; angle *= 2.0) {
         const aur_result result = aur_sphere_grid_near(work->grid, index, angle, near);
@@ -125,40 +143,59 @@ static aur_result find_cell(const cells *work, size_t index, polygon *p, aur_nei
         const double radius = atan(tangent);
         if (2.0 * radius > angle && angle < AUR_PI)
             continue;
-        work->result[index] = (aur_voronoi_cell){solid_angle(p) / (double)coincident, radius, p->count,
-                                                 tangent > 0.5 * horizon};
+        if (work->rows != NULL)
+            keep_corners(work, index, p);
+        else
+            work->result[index] = (aur_voronoi_cell){solid_angle(p) / (double)coincident, radius, p->count,
+                                                     tangent > 0.5 * horizon};
         return AUR_OK;
     }
 }
 
 static aur_result find_cells(void *context, size_t item) {
     const cells *const work = context;
-    const size_t count = work->grid->points->count;
     polygon p = {0};
     aur_neighbours near = {0};
     aur_result result = AUR_OK;
-    for (size_t i = item * CELLS_PER_ITEM; i < (item + 1) * CELLS_PER_ITEM && i < count && result == AUR_OK;
-         ++i)
+    for (size_t i = item * CELLS_PER_ITEM;
+         i < (item + 1) * CELLS_PER_ITEM && i < work->count && result == AUR_OK; ++i)
         result = find_cell(work, i, &p, &near);
     free(p.storage);
     free(near.items);
     return result;
 }
 
+/* Fills in the grid, which `work` has none of yet. */
+static aur_result cut_cells(const aur_measure_request *request, cells work, aur_error *error) {
+    aur_sphere_grid grid;
+    work.grid = &grid;
+    aur_result result = aur_sphere_grid_create(request->points, request->arena, &grid, error);
+    if (result == AUR_OK)
+        result =
+            aur_measure_items(&request->options, "cutting cells",
+                              (work.count + CELLS_PER_ITEM - 1) / CELLS_PER_ITEM, find_cells, &work, error);
+    return result;
+}
+
 aur_result aur_voronoi_cells(const aur_measure_request *request, aur_voronoi_cell **found, bool *unbounded,
                              aur_error *error) {
     const size_t count = request->points->count;
-    aur_sphere_grid grid;
-    cells work = {&grid, aur_arena_allocate(request->arena, count * sizeof *work.result)};
-    aur_result result = work.result != NULL
-                            ? aur_sphere_grid_create(request->points, request->arena, &grid, error)
-                            : aur_fail_memory(error);
-    if (result == AUR_OK)
-        result = aur_measure_items(&request->options, "cutting cells",
-                                   (count + CELLS_PER_ITEM - 1) / CELLS_PER_ITEM, find_cells, &work, error);
+    const cells work = {.count = count,
+                        .result = aur_arena_allocate(request->arena, count * sizeof *work.result)};
+    const aur_result result = work.result != NULL ? cut_cells(request, work, error) : aur_fail_memory(error);
     *unbounded = false;
     for (size_t i = 0; i < count && result == AUR_OK; ++i)
         *unbounded |= work.result[i].unbounded;
     *found = work.result;
     return result;
+}
+
+aur_result aur_voronoi_corners(const aur_measure_request *request, size_t count,
+                               const aur_voronoi_cell *found, double *rows, aur_error *error) {
+    size_t *const first_row = aur_arena_allocate(request->arena, count * sizeof *first_row);
+    if (first_row == NULL)
+        return aur_fail_memory(error);
+    for (size_t i = 0, row = 0; i < count; row += found[i++].sides)
+        first_row[i] = row;
+    return cut_cells(request, (cells){.count = count, .first_row = first_row, .rows = rows}, error);
 }

@@ -15,5 +15,13 @@ typedef struct aur_voronoi_cell {
 aur_result aur_voronoi_cells(const aur_measure_request *request, aur_voronoi_cell **cells, bool *unbounded,
                              aur_error *error);
 
+enum { AUR_CORNER_COLUMNS = 4 };
+
+/* The corners of the cells of the first `count` points, which cells[] says are bounded, counter-clockwise as
+ * seen from outside: a row each of the point's number from 1 and a unit vector, cell after cell, as many as
+ * the sum of their sides. */
+aur_result aur_voronoi_corners(const aur_measure_request *request, size_t count,
+                               const aur_voronoi_cell *cells, double *rows, aur_error *error);
+
 /* The angular radius of the smallest cap that holds all points, which must lie in one hemisphere. */
 double aur_smallest_cap(const aur_points_view *points);
