@@ -94,9 +94,10 @@ AUR_EXPERIMENTAL void aur_render_destroy(aur_render *render); /* NULL is allowed
 /* Gives every pixel `count` more samples; 0 or too many: all that remain of the options' samples_per_pixel.
  * Where a tile is ahead of the others because an earlier step was cancelled, the others catch up first.
  * Integrators that decide by a pixel's samples of one step (finalgather's edges) give other pictures of the
- * same light for other steps. Errors: CANCELLED by aur_render_cancel or the progress callback: tiles that
- * were finished keep their samples, and the next step goes on where this one was stopped; MEMORY and others,
- * after which the render can only be destroyed. */
+ * same light for other steps. Errors: CANCELLED by aur_render_cancel or the progress callback, both of
+ * which are also asked within long tiles: tiles that were finished keep their samples, others those that
+ * their integrator adds one after the other (all but finalgather and radiosity), and the next step goes on
+ * where this one was stopped; MEMORY and others, after which the render can only be destroyed. */
 AUR_EXPERIMENTAL aur_result aur_render_step(aur_render *render, size_t count, aur_error *error)
     AUR_NONNULL(1);
 /* The same tile by tile: tile i of the film (16 x 16 pixels on a grid over the whole picture, row by row)
@@ -113,7 +114,7 @@ AUR_EXPERIMENTAL size_t aur_render_samples(const aur_render *render) AUR_NONNULL
 AUR_EXPERIMENTAL size_t aur_render_samples_wanted(const aur_render *render) AUR_NONNULL(1);
 
 /* The film so far, owned by the render: aur_film_develop makes the picture, aur_film_error tells its error,
- * aur_film_save keeps it. */
+ * aur_film_save keeps it. Developing and saving may be done while another thread is in a step. */
 AUR_EXPERIMENTAL const aur_film *aur_render_film(const aur_render *render) AUR_NONNULL(1);
 /* Takes over the samples of a film of the same scene, options and seed, such as one saved earlier: the render
  * goes on where that one ended. Errors as for aur_film_merge. */

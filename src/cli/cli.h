@@ -18,8 +18,8 @@ int cli_bad_usage(const char *format, ...) __attribute__((format(printf, 1, 2)))
 
 /* Warnings go to standard error as "aureole: warning: ..."; nothing when quiet. */
 aur_warnings cli_warnings(bool quiet);
-/* A progress bar with elapsed and remaining time, on a terminal only; none when quiet. An interrupt (SIGINT)
- * asks the work to stop once cli_progress has been called. */
+/* A progress bar with elapsed and remaining time, on a terminal only; none when quiet. An interrupt (SIGINT
+ * or SIGTERM) asks the work to stop once cli_progress has been called. */
 aur_progress cli_progress(bool quiet);
 /* Takes the bar off the terminal. */
 void cli_progress_clear(void);

@@ -27,8 +27,12 @@ static double now(void) {
     return (double)time.tv_sec + 1e-9 * (double)time.tv_nsec;
 }
 
+/* The first signal asks the work to stop, a second one ends the program as if nobody listened. */
 static void on_interrupt(int signal_number) {
-    (void)signal_number;
+    if (interrupted) {
+        signal(signal_number, SIG_DFL);
+        raise(signal_number);
+    }
     interrupted = 1;
 }
 
@@ -93,8 +97,8 @@ aur_progress cli_progress(bool quiet) {
     struct sigaction action;
     memset(&action, 0, sizeof action);
     action.sa_handler = on_interrupt;
-    action.sa_flags = (int)SA_RESETHAND; /* a second interrupt kills */
     sigaction(SIGINT, &action, NULL);
+    sigaction(SIGTERM, &action, NULL); /* what batch systems send before they kill */
     const bool draws = !quiet && isatty(STDERR_FILENO);
     return (aur_progress){.function = show, .user = draws ? &bar : NULL};
 }

@@ -82,35 +82,63 @@ size_t aur_parallel_threads(size_t threads) {
 
 /* --- sharing the work */
 
-typedef struct shared_work {
+typedef struct shared_work shared_work;
+
+struct shared_work {
     const aur_parallel_options *options;
     size_t count;
     aur_parallel_function function;
     void *context;
+    shared_work *outer; /* the work of whose items this is a part; NULL: of none */
     atomic_size_t next; /* the first item that nobody has taken */
     atomic_bool stop;
     pthread_mutex_t lock; /* guards what follows, and makes one progress report at a time */
     size_t failed_index;  /* `count` while nothing has failed */
     aur_result result;
     uint64_t done;
-} shared_work;
+};
 
-/* Whether this thread is inside an item. Parallel work within an item runs on the item's thread alone. */
-static _Thread_local bool is_inside_item;
+/* The work that this thread is inside an item of. Parallel work within an item runs on the item's thread
+ * alone.
+ */
+static _Thread_local shared_work *inside;
+
+/* With the lock held: reports progress, unless the work has been stopped. */
+static void report(shared_work *work) {
+    const aur_progress *const progress = &work->options->progress;
+    if (atomic_load(&work->stop) ||
+        progress->function(progress->user, work->options->what, work->done, work->count) == 0)
+        return;
+    work->result = AUR_ERROR_CANCELLED;
+    atomic_store(&work->stop, true);
+}
+
+bool aur_parallel_stops(void) {
+    for (shared_work *work = inside; work != NULL; work = work->outer) {
+        if (work->options->progress.function != NULL) {
+            pthread_mutex_lock(&work->lock);
+            report(work);
+            pthread_mutex_unlock(&work->lock);
+        }
+        if (atomic_load(&work->stop))
+            return true;
+    }
+    return false;
+}
 
 static void record(shared_work *work, size_t index, aur_result result) {
-    const aur_progress *const progress = &work->options->progress;
-    if (result == AUR_OK && progress->function == NULL)
+    if (result == AUR_OK && work->options->progress.function == NULL)
         return;
     pthread_mutex_lock(&work->lock);
     ++work->done;
-    if (result != AUR_OK && index < work->failed_index) {
-        work->failed_index = index;
-        work->result = result;
-        atomic_store(&work->stop, true);
-    } else if (result == AUR_OK && !atomic_load(&work->stop) &&
-               progress->function(progress->user, work->options->what, work->done, work->count) != 0) {
-        work->result = AUR_ERROR_CANCELLED;
+    if (result == AUR_OK) {
+        report(work);
+    } else if (index < work->failed_index) {
+        /* An item that was stopped hides none that failed. */
+        if (result != AUR_ERROR_CANCELLED)
+            work->failed_index = index;
+        if (result != AUR_ERROR_CANCELLED || work->result == AUR_OK)
+            work->result = result;
         atomic_store(&work->stop, true);
     }
     pthread_mutex_unlock(&work->lock);
@@ -122,11 +150,11 @@ static void *do_items(void *shared) {
         const size_t index = atomic_fetch_add_explicit(&work->next, 1, memory_order_relaxed);
         if (index >= work->count)
             break;
-        const bool was_inside = is_inside_item;
+        shared_work *const outer = inside;
         const uint64_t saved = work->options->flush_denormals ? flush_denormals() : 0;
-        is_inside_item = true;
+        inside = work;
         const aur_result result = work->function(work->context, index);
-        is_inside_item = was_inside;
+        inside = outer;
         if (work->options->flush_denormals)
             restore_denormals(saved);
         record(work, index, result);
@@ -154,11 +182,15 @@ aur_result aur_parallel_for(const aur_parallel_options *options, size_t count, a
         options = &defaults;
     if (count == 0)
         return AUR_OK;
-    size_t wanted = is_inside_item ? 1 : aur_parallel_threads(options->threads);
+    size_t wanted = inside != NULL ? 1 : aur_parallel_threads(options->threads);
     if (wanted > count)
         wanted = count;
-    shared_work work = {
-        .options = options, .count = count, .function = function, .context = context, .failed_index = count};
+    shared_work work = {.options = options,
+                        .count = count,
+                        .function = function,
+                        .context = context,
+                        .outer = inside,
+                        .failed_index = count};
     atomic_init(&work.next, 0);
     atomic_init(&work.stop, false);
     if (pthread_mutex_init(&work.lock, NULL) != 0)

@@ -25,6 +25,11 @@ typedef struct aur_parallel_options {
 aur_result aur_parallel_for(const aur_parallel_options *options, size_t count, aur_parallel_function function,
                             void *context, aur_error *error);
 
+/* Asks from within a long item whether the work is to stop: the progress function is called as at the end of
+ * an item, with the items that are finished. True: the item may leave at once, with AUR_ERROR_CANCELLED.
+ * False outside of an item. */
+bool aur_parallel_stops(void);
+
 /* The number of threads that `threads` stands for. 0: as many as there are processors for this process, or as
  * OMP_NUM_THREADS says. At most four a processor (but 16 on a small machine) and 1024. */
 size_t aur_parallel_threads(size_t threads);

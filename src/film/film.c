@@ -36,8 +36,13 @@ aur_result aur_film_create(const aur_film_layout *layout, aur_film **out, aur_er
     film->counts = calloc(pixels, sizeof *film->counts);
     film->steps = calloc(pixels, sizeof *film->steps);
     film->squares = calloc(pixels, 3 * sizeof *film->squares);
+    film->lock = malloc(sizeof *film->lock);
+    if (film->lock != NULL && pthread_mutex_init(film->lock, NULL) != 0) {
+        free(film->lock);
+        film->lock = NULL;
+    }
     if (film->channels == NULL || film->tile_samples == NULL || film->sums == NULL || film->counts == NULL ||
-        film->steps == NULL || film->squares == NULL) {
+        film->steps == NULL || film->squares == NULL || film->lock == NULL) {
         aur_film_destroy(film);
         return aur_fail(error, AUR_ERROR_MEMORY, "out of memory for a picture of %zu x %zu", layout->width,
                         layout->height);
@@ -57,6 +62,9 @@ void aur_film_destroy(aur_film *film) {
     free(film->counts);
     free(film->steps);
     free(film->squares);
+    if (film->lock != NULL)
+        pthread_mutex_destroy(film->lock);
+    free(film->lock);
     free(film);
 }
 
@@ -68,51 +76,78 @@ static size_t smaller(size_t a, size_t b) {
     return a < b ? a : b;
 }
 
-bool aur_film_open_tile(aur_film *film, size_t index, uint32_t target, aur_tile *tile,
-                        aur_film_before *before) {
+/* The film's place of the tile's first pixel. */
+static size_t first_pixel(const aur_film *film, const aur_tile *tile) {
+    const aur_film_layout *const layout = &film->layout;
+    return (tile->y0 - layout->y0) * (layout->x1 - layout->x0) + (tile->x0 - layout->x0);
+}
+
+aur_result aur_film_open_tile(aur_film *film, size_t index, uint32_t target, aur_tile *tile,
+                              aur_film_before *before) {
     const aur_film_layout *const layout = &film->layout;
     const uint32_t done = film->tile_samples[index];
-    if (done >= target)
-        return false;
     const size_t x = (film->column0 + index % film->columns) * AUR_TILE_SIZE;
     const size_t y = (film->row0 + index / film->columns) * AUR_TILE_SIZE;
+    const size_t channels = layout->channel_count, width = layout->x1 - layout->x0;
     tile->x0 = larger(x, layout->x0);
     tile->x1 = smaller(x + AUR_TILE_SIZE, layout->x1);
     tile->y0 = larger(y, layout->y0);
     tile->y1 = smaller(y + AUR_TILE_SIZE, layout->y1);
     tile->first = done;
-    tile->count = target - done;
-    tile->stride = layout->x1 - layout->x0;
-    tile->channel_count = layout->channel_count;
-    const size_t pixel = (tile->y0 - layout->y0) * tile->stride + (tile->x0 - layout->x0);
-    tile->sums = &film->sums[pixel * layout->channel_count];
-    tile->counts = &film->counts[pixel];
-    size_t k = 0;
-    for (size_t row = 0; row < tile->y1 - tile->y0; ++row)
-        for (size_t column = 0; column < tile->x1 - tile->x0; ++column, ++k) {
-            const size_t at = row * tile->stride + column;
-            memcpy(before->sums[k], &tile->sums[at * tile->channel_count], sizeof before->sums[k]);
-            before->counts[k] = tile->counts[at];
-        }
-    return true;
+    tile->count = done < target ? target - done : 0;
+    tile->stride = tile->x1 - tile->x0;
+    tile->channel_count = channels;
+    const size_t rows = tile->y1 - tile->y0;
+    tile->sums = malloc(tile->stride * rows * channels * sizeof *tile->sums);
+    tile->counts = malloc(tile->stride * rows * sizeof *tile->counts);
+    if (tile->sums == NULL || tile->counts == NULL)
+        return AUR_ERROR_MEMORY;
+    for (size_t row = 0; row < rows; ++row) {
+        const size_t from = first_pixel(film, tile) + row * width, to = row * tile->stride;
+        memcpy(&tile->sums[to * channels], &film->sums[from * channels],
+               tile->stride * channels * sizeof *tile->sums);
+        memcpy(&tile->counts[to], &film->counts[from], tile->stride * sizeof *tile->counts);
+    }
+    for (size_t k = 0; k < tile->stride * rows; ++k) {
+        memcpy(before->sums[k], &tile->sums[k * channels], sizeof before->sums[k]);
+        before->counts[k] = tile->counts[k];
+    }
+    return AUR_OK;
 }
 
-void aur_film_close_tile(aur_film *film, size_t index, const aur_tile *tile, const aur_film_before *before) {
-    const size_t first = (size_t)(tile->counts - film->counts);
-    size_t k = 0;
-    for (size_t row = 0; row < tile->y1 - tile->y0; ++row)
-        for (size_t column = 0; column < tile->x1 - tile->x0; ++column, ++k) {
-            const size_t at = row * tile->stride + column;
-            const uint32_t count = tile->counts[at] - before->counts[k];
-            if (count == 0)
-                continue;
-            ++film->steps[first + at];
-            for (size_t c = 0; c < 3; ++c) {
-                const double sum = tile->sums[at * tile->channel_count + c] - before->sums[k][c];
-                film->squares[3 * (first + at) + c] += sum * sum / (double)count;
-            }
-        }
+void aur_film_take_tile(aur_film *film, size_t index, aur_tile *tile) {
+    const size_t channels = tile->channel_count, width = film->layout.x1 - film->layout.x0;
+    pthread_mutex_lock(film->lock);
+    for (size_t row = 0; row < tile->y1 - tile->y0; ++row) {
+        const size_t to = first_pixel(film, tile) + row * width, from = row * tile->stride;
+        memcpy(&film->sums[to * channels], &tile->sums[from * channels],
+               tile->stride * channels * sizeof *tile->sums);
+        memcpy(&film->counts[to], &tile->counts[from], tile->stride * sizeof *tile->counts);
+    }
     film->tile_samples[index] += tile->count;
+    pthread_mutex_unlock(film->lock);
+    tile->first += tile->count;
+    tile->count = 0;
+}
+
+void aur_film_close_tile(aur_film *film, aur_tile *tile, const aur_film_before *before) {
+    const size_t width = film->layout.x1 - film->layout.x0;
+    pthread_mutex_lock(film->lock);
+    for (size_t k = 0; tile->sums != NULL && tile->counts != NULL && k < (tile->y1 - tile->y0) * tile->stride;
+         ++k) {
+        const size_t at = first_pixel(film, tile) + k / tile->stride * width + k % tile->stride;
+        const uint32_t count = film->counts[at] - before->counts[k];
+        if (count == 0)
+            continue;
+        ++film->steps[at];
+        for (size_t c = 0; c < 3; ++c) {
+            const double sum = film->sums[at * tile->channel_count + c] - before->sums[k][c];
+            film->squares[3 * at + c] += sum * sum / (double)count;
+        }
+    }
+    pthread_mutex_unlock(film->lock);
+    free(tile->sums);
+    free(tile->counts);
 }
 
 uint32_t aur_film_samples(const aur_film *film) {
@@ -224,9 +259,11 @@ aur_result aur_film_develop(const aur_film *film, aur_image **out, aur_error *er
         return result;
     for (size_t c = 0; c < channels; ++c)
         memcpy(image->channel_names[c], film->channels[c].name, AUR_CHANNEL_NAME_CAPACITY);
+    pthread_mutex_lock(film->lock);
     for (size_t i = 0; i < aur_film_pixel_count(film); ++i)
         for (size_t c = 0; c < channels; ++c)
             image->data[i * channels + c] = (float)channel_value(film, i, c);
+    pthread_mutex_unlock(film->lock);
     *out = image;
     return AUR_OK;
 }

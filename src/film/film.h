@@ -3,6 +3,8 @@
 
 #include <aureole/film.h>
 
+#include <pthread.h>
+
 #include "film/tile.h"
 
 /* What a channel shows of its sums. */
@@ -45,6 +47,9 @@ struct aur_film {
      */
     uint32_t *steps;
     double *squares;
+    /* Held while a tile's sums are written or the film is read whole, so that it can be read while it is
+     * rendered. */
+    pthread_mutex_t *lock;
 };
 
 static inline size_t aur_film_pixel_count(const aur_film *film) {
@@ -61,11 +66,14 @@ typedef struct aur_film_before {
 } aur_film_before;
 
 /* Opens tile `index` for the samples that it lacks up to `target`, tile->first to tile->first + tile->count
- * - 1. False when it has them. Different tiles may be open in different threads. */
-bool aur_film_open_tile(aur_film *film, size_t index, uint32_t target, aur_tile *tile,
-                        aur_film_before *before);
-/* Notes what the step brought. */
-void aur_film_close_tile(aur_film *film, size_t index, const aur_tile *tile, const aur_film_before *before);
+ * - 1; none when it has them. The tile's sums are copies. Different tiles may be open in different threads.
+ * To be closed in every case. Errors: MEMORY. */
+aur_result aur_film_open_tile(aur_film *film, size_t index, uint32_t target, aur_tile *tile,
+                              aur_film_before *before);
+/* Takes over the sums with tile->count more samples of each pixel, which become the tile's first ones. */
+void aur_film_take_tile(aur_film *film, size_t index, aur_tile *tile);
+/* Notes what the step brought, and gives up what has not been taken over. */
+void aur_film_close_tile(aur_film *film, aur_tile *tile, const aur_film_before *before);
 
 /* Samples that every pixel was given. */
 uint32_t aur_film_samples(const aur_film *film);

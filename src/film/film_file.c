@@ -45,7 +45,9 @@ aur_result aur_film_save(const aur_film *film, const char *path, aur_error *erro
     if (result != AUR_OK)
         return result;
     aur_word_writer writer = {.stream = file.stream};
+    pthread_mutex_lock(film->lock);
     put_film(&writer, film);
+    pthread_mutex_unlock(film->lock);
     return aur_file_commit(&file, error);
 }
 

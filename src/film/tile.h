@@ -4,6 +4,9 @@
 
 #include <aureole/render.h>
 
+#include <stdatomic.h>
+
+#include "core/parallel.h"
 #include "sampling/stream.h"
 #include "scene/scene.h"
 
@@ -61,7 +64,20 @@ typedef struct aur_tile {
     double *sums;     /* of pixel (x0, y0): channel_count values a pixel */
     uint32_t *counts; /* samples added to each pixel */
     aur_counters counters;
+    const atomic_bool *stop; /* true: the samples are no longer wanted; NULL: they are in any case */
+    uint64_t asked;          /* rays when aur_tile_stops asked last */
 } aur_tile;
+
+/* Whether the tile may be left unfinished. Asks as often as rays are traced that take some milliseconds, so
+ * that it may be called for every sample. */
+static inline bool aur_tile_stops(aur_tile *tile) {
+    enum { RAYS_BETWEEN = 1 << 14 };
+    if (tile->counters.rays - tile->asked < RAYS_BETWEEN)
+        return false;
+    tile->asked = tile->counters.rays;
+    return (tile->stop != NULL && atomic_load_explicit(tile->stop, memory_order_relaxed)) ||
+           aur_parallel_stops();
+}
 
 /* Whether finite and not negative. */
 bool aur_is_radiance(aur_vector radiance);

@@ -185,23 +185,47 @@ static aur_result add_samples(const aur_integrator *integrator, aur_tile *tile) 
     return AUR_OK;
 }
 
+/* All samples that the tile lacks, in pieces where this changes no bit: what is finished stays when the work
+ * is stopped, also in a tile of hours. Pieces grow to so many rays, which take some hundredths of a second.
+ */
+static aur_result add_pieces(const render_work *work, size_t index, aur_tile *tile) {
+    enum { RAYS_A_PIECE = 1 << 16 };
+    aur_render *const render = work->render;
+    const uint64_t pixels = (uint64_t)(tile->x1 - tile->x0) * (tile->y1 - tile->y0);
+    const uint32_t end = tile->first + tile->count;
+    uint32_t piece = aur_integrator_cuts(render->integrator) ? 1 : end;
+    while (tile->first < end) {
+        const uint64_t rays = tile->counters.rays;
+        tile->count = piece < end - tile->first ? piece : end - tile->first;
+        tile->counters.samples += pixels * tile->count;
+        const aur_result result = add_samples(render->integrator, tile);
+        if (result != AUR_OK)
+            return result;
+        aur_film_take_tile(render->film, index, tile);
+        work->counters[index] = tile->counters;
+        if (tile->counters.rays - rays < RAYS_A_PIECE && piece < end)
+            piece *= 2;
+        if (tile->first < end && aur_tile_stops(tile))
+            return AUR_ERROR_CANCELLED;
+    }
+    return AUR_OK;
+}
+
 static aur_result render_tile(void *context, size_t index) {
     const render_work *const work = context;
     aur_render *const render = work->render;
     if (atomic_load_explicit(&render->cancelled, memory_order_relaxed))
         return AUR_ERROR_CANCELLED;
-    aur_tile tile = {.view = &render->view};
+    aur_tile tile = {.view = &render->view, .stop = &render->cancelled};
     aur_film_before before;
     const uint32_t target = work->targets != NULL ? work->targets[index] : work->target;
-    if (!aur_film_open_tile(render->film, index, target, &tile, &before))
+    if (render->film->tile_samples[index] >= target)
         return AUR_OK;
-    const aur_result result = add_samples(render->integrator, &tile);
-    if (result != AUR_OK)
-        return result;
-    tile.counters.samples = (uint64_t)(tile.x1 - tile.x0) * (tile.y1 - tile.y0) * tile.count;
-    aur_film_close_tile(render->film, index, &tile, &before);
-    work->counters[index] = tile.counters;
-    return AUR_OK;
+    aur_result result = aur_film_open_tile(render->film, index, target, &tile, &before);
+    if (result == AUR_OK)
+        result = add_pieces(work, index, &tile);
+    aur_film_close_tile(render->film, &tile, &before);
+    return result;
 }
 
 /* Cut paths are worth a warning when they are more than so many a thousand samples. */

@@ -50,6 +50,9 @@ typedef struct aur_integrator_descriptor {
      * camera ray after the other, as aur_integrator_add_samples does. The sums of a pixel must not depend on
      * which of its neighbours are wanted. */
     aur_result (*tile)(const aur_integrator *integrator, aur_tile *tile);
+    /* Of `tile`: it adds a pixel's samples one after the other, so that any cut of them into calls gives the
+     * same bits. Else it asks aur_tile_stops on the way, and returns AUR_ERROR_CANCELLED. */
+    bool cuts;
 } aur_integrator_descriptor;
 
 enum { AUR_EXTRA_CHANNELS_MAX = 64 };
@@ -64,6 +67,10 @@ struct aur_integrator {
     /* What they show; NULL: means. */
     const aur_channel_kind *extra_kinds;
 };
+
+static inline bool aur_integrator_cuts(const aur_integrator *integrator) {
+    return integrator->descriptor->tile == NULL || integrator->descriptor->cuts;
+}
 
 extern const aur_table aur_integrator_table;
 

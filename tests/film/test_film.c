@@ -176,6 +176,43 @@ static void a_stopped_step_is_kept_and_continued(void **state) {
     aur_image_destroy(partial);
 }
 
+static int stop_after(void *user, const char *what, uint64_t done, uint64_t total) {
+    (void)what;
+    (void)done;
+    (void)total;
+    uint64_t *const calls = user;
+    return --*calls == 0;
+}
+
+/* A picture of one tile: it is stopped within the tile, keeps samples of it where the integrator adds one
+ * after the other, none of it otherwise, and goes on to the same bits. */
+static void a_tile_is_stopped_within(void **state) {
+    const fixture *const f = *state;
+    static const char *const integrators[] = {"path", "ao:samples=1024",
+                                              "finalgather:photons=5000,diffuse_samples=2048", "radiosity"};
+    for (size_t i = 0; i < sizeof integrators / sizeof integrators[0]; ++i) {
+        aur_render_options options = small(integrators[i], 1);
+        options.width = options.height = 16;
+        options.samples_per_pixel = 512;
+        aur_image *whole = NULL;
+        assert_int_equal(aur_renderer_render(f->renderer, &options, &whole, NULL, NULL), AUR_OK);
+        uint64_t calls = UINT64_MAX;
+        options.progress = (aur_progress){.function = stop_after, .user = &calls};
+        aur_render *const render = start(f->renderer, &options);
+        calls = 3;
+        assert_int_equal(aur_render_step(render, 0, NULL), AUR_ERROR_CANCELLED);
+        const size_t kept = aur_render_samples(render);
+        assert_true(i < 2 ? kept > 0 && kept < 512 : kept == 0);
+        calls = UINT64_MAX;
+        assert_int_equal(aur_render_step(render, 0, NULL), AUR_OK);
+        aur_render_statistics counted = {.size = sizeof counted};
+        assert_int_equal(aur_render_get_statistics(render, &counted, NULL), AUR_OK);
+        assert_int_equal(counted.samples, 16 * 16 * 512);
+        assert_same(whole, picture(aur_render_film(render)));
+        aur_render_destroy(render);
+    }
+}
+
 /* The squared error that the steps tell is right on average for independent samples: over pixels it is chi^2
  * with 7 degrees of freedom each. The reference has 64 times the samples, so its own variance adds 1/64. The
  * ratio of the two mean squares over P = 1665 pixels and 3 channels that move together has a relative
@@ -264,6 +301,7 @@ int main(void) {
     const struct CMUnitTest tests[] = {cmocka_unit_test(steps_are_one_render),
                                        cmocka_unit_test(parts_are_merged),
                                        cmocka_unit_test(a_stopped_step_is_kept_and_continued),
+                                       cmocka_unit_test(a_tile_is_stopped_within),
                                        cmocka_unit_test(the_error_is_that_of_independent_samples),
                                        cmocka_unit_test(options_of_other_sizes),
                                        cmocka_unit_test(damaged_films_are_refused)};

@@ -197,7 +197,7 @@ static void add_samples(gather_tile *work, uint32_t group, uint32_t index, uint3
 
 /* Samples that tell how much pixels see of what is around an edge. Edges that are none of a light's get a
  * small part of them. */
-static void refine_edges(gather_tile *work, uint32_t first_index) {
+static aur_result refine_edges(gather_tile *work, aur_tile *tile) {
     enum { PLAIN_EDGE_PART = 16 };
     const uint32_t count = work->places.plan->policy.edge_samples;
     aur_gather_edges edges;
@@ -205,23 +205,29 @@ static void refine_edges(gather_tile *work, uint32_t first_index) {
                           work->sums.counters);
     work->only_new = true;
     for (uint32_t group = 0; group < AUR_GROUP_COUNT; ++group)
-        for (uint32_t i = 0; i < count; ++i)
-            add_samples(work, group, first_index + i,
+        for (uint32_t i = 0; i < count; ++i) {
+            if (aur_tile_stops(tile))
+                return AUR_ERROR_CANCELLED;
+            add_samples(work, group, tile->first + tile->count + i,
                         i < count / PLAIN_EDGE_PART ? edges.any[group] : edges.lights[group]);
+        }
+    return AUR_OK;
 }
 
 /* Packets are those of the whole tile within the picture, whatever its crop: else pixels would differ in the
  * last bits. */
-static void shade_tile(gather_tile *work, const aur_tile *tile) {
+static aur_result shade_tile(gather_tile *work, aur_tile *tile) {
     for (uint32_t group = 0; group < AUR_GROUP_COUNT; ++group) {
         size_t x[AUR_PACKET_SIZE], y[AUR_PACKET_SIZE];
         aur_group_pixels(group, work->x, work->y, x, y);
         const uint32_t lanes = aur_group_lanes_within(x, y, 0, work->view->width, 0, work->view->height);
-        for (uint32_t i = 0; i < tile->count; ++i)
+        for (uint32_t i = 0; i < tile->count; ++i) {
+            if (aur_tile_stops(tile))
+                return AUR_ERROR_CANCELLED;
             add_samples(work, group, tile->first + i, lanes);
+        }
     }
-    if (work->places.plan->policy.edge_samples > 0)
-        refine_edges(work, tile->first + tile->count);
+    return work->places.plan->policy.edge_samples > 0 ? refine_edges(work, tile) : AUR_OK;
 }
 
 static void add_means(const gather_tile *work, aur_tile *tile) {
@@ -245,11 +251,12 @@ aur_result aur_gather_tile(const aur_gather_plan *plan, aur_tile *tile) {
         return AUR_ERROR_MEMORY;
     work->sums.counters = &tile->counters;
     work->sums.corrected = plan->debias;
-    shade_tile(work, tile);
-    const bool good = !plan->policy.pools || aur_gather_pool_irradiance(work->strata);
-    if (good)
+    aur_result result = shade_tile(work, tile);
+    if (result == AUR_OK && plan->policy.pools && !aur_gather_pool_irradiance(work->strata))
+        result = AUR_ERROR_MEMORY;
+    if (result == AUR_OK)
         add_means(work, tile);
     free(work->sums.numbers);
     free(work);
-    return good ? AUR_OK : AUR_ERROR_MEMORY;
+    return result;
 }

@@ -102,4 +102,5 @@ const aur_integrator_descriptor aur_integrator_ambient_occlusion = {
     .create = create,
     .release = release,
     .tile = tile,
+    .cuts = true,
 };

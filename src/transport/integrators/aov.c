@@ -255,4 +255,5 @@ const aur_integrator_descriptor aur_integrator_aov = {
     .create = create,
     .release = release,
     .tile = add_tile,
+    .cuts = true,
 };

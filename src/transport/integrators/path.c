@@ -60,4 +60,5 @@ const aur_integrator_descriptor aur_integrator_path = {
     .release = release,
     .radiance = radiance,
     .tile = tile,
+    .cuts = true,
 };

@@ -211,18 +211,21 @@ aur_result aur_radiosity_tile(const aur_integrator *integrator, aur_tile *tile) 
     hit_point *const points = malloc(pixel_count * tile->count * sizeof *points + 1);
     uint32_t *const order = malloc((image->solution->walk.light_count + 1) * sizeof *order);
     double(*const halton)[HALTON_DIMENSIONS] = malloc(tile->count * sizeof *halton + 1);
-    const bool good = a.pixels != NULL && points != NULL && order != NULL && halton != NULL;
-    if (good) {
+    aur_result result =
+        a.pixels != NULL && points != NULL && order != NULL && halton != NULL ? AUR_OK : AUR_ERROR_MEMORY;
+    if (result == AUR_OK) {
         const workspace work = {image, tile->view, &tile->counters, order, tile->first, halton};
         const aur_output output = {.capacity = HALTON_DIMENSIONS * (size_t)tile->count, .doubles = halton[0]};
         aur_halton_points(HALTON_DIMENSIONS, NULL, tile->first, tile->count, &output,
                           NULL); /* it cannot fail */
-        for (size_t i = 0; i < pixel_count; ++i) {
+        for (size_t i = 0; i < pixel_count && result == AUR_OK; ++i) {
             a.pixels[i].points = points + i * tile->count;
             make_pixel(&work, a.x0 + i % a.columns, a.y0 + i / a.columns, tile->first, tile->count,
                        &a.pixels[i]);
+            if (aur_tile_stops(tile))
+                result = AUR_ERROR_CANCELLED;
         }
-        for (size_t y = tile->y0; y < tile->y1; ++y)
+        for (size_t y = tile->y0; y < tile->y1 && result == AUR_OK; ++y)
             for (size_t x = tile->x0; x < tile->x1; ++x)
                 add_pixel(tile, x, y, &a, shared);
     }
@@ -230,5 +233,5 @@ aur_result aur_radiosity_tile(const aur_integrator *integrator, aur_tile *tile) 
     free(points);
     free(order);
     free(halton);
-    return good ? AUR_OK : AUR_ERROR_MEMORY;
+    return result;
 }
