@@ -1,7 +1,6 @@
 /* A rough boundary such as ground glass (Walter, Marschner, Li, Torrance 2007). */
 #include "material/fresnel.h"
 #include "material/microfacet.h"
-#include "material/sampling.h"
 #include "material/texture.h"
 
 typedef struct rough {
@@ -30,53 +29,14 @@ static aur_result create(aur_parameters *parameters, aur_bsdf *bsdf, aur_error *
     return result;
 }
 
-/* A pair of directions as one facet sees it. */
-typedef struct facet {
-    aur_vector normal; /* z > 0 */
-    float view, light; /* cosines to the normal */
-    float mirrored;    /* the share of light that is */
-    float ratio;       /* index of the light's side over the view's; 1 when mirrored */
-    float jacobian;    /* from normals to light directions */
-} facet;
-
-static bool find_facet(const rough *self, aur_vector view, aur_vector light, facet *found) {
-    if (view.z == 0.0f || light.z == 0.0f)
-        return false;
-    const bool mirror = view.z * light.z > 0.0f;
-    found->ratio = mirror ? 1.0f : view.z > 0.0f ? self->ior : 1.0f / self->ior;
-    aur_vector normal = aur_vector_normalize(aur_vector_add_scaled(view, found->ratio, light));
-    if (normal.z < 0.0f)
-        normal = aur_vector_scale(normal, -1.0f);
-    found->normal = normal;
-    found->view = aur_vector_dot(view, normal);
-    found->light = aur_vector_dot(light, normal);
-    /* Facets that show their back, or both directions one side though light goes through. */
-    if (found->view * view.z <= 0.0f || found->light * light.z <= 0.0f)
-        return false;
-    float refracted;
-    found->mirrored = aur_fresnel_dielectric(found->view, self->ior, &refracted);
-    const float sum = found->view + found->ratio * found->light;
-    found->jacobian = mirror ? 1.0f / (4.0f * fabsf(found->light))
-                             : found->ratio * found->ratio * fabsf(found->light) / (sum * sum);
-    return true;
-}
-
-static aur_vector upright(aur_vector view) {
-    return view.z > 0.0f ? view : aur_vector_scale(view, -1.0f);
-}
-
-static float pdf_of(const rough *self, aur_vector view, const facet *at) {
+static float pdf_of(const rough *self, aur_vector view, const aur_facet *at) {
     const float share = at->ratio == 1.0f ? at->mirrored : 1.0f - at->mirrored;
-    const aur_vector normal = at->normal;
-    return aur_microfacet_pdf(&self->microfacet, upright(view), normal) * at->jacobian * share;
+    return aur_facet_pdf(&self->microfacet, view, at) * share;
 }
 
 static aur_vector value_of(const rough *self, aur_bsdf_point point, aur_vector view, aur_vector light,
-                           const facet *at) {
-    const float common = aur_microfacet_density(&self->microfacet, at->normal) *
-                         aur_microfacet_masking(&self->microfacet, view, at->normal) *
-                         aur_microfacet_masking(&self->microfacet, light, at->normal) *
-                         fabsf(at->view / view.z) * at->jacobian;
+                           const aur_facet *at) {
+    const float common = aur_facet_value(&self->microfacet, view, light, at);
     if (at->ratio == 1.0f)
         return aur_vector_scale(aur_color_at(&self->reflectance, point), common * at->mirrored);
     /* radiance is smaller on the side of the smaller index */
@@ -87,12 +47,13 @@ static aur_vector value_of(const rough *self, aur_bsdf_point point, aur_vector v
 static aur_vector evaluate(const aur_bsdf *bsdf, aur_bsdf_part part, aur_bsdf_point point, aur_vector view,
                            aur_vector light, float *pdf) {
     (void)part;
-    facet at;
+    const rough *const self = bsdf->data;
+    aur_facet at;
     *pdf = 0.0f;
-    if (!find_facet(bsdf->data, view, light, &at))
+    if (!aur_facet_find(self->ior, view, light, &at))
         return (aur_vector){0};
-    *pdf = pdf_of(bsdf->data, view, &at);
-    return value_of(bsdf->data, point, view, light, &at);
+    *pdf = pdf_of(self, view, &at);
+    return value_of(self, point, view, light, &at);
 }
 
 static bool sample(const aur_bsdf *bsdf, aur_bsdf_part part, aur_bsdf_point point, aur_vector view,
@@ -101,20 +62,12 @@ static bool sample(const aur_bsdf *bsdf, aur_bsdf_part part, aur_bsdf_point poin
     const rough *const self = bsdf->data;
     if (view.z == 0.0f)
         return false;
-    const aur_vector normal = aur_microfacet_sample(&self->microfacet, upright(view), u[1], u[2]);
-    const float cosine = aur_vector_dot(view, normal);
-    float refracted;
-    const float mirrored = aur_fresnel_dielectric(cosine, self->ior, &refracted);
-    aur_vector light;
-    if (u[0] < mirrored) {
-        light = aur_vector_add_scaled(aur_vector_scale(view, -1.0f), 2.0f * cosine, normal);
-    } else {
-        const float ratio = cosine > 0.0f ? 1.0f / self->ior : self->ior;
-        light = aur_vector_add_scaled(aur_vector_scale(view, -ratio), ratio * cosine + refracted, normal);
-    }
-    facet at;
-    light = aur_vector_normalize(light);
-    if ((light.z * view.z > 0.0f) != (u[0] < mirrored) || !find_facet(self, view, light, &at))
+    const aur_vector normal = aur_microfacet_sample(&self->microfacet, aur_upright(view), u[1], u[2]);
+    const aur_facet_ways ways = aur_facet_ways_of(self->ior, view, normal);
+    const bool mirrored = u[0] < ways.reflectance;
+    aur_facet at;
+    const aur_vector light = aur_vector_normalize(mirrored ? ways.mirrored : ways.refracted);
+    if ((light.z * view.z > 0.0f) != mirrored || !aur_facet_find(self->ior, view, light, &at))
         return false;
     const float density = pdf_of(self, view, &at);
     if (!(density > 0.0f))

@@ -17,6 +17,8 @@
     ROW(roughdielectric)                                                                                     \
     ROW(plastic)                                                                                             \
     ROW(roughplastic)                                                                                        \
+    ROW(principled)                                                                                          \
+    ROW(principledthin)                                                                                      \
     ROW(mask)
 
 #define DECLARE(name) extern const aur_bsdf_descriptor aur_bsdf_##name;

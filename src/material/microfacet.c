@@ -1,6 +1,7 @@
 #include "material/microfacet.h"
 
 #include "material/erf.h"
+#include "material/fresnel.h"
 #include "material/sampling.h"
 
 bool aur_microfacet_complete(aur_microfacet *microfacet) {
@@ -117,4 +118,47 @@ aur_vector aur_microfacet_draw_mirrored(const aur_microfacet *microfacet, aur_ve
     *normal = aur_microfacet_sample(microfacet, view, u, v);
     return aur_vector_add_scaled(aur_vector_scale(view, -1.0f), 2.0f * aur_vector_dot(view, *normal),
                                  *normal);
+}
+
+bool aur_facet_find(float ior, aur_vector view, aur_vector light, aur_facet *facet) {
+    if (view.z == 0.0f || light.z == 0.0f)
+        return false;
+    const bool mirror = view.z * light.z > 0.0f;
+    facet->ratio = mirror ? 1.0f : view.z > 0.0f ? ior : 1.0f / ior;
+    facet->normal = aur_upright(aur_vector_normalize(aur_vector_add_scaled(view, facet->ratio, light)));
+    facet->view = aur_vector_dot(view, facet->normal);
+    facet->light = aur_vector_dot(light, facet->normal);
+    /* Facets that show their back, or both directions one side though light goes through. */
+    if (facet->view * view.z <= 0.0f || facet->light * light.z <= 0.0f)
+        return false;
+    float refracted;
+    facet->mirrored = aur_fresnel_dielectric(facet->view, ior, &refracted);
+    const float sum = facet->view + facet->ratio * facet->light;
+    facet->jacobian = mirror ? 1.0f / (4.0f * fabsf(facet->light))
+                             : facet->ratio * facet->ratio * fabsf(facet->light) / (sum * sum);
+    return true;
+}
+
+float aur_facet_value(const aur_microfacet *microfacet, aur_vector view, aur_vector light,
+                      const aur_facet *facet) {
+    return aur_microfacet_density(microfacet, facet->normal) *
+           aur_microfacet_masking(microfacet, view, facet->normal) *
+           aur_microfacet_masking(microfacet, light, facet->normal) * fabsf(facet->view / view.z) *
+           facet->jacobian;
+}
+
+float aur_facet_pdf(const aur_microfacet *microfacet, aur_vector view, const aur_facet *facet) {
+    return aur_microfacet_pdf(microfacet, aur_upright(view), facet->normal) * facet->jacobian;
+}
+
+aur_facet_ways aur_facet_ways_of(float ior, aur_vector view, aur_vector normal) {
+    const float cosine = aur_vector_dot(view, normal);
+    float refracted;
+    const float reflectance = aur_fresnel_dielectric(cosine, ior, &refracted);
+    const float ratio = cosine > 0.0f ? 1.0f / ior : ior;
+    return (aur_facet_ways){
+        .mirrored = aur_vector_add_scaled(aur_vector_scale(view, -1.0f), 2.0f * cosine, normal),
+        .refracted =
+            aur_vector_add_scaled(aur_vector_scale(view, -ratio), ratio * cosine + refracted, normal),
+        .reflectance = reflectance};
 }

@@ -49,3 +49,31 @@ float aur_microfacet_mirror(const aur_microfacet *microfacet, aur_vector view, a
  * `view`. */
 aur_vector aur_microfacet_draw_mirrored(const aur_microfacet *microfacet, aur_vector view, float u, float v,
                                         aur_vector *normal);
+
+/* A pair of directions as one facet of a boundary sees it, which mirrors or refracts light between them. */
+typedef struct aur_facet {
+    aur_vector normal; /* z > 0 */
+    float view, light; /* cosines to the normal */
+    float mirrored;    /* the share of light that is */
+    float ratio;       /* index of the light's side over the view's; 1 when mirrored */
+    float jacobian;    /* from normals to light directions */
+} aur_facet;
+
+/* False where no facet can be seen from both directions; `ior` is inside over outside. */
+bool aur_facet_find(float ior, aur_vector view, aur_vector light, aur_facet *facet);
+/* What facets scatter from `light` to `view` times |light.z|, were all light mirrored, or all refracted. */
+float aur_facet_value(const aur_microfacet *microfacet, aur_vector view, aur_vector light,
+                      const aur_facet *facet);
+/* The density of `light` where normals are drawn by aur_microfacet_sample for aur_upright(view). */
+float aur_facet_pdf(const aur_microfacet *microfacet, aur_vector view, const aur_facet *facet);
+/* The directions that a facet takes light for `view` from. */
+typedef struct aur_facet_ways {
+    aur_vector mirrored, refracted; /* unit but for rounding */
+    float reflectance;
+} aur_facet_ways;
+aur_facet_ways aur_facet_ways_of(float ior, aur_vector view, aur_vector normal);
+
+/* The direction turned to the side above. */
+static inline aur_vector aur_upright(aur_vector direction) {
+    return direction.z > 0.0f ? direction : aur_vector_scale(direction, -1.0f);
+}

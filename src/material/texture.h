@@ -3,6 +3,7 @@
 
 #include "core/keys.h"
 #include "material/bsdf.h"
+#include "material/sampling.h"
 
 typedef struct aur_texture aur_texture;
 
@@ -62,6 +63,12 @@ aur_result aur_read_rgb(const char *path, size_t *width, size_t *height, float *
 static inline aur_vector aur_color_at(const aur_color *color, aur_bsdf_point point) {
     return color->texture == NULL ? color->constant
                                   : color->texture->descriptor->evaluate(color->texture, point.u, point.v);
+}
+
+/* For what is a number and no colour: the luminance of a texture that is not grey. */
+static inline float aur_color_number_at(const aur_color *color, aur_bsdf_point point) {
+    const aur_vector value = aur_color_at(color, point);
+    return value.x == value.y && value.y == value.z ? value.x : aur_luminance(value);
 }
 
 static inline aur_vector aur_color_mean(const aur_color *color) {

@@ -14,7 +14,7 @@ typedef struct material_row {
     int flags;
 } material_row;
 
-enum { NOT_RECIPROCAL = 1, NARROW = 2, WHITE = 4 };
+enum { NOT_RECIPROCAL = 1, NARROW = 2, WHITE = 4, GLASS = 8 /* of index 1.5 */ };
 
 static const material_row material_rows[] = {
     {"diffuse:reflectance=0.7", NULL, 0},
@@ -34,12 +34,23 @@ static const material_row material_rows[] = {
     {"twosided", "roughconductor:alpha=0.6", 0},
     {"dielectric:int_ior=diamond", NULL, WHITE},
     {"thindielectric", NULL, WHITE},
-    {"roughdielectric:alpha=0.3,int_ior=1.5,ext_ior=1", NULL, 0},
-    {"roughdielectric:alpha_u=0.2,alpha_v=0.5,int_ior=1.5,ext_ior=1,distribution=ggx", NULL, NARROW},
+    {"roughdielectric:alpha=0.3,int_ior=1.5,ext_ior=1", NULL, GLASS},
+    {"roughdielectric:alpha_u=0.2,alpha_v=0.5,int_ior=1.5,ext_ior=1,distribution=ggx", NULL, NARROW | GLASS},
     {"plastic:diffuse_reflectance=1,nonlinear=true", NULL, WHITE},
     {"plastic:diffuse_reflectance=0.3", NULL, 0},
     {"roughplastic:alpha=0.2,diffuse_reflectance=0.6,distribution=ggx", NULL, 0},
     {"roughplastic:alpha=0.4,diffuse_reflectance=0.8,nonlinear=true", NULL, 0},
+    {"principled:base_color=0.6,roughness=0.7", NULL, 0},
+    {"principled:base_color=0.5,flatness=0.8,sheen=0.3,sheen_tint=1,clearcoat=1", NULL, 0},
+    {"principled:base_color=0.6,metallic=1,roughness=0.5,anisotropic=0.5", NULL, 0},
+    {"principled:base_color=0.8,spec_trans=0.6,eta=1.5,roughness=0.6,metallic=0.2,spec_tint=0.5", NULL,
+     GLASS},
+    {"principled:base_color=0.9,spec_trans=1,eta=1.5,roughness=0.7", NULL, GLASS},
+    {"twosided", "principled:base_color=0.7,metallic=0.4,roughness=0.5", 0},
+    {"principledthin:base_color=0.8,roughness=0.6", NULL, 0},
+    {"principledthin:base_color=0.7,spec_trans=0.7,roughness=0.6,anisotropic=0.5,diff_trans=0.6", NULL,
+     NOT_RECIPROCAL},
+    {"principledthin:base_color=0.8,spec_trans=1,roughness=0.7,spec_tint=0.3", NULL, NOT_RECIPROCAL},
     {"mask:opacity=0.25", "diffuse:reflectance=0.9", 0},
     {"mask:opacity=0.7", "roughconductor:alpha=0.4", 0},
 };

@@ -2,6 +2,7 @@
 
 #include "material/sampling.h"
 #include "material/texture.h"
+#include "mitsuba_values.h"
 
 static const aur_bsdf_point point = {0.3f, 0.6f};
 
@@ -141,7 +142,7 @@ static void is_reciprocal(void **state) {
             if (fabsf(a.z) < 1e-3f || fabsf(b.z) < 1e-3f)
                 continue;
             /* Radiance over the squared index is what keeps its way: 1.5 below the surface. */
-            const bool glass = strncmp(material_rows[m].text, "roughdielectric", 15) == 0;
+            const bool glass = (material_rows[m].flags & GLASS) != 0;
             const float above = glass && a.z < 0.0f ? 2.25f : 1.0f,
                         below = glass && b.z < 0.0f ? 2.25f : 1.0f;
             const float there = value_of(made.bsdf, AUR_BSDF_WHOLE, a, b).x / fabsf(b.z) / above;
@@ -331,7 +332,9 @@ static void sampled_lobes_are_drawn_alone(void **state) {
                 integral += (double)value_of(made.bsdf, AUR_BSDF_SAMPLED_LOBES, view, light).x;
             }
             integral *= 4.0 * AUR_PI / ((double)SIDE * SIDE);
-            assert_near(mean, integral, 5.0 * sigma + 0.01 * integral + 1e-6);
+            if (!(fabs(mean - integral) <= 5.0 * sigma + 0.01 * integral + 1e-6))
+                fail_msg("%s, view %zu: drawn %g +- %g, but %g", material_rows[m].text, v, mean, sigma,
+                         integral);
         }
         drop_material(&made);
     }
@@ -364,6 +367,23 @@ static void lobe_reflectance_is_its_parameter(void **state) {
     drop_material(&made);
 }
 
+/* Materials that are defined by Mitsuba 3's formulas have its values, but for single-precision rounding: the
+ * narrowest facets magnify that of a direction by the inverse of their roughness. */
+static void values_are_those_of_mitsuba(void **state) {
+    (void)state;
+    for (size_t i = 0; i < sizeof mitsuba_values / sizeof mitsuba_values[0]; ++i) {
+        const mitsuba_value *const row = &mitsuba_values[i];
+        aur_bsdf *const bsdf = make_bsdf(row->material, NULL);
+        const aur_vector value = value_of(bsdf, AUR_BSDF_WHOLE, row->view, row->light);
+        const float difference = aur_vector_length(aur_vector_subtract(value, row->value));
+        if (!(difference <= 2e-5f * aur_vector_length(row->value) + 1e-7f))
+            fail_msg("%s: %g %g %g instead of %g %g %g (row %zu)", row->material, (double)value.x,
+                     (double)value.y, (double)value.z, (double)row->value.x, (double)row->value.y,
+                     (double)row->value.z, i);
+        aur_bsdf_destroy(bsdf);
+    }
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(draws_by_the_density),
@@ -375,6 +395,7 @@ int main(void) {
         cmocka_unit_test(masks_in_masks_let_all_light_through),
         cmocka_unit_test(sampled_lobes_are_drawn_alone),
         cmocka_unit_test(lobe_reflectance_is_its_parameter),
+        cmocka_unit_test(values_are_those_of_mitsuba),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

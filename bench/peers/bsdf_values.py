@@ -1,0 +1,77 @@
+#!/usr/bin/env python3
+"""Writes tests/material/mitsuba_values.h: what Mitsuba 3's own materials evaluate to at pairs of directions, for the
+test that compares ours with them (needs `pip install mitsuba`).
+
+    bsdf_values.py > tests/material/mitsuba_values.h
+"""
+import random
+import sys
+
+import mitsuba as mi
+
+mi.set_variant("scalar_rgb")
+
+# Materials as the program's PLUGIN:key=value,... .
+MATERIALS = (
+    "principled:base_color=0.6 0.3 0.1",
+    "principled:base_color=0.6 0.3 0.1,roughness=0.9,specular=0.2",
+    "principled:base_color=0.6 0.3 0.1,roughness=0.3,metallic=1",
+    "principled:base_color=0.6 0.3 0.1,roughness=0.4,metallic=0.3,anisotropic=0.7",
+    "principled:base_color=0.6 0.3 0.1,sheen=0.8,sheen_tint=0.4,flatness=0.6",
+    "principled:base_color=0.6 0.3 0.1,clearcoat=0.9,clearcoat_gloss=0.2,spec_tint=0.7",
+    "principled:base_color=0.6 0.3 0.1,spec_trans=1,eta=1.5,roughness=0.4",
+    "principled:base_color=0.6 0.3 0.1,spec_trans=0.6,eta=1.3,roughness=0.5,metallic=0.2,spec_tint=0.5,sheen=0.5",
+    "principled:base_color=0.6 0.3 0.1,eta=0.8,metallic=0.5,spec_tint=0.5,clearcoat=0.5",
+    "principledthin:base_color=0.6 0.3 0.1",
+    "principledthin:base_color=0.6 0.3 0.1,spec_trans=0.7,roughness=0.4,eta=1.4,spec_tint=0.3",
+    "principledthin:base_color=0.6 0.3 0.1,diff_trans=0.8,sheen=0.6,sheen_tint=0.3,flatness=0.4",
+    "principledthin:base_color=0.6 0.3 0.1,spec_trans=0.5,anisotropic=0.8,diff_trans=1.5,roughness=0.6",
+)
+PAIRS = 12
+
+
+def load(text):
+    plugin, _, rest = text.partition(":")
+    made = {"type": plugin}
+    for item in rest.split(","):
+        key, _, value = item.partition("=")
+        numbers = [float(x) for x in value.split()]
+        made[key] = numbers[0] if len(numbers) == 1 else {"type": "rgb", "value": numbers}
+    return mi.load_dict(made)
+
+
+def direction(draw):
+    while True:
+        v = mi.Vector3f(*[draw.uniform(-1, 1) for _ in range(3)])
+        length = sum(float(c) ** 2 for c in v) ** 0.5
+        if 0.2 < length < 1 and abs(v.z / length) > 0.05:
+            return v / length
+
+
+def main():
+    if len(sys.argv) > 1:
+        sys.exit(__doc__)
+    print("/* What Mitsuba 3's materials evaluate to: BSDF times cosine, RGB. Written by bench/peers/bsdf_values.py with\n"
+          f" * Mitsuba {mi.__version__}. */\n#pragma once\n\n#include \"core/vector.h\"\n\n"
+          "typedef struct mitsuba_value {\n    const char *material;\n    aur_vector view, light, value;\n} mitsuba_value;\n\n"
+          "static const mitsuba_value mitsuba_values[] = {")
+    draw = random.Random(1)
+    for text in MATERIALS:
+        bsdf = load(text)
+        for i in range(PAIRS):
+            at = mi.SurfaceInteraction3f()
+            at.wi, light = direction(draw), direction(draw)
+            if i % 3 == 0:  # near the mirror direction, where lobes are
+                light = mi.Vector3f(-at.wi.x, -at.wi.y, at.wi.z) + 0.2 * light
+                light = light / sum(float(c) ** 2 for c in light) ** 0.5
+            elif i % 3 == 1:
+                at.wi.z, light.z = abs(at.wi.z), abs(light.z)
+            value = bsdf.eval(mi.BSDFContext(), at, light)
+            numbers = ", ".join("{" + ", ".join(f"{float(c):.9g}f" if "." in f"{float(c):.9g}" or "e" in f"{float(c):.9g}"
+                                                else f"{float(c):.9g}.0f" for c in v) + "}" for v in (at.wi, light, value))
+            print(f'    {{"{text}",\n     {numbers}}},')
+    print("};")
+
+
+if __name__ == "__main__":
+    main()
