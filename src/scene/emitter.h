@@ -20,6 +20,7 @@ typedef struct aur_emitter_descriptor {
     aur_row row;      /* first, so that a row of the table is its descriptor */
     bool needs_shape; /* stands inside a <shape> */
     bool is_far;      /* infinitely far: its power grows with the scene's section */
+    bool adds;        /* an environment that may stand beside others: radiances add up */
     /* Reads its keys, and sets emitter->extent where that does not depend on the scene. */
     aur_result (*create)(aur_parameters *parameters, aur_emitter *emitter, aur_error *error);
     /* Called when all shapes are there: makes tables, and may set emitter->extent and ->brightness. May be
@@ -65,6 +66,13 @@ extern const aur_table aur_emitter_table;
 void aur_sample_far(const aur_scene *scene, aur_vector reference, aur_vector direction,
                     aur_light_sample *drawn);
 aur_ray aur_emit_far(const aur_scene *scene, aur_vector direction, float u, float v);
+
+/* For environments that have drawn a direction: the whole sample, and a particle from there. False where the
+ * density is 0. */
+bool aur_sample_environment(const aur_emitter *emitter, aur_vector reference, aur_vector direction,
+                            aur_light_sample *drawn);
+bool aur_emit_environment(const aur_emitter *emitter, aur_vector direction, float u, float v, aur_ray *ray,
+                          aur_vector *power);
 
 aur_result aur_emitter_create(aur_parameters *parameters, aur_emitter **emitter, aur_error *error);
 void aur_emitter_destroy(aur_emitter *emitter);

@@ -17,6 +17,11 @@ bool aur_light_sample_direct(const aur_scene *scene, aur_vector reference, float
     if (!emitter->descriptor->sample(emitter, &query, sample))
         return false;
     sample->pdf *= emitter->probability;
+    /* What shines from the same direction counts as one light, as it does for rays that find it. */
+    if (scene->environment_count > 1 && emitter->descriptor->radiance_from != NULL) {
+        sample->radiance = aur_scene_environment(scene, sample->direction);
+        sample->pdf = aur_environment_pdf_direct(scene, sample->direction);
+    }
     return true;
 }
 
@@ -57,17 +62,25 @@ bool aur_light_emit(const aur_scene *scene, const float u[5], aur_ray *ray, aur_
 }
 
 bool aur_scene_has_environment(const aur_scene *scene) {
-    return scene->environment != NULL;
+    return scene->environment_count > 0;
 }
 
 aur_vector aur_scene_environment(const aur_scene *scene, aur_vector direction) {
-    const aur_emitter *const emitter = scene->environment;
-    return emitter != NULL ? emitter->descriptor->radiance_from(emitter, direction) : (aur_vector){0};
+    aur_vector sum = {0};
+    for (size_t i = 0; i < scene->environment_count; ++i) {
+        const aur_emitter *const emitter = scene->environments[i];
+        sum = aur_vector_add(sum, emitter->descriptor->radiance_from(emitter, direction));
+    }
+    return sum;
 }
 
 float aur_environment_pdf_direct(const aur_scene *scene, aur_vector direction) {
-    const aur_emitter *const emitter = scene->environment;
-    return emitter != NULL ? emitter->probability * emitter->descriptor->pdf_from(emitter, direction) : 0.0f;
+    float sum = 0.0f;
+    for (size_t i = 0; i < scene->environment_count; ++i) {
+        const aur_emitter *const emitter = scene->environments[i];
+        sum += emitter->probability * emitter->descriptor->pdf_from(emitter, direction);
+    }
+    return sum;
 }
 
 size_t aur_scene_emitter_count(const aur_scene *scene) {

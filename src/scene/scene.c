@@ -2,6 +2,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "core/array.h"
 #include "core/options.h"
 #include "material/sampling.h"
 #include "scene/scene_data.h"
@@ -80,6 +81,22 @@ static aur_result check_reach(const aur_scene *scene, aur_error *error) {
     return AUR_OK;
 }
 
+/* Of those that do not add up with others there may be one. */
+static aur_result add_environment(aur_scene *scene, const aur_emitter *emitter, aur_error *error) {
+    for (size_t i = 0; i < scene->environment_count && !emitter->descriptor->adds; ++i) {
+        const aur_emitter *const first = scene->environments[i];
+        if (!first->descriptor->adds)
+            return aur_fail_at(error, emitter->location, AUR_ERROR_FORMAT,
+                               "a second environment: the first is at %s:%zu:%zu", first->location.file,
+                               first->location.line, first->location.column);
+    }
+    if (!aur_array_reserve(&scene->environments, &scene->environment_capacity, scene->environment_count + 1,
+                           sizeof(aur_emitter *)))
+        return aur_fail_memory(error);
+    scene->environments[scene->environment_count++] = emitter;
+    return AUR_OK;
+}
+
 static aur_result prepare_lights(aur_scene *scene, aur_error *error) {
     double *const powers = malloc((scene->emitter_count + 1) * sizeof *powers);
     if (powers == NULL)
@@ -97,12 +114,8 @@ static aur_result prepare_lights(aur_scene *scene, aur_error *error) {
         powers[i] = emitter->power *= emitter->brightness;
         if (emitter->descriptor->radiance_from == NULL)
             continue;
-        if (scene->environment != NULL && result == AUR_OK)
-            result = aur_fail_at(error, emitter->location, AUR_ERROR_FORMAT,
-                                 "a second environment: the first is at %s:%zu:%zu",
-                                 scene->environment->location.file, scene->environment->location.line,
-                                 scene->environment->location.column);
-        scene->environment = emitter;
+        if (result == AUR_OK)
+            result = add_environment(scene, emitter, error);
     }
     if (result == AUR_OK)
         result = aur_distribution_create(&scene->lights, scene->emitter_count, powers, error);
@@ -176,6 +189,7 @@ void aur_scene_destroy(aur_scene *scene) {
     free(scene->instances);
     free(scene->shapes);
     free(scene->emitters);
+    free(scene->environments);
     free(scene->bsdfs);
     free(scene->textures);
     free(scene->sampler);

@@ -38,8 +38,9 @@ struct aur_scene {
     aur_instance **instances;
     size_t emitter_count, emitter_capacity;
     aur_emitter **emitters;
-    aur_distribution lights;        /* the emitters by their power */
-    const aur_emitter *environment; /* one of them, or NULL */
+    aur_distribution lights; /* the emitters by their power */
+    size_t environment_count, environment_capacity;
+    const aur_emitter **environments; /* those of them whose radiance_from is for rays that hit nothing */
     bool has_sensor, has_integrator;
     aur_sensor sensor;
     aur_filter filter;

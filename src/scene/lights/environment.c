@@ -3,6 +3,7 @@
 
 #include "material/sampling.h"
 #include "scene/emitter.h"
+#include "scene/patches.h"
 #include "scene/scene_data.h"
 
 void aur_sample_far(const aur_scene *scene, aur_vector reference, aur_vector direction,
@@ -22,6 +23,27 @@ aur_ray aur_emit_far(const aur_scene *scene, aur_vector direction, float u, floa
     origin = aur_vector_add_scaled(origin, scene->radius * x, frame.x);
     origin = aur_vector_add_scaled(origin, scene->radius * y, frame.y);
     return (aur_ray){origin, 0.0f, aur_vector_scale(direction, -1.0f), INFINITY};
+}
+
+bool aur_sample_environment(const aur_emitter *emitter, aur_vector reference, aur_vector direction,
+                            aur_light_sample *drawn) {
+    aur_sample_far(emitter->scene, reference, direction, drawn);
+    /* Radiance and density are asked for by the direction, as rays that find the light ask: rounding cannot
+     * make the two differ. */
+    drawn->radiance = emitter->descriptor->radiance_from(emitter, direction);
+    drawn->pdf = emitter->descriptor->pdf_from(emitter, direction);
+    return drawn->pdf > 0.0f;
+}
+
+bool aur_emit_environment(const aur_emitter *emitter, aur_vector direction, float u, float v, aur_ray *ray,
+                          aur_vector *power) {
+    const float pdf = emitter->descriptor->pdf_from(emitter, direction), radius = emitter->scene->radius;
+    if (!(pdf > 0.0f))
+        return false;
+    *ray = aur_emit_far(emitter->scene, direction, u, v);
+    *power = aur_vector_scale(emitter->descriptor->radiance_from(emitter, direction),
+                              AUR_PI_F * radius * radius / pdf);
+    return true;
 }
 
 /* --- constant */
@@ -78,22 +100,17 @@ const aur_emitter_descriptor aur_emitter_constant = {
 /* --- envmap */
 
 /* A latitude-longitude picture, +y up. Its values stand at azimuths (i + 1/2) / width and, from pole to pole,
- * at polar angles j / (height - 1), and are interpolated between: `cells` is how bright each patch between
- * four of them is. */
+ * at polar angles j / (height - 1), and are interpolated between: each patch lies between four of them. */
 typedef struct envmap {
     size_t width, height;
     float *rgb;
     aur_frame frame; /* the world's directions of the picture's axes */
-    aur_distribution rows;
-    aur_distribution *cells; /* one for each row of patches: height - 1 of them */
+    aur_patches patches;
 } envmap;
 
 static void release_envmap(aur_emitter *emitter) {
     envmap *const self = emitter->data;
-    for (size_t i = 0; self->cells != NULL && i + 1 < self->height; ++i)
-        aur_distribution_release(&self->cells[i]);
-    free(self->cells);
-    aur_distribution_release(&self->rows);
+    aur_patches_release(&self->patches);
     free(self->rgb);
 }
 
@@ -156,26 +173,22 @@ static aur_vector value_at(const envmap *self, size_t i, size_t j) {
 
 static aur_result prepare_envmap(aur_emitter *emitter, aur_error *error) {
     envmap *const self = emitter->data;
-    const size_t rows = self->height - 1;
-    double *const weights = malloc((self->width + rows) * sizeof *weights);
-    self->cells = calloc(rows, sizeof *self->cells);
-    aur_result result =
-        weights != NULL && self->cells != NULL ? AUR_OK : aur_fail_memory_at(error, emitter->location);
-    for (size_t j = 0; result == AUR_OK && j < rows; ++j) {
-        for (size_t i = 0; i < self->width; ++i)
-            weights[i] = 0.25 * (double)(aur_luminance(value_at(self, i, j)) +
-                                         aur_luminance(value_at(self, i + 1, j)) +
-                                         aur_luminance(value_at(self, i, j + 1)) +
-                                         aur_luminance(value_at(self, i + 1, j + 1)));
-        result = aur_distribution_create(&self->cells[j], self->width, weights, error);
-        /* The patch's solid angle, but for a factor common to all. */
-        const double from = AUR_PI * (double)j / (double)rows, to = AUR_PI * (double)(j + 1) / (double)rows;
-        weights[self->width + j] = self->cells[j].total * (cos(from) - cos(to));
+    const size_t width = self->width, rows = self->height - 1;
+    double *const radiance = malloc((width + 1) * rows * sizeof *radiance);
+    if (radiance == NULL)
+        return aur_fail_memory_at(error, emitter->location);
+    double *const rises = radiance + width * rows;
+    for (size_t j = 0; j < rows; ++j) {
+        for (size_t i = 0; i < width; ++i)
+            radiance[j * width + i] = 0.25 * (double)(aur_luminance(value_at(self, i, j)) +
+                                                      aur_luminance(value_at(self, i + 1, j)) +
+                                                      aur_luminance(value_at(self, i, j + 1)) +
+                                                      aur_luminance(value_at(self, i + 1, j + 1)));
+        rises[j] = cos(AUR_PI * (double)j / (double)rows) - cos(AUR_PI * (double)(j + 1) / (double)rows);
     }
-    if (result == AUR_OK)
-        result = aur_distribution_create(&self->rows, rows, weights + self->width, error);
-    free(weights);
-    emitter->brightness = self->rows.total * 2.0 * AUR_PI / (double)self->width;
+    const aur_result result = aur_patches_create(&self->patches, rows, width, radiance, rises, error);
+    free(radiance);
+    emitter->brightness = aur_patches_integral(&self->patches);
     return result;
 }
 
@@ -208,16 +221,15 @@ static aur_vector envmap_from(const aur_emitter *emitter, aur_vector direction) 
 /* Within a patch azimuth and height are uniform, so the density of a direction is the patch's. */
 static float envmap_pdf(const aur_emitter *emitter, aur_vector direction) {
     const envmap *const self = emitter->data;
-    if (!(self->rows.total > 0.0))
+    if (!(self->patches.rows.total > 0.0))
         return 0.0f;
     const patch_place at = place_of(self, direction);
-    const double *const sums = &self->cells[at.j].sums[at.i];
-    return (float)((sums[1] - sums[0]) / self->rows.total * (double)self->width / (2.0 * AUR_PI));
+    return aur_patches_density(&self->patches, at.i, at.j);
 }
 
 static aur_vector draw_direction(const envmap *self, float u, float v) {
-    const size_t j = aur_distribution_choose(&self->rows, &v);
-    const size_t i = aur_distribution_choose(&self->cells[j], &u);
+    size_t i, j;
+    aur_patches_choose(&self->patches, &u, &v, &i, &j);
     const float rows = (float)(self->height - 1);
     const float top = cosf(AUR_PI_F * (float)j / rows), bottom = cosf(AUR_PI_F * (float)(j + 1) / rows);
     const float height = top + v * (bottom - top);
@@ -228,23 +240,14 @@ static aur_vector draw_direction(const envmap *self, float u, float v) {
 }
 
 static bool sample_envmap(const aur_emitter *emitter, const aur_light_query *query, aur_light_sample *drawn) {
-    const aur_vector direction = draw_direction(emitter->data, query->u[1], query->u[2]);
-    aur_sample_far(emitter->scene, query->reference, direction, drawn);
-    /* Radiance and density are asked for by the direction, as rays that find the light ask: rounding cannot
-     * make the two differ. */
-    drawn->radiance = envmap_from(emitter, drawn->direction);
-    drawn->pdf = envmap_pdf(emitter, drawn->direction);
-    return drawn->pdf > 0.0f;
+    const envmap *const self = emitter->data;
+    return aur_sample_environment(emitter, query->reference, draw_direction(self, query->u[1], query->u[2]),
+                                  drawn);
 }
 
 static bool emit_envmap(const aur_emitter *emitter, const float u[5], aur_ray *ray, aur_vector *power) {
-    const aur_vector direction = draw_direction(emitter->data, u[1], u[2]);
-    const float pdf = envmap_pdf(emitter, direction), radius = emitter->scene->radius;
-    if (!(pdf > 0.0f))
-        return false;
-    *ray = aur_emit_far(emitter->scene, direction, u[3], u[4]);
-    *power = aur_vector_scale(envmap_from(emitter, direction), AUR_PI_F * radius * radius / pdf);
-    return true;
+    const envmap *const self = emitter->data;
+    return aur_emit_environment(emitter, draw_direction(self, u[1], u[2]), u[3], u[4], ray, power);
 }
 
 const aur_emitter_descriptor aur_emitter_envmap = {
