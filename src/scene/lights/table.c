@@ -9,7 +9,9 @@
     ROW(spot)                                                                                                \
     ROW(directional)                                                                                         \
     ROW(constant)                                                                                            \
-    ROW(envmap)
+    ROW(envmap)                                                                                              \
+    ROW(sky)                                                                                                 \
+    ROW(sun)
 
 #define DECLARE(name) extern const aur_emitter_descriptor aur_emitter_##name;
 EMITTERS(DECLARE)
