@@ -1,5 +1,5 @@
-/* The path tracer from the inside: one path by itself (path_single.c) and sixteen pixels in lockstep
- * (path_group.c, with its arithmetic in path_lanes*). */
+/* The path tracer from the inside: one path by itself (path_single.c) and sixteen of them in
+ * lockstep (path_group.c, with its arithmetic in path_lanes*), for the pixels of a tile (path_tile.c). */
 #pragma once
 
 #include "transport/integrator.h"

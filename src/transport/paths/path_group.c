@@ -1,31 +1,7 @@
-/* Path tracing of sixteen pixels at a time, in lockstep: at each bounce one packet of rays for the nearest
- * hits and one towards the lights. Lanes on plain surfaces are shaded together, the others one by one.
- *
- * The pixels are those of one group of a tile (packets/interleave.h): one at the same place of all of its 4 x
- * 4 blocks. Interleaved (Keller and Heidrich 2001), they share all numbers but the camera's: paths on flat
- * walls run in parallel, and their packets stay coherent. */
-#include "transport/lights/direct_light.h"
-#include "transport/packets/interleave.h"
-#include "transport/packets/packet_rays.h"
-#include "transport/paths/path.h"
+#include "transport/paths/path_group.h"
 
-typedef struct group {
-    aur_path_lanes lanes;
-    aur_packet packet, shadows;
-    const aur_path *data;
-    const aur_scene *scene;
-    aur_counters *counters;
-    bool has_lights, has_sky, chooses;
-    uint32_t alive;    /* a bit a lane, as in all masks */
-    uint32_t specular; /* lanes whose ray no light sample could have found */
-    aur_stream shared; /* interleaved: of all lanes */
-    float ahead[AUR_STREAM_BLOCK][2];
-    const aur_sampler *sampler;
-    uint32_t index;
-    uint64_t pixels[AUR_PACKET_SIZE];
-    aur_camera_sample samples[AUR_PACKET_SIZE];
-    float weights[AUR_PACKET_SIZE];
-} group;
+#include "transport/lights/direct_light.h"
+#include "transport/packets/packet_rays.h"
 
 aur_result aur_path_prepare(aur_path *data, const aur_scene *scene, aur_error *error) {
     data->kernels = aur_path_kernels_here();
@@ -39,7 +15,7 @@ static void share(float number, float *lanes) {
         lanes[k] = number;
 }
 
-static void shared_numbers(group *g, uint32_t depth) {
+static void shared_numbers(aur_path_group *g, uint32_t depth) {
     aur_path_lanes *const lanes = &g->lanes;
     const uint32_t first = aur_path_pair(depth);
     if (depth == 1 || depth % 2 == 0)
@@ -55,7 +31,7 @@ static void shared_numbers(group *g, uint32_t depth) {
 }
 
 /* Of the paths that are alive; where they are few, in one block. */
-static void own_pair(const group *g, uint32_t pair, float *u, float *v) {
+static void own_pair(const aur_path_group *g, uint32_t pair, float *u, float *v) {
     if (aur_lane_count(g->alive) > AUR_STREAM_BLOCK) {
         aur_stream_pixels(g->sampler, AUR_PACKET_SIZE, g->pixels, g->index, pair, u, v);
         return;
@@ -74,7 +50,7 @@ static void own_pair(const group *g, uint32_t pair, float *u, float *v) {
 }
 
 /* Of each lane, only those that are asked for; `mixed`: not all surfaces are plain. */
-static void own_numbers(group *g, uint32_t depth, bool mixed) {
+static void own_numbers(aur_path_group *g, uint32_t depth, bool mixed) {
     aur_path_lanes *const lanes = &g->lanes;
     const uint32_t first = aur_path_pair(depth);
     float unused[AUR_PACKET_SIZE];
@@ -89,14 +65,14 @@ static void own_numbers(group *g, uint32_t depth, bool mixed) {
 
 /* --- lanes that are not plain, one by one */
 
-static void add_light(group *g, size_t k, float weight, aur_vector radiance) {
+static void add_light(aur_path_group *g, size_t k, float weight, aur_vector radiance) {
     const aur_vector throughput = aur_lane_vector(&g->lanes.throughput, k);
     aur_lane_set(&g->lanes.sum, k,
                  aur_vector_add_scaled(aur_lane_vector(&g->lanes.sum, k), weight,
                                        aur_vector_multiply(throughput, radiance)));
 }
 
-static void add_sky(group *g, uint32_t lanes) {
+static void add_sky(aur_path_group *g, uint32_t lanes) {
     for (; lanes != 0; lanes &= lanes - 1) {
         const size_t k = aur_first_lane(lanes);
         const aur_ray ray = aur_packet_ray(&g->packet, k);
@@ -112,7 +88,7 @@ static void add_sky(group *g, uint32_t lanes) {
     }
 }
 
-static void add_emission(group *g, size_t k, const aur_surface *surface, aur_vector view) {
+static void add_emission(aur_path_group *g, size_t k, const aur_surface *surface, aur_vector view) {
     const aur_vector emission = aur_surface_emission(g->scene, surface, view);
     if (aur_vector_is_zero(emission))
         return;
@@ -126,21 +102,21 @@ static void add_emission(group *g, size_t k, const aur_surface *surface, aur_vec
 }
 
 /* The surfaces of lanes that are not plain, with the light that they give. */
-static void set_surfaces(group *g, uint32_t lanes, aur_surface *surfaces) {
+static void set_surfaces(aur_path_group *g, uint32_t lanes) {
     for (; lanes != 0; lanes &= lanes - 1) {
         const size_t k = aur_first_lane(lanes);
         const aur_ray ray = aur_packet_ray(&g->packet, k);
         const aur_hit hit = aur_packet_hit(g->scene, &g->packet, k);
-        aur_scene_surface(g->scene, &ray, &hit, &surfaces[k]);
-        add_emission(g, k, &surfaces[k], aur_vector_scale(ray.direction, -1.0f));
+        aur_scene_surface(g->scene, &ray, &hit, &g->surfaces[k]);
+        add_emission(g, k, &g->surfaces[k], aur_vector_scale(ray.direction, -1.0f));
     }
 }
 
-static aur_vector view_of(const group *g, size_t k) {
+static aur_vector view_of(const aur_path_group *g, size_t k) {
     return aur_vector_scale(aur_packet_ray(&g->packet, k).direction, -1.0f);
 }
 
-static void shadow_one(group *g, size_t k, const aur_surface *surface) {
+static void shadow_one(aur_path_group *g, size_t k, const aur_surface *surface) {
     const aur_shading shading = aur_shading_at(surface, view_of(g, k));
     const float u[3] = {g->chooses ? g->lanes.choice[k] : 0.5f, g->lanes.light_u[k], g->lanes.light_v[k]};
     aur_shadow shadow;
@@ -153,7 +129,8 @@ static void shadow_one(group *g, size_t k, const aur_surface *surface) {
                  aur_vector_multiply(aur_lane_vector(&g->lanes.throughput, k), shadow.radiance));
 }
 
-static bool scatter_one(group *g, size_t k, const aur_surface *surface, aur_vector view, bool roulette) {
+static bool scatter_one(aur_path_group *g, size_t k, const aur_surface *surface, aur_vector view,
+                        bool roulette) {
     const aur_shading shading = aur_shading_at(surface, view);
     const float u[3] = {g->lanes.lobe[k], g->lanes.direction_u[k], g->lanes.direction_v[k]};
     aur_bsdf_sample drawn;
@@ -181,7 +158,7 @@ static bool scatter_one(group *g, size_t k, const aur_surface *surface, aur_vect
 /* --- a bounce */
 
 /* The lanes whose surface the kernels can do; their triangles and reflectances are made ready. */
-static uint32_t plain_lanes(group *g, uint32_t lanes) {
+static uint32_t plain_lanes(aur_path_group *g, uint32_t lanes) {
     const struct RTCHit16 *const hits = &g->packet.query.hit;
     uint32_t plain = 0;
     for (uint32_t rest = lanes; rest != 0; rest &= rest - 1) {
@@ -199,7 +176,7 @@ static uint32_t plain_lanes(group *g, uint32_t lanes) {
     return plain;
 }
 
-static uint32_t trace(group *g, bool coherent) {
+static uint32_t trace(aur_path_group *g, bool coherent) {
     aur_packet_set_lanes(&g->packet, g->alive);
     g->counters->rays += aur_lane_count(g->alive);
     return aur_scene_intersect16(g->scene, coherent ? AUR_EMBREE_COHERENT : AUR_EMBREE_INCOHERENT,
@@ -207,7 +184,8 @@ static uint32_t trace(group *g, bool coherent) {
 }
 
 /* Light straight from the lights. */
-static void add_direct(group *g, uint32_t plain, bool coherent, const aur_surface *surfaces) {
+static void add_direct(aur_path_group *g) {
+    const uint32_t plain = g->plain;
     aur_path_lanes *const lanes = &g->lanes;
     if (plain != 0) {
         aur_light_lanes_direct(g->scene, plain, &lanes->position, AUR_LEAST_LIGHT_OF_PATHS, lanes->choice,
@@ -215,19 +193,19 @@ static void add_direct(group *g, uint32_t plain, bool coherent, const aur_surfac
         g->data->kernels->shadow(lanes, &g->shadows);
     }
     for (uint32_t rest = g->alive & ~plain; rest != 0; rest &= rest - 1)
-        shadow_one(g, aur_first_lane(rest), &surfaces[aur_first_lane(rest)]);
+        shadow_one(g, aur_first_lane(rest), &g->surfaces[aur_first_lane(rest)]);
     const uint32_t lit = aur_lanes_set(lanes->lit) & g->alive;
     if (lit == 0)
         return;
     aur_packet_set_lanes(&g->shadows, lit);
     g->counters->rays += aur_lane_count(lit);
-    const uint32_t stopped =
-        aur_scene_occluded16(g->scene, coherent ? AUR_EMBREE_COHERENT : AUR_EMBREE_INCOHERENT, &g->shadows);
+    const uint32_t stopped = aur_scene_occluded16(
+        g->scene, g->coherent ? AUR_EMBREE_COHERENT : AUR_EMBREE_INCOHERENT, &g->shadows);
     g->data->kernels->add(lanes, lit & ~stopped);
 }
 
-static void scatter(group *g, uint32_t plain, bool roulette, const aur_surface *surfaces) {
-    const uint32_t others = g->alive & ~plain;
+static void scatter(aur_path_group *g, bool roulette) {
+    const uint32_t plain = g->plain, others = g->alive & ~plain;
     aur_vector views[AUR_PACKET_SIZE], throughputs[AUR_PACKET_SIZE];
     for (uint32_t rest = others; rest != 0; rest &= rest - 1) {
         const size_t k = aur_first_lane(rest);
@@ -243,94 +221,60 @@ static void scatter(group *g, uint32_t plain, bool roulette, const aur_surface *
     for (uint32_t rest = others; rest != 0; rest &= rest - 1) {
         const size_t k = aur_first_lane(rest);
         aur_lane_set(&g->lanes.throughput, k, throughputs[k]);
-        alive |= (uint32_t)scatter_one(g, k, &surfaces[k], views[k], roulette) << k;
+        alive |= (uint32_t)scatter_one(g, k, &g->surfaces[k], views[k], roulette) << k;
     }
     g->alive = alive;
 }
 
 /* Whether rays that leave the surfaces are mostly parallel, and so a coherent packet: the lanes share their
  * numbers, and most lie in one plane. A function of normals and positions, never of timing. */
-static bool are_parallel(const group *g, uint32_t plain) {
-    if (!g->data->interleaved || plain == 0)
+static bool are_parallel(const aur_path_group *g) {
+    if (!g->data->interleaved || g->plain == 0)
         return false;
-    const uint32_t flat = plain & ~g->data->kernels->tilted(&g->lanes, aur_first_lane(plain));
+    const uint32_t flat = g->plain & ~g->data->kernels->tilted(&g->lanes, aur_first_lane(g->plain));
     return 2 * aur_lane_count(flat) >= aur_lane_count(g->alive);
 }
 
-static void trace_paths(group *g) {
-    const aur_path *const data = g->data;
-    aur_surface surfaces[AUR_PACKET_SIZE];
-    bool coherent = true;
-    for (uint32_t depth = 1; depth <= data->max_depth && g->alive != 0; ++depth) {
-        const uint32_t found = trace(g, coherent);
-        if (g->has_sky)
-            add_sky(g, g->alive & ~found);
-        g->alive &= found;
-        const uint32_t plain = plain_lanes(g, g->alive);
-        if (plain != 0)
-            data->kernels->surface(&g->lanes, &g->packet);
-        set_surfaces(g, g->alive & ~plain, surfaces);
-        if (depth == data->max_depth)
+void aur_path_group_meet(aur_path_group *g, uint32_t depth) {
+    const uint32_t found = trace(g, depth == 1 || g->coherent);
+    if (g->has_sky)
+        add_sky(g, g->alive & ~found);
+    g->alive &= found;
+    g->plain = plain_lanes(g, g->alive);
+    if (g->plain != 0)
+        g->data->kernels->surface(&g->lanes, &g->packet);
+    set_surfaces(g, g->alive & ~g->plain);
+}
+
+void aur_path_group_scatter(aur_path_group *g, uint32_t depth) {
+    if (g->data->interleaved)
+        shared_numbers(g, depth);
+    else
+        own_numbers(g, depth, g->alive != g->plain);
+    g->coherent = are_parallel(g);
+    if (g->has_lights)
+        add_direct(g);
+    scatter(g, depth >= g->data->rr_depth);
+}
+
+void aur_path_group_trace(aur_path_group *g, uint32_t depth) {
+    for (; depth <= g->data->max_depth && g->alive != 0; ++depth) {
+        aur_path_group_meet(g, depth);
+        if (depth == g->data->max_depth)
             return;
-        if (data->interleaved)
-            shared_numbers(g, depth);
-        else
-            own_numbers(g, depth, g->alive != plain);
-        coherent = are_parallel(g, plain);
-        if (g->has_lights)
-            add_direct(g, plain, coherent, surfaces);
-        scatter(g, plain, depth >= data->rr_depth, surfaces);
+        aur_path_group_scatter(g, depth);
     }
 }
 
-/* --- tiles */
-
-static void begin(group *g, const aur_view *view, const size_t *x, const size_t *y, uint32_t lanes) {
-    aur_view_samples(view, AUR_PACKET_SIZE, x, y, g->index, g->samples, g->weights);
-    for (size_t k = 0; k < AUR_PACKET_SIZE; ++k) {
-        g->pixels[k] = g->samples[k].stream.pixel;
-        aur_packet_set(&g->packet, k, &g->samples[k].ray);
-        aur_lane_set(&g->lanes.throughput, k, (aur_vector){1.0f, 1.0f, 1.0f});
-        aur_lane_set(&g->lanes.sum, k, (aur_vector){0});
-    }
-    g->alive = lanes;
-    g->specular = UINT16_MAX; /* light sampling cannot hit the camera either */
-}
-
-/* One group's samples. Whole groups are traced even where a crop wants few of their pixels: a packet's rays
- * may depend on each other in their last bits. */
-static void add_group(group *g, uint32_t number, aur_tile *tile) {
-    const aur_view *const view = tile->view;
-    const size_t x0 = tile->x0 / AUR_TILE_SIZE * AUR_TILE_SIZE, y0 = tile->y0 / AUR_TILE_SIZE * AUR_TILE_SIZE;
-    size_t x[AUR_PACKET_SIZE], y[AUR_PACKET_SIZE];
-    aur_group_pixels(number, x0, y0, x, y);
-    const uint32_t lanes = aur_group_lanes_within(x, y, 0, view->width, 0, view->height);
-    const uint32_t wanted = aur_group_lanes_within(x, y, tile->x0, tile->x1, tile->y0, tile->y1);
-    if (wanted == 0)
-        return;
-    for (uint32_t i = 0; i < tile->count; ++i) {
-        g->index = tile->first + i;
-        g->shared = (aur_stream){view->sampler, aur_hash4(view->seed, y0, x0, UINT64_C(0x696e746c) + number),
-                                 g->index};
-        begin(g, view, x, y, lanes);
-        trace_paths(g);
-        for (uint32_t rest = wanted; rest != 0; rest &= rest - 1) {
-            const size_t k = aur_first_lane(rest);
-            aur_tile_add(tile, x[k], y[k], g->weights[k], aur_lane_vector(&g->lanes.sum, k));
-        }
-    }
-}
-
-void aur_path_add_tile(const aur_path *data, const aur_scene *scene, aur_tile *tile) {
-    group g = {.data = data,
-               .scene = scene,
-               .counters = &tile->counters,
-               .sampler = tile->view->sampler,
-               .has_lights = aur_scene_emitter_count(scene) > 0,
-               .has_sky = aur_scene_has_environment(scene),
-               .chooses = aur_light_chooses(scene)};
-    aur_packet_clear(&g.packet);
-    aur_packet_clear(&g.shadows);
-    for (uint32_t number = 0; number < AUR_PACKET_SIZE; ++number)
-        add_group(&g, number, tile);
+void aur_path_group_prepare(const aur_path *data, const aur_scene *scene, const aur_sampler *sampler,
+                            aur_counters *counters, aur_path_group *g) {
+    g->data = data;
+    g->scene = scene;
+    g->sampler = sampler;
+    g->counters = counters;
+    g->has_lights = aur_scene_emitter_count(scene) > 0;
+    g->has_sky = aur_scene_has_environment(scene);
+    g->chooses = aur_light_chooses(scene);
+    aur_packet_clear(&g->packet);
+    aur_packet_clear(&g->shadows);
 }

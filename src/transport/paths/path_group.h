@@ -1,0 +1,40 @@
+/* Sixteen light paths in lockstep: at each bounce one packet of rays for the nearest hits and one towards the
+ * lights. Lanes on plain surfaces are shaded together, the others one by one. Who begins the paths says what
+ * they are of: sixteen pixels (path_tile.c), or sixteen randomisations of a sensor. */
+#pragma once
+
+#include "transport/packets/lanes.h"
+#include "transport/paths/path.h"
+
+typedef struct aur_path_group {
+    aur_path_lanes lanes;
+    aur_packet packet, shadows;
+    const aur_path *data;
+    const aur_scene *scene;
+    aur_counters *counters;
+    bool has_lights, has_sky, chooses;
+    bool coherent;     /* the next rays are nearly parallel */
+    uint32_t alive;    /* a bit a lane, as in all masks */
+    uint32_t specular; /* lanes whose ray no light sample could have found */
+    uint32_t plain;    /* lanes whose surface the kernels can do */
+    aur_stream shared; /* interleaved: of all lanes */
+    float ahead[AUR_STREAM_BLOCK][2];
+    const aur_sampler *sampler;
+    uint32_t index;
+    uint64_t pixels[AUR_PACKET_SIZE];
+    aur_surface surfaces[AUR_PACKET_SIZE]; /* of lanes that are not plain */
+} aur_path_group;
+
+/* What all groups of a scene share; `group` is zero. */
+void aur_path_group_prepare(const aur_path *data, const aur_scene *scene, const aur_sampler *sampler,
+                            aur_counters *counters, aur_path_group *group);
+
+/* One bounce, the first has depth 1. To begin, `packet` has the rays of the lanes in `alive`, whose
+ * throughputs and sums are set, and their `from` and `pdf` unless they are in `specular`; `pixels` and
+ * `index` say which numbers they take. Adds the light that the rays meet, and keeps the lanes that meet a
+ * surface. */
+void aur_path_group_meet(aur_path_group *group, uint32_t depth);
+/* Adds direct light at the surfaces that aur_path_group_meet has found, and makes the next rays. */
+void aur_path_group_scatter(aur_path_group *group, uint32_t depth);
+/* Both, from bounce `depth` until all paths have ended. */
+void aur_path_group_trace(aur_path_group *group, uint32_t depth);

@@ -1,0 +1,54 @@
+/* Path tracing of sixteen pixels at a time.
+ *
+ * The pixels are those of one group of a tile (packets/interleave.h): one at the same place of all of its 4 x
+ * 4 blocks. Interleaved (Keller and Heidrich 2001), they share all numbers but the camera's: paths on flat
+ * walls run in parallel, and their packets stay coherent. */
+#include "transport/packets/interleave.h"
+#include "transport/paths/path_group.h"
+
+/* Begins sample g->index of the pixels of `lanes`; `weights` are those of the samples. */
+static void begin(aur_path_group *g, const aur_view *view, const size_t *x, const size_t *y, uint32_t lanes,
+                  float *weights) {
+    aur_camera_sample samples[AUR_PACKET_SIZE];
+    aur_view_samples(view, AUR_PACKET_SIZE, x, y, g->index, samples, weights);
+    for (size_t k = 0; k < AUR_PACKET_SIZE; ++k) {
+        g->pixels[k] = samples[k].stream.pixel;
+        aur_packet_set(&g->packet, k, &samples[k].ray);
+        aur_lane_set(&g->lanes.throughput, k, (aur_vector){1.0f, 1.0f, 1.0f});
+        aur_lane_set(&g->lanes.sum, k, (aur_vector){0});
+    }
+    g->alive = lanes;
+    g->specular = UINT16_MAX; /* light sampling cannot hit the camera either */
+}
+
+/* One group's samples. Whole groups are traced even where a crop wants few of their pixels: a packet's rays
+ * may depend on each other in their last bits. */
+static void add_group(aur_path_group *g, uint32_t number, aur_tile *tile) {
+    const aur_view *const view = tile->view;
+    const size_t x0 = tile->x0 / AUR_TILE_SIZE * AUR_TILE_SIZE, y0 = tile->y0 / AUR_TILE_SIZE * AUR_TILE_SIZE;
+    size_t x[AUR_PACKET_SIZE], y[AUR_PACKET_SIZE];
+    float weights[AUR_PACKET_SIZE];
+    aur_group_pixels(number, x0, y0, x, y);
+    const uint32_t lanes = aur_group_lanes_within(x, y, 0, view->width, 0, view->height);
+    const uint32_t wanted = aur_group_lanes_within(x, y, tile->x0, tile->x1, tile->y0, tile->y1);
+    if (wanted == 0)
+        return;
+    for (uint32_t i = 0; i < tile->count; ++i) {
+        g->index = tile->first + i;
+        g->shared = (aur_stream){view->sampler, aur_hash4(view->seed, y0, x0, UINT64_C(0x696e746c) + number),
+                                 g->index};
+        begin(g, view, x, y, lanes, weights);
+        aur_path_group_trace(g, 1);
+        for (uint32_t rest = wanted; rest != 0; rest &= rest - 1) {
+            const size_t k = aur_first_lane(rest);
+            aur_tile_add(tile, x[k], y[k], weights[k], aur_lane_vector(&g->lanes.sum, k));
+        }
+    }
+}
+
+void aur_path_add_tile(const aur_path *data, const aur_scene *scene, aur_tile *tile) {
+    aur_path_group g = {0};
+    aur_path_group_prepare(data, scene, tile->view->sampler, &tile->counters, &g);
+    for (uint32_t number = 0; number < AUR_PACKET_SIZE; ++number)
+        add_group(&g, number, tile);
+}
