@@ -63,7 +63,7 @@ static inline aur_render_options aur_render_options_default(void) {
  * must outlive it. Not for two threads at once. */
 typedef struct aur_renderer aur_renderer;
 
-/* Errors: MEMORY. */
+/* Errors: FORMAT for a scene without a camera, MEMORY. */
 AUR_EXPERIMENTAL aur_result aur_renderer_create(const aur_scene *scene, aur_renderer **renderer,
                                                 aur_error *error) AUR_NONNULL(1, 2);
 AUR_EXPERIMENTAL void aur_renderer_destroy(aur_renderer *renderer); /* NULL is allowed */

@@ -14,6 +14,7 @@
     ROW(voronoi)                                                                                             \
     ROW(weights)                                                                                             \
     ROW(render)                                                                                              \
+    ROW(irradiance)                                                                                          \
     ROW(viewfactors)                                                                                         \
     ROW(compare)                                                                                             \
     ROW(convert)                                                                                             \

@@ -54,12 +54,11 @@ static aur_result load_mesh(const char *path, source kind, const aur_scene_optio
         result = aur_fail_memory(error);
     if (result == AUR_OK) {
         escape(absolute, escaped);
-        const int length =
-            snprintf(text, capacity,
-                     "<scene version=\"3.0.0\"><sensor type=\"perspective\"/><shape type=\"%s\">"
-                     "<boolean name=\"face_normals\" value=\"true\"/>"
-                     "<string name=\"filename\" value=\"%s\"/></shape></scene>",
-                     kind == SOURCE_OBJ ? "obj" : "ply", escaped);
+        const int length = snprintf(text, capacity,
+                                    "<scene version=\"3.0.0\"><shape type=\"%s\">"
+                                    "<boolean name=\"face_normals\" value=\"true\"/>"
+                                    "<string name=\"filename\" value=\"%s\"/></shape></scene>",
+                                    kind == SOURCE_OBJ ? "obj" : "ply", escaped);
         result = aur_scene_load_memory(path, (size_t)length, text, options, scene, error);
     }
     if (result != AUR_OK && error != NULL && strcmp(error->file, absolute) == 0)

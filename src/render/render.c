@@ -38,6 +38,9 @@ struct aur_render {
 
 aur_result aur_renderer_create(const aur_scene *scene, aur_renderer **out, aur_error *error) {
     *out = NULL;
+    const aur_result result = aur_scene_check_camera(scene, error);
+    if (result != AUR_OK)
+        return result;
     aur_renderer *const renderer = calloc(1, sizeof *renderer);
     if (renderer != NULL)
         renderer->cache = aur_cache_create();

@@ -17,8 +17,9 @@ bool aur_light_sample_direct(const aur_scene *scene, aur_vector reference, float
     if (!emitter->descriptor->sample(emitter, &query, sample))
         return false;
     sample->pdf *= emitter->probability;
+    sample->environment = emitter->descriptor->radiance_from != NULL;
     /* What shines from the same direction counts as one light, as it does for rays that find it. */
-    if (scene->environment_count > 1 && emitter->descriptor->radiance_from != NULL) {
+    if (sample->environment && scene->environment_count > 1) {
         sample->radiance = aur_scene_environment(scene, sample->direction);
         sample->pdf = aur_environment_pdf_direct(scene, sample->direction);
     }

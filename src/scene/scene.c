@@ -221,6 +221,11 @@ aur_result aur_scene_describe(const aur_scene *scene, aur_scene_description *des
     return aur_description_write(&own, sizeof own, sizeof own, description, "aur_scene_description", error);
 }
 
+aur_result aur_scene_check_camera(const aur_scene *scene, aur_error *error) {
+    return scene->has_sensor ? AUR_OK
+                             : aur_xml_fail(scene->document.root, error, "the scene has no <sensor>");
+}
+
 const aur_film_settings *aur_scene_film(const aur_scene *scene) {
     return &scene->film;
 }

@@ -85,6 +85,7 @@ typedef struct aur_light_sample {
     float pdf;           /* a steradian at the reference point, the choice of the light included */
     bool delta; /* a point or one direction: no ray finds the light, so nothing is to be weighed against it;
                    radiance / pdf is the light's irradiance on a surface that faces it */
+    bool environment; /* what aur_scene_environment gives, too */
 } aur_light_sample;
 
 /* Draws a point on a light seen from `reference`: u[0] chooses the light in proportion to its power, u[1],
@@ -117,6 +118,9 @@ bool aur_light_emit(const aur_scene *scene, const float u[5], aur_ray *ray, aur_
 size_t aur_scene_emitter_count(const aur_scene *scene);
 
 /* --- camera and film */
+
+/* A scene needs no camera unless it is rendered: a FORMAT error, with the place, where there is none. */
+aur_result aur_scene_check_camera(const aur_scene *scene, aur_error *error);
 
 /* The ray through the film point (x, y) in pixels, (0, 0) the top left corner of the picture; width and
  * height are those of the picture being rendered. lens[2] in [0,1) for cameras that have one. */

@@ -11,6 +11,7 @@ lab
 report
 ask
 render
+lighting/irradiance
 lighting
 transport/integrators
 transport/occlusion

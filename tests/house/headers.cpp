@@ -4,6 +4,7 @@
 #include <aureole/film.h>
 #include <aureole/image.h>
 #include <aureole/integrate.h>
+#include <aureole/irradiance.h>
 #include <aureole/nearest.h>
 #include <aureole/pointset.h>
 #include <aureole/quadrature.h>

@@ -12,8 +12,9 @@ typedef struct aur_matrix {
 } aur_matrix;
 
 /* `text` is changed and ends with a zero byte. `path` is for messages. */
-aur_result aur_csv_parse(const char *path, char *text, size_t size, aur_matrix *matrix, aur_error *error);
-aur_result aur_npy_parse(const char *path, const char *data, size_t size, aur_matrix *matrix,
-                         aur_error *error);
+AUR_EXPERIMENTAL aur_result aur_csv_parse(const char *path, char *text, size_t size, aur_matrix *matrix,
+                                          aur_error *error);
+AUR_EXPERIMENTAL aur_result aur_npy_parse(const char *path, const char *data, size_t size, aur_matrix *matrix,
+                                          aur_error *error);
 /* Whether the data begins as NPY files do. */
-int aur_npy_recognize(const char *data, size_t size);
+AUR_EXPERIMENTAL int aur_npy_recognize(const char *data, size_t size);

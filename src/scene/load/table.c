@@ -73,8 +73,6 @@ aur_result aur_scene_build(aur_scene *scene, const aur_warnings *warnings, aur_e
         if (result != AUR_OK)
             return result;
     }
-    if (!scene->has_sensor)
-        return aur_xml_fail(root, error, "the scene has no <sensor>");
     if (scene->sampler == NULL && (scene->sampler = strdup("random")) == NULL)
         return aur_fail_memory(error);
     if (scene->has_integrator)

@@ -2,6 +2,7 @@
  * input too.
  */
 #include <aureole/ask.h>
+#include <aureole/irradiance.h>
 #include <aureole/radiosity.h>
 #include <aureole/render.h>
 #include <aureole/view_factors.h>
@@ -201,6 +202,31 @@ static void radiosity_solutions(const aur_scene *scene) {
     aur_radiosity_destroy(radiosity);
 }
 
+static void irradiances(const aur_scene *scene) {
+    static const char text[] = "0 0 0 0 0 1\n";
+    accept(aur_file_write("calls.pts", sizeof text - 1, text, &error), &error);
+    aur_sensors *sensors = NULL;
+    accept(aur_sensors_read("calls.pts", &sensors, &error), &error);
+    remove("calls.pts");
+    const aur_sensors_view *const view = aur_sensors_look(sensors);
+    require(view->count == 1 && view->normals[2] == 1.0, "aur_sensors_look");
+    aur_irradiance_options options = aur_irradiance_options_default();
+    aur_irradiance result;
+    options.error = 2.0;
+    refuse(aur_irradiance_estimate(scene, view, &options, sizeof result, &result, &error), AUR_ERROR_ARGUMENT,
+           &error);
+    options.error = 0.0;
+    options.directions = 64;
+    accept(aur_irradiance_estimate(scene, view, &options, sizeof result, &result, &error), &error);
+    require(result.directions == 64 && result.value[AUR_IRRADIANCE_TOTAL][0] >= 0.0,
+            "aur_irradiance_estimate");
+    accept(aur_irradiance_write("calls.csv", "csv", NULL, view, sizeof result, &result, &error), &error);
+    remove("calls.csv");
+    refuse(aur_irradiance_write("calls.csv", "cvs", NULL, view, sizeof result, &result, &error),
+           AUR_ERROR_NAME, &error);
+    aur_sensors_destroy(sensors);
+}
+
 static void view_factors(void) {
     static const double floor[] = {0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0};
     static const double ceiling[] = {0, 0, 1, 0, 1, 1, 1, 1, 1, 1, 0, 1};
@@ -216,6 +242,7 @@ int main(void) {
     renders(scene);
     asks(scene);
     radiosity_solutions(scene);
+    irradiances(scene);
     aur_scene_destroy(scene);
     view_factors();
     return 0;

@@ -1,0 +1,140 @@
+/* aureole irradiance: how much light arrives at points. */
+#include <aureole/irradiance.h>
+#include <aureole/text.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "cli/options.h"
+
+typedef enum illuminance { ILLUMINANCE_RADIANCE, ILLUMINANCE_REC709, ILLUMINANCE_PHOTOPIC } illuminance;
+
+typedef struct irradiance_command {
+    const char *sensors, *output;
+    aur_irradiance_options estimate;
+    aur_irradiance_columns columns;
+    illuminance illuminance;
+    cli_definitions definitions;
+    cli_common common;
+} irradiance_command;
+
+/* "1%" or ".01". */
+static aur_result parse_error(const char *text, void *field, aur_error *error) {
+    char copy[64];
+    const size_t length = strlen(text);
+    const bool percent = length > 0 && text[length - 1] == '%';
+    double value;
+    if (length >= sizeof copy)
+        return aur_fail(error, AUR_ERROR_ARGUMENT, "must be an error like 1%% or 0.01");
+    memcpy(copy, text, length - percent);
+    copy[length - percent] = '\0';
+    if (!aur_parse_double(copy, &value) || !(value > 0.0 && value < (percent ? 100.0 : 1.0)))
+        return aur_fail(error, AUR_ERROR_ARGUMENT, "must be an error like 1%% or 0.01, not '%s'", text);
+    *(double *)field = percent ? 0.01 * value : value;
+    return AUR_OK;
+}
+
+static const cli_option options[] = {
+    {CLI_TEXT(irradiance_command, sensors, "sensors", "POINTS", NULL,
+              "six numbers a line, x y z nx ny nz: Radiance's .pts, or CSV; - is standard input"),
+     .content = "file"},
+    {CLI_TEXT(irradiance_command, output, "output", "FILE", "standard output", "CSV, a line a sensor"),
+     .letter = 'o', .key.computed = true, .content = "file"},
+    {CLI_TEXT(irradiance_command, estimate.set, "set", "SET", "spherical-fibonacci", "of the directions"),
+     .content = "set"},
+    {CLI_INTEGER(irradiance_command, estimate.directions, "directions", "N", 1, 1 << 28,
+                 "1024; with --error 2^20", "from each sensor; with --error at most so many"),
+     .letter = 'n', .key.computed = true},
+    {CLI_REAL(irradiance_command, estimate.error, "error", "E", 0, 1, NULL,
+              "1% or .01: each sensor goes on until half of its interval is at most this part of its value"),
+     .parse = parse_error},
+    {CLI_REAL(irradiance_command, estimate.confidence, "confidence", "P", 0.01, 0.999999, "0.95",
+              "of the intervals")},
+    {CLI_INTEGER(irradiance_command, estimate.max_depth, "max-depth", "N", 1, 1 << 20, "no limit",
+                 "edges of a light path: 1 is light straight from lights and sky"),
+     .key.computed = true},
+    {CLI_CHOICE(irradiance_command, illuminance, "illuminance", "WEIGHTS", NULL,
+                "lux in the place of r, g, b: 179 lm/W by Radiance's weights of r, g, b (.265, .670, .065), "
+                "179 lm/W by those of Rec. 709 (.2126, .7152, .0722), or 683 lm/W by the latter"),
+     .key.words = (const char *const[]){"radiance", "rec709", "photopic", NULL}},
+    {CLI_FLAG(irradiance_command, columns.parts, "parts",
+              "direct, sky and reflected light apart, after the total")},
+    {CLI_FLAG(irradiance_command, columns.intervals, "intervals",
+              "half the width of each interval, after the standard errors")},
+    {CLI_FLAG(irradiance_command, columns.no_errors, "no-errors", "no standard errors")},
+    {CLI_FLAG(irradiance_command, columns.normals, "normals", "nx, ny, nz after x, y, z")},
+    {CLI_FLAG(irradiance_command, columns.directions, "counts", "how many directions each sensor had")},
+    {CLI_INTEGER(irradiance_command, estimate.seed, "seed", "S", 0, INFINITY, "0", "of the randomisations")},
+    {.key = {0}}};
+
+/* Lumens a watt times the weights of r, g, b. */
+static void set_illuminance(irradiance_command *given) {
+    static const struct {
+        double efficacy, weights[3];
+    } rows[] = {
+        {179.0, {0.265, 0.670, 0.065}}, {179.0, {0.2126, 0.7152, 0.0722}}, {683.0, {0.2126, 0.7152, 0.0722}}};
+    for (size_t c = 0; c < 3; ++c)
+        given->estimate.luminance[c] =
+            rows[given->illuminance].efficacy * rows[given->illuminance].weights[c];
+    given->columns.luminance = true;
+    given->columns.unit = "lux";
+}
+
+static aur_result estimate(const irradiance_command *given, const aur_scene *scene,
+                           const aur_sensors_view *sensors, aur_error *error) {
+    aur_irradiance *const results = calloc(sensors->count, sizeof *results);
+    if (results == NULL)
+        return aur_fail(error, AUR_ERROR_MEMORY, "out of memory for %zu sensors", sensors->count);
+    aur_result result =
+        aur_irradiance_estimate(scene, sensors, &given->estimate, sizeof *results, results, error);
+    cli_progress_clear();
+    if (result == AUR_OK)
+        result = aur_irradiance_write(given->output != NULL ? given->output : "-", "csv", &given->columns,
+                                      sensors, sizeof *results, results, error);
+    free(results);
+    return result;
+}
+
+static int run(const cli_call *call) {
+    irradiance_command *const given = call->options;
+    if (given->sensors == NULL)
+        return cli_bad_usage("irradiance: the points are missing: --sensors POINTS");
+    given->estimate.size = sizeof given->estimate;
+    given->estimate.threads = given->common.threads;
+    given->estimate.progress = cli_progress(given->common.quiet);
+    given->estimate.warnings = cli_warnings(given->common.quiet);
+    given->columns.size = sizeof given->columns;
+    if (cli_given(call, "illuminance") != NULL)
+        set_illuminance(given);
+    aur_scene_options load = aur_scene_options_default();
+    load.definition_count = given->definitions.count;
+    load.definitions = given->definitions.items;
+    load.warnings = cli_warnings(given->common.quiet);
+    aur_error error;
+    aur_scene *scene = NULL;
+    aur_sensors *sensors = NULL;
+    aur_result result = aur_sensors_read(given->sensors, &sensors, &error);
+    if (result == AUR_OK)
+        result = aur_scene_load(call->operands[0], &load, &scene, &error);
+    if (result == AUR_OK)
+        result = estimate(given, scene, aur_sensors_look(sensors), &error);
+    aur_scene_destroy(scene);
+    aur_sensors_destroy(sensors);
+    return cli_status(result, &error);
+}
+
+const cli_verb cli_verb_irradiance = {
+    .name = "irradiance",
+    .summary = "how much light arrives at points, with standard errors",
+    .notes = "The scene needs no camera. Values are in the scene's radiance times steradians; each has the "
+             "standard error of 16 independent randomisations. See docs/lighting.md.",
+    .too_few = "one scene is needed",
+    .too_many = "one scene is needed",
+    .operands = {{"SCENE", "a scene (.xml)", .content = "file"}},
+    .groups = {{options, 0},
+               {cli_definitions_option, offsetof(irradiance_command, definitions)},
+               {cli_threads_option, offsetof(irradiance_command, common)},
+               {cli_quiet_option, offsetof(irradiance_command, common)}},
+    .size = sizeof(irradiance_command),
+    .run = run,
+};

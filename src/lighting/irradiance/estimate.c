@@ -1,0 +1,269 @@
+/* The estimate of irradiance at all sensors: how many directions each of them has, and what its
+ * randomisations say together. */
+#include <aureole/irradiance.h>
+#include <aureole/statistics.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "core/options.h"
+#include "core/parallel.h"
+#include "lighting/irradiance/look.h"
+#include "lighting/irradiance/sensors.h"
+
+enum {
+    REPLICATES = AUR_IRRADIANCE_REPLICATES,
+    DEFAULT_DIRECTIONS = 1024,
+    MOST_DIRECTIONS = 1 << 20, /* by default, of a sensor that is to reach an error */
+    LIMIT = 1 << 28,
+    LEVELS = 32,
+    FIRST_LEVEL = 16, /* directions of a randomisation */
+    LEAST_DARK = 256, /* of a randomisation, before a sensor without light is believed */
+    BLOCK = 16        /* sensors of a piece of work */
+};
+
+typedef struct work {
+    const aur_irradiance_options *options;
+    const aur_sensors_view *sensors;
+    aur_path path;
+    const aur_scene *scene;
+    aur_sampler *sampler;
+    size_t level_count;
+    aur_sensor_rule rules[LEVELS]; /* of the levels, each with more directions than the one before */
+    aur_irradiance *results;
+} work;
+
+static const double REC709[3] = {0.2126, 0.7152, 0.0722};
+
+static aur_result read_options(const aur_irradiance_options *given, aur_irradiance_options *o,
+                               aur_error *error) {
+    *o = aur_irradiance_options_default();
+    const aur_result result =
+        aur_options_read(given, sizeof *o, sizeof *o, o, "aur_irradiance_options", error);
+    if (result != AUR_OK)
+        return result;
+    if (o->set == NULL)
+        o->set = "spherical-fibonacci";
+    if (o->confidence == 0.0)
+        o->confidence = 0.95;
+    if (o->directions == 0)
+        o->directions = o->error > 0.0 ? MOST_DIRECTIONS : DEFAULT_DIRECTIONS;
+    if (o->luminance[0] == 0.0 && o->luminance[1] == 0.0 && o->luminance[2] == 0.0)
+        for (size_t c = 0; c < 3; ++c)
+            o->luminance[c] = REC709[c];
+    if (!(o->confidence > 0.0 && o->confidence < 1.0))
+        return aur_fail(error, AUR_ERROR_ARGUMENT, "the confidence must be in (0,1), not %g", o->confidence);
+    if (!(o->error >= 0.0 && o->error < 1.0))
+        return aur_fail(error, AUR_ERROR_ARGUMENT, "the error must be in (0,1), or 0 for none, not %g",
+                        o->error);
+    if (o->directions > LIMIT)
+        return aur_fail(error, AUR_ERROR_ARGUMENT, "there must be 1 to %d directions, not %zu", LIMIT,
+                        o->directions);
+    for (size_t c = 0; c < 3; ++c)
+        if (!(isfinite(o->luminance[c]) && o->luminance[c] >= 0.0))
+            return aur_fail(error, AUR_ERROR_ARGUMENT,
+                            "the weights of luminance must be finite and not negative, not %g",
+                            o->luminance[c]);
+    return AUR_OK;
+}
+
+/* One level of all directions, or levels that double until there are enough. */
+static aur_result make_rules(work *w, aur_error *error) {
+    const aur_irradiance_options *const o = w->options;
+    const size_t most = (o->directions + REPLICATES - 1) / REPLICATES;
+    size_t count = o->error > 0.0 && most > FIRST_LEVEL ? FIRST_LEVEL : most;
+    aur_warnings warnings = o->warnings;
+    for (size_t total = 0; total < most && w->level_count < LEVELS; total += count, count *= 2) {
+        const size_t rest = most - total;
+        const size_t next = rest < 2 * count ? rest : count;
+        const aur_result result =
+            aur_sensor_rule_create(o->set, next, o->seed, &warnings, &w->rules[w->level_count], error);
+        if (result != AUR_OK)
+            return result;
+        warnings = (aur_warnings){0}; /* what is odd about a set is said once */
+        ++w->level_count;
+        if (next == rest)
+            break;
+    }
+    return AUR_OK;
+}
+
+/* --- one sensor */
+
+/* What the levels so far say: means of each randomisation, by parts and channels. */
+typedef struct tally {
+    double weight;
+    double sums[REPLICATES][AUR_IRRADIANCE_PARTS][AUR_IRRADIANCE_CHANNELS];
+    uint64_t dark;
+} tally;
+
+/* The variance of a level falls with its size n as n^-1 to n^-2. Levels are weighed by n^1.5, whatever they
+ * say, so that the mean has no bias. */
+static void add_level(const work *w, size_t level, const aur_look *look, tally *t) {
+    const double *const luminance = w->options->luminance;
+    const double n = (double)w->rules[level].count, weight = n * sqrt(n);
+    t->weight += weight;
+    t->dark += look->dark;
+    for (size_t r = 0; r < REPLICATES; ++r)
+        for (size_t part = 1; part < AUR_IRRADIANCE_PARTS; ++part) {
+            const double *const rgb = look->sums[r][part - 1];
+            const double values[AUR_IRRADIANCE_CHANNELS] = {rgb[0], rgb[1], rgb[2],
+                                                            luminance[0] * rgb[0] + luminance[1] * rgb[1] +
+                                                                luminance[2] * rgb[2]};
+            for (size_t c = 0; c < AUR_IRRADIANCE_CHANNELS; ++c) {
+                t->sums[r][part][c] += weight * values[c];
+                t->sums[r][AUR_IRRADIANCE_TOTAL][c] += weight * values[c];
+            }
+        }
+}
+
+static void judge(const work *w, const tally *t, aur_irradiance *found) {
+    for (size_t part = 0; part < AUR_IRRADIANCE_PARTS; ++part)
+        for (size_t c = 0; c < AUR_IRRADIANCE_CHANNELS; ++c) {
+            aur_moments moments = {0};
+            for (size_t r = 0; r < REPLICATES; ++r)
+                aur_moments_add(&moments, t->sums[r][part][c] / t->weight);
+            found->value[part][c] = moments.mean;
+            found->error[part][c] = aur_moments_standard_error(&moments);
+            if (part == AUR_IRRADIANCE_TOTAL)
+                found->half_width[c] = aur_moments_interval(&moments, w->options->confidence);
+        }
+    found->dark = (double)t->dark / (double)found->directions;
+}
+
+static bool is_reached(const work *w, const aur_irradiance *found) {
+    const size_t luminance = AUR_IRRADIANCE_CHANNELS - 1;
+    const double value = found->value[AUR_IRRADIANCE_TOTAL][luminance];
+    if (!(value > 0.0))
+        return found->directions >= (uint64_t)LEAST_DARK * REPLICATES;
+    return found->half_width[luminance] <= w->options->error * value;
+}
+
+static aur_irradiance estimate(const work *w, aur_path_group *group, size_t sensor) {
+    const aur_sensor_place place = aur_sensor_place_of(w->scene, w->sensors->positions + 3 * sensor,
+                                                       w->sensors->normals + 3 * sensor, w->options->seed);
+    tally t = {0};
+    aur_irradiance found = {.on_surface = place.on_surface};
+    for (size_t level = 0; level < w->level_count; ++level) {
+        aur_look look;
+        aur_sensor_look(group, &w->rules[level], &place, (uint32_t)level, &look);
+        add_level(w, level, &look, &t);
+        found.directions += w->rules[level].count * REPLICATES;
+        judge(w, &t, &found);
+        if (w->options->error > 0.0 && is_reached(w, &found))
+            break;
+    }
+    return found;
+}
+
+static aur_result estimate_block(void *context, size_t index) {
+    const work *const w = context;
+    aur_counters counters = {0};
+    aur_path_group group = {0};
+    aur_path_group_prepare(&w->path, w->scene, w->sampler, &counters, &group);
+    for (size_t i = index * BLOCK; i < (index + 1) * BLOCK && i < w->sensors->count; ++i)
+        w->results[i] = estimate(w, &group, i);
+    return AUR_OK;
+}
+
+/* --- what is to be said of them */
+
+/* Counts sensors of one kind. */
+typedef struct oddity {
+    size_t count, first;
+    double most;
+} oddity;
+
+static void note(oddity *kind, size_t sensor, double measure) {
+    if (kind->count++ == 0)
+        kind->first = sensor;
+    kind->most = fmax(kind->most, measure);
+}
+
+static void warn(const work *w) {
+    const size_t luminance = AUR_IRRADIANCE_CHANNELS - 1;
+    const aur_irradiance_options *const o = w->options;
+    oddity on_surfaces = {0}, unlit = {0}, inside = {0}, unreached = {0};
+    for (size_t i = 0; i < w->sensors->count; ++i) {
+        const aur_irradiance *const found = &w->results[i];
+        const double value = found->value[AUR_IRRADIANCE_TOTAL][luminance];
+        if (found->on_surface)
+            note(&on_surfaces, i, 0.0);
+        if (found->dark > 0.5)
+            note(&inside, i, found->dark);
+        else if (!(value > 0.0))
+            note(&unlit, i, 0.0);
+        if (o->error > 0.0 && found->half_width[luminance] > o->error * value)
+            note(&unreached, i, value > 0.0 ? found->half_width[luminance] / value : INFINITY);
+    }
+    if (on_surfaces.count > 0 && w->sensors->file != NULL)
+        aur_warn_at(
+            &o->warnings, aur_sensor_location(w->sensors, on_surfaces.first),
+            "%zu of %zu sensors lie on surfaces (the first of them is sensor %zu): they look from just "
+            "above",
+            on_surfaces.count, w->sensors->count, on_surfaces.first);
+    if (inside.count > 0)
+        aur_warn_at(&o->warnings, aur_sensor_location(w->sensors, inside.first),
+                    "%zu of %zu sensors see mostly the black backs of surfaces (the first of them is sensor "
+                    "%zu): they stand inside of something, or look into it",
+                    inside.count, w->sensors->count, inside.first);
+    if (unlit.count > 0)
+        aur_warn_at(&o->warnings, aur_sensor_location(w->sensors, unlit.first),
+                    "%zu of %zu sensors see no light at all (the first of them is sensor %zu)", unlit.count,
+                    w->sensors->count, unlit.first);
+    if (unreached.count > 0)
+        aur_warn_at(&o->warnings, aur_sensor_location(w->sensors, unreached.first),
+                    "%zu of %zu sensors did not reach the error with %zu directions (the first of them is "
+                    "sensor %zu); the worst reached %.3g",
+                    unreached.count, w->sensors->count, o->directions, unreached.first, unreached.most);
+}
+
+static aur_result run(work *w, aur_error *error) {
+    const aur_irradiance_options *const o = w->options;
+    aur_result result = make_rules(w, error);
+    if (result == AUR_OK)
+        result = aur_path_prepare(&w->path, w->scene, error);
+    if (result == AUR_OK)
+        result = aur_sampler_create("sobol", w->rules[w->level_count - 1].count, NULL, &w->sampler, error);
+    if (result == AUR_OK) {
+        const aur_parallel_options parallel = {
+            .threads = o->threads, .what = "sensors", .progress = o->progress, .flush_denormals = true};
+        result =
+            aur_parallel_for(&parallel, (w->sensors->count + BLOCK - 1) / BLOCK, estimate_block, w, error);
+    }
+    if (result == AUR_OK)
+        warn(w);
+    return result;
+}
+
+aur_result aur_irradiance_estimate(const aur_scene *scene, const aur_sensors_view *given,
+                                   const aur_irradiance_options *given_options, size_t result_size,
+                                   aur_irradiance *results, aur_error *error) {
+    aur_irradiance_options options;
+    aur_sensors_view sensors = {.size = sizeof sensors};
+    aur_result result = read_options(given_options, &options, error);
+    if (result == AUR_OK)
+        result = aur_options_read(given, sizeof sensors, sizeof sensors, &sensors, "aur_sensors_view", error);
+    if (result == AUR_OK && result_size != sizeof *results)
+        result = aur_fail(error, AUR_ERROR_ARGUMENT, "the results have %zu bytes each, not %zu",
+                          sizeof *results, result_size);
+    if (result == AUR_OK)
+        result = aur_sensors_check(&sensors, AUR_ERROR_ARGUMENT, error);
+    if (result == AUR_OK && aur_scene_emitter_count(scene) == 0)
+        result = aur_fail(error, AUR_ERROR_UNSUPPORTED, "the scene has no light, so that all would be 0");
+    if (result != AUR_OK)
+        return result;
+    work w = {.options = &options,
+              .sensors = &sensors,
+              .scene = scene,
+              .path = {.max_depth = options.max_depth > 0 && options.max_depth < UINT32_MAX
+                                        ? (uint32_t)options.max_depth
+                                        : UINT32_MAX,
+                       .rr_depth = 5},
+              .results = results};
+    result = run(&w, error);
+    for (size_t i = 0; i < w.level_count; ++i)
+        aur_sensor_rule_release(&w.rules[i]);
+    aur_sampler_destroy(w.sampler);
+    free(w.path.classes);
+    return result;
+}

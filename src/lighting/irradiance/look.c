@@ -1,0 +1,185 @@
+#include "lighting/irradiance/look.h"
+
+#include <string.h>
+
+#include "core/random.h"
+#include "core/vector3d.h"
+#include "transport/lights/direct_light.h"
+#include "transport/packets/packet_rays.h"
+
+enum { DIRECT, SKY, REFLECTED }; /* rows of aur_look.sums */
+
+/* Moves the place off the first surface that is nearer to it than `reach`; false where there is none. Along
+ * one of three axes every plane is near. */
+static bool move_off(const aur_scene *scene, float reach, aur_sensor_place *place) {
+    const aur_frame *const frame = &place->frame;
+    const aur_vector axes[] = {frame->z, frame->x, frame->y};
+    for (size_t i = 0; i < 3; ++i) {
+        const aur_ray ray = {aur_vector_add_scaled(place->position, -reach, axes[i]), 0.0f, axes[i],
+                             2.0f * reach};
+        aur_hit hit;
+        aur_surface surface;
+        if (!aur_scene_intersect(scene, &ray, &hit))
+            continue;
+        aur_scene_surface(scene, &ray, &hit, &surface);
+        const float along = aur_vector_dot(surface.geometric_normal, frame->z);
+        const float side = along < -1e-3f ? -1.0f : 1.0f;
+        place->position =
+            aur_vector_add_scaled(surface.position, side * 2.0f * reach, surface.geometric_normal);
+        return true;
+    }
+    return false;
+}
+
+aur_sensor_place aur_sensor_place_of(const aur_scene *scene, const double position[3], const double normal[3],
+                                     uint64_t seed) {
+    enum { MOST_SURFACES = 3 }; /* which meet in a corner */
+    aur_sensor_place place = {.hash = seed};
+    double unit[3] = {normal[0], normal[1], normal[2]};
+    /* The square of a tiny or huge normal may leave the range of doubles. */
+    const double size = fmax(fabs(unit[0]), fmax(fabs(unit[1]), fabs(unit[2])));
+    for (size_t d = 0; d < 3; ++d)
+        unit[d] /= size;
+    aur_normalize3(unit);
+    for (size_t d = 0; d < 3; ++d) {
+        const double numbers[2] = {position[d] + 0.0, unit[d] + 0.0}; /* -0 becomes 0 */
+        uint64_t bits[2];
+        memcpy(bits, numbers, sizeof bits);
+        place.hash = aur_hash3(place.hash, bits[0], bits[1]);
+    }
+    const aur_vector z = {(float)unit[0], (float)unit[1], (float)unit[2]};
+    const aur_vector at = {(float)position[0], (float)position[1], (float)position[2]};
+    place.frame = aur_frame_about(aur_vector_normalize(z));
+    place.position = at;
+    for (size_t i = 0; i < MOST_SURFACES && move_off(scene, aur_surface_offset(at), &place); ++i)
+        place.on_surface = true;
+    return place;
+}
+
+static void add(const aur_path_group *g, size_t lane, const double from[3], double sum[3]) {
+    const aur_vector light = aur_lane_vector(&g->lanes.sum, lane);
+    sum[0] += (double)light.x - from[0];
+    sum[1] += (double)light.y - from[1];
+    sum[2] += (double)light.z - from[2];
+}
+
+/* The rays of direction `index`, from which light is to be found. */
+static void set_rays(aur_path_group *g, const aur_sensor_rule *rule, size_t index,
+                     const aur_sensor_place *place, float (*shifts)[3]) {
+    for (size_t k = 0; k < AUR_PACKET_SIZE; ++k) {
+        const float height = rule->heights[index] + shifts[k][0];
+        const float square = aur_smaller(height < 1.0f ? height : height - 1.0f, 0x1.fffffep-1f);
+        const float radius = sqrtf(square), z = sqrtf(1.0f - square);
+        const float c = rule->cosines[index], s = rule->sines[index];
+        const aur_vector local = {radius * (c * shifts[k][1] - s * shifts[k][2]),
+                                  radius * (s * shifts[k][1] + c * shifts[k][2]), z};
+        const aur_ray ray = {place->position, 0.0f, aur_frame_to_world(&place->frame, local), INFINITY};
+        aur_packet_set(&g->packet, k, &ray);
+        aur_lane_set(&g->lanes.throughput, k, (aur_vector){1.0f, 1.0f, 1.0f});
+        aur_lane_set(&g->lanes.sum, k, (aur_vector){0});
+        aur_lane_set(&g->lanes.from, k, place->position);
+        g->lanes.pdf[k] = z / AUR_PI_F;
+    }
+    g->alive = UINT16_MAX;
+    g->specular = 0;
+}
+
+/* A point on a light for each lane. */
+static void add_lights(aur_path_group *g, const aur_sensor_place *place, aur_look *look) {
+    float choice[AUR_PACKET_SIZE] = {0}, u[AUR_PACKET_SIZE], v[AUR_PACKET_SIZE], unused[AUR_PACKET_SIZE];
+    double light[AUR_PACKET_SIZE][3];
+    uint32_t lit = 0, sky = 0;
+    if (g->chooses)
+        aur_stream_pixels(g->sampler, AUR_PACKET_SIZE, g->pixels, g->index, AUR_PAIR_FILTER, choice, unused);
+    aur_stream_pixels(g->sampler, AUR_PACKET_SIZE, g->pixels, g->index, AUR_PAIR_LENS, u, v);
+    for (size_t k = 0; k < AUR_PACKET_SIZE; ++k) {
+        aur_light_sample drawn;
+        if (!aur_light_sample_direct(g->scene, place->position, AUR_LEAST_LIGHT_OF_PATHS,
+                                     (const float[3]){choice[k], u[k], v[k]}, &drawn) ||
+            !(drawn.pdf > 0.0f))
+            continue;
+        const float cosine = aur_vector_dot(place->frame.z, drawn.direction);
+        if (!(cosine > 0.0f) || aur_vector_is_zero(drawn.radiance))
+            continue;
+        const float weight = drawn.delta ? 1.0f : aur_power_heuristic(drawn.pdf, cosine / AUR_PI_F);
+        aur_vector_to_doubles(aur_vector_scale(drawn.radiance, weight * cosine / drawn.pdf), light[k]);
+        const aur_vector way = aur_vector_subtract(drawn.position, place->position);
+        const float distance = aur_vector_length(way);
+        const aur_ray ray = {place->position, 0.0f,
+                             aur_vector_scale(way, 1.0f / aur_larger(distance, 1e-30f)),
+                             distance * (1.0f - 1e-4f)};
+        aur_packet_set(&g->shadows, k, &ray);
+        lit |= 1u << k;
+        sky |= (uint32_t)drawn.environment << k;
+    }
+    if (lit == 0)
+        return;
+    aur_packet_set_lanes(&g->shadows, lit);
+    g->counters->rays += aur_lane_count(lit);
+    lit &= ~aur_scene_occluded16(g->scene, AUR_EMBREE_INCOHERENT, &g->shadows);
+    for (; lit != 0; lit &= lit - 1) {
+        const size_t k = aur_first_lane(lit);
+        for (size_t c = 0; c < 3; ++c)
+            look->sums[k][aur_has_lane(sky, k) ? SKY : DIRECT][c] += light[k][c];
+    }
+}
+
+/* Whether the first surface of a lane is seen from behind, where it scatters nothing. */
+static bool is_dark(const aur_path_group *g, size_t lane) {
+    if (aur_has_lane(g->plain, lane))
+        return g->lanes.side[lane] < 0.0f && aur_vector_is_zero(aur_lane_vector(&g->lanes.albedo[1], lane));
+    const aur_surface *const surface = &g->surfaces[lane];
+    const aur_ray ray = aur_packet_ray(&g->packet, lane);
+    return !surface->bsdf->scatters_from_behind &&
+           aur_vector_dot(ray.direction, surface->geometric_normal) > 0.0f;
+}
+
+/* What direction `index` brings; lanes begin with no light. */
+static void add_direction(aur_path_group *g, aur_look *look) {
+    static const double nothing[3] = {0};
+    double seen[AUR_PACKET_SIZE][3];
+    aur_path_group_meet(g, 1);
+    for (size_t k = 0; k < AUR_PACKET_SIZE; ++k) {
+        const bool met = aur_has_lane(g->alive, k);
+        add(g, k, nothing, look->sums[k][met ? DIRECT : SKY]);
+        aur_vector_to_doubles(aur_lane_vector(&g->lanes.sum, k), seen[k]);
+        look->dark += met && is_dark(g, k);
+    }
+    if (g->data->max_depth == 1 || g->alive == 0)
+        return;
+    const uint32_t met = g->alive;
+    aur_path_group_scatter(g, 1);
+    aur_path_group_trace(g, 2);
+    for (uint32_t rest = met; rest != 0; rest &= rest - 1) {
+        const size_t k = aur_first_lane(rest);
+        add(g, k, seen[k], look->sums[k][REFLECTED]);
+    }
+}
+
+void aur_sensor_look(aur_path_group *g, const aur_sensor_rule *rule, const aur_sensor_place *place,
+                     uint32_t level, aur_look *look) {
+    *look = (aur_look){0};
+    aur_look from_lights = {0};
+    float shifts[AUR_PACKET_SIZE][3]; /* of the height, and the turn's cosine and sine */
+    for (size_t k = 0; k < AUR_PACKET_SIZE; ++k) {
+        g->pixels[k] = aur_hash3(place->hash, level, k);
+        const uint64_t words = aur_hash2(g->pixels[k], 0x7475726e);
+        const double turn = 2.0 * AUR_PI * aur_unit_double(words);
+        shifts[k][0] = aur_unit_float((uint32_t)aur_mix64(words));
+        shifts[k][1] = (float)cos(turn);
+        shifts[k][2] = (float)sin(turn);
+    }
+    for (size_t i = 0; i < rule->count; ++i) {
+        g->index = (uint32_t)i;
+        set_rays(g, rule, i, place, shifts);
+        add_direction(g, look);
+        if (g->has_lights)
+            add_lights(g, place, &from_lights);
+    }
+    /* Directions have the density cos / pi. */
+    for (size_t k = 0; k < AUR_PACKET_SIZE; ++k)
+        for (size_t part = 0; part < AUR_IRRADIANCE_PARTS - 1; ++part)
+            for (size_t c = 0; c < 3; ++c)
+                look->sums[k][part][c] =
+                    (AUR_PI * look->sums[k][part][c] + from_lights.sums[k][part][c]) / (double)rule->count;
+}

@@ -1,0 +1,32 @@
+/* What one sensor sees: light along sixteen randomisations of a rule at once, one a lane. */
+#pragma once
+
+#include <aureole/irradiance.h>
+
+#include "lighting/irradiance/rule.h"
+#include "transport/paths/path_group.h"
+
+_Static_assert((int)AUR_IRRADIANCE_REPLICATES == (int)AUR_PACKET_SIZE, "a lane is a randomisation");
+
+/* A sensor that stands just off the surfaces on which it may lie. */
+typedef struct aur_sensor_place {
+    aur_vector position; /* where its rays begin */
+    bool on_surface;     /* it has been moved off one */
+    aur_frame frame;     /* z is the normal */
+    uint64_t hash;       /* of seed, position and normal: of all random numbers */
+} aur_sensor_place;
+
+/* `position` and `normal` are finite, and the normal is not 0. A sensor on a surface looks from the side that
+ * its normal shows; where that lies in the surface, from the surface's front. */
+aur_sensor_place aur_sensor_place_of(const aur_scene *scene, const double position[3], const double normal[3],
+                                     uint64_t seed);
+
+/* Irradiance as the randomisations tell it. */
+typedef struct aur_look {
+    double sums[AUR_PACKET_SIZE][AUR_IRRADIANCE_PARTS - 1][3]; /* direct, sky, reflected; r, g, b */
+    uint64_t dark; /* directions that meet a surface from behind that scatters nothing there */
+} aur_look;
+
+/* Means over the directions of the rule. `level` stands for independent numbers. */
+void aur_sensor_look(aur_path_group *group, const aur_sensor_rule *rule, const aur_sensor_place *place,
+                     uint32_t level, aur_look *look);

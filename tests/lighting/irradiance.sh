@@ -1,0 +1,120 @@
+#!/usr/bin/env bash
+# aureole irradiance: known irradiances, the same bits on any number of threads and beside any other sensors, and what it
+# refuses or reports.
+set -u
+aureole=$1
+failures=0
+fail() {
+  echo "FAILED: $*"
+  failures=$((failures + 1))
+}
+# refused TEXT ARGUMENTS...: the verb ends with status 2 and says the text.
+refused() {
+  local text=$1 said
+  shift
+  said=$("$aureole" irradiance "$@" 2>&1 >/dev/null)
+  [ $? = 2 ] || fail "$*: status is not 2: $said"
+  grep -qF -- "$text" <<<"$said" || fail "$*: '$text' is not in: $said"
+}
+# warned TEXT ARGUMENTS...: the verb ends well and says the text.
+warned() {
+  local text=$1 said
+  shift
+  said=$("$aureole" irradiance "$@" 2>&1 >/dev/null) || fail "$*: $said"
+  grep -qF -- "$text" <<<"$said" || fail "$*: '$text' is not in: $said"
+}
+# near COLUMN VALUE FILE: that column of each sensor is within five standard errors (three columns on) of the value.
+near() {
+  awk -F, -v c="$1" -v value="$2" 'NR > 1 { d = $c - value; if (d < 0) d = -d; if (!(d <= 5 * $(c + 3) + 1e-5 * value)) bad = 1 }
+    END { exit bad || NR < 2 }' "$3" || fail "column $1 of $3 is not $2: $(cat "$3")"
+}
+
+printf '0 0 0 0 0 1\n.9 .3 .2 1 1 0\n# on the floor\n0 0 -1 0 0 1\n' >room.pts
+
+# A closed room whose walls all emit 1 and reflect half of what they get: the radiance is everywhere 1 / (1 - .5).
+cat >room.xml <<'XML'
+<scene version="3.0.0">
+  <shape type="cube">
+    <boolean name="flip_normals" value="true"/>
+    <bsdf type="diffuse"><rgb name="reflectance" value="0.5"/></bsdf>
+    <emitter type="area"><rgb name="radiance" value="1, 2, 3"/></emitter>
+  </shape>
+</scene>
+XML
+"$aureole" irradiance -q room.xml --sensors room.pts --parts -o room.csv || fail "a room"
+head -1 room.csv | grep -q '^x,y,z,r,g,b,r_error,g_error,b_error,direct_r,' || fail "columns: $(head -1 room.csv)"
+near 4 6.283185307 room.csv
+near 6 18.849555922 room.csv
+near 10 3.141592654 room.csv
+near 23 6.283185307 room.csv
+"$aureole" irradiance -q room.xml --sensors room.pts --max-depth 1 -o direct.csv || fail "direct light"
+near 4 3.141592654 direct.csv
+
+# A uniform sky, which one sensor sees wholly and the one that looks at the horizon by half.
+printf '<scene version="3.0.0"><emitter type="constant"><rgb name="radiance" value="2"/></emitter>
+<shape type="rectangle"><transform name="to_world"><scale value="1000"/></transform>
+<bsdf type="diffuse"><rgb name="reflectance" value="0"/></bsdf></shape></scene>' >sky.xml
+printf 'x,y,z,nx,ny,nz\n0,0,.01,0,0,1\n' >up.csv
+printf '0 0 0 5 0 0\n' >aside.pts
+"$aureole" irradiance -q sky.xml --sensors up.csv -o up_out.csv || fail "sky"
+near 4 6.283185307 up_out.csv
+"$aureole" irradiance -q sky.xml --sensors - <aside.pts >aside.csv || fail "half of the sky"
+near 4 3.141592654 aside.csv
+
+# A point light: intensity / distance^2, to the rounding of floats, and in lux.
+printf '<scene version="3.0.0"><emitter type="point"><point name="position" x="0" y="0" z="2"/>
+<rgb name="intensity" value="8"/></emitter></scene>' >point.xml
+"$aureole" irradiance -q point.xml --sensors room.pts -o point.csv || fail "point light"
+awk -F, 'NR == 2 { exit !($4 > 1.99999 && $4 < 2.00001 && $7 < 1e-6) }' point.csv || fail "point light: $(cat point.csv)"
+"$aureole" irradiance -q point.xml --sensors room.pts --illuminance radiance -o lux.csv || fail "lux"
+awk -F, 'NR == 1 { bad = $4 != "lux" } NR == 2 { bad = bad || !($4 > 357.99 && $4 < 358.01) } END { exit bad }' lux.csv ||
+  fail "lux: $(cat lux.csv)"
+
+# Threads, and other sensors in the file.
+"$aureole" irradiance -q room.xml --sensors room.pts --parts --threads 3 | cmp -s - room.csv || fail "three threads"
+"$aureole" irradiance -q room.xml --sensors room.pts --parts --threads 1 | cmp -s - room.csv || fail "one thread"
+sed -n 2p room.pts >second.pts
+"$aureole" irradiance -q room.xml --sensors second.pts --parts | sed -n 2p | cmp -s - <(sed -n 3p room.csv) ||
+  fail "a sensor alone differs from the same one among others"
+"$aureole" irradiance -q room.xml --sensors room.pts --parts --seed 1 | cmp -s - room.csv && fail "another seed"
+
+# To an error.
+"$aureole" irradiance -q room.xml --sensors room.pts --error 0.5% --counts --intervals -o error.csv || fail "to an error"
+awk -F, 'NR > 1 && !($10 <= .005 * $4 * 1.001 && $13 > 256) { exit 1 }' error.csv || fail "to an error: $(cat error.csv)"
+near 4 6.283185307 error.csv
+warned "did not reach the error with 256 directions" room.xml --sensors room.pts --error 0.01% -n 256
+
+# Bad input.
+printf '0 0 0 0 0 1\n1 2 3 0 0 0\n' >zero.pts
+printf '0 0 0 0 0 1\n1 nan 3 0 0 1\n' >nan.pts
+printf '0 0 0 0 1\n' >five.pts
+printf '# nothing\n' >empty.pts
+printf 'x,y,z,u,v,w\n0,0,0,0,0,1\n' >header.csv
+refused "zero.pts:2: the normal of sensor 1 has length 0" room.xml --sensors zero.pts
+refused "nan.pts:2: column 2: 'nan' is not a finite number" room.xml --sensors nan.pts
+refused "five.pts:1: a sensor is six numbers, x y z nx ny nz, not 5" room.xml --sensors five.pts
+refused "empty.pts: there are no sensors in it" room.xml --sensors empty.pts
+refused "the columns of sensors are x,y,z,nx,ny,nz" room.xml --sensors header.csv
+refused "the points are missing: --sensors POINTS" room.xml
+refused "must be an error like 1% or 0.01" room.xml --sensors room.pts --error 100%
+refused "unknown set 'spiral'" room.xml --sensors room.pts --set spiral
+printf '<scene version="3.0.0"><shape type="cube"/></scene>' >unlit.xml
+refused "the scene has no light" unlit.xml --sensors room.pts
+# A solid cube in the light of a sky: its inside sees black backs.
+printf '<scene version="3.0.0"><emitter type="constant"/><shape type="cube"/></scene>' >solid.xml
+warned "3 of 3 sensors see mostly the black backs of surfaces" solid.xml --sensors room.pts
+warned "room.pts:4: 1 of 3 sensors lie on surfaces (the first of them is sensor 2)" room.xml --sensors room.pts
+# In the corner of three walls, looking along one of them.
+printf '%s\n' '-1 -1 -1 1 0 0' '-1 -1 -1 1 1 1' '-1 -1 0 0 1 0' >corner.pts
+"$aureole" irradiance -q room.xml --sensors corner.pts -q -o corner.csv || fail "corners"
+near 4 6.283185307 corner.csv
+# A lamp that looks the other way.
+printf '<scene version="3.0.0"><shape type="rectangle"><transform name="to_world"><translate z="1"/></transform>
+<emitter type="area"/></shape></scene>' >away.xml
+printf '0 0 2 0 0 1\n0 0 0 0 0 -1\n' >behind.pts
+warned "2 of 2 sensors see no light at all" away.xml --sensors behind.pts
+
+# A scene without a camera is no picture.
+"$aureole" render room.xml -o room.exr 2>&1 | grep -q 'room.xml:1:.*the scene has no <sensor>' || fail "rendered without a camera"
+
+[ $failures = 0 ]
