@@ -114,3 +114,10 @@ void bench_print_pair(const char *subject, const char *limit, const char *unit, 
            pair->ratio, pair->ratio_low, pair->ratio_high, limit, pair->limit / scale, unit);
     fflush(stdout);
 }
+
+void bench_print_seconds(const bench_options *options, const char *subject, const bench_work *work) {
+    bench_options few = *options;
+    few.pairs = few.pairs < 3 ? few.pairs : 3;
+    printf("  %-36s %9.4g CPU s\n", subject, work->units / bench_rate(&few, work));
+    fflush(stdout);
+}

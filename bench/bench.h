@@ -58,6 +58,9 @@ void bench_print_pair(const char *subject, const char *limit, const char *unit, 
                       const bench_pair *pair);
 void bench_print_rate(const char *subject, const char *unit, double scale, double rate);
 
+/* Measures and prints the median of CPU seconds that one run takes, over three measurements at most. */
+void bench_print_seconds(const bench_options *options, const char *subject, const bench_work *work);
+
 /* CPU seconds that the process, all its threads together, has used. */
 double bench_cpu_seconds(void);
 /* Makes the compiler believe that the value is needed. */

@@ -12,6 +12,7 @@
 /* clang-format off */
 extern const bench bench_ao;
 extern const bench bench_defaults;
+extern const bench bench_domains;
 extern const bench bench_gather;
 extern const bench bench_gather_weights;
 extern const bench bench_limits;
@@ -22,12 +23,14 @@ extern const bench bench_path;
 extern const bench bench_points_sphere;
 extern const bench bench_points_square;
 extern const bench bench_radiosity;
+extern const bench bench_relaxed;
 extern const bench bench_scene;
 extern const bench bench_weights;
 
 static const bench *const benches[] = {
     &bench_ao,
     &bench_defaults,
+    &bench_domains,
     &bench_gather,
     &bench_gather_weights,
     &bench_limits,
@@ -38,6 +41,7 @@ static const bench *const benches[] = {
     &bench_points_sphere,
     &bench_points_square,
     &bench_radiosity,
+    &bench_relaxed,
     &bench_scene,
     &bench_weights,
 };

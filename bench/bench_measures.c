@@ -1,7 +1,6 @@
 /* Measures against the hardware's square root, and the time of the exact suprema. */
 #include <aureole/quality.h>
 #include <aureole/sphere.h>
-#include <stdio.h>
 #include <stdlib.h>
 
 #include "experimental.h"
@@ -101,10 +100,7 @@ static bool bench_seconds(const bench_options *options, const char *name, measur
         return false;
     context->options.threads = 1;
     const bench_work work = {run_measure, context, 1.0};
-    bench_options few = *options;
-    few.pairs = few.pairs < 3 ? few.pairs : 3;
-    printf("  %-36s %9.4g CPU s\n", name, 1.0 / bench_rate(&few, &work));
-    fflush(stdout);
+    bench_print_seconds(options, name, &work);
     free(context->coordinates);
     return true;
 }
