@@ -23,6 +23,10 @@ static const cli_option options[] = {
                  "mean, spread and root mean square over K seeds from --seed on")},
     {CLI_FLAG(cli_measure_arguments, options.fast, "fast",
               "sums over pairs to 2e-14 instead of the last bit")},
+    {CLI_REAL(
+        cli_measure_arguments, options.accuracy, "accuracy", "ERROR", 0.0, 1.0, NULL,
+        "relative error allowed to energies of many points, which are done sooner then, and to spectra; "
+        "adds columns with bounds of the errors")},
     {CLI_TEXT(cli_measure_arguments, plot, "plot", "FILE", NULL,
               "draw the figures against N with fitted slopes, .svg or .png (needs gnuplot)"),
      .content = "file"},
@@ -90,14 +94,15 @@ static int print_rows(const cli_measure_arguments *arguments, const cli_measure_
     const aur_series *const first = rows->items[0].series;
     const size_t columns =
         arguments->series ? aur_series_column_count(first) : arguments->metrics.count * per;
-    static const char *const suffixes[] = {"", "-spread", "-rms"};
+    static const char *const suffixes[] = {"", "-spread", "-rms"}, *const with_bound[] = {"", "-error"};
     report_table *const table = report_create(3, (const char *const[]){"set", "n", "domain"});
     for (size_t c = 0; c < columns; ++c) {
         char name[96];
         if (arguments->series)
             snprintf(name, sizeof name, "%s", aur_series_column(first, c));
         else
-            snprintf(name, sizeof name, "%s%s", cli_metric(arguments, c / per), suffixes[c % per]);
+            snprintf(name, sizeof name, "%s%s", cli_metric(arguments, c / per),
+                     per == 2 ? with_bound[c % per] : suffixes[c % per]);
         report_column(table, name);
     }
     for (size_t i = 0; i < rows->count; ++i) {

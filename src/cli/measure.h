@@ -20,7 +20,7 @@ typedef struct cli_measure_arguments {
 } cli_measure_arguments;
 
 /* What was measured of one source and size: a table, or of each metric the value, with seeds also the spread
- * and the root mean square. */
+ * and the root mean square, else with an accuracy the bound of the error. */
 typedef struct cli_measure_row {
     const char *source;
     aur_domain domain;
@@ -35,7 +35,7 @@ typedef struct cli_measure_rows {
 } cli_measure_rows;
 
 static inline size_t cli_figures_per_metric(const cli_measure_arguments *arguments) {
-    return arguments->seed_count > 0 ? 3 : 1;
+    return arguments->seed_count > 0 ? 3 : arguments->options.accuracy > 0.0 ? 2 : 1;
 }
 
 static inline const char *cli_metric(const cli_measure_arguments *arguments, size_t index) {

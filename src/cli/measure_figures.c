@@ -6,7 +6,8 @@
 
 #include "cli/measure.h"
 
-/* All metrics of one set of points into values[metrics.count], or the table; messages name the file. */
+/* All metrics of one set of points into values[metrics.count], then the bounds of their errors, or the table;
+ * messages name the file. */
 static aur_result measure_points(const cli_measure_arguments *arguments, const char *source, size_t count,
                                  uint64_t seed, cli_measure_row *row, double *values, aur_error *error) {
     cli_points from = arguments->points;
@@ -22,7 +23,8 @@ static aur_result measure_points(const cli_measure_arguments *arguments, const c
         result =
             aur_measure_series(cli_metric(arguments, 0), &view, &arguments->options, &row->series, error);
     for (size_t m = 0; m < arguments->metrics.count && !arguments->series && result == AUR_OK; ++m)
-        result = aur_measure(cli_metric(arguments, m), &view, &arguments->options, &values[m], error);
+        result = aur_measure_bounded(cli_metric(arguments, m), &view, &arguments->options, &values[m],
+                                     &values[arguments->metrics.count + m], error);
     if (result != AUR_OK && error->file[0] == '\0')
         snprintf(error->file, sizeof error->file, "%s", source);
     aur_points_destroy(points);
@@ -58,7 +60,7 @@ static aur_result measure_seeds(const cli_measure_arguments *arguments, const ch
 aur_result cli_measure_figures(const cli_measure_arguments *arguments, const char *source, size_t count,
                                cli_measure_row *row, aur_error *error) {
     const size_t metrics = arguments->metrics.count, per = cli_figures_per_metric(arguments);
-    double *const values = calloc(metrics, sizeof *values);
+    double *const values = calloc(2 * metrics, sizeof *values);
     row->figures = calloc(metrics * per, sizeof *row->figures);
     aur_result result = AUR_OK;
     if (values == NULL || row->figures == NULL)
@@ -69,6 +71,8 @@ aur_result cli_measure_figures(const cli_measure_arguments *arguments, const cha
         result = measure_points(arguments, source, count, arguments->points.options.seed, row, values, error);
         for (size_t m = 0; m < metrics; ++m) {
             row->figures[m * per] = values[m];
+            if (per == 2)
+                row->figures[m * per + 1] = values[metrics + m];
             if (per == 3)
                 row->figures[m * per + 2] = fabs(values[m]);
         }

@@ -21,6 +21,7 @@ typedef struct aur_measure_request {
     size_t variant;        /* of the row */
     aur_measure_options options;
     aur_arena *arena; /* what the measure takes from it is freed when it ends */
+    double *bound;    /* of the value's error, for measures that used options.accuracy; else it stays 0 */
 } aur_measure_request;
 
 typedef struct aur_measure_row {

@@ -49,6 +49,9 @@ printf 'x,y,z\n1,0,0\n1,0,0\n' >twice.csv
 prints inf $measure twice.csv --metric riesz:1
 prints coincide $measure twice.csv --metric riesz:1
 prints null $measure twice.csv --metric riesz:1 --format json -q
+prints energy-error $measure random -n 20000 --metric energy --accuracy 1e-4
+refuses --accuracy $measure random -n 64 --metric energy --accuracy -1
+refuses accuracy $measure random -n 64 --metric energy --accuracy 1
 refuses 'stands alone' $measure sobol -n 16 --metric spectrum,star
 prints 'degree' $measure sobol -n 16 --metric spectrum:2 --domain sphere
 prints 'kx,ky,power' $measure sobol -n 16 --metric periodogram:2 --format csv

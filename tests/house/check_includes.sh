@@ -25,7 +25,8 @@ film
 sampling
 quality/table
 quality/sphere quality/square quality/spectrum
-quality/rotations quality/pairs
+quality/split quality/rotations
+quality/pairs
 quality
 quadrature/tables
 quadrature/integrate

@@ -9,6 +9,10 @@
 
 typedef struct aur_fast_transform aur_fast_transform;
 
+/* The largest error of a sum, over the sum of the absolute weights: about e^{-14 pi / sqrt 3} on each axis of
+ * the grid. */
+#define AUR_FAST_TRANSFORM_ERROR 2e-11
+
 /* The basis, one of the whole sphere, and the points must outlive it. Errors: MEMORY. */
 aur_result aur_fast_transform_create(const aur_basis *basis, const aur_polar_points *points, size_t threads,
                                      aur_fast_transform **fast, aur_error *error);

@@ -4,18 +4,11 @@
 #include "core/error.h"
 #include "quality/pairs/pair_sum.h"
 #include "quality/rotations/rotations.h"
+#include "quality/split/kernel.h"
+#include "quality/split/split.h"
 
-static double kernel(double square, double exponent) {
-    if (exponent == 0.0)
-        return -0.5 * log(square);
-    if (exponent == 1.0)
-        return 1.0 / sqrt(square);
-    if (exponent == 2.0)
-        return 1.0 / square;
-    if (exponent == -1.0)
-        return sqrt(square);
-    return pow(square, -0.5 * exponent);
-}
+/* In distances by the widest vectors. */
+enum { PAIR_COST = 8 };
 
 static aur_twofold riesz_tile(const aur_axes *axes, aur_pair_tile tile, double exponent) {
     const int diagonal = tile.first_row == tile.first_column;
@@ -30,10 +23,37 @@ static aur_twofold riesz_tile(const aur_axes *axes, aur_pair_tile tile, double e
             const double weight = axes->weights != NULL ? axes->weights[i] * axes->weights[j] : 1.0;
             if (square == 0.0 && exponent >= 0.0) /* an infinity must not meet the error terms */
                 return (aur_twofold){weight == 0.0 ? 0.0 : INFINITY, 0.0};
-            total = aur_twofold_add(total, aur_two_product(weight, kernel(square, exponent)));
+            total = aur_twofold_add(total, aur_two_product(weight, aur_split_whole(exponent, square)));
         }
     }
     return total;
+}
+
+/* The sum over unordered pairs to options.accuracy, with a bound of its error; `found` is false where the sum
+ * over all pairs is to be taken. */
+static aur_result fast_sum(const aur_measure_request *request, double exponent, bool *found, aur_twofold *sum,
+                           aur_error *error) {
+    const double accuracy = request->options.accuracy, count = (double)request->points->count;
+    *found = accuracy > 0.0 && request->points->count >= AUR_SPLIT_COUNT && aur_split_has(exponent);
+    if (!*found)
+        return AUR_OK;
+    /* About the mean that is to come: that of the sphere, or for S >= 2 what near points have. */
+    const double about = exponent == 0.0  ? 0.2
+                         : exponent < 2.0 ? pow(2.0, 1.0 - exponent) / (2.0 - exponent)
+                                          : pow(0.25 * count, 0.5 * exponent - 1.0);
+    aur_split_mean mean;
+    const aur_result result =
+        aur_split_pairs(request, exponent, PAIR_COST, accuracy * about, found, &mean, error);
+    if (result != AUR_OK || !*found)
+        return result;
+    double mass = 0.0;
+    for (size_t i = 0; i < request->points->count; ++i)
+        mass += aur_weight_at(request->points, i);
+    const double value = mean.mean + mean.excess, pairs = 0.5 * mass * mass;
+    *found = isinf(value) || mean.bound <= 0.5 * accuracy * fabs(value);
+    *sum = (aur_twofold){pairs * value, 0.0};
+    *request->bound = *found && isfinite(value) ? pairs * mean.bound : 0.0;
+    return AUR_OK;
 }
 
 /* The sum over unordered pairs of points, the unit of their masses, and what an axis does to its other end.
@@ -45,7 +65,10 @@ static aur_result sum_of_directions(const aur_measure_request *request, double e
     if (result != AUR_OK)
         return result;
     aur_twofold sum = {0.0, 0.0};
-    result = aur_pair_sum(&axes, riesz_tile, exponent, &request->options, &sum, error);
+    bool found = false;
+    result = fast_sum(request, exponent, &found, &sum, error);
+    if (result == AUR_OK && !found)
+        result = aur_pair_sum(&axes, riesz_tile, exponent, &request->options, &sum, error);
     if (result == AUR_OK) {
         double scale = 2.0;
         if (axes.weights != NULL) {
@@ -60,9 +83,10 @@ static aur_result sum_of_directions(const aur_measure_request *request, double e
             double squares = 0.0;
             for (size_t i = 0; i < axes.count; ++i)
                 squares += axes.weights != NULL ? 0.5 * axes.weights[i] * axes.weights[i] : 0.5;
-            sum = aur_twofold_add(sum, aur_two_product(-squares, kernel(4.0, exponent)));
+            sum = aur_twofold_add(sum, aur_two_product(-squares, aur_split_whole(exponent, 4.0)));
             scale *= 0.5;
         }
+        *request->bound *= scale;
         *value = isfinite(sum.high) ? scale * (sum.high + sum.low) : INFINITY;
     }
     aur_axes_release(&axes);
@@ -74,7 +98,7 @@ static aur_result sum_of_directions(const aur_measure_request *request, double e
 static double both_quaternions(double square, double exponent) {
     if (square == 0.0 && exponent >= 0.0)
         return INFINITY;
-    return kernel(square, exponent) + kernel(4.0 - square, exponent);
+    return aur_split_whole(exponent, square) + aur_split_whole(exponent, 4.0 - square);
 }
 
 static aur_result riesz(const aur_measure_request *request, double *value, aur_error *error) {

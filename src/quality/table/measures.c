@@ -236,16 +236,21 @@ typedef struct prepared {
     aur_measure_request request;
     aur_points_view points;
     aur_arena arena;
+    double bound;
 } prepared;
 
 static aur_result prepare(const char *metric, const aur_points_view *given,
                           const aur_measure_options *options, prepared *p, aur_error *error) {
     aur_points_view *const points = &p->points;
-    *p = (prepared){.request = {.points = points, .arena = &p->arena}};
+    *p = (prepared){.request = {.points = points, .arena = &p->arena, .bound = &p->bound}};
     aur_measure_options *const own = &p->request.options;
     *own = aur_measure_options_default();
     aur_result result =
         aur_options_read(options, sizeof *own, sizeof *own, own, "aur_measure_options", error);
+    if (result == AUR_OK && !(own->accuracy >= 0.0 && own->accuracy < 1.0))
+        result =
+            aur_fail(error, AUR_ERROR_ARGUMENT,
+                     "the accuracy must be 0 (exact) or a relative error below 1, not %g", own->accuracy);
     if (result == AUR_OK)
         result = find_row(metric, &p->row, &p->request.parameter, error);
     if (result == AUR_OK)
@@ -268,8 +273,9 @@ static aur_result prepare(const char *metric, const aur_points_view *given,
     return complete ? AUR_OK : aur_fail_memory(error);
 }
 
-aur_result aur_measure(const char *metric, const aur_points_view *points, const aur_measure_options *options,
-                       double *value, aur_error *error) {
+aur_result aur_measure_bounded(const char *metric, const aur_points_view *points,
+                               const aur_measure_options *options, double *value, double *bound,
+                               aur_error *error) {
     prepared p;
     aur_result result = prepare(metric, points, options, &p, error);
     if (result == AUR_OK && p.row->compute != NULL)
@@ -277,8 +283,15 @@ aur_result aur_measure(const char *metric, const aur_points_view *points, const 
     else if (result == AUR_OK)
         result = aur_fail(error, AUR_ERROR_UNSUPPORTED, "measure '%s' is a table, not one value",
                           p.row->description.row.name);
+    *bound = p.bound;
     aur_arena_release(&p.arena);
     return result;
+}
+
+aur_result aur_measure(const char *metric, const aur_points_view *points, const aur_measure_options *options,
+                       double *value, aur_error *error) {
+    double bound;
+    return aur_measure_bounded(metric, points, options, value, &bound, error);
 }
 
 aur_result aur_measure_series(const char *metric, const aur_points_view *points,

@@ -242,6 +242,9 @@ static void points_and_measures(void) {
     double value = 0.0;
     accept(aur_measure("energy", view, NULL, &value, &error), &error);
     refuse(aur_measure("star", view, NULL, &value, &error), AUR_ERROR_UNSUPPORTED, &error);
+    double bound = 1.0;
+    accept(aur_measure_bounded("energy", view, NULL, &value, &bound, &error), &error);
+    require(bound == 0.0, "aur_measure_bounded");
     aur_series *series = NULL;
     refuse(aur_measure_series("energy", view, NULL, &series, &error), AUR_ERROR_UNSUPPORTED, &error);
     accept(aur_measure_series("voronoi", view, NULL, &series, &error), &error);
