@@ -22,6 +22,7 @@ MATERIALS = (
     "principled:base_color=0.6 0.3 0.1,spec_trans=1,eta=1.5,roughness=0.4",
     "principled:base_color=0.6 0.3 0.1,spec_trans=0.6,eta=1.3,roughness=0.5,metallic=0.2,spec_tint=0.5,sheen=0.5",
     "principled:base_color=0.6 0.3 0.1,eta=0.8,metallic=0.5,spec_tint=0.5,clearcoat=0.5",
+    "pplastic:diffuse_reflectance=0.6 0.3 0.1,int_ior=1.5,ext_ior=1,alpha=0.3,distribution=ggx",
     "principledthin:base_color=0.6 0.3 0.1",
     "principledthin:base_color=0.6 0.3 0.1,spec_trans=0.7,roughness=0.4,eta=1.4,spec_tint=0.3",
     "principledthin:base_color=0.6 0.3 0.1,diff_trans=0.8,sheen=0.6,sheen_tint=0.3,flatness=0.4",
@@ -35,8 +36,8 @@ def load(text):
     made = {"type": plugin}
     for item in rest.split(","):
         key, _, value = item.partition("=")
-        numbers = [float(x) for x in value.split()]
-        made[key] = numbers[0] if len(numbers) == 1 else {"type": "rgb", "value": numbers}
+        numbers = [float(x) for x in value.split()] if value[0].isdigit() else []
+        made[key] = {0: value, 1: (numbers or [0])[0], 3: {"type": "rgb", "value": numbers}}[len(numbers)]
     return mi.load_dict(made)
 
 

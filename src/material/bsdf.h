@@ -81,6 +81,7 @@ typedef enum aur_bsdf_part { AUR_BSDF_WHOLE, AUR_BSDF_SAMPLED_LOBES } aur_bsdf_p
 typedef struct aur_bsdf_descriptor {
     aur_row row; /* first, so that a row of the table is its descriptor; its keys are read into bsdf->data */
     size_t size; /* of what bsdf->data points to: zeroed before the keys are read, freed in the end */
+    bool polarizes; /* in Mitsuba 3; here light has no polarisation */
     /* Makes the rest of bsdf->data from what has been read and adds the lobes; sets bsdf->anisotropic. It
      * reads those keys that the row only names (AUR_KEY_READ_APART). */
     aur_result (*create)(aur_parameters *parameters, aur_bsdf *bsdf, aur_error *error);
@@ -170,6 +171,9 @@ static inline aur_bsdf_lobe aur_diffuse_lobe(void) {
                            .exponent = 1.0f,
                            .axis = {0.0f, 0.0f, 1.0f}};
 }
+
+/* Where there is no surface: what `null` is. */
+extern const aur_bsdf aur_bsdf_nothing;
 
 /* Adds a lobe and returns its number. aur_bsdf_create refuses a material that has more than the capacity. */
 size_t aur_bsdf_add_lobe(aur_bsdf *bsdf, const aur_bsdf_lobe *lobe);

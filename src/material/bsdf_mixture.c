@@ -1,12 +1,13 @@
 /* Materials made of two others. mask: a surface that is only partly there, the nested BSDF with weight
- * `opacity`, else light goes straight through. twosided: one nested BSDF for both sides of a surface, or a
- * second one for the back. */
+ * `opacity`, else light goes straight through. blendbsdf: the first nested BSDF and, with weight `weight`,
+ * the second. twosided: one nested BSDF for both sides of a surface, or a second one for the back. */
 #include "material/texture.h"
 
 typedef struct mixture {
     const aur_bsdf *part[2]; /* part[1] may be NULL where it has no weight anywhere */
     bool by_side;            /* part[0] is seen from the front, part[1], turned round, from behind; else: */
-    aur_color weight;        /* of part[0], by the mean of the channels; part[1] has the rest */
+    aur_color weight;        /* of part[heavy]; the other one has the rest */
+    size_t heavy;
     size_t number[2][AUR_BSDF_LOBE_CAPACITY]; /* that the parts' lobes have in the mixture */
 } mixture;
 
@@ -56,8 +57,8 @@ static float weigh_parts(const mixture *self, aur_bsdf_part part, aur_bsdf_point
     if (self->by_side) {
         weights[0] = side < 0.0f ? 0.0f : 1.0f;
     } else {
-        const aur_vector color = aur_color_at(&self->weight, point);
-        weights[0] = fminf((color.x + color.y + color.z) / 3.0f, 1.0f);
+        const float weight = fminf(aur_color_number_at(&self->weight, point), 1.0f);
+        weights[0] = self->heavy == 0 ? weight : 1.0f - weight;
     }
     weights[1] = 1.0f - weights[0];
     if (part == AUR_BSDF_WHOLE)
@@ -177,22 +178,6 @@ static aur_vector diffuse_albedo(const aur_bsdf *bsdf, aur_bsdf_point point, flo
 
 /* --- mask */
 
-static void weigh_nothing(const aur_bsdf *bsdf, aur_bsdf_point point, aur_vector view, aur_bsdf_lobe *lobes) {
-    (void)bsdf;
-    (void)point;
-    lobes[0].axis = aur_vector_scale(view, -1.0f);
-    lobes[0].coefficient = (aur_vector){1.0f, 1.0f, 1.0f};
-}
-
-static const aur_bsdf_descriptor nothing_descriptor = {.weigh = weigh_nothing};
-
-/* Where there is no surface. */
-static const aur_bsdf nothing = {
-    .descriptor = &nothing_descriptor,
-    .lobe_count = 1,
-    .lobes = {{.shape = AUR_LOBE_SHAPE_SPECULAR, .sides = AUR_SIDES_BOTH, .transmits = true}},
-    .scatters = {AUR_SCATTERS_SPECULAR, AUR_SCATTERS_SPECULAR}};
-
 static const aur_key mask_keys[] = {
     {AUR_KEY_OF_COLOR(mixture, "opacity", weight, 1.0, "0.5",
                       "share of the light that meets the nested bsdf")},
@@ -208,7 +193,7 @@ static aur_result create_mask(aur_parameters *parameters, aur_bsdf *bsdf, aur_er
         return aur_fail_at(error, parameters->location, AUR_ERROR_FORMAT, "bsdf 'mask' needs a nested bsdf");
     const aur_vector opacity = self->weight.constant;
     if (self->weight.texture != NULL || fminf(fminf(opacity.x, opacity.y), opacity.z) < 1.0f)
-        self->part[1] = &nothing;
+        self->part[1] = &aur_bsdf_nothing;
     join_lobes(bsdf);
     return AUR_OK;
 }
@@ -219,6 +204,38 @@ const aur_bsdf_descriptor aur_bsdf_mask = {
             .source = "Mitsuba 3",
             AUR_ROW_KEYS(mask_keys)},
     .create = create_mask,
+    MIXTURE,
+};
+
+/* --- blendbsdf */
+
+static const aur_key blend_keys[] = {
+    {AUR_KEY_OF_COLOR(mixture, "weight", weight, 1.0, "0.5", "share of the second")},
+    AUR_NESTED_BSDF_KEY("bsdf", NULL, "the first; must be given"),
+    AUR_NESTED_BSDF_KEY("bsdf2", NULL, "the second; must be given"),
+};
+
+static aur_result create_blend(aur_parameters *parameters, aur_bsdf *bsdf, aur_error *error) {
+    mixture *const self = bsdf->data;
+    self->heavy = 1;
+    aur_result result = aur_parameters_nested_bsdf(parameters, "bsdf", &self->part[0], error);
+    if (result == AUR_OK)
+        result = aur_parameters_nested_bsdf(parameters, "bsdf2", &self->part[1], error);
+    if (result != AUR_OK)
+        return result;
+    if (self->part[0] == NULL || self->part[1] == NULL)
+        return aur_fail_at(error, parameters->location, AUR_ERROR_FORMAT,
+                           "bsdf 'blendbsdf' needs two nested bsdfs");
+    join_lobes(bsdf);
+    return AUR_OK;
+}
+
+const aur_bsdf_descriptor aur_bsdf_blendbsdf = {
+    .row = {.name = "blendbsdf",
+            .summary = "two nested bsdfs, mixed",
+            .source = "Mitsuba 3",
+            AUR_ROW_KEYS(blend_keys)},
+    .create = create_blend,
     MIXTURE,
 };
 

@@ -1,6 +1,9 @@
 /* A diffuse base under a clear coat, smooth or rough: the two differ in what the coat mirrors, by a Dirac
  * lobe or by facets, and in what it lets through, by Fresnel's formula or by a table. Light that the coat
- * mirrors inwards meets the base again; the geometric series over these bounces gives the factor below. */
+ * mirrors inwards meets the base again; the geometric series over these bounces gives the factor below.
+ * `pplastic` is between: facets mirror, but what goes through is as by a smooth coat, and meets the base
+ * once.
+ */
 #include "material/fresnel.h"
 #include "material/microfacet.h"
 #include "material/sampling.h"
@@ -15,24 +18,29 @@ typedef struct plastic {
     float inner_reflectance;   /* of the coat from inside, over diffuse light */
     float outer_transmittance; /* of the coat from outside, over diffuse light */
     float specular_weight;
-    bool rough;
+    bool rough;     /* facets mirror */
+    bool tabulated; /* what goes through is tabulated */
+    bool once;      /* no light meets the base again */
     /* Of a rough coat: */
     aur_microfacet microfacet;
     float transmittance[TABLE_SIZE]; /* from outside, at cosines i / (TABLE_SIZE - 1) */
 } plastic;
 
-#define PLASTIC_KEYS                                                                                         \
+#define COAT_KEYS                                                                                            \
     AUR_IOR_KEYS("polypropylene"),                                                                           \
-        {AUR_KEY_OF_COLOR(plastic, "diffuse_reflectance", diffuse, 1.0, "0.5", "of the base")},              \
-        {AUR_KEY_OF_COLOR(plastic, "specular_reflectance", specular, 1.0, "1",                               \
-                          "factor of what the coat reflects")},                                              \
-    {                                                                                                        \
+        {AUR_KEY_OF_COLOR(plastic, "diffuse_reflectance", diffuse, 1.0, "0.5", "of the base")}, {            \
+        AUR_KEY_OF_COLOR(plastic, "specular_reflectance", specular, 1.0, "1",                                \
+                         "factor of what the coat reflects")                                                 \
+    }
+#define PLASTIC_KEYS                                                                                         \
+    COAT_KEYS, {                                                                                             \
         AUR_KEY_OF_BOOLEAN(plastic, "nonlinear", nonlinear, "false",                                         \
                            "the colour deepens with each inner bounce")                                      \
     }
 
 static const aur_key smooth_keys[] = {PLASTIC_KEYS};
 static const aur_key rough_keys[] = {PLASTIC_KEYS, AUR_MICROFACET_KEYS(plastic)};
+static const aur_key once_keys[] = {COAT_KEYS, AUR_MICROFACET_KEYS(plastic)};
 
 static aur_result make_coat(aur_parameters *parameters, aur_bsdf *bsdf, aur_error *error) {
     plastic *const self = bsdf->data;
@@ -82,7 +90,7 @@ static rough_shares shares_at(const aur_microfacet *microfacet, float ior, float
 
 /* The share of light that the coat lets through where it meets it at `cosine` from above. */
 static float transmittance(const plastic *self, float cosine) {
-    if (!self->rough) {
+    if (!self->tabulated) {
         float refracted;
         return 1.0f - aur_fresnel_dielectric(cosine, self->ior, &refracted);
     }
@@ -111,15 +119,28 @@ static aur_result create_smooth(aur_parameters *parameters, aur_bsdf *bsdf, aur_
     return make_coat(parameters, bsdf, error);
 }
 
-static aur_result create_rough(aur_parameters *parameters, aur_bsdf *bsdf, aur_error *error) {
-    const aur_result result = make_coat(parameters, bsdf, error);
-    if (result != AUR_OK)
-        return result;
+static aur_result create_facets(aur_parameters *parameters, aur_bsdf *bsdf, aur_error *error) {
     plastic *const self = bsdf->data;
     self->rough = true;
     add_base(bsdf);
     const aur_bsdf_lobe coat = {.shape = AUR_LOBE_SHAPE_SAMPLED, .sides = AUR_SIDE_FRONT};
     aur_bsdf_add_lobe(bsdf, &coat);
+    return make_coat(parameters, bsdf, error);
+}
+
+static aur_result create_once(aur_parameters *parameters, aur_bsdf *bsdf, aur_error *error) {
+    plastic *const self = bsdf->data;
+    self->once = true;
+    bsdf->anisotropic = aur_microfacet_complete(&self->microfacet);
+    return create_facets(parameters, bsdf, error);
+}
+
+static aur_result create_rough(aur_parameters *parameters, aur_bsdf *bsdf, aur_error *error) {
+    const aur_result result = create_facets(parameters, bsdf, error);
+    if (result != AUR_OK)
+        return result;
+    plastic *const self = bsdf->data;
+    self->tabulated = true;
     if (aur_microfacet_complete(&self->microfacet))
         return aur_fail_at(error, parameters->location, AUR_ERROR_UNSUPPORTED,
                            "bsdf 'roughplastic': 'alpha_u' and 'alpha_v' must be equal: give 'alpha'");
@@ -139,6 +160,8 @@ static aur_result create_rough(aur_parameters *parameters, aur_bsdf *bsdf, aur_e
 /* The base's colour with its inner bounces, over ior^2: what is to be multiplied by both transmittances. */
 static aur_vector base_color(const plastic *self, aur_bsdf_point point) {
     const aur_vector color = aur_color_at(&self->diffuse, point);
+    if (self->once)
+        return color;
     const float inner = self->inner_reflectance, scale = 1.0f / (self->ior * self->ior);
     if (!self->nonlinear)
         return aur_vector_scale(color, scale / (1.0f - inner));
@@ -239,6 +262,20 @@ const aur_bsdf_descriptor aur_bsdf_roughplastic = {
             AUR_ROW_KEYS(rough_keys)},
     .size = sizeof(plastic),
     .create = create_rough,
+    .weigh = weigh,
+    .evaluate = evaluate,
+    .sample = sample,
+    .diffuse_albedo = diffuse_albedo,
+};
+
+const aur_bsdf_descriptor aur_bsdf_pplastic = {
+    .row = {.name = "pplastic",
+            .summary = "a rough coat over a base that light meets once, unpolarised",
+            .source = "Baek et al. 2018 (Mitsuba 3)",
+            AUR_ROW_KEYS(once_keys)},
+    .size = sizeof(plastic),
+    .polarizes = true,
+    .create = create_once,
     .weigh = weigh,
     .evaluate = evaluate,
     .sample = sample,

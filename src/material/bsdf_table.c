@@ -17,9 +17,15 @@
     ROW(roughdielectric)                                                                                     \
     ROW(plastic)                                                                                             \
     ROW(roughplastic)                                                                                        \
+    ROW(pplastic)                                                                                            \
     ROW(principled)                                                                                          \
     ROW(principledthin)                                                                                      \
-    ROW(mask)
+    ROW(mask)                                                                                                \
+    ROW(blendbsdf)                                                                                           \
+    ROW(null)                                                                                                \
+    ROW(polarizer)                                                                                           \
+    ROW(retarder)                                                                                            \
+    ROW(circular)
 
 #define DECLARE(name) extern const aur_bsdf_descriptor aur_bsdf_##name;
 MATERIALS(DECLARE)

@@ -10,7 +10,7 @@
 
 typedef struct material_row {
     const char *text;   /* PLUGIN:key=value,... */
-    const char *nested; /* the same for a nested bsdf, or NULL */
+    const char *nested; /* the same for a nested bsdf, or NULL; FIRST|SECOND for two */
     int flags;
 } material_row;
 
@@ -52,41 +52,61 @@ static const material_row material_rows[] = {
      NOT_RECIPROCAL},
     {"principledthin:base_color=0.8,spec_trans=1,roughness=0.7,spec_tint=0.3", NULL, NOT_RECIPROCAL},
     {"mask:opacity=0.25", "diffuse:reflectance=0.9", 0},
+    {"pplastic:diffuse_reflectance=0.6,alpha=0.2", NULL, 0},
+    {"pplastic:alpha_u=0.4,alpha_v=0.2,distribution=ggx", NULL, 0},
+    {"null", NULL, WHITE},
+    {"polarizer:transmittance=0.9", NULL, 0},
+    {"retarder", NULL, WHITE},
+    {"circular", NULL, 0},
+    {"blendbsdf:weight=0.3", "diffuse:reflectance=0.7|roughconductor:alpha=0.4", 0},
+    {"blendbsdf:weight=0.6", "roughplastic:alpha=0.3|roughdielectric:alpha=0.5,int_ior=1.5,ext_ior=1", GLASS},
     {"mask:opacity=0.7", "roughconductor:alpha=0.4", 0},
 };
 
 enum { MATERIAL_COUNT = sizeof material_rows / sizeof material_rows[0] };
 
 typedef struct material {
-    aur_bsdf *bsdf, *nested;
+    aur_bsdf *bsdf, *nested[2];
 } material;
 
-static inline aur_bsdf *make_bsdf(const char *text, const aur_bsdf *nested) {
+static inline aur_bsdf *make_bsdf_of(const char *text, const aur_bsdf *const nested[2]) {
+    static const char *const names[] = {"bsdf", "bsdf2"};
     aur_parameters parameters;
     aur_error error = {0};
     aur_bsdf *bsdf = NULL;
     assert_int_equal(aur_parameters_parse(&parameters, "bsdf", text, &error), AUR_OK);
-    if (nested != NULL)
-        assert_int_equal(
-            aur_parameters_add_object(&parameters, "bsdf", "bsdf", nested, (aur_location){0}, &error),
-            AUR_OK);
+    for (size_t i = 0; i < 2; ++i)
+        if (nested[i] != NULL)
+            assert_int_equal(aur_parameters_add_object(&parameters, names[i], "bsdf", nested[i],
+                                                       (aur_location){0}, &error),
+                             AUR_OK);
     if (aur_bsdf_create(&parameters, &bsdf, &error) != AUR_OK)
         fail_msg("%s: %s", text, error.message);
     aur_parameters_release(&parameters);
     return bsdf;
 }
 
+static inline aur_bsdf *make_bsdf(const char *text, const aur_bsdf *nested) {
+    return make_bsdf_of(text, (const aur_bsdf *const[2]){nested, NULL});
+}
+
 static inline material make_material(const material_row *row) {
-    material made = {NULL, NULL};
-    if (row->nested != NULL)
-        made.nested = make_bsdf(row->nested, NULL);
-    made.bsdf = make_bsdf(row->text, made.nested);
+    material made = {NULL, {NULL, NULL}};
+    char first[128] = "";
+    if (row->nested != NULL) {
+        const char *const bar = strchr(row->nested, '|');
+        strncat(first, row->nested, bar != NULL ? (size_t)(bar - row->nested) : sizeof first - 1);
+        made.nested[0] = make_bsdf(first, NULL);
+        made.nested[1] = bar != NULL ? make_bsdf(bar + 1, NULL) : NULL;
+    }
+    made.bsdf = make_bsdf_of(row->text, (const aur_bsdf *const[2]){made.nested[0], made.nested[1]});
     return made;
 }
 
 static inline void drop_material(material *made) {
     aur_bsdf_destroy(made->bsdf);
-    aur_bsdf_destroy(made->nested);
+    aur_bsdf_destroy(made->nested[0]);
+    aur_bsdf_destroy(made->nested[1]);
 }
 
 static inline float unit(uint64_t a, uint64_t b, uint64_t c) {

@@ -12,6 +12,12 @@ aur_result aur_build_bsdf(aur_loader *self, aur_parameters *parameters, void **o
         result = aur_bsdf_create(parameters, made, self->error);
     if (result != AUR_OK)
         return result;
+    if ((*made)->descriptor->polarizes && !self->said_unpolarized) {
+        self->said_unpolarized = true;
+        aur_warn_at(self->warnings, parameters->location,
+                    "light is unpolarised here: '%s' and its like do with it what they do with such light",
+                    parameters->plugin);
+    }
     *object = *made;
     ++scene->bsdf_count;
     return AUR_OK;

@@ -22,6 +22,7 @@ struct aur_loader {
     const aur_bsdf *black_bsdf;   /* of lights that name none; NULL before the first */
     const aur_xml_node *top;      /* the child of <scene> that is being built */
     const aur_xml_node *node;     /* the node, that one or one inside it, whose builder runs */
+    bool said_unpolarized;        /* that light is, which is said once */
     size_t depth;                 /* objects that are being built, each inside the one before */
     aur_error *error;
 };
