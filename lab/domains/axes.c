@@ -1,0 +1,54 @@
+/* Axes in an order whose prefixes are even, and in shells: the energy over that of as many axes at rest. */
+#include "figures.h"
+#include "lab/lab.h"
+
+enum { ALL = 60, QUICK = 12 };
+
+static aur_result row(lab_run *run, const lab_points *points, aur_error *error) {
+    const size_t count = points->count != 0 ? points->count : points->size;
+    const lab_points rest = {.set = "electrostatic", .domain = AUR_DOMAIN_AXES, .size = count};
+    const size_t threads = lab_run_options(run)->threads;
+    double energy, least;
+    aur_result result = lab_figure(points, "riesz:1", threads, &energy, error);
+    if (result == AUR_OK)
+        result = lab_figure(&rest, "riesz:1", threads, &least, error);
+    if (result != AUR_OK)
+        return result;
+    lab_text(run, points->set);
+    lab_number(run, (double)points->size);
+    lab_number(run, (double)(points->first + 1));
+    lab_number(run, (double)count);
+    lab_number(run, 100.0 * (energy / least - 1.0));
+    return AUR_OK;
+}
+
+static aur_result run(lab_run *run, aur_error *error) {
+    static const char *const columns[] = {"set", "of", "first", "axes", "percent_more"};
+    lab_columns(run, sizeof columns / sizeof columns[0], columns);
+    const bool quick = lab_run_options(run)->quick;
+    const size_t all = quick ? QUICK : ALL, third = all / 3;
+    const char *const shells = quick ? "electrostatic:shells=4/8" : "electrostatic:shells=20/40";
+    const aur_domain axes = AUR_DOMAIN_AXES;
+    const lab_points rows[] = {
+        {"electrostatic", axes, all, 0, all / 10},
+        {"electrostatic", axes, all, 0, all / 4},
+        {"electrostatic", axes, all, 0, all / 2},
+        {"electrostatic", axes, all, 0, all * 5 / 6},
+        {"sobol", axes, all, 0, all / 4},
+        {shells, axes, all, 0, 0},
+        {shells, axes, all, 0, third},
+        {shells, axes, all, third, all - third},
+    };
+    aur_result result = AUR_OK;
+    for (size_t i = quick; i < sizeof rows / sizeof rows[0] && result == AUR_OK;
+         ++i) /* one axis has no pair */
+        result = row(run, &rows[i], error);
+    return result;
+}
+
+const lab_experiment lab_domains_axes = {
+    .name = "domains-axes",
+    .reproduces = "docs/domains.md",
+    .summary = "prefixes and shells of 60 axes: energy over that of as many axes at rest",
+    .run = run,
+};
