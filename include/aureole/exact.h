@@ -22,12 +22,16 @@ extern "C" {
 #define AUR_EXACT_DEGREE_MAX 1500
 /* No exponent of a lobe is larger. */
 #define AUR_EXACT_EXPONENT_MAX 1e4
+/* No degree for a GGX lobe is larger. */
+#define AUR_EXACT_GGX_DEGREE_MAX 64
 
 typedef struct aur_exact_options {
     size_t size;        /* of the caller's struct, so that it can grow */
     aur_domain domain;  /* SPHERE or HEMISPHERE */
     double cap_degrees; /* 0: all of the domain; else the cap of that polar angle about +z */
-    double exponent;    /* the density is cos^exponent theta: 0 unless the domain is the whole HEMISPHERE */
+    /* The density: uniform unless the domain is the whole HEMISPHERE. With GGX points below the surface (z <
+     * 0) have weight 0. */
+    aur_lobe lobe;
     size_t degree;      /* AUR_DEGREE_LARGEST, or 0 to AUR_EXACT_DEGREE_MAX */
     bool negative;      /* a given degree may take negative weights */
     const double *near; /* the weights to stay near to: one a point, >= 0, not all 0; NULL: equal ones */
@@ -48,8 +52,8 @@ static inline aur_exact_options aur_exact_options_default(aur_domain domain) {
 typedef struct aur_exact_report {
     size_t degree;
     double residual;       /* the worst error among functions of mean square 1 to the degree */
-    double least, largest; /* weight times the number of points */
-    size_t points;         /* how many were weighed */
+    double least, largest; /* weight times `points` */
+    size_t points;         /* how many were weighed: without those below a GGX lobe's surface */
     size_t places;         /* of them at different places */
     size_t iterations;     /* of conjugate gradients; 0: solved by a factorisation */
 } aur_exact_report;
@@ -60,7 +64,9 @@ typedef struct aur_exact_report {
  * points every degree is tried by one factorisation that grows, O(count degree^4); more points are solved by
  * conjugate gradients until the residual is 1e-15 or so, or ends below 1e-10 after 600 steps, each O(count +
  * degree^3) on the whole sphere and O(count degree^2) elsewhere; the largest degree is then found by
- * bisection with 150 steps each. `capacity` counts weights; `report` may be NULL.
+ * bisection with 150 steps each. GGX lobes are integrated by a product quadrature to 1e-13; O((count + 1e4 to
+ * 1e5 nodes) degree^4) for any count, and the search for the largest degree ends after four without positive
+ * weights. `capacity` counts weights; `report` may be NULL.
  *
  * Errors: ARGUMENT for no point, a vector that is not of unit length or lies outside the domain (which),
  * options out of range, a degree that no weights of these points have (and the error that is left), a degree

@@ -7,12 +7,9 @@
 aur_result cli_weights_by_degree(const cli_weights_arguments *arguments, cli_weights_result *result,
                                  aur_error *error) {
     const aur_directions_options *const points = &arguments->points.options;
-    if (points->lobe.kind != AUR_LOBE_COSINE_POWER)
-        return aur_fail(error, AUR_ERROR_UNSUPPORTED,
-                        "exact weights are for uniform, cosine and phong:M lobes");
     aur_exact_options options = aur_exact_options_default(points->domain);
     options.cap_degrees = points->cap_degrees;
-    options.exponent = points->lobe.exponent;
+    options.lobe = points->lobe;
     options.degree = arguments->degree;
     options.negative = arguments->negative;
     options.near = result->near;
@@ -36,7 +33,8 @@ aur_result cli_weights_by_degree(const cli_weights_arguments *arguments, cli_wei
     cli_progress_clear();
     const aur_warnings warnings = points->warnings;
     const size_t last = result->lobe_count - 1;
-    if (made == AUR_OK && result->exact[last].places < counts[last] && warnings.function != NULL)
+    if (made == AUR_OK && result->exact[last].places < result->exact[last].points &&
+        warnings.function != NULL)
         warnings.function(warnings.user, "points lie on each other and share their weights");
     return made;
 }

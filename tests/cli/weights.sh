@@ -157,7 +157,18 @@ refused "only a file" sobol -n 8 --lobe cosine --method exact --near
 refused "level 1 has 9 points" sobol -n 8 --lobe cosine --method exact --levels 4,9
 refused "not 'x'" sobol -n 8 --lobe cosine --method exact --levels 4,x
 refused "one lobe" sobol -n 8 --lobe cosine --lobe2 phong:20 --angle 3 --method exact
-refused "uniform, cosine and phong" sobol -n 8 --lobe ggx:0.3 --method exact
+refused "degree must be at most 64" sobol -n 8 --lobe ggx:0.3 --method exact --degree 65
+refused "needs negative weights" $sf -n 100 --lobe ggx:.3:30 --method exact --degree 6
+refused "at least 1, not '0'" sobol -n 0 --method exact
+refused "at least 1, not '0'" sobol -n 0 --method osw
+for n in 1 2; do
+    for how in "--method exact" "--method osw" "--method equal" "--lobe ggx:.3:30 --method exact"; do
+        # shellcheck disable=SC2086
+        "$program" weights sobol -n $n $how -q |
+            awk -F, 'NR > 1 { sum += $4 } END { exit !(NR == '$n' + 1 && sum > .9999999 && sum < 1.0000001) }' ||
+            fail "$n points, $how"
+    done
+done
 refused "90 degrees" doubled.csv --domain sphere --method voronoi
 # Tables: of another set, of other options, of another version, damaged, not there.
 refused "'spherical-fibonacci', not 'sobol'" sobol -n 16 --n2 8 --lobe cosine --lobe2 phong:20 --clip --table a.table --lookup 10

@@ -97,7 +97,7 @@ static void monomials(void **state) {
             points_of("spherical-fibonacci", N, cases[k].domain, cases[k].exponent, cases[k].cap);
         aur_exact_options options = aur_exact_options_default(cases[k].domain);
         options.cap_degrees = cases[k].cap;
-        options.exponent = cases[k].exponent;
+        options.lobe.exponent = cases[k].exponent;
         options.degree = cases[k].degree;
         assert_int_equal(aur_weights_exact(N, xyz, &options, N, weights, NULL, &error), AUR_OK);
         const double low = cases[k].cap > 0.0                     ? cos(cases[k].cap / 180.0 * AUR_PI)
@@ -326,11 +326,11 @@ static void bad_input(void **state) {
     options = aur_exact_options_default(AUR_DOMAIN_DISK);
     assert_int_equal(aur_weights_exact(1, xyz, &options, 5, weights, NULL, &error), AUR_ERROR_UNSUPPORTED);
     options = aur_exact_options_default(AUR_DOMAIN_SPHERE);
-    options.exponent = 1.0;
+    options.lobe.exponent = 1.0;
     assert_int_equal(aur_weights_exact(1, xyz, &options, 5, weights, NULL, &error), AUR_ERROR_UNSUPPORTED);
-    options.exponent = NAN;
+    options.lobe.exponent = NAN;
     assert_int_equal(aur_weights_exact(1, xyz, &options, 5, weights, NULL, &error), AUR_ERROR_ARGUMENT);
-    options.exponent = 0.0;
+    options.lobe.exponent = 0.0;
     options.cap_degrees = 181.0;
     assert_int_equal(aur_weights_exact(1, xyz, &options, 5, weights, NULL, &error), AUR_ERROR_ARGUMENT);
 }

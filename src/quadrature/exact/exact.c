@@ -6,7 +6,7 @@
 #include "core/options.h"
 #include "core/vector.h"
 #include "quadrature/check.h"
-#include "quadrature/exact/system.h"
+#include "quadrature/exact/measured.h"
 
 /* Points this far below the rim still belong to a domain: rounding. */
 static const double rim = 1e-9;
@@ -23,15 +23,20 @@ static aur_result check_options(aur_exact_options *o, double *lowest, aur_error 
                         o->cap_degrees);
     if (o->cap_degrees == 0.0)
         o->cap_degrees = most;
-    if (!(o->exponent >= 0.0 && o->exponent <= AUR_EXACT_EXPONENT_MAX))
+    const aur_result result = aur_lobe_check(&o->lobe, error);
+    if (result != AUR_OK)
+        return result;
+    const bool ggx = o->lobe.kind == AUR_LOBE_GGX;
+    if (o->lobe.exponent > AUR_EXACT_EXPONENT_MAX)
         return aur_fail(error, AUR_ERROR_ARGUMENT,
                         "the exponent of a lobe of exact weights must be between 0 and %g, not %g",
-                        AUR_EXACT_EXPONENT_MAX, o->exponent);
-    if (o->exponent > 0.0 && o->cap_degrees != 90.0)
+                        AUR_EXACT_EXPONENT_MAX, o->lobe.exponent);
+    if ((ggx || o->lobe.exponent > 0.0) && o->cap_degrees != 90.0)
         return aur_fail(error, AUR_ERROR_UNSUPPORTED, "a lobe is for the whole hemisphere");
-    if (o->degree != AUR_DEGREE_LARGEST && o->degree > AUR_BASIS_DEGREE_MAX)
-        return aur_fail(error, AUR_ERROR_ARGUMENT, "the degree must be at most %d, not %zu",
-                        AUR_BASIS_DEGREE_MAX, o->degree);
+    const size_t most_degree = ggx ? AUR_EXACT_GGX_DEGREE_MAX : AUR_BASIS_DEGREE_MAX;
+    if (o->degree != AUR_DEGREE_LARGEST && o->degree > most_degree)
+        return aur_fail(error, AUR_ERROR_ARGUMENT, "the degree must be at most %zu, not %zu", most_degree,
+                        o->degree);
     *lowest = o->cap_degrees == 180.0  ? -1.0
               : o->cap_degrees == 90.0 ? 0.0
                                        : cos(o->cap_degrees / 180.0 * AUR_PI);
@@ -46,14 +51,20 @@ static int compare(const void *a, const void *b) {
     return 0;
 }
 
+/* Below the surface a GGX lobe is 0. */
+static bool hidden(const aur_exact_options *o, const double *direction) {
+    return o->lobe.kind == AUR_LOBE_GGX && direction[2] < 0.0;
+}
+
 /* Fills near[count], unless they are given equal ones which points at one place share, and returns the number
  * of different places of points that have weight. */
-static size_t share(size_t count, const double *xyz, const double *given, const double **order,
+static size_t share(size_t count, const double *xyz, const aur_exact_options *o, const double **order,
                     double *near) {
+    const double *const given = o->near;
     size_t used = 0, places = 0;
     double sum = 0.0;
     for (size_t i = 0; i < count; ++i)
-        if (given == NULL || given[i] > 0.0)
+        if (!hidden(o, xyz + 3 * i) && (given == NULL || given[i] > 0.0))
             order[used++] = xyz + 3 * i;
     qsort(order, used, sizeof *order, compare);
     for (size_t first = 0, next; first < used; first = next) {
@@ -64,7 +75,7 @@ static size_t share(size_t count, const double *xyz, const double *given, const 
         ++places;
     }
     for (size_t i = 0; i < count; ++i) {
-        near[i] = given != NULL ? given[i] : near[i];
+        near[i] = given != NULL && !hidden(o, xyz + 3 * i) ? given[i] : near[i];
         sum += near[i];
     }
     for (size_t i = 0; i < count; ++i)
@@ -77,28 +88,32 @@ static aur_result check_points(size_t count, const double *xyz, const aur_exact_
     if (count == 0)
         return aur_fail(error, AUR_ERROR_ARGUMENT, "weights need at least one point");
     const aur_result result = aur_check_directions(count, xyz, error);
-    bool some = o->near == NULL;
+    bool some = false;
     for (size_t i = 0; i < count && result == AUR_OK; ++i) {
-        if (xyz[3 * i + 2] < lowest - rim)
+        const bool below = hidden(o, xyz + 3 * i);
+        if (xyz[3 * i + 2] < lowest - rim && !below)
             return aur_fail(error, AUR_ERROR_ARGUMENT, "point %zu (z = %g) lies outside the %s", i,
                             xyz[3 * i + 2], o->cap_degrees == 90.0 ? "hemisphere" : "cap");
-        if (o->near == NULL)
-            continue;
-        if (!(o->near[i] >= 0.0 && o->near[i] < INFINITY))
+        if (o->near != NULL && !(o->near[i] >= 0.0 && o->near[i] < INFINITY))
             return aur_fail(error, AUR_ERROR_ARGUMENT, "weight %zu must be at least 0 and finite, not %g", i,
                             o->near[i]);
-        some = some || o->near[i] > 0.0;
+        some = some || (!below && (o->near == NULL || o->near[i] > 0.0));
     }
     if (result == AUR_OK && !some)
-        return aur_fail(error, AUR_ERROR_ARGUMENT, "all weights to stay near to are 0");
+        return aur_fail(error, AUR_ERROR_ARGUMENT,
+                        o->near != NULL ? "all weights to stay near to are 0"
+                                        : "no point lies above the surface");
     return result;
+}
+
+static size_t least_of(size_t a, size_t b) {
+    return a < b ? a : b;
 }
 
 /* The degrees that so many places can have: a polynomial of degree k that vanishes at all of them exists for
  * (k+1)^2 > places, and its square has a positive integral. */
 static size_t degree_bound(size_t places) {
-    const size_t bound = 2 * (size_t)sqrt((double)places) - 1;
-    return bound < AUR_BASIS_DEGREE_MAX ? bound : AUR_BASIS_DEGREE_MAX;
+    return least_of(2 * (size_t)sqrt((double)places) - 1, AUR_BASIS_DEGREE_MAX);
 }
 
 /* A search for the largest degree by solving for one after the other. */
@@ -185,15 +200,35 @@ static aur_result factor(const aur_exact_system *system, size_t degree, bool sea
     }
 }
 
-static aur_result solve(const aur_exact_options *o, const aur_exact_system *system, double *weights,
-                        aur_exact_report *report, aur_error *error) {
+/* Most searches end at low degrees, which need fewer nodes. */
+static aur_result weigh_ggx(const aur_exact_options *o, const aur_exact_system *system, const double *xyz,
+                            size_t degree, bool search, double *weights, aur_exact_found *found,
+                            aur_error *error) {
+    for (size_t first = 16;; first *= 2) {
+        const size_t last = search ? least_of(degree, first) : degree;
+        aur_exact_nodes nodes;
+        aur_result result = aur_exact_ggx_nodes(&o->lobe, last, &nodes, error);
+        if (result != AUR_OK)
+            return result;
+        result = aur_exact_measured(system, xyz, &nodes, last, search, weights, found, error);
+        free(nodes.xyz);
+        if (result != AUR_OK || last == degree || found->degree + AUR_EXACT_PATIENCE < last)
+            return result;
+    }
+}
+
+static aur_result solve(const aur_exact_options *o, const aur_exact_system *system, const double *xyz,
+                        double *weights, aur_exact_report *report, aur_error *error) {
     const bool largest = o->degree == AUR_DEGREE_LARGEST;
     const size_t bound = degree_bound(system->places);
     aur_exact_found found = {.degree = largest ? 0 : o->degree};
     aur_result result = AUR_OK;
     if (!largest && o->degree > bound)
         return judge(o, system, &found, error);
-    if (system->points.count <= AUR_EXACT_DIRECT_POINTS)
+    if (o->lobe.kind == AUR_LOBE_GGX)
+        result = weigh_ggx(o, system, xyz, largest ? least_of(bound, AUR_EXACT_GGX_DEGREE_MAX) : o->degree,
+                           largest, weights, &found, error);
+    else if (system->points.count <= AUR_EXACT_DIRECT_POINTS)
         result = factor(system, largest ? bound : o->degree, largest, weights, &found, error);
     else if (largest)
         result = search(system, bound, weights, &found, error);
@@ -203,13 +238,17 @@ static aur_result solve(const aur_exact_options *o, const aur_exact_system *syst
         aur_exact_positive(system, weights, &found);
     if (result == AUR_OK)
         result = judge(o, system, &found, error);
-    const double count = (double)system->points.count;
+    size_t hidden_count = 0;
+    for (size_t i = 0; i < system->points.count; ++i)
+        hidden_count += hidden(o, xyz + 3 * i);
+    const size_t weighed = system->points.count - hidden_count;
+    const double count = (double)weighed;
     if (report != NULL)
         *report = (aur_exact_report){.degree = found.degree,
                                      .residual = found.residual,
                                      .least = found.least * count,
                                      .largest = found.largest * count,
-                                     .points = system->points.count,
+                                     .points = weighed,
                                      .places = system->places,
                                      .iterations = found.iterations};
     return result;
@@ -235,13 +274,13 @@ aur_result aur_weights_exact(size_t count, const double *xyz, const aur_exact_op
     } else {
         double *const near = storage + 4 * count, *const found = near + count;
         const aur_exact_system system = {.points = aur_polar_points_make(count, xyz, storage),
-                                         .places = share(count, xyz, own.near, order, near),
+                                         .places = share(count, xyz, &own, order, near),
                                          .near = near,
                                          .lowest = lowest,
-                                         .exponent = own.exponent,
+                                         .exponent = own.lobe.exponent,
                                          .threads = own.threads,
                                          .progress = own.progress};
-        result = solve(&own, &system, found, report, error);
+        result = solve(&own, &system, xyz, found, report, error);
         if (result == AUR_OK)
             memcpy(weights, found, count * sizeof *weights);
     }
