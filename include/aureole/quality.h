@@ -42,7 +42,8 @@ typedef struct aur_measure_options {
     aur_warnings warnings;
     /* 0: sums over all pairs, to rounding. Else the relative error (below 1) that is allowed: energy and its
      * kin and riesz:S, -1.95 < S <= 16, of directions then take about N^1.2 time (Ewald 1921, by spherical
-     * harmonics), where that is sooner and the error's bound is small enough. */
+     * harmonics), where that is sooner and the error's bound is small enough; spectrum and periodogram go by
+     * Fourier transforms of grids, with an error of no more than this times the larger of 1 and the power. */
     double accuracy;
 } aur_measure_options;
 

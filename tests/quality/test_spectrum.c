@@ -3,14 +3,18 @@
 #include "sphere_sets.h"
 #include "square_sets.h"
 
-static aur_series *table(const char *metric, const own_points *points, size_t threads) {
-    const aur_measure_options options = {.size = sizeof options, .threads = threads};
+static aur_series *table_to(double accuracy, const char *metric, const own_points *points, size_t threads) {
+    const aur_measure_options options = {.size = sizeof options, .threads = threads, .accuracy = accuracy};
     aur_series *series;
     aur_error error = {0};
     assert_int_equal(
         aur_measure_series(metric, (const aur_points_view[]){seen(points)}, &options, &series, &error),
         AUR_OK);
     return series;
+}
+
+static aur_series *table(const char *metric, const own_points *points, size_t threads) {
+    return table_to(0.0, metric, points, threads);
 }
 
 /* |sum w e^{-2 pi i k.x}|^2 / sum w^2 at every frequency, term by term. */
@@ -128,12 +132,50 @@ static void the_spectrum_adds_up_to_the_energy(void **state) {
     release_points(&points);
 }
 
+/* Powers by a grid are those that are summed point by point, within what was allowed; bits do not depend on
+ * threads. What cannot be promised is summed point by point. */
+static void grids_are_as_accurate_as_asked(void **state) {
+    (void)state;
+    enum { N = 1500 };
+    own_points sets[3] = {random_points(N, 2, 4), random_points(N, 2, 5), random_directions(N, 6)};
+    sets[1].weights = malloc(N * sizeof(double));
+    for (size_t i = 0; i < N; ++i)
+        sets[1].weights[i] = aur_unit_double(aur_hash2(6, i)) - 0.25;
+    sets[1].coordinates[0] = 0.0;
+    sets[1].coordinates[3] = 1.0; /* the same place as 0 */
+    static const char *const metrics[3] = {"periodogram:33", "periodogram:64", "spectrum:70"};
+    for (size_t s = 0; s < 3; ++s) {
+        const double accuracy = 4e-9;
+        aur_series *const plain = table(metrics[s], &sets[s], 0);
+        aur_series *const one = table_to(accuracy, metrics[s], &sets[s], 1);
+        aur_series *const three = table_to(accuracy, metrics[s], &sets[s], 3);
+        aur_series *const strict = table_to(1e-12, metrics[s], &sets[s], 0);
+        const size_t columns = aur_series_column_count(plain);
+        const size_t size = columns * aur_series_row_count(plain);
+        double worst = 0.0;
+        for (size_t r = columns - 1; r < size; r += columns) {
+            const double power = aur_series_values(plain)[r];
+            worst = fmax(worst, fabs(aur_series_values(one)[r] - power) / fmax(power, 1.0));
+        }
+        assert_true(worst > 0.0 && worst <= accuracy);
+        assert_int_equal(aur_series_row_count(one), aur_series_row_count(plain));
+        assert_memory_equal(aur_series_values(one), aur_series_values(three), size * sizeof(double));
+        assert_memory_equal(aur_series_values(strict), aur_series_values(plain), size * sizeof(double));
+        aur_series_destroy(plain);
+        aur_series_destroy(one);
+        aur_series_destroy(three);
+        aur_series_destroy(strict);
+        release_points(&sets[s]);
+    }
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(the_periodogram_is_the_transform),
         cmocka_unit_test(a_grid_has_lines),
         cmocka_unit_test(the_angular_spectrum_is_the_sum_of_legendre_polynomials),
         cmocka_unit_test(the_spectrum_adds_up_to_the_energy),
+        cmocka_unit_test(grids_are_as_accurate_as_asked),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

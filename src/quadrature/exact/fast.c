@@ -7,11 +7,9 @@
 #include "core/parallel.h"
 #include "core/vector.h"
 #include "quadrature/exact/fourier.h"
-#include "quadrature/potential/gauss.h"
+#include "quadrature/exact/window.h"
 
-/* WIDTH cells of the grid on each axis know a point; the grid has at least 3/2 times the cells of the
- * polynomial. Its window exp(b (sqrt(1-x^2) - 1)) then errs by some e^{-pi WIDTH sqrt(1/3)}. */
-enum { WIDTH = 14, BAND = 64, GAUSS = 64, LANE = 16 };
+enum { WIDTH = AUR_WINDOW_WIDTH, BAND = 64, LANE = 16 };
 
 /* A point's place: its first cell, and the window at its cells, theta first. */
 typedef struct spot {
@@ -22,6 +20,7 @@ typedef struct spot {
 struct aur_fast_transform {
     const aur_basis *basis;
     size_t count, threads;
+    aur_window shape;
     size_t side;            /* cells around the torus */
     size_t rows;            /* of the half torus and a window: row r is the angle (r - WIDTH) 2 pi / side */
     size_t stride;          /* of a row: side cells and, behind them, the first WIDTH once more */
@@ -39,33 +38,6 @@ struct aur_fast_transform {
 
 /* --- making it */
 
-static double window_at(const aur_fast_transform *f, double x) {
-    /* The shape parameter that balances aliases and the cut of the window (Barnett et al. 2019). */
-    const double cells = (double)f->side / (2.0 * (double)f->basis->degree + 1.0);
-    const double b = 0.98 * AUR_PI * WIDTH * (1.0 - 0.5 / cells);
-    return x * x < 1.0 ? exp(b * (sqrt(1.0 - x * x) - 1.0)) : 0.0;
-}
-
-static void fill_window(aur_fast_transform *f) {
-    double nodes[GAUSS], weights[GAUSS];
-    aur_gauss_legendre(GAUSS, nodes, weights);
-    for (size_t k = 0; k <= f->basis->degree; ++k) {
-        double sum = 0.0;
-        for (size_t i = 0; i < GAUSS; ++i)
-            sum += weights[i] * window_at(f, nodes[i]) *
-                   cos(AUR_PI * WIDTH * (double)k * nodes[i] / (double)f->side);
-        f->window[k] = 1.0 / (0.5 * WIDTH * sum);
-    }
-}
-
-/* The first cell of the window about `cell`, and its values. */
-static double fill_cells(const aur_fast_transform *f, double cell, double *window) {
-    const double first = ceil(cell - 0.5 * WIDTH);
-    for (int k = 0; k < WIDTH; ++k)
-        window[k] = window_at(f, (first + k - cell) / (0.5 * WIDTH));
-    return first;
-}
-
 /* Spots in the order of their rows, and of points in a row. */
 static void fill_spots(aur_fast_transform *f, const aur_polar_points *points, size_t *row_of) {
     const double cells = (double)f->side / (2.0 * AUR_PI);
@@ -82,8 +54,9 @@ static void fill_spots(aur_fast_transform *f, const aur_polar_points *points, si
         const double phi = atan2(points->azimuth_sine[i], points->cosine[i]);
         s->index = i;
         s->row = row_of[i];
-        fill_cells(f, theta * cells, s->window[0]);
-        const double column = fill_cells(f, (phi < 0.0 ? phi + 2.0 * AUR_PI : phi) * cells, s->window[1]);
+        aur_window_fill(&f->shape, theta * cells, s->window[0]);
+        const double column =
+            aur_window_fill(&f->shape, (phi < 0.0 ? phi + 2.0 * AUR_PI : phi) * cells, s->window[1]);
         s->column = (size_t)(column + (double)f->side) % f->side;
     }
     memmove(f->first + 1, f->first, f->rows * sizeof *f->first);
@@ -134,8 +107,8 @@ aur_result aur_fast_transform_create(const aur_basis *basis, const aur_polar_poi
     f->basis = basis;
     f->count = points->count;
     f->threads = threads;
-    for (f->side = 64; 2 * f->side < 3 * (2 * basis->degree + 1); f->side *= 2) {
-    }
+    f->shape = aur_window_make(basis->degree);
+    f->side = f->shape.side;
     f->rows = f->side / 2 + 2 * WIDTH;
     f->stride = f->side + WIDTH;
     f->rings = (f->side / 2 + LANE) / LANE * LANE;
@@ -147,7 +120,7 @@ aur_result aur_fast_transform_create(const aur_basis *basis, const aur_polar_poi
         return aur_fail_memory(error);
     }
     aur_fourier_prepare(f->side, f->turns);
-    fill_window(f);
+    aur_window_invert(&f->shape, basis->degree, f->window);
     fill_spots(f, points, row_of);
     fill_rings(f);
     free(row_of);

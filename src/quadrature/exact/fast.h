@@ -1,17 +1,13 @@
 /* The transforms of transform.h for the whole sphere in O(points + degree^3): a function of degree L is a
  * trigonometric polynomial on the torus (theta, phi), which is known from a grid by Fourier transforms and
- * carried between grid and points by a narrow window (non-uniform Fourier transforms: Dutt and Rokhlin 1993,
- * Barnett, Magland and af Klinteberg 2019; on spheres Kunis and Potts 2003). It is good to some 1e-11 of the
- * largest value, and both directions are adjoint to rounding. */
+ * carried between grid and points by the window of window.h (non-uniform Fourier transforms: Dutt and Rokhlin
+ * 1993, Barnett, Magland and af Klinteberg 2019; on spheres Kunis and Potts 2003). It is good to some 1e-11
+ * of the largest value, and both directions are adjoint to rounding. */
 #pragma once
 
 #include "quadrature/exact/transform.h"
 
 typedef struct aur_fast_transform aur_fast_transform;
-
-/* The largest error of a sum, over the sum of the absolute weights: about e^{-14 pi / sqrt 3} on each axis of
- * the grid. */
-#define AUR_FAST_TRANSFORM_ERROR 2e-11
 
 /* The basis, one of the whole sphere, and the points must outlive it. Errors: MEMORY. */
 aur_result aur_fast_transform_create(const aur_basis *basis, const aur_polar_points *points, size_t threads,

@@ -7,6 +7,7 @@
 
 #include "core/error.h"
 #include "core/vector.h"
+#include "quality/spectrum/gridded.h"
 
 enum { BLOCK = 256, LANES = 8 };
 
@@ -100,7 +101,9 @@ static aur_result make_periodogram(const aur_measure_request *request, periodogr
     p->power = aur_arena_allocate(request->arena, count * sizeof *p->power);
     if (p->power == NULL)
         return aur_fail_memory(error);
-    result = aur_measure_items(&request->options, "transforming", p->limit + 1, fill_row, p, error);
+    result = aur_gridded_allowed(request)
+                 ? aur_gridded_powers(request, p->limit, p->power, error)
+                 : aur_measure_items(&request->options, "transforming", p->limit + 1, fill_row, p, error);
     const double scale = 1.0 / aur_sum_of_squares(request->points);
     for (size_t i = 0; i < count && result == AUR_OK; ++i)
         p->power[i] *= scale;

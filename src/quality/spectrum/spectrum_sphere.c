@@ -5,7 +5,10 @@
 
 #include "core/error.h"
 #include "core/vector.h"
+#include "quadrature/exact/basis.h"
+#include "quality/spectrum/gridded.h"
 #include "quality/spectrum/spectrum.h"
+#include "quality/split/powers.h"
 
 enum {
     BLOCK = 128,
@@ -89,30 +92,49 @@ static aur_result fill_order(void *context, size_t m) {
     return AUR_OK;
 }
 
-aur_result aur_angular_spectrum(const aur_measure_request *request, aur_series *series, aur_error *error) {
-    static const char *const columns[] = {"degree", "power"};
-    const double wanted = fmin(ceil(4.0 * sqrt((double)request->points->count)), LARGEST_DEGREE);
-    double limit;
-    aur_result result = aur_measure_number(request, 1.0, LARGEST_DEGREE, wanted, &limit, error);
-    if (result != AUR_OK)
-        return result;
-    harmonics work = {request->points, (size_t)limit, NULL};
-    const size_t side = work.limit + 1;
+/* powers[l], 1 <= l <= L: the sum over all pairs of w_i w_j P_l(x_i . x_j), times (2l+1) / (4 pi). */
+static aur_result sum_directly(const aur_measure_request *request, size_t limit, double *powers,
+                               aur_error *error) {
+    harmonics work = {request->points, limit, NULL};
+    const size_t side = limit + 1;
     work.power = aur_arena_allocate(request->arena, side * side * sizeof *work.power);
     if (work.power == NULL)
         return aur_fail_memory(error);
-    result = aur_measure_items(&request->options, "transforming", side, fill_order, &work, error);
+    const aur_result result =
+        aur_measure_items(&request->options, "transforming", side, fill_order, &work, error);
+    for (size_t l = 1; l <= limit && result == AUR_OK; ++l) {
+        powers[l] = 0.0;
+        for (size_t m = 0; m <= l; ++m)
+            powers[l] += work.power[m * side + l];
+    }
+    return result;
+}
+
+aur_result aur_angular_spectrum(const aur_measure_request *request, aur_series *series, aur_error *error) {
+    static const char *const columns[] = {"degree", "power"};
+    const bool fast = aur_gridded_allowed(request);
+    const double most = fast ? AUR_BASIS_DEGREE_MAX : LARGEST_DEGREE;
+    const double wanted = fmin(ceil(4.0 * sqrt((double)request->points->count)), most);
+    double number;
+    aur_result result = aur_measure_number(request, 1.0, LARGEST_DEGREE, wanted, &number, error);
+    if (result != AUR_OK)
+        return result;
+    const size_t limit = (size_t)number;
+    double *const powers = aur_arena_allocate(request->arena, (limit + 1) * sizeof *powers);
+    if (powers == NULL)
+        return aur_fail_memory(error);
+    const bool by_grid = fast && limit <= AUR_BASIS_DEGREE_MAX;
+    result = by_grid ? aur_powers_find(request->points, limit, request->options.threads, powers, error)
+                     : sum_directly(request, limit, powers, error);
     if (result == AUR_OK)
-        result = aur_series_create(series, work.limit, 2, columns, error);
+        result = aur_series_create(series, limit, 2, columns, error);
     /* Two opposite ends are one axis: they add up where l is even, and cancel where it is odd. */
     const double ends = request->points->domain == AUR_DOMAIN_AXES ? 2.0 : 1.0;
-    const double scale = 4.0 * AUR_PI / (ends * aur_sum_of_squares(request->points));
-    for (size_t l = 1; l <= work.limit && result == AUR_OK; ++l) {
-        double sum = 0.0;
-        for (size_t m = 0; m <= l; ++m)
-            sum += work.power[m * side + l];
+    const double scale = (by_grid ? 1.0 : 4.0 * AUR_PI) / (ends * aur_sum_of_squares(request->points));
+    for (size_t l = 1; l <= limit && result == AUR_OK; ++l) {
         series->values[2 * (l - 1)] = (double)l;
-        series->values[2 * (l - 1) + 1] = scale * sum / (2.0 * (double)l + 1.0);
+        series->values[2 * (l - 1) + 1] =
+            by_grid ? scale * powers[l] : scale * powers[l] / (2.0 * (double)l + 1.0);
     }
     return result;
 }

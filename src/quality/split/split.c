@@ -4,9 +4,10 @@
 #include <math.h>
 #include <stdlib.h>
 
-#include "quadrature/exact/fast.h"
+#include "quadrature/exact/window.h"
 #include "quadrature/potential/gauss.h"
 #include "quality/split/near.h"
+#include "quality/split/powers.h"
 
 /* Degrees that fill the grids of the transform. */
 static const size_t degrees[] = {20, 42, 84, 120, 170, 240, 340, 480, 682, 960, 1364};
@@ -168,40 +169,6 @@ static aur_result make_plan(const aur_measure_request *request, double exponent,
 
 /* --- the sums */
 
-/* powers[l] = sum_ij w_i w_j P_l(x_i . x_j) / scale^2, 1 <= l <= L. */
-static aur_result find_powers(const aur_measure_request *request, size_t degree, double scale, double *powers,
-                              aur_error *error) {
-    const size_t count = request->points->count, size = aur_coefficient_count(degree);
-    double *const storage = malloc((5 * count + size) * sizeof *storage);
-    aur_basis basis;
-    aur_fast_transform *fast = NULL;
-    aur_result result =
-        storage != NULL ? aur_basis_create(degree, -1.0, 0.0, &basis, error) : aur_fail_memory(error);
-    if (result != AUR_OK) {
-        free(storage);
-        return result;
-    }
-    const aur_polar_points points = aur_polar_points_make(count, request->points->coordinates, storage);
-    double *const weights = storage + 4 * count, *const sums = weights + count;
-    for (size_t i = 0; i < count; ++i)
-        weights[i] = aur_weight_at(request->points, i) / scale;
-    result = aur_fast_transform_create(&basis, &points, request->options.threads, &fast, error);
-    if (result == AUR_OK)
-        result = aur_fast_transform_analyse(fast, weights, sums, error);
-    for (size_t l = 1; l <= degree && result == AUR_OK; ++l) {
-        double square = 0.0;
-        for (size_t m = 0; m <= l; ++m) {
-            const double *const pair = sums + 2 * (aur_basis_at(degree, m) + l - m);
-            square += pair[0] * pair[0] + pair[1] * pair[1];
-        }
-        powers[l] = square / (2.0 * (double)l + 1.0);
-    }
-    aur_fast_transform_destroy(fast);
-    aur_basis_release(&basis);
-    free(storage);
-    return result;
-}
-
 typedef struct masses {
     double sum, absolute, squares;
 } masses;
@@ -230,7 +197,7 @@ aur_result aur_split_pairs(const aur_measure_request *request, double exponent, 
     double *const powers = aur_arena_allocate(request->arena, (p.degree + 1) * sizeof *powers);
     if (powers == NULL)
         return aur_fail_memory(error);
-    result = find_powers(request, p.degree, m.sum, powers, error);
+    result = aur_powers_find(request->points, p.degree, request->options.threads, powers, error);
     if (result == AUR_OK)
         result = aur_near_points_create(request->points, p.kernel.reach, request->arena, &near, error);
     if (result == AUR_OK)
@@ -239,7 +206,7 @@ aur_result aur_split_pairs(const aur_measure_request *request, double exponent, 
         return result;
     double smooth = 0.0, largest = 0.0;
     for (size_t l = 1; l <= p.degree; ++l) {
-        smooth += p.coefficients[l] * powers[l];
+        smooth += p.coefficients[l] * (powers[l] / (m.sum * m.sum));
         largest += fabs(p.coefficients[l]);
     }
     const double own = aur_split_smooth(&p.kernel, 0.0) * m.squares / (m.sum * m.sum);
@@ -247,7 +214,7 @@ aur_result aur_split_pairs(const aur_measure_request *request, double exponent, 
     *mean = (aur_split_mean){.mean = exponent < 2.0 ? whole_coefficient(exponent, 0, 0.0) : 0.0};
     mean->excess = smooth - own + rest - p.mean_of_rest + (exponent < 2.0 ? 0.0 : p.coefficients[0]);
     /* What is left out, the transform by Cauchy's inequality, and rounding. */
-    const double error_of_sums = AUR_FAST_TRANSFORM_ERROR * sqrt(spread);
+    const double error_of_sums = AUR_WINDOW_ERROR * sqrt(spread);
     mean->bound = spread * (p.beyond + p.kernel.rest) +
                   error_of_sums * (2.0 * sqrt(fabs(smooth) * largest) + error_of_sums * largest) +
                   4.0 * DBL_EPSILON * (fabs(smooth) + fabs(own) + fabs(rest) + fabs(p.mean_of_rest));
