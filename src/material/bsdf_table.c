@@ -13,6 +13,7 @@
     ROW(conductor)                                                                                           \
     ROW(roughconductor)                                                                                      \
     ROW(dielectric)                                                                                          \
+    ROW(glass)                                                                                               \
     ROW(thindielectric)                                                                                      \
     ROW(roughdielectric)                                                                                     \
     ROW(plastic)                                                                                             \

@@ -49,6 +49,7 @@ struct aur_shape {
     aur_vector center;  /* curved shapes: the origin of their own coordinates */
     aur_vector axis[3]; /* curved shapes: the axes of their own coordinates */
     float radius, length;
+    float inner;  /* radius of the hole in a disk of radius 1 */
     bool extreme; /* a mesh with a triangle that is not aur_is_usual_square */
     double area;
     const aur_bsdf *bsdf;

@@ -34,6 +34,8 @@ static const material_row material_rows[] = {
     {"twosided", "roughconductor:alpha=0.6", 0},
     {"dielectric:int_ior=diamond", NULL, WHITE},
     {"thindielectric", NULL, WHITE},
+    {"glass:int_ior=1.52", NULL, WHITE},
+    {"glass:transmissivity=0.7", NULL, 0},
     {"roughdielectric:alpha=0.3,int_ior=1.5,ext_ior=1", NULL, GLASS},
     {"roughdielectric:alpha_u=0.2,alpha_v=0.5,int_ior=1.5,ext_ior=1,distribution=ggx", NULL, NARROW | GLASS},
     {"plastic:diffuse_reflectance=1,nonlinear=true", NULL, WHITE},

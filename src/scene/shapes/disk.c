@@ -1,4 +1,4 @@
-/* The unit disk in the plane z = 0, facing +z; an affine map makes it an ellipse. */
+/* The unit disk in the plane z = 0, facing +z, perhaps with a hole; an affine map makes it an ellipse. */
 #include "material/sampling.h"
 #include "scene/shape.h"
 
@@ -34,7 +34,8 @@ static bool intersect(const aur_shape *shape, const double origin[3], const doub
     double x, y;
     local(shape, way, &x, &y);
     *distance = t;
-    return x * x + y * y <= 1.0;
+    const double squared = x * x + y * y;
+    return squared <= 1.0 && squared >= (double)shape->inner * (double)shape->inner;
 }
 
 static aur_shape_point point_at(const aur_shape *shape, float x, float y) {
@@ -57,6 +58,10 @@ static void surface(const aur_shape *shape, aur_vector position, aur_shape_point
 
 static aur_shape_point sample(const aur_shape *shape, float u, float v) {
     float x, y;
+    if (shape->inner > 0.0f) {
+        const float hole = shape->inner * shape->inner, radius = sqrtf(hole + u * (1.0f - hole));
+        return point_at(shape, radius * cosf(2.0f * AUR_PI_F * v), radius * sinf(2.0f * AUR_PI_F * v));
+    }
     aur_sample_disk(u, v, &x, &y);
     return point_at(shape, x, y);
 }
@@ -67,16 +72,32 @@ static void equal_area(float coordinates[2]) {
 
 static const aur_curved curved = {bounds, intersect, surface, sample, NULL, NULL, equal_area};
 
+typedef struct disk_keys {
+    double inner_radius;
+} disk_keys;
+
+static const aur_key keys[] = {
+    {AUR_KEY_OF_REAL(disk_keys, "inner_radius", inner_radius, 0.0, 1.0, "0", "of a hole in the middle"),
+     .maximum_open = true},
+};
+
 static aur_result create(const aur_shape_input *input, aur_shape *shape, aur_error *error) {
-    (void)error;
+    disk_keys p;
+    const aur_result result = aur_row_read(&shape->descriptor->row, input->parameters, &p, error);
+    if (result != AUR_OK)
+        return result;
+    shape->inner = (float)p.inner_radius;
     shape->center = aur_transform_point_f(&input->to_world, (aur_vector){0.0f, 0.0f, 0.0f});
     shape->axis[0] = aur_transform_direction_f(&input->to_world, (aur_vector){1.0f, 0.0f, 0.0f});
     shape->axis[1] = aur_transform_direction_f(&input->to_world, (aur_vector){0.0f, 1.0f, 0.0f});
     shape->axis[2] =
         aur_vector_normalize(aur_transform_normal_f(&input->to_local, (aur_vector){0.0f, 0.0f, 1.0f}));
     shape->area = AUR_PI * (double)aur_vector_length(aur_vector_cross(shape->axis[0], shape->axis[1]));
+    shape->area *= 1.0 - (double)shape->inner * (double)shape->inner;
     return AUR_OK;
 }
 
 const aur_shape_descriptor aur_shape_disk = {
-    .row = {.name = "disk", .summary = "the unit disk facing +z"}, .curved = &curved, .create = create};
+    .row = {.name = "disk", .summary = "the unit disk facing +z", AUR_ROW_KEYS(keys)},
+    .curved = &curved,
+    .create = create};

@@ -6,6 +6,7 @@
 
 #define SHAPES(ROW)                                                                                          \
     ROW(rectangle)                                                                                           \
+    ROW(polygon)                                                                                             \
     ROW(cube)                                                                                                \
     ROW(obj)                                                                                                 \
     ROW(ply)                                                                                                 \
