@@ -159,6 +159,12 @@ static bool is_xml(size_t size, const char *text) {
     return i < size && text[i] == '<';
 }
 
+/* Radiance's descriptions begin with anything. */
+static bool is_rad(const char *path) {
+    const size_t length = strlen(path);
+    return length > 4 && strcmp(path + length - 4, ".rad") == 0;
+}
+
 static int describe(const char *path, const info_options *options) {
     char start[START_CAPACITY];
     FILE *const file = fopen(path, "rb");
@@ -172,7 +178,7 @@ static int describe(const char *path, const info_options *options) {
     const char *const format = aur_image_format_of(size, start);
     if (format != NULL)
         return describe_picture(path, format, options);
-    if (is_xml(size, start))
+    if (is_xml(size, start) || is_rad(path))
         return describe_scene(path, options);
     static const char table[] = "aureole weight table\n";
     if (size >= sizeof table - 1 && memcmp(start, table, sizeof table - 1) == 0)

@@ -130,7 +130,7 @@ const cli_verb cli_verb_irradiance = {
              "standard error of 16 independent randomisations. See docs/lighting.md.",
     .too_few = "one scene is needed",
     .too_many = "one scene is needed",
-    .operands = {{"SCENE", "a scene (.xml)", .content = "file"}},
+    .operands = {{"SCENE", "a scene (.xml, .rad)", .content = "file"}},
     .groups = {{options, 0},
                {cli_definitions_option, offsetof(irradiance_command, definitions)},
                {cli_threads_option, offsetof(irradiance_command, common)},

@@ -152,7 +152,7 @@ const cli_verb cli_verb_viewfactors = {
         "docs/view-factors.md.",
     .too_few = "one mesh or scene is needed",
     .too_many = "one mesh or scene is needed",
-    .operands = {{"MESH", "an OBJ, a PLY or a scene (.xml)", .content = "file"}},
+    .operands = {{"MESH", "an OBJ, a PLY or a scene (.xml, .rad)", .content = "file"}},
     .groups = {{options, 0},
                {cli_definitions_option, offsetof(factor_command, definitions)},
                {cli_threads_option, offsetof(factor_command, common)},

@@ -11,18 +11,18 @@
 #include "core/text.h"
 #include "scene/scene_data.h"
 
-typedef enum source { SOURCE_OBJ, SOURCE_PLY, SOURCE_SCENE } source;
+typedef enum source { SOURCE_OBJ, SOURCE_PLY, SOURCE_SCENE, SOURCE_RAD } source;
 
 static aur_result find_source(const char *path, source *kind, aur_error *error) {
-    static const char *const endings[] = {".obj", ".ply", ".xml"};
+    static const char *const endings[] = {".obj", ".ply", ".xml", ".rad"};
     const char *const dot = strrchr(path, '.');
-    for (size_t i = 0; dot != NULL && i < 3; ++i)
+    for (size_t i = 0; dot != NULL && i < 4; ++i)
         if (strcasecmp(dot, endings[i]) == 0) {
             *kind = (source)i;
             return AUR_OK;
         }
     return aur_fail_at(error, (aur_location){.file = path}, AUR_ERROR_UNSUPPORTED,
-                       "facets are read from files whose names end in .obj, .ply or .xml");
+                       "facets are read from files whose names end in .obj, .ply, .xml or .rad");
 }
 
 /* The text as the value of an attribute of XML, in which scenes replace $names; a buffer of 6 bytes for each
@@ -192,7 +192,7 @@ aur_result aur_facets_load(const char *path, const aur_facets_options *given, au
     scene.warnings = options.warnings;
     scene.definition_count = options.definition_count;
     scene.definitions = options.definitions;
-    result = kind == SOURCE_SCENE ? aur_scene_load(path, &scene, &facets->scene, error)
+    result = kind >= SOURCE_SCENE ? aur_scene_load(path, &scene, &facets->scene, error)
                                   : load_mesh(path, kind, &scene, &facets->scene, error);
     if (result == AUR_OK)
         result = check_shapes(facets->scene, error);

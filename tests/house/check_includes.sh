@@ -37,6 +37,7 @@ scene/load
 scene/shapes scene/lights scene/sensors
 scene
 scene/xml
+scene/rad
 material
 sphere/directions
 sphere/sets sphere/nearest

@@ -10,6 +10,7 @@
 #include "core/file.h"
 #include "core/names.h"
 #include "core/text.h"
+#include "scene/rad/rad.h"
 #include "scene/xml/variables.h"
 
 /* A few kilobytes of includes that double each other must not become an endless scene, so that files and
@@ -30,6 +31,7 @@ typedef struct file_reading {
     reading *shared;
     XML_Parser expat;
     const char *file;
+    bool from_rad; /* the text has been made from one of Radiance's: only its lines are known */
     size_t include_depth;
     bool legacy; /* version < 2 */
     aur_result result;
@@ -79,7 +81,7 @@ aur_result aur_xml_check(const aur_xml_node *node, const aur_xml_rule *rule, aur
 
 static aur_location here(const file_reading *reader) {
     return (aur_location){reader->file, XML_GetCurrentLineNumber(reader->expat),
-                          XML_GetCurrentColumnNumber(reader->expat) + 1};
+                          reader->from_rad ? 0 : XML_GetCurrentColumnNumber(reader->expat) + 1};
 }
 
 /* "toWorld" to "to_world". */
@@ -318,8 +320,17 @@ static aur_result parse(file_reading *reader, const char *data, size_t size) {
 /* `from` is the file that includes this one, or NULL. */
 static aur_result read_text(reading *shared, const char *path, size_t size, const char *data,
                             const file_reading *from, aur_xml_node *target) {
+    char *translated = NULL;
+    const bool from_rad = aur_rad_is_name(path);
+    if (from_rad) {
+        const aur_result result = aur_rad_to_xml(path, size, data, &translated, &size, shared->error);
+        if (result != AUR_OK)
+            return result;
+        data = translated;
+    }
     file_reading reader = {.shared = shared,
                            .expat = XML_ParserCreate(NULL),
+                           .from_rad = from_rad,
                            .file = aur_arena_copy(&shared->document->arena, path, strlen(path)),
                            .include_depth = from != NULL ? from->include_depth + 1 : 0,
                            .legacy = from != NULL && from->legacy,
@@ -328,6 +339,7 @@ static aur_result read_text(reading *shared, const char *path, size_t size, cons
                                                                           : aur_fail_memory(shared->error);
     if (reader.expat != NULL)
         XML_ParserFree(reader.expat);
+    free(translated);
     return result;
 }
 
