@@ -65,7 +65,7 @@ static const cli_option options[] = {
                  "samples a pixel"),
      .key.computed = true},
     {CLI_INTEGER(render_command, options.width, "width", "N", 1, LARGEST_SIDE, "the scene's",
-                 "of the whole picture in pixels"),
+                 "of the whole picture in pixels; the height alone or the width alone keeps its shape"),
      .key.computed = true},
     {CLI_INTEGER(render_command, options.height, "height", "N", 1, LARGEST_SIDE, "the scene's",
                  "of the whole picture in pixels"),

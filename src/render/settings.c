@@ -1,5 +1,7 @@
 #include "render/settings.h"
 
+#include <math.h>
+
 #include "core/error.h"
 #include "scene/filter.h"
 
@@ -32,14 +34,23 @@ static aur_result complete_crop(const aur_film_settings *film, aur_render_option
         s->crop_x0, s->crop_x1, s->crop_y0, s->crop_y1, s->width, s->height);
 }
 
+/* A side that is left out follows from the other one: the picture keeps the shape that the scene gives it. */
+static void complete_size(const aur_film_settings *film, aur_render_options *options) {
+    const double aspect = (double)film->width / (double)film->height;
+    if (options->width == 0)
+        options->width =
+            options->height == 0 ? film->width : (size_t)fmax(1.0, round((double)options->height * aspect));
+    if (options->height == 0)
+        options->height = options->width == film->width
+                              ? film->height
+                              : (size_t)fmax(1.0, round((double)options->width / aspect));
+}
+
 aur_result aur_render_options_complete(const aur_scene *scene, aur_render_options *options,
                                        const aur_filter **filter, aur_error *error) {
     const aur_film_settings *const film = aur_scene_film(scene);
     *filter = film->filter;
-    if (options->width == 0)
-        options->width = film->width;
-    if (options->height == 0)
-        options->height = film->height;
+    complete_size(film, options);
     if (options->samples_per_pixel == 0)
         options->samples_per_pixel = aur_scene_samples_per_pixel(scene);
     if (options->sampler == NULL)
