@@ -45,7 +45,7 @@ typedef struct aur_render_options {
     size_t samples_per_pixel; /* 0 keeps the scene's */
     uint64_t seed;
     size_t threads;       /* 0: all */
-    size_t width, height; /* 0 keeps the scene's */
+    size_t width, height; /* 0 keeps the scene's, or its shape where the other one is given */
     /* Pixels x0 <= x < x1, y0 <= y < y1; all zero: what the scene's film says. */
     size_t crop_x0, crop_x1, crop_y0, crop_y1;
     aur_progress progress;
@@ -100,11 +100,12 @@ AUR_EXPERIMENTAL void aur_render_destroy(aur_render *render); /* NULL is allowed
  * where this one was stopped; MEMORY and others, after which the render can only be destroyed. */
 AUR_EXPERIMENTAL aur_result aur_render_step(aur_render *render, size_t count, aur_error *error)
     AUR_NONNULL(1);
-/* The same tile by tile: tile i of the film (16 x 16 pixels on a grid over the whole picture, row by row)
- * gets the samples that it lacks up to targets[i], so that samples can go where they are needed. Errors as
- * above; ARGUMENT when the film has not `tile_count` tiles, or a target is beyond samples_per_pixel. */
-AUR_EXPERIMENTAL aur_result aur_render_step_tiles(aur_render *render, size_t tile_count,
-                                                  const uint32_t *targets, aur_error *error)
+/* The same pixel by pixel: pixel i of the film, row by row, gets the samples that it lacks up to targets[i],
+ * so that samples can go where they are needed. Where pixels share what they find (`radiosity`, finalgather's
+ * `share`), all of a tile of 16 x 16 pixels get as many as the one that is to have most. Errors as above;
+ * ARGUMENT when the film has not `pixel_count` pixels, or a target is beyond samples_per_pixel. */
+AUR_EXPERIMENTAL aur_result aur_render_step_pixels(aur_render *render, size_t pixel_count,
+                                                   const uint32_t *targets, aur_error *error)
     AUR_NONNULL(1, 3);
 /* Stops the step that another thread is in. May be called from any thread and from a signal handler. */
 AUR_EXPERIMENTAL void aur_render_cancel(aur_render *render) AUR_NONNULL(1);

@@ -20,7 +20,7 @@ struct aur_ask {
     char *integrator;
     aur_replicas replicas;
     uint32_t *targets;
-    double *variances; /* of the tiles, after the last round */
+    double *variances, *scratch; /* of the pixels, after the last round */
     aur_replica_measure measure;
     aur_error_interval interval; /* relative */
     double rate;                 /* the error's square falls as samples^-rate */
@@ -93,9 +93,11 @@ static aur_result prepare(aur_ask *ask, aur_renderer *renderer, const aur_render
             &own.warnings, (aur_location){0},
             "a picture to an error, a time or a number of rays has R, G and B alone: the channels that "
             "the integrator adds are left out");
-    ask->targets = calloc(ask->replicas.tile_count, sizeof *ask->targets);
-    ask->variances = calloc(ask->replicas.tile_count, sizeof *ask->variances);
-    return ask->targets != NULL && ask->variances != NULL ? AUR_OK : aur_fail_memory(error);
+    ask->targets = calloc(ask->replicas.pixel_count, sizeof *ask->targets);
+    ask->variances = calloc(ask->replicas.pixel_count, sizeof *ask->variances);
+    ask->scratch = calloc(ask->replicas.pixel_count, sizeof *ask->scratch);
+    return ask->targets != NULL && ask->variances != NULL && ask->scratch != NULL ? AUR_OK
+                                                                                  : aur_fail_memory(error);
 }
 
 aur_result aur_ask_create(aur_renderer *renderer, const aur_render_options *render,
@@ -129,6 +131,7 @@ void aur_ask_destroy(aur_ask *ask) {
     aur_replicas_release(&ask->replicas);
     free(ask->targets);
     free(ask->variances);
+    free(ask->scratch);
     free(ask->integrator);
     free(ask);
 }
@@ -189,10 +192,10 @@ static double mean_samples(const aur_ask *ask) {
 
 static void plan_samples(aur_ask *ask) {
     double sum = 0.0;
-    for (size_t i = 0; i < ask->replicas.tile_count; ++i)
+    for (size_t i = 0; i < ask->replicas.pixel_count; ++i)
         sum += ask->targets[i];
     ask->before = ask->samples;
-    ask->samples = sum / (double)ask->replicas.tile_count * (double)ask->replicas.count;
+    ask->samples = sum / (double)ask->replicas.pixel_count * (double)ask->replicas.count;
     const double factor = ask->rounds > 0 ? next_factor(ask) : 0.1;
     ask->whole = fmax(ask->samples, ask->before / factor);
 }
@@ -213,8 +216,8 @@ static aur_result render_round(aur_ask *ask, aur_error *error) {
     for (ask->replica = 0; ask->replica < ask->replicas.count; ++ask->replica) {
         aur_result result = atomic_load(&ask->cancelled) ? AUR_ERROR_CANCELLED : AUR_OK;
         if (result == AUR_OK)
-            result = aur_render_step_tiles(ask->replicas.renders[ask->replica], ask->replicas.tile_count,
-                                           ask->targets, error);
+            result = aur_render_step_pixels(ask->replicas.renders[ask->replica], ask->replicas.pixel_count,
+                                            ask->targets, error);
         if (result != AUR_OK) {
             ask->samples = ask->before;
             return result;
@@ -224,6 +227,7 @@ static aur_result render_round(aur_ask *ask, aur_error *error) {
     ++ask->rounds;
     ask->samples = mean_samples(ask);
     aur_replicas_measure(&ask->replicas, &ask->measure, ask->variances);
+    aur_replicas_smooth(&ask->replicas, ask->targets, ask->variances, ask->scratch);
     const aur_error_interval absolute = aur_replica_interval(
         &ask->measure.deviations, ask->replicas.count, 3 * ask->replicas.pixel_count, ask->wish.confidence);
     const double mean = ask->measure.mean;
@@ -235,12 +239,12 @@ static aur_result render_round(aur_ask *ask, aur_error *error) {
     return AUR_OK;
 }
 
-/* False when all tiles have all the samples that they can have. */
+/* False when all pixels have all the samples that they can have. */
 static bool plan_round(aur_ask *ask) {
     if (ask->rounds > 0)
-        return aur_raise_targets(ask->replicas.tile_count, ask->variances, next_factor(ask), MOST_SAMPLES,
+        return aur_raise_targets(ask->replicas.pixel_count, ask->variances, next_factor(ask), MOST_SAMPLES,
                                  ask->targets);
-    for (size_t i = 0; i < ask->replicas.tile_count; ++i)
+    for (size_t i = 0; i < ask->replicas.pixel_count; ++i)
         ask->targets[i] = 1;
     return true;
 }

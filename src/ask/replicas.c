@@ -18,7 +18,6 @@ aur_result aur_replicas_create(aur_renderer *renderer, const aur_render_options 
             return result;
     }
     const aur_film *const film = aur_render_film(replicas->renders[0]);
-    replicas->tile_count = film->tile_count;
     replicas->pixel_count = aur_film_pixel_count(film);
     return AUR_OK;
 }
@@ -43,9 +42,8 @@ static double deviations_at(const aur_replicas *replicas, size_t pixel, size_t c
     return mean;
 }
 
-/* Correlation between pixels is seen within blocks of so many pixels a side, a part of a tile. */
+/* Correlation between pixels is seen within blocks of so many pixels a side. */
 enum { BLOCK = 8 };
-_Static_assert((int)AUR_TILE_SIZE % (int)BLOCK == 0, "no block lies in two tiles");
 
 /* The pixels of a film that lie in cell `index` of a grid over the whole picture. */
 typedef struct pixel_range {
@@ -60,19 +58,25 @@ static pixel_range cell_of(const aur_film_layout *layout, size_t column, size_t 
                          .y1 = (y + BLOCK < layout->y1 ? y + BLOCK : layout->y1) - layout->y0};
 }
 
-/* Adds a block's values to the mean, and returns its Gram matrix. */
-static aur_gram measure_block(const aur_replicas *replicas, pixel_range block, double *mean) {
+/* Adds a block's values to the mean, sets its pixels' variances, and returns its Gram matrix. */
+static aur_gram measure_block(const aur_replicas *replicas, pixel_range block, double *mean,
+                              double *variances) {
     const aur_film_layout *const layout = &aur_render_film(replicas->renders[0])->layout;
     aur_gram gram = {.count = replicas->count};
     for (size_t y = block.y0; y < block.y1; ++y)
-        for (size_t x = block.x0; x < block.x1; ++x)
+        for (size_t x = block.x0; x < block.x1; ++x) {
+            const size_t pixel = y * (layout->x1 - layout->x0) + x;
+            variances[pixel] = 0.0;
             for (size_t channel = 0; channel < 3; ++channel) {
                 double d[AUR_REPLICAS_MAX];
-                *mean += deviations_at(replicas, y * (layout->x1 - layout->x0) + x, channel, d);
+                *mean += deviations_at(replicas, pixel, channel, d);
+                for (size_t r = 0; r < replicas->count; ++r)
+                    variances[pixel] += d[r] * d[r] / (double)(replicas->count - 1);
                 for (size_t r = 0; r < replicas->count; ++r)
                     for (size_t s = 0; s <= r; ++s)
                         gram.products[r][s] += d[r] * d[s];
             }
+        }
     for (size_t r = 0; r < replicas->count; ++r)
         for (size_t s = 0; s < r; ++s)
             gram.products[s][r] = gram.products[r][s];
@@ -82,19 +86,42 @@ static aur_gram measure_block(const aur_replicas *replicas, pixel_range block, d
 void aur_replicas_measure(const aur_replicas *replicas, aur_replica_measure *measure, double *variances) {
     const aur_film *const film = aur_render_film(replicas->renders[0]);
     const aur_film_layout *const layout = &film->layout;
-    enum { BLOCKS = AUR_TILE_SIZE / BLOCK };
     *measure = (aur_replica_measure){0};
-    for (size_t tile = 0; tile < replicas->tile_count; ++tile)
-        variances[tile] = 0.0;
     for (size_t row = layout->y0 / BLOCK; row * BLOCK < layout->y1; ++row)
         for (size_t column = layout->x0 / BLOCK; column * BLOCK < layout->x1; ++column) {
-            const aur_gram gram = measure_block(replicas, cell_of(layout, column, row), &measure->mean);
+            const aur_gram gram =
+                measure_block(replicas, cell_of(layout, column, row), &measure->mean, variances);
             aur_deviations_add(&measure->deviations, &gram);
-            const size_t tile = (row / BLOCKS - film->row0) * film->columns + column / BLOCKS - film->column0;
-            for (size_t r = 0; r < replicas->count; ++r)
-                variances[tile] += gram.products[r][r] / (double)(replicas->count - 1);
         }
     measure->mean /= 3.0 * (double)replicas->pixel_count;
+}
+
+/* The mean of `values`, each for one sample, over the pixels at most `reach` away. */
+static double mean_about(const aur_film_layout *layout, const double *values, size_t x, size_t y,
+                         size_t reach) {
+    const size_t width = layout->x1 - layout->x0, height = layout->y1 - layout->y0;
+    double sum = 0.0;
+    size_t count = 0;
+    for (size_t j = y > reach ? y - reach : 0; j <= y + reach && j < height; ++j)
+        for (size_t i = x > reach ? x - reach : 0; i <= x + reach && i < width; ++i, ++count)
+            sum += values[j * width + i];
+    return sum / (double)count;
+}
+
+/* A sixteenth of the weight lies on more pixels, so that none is left alone because its first samples and
+ * those of its neighbours agreed by chance. */
+void aur_replicas_smooth(const aur_replicas *replicas, const uint32_t *samples, double *variances,
+                         double *scratch) {
+    enum { NEAR = 1, FAR = 4 };
+    const double far_part = 1.0 / 16;
+    const aur_film_layout *const layout = &aur_render_film(replicas->renders[0])->layout;
+    const size_t width = layout->x1 - layout->x0;
+    for (size_t i = 0; i < replicas->pixel_count; ++i)
+        scratch[i] = variances[i] * samples[i];
+    for (size_t i = 0; i < replicas->pixel_count; ++i)
+        variances[i] = ((1.0 - far_part) * mean_about(layout, scratch, i % width, i / width, NEAR) +
+                        far_part * mean_about(layout, scratch, i % width, i / width, FAR)) /
+                       samples[i];
 }
 
 aur_result aur_replicas_develop(const aur_replicas *replicas, bool errors, aur_image **image,

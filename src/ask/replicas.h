@@ -9,7 +9,7 @@
 typedef struct aur_replicas {
     size_t count;
     aur_render *renders[AUR_REPLICAS_MAX];
-    size_t tile_count, pixel_count;
+    size_t pixel_count;
 } aur_replicas;
 
 /* `options` as for aur_render_create; the seeds follow from options->seed. Errors as there. The replicas are
@@ -24,9 +24,14 @@ typedef struct aur_replica_measure {
     double mean;               /* over pixels and channels R, G, B */
 } aur_replica_measure;
 
-/* `variances`[tile_count] gets the sum over a tile's pixels and channels of the variance of one replica's
- * value. */
+/* `variances`[pixel_count] gets the sum over a pixel's channels of the variance of one replica's value. */
 void aur_replicas_measure(const aur_replicas *replicas, aur_replica_measure *measure, double *variances);
+
+/* Variances of single pixels are known too badly to share out samples by: each becomes what the pixels about
+ * it say together. `samples`[pixel_count] are those of one replica; `scratch` has room for pixel_count
+ * values. */
+void aur_replicas_smooth(const aur_replicas *replicas, const uint32_t *samples, double *variances,
+                         double *scratch);
 
 /* The mean of the replicas, and with `errors` three more channels with its standard error. Errors: MEMORY. */
 aur_result aur_replicas_develop(const aur_replicas *replicas, bool errors, aur_image **image,

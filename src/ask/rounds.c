@@ -4,46 +4,45 @@
 
 enum { MOST_GROWTH = 4 };
 
-static double clamp(double value, double low, double high) {
-    return fmin(fmax(value, low), high);
-}
-
-/* The samples of a tile at the price `price` a sample: where one more would save as much as it costs. */
+/* The samples of a pixel at the price `price` a sample: where one more would save as much as it costs. */
 static double samples_at(double price, double variance, uint32_t samples) {
-    return clamp(sqrt(variance * samples / price), samples, (double)MOST_GROWTH * samples);
+    return fmax(sqrt(variance * samples / price), samples);
 }
 
-static double variance_at(double price, size_t tile_count, const double *variances, const uint32_t *targets) {
+static double variance_at(double price, size_t count, const double *variances, const uint32_t *targets) {
     double sum = 0.0;
-    for (size_t i = 0; i < tile_count; ++i)
+    for (size_t i = 0; i < count; ++i)
         sum += variances[i] * targets[i] / samples_at(price, variances[i], targets[i]);
     return sum;
 }
 
-bool aur_raise_targets(size_t tile_count, const double *variances, double factor, uint32_t most,
+bool aur_raise_targets(size_t count, const double *variances, double factor, uint32_t most,
                        uint32_t *targets) {
     double sum = 0.0, high = 0.0;
-    for (size_t i = 0; i < tile_count; ++i) {
+    for (size_t i = 0; i < count; ++i) {
         sum += variances[i];
         high = fmax(high, variances[i] / targets[i]);
     }
-    /* At the highest price nobody buys, at a sixteenth of the lowest gain all buy as much as they may. */
+    /* At the highest price nobody buys; at this part of the lowest gain the variance is a quarter of what is
+     * wanted. */
     double low = high;
-    for (size_t i = 0; i < tile_count; ++i)
+    for (size_t i = 0; i < count; ++i)
         if (variances[i] > 0.0)
             low = fmin(low, variances[i] / targets[i]);
-    low /= (double)MOST_GROWTH * MOST_GROWTH;
+    low *= 0.0625 * factor * factor;
     for (int k = 0; k < 64; ++k) {
         const double price = sqrt(low * high);
-        if (variance_at(price, tile_count, variances, targets) > factor * sum)
+        if (variance_at(price, count, variances, targets) > factor * sum)
             high = price;
         else
             low = price;
     }
     bool raised = false;
-    for (size_t i = 0; i < tile_count; ++i) {
+    for (size_t i = 0; i < count; ++i) {
         const double wanted =
-            variances[i] > 0.0 ? ceil(samples_at(low, variances[i], targets[i])) : targets[i];
+            variances[i] > 0.0
+                ? ceil(fmin(samples_at(low, variances[i], targets[i]), (double)MOST_GROWTH * targets[i]))
+                : targets[i];
         const uint32_t target = (uint32_t)fmin(wanted, most);
         raised = raised || target > targets[i];
         targets[i] = target > targets[i] ? target : targets[i];

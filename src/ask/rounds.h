@@ -1,14 +1,14 @@
-/* How many samples each tile of a picture is to have next. */
+/* How many samples each pixel of a picture is to have next. */
 #pragma once
 
 #include <stdbool.h>
 #include <stddef.h>
 #include <stdint.h>
 
-/* `variances` of the tiles with `targets` samples each: what one more sample would bring falls as variance /
+/* `variances` of the pixels with `targets` samples each: what one more sample would bring falls as variance /
  * samples^2. Raises the targets to whole numbers so that the sum of the variances falls to `factor` in (0,1)
- * of what it is, at the least cost (samples in proportion to the root of a tile's variance for one sample;
- * Lagrange), but no tile more than fourfold in one round, because a variance seen in few samples is only
- * roughly known. False when no target was raised: all tiles have `most` samples or no variance. */
-bool aur_raise_targets(size_t tile_count, const double *variances, double factor, uint32_t most,
+ * of what it is, at the least cost (samples in proportion to the root of a pixel's variance for one sample;
+ * Lagrange), but no pixel more than fourfold in one round, because a variance seen in few samples is only
+ * roughly known. False when no target was raised: all pixels have `most` samples or no variance. */
+bool aur_raise_targets(size_t count, const double *variances, double factor, uint32_t most,
                        uint32_t *targets);

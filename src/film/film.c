@@ -31,7 +31,7 @@ aur_result aur_film_create(const aur_film_layout *layout, aur_film **out, aur_er
     film->tile_count = film->columns * ((layout->y1 + AUR_TILE_SIZE - 1) / AUR_TILE_SIZE - film->row0);
     const size_t pixels = aur_film_pixel_count(film);
     film->channels = calloc(layout->channel_count, sizeof *film->channels);
-    film->tile_samples = calloc(film->tile_count, sizeof *film->tile_samples);
+    film->given = calloc(pixels, sizeof *film->given);
     film->sums = calloc(pixels, layout->channel_count * sizeof *film->sums);
     film->counts = calloc(pixels, sizeof *film->counts);
     film->steps = calloc(pixels, sizeof *film->steps);
@@ -41,7 +41,7 @@ aur_result aur_film_create(const aur_film_layout *layout, aur_film **out, aur_er
         free(film->lock);
         film->lock = NULL;
     }
-    if (film->channels == NULL || film->tile_samples == NULL || film->sums == NULL || film->counts == NULL ||
+    if (film->channels == NULL || film->given == NULL || film->sums == NULL || film->counts == NULL ||
         film->steps == NULL || film->squares == NULL || film->lock == NULL) {
         aur_film_destroy(film);
         return aur_fail(error, AUR_ERROR_MEMORY, "out of memory for a picture of %zu x %zu", layout->width,
@@ -57,7 +57,7 @@ void aur_film_destroy(aur_film *film) {
     if (film == NULL)
         return;
     free(film->channels);
-    free(film->tile_samples);
+    free(film->given);
     free(film->sums);
     free(film->counts);
     free(film->steps);
@@ -82,10 +82,37 @@ static size_t first_pixel(const aur_film *film, const aur_tile *tile) {
     return (tile->y0 - layout->y0) * (layout->x1 - layout->x0) + (tile->x0 - layout->x0);
 }
 
-aur_result aur_film_open_tile(aur_film *film, size_t index, uint32_t target, aur_tile *tile,
+/* Which samples the pixels of a tile lack. */
+static void set_wanted(const aur_film *film, const aur_film_targets *targets, aur_tile *tile,
+                       aur_film_before *before) {
+    const size_t width = film->layout.x1 - film->layout.x0;
+    const size_t count = tile->stride * (tile->y1 - tile->y0);
+    uint32_t begin = UINT32_MAX, end = 0, most = targets->all;
+    bool even = true;
+    for (size_t k = 0; k < count; ++k) {
+        const size_t at = first_pixel(film, tile) + k / tile->stride * width + k % tile->stride;
+        before->given[k] = film->given[at];
+        before->targets[k] = targets->pixels != NULL ? targets->pixels[at] : targets->all;
+        most = before->targets[k] > most ? before->targets[k] : most;
+    }
+    for (size_t k = 0; k < count; ++k) {
+        if (targets->whole_tiles)
+            before->targets[k] = most;
+        even = even && before->given[k] == before->given[0] && before->targets[k] == before->targets[0];
+        if (before->given[k] >= before->targets[k])
+            continue;
+        begin = before->given[k] < begin ? before->given[k] : begin;
+        end = before->targets[k] > end ? before->targets[k] : end;
+    }
+    tile->first = begin < end ? begin : end;
+    tile->count = end - tile->first;
+    tile->begins = even ? NULL : before->given;
+    tile->ends = even ? NULL : before->targets;
+}
+
+aur_result aur_film_open_tile(aur_film *film, size_t index, const aur_film_targets *targets, aur_tile *tile,
                               aur_film_before *before) {
     const aur_film_layout *const layout = &film->layout;
-    const uint32_t done = film->tile_samples[index];
     const size_t x = (film->column0 + index % film->columns) * AUR_TILE_SIZE;
     const size_t y = (film->row0 + index / film->columns) * AUR_TILE_SIZE;
     const size_t channels = layout->channel_count, width = layout->x1 - layout->x0;
@@ -93,9 +120,10 @@ aur_result aur_film_open_tile(aur_film *film, size_t index, uint32_t target, aur
     tile->x1 = smaller(x + AUR_TILE_SIZE, layout->x1);
     tile->y0 = larger(y, layout->y0);
     tile->y1 = smaller(y + AUR_TILE_SIZE, layout->y1);
-    tile->first = done;
-    tile->count = done < target ? target - done : 0;
     tile->stride = tile->x1 - tile->x0;
+    set_wanted(film, targets, tile, before);
+    if (tile->count == 0)
+        return AUR_OK;
     tile->channel_count = channels;
     const size_t rows = tile->y1 - tile->y0;
     tile->sums = malloc(tile->stride * rows * channels * sizeof *tile->sums);
@@ -115,7 +143,7 @@ aur_result aur_film_open_tile(aur_film *film, size_t index, uint32_t target, aur
     return AUR_OK;
 }
 
-void aur_film_take_tile(aur_film *film, size_t index, aur_tile *tile) {
+void aur_film_take_tile(aur_film *film, aur_tile *tile) {
     const size_t channels = tile->channel_count, width = film->layout.x1 - film->layout.x0;
     pthread_mutex_lock(film->lock);
     for (size_t row = 0; row < tile->y1 - tile->y0; ++row) {
@@ -123,8 +151,13 @@ void aur_film_take_tile(aur_film *film, size_t index, aur_tile *tile) {
         memcpy(&film->sums[to * channels], &tile->sums[from * channels],
                tile->stride * channels * sizeof *tile->sums);
         memcpy(&film->counts[to], &tile->counts[from], tile->stride * sizeof *tile->counts);
+        for (size_t k = 0; k < tile->stride; ++k) {
+            const uint32_t end = tile->ends != NULL && tile->ends[from + k] < tile->first + tile->count
+                                     ? tile->ends[from + k]
+                                     : tile->first + tile->count;
+            film->given[to + k] = end > film->given[to + k] ? end : film->given[to + k];
+        }
     }
-    film->tile_samples[index] += tile->count;
     pthread_mutex_unlock(film->lock);
     tile->first += tile->count;
     tile->count = 0;
@@ -152,8 +185,8 @@ void aur_film_close_tile(aur_film *film, aur_tile *tile, const aur_film_before *
 
 uint32_t aur_film_samples(const aur_film *film) {
     uint32_t least = UINT32_MAX;
-    for (size_t i = 0; i < film->tile_count; ++i)
-        least = film->tile_samples[i] < least ? film->tile_samples[i] : least;
+    for (size_t i = 0; i < aur_film_pixel_count(film); ++i)
+        least = film->given[i] < least ? film->given[i] : least;
     return least;
 }
 
@@ -167,9 +200,9 @@ aur_result aur_film_describe(const aur_film *film, aur_film_description *descrip
                                 .y1 = layout->y1,
                                 .channel_count = layout->channel_count,
                                 .least_samples = aur_film_samples(film)};
-    for (size_t i = 0; i < film->tile_count; ++i)
-        if (film->tile_samples[i] > own.most_samples)
-            own.most_samples = film->tile_samples[i];
+    for (size_t i = 0; i < aur_film_pixel_count(film); ++i)
+        if (film->given[i] > own.most_samples)
+            own.most_samples = film->given[i];
     return aur_description_write(&own, sizeof own, sizeof own, description, "aur_film_description", error);
 }
 
@@ -217,14 +250,10 @@ aur_result aur_film_merge(aur_film *film, const aur_film *part, aur_error *error
                 film->sums[to * channels + c] += part->sums[from * channels + c];
             for (size_t c = 0; c < 3; ++c)
                 film->squares[3 * to + c] += part->squares[3 * from + c];
+            film->given[to] += part->given[from];
             film->counts[to] += part->counts[from];
             film->steps[to] += part->steps[from];
         }
-    for (size_t i = 0; i < part->tile_count; ++i) {
-        const size_t column = part->column0 + i % part->columns - film->column0;
-        const size_t row = part->row0 + i / part->columns - film->row0;
-        film->tile_samples[row * film->columns + column] += part->tile_samples[i];
-    }
     return AUR_OK;
 }
 

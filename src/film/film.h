@@ -38,9 +38,9 @@ struct aur_film {
     aur_film_channel *channels;
     /* The first tile on the grid over the whole picture, and how many tiles there are. */
     size_t column0, row0, columns, tile_count;
-    /* Samples that each pixel of a tile was given. */
-    uint32_t *tile_samples;
-    /* For each pixel, row by row: sums of each channel, and the number of samples in them. */
+    /* For each pixel, row by row: samples that it was given, sums of each channel, and the number of samples
+     * in them, which is less where some were no radiance. */
+    uint32_t *given;
     double *sums;
     uint32_t *counts;
     /* For each pixel: steps with samples, and over them the sum of n_b * m_b^2 for R, G, B (aur_film_error).
@@ -59,19 +59,28 @@ static inline size_t aur_film_pixel_count(const aur_film *film) {
 /* An empty film; its channels after the first three are still to be named. Errors: ARGUMENT, MEMORY. */
 aur_result aur_film_create(const aur_film_layout *layout, aur_film **film, aur_error *error);
 
-/* What one pixel of a tile had before a step. */
+/* What the pixels of a tile had before a step, row by row of the tile, and are to have after it. */
 typedef struct aur_film_before {
     double sums[AUR_TILE_SIZE * AUR_TILE_SIZE][3];
     uint32_t counts[AUR_TILE_SIZE * AUR_TILE_SIZE];
+    uint32_t given[AUR_TILE_SIZE * AUR_TILE_SIZE], targets[AUR_TILE_SIZE * AUR_TILE_SIZE];
 } aur_film_before;
 
-/* Opens tile `index` for the samples that it lacks up to `target`, tile->first to tile->first + tile->count
- * - 1; none when it has them. The tile's sums are copies. Different tiles may be open in different threads.
- * To be closed in every case. Errors: MEMORY. */
-aur_result aur_film_open_tile(aur_film *film, size_t index, uint32_t target, aur_tile *tile,
+/* How many samples each pixel is to have. */
+typedef struct aur_film_targets {
+    const uint32_t *pixels; /* of the film, row by row; NULL: `all` */
+    uint32_t all;
+    bool whole_tiles; /* the pixels of a tile get as many as the one that is to have most */
+} aur_film_targets;
+
+/* Opens tile `index` for the samples that it lacks, tile->first to tile->first + tile->count - 1; no sums
+ * when it has them. The tile's sums are copies. Different tiles may be open in different threads. To be
+ * closed in every case. Errors: MEMORY. */
+aur_result aur_film_open_tile(aur_film *film, size_t index, const aur_film_targets *targets, aur_tile *tile,
                               aur_film_before *before);
-/* Takes over the sums with tile->count more samples of each pixel, which become the tile's first ones. */
-void aur_film_take_tile(aur_film *film, size_t index, aur_tile *tile);
+/* Takes over the sums with the samples from tile->first to tile->first + tile->count - 1, and moves on to the
+ * next ones. */
+void aur_film_take_tile(aur_film *film, aur_tile *tile);
 /* Notes what the step brought, and gives up what has not been taken over. */
 void aur_film_close_tile(aur_film *film, aur_tile *tile, const aur_film_before *before);
 

@@ -8,8 +8,8 @@
 
 enum { NAME_WORDS = AUR_CHANNEL_NAME_CAPACITY / 8, HEADER_WORDS = 9 };
 
-/* "AURFILM1" */
-static const uint64_t magic = UINT64_C(0x314d4c4946525541);
+/* "AURFILM2" */
+static const uint64_t magic = UINT64_C(0x324d4c4946525541);
 
 static void put_film(aur_word_writer *writer, const aur_film *film) {
     const aur_film_layout *const layout = &film->layout;
@@ -28,8 +28,8 @@ static void put_film(aur_word_writer *writer, const aur_film *film) {
             aur_word_put(writer, word);
         }
     }
-    for (size_t i = 0; i < film->tile_count; ++i)
-        aur_word_put(writer, film->tile_samples[i]);
+    for (size_t i = 0; i < pixels; ++i)
+        aur_word_put(writer, film->given[i]);
     for (size_t i = 0; i < pixels; ++i)
         aur_word_put(writer, (uint64_t)film->steps[i] << 32 | film->counts[i]);
     for (size_t i = 0; i < 3 * pixels; ++i)
@@ -74,8 +74,8 @@ static bool get_channels(aur_word_reader *reader, aur_film *film) {
 
 static void get_pixels(aur_word_reader *reader, aur_film *film) {
     const size_t pixels = aur_film_pixel_count(film), channels = film->layout.channel_count;
-    for (size_t i = 0; i < film->tile_count; ++i)
-        film->tile_samples[i] = (uint32_t)aur_word_get(reader);
+    for (size_t i = 0; i < pixels; ++i)
+        film->given[i] = (uint32_t)aur_word_get(reader);
     for (size_t i = 0; i < pixels; ++i) {
         const uint64_t word = aur_word_get(reader);
         film->steps[i] = (uint32_t)(word >> 32);
@@ -94,10 +94,7 @@ static size_t words_of(const aur_film_layout *layout, size_t left) {
         layout->channel_count > left)
         return 0;
     const double pixels = (double)(layout->x1 - layout->x0) * (double)(layout->y1 - layout->y0);
-    const size_t tiles = ((layout->x1 - 1) / AUR_TILE_SIZE - layout->x0 / AUR_TILE_SIZE + 1) *
-                         ((layout->y1 - 1) / AUR_TILE_SIZE - layout->y0 / AUR_TILE_SIZE + 1);
-    const double words =
-        (double)layout->channel_count * (1 + NAME_WORDS + pixels) + (double)tiles + 4.0 * pixels + 1.0;
+    const double words = (double)layout->channel_count * (1 + NAME_WORDS + pixels) + 5.0 * pixels + 1.0;
     return words <= (double)left ? (size_t)words : 0;
 }
 

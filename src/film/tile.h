@@ -58,8 +58,10 @@ enum { AUR_TILE_SIZE = 16 };
 typedef struct aur_tile {
     const aur_view *view;
     size_t x0, x1, y0, y1; /* the pixels that are wanted: a whole tile or what a crop leaves of it */
-    uint32_t first, count; /* samples of each pixel */
+    uint32_t first, count; /* samples of each pixel: first .. first + count - 1 */
     size_t stride;         /* pixels from one row of sums to the next */
+    /* Of each pixel, like `counts`: of those samples it wants from begins up to ends - 1. NULL: all. */
+    const uint32_t *begins, *ends;
     size_t channel_count;
     double *sums;     /* of pixel (x0, y0): channel_count values a pixel */
     uint32_t *counts; /* samples added to each pixel */
@@ -77,6 +79,23 @@ static inline bool aur_tile_stops(aur_tile *tile) {
     tile->asked = tile->counters.rays;
     return (tile->stop != NULL && atomic_load_explicit(tile->stop, memory_order_relaxed)) ||
            aur_parallel_stops();
+}
+
+/* Whether pixel (x, y) of the tile wants a sample of the range. */
+static inline bool aur_tile_wants(const aur_tile *tile, size_t x, size_t y, uint32_t index) {
+    const size_t pixel = (y - tile->y0) * tile->stride + (x - tile->x0);
+    return tile->begins == NULL || (index >= tile->begins[pixel] && index < tile->ends[pixel]);
+}
+
+/* How many samples of the range pixel (x, y) wants. */
+static inline uint32_t aur_tile_wanted(const aur_tile *tile, size_t x, size_t y) {
+    const size_t pixel = (y - tile->y0) * tile->stride + (x - tile->x0);
+    if (tile->begins == NULL)
+        return tile->count;
+    const uint32_t last = tile->first + tile->count;
+    const uint32_t begin = tile->begins[pixel] > tile->first ? tile->begins[pixel] : tile->first;
+    const uint32_t end = tile->ends[pixel] < last ? tile->ends[pixel] : last;
+    return begin < end ? end - begin : 0;
 }
 
 /* Whether finite and not negative. */

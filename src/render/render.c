@@ -176,8 +176,7 @@ void aur_render_destroy(aur_render *render) {
 
 typedef struct render_work {
     aur_render *render;
-    const uint32_t *targets; /* samples that each tile is to have; NULL: `target` */
-    uint32_t target;
+    aur_film_targets targets;
     aur_counters *counters; /* one a tile */
 } render_work;
 
@@ -194,17 +193,18 @@ static aur_result add_samples(const aur_integrator *integrator, aur_tile *tile) 
 static aur_result add_pieces(const render_work *work, size_t index, aur_tile *tile) {
     enum { RAYS_A_PIECE = 1 << 16 };
     aur_render *const render = work->render;
-    const uint64_t pixels = (uint64_t)(tile->x1 - tile->x0) * (tile->y1 - tile->y0);
     const uint32_t end = tile->first + tile->count;
     uint32_t piece = aur_integrator_cuts(render->integrator) ? 1 : end;
     while (tile->first < end) {
         const uint64_t rays = tile->counters.rays;
         tile->count = piece < end - tile->first ? piece : end - tile->first;
-        tile->counters.samples += pixels * tile->count;
+        for (size_t y = tile->y0; y < tile->y1; ++y)
+            for (size_t x = tile->x0; x < tile->x1; ++x)
+                tile->counters.samples += aur_tile_wanted(tile, x, y);
         const aur_result result = add_samples(render->integrator, tile);
         if (result != AUR_OK)
             return result;
-        aur_film_take_tile(render->film, index, tile);
+        aur_film_take_tile(render->film, tile);
         work->counters[index] = tile->counters;
         if (tile->counters.rays - rays < RAYS_A_PIECE && piece < end)
             piece *= 2;
@@ -221,10 +221,7 @@ static aur_result render_tile(void *context, size_t index) {
         return AUR_ERROR_CANCELLED;
     aur_tile tile = {.view = &render->view, .stop = &render->cancelled};
     aur_film_before before;
-    const uint32_t target = work->targets != NULL ? work->targets[index] : work->target;
-    if (render->film->tile_samples[index] >= target)
-        return AUR_OK;
-    aur_result result = aur_film_open_tile(render->film, index, target, &tile, &before);
+    aur_result result = aur_film_open_tile(render->film, index, &work->targets, &tile, &before);
     if (result == AUR_OK)
         result = add_pieces(work, index, &tile);
     aur_film_close_tile(render->film, &tile, &before);
@@ -300,21 +297,21 @@ aur_result aur_render_step(aur_render *render, size_t count, aur_error *error) {
         return AUR_OK;
     if (count == 0 || count > wanted - done)
         count = wanted - done;
-    render_work work = {.target = (uint32_t)(done + count)};
+    render_work work = {.targets = {.all = (uint32_t)(done + count)}};
     return do_work(render, &work, error);
 }
 
-aur_result aur_render_step_tiles(aur_render *render, size_t tile_count, const uint32_t *targets,
-                                 aur_error *error) {
-    if (tile_count != render->film->tile_count)
-        return aur_fail(error, AUR_ERROR_ARGUMENT, "targets of %zu tiles for a film of %zu", tile_count,
-                        render->film->tile_count);
-    for (size_t i = 0; i < tile_count; ++i)
+aur_result aur_render_step_pixels(aur_render *render, size_t pixel_count, const uint32_t *targets,
+                                  aur_error *error) {
+    if (pixel_count != aur_film_pixel_count(render->film))
+        return aur_fail(error, AUR_ERROR_ARGUMENT, "targets of %zu pixels for a film of %zu", pixel_count,
+                        aur_film_pixel_count(render->film));
+    for (size_t i = 0; i < pixel_count; ++i)
         if (targets[i] > render->settings.samples_per_pixel)
             return aur_fail(error, AUR_ERROR_ARGUMENT,
-                            "tile %zu is to have %" PRIu32 " samples a pixel, more than the options' %zu", i,
+                            "pixel %zu is to have %" PRIu32 " samples, more than the options' %zu", i,
                             targets[i], render->settings.samples_per_pixel);
-    render_work work = {.targets = targets};
+    render_work work = {.targets = {.pixels = targets, .whole_tiles = render->integrator->whole_tiles}};
     return do_work(render, &work, error);
 }
 

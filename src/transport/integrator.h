@@ -62,6 +62,7 @@ struct aur_integrator {
     const aur_scene *scene;
     void *data;
     bool pixel_centre;              /* every camera ray goes through the centre of its pixel */
+    bool whole_tiles;               /* all pixels of a tile have as many samples */
     size_t extra_count;             /* channels after R, G, B; at most AUR_EXTRA_CHANNELS_MAX */
     const char *const *extra_names; /* as in the picture's file */
     /* What they show; NULL: means. */
@@ -79,6 +80,8 @@ static inline void aur_integrator_add_samples(const aur_integrator *integrator, 
     for (size_t y = tile->y0; y < tile->y1; ++y)
         for (size_t x = tile->x0; x < tile->x1; ++x)
             for (uint32_t i = 0; i < tile->count; ++i) {
+                if (!aur_tile_wants(tile, x, y, tile->first + i))
+                    continue;
                 aur_camera_sample sample;
                 const float weight = aur_view_sample(tile->view, x, y, tile->first + i, &sample);
                 aur_tile_add(tile, x, y, weight,

@@ -1,4 +1,4 @@
-/* Where samples go: at the optimum, all tiles that got more would gain the same by one more sample
+/* Where samples go: at the optimum, all pixels that got more would gain the same by one more sample
  * (Lagrange), and the variance falls to what was asked for. */
 #include "check.h"
 
@@ -17,18 +17,18 @@ static double sum_after(size_t count, const double *variances, const uint32_t *b
 
 static void test_reaches_the_factor_at_equal_gains(void **state) {
     (void)state;
-    enum { TILES = 6 };
-    static const double variances[TILES] = {1.0, 2.0, 3.0, 2.5, 0.0, 1.5};
-    static const uint32_t before[TILES] = {1000, 1000, 1000, 4000, 1000, 1000};
-    uint32_t after[TILES];
+    enum { PIXELS = 6 };
+    static const double variances[PIXELS] = {1.0, 2.0, 3.0, 2.5, 0.0, 1.5};
+    static const uint32_t before[PIXELS] = {1000, 1000, 1000, 4000, 1000, 1000};
+    uint32_t after[PIXELS];
     memcpy(after, before, sizeof after);
-    assert_true(aur_raise_targets(TILES, variances, 0.5, 1 << 24, after));
+    assert_true(aur_raise_targets(PIXELS, variances, 0.5, 1 << 24, after));
     /* Rounding up to whole samples can only lower the sum: by less than one sample in a thousand of each. */
-    const double sum = sum_after(TILES, variances, before, after);
+    const double sum = sum_after(PIXELS, variances, before, after);
     assert_true(sum <= 5.0 && sum > 5.0 * (1.0 - 1e-3));
     assert_int_equal(after[4], before[4]);
-    for (size_t i = 0; i < TILES; ++i)
-        for (size_t j = 0; j < TILES; ++j) {
+    for (size_t i = 0; i < PIXELS; ++i)
+        for (size_t j = 0; j < PIXELS; ++j) {
             const bool inner = after[i] > before[i] && after[i] < 4 * before[i] && after[j] > before[j] &&
                                after[j] < 4 * before[j];
             const double gain_i = variances[i] * before[i] / ((double)after[i] * after[i]);
@@ -38,7 +38,7 @@ static void test_reaches_the_factor_at_equal_gains(void **state) {
         }
 }
 
-/* No tile grows more than fourfold, none beyond the most, and none at all says so. */
+/* No pixel grows more than fourfold, none beyond the most, and none at all says so. */
 static void test_limits(void **state) {
     (void)state;
     static const double variances[3] = {1e6, 1.0, 0.0};

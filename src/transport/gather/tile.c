@@ -224,7 +224,8 @@ static aur_result shade_tile(gather_tile *work, aur_tile *tile) {
         for (uint32_t i = 0; i < tile->count; ++i) {
             if (aur_tile_stops(tile))
                 return AUR_ERROR_CANCELLED;
-            add_samples(work, group, tile->first + i, lanes);
+            add_samples(work, group, tile->first + i,
+                        aur_group_lanes_wanted(tile, x, y, lanes, tile->first + i));
         }
     }
     return work->places.plan->policy.edge_samples > 0 ? refine_edges(work, tile) : AUR_OK;
@@ -239,9 +240,10 @@ static void add_means(const gather_tile *work, aur_tile *tile) {
                 continue;
             double mean[3];
             aur_pixel_strata_mean(pixel, mean);
-            aur_tile_add_mean(tile, x, y, tile->count, mean);
+            const uint32_t count = aur_tile_wanted(tile, x, y);
+            aur_tile_add_mean(tile, x, y, count, mean);
             if (work->places.plan->policy.adaptive)
-                aur_tile_add_extra(tile, x, y, 0, (double)tile->count * (double)pixel->directions);
+                aur_tile_add_extra(tile, x, y, 0, (double)count * (double)pixel->directions);
         }
 }
 

@@ -242,7 +242,8 @@ static aur_result add_tile(const aur_integrator *integrator, aur_tile *tile) {
     for (size_t y = tile->y0; y < tile->y1; ++y)
         for (size_t x = tile->x0; x < tile->x1; ++x)
             for (uint32_t i = 0; i < tile->count; ++i)
-                add_sample(integrator, tile, x, y, tile->first + i);
+                if (aur_tile_wants(tile, x, y, tile->first + i))
+                    add_sample(integrator, tile, x, y, tile->first + i);
     return AUR_OK;
 }
 

@@ -163,6 +163,7 @@ static aur_result create(aur_parameters *parameters, const aur_integrator_contex
     if (result != AUR_OK)
         return result;
     integrator->pixel_centre = p->pixel == AUR_PIXEL_CENTRE;
+    integrator->whole_tiles = p->policy.pools;
     static const char *const extra[] = {"directions"};
     integrator->extra_count = p->policy.adaptive ? 1 : 0;
     integrator->extra_names = extra;

@@ -230,6 +230,7 @@ static aur_result prepare_gather(const radiosity_data *p, const aur_integrator_c
 static aur_result create(aur_parameters *parameters, const aur_integrator_context *context,
                          aur_integrator *integrator, aur_error *error) {
     radiosity_data *const data = integrator->data;
+    integrator->whole_tiles = true;
     aur_result result = refuse_files_of_scenes(parameters, error);
     if (result != AUR_OK)
         return result;

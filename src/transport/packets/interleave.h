@@ -41,6 +41,20 @@ static inline uint32_t aur_group_lanes_within(const size_t x[AUR_PACKET_SIZE],
     return lanes;
 }
 
+/* The lanes of a group to trace for sample `index`: those of `lanes`, or the ones that want it alone, where
+ * not all do. */
+static inline uint32_t aur_group_lanes_wanted(const aur_tile *tile, const size_t x[AUR_PACKET_SIZE],
+                                              const size_t y[AUR_PACKET_SIZE], uint32_t lanes,
+                                              uint32_t index) {
+    if (tile->begins == NULL)
+        return lanes;
+    uint32_t wanted = aur_group_lanes_within(x, y, tile->x0, tile->x1, tile->y0, tile->y1);
+    for (size_t lane = 0; lane < AUR_PACKET_SIZE; ++lane)
+        if ((wanted >> lane & 1u) != 0 && !aur_tile_wants(tile, x[lane], y[lane], index))
+            wanted &= ~(1u << lane);
+    return wanted;
+}
+
 /* The rank of a group in an order that keeps neighbours far apart, a 4 x 4 ordered dither: of 16 rotations
  * of a pattern, neighbouring pixels get two that differ much. */
 static inline uint32_t aur_group_rank(uint32_t group) {

@@ -130,9 +130,11 @@ static void renders(const aur_scene *scene) {
     aur_image_destroy(image);
     accept(aur_render_create(renderer, &options, &render, &error), &error);
     accept(aur_render_step(render, 1, &error), &error);
-    const uint32_t targets[] = {2, 2};
-    refuse(aur_render_step_tiles(render, 2, targets, &error), AUR_ERROR_ARGUMENT, &error);
-    accept(aur_render_step_tiles(render, 1, targets, &error), &error);
+    uint32_t targets[64];
+    for (size_t i = 0; i < 64; ++i)
+        targets[i] = 2;
+    refuse(aur_render_step_pixels(render, 63, targets, &error), AUR_ERROR_ARGUMENT, &error);
+    accept(aur_render_step_pixels(render, 64, targets, &error), &error);
     require(aur_render_samples(render) == 2 && aur_render_samples_wanted(render) == 2, "a render's samples");
     aur_render_statistics statistics = {.size = sizeof statistics};
     accept(aur_render_get_statistics(render, &statistics, &error), &error);
