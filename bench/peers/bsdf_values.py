@@ -11,7 +11,7 @@ import mitsuba as mi
 
 mi.set_variant("scalar_rgb")
 
-# Materials as the program's PLUGIN:key=value,... .
+# Materials as the program's PLUGIN:key=value,...; what is nested stands behind ">", a second one behind "|".
 MATERIALS = (
     "principled:base_color=0.6 0.3 0.1",
     "principled:base_color=0.6 0.3 0.1,roughness=0.9,specular=0.2",
@@ -23,6 +23,10 @@ MATERIALS = (
     "principled:base_color=0.6 0.3 0.1,spec_trans=0.6,eta=1.3,roughness=0.5,metallic=0.2,spec_tint=0.5,sheen=0.5",
     "principled:base_color=0.6 0.3 0.1,eta=0.8,metallic=0.5,spec_tint=0.5,clearcoat=0.5",
     "pplastic:diffuse_reflectance=0.6 0.3 0.1,int_ior=1.5,ext_ior=1,alpha=0.3,distribution=ggx",
+    "normalmap:normalmap=0.7 0.4 0.9>roughconductor:alpha=0.4,distribution=ggx",
+    "normalmap:normalmap=0.9 0.4 0.6>diffuse:reflectance=0.6 0.3 0.1",
+    "normalmap:normalmap=0.2 0.3 0.8,use_shadowing_function=false>diffuse:reflectance=0.6 0.3 0.1",
+    "blendbsdf:weight=0.3>diffuse:reflectance=0.6 0.3 0.1|roughconductor:alpha=0.4,distribution=ggx",
     "principledthin:base_color=0.6 0.3 0.1",
     "principledthin:base_color=0.6 0.3 0.1,spec_trans=0.7,roughness=0.4,eta=1.4,spec_tint=0.3",
     "principledthin:base_color=0.6 0.3 0.1,diff_trans=0.8,sheen=0.6,sheen_tint=0.3,flatness=0.4",
@@ -32,12 +36,16 @@ PAIRS = 12
 
 
 def load(text):
+    text, _, nested = text.partition(">")
     plugin, _, rest = text.partition(":")
     made = {"type": plugin}
+    for i, inner in enumerate(nested.split("|") if nested else []):
+        made[f"nested_{i}"] = load(inner)
     for item in rest.split(","):
         key, _, value = item.partition("=")
         numbers = [float(x) for x in value.split()] if value[0].isdigit() else []
-        made[key] = {0: value, 1: (numbers or [0])[0], 3: {"type": "rgb", "value": numbers}}[len(numbers)]
+        plain = value == "true" if value in ("true", "false") else value
+        made[key] = {0: plain, 1: (numbers or [0])[0], 3: {"type": "rgb", "value": numbers}}[len(numbers)]
     return mi.load_dict(made)
 
 

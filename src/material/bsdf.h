@@ -19,7 +19,14 @@ typedef struct aur_bsdf aur_bsdf;
 /* Where on a surface a BSDF is asked. */
 typedef struct aur_bsdf_point {
     float u, v; /* texture coordinates */
+    /* Set where the material is bumpy: how far the surface goes along the frame's x for a step of u, and
+     * along its x and y for one of v. */
+    float tangents[3];
+    aur_vector vertex_color, face_color; /* the mesh's, 0 where it has none */
 } aur_bsdf_point;
+
+/* What of that a material or texture asks for, a bit each. */
+enum { AUR_ATTRIBUTE_VERTEX_COLOR = 1, AUR_ATTRIBUTE_FACE_COLOR = 2 };
 
 typedef struct aur_bsdf_sample {
     aur_vector light;
@@ -42,6 +49,10 @@ typedef enum aur_lobe_shape {
     AUR_LOBE_SHAPE_SAMPLED
 } aur_lobe_shape;
 
+/* Where light of a specular lobe comes from: lobes that mirror, or let light straight through, are alike in
+ * all materials. */
+typedef enum aur_lobe_way { AUR_LOBE_WAY_OWN, AUR_LOBE_WAY_MIRROR, AUR_LOBE_WAY_STRAIGHT } aur_lobe_way;
+
 /* The sides of a surface that something is seen from. */
 enum { AUR_SIDE_FRONT = 1, AUR_SIDE_BACK = 2, AUR_SIDES_BOTH = 3 };
 
@@ -49,6 +60,7 @@ enum { AUR_SIDE_FRONT = 1, AUR_SIDE_BACK = 2, AUR_SIDES_BOTH = 3 };
 typedef struct aur_bsdf_lobe {
     /* Fixed when the scene is loaded: */
     aur_lobe_shape shape;
+    aur_lobe_way way;  /* of specular lobes */
     bool diffuse;      /* about the normal: gathered by the diffuse rule */
     bool times_cosine; /* the factor |light.z| stands beside the power */
     bool transmits;    /* light may come from the other side than the view's */
@@ -108,6 +120,8 @@ struct aur_bsdf {
     bool scatters_from_behind; /* view.z < 0 is not black */
     bool transmits;            /* light may leave on the other side */
     bool textured;             /* something varies over the surface, here or in a nested BSDF */
+    bool bumpy;                /* asks for a point's tangents, here or in a nested BSDF */
+    unsigned attributes;       /* of meshes, that it asks for, here or in a nested BSDF */
     bool plain_diffuse;        /* nothing but diffuse reflection, the same at every point of a surface */
 };
 

@@ -37,7 +37,8 @@ static aur_vector reflectance(const conductor *self, aur_bsdf_point point, float
 /* --- smooth */
 
 static aur_result create_smooth(aur_parameters *parameters, aur_bsdf *bsdf, aur_error *error) {
-    const aur_bsdf_lobe lobe = {.shape = AUR_LOBE_SHAPE_SPECULAR, .sides = AUR_SIDE_FRONT};
+    const aur_bsdf_lobe lobe = {
+        .shape = AUR_LOBE_SHAPE_SPECULAR, .way = AUR_LOBE_WAY_MIRROR, .sides = AUR_SIDE_FRONT};
     aur_bsdf_add_lobe(bsdf, &lobe);
     conductor *const self = bsdf->data;
     return aur_metal_complete(parameters, &self->metal, error);

@@ -21,6 +21,7 @@ static aur_result create(aur_parameters *parameters, aur_bsdf *bsdf, aur_error *
     aur_bsdf_lobe lobe = {.shape = AUR_LOBE_SHAPE_SPECULAR, .sides = AUR_SIDES_BOTH, .transmits = true};
     aur_bsdf_add_lobe(bsdf, &lobe);
     lobe.transmits = false;
+    lobe.way = AUR_LOBE_WAY_MIRROR;
     aur_bsdf_add_lobe(bsdf, &lobe);
     return aur_parameters_ior(parameters, "bk7", &self->ior, error);
 }

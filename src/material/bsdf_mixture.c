@@ -14,8 +14,11 @@ typedef struct mixture {
 /* --- lobes: those of the parts that differ in nothing but coefficient and side become one */
 
 static bool are_alike(const aur_bsdf_lobe *a, const aur_bsdf_lobe *b) {
-    return a->shape == b->shape && a->diffuse == b->diffuse && a->times_cosine == b->times_cosine &&
-           a->exponent == b->exponent && a->factor == b->factor && a->factor_data == b->factor_data;
+    if (a->shape == AUR_LOBE_SHAPE_SPECULAR && a->way == AUR_LOBE_WAY_OWN)
+        return false;
+    return a->shape == b->shape && a->way == b->way && a->diffuse == b->diffuse &&
+           a->times_cosine == b->times_cosine && a->exponent == b->exponent && a->factor == b->factor &&
+           a->factor_data == b->factor_data;
 }
 
 static size_t join_lobe(aur_bsdf *bsdf, const aur_bsdf_lobe *lobe) {
@@ -88,6 +91,7 @@ static void weigh(const aur_bsdf *bsdf, aur_bsdf_point point, aur_vector view, a
                 continue;
             aur_bsdf_lobe *const lobe = &lobes[self->number[k][i]];
             lobe->axis = turned(self, k, found[i].axis);
+            lobe->ior_squared = found[i].ior_squared;
             lobe->coefficient = aur_vector_add_scaled(lobe->coefficient, weights[k], found[i].coefficient);
         }
     }

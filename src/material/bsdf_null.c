@@ -44,13 +44,15 @@ const aur_bsdf_descriptor aur_bsdf_null = {
     .weigh = weigh_all,
 };
 
-const aur_bsdf aur_bsdf_nothing = {
-    .descriptor = &aur_bsdf_null,
-    .lobe_count = 1,
-    .lobes = {{.shape = AUR_LOBE_SHAPE_SPECULAR, .sides = AUR_SIDES_BOTH, .transmits = true}},
-    .scatters = {AUR_SCATTERS_SPECULAR, AUR_SCATTERS_SPECULAR},
-    .scatters_from_behind = true,
-    .transmits = true};
+const aur_bsdf aur_bsdf_nothing = {.descriptor = &aur_bsdf_null,
+                                   .lobe_count = 1,
+                                   .lobes = {{.shape = AUR_LOBE_SHAPE_SPECULAR,
+                                              .way = AUR_LOBE_WAY_STRAIGHT,
+                                              .sides = AUR_SIDES_BOTH,
+                                              .transmits = true}},
+                                   .scatters = {AUR_SCATTERS_SPECULAR, AUR_SCATTERS_SPECULAR},
+                                   .scatters_from_behind = true,
+                                   .transmits = true};
 
 /* --- filters */
 

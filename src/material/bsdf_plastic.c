@@ -113,7 +113,8 @@ static void add_base(aur_bsdf *bsdf) {
 }
 
 static aur_result create_smooth(aur_parameters *parameters, aur_bsdf *bsdf, aur_error *error) {
-    const aur_bsdf_lobe coat = {.shape = AUR_LOBE_SHAPE_SPECULAR, .sides = AUR_SIDE_FRONT};
+    const aur_bsdf_lobe coat = {
+        .shape = AUR_LOBE_SHAPE_SPECULAR, .way = AUR_LOBE_WAY_MIRROR, .sides = AUR_SIDE_FRONT};
     aur_bsdf_add_lobe(bsdf, &coat);
     add_base(bsdf);
     return make_coat(parameters, bsdf, error);

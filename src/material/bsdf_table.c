@@ -23,6 +23,8 @@
     ROW(principledthin)                                                                                      \
     ROW(mask)                                                                                                \
     ROW(blendbsdf)                                                                                           \
+    ROW(bumpmap)                                                                                             \
+    ROW(normalmap)                                                                                           \
     ROW(null)                                                                                                \
     ROW(polarizer)                                                                                           \
     ROW(retarder)                                                                                            \
@@ -45,6 +47,10 @@ static void inherit(const aur_parameters *parameters, aur_bsdf *bsdf) {
             continue;
         const aur_bsdf *const nested = strcmp(item->object_kind, "bsdf") == 0 ? item->object : NULL;
         bsdf->textured = bsdf->textured || nested == NULL || nested->textured;
+        if (nested == NULL && strcmp(item->object_kind, "texture") == 0)
+            bsdf->attributes |= ((const aur_texture *)item->object)->attributes;
+        bsdf->attributes |= nested != NULL ? nested->attributes : 0;
+        bsdf->bumpy = bsdf->bumpy || (nested != NULL && nested->bumpy);
         bsdf->anisotropic = bsdf->anisotropic || (nested != NULL && nested->anisotropic);
     }
 }

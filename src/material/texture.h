@@ -13,14 +13,17 @@ typedef struct aur_texture_descriptor {
     /* Reads its keys (aur_colors_read), fills texture->data and sets texture->mean and texture->maximum. */
     aur_result (*create)(aur_parameters *parameters, aur_texture *texture, aur_error *error);
     void (*release)(aur_texture *texture); /* what texture->data points to further; NULL: nothing */
-    aur_vector (*evaluate)(const aur_texture *texture, float u, float v);
+    aur_vector (*evaluate)(const aur_texture *texture, aur_bsdf_point point);
+    /* How the luminance grows with u and v; NULL: not at all. */
+    void (*slope)(const aur_texture *texture, aur_bsdf_point point, float slope[2]);
 } aur_texture_descriptor;
 
 struct aur_texture {
     const aur_texture_descriptor *descriptor;
     void *data;
-    aur_vector mean; /* over the unit square */
-    float maximum;   /* of any channel anywhere */
+    aur_vector mean;     /* over the unit square */
+    float maximum;       /* of any channel anywhere; 0: not known */
+    unsigned attributes; /* of meshes, that it asks for, here or in a nested texture */
 };
 
 extern const aur_table aur_texture_table;
@@ -52,8 +55,8 @@ typedef struct aur_uv_keys {
 aur_uv_map aur_uv_map_of(const aur_uv_keys *keys);
 
 static inline aur_bsdf_point aur_uv_map_apply(const aur_uv_map *map, float u, float v) {
-    return (aur_bsdf_point){map->m[0] * u + map->m[1] * v + map->m[2],
-                            map->m[3] * u + map->m[4] * v + map->m[5]};
+    return (aur_bsdf_point){.u = map->m[0] * u + map->m[1] * v + map->m[2],
+                            .v = map->m[3] * u + map->m[4] * v + map->m[5]};
 }
 
 /* A picture's R, G and B (or its Y three times), the top row first; *rgb is malloc'ed. What is negative or
@@ -62,7 +65,7 @@ aur_result aur_read_rgb(const char *path, size_t *width, size_t *height, float *
 
 static inline aur_vector aur_color_at(const aur_color *color, aur_bsdf_point point) {
     return color->texture == NULL ? color->constant
-                                  : color->texture->descriptor->evaluate(color->texture, point.u, point.v);
+                                  : color->texture->descriptor->evaluate(color->texture, point);
 }
 
 /* For what is a number and no colour: the luminance of a texture that is not grey. */

@@ -123,22 +123,55 @@ static aur_vector texel(const bitmap *self, int64_t x, int64_t y) {
     return (aur_vector){rgb[0], rgb[1], rgb[2]};
 }
 
-static aur_vector evaluate(const aur_texture *texture, float u, float v) {
-    const bitmap *const self = texture->data;
-    const aur_bsdf_point at = aur_uv_map_apply(&self->to_uv, u, v);
+/* The texel left above a point, and how far beyond the middle of it the point lies, in texels. */
+typedef struct texel_place {
+    int64_t i, j;
+    float s, t;
+} texel_place;
+
+static bool place_of(const bitmap *self, aur_bsdf_point point, texel_place *place) {
+    const aur_bsdf_point at = aur_uv_map_apply(&self->to_uv, point.u, point.v);
     const float offset = self->filter == FILTER_NEAREST ? 0.0f : 0.5f;
     const float x = at.u * (float)self->width - offset, y = at.v * (float)self->height - offset;
     if (!(fabsf(x) < 1e15f) || !(fabsf(y) < 1e15f))
-        return (aur_vector){0};
+        return false;
     const float left = floorf(x), top = floorf(y);
-    const int64_t i = (int64_t)left, j = (int64_t)top;
+    *place = (texel_place){(int64_t)left, (int64_t)top, x - left, y - top};
+    return true;
+}
+
+static aur_vector evaluate(const aur_texture *texture, aur_bsdf_point point) {
+    const bitmap *const self = texture->data;
+    texel_place at;
+    if (!place_of(self, point, &at))
+        return (aur_vector){0};
     if (self->filter == FILTER_NEAREST)
-        return texel(self, i, j);
-    const float s = x - left, t = y - top;
-    aur_vector sum = aur_vector_scale(texel(self, i, j), (1.0f - s) * (1.0f - t));
-    sum = aur_vector_add_scaled(sum, s * (1.0f - t), texel(self, i + 1, j));
-    sum = aur_vector_add_scaled(sum, (1.0f - s) * t, texel(self, i, j + 1));
-    return aur_vector_add_scaled(sum, s * t, texel(self, i + 1, j + 1));
+        return texel(self, at.i, at.j);
+    const float s = at.s, t = at.t;
+    aur_vector sum = aur_vector_scale(texel(self, at.i, at.j), (1.0f - s) * (1.0f - t));
+    sum = aur_vector_add_scaled(sum, s * (1.0f - t), texel(self, at.i + 1, at.j));
+    sum = aur_vector_add_scaled(sum, (1.0f - s) * t, texel(self, at.i, at.j + 1));
+    return aur_vector_add_scaled(sum, s * t, texel(self, at.i + 1, at.j + 1));
+}
+
+/* Of the bilinear patch that the point lies on. */
+static void slope(const aur_texture *texture, aur_bsdf_point point, float result[2]) {
+    const bitmap *const self = texture->data;
+    texel_place at;
+    result[0] = result[1] = 0.0f;
+    if (self->filter == FILTER_NEAREST || !place_of(self, point, &at))
+        return;
+    float corner[2][2];
+    for (int j = 0; j < 2; ++j)
+        for (int i = 0; i < 2; ++i)
+            corner[j][i] = aur_luminance(texel(self, at.i + i, at.j + j));
+    const float x = ((1.0f - at.t) * (corner[0][1] - corner[0][0]) + at.t * (corner[1][1] - corner[1][0])) *
+                    (float)self->width;
+    const float y = ((1.0f - at.s) * (corner[1][0] - corner[0][0]) + at.s * (corner[1][1] - corner[0][1])) *
+                    (float)self->height;
+    const float *const m = self->to_uv.m;
+    result[0] = m[0] * x + m[3] * y;
+    result[1] = m[1] * x + m[4] * y;
 }
 
 const aur_texture_descriptor aur_texture_bitmap = {
@@ -150,4 +183,5 @@ const aur_texture_descriptor aur_texture_bitmap = {
     .create = create,
     .release = release,
     .evaluate = evaluate,
+    .slope = slope,
 };

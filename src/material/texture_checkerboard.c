@@ -28,12 +28,12 @@ static aur_result create(aur_parameters *parameters, aur_texture *texture, aur_e
     return AUR_OK;
 }
 
-static aur_vector evaluate(const aur_texture *texture, float u, float v) {
+static aur_vector evaluate(const aur_texture *texture, aur_bsdf_point point) {
     const checkerboard *const self = texture->data;
-    const aur_bsdf_point at = aur_uv_map_apply(&self->to_uv, u, v);
+    const aur_bsdf_point at = aur_uv_map_apply(&self->to_uv, point.u, point.v);
     const bool right = at.u - floorf(at.u) > 0.5f;
     const bool low = at.v - floorf(at.v) > 0.5f;
-    return aur_color_at(&self->color[right == low ? 0 : 1], (aur_bsdf_point){u, v});
+    return aur_color_at(&self->color[right == low ? 0 : 1], point);
 }
 
 const aur_texture_descriptor aur_texture_checkerboard = {

@@ -1,12 +1,14 @@
 /* The table of textures, and making them by name: a new one is one file, which defines aur_texture_<name>,
  * and one line here. */
 #include <stdlib.h>
+#include <string.h>
 
 #include "material/texture.h"
 
 #define TEXTURES(ROW)                                                                                        \
     ROW(bitmap)                                                                                              \
-    ROW(checkerboard)
+    ROW(checkerboard)                                                                                        \
+    ROW(mesh_attribute)
 
 #define DECLARE(name) extern const aur_texture_descriptor aur_texture_##name;
 TEXTURES(DECLARE)
@@ -34,6 +36,10 @@ aur_result aur_texture_create(aur_parameters *parameters, aur_texture **texture,
         aur_texture_destroy(made);
         return result;
     }
+    for (size_t i = 0; i < parameters->count; ++i)
+        if (parameters->items[i].kind == AUR_PARAMETER_OBJECT &&
+            strcmp(parameters->items[i].object_kind, "texture") == 0)
+            made->attributes |= ((const aur_texture *)parameters->items[i].object)->attributes;
     *texture = made;
     return AUR_OK;
 }

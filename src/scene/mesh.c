@@ -18,9 +18,12 @@ aur_result aur_mesh_allocate(aur_mesh *mesh, size_t vertex_count, size_t triangl
         mesh->normals = calloc(3 * vertex_count + 1, sizeof(float));
     if (parts & AUR_MESH_UVS)
         mesh->uvs = calloc(2 * vertex_count + 1, sizeof(float));
+    if (parts & AUR_MESH_VERTEX_COLORS)
+        mesh->vertex_colors = calloc(3 * vertex_count + 1, sizeof(float));
     if (mesh->positions != NULL && mesh->indices != NULL &&
         (mesh->normals != NULL || !(parts & AUR_MESH_NORMALS)) &&
-        (mesh->uvs != NULL || !(parts & AUR_MESH_UVS)))
+        (mesh->uvs != NULL || !(parts & AUR_MESH_UVS)) &&
+        (mesh->vertex_colors != NULL || !(parts & AUR_MESH_VERTEX_COLORS)))
         return AUR_OK;
     aur_mesh_release(mesh);
     return aur_fail_at(error, location, AUR_ERROR_MEMORY, "out of memory for %zu vertices and %zu triangles",
@@ -32,6 +35,8 @@ void aur_mesh_release(aur_mesh *mesh) {
     free(mesh->normals);
     free(mesh->uvs);
     free(mesh->indices);
+    free(mesh->vertex_colors);
+    free(mesh->face_colors);
     *mesh = (aur_mesh){0};
 }
 

@@ -9,13 +9,15 @@
 
 typedef struct aur_mesh {
     size_t vertex_count, triangle_count;
-    float *positions;  /* 3 * vertex_count, and 4 bytes more that Embree may read */
-    float *normals;    /* 3 * vertex_count of unit length, or NULL: flat triangles */
-    float *uvs;        /* 2 * vertex_count, or NULL */
-    uint32_t *indices; /* 3 * triangle_count */
+    float *positions;     /* 3 * vertex_count, and 4 bytes more that Embree may read */
+    float *normals;       /* 3 * vertex_count of unit length, or NULL: flat triangles */
+    float *uvs;           /* 2 * vertex_count, or NULL */
+    uint32_t *indices;    /* 3 * triangle_count */
+    float *vertex_colors; /* 3 * vertex_count, or NULL */
+    float *face_colors;   /* 3 * triangle_count, or NULL */
 } aur_mesh;
 
-enum { AUR_MESH_POSITIONS_ONLY = 0, AUR_MESH_NORMALS = 1, AUR_MESH_UVS = 2 };
+enum { AUR_MESH_POSITIONS_ONLY = 0, AUR_MESH_NORMALS = 1, AUR_MESH_UVS = 2, AUR_MESH_VERTEX_COLORS = 4 };
 
 /* Allocates; all is zero. Refuses what 32 bits cannot index. */
 aur_result aur_mesh_allocate(aur_mesh *mesh, size_t vertex_count, size_t triangle_count, unsigned parts,

@@ -35,7 +35,7 @@ aur_shape_point aur_shape_sample(const aur_shape *shape, const aur_distribution 
         const aur_vector x = aur_vector_subtract(aur_mesh_position(mesh, 1), origin);
         const aur_vector y = aur_vector_subtract(aur_mesh_position(mesh, 3), origin);
         point.position = aur_vector_add_scaled(aur_vector_add_scaled(origin, u[1], x), u[2], y);
-        point.texture = (aur_bsdf_point){u[1], u[2]};
+        point.texture = (aur_bsdf_point){.u = u[1], .v = u[2]};
         return point;
     }
     const float root = sqrtf(u[1]);

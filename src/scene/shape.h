@@ -112,12 +112,26 @@ static inline float aur_shape_azimuth(float x, float y) {
     return azimuth - floorf(azimuth);
 }
 
-/* The texture coordinates at barycentric coordinates of a triangle: those, where the mesh has no others. */
+static inline aur_vector aur_mesh_triple(const float *values, size_t index) {
+    return (aur_vector){values[3 * index], values[3 * index + 1], values[3 * index + 2]};
+}
+
+/* The texture coordinates at barycentric coordinates of a triangle: those, where the mesh has no others; and
+ * its colours. */
 static inline aur_bsdf_point aur_mesh_texture(const aur_mesh *mesh, size_t triangle, float b1, float b2) {
-    if (mesh->uvs == NULL)
-        return (aur_bsdf_point){b1, b2};
+    aur_bsdf_point sum = {.u = 0.0f};
+    if (mesh->face_colors != NULL)
+        sum.face_color = aur_mesh_triple(mesh->face_colors, triangle);
     const float weight[3] = {1.0f - b1 - b2, b1, b2};
-    aur_bsdf_point sum = {0.0f, 0.0f};
+    for (size_t i = 0; mesh->vertex_colors != NULL && i < 3; ++i)
+        sum.vertex_color =
+            aur_vector_add_scaled(sum.vertex_color, weight[i],
+                                  aur_mesh_triple(mesh->vertex_colors, mesh->indices[3 * triangle + i]));
+    if (mesh->uvs == NULL) {
+        sum.u = b1;
+        sum.v = b2;
+        return sum;
+    }
     for (size_t i = 0; i < 3; ++i) {
         const float *const uv = &mesh->uvs[2 * (size_t)mesh->indices[3 * triangle + i]];
         sum.u += weight[i] * uv[0];

@@ -10,18 +10,26 @@ static aur_vector interpolate(const float *values, const uint32_t *index, const 
     return sum;
 }
 
-/* The direction in which u grows and v stays. */
-static aur_vector mesh_tangent(const aur_mesh *mesh, const uint32_t *index, const aur_vector edge[2]) {
+/* The steps in which u grows by 1 and v stays, and the other way round. */
+static void mesh_tangents(const aur_mesh *mesh, const uint32_t *index, const aur_vector edge[2],
+                          aur_vector tangents[2]) {
+    tangents[0] = edge[0];
+    tangents[1] = edge[1];
     if (mesh->uvs == NULL)
-        return edge[0];
+        return;
     const float *const uv[3] = {&mesh->uvs[2 * (size_t)index[0]], &mesh->uvs[2 * (size_t)index[1]],
                                 &mesh->uvs[2 * (size_t)index[2]]};
     const float v1 = uv[1][1] - uv[0][1], v2 = uv[2][1] - uv[0][1];
-    const float determinant = (uv[1][0] - uv[0][0]) * v2 - (uv[2][0] - uv[0][0]) * v1;
+    const float u1 = uv[1][0] - uv[0][0], u2 = uv[2][0] - uv[0][0];
+    const float determinant = u1 * v2 - u2 * v1;
     if (determinant == 0.0f)
-        return edge[0];
-    return aur_vector_scale(aur_vector_subtract(aur_vector_scale(edge[0], v2), aur_vector_scale(edge[1], v1)),
-                            1.0f / determinant);
+        return;
+    tangents[0] =
+        aur_vector_scale(aur_vector_subtract(aur_vector_scale(edge[0], v2), aur_vector_scale(edge[1], v1)),
+                         1.0f / determinant);
+    tangents[1] =
+        aur_vector_scale(aur_vector_subtract(aur_vector_scale(edge[1], u1), aur_vector_scale(edge[0], u2)),
+                         1.0f / determinant);
 }
 
 /* Of a triangle so large or thin that its sides' product leaves the range of floats; one without area faces
@@ -59,7 +67,11 @@ static void mesh_surface(const aur_shape *shape, const aur_ray *ray, const aur_h
             surface->frame.z = aur_vector_scale(smooth, 1.0f / sqrtf(size));
     }
     surface->texture = aur_mesh_texture(mesh, hit->primitive, hit->u, hit->v);
-    surface->frame.x = shape->bsdf->anisotropic ? mesh_tangent(mesh, index, edge) : edge[0];
+    aur_vector tangents[2] = {edge[0], edge[1]};
+    if (shape->bsdf->anisotropic)
+        mesh_tangents(mesh, index, edge, tangents);
+    surface->frame.x = tangents[0];
+    surface->frame.y = tangents[1];
 }
 
 static void curved_surface(const aur_shape *shape, const aur_ray *ray, const aur_hit *hit,
@@ -70,9 +82,11 @@ static void curved_surface(const aur_shape *shape, const aur_ray *ray, const aur
     surface->position = point.position;
     surface->geometric_normal = surface->frame.z = point.normal;
     surface->texture = point.texture;
+    surface->frame.y = (aur_vector){0};
 }
 
-/* frame.z is unit; frame.x is made perpendicular to it where the material asks which way it points. */
+/* frame.z is unit; frame.x is made perpendicular to it where the material asks which way it points. What x
+ * and y were of a mesh, the steps of its texture coordinates, is kept for bumpy materials. */
 static void finish_frame(const aur_bsdf *bsdf, aur_surface *surface) {
     if (aur_vector_dot(surface->frame.z, surface->geometric_normal) < 0.0f)
         surface->frame.z = aur_vector_scale(surface->frame.z, -1.0f);
@@ -81,8 +95,14 @@ static void finish_frame(const aur_bsdf *bsdf, aur_surface *surface) {
         const aur_vector x = aur_vector_add_scaled(surface->frame.x, -aur_vector_dot(surface->frame.x, z), z);
         const float length = aur_vector_length(x);
         if (length > 0.0f && isfinite(length)) {
+            const aur_vector u = surface->frame.x, v = surface->frame.y;
             surface->frame.x = aur_vector_scale(x, 1.0f / length);
             surface->frame.y = aur_vector_cross(z, surface->frame.x);
+            if (bsdf->bumpy) {
+                surface->texture.tangents[0] = aur_vector_dot(u, surface->frame.x);
+                surface->texture.tangents[1] = aur_vector_dot(v, surface->frame.x);
+                surface->texture.tangents[2] = aur_vector_dot(v, surface->frame.y);
+            }
             return;
         }
     }
@@ -109,6 +129,7 @@ static void instance_surface(const aur_instance *instance, const aur_shape *shap
         aur_vector_normalize(aur_transform_normal_f(&instance->to_local, surface->geometric_normal));
     surface->frame.z = aur_vector_normalize(aur_transform_normal_f(&instance->to_local, surface->frame.z));
     surface->frame.x = aur_transform_direction_f(&instance->to_world, surface->frame.x);
+    surface->frame.y = aur_transform_direction_f(&instance->to_world, surface->frame.y);
 }
 
 void aur_scene_surface(const aur_scene *scene, const aur_ray *ray, const aur_hit *hit, aur_surface *surface) {

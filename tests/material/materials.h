@@ -62,6 +62,10 @@ static const material_row material_rows[] = {
     {"circular", NULL, 0},
     {"blendbsdf:weight=0.3", "diffuse:reflectance=0.7|roughconductor:alpha=0.4", 0},
     {"blendbsdf:weight=0.6", "roughplastic:alpha=0.3|roughdielectric:alpha=0.5,int_ior=1.5,ext_ior=1", GLASS},
+    {"normalmap:normalmap=0.6 0.45 0.9", "roughconductor:alpha=0.4", NOT_RECIPROCAL},
+    {"normalmap:normalmap=0.7 0.5 0.9,use_shadowing_function=false,flip_invalid_normals=false",
+     "phong:exponent=10", NOT_RECIPROCAL},
+    {"normalmap:normalmap=0.6 0.45 0.9", "plastic:diffuse_reflectance=0.5", NOT_RECIPROCAL},
     {"mask:opacity=0.7", "roughconductor:alpha=0.4", 0},
 };
 

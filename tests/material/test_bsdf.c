@@ -1,10 +1,13 @@
 #include "materials.h"
 
+#include <stdio.h>
+#include <string.h>
+
 #include "material/sampling.h"
 #include "material/texture.h"
 #include "mitsuba_values.h"
 
-static const aur_bsdf_point point = {0.3f, 0.6f};
+static const aur_bsdf_point point = {.u = 0.3f, .v = 0.6f};
 
 static aur_vector value_of(const aur_bsdf *bsdf, aur_bsdf_part part, aur_vector view, aur_vector light) {
     float pdf;
@@ -261,8 +264,8 @@ static void lobes_are_the_same_at_every_point(void **state) {
         aur_parameters_release(&parameters);
         const aur_vector view = {0.0f, 0.6f, 0.8f};
         aur_bsdf_lobe black[AUR_BSDF_LOBE_CAPACITY], lit[AUR_BSDF_LOBE_CAPACITY];
-        assert_int_equal(aur_bsdf_lobes(bsdf, (aur_bsdf_point){0.0f, 0.0f}, view, black), 2);
-        assert_int_equal(aur_bsdf_lobes(bsdf, (aur_bsdf_point){0.7f, 0.2f}, view, lit), 2);
+        assert_int_equal(aur_bsdf_lobes(bsdf, (aur_bsdf_point){.u = 0.0f, .v = 0.0f}, view, black), 2);
+        assert_int_equal(aur_bsdf_lobes(bsdf, (aur_bsdf_point){.u = 0.7f, .v = 0.2f}, view, lit), 2);
         for (size_t i = 0; i < 2; ++i) {
             assert_int_equal(black[i].shape, lit[i].shape);
             assert_int_equal(black[i].diffuse, lit[i].diffuse);
@@ -290,6 +293,23 @@ static void masks_in_masks_let_all_light_through(void **state) {
     }
     for (size_t n = 6; n-- > 0;)
         aur_bsdf_destroy(made[n]);
+}
+
+/* What a mask lets through and what a smooth material in it mirrors and refracts are lobes of their own. */
+static void specular_lobes_of_a_mask_stay_apart(void **state) {
+    (void)state;
+    const aur_vector view = {0.0f, 0.6f, 0.8f};
+    material made = make_material(&(material_row){"mask:opacity=0.5", "dielectric:int_ior=1.5,ext_ior=1", 0});
+    aur_bsdf_lobe own[AUR_BSDF_LOBE_CAPACITY], lobes[AUR_BSDF_LOBE_CAPACITY];
+    assert_int_equal(aur_bsdf_lobes(made.nested[0], point, view, own), 2);
+    assert_int_equal(aur_bsdf_lobes(made.bsdf, point, view, lobes), 3);
+    for (size_t i = 0; i < 2; ++i) {
+        assert_true(lobes[i].coefficient.x == 0.5f * own[i].coefficient.x);
+        assert_true(lobes[i].axis.x == own[i].axis.x && lobes[i].axis.y == own[i].axis.y &&
+                    lobes[i].axis.z == own[i].axis.z && lobes[i].ior_squared == own[i].ior_squared);
+    }
+    assert_true(lobes[2].coefficient.x == 0.5f && lobes[2].axis.z == -0.8f);
+    drop_material(&made);
 }
 
 /* Draws of a sampled lobe alone have weight value / pdf, and their mean is the integral of the value: against
@@ -373,14 +393,19 @@ static void values_are_those_of_mitsuba(void **state) {
     (void)state;
     for (size_t i = 0; i < sizeof mitsuba_values / sizeof mitsuba_values[0]; ++i) {
         const mitsuba_value *const row = &mitsuba_values[i];
-        aur_bsdf *const bsdf = make_bsdf(row->material, NULL);
-        const aur_vector value = value_of(bsdf, AUR_BSDF_WHOLE, row->view, row->light);
+        char text[256];
+        snprintf(text, sizeof text, "%s", row->material);
+        char *const nested = strchr(text, '>');
+        if (nested != NULL)
+            *nested = '\0';
+        material made = make_material(&(material_row){text, nested != NULL ? nested + 1 : NULL, 0});
+        const aur_vector value = value_of(made.bsdf, AUR_BSDF_WHOLE, row->view, row->light);
         const float difference = aur_vector_length(aur_vector_subtract(value, row->value));
         if (!(difference <= 2e-5f * aur_vector_length(row->value) + 1e-7f))
             fail_msg("%s: %g %g %g instead of %g %g %g (row %zu)", row->material, (double)value.x,
                      (double)value.y, (double)value.z, (double)row->value.x, (double)row->value.y,
                      (double)row->value.z, i);
-        aur_bsdf_destroy(bsdf);
+        drop_material(&made);
     }
 }
 
@@ -393,6 +418,7 @@ int main(void) {
         cmocka_unit_test(lobes_are_the_material),
         cmocka_unit_test(lobes_are_the_same_at_every_point),
         cmocka_unit_test(masks_in_masks_let_all_light_through),
+        cmocka_unit_test(specular_lobes_of_a_mask_stay_apart),
         cmocka_unit_test(sampled_lobes_are_drawn_alone),
         cmocka_unit_test(lobe_reflectance_is_its_parameter),
         cmocka_unit_test(values_are_those_of_mitsuba),

@@ -39,7 +39,7 @@ static aur_texture *make(const char *keys) {
 
 static void expect(const char *keys, float u, float v, double r, double g, double b) {
     aur_texture *const texture = make(keys);
-    const aur_vector color = texture->descriptor->evaluate(texture, u, v);
+    const aur_vector color = texture->descriptor->evaluate(texture, (aur_bsdf_point){.u = u, .v = v});
     assert_near(color.x, r, 1e-6);
     assert_near(color.y, g, 1e-6);
     assert_near(color.z, b, 1e-6);

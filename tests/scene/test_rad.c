@@ -160,7 +160,7 @@ static void glass_by_its_series(void **state) {
         const aur_vector view = {(float)sin(angle), 0.0f, (float)cos(angle)};
         aur_bsdf_lobe lobes[AUR_BSDF_LOBE_CAPACITY];
         double seen[2][3];
-        assert_int_equal(aur_bsdf_lobes(bsdf, (aur_bsdf_point){0, 0}, view, lobes), 2);
+        assert_int_equal(aur_bsdf_lobes(bsdf, (aur_bsdf_point){.u = 0.0f}, view, lobes), 2);
         for (size_t i = 0; i < 2; ++i)
             aur_vector_to_doubles(lobes[i].coefficient, seen[lobes[i].transmits ? 0 : 1]);
         for (size_t c = 0; c < 3; ++c) {

@@ -80,7 +80,7 @@ static aur_shape_point sample_area(const area_light *light, const float u[3]) {
         const aur_vector along = aur_vector_add_scaled(r->corner, u[1] * r->width, r->x);
         return (aur_shape_point){.position = aur_vector_add_scaled(along, u[2] * r->height, r->y),
                                  .normal = light->rectangle.normal,
-                                 .texture = {u[1], u[2]}};
+                                 .texture = {.u = u[1], .v = u[2]}};
     }
     return aur_shape_sample(light->shape, light->is_mesh ? &light->triangles : NULL, u);
 }

@@ -39,8 +39,11 @@ aur_result aur_loader_reserve(aur_loader *self, void *array, size_t count, size_
  * called by its kind and its number among its kind ("bsdf", "bsdf2", ...). */
 static aur_result nested_name(aur_loader *self, const aur_xml_node *child, const char *tag,
                               const aur_parameters *parameters, char *name, size_t capacity) {
-    const char *const given = aur_xml_attribute_value(child, "name");
+    const char *given = aur_xml_attribute_value(child, "name");
     const bool texture = strcmp(tag, "texture") == 0;
+    /* The one texture of a bumpmap may have any name. */
+    if (texture && strcmp(parameters->plugin, "bumpmap") == 0)
+        given = "texture";
     if (texture && given == NULL)
         return aur_xml_fail(child, self->error, "a texture inside an object needs a 'name': what it is for");
     size_t count = 1;

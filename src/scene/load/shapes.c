@@ -106,6 +106,23 @@ static aur_result build_instance(aur_loader *self, aur_parameters *parameters, v
     return result == AUR_OK ? aur_parameters_finish(parameters, self->error) : result;
 }
 
+/* What the material or the light of a shape asks for and the shape does not have. */
+static aur_result check_attributes(aur_loader *self, const aur_shape *shape, const aur_emitter *emitter) {
+    const aur_texture *const radiance = emitter != NULL ? emitter->radiance.texture : NULL;
+    const unsigned asked = shape->bsdf->attributes | (radiance != NULL ? radiance->attributes : 0u);
+    const char *const plugin = shape->descriptor->row.name;
+    if ((asked & AUR_ATTRIBUTE_VERTEX_COLOR) != 0 && shape->mesh.vertex_colors == NULL)
+        return aur_xml_fail(self->node, self->error,
+                            "shape '%s' has no colours at its vertices, which a texture asks for", plugin);
+    if ((asked & AUR_ATTRIBUTE_FACE_COLOR) != 0 && shape->mesh.face_colors == NULL)
+        return aur_xml_fail(self->node, self->error,
+                            "shape '%s' has no colours of faces, which a texture asks for", plugin);
+    if (shape->bsdf->bumpy && shape->curved != NULL)
+        return aur_fail_at(self->error, shape->location, AUR_ERROR_UNSUPPORTED,
+                           "shape '%s': a 'bumpmap' needs a mesh", plugin);
+    return AUR_OK;
+}
+
 aur_result aur_build_shape(aur_loader *self, aur_parameters *parameters, void **object) {
     if (strcmp(parameters->plugin, AUR_GROUP_PLUGIN) == 0)
         return build_group(self, parameters, object);
@@ -140,5 +157,5 @@ aur_result aur_build_shape(aur_loader *self, aur_parameters *parameters, void **
         emitter->shape = (*made)->index;
         (*made)->emitter = emitter->index;
     }
-    return AUR_OK;
+    return check_attributes(self, *made, emitter);
 }

@@ -43,7 +43,7 @@ static aur_shape_point point_at(const aur_shape *shape, float cosine, float sine
     position = aur_vector_add_scaled(position, z, shape->axis[2]);
     return (aur_shape_point){position,
                              aur_vector_scale(normal, shape->flipped ? -1.0f : 1.0f),
-                             {aur_shape_azimuth(cosine, sine), z / shape->length}};
+                             {.u = aur_shape_azimuth(cosine, sine), .v = z / shape->length}};
 }
 
 static void surface(const aur_shape *shape, aur_vector position, aur_shape_point *point,

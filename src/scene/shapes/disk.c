@@ -43,7 +43,7 @@ static aur_shape_point point_at(const aur_shape *shape, float x, float y) {
     point.position = aur_vector_add_scaled(shape->center, x, shape->axis[0]);
     point.position = aur_vector_add_scaled(point.position, y, shape->axis[1]);
     point.normal = aur_vector_scale(shape->axis[2], shape->flipped ? -1.0f : 1.0f);
-    point.texture = (aur_bsdf_point){hypotf(x, y), aur_shape_azimuth(x, y)};
+    point.texture = (aur_bsdf_point){.u = hypotf(x, y), .v = aur_shape_azimuth(x, y)};
     return point;
 }
 

@@ -20,6 +20,7 @@ typedef struct corner {
 typedef struct obj {
     aur_mesh_file *file;
     float_list lists[3]; /* v, vt, vn */
+    float_list colors;   /* of vertices, 1 where a line has none; empty: no line has any */
     size_t corner_count, corner_capacity;
     corner *corners; /* three a triangle */
 } obj;
@@ -38,6 +39,26 @@ static aur_result read_values(obj *self, float_list *list, size_t least) {
         list->values[list->width * list->count + i] = (float)value;
     }
     ++list->count;
+    return AUR_OK;
+}
+
+/* "v x y z r g b": three more numbers are a colour, one alone is a weight. */
+static aur_result read_color(obj *self) {
+    aur_scanner *const scanner = &self->file->scanner;
+    double color[3];
+    size_t count = 0;
+    while (count < 3 && !aur_scan_line_done(scanner) && aur_scan_double(scanner, &color[count]) &&
+           fabs(color[count]) <= 1e30)
+        ++count;
+    if (count < 3 && self->colors.count == 0)
+        return AUR_OK;
+    float_list *const list = &self->colors;
+    if (!aur_array_reserve(&list->values, &list->capacity, self->lists[0].count, 3 * sizeof(float)))
+        return aur_fail_memory(self->file->error);
+    for (; list->count < self->lists[0].count; ++list->count)
+        for (size_t i = 0; i < 3; ++i)
+            list->values[3 * list->count + i] =
+                count == 3 && list->count + 1 == self->lists[0].count ? (float)color[i] : 1.0f;
     return AUR_OK;
 }
 
@@ -101,8 +122,10 @@ static const char *const keywords[] = {
 static aur_result read_line(obj *self) {
     const size_t count = sizeof keywords / sizeof keywords[0];
     const size_t which = aur_word_find(aur_scan_word(&self->file->scanner), count, keywords);
-    if (which < 3)
-        return read_values(self, &self->lists[which], which == 1 ? 1 : 3);
+    if (which < 3) {
+        const aur_result result = read_values(self, &self->lists[which], which == 1 ? 1 : 3);
+        return result == AUR_OK && which == 0 ? read_color(self) : result;
+    }
     if (which == 3)
         return read_face(self);
     /* Any file may be named by a scene, so that its words are not quoted. */
@@ -167,8 +190,9 @@ static void copy(const float_list *list, uint32_t index, float *to) {
 /* Vertex i of the mesh is corner unique[i], or vertex i of the file where `unique` is NULL: without texture
  * coordinates and normals the file's own vertices serve. */
 static aur_result make_mesh(const obj *self, size_t count, const uint32_t *unique, aur_mesh *mesh) {
-    const unsigned parts =
-        (self->lists[1].count > 0 ? AUR_MESH_UVS : 0u) | (self->lists[2].count > 0 ? AUR_MESH_NORMALS : 0u);
+    const unsigned parts = (self->lists[1].count > 0 ? AUR_MESH_UVS : 0u) |
+                           (self->lists[2].count > 0 ? AUR_MESH_NORMALS : 0u) |
+                           (self->colors.count > 0 ? AUR_MESH_VERTEX_COLORS : 0u);
     const aur_result result =
         aur_mesh_allocate(mesh, count, 0, parts, (aur_location){.file = self->file->path}, self->file->error);
     for (size_t i = 0; result == AUR_OK && i < count; ++i) {
@@ -176,6 +200,8 @@ static aur_result make_mesh(const obj *self, size_t count, const uint32_t *uniqu
         copy(&self->lists[0], c.index[0], &mesh->positions[3 * i]);
         copy(&self->lists[1], c.index[1], &mesh->uvs[2 * i]);
         copy(&self->lists[2], c.index[2], &mesh->normals[3 * i]);
+        if (mesh->vertex_colors != NULL)
+            copy(&self->colors, c.index[0], &mesh->vertex_colors[3 * i]);
         if (c.index[1] != NONE && self->file->flip_v)
             mesh->uvs[2 * i + 1] = 1.0f - mesh->uvs[2 * i + 1];
     }
@@ -200,7 +226,7 @@ static aur_result index_corners(const obj *self, uint32_t **indices, aur_mesh *m
 }
 
 static aur_result read_file(aur_mesh_file *file, aur_mesh *mesh) {
-    obj self = {.file = file, .lists = {{.width = 3}, {.width = 2}, {.width = 3}}};
+    obj self = {.file = file, .lists = {{.width = 3}, {.width = 2}, {.width = 3}}, .colors = {.width = 3}};
     uint32_t *indices = NULL;
     aur_result result = read_all(&self);
     if (result == AUR_OK)
@@ -209,6 +235,7 @@ static aur_result read_file(aur_mesh_file *file, aur_mesh *mesh) {
         aur_mesh_take_indices(mesh, self.corner_count, &indices);
     for (size_t i = 0; i < 3; ++i)
         free(self.lists[i].values);
+    free(self.colors.values);
     free(self.corners);
     free(indices);
     return result;

@@ -27,7 +27,7 @@ static const char *const type_names[] = {"char",   "int8",    "uchar",  "uint8",
                                          "ushort", "uint16",  "int",    "int32",  "uint",  "uint32",
                                          "float",  "float32", "double", "float64"};
 
-/* What a property is for: those of vertices come first, then the indices of faces. */
+/* What a property is for: those of vertices come first, then those of faces. */
 typedef enum ply_role {
     PLY_X,
     PLY_Y,
@@ -37,6 +37,12 @@ typedef enum ply_role {
     PLY_NZ,
     PLY_U,
     PLY_V,
+    PLY_RED,
+    PLY_GREEN,
+    PLY_BLUE,
+    PLY_FACE_RED,
+    PLY_FACE_GREEN,
+    PLY_FACE_BLUE,
     PLY_INDICES,
     PLY_LEFT_OUT,
     PLY_ROLE_COUNT
@@ -57,6 +63,18 @@ static const struct {
              {"t", PLY_V},
              {"texture_u", PLY_U},
              {"texture_v", PLY_V},
+             {"r", PLY_RED},
+             {"g", PLY_GREEN},
+             {"b", PLY_BLUE},
+             {"red", PLY_RED},
+             {"green", PLY_GREEN},
+             {"blue", PLY_BLUE},
+             {"r", PLY_FACE_RED},
+             {"g", PLY_FACE_GREEN},
+             {"b", PLY_FACE_BLUE},
+             {"red", PLY_FACE_RED},
+             {"green", PLY_FACE_GREEN},
+             {"blue", PLY_FACE_BLUE},
              {"vertex_indices", PLY_INDICES},
              {"vertex_index", PLY_INDICES}};
 
@@ -85,6 +103,10 @@ typedef struct ply {
     bool has[PLY_ROLE_COUNT];
     size_t index_count, index_capacity;
     uint32_t *indices;
+    /* Where faces have colours: those, 3 a face, and the face of each triangle. */
+    float *colors;
+    size_t face_count, face_capacity;
+    uint32_t *faces;
 } ply;
 
 /* --- the header */
@@ -148,9 +170,10 @@ static aur_result read_property(ply *self) {
         return fail_header(self, "a property needs a name");
     property->role = PLY_LEFT_OUT;
     for (size_t i = 0; i < sizeof roles / sizeof roles[0]; ++i) {
-        const bool fits = roles[i].role == PLY_INDICES ? property->list && property->type < PLY_FLOAT &&
-                                                             strcmp(element->name, "face") == 0
-                                                       : !property->list && element == self->vertices;
+        const bool of_face = roles[i].role >= PLY_FACE_RED;
+        const bool fits =
+            (roles[i].role == PLY_INDICES ? property->list && property->type < PLY_FLOAT : !property->list) &&
+            (of_face ? strcmp(element->name, "face") == 0 : element == self->vertices);
         if (fits && aur_word_is(word, roles[i].name))
             property->role = roles[i].role;
     }
@@ -262,6 +285,11 @@ static aur_result add_corner(ply *self, size_t face, size_t corner, double value
         self->index_count += 2;
     }
     self->indices[self->index_count++] = (uint32_t)value;
+    if (self->colors == NULL || corner < 2)
+        return AUR_OK;
+    if (!aur_array_reserve(&self->faces, &self->face_capacity, self->face_count + 1, sizeof *self->faces))
+        return aur_fail_memory(self->file->error);
+    self->faces[self->face_count++] = (uint32_t)face;
     return AUR_OK;
 }
 
@@ -272,8 +300,10 @@ static aur_result take_value(ply *self, const ply_property *property, size_t ind
     if (property->values == NULL)
         return AUR_OK;
     if (!(fabs(value) <= 1e30))
-        return aur_mesh_file_fail(self->file, "vertex %zu is not finite, or beyond 1e30", index);
-    property->values[property->stride * index] = (float)value;
+        return aur_mesh_file_fail(self->file, "%s %zu is not finite, or beyond 1e30",
+                                  property->role < PLY_FACE_RED ? "vertex" : "face", index);
+    const bool of_255 = property->type == PLY_UINT8 && property->role >= PLY_RED;
+    property->values[property->stride * index] = (float)(of_255 ? value / 255.0 : value);
     return AUR_OK;
 }
 
@@ -312,15 +342,55 @@ static aur_result read_rows(ply *self, const ply_element *element) {
 
 /* --- the whole */
 
-/* Where the properties of vertices go. */
-static void set_targets(ply_element *vertices, const aur_mesh *mesh) {
-    float *const arrays[] = {mesh->positions, mesh->normals, mesh->uvs};
-    for (size_t p = 0; p < vertices->property_count; ++p) {
-        ply_property *const property = &vertices->properties[p];
-        float *const array = property->role < PLY_INDICES ? arrays[property->role / 3] : NULL;
-        property->stride = property->role < PLY_U ? 3 : 2;
-        property->values = array != NULL ? array + property->role % 3 : NULL;
+/* Where the properties of an element go. */
+static void set_targets(const ply *self, ply_element *element, const aur_mesh *mesh) {
+    const struct {
+        float *values;
+        ply_role first;
+        size_t stride;
+    } targets[] = {{mesh->positions, PLY_X, 3},
+                   {mesh->normals, PLY_NX, 3},
+                   {mesh->uvs, PLY_U, 2},
+                   {mesh->vertex_colors, PLY_RED, 3},
+                   {self->colors, PLY_FACE_RED, 3}};
+    for (size_t p = 0; p < element->property_count; ++p) {
+        ply_property *const property = &element->properties[p];
+        property->values = NULL;
+        for (size_t i = 0; i < sizeof targets / sizeof targets[0]; ++i) {
+            const size_t place = (size_t)property->role - (size_t)targets[i].first;
+            if (targets[i].values == NULL || place >= targets[i].stride)
+                continue;
+            property->values = targets[i].values + place;
+            property->stride = targets[i].stride;
+        }
     }
+}
+
+/* Whether three roles are all there. */
+static bool has_all(const ply *self, ply_role first) {
+    return self->has[first] && self->has[first + 1] && self->has[first + 2];
+}
+
+/* Room for the colours of faces, in the end those of triangles. */
+static aur_result prepare_face_colors(ply *self, size_t left) {
+    size_t count = 0;
+    for (size_t i = 0; i < self->element_count; ++i)
+        if (strcmp(self->elements[i].name, "face") == 0 && self->elements[i].count > count)
+            count = self->elements[i].count;
+    if (count > left)
+        return aur_mesh_file_fail(self->file, "%zu faces cannot be in %zu bytes", count, left);
+    self->colors = calloc(3 * count + 1, sizeof *self->colors);
+    return self->colors != NULL ? AUR_OK : aur_fail_memory(self->file->error);
+}
+
+static aur_result color_triangles(const ply *self, aur_mesh *mesh) {
+    mesh->face_colors = malloc((3 * mesh->triangle_count + 1) * sizeof *mesh->face_colors);
+    if (mesh->face_colors == NULL)
+        return aur_fail_memory(self->file->error);
+    for (size_t i = 0; i < mesh->triangle_count; ++i)
+        memcpy(&mesh->face_colors[3 * i], &self->colors[3 * (size_t)self->faces[i]],
+               3 * sizeof *self->colors);
+    return AUR_OK;
 }
 
 static aur_result read_body(ply *self, aur_mesh *mesh) {
@@ -329,13 +399,15 @@ static aur_result read_body(ply *self, aur_mesh *mesh) {
     const size_t left = (size_t)(file->scanner.end - file->scanner.at);
     if (self->vertices->count > left)
         return aur_mesh_file_fail(file, "%zu vertices cannot be in %zu bytes", self->vertices->count, left);
-    const bool normals = self->has[PLY_NX] && self->has[PLY_NY] && self->has[PLY_NZ] && !file->face_normals;
-    const unsigned parts =
-        (normals ? AUR_MESH_NORMALS : 0u) | (self->has[PLY_U] && self->has[PLY_V] ? AUR_MESH_UVS : 0u);
+    const unsigned parts = (has_all(self, PLY_NX) && !file->face_normals ? AUR_MESH_NORMALS : 0u) |
+                           (self->has[PLY_U] && self->has[PLY_V] ? AUR_MESH_UVS : 0u) |
+                           (has_all(self, PLY_RED) ? AUR_MESH_VERTEX_COLORS : 0u);
     aur_result result = aur_mesh_allocate(mesh, self->vertices->count, 0, parts,
                                           (aur_location){.file = file->path}, file->error);
-    if (result == AUR_OK)
-        set_targets(&self->elements[self->vertices - self->elements], mesh);
+    if (result == AUR_OK && has_all(self, PLY_FACE_RED))
+        result = prepare_face_colors(self, left);
+    for (size_t i = 0; result == AUR_OK && i < self->element_count; ++i)
+        set_targets(self, &self->elements[i], mesh);
     for (size_t i = 0; result == AUR_OK && i < self->element_count; ++i)
         result = read_rows(self, &self->elements[i]);
     return result;
@@ -354,6 +426,10 @@ static aur_result read_file(aur_mesh_file *file, aur_mesh *mesh) {
         result = read_body(self, mesh);
     if (result == AUR_OK)
         aur_mesh_take_indices(mesh, self->index_count, &self->indices);
+    if (result == AUR_OK && self->colors != NULL)
+        result = color_triangles(self, mesh);
+    free(self->colors);
+    free(self->faces);
     free(self->indices);
     free(self);
     return result;

@@ -29,9 +29,10 @@ static aur_shape_point point_at(const aur_shape *shape, aur_vector normal) {
     const float x = aur_vector_dot(normal, shape->axis[0]);
     const float y = aur_vector_dot(normal, shape->axis[1]);
     const float z = aur_vector_dot(normal, shape->axis[2]);
-    return (aur_shape_point){aur_vector_add_scaled(shape->center, shape->radius, normal),
-                             aur_vector_scale(normal, shape->flipped ? -1.0f : 1.0f),
-                             {aur_shape_azimuth(x, y), acosf(fminf(fmaxf(z, -1.0f), 1.0f)) / AUR_PI_F}};
+    return (aur_shape_point){
+        aur_vector_add_scaled(shape->center, shape->radius, normal),
+        aur_vector_scale(normal, shape->flipped ? -1.0f : 1.0f),
+        {.u = aur_shape_azimuth(x, y), .v = acosf(fminf(fmaxf(z, -1.0f), 1.0f)) / AUR_PI_F}};
 }
 
 static void surface(const aur_shape *shape, aur_vector position, aur_shape_point *point,

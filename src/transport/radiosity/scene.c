@@ -40,8 +40,13 @@ static bool is_mirror(const aur_bsdf *bsdf) {
 
 static aur_bsdf_point texture_at(const aur_triangle *triangle, float u, float v) {
     const aur_bsdf_point *const t = triangle->texture;
-    return (aur_bsdf_point){t[0].u + u * (t[1].u - t[0].u) + v * (t[2].u - t[0].u),
-                            t[0].v + u * (t[1].v - t[0].v) + v * (t[2].v - t[0].v)};
+    const aur_vector color = aur_vector_add_scaled(
+        aur_vector_add_scaled(aur_vector_scale(t[0].vertex_color, 1.0f - u - v), u, t[1].vertex_color), v,
+        t[2].vertex_color);
+    return (aur_bsdf_point){.u = t[0].u + u * (t[1].u - t[0].u) + v * (t[2].u - t[0].u),
+                            .v = t[0].v + u * (t[1].v - t[0].v) + v * (t[2].v - t[0].v),
+                            .vertex_color = color,
+                            .face_color = t[0].face_color};
 }
 
 /* Point i of the R2 sequence, which shares no period with a texture, folded onto the triangle. */
