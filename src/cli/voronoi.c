@@ -106,7 +106,8 @@ static aur_result write_cells(const char *path, const aur_points_view *points, c
     FILE *const stream = open_memstream(&text, &size);
     if (stream != NULL)
         find_format(path)->write((corners){aur_series_row_count(series), aur_series_values(series)}, stream);
-    const bool whole = stream != NULL && !ferror(stream) && fclose(stream) == 0;
+    const bool written = stream != NULL && !ferror(stream);
+    const bool whole = stream != NULL && fclose(stream) == 0 && written;
     result =
         whole ? aur_file_write(path, size, text, error) : aur_fail(error, AUR_ERROR_MEMORY, "out of memory");
     free(text);
