@@ -26,10 +26,11 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
                      aur_parameters_add_text(&parameters, AUR_PARAMETER_STRING, "filename", input_path(),
                                              where, &error) == AUR_OK,
                  "no parameters");
-    const aur_xml_document document = {0};
+    aur_xml_document document = {0};
     aur_shape *shape = NULL;
     const aur_result result = aur_shape_create(&parameters, &document, &shape, &error);
     aur_parameters_release(&parameters);
+    aur_xml_release(&document);
     unlink(input_path());
     if (result != AUR_OK) {
         fuzz_require(shape == NULL, "a failed read left a shape");

@@ -53,6 +53,13 @@ AUR_EXPERIMENTAL aur_result aur_ask_run(aur_ask *ask, aur_error *error) AUR_NONN
 /* Stops aur_ask_run in another thread; may be called from a signal handler. */
 AUR_EXPERIMENTAL void aur_ask_cancel(aur_ask *ask) AUR_NONNULL(1);
 
+/* As aur_render_save and aur_render_resume, for an asking whose render options say `resumable`: the rounds go
+ * on as if nothing had been. */
+AUR_EXPERIMENTAL aur_result aur_ask_save(const aur_ask *ask, const char *path, aur_error *error)
+    AUR_NONNULL(1, 2);
+AUR_EXPERIMENTAL aur_result aur_ask_resume(aur_ask *ask, const char *path, aur_error *error)
+    AUR_NONNULL(1, 2);
+
 /* `size` is set by the caller to the size of his struct. */
 typedef struct aur_ask_report {
     size_t size;

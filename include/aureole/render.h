@@ -9,6 +9,7 @@
 #include <aureole/image.h>
 #include <aureole/scene.h>
 #include <aureole/tables.h>
+#include <stdbool.h>
 #include <string.h>
 
 #ifdef __cplusplus
@@ -50,6 +51,11 @@ typedef struct aur_render_options {
     size_t crop_x0, crop_x1, crop_y0, crop_y1;
     aur_progress progress;
     aur_warnings warnings;
+    /* For aur_render_save: the scene's files are hashed when the render is made. */
+    bool resumable;
+    /* Of shard_count parts of the picture, the shard-th, from 1 on: every shard_count-th tile of 16 x 16
+     * pixels. Both 0: all of it. The others stay black until they are merged. */
+    size_t shard, shard_count;
 } aur_render_options;
 
 static inline aur_render_options aur_render_options_default(void) {
@@ -121,6 +127,24 @@ AUR_EXPERIMENTAL const aur_film *aur_render_film(const aur_render *render) AUR_N
  * goes on where that one ended. Errors as for aur_film_merge. */
 AUR_EXPERIMENTAL aur_result aur_render_merge(aur_render *render, const aur_film *film, aur_error *error)
     AUR_NONNULL(1, 2);
+
+/* Keeps a resumable render in a file, which is replaced whole or not at all: its film, what it has cost, and
+ * what it is of - version, scene and all files that it names by their content, options. May be called while
+ * another thread is in a step, and so from the progress callback: then it has the tiles that are finished,
+ * and of others the samples that integrators add one after the other. Errors: ARGUMENT (not resumable),
+ * WRITE, MEMORY. */
+AUR_EXPERIMENTAL aur_result aur_render_save(const aur_render *render, const char *path, aur_error *error)
+    AUR_NONNULL(1, 2);
+/* Goes on from such a file, before the first step: the picture in the end has the bits of a render that was
+ * never stopped. Errors: OPEN, FORMAT (no such file, or a damaged one), ARGUMENT (of another scene, other
+ * options or another version: the message names the first difference), MEMORY. */
+AUR_EXPERIMENTAL aur_result aur_render_resume(aur_render *render, const char *path, aur_error *error)
+    AUR_NONNULL(1, 2);
+/* Puts the finished parts of one picture together, files of aur_render_save by renders with shard = 1 ..
+ * shard_count, each once, in any order: the film has the bits of one render of all. Errors: as above;
+ * ARGUMENT also for a part that is missing, given twice or not finished. */
+AUR_EXPERIMENTAL aur_result aur_render_merge_parts(size_t count, const char *const *paths, aur_film **film,
+                                                   aur_error *error) AUR_NONNULL(2, 3);
 
 /* What preparing and the steps so far have cost. Errors: ARGUMENT when `size` is not set. */
 AUR_EXPERIMENTAL aur_result aur_render_get_statistics(const aur_render *render,

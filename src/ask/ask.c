@@ -1,10 +1,12 @@
-#include <aureole/ask.h>
+#include "ask/state.h"
+
+#include <inttypes.h>
 #include <math.h>
-#include <stdatomic.h>
+#include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
 
 #include "ask/choose.h"
-#include "ask/replicas.h"
 #include "ask/rounds.h"
 #include "core/error.h"
 #include "core/options.h"
@@ -13,25 +15,6 @@
 #include "render/stopwatch.h"
 
 enum { MOST_SAMPLES = 1 << 24 };
-
-struct aur_ask {
-    aur_ask_options wish;
-    aur_progress progress;
-    char *integrator;
-    aur_replicas replicas;
-    uint32_t *targets;
-    double *variances, *scratch; /* of the pixels, after the last round */
-    aur_replica_measure measure;
-    aur_error_interval interval; /* relative */
-    double rate;                 /* the error's square falls as samples^-rate */
-    double samples;              /* a pixel, all replicas together */
-    uint64_t rounds;
-    bool begun; /* a round that was stopped before its end */
-    atomic_bool cancelled;
-    /* For the progress callback: replicas done of this round, and what is rendered in all. */
-    size_t replica;
-    double before, whole;
-};
 
 static aur_result check_wish(aur_ask_options *wish, aur_error *error) {
     if (!(wish->error >= 0.0 && wish->error <= 1.0))
@@ -71,6 +54,24 @@ static int report(void *user, const char *what, uint64_t done, uint64_t total) {
 
 /* --- making */
 
+static aur_result make_identity(aur_ask *ask, const aur_scene *scene, const aur_render_options *options,
+                                aur_error *error) {
+    char *render, wish[200];
+    const aur_ask_options *const w = &ask->wish;
+    const aur_result result = aur_render_identify(scene, options, &render, error);
+    if (result != AUR_OK)
+        return result;
+    snprintf(wish, sizeof wish,
+             "error %.15g\ntime %.15g s\nrays %" PRIu64 "\nrounds %" PRIu64
+             "\nconfidence %.15g\nreplicas %zu\n",
+             w->error, w->seconds, w->rays, w->rounds, w->confidence, w->replicas);
+    ask->identity = malloc(strlen(render) + strlen(wish) + 1);
+    if (ask->identity != NULL)
+        strcat(strcpy(ask->identity, wish), render);
+    free(render);
+    return ask->identity != NULL ? AUR_OK : aur_fail_memory(error);
+}
+
 static aur_result prepare(aur_ask *ask, aur_renderer *renderer, const aur_render_options *given,
                           aur_error *error) {
     aur_render_options own = aur_render_options_default();
@@ -85,6 +86,14 @@ static aur_result prepare(aur_ask *ask, aur_renderer *renderer, const aur_render
     own.samples_per_pixel = MOST_SAMPLES;
     if (own.sampler == NULL)
         own.sampler = "sobol";
+    if (own.shard_count != 0)
+        return aur_fail(error, AUR_ERROR_UNSUPPORTED,
+                        "an error, a time or a number of rays is of a whole picture: parts have none");
+    if (own.resumable)
+        result = make_identity(ask, aur_renderer_scene(renderer), &own, error);
+    own.resumable = false;
+    if (result != AUR_OK)
+        return result;
     result = aur_replicas_create(renderer, &own, ask->wish.replicas, &ask->replicas, error);
     if (result != AUR_OK)
         return result;
@@ -133,6 +142,7 @@ void aur_ask_destroy(aur_ask *ask) {
     free(ask->variances);
     free(ask->scratch);
     free(ask->integrator);
+    free(ask->identity);
     free(ask);
 }
 

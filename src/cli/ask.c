@@ -4,55 +4,25 @@
 #include <inttypes.h>
 #include <math.h>
 #include <stdio.h>
-#include <string.h>
 
-/* A positive number with one of a unit's names; *factor is the unit's, 1 where there is none. */
-typedef struct unit {
-    const char *name;
-    double factor;
-} unit;
-
-static bool parse_quantity(const char *text, size_t unit_count, const unit *units, double *value) {
-    char number[64];
-    const size_t length = strlen(text);
-    double factor = 1.0;
-    size_t cut = 0;
-    for (size_t i = 0; i < unit_count; ++i) {
-        const size_t suffix = strlen(units[i].name);
-        if (suffix > cut && length > suffix && strcmp(text + length - suffix, units[i].name) == 0) {
-            factor = units[i].factor;
-            cut = suffix;
-        }
-    }
-    if (length - cut >= sizeof number)
-        return false;
-    memcpy(number, text, length - cut);
-    number[length - cut] = '\0';
-    if (!aur_parse_double(number, value) || !(*value > 0.0))
-        return false;
-    *value *= factor;
-    return true;
-}
+#include "cli/quantity.h"
 
 static aur_result parse_error(const char *text, void *field, aur_error *error) {
-    static const unit units[] = {{"%", 0.01}};
+    static const cli_unit units[] = {{"%", 0.01}};
     double *const value = field;
-    if (parse_quantity(text, 1, units, value) && *value <= 1.0)
+    if (cli_parse_quantity(text, 1, units, value) && *value <= 1.0)
         return AUR_OK;
     return aur_fail(error, AUR_ERROR_ARGUMENT,
                     "--error: '%s' is no error: 1%% or .01 is wanted, from above 0 to 100%%", text);
 }
 
 static aur_result parse_time(const char *text, void *field, aur_error *error) {
-    static const unit units[] = {{"s", 1.0}, {"min", 60.0}, {"m", 60.0}, {"h", 3600.0}};
-    if (parse_quantity(text, sizeof units / sizeof units[0], units, field))
-        return AUR_OK;
-    return aur_fail(error, AUR_ERROR_ARGUMENT, "--time: '%s' is no time: 30s, 5min or 1h is wanted", text);
+    return cli_parse_seconds("time", text, field, error);
 }
 
 static aur_result parse_rays(const char *text, void *field, aur_error *error) {
     double value = 0.0;
-    if (!parse_quantity(text, 0, NULL, &value) || value < 1.0 || value > 1e18)
+    if (!cli_parse_quantity(text, 0, NULL, &value) || value < 1.0 || value > 1e18)
         return aur_fail(error, AUR_ERROR_ARGUMENT, "--rays: '%s' is no number of rays: 1e9, say, is wanted",
                         text);
     *(uint64_t *)field = (uint64_t)value;
@@ -98,7 +68,8 @@ static void say(const aur_ask *ask, const cli_wish *wish, const char *output) {
 }
 
 aur_result cli_render_wish(aur_renderer *renderer, const aur_render_options *options, const cli_wish *wish,
-                           const char *output, bool quiet, aur_image **image, aur_error *error) {
+                           cli_checkpoint *checkpoint, const char *output, bool quiet, aur_image **image,
+                           aur_error *error) {
     aur_ask_options own = aur_ask_options_default();
     own.error = wish->error;
     own.seconds = wish->seconds;
@@ -107,8 +78,15 @@ aur_result cli_render_wish(aur_renderer *renderer, const aur_render_options *opt
     aur_ask *ask = NULL;
     aur_result result = aur_ask_create(renderer, options, &own, &ask, error);
     if (result == AUR_OK)
+        result = cli_checkpoint_begin(checkpoint, NULL, ask, quiet, error);
+    const bool begun = result == AUR_OK;
+    if (begun)
         result = aur_ask_run(ask, error);
     cli_progress_clear();
+    if (begun && (result == AUR_OK || result == AUR_ERROR_CANCELLED)) {
+        const aur_result kept = cli_checkpoint_end(checkpoint, error);
+        result = kept != AUR_OK ? kept : result;
+    }
     if (result == AUR_OK || (result == AUR_ERROR_CANCELLED && ask != NULL)) {
         const aur_result developed = aur_ask_develop(ask, wish->error_map, image, error);
         result = developed != AUR_OK ? developed : result;

@@ -1,9 +1,7 @@
 /* `aureole render` to an error, for a time, or for a number of rays. */
 #pragma once
 
-#include <aureole/ask.h>
-
-#include "cli/options.h"
+#include "cli/checkpoint.h"
 
 /* What was asked for; all zero: nothing, and the scene is rendered as it says. */
 typedef struct cli_wish {
@@ -19,4 +17,5 @@ bool cli_is_wish(const cli_wish *wish);
 /* Renders what was asked for. *image is the picture; CANCELLED by an interrupt leaves what there is of it, or
  * NULL. The last line, unless `quiet`, says how good it is. */
 aur_result cli_render_wish(aur_renderer *renderer, const aur_render_options *options, const cli_wish *wish,
-                           const char *output, bool quiet, aur_image **image, aur_error *error);
+                           cli_checkpoint *checkpoint, const char *output, bool quiet, aur_image **image,
+                           aur_error *error);

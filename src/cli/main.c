@@ -15,6 +15,7 @@
     ROW(weights)                                                                                             \
     ROW(render)                                                                                              \
     ROW(irradiance)                                                                                          \
+    ROW(merge)                                                                                               \
     ROW(viewfactors)                                                                                         \
     ROW(compare)                                                                                             \
     ROW(convert)                                                                                             \

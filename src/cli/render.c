@@ -18,6 +18,7 @@ typedef struct render_command {
     aur_render_options options;
     const char *reference, *errors;
     cli_wish wish;
+    cli_checkpoint checkpoint;
     bool statistics;
     cli_common common;
 } render_command;
@@ -48,6 +49,24 @@ static aur_result parse_crop(const char *text, void *field, aur_error *error) {
     return AUR_OK;
 }
 
+/* "i/n" */
+static aur_result parse_shard(const char *text, void *field, aur_error *error) {
+    enum { MOST_SHARDS = 1000000 };
+    aur_render_options *const options = field;
+    char piece[24] = "";
+    const size_t length = strcspn(text, "/");
+    uint64_t shard = 0, count = 0;
+    const bool good = length < sizeof piece && text[length] == '/' &&
+                      aur_parse_integer(memcpy(piece, text, length), MOST_SHARDS, &shard) &&
+                      aur_parse_integer(text + length + 1, MOST_SHARDS, &count);
+    if (!good || shard == 0 || shard > count)
+        return aur_fail(error, AUR_ERROR_ARGUMENT,
+                        "--shard: '%s' is no part: i/n with i from 1 to n is wanted, such as 2/3", text);
+    options->shard = (size_t)shard;
+    options->shard_count = (size_t)count;
+    return AUR_OK;
+}
+
 static const cli_option options[] = {
     {CLI_TEXT(render_command, output, "output", "FILE", "SCENE.exr in the current folder",
               "where the picture goes: .exr, .png, ... (aureole help picture)"),
@@ -73,6 +92,11 @@ static const cli_option options[] = {
     {CLI_TEXT(render_command, options, "crop", "x0,x1,y0,y1", NULL,
               "render the pixels x0 <= x < x1, y0 <= y < y1 only"),
      .parse = parse_crop},
+    {CLI_TEXT(
+         render_command, options, "shard", "i/n", NULL,
+         "render the i-th of n parts alone, into SCENE.i-of-n.part or what -o says; 'aureole merge' puts "
+         "them together"),
+     .parse = parse_shard},
     {CLI_INTEGER(render_command, options.seed, "seed", "N", 0, INFINITY, "0", "of all random numbers")},
     {CLI_TEXT(render_command, reference, "reference", "REF", NULL, "the picture that --errors compares with"),
      .content = "file"},
@@ -83,13 +107,16 @@ static const cli_option options[] = {
     {CLI_FLAG(render_command, statistics, "verbose", "the same as --stats"), .letter = 'v'},
     {.key = {0}}};
 
-/* SCENE.exr in the current folder, from the scene's file name. */
-static void default_output(const char *scene, size_t capacity, char *output) {
+/* SCENE.exr in the current folder, from the scene's file name; SCENE.i-of-n.part for a part. */
+static void default_output(const char *scene, const aur_render_options *part, size_t capacity, char *output) {
     const char *const slash = strrchr(scene, '/');
     const char *const name = slash != NULL ? slash + 1 : scene;
     const char *const dot = strrchr(name, '.');
     const size_t length = dot != NULL && dot != name ? (size_t)(dot - name) : strlen(name);
-    snprintf(output, capacity, "%.*s.exr", (int)length, name);
+    if (part->shard_count > 0)
+        snprintf(output, capacity, "%.*s.%zu-of-%zu.part", (int)length, name, part->shard, part->shard_count);
+    else
+        snprintf(output, capacity, "%.*s.exr", (int)length, name);
 }
 
 /* What can be known to fail is said before an hour is spent. */
@@ -137,18 +164,27 @@ static void print_statistics(const aur_render *render) {
 }
 
 /* All samples, in the steps that the errors ask for; *image is what there is in the end. */
-static aur_result render_samples(aur_renderer *renderer, const render_command *command, cli_errors *errors,
+static aur_result render_samples(aur_renderer *renderer, render_command *command, cli_errors *errors,
                                  aur_image **image, aur_error *error) {
     aur_render *render = NULL;
     aur_result result = aur_render_create(renderer, &command->options, &render, error);
     if (result == AUR_OK)
+        result = cli_checkpoint_begin(&command->checkpoint, render, NULL, command->common.quiet, error);
+    const bool begun = result == AUR_OK;
+    if (begun)
         result =
             errors != NULL ? cli_errors_render(errors, render, error) : aur_render_step(render, 0, error);
     cli_progress_clear();
-    if (render != NULL && (result == AUR_OK || result == AUR_ERROR_CANCELLED)) {
+    if (begun && (result == AUR_OK || result == AUR_ERROR_CANCELLED)) {
+        const aur_result kept = cli_checkpoint_end(&command->checkpoint, error);
+        result = kept != AUR_OK ? kept : result;
+    }
+    if (begun && (result == AUR_OK || result == AUR_ERROR_CANCELLED)) {
         const aur_result developed = aur_film_develop(aur_render_film(render), image, error);
         result = developed != AUR_OK ? developed : result;
     }
+    if (result == AUR_OK && command->options.shard_count > 0)
+        result = aur_render_save(render, command->output, error);
     if (result == AUR_OK && command->statistics)
         print_statistics(render);
     aur_render_destroy(render);
@@ -159,19 +195,21 @@ static aur_result render_samples(aur_renderer *renderer, const render_command *c
 static void write_partial(const char *output, const aur_image *image) {
     char path[PATH_MAX];
     aur_error error = {0};
-    const char *const dot = strrchr(output, '.');
-    snprintf(path, sizeof path, "%.*s.partial.exr", (int)(dot - output), output);
+    const char *const slash = strrchr(output, '/'), *const dot = strrchr(slash != NULL ? slash : output, '.');
+    const size_t length = dot != NULL ? (size_t)(dot - output) : strlen(output);
+    snprintf(path, sizeof path, "%.*s.partial.exr", (int)length, output);
     if (aur_image_write(path, image, NULL, &error) == AUR_OK)
         fprintf(stderr, "aureole: what there is of the picture is in %s\n", path);
     else
         cli_fail(&error);
 }
 
-static int render(const char *path, const render_command *command, cli_errors *errors) {
+static int render(const char *path, render_command *command, cli_errors *errors) {
     aur_error error = {0};
     if (check_folder(command->output, &error) != AUR_OK ||
         (errors != NULL && strcmp(command->errors, "-") != 0 &&
-         check_folder(command->errors, &error) != AUR_OK))
+         check_folder(command->errors, &error) != AUR_OK) ||
+        (command->checkpoint.path != NULL && check_folder(command->checkpoint.path, &error) != AUR_OK))
         return cli_fail(&error);
     const aur_scene_options scene_options = {.size = sizeof scene_options,
                                              .definition_count = command->definitions.count,
@@ -185,13 +223,13 @@ static int render(const char *path, const render_command *command, cli_errors *e
         result = aur_renderer_create(scene, &renderer, &error);
     if (result == AUR_OK)
         result = cli_is_wish(&command->wish)
-                     ? cli_render_wish(renderer, &command->options, &command->wish, command->output,
-                                       command->common.quiet, &image, &error)
+                     ? cli_render_wish(renderer, &command->options, &command->wish, &command->checkpoint,
+                                       command->output, command->common.quiet, &image, &error)
                      : render_samples(renderer, command, errors, &image, &error);
     cli_progress_clear();
     if (result == AUR_ERROR_CANCELLED && image != NULL)
         write_partial(command->output, image);
-    if (result == AUR_OK)
+    if (result == AUR_OK && command->options.shard_count == 0)
         result = aur_image_write(command->output, image, NULL, &error);
     if (result == AUR_OK && errors != NULL)
         result = cli_errors_write(errors, command->errors, &error);
@@ -205,6 +243,15 @@ static int render(const char *path, const render_command *command, cli_errors *e
 static const char *conflict(const cli_call *call, const render_command *command) {
     if ((command->reference == NULL) != (command->errors == NULL))
         return "render: '--reference' and '--errors' are wanted together";
+    if (command->reference != NULL && command->checkpoint.path != NULL)
+        return "render: '--checkpoint' does not go with '--errors', whose table would begin anew";
+    if (command->options.shard_count > 0 && (cli_is_wish(&command->wish) || command->reference != NULL))
+        return "render: '--shard' does not go with '--error', '--time', '--rays', '--rounds' or '--errors', "
+               "which "
+               "look at the whole picture";
+    const char *const checkpoint = cli_checkpoint_conflict(&command->checkpoint);
+    if (checkpoint != NULL)
+        return checkpoint;
     if (!cli_is_wish(&command->wish))
         return command->wish.error_map ? "render: '--error-map' goes with '--error', '--time' or '--rays'"
                                        : NULL;
@@ -224,14 +271,16 @@ static int run(const cli_call *call) {
     const char *const wrong = conflict(call, command);
     if (wrong != NULL)
         return cli_bad_usage("%s", wrong);
-    default_output(scene, sizeof output, output);
+    default_output(scene, &command->options, sizeof output, output);
     if (command->output == NULL)
         command->output = output;
-    if (!check_output(command->output))
+    if (command->options.shard_count == 0 && !check_output(command->output))
         return CLI_BAD_INPUT;
     command->options.size = sizeof command->options;
     command->options.threads = command->common.threads;
-    command->options.progress = cli_progress(command->common.quiet);
+    command->options.progress =
+        cli_checkpoint_progress(&command->checkpoint, cli_progress(command->common.quiet));
+    command->options.resumable = command->checkpoint.path != NULL || command->options.shard_count > 0;
     command->options.warnings = cli_warnings(command->common.quiet);
     if (command->reference == NULL)
         return render(scene, command, NULL);
@@ -249,6 +298,7 @@ const cli_verb cli_verb_render = {
     .operands = {{"SCENE", "the scene's file, in Mitsuba's form", .content = "file"}},
     .groups = {{options, 0},
                {cli_wish_options, offsetof(render_command, wish)},
+               {cli_checkpoint_options, offsetof(render_command, checkpoint)},
                {cli_definitions_option, offsetof(render_command, definitions)},
                {cli_threads_option, offsetof(render_command, common)},
                {cli_quiet_option, offsetof(render_command, common)}},

@@ -22,10 +22,29 @@ static inline void aur_word_put(aur_word_writer *writer, uint64_t word) {
     writer->hash = aur_hash2(writer->hash, word);
 }
 
+/* A hash of the bytes and of their number. */
+static inline uint64_t aur_hash_bytes(size_t size, const void *bytes) {
+    const unsigned char *const at = bytes;
+    uint64_t hash = aur_mix64(size);
+    for (size_t i = 0; i < size; i += 8) {
+        uint64_t word = 0;
+        for (size_t k = 0; k < 8 && i + k < size; ++k)
+            word |= (uint64_t)at[i + k] << 8 * k;
+        hash = aur_hash2(hash, word);
+    }
+    return hash;
+}
+
 static inline uint64_t aur_word_of_double(double value) {
     uint64_t word;
     memcpy(&word, &value, sizeof word);
     return word;
+}
+
+static inline double aur_double_of_word(uint64_t word) {
+    double value;
+    memcpy(&value, &word, sizeof value);
+    return value;
 }
 
 typedef struct aur_word_reader {
@@ -50,10 +69,7 @@ static inline uint64_t aur_word_get(aur_word_reader *reader) {
 }
 
 static inline double aur_word_get_double(aur_word_reader *reader) {
-    const uint64_t word = aur_word_get(reader);
-    double value;
-    memcpy(&value, &word, sizeof value);
-    return value;
+    return aur_double_of_word(aur_word_get(reader));
 }
 
 /* Whether the last word is the hash of all before it, and nothing was missing. */

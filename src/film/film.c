@@ -158,7 +158,10 @@ void aur_film_take_tile(aur_film *film, aur_tile *tile) {
             film->given[to + k] = end > film->given[to + k] ? end : film->given[to + k];
         }
     }
+    aur_counters_add(&film->counters, &tile->counters);
     pthread_mutex_unlock(film->lock);
+    tile->asked -= tile->counters.rays; /* their difference stays */
+    tile->counters = (aur_counters){0};
     tile->first += tile->count;
     tile->count = 0;
 }
@@ -254,6 +257,7 @@ aur_result aur_film_merge(aur_film *film, const aur_film *part, aur_error *error
             film->counts[to] += part->counts[from];
             film->steps[to] += part->steps[from];
         }
+    aur_counters_add(&film->counters, &part->counters);
     return AUR_OK;
 }
 

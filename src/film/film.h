@@ -4,6 +4,7 @@
 #include <aureole/film.h>
 
 #include <pthread.h>
+#include <stdio.h>
 
 #include "film/tile.h"
 
@@ -47,6 +48,7 @@ struct aur_film {
      */
     uint32_t *steps;
     double *squares;
+    aur_counters counters; /* of all samples */
     /* Held while a tile's sums are written or the film is read whole, so that it can be read while it is
      * rendered. */
     pthread_mutex_t *lock;
@@ -66,6 +68,15 @@ typedef struct aur_film_before {
     uint32_t given[AUR_TILE_SIZE * AUR_TILE_SIZE], targets[AUR_TILE_SIZE * AUR_TILE_SIZE];
 } aur_film_before;
 
+/* The tile that a pixel lies in. */
+static inline size_t aur_film_tile_of(const aur_film *film, size_t pixel) {
+    const aur_film_layout *const layout = &film->layout;
+    const size_t width = layout->x1 - layout->x0;
+    const size_t column = (layout->x0 + pixel % width) / AUR_TILE_SIZE - film->column0;
+    const size_t row = (layout->y0 + pixel / width) / AUR_TILE_SIZE - film->row0;
+    return row * film->columns + column;
+}
+
 /* How many samples each pixel is to have. */
 typedef struct aur_film_targets {
     const uint32_t *pixels; /* of the film, row by row; NULL: `all` */
@@ -78,11 +89,15 @@ typedef struct aur_film_targets {
  * closed in every case. Errors: MEMORY. */
 aur_result aur_film_open_tile(aur_film *film, size_t index, const aur_film_targets *targets, aur_tile *tile,
                               aur_film_before *before);
-/* Takes over the sums with the samples from tile->first to tile->first + tile->count - 1, and moves on to the
- * next ones. */
+/* Takes over the sums with the samples from tile->first to tile->first + tile->count - 1 and what was counted
+ * for them, and moves on to the next ones. */
 void aur_film_take_tile(aur_film *film, aur_tile *tile);
 /* Notes what the step brought, and gives up what has not been taken over. */
 void aur_film_close_tile(aur_film *film, aur_tile *tile, const aur_film_before *before);
+
+/* What aur_film_save writes, to a stream that remembers its failures; and its bytes. */
+void aur_film_write(const aur_film *film, FILE *stream);
+size_t aur_film_file_size(const aur_film *film);
 
 /* Samples that every pixel was given. */
 uint32_t aur_film_samples(const aur_film *film);

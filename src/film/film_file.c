@@ -6,10 +6,10 @@
 #include "core/words.h"
 #include "film/film.h"
 
-enum { NAME_WORDS = AUR_CHANNEL_NAME_CAPACITY / 8, HEADER_WORDS = 9 };
+enum { NAME_WORDS = AUR_CHANNEL_NAME_CAPACITY / 8, HEADER_WORDS = 9, COUNTER_WORDS = 5 + AUR_RENDER_LEVELS };
 
-/* "AURFILM2" */
-static const uint64_t magic = UINT64_C(0x324d4c4946525541);
+/* "AURFILM3" */
+static const uint64_t magic = UINT64_C(0x334d4c4946525541);
 
 static void put_film(aur_word_writer *writer, const aur_film *film) {
     const aur_film_layout *const layout = &film->layout;
@@ -19,6 +19,13 @@ static void put_film(aur_word_writer *writer, const aur_film *film) {
                                            layout->y1, channels,      AUR_TILE_SIZE};
     for (size_t i = 0; i < HEADER_WORDS; ++i)
         aur_word_put(writer, header[i]);
+    const aur_counters *const counted = &film->counters;
+    const uint64_t counters[] = {counted->rays, counted->samples, counted->invalid, counted->cut,
+                                 counted->unsolved};
+    for (size_t i = 0; i < sizeof counters / sizeof counters[0]; ++i)
+        aur_word_put(writer, counters[i]);
+    for (size_t l = 0; l < AUR_RENDER_LEVELS; ++l)
+        aur_word_put(writer, counted->levels[l]);
     for (size_t c = 0; c < channels; ++c) {
         aur_word_put(writer, film->channels[c].kind);
         for (size_t i = 0; i < NAME_WORDS; ++i) {
@@ -39,20 +46,38 @@ static void put_film(aur_word_writer *writer, const aur_film *film) {
     aur_word_put(writer, writer->hash);
 }
 
+void aur_film_write(const aur_film *film, FILE *stream) {
+    aur_word_writer writer = {.stream = stream};
+    pthread_mutex_lock(film->lock);
+    put_film(&writer, film);
+    pthread_mutex_unlock(film->lock);
+}
+
+size_t aur_film_file_size(const aur_film *film) {
+    const size_t channels = film->layout.channel_count, pixels = aur_film_pixel_count(film);
+    return 8 * (HEADER_WORDS + COUNTER_WORDS + channels * (1 + NAME_WORDS + pixels) + 5 * pixels + 1);
+}
+
 aur_result aur_film_save(const aur_film *film, const char *path, aur_error *error) {
     aur_file_writer file;
     const aur_result result = aur_file_open(path, &file, error);
     if (result != AUR_OK)
         return result;
-    aur_word_writer writer = {.stream = file.stream};
-    pthread_mutex_lock(film->lock);
-    put_film(&writer, film);
-    pthread_mutex_unlock(film->lock);
+    aur_film_write(film, file.stream);
     return aur_file_commit(&file, error);
 }
 
 static aur_result not_a_film(const char *name, const char *why, aur_error *error) {
     return aur_fail_at(error, (aur_location){.file = name}, AUR_ERROR_FORMAT, "%s", why);
+}
+
+static void get_counters(aur_word_reader *reader, aur_counters *counted) {
+    uint64_t *const counters[] = {&counted->rays, &counted->samples, &counted->invalid, &counted->cut,
+                                  &counted->unsolved};
+    for (size_t i = 0; i < sizeof counters / sizeof counters[0]; ++i)
+        *counters[i] = aur_word_get(reader);
+    for (size_t l = 0; l < AUR_RENDER_LEVELS; ++l)
+        counted->levels[l] = aur_word_get(reader);
 }
 
 /* False when a channel is none that a film has. */
@@ -94,7 +119,8 @@ static size_t words_of(const aur_film_layout *layout, size_t left) {
         layout->channel_count > left)
         return 0;
     const double pixels = (double)(layout->x1 - layout->x0) * (double)(layout->y1 - layout->y0);
-    const double words = (double)layout->channel_count * (1 + NAME_WORDS + pixels) + 5.0 * pixels + 1.0;
+    const double words =
+        (double)layout->channel_count * (1 + NAME_WORDS + pixels) + 5.0 * pixels + COUNTER_WORDS + 1.0;
     return words <= (double)left ? (size_t)words : 0;
 }
 
@@ -117,6 +143,7 @@ aur_result aur_film_load_memory(const char *name, size_t size, const void *data,
     if (result != AUR_OK)
         return result == AUR_ERROR_ARGUMENT ? not_a_film(name, "a film of an impossible size", error)
                                             : result;
+    get_counters(&reader, &film->counters);
     const bool good = get_channels(&reader, film);
     if (good)
         get_pixels(&reader, film);

@@ -1,5 +1,15 @@
 #include "film/tile.h"
 
+void aur_counters_add(aur_counters *sum, const aur_counters *added) {
+    sum->rays += added->rays;
+    sum->samples += added->samples;
+    sum->invalid += added->invalid;
+    sum->cut += added->cut;
+    sum->unsolved += added->unsolved;
+    for (size_t l = 0; l < AUR_RENDER_LEVELS; ++l)
+        sum->levels[l] += added->levels[l];
+}
+
 float aur_view_sample(const aur_view *view, size_t x, size_t y, uint32_t index, aur_camera_sample *sample) {
     sample->stream = (aur_stream){view->sampler, aur_hash3(view->seed, y, x), index};
     float offset[2] = {0.0f, 0.0f};

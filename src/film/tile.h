@@ -20,6 +20,8 @@ typedef struct aur_counters {
     uint64_t levels[AUR_RENDER_LEVELS]; /* adaptive gathering: places that ended at each level */
 } aur_counters;
 
+void aur_counters_add(aur_counters *sum, const aur_counters *added);
+
 /* A camera ray with the numbers of its light path. */
 typedef struct aur_camera_sample {
     aur_ray ray;

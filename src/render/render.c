@@ -30,7 +30,8 @@ struct aur_render {
     aur_integrator *integrator;
     aur_view view;
     aur_film *film;
-    aur_render_statistics statistics;
+    aur_render_statistics statistics; /* its times; the film counts */
+    char *identity;                   /* of a resumable render; else NULL */
     atomic_bool cancelled;
     /* AUR_OK, or why a step failed for good and left pixels with a part of their samples. */
     aur_result broken;
@@ -123,6 +124,11 @@ static aur_result prepare(aur_render *render, aur_error *error) {
     aur_result result = aur_render_options_complete(scene, s, &filter, error);
     if (result == AUR_OK)
         result = aur_sampler_create(s->sampler, s->samples_per_pixel, &s->warnings, &render->sampler, error);
+    if (result == AUR_OK && s->shard_count != 0 && (s->shard == 0 || s->shard > s->shard_count))
+        result = aur_fail(error, AUR_ERROR_ARGUMENT, "there is no part %zu of %zu: 1 is the first", s->shard,
+                          s->shard_count);
+    if (result == AUR_OK && s->resumable)
+        result = aur_render_identify(scene, s, &render->identity, error);
     if (result == AUR_OK)
         result = make_integrator(render, error);
     if (result == AUR_OK)
@@ -169,15 +175,21 @@ void aur_render_destroy(aur_render *render) {
     aur_film_destroy(render->film);
     aur_integrator_destroy(render->integrator);
     aur_sampler_destroy(render->sampler);
+    free(render->identity);
     free(render);
 }
 
 /* --- steps */
 
+/* Whether the tile is of the render's part of the picture. */
+static bool is_own(const aur_render *render, size_t tile) {
+    const aur_render_options *const s = &render->settings;
+    return s->shard_count == 0 || tile % s->shard_count == s->shard - 1;
+}
+
 typedef struct render_work {
     aur_render *render;
     aur_film_targets targets;
-    aur_counters *counters; /* one a tile */
 } render_work;
 
 static aur_result add_samples(const aur_integrator *integrator, aur_tile *tile) {
@@ -190,13 +202,11 @@ static aur_result add_samples(const aur_integrator *integrator, aur_tile *tile) 
 /* All samples that the tile lacks, in pieces where this changes no bit: what is finished stays when the work
  * is stopped, also in a tile of hours. Pieces grow to so many rays, which take some hundredths of a second.
  */
-static aur_result add_pieces(const render_work *work, size_t index, aur_tile *tile) {
+static aur_result add_pieces(aur_render *render, aur_tile *tile) {
     enum { RAYS_A_PIECE = 1 << 16 };
-    aur_render *const render = work->render;
     const uint32_t end = tile->first + tile->count;
     uint32_t piece = aur_integrator_cuts(render->integrator) ? 1 : end;
     while (tile->first < end) {
-        const uint64_t rays = tile->counters.rays;
         tile->count = piece < end - tile->first ? piece : end - tile->first;
         for (size_t y = tile->y0; y < tile->y1; ++y)
             for (size_t x = tile->x0; x < tile->x1; ++x)
@@ -204,9 +214,9 @@ static aur_result add_pieces(const render_work *work, size_t index, aur_tile *ti
         const aur_result result = add_samples(render->integrator, tile);
         if (result != AUR_OK)
             return result;
+        const uint64_t rays = tile->counters.rays;
         aur_film_take_tile(render->film, tile);
-        work->counters[index] = tile->counters;
-        if (tile->counters.rays - rays < RAYS_A_PIECE && piece < end)
+        if (rays < RAYS_A_PIECE && piece < end)
             piece *= 2;
         if (tile->first < end && aur_tile_stops(tile))
             return AUR_ERROR_CANCELLED;
@@ -221,9 +231,11 @@ static aur_result render_tile(void *context, size_t index) {
         return AUR_ERROR_CANCELLED;
     aur_tile tile = {.view = &render->view, .stop = &render->cancelled};
     aur_film_before before;
+    if (!is_own(render, index))
+        return AUR_OK;
     aur_result result = aur_film_open_tile(render->film, index, &work->targets, &tile, &before);
     if (result == AUR_OK)
-        result = add_pieces(work, index, &tile);
+        result = add_pieces(render, &tile);
     aur_film_close_tile(render->film, &tile, &before);
     return result;
 }
@@ -233,38 +245,25 @@ enum { MOST_CUT_PATHS = 10 };
 
 /* Said once, when all samples are there. */
 static void warn_of_losses(const aur_render *render) {
-    const aur_render_statistics *const counted = &render->statistics;
+    const aur_counters *const counted = &render->film->counters;
     const aur_warnings *const warnings = &render->settings.warnings;
     const unsigned long long samples = counted->samples;
     if (aur_render_samples(render) < render->settings.samples_per_pixel)
         return;
-    if (counted->invalid_samples > 0)
+    if (counted->invalid > 0)
         aur_warn_at(warnings, (aur_location){0},
                     "%llu of %llu samples were NaN, infinite or negative and are left out",
-                    (unsigned long long)counted->invalid_samples, samples);
-    if (counted->unsolved_weights > 0)
+                    (unsigned long long)counted->invalid, samples);
+    if (counted->unsolved > 0)
         aur_warn_at(warnings, (aur_location){0},
                     "%llu systems for optimal weights could not be solved, and samples there are NaN: take "
                     "a larger 'regularization'",
-                    (unsigned long long)counted->unsolved_weights);
-    if (1000 * counted->cut_paths > MOST_CUT_PATHS * counted->samples)
+                    (unsigned long long)counted->unsolved);
+    if (1000 * counted->cut > MOST_CUT_PATHS * counted->samples)
         aur_warn_at(warnings, (aur_location){0},
                     "%llu paths of %llu samples were cut after many mirrors or hidden lights in a row: what "
                     "they would still bring is missing",
-                    (unsigned long long)counted->cut_paths, samples);
-}
-
-static void add_counters(aur_render *render, const aur_counters *counters) {
-    aur_render_statistics *const statistics = &render->statistics;
-    for (size_t i = 0; i < render->film->tile_count; ++i) {
-        statistics->rays += counters[i].rays;
-        statistics->invalid_samples += counters[i].invalid;
-        statistics->cut_paths += counters[i].cut;
-        statistics->unsolved_weights += counters[i].unsolved;
-        statistics->samples += counters[i].samples;
-        for (size_t l = 0; l < AUR_RENDER_LEVELS; ++l)
-            statistics->levels[l] += counters[i].levels[l];
-    }
+                    (unsigned long long)counted->cut, samples);
 }
 
 static aur_result do_work(aur_render *render, render_work *work, aur_error *error) {
@@ -272,9 +271,6 @@ static aur_result do_work(aur_render *render, render_work *work, aur_error *erro
         return aur_fail(error, render->broken, "rendering: an earlier step failed: %s",
                         aur_result_string(render->broken));
     work->render = render;
-    work->counters = calloc(render->film->tile_count, sizeof *work->counters);
-    if (work->counters == NULL)
-        return aur_fail_memory(error);
     const aur_stopwatch start = aur_stopwatch_start();
     const aur_parallel_options parallel = {.threads = render->settings.threads,
                                            .what = "rendering",
@@ -282,8 +278,6 @@ static aur_result do_work(aur_render *render, render_work *work, aur_error *erro
                                            .flush_denormals = true};
     const aur_result result = aur_parallel_for(&parallel, render->film->tile_count, render_tile, work, error);
     aur_stopwatch_add(&start, &render->statistics.render_seconds, &render->statistics.cpu_seconds);
-    add_counters(render, work->counters);
-    free(work->counters);
     warn_of_losses(render);
     atomic_store(&render->cancelled, false);
     if (result != AUR_OK && result != AUR_ERROR_CANCELLED)
@@ -320,7 +314,11 @@ void aur_render_cancel(aur_render *render) {
 }
 
 size_t aur_render_samples(const aur_render *render) {
-    return aur_film_samples(render->film);
+    uint32_t least = (uint32_t)render->settings.samples_per_pixel;
+    for (size_t i = 0; i < aur_film_pixel_count(render->film); ++i)
+        if (render->film->given[i] < least && is_own(render, aur_film_tile_of(render->film, i)))
+            least = render->film->given[i];
+    return least;
 }
 
 size_t aur_render_samples_wanted(const aur_render *render) {
@@ -337,8 +335,25 @@ aur_result aur_render_merge(aur_render *render, const aur_film *film, aur_error 
 
 aur_result aur_render_get_statistics(const aur_render *render, aur_render_statistics *statistics,
                                      aur_error *error) {
-    return aur_description_write(&render->statistics, sizeof render->statistics, sizeof render->statistics,
-                                 statistics, "aur_render_statistics", error);
+    aur_render_statistics own = render->statistics;
+    const aur_counters *const counted = &render->film->counters;
+    own.rays = counted->rays;
+    own.samples = counted->samples;
+    own.invalid_samples = counted->invalid;
+    own.cut_paths = counted->cut;
+    own.unsolved_weights = counted->unsolved;
+    memcpy(own.levels, counted->levels, sizeof own.levels);
+    return aur_description_write(&own, sizeof own, sizeof own, statistics, "aur_render_statistics", error);
+}
+
+const char *aur_render_identity(const aur_render *render) {
+    return render->identity;
+}
+
+void aur_render_add_seconds(aur_render *render, double prepare, double steps, double cpu) {
+    render->statistics.prepare_seconds += prepare;
+    render->statistics.render_seconds += steps;
+    render->statistics.cpu_seconds += cpu;
 }
 
 aur_result aur_renderer_render(aur_renderer *renderer, const aur_render_options *options, aur_image **image,

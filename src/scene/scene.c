@@ -137,7 +137,9 @@ static aur_result load(const char *path, size_t bytes, const char *data, const a
     aur_scene *const made = calloc(1, sizeof *made);
     if (made == NULL)
         return aur_fail_memory(error);
-    result = aur_xml_read(path, bytes, data, &options, &made->document, error);
+    made->definitions = aur_definitions_text(&options);
+    result = made->definitions != NULL ? aur_xml_read(path, bytes, data, &options, &made->document, error)
+                                       : aur_fail_memory(error);
     if (result == AUR_OK)
         result = aur_scene_build(made, &options.warnings, error);
     if (result == AUR_OK)
@@ -196,6 +198,7 @@ void aur_scene_destroy(aur_scene *scene) {
     aur_distribution_release(&scene->lights);
     aur_parameters_release(&scene->integrator);
     aur_parameters_release(&scene->nested_integrator);
+    free(scene->definitions);
     aur_xml_release(&scene->document);
     free(scene);
 }

@@ -163,6 +163,10 @@ typedef struct aur_film_settings {
 const aur_film_settings *aur_scene_film(const aur_scene *scene);
 /* At most 2^30, as many as a sampler can count. */
 #define AUR_SAMPLES_PER_PIXEL_MAX ((int64_t)1 << 30)
+/* What the scene was read from, a line each: "scene NAME HASH", "file NAME HASH" for all that it names,
+ * sorted, and "define NAME=VALUE". The text is allocated with malloc. Errors: OPEN when a file is gone,
+ * MEMORY. */
+aur_result aur_scene_contents(const aur_scene *scene, char **lines, aur_error *error);
 size_t aur_scene_samples_per_pixel(const aur_scene *scene);
 const char *aur_scene_sampler(const aur_scene *scene); /* SET syntax */
 /* The integrator as the scene has it; its plugin may be one that Aureole does not know. */

@@ -26,6 +26,7 @@ typedef struct aur_instance {
 
 struct aur_scene {
     aur_xml_document document; /* owns the file names that locations point to */
+    char *definitions;         /* of the options, a line "define NAME=VALUE" each; NULL: none */
     size_t bsdf_count, bsdf_capacity;
     aur_bsdf **bsdfs;
     size_t texture_count, texture_capacity;
@@ -60,6 +61,8 @@ struct aur_scene {
 
 /* Builds the objects of the document into the empty scene (loader.c). */
 aur_result aur_scene_build(aur_scene *scene, const aur_warnings *warnings, aur_error *error);
+/* The definitions as scene->definitions has them; NULL when memory is out (contents.c). */
+char *aur_definitions_text(const aur_scene_options *options);
 /* Hands the shapes to Embree (accel.c). */
 aur_result aur_scene_build_accel(aur_scene *scene, aur_error *error);
 void aur_scene_release_accel(aur_scene *scene);

@@ -67,7 +67,7 @@ typedef struct aur_shape_keys {
 /* What every shape is made from. */
 typedef struct aur_shape_input {
     aur_parameters *parameters;
-    const aur_xml_document *document; /* finds assets */
+    aur_xml_document *document;       /* finds assets */
     aur_transform to_world, to_local; /* affine */
     bool flip_normals;
 } aur_shape_input;
@@ -91,7 +91,7 @@ aur_shape_point aur_shape_sample(const aur_shape *shape, const aur_distribution 
 extern const aur_table aur_shape_table;
 
 /* Builds the shape that parameters->plugin names; the loader gives it a BSDF and an emitter. */
-aur_result aur_shape_create(aur_parameters *parameters, const aur_xml_document *document, aur_shape **shape,
+aur_result aur_shape_create(aur_parameters *parameters, aur_xml_document *document, aur_shape **shape,
                             aur_error *error);
 void aur_shape_destroy(aur_shape *shape);
 

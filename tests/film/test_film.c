@@ -89,6 +89,7 @@ static void steps_are_one_render(void **state) {
 
         aur_film *half = NULL;
         assert_int_equal(aur_film_load("half.film", &half, NULL), AUR_OK);
+        remove("half.film");
         aur_render *const second = start(f->renderer, &one);
         assert_int_equal(aur_render_merge(second, half, NULL), AUR_OK);
         assert_int_equal(aur_render_samples(second), 5);
@@ -287,6 +288,7 @@ static void damaged_films_are_refused(void **state) {
     static unsigned char bytes[1 << 20];
     const size_t size = fread(bytes, 1, sizeof bytes, stream);
     fclose(stream);
+    remove("whole.film");
     assert_int_equal(load_bytes(size, bytes), AUR_OK);
     for (size_t cut = 0; cut < size; cut += 1 + cut / 2)
         assert_int_equal(load_bytes(cut, bytes), AUR_ERROR_FORMAT);

@@ -37,7 +37,7 @@ static const aur_row common = {
 const aur_table aur_shape_table = {
     .kind = "shape", .summary = "surfaces", AUR_TABLE_ROWS(rows), .common = &common};
 
-aur_result aur_shape_create(aur_parameters *parameters, const aur_xml_document *document, aur_shape **shape,
+aur_result aur_shape_create(aur_parameters *parameters, aur_xml_document *document, aur_shape **shape,
                             aur_error *error) {
     *shape = NULL;
     const aur_row *row;

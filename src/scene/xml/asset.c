@@ -5,6 +5,7 @@
 #include <string.h>
 #include <sys/stat.h>
 
+#include "core/array.h"
 #include "core/file.h"
 #include "scene/xml/xml.h"
 
@@ -103,20 +104,36 @@ aur_result aur_xml_find_folder(const aur_xml_document *document, aur_location lo
     return *found != NULL ? AUR_OK : fail(document, location, name, error);
 }
 
-aur_result aur_xml_find_asset(const aur_xml_document *document, aur_location location, const char *name,
-                              char **found, aur_error *error) {
-    const aur_result result = aur_xml_find_folder(document, location, name, found, error);
-    struct stat status;
-    if (result != AUR_OK || (stat(*found, &status) == 0 && S_ISREG(status.st_mode)))
-        return result;
-    free(*found);
-    *found = NULL;
-    return aur_fail_at(error, location, AUR_ERROR_OPEN,
-                       "'%s' is no regular file: a scene may name no folders, devices or pipes", name);
+aur_result aur_xml_note_file(aur_xml_document *document, const char *name, const char *path,
+                             aur_error *error) {
+    const char *const own_name = aur_arena_copy(&document->arena, name, strlen(name));
+    const char *const own_path = aur_arena_copy(&document->arena, path, strlen(path));
+    if (own_name == NULL || own_path == NULL ||
+        !aur_array_reserve(&document->files, &document->file_capacity, document->file_count + 1,
+                           sizeof *document->files))
+        return aur_fail_memory(error);
+    document->files[document->file_count++] = (aur_xml_file){.name = own_name, .path = own_path};
+    return AUR_OK;
 }
 
-aur_result aur_xml_find_set(const aur_xml_document *document, aur_location location, const char *set,
-                            char **found, aur_error *error) {
+aur_result aur_xml_find_asset(aur_xml_document *document, aur_location location, const char *name,
+                              char **found, aur_error *error) {
+    aur_result result = aur_xml_find_folder(document, location, name, found, error);
+    struct stat status;
+    if (result == AUR_OK && !(stat(*found, &status) == 0 && S_ISREG(status.st_mode)))
+        result = aur_fail_at(error, location, AUR_ERROR_OPEN,
+                             "'%s' is no regular file: a scene may name no folders, devices or pipes", name);
+    else if (result == AUR_OK)
+        result = aur_xml_note_file(document, name, *found, error);
+    if (result == AUR_OK)
+        return AUR_OK;
+    free(*found);
+    *found = NULL;
+    return result;
+}
+
+aur_result aur_xml_find_set(aur_xml_document *document, aur_location location, const char *set, char **found,
+                            aur_error *error) {
     /* file:PATH, and the value of a key `file` */
     const char *start = strncmp(set, "file:", 5) == 0 ? set + 5 : NULL;
     for (const char *c = strstr(set, "file="); start == NULL && c != NULL; c = strstr(c + 1, "file="))

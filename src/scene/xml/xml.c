@@ -10,6 +10,7 @@
 #include "core/file.h"
 #include "core/names.h"
 #include "core/text.h"
+#include "core/words.h"
 #include "scene/rad/rad.h"
 #include "scene/xml/variables.h"
 
@@ -317,6 +318,19 @@ static aur_result parse(file_reading *reader, const char *data, size_t size) {
     return AUR_OK;
 }
 
+/* The scene's own file may be text in memory, and so is hashed at once. */
+static aur_result note_scene(reading *shared, const char *path, size_t size, const char *data) {
+    aur_xml_document *const document = shared->document;
+    const char *const slash = strrchr(path, '/');
+    const aur_result result =
+        aur_xml_note_file(document, slash != NULL ? slash + 1 : path, path, shared->error);
+    if (result == AUR_OK) {
+        document->files[0].hashed = true;
+        document->files[0].hash = aur_hash_bytes(size, data);
+    }
+    return result;
+}
+
 /* `from` is the file that includes this one, or NULL. */
 static aur_result read_text(reading *shared, const char *path, size_t size, const char *data,
                             const file_reading *from, aur_xml_node *target) {
@@ -335,8 +349,11 @@ static aur_result read_text(reading *shared, const char *path, size_t size, cons
                            .include_depth = from != NULL ? from->include_depth + 1 : 0,
                            .legacy = from != NULL && from->legacy,
                            .target = target};
-    const aur_result result = reader.expat != NULL && reader.file != NULL ? parse(&reader, data, size)
-                                                                          : aur_fail_memory(shared->error);
+    aur_result result = reader.expat != NULL && reader.file != NULL ? AUR_OK : aur_fail_memory(shared->error);
+    if (result == AUR_OK && from == NULL)
+        result = note_scene(shared, path, size, data);
+    if (result == AUR_OK)
+        result = parse(&reader, data, size);
     if (reader.expat != NULL)
         XML_ParserFree(reader.expat);
     free(translated);
@@ -438,6 +455,7 @@ aur_result aur_xml_read(const char *path, size_t bytes, const char *data, const 
 void aur_xml_release(aur_xml_document *document) {
     free(document->ids);
     free(document->folders);
+    free(document->files);
     aur_arena_release(&document->arena);
     *document = (aur_xml_document){0};
 }

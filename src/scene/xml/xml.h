@@ -38,6 +38,14 @@ typedef struct aur_xml_id {
     size_t order; /* in the files */
 } aur_xml_id;
 
+/* A file that was read: what it is called where it is named, where it was found, and a hash of its bytes, if
+ * it was known at once. */
+typedef struct aur_xml_file {
+    const char *name, *path;
+    bool hashed;
+    uint64_t hash;
+} aur_xml_file;
+
 typedef struct aur_xml_document {
     aur_arena arena; /* holds the nodes and all texts */
     aur_xml_node *root;
@@ -45,6 +53,8 @@ typedef struct aur_xml_document {
     const char **folders; /* of <path> */
     size_t id_count, id_capacity;
     aur_xml_id *ids; /* sorted */
+    size_t file_count, file_capacity;
+    aur_xml_file *files; /* the scene's own, and those of aur_xml_find_asset as often as they are named */
 } aur_xml_document;
 
 /* From the file at `path`, or from `data`, where it is given. On failure *document needs no release. */
@@ -81,12 +91,15 @@ aur_xml_id *aur_xml_find_id(const aur_xml_document *document, const char *id);
  * beside the scene, in a <path>, or in the working folder. `found` is allocated with malloc. The error names
  * the places; where one of them has a text HOW-TO-MAKE beside the missing file, it quotes its first line, the
  * command that makes the file. */
-aur_result aur_xml_find_asset(const aur_xml_document *document, aur_location location, const char *name,
+aur_result aur_xml_find_asset(aur_xml_document *document, aur_location location, const char *name,
                               char **found, aur_error *error);
+/* Notes that a file is read. */
+aur_result aur_xml_note_file(aur_xml_document *document, const char *name, const char *path,
+                             aur_error *error);
 /* The same for the folder of a <path>. */
 aur_result aur_xml_find_folder(const aur_xml_document *document, aur_location location, const char *name,
                                char **found, aur_error *error);
 /* A point set's text in which the file that it names, by file:PATH or a key `file`, is found in the same way.
  * Texts that name none are copied. */
-aur_result aur_xml_find_set(const aur_xml_document *document, aur_location location, const char *set,
-                            char **found, aur_error *error);
+aur_result aur_xml_find_set(aur_xml_document *document, aur_location location, const char *set, char **found,
+                            aur_error *error);

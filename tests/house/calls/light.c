@@ -145,8 +145,23 @@ static void renders(const aur_scene *scene) {
     accept(aur_render_merge(render, film, &error), &error);
     aur_film_destroy(film);
     remove("calls.film");
+    refuse(aur_render_save(render, "calls.part", &error), AUR_ERROR_ARGUMENT, &error);
+    refuse(aur_render_resume(render, "calls.part", &error), AUR_ERROR_ARGUMENT, &error);
     aur_render_cancel(render);
     aur_render_destroy(render);
+    options.resumable = true;
+    accept(aur_render_create(renderer, &options, &render, &error), &error);
+    accept(aur_render_step(render, 0, &error), &error);
+    accept(aur_render_save(render, "calls.part", &error), &error);
+    aur_render_destroy(render);
+    accept(aur_render_create(renderer, &options, &render, &error), &error);
+    accept(aur_render_resume(render, "calls.part", &error), &error);
+    require(aur_render_samples(render) == 2, "aur_render_resume");
+    aur_render_destroy(render);
+    const char *const part = "calls.part";
+    accept(aur_render_merge_parts(1, &part, &film, &error), &error);
+    aur_film_destroy(film);
+    remove("calls.part");
     aur_renderer_destroy(renderer);
 }
 
@@ -163,6 +178,8 @@ static void asks(const aur_scene *scene) {
     aur_ask_cancel(ask);
     refuse(aur_ask_run(ask, &error), AUR_ERROR_CANCELLED, &error);
     accept(aur_ask_run(ask, &error), &error);
+    refuse(aur_ask_save(ask, "calls.part", &error), AUR_ERROR_ARGUMENT, &error);
+    refuse(aur_ask_resume(ask, "calls.part", &error), AUR_ERROR_ARGUMENT, &error);
     aur_ask_report report = {.size = sizeof report};
     accept(aur_ask_get_report(ask, &report, &error), &error);
     require(report.error_high <= 0.5 && report.rounds > 0, "aur_ask_get_report");

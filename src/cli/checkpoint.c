@@ -1,0 +1,95 @@
+#include "cli/checkpoint.h"
+
+#include <errno.h>
+#include <math.h>
+#include <stdio.h>
+#include <time.h>
+#include <unistd.h>
+
+#include "cli/quantity.h"
+
+static aur_result parse_interval(const char *text, void *field, aur_error *error) {
+    return cli_parse_seconds("checkpoint-every", text, field, error);
+}
+
+const cli_option cli_checkpoint_options[] = {
+    {CLI_TEXT(cli_checkpoint, path, "checkpoint", "FILE", NULL,
+              "keep what there is of the render in FILE, so that it can go on after an interruption"),
+     .content = "file"},
+    {CLI_TEXT(cli_checkpoint, every, "checkpoint-every", "60s", "60s", "how often"), .parse = parse_interval},
+    {CLI_FLAG(
+        cli_checkpoint, resume, "resume",
+        "go on from the checkpoint, to the same picture as without the interruption; anew where there is "
+        "none")},
+    {.key = {0}}};
+
+const char *cli_checkpoint_conflict(const cli_checkpoint *checkpoint) {
+    if (checkpoint->path != NULL)
+        return NULL;
+    return checkpoint->resume        ? "render: '--resume' goes on from the file of '--checkpoint'"
+           : checkpoint->every > 0.0 ? "render: '--checkpoint-every' goes with '--checkpoint'"
+                                     : NULL;
+}
+
+static double now(void) {
+    struct timespec time;
+    clock_gettime(CLOCK_MONOTONIC, &time);
+    return (double)time.tv_sec + 1e-9 * (double)time.tv_nsec;
+}
+
+static aur_result save(cli_checkpoint *checkpoint, aur_error *error) {
+    const aur_result result = checkpoint->render != NULL
+                                  ? aur_render_save(checkpoint->render, checkpoint->path, error)
+                                  : aur_ask_save(checkpoint->ask, checkpoint->path, error);
+    checkpoint->last = now();
+    return result;
+}
+
+static int show(void *user, const char *what, uint64_t done, uint64_t total) {
+    enum { SECONDS = 60 };
+    cli_checkpoint *const checkpoint = user;
+    const double every = checkpoint->every > 0.0 ? checkpoint->every : SECONDS;
+    if ((checkpoint->render != NULL || checkpoint->ask != NULL) && now() - checkpoint->last >= every) {
+        aur_error error = {0};
+        if (save(checkpoint, &error) != AUR_OK) {
+            char text[AUR_ERROR_FILE_CAPACITY + AUR_ERROR_MESSAGE_CAPACITY + 64];
+            aur_error_format(&error, text, sizeof text);
+            cli_progress_clear();
+            fprintf(stderr, "aureole: warning: no checkpoint: %s\n", text);
+        }
+    }
+    return checkpoint->progress.function(checkpoint->progress.user, what, done, total);
+}
+
+aur_progress cli_checkpoint_progress(cli_checkpoint *checkpoint, aur_progress progress) {
+    checkpoint->progress = progress;
+    return checkpoint->path != NULL ? (aur_progress){.function = show, .user = checkpoint} : progress;
+}
+
+aur_result cli_checkpoint_begin(cli_checkpoint *checkpoint, aur_render *render, aur_ask *ask, bool quiet,
+                                aur_error *error) {
+    if (checkpoint->path == NULL)
+        return AUR_OK;
+    if (checkpoint->resume && access(checkpoint->path, F_OK) == 0) {
+        const aur_result result = render != NULL ? aur_render_resume(render, checkpoint->path, error)
+                                                 : aur_ask_resume(ask, checkpoint->path, error);
+        if (result != AUR_OK)
+            return result;
+    } else if (checkpoint->resume && !quiet) {
+        cli_progress_clear();
+        fprintf(stderr, "aureole: there is no checkpoint %s yet: the render begins anew\n", checkpoint->path);
+    }
+    checkpoint->render = render;
+    checkpoint->ask = ask;
+    checkpoint->last = now();
+    return AUR_OK;
+}
+
+aur_result cli_checkpoint_end(cli_checkpoint *checkpoint, aur_error *error) {
+    if (checkpoint->render == NULL && checkpoint->ask == NULL)
+        return AUR_OK;
+    const aur_result result = save(checkpoint, error);
+    checkpoint->render = NULL;
+    checkpoint->ask = NULL;
+    return result;
+}
