@@ -42,7 +42,9 @@ typedef struct aur_image_format {
     ROW(pfm)                                                                                                 \
     ROW(hdr)                                                                                                 \
     ROW(png)                                                                                                 \
-    ROW(jpeg)
+    ROW(jpeg)                                                                                                \
+    ROW(bmp)                                                                                                 \
+    ROW(tga)
 
 #define AUR_DECLARE_IMAGE_FORMAT(name) extern const aur_image_format aur_image_format_##name;
 AUR_IMAGE_FORMATS(AUR_DECLARE_IMAGE_FORMAT)

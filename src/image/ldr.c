@@ -1,9 +1,10 @@
-/* PNG and JPEG through the stb libraries. */
+/* PNG, JPEG, BMP and TGA through the stb libraries. */
 #include <math.h>
 #include <stb_image.h>
 #include <stb_image_write.h>
 #include <stdlib.h>
 #include <string.h>
+#include <strings.h>
 
 #include "image/format.h"
 #include "image/tone.h"
@@ -150,3 +151,33 @@ const aur_image_format aur_image_format_jpeg = {
     .name = "JPEG",
     .recognize = recognize_jpeg,
     .read = read_jpeg};
+
+static bool recognize_bmp(const aur_image_source *source) {
+    return aur_image_begins(source, "BM", 2);
+}
+
+static aur_result read_bmp(const aur_image_source *source, aur_image **image, aur_error *error) {
+    return read_ldr(source, "BMP", 8, image, error); /* at least one bit a pixel */
+}
+
+/* Nothing in a TGA file says what it is: its name does. */
+static bool recognize_tga(const aur_image_source *source) {
+    const char *const dot = source->name != NULL ? strrchr(source->name, '.') : NULL;
+    return dot != NULL && strcasecmp(dot, ".tga") == 0;
+}
+
+static aur_result read_tga(const aur_image_source *source, aur_image **image, aur_error *error) {
+    return read_ldr(source, "TGA", 128, image, error); /* runs of at most 128 pixels */
+}
+
+const aur_image_format aur_image_format_bmp = {
+    .row = {.name = "bmp", .summary = "BMP: R, G, B, 8 bits, sRGB; is read only", .source = ""},
+    .name = "BMP",
+    .recognize = recognize_bmp,
+    .read = read_bmp};
+
+const aur_image_format aur_image_format_tga = {
+    .row = {.name = "tga", .summary = "TGA: grey or R, G, B, 8 bits, sRGB; is read only", .source = ""},
+    .name = "TGA",
+    .recognize = recognize_tga,
+    .read = read_tga};

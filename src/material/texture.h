@@ -23,6 +23,7 @@ struct aur_texture {
     void *data;
     aur_vector mean;     /* over the unit square */
     float maximum;       /* of any channel anywhere; 0: not known */
+    float aspect;        /* width over height of a picture; 0: not one */
     unsigned attributes; /* of meshes, that it asks for, here or in a nested texture */
 };
 

@@ -15,7 +15,8 @@ typedef struct bitmap {
     enum { FILTER_BILINEAR, FILTER_NEAREST } filter;
     wrap_mode wrap;
     /* Read, and of no use afterwards: */
-    bool raw;
+    bool raw, accelerated;
+    int format;
     const char *path;
     aur_uv_keys uv;
 } bitmap;
@@ -82,6 +83,10 @@ static const aur_key keys[] = {
                        "clamp")},
     {AUR_KEY_OF_BOOLEAN(bitmap, "raw", raw, "false", "8-bit values are taken as they are, not as sRGB")},
     {AUR_KEY_OF_TEXT(bitmap, "filename", path, NULL, "the picture, beside the scene; must be given")},
+    {AUR_KEY_OF_CHOICE(bitmap, "format", format, "variant",
+                       "of no effect: texels are kept in single precision", "variant", "fp16", "float16",
+                       "uint8", "auto")},
+    {AUR_KEY_OF_BOOLEAN(bitmap, "accel", accelerated, "true", "of no effect")},
     AUR_UV_KEYS(bitmap),
 };
 
@@ -95,6 +100,7 @@ static aur_result create(aur_parameters *parameters, aur_texture *texture, aur_e
         result = aur_read_rgb(self->path, &self->width, &self->height, &self->rgb, error);
     if (result != AUR_OK)
         return result;
+    texture->aspect = (float)self->width / (float)self->height;
     self->to_uv = aur_uv_map_of(&self->uv);
     for (size_t i = 0; self->raw && has_8_bits(self->path) && i < 3 * self->width * self->height; ++i)
         self->rgb[i] = encode(self->rgb[i]);
@@ -176,7 +182,7 @@ static void slope(const aur_texture *texture, aur_bsdf_point point, float result
 
 const aur_texture_descriptor aur_texture_bitmap = {
     .row = {.name = "bitmap",
-            .summary = "a picture from an EXR, PFM, HDR, PNG or JPEG file",
+            .summary = "a picture from an EXR, PFM, HDR, PNG, JPEG, BMP or TGA file",
             .source = "",
             AUR_ROW_KEYS(keys)},
     .size = sizeof(bitmap),

@@ -8,7 +8,10 @@
 #define TEXTURES(ROW)                                                                                        \
     ROW(bitmap)                                                                                              \
     ROW(checkerboard)                                                                                        \
-    ROW(mesh_attribute)
+    ROW(mesh_attribute)                                                                                      \
+    ROW(uniform)                                                                                             \
+    ROW(rawconstant)                                                                                         \
+    ROW(srgb)
 
 #define DECLARE(name) extern const aur_texture_descriptor aur_texture_##name;
 TEXTURES(DECLARE)

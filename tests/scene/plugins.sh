@@ -20,6 +20,10 @@ done
 "$aureole" render "$scenes/filters.xml" -D spp=1 -o filters.exr 2>warnings || exit 1
 [ "$(grep -c unpolarised warnings)" = 1 ] || { echo "that light is unpolarised is not said once:"; cat warnings; exit 1; }
 
+for ending in bmp tga; do
+  "$aureole" compare "$scenes/picture.png" "$scenes/picture.$ending" >compared || { echo "$ending is not the PNG"; cat compared; exit 1; }
+done
+
 refuses() { # refuses WORDS BODY
   echo "<scene version='3.0.0'><sensor type='perspective'/>$2</scene>" >refused.xml
   "$aureole" info refused.xml >out 2>&1
@@ -34,4 +38,8 @@ refuses "needs a texture" "<bsdf type='bumpmap'><bsdf type='diffuse'/></bsdf>"
 refuses "needs two nested" "<bsdf type='blendbsdf'><bsdf type='diffuse'/></bsdf>"
 refuses "'eta' or 'specular', not both" \
   "<bsdf type='principled'><float name='eta' value='1.5'/><float name='specular' value='0.5'/></bsdf>"
+
+# All that is not known is said at once, and before a mesh is looked for.
+refuses "bsdf 'hair'" "<shape type='ply'><string name='filename' value='none.ply'/><bsdf type='hair'/></shape><emitter type='sunskies'/>"
+grep -q "emitter 'sunskies'" out && ! grep -q none.ply out || { echo "not all is said at once:"; cat out; exit 1; }
 exit 0

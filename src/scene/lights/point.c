@@ -11,10 +11,12 @@ typedef struct point_light {
     /* Radians: light falls from all within the beam to nothing at the cutoff. A point's are beyond pi. */
     float cutoff, beam;
     float cosine_cutoff;
+    aur_color picture; /* of a spot: a factor across its cone, where there is a texture */
+    aur_transform to_local;
 } point_light;
 
 typedef struct point_keys {
-    aur_color color;
+    aur_color color, picture;
     aur_transform to_world;
     double position[3], direction[3];
     double cutoff, beam; /* degrees; beam -1: not given */
@@ -28,6 +30,7 @@ static const aur_key point_table[] = {
 
 static const aur_key spot_table[] = {
     {AUR_KEY_OF_COLOR(point_keys, "intensity", color, 1e30, "1", "power a steradian along the axis, RGB")},
+    {AUR_KEY_OF_COLOR(point_keys, "texture", picture, 1e30, NULL, "a picture across the cone: factor of it")},
     {AUR_KEY_OF_REAL(point_keys, "cutoff_angle", cutoff, 1e-3, 180.0, "20", "no light beyond, degrees")},
     {AUR_KEY_OF_REAL(point_keys, "beam_width", beam, 0.0, 180.0, "3/4 of cutoff_angle",
                      "full light within, degrees; at most cutoff_angle"),
@@ -55,10 +58,9 @@ static aur_result read_keys(aur_parameters *parameters, aur_emitter *emitter, po
     point_light *const self = emitter->data = calloc(1, sizeof *self);
     if (self == NULL)
         return aur_fail_memory_at(error, parameters->location);
-    aur_transform to_local;
     aur_result result = aur_colors_read(row, parameters, p, error);
     if (result == AUR_OK)
-        result = aur_to_world_check(parameters, &p->to_world, &to_local, error);
+        result = aur_to_world_check(parameters, &p->to_world, &self->to_local, error);
     if (result == AUR_OK && p->color.texture != NULL)
         return aur_parameters_fail(parameters, error, AUR_ERROR_UNSUPPORTED, "'%s' cannot be a texture",
                                    row->keys[0].name);
@@ -108,11 +110,25 @@ static aur_result create_spot(aur_parameters *parameters, aur_emitter *emitter, 
                            beam);
     point_light *const self = emitter->data;
     self->cutoff = (float)(cutoff * AUR_PI / 180.0);
+    self->picture = p.picture;
+    if (p.picture.texture != NULL && cutoff >= 90.0)
+        return aur_parameters_fail(parameters, error, AUR_ERROR_UNSUPPORTED,
+                                   "a 'texture' needs a 'cutoff_angle' below 90 degrees");
     self->beam = (float)(beam * AUR_PI / 180.0);
     self->cosine_cutoff = cosf(self->cutoff);
     const double mean = 0.5 * (cos((double)self->beam) + (double)self->cosine_cutoff);
     emitter->extent = 2.0 * AUR_PI * (1.0 - mean);
     return AUR_OK;
+}
+
+/* The factor of a spot's picture in a direction from it. */
+static aur_vector picture_at(const point_light *self, aur_vector direction) {
+    if (self->picture.texture == NULL)
+        return (aur_vector){1.0f, 1.0f, 1.0f};
+    const aur_vector local = aur_transform_direction_f(&self->to_local, direction);
+    const float width = 2.0f * local.z * tanf(self->cutoff);
+    return aur_color_at(&self->picture,
+                        (aur_bsdf_point){.u = 0.5f + local.x / width, .v = 0.5f + local.y / width});
 }
 
 /* Full within the beam, then falling linearly with the angle to 0 at the cutoff. */
@@ -138,6 +154,9 @@ static bool sample_place(const aur_emitter *emitter, const aur_light_query *quer
     drawn->normal = aur_vector_scale(drawn->direction, -1.0f);
     const float share = falloff(self, -aur_vector_dot(drawn->direction, self->frame.z));
     drawn->radiance = aur_vector_scale(aur_vector_scale(emitter->radiance.constant, 1.0f / squared), share);
+    if (self->picture.texture != NULL && share > 0.0f)
+        drawn->radiance =
+            aur_vector_multiply(drawn->radiance, picture_at(self, aur_vector_scale(drawn->direction, -1.0f)));
     drawn->pdf = 1.0f;
     drawn->delta = true;
     return share > 0.0f;
@@ -157,6 +176,7 @@ static bool emit_spot(const aur_emitter *emitter, const float u[5], aur_ray *ray
     *ray = (aur_ray){self->position, 0.0f, aur_frame_to_world(&self->frame, aur_direction_at(cosine, u[4])),
                      INFINITY};
     *power = aur_vector_scale(emitter->radiance.constant, falloff(self, cosine) * 2.0f * AUR_PI_F * cap);
+    *power = aur_vector_multiply(*power, picture_at(self, ray->direction));
     return true;
 }
 

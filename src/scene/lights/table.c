@@ -7,6 +7,7 @@
     ROW(area)                                                                                                \
     ROW(point)                                                                                               \
     ROW(spot)                                                                                                \
+    ROW(projector)                                                                                           \
     ROW(directional)                                                                                         \
     ROW(constant)                                                                                            \
     ROW(envmap)                                                                                              \

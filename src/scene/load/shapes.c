@@ -10,6 +10,10 @@
  * aur_shape. */
 static const char *const instance_plugin = "instance";
 
+bool aur_is_shape_of_shapes(const char *plugin) {
+    return strcmp(plugin, AUR_GROUP_PLUGIN) == 0 || strcmp(plugin, instance_plugin) == 0;
+}
+
 /* What a shape without a bsdf is made of: grey, or black when it is a light. */
 static aur_result default_bsdf(aur_loader *self, bool light, const aur_bsdf **bsdf) {
     const aur_bsdf **const known = light ? &self->black_bsdf : &self->default_bsdf;

@@ -54,6 +54,56 @@ static aur_result check_top(aur_loader *self, const aur_xml_node *node) {
                         emitter->descriptor->row.name);
 }
 
+/* The table of what an element may be, or NULL where its type is not one of these. */
+static const aur_table *table_of(const aur_xml_node *node, const char *plugin) {
+    const struct {
+        const char *tag;
+        const aur_table *table;
+    } tables[] = {{"bsdf", &aur_bsdf_table},
+                  {"texture", &aur_texture_table},
+                  {"shape", &aur_shape_table},
+                  {"emitter", &aur_emitter_table},
+                  {"sensor", &aur_sensor_table}};
+    if (strcmp(node->tag, "shape") == 0 && aur_is_shape_of_shapes(plugin))
+        return NULL;
+    for (size_t i = 0; i < sizeof tables / sizeof tables[0]; ++i)
+        if (strcmp(node->tag, tables[i].tag) == 0)
+            return tables[i].table;
+    return NULL;
+}
+
+/* Finds all elements whose type is not known, before anything is read: the last one found is the error, and
+ * the others are warnings before it. */
+static aur_result refuse_unknown(const aur_loader *self, const aur_xml_node *node, aur_error *found) {
+    aur_result result = AUR_OK;
+    for (const aur_xml_node *child = node->first_child; child != NULL; child = child->next) {
+        const char *const plugin = aur_xml_attribute_value(child, "type");
+        const aur_table *const table = plugin != NULL ? table_of(child, plugin) : NULL;
+        aur_parameters parameters;
+        const aur_row *row;
+        aur_error error = {0};
+        aur_result here = AUR_OK;
+        if (table != NULL) {
+            here = aur_parameters_init(&parameters, child->tag, plugin, child->location, &error);
+            if (here != AUR_OK)
+                return here;
+            here = aur_table_find(table, &parameters, &row, &error);
+            aur_parameters_release(&parameters);
+        }
+        for (size_t pass = 0; pass < 2; ++pass) {
+            if (here != AUR_OK && result != AUR_OK)
+                aur_warn_at(self->warnings, (aur_location){found->file, found->line, found->column}, "%s",
+                            found->message);
+            if (here != AUR_OK) {
+                *found = error;
+                result = here;
+            }
+            here = pass == 0 ? refuse_unknown(self, child, &error) : AUR_OK;
+        }
+    }
+    return result;
+}
+
 aur_result aur_scene_build(aur_scene *scene, const aur_warnings *warnings, aur_error *error) {
     aur_loader self = {.scene = scene,
                        .warnings = warnings,
@@ -63,6 +113,11 @@ aur_result aur_scene_build(aur_scene *scene, const aur_warnings *warnings, aur_e
     scene->film = (aur_film_settings){.width = 768, .height = 576, .filter = aur_filter_find("gaussian")};
     scene->samples_per_pixel = 4;
     aur_xml_node *const root = scene->document.root;
+    aur_error unknown = {0};
+    if (refuse_unknown(&self, root, &unknown) != AUR_OK) {
+        *error = unknown;
+        return unknown.result;
+    }
     for (aur_xml_node *node = root->first_child; node != NULL; node = node->next) {
         const aur_result result = build_top(&self, node);
         if (result != AUR_OK)
