@@ -7,7 +7,7 @@
 typedef struct conductor {
     aur_color reflectance;
     aur_metal metal;
-    aur_microfacet microfacet;
+    aur_roughness microfacet;
 } conductor;
 
 #define CONDUCTOR_KEYS                                                                                       \
@@ -23,7 +23,7 @@ static aur_result create_rough(aur_parameters *parameters, aur_bsdf *bsdf, aur_e
     conductor *const self = bsdf->data;
     const aur_bsdf_lobe lobe = {.shape = AUR_LOBE_SHAPE_SAMPLED, .sides = AUR_SIDE_FRONT};
     aur_bsdf_add_lobe(bsdf, &lobe);
-    bsdf->anisotropic = aur_microfacet_complete(&self->microfacet);
+    bsdf->anisotropic = aur_roughness_complete(&self->microfacet);
     return aur_metal_complete(parameters, &self->metal, error);
 }
 
@@ -68,7 +68,8 @@ static aur_vector evaluate_rough(const aur_bsdf *bsdf, aur_bsdf_part part, aur_b
     (void)part;
     const conductor *const self = bsdf->data;
     float cosine;
-    const float value = aur_microfacet_mirror(&self->microfacet, view, light, &cosine, pdf);
+    const aur_microfacet facets = aur_roughness_at(&self->microfacet, point);
+    const float value = aur_microfacet_mirror(&facets, view, light, &cosine, pdf);
     return value > 0.0f ? aur_vector_scale(reflectance(self, point, cosine), value) : (aur_vector){0};
 }
 
@@ -78,16 +79,16 @@ static bool sample_rough(const aur_bsdf *bsdf, aur_bsdf_part part, aur_bsdf_poin
     const conductor *const self = bsdf->data;
     if (view.z <= 0.0f)
         return false;
+    const aur_microfacet facets = aur_roughness_at(&self->microfacet, point);
     aur_vector normal;
-    const aur_vector light = aur_microfacet_draw_mirrored(&self->microfacet, view, u[1], u[2], &normal);
+    const aur_vector light = aur_microfacet_draw_mirrored(&facets, view, u[1], u[2], &normal);
     const float cosine = aur_vector_dot(view, normal);
     if (!(cosine > 0.0f) || !(light.z > 0.0f))
         return false;
     *drawn = (aur_bsdf_sample){.light = light,
-                               .weight =
-                                   aur_vector_scale(reflectance(self, point, cosine),
-                                                    aur_microfacet_masking(&self->microfacet, light, normal)),
-                               .pdf = aur_microfacet_pdf(&self->microfacet, view, normal) / (4.0f * cosine)};
+                               .weight = aur_vector_scale(reflectance(self, point, cosine),
+                                                          aur_microfacet_masking(&facets, light, normal)),
+                               .pdf = aur_microfacet_pdf(&facets, view, normal) / (4.0f * cosine)};
     return drawn->pdf > 0.0f;
 }
 

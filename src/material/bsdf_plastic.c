@@ -22,7 +22,7 @@ typedef struct plastic {
     bool tabulated; /* what goes through is tabulated */
     bool once;      /* no light meets the base again */
     /* Of a rough coat: */
-    aur_microfacet microfacet;
+    aur_roughness microfacet;
     float transmittance[TABLE_SIZE]; /* from outside, at cosines i / (TABLE_SIZE - 1) */
 } plastic;
 
@@ -132,7 +132,7 @@ static aur_result create_facets(aur_parameters *parameters, aur_bsdf *bsdf, aur_
 static aur_result create_once(aur_parameters *parameters, aur_bsdf *bsdf, aur_error *error) {
     plastic *const self = bsdf->data;
     self->once = true;
-    bsdf->anisotropic = aur_microfacet_complete(&self->microfacet);
+    bsdf->anisotropic = aur_roughness_complete(&self->microfacet);
     return create_facets(parameters, bsdf, error);
 }
 
@@ -142,15 +142,20 @@ static aur_result create_rough(aur_parameters *parameters, aur_bsdf *bsdf, aur_e
         return result;
     plastic *const self = bsdf->data;
     self->tabulated = true;
-    if (aur_microfacet_complete(&self->microfacet))
+    if (self->microfacet.alpha.texture != NULL || self->microfacet.alpha_u.texture != NULL ||
+        self->microfacet.alpha_v.texture != NULL)
+        return aur_fail_at(
+            error, parameters->location, AUR_ERROR_UNSUPPORTED,
+            "bsdf 'roughplastic': 'alpha' cannot be a texture: 'principled' has one for its roughness");
+    if (aur_roughness_complete(&self->microfacet))
         return aur_fail_at(error, parameters->location, AUR_ERROR_UNSUPPORTED,
                            "bsdf 'roughplastic': 'alpha_u' and 'alpha_v' must be equal: give 'alpha'");
     double inner = 0.0, outer = 0.0;
     for (size_t i = 0; i < TABLE_SIZE; ++i) {
         const float cosine = (float)i / (TABLE_SIZE - 1);
-        self->transmittance[i] = (float)shares_at(&self->microfacet, self->ior, cosine).through;
+        self->transmittance[i] = (float)shares_at(&self->microfacet.constant, self->ior, cosine).through;
         const double weight = (i == 0 || i == TABLE_SIZE - 1 ? 1.0 : 2.0) * (double)cosine / (TABLE_SIZE - 1);
-        inner += weight * shares_at(&self->microfacet, 1.0f / self->ior, cosine).mirrored;
+        inner += weight * shares_at(&self->microfacet.constant, 1.0f / self->ior, cosine).mirrored;
         outer += weight * (double)self->transmittance[i];
     }
     self->inner_reflectance = (float)inner;
@@ -198,8 +203,8 @@ static aur_vector evaluate(const aur_bsdf *bsdf, aur_bsdf_part part, aur_bsdf_po
     if (view.z <= 0.0f || light.z <= 0.0f)
         return sum;
     float cosine, refracted;
-    const float facets =
-        self->rough ? aur_microfacet_mirror(&self->microfacet, view, light, &cosine, pdf) : 0.0f;
+    const aur_microfacet microfacet = aur_roughness_at(&self->microfacet, point);
+    const float facets = self->rough ? aur_microfacet_mirror(&microfacet, view, light, &cosine, pdf) : 0.0f;
     if (facets > 0.0f)
         sum = aur_vector_scale(aur_color_at(&self->specular, point),
                                facets * aur_fresnel_dielectric(cosine, self->ior, &refracted));
@@ -225,10 +230,10 @@ static bool sample(const aur_bsdf *bsdf, aur_bsdf_part part, aur_bsdf_point poin
             .specular = true};
         return true;
     }
+    const aur_microfacet facets = aur_roughness_at(&self->microfacet, point);
     aur_vector normal;
-    const aur_vector light = u[0] < chance
-                                 ? aur_microfacet_draw_mirrored(&self->microfacet, view, u[1], u[2], &normal)
-                                 : aur_sample_cosine(u[1], u[2]);
+    const aur_vector light = u[0] < chance ? aur_microfacet_draw_mirrored(&facets, view, u[1], u[2], &normal)
+                                           : aur_sample_cosine(u[1], u[2]);
     float density;
     const aur_vector value = evaluate(bsdf, part, point, view, light, &density);
     *drawn =

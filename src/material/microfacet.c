@@ -4,12 +4,20 @@
 #include "material/fresnel.h"
 #include "material/sampling.h"
 
-bool aur_microfacet_complete(aur_microfacet *microfacet) {
-    if (microfacet->alpha_u == 0.0f)
-        microfacet->alpha_u = microfacet->alpha;
-    if (microfacet->alpha_v == 0.0f)
-        microfacet->alpha_v = microfacet->alpha;
-    return microfacet->alpha_u != microfacet->alpha_v;
+static bool is_given(const aur_color *color) {
+    return color->texture != NULL || color->constant.x != 0.0f;
+}
+
+bool aur_roughness_complete(aur_roughness *roughness) {
+    aur_color *const u = &roughness->alpha_u, *const v = &roughness->alpha_v;
+    *u = is_given(u) ? *u : roughness->alpha;
+    *v = is_given(v) ? *v : roughness->alpha;
+    roughness->varies = u->texture != NULL || v->texture != NULL;
+    roughness->constant.alpha_u =
+        aur_color_number_at(&(aur_color){.constant = u->constant}, (aur_bsdf_point){.u = 0.0f});
+    roughness->constant.alpha_v =
+        aur_color_number_at(&(aur_color){.constant = v->constant}, (aur_bsdf_point){.u = 0.0f});
+    return u->texture != v->texture || roughness->constant.alpha_u != roughness->constant.alpha_v;
 }
 
 float aur_microfacet_density(const aur_microfacet *microfacet, aur_vector normal) {

@@ -2,35 +2,53 @@
  * shadowing, and drawing among the normals that are visible. Local frame, z up. */
 #pragma once
 
-#include "core/keys.h"
-#include "core/vector.h"
+#include "material/texture.h"
 
 typedef struct aur_microfacet {
     enum { AUR_MICROFACET_BECKMANN, AUR_MICROFACET_GGX } distribution;
     float alpha_u, alpha_v;
-    /* Read, and of no use afterwards: */
-    float alpha;
-    bool sample_visible;
 } aur_microfacet;
 
-/* Rows for tables of keys; the struct is zeroed and has an aur_microfacet called microfacet. */
+/* Facets over a surface: the same everywhere, or by textures. */
+typedef struct aur_roughness {
+    aur_microfacet constant; /* where nothing varies */
+    aur_color alpha_u, alpha_v;
+    bool varies;
+    /* Read, and of no use afterwards: */
+    aur_color alpha;
+    bool sample_visible;
+} aur_roughness;
+
+#define AUR_LEAST_ALPHA 1e-4
+
+/* Rows for tables of keys; the struct is zeroed and has an aur_roughness called microfacet. */
 #define AUR_MICROFACET_KEYS(struct_)                                                                         \
-    {AUR_KEY_OF_CHOICE(struct_, "distribution", microfacet.distribution, "beckmann",                         \
+    {AUR_KEY_OF_CHOICE(struct_, "distribution", microfacet.constant.distribution, "beckmann",                \
                        "of the facets' normals", "beckmann", "ggx")},                                        \
         {AUR_KEY_OF_BOOLEAN(struct_, "sample_visible", microfacet.sample_visible, "true",                    \
                             "of no effect: it is always so")},                                               \
-        {AUR_KEY_OF_REAL(struct_, "alpha", microfacet.alpha, 1e-4, 10.0, "0.1", "roughness")},               \
-        {AUR_KEY_OF_REAL(struct_, "alpha_u", microfacet.alpha_u, 1e-4, 10.0, "alpha",                        \
-                         "roughness along the first texture coordinate"),                                    \
-         .computed = true},                                                                                  \
+        {AUR_KEY_OF_COLOR(struct_, "alpha", microfacet.alpha, 10.0, "0.1", "roughness"),                     \
+         .minimum = AUR_LEAST_ALPHA},                                                                        \
+        {AUR_KEY_OF_COLOR(struct_, "alpha_u", microfacet.alpha_u, 10.0, "alpha",                             \
+                          "roughness along the first texture coordinate"),                                   \
+         .minimum = AUR_LEAST_ALPHA, .computed = true},                                                      \
     {                                                                                                        \
-        AUR_KEY_OF_REAL(struct_, "alpha_v", microfacet.alpha_v, 1e-4, 10.0, "alpha",                         \
-                        "roughness along the second"),                                                       \
-            .computed = true                                                                                 \
+        AUR_KEY_OF_COLOR(struct_, "alpha_v", microfacet.alpha_v, 10.0, "alpha",                              \
+                         "roughness along the second"),                                                      \
+            .minimum = AUR_LEAST_ALPHA, .computed = true                                                     \
     }
 
-/* `alpha` stands for what was not given of alpha_u and alpha_v. Returns whether the two differ. */
-bool aur_microfacet_complete(aur_microfacet *microfacet);
+/* `alpha` stands for what was not given of alpha_u and alpha_v. Returns whether the two may differ. */
+bool aur_roughness_complete(aur_roughness *roughness);
+
+/* The facets at a point. */
+static inline aur_microfacet aur_roughness_at(const aur_roughness *roughness, aur_bsdf_point point) {
+    if (!roughness->varies)
+        return roughness->constant;
+    return (aur_microfacet){roughness->constant.distribution,
+                            fmaxf(aur_color_number_at(&roughness->alpha_u, point), (float)AUR_LEAST_ALPHA),
+                            fmaxf(aur_color_number_at(&roughness->alpha_v, point), (float)AUR_LEAST_ALPHA)};
+}
 
 /* Density of normals: its integral against the cosine is 1. */
 float aur_microfacet_density(const aur_microfacet *microfacet, aur_vector normal);

@@ -24,7 +24,8 @@ static const aur_key keys[] = {
     {AUR_KEY_OF_COLOR(projector_keys, "irradiance", irradiance, 1e30, "1",
                       "the picture: at distance 1 along the axis, over pi")},
     {AUR_KEY_OF_REAL(projector_keys, "scale", scale, 0.0, 1e30, "1", "factor of it")},
-    {AUR_KEY_OF_REAL(projector_keys, "fov", fov, 1e-3, 180.0 - 1e-3, "45", "field of view, degrees")},
+    {AUR_KEY_OF_REAL(projector_keys, "fov", fov, 1e-3, 180.0 - 1e-3, "of 50mm", "field of view, degrees"),
+     .computed = true},
     {AUR_KEY_OF_CHOICE(projector_keys, "fov_axis", axis, "x", "the side of the picture that fov spans", "x",
                        "y", "diagonal", "smaller", "larger")},
     {AUR_KEY_OF_TRANSFORM(projector_keys, "to_world", to_world, "from a projector at the origin along +z")},
@@ -42,7 +43,11 @@ static aur_result create(aur_parameters *parameters, aur_emitter *emitter, aur_e
         return result;
     const aur_texture *const picture = p.irradiance.texture;
     const float aspect = picture != NULL && picture->aspect > 0.0f ? picture->aspect : 1.0f;
-    const aur_sensor lens = {.axis = p.axis, .tangent = (float)tan(0.5 * p.fov * AUR_PI / 180.0)};
+    /* A lens of 50 mm on 35 mm film, whose diagonal is that of 36 mm by 24 mm, unless told. */
+    const aur_sensor lens =
+        p.fov > 0.0 ? (aur_sensor){.axis = p.axis, .tangent = (float)tan(0.5 * p.fov * AUR_PI / 180.0)}
+                    : (aur_sensor){.axis = AUR_FOV_DIAGONAL,
+                                   .tangent = (float)(sqrt(36.0 * 36.0 + 24.0 * 24.0) / 100.0)};
     self->half_width = aur_sensor_half_width(&lens, aspect);
     self->half_height = self->half_width / aspect;
     self->position = aur_transform_point_f(&p.to_world, (aur_vector){0.0f, 0.0f, 0.0f});
