@@ -113,6 +113,33 @@ static void draws_on_curved_lights(void **state) {
     }
 }
 
+/* From points of a sphere that faces inwards, which rounding puts to either side, all of it is drawn by area.
+ */
+static void draws_from_a_sphere_s_own_points(void **state) {
+    (void)state;
+    aur_scene *const scene =
+        must_load_body("<shape type='sphere'><boolean name='flip_normals' value='true'/><float name='radius' "
+                       "value='3'/><emitter type='area'/></shape>");
+    size_t near = 0;
+    for (size_t i = 0; i < 2000; ++i) {
+        const float u[3] = {unit(1, i), unit(2, i), unit(3, i)};
+        const aur_vector reference = aur_vector_scale(aur_sample_sphere(unit(4, i), unit(5, i)), 3.0f);
+        aur_light_sample sample;
+        if (!aur_light_sample_direct(scene, reference, 0.1f, u, &sample) || sample.distance < 0.1f) {
+            ++near;
+            continue;
+        }
+        /* the chord makes the same angle with both ends' normals: its cosine is half the chord over the
+         * radius */
+        const double cosine = (double)sample.distance / 6.0;
+        const double expected = (double)(sample.distance * sample.distance) / (cosine * 36.0 * AUR_PI);
+        assert_relative(sample.pdf, expected, 1e-4);
+    }
+    /* (.1/6)^2 of the sphere is that near: 0.6 points are expected, and 10 come once in 10^9 */
+    assert_true(near < 10);
+    aur_scene_destroy(scene);
+}
+
 /* A picture of a sky: a dim gradient with one bright texel, as PFM (the bottom row first). */
 static void write_sky(void) {
     enum { WIDTH = 16, HEIGHT = 9 };
@@ -380,11 +407,17 @@ static void closed_rooms_stay_closed(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(draws_what_it_says),          cmocka_unit_test(draws_environments),
-        cmocka_unit_test(turns_environments),          cmocka_unit_test(shines_from_points),
-        cmocka_unit_test(particles_of_every_light),    cmocka_unit_test(draws_on_curved_lights),
-        cmocka_unit_test(particles_carry_the_power),   cmocka_unit_test(emits_on_one_side),
-        cmocka_unit_test(refuses_lights_without_area), cmocka_unit_test(closed_rooms_stay_closed),
+        cmocka_unit_test(draws_what_it_says),
+        cmocka_unit_test(draws_environments),
+        cmocka_unit_test(turns_environments),
+        cmocka_unit_test(shines_from_points),
+        cmocka_unit_test(particles_of_every_light),
+        cmocka_unit_test(draws_on_curved_lights),
+        cmocka_unit_test(draws_from_a_sphere_s_own_points),
+        cmocka_unit_test(particles_carry_the_power),
+        cmocka_unit_test(emits_on_one_side),
+        cmocka_unit_test(refuses_lights_without_area),
+        cmocka_unit_test(closed_rooms_stay_closed),
     };
     return cmocka_run_group_tests(tests, enter_folder, leave_folder);
 }

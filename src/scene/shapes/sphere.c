@@ -46,8 +46,11 @@ static aur_shape_point sample(const aur_shape *shape, float u, float v) {
     return point_at(shape, aur_sample_sphere(u, v));
 }
 
-/* 1 - cos of the half angle under which the sphere is seen; 2 from inside. */
+/* 1 - cos of the half angle under which the sphere is seen; 2 from inside. One that faces inwards is only
+ * ever seen from inside, also from points of its own that rounding has put outside. */
 static float seen_cap(const aur_shape *shape, aur_vector reference) {
+    if (shape->flipped)
+        return 2.0f;
     const aur_vector way = aur_vector_subtract(shape->center, reference);
     const float ratio = shape->radius * shape->radius / aur_vector_dot(way, way);
     return ratio < 1.0f ? ratio / (1.0f + sqrtf(1.0f - ratio)) : 2.0f;
