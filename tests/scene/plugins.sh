@@ -42,4 +42,13 @@ refuses "'eta' or 'specular', not both" \
 # All that is not known is said at once, and before a mesh is looked for.
 refuses "bsdf 'hair'" "<shape type='ply'><string name='filename' value='none.ply'/><bsdf type='hair'/></shape><emitter type='sunskies'/>"
 grep -q "emitter 'sunskies'" out && ! grep -q none.ply out || { echo "not all is said at once:"; cat out; exit 1; }
+
+# What loads of a folder is counted, and why the rest does not.
+"$2/scripts/count_scenes.sh" "$aureole" "$scenes" >count || exit 1
+grep -Eq '^([0-9]+) of \1 scenes load$' count || { echo "not all of $scenes load:"; cat count; exit 1; }
+mkdir -p folder/deeper
+cp refused.xml folder/deeper/a.xml && cp refused.xml folder/b.xml && sed 's/hair/diffuse/; s/sunskies/point/' refused.xml >folder/c.xml
+"$2/scripts/count_scenes.sh" "$aureole" folder >count || exit 1
+grep -q '^0 of 3 scenes load$' count && grep -q "2 unknown bsdf 'hair'" count && grep -q "1 a file that is not there" count ||
+  { echo "reasons are not counted:"; cat count; exit 1; }
 exit 0

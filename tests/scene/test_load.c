@@ -567,12 +567,47 @@ static void loads_public_scenes(void **state) {
     aur_scene_destroy(scene);
 }
 
+/* Colours of vertices are interpolated, and a polygon's triangles all have its colour: bytes count by 255. */
+static void reads_colors_of_meshes(void **state) {
+    (void)state;
+    write_text("c.ply", "ply\nformat ascii 1.0\nelement face 2\nproperty uchar red\nproperty uchar green\n"
+                        "property uchar blue\nproperty list uchar int vertex_indices\nelement vertex 5\n"
+                        "property float x\nproperty float y\nproperty float z\nproperty float r\n"
+                        "property float g\nproperty float b\nend_header\n"
+                        "255 51 0 4 0 1 2 3\n0 0 255 3 0 1 4\n"
+                        "0 0 0 1 0 0\n1 0 0 0 1 0\n1 1 0 0 0 1\n0 1 0 0.5 0.5 0.5\n0 0 1 1 1 1\n");
+    write_text("c.obj", "v 0 0 0 1 0 0\nv 1 0 0 0 1 0\nv 1 1 0 2\nf 1 2 3\n");
+    aur_scene *const scene =
+        must_load_body("<shape type='ply'><string name='filename' value='c.ply'/></shape>"
+                       "<shape type='obj'><string name='filename' value='c.obj'/></shape>");
+    static const double faces[3][3] = {{1.0, 0.2, 0.0}, {1.0, 0.2, 0.0}, {0.0, 0.0, 1.0}};
+    assert_int_equal(aur_scene_shape_triangles(scene, 0), 3);
+    aur_triangle triangle;
+    for (size_t i = 0; i < 3; ++i) {
+        aur_scene_triangle(scene, 0, i, &triangle);
+        const aur_vector color = triangle.texture[1].face_color;
+        assert_near(color.x, faces[i][0], 1e-7);
+        assert_near(color.y, faces[i][1], 1e-7);
+        assert_near(color.z, faces[i][2], 1e-7);
+    }
+    aur_scene_triangle(scene, 0, 1, &triangle); /* corners 0, 2, 3 */
+    assert_near(triangle.texture[0].vertex_color.x, 1.0, 0.0);
+    assert_near(triangle.texture[1].vertex_color.z, 1.0, 0.0);
+    assert_near(triangle.texture[2].vertex_color.y, 0.5, 0.0);
+    aur_scene_triangle(scene, 1, 0, &triangle); /* the third vertex has a weight and no colour: white */
+    assert_near(triangle.texture[1].vertex_color.y, 1.0, 0.0);
+    assert_near(triangle.texture[1].vertex_color.x, 0.0, 0.0);
+    assert_near(triangle.texture[2].vertex_color.x, 1.0, 0.0);
+    aur_scene_destroy(scene);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(loads_a_small_scene),
         cmocka_unit_test(maps_samplers_to_sets),
         cmocka_unit_test(gives_default_materials),
         cmocka_unit_test(refers_to_parts),
+        cmocka_unit_test(reads_colors_of_meshes),
         cmocka_unit_test(substitutes_names),
         cmocka_unit_test(includes_files),
         cmocka_unit_test(reads_old_versions),

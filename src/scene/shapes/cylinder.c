@@ -72,16 +72,41 @@ static const aur_key keys[] = {
     {AUR_KEY_OF_REAL(cylinder_keys, "radius", radius, 1.0 / AUR_REACH, AUR_REACH, "1", "its radius")},
 };
 
+/* `to_world` may stretch a cylinder along its axis, beside what it may do to all round shapes: *scale is its
+ * factor across the axis. */
+static aur_result scale_across(const aur_shape_input *input, aur_vector way, double *scale,
+                               aur_error *error) {
+    aur_error even;
+    const float length = aur_vector_length(way);
+    if (aur_shape_similarity(input, scale, &even) == AUR_OK || !(length > 0.0f))
+        return AUR_OK;
+    const aur_frame frame = aur_frame_about(aur_vector_scale(way, 1.0f / length));
+    const aur_vector x = aur_transform_direction_f(&input->to_world, frame.x);
+    const aur_vector y = aur_transform_direction_f(&input->to_world, frame.y);
+    const aur_vector z = aur_transform_direction_f(&input->to_world, frame.z);
+    const double xx = (double)aur_vector_dot(x, x), yy = (double)aur_vector_dot(y, y);
+    const double zz = (double)aur_vector_dot(z, z);
+    *scale = sqrt(0.5 * (xx + yy));
+    const bool round = fabs(xx - yy) <= 1e-4 * xx && fabs((double)aur_vector_dot(x, y)) <= 1e-4 * xx;
+    const bool upright = fabs((double)aur_vector_dot(x, z)) <= 1e-4 * sqrt(xx * zz) &&
+                         fabs((double)aur_vector_dot(y, z)) <= 1e-4 * sqrt(yy * zz);
+    return round && upright
+               ? AUR_OK
+               : aur_parameters_fail(input->parameters, error, AUR_ERROR_UNSUPPORTED,
+                                     "'to_world' may turn, move and scale it evenly, and stretch "
+                                     "it along its axis, but not across");
+}
+
 static aur_result create(const aur_shape_input *input, aur_shape *shape, aur_error *error) {
     cylinder_keys p;
     double scale;
     aur_result result = aur_row_read(&shape->descriptor->row, input->parameters, &p, error);
-    if (result == AUR_OK)
-        result = aur_shape_similarity(input, &scale, error);
-    if (result != AUR_OK)
-        return result;
     const aur_vector start = {(float)p.p0[0], (float)p.p0[1], (float)p.p0[2]};
     const aur_vector end = {(float)p.p1[0], (float)p.p1[1], (float)p.p1[2]};
+    if (result == AUR_OK)
+        result = scale_across(input, aur_vector_subtract(end, start), &scale, error);
+    if (result != AUR_OK)
+        return result;
     shape->center = aur_transform_point_f(&input->to_world, start);
     const aur_vector way = aur_vector_subtract(aur_transform_point_f(&input->to_world, end), shape->center);
     shape->length = aur_vector_length(way);
