@@ -46,13 +46,18 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
     for (size_t i = 0; i < 3 * mesh->vertex_count; ++i) {
         fuzz_require(isfinite(mesh->positions[i]), "a position that is not finite");
         fuzz_require(mesh->normals == NULL || isfinite(mesh->normals[i]), "a normal that is not finite");
+        fuzz_require(mesh->vertex_colors == NULL || isfinite(mesh->vertex_colors[i]),
+                     "a vertex's colour that is not finite");
     }
+    for (size_t i = 0; mesh->face_colors != NULL && i < 3 * mesh->triangle_count; ++i)
+        fuzz_require(isfinite(mesh->face_colors[i]), "a face's colour that is not finite");
     aur_shape_destroy(shape);
     return 0;
 }
 
 static const char *const texts[] = {
-    "# square\nv 0 0 1\nv 1 0 1.0e0\nv +1. 1 1\nv 0 1 \\\n 1 1.0\nvt 0 0\nvt 1 0\nvt 1 0.5\nvt 0 0.5\n"
+    "# square\nv 0 0 1\nv 1 0 1.0e0\nv +1. 1 1 0.2 0.4 1\nv 0 1 \\\n 1 1.0\nvt 0 0\nvt 1 0\nvt 1 0.5\nvt 0 "
+    "0.5\n"
     "vn 0.6 0 0.8\ng a\nusemtl x\nf -4/1/1 2/2/1 3/3/-1 4/4/1\nf 1 2 3\nf 1//1 2//1 3//1\n",
     "ply\nformat ascii 1.0\ncomment c\nelement vertex 4\nproperty float x\nproperty double y\nproperty float "
     "z\n"
@@ -61,7 +66,14 @@ static const char *const texts[] = {
     "property list uchar short stuff\nelement face 1\nproperty int flag\nproperty list uchar int "
     "vertex_indices\n"
     "end_header\n0 0 1 0 0 1 0 0\n1 0 1 0 0 1 1 0\n1 1 1 0 0 1 1 1\n0 1 1 0 0 1 0 1\n2 7 8\n-3 4 0 1 2 3\n",
+    "ply\nformat ascii 1.0\nelement face 2\nproperty uchar red\nproperty uchar green\nproperty uchar blue\n"
+    "property list uchar int vertex_indices\nelement vertex 4\nproperty float x\nproperty float y\n"
+    "property float z\nproperty float r\nproperty float g\nproperty float b\nend_header\n"
+    "255 51 0 4 0 1 2 3\n0 0 255 3 0 1 3\n"
+    "0 0 0 1 0 0\n1 0 0 0 1 0\n1 1 0 0 0 1\n0 1 0 0.5 0.5 0.5\n",
 };
+
+enum { TEXT_COUNT = sizeof texts / sizeof texts[0] };
 
 static size_t binary_ply(bool big, uint8_t *data) {
     static const char head[] = "ply\nformat binary_%s_endian 1.0\nelement vertex 3\nproperty float x\n"
@@ -106,13 +118,18 @@ static size_t serialized_file(uint8_t *data) {
 
 size_t aur_fuzz_seed(size_t index, size_t capacity, uint8_t *data) {
     fuzz_require(capacity >= 4096, "no room for a seed");
-    if (index < 2) {
+    if (index < TEXT_COUNT) {
         const size_t size = strlen(texts[index]);
         memcpy(data, texts[index], size);
         return size;
     }
-    return index == 2   ? binary_ply(false, data)
-           : index == 3 ? binary_ply(true, data)
-           : index == 4 ? serialized_file(data)
-                        : 0;
+    switch (index - TEXT_COUNT) {
+    case 0:
+        return binary_ply(false, data);
+    case 1:
+        return binary_ply(true, data);
+    case 2:
+        return serialized_file(data);
+    }
+    return 0;
 }
