@@ -149,9 +149,9 @@ static aur_vector evaluate(const aur_bsdf *bsdf, aur_bsdf_part part, aur_bsdf_po
     const place at = place_of(self, part, point, view);
     aur_facet facet;
     *pdf = 0.0f;
-    if ((!at.front && !(at.glass > 0.0f)) || !aur_facet_find(at.eta, view, light, &facet))
-        return (aur_vector){0};
     const bool mirrored = view.z * light.z > 0.0f;
+    if (((!at.front || !mirrored) && !(at.glass > 0.0f)) || !aur_facet_find(at.eta, view, light, &facet))
+        return (aur_vector){0};
     const float mirror = chance_of_mirror(&at, facet.mirrored);
     const float through = at.glass * (1.0f - facet.mirrored) / (facet.ratio * facet.ratio);
     const aur_vector base = at.burley.base;
