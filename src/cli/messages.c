@@ -14,6 +14,7 @@
 static volatile sig_atomic_t interrupted;
 
 typedef struct progress_bar {
+    bool draws; /* on a terminal; else lines are written, which a log can hold */
     bool shown;
     const char *what;
     double start, last;
@@ -63,6 +64,10 @@ static void draw(const char *what, double fraction, double elapsed) {
     format_seconds(elapsed, spent);
     if (fraction > 0.01)
         format_seconds(elapsed * (1 - fraction) / fraction, left);
+    if (!bar.draws) {
+        fprintf(stderr, "aureole: %s, %.0f %%, %s, %s left\n", what, 100 * fraction, spent, left);
+        return;
+    }
     fprintf(stderr, "\r\033[K%s [%s] %3.0f %%  %s, %s left", what, cells, 100 * fraction, spent, left);
     fflush(stderr);
     bar.shown = true;
@@ -77,10 +82,15 @@ static int show(void *user, const char *what, uint64_t done, uint64_t total) {
     if (what == NULL)
         what = "working";
     if (bar.what == NULL || strcmp(bar.what, what) != 0)
-        bar = (progress_bar){.shown = bar.shown, .what = what, .start = time, .last = time};
-    /* The bar's refresh backs off: ten a second at first, one a second after a minute. */
+        bar =
+            (progress_bar){.draws = bar.draws, .shown = bar.shown, .what = what, .start = time, .last = time};
+    /* The bar's refresh backs off: ten a second at first, one a second after a minute. Lines come every ten
+     * seconds, every minute after five. */
     const double elapsed = time - bar.start;
-    const double pause = elapsed < 10 ? 0.1 : elapsed < 60 ? 0.3 : 1.0;
+    const double pause = !bar.draws     ? elapsed < 300 ? 10.0 : 60.0
+                         : elapsed < 10 ? 0.1
+                         : elapsed < 60 ? 0.3
+                                        : 1.0;
     if (done < total && time - bar.last < pause)
         return 0;
     bar.last = time;
@@ -99,8 +109,8 @@ aur_progress cli_progress(bool quiet) {
     action.sa_handler = on_interrupt;
     sigaction(SIGINT, &action, NULL);
     sigaction(SIGTERM, &action, NULL); /* what batch systems send before they kill */
-    const bool draws = !quiet && isatty(STDERR_FILENO);
-    return (aur_progress){.function = show, .user = draws ? &bar : NULL};
+    bar.draws = isatty(STDERR_FILENO);
+    return (aur_progress){.function = show, .user = quiet ? NULL : &bar};
 }
 
 static void warn(void *user, const char *message) {
