@@ -5,6 +5,7 @@
 #define AUREOLE_SCENE_H
 
 #include <aureole/core.h>
+#include <stdbool.h>
 #include <string.h>
 
 #ifdef __cplusplus
@@ -26,6 +27,7 @@ typedef struct aur_scene_options {
     size_t definition_count;
     const aur_definition *definitions; /* they beat the scene's <default>s; an unused one is an error */
     aur_warnings warnings;             /* legacy parameters and the like */
+    bool confine; /* no file is read that lies outside of the scene's folder, by whatever name or link */
 } aur_scene_options;
 
 static inline aur_scene_options aur_scene_options_default(void) {
@@ -38,9 +40,10 @@ static inline aur_scene_options aur_scene_options_default(void) {
 /* Reads a scene and all files that it names: includes, meshes, pictures and point sets. Relative names are
  * looked for beside the file that has them, beside the scene, in the folders of <path>, and in the folder of
  * the process; only regular files are read, and none is written. `options` may be NULL. Errors carry file,
- * line and column: OPEN (a file is not there or is no regular file), FORMAT (what is written cannot be
- * meant), NAME (an unknown element, plugin, parameter or definition; the message suggests the nearest),
- * UNSUPPORTED (Mitsuba has it, Aureole has not), ARGUMENT (`options`), MEMORY. */
+ * line and column: OPEN (a file is not there, is no regular file, or lies where `confine` does not let it),
+ * FORMAT (what is written cannot be meant), NAME (an unknown element, plugin, parameter or definition; the
+ * message suggests the nearest), UNSUPPORTED (Mitsuba has it, Aureole has not), ARGUMENT (`options`), MEMORY.
+ */
 AUR_EXPERIMENTAL aur_result aur_scene_load(const char *path, const aur_scene_options *options,
                                            aur_scene **scene, aur_error *error) AUR_NONNULL(1, 3);
 /* The same from the `bytes` bytes of a scene file in memory. `name` stands for its path: in messages, and as

@@ -35,6 +35,7 @@ typedef struct aur_facets_options {
     bool both_sides; /* facets see on their backs too: the rows of the backs follow those of the fronts */
     size_t definition_count;
     const aur_definition *definitions; /* of scenes, as in aur_scene_options */
+    bool confine;                      /* of scenes, the same */
     /* One for each kind of oddity, with how many there are and the first place: facets without area, facets
      * that lie on each other, open or inconsistent edges. */
     aur_warnings warnings;

@@ -24,6 +24,7 @@ static int describe_scene(const char *path, const info_options *options) {
     const aur_scene_options scene_options = {.size = sizeof scene_options,
                                              .definition_count = options->definitions.count,
                                              .definitions = options->definitions.items,
+                                             .confine = options->definitions.confine,
                                              .warnings = cli_warnings(options->common.quiet)};
     if (aur_scene_load(path, &scene_options, &scene, &error) != AUR_OK)
         return cli_fail(&error);
@@ -201,7 +202,8 @@ const cli_verb cli_verb_info = {
     .operands = {{"FILE", "a scene, a picture, points or a table of weights", .content = "file"}},
     .groups = {{cli_definitions_option, offsetof(info_options, definitions)},
                {cli_format_option, offsetof(info_options, common)},
-               {cli_quiet_option, offsetof(info_options, common)}},
+               {cli_quiet_option, offsetof(info_options, common)},
+               {cli_limits_option, offsetof(info_options, common)}},
     .size = sizeof(info_options),
     .run = run,
 };

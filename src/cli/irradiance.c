@@ -109,6 +109,7 @@ static int run(const cli_call *call) {
     aur_scene_options load = aur_scene_options_default();
     load.definition_count = given->definitions.count;
     load.definitions = given->definitions.items;
+    load.confine = given->definitions.confine;
     load.warnings = cli_warnings(given->common.quiet);
     aur_error error;
     aur_scene *scene = NULL;

@@ -129,7 +129,8 @@ const cli_verb cli_verb_lab = {
     .groups = {{options, 0},
                {cli_format_option, offsetof(lab_command, common)},
                {cli_threads_option, offsetof(lab_command, common)},
-               {cli_quiet_option, offsetof(lab_command, common)}},
+               {cli_quiet_option, offsetof(lab_command, common)},
+               {cli_limits_option, offsetof(lab_command, common)}},
     .size = sizeof(lab_command),
     .run = run,
 };

@@ -37,6 +37,17 @@ static const cli_verb *find_verb(const char *name) {
     return NULL;
 }
 
+/* More than one process of one job would each do all of the work, and write the same file. */
+static bool is_one_of_many(void) {
+    static const char *const sizes[] = {"OMPI_COMM_WORLD_SIZE", "PMI_SIZE"};
+    for (size_t i = 0; i < sizeof sizes / sizeof sizes[0]; ++i) {
+        const char *const text = getenv(sizes[i]);
+        if (text != NULL && strtol(text, NULL, 10) > 1)
+            return true;
+    }
+    return false;
+}
+
 /* argv[0] is the verb. */
 static int run(const cli_verb *verb, int argc, char **argv) {
     for (int i = 1; i < argc && strcmp(argv[i], "--") != 0; ++i)
@@ -73,6 +84,10 @@ int main(int argc, char **argv) {
         printf("aureole %s\n", aur_version());
         return finish(CLI_SUCCESS);
     }
+    if (is_one_of_many())
+        return cli_bad_usage(
+            "started with several ranks, but built without MPI: render parts by '--shard i/n' "
+            "and put them together by 'aureole merge'");
     const cli_verb *const verb = find_verb(name);
     if (verb == NULL)
         return cli_bad_usage("unknown verb '%s': 'aureole help' lists them", name);

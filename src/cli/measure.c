@@ -201,7 +201,8 @@ const cli_verb cli_verb_measure = {
                {cli_dimension_option, offsetof(cli_measure_arguments, points)},
                {cli_format_option, offsetof(cli_measure_arguments, common)},
                {cli_threads_option, offsetof(cli_measure_arguments, common)},
-               {cli_quiet_option, offsetof(cli_measure_arguments, common)}},
+               {cli_quiet_option, offsetof(cli_measure_arguments, common)},
+               {cli_limits_option, offsetof(cli_measure_arguments, common)}},
     .size = sizeof(cli_measure_arguments),
     .run = run,
 };

@@ -32,10 +32,12 @@ static aur_result add_definition(const char *text, void *field, aur_error *error
     return AUR_OK;
 }
 
-const cli_option cli_definitions_option[] = {{CLI_TEXT(cli_definitions, count, "define", "NAME=VALUE", NULL,
-                                                       "set a <default> of the scene; may be repeated"),
-                                              .letter = 'D', .parse = add_definition},
-                                             {.key = {0}}};
+const cli_option cli_definitions_option[] = {
+    {CLI_TEXT(cli_definitions, count, "define", "NAME=VALUE", NULL,
+              "set a <default> of the scene; may be repeated"),
+     .letter = 'D', .parse = add_definition},
+    {CLI_FLAG(cli_definitions, confine, "confine", "refuse a scene that names a file outside of its folder")},
+    {.key = {0}}};
 
 const cli_option *cli_option_at(const cli_verb *verb, size_t index, size_t *offset) {
     for (const cli_group *group = verb->groups; group->options != NULL; ++group) {

@@ -111,14 +111,17 @@ typedef struct cli_common {
     report_format format; /* of a table of results */
     size_t threads;       /* 0: one a processor */
     bool quiet;
+    bool memory_limit, time_limit; /* they hold once they are read */
 } cli_common;
 extern const cli_option cli_format_option[], cli_threads_option[], cli_quiet_option[]; /* of a cli_common */
+extern const cli_option cli_limits_option[];                                           /* the same */
 
 enum { CLI_DEFINITION_LIMIT = 64 };
 
-/* What -D says about a scene, as often as it is given. */
+/* What is said about how a scene is read: -D, as often as it is given, and --confine. */
 typedef struct cli_definitions {
     size_t count;
     aur_definition items[CLI_DEFINITION_LIMIT];
+    bool confine;
 } cli_definitions;
 extern const cli_option cli_definitions_option[]; /* of a cli_definitions */

@@ -214,6 +214,7 @@ static int render(const char *path, render_command *command, cli_errors *errors)
     const aur_scene_options scene_options = {.size = sizeof scene_options,
                                              .definition_count = command->definitions.count,
                                              .definitions = command->definitions.items,
+                                             .confine = command->definitions.confine,
                                              .warnings = command->options.warnings};
     aur_scene *scene = NULL;
     aur_renderer *renderer = NULL;
@@ -301,7 +302,8 @@ const cli_verb cli_verb_render = {
                {cli_checkpoint_options, offsetof(render_command, checkpoint)},
                {cli_definitions_option, offsetof(render_command, definitions)},
                {cli_threads_option, offsetof(render_command, common)},
-               {cli_quiet_option, offsetof(render_command, common)}},
+               {cli_quiet_option, offsetof(render_command, common)},
+               {cli_limits_option, offsetof(render_command, common)}},
     .size = sizeof(render_command),
     .run = run,
 };

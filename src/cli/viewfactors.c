@@ -120,6 +120,7 @@ static int run(const cli_call *call) {
     given->facets.size = sizeof given->facets;
     given->facets.definition_count = given->definitions.count;
     given->facets.definitions = given->definitions.items;
+    given->facets.confine = given->definitions.confine;
     given->facets.warnings = given->factors.warnings = cli_warnings(given->common.quiet);
     given->factors.threads = given->common.threads;
     given->factors.size = sizeof given->factors;
@@ -157,7 +158,8 @@ const cli_verb cli_verb_viewfactors = {
                {cli_definitions_option, offsetof(factor_command, definitions)},
                {cli_threads_option, offsetof(factor_command, common)},
                {cli_format_option, offsetof(factor_command, common)},
-               {cli_quiet_option, offsetof(factor_command, common)}},
+               {cli_quiet_option, offsetof(factor_command, common)},
+               {cli_limits_option, offsetof(factor_command, common)}},
     .size = sizeof(factor_command),
     .run = run,
 };

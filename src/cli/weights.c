@@ -222,7 +222,8 @@ const cli_verb cli_verb_weights = {
                {cli_points_options, offsetof(cli_weights_arguments, points)},
                {cli_format_option, offsetof(cli_weights_arguments, common)},
                {cli_threads_option, offsetof(cli_weights_arguments, common)},
-               {cli_quiet_option, offsetof(cli_weights_arguments, common)}},
+               {cli_quiet_option, offsetof(cli_weights_arguments, common)},
+               {cli_limits_option, offsetof(cli_weights_arguments, common)}},
     .size = sizeof(cli_weights_arguments),
     .run = run,
 };

@@ -191,6 +191,7 @@ aur_result aur_facets_load(const char *path, const aur_facets_options *given, au
     aur_scene_options scene = aur_scene_options_default();
     scene.warnings = options.warnings;
     scene.definition_count = options.definition_count;
+    scene.confine = options.confine;
     scene.definitions = options.definitions;
     result = kind >= SOURCE_SCENE ? aur_scene_load(path, &scene, &facets->scene, error)
                                   : load_mesh(path, kind, &scene, &facets->scene, error);

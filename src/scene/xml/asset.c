@@ -1,4 +1,7 @@
 /* Where the files are that a scene names, and what to say when they are not there. */
+#if defined(__linux__) && !defined(_GNU_SOURCE)
+#define _GNU_SOURCE /* realpath */
+#endif
 #include <ctype.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -83,7 +86,7 @@ static aur_result fail(const aur_xml_document *document, aur_location location, 
         if (used < sizeof places)
             used += (size_t)snprintf(places + used, sizeof places - used, "%s%.*s", i > 0 ? ", " : "",
                                      in.length > 0 ? (int)in.length : 2, in.length > 0 ? in.path : "./");
-        if (command[0] == '\0')
+        if (command[0] == '\0' && document->confines == NULL)
             read_command(in, name, command, sizeof command);
     }
     if (command[0] != '\0')
@@ -102,6 +105,29 @@ aur_result aur_xml_find_folder(const aur_xml_document *document, aur_location lo
     for (size_t i = 0; name[0] != '/' && *found == NULL && folder_at(document, location.file, i, &in); ++i)
         *found = join(in, name);
     return *found != NULL ? AUR_OK : fail(document, location, name, error);
+}
+
+aur_result aur_xml_confine(aur_xml_document *document, const char *path, aur_error *error) {
+    const folder in = folder_of(path);
+    char *const name = in.length > 0 ? strndup(path, in.length) : strdup(".");
+    document->confines = name != NULL ? realpath(name, NULL) : NULL;
+    free(name);
+    if (document->confines != NULL)
+        return AUR_OK;
+    return aur_fail_at(error, (aur_location){.file = path}, AUR_ERROR_OPEN,
+                       "the scene's folder is not there");
+}
+
+/* Whether the file at the end of all links lies in the folder that the scene is confined to. */
+static bool is_allowed(const aur_xml_document *document, const char *path) {
+    if (document->confines == NULL)
+        return true;
+    char *const real = realpath(path, NULL);
+    const size_t length = strlen(document->confines);
+    const bool allowed = real != NULL && strncmp(real, document->confines, length) == 0 &&
+                         (real[length] == '/' || document->confines[length - 1] == '/');
+    free(real);
+    return allowed;
 }
 
 aur_result aur_xml_note_file(aur_xml_document *document, const char *name, const char *path,
@@ -123,6 +149,9 @@ aur_result aur_xml_find_asset(aur_xml_document *document, aur_location location,
     if (result == AUR_OK && !(stat(*found, &status) == 0 && S_ISREG(status.st_mode)))
         result = aur_fail_at(error, location, AUR_ERROR_OPEN,
                              "'%s' is no regular file: a scene may name no folders, devices or pipes", name);
+    else if (result == AUR_OK && !is_allowed(document, *found))
+        result =
+            aur_fail_at(error, location, AUR_ERROR_OPEN, "'%s' lies outside of the scene's folder", name);
     else if (result == AUR_OK)
         result = aur_xml_note_file(document, name, *found, error);
     if (result == AUR_OK)

@@ -437,6 +437,8 @@ aur_result aur_xml_read(const char *path, size_t bytes, const char *data, const 
     *document = (aur_xml_document){0};
     reading shared = {.document = document, .variables = {.arena = &document->arena}, .error = error};
     aur_result result = aur_xml_variables_define(&shared.variables, options, error);
+    if (result == AUR_OK && options->confine)
+        result = aur_xml_confine(document, path, error);
     if (result == AUR_OK)
         result = data != NULL ? read_text(&shared, path, bytes, data, NULL, NULL)
                               : read_file(&shared, path, NULL, NULL);
@@ -456,6 +458,7 @@ void aur_xml_release(aur_xml_document *document) {
     free(document->ids);
     free(document->folders);
     free(document->files);
+    free(document->confines);
     aur_arena_release(&document->arena);
     *document = (aur_xml_document){0};
 }

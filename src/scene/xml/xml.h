@@ -54,6 +54,7 @@ typedef struct aur_xml_document {
     size_t id_count, id_capacity;
     aur_xml_id *ids; /* sorted */
     size_t file_count, file_capacity;
+    char *confines;      /* the folder that files must lie in, without links; NULL: anywhere */
     aur_xml_file *files; /* the scene's own, and those of aur_xml_find_asset as often as they are named */
 } aur_xml_document;
 
@@ -93,6 +94,8 @@ aur_xml_id *aur_xml_find_id(const aur_xml_document *document, const char *id);
  * command that makes the file. */
 aur_result aur_xml_find_asset(aur_xml_document *document, aur_location location, const char *name,
                               char **found, aur_error *error);
+/* From now on only files in the folder of `path` are found. */
+aur_result aur_xml_confine(aur_xml_document *document, const char *path, aur_error *error);
 /* Notes that a file is read. */
 aur_result aur_xml_note_file(aur_xml_document *document, const char *name, const char *path,
                              aur_error *error);

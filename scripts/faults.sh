@@ -1,0 +1,51 @@
+#!/usr/bin/env bash
+# Kills the program at random moments, goes on, and compares what comes out with a run that was never stopped, byte by
+# byte: scripts/faults.sh PROGRAM [KILLS [SEED]]. Prints a table; exit status 1 where anything differs.
+set -uo pipefail
+aureole=$(realpath "${1:-build/release/aureole}")
+kills=${2:-50}
+RANDOM=${3:-1}
+source=$(cd "$(dirname "$0")/.." && pwd)
+folder=$(mktemp -d)
+trap 'rm -rf "$folder"' EXIT
+cd "$folder" || exit 2
+scene=$source/scenes/cornell-box/cornell-box.xml
+render="render $scene --width 64 --height 64 -q"
+gather=finalgather:photons=2000,diffuse_samples=256
+# What is run, its output, and what a run that goes on is told besides.
+works=("$render --spp 64|-o|a.exr|--checkpoint kept --checkpoint-every .05s --resume"
+       "$render --spp 16 --integrator $gather|-o|a.exr|--checkpoint kept --checkpoint-every .05s --resume"
+       "$render --integrator radiosity --spp 16|-o|a.exr|--checkpoint kept --checkpoint-every .05s --resume"
+       "$render --error 4%|-o|a.exr|--checkpoint kept --checkpoint-every .05s --resume"
+       "weights spherical-fibonacci -n 256 --lobe cosine --lobe2 phong:50 --n2 256 --angles 32 --rotations 4|--table|a.table|"
+       "lab run keller-1994-table2 --quick|-o|lab|")
+each=$(((kills + ${#works[@]} - 1) / ${#works[@]}))
+status=0
+printf '| work | SIGKILL | SIGTERM | files left over | result |\n|---|---|---|---|---|\n' 
+for work in "${works[@]}"; do
+  IFS='|' read -r command option output more <<<"$work"
+  rm -rf whole ./*.part kept "$output"
+  mkdir whole
+  # shellcheck disable=SC2086
+  (cd whole && "$aureole" $command $option "$output" >/dev/null 2>said) ||
+    { printf '| `%s` | | | | refused: %s |\n' "${command/"$source/"/}" "$(head -1 whole/said)"; status=1; continue; }
+  rm whole/said
+  killed=0 stopped=0 finished=0
+  # A run that was not killed in time begins anew, so that there are as many kills as asked for.
+  for ((i = 0; i < each || !finished; ++i)); do
+    # shellcheck disable=SC2086
+    "$aureole" $command $option "$output" $more >/dev/null 2>&1 &
+    if ((i < each)); then
+      sleep "0.$(printf %03d $((RANDOM % 700)))"
+      if ((RANDOM % 2)); then kill -KILL $! 2>/dev/null && ((++killed)); else kill -TERM $! 2>/dev/null && ((++stopped)); fi
+      wait $! 2>/dev/null
+      if [ $? = 0 ]; then diff -r "whole/$output" "$output" >/dev/null || status=1 finished=-1; rm -rf "$output" kept; fi
+    else
+      wait $! && finished=1 || { status=1; break; }
+    fi
+  done
+  left=$(find . -name '.aureole-*' | wc -l)
+  if diff -r "whole/$output" "$output" >/dev/null 2>&1 && [ $finished = 1 ]; then result=same; else result=**differs** status=1; fi
+  printf '| `%s` | %d | %d | %d | %s |\n' "${command/"$source/"/}" $killed $stopped "$left" $result
+done
+exit $status

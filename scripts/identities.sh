@@ -1,0 +1,78 @@
+#!/usr/bin/env bash
+# What must make the same bits: threads, parts, instruction sets, and builds. scripts/identities.sh PROGRAM [OTHER-BUILD...]
+# prints a table; exit status 1 where a row that has to be the same is not.
+set -uo pipefail
+aureole=$(realpath "${1:-build/release/aureole}")
+shift
+builds=("$@")
+source=$(cd "$(dirname "$0")/.." && pwd)
+for i in "${!builds[@]}"; do builds[i]=$(realpath "${builds[i]}"); done
+folder=$(mktemp -d)
+trap 'rm -rf "$folder"' EXIT
+cd "$folder" || exit 2
+scene=$source/scenes/cornell-box/glossy.xml
+status=0
+works=(path 'path:interleaved=true' direct 'ao:samples=16' depth 'aov:aovs=(n:sh_normal)'
+       'finalgather:photons=5000,diffuse_samples=32,glossy_samples=16' radiosity 'error')
+# make PROGRAM WORK OUT OPTION...
+make() {
+  local program=$1 work=$2 out=$3
+  shift 3
+  if [ "$work" = error ]; then
+    "$program" render "$scene" --width 48 --height 40 --error 20% -q -o "$out" "$@"
+  elif [ "$work" = radiosity ]; then
+    "$program" render "$source/scenes/keller/cube.xml" --width 48 --height 40 --spp 4 --integrator radiosity -q -o "$out" "$@"
+  else
+    "$program" render "$scene" --width 48 --height 40 --spp 4 --integrator "$work" -q -o "$out" "$@"
+  fi 2>said
+}
+declare -A cells
+columns=()
+row() { # row COLUMN WORK: compares b.exr with a.exr
+  local result=same
+  cmp -s a.exr b.exr || { result=**differs** status=1; }
+  [[ " ${columns[*]} " == *" ${1// /_} "* ]] || columns+=("${1// /_}")
+  cells[$2/${1// /_}]=$result
+  rm -f b.exr
+}
+for work in "${works[@]}"; do
+  make "$aureole" "$work" a.exr -t 1
+  for threads in 2 3 8; do
+    make "$aureole" "$work" b.exr -t $threads
+    row "$threads threads" "$work"
+  done
+  if [ "$work" != error ]; then
+    for i in 1 2 3; do make "$aureole" "$work" $i.part --shard $i/3 -t $i; done
+    "$aureole" merge 2.part 3.part 1.part -o b.exr
+    row "3 shards" "$work"
+  fi
+  rm -f kept
+  make "$aureole" "$work" b.exr --checkpoint kept --checkpoint-every .02s &
+  sleep 0.2
+  kill -KILL $! 2>/dev/null
+  wait $! 2>/dev/null
+  make "$aureole" "$work" b.exr --checkpoint kept --resume
+  row "killed and gone on" "$work"
+  for build in "${builds[@]}"; do
+    make "$build" "$work" b.exr -t 1
+    row "${build#"$source"/}" "$work"
+  done
+done
+# Our own kernels against the portable ones; Embree's stay the same.
+for isa in avx2 avx512; do
+  for work in "${works[@]}"; do
+    AUREOLE_ISA=portable AUREOLE_EMBREE_ISA=avx2 make "$aureole" "$work" a.exr -t 1
+    AUREOLE_ISA=$isa AUREOLE_EMBREE_ISA=avx2 make "$aureole" "$work" b.exr -t 1
+    row "$isa" "$work"
+  done
+done
+{
+  printf '| |'; printf ' %s |' "${columns[@]//_/ }"; echo
+  printf '|---|'; printf -- '---|%.0s' "${columns[@]}"; echo
+  for work in "${works[@]}"; do
+    printf '| `%s` |' "${work/#error/--error 20%}"
+    for column in "${columns[@]}"; do printf ' %s |' "${cells[$work/$column]:-}"; done
+    echo
+  done
+}
+exit $status
