@@ -95,6 +95,18 @@ static const char *const seeds[] = {
     "name='direction' x='0' y='0' z='1'/></emitter><bsdf type='dielectric'><string name='int_ior' "
     "value='diamond'/>"
     "<float name='ext_ior' value='1.1'/></bsdf><bsdf type='thindielectric'/><bsdf type='plastic'/></scene>",
+    "<scene version='3.0.0'><sensor type='perspective'/><emitter type='sky'><string name='model' "
+    "value='perez'/><float name='direct_normal' value='500'/><string name='date' value='2026-06-21'/><float "
+    "name='latitude' value='48'/><vector name='up' value='0 0 1'/><float name='ground_albedo' "
+    "value='.2'/></emitter><emitter type='sun'><vector name='sun_direction' value='1 2 $n'/><float "
+    "name='half_angle' value='5'/></emitter><shape type='polygon'><string name='vertices' value='0 0 0 4 0 0 "
+    "4 "
+    "4 0 2 1 0 0 4 0'/><bsdf type='glass'><rgb name='transmissivity' value='.9 .8 .7'/></bsdf></shape><shape "
+    "type='disk'><float name='inner_radius' value='.5'/></shape></scene>",
+    "<scene version='3.0.0'><sensor type='perspective'/><emitter type='sky'><string name='model' "
+    "value='cie'/><string name='coefficients' value='-1 -.3 10 -3 .4'/><vector name='sun_direction' value='1 "
+    "2 "
+    "3'/><float name='zenith_luminance' value='9000'/></emitter></scene>",
     /* A texture was once taken for the bsdf that its name says it is. */
     "<scene version='3.0.0'><sensor type='perspective'/><shape type='sphere'><point name='center' "
     "z='$n'/><texture "

@@ -1,10 +1,11 @@
 /* Radiance's scene descriptions, the plain subset of them. */
 #pragma once
 
+#include <stdbool.h>
+
 #include "core/error.h"
 
 /* Whether a scene's file is one, by its name: .rad. */
-#include <stdbool.h>
 bool aur_rad_is_name(const char *path);
 
 /* Writes the description as an XML scene in which every object stands on the line of its primitive: *xml is
