@@ -455,13 +455,20 @@ static aur_result read_primitive(reader *self, rad_word modifier) {
 
 aur_result aur_rad_to_xml(const char *path, size_t size, const char *data, char **xml, size_t *xml_size,
                           aur_error *error) {
-    reader self = {.path = path, .at = data, .end = data + size, .line = 1, .xml_line = 1, .error = error};
+    /* With a zero byte after it, at which numbers end. */
+    char *const text = malloc(size + 1);
+    if (text == NULL)
+        return aur_fail_memory(error);
+    memcpy(text, data, size);
+    text[size] = '\0';
+    reader self = {.path = path, .at = text, .end = text + size, .line = 1, .xml_line = 1, .error = error};
     aur_result result = put(&self, "<scene version=\"3.0.0\">");
     rad_word word;
     while (result == AUR_OK && next_word(&self, &word))
         result = read_primitive(&self, word);
     if (result == AUR_OK)
         result = put(&self, "</scene>");
+    free(text);
     free(self.words);
     free(self.numbers);
     free(self.materials);
