@@ -2,10 +2,13 @@
  *
  * The integral is I = integral of f(u) p(u) over the sphere, f unknown but smooth of order s, p a known
  * density. Everywhere here p is normalised to integral 1, so equal weights are 1/N; multiply by
- * aur_potential_mass for the density as it is written. The kernel is K(u,v) = 2^{2s-1}/s - |u-v|^{2s-2}, 1 <
- * s < 2 (Marques 2018 eq. 3); z(u) = integral of K(u,v) p(v) (eq. 12) is called the potential of p, V =
- * integral of z p (eq. 10) its self-energy. Directions are unit vectors x,y,z, one after another; the surface
- * normal is +z. Weights have the same bits on every processor and for any number of threads.
+ * aur_potential_mass for the density as it is written. The kernel is K(u,v) = 2^{2s-1}/s - |u-v|^{2s-2} for 1
+ * < s < 2 (Marques 2018 eq. 3), and for other s below 6 that are no integers (-1)^{L+1} |u-v|^{2s-2} plus a
+ * polynomial of degree L, the integer part of s - 1, that makes every Legendre coefficient positive
+ * (Brauchart, Saff, Sloan and Womersley 2014, section 5); z(u) = integral of K(u,v) p(v) (eq. 12) is called
+ * the potential of p, V = integral of z p (eq. 10) its self-energy. Directions are unit vectors x,y,z, one
+ * after another; the surface normal is +z. Weights have the same bits on every processor and for any number
+ * of threads.
  *
  * Experimental: merged patterns (aur_oswa) and tables of weights (aur_weight_table) may change in any
  * version. */
@@ -79,7 +82,12 @@ AUR_API aur_result aur_density_from_lobe(const aur_lobe *lobe, aur_domain domain
  * are exact for the sum over their nodes. */
 typedef struct aur_potential aur_potential;
 
-/* `smoothness` in (1,2), 0 stands for 1.5. Nothing that `density` points to is needed afterwards but its
+/* No smoothness is this large: errors of order N^{-s/2} would drown in the rounding of squares of the
+ * kernel's size, 1e-8 and less, even for some hundred points. */
+#define AUR_SMOOTHNESS_MAXIMUM 6.0
+
+/* `smoothness` in (1, AUR_SMOOTHNESS_MAXIMUM) and above 2 no nearer than .01 to an integer; 0 stands for 1.5.
+ * Nothing that `density` points to is needed afterwards but its
  * function. Errors: ARGUMENT (which, and the range), MEMORY. On failure *potential is NULL. */
 AUR_API aur_result aur_potential_create(const aur_density *density, double smoothness,
                                         aur_potential **potential, aur_error *error) AUR_NONNULL(1, 3);
@@ -102,7 +110,7 @@ AUR_API double aur_potential_self_energy(const aur_potential *potential) AUR_NON
 
 /* *energy becomes the integral of K(u,v) p(u) q(v) for two unclipped cos^m lobes whose axes meet at an angle
  * with that cosine: what the worst-case error of a sum of two lobes needs. Exponents as for COSINE_POWER,
- * smoothness in (1,2). Errors: ARGUMENT (which, and the range), MEMORY. */
+ * smoothness as for aur_potential_create. Errors: ARGUMENT (which, and the range), MEMORY. */
 AUR_API aur_result aur_cross_energy(double exponent, double other_exponent, double cosine, double smoothness,
                                     double *energy, aur_error *error) AUR_NONNULL(5);
 
@@ -111,9 +119,10 @@ AUR_API double aur_kernel(double smoothness, double chord);
 
 /* --- worst-case error */
 
-/* sup |I - sum w_i f(u_i)| over f of norm 1 (Marques 2018 eq. 9): sqrt(W'KW - 2 Z'W + V). `weights` may be
- * NULL: 1/N. O(N^2) time, O(N) memory; threads 0: all, and no bit depends on it. Errors: ARGUMENT for a
- * vector that is not of unit length (which), CANCELLED. */
+/* sup |I - sum w_i f(u_i)| over f of norm 1 (Marques 2018 eq. 9): sqrt(W'KW - 2 Z'W + V), which rounding
+ * leaves no digits below some 1e-8 times the root of K(u,u). `weights` may be NULL: 1/N. O(N^2) time, O(N)
+ * memory; threads 0: all, and no bit depends on it. Errors: ARGUMENT for a vector that is not of unit length
+ * (which), CANCELLED. */
 AUR_API aur_result aur_worst_case_error(size_t count, const double *xyz, const double *weights,
                                         const aur_potential *potential, size_t threads,
                                         const aur_progress *progress, double *value, aur_error *error)

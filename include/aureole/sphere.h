@@ -82,7 +82,7 @@ AUR_API void aur_lobe_unwarp(const aur_lobe *lobe, const double direction[3], do
 /* The density in 1/steradian; its integral over the sphere is 1. 0 below the horizon for COSINE_POWER. */
 AUR_API double aur_lobe_pdf(const aur_lobe *lobe, const double direction[3]) AUR_NONNULL(1, 2);
 /* The density to draw points from when they are weighted optimally, p^{2/(s+1)} normalised, for smoothness s
- * in (1,2): cos^M becomes cos^{2M/(s+1)}. UNSUPPORTED for GGX, which has no closed form. */
+ * in (1,6): cos^M becomes cos^{2M/(s+1)}. UNSUPPORTED for GGX, which has no closed form. */
 AUR_API aur_result aur_lobe_optimal(const aur_lobe *lobe, double smoothness, aur_lobe *density,
                                     aur_error *error) AUR_NONNULL(1, 3);
 
@@ -151,7 +151,7 @@ typedef struct aur_directions_options {
     aur_map map;          /* for sets of the square; native sets ignore it */
     aur_lobe lobe;        /* whole hemisphere only; zero is uniform */
     bool optimal_density; /* draw from lobe^{2/(s+1)} and weigh by p/q */
-    double smoothness;    /* s of the optimal density, in (1,2); 0 stands for 1.5 */
+    double smoothness;    /* s of the optimal density, in (1,6); 0 stands for 1.5 */
     aur_scramble scramble;
     uint64_t seed;
     aur_warnings warnings;

@@ -9,10 +9,15 @@
 #include "integrands.h"
 #include "lab/lab.h"
 
-enum { LARGEST = 1024, EQUAL = 0, OPTIMAL, VORONOI, EXACT, METHODS, AXES = 64 };
+enum { LARGEST = 1024, EQUAL = 0, OPTIMAL, VORONOI, EXACT, SMOOTH, SMOOTHEST, METHODS, AXES = 64 };
 
-static const char *const columns[] = {"set",     "n",       "integrand", "equal",
-                                      "optimal", "voronoi", "exact",     "degree"};
+/* Of the kernels of the optimal weights. */
+enum { KERNELS = 3 };
+static const double smoothness[KERNELS] = {1.5, 2.5, 3.5};
+static const size_t methods[KERNELS] = {OPTIMAL, SMOOTH, SMOOTHEST};
+
+static const char *const columns[] = {"set",     "n",     "integrand", "equal",       "optimal",
+                                      "voronoi", "exact", "degree",    "optimal_2.5", "optimal_3.5"};
 
 typedef struct weighed {
     size_t count;
@@ -40,7 +45,8 @@ static aur_result draw(const char *set, size_t count, uint64_t seed, double *xyz
     return result;
 }
 
-static aur_result weigh(weighed *w, const aur_potential *potential, size_t threads, aur_error *error) {
+static aur_result weigh(weighed *w, const aur_potential *const *potentials, size_t threads,
+                        aur_error *error) {
     const size_t n = w->count;
     for (size_t i = 0; i < n; ++i)
         w->weights[EQUAL][i] = 1.0 / (double)n;
@@ -49,8 +55,10 @@ static aur_result weigh(weighed *w, const aur_potential *potential, size_t threa
     aur_exact_options exact = aur_exact_options_default(AUR_DOMAIN_SPHERE);
     exact.threads = threads;
     aur_exact_report report = {0};
-    aur_result result =
-        aur_weights_solve(n, w->xyz, 1, &potential, NULL, n, w->weights[OPTIMAL], NULL, NULL, error);
+    aur_result result = AUR_OK;
+    for (size_t k = 0; k < KERNELS && result == AUR_OK; ++k)
+        result = aur_weights_solve(n, w->xyz, 1, potentials + k, NULL, n, w->weights[methods[k]], NULL, NULL,
+                                   error);
     if (result == AUR_OK)
         result =
             aur_weights_voronoi(n, w->xyz, AUR_DOMAIN_SPHERE, NULL, &measure, n, w->weights[VORONOI], error);
@@ -79,7 +87,7 @@ static void judge(weighed *w, uint64_t seed) {
         }
 }
 
-static aur_result study(lab_run *run, const char *set, weighed *w, const aur_potential *potential,
+static aur_result study(lab_run *run, const char *set, weighed *w, const aur_potential *const *potentials,
                         aur_error *error) {
     const bool quick = lab_run_options(run)->quick;
     const uint64_t seeds = quick ? 2 : 16;
@@ -90,7 +98,7 @@ static aur_result study(lab_run *run, const char *set, weighed *w, const aur_pot
         if (seed == 0 || !is_fixed(set)) {
             result = draw(set, w->count, seed, w->xyz, error);
             if (result == AUR_OK)
-                result = weigh(w, potential, lab_run_options(run)->threads, error);
+                result = weigh(w, potentials, lab_run_options(run)->threads, error);
         }
         if (result == AUR_OK)
             judge(w, seed);
@@ -100,9 +108,11 @@ static aur_result study(lab_run *run, const char *set, weighed *w, const aur_pot
         lab_text(run, set);
         lab_number(run, (double)w->count);
         lab_text(run, lab_class_name(kind));
-        for (size_t k = 0; k < METHODS; ++k)
+        for (size_t k = 0; k < METHODS; ++k) {
             lab_number(run, sqrt(w->squares[kind][k] / (double)(seeds * AXES)));
-        lab_number(run, (double)w->degree / (double)forms);
+            if (k == EXACT)
+                lab_number(run, (double)w->degree / (double)forms);
+        }
     }
     return result;
 }
@@ -111,12 +121,12 @@ static aur_result run(lab_run *run, aur_error *error) {
     lab_columns(run, sizeof columns / sizeof columns[0], columns);
     aur_density density = aur_density_default();
     density.kind = AUR_DENSITY_SPHERE;
-    aur_potential *potential;
-    aur_result result = aur_potential_create(&density, 0.0, &potential, error);
-    if (result != AUR_OK)
-        return result;
+    aur_potential *potentials[KERNELS] = {NULL};
+    aur_result result = AUR_OK;
+    for (size_t k = 0; k < KERNELS && result == AUR_OK; ++k)
+        result = aur_potential_create(&density, smoothness[k], &potentials[k], error);
     double *const room = malloc((3 + METHODS) * LARGEST * sizeof *room);
-    if (room == NULL)
+    if (result == AUR_OK && room == NULL)
         result = aur_fail(error, AUR_ERROR_MEMORY, "out of memory");
     weighed w = {.xyz = room};
     for (size_t k = 0; k < METHODS && room != NULL; ++k)
@@ -125,9 +135,10 @@ static aur_result run(lab_run *run, aur_error *error) {
     for (size_t i = 0; i < 4; ++i)
         for (w.count = 64; w.count <= LARGEST && result == AUR_OK && sets[i] != NULL; w.count *= 4)
             if (w.count < LARGEST || !lab_run_options(run)->quick)
-                result = study(run, sets[i], &w, potential, error);
+                result = study(run, sets[i], &w, (const aur_potential *const *)potentials, error);
     free(room);
-    aur_potential_destroy(potential);
+    for (size_t k = 0; k < KERNELS; ++k)
+        aur_potential_destroy(potentials[k]);
     return result;
 }
 

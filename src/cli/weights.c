@@ -46,7 +46,8 @@ static const cli_option options[] = {
               "weights of a --degree that is given may be negative")},
     {CLI_FLAG(cli_weights_arguments, near, "near", "exact weights near to those of the file, its column w")},
     {CLI_REAL(cli_weights_arguments, points.options.cap_degrees, "cap", "DEGREES", 1e-6, 180, NULL,
-              "exact weights of the cap of this polar angle about +z")},
+              "exact weights of the cap of this polar angle about +z, on the sphere where it is wider than "
+              "90")},
     {CLI_REAL(cli_weights_arguments, weights.regularization, "regularization", "R", 0, INFINITY, "1e-6",
               "added to the diagonal"),
      .key.maximum_open = true},
@@ -111,7 +112,8 @@ static int complete(const cli_call *call, cli_weights_arguments *arguments) {
     arguments->source = call->operands[0];
     points->domain_given = cli_given(call, "domain") != NULL;
     if (!points->domain_given)
-        points->options.domain = AUR_DOMAIN_HEMISPHERE;
+        points->options.domain =
+            points->options.cap_degrees > 90.0 ? AUR_DOMAIN_SPHERE : AUR_DOMAIN_HEMISPHERE;
     if (points->options.domain != AUR_DOMAIN_HEMISPHERE && points->options.domain != AUR_DOMAIN_SPHERE)
         return cli_bad_usage("--domain: must be one of hemisphere, sphere, not '%s'",
                              aur_domain_name(points->options.domain));

@@ -49,8 +49,10 @@ aur_result aur_check_exponent(double exponent, aur_error *error) {
 }
 
 aur_result aur_check_smoothness(double smoothness, aur_error *error) {
-    return smoothness > 1.0 && smoothness < 2.0
+    return aur_smoothness_in_range(smoothness)
                ? AUR_OK
                : aur_fail(error, AUR_ERROR_ARGUMENT,
-                          "the smoothness must be between 1 and 2 (exclusive), not %g", smoothness);
+                          "the smoothness must be between 1 and %g (exclusive) and, above 2, .01 away from "
+                          "integers, where the kernel is a polynomial; not %g",
+                          AUR_SMOOTHNESS_MAXIMUM, smoothness);
 }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <aureole/quadrature.h>
+#include <math.h>
 
 #include "core/error.h"
 #include "core/vector.h"
@@ -29,7 +30,11 @@ static inline aur_result aur_check_capacity(size_t needed, size_t capacity, aur_
 }
 
 /* ARGUMENT for an exponent of a cos^m lobe outside [0, AUR_EXPONENT_MAXIMUM], and for a smoothness outside
- * (1,2). */
+ * (1, AUR_SMOOTHNESS_MAXIMUM) or, above 2, within .01 of an integer, where the kernel is a polynomial. */
+static inline bool aur_smoothness_in_range(double smoothness) {
+    return smoothness > 1.0 && smoothness < AUR_SMOOTHNESS_MAXIMUM &&
+           (smoothness < 2.0 || fabs(smoothness - rint(smoothness)) >= 0.01);
+}
 aur_result aur_check_exponent(double exponent, aur_error *error);
 aur_result aur_check_smoothness(double smoothness, aur_error *error);
 

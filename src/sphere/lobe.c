@@ -194,8 +194,8 @@ double aur_lobe_pdf(const aur_lobe *lobe, const double direction[3]) {
 }
 
 aur_result aur_lobe_optimal(const aur_lobe *lobe, double smoothness, aur_lobe *density, aur_error *error) {
-    if (!(smoothness > 1.0 && smoothness < 2.0))
-        return aur_fail(error, AUR_ERROR_ARGUMENT, "the smoothness must be above 1 and below 2, not %g",
+    if (!(smoothness > 1.0 && smoothness < 6.0))
+        return aur_fail(error, AUR_ERROR_ARGUMENT, "the smoothness must be above 1 and below 6, not %g",
                         smoothness);
     if (lobe->kind == AUR_LOBE_GGX)
         return aur_fail(error, AUR_ERROR_UNSUPPORTED,

@@ -28,7 +28,7 @@ refuses "option '--quiet' takes no value" points sobol --quiet=yes
 refuses "-n: must be at least 1, not '0'" points sobol -n 0
 refuses "-n: must be an integer, not '1e3'" points sobol -n 1e3
 refuses "--spp: must be between 1 and 1073741824, not '0'" render a.xml --spp 0
-refuses "--smoothness: must be between 1 and 2, both exclusive, not '2'" points sobol -n 4 --smoothness 2
+refuses "--smoothness: must be between 1 and 6, both exclusive, not '6'" points sobol -n 4 --smoothness 6
 refuses "--count: must be at least 1, not '0'" measure sobol -n 4,0 --metric star
 refuses "--format: must be one of table, csv, json, not 'jsn'; did you mean 'json'?" sets --format jsn
 refuses "--map: must be one of lambert, concentric, azimuthal, polar, not 'lamber'; did you mean 'lambert'?" \

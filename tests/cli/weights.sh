@@ -138,7 +138,7 @@ refused "as they stand" points.csv --lobe cosine --density optimal
 refused "x,y,z" square.csv --lobe cosine
 refused "exponent" sobol -n 8 --lobe phong:-1
 refused "exponent\|nan" sobol -n 8 --lobe phong:nan
-refused "smoothness" sobol -n 8 --lobe cosine --smoothness 2.5
+refused "away from integers" sobol -n 8 --lobe cosine --smoothness 3
 refused "smoothness" sobol -n 8 --lobe cosine --smoothness 1
 refused "regularization" sobol -n 8 --lobe cosine --regularization -1
 refused "sobol" sobl -n 8 --lobe cosine
@@ -157,6 +157,10 @@ refused "only a file" sobol -n 8 --lobe cosine --method exact --near
 refused "level 1 has 9 points" sobol -n 8 --lobe cosine --method exact --levels 4,9
 refused "not 'x'" sobol -n 8 --lobe cosine --method exact --levels 4,x
 refused "one lobe" sobol -n 8 --lobe cosine --lobe2 phong:20 --angle 3 --method exact
+refused "for the domain sphere" sobol -n 8 --domain hemisphere --cap 120 --method exact
+"$program" weights $sf -n 100 --cap 120 --method exact >wide.csv || fail "a wide cap"
+"$program" weights $sf -n 100 --domain sphere --cap 120 --method exact | cmp - wide.csv || fail "a wide cap is of the sphere"
+"$program" weights wide.csv --cap 120 --method exact | cmp - wide.csv || fail "a wide cap of a file"
 refused "degree must be at most 64" sobol -n 8 --lobe ggx:0.3 --method exact --degree 65
 refused "needs negative weights" $sf -n 100 --lobe ggx:.3:30 --method exact --degree 6
 refused "at least 1, not '0'" sobol -n 0 --method exact

@@ -9,6 +9,7 @@ for name in weights-choosing integrate-coverage; do
 done
 awk -F, '!/^#/ && NR > 1 { ++rows
     if ($2 == 256 && $3 == "smooth" && !($7 < $4 / 10 && $5 < $4 / 5 && $6 < $4)) bad = 1
+    if ($2 == 256 && $3 == "smooth" && $1 != "random" && !($9 < $5 / 2 && $10 < $9 / 2)) bad = 1
     if ($3 == "discontinuous" && $1 != "random" && !($5 < 1.2 * $4 && $5 > 0.8 * $4)) bad = 1 }
   END { exit bad || rows != 24 }' out/weights-choosing.csv || { cat out/weights-choosing.csv; exit 1; }
 awk -F, '!/^#/ && NR > 1 { ++rows; if (!($5 >= 0.8 && $7 >= $5 && $9 < 1)) bad = 1 } END { exit bad || rows != 8 }' \

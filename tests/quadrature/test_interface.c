@@ -226,7 +226,7 @@ static void test_pairs(void **state) {
         {{.size = sizeof options, .count = 1}, AUR_ERROR_ARGUMENT},
         {{.size = sizeof options, .count = 1, .mirror_count = 1, .lobe.kind = AUR_LOBE_GGX},
          AUR_ERROR_ARGUMENT},
-        {{.size = sizeof options, .count = 1, .mirror_count = 1, .smoothness = 2.5}, AUR_ERROR_ARGUMENT},
+        {{.size = sizeof options, .count = 1, .mirror_count = 1, .smoothness = 3.0}, AUR_ERROR_ARGUMENT},
         {{.size = sizeof options, .count = 1, .mirror_count = 1, .published_z = {.angle_count = 1}},
          AUR_ERROR_ARGUMENT},
         {{.size = sizeof options, .count = 1, .mirror_count = 1, .clipped = true, .published_z = {2, 2, 1.0}},

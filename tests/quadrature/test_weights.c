@@ -236,10 +236,10 @@ static void test_bad_input(void **state) {
     density.exponent = (double)NAN;
     assert_int_equal(aur_potential_create(&density, 1.5, &potential, &error), AUR_ERROR_ARGUMENT);
     density.exponent = 1.0;
-    const double wrong[] = {1.0, 2.0, -1.0, (double)NAN};
-    for (size_t i = 0; i < 4; ++i) {
+    const double wrong[] = {1.0, 2.0, 3.005, 6.0, -1.0, (double)NAN};
+    for (size_t i = 0; i < sizeof wrong / sizeof wrong[0]; ++i) {
         assert_int_equal(aur_potential_create(&density, wrong[i], &potential, &error), AUR_ERROR_ARGUMENT);
-        assert_non_null(strstr(error.message, "between 1 and 2"));
+        assert_non_null(strstr(error.message, "between 1 and 6"));
     }
     density.axis[0] = 0.5;
     assert_int_equal(aur_potential_create(&density, 1.5, &potential, &error), AUR_ERROR_ARGUMENT);

@@ -138,7 +138,7 @@ refuse sobol -n 4 --lobe phong:nan
 refuse sobol -n 4 --lobe phong:inf
 refuse sobol -n 4 --lobe cosine --domain sphere
 refuse sobol -n 4 --lobe cosine --density best
-refuse sobol -n 4 --lobe cosine --density optimal --smoothness 2
+refuse sobol -n 4 --lobe cosine --density optimal --smoothness 6
 refuse sobol -n 4 --lobe cosine --density optimal --smoothness nan
 refuse sobol -n 4 --lobe ggx:0.5 --density optimal
 refuse sobol -n 4 --scramble sobol

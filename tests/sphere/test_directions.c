@@ -283,7 +283,7 @@ static void refuses_what_is_wrong(void **state) {
     wrong[5].lobe.exponent = NAN;
     wrong[6].scramble = AUR_SCRAMBLE_ROTATE3D;
     wrong[7].optimal_density = true;
-    wrong[7].smoothness = 2.0;
+    wrong[7].smoothness = 6.0;
     wrong[8].scramble = AUR_SCRAMBLE_OWEN; /* has no meaning for native sets */
     wrong[9].lobe.exponent = 2.0;
     wrong[9].cap_degrees = 30.0;

@@ -18,9 +18,10 @@ static aur_result check_options(aur_exact_options *o, double *lowest, aur_error 
                         "exact weights are for the sphere, the hemisphere and caps, not for the domain '%s'",
                         aur_domain_name(o->domain));
     const double most = sphere ? 180.0 : 90.0;
+    const bool wide = o->cap_degrees > 90.0 && o->cap_degrees <= 180.0;
     if (!(o->cap_degrees >= 0.0 && o->cap_degrees <= most))
-        return aur_fail(error, AUR_ERROR_ARGUMENT, "the cap must be between 0 and %g degrees, not %g", most,
-                        o->cap_degrees);
+        return aur_fail(error, AUR_ERROR_ARGUMENT, "the cap must be between 0 and %g degrees, not %g%s", most,
+                        o->cap_degrees, wide ? ": wider ones are for the domain sphere" : "");
     if (o->cap_degrees == 0.0)
         o->cap_degrees = most;
     const aur_result result = aur_lobe_check(&o->lobe, error);

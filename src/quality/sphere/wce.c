@@ -16,9 +16,8 @@ static aur_result parse(const char *text, double *smoothness, aur_lobe *lobe, au
         return aur_fail(error, AUR_ERROR_ARGUMENT, "wce: '%s' begins with no smoothness", text);
     memcpy(number, text, length);
     number[length] = '\0';
-    if (!aur_parse_double(number, smoothness) || !(*smoothness > 1.0 && *smoothness < 2.0))
-        return aur_fail(error, AUR_ERROR_ARGUMENT, "wce: the smoothness must be between 1 and 2, not '%s'",
-                        number);
+    if (!aur_parse_double(number, smoothness) || *smoothness == 0.0)
+        return aur_fail(error, AUR_ERROR_ARGUMENT, "wce: '%s' is no smoothness", number);
     *lobe = (aur_lobe){.kind = AUR_LOBE_COSINE_POWER};
     return text[length] == ':' ? aur_lobe_parse(text + length + 1, lobe, error) : AUR_OK;
 }

@@ -45,10 +45,11 @@ static aur_result check_options(const aur_directions_options *options, aur_error
     if (aur_map_name(options->map) == NULL)
         return aur_fail(error, AUR_ERROR_ARGUMENT, "unknown map %d", (int)options->map);
     const double widest = options->domain == AUR_DOMAIN_SPHERE ? 180.0 : 90.0;
+    const bool wide = options->cap_degrees > 90.0 && options->cap_degrees <= 180.0;
     if (!(options->cap_degrees >= 0.0 && options->cap_degrees <= widest))
         return aur_fail(error, AUR_ERROR_ARGUMENT,
-                        "a cap's angle must be above 0 and at most %g degrees, not %g", widest,
-                        options->cap_degrees);
+                        "a cap's angle must be above 0 and at most %g degrees, not %g%s", widest,
+                        options->cap_degrees, wide ? ": wider ones are for the domain sphere" : "");
     const aur_result result = aur_lobe_check(&options->lobe, error);
     if (result != AUR_OK)
         return result;

@@ -172,7 +172,7 @@ static void maps_and_lobes(void) {
     aur_lobe_unwarp(&lobe, bent, again);
     require(fabs(again[2] - direction[2]) < 1e-14 && aur_lobe_pdf(&lobe, bent) > 0.0, "a lobe and back");
     accept(aur_lobe_optimal(&lobe, 1.5, &density, &error), &error);
-    refuse(aur_lobe_optimal(&lobe, 2.0, &density, &error), AUR_ERROR_ARGUMENT, &error);
+    refuse(aur_lobe_optimal(&lobe, 6.0, &density, &error), AUR_ERROR_ARGUMENT, &error);
     aur_density_image *image = NULL;
     const float pixels[] = {0.0f, 1.0f}, black[] = {0.0f};
     refuse(aur_density_image_create(1, 1, black, &image, &error), AUR_ERROR_ARGUMENT, &error);
