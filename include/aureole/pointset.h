@@ -65,7 +65,10 @@ typedef struct aur_set_description {
     /* Bit 1 << aur_domain: where its points are by themselves. Those of the square come to the disk, the
      * hemisphere and the sphere by a map. */
     unsigned domains;
-    size_t dimensions[2];    /* least and most; {3, 3} for sets that are native to the sphere */
+    size_t dimensions[2]; /* least and most; {3, 3} for sets that are native to the sphere */
+    /* Of a set that has some sizes only the one at an index, ascending, 0 beyond the last; NULL: all of them.
+     */
+    uint64_t (*size_at)(size_t index);
     uint64_t maximum_size;   /* the most points; UINT64_MAX: as many as are asked for */
     bool counts_coordinates; /* maximum_size is points times dimension, the length of a stream of numbers */
     bool sized_by_file;      /* a file of the user's says how many points there are at most */
@@ -75,8 +78,8 @@ typedef struct aur_set_description {
     bool binary_net;    /* 2^k points are a net in base 2: digit and Owen scrambling keep its evenness */
 } aur_set_description;
 
-/* The sizes in a few words, "any", "1..2^48; a lattice at F_k": written into text[capacity], always
- * terminated. Returns the length of the whole text, as snprintf does. */
+/* The sizes in a few words, "any", "1..2^48; a lattice at F_k", "4, 8, 18, .. 328": written into
+ * text[capacity], always terminated. Returns the length of the whole text, as snprintf does. */
 AUR_API size_t aur_set_sizes(const aur_set_description *set, size_t capacity, char *text) AUR_NONNULL(1);
 
 /* A set made ready: an immutable table or rule that any number of threads may read. */

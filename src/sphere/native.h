@@ -37,6 +37,7 @@ typedef struct aur_native_set {
     ROW(t_design)                                                                                            \
     ROW(lebedev)                                                                                             \
     ROW(electrostatic)                                                                                       \
+    ROW(greedy)                                                                                              \
     ROW(super_fibonacci)                                                                                     \
     ROW(super_fibonacci_grid)
 

@@ -352,6 +352,8 @@ static void sets_say_their_sizes(void **state) {
         {"lcg", "1..(2^31-2)/dimension", 2147483646, AUR_SIZES_ANY, 0},
         {"fibonacci-lattice", "1..2^48; a lattice at F_k", UINT64_C(1) << 48, AUR_SIZES_FIBONACCI, 0},
         {"esfg", "1..2^48; base*4^levels times 1, 2, 3, 4 is even", UINT64_C(1) << 48, AUR_SIZES_GRIDS, 0},
+        {"t-design", "4, 8, 18, .. 328", 328, AUR_SIZES_ANY, 0},
+        {"healpix", "12, 48, 108, .. 3377699720527872", UINT64_C(12) << 48, AUR_SIZES_ANY, 0},
         {"file", "up to the file's", UINT64_MAX, AUR_SIZES_ANY, 0},
     };
     for (size_t i = 0; i < sizeof cases / sizeof cases[0]; ++i) {
@@ -362,6 +364,25 @@ static void sets_say_their_sizes(void **state) {
         assert_true(set->maximum_size == cases[i].maximum && set->best_sizes == cases[i].best &&
                     set->size_base == cases[i].base);
     }
+    /* The sizes that a set lists are those that it has, and the last is the largest. */
+    static const char *const some[] = {"t-design", "lebedev", "healpix"};
+    for (size_t s = 0; s < 3; ++s) {
+        const aur_set_description *const set = aur_set_find(some[s]);
+        uint64_t last = 0;
+        for (size_t i = 0; i < 40 && set->size_at(i) != 0; ++i) {
+            const aur_directions_options of_size =
+                aur_directions_options_default(set->size_at(i), AUR_DOMAIN_SPHERE);
+            aur_directions *directions = NULL;
+            assert_true(set->size_at(i) > last);
+            last = set->size_at(i);
+            assert_int_equal(aur_directions_create(some[s], &of_size, &directions, NULL), AUR_OK);
+            aur_directions_destroy(directions);
+        }
+        assert_true(s == 2 || last == set->maximum_size);
+    }
+    const aur_set_description *const pixels = aur_set_find("healpix");
+    assert_int_equal(pixels->size_at((1 << 24) - 1), pixels->maximum_size);
+    assert_int_equal(pixels->size_at(1 << 24), 0);
     const aur_pointset_options options = aur_pointset_options_default(1073741824); /* of 2 dimensions */
     aur_pointset *pointset;
     assert_int_equal(aur_pointset_create("lcg", &options, &pointset, NULL), AUR_ERROR_ARGUMENT);

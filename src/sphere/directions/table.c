@@ -47,7 +47,7 @@ const aur_native_set *aur_native_find(const char *set) {
 aur_result aur_native_open(const aur_native_set *native, const char *set, const aur_native_request *request,
                            void **data, aur_error *error) {
     const aur_set_description *const description = &native->description;
-    char sizes[64];
+    char sizes[128];
     aur_set_sizes(description, sizeof sizes, sizes);
     if (request->count == 0 || request->count > description->maximum_size)
         return aur_fail(error, AUR_ERROR_ARGUMENT, "set '%s' has sizes %s, not %llu", description->row.name,
@@ -91,9 +91,13 @@ static void print_size(uint64_t size, size_t capacity, char *text) {
 }
 
 size_t aur_set_sizes(const aur_set_description *set, size_t capacity, char *text) {
-    char most[32], range[64];
+    char most[32], range[128];
     print_size(set->maximum_size, sizeof most, most);
-    snprintf(range, sizeof range, "1..%s%s", most, set->counts_coordinates ? "/dimension" : "");
+    if (set->size_at != NULL)
+        snprintf(range, sizeof range, "%" PRIu64 ", %" PRIu64 ", %" PRIu64 ", .. %s", set->size_at(0),
+                 set->size_at(1), set->size_at(2), most);
+    else
+        snprintf(range, sizeof range, "1..%s%s", most, set->counts_coordinates ? "/dimension" : "");
     const char *const reach = set->maximum_size < UINT64_MAX ? range
                               : set->sized_by_file           ? "up to the file's"
                                                              : "any";

@@ -8,6 +8,8 @@
 #include "core/vector.h"
 #include "sphere/native.h"
 
+enum { LARGEST_SIDE = 1 << 24 };
+
 typedef struct healpix {
     uint64_t side; /* k */
 } healpix;
@@ -75,6 +77,11 @@ static void fill(const void *data, uint64_t first, size_t count, double *xyz) {
     }
 }
 
+static uint64_t size_at(size_t index) {
+    const uint64_t side = (uint64_t)index + 1;
+    return side <= LARGEST_SIDE ? 12 * side * side : 0;
+}
+
 const aur_native_set aur_native_healpix = {
     .description = {.row = {.name = "healpix",
                             .summary =
@@ -82,7 +89,8 @@ const aur_native_set aur_native_healpix = {
                             .source = "Gorski 2005"},
                     .domains = AUR_ON_SPHERE,
                     .dimensions = {3, 3},
-                    .maximum_size = UINT64_C(12) << 48},
+                    .size_at = size_at,
+                    .maximum_size = UINT64_C(12) * LARGEST_SIDE * LARGEST_SIDE},
     .prepare = prepare,
     .fill = fill,
 };

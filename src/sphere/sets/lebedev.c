@@ -66,14 +66,19 @@ static void weigh(const void *data, uint64_t first, size_t count, double *weight
         weights[i] = nodes[i].weight;
 }
 
+static uint64_t size_at(size_t index) {
+    return index < AUR_LEBEDEV_COUNT ? aur_lebedev_rules[index].count : 0;
+}
+
 const aur_native_set aur_native_lebedev = {
     .description = {.row = {.name = "lebedev",
                             .summary =
                                 "points with positive weights that are exact for polynomials of degree "
-                                "3 to 23, octahedral symmetry; 6, 14, 26, .. points",
+                                "3 to 23, octahedral symmetry",
                             .source = "Lebedev 1976"},
                     .domains = AUR_ON_SPHERE,
                     .dimensions = {3, 3},
+                    .size_at = size_at,
                     .maximum_size = 194},
     .prepare = prepare,
     .fill = fill,

@@ -34,13 +34,18 @@ static void fill(const void *data, uint64_t first, size_t count, double *xyz) {
     }
 }
 
+static uint64_t size_at(size_t index) {
+    return index < AUR_T_DESIGN_COUNT ? aur_t_designs[index].count : 0;
+}
+
 const aur_native_set aur_native_t_design = {
     .description = {.row = {.name = "t-design",
                             .summary = "symmetric spherical designs of degree 1, 3, .. 25: a plain mean is "
-                                       "exact for polynomials; 4, 8, 18, .. points",
+                                       "exact for polynomials",
                             .source = "Delsarte, Goethals, Seidel 1977; Womersley 2018"},
                     .domains = AUR_ON_SPHERE,
                     .dimensions = {3, 3},
+                    .size_at = size_at,
                     .maximum_size = 328},
     .prepare = prepare,
     .fill = fill,
