@@ -17,6 +17,7 @@ bool aur_light_sample_direct(const aur_scene *scene, aur_vector reference, float
     if (!emitter->descriptor->sample(emitter, &query, sample))
         return false;
     sample->pdf *= emitter->probability;
+    sample->emitter = emitter->index;
     sample->environment = emitter->descriptor->radiance_from != NULL;
     /* What shines from the same direction counts as one light, as it does for rays that find it. */
     if (sample->environment && scene->environment_count > 1) {

@@ -85,6 +85,7 @@ typedef struct aur_light_sample {
     float pdf;           /* a steradian at the reference point, the choice of the light included */
     bool delta; /* a point or one direction: no ray finds the light, so nothing is to be weighed against it;
                    radiance / pdf is the light's irradiance on a surface that faces it */
+    uint32_t emitter; /* its index */
     bool environment; /* what aur_scene_environment gives, too */
 } aur_light_sample;
 

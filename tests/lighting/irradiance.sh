@@ -61,6 +61,23 @@ near 4 6.283185307 up_out.csv
 "$aureole" irradiance -q sky.xml --sensors - <aside.pts >aside.csv || fail "half of the sky"
 near 4 3.141592654 aside.csv
 
+# A rectangle of radiance 1 in a plane 2 above, of 2 by 2, seen wholly: a closed form (Lambert 1760),
+# exactly; and by half behind a black screen, within its errors.
+lamp='<shape type="rectangle"><transform name="to_world"><rotate x="1" angle="180"/><translate z="2"/></transform>
+<emitter type="area"/></shape>'
+printf '<scene version="3.0.0">%s</scene>' "$lamp" >lamp.xml
+printf '<scene version="3.0.0">%s<shape type="rectangle"><transform name="to_world"><translate x="-1"/><scale x="9" y="9"/>
+<translate z="1"/></transform><bsdf type="twosided"><bsdf type="diffuse"><rgb name="reflectance" value="0"/></bsdf></bsdf></shape>
+</scene>' "$lamp" >screen.xml
+printf '0 0 0 0 0 1\n0 0 0 .3 .4 0\n' >below.pts
+"$aureole" irradiance lamp.xml --sensors below.pts -o lamp.csv || fail "a lamp"
+awk -F, 'NR == 2 { a = 1 / sqrt(5); e = 4 * a * atan2(a, 1); d = $4 - e; exit !(d < 1e-7 && d > -1e-7 && $7 < 1e-12) }' lamp.csv ||
+  fail "a lamp seen wholly: $(cat lamp.csv)"
+"$aureole" irradiance screen.xml --sensors below.pts -o screen.csv || fail "a screen"
+head -2 screen.csv >screen_up.csv
+near 4 0.376137 screen_up.csv
+awk -F, 'NR == 2 { exit !($7 > 0 && $7 < .01) }' screen.csv || fail "half of a lamp: $(cat screen.csv)"
+
 # A point light: intensity / distance^2, to the rounding of floats, and in lux.
 printf '<scene version="3.0.0"><emitter type="point"><point name="position" x="0" y="0" z="2"/>
 <rgb name="intensity" value="8"/></emitter></scene>' >point.xml

@@ -27,6 +27,7 @@ typedef struct work {
     aur_path path;
     const aur_scene *scene;
     aur_sampler *sampler;
+    aur_closed_lights lights;
     size_t level_count;
     aur_sensor_rule rules[LEVELS]; /* of the levels, each with more directions than the one before */
     aur_irradiance *results;
@@ -138,9 +139,11 @@ static bool is_reached(const work *w, const aur_irradiance *found) {
     return found->half_width[luminance] <= w->options->error * value;
 }
 
-static aur_irradiance estimate(const work *w, aur_path_group *group, size_t sensor) {
-    const aur_sensor_place place = aur_sensor_place_of(w->scene, w->sensors->positions + 3 * sensor,
-                                                       w->sensors->normals + 3 * sensor, w->options->seed);
+/* `shares` has room for all emitters. */
+static aur_irradiance estimate(const work *w, aur_path_group *group, size_t sensor, float *shares) {
+    aur_sensor_place place;
+    aur_sensor_place_create(w->scene, &w->lights, w->sensors->positions + 3 * sensor,
+                            w->sensors->normals + 3 * sensor, w->options->seed, shares, &place);
     tally t = {0};
     aur_irradiance found = {.on_surface = place.on_surface};
     for (size_t level = 0; level < w->level_count; ++level) {
@@ -159,9 +162,13 @@ static aur_result estimate_block(void *context, size_t index) {
     const work *const w = context;
     aur_counters counters = {0};
     aur_path_group group = {0};
+    float *const shares = malloc((w->lights.emitter_count + 1) * sizeof *shares);
+    if (shares == NULL)
+        return AUR_ERROR_MEMORY;
     aur_path_group_prepare(&w->path, w->scene, w->sampler, &counters, &group);
     for (size_t i = index * BLOCK; i < (index + 1) * BLOCK && i < w->sensors->count; ++i)
-        w->results[i] = estimate(w, &group, i);
+        w->results[i] = estimate(w, &group, i, shares);
+    free(shares);
     return AUR_OK;
 }
 
@@ -223,6 +230,8 @@ static aur_result run(work *w, aur_error *error) {
     if (result == AUR_OK)
         result = aur_path_prepare(&w->path, w->scene, error);
     if (result == AUR_OK)
+        result = aur_closed_lights_create(w->scene, &w->lights, error);
+    if (result == AUR_OK)
         result = aur_sampler_create("sobol", w->rules[w->level_count - 1].count, NULL, &w->sampler, error);
     if (result == AUR_OK) {
         const aur_parallel_options parallel = {
@@ -263,6 +272,7 @@ aur_result aur_irradiance_estimate(const aur_scene *scene, const aur_sensors_vie
     result = run(&w, error);
     for (size_t i = 0; i < w.level_count; ++i)
         aur_sensor_rule_release(&w.rules[i]);
+    aur_closed_lights_release(&w.lights);
     aur_sampler_destroy(w.sampler);
     free(w.path.classes);
     return result;

@@ -31,10 +31,11 @@ static bool move_off(const aur_scene *scene, float reach, aur_sensor_place *plac
     return false;
 }
 
-aur_sensor_place aur_sensor_place_of(const aur_scene *scene, const double position[3], const double normal[3],
-                                     uint64_t seed) {
+void aur_sensor_place_create(const aur_scene *scene, const aur_closed_lights *lights,
+                             const double position[3], const double normal[3], uint64_t seed, float *shares,
+                             aur_sensor_place *place) {
     enum { MOST_SURFACES = 3 }; /* which meet in a corner */
-    aur_sensor_place place = {.hash = seed};
+    *place = (aur_sensor_place){.hash = seed};
     double unit[3] = {normal[0], normal[1], normal[2]};
     /* The square of a tiny or huge normal may leave the range of doubles. */
     const double size = fmax(fabs(unit[0]), fmax(fabs(unit[1]), fabs(unit[2])));
@@ -45,15 +46,21 @@ aur_sensor_place aur_sensor_place_of(const aur_scene *scene, const double positi
         const double numbers[2] = {position[d] + 0.0, unit[d] + 0.0}; /* -0 becomes 0 */
         uint64_t bits[2];
         memcpy(bits, numbers, sizeof bits);
-        place.hash = aur_hash3(place.hash, bits[0], bits[1]);
+        place->hash = aur_hash3(place->hash, bits[0], bits[1]);
     }
     const aur_vector z = {(float)unit[0], (float)unit[1], (float)unit[2]};
     const aur_vector at = {(float)position[0], (float)position[1], (float)position[2]};
-    place.frame = aur_frame_about(aur_vector_normalize(z));
-    place.position = at;
-    for (size_t i = 0; i < MOST_SURFACES && move_off(scene, aur_surface_offset(at), &place); ++i)
-        place.on_surface = true;
-    return place;
+    place->frame = aur_frame_about(aur_vector_normalize(z));
+    place->position = at;
+    for (size_t i = 0; i < MOST_SURFACES && move_off(scene, aur_surface_offset(at), place); ++i)
+        place->on_surface = true;
+    if (lights->count == 0)
+        return;
+    place->shares = shares;
+    double from[3] = {position[0], position[1], position[2]};
+    if (place->on_surface)
+        aur_vector_to_doubles(place->position, from);
+    aur_closed_lights_at(scene, lights, from, unit, place->position, place->hash, shares, place->closed);
 }
 
 static void add(const aur_path_group *g, size_t lane, const double from[3], double sum[3]) {
@@ -87,8 +94,8 @@ static void set_rays(aur_path_group *g, const aur_sensor_rule *rule, size_t inde
 /* A point on a light for each lane. */
 static void add_lights(aur_path_group *g, const aur_sensor_place *place, aur_look *look) {
     float choice[AUR_PACKET_SIZE] = {0}, u[AUR_PACKET_SIZE], v[AUR_PACKET_SIZE], unused[AUR_PACKET_SIZE];
-    double light[AUR_PACKET_SIZE][3];
-    uint32_t lit = 0, sky = 0;
+    double light[AUR_PACKET_SIZE][3], known[AUR_PACKET_SIZE];
+    uint32_t drawn_lanes = 0, sky = 0;
     if (g->chooses)
         aur_stream_pixels(g->sampler, AUR_PACKET_SIZE, g->pixels, g->index, AUR_PAIR_FILTER, choice, unused);
     aur_stream_pixels(g->sampler, AUR_PACKET_SIZE, g->pixels, g->index, AUR_PAIR_LENS, u, v);
@@ -101,7 +108,10 @@ static void add_lights(aur_path_group *g, const aur_sensor_place *place, aur_loo
         const float cosine = aur_vector_dot(place->frame.z, drawn.direction);
         if (!(cosine > 0.0f) || aur_vector_is_zero(drawn.radiance))
             continue;
-        const float weight = drawn.delta ? 1.0f : aur_power_heuristic(drawn.pdf, cosine / AUR_PI_F);
+        const float share = place->shares != NULL ? place->shares[drawn.emitter] : AUR_LIGHT_OPEN;
+        const bool alone = drawn.delta || share >= 0.0f; /* no direction brings this light */
+        const float weight = alone ? 1.0f : aur_power_heuristic(drawn.pdf, cosine / AUR_PI_F);
+        known[k] = share > 0.0f ? (double)share : 0.0;
         aur_vector_to_doubles(aur_vector_scale(drawn.radiance, weight * cosine / drawn.pdf), light[k]);
         const aur_vector way = aur_vector_subtract(drawn.position, place->position);
         const float distance = aur_vector_length(way);
@@ -109,18 +119,19 @@ static void add_lights(aur_path_group *g, const aur_sensor_place *place, aur_loo
                              aur_vector_scale(way, 1.0f / aur_larger(distance, 1e-30f)),
                              distance * (1.0f - 1e-4f)};
         aur_packet_set(&g->shadows, k, &ray);
-        lit |= 1u << k;
+        drawn_lanes |= 1u << k;
         sky |= (uint32_t)drawn.environment << k;
     }
-    if (lit == 0)
+    if (drawn_lanes == 0)
         return;
-    aur_packet_set_lanes(&g->shadows, lit);
-    g->counters->rays += aur_lane_count(lit);
-    lit &= ~aur_scene_occluded16(g->scene, AUR_EMBREE_INCOHERENT, &g->shadows);
-    for (; lit != 0; lit &= lit - 1) {
-        const size_t k = aur_first_lane(lit);
+    aur_packet_set_lanes(&g->shadows, drawn_lanes);
+    g->counters->rays += aur_lane_count(drawn_lanes);
+    const uint32_t lit = drawn_lanes & ~aur_scene_occluded16(g->scene, AUR_EMBREE_INCOHERENT, &g->shadows);
+    for (uint32_t rest = drawn_lanes; rest != 0; rest &= rest - 1) {
+        const size_t k = aur_first_lane(rest);
+        const double seen = aur_has_lane(lit, k) - known[k];
         for (size_t c = 0; c < 3; ++c)
-            look->sums[k][aur_has_lane(sky, k) ? SKY : DIRECT][c] += light[k][c];
+            look->sums[k][aur_has_lane(sky, k) ? SKY : DIRECT][c] += seen * light[k][c];
     }
 }
 
@@ -135,10 +146,12 @@ static bool is_dark(const aur_path_group *g, size_t lane) {
 }
 
 /* What direction `index` brings; lanes begin with no light. */
-static void add_direction(aur_path_group *g, aur_look *look) {
+static void add_direction(aur_path_group *g, const aur_sensor_place *place, aur_look *look) {
     static const double nothing[3] = {0};
     double seen[AUR_PACKET_SIZE][3];
+    g->known = place->shares;
     aur_path_group_meet(g, 1);
+    g->known = NULL;
     for (size_t k = 0; k < AUR_PACKET_SIZE; ++k) {
         const bool met = aur_has_lane(g->alive, k);
         add(g, k, nothing, look->sums[k][met ? DIRECT : SKY]);
@@ -172,7 +185,7 @@ void aur_sensor_look(aur_path_group *g, const aur_sensor_rule *rule, const aur_s
     for (size_t i = 0; i < rule->count; ++i) {
         g->index = (uint32_t)i;
         set_rays(g, rule, i, place, shifts);
-        add_direction(g, look);
+        add_direction(g, place, look);
         if (g->has_lights)
             add_lights(g, place, &from_lights);
     }
@@ -181,5 +194,6 @@ void aur_sensor_look(aur_path_group *g, const aur_sensor_rule *rule, const aur_s
         for (size_t part = 0; part < AUR_IRRADIANCE_PARTS - 1; ++part)
             for (size_t c = 0; c < 3; ++c)
                 look->sums[k][part][c] =
+                    (part == DIRECT ? place->closed[c] : 0.0) +
                     (AUR_PI * look->sums[k][part][c] + from_lights.sums[k][part][c]) / (double)rule->count;
 }

@@ -3,6 +3,7 @@
 
 #include <aureole/irradiance.h>
 
+#include "lighting/irradiance/closed_lights.h"
 #include "lighting/irradiance/rule.h"
 #include "transport/paths/path_group.h"
 
@@ -13,13 +14,17 @@ typedef struct aur_sensor_place {
     aur_vector position; /* where its rays begin */
     bool on_surface;     /* it has been moved off one */
     aur_frame frame;     /* z is the normal */
+    double closed[3];    /* the part of the direct light that has a closed form, r, g, b */
+    float *shares;       /* of each emitter, see aur_closed_lights_at; NULL: there are no closed lights */
     uint64_t hash;       /* of seed, position and normal: of all random numbers */
 } aur_sensor_place;
 
 /* `position` and `normal` are finite, and the normal is not 0. A sensor on a surface looks from the side that
- * its normal shows; where that lies in the surface, from the surface's front. */
-aur_sensor_place aur_sensor_place_of(const aur_scene *scene, const double position[3], const double normal[3],
-                                     uint64_t seed);
+ * its normal shows; where that lies in the surface, from the surface's front. `shares` has room for the
+ * closed lights' emitters and lasts as long as the place. */
+void aur_sensor_place_create(const aur_scene *scene, const aur_closed_lights *lights,
+                             const double position[3], const double normal[3], uint64_t seed, float *shares,
+                             aur_sensor_place *place);
 
 /* Irradiance as the randomisations tell it. */
 typedef struct aur_look {

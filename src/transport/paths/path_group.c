@@ -89,6 +89,8 @@ static void add_sky(aur_path_group *g, uint32_t lanes) {
 }
 
 static void add_emission(aur_path_group *g, size_t k, const aur_surface *surface, aur_vector view) {
+    if (g->known != NULL && surface->emitter != AUR_NO_EMITTER && g->known[surface->emitter] >= 0.0f)
+        return;
     const aur_vector emission = aur_surface_emission(g->scene, surface, view);
     if (aur_vector_is_zero(emission))
         return;

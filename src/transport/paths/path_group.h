@@ -17,6 +17,9 @@ typedef struct aur_path_group {
     uint32_t alive;    /* a bit a lane, as in all masks */
     uint32_t specular; /* lanes whose ray no light sample could have found */
     uint32_t plain;    /* lanes whose surface the kernels can do */
+    /* By emitter, those that are below 0 shine on who meets them, as all do where this is NULL: the light of
+     * the others is known. */
+    const float *known;
     aur_stream shared; /* interleaved: of all lanes */
     float ahead[AUR_STREAM_BLOCK][2];
     const aur_sampler *sampler;
