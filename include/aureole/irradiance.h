@@ -26,16 +26,41 @@ typedef struct aur_sensors_view {
     const double *normals;   /* 3 * count, of any length but 0 */
     const size_t *lines;     /* count: the line of each sensor in its file, for messages; or NULL */
     const char *file;        /* for messages; NULL: none */
+    /* Of sensors on a mesh, for files that show it: the sensors at its corners, 3 * triangle_count, where
+     * they stand on vertices; the corners themselves, 9 * count, where they stand on faces; else NULL. */
+    size_t triangle_count;
+    const uint32_t *triangles;
+    const double *corners;
 } aur_sensors_view;
 
 /* Sensors that the library read, and keeps until aur_sensors_destroy (NULL is allowed). */
 typedef struct aur_sensors aur_sensors;
 
-/* Reads six numbers a line, x y z nx ny nz, with blanks or commas between them: Radiance's .pts and CSV with
- * or without a header. Errors: OPEN, MEMORY, and FORMAT with the line: numbers that are not finite, other
- * than six columns, a normal of length 0, a file without sensors. */
-AUR_EXPERIMENTAL aur_result aur_sensors_read(const char *path, aur_sensors **sensors, aur_error *error)
-    AUR_NONNULL(1, 2);
+/* Where sensors stand on a mesh: in the middle of each triangle, with its normal, or at each vertex, with the
+ * mean of the normals around it by their angles there. */
+typedef enum aur_sensors_place { AUR_SENSORS_ON_FACES, AUR_SENSORS_ON_VERTICES } aur_sensors_place;
+
+/* All zero but `size`, as aur_sensors_options_default makes it, takes the defaults. */
+typedef struct aur_sensors_options {
+    size_t size; /* of the caller's struct, so that it can grow */
+    aur_sensors_place place;
+    double lift;           /* all sensors are moved so far along their normals, in scene units */
+    aur_warnings warnings; /* of meshes: facets that lie on each other, open or inconsistent edges */
+} aur_sensors_options;
+
+static inline aur_sensors_options aur_sensors_options_default(void) {
+    aur_sensors_options options;
+    memset(&options, 0, sizeof options);
+    options.size = sizeof options;
+    return options;
+}
+
+/* Reads six numbers a line, x y z nx ny nz, with blanks or commas between them (Radiance's .pts, and CSV with
+ * or without a header), an NPY array of six columns, or a mesh (.obj, .ply). `options` may be NULL. Errors:
+ * OPEN, MEMORY, ARGUMENT (a lift that is not finite), and FORMAT with the line: numbers that are not finite,
+ * other than six columns, a normal of length 0, a file without sensors, a facet without area. */
+AUR_EXPERIMENTAL aur_result aur_sensors_read(const char *path, const aur_sensors_options *options,
+                                             aur_sensors **sensors, aur_error *error) AUR_NONNULL(1, 3);
 AUR_EXPERIMENTAL void aur_sensors_destroy(aur_sensors *sensors);
 /* Their arrays, with all fields set, for as long as they are kept. */
 AUR_EXPERIMENTAL const aur_sensors_view *aur_sensors_look(const aur_sensors *sensors) AUR_NONNULL(1);
@@ -121,8 +146,10 @@ typedef struct aur_irradiance_columns {
     const char *unit; /* the luminance's name in headers; NULL: "luminance" */
 } aur_irradiance_columns;
 
-/* Writes to `path` ("-": standard output), replaced whole or not at all. Formats: "csv". Errors: NAME,
- * ARGUMENT, WRITE, MEMORY. */
+/* Writes to `path` ("-": standard output), replaced whole or not at all. Formats: "csv"; "json", an array of
+ * objects; "npy", an array of float64 with a row a sensor; "ply", the mesh on which sensors stand, or points,
+ * with colours and the columns as properties: sRGB of r, g, b over the largest of them, or of the luminance.
+ * Errors: NAME, ARGUMENT, WRITE, MEMORY. */
 AUR_EXPERIMENTAL aur_result aur_irradiance_write(const char *path, const char *format,
                                                  const aur_irradiance_columns *columns,
                                                  const aur_sensors_view *sensors, size_t result_size,

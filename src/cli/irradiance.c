@@ -10,7 +10,8 @@
 typedef enum illuminance { ILLUMINANCE_RADIANCE, ILLUMINANCE_REC709, ILLUMINANCE_PHOTOPIC } illuminance;
 
 typedef struct irradiance_command {
-    const char *sensors, *output;
+    const char *sensors, *output, *format;
+    aur_sensors_options stand;
     aur_irradiance_options estimate;
     aur_irradiance_columns columns;
     illuminance illuminance;
@@ -36,10 +37,18 @@ static aur_result parse_error(const char *text, void *field, aur_error *error) {
 
 static const cli_option options[] = {
     {CLI_TEXT(irradiance_command, sensors, "sensors", "POINTS", NULL,
-              "six numbers a line, x y z nx ny nz: Radiance's .pts, or CSV; - is standard input"),
+              "six numbers a line, x y z nx ny nz: Radiance's .pts, CSV, NPY (- is standard input); or a "
+              "mesh, .obj or .ply"),
      .content = "file"},
-    {CLI_TEXT(irradiance_command, output, "output", "FILE", "standard output", "CSV, a line a sensor"),
+    {CLI_TEXT(irradiance_command, output, "output", "FILE", "standard output",
+              "a line or row a sensor, in the format that the name ends in"),
      .letter = 'o', .key.computed = true, .content = "file"},
+    {CLI_TEXT(irradiance_command, format, "to", "FORMAT", "csv", "where the name of FILE does not tell"),
+     .key.words = (const char *const[]){"csv", "json", "npy", "ply", NULL}},
+    {CLI_CHOICE(irradiance_command, stand.place, "at", "PLACE", "faces", "where sensors stand on a mesh"),
+     .key.words = (const char *const[]){"faces", "vertices", NULL}},
+    {CLI_REAL(irradiance_command, stand.lift, "lift", "D", -INFINITY, INFINITY, "0",
+              "sensors are moved so far along their normals, in scene units")},
     {CLI_TEXT(irradiance_command, estimate.set, "set", "SET", "spherical-fibonacci", "of the directions"),
      .content = "set"},
     {CLI_INTEGER(irradiance_command, estimate.directions, "directions", "N", 1, 1 << 28,
@@ -89,14 +98,24 @@ static aur_result estimate(const irradiance_command *given, const aur_scene *sce
         aur_irradiance_estimate(scene, sensors, &given->estimate, sizeof *results, results, error);
     cli_progress_clear();
     if (result == AUR_OK)
-        result = aur_irradiance_write(given->output != NULL ? given->output : "-", "csv", &given->columns,
-                                      sensors, sizeof *results, results, error);
+        result = aur_irradiance_write(given->output != NULL ? given->output : "-", given->format,
+                                      &given->columns, sensors, sizeof *results, results, error);
     free(results);
     return result;
 }
 
+/* The format that the output's name tells, unless one was asked for. */
+static void find_format(const cli_call *call, irradiance_command *given) {
+    static const char *const formats[] = {"csv", "json", "npy", "ply"};
+    const char *const dot = given->output != NULL ? strrchr(given->output, '.') : NULL;
+    for (size_t i = 0; i < 4 && dot != NULL && cli_given(call, "to") == NULL; ++i)
+        if (strcmp(dot + 1, formats[i]) == 0)
+            given->format = formats[i];
+}
+
 static int run(const cli_call *call) {
     irradiance_command *const given = call->options;
+    find_format(call, given);
     if (given->sensors == NULL)
         return cli_bad_usage("irradiance: the points are missing: --sensors POINTS");
     given->estimate.size = sizeof given->estimate;
@@ -114,7 +133,9 @@ static int run(const cli_call *call) {
     aur_error error;
     aur_scene *scene = NULL;
     aur_sensors *sensors = NULL;
-    aur_result result = aur_sensors_read(given->sensors, &sensors, &error);
+    given->stand.size = sizeof given->stand;
+    given->stand.warnings = cli_warnings(given->common.quiet);
+    aur_result result = aur_sensors_read(given->sensors, &given->stand, &sensors, &error);
     if (result == AUR_OK)
         result = aur_scene_load(call->operands[0], &load, &scene, &error);
     if (result == AUR_OK)

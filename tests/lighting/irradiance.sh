@@ -101,7 +101,47 @@ awk -F, 'NR > 1 && !($10 <= .005 * $4 * 1.001 && $13 > 256) { exit 1 }' error.cs
 near 4 6.283185307 error.csv
 warned "did not reach the error with 256 directions" room.xml --sensors room.pts --error 0.01% -n 256
 
+# Formats: the same numbers in all of them.
+for format in json npy ply; do
+  "$aureole" irradiance -q room.xml --sensors room.pts -o "room.$format" || fail "$format"
+done
+"$aureole" irradiance -q room.xml --sensors room.pts --to json | cmp -s - room.json || fail "--to json"
+printf 'v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 9\nv 1 1 0\nf 1 2 3\nf 2 5 3\n' >desk.obj
+"$aureole" irradiance -q lamp.xml --sensors desk.obj -o desk.csv || fail "faces"
+"$aureole" irradiance -q lamp.xml --sensors desk.obj --at vertices --lift 0.5 -o vertices.csv || fail "vertices"
+"$aureole" irradiance -q lamp.xml --sensors desk.obj --at vertices -o vertices.ply || fail "vertices"
+"$aureole" irradiance -q lamp.xml --sensors desk.obj -o faces.ply || fail "faces"
+[ "$(wc -l <desk.csv)" = 3 ] || fail "a sensor a face: $(cat desk.csv)"
+[ "$(wc -l <vertices.csv)" = 5 ] || fail "a sensor a vertex that is used: $(cat vertices.csv)"
+sed -n 2p vertices.csv | grep -q '^0,0,.5,\|^0,0,0.5,' || fail "lifted sensors: $(cat vertices.csv)"
+if command -v python3 >/dev/null; then
+  python3 - <<'PYTHON' || fail "formats differ"
+import csv, json, struct
+rows = [[float(x) for x in row] for row in list(csv.reader(open("room.csv")))[1:]]
+same = [row[:9] for row in rows]
+objects = json.load(open("room.json"))
+assert list(objects[0]) == ["x", "y", "z", "r", "g", "b", "r_error", "g_error", "b_error"]
+for row, item in zip(same, objects):
+    assert row[:6] == list(item.values())[:6], (row, item)
+raw = open("room.npy", "rb").read()
+assert b"(3, 9)" in raw[:128]
+for i, row in enumerate(same):
+    assert list(struct.unpack_from("<6d", raw, 128 + 72 * i)) == row[:6]
+def ply(name, vertices, faces):
+    raw = open(name, "rb").read()
+    head, body = raw.split(b"end_header\n", 1)
+    assert b"element vertex %d\n" % vertices in head and (b"element face %d\n" % faces in head or faces == 0), head
+    assert len(body) == vertices * (9 * 8 + 3) + faces * 13, len(body)
+    return body
+ply("room.ply", 3, 0)
+ply("vertices.ply", 4, 2)
+assert struct.unpack_from("<3d", ply("faces.ply", 6, 2), 75) == (1, 0, 0)
+PYTHON
+fi
+
 # Bad input.
+printf 'v 0 0 0\nv 1 0 0\nv 2 0 0\nf 1 2 3\n' >thin.obj
+refused "thin.obj:4: facet 0 has no area" lamp.xml --sensors thin.obj
 printf '0 0 0 0 0 1\n1 2 3 0 0 0\n' >zero.pts
 printf '0 0 0 0 0 1\n1 nan 3 0 0 1\n' >nan.pts
 printf '0 0 0 0 1\n' >five.pts

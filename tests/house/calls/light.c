@@ -225,7 +225,7 @@ static void irradiances(const aur_scene *scene) {
     static const char text[] = "0 0 0 0 0 1\n";
     accept(aur_file_write("calls.pts", sizeof text - 1, text, &error), &error);
     aur_sensors *sensors = NULL;
-    accept(aur_sensors_read("calls.pts", &sensors, &error), &error);
+    accept(aur_sensors_read("calls.pts", NULL, &sensors, &error), &error);
     remove("calls.pts");
     const aur_sensors_view *const view = aur_sensors_look(sensors);
     require(view->count == 1 && view->normals[2] == 1.0, "aur_sensors_look");

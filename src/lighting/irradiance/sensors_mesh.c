@@ -1,0 +1,91 @@
+/* Sensors on the faces or vertices of a mesh. */
+#include <stdlib.h>
+#include <string.h>
+
+#include "lighting/facets.h"
+#include "lighting/irradiance/sensors.h"
+#include "scene/scene_data.h"
+
+static aur_result stand_on_faces(const aur_facets *facets, const char *path, aur_sensors *sensors,
+                                 aur_error *error) {
+    const size_t count = facets->count;
+    const aur_result result = aur_sensors_allocate(path, count, sensors, error);
+    if (result != AUR_OK)
+        return result;
+    sensors->corners = malloc(9 * count * sizeof *sensors->corners);
+    if (sensors->corners == NULL)
+        return aur_fail_memory(error);
+    memcpy(sensors->corners, facets->corners, 9 * count * sizeof *sensors->corners);
+    for (size_t i = 0; i < count; ++i) {
+        if (facets->areas[i] == 0.0)
+            return aur_fail_at(
+                error, (aur_location){.file = path, .line = facets->lines != NULL ? facets->lines[i] : 0},
+                AUR_ERROR_FORMAT, "facet %zu has no area, so that a sensor on it looks nowhere", i);
+        for (size_t d = 0; d < 3; ++d) {
+            const double sum = facets->corners[i][0][d] + facets->corners[i][1][d] + facets->corners[i][2][d];
+            sensors->numbers[3 * i + d] = sum / 3.0;
+            sensors->numbers[3 * (count + i) + d] = facets->planes[i].normal[d];
+        }
+    }
+    sensors->view.corners = sensors->corners;
+    if (facets->lines == NULL)
+        return AUR_OK;
+    sensors->lines = malloc(count * sizeof *sensors->lines);
+    if (sensors->lines == NULL)
+        return aur_fail_memory(error);
+    memcpy(sensors->lines, facets->lines, count * sizeof *sensors->lines);
+    sensors->view.lines = sensors->lines;
+    return AUR_OK;
+}
+
+/* Vertices that no triangle has are left out; `numbers` gets those of the others. */
+static size_t number_used(const aur_mesh *mesh, uint32_t *numbers) {
+    size_t used = 0;
+    memset(numbers, 0xff, mesh->vertex_count * sizeof *numbers);
+    for (size_t i = 0; i < 3 * mesh->triangle_count; ++i)
+        numbers[mesh->indices[i]] = 0;
+    for (size_t i = 0; i < mesh->vertex_count; ++i)
+        if (numbers[i] == 0)
+            numbers[i] = (uint32_t)used++;
+    return used;
+}
+
+static aur_result stand_on_vertices(const aur_mesh *mesh, const char *path, aur_sensors *sensors,
+                                    aur_error *error) {
+    aur_mesh smooth = *mesh; /* but for its normals */
+    smooth.normals = NULL;
+    uint32_t *const numbers = malloc((mesh->vertex_count + 1) * sizeof *numbers);
+    sensors->triangles = malloc((3 * mesh->triangle_count + 1) * sizeof *sensors->triangles);
+    aur_result result = numbers != NULL && sensors->triangles != NULL ? AUR_OK : aur_fail_memory(error);
+    if (result == AUR_OK)
+        result = aur_mesh_smooth(&smooth, (aur_location){.file = path}, error);
+    const size_t count = result == AUR_OK ? number_used(mesh, numbers) : 0;
+    if (result == AUR_OK)
+        result = aur_sensors_allocate(path, count, sensors, error);
+    for (size_t i = 0; i < mesh->vertex_count && result == AUR_OK; ++i)
+        for (size_t d = 0; d < 3 && numbers[i] != UINT32_MAX; ++d) {
+            sensors->numbers[3 * (size_t)numbers[i] + d] = (double)mesh->positions[3 * i + d];
+            sensors->numbers[3 * (count + numbers[i]) + d] = (double)smooth.normals[3 * i + d];
+        }
+    for (size_t i = 0; i < 3 * mesh->triangle_count && result == AUR_OK; ++i)
+        sensors->triangles[i] = numbers[mesh->indices[i]];
+    sensors->view.triangle_count = mesh->triangle_count;
+    sensors->view.triangles = sensors->triangles;
+    free(numbers);
+    free(smooth.normals);
+    return result;
+}
+
+aur_result aur_sensors_take_mesh(const char *path, const aur_sensors_options *options, aur_sensors *sensors,
+                                 aur_error *error) {
+    aur_facets_options load = aur_facets_options_default();
+    aur_facets *facets = NULL;
+    load.warnings = options->warnings;
+    aur_result result = aur_facets_load(path, &load, &facets, error);
+    if (result == AUR_OK)
+        result = options->place == AUR_SENSORS_ON_VERTICES
+                     ? stand_on_vertices(&facets->scene->shapes[0]->mesh, path, sensors, error)
+                     : stand_on_faces(facets, path, sensors, error);
+    aur_facets_destroy(facets);
+    return result;
+}
