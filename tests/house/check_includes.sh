@@ -30,6 +30,7 @@ quality/pairs
 quality
 quadrature/tables
 quadrature/integrate
+quadrature/estimate
 quadrature/exact quadrature/weights
 quadrature/potential quadrature/linear
 quadrature

@@ -1,5 +1,6 @@
 // Every public header compiles as C++, alone and together.
 #include <aureole/core.h>
+#include <aureole/estimate.h>
 #include <aureole/exact.h>
 #include <aureole/film.h>
 #include <aureole/image.h>

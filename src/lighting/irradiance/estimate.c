@@ -1,7 +1,6 @@
 /* The estimate of irradiance at all sensors: how many directions each of them has, and what its
  * randomisations say together. */
 #include <aureole/irradiance.h>
-#include <aureole/statistics.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -9,6 +8,7 @@
 #include "core/parallel.h"
 #include "lighting/irradiance/look.h"
 #include "lighting/irradiance/sensors.h"
+#include "quadrature/estimate/levels.h"
 
 enum {
     REPLICATES = AUR_IRRADIANCE_REPLICATES,
@@ -90,45 +90,34 @@ static aur_result make_rules(work *w, aur_error *error) {
 
 /* --- one sensor */
 
-/* What the levels so far say: means of each randomisation, by parts and channels. */
-typedef struct tally {
-    double weight;
-    double sums[REPLICATES][AUR_IRRADIANCE_PARTS][AUR_IRRADIANCE_CHANNELS];
-    uint64_t dark;
-} tally;
+enum { CHANNELS = AUR_IRRADIANCE_CHANNELS, VALUES = AUR_IRRADIANCE_PARTS * CHANNELS };
 
-/* The variance of a level falls with its size n as n^-1 to n^-2. Levels are weighed by n^1.5, whatever they
- * say, so that the mean has no bias. */
-static void add_level(const work *w, size_t level, const aur_look *look, tally *t) {
+/* Parts and channels of each randomisation. */
+static void find_values(const work *w, const aur_look *look, double values[REPLICATES][VALUES]) {
     const double *const luminance = w->options->luminance;
-    const double n = (double)w->rules[level].count, weight = n * sqrt(n);
-    t->weight += weight;
-    t->dark += look->dark;
+    memset(values, 0, REPLICATES * sizeof values[0]);
     for (size_t r = 0; r < REPLICATES; ++r)
         for (size_t part = 1; part < AUR_IRRADIANCE_PARTS; ++part) {
             const double *const rgb = look->sums[r][part - 1];
-            const double values[AUR_IRRADIANCE_CHANNELS] = {rgb[0], rgb[1], rgb[2],
-                                                            luminance[0] * rgb[0] + luminance[1] * rgb[1] +
-                                                                luminance[2] * rgb[2]};
-            for (size_t c = 0; c < AUR_IRRADIANCE_CHANNELS; ++c) {
-                t->sums[r][part][c] += weight * values[c];
-                t->sums[r][AUR_IRRADIANCE_TOTAL][c] += weight * values[c];
+            const double all[CHANNELS] = {rgb[0], rgb[1], rgb[2],
+                                          luminance[0] * rgb[0] + luminance[1] * rgb[1] +
+                                              luminance[2] * rgb[2]};
+            for (size_t c = 0; c < CHANNELS; ++c) {
+                values[r][part * CHANNELS + c] = all[c];
+                values[r][AUR_IRRADIANCE_TOTAL * CHANNELS + c] += all[c];
             }
         }
 }
 
-static void judge(const work *w, const tally *t, aur_irradiance *found) {
+static void judge(const work *w, const aur_levels *levels, aur_irradiance *found) {
     for (size_t part = 0; part < AUR_IRRADIANCE_PARTS; ++part)
-        for (size_t c = 0; c < AUR_IRRADIANCE_CHANNELS; ++c) {
-            aur_moments moments = {0};
-            for (size_t r = 0; r < REPLICATES; ++r)
-                aur_moments_add(&moments, t->sums[r][part][c] / t->weight);
-            found->value[part][c] = moments.mean;
-            found->error[part][c] = aur_moments_standard_error(&moments);
+        for (size_t c = 0; c < CHANNELS; ++c) {
+            const aur_moments one = aur_levels_moments(levels, part * CHANNELS + c);
+            found->value[part][c] = one.mean;
+            found->error[part][c] = aur_moments_standard_error(&one);
             if (part == AUR_IRRADIANCE_TOTAL)
-                found->half_width[c] = aur_moments_interval(&moments, w->options->confidence);
+                found->half_width[c] = aur_moments_interval(&one, w->options->confidence);
         }
-    found->dark = (double)t->dark / (double)found->directions;
 }
 
 static bool is_reached(const work *w, const aur_irradiance *found) {
@@ -144,14 +133,19 @@ static aur_irradiance estimate(const work *w, aur_path_group *group, size_t sens
     aur_sensor_place place;
     aur_sensor_place_create(w->scene, &w->lights, w->sensors->positions + 3 * sensor,
                             w->sensors->normals + 3 * sensor, w->options->seed, shares, &place);
-    tally t = {0};
+    double values[REPLICATES][VALUES], sums[REPLICATES * VALUES] = {0};
+    aur_levels levels = {.replicates = REPLICATES, .values = VALUES, .sums = sums};
+    uint64_t dark = 0;
     aur_irradiance found = {.on_surface = place.on_surface};
     for (size_t level = 0; level < w->level_count; ++level) {
         aur_look look;
         aur_sensor_look(group, &w->rules[level], &place, (uint32_t)level, &look);
-        add_level(w, level, &look, &t);
+        find_values(w, &look, values);
+        aur_levels_add(&levels, w->rules[level].count, values[0]);
+        dark += look.dark;
         found.directions += w->rules[level].count * REPLICATES;
-        judge(w, &t, &found);
+        found.dark = (double)dark / (double)found.directions;
+        judge(w, &levels, &found);
         if (w->options->error > 0.0 && is_reached(w, &found))
             break;
     }

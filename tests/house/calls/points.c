@@ -1,5 +1,6 @@
 /* Calls each function of pointset.h, sphere.h and quality.h, most of them with bad input too, and those of
  * quadrature.h that the tests of that room do not call. */
+#include <aureole/estimate.h>
 #include <aureole/nearest.h>
 #include <aureole/quadrature.h>
 #include <aureole/quality.h>
@@ -273,8 +274,28 @@ static void weights(void) {
            &error);
 }
 
+static aur_result mean(void *user, const aur_estimate_points *points, double *values, aur_error *reason) {
+    (void)user;
+    (void)reason;
+    values[0] = 0.0;
+    for (size_t i = 0; i < points->count; ++i)
+        values[0] += points->weights[i] * points->points[points->dimension * i];
+    return AUR_OK;
+}
+
+static void estimates(void) {
+    aur_estimate_options options = aur_estimate_options_default(2, 1);
+    aur_estimated found;
+    aur_estimate_report report = {.size = sizeof report};
+    accept(aur_estimate(mean, NULL, &options, &found, &report, &error), &error);
+    require(report.reached && found.value > 0.49 && found.value < 0.51, "aur_estimate");
+    options.confidence = 1.0;
+    refuse(aur_estimate(mean, NULL, &options, &found, NULL, &error), AUR_ERROR_ARGUMENT, &error);
+}
+
 int main(void) {
     weights();
+    estimates();
     names();
     prepared_sets();
     direct_generators();

@@ -1,0 +1,93 @@
+/* How sure a number is: any functional of points with weights, by independent randomisations of the points.
+ *
+ * A functional is what a program makes of a set of points: the mean of a function, the brightness of a
+ * picture, a quantile. It is computed for every randomisation by itself; the mean over them is the estimate,
+ * and their spread says how far it is from what infinitely many would give. Where the functional is linear in
+ * the weights, as means are, that is the integral, without bias; else what is left is the functional's own
+ * bias at the number of points of one randomisation. */
+#ifndef AUREOLE_ESTIMATE_H
+#define AUREOLE_ESTIMATE_H
+
+#include <aureole/pointset.h>
+#include <stdbool.h>
+#include <string.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* One randomisation of one level's points: points[count * dimension] in [0,1)^dimension, one after another,
+ * and weights[count] that add up to 1. */
+typedef struct aur_estimate_points {
+    size_t replicate, level;
+    size_t count, dimension;
+    const double *points, *weights;
+} aur_estimate_points;
+
+/* Computes the functional's values[] from the points. Called on the caller's thread, for levels and
+ * randomisations one after the other. What is not AUR_OK ends the estimate with that result, and may fill
+ * `error`. */
+typedef aur_result (*aur_functional)(void *user, const aur_estimate_points *points, double *values,
+                                     aur_error *error);
+
+typedef struct aur_estimate_options {
+    size_t size;      /* of the caller's struct, so that it can grow */
+    const char *set;  /* a SET of `dimension` dimensions; NULL: "sobol" */
+    size_t dimension; /* 1 or more */
+    size_t values;    /* of the functional, 1 to 4096; the first is held against the errors wanted */
+    double absolute,
+        relative;         /* the half width wanted: the larger of the two; both 0: one level of all points */
+    double confidence;    /* of the intervals, in (0,1) */
+    size_t replicates;    /* randomisations, 4 to 64 */
+    size_t first;         /* points of a randomisation on the first level; each level has twice as many */
+    uint64_t evaluations; /* points at most, of all levels and randomisations; at least first * replicates */
+    uint64_t seed;
+    aur_progress progress; /* points so far, of those allowed */
+} aur_estimate_options;
+
+/* One percent of the first value with 95 % confidence, by 16 randomisations of 16 points or more, at most
+ * 2^20 points. */
+static inline aur_estimate_options aur_estimate_options_default(size_t dimension, size_t values) {
+    aur_estimate_options options;
+    memset(&options, 0, sizeof options);
+    options.size = sizeof options;
+    options.dimension = dimension;
+    options.values = values;
+    options.relative = 0.01;
+    options.confidence = 0.95;
+    options.replicates = 16;
+    options.first = 16;
+    options.evaluations = UINT64_C(1) << 20;
+    return options;
+}
+
+/* One value of the functional. */
+typedef struct aur_estimated {
+    double value;      /* the mean over the randomisations */
+    double error;      /* its standard error */
+    double half_width; /* of Student's interval about the value */
+} aur_estimated;
+
+/* How an estimate came about; `size` is set by the caller. */
+typedef struct aur_estimate_report {
+    size_t size;
+    uint64_t evaluations;
+    size_t levels;
+    bool reached; /* the error wanted; false where one more level would take more points than allowed */
+} aur_estimate_report;
+
+/* Estimates a functional: results[options->values]. Sets that are nets in base 2 are scrambled (Owen 1995),
+ * the others shifted modulo 1 (Cranley and Patterson 1976). Levels have points of their own, and are put
+ * together by weights n^1.5 of their sizes n, whatever they say, so that a linear functional has no bias; the
+ * interval is Student's over the randomisations. `report` may be NULL. Errors: ARGUMENT (which option, and
+ * the range; a value that is not finite), NAME, UNSUPPORTED (a set without that dimension), MEMORY,
+ * CANCELLED, and what the functional returns. */
+AUR_API aur_result aur_estimate(aur_functional functional, void *user, const aur_estimate_options *options,
+                                aur_estimated *results, aur_estimate_report *report, aur_error *error)
+    AUR_NONNULL(1, 3, 4);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

@@ -1,0 +1,227 @@
+/* How often the intervals of aur_irradiance_estimate and of aur_estimate hold, also of runs that an error
+ * asked has stopped. */
+#include <aureole/estimate.h>
+#include <aureole/irradiance.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "lab/lab.h"
+
+static const double PI = 3.14159265358979323846;
+
+static const char *const columns[] = {"case", "asked", "runs", "held", "bias", "error_rms", "directions"};
+
+enum { SENSORS = 3 };
+
+typedef struct coverage_case {
+    const char *name, *scene;
+    double positions[SENSORS][3], normals[SENSORS][3];
+    double asked;
+    /* What is true at a sensor; NULL: the mean over all runs of fixed size. */
+    double (*truth)(const double position[3]);
+} coverage_case;
+
+/* A closed room whose walls emit 1 and reflect half. */
+static double furnace(const double position[3]) {
+    (void)position;
+    return 2.0 * PI;
+}
+
+/* A lamp of 2 x 2 in the plane z = 2, of which a screen in z = 1 leaves what lies beyond the line from the
+ * sensor through x = 0: a rectangle, as four of which one corner stands above the sensor (Lambert 1760). */
+static double corner(double a, double b) {
+    const double h = 2.0, p = sqrt(a * a + h * h), q = sqrt(b * b + h * h);
+    return 0.5 * (a / p * atan(b / p) + b / q * atan(a / q));
+}
+
+static double screened(const double position[3]) {
+    const double x0 = fmax(-1.0, -position[0]) - position[0], x1 = 1.0 - position[0];
+    const double y0 = -1.0 - position[1], y1 = 1.0 - position[1];
+    return corner(x1, y1) - corner(x0, y1) - corner(x1, y0) + corner(x0, y0);
+}
+
+/* A sky of radiance 1 over a black wall of height 1 in the plane x = 0, as good as endless. */
+static double beside_wall(const double position[3]) {
+    return 0.5 * PI * (1.0 + position[0] / hypot(position[0], 1.0));
+}
+
+static const coverage_case cases[] = {
+    {"furnace",
+     "<scene version='3.0.0'><shape type='cube'><boolean name='flip_normals' value='true'/>"
+     "<bsdf type='diffuse'><rgb name='reflectance' value='0.5'/></bsdf><emitter "
+     "type='area'/></shape></scene>",
+     {{0, 0, 0}, {0.9, 0.3, 0.2}, {0.1, 0.2, -0.9}},
+     {{0, 0, 1}, {1, 1, 0}, {0, 0, 1}},
+     0.01,
+     furnace},
+    {"screen",
+     "<scene version='3.0.0'><shape type='rectangle'><transform name='to_world'><rotate x='1' angle='180'/>"
+     "<translate z='2'/></transform><emitter type='area'/></shape><shape type='rectangle'>"
+     "<transform name='to_world'><translate x='-1'/><scale x='9' y='9'/><translate z='1'/></transform>"
+     "<bsdf type='diffuse'><rgb name='reflectance' value='0'/></bsdf></shape></scene>",
+     {{0, 0, 0}, {-0.3, 0.1, 0}, {0.4, 0.2, 0}},
+     {{0, 0, 1}, {0, 0, 1}, {0, 0, 1}},
+     0.001,
+     screened},
+    {"wall",
+     "<scene version='3.0.0'><emitter type='constant'/><shape type='rectangle'><transform name='to_world'>"
+     "<rotate y='1' angle='90'/><scale y='2000' z='1'/></transform>"
+     "<bsdf type='diffuse'><rgb name='reflectance' value='0'/></bsdf></shape></scene>",
+     {{0.2, 0, 0}, {1, 0, 0}, {3, 0, 0}},
+     {{0, 0, 1}, {0, 0, 1}, {0, 0, 1}},
+     0.005,
+     beside_wall},
+    {"cornell-box",
+     NULL,
+     {{278, 10, 280}, {100, 400, 200}, {278, 540, 280}},
+     {{0, 1, 0}, {0, 0, 1}, {0, -1, 0}},
+     0.02,
+     NULL},
+};
+
+/* What the runs of one case found. */
+typedef struct tally {
+    size_t runs, held;
+    double bias, squares, directions;
+} tally;
+
+static void count(double value, double half_width, double truth, double directions, tally *t) {
+    const double off = value - truth;
+    ++t->runs;
+    t->held += fabs(off) <= half_width;
+    t->bias += off / truth;
+    t->squares += off * off / (truth * truth);
+    t->directions += directions;
+}
+
+static void report(lab_run *run, const char *name, double asked, const tally *t) {
+    const double n = (double)t->runs;
+    lab_text(run, name);
+    lab_number(run, asked);
+    lab_number(run, n);
+    lab_number(run, (double)t->held / n);
+    lab_number(run, t->bias / n);
+    lab_number(run, sqrt(t->squares / n));
+    lab_number(run, t->directions / n);
+}
+
+static void add(tally *sum, const tally *part) {
+    sum->runs += part->runs;
+    sum->held += part->held;
+    sum->bias += part->bias;
+    sum->squares += part->squares;
+    sum->directions += part->directions;
+}
+
+static aur_result estimate(lab_run *run, const aur_scene *scene, const coverage_case *given, double asked,
+                           size_t seed, aur_irradiance *results, aur_error *error) {
+    const aur_sensors_view sensors = {.size = sizeof sensors,
+                                      .count = SENSORS,
+                                      .positions = given->positions[0],
+                                      .normals = given->normals[0]};
+    aur_irradiance_options options = aur_irradiance_options_default();
+    options.seed = seed;
+    options.error = asked;
+    options.threads = lab_run_options(run)->threads;
+    return aur_irradiance_estimate(scene, &sensors, &options, sizeof *results, results, error);
+}
+
+/* Every seed with a fixed number of directions, and to the error asked. */
+static aur_result study(lab_run *run, const aur_scene *scene, const coverage_case *given, tally pooled[2],
+                        aur_error *error) {
+    const size_t seeds = lab_run_options(run)->quick ? 60 : 1000;
+    aur_irradiance(*const results)[SENSORS] = malloc(2 * seeds * sizeof *results);
+    if (results == NULL)
+        return aur_fail(error, AUR_ERROR_MEMORY, "out of memory");
+    aur_result result = AUR_OK;
+    for (size_t i = 0; i < 2 * seeds && result == AUR_OK; ++i)
+        result = estimate(run, scene, given, i < seeds ? 0.0 : given->asked, i % seeds, results[i], error);
+    double truth[SENSORS] = {0};
+    for (size_t s = 0; s < SENSORS && result == AUR_OK; ++s) {
+        if (given->truth != NULL)
+            truth[s] = given->truth(given->positions[s]);
+        for (size_t i = 0; i < seeds && given->truth == NULL; ++i)
+            truth[s] += results[i][s].value[AUR_IRRADIANCE_TOTAL][3] / (double)seeds;
+    }
+    for (size_t kind = 0; kind < 2 && result == AUR_OK; ++kind) {
+        tally t = {0};
+        for (size_t i = 0; i < seeds * SENSORS; ++i) {
+            const aur_irradiance *const r = &results[kind * seeds + i / SENSORS][i % SENSORS];
+            count(r->value[AUR_IRRADIANCE_TOTAL][3], r->half_width[3], truth[i % SENSORS],
+                  (double)r->directions, &t);
+        }
+        report(run, given->name, kind == 0 ? 0.0 : given->asked, &t);
+        add(&pooled[kind], &t);
+    }
+    free(results);
+    return result;
+}
+
+/* A user's functional: the mean of a function with a kink, and the mean of its square. */
+static aur_result moments(void *user, const aur_estimate_points *points, double *values, aur_error *error) {
+    (void)user;
+    (void)error;
+    values[0] = values[1] = 0.0;
+    for (size_t i = 0; i < points->count; ++i) {
+        const double *const u = points->points + points->dimension * i;
+        const double f = fabs(u[0] - u[1]) + (u[2] < 0.3 * u[0] ? 1.0 : 0.0);
+        values[0] += points->weights[i] * f;
+        values[1] += points->weights[i] * f * f;
+    }
+    return AUR_OK;
+}
+
+static aur_result study_functional(lab_run *run, tally pooled[2], aur_error *error) {
+    const double truth = 1.0 / 3.0 + 0.15; /* E|u - v| = 1/3, E .3 u = .15 */
+    const size_t seeds = lab_run_options(run)->quick ? 500 : 3000;
+    for (size_t kind = 0; kind < 2; ++kind) {
+        tally t = {0};
+        for (size_t seed = 0; seed < seeds; ++seed) {
+            aur_estimate_options options = aur_estimate_options_default(3, 2);
+            aur_estimated found[2];
+            aur_estimate_report how = {.size = sizeof how};
+            options.seed = seed;
+            options.relative = kind == 0 ? 0.0 : 0.005;
+            options.evaluations = kind == 0 ? 1024 : UINT64_C(1) << 20;
+            const aur_result result = aur_estimate(moments, NULL, &options, found, &how, error);
+            if (result != AUR_OK)
+                return result;
+            count(found[0].value, found[0].half_width, truth, (double)how.evaluations, &t);
+        }
+        report(run, "functional", kind == 0 ? 0.0 : 0.005, &t);
+        add(&pooled[kind], &t);
+    }
+    return AUR_OK;
+}
+
+static aur_result run(lab_run *run, aur_error *error) {
+    tally pooled[2] = {{0}, {0}};
+    lab_columns(run, sizeof columns / sizeof columns[0], columns);
+    aur_result result = AUR_OK;
+    for (size_t i = 0; i < sizeof cases / sizeof cases[0] && result == AUR_OK; ++i) {
+        aur_scene *scene = NULL;
+        result = cases[i].scene != NULL
+                     ? aur_scene_load_memory(cases[i].name, strlen(cases[i].scene), cases[i].scene, NULL,
+                                             &scene, error)
+                     : lab_load_scene(run, "cornell-box/cornell-box.xml", 0, NULL, &scene, error);
+        if (result == AUR_OK)
+            result = study(run, scene, &cases[i], pooled, error);
+        aur_scene_destroy(scene);
+    }
+    if (result == AUR_OK)
+        result = study_functional(run, pooled, error);
+    if (result != AUR_OK)
+        return result;
+    report(run, "pooled", 0.0, &pooled[0]);
+    report(run, "pooled to errors", 1.0, &pooled[1]);
+    return AUR_OK;
+}
+
+const lab_experiment lab_irradiance_coverage = {
+    .name = "irradiance-coverage",
+    .reproduces = "docs/lighting.md",
+    .summary =
+        "how often intervals of irradiance and of aur_estimate hold, also of runs stopped by an error asked",
+    .run = run,
+};
