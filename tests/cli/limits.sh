@@ -43,7 +43,7 @@ refuses 'is no time' 2 "$aureole" render $scene --time-limit soon
 refuses 'is no size' 2 "$aureole" render $scene --memory-limit much
 
 # Memory. Sanitizers reserve far more addresses than this.
-if ! nm "$aureole" 2>/dev/null | grep -q __asan_init; then
+if [ "$(nm "$aureole" 2>/dev/null | grep -c __asan_init)" = 0 ]; then
   refuses 'out of memory' 3 "$aureole" render $scene --width 16000 --height 16000 --spp 1 -t 2 -o p.exr -q --memory-limit 1G
   "$aureole" render $scene --width 16 --height 16 --spp 1 -t 2 -o small.exr -q --memory-limit 4G || fail "4 GB are too little"
 fi
