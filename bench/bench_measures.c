@@ -93,6 +93,31 @@ static bool bench_sums(const bench_options *options) {
     return good;
 }
 
+/* Energies to a stated accuracy of points of no structure, beside our pair sum: pairs that would have been
+ * summed. */
+static bool bench_accuracy(const bench_options *options) {
+    const size_t count = options->quick ? 20000 : 100000;
+    measure_context split = {.metric = "energy", .options = aur_measure_options_default()}, pairs = split;
+    split.options.threads = pairs.options.threads = 1;
+    split.options.accuracy = 1e-6;
+    pairs.options.fast = true;
+    if (!make_points(AUR_DOMAIN_SPHERE, count, &split.points, &split.coordinates))
+        return false;
+    const bool good = make_points(AUR_DOMAIN_SPHERE, 16384, &pairs.points, &pairs.coordinates);
+    const bench_work split_work = {run_measure, &split, pairs_of((double)count)};
+    const bench_work pairs_work = {run_measure, &pairs, pairs_of(16384.0)};
+    bench_options few = *options;
+    few.pairs = few.pairs < 5 ? few.pairs : 5;
+    if (good) {
+        const bench_pair pair = bench_compare(&few, &split_work, &pairs_work);
+        bench_print_pair(options->quick ? "energy to 1e-6, N = 20000" : "energy to 1e-6, N = 1e5",
+                         "our pair sum", "Gpair", 1e9, &pair);
+    }
+    free(split.coordinates);
+    free(pairs.coordinates);
+    return good;
+}
+
 /* CPU seconds of one measure of random points. */
 static bool bench_seconds(const bench_options *options, const char *name, measure_context *context,
                           aur_domain domain, size_t count) {
@@ -109,7 +134,7 @@ static bool run(const bench_options *options) {
     measure_context cap = {.metric = "cap", .options = aur_measure_options_default()};
     measure_context star = {.metric = "star", .options = aur_measure_options_default()};
     const bool quick = options->quick;
-    return bench_sums(options) &&
+    return bench_sums(options) && bench_accuracy(options) &&
            bench_seconds(options, quick ? "cap, N = 64" : "cap, N = 512 (asked 3)", &cap, AUR_DOMAIN_SPHERE,
                          quick ? 64 : 512) &&
            bench_seconds(options, quick ? "star, N = 1024" : "star, N = 16384 (asked 0.5)", &star,

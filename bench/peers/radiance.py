@@ -1,0 +1,95 @@
+#!/usr/bin/env python3
+"""Irradiance at 25 sensors of a shoebox room by Radiance's rtrace -I and by aureole irradiance: error, bias, CPU seconds.
+
+    python3 -m venv /tmp/peers && /tmp/peers/bin/pip install pyradiance
+    /tmp/peers/bin/python bench/peers/radiance.py build/release/aureole
+
+Both read the same .rad file. The reference is a run of ours with 250,000 directions a sensor and another seed; it has no
+bias, and its own standard error is printed. Errors are of r, relative to the mean over all sensors.
+"""
+import os
+import resource
+import subprocess
+import sys
+import tempfile
+
+import pyradiance
+
+BIN = os.path.join(os.path.dirname(pyradiance.__file__), "bin")
+ROOM = """
+void plastic white 0 0 5 .7 .7 .7 0 0
+void plastic floor 0 0 5 .3 .25 .2 0 0
+void plastic wall 0 0 5 .5 .5 .5 0 0
+void light lamp 0 0 3 10 10 10
+floor polygon f 0 0 12 0 0 0 6 0 0 6 4 0 0 4 0
+white polygon c 0 0 12 0 0 3 0 4 3 6 4 3 6 0 3
+wall polygon w1 0 0 12 0 0 0 0 4 0 0 4 3 0 0 3
+wall polygon w2 0 0 12 6 0 0 6 0 3 6 4 3 6 4 0
+wall polygon w3 0 0 12 0 0 0 0 0 3 6 0 3 6 0 0
+wall polygon w4 0 0 12 0 4 0 6 4 0 6 4 3 0 4 3
+lamp polygon l 0 0 12 2 1.5 2.95 2 2.5 2.95 3 2.5 2.95 3 1.5 2.95
+wall polygon d1 0 0 12 4 1 .7 5.5 1 .7 5.5 3 .7 4 3 .7
+wall polygon d2 0 0 12 4 1 .69 4 3 .69 5.5 3 .69 5.5 1 .69
+"""
+RADIANCE = {
+    "rtrace, its defaults": "",
+    "rtrace, -ab 4": "-ab 4",
+    "rtrace, good": "-ab 5 -ad 1024 -as 256 -aa .1 -ar 64",
+    "rtrace, experts' (no cache)": "-ab 6 -ad 4096 -as 512 -aa 0 -lw 1e-5",
+}
+OURS = {
+    "aureole, 256 directions": "-n 256",
+    "aureole, its defaults": "",
+    "aureole, --error 1%": "--error 1%",
+    "aureole, 16,384 directions": "-n 16384",
+}
+
+
+def run(command, text=None):
+    before = resource.getrusage(resource.RUSAGE_CHILDREN)
+    out = subprocess.run(command, input=text, capture_output=True, text=True, check=True).stdout
+    after = resource.getrusage(resource.RUSAGE_CHILDREN)
+    return out, after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime
+
+
+def main():
+    aureole = os.path.abspath(sys.argv[1])
+    os.environ["RAYPATH"] = os.path.join(os.path.dirname(pyradiance.__file__), "lib")
+    os.chdir(tempfile.mkdtemp())
+    with open("room.rad", "w") as file:
+        file.write(ROOM)
+    points = "".join(f"{.6 + 1.2 * i} {.4 + .8 * j} .8 0 0 1\n" for i in range(5) for j in range(5))
+    with open("desk.pts", "w") as file:
+        file.write(points)
+    with open("room.oct", "wb") as file:
+        file.write(subprocess.run([f"{BIN}/oconv", "room.rad"], capture_output=True, check=True).stdout)
+
+    def ours(options):
+        out, seconds = run([aureole, "irradiance", "room.rad", "--sensors", "desk.pts", "-q"] + options.split())
+        rows = [line.split(",") for line in out.split("\n")[1:] if line]
+        return [float(row[3]) for row in rows], [float(row[6]) for row in rows], seconds
+
+    def radiance(options):
+        command = [f"{BIN}/rtrace", "-I", "-h", "-w"] + options.split() + ["room.oct"]
+        out, seconds = run(command, points)
+        return [float(line.split()[0]) for line in out.split("\n") if line], None, seconds
+
+    truth, errors, seconds = ours("-n 250000 --seed 12345")
+    mean = sum(truth) / len(truth)
+    own = (sum(e * e for e in errors) / len(errors)) ** .5 / mean
+    print(f"reference: mean {mean:.4f}, its standard error {100 * own:.3f} %, {seconds:.1f} CPU s\n")
+    print("| | RMS error | bias | worst | CPU s | told |\n|---|---|---|---|---|---|")
+    for table, solve in ((RADIANCE, radiance), (OURS, ours)):
+        for name, options in table.items():
+            try:
+                values, told, seconds = solve(options)
+            except subprocess.CalledProcessError as failure:
+                print(f"| {name} | failed: {failure.stderr.strip()} |")
+                continue
+            off = [(v - t) / mean for v, t in zip(values, truth)]
+            said = "nothing" if told is None else f"{100 * (sum(e * e for e in told) / len(told)) ** .5 / mean:.2f} %"
+            print(f"| {name} | {100 * (sum(o * o for o in off) / len(off)) ** .5:.2f} % | {100 * sum(off) / len(off):+.2f} % "
+                  f"| {100 * max(map(abs, off)):.2f} % | {seconds:.2f} | {said} |", flush=True)
+
+
+main()
