@@ -13,7 +13,7 @@ run() {
   "$@" </dev/null
 }
 mkdir -p out
-mapfile -t meshes < <(grep -o 'generated/[^"]*' scenes/room/room.xml | sort -u | sed 's|generated/||')
+mapfile -t meshes < <(grep -oh 'generated/[^"]*' scenes/room/*.xml | sort -u | sed 's|generated/||')
 run scripts/scenes.sh "${meshes[@]}"
 run build/release/aureole render scenes/room/room.xml --integrator finalgather --width 640 --error 6% -o out/room.exr
 run build/release/aureole convert out/room.exr out/room.png --exposure 0.9 --tone filmic
