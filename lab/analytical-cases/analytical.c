@@ -93,7 +93,7 @@ static aur_result run(lab_run *run, aur_error *error) {
     lab_case *const made = malloc(sizeof *made);
     aur_irradiance results[LAB_CASE_POINTS];
     aur_result result = AUR_OK;
-    size_t points = 0, outside = 0, failed = 0, cases = 0;
+    size_t points = 0, outside = 0, failed = 0, slow = 0, cases = 0;
     lab_columns(run, sizeof columns / sizeof columns[0], columns);
     for (const lab_case_row *row; made != NULL && result == AUR_OK && (row = lab_case_at(cases)) != NULL;
          ++cases) {
@@ -105,9 +105,10 @@ static aur_result run(lab_run *run, aur_error *error) {
         if (result != AUR_OK)
             break;
         compare(made, results, ALLOWED[quick], &found);
-        const bool good = found.differ <= REFERENCES && found.worst <= worst &&
-                          found.standard <= STANDARD_ERRORS && found.seconds <= SECONDS;
+        const bool good =
+            found.differ <= REFERENCES && found.worst <= worst && found.standard <= STANDARD_ERRORS;
         failed += !good;
+        slow += found.seconds > SECONDS;
         points += found.points;
         outside += found.outside;
         lab_text(run, row->name);
@@ -126,8 +127,9 @@ static aur_result run(lab_run *run, aur_error *error) {
     const bool chance = outside <= allowed_outside(points);
     lab_note(run,
              "%zu of %zu cases hold: references within %g of the largest value, every point within %g, none "
-             "beyond %g standard errors, %g CPU s",
-             cases - failed, cases, REFERENCES, worst, STANDARD_ERRORS, SECONDS);
+             "beyond %g standard errors",
+             cases - failed, cases, REFERENCES, worst, STANDARD_ERRORS);
+    lab_note(run, "%zu of %zu cases take at most %g CPU s", cases - slow, cases, SECONDS);
     lab_note(run,
              "%zu of %zu points are outside of their intervals of 99 %%; chance has at most %zu but for once "
              "in 1000",

@@ -30,7 +30,9 @@ bool aur_raise_targets(size_t count, const double *variances, double factor, uin
         if (variances[i] > 0.0)
             low = fmin(low, variances[i] / targets[i]);
     low *= 0.0625 * factor * factor;
-    for (int k = 0; k < 64; ++k) {
+    /* Samples are whole numbers and go as the root of the price. */
+    const double close_enough = 1.0 + 1e-6;
+    for (int k = 0; k < 64 && high > close_enough * low; ++k) {
         const double price = sqrt(low * high);
         if (variance_at(price, count, variances, targets) > factor * sum)
             high = price;

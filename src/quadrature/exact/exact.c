@@ -175,9 +175,10 @@ static aur_result judge(const aur_exact_options *o, const aur_exact_system *syst
     if (!found->exact)
         return aur_fail(
             error, AUR_ERROR_ARGUMENT,
-            "no weights of these %zu points at %zu places integrate all %zu polynomials of degree "
-            "%zu: ask for the largest degree that has some",
-            count, system->places, (found->degree + 1) * (found->degree + 1), found->degree);
+            "no weights of these %zu points at %zu places were found that integrate all %zu polynomials of "
+            "degree %zu to %g: ask for the largest degree that has some",
+            count, system->places, (found->degree + 1) * (found->degree + 1), found->degree,
+            AUR_EXACT_TOLERANCE);
     if (found->least <= 0.0 && !o->negative)
         return aur_fail(error, AUR_ERROR_ARGUMENT,
                         "degree %zu needs negative weights, the least of them %.4g/N: allow them, or ask for "
