@@ -54,9 +54,16 @@ static void add_group(aur_path_group *g, uint32_t number, aur_tile *tile) {
     }
 }
 
+static void add_alone(const aur_path_group *g, aur_tile *tile, size_t x, size_t y) {
+    aur_camera_sample sample;
+    const float weight = aur_view_sample(tile->view, x, y, g->index, &sample);
+    aur_tile_add(tile, x, y, weight, aur_path_radiance(g->data, g->scene, &sample, g->counters));
+}
+
 /* The samples of a tile whose pixels want different ones: packets are filled with whichever pixels want the
  * same. */
 static void add_wanted(aur_path_group *g, aur_tile *tile) {
+    enum { FEW = 4 }; /* are faster one by one than in a packet that is nearly empty */
     for (uint32_t i = 0; i < tile->count; ++i) {
         size_t x[AUR_PACKET_SIZE] = {0}, y[AUR_PACKET_SIZE] = {0}, count = 0;
         g->index = tile->first + i;
@@ -72,8 +79,10 @@ static void add_wanted(aur_path_group *g, aur_tile *tile) {
                 count = 0;
             }
         const uint32_t rest = (1u << count) - 1;
-        if (rest != 0)
+        if (count > FEW)
             add_lanes(g, tile, x, y, rest, rest);
+        for (size_t k = 0; k < count && count <= FEW; ++k)
+            add_alone(g, tile, x[k], y[k]);
     }
 }
 
