@@ -54,10 +54,12 @@ for weights in oswa mis osw; do
 done
 
 # Diffuse places go in the packets of glossy ones near them: what the eye sees of the red wall, whose groups of pixels reach
-# the glossy back wall, is to rounding what it is by itself.
+# the glossy back wall, is to rounding what it is by itself
+# (without paths, whose chance differs).
 for weights in osw oswa; do
   "$aureole" render "$box" -q --width 48 --height 48 --crop 0,8,16,32 --spp 2 -o wall-$weights.exr --integrator \
-    "finalgather:photons=20000,diffuse_samples=32,glossy_samples=16,weights=$weights,density=same,edges=0" || fail "wall: $weights"
+    "finalgather:photons=20000,diffuse_samples=32,glossy_samples=16,weights=$weights,density=same,edges=0,short_rays=0" \
+    || fail "wall: $weights"
 done
 off=$(figure relative_rmse wall-osw.exr wall-oswa.exr)
 awk -v off="$off" 'BEGIN { exit !(off < 1e-5) }' || fail "diffuse places among glossy ones: off by $off"

@@ -140,7 +140,7 @@ static void look_ups_agree_with_density_estimates(void **state) {
         aur_surface surface;
         aur_scene_surface(scene, &ray, &hit, &surface);
         const aur_vector view = {0.0f, 0.0f, 1.0f};
-        looked_up += (double)aur_irradiance_radiance(map, scene, &hit, &surface, view).y / 64.0;
+        looked_up += (double)aur_irradiance_view(map, scene, &hit, &surface, view).radiance.y / 64.0;
         estimated += 0.5 / AUR_PI * estimate_directly(&photons, target, view, 0.1f) / 64.0;
     }
     assert_relative(looked_up, 0.5, 5.0 * 0.18 / 8.0);

@@ -102,18 +102,19 @@ void aur_gather_add_direct_light(const aur_gather_places *places, aur_gather_sum
 static aur_light_sample light_from(const aur_gather_plan *plan, const aur_bright_point *point,
                                    aur_vector position, uint64_t hash, aur_counters *counters) {
     const aur_gather_light *const from = &plan->light;
-    aur_vector known;
-    aur_vector radiance = aur_gather_plan_radiance(plan, point->shape, point->element, point->u, point->v,
-                                                   point->behind, &known);
+    const aur_gather_known known =
+        aur_gather_plan_known(plan, point->shape, point->element, point->u, point->v, point->behind);
+    aur_vector radiance = known.radiance;
     const aur_vector offset = aur_vector_subtract(point->position, position);
     const float square = aur_vector_dot(offset, offset);
     const aur_vector direction = aur_vector_scale(offset, 1.0f / sqrtf(square));
     const float cosine = -aur_vector_dot(direction, point->normal);
     aur_light_sample sample = {.position = point->position, .direction = direction};
     if (cosine > 0.0f && square > 0.0f) {
-        sample.pdf =
-            aur_bright_texels_density(&from->bright, known) * (float)from->bright_draws * square / cosine;
-        if (plan->debias && aur_onward_is_due(&plan->onward, hash)) {
+        sample.pdf = aur_bright_texels_density(&from->bright, known.radiance) * (float)from->bright_draws *
+                     square / cosine;
+        const bool near = aur_onward_is_near(&plan->onward, sqrtf(square), known.area);
+        if (near || aur_onward_is_due(&plan->onward, hash)) {
             const aur_ray ray = {position, 0.0f, direction, INFINITY};
             const aur_hit hit = {.distance = sqrtf(square),
                                  .u = point->u,
@@ -124,10 +125,10 @@ static aur_light_sample light_from(const aur_gather_plan *plan, const aur_bright
             aur_surface surface;
             aur_scene_surface(plan->scene, &ray, &hit, &surface);
             radiance = aur_onward_correct(&plan->onward, &surface, aur_vector_scale(direction, -1.0f), 2,
-                                          hash, radiance, counters);
+                                          hash, near, radiance, counters);
         }
     }
-    sample.radiance = radiance;
+    sample.radiance = aur_vector_add(radiance, known.caustics);
     return sample;
 }
 

@@ -35,6 +35,7 @@ typedef struct gather_chain {
     bool specular;        /* all of them */
     bool mirrored;        /* the last one: lights are not sampled for it */
     aur_vector reference; /* where the ray began */
+    float length_seen;    /* of the rays from the last place that scattered other than as a mirror */
     float density;        /* with which its direction was drawn, a steradian, times how often */
     float light_draws;    /* points on lights that were drawn there */
 } gather_chain;
@@ -78,15 +79,20 @@ static aur_vector emitted_radiance(const aur_gather_plan *plan, const gather_cha
     return aur_vector_scale(emission, aur_power_heuristic(chain->density, chain->light_draws * pdf));
 }
 
-/* What the photon maps know of the light that leaves a surface. */
-static aur_vector scattered_radiance(const aur_gather_plan *plan, const aur_hit *hit,
-                                     const aur_surface *surface, aur_vector view) {
+/* The light that leaves a surface by what the photon maps know, or by a path. */
+static aur_vector scattered_radiance(const aur_gather_plan *plan, const gather_chain *chain,
+                                     const aur_hit *hit, const aur_surface *surface, aur_vector view,
+                                     aur_counters *counters) {
     aur_vector sum = {0};
-    if (plan->light.map != NULL)
-        sum = aur_irradiance_radiance(plan->light.map, plan->scene, hit, surface, view);
+    if (plan->light.map != NULL) {
+        const aur_texel_view known = aur_irradiance_view(plan->light.map, plan->scene, hit, surface, view);
+        const bool near = aur_onward_is_near(&plan->onward, chain->length_seen + hit->distance, known.area);
+        sum = aur_onward_correct(&plan->onward, surface, view, chain->length + 2,
+                                 aur_hash2(chain->hash, chain->length), near, known.radiance, counters);
+    }
     if (plan->light.caustics != NULL)
-        sum = aur_vector_add(sum,
-                             aur_irradiance_radiance(plan->light.caustics, plan->scene, hit, surface, view));
+        sum = aur_vector_add(
+            sum, aur_irradiance_view(plan->light.caustics, plan->scene, hit, surface, view).radiance);
     return sum;
 }
 
@@ -150,13 +156,9 @@ static aur_vector chain_radiance(const aur_gather_plan *plan, gather_chain chain
         aur_vector radiance = emitted_radiance(plan, &chain, &surface);
         /* Two edges led here, and one for each link of the chain; a photon came by one more at least. */
         const bool deeper = chain.length + 3 <= plan->policy.max_depth;
-        if ((kinds & (AUR_SCATTERS_DIFFUSE | AUR_SCATTERS_GLOSSY)) != 0 && deeper) {
-            aur_vector scattered = scattered_radiance(plan, hit, &surface, view);
-            if (plan->debias)
-                scattered = aur_onward_correct(&plan->onward, &surface, view, chain.length + 2,
-                                               aur_hash2(chain.hash, chain.length), scattered, counters);
-            radiance = aur_vector_add(radiance, scattered);
-        }
+        if ((kinds & (AUR_SCATTERS_DIFFUSE | AUR_SCATTERS_GLOSSY)) != 0 && deeper)
+            radiance =
+                aur_vector_add(radiance, scattered_radiance(plan, &chain, hit, &surface, view, counters));
         if ((kinds & AUR_SCATTERS_SAMPLED) != 0 && deeper && samples_lights)
             radiance = aur_vector_add(radiance,
                                       sampled_light(plan, &shading, kinds, radiance, &chain.hash, counters));
@@ -179,6 +181,7 @@ static aur_vector chain_radiance(const aur_gather_plan *plan, gather_chain chain
         throughput = aur_vector_scale(throughput, 1.0f / survival);
         chain.specular = chain.specular && drawn.specular;
         chain.mirrored = drawn.specular;
+        chain.length_seen = drawn.specular ? chain.length_seen + hit->distance : 0.0f;
         chain.reference = surface.position;
         chain.density = drawn.pdf;
         chain.light_draws = 1.0f;
@@ -213,18 +216,19 @@ static float bright_weight(const aur_gather_plan *plan, const aur_gather_rays *r
     return along > 0.0f ? aur_power_heuristic(density_of(rays, lane), rival) : 1.0f;
 }
 
-/* What the map knows of a lane's hit, now and then corrected by a path. */
+/* What the map knows of a lane's hit, or a path where the texel is near or the map is corrected. */
 static aur_vector corrected_radiance(const aur_gather_plan *plan, const aur_gather_rays *rays, size_t lane,
-                                     aur_vector known, aur_counters *counters) {
+                                     const aur_gather_known *known, aur_counters *counters) {
     const uint64_t hash = aur_hash2(rays->hash, lane);
-    if (!aur_onward_is_due(&plan->onward, hash))
-        return known;
+    const bool near = aur_onward_is_near(&plan->onward, rays->packet.query.ray.tfar[lane], known->area);
+    if (!near && !aur_onward_is_due(&plan->onward, hash))
+        return known->radiance;
     const aur_ray ray = aur_packet_ray(&rays->packet, lane);
     const aur_hit hit = aur_packet_hit(plan->scene, &rays->packet, lane);
     aur_surface surface;
     aur_scene_surface(plan->scene, &ray, &hit, &surface);
-    return aur_onward_correct(&plan->onward, &surface, aur_vector_scale(ray.direction, -1.0f), 2, hash, known,
-                              counters);
+    return aur_onward_correct(&plan->onward, &surface, aur_vector_scale(ray.direction, -1.0f), 2, hash, near,
+                              known->radiance, counters);
 }
 
 /* Diffuse, without emission, no instance: true when that was all. */
@@ -240,13 +244,11 @@ static bool plain_radiance(const aur_gather_plan *plan, const aur_gather_rays *r
                             query->hit.Ng_z[lane] * query->ray.dir_z[lane] >
                         0.0f;
     const uint32_t element = plan->light.map->texels.elements.shape_first[shape] + query->hit.primID[lane];
-    aur_vector known;
-    *radiance = aur_gather_plan_radiance(plan, shape, element, query->hit.u[lane], query->hit.v[lane], behind,
-                                         &known);
-    if (plan->debias)
-        *radiance = corrected_radiance(plan, rays, lane, *radiance, counters);
+    const aur_gather_known known =
+        aur_gather_plan_known(plan, shape, element, query->hit.u[lane], query->hit.v[lane], behind);
+    *radiance = aur_vector_add(corrected_radiance(plan, rays, lane, &known, counters), known.caustics);
     if (plan->light.bright_draws > 0)
-        *radiance = aur_vector_scale(*radiance, bright_weight(plan, rays, lane, known));
+        *radiance = aur_vector_scale(*radiance, bright_weight(plan, rays, lane, known.radiance));
     return true;
 }
 

@@ -69,7 +69,8 @@ typedef struct aur_gather_parameters {
     uint32_t light_samples;
     double photons_a_texel;
     bool debias;
-    double continued; /* share of the looks at the map that a path corrects */
+    double continued;  /* share of the looks at the map that a path corrects */
+    double short_rays; /* widths of a texel; rays that are shorter go on as paths */
     const char *photon_set;
     const char *map, *scramble; /* of the rules; scramble NULL: by the pattern */
     aur_gather_pixel pixel;

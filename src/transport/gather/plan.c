@@ -103,11 +103,12 @@ static aur_result compile(aur_gather_plan *plan, const aur_gather_parameters *p,
         result = find_light(p, context, plan, error);
     plan->counts_emitters = policy->direct == AUR_DIRECT_GATHER ||
                             (p->incident == AUR_INCIDENT_EMITTERS && policy->direct == AUR_DIRECT_NONE);
-    plan->debias = p->debias && plan->light.map != NULL;
     plan->onward = (aur_onward){.scene = context->scene,
                                 .map = plan->light.map,
+                                .caustics = plan->light.caustics,
                                 .max_depth = policy->max_depth,
-                                .share = (float)p->continued};
+                                .share = p->debias ? (float)p->continued : 0.0f,
+                                .reach = (float)p->short_rays};
     plan->gathers = plan->light.map != NULL ||
                     (policy->max_depth >= 2 && (plan->counts_emitters || policy->direct == AUR_DIRECT_NEE));
     return result;

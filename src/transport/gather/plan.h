@@ -46,9 +46,8 @@ typedef struct aur_gather_plan {
     /* Whether gather rays count the lights that they meet in full. Under next-event estimation they count
      * them by multiple importance sampling. */
     bool counts_emitters;
-    bool gathers; /* whether gather rays can bring any light */
-    bool debias;  /* paths take away what the map is wrong by */
-    aur_onward onward;
+    bool gathers;      /* whether gather rays can bring any light */
+    aur_onward onward; /* in place of the map, where it is too coarse or is corrected */
 } aur_gather_plan;
 
 /* The maps of photons come from the context's cache, which outlives the plan. Errors: MEMORY, those of
@@ -69,17 +68,22 @@ static inline bool aur_gather_plan_gathers(const aur_gather_plan *plan, const au
            lobe->diffuse == (plan->policy.component == AUR_COMPONENT_DIFFUSE);
 }
 
-/* The radiance of a point of a plain triangle by what the photon maps know; `known` is that of the first map
- * alone. */
-static inline aur_vector aur_gather_plan_radiance(const aur_gather_plan *plan, uint32_t shape,
-                                                  uint32_t element, float u, float v, bool behind,
-                                                  aur_vector *known) {
+/* What the photon maps know of a point of a plain triangle. */
+typedef struct aur_gather_known {
+    aur_vector radiance; /* by the first map */
+    aur_vector caustics; /* by the second one */
+    float area;          /* of the first one's texel */
+} aur_gather_known;
+
+static inline aur_gather_known aur_gather_plan_known(const aur_gather_plan *plan, uint32_t shape,
+                                                     uint32_t element, float u, float v, bool behind) {
     const aur_gather_light *const light = &plan->light;
     const aur_vector albedo = plan->classes[shape].albedo_on_pi[behind];
-    *known = aur_vector_multiply(albedo,
-                                 aur_irradiance_on_triangle(light->map, element, u, v, behind)->irradiance);
-    if (light->caustics == NULL)
-        return *known;
-    const aur_texel_light *const caustic = aur_irradiance_on_triangle(light->caustics, element, u, v, behind);
-    return aur_vector_add(*known, aur_vector_multiply(albedo, caustic->irradiance));
+    const aur_texel_light *const texel = aur_irradiance_on_triangle(light->map, element, u, v, behind);
+    aur_gather_known known = {.radiance = aur_vector_multiply(albedo, texel->irradiance),
+                              .area = texel->area};
+    if (light->caustics != NULL)
+        known.caustics = aur_vector_multiply(
+            albedo, aur_irradiance_on_triangle(light->caustics, element, u, v, behind)->irradiance);
+    return known;
 }

@@ -128,7 +128,7 @@ static void set_places(gather_tile *work) {
         const aur_vector view = aur_vector_scale(ray->direction, -1.0f);
         if (caustics != NULL)
             aur_gather_add(&work->sums, &work->places, lane,
-                           aur_irradiance_radiance(caustics, scene, &hit, surface, view));
+                           aur_irradiance_view(caustics, scene, &hit, surface, view).radiance);
         if (surface->emitter != AUR_NO_EMITTER)
             aur_gather_add(&work->sums, &work->places, lane, aur_surface_emission(scene, surface, view));
     }
@@ -252,7 +252,7 @@ aur_result aur_gather_tile(const aur_gather_plan *plan, aur_tile *tile) {
     if (work == NULL)
         return AUR_ERROR_MEMORY;
     work->sums.counters = &tile->counters;
-    work->sums.corrected = plan->debias;
+    work->sums.corrected = plan->onward.share > 0.0f;
     aur_result result = shade_tile(work, tile);
     if (result == AUR_OK && plan->policy.pools && !aur_gather_pool_irradiance(work->strata))
         result = AUR_ERROR_MEMORY;

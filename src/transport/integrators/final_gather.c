@@ -69,6 +69,9 @@ static const aur_key keys[] = {
     {AUR_KEY_OF_REAL(aur_gather_parameters, "continued", continued, 0.0, 1.0, "0.25",
                      "of debias: the share of gather rays that go on as paths"),
      .minimum_open = true},
+    {AUR_KEY_OF_REAL(aur_gather_parameters, "short_rays", short_rays, 0.0, 1e6, "2",
+                     "gather rays that are shorter than so many widths of the texel that they meet go on as "
+                     "paths")},
     {AUR_KEY_OF_CHOICE(aur_gather_parameters, "decorrelation", policy.decorrelation, "blue",
                        "how pixels choose among the rotations", "blue", "random", "none")},
     {AUR_KEY_OF_INTEGER(aur_gather_parameters, "edges", policy.edge_samples, 0, 65536, "32",

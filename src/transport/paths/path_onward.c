@@ -71,8 +71,11 @@ static bool scatter(const aur_shading *shading, bool known_only, onward_walk *wa
 }
 
 /* The light that the ray meets: an emitter's, or the sky where there is no surface. */
-static void add_emission(const aur_scene *scene, const aur_surface *surface, onward_walk *walk) {
+static void add_emission(const aur_onward *onward, const aur_surface *surface, onward_walk *walk) {
+    const aur_scene *const scene = onward->scene;
     const aur_vector direction = walk->ray.direction;
+    if (walk->specular && onward->caustics != NULL)
+        return;
     const aur_vector emission = surface != NULL
                                     ? aur_surface_emission(scene, surface, aur_vector_scale(direction, -1.0f))
                                     : aur_scene_environment(scene, direction);
@@ -92,16 +95,24 @@ static void add_emission(const aur_scene *scene, const aur_surface *surface, onw
  * brought is taken from it, and from one that goes on it is taken away again. */
 static bool survives(const aur_onward *onward, const aur_hit *hit, const aur_shading *shading,
                      aur_vector view, onward_walk *walk) {
-    static const float go_on = 0.5f;
+    const float go_on = onward->share > 0.0f ? 0.5f : 0.0f;
     const unsigned kinds = aur_bsdf_scatters(shading->surface->bsdf, shading->view.z);
-    const bool known = (kinds & (AUR_SCATTERS_SPECULAR | AUR_SCATTERS_SAMPLED)) == 0;
+    aur_texel_view texel = {0};
+    bool known = (kinds & (AUR_SCATTERS_SPECULAR | AUR_SCATTERS_SAMPLED)) == 0;
+    if (known) {
+        texel = aur_irradiance_view(onward->map, onward->scene, hit, shading->surface, view);
+        known = !aur_onward_is_near(onward, hit->distance, texel.area);
+    }
     const float survival = known ? go_on : aur_path_survival(walk->throughput);
     aur_vector estimate = {0};
     if (known)
-        estimate =
-            aur_vector_multiply(walk->throughput, aur_irradiance_radiance(onward->map, onward->scene, hit,
-                                                                          shading->surface, view));
+        estimate = aur_vector_multiply(walk->throughput, texel.radiance);
     walk->sum = aur_vector_add(walk->sum, estimate);
+    if (onward->caustics != NULL) {
+        const aur_texel_view caustic =
+            aur_irradiance_view(onward->caustics, onward->scene, hit, shading->surface, view);
+        walk->sum = aur_vector_add(walk->sum, aur_vector_multiply(walk->throughput, caustic.radiance));
+    }
     if (!(aur_draw_unit(&walk->hash) < survival))
         return false;
     walk->throughput = aur_vector_scale(walk->throughput, 1.0f / survival);
@@ -123,11 +134,11 @@ aur_vector aur_onward_scattered(const aur_onward *onward, const aur_surface *sur
         aur_hit hit;
         ++counters->rays;
         if (!aur_scene_intersect(scene, &walk.ray, &hit)) {
-            add_emission(scene, NULL, &walk);
+            add_emission(onward, NULL, &walk);
             break;
         }
         aur_scene_surface(scene, &walk.ray, &hit, &met);
-        add_emission(scene, &met, &walk);
+        add_emission(onward, &met, &walk);
         view = aur_vector_scale(walk.ray.direction, -1.0f);
         const aur_shading next = aur_shading_at(&met, view);
         if (edges + 1 < onward->max_depth && !survives(onward, &hit, &next, view, &walk))
@@ -137,9 +148,12 @@ aur_vector aur_onward_scattered(const aur_onward *onward, const aur_surface *sur
 }
 
 aur_vector aur_onward_correct(const aur_onward *onward, const aur_surface *surface, aur_vector view,
-                              uint32_t edges, uint64_t hash, aur_vector known, aur_counters *counters) {
-    if (!aur_onward_is_due(onward, hash))
+                              uint32_t edges, uint64_t hash, bool near, aur_vector known,
+                              aur_counters *counters) {
+    if (!near && !aur_onward_is_due(onward, hash))
         return known;
     const aur_vector path = aur_onward_scattered(onward, surface, view, edges, aur_mix64(~hash), counters);
+    if (near)
+        return path;
     return aur_vector_add_scaled(known, 1.0f / onward->share, aur_vector_subtract(path, known));
 }

@@ -179,11 +179,11 @@ static aur_vector glossy_radiance(const aur_irradiance_map *map, size_t light_in
     return aur_vector_scale(sum, 1.0f / map->lights[light_index].area);
 }
 
-aur_vector aur_irradiance_radiance(const aur_irradiance_map *map, const aur_scene *scene, const aur_hit *hit,
+aur_texel_view aur_irradiance_view(const aur_irradiance_map *map, const aur_scene *scene, const aur_hit *hit,
                                    const aur_surface *surface, aur_vector view) {
     const bool behind = aur_vector_dot(surface->geometric_normal, view) < 0.0f;
     if (behind && !surface->bsdf->scatters_from_behind)
-        return (aur_vector){0};
+        return (aur_texel_view){0};
     float coordinates[2];
     aur_element_coordinates(scene, hit, surface, coordinates);
     const uint32_t texel = texel_of(&map->texels, aur_shape_is_curved(scene, hit->shape),
@@ -195,8 +195,9 @@ aur_vector aur_irradiance_radiance(const aur_irradiance_map *map, const aur_scen
     const aur_vector diffuse =
         aur_vector_scale(aur_vector_multiply(albedo, light->irradiance), 1.0f / AUR_PI_F);
     if (map->member_first == NULL || map->member_first[light_index] == map->member_first[light_index + 1])
-        return diffuse;
+        return (aur_texel_view){diffuse, light->area};
     glossy_lobes lobes;
     glossy_lobes_at(surface, local_view, &lobes);
-    return aur_vector_add(diffuse, glossy_radiance(map, light_index, surface, &lobes));
+    return (aur_texel_view){aur_vector_add(diffuse, glossy_radiance(map, light_index, surface, &lobes)),
+                            light->area};
 }

@@ -45,7 +45,13 @@ aur_irradiance_on_triangle(const aur_irradiance_map *map, uint32_t element, floa
     return &map->lights[2 * (size_t)texel + (behind ? 1 : 0)];
 }
 
+/* What is known of the surface of a hit. */
+typedef struct aur_texel_view {
+    aur_vector radiance; /* that leaves it */
+    float area; /* of the texel, square units; 0 on the back of a surface that scatters nothing there */
+} aur_texel_view;
+
 /* Radiance that leaves the surface of a hit towards `view` (world, unit): its irradiance times albedo / pi,
  * and the cos^m lobes over the texel's photons. Emission and other lobes are no part of it. */
-aur_vector aur_irradiance_radiance(const aur_irradiance_map *map, const aur_scene *scene, const aur_hit *hit,
+aur_texel_view aur_irradiance_view(const aur_irradiance_map *map, const aur_scene *scene, const aur_hit *hit,
                                    const aur_surface *surface, aur_vector view);
