@@ -17,6 +17,8 @@ static const cli_option options[] = {
      .letter = 'o', .content = "folder"},
     {CLI_FLAG(lab_command, lab.quick, "quick", "a form that takes seconds, with wider intervals")},
     {CLI_TEXT(lab_command, lab.set, "set", "SET", NULL, "compare one more point set"), .content = "set"},
+    {CLI_TEXT(lab_command, lab.rows, "rows", "PATTERN", NULL,
+              "make only the rows that match, such as '*/bnot'; of experiments whose rows have names")},
     {CLI_TEXT(lab_command, lab.scenes, "scenes", "DIR", "./scenes, else those of the source tree",
               "the bundled scenes"),
      .key.computed = true, .content = "folder"},
@@ -92,6 +94,10 @@ static int run_experiments(lab_command *command, size_t count, char **names) {
         if (find(names[i]) == NULL)
             return cli_bad_usage("lab run: unknown experiment '%s': 'aureole lab list' names them", names[i]);
     lab_options *const lab = &command->lab;
+    for (size_t i = 0; i < count && lab->rows != NULL; ++i)
+        if (find(names[i])->rows == NULL)
+            return cli_bad_usage("lab run: the rows of '%s' have no names: --rows does not go with it",
+                                 names[i]);
     if (mkdir(lab->folder, 0777) != 0 && errno != EEXIST) {
         fprintf(stderr, "aureole: %s: cannot make the folder: %s\n", lab->folder, strerror(errno));
         return CLI_FAILURE;

@@ -2,6 +2,7 @@
 #include "lab/lab.h"
 
 #include <aureole/statistics.h>
+#include <fnmatch.h>
 #include <stdarg.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -72,6 +73,10 @@ void lab_text(lab_run *run, const char *text) {
 
 void lab_number(lab_run *run, double value) {
     report_number(run->table, value, 4);
+}
+
+bool lab_wants(const lab_run *run, const char *name) {
+    return run->options->rows == NULL || fnmatch(run->options->rows, name, 0) == 0;
 }
 
 void lab_note(lab_run *run, const char *format, ...) {

@@ -14,6 +14,7 @@ typedef struct lab_experiment {
     const char *name;       /* "marques-2013-gather" */
     const char *reproduces; /* "Marques 2013, figs 5-6" */
     const char *summary;    /* one line */
+    const char *rows;       /* "scene/map": what its rows are named by; NULL: all are made always */
     /* Uses the functions below; what it returns ends the run. */
     aur_result (*run)(lab_run *run, aur_error *error);
 } lab_experiment;
@@ -24,6 +25,7 @@ const lab_experiment *lab_experiment_at(size_t index); /* NULL beyond the table 
 typedef struct lab_options {
     bool quick;         /* a form that takes seconds and shows the same thing with wider intervals */
     const char *set;    /* one more set to compare, or NULL */
+    const char *rows;   /* a pattern of the shell: the rows to make; NULL: all */
     const char *scenes; /* the folder of the bundled scenes; NULL: ./scenes, then the source tree's */
     const char *folder; /* where files are written; it exists */
     size_t threads;
@@ -51,6 +53,8 @@ const lab_options *lab_run_options(const lab_run *run);
 void lab_columns(lab_run *run, size_t count, const char *const *columns);
 void lab_text(lab_run *run, const char *text);
 void lab_number(lab_run *run, double value);
+/* Whether the row of that name was asked for. */
+bool lab_wants(const lab_run *run, const char *name);
 void lab_note(lab_run *run, const char *format, ...) __attribute__((format(printf, 2, 3)));
 
 /* Loads a bundled scene by its path below the scenes folder. */

@@ -27,6 +27,13 @@ cat table.txt
 awk -F, '/^#/ || $1 == "scene" { next }
          { ++rows; if (!($5 > 0 && $7 <= $6 && $6 <= $8 && $6 > 0.75 && $9 > 0 && $10 >= 1 && $11 > 512)) bad = 1; sum += log($6) }
          END { exit !(rows == 8 && !bad && sum > 0) }' results/marques-2013-table1.csv || fail "the table of table 1"
+# Rows that are named are made alone, with the same figures.
+cp results/marques-2013-table1.csv all.csv
+"$aureole" lab run marques-2013-table1 --quick -q --scenes "$source/scenes" -o results --rows '*/diffuse/lambert/sobol' >table.txt ||
+  fail "rows by name"
+diff <(grep -v '^#' results/marques-2013-table1.csv) <(grep -E '^scene|,diffuse,lambert,sobol' all.csv) || fail "other figures of one row"
+"$aureole" lab run marques-2013-gather --quick --rows '*' 2>message.txt && fail "rows without names"
+grep -q "rows of 'marques-2013-gather' have no names" message.txt || fail "$(cat message.txt)"
 
 # Ambient occlusion: 5 sets x 2 counts x 2 forms, each interval about its value; every set below random numbers at 64
 # samples, where even the least of the gains is 2; and errors that are independent from pixel to pixel only where the set is
