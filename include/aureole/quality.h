@@ -20,7 +20,7 @@ extern "C" {
 typedef struct aur_measure_description {
     aur_row row;           /* name, summary and source; a measure has a parameter instead of keys */
     const char *parameter; /* ":S" for riesz:S, "[:B]" where it may be left out, NULL for none */
-    const char *domains;   /* "sphere, hemisphere": the first is the one to take when nothing is said */
+    const char *domains;   /* "sphere, hemisphere, caps": the first is the one to take when nothing is said */
     bool bound;            /* the value is a lower bound of what is measured */
     bool series;           /* a table rather than one value: ask aur_measure_series */
 } aur_measure_description;
@@ -45,6 +45,10 @@ typedef struct aur_measure_options {
      * harmonics), where that is sooner and the error's bound is small enough; spectrum and periodogram go by
      * Fourier transforms of grids, with an error of no more than this times the larger of 1 and the power. */
     double accuracy;
+    /* 0: all of the domain. Else the points are on the cap of this polar angle about +z, at most 90 degrees
+     * on the hemisphere and 180 on the sphere: covering, mesh-ratio and areas of cells end at its rim;
+     * min-distance, min-angle and riesz:S look at pairs of points alone; other measures are refused. */
+    double cap_degrees;
 } aur_measure_options;
 
 static inline aur_measure_options aur_measure_options_default(void) {
@@ -92,11 +96,12 @@ AUR_API aur_result aur_measure_series(const char *metric, const aur_points_view 
 
 /* weights[count] of unit vectors xyz[3 * count] on the SPHERE or the HEMISPHERE: the area of each point's
  * Voronoi cell times the density of the lobe there (NULL: uniform; others on the hemisphere), scaled to sum
- * 1; with GGX points below the surface (z < 0) have none. Points at one place share their cell. They are
- * exact for functions that are constant within each cell; weights that are exact for smooth ones are in
- * exact.h. `options` may be NULL. Errors: ARGUMENT for a vector that is not of unit length or lies outside
- * the domain; UNSUPPORTED for cells that reach 90 degrees from their points, as those of few points do, and
- * for other domains and lobes; CAPACITY where `capacity` weights are fewer than `count`; MEMORY; CANCELLED.
+ * 1; with options->cap_degrees cells end at the cap's rim, and the lobe is uniform; with GGX points below the
+ * surface (z < 0) have none. Points at one place share their cell. They are exact for functions that are
+ * constant within each cell; weights that are exact for smooth ones are in exact.h. `options` may be NULL.
+ * Errors: ARGUMENT for a vector that is not of unit length or lies outside the domain; UNSUPPORTED for cells
+ * that reach 90 degrees from their points, as those of few points do, and for other domains and lobes;
+ * CAPACITY where `capacity` weights are fewer than `count`; MEMORY; CANCELLED.
  */
 AUR_API aur_result aur_weights_voronoi(size_t count, const double *xyz, aur_domain domain,
                                        const aur_lobe *lobe, const aur_measure_options *options,

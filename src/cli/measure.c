@@ -177,6 +177,7 @@ static int run(const cli_call *call) {
     arguments->options.threads = arguments->common.threads;
     arguments->options.size = sizeof arguments->options;
     arguments->options.warnings = arguments->points.options.warnings;
+    arguments->options.cap_degrees = arguments->points.options.cap_degrees;
     arguments->options.seed = arguments->points.options.seed;
     if (arguments->list)
         return print_list(arguments->common.format);
@@ -198,6 +199,7 @@ const cli_verb cli_verb_measure = {
                   .content = "file or set"}},
     .groups = {{options, 0},
                {cli_points_options, offsetof(cli_measure_arguments, points)},
+               {cli_cap_option, offsetof(cli_measure_arguments, points)},
                {cli_dimension_option, offsetof(cli_measure_arguments, points)},
                {cli_format_option, offsetof(cli_measure_arguments, common)},
                {cli_threads_option, offsetof(cli_measure_arguments, common)},

@@ -36,6 +36,13 @@ const cli_option cli_dimension_option[] = {{CLI_INTEGER(cli_points, dimension, "
                                             .key.computed = true},
                                            {.key = {0}}};
 
+const cli_option cli_cap_option[] = {
+    {CLI_REAL(
+        cli_points, options.cap_degrees, "cap", "DEGREES", 1e-6, 180, NULL,
+        "the cap of this polar angle about +z alone, which a set's N points fill; on the sphere where it "
+        "is wider than 90")},
+    {.key = {0}}};
+
 bool cli_is_file(const char *text) {
     if (aur_set_find(text) != NULL || strncmp(text, "file:", 5) == 0)
         return false;

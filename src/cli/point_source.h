@@ -12,7 +12,7 @@ typedef struct cli_points {
     bool domain_given;              /* else a file's own */
 } cli_points;
 
-extern const cli_option cli_points_options[], cli_dimension_option[]; /* of a cli_points */
+extern const cli_option cli_points_options[], cli_dimension_option[], cli_cap_option[]; /* of a cli_points */
 
 /* Whether `text` names a file rather than a set: no set is called so, and there is such a file or "-". */
 bool cli_is_file(const char *text);

@@ -14,6 +14,8 @@ typedef struct voronoi_command {
     cli_common common;
 } voronoi_command;
 
+static const double pi = 3.14159265358979323846;
+
 static const cli_option options[] = {
     {CLI_INTEGER(voronoi_command, count, "count", "N", 1, INFINITY, NULL,
                  "size of POINTS, where they are a set"),
@@ -116,10 +118,11 @@ static aur_result write_cells(const char *path, const aur_points_view *points, c
 }
 
 /* The area and the side count of each point's cell, with the point. */
-static report_table *tabulate(const aur_points_view *points, const aur_series *series) {
+static report_table *tabulate(const aur_points_view *points, double cap_degrees, const aur_series *series) {
     static const char *const columns[] = {"point", "x", "y", "z", "area", "steradians", "radius", "sides"};
-    const double sphere = points->domain == AUR_DOMAIN_SPHERE ? 4.0 : 2.0;
-    const double mean = sphere * 3.14159265358979323846 / (double)points->count;
+    const double whole = points->domain == AUR_DOMAIN_SPHERE ? 180.0 : 90.0;
+    const double half = 0.5 * (cap_degrees > 0.0 ? cap_degrees : whole) * (pi / 180.0);
+    const double mean = 4.0 * pi * sin(half) * sin(half) / (double)points->count;
     report_table *const table = report_create(8, columns);
     for (size_t i = 0; i < points->count; ++i) {
         const double *const row = aur_series_values(series) + 4 * i;
@@ -136,6 +139,7 @@ static report_table *tabulate(const aur_points_view *points, const aur_series *s
 
 static int find_cells(const voronoi_command *wanted, const aur_points_view *points, aur_error *error) {
     aur_measure_options how = aur_measure_options_default();
+    how.cap_degrees = wanted->from.options.cap_degrees;
     how.threads = wanted->common.threads;
     how.progress = cli_progress(wanted->common.quiet);
     how.warnings = cli_warnings(wanted->common.quiet);
@@ -143,8 +147,9 @@ static int find_cells(const voronoi_command *wanted, const aur_points_view *poin
     aur_result result = aur_measure_series("voronoi", points, &how, &series, error);
     if (result == AUR_OK && wanted->cells != NULL)
         result = write_cells(wanted->cells, points, &how, error);
-    const int status =
-        result == AUR_OK ? cli_finish(tabulate(points, series), wanted->common.format) : cli_fail(error);
+    const int status = result == AUR_OK
+                           ? cli_finish(tabulate(points, how.cap_degrees, series), wanted->common.format)
+                           : cli_fail(error);
     aur_series_destroy(series);
     return status;
 }
@@ -156,6 +161,8 @@ static int run(const cli_call *call) {
         return cli_bad_usage("voronoi: -n is missing for the set '%s' (there is no such file)", source);
     if (wanted->cells != NULL && find_format(wanted->cells) == NULL)
         return cli_bad_usage("--cells: '%s' ends in none of .csv, .obj, .ply", wanted->cells);
+    if (wanted->cells != NULL && wanted->from.options.cap_degrees > 0.0)
+        return cli_bad_usage("--cells: cells at the rim of a cap are no polygons: leave --cap out");
     wanted->from.domain_given = cli_given(call, "domain") != NULL;
     if (!wanted->from.domain_given && !cli_is_file(source))
         wanted->from.options.domain =
@@ -175,7 +182,8 @@ const cli_verb cli_verb_voronoi = {
     .summary = "the cells of points: areas and corners",
     .notes =
         "POINTS are a set or a file on the sphere (the default of sets), the hemisphere, whose cells end at "
-        "the equator, or axes. Prints for each point the area of its cell, in mean areas and in steradians, "
+        "the equator, a --cap, whose cells end at its rim, or axes. Prints for each point the area of its "
+        "cell, in mean areas and in steradians, "
         "the angle to its farthest corner in radians, and the number of its sides. The corners of a cell "
         "follow each other counter-clockwise as seen from outside; an axis has the cell of the end that is "
         "given. Points at one place share a cell, each with its share of the area.",
@@ -183,6 +191,7 @@ const cli_verb cli_verb_voronoi = {
     .operands = {{"POINTS", "a set or a file", .content = "file or set"}},
     .groups = {{options, 0},
                {cli_points_options, offsetof(voronoi_command, from)},
+               {cli_cap_option, offsetof(voronoi_command, from)},
                {cli_format_option, offsetof(voronoi_command, common)},
                {cli_threads_option, offsetof(voronoi_command, common)},
                {cli_quiet_option, offsetof(voronoi_command, common)}},

@@ -45,9 +45,6 @@ static const cli_option options[] = {
     {CLI_FLAG(cli_weights_arguments, negative, "negative",
               "weights of a --degree that is given may be negative")},
     {CLI_FLAG(cli_weights_arguments, near, "near", "exact weights near to those of the file, its column w")},
-    {CLI_REAL(cli_weights_arguments, points.options.cap_degrees, "cap", "DEGREES", 1e-6, 180, NULL,
-              "exact weights of the cap of this polar angle about +z, on the sphere where it is wider than "
-              "90")},
     {CLI_REAL(cli_weights_arguments, weights.regularization, "regularization", "R", 0, INFINITY, "1e-6",
               "added to the diagonal"),
      .key.maximum_open = true},
@@ -95,8 +92,10 @@ static const char *broken_rule(const cli_call *call, const cli_weights_arguments
     if (two && (exact || arguments->method == CLI_METHOD_VORONOI))
         return "--lobe2: exact weights and areas of cells are for one lobe";
     if (!exact && (arguments->degree != AUR_DEGREE_LARGEST || arguments->negative || arguments->near ||
-                   arguments->levels.count > 0 || arguments->points.options.cap_degrees > 0.0))
-        return "--degree, --levels, --negative, --near and --cap are for --method exact";
+                   arguments->levels.count > 0))
+        return "--degree, --levels, --negative and --near are for --method exact";
+    if (!exact && arguments->method != CLI_METHOD_VORONOI && arguments->points.options.cap_degrees > 0.0)
+        return "--cap: is for --method exact and voronoi";
     if (arguments->levels.count > CLI_LEVEL_LIMIT)
         return "--levels: there may be at most 32";
     if (arguments->levels.count > 0 && arguments->plot != NULL)
@@ -222,6 +221,7 @@ const cli_verb cli_verb_weights = {
     .operands = {{"FILE|SET", "the samples", .optional = true, .content = "file or set"}},
     .groups = {{options, 0},
                {cli_points_options, offsetof(cli_weights_arguments, points)},
+               {cli_cap_option, offsetof(cli_weights_arguments, points)},
                {cli_format_option, offsetof(cli_weights_arguments, common)},
                {cli_threads_option, offsetof(cli_weights_arguments, common)},
                {cli_quiet_option, offsetof(cli_weights_arguments, common)},

@@ -43,6 +43,7 @@ aur_result cli_weights_by_cells(const cli_weights_arguments *arguments, cli_weig
                                 aur_error *error) {
     const aur_directions_options *const points = &arguments->points.options;
     aur_measure_options options = aur_measure_options_default();
+    options.cap_degrees = points->cap_degrees;
     options.threads = arguments->common.threads;
     options.progress = cli_progress(arguments->common.quiet);
     const aur_result made = aur_weights_voronoi(result->count, result->xyz, points->domain, &points->lobe,

@@ -17,11 +17,11 @@
  */
 typedef struct aur_measure_request {
     const aur_points_view *points;
-    const char *parameter; /* what follows the first ':', or NULL */
-    size_t variant;        /* of the row */
-    aur_measure_options options;
-    aur_arena *arena; /* what the measure takes from it is freed when it ends */
-    double *bound;    /* of the value's error, for measures that used options.accuracy; else it stays 0 */
+    const char *parameter;       /* what follows the first ':', or NULL */
+    size_t variant;              /* of the row */
+    aur_measure_options options; /* cap_degrees is 0 where the cap is all of the domain */
+    aur_arena *arena;            /* what the measure takes from it is freed when it ends */
+    double *bound; /* of the value's error, for measures that used options.accuracy; else it stays 0 */
 } aur_measure_request;
 
 typedef struct aur_measure_row {

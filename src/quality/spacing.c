@@ -63,7 +63,7 @@ const aur_measure_row aur_measure_min_distance = {
     {.row = {.name = "min-distance",
              .summary = "the smallest distance between two points (on the sphere the chord)",
              .source = "Marques 2013 sec. 3.2"},
-     .domains = "sphere, hemisphere, square, cube, disk, axes"},
+     .domains = "sphere, hemisphere, square, cube, disk, axes, caps"},
     .minimum_count = 2,
     .compute = aur_smallest_distance};
 
@@ -71,6 +71,6 @@ const aur_measure_row aur_measure_min_angle = {
     {.row = {.name = "min-angle",
              .summary = "the smallest angle between two directions, axes or rotations, radians",
              .source = "Jones, Horsfield and Simmons 1999"},
-     .domains = "sphere, hemisphere, axes, rotations"},
+     .domains = "sphere, hemisphere, axes, rotations, caps"},
     .minimum_count = 2,
     .compute = smallest_angle};

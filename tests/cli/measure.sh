@@ -41,6 +41,7 @@ refuses --metric $measure sobol -n 4
 refuses 'at least 2 points' $measure sobol -n 1 --metric min-distance
 refuses no-such $measure no-such-set -n 4 --metric energy
 printf 'x,y,z,w\n1,0,0,1\n# a comment\n0,1,0,-0.5\n0,0,1,1\n' >negative.csv
+refuses "not for caps" $measure sobol -n 64 --cap 30 --metric energy
 refuses negative.csv:4 $measure negative.csv --domain sphere --metric cap
 prints 1.1547 $measure negative.csv --domain sphere --metric energy
 printf '1,0,0\n0,0,-1\n' >low.csv

@@ -157,6 +157,15 @@ refused "only a file" sobol -n 8 --lobe cosine --method exact --near
 refused "level 1 has 9 points" sobol -n 8 --lobe cosine --method exact --levels 4,9
 refused "not 'x'" sobol -n 8 --lobe cosine --method exact --levels 4,x
 refused "one lobe" sobol -n 8 --lobe cosine --lobe2 phong:20 --angle 3 --method exact
+"$program" weights random -n 300 --cap 30 --method voronoi >cap.csv || fail "cells of a cap"
+"$program" weights cap.csv --cap 30 --method voronoi | cmp - cap.csv || fail "cells of a file's cap"
+"$program" voronoi cap.csv --cap 30 --format csv |
+    awk -F, 'NR > 1 { area += $5; sr += $6 } END { exit !(area > 299.99 && area < 300.01 && sr > .84178 && sr < .84180) }' ||
+    fail "areas of a cap's cells: 300 means, 2 pi (1 - cos 30)"
+refused "outside the cap of 20 degrees" cap.csv --cap 20 --method voronoi
+refused "for --method exact and voronoi" sobol -n 8 --cap 20 --method osw
+refused "whole hemisphere" sobol -n 8 --cap 20 --lobe cosine --method voronoi
+"$program" voronoi cap.csv --cap 30 --cells cells.obj 2>/dev/null && fail "corners of a cap's cells"
 refused "for the domain sphere" sobol -n 8 --domain hemisphere --cap 120 --method exact
 "$program" weights $sf -n 100 --cap 120 --method exact >wide.csv || fail "a wide cap"
 "$program" weights $sf -n 100 --domain sphere --cap 120 --method exact | cmp - wide.csv || fail "a wide cap is of the sphere"

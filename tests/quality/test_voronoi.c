@@ -27,7 +27,7 @@ static void the_grid_finds_all_neighbours(void **state) {
     const aur_points_view view = seen(&points);
     aur_arena arena = {0};
     aur_sphere_grid grid;
-    assert_int_equal(aur_sphere_grid_create(&view, &arena, &grid, NULL), AUR_OK);
+    assert_int_equal(aur_sphere_grid_create(&view, AUR_PI, &arena, &grid, NULL), AUR_OK);
     aur_neighbours near = {0};
     for (size_t i = 0; i < points.count; i += 7) {
         const double angle = 0.01 * (double)(1 + i % 400);
@@ -96,6 +96,130 @@ static void areas_add_up(void **state) {
         aur_series_destroy(series);
         release_points(&points);
     }
+}
+
+static own_points random_in_cap(size_t count, double degrees, uint64_t seed) {
+    own_points points = sphere_points(count);
+    const double half = sin(degrees * (AUR_PI / 360.0));
+    for (size_t j = 0; j < count; ++j) {
+        /* By half the polar angle, of which small caps keep the digits. */
+        const double sine = half * sqrt(aur_unit_double(aur_hash3(seed, j, 0)));
+        const double phi = 2.0 * AUR_PI * aur_unit_double(aur_hash3(seed, j, 1));
+        const double r = 2.0 * sine * sqrt(1.0 - sine * sine);
+        points.coordinates[3 * j] = r * cos(phi);
+        points.coordinates[3 * j + 1] = r * sin(phi);
+        points.coordinates[3 * j + 2] = 1.0 - 2.0 * sine * sine;
+    }
+    return points;
+}
+
+static aur_series *cells_of_cap(const own_points *points, double degrees, size_t threads) {
+    aur_measure_options options = aur_measure_options_default();
+    options.cap_degrees = degrees;
+    options.threads = threads;
+    aur_series *series;
+    aur_error error = {0};
+    if (aur_measure_series("voronoi", (const aur_points_view[]){seen(points)}, &options, &series, &error) !=
+        AUR_OK)
+        fail_msg("%s", error.message);
+    return series;
+}
+
+/* Cells tile caps of every size, from a grain to nearly all of the sphere, with the same bits on any number
+ * of threads. */
+static void areas_of_caps_add_up(void **state) {
+    (void)state;
+    static const double caps[] = {1e-6, 1e-3, 0.5, 20.0, 34.0, 60.0, 89.9999, 90.0, 90.0001, 120.0, 179.0};
+    for (size_t c = 0; c < sizeof caps / sizeof caps[0]; ++c) {
+        own_points points = random_in_cap(300, caps[c], c);
+        aur_series *const series = cells_of_cap(&points, caps[c], 1), *const other =
+                                                                          cells_of_cap(&points, caps[c], 3);
+        assert_memory_equal(aur_series_values(series), aur_series_values(other), 1200 * sizeof(double));
+        double sum = 0.0;
+        for (size_t i = 0; i < 300; ++i)
+            sum += aur_series_values(series)[4 * i + 1];
+        assert_relative(sum, 300.0, 1e-9);
+        aur_series_destroy(series);
+        aur_series_destroy(other);
+        release_points(&points);
+    }
+}
+
+/* Beside a spiral of `samples` points in the cap, each of which belongs to its nearest point: areas to the
+ * spiral's error along the cells' edges, radii to its covering radius. */
+static void cells_of_caps_hold_what_is_nearest(void **state) {
+    (void)state;
+    enum { COUNT = 24, SAMPLES = 100000 };
+    static const double caps[] = {5.0, 50.0, 90.0, 130.0};
+    for (size_t c = 0; c < sizeof caps / sizeof caps[0]; ++c) {
+        own_points points = random_in_cap(COUNT, caps[c], 7 + c);
+        aur_series *const series = cells_of_cap(&points, caps[c], 1);
+        double share[COUNT] = {0.0}, farthest[COUNT] = {0.0};
+        const double half = sin(caps[c] * (AUR_PI / 360.0));
+        for (size_t k = 0; k < SAMPLES; ++k) {
+            const double z = 1.0 - 2.0 * half * half * ((double)k + 0.5) / SAMPLES,
+                         r = sqrt((1.0 - z) * (1.0 + z));
+            const double phi = 2.0 * AUR_PI * fmod(0.6180339887498949 * (double)k, 1.0);
+            const double y[3] = {r * cos(phi), r * sin(phi), z};
+            size_t nearest = 0;
+            for (size_t i = 1; i < COUNT; ++i)
+                if (dot(y, points.coordinates + 3 * i) > dot(y, points.coordinates + 3 * nearest))
+                    nearest = i;
+            share[nearest] += (double)COUNT / SAMPLES;
+            farthest[nearest] =
+                fmax(farthest[nearest], acos(fmin(dot(y, points.coordinates + 3 * nearest), 1.0)));
+        }
+        /* Twice the mean distance of the spiral's points: a cell's edge is off by no more. */
+        const double spacing = 2.0 * half * sqrt(4.0 * AUR_PI / SAMPLES);
+        for (size_t i = 0; i < COUNT; ++i) {
+            const double *const row = aur_series_values(series) + 4 * i;
+            assert_near(row[1], share[i], 0.01);
+            assert_true(row[2] > farthest[i] - 1e-7 && row[2] < farthest[i] + spacing);
+        }
+        aur_series_destroy(series);
+        release_points(&points);
+    }
+}
+
+/* One point has all of its cap; a cap of 90 degrees is the hemisphere; measures without caps say so. */
+static void caps_agree_with_what_is_known(void **state) {
+    (void)state;
+    own_points points = random_in_cap(200, 90.0, 1), one = octahedron();
+    memcpy(one.coordinates, one.coordinates + 12, 3 * sizeof(double));
+    one.count = 1;
+    aur_series *series = cells_of_cap(&one, 40.0, 1);
+    const double *const row = aur_series_values(series);
+    assert_near(row[1], 1.0, 1e-14);
+    assert_near(row[2], 40.0 * AUR_PI / 180.0, 1e-14);
+    assert_true(row[3] == 1.0);
+    aur_series_destroy(series);
+    series = cells_of_cap(&points, 90.0, 1);
+    points.domain = AUR_DOMAIN_HEMISPHERE;
+    aur_series *whole = cells_of_cap(&points, 0.0, 1);
+    assert_memory_equal(aur_series_values(series), aur_series_values(whole), 800 * sizeof(double));
+    aur_series_destroy(series);
+    aur_series_destroy(whole);
+    static const struct {
+        const char *metric, *text;
+        double cap;
+    } refused[] = {
+        {"energy", "measure 'energy' is for the sphere, hemisphere, axes, rotations, not for caps", 90.0},
+        {"covering", "above 0 and at most 90 degrees, not 91: wider ones are for the domain sphere", 91.0},
+        {"covering", "above 0 and at most 90 degrees, not nan", NAN},
+        {"covering", "degrees from +z, outside the cap of 10 degrees", 10.0}};
+    for (size_t i = 0; i < sizeof refused / sizeof refused[0]; ++i) {
+        aur_measure_options options = aur_measure_options_default();
+        options.cap_degrees = refused[i].cap;
+        aur_error error = {0};
+        double value;
+        assert_int_not_equal(aur_measure(refused[i].metric, (const aur_points_view[]){seen(&points)},
+                                         &options, &value, &error),
+                             AUR_OK);
+        if (strstr(error.message, refused[i].text) == NULL)
+            fail_msg("%s", error.message);
+    }
+    release_points(&points);
+    release_points(&one);
 }
 
 /* Twice the area of the flat triangle, with the sign of its sense of turning as seen from outside. */
@@ -260,6 +384,9 @@ int main(void) {
         cmocka_unit_test(the_grid_finds_all_neighbours),
         cmocka_unit_test(regular_sets_have_regular_cells),
         cmocka_unit_test(areas_add_up),
+        cmocka_unit_test(areas_of_caps_add_up),
+        cmocka_unit_test(cells_of_caps_hold_what_is_nearest),
+        cmocka_unit_test(caps_agree_with_what_is_known),
         cmocka_unit_test(corners_are_as_far_from_three_points),
         cmocka_unit_test(covering_agrees_with_all_triples),
         cmocka_unit_test(covering_beyond_ninety_degrees),

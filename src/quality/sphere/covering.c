@@ -4,6 +4,7 @@
 #include "core/vector.h"
 #include "quality/rotations/rotations.h"
 #include "quality/spacing.h"
+#include "quality/sphere/cap_part.h"
 #include "quality/sphere/voronoi.h"
 
 static aur_result fail_unbounded(aur_error *error) {
@@ -25,7 +26,7 @@ static aur_result covering(const aur_measure_request *request, double *value, au
         *value = fmax(*value, cells[i].radius);
     if (!unbounded)
         return AUR_OK;
-    if (request->points->domain == AUR_DOMAIN_HEMISPHERE)
+    if (request->points->domain == AUR_DOMAIN_HEMISPHERE || request->options.cap_degrees > 0.0)
         return fail_unbounded(error);
     if (request->points->domain == AUR_DOMAIN_AXES) { /* all in one plane, to which there is a normal */
         *value = 0.5 * AUR_PI;
@@ -52,8 +53,12 @@ static aur_result mesh_ratio(const aur_measure_request *request, double *value, 
 }
 
 /* The mean area of a cell is 1 in all figures of areas. */
-static double mean_area(const aur_points_view *points) {
-    return (points->domain == AUR_DOMAIN_HEMISPHERE ? 2.0 : 4.0) * AUR_PI / (double)points->count;
+static double mean_area(const aur_measure_request *request) {
+    const double cap = request->options.cap_degrees;
+    const double height = cap > 0.0                                          ? aur_rim_at(cap).height
+                          : request->points->domain == AUR_DOMAIN_HEMISPHERE ? 1.0
+                                                                             : 2.0;
+    return 2.0 * height * AUR_PI / (double)request->points->count;
 }
 
 enum { LEAST, GREATEST, DEVIATION, FIGURES };
@@ -64,7 +69,7 @@ static aur_result area_figure(const aur_measure_request *request, double *value,
     const aur_result result = aur_voronoi_cells(request, &cells, &unbounded, error);
     if (result != AUR_OK)
         return result;
-    const double mean = mean_area(request->points);
+    const double mean = mean_area(request);
     double squares = 0.0, figures[FIGURES] = {[LEAST] = INFINITY};
     for (size_t i = 0; i < request->points->count; ++i) {
         const double area = cells[i].area / mean;
@@ -94,7 +99,7 @@ static aur_result voronoi(const aur_measure_request *request, aur_series *series
     for (size_t i = 0; i < series->row_count && result == AUR_OK; ++i) {
         double *const row = series->values + 4 * i;
         row[0] = (double)(i + 1);
-        row[1] = cells[i].area / mean_area(request->points);
+        row[1] = cells[i].area / mean_area(request);
         row[2] = cells[i].radius;
         row[3] = (double)cells[i].sides;
     }
@@ -122,14 +127,14 @@ const aur_measure_row aur_measure_covering = {
           .summary =
               "covering radius (mesh norm): the largest angle from a direction to its nearest point, radians",
           .source = "Brauchart and Grabner 2015"},
-     .domains = "sphere, hemisphere, axes, rotations"},
+     .domains = "sphere, hemisphere, axes, rotations, caps"},
     .compute = covering};
 
 const aur_measure_row aur_measure_mesh_ratio = {
     {.row = {.name = "mesh-ratio",
              .summary = "covering radius over half the smallest angle between points: at least 1",
              .source = "Brauchart and Grabner 2015"},
-     .domains = "sphere, hemisphere, axes, rotations"},
+     .domains = "sphere, hemisphere, axes, rotations, caps"},
     .minimum_count = 2,
     .compute = mesh_ratio};
 
@@ -137,7 +142,7 @@ const aur_measure_row aur_measure_voronoi_min = {
     {.row = {.name = "voronoi-min",
              .summary = "area of the smallest Voronoi cell, in mean areas",
              .source = "Augenbaum and Peskin 1985"},
-     .domains = "sphere, hemisphere, axes"},
+     .domains = "sphere, hemisphere, axes, caps"},
     .variant = LEAST,
     .compute = area_figure};
 
@@ -145,7 +150,7 @@ const aur_measure_row aur_measure_voronoi_max = {
     {.row = {.name = "voronoi-max",
              .summary = "area of the largest Voronoi cell, in mean areas",
              .source = "Augenbaum and Peskin 1985"},
-     .domains = "sphere, hemisphere, axes"},
+     .domains = "sphere, hemisphere, axes, caps"},
     .variant = GREATEST,
     .compute = area_figure};
 
@@ -153,7 +158,7 @@ const aur_measure_row aur_measure_voronoi_deviation = {
     {.row = {.name = "voronoi-deviation",
              .summary = "standard deviation of the areas of Voronoi cells, in mean areas",
              .source = "Augenbaum and Peskin 1985"},
-     .domains = "sphere, hemisphere, axes"},
+     .domains = "sphere, hemisphere, axes, caps"},
     .variant = DEVIATION,
     .compute = area_figure};
 
@@ -161,7 +166,7 @@ const aur_measure_row aur_measure_voronoi = {
     {.row = {.name = "voronoi",
              .summary = "table of the Voronoi cells: area in mean areas, radius in radians, sides",
              .source = "Augenbaum and Peskin 1985"},
-     .domains = "sphere, hemisphere, axes",
+     .domains = "sphere, hemisphere, axes, caps",
      .series = true},
     .tabulate = voronoi};
 

@@ -123,5 +123,5 @@ const aur_measure_row aur_measure_riesz = {
                         "1/|x_i - x_j|",
              .source = "Hardin and Saff 2004"},
      .parameter = ":S",
-     .domains = "sphere, hemisphere, axes, rotations"},
+     .domains = "sphere, hemisphere, axes, rotations, caps"},
     .compute = riesz};

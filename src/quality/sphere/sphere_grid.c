@@ -12,7 +12,7 @@ static double polar_angle(const double *x) {
 }
 
 static size_t band_of(const aur_sphere_grid *grid, double theta) {
-    const double at = theta / AUR_PI * (double)grid->band_count;
+    const double at = theta / grid->widest * (double)grid->band_count;
     const size_t band = at > 0.0 ? (size_t)at : 0;
     return band < grid->band_count ? band : grid->band_count - 1;
 }
@@ -35,17 +35,18 @@ static size_t cell_of_point(const aur_sphere_grid *grid, size_t index) {
     return cell_of(grid, band_of(grid, polar_angle(x)), atan2(x[1], x[0]));
 }
 
-aur_result aur_sphere_grid_create(const aur_points_view *points, aur_arena *arena, aur_sphere_grid *grid,
-                                  aur_error *error) {
-    const double spacing = sqrt(4.0 * AUR_PI / (double)points->count);
-    *grid =
-        (aur_sphere_grid){.points = points, .spacing = spacing, .band_count = (size_t)ceil(AUR_PI / spacing)};
+aur_result aur_sphere_grid_create(const aur_points_view *points, double widest, aur_arena *arena,
+                                  aur_sphere_grid *grid, aur_error *error) {
+    const double half = sin(0.5 * widest);
+    const double spacing = half * sqrt(4.0 * AUR_PI / (double)points->count);
+    *grid = (aur_sphere_grid){
+        .points = points, .widest = widest, .spacing = spacing, .band_count = (size_t)ceil(widest / spacing)};
     grid->band_cells = aur_arena_allocate(arena, (grid->band_count + 1) * sizeof *grid->band_cells);
     grid->order = aur_arena_allocate(arena, points->count * sizeof *grid->order);
     if (grid->band_cells == NULL || grid->order == NULL)
         return aur_fail_memory(error);
     for (size_t b = 0; b < grid->band_count; ++b) {
-        const double middle = AUR_PI * ((double)b + 0.5) / (double)grid->band_count;
+        const double middle = widest * ((double)b + 0.5) / (double)grid->band_count;
         const size_t cells = (size_t)(2.0 * AUR_PI * sin(middle) / spacing);
         grid->band_cells[b + 1] = grid->band_cells[b] + (cells > 0 ? cells : 1);
     }

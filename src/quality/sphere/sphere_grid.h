@@ -7,6 +7,7 @@
 
 typedef struct aur_sphere_grid {
     const aur_points_view *points; /* not owned */
+    double widest;                 /* the polar angle at which the cells end */
     double spacing;                /* the side of a cell, radians */
     size_t band_count;
     size_t *band_cells; /* band_count + 1: the first cell of each band */
@@ -14,9 +15,9 @@ typedef struct aur_sphere_grid {
     size_t *order;      /* indices of the points, cell by cell */
 } aur_sphere_grid;
 
-/* The arena holds the grid. */
-aur_result aur_sphere_grid_create(const aur_points_view *points, aur_arena *arena, aur_sphere_grid *grid,
-                                  aur_error *error);
+/* Of points that are no farther from +z than `widest`: pi for the whole sphere. The arena holds the grid. */
+aur_result aur_sphere_grid_create(const aur_points_view *points, double widest, aur_arena *arena,
+                                  aur_sphere_grid *grid, aur_error *error);
 
 typedef struct aur_neighbour {
     double square; /* of the chord */

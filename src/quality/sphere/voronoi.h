@@ -1,12 +1,12 @@
-/* Voronoi cells on the sphere or, cut at the equator, on the hemisphere. */
+/* Voronoi cells on the sphere or, cut at the equator, on the hemisphere, or at its rim, on a cap. */
 #pragma once
 
 #include "quality/measure.h"
 
 typedef struct aur_voronoi_cell {
-    double area;   /* steradians; points in one place share their cell */
-    double radius; /* the angle to the farthest corner */
-    size_t sides;
+    double area;    /* steradians; points in one place share their cell */
+    double radius;  /* the angle to the farthest corner */
+    size_t sides;   /* along the rim of a cap an arc is one */
     bool unbounded; /* the cell reaches 90 degrees or more from its point: area and radius mean nothing */
 } aur_voronoi_cell;
 
@@ -19,7 +19,7 @@ enum { AUR_CORNER_COLUMNS = 4 };
 
 /* The corners of the cells of the first `count` points, which cells[] says are bounded, counter-clockwise as
  * seen from outside: a row each of the point's number from 1 and a unit vector, cell after cell, as many as
- * the sum of their sides. */
+ * the sum of their sides. Not on caps. */
 aur_result aur_voronoi_corners(const aur_measure_request *request, size_t count,
                                const aur_voronoi_cell *cells, double *rows, aur_error *error);
 

@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "core/error.h"
+#include "core/options.h"
 #include "quadrature/potential/potential.h"
 
 /* The density at a point, up to a factor; the whole sphere's is 1. */
@@ -49,10 +50,16 @@ aur_result aur_weights_voronoi(size_t count, const double *xyz, aur_domain domai
     if (domain == AUR_DOMAIN_SPHERE && (ggx || density->exponent != 0.0))
         return aur_fail(error, AUR_ERROR_UNSUPPORTED,
                         "areas of cells of the whole sphere are for the uniform lobe");
+    aur_measure_options own = aur_measure_options_default();
+    aur_result result = aur_options_read(options, sizeof own, sizeof own, &own, "aur_measure_options", error);
+    if (result != AUR_OK)
+        return result;
+    if (own.cap_degrees > 0.0 && (ggx || density->exponent != 0.0))
+        return aur_fail(error, AUR_ERROR_UNSUPPORTED, "a lobe is for the whole hemisphere, not for a cap");
     if (capacity < count)
         return aur_fail(error, AUR_ERROR_CAPACITY, "there is room for %zu weights, not for %zu", capacity,
                         count);
-    aur_result result = aur_lobe_check(density, error);
+    result = aur_lobe_check(density, error);
     if (result != AUR_OK)
         return result;
     double *const above = malloc((4 * count + 1) * sizeof *above);
