@@ -136,8 +136,10 @@ static const aur_oswa_options pair_options = {.size = sizeof(aur_oswa_options),
 static void run_table(void *data) {
     const size_t *const size = data; /* angles, rotations */
     aur_weight_table *table;
-    if (aur_weight_table_build(&pair_options, size[0], size[1], 1, NULL, &table, NULL) == AUR_OK)
-        bench_keep(aur_weight_table_mass(table, 0.5));
+    if (aur_weight_table_build(&pair_options,
+                               &(aur_weight_table_grid){sizeof(aur_weight_table_grid), size[0], 1, size[1]},
+                               1, NULL, &table, NULL) == AUR_OK)
+        bench_keep(aur_weight_table_mass(table, 0.5, 0.0));
     aur_weight_table_destroy(table);
 }
 
@@ -171,7 +173,7 @@ static void run_look_up(void *data) {
     for (uint64_t i = 0; i < LOOK_UPS; ++i) {
         const uint64_t hash = aur_mix64(i);
         const float radians = 1.57f * aur_unit_float((uint32_t)hash);
-        aur_weight_table_look_up(context->table, hash >> 63, (hash >> 32) % ROTATIONS, (double)radians,
+        aur_weight_table_look_up(context->table, hash >> 63, (hash >> 32) % ROTATIONS, (double)radians, 0.0,
                                  SAMPLES, context->weights, NULL);
         bench_keep((double)context->weights[0]);
     }
@@ -194,7 +196,9 @@ static bool bench_look_up(const bench_options *options) {
         aur_oswa_options pair_of = pair_options;
         pair_of.clipped = clipped;
         look_up_context context = {0};
-        if (aur_weight_table_build(&pair_of, ANGLES, ROTATIONS, 1, NULL, &context.table, NULL) != AUR_OK)
+        if (aur_weight_table_build(
+                &pair_of, &(aur_weight_table_grid){sizeof(aur_weight_table_grid), ANGLES, 1, ROTATIONS}, 1,
+                NULL, &context.table, NULL) != AUR_OK)
             return bench_fail("weights: no table");
         context.row_count = aur_weight_table_rows(context.table);
         const size_t floats = 2 * context.row_count * SAMPLES;

@@ -223,7 +223,7 @@ typedef struct aur_z_grid {
 typedef struct aur_oswa_options {
     size_t size;                /* of the caller's struct, so that it can grow */
     const char *set;            /* as in aur_directions_create; NULL: spherical-fibonacci */
-    size_t count, mirror_count; /* samples of the first and of the second pattern */
+    size_t count, mirror_count; /* samples of the first and of the second; a GGX lobe may stand alone: 0, N */
     aur_lobe lobe;              /* about the normal: COSINE_POWER */
     aur_lobe mirror_lobe;       /* about the mirror direction: either kind */
     bool optimal_density;       /* points follow lobe^{2/(s+1)}; GGX keeps its own density */
@@ -265,10 +265,10 @@ AUR_EXPERIMENTAL size_t aur_oswa_size(const aur_oswa *oswa) AUR_NONNULL(1); /* c
 AUR_EXPERIMENTAL aur_result aur_oswa_points(const aur_oswa *oswa, double radians, const double turns[2],
                                             bool mirrored, size_t capacity, double *xyz, aur_error *error)
     AUR_NONNULL(1, 3, 6);
-/* weights[2 * size]: of every sample for the first lobe, then for the mirror lobe, both of integral 1.
- * `radians` in [0, pi/2]; `capacity` counts doubles; *mass, unless NULL, is the integral of the mirror lobe
- * as it is written. O(size^3) time. Errors: ARGUMENT, CAPACITY, MEMORY, INTERNAL for a system that is not
- * positive definite. */
+/* weights[2 * size]: of every sample for the first lobe, then for the mirror lobe, both of integral 1 (where
+ * the first has no sample, weights[size] for the mirror lobe). `radians` in [0, pi/2]; `capacity` counts
+ * doubles; *mass, unless NULL, is the integral of the mirror lobe as it is written. O(size^3) time. Errors:
+ * ARGUMENT, CAPACITY, MEMORY, INTERNAL for a system that is not positive definite. */
 AUR_EXPERIMENTAL aur_result aur_oswa_solve(const aur_oswa *oswa, double radians, const double turns[2],
                                            size_t capacity, double *weights, double *mass, aur_error *error)
     AUR_NONNULL(1, 3, 5);
@@ -278,16 +278,39 @@ AUR_EXPERIMENTAL void aur_oswa_turns(uint64_t seed, size_t rotation, double turn
 
 /* --- OSWA from a table */
 
-/* Weights at `angle_count` angles from 0 to 90 degrees for each of `rotation_count` pairs of turns, hashed
- * from the seed, and linear interpolation between: no system to solve while rendering. */
+/* Weights at angles from 0 to 90 degrees, and for a GGX lobe at several roughnesses, for each of some pairs
+ * of turns, hashed from the seed, and linear interpolation between: no system to solve while rendering. */
 typedef struct aur_weight_table aur_weight_table;
 
-/* 2 to 65536 angles, 1 to 65536 rotations; angles * rotations systems are solved. Each entry is computed
- * alone: no bit depends on `threads` (0: all). Errors: as aur_oswa_create and aur_oswa_solve, CANCELLED. */
-AUR_EXPERIMENTAL aur_result aur_weight_table_build(const aur_oswa_options *options, size_t angle_count,
-                                                   size_t rotation_count, size_t threads,
+/* What a table is made for. */
+typedef struct aur_weight_table_grid {
+    size_t size;        /* of the caller's struct, so that it can grow */
+    size_t angle_count; /* of the view, evenly from 0 to 90 degrees: 2 to 65536 */
+    /* Of a GGX lobe, from the alpha of the options to 1, evenly in logarithms: 1 to 256; 1: that alpha only.
+     */
+    size_t roughness_count;
+    size_t rotation_count; /* pairs of turns: 1 to 65536 */
+} aur_weight_table_grid;
+
+/* 64 angles, one roughness, 16 rotations. */
+static inline aur_weight_table_grid aur_weight_table_grid_default(void) {
+    aur_weight_table_grid grid;
+    memset(&grid, 0, sizeof grid);
+    grid.size = sizeof grid;
+    grid.angle_count = 64;
+    grid.roughness_count = 1;
+    grid.rotation_count = 16;
+    return grid;
+}
+
+/* angles * roughnesses * rotations systems are solved, and more where samples cross the horizon. Each entry
+ * is computed alone: no bit depends on `threads` (0: all). `grid` NULL: the default. Errors: as
+ * aur_oswa_create and aur_oswa_solve, ARGUMENT for a grid out of range or several roughnesses of another
+ * lobe, CANCELLED. */
+AUR_EXPERIMENTAL aur_result aur_weight_table_build(const aur_oswa_options *options,
+                                                   const aur_weight_table_grid *grid, size_t threads,
                                                    const aur_progress *progress, aur_weight_table **table,
-                                                   aur_error *error) AUR_NONNULL(1, 6);
+                                                   aur_error *error) AUR_NONNULL(1, 5);
 AUR_EXPERIMENTAL void aur_weight_table_destroy(aur_weight_table *table); /* NULL is allowed */
 
 /* A file with version, options, patterns' hash and check sum. Loading refuses, saying which, a file of
@@ -303,28 +326,35 @@ AUR_EXPERIMENTAL aur_result aur_weight_table_load(const char *path, const aur_os
  * bytes this library knows. */
 AUR_EXPERIMENTAL const aur_oswa_options *aur_weight_table_options(const aur_weight_table *table)
     AUR_NONNULL(1);
-/* How many angles and rotations the table was built for. */
+/* How many angles, roughnesses and rotations the table was built for. */
 AUR_EXPERIMENTAL size_t aur_weight_table_angles(const aur_weight_table *table) AUR_NONNULL(1);
+AUR_EXPERIMENTAL size_t aur_weight_table_roughnesses(const aur_weight_table *table) AUR_NONNULL(1);
 AUR_EXPERIMENTAL size_t aur_weight_table_rotations(const aur_weight_table *table) AUR_NONNULL(1);
-/* How many rows it keeps, each of 2 (count + mirror_count) floats, the weights of both lobes: one for each
- * angle and rotation. A clipped table has two for each piece of an interval, and pieces end where a sample
- * crosses the horizon. */
+/* How many rows it keeps, each of 2 (count + mirror_count) floats, the weights of both lobes (of a GGX lobe
+ * alone: mirror_count): one for each angle, roughness and rotation. A clipped table has two for each piece of
+ * an interval, and pieces end where a sample crosses the horizon. */
 AUR_EXPERIMENTAL size_t aur_weight_table_rows(const aur_weight_table *table) AUR_NONNULL(1);
-/* The merged samples xyz[3 * size] that a rotation's weights belong to, at an angle in [0, pi/2]; their turns
- * are aur_oswa_turns of the options' seed. `capacity` counts doubles. Errors: ARGUMENT for another angle or a
- * rotation that is not in the table, CAPACITY. */
+/* The merged samples xyz[3 * size] that a rotation's weights belong to, at an angle in [0, pi/2] and, in a
+ * table of several roughnesses, the roughness `alpha` (elsewhere it has no meaning); their turns are
+ * aur_oswa_turns of the options' seed. `capacity` counts doubles. Errors: ARGUMENT for another angle, a
+ * roughness or a rotation that is not in the table, CAPACITY. */
 AUR_EXPERIMENTAL aur_result aur_weight_table_points(const aur_weight_table *table, double radians,
-                                                    size_t rotation, bool mirrored, size_t capacity,
-                                                    double *xyz, aur_error *error) AUR_NONNULL(1, 6);
+                                                    double alpha, size_t rotation, bool mirrored,
+                                                    size_t capacity, double *xyz, aur_error *error)
+    AUR_NONNULL(1, 7);
 
 /* weights[count + mirror_count] for one lobe (0: the first, 1: the mirror lobe), of integral 1, at an angle
- * in [0, pi/2]. They are floats, as the table keeps them for renderers; `capacity` counts floats. Errors:
- * ARGUMENT for another angle, another lobe or a rotation that is not in the table, CAPACITY. */
+ * in [0, pi/2] and a roughness as above; between two roughnesses hidden samples have weight 0 and the others'
+ * sum is held. They are floats, as the table keeps them for renderers; `capacity` counts floats. Errors:
+ * ARGUMENT for another angle, another lobe, a roughness or a rotation that is not in the table, CAPACITY. */
 AUR_EXPERIMENTAL aur_result aur_weight_table_look_up(const aur_weight_table *table, size_t lobe,
-                                                     size_t rotation, double radians, size_t capacity,
-                                                     float *weights, aur_error *error) AUR_NONNULL(1, 6);
-/* The mass of the mirror lobe at an angle (clamped to [0, pi/2]), interpolated likewise. */
-AUR_EXPERIMENTAL double aur_weight_table_mass(const aur_weight_table *table, double radians) AUR_NONNULL(1);
+                                                     size_t rotation, double radians, double alpha,
+                                                     size_t capacity, float *weights, aur_error *error)
+    AUR_NONNULL(1, 7);
+/* The mass of the mirror lobe at an angle (clamped to [0, pi/2]) and a roughness (clamped to the table's),
+ * interpolated likewise. */
+AUR_EXPERIMENTAL double aur_weight_table_mass(const aur_weight_table *table, double radians, double alpha)
+    AUR_NONNULL(1);
 
 /* --- the rivals: no system to solve */
 

@@ -82,13 +82,13 @@ static aur_result from_table(const study *s, uint64_t seed, rule *r, aur_error *
     const size_t rotation = seed % aur_weight_table_rotations(s->table);
     float weights[ALL];
     aur_result result =
-        aur_weight_table_points(s->table, s->radians, rotation, false, 3 * ALL, r->xyz, error);
+        aur_weight_table_points(s->table, s->radians, 0.0, rotation, false, 3 * ALL, r->xyz, error);
     for (size_t k = 0; k < 2 && result == AUR_OK; ++k) {
-        result = aur_weight_table_look_up(s->table, k, rotation, s->radians, ALL, weights, error);
+        result = aur_weight_table_look_up(s->table, k, rotation, s->radians, 0.0, ALL, weights, error);
         for (size_t i = 0; i < ALL && result == AUR_OK; ++i)
             r->weights[k][i] = (double)weights[i];
     }
-    r->visible = aur_weight_table_mass(s->table, s->radians) / whole_mass;
+    r->visible = aur_weight_table_mass(s->table, s->radians, 0.0) / whole_mass;
     return result;
 }
 
@@ -211,8 +211,12 @@ static aur_result study_set(study *s, aur_error *error) {
     static const double degrees[ANGLES] = {60.0, 75.0, 0.0, 30.0};
     const lab_options *const options = lab_run_options(s->run);
     const aur_oswa_options tabulated = pair(s, TABLE, 0);
-    aur_result result = aur_weight_table_build(&tabulated, 128, options->quick ? 4 : 16, options->threads,
-                                               &options->progress, &s->table, error);
+    const aur_weight_table_grid grid = {.size = sizeof grid,
+                                        .angle_count = 128,
+                                        .roughness_count = 1,
+                                        .rotation_count = options->quick ? 4 : 16};
+    aur_result result =
+        aur_weight_table_build(&tabulated, &grid, options->threads, &options->progress, &s->table, error);
     for (size_t d = 0; d < (options->quick ? 2 : ANGLES) && result == AUR_OK; ++d) {
         result = compare(s, degrees[d], false, error);
         if (result == AUR_OK)

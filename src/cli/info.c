@@ -147,6 +147,7 @@ static int describe_weight_table(const char *path, const info_options *options) 
     report_fact_number(facts, "regularization", o->weights->regularization);
     report_fact_text(facts, "sum", o->weights->sum_constraint ? "1" : "free");
     report_fact_number(facts, "angles", (double)aur_weight_table_angles(table));
+    report_fact_number(facts, "roughnesses", (double)aur_weight_table_roughnesses(table));
     report_fact_number(facts, "rotations", (double)aur_weight_table_rotations(table));
     aur_weight_table_destroy(table);
     return cli_finish(facts, options->common.format);

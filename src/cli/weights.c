@@ -61,13 +61,19 @@ static const cli_option options[] = {
               "draw the samples coloured by weight, .svg or .png (needs gnuplot)"),
      .content = "file"},
     {CLI_TEXT(cli_weights_arguments, table, "table", "FILE", NULL,
-              "build a table of OSWA weights for the two lobes, or read one with --lookup"),
+              "build a table of optimal weights for two lobes (oswa) or for one ggx lobe, or read one with "
+              "--lookup"),
      .content = "file"},
     {CLI_INTEGER(cli_weights_arguments, angles, "angles", "T", 2, 1 << 16, "64", "of the view in a table")},
+    {CLI_INTEGER(cli_weights_arguments, roughnesses, "roughnesses", "R", 1, 256, "1",
+                 "of a ggx lobe in a table, from its ALPHA to 1, evenly in logarithms")},
     {CLI_INTEGER(cli_weights_arguments, rotations, "rotations", "K", 1, 1 << 16, "16",
                  "of the patterns in a table")},
     {CLI_REAL(cli_weights_arguments, look_up_degrees, "lookup", "DEGREES", 0, 90, NULL,
               "write the samples and weights of a table at that angle of the view")},
+    {CLI_REAL(cli_weights_arguments, look_up_alpha, "roughness", "ALPHA", 1e-4, 1, "the table's least",
+              "that is looked up in a table of several"),
+     .key.computed = true},
     {CLI_INTEGER(cli_weights_arguments, rotation, "rotation", "K", 0, (1 << 16) - 1, "0",
                  "which rotation of the table is looked up")},
     {CLI_FLAG(cli_weights_arguments, mirrored, "mirrored", "the mirror image of what is looked up")},
@@ -84,8 +90,11 @@ static const char *broken_rule(const cli_call *call, const cli_weights_arguments
         return "--lobe2: the angle of the view is missing: give --angle DEGREES";
     if (two && arguments->points.options.domain == AUR_DOMAIN_SPHERE)
         return "--lobe2: two lobes are for the hemisphere";
-    if (arguments->table != NULL && !two)
-        return "--table: needs two lobes: give --lobe2";
+    const bool ggx = (two ? arguments->mirror : arguments->points.options.lobe).kind == AUR_LOBE_GGX;
+    if (arguments->table != NULL && !two && !ggx)
+        return "--table: needs two lobes, or one that is ggx: give --lobe2";
+    if (arguments->roughnesses > 1 && (arguments->table == NULL || !ggx))
+        return "--roughnesses: is for a --table of a ggx lobe";
     if (arguments->method == CLI_METHOD_OSWA && !two)
         return "--method oswa: needs two lobes: give --lobe2";
     const bool exact = arguments->method == CLI_METHOD_EXACT;

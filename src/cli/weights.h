@@ -29,8 +29,8 @@ typedef struct cli_weights_arguments {
     const char *method_name, *lobe_text, *mirror_text;
     cli_common common;
     const char *path, *plot, *table;
-    size_t angles, rotations;
-    double look_up_degrees;
+    size_t angles, roughnesses, rotations;
+    double look_up_degrees, look_up_alpha;
     size_t rotation;
     size_t degree; /* AUR_DEGREE_LARGEST: the largest */
     bool near, negative;
@@ -53,7 +53,7 @@ typedef struct cli_weights_result {
     double condition; /* 0: not known */
 } cli_weights_result;
 
-/* The two patterns that the options ask for. */
+/* The two patterns that the options ask for; of one lobe, the pattern of a ggx lobe alone. */
 aur_oswa_options cli_weights_oswa(const cli_weights_arguments *arguments);
 
 /* Each returns the exit status, after printing what went wrong. */

@@ -92,12 +92,13 @@ static aur_result load_one(weights_job *task, aur_error *error) {
 
 aur_oswa_options cli_weights_oswa(const cli_weights_arguments *arguments) {
     const aur_directions_options *const points = &arguments->points.options;
+    const bool two = arguments->two;
     return (aur_oswa_options){.size = sizeof(aur_oswa_options),
                               .set = arguments->source,
-                              .count = arguments->size,
+                              .count = two ? arguments->size : 0,
                               .mirror_count = arguments->mirror_size,
-                              .lobe = points->lobe,
-                              .mirror_lobe = arguments->mirror,
+                              .lobe = two ? points->lobe : (aur_lobe){.exponent = 0.0},
+                              .mirror_lobe = two ? arguments->mirror : points->lobe,
                               .optimal_density = points->optimal_density,
                               .clipped = arguments->clipped,
                               .map = points->map,

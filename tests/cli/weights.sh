@@ -109,6 +109,19 @@ paste -d, entry.csv image.csv | awk -F, 'NR > 1 && ($2 + $7 != 0 || $5 != $10) {
 [ "$(column described set) $(column described angles) $(column described rotations)" = "$sf 9 2" ] ||
   fail "info of a table: $(cat described)"
 
+# A ggx lobe alone, over roughness too: a look-up at a node is the solve of its samples, and sums stay 1 between.
+rough() { "$program" weights $sf -n 12 --lobe ggx:0.25 --roughnesses 3 --angles 7 --rotations 2 "$@"; }
+rough --table rough.table || exit 1
+rough --table rough.table --lookup 60 --roughness 0.5 --rotation 1 >rough.csv || exit 1
+[ "$(head -1 rough.csv)" = "x,y,z,w" ] || fail "header of one lobe's look-up: $(head -1 rough.csv)"
+cut -d, -f1-3 rough.csv >samples.csv
+"$program" weights samples.csv --lobe ggx:0.5:60 --method osw >solved.csv || exit 1
+paste -d, rough.csv solved.csv | awk -F, 'NR > 1 { d = $4 - $8; if (d < -1e-5 || d > 1e-5) exit 1 } END { exit NR != 13 }' ||
+  fail "a look-up at a roughness of the table is not the solve of its samples"
+"$program" weights --table rough.table --lookup 71 --roughness 0.7 |
+  awk -F, 'NR > 1 { s += $4; if ($3 < 0 && $4 != 0) exit 1 } END { exit !(s > 0.999999 && s < 1.000001) }' || fail "between roughnesses"
+[ "$("$program" info rough.table --format csv | tail -1 | tr , '\n' | grep -c "^3$")" = 1 ] || fail "info of roughnesses"
+
 if command -v gnuplot >/dev/null; then
   "$program" weights random -n 50 --lobe cosine --plot "it's.svg" || fail "plot"
   grep -q "</svg>" "it's.svg" || fail "no picture"
@@ -187,13 +200,17 @@ refused "90 degrees" doubled.csv --domain sphere --method voronoi
 refused "'spherical-fibonacci', not 'sobol'" sobol -n 16 --n2 8 --lobe cosine --lobe2 phong:20 --clip --table a.table --lookup 10
 refused "exponent of the mirror lobe: 20, not 21" $sf -n 16 --n2 8 --lobe cosine --lobe2 phong:21 --clip --table a.table --lookup 10
 refused "another clipping" $sf -n 16 --n2 8 --lobe cosine --lobe2 phong:20 --table a.table --lookup 10
-sed 's/^version 2$/version 9/' a.table >other.table
-refused "version 9; this program reads version 2" --table other.table --lookup 10
+sed 's/^version 3$/version 9/' a.table >other.table
+refused "version 9; this program reads version 3" --table other.table --lookup 10
 head -c -9 a.table >cut.table
 refused "damaged" --table cut.table --lookup 10
 refused "not a weight table" --table points.csv --lookup 10
 refused "rotations 0 to 1" --table a.table --lookup 10 --rotation 2
 refused "lookup" --table a.table --lookup 100
+refused "roughnesses from 0.25 to 1, not 0.2" --table rough.table --lookup 10 --roughness 0.2
+refused "one only, or none" --table a.table --lookup 10 --roughness 0.5
+refused "for a --table of a ggx lobe" $sf -n 8 --lobe cosine --lobe2 phong:20 --roughnesses 2 --table no.table
+refused "or one that is ggx" $sf -n 8 --lobe cosine --table no.table
 refused "table FILE" --lookup 10
 refused "cannot" --table nothing.table --lookup 10
 # Beyond memory: what it would take.

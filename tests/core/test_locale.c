@@ -100,7 +100,10 @@ static void saves_and_loads_weight_tables(void **state) {
                                       .lobe = {.exponent = 1},
                                       .mirror_lobe = {.exponent = 7.5}};
     aur_weight_table *table;
-    assert_int_equal(aur_weight_table_build(&options, 2, 1, 1, NULL, &table, &error), AUR_OK);
+    assert_int_equal(aur_weight_table_build(&options,
+                                            &(aur_weight_table_grid){sizeof(aur_weight_table_grid), 2, 1, 1},
+                                            1, NULL, &table, &error),
+                     AUR_OK);
     assert_int_equal(aur_weight_table_save(table, "table.wt", &error), AUR_OK);
     aur_weight_table_destroy(table);
     assert_true(file_contains("table.wt", "mirror_exponent 7.5\n"));

@@ -247,24 +247,28 @@ static void test_tables(void **state) {
     aur_oswa_options options = pair();
     float weights[SIZE];
     double xyz[3 * SIZE];
-    assert_int_equal(aur_weight_table_build(&options, 3, 2, 1, NULL, &table, NULL), AUR_OK);
+    assert_int_equal(aur_weight_table_build(&options,
+                                            &(aur_weight_table_grid){sizeof(aur_weight_table_grid), 3, 1, 2},
+                                            1, NULL, &table, NULL),
+                     AUR_OK);
     assert_int_equal(aur_weight_table_angles(table), 3);
+    assert_int_equal(aur_weight_table_roughnesses(table), 1);
     assert_int_equal(aur_weight_table_rotations(table), 2);
     const size_t rows = aur_weight_table_rows(table); /* two ends of at least one piece an interval */
     assert_true(rows >= 2 * 2 * (3 - 1) && rows % 2 == 0);
     assert_int_equal(aur_weight_table_options(table)->size, sizeof options);
     assert_true(aur_weight_table_options(table)->weights->regularization == AUR_REGULARIZATION_DEFAULT);
-    assert_int_equal(aur_weight_table_points(table, 0.5, 1, true, 3 * SIZE, xyz, NULL), AUR_OK);
-    assert_int_equal(aur_weight_table_look_up(table, 1, 1, 0.5, SIZE, weights, NULL), AUR_OK);
-    assert_true(aur_weight_table_mass(table, 0.5) > 0.0);
-    assert_refused(aur_weight_table_points(table, 0.5, 2, true, 3 * SIZE, xyz, &error), AUR_ERROR_ARGUMENT,
-                   &error);
-    assert_refused(aur_weight_table_points(table, 0.5, 1, true, 3 * SIZE - 1, xyz, &error),
+    assert_int_equal(aur_weight_table_points(table, 0.5, 0.0, 1, true, 3 * SIZE, xyz, NULL), AUR_OK);
+    assert_int_equal(aur_weight_table_look_up(table, 1, 1, 0.5, 0.0, SIZE, weights, NULL), AUR_OK);
+    assert_true(aur_weight_table_mass(table, 0.5, 0.0) > 0.0);
+    assert_refused(aur_weight_table_points(table, 0.5, 0.0, 2, true, 3 * SIZE, xyz, &error),
+                   AUR_ERROR_ARGUMENT, &error);
+    assert_refused(aur_weight_table_points(table, 0.5, 0.0, 1, true, 3 * SIZE - 1, xyz, &error),
                    AUR_ERROR_CAPACITY, &error);
-    assert_refused(aur_weight_table_look_up(table, 2, 1, 0.5, SIZE, weights, &error), AUR_ERROR_ARGUMENT,
+    assert_refused(aur_weight_table_look_up(table, 2, 1, 0.5, 0.0, SIZE, weights, &error), AUR_ERROR_ARGUMENT,
                    &error);
-    assert_refused(aur_weight_table_look_up(table, 1, 1, 0.5, SIZE - 1, weights, &error), AUR_ERROR_CAPACITY,
-                   &error);
+    assert_refused(aur_weight_table_look_up(table, 1, 1, 0.5, 0.0, SIZE - 1, weights, &error),
+                   AUR_ERROR_CAPACITY, &error);
     assert_int_equal(aur_weight_table_save(table, path, NULL), AUR_OK);
     assert_refused(aur_weight_table_save(table, "no-such-folder/table", &error), AUR_ERROR_WRITE, &error);
     aur_weight_table_destroy(table);
@@ -282,8 +286,10 @@ static void test_tables(void **state) {
     bad.weights = &(aur_weights_options){.size = sizeof(aur_weights_options), .regularization = 1e-3};
     assert_refused(aur_weight_table_load(path, &bad, &loaded, &error), AUR_ERROR_FORMAT, &error);
     assert_refused(aur_weight_table_load("no-such-table", NULL, &loaded, &error), AUR_ERROR_OPEN, &error);
-    assert_refused(aur_weight_table_build(&options, 1, 2, 1, NULL, &table, &error), AUR_ERROR_ARGUMENT,
-                   &error);
+    assert_refused(aur_weight_table_build(&options,
+                                          &(aur_weight_table_grid){sizeof(aur_weight_table_grid), 1, 1, 2}, 1,
+                                          NULL, &table, &error),
+                   AUR_ERROR_ARGUMENT, &error);
     assert_null(table);
     remove(path);
 }

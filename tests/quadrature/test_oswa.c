@@ -178,7 +178,11 @@ static void test_published_table(void **state) {
 static aur_weight_table *build(const aur_oswa_options *options, size_t angles, size_t rotations,
                                size_t threads) {
     aur_weight_table *table;
-    assert_int_equal(aur_weight_table_build(options, angles, rotations, threads, NULL, &table, NULL), AUR_OK);
+    assert_int_equal(
+        aur_weight_table_build(options,
+                               &(aur_weight_table_grid){sizeof(aur_weight_table_grid), angles, 1, rotations},
+                               threads, NULL, &table, NULL),
+        AUR_OK);
     return table;
 }
 
@@ -203,8 +207,8 @@ static void check_table(double m, int clipped, size_t angles) {
         assert_int_equal(aur_oswa_solve(oswa, node, turns, 2 * aur_oswa_size(oswa), exact, NULL, NULL),
                          AUR_OK);
         for (size_t lobe = 0; lobe < 2; ++lobe) {
-            assert_int_equal(aur_weight_table_look_up(table, lobe, 0, node, 96, found, NULL), AUR_OK);
-            assert_int_equal(aur_weight_table_look_up(again, lobe, 0, node, 96, other, NULL), AUR_OK);
+            assert_int_equal(aur_weight_table_look_up(table, lobe, 0, node, 0.0, 96, found, NULL), AUR_OK);
+            assert_int_equal(aur_weight_table_look_up(again, lobe, 0, node, 0.0, 96, other, NULL), AUR_OK);
             assert_memory_equal(found, other, sizeof found);
             double sum = 0.0;
             for (size_t k = 0; k < 96; ++k) {
@@ -217,7 +221,7 @@ static void check_table(double m, int clipped, size_t angles) {
         double errors[3], mass;
         assert_int_equal(aur_oswa_solve(oswa, angle, turns, 2 * aur_oswa_size(oswa), exact, &mass, NULL),
                          AUR_OK);
-        assert_int_equal(aur_weight_table_look_up(table, 1, 0, angle, 96, found, NULL), AUR_OK);
+        assert_int_equal(aur_weight_table_look_up(table, 1, 0, angle, 0.0, 96, found, NULL), AUR_OK);
         assert_int_equal(aur_oswa_points(oswa, angle, turns, false, 3 * aur_oswa_size(oswa), xyz, NULL),
                          AUR_OK);
         size_t visible = 0;
@@ -236,7 +240,7 @@ static void check_table(double m, int clipped, size_t angles) {
         aur_worst_case_error(96, xyz, exact + 96, glossy, 1, NULL, &errors[0], NULL);
         aur_worst_case_error(96, xyz, looked_up, glossy, 1, NULL, &errors[1], NULL);
         aur_worst_case_error(96, xyz, equal, glossy, 1, NULL, &errors[2], NULL);
-        assert_relative(aur_weight_table_mass(table, angle), mass, 2e-4);
+        assert_relative(aur_weight_table_mass(table, angle, 0.0), mass, 2e-4);
         optimal_total += errors[0];
         table_total += errors[1];
         equal_total += errors[2];
@@ -297,14 +301,16 @@ static void test_file(void **state) {
     for (size_t rotation = 0; rotation < 3; ++rotation) {
         float a[96], b[96];
         double first[3 * 96], second[3 * 96];
-        assert_int_equal(aur_weight_table_look_up(table, 1, rotation, 0.7, 96, a, NULL), AUR_OK);
-        assert_int_equal(aur_weight_table_look_up(loaded, 1, rotation, 0.7, 96, b, NULL), AUR_OK);
+        assert_int_equal(aur_weight_table_look_up(table, 1, rotation, 0.7, 0.0, 96, a, NULL), AUR_OK);
+        assert_int_equal(aur_weight_table_look_up(loaded, 1, rotation, 0.7, 0.0, 96, b, NULL), AUR_OK);
         assert_memory_equal(a, b, sizeof a);
-        assert_int_equal(aur_weight_table_points(table, 0.7, rotation, false, 3 * 96, first, NULL), AUR_OK);
-        assert_int_equal(aur_weight_table_points(loaded, 0.7, rotation, false, 3 * 96, second, NULL), AUR_OK);
+        assert_int_equal(aur_weight_table_points(table, 0.7, 0.0, rotation, false, 3 * 96, first, NULL),
+                         AUR_OK);
+        assert_int_equal(aur_weight_table_points(loaded, 0.7, 0.0, rotation, false, 3 * 96, second, NULL),
+                         AUR_OK);
         assert_memory_equal(first, second, sizeof first);
     }
-    assert_true(aur_weight_table_mass(loaded, 0.3) == aur_weight_table_mass(table, 0.3));
+    assert_true(aur_weight_table_mass(loaded, 0.3, 0.0) == aur_weight_table_mass(table, 0.3, 0.0));
     /* What is not in the table, and what does not fit, is refused. */
     const struct {
         size_t lobe, rotation, capacity;
@@ -320,14 +326,14 @@ static void test_file(void **state) {
         float found[96];
         double xyz[3 * 96];
         assert_int_equal(aur_weight_table_look_up(loaded, asked[i].lobe, asked[i].rotation, asked[i].radians,
-                                                  asked[i].capacity, found, &error),
+                                                  0.0, asked[i].capacity, found, &error),
                          asked[i].result);
         if (asked[i].lobe < 2)
-            assert_int_equal(aur_weight_table_points(loaded, asked[i].radians, asked[i].rotation, false,
+            assert_int_equal(aur_weight_table_points(loaded, asked[i].radians, 0.0, asked[i].rotation, false,
                                                      3 * asked[i].capacity, xyz, &error),
                              asked[i].result);
     }
-    assert_true(aur_weight_table_mass(loaded, 9.0) == aur_weight_table_mass(loaded, 0.5 * PI));
+    assert_true(aur_weight_table_mass(loaded, 9.0, 0.0) == aur_weight_table_mass(loaded, 0.5 * PI, 0.0));
     aur_weight_table_destroy(loaded);
     aur_weight_table_destroy(table);
 
@@ -352,12 +358,12 @@ static void test_file(void **state) {
     const size_t size = fread(data, 1, sizeof data, file);
     fclose(file);
     /* Another version. */
-    char *const version = strstr(data, "version 2");
+    char *const version = strstr(data, "version 3");
     version[8] = '7';
     write_file("other.table", data, size);
     assert_int_equal(aur_weight_table_load("other.table", NULL, &loaded, &error), AUR_ERROR_FORMAT);
-    assert_non_null(strstr(error.message, "version 7; this program reads version 2"));
-    version[8] = '2';
+    assert_non_null(strstr(error.message, "version 7; this program reads version 3"));
+    version[8] = '3';
     /* Any byte that is turned is noticed, and every length that is cut. */
     for (size_t i = 0; i < size; i += 397) {
         data[i] ^= 0x10;
@@ -389,21 +395,38 @@ static void test_build_errors(void **state) {
     aur_error error;
     size_t calls = 0;
     const aur_progress progress = {stop, &calls};
-    assert_int_equal(aur_weight_table_build(&options, 16, 1, 1, &progress, &table, &error),
+    assert_int_equal(aur_weight_table_build(&options,
+                                            &(aur_weight_table_grid){sizeof(aur_weight_table_grid), 16, 1, 1},
+                                            1, &progress, &table, &error),
                      AUR_ERROR_CANCELLED);
     assert_null(table);
     assert_int_equal(calls, 3);
-    assert_int_equal(aur_weight_table_build(&options, 1, 1, 1, NULL, &table, &error), AUR_ERROR_ARGUMENT);
-    assert_int_equal(aur_weight_table_build(&options, 16, 0, 1, NULL, &table, &error), AUR_ERROR_ARGUMENT);
+    assert_int_equal(aur_weight_table_build(&options,
+                                            &(aur_weight_table_grid){sizeof(aur_weight_table_grid), 1, 1, 1},
+                                            1, NULL, &table, &error),
+                     AUR_ERROR_ARGUMENT);
+    assert_int_equal(aur_weight_table_build(&options,
+                                            &(aur_weight_table_grid){sizeof(aur_weight_table_grid), 16, 1, 0},
+                                            1, NULL, &table, &error),
+                     AUR_ERROR_ARGUMENT);
     options.lobe = (aur_lobe){.kind = AUR_LOBE_GGX, .alpha = 0.5};
-    assert_int_equal(aur_weight_table_build(&options, 16, 1, 1, NULL, &table, &error), AUR_ERROR_UNSUPPORTED);
+    assert_int_equal(aur_weight_table_build(&options,
+                                            &(aur_weight_table_grid){sizeof(aur_weight_table_grid), 16, 1, 1},
+                                            1, NULL, &table, &error),
+                     AUR_ERROR_UNSUPPORTED);
     options = pair(20.0, 0);
     options.set = "sobl";
-    assert_int_equal(aur_weight_table_build(&options, 16, 1, 1, NULL, &table, &error), AUR_ERROR_NAME);
+    assert_int_equal(aur_weight_table_build(&options,
+                                            &(aur_weight_table_grid){sizeof(aur_weight_table_grid), 16, 1, 1},
+                                            1, NULL, &table, &error),
+                     AUR_ERROR_NAME);
     options = pair(20.0, 0);
     const aur_weights_options negative = {.size = sizeof negative, .regularization = -1.0};
     options.weights = &negative;
-    assert_int_equal(aur_weight_table_build(&options, 16, 1, 1, NULL, &table, &error), AUR_ERROR_ARGUMENT);
+    assert_int_equal(aur_weight_table_build(&options,
+                                            &(aur_weight_table_grid){sizeof(aur_weight_table_grid), 16, 1, 1},
+                                            1, NULL, &table, &error),
+                     AUR_ERROR_ARGUMENT);
     options = pair(20.0, 0);
     aur_oswa *oswa;
     double weights[2 * 96];

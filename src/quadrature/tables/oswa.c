@@ -2,7 +2,6 @@
  * clipped. */
 #include "quadrature/tables/oswa.h"
 
-#include <float.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -51,6 +50,8 @@ static aur_result create_pattern(aur_oswa *oswa, size_t which, bool solves, aur_
     const aur_oswa_options *const o = &oswa->options;
     const aur_lobe *const lobe = &oswa->lobe[which];
     const size_t n = oswa->count[which];
+    if (n == 0)
+        return AUR_OK;
     const bool whole = lobe->kind == AUR_LOBE_COSINE_POWER;
     oswa->sampled[which] = *lobe;
     aur_result result = AUR_OK;
@@ -90,10 +91,11 @@ static aur_result check(const aur_oswa_options *options, aur_error *error) {
     if (options->lobe.kind != AUR_LOBE_COSINE_POWER)
         return aur_fail(error, AUR_ERROR_UNSUPPORTED,
                         "the lobe about the normal must be uniform, cosine or phong:M");
-    if (options->count == 0 || options->mirror_count == 0)
-        return aur_fail(error, AUR_ERROR_ARGUMENT, "both lobes need at least one sample");
-    if (options->published_z.angle_count > 0 &&
-        (options->clipped || options->mirror_lobe.kind == AUR_LOBE_GGX))
+    const bool ggx = options->mirror_lobe.kind == AUR_LOBE_GGX;
+    if ((options->count == 0 && !ggx) || options->mirror_count == 0)
+        return aur_fail(error, AUR_ERROR_ARGUMENT,
+                        "both lobes need at least one sample; only a ggx lobe may stand alone");
+    if (options->published_z.angle_count > 0 && (options->clipped || ggx))
         return aur_fail(error, AUR_ERROR_UNSUPPORTED,
                         "the published table of z knows whole cos^m lobes only");
     return AUR_OK;
@@ -190,29 +192,33 @@ static void tilt(double radians, size_t count, double *xyz) {
     }
 }
 
-static aur_lobe ggx_at(const aur_oswa *oswa, double radians) {
-    aur_lobe lobe = oswa->lobe[1];
-    lobe.view_degrees = fmin(radians * 180.0 / AUR_PI, 89.99);
-    return lobe;
+aur_oswa_view aur_oswa_view_at(const aur_oswa *oswa, double radians) {
+    return (aur_oswa_view){radians, oswa->lobe[1].alpha};
+}
+
+static aur_lobe ggx_at(aur_oswa_view view) {
+    return (aur_lobe){.kind = AUR_LOBE_GGX,
+                      .alpha = view.alpha,
+                      .view_degrees = fmin(view.radians * 180.0 / AUR_PI, 89.99)};
 }
 
 /* Samples first .. first + count - 1 of the pattern about the mirror direction. */
-static void place_mirror(const aur_oswa *oswa, double radians, double turns, size_t first, size_t count,
+static void place_mirror(const aur_oswa *oswa, aur_oswa_view view, double turns, size_t first, size_t count,
                          double *xyz) {
     if (!is_ggx(oswa)) {
         turn(turns, count, oswa->pattern[1] + 3 * first, xyz);
-        tilt(radians, count, xyz);
+        tilt(view.radians, count, xyz);
         return;
     }
-    const aur_lobe lobe = ggx_at(oswa, radians);
+    const aur_lobe lobe = ggx_at(view);
     turn(turns, count, oswa->uniform[1] + 3 * first, xyz);
     for (size_t i = 0; i < count; ++i)
         aur_lobe_warp(&lobe, xyz + 3 * i, xyz + 3 * i);
 }
 
-static void place(const aur_oswa *oswa, double radians, const double turns[2], double *xyz) {
+static void place(const aur_oswa *oswa, aur_oswa_view view, const double turns[2], double *xyz) {
     turn(turns[0], oswa->count[0], oswa->pattern[0], xyz);
-    place_mirror(oswa, radians, turns[1], 0, oswa->count[1], xyz + 3 * oswa->count[0]);
+    place_mirror(oswa, view, turns[1], 0, oswa->count[1], xyz + 3 * oswa->count[0]);
 }
 
 void aur_oswa_turns(uint64_t seed, size_t rotation, double turns[2]) {
@@ -220,42 +226,47 @@ void aur_oswa_turns(uint64_t seed, size_t rotation, double turns[2]) {
         turns[which] = aur_unit_double(aur_hash4(UINT64_C(0x7475726e), seed, rotation, which));
 }
 
-double aur_oswa_height(const aur_oswa *oswa, double radians, double turns, size_t index) {
+double aur_oswa_height(const aur_oswa *oswa, aur_oswa_view view, double turns, size_t index) {
     double u[3];
-    place_mirror(oswa, radians, turns, index, 1, u);
+    place_mirror(oswa, view, turns, index, 1, u);
     return u[2];
 }
 
-void aur_oswa_visible(const aur_oswa *oswa, double radians, const double turns[2], double *xyz,
+void aur_oswa_visible(const aur_oswa *oswa, aur_oswa_view view, const double turns[2], double *xyz,
                       bool *visible) {
-    place(oswa, radians, turns, xyz);
+    place(oswa, view, turns, xyz);
     for (size_t i = 0; i < aur_oswa_size(oswa); ++i)
         visible[i] = !aur_oswa_hides(oswa) || xyz[3 * i + 2] >= 0.0;
 }
 
-aur_result aur_oswa_points(const aur_oswa *oswa, double radians, const double turns[2], bool mirrored,
-                           size_t capacity, double *xyz, aur_error *error) {
-    aur_result result = aur_check_angle(radians, error);
+aur_result aur_oswa_place(const aur_oswa *oswa, aur_oswa_view view, const double turns[2], bool mirrored,
+                          size_t capacity, double *xyz, aur_error *error) {
+    aur_result result = aur_check_angle(view.radians, error);
     if (result == AUR_OK)
         result = aur_check_capacity(3 * aur_oswa_size(oswa), capacity, error);
     if (result != AUR_OK)
         return result;
-    place(oswa, radians, turns, xyz);
+    place(oswa, view, turns, xyz);
     for (size_t i = 0; mirrored && i < aur_oswa_size(oswa); ++i)
         xyz[3 * i + 1] = -xyz[3 * i + 1];
     return AUR_OK;
 }
 
+aur_result aur_oswa_points(const aur_oswa *oswa, double radians, const double turns[2], bool mirrored,
+                           size_t capacity, double *xyz, aur_error *error) {
+    return aur_oswa_place(oswa, aur_oswa_view_at(oswa, radians), turns, mirrored, capacity, xyz, error);
+}
+
 /* --- solving */
 
-aur_result aur_oswa_angle_init(const aur_oswa *oswa, double radians, aur_oswa_angle *angle,
+aur_result aur_oswa_angle_init(const aur_oswa *oswa, aur_oswa_view view, aur_oswa_angle *angle,
                                aur_error *error) {
-    *angle = (aur_oswa_angle){.radians = radians};
-    aur_result result = aur_check_angle(radians, error);
+    *angle = (aur_oswa_angle){.view = view};
+    aur_result result = aur_check_angle(view.radians, error);
     if (result != AUR_OK)
         return result;
     if (is_ggx(oswa)) {
-        const aur_lobe lobe = ggx_at(oswa, radians);
+        const aur_lobe lobe = ggx_at(view);
         aur_density density = aur_density_default();
         result = aur_density_from_lobe(&lobe, AUR_DOMAIN_HEMISPHERE, &density, error);
         if (result == AUR_OK)
@@ -265,7 +276,7 @@ aur_result aur_oswa_angle_init(const aur_oswa *oswa, double radians, aur_oswa_an
     }
     angle->mass = oswa->whole[1]->mass;
     if (oswa->options.clipped) {
-        const double axis[3] = {-sin(radians), 0.0, fmax(0.0, cos(radians))};
+        const double axis[3] = {-sin(view.radians), 0.0, fmax(0.0, cos(view.radians))};
         aur_lune_init(&angle->lune, axis, oswa->lobe[1].exponent);
         angle->mass *= 1.0 - angle->lune.fraction;
     }
@@ -287,7 +298,7 @@ size_t aur_oswa_scratch(const aur_oswa *oswa) {
 static void fill_z(const aur_oswa *oswa, const aur_oswa_angle *angle, size_t which, const double *xyz,
                    double *cosines, double *z, double *mirror_z) {
     const size_t n = oswa->count[which];
-    const double axis[3] = {-sin(angle->radians), 0.0, cos(angle->radians)};
+    const double axis[3] = {-sin(angle->view.radians), 0.0, cos(angle->view.radians)};
     double *const other = which == 0 ? mirror_z : z;
     memcpy(which == 0 ? z : mirror_z, oswa->own[which], n * sizeof *z);
     for (size_t i = 0; i < n; ++i)
@@ -344,22 +355,36 @@ static size_t drop(size_t n, const bool *taken, double *matrix, double *right, s
  * leaves out by itself what is below the surface. */
 static aur_result solve_plainly(const aur_oswa *oswa, const aur_oswa_angle *angle, const double *xyz,
                                 double *weights, aur_error *error) {
-    const size_t n = aur_oswa_size(oswa);
+    const size_t n = aur_oswa_size(oswa), lobes = aur_oswa_lobes(oswa);
     aur_potential *mirror = angle->potential;
     aur_result result = AUR_OK;
     if (mirror == NULL) {
-        const aur_density density = {.size = sizeof density,
-                                     .axis = {-sin(angle->radians), 0.0, fmax(0.0, cos(angle->radians))},
-                                     .exponent = oswa->lobe[1].exponent,
-                                     .clipped = oswa->options.clipped};
+        const aur_density density = {
+            .size = sizeof density,
+            .axis = {-sin(angle->view.radians), 0.0, fmax(0.0, cos(angle->view.radians))},
+            .exponent = oswa->lobe[1].exponent,
+            .clipped = oswa->options.clipped};
         result = aur_potential_create(&density, oswa->options.smoothness, &mirror, error);
     }
     const aur_potential *const potentials[] = {oswa->whole[0], mirror};
     if (result == AUR_OK)
-        result = aur_weights_solve(n, xyz, 2, potentials, &oswa->weights, 2 * n, weights, NULL, NULL, error);
+        result = aur_weights_solve(n, xyz, lobes, potentials + 2 - lobes, &oswa->weights, lobes * n, weights,
+                                   NULL, NULL, error);
     if (mirror != angle->potential)
         aur_potential_destroy(mirror);
     return result;
+}
+
+/* At a crossing rounding may leave a sample just on the wrong side of the horizon. Where one that is left out
+ * stands has no meaning. */
+static void put_on_side(bool taken, double *direction) {
+    if (!taken) {
+        direction[0] = direction[1] = 0.0;
+        direction[2] = -1.0;
+    } else if (direction[2] < 0.0) {
+        direction[2] = 0.0;
+        aur_normalize3(direction);
+    }
 }
 
 aur_result aur_oswa_solve_at(const aur_oswa *oswa, const aur_oswa_angle *angle, const double turns[2],
@@ -370,10 +395,9 @@ aur_result aur_oswa_solve_at(const aur_oswa *oswa, const aur_oswa_angle *angle, 
     double *const columns = xyz + 3 * n;
     double *const right = columns + 3 * n;
     double *const cosines = right + 3 * n;
-    place(oswa, angle->radians, turns, xyz);
-    /* At a crossing rounding may leave a sample just on the wrong side of the horizon. */
+    place(oswa, angle->view, turns, xyz);
     for (size_t i = 0; i < n && aur_oswa_hides(oswa); ++i)
-        xyz[3 * i + 2] = taken[i] ? fmax(0.0, xyz[3 * i + 2]) : fmin(-DBL_MIN, xyz[3 * i + 2]);
+        put_on_side(taken[i], xyz + 3 * i);
     if (is_ggx(oswa))
         return solve_plainly(oswa, angle, xyz, weights, error);
     const size_t first = oswa->count[0];
@@ -402,16 +426,17 @@ aur_result aur_oswa_solve_at(const aur_oswa *oswa, const aur_oswa_angle *angle, 
 aur_result aur_oswa_solve(const aur_oswa *oswa, double radians, const double turns[2], size_t capacity,
                           double *weights, double *mass, aur_error *error) {
     const size_t n = aur_oswa_size(oswa), doubles = aur_oswa_scratch(oswa);
+    const aur_oswa_view view = aur_oswa_view_at(oswa, radians);
     aur_oswa_angle angle;
-    aur_result result = aur_check_capacity(2 * n, capacity, error);
+    aur_result result = aur_check_capacity(aur_oswa_lobes(oswa) * n, capacity, error);
     if (result == AUR_OK)
-        result = aur_oswa_angle_init(oswa, radians, &angle, error);
+        result = aur_oswa_angle_init(oswa, view, &angle, error);
     if (result != AUR_OK)
         return result;
     double *const scratch = malloc(doubles * sizeof *scratch + n * sizeof(bool));
     if (scratch != NULL) {
         bool *const visible = (bool *)(scratch + doubles);
-        aur_oswa_visible(oswa, radians, turns, scratch, visible);
+        aur_oswa_visible(oswa, view, turns, scratch, visible);
         result = aur_oswa_solve_at(oswa, &angle, turns, visible, scratch, weights, error);
     } else {
         result = aur_fail_memory(error);

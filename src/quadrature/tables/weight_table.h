@@ -10,20 +10,22 @@ typedef void aur_weight_blend(size_t count, const float *below, const float *abo
                               float *target);
 aur_weight_blend aur_weight_blend_portable, aur_weight_blend_avx2, aur_weight_blend_avx512;
 
-/* A row holds the weights of both lobes at one angle. Where samples can be hidden, the intervals between
- * angles are cut into pieces where a sample crosses the horizon, so that within a piece the same samples take
- * part and the weights are smooth; the two ends of a piece then have rows of their own. Otherwise
- * neighbouring intervals share one. */
+/* A row holds the weights of all lobes at one angle. Each rotation has rows of its own, at each roughness
+ * anew: a *slot* is one of these pairs, numbered roughness by roughness. Where samples can be hidden, the
+ * intervals between angles are cut into pieces where a sample crosses the horizon, so that within a piece the
+ * same samples take part and the weights are smooth; the two ends of a piece then have rows of their own.
+ * Otherwise neighbouring intervals share one. */
 struct aur_weight_table {
     aur_oswa *oswa; /* the patterns */
-    size_t angle_count, rotation_count, size;
+    size_t angle_count, roughness_count, rotation_count, size;
     bool apart;
     size_t piece_count;
-    /* Apart: the first piece of each interval, rotation by rotation, and one past the last. */
+    /* Apart: the first piece of each interval, slot by slot, and one past the last. */
     uint32_t *first;
     float *start;   /* apart: the angle where each piece begins */
     float *weights; /* row, lobe, sample */
-    /* Of the mirror lobe, at MASS_STEPS steps an interval: near the horizon it bends sharply. */
+    /* Of the mirror lobe, at MASS_STEPS steps an interval: near the horizon it bends sharply. A row of them
+     * for each roughness. */
     float *masses;
     aur_weight_blend *blend; /* for the instructions of this machine */
 };
@@ -34,27 +36,39 @@ static inline size_t aur_weight_table_mass_count(const aur_weight_table *table) 
     return (table->angle_count - 1) * AUR_WEIGHT_TABLE_MASS_STEPS + 1;
 }
 
-static inline size_t aur_weight_table_intervals(const aur_weight_table *table) {
-    return table->rotation_count * (table->angle_count - 1);
+static inline size_t aur_weight_table_slots(const aur_weight_table *table) {
+    return table->roughness_count * table->rotation_count;
 }
+
+static inline size_t aur_weight_table_intervals(const aur_weight_table *table) {
+    return aur_weight_table_slots(table) * (table->angle_count - 1);
+}
+
+/* The numbers of a row. */
+static inline size_t aur_weight_table_width(const aur_weight_table *table) {
+    return aur_oswa_lobes(table->oswa) * table->size;
+}
+
+/* The view at an angle and at a roughness of the table. */
+aur_oswa_view aur_weight_table_view(const aur_weight_table *table, size_t roughness, double radians);
 
 static inline double aur_weight_table_angle(const aur_weight_table *table, size_t index) {
     return 0.5 * AUR_PI * (double)index / (double)(table->angle_count - 1);
 }
 
-/* The weights of the first lobe and, behind them, of the mirror lobe. */
+/* The weights of the first lobe, where it has samples, and, behind them, of the mirror lobe. */
 static inline float *aur_weight_table_row(const aur_weight_table *table, size_t row) {
-    return table->weights + 2 * row * table->size;
+    return table->weights + row * aur_weight_table_width(table);
 }
 
 /* The row r at the lower end of where an angle (clamped to [0, pi/2]) lies; the weights there are (1 - *part)
- * times row r plus *part times row r + 1. `rotation` must be in the table. Exported for the renderer, but no
+ * times row r plus *part times row r + 1. `slot` must be in the table. Exported for the renderer, but no
  * part of the interface. */
-AUR_API size_t aur_weight_table_locate(const aur_weight_table *table, size_t rotation, float radians,
+AUR_API size_t aur_weight_table_locate(const aur_weight_table *table, size_t slot, float radians,
                                        float *part);
 
 /* A table with patterns but neither pieces nor weights yet; `solves` as for aur_oswa_create_for. */
-aur_result aur_weight_table_create(const aur_oswa_options *options, size_t angle_count, size_t rotation_count,
+aur_result aur_weight_table_create(const aur_oswa_options *options, const aur_weight_table_grid *grid,
                                    bool solves, aur_weight_table **table, aur_error *error);
 /* Whether the machine has memory for the weights, once piece_count is known, and taking it. */
 aur_result aur_weight_table_check_memory(const aur_weight_table *table, aur_error *error);

@@ -10,7 +10,7 @@
 #include "core/text.h"
 #include "quadrature/tables/weight_table.h"
 
-enum { VERSION = 2, HEADER_CAPACITY = 4096, VALUE_CAPACITY = 64, HASH_BYTES = 8 };
+enum { VERSION = 3, HEADER_CAPACITY = 4096, VALUE_CAPACITY = 64, HASH_BYTES = 8 };
 
 static const char magic[] = "aureole weight table\n", header_end[] = "end\n";
 static const size_t file_limit = (size_t)1 << 34;
@@ -53,7 +53,7 @@ uint64_t aur_weight_table_check_sum(const char *data, size_t size) {
 /* --- the header */
 
 typedef struct header {
-    uint64_t version, angles, rotations, pieces;
+    uint64_t version, angles, roughnesses, rotations, pieces;
     aur_oswa_options options;
     aur_weights_options weights;
     const char *patterns; /* a hash of the directions, in hexadecimal digits */
@@ -90,6 +90,7 @@ static const header_line lines[] = {
     {"regularization", "regularisation", REAL, offsetof(header, weights.regularization), 8, 0},
     {"sum_constraint", "sum constraint", INTEGER, offsetof(header, weights.sum_constraint), 1, 1},
     {"angles", NULL, INTEGER, offsetof(header, angles), 8, 1 << 16},
+    {"roughnesses", NULL, INTEGER, offsetof(header, roughnesses), 8, 1 << 8},
     {"rotations", NULL, INTEGER, offsetof(header, rotations), 8, 1 << 16},
     {"pieces", NULL, INTEGER, offsetof(header, pieces), 8, UINT32_MAX},
     {"patterns", NULL, TEXT, offsetof(header, patterns), 0, 0},
@@ -150,15 +151,21 @@ static size_t print_header(const header *h, char text[HEADER_CAPACITY]) {
 /* How many words of four bytes stand behind a header; exact below 2^53. */
 static double word_count(const header *h) {
     const bool apart = h->options.clipped || h->options.mirror_lobe.kind == AUR_LOBE_GGX;
-    const double angles = (double)h->angles, rotations = (double)h->rotations, pieces = (double)h->pieces;
-    const double rows = apart ? 2.0 * pieces : rotations * angles;
-    const double masses = (angles - 1.0) * AUR_WEIGHT_TABLE_MASS_STEPS + 1.0;
-    return masses + (apart ? rotations * (angles - 1.0) + pieces : 0.0) +
-           2.0 * rows * (double)(h->options.count + h->options.mirror_count);
+    const double angles = (double)h->angles, pieces = (double)h->pieces;
+    const double slots = (double)h->roughnesses * (double)h->rotations;
+    const double rows = apart ? 2.0 * pieces : slots * angles;
+    const double masses = (double)h->roughnesses * ((angles - 1.0) * AUR_WEIGHT_TABLE_MASS_STEPS + 1.0);
+    const double lobes = h->options.count > 0 ? 2.0 : 1.0;
+    return masses + (apart ? slots * (angles - 1.0) + pieces : 0.0) +
+           lobes * rows * (double)(h->options.count + h->options.mirror_count);
+}
+
+static size_t mass_count(const aur_weight_table *table) {
+    return table->roughness_count * aur_weight_table_mass_count(table);
 }
 
 static size_t weight_count(const aur_weight_table *table) {
-    return 2 * table->size * aur_weight_table_rows(table);
+    return aur_weight_table_width(table) * aur_weight_table_rows(table);
 }
 
 /* --- writing */
@@ -170,6 +177,7 @@ aur_result aur_weight_table_save(const aur_weight_table *table, const char *path
     aur_format(patterns, sizeof patterns, "%016" PRIx64, aur_oswa_hash(table->oswa));
     const header h = {VERSION,
                       table->angle_count,
+                      table->roughness_count,
                       table->rotation_count,
                       table->piece_count,
                       table->oswa->options,
@@ -183,7 +191,7 @@ aur_result aur_weight_table_save(const aur_weight_table *table, const char *path
     if (data == NULL)
         return aur_fail_memory(error);
     memcpy(data, text, length);
-    unsigned char *target = put_floats(table->masses, aur_weight_table_mass_count(table), data + length);
+    unsigned char *target = put_floats(table->masses, mass_count(table), data + length);
     for (size_t i = 0; table->apart && i < aur_weight_table_intervals(table); ++i)
         target = put(table->first[i + 1] - table->first[i], 4, target);
     target = put_floats(table->start, table->piece_count, target);
@@ -320,7 +328,7 @@ static aur_result read_words(reader *in, size_t pieces, aur_weight_table *table)
     const aur_result result = aur_weight_table_allocate(table, in->error);
     if (result != AUR_OK)
         return result;
-    const char *source = get_floats(in->rest, aur_weight_table_mass_count(table), table->masses);
+    const char *source = get_floats(in->rest, mass_count(table), table->masses);
     if (table->apart)
         source = read_pieces(source, table);
     if (source == NULL)
@@ -343,8 +351,11 @@ static aur_result parse(reader *in, size_t size, const aur_oswa_options *expecte
     /* The size must fit before anything of that size is allocated. */
     if ((double)(size - (size_t)(in->rest - data)) != 4.0 * word_count(&h))
         return refuse(in, "the table is not of the size that it says");
-    result =
-        aur_weight_table_create(&h.options, (size_t)h.angles, (size_t)h.rotations, false, table, in->error);
+    const aur_weight_table_grid grid = {.size = sizeof grid,
+                                        .angle_count = (size_t)h.angles,
+                                        .roughness_count = (size_t)h.roughnesses,
+                                        .rotation_count = (size_t)h.rotations};
+    result = aur_weight_table_create(&h.options, &grid, false, table, in->error);
     if (result != AUR_OK)
         return result;
     char patterns[VALUE_CAPACITY];

@@ -57,7 +57,7 @@ static aur_result fill_directions(aur_merged_rule *rule, const aur_oswa_options 
         double angles[2];
         aur_oswa_turns(rule->seed, rotation, angles);
         result = rule->table != NULL
-                     ? aur_weight_table_points(rule->table, 0.0, rotation, false, 3 * size, xyz, error)
+                     ? aur_weight_table_points(rule->table, 0.0, 0.0, rotation, false, 3 * size, xyz, error)
                      : aur_oswa_points(rule->oswa, 0.0, angles, false, 3 * size, xyz, error);
         const double *u = xyz;
         for (size_t pattern = 0; pattern < 2 && result == AUR_OK; ++pattern)
@@ -114,10 +114,14 @@ static aur_result prepare(aur_merged_rule *rule, const aur_merged_rule_options *
                                          .regularization = options->regularization,
                                          .sum_constraint = options->method == AUR_WEIGHTS_OSWA};
     aur_oswa_options wanted = oswa_options(options, &weights);
+    const aur_weight_table_grid grid = {.size = sizeof grid,
+                                        .angle_count = angle_count(options->exponent),
+                                        .roughness_count = 1,
+                                        .rotation_count = options->pattern.rotations};
     aur_result result = AUR_OK;
     if (options->method == AUR_WEIGHTS_OSWA)
-        result = aur_weight_table_build(&wanted, angle_count(options->exponent), options->pattern.rotations,
-                                        options->threads, &options->progress, &rule->table, error);
+        result =
+            aur_weight_table_build(&wanted, &grid, options->threads, &options->progress, &rule->table, error);
     if (options->method == AUR_WEIGHTS_SOLVE)
         wanted.published_z = (aur_z_grid){
             .angle_count = 64, .exponent_count = 32, .largest_exponent = fmax(1.0, options->exponent)};
@@ -187,7 +191,7 @@ static void look_up(const aur_merged_rule *rule, size_t rotation, size_t subset,
     const size_t row_size = 2 * samples * rule->subsets;
     const float *const below = rule->rows + row * row_size + subset * 2 * samples;
     rule->table->blend(2 * samples, below, below + row_size, part, weights);
-    const float mass = (float)aur_weight_table_mass(rule->table, (double)radians);
+    const float mass = (float)aur_weight_table_mass(rule->table, (double)radians, 0.0);
     for (size_t i = samples; i < 2 * samples; ++i)
         weights[i] *= mass;
 }
