@@ -70,8 +70,11 @@ def judge(name, pictures, mean, variance):
 
 def render(options, path, seed, out):
     """What the program says of a scene it refuses, or None; its picture is in `out`."""
+    with open(path, encoding="utf-8") as file:
+        integrator = "volpath" if "<medium" in file.read() else "path"
     run = subprocess.run([options.program, "render", path, "-q", "--sampler", "random", "--seed", str(seed), "--integrator",
-                          "path:max_depth=8", "-D", f"spp={SAMPLES}", "-o", out], capture_output=True, text=True, check=False)
+                          f"{integrator}:max_depth=8", "-D", f"spp={SAMPLES}", "-o", out],
+                         capture_output=True, text=True, check=False)
     return None if run.returncode == 0 else run.stderr.strip().splitlines()[0]
 
 

@@ -37,12 +37,13 @@ aur_result aur_ask_choose(const aur_scene *scene, const char *wanted, char **int
     if (wanted == NULL && has_its_own_picture(own->plugin))
         return AUR_OK;
     const char *const depth = wanted == NULL ? depth_of(own) : NULL;
-    const char *const text = wanted != NULL ? wanted : depth != NULL ? "path:max_depth=" : "path";
+    const char *const text = wanted != NULL ? wanted : aur_scene_has_media(scene) ? "volpath" : "path";
+    const char *const key = depth != NULL ? ":max_depth=" : "";
     const char *const more = wanted != NULL ? split_of(wanted) : depth != NULL ? depth : "";
-    const size_t capacity = strlen(text) + strlen(more) + 1;
+    const size_t capacity = strlen(text) + strlen(key) + strlen(more) + 1;
     *integrator = malloc(capacity);
     if (*integrator == NULL)
         return aur_fail_memory(error);
-    snprintf(*integrator, capacity, "%s%s", text, more);
+    snprintf(*integrator, capacity, "%s%s%s", text, key, more);
     return AUR_OK;
 }

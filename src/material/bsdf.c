@@ -151,6 +151,18 @@ bool aur_bsdf_draw(const aur_bsdf *bsdf, aur_bsdf_part part, aur_bsdf_point poin
                                : draw_lobe(bsdf, point, view, u, drawn);
 }
 
+aur_vector aur_bsdf_passed(const aur_bsdf *bsdf, aur_bsdf_point point, aur_vector view) {
+    aur_vector sum = {0};
+    if (!bsdf->passes)
+        return sum;
+    aur_bsdf_lobe lobes[AUR_BSDF_LOBE_CAPACITY];
+    const size_t count = aur_bsdf_lobes(bsdf, point, view, lobes);
+    for (size_t i = 0; i < count; ++i)
+        if (lobes[i].shape == AUR_LOBE_SHAPE_SPECULAR && lobes[i].way == AUR_LOBE_WAY_STRAIGHT)
+            sum = aur_vector_add(sum, lobes[i].coefficient);
+    return sum;
+}
+
 aur_vector aur_bsdf_diffuse_albedo(const aur_bsdf *bsdf, aur_bsdf_point point, float side) {
     const aur_bsdf_descriptor *const own = bsdf->descriptor;
     return own->diffuse_albedo != NULL ? own->diffuse_albedo(bsdf, point, side)

@@ -123,6 +123,7 @@ struct aur_bsdf {
     bool bumpy;                /* asks for a point's tangents, here or in a nested BSDF */
     unsigned attributes;       /* of meshes, that it asks for, here or in a nested BSDF */
     bool plain_diffuse;        /* nothing but diffuse reflection, the same at every point of a surface */
+    bool passes;               /* may let light straight through */
 };
 
 extern const aur_table aur_bsdf_table;
@@ -149,6 +150,8 @@ aur_vector aur_bsdf_evaluate(const aur_bsdf *bsdf, aur_bsdf_part part, aur_bsdf_
 /* u[0] chooses among lobes, u[1], u[2] a direction; false when the sample is absorbed. */
 bool aur_bsdf_draw(const aur_bsdf *bsdf, aur_bsdf_part part, aur_bsdf_point point, aur_vector view,
                    const float u[3], aur_bsdf_sample *sample);
+/* The part of light that goes straight through, as if there were no surface, RGB. */
+aur_vector aur_bsdf_passed(const aur_bsdf *bsdf, aur_bsdf_point point, aur_vector view);
 /* The part of the diffuse reflectance that a photon's irradiance is multiplied by: radiance = E * albedo
  * / pi. `side` is the local z of the direction that it is seen from. */
 aur_vector aur_bsdf_diffuse_albedo(const aur_bsdf *bsdf, aur_bsdf_point point, float side);

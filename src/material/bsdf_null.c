@@ -52,7 +52,8 @@ const aur_bsdf aur_bsdf_nothing = {.descriptor = &aur_bsdf_null,
                                               .transmits = true}},
                                    .scatters = {AUR_SCATTERS_SPECULAR, AUR_SCATTERS_SPECULAR},
                                    .scatters_from_behind = true,
-                                   .transmits = true};
+                                   .transmits = true,
+                                   .passes = true};
 
 /* --- filters */
 

@@ -6,6 +6,7 @@
 #include "scene/emitter.h"
 #include "scene/filter.h"
 #include "scene/load/spectrum.h"
+#include "scene/medium.h"
 #include "scene/scene.h"
 #include "scene/sensor.h"
 #include "scene/shape.h"
@@ -20,6 +21,9 @@ static const aur_table *const tables[] = {
     &aur_shape_table,
     &aur_emitter_table,
     &aur_sensor_table,
+    &aur_medium_table,
+    &aur_phase_table,
+    &aur_volume_table,
     &aur_film_table,
     &aur_filter_table,
     &aur_sampler_table,

@@ -181,6 +181,12 @@ void aur_scene_destroy(aur_scene *scene) {
         aur_bsdf_destroy(scene->bsdfs[i]);
     for (size_t i = 0; i < scene->texture_count; ++i)
         aur_texture_destroy(scene->textures[i]);
+    for (size_t i = 0; i < scene->medium_count; ++i)
+        aur_medium_destroy(scene->media[i]);
+    for (size_t i = 0; i < scene->phase_count; ++i)
+        aur_phase_destroy(scene->phases[i]);
+    for (size_t i = 0; i < scene->volume_count; ++i)
+        aur_volume_destroy(scene->volumes[i]);
     for (size_t i = 0; i < scene->group_count; ++i) {
         free(scene->groups[i]->shapes);
         free(scene->groups[i]);
@@ -194,6 +200,9 @@ void aur_scene_destroy(aur_scene *scene) {
     free(scene->environments);
     free(scene->bsdfs);
     free(scene->textures);
+    free(scene->media);
+    free(scene->phases);
+    free(scene->volumes);
     free(scene->sampler);
     aur_distribution_release(&scene->lights);
     aur_parameters_release(&scene->integrator);

@@ -118,6 +118,26 @@ bool aur_light_emit(const aur_scene *scene, const float u[5], aur_ray *ray, aur_
 
 size_t aur_scene_emitter_count(const aur_scene *scene);
 
+/* --- media */
+
+typedef struct aur_medium aur_medium; /* scene/medium.h */
+
+bool aur_scene_has_media(const aur_scene *scene);
+/* The one that the camera stands in; NULL: none. */
+const aur_medium *aur_scene_camera_medium(const aur_scene *scene);
+/* What a ray that leaves a surface in `direction` is in: *medium, NULL for none, stays as it is where the
+ * shape bounds no medium. */
+void aur_surface_medium(const aur_scene *scene, const aur_surface *surface, aur_vector direction,
+                        const aur_medium **medium);
+/* How far the light of a sample goes through media to `reference`: without end from an environment, and from
+ * a light of one direction twice as far as the scene's sphere reaches, as in Mitsuba 3: else a fog without
+ * bounds would have no sun. */
+float aur_light_reach(const aur_scene *scene, const aur_light_sample *sample, aur_vector reference);
+/* An UNSUPPORTED error where the scene has media, with the place of the first: "WHAT takes no media". */
+aur_result aur_scene_refuse_media(const aur_scene *scene, const char *what, aur_error *error);
+/* A warning there. */
+void aur_scene_warn_of_media(const aur_scene *scene, const char *what, const aur_warnings *warnings);
+
 /* --- camera and film */
 
 /* A scene needs no camera unless it is rendered: a FORMAT error, with the place, where there is none. */

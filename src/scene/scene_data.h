@@ -4,6 +4,7 @@
 #include "scene/distribution.h"
 #include "scene/emitter.h"
 #include "scene/filter.h"
+#include "scene/medium.h"
 #include "scene/sensor.h"
 #include "scene/shape.h"
 #include "scene/xml/xml.h"
@@ -31,6 +32,12 @@ struct aur_scene {
     aur_bsdf **bsdfs;
     size_t texture_count, texture_capacity;
     aur_texture **textures;
+    size_t volume_count, volume_capacity;
+    aur_volume **volumes;
+    size_t phase_count, phase_capacity;
+    aur_phase **phases;
+    size_t medium_count, medium_capacity;
+    aur_medium **media;
     size_t shape_count, shape_capacity;
     aur_shape **shapes;
     size_t group_count, group_capacity;

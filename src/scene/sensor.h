@@ -33,6 +33,7 @@ struct aur_sensor {
     aur_fov_axis axis;
     float tangent; /* of half the field of view, along `axis` */
     float aperture_radius, focus_distance;
+    const struct aur_medium *medium; /* which it stands in; NULL: none */
 };
 
 extern const aur_table aur_sensor_table;

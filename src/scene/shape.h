@@ -55,13 +55,16 @@ struct aur_shape {
     const aur_bsdf *bsdf;
     uint32_t emitter; /* index of the light that the shape is, or AUR_NO_EMITTER */
     bool grouped;     /* belongs to a group: rays meet its instances only */
+    /* What lies inside and outside, where `bounds_media`; NULL: nothing. */
+    const aur_medium *interior, *exterior;
+    bool bounds_media;
 };
 
 /* The keys that every shape takes. */
 typedef struct aur_shape_keys {
     aur_transform to_world;
     bool flip_normals;
-    const aur_parameter *bsdf, *emitter; /* for the loader */
+    const aur_parameter *bsdf, *emitter, *interior, *exterior; /* for the loader */
 } aur_shape_keys;
 
 /* What every shape is made from. */

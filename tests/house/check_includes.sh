@@ -35,7 +35,7 @@ quadrature/exact quadrature/weights
 quadrature/potential quadrature/linear
 quadrature
 scene/load
-scene/shapes scene/lights scene/sensors
+scene/shapes scene/lights scene/sensors scene/media scene/phases scene/volumes
 scene
 scene/xml
 scene/rad

@@ -9,6 +9,12 @@ scenes=$2/bench/peers/plugins
 # 24 x 24 pixels of 64 samples: the noise of all of a picture is below 1 %, and 5 % is far beyond it.
 for scene in "$scenes"/*.xml; do
   name=$(basename "$scene" .xml)
+  if grep -q '<medium' "$scene"; then
+    "$aureole" render "$scene" -q --integrator volpath --spp 1 -o "$name.exr" || { echo "$name: volpath fails"; exit 1; }
+    "$aureole" render "$scene" -q --integrator finalgather -o "$name.exr" 2>refusal
+    [ $? = 2 ] && grep -q "finalgather' takes no media" refusal || { echo "$name: finalgather takes media"; exit 1; }
+    continue
+  fi
   for integrator in path finalgather; do
     "$aureole" render "$scene" -q --integrator $integrator --seed 3 -o "$name-$integrator.exr" ||
       { echo "$name: $integrator fails"; exit 1; }

@@ -220,7 +220,9 @@ static void warn(const work *w) {
 
 static aur_result run(work *w, aur_error *error) {
     const aur_irradiance_options *const o = w->options;
-    aur_result result = make_rules(w, error);
+    aur_result result = aur_scene_refuse_media(w->scene, "irradiance at sensors", error);
+    if (result == AUR_OK)
+        result = make_rules(w, error);
     if (result == AUR_OK)
         result = aur_path_prepare(&w->path, w->scene, error);
     if (result == AUR_OK)

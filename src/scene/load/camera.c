@@ -199,6 +199,9 @@ aur_result aur_build_sensor(aur_loader *self, aur_parameters *parameters, void *
     aur_result result = aur_loader_nested(self, parameters, "film", &inner);
     if (result == AUR_OK)
         result = aur_loader_nested(self, parameters, "sampler", &inner);
+    void *medium = NULL;
+    if (result == AUR_OK)
+        result = aur_loader_nested(self, parameters, "medium", &medium);
     if (result != AUR_OK)
         return result;
     scene->has_sensor = true;
@@ -208,7 +211,9 @@ aur_result aur_build_sensor(aur_loader *self, aur_parameters *parameters, void *
     if (result != AUR_OK)
         return result;
     warn_unused(self, parameters, row);
-    return aur_sensor_create(parameters, &scene->sensor, self->error);
+    result = aur_sensor_create(parameters, &scene->sensor, self->error);
+    scene->sensor.medium = medium;
+    return result;
 }
 
 /* <integrator type="moment">: what stands inside takes its place. */

@@ -1,4 +1,4 @@
-/* Materials, textures and lights. */
+/* Materials, textures, lights and media. */
 #include <stdlib.h>
 #include <string.h>
 
@@ -60,6 +60,10 @@ aur_result aur_build_emitter(aur_loader *self, aur_parameters *parameters, void 
     aur_result result = resolve_filename(self, parameters);
     if (result == AUR_OK)
         result = aur_loader_reserve(self, &scene->emitters, scene->emitter_count, &scene->emitter_capacity);
+    /* What a light stands in matters to paths that begin at lights: there are none where media are. */
+    void *medium = NULL;
+    if (result == AUR_OK)
+        result = aur_loader_nested(self, parameters, "medium", &medium);
     aur_emitter **const made = scene->emitters + scene->emitter_count;
     if (result == AUR_OK)
         result = aur_emitter_create(parameters, made, self->error);
@@ -67,5 +71,46 @@ aur_result aur_build_emitter(aur_loader *self, aur_parameters *parameters, void 
         return result;
     *object = *made;
     (*made)->index = (uint32_t)scene->emitter_count++;
+    return AUR_OK;
+}
+
+aur_result aur_build_volume(aur_loader *self, aur_parameters *parameters, void **object) {
+    aur_scene *const scene = self->scene;
+    aur_result result = resolve_filename(self, parameters);
+    if (result == AUR_OK)
+        result = aur_loader_reserve(self, &scene->volumes, scene->volume_count, &scene->volume_capacity);
+    aur_volume **const made = scene->volumes + scene->volume_count;
+    if (result == AUR_OK)
+        result = aur_volume_create(parameters, made, self->error);
+    if (result != AUR_OK)
+        return result;
+    *object = *made;
+    ++scene->volume_count;
+    return AUR_OK;
+}
+
+aur_result aur_build_phase(aur_loader *self, aur_parameters *parameters, void **object) {
+    aur_scene *const scene = self->scene;
+    aur_result result = aur_loader_reserve(self, &scene->phases, scene->phase_count, &scene->phase_capacity);
+    aur_phase **const made = scene->phases + scene->phase_count;
+    if (result == AUR_OK)
+        result = aur_phase_create(parameters, made, self->error);
+    if (result != AUR_OK)
+        return result;
+    *object = *made;
+    ++scene->phase_count;
+    return AUR_OK;
+}
+
+aur_result aur_build_medium(aur_loader *self, aur_parameters *parameters, void **object) {
+    aur_scene *const scene = self->scene;
+    aur_result result = aur_loader_reserve(self, &scene->media, scene->medium_count, &scene->medium_capacity);
+    aur_medium **const made = scene->media + scene->medium_count;
+    if (result == AUR_OK)
+        result = aur_medium_create(parameters, made, self->error);
+    if (result != AUR_OK)
+        return result;
+    *object = *made;
+    ++scene->medium_count;
     return AUR_OK;
 }

@@ -18,16 +18,26 @@ const aur_object_kind *aur_loader_find_kind(const aur_loader *self, const char *
     return NULL;
 }
 
-aur_result aur_loader_nested(aur_loader *self, aur_parameters *parameters, const char *kind, void **object) {
+/* The nested object of that name, which must be of that kind. */
+static aur_result find_nested(aur_loader *self, aur_parameters *parameters, const char *name,
+                              const char *kind, void **object) {
     *object = NULL;
-    const aur_parameter *const item = aur_parameters_find(parameters, kind);
+    const aur_parameter *const item = aur_parameters_find(parameters, name);
     if (item == NULL)
         return AUR_OK;
     if (item->kind != AUR_PARAMETER_OBJECT || strcmp(item->object_kind, kind) != 0)
         return aur_fail_at(self->error, item->location, AUR_ERROR_FORMAT, "%s '%s': '%s' must be a <%s>",
-                           parameters->kind, parameters->plugin, kind, kind);
+                           parameters->kind, parameters->plugin, name, kind);
     *object = (void *)(uintptr_t)item->object;
     return AUR_OK;
+}
+
+aur_result aur_loader_nested(aur_loader *self, aur_parameters *parameters, const char *kind, void **object) {
+    return find_nested(self, parameters, kind, kind, object);
+}
+
+aur_result aur_loader_medium(aur_loader *self, aur_parameters *parameters, const char *name, void **medium) {
+    return find_nested(self, parameters, name, "medium", medium);
 }
 
 aur_result aur_loader_reserve(aur_loader *self, void *array, size_t count, size_t *capacity) {
@@ -35,23 +45,29 @@ aur_result aur_loader_reserve(aur_loader *self, void *array, size_t count, size_
                                                                          : aur_fail_memory(self->error);
 }
 
-/* The name under which a nested object is asked for: a texture has a name of its own, any other object is
- * called by its kind and its number among its kind ("bsdf", "bsdf2", ...). */
+/* Whether a nested object goes by a name of its own: what it is for. */
+static bool has_own_name(const char *tag, const aur_parameters *parameters) {
+    return strcmp(tag, "texture") == 0 || strcmp(tag, "volume") == 0 ||
+           (strcmp(tag, "medium") == 0 && strcmp(parameters->kind, "shape") == 0);
+}
+
+/* The name under which a nested object is asked for: its own, or its kind and its number among its kind
+ * ("bsdf", "bsdf2", ...). */
 static aur_result nested_name(aur_loader *self, const aur_xml_node *child, const char *tag,
                               const aur_parameters *parameters, char *name, size_t capacity) {
     const char *given = aur_xml_attribute_value(child, "name");
-    const bool texture = strcmp(tag, "texture") == 0;
+    const bool named = has_own_name(tag, parameters);
     /* The one texture of a bumpmap may have any name. */
-    if (texture && strcmp(parameters->plugin, "bumpmap") == 0)
+    if (named && strcmp(parameters->plugin, "bumpmap") == 0)
         given = "texture";
-    if (texture && given == NULL)
-        return aur_xml_fail(child, self->error, "a texture inside an object needs a 'name': what it is for");
+    if (named && given == NULL)
+        return aur_xml_fail(child, self->error, "a %s inside an object needs a 'name': what it is for", tag);
     size_t count = 1;
     for (size_t i = 0; i < parameters->count; ++i)
         count += parameters->items[i].kind == AUR_PARAMETER_OBJECT &&
                  strcmp(parameters->items[i].object_kind, tag) == 0;
-    if (texture || count == 1)
-        snprintf(name, capacity, "%s", texture ? given : tag);
+    if (named || count == 1)
+        snprintf(name, capacity, "%s", named ? given : tag);
     else
         snprintf(name, capacity, "%s%zu", tag, count);
     return AUR_OK;
@@ -121,10 +137,10 @@ static aur_result collect(aur_loader *self, const aur_xml_node *node, aur_parame
         } else if (strcmp(child->tag, "ref") == 0 || aur_loader_find_kind(self, child->tag) != NULL) {
             result = add_nested(self, child, parameters);
         } else {
-            static const char *const names[] = {"integer", "float",      "boolean",  "string",    "point",
-                                                "vector",  "rgb",        "spectrum", "transform", "ref",
-                                                "bsdf",    "texture",    "emitter",  "film",      "rfilter",
-                                                "sampler", "integrator", "sensor",   "shape"};
+            static const char *const names[] = {
+                "integer",    "float",  "boolean", "string",  "point",   "vector", "rgb",     "spectrum",
+                "transform",  "ref",    "bsdf",    "texture", "emitter", "film",   "rfilter", "sampler",
+                "integrator", "sensor", "shape",   "medium",  "phase",   "volume"};
             result = aur_xml_fail_tag(child, sizeof names / sizeof names[0], names, self->error);
         }
         if (result != AUR_OK)

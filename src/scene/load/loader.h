@@ -39,11 +39,14 @@ aur_result aur_loader_find_target(aur_loader *self, aur_xml_node *child, aur_xml
 /* The nested object that is called by its kind, or NULL when it is absent. A texture may be given any name,
  * and a number or a string too: they are refused. */
 aur_result aur_loader_nested(aur_loader *self, aur_parameters *parameters, const char *kind, void **object);
+/* The same for a medium, which is called by what it is for. */
+aur_result aur_loader_medium(aur_loader *self, aur_parameters *parameters, const char *name, void **medium);
 /* Whether a <shape> of this type is made of others: a group or an instance. */
 bool aur_is_shape_of_shapes(const char *plugin);
 /* Makes room for one more pointer in one of the scene's arrays, `array` being its address. */
 aur_result aur_loader_reserve(aur_loader *self, void *array, size_t count, size_t *capacity);
 
 aur_object_builder aur_build_bsdf, aur_build_texture, aur_build_emitter, aur_build_shape;
+aur_object_builder aur_build_medium, aur_build_phase, aur_build_volume;
 aur_object_builder aur_build_film, aur_build_filter, aur_build_sampler, aur_build_sensor;
 aur_object_builder aur_build_integrator;

@@ -42,7 +42,9 @@ bool aur_xml_is_property(const char *tag) {
 static aur_spectrum_use use_of(const aur_parameters *parameters, const char *name) {
     if (strcmp(parameters->kind, "emitter") == 0)
         return AUR_SPECTRUM_EMITS;
-    return strcmp(name, "eta") == 0 || strcmp(name, "k") == 0 ? AUR_SPECTRUM_REFRACTS : AUR_SPECTRUM_REFLECTS;
+    return strcmp(name, "eta") == 0 || strcmp(name, "k") == 0 || strcmp(name, "sigma_t") == 0
+               ? AUR_SPECTRUM_REFRACTS
+               : AUR_SPECTRUM_REFLECTS;
 }
 
 static aur_result add_plain(const property *found, const aur_xml_node *node, aur_parameters *parameters,

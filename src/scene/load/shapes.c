@@ -147,6 +147,11 @@ aur_result aur_build_shape(aur_loader *self, aur_parameters *parameters, void **
     if (result == AUR_OK && emitter != NULL && emitter->shape != UINT32_MAX)
         result =
             aur_xml_fail(self->node, self->error, "the emitter of this shape already belongs to another one");
+    void *interior = NULL, *exterior = NULL;
+    if (result == AUR_OK)
+        result = aur_loader_medium(self, parameters, "interior", &interior);
+    if (result == AUR_OK)
+        result = aur_loader_medium(self, parameters, "exterior", &exterior);
     if (result == AUR_OK)
         result = aur_loader_reserve(self, &scene->shapes, scene->shape_count, &scene->shape_capacity);
     aur_shape **const made = scene->shapes + scene->shape_count;
@@ -156,6 +161,9 @@ aur_result aur_build_shape(aur_loader *self, aur_parameters *parameters, void **
         return result;
     *object = *made;
     (*made)->bsdf = bsdf;
+    (*made)->interior = interior;
+    (*made)->exterior = exterior;
+    (*made)->bounds_media = interior != NULL || exterior != NULL;
     (*made)->index = (uint32_t)scene->shape_count++;
     if (emitter != NULL) {
         emitter->shape = (*made)->index;

@@ -8,6 +8,7 @@ static const aur_object_kind kinds[] = {
     {"shape", aur_build_shape},     {"bsdf", aur_build_bsdf},       {"texture", aur_build_texture},
     {"emitter", aur_build_emitter}, {"sensor", aur_build_sensor},   {"film", aur_build_film},
     {"rfilter", aur_build_filter},  {"sampler", aur_build_sampler}, {"integrator", aur_build_integrator},
+    {"medium", aur_build_medium},   {"phase", aur_build_phase},     {"volume", aur_build_volume},
 };
 
 /* Whether a child of <scene> is a part of something else: it is built when that refers to it. */
@@ -20,9 +21,9 @@ static bool is_part(const aur_xml_node *node) {
 }
 
 static aur_result build_top(aur_loader *self, aur_xml_node *node) {
-    static const char *const names[] = {"integrator", "sensor", "shape",   "bsdf",   "emitter",
-                                        "texture",    "film",   "default", "alias",  "include",
-                                        "path",       "ref",    "rfilter", "sampler"};
+    static const char *const names[] = {"integrator", "sensor",  "shape",  "bsdf",    "emitter", "texture",
+                                        "film",       "default", "alias",  "include", "path",    "ref",
+                                        "rfilter",    "sampler", "medium", "phase",   "volume"};
     if (is_part(node))
         return aur_xml_attribute_value(node, "id") != NULL
                    ? AUR_OK
@@ -59,11 +60,10 @@ static const aur_table *table_of(const aur_xml_node *node, const char *plugin) {
     const struct {
         const char *tag;
         const aur_table *table;
-    } tables[] = {{"bsdf", &aur_bsdf_table},
-                  {"texture", &aur_texture_table},
-                  {"shape", &aur_shape_table},
-                  {"emitter", &aur_emitter_table},
-                  {"sensor", &aur_sensor_table}};
+    } tables[] = {{"bsdf", &aur_bsdf_table},     {"texture", &aur_texture_table},
+                  {"shape", &aur_shape_table},   {"emitter", &aur_emitter_table},
+                  {"sensor", &aur_sensor_table}, {"medium", &aur_medium_table},
+                  {"phase", &aur_phase_table},   {"volume", &aur_volume_table}};
     if (strcmp(node->tag, "shape") == 0 && aur_is_shape_of_shapes(plugin))
         return NULL;
     for (size_t i = 0; i < sizeof tables / sizeof tables[0]; ++i)

@@ -16,7 +16,7 @@ static const aur_row *const rows[] = {SENSORS(ADDRESS)};
 typedef struct sensor_keys {
     aur_transform to_world;
     double near_clip, far_clip;
-    const aur_parameter *film, *sampler; /* for the loader */
+    const aur_parameter *film, *sampler, *medium; /* for the loader */
 } sensor_keys;
 
 static const aur_key common_keys[] = {
@@ -27,6 +27,7 @@ static const aur_key common_keys[] = {
     {AUR_KEY_OF_ITEM(sensor_keys, "film", film, NULL, "size and filter of the picture", "film")},
     {AUR_KEY_OF_ITEM(sensor_keys, "sampler", sampler, NULL, "the numbers of the camera's samples",
                      "sampler")},
+    {AUR_KEY_OF_ITEM(sensor_keys, "medium", medium, NULL, "what it stands in", "medium")},
     {AUR_KEY_READ_APART(AUR_KEY_REAL, "shutter_open", NULL, "of no effect: nothing moves"),
      .maximum = INFINITY},
     {AUR_KEY_READ_APART(AUR_KEY_REAL, "shutter_close", NULL, "of no effect: nothing moves"),

@@ -465,12 +465,7 @@ void aur_xml_release(aur_xml_document *document) {
 
 aur_result aur_xml_fail_tag(const aur_xml_node *node, size_t count, const char *const *names,
                             aur_error *error) {
-    static const char *const refused[] = {"medium", "phase", "volume"};
     char hint[AUR_HINT_CAPACITY];
-    for (size_t i = 0; i < 3; ++i)
-        if (strcmp(node->tag, refused[i]) == 0)
-            return aur_fail_at(error, node->location, AUR_ERROR_UNSUPPORTED,
-                               "<%s>: Aureole renders surfaces only, no participating media", node->tag);
     return aur_fail_at(error, node->location, AUR_ERROR_NAME, "unknown element <%s>%s", node->tag,
                        aur_names_hint(aur_names_of(count, names), node->tag, "<>", hint));
 }

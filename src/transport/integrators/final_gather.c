@@ -162,6 +162,8 @@ static aur_result create(aur_parameters *parameters, const aur_integrator_contex
     p->rule.seed = aur_hash2(context->seed, p->rule.seed);
     p->rule.warnings = context->warnings;
     if (result == AUR_OK)
+        result = aur_scene_refuse_media(context->scene, "integrator 'finalgather'", error);
+    if (result == AUR_OK)
         result = aur_gather_rule_options_name(&p->rule, "finalgather", p->map, p->scramble, error);
     if (result != AUR_OK)
         return result;

@@ -6,6 +6,8 @@
 
 #define INTEGRATORS(ROW)                                                                                     \
     ROW(path)                                                                                                \
+    ROW(volpath)                                                                                             \
+    ROW(volpathmis)                                                                                          \
     ROW(final_gather)                                                                                        \
     ROW(ambient_occlusion)                                                                                   \
     ROW(direct)                                                                                              \

@@ -25,6 +25,7 @@ static aur_result create(aur_parameters *parameters, const aur_integrator_contex
     if (aur_parameters_find(parameters, "strict_normals") != NULL)
         aur_warn_at(&context->warnings, parameters->location,
                     "integrator 'path': 'strict_normals' has no effect: it is always so");
+    aur_scene_warn_of_media(context->scene, "integrator 'path'", &context->warnings);
     if (data->interleaved && (!data->packets || data->hide_emitters))
         return aur_fail_at(error, parameters->location, AUR_ERROR_FORMAT,
                            "integrator 'path': 'interleaved' goes neither with 'packets=false' nor with "

@@ -196,7 +196,9 @@ static aur_result check_light(const aur_radiosity_scene *made, aur_error *error)
 aur_result aur_radiosity_scene_create(const aur_scene *scene, uint64_t variant, const aur_warnings *warnings,
                                       aur_radiosity_scene *made, aur_error *error) {
     *made = (aur_radiosity_scene){.scene = scene, .hash = UINT64_C(0x7261646973637631)};
-    aur_result result = aur_scene_check_triangles(scene, error);
+    aur_result result = aur_scene_refuse_media(scene, "radiosity", error);
+    if (result == AUR_OK)
+        result = aur_scene_check_triangles(scene, error);
     if (result != AUR_OK)
         return result;
     const size_t shapes = aur_scene_shape_count(scene);
