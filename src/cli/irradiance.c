@@ -5,7 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "cli/options.h"
+#include "cli/daylight.h"
 
 typedef enum illuminance { ILLUMINANCE_RADIANCE, ILLUMINANCE_REC709, ILLUMINANCE_PHOTOPIC } illuminance;
 
@@ -15,6 +15,7 @@ typedef struct irradiance_command {
     aur_irradiance_options estimate;
     aur_irradiance_columns columns;
     illuminance illuminance;
+    cli_daylight daylight;
     cli_definitions definitions;
     cli_common common;
 } irradiance_command;
@@ -52,7 +53,8 @@ static const cli_option options[] = {
     {CLI_TEXT(irradiance_command, estimate.set, "set", "SET", "spherical-fibonacci", "of the directions"),
      .content = "set"},
     {CLI_INTEGER(irradiance_command, estimate.directions, "directions", "N", 1, 1 << 28,
-                 "1024; with --error 2^20", "from each sensor; with --error at most so many"),
+                 "1024; with --error 2^20; with --weather 16384",
+                 "from each sensor; with --error at most so many"),
      .letter = 'n', .key.computed = true},
     {CLI_REAL(irradiance_command, estimate.error, "error", "E", 0, 1, NULL,
               "1% or .01: each sensor goes on until half of its interval is at most this part of its value"),
@@ -89,6 +91,23 @@ static void set_illuminance(irradiance_command *given) {
     given->columns.unit = "lux";
 }
 
+/* A year of weather takes what the estimate at one time was told. */
+static aur_result estimate_year(irradiance_command *given, const aur_scene *scene,
+                                const aur_sensors_view *sensors, aur_error *error) {
+    const aur_irradiance_options *const estimate = &given->estimate;
+    aur_daylight_options *const year = &given->daylight.options;
+    year->set = estimate->set;
+    year->directions = estimate->directions;
+    year->max_depth = estimate->max_depth;
+    year->seed = estimate->seed;
+    year->threads = estimate->threads;
+    year->progress = estimate->progress;
+    year->warnings = estimate->warnings;
+    memcpy(year->luminance, estimate->luminance, sizeof year->luminance);
+    return cli_daylight_run(&given->daylight, scene, sensors, given->output != NULL ? given->output : "-",
+                            given->format, given->common.quiet, error);
+}
+
 static aur_result estimate(const irradiance_command *given, const aur_scene *scene,
                            const aur_sensors_view *sensors, aur_error *error) {
     aur_irradiance *const results = calloc(sensors->count, sizeof *results);
@@ -118,6 +137,8 @@ static int run(const cli_call *call) {
     find_format(call, given);
     if (given->sensors == NULL)
         return cli_bad_usage("irradiance: the points are missing: --sensors POINTS");
+    if (!cli_daylight_check(call))
+        return 2;
     given->estimate.size = sizeof given->estimate;
     given->estimate.threads = given->common.threads;
     given->estimate.progress = cli_progress(given->common.quiet);
@@ -139,7 +160,9 @@ static int run(const cli_call *call) {
     if (result == AUR_OK)
         result = aur_scene_load(call->operands[0], &load, &scene, &error);
     if (result == AUR_OK)
-        result = estimate(given, scene, aur_sensors_look(sensors), &error);
+        result = given->daylight.weather != NULL
+                     ? estimate_year(given, scene, aur_sensors_look(sensors), &error)
+                     : estimate(given, scene, aur_sensors_look(sensors), &error);
     aur_scene_destroy(scene);
     aur_sensors_destroy(sensors);
     return cli_status(result, &error);
@@ -147,13 +170,14 @@ static int run(const cli_call *call) {
 
 const cli_verb cli_verb_irradiance = {
     .name = "irradiance",
-    .summary = "how much light arrives at points, with standard errors",
+    .summary = "how much light arrives at points, now or through a year, with standard errors",
     .notes = "The scene needs no camera. Values are in the scene's radiance times steradians; each has the "
              "standard error of 16 independent randomisations. See docs/lighting.md.",
     .too_few = "one scene is needed",
     .too_many = "one scene is needed",
     .operands = {{"SCENE", "a scene (.xml, .rad)", .content = "file"}},
     .groups = {{options, 0},
+               {cli_daylight_options, offsetof(irradiance_command, daylight)},
                {cli_definitions_option, offsetof(irradiance_command, definitions)},
                {cli_threads_option, offsetof(irradiance_command, common)},
                {cli_quiet_option, offsetof(irradiance_command, common)}},

@@ -41,6 +41,8 @@ typedef struct aur_emitter_descriptor {
     /* For environments only: the radiance from a direction, and the density with which `sample` draws it. */
     aur_vector (*radiance_from)(const aur_emitter *emitter, aur_vector direction);
     float (*pdf_from)(const aur_emitter *emitter, aur_vector direction);
+    /* For skies: where up and north are. */
+    const struct aur_sun_position *(*position_of)(const aur_emitter *emitter);
 } aur_emitter_descriptor;
 
 struct aur_emitter {

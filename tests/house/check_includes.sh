@@ -11,6 +11,7 @@ lab
 report
 ask
 render
+lighting/daylight
 lighting/irradiance
 lighting
 transport/integrators

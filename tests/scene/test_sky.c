@@ -58,6 +58,13 @@ static void integrals_agree(void **state) {
     const aur_sky_model uniform = aur_sky_model_uniform(), overcast = aur_sky_model_overcast();
     assert_relative(aur_sky_model_irradiance(&uniform), AUR_PI, 1e-13);
     assert_relative(aur_sky_model_irradiance(&overcast), 7.0 / 3.0 * AUR_PI, 1e-13);
+    /* A low sun in very clear air, for which the b of Perez et al. is .02 and no bound at the horizon: it is
+     * 0. */
+    double low[3];
+    sun_at(3.0, low);
+    const aur_sky_model unbounded = aur_sky_model_perez(700.0, 20.0, 1367.0, low);
+    assert_true(unbounded.b == 0.0 && unbounded.a > -1.0);
+    assert_relative(irradiance_about_zenith(&unbounded), aur_sky_model_irradiance(&unbounded), 1e-8);
     static const double elevations[] = {0.0, 5.0, 37.0, 90.0};
     for (size_t k = 0; k < 4; ++k) {
         double sun[3];

@@ -168,54 +168,27 @@ static aur_result estimate_block(void *context, size_t index) {
 
 /* --- what is to be said of them */
 
-/* Counts sensors of one kind. */
-typedef struct oddity {
-    size_t count, first;
-    double most;
-} oddity;
-
-static void note(oddity *kind, size_t sensor, double measure) {
-    if (kind->count++ == 0)
-        kind->first = sensor;
-    kind->most = fmax(kind->most, measure);
-}
-
 static void warn(const work *w) {
     const size_t luminance = AUR_IRRADIANCE_CHANNELS - 1;
     const aur_irradiance_options *const o = w->options;
-    oddity on_surfaces = {0}, unlit = {0}, inside = {0}, unreached = {0};
+    aur_sensor_oddities odd = {0};
+    aur_sensor_oddity unreached = {0};
+    double worst = 0.0;
     for (size_t i = 0; i < w->sensors->count; ++i) {
         const aur_irradiance *const found = &w->results[i];
         const double value = found->value[AUR_IRRADIANCE_TOTAL][luminance];
-        if (found->on_surface)
-            note(&on_surfaces, i, 0.0);
-        if (found->dark > 0.5)
-            note(&inside, i, found->dark);
-        else if (!(value > 0.0))
-            note(&unlit, i, 0.0);
-        if (o->error > 0.0 && found->half_width[luminance] > o->error * value)
-            note(&unreached, i, value > 0.0 ? found->half_width[luminance] / value : INFINITY);
+        aur_sensor_note(i, found->on_surface, found->dark, value, &odd);
+        if (o->error > 0.0 && found->half_width[luminance] > o->error * value) {
+            aur_sensor_count(i, &unreached);
+            worst = fmax(worst, value > 0.0 ? found->half_width[luminance] / value : INFINITY);
+        }
     }
-    if (on_surfaces.count > 0 && w->sensors->file != NULL)
-        aur_warn_at(
-            &o->warnings, aur_sensor_location(w->sensors, on_surfaces.first),
-            "%zu of %zu sensors lie on surfaces (the first of them is sensor %zu): they look from just "
-            "above",
-            on_surfaces.count, w->sensors->count, on_surfaces.first);
-    if (inside.count > 0)
-        aur_warn_at(&o->warnings, aur_sensor_location(w->sensors, inside.first),
-                    "%zu of %zu sensors see mostly the black backs of surfaces (the first of them is sensor "
-                    "%zu): they stand inside of something, or look into it",
-                    inside.count, w->sensors->count, inside.first);
-    if (unlit.count > 0)
-        aur_warn_at(&o->warnings, aur_sensor_location(w->sensors, unlit.first),
-                    "%zu of %zu sensors see no light at all (the first of them is sensor %zu)", unlit.count,
-                    w->sensors->count, unlit.first);
+    aur_sensors_warn(w->sensors, &o->warnings, &odd);
     if (unreached.count > 0)
         aur_warn_at(&o->warnings, aur_sensor_location(w->sensors, unreached.first),
                     "%zu of %zu sensors did not reach the error with %zu directions (the first of them is "
                     "sensor %zu); the worst reached %.3g",
-                    unreached.count, w->sensors->count, o->directions, unreached.first, unreached.most);
+                    unreached.count, w->sensors->count, o->directions, unreached.first, worst);
 }
 
 static aur_result run(work *w, aur_error *error) {

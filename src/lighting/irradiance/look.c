@@ -88,6 +88,7 @@ static void set_rays(aur_path_group *g, const aur_sensor_rule *rule, size_t inde
         g->lanes.pdf[k] = z / AUR_PI_F;
     }
     g->alive = UINT16_MAX;
+    g->straight = UINT16_MAX;
     g->specular = 0;
 }
 
@@ -146,6 +147,11 @@ static void add_lights(aur_path_group *g, const aur_sensor_place *place, aur_loo
         const double seen = aur_has_lane(lit, k) - known[k];
         for (size_t c = 0; c < 3; ++c)
             look->sums[k][aur_has_lane(sky, k) ? SKY : DIRECT][c] += seen * light[k][c];
+        if (g->from_sky != NULL && aur_has_lane(lit, k) && aur_has_lane(sky, k)) {
+            const aur_vector found = {(float)light[k][0], (float)light[k][1], (float)light[k][2]};
+            g->from_sky(g->from_sky_user, k, aur_packet_ray(&g->shadows, k).direction,
+                        aur_vector_scale(found, 1.0f / AUR_PI_F), true);
+        }
     }
 }
 

@@ -32,6 +32,7 @@ typedef struct aur_look {
     uint64_t dark; /* directions that meet a surface from behind that scatters nothing there */
 } aur_look;
 
-/* Means over the directions of the rule. `level` stands for independent numbers. */
+/* Means over the directions of the rule. `level` stands for independent numbers. What group->from_sky is told
+ * of adds up to the irradiance of the sky times rule->count / pi. */
 void aur_sensor_look(aur_path_group *group, const aur_sensor_rule *rule, const aur_sensor_place *place,
                      uint32_t level, aur_look *look);

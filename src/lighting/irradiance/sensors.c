@@ -52,3 +52,23 @@ void aur_sensors_destroy(aur_sensors *sensors) {
 const aur_sensors_view *aur_sensors_look(const aur_sensors *sensors) {
     return &sensors->view;
 }
+
+void aur_sensors_warn(const aur_sensors_view *sensors, const aur_warnings *to,
+                      const aur_sensor_oddities *odd) {
+    const aur_sensor_oddity *const on_surfaces = &odd->on_surfaces, *const inside = &odd->inside;
+    if (on_surfaces->count > 0 && sensors->file != NULL)
+        aur_warn_at(
+            to, aur_sensor_location(sensors, on_surfaces->first),
+            "%zu of %zu sensors lie on surfaces (the first of them is sensor %zu): they look from just "
+            "above",
+            on_surfaces->count, sensors->count, on_surfaces->first);
+    if (inside->count > 0)
+        aur_warn_at(to, aur_sensor_location(sensors, inside->first),
+                    "%zu of %zu sensors see mostly the black backs of surfaces (the first of them is sensor "
+                    "%zu): they stand inside of something, or look into it",
+                    inside->count, sensors->count, inside->first);
+    if (odd->unlit.count > 0)
+        aur_warn_at(to, aur_sensor_location(sensors, odd->unlit.first),
+                    "%zu of %zu sensors see no light at all (the first of them is sensor %zu)",
+                    odd->unlit.count, sensors->count, odd->unlit.first);
+}

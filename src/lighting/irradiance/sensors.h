@@ -29,3 +29,34 @@ aur_result aur_sensors_take_mesh(const char *path, const aur_sensors_options *op
 /* `failure`, with the place, for the first sensor with a number that is not finite or a normal of length 0.
  */
 aur_result aur_sensors_check(const aur_sensors_view *sensors, aur_result failure, aur_error *error);
+
+/* --- what is to be said of sensors */
+
+/* Sensors of one kind: how many, and the first. */
+typedef struct aur_sensor_oddity {
+    size_t count, first;
+} aur_sensor_oddity;
+
+typedef struct aur_sensor_oddities {
+    aur_sensor_oddity on_surfaces, inside, unlit;
+} aur_sensor_oddities;
+
+static inline void aur_sensor_count(size_t sensor, aur_sensor_oddity *kind) {
+    if (kind->count++ == 0)
+        kind->first = sensor;
+}
+
+/* Sensors one after the other: `dark` is the share of directions that meet the black back of a surface. */
+static inline void aur_sensor_note(size_t sensor, bool on_surface, double dark, double light,
+                                   aur_sensor_oddities *odd) {
+    if (on_surface)
+        aur_sensor_count(sensor, &odd->on_surfaces);
+    if (dark > 0.5)
+        aur_sensor_count(sensor, &odd->inside);
+    else if (!(light > 0.0))
+        aur_sensor_count(sensor, &odd->unlit);
+}
+
+/* One warning for each kind that there is. */
+void aur_sensors_warn(const aur_sensors_view *sensors, const aur_warnings *to,
+                      const aur_sensor_oddities *odd);

@@ -125,11 +125,6 @@ static aur_result read_model(const sky_keys *p, aur_parameters *parameters, sky_
         p->direct_normal, p->diffuse_horizontal,
         is_given(parameters, "extraterrestrial") ? p->extraterrestrial : 1367.0 / (distance * distance),
         self->position.sun);
-    if (self->model.b > 0.0)
-        return aur_parameters_fail(parameters, error, AUR_ERROR_UNSUPPORTED,
-                                   "the model of Perez et al. has no bound at the horizon for these "
-                                   "irradiances: b is %g",
-                                   self->model.b);
     return AUR_OK;
 }
 
@@ -251,6 +246,10 @@ static aur_result prepare(aur_emitter *emitter, aur_error *error) {
     return result;
 }
 
+static const aur_sun_position *position_of(const aur_emitter *emitter) {
+    return &((const sky_light *)emitter->data)->position;
+}
+
 static float pdf_from(const aur_emitter *emitter, aur_vector direction) {
     const sky_light *const self = emitter->data;
     double local[3];
@@ -297,4 +296,5 @@ const aur_emitter_descriptor aur_emitter_sky = {
     .release = release,
     .radiance_from = radiance_from,
     .pdf_from = pdf_from,
+    .position_of = position_of,
 };

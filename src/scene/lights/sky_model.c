@@ -93,19 +93,28 @@ static const struct {
       {1.5000, -0.6426, 1.8564, 0.5636}}},
 };
 
-aur_sky_model aur_sky_model_perez(double direct_normal, double diffuse_horizontal, double extraterrestrial,
-                                  const double sun[3]) {
+aur_perez_conditions aur_perez_conditions_of(double direct_normal, double diffuse_horizontal,
+                                             double extraterrestrial, const double sun[3]) {
     const double zenith = acos(fmin(sun[2], 1.0)), cube = 1.041 * zenith * zenith * zenith;
-    const double clearness =
-        ((diffuse_horizontal + direct_normal) / diffuse_horizontal + cube) / (1.0 + cube);
     /* Kasten (1966) */
     const double air_mass = 1.0 / (cos(zenith) + 0.15 * pow(93.885 - zenith * 180.0 / AUR_PI, -1.253));
-    double brightness = fmin(fmax(diffuse_horizontal * air_mass / extraterrestrial, 0.01), 0.6);
-    if (clearness > 1.065 && clearness < 2.8)
-        brightness = fmax(brightness, 0.2);
-    size_t row = 0;
-    while (clearness >= perez_classes[row].below)
-        ++row;
+    aur_perez_conditions found = {
+        .zenith = zenith,
+        .clearness = ((diffuse_horizontal + direct_normal) / diffuse_horizontal + cube) / (1.0 + cube),
+        .brightness = fmin(fmax(diffuse_horizontal * air_mass / extraterrestrial, 0.01), 0.6)};
+    while (found.clearness >= perez_classes[found.category].below)
+        ++found.category;
+    return found;
+}
+
+aur_sky_model aur_sky_model_perez(double direct_normal, double diffuse_horizontal, double extraterrestrial,
+                                  const double sun[3]) {
+    const aur_perez_conditions found =
+        aur_perez_conditions_of(direct_normal, diffuse_horizontal, extraterrestrial, sun);
+    const double zenith = found.zenith;
+    const bool bright = found.clearness > 1.065 && found.clearness < 2.8;
+    const double brightness = bright ? fmax(found.brightness, 0.2) : found.brightness;
+    const size_t row = found.category;
     double value[5];
     for (size_t i = 0; i < 5; ++i) {
         const double *const x = perez_classes[row].of[i];
@@ -116,18 +125,24 @@ aur_sky_model aur_sky_model_perez(double direct_normal, double diffuse_horizonta
         value[2] = exp(pow(brightness * (x[0] + x[1] * zenith), x[2])) - x[3];
         value[3] = -exp(brightness * (y[0] + y[1] * zenith)) + y[2] + brightness * y[3];
     }
+    value[1] = fmin(value[1], 0.0);
     aur_sky_model sky = aur_sky_model_cie_of(value, sun);
     sky.offset = 0.0;
     return sky;
 }
 
+double aur_sky_model_gradation(const aur_sky_model *sky, double cosine) {
+    return 1.0 + sky->slope * cosine + (sky->a != 0.0 ? sky->a * exp(sky->b / fmax(cosine, 1e-12)) : 0.0);
+}
+
+double aur_sky_model_indicatrix(const aur_sky_model *sky, double angle) {
+    const double along = cos(angle);
+    return 1.0 + sky->c * (exp(sky->d * angle) - sky->offset) + sky->e * along * along;
+}
+
 /* By the cosine of the angle from the zenith and the angle from the sun. */
 static double radiance_at(const aur_sky_model *sky, double cosine, double angle) {
-    const double along = cos(angle);
-    const double gradation =
-        1.0 + sky->slope * cosine + (sky->a != 0.0 ? sky->a * exp(sky->b / fmax(cosine, 1e-12)) : 0.0);
-    const double indicatrix = 1.0 + sky->c * (exp(sky->d * angle) - sky->offset) + sky->e * along * along;
-    return fmax(gradation * indicatrix, 0.0);
+    return fmax(aur_sky_model_gradation(sky, cosine) * aur_sky_model_indicatrix(sky, angle), 0.0);
 }
 
 double aur_sky_model_radiance(const aur_sky_model *sky, const double direction[3]) {

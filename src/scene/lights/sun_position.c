@@ -21,45 +21,46 @@ static size_t read_fields(const char *text, char mark, size_t capacity, uint64_t
     return 0;
 }
 
-/* Whole days from noon of the first of January 2000 to that of the date (Gregorian; Fliegel and Van Flandern
- * 1968), or false for a day that there is not. */
-static bool days_since_2000(const uint64_t date[3], double *days) {
+unsigned aur_days_of_month(long year, unsigned month) {
     static const unsigned lengths[12] = {31, 28, 31, 30, 31, 30, 31, 31, 30, 31, 30, 31};
-    if (date[0] < 1950 || date[0] > 2050 || date[1] < 1 || date[1] > 12)
-        return false;
-    const long year = (long)date[0], month = (long)date[1], day = (long)date[2];
     const bool leap = year % 4 == 0 && (year % 100 != 0 || year % 400 == 0);
-    if (day < 1 || day > (long)lengths[month - 1] + (month == 2 && leap))
+    return lengths[month - 1] + (month == 2 && leap);
+}
+
+bool aur_days_since_2000(long year, unsigned month_of_year, unsigned day_of_month, double *days) {
+    if (year < 1950 || year > 2050 || month_of_year < 1 || month_of_year > 12 || day_of_month < 1 ||
+        day_of_month > aur_days_of_month(year, month_of_year))
         return false;
-    const long shift = (month - 14) / 12;
+    const long month = (long)month_of_year, day = (long)day_of_month, shift = (month - 14) / 12;
     const long julian = 1461 * (year + 4800 + shift) / 4 + 367 * (month - 2 - 12 * shift) / 12 -
                         3 * ((year + 4900 + shift) / 100) / 4 + day - 32075;
     *days = (double)(julian - 2451545);
     return true;
 }
 
-/* The sun by east, north and up, at a time in days since noon of the first of January 2000 (UTC). */
-static void locate(double days, double hours, const aur_sun_keys *keys, aur_sun_position *position) {
+double aur_sun_locate(double days, double hours, double latitude_degrees, double longitude_degrees,
+                      double sun[3]) {
     const double anomaly = (357.528 + 0.9856003 * days) / RADIAN;
     const double longitude =
         (280.460 + 0.9856474 * days + 1.915 * sin(anomaly) + 0.020 * sin(2.0 * anomaly)) / RADIAN;
     const double tilt = (23.439 - 0.0000004 * days) / RADIAN;
     const double ascension = atan2(cos(tilt) * sin(longitude), cos(longitude));
     const double declination = asin(sin(tilt) * sin(longitude));
-    const double sidereal = 15.0 * (6.697375 + 0.0657098242 * days + hours) + keys->longitude;
-    const double angle = sidereal / RADIAN - ascension, latitude = keys->latitude / RADIAN;
-    position->sun[0] = -cos(declination) * sin(angle);
-    position->sun[1] = sin(declination) * cos(latitude) - cos(declination) * sin(latitude) * cos(angle);
-    position->sun[2] = sin(declination) * sin(latitude) + cos(declination) * cos(latitude) * cos(angle);
-    aur_normalize3(position->sun);
-    position->solar_distance = 1.00014 - 0.01671 * cos(anomaly) - 0.00014 * cos(2.0 * anomaly);
+    const double sidereal = 15.0 * (6.697375 + 0.0657098242 * days + hours) + longitude_degrees;
+    const double angle = sidereal / RADIAN - ascension, latitude = latitude_degrees / RADIAN;
+    sun[0] = -cos(declination) * sin(angle);
+    sun[1] = sin(declination) * cos(latitude) - cos(declination) * sin(latitude) * cos(angle);
+    sun[2] = sin(declination) * sin(latitude) + cos(declination) * cos(latitude) * cos(angle);
+    aur_normalize3(sun);
+    return 1.00014 - 0.01671 * cos(anomaly) - 0.00014 * cos(2.0 * anomaly);
 }
 
 static aur_result read_time(const aur_sun_keys *keys, aur_parameters *parameters, aur_sun_position *position,
                             aur_error *error) {
     uint64_t date[3], clock[3] = {0};
     double days;
-    if (read_fields(keys->date, '-', 3, date) != 3 || !days_since_2000(date, &days))
+    if (read_fields(keys->date, '-', 3, date) != 3 ||
+        !aur_days_since_2000((long)date[0], (unsigned)date[1], (unsigned)date[2], &days))
         return aur_parameters_fail_value(parameters, aur_parameters_find(parameters, "date"),
                                          "a day as 2026-06-21, from 1950 to 2050", error);
     if (read_fields(keys->time, ':', 3, clock) < 2 || clock[0] > 23 || clock[1] > 59 || clock[2] > 59)
@@ -67,7 +68,8 @@ static aur_result read_time(const aur_sun_keys *keys, aur_parameters *parameters
                                          "a time as 14:30 or 14:30:00", error);
     const double hours =
         (double)clock[0] + (double)clock[1] / 60.0 + (double)clock[2] / 3600.0 - keys->timezone;
-    locate(days + (hours - 12.0) / 24.0, hours, keys, position);
+    position->solar_distance =
+        aur_sun_locate(days + (hours - 12.0) / 24.0, hours, keys->latitude, keys->longitude, position->sun);
     position->has_sun = true;
     if (position->sun[2] <= 0.0)
         return aur_parameters_fail(parameters, error, AUR_ERROR_FORMAT,

@@ -80,11 +80,15 @@ static void add_sky(aur_path_group *g, uint32_t lanes) {
         if (aur_vector_is_zero(sky))
             continue;
         const bool found = (g->specular >> k & 1u) == 0;
-        add_light(
-            g, k,
+        const float weight =
             found ? aur_power_heuristic(g->lanes.pdf[k], aur_environment_pdf_direct(g->scene, ray.direction))
-                  : 1.0f,
-            sky);
+                  : 1.0f;
+        add_light(g, k, weight, sky);
+        if (g->from_sky != NULL)
+            g->from_sky(
+                g->from_sky_user, k, ray.direction,
+                aur_vector_scale(aur_vector_multiply(aur_lane_vector(&g->lanes.throughput, k), sky), weight),
+                (g->straight >> k & 1u) != 0);
     }
 }
 
@@ -185,6 +189,15 @@ static uint32_t trace(aur_path_group *g, bool coherent) {
                                  &g->packet);
 }
 
+/* Of scenes that have no other light than environments. */
+static void tell_of_sky(aur_path_group *g, uint32_t lit) {
+    for (; lit != 0; lit &= lit - 1) {
+        const size_t k = aur_first_lane(lit);
+        g->from_sky(g->from_sky_user, k, aur_packet_ray(&g->shadows, k).direction,
+                    aur_lane_vector(&g->lanes.shadow, k), false);
+    }
+}
+
 /* Light straight from the lights. */
 static void add_direct(aur_path_group *g) {
     const uint32_t plain = g->plain;
@@ -204,6 +217,8 @@ static void add_direct(aur_path_group *g) {
     const uint32_t stopped = aur_scene_occluded16(
         g->scene, g->coherent ? AUR_EMBREE_COHERENT : AUR_EMBREE_INCOHERENT, &g->shadows);
     g->data->kernels->add(lanes, lit & ~stopped);
+    if (g->from_sky != NULL)
+        tell_of_sky(g, lit & ~stopped);
 }
 
 static void scatter(aur_path_group *g, bool roulette) {
@@ -254,6 +269,7 @@ void aur_path_group_scatter(aur_path_group *g, uint32_t depth) {
     else
         own_numbers(g, depth, g->alive != g->plain);
     g->coherent = are_parallel(g);
+    g->straight = 0;
     if (g->has_lights)
         add_direct(g);
     scatter(g, depth >= g->data->rr_depth);

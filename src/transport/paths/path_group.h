@@ -6,6 +6,9 @@
 #include "transport/packets/lanes.h"
 #include "transport/paths/path.h"
 
+/* Is told of light that a lane finds in the sky: from where, how much, and whether it came straight. */
+typedef void aur_path_sky(void *user, size_t lane, aur_vector direction, aur_vector light, bool straight);
+
 typedef struct aur_path_group {
     aur_path_lanes lanes;
     aur_packet packet, shadows;
@@ -20,6 +23,10 @@ typedef struct aur_path_group {
     /* By emitter, those that are below 0 shine on who meets them, as all do where this is NULL: the light of
      * the others is known. */
     const float *known;
+    /* Is told, beside the sums, of all that environments send, in scenes without another light; or NULL. */
+    aur_path_sky *from_sky;
+    void *from_sky_user;
+    uint32_t straight; /* lanes whose path nothing has scattered; who begins the paths sets it */
     aur_stream shared; /* interleaved: of all lanes */
     float ahead[AUR_STREAM_BLOCK][2];
     const aur_sampler *sampler;

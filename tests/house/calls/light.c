@@ -1,8 +1,8 @@
-/* Calls each function of image.h, scene.h, film.h, render.h, ask.h and radiosity.h, most of them with bad
- * input too.
+/* Calls each function of image.h, scene.h, film.h, render.h, ask.h, radiosity.h, irradiance.h and daylight.h,
+ * most of them with bad input too.
  */
 #include <aureole/ask.h>
-#include <aureole/irradiance.h>
+#include <aureole/daylight.h>
 #include <aureole/radiosity.h>
 #include <aureole/render.h>
 #include <aureole/view_factors.h>
@@ -246,6 +246,36 @@ static void irradiances(const aur_scene *scene) {
     aur_sensors_destroy(sensors);
 }
 
+/* A year of the same overcast hour, day and night. */
+static void years(const aur_scene *scene) {
+    static const double position[3] = {0.0, 0.0, 5.0}, normal[3] = {0.0, 0.0, 1.0};
+    static aur_weather_hour hours[8760];
+    aur_weather *weather = NULL;
+    refuse(aur_weather_read("no such folder/calls.epw", &weather, &error), AUR_ERROR_OPEN, &error);
+    aur_weather_destroy(weather);
+    for (int i = 0; i < 8760; ++i)
+        hours[i] = (aur_weather_hour){2001, 7, 1 + i / 24 % 28, 1 + i % 24, 0, 0.0, 100.0, 100.0, 10.0};
+    const aur_weather_view view = {.size = sizeof view, .count = 8760, .hours = hours};
+    const aur_sensors_view sensors = {
+        .size = sizeof sensors, .count = 1, .positions = position, .normals = normal};
+    aur_daylight_options options = aur_daylight_options_default();
+    aur_daylight result;
+    aur_daylight_summary summary = {.size = sizeof summary};
+    options.subdivision = 7;
+    refuse(aur_daylight_estimate(scene, &sensors, &view, &options, sizeof result, &result, &summary, &error),
+           AUR_ERROR_ARGUMENT, &error);
+    options.subdivision = 0;
+    options.directions = 64;
+    options.up[2] = 1.0;
+    accept(aur_daylight_estimate(scene, &sensors, &view, &options, sizeof result, &result, &summary, &error),
+           &error);
+    require(summary.hours == 3650 && result.value[AUR_DAYLIGHT_AUTONOMY] == 100.0, "aur_daylight_estimate");
+    accept(aur_daylight_write("calls.csv", "csv", &sensors, sizeof result, &result, &error), &error);
+    remove("calls.csv");
+    refuse(aur_daylight_write("calls.csv", "cvs", &sensors, sizeof result, &result, &error), AUR_ERROR_NAME,
+           &error);
+}
+
 static void view_factors(void) {
     static const double floor[] = {0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0};
     static const double ceiling[] = {0, 0, 1, 0, 1, 1, 1, 1, 1, 1, 0, 1};
@@ -262,6 +292,7 @@ int main(void) {
     asks(scene);
     radiosity_solutions(scene);
     irradiances(scene);
+    years(scene);
     aur_scene_destroy(scene);
     view_factors();
     return 0;

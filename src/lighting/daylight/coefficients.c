@@ -1,0 +1,83 @@
+#include "lighting/daylight/coefficients.h"
+
+#include <string.h>
+
+#include "core/random.h"
+#include "core/vector3d.h"
+#include "transport/packets/packet_rays.h"
+
+static void add_light(void *user, size_t lane, aur_vector direction, aur_vector light, bool straight) {
+    const aur_coefficients *const c = user;
+    const aur_sun_position *const frame = &c->sky->frame;
+    double world[3], rgb[3];
+    aur_vector_to_doubles(direction, world);
+    aur_vector_to_doubles(light, rgb);
+    double local[3] = {aur_dot3(world, frame->east), aur_dot3(world, frame->north),
+                       aur_dot3(world, frame->up)};
+    aur_normalize3(local);
+    const size_t patch = aur_sky_patches_find(c->patches, local);
+    const double value = aur_dot3(c->luminance, rgb) / (patch == 0 ? AUR_DAYLIGHT_GROUND : 1.0);
+    c->all[patch * AUR_DAYLIGHT_LANES + lane] += value;
+    if (!straight)
+        c->reflected[patch * AUR_DAYLIGHT_LANES + lane] += value;
+}
+
+void aur_coefficients_find(aur_path_group *group, const aur_sensor_rule *rule, const aur_sensor_place *place,
+                           const aur_coefficients *coefficients, aur_look *look) {
+    const size_t count = coefficients->patches->count * AUR_DAYLIGHT_LANES;
+    memset(coefficients->all, 0, count * sizeof *coefficients->all);
+    memset(coefficients->reflected, 0, count * sizeof *coefficients->reflected);
+    group->from_sky = add_light;
+    group->from_sky_user = (void *)(uintptr_t)coefficients;
+    aur_sensor_look(group, rule, place, 0, look);
+    const double scale = AUR_PI / (double)rule->count;
+    for (size_t i = 0; i < count; ++i) {
+        coefficients->all[i] *= scale;
+        coefficients->reflected[i] *= scale;
+    }
+}
+
+/* Sixteen rays to the disk of the sun: uniform by solid angle. */
+static void set_rays(aur_packet *packet, const aur_sensor_place *place, const double center[3],
+                     uint64_t hash) {
+    static const double RISE = 1.0816e-5; /* 1 - cosine of .2665 degrees */
+    double x[3], y[3];
+    aur_frame3(center, x, y);
+    for (size_t k = 0; k < AUR_DAYLIGHT_LANES; ++k) {
+        float u[3];
+        uint64_t state = aur_hash2(hash, k);
+        aur_draw_units(&state, u);
+        const double low = RISE * (double)u[0], radius = sqrt(low * (2.0 - low));
+        const double c = radius * cos(2.0 * AUR_PI * (double)u[1]);
+        const double s = radius * sin(2.0 * AUR_PI * (double)u[1]);
+        float way[3];
+        for (int d = 0; d < 3; ++d)
+            way[d] = (float)((1.0 - low) * center[d] + c * x[d] + s * y[d]);
+        const aur_ray ray = {place->position, 0.0f, {way[0], way[1], way[2]}, INFINITY};
+        aur_packet_set(packet, k, &ray);
+    }
+}
+
+void aur_sun_seen(aur_path_group *group, const aur_sensor_place *place, const aur_coefficients *coefficients,
+                  const aur_lit_hours *lit, double *seen) {
+    const aur_sun_position *const frame = &coefficients->sky->frame;
+    double normal[3];
+    aur_vector_to_doubles(place->frame.z, normal);
+    memset(seen, 0, lit->count * AUR_DAYLIGHT_LANES * sizeof *seen);
+    for (size_t i = 0; i < lit->count; ++i) {
+        const aur_lit_hour *const hour = &lit->hours[i];
+        double center[3];
+        for (int d = 0; d < 3; ++d)
+            center[d] =
+                hour->sun[0] * frame->east[d] + hour->sun[1] * frame->north[d] + hour->sun[2] * frame->up[d];
+        const double light = hour->direct * aur_dot3(center, normal);
+        if (!(light > 0.0))
+            continue;
+        set_rays(&group->shadows, place, center, aur_hash3(place->hash, 0x73756e, hour->hour));
+        aur_packet_set_lanes(&group->shadows, UINT16_MAX);
+        group->counters->rays += AUR_DAYLIGHT_LANES;
+        const uint32_t stopped = aur_scene_occluded16(group->scene, AUR_EMBREE_COHERENT, &group->shadows);
+        for (size_t k = 0; k < AUR_DAYLIGHT_LANES; ++k)
+            seen[i * AUR_DAYLIGHT_LANES + k] = aur_has_lane(stopped, k) ? 0.0 : light;
+    }
+}

@@ -1,0 +1,326 @@
+/* A year at all sensors: coefficients of each, times the radiances of the hours. */
+#include <aureole/daylight.h>
+#include <aureole/statistics.h>
+#include <math.h>
+#include <stdlib.h>
+
+#include "core/options.h"
+#include "core/parallel.h"
+#include "lighting/daylight/coefficients.h"
+#include "lighting/daylight/measures.h"
+#include "lighting/daylight/series.h"
+#include "lighting/irradiance/sensors.h"
+
+enum { LANES = AUR_DAYLIGHT_LANES, DEFAULT_DIRECTIONS = 16384, LIMIT = 1 << 28 };
+
+typedef struct work {
+    const aur_daylight_options *options;
+    const aur_sensors_view *sensors;
+    const aur_weather_view *weather;
+    aur_path path;
+    aur_sampler *sampler;
+    aur_sensor_rule rule;
+    aur_sky_patches patches;
+    aur_open_sky sky;
+    aur_lit_hours lit;
+    double *overcast; /* radiance of the patches for one lux outside */
+    double *series;   /* NULL: not asked for */
+    aur_daylight *results;
+} work;
+
+static bool is_zero(const double v[3]) {
+    return v[0] == 0.0 && v[1] == 0.0 && v[2] == 0.0;
+}
+
+static aur_result check_options(const aur_daylight_options *o, aur_error *error) {
+    if (o->directions > LIMIT)
+        return aur_fail(error, AUR_ERROR_ARGUMENT, "there must be 1 to %d directions, not %zu", LIMIT,
+                        o->directions);
+    if (o->subdivision > AUR_SKY_SUBDIVISION_MAX)
+        return aur_fail(error, AUR_ERROR_ARGUMENT, "the subdivision of patches must be 1 to %d, not %zu",
+                        AUR_SKY_SUBDIVISION_MAX, o->subdivision);
+    if (!(o->ground_albedo >= 0.0 && o->ground_albedo <= 1.0))
+        return aur_fail(error, AUR_ERROR_ARGUMENT, "the ground's albedo must be from 0 to 1, not %g",
+                        o->ground_albedo);
+    if (!(o->threshold > 0.0 && isfinite(o->threshold)))
+        return aur_fail(error, AUR_ERROR_ARGUMENT, "the threshold must be above 0 and finite, not %g",
+                        o->threshold);
+    if (!(o->useful[0] >= 0.0 && o->useful[1] > o->useful[0] && isfinite(o->useful[1])))
+        return aur_fail(error, AUR_ERROR_ARGUMENT,
+                        "useful illuminances must go from 0 or more to something larger, not from %g to %g",
+                        o->useful[0], o->useful[1]);
+    if (o->from < 0 || o->to > 24 || o->from >= o->to)
+        return aur_fail(error, AUR_ERROR_ARGUMENT,
+                        "hours that count must lie between 0 and 24 o'clock, not from %d to %d", o->from,
+                        o->to);
+    double sum = 0.0;
+    for (size_t c = 0; c < 3; ++c)
+        sum += o->luminance[c] >= 0.0 ? o->luminance[c] : NAN;
+    if (!(sum > 0.0 && isfinite(sum)))
+        return aur_fail(error, AUR_ERROR_ARGUMENT,
+                        "the weights of luminance must be finite and not negative");
+    return o->series != NULL ? aur_daylight_series_check(o->series, error) : AUR_OK;
+}
+
+static aur_result read_options(const aur_daylight_options *given, aur_daylight_options *o, aur_error *error) {
+    static const double REC709[3] = {0.2126, 0.7152, 0.0722};
+    *o = aur_daylight_options_default();
+    const aur_result result = aur_options_read(given, sizeof *o, sizeof *o, o, "aur_daylight_options", error);
+    if (result != AUR_OK)
+        return result;
+    if (o->set == NULL)
+        o->set = "spherical-fibonacci";
+    if (o->directions == 0)
+        o->directions = DEFAULT_DIRECTIONS;
+    if (o->subdivision == 0)
+        o->subdivision = 1;
+    if (o->no_ground)
+        o->ground_albedo = 0.0;
+    else if (o->ground_albedo == 0.0)
+        o->ground_albedo = 0.2;
+    if (o->threshold == 0.0)
+        o->threshold = 300.0;
+    if (o->useful[0] == 0.0 && o->useful[1] == 0.0) {
+        o->useful[0] = 100.0;
+        o->useful[1] = 3000.0;
+    }
+    if (o->from == 0 && o->to == 0) {
+        o->from = 8;
+        o->to = 18;
+    }
+    if (is_zero(o->luminance))
+        for (size_t c = 0; c < 3; ++c)
+            o->luminance[c] = REC709[c];
+    return check_options(o, error);
+}
+
+/* --- one sensor */
+
+/* What a thread needs for one sensor after the other. */
+typedef struct room {
+    double *memory;
+    aur_coefficients coefficients;
+    double *all, *sun; /* of the lit hours, rounded up to blocks */
+    double *scratch;
+} room;
+
+static bool make_room(const work *w, room *r) {
+    const size_t coefficients = w->patches.count * LANES, hours = aur_daylight_blocks(w->lit.count) * LANES;
+    r->memory = malloc((2 * coefficients + 2 * hours + 2 * w->lit.count + 1) * sizeof *r->memory);
+    if (r->memory == NULL)
+        return false;
+    const double *const weights = w->options->luminance, sum = weights[0] + weights[1] + weights[2];
+    r->coefficients = (aur_coefficients){.patches = &w->patches,
+                                         .sky = &w->sky,
+                                         .luminance = {weights[0] / sum, weights[1] / sum, weights[2] / sum},
+                                         .all = r->memory,
+                                         .reflected = r->memory + coefficients};
+    r->all = r->coefficients.reflected + coefficients;
+    r->sun = r->all + hours;
+    r->scratch = r->sun + hours;
+    return true;
+}
+
+/* The illuminances of all hours. */
+static void multiply(const work *w, const room *r) {
+    const aur_coefficients *const c = &r->coefficients;
+    aur_daylight_product_here()(aur_daylight_blocks(w->lit.count), w->patches.count, w->lit.radiance, c->all,
+                                r->all);
+    for (size_t i = 0; i < w->lit.count; ++i) {
+        const aur_lit_hour *const hour = &w->lit.hours[i];
+        const double angle = aur_sky_patch_angle(&w->patches, hour->patch);
+        const double *const reflected = c->reflected + hour->patch * LANES;
+        for (size_t k = 0; k < LANES; ++k)
+            r->all[i * LANES + k] += r->sun[i * LANES + k] + hour->direct / angle * reflected[k];
+    }
+}
+
+static void keep_series(const work *w, size_t sensor, const double *all) {
+    const size_t hours = w->weather->count;
+    double *const values = w->series + 2 * hours * sensor, *const errors = values + hours;
+    for (size_t h = 0; h < hours; ++h)
+        values[h] = errors[h] = w->lit.is_unknown[h] ? NAN : 0.0;
+    for (size_t i = 0; i < w->lit.count; ++i) {
+        aur_moments one = {0};
+        for (size_t k = 0; k < LANES; ++k)
+            aur_moments_add(&one, all[i * LANES + k]);
+        values[w->lit.hours[i].hour] = one.mean;
+        errors[w->lit.hours[i].hour] = aur_moments_standard_error(&one);
+    }
+}
+
+static void estimate_sensor(const work *w, aur_path_group *group, const room *r, size_t sensor) {
+    static const aur_closed_lights none = {0};
+    aur_sensor_place place;
+    aur_look look;
+    double overcast[LANES] = {0.0};
+    aur_sensor_place_create(w->sky.scene, &none, w->sensors->positions + 3 * sensor,
+                            w->sensors->normals + 3 * sensor, w->options->seed, NULL, &place);
+    aur_coefficients_find(group, &w->rule, &place, &r->coefficients, &look);
+    aur_sun_seen(group, &place, &r->coefficients, &w->lit, r->sun);
+    multiply(w, r);
+    for (size_t p = 0; p < w->patches.count; ++p)
+        for (size_t k = 0; k < LANES; ++k)
+            overcast[k] += w->overcast[p] * r->coefficients.all[p * LANES + k];
+    aur_daylight *const found = &w->results[sensor];
+    *found = (aur_daylight){.directions = w->rule.count * LANES, .on_surface = place.on_surface};
+    found->dark = (double)look.dark / (double)found->directions;
+    const aur_daylight_year year = {r->all, r->sun, overcast};
+    aur_daylight_measure_year(&w->lit, w->options, &year, r->scratch, found);
+    if (w->series != NULL)
+        keep_series(w, sensor, r->all);
+}
+
+enum { BLOCK = 4 }; /* sensors of a piece of work */
+
+static aur_result estimate_block(void *context, size_t index) {
+    const work *const w = context;
+    aur_counters counters = {0};
+    aur_path_group group = {0};
+    room r = {.memory = NULL};
+    if (!make_room(w, &r))
+        return AUR_ERROR_MEMORY;
+    aur_path_group_prepare(&w->path, w->sky.scene, w->sampler, &counters, &group);
+    for (size_t i = index * BLOCK; i < (index + 1) * BLOCK && i < w->sensors->count; ++i)
+        estimate_sensor(w, &group, &r, i);
+    free(r.memory);
+    return AUR_OK;
+}
+
+/* --- all sensors */
+
+static aur_result prepare(work *w, const aur_scene *scene, aur_error *error) {
+    const aur_daylight_options *const o = w->options;
+    aur_result result = aur_sky_patches_create(o->subdivision, &w->patches, error);
+    if (result == AUR_OK)
+        result = aur_lit_hours_create(w->weather, o, &w->patches, &w->lit, error);
+    if (result == AUR_OK)
+        result = aur_open_sky_create(scene, o->ground_albedo > 0.0 ? AUR_DAYLIGHT_GROUND : 0.0, o->up,
+                                     o->north, &w->sky, error);
+    if (result == AUR_OK)
+        result = aur_sensor_rule_create(o->set, (o->directions + LANES - 1) / LANES, o->seed, &o->warnings,
+                                        &w->rule, error);
+    if (result == AUR_OK)
+        result = aur_path_prepare(&w->path, w->sky.scene, error);
+    if (result == AUR_OK)
+        result = aur_sampler_create("sobol", w->rule.count, NULL, &w->sampler, error);
+    if (result != AUR_OK)
+        return result;
+    w->overcast = malloc(w->patches.count * sizeof *w->overcast);
+    if (w->overcast == NULL)
+        return aur_fail_memory(error);
+    const aur_sky_model overcast = aur_sky_model_overcast();
+    aur_sky_patches_fill(&w->patches, &overcast, 1.0, w->overcast);
+    w->overcast[0] = o->ground_albedo / AUR_PI;
+    if (o->series == NULL)
+        return AUR_OK;
+    if (w->sensors->count <= SIZE_MAX / (2 * w->weather->count * sizeof *w->series))
+        w->series = malloc(2 * w->weather->count * w->sensors->count * sizeof *w->series);
+    return w->series != NULL ? AUR_OK
+                             : aur_fail(error, AUR_ERROR_MEMORY, "out of memory for %zu hours of %zu sensors",
+                                        w->weather->count, w->sensors->count);
+}
+
+/* Percents of the sensors. */
+static void summarize(const work *w, aur_daylight_summary *own) {
+    enum { WEAK = 50, SUNNY = 250 };
+    const double t = aur_student_quantile(LANES - 1, 0.975), one = 100.0 / (double)w->sensors->count;
+    own->hours = w->lit.counted;
+    own->unknown_hours = w->lit.unknown;
+    own->other_skies = w->lit.other_skies;
+    size_t enough = 0, least = 0, most = 0, sunny = 0;
+    for (size_t i = 0; i < w->sensors->count; ++i) {
+        const aur_daylight *const found = &w->results[i];
+        const double value = found->value[AUR_DAYLIGHT_AUTONOMY];
+        const double half = t * found->error[AUR_DAYLIGHT_AUTONOMY];
+        enough += value >= WEAK;
+        least += value - half >= WEAK;
+        most += value + half >= WEAK;
+        sunny += found->value[AUR_DAYLIGHT_SUN_HOURS] > SUNNY;
+    }
+    own->spatial_autonomy = one * (double)enough;
+    own->spatial_autonomy_least = one * (double)least;
+    own->spatial_autonomy_most = one * (double)most;
+    own->sunlight_exposure = one * (double)sunny;
+}
+
+static void warn(const work *w) {
+    const aur_warnings *const to = &w->options->warnings;
+    const aur_lit_hours *const lit = &w->lit;
+    if (w->sky.lamps > 0)
+        aur_warn_at(to, (aur_location){.file = NULL},
+                    "%zu lamps of the scene are left out: a year of weather is light of the sky and the sun",
+                    w->sky.lamps);
+    if (lit->unknown > 0)
+        aur_warn_at(
+            to, (aur_location){.file = w->weather->file, .line = w->weather->hours[lit->first_unknown].line},
+            "%zu hours of daylight are not known (the first is here): they do not count", lit->unknown);
+    if (lit->other_skies > 0)
+        aur_warn_at(
+            to, (aur_location){.file = w->weather->file, .line = w->weather->hours[lit->first_other].line},
+            "for the irradiances of %zu hours (the first is here) the model of Perez has no light anywhere: "
+            "their sky is uniform",
+            lit->other_skies);
+    aur_sensor_oddities odd = {0};
+    for (size_t i = 0; i < w->sensors->count; ++i)
+        aur_sensor_note(i, w->results[i].on_surface, w->results[i].dark,
+                        w->results[i].value[AUR_DAYLIGHT_ANNUAL], &odd);
+    aur_sensors_warn(w->sensors, to, &odd);
+}
+
+aur_result aur_daylight_estimate(const aur_scene *scene, const aur_sensors_view *given,
+                                 const aur_weather_view *given_weather,
+                                 const aur_daylight_options *given_options, size_t result_size,
+                                 aur_daylight *results, aur_daylight_summary *summary, aur_error *error) {
+    aur_daylight_options options;
+    aur_sensors_view sensors = {.size = sizeof sensors};
+    aur_weather_view weather = {.size = sizeof weather};
+    aur_daylight_summary own = {.size = sizeof own};
+    aur_result result = read_options(given_options, &options, error);
+    if (result == AUR_OK)
+        result = aur_options_read(given, sizeof sensors, sizeof sensors, &sensors, "aur_sensors_view", error);
+    if (result == AUR_OK)
+        result = aur_options_read(given_weather, sizeof weather, sizeof weather, &weather, "aur_weather_view",
+                                  error);
+    if (result == AUR_OK && result_size != sizeof *results)
+        result = aur_fail(error, AUR_ERROR_ARGUMENT, "the results have %zu bytes each, not %zu",
+                          sizeof *results, result_size);
+    if (result == AUR_OK)
+        result = aur_sensors_check(&sensors, AUR_ERROR_ARGUMENT, error);
+    if (result != AUR_OK)
+        return result;
+    work w = {.options = &options,
+              .sensors = &sensors,
+              .weather = &weather,
+              .path = {.max_depth = options.max_depth > 0 && options.max_depth < UINT32_MAX
+                                        ? (uint32_t)options.max_depth
+                                        : UINT32_MAX,
+                       .rr_depth = 5},
+              .results = results};
+    result = prepare(&w, scene, error);
+    if (result == AUR_OK) {
+        const aur_parallel_options parallel = {.threads = options.threads,
+                                               .what = "sensors",
+                                               .progress = options.progress,
+                                               .flush_denormals = true};
+        result = aur_parallel_for(&parallel, (sensors.count + BLOCK - 1) / BLOCK, estimate_block, &w, error);
+    }
+    if (result == AUR_OK && w.series != NULL)
+        result = aur_daylight_series_write(options.series, &weather, sensors.count, w.series, error);
+    if (result == AUR_OK) {
+        warn(&w);
+        summarize(&w, &own);
+        if (summary != NULL)
+            result =
+                aur_description_write(&own, sizeof own, sizeof own, summary, "aur_daylight_summary", error);
+    }
+    aur_sensor_rule_release(&w.rule);
+    aur_lit_hours_release(&w.lit);
+    aur_sky_patches_release(&w.patches);
+    aur_open_sky_release(&w.sky);
+    aur_sampler_destroy(w.sampler);
+    free(w.path.classes);
+    free(w.overcast);
+    free(w.series);
+    return result;
+}

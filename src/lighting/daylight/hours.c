@@ -1,0 +1,216 @@
+#include "lighting/daylight/hours.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+#include "core/error.h"
+#include "core/parallel.h"
+#include "core/vector.h"
+#include "core/vector3d.h"
+#include "lighting/daylight/efficacy.h"
+#include "lighting/daylight/product.h"
+#include "scene/lights/sun_position.h"
+
+/* An hour on its way to light: irradiances of the sky and the sun. */
+typedef struct hour_sky {
+    bool up; /* the sun */
+    double distance;
+    double direct, diffuse; /* W/m^2, then lux */
+    aur_sky_model model;
+} hour_sky;
+
+typedef struct work {
+    const aur_weather_view *weather;
+    const aur_daylight_options *options;
+    const aur_sky_patches *patches;
+    aur_lit_hours *lit;
+    hour_sky *skies; /* of lit hours */
+    bool *odd;       /* the model has no light */
+} work;
+
+static aur_location place_of(const aur_weather_view *weather, size_t hour) {
+    return (aur_location){.file = weather->file, .line = weather->hours[hour].line};
+}
+
+/* --- the sun */
+
+/* In the middle of that part of the hour in which it is up. Years that the algorithm does not know, and those
+ * of days that they do not have, are like 2001 or 2004. */
+static bool place_sun(const aur_weather_view *weather, const aur_weather_hour *hour, hour_sky *sky,
+                      double sun[3]) {
+    enum { PIECES = 12 };
+    double days = 0.0, sum = 0.0;
+    const unsigned month = (unsigned)hour->month, day = (unsigned)hour->day;
+    if (!aur_days_since_2000(hour->year, month, day, &days) &&
+        !aur_days_since_2000(month == 2 && day == 29 ? 2004 : 2001, month, day, &days))
+        return false;
+    size_t up = 0;
+    for (size_t i = 0; i < PIECES; ++i) {
+        const double clock = (double)(hour->hour - 1) + ((double)i + 0.5) / PIECES - weather->timezone;
+        aur_sun_locate(days + (clock - 12.0) / 24.0, clock, weather->latitude, weather->longitude, sun);
+        if (sun[2] > 0.0) {
+            sum += clock;
+            ++up;
+        }
+    }
+    const double middle = up > 0 ? sum / (double)up : (double)hour->hour - 0.5 - weather->timezone;
+    sky->distance =
+        aur_sun_locate(days + (middle - 12.0) / 24.0, middle, weather->latitude, weather->longitude, sun);
+    sky->up = sun[2] > 0.0;
+    return true;
+}
+
+/* --- irradiances */
+
+/* Of global, direct and diffuse irradiance two tell the third. False: the hour is not known. */
+static bool find_irradiances(const aur_weather_hour *hour, double height, hour_sky *sky) {
+    const double all = hour->global_horizontal;
+    sky->direct = hour->direct_normal;
+    sky->diffuse = hour->diffuse_horizontal;
+    if (!sky->up) { /* what is not known of a night is dark */
+        sky->direct = 0.0;
+        sky->diffuse = isnan(sky->diffuse) ? 0.0 : sky->diffuse;
+        return true;
+    }
+    if (isnan(sky->diffuse))
+        sky->diffuse = fmax(all - sky->direct * height, 0.0 * all * sky->direct);
+    else if (isnan(sky->direct))
+        sky->direct = height > 0.02 ? fmax((all - sky->diffuse) / height, 0.0 * all) : 0.0 * all;
+    return !isnan(sky->diffuse) && !isnan(sky->direct);
+}
+
+/* The model of the sky, and irradiances as illuminances. */
+static void find_sky(const work *w, const aur_weather_hour *hour, const double sun[3], hour_sky *sky) {
+    sky->model = aur_sky_model_uniform();
+    if (!sky->up || !(sky->diffuse > 0.0)) {
+        sky->direct *= 179.0;
+        sky->diffuse *= 179.0;
+        return;
+    }
+    const double outside = 1367.0 / (sky->distance * sky->distance);
+    const aur_perez_conditions found = aur_perez_conditions_of(sky->direct, sky->diffuse, outside, sun);
+    const bool constant = w->options->efficacy == AUR_EFFICACY_CONSTANT;
+    const double water = aur_precipitable_water(hour->dew_point);
+    sky->model = aur_sky_model_perez(sky->direct, sky->diffuse, outside, sun);
+    sky->direct *= constant ? 179.0 : aur_efficacy_of_sun(&found, water);
+    sky->diffuse *= constant ? 179.0 : aur_efficacy_of_sky(&found, water);
+}
+
+/* --- all hours */
+
+static bool counts(const work *w, size_t index) {
+    const aur_daylight_options *const o = w->options;
+    const int hour = w->weather->hours[index].hour;
+    const size_t weekday = ((size_t)w->weather->first_weekday + index / 24) % 7;
+    return o->from < hour && hour <= o->to && !(o->weekdays && (weekday == 0 || weekday == 6));
+}
+
+static aur_result find_hours(work *w, aur_error *error) {
+    aur_lit_hours *const lit = w->lit;
+    for (size_t i = 0; i < w->weather->count; ++i) {
+        const aur_weather_hour *const hour = &w->weather->hours[i];
+        hour_sky sky = {.up = false};
+        aur_lit_hour here = {.hour = i, .counts = counts(w, i)};
+        if (hour->month < 1 || hour->month > 12 || hour->day < 1 || hour->day > 31 || hour->hour < 1 ||
+            hour->hour > 24 || !place_sun(w->weather, hour, &sky, here.sun))
+            return aur_fail_at(error, place_of(w->weather, i), AUR_ERROR_ARGUMENT,
+                               "there is no day %d-%d-%d with an hour %d", hour->year, hour->month, hour->day,
+                               hour->hour);
+        if (!find_irradiances(hour, here.sun[2], &sky)) {
+            lit->is_unknown[i] = true;
+            lit->first_unknown = lit->unknown++ == 0 ? i : lit->first_unknown;
+            continue;
+        }
+        if (sky.direct < 0.0 || sky.diffuse < 0.0 || !(sky.direct + sky.diffuse < 1e6))
+            return aur_fail_at(error, place_of(w->weather, i), AUR_ERROR_ARGUMENT,
+                               "irradiances must be 0 or more and finite");
+        lit->counted += here.counts;
+        if (!(sky.direct + sky.diffuse > 0.0))
+            continue;
+        here.sun[2] = fmax(here.sun[2], 0.0);
+        aur_normalize3(here.sun);
+        find_sky(w, hour, here.sun, &sky);
+        here.direct = sky.direct;
+        here.patch = aur_sky_patches_find(w->patches, here.sun);
+        w->skies[lit->count] = sky;
+        lit->hours[lit->count++] = here;
+    }
+    if (lit->counted == 0)
+        return aur_fail_at(error, (aur_location){.file = w->weather->file}, AUR_ERROR_FORMAT,
+                           "the weather tells of no hour of those that count");
+    return AUR_OK;
+}
+
+/* The radiances of one block of hours. */
+static aur_result fill_block(void *context, size_t index) {
+    const work *const w = context;
+    const size_t patches = w->patches->count;
+    const aur_sky_model uniform = aur_sky_model_uniform();
+    double *const row = malloc(patches * sizeof *row);
+    if (row == NULL)
+        return AUR_ERROR_MEMORY;
+    for (size_t i = index * AUR_DAYLIGHT_BLOCK; i < (index + 1) * AUR_DAYLIGHT_BLOCK && i < w->lit->count;
+         ++i) {
+        const hour_sky *const sky = &w->skies[i];
+        w->odd[i] = !aur_sky_patches_fill(w->patches, &sky->model, sky->diffuse, row);
+        if (w->odd[i])
+            aur_sky_patches_fill(w->patches, &uniform, sky->diffuse, row);
+        row[0] = w->options->ground_albedo / AUR_PI * (sky->diffuse + sky->direct * w->lit->hours[i].sun[2]);
+        for (size_t p = 0; p < patches; ++p)
+            w->lit->radiance[aur_daylight_place(patches, i, p)] = row[p];
+    }
+    free(row);
+    return AUR_OK;
+}
+
+static aur_result check(const aur_weather_view *weather, const aur_daylight_options *options,
+                        aur_error *error) {
+    if (weather->count != 8760 && weather->count != 8784)
+        return aur_fail(error, AUR_ERROR_ARGUMENT, "a year has 8760 hours, or 8784, not %zu", weather->count);
+    if (!(fabs(weather->latitude) <= 90.0 && fabs(weather->longitude) <= 180.0 &&
+          fabs(weather->timezone) <= 14.0))
+        return aur_fail(error, AUR_ERROR_ARGUMENT, "the place of the weather is none on earth");
+    if (options->weekdays && !(weather->first_weekday >= 0 && weather->first_weekday < 7))
+        return aur_fail_at(error, (aur_location){.file = weather->file}, AUR_ERROR_UNSUPPORTED,
+                           "the weather does not tell on which day of the week its year begins");
+    return AUR_OK;
+}
+
+aur_result aur_lit_hours_create(const aur_weather_view *weather, const aur_daylight_options *options,
+                                const aur_sky_patches *patches, aur_lit_hours *lit, aur_error *error) {
+    *lit = (aur_lit_hours){0};
+    aur_result result = check(weather, options, error);
+    if (result != AUR_OK)
+        return result;
+    work w = {weather, options, patches, lit, NULL, NULL};
+    w.skies = malloc(weather->count * sizeof *w.skies);
+    w.odd = calloc(weather->count, sizeof *w.odd);
+    lit->hours = malloc(weather->count * sizeof *lit->hours);
+    lit->is_unknown = calloc(weather->count, sizeof *lit->is_unknown);
+    result = w.skies != NULL && w.odd != NULL && lit->hours != NULL && lit->is_unknown != NULL
+                 ? find_hours(&w, error)
+                 : aur_fail_memory(error);
+    const size_t rows = aur_daylight_blocks(lit->count);
+    if (result == AUR_OK) {
+        lit->radiance = calloc(rows * patches->count + 1, sizeof *lit->radiance);
+        const aur_parallel_options parallel = {.threads = options->threads, .what = "skies of hours"};
+        result = lit->radiance != NULL
+                     ? aur_parallel_for(&parallel, rows / AUR_DAYLIGHT_BLOCK, fill_block, &w, error)
+                     : aur_fail_memory(error);
+    }
+    for (size_t i = 0; i < lit->count && result == AUR_OK; ++i)
+        if (w.odd[i])
+            lit->first_other = lit->other_skies++ == 0 ? lit->hours[i].hour : lit->first_other;
+    free(w.skies);
+    free(w.odd);
+    if (result != AUR_OK)
+        aur_lit_hours_release(lit);
+    return result;
+}
+
+void aur_lit_hours_release(aur_lit_hours *lit) {
+    free(lit->hours);
+    free(lit->radiance);
+    free(lit->is_unknown);
+    *lit = (aur_lit_hours){0};
+}

@@ -1,0 +1,32 @@
+/* What the sky and the sun send in each hour of a year of weather. */
+#pragma once
+
+#include <aureole/daylight.h>
+
+#include "lighting/daylight/patches.h"
+
+/* An hour with light. */
+typedef struct aur_lit_hour {
+    size_t hour;   /* of the year */
+    double sun[3]; /* unit, by east, north and up: in the middle of that part of the hour in which it is up */
+    double direct; /* lux on a plane that faces the sun; 0: no sun */
+    bool counts;   /* among the hours that the options ask for */
+    size_t patch;  /* in which the sun stands */
+} aur_lit_hour;
+
+typedef struct aur_lit_hours {
+    size_t count;
+    aur_lit_hour *hours;
+    double *radiance; /* lux a steradian, patches a row: a row an hour, first the ground's; see product.h */
+    size_t counted;   /* hours that count, with light or without it */
+    size_t unknown;   /* hours that the weather does not tell */
+    size_t first_unknown; /* one of them */
+    bool *is_unknown;     /* for each hour of the year */
+    size_t other_skies, first_other;
+} aur_lit_hours;
+
+/* The options have their defaults filled in. Errors: ARGUMENT (places, counts and dates that cannot be),
+ * FORMAT (no hour that counts is known), UNSUPPORTED (days of the week that are not known), MEMORY. */
+aur_result aur_lit_hours_create(const aur_weather_view *weather, const aur_daylight_options *options,
+                                const aur_sky_patches *patches, aur_lit_hours *lit, aur_error *error);
+void aur_lit_hours_release(aur_lit_hours *lit);

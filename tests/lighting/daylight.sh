@@ -1,0 +1,152 @@
+#!/usr/bin/env bash
+# aureole irradiance --weather: years with known sums, an hour by coefficients beside the same hour traced by itself, the same
+# bits on any number of threads, and what is refused or reported.
+set -u
+aureole=$1
+weather=$2/scripts/weather.sh
+failures=0
+fail() {
+  echo "FAILED: $*"
+  failures=$((failures + 1))
+}
+refused() {
+  local text=$1 said
+  shift
+  said=$("$aureole" irradiance "$@" 2>&1 >/dev/null)
+  [ $? = 2 ] || fail "$*: status is not 2: $said"
+  grep -qF -- "$text" <<<"$said" || fail "$*: '$text' is not in: $said"
+}
+# cell COLUMN LINE FILE
+cell() {
+  awk -F, -v name="$1" -v line="$2" 'NR == 1 { for (i = 1; i <= NF; ++i) if ($i == name) column = i }
+    NR == line { print $column }' "$3"
+}
+near() {
+  awk -v value="$2" -v truth="$3" -v tolerance="$4" 'BEGIN { d = value - truth; exit !(d <= tolerance && -d <= tolerance) }' ||
+    fail "$1 is $2, not $3 to $4"
+}
+
+bash "$weather" 48 11 1 >mixed.epw
+bash "$weather" 48 11 1 3 >overcast.epw
+printf '0 0 .01 0 0 1\n' >up.pts
+printf '<scene version="3.0.0"><shape type="rectangle"><transform name="to_world"><scale value="1000"/></transform>
+<bsdf type="diffuse"><rgb name="reflectance" value="0"/></bsdf></shape></scene>' >plane.xml
+
+# A plane under nothing but the sky: the factor is 100 %, and each overcast hour what the file says, by any patches.
+for patches in tregenza reinhart:2; do
+  "$aureole" irradiance -q plane.xml --sensors up.pts --weather overcast.epw --up 0,0,1 --efficacy 179 --patches $patches \
+    --series hours.csv -o plane.csv || fail "a plane"
+  error=$(cell daylight_factor_error 2 plane.csv)
+  near "the daylight factor" "$(cell daylight_factor 2 plane.csv)" 100 "$(awk "BEGIN { print 5 * $error + 1e-4 }")"
+  tail -8760 overcast.epw | cut -d, -f16 | paste -d, - <(tail -8760 hours.csv | cut -d, -f5,6) |
+    awk -F, '{ d = $2 - 179 * $1; if (d < 0) d = -d; worst = d > 5 * $3 + 1e-6 * $2 ? 1 : worst } END { exit worst || NR != 8760 }' ||
+    fail "overcast hours by $patches"
+done
+[ "$(cell autonomy 2 plane.csv)" != "" ] || fail "columns: $(head -1 plane.csv)"
+# The annual sum is that of the hours.
+near "the annual sum" "$(cell annual_lux_hours 2 plane.csv)" \
+  "$(awk -F, 'NR > 1 { sum += $5 } END { printf "%.3f", sum }' hours.csv)" 10
+
+# An hour beside a wall and on a floor that reflect, clear or overcast: by coefficients, and by the sky and the sun of the
+# same hour traced by themselves. Patches have the sky's mean radiance: 1.5 % is what 10 degrees leave of a clear sky here,
+# and .3 % of an overcast one. So with the daylight factor: lux from a sky of 100.
+room='<shape type="cube"><transform name="to_world"><scale x="3" y=".1" z="2"/><translate y="1.5" z="1"/></transform>
+<bsdf type="diffuse"><rgb name="reflectance" value=".6"/></bsdf></shape>
+<shape type="rectangle"><transform name="to_world"><scale value="20"/></transform><bsdf type="diffuse"/></shape>'
+keys='<string name="date" value="2001-06-10"/><string name="time" value="TIME"/><float name="latitude" value="48"/>
+<float name="longitude" value="11"/><float name="timezone" value="1"/><vector name="up" value="0 0 1"/>'
+printf '0 0 .5 0 0 1\n1 .8 .7 0 -1 0\n-2 1 1 .5 .5 .7\n' >yard.pts
+bed='<scene version="3.0.0">'$room
+echo "$bed</scene>" >yard.xml
+# compare TOLERANCE: of the three sensors, numbers in now.txt (value and error a line) beside those that were traced, hour.csv.
+compare() {
+  for sensor in 0 1 2; do
+    read -r lux error <<<"$(sed -n $((sensor + 1))p now.txt)"
+    truth=$(cell lux $((sensor + 2)) hour.csv)
+    own=$(cell lux_error $((sensor + 2)) hour.csv)
+    near "sensor $sensor of $1" "$lux" "$truth" "$(awk "BEGIN { print $2 * $truth + 4 * sqrt($error ^ 2 + $own ^ 2) }")"
+  done
+}
+for row in 'mixed 0.015' 'overcast 0.003'; do
+  read -r file tolerance <<<"$row"
+  "$aureole" irradiance -q yard.xml --sensors yard.pts --weather $file.epw -n 32768 --efficacy 179 --ground-albedo 0 \
+    --up 0,0,1 --series hours.csv -o yard.csv || fail "a yard"
+  line=$(grep -n "^2001,6,10,13," $file.epw | cut -d: -f1)
+  read -r direct diffuse <<<"$(awk -F, -v line="$line" 'NR == line { print $15, $16 }' $file.epw)"
+  timed=${keys/TIME/12:30}
+  cat >hour.xml <<XML
+$bed<emitter type="sky"><string name="model" value="perez"/><float name="direct_normal" value="$direct"/>
+<float name="diffuse_horizontal" value="$diffuse"/>$timed</emitter>
+<emitter type="sun"><rgb name="irradiance" value="$direct"/>$timed</emitter></scene>
+XML
+  "$aureole" irradiance -q hour.xml --sensors yard.pts -n 32768 --illuminance rec709 -o hour.csv || fail "an hour"
+  grep '^[012],6,10,13,' hours.csv | cut -d, -f5,6 --output-delimiter=' ' >now.txt
+  compare "a $file hour" "$tolerance"
+done
+echo "$bed<emitter type='sky'><float name='illuminance' value='100'/><vector name='up' value='0 0 1'/></emitter></scene>" >hour.xml
+"$aureole" irradiance -q hour.xml --sensors yard.pts -n 32768 --illuminance rec709 -o hour.csv || fail "an overcast sky"
+for sensor in 2 3 4; do echo "$(cell daylight_factor $sensor yard.csv) $(cell daylight_factor_error $sensor yard.csv)"; done >now.txt
+compare "daylight factors" 0.003
+
+# The same bits on any number of threads, and beside any other sensors.
+"$aureole" irradiance -q hour.xml --sensors yard.pts --weather mixed.epw -n 1024 --threads 1 -o one.csv || fail "one thread"
+"$aureole" irradiance -q hour.xml --sensors yard.pts --weather mixed.epw -n 1024 --threads 3 -o three.csv || fail "three threads"
+cmp one.csv three.csv || fail "threads change results"
+tail -1 yard.pts >last.pts
+"$aureole" irradiance -q hour.xml --sensors last.pts --weather mixed.epw -n 1024 -o last.csv || fail "one sensor"
+[ "$(tail -1 last.csv)" = "$(tail -1 one.csv)" ] || fail "a sensor depends on the others"
+
+# Formats, and the summary.
+for format in json npy ply; do
+  "$aureole" irradiance -q hour.xml --sensors last.pts --weather mixed.epw -n 64 -o "last.$format" || fail "$format"
+done
+"$aureole" irradiance -q hour.xml --sensors last.pts --weather mixed.epw -n 64 --series hours.npy -o last.csv || fail "NPY"
+[ "$(stat -c %s hours.npy)" = $((128 + 2 * 8760 * 8)) ] || fail "the series is $(stat -c %s hours.npy) bytes"
+"$aureole" irradiance hour.xml --sensors last.pts --weather mixed.epw -n 64 -o last.csv 2>&1 |
+  grep -qF 'aureole: 3650 hours count; ' || fail "no summary"
+
+# Bad weather, by line.
+# edited NAME LINE SUBSTITUTION: `direct` is the beginning of a record to the field before the sun's irradiance.
+direct='^(([^,]*,){14})[^,]*'
+edited() { sed -E "$2$3" mixed.epw >"$1"; }
+edited begin.epw 1 's/LOCATION/PLACE/'
+edited latitude.epw 1 's/48.0000/98/'
+edited periods.epw 8 's/1,1,Data/1,4,Data/'
+edited negative.epw 21 "s/$direct/\1-5/"
+edited sunny.epw 21 "s/$direct/\13000/"
+edited words.epw 21 "s/$direct/\1none/"
+edited short.epw 21 's/,999999.*//;21s/,[0-9]*$//'
+edited lost.epw 30 d
+head -5000 mixed.epw >half.epw
+: >empty.epw
+printf 'LOCATION,a\0b' >zero.epw
+yard="plane.xml --sensors up.pts -n 64 --weather"
+refused "begin.epw:1: an EPW file begins with LOCATION,CITY" $yard begin.epw
+refused "latitude.epw:1: the latitude (field 7) must be a number from -90 to 90, not '98'" $yard latitude.epw
+refused "periods.epw:8: the number of records an hour (field 3) must be a number from 1 to 1, not '4'" $yard periods.epw
+refused "negative.epw:21: the direct normal irradiance (field 15) must be a number from 0" $yard negative.epw
+refused "sunny.epw:21: the direct normal irradiance (field 15) is 3000 W/m^2" $yard sunny.epw
+refused "words.epw:21: the direct normal irradiance (field 15) must be a number" $yard words.epw
+refused "short.epw:21: the line ends before the diffuse horizontal irradiance, its field 16" $yard short.epw
+refused "lost.epw:30: hours follow each other from 1 January" $yard lost.epw
+refused "half.epw:5000: a year has 8760 hours, or 8784; the file ends after 4992" $yard half.epw
+refused "empty.epw: an EPW file begins with" $yard empty.epw
+refused "zero.epw:1: a zero byte" $yard zero.epw
+refused "no.epw" $yard no.epw
+sed 's/,Sunday,/,Someday,/' mixed.epw >day.epw
+refused "does not tell on which day of the week" $yard day.epw --weekdays
+edited unknown.epw 21 "s/$direct,[^,]*/\19999,9999/"
+"$aureole" irradiance $yard unknown.epw --up 0,0,1 -o unknown.csv 2>&1 |
+  grep -qF 'unknown.epw:21: 1 hours of daylight are not known' || fail "an hour that is not known"
+
+# Bad options.
+refused "--threshold is for a year of weather: --weather FILE" plane.xml --sensors up.pts --threshold 500
+refused "--parts does not go with --weather" $yard mixed.epw --parts
+refused "must be tregenza or reinhart:M with M from 1 to 6, not 'reinhart:7'" $yard mixed.epw --patches reinhart:7
+refused "must be hours like 8-18, from 0 to 24, not '18-8'" $yard mixed.epw --schedule 18-8
+refused "must be two illuminances like 100,3000, not '3000,100'" $yard mixed.epw --useful 3000,100
+refused "must be a direction like 0,0,1, not '0,0,0'" $yard mixed.epw --up 0,0,0
+refused "nor along 'up'" $yard mixed.epw --up 0,0,1 --north 0,0,1
+refused "ends in .npy or .csv, not to 'hours.txt'" $yard mixed.epw --series hours.txt
+
+[ $failures = 0 ]
