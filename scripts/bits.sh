@@ -4,6 +4,7 @@
 # The sums of pictures are of this machine: Embree's hits differ in the last bits between processors. The others, which
 # scripts/bits.sh PROGRAM numbers gives alone, are those of every processor.
 set -euo pipefail
+export AUREOLE_CACHE= # everything is made anew
 aureole=$(realpath "${1:-build/release/aureole}")
 source=$(cd "$(dirname "$0")/.." && pwd)
 folder=$(mktemp -d)

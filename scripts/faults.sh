@@ -2,6 +2,7 @@
 # Kills the program at random moments, goes on, and compares what comes out with a run that was never stopped, byte by
 # byte: scripts/faults.sh PROGRAM [KILLS [SEED]]. Prints a table; exit status 1 where anything differs.
 set -uo pipefail
+export AUREOLE_CACHE= # everything is made anew
 aureole=$(realpath "${1:-build/release/aureole}")
 kills=${2:-50}
 RANDOM=${3:-1}

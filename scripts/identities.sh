@@ -2,6 +2,7 @@
 # What must make the same bits: threads, parts, instruction sets, and builds. scripts/identities.sh PROGRAM [OTHER-BUILD...]
 # prints a table; exit status 1 where a row that has to be the same is not.
 set -uo pipefail
+export AUREOLE_CACHE= # everything is made anew
 aureole=$(realpath "${1:-build/release/aureole}")
 shift
 builds=("$@")

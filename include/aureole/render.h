@@ -56,6 +56,9 @@ typedef struct aur_render_options {
     /* Of shard_count parts of the picture, the shard-th, from 1 on: every shard_count-th tile of 16 x 16
      * pixels. Both 0: all of it. The others stay black until they are merged. */
     size_t shard, shard_count;
+    /* Photon maps and tables of weights are taken from the user's cache folder, and left there for later
+     * runs: in AUREOLE_CACHE, aureole in XDG_CACHE_HOME, or .cache/aureole in HOME. No bit depends on it. */
+    bool use_cache;
 } aur_render_options;
 
 static inline aur_render_options aur_render_options_default(void) {

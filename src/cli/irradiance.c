@@ -180,7 +180,8 @@ const cli_verb cli_verb_irradiance = {
                {cli_daylight_options, offsetof(irradiance_command, daylight)},
                {cli_definitions_option, offsetof(irradiance_command, definitions)},
                {cli_threads_option, offsetof(irradiance_command, common)},
-               {cli_quiet_option, offsetof(irradiance_command, common)}},
+               {cli_quiet_option, offsetof(irradiance_command, common)},
+               {cli_cache_option, offsetof(irradiance_command, common)}},
     .size = sizeof(irradiance_command),
     .run = run,
 };

@@ -136,6 +136,7 @@ const cli_verb cli_verb_lab = {
                {cli_format_option, offsetof(lab_command, common)},
                {cli_threads_option, offsetof(lab_command, common)},
                {cli_quiet_option, offsetof(lab_command, common)},
+               {cli_cache_option, offsetof(lab_command, common)},
                {cli_limits_option, offsetof(lab_command, common)}},
     .size = sizeof(lab_command),
     .run = run,

@@ -6,6 +6,7 @@
 #include <math.h>
 #include <signal.h>
 #include <stdint.h>
+#include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
 
@@ -54,6 +55,19 @@ static aur_result limit_time(const char *text, void *field, aur_error *error) {
     setitimer(ITIMER_REAL, &timer, NULL);
     return AUR_OK;
 }
+
+/* The libraries look where the environment says. */
+static aur_result leave_cache(const char *text, void *field, aur_error *error) {
+    (void)text;
+    (void)field;
+    return setenv("AUREOLE_CACHE", "", 1) == 0 ? AUR_OK : aur_fail(error, AUR_ERROR_MEMORY, "out of memory");
+}
+
+const cli_option cli_cache_option[] = {
+    {CLI_FLAG(cli_common, no_cache, "no-cache",
+              "take nothing from the cache folder, and leave nothing there: for pictures and points alike"),
+     .parse = leave_cache},
+    {.key = {0}}};
 
 const cli_option cli_limits_option[] = {
     {CLI_TEXT(cli_common, memory_limit, "memory-limit", "2G", NULL,

@@ -204,6 +204,7 @@ const cli_verb cli_verb_measure = {
                {cli_format_option, offsetof(cli_measure_arguments, common)},
                {cli_threads_option, offsetof(cli_measure_arguments, common)},
                {cli_quiet_option, offsetof(cli_measure_arguments, common)},
+               {cli_cache_option, offsetof(cli_measure_arguments, common)},
                {cli_limits_option, offsetof(cli_measure_arguments, common)}},
     .size = sizeof(cli_measure_arguments),
     .run = run,

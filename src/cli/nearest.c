@@ -101,7 +101,8 @@ const cli_verb cli_verb_nearest = {
                {cli_points_options, offsetof(nearest_command, from)},
                {cli_format_option, offsetof(nearest_command, common)},
                {cli_threads_option, offsetof(nearest_command, common)},
-               {cli_quiet_option, offsetof(nearest_command, common)}},
+               {cli_quiet_option, offsetof(nearest_command, common)},
+               {cli_cache_option, offsetof(nearest_command, common)}},
     .size = sizeof(nearest_command),
     .run = run,
 };

@@ -138,7 +138,7 @@ static bool read_value(const cli_option *option, const char *text, void *field) 
 static bool read_option(const cli_option *option, char *text, void *field) {
     if (option->value == NULL) {
         *(bool *)field = true;
-        return true;
+        return option->parse == NULL || read_value(option, "", field);
     }
     if (!option->list)
         return read_value(option, text, field);

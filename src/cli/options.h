@@ -19,7 +19,7 @@ typedef struct cli_option {
     bool list;         /* VALUE[,VALUE...]: the field is a cli_list */
     /* The names of an enum from 0 on, NULL beyond the last, where they are not the key's words. */
     const char *(*name)(unsigned value);
-    /* Reads what is none of the types of keys; the text outlives the verb. */
+    /* Reads what is none of the types of keys, or does what a flag says; the text outlives the verb. */
     aur_result (*parse)(const char *text, void *field, aur_error *error);
     /* What is completed: "file", "folder", a kind of `aureole help`, or "file or KIND"; or NULL. */
     const char *content;
@@ -69,7 +69,7 @@ typedef struct cli_verb {
     const char *notes;                /* what is to be said after the options; or NULL */
     const char *too_few, *too_many;   /* what is wrong with such operands; NULL where it is not said so */
     const cli_operand operands[3];    /* end with one without a word */
-    const cli_group groups[9];        /* end with one without options */
+    const cli_group groups[10];       /* end with one without options */
     size_t size;                      /* of the struct that the options write to */
     int (*run)(const cli_call *call); /* returns the exit status */
 } cli_verb;
@@ -111,10 +111,10 @@ typedef struct cli_common {
     report_format format; /* of a table of results */
     size_t threads;       /* 0: one a processor */
     bool quiet;
-    bool memory_limit, time_limit; /* they hold once they are read */
+    bool memory_limit, time_limit, no_cache; /* they hold once they are read */
 } cli_common;
 extern const cli_option cli_format_option[], cli_threads_option[], cli_quiet_option[]; /* of a cli_common */
-extern const cli_option cli_limits_option[];                                           /* the same */
+extern const cli_option cli_cache_option[], cli_limits_option[];                       /* the same */
 
 enum { CLI_DEFINITION_LIMIT = 64 };
 

@@ -207,7 +207,8 @@ const cli_verb cli_verb_points = {
                {cli_points_options, offsetof(points_command, from)},
                {cli_cap_option, offsetof(points_command, from)},
                {cli_dimension_option, offsetof(points_command, from)},
-               {cli_quiet_option, offsetof(points_command, common)}},
+               {cli_quiet_option, offsetof(points_command, common)},
+               {cli_cache_option, offsetof(points_command, common)}},
     .size = sizeof(points_command),
     .run = run,
 };

@@ -283,6 +283,7 @@ static int run(const cli_call *call) {
         cli_checkpoint_progress(&command->checkpoint, cli_progress(command->common.quiet));
     command->options.resumable = command->checkpoint.path != NULL || command->options.shard_count > 0;
     command->options.warnings = cli_warnings(command->common.quiet);
+    command->options.use_cache = true;
     if (command->reference == NULL)
         return render(scene, command, NULL);
     cli_errors *const errors = cli_errors_create(command->reference);
@@ -303,6 +304,7 @@ const cli_verb cli_verb_render = {
                {cli_definitions_option, offsetof(render_command, definitions)},
                {cli_threads_option, offsetof(render_command, common)},
                {cli_quiet_option, offsetof(render_command, common)},
+               {cli_cache_option, offsetof(render_command, common)},
                {cli_limits_option, offsetof(render_command, common)}},
     .size = sizeof(render_command),
     .run = run,

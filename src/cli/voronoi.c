@@ -194,7 +194,8 @@ const cli_verb cli_verb_voronoi = {
                {cli_cap_option, offsetof(voronoi_command, from)},
                {cli_format_option, offsetof(voronoi_command, common)},
                {cli_threads_option, offsetof(voronoi_command, common)},
-               {cli_quiet_option, offsetof(voronoi_command, common)}},
+               {cli_quiet_option, offsetof(voronoi_command, common)},
+               {cli_cache_option, offsetof(voronoi_command, common)}},
     .size = sizeof(voronoi_command),
     .run = run,
 };

@@ -234,6 +234,7 @@ const cli_verb cli_verb_weights = {
                {cli_format_option, offsetof(cli_weights_arguments, common)},
                {cli_threads_option, offsetof(cli_weights_arguments, common)},
                {cli_quiet_option, offsetof(cli_weights_arguments, common)},
+               {cli_cache_option, offsetof(cli_weights_arguments, common)},
                {cli_limits_option, offsetof(cli_weights_arguments, common)}},
     .size = sizeof(cli_weights_arguments),
     .run = run,

@@ -149,7 +149,7 @@ aur_result aur_file_commit(aur_file_writer *writer, aur_error *error) {
     else if (fflush(writer->stream) != 0)
         code = errno != 0 ? errno : EIO;
     const bool replaces = writer->nameless || writer->temporary != NULL;
-    if (code == 0 && replaces && fsync(fileno(writer->stream)) != 0)
+    if (code == 0 && replaces && !writer->unsynced && fsync(fileno(writer->stream)) != 0)
         code = errno;
     if (code == 0 && writer->nameless && take_name(writer, fileno(writer->stream)) < 0)
         code = errno;
@@ -162,7 +162,8 @@ aur_result aur_file_commit(aur_file_writer *writer, aur_error *error) {
         } else {
             free(writer->temporary);
             writer->temporary = NULL;
-            sync_folder(writer->path);
+            if (!writer->unsynced)
+                sync_folder(writer->path);
         }
     }
     const aur_result result = code == 0 ? AUR_OK : fail_write(error, writer->path, code);

@@ -11,6 +11,7 @@ typedef struct aur_file_writer {
     FILE *stream;    /* write here; buffered */
     char *path;      /* what is replaced: links are followed */
     bool nameless;   /* the file has no name before the commit */
+    bool unsynced;   /* may be set before the commit: a loss of power may damage the file */
     char *temporary; /* the name before the commit of a file that has one; else NULL */
 } aur_file_writer;
 

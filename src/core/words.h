@@ -28,8 +28,12 @@ static inline uint64_t aur_hash_bytes(size_t size, const void *bytes) {
     uint64_t hash = aur_mix64(size);
     for (size_t i = 0; i < size; i += 8) {
         uint64_t word = 0;
-        for (size_t k = 0; k < 8 && i + k < size; ++k)
-            word |= (uint64_t)at[i + k] << 8 * k;
+        if (size - i >= 8) /* compilers know this loop for a load */
+            for (size_t k = 0; k < 8; ++k)
+                word |= (uint64_t)at[i + k] << 8 * k;
+        else
+            for (size_t k = 0; i + k < size; ++k)
+                word |= (uint64_t)at[i + k] << 8 * k;
         hash = aur_hash2(hash, word);
     }
     return hash;

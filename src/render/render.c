@@ -91,6 +91,7 @@ static aur_result make_integrator(aur_render *render, aur_error *error) {
                                             .seed = s->seed,
                                             .threads = s->threads,
                                             .cache = renderer->cache,
+                                            .use_cache = s->use_cache,
                                             .progress = s->progress,
                                             .warnings = s->warnings};
     result = aur_integrator_create(&parameters, &context, &render->integrator, error);

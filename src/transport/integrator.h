@@ -25,6 +25,7 @@ struct aur_integrator_context {
     uint64_t seed;
     size_t threads;
     aur_cache *cache; /* what renders of one scene share */
+    bool use_cache;   /* ... and what later runs may take from files of the cache (core/cache_file.h) */
     aur_progress progress;
     aur_warnings warnings;
     /* For integrators that hold another one; set by aur_integrator_create. */

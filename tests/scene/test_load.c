@@ -1,5 +1,6 @@
 #include "scene_text.h"
 
+#include <fcntl.h>
 #include <sys/stat.h>
 #include <time.h>
 
@@ -611,8 +612,32 @@ static void reads_colors_of_meshes(void **state) {
     aur_scene_destroy(scene);
 }
 
+/* What is hashed must be what was read. */
+static void changed_files_are_told(void **state) {
+    (void)state;
+    static const char triangle[] = "v 0 0 0\nv 1 0 0\nv 1 1 0\nf 1 2 3\n";
+    write_text("changing.obj", triangle);
+    aur_scene *const scene =
+        must_load_body("<shape type='obj'><string name='filename' value='changing.obj'/></shape>");
+    char *contents = NULL;
+    aur_error error = {0};
+    assert_int_equal(aur_scene_contents(scene, &contents, &error), AUR_OK);
+    free(contents);
+    struct stat status;
+    const char *const path = write_text("changing.obj", "v 0 0 0\nv 2 0 0\nv 1 1 0\nf 1 2 3\n");
+    assert_int_equal(stat(path, &status), 0);
+    const struct timespec later[2] = {{.tv_sec = status.st_mtim.tv_sec + 1},
+                                      {.tv_sec = status.st_mtim.tv_sec + 1}};
+    assert_int_equal(utimensat(AT_FDCWD, path, later, 0), 0);
+    assert_int_equal(aur_scene_contents(scene, &contents, &error), AUR_ERROR_OPEN);
+    assert_null(contents);
+    assert_non_null(strstr(error.message, "changed since"));
+    aur_scene_destroy(scene);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(changed_files_are_told),
         cmocka_unit_test(loads_a_small_scene),
         cmocka_unit_test(maps_samplers_to_sets),
         cmocka_unit_test(gives_default_materials),

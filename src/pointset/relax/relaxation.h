@@ -46,9 +46,6 @@ typedef struct aur_relaxation {
     aur_result (*relax)(uint64_t seed, size_t count, aur_point2 *sites, aur_error *error);
 } aur_relaxation;
 
-/* Makes set->data a table of the points that are computed from the seed, or takes it from a file that an
- * earlier call has left. The file is <folder>/<name>-<version>-<count>-<seed>.points, where the folder is the
- * value of the environment variable AUREOLE_CACHE, else aureole in XDG_CACHE_HOME, else .cache/aureole in
- * HOME; an empty AUREOLE_CACHE means that nothing is kept. A file that cannot be read or written, or whose
- * check sum is not that of its points, is no error: the points are computed. */
+/* Makes set->data a table of the points that are computed from the seed, or takes it from what an earlier
+ * call has kept (core/cache_file.h). */
 aur_result aur_prepare_relaxed(aur_pointset *set, aur_parameters *keys, aur_error *error);

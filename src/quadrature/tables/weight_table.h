@@ -79,5 +79,21 @@ aur_result aur_weight_table_allocate(aur_weight_table *table, aur_error *error);
 aur_result aur_weight_table_parse(const char *name, size_t size, char *data, const aur_oswa_options *expected,
                                   aur_weight_table **table, aur_error *error);
 
+/* The bytes of the file of a table, from malloc. Errors: as aur_weight_table_save. */
+aur_result aur_weight_table_print(const aur_weight_table *table, size_t *size, void **data, aur_error *error);
+
+enum { AUR_WEIGHT_TABLE_KEY_CAPACITY = 4096 };
+
+/* All that a table follows from; all fields of the grid count. Errors: ARGUMENT. */
+aur_result aur_weight_table_key(const aur_oswa_options *options, const aur_weight_table_grid *grid,
+                                uint64_t build, char key[AUR_WEIGHT_TABLE_KEY_CAPACITY]);
+
+/* Builds a table as aur_weight_table_build does, or takes it from the cache of earlier runs
+ * (core/cache_file.h), where it is left otherwise. Exported for the renderer, but no part of the interface.
+ */
+AUR_API aur_result aur_weight_table_find(const aur_oswa_options *options, const aur_weight_table_grid *grid,
+                                         size_t threads, const aur_progress *progress,
+                                         aur_weight_table **table, aur_error *error);
+
 /* What a file ends with: of all that stands before it. */
 uint64_t aur_weight_table_check_sum(const char *data, size_t size);

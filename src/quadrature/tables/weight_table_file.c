@@ -10,7 +10,7 @@
 #include "core/text.h"
 #include "quadrature/tables/weight_table.h"
 
-enum { VERSION = 3, HEADER_CAPACITY = 4096, VALUE_CAPACITY = 64, HASH_BYTES = 8 };
+enum { VERSION = 3, HEADER_CAPACITY = AUR_WEIGHT_TABLE_KEY_CAPACITY, VALUE_CAPACITY = 64, HASH_BYTES = 8 };
 
 static const char magic[] = "aureole weight table\n", header_end[] = "end\n";
 static const size_t file_limit = (size_t)1 << 34;
@@ -170,7 +170,24 @@ static size_t weight_count(const aur_weight_table *table) {
 
 /* --- writing */
 
-aur_result aur_weight_table_save(const aur_weight_table *table, const char *path, aur_error *error) {
+aur_result aur_weight_table_key(const aur_oswa_options *options, const aur_weight_table_grid *grid,
+                                uint64_t build, char key[AUR_WEIGHT_TABLE_KEY_CAPACITY]) {
+    char text[VALUE_CAPACITY];
+    aur_format(text, sizeof text, "of build %016" PRIx64, build);
+    header h = {.version = VERSION,
+                .angles = grid->angle_count,
+                .roughnesses = grid->roughness_count,
+                .rotations = grid->rotation_count,
+                .patterns = text};
+    const aur_result result = aur_oswa_options_read(options, &h.options, &h.weights, NULL);
+    if (result != AUR_OK)
+        return result;
+    return print_header(&h, key) < HEADER_CAPACITY ? AUR_OK : AUR_ERROR_ARGUMENT;
+}
+
+aur_result aur_weight_table_print(const aur_weight_table *table, size_t *bytes, void **printed,
+                                  aur_error *error) {
+    *printed = NULL;
     if (table->oswa->options.published_z.angle_count > 0)
         return aur_fail(error, AUR_ERROR_UNSUPPORTED, "a table made with the published z is not for keeping");
     char text[HEADER_CAPACITY], patterns[VALUE_CAPACITY];
@@ -197,12 +214,17 @@ aur_result aur_weight_table_save(const aur_weight_table *table, const char *path
     target = put_floats(table->start, table->piece_count, target);
     target = put_floats(table->weights, weight_count(table), target);
     put(aur_weight_table_check_sum((const char *)data, size), HASH_BYTES, target);
-    aur_file_writer writer;
-    aur_result result = aur_file_open(path, &writer, error);
-    if (result == AUR_OK) {
-        fwrite(data, 1, size + HASH_BYTES, writer.stream);
-        result = aur_file_commit(&writer, error);
-    }
+    *printed = data;
+    *bytes = size + HASH_BYTES;
+    return AUR_OK;
+}
+
+aur_result aur_weight_table_save(const aur_weight_table *table, const char *path, aur_error *error) {
+    size_t size;
+    void *data;
+    aur_result result = aur_weight_table_print(table, &size, &data, error);
+    if (result == AUR_OK)
+        result = aur_file_write(path, size, data, error);
     free(data);
     return result;
 }

@@ -154,8 +154,10 @@ aur_result aur_xml_find_asset(aur_xml_document *document, aur_location location,
             aur_fail_at(error, location, AUR_ERROR_OPEN, "'%s' lies outside of the scene's folder", name);
     else if (result == AUR_OK)
         result = aur_xml_note_file(document, name, *found, error);
-    if (result == AUR_OK)
+    if (result == AUR_OK) {
+        document->files[document->file_count - 1].changed = status.st_mtim;
         return AUR_OK;
+    }
     free(*found);
     *found = NULL;
     return result;

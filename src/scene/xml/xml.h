@@ -12,6 +12,7 @@
 #include "core/error.h"
 
 #include <stdbool.h>
+#include <time.h>
 
 typedef struct aur_xml_attribute {
     const char *name;
@@ -39,9 +40,10 @@ typedef struct aur_xml_id {
 } aur_xml_id;
 
 /* A file that was read: what it is called where it is named, where it was found, and a hash of its bytes, if
- * it was known at once. */
+ * it was known at once; else when it was changed last, as known before it was read. */
 typedef struct aur_xml_file {
     const char *name, *path;
+    struct timespec changed;
     bool hashed;
     uint64_t hash;
 } aur_xml_file;

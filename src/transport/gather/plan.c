@@ -3,9 +3,13 @@
 #include <inttypes.h>
 #include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
 
+#include "core/cache_file.h"
 #include "core/error.h"
 #include "core/random.h"
+#include "core/simd.h"
+#include "transport/photons/irradiance_file.h"
 
 /* --- light */
 
@@ -19,6 +23,60 @@ static uint64_t digest(const aur_sampler *sampler) {
     for (size_t i = 0; i < sampler->size; ++i)
         hash = aur_hash2(hash, (uint64_t)sampler->points[i][0] << 32 | sampler->points[i][1]);
     return hash;
+}
+
+static void destroy_text(void *text) {
+    free(text);
+}
+
+/* What every photon map depends on: the scene's files by their content, this program, and how Embree finds
+ * hits. NULL where that is not known. */
+static const char *scene_key(const aur_integrator_context *context) {
+    static const char name[] = "what photon maps depend on";
+    char *const known = aur_cache_find(context->cache, name);
+    const uint64_t build = aur_build_identity();
+    char *contents = NULL, *key = NULL;
+    size_t size;
+    if (known != NULL || build == 0 || aur_scene_contents(context->scene, &contents, NULL) != AUR_OK)
+        return known;
+    FILE *const stream = open_memstream(&key, &size);
+    if (stream != NULL) {
+        fprintf(stream, "build %016" PRIx64 "\ninstructions %s, of rays %s\n%s", build,
+                aur_isa_name(aur_isa_available()), aur_isa_name(aur_isa_of_rays()), contents);
+        fclose(stream);
+    }
+    free(contents);
+    return key != NULL && aur_cache_store(context->cache, name, key, destroy_text) == AUR_OK ? key : NULL;
+}
+
+/* A map of an earlier run, or one that is left for later ones. */
+static aur_result find_or_trace(const aur_integrator_context *context, const aur_irradiance_options *options,
+                                const char *key, aur_irradiance_map **map, aur_error *error) {
+    const char *const scene = context->use_cache && options->photons.count >= AUR_IRRADIANCE_WORTH_KEEPING
+                                  ? scene_key(context)
+                                  : NULL;
+    char *whole = NULL;
+    size_t size = 0;
+    *map = NULL;
+    if (scene != NULL && (whole = malloc(strlen(key) + strlen(scene) + 2)) != NULL) {
+        sprintf(whole, "%s\n%s", key, scene);
+        char *const kept = aur_cache_file_read("photons", whole, &size);
+        if (kept != NULL)
+            *map = aur_irradiance_map_unpack(context->scene, size, kept);
+        free(kept);
+    }
+    aur_result result = AUR_OK;
+    if (*map != NULL) {
+        aur_photon_map_warn((*map)->cut, (*map)->paths, &context->warnings);
+    } else {
+        result = aur_irradiance_map_create(context->scene, options, map, error);
+        void *const bytes = result == AUR_OK && whole != NULL ? aur_irradiance_map_pack(*map, &size) : NULL;
+        if (bytes != NULL)
+            aur_cache_file_write("photons", whole, size, bytes);
+        free(bytes);
+    }
+    free(whole);
+    return result;
 }
 
 /* A photon map, shared by all renders that ask for the same one. */
@@ -37,8 +95,8 @@ static aur_result find_map(const aur_gather_parameters *p, const aur_integrator_
     if (*found == NULL) {
         photons.sampler = sampler;
         aur_irradiance_map *made;
-        result = aur_irradiance_map_create(
-            context->scene, &(aur_irradiance_options){photons, p->photons_a_texel}, &made, error);
+        result =
+            find_or_trace(context, &(aur_irradiance_options){photons, p->photons_a_texel}, key, &made, error);
         if (result == AUR_OK && aur_cache_store(context->cache, key, made, destroy_map) != AUR_OK)
             result = aur_fail_memory(error);
         *found = result == AUR_OK ? made : NULL;

@@ -120,8 +120,8 @@ static aur_result prepare(aur_merged_rule *rule, const aur_merged_rule_options *
                                         .rotation_count = options->pattern.rotations};
     aur_result result = AUR_OK;
     if (options->method == AUR_WEIGHTS_OSWA)
-        result =
-            aur_weight_table_build(&wanted, &grid, options->threads, &options->progress, &rule->table, error);
+        result = (options->use_cache ? aur_weight_table_find : aur_weight_table_build)(
+            &wanted, &grid, options->threads, &options->progress, &rule->table, error);
     if (options->method == AUR_WEIGHTS_SOLVE)
         wanted.published_z = (aur_z_grid){
             .angle_count = 64, .exponent_count = 32, .largest_exponent = fmax(1.0, options->exponent)};

@@ -22,6 +22,7 @@ typedef struct aur_merged_rule_options {
     bool clipped;    /* OSWA: the glossy lobe ends at the horizon */
     double regularization;
     size_t threads; /* that make the table; 0: all */
+    bool use_cache; /* of earlier runs, for the table */
     aur_progress progress;
 } aur_merged_rule_options;
 

@@ -56,6 +56,7 @@ static aur_result merge(const rule_maker *maker, const aur_gather_rule *diffuse,
                                        .clipped = maker->p->clip,
                                        .regularization = maker->p->regularization,
                                        .threads = maker->context->threads,
+                                       .use_cache = maker->context->use_cache,
                                        .progress = maker->context->progress};
     options.pattern.count = diffuse->count;
     return aur_merged_rule_create(&options, &lobe->merged, error);

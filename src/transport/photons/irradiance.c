@@ -108,7 +108,8 @@ aur_result aur_irradiance_map_create(const aur_scene *scene, const aur_irradianc
         aur_elements_release(&elements);
         result = AUR_ERROR_MEMORY;
     } else {
-        *map = (aur_irradiance_map){.photons = photons.count, .paths = photons.paths, .rays = photons.rays};
+        *map = (aur_irradiance_map){
+            .photons = photons.count, .paths = photons.paths, .rays = photons.rays, .cut = photons.cut};
         result = fill(map, scene, elements, &photons, options->photons_a_texel);
     }
     aur_photon_map_release(&photons);

@@ -26,6 +26,7 @@ typedef struct aur_irradiance_map {
     size_t photons; /* stored, of which the map was made */
     uint64_t paths; /* particles that left the lights */
     uint64_t rays;  /* that the map cost */
+    uint64_t cut;   /* particles whose path was cut (photon_map.h) */
 } aur_irradiance_map;
 
 typedef struct aur_irradiance_options {

@@ -162,6 +162,15 @@ static uint64_t paths_a_chunk(size_t photons) {
     return paths;
 }
 
+void aur_photon_map_warn(uint64_t cut, uint64_t paths, const aur_warnings *warnings) {
+    if (cut > 0)
+        aur_warn_at(
+            warnings, (aur_location){0},
+            "photon map: %llu of %llu particles were cut after %d edges: surfaces absorb (nearly) nothing, "
+            "and what those particles would still bring is missing",
+            (unsigned long long)cut, (unsigned long long)paths, LONGEST_PATH);
+}
+
 static aur_result trace_until_enough(aur_photon_map *map, batch *work, aur_error *error) {
     const aur_photon_options *const options = work->options;
     const uint64_t most = (uint64_t)options->count * PATHS_A_PHOTON_LIMIT + PATHS_A_BATCH;
@@ -188,12 +197,7 @@ static aur_result trace_until_enough(aur_photon_map *map, batch *work, aur_error
             options->progress.function(options->progress.user, "photons", done, options->count) != 0)
             return aur_fail(error, AUR_ERROR_CANCELLED, "cancelled");
     }
-    if (map->cut > 0)
-        aur_warn_at(
-            &options->warnings, (aur_location){0},
-            "photon map: %llu of %llu particles were cut after %d edges: surfaces absorb (nearly) nothing, "
-            "and what those particles would still bring is missing",
-            (unsigned long long)map->cut, (unsigned long long)map->paths, LONGEST_PATH);
+    aur_photon_map_warn(map->cut, map->paths, &options->warnings);
     for (size_t i = 0; i < map->count; ++i)
         map->photons[i].power = aur_vector_scale(map->photons[i].power, 1.0f / (float)map->paths);
     return AUR_OK;

@@ -42,4 +42,6 @@ typedef struct aur_photon_options {
  * (nearly) no particle meets a surface. */
 aur_result aur_photon_map_create(const aur_scene *scene, const aur_elements *elements,
                                  const aur_photon_options *options, aur_photon_map *map, aur_error *error);
+/* Warns of particles whose path was cut, of all that left the lights, as the function above does. */
+void aur_photon_map_warn(uint64_t cut, uint64_t paths, const aur_warnings *warnings);
 void aur_photon_map_release(aur_photon_map *map);

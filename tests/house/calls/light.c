@@ -150,6 +150,7 @@ static void renders(const aur_scene *scene) {
     aur_render_cancel(render);
     aur_render_destroy(render);
     options.resumable = true;
+    options.use_cache = true;
     accept(aur_render_create(renderer, &options, &render, &error), &error);
     accept(aur_render_step(render, 0, &error), &error);
     accept(aur_render_save(render, "calls.part", &error), &error);
