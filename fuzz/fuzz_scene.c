@@ -5,6 +5,7 @@
 #include <unistd.h>
 
 #include "fuzz.h"
+#include "scene/scene.h"
 
 static const char *input_path(void) {
     static char path[64];
@@ -15,7 +16,8 @@ static const char *input_path(void) {
 /* Whether the picture comes out is not asked: a scene may ask for what no sample can give. */
 static void render(const aur_scene *scene) {
     const aur_render_options options = {.size = sizeof options,
-                                        .integrator = "path:max_depth=4",
+                                        .integrator = aur_scene_has_media(scene) ? "volpath:max_depth=4"
+                                                                                 : "path:max_depth=4",
                                         .sampler = "random",
                                         .filter = "box",
                                         .samples_per_pixel = 1,
@@ -107,6 +109,15 @@ static const char *const seeds[] = {
     "value='cie'/><string name='coefficients' value='-1 -.3 10 -3 .4'/><vector name='sun_direction' value='1 "
     "2 "
     "3'/><float name='zenith_luminance' value='9000'/></emitter></scene>",
+    "<scene version='3.0.0'><medium type='homogeneous' id='m'><rgb name='albedo' value='.9 .5 0'/><rgb "
+    "name='sigma_t' value='.5 1 $n'/><float name='scale' value='2'/><phase type='blendphase'><float "
+    "name='weight' value='.3'/><phase type='hg'><float name='g' value='-.5'/></phase><phase "
+    "type='tabphase'><string name='values' value='1 0 2'/></phase></phase></medium><sensor "
+    "type='perspective'><ref id='m'/></sensor><shape type='cube'><bsdf type='null'/><ref name='interior' "
+    "id='m'/><medium name='exterior' type='heterogeneous'><volume type='constvolume' name='sigma_t'><float "
+    "name='value' value='.1'/></volume></medium></shape><emitter type='constant'/><emitter "
+    "type='point'><point "
+    "name='position' z='3'/></emitter></scene>",
     /* A texture was once taken for the bsdf that its name says it is. */
     "<scene version='3.0.0'><sensor type='perspective'/><shape type='sphere'><point name='center' "
     "z='$n'/><texture "

@@ -52,7 +52,7 @@ done
 for sampler in random sobol halton jittered golden-set faure; do
   picture "$box" path --sampler "$sampler"
 done
-for scene in bench/peers/plugins/medium{,-glass,-phases}.xml; do picture $scene volpath; done
+for scene in bench/peers/plugins/medium{,-glass,-phases,-grid}.xml; do picture $scene volpath; done
 picture "$box" path --filter gaussian --crop 3,17,5,20
 picture "$box" "$gather" --filter mitchell --seed 7
 fi

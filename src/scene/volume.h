@@ -14,13 +14,17 @@ typedef struct aur_volume_descriptor {
     aur_result (*create)(aur_parameters *parameters, aur_volume *volume, aur_error *error);
     void (*release)(aur_volume *volume); /* what volume->data points to further; NULL: nothing */
     aur_vector (*evaluate)(const aur_volume *volume, aur_vector position);
+    /* The largest value of any channel in a box of the unit cube; for volumes that vary. */
+    float (*maximum_within)(const aur_volume *volume, const float lower[3], const float upper[3]);
 } aur_volume_descriptor;
 
 struct aur_volume {
     const aur_volume_descriptor *descriptor;
     void *data;
     float minimum, maximum; /* of any channel anywhere */
-    bool constant;
+    bool constant;          /* else it lies in the unit cube of its own space: */
+    float to_local[12];     /* row major 3x4, from the scene */
+    size_t voxels[3];
 };
 
 extern const aur_table aur_volume_table;
@@ -49,4 +53,17 @@ aur_result aur_volume_value_read(aur_parameters *parameters, const char *name, f
 static inline aur_vector aur_volume_value_at(const aur_volume_value *value, aur_vector position) {
     return value->volume == NULL ? value->constant
                                  : value->volume->descriptor->evaluate(value->volume, position);
+}
+
+/* A point and a direction in the volume's own space, a step along a ray being a step there. */
+static inline aur_vector aur_volume_local_direction(const aur_volume *volume, aur_vector direction) {
+    const float *const m = volume->to_local;
+    return (aur_vector){m[0] * direction.x + m[1] * direction.y + m[2] * direction.z,
+                        m[4] * direction.x + m[5] * direction.y + m[6] * direction.z,
+                        m[8] * direction.x + m[9] * direction.y + m[10] * direction.z};
+}
+
+static inline aur_vector aur_volume_local(const aur_volume *volume, aur_vector position) {
+    const float *const m = volume->to_local;
+    return aur_vector_add(aur_volume_local_direction(volume, position), (aur_vector){m[3], m[7], m[11]});
 }

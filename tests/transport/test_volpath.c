@@ -1,6 +1,7 @@
 /* Light in media, against closed forms: Beer and Lambert's law, furnaces, single scattering from a point of
  * light, and what a half-space reflects (Chandrasekhar's H). */
 #include "scene/scene_text.h"
+#include "scene/vol_file.h"
 
 #include <aureole/render.h>
 #include <aureole/statistics.h>
@@ -251,6 +252,105 @@ static void half_space_reflects_by_h(void **state) {
         }
 }
 
+/* Writes grid.vol: extinction that grows along x, 0, 1, ..., 7 in a row of voxels, and is `others` times that
+ * in the second and third channel. */
+static void write_ramp(float second, float third) {
+    float values[8][3];
+    for (size_t i = 0; i < 8; ++i) {
+        values[i][0] = (float)i;
+        values[i][1] = second * (float)i;
+        values[i][2] = third * (float)i;
+    }
+    size_t size;
+    char *const bytes = vol_bytes(8, 1, 1, 3, &values[0][0], &size);
+    write_file("grid.vol", bytes, size);
+    free(bytes);
+}
+
+#define GRID_BOX(more)                                                                                       \
+    "<shape type='cube'><bsdf type='null'/><medium name='interior' type='heterogeneous'><volume "            \
+    "name='sigma_t' type='gridvolume'><string name='filename' value='grid.vol'/><transform "                 \
+    "name='to_world'><scale value='2'/><translate x='-1' y='-1' z='-1'/></transform></volume><float "        \
+    "name='scale' value='0.3'/>" more "</medium></shape>"
+
+/* Along x, the cube of width 2 has the mean of its voxels, 3.5, as interpolation with clamped ends keeps it;
+ * what only absorbs is estimated by ratio tracking. */
+static void grids_absorb_by_their_integral(void **state) {
+    (void)state;
+    write_ramp(0.5f, 0.2f);
+    aur_scene *const scene =
+        load("<scene version='3.0.0'><emitter type='constant'/><sensor "
+             "type='orthographic'><transform name='to_world'><scale value='0.5'/><lookat "
+             "origin='4, 0, 0' target='0, 0, 0' up='0, 1, 0'/></transform></sensor>" GRID_BOX(
+                 "<float name='albedo' value='0'/>") "</scene>");
+    static const double factors[] = {1.0, 0.5, 0.2};
+    for (size_t k = 0; k < 3; ++k) {
+        double deviation;
+        const double mean = mean_of(scene, "volpath", 16, k, &deviation);
+        assert_mean(mean, deviation, exp(-0.3 * 3.5 * 2.0 * factors[k]), "a ramp of extinction");
+        assert_true(deviation < 0.02 * mean);
+    }
+    aur_scene_destroy(scene);
+}
+
+/* Furnaces of a grid: without colour to the bit, with colour and lights that are drawn in the mean. */
+static void grids_are_furnaces(void **state) {
+    (void)state;
+    float pixels[PIXELS][3];
+    write_ramp(1.0f, 1.0f);
+    aur_scene *scene = load("<scene version='3.0.0'>" CAMERA("") SKY GRID_BOX(
+        "<float name='albedo' value='1'/><boolean name='sample_emitters' value='false'/>") "</scene>");
+    render(scene, "volpath:rr_depth=100000", 4, 1, 1, pixels);
+    aur_scene_destroy(scene);
+    for (size_t i = 0; i < PIXELS; ++i)
+        assert_true(pixels[i][0] == 0.5f && pixels[i][1] == 0.25f && pixels[i][2] == 1.0f);
+    write_ramp(0.6f, 0.3f);
+    scene = load("<scene version='3.0.0'>" CAMERA("")
+                     SKY GRID_BOX("<float name='albedo' value='1'/>") "</scene>");
+    static const double sky[] = {0.5, 0.25, 1.0};
+    for (size_t k = 0; k < 3; ++k) {
+        double deviation;
+        const double mean = mean_of(scene, "volpath:rr_depth=4", 8, k, &deviation);
+        assert_mean(mean, deviation, sky[k], "a furnace of a grid");
+    }
+    aur_scene_destroy(scene);
+}
+
+/* A grid whose voxels are all alike is a homogeneous medium, tracked where that is known: a lamp in the sky
+ * over a floor, seen through it and lit through it. */
+static void even_grids_are_homogeneous(void **state) {
+    (void)state;
+    static const float values[8] = {1.5f, 1.5f, 1.5f, 1.5f, 1.5f, 1.5f, 1.5f, 1.5f};
+    static const char stage[] =
+        "<emitter type='directional'><vector name='direction' x='0.4' y='-1' z='0.1'/></emitter><shape "
+        "type='rectangle'><transform name='to_world'><scale value='3'/><rotate x='1' angle='-90'/><translate "
+        "y='-1.1'/></transform></shape><shape type='sphere'><transform name='to_world'><scale "
+        "value='0.3'/><translate y='1.6'/></transform><emitter type='area'/></shape>";
+    size_t size;
+    char *const bytes = vol_bytes(2, 2, 2, 1, values, &size);
+    write_file("grid.vol", bytes, size);
+    free(bytes);
+    aur_scene *grid, *even;
+    char text[4096];
+    snprintf(text, sizeof text, "<scene version='3.0.0'>" CAMERA("") "%s" GRID_BOX("") "</scene>", stage);
+    grid = load(text);
+    snprintf(text, sizeof text,
+             "<scene version='3.0.0'>" CAMERA("") "%s<shape type='cube'><bsdf type='null'/><medium "
+                                                  "name='interior' type='homogeneous'><float name='sigma_t' "
+                                                  "value='0.45'/></medium></shape></scene>",
+             stage);
+    even = load(text);
+    double a, b;
+    const double mean = mean_of(grid, "volpath", 16, 1, &a), expected = mean_of(even, "volpath", 16, 1, &b);
+    assert_mean(mean, hypot(a, b), expected, "an even grid");
+    static float one[PIXELS][3], three[PIXELS][3];
+    render(grid, "volpath", 4, 5, 1, one);
+    render(grid, "volpath", 4, 5, 3, three);
+    assert_memory_equal(one, three, sizeof one);
+    aur_scene_destroy(grid);
+    aur_scene_destroy(even);
+}
+
 /* Without media, volpath has the light of path, through masks too, which it looks through for lights. */
 static void without_media_it_is_path(void **state) {
     (void)state;
@@ -291,6 +391,9 @@ int main(void) {
         cmocka_unit_test(furnaces_are_right_in_the_mean),
         cmocka_unit_test(scatters_once_as_the_integral_says),
         cmocka_unit_test(half_space_reflects_by_h),
+        cmocka_unit_test(grids_absorb_by_their_integral),
+        cmocka_unit_test(grids_are_furnaces),
+        cmocka_unit_test(even_grids_are_homogeneous),
         cmocka_unit_test(without_media_it_is_path),
         cmocka_unit_test(threads_change_nothing),
     };

@@ -3,7 +3,8 @@
 
 typedef struct homogeneous {
     double scale;
-    aur_vector albedo, extinction; /* extinction: an inverse length of the scene, `scale` included */
+    aur_volume_value albedo;
+    aur_vector extinction; /* an inverse length of the scene, `scale` included */
 } homogeneous;
 
 static const aur_key keys[] = {
@@ -12,29 +13,18 @@ static const aur_key keys[] = {
     {AUR_KEY_OF_REAL(homogeneous, "scale", scale, 0.0, 1e30, "1", "factor of sigma_t")},
 };
 
-/* A value that does not vary. */
-static aur_result read_constant(aur_parameters *parameters, const char *name, float fallback, float maximum,
-                                aur_vector *constant, aur_error *error) {
-    aur_volume_value value;
-    const aur_result result = aur_volume_value_read(parameters, name, fallback, maximum, &value, error);
-    if (result != AUR_OK)
-        return result;
-    *constant = value.constant;
-    return value.volume == NULL
-               ? AUR_OK
-               : aur_fail_at(error, aur_parameters_find(parameters, name)->location, AUR_ERROR_FORMAT,
-                             "medium 'homogeneous': '%s' varies; 'heterogeneous' is the medium for that",
-                             name);
-}
-
 static aur_result create(aur_parameters *parameters, aur_medium *medium, aur_error *error) {
     homogeneous *const self = medium->data;
     aur_result result = aur_keys_read(sizeof keys / sizeof keys[0], keys, parameters, self, error);
+    aur_volume_value extinction = {.volume = NULL};
     if (result == AUR_OK)
-        result = read_constant(parameters, "albedo", 0.75f, 1.0f, &self->albedo, error);
+        result = aur_volume_value_read(parameters, "albedo", 0.75f, 1.0f, &self->albedo, error);
     if (result == AUR_OK)
-        result = read_constant(parameters, "sigma_t", 1.0f, 1e30f, &self->extinction, error);
-    self->extinction = aur_vector_scale(self->extinction, (float)self->scale);
+        result = aur_volume_value_read(parameters, "sigma_t", 1.0f, 1e30f, &extinction, error);
+    if (result == AUR_OK && extinction.volume != NULL)
+        return aur_parameters_fail(parameters, error, AUR_ERROR_FORMAT,
+                                   "'sigma_t' varies: 'heterogeneous' is the medium for that");
+    self->extinction = aur_vector_scale(extinction.constant, (float)self->scale);
     if (result == AUR_OK && !(aur_vector_max(self->extinction) <= 1e30f))
         result = aur_parameters_fail(parameters, error, AUR_ERROR_FORMAT,
                                      "'sigma_t' times 'scale' must be at most 1e30");
@@ -49,6 +39,10 @@ static aur_vector relative_transmittance(aur_vector extinction, float own, float
                         more.z == 0.0f ? 1.0f : expf(-more.z * distance)};
 }
 
+static bool absorbs_only(const homogeneous *self) {
+    return self->albedo.volume == NULL && aur_vector_is_zero(self->albedo.constant);
+}
+
 static void absorb(const homogeneous *self, float distance, aur_medium_walk *walk) {
     walk->throughput =
         aur_vector_multiply(walk->throughput, relative_transmittance(self->extinction, 0.0f, distance));
@@ -56,11 +50,10 @@ static void absorb(const homogeneous *self, float distance, aur_medium_walk *wal
 
 static bool travel(const aur_medium *medium, const aur_ray *ray, float distance, float u,
                    aur_medium_walk *walk, float *way) {
-    (void)ray;
     const homogeneous *const self = medium->data;
     aur_vector extinction = self->extinction;
     /* What only absorbs needs no chance. */
-    if (aur_vector_is_zero(self->albedo)) {
+    if (absorbs_only(self)) {
         absorb(self, distance, walk);
         return false;
     }
@@ -75,9 +68,11 @@ static bool travel(const aur_medium *medium, const aur_ray *ray, float distance,
         return false;
     }
     *way = drawn;
+    const aur_vector at = aur_vector_add_scaled(ray->origin, drawn, ray->direction);
     const aur_vector share = {extinction.x / own, extinction.y / own, extinction.z / own};
     walk->path = aur_vector_multiply(walk->path, share);
-    walk->throughput = aur_vector_multiply(walk->throughput, aur_vector_multiply(self->albedo, share));
+    walk->throughput = aur_vector_multiply(
+        walk->throughput, aur_vector_multiply(aur_volume_value_at(&self->albedo, at), share));
     return true;
 }
 
@@ -85,7 +80,7 @@ static void pass(const aur_medium *medium, const aur_ray *ray, float distance, a
     (void)ray;
     const homogeneous *const self = medium->data;
     absorb(self, distance, walk);
-    if (!aur_vector_is_zero(self->albedo))
+    if (!absorbs_only(self))
         walk->path =
             aur_vector_multiply(walk->path, relative_transmittance(self->extinction, 0.0f, distance));
 }

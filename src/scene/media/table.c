@@ -4,7 +4,9 @@
 
 #include "scene/medium.h"
 
-#define MEDIA(ROW) ROW(homogeneous)
+#define MEDIA(ROW)                                                                                           \
+    ROW(homogeneous)                                                                                         \
+    ROW(heterogeneous)
 
 #define DECLARE(name) extern const aur_medium_descriptor aur_medium_##name;
 MEDIA(DECLARE)

@@ -5,7 +5,9 @@
 #include "core/text.h"
 #include "scene/volume.h"
 
-#define VOLUMES(ROW) ROW(constvolume)
+#define VOLUMES(ROW)                                                                                         \
+    ROW(constvolume)                                                                                         \
+    ROW(gridvolume)
 
 #define DECLARE(name) extern const aur_volume_descriptor aur_volume_##name;
 VOLUMES(DECLARE)
