@@ -13,6 +13,10 @@ set_target_properties(aureole-render PROPERTIES INSTALL_RPATH "$ORIGIN")
 
 install(TARGETS aureole aureole-render EXPORT aureole-targets INCLUDES DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
 install(TARGETS aureole-program)
+if(TARGET aureole-mpi)
+    set_target_properties(aureole-mpi PROPERTIES INSTALL_RPATH "$ORIGIN")
+    install(TARGETS aureole-mpi DESTINATION ${CMAKE_INSTALL_LIBDIR})
+endif()
 install(DIRECTORY include/aureole DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
 
 # Completion, where the shells look for it.

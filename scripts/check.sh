@@ -3,7 +3,7 @@
 set -euo pipefail
 cd "$(dirname "$0")/.."
 
-bash scripts/deps.sh
+bash scripts/deps.sh --all
 jobs=$(nproc)
 for preset in release asan; do
   echo "== build, $preset"

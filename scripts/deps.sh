@@ -1,5 +1,6 @@
 #!/usr/bin/env bash
-# Installs what Aureole needs on Debian 12, from the one list below. Does nothing, and says so, when all is there.
+# Installs what Aureole needs on Debian 12, from the one list below; deps.sh --all also what it can do without. Does nothing,
+# and says so, when all is there.
 set -euo pipefail
 
 packages=(
@@ -10,6 +11,8 @@ packages=(
   # plots, unit tests
   gnuplot-nox libcmocka-dev
 )
+# many machines
+[ "${1:-}" != --all ] || packages+=(libopenmpi-dev openmpi-bin)
 
 command -v dpkg-query >/dev/null || {
   echo "deps.sh: not a Debian system; install the equivalents of: ${packages[*]}" >&2

@@ -1,5 +1,6 @@
 #include "cli/checkpoint.h"
 
+#include <aureole/ranks.h>
 #include <errno.h>
 #include <math.h>
 #include <stdio.h>
@@ -37,7 +38,10 @@ static double now(void) {
     return (double)time.tv_sec + 1e-9 * (double)time.tv_nsec;
 }
 
+/* Rank 0 writes, whichever thread comes here. */
 static aur_result save(cli_checkpoint *checkpoint, aur_error *error) {
+    if (!checkpoint->writes)
+        return AUR_OK;
     const aur_result result = checkpoint->render != NULL
                                   ? aur_render_save(checkpoint->render, checkpoint->path, error)
                                   : aur_ask_save(checkpoint->ask, checkpoint->path, error);
@@ -63,6 +67,7 @@ static int show(void *user, const char *what, uint64_t done, uint64_t total) {
 
 aur_progress cli_checkpoint_progress(cli_checkpoint *checkpoint, aur_progress progress) {
     checkpoint->progress = progress;
+    checkpoint->writes = aur_ranks_rank() == 0;
     return checkpoint->path != NULL ? (aur_progress){.function = show, .user = checkpoint} : progress;
 }
 
@@ -70,7 +75,9 @@ aur_result cli_checkpoint_begin(cli_checkpoint *checkpoint, aur_render *render, 
                                 aur_error *error) {
     if (checkpoint->path == NULL)
         return AUR_OK;
-    if (checkpoint->resume && access(checkpoint->path, F_OK) == 0) {
+    bool exists = access(checkpoint->path, F_OK) == 0;
+    aur_ranks_agree(sizeof exists, &exists);
+    if (checkpoint->resume && exists) {
         const aur_result result = render != NULL ? aur_render_resume(render, checkpoint->path, error)
                                                  : aur_ask_resume(ask, checkpoint->path, error);
         if (result != AUR_OK)

@@ -15,6 +15,7 @@ typedef struct cli_checkpoint {
     const aur_ask *ask;
     aur_progress progress; /* what is shown meanwhile */
     double last;           /* when the last one was written, or tried */
+    bool writes;           /* this is the process that does */
 } cli_checkpoint;
 
 extern const cli_option cli_checkpoint_options[]; /* cli_checkpoint */

@@ -1,4 +1,5 @@
 /* aureole lab: the papers' experiments. */
+#include <aureole/ranks.h>
 #include <errno.h>
 #include <stdio.h>
 #include <string.h>
@@ -98,7 +99,7 @@ static int run_experiments(lab_command *command, size_t count, char **names) {
         if (find(names[i])->rows == NULL)
             return cli_bad_usage("lab run: the rows of '%s' have no names: --rows does not go with it",
                                  names[i]);
-    if (mkdir(lab->folder, 0777) != 0 && errno != EEXIST) {
+    if (aur_ranks_rank() == 0 && mkdir(lab->folder, 0777) != 0 && errno != EEXIST) {
         fprintf(stderr, "aureole: %s: cannot make the folder: %s\n", lab->folder, strerror(errno));
         return CLI_FAILURE;
     }
@@ -140,4 +141,5 @@ const cli_verb cli_verb_lab = {
                {cli_limits_option, offsetof(lab_command, common)}},
     .size = sizeof(lab_command),
     .run = run,
+    .ranks = true,
 };

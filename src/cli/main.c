@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "cli/kinds.h"
+#include "cli/ranks.h"
 
 #define VERBS(ROW)                                                                                           \
     ROW(sets)                                                                                                \
@@ -37,15 +38,14 @@ static const cli_verb *find_verb(const char *name) {
     return NULL;
 }
 
-/* More than one process of one job would each do all of the work, and write the same file. */
-static bool is_one_of_many(void) {
-    static const char *const sizes[] = {"OMPI_COMM_WORLD_SIZE", "PMI_SIZE"};
-    for (size_t i = 0; i < sizeof sizes / sizeof sizes[0]; ++i) {
-        const char *const text = getenv(sizes[i]);
-        if (text != NULL && strtol(text, NULL, 10) > 1)
-            return true;
+/* A result that cannot be delivered (a full disk behind standard output) is a failure. */
+static int finish(int status) {
+    if (fflush(stdout) != 0 || ferror(stdout)) {
+        if (status == CLI_SUCCESS)
+            fprintf(stderr, "aureole: cannot write standard output\n");
+        return CLI_FAILURE;
     }
-    return false;
+    return status;
 }
 
 /* argv[0] is the verb. */
@@ -60,17 +60,7 @@ static int run(const cli_verb *verb, int argc, char **argv) {
     else if (cli_read_options(verb, argc, argv, &call))
         status = verb->run(&call);
     free(call.options);
-    return status;
-}
-
-/* A result that cannot be delivered (a full disk behind standard output) is a failure. */
-static int finish(int status) {
-    if (fflush(stdout) != 0 || ferror(stdout)) {
-        if (status == CLI_SUCCESS)
-            fprintf(stderr, "aureole: cannot write standard output\n");
-        return CLI_FAILURE;
-    }
-    return status;
+    return finish(status);
 }
 
 int main(int argc, char **argv) {
@@ -78,18 +68,14 @@ int main(int argc, char **argv) {
     const bool help = strcmp(name, "--help") == 0 || strcmp(name, "-h") == 0;
     if (argc < 2 || help) {
         const int status = run(&cli_verb_help, 1, (char *[]){"help", NULL});
-        return finish(help ? status : cli_bad_usage("a verb is missing: try 'aureole help'"));
+        return help ? status : cli_bad_usage("a verb is missing: try 'aureole help'");
     }
     if (strcmp(name, "--version") == 0) {
         printf("aureole %s\n", aur_version());
         return finish(CLI_SUCCESS);
     }
-    if (is_one_of_many())
-        return cli_bad_usage(
-            "started with several ranks, but built without MPI: render parts by '--shard i/n' "
-            "and put them together by 'aureole merge'");
     const cli_verb *const verb = find_verb(name);
     if (verb == NULL)
         return cli_bad_usage("unknown verb '%s': 'aureole help' lists them", name);
-    return finish(run(verb, argc - 1, argv + 1));
+    return cli_run_ranks(verb, argc - 1, argv + 1, run);
 }

@@ -208,4 +208,5 @@ const cli_verb cli_verb_measure = {
                {cli_limits_option, offsetof(cli_measure_arguments, common)}},
     .size = sizeof(cli_measure_arguments),
     .run = run,
+    .ranks = true,
 };

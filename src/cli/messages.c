@@ -1,10 +1,12 @@
 /* What goes to standard error: errors, warnings and the progress bar, which is the only state of the program
  * that outlives a function: the terminal has one bar. */
+#include <aureole/ranks.h>
 #include <inttypes.h>
 #include <math.h>
 #include <signal.h>
 #include <stdarg.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 #include <time.h>
 #include <unistd.h>
@@ -103,14 +105,43 @@ static int show(void *user, const char *what, uint64_t done, uint64_t total) {
     return 0;
 }
 
+/* A log says once how many processes worked, and where. */
+static void tell_of_ranks(void) {
+    static bool told;
+    const size_t count = aur_ranks_count();
+    if (count < 2 || told)
+        return;
+    told = true;
+    aur_rank_description *const ranks = calloc(count, sizeof *ranks);
+    if (ranks != NULL)
+        aur_ranks_describe(ranks);
+    if (ranks == NULL || aur_ranks_rank() != 0) {
+        free(ranks);
+        return;
+    }
+    fprintf(stderr, "aureole: %zu ranks:", count);
+    for (size_t r = 0, first = 0; r < count; ++r)
+        if (r + 1 == count || strcmp(ranks[r].host, ranks[r + 1].host) != 0) {
+            fprintf(stderr, "%s %zu", first > 0 ? "," : "", first);
+            if (r > first)
+                fprintf(stderr, " to %zu", r);
+            fprintf(stderr, " on %s", ranks[r].host);
+            first = r + 1;
+        }
+    fputc('\n', stderr);
+    free(ranks);
+}
+
 aur_progress cli_progress(bool quiet) {
+    if (!quiet)
+        tell_of_ranks();
     struct sigaction action;
     memset(&action, 0, sizeof action);
     action.sa_handler = on_interrupt;
     sigaction(SIGINT, &action, NULL);
     sigaction(SIGTERM, &action, NULL); /* what batch systems send before they kill */
     bar.draws = isatty(STDERR_FILENO);
-    return (aur_progress){.function = show, .user = quiet ? NULL : &bar};
+    return (aur_progress){.function = show, .user = quiet || aur_ranks_rank() != 0 ? NULL : &bar};
 }
 
 static void warn(void *user, const char *message) {

@@ -72,6 +72,7 @@ typedef struct cli_verb {
     const cli_group groups[10];       /* end with one without options */
     size_t size;                      /* of the struct that the options write to */
     int (*run)(const cli_call *call); /* returns the exit status */
+    bool ranks;                       /* several processes that mpirun starts share the work */
 } cli_verb;
 
 /* A command line that has been read. */

@@ -1,5 +1,6 @@
 #include "cli/plot.h"
 
+#include <aureole/ranks.h>
 #include <errno.h>
 #include <fcntl.h>
 #include <signal.h>
@@ -58,6 +59,10 @@ bool cli_plot_open(const char *path, int width, int height, cli_plot *plot) {
         cli_bad_usage("--plot: '%s' must end in .svg or .png", path);
         return false;
     }
+    if (aur_ranks_rank() != 0) { /* rank 0 draws */
+        plot->script = fopen("/dev/null", "w");
+        return plot->script != NULL;
+    }
     const size_t capacity = strlen(path) + 32;
     plot->temporary = malloc(capacity);
     if (plot->temporary == NULL) {
@@ -93,6 +98,8 @@ void cli_plot_text(cli_plot *plot, const char *text) {
 int cli_plot_close(cli_plot *plot) {
     fputs("\nunset output\n", plot->script);
     fclose(plot->script);
+    if (plot->process == 0)
+        return CLI_SUCCESS;
     int status = 0;
     pid_t ended;
     do

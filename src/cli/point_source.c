@@ -1,5 +1,6 @@
 #include "cli/point_source.h"
 
+#include <aureole/ranks.h>
 #include <math.h>
 #include <string.h>
 #include <unistd.h>
@@ -46,7 +47,9 @@ const cli_option cli_cap_option[] = {
 bool cli_is_file(const char *text) {
     if (aur_set_find(text) != NULL || strncmp(text, "file:", 5) == 0)
         return false;
-    return strcmp(text, "-") == 0 || access(text, F_OK) == 0;
+    bool exists = strcmp(text, "-") == 0 || access(text, F_OK) == 0;
+    aur_ranks_agree(sizeof exists, &exists);
+    return exists;
 }
 
 bool cli_has_size(const char *text) {

@@ -1,10 +1,12 @@
 /* aureole render: a scene to a picture. */
+#include <aureole/ranks.h>
 #include <aureole/render.h>
 #include <aureole/text.h>
 #include <inttypes.h>
 #include <limits.h>
 #include <math.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
 
@@ -138,7 +140,7 @@ static aur_result check_folder(const char *path, aur_error *error) {
         snprintf(folder, sizeof folder, ".");
     else
         snprintf(folder, sizeof folder, "%.*s", slash == path ? 1 : (int)(slash - path), path);
-    if (access(folder, W_OK | X_OK) == 0)
+    if (aur_ranks_rank() != 0 || access(folder, W_OK | X_OK) == 0) /* rank 0 writes */
         return AUR_OK;
     aur_fail(error, AUR_ERROR_WRITE, "cannot write: its folder does not exist or is read-only");
     snprintf(error->file, sizeof error->file, "%s", path);
@@ -163,6 +165,22 @@ static void print_statistics(const aur_render *render) {
                     l + 1);
 }
 
+/* What each of several processes did: all of them come here. */
+static void print_ranks(void) {
+    const size_t count = aur_ranks_count();
+    aur_rank_description *const ranks = count > 1 ? calloc(count, sizeof *ranks) : NULL;
+    if (ranks == NULL)
+        return;
+    aur_ranks_describe(ranks);
+    for (size_t r = 0; r < count; ++r)
+        fprintf(stderr,
+                "aureole: rank %zu on %s: %.2f CPU s, %.3f of them talk, %" PRIu64 " bytes sent, %" PRIu64
+                " received\n",
+                r, ranks[r].host, ranks[r].cpu_seconds, ranks[r].talk_seconds, ranks[r].sent,
+                ranks[r].received);
+    free(ranks);
+}
+
 /* All samples, in the steps that the errors ask for; *image is what there is in the end. */
 static aur_result render_samples(aur_renderer *renderer, render_command *command, cli_errors *errors,
                                  aur_image **image, aur_error *error) {
@@ -185,8 +203,10 @@ static aur_result render_samples(aur_renderer *renderer, render_command *command
     }
     if (result == AUR_OK && command->options.shard_count > 0)
         result = aur_render_save(render, command->output, error);
-    if (result == AUR_OK && command->statistics)
+    if (result == AUR_OK && command->statistics) {
         print_statistics(render);
+        print_ranks();
+    }
     aur_render_destroy(render);
     return result;
 }
@@ -308,4 +328,5 @@ const cli_verb cli_verb_render = {
                {cli_limits_option, offsetof(render_command, common)}},
     .size = sizeof(render_command),
     .run = run,
+    .ranks = true,
 };

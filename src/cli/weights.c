@@ -238,4 +238,5 @@ const cli_verb cli_verb_weights = {
                {cli_limits_option, offsetof(cli_weights_arguments, common)}},
     .size = sizeof(cli_weights_arguments),
     .run = run,
+    .ranks = true,
 };

@@ -10,6 +10,7 @@
 
 #include "core/array.h"
 #include "core/file.h"
+#include "core/ranks.h"
 #include "core/text.h"
 #include "core/words.h"
 
@@ -57,7 +58,7 @@ static uint64_t hash_of(size_t size, const void *data, const char *key) {
 
 /* --- reading */
 
-char *aur_cache_file_read(const char *kind, const char *key, size_t *size) {
+static char *read_here(const char *kind, const char *key, size_t *size) {
     char folder[PATH_CAPACITY], path[PATH_CAPACITY];
     char *data = NULL;
     size_t whole = 0;
@@ -79,6 +80,23 @@ char *aur_cache_file_read(const char *kind, const char *key, size_t *size) {
     (void)utimensat(AT_FDCWD, path, NULL, 0); /* it was used */
     data[*size] = '\0';
     return data;
+}
+
+/* Rank 0 of several processes looks for all. */
+char *aur_cache_file_read(const char *kind, const char *key, size_t *size) {
+    const bool looks = aur_ranks_rank() == 0;
+    aur_ranks *const ranks = aur_ranks_set_aside();
+    char *data = looks ? read_here(kind, key, size) : NULL;
+    aur_ranks_put_back(ranks);
+    bool found = data != NULL;
+    aur_ranks_agree(sizeof found, &found);
+    if (ranks == NULL || !found)
+        return data;
+    char *const own = data;
+    if (aur_ranks_broadcast(ranks, &data, size, NULL) == AUR_OK)
+        return data;
+    free(own);
+    return NULL;
 }
 
 /* --- writing */
@@ -148,7 +166,8 @@ static void remove_oldest(const char *path, uint64_t limit) {
 void aur_cache_file_write(const char *kind, const char *key, size_t size, const void *data) {
     char folder[PATH_CAPACITY], path[PATH_CAPACITY];
     const uint64_t limit = limit_in_bytes();
-    if (size > limit / 4 || !find_folder(folder) || !find_path(folder, kind, key, path))
+    if (aur_ranks_rank() != 0 || size > limit / 4 || !find_folder(folder) ||
+        !find_path(folder, kind, key, path))
         return;
     const uint64_t words[WORDS] = {strlen(key), hash_of(size, data, key), mark};
     make_folders(folder);

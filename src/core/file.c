@@ -12,6 +12,7 @@
 #include <unistd.h>
 
 #include "core/array.h"
+#include "core/ranks.h"
 
 static aur_result fail_write(aur_error *error, const char *path, int code) {
     return aur_fail_at(error, (aur_location){.file = path}, AUR_ERROR_WRITE, "cannot write: %s",
@@ -87,6 +88,11 @@ static void keep_status(int descriptor, const struct stat *old) {
 
 aur_result aur_file_open(const char *path, aur_file_writer *writer, aur_error *error) {
     *writer = (aur_file_writer){0};
+    if (aur_ranks_rank() != 0) { /* rank 0 writes */
+        writer->path = strdup(path);
+        writer->stream = writer->path != NULL ? fopen("/dev/null", "wb") : NULL;
+        return writer->stream != NULL ? AUR_OK : aur_fail_memory(error);
+    }
     if (strcmp(path, "-") == 0) {
         writer->path = strdup(path);
         writer->stream = stdout;
@@ -191,9 +197,7 @@ void aur_file_abandon(aur_file_writer *writer) {
     *writer = (aur_file_writer){0};
 }
 
-aur_result aur_file_read(const char *path, size_t limit, char **data, size_t *size, aur_error *error) {
-    *data = NULL;
-    *size = 0;
+static aur_result read_here(const char *path, size_t limit, char **data, size_t *size, aur_error *error) {
     const aur_location where = {.file = path};
     const bool standard = strcmp(path, "-") == 0;
     FILE *const stream = standard ? stdin : fopen(path, "rb");
@@ -231,4 +235,35 @@ aur_result aur_file_read(const char *path, size_t limit, char **data, size_t *si
     *data = buffer;
     *size = used;
     return AUR_OK;
+}
+
+aur_result aur_file_read(const char *path, size_t limit, char **data, size_t *size, aur_error *error) {
+    *data = NULL;
+    *size = 0;
+    aur_ranks *const ranks = aur_ranks_here();
+    if (ranks == NULL)
+        return read_here(path, limit, data, size, error);
+    aur_error said = {0};
+    if (aur_ranks_rank() == 0)
+        (void)read_here(path, limit, data, size, &said);
+    aur_ranks_agree(sizeof said, &said);
+    if (said.result != AUR_OK) {
+        if (error != NULL)
+            *error = said;
+        return said.result;
+    }
+    const aur_result result = aur_ranks_broadcast(ranks, data, size, error);
+    if (result != AUR_OK && aur_ranks_rank() == 0) {
+        free(*data);
+        *data = NULL;
+    }
+    return result;
+}
+
+bool aur_file_status(const char *path, struct stat *status) {
+    *status = (struct stat){0};
+    bool exists = aur_ranks_rank() == 0 && stat(path, status) == 0;
+    aur_ranks_agree(sizeof exists, &exists);
+    aur_ranks_agree(sizeof *status, status);
+    return exists;
 }

@@ -3,6 +3,7 @@
 
 #include <stdbool.h>
 #include <stdio.h>
+#include <sys/stat.h>
 
 #include "core/error.h"
 
@@ -30,5 +31,9 @@ aur_result aur_file_commit(aur_file_writer *writer, aur_error *error);
 void aur_file_abandon(aur_file_writer *writer);
 
 /* Reads all of `path` ("-": standard input) into *data, allocated with malloc and followed by a zero byte
- * that is not counted. Refuses files beyond `limit` bytes. */
+ * that is not counted. Refuses files beyond `limit` bytes. Of a job of several
+ * processes rank 0 reads, and writes, for all (core/ranks.h). */
 aur_result aur_file_read(const char *path, size_t limit, char **data, size_t *size, aur_error *error);
+
+/* stat(2), likewise; false where there is no such file. */
+bool aur_file_status(const char *path, struct stat *status);

@@ -11,6 +11,7 @@
 #include <unistd.h>
 
 #include "core/error.h"
+#include "core/shared_loop.h"
 #include "core/text.h"
 
 #if defined(__x86_64__)
@@ -89,8 +90,9 @@ struct shared_work {
     size_t count;
     aur_parallel_function function;
     void *context;
-    shared_work *outer; /* the work of whose items this is a part; NULL: of none */
-    atomic_size_t next; /* the first item that nobody has taken */
+    aur_shared_loop *loop; /* items are shared with other processes; NULL: they are not */
+    shared_work *outer;    /* the work of whose items this is a part; NULL: of none */
+    atomic_size_t next;    /* the first item that nobody has taken */
     atomic_bool stop;
     pthread_mutex_t lock; /* guards what follows, and makes one progress report at a time */
     size_t failed_index;  /* `count` while nothing has failed */
@@ -144,22 +146,76 @@ static void record(shared_work *work, size_t index, aur_result result) {
     pthread_mutex_unlock(&work->lock);
 }
 
-static void *do_items(void *shared) {
+static bool take_item(shared_work *work, size_t *index) {
+    if (work->loop != NULL)
+        return aur_shared_loop_take(work->loop, index);
+    *index = atomic_fetch_add_explicit(&work->next, 1, memory_order_relaxed);
+    return *index < work->count;
+}
+
+/* False where no item is left. */
+static bool do_item(void *shared) {
     shared_work *const work = shared;
-    while (!atomic_load_explicit(&work->stop, memory_order_relaxed)) {
-        const size_t index = atomic_fetch_add_explicit(&work->next, 1, memory_order_relaxed);
-        if (index >= work->count)
-            break;
-        shared_work *const outer = inside;
-        const uint64_t saved = work->options->flush_denormals ? flush_denormals() : 0;
-        inside = work;
-        const aur_result result = work->function(work->context, index);
-        inside = outer;
-        if (work->options->flush_denormals)
-            restore_denormals(saved);
-        record(work, index, result);
-    }
+    size_t index;
+    if (atomic_load_explicit(&work->stop, memory_order_relaxed) || !take_item(work, &index))
+        return false;
+    shared_work *const outer = inside;
+    aur_ranks *const ranks = aur_ranks_set_aside();
+    const uint64_t saved = work->options->flush_denormals ? flush_denormals() : 0;
+    inside = work;
+    const aur_result result = work->function(work->context, index);
+    inside = outer;
+    if (work->options->flush_denormals)
+        restore_denormals(saved);
+    aur_ranks_put_back(ranks);
+    if (work->loop != NULL)
+        aur_shared_loop_done(work->loop, index, result);
+    record(work, index, result);
+    return true;
+}
+
+static void *do_items(void *shared) {
+    while (do_item(shared))
+        continue;
     return NULL;
+}
+
+/* --- sharing it with other processes */
+
+static void note(void *shared, size_t index, aur_result result) {
+    shared_work *const work = shared;
+    if (index < work->count) {
+        record(work, index, result);
+        return;
+    }
+    pthread_mutex_lock(&work->lock);
+    if (index == AUR_LOOP_END || work->result == AUR_OK)
+        work->result = result;
+    if (result != AUR_OK)
+        atomic_store(&work->stop, true);
+    pthread_mutex_unlock(&work->lock);
+}
+
+static aur_result outcome(void *shared) {
+    shared_work *const work = shared;
+    pthread_mutex_lock(&work->lock);
+    const aur_result result = work->result;
+    pthread_mutex_unlock(&work->lock);
+    return result;
+}
+
+static void begin_sharing(shared_work *work, size_t threads) {
+    const aur_shared_loop_options options = {.what = work->options->what != NULL ? work->options->what
+                                                                                 : "working",
+                                             .share = work->options->share,
+                                             .context = work->context,
+                                             .count = work->count,
+                                             .threads = threads,
+                                             .stop = &work->stop,
+                                             .note = note,
+                                             .outcome = outcome,
+                                             .work = work};
+    work->loop = aur_shared_loop_create(aur_ranks_here(), &options);
 }
 
 /* Starts up to `wanted` threads, which leave the host's signals to the host's threads. Returns how many there
@@ -182,6 +238,7 @@ aur_result aur_parallel_for(const aur_parallel_options *options, size_t count, a
         options = &defaults;
     if (count == 0)
         return AUR_OK;
+    aur_ranks *const ranks = inside == NULL && options->share != NULL ? aur_ranks_here() : NULL;
     size_t wanted = inside != NULL ? 1 : aur_parallel_threads(options->threads);
     if (wanted > count)
         wanted = count;
@@ -195,12 +252,24 @@ aur_result aur_parallel_for(const aur_parallel_options *options, size_t count, a
     atomic_init(&work.stop, false);
     if (pthread_mutex_init(&work.lock, NULL) != 0)
         return aur_fail_memory(error);
+    if (ranks != NULL)
+        begin_sharing(&work, wanted);
+    /* The thread of a job talks to the other ranks, and others do the items. */
+    const size_t others = work.loop != NULL ? wanted : wanted - 1;
     pthread_t threads[MOST_THREADS];
-    const size_t started = wanted > 1 ? start_threads(&work, wanted - 1, threads) : 0;
-    do_items(&work);
+    const size_t started = others > 0 ? start_threads(&work, others, threads) : 0;
+    if (work.loop != NULL)
+        aur_shared_loop_talk(work.loop, started == 0 ? do_item : NULL);
+    else if (ranks == NULL)
+        do_items(&work);
     for (size_t i = 0; i < started; ++i)
         pthread_join(threads[i], NULL);
+    if (work.loop != NULL)
+        aur_shared_loop_end(work.loop);
     pthread_mutex_destroy(&work.lock);
+    /* A stop is told as a stop, also where a rank has been lost: what there is can be kept. */
+    if (ranks != NULL && aur_ranks_have_failed(ranks) && work.result != AUR_ERROR_CANCELLED)
+        return aur_ranks_failure(ranks, error);
     if (work.result == AUR_OK)
         return AUR_OK;
     const bool named = options->what != NULL;

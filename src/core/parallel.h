@@ -8,6 +8,27 @@
 /* Does item `index` of the work. Called from several threads at once, each index once. */
 typedef aur_result (*aur_parallel_function)(void *context, size_t index);
 
+/* An array that items write their results to: item i the bytes i * each .. (i + 1) * each - 1, as far as
+ * `size` goes. */
+typedef struct aur_parallel_slice {
+    void *data;
+    size_t each, size;
+} aur_parallel_slice;
+
+struct aur_bytes;
+struct aur_bytes_reader;
+enum { AUR_SHARE_SLICES = 4 };
+
+/* All that an item leaves behind, so that the ranks of a job (core/ranks.h) can share the items: afterwards
+ * every rank has what all items found. */
+typedef struct aur_parallel_share {
+    aur_parallel_slice slices[AUR_SHARE_SLICES]; /* end with one without data */
+    /* What is no slice, or NULL: puts what the item found into bytes (false: no memory), and takes it from
+     * the bytes of another rank, while other items are done. Also of items that were cancelled. */
+    bool (*pack)(void *context, size_t index, struct aur_bytes *bytes);
+    aur_result (*unpack)(void *context, size_t index, struct aur_bytes_reader *bytes);
+} aur_parallel_share;
+
 typedef struct aur_parallel_options {
     size_t threads;        /* 0: as many as the machine offers */
     const char *what;      /* names the work in progress reports and errors; NULL: no name */
@@ -15,6 +36,7 @@ typedef struct aur_parallel_options {
     /* Denormal numbers are zero inside the items, as Embree asks of who traces rays. Points, weights and
      * measures leave it false: the same function then gives the same bits inside and outside of an item. */
     bool flush_denormals;
+    const aur_parallel_share *share; /* NULL: each rank of a job does all items */
 } aur_parallel_options;
 
 /* Runs items 0..count-1 on the calling thread and on others that last as long as the call; when the system

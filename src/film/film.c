@@ -110,17 +110,21 @@ static void set_wanted(const aur_film *film, const aur_film_targets *targets, au
     tile->ends = even ? NULL : before->targets;
 }
 
-aur_result aur_film_open_tile(aur_film *film, size_t index, const aur_film_targets *targets, aur_tile *tile,
-                              aur_film_before *before) {
+void aur_film_place_tile(const aur_film *film, size_t index, aur_tile *tile) {
     const aur_film_layout *const layout = &film->layout;
     const size_t x = (film->column0 + index % film->columns) * AUR_TILE_SIZE;
     const size_t y = (film->row0 + index / film->columns) * AUR_TILE_SIZE;
-    const size_t channels = layout->channel_count, width = layout->x1 - layout->x0;
     tile->x0 = larger(x, layout->x0);
     tile->x1 = smaller(x + AUR_TILE_SIZE, layout->x1);
     tile->y0 = larger(y, layout->y0);
     tile->y1 = smaller(y + AUR_TILE_SIZE, layout->y1);
     tile->stride = tile->x1 - tile->x0;
+}
+
+aur_result aur_film_open_tile(aur_film *film, size_t index, const aur_film_targets *targets, aur_tile *tile,
+                              aur_film_before *before) {
+    const size_t channels = film->layout.channel_count, width = film->layout.x1 - film->layout.x0;
+    aur_film_place_tile(film, index, tile);
     set_wanted(film, targets, tile, before);
     if (tile->count == 0)
         return AUR_OK;

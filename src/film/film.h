@@ -95,6 +95,15 @@ void aur_film_take_tile(aur_film *film, aur_tile *tile);
 /* Notes what the step brought, and gives up what has not been taken over. */
 void aur_film_close_tile(aur_film *film, aur_tile *tile, const aur_film_before *before);
 
+/* Where the tile lies in the film: x0 .. y1 and the stride. */
+void aur_film_place_tile(const aur_film *film, size_t index, aur_tile *tile);
+
+/* All that the film has of a tile, to and from bytes of another process that renders the same, with what was
+ * counted there for the tile. */
+void aur_film_put_tile(const aur_film *film, size_t index, struct aur_bytes *bytes);
+void aur_film_get_tile(aur_film *film, size_t index, const aur_counters *counted,
+                       struct aur_bytes_reader *bytes);
+
 /* What aur_film_save writes, to a stream that remembers its failures; and its bytes. */
 void aur_film_write(const aur_film *film, FILE *stream);
 size_t aur_film_file_size(const aur_film *film);

@@ -1,6 +1,7 @@
 /* The table of experiments, and what runs them: a new one is one file and one line here. */
 #include "lab/lab.h"
 
+#include <aureole/ranks.h>
 #include <aureole/statistics.h>
 #include <fnmatch.h>
 #include <stdarg.h>
@@ -90,8 +91,11 @@ void lab_note(lab_run *run, const char *format, ...) {
 aur_result lab_load_scene(const lab_run *run, const char *path, size_t definition_count,
                           const aur_definition *definitions, aur_scene **scene, aur_error *error) {
     const char *folder = run->options->scenes;
-    if (folder == NULL)
-        folder = access("scenes", R_OK) == 0 ? "scenes" : AUR_SCENES_FOLDER;
+    if (folder == NULL) {
+        bool here = access("scenes", R_OK) == 0;
+        aur_ranks_agree(sizeof here, &here);
+        folder = here ? "scenes" : AUR_SCENES_FOLDER;
+    }
     char full[AUR_ERROR_FILE_CAPACITY];
     snprintf(full, sizeof full, "%s/%s", folder, path);
     const aur_scene_options options = {.size = sizeof options,

@@ -18,9 +18,13 @@ aur_result aur_measure_number(const aur_measure_request *request, double minimum
 }
 
 aur_result aur_measure_items(const aur_measure_options *options, const char *what, size_t count,
-                             aur_parallel_function function, void *context, aur_error *error) {
-    const aur_parallel_options parallel = {
-        .threads = options->threads, .what = what, .progress = options->progress};
+                             aur_parallel_function function, void *context, aur_parallel_slice found,
+                             aur_error *error) {
+    const aur_parallel_share share = {.slices = {found}};
+    const aur_parallel_options parallel = {.threads = options->threads,
+                                           .what = what,
+                                           .progress = options->progress,
+                                           .share = found.data != NULL ? &share : NULL};
     return aur_parallel_for(&parallel, count, function, context, error);
 }
 

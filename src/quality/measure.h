@@ -44,9 +44,11 @@ struct aur_series {
 aur_result aur_measure_number(const aur_measure_request *request, double minimum, double maximum,
                               double missing, double *value, aur_error *error);
 
-/* Runs items of work with the threads and the progress of the options; `what` names it. */
+/* Runs items of work with the threads and the progress of the options; `what` names it. `found` is all that
+ * items write, so that several processes can share them (core/parallel.h); without data: each does all. */
 aur_result aur_measure_items(const aur_measure_options *options, const char *what, size_t count,
-                             aur_parallel_function function, void *context, aur_error *error);
+                             aur_parallel_function function, void *context, aur_parallel_slice found,
+                             aur_error *error);
 
 static inline double aur_weight_at(const aur_points_view *points, size_t index) {
     return points->weights != NULL ? points->weights[index] : 1.0;

@@ -3,7 +3,6 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/stat.h>
 
 #include "core/error.h"
 #include "core/file.h"
@@ -18,12 +17,12 @@ static aur_result write_named_files(const char *text, FILE *stream, aur_error *e
     while (text != NULL && *text != '\0') {
         const size_t length = strcspn(text, ",:=()");
         char piece[AUR_ERROR_FILE_CAPACITY];
-        struct stat status;
         bool output = false;
         for (size_t i = 0; i < 2; ++i)
             output = output || strncmp(text, written[i], strlen(written[i])) == 0;
         snprintf(piece, sizeof piece, "%.*s", (int)length, text);
-        if (!output && length > 0 && stat(piece, &status) == 0 && S_ISREG(status.st_mode)) {
+        struct stat status;
+        if (!output && length > 0 && aur_file_status(piece, &status) && S_ISREG(status.st_mode)) {
             char *data;
             size_t size;
             const aur_result result = aur_file_read(piece, SIZE_MAX / 2, &data, &size, error);

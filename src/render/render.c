@@ -8,8 +8,10 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "core/bytes.h"
 #include "core/options.h"
 #include "core/parallel.h"
+#include "core/ranks.h"
 #include "film/film.h"
 #include "image/image.h"
 #include "render/renderer.h"
@@ -147,6 +149,15 @@ static aur_result prepare(aur_render *render, aur_error *error) {
     return AUR_OK;
 }
 
+/* Of a job of several processes: rank 0's time, and all processors'. */
+static void add_seconds(aur_render *render, const aur_stopwatch *start, double *wall) {
+    double seconds = 0.0, cpu = 0.0;
+    aur_stopwatch_add(start, &seconds, &cpu);
+    aur_ranks_share_seconds(&seconds, &cpu);
+    *wall += seconds;
+    render->statistics.cpu_seconds += cpu;
+}
+
 aur_result aur_render_create(aur_renderer *renderer, const aur_render_options *options, aur_render **out,
                              aur_error *error) {
     *out = NULL;
@@ -161,7 +172,7 @@ aur_result aur_render_create(aur_renderer *renderer, const aur_render_options *o
     aur_result result = aur_options_read(options, sizeof *own, sizeof *own, own, "aur_render_options", error);
     if (result == AUR_OK)
         result = prepare(render, error);
-    aur_stopwatch_add(&start, &render->statistics.prepare_seconds, &render->statistics.cpu_seconds);
+    add_seconds(render, &start, &render->statistics.prepare_seconds);
     if (result != AUR_OK) {
         aur_render_destroy(render);
         return result;
@@ -191,6 +202,7 @@ static bool is_own(const aur_render *render, size_t tile) {
 typedef struct render_work {
     aur_render *render;
     aur_film_targets targets;
+    aur_counters *counted; /* of each tile, for other processes; NULL: there are none */
 } render_work;
 
 static aur_result add_samples(const aur_integrator *integrator, aur_tile *tile) {
@@ -203,7 +215,7 @@ static aur_result add_samples(const aur_integrator *integrator, aur_tile *tile) 
 /* All samples that the tile lacks, in pieces where this changes no bit: what is finished stays when the work
  * is stopped, also in a tile of hours. Pieces grow to so many rays, which take some hundredths of a second.
  */
-static aur_result add_pieces(aur_render *render, aur_tile *tile) {
+static aur_result add_pieces(aur_render *render, aur_tile *tile, aur_counters *counted) {
     enum { RAYS_A_PIECE = 1 << 16 };
     const uint32_t end = tile->first + tile->count;
     uint32_t piece = aur_integrator_cuts(render->integrator) ? 1 : end;
@@ -216,6 +228,8 @@ static aur_result add_pieces(aur_render *render, aur_tile *tile) {
         if (result != AUR_OK)
             return result;
         const uint64_t rays = tile->counters.rays;
+        if (counted != NULL)
+            aur_counters_add(counted, &tile->counters);
         aur_film_take_tile(render->film, tile);
         if (rays < RAYS_A_PIECE && piece < end)
             piece *= 2;
@@ -236,9 +250,27 @@ static aur_result render_tile(void *context, size_t index) {
         return AUR_OK;
     aur_result result = aur_film_open_tile(render->film, index, &work->targets, &tile, &before);
     if (result == AUR_OK)
-        result = add_pieces(render, &tile);
+        result = add_pieces(render, &tile, work->counted != NULL ? &work->counted[index] : NULL);
     aur_film_close_tile(render->film, &tile, &before);
     return result;
+}
+
+static bool pack_tile(void *context, size_t index, aur_bytes *bytes) {
+    const render_work *const work = context;
+    if (!is_own(work->render, index))
+        return true;
+    aur_bytes_put(bytes, sizeof work->counted[index], &work->counted[index]);
+    aur_film_put_tile(work->render->film, index, bytes);
+    return true;
+}
+
+static aur_result unpack_tile(void *context, size_t index, aur_bytes_reader *bytes) {
+    const render_work *const work = context;
+    if (!is_own(work->render, index))
+        return AUR_OK;
+    aur_bytes_get(bytes, sizeof work->counted[index], &work->counted[index]);
+    aur_film_get_tile(work->render->film, index, &work->counted[index], bytes);
+    return bytes->failed ? AUR_ERROR_INTERNAL : AUR_OK;
 }
 
 /* Cut paths are worth a warning when they are more than so many a thousand samples. */
@@ -272,13 +304,21 @@ static aur_result do_work(aur_render *render, render_work *work, aur_error *erro
         return aur_fail(error, render->broken, "rendering: an earlier step failed: %s",
                         aur_result_string(render->broken));
     work->render = render;
+    if (aur_ranks_count() > 1) {
+        work->counted = calloc(render->film->tile_count, sizeof *work->counted);
+        if (work->counted == NULL)
+            return aur_fail_memory(error);
+    }
+    const aur_parallel_share share = {.pack = pack_tile, .unpack = unpack_tile};
     const aur_stopwatch start = aur_stopwatch_start();
     const aur_parallel_options parallel = {.threads = render->settings.threads,
                                            .what = "rendering",
                                            .progress = render->settings.progress,
-                                           .flush_denormals = true};
+                                           .flush_denormals = true,
+                                           .share = &share};
     const aur_result result = aur_parallel_for(&parallel, render->film->tile_count, render_tile, work, error);
-    aur_stopwatch_add(&start, &render->statistics.render_seconds, &render->statistics.cpu_seconds);
+    free(work->counted);
+    add_seconds(render, &start, &render->statistics.render_seconds);
     warn_of_losses(render);
     atomic_store(&render->cancelled, false);
     if (result != AUR_OK && result != AUR_ERROR_CANCELLED)

@@ -3,7 +3,6 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/stat.h>
 
 #include "core/file.h"
 #include "core/words.h"
@@ -39,7 +38,7 @@ static aur_result write_file(const char *kind, const aur_xml_file *file, FILE *s
         hash = aur_hash_bytes(size, data);
         free(data);
         struct stat status;
-        if (stat(file->path, &status) != 0 || status.st_mtim.tv_sec != file->changed.tv_sec ||
+        if (!aur_file_status(file->path, &status) || status.st_mtim.tv_sec != file->changed.tv_sec ||
             status.st_mtim.tv_nsec != file->changed.tv_nsec)
             return aur_fail_at(error, (aur_location){.file = file->path}, AUR_ERROR_OPEN,
                                "the file has changed since the scene was loaded: load it again");

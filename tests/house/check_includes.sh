@@ -51,6 +51,7 @@ pointset/relax
 pointset/generators pointset/files
 pointset/digits
 pointset
+mpi
 core
 '
 (cd "$source_tree" && grep -rnE '^#include "' src include bench lab scenes tests fuzz --include='*.[ch]' --include='*.cpp') |

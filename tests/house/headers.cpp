@@ -11,6 +11,7 @@
 #include <aureole/quadrature.h>
 #include <aureole/quality.h>
 #include <aureole/radiosity.h>
+#include <aureole/ranks.h>
 #include <aureole/render.h>
 #include <aureole/rotations.h>
 #include <aureole/scene.h>

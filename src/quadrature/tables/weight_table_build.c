@@ -4,7 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "core/array.h"
+#include "core/bytes.h"
 #include "core/parallel.h"
 #include "quadrature/tables/weight_table.h"
 
@@ -231,11 +231,53 @@ static aur_result build_one(void *context, size_t index) {
     return result;
 }
 
+/* What an angle of one roughness has built, piece by piece: its masses, and its rows of each rotation. */
+static void each_piece(const aur_weight_table *table, size_t place,
+                       void (*move)(void *bytes, size_t size, void *data), void *bytes) {
+    const size_t index = place % table->angle_count, roughness = place / table->angle_count;
+    const bool last = index + 1 == table->angle_count;
+    move(bytes, (last ? 1 : AUR_WEIGHT_TABLE_MASS_STEPS) * sizeof *table->masses,
+         table->masses + roughness * aur_weight_table_mass_count(table) +
+             index * AUR_WEIGHT_TABLE_MASS_STEPS);
+    for (size_t rotation = 0; rotation < table->rotation_count; ++rotation) {
+        const size_t slot = roughness * table->rotation_count + rotation;
+        size_t first = slot * table->angle_count + index, end = first + 1;
+        if (table->apart) {
+            const size_t interval = slot * (table->angle_count - 1) + index;
+            first = 2 * (size_t)table->first[interval] - (index > 0);
+            end = last ? 2 * (size_t)table->first[interval] : 2 * (size_t)table->first[interval + 1] - 1;
+        }
+        move(bytes, (end - first) * aur_weight_table_width(table) * sizeof *table->weights,
+             aur_weight_table_row(table, first));
+    }
+}
+
+static void put(void *bytes, size_t size, void *data) {
+    aur_bytes_put(bytes, size, data);
+}
+
+static void get(void *bytes, size_t size, void *data) {
+    aur_bytes_get(bytes, size, data);
+}
+
+static bool pack_angle(void *context, size_t place, aur_bytes *bytes) {
+    each_piece(((const build *)context)->table, place, put, bytes);
+    return true;
+}
+
+static aur_result unpack_angle(void *context, size_t place, aur_bytes_reader *bytes) {
+    each_piece(((const build *)context)->table, place, get, bytes);
+    return bytes->failed ? AUR_ERROR_INTERNAL : AUR_OK;
+}
+
 static aur_result solve_all(const aur_weight_table *table, size_t threads, const aur_progress *progress,
                             aur_error *error) {
     build work = {table, SIZE_MAX};
-    const aur_parallel_options parallel = {
-        .threads = threads, .what = "weights", .progress = progress != NULL ? *progress : (aur_progress){0}};
+    const aur_parallel_share share = {.pack = pack_angle, .unpack = unpack_angle};
+    const aur_parallel_options parallel = {.threads = threads,
+                                           .what = "weights",
+                                           .progress = progress != NULL ? *progress : (aur_progress){0},
+                                           .share = &share};
     const aur_result result =
         aur_parallel_for(&parallel, table->roughness_count * table->angle_count, build_one, &work, error);
     /* Once more for what it says: no thread has an error of its own. */

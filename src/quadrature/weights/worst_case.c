@@ -49,7 +49,10 @@ aur_result aur_worst_case_error(size_t count, const double *xyz, const double *w
         used[i] = weights != NULL ? weights[i] : 1.0 / (double)count;
     pair_sum sum = {&potential->rule, count, aur_columns_split(count, xyz, storage), used,
                     storage + 5 * count};
+    const aur_parallel_share share = {
+        .slices = {{sum.blocks, sizeof *sum.blocks, block_count * sizeof *sum.blocks}}};
     const aur_parallel_options options = {.threads = threads,
+                                          .share = &share,
                                           .what = "worst-case error",
                                           .progress = progress != NULL ? *progress : (aur_progress){0}};
     result = aur_parallel_for(&options, block_count, add_block, &sum, error);

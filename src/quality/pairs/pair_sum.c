@@ -66,7 +66,9 @@ aur_result aur_pair_sum(const aur_axes *axes, aur_pair_tile_function function, d
     tiles work = {axes, function, parameter, malloc(count * sizeof *work.sums)};
     if (work.sums == NULL)
         return aur_fail_memory(error);
-    const aur_result result = aur_measure_items(options, "summing pairs", count, sum_tile, &work, error);
+    const aur_result result = aur_measure_items(
+        options, "summing pairs", count, sum_tile, &work,
+        (aur_parallel_slice){work.sums, sizeof *work.sums, count * sizeof *work.sums}, error);
     *sum = (aur_twofold){0.0, 0.0};
     for (size_t i = 0; i < count && result == AUR_OK; ++i)
         *sum = aur_twofold_add(*sum, work.sums[i]);

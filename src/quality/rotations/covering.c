@@ -203,7 +203,9 @@ aur_result aur_rotation_covering(const aur_measure_request *request, double *ang
     if (result != AUR_OK)
         return result;
     work.tree = tree;
-    result = aur_measure_items(&request->options, "cutting cells", items, measure_cells, &work, error);
+    result = aur_measure_items(
+        &request->options, "cutting cells", items, measure_cells, &work,
+        (aur_parallel_slice){work.radii, sizeof *work.radii, items * sizeof *work.radii}, error);
     aur_tree_destroy(tree);
     double greatest = 0.0;
     for (size_t i = 0; i < items && result == AUR_OK; ++i)

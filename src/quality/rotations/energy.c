@@ -60,8 +60,9 @@ aur_result aur_rotation_pair_sum(const aur_measure_request *request, double (*pa
                       aur_arena_allocate(request->arena, items * sizeof *work.sums)};
     if (work.sums == NULL)
         return aur_fail_memory(error);
-    const aur_result result =
-        aur_measure_items(&request->options, "summing pairs", items, sum_rows, &work, error);
+    const aur_result result = aur_measure_items(
+        &request->options, "summing pairs", items, sum_rows, &work,
+        (aur_parallel_slice){work.sums, sizeof *work.sums, items * sizeof *work.sums}, error);
     const double mass = mass_of(request->points);
     *sum = 0.0;
     for (size_t i = 0; i < items && result == AUR_OK; ++i)

@@ -143,11 +143,12 @@ aur_result aur_gridded_powers(const aur_measure_request *request, size_t limit, 
         aur_fourier_prepare(side, g.turns);
         aur_window_invert(&g.window, limit, g.factor);
         sort(&g);
-        result = aur_measure_items(&request->options, "transforming rows", side / BAND, fill_band, &g, error);
+        result = aur_measure_items(&request->options, "transforming rows", side / BAND, fill_band, &g,
+                                   (aur_parallel_slice){0}, error);
     }
     if (result == AUR_OK)
         result = aur_measure_items(&request->options, "transforming columns", limit + 1, transform_column, &g,
-                                   error);
+                                   (aur_parallel_slice){0}, error);
     free(numbers);
     free(g.order);
     free(g.first);

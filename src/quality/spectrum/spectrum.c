@@ -103,7 +103,10 @@ static aur_result make_periodogram(const aur_measure_request *request, periodogr
         return aur_fail_memory(error);
     result = aur_gridded_allowed(request)
                  ? aur_gridded_powers(request, p->limit, p->power, error)
-                 : aur_measure_items(&request->options, "transforming", p->limit + 1, fill_row, p, error);
+                 : aur_measure_items(&request->options, "transforming", p->limit + 1, fill_row, p,
+                                     (aur_parallel_slice){p->power, (2 * p->limit + 1) * sizeof *p->power,
+                                                          count * sizeof *p->power},
+                                     error);
     const double scale = 1.0 / aur_sum_of_squares(request->points);
     for (size_t i = 0; i < count && result == AUR_OK; ++i)
         p->power[i] *= scale;

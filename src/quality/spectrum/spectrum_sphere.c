@@ -100,8 +100,9 @@ static aur_result sum_directly(const aur_measure_request *request, size_t limit,
     work.power = aur_arena_allocate(request->arena, side * side * sizeof *work.power);
     if (work.power == NULL)
         return aur_fail_memory(error);
-    const aur_result result =
-        aur_measure_items(&request->options, "transforming", side, fill_order, &work, error);
+    const aur_result result = aur_measure_items(
+        &request->options, "transforming", side, fill_order, &work,
+        (aur_parallel_slice){work.power, side * sizeof *work.power, side * side * sizeof *work.power}, error);
     for (size_t l = 1; l <= limit && result == AUR_OK; ++l) {
         powers[l] = 0.0;
         for (size_t m = 0; m <= l; ++m)

@@ -30,6 +30,7 @@ typedef struct pencils {
     size_t bin_count;      /* even */
     const double *cosines; /* the greatest cos t in each bin */
     _Atomic double *best;
+    double *seen; /* by each item: the best so far, for other processes */
 } pencils;
 
 typedef struct scratch {
@@ -217,6 +218,7 @@ static aur_result turn_about_pairs_of(void *context, size_t index) {
     scratch s = {room, room + count, room + 2 * count, room + 3 * count, room + 3 * count + work->bin_count};
     for (size_t j = 0; j < index; ++j)
         turn_about_pair(work, index, j, &s);
+    work->seen[index] = atomic_load(work->best);
     free(room);
     return AUR_OK;
 }
@@ -240,7 +242,8 @@ static aur_result cap(const aur_measure_request *request, double *value, aur_err
     const size_t bins = 2 * ((request->points->count + 63) / 64) * 32;
     double *const cosines = aur_arena_allocate(request->arena, bins * sizeof *cosines);
     aur_height *const room = aur_arena_allocate(request->arena, request->points->count * sizeof *room);
-    if (cosines == NULL || room == NULL)
+    double *const seen = aur_arena_allocate(request->arena, request->points->count * sizeof *seen);
+    if (cosines == NULL || room == NULL || seen == NULL)
         return aur_fail_memory(error);
     aur_axes axes;
     aur_result result = aur_axes_create(request->points, &axes, error);
@@ -250,10 +253,12 @@ static aur_result cap(const aur_measure_request *request, double *value, aur_err
         cosines[b] = greatest_cosine(4.0 * (double)b / (double)bins, 4.0 * (double)(b + 1) / (double)bins);
     _Atomic double best;
     atomic_init(&best, best_about_points(&axes, room));
-    pencils work = {&axes, bins, cosines, &best};
-    result =
-        aur_measure_items(&request->options, "turning caps", axes.count, turn_about_pairs_of, &work, error);
+    pencils work = {&axes, bins, cosines, &best, seen};
+    result = aur_measure_items(&request->options, "turning caps", axes.count, turn_about_pairs_of, &work,
+                               (aur_parallel_slice){seen, sizeof *seen, axes.count * sizeof *seen}, error);
     *value = atomic_load(&best);
+    for (size_t i = 0; i < axes.count && result == AUR_OK; ++i)
+        *value = fmax(*value, seen[i]);
     aur_axes_release(&axes);
     return result;
 }

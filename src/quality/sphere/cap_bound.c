@@ -71,7 +71,9 @@ static aur_result cap_bound(const aur_measure_request *request, double *value, a
     result = work.best != NULL ? aur_axes_create(request->points, &axes, error) : aur_fail_memory(error);
     if (result != AUR_OK)
         return result;
-    result = aur_measure_items(&request->options, "trying caps", items, try_centres, &work, error);
+    result = aur_measure_items(&request->options, "trying caps", items, try_centres, &work,
+                               (aur_parallel_slice){work.best, sizeof *work.best, items * sizeof *work.best},
+                               error);
     *value = 0.0;
     for (size_t i = 0; i < items && result == AUR_OK; ++i)
         *value = fmax(*value, work.best[i]);

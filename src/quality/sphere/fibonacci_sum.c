@@ -165,7 +165,9 @@ aur_result aur_fibonacci_distance_sum(size_t count, aur_domain domain, const aur
     for (int i = 0; i < NODES; ++i)
         sum_of_weights = aur_twofold_add(sum_of_weights, (aur_twofold){work.gauss.weights[i], 0.0});
     work.gauss.weights[NODES / 2] -= sum_of_weights.high;
-    const aur_result result = aur_measure_items(options, "summing lags", items, sum_lags, &work, error);
+    const aur_result result = aur_measure_items(
+        options, "summing lags", items, sum_lags, &work,
+        (aur_parallel_slice){work.sums, sizeof *work.sums, items * sizeof *work.sums}, error);
     *sum = (aur_twofold){0.0, 0.0};
     for (size_t i = 0; i < items && result == AUR_OK; ++i)
         *sum = aur_twofold_add(*sum, work.sums[i]);

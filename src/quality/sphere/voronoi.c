@@ -206,9 +206,11 @@ static aur_result cut_cells(const aur_measure_request *request, cells work, aur_
     aur_result result = aur_sphere_grid_create(request->points, cap > 0.0 ? cap * (AUR_PI / 180.0) : AUR_PI,
                                                request->arena, &grid, error);
     if (result == AUR_OK)
-        result =
-            aur_measure_items(&request->options, "cutting cells",
-                              (work.count + CELLS_PER_ITEM - 1) / CELLS_PER_ITEM, find_cells, &work, error);
+        result = aur_measure_items(&request->options, "cutting cells",
+                                   (work.count + CELLS_PER_ITEM - 1) / CELLS_PER_ITEM, find_cells, &work,
+                                   (aur_parallel_slice){work.result, CELLS_PER_ITEM * sizeof *work.result,
+                                                        work.count * sizeof *work.result},
+                                   error);
     return result;
 }
 

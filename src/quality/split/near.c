@@ -169,8 +169,9 @@ aur_result aur_near_sum(const aur_near_points *near, const aur_split_kernel *ker
     near_work work = {near, kernel, aur_arena_allocate(request->arena, items * sizeof *work.sums)};
     if (work.sums == NULL)
         return aur_fail_memory(error);
-    const aur_result result =
-        aur_measure_items(&request->options, "summing near pairs", items, sum_points, &work, error);
+    const aur_result result = aur_measure_items(
+        &request->options, "summing near pairs", items, sum_points, &work,
+        (aur_parallel_slice){work.sums, sizeof *work.sums, items * sizeof *work.sums}, error);
     aur_twofold total = {0.0, 0.0};
     bool infinite = false;
     for (size_t i = 0; i < items && result == AUR_OK; ++i) {

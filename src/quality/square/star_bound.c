@@ -183,7 +183,8 @@ static aur_result star_bound(const aur_measure_request *request, double *value, 
     if (table == NULL)
         return aur_fail_memory(error);
     walk w = {request->points, table, (size_t)steps, request->options.seed, best};
-    result = aur_measure_items(&request->options, "trying boxes", TRIALS, do_trial, &w, error);
+    result = aur_measure_items(&request->options, "trying boxes", TRIALS, do_trial, &w,
+                               (aur_parallel_slice){best, sizeof *best, sizeof best}, error);
     *value = 0.0;
     for (size_t i = 0; i < TRIALS; ++i)
         *value = fmax(*value, best[i]);

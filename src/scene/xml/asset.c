@@ -6,10 +6,10 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/stat.h>
 
 #include "core/array.h"
 #include "core/file.h"
+#include "core/ranks.h"
 #include "scene/xml/xml.h"
 
 /* The first `length` bytes of a path. */
@@ -42,12 +42,12 @@ static bool folder_at(const aur_xml_document *document, const char *file, size_t
 static char *join(folder in, const char *name) {
     const size_t size = in.length + strlen(name) + 2;
     char *const path = malloc(size);
-    struct stat status;
     if (path == NULL)
         return NULL;
     const bool slash = in.length > 0 && in.path[in.length - 1] != '/';
     snprintf(path, size, "%.*s%s%s", (int)in.length, in.path, slash ? "/" : "", name);
-    if (stat(path, &status) == 0)
+    struct stat status;
+    if (aur_file_status(path, &status))
         return path;
     free(path);
     return NULL;
@@ -124,9 +124,10 @@ static bool is_allowed(const aur_xml_document *document, const char *path) {
         return true;
     char *const real = realpath(path, NULL);
     const size_t length = strlen(document->confines);
-    const bool allowed = real != NULL && strncmp(real, document->confines, length) == 0 &&
-                         (real[length] == '/' || document->confines[length - 1] == '/');
+    bool allowed = real != NULL && strncmp(real, document->confines, length) == 0 &&
+                   (real[length] == '/' || document->confines[length - 1] == '/');
     free(real);
+    aur_ranks_agree(sizeof allowed, &allowed);
     return allowed;
 }
 
@@ -146,7 +147,7 @@ aur_result aur_xml_find_asset(aur_xml_document *document, aur_location location,
                               char **found, aur_error *error) {
     aur_result result = aur_xml_find_folder(document, location, name, found, error);
     struct stat status;
-    if (result == AUR_OK && !(stat(*found, &status) == 0 && S_ISREG(status.st_mode)))
+    if (result == AUR_OK && !(aur_file_status(*found, &status) && S_ISREG(status.st_mode)))
         result = aur_fail_at(error, location, AUR_ERROR_OPEN,
                              "'%s' is no regular file: a scene may name no folders, devices or pipes", name);
     else if (result == AUR_OK && !is_allowed(document, *found))

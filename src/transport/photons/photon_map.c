@@ -3,7 +3,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "core/array.h"
+#include "core/bytes.h"
 #include "core/memory.h"
 #include "core/parallel.h"
 #include "sampling/stream.h"
@@ -136,6 +136,29 @@ static aur_result trace_chunk(void *context, size_t index) {
     return AUR_OK;
 }
 
+static bool pack_chunk(void *context, size_t index, aur_bytes *bytes) {
+    const batch *const work = context;
+    const photon_chunk *const chunk = &work->chunks[index];
+    const uint64_t counted[] = {chunk->count, chunk->rays, chunk->cut};
+    aur_bytes_put(bytes, sizeof counted, counted);
+    aur_bytes_put(bytes, chunk->count * sizeof *chunk->photons, chunk->photons);
+    return true;
+}
+
+static aur_result unpack_chunk(void *context, size_t index, aur_bytes_reader *bytes) {
+    batch *const work = context;
+    photon_chunk *const chunk = &work->chunks[index];
+    uint64_t counted[3];
+    aur_bytes_get(bytes, sizeof counted, counted);
+    chunk->count = (size_t)counted[0];
+    chunk->rays = counted[1];
+    chunk->cut = counted[2];
+    if (!aur_array_reserve(&chunk->photons, &chunk->capacity, chunk->count, sizeof *chunk->photons))
+        return AUR_ERROR_MEMORY;
+    aur_bytes_get(bytes, chunk->count * sizeof *chunk->photons, chunk->photons);
+    return bytes->failed ? AUR_ERROR_INTERNAL : AUR_OK;
+}
+
 static aur_result append_batch(aur_photon_map *map, const batch *work, size_t *capacity) {
     size_t added = 0;
     for (size_t i = 0; i < CHUNKS_A_BATCH; ++i)
@@ -174,8 +197,9 @@ void aur_photon_map_warn(uint64_t cut, uint64_t paths, const aur_warnings *warni
 static aur_result trace_until_enough(aur_photon_map *map, batch *work, aur_error *error) {
     const aur_photon_options *const options = work->options;
     const uint64_t most = (uint64_t)options->count * PATHS_A_PHOTON_LIMIT + PATHS_A_BATCH;
+    const aur_parallel_share share = {.pack = pack_chunk, .unpack = unpack_chunk};
     const aur_parallel_options parallel = {
-        .threads = options->threads, .what = "photon map", .flush_denormals = true};
+        .threads = options->threads, .what = "photon map", .flush_denormals = true, .share = &share};
     size_t capacity = 0;
     while (map->count < options->count) {
         if (map->paths >= most && options->kind == AUR_PHOTONS_CAUSTIC)

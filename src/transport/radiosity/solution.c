@@ -9,6 +9,7 @@
 #include "core/options.h"
 #include "core/parallel.h"
 #include "core/random.h"
+#include "core/ranks.h"
 #include "transport/radiosity/scene.h"
 
 /* --- making */
@@ -189,6 +190,7 @@ typedef struct batch {
     const point_source *points;
     uint64_t begin, end; /* paths */
     size_t blocks_each;  /* of one randomisation, at most */
+    size_t last;         /* this process does blocks up to here */
     atomic_size_t next;
 } batch;
 
@@ -198,7 +200,7 @@ static aur_result run_lane(void *context, size_t lane) {
     const size_t count = radiosity->options.randomizations;
     for (;;) {
         const size_t item = atomic_fetch_add(&work->next, 1);
-        if (item >= count * work->blocks_each)
+        if (item >= work->last)
             return AUR_OK;
         const size_t r = item / work->blocks_each;
         const uint64_t end = aur_radiosity_paths_of(radiosity, r, work->end);
@@ -231,13 +233,23 @@ static aur_result trace_batch(aur_radiosity *radiosity, const point_source *poin
     const uint64_t longest = aur_radiosity_paths_of(radiosity, 0, end) -
                              aur_radiosity_paths_of(radiosity, count - 1, radiosity->paths);
     work.blocks_each = (size_t)(longest / AUR_RADIOSITY_BLOCK + 1);
-    atomic_init(&work.next, 0);
+    /* Each of several processes takes a range of the blocks. */
+    const size_t ranks = aur_ranks_count(), blocks = count * work.blocks_each;
+    atomic_init(&work.next, blocks * aur_ranks_rank() / ranks);
+    work.last = blocks * (aur_ranks_rank() + 1) / ranks;
     const aur_parallel_options parallel = {
         .threads = radiosity->lane_count, .what = "radiosity", .flush_denormals = true};
-    const aur_result result = aur_parallel_for(&parallel, radiosity->lane_count, run_lane, &work, error);
+    aur_radiosity_tally *const lanes = radiosity->lanes;
+    aur_result result = aur_parallel_for(&parallel, radiosity->lane_count, run_lane, &work, error);
+    for (size_t i = count; i < radiosity->lane_count * count; ++i) {
+        lanes[i % count].not_finite |= lanes[i].not_finite;
+        aur_radiosity_tally_take(&lanes[i % count], &lanes[i]);
+    }
+    if (result == AUR_OK)
+        result = aur_radiosity_tallies_share(count, lanes, error);
     bool not_finite = false;
-    for (size_t i = 0; i < radiosity->lane_count * count; ++i)
-        not_finite |= radiosity->lanes[i].not_finite;
+    for (size_t i = 0; i < count; ++i)
+        not_finite |= lanes[i].not_finite;
     if (not_finite) {
         release_lanes(radiosity); /* the solution stays what it was before these paths */
         return aur_fail(
@@ -245,8 +257,8 @@ static aur_result trace_batch(aur_radiosity *radiosity, const point_source *poin
             "radiosity: a path carries a power that is not finite: look for a texture or a material "
             "of that kind");
     }
-    for (size_t i = 0; i < radiosity->lane_count * count; ++i)
-        aur_radiosity_tally_take(&radiosity->tallies[i % count], &radiosity->lanes[i]);
+    for (size_t i = 0; i < count; ++i)
+        aur_radiosity_tally_take(&radiosity->tallies[i], &lanes[i]);
     radiosity->paths = end;
     return result;
 }
@@ -298,7 +310,8 @@ aur_result aur_radiosity_trace(aur_radiosity *radiosity, uint64_t paths, aur_err
         return result;
     result = prepare_lanes(radiosity, error);
     const aur_progress *const progress = &radiosity->options.progress;
-    const uint64_t batch_paths = (uint64_t)AUR_RADIOSITY_BLOCK * BLOCKS_A_BATCH * radiosity->lane_count;
+    const uint64_t batch_paths =
+        (uint64_t)AUR_RADIOSITY_BLOCK * BLOCKS_A_BATCH * radiosity->lane_count * aur_ranks_count();
     while (result == AUR_OK && radiosity->paths < paths) {
         const uint64_t left = paths - radiosity->paths;
         result = trace_batch(radiosity, &points, radiosity->paths + (left < batch_paths ? left : batch_paths),
