@@ -97,7 +97,8 @@ static inline aur_irradiance_options aur_irradiance_options_default(void) {
 }
 
 /* Where light comes from: all of it; straight from lights; straight from the sky (a light that is all
- * around); all that was reflected, or went through something, on its way. */
+ * around); all that was reflected or refracted on its way. What goes straight through panes comes straight.
+ */
 typedef enum aur_irradiance_part {
     AUR_IRRADIANCE_TOTAL,
     AUR_IRRADIANCE_DIRECT,

@@ -16,14 +16,24 @@ static const aur_key keys[] = {
                       "factor of what goes through")},
 };
 
-static aur_result create(aur_parameters *parameters, aur_bsdf *bsdf, aur_error *error) {
+static aur_result add_lobes(aur_parameters *parameters, aur_lobe_way through, aur_bsdf *bsdf,
+                            aur_error *error) {
     dielectric *const self = bsdf->data;
-    aur_bsdf_lobe lobe = {.shape = AUR_LOBE_SHAPE_SPECULAR, .sides = AUR_SIDES_BOTH, .transmits = true};
+    aur_bsdf_lobe lobe = {
+        .shape = AUR_LOBE_SHAPE_SPECULAR, .way = through, .sides = AUR_SIDES_BOTH, .transmits = true};
     aur_bsdf_add_lobe(bsdf, &lobe);
     lobe.transmits = false;
     lobe.way = AUR_LOBE_WAY_MIRROR;
     aur_bsdf_add_lobe(bsdf, &lobe);
     return aur_parameters_ior(parameters, "bk7", &self->ior, error);
+}
+
+static aur_result create_boundary(aur_parameters *parameters, aur_bsdf *bsdf, aur_error *error) {
+    return add_lobes(parameters, AUR_LOBE_WAY_OWN, bsdf, error);
+}
+
+static aur_result create_pane(aur_parameters *parameters, aur_bsdf *bsdf, aur_error *error) {
+    return add_lobes(parameters, AUR_LOBE_WAY_STRAIGHT, bsdf, error);
 }
 
 /* `through` is where the light comes from that is not mirrored, and `ratio` the index of the view's side over
@@ -65,7 +75,7 @@ const aur_bsdf_descriptor aur_bsdf_dielectric = {
             .source = "Fresnel 1823",
             AUR_ROW_KEYS(keys)},
     .size = sizeof(dielectric),
-    .create = create,
+    .create = create_boundary,
     .weigh = weigh_boundary,
 };
 
@@ -75,6 +85,6 @@ const aur_bsdf_descriptor aur_bsdf_thindielectric = {
             .source = "Stam 2001",
             AUR_ROW_KEYS(keys)},
     .size = sizeof(dielectric),
-    .create = create,
+    .create = create_pane,
     .weigh = weigh_pane,
 };

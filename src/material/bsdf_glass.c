@@ -16,9 +16,13 @@ static const aur_key keys[] = {
 
 static aur_result create(aur_parameters *parameters, aur_bsdf *bsdf, aur_error *error) {
     glass *const self = bsdf->data;
-    aur_bsdf_lobe lobe = {.shape = AUR_LOBE_SHAPE_SPECULAR, .sides = AUR_SIDES_BOTH, .transmits = true};
+    aur_bsdf_lobe lobe = {.shape = AUR_LOBE_SHAPE_SPECULAR,
+                          .way = AUR_LOBE_WAY_STRAIGHT,
+                          .sides = AUR_SIDES_BOTH,
+                          .transmits = true};
     aur_bsdf_add_lobe(bsdf, &lobe);
     lobe.transmits = false;
+    lobe.way = AUR_LOBE_WAY_MIRROR;
     aur_bsdf_add_lobe(bsdf, &lobe);
     return aur_parameters_ior(parameters, "bk7", &self->ior, error);
 }

@@ -47,6 +47,20 @@ done
 near "the annual sum" "$(cell annual_lux_hours 2 plane.csv)" \
   "$(awk -F, 'NR > 1 { sum += $5 } END { printf "%.3f", sum }' hours.csv)" 10
 
+# Behind a black mask that lets half through, all over the sky, each of them is half, sun and all, but for the ground that the
+# mask hides.
+sed 's|</scene>|<shape type="rectangle"><transform name="to_world"><scale value="90000"/><translate z="1"/></transform>\
+<bsdf type="mask"><float name="opacity" value=".5"/><bsdf type="diffuse"><rgb name="reflectance" value="0"/></bsdf></bsdf>\
+</shape></scene>|' plane.xml >mask.xml
+for scene in plane mask; do
+  "$aureole" irradiance -q $scene.xml --sensors up.pts --weather mixed.epw --up 0,0,1 -n 2048 -o $scene.csv || fail "a year of $scene"
+done
+[ "$(cell sun_hours 2 plane.csv)" != 0 ] || fail "no hour of sun"
+for column in daylight_factor annual_lux_hours; do
+  near "half the $column" "$(cell $column 2 mask.csv)" "$(awk "BEGIN { print $(cell $column 2 plane.csv) / 2 }")" \
+    "$(awk "BEGIN { print 5 * sqrt($(cell ${column}_error 2 mask.csv) ^ 2 + $(cell ${column}_error 2 plane.csv) ^ 2) }")"
+done
+
 # An hour beside a wall and on a floor that reflect, clear or overcast: by coefficients, and by the sky and the sun of the
 # same hour traced by themselves. Patches have the sky's mean radiance: 1.5 % is what 10 degrees leave of a clear sky here,
 # and .3 % of an overcast one. So with the daylight factor: lux from a sky of 100.
@@ -69,7 +83,7 @@ compare() {
 }
 for row in 'mixed 0.015' 'overcast 0.003'; do
   read -r file tolerance <<<"$row"
-  "$aureole" irradiance -q yard.xml --sensors yard.pts --weather $file.epw -n 32768 --efficacy 179 --ground-albedo 0 \
+  "$aureole" irradiance -q yard.xml --sensors yard.pts --weather $file.epw -n 16384 --efficacy 179 --ground-albedo 0 \
     --up 0,0,1 --series hours.csv -o yard.csv || fail "a yard"
   line=$(grep -n "^2001,6,10,13," $file.epw | cut -d: -f1)
   read -r direct diffuse <<<"$(awk -F, -v line="$line" 'NR == line { print $15, $16 }' $file.epw)"
@@ -79,12 +93,12 @@ $bed<emitter type="sky"><string name="model" value="perez"/><float name="direct_
 <float name="diffuse_horizontal" value="$diffuse"/>$timed</emitter>
 <emitter type="sun"><rgb name="irradiance" value="$direct"/>$timed</emitter></scene>
 XML
-  "$aureole" irradiance -q hour.xml --sensors yard.pts -n 32768 --illuminance rec709 -o hour.csv || fail "an hour"
+  "$aureole" irradiance -q hour.xml --sensors yard.pts -n 16384 --illuminance rec709 -o hour.csv || fail "an hour"
   grep '^[012],6,10,13,' hours.csv | cut -d, -f5,6 --output-delimiter=' ' >now.txt
   compare "a $file hour" "$tolerance"
 done
 echo "$bed<emitter type='sky'><float name='illuminance' value='100'/><vector name='up' value='0 0 1'/></emitter></scene>" >hour.xml
-"$aureole" irradiance -q hour.xml --sensors yard.pts -n 32768 --illuminance rec709 -o hour.csv || fail "an overcast sky"
+"$aureole" irradiance -q hour.xml --sensors yard.pts -n 16384 --illuminance rec709 -o hour.csv || fail "an overcast sky"
 for sensor in 2 3 4; do echo "$(cell daylight_factor $sensor yard.csv) $(cell daylight_factor_error $sensor yard.csv)"; done >now.txt
 compare "daylight factors" 0.003
 

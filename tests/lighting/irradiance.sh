@@ -171,6 +171,49 @@ printf '<scene version="3.0.0"><shape type="rectangle"><transform name="to_world
 printf '0 0 2 0 0 1\n0 0 0 0 0 -1\n' >behind.pts
 warned "2 of 2 sensors see no light at all" away.xml --sensors behind.pts
 
+# Panes. A sun through one of Radiance's glass, two bounces of each polarisation, at 30 degrees: 1e5 * solid angle * cosine *
+# what the pane lets through, which awk computes; nothing of it is left to chance. The same beyond two panes, and of half a
+# million directions of a uniform sky through a pane that covers all of it, by quadrature over the cosine.
+passed='function passed(c, t,   i, a, b, d) { i = sqrt(1 - (1 - c * c) / (1.52 * 1.52)); d = t ^ (1 / i)
+  a = ((c - 1.52 * i) / (c + 1.52 * i)) ^ 2; b = ((1.52 * c - i) / (1.52 * c + i)) ^ 2
+  return ((1 - a) ^ 2 / (1 - (a * d) ^ 2) + (1 - b) ^ 2 / (1 - (b * d) ^ 2)) * d / 2 }'
+printf '0 0 0 0 0 1\n' >below.pts
+printf 'void glass g 0 0 3 .9 .8 .7\ng polygon p 0 0 12 -9e4 -9e4 1 9e4 -9e4 1 9e4 9e4 1 -9e4 9e4 1\n' >pane.rad
+printf 'void light s 0 0 3 1e5 1e5 1e5\ns source sun 0 0 4 0 .5 .866025403784 .533\n' | cat pane.rad - >sun.rad
+"$aureole" irradiance -q sun.rad --sensors below.pts -n 1024 --parts -o sun.csv || fail "a sun behind a pane"
+near 4 "$(awk "$passed BEGIN { a = .2665 * atan2(0, -1) / 180; c = .866025403784; print 1e5 * atan2(0, -1) * sin(a) ^ 2 * c * passed(c, .9) }")" sun.csv
+near 22 0 sun.csv
+printf 'g polygon q 0 0 12 -9e4 -9e4 2 9e4 -9e4 2 9e4 9e4 2 -9e4 9e4 2\n' | cat sun.rad - >two.rad
+"$aureole" irradiance -q two.rad --sensors below.pts -n 1024 --max-depth 3 -o two.csv || fail "a sun behind two panes"
+near 4 "$(awk "$passed BEGIN { a = .2665 * atan2(0, -1) / 180; c = .866025403784; print 1e5 * atan2(0, -1) * sin(a) ^ 2 * c * passed(c, .9) ^ 2 }")" two.csv
+# Two edges are too few for two panes.
+"$aureole" irradiance -q two.rad --sensors below.pts -n 1024 --max-depth 2 -o two.csv || fail "an edge too few"
+near 4 0 two.csv
+printf 'void glow k 0 0 4 1 1 1 0\nk source sky 0 0 4 0 0 1 180\n' | cat pane.rad - >glazed.rad
+for depth in 2 9; do
+  "$aureole" irradiance -q glazed.rad --sensors below.pts -n 524288 --max-depth $depth -o glazed.csv || fail "a sky behind a pane"
+  near 4 "$(awk "$passed BEGIN { for (i = 0; i < 20000; ++i) { c = (i + .5) / 20000; sum += c * passed(c, .9) / 20000 }
+    print 2 * atan2(0, -1) * sum }")" glazed.csv
+done
+# A lamp whose light has a closed form, half of it behind a pane: what is seen straight is half of it, and the other half
+# 81 % of it, because this pane lets pass what it does at any angle.
+printf '<scene version="3.0.0"><shape type="rectangle"><transform name="to_world"><rotate x="1" angle="180"/><translate z="2"/>
+</transform><emitter type="area"/></shape>%s</scene>' '<shape type="rectangle"><transform name="to_world"><translate x="1" z="1"/>
+</transform><bsdf type="mask"><float name="opacity" value=".19"/><bsdf type="diffuse"><rgb name="reflectance" value="0"/></bsdf>
+</bsdf></shape>' >lamp.xml
+sed 's/value=".19"/value="0"/' lamp.xml >bare.xml
+"$aureole" irradiance -q lamp.xml --sensors below.pts -n 65536 -o lamp.csv || fail "a lamp behind a mask"
+"$aureole" irradiance -q bare.xml --sensors below.pts -n 65536 -o bare.csv || fail "a lamp"
+near 4 "$(awk -F, 'NR == 2 { print .905 * $4 }' bare.csv)" lamp.csv
+# Sunlight from a floor below a pane without surfaces: the floor sends back half of what reaches it.
+printf '<scene version="3.0.0"><emitter type="sun"><rgb name="irradiance" value="100"/><vector name="sun_direction" value="0 .6 .8"/>
+</emitter><shape type="rectangle"><transform name="to_world"><scale value="900"/></transform></shape>
+<shape type="rectangle"><transform name="to_world"><scale value="9000"/><translate z="2"/></transform>
+<bsdf type="glass"><float name="int_ior" value="1.0000001"/><rgb name="transmissivity" value=".5"/></bsdf></shape></scene>' >floor.xml
+printf '0 0 1 0 0 -1\n' >down.pts
+"$aureole" irradiance -q floor.xml --sensors down.pts -n 16384 -o floor.csv || fail "a floor below a pane"
+near 4 "$(awk 'BEGIN { print .5 * 100 * .8 * .5 ^ (1 / .8) }')" floor.csv
+
 # A scene without a camera is no picture.
 "$aureole" render room.xml -o room.exr 2>&1 | grep -q 'room.xml:1:.*the scene has no <sensor>' || fail "rendered without a camera"
 

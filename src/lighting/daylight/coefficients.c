@@ -58,6 +58,13 @@ static void set_rays(aur_packet *packet, const aur_sensor_place *place, const do
     }
 }
 
+/* What panes leave of a ray that something stops. */
+static double passed(const aur_path_group *group, size_t lane, const aur_coefficients *coefficients) {
+    double left[3];
+    aur_vector_to_doubles(aur_path_group_passed(group, lane, INFINITY, 0), left);
+    return aur_dot3(coefficients->luminance, left);
+}
+
 void aur_sun_seen(aur_path_group *group, const aur_sensor_place *place, const aur_coefficients *coefficients,
                   const aur_lit_hours *lit, double *seen) {
     const aur_sun_position *const frame = &coefficients->sky->frame;
@@ -78,6 +85,7 @@ void aur_sun_seen(aur_path_group *group, const aur_sensor_place *place, const au
         group->counters->rays += AUR_DAYLIGHT_LANES;
         const uint32_t stopped = aur_scene_occluded16(group->scene, AUR_EMBREE_COHERENT, &group->shadows);
         for (size_t k = 0; k < AUR_DAYLIGHT_LANES; ++k)
-            seen[i * AUR_DAYLIGHT_LANES + k] = aur_has_lane(stopped, k) ? 0.0 : light;
+            seen[i * AUR_DAYLIGHT_LANES + k] =
+                light * (aur_has_lane(stopped, k) ? passed(group, k, coefficients) : 1.0);
     }
 }

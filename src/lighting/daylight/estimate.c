@@ -295,7 +295,8 @@ aur_result aur_daylight_estimate(const aur_scene *scene, const aur_sensors_view 
               .path = {.max_depth = options.max_depth > 0 && options.max_depth < UINT32_MAX
                                         ? (uint32_t)options.max_depth
                                         : UINT32_MAX,
-                       .rr_depth = 5},
+                       .rr_depth = 5,
+                       .panes = aur_panes_exist(scene)},
               .results = results};
     result = prepare(&w, scene, error);
     if (result == AUR_OK) {

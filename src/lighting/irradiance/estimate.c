@@ -236,7 +236,8 @@ aur_result aur_irradiance_estimate(const aur_scene *scene, const aur_sensors_vie
               .path = {.max_depth = options.max_depth > 0 && options.max_depth < UINT32_MAX
                                         ? (uint32_t)options.max_depth
                                         : UINT32_MAX,
-                       .rr_depth = 5},
+                       .rr_depth = 5,
+                       .panes = aur_panes_exist(scene)},
               .results = results};
     result = run(&w, error);
     for (size_t i = 0; i < w.level_count; ++i)

@@ -141,17 +141,22 @@ static void add_lights(aur_path_group *g, const aur_sensor_place *place, aur_loo
         return;
     aur_packet_set_lanes(&g->shadows, drawn_lanes);
     g->counters->rays += aur_lane_count(drawn_lanes);
+    float farthest[AUR_PACKET_SIZE];
+    memcpy(farthest, g->shadows.query.ray.tfar, sizeof farthest);
     const uint32_t lit = drawn_lanes & ~aur_scene_occluded16(g->scene, AUR_EMBREE_INCOHERENT, &g->shadows);
     for (uint32_t rest = drawn_lanes; rest != 0; rest &= rest - 1) {
         const size_t k = aur_first_lane(rest);
-        const double seen = aur_has_lane(lit, k) - known[k];
+        double left[3] = {1.0, 1.0, 1.0};
+        if (!aur_has_lane(lit, k))
+            aur_vector_to_doubles(aur_path_group_passed(g, k, farthest[k], 0), left);
         for (size_t c = 0; c < 3; ++c)
-            look->sums[k][aur_has_lane(sky, k) ? SKY : DIRECT][c] += seen * light[k][c];
-        if (g->from_sky != NULL && aur_has_lane(lit, k) && aur_has_lane(sky, k)) {
-            const aur_vector found = {(float)light[k][0], (float)light[k][1], (float)light[k][2]};
-            g->from_sky(g->from_sky_user, k, aur_packet_ray(&g->shadows, k).direction,
-                        aur_vector_scale(found, 1.0f / AUR_PI_F), true);
-        }
+            look->sums[k][aur_has_lane(sky, k) ? SKY : DIRECT][c] += (left[c] - known[k]) * light[k][c];
+        if (g->from_sky == NULL || !aur_has_lane(sky, k))
+            continue;
+        const aur_vector told = {(float)(left[0] * light[k][0]), (float)(left[1] * light[k][1]),
+                                 (float)(left[2] * light[k][2])};
+        g->from_sky(g->from_sky_user, k, aur_packet_ray(&g->shadows, k).direction,
+                    aur_vector_scale(told, 1.0f / AUR_PI_F), true);
     }
 }
 
@@ -165,28 +170,44 @@ static bool is_dark(const aur_path_group *g, size_t lane) {
            aur_vector_dot(ray.direction, surface->geometric_normal) > 0.0f;
 }
 
-/* What direction `index` brings; lanes begin with no light. */
-static void add_direction(aur_path_group *g, const aur_sensor_place *place, aur_look *look) {
-    static const double nothing[3] = {0};
-    double seen[AUR_PACKET_SIZE][3];
-    g->known = place->shares;
-    aur_path_group_meet(g, 1);
-    g->known = NULL;
-    for (size_t k = 0; k < AUR_PACKET_SIZE; ++k) {
-        const bool met = aur_has_lane(g->alive, k);
-        add(g, k, nothing, look->sums[k][met ? DIRECT : SKY]);
+/* Adds what the lanes' sums have got more than `seen`, to the part of each lane. */
+static void add_parts(const aur_path_group *g, uint32_t lanes, const size_t *parts, double (*seen)[3],
+                      aur_look *look) {
+    for (; lanes != 0; lanes &= lanes - 1) {
+        const size_t k = aur_first_lane(lanes);
+        add(g, k, seen[k], look->sums[k][parts[k]]);
         aur_vector_to_doubles(aur_lane_vector(&g->lanes.sum, k), seen[k]);
-        look->dark += met && is_dark(g, k);
     }
-    if (g->data->max_depth == 1 || g->alive == 0)
-        return;
-    const uint32_t met = g->alive;
-    aur_path_group_scatter(g, 1);
-    aur_path_group_trace(g, 2);
-    for (uint32_t rest = met; rest != 0; rest &= rest - 1) {
-        const size_t k = aur_first_lane(rest);
-        add(g, k, seen[k], look->sums[k][REFLECTED]);
+}
+
+/* What direction `index` brings; lanes begin with no light. What comes straight through panes counts as what
+ * comes without any. */
+static void add_direction(aur_path_group *g, const aur_sensor_place *place, aur_look *look) {
+    double seen[AUR_PACKET_SIZE][3] = {{0.0}};
+    size_t parts[AUR_PACKET_SIZE], reflected[AUR_PACKET_SIZE];
+    uint32_t straight = g->alive;
+    g->known = place->shares;
+    for (size_t k = 0; k < AUR_PACKET_SIZE; ++k)
+        reflected[k] = REFLECTED;
+    for (uint32_t depth = 1;; ++depth) {
+        aur_path_group_meet(g, depth);
+        for (size_t k = 0; k < AUR_PACKET_SIZE; ++k) {
+            const bool met = aur_has_lane(g->alive, k);
+            parts[k] = !aur_has_lane(straight, k) ? REFLECTED : met ? DIRECT : SKY;
+            look->dark += depth == 1 && met && is_dark(g, k);
+        }
+        add_parts(g, UINT16_MAX, parts, seen, look);
+        if (g->data->max_depth == depth || g->alive == 0)
+            break;
+        aur_path_group_scatter(g, depth);
+        straight = g->straight & g->alive;
+        if (straight == 0) {
+            aur_path_group_trace(g, depth + 1);
+            break;
+        }
     }
+    add_parts(g, UINT16_MAX, reflected, seen, look);
+    g->known = NULL;
 }
 
 void aur_sensor_look(aur_path_group *g, const aur_sensor_rule *rule, const aur_sensor_place *place,

@@ -1,5 +1,6 @@
 /* Path tracing in scenes with participating media. Both of Mitsuba 3's names for it are the same here, its
  * volpathmis: where extinction has no colour there is no difference but for noise. */
+#include "transport/paths/panes.h"
 #include "transport/paths/volume_path.h"
 
 static const aur_key keys[] = {
@@ -16,8 +17,7 @@ static aur_result create(aur_parameters *parameters, const aur_integrator_contex
                          aur_integrator *integrator, aur_error *error) {
     (void)parameters, (void)error;
     aur_volume_path *const data = integrator->data;
-    for (size_t i = 0; i < aur_scene_shape_count(context->scene); ++i)
-        data->passes = data->passes || aur_scene_shape_bsdf(context->scene, i)->passes;
+    data->passes = aur_panes_exist(context->scene);
     return AUR_OK;
 }
 

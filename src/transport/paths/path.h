@@ -13,6 +13,7 @@ typedef struct aur_path {
     bool strict_normals; /* of no effect */
     bool packets;        /* 16 pixels in lockstep */
     bool interleaved;    /* which share their numbers but for the camera's */
+    bool panes; /* rays to lights go straight through surfaces that let them; of aur_path_group alone */
     const aur_path_kernels *kernels;
     aur_shape_class *classes; /* one a shape */
 } aur_path;

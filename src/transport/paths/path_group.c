@@ -1,7 +1,12 @@
 #include "transport/paths/path_group.h"
 
+#include <string.h>
+
 #include "transport/lights/direct_light.h"
 #include "transport/packets/packet_rays.h"
+#include "transport/paths/panes.h"
+
+enum { MOST_PANES = 1000 }; /* which a ray may meet that rounding holds on one of them */
 
 aur_result aur_path_prepare(aur_path *data, const aur_scene *scene, aur_error *error) {
     data->kernels = aur_path_kernels_here();
@@ -93,7 +98,8 @@ static void add_sky(aur_path_group *g, uint32_t lanes) {
 }
 
 static void add_emission(aur_path_group *g, size_t k, const aur_surface *surface, aur_vector view) {
-    if (g->known != NULL && surface->emitter != AUR_NO_EMITTER && g->known[surface->emitter] >= 0.0f)
+    if (g->known != NULL && (g->straight >> k & 1u) != 0 && surface->emitter != AUR_NO_EMITTER &&
+        g->known[surface->emitter] >= 0.0f)
         return;
     const aur_vector emission = aur_surface_emission(g->scene, surface, view);
     if (aur_vector_is_zero(emission))
@@ -135,8 +141,20 @@ static void shadow_one(aur_path_group *g, size_t k, const aur_surface *surface) 
                  aur_vector_multiply(aur_lane_vector(&g->lanes.throughput, k), shadow.radiance));
 }
 
+/* Lanes of which the masks were before. */
+typedef struct lanes_before {
+    uint32_t specular, straight;
+} lanes_before;
+
+/* Straight on through a pane the ray is the same one, which rays to lights find as well. */
+static bool goes_through(const aur_path_group *g, const aur_surface *surface, aur_vector view,
+                         const aur_bsdf_sample *drawn) {
+    return g->data->panes && surface->bsdf->passes && drawn->specular &&
+           aur_vector_dot(drawn->light, view) < -1.0f + 1e-6f;
+}
+
 static bool scatter_one(aur_path_group *g, size_t k, const aur_surface *surface, aur_vector view,
-                        bool roulette) {
+                        bool roulette, lanes_before before) {
     const aur_shading shading = aur_shading_at(surface, view);
     const float u[3] = {g->lanes.lobe[k], g->lanes.direction_u[k], g->lanes.direction_v[k]};
     aur_bsdf_sample drawn;
@@ -152,10 +170,16 @@ static bool scatter_one(aur_path_group *g, size_t k, const aur_surface *surface,
     if (aur_vector_is_zero(throughput))
         return false;
     aur_lane_set(&g->lanes.throughput, k, throughput);
-    aur_lane_set(&g->lanes.from, k, surface->position);
-    g->lanes.pdf[k] = drawn.pdf;
-    if (drawn.specular)
-        g->specular |= 1u << k;
+    if (goes_through(g, surface, view, &drawn)) {
+        g->specular |= before.specular & 1u << k;
+        g->straight |= before.straight & 1u << k;
+        drawn.light = aur_vector_scale(view, -1.0f);
+    } else {
+        aur_lane_set(&g->lanes.from, k, surface->position);
+        g->lanes.pdf[k] = drawn.pdf;
+        if (drawn.specular)
+            g->specular |= 1u << k;
+    }
     const aur_ray ray = aur_surface_ray(surface, drawn.light);
     aur_packet_set(&g->packet, k, &ray);
     return true;
@@ -198,8 +222,31 @@ static void tell_of_sky(aur_path_group *g, uint32_t lit) {
     }
 }
 
+aur_vector aur_path_group_passed(const aur_path_group *g, size_t lane, float farthest, uint32_t depth) {
+    if (!g->data->panes || depth + 1 >= g->data->max_depth)
+        return (aur_vector){0};
+    aur_ray ray = aur_packet_ray(&g->shadows, lane);
+    ray.farthest = farthest;
+    const uint32_t most = g->data->max_depth - depth - 1;
+    return aur_panes_passed(g->scene, &ray, most < MOST_PANES ? most : MOST_PANES, g->counters);
+}
+
+/* Of the lanes that something stops, those that get light through panes; their share of it is made less. */
+static uint32_t pass_panes(aur_path_group *g, uint32_t stopped, const float *farthest, uint32_t depth) {
+    uint32_t through = 0;
+    for (uint32_t rest = g->data->panes ? stopped : 0; rest != 0; rest &= rest - 1) {
+        const size_t k = aur_first_lane(rest);
+        const aur_vector left = aur_path_group_passed(g, k, farthest[k], depth);
+        if (aur_vector_is_zero(left))
+            continue;
+        aur_lane_set(&g->lanes.shadow, k, aur_vector_multiply(aur_lane_vector(&g->lanes.shadow, k), left));
+        through |= 1u << k;
+    }
+    return through;
+}
+
 /* Light straight from the lights. */
-static void add_direct(aur_path_group *g) {
+static void add_direct(aur_path_group *g, uint32_t depth) {
     const uint32_t plain = g->plain;
     aur_path_lanes *const lanes = &g->lanes;
     if (plain != 0) {
@@ -214,8 +261,11 @@ static void add_direct(aur_path_group *g) {
         return;
     aur_packet_set_lanes(&g->shadows, lit);
     g->counters->rays += aur_lane_count(lit);
-    const uint32_t stopped = aur_scene_occluded16(
+    float farthest[AUR_PACKET_SIZE];
+    memcpy(farthest, g->shadows.query.ray.tfar, sizeof farthest);
+    uint32_t stopped = aur_scene_occluded16(
         g->scene, g->coherent ? AUR_EMBREE_COHERENT : AUR_EMBREE_INCOHERENT, &g->shadows);
+    stopped &= ~pass_panes(g, stopped & lit, farthest, depth);
     g->data->kernels->add(lanes, lit & ~stopped);
     if (g->from_sky != NULL)
         tell_of_sky(g, lit & ~stopped);
@@ -223,22 +273,28 @@ static void add_direct(aur_path_group *g) {
 
 static void scatter(aur_path_group *g, bool roulette) {
     const uint32_t plain = g->plain, others = g->alive & ~plain;
-    aur_vector views[AUR_PACKET_SIZE], throughputs[AUR_PACKET_SIZE];
+    aur_vector views[AUR_PACKET_SIZE], throughputs[AUR_PACKET_SIZE], from[AUR_PACKET_SIZE];
+    float pdf[AUR_PACKET_SIZE];
     for (uint32_t rest = others; rest != 0; rest &= rest - 1) {
         const size_t k = aur_first_lane(rest);
         views[k] = view_of(g, k);
         throughputs[k] = aur_lane_vector(&g->lanes.throughput, k);
+        from[k] = aur_lane_vector(&g->lanes.from, k);
+        pdf[k] = g->lanes.pdf[k];
     }
     uint32_t alive = 0;
     if (plain != 0) {
         g->data->kernels->scatter(&g->lanes, roulette, &g->packet);
         alive = aur_lanes_set(g->lanes.alive) & plain;
     }
-    g->specular = 0;
+    const lanes_before before = {g->specular, g->straight};
+    g->specular = g->straight = 0;
     for (uint32_t rest = others; rest != 0; rest &= rest - 1) {
         const size_t k = aur_first_lane(rest);
         aur_lane_set(&g->lanes.throughput, k, throughputs[k]);
-        alive |= (uint32_t)scatter_one(g, k, &g->surfaces[k], views[k], roulette) << k;
+        aur_lane_set(&g->lanes.from, k, from[k]);
+        g->lanes.pdf[k] = pdf[k];
+        alive |= (uint32_t)scatter_one(g, k, &g->surfaces[k], views[k], roulette, before) << k;
     }
     g->alive = alive;
 }
@@ -269,9 +325,8 @@ void aur_path_group_scatter(aur_path_group *g, uint32_t depth) {
     else
         own_numbers(g, depth, g->alive != g->plain);
     g->coherent = are_parallel(g);
-    g->straight = 0;
     if (g->has_lights)
-        add_direct(g);
+        add_direct(g, depth);
     scatter(g, depth >= g->data->rr_depth);
 }
 

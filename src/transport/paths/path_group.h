@@ -20,13 +20,15 @@ typedef struct aur_path_group {
     uint32_t alive;    /* a bit a lane, as in all masks */
     uint32_t specular; /* lanes whose ray no light sample could have found */
     uint32_t plain;    /* lanes whose surface the kernels can do */
-    /* By emitter, those that are below 0 shine on who meets them, as all do where this is NULL: the light of
-     * the others is known. */
+    /* By emitter, those that are below 0 shine on straight lanes that meet them, as all do where this is
+     * NULL: the light of the others is known. */
     const float *known;
     /* Is told, beside the sums, of all that environments send, in scenes without another light; or NULL. */
     aur_path_sky *from_sky;
     void *from_sky_user;
-    uint32_t straight; /* lanes whose path nothing has scattered; who begins the paths sets it */
+    /* Lanes whose path nothing has scattered, but panes that it went straight through, where data->panes is
+     * set; who begins the paths sets it. */
+    uint32_t straight;
     aur_stream shared; /* interleaved: of all lanes */
     float ahead[AUR_STREAM_BLOCK][2];
     const aur_sampler *sampler;
@@ -46,5 +48,9 @@ void aur_path_group_prepare(const aur_path *data, const aur_scene *scene, const 
 void aur_path_group_meet(aur_path_group *group, uint32_t depth);
 /* Adds direct light at the surfaces that aur_path_group_meet has found, and makes the next rays. */
 void aur_path_group_scatter(aur_path_group *group, uint32_t depth);
+/* What panes leave of the light along the shadow ray of a lane, which ended at `farthest` before something
+ * was found on it: 0 unless data->panes is set and all that is there is panes, no more of them than paths
+ * that have met `depth` surfaces may meet. */
+aur_vector aur_path_group_passed(const aur_path_group *group, size_t lane, float farthest, uint32_t depth);
 /* Both, from bounce `depth` until all paths have ended. */
 void aur_path_group_trace(aur_path_group *group, uint32_t depth);
