@@ -143,6 +143,12 @@ static void set_directions(const aur_gather_sweep *sweep, size_t index, aur_lane
     }
 }
 
+void aur_gather_set_chance(const aur_gather_places *places, size_t lobe, size_t index,
+                           aur_gather_rays *rays) {
+    rays->hash = aur_hash4(places->index, places->bounces, lobe, index);
+    rays->pixels = places->pixels;
+}
+
 uint32_t aur_gather_sweep_trace(const aur_gather_places *places, const aur_gather_sweep *sweep, size_t index,
                                 bool weighed, aur_gather_sums *sums, float factor[AUR_PACKET_SIZE]) {
     aur_gather_rays *const rays = &sums->rays;
@@ -152,8 +158,7 @@ uint32_t aur_gather_sweep_trace(const aur_gather_places *places, const aur_gathe
     const uint32_t aimed = aur_gather_aim(sweep->lanes, &sweep->frames, &local, &rays->packet, cosine);
     if (aimed == 0)
         return 0;
-    rays->hash = aur_hash3(aur_gather_places_hash(places, places->pixels[aur_first_lane(sweep->lanes)]),
-                           index, sweep->lobe);
+    aur_gather_set_chance(places, sweep->lobe, index, rays);
     aur_gather_rays_trace(places->plan, places->order, rays, sums->counters);
     for (size_t k = 0; k < AUR_PACKET_SIZE; ++k)
         factor[k] = (weighed ? weight[k] : 1.0f) * (sweep->times_cosine[k] ? cosine[k] : 1.0f);

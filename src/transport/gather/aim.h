@@ -17,6 +17,9 @@ void aur_gather_set_frame(const aur_gather_place *place, size_t lane, const aur_
 uint32_t aur_gather_aim(uint32_t lanes, const aur_lobe_frames *restrict frames, const aur_lane_vectors *local,
                         aur_packet *packet, float cosine[AUR_PACKET_SIZE]);
 
+/* Sets what decides by chance where the rays of direction `index` for lobe number `lobe` go on. */
+void aur_gather_set_chance(const aur_gather_places *places, size_t lobe, size_t index, aur_gather_rays *rays);
+
 /* What a lane's pattern for its lobe number `lobe` is randomised by. Under "blue" all lanes of the group have
  * the same rotation. */
 aur_gather_rotation aur_gather_rotation_at(const aur_gather_places *places, const aur_gather_lobe_rule *rule,

@@ -202,8 +202,6 @@ static void add_radiance(merged *work, size_t sample, const float cosine[AUR_PAC
 static void trace_pattern(merged *work, size_t k, aur_gather_sums *sums) {
     aur_gather_rays *const rays = &sums->rays;
     const merged_pattern *const pattern = &work->patterns[k];
-    const uint64_t pixel =
-        aur_gather_places_hash(work->places, work->places->pixels[aur_first_lane(pattern->lanes)]);
     for (size_t i = 0; i < work->subset_count[k]; ++i) {
         const size_t sample = k * work->subset_count[0] + i;
         aur_lane_vectors local;
@@ -211,7 +209,7 @@ static void trace_pattern(merged *work, size_t k, aur_gather_sums *sums) {
         set_directions(work, k, i, &local, rays);
         if (aur_gather_aim(pattern->lanes, &pattern->frames, &local, &rays->packet, cosine) == 0)
             continue;
-        rays->hash = aur_hash3(pixel, sample, 0);
+        aur_gather_set_chance(work->places, 0, sample, rays);
         aur_gather_rays_trace(work->places->plan, work->places->order, rays, sums->counters);
         add_radiance(work, sample, cosine, rays);
     }

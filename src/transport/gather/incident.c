@@ -219,7 +219,7 @@ static float bright_weight(const aur_gather_plan *plan, const aur_gather_rays *r
 /* What the map knows of a lane's hit, or a path where the texel is near or the map is corrected. */
 static aur_vector corrected_radiance(const aur_gather_plan *plan, const aur_gather_rays *rays, size_t lane,
                                      const aur_gather_known *known, aur_counters *counters) {
-    const uint64_t hash = aur_hash2(rays->hash, lane);
+    const uint64_t hash = aur_gather_rays_hash(rays, lane);
     const bool near = aur_onward_is_near(&plan->onward, rays->packet.query.ray.tfar[lane], known->area);
     if (!near && !aur_onward_is_due(&plan->onward, hash))
         return known->radiance;
@@ -268,7 +268,7 @@ void aur_gather_rays_trace(const aur_gather_plan *plan, aur_embree_order order, 
             /* Only light that is sampled too asks for the density. */
             const bool weighed = !hits || plan->classes[rays->packet.query.hit.geomID[lane]].emits;
             const gather_chain chain = {.ray = aur_packet_ray(&rays->packet, lane),
-                                        .hash = aur_hash2(rays->hash, lane),
+                                        .hash = aur_gather_rays_hash(rays, lane),
                                         .specular = true,
                                         .reference = rays->reference[lane],
                                         .density = weighed ? density_of(rays, lane) : 0.0f,

@@ -16,10 +16,17 @@ typedef struct aur_gather_rays {
      * it is needed. */
     const aur_merged_rule *merged[AUR_PACKET_SIZE];
     aur_vector axes[AUR_PACKET_SIZE][2];
-    uint64_t hash;                         /* of what chance decides where rays go on from what they meet */
+    /* What chance decides where rays go on from what they meet: a hash of the direction, and those of the
+     * lanes' pixels. So it is the same whichever pixels go together. */
+    uint64_t hash;
+    const uint64_t *pixels;
     aur_vector reference[AUR_PACKET_SIZE]; /* the points that gather */
     float radiance[3][AUR_PACKET_SIZE];    /* 0 for lanes without a ray */
 } aur_gather_rays;
+
+static inline uint64_t aur_gather_rays_hash(const aur_gather_rays *rays, size_t lane) {
+    return aur_hash2(rays->hash, rays->pixels[lane]);
+}
 
 /* Traces the packet and finds the radiance. */
 void aur_gather_rays_trace(const aur_gather_plan *plan, aur_embree_order order, aur_gather_rays *rays,

@@ -96,14 +96,14 @@ static void by_sampling(const aur_gather_places *places, size_t lobe, uint32_t l
         float u[3] = {0.0f, 0.0f, 0.0f};
         uint32_t aimed = 0;
         aur_packet_empty(&rays->packet);
-        rays->hash = aur_hash3(aur_gather_places_hash(places, places->pixels[first]), i, lobe);
+        aur_gather_set_chance(places, lobe, i, rays);
         if (sweep.together)
             aur_gather_rule_square(&sampled->rule, &sweep.rotations[first], i, &u[1]);
         for (uint32_t rest = lanes; rest != 0; rest &= rest - 1) {
             const size_t lane = aur_first_lane(rest);
             if (!sweep.together)
                 aur_gather_rule_square(&sampled->rule, &sweep.rotations[lane], i, &u[1]);
-            u[0] = aur_unit_float((uint32_t)aur_hash2(rays->hash, ~(uint64_t)lane));
+            u[0] = aur_unit_float((uint32_t)aur_mix64(aur_gather_rays_hash(rays, lane)));
             aimed |= (uint32_t)aim_draw(&places->at[lane], lane, u, sampled->directions, rays, &value[lane])
                      << lane;
         }
