@@ -9,7 +9,6 @@ where they are not installed. View3D is neither in Debian nor on PyPI; `aureole 
 """
 import math
 import os
-import resource
 import subprocess
 import sys
 import tempfile
@@ -54,11 +53,13 @@ def write_obj(path, groups):
 
 
 def run(program, *arguments):
-    """CPU seconds and wall seconds of the program."""
-    before, start = resource.getrusage(resource.RUSAGE_CHILDREN), time.time()
-    subprocess.run([program, "viewfactors", "-q", *map(str, arguments)], check=True)
-    after = resource.getrusage(resource.RUSAGE_CHILDREN)
-    return after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime, time.time() - start
+    """CPU seconds of the program, and the most megabytes that it has had."""
+    child = subprocess.Popen([program, "viewfactors", "-q", *map(str, arguments)])
+    _, status, used = os.wait4(child.pid, 0)
+    child.returncode = os.waitstatus_to_exitcode(status)
+    if child.returncode != 0:
+        sys.exit(f"viewfactors {arguments} ended with status {child.returncode}")
+    return used.ru_utime + used.ru_stime, used.ru_maxrss / 1024
 
 
 def load(path):
@@ -144,15 +145,10 @@ def enclosed(program, folder):
               f"{values.sum() - 1:.1e} |")
 
 
-def radiosities(path, reflectance, glow):
-    """Of facets that glow by `glow` under a sky of radiosity 1 - glow."""
-    matrix, areas, sky, _ = load(path)
-    light = reflectance * (1 - glow) * sky + glow
-    total = light.copy()
-    for _ in range(80):
-        light = reflectance * (matrix @ light)
-        total += light
-    return total, areas
+def radiosities(path):
+    """Areas and radiosities of what --radiosity has written."""
+    table = np.loadtxt(path, delimiter=",", skiprows=1)
+    return table[:, 1], table[:, 3]
 
 
 def make_city(folder, facets):
@@ -161,41 +157,55 @@ def make_city(folder, facets):
     return path
 
 
+def difference(paths):
+    """The error of one seed: the root mean square difference of two over the root of 2, by area, over the mean; and the worst."""
+    (areas, a), (_, b) = (radiosities(path) for path in paths)
+    mean = (areas * a).sum() / areas.sum()
+    return (math.sqrt((areas * (a - b) ** 2).sum() / areas.sum() / 2) / mean, abs(a - b).max() / math.sqrt(2) / mean)
+
+
+LIGHTS = {"sky": [], "sun": ["--sun", "1,2,3"], "emission": ["--emission", 1]}
+
+
 def city(program, folder):
-    """The error is that of one seed: the difference of two, over the root of 2, by area, over the mean."""
     path = make_city(folder, 22000)
-    print("\n| city of 22,160 facets | CPU s | closed share | error, sky only, reflectance .3 | glowing facets, .3 | rows - 1 | asymmetry |"
-          "\n|---|---|---|---|---|---|---|")
-    for arguments in ([], ["--rays", 8192, "--randomizations", 4]):
-        out = [os.path.join(folder, f"city-{seed}.npz") for seed in (1, 2)]
-        cpu = np.mean([run(program, path, "--seed", seed, *arguments, "-o", out[seed - 1])[0] for seed in (1, 2)])
-        figures = []
-        for glow in (0, 1):
-            (a, areas), (b, _) = (radiosities(o, 0.3, glow) for o in out)
-            figures.append(math.sqrt((areas * (a - b) ** 2).sum() / areas.sum() / 2) / ((areas * a).sum() / areas.sum()))
-        matrix, areas, sky, widths = load(out[0])
-        with np.load(out[0]) as data:
-            back = data["back"]
-        closed = (matrix.data[widths == 0] * np.repeat(areas, np.diff(matrix.indptr))[widths == 0]).sum() / (
-            matrix.data * np.repeat(areas, np.diff(matrix.indptr))).sum()
-        exchange = sparse.diags(areas) @ matrix
-        rows = abs(np.asarray(matrix.sum(axis=1)).ravel() + sky + back - 1).max()
-        print(f"| {' '.join(map(str, arguments)) or 'defaults'} | {cpu:.0f} | {closed:.2f} | {100 * figures[0]:.2f} % | "
-              f"{100 * figures[1]:.3f} % | {rows:.0e} | {abs(exchange - exchange.T).max() / abs(exchange).max():.0e} |")
+    out = os.path.join(folder, "city.npz")
+    print("\n| city of 22,160 facets | CPU s | entries | closed share | rows - 1 | asymmetry |\n|---|---|---|---|---|---|")
+    cpu, _ = run(program, path, "-o", out)
+    matrix, areas, sky, widths = load(out)
+    with np.load(out) as data:
+        back = data["back"]
+    light = matrix.data * np.repeat(areas, np.diff(matrix.indptr))
+    exchange = sparse.diags(areas) @ matrix
+    rows = abs(np.asarray(matrix.sum(axis=1)).ravel() + sky + back - 1).max()
+    print(f"| defaults | {cpu:.0f} | {matrix.nnz:,} | {light[widths == 0].sum() / light.sum():.2f} | {rows:.0e} | "
+          f"{abs(exchange - exchange.T).max() / abs(exchange).max():.0e} |")
+    print("\n| light, reflectance .3 | how | CPU s | error | worst facet |\n|---|---|---|---|---|", flush=True)
+    for arguments in ([], ["--rays", 8192, "--randomizations", 4], ["--matrix-free"],
+                      ["--matrix-free", "--rays", 16384, "--randomizations", 4]):
+        for name, source in LIGHTS.items():
+            paths = [os.path.join(folder, f"city-{seed}.csv") for seed in (1, 2)]
+            cpu = np.mean([run(program, path, "--radiosity", 0.3, *source, *arguments, "--seed", seed, "-o", paths[seed - 1])[0]
+                           for seed in (1, 2)])
+            error, worst = difference(paths)
+            print(f"| {name} | {' '.join(map(str, arguments)) or 'defaults'} | {cpu:.0f} | {100 * error:.3f} % | {100 * worst:.1f} % |",
+                  flush=True)
 
 
 def growth(program, folder):
-    print("\n| facets | CPU s, matrix | entries | CPU s, radiosities without a matrix (64 rays, all reflections of .3) |\n|---|---|---|---|")
+    """CPU seconds and the most memory of each; the error of the radiosities that --matrix-free tells itself."""
+    print("\n| facets | matrix: CPU s | entries | memory | matrix-free, 64 rays: CPU s | memory | error told |\n|---|---|---|---|---|---|---|")
     for facets in (1000, 5000, 22000, 100000, 1000000):
-        path, out = make_city(folder, facets), os.path.join(folder, "grown.npz")
-        with_matrix, entries = "", ""
+        path, out, table = make_city(folder, facets), os.path.join(folder, "grown.npz"), os.path.join(folder, "b.csv")
+        with_matrix, entries, memory = "", "", ""
         if facets <= 22000:
-            with_matrix = f"{run(program, path, '-o', out)[0]:.1f}"
-            entries = f"{load(out)[0].nnz:,}"
-        free = run(program, path, "--radiosity", 0.3, "--matrix-free", "--rays", 64, "-o", os.path.join(folder, "b.csv"))[0]
-        with open(os.path.join(folder, "b.csv")) as rows:
-            count = sum(1 for _ in rows) - 1
-        print(f"| {count:,} | {with_matrix} | {entries} | {free:.1f} |", flush=True)
+            cpu, peak = run(program, path, "-o", out)
+            with_matrix, entries, memory = f"{cpu:.1f}", f"{load(out)[0].nnz:,}", f"{peak:.0f} MB"
+        free, peak = run(program, path, "--radiosity", 0.3, "--matrix-free", "--rays", 64, "-o", table)
+        rows = np.loadtxt(table, delimiter=",", skiprows=1)
+        # Student's t of 95 % for 8 randomisations.
+        error = math.sqrt((rows[:, 1] * (rows[:, 4] / 2.3646) ** 2).sum() / rows[:, 1].sum()) / ((rows[:, 1] * rows[:, 3]).sum() / rows[:, 1].sum())
+        print(f"| {len(rows):,} | {with_matrix} | {entries} | {memory} | {free:.1f} | {peak:.0f} MB | {100 * error:.1f} % |", flush=True)
 
 
 def coverage(program, folder):

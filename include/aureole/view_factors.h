@@ -153,6 +153,39 @@ AUR_EXPERIMENTAL aur_result aur_view_factors_product(const aur_facets *facets,
                                                      double *y, double *sky, aur_error *error)
     AUR_NONNULL(1, 3, 4);
 
+/* --- radiosities */
+
+/* Light on facets that all reflect the same part of it, diffusely. At least one source is not 0. */
+typedef struct aur_facets_light {
+    size_t size;        /* of the caller's struct, so that it can grow */
+    double reflectance; /* in [0,1] */
+    double sky;         /* the sky's radiosity, the same from everywhere */
+    double emission;    /* of every facet, where it sees */
+    double sun[3];      /* to the sun; the length is the irradiance of what faces it; 0: none */
+} aur_facets_light;
+
+static inline aur_facets_light aur_facets_light_default(void) {
+    aur_facets_light light;
+    memset(&light, 0, sizeof light);
+    light.size = sizeof light;
+    return light;
+}
+
+/* B = emission + reflectance (sun + sky + F B), for each row. With `factors` (of the same facets; else NULL)
+ * the products are the matrix's and half_widths must be NULL; without, rays are traced anew for each
+ * reflection, in memory that grows with the facets alone: each randomisation is a solution of its own, from
+ * which the intervals come (half_widths may be NULL). Later reflections, which carry less light, have fewer
+ * rays; the last ones, which together are less than a fiftieth of what rays err by, are a geometric series.
+ * `sky` (may be NULL) becomes the sky factors. Of the sun, the lit part of each facet is always counted along
+ * rays. Errors: ARGUMENT (numbers out of range, no source that a row sees, factors of other facets, a closed
+ * scene that absorbs almost nothing), and those of aur_view_factors_create. */
+AUR_EXPERIMENTAL aur_result aur_view_factors_radiosity(const aur_facets *facets,
+                                                       const aur_view_factors *factors,
+                                                       const aur_view_factors_options *options,
+                                                       const aur_facets_light *light, double *radiosity,
+                                                       double *half_widths, double *sky, aur_error *error)
+    AUR_NONNULL(1, 4, 5);
+
 #ifdef __cplusplus
 }
 #endif

@@ -1,4 +1,5 @@
 /* aureole viewfactors: how much of what leaves each facet arrives at each other one. */
+#include <aureole/text.h>
 #include <aureole/view_factors.h>
 #include <math.h>
 #include <string.h>
@@ -12,7 +13,8 @@ typedef struct factor_command {
     cli_definitions definitions;
     const char *output, *format;
     bool matrix_free;
-    double reflectance;
+    aur_facets_light light;
+    const char *sun;
     cli_common common;
 } factor_command;
 
@@ -40,11 +42,20 @@ static const cli_option options[] = {
               "of the intervals")},
     {CLI_FLAG(factor_command, factors.rays_only, "rays-only", "no closed forms")},
     {CLI_REAL(
-        factor_command, reflectance, "radiosity", "RHO", 0, 1, NULL,
-        "instead of factors each row's area, sky factor and radiosity under a sky of radiosity 1, when all "
-        "facets reflect RHO: CSV, to FILE or printed")},
+        factor_command, light.reflectance, "radiosity", "RHO", 0, 1, NULL,
+        "instead of factors each row's area, sky factor and radiosity when all facets reflect RHO: CSV, "
+        "to FILE or printed")},
+    {CLI_REAL(factor_command, light.sky, "sky", "B", 0, 1e30, "1, or 0 with --sun or --emission",
+              "for --radiosity: of the sky"),
+     .key.computed = true},
+    {CLI_TEXT(factor_command, sun, "sun", "X,Y,Z", NULL,
+              "for --radiosity: the direction to the sun; its length is the irradiance of what faces it")},
+    {CLI_REAL(factor_command, light.emission, "emission", "B", 0, 1e30, "0",
+              "for --radiosity: what every facet sends out by itself")},
     {CLI_FLAG(factor_command, matrix_free, "matrix-free",
-              "for --radiosity: rays are traced anew for each product, no matrix is kept")},
+              "for --radiosity: rays are traced anew for each reflection, no matrix is kept, and each "
+              "radiosity has "
+              "an interval")},
     {.key = {0}}};
 
 /* The format that the output's name tells. */
@@ -77,6 +88,44 @@ static bool options_fit(const cli_call *call) {
         return false;
     }
     return radiosity || find_format(given);
+}
+
+/* The sources of light: the sky where no other is named. */
+static bool read_light(const cli_call *call) {
+    factor_command *const given = call->options;
+    const bool other = given->sun != NULL || cli_given(call, "emission") != NULL;
+    given->light.size = sizeof given->light;
+    if (cli_given(call, "sky") == NULL)
+        given->light.sky = other ? 0.0 : 1.0;
+    if ((other || cli_given(call, "sky") != NULL) && cli_given(call, "radiosity") == NULL) {
+        cli_bad_usage("viewfactors: --sky, --sun and --emission are for --radiosity RHO");
+        return false;
+    }
+    if (given->sun == NULL)
+        return true;
+    char text[128];
+    size_t used = 0, count = 0;
+    bool good = true;
+    for (const char *at = given->sun; good; ++at) {
+        if (*at != ',' && *at != '\0') {
+            good = used + 1 < sizeof text;
+            text[used] = *at;
+            used += good;
+            continue;
+        }
+        text[used] = '\0';
+        used = 0;
+        good = count < 3 && aur_parse_double(text, &given->light.sun[count]);
+        ++count;
+        if (*at == '\0')
+            break;
+    }
+    const double *const sun = given->light.sun;
+    const double length = sqrt(sun[0] * sun[0] + sun[1] * sun[1] + sun[2] * sun[2]);
+    if (good && count == 3 && length > 0.0 && length <= 1e30)
+        return true;
+    cli_bad_usage("viewfactors: --sun '%s' is not three numbers X,Y,Z, of which one is not 0", given->sun);
+    return false;
 }
 
 /* What has been done, for people. */
@@ -115,7 +164,7 @@ static int write_matrix(const aur_facets *facets, const factor_command *given) {
 
 static int run(const cli_call *call) {
     factor_command *const given = call->options;
-    if (!options_fit(call))
+    if (!options_fit(call) || !read_light(call))
         return CLI_BAD_INPUT;
     given->facets.size = sizeof given->facets;
     given->facets.definition_count = given->definitions.count;
@@ -131,7 +180,7 @@ static int run(const cli_call *call) {
         return cli_fail(&error);
     int status;
     if (cli_given(call, "radiosity") != NULL)
-        status = cli_viewfactors_radiosity(facets, &given->factors, given->matrix_free, given->reflectance,
+        status = cli_viewfactors_radiosity(facets, &given->factors, given->matrix_free, &given->light,
                                            given->output);
     else if (given->format != NULL && strcmp(given->format, "vs3") == 0)
         status = cli_status(aur_facets_write_vs3(facets, given->output != NULL ? given->output : "-", &error),

@@ -179,16 +179,35 @@ static aur_result balance_rows(system_of_rows *s, double *largest, aur_error *er
     return AUR_OK;
 }
 
+/* How much less what rows lose varies than counts of rays of their own would, compared with how much less
+ * entries do: rays are spread evenly, which tells in the many that reach the sky, and hardly in the few of
+ * one entry. From all rows together, because a row's own few randomisations would be weights by chance. */
+static double variance_of_losses(const aur_exchange *g, const double *losses, const double *half_widths) {
+    double squares[2] = {0.0, 0.0}, counts[2] = {0.0, 0.0};
+    for (size_t a = 0; a < g->rows; ++a) {
+        squares[0] += half_widths[a] * half_widths[a];
+        counts[0] += losses[a] * g->areas[a];
+        for (uint64_t e = g->starts[a]; e < g->starts[a + 1]; ++e) {
+            squares[1] += g->half_widths[e] * g->half_widths[e];
+            counts[1] += g->variances[e];
+        }
+    }
+    const double scale = squares[1] * counts[0];
+    return squares[0] > 0.0 && scale > 0.0 ? squares[0] * counts[1] / scale : 1.0;
+}
+
 /* The weights of sampled entries, or of all. */
 static void choose_weights(system_of_rows *s, bool all) {
     const aur_exchange *const g = s->exchange;
+    const double sky = variance_of_losses(g, g->sky, g->sky_half_widths);
+    const double back = variance_of_losses(g, g->back, g->back_half_widths);
     for (size_t a = 0; a < g->rows; ++a) {
         for (uint64_t e = g->starts[a]; e < g->starts[a + 1]; ++e) {
             const double b = g->areas[g->columns[e]];
             s->weights[e] = all ? g->values[e] * g->areas[a] * b / (g->areas[a] + b) : g->variances[e];
         }
-        s->losses[a] = g->sky[a] * g->areas[a];
-        s->losses[g->rows + a] = g->back[a] * g->areas[a];
+        s->losses[a] = sky * g->sky[a] * g->areas[a];
+        s->losses[g->rows + a] = back * g->back[a] * g->areas[a];
     }
 }
 

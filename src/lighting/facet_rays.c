@@ -188,7 +188,7 @@ static uint32_t find_target(const aur_facets *facets, const aur_packet *packet, 
 }
 
 void aur_facet_trace(const aur_facets *facets, const aur_facet_pattern *pattern, size_t patch,
-                     uint64_t randomization, uint32_t *targets) {
+                     uint64_t randomization, const double *along, uint32_t *targets) {
     const uint64_t hash = aur_hash4(pattern->seed, UINT64_C(0x6661636574), patch, randomization);
     float shift[3];
     for (size_t d = 0; d < 3; ++d)
@@ -199,6 +199,11 @@ void aur_facet_trace(const aur_facets *facets, const aur_facet_pattern *pattern,
     aur_packet_clear(&packet);
     for (size_t first = 0; first < pattern->count; first += LANES) {
         fill_packet(pattern, &e, shift, first, &packet.query.ray);
+        for (size_t k = 0; along != NULL && k < LANES; ++k) {
+            packet.query.ray.dir_x[k] = (float)along[0];
+            packet.query.ray.dir_y[k] = (float)along[1];
+            packet.query.ray.dir_z[k] = (float)along[2];
+        }
         for (size_t k = 0; k < LANES; ++k)
             packet.valid[k] = first + k < pattern->count ? -1 : 0;
         const uint32_t found = aur_scene_intersect16(facets->scene, AUR_EMBREE_COHERENT, &packet);

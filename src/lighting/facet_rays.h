@@ -24,6 +24,7 @@ aur_result aur_facet_pattern_create(const char *set, size_t count, uint64_t seed
 void aur_facet_pattern_release(aur_facet_pattern *pattern);
 
 /* Traces the rays of one randomisation of the pattern from a patch that has an area, cosine distributed about
- * its normal from places that are uniform by area: targets[pattern->count] is what each arrives at. */
+ * its normal from places that are uniform by area: targets[pattern->count] is what each arrives at. With
+ * `along` (else NULL; not 0) all rays go that way. */
 void aur_facet_trace(const aur_facets *facets, const aur_facet_pattern *pattern, size_t patch,
-                     uint64_t randomization, uint32_t *targets);
+                     uint64_t randomization, const double *along, uint32_t *targets);

@@ -77,7 +77,7 @@ static aur_result trace_block(void *context, size_t index) {
     for (size_t patch = BLOCK * index; good && patch < end; ++patch) {
         if (work->facets->areas[aur_facet_of(work->facets, patch)] > 0.0)
             for (size_t r = 0; r < visits->randomizations; ++r) {
-                aur_facet_trace(work->facets, work->pattern, patch, r, s.targets);
+                aur_facet_trace(work->facets, work->pattern, patch, r, NULL, s.targets);
                 count_targets(work, &s, patch, r);
             }
         good = keep_row(work, &s, patch);

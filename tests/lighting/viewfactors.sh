@@ -79,6 +79,14 @@ XML
 paste -d, matrix.csv free.csv | awk -F, 'NR > 1 && ($4 - $8) ^ 2 > .0004 { bad = 1 } END { exit bad || NR != 15 }' ||
   fail "radiosities with and without the matrix: $(paste -d, matrix.csv free.csv)"
 refused 2 "no row sees the sky" room.obj --radiosity 0.5
+# The sun alone, in the zenith: the house shades .36 of the ground's 4, and gives a little of its light back.
+"$aureole" viewfactors scene.xml --group --radiosity 0.5 --sun 0,0,4 --matrix-free -q >sun.csv || fail "sun"
+awk -F, 'NR == 2 && $4 > 4 * .5 * (4 - .36) / 4 - .05 && $4 < 4 * .5 * (4 - .36) / 4 + .15 && $5 > 0 && $5 < .02 { good = 1 }
+  END { exit !(good && NR == 3) }' sun.csv || fail "the sun on the ground: $(cat sun.csv)"
+refused 2 "is not three numbers X,Y,Z" scene.xml --radiosity 0.5 --sun 1,2
+refused 2 "is not three numbers X,Y,Z" scene.xml --radiosity 0.5 --sun 0,0,0
+refused 2 "are for --radiosity" scene.xml --sky 2
+refused 2 "there is no light" scene.xml --radiosity 0.5 --sky 0
 
 # --- odd meshes: counted warnings
 {
