@@ -2,7 +2,7 @@
 """Compares view factors of Aureole with closed forms (Howell), pyviewfactor and raystrack, and measures a city.
 
     python3 -m venv /tmp/peers && /tmp/peers/bin/pip install numpy scipy pyviewfactor raystrack
-    /tmp/peers/bin/python bench/peers/view_factors.py build/release/aureole [rectangles] [box] [city] [growth] [coverage]
+    /tmp/peers/bin/python bench/peers/view_factors.py build/release/aureole [rectangles] [curved] [box] [city] [growth] [coverage]
 
 Without names all are run. CPU seconds are those of the process and its threads. pyviewfactor and raystrack are left out
 where they are not installed. View3D is neither in Debian nor on PyPI; `aureole viewfactors MESH -o MESH.vs3` writes its input.
@@ -104,6 +104,82 @@ def rectangles(program, folder):
         print(f"| {name} | {exact:.12g} | {ours / exact - 1:.1e} | {theirs} |")
 
 
+def ring(radius, z, n):
+    """A circle's area as a polygon of n corners."""
+    wide = radius * math.sqrt(2 * PI / n / math.sin(2 * PI / n))
+    return [(wide * math.cos(2 * PI * k / n), wide * math.sin(2 * PI * k / n), z) for k in range(n)]
+
+
+def sphere(center, radius, rows, opening=0.0, inside=False):
+    """Rows of quadrilaterals from an opening's polar angle at the top down."""
+    polar = [opening + (PI - opening) * i / rows for i in range(rows + 1)]
+    corner = lambda i, k: tuple(c + radius * x for c, x in zip(center, (
+        math.sin(polar[i]) * math.cos(PI * k / rows), math.sin(polar[i]) * math.sin(PI * k / rows), math.cos(polar[i]))))
+    faces = []
+    for i in range(rows):
+        for k in range(2 * rows):
+            face = [corner(i, k), corner(i + 1, k), corner(i + 1, (k + 1) % (2 * rows)), corner(i, (k + 1) % (2 * rows))]
+            if i == rows - 1:
+                face = face[:2] + face[3:]
+            if i == 0 and opening == 0:
+                face = face[:-1]
+            faces.append(face[::-1] if inside else face)
+    return faces
+
+
+def cylinders(x, y):
+    """Howell C-91 and C-92: from the outer coaxial cylinder (radius x, length y) to the inner one (radius 1), and to itself."""
+    a, b, root = y * y + x * x - 1, y * y - x * x + 1, math.sqrt(4 * x * x + y * y)
+    inwards = 1 / x * (1 - 1 / PI * (math.acos(b / a) - 0.5 / y * (math.sqrt((a + 2) ** 2 - 4 * x * x) * math.acos(b / (x * a))
+                                                                   + b * math.asin(1 / x) - 0.5 * PI * a)))
+    itself = 1 - 1 / x + 2 / (PI * x) * math.atan(2 * math.sqrt(x * x - 1) / y) - y / (2 * PI * x) * (
+        root / y * math.asin((4 * (x * x - 1) + y * y / (x * x) * (x * x - 2)) / (y * y + 4 * (x * x - 1)))
+        - math.asin((x * x - 2) / (x * x)) + 0.5 * PI * (root / y - 1))
+    return inwards, itself
+
+
+def curved(program, folder):
+    """Howell's disks, cylinders and sphere, and Sparrow's cavity, as polygons of more and more corners."""
+    path, out = os.path.join(folder, "curved.obj"), os.path.join(folder, "curved.npz")
+    print("\n| surfaces | corners | facets | known | relative error | CPU s |\n|---|---|---|---|---|---|")
+
+    def row(name, corners, groups, known, found, *options):
+        write_obj(path, groups)
+        cpu, _ = run(program, path, *options, "-o", out)
+        matrix, areas, _, _ = load(out)
+        value = found(matrix, areas)
+        facets = sum(len(polygon) - 2 for polygons in groups.values() for polygon in polygons)
+        print(f"| {name} | {corners} | {facets} | {known(areas):.9g} | {value / known(areas) - 1:.1e} | {cpu:.1f} |", flush=True)
+
+    x = 1 + (1 + 1) / 1  # radii 1 and 1 at the distance 1
+    disks = 0.5 * (x - math.sqrt(x * x - 4))
+    inwards, itself = cylinders(2, 3)
+    for n in (24, 48, 96):
+        row("disks 1 and 1 at 1 (C-41)", n, {"low": [ring(1, 0, n)], "high": [ring(1, 1, n)[::-1]]}, lambda _: disks,
+            lambda m, _: m[0, 1], "--group")
+        walls = {}
+        for name, radius in (("outer", 2), ("inner", 1)):
+            low, high = ring(radius, 0, n), ring(radius, 3, n)
+            quads = [[low[k], low[(k + 1) % n], high[(k + 1) % n], high[k]] for k in range(n)]
+            walls[name] = [q[::-1] if name == "outer" else q for q in quads]
+        row("cylinders 2 and 1, outer to inner (C-91)", n, walls, lambda _: inwards, lambda m, _: m[0, 1], "--group")
+        row("the outer one to itself (C-92)", n, walls, lambda _: itself, lambda m, _: m[0, 0], "--group")
+    ball = {"room": box((-1, -1, -1), (1, 2, 1), True), "ball": sphere((0.1, 0.2, -0.1), 0.6, 8)}
+    row("sphere in a box, box to sphere", 16, ball, lambda areas: areas[1] / areas[0], lambda m, _: m[0, 1], "--group")
+    opening, emittance = PI / 4, 0.5
+    cavity = emittance / (1 - (1 - emittance) * 0.5 * (1 + math.cos(opening)))
+
+    def mean(matrix, areas):
+        light = total = np.full(len(areas), emittance)
+        for _ in range(80):
+            light = (1 - emittance) * (matrix @ light)
+            total = total + light
+        return (areas * total).sum() / areas.sum()
+    for rows in (6, 12):
+        row("Sparrow's cavity, open to 45 degrees: radiosity at emittance .5", 2 * rows,
+            {"cavity": sphere((0, 0, 0), 1, rows, opening, True)}, lambda _: cavity, mean)
+
+
 def enclosed(program, folder):
     """A box in a box: the inner one sees the outer one only, so that two factors are known."""
     outer, inner = box((-1, -1, -1), (1, 2, 1), True), box((-0.25, 0, -0.5), (0.5, 0.75, 0.25), False)
@@ -145,10 +221,13 @@ def enclosed(program, folder):
               f"{values.sum() - 1:.1e} |")
 
 
-def radiosities(path):
-    """Areas and radiosities of what --radiosity has written."""
-    table = np.loadtxt(path, delimiter=",", skiprows=1)
-    return table[:, 1], table[:, 3]
+def radiosities(matrix, areas, light, reflectance=0.3):
+    """Where `light` leaves the facets at first."""
+    total = light.copy()
+    for _ in range(80):
+        light = reflectance * (matrix @ light)
+        total += light
+    return total
 
 
 def make_city(folder, facets):
@@ -157,39 +236,43 @@ def make_city(folder, facets):
     return path
 
 
-def difference(paths):
+def difference(areas, a, b):
     """The error of one seed: the root mean square difference of two over the root of 2, by area, over the mean; and the worst."""
-    (areas, a), (_, b) = (radiosities(path) for path in paths)
     mean = (areas * a).sum() / areas.sum()
     return (math.sqrt((areas * (a - b) ** 2).sum() / areas.sum() / 2) / mean, abs(a - b).max() / math.sqrt(2) / mean)
 
 
-LIGHTS = {"sky": [], "sun": ["--sun", "1,2,3"], "emission": ["--emission", 1]}
+def sunlight(program, path, folder, seed, arguments):
+    """The sun's irradiance on each facet: its light, so weakly reflected that the rest does not count."""
+    out = os.path.join(folder, "sun.csv")
+    cpu, _ = run(program, path, "--radiosity", 1e-9, "--sun", "1,2,3", "--matrix-free", "--seed", seed, *arguments, "-o", out)
+    return cpu, np.loadtxt(out, delimiter=",", skiprows=1)[:, 3] / 1e-9
 
 
-def city(program, folder):
+def city(program, folder, settings=([], ["--rays", 8192, "--randomizations", 4])):
     path = make_city(folder, 22000)
-    out = os.path.join(folder, "city.npz")
     print("\n| city of 22,160 facets | CPU s | entries | closed share | rows - 1 | asymmetry |\n|---|---|---|---|---|---|")
-    cpu, _ = run(program, path, "-o", out)
-    matrix, areas, sky, widths = load(out)
-    with np.load(out) as data:
-        back = data["back"]
-    light = matrix.data * np.repeat(areas, np.diff(matrix.indptr))
-    exchange = sparse.diags(areas) @ matrix
-    rows = abs(np.asarray(matrix.sum(axis=1)).ravel() + sky + back - 1).max()
-    print(f"| defaults | {cpu:.0f} | {matrix.nnz:,} | {light[widths == 0].sum() / light.sum():.2f} | {rows:.0e} | "
-          f"{abs(exchange - exchange.T).max() / abs(exchange).max():.0e} |")
-    print("\n| light, reflectance .3 | how | CPU s | error | worst facet |\n|---|---|---|---|---|", flush=True)
-    for arguments in ([], ["--rays", 8192, "--randomizations", 4], ["--matrix-free"],
-                      ["--matrix-free", "--rays", 16384, "--randomizations", 4]):
-        for name, source in LIGHTS.items():
-            paths = [os.path.join(folder, f"city-{seed}.csv") for seed in (1, 2)]
-            cpu = np.mean([run(program, path, "--radiosity", 0.3, *source, *arguments, "--seed", seed, "-o", paths[seed - 1])[0]
-                           for seed in (1, 2)])
-            error, worst = difference(paths)
-            print(f"| {name} | {' '.join(map(str, arguments)) or 'defaults'} | {cpu:.0f} | {100 * error:.3f} % | {100 * worst:.1f} % |",
-                  flush=True)
+    table = "\n| light, reflectance .3 | how | CPU s | error | worst facet |\n|---|---|---|---|---|\n"
+    for arguments in settings:
+        out = [os.path.join(folder, f"city-{seed}.npz") for seed in (1, 2)]
+        cpu = np.mean([run(program, path, "--seed", seed, *arguments, "-o", out[seed - 1])[0] for seed in (1, 2)])
+        loaded = [load(o) for o in out]
+        matrix, areas, sky, widths = loaded[0]
+        with np.load(out[0]) as data:
+            back = data["back"]
+        light = matrix.data * np.repeat(areas, np.diff(matrix.indptr))
+        exchange = sparse.diags(areas) @ matrix
+        rows = abs(np.asarray(matrix.sum(axis=1)).ravel() + sky + back - 1).max()
+        how = " ".join(map(str, arguments)) or "defaults"
+        print(f"| {how} | {cpu:.0f} | {matrix.nnz:,} | {light[widths == 0].sum() / light.sum():.2f} | {rows:.0e} | "
+              f"{abs(exchange - exchange.T).max() / abs(exchange).max():.0e} |", flush=True)
+        suns = [sunlight(program, path, folder, seed, arguments) for seed in (1, 2)]
+        first = {"sky": [0.3 * l[2] for l in loaded], "sun": [0.3 * s[1] for s in suns], "emission": [np.ones(len(areas))] * 2}
+        for name, lights in first.items():
+            error, worst = difference(areas, *(radiosities(l[0], areas, light) for l, light in zip(loaded, lights)))
+            more = suns[0][0] if name == "sun" else 0
+            table += f"| {name} | {how} | {cpu + more:.0f} | {100 * error:.3f} % | {100 * worst:.1f} % |\n"
+    print(table)
 
 
 def growth(program, folder):
@@ -232,7 +315,7 @@ def coverage(program, folder):
 
 def main():
     program = os.path.abspath(sys.argv[1])
-    parts = {"rectangles": rectangles, "box": enclosed, "city": city, "growth": growth, "coverage": coverage}
+    parts = {"rectangles": rectangles, "curved": curved, "box": enclosed, "city": city, "growth": growth, "coverage": coverage}
     with tempfile.TemporaryDirectory() as folder:
         for name in sys.argv[2:] or parts:
             parts[name](program, folder)

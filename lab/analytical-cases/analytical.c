@@ -2,6 +2,7 @@
  * references by two derivations. */
 #include <aureole/irradiance.h>
 #include <aureole/statistics.h>
+#include <aureole/text.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -74,6 +75,36 @@ static void compare(const lab_case *made, const aur_irradiance *results, double 
     }
 }
 
+/* The scene as NAME.xml, and its points with both references and what was found as NAME.csv: for other
+ * programs (bench/peers/cases.py). */
+static aur_result write_case(const lab_run *run, const char *name, const lab_case *made,
+                             const aur_irradiance *results, aur_error *error) {
+    char path[4096], text[LAB_CASE_SCENE + 256 * LAB_CASE_POINTS];
+    const char *const folder = lab_run_options(run)->folder;
+    aur_format(path, sizeof path, "%s/analytical-cases-%s.xml", folder, name);
+    size_t used = (size_t)aur_format(text, sizeof text, "<scene version='3.0.0'>%s</scene>\n", made->scene);
+    aur_result result = aur_file_write(path, used, text, error);
+    aur_format(path, sizeof path, "%s/analytical-cases-%s.csv", folder, name);
+    used = (size_t)aur_format(text, sizeof text, "x,y,z,nx,ny,nz,closed,smooth,value,error\n");
+    for (size_t i = 0; i < made->count; ++i) {
+        const double *const at = made->receivers[i].position, *const up = made->receivers[i].normal;
+        const double numbers[10] = {at[0],
+                                    at[1],
+                                    at[2],
+                                    up[0],
+                                    up[1],
+                                    up[2],
+                                    made->closed[i],
+                                    made->smooth[i],
+                                    results[i].value[AUR_IRRADIANCE_TOTAL][0],
+                                    results[i].error[AUR_IRRADIANCE_TOTAL][0]};
+        for (size_t k = 0; k < 10; ++k)
+            used += (size_t)aur_format(text + used, sizeof text - used, "%.12g%c", numbers[k],
+                                       k < 9 ? ',' : '\n');
+    }
+    return result != AUR_OK ? result : aur_file_write(path, used, text, error);
+}
+
 /* The largest number of points that chance has outside their intervals of 99 % but for one time in a
  * thousand, the binomial's tail. */
 static size_t allowed_outside(size_t points) {
@@ -105,6 +136,9 @@ static aur_result run(lab_run *run, aur_error *error) {
         if (result != AUR_OK)
             break;
         compare(made, results, ALLOWED, &found);
+        result = write_case(run, row->name, made, results, error);
+        if (result != AUR_OK)
+            break;
         const bool good =
             found.differ <= REFERENCES && found.worst <= worst && found.standard <= STANDARD_ERRORS;
         failed += !good;

@@ -6,11 +6,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "lab/lab.h"
+#include "coverage.h"
 
 static const double PI = 3.14159265358979323846;
-
-static const char *const columns[] = {"case", "asked", "runs", "held", "bias", "error_rms", "directions"};
 
 enum { SENSORS = 3 };
 
@@ -80,40 +78,6 @@ static const coverage_case cases[] = {
      NULL},
 };
 
-/* What the runs of one case found. */
-typedef struct tally {
-    size_t runs, held;
-    double bias, squares, directions;
-} tally;
-
-static void count(double value, double half_width, double truth, double directions, tally *t) {
-    const double off = value - truth;
-    ++t->runs;
-    t->held += fabs(off) <= half_width;
-    t->bias += off / truth;
-    t->squares += off * off / (truth * truth);
-    t->directions += directions;
-}
-
-static void report(lab_run *run, const char *name, double asked, const tally *t) {
-    const double n = (double)t->runs;
-    lab_text(run, name);
-    lab_number(run, asked);
-    lab_number(run, n);
-    lab_number(run, (double)t->held / n);
-    lab_number(run, t->bias / n);
-    lab_number(run, sqrt(t->squares / n));
-    lab_number(run, t->directions / n);
-}
-
-static void add(tally *sum, const tally *part) {
-    sum->runs += part->runs;
-    sum->held += part->held;
-    sum->bias += part->bias;
-    sum->squares += part->squares;
-    sum->directions += part->directions;
-}
-
 static aur_result estimate(lab_run *run, const aur_scene *scene, const coverage_case *given, double asked,
                            size_t seed, aur_irradiance *results, aur_error *error) {
     const aur_sensors_view sensors = {.size = sizeof sensors,
@@ -128,7 +92,7 @@ static aur_result estimate(lab_run *run, const aur_scene *scene, const coverage_
 }
 
 /* Every seed with a fixed number of directions, and to the error asked. */
-static aur_result study(lab_run *run, const aur_scene *scene, const coverage_case *given, tally pooled[2],
+static aur_result study(lab_run *run, const aur_scene *scene, const coverage_case *given, lab_tally pooled[2],
                         aur_error *error) {
     const size_t seeds = lab_run_options(run)->quick ? 60 : 1000;
     aur_irradiance(*const results)[SENSORS] = malloc(2 * seeds * sizeof *results);
@@ -145,14 +109,14 @@ static aur_result study(lab_run *run, const aur_scene *scene, const coverage_cas
             truth[s] += results[i][s].value[AUR_IRRADIANCE_TOTAL][3] / (double)seeds;
     }
     for (size_t kind = 0; kind < 2 && result == AUR_OK; ++kind) {
-        tally t = {0};
+        lab_tally t = {0};
         for (size_t i = 0; i < seeds * SENSORS; ++i) {
             const aur_irradiance *const r = &results[kind * seeds + i / SENSORS][i % SENSORS];
-            count(r->value[AUR_IRRADIANCE_TOTAL][3], r->half_width[3], truth[i % SENSORS],
-                  (double)r->directions, &t);
+            lab_tally_count(&t, r->value[AUR_IRRADIANCE_TOTAL][3], r->half_width[3], truth[i % SENSORS],
+                            (double)r->directions);
         }
-        report(run, given->name, kind == 0 ? 0.0 : given->asked, &t);
-        add(&pooled[kind], &t);
+        lab_tally_report(run, given->name, kind == 0 ? 0.0 : given->asked, &t);
+        lab_tally_add(&pooled[kind], &t);
     }
     free(results);
     return result;
@@ -172,11 +136,11 @@ static aur_result moments(void *user, const aur_estimate_points *points, double 
     return AUR_OK;
 }
 
-static aur_result study_functional(lab_run *run, tally pooled[2], aur_error *error) {
+static aur_result study_functional(lab_run *run, lab_tally pooled[2], aur_error *error) {
     const double truth = 1.0 / 3.0 + 0.15; /* E|u - v| = 1/3, E .3 u = .15 */
     const size_t seeds = lab_run_options(run)->quick ? 500 : 3000;
     for (size_t kind = 0; kind < 2; ++kind) {
-        tally t = {0};
+        lab_tally t = {0};
         for (size_t seed = 0; seed < seeds; ++seed) {
             aur_estimate_options options = aur_estimate_options_default(3, 2);
             aur_estimated found[2];
@@ -187,17 +151,17 @@ static aur_result study_functional(lab_run *run, tally pooled[2], aur_error *err
             const aur_result result = aur_estimate(moments, NULL, &options, found, &how, error);
             if (result != AUR_OK)
                 return result;
-            count(found[0].value, found[0].half_width, truth, (double)how.evaluations, &t);
+            lab_tally_count(&t, found[0].value, found[0].half_width, truth, (double)how.evaluations);
         }
-        report(run, "functional", kind == 0 ? 0.0 : 0.005, &t);
-        add(&pooled[kind], &t);
+        lab_tally_report(run, "functional", kind == 0 ? 0.0 : 0.005, &t);
+        lab_tally_add(&pooled[kind], &t);
     }
     return AUR_OK;
 }
 
 static aur_result run(lab_run *run, aur_error *error) {
-    tally pooled[2] = {{0}, {0}};
-    lab_columns(run, sizeof columns / sizeof columns[0], columns);
+    lab_tally pooled[2] = {{0}, {0}};
+    lab_tally_begin(run, "directions");
     aur_result result = AUR_OK;
     for (size_t i = 0; i < sizeof cases / sizeof cases[0] && result == AUR_OK; ++i) {
         aur_scene *scene = NULL;
@@ -213,8 +177,8 @@ static aur_result run(lab_run *run, aur_error *error) {
         result = study_functional(run, pooled, error);
     if (result != AUR_OK)
         return result;
-    report(run, "pooled", 0.0, &pooled[0]);
-    report(run, "pooled to errors", 1.0, &pooled[1]);
+    lab_tally_report(run, "pooled", 0.0, &pooled[0]);
+    lab_tally_report(run, "pooled to errors", 1.0, &pooled[1]);
     return AUR_OK;
 }
 

@@ -19,6 +19,8 @@ extern const lab_experiment lab_domains_prefixes;
 extern const lab_experiment lab_analytical_cases;
 extern const lab_experiment lab_integrate_coverage;
 extern const lab_experiment lab_irradiance_coverage;
+extern const lab_experiment lab_factors_coverage;
+extern const lab_experiment lab_picture_coverage;
 extern const lab_experiment lab_keller_1994_table1;
 extern const lab_experiment lab_keller_1994_table2;
 extern const lab_experiment lab_keller_1994_table3;
@@ -36,6 +38,7 @@ static const lab_experiment *const experiments[] = {
     &lab_domains_axes,        &lab_domains_grids,
     &lab_domains_prefixes,    &lab_analytical_cases,
     &lab_integrate_coverage,  &lab_irradiance_coverage,
+    &lab_factors_coverage,    &lab_picture_coverage,
     &lab_keller_1994_table1,  &lab_keller_1994_table2,
     &lab_keller_1994_table3,  &lab_marques_2013_gather,
     &lab_marques_2013_table1, &lab_marques_2018_gains,

@@ -1,0 +1,37 @@
+#include "coverage.h"
+
+#include <math.h>
+
+void lab_tally_begin(lab_run *run, const char *work) {
+    const char *const columns[LAB_TALLY_COLUMNS] = {"case", "asked",     "runs", "held",
+                                                    "bias", "error_rms", work};
+    lab_columns(run, LAB_TALLY_COLUMNS, columns);
+}
+
+void lab_tally_count(lab_tally *tally, double value, double half_width, double truth, double work) {
+    const double off = value - truth;
+    ++tally->runs;
+    tally->held += fabs(off) <= half_width;
+    tally->bias += off / truth;
+    tally->squares += off * off / (truth * truth);
+    tally->work += work;
+}
+
+void lab_tally_add(lab_tally *sum, const lab_tally *part) {
+    sum->runs += part->runs;
+    sum->held += part->held;
+    sum->bias += part->bias;
+    sum->squares += part->squares;
+    sum->work += part->work;
+}
+
+void lab_tally_report(lab_run *run, const char *name, double asked, const lab_tally *tally) {
+    const double n = (double)tally->runs;
+    lab_text(run, name);
+    lab_number(run, asked);
+    lab_number(run, n);
+    lab_number(run, (double)tally->held / n);
+    lab_number(run, tally->bias / n);
+    lab_number(run, sqrt(tally->squares / n));
+    lab_number(run, tally->work / n);
+}

@@ -1,0 +1,159 @@
+/* How often the intervals of pictures' errors hold, of fixed rounds and of renders that an error asked has
+ * stopped, and those of measures of randomised sets. */
+#include <aureole/ask.h>
+#include <aureole/pointset.h>
+#include <aureole/quality.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "coverage.h"
+
+/* Pixels of a side, and values of a picture. */
+enum { SIDE = 16, VALUES = 3 * SIDE * SIDE };
+
+typedef struct picture {
+    float values[VALUES];
+    double low, high, mean, samples;
+} picture;
+
+static aur_result render(lab_run *run, aur_renderer *renderer, double asked, size_t seed, picture *made,
+                         aur_error *error) {
+    aur_render_options options = aur_render_options_default();
+    options.width = options.height = SIDE;
+    options.integrator = "path";
+    options.filter = "box";
+    options.seed = seed;
+    options.threads = lab_run_options(run)->threads;
+    aur_ask_options wish = aur_ask_options_default();
+    wish.error = asked;
+    wish.rounds = asked > 0.0 ? 0 : 2;
+    aur_ask *ask = NULL;
+    aur_image *image = NULL;
+    aur_ask_report report = {.size = sizeof report};
+    aur_result result = aur_ask_create(renderer, &options, &wish, &ask, error);
+    if (result == AUR_OK)
+        result = aur_ask_run(ask, error);
+    if (result == AUR_OK)
+        result = aur_ask_get_report(ask, &report, error);
+    if (result == AUR_OK)
+        result = aur_ask_develop(ask, false, &image, error);
+    if (result == AUR_OK) {
+        memcpy(made->values, aur_image_data(image), sizeof made->values);
+        made->low = report.error_low;
+        made->high = report.error_high;
+        made->mean = report.mean;
+        made->samples = report.samples_per_pixel;
+    }
+    aur_image_destroy(image);
+    aur_ask_destroy(ask);
+    return result;
+}
+
+/* The picture's root mean square error, relative to its mean: held when it is within the interval, and when
+ * it is below the interval's end, which is what a render to an error goes by. */
+static void count_picture(const picture *made, const float *truth, lab_tally t[2]) {
+    double squares = 0.0;
+    for (size_t i = 0; i < VALUES; ++i) {
+        const double off = (double)made->values[i] - (double)truth[i];
+        squares += off * off / VALUES;
+    }
+    const double error = sqrt(squares) / made->mean;
+    lab_tally_count(&t[0], 0.5 * (made->low + made->high), 0.5 * (made->high - made->low), error,
+                    made->samples);
+    lab_tally_count(&t[1], 0.5 * made->high, 0.5 * made->high, error, made->samples);
+}
+
+static aur_result study_pictures(lab_run *run, lab_tally *pooled, aur_error *error) {
+    const size_t seeds = lab_run_options(run)->quick ? 40 : 1000;
+    static const double asked[2] = {0.0, 0.08};
+    aur_scene *scene = NULL;
+    aur_renderer *renderer = NULL;
+    picture *const made = malloc(2 * seeds * sizeof *made);
+    aur_result result = made == NULL
+                            ? aur_fail(error, AUR_ERROR_MEMORY, "out of memory")
+                            : lab_load_scene(run, "cornell-box/cornell-box.xml", 0, NULL, &scene, error);
+    if (result == AUR_OK)
+        result = aur_renderer_create(scene, &renderer, error);
+    for (size_t i = 0; i < 2 * seeds && result == AUR_OK; ++i)
+        result = render(run, renderer, asked[i / seeds], i, &made[i], error);
+    /* What is true is the mean over all: no run's seed is another one's. */
+    float truth[VALUES];
+    double weight = 0.0;
+    for (size_t i = 0; i < 2 * seeds && result == AUR_OK; ++i)
+        weight += made[i].samples;
+    for (size_t k = 0; k < VALUES && result == AUR_OK; ++k) {
+        double sum = 0.0;
+        for (size_t i = 0; i < 2 * seeds; ++i)
+            sum += made[i].samples / weight * (double)made[i].values[k];
+        truth[k] = (float)sum;
+    }
+    for (size_t kind = 0; kind < 2 && result == AUR_OK; ++kind) {
+        lab_tally t[2] = {{0}, {0}};
+        for (size_t i = 0; i < seeds; ++i)
+            count_picture(&made[kind * seeds + i], truth, t);
+        lab_tally_report(run, "picture's error", asked[kind], &t[0]);
+        lab_tally_report(run, "picture's error below the end", asked[kind], &t[1]);
+        lab_tally_add(pooled, &t[0]);
+    }
+    free(made);
+    aur_renderer_destroy(renderer);
+    aur_scene_destroy(scene);
+    return result;
+}
+
+/* The energy of scrambled nets: eight randomisations make one interval, as of `aureole measure --seeds 8`.
+ * What is true is the mean over all of them. */
+static aur_result study_measure(lab_run *run, lab_tally *pooled, aur_error *error) {
+    enum { RUNS = 8, POINTS = 32 };
+    const size_t seeds = lab_run_options(run)->quick ? 200 : 1000;
+    double *const values = malloc(seeds * RUNS * sizeof *values);
+    aur_result result = values != NULL ? AUR_OK : aur_fail(error, AUR_ERROR_MEMORY, "out of memory");
+    double truth = 0.0;
+    for (size_t i = 0; i < seeds * RUNS && result == AUR_OK; ++i) {
+        double points[2 * POINTS];
+        aur_pointset_options options = aur_pointset_options_default(POINTS);
+        options.scramble = AUR_SCRAMBLE_OWEN;
+        options.seed = i;
+        aur_pointset *set = NULL;
+        result = aur_pointset_create("sobol", &options, &set, error);
+        if (result == AUR_OK)
+            result = aur_pointset_points(set, 0, POINTS, 2 * POINTS, points, error);
+        aur_pointset_destroy(set);
+        const aur_points_view view = aur_points_view_of(AUR_DOMAIN_SQUARE, POINTS, 2, points);
+        if (result == AUR_OK)
+            result = aur_measure("l2-star", &view, NULL, &values[i], error);
+        if (result == AUR_OK)
+            truth += values[i] / (double)(seeds * RUNS);
+    }
+    lab_tally t = {0};
+    for (size_t i = 0; i < seeds && result == AUR_OK; ++i) {
+        double mean, half;
+        lab_mean_interval(RUNS, values + RUNS * i, &mean, &half);
+        lab_tally_count(&t, mean, half, truth, POINTS);
+    }
+    if (result == AUR_OK) {
+        lab_tally_report(run, "discrepancy of scrambled nets", 0.0, &t);
+        lab_tally_add(pooled, &t);
+    }
+    free(values);
+    return result;
+}
+
+static aur_result run(lab_run *run, aur_error *error) {
+    lab_tally pooled = {0};
+    lab_tally_begin(run, "samples");
+    aur_result result = study_pictures(run, &pooled, error);
+    if (result == AUR_OK)
+        result = study_measure(run, &pooled, error);
+    if (result == AUR_OK)
+        lab_tally_report(run, "pooled", 0.0, &pooled);
+    return result;
+}
+
+const lab_experiment lab_picture_coverage = {
+    .name = "picture-coverage",
+    .reproduces = "docs/lighting.md",
+    .summary = "how often intervals of pictures' errors and of measures of randomised sets hold",
+    .run = run,
+};
