@@ -112,11 +112,14 @@ static void absorbs_by_beer_and_lambert(void **state) {
         }
 }
 
+#define BLEND                                                                                                \
+    "<phase type='blendphase'><float name='weight' value='0.3'/><phase type='hg'/><phase type='rayleigh'/>"  \
+    "</phase>"
+
 static const char *const phases[] = {
     "<phase type='isotropic'/>", "<phase type='hg'><float name='g' value='0.7'/></phase>",
     "<phase type='rayleigh'/>", "<phase type='tabphase'><string name='values' value='1 0 2'/></phase>",
-    "<phase type='blendphase'><float name='weight' value='0.3'/><phase type='hg'/><phase "
-    "type='rayleigh'/></phase>"};
+    BLEND};
 
 /* Where nothing is absorbed and the sky is the same all round, every path without roulette brings the sky's
  * radiance: exactly, where extinction has no colour and points on lights are not drawn. Through glass the

@@ -52,6 +52,8 @@ void aur_majorant_walk_begin(const aur_majorants *majorants, const aur_ray *ray,
         walk->position = aur_larger(walk->position, aur_smaller(a, b));
         walk->end = aur_smaller(walk->end, aur_larger(a, b));
     }
+    if (!(walk->position < walk->end))
+        return;
     for (size_t k = 0; k < 3; ++k) {
         const float count = (float)majorants->cells[k];
         const float at = (origin[k] + walk->position * direction[k]) * count;
