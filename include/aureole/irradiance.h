@@ -97,13 +97,14 @@ static inline aur_irradiance_options aur_irradiance_options_default(void) {
 }
 
 /* Where light comes from: all of it; straight from lights; straight from the sky (a light that is all
- * around); all that was reflected or refracted on its way. What goes straight through panes comes straight.
- */
+ * around); all that was reflected or refracted on its way; straight from the sun (a disk of the sky of 5
+ * degrees at most from its centre). What goes straight through panes comes straight. */
 typedef enum aur_irradiance_part {
     AUR_IRRADIANCE_TOTAL,
     AUR_IRRADIANCE_DIRECT,
     AUR_IRRADIANCE_SKY,
     AUR_IRRADIANCE_REFLECTED,
+    AUR_IRRADIANCE_SUN,
     AUR_IRRADIANCE_PARTS
 } aur_irradiance_part;
 
@@ -139,7 +140,7 @@ AUR_EXPERIMENTAL aur_result aur_irradiance_estimate(const aur_scene *scene, cons
 typedef struct aur_irradiance_columns {
     size_t size;      /* of the caller's struct, so that it can grow */
     bool luminance;   /* in the place of r, g, b */
-    bool parts;       /* direct, sky and reflected light after the total */
+    bool parts;       /* direct, sky, reflected and the sun's light after the total */
     bool intervals;   /* half widths after the standard errors of the total */
     bool no_errors;   /* no standard errors */
     bool normals;     /* nx, ny, nz after x, y, z */

@@ -69,7 +69,7 @@ static const cli_option options[] = {
                 "179 lm/W by those of Rec. 709 (.2126, .7152, .0722), or 683 lm/W by the latter"),
      .key.words = (const char *const[]){"radiance", "rec709", "photopic", NULL}},
     {CLI_FLAG(irradiance_command, columns.parts, "parts",
-              "direct, sky and reflected light apart, after the total")},
+              "direct, sky, reflected and the sun's light apart, after the total")},
     {CLI_FLAG(irradiance_command, columns.intervals, "intervals",
               "half the width of each interval, after the standard errors")},
     {CLI_FLAG(irradiance_command, columns.no_errors, "no-errors", "no standard errors")},

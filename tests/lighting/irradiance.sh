@@ -183,6 +183,9 @@ printf 'void light s 0 0 3 1e5 1e5 1e5\ns source sun 0 0 4 0 .5 .866025403784 .5
 "$aureole" irradiance -q sun.rad --sensors below.pts -n 1024 --parts -o sun.csv || fail "a sun behind a pane"
 near 4 "$(awk "$passed BEGIN { a = .2665 * atan2(0, -1) / 180; c = .866025403784; print 1e5 * atan2(0, -1) * sin(a) ^ 2 * c * passed(c, .9) }")" sun.csv
 near 22 0 sun.csv
+near 28 "$(tail -1 sun.csv | cut -d, -f4)" sun.csv
+near 16 0 sun.csv
+head -1 sun.csv | grep -q ',sun_r,sun_g,sun_b,sun_r_error,' || fail "columns: $(head -1 sun.csv)"
 printf 'g polygon q 0 0 12 -9e4 -9e4 2 9e4 -9e4 2 9e4 9e4 2 -9e4 9e4 2\n' | cat sun.rad - >two.rad
 "$aureole" irradiance -q two.rad --sensors below.pts -n 1024 --max-depth 3 -o two.csv || fail "a sun behind two panes"
 near 4 "$(awk "$passed BEGIN { a = .2665 * atan2(0, -1) / 180; c = .866025403784; print 1e5 * atan2(0, -1) * sin(a) ^ 2 * c * passed(c, .9) ^ 2 }")" two.csv

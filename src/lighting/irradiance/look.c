@@ -4,10 +4,11 @@
 
 #include "core/random.h"
 #include "core/vector3d.h"
+#include "scene/scene_data.h"
 #include "transport/lights/direct_light.h"
 #include "transport/packets/packet_rays.h"
 
-enum { DIRECT, SKY, REFLECTED }; /* rows of aur_look.sums */
+enum { DIRECT, SKY, REFLECTED, SUN }; /* rows of aur_look.sums */
 
 /* Moves the place off the first surface that is nearer to it than `reach`; false where there is none. Along
  * one of three axes every plane is near. */
@@ -63,11 +64,32 @@ void aur_sensor_place_create(const aur_scene *scene, const aur_closed_lights *li
     aur_closed_lights_at(scene, lights, from, unit, place->position, place->hash, shares, place->closed);
 }
 
-static void add(const aur_path_group *g, size_t lane, const double from[3], double sum[3]) {
-    const aur_vector light = aur_lane_vector(&g->lanes.sum, lane);
-    sum[0] += (double)light.x - from[0];
-    sum[1] += (double)light.y - from[1];
-    sum[2] += (double)light.z - from[2];
+/* The radiance from a direction of disks of the sky that are small. */
+static aur_vector sun_from(const aur_scene *scene, aur_vector direction) {
+    static const double WIDEST = 2.0 * AUR_PI * AUR_PI * 3.8053e-3; /* extent of 5 degrees to its edge */
+    aur_vector sum = {0};
+    for (size_t i = 0; i < scene->environment_count; ++i) {
+        const aur_emitter *const emitter = scene->environments[i];
+        if (emitter->descriptor->adds && emitter->extent <= WIDEST)
+            sum = aur_vector_add(sum, emitter->descriptor->radiance_from(emitter, direction));
+    }
+    return sum;
+}
+
+/* Light of one direction from beyond the scene: the sun's part of it, and the rest. */
+static void add_beyond(const aur_scene *scene, aur_vector direction, const double light[3],
+                       double (*sums)[3]) {
+    const aur_vector sun = sun_from(scene, direction);
+    double part[3] = {0.0}, all[3] = {0.0};
+    if (!aur_vector_is_zero(sun)) {
+        aur_vector_to_doubles(sun, part);
+        aur_vector_to_doubles(aur_scene_environment(scene, direction), all);
+    }
+    for (size_t c = 0; c < 3; ++c) {
+        const double of_sun = part[c] > 0.0 ? light[c] * (part[c] / all[c]) : 0.0;
+        sums[SKY][c] += light[c] - of_sun;
+        sums[SUN][c] += of_sun;
+    }
 }
 
 /* The rays of direction `index`, from which light is to be found. */
@@ -149,8 +171,14 @@ static void add_lights(aur_path_group *g, const aur_sensor_place *place, aur_loo
         double left[3] = {1.0, 1.0, 1.0};
         if (!aur_has_lane(lit, k))
             aur_vector_to_doubles(aur_path_group_passed(g, k, farthest[k], 0), left);
+        double brought[3];
         for (size_t c = 0; c < 3; ++c)
-            look->sums[k][aur_has_lane(sky, k) ? SKY : DIRECT][c] += (left[c] - known[k]) * light[k][c];
+            brought[c] = (left[c] - known[k]) * light[k][c];
+        if (aur_has_lane(sky, k))
+            add_beyond(g->scene, aur_packet_ray(&g->shadows, k).direction, brought, look->sums[k]);
+        else
+            for (size_t c = 0; c < 3; ++c)
+                look->sums[k][DIRECT][c] += brought[c];
         if (g->from_sky == NULL || !aur_has_lane(sky, k))
             continue;
         const aur_vector told = {(float)(left[0] * light[k][0]), (float)(left[1] * light[k][1]),
@@ -171,12 +199,18 @@ static bool is_dark(const aur_path_group *g, size_t lane) {
 }
 
 /* Adds what the lanes' sums have got more than `seen`, to the part of each lane. */
-static void add_parts(const aur_path_group *g, uint32_t lanes, const size_t *parts, double (*seen)[3],
-                      aur_look *look) {
-    for (; lanes != 0; lanes &= lanes - 1) {
-        const size_t k = aur_first_lane(lanes);
-        add(g, k, seen[k], look->sums[k][parts[k]]);
-        aur_vector_to_doubles(aur_lane_vector(&g->lanes.sum, k), seen[k]);
+static void add_parts(const aur_path_group *g, const size_t *parts, double (*seen)[3], aur_look *look) {
+    for (size_t k = 0; k < AUR_PACKET_SIZE; ++k) {
+        double light[3], more[3];
+        aur_vector_to_doubles(aur_lane_vector(&g->lanes.sum, k), light);
+        for (size_t c = 0; c < 3; ++c)
+            more[c] = light[c] - seen[k][c];
+        memcpy(seen[k], light, sizeof light);
+        if (parts[k] == SKY)
+            add_beyond(g->scene, aur_packet_ray(&g->packet, k).direction, more, look->sums[k]);
+        else
+            for (size_t c = 0; c < 3; ++c)
+                look->sums[k][parts[k]][c] += more[c];
     }
 }
 
@@ -196,7 +230,7 @@ static void add_direction(aur_path_group *g, const aur_sensor_place *place, aur_
             parts[k] = !aur_has_lane(straight, k) ? REFLECTED : met ? DIRECT : SKY;
             look->dark += depth == 1 && met && is_dark(g, k);
         }
-        add_parts(g, UINT16_MAX, parts, seen, look);
+        add_parts(g, parts, seen, look);
         if (g->data->max_depth == depth || g->alive == 0)
             break;
         aur_path_group_scatter(g, depth);
@@ -206,7 +240,7 @@ static void add_direction(aur_path_group *g, const aur_sensor_place *place, aur_
             break;
         }
     }
-    add_parts(g, UINT16_MAX, reflected, seen, look);
+    add_parts(g, reflected, seen, look);
     g->known = NULL;
 }
 

@@ -29,7 +29,7 @@ void aur_sensor_place_create(const aur_scene *scene, const aur_closed_lights *li
 
 /* Irradiance as the randomisations tell it. */
 typedef struct aur_look {
-    double sums[AUR_PACKET_SIZE][AUR_IRRADIANCE_PARTS - 1][3]; /* direct, sky, reflected; r, g, b */
+    double sums[AUR_PACKET_SIZE][AUR_IRRADIANCE_PARTS - 1][3]; /* direct, sky, reflected, sun; r, g, b */
     uint64_t dark; /* directions that meet a surface from behind that scatters nothing there */
 } aur_look;
 

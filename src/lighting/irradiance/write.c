@@ -21,7 +21,7 @@ typedef struct columns {
 
 static void add(columns *all, content what, size_t part, size_t channel, const char *name,
                 const char *ending) {
-    static const char *const parts[] = {"", "direct_", "sky_", "reflected_"};
+    static const char *const parts[] = {"", "direct_", "sky_", "reflected_", "sun_"};
     aur_sensor_column *const new = &all->names[all->count];
     all->items[all->count++] = (column){.content = what, .part = part, .channel = channel};
     new->rough = what == ERROR || what == HALF_WIDTH;
