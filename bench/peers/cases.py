@@ -439,8 +439,11 @@ def main():
     with tempfile.TemporaryDirectory() as folder:
         subprocess.run([given.program, "lab", "run", "analytical-cases", "-q", "-o", folder, *(["--quick"] if given.quick else [])],
                        check=True, stdout=subprocess.DEVNULL)
+        folder = os.path.join(folder, "analytical-cases")
         with open(os.path.join(folder, "analytical-cases.csv")) as rows:
             cases = {row["case"]: row for row in csv.DictReader(line for line in rows if not line.startswith("#"))}
+        with open(os.path.join(folder, "analytical-cases-timings.csv")) as rows:
+            own_seconds = {row["what"]: float(row["cpu_seconds"]) for row in csv.DictReader(rows)}
         results = {}
         for tool in TOOLS:
             python = getattr(given, tool)
@@ -455,9 +458,9 @@ def main():
         named = [tool for tool in TOOLS if getattr(given, tool)]
         print("| case | " + " | ".join(f"{tool}: worst, mean % | CPU s" for tool in ["aureole"] + named) + " |")
         print("|---" * (3 + 2 * len(named)) + "|")
-        for name, row in cases.items():
+        for name in cases:
             points = read_points(os.path.join(folder, f"analytical-cases-{name}.csv"))
-            cells = ["{:.3f}, {:.3f} | {:.1f}".format(*errors(points, [p["value"] for p in points]), float(row["cpu_seconds"]))]
+            cells = ["{:.3f}, {:.3f} | {:.1f}".format(*errors(points, [p["value"] for p in points]), own_seconds[name])]
             for tool in named:
                 found, seconds = results.get((tool, name), (None, 0))
                 cells.append("{:.3f}, {:.3f} | {:.1f}".format(*errors(points, found), seconds) if found else "- | -")

@@ -34,8 +34,7 @@ aur_result keller_start(const lab_run *run, const aur_scene *scene, const char *
 aur_result keller_deviation(const aur_radiosity *radiosity, double *plain, double *weighted,
                             aur_error *error);
 
-/* The last cells of a row: published, published / measured, and a verdict by a factor of 1.5. NaN: not
- * published. */
-void keller_verdict(lab_run *run, double measured, double published);
+/* The last cell of a row. NaN: not published. */
+void keller_published(lab_run *run, double published);
 
 #endif

@@ -1,6 +1,7 @@
 /* Tables 2 and 3 of Keller 1994: how far solutions are from the analytic one, plain and weighted by area. */
 #include <math.h>
 #include <stdio.h>
+#include <string.h>
 
 #include "study.h"
 
@@ -38,8 +39,8 @@ static const double weighted_published[KELLER_SCENES][SIZES][KELLER_PUBLISHED_SE
      {0.000581887, 0.000552315, 0.000543979, 0.000565605, 0.000613286}},
 };
 
-static const char *const columns[] = {"scene",    "N",         "sequence",      "rms",    "least",
-                                      "greatest", "published", "pub./measured", "verdict"};
+static const char *const columns[] = {"scene", "N",        "sequence",  "rms",
+                                      "least", "greatest", "published", NULL};
 
 /* Mean square deviations of every variant. */
 typedef struct deviations {
@@ -71,12 +72,26 @@ static aur_result measure_variant(lab_run *run, const aur_scene *scene, const ke
     return result;
 }
 
-static aur_result measure(lab_run *run, const aur_scene *scene, const keller_set *set,
+static aur_result measure(lab_run *run, const char *name, const aur_scene *scene, const keller_set *set,
                           aur_radiosity_directions directions, deviations *d, aur_error *error) {
+    enum { CELLS = SIZES * KELLER_VARIANTS };
+    double values[2 * CELLS + 1];
+    char key[160];
     aur_result result = AUR_OK;
-    d->lost = 0;
-    for (size_t v = 0; v < d->variants && result == AUR_OK; ++v)
-        result = measure_variant(run, scene, set, v, directions, d, error);
+    snprintf(key, sizeof key, "%s %.100s %d", name, set->name, (int)directions);
+    if (!lab_recall(run, key, 2 * CELLS + 1, values)) {
+        d->lost = 0;
+        for (size_t v = 0; v < d->variants && result == AUR_OK; ++v)
+            result = measure_variant(run, scene, set, v, directions, d, error);
+        memcpy(values, d->plain, sizeof d->plain);
+        memcpy(values + CELLS, d->weighted, sizeof d->weighted);
+        values[2 * CELLS] = (double)d->lost;
+        if (result == AUR_OK)
+            result = lab_keep(run, key, 2 * CELLS + 1, values, error);
+    }
+    memcpy(d->plain, values, sizeof d->plain);
+    memcpy(d->weighted, values + CELLS, sizeof d->weighted);
+    d->lost = (uint64_t)values[2 * CELLS];
     return result;
 }
 
@@ -106,7 +121,7 @@ static void add_rows(lab_run *run, bool weighted, size_t scene, size_t set, cons
         lab_number(run, value);
         lab_number(run, least);
         lab_number(run, greatest);
-        keller_verdict(run, value, paper);
+        keller_published(run, paper);
     }
 }
 
@@ -118,7 +133,7 @@ static aur_result note_independent(lab_run *run, const aur_scene *scene, const c
     aur_result result = AUR_OK;
     for (int k = 0; k < 2 && result == AUR_OK; ++k) {
         deviations d = {.variants = like->variants, .size_count = like->size_count > 1 ? 2 : 1};
-        result = measure(run, scene, &independent,
+        result = measure(run, name, scene, &independent,
                          k == 0 ? AUR_RADIOSITY_UNIFORM_ANGLE : AUR_RADIOSITY_COSINE, &d, error);
         for (size_t n = 0; n < d.size_count; ++n)
             for (size_t v = 0; v < d.variants; ++v)
@@ -138,7 +153,7 @@ static aur_result note_ratio(lab_run *run, const char *path, const char *what, a
     aur_result result = lab_load_scene(run, path, 0, NULL, &scene, error);
     deviations d = {.variants = 4, .size_count = 2};
     if (result == AUR_OK)
-        result = measure(run, scene, &sobol, AUR_RADIOSITY_UNIFORM_ANGLE, &d, error);
+        result = measure(run, path, scene, &sobol, AUR_RADIOSITY_UNIFORM_ANGLE, &d, error);
     double least, greatest;
     if (result == AUR_OK)
         lab_note(run, "Delta_a / Delta_aw of %s: %.4g", what,
@@ -150,7 +165,6 @@ static aur_result note_ratio(lab_run *run, const char *path, const char *what, a
 
 static aur_result run_table(lab_run *run, bool weighted, aur_error *error) {
     const lab_options *const options = lab_run_options(run);
-    lab_columns(run, sizeof columns / sizeof columns[0], columns);
     aur_result result = AUR_OK;
     for (size_t s = 0; s < KELLER_SCENES && result == AUR_OK; ++s) {
         deviations d = {.variants = options->quick ? 4 : KELLER_VARIANTS,
@@ -164,10 +178,12 @@ static aur_result run_table(lab_run *run, bool weighted, aur_error *error) {
         for (size_t k = 0; result == AUR_OK && keller_set_at(run, k, &set); ++k) {
             if (options->quick && k != 0 && k != 2 && k != 4 && k < KELLER_SETS)
                 continue;
-            result = measure(run, scene, &set, AUR_RADIOSITY_UNIFORM_ANGLE, &d, error);
+            const aur_result measured =
+                measure(run, keller_scene_at(s)->name, scene, &set, AUR_RADIOSITY_UNIFORM_ANGLE, &d, error);
             lost += d.lost;
-            if (result == AUR_OK)
+            if (measured == AUR_OK)
                 add_rows(run, weighted, s, k, set.name, &d);
+            result = lab_forgive(run, set.name, measured, error);
         }
         if (result == AUR_OK)
             lab_note(run, "%s: %llu paths lost or ended on a back, of all variants and sets",
@@ -200,10 +216,33 @@ static aur_result run_weighted(lab_run *run, aur_error *error) {
     return run_table(run, true, error);
 }
 
+static const report_plot plots[] = {
+    {.name = "deviation",
+     .title = "Deviation from the analytic solution against the number of paths",
+     .x = "N",
+     .y = "rms",
+     .low = "least",
+     .high = "greatest",
+     .series = "sequence",
+     .panel = "scene",
+     .log_x = true,
+     .log_y = true},
+    {.name = NULL},
+};
+
 const lab_experiment lab_keller_1994_table2 = {
     .name = "keller-1994-table2",
     .reproduces = "Keller 1994, table 2",
     .summary = "mean square deviation from the analytic solution",
+    .columns = columns,
+    .measured = "rms",
+    .low = "least",
+    .high = "greatest",
+    .published = "published",
+    .factor = 1.5,
+    .plots = plots,
+    .seconds = 300,
+    .quick_seconds = 2.8,
     .run = run_plain,
 };
 
@@ -211,5 +250,14 @@ const lab_experiment lab_keller_1994_table3 = {
     .name = "keller-1994-table3",
     .reproduces = "Keller 1994, table 3",
     .summary = "the same weighted by area",
+    .columns = columns,
+    .measured = "rms",
+    .low = "least",
+    .high = "greatest",
+    .published = "published",
+    .factor = 1.5,
+    .plots = plots,
+    .seconds = 300,
+    .quick_seconds = 2.8,
     .run = run_weighted,
 };

@@ -2,11 +2,11 @@
 
 #include <math.h>
 
-void lab_tally_begin(lab_run *run, const char *work) {
-    const char *const columns[LAB_TALLY_COLUMNS] = {"case", "asked",     "runs", "held",
-                                                    "bias", "error_rms", work};
-    lab_columns(run, LAB_TALLY_COLUMNS, columns);
-}
+const char *const lab_tally_of_directions[] = {"case", "asked",     "runs",       "held",
+                                               "bias", "error_rms", "directions", NULL};
+const char *const lab_tally_of_rays[] = {"case", "asked", "runs", "held", "bias", "error_rms", "rays", NULL};
+const char *const lab_tally_of_samples[] = {"case", "asked",     "runs",    "held",
+                                            "bias", "error_rms", "samples", NULL};
 
 void lab_tally_count(lab_tally *tally, double value, double half_width, double truth, double work) {
     const double off = value - truth;

@@ -9,9 +9,11 @@ typedef struct lab_tally {
     double bias, squares, work;
 } lab_tally;
 
-/* Columns of the table. */
-enum { LAB_TALLY_COLUMNS = 7 };
-void lab_tally_begin(lab_run *run, const char *work);
+/* The columns of a table of such rows, by what the work is counted in. */
+extern const char *const lab_tally_of_directions[];
+extern const char *const lab_tally_of_rays[];
+extern const char *const lab_tally_of_samples[];
+
 /* One interval about `value`, of `work` directions, rays or the like. */
 void lab_tally_count(lab_tally *tally, double value, double half_width, double truth, double work);
 void lab_tally_add(lab_tally *sum, const lab_tally *part);

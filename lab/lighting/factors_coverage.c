@@ -137,7 +137,6 @@ static aur_result study(lab_run *run, const coverage_case *given, lab_tally *poo
 
 static aur_result run(lab_run *run, aur_error *error) {
     lab_tally pooled = {0};
-    lab_tally_begin(run, "rays");
     aur_result result = AUR_OK;
     for (size_t i = 0; i < sizeof cases / sizeof cases[0] && result == AUR_OK; ++i)
         result = study(run, &cases[i], &pooled, error);
@@ -150,5 +149,9 @@ const lab_experiment lab_factors_coverage = {
     .name = "factors-coverage",
     .reproduces = "docs/view-factors.md",
     .summary = "how often intervals of view factors, sky factors and radiosities hold",
+    .columns = lab_tally_of_rays,
+    .takes_no_set = "it judges intervals of the program's own points",
+    .seconds = 300,
+    .quick_seconds = 8,
     .run = run,
 };

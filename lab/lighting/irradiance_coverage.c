@@ -161,7 +161,6 @@ static aur_result study_functional(lab_run *run, lab_tally pooled[2], aur_error 
 
 static aur_result run(lab_run *run, aur_error *error) {
     lab_tally pooled[2] = {{0}, {0}};
-    lab_tally_begin(run, "directions");
     aur_result result = AUR_OK;
     for (size_t i = 0; i < sizeof cases / sizeof cases[0] && result == AUR_OK; ++i) {
         aur_scene *scene = NULL;
@@ -187,5 +186,9 @@ const lab_experiment lab_irradiance_coverage = {
     .reproduces = "docs/lighting.md",
     .summary =
         "how often intervals of irradiance and of aur_estimate hold, also of runs stopped by an error asked",
+    .columns = lab_tally_of_directions,
+    .takes_no_set = "it judges aureole irradiance, which has its own points",
+    .seconds = 100,
+    .quick_seconds = 6.1,
     .run = run,
 };

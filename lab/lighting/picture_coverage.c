@@ -142,7 +142,6 @@ static aur_result study_measure(lab_run *run, lab_tally *pooled, aur_error *erro
 
 static aur_result run(lab_run *run, aur_error *error) {
     lab_tally pooled = {0};
-    lab_tally_begin(run, "samples");
     aur_result result = study_pictures(run, &pooled, error);
     if (result == AUR_OK)
         result = study_measure(run, &pooled, error);
@@ -155,5 +154,9 @@ const lab_experiment lab_picture_coverage = {
     .name = "picture-coverage",
     .reproduces = "docs/lighting.md",
     .summary = "how often intervals of pictures' errors and of measures of randomised sets hold",
+    .columns = lab_tally_of_samples,
+    .takes_no_set = "it judges intervals of the program's own points",
+    .seconds = 300,
+    .quick_seconds = 8,
     .run = run,
 };

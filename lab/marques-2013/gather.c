@@ -6,7 +6,6 @@
  * the indirect light apart. Its intervals are over independent randomisations of the patterns. */
 #include <math.h>
 #include <stdio.h>
-#include <stdlib.h>
 
 #include "lab/lab.h"
 
@@ -24,10 +23,11 @@ typedef struct gather_study {
     size_t path_samples; /* a pixel, of the path-traced picture that the bias is measured against */
     size_t set_count;
     const char *sets[SET_CAPACITY];
+    aur_image *reference; /* of the component that is studied; NULL: not made yet */
 } gather_study;
 
-static const char *const columns[] = {"component", "pattern", "directions", "rmse",      "rmse_low",
-                                      "rmse_high", "ratio",   "ratio_low",  "ratio_high"};
+static const char *const columns[] = {"component", "pattern", "directions", "rmse",       "rmse_low",
+                                      "rmse_high", "ratio",   "ratio_low",  "ratio_high", NULL};
 
 static aur_result render(const gather_study *study, const char *integrator, size_t samples, size_t side,
                          uint64_t seed, aur_image **image, aur_error *error) {
@@ -52,38 +52,50 @@ static aur_result render_component(const gather_study *study, const char *compon
                                    size_t directions, size_t scramble, aur_image **image, aur_error *error) {
     char integrator[320];
     snprintf(integrator, sizeof integrator,
-             "finalgather:component=%s,direct=none,pixel=centre,edges=0,density=same,rotations=0,photons=%zu,"
+             "finalgather:component=%s,direct=none,pixel=centre,edges=0,short_rays=0,density=same,rotations="
+             "0,photons=%zu,"
              "photons_per_texel=64,pattern=%s,"
              "diffuse_samples=%zu,glossy_samples=%zu,pattern_seed=%zu",
              component, study->photons, set, directions, directions, scramble);
     return render(study, integrator, 1, study->side, 0, image, error);
 }
 
+/* The reference of a component, made when it is first needed. */
+static aur_result need_reference(gather_study *study, const char *component, aur_error *error) {
+    if (study->reference != NULL)
+        return AUR_OK;
+    const aur_result result = render_component(study, component, "spherical-fibonacci",
+                                               study->reference_directions, 0, &study->reference, error);
+    if (result != AUR_OK)
+        return result;
+    const lab_picture_place place = {
+        .view = component, .name = "reference", .reference = true, .exposure = 1.0};
+    return lab_picture(study->run, &place, study->reference, error);
+}
+
 /* Mean square errors of one pattern, one value a scramble; the picture of the first is written. */
-static aur_result measure(const gather_study *study, const char *component, const char *set,
-                          size_t directions, const aur_image *reference, double *mse, aur_error *error) {
-    aur_result result = AUR_OK;
+static aur_result measure(gather_study *study, const char *component, const char *set, size_t directions,
+                          double *mse, aur_error *error) {
+    char key[160];
+    snprintf(key, sizeof key, "%s %.80s %zu", component, set, directions);
+    if (lab_recall(study->run, key, study->scrambles, mse))
+        return AUR_OK;
+    aur_result result = need_reference(study, component, error);
     for (size_t k = 0; k < study->scrambles && result == AUR_OK; ++k) {
         aur_image *image = NULL;
         double value[4];
         result = render_component(study, component, set, directions, 1 + k, &image, error);
         if (result == AUR_OK)
-            result = aur_image_compare(reference, image, AUR_IMAGE_MSE, value, error);
+            result = aur_image_compare(study->reference, image, AUR_IMAGE_MSE, value, error);
         if (result == AUR_OK)
             mse[k] = value[3];
         if (result == AUR_OK && k == 0 && directions == 64) {
-            char name[64];
-            aur_image *difference = NULL;
-            /* One scale for all patterns: a tenth of full white. */
-            result = aur_image_difference(reference, image, 0.1, &difference, error);
-            snprintf(name, sizeof name, "%s-error-%s", component, set);
-            if (result == AUR_OK)
-                result = lab_picture(study->run, name, difference, 0.0f, error);
-            aur_image_destroy(difference);
+            const lab_picture_place place = {.view = component, .name = set, .exposure = 1.0};
+            result = lab_picture(study->run, &place, image, error);
         }
         aur_image_destroy(image);
     }
-    return result;
+    return result != AUR_OK ? result : lab_keep(study->run, key, study->scrambles, mse, error);
 }
 
 static double root(double value) {
@@ -120,27 +132,23 @@ static bool apart(size_t count, const double *lower, const double *upper) {
     return low_mean + low_half < high_mean - high_half;
 }
 
-static aur_result study_component(const gather_study *study, const char *component, aur_error *error) {
-    aur_image *reference = NULL;
-    aur_result result = render_component(study, component, "spherical-fibonacci", study->reference_directions,
-                                         0, &reference, error);
-    if (result == AUR_OK) {
-        char name[64];
-        snprintf(name, sizeof name, "%s-reference", component);
-        result = lab_picture(study->run, name, reference, 1.0f, error);
-    }
+static aur_result study_component(gather_study *study, const char *component, aur_error *error) {
+    aur_result result = AUR_OK;
     size_t won = 0;
     for (size_t n = 0; n < study->count_count && result == AUR_OK; ++n) {
         double mse[SET_CAPACITY][MOST_SCRAMBLES];
         for (size_t s = 0; s < study->set_count && result == AUR_OK; ++s) {
-            result = measure(study, component, study->sets[s], study->counts[n], reference, mse[s], error);
-            if (result == AUR_OK)
+            const aur_result measured =
+                measure(study, component, study->sets[s], study->counts[n], mse[s], error);
+            if (measured == AUR_OK)
                 add_row(study, component, study->sets[s], study->counts[n], mse[s], mse[0]);
+            result = lab_forgive(study->run, study->sets[s], measured, error);
         }
         if (result == AUR_OK)
             won += apart(study->scrambles, mse[0], mse[1]);
     }
-    aur_image_destroy(reference);
+    aur_image_destroy(study->reference);
+    study->reference = NULL;
     if (result == AUR_OK)
         lab_note(study->run,
                  "%s: spherical Fibonacci below Sobol with the intervals apart at %zu of %zu counts",
@@ -151,39 +159,44 @@ static aur_result study_component(const gather_study *study, const char *compone
 /* Full light paths against path tracing: what the photon map costs in truth, apart from what patterns cost in
  * noise. */
 static aur_result measure_bias(const gather_study *study, aur_error *error) {
-    char integrator[96];
-    snprintf(integrator, sizeof integrator, "finalgather:photons=%zu", study->photons);
-    aur_image *gathered = NULL, *traced = NULL, *gathered_small = NULL, *traced_small = NULL;
-    double gathered_mean[4], traced_mean[4], rmse[4];
-    aur_result result = render(study, integrator, study->path_samples / 4, study->side, 1, &gathered, error);
-    if (result == AUR_OK)
-        result = render(study, "path", study->path_samples, study->side, 2, &traced, error);
-    if (result == AUR_OK)
-        result = aur_image_mean(gathered, gathered_mean, error);
-    if (result == AUR_OK)
-        result = aur_image_mean(traced, traced_mean, error);
-    if (result == AUR_OK)
-        result = aur_image_downsample(gathered, 8, &gathered_small, error);
-    if (result == AUR_OK)
-        result = aur_image_downsample(traced, 8, &traced_small, error);
-    if (result == AUR_OK)
-        result = aur_image_compare(traced_small, gathered_small, AUR_IMAGE_RMSE, rmse, error);
-    if (result == AUR_OK) {
-        lab_note(study->run,
-                 "bias of finalgather against path (%zu samples a pixel): mean %+.2f %%, RMSE of 8x8 means "
-                 "%.2f %% of "
-                 "the mean",
-                 study->path_samples, 100.0 * (gathered_mean[3] / traced_mean[3] - 1.0),
-                 100.0 * rmse[3] / traced_mean[3]);
-        result = lab_picture(study->run, "finalgather", gathered, 0.5f, error);
+    enum { GATHERED, TRACED, RMSE, VALUES };
+    double values[VALUES], mean[4];
+    if (!lab_recall(study->run, "bias", VALUES, values)) {
+        char integrator[96];
+        snprintf(integrator, sizeof integrator, "finalgather:photons=%zu", study->photons);
+        aur_image *pictures[2] = {NULL}, *small[2] = {NULL};
+        static const lab_picture_place places[2] = {{"whole light", "finalgather", .exposure = 0.5},
+                                                    {"whole light", "path", true, 0.5}};
+        aur_result result =
+            render(study, integrator, study->path_samples / 4, study->side, 1, &pictures[0], error);
+        if (result == AUR_OK)
+            result = render(study, "path", study->path_samples, study->side, 2, &pictures[1], error);
+        for (size_t i = 0; i < 2 && result == AUR_OK; ++i) {
+            result = lab_picture(study->run, &places[i], pictures[i], error);
+            if (result == AUR_OK)
+                result = aur_image_mean(pictures[i], mean, error);
+            values[GATHERED + i] = mean[3];
+            if (result == AUR_OK)
+                result = aur_image_downsample(pictures[i], 8, &small[i], error);
+        }
+        if (result == AUR_OK)
+            result = aur_image_compare(small[1], small[0], AUR_IMAGE_RMSE, mean, error);
+        values[RMSE] = mean[3];
+        for (size_t i = 0; i < 2; ++i) {
+            aur_image_destroy(pictures[i]);
+            aur_image_destroy(small[i]);
+        }
+        if (result == AUR_OK)
+            result = lab_keep(study->run, "bias", VALUES, values, error);
+        if (result != AUR_OK)
+            return result;
     }
-    if (result == AUR_OK)
-        result = lab_picture(study->run, "path", traced, 0.5f, error);
-    aur_image_destroy(gathered);
-    aur_image_destroy(traced);
-    aur_image_destroy(gathered_small);
-    aur_image_destroy(traced_small);
-    return result;
+    lab_note(study->run,
+             "bias of finalgather against path (%zu samples a pixel): mean %+.2f %%, RMSE of 8x8 means "
+             "%.2f %% of the mean",
+             study->path_samples, 100.0 * (values[GATHERED] / values[TRACED] - 1.0),
+             100.0 * values[RMSE] / values[TRACED]);
+    return AUR_OK;
 }
 
 static aur_result run(lab_run *run, aur_error *error) {
@@ -202,7 +215,6 @@ static aur_result run(lab_run *run, aur_error *error) {
     aur_result result = lab_load_scene(run, "cornell-box/glossy.xml", 0, NULL, &scene, error);
     if (result == AUR_OK)
         result = aur_renderer_create(scene, &study.renderer, error);
-    lab_columns(run, sizeof columns / sizeof columns[0], columns);
     if (result == AUR_OK)
         result = study_component(&study, "diffuse", error);
     if (result == AUR_OK)
@@ -214,9 +226,27 @@ static aur_result run(lab_run *run, aur_error *error) {
     return result;
 }
 
+static const report_plot plots[] = {
+    {.name = "rmse",
+     .title = "RMSE of the indirect light against directions a pixel",
+     .x = "directions",
+     .y = "rmse",
+     .low = "rmse_low",
+     .high = "rmse_high",
+     .series = "pattern",
+     .panel = "component",
+     .log_x = true,
+     .log_y = true},
+    {.name = NULL},
+};
+
 const lab_experiment lab_marques_2013_gather = {
     .name = "marques-2013-gather",
     .reproduces = "Marques 2013, figs 5-6",
     .summary = "spherical Fibonacci against scrambled Sobol in final gathering at equal rays",
+    .columns = columns,
+    .plots = plots,
+    .seconds = 300,
+    .quick_seconds = 2.1,
     .run = run,
 };

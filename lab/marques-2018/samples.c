@@ -17,15 +17,19 @@ aur_scramble lab_scrambling(const char *set) {
 }
 
 aur_result lab_draw(const lab_samples *wanted, double *xyz, double *weights, aur_error *error) {
-    const aur_directions_options options = {.size = sizeof options,
-                                            .count = wanted->count,
-                                            .domain = AUR_DOMAIN_HEMISPHERE,
-                                            .lobe = {.exponent = wanted->exponent},
-                                            .optimal_density = wanted->optimal_density,
-                                            .scramble = lab_scrambling(wanted->set),
-                                            .seed = wanted->seed};
+    aur_directions_options options = {.size = sizeof options,
+                                      .count = wanted->count,
+                                      .domain = AUR_DOMAIN_HEMISPHERE,
+                                      .lobe = {.exponent = wanted->exponent},
+                                      .optimal_density = wanted->optimal_density,
+                                      .scramble = lab_scrambling(wanted->set),
+                                      .seed = wanted->seed};
     aur_directions *directions;
     aur_result result = aur_directions_create(wanted->set, &options, &directions, error);
+    if (result != AUR_OK && options.scramble == AUR_SCRAMBLE_DIGIT) {
+        options.scramble = AUR_SCRAMBLE_SHIFT; /* lattices and files have no digits */
+        result = aur_directions_create(wanted->set, &options, &directions, error);
+    }
     if (result != AUR_OK)
         return result;
     result = aur_directions_points(directions, 0, wanted->count, 3 * wanted->count, xyz, weights, NULL);

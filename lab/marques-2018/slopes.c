@@ -7,7 +7,7 @@
 
 enum { SIZES = 7, SMALLEST = 16, LARGEST = SMALLEST << (SIZES - 1) };
 
-static const char *const columns[] = {"set", "exponent", "n", "equal", "optimal", "gain_percent"};
+static const char *const columns[] = {"set", "exponent", "n", "equal", "optimal", "gain_percent", NULL};
 
 typedef struct line {
     double x[SIZES], y[SIZES];
@@ -82,7 +82,6 @@ static aur_result study(lab_run *run, const char *set, double exponent, double *
 }
 
 static aur_result run(lab_run *run, aur_error *error) {
-    lab_columns(run, sizeof columns / sizeof columns[0], columns);
     double *const room = malloc(4 * LARGEST * sizeof *room);
     if (room == NULL)
         return AUR_ERROR_MEMORY;
@@ -92,14 +91,38 @@ static aur_result run(lab_run *run, aur_error *error) {
     for (size_t e = 0; e < 2; ++e)
         for (size_t i = 0; i < 4 && result == AUR_OK; ++i)
             if (sets[i] != NULL)
-                result = study(run, sets[i], exponents[e], room, error);
+                result = lab_forgive(run, sets[i], study(run, sets[i], exponents[e], room, error), error);
     free(room);
     return result;
 }
+
+static const report_plot plots[] = {
+    {.name = "equal",
+     .title = "Worst-case error with equal weights against the number of samples",
+     .x = "n",
+     .y = "equal",
+     .series = "set",
+     .panel = "exponent",
+     .log_x = true,
+     .log_y = true},
+    {.name = "optimal",
+     .title = "Worst-case error with optimal weights against the number of samples",
+     .x = "n",
+     .y = "optimal",
+     .series = "set",
+     .panel = "exponent",
+     .log_x = true,
+     .log_y = true},
+    {.name = NULL},
+};
 
 const lab_experiment lab_marques_2018_slopes = {
     .name = "marques-2018-slopes",
     .reproduces = "Marques 2018, fig. 7",
     .summary = "worst-case error against N: random samples gain a rate, nets a constant",
+    .columns = columns,
+    .seconds = 2,
+    .quick_seconds = 0.5,
+    .plots = plots,
     .run = run,
 };

@@ -16,8 +16,8 @@ enum { KERNELS = 3 };
 static const double smoothness[KERNELS] = {1.5, 2.5, 3.5};
 static const size_t methods[KERNELS] = {OPTIMAL, SMOOTH, SMOOTHEST};
 
-static const char *const columns[] = {"set",     "n",     "integrand", "equal",       "optimal",
-                                      "voronoi", "exact", "degree",    "optimal_2.5", "optimal_3.5"};
+static const char *const columns[] = {"set",   "n",      "integrand",   "equal",       "optimal", "voronoi",
+                                      "exact", "degree", "optimal_2.5", "optimal_3.5", NULL};
 
 typedef struct weighed {
     size_t count;
@@ -38,6 +38,10 @@ static aur_result draw(const char *set, size_t count, uint64_t seed, double *xyz
     options.seed = seed;
     aur_directions *directions;
     aur_result result = aur_directions_create(set, &options, &directions, error);
+    if (result != AUR_OK && options.scramble == AUR_SCRAMBLE_OWEN) {
+        options.scramble = AUR_SCRAMBLE_SHIFT; /* lattices and files have no digits */
+        result = aur_directions_create(set, &options, &directions, error);
+    }
     if (result != AUR_OK)
         return result;
     result = aur_directions_points(directions, 0, count, 3 * count, xyz, NULL, error);
@@ -118,7 +122,6 @@ static aur_result study(lab_run *run, const char *set, weighed *w, const aur_pot
 }
 
 static aur_result run(lab_run *run, aur_error *error) {
-    lab_columns(run, sizeof columns / sizeof columns[0], columns);
     aur_density density = aur_density_default();
     density.kind = AUR_DENSITY_SPHERE;
     aur_potential *potentials[KERNELS] = {NULL};
@@ -132,20 +135,46 @@ static aur_result run(lab_run *run, aur_error *error) {
     for (size_t k = 0; k < METHODS && room != NULL; ++k)
         w.weights[k] = room + (3 + k) * LARGEST;
     const char *const sets[] = {"random", "sobol", "spherical-fibonacci", lab_run_options(run)->set};
-    for (size_t i = 0; i < 4; ++i)
-        for (w.count = 64; w.count <= LARGEST && result == AUR_OK && sets[i] != NULL; w.count *= 4)
+    for (size_t i = 0; i < 4 && sets[i] != NULL; ++i)
+        for (w.count = 64; w.count <= LARGEST && result == AUR_OK; w.count *= 4)
             if (w.count < LARGEST || !lab_run_options(run)->quick)
-                result = study(run, sets[i], &w, (const aur_potential *const *)potentials, error);
+                result = lab_forgive(run, sets[i],
+                                     study(run, sets[i], &w, (const aur_potential *const *)potentials, error),
+                                     error);
     free(room);
     for (size_t k = 0; k < KERNELS; ++k)
         aur_potential_destroy(potentials[k]);
     return result;
 }
 
+static const report_plot plots[] = {
+    {.name = "equal",
+     .title = "Relative RMSE with equal weights against the number of points",
+     .x = "n",
+     .y = "equal",
+     .series = "set",
+     .panel = "integrand",
+     .log_x = true,
+     .log_y = true},
+    {.name = "optimal",
+     .title = "Relative RMSE with optimal weights against the number of points",
+     .x = "n",
+     .y = "optimal",
+     .series = "set",
+     .panel = "integrand",
+     .log_x = true,
+     .log_y = true},
+    {.name = NULL},
+};
+
 const lab_experiment lab_weights_choosing = {
     .name = "weights-choosing",
     .reproduces = "docs/choosing.md",
     .summary =
         "equal, optimal, Voronoi and exact weights for smooth, clipped, discontinuous and spiky integrands",
+    .columns = columns,
+    .seconds = 10,
+    .quick_seconds = 0.1,
+    .plots = plots,
     .run = run,
 };

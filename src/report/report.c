@@ -216,3 +216,37 @@ aur_result report_save(const report_table *table, const char *notes, const char 
     free(text);
     return result;
 }
+
+size_t report_rows(const report_table *table) {
+    return table == NULL || table->column_count == 0 ? 0 : row_count(table) - 1;
+}
+
+size_t report_columns(const report_table *table) {
+    return table == NULL ? 0 : column_count(table);
+}
+
+const char *report_column_name(const report_table *table, size_t column) {
+    return cell_at(table, 0, column)->text;
+}
+
+size_t report_find(const report_table *table, const char *name) {
+    for (size_t i = 0; name != NULL && i < report_columns(table); ++i)
+        if (strcmp(report_column_name(table, i), name) == 0)
+            return i;
+    return SIZE_MAX;
+}
+
+const char *report_cell(const report_table *table, size_t row, size_t column) {
+    return cell_at(table, row + 1, column)->text;
+}
+
+double report_value(const report_table *table, size_t row, size_t column) {
+    if (column == SIZE_MAX)
+        return NAN;
+    const cell *const source = cell_at(table, row + 1, column);
+    double value = NAN;
+    if (source->kind == NUMBER)
+        return source->number;
+    aur_parse_double(source->text, &value);
+    return value;
+}

@@ -29,3 +29,16 @@ aur_result report_write(const report_table *table, report_format format, FILE *s
 /* Replaces the file `path` by the table as CSV, and the lines of `notes` (NULL: none) after it as comments.
  * Errors: MEMORY, WRITE. */
 aur_result report_save(const report_table *table, const char *notes, const char *path, aur_error *error);
+/* Reads a table that report_save wrote; its cells are texts. The comments after it are the notes, lines in
+ * *notes (NULL allowed), to be freed. Errors: OPEN, FORMAT, MEMORY. */
+aur_result report_load(const char *path, report_table **table, char **notes, aur_error *error);
+
+/* What is in a table: its whole rows, without the names of the columns. */
+size_t report_rows(const report_table *table);
+size_t report_columns(const report_table *table);
+const char *report_column_name(const report_table *table, size_t column);
+/* SIZE_MAX when there is none of this name, or `name` is NULL. */
+size_t report_find(const report_table *table, const char *name);
+const char *report_cell(const report_table *table, size_t row, size_t column);
+/* A cell as a number; NaN when it is none, or `column` is SIZE_MAX. */
+double report_value(const report_table *table, size_t row, size_t column);

@@ -1,0 +1,16 @@
+/* aureole lab run: the experiments one after the other. */
+#pragma once
+
+#include "cli/options.h"
+#include "lab/lab.h"
+
+typedef struct cli_lab {
+    lab_options lab;
+    bool all, again;
+    cli_common common;
+} cli_lab;
+
+/* "8 s", "12 min", "1 h 5 min". */
+void cli_lab_duration(double seconds, char text[32]);
+/* Returns the exit status. */
+int cli_lab_run(cli_lab *command, size_t count, char **names);
