@@ -49,4 +49,29 @@ for work in "${works[@]}"; do
   if diff -r "whole/$output" "$output" >/dev/null 2>&1 && [ $finished = 1 ]; then result=same; else result=**differs** status=1; fi
   printf '| `%s` | %d | %d | %d | %s |\n' "${command/"$source/"/}" $killed $stopped "$left" $result
 done
+# One rank of several, which ends the job; the same command goes on.
+if command -v mpirun >/dev/null; then
+  export OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 OMPI_MCA_rmaps_base_oversubscribe=1
+  work="$render --spp 128"
+  rm -rf whole.exr kept a.exr
+  # shellcheck disable=SC2086
+  "$aureole" $work -o whole.exr
+  killed=0 told=0 result=same
+  for ((i = 0; i <= each; ++i)); do
+    # shellcheck disable=SC2086
+    mpirun --bind-to none -n 3 "$aureole" $work -t 1 -o a.exr --checkpoint kept --checkpoint-every .05s --resume >/dev/null 2>said &
+    job=$!
+    if ((i < each)); then
+      sleep "0.$((500 + RANDOM % 500))"
+      mapfile -t ranks < <(pgrep -P $job)
+      ((${#ranks[@]} == 3)) && kill -KILL "${ranks[RANDOM % 3]}" 2>/dev/null && ((++killed))
+      wait $job 2>/dev/null && { cmp -s whole.exr a.exr || result=**differs** status=1; rm -f a.exr kept; }
+      grep -q 'signal 9' said && ((++told))
+    else
+      wait $job && cmp -s whole.exr a.exr || result=**differs** status=1
+    fi
+  done
+  printf '| `mpirun -n 3 aureole %s`, one rank | %d, %d told of by mpirun | 0 | %d | %s |\n' "${work/"$source/"/}" $killed $told \
+    "$(find . -name '.aureole-*' | wc -l)" $result
+fi
 exit $status

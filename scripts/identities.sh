@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# What must make the same bits: threads, parts, instruction sets, and builds. scripts/identities.sh PROGRAM [OTHER-BUILD...]
+# What must make the same bits: threads, parts, ranks, instruction sets, and builds. scripts/identities.sh PROGRAM [OTHER-BUILD...]
 # prints a table; exit status 1 where a row that has to be the same is not.
 set -uo pipefail
 export AUREOLE_CACHE= # everything is made anew
@@ -15,6 +15,8 @@ scene=$source/scenes/cornell-box/glossy.xml
 status=0
 works=(path 'path:interleaved=true' direct 'ao:samples=16' depth 'aov:aovs=(n:sh_normal)'
        'finalgather:photons=5000,diffuse_samples=32,glossy_samples=16' radiosity 'error')
+export OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 OMPI_MCA_rmaps_base_oversubscribe=1
+ranks() { mpirun --bind-to none -n "$ranks" "$aureole" "$@"; }
 # make PROGRAM WORK OUT OPTION...
 make() {
   local program=$1 work=$2 out=$3
@@ -47,6 +49,11 @@ for work in "${works[@]}"; do
     "$aureole" merge 2.part 3.part 1.part -o b.exr
     row "3 shards" "$work"
   fi
+  for ranks in 1 2 4; do
+    command -v mpirun >/dev/null || break
+    make ranks "$work" b.exr -t 2
+    row "$ranks rank$([ $ranks = 1 ] || echo s)" "$work"
+  done
   rm -f kept
   make "$aureole" "$work" b.exr --checkpoint kept --checkpoint-every .02s &
   sleep 0.2

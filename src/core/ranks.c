@@ -37,7 +37,7 @@ size_t aur_ranks_count(void) {
 /* --- time */
 
 void aur_ranks_pause(long *pause) {
-    enum { FIRST = 50000, LONGEST = 2000000 };
+    enum { FIRST = 50000, LONGEST = 10000000 };
     *pause = *pause == 0 ? FIRST : *pause < LONGEST / 2 ? 2 * *pause : LONGEST;
     nanosleep(&(struct timespec){.tv_nsec = *pause}, NULL);
 }
@@ -59,7 +59,7 @@ void aur_ranks_talk_end(aur_ranks *ranks, double start) {
 /* --- messages */
 
 void aur_ranks_begin(aur_ranks *ranks) {
-    ++ranks->step;
+    ranks->step += !aur_ranks_have_failed(ranks);
 }
 
 bool aur_ranks_have_failed(const aur_ranks *ranks) {
@@ -133,10 +133,15 @@ bool aur_ranks_receive_any(aur_ranks *ranks, size_t from, aur_message *message) 
     return true;
 }
 
+/* Of those that a rank waits for before it ends: rank 0 for all, the others for rank 0. */
+bool aur_ranks_count_leave(const aur_ranks *ranks, const aur_message *message) {
+    return message->kind == AUR_MESSAGE_LEAVE && (ranks->carrier.rank == 0 || message->from == 0);
+}
+
 /* Whether a message may be taken for what it says; else it is gone. */
 static bool accept(aur_ranks *ranks, aur_message *message) {
     const bool asks = message->kind == AUR_MESSAGE_WANT || message->kind == AUR_MESSAGE_STOP;
-    ranks->left += message->kind == AUR_MESSAGE_LEAVE;
+    ranks->left += aur_ranks_count_leave(ranks, message);
     if (message->kind == AUR_MESSAGE_LEAVE)
         aur_ranks_fail(ranks, "rank %u has left the job%s%s", (unsigned)message->from,
                        message->size > 0 ? ": " : "", (const char *)message->data);
@@ -171,7 +176,8 @@ static void listen_to_root(aur_ranks *ranks) {
     aur_message message;
     if (!aur_ranks_receive_any(ranks, 0, &message))
         return;
-    if (message.kind == AUR_MESSAGE_LEAVE) {
+    /* Rank 0 may have left in good order: then what is waited for is still on its way. */
+    if (message.kind == AUR_MESSAGE_LEAVE && message.step <= ranks->step) {
         (void)accept(ranks, &message);
     } else if (aur_array_reserve(&ranks->kept, &ranks->kept_capacity, ranks->kept_count + 1,
                                  sizeof *ranks->kept)) {

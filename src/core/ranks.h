@@ -82,6 +82,9 @@ bool aur_ranks_receive(aur_ranks *ranks, size_t from, aur_message *message);
 /* The same with any message, whatever step it is of, also after a failure. */
 bool aur_ranks_receive_any(aur_ranks *ranks, size_t from, aur_message *message);
 
+/* Whether it says that a rank has left which this one waits for before it ends. */
+bool aur_ranks_count_leave(const aur_ranks *ranks, const aur_message *message);
+
 /* Begins a step that all ranks do together. */
 void aur_ranks_begin(aur_ranks *ranks);
 /* A failure stays: nothing that ranks do together comes to a good end any more. */

@@ -126,7 +126,7 @@ static int see_off(aur_ranks *ranks, int status, aur_error *error) {
             continue;
         }
         const bool leaves = message.kind == AUR_MESSAGE_LEAVE;
-        ranks->left += leaves;
+        ranks->left += aur_ranks_count_leave(ranks, &message);
         if (leaves && status == 0 && message.a != 0) {
             status = (int)message.a;
             aur_fail(error, AUR_ERROR_INTERNAL, "rank %u: %s", (unsigned)message.from,
@@ -143,11 +143,16 @@ int aur_ranks_leave(int status, const char *said, aur_error *error) {
         return status;
     if (ranks->lost)
         ranks->carrier.abort(ranks->carrier.state, status);
-    if (ranks->carrier.rank != 0)
-        aur_ranks_send(ranks, 0, AUR_MESSAGE_LEAVE, (uint64_t)status, 0, strlen(said), said);
-    else
-        for (size_t to = 1; to < ranks->carrier.count; ++to)
+    /* Who waits for rank 0 sees by the step whether all was done; where not, nobody may wait for this rank.
+     */
+    const size_t own = ranks->carrier.rank, count = ranks->carrier.count;
+    const bool failed = aur_ranks_have_failed(ranks);
+    aur_ranks_begin(ranks);
+    for (size_t to = 0; to < count; ++to)
+        if (to != own && (own == 0 || to == 0 || failed))
             aur_ranks_send(ranks, to, AUR_MESSAGE_LEAVE, (uint64_t)status, 0, strlen(said), said);
+    for (size_t i = 0; i < ranks->kept_count; ++i)
+        ranks->left += aur_ranks_count_leave(ranks, &ranks->kept[i]);
     status = see_off(ranks, status, error);
     ranks->carrier.finish(ranks->carrier.state);
     for (size_t i = 0; i < ranks->kept_count; ++i)

@@ -235,7 +235,7 @@ static double now(void) {
 
 /* Waits for threads, or for messages, which nothing tells of but asking. */
 static void wait_a_little(aur_shared_loop *loop, long *pause) {
-    enum { FIRST = 50000, LONGEST = 2000000 };
+    enum { FIRST = 50000, LONGEST = 10000000 };
     struct timespec until;
     *pause = *pause == 0 ? FIRST : *pause < LONGEST / 2 ? 2 * *pause : LONGEST;
     clock_gettime(CLOCK_MONOTONIC, &until);
