@@ -1,29 +1,11 @@
 /* Films. The checksum of every input is made right, so that what stands before it is what is tried. */
-#include <string.h>
-
-#include "core/random.h"
 #include "film/film.h"
-#include "fuzz.h"
-
-static uint64_t word_at(const uint8_t *bytes) {
-    uint64_t word = 0;
-    for (unsigned k = 0; k < 8; ++k)
-        word |= (uint64_t)bytes[k] << 8 * k;
-    return word;
-}
+#include "words.h"
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
-    uint8_t *const bytes = malloc(size + 1);
-    if (bytes == NULL)
-        return 0;
-    memcpy(bytes, data, size);
-    if (size >= 8 && size % 8 == 0) {
-        uint64_t hash = 0;
-        for (size_t i = 0; i + 8 < size; i += 8)
-            hash = aur_hash2(hash, word_at(&bytes[i]));
-        for (unsigned k = 0; k < 8; ++k)
-            bytes[size - 8 + k] = (uint8_t)(hash >> 8 * k);
-    }
+    uint8_t *const bytes = fuzz_copy(data, size);
+    if (size % 8 == 0)
+        fuzz_mend_hash(bytes, size);
     aur_film *film;
     aur_error error = {0};
     const aur_result result = aur_film_load_memory("input", size, bytes, &film, &error);

@@ -2,8 +2,7 @@
  * are read, so that what is damaged reaches the checks behind it. */
 #include <aureole/radiosity.h>
 
-#include "core/random.h"
-#include "fuzz.h"
+#include "words.h"
 
 enum { MAGIC_LENGTH = 20 };
 
@@ -25,28 +24,11 @@ static aur_scene *load_room(void) {
     return scene;
 }
 
-static uint64_t number_at(const uint8_t *bytes) {
-    uint64_t number = 0;
-    for (size_t i = 0; i < 8; ++i)
-        number |= (uint64_t)bytes[i] << (8 * i);
-    return number;
-}
-
-static void mend_hash(uint8_t *data, size_t size) {
-    uint64_t hash = 0;
-    size_t at = MAGIC_LENGTH;
-    for (; at + 16 <= size; at += 8)
-        hash = aur_hash2(hash, number_at(data + at));
-    for (size_t i = 0; i < 8 && at + 8 <= size; ++i)
-        data[at + i] = (uint8_t)(hash >> (8 * i));
-}
-
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
     aur_scene *const scene = load_room();
-    uint8_t *const copy = malloc(size + 1);
-    fuzz_require(copy != NULL, "out of memory");
-    memcpy(copy, data, size);
-    mend_hash(copy, size);
+    uint8_t *const copy = fuzz_copy(data, size);
+    if (size > MAGIC_LENGTH)
+        fuzz_mend_hash(copy + MAGIC_LENGTH, size - MAGIC_LENGTH);
     fuzz_write_file(path_of("rad"), copy, size);
     free(copy);
     aur_radiosity *radiosity = NULL;

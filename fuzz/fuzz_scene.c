@@ -13,11 +13,22 @@ static const char *input_path(void) {
     return path;
 }
 
-/* Whether the picture comes out is not asked: a scene may ask for what no sample can give. */
-static void render(const aur_scene *scene) {
+/* Whether the picture comes out is not asked: a scene may ask for what no sample can give. Each length of the
+ * input stands for an integrator. */
+static void render(const aur_scene *scene, size_t size) {
+    static const char *const integrators[] = {
+        "path:max_depth=4",
+        "direct",
+        "path:max_depth=4,interleaved=true",
+        "finalgather:photons=40,diffuse_samples=4,glossy_samples=4,max_depth=4",
+        "radiosity:paths=16,gather_samples=4",
+        "ao:samples=2",
+        "aov:aovs=(n:sh_normal,u:uv)",
+        "depth",
+    };
     const aur_render_options options = {.size = sizeof options,
                                         .integrator = aur_scene_has_media(scene) ? "volpath:max_depth=4"
-                                                                                 : "path:max_depth=4",
+                                                                                 : integrators[size % 8],
                                         .sampler = "random",
                                         .filter = "box",
                                         .samples_per_pixel = 1,
@@ -51,7 +62,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
         fuzz_require(result != AUR_ERROR_INTERNAL && result != AUR_ERROR_ARGUMENT,
                      "a failure of the wrong kind");
     } else {
-        render(scene);
+        render(scene, size);
     }
     aur_scene_destroy(scene);
     return 0;
