@@ -73,7 +73,10 @@ typedef struct aur_ask_report {
     uint64_t rounds;
     double samples_per_pixel; /* mean over the picture, of all replicas together */
     size_t replicas;
-    aur_render_statistics statistics; /* of all replicas together; its size is set here */
+    aur_render_statistics
+        statistics; /* of all replicas together, and of what was tried; its size is set here */
+    double
+        bias_high; /* of the error: what the integrator may be wrong by in the mean; 0 where it has no bias */
 } aur_ask_report;
 
 /* Errors: ARGUMENT when `size` is not set. */

@@ -7,14 +7,11 @@
 #include <string.h>
 
 #include "ask/choose.h"
-#include "ask/rounds.h"
 #include "core/error.h"
 #include "core/options.h"
 #include "film/film.h"
 #include "render/renderer.h"
 #include "render/stopwatch.h"
-
-enum { MOST_SAMPLES = 1 << 24 };
 
 static aur_result check_wish(aur_ask_options *wish, aur_error *error) {
     if (!(wish->error >= 0.0 && wish->error <= 1.0))
@@ -47,8 +44,13 @@ static int report(void *user, const char *what, uint64_t done, uint64_t total) {
     if (ask->progress.function == NULL)
         return 0;
     enum { STEPS = 10000 };
-    const double part = ((double)ask->replica + (double)done / (double)total) / (double)ask->replicas.count;
-    const double share = (ask->before + part * (ask->samples - ask->before)) / ask->whole;
+    if (ask->choosing)
+        return ask->progress.function(ask->progress.user, "trying integrators", done, total + 1);
+    const aur_trial *const trial = &ask->trial;
+    const double part =
+        ((double)trial->replica + (double)done / (double)total) / (double)trial->replicas.count;
+    const double share =
+        (trial->before + part * (trial->samples - trial->before)) / fmax(ask->whole, trial->samples);
     return ask->progress.function(ask->progress.user, what, (uint64_t)(STEPS * fmin(share, 1.0)), STEPS);
 }
 
@@ -72,18 +74,76 @@ static aur_result make_identity(aur_ask *ask, const aur_scene *scene, const aur_
     return ask->identity != NULL ? AUR_OK : aur_fail_memory(error);
 }
 
+/* A trial by `integrator`, a new text, in place of the asking's own. */
+static aur_result begin_trial(aur_ask *ask, char *integrator, aur_error *error) {
+    aur_trial_release(&ask->trial);
+    ask->trial.integrator = integrator;
+    return aur_trial_create(ask->renderer, &ask->options, ask->wish.replicas, &ask->trial, error);
+}
+
+aur_result aur_ask_gather(aur_ask *ask, aur_error *error) {
+    char *const integrator = aur_ask_gather_instead(ask->trial.integrator, "");
+    ask->gathers = true;
+    ask->open = false;
+    return integrator != NULL ? begin_trial(ask, integrator, error) : aur_fail_memory(error);
+}
+
+/* Goes on with whichever integrator turns out best. What was tried before an interruption is tried anew, so
+ * that the picture is the same. */
+static aur_result choose(aur_ask *ask, aur_error *error) {
+    aur_result result = AUR_OK;
+    if (ask->trial.rounds > 0 || ask->trial.begun) {
+        char *const integrator = ask->trial.integrator;
+        ask->trial.integrator = NULL;
+        result = begin_trial(ask, integrator, error);
+    }
+    if (result != AUR_OK)
+        return result;
+    aur_choice choice = {.error = ask->wish.error,
+                         .confidence = ask->wish.confidence,
+                         .replica_count = ask->wish.replicas,
+                         .cancelled = &ask->cancelled,
+                         .trial = ask->trial};
+    aur_render_options own = ask->options;
+    own.warnings = (aur_warnings){0};
+    ask->choosing = true;
+    result = aur_ask_try(ask->renderer, &own, &choice, error);
+    ask->choosing = false;
+    ask->trial = choice.trial;
+    ask->bias = choice.bias;
+    ask->others = choice.others;
+    ask->gathers = choice.gathers;
+    ask->open = result != AUR_OK;
+    return result;
+}
+
+/* Another trial may be made when the caller's texts are gone. */
+static aur_result keep_options(aur_ask *ask, aur_renderer *renderer, const aur_render_options *options,
+                               aur_error *error) {
+    ask->renderer = renderer;
+    ask->options = *options;
+    ask->sampler = strdup(options->sampler);
+    ask->filter = options->filter != NULL ? strdup(options->filter) : NULL;
+    ask->options.sampler = ask->sampler;
+    ask->options.filter = ask->filter;
+    ask->options.integrator = NULL;
+    const bool kept = ask->sampler != NULL && (options->filter == NULL || ask->filter != NULL);
+    return kept ? AUR_OK : aur_fail_memory(error);
+}
+
 static aur_result prepare(aur_ask *ask, aur_renderer *renderer, const aur_render_options *given,
                           aur_error *error) {
     aur_render_options own = aur_render_options_default();
     aur_result result = aur_options_read(given, sizeof own, sizeof own, &own, "aur_render_options", error);
     if (result == AUR_OK)
-        result = aur_ask_choose(aur_renderer_scene(renderer), own.integrator, &ask->integrator, error);
+        result = aur_ask_choose(aur_renderer_scene(renderer), own.integrator, &ask->trial.integrator,
+                                &ask->open, error);
     if (result != AUR_OK)
         return result;
     ask->progress = own.progress;
     own.progress = (aur_progress){report, ask};
-    own.integrator = ask->integrator;
-    own.samples_per_pixel = MOST_SAMPLES;
+    own.integrator = ask->trial.integrator;
+    own.samples_per_pixel = AUR_SAMPLES_PER_PIXEL_MAX;
     if (own.sampler == NULL)
         own.sampler = "sobol";
     if (own.shard_count != 0)
@@ -94,19 +154,18 @@ static aur_result prepare(aur_ask *ask, aur_renderer *renderer, const aur_render
     own.resumable = false;
     if (result != AUR_OK)
         return result;
-    result = aur_replicas_create(renderer, &own, ask->wish.replicas, &ask->replicas, error);
+    result = keep_options(ask, renderer, &own, error);
+    if (result == AUR_OK)
+        result = aur_trial_create(renderer, &ask->options, ask->wish.replicas, &ask->trial, error);
     if (result != AUR_OK)
         return result;
-    if (aur_render_film(ask->replicas.renders[0])->layout.channel_count > 3)
+    if (aur_render_film(ask->trial.replicas.renders[0])->layout.channel_count > 3)
         aur_warn_at(
             &own.warnings, (aur_location){0},
             "a picture to an error, a time or a number of rays has R, G and B alone: the channels that "
             "the integrator adds are left out");
-    ask->targets = calloc(ask->replicas.pixel_count, sizeof *ask->targets);
-    ask->variances = calloc(ask->replicas.pixel_count, sizeof *ask->variances);
-    ask->scratch = calloc(ask->replicas.pixel_count, sizeof *ask->scratch);
-    return ask->targets != NULL && ask->variances != NULL && ask->scratch != NULL ? AUR_OK
-                                                                                  : aur_fail_memory(error);
+    ask->open = ask->open && ask->wish.error > 0.0;
+    return AUR_OK;
 }
 
 aur_result aur_ask_create(aur_renderer *renderer, const aur_render_options *render,
@@ -117,8 +176,6 @@ aur_result aur_ask_create(aur_renderer *renderer, const aur_render_options *rend
         return aur_fail_memory(error);
     atomic_init(&ask->cancelled, false);
     ask->wish = aur_ask_options_default();
-    ask->interval = (aur_error_interval){.estimate = INFINITY, .high = INFINITY};
-    ask->rate = 1.0;
     ask->whole = 1.0;
     aur_result result =
         aur_options_read(options, sizeof ask->wish, sizeof ask->wish, &ask->wish, "aur_ask_options", error);
@@ -137,55 +194,50 @@ aur_result aur_ask_create(aur_renderer *renderer, const aur_render_options *rend
 void aur_ask_destroy(aur_ask *ask) {
     if (ask == NULL)
         return;
-    aur_replicas_release(&ask->replicas);
-    free(ask->targets);
-    free(ask->variances);
-    free(ask->scratch);
-    free(ask->integrator);
+    aur_trial_release(&ask->trial);
     free(ask->identity);
+    free(ask->sampler);
+    free(ask->filter);
     free(ask);
 }
 
 /* --- rounds */
 
 static void count_spent(const aur_ask *ask, aur_render_statistics *sum) {
-    *sum = (aur_render_statistics){.size = sizeof *sum};
-    for (size_t r = 0; r < ask->replicas.count; ++r) {
-        aur_render_statistics one = {.size = sizeof one};
-        aur_render_get_statistics(ask->replicas.renders[r], &one, NULL);
-        sum->rays += one.rays;
-        sum->samples += one.samples;
-        sum->invalid_samples += one.invalid_samples;
-        sum->cut_paths += one.cut_paths;
-        sum->unsolved_weights += one.unsolved_weights;
-        for (size_t l = 0; l < AUR_RENDER_LEVELS; ++l)
-            sum->levels[l] += one.levels[l];
-        sum->prepare_seconds += one.prepare_seconds;
-        sum->render_seconds += one.render_seconds;
-        sum->cpu_seconds += one.cpu_seconds;
-    }
+    aur_trial_spent(&ask->trial, sum);
+    sum->rays += ask->others.rays;
+    sum->prepare_seconds += ask->others.prepare_seconds;
+    sum->render_seconds += ask->others.render_seconds;
+    sum->cpu_seconds += ask->others.cpu_seconds;
+}
+
+/* The interval of noise and bias together; its ends are those of both. */
+static aur_error_interval whole_error(const aur_ask *ask) {
+    const aur_error_interval *const noise = &ask->trial.interval;
+    return (aur_error_interval){.estimate =
+                                    sqrt(noise->estimate * noise->estimate + fmax(ask->bias.estimate, 0.0)),
+                                .low = sqrt(noise->low * noise->low + ask->bias.low),
+                                .high = sqrt(noise->high * noise->high + ask->bias.high),
+                                .degrees = noise->degrees};
 }
 
 static bool is_met(const aur_ask *ask) {
     const aur_ask_options *const wish = &ask->wish;
     aur_render_statistics spent;
     count_spent(ask, &spent);
-    return (wish->error > 0.0 && ask->interval.high <= wish->error) ||
+    return (wish->error > 0.0 && whole_error(ask).high <= wish->error) ||
            (wish->seconds > 0.0 && spent.prepare_seconds + spent.render_seconds >= wish->seconds) ||
            (wish->rays > 0 && spent.rays >= wish->rays) ||
-           (wish->rounds > 0 && ask->rounds >= wish->rounds) || ask->measure.mean <= 0.0;
+           (wish->rounds > 0 && ask->trial.rounds >= wish->rounds) || ask->trial.measure.mean <= 0.0;
 }
 
-/* What the next round is to make of the error's square. It aims a little below the error asked, so that the
- * last round is seldom followed by a tiny one, and half as many samples again where nobody asks for an error.
- */
+/* What the next round is to make of the noise's square: half as many samples again where nobody asks for an
+ * error. */
 static double next_factor(const aur_ask *ask) {
-    const double growth = 1.5, margin = 0.98;
+    const double growth = 1.5;
     double factor = 1.0 / growth;
-    if (ask->wish.error > 0.0) {
-        const double wanted = margin * ask->wish.error / ask->interval.high;
-        factor = pow(fmin(wanted * wanted, 0.99), 1.0 / ask->rate);
-    }
+    if (ask->wish.error > 0.0)
+        factor = aur_trial_factor(&ask->trial, sqrt(ask->wish.error * ask->wish.error - ask->bias.high));
     if (ask->wish.rays > 0) {
         aur_render_statistics spent;
         count_spent(ask, &spent);
@@ -194,78 +246,21 @@ static double next_factor(const aur_ask *ask) {
     return factor;
 }
 
-static double mean_samples(const aur_ask *ask) {
-    aur_render_statistics spent;
-    count_spent(ask, &spent);
-    return (double)spent.samples / (double)ask->replicas.pixel_count;
-}
-
-static void plan_samples(aur_ask *ask) {
-    double sum = 0.0;
-    for (size_t i = 0; i < ask->replicas.pixel_count; ++i)
-        sum += ask->targets[i];
-    ask->before = ask->samples;
-    ask->samples = sum / (double)ask->replicas.pixel_count * (double)ask->replicas.count;
-    const double factor = ask->rounds > 0 ? next_factor(ask) : 0.1;
-    ask->whole = fmax(ask->samples, ask->before / factor);
-}
-
-/* The rate at which the square error falls with samples, from the last round: 1 for random numbers, up to 2
- * where quasi-Monte Carlo points do better. Rounds that added little tell little. */
-static void learn_rate(aur_ask *ask, double earlier_error, double earlier_samples) {
-    const double growth = log(ask->samples / earlier_samples);
-    if (!(earlier_error < INFINITY) || growth < log(1.5))
-        return;
-    const double rate = 2.0 * log(earlier_error / ask->interval.estimate) / growth;
-    ask->rate = fmin(fmax(rate, 1.0), 2.0);
-}
-
-static aur_result render_round(aur_ask *ask, aur_error *error) {
-    const double earlier_error = ask->interval.estimate, earlier_samples = ask->samples;
-    plan_samples(ask);
-    for (ask->replica = 0; ask->replica < ask->replicas.count; ++ask->replica) {
-        aur_result result = atomic_load(&ask->cancelled) ? AUR_ERROR_CANCELLED : AUR_OK;
-        if (result == AUR_OK)
-            result = aur_render_step_pixels(ask->replicas.renders[ask->replica], ask->replicas.pixel_count,
-                                            ask->targets, error);
-        if (result != AUR_OK) {
-            ask->samples = ask->before;
-            return result;
-        }
-    }
-    ask->begun = false;
-    ++ask->rounds;
-    ask->samples = mean_samples(ask);
-    aur_replicas_measure(&ask->replicas, &ask->measure, ask->variances);
-    aur_replicas_smooth(&ask->replicas, ask->targets, ask->variances, ask->scratch);
-    const aur_error_interval absolute = aur_replica_interval(
-        &ask->measure.deviations, ask->replicas.count, 3 * ask->replicas.pixel_count, ask->wish.confidence);
-    const double mean = ask->measure.mean;
-    ask->interval = (aur_error_interval){.estimate = mean > 0.0 ? absolute.estimate / mean : INFINITY,
-                                         .low = mean > 0.0 ? absolute.low / mean : INFINITY,
-                                         .high = mean > 0.0 ? absolute.high / mean : INFINITY,
-                                         .degrees = absolute.degrees};
-    learn_rate(ask, earlier_error, earlier_samples);
-    return AUR_OK;
-}
-
-/* False when all pixels have all the samples that they can have. */
-static bool plan_round(aur_ask *ask) {
-    if (ask->rounds > 0)
-        return aur_raise_targets(ask->replicas.pixel_count, ask->variances, next_factor(ask), MOST_SAMPLES,
-                                 ask->targets);
-    for (size_t i = 0; i < ask->replicas.pixel_count; ++i)
-        ask->targets[i] = 1;
-    return true;
+/* Samples a pixel that the wish is thought to take, for the progress callback. */
+static double samples_wanted(const aur_ask *ask) {
+    const aur_trial *const trial = &ask->trial;
+    const double factor = trial->rounds > 0 ? next_factor(ask) : 0.1;
+    return fmax(trial->samples / factor, 1.0);
 }
 
 aur_result aur_ask_run(aur_ask *ask, aur_error *error) {
-    aur_result result = AUR_OK;
-    while (result == AUR_OK && (ask->rounds == 0 || ask->begun || !is_met(ask))) {
-        if (!ask->begun && !plan_round(ask))
+    aur_result result = ask->open ? choose(ask, error) : AUR_OK;
+    aur_trial *const trial = &ask->trial;
+    while (result == AUR_OK && (trial->rounds == 0 || trial->begun || !is_met(ask))) {
+        ask->whole = samples_wanted(ask);
+        if (!trial->begun && !aur_trial_plan(trial, trial->rounds > 0 ? next_factor(ask) : 1.0))
             break;
-        ask->begun = true;
-        result = render_round(ask, error);
+        result = aur_trial_render(trial, ask->wish.confidence, &ask->cancelled, error);
     }
     atomic_store(&ask->cancelled, false);
     return result == AUR_ERROR_CANCELLED ? aur_fail(error, result, "rendering: %s", aur_result_string(result))
@@ -279,22 +274,24 @@ void aur_ask_cancel(aur_ask *ask) {
 /* --- what came out */
 
 aur_result aur_ask_get_report(const aur_ask *ask, aur_ask_report *out, aur_error *error) {
-    aur_ask_report own = {.error = ask->interval.estimate,
-                          .error_low = ask->interval.low,
-                          .error_high = ask->interval.high,
-                          .mean = ask->measure.mean,
-                          .degrees = ask->interval.degrees,
-                          .rounds = ask->rounds,
-                          .samples_per_pixel = ask->samples,
-                          .replicas = ask->replicas.count};
+    const aur_error_interval interval = whole_error(ask);
+    aur_ask_report own = {.error = interval.estimate,
+                          .error_low = interval.low,
+                          .error_high = interval.high,
+                          .mean = ask->trial.measure.mean,
+                          .degrees = interval.degrees,
+                          .rounds = ask->trial.rounds,
+                          .samples_per_pixel = ask->trial.samples,
+                          .replicas = ask->trial.replicas.count,
+                          .bias_high = sqrt(ask->bias.high)};
     count_spent(ask, &own.statistics);
     return aur_description_write(&own, sizeof own, sizeof own, out, "aur_ask_report", error);
 }
 
 const char *aur_ask_integrator(const aur_ask *ask) {
-    return ask->integrator != NULL ? ask->integrator : "";
+    return ask->trial.integrator != NULL ? ask->trial.integrator : "";
 }
 
 aur_result aur_ask_develop(const aur_ask *ask, bool errors, aur_image **image, aur_error *error) {
-    return aur_replicas_develop(&ask->replicas, errors, image, error);
+    return aur_replicas_develop(&ask->trial.replicas, errors, image, error);
 }

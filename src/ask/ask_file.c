@@ -8,62 +8,86 @@
 #include "render/renderer.h"
 
 /* Numbers between rounds, before those of the tiles and of the replicas. */
-enum { STATE_WORDS = 9 };
+enum { NUMBERS = 13, STATE_WORDS = NUMBERS + 4 };
 
 static size_t word_count(const aur_ask *ask) {
-    return STATE_WORDS + 2 * ask->replicas.pixel_count + ask->replicas.count * AUR_SECONDS_WORDS;
+    return STATE_WORDS + 2 * ask->trial.replicas.pixel_count + ask->trial.replicas.count * AUR_SECONDS_WORDS;
 }
 
 aur_result aur_ask_save(const aur_ask *ask, const char *path, aur_error *error) {
     if (ask->identity == NULL)
         return aur_fail(error, AUR_ERROR_ARGUMENT, "an asking is saved whose options say 'resumable'");
+    if (ask->open) /* trials of integrators are short, and begin anew */
+        return AUR_OK;
     uint64_t *const words = malloc(word_count(ask) * sizeof *words);
     if (words == NULL)
         return aur_fail_memory(error);
-    const double numbers[] = {
-        ask->interval.estimate, ask->interval.low, ask->interval.high,
-        ask->interval.degrees,  ask->rate,         ask->begun ? ask->before : ask->samples,
-        ask->measure.mean};
+    const double numbers[NUMBERS] = {ask->trial.interval.estimate,
+                                     ask->trial.interval.low,
+                                     ask->trial.interval.high,
+                                     ask->trial.interval.degrees,
+                                     ask->trial.rate,
+                                     ask->trial.begun ? ask->trial.before : ask->trial.samples,
+                                     ask->trial.measure.mean,
+                                     ask->bias.estimate,
+                                     ask->bias.low,
+                                     ask->bias.high,
+                                     ask->others.prepare_seconds,
+                                     ask->others.render_seconds,
+                                     ask->others.cpu_seconds};
     size_t at = 0;
-    for (size_t i = 0; i < sizeof numbers / sizeof numbers[0]; ++i)
+    for (size_t i = 0; i < NUMBERS; ++i)
         words[at++] = aur_word_of_double(numbers[i]);
-    words[at++] = ask->rounds;
-    words[at++] = ask->begun;
-    for (size_t i = 0; i < ask->replicas.pixel_count; ++i) {
-        words[at++] = ask->targets[i];
-        words[at++] = aur_word_of_double(ask->variances[i]);
+    words[at++] = ask->trial.rounds;
+    words[at++] = ask->trial.begun;
+    words[at++] = ask->gathers;
+    words[at++] = ask->others.rays;
+    for (size_t i = 0; i < ask->trial.replicas.pixel_count; ++i) {
+        words[at++] = ask->trial.targets[i];
+        words[at++] = aur_word_of_double(ask->trial.variances[i]);
     }
     const aur_film *films[AUR_REPLICAS_MAX];
-    for (size_t r = 0; r < ask->replicas.count; ++r, at += AUR_SECONDS_WORDS) {
-        films[r] = aur_render_film(ask->replicas.renders[r]);
-        aur_render_put_seconds(ask->replicas.renders[r], words + at);
+    for (size_t r = 0; r < ask->trial.replicas.count; ++r, at += AUR_SECONDS_WORDS) {
+        films[r] = aur_render_film(ask->trial.replicas.renders[r]);
+        aur_render_put_seconds(ask->trial.replicas.renders[r], words + at);
     }
     const aur_result result =
-        aur_checkpoint_save(path, ask->identity, at, words, ask->replicas.count, films, error);
+        aur_checkpoint_save(path, ask->identity, at, words, ask->trial.replicas.count, films, error);
     free(words);
     return result;
 }
 
 static aur_result take_over(aur_ask *ask, const char *path, const aur_checkpoint *kept, aur_error *error) {
-    double numbers[7];
+    double numbers[NUMBERS];
     const uint64_t *word = kept->words;
-    for (size_t i = 0; i < 7; ++i)
+    for (size_t i = 0; i < NUMBERS; ++i)
         numbers[i] = aur_double_of_word(*word++);
-    ask->interval = (aur_error_interval){
+    const bool gathers = kept->words[NUMBERS + 2] != 0;
+    aur_result result = gathers ? aur_ask_gather(ask, error) : AUR_OK;
+    if (result != AUR_OK)
+        return result;
+    ask->open = false;
+    ask->trial.interval = (aur_error_interval){
         .estimate = numbers[0], .low = numbers[1], .high = numbers[2], .degrees = numbers[3]};
-    ask->rate = numbers[4];
-    ask->samples = ask->before = numbers[5];
-    ask->measure.mean = numbers[6];
-    ask->rounds = *word++;
-    ask->begun = *word++ != 0;
-    for (size_t i = 0; i < ask->replicas.pixel_count; ++i) {
-        ask->targets[i] = (uint32_t)*word++;
-        ask->variances[i] = aur_double_of_word(*word++);
+    ask->trial.rate = numbers[4];
+    ask->trial.samples = ask->trial.before = numbers[5];
+    ask->trial.measure.mean = numbers[6];
+    ask->bias = (aur_bias){.estimate = numbers[7], .low = numbers[8], .high = numbers[9]};
+    ask->others.prepare_seconds = numbers[10];
+    ask->others.render_seconds = numbers[11];
+    ask->others.cpu_seconds = numbers[12];
+    ask->trial.rounds = *word++;
+    ask->trial.begun = *word++ != 0;
+    ++word; /* whether it gathers, see above */
+    ask->others.rays = *word++;
+    for (size_t i = 0; i < ask->trial.replicas.pixel_count; ++i) {
+        ask->trial.targets[i] = (uint32_t)*word++;
+        ask->trial.variances[i] = aur_double_of_word(*word++);
     }
-    aur_result result = AUR_OK;
-    for (size_t r = 0; r < ask->replicas.count && result == AUR_OK; ++r, word += AUR_SECONDS_WORDS) {
-        aur_render_take_seconds(ask->replicas.renders[r], word);
-        result = aur_fail_in(error, aur_render_merge(ask->replicas.renders[r], kept->films[r], error), path);
+    for (size_t r = 0; r < ask->trial.replicas.count && result == AUR_OK; ++r, word += AUR_SECONDS_WORDS) {
+        aur_render_take_seconds(ask->trial.replicas.renders[r], word);
+        result =
+            aur_fail_in(error, aur_render_merge(ask->trial.replicas.renders[r], kept->films[r], error), path);
     }
     return result;
 }
@@ -78,7 +102,8 @@ aur_result aur_ask_resume(aur_ask *ask, const char *path, aur_error *error) {
                              "of another render: it was not made to an error, a time or a number of rays");
     if (result == AUR_OK)
         result = aur_identity_compare(path, kept.identity, ask->identity, NULL, error);
-    if (result == AUR_OK && (kept.film_count != ask->replicas.count || kept.word_count != word_count(ask)))
+    if (result == AUR_OK &&
+        (kept.film_count != ask->trial.replicas.count || kept.word_count != word_count(ask)))
         result = aur_fail_at(error, (aur_location){.file = path}, AUR_ERROR_FORMAT,
                              "a checkpoint of another form");
     if (result == AUR_OK)

@@ -31,11 +31,14 @@ static const char *split_of(const char *wanted) {
     return wanted[length] == ':' ? ",split=8" : ":split=8";
 }
 
-aur_result aur_ask_choose(const aur_scene *scene, const char *wanted, char **integrator, aur_error *error) {
+aur_result aur_ask_choose(const aur_scene *scene, const char *wanted, char **integrator, bool *open,
+                          aur_error *error) {
     const aur_parameters *const own = aur_scene_integrator(scene);
     *integrator = NULL;
+    *open = false;
     if (wanted == NULL && has_its_own_picture(own->plugin))
         return AUR_OK;
+    *open = wanted == NULL && !aur_scene_has_media(scene);
     const char *const depth = wanted == NULL ? depth_of(own) : NULL;
     const char *const text = wanted != NULL ? wanted : aur_scene_has_media(scene) ? "volpath" : "path";
     const char *const key = depth != NULL ? ":max_depth=" : "";

@@ -16,8 +16,8 @@ static double variance_at(double price, size_t count, const double *variances, c
     return sum;
 }
 
-bool aur_raise_targets(size_t count, const double *variances, double factor, uint32_t most,
-                       uint32_t *targets) {
+/* The price at which the sum of variances becomes `factor` of what it is. */
+static double price_of(size_t count, const double *variances, double factor, const uint32_t *targets) {
     double sum = 0.0, high = 0.0;
     for (size_t i = 0; i < count; ++i) {
         sum += variances[i];
@@ -39,11 +39,27 @@ bool aur_raise_targets(size_t count, const double *variances, double factor, uin
         else
             low = price;
     }
+    return low;
+}
+
+double aur_growth_to(size_t count, const double *variances, double factor, const uint32_t *targets) {
+    const double price = price_of(count, variances, factor, targets);
+    double before = 0.0, after = 0.0;
+    for (size_t i = 0; i < count; ++i) {
+        before += targets[i];
+        after += variances[i] > 0.0 ? samples_at(price, variances[i], targets[i]) : targets[i];
+    }
+    return after / before;
+}
+
+bool aur_raise_targets(size_t count, const double *variances, double factor, uint32_t most,
+                       uint32_t *targets) {
+    const double price = price_of(count, variances, factor, targets);
     bool raised = false;
     for (size_t i = 0; i < count; ++i) {
         const double wanted =
             variances[i] > 0.0
-                ? ceil(fmin(samples_at(low, variances[i], targets[i]), (double)MOST_GROWTH * targets[i]))
+                ? ceil(fmin(samples_at(price, variances[i], targets[i]), (double)MOST_GROWTH * targets[i]))
                 : targets[i];
         const uint32_t target = (uint32_t)fmin(wanted, most);
         raised = raised || target > targets[i];

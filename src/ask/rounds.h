@@ -12,3 +12,7 @@
  * roughly known. False when no target was raised: all pixels have `most` samples or no variance. */
 bool aur_raise_targets(size_t count, const double *variances, double factor, uint32_t most,
                        uint32_t *targets);
+
+/* How many times as many samples it takes in all to make the sum of variances `factor` in (0,1] of what it
+ * is, where they are spent best. */
+double aur_growth_to(size_t count, const double *variances, double factor, const uint32_t *targets);

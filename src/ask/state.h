@@ -3,26 +3,25 @@
 
 #include <aureole/ask.h>
 
-#include <stdatomic.h>
-
-#include "ask/replicas.h"
+#include "ask/bias.h"
+#include "ask/trial.h"
 
 struct aur_ask {
     aur_ask_options wish;
+    aur_renderer *renderer;
+    aur_render_options options; /* of all trials, but for the integrator; the texts are the asking's */
+    char *sampler, *filter;
     aur_progress progress;
-    char *integrator;
-    char *identity; /* of a resumable asking; else NULL */
-    aur_replicas replicas;
-    uint32_t *targets;
-    double *variances, *scratch; /* of the pixels, after the last round */
-    aur_replica_measure measure;
-    aur_error_interval interval; /* relative */
-    double rate;                 /* the error's square falls as samples^-rate */
-    double samples;              /* a pixel, all replicas together */
-    uint64_t rounds;
-    bool begun; /* a round that was stopped before its end */
+    char *identity;               /* of a resumable asking; else NULL */
+    aur_trial trial;              /* what the picture is made of */
+    aur_bias bias;                /* of its integrator */
+    aur_render_statistics others; /* what integrators cost that were tried and not taken */
     atomic_bool cancelled;
-    /* For the progress callback: replicas done of this round, and what is rendered in all. */
-    size_t replica;
-    double before, whole;
+    bool open;     /* another integrator may turn out better: that is not tried yet */
+    bool choosing; /* it is being tried */
+    bool gathers;  /* it was final gathering */
+    double whole;  /* samples that the wish is thought to take, for the progress callback */
 };
+
+/* Goes on with final gathering, from nothing. Errors: those of aur_render_create. */
+aur_result aur_ask_gather(aur_ask *ask, aur_error *error);

@@ -59,12 +59,15 @@ static void say(const aur_ask *ask, const cli_wish *wish, const char *output) {
         aur_print(stderr,
                   "aureole: the same picture without a clock: '--rounds %" PRIu64 "' instead of '--time'\n",
                   report.rounds);
+    char bias[64] = "";
+    if (report.bias_high > 0.0)
+        snprintf(bias, sizeof bias, ", of which at most %.3g %% are bias", 100.0 * report.bias_high);
     aur_print(stderr,
-              "aureole: %s has an error of %.3g %% of its mean, between %.3g and %.3g (95 %%), after %.4g "
-              "samples a "
-              "pixel, %.3g rays, %.1f s\n",
-              output, 100.0 * report.error, 100.0 * report.error_low, 100.0 * report.error_high,
-              report.samples_per_pixel, (double)spent->rays, spent->prepare_seconds + spent->render_seconds);
+              "aureole: %s has an error of %.3g %% of its mean, between %.3g and %.3g (95 %%)%s, after %.4g "
+              "samples a pixel, %.3g rays, %.1f s by %s\n",
+              output, 100.0 * report.error, 100.0 * report.error_low, 100.0 * report.error_high, bias,
+              report.samples_per_pixel, (double)spent->rays, spent->prepare_seconds + spent->render_seconds,
+              aur_ask_integrator(ask));
 }
 
 aur_result cli_render_wish(aur_renderer *renderer, const aur_render_options *options, const cli_wish *wish,

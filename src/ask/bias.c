@@ -1,0 +1,56 @@
+#include "ask/bias.h"
+
+#include <math.h>
+
+#include "film/film.h"
+#include <aureole/statistics.h>
+
+enum { BLOCK = 8 };
+
+static double value_of(const aur_film *film, size_t pixel, size_t channel) {
+    return film->counts[pixel] > 0
+               ? film->sums[pixel * film->layout.channel_count + channel] / (double)film->counts[pixel]
+               : 0.0;
+}
+
+/* The sum over a block's values of the mean of D_r D_s over r != s. */
+static double products_of_block(const aur_replicas *biased, const aur_replicas *unbiased, size_t x0,
+                                size_t y0) {
+    const aur_film_layout *const layout = &aur_render_film(biased->renders[0])->layout;
+    const size_t width = layout->x1 - layout->x0, height = layout->y1 - layout->y0;
+    double products = 0.0;
+    for (size_t y = y0; y < y0 + BLOCK && y < height; ++y)
+        for (size_t x = x0; x < x0 + BLOCK && x < width; ++x)
+            for (size_t channel = 0; channel < 3; ++channel) {
+                double sum = 0.0, squares = 0.0;
+                for (size_t r = 0; r < biased->count; ++r) {
+                    const double d = value_of(aur_render_film(biased->renders[r]), y * width + x, channel) -
+                                     value_of(aur_render_film(unbiased->renders[r]), y * width + x, channel);
+                    sum += d;
+                    squares += d * d;
+                }
+                products += sum * sum - squares;
+            }
+    return products / ((double)biased->count * (double)(biased->count - 1));
+}
+
+aur_bias aur_replicas_bias(const aur_replicas *biased, const aur_replicas *unbiased, double mean,
+                           double confidence) {
+    const aur_film_layout *const layout = &aur_render_film(biased->renders[0])->layout;
+    const size_t width = layout->x1 - layout->x0, height = layout->y1 - layout->y0;
+    double sum = 0.0, squares = 0.0, blocks = 0.0;
+    for (size_t y = 0; y < height; y += BLOCK)
+        for (size_t x = 0; x < width; x += BLOCK, ++blocks) {
+            const double products = products_of_block(biased, unbiased, x, y);
+            sum += products;
+            squares += products * products;
+        }
+    const double scale = 1.0 / (3.0 * (double)(width * height) * mean * mean);
+    const double spread =
+        blocks > 1.0 ? sqrt(fmax(squares - sum * sum / blocks, 0.0) * blocks / (blocks - 1.0)) : fabs(sum);
+    const double quantile =
+        blocks > 1.0 ? aur_student_quantile((size_t)blocks - 1, 0.5 * (1.0 + confidence)) : 2.0;
+    return (aur_bias){.estimate = scale * sum,
+                      .low = fmax(scale * (sum - quantile * spread), 0.0),
+                      .high = fmax(scale * (sum + quantile * spread), 0.0)};
+}

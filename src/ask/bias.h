@@ -1,0 +1,18 @@
+/* How far two ways to render a picture are from each other in the mean: the bias of one, if the other has
+ * none. */
+#pragma once
+
+#include "ask/replicas.h"
+
+/* Squares of root mean square errors over the picture's values, relative to the square of its mean. */
+typedef struct aur_bias {
+    double estimate;  /* unbiased, so it may be negative */
+    double low, high; /* of its interval, from 0 on */
+} aur_bias;
+
+/* Both have the same pixels and as many replicas, all with samples in every pixel. With D_r the difference of
+ * the r-th replicas, the mean of D_r D_s over r != s has the squared bias as its expectation, whatever the
+ * noise. Its uncertainty comes from how blocks of pixels differ, which are taken to be independent; that
+ * their bias differs too makes the interval a little too wide. */
+aur_bias aur_replicas_bias(const aur_replicas *biased, const aur_replicas *unbiased, double mean,
+                           double confidence);

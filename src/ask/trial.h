@@ -1,0 +1,44 @@
+/* One way to render a picture, tried out or gone through with: replicas by one integrator, and what their
+ * samples say so far. */
+#pragma once
+
+#include <stdatomic.h>
+
+#include "ask/replicas.h"
+
+typedef struct aur_trial {
+    char *integrator; /* as aur_render_options take it; NULL: the scene's own */
+    aur_replicas replicas;
+    uint32_t *targets; /* samples of each pixel of a replica after the round that was planned last */
+    double *variances, *scratch; /* of the pixels, after the last round */
+    aur_replica_measure measure;
+    aur_error_interval interval; /* relative to the mean */
+    double rate;                 /* the error's square falls as samples^-rate */
+    double samples;              /* a pixel, all replicas together */
+    double before;               /* the same before the round that is planned or rendered */
+    uint64_t rounds;
+    bool begun;     /* a round is planned and not all rendered */
+    size_t replica; /* replicas done of this round */
+} aur_trial;
+
+/* `options` as for aur_render_create; the trial's integrator takes the place of theirs, and their samples a
+ * pixel are without meaning. The trial is to be released in every case. Errors as there. */
+aur_result aur_trial_create(aur_renderer *renderer, const aur_render_options *options, size_t replica_count,
+                            aur_trial *trial, aur_error *error);
+void aur_trial_release(aur_trial *trial);
+
+/* What all replicas have cost together. */
+void aur_trial_spent(const aur_trial *trial, aur_render_statistics *sum);
+
+/* The part of the error's square that a round is to leave so that the interval's upper end comes to `error`,
+ * a little below it, so that the last round is seldom followed by a tiny one. */
+double aur_trial_factor(const aur_trial *trial, double error);
+
+/* Plans the samples of a round; the first is one sample a pixel. False when all pixels have all that they can
+ * have. */
+bool aur_trial_plan(aur_trial *trial, double factor);
+/* Plans so many samples in all for every pixel, which none has more than yet. */
+void aur_trial_plan_evenly(aur_trial *trial, uint32_t samples);
+/* Renders what is planned. Errors: CANCELLED, after which another call goes on with the round. */
+aur_result aur_trial_render(aur_trial *trial, double confidence, const atomic_bool *cancelled,
+                            aur_error *error);
