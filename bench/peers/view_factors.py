@@ -53,13 +53,13 @@ def write_obj(path, groups):
 
 
 def run(program, *arguments):
-    """CPU seconds of the program, and the most megabytes that it has had."""
-    child = subprocess.Popen([program, "viewfactors", "-q", *map(str, arguments)])
-    _, status, used = os.wait4(child.pid, 0)
-    child.returncode = os.waitstatus_to_exitcode(status)
-    if child.returncode != 0:
-        sys.exit(f"viewfactors {arguments} ended with status {child.returncode}")
-    return used.ru_utime + used.ru_stime, used.ru_maxrss / 1024
+    """CPU seconds of the program, and the most megabytes that it has had. A small process starts it, because a child is counted
+    with the memory that its parent had."""
+    code = ("import resource, subprocess, sys\nstatus = subprocess.run(sys.argv[1:], stdout=subprocess.DEVNULL).returncode\n"
+            "used = resource.getrusage(resource.RUSAGE_CHILDREN)\n"
+            "print(used.ru_utime + used.ru_stime, used.ru_maxrss / 1024)\nsys.exit(status)")
+    command = [sys.executable, "-S", "-c", code, program, "viewfactors", "-q", *map(str, arguments)]
+    return tuple(map(float, subprocess.run(command, check=True, stdout=subprocess.PIPE, text=True).stdout.split()))
 
 
 def load(path):
