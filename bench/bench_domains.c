@@ -200,7 +200,7 @@ static bool run_exact(const bench_options *options, const char *name, size_t cou
 static bool run(const bench_options *options) {
     const bool quick = options->quick;
     return run_rotations(options, "super-fibonacci") && run_rotations(options, "super-fibonacci-grid") &&
-           run_rotations(options, "sobol") &&
+           run_rotations(options, "esfg-rotations") && run_rotations(options, "sobol") &&
            run_nearest(options, AUR_DOMAIN_SPHERE, "nearest of 10,000 directions", "tree of directions") &&
            run_nearest(options, AUR_DOMAIN_ROTATIONS, "nearest of 10,000 rotations", "tree of rotations") &&
            run_cells(options) &&

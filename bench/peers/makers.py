@@ -207,7 +207,7 @@ def _(n, seed):
         return np.loadtxt(path)
 
 
-for _set in "super-fibonacci super-fibonacci-grid:base=125 r2 halton".split():
+for _set in "super-fibonacci super-fibonacci-grid:base=125 esfg-rotations r2 halton".split():
     ours("rotations", _set, [_set])
 ours("rotations", "sobol, Owen", ["sobol", "--scramble", "owen"], True)
 ours("rotations", "random", ["random"], True)

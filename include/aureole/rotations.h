@@ -34,7 +34,7 @@ static inline aur_rotations_options aur_rotations_options_default(uint64_t count
     return options;
 }
 
-/* Makes rotations ready: a set native to them (super-fibonacci, super-fibonacci-grid), or any set of the
+/* Makes rotations ready: a set native to them (super-fibonacci, its grid, esfg-rotations), or any set of the
  * cube, whose first three coordinates are lifted (Shoemake 1992). Errors: as aur_pointset_create. */
 AUR_API aur_result aur_rotations_create(const char *set, const aur_rotations_options *options,
                                         aur_rotations **rotations, aur_error *error) AUR_NONNULL(1, 2, 3);

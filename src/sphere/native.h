@@ -39,7 +39,8 @@ typedef struct aur_native_set {
     ROW(electrostatic)                                                                                       \
     ROW(greedy)                                                                                              \
     ROW(super_fibonacci)                                                                                     \
-    ROW(super_fibonacci_grid)
+    ROW(super_fibonacci_grid)                                                                                \
+    ROW(esfg_rotations)
 
 #define AUR_DECLARE_NATIVE_SET(name) extern const aur_native_set aur_native_##name;
 AUR_NATIVE_SETS(AUR_DECLARE_NATIVE_SET)

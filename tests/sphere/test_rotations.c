@@ -69,6 +69,15 @@ static void all_instruction_sets_and_parts_have_the_same_bits(void **state) {
     }
 }
 
+/* The least angle between two quaternions, or one and another's opposite. */
+static double smallest(size_t count, const double *wxyz) {
+    double most = 0.0;
+    for (size_t i = 0; i < count; ++i)
+        for (size_t k = 0; k < i; ++k)
+            most = fmax(most, fabs(aur_dot4(wxyz + 4 * i, wxyz + 4 * k)));
+    return acos(fmin(most, 1.0));
+}
+
 /* The mean of the distances to all quaternions and their opposites. */
 static double energy(size_t count, const double *wxyz) {
     double sum = 0.0;
@@ -94,6 +103,72 @@ static void the_grid_keeps_its_points_and_its_energy(void **state) {
     }
     free(whole);
     free(part);
+}
+
+/* Each direction of E-SFG is brought to +x by as many rotations, which are equal turns apart. */
+static void lifted_grids_have_their_directions(void **state) {
+    (void)state;
+    enum { BASE = 20, TURNS = 6, COUNT = BASE * TURNS * 64, DIRECTIONS = BASE * 16 };
+    double *const whole = plain("esfg-rotations:levels=2", COUNT);
+    double *const part = plain("esfg-rotations:levels=2", 8 * BASE * TURNS);
+    assert_memory_equal(whole, part, sizeof *whole * 4 * 8 * BASE * TURNS);
+    const aur_directions_options options = aur_directions_options_default(DIRECTIONS, AUR_DOMAIN_SPHERE);
+    aur_directions *directions = NULL;
+    double xyz[3 * DIRECTIONS];
+    assert_int_equal(aur_directions_create("esfg:base=20,levels=2", &options, &directions, NULL), AUR_OK);
+    assert_int_equal(aur_directions_points(directions, 0, DIRECTIONS, 3 * DIRECTIONS, xyz, NULL, NULL),
+                     AUR_OK);
+    aur_directions_destroy(directions);
+    size_t found[DIRECTIONS] = {0};
+    double turned[DIRECTIONS][2];
+    for (size_t i = 0; i < COUNT; ++i) {
+        aur_rotation rotation;
+        aur_rotation_from_quaternion(whole + 4 * i, &rotation);
+        const double *const row = rotation.m;           /* what comes to +x */
+        const double d[3] = {row[2], -row[1], -row[0]}; /* the set's axes */
+        size_t nearest = 0;
+        double most = -1.0;
+        for (size_t k = 0; k < DIRECTIONS; ++k) {
+            const double *const x = xyz + 3 * k, product = x[0] * d[0] + x[1] * d[1] + x[2] * d[2];
+            if (product > most) {
+                most = product;
+                nearest = k;
+            }
+        }
+        assert_true(most > 1.0 - 1e-14);
+        /* Where its neighbour in the fibre is: a multiple of the last step, 1/24 of a turn, from the first.
+         */
+        double *const first = turned[nearest];
+        /* A vector across it, which the turns move in the plane of y and z. */
+        const double across[3] = {-row[1], row[0], 0.0}, length = hypot(row[0], row[1]);
+        double second[2];
+        for (size_t k = 0; k < 2; ++k)
+            second[k] = (rotation.m[3 + 3 * k] * across[0] + rotation.m[4 + 3 * k] * across[1]) / length;
+        if (found[nearest]++ == 0)
+            memcpy(first, second, sizeof second);
+        const double turn =
+            atan2(first[0] * second[1] - first[1] * second[0], first[0] * second[0] + first[1] * second[1]) /
+            (2.0 * AUR_PI) * 4.0 * TURNS;
+        assert_true(fabs(turn - nearbyint(turn)) < 1e-9);
+    }
+    for (size_t k = 0; k < DIRECTIONS; ++k)
+        assert_int_equal(found[k], 4 * TURNS);
+    free(whole);
+    free(part);
+}
+
+/* More even than the grid of super-Fibonacci rotations: no smallest angle below .7 of the spiral's, no energy
+ * more than a sixth above it. */
+static void lifted_grids_are_even(void **state) {
+    (void)state;
+    for (size_t count = 120; count <= 120 * 16; count *= 2) {
+        double *const grid = plain("esfg-rotations:levels=2", count), *const spiral =
+                                                                          plain("super-fibonacci", count);
+        assert_true(energy(count, grid) < 1.16 * energy(count, spiral));
+        assert_true(smallest(count, grid) > 0.7 * smallest(count, spiral));
+        free(grid);
+        free(spiral);
+    }
 }
 
 /* The mean of q q^T is a quarter of the identity: within the error of 4096 points of a net, far below that of
@@ -223,6 +298,7 @@ static void what_has_no_meaning_is_refused(void **state) {
     refused("super-fibonacci", 8, AUR_SCRAMBLE_OWEN, AUR_ERROR_UNSUPPORTED, "rotate3d");
     refused("super-fibonacci:x=1", 8, AUR_SCRAMBLE_NONE, AUR_ERROR_NAME, "no 'x'");
     refused("super-fibonacci-grid:levels=0", 101, AUR_SCRAMBLE_NONE, AUR_ERROR_ARGUMENT, "base*8^levels");
+    refused("esfg-rotations:levels=0", 121, AUR_SCRAMBLE_NONE, AUR_ERROR_ARGUMENT, "base*turns*8^levels");
     refused("spherical-fibonacci", 8, AUR_SCRAMBLE_NONE, AUR_ERROR_UNSUPPORTED, "'rotations'");
     refused("fibonacci-lattice", 8, AUR_SCRAMBLE_NONE, AUR_ERROR_ARGUMENT, "not 3");
 }
@@ -232,6 +308,8 @@ int main(void) {
         cmocka_unit_test(super_fibonacci_is_the_published_formula),
         cmocka_unit_test(all_instruction_sets_and_parts_have_the_same_bits),
         cmocka_unit_test(the_grid_keeps_its_points_and_its_energy),
+        cmocka_unit_test(lifted_grids_have_their_directions),
+        cmocka_unit_test(lifted_grids_are_even),
         cmocka_unit_test(lifted_points_are_uniform),
         cmocka_unit_test(scrambling_turns_all_alike_or_moves_the_cube),
         cmocka_unit_test(matrices_are_quaternions),

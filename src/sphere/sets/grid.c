@@ -57,13 +57,9 @@ size_t aur_grid_first_shift(uint64_t base, double stretch) {
     return (below > above ? k - 1 : k + 1) % 3;
 }
 
-/* b_s/2^level as what it adds to the index (x times N) and to the phase. */
-typedef struct shift {
-    double index;
-    uint64_t phase;
-} shift;
+typedef aur_grid_shift shift;
 
-static shift shift_of(size_t s, size_t level) {
+aur_grid_shift aur_grid_shift_of(size_t s, size_t level) {
     const uint64_t turn = UINT64_C(1) << (64 - level);
     const uint64_t golden = AUR_GOLDEN_PHASE >> level;
     if (s == 0)
@@ -114,7 +110,7 @@ static double judge(size_t count, const double *xyz, double height) {
 
 /* The base grid of `count` points and its copy by b_s/2, into xyz[6 * count]. */
 static void doubled_grid(uint64_t count, size_t s, double height, double centre, double *xyz) {
-    const shift half = shift_of(s, 1);
+    const shift half = aur_grid_shift_of(s, 1);
     const double step = height / (double)count;
     const aur_fibonacci base = {step, centre, 0};
     const aur_fibonacci copy = {step, centre + half.index, half.phase};
@@ -130,7 +126,7 @@ size_t aur_grid_best_shift(uint64_t base, double height, double centre) {
     size_t best = 0;
     double lowest = INFINITY;
     for (size_t s = 0; s < 3; ++s) {
-        const double middle = 0.5 - 0.5 * shift_of(s, 1).index;
+        const double middle = 0.5 - 0.5 * aur_grid_shift_of(s, 1).index;
         doubled_grid(base, s, height, centre >= 0.0 ? centre : middle, xyz);
         const double energy = judge(2 * (size_t)base, xyz, height);
         if (energy < lowest) {
@@ -242,7 +238,7 @@ static void choose_order(grid *g, const grid_keys *p, double height) {
                     : aur_grid_first_shift(g->base, 1.0);
     for (size_t level = 1; level <= g->levels; ++level)
         for (size_t i = 0; i < 3; ++i)
-            g->shifts[level][i + 1] = shift_of((first + i) % 3, level);
+            g->shifts[level][i + 1] = aur_grid_shift_of((first + i) % 3, level);
 }
 
 static aur_result prepare(const aur_row *row, aur_parameters *parameters, const aur_native_request *request,

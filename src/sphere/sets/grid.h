@@ -16,3 +16,11 @@ size_t aur_grid_first_shift(uint64_t base, double stretch);
  * for the middle of each doubled grid. Grids of more than 2048 points are judged by the stretch that a cap
  * has on average. */
 size_t aur_grid_best_shift(uint64_t base, double height, double centre);
+
+/* b_s/2^level, s below 3 and level at least 1, as what it adds to the index (x times N) and to the phase. */
+typedef struct aur_grid_shift {
+    double index;
+    uint64_t phase;
+} aur_grid_shift;
+
+aur_grid_shift aur_grid_shift_of(size_t s, size_t level);
