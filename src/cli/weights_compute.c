@@ -85,7 +85,7 @@ static aur_result load_one(weights_job *task, aur_error *error) {
     for (size_t i = 0; options->domain == AUR_DOMAIN_HEMISPHERE && i < view.count; ++i)
         if (xyz[3 * i + 2] < -1e-9 && options->lobe.kind != AUR_LOBE_GGX)
             return aur_fail(error, AUR_ERROR_ARGUMENT,
-                            "point %zu lies below the hemisphere (z = %g): is it --domain sphere?", i,
+                            "point %zu lies below the hemisphere (z = %g): is it --domain sphere?", i + 1,
                             xyz[3 * i + 2]);
     return AUR_OK;
 }

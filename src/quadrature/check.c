@@ -9,7 +9,7 @@ aur_result aur_check_directions(size_t count, const double *xyz, aur_error *erro
     for (size_t i = 0; i < count; ++i) {
         const double *const u = xyz + 3 * i;
         if (!aur_is_unit(u))
-            return aur_fail(error, AUR_ERROR_ARGUMENT, "point %zu, (%g, %g, %g), is not a unit vector", i,
+            return aur_fail(error, AUR_ERROR_ARGUMENT, "point %zu, (%g, %g, %g), is not a unit vector", i + 1,
                             u[0], u[1], u[2]);
     }
     return AUR_OK;

@@ -93,11 +93,11 @@ static aur_result check_points(size_t count, const double *xyz, const aur_exact_
     for (size_t i = 0; i < count && result == AUR_OK; ++i) {
         const bool below = hidden(o, xyz + 3 * i);
         if (xyz[3 * i + 2] < lowest - rim && !below)
-            return aur_fail(error, AUR_ERROR_ARGUMENT, "point %zu (z = %g) lies outside the %s", i,
+            return aur_fail(error, AUR_ERROR_ARGUMENT, "point %zu (z = %g) lies outside the %s", i + 1,
                             xyz[3 * i + 2], o->cap_degrees == 90.0 ? "hemisphere" : "cap");
         if (o->near != NULL && !(o->near[i] >= 0.0 && o->near[i] < INFINITY))
-            return aur_fail(error, AUR_ERROR_ARGUMENT, "weight %zu must be at least 0 and finite, not %g", i,
-                            o->near[i]);
+            return aur_fail(error, AUR_ERROR_ARGUMENT, "weight %zu must be at least 0 and finite, not %g",
+                            i + 1, o->near[i]);
         some = some || (!below && (o->near == NULL || o->near[i] > 0.0));
     }
     if (result == AUR_OK && !some)

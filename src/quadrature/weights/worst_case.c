@@ -38,7 +38,7 @@ aur_result aur_worst_case_error(size_t count, const double *xyz, const double *w
         return result;
     for (size_t i = 0; weights != NULL && i < count; ++i)
         if (!isfinite(weights[i]))
-            return aur_fail(error, AUR_ERROR_ARGUMENT, "weight %zu is not finite", i);
+            return aur_fail(error, AUR_ERROR_ARGUMENT, "weight %zu is not finite", i + 1);
     const size_t block_count = (count + BLOCK - 1) / BLOCK;
     double *const storage = malloc((5 * count + block_count) * sizeof *storage);
     if (storage == NULL)
