@@ -66,6 +66,9 @@ typedef struct aur_bsdf_lobe {
     bool transmits;    /* light may come from the other side than the view's */
     unsigned sides;    /* that it may be seen from */
     float exponent;
+    /* Of a sampled lobe that is nothing but mirroring facets of the GGX distribution, equally rough
+     * everywhere and both ways: its alpha; else 0. It is drawn by u[1] and u[2] alone. */
+    float ggx_alpha;
     /* NULL, or what the power lacks of the lobe, of |light.z|: directions are drawn by the power and weighed
      * by the lobe over it (Marques 2018, section 5.1). */
     float (*factor)(const void *data, float cosine);

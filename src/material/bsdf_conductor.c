@@ -21,9 +21,11 @@ static const aur_key rough_keys[] = {CONDUCTOR_KEYS, AUR_MICROFACET_KEYS(conduct
 
 static aur_result create_rough(aur_parameters *parameters, aur_bsdf *bsdf, aur_error *error) {
     conductor *const self = bsdf->data;
-    const aur_bsdf_lobe lobe = {.shape = AUR_LOBE_SHAPE_SAMPLED, .sides = AUR_SIDE_FRONT};
-    aur_bsdf_add_lobe(bsdf, &lobe);
     bsdf->anisotropic = aur_roughness_complete(&self->microfacet);
+    const aur_bsdf_lobe lobe = {.shape = AUR_LOBE_SHAPE_SAMPLED,
+                                .sides = AUR_SIDE_FRONT,
+                                .ggx_alpha = aur_roughness_ggx_alpha(&self->microfacet)};
+    aur_bsdf_add_lobe(bsdf, &lobe);
     return aur_metal_complete(parameters, &self->metal, error);
 }
 

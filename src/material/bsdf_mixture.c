@@ -27,6 +27,7 @@ static size_t join_lobe(aur_bsdf *bsdf, const aur_bsdf_lobe *lobe) {
         if (!are_alike(known, lobe))
             continue;
         known->sides |= lobe->sides;
+        known->ggx_alpha = known->ggx_alpha == lobe->ggx_alpha ? lobe->ggx_alpha : 0.0f;
         known->transmits = known->transmits || lobe->transmits;
         return i;
     }

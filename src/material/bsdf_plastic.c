@@ -124,7 +124,10 @@ static aur_result create_facets(aur_parameters *parameters, aur_bsdf *bsdf, aur_
     plastic *const self = bsdf->data;
     self->rough = true;
     add_base(bsdf);
-    const aur_bsdf_lobe coat = {.shape = AUR_LOBE_SHAPE_SAMPLED, .sides = AUR_SIDE_FRONT};
+    aur_roughness_complete(&self->microfacet);
+    const aur_bsdf_lobe coat = {.shape = AUR_LOBE_SHAPE_SAMPLED,
+                                .sides = AUR_SIDE_FRONT,
+                                .ggx_alpha = aur_roughness_ggx_alpha(&self->microfacet)};
     aur_bsdf_add_lobe(bsdf, &coat);
     return make_coat(parameters, bsdf, error);
 }

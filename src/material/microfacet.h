@@ -41,6 +41,13 @@ typedef struct aur_roughness {
 /* `alpha` stands for what was not given of alpha_u and alpha_v. Returns whether the two may differ. */
 bool aur_roughness_complete(aur_roughness *roughness);
 
+/* What such a lobe's `ggx_alpha` is. */
+static inline float aur_roughness_ggx_alpha(const aur_roughness *roughness) {
+    const aur_microfacet *const constant = &roughness->constant;
+    const bool same = !roughness->varies && constant->alpha_u == constant->alpha_v;
+    return same && constant->distribution == AUR_MICROFACET_GGX ? constant->alpha_u : 0.0f;
+}
+
 /* The facets at a point. */
 static inline aur_microfacet aur_roughness_at(const aur_roughness *roughness, aur_bsdf_point point) {
     if (!roughness->varies)

@@ -1,6 +1,7 @@
 #include "transport/gather/aim.h"
 
 #include "core/random.h"
+#include "transport/lights/shading.h"
 #include "transport/packets/interleave.h"
 
 /* --- randomisations of the patterns */
@@ -39,6 +40,22 @@ aur_gather_rotation aur_gather_rotation_at(const aur_gather_places *places,
     rotation.word_v ^= (uint32_t)(tile >> 32);
     const float angle = 2.0f * AUR_PI_F * aur_unit_float((uint32_t)tile);
     return aur_gather_rotation_by(rotation, cosf(angle), sinf(angle));
+}
+
+size_t aur_gather_prepared_rotation(const aur_gather_places *places, size_t rotations, size_t lane,
+                                    bool *mirrored) {
+    const aur_gather_policy *const policy = &places->plan->policy;
+    *mirrored = false;
+    if (policy->decorrelation == AUR_DECORRELATION_NONE)
+        return 0;
+    const bool random = policy->decorrelation == AUR_DECORRELATION_RANDOM;
+    const uint64_t hash = aur_hash3(
+        places->plan->seed, aur_gather_places_hash(places, random ? places->pixels[lane] : places->tile),
+        places->bounces);
+    *mirrored = hash >> 63 != 0;
+    if (random)
+        return (hash & UINT32_MAX) % rotations;
+    return (aur_group_rank(places->group) ^ (hash & 15u)) * rotations / 16;
 }
 
 /* Whether all lanes have one rotation. */
@@ -91,6 +108,22 @@ uint32_t aur_gather_aim(uint32_t lanes, const aur_lobe_frames *restrict frames, 
         aimed |= (uint32_t)wanted << k;
     }
     return aimed;
+}
+
+bool aur_gather_aim_draw(const aur_gather_place *place, size_t lane, const float u[3], float draws,
+                         aur_gather_rays *rays, aur_vector *value, float *height) {
+    const aur_surface *const surface = &place->surface;
+    const aur_shading shading = {surface, place->view};
+    aur_bsdf_sample drawn;
+    if (!aur_shading_draw(&shading, AUR_BSDF_SAMPLED_LOBES, u, &drawn) || !(drawn.pdf > 0.0f))
+        return false;
+    *value = aur_vector_scale(drawn.weight, 1.0f / draws);
+    *height = fabsf(aur_vector_dot(surface->frame.z, drawn.light));
+    const aur_ray ray = aur_surface_ray(surface, drawn.light);
+    aur_packet_set(&rays->packet, lane, &ray);
+    rays->density[lane] = drawn.pdf * draws;
+    rays->reference[lane] = surface->position;
+    return true;
 }
 
 /* --- a rule, direction by direction */

@@ -25,6 +25,17 @@ void aur_gather_set_chance(const aur_gather_places *places, size_t lobe, size_t 
 aur_gather_rotation aur_gather_rotation_at(const aur_gather_places *places, const aur_gather_lobe_rule *rule,
                                            size_t lane, uint64_t lobe);
 
+/* Which of the rotations prepared for a table of weights a lane has, and whether mirrored. Under "blue" all
+ * lanes of the group have the same. */
+size_t aur_gather_prepared_rotation(const aur_gather_places *places, size_t rotations, size_t lane,
+                                    bool *mirrored);
+
+/* A draw of a place's sampled lobe, one of `draws` of a sample, becomes the lane's ray; *value is what it
+ * reflects of the light that comes along it, *height that of the direction above the surface. False: there is
+ * none. */
+bool aur_gather_aim_draw(const aur_gather_place *place, size_t lane, const float u[3], float draws,
+                         aur_gather_rays *rays, aur_vector *value, float *height);
+
 /* Whether the pixels of a block split this rule, each one's directions being a part of one pattern. */
 bool aur_gather_splits(const aur_gather_places *places, const aur_gather_lobe_rule *rule);
 

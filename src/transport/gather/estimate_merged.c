@@ -5,23 +5,6 @@
 #include "transport/gather/estimators.h"
 #include "transport/packets/interleave.h"
 
-/* Which of the prepared rotations a lane has, and whether mirrored. Under "blue" all lanes of the group have
- * the same. */
-static size_t rotation_of(const aur_gather_places *places, size_t rotations, size_t lane, bool *mirrored) {
-    const aur_gather_policy *const policy = &places->plan->policy;
-    *mirrored = false;
-    if (policy->decorrelation == AUR_DECORRELATION_NONE)
-        return 0;
-    const bool random = policy->decorrelation == AUR_DECORRELATION_RANDOM;
-    const uint64_t hash = aur_hash3(
-        places->plan->seed, aur_gather_places_hash(places, random ? places->pixels[lane] : places->tile),
-        places->bounces);
-    *mirrored = hash >> 63 != 0;
-    if (random)
-        return (hash & UINT32_MAX) % rotations;
-    return (aur_group_rank(places->group) ^ (hash & 15u)) * rotations / 16;
-}
-
 /* One pattern's part of this sample, and the lanes that send it. */
 typedef struct merged_pattern {
     uint32_t lanes;
@@ -58,7 +41,7 @@ static void set_merged(merged *work, size_t lane, aur_gather_rays *rays, aur_cou
     const aur_vector mirror = aur_gather_place_axis(place, lobes[1]);
     bool mirrored;
     aur_frame frames[2];
-    const size_t rotation = rotation_of(work->places, rule->rotations, lane, &mirrored);
+    const size_t rotation = aur_gather_prepared_rotation(work->places, rule->rotations, lane, &mirrored);
     aur_merged_rule_frames(normal, mirror, mirrored, frames);
     rays->merged[lane] = rule;
     rays->axes[lane][0] = normal;

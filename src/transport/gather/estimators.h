@@ -16,6 +16,9 @@ void aur_gather_by_levels(const aur_gather_places *places, const aur_gather_lobe
  * that are left. */
 uint32_t aur_gather_by_merged(const aur_gather_places *places, aur_gather_sums *sums);
 
+/* The sampled lobe of places that have a rule for it as a GGX lobe. */
+void aur_gather_by_ggx(const aur_gather_places *places, size_t lobe, uint32_t lanes, aur_gather_sums *sums);
+
 /* Points drawn on lights and on bright texels: one packet of shadow rays a draw. Both weigh each lobe's light
  * beside what its gather rays find of it. */
 void aur_gather_add_direct_light(const aur_gather_places *places, aur_gather_sums *sums);

@@ -31,6 +31,7 @@ void aur_gather_place_set(const aur_gather_plan *plan, const aur_ray *ray, const
     place->origin = aur_surface_ray(surface, aur_vector_scale(surface->geometric_normal, place->side)).origin;
     place->lobe_count = aur_bsdf_lobes(surface->bsdf, surface->texture, place->view, place->lobes);
     place->rules = plan->rules.of_shape[surface->shape];
+    place->ggx = plan->rules.ggx_of_shape[surface->shape];
     place->merged = NULL;
     if (plan->rules.merged != NULL)
         find_merged(place);

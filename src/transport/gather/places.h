@@ -13,6 +13,7 @@ typedef struct aur_gather_place {
     size_t lobe_count;
     aur_bsdf_lobe lobes[AUR_BSDF_LOBE_CAPACITY];
     const aur_gather_lobe_rule *const *rules; /* what gathers each lobe with a formula */
+    const aur_ggx_rule *ggx; /* of its sampled lobe, where that is GGX and weights are optimal */
     /* Where the place has just a diffuse and a glossy lobe, and merged samples serve them: the rule, and the
      * lobes' numbers. Else NULL. */
     const aur_merged_rule *merged;

@@ -28,6 +28,10 @@ static aur_result prepare(rule_maker *maker, size_t base, aur_error *error) {
     return aur_gather_levels_set(maker->p, base, sizeof maker->set, maker->set, &maker->pattern.count, error);
 }
 
+static bool is_optimal(const aur_gather_parameters *p) {
+    return p->weights == AUR_WEIGHTS_OSW || p->weights == AUR_WEIGHTS_OSWA || p->weights == AUR_WEIGHTS_SOLVE;
+}
+
 /* A rule with its levels, or with its weights. */
 static aur_result make(const rule_maker *maker, double exponent, aur_gather_lobe_rule *lobe,
                        aur_error *error) {
@@ -40,10 +44,8 @@ static aur_result make(const rule_maker *maker, double exponent, aur_gather_lobe
         return aur_gather_levels_create(p, maker->base, &lobe->rule, &lobe->levels, error);
     }
     lobe->directions = (float)(lobe->rule.count / (maker->pixels * maker->context->samples_per_pixel));
-    const bool optimal =
-        p->weights == AUR_WEIGHTS_OSW || p->weights == AUR_WEIGHTS_OSWA || p->weights == AUR_WEIGHTS_SOLVE;
-    return optimal ? aur_gather_rule_optimise(&lobe->rule, p->rule.smoothness, p->regularization, error)
-                   : AUR_OK;
+    return is_optimal(p) ? aur_gather_rule_optimise(&lobe->rule, p->rule.smoothness, p->regularization, error)
+                         : AUR_OK;
 }
 
 static aur_result merge(const rule_maker *maker, const aur_gather_rule *diffuse, aur_gather_lobe_rule *lobe,
@@ -105,6 +107,38 @@ static aur_result make_sampled(const rule_maker *maker, aur_gather_lobe_rule *sa
     return aur_gather_rule_create(&options, 0.0, &sampled->rule, error);
 }
 
+/* The roughness of a material's sampled lobe, where it is a GGX lobe; else 0. */
+static float ggx_alpha_of(const aur_bsdf *bsdf) {
+    for (size_t k = 0; k < bsdf->lobe_count; ++k)
+        if (bsdf->lobes[k].shape == AUR_LOBE_SHAPE_SAMPLED)
+            return bsdf->lobes[k].ggx_alpha;
+    return 0.0f;
+}
+
+/* Rules for GGX lobes, of the pattern of sampled ones. */
+static aur_result serve_ggx(const rule_maker *maker, aur_gather_rules *rules, aur_error *error) {
+    const aur_scene *const scene = maker->context->scene;
+    aur_ggx_rule_options options = {.pattern = maker->pattern,
+                                    .regularization = maker->p->regularization,
+                                    .threads = maker->context->threads,
+                                    .progress = maker->context->progress};
+    options.pattern.set = maker->p->rule.set;
+    options.pattern.count = rules->sampled.rule.count;
+    aur_result result = AUR_OK;
+    for (uint32_t shape = 0; shape < aur_scene_shape_count(scene) && result == AUR_OK; ++shape) {
+        options.alpha = ggx_alpha_of(aur_scene_shape_bsdf(scene, shape));
+        size_t i = 0;
+        while (i < rules->ggx_count && rules->ggx[i].alpha != options.alpha)
+            ++i;
+        if (!(options.alpha > 0.0f && options.alpha <= 1.0f))
+            continue;
+        rules->ggx_of_shape[shape] = &rules->ggx[i];
+        if (i == rules->ggx_count)
+            result = aur_ggx_rule_create(&options, &rules->ggx[rules->ggx_count++], error);
+    }
+    return result;
+}
+
 aur_result aur_gather_rules_create(const aur_gather_parameters *p, const aur_integrator_context *context,
                                    aur_gather_rules *rules, aur_error *error) {
     *rules = (aur_gather_rules){0};
@@ -114,7 +148,9 @@ aur_result aur_gather_rules_create(const aur_gather_parameters *p, const aur_int
         most += aur_scene_shape_bsdf(context->scene, i)->lobe_count;
     rules->lobes = calloc(most, sizeof *rules->lobes);
     rules->of_shape = calloc(shapes + 1, sizeof *rules->of_shape);
-    if (rules->lobes == NULL || rules->of_shape == NULL)
+    rules->ggx = calloc(shapes + 1, sizeof *rules->ggx);
+    rules->ggx_of_shape = calloc(shapes + 1, sizeof *rules->ggx_of_shape);
+    if (rules->lobes == NULL || rules->of_shape == NULL || rules->ggx == NULL || rules->ggx_of_shape == NULL)
         return aur_fail_memory(error);
     rule_maker maker = {
         .p = p, .context = context, .pattern = p->rule, .pixels = p->policy.pools ? AUR_PACKET_SIZE : 1};
@@ -130,6 +166,9 @@ aur_result aur_gather_rules_create(const aur_gather_parameters *p, const aur_int
         result = serve_shapes(&maker, rules, error);
     if (result == AUR_OK && (rules->scatters & AUR_SCATTERS_SAMPLED) != 0)
         result = make_sampled(&maker, &rules->sampled, error);
+    if (result == AUR_OK && (rules->scatters & AUR_SCATTERS_SAMPLED) != 0 && is_optimal(p) &&
+        p->rule.rotations > 0)
+        result = serve_ggx(&maker, rules, error);
     rules->merged = rules->count > 1 ? rules->lobes[1].merged : NULL;
     return result;
 }
@@ -144,6 +183,10 @@ void aur_gather_rules_release(aur_gather_rules *rules) {
     for (size_t i = 0; i < rules->count; ++i)
         release(&rules->lobes[i]);
     release(&rules->sampled);
+    for (size_t i = 0; i < rules->ggx_count; ++i)
+        aur_ggx_rule_release(&rules->ggx[i]);
+    free(rules->ggx);
+    free(rules->ggx_of_shape);
     free(rules->lobes);
     free(rules->of_shape);
     *rules = (aur_gather_rules){0};

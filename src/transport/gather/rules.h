@@ -2,6 +2,7 @@
  * ones. */
 #pragma once
 
+#include "transport/gather/rule_ggx.h"
 #include "transport/gather/rule_merged.h"
 #include "transport/gather/rule_weights.h"
 #include "transport/integrator.h"
@@ -22,6 +23,11 @@ typedef struct aur_gather_rules {
     /* Evenly over the hemisphere, for lobes without a formula: see aur_gather_rule_square. Empty where no
      * material has one. */
     aur_gather_lobe_rule sampled;
+    /* With optimal weights, what gathers the lobes that are GGX instead: one for each roughness, and the one
+     * of each shape's material or NULL. */
+    size_t ggx_count;
+    aur_ggx_rule *ggx;
+    const aur_ggx_rule **ggx_of_shape;
     /* Diffuse pattern of all merged rules, which differ in the glossy one; NULL when none are merged. */
     const aur_merged_rule *merged;
     /* What gathers each lobe of each shape's material; NULL for lobes without a formula. */

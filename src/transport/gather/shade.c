@@ -67,22 +67,6 @@ static void by_rule(const aur_gather_places *places, const aur_gather_lobe_rule 
 
 /* --- lobes without a formula: the rule's points of the square choose among the BSDF's own draws */
 
-/* A draw of a place's sampled lobe becomes the lane's ray; false: there is none. */
-static bool aim_draw(const aur_gather_place *place, size_t lane, const float u[3], float draws,
-                     aur_gather_rays *rays, aur_vector *value) {
-    const aur_surface *const surface = &place->surface;
-    const aur_shading shading = {surface, place->view};
-    aur_bsdf_sample drawn;
-    if (!aur_shading_draw(&shading, AUR_BSDF_SAMPLED_LOBES, u, &drawn) || !(drawn.pdf > 0.0f))
-        return false;
-    *value = aur_vector_scale(drawn.weight, 1.0f / draws);
-    const aur_ray ray = aur_surface_ray(surface, drawn.light);
-    aur_packet_set(&rays->packet, lane, &ray);
-    rays->density[lane] = drawn.pdf * draws;
-    rays->reference[lane] = surface->position;
-    return true;
-}
-
 /* Lobes that have no formula, by the BSDF's own sampling. */
 static void by_sampling(const aur_gather_places *places, size_t lobe, uint32_t lanes, aur_gather_sums *sums) {
     const aur_gather_plan *const plan = places->plan;
@@ -93,7 +77,7 @@ static void by_sampling(const aur_gather_places *places, size_t lobe, uint32_t l
     const size_t first = aur_first_lane(lanes), parts = plan->samples_per_pattern;
     for (size_t i = places->index % parts; i < sampled->rule.count; i += parts) {
         aur_vector value[AUR_PACKET_SIZE];
-        float u[3] = {0.0f, 0.0f, 0.0f};
+        float u[3] = {0.0f, 0.0f, 0.0f}, unused;
         uint32_t aimed = 0;
         aur_packet_empty(&rays->packet);
         aur_gather_set_chance(places, lobe, i, rays);
@@ -104,7 +88,8 @@ static void by_sampling(const aur_gather_places *places, size_t lobe, uint32_t l
             if (!sweep.together)
                 aur_gather_rule_square(&sampled->rule, &sweep.rotations[lane], i, &u[1]);
             u[0] = aur_unit_float((uint32_t)aur_mix64(aur_gather_rays_hash(rays, lane)));
-            aimed |= (uint32_t)aim_draw(&places->at[lane], lane, u, sampled->directions, rays, &value[lane])
+            aimed |= (uint32_t)aur_gather_aim_draw(&places->at[lane], lane, u, sampled->directions, rays,
+                                                   &value[lane], &unused)
                      << lane;
         }
         if (aimed == 0)
@@ -135,7 +120,7 @@ static uint32_t lanes_of_rule(const aur_gather_places *places, uint32_t lanes, s
 
 /* The lobe number `lobe` of all lanes that have one. */
 static void gather_lobe(const aur_gather_places *places, uint32_t lanes, size_t lobe, aur_gather_sums *sums) {
-    uint32_t ruled = 0, sampled = 0;
+    uint32_t ruled = 0, sampled = 0, ggx = 0;
     for (uint32_t rest = lanes; rest != 0; rest &= rest - 1) {
         const size_t lane = aur_first_lane(rest);
         const aur_gather_place *const place = &places->at[lane];
@@ -143,7 +128,9 @@ static void gather_lobe(const aur_gather_places *places, uint32_t lanes, size_t 
         if (lobe >= place->lobe_count || !aur_gather_plan_gathers(places->plan, own) ||
             !aur_gather_place_has(place, lobe))
             continue;
-        if (own->shape == AUR_LOBE_SHAPE_SAMPLED)
+        if (own->shape == AUR_LOBE_SHAPE_SAMPLED && place->ggx != NULL)
+            ggx |= 1u << lane;
+        else if (own->shape == AUR_LOBE_SHAPE_SAMPLED)
             sampled |= 1u << lane;
         else
             ruled |= 1u << lane;
@@ -157,6 +144,8 @@ static void gather_lobe(const aur_gather_places *places, uint32_t lanes, size_t 
             by_rule(places, rule, lobe, alike, sums);
         ruled &= ~alike;
     }
+    if (ggx != 0)
+        aur_gather_by_ggx(places, lobe, ggx, sums);
     if (sampled != 0)
         by_sampling(places, lobe, sampled, sums);
 }

@@ -16,6 +16,14 @@ grep "^# random" "$weights-slopes/marques-2018-slopes.csv" | awk '{ if ($7 > -0.
 # The published regularisation is worse than equal weights at m = 200.
 awk -F, '$2 == 200 && $5 == 0.5 { n++; if ($6 > 0) exit 1 } END { exit n != 2 }' \
   "$weights-sensitivity/marques-2018-sensitivity.csv" || fail "sensitivity"
+# GGX lobes: optimal weights have the least worst-case error, those of a coarse table little more.
+awk -F, '$2 == "smooth" && $8 != "nan" { worst[$4 "/" $5] = $8; rows++ }
+  END { for (view in worst) { split(view, at, "/"); least = worst[at[1] "/optimal"]
+          if (!(worst[view] >= 0.9999 * least)) bad = 1
+          if (at[2] == "table" && !(worst[view] < 1.1 * least)) bad = 1 }
+        exit bad || rows < 10 }' "$weights-ggx/marques-2018-ggx.csv" || fail "GGX lobes"
+awk -F, '$1 == "indirect" { rows++; if (!($4 > 0 && $6 <= $5 && $5 <= $7 && $8 < 5 && $8 > -5)) bad = 1 }
+  END { exit bad || rows != 2 }' "$weights-metal/marques-2018-metal.csv" || fail "rough metals"
 # Weights in pictures, few pixels and scramblings: every row is there, and weights help random samples.
 awk -F, '$1 == "Cornell box" && $2 == "random" { rows++; if (!($5 > 0)) bad = 1; rmse[$4] = $5 }
   END { exit bad || rows != 6 || !(rmse["OSWA"] < rmse["equal"] && rmse["OSW"] < rmse["equal"]) }' \
