@@ -3,7 +3,7 @@
 #include <math.h>
 #include <stdio.h>
 
-#include "cli/picture.h"
+#include "cli/viewer.h"
 
 typedef struct compare_options {
     cli_list metrics;
@@ -11,6 +11,7 @@ typedef struct compare_options {
     double scale;
     cli_picture picture;
     const char *outfile;
+    const char *html;
     cli_common common;
 } compare_options;
 
@@ -23,6 +24,9 @@ static const cli_option rows[] = {
               "write the absolute difference (FLIP's map when the first metric is flip) in false colour "
               "(PNG, EXR, ...)"),
      .letter = 'o', .content = "file"},
+    {CLI_TEXT(compare_options, html, "html", "FILE", NULL,
+              "write a page in which the pictures can be looked at: flip, slider, differences, values"),
+     .content = "file"},
     {CLI_REAL(compare_options, scale, "scale", "D", 0, INFINITY, "the largest; 1 for flip",
               "the value that is drawn brightest"),
      .key.computed = true},
@@ -119,6 +123,9 @@ static int run(const cli_call *call) {
     else
         report_destroy(table);
     aur_image_destroy(reference);
+    if (status == CLI_SUCCESS && options->html != NULL)
+        status = cli_write_viewer(options->html, call->operand_count, call->operands, &options->picture, 0.0,
+                                  true);
     return status == CLI_SUCCESS && !within ? CLI_DIFFERENCE : status;
 }
 

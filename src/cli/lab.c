@@ -4,8 +4,9 @@
 #include "cli/lab_run.h"
 
 static const cli_option options[] = {
-    {CLI_TEXT(cli_lab, lab.folder, "output", "DIR", "lab-results", "folder of the results"), .letter = 'o',
-     .content = "folder"},
+    {CLI_TEXT(cli_lab, lab.folder, "output", "DIR", "lab-results, and lab-report for report",
+              "folder of the results, or of the report"),
+     .letter = 'o', .key.computed = true, .content = "folder"},
     {CLI_FLAG(cli_lab, all, "all", "every experiment; those that are finished are kept as they are")},
     {CLI_FLAG(cli_lab, again, "again", "with --all, run those that are finished once more")},
     {CLI_FLAG(cli_lab, lab.quick, "quick", "a form that takes seconds, with wider intervals")},
@@ -25,8 +26,8 @@ static const char *experiment_name(unsigned index) {
 }
 
 static const char *action_name(unsigned index) {
-    static const char *const names[] = {"list", "run"};
-    return index < 2 ? names[index] : NULL;
+    static const char *const names[] = {"list", "run", "report"};
+    return index < 3 ? names[index] : NULL;
 }
 
 static int list(report_format format) {
@@ -48,9 +49,16 @@ static int list(report_format format) {
 
 static int run(const cli_call *call) {
     cli_lab *const command = call->options;
-    const char *const action = call->operands[0];
+    const char *const action = call->operands[0], *const folder = command->lab.folder;
+    command->lab.folder = folder != NULL ? folder : "lab-results";
     if (strcmp(action, "run") == 0)
         return cli_lab_run(command, call->operand_count - 1, call->operands + 1);
+    if (strcmp(action, "report") == 0) {
+        if (call->operand_count > 2)
+            return cli_bad_usage("lab report: takes one folder of results");
+        return cli_lab_report(call->operand_count > 1 ? call->operands[1] : "lab-results",
+                              folder != NULL ? folder : "lab-report");
+    }
     if (strcmp(action, "list") != 0)
         return cli_bad_usage("lab: %s: try 'aureole help lab'", call->verb->too_few);
     if (call->operand_count > 1)
@@ -66,13 +74,17 @@ const cli_verb cli_verb_lab = {
         "folder "
         "of its name with its tables (NAME.csv), pictures, and timings.csv, the only file that differs from "
         "run to run. docs/lab.md says more.",
-    .too_few = "'list' or 'run' is wanted",
+    .too_few = "'list', 'run' or 'report' is wanted",
     .operands =
         {{"ACTION",
           "list: the experiments, what each reproduces, and the processor time that it took; run: run "
-          "experiments, write CSV and pictures, print the tables",
+          "experiments, write CSV and pictures, print the tables; report: make a page of the results in the "
+          "folder NAME (lab-results), "
+          "DIR/index.html (lab-report), with plots, a viewer of the pictures, and PDFs of the plots beside "
+          "it",
           .name = action_name},
-         {"NAME", "experiments to run", .optional = true, .repeated = true, .name = experiment_name}},
+         {"NAME", "experiments to run, or the folder to report on", .optional = true, .repeated = true,
+          .name = experiment_name}},
     .groups = {{options, 0},
                {cli_format_option, offsetof(cli_lab, common)},
                {cli_threads_option, offsetof(cli_lab, common)},

@@ -20,6 +20,7 @@
     ROW(viewfactors)                                                                                         \
     ROW(compare)                                                                                             \
     ROW(convert)                                                                                             \
+    ROW(view)                                                                                                \
     ROW(lab)                                                                                                 \
     ROW(info)                                                                                                \
     ROW(completion)                                                                                          \

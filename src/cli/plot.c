@@ -52,11 +52,13 @@ static int start(cli_plot *plot, int picture) {
 
 bool cli_plot_open(const char *path, int width, int height, cli_plot *plot) {
     *plot = (cli_plot){.path = path};
+    const bool pdf = ends_with(path, ".pdf");
     const char *const terminal = ends_with(path, ".svg")   ? "svg"
+                                 : pdf                     ? "pdfcairo"
                                  : ends_with(path, ".png") ? "pngcairo"
                                                            : NULL;
     if (terminal == NULL) {
-        cli_bad_usage("--plot: '%s' must end in .svg or .png", path);
+        cli_bad_usage("--plot: '%s' must end in .svg, .pdf or .png", path);
         return false;
     }
     if (aur_ranks_rank() != 0) { /* rank 0 draws */
@@ -83,7 +85,12 @@ bool cli_plot_open(const char *path, int width, int height, cli_plot *plot) {
         free(plot->temporary);
         return false;
     }
-    fprintf(plot->script, "set terminal %s size %d,%d background rgb 'white'\n", terminal, width, height);
+    /* A sheet is measured in inches: 100 of what is a pixel elsewhere. */
+    if (pdf)
+        fprintf(plot->script, "set terminal %s size %d.%02d,%d.%02d\n", terminal, width / 100, width % 100,
+                height / 100, height % 100);
+    else
+        fprintf(plot->script, "set terminal %s size %d,%d background rgb 'white'\n", terminal, width, height);
     return true;
 }
 

@@ -12,8 +12,8 @@ typedef struct cli_plot {
     const char *path;
 } cli_plot;
 
-/* Starts gnuplot with a terminal for `path`, which ends in .svg or .png, of that many pixels. On failure
- * prints the error and returns false. */
+/* Starts gnuplot with a terminal for `path`, which ends in .svg, .pdf or .png, of that many pixels. On
+ * failure prints the error and returns false. */
 bool cli_plot_open(const char *path, int width, int height, cli_plot *plot);
 /* Writes text that stands between single quotes in a command: quotes are doubled, and control characters,
  * which would end the command, become question marks. */

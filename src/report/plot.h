@@ -15,3 +15,7 @@ typedef struct report_plot {
     bool log_x, log_y;
     bool points; /* no lines between the points, and one scale for x and y */
 } report_plot;
+
+/* Writes the plot as commands for gnuplot, without a terminal. Returns the number of its panels, 0 where
+ * there is nothing to draw. */
+size_t report_plot_script(FILE *script, const report_table *table, const report_plot *plot);

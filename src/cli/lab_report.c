@@ -1,0 +1,45 @@
+/* aureole lab report: a page of all that was run. */
+#include <errno.h>
+#include <string.h>
+#include <sys/stat.h>
+
+#include "cli/lab_run.h"
+#include "cli/plot.h"
+#include "lab/publish.h"
+
+/* Where the plots for print go, and whether gnuplot has drawn all of them so far. */
+typedef struct prints {
+    const char *folder;
+    bool fail;
+} prints;
+
+static bool print(void *user, const char *name, const report_table *table, const report_plot *plot) {
+    enum { WIDTH = 500, HEIGHT = 360 };
+    prints *const state = user;
+    char path[AUR_ERROR_FILE_CAPACITY];
+    cli_plot drawn;
+    snprintf(path, sizeof path, "%s/%s", state->folder, name);
+    if (state->fail || !cli_plot_open(path, WIDTH, HEIGHT, &drawn)) {
+        state->fail = true;
+        return false;
+    }
+    const bool any = report_plot_script(drawn.script, table, plot) > 0;
+    state->fail = cli_plot_close(&drawn) != CLI_SUCCESS;
+    return any && !state->fail;
+}
+
+int cli_lab_report(const char *results, const char *folder) {
+    if (mkdir(folder, 0777) != 0 && errno != EEXIST) {
+        fprintf(stderr, "aureole: %s: cannot make the folder: %s\n", folder, strerror(errno));
+        return CLI_FAILURE;
+    }
+    char path[AUR_ERROR_FILE_CAPACITY];
+    aur_error error = {0};
+    prints state = {.folder = folder};
+    const lab_printer printer = {.print = print, .user = &state};
+    snprintf(path, sizeof path, "%s/index.html", folder);
+    const int status = cli_status(lab_publish(results, path, &printer, &error), &error);
+    if (status == CLI_SUCCESS)
+        printf("%s\n", path);
+    return status;
+}

@@ -1,0 +1,53 @@
+/* aureole view: pictures in a page that a browser opens. */
+#include <errno.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "cli/viewer.h"
+
+typedef struct view_options {
+    const char *output;
+    double exposure;
+    cli_picture picture;
+} view_options;
+
+static const cli_option options[] = {
+    {CLI_TEXT(view_options, output, "output", "FILE", "a new file in $TMPDIR or /tmp", "the page"),
+     .letter = 'o', .key.computed = true, .content = "file"},
+    {CLI_REAL(view_options, exposure, "exposure", "STOPS", -100, 100, "0", "what is seen first")},
+    {.key = {0}}};
+
+static int run(const cli_call *call) {
+    const view_options *const given = call->options;
+    const char *const root = getenv("TMPDIR");
+    char path[AUR_ERROR_FILE_CAPACITY];
+    if (given->output != NULL) {
+        snprintf(path, sizeof path, "%s", given->output);
+    } else {
+        snprintf(path, sizeof path, "%.900s/aureole-view-XXXXXX",
+                 root != NULL && root[0] != '\0' ? root : "/tmp");
+        if (mkdtemp(path) == NULL) {
+            fprintf(stderr, "aureole: %s: cannot make the folder: %s\n", path, strerror(errno));
+            return CLI_FAILURE;
+        }
+        memcpy(path + strlen(path), "/index.html", sizeof "/index.html");
+    }
+    const int status =
+        cli_write_viewer(path, call->operand_count, call->operands, &given->picture, given->exposure, false);
+    if (status == CLI_SUCCESS && strcmp(path, "-") != 0)
+        printf("%s\n", path);
+    return status;
+}
+
+const cli_verb cli_verb_view = {
+    .name = "view",
+    .summary = "pictures in a page to look at: flip, slider, differences, values",
+    .notes = "The page needs nothing beside it and no network; what it shows are the values of the pictures "
+             "as 16-bit floats. "
+             "The path of the page is printed.",
+    .too_few = "a picture is needed",
+    .operands = {{"IMAGE", "pictures of the same size", .repeated = true, .content = "file"}},
+    .groups = {{options, 0}, {cli_picture_options, offsetof(view_options, picture)}},
+    .size = sizeof(view_options),
+    .run = run,
+};
