@@ -1,0 +1,101 @@
+#!/usr/bin/env bash
+# Line coverage of the parsers, as a table: by the seeds of the harnesses and fuzz/corpus alone, and with the mutations of
+# them that the tests replay, always the same: scripts/coverage.sh [BUILD]. The parsers are compiled again with gcc's
+# --coverage and linked before the rest of a finished BUILD (build/release), which takes seconds. MISSED=1 lists the lines
+# that nothing reaches. Exit status 1 where a parser has less than 90 % with mutations.
+set -euo pipefail
+cd "$(dirname "$0")/.."
+top=$PWD
+build=$(realpath "${1:-build/release}")
+folder=$(mktemp -d)
+trap 'rm -rf "$folder"' EXIT
+# A parser, its harnesses, and its files.
+parsers=(
+  'scenes (XML)|scene|src/scene/xml/*.c src/scene/load/*.c'
+  'OBJ, PLY, serialized|mesh|src/scene/shapes/obj.c src/scene/shapes/ply.c src/scene/shapes/serialized.c'
+  'Radiance scenes|rad scene|src/scene/rad/*.c'
+  'pictures|image|src/image/exr_read.c src/image/hdr.c src/image/ldr.c src/image/pfm.c'
+  'points|points|src/pointset/files/points_csv.c src/pointset/files/points_file.c src/pointset/files/points_npy.c'
+  'films, checkpoints, parts|film checkpoint|src/film/film_file.c src/film/checkpoint.c src/render/checkpoint.c src/render/parts.c'
+  'radiosity solutions|radiosity|src/transport/radiosity/file.c'
+  'photon maps of the cache|photons|src/transport/photons/irradiance_file.c'
+  'weight tables|weight_table|src/quadrature/tables/weight_table_file.c'
+  'sensors|sensors|src/lighting/irradiance/sensors_read.c src/lighting/irradiance/sensors_mesh.c'
+  'weather (EPW)|weather|src/lighting/daylight/weather.c'
+  'names of sets and keys|set|src/core/parameters.c src/core/names.c'
+  'options of the program|options|src/cli/options.c src/cli/quantity.c'
+)
+
+# compile FILE OBJECT: by the command of the build, with coverage.
+compile() {
+  python3 - "$build" "$top/$1" "$2" <<'P'
+import json, shlex, subprocess, sys
+build, source, target = sys.argv[1:]
+entry = next(e for e in json.load(open(build + "/compile_commands.json")) if e["file"] == source)
+words = shlex.split(entry["command"])
+words[words.index("-o") + 1] = target
+drop = {"-MD", "-O2", "-O3", "-g", "-DNDEBUG"}
+words = [w for w in words if w not in drop] + ["-O0", "-DNDEBUG", "--coverage", "-fprofile-update=atomic"]
+for flag in ("-MT", "-MF"):
+    if flag in words:
+        at = words.index(flag)
+        del words[at:at + 2]
+subprocess.run(words, cwd=entry["directory"], check=True)
+P
+}
+
+# link HARNESS OBJECT...: the harness of the build with these objects first: the archive's are not asked for then.
+link() {
+  local name=$1 words object
+  shift
+  words=$(ninja -C "$build" -t commands "fuzz/fuzz_$name" | tail -1)
+  words=${words#: && }
+  words=${words% && :}
+  for object in "$@"; do # those of an object library stand in the command one by one
+    words=${words/CMakeFiles\/aureole_cli.dir\/${object#"$folder"\/}/}
+  done
+  (cd "$build" && eval "${words/ -o fuzz\/fuzz_$name/ $* --coverage -o $folder\/fuzz_$name}")
+}
+
+sum() { # sum FILE...: lines, and those reached, of files of the tree
+  local file
+  for file in "$@"; do
+    gcov -n -o "$folder/$(dirname "$file")" "$folder/$file.gcno" 2>/dev/null | grep -A1 "^File '$top/$file'" | tail -1
+  done | sed 's/.*:\([0-9.]*\)% of \([0-9]*\)/\1 \2/' | awk '{ all += $2; hit += $1 * $2 / 100 } END { printf "%d %.0f\n", all, hit }'
+}
+
+status=0
+export AUREOLE_CACHE=
+echo '| parser | lines | seeds and corpus | and 1000 mutations |'
+echo '|---|---|---|---|'
+for row in "${parsers[@]}"; do
+  IFS='|' read -r title harnesses patterns <<<"$row"
+  files=() objects=()
+  for file in $patterns; do
+    files+=("$file")
+    objects+=("$folder/$file.o")
+    mkdir -p "$folder/$(dirname "$file")"
+    [ -e "$folder/$file.o" ] || compile "$file" "$folder/$file.o"
+  done
+  figures=()
+  for runs in 0 1000; do
+    for name in $harnesses; do
+      [ -x "$folder/fuzz_$name.$title" ] || { link "$name" "${objects[@]}"; mv "$folder/fuzz_$name" "$folder/fuzz_$name.$title"; }
+      corpus=()
+      for input in fuzz/corpus/"$name"/*; do [ -e "$input" ] && corpus+=("$top/$input"); done
+      (cd "$folder" && "./fuzz_$name.$title" --runs $runs --dictionary "$top/fuzz/keys.dict" "${corpus[@]}" >said 2>&1) ||
+        { tail -3 "$folder/said" >&2; exit 2; }
+    done
+    read -r lines reached < <(sum "${files[@]}")
+    figures+=("$(awk "BEGIN { printf \"%.1f\", 100 * $reached / $lines }")")
+  done
+  echo "| $title | $lines | ${figures[0]} % | ${figures[1]} % |"
+  awk "BEGIN { exit !(${figures[1]} >= 90) }" || status=1
+  if [ "${MISSED:-0}" = 1 ]; then
+    for file in "${files[@]}"; do
+      (cd "$folder" && gcov -t -o "$folder/$(dirname "$file")" "$folder/$file.gcno" 2>/dev/null |
+        awk -v file="$top/$file" '/:Source:/ { on = $0 ~ file } on && /#####/ { print }' | sed "s|^|$file|")
+    done >&2
+  fi
+done
+exit $status
