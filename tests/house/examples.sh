@@ -32,4 +32,7 @@ awk '$1 == "flux" { off = $2 - $4; flux = off < 1e-6 && off > -1e-6 } $1 == "tur
      END { exit !(flux && turned) }' transport.txt || fail "$(cat transport.txt)"
 # 32 charges at rest are the corners and faces of an icosahedron, exact to degree 5.
 awk '$1 == "charges" { exit !($2 < 1e-7) }' ambisonics.txt || fail "$(cat ambisonics.txt)"
+# The interval is a ten-thousandth of the factor, and the error within three of them.
+awk '{ value[$1] = $2 } END { off = value["off"]; half = value["interval"]
+       exit !(half > 0 && half <= 1e-4 * value["factor"] && off <= 3 * half && off >= -3 * half) }' estimate.txt || fail "$(cat estimate.txt)"
 exit 0
