@@ -133,15 +133,10 @@ bool aur_ranks_receive_any(aur_ranks *ranks, size_t from, aur_message *message) 
     return true;
 }
 
-/* Of those that a rank waits for before it ends: rank 0 for all, the others for rank 0. */
-bool aur_ranks_count_leave(const aur_ranks *ranks, const aur_message *message) {
-    return message->kind == AUR_MESSAGE_LEAVE && (ranks->carrier.rank == 0 || message->from == 0);
-}
-
 /* Whether a message may be taken for what it says; else it is gone. */
 static bool accept(aur_ranks *ranks, aur_message *message) {
     const bool asks = message->kind == AUR_MESSAGE_WANT || message->kind == AUR_MESSAGE_STOP;
-    ranks->left += aur_ranks_count_leave(ranks, message);
+    ranks->left += message->kind == AUR_MESSAGE_LEAVE;
     if (message->kind == AUR_MESSAGE_LEAVE)
         aur_ranks_fail(ranks, "rank %u has left the job%s%s", (unsigned)message->from,
                        message->size > 0 ? ": " : "", (const char *)message->data);

@@ -35,6 +35,7 @@ aur_result aur_carrier_find(aur_carrier *carrier, aur_error *error);
 
 typedef enum aur_message_kind {
     AUR_MESSAGE_LEAVE = 1, /* a: status; text: what was said */
+    AUR_MESSAGE_BYE,       /* of rank 0, when all have left: nobody sends anything any more */
     AUR_MESSAGE_PIECE,     /* of a broadcast; a: whether it is the last one */
     AUR_MESSAGE_PART,      /* what a rank adds to a sum; a: whether it is the last piece */
     AUR_MESSAGE_WANT,      /* rank r wants items */
@@ -81,9 +82,6 @@ bool aur_ranks_receive(aur_ranks *ranks, size_t from, aur_message *message);
 
 /* The same with any message, whatever step it is of, also after a failure. */
 bool aur_ranks_receive_any(aur_ranks *ranks, size_t from, aur_message *message);
-
-/* Whether it says that a rank has left which this one waits for before it ends. */
-bool aur_ranks_count_leave(const aur_ranks *ranks, const aur_message *message);
 
 /* Begins a step that all ranks do together. */
 void aur_ranks_begin(aur_ranks *ranks);

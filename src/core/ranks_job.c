@@ -115,18 +115,20 @@ aur_result aur_ranks_join(aur_error *error) {
     return aur_ranks_join_by(&carrier, error);
 }
 
-/* Takes what still comes until every other rank (rank 0 alone on others) has left. */
+/* Takes what still comes, so that nobody waits to send it, until every rank has left. */
 static int see_off(aur_ranks *ranks, int status, aur_error *error) {
-    const size_t others = ranks->carrier.rank == 0 ? ranks->carrier.count - 1 : 1;
+    const bool root = ranks->carrier.rank == 0;
+    bool over = false;
     long pause = 0;
-    while (ranks->left < others) {
+    while (!over && !(root && ranks->left == ranks->carrier.count - 1)) {
         aur_message message;
         if (!aur_ranks_receive_any(ranks, AUR_ANY_RANK, &message)) {
             aur_ranks_pause(&pause);
             continue;
         }
+        over = message.kind == AUR_MESSAGE_BYE;
         const bool leaves = message.kind == AUR_MESSAGE_LEAVE;
-        ranks->left += aur_ranks_count_leave(ranks, &message);
+        ranks->left += leaves;
         if (leaves && status == 0 && message.a != 0) {
             status = (int)message.a;
             aur_fail(error, AUR_ERROR_INTERNAL, "rank %u: %s", (unsigned)message.from,
@@ -134,6 +136,8 @@ static int see_off(aur_ranks *ranks, int status, aur_error *error) {
         }
         free(message.data);
     }
+    for (size_t to = 1; root && to < ranks->carrier.count; ++to)
+        aur_ranks_send(ranks, to, AUR_MESSAGE_BYE, 0, 0, 0, NULL);
     return status;
 }
 
@@ -151,8 +155,6 @@ int aur_ranks_leave(int status, const char *said, aur_error *error) {
     for (size_t to = 0; to < count; ++to)
         if (to != own && (own == 0 || to == 0 || failed))
             aur_ranks_send(ranks, to, AUR_MESSAGE_LEAVE, (uint64_t)status, 0, strlen(said), said);
-    for (size_t i = 0; i < ranks->kept_count; ++i)
-        ranks->left += aur_ranks_count_leave(ranks, &ranks->kept[i]);
     status = see_off(ranks, status, error);
     ranks->carrier.finish(ranks->carrier.state);
     for (size_t i = 0; i < ranks->kept_count; ++i)

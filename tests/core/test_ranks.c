@@ -272,10 +272,29 @@ static void a_rank_of_its_own_is_told(void **state) {
     run(differ, 7);
 }
 
+/* A rank that has failed still takes what its parent is about to send, more than a socket holds. */
+static int tires(size_t rank) {
+    enum { LONG = 3 << 20 };
+    if (rank == 3) {
+        aur_ranks_fail(aur_ranks_here(), "tired");
+        return 7;
+    }
+    size_t size = rank == 0 ? LONG : 0;
+    char *data = rank == 0 ? calloc(LONG, 1) : NULL;
+    WANT(aur_ranks_broadcast(aur_ranks_here(), &data, &size, NULL) == AUR_OK && size == LONG);
+    free(data);
+    return 0;
+}
+
+static void nobody_waits_for_a_tired_rank(void **state) {
+    (void)state;
+    run(tires, 7);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(ranks_say_the_same), cmocka_unit_test(loops_are_shared),
-        cmocka_unit_test(a_failure_is_everybodys), cmocka_unit_test(any_rank_may_stop),
-        cmocka_unit_test(a_rank_of_its_own_is_told)};
+        cmocka_unit_test(ranks_say_the_same),        cmocka_unit_test(loops_are_shared),
+        cmocka_unit_test(a_failure_is_everybodys),   cmocka_unit_test(any_rank_may_stop),
+        cmocka_unit_test(a_rank_of_its_own_is_told), cmocka_unit_test(nobody_waits_for_a_tired_rank)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
