@@ -151,7 +151,7 @@ const lab_experiment lab_factors_coverage = {
     .summary = "how often intervals of view factors, sky factors and radiosities hold",
     .columns = lab_tally_of_rays,
     .takes_no_set = "it judges intervals of the program's own points",
-    .seconds = 300,
-    .quick_seconds = 8,
+    .seconds = 3,
+    .quick_seconds = 0.4,
     .run = run,
 };

@@ -156,7 +156,7 @@ const lab_experiment lab_picture_coverage = {
     .summary = "how often intervals of pictures' errors and of measures of randomised sets hold",
     .columns = lab_tally_of_samples,
     .takes_no_set = "it judges intervals of the program's own points",
-    .seconds = 300,
-    .quick_seconds = 8,
+    .seconds = 80,
+    .quick_seconds = 3.3,
     .run = run,
 };

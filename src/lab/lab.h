@@ -28,7 +28,8 @@ typedef struct lab_experiment {
 
     const report_plot *plots; /* NULL: none */
     const char *takes_no_set; /* why --set adds no row; NULL: it does */
-    /* Processor seconds that it took when it was written: for the estimate before it starts. */
+    /* Processor seconds, as measured or as those of the quick form and the counts let one expect: for the
+     * estimate before it starts. */
     double seconds, quick_seconds;
 
     /* Uses the functions below; what it returns ends the run. */
