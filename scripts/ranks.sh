@@ -13,11 +13,11 @@ trap 'rm -rf "$folder"' EXIT
 cd "$folder" || exit 2
 box=$source/scenes/cornell-box/cornell-box.xml
 works=("render $box --width 16 --height 16 --spp 1 --stats -o a.exr"
-       "render $box --width 512 --height 512 --spp 32 --stats -o a.exr"
+       "render $box --width 512 --height 512 --spp 64 --stats -o a.exr"
        "render $box --width 512 --height 512 --spp 8 --integrator finalgather --stats -o a.exr"
        "render $source/scenes/keller/cube.xml --width 128 --height 128 --integrator radiosity:paths=4194304 --stats -o a.exr"
-       "weights spherical-fibonacci -n 512 --lobe cosine --lobe2 phong:50 --n2 512 --angles 64 --table a.table"
-       "measure spherical-fibonacci -n 1000 -m cap")
+       "weights spherical-fibonacci -n 512 --lobe cosine --lobe2 phong:50 --n2 512 --angles 16 --table a.table"
+       "measure spherical-fibonacci -n 800 -m cap")
 TIMEFORMAT='%U %S'
 seconds() { # processor seconds of a command and its children; what it says goes to `said`
   { time "$@" >/dev/null 2>said; } 2>&1 | awk '{ print $1 + $2 }'
@@ -51,6 +51,6 @@ for work in "${works[@]}"; do
   printf '| `%s` | 1 | %.2f | 1 | | | |\n' "$name" "$one"
   for ranks in 2 4 8; do
     IFS='|' read -r many ratio rest <row.$ranks
-    printf '| | %d | %s| %.2f |%s |\n' "$ranks" "$many" "$ratio" "$rest"
+    printf '| | %d | %s| %.2f |%s |\n' "$ranks" "$many" "${ratio// /}" "$rest"
   done
 done
