@@ -250,7 +250,7 @@ static void test_bad_input(void **state) {
     const double off[] = {0, 0, 1, 0, 0.5, 0.5};
     assert_int_equal(aur_weights_solve(2, off, 1, potentials, NULL, 2, weights, NULL, NULL, &error),
                      AUR_ERROR_ARGUMENT);
-    assert_non_null(strstr(error.message, "point 1"));
+    assert_non_null(strstr(error.message, "point 2"));
     double value;
     assert_int_equal(aur_worst_case_error(2, off, NULL, potential, 1, NULL, &value, &error),
                      AUR_ERROR_ARGUMENT);
