@@ -89,7 +89,7 @@ static void glazed_window(lab_case *made, double transmissivity) {
     lab_case_put(made, SKY("cie-overcast"));
     put_room(made);
     lab_case_patch(made, &window, inside);
-    /* No shadow ray finds the sky through glass: few points, with many directions each. */
+    /* With the directions of other cases the worst of 20 points is off by .35 %: few points, with many. */
     static const size_t chosen[] = {0, 2, 7, 13, 18};
     made->more = 4;
     const pane closed = {transmissivity, lab_pane_closed}, series = {transmissivity, lab_pane_series};
