@@ -85,8 +85,10 @@ static aur_result find_bias(const aur_choice *choice, aur_rivals *rivals, double
             return result;
         *bias =
             aur_replicas_bias(&rivals->even.replicas, &rivals->corrected.replicas, mean, choice->confidence);
+        /* At best the bound falls as samples grow. */
+        const double growth = fmax(2.0, sqrt(bias->high) / most);
         if (sqrt(bias->high) <= most || sqrt(bias->low) > most ||
-            2.0 * (rays_of(&rivals->even) + rays_of(&rivals->corrected)) > most_rays)
+            growth * (rays_of(&rivals->even) + rays_of(&rivals->corrected)) > most_rays)
             return AUR_OK;
     }
 }
@@ -135,11 +137,7 @@ static void add_spent(const aur_trial *trial, aur_render_statistics *sum) {
 aur_result aur_ask_try(aur_renderer *renderer, const aur_render_options *options, aur_choice *choice,
                        aur_error *error) {
     aur_trial *const path = &choice->trial;
-    aur_result result = AUR_OK;
-    for (uint32_t samples = 1; result == AUR_OK && path->interval.high > FIRST_ERROR * choice->error &&
-                               !is_black(path) && samples < AUR_SAMPLES_PER_PIXEL_MAX;
-         samples *= 2)
-        result = render_evenly(choice, path, samples, error);
+    aur_result result = render_to(choice, path, FIRST_ERROR * choice->error, INFINITY, error);
     if (result != AUR_OK || path->interval.high <= choice->error || is_black(path))
         return result;
     aur_rivals rivals = {0};
