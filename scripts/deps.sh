@@ -11,8 +11,8 @@ packages=(
   # plots, unit tests
   gnuplot-nox libcmocka-dev
 )
-# many machines
-[ "${1:-}" != --all ] || packages+=(libopenmpi-dev openmpi-bin)
+# many machines; the test of the tables beside other packages
+[ "${1:-}" != --all ] || packages+=(libopenmpi-dev openmpi-bin python3-numpy)
 
 command -v dpkg-query >/dev/null || {
   echo "deps.sh: not a Debian system; install the equivalents of: ${packages[*]}" >&2
