@@ -13,7 +13,7 @@ enum { SET_CAPACITY = 3, MOST_SCRAMBLES = 16 };
 
 typedef struct gather_study {
     lab_run *run;
-    aur_renderer *renderer;
+    lab_stage stage;
     size_t side; /* pixels a side */
     size_t photons;
     size_t reference_directions;
@@ -29,21 +29,15 @@ typedef struct gather_study {
 static const char *const columns[] = {"component", "pattern", "directions", "rmse",       "rmse_low",
                                       "rmse_high", "ratio",   "ratio_low",  "ratio_high", NULL};
 
-static aur_result render(const gather_study *study, const char *integrator, size_t samples, size_t side,
-                         uint64_t seed, aur_image **image, aur_error *error) {
-    const lab_options *const lab = lab_run_options(study->run);
-    const aur_render_options options = {.size = sizeof options,
-                                        .integrator = integrator,
-                                        .sampler = "sobol",
-                                        .filter = "box",
-                                        .samples_per_pixel = samples,
-                                        .seed = seed,
-                                        .width = side,
-                                        .height = side,
-                                        .threads = lab->threads,
-                                        .progress = lab->progress,
-                                        .warnings = lab->warnings};
-    return aur_renderer_render(study->renderer, &options, image, NULL, error);
+static aur_result render(const gather_study *study, const char *integrator, size_t samples, uint64_t seed,
+                         aur_image **image, aur_error *error) {
+    const lab_rendering how = {.renderer = study->stage.renderer,
+                               .integrator = integrator,
+                               .samples = samples,
+                               .seed = seed,
+                               .width = study->side,
+                               .height = study->side};
+    return lab_render(study->run, &how, image, error);
 }
 
 /* One component of the indirect light at the pixel centres. Every shading point has a randomisation of its
@@ -57,7 +51,7 @@ static aur_result render_component(const gather_study *study, const char *compon
              "photons_per_texel=64,pattern=%s,"
              "diffuse_samples=%zu,glossy_samples=%zu,pattern_seed=%zu",
              component, study->photons, set, directions, directions, scramble);
-    return render(study, integrator, 1, study->side, 0, image, error);
+    return render(study, integrator, 1, 0, image, error);
 }
 
 /* The reference of a component, made when it is first needed. */
@@ -98,30 +92,15 @@ static aur_result measure(gather_study *study, const char *component, const char
     return result != AUR_OK ? result : lab_keep(study->run, key, study->scrambles, mse, error);
 }
 
-static double root(double value) {
-    return sqrt(fmax(0.0, value));
-}
-
 /* The row of one pattern; `base` is the first pattern's mean square errors with the same number of
- * directions. The interval of the ratio follows from those of the two means, which are independent. */
+ * directions. */
 static void add_row(const gather_study *study, const char *component, const char *set, size_t directions,
                     const double *mse, const double *base) {
-    double mean, half, base_mean, base_half;
-    lab_mean_interval(study->scrambles, mse, &mean, &half);
-    lab_mean_interval(study->scrambles, base, &base_mean, &base_half);
-    const double relative =
-        sqrt(half / mean * (half / mean) + base_half / base_mean * (base_half / base_mean));
-    const double ratio = mean / base_mean;
-    lab_run *const run = study->run;
-    lab_text(run, component);
-    lab_text(run, set);
-    lab_number(run, (double)directions);
-    lab_number(run, root(mean));
-    lab_number(run, root(mean - half));
-    lab_number(run, root(mean + half));
-    lab_number(run, root(ratio));
-    lab_number(run, mse == base ? 1.0 : root(ratio * (1.0 - relative)));
-    lab_number(run, mse == base ? 1.0 : root(ratio * (1.0 + relative)));
+    const lab_interval rmse = lab_root_mean(study->scrambles, mse);
+    const lab_interval ratio = lab_root_ratio(study->scrambles, mse, study->scrambles, base);
+    lab_row(study->run, (const char *const[]){component, set, NULL}, 7,
+            (const double[]){(double)directions, rmse.value, rmse.low, rmse.high, ratio.value, ratio.low,
+                             ratio.high});
 }
 
 /* Whether the intervals of two patterns are apart, the first below. */
@@ -167,10 +146,9 @@ static aur_result measure_bias(const gather_study *study, aur_error *error) {
         aur_image *pictures[2] = {NULL}, *small[2] = {NULL};
         static const lab_picture_place places[2] = {{"whole light", "finalgather", .exposure = 0.5},
                                                     {"whole light", "path", true, 0.5}};
-        aur_result result =
-            render(study, integrator, study->path_samples / 4, study->side, 1, &pictures[0], error);
+        aur_result result = render(study, integrator, study->path_samples / 4, 1, &pictures[0], error);
         if (result == AUR_OK)
-            result = render(study, "path", study->path_samples, study->side, 2, &pictures[1], error);
+            result = render(study, "path", study->path_samples, 2, &pictures[1], error);
         for (size_t i = 0; i < 2 && result == AUR_OK; ++i) {
             result = lab_picture(study->run, &places[i], pictures[i], error);
             if (result == AUR_OK)
@@ -211,18 +189,14 @@ static aur_result run(lab_run *run, aur_error *error) {
                           .path_samples = options->quick ? 32 : 1024,
                           .set_count = options->set != NULL ? 3 : 2,
                           .sets = {"spherical-fibonacci", "sobol", options->set}};
-    aur_scene *scene = NULL;
-    aur_result result = lab_load_scene(run, "cornell-box/glossy.xml", 0, NULL, &scene, error);
-    if (result == AUR_OK)
-        result = aur_renderer_create(scene, &study.renderer, error);
-    if (result == AUR_OK)
+    aur_result result = lab_stage_open(run, "cornell-box/glossy.xml", 0, NULL, &study.stage, error);
+    if (result == AUR_OK && study.stage.renderer != NULL)
         result = study_component(&study, "diffuse", error);
-    if (result == AUR_OK)
+    if (result == AUR_OK && study.stage.renderer != NULL)
         result = study_component(&study, "glossy", error);
-    if (result == AUR_OK)
+    if (result == AUR_OK && study.stage.renderer != NULL)
         result = measure_bias(&study, error);
-    aur_renderer_destroy(study.renderer);
-    aur_scene_destroy(scene);
+    lab_stage_close(&study.stage);
     return result;
 }
 

@@ -58,7 +58,7 @@ static const char *const columns[] = {
 typedef struct table_study {
     lab_run *run;
     const table_scene *scene;
-    aur_renderer *renderer;
+    lab_stage stage;
     bool quick;
     size_t directions, more_directions; /* where the RMSE is compared, and where its slope is taken from */
     size_t reference_directions, photons;
@@ -69,7 +69,6 @@ typedef struct table_study {
 
 static aur_result render(const table_study *study, const char *set, const char *map, size_t directions,
                          size_t scramble, aur_image **image, aur_error *error) {
-    const lab_options *const lab = lab_run_options(study->run);
     char integrator[320];
     snprintf(integrator, sizeof integrator,
              "finalgather:component=%s,direct=none,pixel=centre,density=same,rotations=0,edges=0,short_rays="
@@ -77,27 +76,11 @@ static aur_result render(const table_study *study, const char *set, const char *
              "photons_per_texel=64,"
              "pattern=%s,map=%s,diffuse_samples=%zu,glossy_samples=%zu,pattern_seed=%zu",
              study->component, study->photons, set, map, directions, directions, scramble);
-    const aur_render_options options = {.size = sizeof options,
-                                        .integrator = integrator,
-                                        .sampler = "sobol",
-                                        .filter = "box",
-                                        .samples_per_pixel = 1,
-                                        .width = study->quick ? 20 : study->scene->width,
-                                        .height = study->quick ? 20 : study->scene->height,
-                                        .threads = lab->threads,
-                                        .progress = lab->progress,
-                                        .warnings = lab->warnings};
-    return aur_renderer_render(study->renderer, &options, image, NULL, error);
-}
-
-static double mean_product(const aur_image *x, const aur_image *a, const aur_image *b) {
-    const size_t count = aur_image_width(x) * aur_image_height(x) * aur_image_channel_count(x);
-    const float *const of_x = aur_image_data(x), *const of_a = aur_image_data(a);
-    const float *const of_b = aur_image_data(b);
-    double sum = 0.0;
-    for (size_t i = 0; i < count; ++i)
-        sum += ((double)of_x[i] - (double)of_a[i]) * ((double)of_x[i] - (double)of_b[i]);
-    return sum / (double)count;
+    const lab_rendering how = {.renderer = study->stage.renderer,
+                               .integrator = integrator,
+                               .width = study->quick ? 20 : study->scene->width,
+                               .height = study->quick ? 20 : study->scene->height};
+    return lab_render(study->run, &how, image, error);
 }
 
 typedef struct table_cell {
@@ -133,7 +116,7 @@ static aur_result measure(table_study *study, const char *set, const char *map, 
         result = render(study, set, map, directions, 1 + k, &image, error);
         if (result != AUR_OK)
             return result;
-        mse[k] = mean_product(image, study->references[0], study->references[1]);
+        mse[k] = lab_mean_product(image, study->references[0], study->references[1]);
         aur_image_destroy(image);
         if ((k + 1) % batch != 0)
             continue;
@@ -187,24 +170,12 @@ static aur_result add_rival(table_study *study, size_t component, size_t map, si
     if (result != AUR_OK)
         return result;
     const double half = hypot(cell.relative_half, base.relative_half), ratio = cell.mean / base.mean;
-    lab_run *const run = study->run;
-    lab_text(run, study->scene->name);
-    lab_text(run, study->component);
-    lab_text(run, maps[map]);
-    lab_text(run, set);
-    lab_number(run, root(cell.mean));
-    lab_number(run, root(ratio));
-    lab_number(run, root(ratio * (1.0 - half)));
-    lab_number(run, root(ratio * (1.0 + half)));
-    lab_number(run, rays_needed(study, cell.mean, more.mean, base.mean));
-    if (rival < RIVALS) {
-        const double *const published = study->scene->published[component][map][rival];
-        lab_number(run, published[1]);
-        lab_number(run, 1.0 + 0.01 * published[0]);
-    } else {
-        lab_text(run, NULL);
-        lab_text(run, NULL);
-    }
+    const double *const published =
+        rival < RIVALS ? study->scene->published[component][map][rival] : (const double[]){NAN, NAN};
+    lab_row(study->run, (const char *const[]){study->scene->name, study->component, maps[map], set, NULL}, 7,
+            (const double[]){root(cell.mean), root(ratio), root(ratio * (1.0 - half)),
+                             root(ratio * (1.0 + half)), rays_needed(study, cell.mean, more.mean, base.mean),
+                             published[1], 1.0 + 0.01 * published[0]});
     ++study->rows;
     study->above += ratio * (1.0 - half) > 1.0;
     study->not_below += ratio * (1.0 + half) >= 1.0;
@@ -233,22 +204,14 @@ static aur_result study_component(table_study *study, size_t component, aur_erro
 }
 
 static aur_result study_scene(table_study *study, aur_error *error) {
-    aur_scene *scene = NULL;
     const char *const file = study->quick ? study->scene->quick_file : study->scene->file;
     if (file == NULL)
         return AUR_OK;
-    aur_result result = lab_load_scene(study->run, file, 0, NULL, &scene, error);
-    if (result == AUR_ERROR_OPEN) {
-        lab_note(study->run, "%s left out, scripts/scenes.sh makes its meshes: %s", file, error->message);
-        return AUR_OK;
-    }
-    if (result == AUR_OK)
-        result = aur_renderer_create(scene, &study->renderer, error);
-    for (size_t component = 0; component < 2 && result == AUR_OK; ++component)
+    aur_result result = lab_stage_open(study->run, file, 0, NULL, &study->stage, error);
+    for (size_t component = 0; component < 2 && study->stage.renderer != NULL && result == AUR_OK;
+         ++component)
         result = study_component(study, component, error);
-    aur_renderer_destroy(study->renderer);
-    study->renderer = NULL;
-    aur_scene_destroy(scene);
+    lab_stage_close(&study->stage);
     return result;
 }
 
@@ -266,9 +229,10 @@ static aur_result run(lab_run *run, aur_error *error) {
         result = study_scene(&study, error);
     }
     if (result == AUR_OK)
-        lab_note(run,
-                 "%zu rows: spherical Fibonacci better beyond the interval in %zu, worse beyond it in %zu",
-                 study.rows, study.above, study.rows - study.not_below);
+        lab_claim(run, study.rows == study.not_below,
+                  "spherical Fibonacci is never outperformed: of %zu rows better beyond the interval in %zu, "
+                  "worse beyond it in %zu",
+                  study.rows, study.above, study.rows - study.not_below);
     return result;
 }
 

@@ -9,23 +9,6 @@ enum { SIZES = 7, SMALLEST = 16, LARGEST = SMALLEST << (SIZES - 1) };
 
 static const char *const columns[] = {"set", "exponent", "n", "equal", "optimal", "gain_percent", NULL};
 
-typedef struct line {
-    double x[SIZES], y[SIZES];
-} line;
-
-static double slope(const line *l) {
-    double x = 0.0, y = 0.0, xx = 0.0, xy = 0.0;
-    for (size_t i = 0; i < SIZES; ++i) {
-        x += l->x[i] / SIZES;
-        y += l->y[i] / SIZES;
-    }
-    for (size_t i = 0; i < SIZES; ++i) {
-        xx += (l->x[i] - x) * (l->x[i] - x);
-        xy += (l->x[i] - x) * (l->y[i] - y);
-    }
-    return xy / xx;
-}
-
 /* Root mean squares over seeds. */
 static aur_result measure(const lab_samples *first, size_t seeds, const aur_potential *potential,
                           double *room, double rms[2], aur_error *error) {
@@ -54,7 +37,7 @@ static aur_result measure(const lab_samples *first, size_t seeds, const aur_pote
 static aur_result study(lab_run *run, const char *set, double exponent, double *room, aur_error *error) {
     aur_potential *potential;
     aur_result result = lab_lobe_potential(exponent, 1.5, &potential, error);
-    line equal, optimal;
+    double counts[SIZES], equal[SIZES], optimal[SIZES];
     const bool fixed = lab_scrambling(set) == AUR_SCRAMBLE_ROTATE; /* a rotation changes no weight */
     const size_t seeds = fixed ? 1 : lab_run_options(run)->quick ? 4 : 40;
     for (size_t i = 0; i < SIZES && result == AUR_OK; ++i) {
@@ -64,19 +47,15 @@ static aur_result study(lab_run *run, const char *set, double exponent, double *
                          room, rms, error);
         if (result != AUR_OK)
             break;
-        equal.x[i] = optimal.x[i] = log((double)count);
-        equal.y[i] = log(rms[0]);
-        optimal.y[i] = log(rms[1]);
-        lab_text(run, set);
-        lab_number(run, exponent);
-        lab_number(run, (double)count);
-        lab_number(run, rms[0]);
-        lab_number(run, rms[1]);
-        lab_number(run, 100.0 * (1.0 - rms[1] / rms[0]));
+        counts[i] = (double)count;
+        equal[i] = rms[0];
+        optimal[i] = rms[1];
+        lab_row(run, (const char *const[]){set, NULL}, 5,
+                (const double[]){exponent, counts[i], rms[0], rms[1], 100.0 * (1.0 - rms[1] / rms[0])});
     }
     if (result == AUR_OK)
         lab_note(run, "%s, m = %g: slope %.3f with equal weights, %.3f with optimal ones", set, exponent,
-                 slope(&equal), slope(&optimal));
+                 lab_slope(SIZES, counts, equal).value, lab_slope(SIZES, counts, optimal).value);
     aur_potential_destroy(potential);
     return result;
 }

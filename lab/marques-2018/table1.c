@@ -66,7 +66,7 @@ static const subject subjects[] = {
 typedef struct picture_study {
     lab_run *run;
     const subject *subject;
-    aur_renderer *renderer;
+    lab_stage stage;
     aur_image *reference, *mask;
     size_t side, photons, scrambles, reference_directions;
     size_t set_count;
@@ -79,24 +79,17 @@ static const char *const columns[] = {"scene",        "set",       "directions",
 
 static aur_result render(const picture_study *study, const char *set, const char *keys, size_t diffuse,
                          size_t glossy, size_t seed, aur_image **image, aur_error *error) {
-    const lab_options *const lab = lab_run_options(study->run);
     char integrator[400];
     snprintf(integrator, sizeof integrator,
              "finalgather:%s,pixel=centre,edges=0,short_rays=0,decorrelation=random,photons=%zu,pattern=%s,"
              "diffuse_samples=%zu,"
              "glossy_samples=%zu,pattern_seed=%zu,%s",
              study->subject->light, study->photons, set, diffuse, glossy, seed, keys);
-    const aur_render_options options = {.size = sizeof options,
-                                        .integrator = integrator,
-                                        .sampler = "sobol",
-                                        .filter = "box",
-                                        .samples_per_pixel = 1,
-                                        .width = study->side,
-                                        .height = study->side,
-                                        .threads = lab->threads,
-                                        .progress = lab->progress,
-                                        .warnings = lab->warnings};
-    return aur_renderer_render(study->renderer, &options, image, NULL, error);
+    const lab_rendering how = {.renderer = study->stage.renderer,
+                               .integrator = integrator,
+                               .width = study->side,
+                               .height = study->side};
+    return lab_render(study->run, &how, image, error);
 }
 
 static double value_at(const aur_image *image, size_t pixel, size_t channel) {
@@ -132,41 +125,21 @@ static double published_percent(const subject *of, const char *set, way which) {
     return 0.0;
 }
 
-static double root(double value) {
-    return sqrt(fmax(0.0, value));
-}
-
 /* What one way has over OSWA, in percent: the ratio of two means over the same scramblings, with the interval
  * of its linear form. */
 static void add_row(const picture_study *study, const char *set, way which, const double *mse,
                     const double *base, double picture) {
-    lab_run *const run = study->run;
-    double mean, half, base_mean, base_half, off[MOST_SCRAMBLES], nothing, spread;
-    lab_mean_interval(study->scrambles, mse, &mean, &half);
-    lab_mean_interval(study->scrambles, base, &base_mean, &base_half);
-    const double ratio = mean / base_mean;
-    for (size_t k = 0; k < study->scrambles; ++k)
-        off[k] = (mse[k] - ratio * base[k]) / base_mean;
-    lab_mean_interval(study->scrambles, off, &nothing, &spread);
+    const lab_interval rmse = lab_root_mean(study->scrambles, mse);
+    const lab_interval ratio = lab_root_ratio_paired(study->scrambles, mse, base);
+    const double known = published_percent(study->subject, set, which);
     char directions[32];
     snprintf(directions, sizeof directions, "%zu+%zu", study->subject->directions[0],
              study->subject->directions[1]);
-    lab_text(run, study->subject->name);
-    lab_text(run, set);
-    lab_text(run, directions);
-    lab_text(run, ways[which].name);
-    lab_number(run, root(mean));
-    lab_number(run, root(mean - half));
-    lab_number(run, root(mean + half));
-    lab_number(run, 100.0 * (root(ratio) - 1.0));
-    lab_number(run, 100.0 * (root(ratio - spread) - 1.0));
-    lab_number(run, 100.0 * (root(ratio + spread) - 1.0));
-    lab_number(run, root(picture));
-    const double known = published_percent(study->subject, set, which);
-    if (known != 0.0)
-        lab_number(run, known);
-    else
-        lab_text(run, NULL);
+    lab_row(study->run, (const char *const[]){study->subject->name, set, directions, ways[which].name, NULL},
+            8,
+            (const double[]){rmse.value, rmse.low, rmse.high, 100.0 * (ratio.value - 1.0),
+                             100.0 * (ratio.low - 1.0), 100.0 * (ratio.high - 1.0), sqrt(picture),
+                             known != 0.0 ? known : NAN});
 }
 
 /* The reference, and which pixels have both lobes; made when they are first needed. */
@@ -234,10 +207,7 @@ static aur_result study_set(picture_study *study, const char *set, aur_error *er
         if (result != AUR_OK)
             return result;
         add_row(study, set, (way)w, mse[w], mse[OSWA], picture);
-        double mean, base, half;
-        lab_mean_interval(study->scrambles, mse[w], &mean, &half);
-        lab_mean_interval(study->scrambles, mse[OSWA], &base, &half);
-        over[w] = 100.0 * (root(mean / base) - 1.0);
+        over[w] = 100.0 * (lab_root_ratio_paired(study->scrambles, mse[w], mse[OSWA]).value - 1.0);
     }
     lab_note(study->run,
              "%s, %s: over OSWA: MIS %+.1f %%, OSW %+.1f %%, equal weights %+.1f %%; as published %+.1f %%, "
@@ -247,26 +217,16 @@ static aur_result study_set(picture_study *study, const char *set, aur_error *er
 }
 
 static aur_result study_subject(picture_study *study, aur_error *error) {
-    aur_scene *scene = NULL;
     const aur_definition environment = {"environment", study->subject->environment};
     aur_result result =
-        lab_load_scene(study->run, study->subject->file, study->subject->environment != NULL ? 1 : 0,
-                       &environment, &scene, error);
-    if (result != AUR_OK && study->subject != subjects) {
-        /* The box is always there; the others are made by scripts/scenes.sh. */
-        lab_note(study->run, "%s: left out: %s", study->subject->name, error->message);
-        return AUR_OK;
-    }
-    if (result == AUR_OK)
-        result = aur_renderer_create(scene, &study->renderer, error);
-    for (size_t s = 0; s < study->set_count && result == AUR_OK; ++s)
+        lab_stage_open(study->run, study->subject->file, study->subject->environment != NULL ? 1 : 0,
+                       &environment, &study->stage, error);
+    for (size_t s = 0; s < study->set_count && study->stage.renderer != NULL && result == AUR_OK; ++s)
         result = lab_forgive(study->run, study->sets[s], study_set(study, study->sets[s], error), error);
     aur_image_destroy(study->reference);
     aur_image_destroy(study->mask);
-    aur_renderer_destroy(study->renderer);
-    aur_scene_destroy(scene);
     study->reference = study->mask = NULL;
-    study->renderer = NULL;
+    lab_stage_close(&study->stage);
     return result;
 }
 

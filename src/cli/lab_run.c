@@ -89,6 +89,8 @@ static void summarize(schedule *plan, const lab_experiment *experiment, const la
     report_integer(plan->summary, report_rows(result->table));
     for (size_t i = 0; i < LAB_UNPUBLISHED; ++i)
         report_integer(plan->summary, result->verdicts[i]);
+    report_integer(plan->summary, result->claims);
+    report_integer(plan->summary, result->claims_held);
     report_number(plan->summary, result->seconds, 3);
 }
 
@@ -184,8 +186,8 @@ static int choose(schedule *plan, size_t count, char **names) {
 }
 
 int cli_lab_run(cli_lab *command, size_t count, char **names) {
-    static const char *const columns[] = {"experiment", "state",  "rows",       "agree",
-                                          "within",     "differ", "cpu_seconds"};
+    static const char *const columns[] = {"experiment", "state",  "rows", "agree",      "within",
+                                          "differ",     "claims", "hold", "cpu_seconds"};
     lab_options *const lab = &command->lab;
     schedule plan = {.command = command};
     int status = choose(&plan, count, names);

@@ -1,19 +1,14 @@
-/* What an experiment calls: cells, notes, pictures, what is kept. */
+/* What an experiment calls: cells, notes, what is kept. */
 #include <aureole/ranks.h>
-#include <aureole/statistics.h>
 #include <aureole/text.h>
 #include <fnmatch.h>
+#include <math.h>
 #include <stdarg.h>
 #include <string.h>
 #include <time.h>
-#include <unistd.h>
 
 #include "lab/run.h"
 #include "lab/verdict.h"
-
-#ifndef AUR_SCENES_FOLDER
-#define AUR_SCENES_FOLDER "scenes"
-#endif
 
 enum { SAVE_EVERY = 5 }; /* seconds */
 
@@ -73,6 +68,26 @@ void lab_number(lab_run *run, double value) {
     cell_done(run);
 }
 
+void lab_row(lab_run *run, const char *const *texts, size_t count, const double *numbers) {
+    for (; *texts != NULL; ++texts)
+        lab_text(run, *texts);
+    for (size_t i = 0; i < count; ++i)
+        if (isnan(numbers[i]))
+            lab_text(run, NULL);
+        else
+            lab_number(run, numbers[i]);
+}
+
+void lab_table_row(report_table *table, const char *const *texts, size_t count, const double *numbers) {
+    for (; *texts != NULL; ++texts)
+        report_text(table, *texts);
+    for (size_t i = 0; i < count; ++i)
+        if (isnan(numbers[i]))
+            report_text(table, NULL);
+        else
+            report_number(table, numbers[i], 4);
+}
+
 bool lab_wants(const lab_run *run, const char *name) {
     return run->options.rows == NULL || fnmatch(run->options.rows, name, 0) == 0;
 }
@@ -83,6 +98,17 @@ void lab_note(lab_run *run, const char *format, ...) {
     vfprintf(run->notes, format, arguments);
     va_end(arguments);
     fputc('\n', run->notes);
+}
+
+void lab_claim(lab_run *run, bool holds, const char *format, ...) {
+    va_list arguments;
+    va_start(arguments, format);
+    fputs("claim: ", run->notes);
+    vfprintf(run->notes, format, arguments);
+    va_end(arguments);
+    fputs(holds ? ": holds\n" : ": does not hold\n", run->notes);
+    ++run->result->claims;
+    run->result->claims_held += holds;
 }
 
 report_table *lab_table(lab_run *run, const char *name, const char *const *columns) {
@@ -124,62 +150,4 @@ aur_result lab_forgive(lab_run *run, const char *set, aur_result result, const a
         lab_text(run, NULL);
     lab_note(run, "%s left out: %s", set, error->message);
     return AUR_OK;
-}
-
-/* --- scenes and pictures */
-
-aur_result lab_load_scene(const lab_run *run, const char *path, size_t definition_count,
-                          const aur_definition *definitions, aur_scene **scene, aur_error *error) {
-    const char *folder = run->options.scenes;
-    if (folder == NULL) {
-        bool here = access("scenes", R_OK) == 0;
-        aur_ranks_agree(sizeof here, &here);
-        folder = here ? "scenes" : AUR_SCENES_FOLDER;
-    }
-    char full[AUR_ERROR_FILE_CAPACITY];
-    snprintf(full, sizeof full, "%s/%s", folder, path);
-    const aur_scene_options options = {.size = sizeof options,
-                                       .definition_count = definition_count,
-                                       .definitions = definitions,
-                                       .warnings = run->options.warnings};
-    return aur_scene_load(full, &options, scene, error);
-}
-
-/* The row of a picture; one that was made before an interruption has it already. */
-static void list_picture(lab_run *run, const lab_picture_place *place, const char *path) {
-    const char *const file = strrchr(path, '/') + 1;
-    for (size_t i = 0; i < report_rows(run->pictures); ++i)
-        if (strcmp(report_cell(run->pictures, i, 2), file) == 0)
-            return;
-    report_text(run->pictures, place->view);
-    report_text(run->pictures, place->name);
-    report_text(run->pictures, file);
-    report_text(run->pictures, place->reference ? "reference" : "");
-    report_number(run->pictures, place->exposure, 4);
-}
-
-aur_result lab_picture(lab_run *run, const lab_picture_place *place, const aur_image *image,
-                       aur_error *error) {
-    static const char *const extensions[] = {"exr", "png"};
-    char path[AUR_ERROR_FILE_CAPACITY], name[256];
-    snprintf(name, sizeof name, "%s%s%s", place->view != NULL ? place->view : "",
-             place->view != NULL ? "-" : "", place->name);
-    const aur_image_write_options options = {
-        .size = sizeof options, .exposure = (float)place->exposure, .half = true};
-    for (size_t i = 2; i-- > 0;) {
-        lab_run_path(run, name, extensions[i], path, sizeof path);
-        const aur_result result = aur_image_write(path, image, &options, error);
-        if (result != AUR_OK)
-            return result;
-    }
-    list_picture(run, place, path);
-    return lab_run_save(run, run->pictures, "pictures", NULL, false, error);
-}
-
-void lab_mean_interval(size_t count, const double *values, double *mean, double *half) {
-    aur_moments moments = {0};
-    for (size_t i = 0; i < count; ++i)
-        aur_moments_add(&moments, values[i]);
-    *mean = moments.mean;
-    *half = aur_moments_interval(&moments, 0.95);
 }

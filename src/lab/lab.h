@@ -58,6 +58,7 @@ typedef struct lab_result {
     char *notes;                   /* lines; NULL when there are none */
     char *files;                   /* the paths of what was written, a line each; or NULL */
     size_t verdicts[LAB_VERDICTS]; /* rows of each */
+    size_t claims, claims_held;    /* of those that a paper makes in words */
     double seconds;                /* of the processors, with those before interruptions */
 } lab_result;
 
@@ -77,11 +78,19 @@ const lab_options *lab_run_options(const lab_run *run);
 /* The cells of the table, row by row. */
 void lab_text(lab_run *run, const char *text); /* NULL: empty, as where nothing is published */
 void lab_number(lab_run *run, double value);
+/* A row at once: texts (NULL after the last), and then numbers, of which NaN leaves its cell empty. */
+void lab_row(lab_run *run, const char *const *texts, size_t count, const double *numbers);
+/* The same of a further table. */
+void lab_table_row(report_table *table, const char *const *texts, size_t count, const double *numbers);
 /* Whether the row of that name was asked for. */
 bool lab_wants(const lab_run *run, const char *name);
 void lab_note(lab_run *run, const char *format, ...) __attribute__((format(printf, 2, 3)));
 
-/* One more table, to be filled by report_text and report_number: NAME-<name>.csv, which a plot may name. NULL
+/* A claim that the paper makes in words, in a note that says whether it holds in what was measured. Those
+ * that hold are counted. */
+void lab_claim(lab_run *run, bool holds, const char *format, ...) __attribute__((format(printf, 3, 4)));
+
+/* One more table, to be filled by lab_table_row: NAME-<name>.csv, which a plot may name. NULL
  * when there is no memory, which the run ends with then. `columns` end with NULL. */
 report_table *lab_table(lab_run *run, const char *name, const char *const *columns);
 
@@ -102,9 +111,41 @@ bool lab_recall(const lab_run *run, const char *key, size_t count, double *value
 /* Errors: WRITE, MEMORY, CANCELLED. */
 aur_result lab_keep(lab_run *run, const char *key, size_t count, const double *values, aur_error *error);
 
+/* Lets a measurement of the set of --set fail, as one of a file with too few points does: a note says so, the
+ * row that was begun is ended, and AUR_OK is returned. Every other failure is returned as it is. */
+aur_result lab_forgive(lab_run *run, const char *set, aur_result result, const aur_error *error);
+
+/* --- pictures */
+
 /* Loads a bundled scene by its path below the scenes folder. */
 aur_result lab_load_scene(const lab_run *run, const char *path, size_t definition_count,
                           const aur_definition *definitions, aur_scene **scene, aur_error *error);
+
+typedef struct lab_stage {
+    aur_scene *scene;
+    aur_renderer *renderer; /* NULL: there are no meshes for the scene */
+} lab_stage;
+
+/* A scene that can be rendered. One whose meshes were not made leaves no renderer and a note, and AUR_OK is
+ * returned. The stage is to be closed, also after an error. */
+aur_result lab_stage_open(lab_run *run, const char *path, size_t definition_count,
+                          const aur_definition *definitions, lab_stage *stage, aur_error *error);
+void lab_stage_close(lab_stage *stage);
+
+typedef struct lab_rendering {
+    aur_renderer *renderer;
+    const char *integrator; /* NAME:KEYS */
+    size_t width, height;
+    size_t samples; /* a pixel; 0: 1 */
+    uint64_t seed;
+} lab_rendering;
+
+/* Renders with Sobol samples and the box filter. */
+aur_result lab_render(const lab_run *run, const lab_rendering *how, aur_image **image, aur_error *error);
+
+/* The mean of (x - a)(x - b) over pixels and channels of pictures of one size: the mean square error of x,
+ * where a and b are two references whose own errors are independent and so drop out. */
+double lab_mean_product(const aur_image *x, const aur_image *a, const aur_image *b);
 
 /* A picture of the report. Those of one view are seen in one viewer, and compared with its reference. */
 typedef struct lab_picture_place {
@@ -118,9 +159,22 @@ typedef struct lab_picture_place {
 aur_result lab_picture(lab_run *run, const lab_picture_place *place, const aur_image *image,
                        aur_error *error);
 
-/* Lets a measurement of the set of --set fail, as one of a file with too few points does: a note says so, the
- * row that was begun is ended, and AUR_OK is returned. Every other failure is returned as it is. */
-aur_result lab_forgive(lab_run *run, const char *set, aur_result result, const aur_error *error);
+/* --- figures of repeated measurements, with intervals of 95 % */
 
 /* The mean of `values` and the half width of its 95 % interval (Student's t); half is 0 for one value. */
 void lab_mean_interval(size_t count, const double *values, double *mean, double *half);
+
+typedef struct lab_interval {
+    double value, low, high;
+} lab_interval;
+
+/* The root of the mean of `squares`, such as mean square errors of independent randomisations. */
+lab_interval lab_root_mean(size_t count, const double *squares);
+/* The root of that mean over another one's, which are independent; the interval follows from both. 1 without
+ * an interval for a base over itself. */
+lab_interval lab_root_ratio(size_t count, const double *squares, size_t base_count, const double *base);
+/* The same where both are of the same `count` randomisations: the interval is that of the linear form. */
+lab_interval lab_root_ratio_paired(size_t count, const double *squares, const double *base);
+/* The slope of log y against log x by least squares; the interval is of the scatter about the line
+ * (Student's t), and as wide as can be for fewer than three points. */
+lab_interval lab_slope(size_t count, const double *x, const double *y);

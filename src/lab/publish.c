@@ -49,8 +49,8 @@ static void put_notes(FILE *page, const char *notes) {
 
 /* Experiments and their verdicts. */
 static aur_result put_summary(const publication *p, aur_error *error) {
-    static const char *const columns[] = {"experiment", "reproduces", "form",   "rows",
-                                          "agree",      "within",     "differ", "unpublished"};
+    static const char *const columns[] = {"experiment", "reproduces", "form",        "rows",   "agree",
+                                          "within",     "differ",     "unpublished", "claims", "hold"};
     report_table *const summary = report_create(sizeof columns / sizeof columns[0], columns);
     for (size_t i = 0; i < lab_experiment_count(); ++i) {
         const lab_experiment *const of = lab_experiment_at(i);
@@ -65,9 +65,12 @@ static aur_result put_summary(const publication *p, aur_error *error) {
         report_text(summary, !finished                                                 ? "unfinished"
                              : strstr(report_cell(facts, 0, 0), " quick form") != NULL ? "quick"
                                                                                        : "full");
-        for (size_t c = 3; c < sizeof columns / sizeof columns[0]; ++c) {
-            const size_t column = finished ? report_find(facts, c == 3 ? "rows" : columns[c]) : SIZE_MAX;
-            const bool told = column != SIZE_MAX && (c == 3 || of->published != NULL);
+        enum { ROWS = 3, CLAIMS = 8 };
+        const bool claims = finished && report_value(facts, 0, report_find(facts, "claims")) > 0.0;
+        for (size_t c = ROWS; c < sizeof columns / sizeof columns[0]; ++c) {
+            const size_t column = finished ? report_find(facts, columns[c]) : SIZE_MAX;
+            const bool told =
+                column != SIZE_MAX && (c == ROWS || (c < CLAIMS ? of->published != NULL : claims));
             report_text(summary, told ? report_cell(facts, 0, column) : NULL);
         }
         report_destroy(facts);

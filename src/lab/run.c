@@ -128,6 +128,8 @@ static void note_verdicts(lab_run *run) {
                  "%g, %zu differ",
                  v[LAB_AGREES] + v[LAB_WITHIN] + v[LAB_DIFFERS], v[LAB_AGREES], v[LAB_WITHIN], of->factor,
                  v[LAB_DIFFERS]);
+    if (run->result->claims > 0)
+        lab_note(run, "of %zu claims in words %zu hold", run->result->claims, run->result->claims_held);
     if (run->options.set != NULL && of->takes_no_set != NULL)
         lab_note(run, "--set %s is not compared here: %s", run->options.set, of->takes_no_set);
 }
@@ -153,6 +155,8 @@ static aur_result save_all(lab_run *run, aur_error *error) {
     report_fact_number(facts, "rows", (double)report_rows(run->result->table));
     for (size_t i = 0; i < LAB_VERDICTS; ++i)
         report_fact_number(facts, names[i], (double)run->result->verdicts[i]);
+    report_fact_number(facts, "claims", (double)run->result->claims);
+    report_fact_number(facts, "hold", (double)run->result->claims_held);
     result = lab_run_save(run, facts, "run", NULL, false, error);
     report_destroy(facts);
     lab_run_path(run, "unfinished", "txt", path, sizeof path);
