@@ -1,7 +1,7 @@
 /* The rivals on the same samples: 64 diffuse samples and 32 glossy ones (m = 20) under random lights, smooth
  * ones and ones with hard edges, the view from above to grazing. The integral is the diffuse plus the glossy
- * part, each of weight 1; no light comes from below the surface. What Marques 2018 section 6.3 shows of
- * images, with the truth known. */
+ * part, each of weight 1; no light comes from below the surface. The
+ * weights of Marques 2018 section 6.3, compared in another experiment, whose truth is known. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -246,7 +246,7 @@ static aur_result run(lab_run *run, aur_error *error) {
 
 const lab_experiment lab_marques_2018_rivals = {
     .name = "marques-2018-rivals",
-    .reproduces = "Marques 2018, section 6.3",
+    .reproduces = "none: lights of known truth for 6.3's weights",
     .summary = "equal weights, MIS, OSW and OSWA, published and clipped, under random lights",
     .columns = columns,
     .seconds = 52,

@@ -1,5 +1,6 @@
-/* Worst-case error against the number of samples, with equal and with optimal weights (what figure 7 of
- * Marques 2018 shows of images): random samples gain a rate, low-discrepancy ones a constant. */
+/* Worst-case error against the number of samples, with equal and with optimal weights: random samples gain a
+ * rate, low-discrepancy ones a constant. Not a figure of the paper; marques-2018-fig7 has that of pictures.
+ */
 #include <math.h>
 #include <stdlib.h>
 
@@ -97,7 +98,7 @@ static const report_plot plots[] = {
 
 const lab_experiment lab_marques_2018_slopes = {
     .name = "marques-2018-slopes",
-    .reproduces = "Marques 2018, fig. 7",
+    .reproduces = "none: worst-case errors; fig. 7 is of pictures",
     .summary = "worst-case error against N: random samples gain a rate, nets a constant",
     .columns = columns,
     .seconds = 2,

@@ -9,7 +9,7 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "lab/lab.h"
+#include "pictures.h"
 
 enum { MOST_SCRAMBLES = 16, MOST_SETS = 4 };
 
@@ -42,23 +42,19 @@ typedef struct subject {
     const published *published;
 } subject;
 
-/* Seen from the scenes' folders. */
-#define STUDIO "../generated/studio.exr"
-
 static const subject subjects[] = {
     {"Cornell box", "cornell-box/glossy.xml", NULL, "direct=none,photons_per_texel=256", {40, 20}, table1},
     {"figure", "statue/statue.xml", NULL, "direct=gather,incident=emitters", {50, 25}, figure1},
     {"sphere", "sphere/sphere.xml", NULL, "direct=gather,incident=emitters", {64, 32}, figure6},
-    /* Without the sun's spike, as the paper's probes are. */
     {"figure in the studio",
      "statue/statue.xml",
-     STUDIO,
+     LAB_STUDIO,
      "direct=gather,incident=emitters",
      {50, 25},
      figure1},
     {"sphere in the studio",
      "sphere/sphere.xml",
-     STUDIO,
+     LAB_STUDIO,
      "direct=gather,incident=emitters",
      {64, 32},
      figure6}};
@@ -66,9 +62,8 @@ static const subject subjects[] = {
 typedef struct picture_study {
     lab_run *run;
     const subject *subject;
-    lab_stage stage;
-    aur_image *reference, *mask;
-    size_t side, photons, scrambles, reference_directions;
+    lab_gather gather;
+    size_t scrambles;
     size_t set_count;
     const char *sets[MOST_SETS];
 } picture_study;
@@ -76,47 +71,6 @@ typedef struct picture_study {
 static const char *const columns[] = {"scene",        "set",       "directions", "weights",  "rmse",
                                       "rmse_low",     "rmse_high", "over_oswa",  "over_low", "over_high",
                                       "picture_rmse", "published", NULL};
-
-static aur_result render(const picture_study *study, const char *set, const char *keys, size_t diffuse,
-                         size_t glossy, size_t seed, aur_image **image, aur_error *error) {
-    char integrator[400];
-    snprintf(integrator, sizeof integrator,
-             "finalgather:%s,pixel=centre,edges=0,short_rays=0,decorrelation=random,photons=%zu,pattern=%s,"
-             "diffuse_samples=%zu,"
-             "glossy_samples=%zu,pattern_seed=%zu,%s",
-             study->subject->light, study->photons, set, diffuse, glossy, seed, keys);
-    const lab_rendering how = {.renderer = study->stage.renderer,
-                               .integrator = integrator,
-                               .width = study->side,
-                               .height = study->side};
-    return lab_render(study->run, &how, image, error);
-}
-
-static double value_at(const aur_image *image, size_t pixel, size_t channel) {
-    return (double)aur_image_data(image)[pixel * aur_image_channel_count(image) + channel];
-}
-
-/* Mean square errors over the pixels with both lobes, and over the picture. */
-static void judge(const picture_study *study, const aur_image *image, double *both, double *all) {
-    const aur_image *const reference = study->reference;
-    const size_t pixels = aur_image_width(reference) * aur_image_height(reference);
-    double sums[2] = {0.0, 0.0};
-    size_t marked = 0;
-    for (size_t i = 0; i < pixels; ++i) {
-        double square = 0.0;
-        bool glossy = false;
-        for (size_t c = 0; c < 3; ++c) {
-            const double off = value_at(image, i, c) - value_at(reference, i, c);
-            square += off * off / 3.0;
-            glossy = glossy || value_at(study->mask, i, c) > 0.0;
-        }
-        sums[0] += glossy ? square : 0.0;
-        sums[1] += square;
-        marked += glossy;
-    }
-    *both = marked > 0 ? sums[0] / (double)marked : 0.0;
-    *all = sums[1] / (double)pixels;
-}
 
 static double published_percent(const subject *of, const char *set, way which) {
     for (const published *row = of->published; row->set != NULL; ++row)
@@ -142,27 +96,14 @@ static void add_row(const picture_study *study, const char *set, way which, cons
                              known != 0.0 ? known : NAN});
 }
 
-/* The reference, and which pixels have both lobes; made when they are first needed. */
-static aur_result need_reference(picture_study *study, aur_error *error) {
-    if (study->mask != NULL)
-        return AUR_OK;
-    const size_t many = study->reference_directions;
-    const aur_result result = render(study, "spherical-fibonacci", "density=same,rotations=0,clip=false",
-                                     many, many, 0, &study->reference, error);
-    return result != AUR_OK ? result
-                            : render(study, "spherical-fibonacci", "component=glossy,clip=false", 64, 64, 0,
-                                     &study->mask, error);
-}
-
 /* One scrambling; the picture of the first is written. */
 static aur_result measure_one(picture_study *study, const char *set, way w, size_t scramble, double *both,
                               double *all, aur_error *error) {
-    const size_t *const directions = study->subject->directions;
     aur_image *image = NULL;
-    aur_result result =
-        render(study, set, ways[w].keys, directions[0], directions[1], 1 + scramble, &image, error);
+    aur_result result = lab_gather_render(&study->gather, set, ways[w].keys, study->subject->directions,
+                                          1 + scramble, &image, error);
     if (result == AUR_OK)
-        judge(study, image, both, all);
+        lab_gather_judge(&study->gather, image, both, all);
     if (result == AUR_OK && scramble == 0) {
         char view[160];
         snprintf(view, sizeof view, "%s, %.80s", study->subject->name, set);
@@ -170,7 +111,7 @@ static aur_result measure_one(picture_study *study, const char *set, way w, size
         const lab_picture_place truth = {view, "reference", true, 1.0};
         result = lab_picture(study->run, &place, image, error);
         if (result == AUR_OK && w == OSWA)
-            result = lab_picture(study->run, &truth, study->reference, error);
+            result = lab_picture(study->run, &truth, study->gather.reference, error);
     }
     aur_image_destroy(image);
     return result;
@@ -183,14 +124,19 @@ static aur_result measure(picture_study *study, const char *set, way w, double *
     char key[200];
     snprintf(key, sizeof key, "%s, %.80s, %s", study->subject->name, set, ways[w].name);
     aur_result result = AUR_OK;
+    double seconds = 0.0;
     if (!lab_recall(study->run, key, study->scrambles + 1, values)) {
         double *const pictures = &values[study->scrambles];
-        result = need_reference(study, error);
+        result = lab_gather_need_reference(&study->gather, error);
         for (size_t k = 0; k < study->scrambles && result == AUR_OK; ++k) {
             double all = 0.0;
             result = measure_one(study, set, w, k, &values[k], &all, error);
             *pictures += all / (double)study->scrambles;
+            seconds += study->gather.seconds / (double)study->scrambles;
         }
+        char what[240];
+        snprintf(what, sizeof what, "%s, a picture", key);
+        lab_time(study->run, what, seconds);
         if (result == AUR_OK)
             result = lab_keep(study->run, key, study->scrambles + 1, values, error);
     }
@@ -217,26 +163,23 @@ static aur_result study_set(picture_study *study, const char *set, aur_error *er
 }
 
 static aur_result study_subject(picture_study *study, aur_error *error) {
-    const aur_definition environment = {"environment", study->subject->environment};
     aur_result result =
-        lab_stage_open(study->run, study->subject->file, study->subject->environment != NULL ? 1 : 0,
-                       &environment, &study->stage, error);
-    for (size_t s = 0; s < study->set_count && study->stage.renderer != NULL && result == AUR_OK; ++s)
+        lab_gather_open(&study->gather, study->subject->file, study->subject->environment, error);
+    const size_t sets = study->gather.stage.renderer != NULL ? study->set_count : 0;
+    for (size_t s = 0; s < sets && result == AUR_OK; ++s)
         result = lab_forgive(study->run, study->sets[s], study_set(study, study->sets[s], error), error);
-    aur_image_destroy(study->reference);
-    aur_image_destroy(study->mask);
-    study->reference = study->mask = NULL;
-    lab_stage_close(&study->stage);
+    lab_gather_close(&study->gather);
     return result;
 }
 
 static aur_result run(lab_run *run, aur_error *error) {
     const lab_options *const options = lab_run_options(run);
     picture_study study = {.run = run,
-                           .side = options->quick ? 24 : 64,
-                           .photons = options->quick ? 100000 : 2000000,
+                           .gather = {.run = run,
+                                      .side = options->quick ? 24 : 64,
+                                      .photons = options->quick ? 100000 : 2000000,
+                                      .reference_directions = options->quick ? 1024 : 4096},
                            .scrambles = options->quick ? 3 : MOST_SCRAMBLES,
-                           .reference_directions = options->quick ? 1024 : 4096,
                            .set_count = options->quick ? 1 : 3,
                            .sets = {"random", "sobol", "spherical-fibonacci"}};
     if (options->set != NULL)
@@ -245,6 +188,7 @@ static aur_result run(lab_run *run, aur_error *error) {
     const size_t count = options->quick ? 1 : sizeof subjects / sizeof subjects[0];
     for (size_t i = 0; i < count && result == AUR_OK; ++i) {
         study.subject = &subjects[i];
+        study.gather.light = subjects[i].light;
         result = study_subject(&study, error);
     }
     return result;

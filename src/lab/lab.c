@@ -16,6 +16,10 @@ extern const lab_experiment lab_keller_1994_table2;
 extern const lab_experiment lab_keller_1994_table3;
 extern const lab_experiment lab_marques_2013_gather;
 extern const lab_experiment lab_marques_2013_table1;
+extern const lab_experiment lab_marques_2018_beyond;
+extern const lab_experiment lab_marques_2018_fig7;
+extern const lab_experiment lab_marques_2018_fig8;
+extern const lab_experiment lab_marques_2018_functions;
 extern const lab_experiment lab_marques_2018_gains;
 extern const lab_experiment lab_marques_2018_ggx;
 extern const lab_experiment lab_marques_2018_metal;
@@ -23,18 +27,21 @@ extern const lab_experiment lab_marques_2018_rivals;
 extern const lab_experiment lab_marques_2018_sensitivity;
 extern const lab_experiment lab_marques_2018_slopes;
 extern const lab_experiment lab_marques_2018_table1;
+extern const lab_experiment lab_marques_2018_weights;
 extern const lab_experiment lab_schretter_2012_fig5;
 extern const lab_experiment lab_weights_choosing;
 
 static const lab_experiment *const experiments[] = {
-    &lab_domains_axes,        &lab_domains_every_number,     &lab_domains_grids,
-    &lab_domains_lifts,       &lab_domains_prefixes,         &lab_analytical_cases,
-    &lab_integrate_coverage,  &lab_irradiance_coverage,      &lab_factors_coverage,
-    &lab_picture_coverage,    &lab_keller_1994_table1,       &lab_keller_1994_table2,
-    &lab_keller_1994_table3,  &lab_marques_2013_gather,      &lab_marques_2013_table1,
-    &lab_marques_2018_gains,  &lab_marques_2018_ggx,         &lab_marques_2018_metal,
-    &lab_marques_2018_rivals, &lab_marques_2018_sensitivity, &lab_marques_2018_slopes,
-    &lab_marques_2018_table1, &lab_schretter_2012_fig5,      &lab_weights_choosing,
+    &lab_domains_axes,           &lab_domains_every_number, &lab_domains_grids,
+    &lab_domains_lifts,          &lab_domains_prefixes,     &lab_analytical_cases,
+    &lab_integrate_coverage,     &lab_irradiance_coverage,  &lab_factors_coverage,
+    &lab_picture_coverage,       &lab_keller_1994_table1,   &lab_keller_1994_table2,
+    &lab_keller_1994_table3,     &lab_marques_2013_gather,  &lab_marques_2013_table1,
+    &lab_marques_2018_beyond,    &lab_marques_2018_fig7,    &lab_marques_2018_fig8,
+    &lab_marques_2018_functions, &lab_marques_2018_gains,   &lab_marques_2018_ggx,
+    &lab_marques_2018_metal,     &lab_marques_2018_rivals,  &lab_marques_2018_sensitivity,
+    &lab_marques_2018_slopes,    &lab_marques_2018_table1,  &lab_marques_2018_weights,
+    &lab_schretter_2012_fig5,    &lab_weights_choosing,
 };
 
 size_t lab_experiment_count(void) {

@@ -28,3 +28,29 @@ awk -F, '$1 == "indirect" { rows++; if (!($4 > 0 && $6 <= $5 && $5 <= $7 && $8 <
 awk -F, '$1 == "Cornell box" && $2 == "random" { rows++; if (!($5 > 0)) bad = 1; rmse[$4] = $5 }
   END { exit bad || rows != 6 || !(rmse["OSWA"] < rmse["equal"] && rmse["OSW"] < rmse["equal"]) }' \
   "$weights-table1/marques-2018-table1.csv" || fail "weights in pictures"
+# Figures 2 to 5: errors are below their bounds, and what the paper says of five samples holds.
+awk -F, '!/^#/ && NR > 1 { rows++; if (!($3 <= $4 && $5 <= $6 && $6 < $4)) bad = 1 } END { exit bad || rows != 12 }' \
+  "$weights-functions/marques-2018-functions.csv" || fail "functions of norm 1"
+awk -F, '/^# .*fig\. 3/ { said++; if (/does not hold/) bad = 1 }
+  $1 == "3a: p = 1" { five++; if ($8 < 0.999999 || $8 > 1.000001) bad = 1 }
+  $1 ~ /^4a/ { if ($2 != "below .8" && $8 < 0.8) bad = 1; diffuse++ } $1 ~ /^5b/ { all++ }
+  END { exit bad || said != 4 || five != 5 || diffuse != 128 || all != 192 }' \
+  "$weights-weights/marques-2018-weights.csv" || fail "weights of samples"
+# One light for both lobes gives the sum of two errors less to gain.
+awk -F, '$1 == "sobol" { gain[$2] = $4 } END { exit !(gain["OSWA against OSW by ||h_d + h_g||"] > 0 && gain["OSWA against OSW by ||h_d + h_g||"] < 0.5 * gain["OSWA against OSW"]) }' \
+  "$weights-gains/marques-2018-gains.csv" || fail "the error of the sum"
+# The constraint of the sum costs little, the optimal density gains more than weights, clipping most at grazing views, and
+# finer tables lose less.
+awk -F, '!/^#/ && NR > 1 { over[$4 " " $3] = $6 }
+  END { exit !(over["1 optimal weights of free sum"] < over["1 optimal weights of sum 1"] && over["1 optimal weights of sum 1"] - over["1 optimal weights of free sum"] < 0.3 &&
+               over["20 optimal density and p/q"] < over["20 optimal weights of free sum"] && over["20 75 degrees: clipped"] < -5 &&
+               over["20 45 degrees: clipped"] > -0.1 && over["20 128 angles"] < 0.1 * over["20 32 angles"] &&
+               over["20 32 angles"] < 0.1 && over["20 32 angles clipped"] < 0.1) }' \
+  "$weights-beyond/marques-2018-beyond.csv" || fail "beyond the paper"
+# Pictures against N: every method falls, and optimal weights leave less of Sobol samples' error.
+for figure in 7:9 8:2; do
+  awk -F, -v want="${figure#*:}" 'NR > 1 && !/^#/ { rmse[$1 $2 "," $3] = $4; if ($3 > most) most = $3; name[$1 $2]
+                       if (!($5 <= $4 && $4 <= $6)) bad = 1 }
+    END { for (n in name) { ++count; if (!(rmse[n "," most] < rmse[n ",24"])) bad = 1 } exit bad || count != want }' \
+    "$weights-fig${figure%:*}/marques-2018-fig${figure%:*}-rmse.csv" || fail "figure ${figure%:*}"
+done
