@@ -1,6 +1,6 @@
 /* Axes in an order whose prefixes are even, and in shells: the energy over that of as many axes at rest. */
-#include "figures.h"
 #include "lab/lab.h"
+#include "lab/points.h"
 
 enum { ALL = 60, QUICK = 12 };
 
@@ -30,14 +30,14 @@ static aur_result run(lab_run *run, aur_error *error) {
     const char *const shells = quick ? "electrostatic:shells=4/8" : "electrostatic:shells=20/40";
     const aur_domain axes = AUR_DOMAIN_AXES;
     const lab_points rows[] = {
-        {"electrostatic", axes, all, 0, all / 10},
-        {"electrostatic", axes, all, 0, all / 4},
-        {"electrostatic", axes, all, 0, all / 2},
-        {"electrostatic", axes, all, 0, all * 5 / 6},
-        {"sobol", axes, all, 0, all / 4},
-        {shells, axes, all, 0, 0},
-        {shells, axes, all, 0, third},
-        {shells, axes, all, third, all - third},
+        {"electrostatic", axes, all, 0, all / 10, AUR_MAP_LAMBERT},
+        {"electrostatic", axes, all, 0, all / 4, AUR_MAP_LAMBERT},
+        {"electrostatic", axes, all, 0, all / 2, AUR_MAP_LAMBERT},
+        {"electrostatic", axes, all, 0, all * 5 / 6, AUR_MAP_LAMBERT},
+        {"sobol", axes, all, 0, all / 4, AUR_MAP_LAMBERT},
+        {shells, axes, all, 0, 0, AUR_MAP_LAMBERT},
+        {shells, axes, all, 0, third, AUR_MAP_LAMBERT},
+        {shells, axes, all, third, all - third, AUR_MAP_LAMBERT},
     };
     aur_result result = AUR_OK;
     for (size_t i = quick; i < sizeof rows / sizeof rows[0] && result == AUR_OK;

@@ -1,0 +1,27 @@
+/* Points of a set, for experiments that measure them or show them. */
+#pragma once
+
+#include <aureole/image.h>
+#include <aureole/quality.h>
+
+typedef struct lab_points {
+    const char *set;
+    aur_domain domain;
+    size_t size;         /* of the set */
+    size_t first, count; /* the points to take; count 0: all from `first` on */
+    aur_map map;         /* of sets of the square to other domains */
+} lab_points;
+
+/* Makes *made: free with aur_points_destroy. */
+aur_result lab_points_make(const lab_points *points, aur_points **made, aur_error *error);
+/* A figure of the points. */
+aur_result lab_figure(const lab_points *points, const char *metric, size_t threads, double *value,
+                      aur_error *error);
+
+/* Colours of drawn points, linear R, G, B: blue, red, green, orange and black, the first again after the
+ * last. */
+const float *lab_colour(size_t index);
+/* A white picture. */
+aur_result lab_canvas(size_t width, size_t height, aur_image **image, aur_error *error);
+/* A disk about x, y in pixels from the upper left corner, its edge smooth. */
+void lab_dot(aur_image *image, double x, double y, double radius, const float colour[3]);
