@@ -382,6 +382,8 @@ static const struct bad_row {
     {"<shape type='shapegroup'><shape type='cube'><emitter type='area'/></shape></shape>", 2, 26,
      "cannot be a light"},
     {"hello", 2, 1, "text between elements: 'hello'"},
+    {"<include filename=''/>", 2, 1, "a file name is empty"},
+    {"<shape type='obj'><string name='filename' value=''/></shape>", 2, 19, "a file name is empty"},
     {"<include filename='no.xml'/>", 2, 1, "cannot find 'no.xml'"},
     {"<default name='a'/>", 2, 1, "<default> needs the attribute 'value'"},
     {"<shape type='$kind'/>", 2, 1, "$kind is not defined: give it a <default>, or a value by -D kind=..."},

@@ -98,6 +98,7 @@ static aur_result fail(const aur_xml_document *document, aur_location location, 
 
 aur_result aur_xml_find_folder(const aur_xml_document *document, aur_location location, const char *name,
                                char **found, aur_error *error) {
+    *found = NULL;
     if (name[0] == '\0')
         return aur_fail_at(error, location, AUR_ERROR_FORMAT, "a file name is empty");
     folder in;
