@@ -8,7 +8,11 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
         fuzz_mend_hash(bytes, size);
     aur_film *film;
     aur_error error = {0};
-    const aur_result result = aur_film_load_memory("input", size, bytes, &film, &error);
+    char path[64];
+    snprintf(path, sizeof path, "fuzz-film-%ld", (long)getpid());
+    fuzz_write_file(path, bytes, size);
+    const aur_result result = aur_film_load(path, &film, &error);
+    unlink(path);
     if (result != AUR_OK) {
         fuzz_require(film == NULL, "a failed read left a film");
         fuzz_require(error.result == result && error.message[0] != '\0', "a failure without a message");

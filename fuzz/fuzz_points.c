@@ -1,12 +1,27 @@
-/* Files of points: CSV and NPY. */
+/* Files of points, CSV and NPY, on any domain: the length of the input says which, and whether it is a file.
+ */
 #include <aureole/pointset.h>
+#include <stdbool.h>
 
 #include "fuzz.h"
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
     aur_points *points;
     aur_error error = {0};
-    const aur_result result = aur_points_read_memory("fuzz-points", size, data, NULL, &points, &error);
+    const aur_domain domain = (aur_domain)(size % 8);
+    const bool anywhere = domain > AUR_DOMAIN_ROTATIONS;
+    aur_result result;
+    if (size / 8 % 2 == 0) {
+        result =
+            aur_points_read_memory("fuzz-points", size, data, anywhere ? NULL : &domain, &points, &error);
+    } else {
+        char path[64];
+        snprintf(path, sizeof path, "fuzz-points-%ld", (long)getpid());
+        fuzz_write_file(path, data, size);
+        result = anywhere ? aur_points_read(path, &points, &error)
+                          : aur_points_read_on(path, domain, &points, &error);
+        unlink(path);
+    }
     if (result != AUR_OK) {
         fuzz_require(error.message[0] != '\0', "a failure without a message");
         fuzz_require(result != AUR_ERROR_INTERNAL && result != AUR_ERROR_OPEN, "a failure of the wrong kind");

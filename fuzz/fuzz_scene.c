@@ -1,16 +1,46 @@
 /* Scene files: loading them, and a few paths through what they hold, so that materials, textures and lights
- * are asked too. */
+ * are asked too. Small files lie beside them for scenes to name. Two of three may name no other ones;
+ * those that ask for $n are told what it is. */
+#define _GNU_SOURCE /* memmem */
 #include <aureole/render.h>
 #include <string.h>
 #include <unistd.h>
 
 #include "fuzz.h"
 #include "scene/scene.h"
+#include "scene/vol_file.h"
 
 static const char *input_path(void) {
     static char path[64];
     snprintf(path, sizeof path, "fuzz-scene-%ld.xml", (long)getpid());
     return path;
+}
+
+/* Files of each kind that a scene may name. */
+static void write_companions(void) {
+    static const char *const files[][2] = {
+        {"a.xml", "<scene version='3.0.0'><bsdf type='diffuse' id='included'/></scene>"},
+        {"self.xml", "<scene version='3.0.0'><include filename='self.xml'/></scene>"},
+        {"a.rad", "void plastic a 0 0 5 .5 .5 .5 0 0\na sphere s 0 0 4 1 2 3 .5\n"},
+        {"a.obj", "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3 4\n"},
+        {"a.ply",
+         "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\n"
+         "property float r\nproperty float g\nproperty float b\nelement face 1\nproperty uchar red\n"
+         "property uchar green\nproperty uchar blue\nproperty list uchar int vertex_indices\nend_header\n"
+         "0 0 0 1 0 0\n1 0 0 0 1 0\n1 1 0 0 0 1\n255 51 0 3 0 1 2\n"},
+        {"a.pfm", "Pf\n2 1\n-1\n\0\0\0?\0\0\0@"},
+        {"a.spd", "# nm value\n400 .5\n500, 1\n\n700 .25\n"},
+        {"bad.spd", "400 .5 x\n"},
+        {"a.csv", "u,v\n0,0\n0.5,0.25\n"},
+        {"HOW-TO-MAKE", "make the missing file\n"},
+    };
+    for (size_t i = 0; i < sizeof files / sizeof files[0]; ++i)
+        fuzz_write_file(files[i][0], (const uint8_t *)files[i][1],
+                        strcmp(files[i][0], "a.pfm") == 0 ? 18 : strlen(files[i][1]));
+    size_t size;
+    char *const grid = vol_bytes(2, 1, 2, 1, (const float[4]){0.0f, 1.0f, 0.5f, 2.0f}, &size);
+    fuzz_write_file("a.vol", (const uint8_t *)grid, size);
+    free(grid);
 }
 
 /* Whether the picture comes out is not asked: a scene may ask for what no sample can give. Each length of the
@@ -46,12 +76,18 @@ static void render(const aur_scene *scene, size_t size) {
 }
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
-    FILE *const file = fopen(input_path(), "wb");
-    fuzz_require(file != NULL && fwrite(data, 1, size, file) == size && fclose(file) == 0,
-                 "cannot write the input");
+    static bool ready;
+    if (!ready)
+        write_companions();
+    ready = true;
+    fuzz_write_file(input_path(), data, size);
     static const aur_definition definitions[] = {{"n", "3"}};
-    const aur_scene_options options = {
-        .size = sizeof options, .definition_count = 1, .definitions = definitions};
+    /* One in sixteen is given a definition that it may not have. */
+    const bool asks = size % 16 == 0 || memmem(data, size, "$n", 2) != NULL;
+    const aur_scene_options options = {.size = sizeof options,
+                                       .definition_count = asks,
+                                       .definitions = definitions,
+                                       .confine = size % 3 != 0};
     aur_error error = {0};
     aur_scene *scene = NULL;
     const aur_result result = aur_scene_load(input_path(), &options, &scene, &error);

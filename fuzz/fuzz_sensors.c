@@ -1,10 +1,16 @@
-/* Places to measure light at: text, NPY, and meshes, told apart by the ends of their names. */
+/* Places to measure light at: text, NPY, and meshes, told apart by the ends of their names: on the facets of
+ * meshes or on their corners, at them or lifted. The first byte says which. */
 #include <aureole/irradiance.h>
 #include <math.h>
 
 #include "fuzz.h"
 
 static const char *const endings[] = {"pts", "npy", "obj", "ply"};
+
+static void on_warning(void *context, const char *message) {
+    (void)context;
+    fuzz_require(message[0] != '\0', "a warning without words");
+}
 
 static const char *path_of(const char *ending) {
     static char path[64];
@@ -18,8 +24,13 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
     const char *const path = path_of(endings[data[0] % 4]);
     fuzz_write_file(path, data + 1, size - 1);
     aur_sensors *sensors = NULL;
+    const aur_sensors_options options = {.size = sizeof options,
+                                         .place = data[0] / 8 % 2 == 0 ? AUR_SENSORS_ON_FACES
+                                                                       : AUR_SENSORS_ON_VERTICES,
+                                         .lift = data[0] / 16 % 2 == 0 ? 0.0 : 0.25,
+                                         .warnings = {.function = on_warning}};
     aur_error error = {0};
-    const aur_result result = aur_sensors_read(path, NULL, &sensors, &error);
+    const aur_result result = aur_sensors_read(path, &options, &sensors, &error);
     unlink(path);
     if (result != AUR_OK) {
         fuzz_require(sensors == NULL, "a failed read left sensors");
@@ -46,8 +57,10 @@ static const char *const texts[] = {
     "\4x,y,z,nx,ny,nz\n0,0,1,0,0,1\n1, 2, 3, 0, 1, 0\n",
     "\4# a comment\n0 0 1 0 0 1\n\n1.5e1 -2 3.25 .5 .5 0\n",
     "\6v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3 4\n",
-    "\7ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\n"
-    "element face 1\nproperty list uchar int vertex_indices\nend_header\n0 0 0\n1 0 0\n1 1 0\n3 0 1 2\n",
+    ("\7ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\n"
+     "element face 1\nproperty list uchar int vertex_indices\nend_header\n0 0 0\n1 0 0\n1 1 0\n3 0 1 2\n"),
+    "\36o a\nv 0 0 0\nv 9 9 9\nv 1 0 0\nv 1 1 1\nv 0 1 0\ng b\nf 1 3 4\nf 1 4 5\n",
+    "\24 0 0 1 0 0 2\n",
 };
 
 enum { TEXTS = sizeof texts / sizeof texts[0] };

@@ -15,14 +15,16 @@ parsers=(
   'OBJ, PLY, serialized|mesh|src/scene/shapes/obj.c src/scene/shapes/ply.c src/scene/shapes/serialized.c'
   'Radiance scenes|rad scene|src/scene/rad/*.c'
   'pictures|image|src/image/exr_read.c src/image/hdr.c src/image/ldr.c src/image/pfm.c'
+  'volumes (vol)|volume scene|src/scene/volumes/gridvolume.c'
   'points|points|src/pointset/files/points_csv.c src/pointset/files/points_file.c src/pointset/files/points_npy.c'
+  'generator matrices|matrices|src/pointset/generators/matrices.c'
   'films, checkpoints, parts|film checkpoint|src/film/film_file.c src/film/checkpoint.c src/render/checkpoint.c src/render/parts.c'
   'radiosity solutions|radiosity|src/transport/radiosity/file.c'
   'photon maps of the cache|photons|src/transport/photons/irradiance_file.c'
   'weight tables|weight_table|src/quadrature/tables/weight_table_file.c'
-  'sensors|sensors|src/lighting/irradiance/sensors_read.c src/lighting/irradiance/sensors_mesh.c'
+  'sensors|sensors|src/lighting/irradiance/sensors_read.c src/lighting/irradiance/sensors_mesh.c src/lighting/obj_groups.c'
   'weather (EPW)|weather|src/lighting/daylight/weather.c'
-  'names of sets and keys|set|src/core/parameters.c src/core/names.c'
+  'names of sets and keys|set scene options|src/core/parameters.c src/core/names.c'
   'options of the program|options|src/cli/options.c src/cli/quantity.c'
 )
 
