@@ -27,10 +27,12 @@ extern const lab_experiment lab_marques_2018_sensitivity;
 extern const lab_experiment lab_marques_2018_slopes;
 extern const lab_experiment lab_marques_2018_table1;
 extern const lab_experiment lab_marques_2018_weights;
+extern const lab_experiment lab_marques_2019_adaptive;
 extern const lab_experiment lab_marques_2019_discrepancy;
 extern const lab_experiment lab_marques_2019_grids;
 extern const lab_experiment lab_marques_2019_lattice;
 extern const lab_experiment lab_marques_2019_shifts;
+extern const lab_experiment lab_marques_2019_statue;
 extern const lab_experiment lab_picture_coverage;
 extern const lab_experiment lab_schretter_2012_fig5;
 extern const lab_experiment lab_weights_choosing;
@@ -64,10 +66,12 @@ static const lab_experiment *const experiments[] = {
     &lab_marques_2018_slopes,
     &lab_marques_2018_table1,
     &lab_marques_2018_weights,
+    &lab_marques_2019_adaptive,
     &lab_marques_2019_discrepancy,
     &lab_marques_2019_grids,
     &lab_marques_2019_lattice,
     &lab_marques_2019_shifts,
+    &lab_marques_2019_statue,
     &lab_picture_coverage,
     &lab_schretter_2012_fig5,
     &lab_weights_choosing,

@@ -1,0 +1,205 @@
+/* The glossy Cornell box by patterns that are extended where the light asks for it, 40, 160, 640 directions
+ * for the diffuse lobe and 20, 80, 320 for the glossy one (Marques 2019, fig. 12).
+ *
+ * The paper gives neither its threshold nor an error. So each criterion's threshold is looked for at which a
+ * gather takes as many directions in the mean as the paper's do; the shares of the levels are then compared
+ * with the published ones. Whether it saves is told by the directions that patterns of one size take for the
+ * same error. */
+#include "adaptive.h"
+
+#include <math.h>
+#include <stdio.h>
+
+static const char *const columns[] = {"lobe", "criterion", "what",      "measured",
+                                      "low",  "high",      "published", NULL};
+
+const adaptive_lobe adaptive_lobes[2] = {
+    {"diffuse", 40, {128580.0, 326726.0, 63094.0}},
+    {"glossy", 20, {130863.0, 206817.0, 180720.0}},
+};
+
+/* Directions a gather in the mean, as published. */
+static double published_mean(const adaptive_lobe *lobe) {
+    double directions = 0.0, places = 0.0, size = (double)lobe->first;
+    for (size_t l = 0; l < 3; ++l, size *= 4.0) {
+        directions += size * lobe->published[l];
+        places += lobe->published[l];
+    }
+    return directions / places;
+}
+
+/* The threshold at which a gather takes `wanted` directions in the mean: fewer the larger it is. */
+static aur_result find_threshold(adaptive_study *study, adaptive_way *way, double wanted, aur_error *error) {
+    const size_t halvings = study->quick ? 5 : 8;
+    char key[120];
+    double low = log(1e-3), high = log(2.0);
+    snprintf(key, sizeof key, "threshold %s %s", study->lobe->name, way->criterion);
+    if (lab_recall(study->run, key, 1, &way->threshold))
+        return AUR_OK;
+    for (size_t i = 0; i < halvings; ++i) {
+        adaptive_counts counts;
+        aur_image *image;
+        way->threshold = exp(0.5 * (low + high));
+        const aur_result result = adaptive_render(study, way, 500, false, &image, error);
+        if (result != AUR_OK)
+            return result;
+        adaptive_count(study, way, image, &counts);
+        aur_image_destroy(image);
+        *(counts.mean > wanted ? &low : &high) = log(way->threshold);
+    }
+    way->threshold = exp(0.5 * (low + high));
+    return lab_keep(study->run, key, 1, &way->threshold, error);
+}
+
+static void add_row(const adaptive_study *study, const adaptive_way *way, const char *what,
+                    const double *values, double published) {
+    double mean, half;
+    lab_mean_interval(study->seeds, values, &mean, &half);
+    lab_row(study->run, (const char *const[]){study->lobe->name, way->criterion, what, NULL}, 4,
+            (const double[]){mean, mean - half, mean + half, published});
+}
+
+/* The row of a way in the table of ways; *ratio is the share of fixed patterns' directions that it takes. */
+static void add_way(const adaptive_study *study, const adaptive_way *way, report_table *table,
+                    const adaptive_found *found, lab_interval *ratio) {
+    double mean, half, directions, unused;
+    lab_mean_interval(study->seeds, found->log_rays, &mean, &half);
+    *ratio = (lab_interval){exp(mean), exp(mean - half), exp(mean + half)};
+    lab_mean_interval(study->seeds, found->mean, &directions, &unused);
+    const lab_interval rmse = lab_root_mean(study->seeds, found->mse);
+    lab_table_row(table, (const char *const[]){study->lobe->name, way->criterion, NULL}, 10,
+                  (const double[]){(double)way->factor, (double)way->levels, way->threshold, directions,
+                                   rmse.value, rmse.low, rmse.high, ratio->value, ratio->low, ratio->high});
+}
+
+/* A criterion at the paper's mean number of directions. */
+static aur_result study_published(adaptive_study *study, const char *criterion, report_table *table,
+                                  aur_error *error) {
+    static const char *const what[] = {"share of level 1", "share of level 2", "share of level 3"};
+    const adaptive_lobe *const lobe = study->lobe;
+    adaptive_way way = {.criterion = criterion, .factor = 4, .levels = 2};
+    adaptive_found found;
+    lab_interval ratio;
+    aur_result result = find_threshold(study, &way, published_mean(lobe), error);
+    if (result == AUR_OK)
+        result = adaptive_measure(study, &way, &found, error);
+    if (result != AUR_OK)
+        return result;
+    const double places = lobe->published[0] + lobe->published[1] + lobe->published[2];
+    lab_note(study->run,
+             "%s, %s: %.1f directions a gather are published, and threshold %.4g is made to take as many",
+             lobe->name, criterion, published_mean(lobe), way.threshold);
+    add_row(study, &way, "directions a gather", found.mean, NAN);
+    for (size_t l = 0; l < 3; ++l)
+        add_row(study, &way, what[l], found.shares[l], lobe->published[l] / places);
+    add_way(study, &way, table, &found, &ratio);
+    lab_claim(study->run, ratio.high < 1.0,
+              "fig. 12, %s, %s: saves directions at equal error (takes %.2f [%.2f, %.2f] times those of "
+              "patterns of one "
+              "size, threshold %.3g)",
+              lobe->name, criterion, ratio.value, ratio.low, ratio.high, way.threshold);
+    return adaptive_draw(study, &way, error);
+}
+
+/* What a first level without any light does: its colours do not differ, so that no threshold is low enough.
+ */
+static aur_result study_darkness(adaptive_study *study, aur_error *error) {
+    const adaptive_way way = {.criterion = "entropy", .factor = 4, .levels = 2, .threshold = 0.0};
+    adaptive_counts counts;
+    char key[64];
+    snprintf(key, sizeof key, "darkness %s", study->lobe->name);
+    if (!lab_recall(study->run, key, 1, &counts.shares[0])) {
+        aur_image *image;
+        aur_result result = adaptive_render(study, &way, 500, false, &image, error);
+        if (result == AUR_OK) {
+            adaptive_count(study, &way, image, &counts);
+            aur_image_destroy(image);
+            result = lab_keep(study->run, key, 1, &counts.shares[0], error);
+        }
+        if (result != AUR_OK)
+            return result;
+    }
+    lab_note(study->run,
+             "%s, entropy with threshold 0: %.1f %% of the gathers end at level 1, where it saw no light",
+             study->lobe->name, 100.0 * counts.shares[0]);
+    return AUR_OK;
+}
+
+static aur_result study_lobe(adaptive_study *study, report_table *table, aur_error *error) {
+    static const adaptive_way others[] = {
+        {"entropy", 4, 2, 0.1, NULL},   {"entropy", 4, 2, 0.2, NULL},   {"entropy", 4, 2, 0.3, NULL},
+        {"entropy", 2, 4, 0.3, NULL},   {"variance", 4, 2, 0.02, NULL}, {"variance", 4, 2, 0.03, NULL},
+        {"variance", 4, 2, 0.05, NULL}, {"variance", 2, 4, 0.02, NULL},
+    };
+    aur_result result = study_published(study, "entropy", table, error);
+    if (result == AUR_OK)
+        result = study_published(study, "variance", table, error);
+    for (size_t i = 0; i < (study->quick ? 0 : sizeof others / sizeof others[0]) && result == AUR_OK; ++i) {
+        adaptive_found found;
+        lab_interval ratio;
+        result = adaptive_measure(study, &others[i], &found, error);
+        if (result == AUR_OK)
+            add_way(study, &others[i], table, &found, &ratio);
+    }
+    if (result == AUR_OK)
+        result = study_darkness(study, error);
+    adaptive_release(study);
+    return result;
+}
+
+static aur_result run(lab_run *run, aur_error *error) {
+    static const char *const of_ways[] = {
+        "lobe",     "criterion", "factor",     "levels",         "threshold",       "directions", "rmse",
+        "rmse_low", "rmse_high", "over_fixed", "over_fixed_low", "over_fixed_high", NULL};
+    const bool quick = lab_run_options(run)->quick;
+    adaptive_study study = {.run = run,
+                            .quick = quick,
+                            .side = quick ? 16 : 64,
+                            .picture_side = quick ? 0 : 200,
+                            .photons = quick ? 20000 : 500000,
+                            .references = quick ? 640 : 5120,
+                            .seeds = quick ? 2 : 6};
+    report_table *const table = lab_table(run, "ways", of_ways);
+    aur_result result = lab_stage_open(run, quick ? "cornell-box/glossy.xml" : "cornell-box/figure.xml", 0,
+                                       NULL, &study.stage, error);
+    for (size_t i = 0; i < 2 && result == AUR_OK && study.stage.renderer != NULL; ++i) {
+        study.lobe = &adaptive_lobes[i];
+        result = study_lobe(&study, table, error);
+    }
+    adaptive_release(&study);
+    lab_stage_close(&study.stage);
+    return result;
+}
+
+static const report_plot plots[] = {
+    {.name = "ways",
+     .title = "RMSE against directions a gather",
+     .table = "ways",
+     .x = "directions",
+     .y = "rmse",
+     .low = "rmse_low",
+     .high = "rmse_high",
+     .series = "criterion,factor",
+     .panel = "lobe",
+     .log_x = true,
+     .log_y = true},
+    {.name = NULL},
+};
+
+const lab_experiment lab_marques_2019_adaptive = {
+    .name = "marques-2019-adaptive",
+    .reproduces = "Marques 2019, fig. 12",
+    .summary =
+        "adaptive gathering in the Cornell box: gathers of each level, and whether it saves directions",
+    .columns = columns,
+    .measured = "measured",
+    .low = "low",
+    .high = "high",
+    .published = "published",
+    .factor = 1.5,
+    .plots = plots,
+    .takes_no_set = "adaptive patterns are E-SFG alone",
+    .seconds = 240,
+    .quick_seconds = 1.5,
+    .run = run,
+};
