@@ -154,11 +154,11 @@ static aur_result run(lab_run *run, aur_error *error) {
     const bool quick = lab_run_options(run)->quick;
     adaptive_study study = {.run = run,
                             .quick = quick,
-                            .side = quick ? 16 : 64,
-                            .picture_side = quick ? 0 : 200,
+                            .side = quick ? 16 : 48,
+                            .picture_side = quick ? 0 : 128,
                             .photons = quick ? 20000 : 500000,
-                            .references = quick ? 640 : 5120,
-                            .seeds = quick ? 2 : 6};
+                            .references = quick ? 640 : 2560,
+                            .seeds = quick ? 2 : 4};
     report_table *const table = lab_table(run, "ways", of_ways);
     aur_result result = lab_stage_open(run, quick ? "cornell-box/glossy.xml" : "cornell-box/figure.xml", 0,
                                        NULL, &study.stage, error);

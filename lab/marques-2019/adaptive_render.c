@@ -173,7 +173,7 @@ static aur_result draw_one(const adaptive_study *study, const adaptive_way *way,
 }
 
 aur_result adaptive_draw(const adaptive_study *study, const adaptive_way *way, aur_error *error) {
-    const adaptive_way first = {.factor = 1}, last = {.factor = 16}, fine = {.factor = 64};
+    const adaptive_way first = {.factor = 1}, last = {.factor = 16}, fine = {.factor = 32};
     char key[64];
     double drawn;
     snprintf(key, sizeof key, "pictures %s %s", study->lobe->name, way->criterion);

@@ -100,7 +100,7 @@ static void extend(size_t base, size_t levels, double *plane) {
 static aur_result check_extension(lab_run *run, aur_error *error) {
     enum { LEVELS = 2, MOST = 100 << (2 * LEVELS) };
     static const size_t bases[] = {20, 33, 64, 100};
-    static double own[2 * MOST];
+    double own[2 * MOST];
     lattice_check algorithm =
         lattice_begin("algorithm 1, fig. 7", "the points of E-SFG, each at its index", 0.0, 1e-13);
     lattice_check distance =

@@ -90,7 +90,7 @@ static void release_truth(statue_study *study) {
     }
 }
 
-/* The first seed's picture at a size to be looked at, and a reference of 1024 directions. */
+/* The first seed's picture at a size to be looked at, and a reference of 512 directions. */
 static aur_result draw(const statue_study *study, const char *set, size_t diffuse, size_t glossy,
                        bool reference, aur_error *error) {
     aur_image *image = NULL;
@@ -123,7 +123,7 @@ static aur_result study_picture(statue_study *study, aur_error *error) {
         result = lab_forgive(study->run, study->sets[s], result, error);
     }
     if (result == AUR_OK && study->picture_width > 0 && !lab_recall(study->run, "reference", 1, &drawn)) {
-        result = draw(study, "spherical-fibonacci", 1024, 1024, true, error);
+        result = draw(study, "spherical-fibonacci", 512, 512, true, error);
         if (result == AUR_OK)
             result = lab_keep(study->run, "reference", 1, (const double[]){1.0}, error);
     }
@@ -190,12 +190,12 @@ static aur_result run(lab_run *run, aur_error *error) {
     statue_study study = {.run = run,
                           .light = options->quick ? "direct=none,photons=20000"
                                                   : "direct=gather,incident=emitters",
-                          .width = options->quick ? 20 : 56,
-                          .height = options->quick ? 20 : 70,
-                          .picture_width = options->quick ? 0 : 192,
-                          .picture_height = 240,
-                          .references = options->quick ? 1024 : 4096,
-                          .seeds = options->quick ? 4 : 8,
+                          .width = options->quick ? 20 : 40,
+                          .height = options->quick ? 20 : 50,
+                          .picture_width = options->quick ? 0 : 128,
+                          .picture_height = 160,
+                          .references = options->quick ? 1024 : 2048,
+                          .seeds = options->quick ? 4 : 6,
                           .sizes = options->quick ? 3 : SIZES,
                           .set_count = options->set != NULL ? SETS : SETS - 1,
                           .sets = {"spherical-fibonacci", GRID, "sobol", "faure:base=3", options->set}};

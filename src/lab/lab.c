@@ -35,6 +35,9 @@ extern const lab_experiment lab_marques_2019_shifts;
 extern const lab_experiment lab_marques_2019_statue;
 extern const lab_experiment lab_picture_coverage;
 extern const lab_experiment lab_schretter_2012_fig5;
+extern const lab_experiment lab_schretter_2012_gaps;
+extern const lab_experiment lab_schretter_2012_sets;
+extern const lab_experiment lab_schretter_2012_warp;
 extern const lab_experiment lab_weights_choosing;
 
 /* One a line, whatever their lengths. */
@@ -74,6 +77,9 @@ static const lab_experiment *const experiments[] = {
     &lab_marques_2019_statue,
     &lab_picture_coverage,
     &lab_schretter_2012_fig5,
+    &lab_schretter_2012_gaps,
+    &lab_schretter_2012_sets,
+    &lab_schretter_2012_warp,
     &lab_weights_choosing,
 };
 /* clang-format on */
