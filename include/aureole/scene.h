@@ -28,6 +28,10 @@ typedef struct aur_scene_options {
     const aur_definition *definitions; /* they beat the scene's <default>s; an unused one is an error */
     aur_warnings warnings;             /* legacy parameters and the like */
     bool confine; /* no file is read that lies outside of the scene's folder, by whatever name or link */
+    /* Paths of more files of the scene, read in this order as if it included them at its end. Beside a file
+     * of Radiance's all are such; materials of one are known in those after it, as by oconv. */
+    size_t further_count;
+    const char *const *further;
 } aur_scene_options;
 
 static inline aur_scene_options aur_scene_options_default(void) {

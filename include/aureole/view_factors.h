@@ -39,6 +39,8 @@ typedef struct aur_facets_options {
     /* One for each kind of oddity, with how many there are and the first place: facets without area, facets
      * that lie on each other, open or inconsistent edges. */
     aur_warnings warnings;
+    size_t further_count; /* of scenes: more files, as in aur_scene_options */
+    const char *const *further;
 } aur_facets_options;
 
 static inline aur_facets_options aur_facets_options_default(void) {

@@ -150,6 +150,8 @@ static int run(const cli_call *call) {
     load.definition_count = given->definitions.count;
     load.definitions = given->definitions.items;
     load.confine = given->definitions.confine;
+    load.further_count = call->operand_count - 1;
+    load.further = (const char *const *)call->operands + 1;
     load.warnings = cli_warnings(given->common.quiet);
     aur_error error;
     aur_scene *scene = NULL;
@@ -173,9 +175,9 @@ const cli_verb cli_verb_irradiance = {
     .summary = "how much light arrives at points, now or through a year, with standard errors",
     .notes = "The scene needs no camera. Values are in the scene's radiance times steradians; each has the "
              "standard error of 16 independent randomisations. See docs/lighting.md.",
-    .too_few = "one scene is needed",
-    .too_many = "one scene is needed",
-    .operands = {{"SCENE", "a scene (.xml, .rad)", .content = "file"}},
+    .too_few = "a scene is needed",
+    .operands = {{"SCENE", "a scene (.xml, .rad); further files go on with it, as oconv reads them",
+                  .repeated = true, .content = "file"}},
     .groups = {{options, 0},
                {cli_daylight_options, offsetof(irradiance_command, daylight)},
                {cli_definitions_option, offsetof(irradiance_command, definitions)},

@@ -170,6 +170,8 @@ static int run(const cli_call *call) {
     given->facets.definition_count = given->definitions.count;
     given->facets.definitions = given->definitions.items;
     given->facets.confine = given->definitions.confine;
+    given->facets.further_count = call->operand_count - 1;
+    given->facets.further = (const char *const *)call->operands + 1;
     given->facets.warnings = given->factors.warnings = cli_warnings(given->common.quiet);
     given->factors.threads = given->common.threads;
     given->factors.size = sizeof given->factors;
@@ -200,9 +202,9 @@ const cli_verb cli_verb_viewfactors = {
         "Pairs of facets that certainly see each other wholly have closed forms, others are counted along "
         "rays. Rows and the sky add up to 1, and areas times factors are symmetric. See "
         "docs/view-factors.md.",
-    .too_few = "one mesh or scene is needed",
-    .too_many = "one mesh or scene is needed",
-    .operands = {{"MESH", "an OBJ, a PLY or a scene (.xml, .rad)", .content = "file"}},
+    .too_few = "a mesh or scene is needed",
+    .operands = {{"MESH", "an OBJ, a PLY or a scene (.xml, .rad); further files go on with a scene",
+                  .repeated = true, .content = "file"}},
     .groups = {{options, 0},
                {cli_definitions_option, offsetof(factor_command, definitions)},
                {cli_threads_option, offsetof(factor_command, common)},

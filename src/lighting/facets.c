@@ -181,6 +181,9 @@ aur_result aur_facets_load(const char *path, const aur_facets_options *given, au
     source kind = SOURCE_OBJ;
     if (result == AUR_OK)
         result = find_source(path, &kind, error);
+    if (result == AUR_OK && kind < SOURCE_SCENE && options.further_count > 0)
+        result = aur_fail_at(error, (aur_location){.file = path}, AUR_ERROR_UNSUPPORTED,
+                             "a mesh is one file: only scenes go on in '%s'", options.further[0]);
     if (result != AUR_OK)
         return result;
     aur_facets *const facets = calloc(1, sizeof *facets);
@@ -193,6 +196,8 @@ aur_result aur_facets_load(const char *path, const aur_facets_options *given, au
     scene.definition_count = options.definition_count;
     scene.confine = options.confine;
     scene.definitions = options.definitions;
+    scene.further_count = options.further_count;
+    scene.further = options.further;
     result = kind >= SOURCE_SCENE ? aur_scene_load(path, &scene, &facets->scene, error)
                                   : load_mesh(path, kind, &scene, &facets->scene, error);
     if (result == AUR_OK)

@@ -134,7 +134,7 @@ refused 2 "round.xml:2" round.xml
 refused 2 "tells no format" room.obj -o room.what
 refused 2 "--matrix-free makes no matrix" room.obj --matrix-free
 refused 2 "randomisations" room.obj --rays 4
-refused 2 "one mesh or scene is needed" room.obj room.obj
+refused 2 "a mesh is one file" room.obj room.obj
 refused 2 "no-such-set" room.obj --set no-such-set
 mkdir -p 'a & <b> $c'
 cp room.obj 'a & <b> $c/"room".obj'

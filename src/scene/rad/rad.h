@@ -3,15 +3,34 @@
 
 #include <stdbool.h>
 
+#include "core/arena.h"
 #include "core/error.h"
 
 /* Whether a scene's file is one, by its name: .rad. */
 bool aur_rad_is_name(const char *path);
 
-/* Writes the description as an XML scene in which every object stands on the line of its primitive: *xml is
- * malloc'ed. Known are the surfaces polygon, sphere, bubble, cylinder, tube, ring, mesh (of an OBJ file) and
- * source, the materials plastic and metal without specularity, glass, light and glow, and aliases. Errors:
- * FORMAT and UNSUPPORTED with the line of whatever is wrong or not known; NAME for a modifier that is not
- * defined above; MEMORY. */
-aur_result aur_rad_to_xml(const char *path, size_t size, const char *data, char **xml, size_t *xml_size,
-                          aur_error *error);
+/* What the files of one scene share: the materials so far, in the order in which they are read. */
+typedef struct aur_rad_material aur_rad_material;
+typedef struct aur_rad_scene {
+    aur_arena *arena; /* of names */
+    size_t material_count, material_capacity, bsdf_count;
+    aur_rad_material *materials;
+} aur_rad_scene;
+
+void aur_rad_scene_release(aur_rad_scene *scene);
+
+/* One file that becomes XML. */
+typedef struct aur_rad aur_rad;
+
+/* `path` and `error` must last until it is closed. Errors: MEMORY. */
+aur_result aur_rad_open(aur_rad_scene *scene, const char *path, size_t size, const char *data, aur_rad **rad,
+                        aur_error *error);
+/* The next piece of an XML scene in which every object stands on the line of its primitive; it is the
+ * reader's. A piece ends behind the <include> elements of a command that includes files, so that these are
+ * read before what comes after them and may use their materials; one of 0 bytes is none: the file has ended.
+ * Known are the surfaces polygon, sphere, bubble, cylinder, tube, ring, mesh (of an OBJ file) and source, the
+ * materials plastic and metal without specularity, glass, light and glow, aliases, and the commands cat and
+ * xform where they do nothing but include. Errors: FORMAT and UNSUPPORTED with the line of whatever is wrong
+ * or not known; NAME for a modifier that is not defined above; MEMORY. */
+aur_result aur_rad_next(aur_rad *rad, const char **xml, size_t *size);
+void aur_rad_close(aur_rad *rad); /* NULL is allowed */

@@ -23,6 +23,7 @@ enum { DEEPEST_INCLUDE = 15, DEEPEST_ELEMENT = 100, MOST_FILES = 10000 };
 typedef struct reading {
     aur_xml_document *document;
     aur_xml_variables variables;
+    aur_rad_scene rad;
     size_t file_count, file_bytes;
     aur_error *error;
 } reading;
@@ -299,14 +300,12 @@ static void XMLCALL on_text(void *user, const XML_Char *text, int length) {
                                     "text between elements: '%.*s'", length > 40 ? 40 : length, text));
 }
 
-static aur_result parse(file_reading *reader, const char *data, size_t size) {
+/* `last`: nothing comes after it. */
+static aur_result parse(file_reading *reader, const char *data, size_t size, bool last) {
     enum { CHUNK = 1 << 24 };
-    XML_SetUserData(reader->expat, reader);
-    XML_SetElementHandler(reader->expat, on_start, on_end);
-    XML_SetCharacterDataHandler(reader->expat, on_text);
     do {
         const size_t piece = size < CHUNK ? size : CHUNK;
-        const enum XML_Status status = XML_Parse(reader->expat, data, (int)piece, piece == size);
+        const enum XML_Status status = XML_Parse(reader->expat, data, (int)piece, last && piece == size);
         if (reader->result != AUR_OK)
             return reader->result;
         if (status != XML_STATUS_OK)
@@ -318,45 +317,58 @@ static aur_result parse(file_reading *reader, const char *data, size_t size) {
     return AUR_OK;
 }
 
-/* The scene's own file may be text in memory, and so is hashed at once. */
+/* One of Radiance's files, piece by piece: what a piece includes is read before the next one is made. */
+static aur_result parse_rad(file_reading *reader, const char *path, const char *data, size_t size) {
+    reading *const shared = reader->shared;
+    aur_rad *rad;
+    const char *xml;
+    aur_result result = aur_rad_open(&shared->rad, path, size, data, &rad, shared->error);
+    do {
+        if (result == AUR_OK)
+            result = aur_rad_next(rad, &xml, &size);
+        if (result == AUR_OK)
+            result = parse(reader, xml, size, size == 0);
+    } while (result == AUR_OK && size > 0);
+    aur_rad_close(rad);
+    return result;
+}
+
+/* The scene's own files may be text in memory, and so are hashed at once. */
 static aur_result note_scene(reading *shared, const char *path, size_t size, const char *data) {
     aur_xml_document *const document = shared->document;
     const char *const slash = strrchr(path, '/');
     const aur_result result =
         aur_xml_note_file(document, slash != NULL ? slash + 1 : path, path, shared->error);
     if (result == AUR_OK) {
-        document->files[0].hashed = true;
-        document->files[0].hash = aur_hash_bytes(size, data);
+        aur_xml_file *const file = &document->files[document->file_count - 1];
+        file->hashed = true;
+        file->hash = aur_hash_bytes(size, data);
     }
     return result;
 }
 
-/* `from` is the file that includes this one, or NULL. */
+/* `from` is the file that includes this one, or NULL; without a parser, the scene, and this is a further file
+ * of it. */
 static aur_result read_text(reading *shared, const char *path, size_t size, const char *data,
                             const file_reading *from, aur_xml_node *target) {
-    char *translated = NULL;
-    const bool from_rad = aur_rad_is_name(path);
-    if (from_rad) {
-        const aur_result result = aur_rad_to_xml(path, size, data, &translated, &size, shared->error);
-        if (result != AUR_OK)
-            return result;
-        data = translated;
-    }
     file_reading reader = {.shared = shared,
                            .expat = XML_ParserCreate(NULL),
-                           .from_rad = from_rad,
+                           .from_rad = aur_rad_is_name(path) || (from != NULL && from->from_rad),
                            .file = aur_arena_copy(&shared->document->arena, path, strlen(path)),
                            .include_depth = from != NULL ? from->include_depth + 1 : 0,
                            .legacy = from != NULL && from->legacy,
                            .target = target};
     aur_result result = reader.expat != NULL && reader.file != NULL ? AUR_OK : aur_fail_memory(shared->error);
-    if (result == AUR_OK && from == NULL)
+    if (result == AUR_OK && (from == NULL || from->expat == NULL)) /* no other file names it */
         result = note_scene(shared, path, size, data);
-    if (result == AUR_OK)
-        result = parse(&reader, data, size);
+    if (result == AUR_OK) {
+        XML_SetUserData(reader.expat, &reader);
+        XML_SetElementHandler(reader.expat, on_start, on_end);
+        XML_SetCharacterDataHandler(reader.expat, on_text);
+        result = reader.from_rad ? parse_rad(&reader, path, data, size) : parse(&reader, data, size, true);
+    }
     if (reader.expat != NULL)
         XML_ParserFree(reader.expat);
-    free(translated);
     return result;
 }
 
@@ -374,6 +386,12 @@ static aur_result read_file(reading *shared, const char *path, const file_readin
     result = read_text(shared, path, size, data, from, target);
     free(data);
     return result;
+}
+
+/* A file more, as if the scene's own, `path`, included it at its end. */
+static aur_result read_further(reading *shared, const char *path, const char *further) {
+    const file_reading from = {.file = path, .from_rad = aur_rad_is_name(path)};
+    return read_file(shared, further, &from, shared->document->root);
 }
 
 /* --- ids */
@@ -435,13 +453,18 @@ static aur_result resolve_aliases(const aur_xml_document *document, aur_error *e
 aur_result aur_xml_read(const char *path, size_t bytes, const char *data, const aur_scene_options *options,
                         aur_xml_document *document, aur_error *error) {
     *document = (aur_xml_document){0};
-    reading shared = {.document = document, .variables = {.arena = &document->arena}, .error = error};
+    reading shared = {.document = document,
+                      .variables = {.arena = &document->arena},
+                      .rad = {.arena = &document->arena},
+                      .error = error};
     aur_result result = aur_xml_variables_define(&shared.variables, options, error);
     if (result == AUR_OK && options->confine)
         result = aur_xml_confine(document, path, error);
     if (result == AUR_OK)
         result = data != NULL ? read_text(&shared, path, bytes, data, NULL, NULL)
                               : read_file(&shared, path, NULL, NULL);
+    for (size_t i = 0; i < options->further_count && result == AUR_OK; ++i)
+        result = read_further(&shared, path, options->further[i]);
     if (result == AUR_OK)
         result = sort_ids(document, error);
     if (result == AUR_OK)
@@ -449,6 +472,7 @@ aur_result aur_xml_read(const char *path, size_t bytes, const char *data, const 
     if (result == AUR_OK)
         result = aur_xml_variables_finish(&shared.variables, path, error);
     free(shared.variables.items);
+    aur_rad_scene_release(&shared.rad);
     if (result != AUR_OK)
         aur_xml_release(document);
     return result;
