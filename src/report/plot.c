@@ -37,6 +37,16 @@ static axis make_axis(const report_layout *l, size_t panel, const size_t *column
     return a;
 }
 
+/* Widens one of two axes until a step is as long on both. */
+static void make_equal(axis *x, axis *y) {
+    const double of_x = (x->high - x->low) / abs(x->to - x->from);
+    const double of_y = (y->high - y->low) / abs(y->to - y->from);
+    axis *const wider = of_x < of_y ? x : y;
+    const double more = 0.5 * (fmax(of_x, of_y) / fmin(of_x, of_y) - 1.0) * (wider->high - wider->low);
+    wider->low -= more;
+    wider->high += more;
+}
+
 static void put_tick(FILE *page, const axis *a, double value) {
     const double at = place(a, value);
     const bool level = a->from > a->to; /* y goes up */
@@ -104,8 +114,10 @@ static void put_series(FILE *page, const report_layout *l, size_t panel, size_t 
 
 static void put_panel(FILE *page, const report_layout *l, size_t panel, report_plotted *points) {
     const size_t ys[] = {l->y, l->low, l->high};
-    const axis x = make_axis(l, panel, &l->x, 1, l->plot->log_x, LEFT, WIDTH - RIGHT);
-    const axis y = make_axis(l, panel, ys, 3, l->plot->log_y, HEIGHT - BOTTOM, TOP);
+    axis x = make_axis(l, panel, &l->x, 1, l->plot->log_x, LEFT, WIDTH - RIGHT);
+    axis y = make_axis(l, panel, ys, 3, l->plot->log_y, HEIGHT - BOTTOM, TOP);
+    if (l->plot->points)
+        make_equal(&x, &y);
     fprintf(page, "<svg viewBox=\"0 0 %d %d\" role=\"img\"><title>", WIDTH, HEIGHT);
     report_escape(page, l->plot->title);
     fprintf(page, "</title>\n<text x=\"%d\" y=\"14\">", LEFT);

@@ -50,6 +50,8 @@ size_t report_plot_script(FILE *script, const report_table *table, const report_
         put_text(script, "\nset ylabel ", plot->y);
         fprintf(script, "\n%s%sset autoscale xfix\nset offsets graph .05, graph .05, graph .05, graph .05\n",
                 plot->log_x ? "set logscale x\n" : "", plot->log_y ? "set logscale y\n" : "");
+        if (plot->points)
+            fputs("set size ratio -1\n", script);
         fprintf(script, "set multiplot layout %zu,%zu\n", (panels + columns - 1) / columns, columns);
         for (size_t p = 0; p < panels; ++p)
             put_panel(script, l, p, points);
