@@ -216,8 +216,9 @@ static const report_plot plots[] = {
 
 const lab_experiment lab_marques_2013_gather = {
     .name = "marques-2013-gather",
-    .reproduces = "Marques 2013, figs 5-6",
-    .summary = "spherical Fibonacci against scrambled Sobol in final gathering at equal rays",
+    .reproduces = "Marques 2013, section 6.2, and the photon map's bias",
+    .summary = "spherical Fibonacci against scrambled Sobol in the glossy Cornell box; gathering against "
+               "path tracing",
     .columns = columns,
     .plots = plots,
     .seconds = 300,

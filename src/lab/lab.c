@@ -2,6 +2,7 @@
 #include "lab/lab.h"
 
 extern const lab_experiment lab_analytical_cases;
+extern const lab_experiment lab_aureole_correlated_rotations;
 extern const lab_experiment lab_domains_axes;
 extern const lab_experiment lab_domains_every_number;
 extern const lab_experiment lab_domains_grids;
@@ -13,6 +14,11 @@ extern const lab_experiment lab_irradiance_coverage;
 extern const lab_experiment lab_keller_1994_table1;
 extern const lab_experiment lab_keller_1994_table2;
 extern const lab_experiment lab_keller_1994_table3;
+extern const lab_experiment lab_marques_2013_closeups;
+extern const lab_experiment lab_marques_2013_fig1;
+extern const lab_experiment lab_marques_2013_fig2;
+extern const lab_experiment lab_marques_2013_fig3;
+extern const lab_experiment lab_marques_2013_fig4;
 extern const lab_experiment lab_marques_2013_gather;
 extern const lab_experiment lab_marques_2013_table1;
 extern const lab_experiment lab_marques_2018_beyond;
@@ -44,6 +50,7 @@ extern const lab_experiment lab_weights_choosing;
 /* clang-format off */
 static const lab_experiment *const experiments[] = {
     &lab_analytical_cases,
+    &lab_aureole_correlated_rotations,
     &lab_domains_axes,
     &lab_domains_every_number,
     &lab_domains_grids,
@@ -55,6 +62,11 @@ static const lab_experiment *const experiments[] = {
     &lab_keller_1994_table1,
     &lab_keller_1994_table2,
     &lab_keller_1994_table3,
+    &lab_marques_2013_closeups,
+    &lab_marques_2013_fig1,
+    &lab_marques_2013_fig2,
+    &lab_marques_2013_fig3,
+    &lab_marques_2013_fig4,
     &lab_marques_2013_gather,
     &lab_marques_2013_table1,
     &lab_marques_2018_beyond,

@@ -136,6 +136,7 @@ typedef struct lab_rendering {
     aur_renderer *renderer;
     const char *integrator; /* NAME:KEYS */
     size_t width, height;
+    size_t crop[4]; /* only the pixels of [x0, x1) x [y0, y1); all 0: the whole picture */
     size_t samples; /* a pixel; 0: 1 */
     uint64_t seed;
 } lab_rendering;

@@ -59,6 +59,10 @@ aur_result lab_render(const lab_run *run, const lab_rendering *how, aur_image **
                                         .seed = how->seed,
                                         .width = how->width,
                                         .height = how->height,
+                                        .crop_x0 = how->crop[0],
+                                        .crop_x1 = how->crop[1],
+                                        .crop_y0 = how->crop[2],
+                                        .crop_y1 = how->crop[3],
                                         .threads = run->options.threads,
                                         .progress = run->options.progress,
                                         .warnings = run->options.warnings};

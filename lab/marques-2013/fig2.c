@@ -1,0 +1,154 @@
+/* 512 points of four sets in the square and on the hemisphere under two maps, drawn, and how far each point
+ * is from its nearest neighbour (Marques 2013, fig. 2). */
+#include <float.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "patterns.h"
+
+enum { COUNT = 512, QUICK = 128, VIEWS = 2 * MARQUES_PATTERNS };
+
+typedef struct view {
+    const char *set, *projection;
+    double least, mean, spread; /* distances to the nearest point, times the root of the count */
+} view;
+
+typedef struct sheet {
+    lab_run *run;
+    report_table *points;
+    size_t count, view_count;
+    view views[VIEWS];
+} sheet;
+
+static double distance_to_nearest(const aur_points_view *points, size_t index) {
+    double least = DBL_MAX;
+    for (size_t i = 0; i < points->count; ++i) {
+        double square = 0.0;
+        for (size_t d = 0; d < points->dimension; ++d) {
+            const double off =
+                points->coordinates[i * points->stride + d] - points->coordinates[index * points->stride + d];
+            square += off * off;
+        }
+        if (i != index)
+            least = fmin(least, square);
+    }
+    return sqrt(least);
+}
+
+/* Where a point is drawn: in the square, or on the disk that has the hemisphere's areas. */
+static void draw(const sheet *s, const view *v, const aur_points_view *points) {
+    for (size_t i = 0; i < points->count; ++i) {
+        const double *const p = points->coordinates + i * points->stride;
+        const double scale = points->dimension == 3 ? 1.0 / sqrt(1.0 + p[2]) : 1.0;
+        lab_table_row(s->points, (const char *const[]){v->set, v->projection, NULL}, 2,
+                      (const double[]){scale * p[0], scale * p[1]});
+    }
+}
+
+static aur_result add_view(sheet *s, const marques_pattern *pattern, aur_domain domain, aur_error *error) {
+    aur_points *made;
+    const aur_result result = marques_points(pattern, domain, s->count, 0, &made, error);
+    if (result != AUR_OK)
+        return result;
+    const aur_points_view points = *aur_points_look(made);
+    view *const v = &s->views[s->view_count++];
+    *v = (view){.set = pattern->set,
+                .projection = domain == AUR_DOMAIN_SQUARE ? "square" : pattern->label,
+                .least = DBL_MAX};
+    double squares = 0.0;
+    for (size_t i = 0; i < points.count; ++i) {
+        const double nearest = distance_to_nearest(&points, i) * sqrt((double)points.count);
+        v->least = fmin(v->least, nearest);
+        v->mean += nearest / (double)points.count;
+        squares += nearest * nearest / (double)points.count;
+    }
+    v->spread = sqrt(fmax(0.0, squares - v->mean * v->mean)) / v->mean;
+    draw(s, v, &points);
+    aur_points_destroy(made);
+    lab_row(s->run, (const char *const[]){v->set, v->projection, NULL}, 4,
+            (const double[]){(double)s->count, v->least, v->mean, v->spread});
+    return AUR_OK;
+}
+
+static const view *find(const sheet *s, const char *set, const char *projection) {
+    for (size_t i = 0; i < s->view_count; ++i)
+        if (strcmp(s->views[i].set, set) == 0 && strcmp(s->views[i].projection, projection) == 0)
+            return &s->views[i];
+    return NULL;
+}
+
+/* What the paper says of these drawings, asked of the distances. */
+static void judge(const sheet *s) {
+    static const char *const projections[] = {"square", "lambert", "concentric"};
+    static const char *const even[] = {"bnot", "larcher-pillichshammer"};
+    for (size_t p = 0; p < 3; ++p) {
+        const view *const sobol = find(s, "sobol", projections[p]);
+        for (size_t i = 0; i < 2; ++i) {
+            const view *const other = find(s, even[i], projections[p]);
+            lab_claim(
+                s->run, other->spread < sobol->spread,
+                "%s points (%s) lie more evenly than Sobol's: distances to the nearest vary by %.3f and "
+                "%.3f of their mean",
+                even[i], projections[p], other->spread, sobol->spread);
+        }
+    }
+    const view *const fibonacci = find(s, "spherical-fibonacci", "-");
+    size_t behind = 0, rivals = 0;
+    for (size_t i = 0; i < s->view_count; ++i)
+        if (strcmp(s->views[i].projection, "square") != 0 && &s->views[i] != fibonacci) {
+            ++rivals;
+            behind += s->views[i].least < fibonacci->least && s->views[i].spread > fibonacci->spread;
+        }
+    lab_claim(s->run, behind == rivals,
+              "spherical Fibonacci points are the most uniform on the hemisphere: %zu of %zu others have a "
+              "smaller least distance and a wider spread",
+              behind, rivals);
+}
+
+static const char *const columns[] = {"set", "projection", "n", "least", "mean", "spread", NULL};
+
+static aur_result run(lab_run *run, aur_error *error) {
+    static const char *const of_points[] = {"set", "projection", "x", "y", NULL};
+    const char *const more = lab_run_options(run)->set;
+    sheet s = {.run = run,
+               .points = lab_table(run, "points", of_points),
+               .count = lab_run_options(run)->quick ? QUICK : COUNT};
+    marques_pattern patterns[MARQUES_PATTERNS];
+    const size_t count = marques_patterns(run, patterns);
+    aur_result result = AUR_OK;
+    for (size_t i = 1; i < count && patterns[i].map == AUR_MAP_LAMBERT && result == AUR_OK; ++i) {
+        result = add_view(&s, &patterns[i], AUR_DOMAIN_SQUARE, error);
+        /* A set of --set may be one of directions alone. */
+        if (result != AUR_OK && patterns[i].set == more)
+            result = result == AUR_ERROR_MEMORY ? result : AUR_OK;
+    }
+    for (size_t i = 0; i < count && result == AUR_OK; ++i)
+        result = lab_forgive(run, patterns[i].set, add_view(&s, &patterns[i], AUR_DOMAIN_HEMISPHERE, error),
+                             error);
+    if (result == AUR_OK)
+        judge(&s);
+    return result;
+}
+
+static const report_plot plots[] = {
+    {.name = "points",
+     .title = "Points in the square, and on the hemisphere as a disk of the same areas",
+     .table = "points",
+     .x = "x",
+     .y = "y",
+     .panel = "set,projection",
+     .points = true},
+    {.name = NULL},
+};
+
+const lab_experiment lab_marques_2013_fig2 = {
+    .name = "marques-2013-fig2",
+    .reproduces = "Marques 2013, fig. 2",
+    .summary = "512 points of four sets in the square and under two maps, and their nearest distances",
+    .columns = columns,
+    .plots = plots,
+    .seconds = 1,
+    .quick_seconds = 0.1,
+    .run = run,
+};
