@@ -46,7 +46,10 @@ static void begin_scene(writer *w, const char *scene) {
         "<?xml version=\"1.0\" encoding=\"utf-8\"?>\n"
         "<!--\n    Keller's analytic form of %s (1994, section 4.1): every triangle reflects half and emits "
         "1/4, so the\n"
-        "    radiance is 1/2 everywhere. Made by ../keller.c.\n-->\n<scene version=\"3.0.0\">\n"
+        "    radiance is 1/2 everywhere. Below 1, ceiling and walls leave so much of the room's length and "
+        "height\n"
+        "    closed. Made by ../keller.c.\n-->\n<scene version=\"3.0.0\">\n"
+        "    <default name=\"ceiling\" value=\"1\"/>\n    <default name=\"walls\" value=\"1\"/>\n"
         "    <default name=\"integrator\" value=\"radiosity\"/>\n    <default name=\"spp\" value=\"16\"/>\n\n"
         "    <integrator type=\"$integrator\"/>\n\n    <include filename=\"%s-camera.xml\"/>\n\n"
         "    <bsdf type=\"diffuse\" id=\"half\">\n        <rgb name=\"reflectance\" value=\"0.5\"/>\n    "
@@ -57,6 +60,9 @@ static void begin_scene(writer *w, const char *scene) {
 static void begin_group(writer *w) {
     w->group.vertex_count = w->group.triangle_count = 0;
 }
+
+#define TO_WORLD(scale_)                                                                                     \
+    "        <transform name=\"to_world\">\n            <scale " scale_ "/>\n        </transform>\n"
 
 /* Writes meshes/<scene>-<name>.obj; texture coordinates, where wanted, are metres along x and y. */
 static void end_group(writer *w, const char *name, bool textured) {
@@ -83,13 +89,16 @@ static void end_group(writer *w, const char *name, bool textured) {
             fprintf(file.stream, "f %zu %zu %zu\n", a, b, c);
     }
     keep(w, sheet_write(&file, path, &w->error));
+    const char *const transform = strcmp(name, "ceiling") == 0     ? TO_WORLD("x=\"$ceiling\"")
+                                  : strncmp(name, "wall-", 5) == 0 ? TO_WORLD("z=\"$walls\"")
+                                                                   : "";
     fprintf(w->analytic.stream,
-            "\n    <shape type=\"obj\">\n        <string name=\"filename\" value=\"meshes/%s-%s.obj\"/>\n"
+            "\n    <shape type=\"obj\">\n        <string name=\"filename\" value=\"meshes/%s-%s.obj\"/>\n%s"
             "        <boolean name=\"face_normals\" value=\"true\"/>\n        <ref id=\"half\"/>\n"
             "        <emitter type=\"area\">\n            <rgb name=\"radiance\" value=\"0.25\"/>\n        "
             "</emitter>\n"
             "    </shape>\n",
-            w->scene, name);
+            w->scene, name, transform);
 }
 
 static void end_scene(writer *w, size_t triangles) {

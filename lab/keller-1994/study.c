@@ -22,6 +22,28 @@ static const keller_set sets[KELLER_SETS] = {
     {"hammersley", false},
 };
 
+const uint64_t keller_sizes[KELLER_SIZES] = {1000, 10000, 100000};
+
+/* [scene: cube, living room, office, teapot][N][set] */
+static const double table3[KELLER_SCENES][KELLER_SIZES][KELLER_PUBLISHED_SETS] = {
+    {{0.00589147, 0.00485275, 0.00514532, 0.00398542, 0.00500996},
+     {0.00171686, 0.00181801, 0.00147316, 0.00128062, 0.00184561},
+     {0.000478878, 0.000538219, 0.000402798, 0.000395118, 0.00152823}},
+    {{0.0056218, 0.00591197, 0.00478811, 0.00455163, 0.00582923},
+     {0.00325591, 0.00320881, 0.00322973, 0.00330551, 0.00322495},
+     {0.0028332, 0.00282448, 0.00282852, 0.00282892, 0.00284094}},
+    {{0.00861589, 0.00845805, 0.00825801, 0.0070116, 0.00775931},
+     {0.00672887, 0.00668762, 0.00670869, 0.00680193, 0.00695615},
+     {0.00661765, 0.00654544, 0.00655064, 0.00657714, 0.00685}},
+    {{0.00624067, 0.0116751, 0.00809856, 0.00610271, 0.00580429},
+     {0.00183252, 0.00199039, 0.00156816, 0.00158062, 0.00159681},
+     {0.000581887, 0.000552315, 0.000543979, 0.000565605, 0.000613286}},
+};
+
+double keller_table3(size_t scene, size_t size, size_t set) {
+    return table3[scene][size][set];
+}
+
 const keller_scene *keller_scene_at(size_t index) {
     return &scenes[index];
 }
@@ -51,7 +73,7 @@ aur_result keller_start(const lab_run *run, const aur_scene *scene, const char *
     return aur_radiosity_create(scene, &options, radiosity, error);
 }
 
-aur_result keller_deviation(const aur_radiosity *radiosity, double *plain, double *weighted,
+aur_result keller_deviation(const aur_radiosity *radiosity, double answer, double *plain, double *weighted,
                             aur_error *error) {
     aur_radiosity_description d = {.size = sizeof d};
     aur_radiosity_describe(radiosity, &d, NULL);
@@ -64,7 +86,7 @@ aur_result keller_deviation(const aur_radiosity *radiosity, double *plain, doubl
     const aur_result result = aur_radiosity_results(radiosity, d.triangles, sizeof *results, results, NULL);
     double sum = 0.0, weighted_sum = 0.0;
     for (size_t i = 0; i < d.triangles && result == AUR_OK; ++i) {
-        const double difference = results[i].radiance[0] - 0.5;
+        const double difference = results[i].radiance[0] - answer;
         sum += difference * difference;
         weighted_sum += difference * difference * results[i].area;
     }
@@ -79,4 +101,16 @@ void keller_published(lab_run *run, double published) {
         lab_text(run, NULL);
     else
         lab_number(run, published);
+}
+
+double keller_rms(size_t count, const double *squares, double *least, double *greatest) {
+    double sum = 0.0;
+    *least = INFINITY;
+    *greatest = 0.0;
+    for (size_t i = 0; i < count; ++i) {
+        sum += squares[i];
+        *least = fmin(*least, sqrt(squares[i]));
+        *greatest = fmax(*greatest, sqrt(squares[i]));
+    }
+    return sqrt(sum / (double)count);
 }

@@ -6,7 +6,17 @@
 
 #include "lab/lab.h"
 
-enum { KELLER_SCENES = 4, KELLER_SETS = 9, KELLER_PUBLISHED_SETS = 5, KELLER_VARIANTS = 12 };
+enum {
+    KELLER_SCENES = 4,
+    KELLER_SETS = 9,
+    KELLER_PUBLISHED_SETS = 5,
+    KELLER_VARIANTS = 12,
+    KELLER_SIZES = 3
+};
+
+extern const uint64_t keller_sizes[KELLER_SIZES]; /* of tables 2 and 3 */
+/* What the paper has for a scene of the table, one of these sizes, and one of its own sets. */
+double keller_table3(size_t scene, size_t size, size_t set);
 
 /* In the order of the paper's tables 2 and 3: cube, living room, office, teapot. */
 typedef struct keller_scene {
@@ -30,9 +40,13 @@ aur_result keller_start(const lab_run *run, const aur_scene *scene, const char *
                         size_t bounces, aur_radiosity_directions directions, aur_radiosity **radiosity,
                         aur_error *error);
 
-/* Delta_a^2 and Delta_aw^2 (section 4.1) of a solution in the analytic setting. */
-aur_result keller_deviation(const aur_radiosity *radiosity, double *plain, double *weighted,
+/* Delta_a^2 and Delta_aw^2 (section 4.1) of a solution in the analytic setting; `answer` is 1/2 without a
+ * cut. */
+aur_result keller_deviation(const aur_radiosity *radiosity, double answer, double *plain, double *weighted,
                             aur_error *error);
+
+/* The root of the mean of `squares`, and of the least and the greatest of them. */
+double keller_rms(size_t count, const double *squares, double *least, double *greatest);
 
 /* The last cell of a row. NaN: not published. */
 void keller_published(lab_run *run, double published);

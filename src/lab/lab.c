@@ -11,6 +11,10 @@ extern const lab_experiment lab_domains_prefixes;
 extern const lab_experiment lab_factors_coverage;
 extern const lab_experiment lab_integrate_coverage;
 extern const lab_experiment lab_irradiance_coverage;
+extern const lab_experiment lab_keller_1994_features;
+extern const lab_experiment lab_keller_1994_figure1;
+extern const lab_experiment lab_keller_1994_floor;
+extern const lab_experiment lab_keller_1994_mirrors;
 extern const lab_experiment lab_keller_1994_table1;
 extern const lab_experiment lab_keller_1994_table2;
 extern const lab_experiment lab_keller_1994_table3;
@@ -59,6 +63,10 @@ static const lab_experiment *const experiments[] = {
     &lab_factors_coverage,
     &lab_integrate_coverage,
     &lab_irradiance_coverage,
+    &lab_keller_1994_features,
+    &lab_keller_1994_figure1,
+    &lab_keller_1994_floor,
+    &lab_keller_1994_mirrors,
     &lab_keller_1994_table1,
     &lab_keller_1994_table2,
     &lab_keller_1994_table3,
