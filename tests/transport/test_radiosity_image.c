@@ -177,6 +177,27 @@ static void mirrors_show_the_same(void **state) {
     "x='0.4'/></transform>"                                                                                  \
     "<bsdf type='diffuse'/></shape>"
 
+/* In a closed box whose walls all shine, direct light is 1/2 everywhere. 16 times the samples leave a
+ * sixteenth of the square deviation; an eighth is asked, for it is known from one picture each. */
+static void more_samples_see_more_of_the_lights(void **state) {
+    (void)state;
+    aur_scene *const scene =
+        must_load_body("<shape type='cube'><boolean name='flip_normals' value='true'/>"
+                       "<bsdf type='diffuse'><rgb name='reflectance' value='0.5, 0.5, 0.5'/></bsdf>"
+                       "<emitter type='area'><rgb name='radiance' value='1, 1, 1'/></emitter></shape>");
+    static const size_t samples[2] = {4, 64};
+    double squares[2];
+    for (size_t i = 0; i < 2; ++i) {
+        aur_image *const image = render(scene, "radiosity:component=direct", samples[i], 2, NULL);
+        double mean, error;
+        mean_of(image, &mean, &error);
+        assert_near(mean, 0.5, 4.0 * error);
+        squares[i] = PIXELS * error * error;
+        aur_image_destroy(image);
+    }
+    assert_true(squares[1] <= squares[0] / 8.0);
+}
+
 /* The permuted scheme against all lights at every hit point: the same expectation in every pixel. */
 static void permuting_lights_is_unbiased(void **state) {
     (void)state;
@@ -271,6 +292,7 @@ int main(void) {
         cmocka_unit_test(components_are_what_they_should_be),
         cmocka_unit_test(mirrors_show_the_same),
         cmocka_unit_test(permuting_lights_is_unbiased),
+        cmocka_unit_test(more_samples_see_more_of_the_lights),
         cmocka_unit_test(sharing_smooths_the_indirect_light),
         cmocka_unit_test(adaptive_pixels_spare_samples),
         cmocka_unit_test(pictures_depend_on_nothing_else),

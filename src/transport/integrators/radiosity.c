@@ -73,7 +73,7 @@ static const aur_key keys[] = {
                      "s of the optimal weights and density"),
      .minimum_open = true, .maximum_open = true},
     {AUR_KEY_OF_CHOICE(radiosity_data, "light_sampling", light_sampling, "permuted",
-                       "each light at one of a pixel's points, or all lights at each", "permuted", "all")},
+                       "each light at one of four points, or all lights at each", "permuted", "all")},
     {AUR_KEY_OF_BOOLEAN(radiosity_data, "share_neighbours", image.share_neighbours, "false",
                         "neighbouring pixels share what they gather")},
     {AUR_KEY_OF_CHOICE(radiosity_data, "oversampling", image.oversampling, "halton",

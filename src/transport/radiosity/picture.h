@@ -28,7 +28,7 @@ typedef struct aur_radiosity_image {
     /* The pattern of gather rays about +z, turned at random at every point; the weights are for cos / pi. */
     size_t direction_count;
     float *x, *y, *z, *weights;
-    bool permuted; /* each light at one of a pixel's hit points; else all lights at each */
+    bool permuted; /* each light at one of four hit points; else all lights at each */
     bool share_neighbours;
     aur_radiosity_oversampling oversampling;
     float threshold; /* of adaptive oversampling */

@@ -74,8 +74,8 @@ static aur_vector light_sample(const workspace *work, const aur_radiosity_place 
     return aur_radiosity_direct(&work->image->solution->scene, place, triangle, u, v, &work->counters->rays);
 }
 
-/* Light number p of the pixel's order is taken by hit point p mod `points` alone, `points` times: over the
- * pixel every light is used once. */
+/* Light number p of the round's order is taken by hit point p mod `points` alone, `points` times: over the
+ * round every light is used once. */
 static aur_vector direct_light(const workspace *work, const aur_radiosity_place *place, uint64_t pixel,
                                uint32_t index, uint32_t points) {
     const bool permuted = work->image->permuted;
@@ -134,12 +134,13 @@ static bool is_steady(const pixel_points *p, float threshold) {
     return fabsf(now - before) <= threshold * now;
 }
 
-/* Hit points first .. first + count - 1 of a pixel. Adaptive ones come in rounds that share out all lights.
- */
+/* Hit points first .. first + count - 1 of a pixel. They come in rounds that share out all lights, so that
+ * more hit points see more of each. */
 static void make_pixel(const workspace *work, size_t x, size_t y, uint32_t first, uint32_t count,
                        pixel_points *made) {
     const bool adaptive = work->image->oversampling == AUR_RADIOSITY_ADAPTIVE;
-    const uint32_t points = adaptive ? ROUND : (uint32_t)work->image->samples_per_pixel;
+    const size_t samples = work->image->samples_per_pixel;
+    const uint32_t points = samples < ROUND ? (uint32_t)samples : ROUND;
     made->count = 0;
     uint32_t round = UINT32_MAX;
     for (uint32_t i = first; i < first + count; ++i) {
