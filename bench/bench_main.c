@@ -11,6 +11,7 @@
 /* A line a bench. */
 /* clang-format off */
 extern const bench bench_ao;
+extern const bench bench_ask;
 extern const bench bench_defaults;
 extern const bench bench_domains;
 extern const bench bench_gather;
@@ -29,6 +30,7 @@ extern const bench bench_weights;
 
 static const bench *const benches[] = {
     &bench_ao,
+    &bench_ask,
     &bench_defaults,
     &bench_domains,
     &bench_gather,

@@ -1,0 +1,255 @@
+#include "ask_calibration.h"
+
+#include <aureole/ask.h>
+#include <aureole/image.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#include "child.h"
+#include "experimental.h"
+
+/* Pixels, values, and samples a pixel of each of the two pictures that are the truth. */
+enum {
+    WIDTH = 32,
+    HEIGHT = 24,
+    VALUES = 3 * WIDTH * HEIGHT,
+    TRUE_SAMPLES = 2048,
+    RUNS = 120,
+    QUICK_RUNS = 2
+};
+
+typedef struct calibration_row {
+    const char *scene; /* below the source tree's scenes; with .. beside the tree, where it may be missing */
+    const char *truth; /* integrator */
+    double asked;
+} calibration_row;
+
+/* Errors that take some ten to some hundred samples a pixel. */
+static const calibration_row rows[] = {
+    {"cornell-box/cornell-box.xml", "path", 0.05},
+    {"cornell-box/figure.xml", "path", 0.08},
+    {"cornell-box/glossy.xml", "path", 0.08},
+    {"room/room.xml", "path", 0.10},
+    {"parade/parade.xml", "path", 0.15},
+    {"plates/plates.xml", "path", 0.05},
+    {"statue/statue.xml", "path", 0.05},
+    {"sphere/sphere.xml", "path", 0.05},
+    {"occlusion/occlusion.xml", "ao:samples=4096", 0.03},
+    {"haze/haze.xml", "volpath", 0.15},
+    {"keller/cube-camera.xml", "path", 0.05},
+    {"keller/teapot-box-camera.xml", "path", 0.05},
+    {"keller/living-room-camera.xml", "path", 0.05},
+    {"keller/office-camera.xml", "path", 0.05},
+    {"keller/corridor-camera.xml", "path", 0.08},
+    {"../../shared/scenes/veach-mis/scene.xml", "path", 0.05},
+    {"../../shared/scenes/veach-bidir/scene.xml", "path", 0.30},
+};
+
+enum { ROW_COUNT = sizeof rows / sizeof rows[0] };
+
+typedef struct tally {
+    size_t runs, held, below, gathered;
+    double error, least, samples, rays; /* sums; the least of error over asked */
+} tally;
+
+typedef struct truth {
+    double values[VALUES];
+    double mean, own_square; /* of the truth's own error */
+} known_truth;
+
+static bool read_truth(const char *path, float *values) {
+    aur_image *image = NULL;
+    if (access(path, R_OK) != 0 || aur_image_read(path, &image, NULL) != AUR_OK)
+        return false;
+    const bool fits = aur_image_width(image) == WIDTH && aur_image_height(image) == HEIGHT;
+    if (fits)
+        memcpy(values, aur_image_data(image), VALUES * sizeof *values);
+    aur_image_destroy(image);
+    return fits;
+}
+
+static aur_render_options small(const bench_options *options) {
+    aur_render_options own = aur_render_options_default();
+    own.width = WIDTH;
+    own.height = HEIGHT;
+    own.filter = "box";
+    own.threads = options->threads;
+    return own;
+}
+
+/* Rendered once and kept beside the program. */
+static aur_result make_truth(const bench_options *options, aur_renderer *renderer, size_t row, size_t half,
+                             const char *path, float *values, aur_error *error) {
+    aur_render_options own = small(options);
+    own.integrator = rows[row].truth;
+    own.sampler = "sobol";
+    own.samples_per_pixel = options->quick ? 64 : TRUE_SAMPLES;
+    if (strncmp(rows[row].truth, "ao", 2) == 0)
+        own.samples_per_pixel = 64;
+    own.seed = 1001 + half;
+    aur_image *image = NULL;
+    printf("  %s: a reference is rendered once\n", rows[row].scene);
+    fflush(stdout);
+    aur_result result = aur_renderer_render(renderer, &own, &image, NULL, error);
+    if (result == AUR_OK) {
+        memcpy(values, aur_image_data(image), VALUES * sizeof *values);
+        result = aur_image_write(path, image, NULL, error);
+    }
+    aur_image_destroy(image);
+    return result;
+}
+
+static aur_result open_truth(const bench_options *options, aur_renderer *renderer, size_t row,
+                             const char *folder, known_truth *found, aur_error *error) {
+    float values[2][VALUES];
+    for (size_t half = 0; half < 2; ++half) {
+        char name[128], path[4400];
+        snprintf(name, sizeof name, "%s", rows[row].scene);
+        for (char *slash = strchr(name, '/'); slash != NULL; slash = strchr(slash, '/'))
+            *slash = '-';
+        snprintf(path, sizeof path, "%s/ask%s-%s-%zu.pfm", folder, options->quick ? "-quick" : "", name,
+                 half + 1);
+        const aur_result result = read_truth(path, values[half])
+                                      ? AUR_OK
+                                      : make_truth(options, renderer, row, half, path, values[half], error);
+        if (result != AUR_OK)
+            return result;
+    }
+    *found = (known_truth){.mean = 0.0};
+    for (size_t i = 0; i < VALUES; ++i) {
+        const double a = (double)values[0][i], b = (double)values[1][i];
+        found->values[i] = 0.5 * (a + b);
+        found->mean += found->values[i] / VALUES;
+        found->own_square += 0.25 * (a - b) * (a - b) / VALUES;
+    }
+    return AUR_OK;
+}
+
+static void count(const known_truth *known, const float *values, double asked, const aur_ask_report *report,
+                  tally *sum) {
+    double square = -known->own_square;
+    for (size_t i = 0; i < VALUES; ++i) {
+        const double off = (double)values[i] - known->values[i];
+        square += off * off / VALUES;
+    }
+    const double error = sqrt(fmax(square, 0.0)) / known->mean;
+    ++sum->runs;
+    sum->held += error >= report->error_low && error <= report->error_high;
+    sum->below += error <= report->error_high;
+    sum->error += error / asked;
+    sum->least = sum->runs == 1 ? error / asked : fmin(sum->least, error / asked);
+    sum->samples += report->samples_per_pixel;
+    sum->rays += (double)report->statistics.rays;
+}
+
+static aur_result render(const bench_options *options, aur_renderer *renderer, double asked, size_t seed,
+                         const known_truth *known, tally *sum, aur_error *error) {
+    aur_render_options own = small(options);
+    own.seed = seed;
+    aur_ask_options wish = aur_ask_options_default();
+    wish.error = options->quick ? 4.0 * asked : asked;
+    aur_ask *ask = NULL;
+    aur_image *image = NULL;
+    aur_ask_report report = {.size = sizeof report};
+    aur_result result = aur_ask_create(renderer, &own, &wish, &ask, error);
+    if (result == AUR_OK)
+        result = aur_ask_run(ask, error);
+    if (result == AUR_OK)
+        result = aur_ask_get_report(ask, &report, error);
+    if (result == AUR_OK)
+        result = aur_ask_develop(ask, false, &image, error);
+    if (result == AUR_OK) {
+        count(known, aur_image_data(image), asked, &report, sum);
+        sum->gathered += strstr(aur_ask_integrator(ask), "finalgather") != NULL;
+    }
+    aur_image_destroy(image);
+    aur_ask_destroy(ask);
+    return result;
+}
+
+/* Where a share p of n runs leaves the true share with 99 % (Wilson 1927). */
+static void share_interval(double share, double n, double *low, double *high) {
+    const double z = 2.5758, centre = (share + z * z / (2.0 * n)) / (1.0 + z * z / n);
+    const double half = z / (1.0 + z * z / n) * sqrt(share * (1.0 - share) / n + z * z / (4.0 * n * n));
+    *low = centre - half;
+    *high = centre + half;
+}
+
+static void print(const char *name, double asked, const tally *t) {
+    const double runs = (double)t->runs, share = (double)t->held / runs;
+    double low, high;
+    share_interval(share, runs, &low, &high);
+    printf("  %-28.28s %5.3g %5zu %6.3f [%.3f, %.3f]%c %6.3f %6.3f %6.3f %8.1f %9.3g %5.2f\n", name, asked,
+           t->runs, share, low, high, low > 0.95 || high < 0.95 ? '!' : ' ', (double)t->below / runs,
+           t->error / runs, t->least, t->samples / runs, t->rays / runs, (double)t->gathered / runs);
+    fflush(stdout);
+}
+
+static void add(tally *sum, const tally *part) {
+    sum->least = sum->runs == 0 ? part->least : fmin(sum->least, part->least);
+    sum->runs += part->runs;
+    sum->held += part->held;
+    sum->below += part->below;
+    sum->gathered += part->gathered;
+    sum->error += part->error;
+    sum->samples += part->samples;
+    sum->rays += part->rays;
+}
+
+static aur_result study(const bench_options *options, size_t row, const char *folder, tally *found,
+                        aur_error *error) {
+    char path[512];
+    aur_scene *scene = NULL;
+    aur_renderer *renderer = NULL;
+    known_truth known = {.mean = 0.0};
+    snprintf(path, sizeof path, AUR_SOURCE_DIR "/scenes/%s", rows[row].scene);
+    aur_result result = aur_scene_load(path, NULL, &scene, error);
+    if (result == AUR_OK)
+        result = aur_renderer_create(scene, &renderer, error);
+    if (result == AUR_OK)
+        result = open_truth(options, renderer, row, folder, &known, error);
+    const size_t runs = options->quick ? QUICK_RUNS : RUNS;
+    for (size_t seed = 1; seed <= runs && result == AUR_OK; ++seed)
+        result = render(options, renderer, rows[row].asked, seed, &known, found, error);
+    aur_renderer_destroy(renderer);
+    aur_scene_destroy(scene);
+    return result;
+}
+
+bool bench_ask_calibration(const bench_options *options, bench_figures *figures) {
+    char folder[4000];
+    if (!bench_data_folder(folder, sizeof folder))
+        return false;
+    printf("  %-28s %5s %5s %6s %-16s %6s %6s %6s %8s %9s %5s\n", "scene", "asked", "runs", "held", " 99 %",
+           "below", "error", "least", "samples", "rays", "gather");
+    tally pooled = {0};
+    size_t excluded = 0;
+    for (size_t row = 0; row < ROW_COUNT; ++row) {
+        tally found = {0};
+        aur_error error = {0};
+        if (study(options, row, folder, &found, &error) != AUR_OK) {
+            printf("  %s: left out: %s\n", rows[row].scene, error.message);
+            continue;
+        }
+        double low, high;
+        share_interval((double)found.held / (double)found.runs, (double)found.runs, &low, &high);
+        excluded += low > 0.95 || high < 0.95;
+        print(rows[row].scene, rows[row].asked, &found);
+        add(&pooled, &found);
+        if (options->quick)
+            break;
+    }
+    if (pooled.runs == 0)
+        return bench_fail("no scene was rendered");
+    print("pooled", 0.0, &pooled);
+    const double share = (double)pooled.held / (double)pooled.runs;
+    bench_figures_add(figures, BENCH_AT_LEAST, 0.93, share, "", "runs whose interval holds, pooled");
+    bench_figures_add(figures, BENCH_AT_MOST, 0.97, share, "", "runs whose interval holds, pooled");
+    bench_figures_add(figures, BENCH_AT_MOST, 0.0, (double)excluded, "",
+                      "scenes whose 99 %% interval of that share excludes .95");
+    bench_figures_add(figures, BENCH_AT_LEAST, 0.5, pooled.least, "", "least true error over the one asked");
+    return true;
+}
