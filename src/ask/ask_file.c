@@ -11,7 +11,7 @@
 enum { NUMBERS = 13, STATE_WORDS = NUMBERS + 4 };
 
 static size_t word_count(const aur_ask *ask) {
-    return STATE_WORDS + 2 * ask->trial.replicas.pixel_count + ask->trial.replicas.count * AUR_SECONDS_WORDS;
+    return STATE_WORDS + 2 * ask->trial.value_count + ask->trial.replicas.count * AUR_SECONDS_WORDS;
 }
 
 aur_result aur_ask_save(const aur_ask *ask, const char *path, aur_error *error) {
@@ -42,7 +42,7 @@ aur_result aur_ask_save(const aur_ask *ask, const char *path, aur_error *error) 
     words[at++] = ask->trial.begun;
     words[at++] = ask->gathers;
     words[at++] = ask->others.rays;
-    for (size_t i = 0; i < ask->trial.replicas.pixel_count; ++i) {
+    for (size_t i = 0; i < ask->trial.value_count; ++i) {
         words[at++] = ask->trial.targets[i];
         words[at++] = aur_word_of_double(ask->trial.variances[i]);
     }
@@ -80,7 +80,7 @@ static aur_result take_over(aur_ask *ask, const char *path, const aur_checkpoint
     ask->trial.begun = *word++ != 0;
     ++word; /* whether it gathers, see above */
     ask->others.rays = *word++;
-    for (size_t i = 0; i < ask->trial.replicas.pixel_count; ++i) {
+    for (size_t i = 0; i < ask->trial.value_count; ++i) {
         ask->trial.targets[i] = (uint32_t)*word++;
         ask->trial.variances[i] = aur_double_of_word(*word++);
     }

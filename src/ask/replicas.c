@@ -1,6 +1,7 @@
 #include "ask/replicas.h"
 
 #include <math.h>
+#include <string.h>
 
 #include "core/random.h"
 #include "film/film.h"
@@ -58,7 +59,28 @@ static pixel_range cell_of(const aur_film_layout *layout, size_t column, size_t 
                          .y1 = (y + BLOCK < layout->y1 ? y + BLOCK : layout->y1) - layout->y0};
 }
 
-/* Adds a block's values to the mean, sets its pixels' variances, and returns its Gram matrix. */
+/* Adds to each replica's variance of one sample of a pixel what a channel's deviations of the others from
+ * their own mean say: their sum of squares is that about the mean of all without the replica's part, and has
+ * count - 2 degrees. */
+static void add_variances(const aur_replicas *replicas, size_t pixel, const double *deviations,
+                          double *variances) {
+    const double others = (double)(replicas->count - 1);
+    double squares = 0.0, shares = 0.0; /* of the replicas: one over their samples */
+    double share[AUR_REPLICAS_MAX];
+    for (size_t r = 0; r < replicas->count; ++r) {
+        const uint64_t samples = aur_render_film(replicas->renders[r])->counts[pixel];
+        share[r] = samples > 0 ? 1.0 / (double)samples : 1.0;
+        shares += share[r];
+        squares += deviations[r] * deviations[r];
+    }
+    for (size_t r = 0; r < replicas->count; ++r) {
+        const double own = deviations[r] * deviations[r] * (others + 1.0) / others;
+        variances[r * replicas->pixel_count + pixel] +=
+            fmax(squares - own, 0.0) * others / ((others - 1.0) * (shares - share[r]));
+    }
+}
+
+/* Adds a block's values to the mean and its pixels' variances, and returns its Gram matrix. */
 static aur_gram measure_block(const aur_replicas *replicas, pixel_range block, double *mean,
                               double *variances) {
     const aur_film_layout *const layout = &aur_render_film(replicas->renders[0])->layout;
@@ -66,12 +88,10 @@ static aur_gram measure_block(const aur_replicas *replicas, pixel_range block, d
     for (size_t y = block.y0; y < block.y1; ++y)
         for (size_t x = block.x0; x < block.x1; ++x) {
             const size_t pixel = y * (layout->x1 - layout->x0) + x;
-            variances[pixel] = 0.0;
             for (size_t channel = 0; channel < 3; ++channel) {
                 double d[AUR_REPLICAS_MAX];
                 *mean += deviations_at(replicas, pixel, channel, d);
-                for (size_t r = 0; r < replicas->count; ++r)
-                    variances[pixel] += d[r] * d[r] / (double)(replicas->count - 1);
+                add_variances(replicas, pixel, d, variances);
                 for (size_t r = 0; r < replicas->count; ++r)
                     for (size_t s = 0; s <= r; ++s)
                         gram.products[r][s] += d[r] * d[s];
@@ -87,6 +107,8 @@ void aur_replicas_measure(const aur_replicas *replicas, aur_replica_measure *mea
     const aur_film *const film = aur_render_film(replicas->renders[0]);
     const aur_film_layout *const layout = &film->layout;
     *measure = (aur_replica_measure){0};
+    for (size_t i = 0; i < replicas->count * replicas->pixel_count; ++i)
+        variances[i] = 0.0;
     for (size_t row = layout->y0 / BLOCK; row * BLOCK < layout->y1; ++row)
         for (size_t column = layout->x0 / BLOCK; column * BLOCK < layout->x1; ++column) {
             const aur_gram gram =
@@ -116,12 +138,15 @@ void aur_replicas_smooth(const aur_replicas *replicas, const uint32_t *samples, 
     const double far_part = 1.0 / 16;
     const aur_film_layout *const layout = &aur_render_film(replicas->renders[0])->layout;
     const size_t width = layout->x1 - layout->x0;
-    for (size_t i = 0; i < replicas->pixel_count; ++i)
-        scratch[i] = variances[i] * samples[i];
-    for (size_t i = 0; i < replicas->pixel_count; ++i)
-        variances[i] = ((1.0 - far_part) * mean_about(layout, scratch, i % width, i / width, NEAR) +
-                        far_part * mean_about(layout, scratch, i % width, i / width, FAR)) /
-                       samples[i];
+    const size_t pixels = replicas->pixel_count;
+    for (size_t r = 0; r < replicas->count; ++r) {
+        double *const own = variances + r * pixels;
+        memcpy(scratch, own, pixels * sizeof *scratch);
+        for (size_t i = 0; i < pixels; ++i)
+            own[i] = ((1.0 - far_part) * mean_about(layout, scratch, i % width, i / width, NEAR) +
+                      far_part * mean_about(layout, scratch, i % width, i / width, FAR)) /
+                     samples[r * pixels + i];
+    }
 }
 
 aur_result aur_replicas_develop(const aur_replicas *replicas, bool errors, aur_image **image,

@@ -24,12 +24,14 @@ typedef struct aur_replica_measure {
     double mean;               /* over pixels and channels R, G, B */
 } aur_replica_measure;
 
-/* `variances`[pixel_count] gets the sum over a pixel's channels of the variance of one replica's value. */
+/* `variances`[count * pixel_count] gets, for each replica and pixel, the sum over the channels of the
+ * variance of one sample, as the other replicas tell it. A replica that shared out its samples by its own
+ * values would leave pixels alone where these agree by chance: its error would look smaller than it is. */
 void aur_replicas_measure(const aur_replicas *replicas, aur_replica_measure *measure, double *variances);
 
 /* Variances of single pixels are known too badly to share out samples by: each becomes what the pixels about
- * it say together. `samples`[pixel_count] are those of one replica; `scratch` has room for pixel_count
- * values. */
+ * it say together, and then that of the replica's value, of which `samples`[count * pixel_count] are made.
+ * `scratch` has room for pixel_count values. */
 void aur_replicas_smooth(const aur_replicas *replicas, const uint32_t *samples, double *variances,
                          double *scratch);
 

@@ -19,8 +19,9 @@ aur_result aur_trial_create(aur_renderer *renderer, const aur_render_options *op
     if (result != AUR_OK)
         return result;
     const size_t pixels = trial->replicas.pixel_count;
-    trial->targets = calloc(pixels, sizeof *trial->targets);
-    trial->variances = calloc(pixels, sizeof *trial->variances);
+    trial->value_count = replica_count * pixels;
+    trial->targets = calloc(trial->value_count, sizeof *trial->targets);
+    trial->variances = calloc(trial->value_count, sizeof *trial->variances);
     trial->scratch = calloc(pixels, sizeof *trial->scratch);
     return trial->targets != NULL && trial->variances != NULL && trial->scratch != NULL
                ? AUR_OK
@@ -55,12 +56,15 @@ void aur_trial_spent(const aur_trial *trial, aur_render_statistics *sum) {
 }
 
 double aur_trial_factor(const aur_trial *trial, double error) {
-    const double margin = 0.98, wanted = margin * error / trial->interval.high;
-    return pow(fmin(wanted * wanted, 0.99), 1.0 / trial->rate);
+    const aur_error_interval *const seen = &trial->interval;
+    const double width = seen->high < INFINITY ? 1.0 - seen->estimate / seen->high : 0.0;
+    const double margin = 0.98 - 0.35 * width, least_fall = fmin(0.005 + 1.5 * width, 0.3);
+    const double wanted = fmin(margin * error / seen->high, 1.0 - least_fall);
+    return pow(wanted * wanted, 1.0 / trial->rate);
 }
 
 void aur_trial_plan_evenly(aur_trial *trial, uint32_t samples) {
-    for (size_t i = 0; i < trial->replicas.pixel_count; ++i)
+    for (size_t i = 0; i < trial->value_count; ++i)
         trial->targets[i] = samples;
     trial->begun = true;
 }
@@ -69,7 +73,7 @@ bool aur_trial_plan(aur_trial *trial, double factor) {
     if (trial->rounds == 0)
         aur_trial_plan_evenly(trial, 1);
     else
-        trial->begun = aur_raise_targets(trial->replicas.pixel_count, trial->variances, factor,
+        trial->begun = aur_raise_targets(trial->value_count, trial->variances, factor,
                                          AUR_SAMPLES_PER_PIXEL_MAX, trial->targets);
     return trial->begun;
 }
@@ -86,10 +90,10 @@ static void learn_rate(aur_trial *trial, double earlier_error) {
 
 static void plan_samples(aur_trial *trial) {
     double sum = 0.0;
-    for (size_t i = 0; i < trial->replicas.pixel_count; ++i)
+    for (size_t i = 0; i < trial->value_count; ++i)
         sum += trial->targets[i];
     trial->before = trial->samples;
-    trial->samples = sum / (double)trial->replicas.pixel_count * (double)trial->replicas.count;
+    trial->samples = sum / (double)trial->replicas.pixel_count;
 }
 
 aur_result aur_trial_render(aur_trial *trial, double confidence, const atomic_bool *cancelled,
@@ -101,7 +105,7 @@ aur_result aur_trial_render(aur_trial *trial, double confidence, const atomic_bo
         aur_result result = atomic_load(cancelled) ? AUR_ERROR_CANCELLED : AUR_OK;
         if (result == AUR_OK)
             result = aur_render_step_pixels(replicas->renders[trial->replica], replicas->pixel_count,
-                                            trial->targets, error);
+                                            trial->targets + trial->replica * replicas->pixel_count, error);
         if (result != AUR_OK) {
             trial->samples = trial->before;
             return result;

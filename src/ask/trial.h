@@ -9,8 +9,10 @@
 typedef struct aur_trial {
     char *integrator; /* as aur_render_options take it; NULL: the scene's own */
     aur_replicas replicas;
-    uint32_t *targets; /* samples of each pixel of a replica after the round that was planned last */
-    double *variances, *scratch; /* of the pixels, after the last round */
+    size_t value_count; /* replicas x pixels */
+    uint32_t *targets;  /* [value_count] samples of each replica's pixels after the round planned last */
+    double *variances;  /* [value_count] of the replicas' pixels, as the other replicas tell */
+    double *scratch;
     aur_replica_measure measure;
     aur_error_interval interval; /* relative to the mean */
     double rate;                 /* the error's square falls as samples^-rate */
@@ -31,7 +33,9 @@ void aur_trial_release(aur_trial *trial);
 void aur_trial_spent(const aur_trial *trial, aur_render_statistics *sum);
 
 /* The part of the error's square that a round is to leave so that the interval's upper end comes to `error`,
- * a little below it, so that the last round is seldom followed by a tiny one. */
+ * and below it by what the error seen varies, so that the last round is seldom followed by another. One that
+ * follows lowers the error by more than that: who looks again and again at nearly the same samples stops
+ * where the error looks small by chance. */
 double aur_trial_factor(const aur_trial *trial, double error);
 
 /* Plans the samples of a round; the first is one sample a pixel. False when all pixels have all that they can

@@ -26,8 +26,8 @@ static double rays_of(const aur_trial *trial) {
 /* The rays that a trial is thought to take in all until its noise is `error`. */
 static double rays_to(const aur_trial *trial, double error) {
     const double part = error / trial->interval.high;
-    return rays_of(trial) * aur_growth_to(trial->replicas.pixel_count, trial->variances,
-                                          fmin(part * part, 1.0), trial->targets);
+    return rays_of(trial) *
+           aur_growth_to(trial->value_count, trial->variances, fmin(part * part, 1.0), trial->targets);
 }
 
 static bool is_black(const aur_trial *trial) {

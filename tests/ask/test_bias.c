@@ -22,7 +22,7 @@ static void replicas_of(aur_renderer *renderer, const char *integrator, size_t s
 }
 
 static double mean_of(const aur_replicas *replicas) {
-    static double variances[WIDTH * HEIGHT];
+    static double variances[REPLICAS * WIDTH * HEIGHT];
     aur_replica_measure measure;
     aur_replicas_measure(replicas, &measure, variances);
     return measure.mean;
