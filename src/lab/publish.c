@@ -133,12 +133,24 @@ static aur_result put_pictures(const publication *p, const lab_experiment *of, a
     return result;
 }
 
+/* The plot in both formats of print and of pages that show it, with a link to each. */
+static void print_plot(const publication *p, const char *experiment, const report_table *table,
+                       const report_plot *plot) {
+    static const char *const extensions[] = {"pdf", "svg"};
+    for (size_t i = 0; i < 2 && p->printer != NULL; ++i) {
+        char name[128];
+        snprintf(name, sizeof name, "%s-%s.%s", experiment, plot->name, extensions[i]);
+        if (p->printer->print(p->printer->user, name, table, plot))
+            fprintf(p->page, "<p>For print: <a href=\"%s\">%s</a></p>\n", name, name);
+    }
+}
+
 static aur_result put_plots(const publication *p, const lab_experiment *of, const report_table *table,
                             aur_error *error) {
     aur_result result = AUR_OK;
     for (const report_plot *plot = of->plots; plot != NULL && plot->name != NULL && result == AUR_OK;
          ++plot) {
-        char path[AUR_ERROR_FILE_CAPACITY], name[128];
+        char path[AUR_ERROR_FILE_CAPACITY];
         report_table *further = NULL;
         path_of(p, of, plot->table, path, sizeof path);
         if (plot->table != NULL)
@@ -146,10 +158,8 @@ static aur_result put_plots(const publication *p, const lab_experiment *of, cons
         if (result != AUR_OK)
             break;
         const report_table *const drawn = further != NULL ? further : table;
-        snprintf(name, sizeof name, "%s-%s.pdf", of->name, plot->name);
         report_page_plot(p->page, drawn, plot);
-        if (p->printer != NULL && p->printer->print(p->printer->user, name, drawn, plot))
-            fprintf(p->page, "<p>For print: <a href=\"%s\">%s</a></p>\n", name, name);
+        print_plot(p, of->name, drawn, plot);
         report_destroy(further);
     }
     return result;
