@@ -154,9 +154,10 @@ aur_result aur_build_shape(aur_loader *self, aur_parameters *parameters, void **
         result = aur_loader_medium(self, parameters, "exterior", &exterior);
     if (result == AUR_OK)
         result = aur_loader_reserve(self, &scene->shapes, scene->shape_count, &scene->shape_capacity);
+    if (result != AUR_OK)
+        return result;
     aur_shape **const made = scene->shapes + scene->shape_count;
-    if (result == AUR_OK)
-        result = aur_shape_create(parameters, &scene->document, made, self->error);
+    result = aur_shape_create(parameters, &scene->document, made, self->error);
     if (result != AUR_OK)
         return result;
     *object = *made;

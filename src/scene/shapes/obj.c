@@ -182,9 +182,11 @@ static size_t merge_corners(const obj *self, uint32_t *vertex, uint32_t *unique)
     return count;
 }
 
-static void copy(const float_list *list, uint32_t index, float *to) {
+/* The values of a corner, where it has any, as those of a vertex. */
+static void copy(const float_list *list, uint32_t index, size_t vertex, float *to) {
     if (index != NONE)
-        memcpy(to, &list->values[list->width * (size_t)index], list->width * sizeof(float));
+        memcpy(to + list->width * vertex, &list->values[list->width * (size_t)index],
+               list->width * sizeof(float));
 }
 
 /* Vertex i of the mesh is corner unique[i], or vertex i of the file where `unique` is NULL: without texture
@@ -197,11 +199,11 @@ static aur_result make_mesh(const obj *self, size_t count, const uint32_t *uniqu
         aur_mesh_allocate(mesh, count, 0, parts, (aur_location){.file = self->file->path}, self->file->error);
     for (size_t i = 0; result == AUR_OK && i < count; ++i) {
         const corner c = unique != NULL ? self->corners[unique[i]] : (corner){{(uint32_t)i, NONE, NONE}};
-        copy(&self->lists[0], c.index[0], &mesh->positions[3 * i]);
-        copy(&self->lists[1], c.index[1], &mesh->uvs[2 * i]);
-        copy(&self->lists[2], c.index[2], &mesh->normals[3 * i]);
+        copy(&self->lists[0], c.index[0], i, mesh->positions);
+        copy(&self->lists[1], c.index[1], i, mesh->uvs);
+        copy(&self->lists[2], c.index[2], i, mesh->normals);
         if (mesh->vertex_colors != NULL)
-            copy(&self->colors, c.index[0], &mesh->vertex_colors[3 * i]);
+            copy(&self->colors, c.index[0], i, mesh->vertex_colors);
         if (c.index[1] != NONE && self->file->flip_v)
             mesh->uvs[2 * i + 1] = 1.0f - mesh->uvs[2 * i + 1];
     }
