@@ -1,11 +1,13 @@
 /* Runs a harness on its seeds and on mutations of them: run R of seed S is always the same input, as long as
  * the seeds and the dictionary are the same.
  *
- *     fuzz_NAME [--runs N] [--seed S] [--only R] [--dictionary WORDS] [FILE...]
+ *     fuzz_NAME [--runs N] [--seed S] [--only R] [--dictionary WORDS] [--fresh 1] [FILE...]
  *
  * FILEs are seeds beside those of the harness; with --runs 0 they are only tried as they are. WORDS has a
  * word in quotes a line, as libFuzzer's -dict has (keys.dict). When a run goes wrong its number is printed,
- * and `--only R` repeats it alone and leaves its input in fuzz-input. */
+ * and `--only R` repeats it alone and leaves its input in fuzz-input. `--fresh 1` names each FILE that
+ * reaches code of the parser that none before it has reached, where that code was compiled to say so
+ * (scripts/coverage.sh). */
 #include <aureole/core.h>
 #include <signal.h>
 #include <stdbool.h>
@@ -15,7 +17,7 @@
 #include "core/random.h"
 #include "fuzz.h"
 
-enum { SEED_CAPACITY = 256, WORD_CAPACITY = 4096, INPUT_CAPACITY = 1 << 16, SECONDS_A_RUN = 60, EDITS = 6 };
+enum { SEED_CAPACITY = 16384, WORD_CAPACITY = 4096, INPUT_CAPACITY = 1 << 16, SECONDS_A_RUN = 60, EDITS = 6 };
 
 /* Sanitizers end by SIGABRT, so that the handler below can say which run it was; an allocation beyond 4 GiB
  * fails instead of ending the program. */
@@ -28,6 +30,22 @@ const char *__asan_default_options(void) {
 
 const char *__ubsan_default_options(void) {
     return "abort_on_error=1:print_stacktrace=1";
+}
+
+/* Places in code that was compiled with -fsanitize-coverage=trace-pc, which calls the function below at each
+ * of them: a table by hash of where it was called from. */
+enum { PLACE_CAPACITY = 1 << 16 };
+static size_t place_count;
+AUR_API void __sanitizer_cov_trace_pc(void);
+
+void __sanitizer_cov_trace_pc(void) {
+    static const void *places[PLACE_CAPACITY];
+    const void *const place = __builtin_return_address(0);
+    size_t slot = (size_t)aur_hash2(0, (uint64_t)(uintptr_t)place) % PLACE_CAPACITY;
+    while (places[slot] != NULL && places[slot] != place)
+        slot = (slot + 1) % PLACE_CAPACITY;
+    place_count += places[slot] == NULL && place_count < PLACE_CAPACITY / 2;
+    places[slot] = place;
 }
 
 typedef struct fuzz_seed {
@@ -280,6 +298,7 @@ int main(int argc, char **argv) {
     size_t runs = 10000, only = SIZE_MAX;
     int first_file = 1;
     const char *dictionary = NULL;
+    bool fresh = false;
     for (; first_file + 1 < argc && argv[first_file][0] == '-'; first_file += 2) {
         const char *const name = argv[first_file];
         const uint64_t value = strtoull(argv[first_file + 1], NULL, 10);
@@ -289,13 +308,16 @@ int main(int argc, char **argv) {
             seed = value;
         else if (strcmp(name, "--only") == 0)
             only = (size_t)value;
+        else if (strcmp(name, "--fresh") == 0)
+            fresh = value != 0;
         else if (strcmp(name, "--dictionary") == 0)
             dictionary = argv[first_file + 1];
         else
             break;
     }
     if (first_file < argc && argv[first_file][0] == '-') {
-        fprintf(stderr, "usage: %s [--runs N] [--seed S] [--only R] [--dictionary WORDS] [FILE...]\n",
+        fprintf(stderr,
+                "usage: %s [--runs N] [--seed S] [--only R] [--dictionary WORDS] [--fresh 1] [FILE...]\n",
                 argv[0]);
         return 2;
     }
@@ -314,7 +336,11 @@ int main(int argc, char **argv) {
         make_input(&corpus, seed, run, &input);
         if (only != SIZE_MAX)
             keep_input(&input);
+        const size_t before = place_count;
         run_input(&input, run);
+        const size_t own = corpus.count - (size_t)(argc - first_file);
+        if (fresh && run >= own && run < corpus.count && place_count > before)
+            printf("%s\n", argv[(size_t)first_file + run - own]);
     }
     for (size_t i = 0; i < corpus.count; ++i)
         free(corpus.seeds[i].data);

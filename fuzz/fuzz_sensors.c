@@ -60,6 +60,10 @@ static const char *const texts[] = {
     ("\7ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\n"
      "element face 1\nproperty list uchar int vertex_indices\nend_header\n0 0 0\n1 0 0\n1 1 0\n3 0 1 2\n"),
     "\36o a\nv 0 0 0\nv 9 9 9\nv 1 0 0\nv 1 1 1\nv 0 1 0\ng b\nf 1 3 4\nf 1 4 5\n",
+    ("\2v 0 0 0\nv 1 0 0\nv 1 1 0\no c\ng a\nf 1 2 3\ng b\nf 1 2 3\ng a\nf 1 \\\n2 3\ng\nf 3 2 1\no d\nf 3 2 "
+     "1\n"),
+    "\40 0 0 1 0 0\n1 2 3 4 5\n",
+    "\20 0 0 1 0 0 0\n",
     "\24 0 0 1 0 0 2\n",
 };
 
