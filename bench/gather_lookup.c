@@ -118,11 +118,12 @@ bool bench_gather_lookups(const bench_options *options, bench_figures *figures) 
     aur_scene *scene = NULL;
     if (aur_scene_load(AUR_SOURCE_DIR "/scenes/cornell-box/glossy.xml", NULL, &scene, &error) != AUR_OK)
         return bench_fail("%s: %s", error.file, error.message);
-    const aur_irradiance_options map_options = {.photons = {.count = options->quick ? QUICK_PHOTONS : PHOTONS,
-                                                            .max_edges = SIZE_MAX,
-                                                            .seed = 1,
-                                                            .threads = 1},
-                                                .photons_a_texel = 16.0};
+    const aur_irradiance_map_options map_options = {
+        .photons = {.count = options->quick ? QUICK_PHOTONS : PHOTONS,
+                    .max_edges = SIZE_MAX,
+                    .seed = 1,
+                    .threads = 1},
+        .photons_a_texel = 16.0};
     aur_irradiance_map *map = NULL;
     bool good = aur_irradiance_map_create(scene, &map_options, &map, &error) == AUR_OK ||
                 bench_fail("%s", error.message);

@@ -55,7 +55,7 @@ size_t aur_fuzz_seed(size_t index, size_t capacity, uint8_t *data) {
         return 0;
     aur_scene *const scene = load_room();
     aur_irradiance_map *map = NULL;
-    const aur_irradiance_options options = {
+    const aur_irradiance_map_options options = {
         .photons = {.count = 20 + 60 * index, .max_edges = 4, .threads = 1}, .photons_a_texel = 4.0};
     fuzz_require(aur_irradiance_map_create(scene, &options, &map, NULL) == AUR_OK, "no map");
     size_t size;

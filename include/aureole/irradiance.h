@@ -69,6 +69,15 @@ AUR_EXPERIMENTAL const aur_sensors_view *aur_sensors_look(const aur_sensors *sen
 
 enum { AUR_IRRADIANCE_REPLICATES = 16 }; /* independent randomisations, from which errors come */
 
+/* How light that was reflected is found: by paths; or by a photon map or a radiosity solution, whose errors a
+ * quarter of the paths take away, so that there is no bias either. The map and the solution are found anew in
+ * each call: they are for many sensors. */
+typedef enum aur_reflected {
+    AUR_REFLECTED_BY_PATHS,
+    AUR_REFLECTED_BY_MAP,
+    AUR_REFLECTED_BY_RADIOSITY
+} aur_reflected;
+
 /* All zero but `size`, as aur_irradiance_options_default makes it, takes the defaults. */
 typedef struct aur_irradiance_options {
     size_t size;       /* of the caller's struct, so that it can grow */
@@ -87,6 +96,8 @@ typedef struct aur_irradiance_options {
     aur_progress progress;
     aur_warnings warnings; /* sensors on surfaces, inside solids, without light, or whose error was not
                               reached: one warning for each kind, with their number and the first */
+    aur_reflected reflected;
+    size_t particles; /* of the map or the solution; 0: 500,000 */
 } aur_irradiance_options;
 
 static inline aur_irradiance_options aur_irradiance_options_default(void) {
@@ -125,11 +136,12 @@ typedef struct aur_irradiance {
 
 /* Estimates the irradiance at each sensor: cosine distributed directions of one set, randomised independently
  * 16 times at every sensor, a point on a light for each of them, both weighed by the power heuristic (Veach
- * 1997), and further bounces by paths. Without bias at a given number of directions. `results` has
- * sensors->count elements of `result_size` bytes, the caller's sizeof. A sensor's result is a function of the
- * scene, the options, its position and its normal: neither of other sensors nor of threads. Errors: NAME,
- * ARGUMENT (options out of range; a normal of length 0 or a number that is not finite, with its line),
- * UNSUPPORTED (a scene without any light), CANCELLED, MEMORY. */
+ * 1997), and further bounces as options->reflected says. Without bias at a given number of directions.
+ * `results` has sensors->count elements of `result_size` bytes, the caller's sizeof. A sensor's result is a
+ * function of the scene, the options, its position and its normal: neither of other sensors nor of threads.
+ * Errors: NAME, ARGUMENT (options out of range; a normal of length 0 or a number that is not finite, with its
+ * line), UNSUPPORTED (a scene without any light, or one that the map or radiosity cannot do, with the place),
+ * CANCELLED, MEMORY. */
 AUR_EXPERIMENTAL aur_result aur_irradiance_estimate(const aur_scene *scene, const aur_sensors_view *sensors,
                                                     const aur_irradiance_options *options, size_t result_size,
                                                     aur_irradiance *results, aur_error *error)

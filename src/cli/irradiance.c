@@ -64,6 +64,12 @@ static const cli_option options[] = {
     {CLI_INTEGER(irradiance_command, estimate.max_depth, "max-depth", "N", 1, 1 << 20, "no limit",
                  "edges of a light path: 1 is light straight from lights and sky"),
      .key.computed = true},
+    {CLI_CHOICE(irradiance_command, estimate.reflected, "reflected", "HOW", "paths",
+                "light that was reflected, by paths, or by a photon map or a radiosity solution whose errors "
+                "some of the paths take away"),
+     .key.words = (const char *const[]){"paths", "map", "radiosity", NULL}},
+    {CLI_INTEGER(irradiance_command, estimate.particles, "particles", "N", 1, 1 << 28, "500000",
+                 "of the photon map or the radiosity solution")},
     {CLI_CHOICE(irradiance_command, illuminance, "illuminance", "WEIGHTS", NULL,
                 "lux in the place of r, g, b: 179 lm/W by Radiance's weights of r, g, b (.265, .670, .065), "
                 "179 lm/W by those of Rec. 709 (.2126, .7152, .0722), or 683 lm/W by the latter"),
@@ -139,6 +145,8 @@ static int run(const cli_call *call) {
         return cli_bad_usage("irradiance: the points are missing: --sensors POINTS");
     if (!cli_daylight_check(call))
         return 2;
+    if (cli_given(call, "particles") != NULL && given->estimate.reflected == AUR_REFLECTED_BY_PATHS)
+        return cli_bad_usage("irradiance: --particles is for --reflected map or radiosity");
     given->estimate.size = sizeof given->estimate;
     given->estimate.threads = given->common.threads;
     given->estimate.progress = cli_progress(given->common.quiet);

@@ -28,7 +28,7 @@ static box open_box(size_t photons) {
     aur_error error = {0};
     assert_int_equal(
         aur_scene_load(AUR_SOURCE_DIR "/scenes/cornell-box/cornell-box.xml", NULL, &b.scene, &error), AUR_OK);
-    const aur_irradiance_options options = {
+    const aur_irradiance_map_options options = {
         .photons = {.count = photons, .max_edges = SIZE_MAX, .seed = 3, .threads = 1},
         .photons_a_texel = 16.0};
     assert_int_equal(aur_irradiance_map_create(b.scene, &options, &b.map, &error), AUR_OK);

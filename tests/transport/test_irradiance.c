@@ -13,7 +13,7 @@ static aur_scene *load_furnace(void) {
 }
 
 static aur_irradiance_map *make_map(const aur_scene *scene, size_t photons, size_t threads) {
-    const aur_irradiance_options options = {
+    const aur_irradiance_map_options options = {
         .photons = {.count = photons, .max_edges = SIZE_MAX, .seed = 7, .threads = threads},
         .photons_a_texel = 32.0};
     aur_irradiance_map *map = NULL;
@@ -211,7 +211,7 @@ static void photons_come_from_any_set(void **state) {
     for (size_t i = 0; i < sizeof sets / sizeof sets[0]; ++i) {
         aur_sampler *sampler;
         assert_int_equal(aur_sampler_create(sets[i], 20000, NULL, &sampler, NULL), AUR_OK);
-        aur_irradiance_options options = {
+        aur_irradiance_map_options options = {
             .photons = {.count = 20000, .max_edges = SIZE_MAX, .sampler = sampler, .seed = 7},
             .photons_a_texel = 1e5};
         aur_irradiance_map *map = NULL;

@@ -61,7 +61,7 @@ static survey look_around(const aur_scene *scene, const aur_irradiance_map *map)
 }
 
 static survey survey_of(const aur_scene *scene, size_t photons) {
-    const aur_irradiance_options options = {
+    const aur_irradiance_map_options options = {
         .photons = {.count = photons, .max_edges = SIZE_MAX, .seed = 3, .threads = 2},
         .photons_a_texel = 16.0};
     aur_irradiance_map *map = NULL;

@@ -29,7 +29,7 @@ void aur_coefficients_find(aur_path_group *group, const aur_sensor_rule *rule, c
     memset(coefficients->reflected, 0, count * sizeof *coefficients->reflected);
     group->from_sky = add_light;
     group->from_sky_user = (void *)(uintptr_t)coefficients;
-    aur_sensor_look(group, rule, place, 0, look);
+    aur_sensor_look(group, rule, place, NULL, 0, look);
     const double scale = AUR_PI / (double)rule->count;
     for (size_t i = 0; i < count; ++i) {
         coefficients->all[i] *= scale;

@@ -13,6 +13,7 @@
 enum {
     REPLICATES = AUR_IRRADIANCE_REPLICATES,
     DEFAULT_DIRECTIONS = 1024,
+    DEFAULT_PARTICLES = 500000,
     MOST_DIRECTIONS = 1 << 20, /* by default, of a sensor that is to reach an error */
     LIMIT = 1 << 28,
     LEVELS = 32,
@@ -28,6 +29,7 @@ typedef struct work {
     const aur_scene *scene;
     aur_sampler *sampler;
     aur_closed_lights lights;
+    aur_known_light known;
     size_t level_count;
     aur_sensor_rule rules[LEVELS]; /* of the levels, each with more directions than the one before */
     aur_irradiance *results;
@@ -46,6 +48,8 @@ static aur_result read_options(const aur_irradiance_options *given, aur_irradian
         o->set = "spherical-fibonacci";
     if (o->confidence == 0.0)
         o->confidence = 0.95;
+    if (o->particles == 0)
+        o->particles = DEFAULT_PARTICLES;
     if (o->directions == 0)
         o->directions = o->error > 0.0 ? MOST_DIRECTIONS : DEFAULT_DIRECTIONS;
     if (o->luminance[0] == 0.0 && o->luminance[1] == 0.0 && o->luminance[2] == 0.0)
@@ -59,6 +63,12 @@ static aur_result read_options(const aur_irradiance_options *given, aur_irradian
     if (o->directions > LIMIT)
         return aur_fail(error, AUR_ERROR_ARGUMENT, "there must be 1 to %d directions, not %zu", LIMIT,
                         o->directions);
+    if ((unsigned)o->reflected > AUR_REFLECTED_BY_RADIOSITY)
+        return aur_fail(error, AUR_ERROR_ARGUMENT, "there is no way %u to find reflected light",
+                        (unsigned)o->reflected);
+    if (o->particles > LIMIT)
+        return aur_fail(error, AUR_ERROR_ARGUMENT, "there must be 1 to %d particles, not %zu", LIMIT,
+                        o->particles);
     for (size_t c = 0; c < 3; ++c)
         if (!(isfinite(o->luminance[c]) && o->luminance[c] >= 0.0))
             return aur_fail(error, AUR_ERROR_ARGUMENT,
@@ -135,11 +145,12 @@ static aur_irradiance estimate(const work *w, aur_path_group *group, size_t sens
                             w->sensors->normals + 3 * sensor, w->options->seed, shares, &place);
     double values[REPLICATES][VALUES], sums[REPLICATES * VALUES] = {0};
     aur_levels levels = {.replicates = REPLICATES, .values = VALUES, .sums = sums};
+    const bool knows = w->known.map != NULL || w->known.solution != NULL;
     uint64_t dark = 0;
     aur_irradiance found = {.on_surface = place.on_surface};
     for (size_t level = 0; level < w->level_count; ++level) {
         aur_look look;
-        aur_sensor_look(group, &w->rules[level], &place, (uint32_t)level, &look);
+        aur_sensor_look(group, &w->rules[level], &place, knows ? &w->known : NULL, (uint32_t)level, &look);
         find_values(w, &look, values);
         aur_levels_add(&levels, w->rules[level].count, values[0]);
         dark += look.dark;
@@ -201,6 +212,8 @@ static aur_result run(work *w, aur_error *error) {
     if (result == AUR_OK)
         result = aur_closed_lights_create(w->scene, &w->lights, error);
     if (result == AUR_OK)
+        result = aur_known_light_create(w->scene, o, &w->known, error);
+    if (result == AUR_OK)
         result = aur_sampler_create("sobol", w->rules[w->level_count - 1].count, NULL, &w->sampler, error);
     if (result == AUR_OK) {
         const aur_parallel_options parallel = {
@@ -243,6 +256,7 @@ aur_result aur_irradiance_estimate(const aur_scene *scene, const aur_sensors_vie
     for (size_t i = 0; i < w.level_count; ++i)
         aur_sensor_rule_release(&w.rules[i]);
     aur_closed_lights_release(&w.lights);
+    aur_known_light_release(&w.known);
     aur_sampler_destroy(w.sampler);
     free(w.path.classes);
     return result;

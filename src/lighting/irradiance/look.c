@@ -216,10 +216,11 @@ static void add_parts(const aur_path_group *g, const size_t *parts, double (*see
 
 /* What direction `index` brings; lanes begin with no light. What comes straight through panes counts as what
  * comes without any. */
-static void add_direction(aur_path_group *g, const aur_sensor_place *place, aur_look *look) {
+static void add_direction(aur_path_group *g, const aur_sensor_place *place, const aur_known_light *known,
+                          aur_look *look) {
     double seen[AUR_PACKET_SIZE][3] = {{0.0}};
     size_t parts[AUR_PACKET_SIZE], reflected[AUR_PACKET_SIZE];
-    uint32_t straight = g->alive;
+    uint32_t straight = g->alive, pending = known != NULL ? g->alive : 0;
     g->known = place->shares;
     for (size_t k = 0; k < AUR_PACKET_SIZE; ++k)
         reflected[k] = REFLECTED;
@@ -233,9 +234,13 @@ static void add_direction(aur_path_group *g, const aur_sensor_place *place, aur_
         add_parts(g, parts, seen, look);
         if (g->data->max_depth == depth || g->alive == 0)
             break;
+        if (pending != 0)
+            aur_known_light_add(known, g, depth, &pending);
+        if (g->alive == 0)
+            break;
         aur_path_group_scatter(g, depth);
         straight = g->straight & g->alive;
-        if (straight == 0) {
+        if (straight == 0 && (pending & g->alive) == 0) {
             aur_path_group_trace(g, depth + 1);
             break;
         }
@@ -245,7 +250,7 @@ static void add_direction(aur_path_group *g, const aur_sensor_place *place, aur_
 }
 
 void aur_sensor_look(aur_path_group *g, const aur_sensor_rule *rule, const aur_sensor_place *place,
-                     uint32_t level, aur_look *look) {
+                     const aur_known_light *known, uint32_t level, aur_look *look) {
     *look = (aur_look){0};
     aur_look from_lights = {0};
     float shifts[AUR_PACKET_SIZE][3]; /* of the height, and the turn's cosine and sine */
@@ -260,7 +265,7 @@ void aur_sensor_look(aur_path_group *g, const aur_sensor_rule *rule, const aur_s
     for (size_t i = 0; i < rule->count; ++i) {
         g->index = (uint32_t)i;
         set_rays(g, rule, i, place, shifts);
-        add_direction(g, place, look);
+        add_direction(g, place, known, look);
         if (g->has_lights)
             add_lights(g, place, &from_lights);
     }

@@ -4,6 +4,7 @@
 #include <aureole/irradiance.h>
 
 #include "lighting/irradiance/closed_lights.h"
+#include "lighting/irradiance/known_light.h"
 #include "lighting/irradiance/rule.h"
 #include "transport/paths/panes.h"
 #include "transport/paths/path_group.h"
@@ -33,7 +34,7 @@ typedef struct aur_look {
     uint64_t dark; /* directions that meet a surface from behind that scatters nothing there */
 } aur_look;
 
-/* Means over the directions of the rule. `level` stands for independent numbers. What group->from_sky is told
- * of adds up to the irradiance of the sky times rule->count / pi. */
+/* Means over the directions of the rule. `known` may be NULL. `level` stands for independent numbers. What
+ * group->from_sky is told of adds up to the irradiance of the sky times rule->count / pi. */
 void aur_sensor_look(aur_path_group *group, const aur_sensor_rule *rule, const aur_sensor_place *place,
-                     uint32_t level, aur_look *look);
+                     const aur_known_light *known, uint32_t level, aur_look *look);

@@ -50,8 +50,9 @@ static const char *scene_key(const aur_integrator_context *context) {
 }
 
 /* A map of an earlier run, or one that is left for later ones. */
-static aur_result find_or_trace(const aur_integrator_context *context, const aur_irradiance_options *options,
-                                const char *key, aur_irradiance_map **map, aur_error *error) {
+static aur_result find_or_trace(const aur_integrator_context *context,
+                                const aur_irradiance_map_options *options, const char *key,
+                                aur_irradiance_map **map, aur_error *error) {
     const char *const scene = context->use_cache && options->photons.count >= AUR_IRRADIANCE_WORTH_KEEPING
                                   ? scene_key(context)
                                   : NULL;
@@ -95,8 +96,8 @@ static aur_result find_map(const aur_gather_parameters *p, const aur_integrator_
     if (*found == NULL) {
         photons.sampler = sampler;
         aur_irradiance_map *made;
-        result =
-            find_or_trace(context, &(aur_irradiance_options){photons, p->photons_a_texel}, key, &made, error);
+        result = find_or_trace(context, &(aur_irradiance_map_options){photons, p->photons_a_texel}, key,
+                               &made, error);
         if (result == AUR_OK && aur_cache_store(context->cache, key, made, destroy_map) != AUR_OK)
             result = aur_fail_memory(error);
         *found = result == AUR_OK ? made : NULL;

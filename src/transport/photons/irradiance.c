@@ -90,7 +90,7 @@ static aur_result fill(aur_irradiance_map *map, const aur_scene *scene, aur_elem
     return result;
 }
 
-aur_result aur_irradiance_map_create(const aur_scene *scene, const aur_irradiance_options *options,
+aur_result aur_irradiance_map_create(const aur_scene *scene, const aur_irradiance_map_options *options,
                                      aur_irradiance_map **out, aur_error *error) {
     *out = NULL;
     aur_elements elements;

@@ -29,13 +29,13 @@ typedef struct aur_irradiance_map {
     uint64_t cut;   /* particles whose path was cut (photon_map.h) */
 } aur_irradiance_map;
 
-typedef struct aur_irradiance_options {
+typedef struct aur_irradiance_map_options {
     aur_photon_options photons;
     double photons_a_texel; /* on average, at least 1 */
-} aur_irradiance_options;
+} aur_irradiance_map_options;
 
 AUR_EXPERIMENTAL aur_result aur_irradiance_map_create(const aur_scene *scene,
-                                                      const aur_irradiance_options *options,
+                                                      const aur_irradiance_map_options *options,
                                                       aur_irradiance_map **map, aur_error *error);
 AUR_EXPERIMENTAL void aur_irradiance_map_destroy(aur_irradiance_map *map);
 

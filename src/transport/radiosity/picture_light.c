@@ -152,14 +152,8 @@ aur_result aur_radiosity_image_prepare(const aur_rule_options *rule, aur_radiosi
     image->exitance = malloc(scene->patch_count * sizeof *image->exitance);
     if (image->exitance == NULL)
         return aur_fail_memory(error);
-    for (size_t i = 0; i < scene->patch_count; ++i) {
-        double power[3];
-        aur_radiosity_power(image->solution, i, power);
-        const double area = scene->areas[aur_radiosity_triangle_of(scene, i)];
-        const double scale = area > 0.0 ? 1.0 / (AUR_PI * area) : 0.0;
-        image->exitance[i] =
-            (aur_vector){(float)(scale * power[0]), (float)(scale * power[1]), (float)(scale * power[2])};
-    }
+    for (size_t i = 0; i < scene->patch_count; ++i)
+        image->exitance[i] = aur_radiosity_exitance(image->solution, i);
     return make_pattern(rule, image, error);
 }
 

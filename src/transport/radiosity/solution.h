@@ -30,7 +30,9 @@ static inline uint64_t aur_radiosity_paths_of(const aur_radiosity *radiosity, si
 
 /* The power that a patch receives, RGB watts, over all randomisations. */
 void aur_radiosity_power(const aur_radiosity *radiosity, size_t patch, double power[3]);
-/* The standard error of that; NaN with one randomisation. */
+/* That over pi and the patch's area: times the albedo it is the radiance that is reflected. */
+aur_vector aur_radiosity_exitance(const aur_radiosity *radiosity, size_t patch);
+/* The standard error of the power; NaN with one randomisation. */
 void aur_radiosity_power_error(const aur_radiosity *radiosity, size_t patch, double error[3]);
 /* Over all patches, in the unit of epsilon. */
 double aur_radiosity_standard_error(const aur_radiosity *radiosity);

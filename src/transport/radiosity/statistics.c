@@ -15,6 +15,14 @@ void aur_radiosity_power(const aur_radiosity *radiosity, size_t patch, double po
     }
 }
 
+aur_vector aur_radiosity_exitance(const aur_radiosity *radiosity, size_t patch) {
+    double power[3];
+    aur_radiosity_power(radiosity, patch, power);
+    const double area = radiosity->scene.areas[aur_radiosity_triangle_of(&radiosity->scene, patch)];
+    const double scale = area > 0.0 ? 1.0 / (AUR_PI * area) : 0.0;
+    return (aur_vector){(float)(scale * power[0]), (float)(scale * power[1]), (float)(scale * power[2])};
+}
+
 void aur_radiosity_power_error(const aur_radiosity *radiosity, size_t patch, double error[3]) {
     const size_t count = radiosity->options.randomizations;
     for (size_t c = 0; c < 3; ++c) {
