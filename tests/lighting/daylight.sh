@@ -26,8 +26,10 @@ near() {
     fail "$1 is $2, not $3 to $4"
 }
 
-bash "$weather" 48 11 1 >mixed.epw
-bash "$weather" 48 11 1 3 >overcast.epw
+# Three days of each month are as the script has them, the others dark: lit hours are what takes time.
+some_days() { awk -F, -v OFS=, 'NF > 30 && $3 % 10 != 0 { $14 = $15 = $16 = 0 } { print }'; }
+bash "$weather" 48 11 1 | some_days >mixed.epw
+bash "$weather" 48 11 1 3 | some_days >overcast.epw
 printf '0 0 .01 0 0 1\n' >up.pts
 printf '<scene version="3.0.0"><shape type="rectangle"><transform name="to_world"><scale value="1000"/></transform>
 <bsdf type="diffuse"><rgb name="reflectance" value="0"/></bsdf></shape></scene>' >plane.xml
