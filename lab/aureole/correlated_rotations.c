@@ -10,7 +10,7 @@
 
 #include "lab/lab.h"
 
-enum { PATTERNS = 3, COUNTS = 2, FORMS = 3, BLURS = 4, MOST_SEEDS = 6, TAPS = 13, CHANNELS = 3 };
+enum { PATTERNS = 3, COUNTS = 2, FORMS = 3, BLURS = 4, MOST_SEEDS = 12, TAPS = 13, CHANNELS = 3 };
 
 static const char *const forms[FORMS] = {"random", "blue", "none"};
 
@@ -174,7 +174,7 @@ static const char *const columns[] = {"pattern",      "rotations",  "blur", "dir
 static aur_result run(lab_run *run, aur_error *error) {
     const bool quick = lab_run_options(run)->quick;
     study s = {.run = run,
-               .side = quick ? 32 : 96,
+               .side = quick ? 32 : 128,
                .seeds = quick ? 3 : MOST_SEEDS,
                .reference_directions = quick ? 1024 : 2048,
                .photons = quick ? 20000 : 200000};
@@ -210,7 +210,7 @@ const lab_experiment lab_aureole_correlated_rotations = {
     .summary = "what rotations that are correlated between pixels save, before and after a blur",
     .columns = columns,
     .plots = plots,
-    .seconds = 120,
+    .seconds = 35,
     .quick_seconds = 0.4,
     .run = run,
 };

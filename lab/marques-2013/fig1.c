@@ -9,7 +9,7 @@
 
 #include "gathering.h"
 
-enum { COUNTS = 3, MOST_SEEDS = 6, RIVALS = 2, QUANTITIES = 2, SHOWN = 256, WIDTH = 64, HEIGHT = 48 };
+enum { COUNTS = 3, MOST_SEEDS = 24, RIVALS = 2, QUANTITIES = 2, SHOWN = 256, WIDTH = 64, HEIGHT = 48 };
 
 static const size_t counts[COUNTS] = {64, 128, 256};
 
@@ -161,7 +161,7 @@ const lab_experiment lab_marques_2013_fig1 = {
     .published = "published",
     .factor = 1.1,
     .plots = plots,
-    .seconds = 150,
+    .seconds = 60,
     .quick_seconds = 0.8,
     .run = run,
 };

@@ -5,9 +5,10 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "lab/points.h"
 #include "patterns.h"
 
-enum { COUNT = 512, QUICK = 128, VIEWS = 2 * MARQUES_PATTERNS };
+enum { COUNT = 512, QUICK = 128, VIEWS = 2 * MARQUES_PATTERNS, CELL = 128, MARGIN = 6 };
 
 typedef struct view {
     const char *set, *projection;
@@ -17,6 +18,7 @@ typedef struct view {
 typedef struct sheet {
     lab_run *run;
     report_table *points;
+    aur_image *drawn; /* a column a set and a row a projection, as in the paper */
     size_t count, view_count;
     view views[VIEWS];
 } sheet;
@@ -36,13 +38,28 @@ static double distance_to_nearest(const aur_points_view *points, size_t index) {
     return sqrt(least);
 }
 
-/* Where a point is drawn: in the square, or on the disk that has the hemisphere's areas. */
+/* The column of a set in the drawing: spherical Fibonacci on the right, the set of --set beyond it. */
+static size_t column_of(const char *set) {
+    static const char *const sets[] = {"sobol", "bnot", "larcher-pillichshammer", "spherical-fibonacci"};
+    size_t column = 0;
+    while (column < 4 && strcmp(sets[column], set) != 0)
+        ++column;
+    return column;
+}
+
+/* A point in the square, or on the disk that has the hemisphere's areas. */
 static void draw(const sheet *s, const view *v, const aur_points_view *points) {
+    const bool square = points->dimension == 2;
+    const double size = CELL - 2 * MARGIN;
+    const size_t row = square ? 0 : strcmp(v->projection, "concentric") == 0 ? 2 : 1;
     for (size_t i = 0; i < points->count; ++i) {
         const double *const p = points->coordinates + i * points->stride;
-        const double scale = points->dimension == 3 ? 1.0 / sqrt(1.0 + p[2]) : 1.0;
+        const double scale = square ? 1.0 : 1.0 / sqrt(1.0 + p[2]);
+        const double x = scale * p[0], y = scale * p[1];
         lab_table_row(s->points, (const char *const[]){v->set, v->projection, NULL}, 2,
-                      (const double[]){scale * p[0], scale * p[1]});
+                      (const double[]){x, y});
+        lab_dot(s->drawn, CELL * (double)column_of(v->set) + MARGIN + size * (square ? x : 0.5 + 0.5 * x),
+                CELL * (double)row + MARGIN + size * (square ? 1.0 - y : 0.5 - 0.5 * y), 1.4, lab_colour(4));
     }
 }
 
@@ -116,7 +133,7 @@ static aur_result run(lab_run *run, aur_error *error) {
                .count = lab_run_options(run)->quick ? QUICK : COUNT};
     marques_pattern patterns[MARQUES_PATTERNS];
     const size_t count = marques_patterns(run, patterns);
-    aur_result result = AUR_OK;
+    aur_result result = lab_canvas((more != NULL ? 5 : 4) * CELL, 3 * CELL, &s.drawn, error);
     for (size_t i = 1; i < count && patterns[i].map == AUR_MAP_LAMBERT && result == AUR_OK; ++i) {
         result = add_view(&s, &patterns[i], AUR_DOMAIN_SQUARE, error);
         /* A set of --set may be one of directions alone. */
@@ -128,6 +145,9 @@ static aur_result run(lab_run *run, aur_error *error) {
                              error);
     if (result == AUR_OK)
         judge(&s);
+    if (result == AUR_OK)
+        result = lab_picture(run, &(lab_picture_place){.name = "drawing"}, s.drawn, error);
+    aur_image_destroy(s.drawn);
     return result;
 }
 

@@ -6,6 +6,7 @@ awk -F, -v d="$distance" '/^#/ || $1 == "set" { next } { ++rows }
   $1 == "sobol" && $2 == "square" { off = $4 - d * sqrt(128); if (off * off < 1e-20) found = 1 }
   $1 == "spherical-fibonacci" { fibonacci = $4 } $2 == "lambert" || $2 == "concentric" { if ($4 > most) most = $4 }
   END { exit !(rows == 10 && found && fibonacci > most) }' "$(of fig2)" || fail "fig. 2"
+[ -s "$results/marques-2013-fig2/marques-2013-fig2-drawing.png" ] || fail "the drawing of fig. 2"
 [ "$(grep -c '' "$results/marques-2013-fig2/marques-2013-fig2-points.csv")" -eq 1281 ] || fail "the points of fig. 2"
 # Fig. 3: the energy is that of the measure, spherical Fibonacci's the least, and slopes are those of the rows.
 energy=$("$aureole" measure spherical-fibonacci -n 64 -m energy --domain sphere --format csv | awk -F, 'NR == 2 { print $4 }')
