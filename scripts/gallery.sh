@@ -24,6 +24,9 @@ occlusion|occlusion/occlusion.xml|ao:samples=128|16|0|srgb|2|Ambient occlusion a
 plates|plates/plates.xml|finalgather:diffuse_samples=64,glossy_samples=64|128|1|filmic|2|Four plates and seven lights
 cornell-box|cornell-box/cornell-box.xml|path|48|0.5|srgb|2|The measured Cornell box
 glossy|cornell-box/glossy.xml|finalgather:diffuse_samples=128,glossy_samples=128|64|1|srgb|2|A teapot in a glossy Cornell box
+living-room|keller/living-room.xml|radiosity:epsilon=1e-4,sequence=halton,directions=uniform_angle,emission=area,gather_samples=8,share_neighbours=true|4|0.5|srgb|2|Keller's living room, by radiosity
+office|keller/office.xml|radiosity:epsilon=1e-4,sequence=halton,directions=uniform_angle,emission=area,gather_samples=8,share_neighbours=true|4|0.5|srgb|2|Keller's office
+teapot|keller/teapot-box.xml|radiosity:epsilon=1e-4,sequence=halton,directions=uniform_angle,emission=area,gather_samples=8,share_neighbours=true|4|0.5|srgb|2|Keller's teapot
 ROWS
 }
 

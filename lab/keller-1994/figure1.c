@@ -125,7 +125,7 @@ const lab_experiment lab_keller_1994_figure1 = {
     .published = "published",
     .factor = 1.5,
     .takes_no_set = "it makes pictures",
-    .seconds = 100,
+    .seconds = 30,
     .quick_seconds = 1,
     .run = run,
 };

@@ -268,8 +268,8 @@ const lab_experiment lab_marques_2018_fig7 = {
     .published = "published",
     .factor = 1.5,
     .plots = plots,
-    .seconds = 200,
-    .quick_seconds = 1.5,
+    .seconds = 70,
+    .quick_seconds = 0.6,
     .run = run7,
 };
 
@@ -284,7 +284,7 @@ const lab_experiment lab_marques_2018_fig8 = {
     .published = "published",
     .factor = 1.5,
     .plots = plots,
-    .seconds = 200,
-    .quick_seconds = 1,
+    .seconds = 50,
+    .quick_seconds = 0.4,
     .run = run8,
 };
