@@ -7,6 +7,7 @@
 
 #include "core/random.h"
 #include "material/bsdf.h"
+#include "short.h"
 
 typedef struct material_row {
     const char *text;   /* PLUGIN:key=value,... */
@@ -121,6 +122,15 @@ static inline float unit(uint64_t a, uint64_t b, uint64_t c) {
 
 /* View directions from straight above to grazing, and from behind where the material scatters there. */
 enum { VIEW_COUNT = 12 };
+
+/* A short test has a third of them for each material, others for the next one. */
+static inline size_t view_step(void) {
+    return check_short() ? 3 : 1;
+}
+
+static inline size_t first_view(size_t row) {
+    return row % view_step();
+}
 
 static inline bool view_at(const aur_bsdf *bsdf, size_t index, aur_vector *view) {
     static const float angles[6] = {0.0f, 15.0f, 40.0f, 60.0f, 75.0f, 87.0f};

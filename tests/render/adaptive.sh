@@ -12,20 +12,21 @@ gather() {
   rays=$(grep -oE '[0-9]+ rays' "$1.log" | grep -oE '[0-9]+')
 }
 
-gather reference diffuse_samples=2048,glossy_samples=2048
+directions=$(either 128 2048)
+gather reference diffuse_samples=$directions,glossy_samples=$directions
 gather first diffuse_samples=40,glossy_samples=20
 for criterion in variance entropy; do
   gather all adaptive=true,diffuse_samples=40,glossy_samples=20,criterion=$criterion,threshold=0
   all=$rays
   gather some adaptive=true,diffuse_samples=40,glossy_samples=20,criterion=$criterion
   [ "$rays" -lt "$all" ] || fail "$criterion: $rays rays, all levels take $all"
-  awk -v first="$(figure rmse reference.exr first.exr)" -v some="$(figure rmse reference.exr some.exr)" \
+  judge -v first="$(figure rmse reference.exr first.exr)" -v some="$(figure rmse reference.exr some.exr)" \
     -v all="$(figure rmse reference.exr all.exr)" 'BEGIN { exit !(all < some && some < 0.8 * first) }' ||
     fail "$criterion: the errors are not in order"
   grep -q 'gathers ended at level 2' some.log || fail "$criterion: --stats does not count the levels"
 done
 gather optimal adaptive=true,diffuse_samples=40,glossy_samples=20,weights=osw
-awk -v some="$(figure rmse reference.exr some.exr)" -v optimal="$(figure rmse reference.exr optimal.exr)" \
+judge -v some="$(figure rmse reference.exr some.exr)" -v optimal="$(figure rmse reference.exr optimal.exr)" \
   'BEGIN { exit !(optimal < 1.3 * some && optimal > 0) }' || fail "optimal weights of the levels are worse"
 "$aureole" info some.exr --format csv | grep -q directions || fail "the picture has no sampling map"
 

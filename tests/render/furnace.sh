@@ -8,12 +8,12 @@
 check() {
   local name=$1 exact=$2 bias=$3 means=
   shift 3
-  for seed in 1 2 3 4 5 6 7 8; do
+  for seed in $(either 1 "1 2 3 4 5 6 7 8"); do
     "$aureole" render "$source/tests/render/$scene.xml" -q --seed $seed -o $name-$seed.pfm "$@" ||
       { fail "$name: render"; return; }
     means="$means $(mean $name-$seed.pfm $name-$seed.pfm)"
   done
-  echo "$means" | awk -v name="$name" -v exact="$exact" -v bias="$bias" '
+  echo "$means" | judge -v name="$name" -v exact="$exact" -v bias="$bias" '
     { for (i = 1; i <= NF; ++i) { sum += $i; squares += $i * $i }
       mean = sum / NF; variance = (squares - NF * mean * mean) / (NF - 1); if (variance < 0) variance = 0
       error = sqrt(variance / NF); off = mean - exact; allowed = 7.89 * error + bias * exact + 1e-6

@@ -9,14 +9,14 @@ small="-q --width 16 --height 16 --filter box"
 means() { # NAME FIRST-SEED ARGUMENTS...: the means of 6 seeds
   local name=$1 first=$2
   shift 2
-  for seed in 0 1 2 3 4 5; do
+  for seed in $(either 0 "0 1 2 3 4 5"); do
     "$aureole" render "$box" $small --seed $((first + seed)) --spp 64 -o $name.pfm "$@" || { fail "$name: render"; return; }
     mean $name.pfm $name.pfm
   done | tr '\n' ' '
 }
 two=$(means two 1 --integrator path:max_depth=2)
 for spec in direct direct:shading_samples=2 direct:emitter_samples=3,bsdf_samples=0 direct:emitter_samples=0,bsdf_samples=16; do
-  echo "$two $(means direct 7 --integrator $spec)" | awk -v name=$spec '
+  echo "$two $(means direct 7 --integrator $spec)" | judge -v name=$spec '
     { for (i = 1; i <= 12; ++i) { k = i > 6; sum[k] += $i; square[k] += $i * $i }
       for (k = 0; k < 2; ++k) { mean[k] = sum[k] / 6; variance[k] = (square[k] - 6 * mean[k] * mean[k]) / 5 }
       t = (mean[1] - mean[0]) / sqrt((variance[0] + variance[1]) / 6)
