@@ -129,6 +129,8 @@ typedef struct aur_view_factors_description {
     double largest_row_error; /* |sum of a row with sky and back - 1|: what could not be taken away */
     double raw_row_error;     /* root mean square of the same before the factors were moved, by area */
     double moved;             /* sum of |changes| of A_i F_ij over their sum */
+    double unseen; /* a pair without an entry has no larger factor, with the options' confidence: what
+                      rays would have missed with half the chance that is left */
 } aur_view_factors_description;
 
 /* Errors: ARGUMENT when `size` is not set. */

@@ -70,9 +70,15 @@ static aur_result of_matrix(const aur_facets *facets, const aur_view_factors_opt
                             aur_error *error) {
     aur_view_factors *factors = NULL;
     aur_view_factors_matrix m = {.size = sizeof m};
+    aur_view_factors_description d = {.size = sizeof d};
     aur_result result = aur_view_factors_create(facets, options, &factors, error);
     if (result == AUR_OK)
         result = aur_view_factors_get_matrix(factors, &m, error);
+    if (result == AUR_OK)
+        result = aur_view_factors_describe(factors, &d, error);
+    /* Pairs that no ray found have the interval that the description tells. */
+    for (size_t i = 0; i < m.rows * m.rows && kind == FACTORS && result == AUR_OK; ++i)
+        half[i] = i % m.rows > i / m.rows ? d.unseen : 0.0;
     for (size_t i = 0; i < m.rows && kind == SKY && result == AUR_OK; ++i) {
         values[i] = m.sky[i];
         half[i] = m.sky_half_widths[i];
@@ -123,7 +129,7 @@ static aur_result study(lab_run *run, const coverage_case *given, lab_tally *poo
             truth += numbers[seed][0][i] / (double)seeds;
             widths += numbers[seed][1][i];
         }
-        for (size_t seed = 0; seed < seeds && widths > 0.0; ++seed)
+        for (size_t seed = 0; seed < seeds && truth > 0.0 && widths > 0.0; ++seed)
             lab_tally_count(&t, numbers[seed][0][i], numbers[seed][1][i], truth, (double)given->rays);
     }
     if (result == AUR_OK) {

@@ -144,6 +144,7 @@ static int print_summary(const aur_view_factors *factors, report_format format) 
     report_fact_number(table, "raw_row_error", d.raw_row_error);
     report_fact_number(table, "moved", d.moved);
     report_fact_number(table, "largest_row_error", d.largest_row_error);
+    report_fact_number(table, "unseen", d.unseen);
     return cli_finish(table, format);
 }
 

@@ -1,5 +1,6 @@
 /* The view factors of facets: rays, closed forms, and the balance of both. */
 #include <aureole/view_factors.h>
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -133,14 +134,15 @@ static aur_result compute(const aur_facets *facets, const aur_view_factors_optio
     if (result == AUR_OK)
         result = aur_exchange_balance(&exchange, &parallel, &balance, error);
     if (result == AUR_OK) {
-        made->description = (aur_view_factors_description){.size = sizeof made->description,
-                                                           .rays = (uint64_t)facets->patch_count *
-                                                                   visits.rays * visits.randomizations,
-                                                           .closed_pairs = exchange.closed_pairs,
-                                                           .sampled_pairs = exchange.sampled_pairs,
-                                                           .largest_row_error = balance.after,
-                                                           .raw_row_error = balance.before,
-                                                           .moved = balance.moved};
+        made->description = (aur_view_factors_description){
+            .size = sizeof made->description,
+            .rays = (uint64_t)facets->patch_count * visits.rays * visits.randomizations,
+            .closed_pairs = exchange.closed_pairs,
+            .sampled_pairs = exchange.sampled_pairs,
+            .largest_row_error = balance.after,
+            .raw_row_error = balance.before,
+            .moved = balance.moved,
+            .unseen = -log(0.5 - 0.5 * options->confidence) / (double)(visits.rays * visits.randomizations)};
         finish(&exchange, made);
         result = copy_names(facets, made, error);
         warn(facets, made, &balance, 2.5 / (double)(visits.rays * visits.randomizations), &options->warnings);
