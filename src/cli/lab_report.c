@@ -1,5 +1,6 @@
 /* aureole lab report: a page of all that was run. */
 #include <errno.h>
+#include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
 
@@ -14,16 +15,25 @@ typedef struct prints {
 } prints;
 
 static bool print(void *user, const char *name, const report_table *table, const report_plot *plot) {
-    enum { WIDTH = 500, HEIGHT = 360 };
+    enum { WIDTH = 500, HEIGHT = 360 }; /* of a panel */
     prints *const state = user;
-    char path[AUR_ERROR_FILE_CAPACITY];
+    char path[AUR_ERROR_FILE_CAPACITY], *script = NULL;
+    size_t bytes = 0;
     cli_plot drawn;
     snprintf(path, sizeof path, "%s/%s", state->folder, name);
-    if (state->fail || !cli_plot_open(path, WIDTH, HEIGHT, &drawn)) {
+    FILE *const memory = open_memstream(&script, &bytes);
+    const int panels = memory != NULL ? (int)report_plot_script(memory, table, plot) : 0;
+    if (memory == NULL || fclose(memory) != 0)
         state->fail = true;
+    const int columns = panels < 2 ? 1 : 2, rows = panels < 2 ? 1 : (panels + 1) / 2;
+    if (state->fail || !cli_plot_open(path, columns * WIDTH, rows * HEIGHT, &drawn)) {
+        state->fail = true;
+        free(script);
         return false;
     }
-    const bool any = report_plot_script(drawn.script, table, plot) > 0;
+    fwrite(script, 1, bytes, drawn.script);
+    free(script);
+    const bool any = panels > 0;
     state->fail = cli_plot_close(&drawn) != CLI_SUCCESS;
     return any && !state->fail;
 }

@@ -23,8 +23,13 @@ static void put_panel(FILE *script, const report_layout *l, size_t panel, report
     size_t drawn = 0;
     for (size_t s = 0; s < l->series_count; ++s)
         if (report_layout_points(l, panel, s, points) > 0) {
-            fprintf(script, "%s'-' using 1:2:3:4 with %s pointtype 7 pointsize .4", drawn++ > 0 ? ", " : "",
-                    l->plot->points ? "yerrorbars" : "yerrorlines");
+            const bool intervals = l->plot->low != NULL;
+            const char *const style = intervals         ? l->plot->points ? "yerrorbars" : "yerrorlines"
+                                      : l->plot->points ? "points"
+                                                        : "linespoints";
+            /* A series keeps its colour from panel to panel. */
+            fprintf(script, "%s'-' using %s with %s linetype %zu pointtype 7 pointsize .4",
+                    drawn++ > 0 ? ", " : "", intervals ? "1:2:3:4" : "1:2", style, s + 1);
             put_text(script, " title ", l->series[s]);
         }
     fputc('\n', script);
@@ -48,8 +53,9 @@ size_t report_plot_script(FILE *script, const report_table *table, const report_
         fputs("set termoption noenhanced\nset encoding utf8\nset key outside below\nset grid\n", script);
         put_text(script, "set xlabel ", plot->x);
         put_text(script, "\nset ylabel ", plot->y);
-        fprintf(script, "\n%s%sset autoscale xfix\nset offsets graph .05, graph .05, graph .05, graph .05\n",
-                plot->log_x ? "set logscale x\n" : "", plot->log_y ? "set logscale y\n" : "");
+        fprintf(script, "\n%s%sset autoscale xfix\nset offsets graph .05, graph .05, %s\n",
+                plot->log_x ? "set logscale x\n" : "", plot->log_y ? "set logscale y\n" : "",
+                plot->log_y ? "0, 0" : "graph .05, graph .05");
         if (plot->points)
             fputs("set size ratio -1\n", script);
         fprintf(script, "set multiplot layout %zu,%zu\n", (panels + columns - 1) / columns, columns);
