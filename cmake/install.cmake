@@ -13,10 +13,12 @@ set_target_properties(aureole-render PROPERTIES INSTALL_RPATH "$ORIGIN")
 
 install(TARGETS aureole aureole-render EXPORT aureole-targets INCLUDES DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
 install(TARGETS aureole-program)
-if(TARGET aureole-mpi)
-    set_target_properties(aureole-mpi PROPERTIES INSTALL_RPATH "$ORIGIN")
-    install(TARGETS aureole-mpi DESTINATION ${CMAKE_INSTALL_LIBDIR})
-endif()
+foreach(module aureole-mpi aureole-assimp)
+    if(TARGET ${module})
+        set_target_properties(${module} PROPERTIES INSTALL_RPATH "$ORIGIN")
+        install(TARGETS ${module} DESTINATION ${CMAKE_INSTALL_LIBDIR})
+    endif()
+endforeach()
 install(DIRECTORY include/aureole DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
 
 # Completion, where the shells look for it.

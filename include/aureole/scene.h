@@ -1,4 +1,4 @@
-/* Scenes: Mitsuba 3 XML, loaded into shapes, materials, lights and a camera.
+/* Scenes: Mitsuba 3 XML, and models in other forms, loaded into shapes, materials, lights and a camera.
  *
  * Experimental: all of this header may change in any version. */
 #ifndef AUREOLE_SCENE_H
@@ -40,6 +40,10 @@ static inline aur_scene_options aur_scene_options_default(void) {
     options.size = sizeof options;
     return options;
 }
+
+/* Whether a file is a scene by the end of its name, and not by its content as XML is: Radiance's (.rad) and
+ * models (.glb, .gltf, .obj, .fbx, .dae, .stl, .ply, .off, .3ds), which a build with assimp reads. */
+AUR_EXPERIMENTAL bool aur_scene_is_name(const char *path) AUR_NONNULL(1);
 
 /* Reads a scene and all files that it names: includes, meshes, pictures and point sets. Relative names are
  * looked for beside the file that has them, beside the scene, in the folders of <path>, and in the folder of

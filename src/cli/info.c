@@ -161,12 +161,6 @@ static bool is_xml(size_t size, const char *text) {
     return i < size && text[i] == '<';
 }
 
-/* Radiance's descriptions begin with anything. */
-static bool is_rad(const char *path) {
-    const size_t length = strlen(path);
-    return length > 4 && strcmp(path + length - 4, ".rad") == 0;
-}
-
 static int describe(const char *path, const info_options *options) {
     char start[START_CAPACITY];
     FILE *const file = fopen(path, "rb");
@@ -180,7 +174,7 @@ static int describe(const char *path, const info_options *options) {
     const char *const format = aur_image_format_of(size, start);
     if (format != NULL)
         return describe_picture(path, format, options);
-    if (is_xml(size, start) || is_rad(path))
+    if (is_xml(size, start) || aur_scene_is_name(path))
         return describe_scene(path, options);
     static const char table[] = "aureole weight table\n";
     if (size >= sizeof table - 1 && memcmp(start, table, sizeof table - 1) == 0)
@@ -196,7 +190,8 @@ const cli_verb cli_verb_info = {
     .name = "info",
     .summary = "what is in a scene, a picture, a file of points or a table of weights",
     .notes =
-        "The kind of file is seen from its content. Scenes: sizes, bounding box (scene units), film and "
+        "The kind of file is seen from its content, and that of models (.glb, .obj, ...) and .rad from its "
+        "name. Scenes: sizes, bounding box (scene units), film and "
         "plugins. Pictures and points: range and mean of each channel or coordinate, over its finite values.",
     .too_few = "one file is needed",
     .too_many = "one file is needed",

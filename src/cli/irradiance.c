@@ -184,7 +184,8 @@ const cli_verb cli_verb_irradiance = {
     .notes = "The scene needs no camera. Values are in the scene's radiance times steradians; each has the "
              "standard error of 16 independent randomisations. See docs/lighting.md.",
     .too_few = "a scene is needed",
-    .operands = {{"SCENE", "a scene (.xml, .rad); further files go on with it, as oconv reads them",
+    .operands = {{"SCENE",
+                  "a scene (.xml, .rad, .glb, ...); further files go on with it, as oconv reads them",
                   .repeated = true, .content = "file"}},
     .groups = {{options, 0},
                {cli_daylight_options, offsetof(irradiance_command, daylight)},

@@ -204,7 +204,8 @@ const cli_verb cli_verb_viewfactors = {
         "rays. Rows and the sky add up to 1, and areas times factors are symmetric. See "
         "docs/view-factors.md.",
     .too_few = "a mesh or scene is needed",
-    .operands = {{"MESH", "an OBJ, a PLY or a scene (.xml, .rad); further files go on with a scene",
+    .operands = {{"MESH",
+                  "an OBJ, a PLY or a scene (.xml, .rad, .glb, ...); further files go on with a scene",
                   .repeated = true, .content = "file"}},
     .groups = {{options, 0},
                {cli_definitions_option, offsetof(factor_command, definitions)},

@@ -21,8 +21,12 @@ static aur_result find_source(const char *path, source *kind, aur_error *error) 
             *kind = (source)i;
             return AUR_OK;
         }
-    return aur_fail_at(error, (aur_location){.file = path}, AUR_ERROR_UNSUPPORTED,
-                       "facets are read from files whose names end in .obj, .ply, .xml or .rad");
+    *kind = SOURCE_SCENE;
+    return aur_model_is_name(path)
+               ? AUR_OK
+               : aur_fail_at(error, (aur_location){.file = path}, AUR_ERROR_UNSUPPORTED,
+                             "facets are read from files whose names end in .obj, .ply, .xml or .rad, and "
+                             "from models such as .glb");
 }
 
 /* The text as the value of an attribute of XML, in which scenes replace $names; a buffer of 6 bytes for each

@@ -17,6 +17,8 @@ typedef struct bitmap {
     /* Read, and of no use afterwards: */
     bool raw, accelerated;
     int format;
+    enum { CHANNEL_RGB, CHANNEL_RED, CHANNEL_GREEN, CHANNEL_BLUE, CHANNEL_ALPHA } channel;
+    float factor[3], cutoff;
     const char *path;
     aur_uv_keys uv;
 } bitmap;
@@ -42,27 +44,61 @@ static size_t find_channel(const aur_image *image, const char *name, size_t othe
     return otherwise;
 }
 
-aur_result aur_read_rgb(const char *path, size_t *width, size_t *height, float **rgb, aur_error *error) {
-    aur_image *image;
-    aur_result result = aur_image_read(path, &image, error);
-    if (result != AUR_OK)
-        return result;
-    const size_t grey = find_channel(image, "Y", 0);
-    const size_t channel[3] = {find_channel(image, "R", grey), find_channel(image, "G", grey),
-                               find_channel(image, "B", grey)};
+/* The channels of red, green and blue (or grey three times), negative and infinite values as 0. */
+static aur_result take_rgb(const aur_image *image, const size_t channel[3], float **rgb, aur_error *error) {
     const size_t count = image->width * image->height;
-    *width = image->width;
-    *height = image->height;
     *rgb = malloc((3 * count + 1) * sizeof **rgb);
     if (*rgb == NULL)
-        result = aur_fail_memory(error);
-    for (size_t i = 0; result == AUR_OK && i < count; ++i) {
+        return aur_fail_memory(error);
+    for (size_t i = 0; i < count; ++i) {
         for (size_t k = 0; k < 3; ++k) {
             const float value = image->data[i * image->channel_count + channel[k]];
             (*rgb)[3 * i + k] = isfinite(value) && value > 0.0f ? value : 0.0f;
         }
     }
+    return AUR_OK;
+}
+
+static void find_colors(const aur_image *image, size_t channel[3]) {
+    const size_t grey = find_channel(image, "Y", 0);
+    channel[0] = find_channel(image, "R", grey);
+    channel[1] = find_channel(image, "G", grey);
+    channel[2] = find_channel(image, "B", grey);
+}
+
+aur_result aur_read_rgb(const char *path, size_t *width, size_t *height, float **rgb, aur_error *error) {
+    aur_image *image;
+    aur_result result = aur_image_read(path, &image, error);
+    if (result != AUR_OK)
+        return result;
+    size_t channel[3];
+    find_colors(image, channel);
+    *width = image->width;
+    *height = image->height;
+    result = take_rgb(image, channel, rgb, error);
     aur_image_destroy(image);
+    return result;
+}
+
+/* What the keys make of the picture. */
+static aur_result take_texels(bitmap *self, const aur_image *image, aur_error *error) {
+    size_t channel[3];
+    find_colors(image, channel);
+    const size_t alpha = find_channel(image, "A", image->channel_count);
+    if (self->channel == CHANNEL_ALPHA)
+        channel[0] = channel[1] = channel[2] = alpha < image->channel_count ? alpha : channel[0];
+    else if (self->channel != CHANNEL_RGB)
+        channel[0] = channel[1] = channel[2] = channel[self->channel - CHANNEL_RED];
+    self->width = image->width;
+    self->height = image->height;
+    const aur_result result = take_rgb(image, channel, &self->rgb, error);
+    const bool encodes = self->raw && self->channel != CHANNEL_ALPHA && has_8_bits(self->path);
+    const bool opaque = self->channel == CHANNEL_ALPHA && alpha == image->channel_count;
+    for (size_t i = 0; result == AUR_OK && i < 3 * self->width * self->height; ++i) {
+        float value = opaque ? 1.0f : encodes ? encode(self->rgb[i]) : self->rgb[i];
+        value *= self->factor[i % 3];
+        self->rgb[i] = !(self->cutoff > 0.0f) ? value : value < self->cutoff ? 0.0f : 1.0f;
+    }
     return result;
 }
 
@@ -86,24 +122,37 @@ static const aur_key keys[] = {
     {AUR_KEY_OF_CHOICE(bitmap, "format", format, "variant",
                        "of no effect: texels are kept in single precision", "variant", "fp16", "float16",
                        "uint8", "auto")},
+    {AUR_KEY_OF_CHOICE(bitmap, "channel", channel, "rgb",
+                       "what of the picture is used; alpha is 1 in a picture that has none", "rgb", "red",
+                       "green", "blue", "alpha")},
+    {AUR_KEY_OF_VECTOR(bitmap, "factor", factor, 0.0, 1e30, "1 1 1", "factors of red, green and blue")},
+    {AUR_KEY_OF_REAL(bitmap, "cutoff", cutoff, 0.0, 1e30, "0",
+                     "if above 0: texels become 1 from there on, after the factor, and 0 below")},
     {AUR_KEY_OF_BOOLEAN(bitmap, "accel", accelerated, "true", "of no effect")},
     AUR_UV_KEYS(bitmap),
 };
 
 static aur_result create(aur_parameters *parameters, aur_texture *texture, aur_error *error) {
     bitmap *const self = texture->data;
+    /* A model's picture, which is in memory. */
+    const aur_parameter *const held = aur_parameters_find(parameters, "bitmap");
+    aur_image *image = NULL;
+    if (held != NULL && (held->kind != AUR_PARAMETER_OBJECT || strcmp(held->object_kind, "image") != 0))
+        return aur_fail_at(error, held->location, AUR_ERROR_FORMAT,
+                           "texture 'bitmap': the picture is named by the string 'filename'");
     aur_result result = aur_row_read(&texture->descriptor->row, parameters, self, error);
     if (result == AUR_OK && self->path == NULL)
         result = aur_fail_at(error, parameters->location, AUR_ERROR_FORMAT,
                              "texture 'bitmap' needs the string 'filename'");
+    if (result == AUR_OK && held == NULL)
+        result = aur_image_read(self->path, &image, error);
     if (result == AUR_OK)
-        result = aur_read_rgb(self->path, &self->width, &self->height, &self->rgb, error);
+        result = take_texels(self, held != NULL ? held->object : image, error);
+    aur_image_destroy(image);
     if (result != AUR_OK)
         return result;
     texture->aspect = (float)self->width / (float)self->height;
     self->to_uv = aur_uv_map_of(&self->uv);
-    for (size_t i = 0; self->raw && has_8_bits(self->path) && i < 3 * self->width * self->height; ++i)
-        self->rgb[i] = encode(self->rgb[i]);
     note_range(texture, self);
     return AUR_OK;
 }

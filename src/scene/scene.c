@@ -5,6 +5,7 @@
 #include "core/array.h"
 #include "core/options.h"
 #include "material/sampling.h"
+#include "scene/rad/rad.h"
 #include "scene/scene_data.h"
 
 static void find_sphere(aur_scene *scene) {
@@ -157,6 +158,10 @@ static aur_result load(const char *path, size_t bytes, const char *data, const a
     }
     *scene = made;
     return AUR_OK;
+}
+
+bool aur_scene_is_name(const char *path) {
+    return aur_rad_is_name(path) || aur_model_is_name(path);
 }
 
 aur_result aur_scene_load(const char *path, const aur_scene_options *options, aur_scene **scene,

@@ -39,7 +39,8 @@ scene/load
 scene/shapes scene/lights scene/sensors scene/media scene/phases scene/volumes
 scene
 scene/xml
-scene/rad
+assimp
+scene/rad scene/model
 material
 sphere/directions
 sphere/sets sphere/nearest

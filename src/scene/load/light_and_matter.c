@@ -2,6 +2,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "image/image.h"
 #include "scene/load/loader.h"
 
 aur_result aur_build_bsdf(aur_loader *self, aur_parameters *parameters, void **object) {
@@ -23,11 +24,13 @@ aur_result aur_build_bsdf(aur_loader *self, aur_parameters *parameters, void **o
     return AUR_OK;
 }
 
-/* Replaces a picture's `filename` by the path under which it can be read. */
+/* Replaces a picture's `filename` by the path under which it can be read, unless a model has it in memory. */
 static aur_result resolve_filename(aur_loader *self, aur_parameters *parameters) {
     for (size_t i = 0; i < parameters->count; ++i) {
         aur_parameter *const item = &parameters->items[i];
         if (strcmp(item->name, "filename") != 0 || item->kind != AUR_PARAMETER_STRING)
+            continue;
+        if (aur_model_find_file(&self->scene->document.model_files, item->text) != NULL)
             continue;
         char *path;
         const aur_result result =
@@ -40,14 +43,34 @@ static aur_result resolve_filename(aur_loader *self, aur_parameters *parameters)
     return AUR_OK;
 }
 
+/* A picture that a model has in memory goes to its texture as an object; else *image is NULL. */
+static aur_result add_image(aur_loader *self, aur_parameters *parameters, aur_image **image) {
+    *image = NULL;
+    const aur_parameter *const name = aur_parameters_find(parameters, "filename");
+    const aur_model_file *const part =
+        name != NULL && name->kind == AUR_PARAMETER_STRING
+            ? aur_model_find_file(&self->scene->document.model_files, name->text)
+            : NULL;
+    if (part == NULL)
+        return AUR_OK;
+    const aur_result result = aur_image_read_memory(part->name, part->size, part->data, image, self->error);
+    return result != AUR_OK ? result
+                            : aur_parameters_add_object(parameters, "bitmap", "image", *image,
+                                                        parameters->location, self->error);
+}
+
 aur_result aur_build_texture(aur_loader *self, aur_parameters *parameters, void **object) {
     aur_scene *const scene = self->scene;
+    aur_image *image = NULL;
     aur_result result = resolve_filename(self, parameters);
+    if (result == AUR_OK)
+        result = add_image(self, parameters, &image);
     if (result == AUR_OK)
         result = aur_loader_reserve(self, &scene->textures, scene->texture_count, &scene->texture_capacity);
     aur_texture **const made = scene->textures + scene->texture_count;
     if (result == AUR_OK)
         result = aur_texture_create(parameters, made, self->error);
+    aur_image_destroy(image);
     if (result != AUR_OK)
         return result;
     *object = *made;

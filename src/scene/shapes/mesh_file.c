@@ -18,6 +18,23 @@ aur_result aur_mesh_file_fail(const aur_mesh_file *file, const char *format, ...
                        text);
 }
 
+static aur_result read_data(const char *path, size_t size, const char *data, const aur_mesh_file_keys *keys,
+                            aur_shape *shape, aur_error *error) {
+    aur_mesh_file file = {.scanner = {data, data + size, 0},
+                          .path = path,
+                          .face_normals = keys->face_normals,
+                          .flip_v = keys->flip_v,
+                          .shape_index = keys->shape_index,
+                          .error = error};
+    aur_result result = shape->descriptor->read_file(&file, &shape->mesh);
+    file.scanner.line = 0;
+    if (result == AUR_OK && shape->mesh.triangle_count == 0)
+        result = aur_mesh_file_fail(&file, "no face in this file");
+    if (result == AUR_OK)
+        result = aur_mesh_check(&shape->mesh, (aur_location){.file = path}, error);
+    return result;
+}
+
 static aur_result read_file(const char *path, const aur_mesh_file_keys *keys, aur_shape *shape,
                             aur_error *error) {
     char *data;
@@ -25,18 +42,7 @@ static aur_result read_file(const char *path, const aur_mesh_file_keys *keys, au
     aur_result result = aur_file_read(path, LARGEST_FILE, &data, &size, error);
     if (result != AUR_OK)
         return result;
-    aur_mesh_file file = {.scanner = {data, data + size, 0},
-                          .path = path,
-                          .face_normals = keys->face_normals,
-                          .flip_v = keys->flip_v,
-                          .shape_index = keys->shape_index,
-                          .error = error};
-    result = shape->descriptor->read_file(&file, &shape->mesh);
-    file.scanner.line = 0;
-    if (result == AUR_OK && shape->mesh.triangle_count == 0)
-        result = aur_mesh_file_fail(&file, "no face in this file");
-    if (result == AUR_OK)
-        result = aur_mesh_check(&shape->mesh, (aur_location){.file = path}, error);
+    result = read_data(path, size, data, keys, shape, error);
     free(data);
     return result;
 }
@@ -49,10 +55,15 @@ aur_result aur_mesh_file_create(const aur_shape_input *input, aur_shape *shape, 
     if (result == AUR_OK && keys.filename == NULL)
         return aur_fail_at(error, parameters->location, AUR_ERROR_FORMAT,
                            "%s '%s' needs the string 'filename'", parameters->kind, parameters->plugin);
-    if (result == AUR_OK)
+    if (result != AUR_OK)
+        return result;
+    const aur_model_file *const part = aur_model_find_file(&input->document->model_files, keys.filename);
+    if (part != NULL)
+        result = read_data(part->name, part->size, part->data, &keys, shape, error);
+    else
         result = aur_xml_find_asset(input->document, aur_parameters_find(parameters, "filename")->location,
                                     keys.filename, &path, error);
-    if (result == AUR_OK)
+    if (result == AUR_OK && part == NULL)
         result = read_file(path, &keys, shape, error);
     free(path);
     if (result != AUR_OK)

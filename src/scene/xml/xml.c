@@ -2,16 +2,15 @@
 
 #include <ctype.h>
 #include <expat.h>
-#include <stdarg.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "core/array.h"
 #include "core/file.h"
-#include "core/names.h"
 #include "core/text.h"
 #include "core/words.h"
 #include "scene/rad/rad.h"
+#include "scene/xml/model_file.h"
 #include "scene/xml/variables.h"
 
 /* A few kilobytes of includes that double each other must not become an endless scene, so that files and
@@ -25,6 +24,7 @@ typedef struct reading {
     aur_xml_variables variables;
     aur_rad_scene rad;
     size_t file_count, file_bytes;
+    const aur_warnings *warnings;
     aur_error *error;
 } reading;
 
@@ -33,7 +33,8 @@ typedef struct file_reading {
     reading *shared;
     XML_Parser expat;
     const char *file;
-    bool from_rad; /* the text has been made from one of Radiance's: only its lines are known */
+    bool from_rad;   /* the text has been made from one of Radiance's: only its lines are known */
+    bool from_model; /* from a model: no place is known */
     size_t include_depth;
     bool legacy; /* version < 2 */
     aur_result result;
@@ -48,42 +49,10 @@ static aur_result read_file(reading *shared, const char *path, const file_readin
 
 /* --- nodes and their attributes */
 
-const char *aur_xml_attribute_value(const aur_xml_node *node, const char *name) {
-    for (size_t i = 0; i < node->attribute_count; ++i)
-        if (strcmp(node->attributes[i].name, name) == 0)
-            return node->attributes[i].value;
-    return NULL;
-}
-
-aur_result aur_xml_fail(const aur_xml_node *node, aur_error *error, const char *format, ...) {
-    char text[AUR_ERROR_MESSAGE_CAPACITY];
-    va_list arguments;
-    va_start(arguments, format);
-    aur_format_list(text, sizeof text, format, arguments);
-    va_end(arguments);
-    return aur_fail_at(error, node->location, AUR_ERROR_FORMAT, "%s", text);
-}
-
-aur_result aur_xml_check(const aur_xml_node *node, const aur_xml_rule *rule, aur_error *error) {
-    aur_names names = aur_names_of(0, rule->names);
-    while (rule->names[names.count] != NULL)
-        ++names.count;
-    for (size_t i = 0; i < node->attribute_count; ++i) {
-        const char *const name = node->attributes[i].name;
-        char hint[AUR_HINT_CAPACITY];
-        if (aur_names_find(names, name) == names.count)
-            return aur_fail_at(error, node->location, AUR_ERROR_NAME, "<%s> has no attribute '%s'%s",
-                               node->tag, name, aur_names_hint(names, name, "''", hint));
-    }
-    for (size_t i = 0; i < rule->required; ++i)
-        if (aur_xml_attribute_value(node, rule->names[i]) == NULL)
-            return aur_xml_fail(node, error, "<%s> needs the attribute '%s'", node->tag, rule->names[i]);
-    return AUR_OK;
-}
-
 static aur_location here(const file_reading *reader) {
-    return (aur_location){reader->file, XML_GetCurrentLineNumber(reader->expat),
-                          reader->from_rad ? 0 : XML_GetCurrentColumnNumber(reader->expat) + 1};
+    const bool exact = !reader->from_rad && !reader->from_model;
+    return (aur_location){reader->file, reader->from_model ? 0 : XML_GetCurrentLineNumber(reader->expat),
+                          exact ? XML_GetCurrentColumnNumber(reader->expat) + 1 : 0};
 }
 
 /* "toWorld" to "to_world". */
@@ -333,6 +302,20 @@ static aur_result parse_rad(file_reading *reader, const char *path, const char *
     return result;
 }
 
+/* A model, whose XML nobody sees: its places mean nothing. */
+static aur_result parse_model(file_reading *reader, const char *path, const char *data, size_t size) {
+    const reading *const shared = reader->shared;
+    char *xml;
+    const bool included = reader->include_depth > 0;
+    aur_result result = aur_xml_read_model(shared->document, shared->warnings, included, path, &size, data,
+                                           &xml, shared->error);
+    reader->from_model = true;
+    if (result == AUR_OK)
+        result = parse(reader, xml, size, true);
+    free(xml);
+    return result;
+}
+
 /* The scene's own files may be text in memory, and so are hashed at once. */
 static aur_result note_scene(reading *shared, const char *path, size_t size, const char *data) {
     aur_xml_document *const document = shared->document;
@@ -365,7 +348,9 @@ static aur_result read_text(reading *shared, const char *path, size_t size, cons
         XML_SetUserData(reader.expat, &reader);
         XML_SetElementHandler(reader.expat, on_start, on_end);
         XML_SetCharacterDataHandler(reader.expat, on_text);
-        result = reader.from_rad ? parse_rad(&reader, path, data, size) : parse(&reader, data, size, true);
+        result = aur_xml_is_model(path, size, data) ? parse_model(&reader, path, data, size)
+                 : reader.from_rad                  ? parse_rad(&reader, path, data, size)
+                                                    : parse(&reader, data, size, true);
     }
     if (reader.expat != NULL)
         XML_ParserFree(reader.expat);
@@ -394,68 +379,13 @@ static aur_result read_further(reading *shared, const char *path, const char *fu
     return read_file(shared, further, &from, shared->document->root);
 }
 
-/* --- ids */
-
-static int compare_ids(const void *a, const void *b) {
-    const aur_xml_id *const x = a, *const y = b;
-    const int order = strcmp(x->id, y->id);
-    return order != 0 ? order : (x->order > y->order) - (x->order < y->order);
-}
-
-static int compare_id_to_key(const void *key, const void *item) {
-    return strcmp(key, ((const aur_xml_id *)item)->id);
-}
-
-aur_xml_id *aur_xml_find_id(const aur_xml_document *document, const char *id) {
-    return document->id_count == 0
-               ? NULL
-               : bsearch(id, document->ids, document->id_count, sizeof *document->ids, compare_id_to_key);
-}
-
-static aur_result sort_ids(const aur_xml_document *document, aur_error *error) {
-    if (document->id_count > 1)
-        qsort(document->ids, document->id_count, sizeof *document->ids, compare_ids);
-    for (size_t i = 1; i < document->id_count; ++i) {
-        const aur_location first = document->ids[i - 1].node->location;
-        if (strcmp(document->ids[i - 1].id, document->ids[i].id) == 0)
-            return aur_xml_fail(document->ids[i].node, error, "id '%s' is given twice, first at %s:%zu:%zu",
-                                document->ids[i].id, first.file, first.line, first.column);
-    }
-    return AUR_OK;
-}
-
-/* The id that an alias is another name of, or NULL. */
-static aur_xml_id *next_id(const aur_xml_document *document, const aur_xml_id *alias) {
-    return aur_xml_find_id(document, aur_xml_attribute_value(alias->node, "id"));
-}
-
-/* Every alias on the way to an object is given that object, so that a chain of aliases is walked once. */
-static aur_result resolve_aliases(const aur_xml_document *document, aur_error *error) {
-    for (size_t i = 0; i < document->id_count; ++i) {
-        aur_xml_id *const first = &document->ids[i];
-        const aur_xml_id *last = first;
-        for (size_t hops = 0; strcmp(last->node->tag, "alias") == 0; ++hops) {
-            const aur_xml_id *const next = next_id(document, last);
-            if (next == NULL || hops > document->id_count)
-                return aur_fail_at(error, first->node->location, AUR_ERROR_NAME,
-                                   "<alias>: there is no id '%s'", aur_xml_attribute_value(last->node, "id"));
-            last = next;
-        }
-        for (aur_xml_id *item = first; strcmp(item->node->tag, "alias") == 0;) {
-            aur_xml_id *const next = next_id(document, item);
-            item->node = last->node;
-            item = next;
-        }
-    }
-    return AUR_OK;
-}
-
 aur_result aur_xml_read(const char *path, size_t bytes, const char *data, const aur_scene_options *options,
                         aur_xml_document *document, aur_error *error) {
     *document = (aur_xml_document){0};
     reading shared = {.document = document,
                       .variables = {.arena = &document->arena},
                       .rad = {.arena = &document->arena},
+                      .warnings = &options->warnings,
                       .error = error};
     aur_result result = aur_xml_variables_define(&shared.variables, options, error);
     if (result == AUR_OK && options->confine)
@@ -466,9 +396,7 @@ aur_result aur_xml_read(const char *path, size_t bytes, const char *data, const 
     for (size_t i = 0; i < options->further_count && result == AUR_OK; ++i)
         result = read_further(&shared, path, options->further[i]);
     if (result == AUR_OK)
-        result = sort_ids(document, error);
-    if (result == AUR_OK)
-        result = resolve_aliases(document, error);
+        result = aur_xml_settle_ids(document, error);
     if (result == AUR_OK)
         result = aur_xml_variables_finish(&shared.variables, path, error);
     free(shared.variables.items);
@@ -483,13 +411,7 @@ void aur_xml_release(aur_xml_document *document) {
     free(document->folders);
     free(document->files);
     free(document->confines);
+    aur_model_release_files(&document->model_files);
     aur_arena_release(&document->arena);
     *document = (aur_xml_document){0};
-}
-
-aur_result aur_xml_fail_tag(const aur_xml_node *node, size_t count, const char *const *names,
-                            aur_error *error) {
-    char hint[AUR_HINT_CAPACITY];
-    return aur_fail_at(error, node->location, AUR_ERROR_NAME, "unknown element <%s>%s", node->tag,
-                       aur_names_hint(aur_names_of(count, names), node->tag, "<>", hint));
 }

@@ -10,6 +10,7 @@
 
 #include "core/arena.h"
 #include "core/error.h"
+#include "scene/model/model.h"
 
 #include <stdbool.h>
 #include <time.h>
@@ -54,7 +55,8 @@ typedef struct aur_xml_document {
     size_t folder_count, folder_capacity;
     const char **folders; /* of <path> */
     size_t id_count, id_capacity;
-    aur_xml_id *ids; /* sorted */
+    aur_xml_id *ids;             /* sorted */
+    aur_model_files model_files; /* in memory: parts of models */
     size_t file_count, file_capacity;
     char *confines;      /* the folder that files must lie in, without links; NULL: anywhere */
     aur_xml_file *files; /* the scene's own, and those of aur_xml_find_asset as often as they are named */
@@ -89,6 +91,10 @@ aur_result aur_xml_fail_tag(const aur_xml_node *node, size_t count, const char *
 
 /* NULL when there is none. */
 aur_xml_id *aur_xml_find_id(const aur_xml_document *document, const char *id);
+
+/* Sorts the ids, and gives each alias the object that it stands for, when all files are read. Errors: FORMAT
+ * for an id that is given twice, NAME for an alias of none. */
+aur_result aur_xml_settle_ids(const aur_xml_document *document, aur_error *error);
 
 /* The path of a regular file under which an asset named in `location.file` can be read: beside that file,
  * beside the scene, in a <path>, or in the working folder. `found` is allocated with malloc. The error names

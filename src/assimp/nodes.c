@@ -1,0 +1,293 @@
+/* The tree of nodes: what stands where. */
+#include <assimp/version.h>
+#include <math.h>
+#include <string.h>
+
+#include "assimp/writer.h"
+
+static const double pi = 3.14159265358979323846;
+
+typedef struct triple {
+    double x, y, z;
+} triple;
+
+static writer_matrix below(const writer_matrix *outer, const struct aiNode *node) {
+    const struct aiMatrix4x4 t = node->mTransformation;
+    const double inner[16] = {(double)t.a1, (double)t.a2, (double)t.a3, (double)t.a4,
+                              (double)t.b1, (double)t.b2, (double)t.b3, (double)t.b4,
+                              (double)t.c1, (double)t.c2, (double)t.c3, (double)t.c4,
+                              0.0,          0.0,          0.0,          1.0};
+    writer_matrix product;
+    for (size_t i = 0; i < 16; ++i) {
+        product.m[i] = 0.0;
+        for (size_t k = 0; k < 4; ++k)
+            product.m[i] += outer->m[i / 4 * 4 + k] * inner[4 * k + i % 4];
+    }
+    return product;
+}
+
+/* `w`: 1 for points, 0 for directions. */
+static triple apply(const writer_matrix *to_world, double x, double y, double z, double w) {
+    const double *const m = to_world->m;
+    return (triple){m[0] * x + m[1] * y + m[2] * z + m[3] * w, m[4] * x + m[5] * y + m[6] * z + m[7] * w,
+                    m[8] * x + m[9] * y + m[10] * z + m[11] * w};
+}
+
+static triple apply_vector(const writer_matrix *to_world, struct aiVector3D v, double w) {
+    return apply(to_world, (double)v.x, (double)v.y, (double)v.z, w);
+}
+
+static triple add_scaled(triple a, double factor, triple b) {
+    return (triple){a.x + factor * b.x, a.y + factor * b.y, a.z + factor * b.z};
+}
+
+static triple normalize(triple v) {
+    const double length = sqrt(v.x * v.x + v.y * v.y + v.z * v.z);
+    return length > 0.0 ? (triple){v.x / length, v.y / length, v.z / length} : (triple){0.0, 0.0, -1.0};
+}
+
+static void put_matrix(writer *self, const writer_matrix *to_world) {
+    writer_put(self, "<transform name=\"to_world\"><matrix value=\"");
+    for (size_t i = 0; i < 16; ++i)
+        writer_put(self, "%.9g ", to_world->m[i]);
+    writer_put(self, "\"/></transform>");
+}
+
+static void put_look(writer *self, triple origin, triple direction, triple up) {
+    const triple target = add_scaled(origin, 1.0, direction);
+    /* What is upright along the view is no matter, but must be another direction. */
+    const triple d = normalize(direction), u = normalize(up);
+    if (fabs(d.x * u.x + d.y * u.y + d.z * u.z) > 0.9999)
+        up = fabs(d.x) < 0.9 ? (triple){1.0, 0.0, 0.0} : (triple){0.0, 1.0, 0.0};
+    writer_put(self,
+               "<transform name=\"to_world\"><lookat origin=\"%.9g, %.9g, %.9g\" target=\"%.9g, %.9g, %.9g\" "
+               "up=\"%.9g, %.9g, %.9g\"/></transform>\n",
+               origin.x, origin.y, origin.z, target.x, target.y, target.z, up.x, up.y, up.z);
+}
+
+/* --- shapes */
+
+static void widen(writer *self, const struct aiMesh *mesh, const writer_matrix *to_world) {
+    for (unsigned i = 0; i < mesh->mNumVertices; ++i) {
+        const triple p = apply_vector(to_world, mesh->mVertices[i], 1.0);
+        const double at[3] = {p.x, p.y, p.z};
+        for (size_t k = 0; k < 3; ++k) {
+            self->lower[k] = fmin(self->lower[k], at[k]);
+            self->upper[k] = fmax(self->upper[k], at[k]);
+        }
+    }
+}
+
+/* A mesh where `to_world` puts it, or in a group (NULL). */
+static void put_mesh(writer *self, unsigned index, const writer_matrix *to_world) {
+    const struct aiMesh *const mesh = self->scene->mMeshes[index];
+    const bool smooth = mesh->mNormals != NULL || !self->is_gltf;
+    writer_put(self,
+               "<shape type=\"ply\"><string name=\"filename\" value=\"*%u\"/>"
+               "<boolean name=\"face_normals\" value=\"%s\"/>",
+               self->mesh_file[index], smooth ? "false" : "true");
+    if (to_world != NULL)
+        put_matrix(self, to_world);
+    writer_put(self, "<ref id=\"material-%u-%u\"/>", self->first, mesh->mMaterialIndex);
+    if (writer_shines(self, mesh->mMaterialIndex))
+        writer_put_emitter(self, mesh->mMaterialIndex);
+    writer_put(self, "</shape>\n");
+}
+
+/* A mesh of many nodes is a group, unless it shines: a light is one shape. */
+static bool is_group(const writer *self, unsigned mesh) {
+    return self->mesh_uses[mesh] > 1 && !writer_shines(self, self->scene->mMeshes[mesh]->mMaterialIndex);
+}
+
+static void place_mesh(writer *self, unsigned index, const writer_matrix *to_world) {
+    const struct aiMesh *const mesh = self->scene->mMeshes[index];
+    if (self->mesh_file[index] == NO_FILE)
+        return;
+    widen(self, mesh, to_world);
+    self->has_light = self->has_light || writer_shines(self, mesh->mMaterialIndex);
+    if (!is_group(self, index)) {
+        put_mesh(self, index, to_world);
+        return;
+    }
+    writer_put(self, "<shape type=\"instance\"><ref id=\"group-%u-%u\"/>", self->first, index);
+    put_matrix(self, to_world);
+    writer_put(self, "</shape>\n");
+}
+
+static void count_uses(writer *self, const struct aiNode *node) {
+    for (unsigned i = 0; i < node->mNumMeshes; ++i)
+        ++self->mesh_uses[node->mMeshes[i]];
+    for (unsigned i = 0; i < node->mNumChildren; ++i)
+        count_uses(self, node->mChildren[i]);
+}
+
+static void put_groups(writer *self) {
+    for (unsigned i = 0; i < self->scene->mNumMeshes; ++i) {
+        if (self->mesh_file[i] == NO_FILE || !is_group(self, i))
+            continue;
+        writer_put(self, "<shape type=\"shapegroup\" id=\"group-%u-%u\">", self->first, i);
+        put_mesh(self, i, NULL);
+        writer_put(self, "</shape>\n");
+    }
+}
+
+/* --- lights */
+
+static void put_color(writer *self, const char *name, struct aiColor3D color) {
+    writer_put(self, "<rgb name=\"%s\" value=\"%.9g %.9g %.9g\"/>", name, fmax(0.0, (double)color.r),
+               fmax(0.0, (double)color.g), fmax(0.0, (double)color.b));
+}
+
+static void place_light(writer *self, const struct aiLight *light, const writer_matrix *to_world) {
+    const triple origin = apply_vector(to_world, light->mPosition, 1.0);
+    const triple direction = normalize(apply_vector(to_world, light->mDirection, 0.0));
+    switch (light->mType) {
+    case aiLightSource_DIRECTIONAL:
+        writer_put(self,
+                   "<emitter type=\"directional\"><vector name=\"direction\" value=\"%.9g %.9g %.9g\"/>",
+                   direction.x, direction.y, direction.z);
+        put_color(self, "irradiance", light->mColorDiffuse);
+        break;
+    case aiLightSource_POINT:
+        writer_put(self, "<emitter type=\"point\"><point name=\"position\" value=\"%.9g %.9g %.9g\"/>",
+                   origin.x, origin.y, origin.z);
+        put_color(self, "intensity", light->mColorDiffuse);
+        break;
+    case aiLightSource_SPOT: {
+        /* From the axis, as glTF has it; others mean the whole cone. */
+        const double part = self->is_gltf ? 180.0 / pi : 90.0 / pi;
+        const double outer = fmin(fmax(part * (double)light->mAngleOuterCone, 0.1), 89.9);
+        const double inner = fmin(fmax(part * (double)light->mAngleInnerCone, 0.0), 0.999 * outer);
+        writer_put(self,
+                   "<emitter type=\"spot\"><float name=\"cutoff_angle\" value=\"%.9g\"/>"
+                   "<float name=\"beam_width\" value=\"%.9g\"/>",
+                   outer, inner);
+        put_color(self, "intensity", light->mColorDiffuse);
+        put_look(self, origin, direction, (triple){0.0, 1.0, 0.0});
+        break;
+    }
+    default:
+        writer_note(self, "the light '%s' is of a kind that is not known: it is left out", light->mName.data);
+        return;
+    }
+    writer_put(self, "</emitter>\n");
+    self->has_light = true;
+}
+
+/* --- cameras */
+
+static void put_sensor(writer *self, const char *fov_axis, double fov, double aspect, triple origin,
+                       triple direction, triple up) {
+    const double width = 960.0, height = fmin(fmax(round(width / aspect), 1.0), 9600.0);
+    writer_put(self,
+               "<default name=\"integrator\" value=\"path\"/><default name=\"spp\" value=\"64\"/>"
+               "<default name=\"resx\" value=\"%.0f\"/><default name=\"resy\" value=\"%.0f\"/>"
+               "<default name=\"rfilter\" value=\"gaussian\"/><default name=\"max_depth\" value=\"-1\"/>\n"
+               "<integrator type=\"$integrator\"><integer name=\"max_depth\" value=\"$max_depth\"/>"
+               "</integrator>\n<sensor type=\"perspective\"><string name=\"fov_axis\" value=\"%s\"/>"
+               "<float name=\"fov\" value=\"%.9g\"/>",
+               width, height, fov_axis, fmin(fmax(fov, 0.01), 179.0));
+    put_look(self, origin, direction, up);
+    writer_put(self,
+               "<sampler type=\"multijitter\"><integer name=\"sample_count\" value=\"$spp\"/></sampler>"
+               "<film type=\"hdrfilm\"><integer name=\"width\" value=\"$resx\"/>"
+               "<integer name=\"height\" value=\"$resy\"/><rfilter type=\"$rfilter\"/></film></sensor>\n");
+    self->has_sensor = true;
+}
+
+/* Across the picture, in degrees. Up to 5.2 assimp takes glTF's angle, that of the height, times the ratio.
+ */
+static double angle_across(const writer *self, const struct aiCamera *camera) {
+    const double given = (double)camera->mHorizontalFOV, ratio = (double)camera->mAspect;
+    const bool multiplied = self->is_gltf && 100 * aiGetVersionMajor() + aiGetVersionMinor() <= 502;
+    return 180.0 / pi * (multiplied && ratio > 0.0 ? 2.0 * atan(ratio * tan(0.5 * given / ratio)) : given);
+}
+
+/* Without a ratio of sides the angle is that of the height. */
+static void place_camera(writer *self, const struct aiCamera *camera, const writer_matrix *to_world) {
+    if (self->has_sensor) {
+        writer_note(self, "the camera '%s' is left out: the first one is taken", camera->mName.data);
+        return;
+    }
+    if (camera->mOrthographicWidth > 0.0f) {
+        writer_note(self, "the camera '%s' is orthographic: it is left out", camera->mName.data);
+        return;
+    }
+    const bool has_ratio = camera->mAspect > 0.0f;
+    /* assimp gives cameras of glTF the place of their node, which the node gives them again. */
+    const struct aiVector3D position = self->is_gltf ? (struct aiVector3D){0} : camera->mPosition;
+    put_sensor(self, has_ratio ? "x" : "y", angle_across(self, camera),
+               has_ratio ? (double)camera->mAspect : 4.0 / 3.0, apply_vector(to_world, position, 1.0),
+               apply_vector(to_world, camera->mLookAt, 0.0), apply_vector(to_world, camera->mUp, 0.0));
+}
+
+/* --- the tree */
+
+/* Lights and cameras stand where the node of their name is. */
+static void place_named(writer *self, const struct aiNode *node, const writer_matrix *to_world) {
+    const struct aiScene *const scene = self->scene;
+    for (unsigned i = 0; i < scene->mNumLights; ++i)
+        if (strcmp(scene->mLights[i]->mName.data, node->mName.data) == 0)
+            place_light(self, scene->mLights[i], to_world);
+    for (unsigned i = 0; i < scene->mNumCameras && self->source->alone; ++i)
+        if (strcmp(scene->mCameras[i]->mName.data, node->mName.data) == 0)
+            place_camera(self, scene->mCameras[i], to_world);
+}
+
+static void place_node(writer *self, const struct aiNode *node, const writer_matrix *outer) {
+    const writer_matrix to_world = below(outer, node);
+    for (unsigned i = 0; i < node->mNumMeshes; ++i)
+        place_mesh(self, node->mMeshes[i], &to_world);
+    place_named(self, node, &to_world);
+    for (unsigned i = 0; i < node->mNumChildren; ++i)
+        place_node(self, node->mChildren[i], &to_world);
+}
+
+/* --- what is missing */
+
+enum { ANGLE = 35 }; /* of the camera, in degrees */
+
+/* From before, above and the right, as far as all of a ball around the model is seen. */
+static void add_camera(writer *self, triple from, triple up) {
+    triple middle = {0.5 * (self->lower[0] + self->upper[0]), 0.5 * (self->lower[1] + self->upper[1]),
+                     0.5 * (self->lower[2] + self->upper[2])};
+    double squared = 0.0;
+    for (size_t i = 0; i < 3; ++i)
+        squared += pow(self->upper[i] - self->lower[i], 2.0);
+    const double distance = 0.5 * sqrt(squared) / sin(0.5 * ANGLE * pi / 180.0);
+    put_sensor(self, "y", ANGLE, 4.0 / 3.0, add_scaled(middle, distance, from),
+               add_scaled((triple){0.0, 0.0, 0.0}, -1.0, from), up);
+    writer_note(self, "this model has no camera: it is seen from (%g, %g, %g)", middle.x + distance * from.x,
+                middle.y + distance * from.y, middle.z + distance * from.z);
+}
+
+/* Light from all sides, and more from above and the left: white is about 1 where that falls straight on. */
+static void add_lights(writer *self, triple up, triple right) {
+    const triple way = add_scaled(add_scaled((triple){0.0, 0.0, 0.0}, -1.0, up), 0.5, right);
+    const triple front = up.y > 0.5 ? (triple){0.0, 0.0, -0.5} : (triple){0.0, 0.5, 0.0};
+    const triple direction = add_scaled(way, 1.0, front);
+    writer_put(self,
+               "<emitter type=\"constant\"><rgb name=\"radiance\" value=\"0.5\"/></emitter>\n"
+               "<emitter type=\"directional\"><vector name=\"direction\" value=\"%.9g %.9g %.9g\"/>"
+               "<rgb name=\"irradiance\" value=\"1.5\"/></emitter>\n",
+               direction.x, direction.y, direction.z);
+    writer_note(self, "this model has no light: it is lit from all sides, and from the left above");
+}
+
+void writer_put_nodes(writer *self) {
+    const writer_matrix identity = {{1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1}};
+    count_uses(self, self->scene->mRootNode);
+    put_groups(self);
+    place_node(self, self->scene->mRootNode, &identity);
+    if (!self->source->alone || !(self->lower[0] <= self->upper[0]))
+        return;
+    /* Most forms have y upwards; those of makers of parts and of 3D Studio z. */
+    const size_t length = strlen(self->source->name);
+    const char *const ending = length > 4 ? self->source->name + length - 4 : "";
+    const bool z_up = strcmp(ending, ".stl") == 0 || strcmp(ending, ".3ds") == 0;
+    const triple up = z_up ? (triple){0.0, 0.0, 1.0} : (triple){0.0, 1.0, 0.0};
+    if (!self->has_sensor)
+        add_camera(self, normalize(z_up ? (triple){0.5, -1.0, 0.35} : (triple){0.5, 0.35, 1.0}), up);
+    if (!self->has_light)
+        add_lights(self, up, (triple){1.0, 0.0, 0.0});
+}

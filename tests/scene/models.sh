@@ -1,0 +1,245 @@
+#!/usr/bin/env bash
+# Models that are no XML: a glTF with pictures, lights, a camera, instances, a mask and a light of its own is the same picture,
+# bit by bit, as the same scene written as XML; as .gltf with a file of numbers beside it and as .glb; OBJ; what a model lacks
+# is added and said; broken ones are refused with words.
+set -u
+aureole=$1
+fail() { echo "$1"; exit 1; }
+/usr/bin/python3 -c '' 2>/dev/null || { echo "skipped: there is no Python to write models with"; exit 77; }
+[ -e "$(dirname "$aureole")/aureole-assimp.so" ] || {
+  printf 'v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n' >none.obj
+  "$aureole" info none.obj >said 2>&1
+  [ $? = 2 ] && grep -q 'libassimp-dev' said || fail "without assimp a model is not refused with words: $(cat said)"
+  echo "skipped: this build has no assimp"
+  exit 77
+}
+
+/usr/bin/python3 - <<'PYTHON' || fail "the models cannot be written"
+import base64, json, struct, zlib
+
+def png(width, height, texels):
+    """texels: rows of (r, g, b, a) bytes"""
+    def chunk(kind, data):
+        return struct.pack(">I", len(data)) + kind + data + struct.pack(">I", zlib.crc32(kind + data))
+    rows = b"".join(b"\0" + bytes(v for texel in texels[y * width:(y + 1) * width] for v in texel) for y in range(height))
+    return (b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", struct.pack(">IIBBBBB", width, height, 8, 6, 0, 0, 0)) +
+            chunk(b"IDAT", zlib.compress(rows)) + chunk(b"IEND", b""))
+
+color = png(4, 4, [(40 + 50 * (i % 4), 250 - 60 * (i // 4), 90, 255 if (i + i // 4) % 2 else 30) for i in range(16)])
+rough = png(2, 2, [(0, 80, 0, 255), (0, 160, 255, 255), (0, 220, 128, 255), (0, 120, 0, 255)])
+normal = png(2, 1, [(160, 128, 220, 255), (96, 140, 230, 255)])
+for name, data in (("color", color), ("rough", rough), ("normal", normal)):
+    open(name + ".png", "wb").write(data)
+
+# One quad with normals and texture coordinates, and a triangle without.
+positions = [-1, -1, 0, 1, -1, 0, 1, 1, 0, -1, 1, 0]
+normals = [0, 0, 1] * 4
+uvs = [0, 1, 1, 1, 1, 0, 0, 0]  # v from above, as glTF has it
+indices = [0, 1, 2, 0, 2, 3]
+triangle = [0, 0, 0, 1, 0, 0.5, 0, 1, 0.25]
+parts = [struct.pack("<12f", *positions), struct.pack("<12f", *normals), struct.pack("<8f", *uvs),
+         struct.pack("<6I", *indices), struct.pack("<9f", *triangle), struct.pack("<3I", 0, 1, 2)]
+buffer = b"".join(parts)
+views, at = [], 0
+for part in parts:
+    views.append({"buffer": 0, "byteOffset": at, "byteLength": len(part)})
+    at += len(part)
+FLOAT, UINT = 5126, 5125
+accessors = [
+    {"bufferView": 0, "componentType": FLOAT, "count": 4, "type": "VEC3", "min": [-1, -1, 0], "max": [1, 1, 0]},
+    {"bufferView": 1, "componentType": FLOAT, "count": 4, "type": "VEC3"},
+    {"bufferView": 2, "componentType": FLOAT, "count": 4, "type": "VEC2"},
+    {"bufferView": 3, "componentType": UINT, "count": 6, "type": "SCALAR"},
+    {"bufferView": 4, "componentType": FLOAT, "count": 3, "type": "VEC3", "min": [0, 0, 0], "max": [1, 1, 0.5]},
+    {"bufferView": 5, "componentType": UINT, "count": 3, "type": "SCALAR"}]
+quad = {"attributes": {"POSITION": 0, "NORMAL": 1, "TEXCOORD_0": 2}, "indices": 3}
+turned = {"KHR_texture_transform": {"offset": [0.25, 0.125], "scale": [2, 0.5], "rotation": 0.5}}
+gltf = {
+    "asset": {"version": "2.0"}, "scene": 0,
+    "extensionsUsed": ["KHR_lights_punctual", "KHR_texture_transform"],
+    "buffers": [{"byteLength": len(buffer), "uri": "data:application/octet-stream;base64," + base64.b64encode(buffer).decode()}],
+    "bufferViews": views, "accessors": accessors,
+    "images": [{"uri": "data:image/png;base64," + base64.b64encode(color).decode()}, {"uri": "rough.png"}, {"uri": "nor%6Dal.png"}],
+    "samplers": [{"wrapS": 10497, "wrapT": 33648}, {"magFilter": 9728, "wrapS": 33071, "wrapT": 33071}],
+    "textures": [{"source": 0, "sampler": 0}, {"source": 1, "sampler": 1}, {"source": 2}],
+    "materials": [
+        {"pbrMetallicRoughness": {"baseColorTexture": {"index": 0, "extensions": turned}, "baseColorFactor": [0.8, 0.9, 1, 1],
+                                  "metallicFactor": 0.25, "roughnessFactor": 0.5}, "normalTexture": {"index": 2}},
+        {"pbrMetallicRoughness": {"metallicRoughnessTexture": {"index": 1}, "baseColorFactor": [0.9, 0.6, 0.3, 1],
+                                  "metallicFactor": 0.75}},
+        {"pbrMetallicRoughness": {"baseColorTexture": {"index": 0}, "metallicFactor": 0}, "alphaMode": "MASK", "alphaCutoff": 0.5},
+        {"pbrMetallicRoughness": {"baseColorFactor": [0, 0, 0, 1], "metallicFactor": 0}, "emissiveFactor": [1, 0.5, 0.25]}],
+    "meshes": [{"primitives": [dict(quad, material=0)]}, {"primitives": [dict(quad, material=1)]},
+               {"primitives": [dict(quad, material=2)]}, {"primitives": [dict(quad, material=3)]},
+               {"primitives": [{"attributes": {"POSITION": 4}, "indices": 5, "material": 1}]}],
+    "cameras": [{"type": "perspective", "perspective": {"yfov": 0.8, "aspectRatio": 1.5, "znear": 0.1}}],
+    "extensions": {"KHR_lights_punctual": {"lights": [
+        {"type": "point", "color": [1, 0.8, 0.6], "intensity": 6},
+        {"type": "spot", "intensity": 20, "spot": {"innerConeAngle": 0.2, "outerConeAngle": 0.5}},
+        {"type": "directional", "intensity": 1.5}]}},
+    "nodes": [
+        {"name": "floor", "mesh": 0, "scale": [3, 3, 3], "rotation": [-0.7071067811865476, 0, 0, 0.7071067811865476],
+         "translation": [0, -1, 0]},
+        {"name": "wall", "mesh": 1, "translation": [0, 0.5, -2], "scale": [-2, 1, 1]},
+        {"name": "mask", "mesh": 2, "translation": [-1, 0, 0], "children": [5]},
+        {"name": "lamp", "mesh": 3, "translation": [1.5, 0, -0.5], "scale": [0.25, 0.5, 1]},
+        {"name": "eye", "camera": 0, "translation": [0, 0.5, 5]},
+        {"name": "child", "mesh": 4, "translation": [1, 0, 1]},
+        {"name": "other", "mesh": 4, "translation": [0.5, 0.5, -1]},
+        {"name": "bulb", "extensions": {"KHR_lights_punctual": {"light": 0}}, "translation": [1, 1.5, 1]},
+        {"name": "torch", "extensions": {"KHR_lights_punctual": {"light": 1}}, "translation": [-1, 2, 2],
+         "rotation": [-0.3826834323650898, 0, 0, 0.9238795325112867]},
+        {"name": "sun", "extensions": {"KHR_lights_punctual": {"light": 2}}, "rotation": [-0.5, 0, 0, 0.8660254037844386]}],
+    "scenes": [{"nodes": [0, 1, 2, 3, 4, 6, 7, 8, 9]}]}
+open("model.gltf", "w").write(json.dumps(gltf))
+
+# The same with all bytes in one file, and with the numbers in a file beside it.
+def glb(tree, data):
+    text = json.dumps(tree).encode()
+    text += b" " * (-len(text) % 4)
+    data += b"\0" * (-len(data) % 4)
+    body = struct.pack("<II", len(text), 0x4E4F534A) + text + struct.pack("<II", len(data), 0x004E4942) + data
+    return struct.pack("<III", 0x46546C67, 2, 12 + len(body)) + body
+beside = dict(gltf, buffers=[{"byteLength": len(buffer), "uri": "numbers.bin"}])
+open("beside.gltf", "w").write(json.dumps(beside))
+open("numbers.bin", "wb").write(buffer)
+data = buffer + b"\0" * (-len(buffer) % 4)
+packed = dict(gltf, buffers=[{"byteLength": len(data) + len(color)}], bufferViews=views + [
+    {"buffer": 0, "byteOffset": len(data), "byteLength": len(color)}])
+packed["images"] = [{"bufferView": len(views), "mimeType": "image/png"}] + gltf["images"][1:]
+open("model.glb", "wb").write(glb(packed, data + color))
+open("short.glb", "wb").write(open("model.glb", "rb").read()[:700])
+lacking = dict(beside, buffers=[{"byteLength": len(buffer), "uri": "lacking.bin"}])
+open("lacking.gltf", "w").write(json.dumps(lacking))
+no_picture = dict(gltf, images=[{"uri": "lacking.png"}] + gltf["images"][1:])
+open("no-picture.gltf", "w").write(json.dumps(no_picture))
+dark = dict(gltf, nodes=[{"mesh": 0}], scenes=[{"nodes": [0]}])
+open("dark.gltf", "w").write(json.dumps(dark))
+
+# As XML.
+def ply(name, positions, normals, uvs, faces):
+    count = len(positions) // 3
+    lines = ["ply", "format ascii 1.0", f"element vertex {count}"] + [f"property float {c}" for c in "xyz"]
+    if normals:
+        lines += [f"property float {c}" for c in ("nx", "ny", "nz", "u", "v")]
+    lines += [f"element face {len(faces) // 3}", "property list uchar int vertex_indices", "end_header"]
+    for i in range(count):
+        values = positions[3 * i:3 * i + 3] + (normals[3 * i:3 * i + 3] + uvs[2 * i:2 * i + 2] if normals else [])
+        lines.append(" ".join(map(str, values)))
+    lines += ["3 " + " ".join(map(str, faces[i:i + 3])) for i in range(0, len(faces), 3)]
+    open(name, "w").write("\n".join(lines) + "\n")
+ply("quad.ply", positions, normals, uvs, indices)
+ply("triangle.ply", triangle, None, None, [0, 1, 2])
+from math import cos, sin, atan, tan, degrees
+c, s = cos(0.5), sin(0.5)
+def bitmap(name, file, more):
+    return f'<texture type="bitmap" name="{name}"><string name="filename" value="{file}"/>{more}</texture>'
+base = bitmap("base_color", "color.png", '<vector name="factor" value="0.8 0.9 1"/>'
+              f'<transform name="to_uv"><matrix value="{2 * c} {0.5 * s} 0 0.25 {-2 * s} {0.5 * c} 0 0.125 0 0 1 0 0 0 0 1"/></transform>'
+              '<string name="wrap_mode" value="repeat"/>')
+nearest = '<string name="filter_type" value="nearest"/><string name="wrap_mode" value="clamp"/><boolean name="raw" value="true"/>'
+def principled(id, *inside, outside=("", "")):
+    return f'{outside[0]}<bsdf type="twosided" {"" if outside[0] else f"""id="{id}" """}>{"".join(inside)}</bsdf>{outside[1]}'
+def number(name, value):
+    return f'<float name="{name}" value="{value}"/>'
+materials = [
+    principled("a", '<bsdf type="normalmap">', bitmap("normalmap", "normal.png", '<boolean name="raw" value="true"/>'),
+               '<bsdf type="principled">', base, number("roughness", 0.5), number("metallic", 0.25), '</bsdf></bsdf>'),
+    principled("b", '<bsdf type="principled"><rgb name="base_color" value="0.9 0.6 0.3"/>',
+               bitmap("roughness", "rough.png", nearest + '<string name="channel" value="green"/>'),
+               bitmap("metallic", "rough.png", nearest + '<string name="channel" value="blue"/>'
+                      '<vector name="factor" value="0.75 0.75 0.75"/>'), '</bsdf>'),
+    principled("c", '<bsdf type="principled">', bitmap("base_color", "color.png", ""), number("roughness", 1),
+               number("metallic", 0), '</bsdf>',
+               outside=('<bsdf type="mask" id="c">' + bitmap("opacity", "color.png", '<string name="channel" value="alpha"/>'
+                                                            '<float name="cutoff" value="0.5"/>'), '</bsdf>')),
+    principled("d", '<bsdf type="principled"><rgb name="base_color" value="0"/>', number("roughness", 1), number("metallic", 0), '</bsdf>')]
+def shape(file, material, to_world, more=""):
+    return (f'<shape type="ply"><string name="filename" value="{file}"/>{more}'
+            f'<transform name="to_world">{to_world}</transform><ref id="{material}"/></shape>')
+flat = '<boolean name="face_normals" value="true"/>'
+def instance(to_world):
+    return f'<shape type="instance"><ref id="group"/><transform name="to_world">{to_world}</transform></shape>'
+hfov = degrees(2 * atan(1.5 * tan(0.4)))
+open("model.xml", "w").write(f'''<scene version="3.0.0"><default name="spp" value="64"/>
+<default name="resx" value="960"/><default name="resy" value="640"/>
+{"".join(materials)}
+<shape type="shapegroup" id="group"><shape type="ply"><string name="filename" value="triangle.ply"/>{flat}<ref id="b"/></shape></shape>
+{shape("quad.ply", "a", '<scale value="3"/><rotate x="1" angle="-90"/><translate x="0" y="-1" z="0"/>')}
+{shape("quad.ply", "b", '<scale x="-2" y="1" z="1"/><translate x="0" y="0.5" z="-2"/>')}
+{shape("quad.ply", "c", '<translate x="-1" y="0" z="0"/>')}
+{instance('<translate x="0" y="0" z="1"/>')}
+{shape("quad.ply", "d", '<scale x="0.25" y="0.5" z="1"/><translate x="1.5" y="0" z="-0.5"/>',
+       '<emitter type="area"><rgb name="radiance" value="1 0.5 0.25"/></emitter>')}
+<integrator type="path"/>
+<sensor type="perspective"><string name="fov_axis" value="x"/><float name="fov" value="{hfov}"/>
+<transform name="to_world"><lookat origin="0, 0.5, 5" target="0, 0.5, 4" up="0, 1, 0"/></transform>
+<sampler type="multijitter"><integer name="sample_count" value="$spp"/></sampler>
+<film type="hdrfilm"><integer name="width" value="$resx"/><integer name="height" value="$resy"/></film></sensor>
+{instance('<translate x="0.5" y="0.5" z="-1"/>')}
+<emitter type="point"><point name="position" value="1 1.5 1"/><rgb name="intensity" value="6 4.8 3.6"/></emitter>
+<emitter type="spot"><float name="cutoff_angle" value="{degrees(0.5)}"/><float name="beam_width" value="{degrees(0.2)}"/>
+<rgb name="intensity" value="20"/><transform name="to_world"><lookat origin="-1, 2, 2" target="-1, 1, 1" up="0, 1, 0"/></transform></emitter>
+<emitter type="directional"><vector name="direction" value="0 -0.8660254037844386 -0.5"/><rgb name="irradiance" value="1.5"/></emitter>
+</scene>''')
+open("cube.obj", "w").write('''mtllib cube.mtl
+v 0 0 0
+v 1 0 0
+v 1 1 0
+v 0 1 0
+vt 0 0
+vt 1 0
+vt 1 1
+vt 0 1
+usemtl paint
+f 1/1 2/2 3/3 4/4
+usemtl glow
+f 4/4 3/3 2/2 1/1
+''')
+open("cube.mtl", "w").write('newmtl paint\nKd 0.5 0.25 0.125\nNs 30\nKs 0.2 0.2 0.2\nmap_Kd color.png\nnewmtl glow\nKd 0 0 0\nKe 2 1 0.5\n')
+PYTHON
+
+small="-q --width 48 --height 32 --spp 16"
+"$aureole" render model.xml $small -o xml.exr || fail "the XML is not rendered"
+for model in model.gltf beside.gltf model.glb; do
+  "$aureole" render $model $small -o model.exr || fail "$model is not rendered"
+  # Turns and angles have other last digits in the two.
+  "$aureole" compare xml.exr model.exr --metric relative-rmse --tolerance 1e-4 >compared ||
+    fail "$model differs from its XML: $(cat compared)"
+done
+"$aureole" render model.glb $small -t 3 -o three.exr && cmp -s three.exr model.exr || fail "threads change the picture of a model"
+
+"$aureole" info model.glb >said 2>&1 || fail "info of a model: $(cat said)"
+grep -q '^width  *960' said || fail "info does not say the film of a model: $(cat said)"
+"$aureole" render model.glb -q --width 8 --spp 1 -o model.png || fail "no PNG of a model"
+"$aureole" info cube.obj >said 2>&1 || fail "info of an OBJ: $(cat said)"
+grep -q 'has no camera' said || fail "the camera that is added is not said: $(cat said)"
+grep -q 'has no light' said && fail "what glows is not seen as a light"
+"$aureole" info dark.gltf >said 2>&1 && grep -q 'has no light' said || fail "the light that is added is not said: $(cat said)"
+
+# In a scene, beside what else there is, and twice.
+cat >both.xml <<'XML'
+<scene version="3.0.0"><include filename="dark.gltf"/><include filename="cube.obj"/>
+<emitter type="constant"/><sensor type="perspective"><film type="hdrfilm"><integer name="width" value="8"/>
+<integer name="height" value="8"/></film></sensor></scene>
+XML
+"$aureole" render both.xml -q --spp 1 -o both.exr || fail "models in a scene are not rendered"
+
+# refused FILE WORDS [OPTION...]
+refused() {
+  "$aureole" info "$1" "${@:3}" >said 2>&1
+  [ $? = 2 ] && grep -q "$2" said || fail "$1 is not refused with '$2': $(cat said)"
+}
+refused short.glb 'cannot be read'
+refused lacking.gltf 'lacking.bin'
+refused no-picture.gltf "cannot find 'lacking.png'"
+printf 'v 0 0 0\nv 1 0 0\nl 1 2\n' >line.obj
+refused line.obj 'cannot be read'
+printf '{"asset": {"version": "2.0"}, "meshes": [}' >broken.gltf
+refused broken.gltf 'cannot be read'
+: >empty.glb
+refused empty.glb 'cannot be read'
+mkdir -p inside && cp beside.gltf inside/ && sed -i 's/numbers.bin/..\/numbers.bin/' inside/beside.gltf
+"$aureole" render inside/beside.gltf -q --spp 1 --width 8 --confine -o confined.exr 2>said
+[ $? = 2 ] || fail "a model reads files outside of its folder where it is confined"
+echo "models: the same pictures as XML"
