@@ -18,6 +18,8 @@ for what in '<td class="within">within a factor of 1.5</td>' '<td class="agrees"
 done
 head -c 5 page/marques-2018-slopes-equal.pdf | grep -q '^%PDF-' || fail "no PDF"
 grep -q '^<svg' page/marques-2018-slopes-equal.svg || fail "no SVG"
+# Two panels, each as large as a plot of one.
+grep -q 'width="1000" height="360"' page/marques-2018-slopes-equal.svg || fail "panels are squeezed"
 grep -qE '(src|href)="?(https?:)?//' page/index.html && fail "the page looks for something elsewhere"
 [ "$(wc -c <page/index.html)" -lt 1000000 ] || fail "the page is large"
 "$aureole" lab report results -o again >/dev/null && cmp page/index.html again/index.html || fail "two reports differ"
