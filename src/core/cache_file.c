@@ -151,7 +151,7 @@ static void remove_oldest(const char *path, uint64_t limit) {
         memcpy(file->name, entry->d_name, strlen(entry->d_name) + 1);
         sum += file->size;
     }
-    if (sum > limit)
+    if (files != NULL && sum > limit)
         qsort(files, count, sizeof *files, by_use);
     for (size_t i = 0; i < count && sum > limit; ++i) {
         /* Another process may have removed it already. */

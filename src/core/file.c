@@ -91,7 +91,10 @@ aur_result aur_file_open(const char *path, aur_file_writer *writer, aur_error *e
     if (aur_ranks_rank() != 0) { /* rank 0 writes */
         writer->path = strdup(path);
         writer->stream = writer->path != NULL ? fopen("/dev/null", "wb") : NULL;
-        return writer->stream != NULL ? AUR_OK : aur_fail_memory(error);
+        if (writer->stream != NULL)
+            return AUR_OK;
+        aur_file_abandon(writer);
+        return aur_fail_memory(error);
     }
     if (strcmp(path, "-") == 0) {
         writer->path = strdup(path);
