@@ -199,7 +199,7 @@ const lab_experiment lab_marques_2019_adaptive = {
     .factor = 1.5,
     .plots = plots,
     .takes_no_set = "adaptive patterns are E-SFG alone",
-    .seconds = 240,
+    .seconds = 120,
     .quick_seconds = 1.5,
     .run = run,
 };

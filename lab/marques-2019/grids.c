@@ -190,7 +190,7 @@ const lab_experiment lab_marques_2019_grids = {
     .summary = "a grid of 64 points that doubles and quadruples, beside a spherical Fibonacci grid",
     .columns = columns,
     .plots = plots,
-    .seconds = 0.5,
+    .seconds = 1,
     .quick_seconds = 0.5,
     .run = run,
 };

@@ -252,7 +252,7 @@ const lab_experiment lab_marques_2019_statue = {
     .published = "published",
     .factor = 1.1,
     .plots = plots,
-    .seconds = 300,
+    .seconds = 60,
     .quick_seconds = 2,
     .run = run,
 };

@@ -154,7 +154,7 @@ const lab_experiment lab_schretter_2012_gaps = {
     .columns = columns,
     .plots = plots,
     .takes_no_set = "the two sequences are of one dimension, which few sets have",
-    .seconds = 3,
+    .seconds = 0.6,
     .quick_seconds = 0.3,
     .run = run,
 };
