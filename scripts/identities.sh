@@ -14,7 +14,7 @@ cd "$folder" || exit 2
 scene=$source/scenes/cornell-box/glossy.xml
 status=0
 works=(path 'path:interleaved=true' direct 'ao:samples=16' depth 'aov:aovs=(n:sh_normal)'
-       'finalgather:photons=5000,diffuse_samples=32,glossy_samples=16' radiosity 'error')
+       'finalgather:photons=5000,diffuse_samples=32,glossy_samples=16' radiosity volpath 'error')
 export OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 OMPI_MCA_rmaps_base_oversubscribe=1
 ranks() { mpirun --bind-to none -n "$ranks" "$aureole" "$@"; }
 # make PROGRAM WORK OUT OPTION...
@@ -25,6 +25,8 @@ make() {
     "$program" render "$scene" --width 48 --height 40 --error 20% -q -o "$out" "$@"
   elif [ "$work" = radiosity ]; then
     "$program" render "$source/scenes/keller/cube.xml" --width 48 --height 40 --spp 4 --integrator radiosity -q -o "$out" "$@"
+  elif [ "$work" = volpath ]; then # of a medium whose density is a grid
+    "$program" render "$source/bench/peers/plugins/medium-grid.xml" --width 48 --height 40 --spp 4 --integrator volpath -q -o "$out" "$@"
   else
     "$program" render "$scene" --width 48 --height 40 --spp 4 --integrator "$work" -q -o "$out" "$@"
   fi 2>said
