@@ -50,7 +50,7 @@ for work in "${works[@]}"; do
   printf '| `%s` | %d | %d | %d | %s |\n' "${command/"$source/"/}" $killed $stopped "$left" $result
 done
 # One rank of several, which ends the job; the same command goes on.
-if command -v mpirun >/dev/null; then
+if [ -e "$(dirname "$aureole")/aureole-mpi.so" ] && command -v mpirun >/dev/null; then
   export OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 OMPI_MCA_rmaps_base_oversubscribe=1
   export ASAN_OPTIONS=detect_leaks=0:${ASAN_OPTIONS:-} # of MPI itself
   work="$render --spp 128"
