@@ -2,8 +2,6 @@
 
 #include <math.h>
 
-enum { MOST_GROWTH = 4 };
-
 /* The samples of a pixel at the price `price` a sample: where one more would save as much as it costs. */
 static double samples_at(double price, double variance, uint32_t samples) {
     return fmax(sqrt(variance * samples / price), samples);
@@ -57,10 +55,9 @@ bool aur_raise_targets(size_t count, const double *variances, double factor, uin
     const double price = price_of(count, variances, factor, targets);
     bool raised = false;
     for (size_t i = 0; i < count; ++i) {
-        const double wanted =
-            variances[i] > 0.0
-                ? ceil(fmin(samples_at(price, variances[i], targets[i]), (double)MOST_GROWTH * targets[i]))
-                : targets[i];
+        const double wanted = variances[i] > 0.0 ? ceil(fmin(samples_at(price, variances[i], targets[i]),
+                                                             (double)AUR_MOST_GROWTH * targets[i]))
+                                                 : targets[i];
         const uint32_t target = (uint32_t)fmin(wanted, most);
         raised = raised || target > targets[i];
         targets[i] = target > targets[i] ? target : targets[i];

@@ -5,11 +5,14 @@
 #include <stddef.h>
 #include <stdint.h>
 
+enum { AUR_MOST_GROWTH = 4 }; /* of a pixel's samples in one round */
+
 /* `variances` of the pixels with `targets` samples each: what one more sample would bring falls as variance /
  * samples^2. Raises the targets to whole numbers so that the sum of the variances falls to `factor` in (0,1)
  * of what it is, at the least cost (samples in proportion to the root of a pixel's variance for one sample;
- * Lagrange), but no pixel more than fourfold in one round, because a variance seen in few samples is only
- * roughly known. False when no target was raised: all pixels have `most` samples or no variance. */
+ * Lagrange), but no pixel more than AUR_MOST_GROWTH times in one round, because a variance seen in few
+ * samples is only roughly known. False when no target was raised: all pixels have `most` samples or no
+ * variance. */
 bool aur_raise_targets(size_t count, const double *variances, double factor, uint32_t most,
                        uint32_t *targets);
 

@@ -58,7 +58,7 @@ void aur_trial_spent(const aur_trial *trial, aur_render_statistics *sum) {
 double aur_trial_factor(const aur_trial *trial, double error) {
     const aur_error_interval *const seen = &trial->interval;
     const double width = seen->high < INFINITY ? 1.0 - seen->estimate / seen->high : 0.0;
-    const double margin = 0.98 - 0.35 * width, least_fall = fmin(0.005 + 1.5 * width, 0.3);
+    const double margin = 0.98 - 0.7 * width, least_fall = fmin(0.005 + 1.5 * width, 0.3);
     const double wanted = fmin(margin * error / seen->high, 1.0 - least_fall);
     return pow(wanted * wanted, 1.0 / trial->rate);
 }
@@ -70,11 +70,13 @@ void aur_trial_plan_evenly(aur_trial *trial, uint32_t samples) {
 }
 
 bool aur_trial_plan(aur_trial *trial, double factor) {
-    if (trial->rounds == 0)
+    if (trial->rounds == 0) {
         aur_trial_plan_evenly(trial, 1);
-    else
-        trial->begun = aur_raise_targets(trial->value_count, trial->variances, factor,
-                                         AUR_SAMPLES_PER_PIXEL_MAX, trial->targets);
+        return true;
+    }
+    const double rounds = fmax(ceil(-log(factor) / log(AUR_MOST_GROWTH)), 1.0);
+    trial->begun = aur_raise_targets(trial->value_count, trial->variances, pow(factor, 1.0 / rounds),
+                                     AUR_SAMPLES_PER_PIXEL_MAX, trial->targets);
     return trial->begun;
 }
 

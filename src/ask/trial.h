@@ -38,8 +38,9 @@ void aur_trial_spent(const aur_trial *trial, aur_render_statistics *sum);
  * where the error looks small by chance. */
 double aur_trial_factor(const aur_trial *trial, double error);
 
-/* Plans the samples of a round; the first is one sample a pixel. False when all pixels have all that they can
- * have. */
+/* Plans the samples of a round; the first is one sample a pixel. Where more than one is needed to the factor,
+ * all grow alike, so that the last one is not a small one that sees nearly what the one before has seen.
+ * False when all pixels have all that they can have. */
 bool aur_trial_plan(aur_trial *trial, double factor);
 /* Plans so many samples in all for every pixel, which none has more than yet. */
 void aur_trial_plan_evenly(aur_trial *trial, uint32_t samples);
