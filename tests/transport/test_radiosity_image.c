@@ -196,6 +196,7 @@ static void more_samples_see_more_of_the_lights(void **state) {
         aur_image_destroy(image);
     }
     assert_true(squares[1] <= squares[0] / 8.0);
+    aur_scene_destroy(scene);
 }
 
 /* The permuted scheme against all lights at every hit point: the same expectation in every pixel. */
