@@ -59,24 +59,34 @@ static pixel_range cell_of(const aur_film_layout *layout, size_t column, size_t 
                          .y1 = (y + BLOCK < layout->y1 ? y + BLOCK : layout->y1) - layout->y0};
 }
 
+/* One over the samples that each replica has of a pixel, and their sum. */
+typedef struct sample_shares {
+    double share[AUR_REPLICAS_MAX], sum;
+} sample_shares;
+
+static sample_shares shares_at(const aur_replicas *replicas, size_t pixel) {
+    sample_shares shares = {.sum = 0.0};
+    for (size_t r = 0; r < replicas->count; ++r) {
+        const uint64_t samples = aur_render_film(replicas->renders[r])->counts[pixel];
+        shares.share[r] = samples > 0 ? 1.0 / (double)samples : 1.0;
+        shares.sum += shares.share[r];
+    }
+    return shares;
+}
+
 /* Adds to each replica's variance of one sample of a pixel what a channel's deviations of the others from
  * their own mean say: their sum of squares is that about the mean of all without the replica's part, and has
  * count - 2 degrees. */
-static void add_variances(const aur_replicas *replicas, size_t pixel, const double *deviations,
-                          double *variances) {
+static void add_variances(const aur_replicas *replicas, size_t pixel, const sample_shares *shares,
+                          const double *deviations, double *variances) {
     const double others = (double)(replicas->count - 1);
-    double squares = 0.0, shares = 0.0; /* of the replicas: one over their samples */
-    double share[AUR_REPLICAS_MAX];
-    for (size_t r = 0; r < replicas->count; ++r) {
-        const uint64_t samples = aur_render_film(replicas->renders[r])->counts[pixel];
-        share[r] = samples > 0 ? 1.0 / (double)samples : 1.0;
-        shares += share[r];
+    double squares = 0.0;
+    for (size_t r = 0; r < replicas->count; ++r)
         squares += deviations[r] * deviations[r];
-    }
     for (size_t r = 0; r < replicas->count; ++r) {
         const double own = deviations[r] * deviations[r] * (others + 1.0) / others;
         variances[r * replicas->pixel_count + pixel] +=
-            fmax(squares - own, 0.0) * others / ((others - 1.0) * (shares - share[r]));
+            fmax(squares - own, 0.0) * others / ((others - 1.0) * (shares->sum - shares->share[r]));
     }
 }
 
@@ -88,10 +98,11 @@ static aur_gram measure_block(const aur_replicas *replicas, pixel_range block, d
     for (size_t y = block.y0; y < block.y1; ++y)
         for (size_t x = block.x0; x < block.x1; ++x) {
             const size_t pixel = y * (layout->x1 - layout->x0) + x;
+            const sample_shares shares = shares_at(replicas, pixel);
             for (size_t channel = 0; channel < 3; ++channel) {
                 double d[AUR_REPLICAS_MAX];
                 *mean += deviations_at(replicas, pixel, channel, d);
-                add_variances(replicas, pixel, d, variances);
+                add_variances(replicas, pixel, &shares, d, variances);
                 for (size_t r = 0; r < replicas->count; ++r)
                     for (size_t s = 0; s <= r; ++s)
                         gram.products[r][s] += d[r] * d[s];
