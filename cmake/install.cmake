@@ -3,16 +3,16 @@ include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)
 
 add_library(Aureole::aureole ALIAS aureole)
-add_library(Aureole::render ALIAS aureole-render)
-set_target_properties(aureole-render PROPERTIES EXPORT_NAME render)
+install(TARGETS ${libraries} EXPORT aureole-targets INCLUDES DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
 
 # Program and libraries find each other wherever the tree is moved to.
-file(RELATIVE_PATH bin_to_lib "/${CMAKE_INSTALL_BINDIR}" "/${CMAKE_INSTALL_LIBDIR}")
-set_target_properties(aureole-program PROPERTIES INSTALL_RPATH "$ORIGIN/${bin_to_lib}")
-set_target_properties(aureole-render PROPERTIES INSTALL_RPATH "$ORIGIN")
-
-install(TARGETS aureole aureole-render EXPORT aureole-targets INCLUDES DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
-install(TARGETS aureole-program)
+if(AUREOLE_RENDER)
+    add_library(Aureole::render ALIAS aureole-render)
+    set_target_properties(aureole-render PROPERTIES EXPORT_NAME render INSTALL_RPATH "$ORIGIN")
+    file(RELATIVE_PATH bin_to_lib "/${CMAKE_INSTALL_BINDIR}" "/${CMAKE_INSTALL_LIBDIR}")
+    set_target_properties(aureole-program PROPERTIES INSTALL_RPATH "$ORIGIN/${bin_to_lib}")
+    install(TARGETS aureole-program)
+endif()
 foreach(module aureole-mpi aureole-assimp)
     if(TARGET ${module})
         set_target_properties(${module} PROPERTIES INSTALL_RPATH "$ORIGIN")
@@ -22,8 +22,12 @@ endforeach()
 install(DIRECTORY include/aureole DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
 
 # Completion, where the shells look for it.
-foreach(shell_file bash:bash-completion/completions/aureole zsh:zsh/site-functions/_aureole
-                   fish:fish/vendor_completions.d/aureole.fish)
+set(shell_files)
+if(AUREOLE_RENDER)
+    set(shell_files bash:bash-completion/completions/aureole zsh:zsh/site-functions/_aureole
+                    fish:fish/vendor_completions.d/aureole.fish)
+endif()
+foreach(shell_file IN LISTS shell_files)
     string(REGEX MATCH "^([a-z]+):(.*)/(.*)$" matched "${shell_file}")
     set(script "${PROJECT_BINARY_DIR}/completion/${CMAKE_MATCH_3}")
     add_custom_command(OUTPUT "${script}" VERBATIM DEPENDS aureole-program
@@ -45,7 +49,7 @@ if(BUILD_SHARED_LIBS)
 
     # pkg-config files name the prefix, which `cmake --install --prefix` may change, so they say it by their own place.
     file(RELATIVE_PATH AUREOLE_PC_PREFIX "/${CMAKE_INSTALL_LIBDIR}/pkgconfig" "/")
-    foreach(name aureole aureole-render)
+    foreach(name IN LISTS libraries)
         configure_file(cmake/${name}.pc.in ${name}.pc @ONLY)
         install(FILES "${PROJECT_BINARY_DIR}/${name}.pc" DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig)
     endforeach()

@@ -11,8 +11,8 @@ packages=(
   # plots, unit tests
   gnuplot-nox libcmocka-dev
 )
-# many machines; models in other forms than XML; the test of the tables beside other packages
-[ "${1:-}" != --all ] || packages+=(libopenmpi-dev openmpi-bin libassimp-dev python3-numpy)
+# many machines; models in other forms than XML; the Python package, and the test of the tables beside other packages
+[ "${1:-}" != --all ] || packages+=(libopenmpi-dev openmpi-bin libassimp-dev python3-numpy python3-cffi python3-dev)
 
 command -v dpkg-query >/dev/null || {
   echo "deps.sh: not a Debian system; install the equivalents of: ${packages[*]}" >&2

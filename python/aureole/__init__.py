@@ -1,0 +1,127 @@
+"""Aureole: sample points on the square, the cube, the disk, the sphere, axes and rotations; how even they are; weights.
+
+Functions have the names of the C library without `aur_`. Arrays are NumPy's, one point a row, in double precision unless
+said otherwise. Errors are `Error`s with the library's words, most of them also ValueErrors. Points and weights are
+functions of their arguments and the seed: no bit depends on threads or on the machine's instruction set.
+
+>>> xyz = points("spherical-fibonacci", 1024, domain="sphere")
+>>> round(measure(xyz, "min-distance"), 6)
+0.096622
+
+`aureole.qmc` has engines for scipy.stats.qmc, `aureole.plot` draws points by matplotlib; both are loaded when they are
+asked for. `render`, `compare`, `viewfactors` and `irradiance` need libaureole-render (see `render_library`).
+"""
+
+from __future__ import annotations
+
+from ._bridge import (
+    ArgumentError,
+    AureoleWarning,
+    CancelledError,
+    Error,
+    FormatError,
+    InternalError,
+    OpenError,
+    OutOfMemoryError,
+    UnknownNameError,
+    UnsupportedError,
+    WriteError,
+)
+from ._core import core as _core
+from ._integrate import Estimate, Integral, estimate, integrate
+from ._maps import (
+    fibonacci_nearest,
+    lobe_pdf,
+    lobe_unwarp,
+    lobe_warp,
+    map_from_directions,
+    map_from_disk,
+    map_to_directions,
+    map_to_disk,
+    map_weight,
+    rotate,
+    rotation_matrices,
+    rotation_quaternions,
+    symmetry_group,
+    symmetry_reduce,
+    symmetry_select,
+)
+from ._measures import Nearest, measure, student_quantile, weights_voronoi
+from ._points import Directions, PointSet, points, read, write
+from ._tables import Key, Measure, Row, Set, measures, names, sets, tables
+from ._weights import (
+    ExactReport,
+    Potential,
+    Report,
+    rule,
+    weights,
+    weights_exact,
+    weights_nested,
+    weights_solve,
+    worst_case_error,
+)
+
+__version__: str = _core.text(_core.lib.aur_version()) or ""
+
+__all__ = [
+    "ArgumentError",
+    "AureoleWarning",
+    "CancelledError",
+    "Directions",
+    "Error",
+    "Estimate",
+    "ExactReport",
+    "FormatError",
+    "Integral",
+    "InternalError",
+    "Key",
+    "Measure",
+    "Nearest",
+    "OpenError",
+    "OutOfMemoryError",
+    "PointSet",
+    "Potential",
+    "Report",
+    "Row",
+    "Set",
+    "UnknownNameError",
+    "UnsupportedError",
+    "WriteError",
+    "estimate",
+    "fibonacci_nearest",
+    "integrate",
+    "lobe_pdf",
+    "lobe_unwarp",
+    "lobe_warp",
+    "map_from_directions",
+    "map_from_disk",
+    "map_to_directions",
+    "map_to_disk",
+    "map_weight",
+    "measure",
+    "measures",
+    "names",
+    "points",
+    "read",
+    "rotate",
+    "rotation_matrices",
+    "rotation_quaternions",
+    "rule",
+    "sets",
+    "student_quantile",
+    "symmetry_group",
+    "symmetry_reduce",
+    "symmetry_select",
+    "tables",
+    "weights",
+    "weights_exact",
+    "weights_nested",
+    "weights_solve",
+    "weights_voronoi",
+    "worst_case_error",
+    "write",
+]
+
+for _error in (Error, *Error.__subclasses__(), AureoleWarning):  # their home in messages
+    _error.__module__ = __name__
+del _error

@@ -1,0 +1,213 @@
+"""Calls of the C libraries: errors become exceptions, warnings Python's warnings, arrays pointers without copies."""
+
+from __future__ import annotations
+
+import os
+import warnings
+from typing import Any, Callable, Optional
+
+import numpy as np
+
+Progress = Callable[[str, int, int], Any]
+
+
+class Error(Exception):
+    """What a function of Aureole raises: the message is the library's own.
+
+    `result` is the kind of error in a few words; `file` is the file concerned or "", `line` and `column` count from 1
+    and are 0 where there is none.
+    """
+
+    result = ""
+    file = ""
+    line = 0
+    column = 0
+
+
+class ArgumentError(Error, ValueError):
+    """An argument is out of its range, or is given in a form that cannot be meant."""
+
+
+class UnknownNameError(Error, ValueError):
+    """There is no such set, measure, plugin or key; the message suggests the nearest name."""
+
+
+class UnsupportedError(Error, ValueError):
+    """Each argument is valid, but together they have no meaning or no implementation."""
+
+
+class FormatError(Error, ValueError):
+    """A file or text is not what it should be."""
+
+
+class OpenError(Error, OSError):
+    """A file cannot be opened or read."""
+
+
+class WriteError(Error, OSError):
+    """A file cannot be written."""
+
+
+class OutOfMemoryError(Error, MemoryError):
+    """An allocation failed."""
+
+
+class CancelledError(Error):
+    """The progress function asked to stop."""
+
+
+class InternalError(Error, RuntimeError):
+    """A defect of the library."""
+
+
+class AureoleWarning(UserWarning):
+    """What is worth saying and is no error, such as a size at which a set is not as even as at others."""
+
+
+_ERRORS = {
+    -1: InternalError, -2: OutOfMemoryError, -3: CancelledError, -10: ArgumentError, -11: ArgumentError,
+    -12: UnknownNameError, -13: UnsupportedError, -20: FormatError, -30: OpenError, -31: WriteError,
+}  # fmt: skip
+
+CANCELLED = -3
+
+
+class Bridge:
+    """One C library: `ffi` knows its types, `lib` its functions."""
+
+    def __init__(self, ffi: Any, lib: Any):
+        self.ffi = ffi
+        self.lib = lib
+
+    def text(self, pointer: Any) -> Optional[str]:
+        return None if pointer == self.ffi.NULL else self.ffi.string(pointer).decode("utf-8", "replace")
+
+    def check(self, result: int, error: Any) -> None:
+        """Raises what `error` says unless the result is 0."""
+        if result == 0:
+            return
+        message = self.text(error.message) or self.text(self.lib.aur_result_string(result)) or ""
+        file = self.text(error.file) or ""
+        place = ":".join([file] * bool(file) + [str(n) for n in (error.line, error.column) if n])
+        raised = _ERRORS.get(result, InternalError)(f"{place}: {message}" if place else message)
+        raised.result = self.text(self.lib.aur_result_string(result)) or ""
+        raised.file, raised.line, raised.column = file, error.line, error.column
+        raise raised
+
+    def call(self, function: Any, *arguments: Any) -> None:
+        """Calls a function whose last argument is an aur_error, and raises what it says."""
+        error = self.ffi.new("aur_error *")
+        self.check(function(*arguments, error), error)
+
+    def make(self, kind: str, *arguments: Any) -> Any:
+        """What `aur_KIND_create(..., &made, error)` makes; it is destroyed with the last reference to it."""
+        made = self.ffi.new(f"aur_{kind} **")
+        self.call(getattr(self.lib, f"aur_{kind}_create"), *arguments, made)
+        return self.own(kind, made)
+
+    def own(self, kind: str, made: Any) -> Any:
+        return self.ffi.gc(made[0], getattr(self.lib, f"aur_{kind}_destroy"))
+
+    def value(self, kind: str, name: str) -> int:
+        """The value of the enumeration aur_KIND that a name stands for."""
+        found = self.ffi.new(f"aur_{kind} *")
+        self.call(getattr(self.lib, f"aur_{kind}_from_name"), encode(name), found)
+        return found[0]
+
+    def options(self, kind: str, **fields: Any) -> Any:
+        """A new aur_KIND, zero but for its size and the fields given; texts and arrays in it live as long as it does."""
+        struct = self.ffi.new(f"aur_{kind} *")
+        struct.size = self.ffi.sizeof(f"aur_{kind}")
+        return self.fill(struct, **fields)
+
+    def fill(self, struct: Any, **fields: Any) -> Any:
+        for name, value in fields.items():
+            try:
+                setattr(struct, name, value)
+            except OverflowError as error:
+                raise ArgumentError(f"{name}: {value} is out of range") from error
+        return struct
+
+    def input(self, array: np.ndarray, kind: str = "double") -> Any:
+        """A pointer to an array that is only read. The caller keeps the array."""
+        return self.ffi.cast(f"const {kind} *", array.__array_interface__["data"][0])
+
+    def output(self, array: np.ndarray, kind: str = "double") -> Any:
+        return self.ffi.cast(f"{kind} *", array.__array_interface__["data"][0])
+
+
+class Call:
+    """What one call of a library may call back: its progress, its warnings, a function; and what these raise."""
+
+    def __init__(self, progress: Optional[Progress] = None, function: Optional[Callable[..., Any]] = None):
+        self.progress = progress
+        self.function = function
+        self.messages: list[str] = []
+        self.raised: Optional[BaseException] = None
+
+    def report(self, what: str, done: int, total: int) -> int:
+        """What the library's progress function returns: not 0 to stop."""
+        if self.raised is not None:
+            return 1
+        try:
+            return 1 if self.progress is not None and self.progress(what, done, total) else 0
+        except BaseException as error:  # also KeyboardInterrupt: it goes on where the call ends
+            self.raised = error
+            return 1
+
+    def __enter__(self) -> "Call":
+        return self
+
+    def __exit__(self, kind: Any, error: Any, trace: Any) -> None:
+        if self.raised is not None:
+            raise self.raised
+        for message in self.messages if error is None else ():
+            warnings.warn(message, AureoleWarning, stacklevel=3)
+
+
+def encode(text: Any) -> bytes:
+    """A text or path as the library takes it."""
+    if not isinstance(text, (str, bytes, os.PathLike)):
+        raise TypeError(f"a text or a path is wanted, not {type(text).__name__}")
+    coded = os.fsencode(text)
+    if b"\0" in coded:
+        raise ArgumentError("a text with a zero byte in it")
+    return coded
+
+
+def rows(array: Any, dimension: int = 0, name: str = "points") -> np.ndarray:
+    """An array of double precision with a row a point; it is copied only where its type or layout asks for it."""
+    made = np.asarray(array, dtype=np.float64)
+    if made.ndim == 1 and dimension == 1:
+        made = made[:, np.newaxis]
+    if made.ndim != 2 or (dimension and made.shape[1] != dimension):
+        wanted = dimension if dimension else "d"
+        raise ArgumentError(f"{name} must have the shape (n, {wanted}), not {made.shape}")
+    return np.ascontiguousarray(made)
+
+
+def vector(array: Any, count: int, name: str) -> np.ndarray:
+    made = np.ascontiguousarray(array, dtype=np.float64)
+    if made.shape != (count,):
+        raise ArgumentError(f"{name} must have the shape ({count},), not {made.shape}")
+    return made
+
+
+class _Kept:
+    """An array of the library's, for NumPy to look at in its place; it keeps what owns the array."""
+
+    def __init__(self, owner: Any, address: int, shape: tuple[int, ...], kind: str, strides: Optional[tuple[int, ...]]):
+        self.owner = owner
+        self.__array_interface__ = {
+            "version": 3, "data": (address, False), "shape": shape, "typestr": kind, "strides": strides,
+        }  # fmt: skip
+
+
+def kept(
+    bridge: Bridge, owner: Any, pointer: Any, shape: tuple[int, ...], kind: str = "<f8",
+    strides: Optional[tuple[int, ...]] = None,
+) -> np.ndarray:  # fmt: skip
+    """The library's array at `pointer` without a copy; `owner` lives as long as the array."""
+    if 0 in shape:
+        return np.empty(shape, dtype=kind)
+    return np.asarray(_Kept(owner, int(bridge.ffi.cast("uintptr_t", pointer)), shape, kind, strides))

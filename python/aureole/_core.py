@@ -1,0 +1,80 @@
+"""libaureole, which is part of the extension, and what it calls back."""
+
+from __future__ import annotations
+
+from typing import Any, Callable, Optional
+
+import numpy as np
+
+from ._bridge import CANCELLED, Bridge, Call, Progress
+from ._native import ffi, lib
+
+core = Bridge(ffi, lib)
+
+
+class CoreCall(Call):
+    """A call of libaureole; the library hands `handle` back to the functions below."""
+
+    def __init__(self, progress: Optional[Progress] = None, function: Optional[Callable[..., Any]] = None):
+        super().__init__(progress, function)
+        self.handle = ffi.new_handle(self)
+
+    def attach(self, options: Any, progress: bool = True, warnings: bool = True) -> Any:
+        """Lets an option struct report to this call."""
+        if progress:
+            options.progress = (lib.aureole_progress, self.handle)
+        if warnings:
+            options.warnings = (lib.aureole_warning, self.handle)
+        return options
+
+
+@ffi.def_extern(error=1)
+def aureole_progress(user, what, done, total):
+    return ffi.from_handle(user).report(core.text(what), done, total)
+
+
+@ffi.def_extern()
+def aureole_warning(user, message):
+    ffi.from_handle(user).messages.append(core.text(message))
+
+
+def _values(user: Any, arguments: tuple, values: Any, count: int) -> int:
+    """The user's function of `arguments` into values[count]."""
+    call = ffi.from_handle(user)
+    try:
+        np.frombuffer(ffi.buffer(values, 8 * count))[:] = call.function(*arguments)
+    except BaseException as error:
+        call.raised = error
+        return CANCELLED
+    return 0
+
+
+def _look(pointer: Any, *shape: int) -> np.ndarray:
+    """The library's numbers as they lie there, to be read while the call lasts."""
+    array = np.frombuffer(ffi.buffer(pointer, 8 * int(np.prod(shape)))).reshape(shape)
+    array.flags.writeable = False
+    return array
+
+
+@ffi.def_extern(error=CANCELLED)
+def aureole_integrand(user, count, directions, along, values, error):
+    arguments = (_look(directions, count, 3),)
+    if along != ffi.NULL:
+        arguments += (_look(along, count),)
+    return _values(user, arguments, values, count)
+
+
+@ffi.def_extern(error=CANCELLED)
+def aureole_functional(user, points, values, error):
+    arguments = (_look(points.points, points.count, points.dimension), _look(points.weights, points.count))
+    return _values(user, arguments, values, ffi.from_handle(user).count)
+
+
+@ffi.def_extern(error=0.0)
+def aureole_density(user, direction):
+    call = ffi.from_handle(user)
+    try:
+        return float(call.function(_look(direction, 3)))
+    except BaseException as error:
+        call.raised = error
+        return 0.0

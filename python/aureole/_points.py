@@ -1,0 +1,323 @@
+"""Points of any set on any domain, at once or any part of them; files of points."""
+
+from __future__ import annotations
+
+import os
+from typing import Any, Literal, Optional, Union, overload
+
+import numpy as np
+from numpy.typing import ArrayLike, DTypeLike, NDArray
+
+from ._bridge import ArgumentError, encode, kept, rows, vector
+from ._core import CoreCall, core, ffi, lib
+
+Array = NDArray[np.float64]
+Domain = Literal["square", "cube", "disk", "hemisphere", "sphere", "axes", "rotations"]
+Map = Literal["lambert", "concentric", "azimuthal", "polar"]
+Scramble = Literal["none", "digit", "owen", "shift", "rotate", "rotate3d"]
+Density = Literal["same", "optimal"]
+
+
+def parse_lobe(lobe: str) -> Any:
+    """The library's lobe of a text "uniform", "cosine", "phong:M" or "ggx:ALPHA[:VIEW_DEGREES]"."""
+    parsed = ffi.new("aur_lobe *")
+    core.call(lib.aur_lobe_parse, encode(lobe), parsed)
+    return parsed
+
+
+def directions_options(
+    call: CoreCall, n: int, domain: str, map: str, lobe: str, density: str, smoothness: float, cap: float,
+    scramble: str, seed: int,
+) -> Any:  # fmt: skip
+    if density not in ("same", "optimal"):
+        raise ArgumentError(f"density must be 'same' or 'optimal', not {density!r}")
+    options = ffi.new("aur_directions_options *")
+    options[0] = lib.aur_directions_options_default(0, core.value("domain", domain))
+    core.fill(
+        options, count=n, map=core.value("map", map), lobe=parse_lobe(lobe)[0], optimal_density=density == "optimal",
+        smoothness=smoothness, cap_degrees=cap, scramble=core.value("scramble", scramble), seed=seed,
+    )  # fmt: skip
+    return call.attach(options, progress=False)
+
+
+def look(made: Any, dimensions: bool = False) -> tuple[Array, Optional[Array], str]:
+    """The library's points as they lie there, their weights or None, and their domain."""
+    view = lib.aur_points_look(made)
+    stride = 8 * (view.stride or view.dimension)
+    points = kept(core, made, view.coordinates, (view.count, view.dimension), strides=(stride, 8))
+    weights = None if view.weights == ffi.NULL else kept(core, made, view.weights, (view.count,))
+    return points, weights, core.text(lib.aur_domain_name(view.domain)) or ""
+
+
+@overload
+def points(
+    set: str, n: int = ..., *, domain: Optional[Domain] = ..., dimension: int = ..., map: Map = ..., lobe: str = ...,
+    density: Density = ..., smoothness: float = ..., cap: float = ..., scramble: Scramble = ..., seed: int = ...,
+    first: int = ..., count: int = ..., weights: Literal[False] = ...,
+) -> Array: ...  # fmt: skip
+@overload
+def points(
+    set: str, n: int = ..., *, domain: Optional[Domain] = ..., dimension: int = ..., map: Map = ..., lobe: str = ...,
+    density: Density = ..., smoothness: float = ..., cap: float = ..., scramble: Scramble = ..., seed: int = ...,
+    first: int = ..., count: int = ..., weights: Literal[True],
+) -> tuple[Array, Array]: ...  # fmt: skip
+def points(
+    set: str, n: int = 0, *, domain: Optional[Domain] = None, dimension: int = 0, map: Map = "lambert",
+    lobe: str = "uniform", density: Density = "same", smoothness: float = 1.5, cap: float = 0.0,
+    scramble: Scramble = "none", seed: int = 0, first: int = 0, count: int = 0, weights: bool = False,
+) -> Union[Array, tuple[Array, Array]]:  # fmt: skip
+    """Points of a set, one a row.
+
+    Parameters
+    ----------
+    set : NAME[:key=value,...] or file:PATH. `sets()` lists the names and keys.
+    n : points of the set; 0 for a file: all of its points.
+    domain : where the points are; None: where the set has them by itself. Shapes of the result: square and disk (n, 2);
+        cube (n, dimension); hemisphere, sphere and axes (n, 3), unit vectors with z up; rotations (n, 4), unit
+        quaternions w, x, y, z. Square and cube are [0, 1)^d.
+    dimension : of the cube, and 2 for the square; 0: 2, or what the set has.
+    map : how sets of the square come to other domains. "lambert" (the cylindrical equal-area map), "concentric"
+        (Shirley, Chiu 1997), "azimuthal" and "polar" (Schretter 2012).
+    lobe : what points of the whole hemisphere follow: "uniform", "cosine", "phong:M" (cos^M of the polar angle, M from
+        0 to 1e9), "ggx:ALPHA[:VIEW_DEGREES]" (Dupuy, Benyoub 2023; alpha from 1e-4 to 1).
+    density : "same": points follow the lobe; "optimal": its power 2/(s+1), with weights (Marques 2018).
+    smoothness : s of the optimal density, in (1, 6).
+    cap : degrees; not 0: the points fill the cap of this polar angle about +z.
+    scramble : "digit" (Kollig, Keller 2002), "owen" (Owen 1995), "shift" (Cranley, Patterson 1976), "rotate" (about z),
+        "rotate3d" (a uniformly random rotation).
+    seed : of scrambling and of random sets, from 0 to 2^64 - 1.
+    first, count : the part of the set that is wanted; count 0: all from `first` on.
+    weights : whether to return also the weights, (n,): 1/n each where the density is the lobe itself.
+
+    Returns
+    -------
+    An array of float64, or a pair of it and the weights. The arrays are the library's own, without a copy.
+
+    >>> points("hammersley", 4)
+    array([[0.  , 0.  ],
+           [0.25, 0.5 ],
+           [0.5 , 0.25],
+           [0.75, 0.75]])
+    >>> points("spherical-fibonacci", 1000, domain="sphere").shape
+    (1000, 3)
+    >>> xyz, w = points("sobol", 64, domain="hemisphere", lobe="phong:20", density="optimal", weights=True)
+    >>> xyz.shape, w.shape
+    ((64, 3), (64,))
+    """
+    with CoreCall() as call:
+        options = directions_options(
+            call, n, domain or "square", map, lobe, density, smoothness, cap, scramble, seed
+        )  # fmt: skip
+        request = ffi.new("aur_points_request *")
+        request[0] = lib.aur_points_request_default(options)
+        core.fill(request, natural_domain=domain is None, dimension=dimension, first=first, count=count)
+        made = ffi.new("aur_points **")
+        core.call(lib.aur_points_generate, encode(set), request, made)
+        found, found_weights, _ = look(core.own("points", made))
+    if not weights:
+        return found
+    return found, np.full(len(found), 1.0 / len(found)) if found_weights is None else found_weights
+
+
+def read(path: Union[str, os.PathLike[str]], domain: Optional[Domain] = None) -> tuple[Array, Optional[Array], str]:
+    """Points, their weights or None, and their domain from a CSV or NPY file.
+
+    The header of a CSV file says the domain: u,v; x,y; x,y,z; w,x,y,z; u1,u2,...; and w after it for weights. Without
+    a header two columns are u,v and three x,y,z. Directions that all have z >= 0 are of the hemisphere. `domain` says it
+    where it is known.
+
+    >>> import tempfile, os
+    >>> path = os.path.join(tempfile.mkdtemp(), "points.csv")
+    >>> write(path, points("hammersley", 2))
+    >>> read(path)
+    (array([[0. , 0. ],
+           [0.5, 0.5]]), None, 'square')
+    """
+    made = ffi.new("aur_points **")
+    if domain is None:
+        core.call(lib.aur_points_read, encode(path), made)
+    else:
+        core.call(lib.aur_points_read_on, encode(path), core.value("domain", domain), made)
+    return look(core.own("points", made))
+
+
+def write(
+    path: Union[str, os.PathLike[str]], points: ArrayLike, weights: Optional[ArrayLike] = None, *,
+    domain: Optional[Domain] = None, format: Optional[Literal["csv", "json", "npy", "ply"]] = None,
+) -> None:  # fmt: skip
+    """Writes points, one a row, with weights if there are any; the file is replaced whole or not at all.
+
+    `format` None: by the end of the file's name, and CSV where that says nothing. `domain` as for `measure`.
+    """
+    ending = os.path.splitext(os.fspath(path))[1][1:]
+    name = format or (ending if ending in ("csv", "json", "npy", "ply") else "csv")
+    with View(points, weights, domain) as view:
+        core.call(lib.aur_points_write, encode(path), core.value("points_format", name), view, ffi.NULL)
+
+
+class View:
+    """The library's view of a caller's array, without a copy where rows of doubles lie apart evenly."""
+
+    def __init__(self, points: ArrayLike, weights: Optional[ArrayLike] = None, domain: Optional[str] = None):
+        array = np.asarray(points, dtype=np.float64)
+        if array.ndim == 1:
+            array = array[:, np.newaxis]
+        if array.ndim != 2:
+            raise ArgumentError(f"points must have the shape (n, d), not {array.shape}")
+        row, column = array.strides
+        if not array.flags.aligned or column != 8 or row < 8 * array.shape[1] or row % 8:
+            array = np.ascontiguousarray(array)
+        self.array = array
+        self.domain = domain or domain_of(array)
+        self.view = ffi.new("aur_points_view *")
+        count, dimension = array.shape
+        self.view[0] = lib.aur_points_view_of(
+            core.value("domain", self.domain), count, dimension, core.input(array)
+        )  # fmt: skip
+        self.view.stride = array.strides[0] // 8 if count > 1 else dimension
+        if weights is not None:
+            self.weights = vector(weights, count, "weights")
+            self.view.weights = core.input(self.weights)
+
+    def __enter__(self) -> Any:
+        return self.view
+
+    def __exit__(self, *error: Any) -> None:
+        pass
+
+
+def domain_of(array: NDArray[np.float64]) -> str:
+    """The domain that an array of points is taken for where nothing says it.
+
+    Two columns are of the square; three of unit length (to 1e-6) of the hemisphere where no z is below 0, else of the
+    sphere; four of unit length are rotations; all others are of the cube.
+    """
+    columns = array.shape[1]
+    if columns == 2:
+        return "square"
+    if columns in (3, 4) and len(array) and np.all(np.abs(np.einsum("ij,ij->i", array, array) - 1.0) < 2e-6):
+        return "rotations" if columns == 4 else "hemisphere" if array[:, 2].min() >= 0.0 else "sphere"
+    return "cube"
+
+
+class PointSet:
+    """A set on the unit cube made ready: any part of it, in any order, into any array, from any thread.
+
+    Parameters as for `points`; n must be given unless the set is a file.
+
+    >>> sobol = PointSet("sobol", 2**20, dimension=3, scramble="owen", seed=7)
+    >>> len(sobol), sobol.dimension
+    (1048576, 3)
+    >>> part = sobol.points(1000, 64)
+    >>> bool((part == sobol.points(0, 1064)[1000:]).all())
+    True
+    """
+
+    def __init__(self, set: str, n: int = 0, *, dimension: int = 0, scramble: Scramble = "none", seed: int = 0):
+        with CoreCall() as call:
+            options = core.options(
+                "pointset_options", count=n, dimension=dimension, scramble=core.value("scramble", scramble), seed=seed
+            )
+            self._set = core.make("pointset", encode(set), call.attach(options, progress=False))
+
+    def __len__(self) -> int:
+        return lib.aur_pointset_size(self._set)
+
+    @property
+    def dimension(self) -> int:
+        """Coordinates a point."""
+        return lib.aur_pointset_dimension(self._set)
+
+    def points(
+        self, first: int = 0, count: Optional[int] = None, *, dimensions: Optional[slice] = None,
+        seed: Optional[int] = None, out: Optional[np.ndarray] = None, dtype: DTypeLike = np.float64,
+    ) -> np.ndarray:  # fmt: skip
+        """Points first .. first+count-1, (count, dimension), in [0, 1).
+
+        `count` None: all from `first` on. `dimensions`: a slice, some of the coordinates alone. `seed`: another seed of
+        the scrambling. `out`: an array of float64 or float32 to write into, rows or columns contiguous; float32 are the
+        doubles cut to 24 binary digits.
+        """
+        low, high, step = (dimensions or slice(None)).indices(self.dimension)
+        if step != 1:
+            raise ArgumentError("dimensions must be a slice without a step")
+        if count is None:
+            count = max(0, len(self) - first)
+        array, output = make_output(count, max(0, high - low), out, dtype)
+        if seed is not None and dimensions is not None:
+            raise ArgumentError("another seed gives all dimensions: slice what it returns")
+        if seed is not None:
+            core.call(lib.aur_pointset_randomize, self._set, seed, first, count, output)
+        else:
+            core.call(lib.aur_pointset_coordinates, self._set, low, max(0, high - low), first, count, output)
+        return array
+
+    def coordinate(self, index: int, dimension: int) -> float:
+        """One coordinate of one point; NaN beyond the set."""
+        return lib.aur_pointset_coordinate(self._set, index, dimension)
+
+
+class Directions:
+    """A set of directions made ready: any part of it, in any order, from any thread. Parameters as for `points`.
+
+    >>> sphere = Directions("spherical-fibonacci", 10**12, domain="sphere")
+    >>> sphere.points(123456789012, 2).round(6)
+    array([[-0.354449,  0.55428 ,  0.753086],
+           [ 0.635771, -0.169282,  0.753086]])
+    """
+
+    def __init__(
+        self, set: str, n: int = 0, *, domain: Literal["hemisphere", "sphere", "axes"] = "sphere",
+        map: Map = "lambert", lobe: str = "uniform", density: Density = "same", smoothness: float = 1.5,
+        cap: float = 0.0, scramble: Scramble = "none", seed: int = 0,
+    ):  # fmt: skip
+        with CoreCall() as call:
+            options = directions_options(call, n, domain, map, lobe, density, smoothness, cap, scramble, seed)
+            self._set = core.make("directions", encode(set), options)
+
+    def __len__(self) -> int:
+        return lib.aur_directions_size(self._set)
+
+    def points(
+        self, first: int = 0, count: Optional[int] = None, *, out: Optional[np.ndarray] = None,
+        dtype: DTypeLike = np.float64,
+    ) -> np.ndarray:  # fmt: skip
+        """Unit vectors first .. first+count-1, (count, 3); count None: all from `first` on. `out` as for `PointSet`."""
+        return self.rule(first, count, out=out, dtype=dtype)[0]
+
+    def rule(
+        self, first: int = 0, count: Optional[int] = None, *, out: Optional[np.ndarray] = None,
+        dtype: DTypeLike = np.float64,
+    ) -> tuple[np.ndarray, Array]:  # fmt: skip
+        """The same with their weights, (count,): for integrals against the lobe normalised to 1."""
+        count = max(0, len(self) - first) if count is None else count
+        array, output = make_output(count, 3, out, dtype)
+        weights, weights_output = make_output(count, 1, None, np.float64)
+        core.call(lib.aur_directions_generate, self._set, first, count, output, weights_output)
+        return array, weights[:, 0]
+
+
+def make_output(count: int, columns: int, out: Optional[np.ndarray], dtype: DTypeLike) -> tuple[np.ndarray, Any]:
+    """An array for count points and the library's words for where it lies."""
+    if count < 0:
+        raise ArgumentError(f"a count of {count} points")
+    array = np.empty((count, columns), dtype=dtype) if out is None else out
+    if array.shape != (count, columns) or array.dtype not in (np.float64, np.float32) or not array.flags.writeable:
+        raise ArgumentError(
+            f"out must be a writeable array of float64 or float32 of the shape ({count}, {columns}), "
+            f"not {array.dtype} of {array.shape}"
+        )
+    row, column = array.strides
+    item = array.itemsize
+    output = ffi.new("aur_output *")
+    output.layout = lib.AUR_LAYOUT_POINTS
+    output.capacity = count * columns
+    if not array.flags.c_contiguous:
+        if row != item or column % item or column < count * item:
+            raise ArgumentError("out must have contiguous rows, one after the other, or contiguous columns")
+        output.layout = lib.AUR_LAYOUT_ARRAYS
+        output.stride = column // item
+        output.capacity = output.stride * (columns - 1) + count
+    kind = "double" if array.dtype == np.float64 else "float"
+    setattr(output, kind + "s", core.output(array, kind))
+    return array, output

@@ -1,0 +1,285 @@
+"""core.py PROGRAM: the core of the Python package."""
+
+import gc
+import inspect
+import re
+import subprocess
+import sys
+import threading
+import unittest
+import warnings
+
+import numpy as np
+
+import aureole
+
+PROGRAM = sys.argv[1]
+
+
+def program(*arguments):
+    return subprocess.run([PROGRAM, *arguments], check=True, capture_output=True, text=True).stdout
+
+
+def written(name, *arguments):
+    program("points", name, "-q", *arguments, "-o", "points.npy")
+    return np.load("points.npy")
+
+
+class Points(unittest.TestCase):
+    def test_same_bits_as_the_program(self):
+        for name, n, arguments, options in [
+            ("sobol", 128, "--dim 5 --scramble owen --seed 3", dict(dimension=5, scramble="owen", seed=3, domain="cube")),
+            ("halton", 64, "--domain disk --map concentric", dict(domain="disk", map="concentric")),
+            ("spherical-fibonacci", 99, "--domain hemisphere --lobe ggx:0.3:40", dict(domain="hemisphere", lobe="ggx:0.3:40")),
+            ("larcher-pillichshammer", 64, "--domain sphere --scramble rotate3d", dict(domain="sphere", scramble="rotate3d")),
+            ("esfg", 80, "--domain sphere --cap 20 --first 7 --count 30", dict(domain="sphere", cap=20, first=7, count=30)),
+            ("super-fibonacci", 50, "--domain rotations", dict(domain="rotations")),
+            ("electrostatic", 20, "--domain axes", dict(domain="axes")),
+        ]:  # fmt: skip
+            expected = written(name, "-n", str(n), *arguments.split())
+            found = aureole.points(name, n, **options)
+            self.assertTrue((found == expected[:, : found.shape[1]]).all())  # and weights after them
+
+    def test_weights_of_the_optimal_density(self):
+        xyz, weights = aureole.points(
+            "sobol", 64, domain="hemisphere", lobe="phong:20", density="optimal", smoothness=1.4, weights=True
+        )
+        expected = written("sobol", *"-n 64 --domain hemisphere --lobe phong:20 --density optimal --smoothness 1.4".split())
+        self.assertTrue((np.column_stack([xyz, weights]) == expected).all())
+        _, equal = aureole.points("sobol", 64, weights=True)
+        self.assertTrue((equal == 1 / 64).all())
+
+    def test_every_set_of_the_table(self):
+        for name, row in aureole.sets().items():
+            if name in ("file", "matrices"):  # they are read from files
+                continue
+            size = int((re.match(r"([0-9]+),", row.sizes) or [0, 16])[1])  # "4, 8, 18, .. 328" or any
+            with warnings.catch_warnings():
+                warnings.simplefilter("ignore", aureole.AureoleWarning)
+                dimension = min(2, row.dimensions[1]) if "cube" in row.domains else 0
+                found = aureole.points(name, size, dimension=dimension)
+            self.assertEqual(len(found), size, name)
+            self.assertTrue(np.isfinite(found).all(), name)
+
+    def test_any_part_into_any_array(self):
+        made = aureole.PointSet("sobol", 1024, dimension=3, scramble="owen", seed=1)
+        whole = made.points()
+        self.assertTrue((made.points(10, 20) == whole[10:30]).all())
+        self.assertTrue((made.points(10, 20, dimensions=slice(1, 3)) == whole[10:30, 1:]).all())
+        columns = np.empty((20, 3), order="F")
+        self.assertIs(made.points(10, 20, out=columns), columns)
+        self.assertTrue((columns == whole[10:30]).all())
+        single = made.points(10, 20, dtype=np.float32)
+        self.assertEqual(single.dtype, np.float32)
+        self.assertTrue((np.floor(whole[10:30] * 2**24) / 2**24 == single).all())
+        part = np.zeros((30, 3))
+        made.points(0, 10, out=part[20:])
+        self.assertTrue((part[20:] == whole[:10]).all() and not part[:20].any())
+        other = aureole.PointSet("sobol", 1024, dimension=3, scramble="owen", seed=2)
+        self.assertTrue((made.points(seed=2) == other.points()).all())
+        self.assertEqual(made.coordinate(7, 2), whole[7, 2])
+        self.assertTrue(np.isnan(made.coordinate(1024, 0)))
+        for wrong in (np.empty((20, 2)), np.empty((20, 3), dtype=int), np.empty((40, 3))[::2]):
+            with self.assertRaises(aureole.ArgumentError):
+                made.points(0, 20, out=wrong)
+        directions = aureole.Directions("sobol", 64, domain="hemisphere", lobe="phong:20", density="optimal")
+        xyz, weights = aureole.points("sobol", 64, domain="hemisphere", lobe="phong:20", density="optimal", weights=True)
+        found = directions.rule(8, 16)
+        self.assertTrue((found[0] == xyz[8:24]).all() and (found[1] == weights[8:24]).all())
+
+    def test_arrays_are_not_copied(self):
+        found = aureole.points("sobol", 1024)
+        self.assertFalse(found.flags.owndata)
+        before = found.copy()
+        part = found[1::2]
+        del found
+        gc.collect()
+        self.assertTrue((part == before[1::2]).all())
+        # Rows that lie apart evenly are looked at in their place.
+        wide = np.zeros((1024, 7))
+        wide[:, 2:5] = aureole.points("spherical-fibonacci", 1024, domain="sphere")
+        view = aureole._points.View(wide[:, 2:5])
+        self.assertTrue(np.shares_memory(view.array, wide))
+        self.assertEqual(aureole.measure(wide[:, 2:5], "energy"), aureole.measure(wide[:, 2:5].copy(), "energy"))
+
+    def test_files(self):
+        xyz = aureole.points("spherical-fibonacci", 10, domain="sphere")
+        for name in ("points.csv", "points.npy"):
+            aureole.write(name, xyz, np.arange(10.0) / 45)
+            found, weights, domain = aureole.read(name)
+            if name.endswith("npy"):  # four columns are rotations, or directions with weights
+                found, weights, domain = aureole.read(name, "sphere")
+            self.assertEqual(domain, "sphere")
+            self.assertTrue((found == xyz).all() and (weights == np.arange(10.0) / 45).all())
+
+
+class Errors(unittest.TestCase):
+    def test_they_say_what_the_library_says(self):
+        with self.assertRaisesRegex(aureole.UnknownNameError, "did you mean 'sobol'") as caught:
+            aureole.points("sobl", 4)
+        self.assertIsInstance(caught.exception, ValueError)
+        with self.assertRaisesRegex(aureole.UnknownNameError, "lambert"):
+            aureole.points("sobol", 4, map="lambart")
+        with self.assertRaises(aureole.ArgumentError):
+            aureole.points("sobol", -1)
+        with self.assertRaises(aureole.ArgumentError):
+            aureole.points("sobol", 2**70)
+        with self.assertRaises(TypeError):
+            aureole.points(3, 4)
+        with self.assertRaises(aureole.ArgumentError):
+            aureole.points("so\0bol", 4)
+        with self.assertRaises(aureole.UnsupportedError):
+            aureole.measure(aureole.points("sobol", 64), "energy")
+        with open("bad.csv", "w") as file:
+            file.write("u,v\n0.5,0.5\n0.5,x\n")
+        with self.assertRaisesRegex(aureole.FormatError, "bad.csv:3") as caught:
+            aureole.read("bad.csv")
+        self.assertEqual((caught.exception.file, caught.exception.line), ("bad.csv", 3))
+        with self.assertRaises(OSError):
+            aureole.read("none.csv")
+        with self.assertRaises(aureole.ArgumentError):
+            aureole.weights(np.ones((4, 3)), domain="sphere")
+        for wrong in (np.ones(3), np.ones((2, 2)), np.ones((2, 3, 1))):
+            with self.assertRaises(aureole.ArgumentError):
+                aureole.weights(wrong)
+
+    def test_warnings_are_pythons(self):
+        with warnings.catch_warnings(record=True) as caught:
+            warnings.simplefilter("always")
+            aureole.points("sobol", 100)
+        self.assertEqual([w.category for w in caught], [aureole.AureoleWarning])
+        self.assertEqual(caught[0].filename, __file__)
+
+    def test_what_a_callback_raises_comes_out(self):
+        class Mine(Exception):
+            pass
+
+        def fails(*arguments):
+            raise Mine
+
+        with self.assertRaises(Mine):
+            aureole.integrate(fails)
+        with self.assertRaises(Mine):
+            aureole.estimate(fails, 2)
+        with self.assertRaises(Mine):
+            aureole.Potential(function=fails)
+        with self.assertRaises(ValueError):
+            aureole.integrate(lambda u: np.zeros(3))
+        xyz = aureole.points("random", 3000, domain="sphere")
+        with self.assertRaises(Mine):
+            aureole.measure(xyz, "energy", progress=fails)
+        with self.assertRaises(aureole.CancelledError):
+            aureole.measure(xyz, "energy", progress=lambda what, done, total: True)
+
+
+class Figures(unittest.TestCase):
+    def test_measures(self):
+        xyz = aureole.points("spherical-fibonacci", 1024, domain="sphere")
+        printed = program("measure", "spherical-fibonacci", "-n", "1024", "--metric", "energy,covering", "--format", "csv")
+        expected = [float(word) for word in printed.splitlines()[1].split(",")[-2:]]
+        found = aureole.measure(xyz, ["energy", "covering"], threads=3)
+        for value, wanted in zip(found.values(), expected):
+            self.assertAlmostEqual(value, wanted, delta=1e-5 * wanted)
+        self.assertEqual(found, aureole.measure(xyz, ["energy", "covering"], threads=1))
+        series = next(name for name, row in aureole.measures().items() if row.series and "square" in row.domains)
+        table = aureole.measure(aureole.points("sobol", 64), series)
+        self.assertEqual(len({len(column) for column in table.values()}), 1)
+
+    def test_weights(self):
+        xyz = aureole.points("spherical-fibonacci", 64, domain="hemisphere", lobe="cosine")
+        program(*"weights spherical-fibonacci -n 64 --domain hemisphere --lobe cosine -o w.csv".split())
+        expected = np.loadtxt("w.csv", delimiter=",", skiprows=1)
+        self.assertTrue((aureole.weights(xyz, lobe="cosine") == expected[:, 3]).all())
+        found = aureole.rule(n=64, lobe="cosine", optimal=True)
+        self.assertTrue((np.column_stack(found) == expected).all())
+        potential = aureole.Potential("cosine")
+        optimal, reports, condition = aureole.weights_solve(xyz, [potential, aureole.Potential("phong:2")])
+        self.assertTrue((optimal[0] == expected[:, 3]).all())
+        self.assertLess(reports[0].optimal_error, reports[0].equal_error)
+        self.assertGreater(condition, 1)
+        error = aureole.worst_case_error(xyz, optimal[0], potential)
+        self.assertAlmostEqual(error, reports[0].optimal_error, delta=1e-9)
+        # The same density as a function, whose potential is a sum over 4096 nodes with an error of the order 1/4096.
+        same = aureole.Potential(function=lambda u: max(0.0, u[2]), exponent=1.0)
+        self.assertLess(abs(same.evaluate(xyz) - potential.evaluate(xyz)).max(), 1 / 4096)
+        self.assertAlmostEqual(potential.density([[0, 0, 1.0]])[0], 1 / np.pi)
+
+    def test_exact_and_nested_weights(self):
+        xyz = aureole.points("esfg", 256, domain="sphere")
+        weights, report = aureole.weights_exact(xyz, 8)
+        self.assertEqual(report.degree, 8)
+        self.assertAlmostEqual(float(weights @ xyz[:, 2] ** 8), 1 / 9, delta=1e-12)
+        levels, reports = aureole.weights_nested(xyz, [64, 256])
+        self.assertFalse(levels[0, 64:].any())
+        self.assertAlmostEqual(float(levels[0] @ xyz[:, 0] ** 4), 1 / 5, delta=1e-12)
+        self.assertGreater(reports[1].degree, reports[0].degree)
+        self.assertAlmostEqual(aureole.weights(xyz, "voronoi").sum(), 1, delta=1e-12)
+        self.assertTrue((aureole.weights(xyz, "exact", degree=8) == weights).all())
+
+    def test_integrate(self):
+        with_axis = aureole.integrate(lambda u, r: r**2 * u[:, 2] ** 2, 1e-3, axis=(0, 2))
+        self.assertLess(abs(with_axis.value - 32 * np.pi / 9), 3 * with_axis.error)
+        half = aureole.integrate(lambda u: np.exp(u[:, 2]), 1e-4, domain="hemisphere", exponent=1)
+        self.assertLess(abs(half.value - 2 * np.pi), 3 * half.error)
+        found = aureole.integrate(lambda u: abs(u[:, 0]), 1e-12, evaluations=2048)
+        self.assertFalse(found.converged)
+        self.assertEqual(found, aureole.integrate(lambda u: abs(u[:, 0]), 1e-12, evaluations=2048))
+
+    def test_estimate(self):
+        found = aureole.estimate(lambda u, w: [w @ u.prod(axis=1), w.sum()], 3, 2, tol=1e-3)
+        self.assertLess(abs(found.value[0] - 1 / 8), 3 * found.half_width[0])
+        self.assertAlmostEqual(found.value[1], 1)
+
+    def test_nearest(self):
+        xyz = aureole.points("spherical-fibonacci", 500, domain="sphere")
+        queries = aureole.points("random", 50, domain="sphere", seed=1)
+        indices, angles = aureole.Nearest(xyz).find(queries, 3)
+        cosines = queries @ xyz.T
+        self.assertTrue((indices == np.argsort(-cosines, axis=1)[:, :3]).all())
+        self.assertLess(abs(np.cos(angles) - np.take_along_axis(cosines, indices.astype(int), 1)).max(), 1e-12)
+        self.assertTrue((aureole.fibonacci_nearest(queries, 500) == indices[:, 0]).all())
+
+    def test_maps(self):
+        square = aureole.points("sobol", 256, scramble="shift")
+        for name in aureole.names("map"):
+            back = aureole.map_from_disk(aureole.map_to_disk(square, name), name)
+            self.assertLess(abs(back - square).max(), 1e-12)
+            for domain in ("hemisphere", "sphere"):
+                xyz = aureole.map_to_directions(square, name, domain=domain)
+                self.assertTrue((xyz == aureole.points("sobol", 256, scramble="shift", map=name, domain=domain)).all())
+                self.assertLess(abs(aureole.map_from_directions(xyz, name, domain=domain) - square).max(), 1e-7)
+        xyz = aureole.points("sobol", 256, domain="hemisphere")
+        lobe = aureole.lobe_warp(xyz, "phong:9")
+        self.assertTrue((lobe == aureole.points("sobol", 256, domain="hemisphere", lobe="phong:9")).all())
+        self.assertLess(abs(aureole.lobe_unwarp(lobe, "phong:9") - xyz).max(), 1e-9)
+        wxyz = aureole.points("super-fibonacci", 30)
+        matrices = aureole.rotation_matrices(wxyz)
+        self.assertLess(abs(matrices @ matrices.transpose(0, 2, 1) - np.eye(3)).max(), 1e-14)
+        self.assertLess(abs(abs((aureole.rotation_quaternions(matrices) * wxyz).sum(axis=1)) - 1).max(), 1e-14)
+        zone = aureole.symmetry_select(aureole.points("super-fibonacci", 2400), "432")
+        self.assertLess(abs(len(zone) - 100), 10)
+        self.assertTrue((aureole.symmetry_reduce(zone, "432") == zone).all())
+
+    def test_threads_of_python(self):
+        xyz = aureole.points("spherical-fibonacci", 2000, domain="sphere")
+        found = [None] * 4
+        def work(k):
+            found[k] = aureole.measure(xyz, "energy", threads=1), aureole.integrate(lambda u: u[:, 2] ** 2).value
+        threads = [threading.Thread(target=work, args=(k,)) for k in range(4)]
+        for thread in threads:
+            thread.start()
+        for thread in threads:
+            thread.join()
+        self.assertEqual(len(set(found)), 1)
+
+    def test_signatures_are_typed(self):
+        for name in aureole.__all__:
+            thing = getattr(aureole, name)
+            if inspect.isfunction(thing):
+                signature = inspect.signature(thing)
+                self.assertIsNot(signature.return_annotation, signature.empty, name)
+                for parameter in signature.parameters.values():
+                    self.assertIsNot(parameter.annotation, parameter.empty, f"{name}({parameter.name})")
+
+
+unittest.main(argv=sys.argv[:1])
