@@ -10,6 +10,10 @@ static const cli_option options[] = {
     {CLI_FLAG(cli_lab, all, "all", "every experiment; those that are finished are kept as they are")},
     {CLI_FLAG(cli_lab, again, "again", "with --all, run those that are finished once more")},
     {CLI_FLAG(cli_lab, lab.quick, "quick", "a form that takes seconds, with wider intervals")},
+    {CLI_FLAG(
+        cli_lab, small, "small",
+        "a report of a few MB, to keep or to send: large pictures as means of 2 x 2 pixels, no plots for "
+        "print")},
     {CLI_TEXT(cli_lab, lab.set, "set", "SET", NULL,
               "compare one more point set, file:PATH for points of one's own"),
      .content = "set"},
@@ -57,7 +61,7 @@ static int run(const cli_call *call) {
         if (call->operand_count > 2)
             return cli_bad_usage("lab report: takes one folder of results");
         return cli_lab_report(call->operand_count > 1 ? call->operands[1] : "lab-results",
-                              folder != NULL ? folder : "lab-report");
+                              folder != NULL ? folder : "lab-report", command->small);
     }
     if (strcmp(action, "list") != 0)
         return cli_bad_usage("lab: %s: try 'aureole help lab'", call->verb->too_few);

@@ -38,7 +38,7 @@ static bool print(void *user, const char *name, const report_table *table, const
     return any && !state->fail;
 }
 
-int cli_lab_report(const char *results, const char *folder) {
+int cli_lab_report(const char *results, const char *folder, bool small) {
     if (mkdir(folder, 0777) != 0 && errno != EEXIST) {
         fprintf(stderr, "aureole: %s: cannot make the folder: %s\n", folder, strerror(errno));
         return CLI_FAILURE;
@@ -48,7 +48,7 @@ int cli_lab_report(const char *results, const char *folder) {
     prints state = {.folder = folder};
     const lab_printer printer = {.print = print, .user = &state};
     snprintf(path, sizeof path, "%s/index.html", folder);
-    const int status = cli_status(lab_publish(results, path, &printer, &error), &error);
+    const int status = cli_status(lab_publish(results, path, small, small ? NULL : &printer, &error), &error);
     if (status == CLI_SUCCESS)
         printf("%s\n", path);
     return status;

@@ -46,10 +46,8 @@ int cli_write_viewer(const char *path, size_t count, char **names, const cli_pic
         pictures != NULL && images != NULL ? CLI_SUCCESS : cli_fail(&(aur_error){.result = AUR_ERROR_MEMORY});
     for (size_t i = 0; i < count && status == CLI_SUCCESS; ++i) {
         status = cli_read_picture(names[i], how, &images[i]);
-        pictures[i] = (report_picture){.name = short_name(count, names, i),
-                                       .image = images[i],
-                                       .reference = judged && i == 0,
-                                       .exact = true};
+        pictures[i] = (report_picture){
+            .name = short_name(count, names, i), .image = images[i], .reference = judged && i == 0};
     }
     if (status == CLI_SUCCESS)
         status = cli_status(make_page(path, exposure, count, pictures, &error), &error);

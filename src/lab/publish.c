@@ -6,11 +6,12 @@
 
 #include "report/page.h"
 
-enum { MOST_PICTURES = 32 };
+enum { MOST_PICTURES = 32, SMALL_PIXELS = 128 * 160 };
 
 typedef struct publication {
     const char *results;
     FILE *page;
+    bool small;
     const lab_printer *printer;
 } publication;
 
@@ -80,6 +81,20 @@ static aur_result put_summary(const publication *p, aur_error *error) {
     return result;
 }
 
+/* The picture, or means of its blocks where a small page is wanted and it is large. */
+static aur_result read_picture(const publication *p, const char *path, aur_image **image, bool *reduced,
+                               aur_error *error) {
+    aur_image *whole = NULL;
+    const aur_result result = aur_image_read(path, &whole, error);
+    *image = whole;
+    if (result != AUR_OK || !p->small || aur_image_width(whole) * aur_image_height(whole) <= SMALL_PIXELS)
+        return result;
+    *reduced = true;
+    const aur_result made = aur_image_downsample(whole, 2, image, error);
+    aur_image_destroy(whole);
+    return made;
+}
+
 /* The pictures of one view, from row `first` of their table on. */
 static aur_result put_view(const publication *p, const lab_experiment *of, const report_table *list,
                            size_t first, aur_error *error) {
@@ -88,6 +103,7 @@ static aur_result put_view(const publication *p, const lab_experiment *of, const
     report_picture pictures[MOST_PICTURES];
     aur_image *images[MOST_PICTURES];
     size_t count = 0;
+    bool reduced = false;
     aur_result result = AUR_OK;
     for (size_t row = first; row < report_rows(list) && count < MOST_PICTURES && result == AUR_OK; ++row) {
         if (strcmp(report_cell(list, row, VIEW), view) != 0 || (view[0] == '\0' && row != first))
@@ -97,16 +113,19 @@ static aur_result put_view(const publication *p, const lab_experiment *of, const
         if (strchr(file, '/') != NULL)
             return aur_fail(error, AUR_ERROR_FORMAT, "%s: '%s' is no name of a picture", of->name, file);
         snprintf(path, sizeof path, "%s/%s/%s", p->results, of->name, file);
-        result = aur_image_read(path, &images[count], error);
+        result = read_picture(p, path, &images[count], &reduced, error);
         pictures[count] =
             (report_picture){.name = report_cell(list, row, NAME),
                              .image = images[count],
-                             .reference = strcmp(report_cell(list, row, ROLE), "reference") == 0};
+                             .reference = strcmp(report_cell(list, row, ROLE), "reference") == 0,
+                             .dropped_bits = p->small ? 4 : 1};
         count += result == AUR_OK;
     }
+    char title[256];
+    snprintf(title, sizeof title, "%s%s", view, reduced ? " (means of 2 x 2 pixels)" : "");
     if (result == AUR_OK)
         result =
-            report_page_viewer(p->page, view, report_value(list, first, EXPOSURE), count, pictures, error);
+            report_page_viewer(p->page, title, report_value(list, first, EXPOSURE), count, pictures, error);
     for (size_t i = 0; i < count; ++i)
         aur_image_destroy(images[i]);
     return result;
@@ -210,10 +229,11 @@ static aur_result put_all(const publication *p, aur_error *error) {
     return result != AUR_OK ? result : report_page_end(p->page, error);
 }
 
-aur_result lab_publish(const char *results, const char *path, const lab_printer *printer, aur_error *error) {
+aur_result lab_publish(const char *results, const char *path, bool small, const lab_printer *printer,
+                       aur_error *error) {
     char *text = NULL;
     size_t size = 0, found = 0;
-    publication p = {.results = results, .printer = printer};
+    publication p = {.results = results, .small = small, .printer = printer};
     for (size_t i = 0; i < lab_experiment_count(); ++i)
         found += has_results(&p, lab_experiment_at(i));
     if (found == 0)

@@ -32,7 +32,7 @@ typedef struct report_picture {
     const char *name;
     const aur_image *image; /* all of one viewer have one size */
     bool reference;
-    bool exact; /* half floats as they are; otherwise within .1 %, in less space */
+    unsigned dropped_bits; /* of the ten of a half float: 1 leaves .1 %, 4 leaves .8 %, 0 is exact */
 } report_picture;
 
 /* A viewer of pictures of one scene. `exposure` (stops) is what they are seen with first. Errors: ARGUMENT

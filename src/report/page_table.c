@@ -11,8 +11,7 @@ static void put_cell(FILE *page, const report_table *table, size_t row, size_t c
     const char *const text = report_cell(table, row, column);
     const double value = report_value(table, row, column);
     if (!isnan(value)) {
-        aur_print(page, "<td class=\"number\" data-value=\"%.17g\" title=\"%.17g\">%.5g</td>", value, value,
-                  value);
+        aur_print(page, "<td class=\"number\" title=\"%.17g\">%.5g</td>", value, value);
         return;
     }
     const char *kind = "";

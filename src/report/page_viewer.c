@@ -22,9 +22,13 @@ static unsigned half_of(float value) {
     return sign | (unsigned)(((exponent + 15) << 10) + (lrint(ldexp(size, 10 - exponent)) - 1024));
 }
 
-/* With its last bit rounded off: digits that no eye sees and that no compression makes small. */
-static unsigned without_last_bit(unsigned half) {
-    return (half & 0x7fff) >= 0x7bfe ? half : (half + (half >> 1 & 1)) & 0xfffe;
+/* With its last bits rounded off, ties to even: digits that no eye sees and that no compression makes small.
+ */
+static unsigned rounded(unsigned half, unsigned bits) {
+    const unsigned unit = 1U << bits;
+    if (bits == 0 || (half & 0x7fff) >= 0x7c00 - unit)
+        return half;
+    return (half + unit / 2 - 1 + (half >> bits & 1)) & ~(unit - 1);
 }
 
 static void put_base64(FILE *page, size_t size, const unsigned char *data) {
@@ -48,8 +52,7 @@ static void lay_out(const report_picture *picture, const size_t *channels, size_
     const float *const data = aur_image_data(picture->image);
     for (size_t c = 0; c < channel_count; ++c)
         for (size_t i = 0; i < pixels; ++i) {
-            const unsigned exact = half_of(data[i * stride + channels[c]]);
-            const unsigned half = picture->exact ? exact : without_last_bit(exact);
+            const unsigned half = rounded(half_of(data[i * stride + channels[c]]), picture->dropped_bits);
             bytes[2 * c * pixels + i] = (unsigned char)(half >> 8);
             bytes[(2 * c + 1) * pixels + i] = (unsigned char)half;
         }

@@ -90,10 +90,10 @@ static void put_ticks(FILE *page, const axis *a) {
 
 static void put_series(FILE *page, const report_layout *l, size_t panel, size_t series, const axis *x,
                        const axis *y, report_plotted *points) {
-    const size_t style = series % STYLES, count = report_layout_points(l, panel, series, points);
+    const size_t count = report_layout_points(l, panel, series, points);
+    fprintf(page, "<g class=\"s%zu\">", series % STYLES);
     if (!l->plot->points && count > 1) {
-        fprintf(page, "<polyline class=\"s%zu\"%s points=\"", style,
-                series >= STYLES ? " stroke-dasharray=\"5 3\"" : "");
+        fprintf(page, "<polyline%s points=\"", series >= STYLES ? " stroke-dasharray=\"5 3\"" : "");
         for (size_t i = 0; i < count; ++i)
             aur_print(page, "%.1f,%.1f ", place(x, points[i].x), place(y, points[i].y));
         fputs("\"/>\n", page);
@@ -102,14 +102,19 @@ static void put_series(FILE *page, const report_layout *l, size_t panel, size_t 
         const report_plotted *const p = &points[i];
         const double at = place(x, p->x);
         if (isfinite(p->low) && isfinite(p->high) && !(y->log && p->low <= 0.0))
-            aur_print(page, "<line class=\"s%zu\" x1=\"%.1f\" x2=\"%.1f\" y1=\"%.1f\" y2=\"%.1f\"/>", style,
-                      at, at, place(y, p->low), place(y, p->high));
-        aur_print(page, "<circle class=\"s%zu\" cx=\"%.1f\" cy=\"%.1f\" r=\"2.4\"><title>", style, at,
-                  place(y, p->y));
+            aur_print(page, "<line x1=\"%.1f\" x2=\"%.1f\" y1=\"%.1f\" y2=\"%.1f\"/>", at, at,
+                      place(y, p->low), place(y, p->high));
+        aur_print(page, "<circle cx=\"%.1f\" cy=\"%.1f\" r=\"2.4\"", at, place(y, p->y));
+        if (l->plot->points) { /* hundreds of them: their numbers are in the table */
+            fputs("/>", page);
+            continue;
+        }
+        fputs("><title>", page);
         report_escape(page, l->series[series]);
         aur_print(page, "%s%.5g, %.5g</title></circle>\n", l->series[series][0] != '\0' ? ": " : "", p->x,
                   p->y);
     }
+    fputs("</g>\n", page);
 }
 
 static void put_panel(FILE *page, const report_layout *l, size_t panel, report_plotted *points) {

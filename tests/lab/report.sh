@@ -5,14 +5,14 @@ aureole=$1
 source=$2
 failures=0
 fail() { echo "FAILED: $*"; failures=$((failures + 1)); }
-rm -rf results page ./*.html
+rm -rf results page drawn drawing small ./*.html
 "$aureole" lab report nowhere -o page 2>message.txt
 [ $? -eq 2 ] && grep -q "no results of the lab are there: 'aureole lab run" message.txt || fail "no results: $(cat message.txt)"
 "$aureole" lab run marques-2013-gather marques-2018-gains marques-2018-slopes --quick -q --scenes "$source/scenes" -o results >run.txt 2>&1 ||
   fail "$(cat run.txt)"
 "$aureole" lab report results -o page >said.txt 2>&1 || fail "$(cat said.txt)"
 [ "$(cat said.txt)" = page/index.html ] || fail "what is said: $(cat said.txt)"
-for what in '<td class="within">within a factor of 1.5</td>' '<td class="agrees">agrees</td>' '<polyline class="s1" points=' \
+for what in '<td class="within">within a factor of 1.5</td>' '<td class="agrees">agrees</td>' '<g class="s1"><polyline points=' \
   'data-name="marques-2018-gains.csv"' 'href="marques-2018-slopes-equal.pdf"'; do
   grep -q "$what" page/index.html || fail "no $what in the page"
 done
@@ -23,6 +23,15 @@ grep -q 'width="1000" height="360"' page/marques-2018-slopes-equal.svg || fail "
 grep -qE '(src|href)="?(https?:)?//' page/index.html && fail "the page looks for something elsewhere"
 [ "$(wc -c <page/index.html)" -lt 1000000 ] || fail "the page is large"
 "$aureole" lab report results -o again >/dev/null && cmp page/index.html again/index.html || fail "two reports differ"
+# A small page has no plots for print, and large pictures as means.
+"$aureole" lab run marques-2019-grids --quick -q -o drawn >run.txt 2>&1 || fail "$(cat run.txt)"
+"$aureole" lab report drawn -o drawing >/dev/null && "$aureole" lab report drawn -o small --small >/dev/null || fail "a small page"
+[ "$(ls small)" = index.html ] || fail "files beside a small page: $(ls small)"
+for what in 'sphere (means of 2 x 2 pixels)' '"width": 210, "height": 210'; do
+  grep -qF "$what" small/index.html || fail "no $what in the small page"
+  grep -qF "$what" drawing/index.html && fail "$what in the page"
+done
+[ $((2 * $(wc -c <small/index.html))) -lt "$(wc -c <drawing/index.html)" ] || fail "the small page is not half as large"
 
 # Values of pictures by the viewer: two pictures of known pixels; the first is the reference.
 awk 'BEGIN { printf "PF\n4 2\n-1.0\n" }' >a.pfm

@@ -3,7 +3,7 @@
 function sortTable(table, column, down) {
   const value = row => {
     const cell = row.cells[column];
-    return cell.dataset.value !== undefined ? Number(cell.dataset.value) : cell.textContent;
+    return cell.className === 'number' ? Number(cell.title) : cell.textContent;
   };
   const order = (a, b) => {
     const x = value(a), y = value(b);
