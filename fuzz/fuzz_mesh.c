@@ -1,4 +1,4 @@
-/* Mesh files: OBJ, PLY and serialized, told apart by how they begin. */
+/* Mesh files, OBJ, PLY and serialized, and files of curves, told apart by how they begin. */
 #include <string.h>
 #include <unistd.h>
 #include <zlib.h>
@@ -21,7 +21,13 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
     const aur_location where = {.file = input_path(), .line = 1};
     aur_parameters parameters;
     aur_error error = {0};
-    const char *const plugin = ply ? "ply" : serialized ? "serialized" : "obj";
+    /* No line of an OBJ file begins with a number. */
+    const bool curves = size >= 1 && (data[0] == '-' || (data[0] >= '0' && data[0] <= '9'));
+    const char *const plugin = ply              ? "ply"
+                               : serialized     ? "serialized"
+                               : !curves        ? "obj"
+                               : data[0] == '-' ? "bsplinecurve"
+                                                : "linearcurve";
     fuzz_require(aur_parameters_init(&parameters, "shape", plugin, where, &error) == AUR_OK &&
                      aur_parameters_add_text(&parameters, AUR_PARAMETER_STRING, "filename", input_path(),
                                              where, &error) == AUR_OK,
@@ -39,7 +45,13 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
         fuzz_require(result == AUR_ERROR_FORMAT || result == AUR_ERROR_MEMORY, "a failure of the wrong kind");
         return 0;
     }
-    fuzz_require(shape->mesh.triangle_count > 0, "a mesh without triangles");
+    for (size_t i = 0; i < 4 * shape->curves.point_count; ++i)
+        fuzz_require(isfinite(shape->curves.points[i]), "a point of a curve that is not finite");
+    for (size_t i = 0; i < shape->curves.segment_count; ++i)
+        fuzz_require(shape->curves.firsts[i] + (shape->curves.smooth ? 4u : 2u) <= shape->curves.point_count,
+                     "a segment beyond the points");
+    fuzz_require(curves ? shape->curves.segment_count > 0 : shape->mesh.triangle_count > 0,
+                 "a shape without primitives");
     const aur_mesh *const mesh = &shape->mesh;
     for (size_t i = 0; i < 3 * mesh->triangle_count; ++i)
         fuzz_require(mesh->indices[i] < mesh->vertex_count, "an index beyond the vertices");
@@ -71,6 +83,8 @@ static const char *const texts[] = {
     "property float z\nproperty float r\nproperty float g\nproperty float b\nend_header\n"
     "255 51 0 4 0 1 2 3\n0 0 255 3 0 1 3\n"
     "0 0 0 1 0 0\n1 0 0 0 1 0\n1 1 0 0 0 1\n0 1 0 0.5 0.5 0.5\n",
+    "0 0 0 .1\n1 0.3 0 0.2\n# hair\n2 1 0 .1\n\n1 1 1 0\n+2 1e0 1 .1\n",
+    "-1 0 0 .1\r\n1 0.3 0 0.2\r\n2 1 0 .1\r\n3 1 0 .1 \r\n4 2 1 0\r\n",
 };
 
 enum { TEXT_COUNT = sizeof texts / sizeof texts[0] };

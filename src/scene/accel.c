@@ -37,7 +37,7 @@ static bool attach_mesh(aur_scene *scene, aur_embree_scene to, const aur_shape *
 static void curved_bounds(const struct RTCBoundsFunctionArguments *arguments) {
     const aur_shape *const shape = arguments->geometryUserPtr;
     double lower[3], upper[3];
-    shape->curved->bounds(shape, lower, upper);
+    shape->curved->bounds(shape, arguments->primID, lower, upper);
     struct RTCBounds *const bounds = arguments->bounds_o;
     /* The bounds are wider than rounding to float can make them too narrow. */
     float low[3], high[3];
@@ -56,7 +56,7 @@ static void curved_bounds(const struct RTCBoundsFunctionArguments *arguments) {
 
 /* Packets of N rays are arrays of N, one a field; Embree's accessors for them are C++ only. */
 enum { RAY_ORIGIN = 0, RAY_NEAREST = 3, RAY_DIRECTION = 4, RAY_FARTHEST = 8, RAY_FIELDS = 12 };
-enum { HIT_U = 3, HIT_V = 4, HIT_PRIMITIVE = 5, HIT_GEOMETRY = 6, HIT_INSTANCE = 7 };
+enum { HIT_NORMAL = 0, HIT_U = 3, HIT_V = 4, HIT_PRIMITIVE = 5, HIT_GEOMETRY = 6, HIT_INSTANCE = 7 };
 
 static bool curved_hit(const aur_shape *shape, const float *rays, size_t n, size_t i, float *distance) {
     double origin[3], direction[3];
@@ -111,8 +111,40 @@ static bool attach_curved(aur_scene *scene, aur_embree_scene to, aur_shape *shap
     return attach(to, geometry, id);
 }
 
+/* Curves are seen from outside only: a ray that leaves one does not meet it again, and through the open end
+ * of a spline one sees what is behind it. Some builds of Embree see to that themselves. */
+static void refuse_inside(const struct RTCFilterFunctionNArguments *arguments) {
+    const size_t n = arguments->N;
+    const float *const rays = (const float *)arguments->ray, *const hits = (const float *)arguments->hit;
+    for (size_t i = 0; i < n; ++i) {
+        float along = 0.0f;
+        for (size_t k = 0; k < 3; ++k)
+            along += rays[(RAY_DIRECTION + k) * n + i] * hits[(HIT_NORMAL + k) * n + i];
+        if (along > 0.0f)
+            arguments->valid[i] = 0;
+    }
+}
+
+static bool attach_curves(aur_scene *scene, aur_embree_scene to, const aur_shape *shape, uint32_t id) {
+    const aur_curves *const curves = &shape->curves;
+    const RTCGeometry geometry =
+        rtcNewGeometry(scene->device, curves->smooth ? RTC_GEOMETRY_TYPE_ROUND_BSPLINE_CURVE
+                                                     : RTC_GEOMETRY_TYPE_ROUND_LINEAR_CURVE);
+    if (geometry == NULL)
+        return false;
+    rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT4, curves->points, 0,
+                               4 * sizeof(float), curves->point_count);
+    rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT, curves->firsts, 0,
+                               sizeof(uint32_t), curves->segment_count);
+    rtcSetGeometryIntersectFilterFunction(geometry, refuse_inside);
+    rtcSetGeometryOccludedFilterFunction(geometry, refuse_inside);
+    return attach(to, geometry, id);
+}
+
 static bool attach_shape(aur_scene *scene, aur_embree_scene to, uint32_t id) {
     aur_shape *const shape = scene->shapes[id];
+    if (shape->curves.segment_count != 0)
+        return attach_curves(scene, to, shape, id);
     return shape->curved != NULL ? attach_curved(scene, to, shape, id) : attach_mesh(scene, to, shape, id);
 }
 

@@ -4,10 +4,6 @@
 
 #include "scene/scene_data.h"
 
-static size_t primitives_of(const aur_shape *shape) {
-    return shape->curved != NULL ? 1 : shape->mesh.triangle_count;
-}
-
 static size_t count_placements(const aur_scene *scene) {
     size_t count = 0;
     for (size_t i = 0; i < scene->shape_count; ++i)
@@ -20,12 +16,13 @@ static size_t count_placements(const aur_scene *scene) {
 /* Adds a placement; elements->count grows by its primitives. */
 static void place(const aur_scene *scene, aur_elements *elements, uint32_t shape, uint32_t instance) {
     const aur_shape *const s = scene->shapes[shape];
-    elements->placements[elements->placement_count++] = (aur_placement){.shape = shape,
-                                                                        .instance = instance,
-                                                                        .first = (uint32_t)elements->count,
-                                                                        .count = (uint32_t)primitives_of(s),
-                                                                        .curved = s->curved != NULL};
-    elements->count += primitives_of(s);
+    elements->placements[elements->placement_count++] =
+        (aur_placement){.shape = shape,
+                        .instance = instance,
+                        .first = (uint32_t)elements->count,
+                        .count = (uint32_t)aur_shape_primitives(s),
+                        .curved = s->curved != NULL};
+    elements->count += aur_shape_primitives(s);
     elements->any_curved = elements->any_curved || s->curved != NULL;
 }
 
@@ -106,7 +103,9 @@ double aur_element_area(const aur_scene *scene, const aur_placement *placement, 
         const aur_instance *const instance = instance_of(scene, placement);
         const double scale =
             instance != NULL ? cbrt(fabs(aur_transform_determinant(&instance->to_world))) : 1.0;
-        return scene->shapes[placement->shape]->area * scale * scale;
+        const aur_shape *const shape = scene->shapes[placement->shape];
+        const double area = shape->curved->area != NULL ? shape->curved->area(shape, primitive) : shape->area;
+        return area * scale * scale;
     }
     aur_vector corner[3];
     world_corners(scene, placement, primitive, corner);
@@ -120,7 +119,7 @@ void aur_element_middle(const aur_scene *scene, const aur_placement *placement, 
         const aur_shape *const shape = scene->shapes[placement->shape];
         const aur_instance *const instance = instance_of(scene, placement);
         double lower[3], upper[3];
-        shape->curved->bounds(shape, lower, upper);
+        shape->curved->bounds(shape, primitive, lower, upper);
         const aur_vector middle = {(float)(0.5 * (lower[0] + upper[0])), (float)(0.5 * (lower[1] + upper[1])),
                                    (float)(0.5 * (lower[2] + upper[2]))};
         *position = instance != NULL ? aur_transform_point_f(&instance->to_world, middle) : middle;
@@ -141,7 +140,7 @@ void aur_element_coordinates(const aur_scene *scene, const aur_hit *hit, const a
     coordinates[0] = shape->curved == NULL ? hit->u : surface->texture.u;
     coordinates[1] = shape->curved == NULL ? hit->v : surface->texture.v;
     if (shape->curved != NULL && shape->curved->equal_area != NULL)
-        shape->curved->equal_area(coordinates);
+        shape->curved->equal_area(hit, coordinates);
 }
 
 bool aur_shape_is_curved(const aur_scene *scene, uint32_t shape) {

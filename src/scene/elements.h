@@ -1,6 +1,6 @@
-/* Elements: what a ray can hit, numbered one after another over the whole scene - every triangle, and every
- * curved shape as one. A shape of a group counts once for each of its instances. Photon maps and radiosity
- * keep what they know of surfaces by element. */
+/* Elements: what a ray can hit, numbered one after another over the whole scene - every triangle, every
+ * segment of a curve, and every other curved shape as one. A shape of a group counts once for each of its
+ * instances. Photon maps and radiosity keep what they know of surfaces by element. */
 #pragma once
 
 #include "scene/scene.h"
@@ -32,7 +32,7 @@ static inline uint32_t aur_element_of(const aur_elements *elements, const aur_hi
     return hit->instance == AUR_NO_INSTANCE ? first : elements->instance_first[hit->instance] + first;
 }
 
-/* Whether the element is a whole curved shape. */
+/* Whether the element is a whole curved shape, or a segment of a curve. */
 bool aur_element_is_curved(const aur_elements *elements, uint32_t element);
 
 /* The area in square scene units. A curved shape in an instance is scaled by the mean scale of its map. */

@@ -18,9 +18,9 @@ static void find_sphere(aur_scene *scene) {
  * (1.8e18) are left out: it draws no triangle that has one. */
 static double reach_of(const aur_shape *shape) {
     double reach = 0.0;
-    if (shape->curved != NULL) {
+    for (size_t k = 0; shape->curved != NULL && k < aur_shape_primitives(shape); ++k) {
         double lower[3], upper[3];
-        shape->curved->bounds(shape, lower, upper);
+        shape->curved->bounds(shape, k, lower, upper);
         for (size_t i = 0; i < 3; ++i)
             reach = fmax(reach, fmax(fabs(lower[i]), fabs(upper[i])));
     }

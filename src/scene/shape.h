@@ -19,23 +19,37 @@ typedef struct aur_shape_point {
     aur_bsdf_point texture;
 } aur_shape_point;
 
-/* The functions of a shape that is not a mesh. All coordinates are the world's, and all hits have primitive
- * 0. */
+/* Strings of points with radii, such as hair. */
+typedef struct aur_curves {
+    size_t point_count, segment_count;
+    float *points;    /* x, y, z and radius of each */
+    uint32_t *firsts; /* of each segment its first point; 1 or 3 more follow */
+    bool smooth;      /* cubic B-splines; else rounded cones from point to point */
+} aur_curves;
+
+/* The functions of a shape that is not a mesh. All coordinates are the world's. Hits have primitive 0, but
+ * for curves, whose primitives are their segments. */
 typedef struct aur_curved {
-    void (*bounds)(const aur_shape *shape, double lower[3], double upper[3]);
-    /* The nearest hit with nearest < distance < farthest; `direction` is of any length. */
+    void (*bounds)(const aur_shape *shape, size_t primitive, double lower[3], double upper[3]);
+    /* The nearest hit with nearest < distance < farthest; `direction` is of any length. NULL for curves, for
+     * which Embree finds it. */
     bool (*intersect)(const aur_shape *shape, const double origin[3], const double direction[3],
                       double nearest, double farthest, double *distance);
     /* The point of the surface beside `position`, and its tangent along the first texture coordinate. */
-    void (*surface)(const aur_shape *shape, aur_vector position, aur_shape_point *point, aur_vector *tangent);
+    void (*surface)(const aur_shape *shape, aur_vector position, const aur_hit *hit, aur_shape_point *point,
+                    aur_vector *tangent);
+    /* NULL for shapes that cannot be lights. */
     aur_shape_point (*sample)(const aur_shape *shape, float u, float v);
     /* Draws among the points that `reference` sees, by *pdf a steradian, and tells that density; both may be
      * NULL, and false or 0 says: by area, as from inside. */
     bool (*sample_seen)(const aur_shape *shape, aur_vector reference, float u, float v,
                         aur_shape_point *point, float *pdf);
     float (*pdf_seen)(const aur_shape *shape, aur_vector reference);
-    /* Moves texture coordinates in the unit square such that equal areas stay equal. NULL: they do. */
-    void (*equal_area)(float coordinates[2]);
+    /* Moves texture coordinates such that equal areas of the primitive are equal parts of the unit square.
+     * NULL: they are. */
+    void (*equal_area)(const aur_hit *hit, float coordinates[2]);
+    /* NULL: that of the shape. */
+    double (*area)(const aur_shape *shape, size_t primitive);
 } aur_curved;
 
 struct aur_shape {
@@ -49,7 +63,8 @@ struct aur_shape {
     aur_vector center;  /* curved shapes: the origin of their own coordinates */
     aur_vector axis[3]; /* curved shapes: the axes of their own coordinates */
     float radius, length;
-    float inner;  /* radius of the hole in a disk of radius 1 */
+    float inner; /* radius of the hole in a disk of radius 1 */
+    aur_curves curves;
     bool extreme; /* a mesh with a triangle that is not aur_is_usual_square */
     double area;
     const aur_bsdf *bsdf;
@@ -84,6 +99,13 @@ struct aur_shape_descriptor {
     aur_result (*read_file)(aur_mesh_file *file, aur_mesh *mesh);
     bool smooths; /* makes normals at vertices where the file has none */
 };
+
+/* What a ray can hit of it, by number. */
+static inline size_t aur_shape_primitives(const aur_shape *shape) {
+    if (shape->curved == NULL)
+        return shape->mesh.triangle_count;
+    return shape->curves.segment_count != 0 ? shape->curves.segment_count : 1;
+}
 
 /* The first root of a t^2 + 2 b t + c with nearest < t < farthest. */
 bool aur_first_root(double a, double b, double c, double nearest, double farthest, double *root);

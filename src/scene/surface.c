@@ -77,8 +77,8 @@ static void mesh_surface(const aur_shape *shape, const aur_ray *ray, const aur_h
 static void curved_surface(const aur_shape *shape, const aur_ray *ray, const aur_hit *hit,
                            aur_surface *surface) {
     aur_shape_point point;
-    shape->curved->surface(shape, aur_vector_add_scaled(ray->origin, hit->distance, ray->direction), &point,
-                           &surface->frame.x);
+    shape->curved->surface(shape, aur_vector_add_scaled(ray->origin, hit->distance, ray->direction), hit,
+                           &point, &surface->frame.x);
     surface->position = point.position;
     surface->geometric_normal = surface->frame.z = point.normal;
     surface->texture = point.texture;

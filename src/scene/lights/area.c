@@ -52,6 +52,9 @@ static aur_result find_triangles(area_light *light, aur_error *error) {
 
 static aur_result prepare(aur_emitter *emitter, aur_error *error) {
     const aur_shape *const shape = emitter->scene->shapes[emitter->shape];
+    if (shape->curved != NULL && shape->curved->sample == NULL)
+        return aur_fail_at(error, emitter->location, AUR_ERROR_UNSUPPORTED,
+                           "emitter 'area': a shape '%s' cannot be a light", shape->descriptor->row.name);
     if (!(shape->area > 0.0))
         return aur_fail_at(error, emitter->location, AUR_ERROR_FORMAT,
                            "emitter 'area': its shape has no area, so it gives no light");

@@ -2,7 +2,8 @@
 #include "material/sampling.h"
 #include "scene/shape.h"
 
-static void bounds(const aur_shape *shape, double lower[3], double upper[3]) {
+static void bounds(const aur_shape *shape, size_t primitive, double lower[3], double upper[3]) {
+    (void)primitive;
     const aur_vector end = aur_vector_add_scaled(shape->center, shape->length, shape->axis[2]);
     const float from[3] = {shape->center.x, shape->center.y, shape->center.z}, to[3] = {end.x, end.y, end.z};
     const float along[3] = {shape->axis[2].x, shape->axis[2].y, shape->axis[2].z};
@@ -46,8 +47,9 @@ static aur_shape_point point_at(const aur_shape *shape, float cosine, float sine
                              {.u = aur_shape_azimuth(cosine, sine), .v = z / shape->length}};
 }
 
-static void surface(const aur_shape *shape, aur_vector position, aur_shape_point *point,
+static void surface(const aur_shape *shape, aur_vector position, const aur_hit *hit, aur_shape_point *point,
                     aur_vector *tangent) {
+    (void)hit;
     const aur_vector way = aur_vector_subtract(position, shape->center);
     const float x = aur_vector_dot(way, shape->axis[0]), y = aur_vector_dot(way, shape->axis[1]);
     const float size = fmaxf(hypotf(x, y), 1e-30f);
@@ -60,7 +62,7 @@ static aur_shape_point sample(const aur_shape *shape, float u, float v) {
     return point_at(shape, cosf(angle), sinf(angle), v * shape->length);
 }
 
-static const aur_curved curved = {bounds, intersect, surface, sample, NULL, NULL, NULL};
+static const aur_curved curved = {bounds, intersect, surface, sample, NULL, NULL, NULL, NULL};
 
 typedef struct cylinder_keys {
     double p0[3], p1[3], radius;

@@ -2,7 +2,8 @@
 #include "material/sampling.h"
 #include "scene/shape.h"
 
-static void bounds(const aur_shape *shape, double lower[3], double upper[3]) {
+static void bounds(const aur_shape *shape, size_t primitive, double lower[3], double upper[3]) {
+    (void)primitive;
     const float center[3] = {shape->center.x, shape->center.y, shape->center.z};
     const float half[3] = {hypotf(shape->axis[0].x, shape->axis[1].x),
                            hypotf(shape->axis[0].y, shape->axis[1].y),
@@ -47,8 +48,9 @@ static aur_shape_point point_at(const aur_shape *shape, float x, float y) {
     return point;
 }
 
-static void surface(const aur_shape *shape, aur_vector position, aur_shape_point *point,
+static void surface(const aur_shape *shape, aur_vector position, const aur_hit *hit, aur_shape_point *point,
                     aur_vector *tangent) {
+    (void)hit;
     const aur_vector way = aur_vector_subtract(position, shape->center);
     double x, y;
     local(shape, (double[3]){way.x, way.y, way.z}, &x, &y);
@@ -66,11 +68,12 @@ static aur_shape_point sample(const aur_shape *shape, float u, float v) {
     return point_at(shape, x, y);
 }
 
-static void equal_area(float coordinates[2]) {
+static void equal_area(const aur_hit *hit, float coordinates[2]) {
+    (void)hit;
     coordinates[0] *= coordinates[0];
 }
 
-static const aur_curved curved = {bounds, intersect, surface, sample, NULL, NULL, equal_area};
+static const aur_curved curved = {bounds, intersect, surface, sample, NULL, NULL, equal_area, NULL};
 
 typedef struct disk_keys {
     double inner_radius;

@@ -18,10 +18,10 @@ aur_result aur_mesh_file_fail(const aur_mesh_file *file, const char *format, ...
                        text);
 }
 
-static aur_result read_data(const char *path, size_t size, const char *data, const aur_mesh_file_keys *keys,
-                            aur_shape *shape, aur_error *error) {
-    aur_mesh_file file = {.scanner = {data, data + size, 0},
-                          .path = path,
+static aur_result read_mesh(const aur_shape_file *bytes, const aur_mesh_file_keys *keys, aur_shape *shape,
+                            aur_error *error) {
+    aur_mesh_file file = {.scanner = {bytes->data, bytes->data + bytes->size, 0},
+                          .path = bytes->path,
                           .face_normals = keys->face_normals,
                           .flip_v = keys->flip_v,
                           .shape_index = keys->shape_index,
@@ -31,41 +31,50 @@ static aur_result read_data(const char *path, size_t size, const char *data, con
     if (result == AUR_OK && shape->mesh.triangle_count == 0)
         result = aur_mesh_file_fail(&file, "no face in this file");
     if (result == AUR_OK)
-        result = aur_mesh_check(&shape->mesh, (aur_location){.file = path}, error);
+        result = aur_mesh_check(&shape->mesh, (aur_location){.file = bytes->path}, error);
     return result;
 }
 
-static aur_result read_file(const char *path, const aur_mesh_file_keys *keys, aur_shape *shape,
-                            aur_error *error) {
-    char *data;
-    size_t size;
-    aur_result result = aur_file_read(path, LARGEST_FILE, &data, &size, error);
+aur_result aur_shape_file_open(const aur_shape_input *input, const char *filename, aur_shape_file *file,
+                               aur_error *error) {
+    *file = (aur_shape_file){0};
+    aur_parameters *const parameters = input->parameters;
+    if (filename == NULL)
+        return aur_fail_at(error, parameters->location, AUR_ERROR_FORMAT,
+                           "%s '%s' needs the string 'filename'", parameters->kind, parameters->plugin);
+    const aur_model_file *const part = aur_model_find_file(&input->document->model_files, filename);
+    if (part != NULL) {
+        *file = (aur_shape_file){part->name, part->size, part->data, NULL, NULL};
+        return AUR_OK;
+    }
+    aur_result result =
+        aur_xml_find_asset(input->document, aur_parameters_find(parameters, "filename")->location, filename,
+                           &file->own_path, error);
+    if (result == AUR_OK)
+        result = aur_file_read(file->own_path, LARGEST_FILE, &file->own_data, &file->size, error);
+    file->path = file->own_path;
+    file->data = file->own_data;
     if (result != AUR_OK)
-        return result;
-    result = read_data(path, size, data, keys, shape, error);
-    free(data);
+        aur_shape_file_close(file);
     return result;
+}
+
+void aur_shape_file_close(aur_shape_file *file) {
+    free(file->own_path);
+    free(file->own_data);
 }
 
 aur_result aur_mesh_file_create(const aur_shape_input *input, aur_shape *shape, aur_error *error) {
     aur_parameters *const parameters = input->parameters;
     aur_mesh_file_keys keys = {.filename = NULL};
-    char *path = NULL;
+    aur_shape_file file;
     aur_result result = aur_row_read(&shape->descriptor->row, parameters, &keys, error);
-    if (result == AUR_OK && keys.filename == NULL)
-        return aur_fail_at(error, parameters->location, AUR_ERROR_FORMAT,
-                           "%s '%s' needs the string 'filename'", parameters->kind, parameters->plugin);
+    if (result == AUR_OK)
+        result = aur_shape_file_open(input, keys.filename, &file, error);
     if (result != AUR_OK)
         return result;
-    const aur_model_file *const part = aur_model_find_file(&input->document->model_files, keys.filename);
-    if (part != NULL)
-        result = read_data(part->name, part->size, part->data, &keys, shape, error);
-    else
-        result = aur_xml_find_asset(input->document, aur_parameters_find(parameters, "filename")->location,
-                                    keys.filename, &path, error);
-    if (result == AUR_OK && part == NULL)
-        result = read_file(path, &keys, shape, error);
-    free(path);
+    result = read_mesh(&file, &keys, shape, error);
+    aur_shape_file_close(&file);
     if (result != AUR_OK)
         return result;
     aur_shape_place(input, shape);

@@ -1,8 +1,21 @@
-/* What shapes that are read from files have in common. */
+/* What shapes that are read from files have in common, most of them meshes. */
 #pragma once
 
 #include "scene/shape.h"
 #include "scene/shapes/text_scanner.h"
+
+/* All of a file, closed by a zero byte. */
+typedef struct aur_shape_file {
+    const char *path;
+    size_t size;
+    const char *data;
+    char *own_path, *own_data; /* for closing; NULL where they are a model's */
+} aur_shape_file;
+
+/* Finds and reads the file that the key "filename" names, beside the scene or within a model. */
+aur_result aur_shape_file_open(const aur_shape_input *input, const char *filename, aur_shape_file *file,
+                               aur_error *error);
+void aur_shape_file_close(aur_shape_file *file);
 
 /* A file that is being read. */
 struct aur_mesh_file {

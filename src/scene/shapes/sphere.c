@@ -2,7 +2,8 @@
 #include "material/sampling.h"
 #include "scene/shape.h"
 
-static void bounds(const aur_shape *shape, double lower[3], double upper[3]) {
+static void bounds(const aur_shape *shape, size_t primitive, double lower[3], double upper[3]) {
+    (void)primitive;
     const double center[3] = {shape->center.x, shape->center.y, shape->center.z};
     for (size_t i = 0; i < 3; ++i) {
         lower[i] = center[i] - (double)shape->radius;
@@ -35,8 +36,9 @@ static aur_shape_point point_at(const aur_shape *shape, aur_vector normal) {
         {.u = aur_shape_azimuth(x, y), .v = acosf(fminf(fmaxf(z, -1.0f), 1.0f)) / AUR_PI_F}};
 }
 
-static void surface(const aur_shape *shape, aur_vector position, aur_shape_point *point,
+static void surface(const aur_shape *shape, aur_vector position, const aur_hit *hit, aur_shape_point *point,
                     aur_vector *tangent) {
+    (void)hit;
     const aur_vector normal = aur_vector_normalize(aur_vector_subtract(position, shape->center));
     *point = point_at(shape, normal);
     *tangent = aur_vector_cross(shape->axis[2], normal);
@@ -85,11 +87,13 @@ static bool sample_seen(const aur_shape *shape, aur_vector reference, float u, f
     return true;
 }
 
-static void equal_area(float coordinates[2]) {
+static void equal_area(const aur_hit *hit, float coordinates[2]) {
+    (void)hit;
     coordinates[1] = 0.5f - 0.5f * cosf(AUR_PI_F * coordinates[1]);
 }
 
-static const aur_curved curved = {bounds, intersect, surface, sample, sample_seen, pdf_seen, equal_area};
+static const aur_curved curved = {bounds,      intersect, surface,    sample,
+                                  sample_seen, pdf_seen,  equal_area, NULL};
 
 typedef struct sphere_keys {
     double center[3], radius;

@@ -13,7 +13,9 @@
     ROW(serialized)                                                                                          \
     ROW(sphere)                                                                                              \
     ROW(disk)                                                                                                \
-    ROW(cylinder)
+    ROW(cylinder)                                                                                            \
+    ROW(linearcurve)                                                                                         \
+    ROW(bsplinecurve)
 
 #define DECLARE(name) extern const aur_shape_descriptor aur_shape_##name;
 SHAPES(DECLARE)
@@ -87,5 +89,7 @@ void aur_shape_destroy(aur_shape *shape) {
     if (shape == NULL)
         return;
     aur_mesh_release(&shape->mesh);
+    free(shape->curves.points);
+    free(shape->curves.firsts);
     free(shape);
 }
