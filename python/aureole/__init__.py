@@ -14,6 +14,8 @@ asked for. `render`, `compare`, `viewfactors` and `irradiance` need libaureole-r
 
 from __future__ import annotations
 
+from typing import TYPE_CHECKING
+
 from ._bridge import (
     ArgumentError,
     AureoleWarning,
@@ -61,6 +63,24 @@ from ._weights import (
     worst_case_error,
 )
 
+if TYPE_CHECKING:
+    from ._render import (
+        Irradiance,
+        Scene,
+        SceneDescription,
+        ViewFactors,
+        compare,
+        flip,
+        irradiance,
+        read_image,
+        render,
+        render_library,
+        render_tables,
+        view_factor_polygons,
+        viewfactors,
+        write_image,
+    )
+
 __version__: str = _core.text(_core.lib.aur_version()) or ""
 
 __all__ = [
@@ -74,6 +94,7 @@ __all__ = [
     "FormatError",
     "Integral",
     "InternalError",
+    "Irradiance",
     "Key",
     "Measure",
     "Nearest",
@@ -83,13 +104,19 @@ __all__ = [
     "Potential",
     "Report",
     "Row",
+    "Scene",
+    "SceneDescription",
     "Set",
     "UnknownNameError",
     "UnsupportedError",
+    "ViewFactors",
     "WriteError",
+    "compare",
     "estimate",
     "fibonacci_nearest",
+    "flip",
     "integrate",
+    "irradiance",
     "lobe_pdf",
     "lobe_unwarp",
     "lobe_warp",
@@ -103,6 +130,10 @@ __all__ = [
     "names",
     "points",
     "read",
+    "read_image",
+    "render",
+    "render_library",
+    "render_tables",
     "rotate",
     "rotation_matrices",
     "rotation_quaternions",
@@ -113,6 +144,8 @@ __all__ = [
     "symmetry_reduce",
     "symmetry_select",
     "tables",
+    "view_factor_polygons",
+    "viewfactors",
     "weights",
     "weights_exact",
     "weights_nested",
@@ -120,8 +153,24 @@ __all__ = [
     "weights_voronoi",
     "worst_case_error",
     "write",
+    "write_image",
 ]
 
 for _error in (Error, *Error.__subclasses__(), AureoleWarning):  # their home in messages
     _error.__module__ = __name__
 del _error
+
+
+def __getattr__(name: str) -> object:
+    """What needs more than NumPy is loaded when it is asked for: the renderer, scipy, matplotlib."""
+    import importlib
+
+    if name in ("qmc", "plot"):
+        return importlib.import_module(f"{__name__}.{name}")
+    if name in __all__:
+        return getattr(importlib.import_module(f"{__name__}._render"), name)
+    raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+
+
+def __dir__() -> list[str]:
+    return [*__all__, "plot", "qmc"]

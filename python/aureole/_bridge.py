@@ -99,14 +99,15 @@ class Bridge:
         error = self.ffi.new("aur_error *")
         self.check(function(*arguments, error), error)
 
-    def make(self, kind: str, *arguments: Any) -> Any:
-        """What `aur_KIND_create(..., &made, error)` makes; it is destroyed with the last reference to it."""
+    def make(self, kind: str, *arguments: Any, keep: Any = None) -> Any:
+        """What `aur_KIND_create(..., &made, error)` makes; it is destroyed with the last reference to it, before `keep`."""
         made = self.ffi.new(f"aur_{kind} **")
         self.call(getattr(self.lib, f"aur_{kind}_create"), *arguments, made)
-        return self.own(kind, made)
+        return self.own(kind, made, keep)
 
-    def own(self, kind: str, made: Any) -> Any:
-        return self.ffi.gc(made[0], getattr(self.lib, f"aur_{kind}_destroy"))
+    def own(self, kind: str, made: Any, keep: Any = None) -> Any:
+        destroy = getattr(self.lib, f"aur_{kind}_destroy")
+        return self.ffi.gc(made[0], destroy if keep is None else lambda pointer, kept=keep: destroy(pointer))
 
     def value(self, kind: str, name: str) -> int:
         """The value of the enumeration aur_KIND that a name stands for."""

@@ -1,0 +1,432 @@
+"""Pictures, view factors and irradiance by libaureole-render, which is loaded when it is first asked for."""
+
+from __future__ import annotations
+
+import importlib.util
+import os
+import pathlib
+from typing import Any, Mapping, NamedTuple, Optional, Sequence, Union
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from ._bridge import ArgumentError, Bridge, Call, Error, Progress, encode, kept, rows
+from ._core import core
+from ._library import ffi
+from ._tables import Row, read_tables
+
+Array = NDArray[np.float64]
+Picture = NDArray[np.float32]
+Path = Union[str, os.PathLike[str]]
+
+_NAME = "libaureole-render.so.0"
+_opened: dict[str, Bridge] = {}
+
+
+def render_library() -> str:
+    """Where libaureole-render was found.
+
+    It is looked for in the file that the environment's AUREOLE_RENDER_LIBRARY names, in the package aureole-render, and
+    where the system has its libraries. Raises ImportError, with what was tried, where there is none.
+    """
+    _library()
+    return next(iter(_opened))
+
+
+def _library() -> Bridge:
+    if _opened:
+        return next(iter(_opened.values()))
+    named = os.environ.get("AUREOLE_RENDER_LIBRARY")
+    package = importlib.util.find_spec("aureole_render")
+    places = [named] if named else []
+    if not named and package is not None and package.origin is not None:
+        places.append(str(pathlib.Path(package.origin).with_name(_NAME)))
+    if not named:
+        places.append(_NAME)
+    tried = []
+    for place in places:
+        try:
+            # It stays until the process ends: its threads and what it made may outlive this module.
+            library = ffi.dlopen(place, ffi.RTLD_NOW | ffi.RTLD_NODELETE)
+        except OSError as error:
+            tried.append(str(error))
+            continue
+        bridge = Bridge(ffi, library)
+        version, own = bridge.text(library.aur_version()), core.text(core.lib.aur_version())
+        if version != own:
+            raise ImportError(f"{place} is of version {version}, and this package of {own}: install the same of both")
+        _opened[place] = bridge
+        return bridge
+    raise ImportError(
+        "pictures, view factors and irradiance need libaureole-render, which was not found: build and install the tree "
+        "(cmake --install build/release), or name the file in AUREOLE_RENDER_LIBRARY; tried: " + "; ".join(tried)
+    )
+
+
+class _Call(Call):
+    """A call of libaureole-render with the functions that it calls back."""
+
+    def attach(self, options: Any, progress: bool = True) -> Any:
+        library = _library()
+        self._report = ffi.callback(
+            "int(void *, const char *, uint64_t, uint64_t)",
+            lambda user, what, done, total: self.report(library.text(what) or "", done, total),
+            error=1,
+        )
+        self._warn = ffi.callback(
+            "void(void *, const char *)", lambda user, message: self.messages.append(library.text(message) or "")
+        )
+        if progress:
+            options.progress.function = self._report
+        options.warnings.function = self._warn
+        return options
+
+
+def render_tables() -> dict[str, dict[str, Row]]:
+    """Every table of what pictures are made with by its kind: integrators, materials, shapes, lights, ..."""
+    library = _library()
+    return read_tables(library, library.lib.aur_render_table_at)
+
+
+class Texts:
+    """C texts that live as long as this."""
+
+    def __init__(self) -> None:
+        self.kept: list[Any] = []
+
+    def __call__(self, text: Any) -> Any:
+        if text is None:
+            return ffi.NULL
+        self.kept.append(ffi.new("char[]", encode(text)))
+        return self.kept[-1]
+
+    def definitions(self, definitions: Optional[Mapping[str, Any]]) -> dict[str, Any]:
+        made = [(self(name), self(str(value))) for name, value in (definitions or {}).items()]
+        self.kept.append(ffi.new("aur_definition[]", made))
+        return {"definition_count": len(made), "definitions": self.kept[-1]}
+
+
+class SceneDescription(NamedTuple):
+    shapes: int
+    triangles: int
+    emitters: int
+    materials: int
+    width: int
+    height: int
+    samples_per_pixel: int
+    lower: tuple[float, float, float]  #: corners of the bounding box, in scene units
+    upper: tuple[float, float, float]
+    integrator: str
+    sampler: str
+    filter: str
+
+
+class Scene:
+    """A scene: Mitsuba 3's XML, Radiance's .rad, or a model (.glb, .obj, ...); loaded once, for any number of pictures.
+
+    `definitions`: values for the scene's <default>s. `confine`: no file outside of the scene's folder is read. `text`: the
+    scene itself; `path` is then its name in messages, and where its files are looked for.
+    """
+
+    def __init__(
+        self, path: Path, *, definitions: Optional[Mapping[str, Any]] = None, confine: bool = False,
+        text: Union[str, bytes, None] = None,
+    ):  # fmt: skip
+        library, texts, made = _library(), Texts(), ffi.new("aur_scene **")
+        options = library.options("scene_options", confine=confine, **texts.definitions(definitions))
+        with _Call() as call:
+            call.attach(options, progress=False)
+            if text is None:
+                library.call(library.lib.aur_scene_load, encode(path), options, made)
+            else:
+                data = text.encode() if isinstance(text, str) else text
+                library.call(library.lib.aur_scene_load_memory, encode(path), len(data), data, options, made)
+            self._scene = library.own("scene", made)
+
+    def describe(self) -> SceneDescription:
+        """What is in the scene."""
+        library = _library()
+        found = library.options("scene_description")
+        library.call(library.lib.aur_scene_describe, self._scene, found)
+        values = {name: getattr(found, name) for name in SceneDescription._fields}
+        for name in ("integrator", "sampler", "filter"):
+            values[name] = library.text(values[name]) or ""
+        for name in ("lower", "upper"):
+            values[name] = tuple(values[name])
+        return SceneDescription(**values)
+
+
+def _scene(scene: Union[Scene, Path], definitions: Optional[Mapping[str, Any]]) -> Scene:
+    if not isinstance(scene, Scene):
+        return Scene(scene, definitions=definitions)
+    if definitions:
+        raise ArgumentError("definitions are for a scene that is loaded here: give them to Scene")
+    return scene
+
+
+def render(
+    scene: Union[Scene, Path], *, integrator: Optional[str] = None, sampler: Optional[str] = None,
+    filter: Optional[str] = None, spp: int = 0, width: int = 0, height: int = 0,
+    crop: Optional[tuple[int, int, int, int]] = None, seed: int = 0, threads: int = 0,
+    error: Optional[float] = None, channels: Optional[Sequence[str]] = None,
+    definitions: Optional[Mapping[str, Any]] = None, progress: Optional[Progress] = None,
+) -> Picture:  # fmt: skip
+    """A picture of a scene, (height, width, channels) of float32: linear radiance, Rec. 709 primaries, the top row first.
+
+    Parameters
+    ----------
+    scene : a Scene or the path of one.
+    integrator, sampler, filter : NAME[:key=value,...] in the place of the scene's; `render_tables()` lists them.
+    spp : samples a pixel; 0: the scene's.
+    width, height : in pixels; 0: the scene's, or its shape where the other one is given.
+    crop : (x0, x1, y0, y1): the pixels x0 <= x < x1, y0 <= y < y1 alone.
+    error : render until the root mean square error is below this part of the picture's mean; `spp` has no meaning then.
+    channels : their names; None: R, G, B. An integrator such as `aov` adds others.
+    threads : 0: all. No bit depends on it.
+    """
+    library = _library()
+    loaded, texts = _scene(scene, definitions), Texts()
+    options = library.options(
+        "render_options", integrator=texts(integrator), sampler=texts(sampler), filter=texts(filter),
+        samples_per_pixel=spp, seed=seed, threads=threads, width=width, height=height,
+    )  # fmt: skip
+    if crop is not None:
+        options.crop_x0, options.crop_x1, options.crop_y0, options.crop_y1 = crop
+    image = ffi.new("aur_image **")
+    renderer = library.make("renderer", loaded._scene, keep=(loaded,))
+    with _Call(progress) as call:
+        call.attach(options)
+        if error is None:
+            library.call(library.lib.aur_renderer_render, renderer, options, image, ffi.NULL)
+        else:
+            wish = library.options("ask_options", error=error)
+            ask = library.make("ask", renderer, options, wish, keep=(renderer, call))
+            library.call(library.lib.aur_ask_run, ask)
+            library.call(library.lib.aur_ask_develop, ask, False, image)
+    array, names = _picture(library.own("image", image))
+    return _select(array, names, channels or ("R", "G", "B"))
+
+
+def _picture(image: Any) -> tuple[Picture, list[str]]:
+    """The library's picture as it lies there, and the names of its channels."""
+    library = _library()
+    lib = library.lib
+    shape = lib.aur_image_height(image), lib.aur_image_width(image), lib.aur_image_channel_count(image)
+    names = [library.text(lib.aur_image_channel_name(image, index)) or "" for index in range(shape[2])]
+    return kept(library, image, lib.aur_image_data(image), shape, "<f4"), names
+
+
+def _select(array: Picture, names: list[str], wanted: Sequence[str]) -> Picture:
+    for name in wanted:
+        if name not in names:
+            raise ArgumentError(f"no channel {name!r}; there are {', '.join(names)}")
+    indices = [names.index(name) for name in wanted]
+    first = indices[0]
+    if indices == list(range(first, first + len(indices))):
+        return array[:, :, first : first + len(indices)]
+    return array[:, :, indices]
+
+
+def read_image(path: Path) -> tuple[Picture, list[str]]:
+    """A picture (height, width, channels) of float32 and the names of its channels: EXR, PFM, HDR, PNG or JPEG.
+
+    PNG and JPEG are decoded from sRGB to linear.
+    """
+    library, image = _library(), ffi.new("aur_image **")
+    library.call(library.lib.aur_image_read, encode(path), image)
+    return _picture(library.own("image", image))
+
+
+def _wrap(picture: Union[ArrayLike, Path]) -> tuple[Any, Any]:
+    """The library's image about an array, without a copy where it is of float32, and the array; or about a file's."""
+    library, image = _library(), ffi.new("aur_image **")
+    if isinstance(picture, (str, os.PathLike)):
+        library.call(library.lib.aur_image_read, encode(picture), image)
+        return library.own("image", image), None
+    array = np.ascontiguousarray(picture, dtype=np.float32)
+    if array.ndim == 2:
+        array = array[:, :, np.newaxis]
+    if array.ndim != 3:
+        raise ArgumentError(f"a picture must have the shape (height, width, channels), not {array.shape}")
+    height, width, channels = array.shape
+    library.call(library.lib.aur_image_wrap, width, height, channels, library.output(array, "float"), image)
+    return library.own("image", image), array
+
+
+def write_image(
+    path: Path, picture: ArrayLike, *, channels: Optional[Sequence[str]] = None, exposure: float = 0.0,
+    tone: str = "srgb", half: bool = False,
+) -> None:  # fmt: skip
+    """Writes a picture (height, width, channels), by the end of the file's name: .exr, .pfm, .hdr or .png.
+
+    `channels`: their names, for EXR; None: Y; Y, A; R, G, B; R, G, B, A. `exposure` in stops and `tone` ("srgb", "filmic")
+    are for PNG; `half`: 16-bit floats in EXR.
+    """
+    library = _library()
+    tones = {"srgb": library.lib.AUR_TONE_SRGB, "filmic": library.lib.AUR_TONE_FILMIC}
+    if tone not in tones:
+        raise ArgumentError(f"tone must be 'srgb' or 'filmic', not {tone!r}")
+    image, _array = _wrap(picture)
+    for index, name in enumerate(channels or ()):
+        library.call(library.lib.aur_image_name_channel, image, index, encode(name))
+    options = library.options("image_write_options", exposure=exposure, tone=tones[tone], half=half)
+    library.call(library.lib.aur_image_write, encode(path), image, options)
+
+
+def compare(reference: Union[ArrayLike, Path], picture: Union[ArrayLike, Path], metric: str = "rmse") -> float:
+    """A figure of the difference of two pictures of one size, over R, G and B: arrays (height, width, 3) or files.
+
+    `metric`: "rmse", "mse", "mae", "relmse", "mrse", "relative-rmse" or "flip" (Andersson et al. 2020).
+    """
+    library = _library()
+    (first, _a), (second, _b), value = _wrap(reference), _wrap(picture), ffi.new("double[4]")
+    kind = ffi.new("aur_image_metric *")
+    library.call(library.lib.aur_image_metric_from_name, encode(metric), kind)
+    library.call(library.lib.aur_image_compare, first, second, kind[0], value)
+    return value[3]
+
+
+def flip(reference: Union[ArrayLike, Path], picture: Union[ArrayLike, Path]) -> Picture:
+    """LDR-FLIP of each pixel (height, width), in [0, 1] (Andersson et al. 2020)."""
+    library = _library()
+    (first, _a), (second, _b), image = _wrap(reference), _wrap(picture), ffi.new("aur_image **")
+    library.call(library.lib.aur_image_flip, first, second, image)
+    return _picture(library.own("image", image))[0][:, :, 0]
+
+
+class ViewFactors(NamedTuple):
+    """View factors between rows: facets, or groups of them. The matrix is in compressed rows, columns ascending."""
+
+    starts: NDArray[np.uint64]  #: (rows + 1,): row i has the entries starts[i] .. starts[i+1]-1
+    columns: NDArray[np.uint32]
+    values: Array
+    half_widths: Array  #: of intervals; 0 for closed forms
+    areas: Array  #: (rows,), in squared units of length
+    sky: Array  #: (rows,): what leaves the scene
+    back: Array  #: (rows,): what arrives at backs of facets that only see on their fronts
+    names: list[Optional[str]]  #: of groups; None where rows are single facets
+
+    def dense(self) -> Array:
+        """All factors, (rows, rows)."""
+        matrix = np.zeros((len(self.areas), len(self.areas)))
+        matrix[np.repeat(np.arange(len(self.areas)), np.diff(self.starts.astype(np.int64))), self.columns] = self.values
+        return matrix
+
+
+def viewfactors(
+    path: Path, *, group: bool = False, both_sides: bool = False, rays: int = 0, randomizations: int = 0,
+    set: Optional[str] = None, seed: int = 0, rays_only: bool = False, confidence: float = 0.0, threads: int = 0,
+    definitions: Optional[Mapping[str, Any]] = None, progress: Optional[Progress] = None,
+) -> ViewFactors:  # fmt: skip
+    """View factors between the facets of a mesh (.obj, .ply) or a scene's meshes, or between their groups.
+
+    `rays` from each facet and side, 0: 4096, by `randomizations` of a set of four dimensions, from which the intervals of
+    `confidence` (0: 0.95) come; pairs that see each other wholly have closed forms unless `rays_only`. Each row with its
+    sky and back adds up to 1.
+    """
+    library, texts, facets = _library(), Texts(), ffi.new("aur_facets **")
+    lib = library.lib
+    with _Call(progress) as call:
+        given = library.options(
+            "facets_options", group=group, both_sides=both_sides, **texts.definitions(definitions)
+        )  # fmt: skip
+        library.call(lib.aur_facets_load, encode(path), call.attach(given, progress=False), facets)
+        loaded = library.own("facets", facets)
+    with _Call(progress) as call:
+        options = library.options(
+            "view_factors_options", rays=rays, randomizations=randomizations, set=texts(set), seed=seed,
+            rays_only=rays_only, confidence=confidence, threads=threads,
+        )  # fmt: skip
+        factors = library.make("view_factors", loaded, call.attach(options))
+    matrix = library.options("view_factors_matrix")
+    library.call(lib.aur_view_factors_get_matrix, factors, matrix)
+    count = matrix.rows
+    starts = kept(library, factors, matrix.starts, (count + 1,), "<u8")
+    entries = int(starts[count])
+    return ViewFactors(
+        starts, kept(library, factors, matrix.columns, (entries,), "<u4"),
+        kept(library, factors, matrix.values, (entries,)), kept(library, factors, matrix.half_widths, (entries,)),
+        kept(library, factors, matrix.areas, (count,)), kept(library, factors, matrix.sky, (count,)),
+        kept(library, factors, matrix.back, (count,)),
+        [library.text(lib.aur_facets_name(loaded, row)) for row in range(count)],
+    )  # fmt: skip
+
+
+def view_factor_polygons(from_corners: ArrayLike, to_corners: ArrayLike) -> float:
+    """The view factor from a plane convex polygon (n, 3) to another (m, 3), seen from their fronts (Sparrow 1963)."""
+    library, value = _library(), ffi.new("double *")
+    first, second = rows(from_corners, 3, "from_corners"), rows(to_corners, 3, "to_corners")
+    library.call(
+        library.lib.aur_view_factor_polygons, len(first), library.input(first), len(second), library.input(second), value
+    )
+    return value[0]
+
+
+_PARTS = ("total", "direct", "sky", "reflected", "sun")
+
+
+class Irradiance(NamedTuple):
+    """What sensors receive: arrays (n, 4) of r, g, b and luminance, in the scene's radiance times steradians."""
+
+    total: Array
+    direct: Array  #: straight from lights
+    sky: Array  #: straight from the sky
+    reflected: Array  #: reflected or refracted on its way
+    sun: Array  #: straight from the sun
+    error: dict[str, Array]  #: standard errors of each of these, by name
+    half_width: Array  #: of the interval of the total
+    directions: NDArray[np.uint64]  #: (n,)
+    dark: Array  #: (n,): the share of directions that meet the black back of a surface
+    on_surface: NDArray[np.bool_]  #: (n,): the sensor lay on one, and looked from just above
+
+
+def irradiance(
+    scene: Union[Scene, Path], positions: ArrayLike, normals: ArrayLike, *, directions: int = 0, error: float = 0.0,
+    confidence: float = 0.0, max_depth: int = 0, set: Optional[str] = None, reflected: str = "paths",
+    particles: int = 0, seed: int = 0, threads: int = 0, definitions: Optional[Mapping[str, Any]] = None,
+    progress: Optional[Progress] = None,
+) -> Irradiance:  # fmt: skip
+    """The light that arrives at sensors: positions (n, 3) in scene units that look along normals (n, 3).
+
+    `directions` from each sensor, 0: 1024; or `error`: each goes on until half of its interval is at most this part of its
+    luminance. `max_depth`: edges of a light path, 1 is light straight from lights and sky, 0: no limit. `reflected`: "paths",
+    "map" (a photon map) or "radiosity", with `particles` of these. Without bias at a given number of directions.
+    """
+    library, texts = _library(), Texts()
+    lib = library.lib
+    ways = {
+        "paths": lib.AUR_REFLECTED_BY_PATHS, "map": lib.AUR_REFLECTED_BY_MAP,
+        "radiosity": lib.AUR_REFLECTED_BY_RADIOSITY,
+    }  # fmt: skip
+    if reflected not in ways:
+        raise ArgumentError(f"reflected must be 'paths', 'map' or 'radiosity', not {reflected!r}")
+    loaded, where, along = _scene(scene, definitions), rows(positions, 3, "positions"), rows(normals, 3, "normals")
+    if len(where) != len(along):
+        raise ArgumentError(f"{len(where)} positions and {len(along)} normals")
+    view = library.options(
+        "sensors_view", count=len(where), positions=library.input(where), normals=library.input(along)
+    )
+    options = library.options(
+        "irradiance_options", set=texts(set), directions=directions, error=error, confidence=confidence,
+        max_depth=max_depth, seed=seed, threads=threads, reflected=ways[reflected], particles=particles,
+    )  # fmt: skip
+    row = np.dtype(
+        {
+            "names": ["value", "error", "half_width", "directions", "dark", "on_surface"],
+            "formats": [("<f8", (5, 4)), ("<f8", (5, 4)), ("<f8", 4), "<u8", "<f8", "?"],
+            "offsets": [ffi.offsetof("aur_irradiance", name) for name in
+                        ("value", "error", "half_width", "directions", "dark", "on_surface")],
+            "itemsize": ffi.sizeof("aur_irradiance"),
+        }
+    )  # fmt: skip
+    found = np.zeros(len(where), dtype=row)
+    with _Call(progress) as call:
+        library.call(
+            lib.aur_irradiance_estimate, loaded._scene, view, call.attach(options), row.itemsize,
+            library.output(found, "aur_irradiance"),
+        )  # fmt: skip
+    parts = (found["value"][:, part] for part in range(len(_PARTS)))
+    errors = {name: found["error"][:, part] for part, name in enumerate(_PARTS)}
+    return Irradiance(
+        *parts, errors, found["half_width"], found["directions"], found["dark"], found["on_surface"]
+    )

@@ -1,0 +1,25 @@
+from typing import Any, Optional, Union
+
+from scipy.stats import qmc as _qmc
+
+from ._points import Array
+from ._tables import Set
+
+class Engine(_qmc.QMCEngine):
+    row: Set
+    def __init__(
+        self,
+        d: int = ...,
+        *,
+        n: Optional[int] = ...,
+        scramble: Union[bool, str] = ...,
+        optimization: Optional[str] = ...,
+        seed: Any = ...,
+        **keys: Any,
+    ) -> None: ...
+    def fast_forward(self, n: int) -> Engine: ...
+
+def engines() -> dict[str, type[Engine]]: ...
+
+# The engines are made from the table of sets.
+def __getattr__(name: str) -> type[Engine]: ...

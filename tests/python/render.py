@@ -1,0 +1,99 @@
+"""render.py PROGRAM SOURCE_TREE: what needs libaureole-render."""
+
+import pathlib
+import subprocess
+import sys
+import unittest
+import warnings
+
+import numpy as np
+
+import aureole
+
+PROGRAM, TREE = sys.argv[1:3]
+SCENE = f"{TREE}/scenes/cornell-box/cornell-box.xml"
+
+
+def program(*arguments):
+    subprocess.run([PROGRAM, *arguments, "-q"], check=True, capture_output=True, text=True)
+
+
+class Render(unittest.TestCase):
+    def test_pictures(self):
+        program("render", SCENE, "--width", "24", "--spp", "4", "--seed", "3", "-o", "program.exr")
+        scene = aureole.Scene(SCENE)
+        picture = aureole.render(scene, width=24, spp=4, seed=3, threads=1)
+        self.assertEqual((picture.shape, picture.dtype), ((24, 24, 3), np.float32))
+        expected, names = aureole.read_image("program.exr")
+        self.assertEqual(names[:3], ["R", "G", "B"])
+        self.assertTrue((picture == expected[:, :, :3]).all())
+        self.assertTrue((picture == aureole.render(SCENE, width=24, spp=4, seed=3, threads=3)).all())
+        corner = aureole.render(scene, width=24, spp=4, seed=3, crop=(16, 24, 16, 24))
+        self.assertEqual(corner.shape[2], 3)
+        self.assertEqual(scene.describe().width, 512)
+
+        aureole.write_image("python.exr", picture)
+        self.assertEqual(aureole.compare("python.exr", picture), 0.0)
+        other = aureole.render(scene, width=24, spp=4, seed=4)
+        rmse = float(np.sqrt(np.mean((picture.astype(float) - other) ** 2)))
+        self.assertAlmostEqual(aureole.compare(picture, other), rmse, delta=1e-12)
+        self.assertAlmostEqual(aureole.compare(picture, other, "flip"), aureole.flip(picture, other).mean(), delta=1e-6)
+        asked = aureole.render(scene, width=16, error=0.5)
+        self.assertGreater(asked.mean(), 0)
+
+        with self.assertRaisesRegex(aureole.UnknownNameError, "did you mean 'path'"):
+            aureole.render(scene, integrator="pth")
+        with self.assertRaisesRegex(aureole.ArgumentError, "there are R, G, B"):
+            aureole.render(scene, width=4, spp=1, channels=["depth"])
+        with self.assertRaises(aureole.ArgumentError):
+            aureole.compare(picture, picture[:3])
+        with self.assertRaises(aureole.OpenError):
+            aureole.Scene("none.xml")
+        with self.assertRaises(aureole.CancelledError):
+            aureole.render(scene, width=64, spp=64, progress=lambda what, done, total: True)
+        with self.assertRaises(ZeroDivisionError):
+            aureole.render(scene, width=64, spp=64, progress=lambda what, done, total: 1 / 0)
+        text = pathlib.Path(SCENE).read_text().replace("<scene", "<sceen", 1)
+        with self.assertRaises(aureole.FormatError) as caught:
+            aureole.Scene("mine.xml", text=text)
+        self.assertEqual(caught.exception.file, "mine.xml")
+
+    def test_irradiance(self):
+        position, normal = [[278, 10, 280], [100, 10, 100]], [[0, 1, 0]] * 2
+        with open("sensors.pts", "w") as file:
+            for row in np.hstack([position, normal]):
+                print(*row, file=file)
+        program("irradiance", SCENE, "--sensors", "sensors.pts", "-n", "64", "-o", "light.npy")
+        expected = np.load("light.npy")
+        found = aureole.irradiance(SCENE, position, normal, directions=64)
+        self.assertTrue((found.total[:, :3] == expected[:, 3:6]).all())
+        self.assertTrue((found.error["total"][:, :3] == expected[:, 6:9]).all())
+        self.assertTrue((found.directions == 64).all() and not found.on_surface.any())
+        self.assertLess(abs(found.direct + found.sky + found.reflected + found.sun - found.total).max(), 1e-12)
+        with self.assertRaises(aureole.ArgumentError):
+            aureole.irradiance(SCENE, position, normal[:1])
+        with self.assertRaises(aureole.ArgumentError):
+            aureole.irradiance(SCENE, position, np.zeros((2, 3)))
+
+    def test_view_factors(self):
+        program("viewfactors", SCENE, "--group", "--rays", "256", "-o", "factors.npz")
+        expected = np.load("factors.npz")
+        with warnings.catch_warnings(record=True) as caught:
+            warnings.simplefilter("always")
+            found = aureole.viewfactors(SCENE, group=True, rays=256)
+        self.assertTrue(caught and all(w.category is aureole.AureoleWarning for w in caught))
+        self.assertTrue((found.values == expected["data"]).all() and (found.columns == expected["indices"]).all())
+        self.assertLess(abs(found.dense().sum(axis=1) + found.sky + found.back - 1).max(), 1e-9)
+        self.assertIn("light", found.names)
+        square = np.array([[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0.0]])
+        # Two unit squares at the distance 1 (Howell's catalogue, C-11).
+        above = square[::-1] + [0, 0, 1]
+        self.assertAlmostEqual(aureole.view_factor_polygons(square, above), 0.199824895698, delta=1e-10)
+
+    def test_tables(self):
+        tables = aureole.render_tables()
+        self.assertIn("max_depth", tables["integrator"]["path"].keys)
+        self.assertEqual(aureole.render_library().rsplit("/", 1)[-1], "libaureole-render.so")
+
+
+unittest.main(argv=sys.argv[:1])

@@ -1,0 +1,19 @@
+#!/usr/bin/env bash
+# Pictures, view factors and irradiance from Python: the bits that the program writes.
+set -u
+. "$2/tests/python/python.sh.inc"
+library=$build/libaureole-render.so
+[ -e "$library" ] || { echo "skipped: the libraries are static"; exit 77; }
+AUREOLE_RENDER_LIBRARY=$library "${python[@]}" -W error "$source_tree/tests/python/render.py" "$1" "$source_tree" || exit 1
+
+# Without the library the rest works, and the error says what was tried.
+AUREOLE_RENDER_LIBRARY=./none.so "${python[@]}" - <<'PYTHON'
+import aureole
+assert len(aureole.points("sobol", 4)) == 4
+try:
+    aureole.render("scene.xml")
+except ImportError as error:
+    assert "AUREOLE_RENDER_LIBRARY" in str(error) and "./none.so" in str(error), error
+else:
+    raise SystemExit("no error")
+PYTHON
