@@ -1,5 +1,5 @@
-# Writes OUTPUT, a C file with the content of FILES as the array report_assets of src/report/page.h:
-# cmake -DOUTPUT=... -DFILES=a;b -P embed.cmake
+# Writes OUTPUT, a C file with the content of FILES as the array ARRAY of report_asset (src/report/page.h) that HEADER declares:
+# cmake -DOUTPUT=... -DHEADER=... -DARRAY=... -DFILES=a;b -P embed.cmake
 set(arrays)
 set(rows)
 set(index 0)
@@ -11,4 +11,4 @@ foreach(file IN LISTS FILES)
     string(APPEND rows "    {\"${name}\", sizeof asset_${index}, asset_${index}},\n")
     math(EXPR index "${index} + 1")
 endforeach()
-file(WRITE "${OUTPUT}" "#include \"report/page.h\"\n\n${arrays}\nconst report_asset report_assets[] = {\n${rows}    {0},\n};\n")
+file(WRITE "${OUTPUT}" "#include \"${HEADER}\"\n\n${arrays}\nconst report_asset ${ARRAY}[] = {\n${rows}    {0},\n};\n")

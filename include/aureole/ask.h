@@ -88,7 +88,8 @@ AUR_EXPERIMENTAL const char *aur_ask_integrator(const aur_ask *ask) AUR_NONNULL(
 
 /* The picture, a new one with channels R, G, B; with `errors` also error.R, error.G, error.B, the standard
  * error of each value as the replicas tell it, in the picture's units. Channels that an integrator adds are
- * left out, which aur_ask_create warns of. Errors: MEMORY. */
+ * left out, which aur_ask_create warns of. It and aur_ask_get_report may also be called from the progress
+ * callback. Errors: UNSUPPORTED while there is no picture yet, MEMORY. */
 AUR_EXPERIMENTAL aur_result aur_ask_develop(const aur_ask *ask, bool errors, aur_image **image,
                                             aur_error *error) AUR_NONNULL(1, 3);
 

@@ -123,6 +123,10 @@ AUR_EXPERIMENTAL void aur_render_cancel(aur_render *render) AUR_NONNULL(1);
 AUR_EXPERIMENTAL size_t aur_render_samples(const aur_render *render) AUR_NONNULL(1);
 AUR_EXPERIMENTAL size_t aur_render_samples_wanted(const aur_render *render) AUR_NONNULL(1);
 
+/* Whether the picture has the same bits in whatever steps it is made: so it is with every integrator but
+ * finalgather and radiosity. */
+AUR_EXPERIMENTAL bool aur_render_steps_agree(const aur_render *render) AUR_NONNULL(1);
+
 /* The film so far, owned by the render: aur_film_develop makes the picture, aur_film_error tells its error,
  * aur_film_save keeps it. Developing and saving may be done while another thread is in a step. */
 AUR_EXPERIMENTAL const aur_film *aur_render_film(const aur_render *render) AUR_NONNULL(1);
@@ -149,7 +153,8 @@ AUR_EXPERIMENTAL aur_result aur_render_resume(aur_render *render, const char *pa
 AUR_EXPERIMENTAL aur_result aur_render_merge_parts(size_t count, const char *const *paths, aur_film **film,
                                                    aur_error *error) AUR_NONNULL(2, 3);
 
-/* What preparing and the steps so far have cost. Errors: ARGUMENT when `size` is not set. */
+/* What preparing and the steps so far have cost. May be called while another thread is in a step. Errors:
+ * ARGUMENT when `size` is not set. */
 AUR_EXPERIMENTAL aur_result aur_render_get_statistics(const aur_render *render,
                                                       aur_render_statistics *statistics, aur_error *error)
     AUR_NONNULL(1, 2);

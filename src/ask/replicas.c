@@ -1,8 +1,10 @@
 #include "ask/replicas.h"
 
 #include <math.h>
+#include <pthread.h>
 #include <string.h>
 
+#include "core/error.h"
 #include "core/random.h"
 #include "film/film.h"
 
@@ -163,6 +165,8 @@ void aur_replicas_smooth(const aur_replicas *replicas, const uint32_t *samples, 
 aur_result aur_replicas_develop(const aur_replicas *replicas, bool errors, aur_image **image,
                                 aur_error *error) {
     static const char *const names[] = {"R", "G", "B", "error.R", "error.G", "error.B"};
+    if (replicas->pixel_count == 0) /* they are being made */
+        return aur_fail(error, AUR_ERROR_UNSUPPORTED, "there is no picture yet");
     const aur_film_layout *const layout = &aur_render_film(replicas->renders[0])->layout;
     const size_t channels = errors ? 6 : 3;
     const aur_result result =
@@ -172,6 +176,8 @@ aur_result aur_replicas_develop(const aur_replicas *replicas, bool errors, aur_i
     float *const data = aur_image_data(*image);
     for (size_t c = 0; c < channels; ++c)
         aur_image_name_channel(*image, c, names[c], NULL);
+    for (size_t r = 0; r < replicas->count; ++r)
+        pthread_mutex_lock(aur_render_film(replicas->renders[r])->lock);
     for (size_t pixel = 0; pixel < replicas->pixel_count; ++pixel)
         for (size_t c = 0; c < 3; ++c) {
             double d[AUR_REPLICAS_MAX], squares = 0.0;
@@ -182,5 +188,7 @@ aur_result aur_replicas_develop(const aur_replicas *replicas, bool errors, aur_i
                 data[pixel * channels + 3 + c] =
                     (float)sqrt(squares / ((double)replicas->count * (double)(replicas->count - 1)));
         }
+    for (size_t r = 0; r < replicas->count; ++r)
+        pthread_mutex_unlock(aur_render_film(replicas->renders[r])->lock);
     return AUR_OK;
 }

@@ -35,6 +35,7 @@ void aur_replicas_measure(const aur_replicas *replicas, aur_replica_measure *mea
 void aur_replicas_smooth(const aur_replicas *replicas, const uint32_t *samples, double *variances,
                          double *scratch);
 
-/* The mean of the replicas, and with `errors` three more channels with its standard error. Errors: MEMORY. */
+/* The mean of the replicas, and with `errors` three more channels with its standard error. May be called
+ * while a replica is in a step. Errors: UNSUPPORTED before the replicas are made, MEMORY. */
 aur_result aur_replicas_develop(const aur_replicas *replicas, bool errors, aur_image **image,
                                 aur_error *error);

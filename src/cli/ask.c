@@ -71,8 +71,7 @@ static void say(const aur_ask *ask, const cli_wish *wish, const char *output) {
 }
 
 aur_result cli_render_wish(aur_renderer *renderer, const aur_render_options *options, const cli_wish *wish,
-                           cli_checkpoint *checkpoint, const char *output, bool quiet, aur_image **image,
-                           aur_error *error) {
+                           const cli_surroundings *beside, aur_image **image, aur_error *error) {
     aur_ask_options own = aur_ask_options_default();
     own.error = wish->error;
     own.seconds = wish->seconds;
@@ -81,21 +80,24 @@ aur_result cli_render_wish(aur_renderer *renderer, const aur_render_options *opt
     aur_ask *ask = NULL;
     aur_result result = aur_ask_create(renderer, options, &own, &ask, error);
     if (result == AUR_OK)
-        result = cli_checkpoint_begin(checkpoint, NULL, ask, quiet, error);
+        result = cli_checkpoint_begin(beside->checkpoint, NULL, ask, beside->quiet, error);
     const bool begun = result == AUR_OK;
-    if (begun)
+    if (begun) {
+        cli_watch_show(beside->watch, NULL, ask);
         result = aur_ask_run(ask, error);
+        cli_watch_hide(beside->watch);
+    }
     cli_progress_clear();
     if (begun && (result == AUR_OK || result == AUR_ERROR_CANCELLED)) {
-        const aur_result kept = cli_checkpoint_end(checkpoint, error);
+        const aur_result kept = cli_checkpoint_end(beside->checkpoint, error);
         result = kept != AUR_OK ? kept : result;
     }
     if (result == AUR_OK || (result == AUR_ERROR_CANCELLED && ask != NULL)) {
         const aur_result developed = aur_ask_develop(ask, wish->error_map, image, error);
         result = developed != AUR_OK ? developed : result;
     }
-    if (result == AUR_OK && !quiet)
-        say(ask, wish, output);
+    if (result == AUR_OK && !beside->quiet)
+        say(ask, wish, beside->output);
     aur_ask_destroy(ask);
     return result;
 }

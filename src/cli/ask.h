@@ -2,6 +2,7 @@
 #pragma once
 
 #include "cli/checkpoint.h"
+#include "cli/watch.h"
 
 /* What was asked for; all zero: nothing, and the scene is rendered as it says. */
 typedef struct cli_wish {
@@ -14,8 +15,15 @@ extern const cli_option cli_wish_options[]; /* cli_wish */
 
 bool cli_is_wish(const cli_wish *wish);
 
+/* What goes on beside. */
+typedef struct cli_surroundings {
+    cli_checkpoint *checkpoint;
+    cli_watch *watch;
+    const char *output; /* for messages */
+    bool quiet;
+} cli_surroundings;
+
 /* Renders what was asked for. *image is the picture; CANCELLED by an interrupt leaves what there is of it, or
  * NULL. The last line, unless `quiet`, says how good it is. */
 aur_result cli_render_wish(aur_renderer *renderer, const aur_render_options *options, const cli_wish *wish,
-                           cli_checkpoint *checkpoint, const char *output, bool quiet, aur_image **image,
-                           aur_error *error);
+                           const cli_surroundings *beside, aur_image **image, aur_error *error);

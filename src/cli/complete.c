@@ -158,7 +158,8 @@ void cli_complete(const cli_verb *const *verbs, size_t count, char **words) {
         const bool dashed = !ended && words[i][0] == '-' && words[i][1] != '\0';
         const cli_option *const option = dashed ? option_of(verb, words[i], strlen(words[i])) : NULL;
         ended = ended || strcmp(words[i], "--") == 0;
-        if (option != NULL && option->value != NULL && ++i + 1 == count) {
+        const bool follows = option != NULL && option->value != NULL && !option->value_is_optional;
+        if (follows && ++i + 1 == count) {
             offer_values(word, option);
             return;
         }

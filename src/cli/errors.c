@@ -53,7 +53,7 @@ static aur_result note_image(cli_errors *errors, const aur_image *image,
     return AUR_OK;
 }
 
-static aur_result note(cli_errors *errors, const aur_render *render, aur_error *error) {
+aur_result cli_errors_note(cli_errors *errors, const aur_render *render, aur_error *error) {
     aur_image *image = NULL;
     aur_render_statistics statistics = {.size = sizeof statistics};
     aur_render_get_statistics(render, &statistics, NULL);
@@ -61,18 +61,6 @@ static aur_result note(cli_errors *errors, const aur_render *render, aur_error *
     if (result == AUR_OK)
         result = note_image(errors, image, &statistics, error);
     aur_image_destroy(image);
-    return result;
-}
-
-aur_result cli_errors_render(cli_errors *errors, aur_render *render, aur_error *error) {
-    aur_result result = AUR_OK;
-    const size_t wanted = aur_render_samples_wanted(render);
-    for (size_t done = 0; result == AUR_OK && done < wanted; done = aur_render_samples(render)) {
-        /* 1 more, then as many as there are. */
-        result = aur_render_step(render, done > 0 ? done : 1, error);
-        if (result == AUR_OK)
-            result = note(errors, render, error);
-    }
     return result;
 }
 

@@ -8,8 +8,7 @@ typedef struct cli_errors cli_errors;
 /* Reads the reference. Prints what is wrong and returns NULL. */
 cli_errors *cli_errors_create(const char *reference);
 void cli_errors_destroy(cli_errors *errors); /* NULL is allowed */
-/* Renders in steps until every pixel has 1, 2, 4, ... samples and at last all, and notes the error after
- * each. */
-aur_result cli_errors_render(cli_errors *errors, aur_render *render, aur_error *error);
-/* Writes samples a pixel, samples, rays, CPU seconds, RMSE and relative RMSE of every step as CSV. */
+/* Notes the error of what there is of the picture. */
+aur_result cli_errors_note(cli_errors *errors, const aur_render *render, aur_error *error);
+/* Writes samples a pixel, samples, rays, CPU seconds, RMSE and relative RMSE of what was noted as CSV. */
 aur_result cli_errors_write(const cli_errors *errors, const char *path, aur_error *error);

@@ -59,8 +59,9 @@ static void write_option(const cli_option *option, bool aligned, char text[TEXT_
         return;
     if (option->letter != '\0')
         aur_format(letter, sizeof letter, "-%c, ", option->letter);
-    aur_format(text, TEXT_CAPACITY, "%*s--%s%s%s", aligned ? 4 : 0, letter, name, value[0] != '\0' ? " " : "",
-               value);
+    const char *const between = value[0] == '\0' ? "" : option->value_is_optional ? "[=" : " ";
+    aur_format(text, TEXT_CAPACITY, "%*s--%s%s%s%s", aligned ? 4 : 0, letter, name, between, value,
+               option->value_is_optional ? "]" : "");
     const size_t used = strlen(text);
     if (option->list)
         aur_format(text + used, TEXT_CAPACITY - used, "[,%s...]", value);

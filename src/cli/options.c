@@ -187,9 +187,11 @@ static getopt_options list_options(const cli_verb *verb) {
         if (letter != '\0' && option->value != NULL)
             list.letters[letters++] = ':';
         if (is_long)
-            list.names[names++] =
-                (struct option){option->key.name, option->value != NULL ? required_argument : no_argument,
-                                NULL, LONG_OPTION + (int)list.count};
+            list.names[names++] = (struct option){option->key.name,
+                                                  option->value == NULL       ? no_argument
+                                                  : option->value_is_optional ? optional_argument
+                                                                              : required_argument,
+                                                  NULL, LONG_OPTION + (int)list.count};
     }
     return list;
 }
@@ -264,7 +266,8 @@ bool cli_read_options(const cli_verb *verb, int argc, char **argv, cli_call *cal
         size_t offset = 0;
         const cli_option *const option = cli_option_at(verb, index, &offset);
         call->texts[index] = optarg != NULL ? optarg : "";
-        if (!read_option(option, optarg, fields + offset))
+        static char nothing[] = "";
+        if (!read_option(option, optarg != NULL ? optarg : nothing, fields + offset))
             return false;
     }
     call->operand_count = (size_t)(argc - optind);

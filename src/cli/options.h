@@ -14,9 +14,10 @@ enum { CLI_OPTION_LIMIT = 48, CLI_NAME_LIMIT = 256 }; /* options of a verb, name
  * no long name), type, range, default and line of help. */
 typedef struct cli_option {
     aur_key key;
-    char letter;       /* -n; 0: there is none */
-    const char *value; /* the value's word in the help, "N"; NULL: a flag, which makes its bool true */
-    bool list;         /* VALUE[,VALUE...]: the field is a cli_list */
+    char letter;            /* -n; 0: there is none */
+    const char *value;      /* the value's word in the help, "N"; NULL: a flag, which makes its bool true */
+    bool list;              /* VALUE[,VALUE...]: the field is a cli_list */
+    bool value_is_optional; /* --name[=VALUE]: without one the text is "" */
     /* The names of an enum from 0 on, NULL beyond the last, where they are not the key's words. */
     const char *(*name)(unsigned value);
     /* Reads what is none of the types of keys, or does what a flag says; the text outlives the verb. */

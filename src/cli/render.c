@@ -21,6 +21,7 @@ typedef struct render_command {
     const char *reference, *errors;
     cli_wish wish;
     cli_checkpoint checkpoint;
+    cli_watch watch;
     bool statistics;
     cli_common common;
 } render_command;
@@ -181,7 +182,24 @@ static void print_ranks(void) {
     free(ranks);
 }
 
-/* All samples, in the steps that the errors ask for; *image is what there is in the end. */
+/* All samples: at once, or where somebody looks on, until every pixel has 1, 2, 4, ... and at last all. */
+static aur_result render_steps(aur_render *render, render_command *command, cli_errors *errors,
+                               aur_error *error) {
+    const bool watched = cli_watch_is_asked(&command->watch) && aur_render_steps_agree(render);
+    if (errors == NULL && !watched)
+        return aur_render_step(render, 0, error);
+    aur_result result = AUR_OK;
+    const size_t wanted = aur_render_samples_wanted(render);
+    for (size_t done = aur_render_samples(render); result == AUR_OK && done < wanted;
+         done = aur_render_samples(render)) {
+        result = cli_watch_step(&command->watch, render, done > 0 ? done : 1, error);
+        if (result == AUR_OK && errors != NULL)
+            result = cli_errors_note(errors, render, error);
+    }
+    return result;
+}
+
+/* All samples; *image is what there is in the end. */
 static aur_result render_samples(aur_renderer *renderer, render_command *command, cli_errors *errors,
                                  aur_image **image, aur_error *error) {
     aur_render *render = NULL;
@@ -189,9 +207,11 @@ static aur_result render_samples(aur_renderer *renderer, render_command *command
     if (result == AUR_OK)
         result = cli_checkpoint_begin(&command->checkpoint, render, NULL, command->common.quiet, error);
     const bool begun = result == AUR_OK;
-    if (begun)
-        result =
-            errors != NULL ? cli_errors_render(errors, render, error) : aur_render_step(render, 0, error);
+    if (begun) {
+        cli_watch_show(&command->watch, render, NULL);
+        result = render_steps(render, command, errors, error);
+        cli_watch_hide(&command->watch);
+    }
     cli_progress_clear();
     if (begun && (result == AUR_OK || result == AUR_ERROR_CANCELLED)) {
         const aur_result kept = cli_checkpoint_end(&command->checkpoint, error);
@@ -231,6 +251,10 @@ static int render(const char *path, render_command *command, cli_errors *errors)
          check_folder(command->errors, &error) != AUR_OK) ||
         (command->checkpoint.path != NULL && check_folder(command->checkpoint.path, &error) != AUR_OK))
         return cli_fail(&error);
+    if (cli_watch_begin(&command->watch, command->output, &error) != AUR_OK)
+        return cli_fail(&error);
+    command->options.progress = cli_checkpoint_progress(
+        &command->checkpoint, cli_watch_progress(&command->watch, cli_progress(command->common.quiet)));
     const aur_scene_options scene_options = {.size = sizeof scene_options,
                                              .definition_count = command->definitions.count,
                                              .definitions = command->definitions.items,
@@ -244,8 +268,10 @@ static int render(const char *path, render_command *command, cli_errors *errors)
         result = aur_renderer_create(scene, &renderer, &error);
     if (result == AUR_OK)
         result = cli_is_wish(&command->wish)
-                     ? cli_render_wish(renderer, &command->options, &command->wish, &command->checkpoint,
-                                       command->output, command->common.quiet, &image, &error)
+                     ? cli_render_wish(renderer, &command->options, &command->wish,
+                                       &(cli_surroundings){&command->checkpoint, &command->watch,
+                                                           command->output, command->common.quiet},
+                                       &image, &error)
                      : render_samples(renderer, command, errors, &image, &error);
     cli_progress_clear();
     if (result == AUR_ERROR_CANCELLED && image != NULL)
@@ -254,6 +280,7 @@ static int render(const char *path, render_command *command, cli_errors *errors)
         result = aur_image_write(command->output, image, NULL, &error);
     if (result == AUR_OK && errors != NULL)
         result = cli_errors_write(errors, command->errors, &error);
+    cli_watch_end(&command->watch, image, result, &error);
     aur_image_destroy(image);
     aur_renderer_destroy(renderer);
     aur_scene_destroy(scene);
@@ -299,8 +326,6 @@ static int run(const cli_call *call) {
         return CLI_BAD_INPUT;
     command->options.size = sizeof command->options;
     command->options.threads = command->common.threads;
-    command->options.progress =
-        cli_checkpoint_progress(&command->checkpoint, cli_progress(command->common.quiet));
     command->options.resumable = command->checkpoint.path != NULL || command->options.shard_count > 0;
     command->options.warnings = cli_warnings(command->common.quiet);
     command->options.use_cache = true;
@@ -322,6 +347,7 @@ const cli_verb cli_verb_render = {
     .groups = {{options, 0},
                {cli_wish_options, offsetof(render_command, wish)},
                {cli_checkpoint_options, offsetof(render_command, checkpoint)},
+               {cli_watch_options, offsetof(render_command, watch)},
                {cli_definitions_option, offsetof(render_command, definitions)},
                {cli_threads_option, offsetof(render_command, common)},
                {cli_quiet_option, offsetof(render_command, common)},

@@ -197,6 +197,13 @@ uint32_t aur_film_samples(const aur_film *film) {
     return least;
 }
 
+aur_counters aur_film_counted(const aur_film *film) {
+    pthread_mutex_lock(film->lock);
+    const aur_counters counted = film->counters;
+    pthread_mutex_unlock(film->lock);
+    return counted;
+}
+
 aur_result aur_film_describe(const aur_film *film, aur_film_description *description, aur_error *error) {
     const aur_film_layout *const layout = &film->layout;
     aur_film_description own = {.width = layout->width,

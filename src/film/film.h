@@ -110,3 +110,5 @@ size_t aur_film_file_size(const aur_film *film);
 
 /* Samples that every pixel was given. */
 uint32_t aur_film_samples(const aur_film *film);
+/* What is counted of all samples, also while tiles are being rendered. */
+aur_counters aur_film_counted(const aur_film *film);

@@ -362,6 +362,10 @@ size_t aur_render_samples(const aur_render *render) {
     return least;
 }
 
+bool aur_render_steps_agree(const aur_render *render) {
+    return aur_integrator_cuts(render->integrator);
+}
+
 size_t aur_render_samples_wanted(const aur_render *render) {
     return render->settings.samples_per_pixel;
 }
@@ -377,13 +381,13 @@ aur_result aur_render_merge(aur_render *render, const aur_film *film, aur_error 
 aur_result aur_render_get_statistics(const aur_render *render, aur_render_statistics *statistics,
                                      aur_error *error) {
     aur_render_statistics own = render->statistics;
-    const aur_counters *const counted = &render->film->counters;
-    own.rays = counted->rays;
-    own.samples = counted->samples;
-    own.invalid_samples = counted->invalid;
-    own.cut_paths = counted->cut;
-    own.unsolved_weights = counted->unsolved;
-    memcpy(own.levels, counted->levels, sizeof own.levels);
+    const aur_counters counted = aur_film_counted(render->film);
+    own.rays = counted.rays;
+    own.samples = counted.samples;
+    own.invalid_samples = counted.invalid;
+    own.cut_paths = counted.cut;
+    own.unsolved_weights = counted.unsolved;
+    memcpy(own.levels, counted.levels, sizeof own.levels);
     return aur_description_write(&own, sizeof own, sizeof own, statistics, "aur_render_statistics", error);
 }
 

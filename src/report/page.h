@@ -33,7 +33,11 @@ typedef struct report_picture {
     const aur_image *image; /* all of one viewer have one size */
     bool reference;
     unsigned dropped_bits; /* of the ten of a half float: 1 leaves .1 %, 4 leaves .8 %, 0 is exact */
+    bool quick;            /* soon written, in more space */
 } report_picture;
+
+/* Writes a picture as JSON that `unpack` of pictures.js takes. Errors: ARGUMENT without colour, MEMORY. */
+aur_result report_put_picture(FILE *page, const report_picture *picture, aur_error *error);
 
 /* A viewer of pictures of one scene. `exposure` (stops) is what they are seen with first. Errors: ARGUMENT
  * for sizes that differ or a picture without colour, MEMORY. */

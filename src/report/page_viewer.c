@@ -72,7 +72,7 @@ static bool is_grey(const aur_image *image, const size_t channels[3]) {
     return true;
 }
 
-static aur_result put_picture(FILE *page, const report_picture *picture, aur_error *error) {
+aur_result report_put_picture(FILE *page, const report_picture *picture, aur_error *error) {
     const size_t width = aur_image_width(picture->image), height = aur_image_height(picture->image);
     size_t channels[3];
     if (!aur_image_color_channels(picture->image, channels))
@@ -84,7 +84,8 @@ static aur_result put_picture(FILE *page, const report_picture *picture, aur_err
     const bool room = bytes != NULL && packed != NULL;
     if (room)
         lay_out(picture, channels, channel_count, bytes);
-    const bool well = room && compress2(packed, &packed_size, bytes, size, Z_BEST_COMPRESSION) == Z_OK;
+    const int level = picture->quick ? Z_BEST_SPEED : Z_BEST_COMPRESSION;
+    const bool well = room && compress2(packed, &packed_size, bytes, size, level) == Z_OK;
     if (well) {
         aur_json json = {.stream = page};
         aur_json_open(&json, '{', false);
@@ -126,7 +127,7 @@ aur_result report_page_viewer(FILE *page, const char *title, double exposure, si
     aur_result result = AUR_OK;
     for (size_t i = 0; i < count && result == AUR_OK; ++i) {
         fputs(i > 0 ? ",\n" : "", page);
-        result = put_picture(page, &pictures[i], error);
+        result = report_put_picture(page, &pictures[i], error);
     }
     fputs("]</script></figure>\n", page);
     return result;

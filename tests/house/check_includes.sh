@@ -8,6 +8,7 @@ source_tree=$2
 floors='
 cli
 lab
+watch
 report
 ask
 render
@@ -101,8 +102,9 @@ core
       if (there == "") { bad("unknown room of \"" target "\""); next }
       if (floor[there] < floor[here]) bad(here " must not call " there ", which is above it")
       if (floor[there] == floor[here] && there != here) bad(here " must not call " there ", which stands beside it")
-      if (here == "cli" && there !~ /^(cli|lab|report)$/) bad("the program uses <aureole/...> only")
+      if (here == "cli" && there !~ /^(cli|lab|watch|report)$/) bad("the program uses <aureole/...> only")
       if (here == "lab" && there !~ /^(lab|report)$/) bad("the lab uses <aureole/...> only")
+      if (here == "watch" && there !~ /^(watch|report)$/) bad("watching uses <aureole/...> only")
       if (here == "report" && there != "report") bad("tables of results use <aureole/...> only")
     }
     END { exit status }

@@ -39,10 +39,16 @@ function painted(picture, paint) {
   context.putImageData(image, 0, 0);
   return canvas;
 }
-function shown(picture, stops) {
+// Hable 2010 as `aureole convert --tone filmic` has it: an exposure bias of 2, and white at 11.2.
+function filmic(radiance) {
+  const curve = x => (x * (0.15 * x + 0.05) + 0.004) / (x * (0.15 * x + 0.5) + 0.06) - 0.02 / 0.3;
+  return radiance > 0 ? 2 * radiance >= 11.2 ? 1 : curve(2 * radiance) / curve(11.2) : 0;
+}
+const curves = {srgb: v => v, filmic};
+function shown(picture, stops, curve) {
   const tone = new Uint8ClampedArray(65536), scale = 2 ** stops;
   for (let i = 0; i < 65536; ++i)
-    tone[i] = srgb(halves[i] * scale);
+    tone[i] = srgb(curves[curve](halves[i] * scale));
   return painted(picture, data => {
     const [r, g, b] = picture.codes;
     for (let i = 0, k = 0; i < r.length; ++i, k += 4) {

@@ -14,6 +14,7 @@ class Viewer {
     this.exposure = Number(figure.dataset.exposure || 0);
     this.errorStops = 0;
     this.split = 0.5;
+    this.curve = 'srgb';
     this.cache = new Map();
     this.build();
     this.fit();
@@ -39,6 +40,11 @@ class Viewer {
     this.stopsText = document.createElement('span');
     const label = document.createElement('label');
     label.append('Exposure', this.range, this.stopsText);
+    this.curves = document.createElement('select');
+    this.curves.append(new Option('sRGB', 'srgb'), new Option('Filmic', 'filmic'));
+    this.curves.addEventListener('change', () => { this.curve = this.curves.value; this.draw(); });
+    const tone = document.createElement('label');
+    tone.append('Tone', this.curves);
     this.canvas = document.createElement('canvas');
     this.canvas.tabIndex = 0;
     this.canvas.setAttribute('role', 'img');
@@ -46,8 +52,9 @@ class Viewer {
     const help = document.createElement('details');
     help.innerHTML = '<summary>Keys</summary>1 to 9, left, right: picture. Space: to and fro. f, s, g, d, c: one, slider, side by side, ' +
       'difference, false colour. [ ]: move the slider. e, E: exposure. + - 0: zoom. Shift and arrows: move. Drag, wheel and two fingers work too.';
-    this.figure.append(bar(...this.names),
-      bar(...this.modes, label, button('\u2212', 'key -', () => this.zoomBy(0.5)), button('+', 'key +', () => this.zoomBy(2)),
+    this.bar = bar(...this.names);
+    this.figure.append(this.bar,
+      bar(...this.modes, label, tone, button('\u2212', 'key -', () => this.zoomBy(0.5)), button('+', 'key +', () => this.zoomBy(2)),
           button('Fit', 'key 0', () => this.fit())), this.canvas, this.output, help);
     this.figure.addEventListener('keydown', event => this.key(event));
     this.listen();
@@ -100,13 +107,13 @@ class Viewer {
       Object.assign(this.canvas, {width, height});
   }
   source(i) {
-    const key = [i, this.isError() ? this.b : -1, this.mode === 'error', this.stops()].join();
+    const key = [i, this.isError() ? this.b : -1, this.mode === 'error', this.stops(), this.curve].join();
     if (!this.cache.has(key)) {
       if (this.cache.size > 3 * this.pictures.length)
         this.cache.clear();
       const [p, r] = [this.pictures[i], this.pictures[this.b]];
       this.cache.set(key, this.mode === 'error' ? errorShown(p, r, this.palette, this.scale())
-        : this.mode === 'difference' ? differenceShown(p, r, this.stops()) : shown(p, this.stops()));
+        : this.mode === 'difference' ? differenceShown(p, r, this.stops()) : shown(p, this.stops(), this.curve));
     }
     return this.cache.get(key);
   }
@@ -197,11 +204,13 @@ class Viewer {
     this.names.forEach((b, i) => b.setAttribute('aria-pressed', i === this.a));
     this.modes.forEach((b, i) => b.setAttribute('aria-pressed', modes[i][0] === this.mode));
     this.range.value = this.stops();
+    this.curves.value = this.curve;
     this.stopsText.textContent = `${this.stops()} stops`;
   }
   address() {
     const round = v => Number(v.toFixed(3));
-    return `viewer=${this.index}&mode=${this.mode}&a=${this.a}&b=${this.b}&e=${this.stops()}&z=${round(this.zoom)}&x=${round(this.x)}&y=${round(this.y)}`;
+    return `viewer=${this.index}&mode=${this.mode}&a=${this.a}&b=${this.b}&e=${this.stops()}&z=${round(this.zoom)}&x=${round(this.x)}&y=${round(this.y)}` +
+      (this.curve === 'srgb' ? '' : `&tone=${this.curve}`);
   }
   go(wanted) {
     const number = (name, otherwise) => wanted.has(name) && isFinite(wanted.get(name)) ? Number(wanted.get(name)) : otherwise;
@@ -210,6 +219,8 @@ class Viewer {
       this.mode = wanted.get('mode');
     [this.a, this.b] = [picture('a', this.a), picture('b', this.b)];
     this.setStops(number('e', this.stops()));
+    if (wanted.get('tone') in curves)
+      this.curve = wanted.get('tone');
     this.fit();
     if (wanted.has('z'))
       this.zoomBy(number('z', 1) / this.zoom);
@@ -313,7 +324,7 @@ function goToAddress() {
   }
 }
 (async () => {
-  const figures = [...document.querySelectorAll('figure.viewer')];
+  const figures = [...document.querySelectorAll('figure.viewer:not([data-live])')];
   for (const [i, figure] of figures.entries()) {
     const made = JSON.parse(figure.querySelector('script').textContent);
     viewers.push(new Viewer(figure, i, await Promise.all(made.map(unpack))));

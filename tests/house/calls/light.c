@@ -136,6 +136,7 @@ static void renders(const aur_scene *scene) {
     refuse(aur_render_step_pixels(render, 63, targets, &error), AUR_ERROR_ARGUMENT, &error);
     accept(aur_render_step_pixels(render, 64, targets, &error), &error);
     require(aur_render_samples(render) == 2 && aur_render_samples_wanted(render) == 2, "a render's samples");
+    require(aur_render_steps_agree(render), "a render by path in steps");
     aur_render_statistics statistics = {.size = sizeof statistics};
     accept(aur_render_get_statistics(render, &statistics, &error), &error);
     require(statistics.samples == 128, "aur_render_get_statistics");
