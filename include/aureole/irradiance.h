@@ -58,7 +58,8 @@ static inline aur_sensors_options aur_sensors_options_default(void) {
 /* Reads six numbers a line, x y z nx ny nz, with blanks or commas between them (Radiance's .pts, and CSV with
  * or without a header), an NPY array of six columns, or a mesh (.obj, .ply). `options` may be NULL. Errors:
  * OPEN, MEMORY, ARGUMENT (a lift that is not finite), and FORMAT with the line: numbers that are not finite,
- * other than six columns, a normal of length 0, a file without sensors, a facet without area. */
+ * other than six columns, a normal of length 0, places beyond 1e18, a file without sensors, a facet without
+ * area. */
 AUR_EXPERIMENTAL aur_result aur_sensors_read(const char *path, const aur_sensors_options *options,
                                              aur_sensors **sensors, aur_error *error) AUR_NONNULL(1, 3);
 AUR_EXPERIMENTAL void aur_sensors_destroy(aur_sensors *sensors);
@@ -139,9 +140,9 @@ typedef struct aur_irradiance {
  * 1997), and further bounces as options->reflected says. Without bias at a given number of directions.
  * `results` has sensors->count elements of `result_size` bytes, the caller's sizeof. A sensor's result is a
  * function of the scene, the options, its position and its normal: neither of other sensors nor of threads.
- * Errors: NAME, ARGUMENT (options out of range; a normal of length 0 or a number that is not finite, with its
- * line), UNSUPPORTED (a scene without any light, or one that the map or radiosity cannot do, with the place),
- * CANCELLED, MEMORY. */
+ * Errors: NAME, ARGUMENT (options out of range; a normal of length 0, a number that is not finite or a place
+ * beyond 1e18, with its line), UNSUPPORTED (a scene without any light, or one that the map or radiosity
+ * cannot do, with the place), CANCELLED, MEMORY. */
 AUR_EXPERIMENTAL aur_result aur_irradiance_estimate(const aur_scene *scene, const aur_sensors_view *sensors,
                                                     const aur_irradiance_options *options, size_t result_size,
                                                     aur_irradiance *results, aur_error *error)

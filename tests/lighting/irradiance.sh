@@ -144,11 +144,13 @@ printf 'v 0 0 0\nv 1 0 0\nv 2 0 0\nf 1 2 3\n' >thin.obj
 refused "thin.obj:4: facet 0 has no area" lamp.xml --sensors thin.obj
 printf '0 0 0 0 0 1\n1 2 3 0 0 0\n' >zero.pts
 printf '0 0 0 0 0 1\n1 nan 3 0 0 1\n' >nan.pts
+printf '0 0 0 0 0 1\n0 -1e19 0 0 0 1\n' >far.pts
 printf '0 0 0 0 1\n' >five.pts
 printf '# nothing\n' >empty.pts
 printf 'x,y,z,u,v,w\n0,0,0,0,0,1\n' >header.csv
 refused "zero.pts:2: the normal of sensor 1 has length 0" room.xml --sensors zero.pts
 refused "nan.pts:2: column 2: 'nan' is not a finite number" room.xml --sensors nan.pts
+refused "far.pts:2: sensor 1 is too far away: a coordinate is beyond 1e+18" room.xml --sensors far.pts
 refused "five.pts:1: a sensor is six numbers, x y z nx ny nz, not 5" room.xml --sensors five.pts
 refused "empty.pts: there are no sensors in it" room.xml --sensors empty.pts
 refused "the columns of sensors are x,y,z,nx,ny,nz" room.xml --sensors header.csv

@@ -6,6 +6,9 @@
 
 #include "core/array.h"
 
+/* Beyond it squares of distances are no floats, and Embree ends the program. */
+static const double FARTHEST = 1e18;
+
 static bool are_finite(const double v[3]) {
     return isfinite(v[0]) && isfinite(v[1]) && isfinite(v[2]);
 }
@@ -16,6 +19,9 @@ aur_result aur_sensors_check(const aur_sensors_view *sensors, aur_result failure
         if (!are_finite(position) || !are_finite(normal))
             return aur_fail_at(error, aur_sensor_location(sensors, i), failure,
                                "sensor %zu has a number that is not finite", i);
+        if (fmax(fmax(fabs(position[0]), fabs(position[1])), fabs(position[2])) > FARTHEST)
+            return aur_fail_at(error, aur_sensor_location(sensors, i), failure,
+                               "sensor %zu is too far away: a coordinate is beyond %g", i, FARTHEST);
         if (!(fabs(normal[0]) + fabs(normal[1]) + fabs(normal[2]) > 0.0))
             return aur_fail_at(error, aur_sensor_location(sensors, i), failure,
                                "the normal of sensor %zu has length 0: it must say where the sensor looks",
