@@ -111,8 +111,8 @@ static void add_row(const aur_sky_patches *patches, const aur_sky_model *sky, si
         const double share = 1.0 / (double)(patches->up * pieces);
         const double gradation = share * aur_sky_model_gradation(sky, (*middles)[2]);
         for (size_t j = 0; j < count * pieces; ++j, ++middles) {
-            const double along = aur_dot3(*middles, sky->sun);
-            const double indicatrix = aur_sky_model_indicatrix(sky, acos(fmin(fmax(along, -1.0), 1.0)));
+            const double along = fmin(fmax(aur_dot3(*middles, sky->sun), -1.0), 1.0);
+            const double indicatrix = aur_sky_model_indicatrix(sky, acos(along), along);
             radiance[patches->first[row] + j / pieces] += fmax(gradation * indicatrix, 0.0);
         }
     }

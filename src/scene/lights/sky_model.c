@@ -135,20 +135,16 @@ double aur_sky_model_gradation(const aur_sky_model *sky, double cosine) {
     return 1.0 + sky->slope * cosine + (sky->a != 0.0 ? sky->a * exp(sky->b / fmax(cosine, 1e-12)) : 0.0);
 }
 
-double aur_sky_model_indicatrix(const aur_sky_model *sky, double angle) {
-    const double along = cos(angle);
+double aur_sky_model_indicatrix(const aur_sky_model *sky, double angle, double along) {
     return 1.0 + sky->c * (exp(sky->d * angle) - sky->offset) + sky->e * along * along;
-}
-
-/* By the cosine of the angle from the zenith and the angle from the sun. */
-static double radiance_at(const aur_sky_model *sky, double cosine, double angle) {
-    return fmax(aur_sky_model_gradation(sky, cosine) * aur_sky_model_indicatrix(sky, angle), 0.0);
 }
 
 double aur_sky_model_radiance(const aur_sky_model *sky, const double direction[3]) {
     double across[3];
     aur_cross3(direction, sky->sun, across);
-    return radiance_at(sky, direction[2], atan2(aur_length3(across), aur_dot3(direction, sky->sun)));
+    const double angle = atan2(aur_length3(across), aur_dot3(direction, sky->sun));
+    const double indicatrix = aur_sky_model_indicatrix(sky, angle, cos(angle));
+    return fmax(aur_sky_model_gradation(sky, direction[2]) * indicatrix, 0.0);
 }
 
 /* --- the integral over the sky */
@@ -171,22 +167,24 @@ static double integrate(one_variable *function, const void *data, double from, d
     return STEP * half * sum;
 }
 
-/* A circle about the sun, of radius `angle`; an azimuth of 0 lies towards the zenith. */
+/* A circle about the sun, which has one indicatrix; an azimuth of 0 lies towards the zenith. */
 typedef struct circle {
     const aur_sky_model *sky;
-    double angle, height, reach; /* cos Z is height + reach cos(azimuth) */
+    double indicatrix, height, reach; /* cos Z is height + reach cos(azimuth) */
 } circle;
 
 static double on_circle(const void *data, double azimuth) {
     const circle *const at = data;
     const double cosine = fmax(at->height + at->reach * cos(azimuth), 0.0);
-    return cosine * radiance_at(at->sky, cosine, at->angle);
+    return cosine * fmax(aur_sky_model_gradation(at->sky, cosine) * at->indicatrix, 0.0);
 }
 
 static double over_circle(const void *data, double angle) {
     const aur_sky_model *const sky = data;
     const double low = hypot(sky->sun[0], sky->sun[1]);
-    const circle at = {sky, angle, sky->sun[2] * cos(angle), low * sin(angle)};
+    const double along = cos(angle);
+    const circle at = {sky, aur_sky_model_indicatrix(sky, angle, along), sky->sun[2] * along,
+                       low * sin(angle)};
     const double end = at.height >= at.reach ? AUR_PI : acos(fmin(-at.height / at.reach, 1.0));
     return 2.0 * sin(angle) * integrate(on_circle, &at, 0.0, end);
 }

@@ -46,10 +46,10 @@ aur_sky_model aur_sky_model_perez(double direct_normal, double diffuse_horizonta
 /* The formula above; `direction` is of unit length and not below the horizon. */
 double aur_sky_model_radiance(const aur_sky_model *sky, const double direction[3]);
 
-/* Its two factors, for those who evaluate one of them for many directions: by cos Z, and by chi in radians.
- */
+/* Its two factors, for those who evaluate one of them for many directions: by cos Z, and by chi in radians
+ * with cos chi, which who has found the angle from it need not find again. */
 double aur_sky_model_gradation(const aur_sky_model *sky, double cosine);
-double aur_sky_model_indicatrix(const aur_sky_model *sky, double angle);
+double aur_sky_model_indicatrix(const aur_sky_model *sky, double angle, double along);
 
 /* The irradiance of the sky on the horizontal plane: the integral of its radiance times cos Z, to 1e-10 of
  * it where the formula is nowhere below 0. */
