@@ -26,6 +26,16 @@ size_t aur_distribution_choose_double(const aur_distribution *distribution, doub
     const double target = *u * distribution->total;
     size_t low = 0;
     size_t high = distribution->count;
+    /* Where the weights are nearly alike, the item is the first one that is tried. */
+    const double guess = *u * (double)high;
+    const size_t tried = guess < (double)high ? (size_t)guess : high - 1;
+    if (distribution->sums[tried] > target) {
+        high = tried;
+    } else {
+        low = tried;
+        if (distribution->sums[tried + 1] > target)
+            high = tried + 1;
+    }
     while (high - low > 1) {
         const size_t middle = (low + high) / 2;
         if (distribution->sums[middle] <= target)

@@ -140,6 +140,8 @@ double aur_sky_model_indicatrix(const aur_sky_model *sky, double angle, double a
 }
 
 double aur_sky_model_radiance(const aur_sky_model *sky, const double direction[3]) {
+    if (sky->c == 0.0 && sky->e == 0.0) /* the indicatrix is 1 */
+        return fmax(aur_sky_model_gradation(sky, direction[2]), 0.0);
     double across[3];
     aur_cross3(direction, sky->sun, across);
     const double angle = atan2(aur_length3(across), aur_dot3(direction, sky->sun));
