@@ -3,6 +3,7 @@
 
 extern const lab_experiment lab_analytical_cases;
 extern const lab_experiment lab_aureole_correlated_rotations;
+extern const lab_experiment lab_aureole_every_measure;
 extern const lab_experiment lab_domains_axes;
 extern const lab_experiment lab_domains_every_number;
 extern const lab_experiment lab_domains_grids;
@@ -55,6 +56,7 @@ extern const lab_experiment lab_weights_choosing;
 static const lab_experiment *const experiments[] = {
     &lab_analytical_cases,
     &lab_aureole_correlated_rotations,
+    &lab_aureole_every_measure,
     &lab_domains_axes,
     &lab_domains_every_number,
     &lab_domains_grids,
