@@ -70,7 +70,7 @@ typedef struct cli_verb {
     const char *notes;                /* what is to be said after the options; or NULL */
     const char *too_few, *too_many;   /* what is wrong with such operands; NULL where it is not said so */
     const cli_operand operands[3];    /* end with one without a word */
-    const cli_group groups[10];       /* end with one without options */
+    const cli_group groups[12];       /* end with one without options */
     size_t size;                      /* of the struct that the options write to */
     int (*run)(const cli_call *call); /* returns the exit status */
     bool ranks;                       /* several processes that mpirun starts share the work */

@@ -11,6 +11,7 @@
 #include <unistd.h>
 
 #include "cli/ask.h"
+#include "cli/denoise.h"
 #include "cli/errors.h"
 #include "cli/options.h"
 
@@ -22,6 +23,7 @@ typedef struct render_command {
     cli_wish wish;
     cli_checkpoint checkpoint;
     cli_watch watch;
+    cli_denoise denoise;
     bool statistics;
     cli_common common;
 } render_command;
@@ -251,8 +253,12 @@ static int render(const char *path, render_command *command, cli_errors *errors)
          check_folder(command->errors, &error) != AUR_OK) ||
         (command->checkpoint.path != NULL && check_folder(command->checkpoint.path, &error) != AUR_OK))
         return cli_fail(&error);
-    if (cli_watch_begin(&command->watch, command->output, &error) != AUR_OK)
+    if (cli_denoise_begin(&command->denoise, &error) != AUR_OK)
         return cli_fail(&error);
+    if (cli_watch_begin(&command->watch, command->output, &error) != AUR_OK) {
+        cli_denoise_end(&command->denoise);
+        return cli_fail(&error);
+    }
     command->options.progress = cli_checkpoint_progress(
         &command->checkpoint, cli_watch_progress(&command->watch, cli_progress(command->common.quiet)));
     const aur_scene_options scene_options = {.size = sizeof scene_options,
@@ -273,14 +279,19 @@ static int render(const char *path, render_command *command, cli_errors *errors)
                                                            command->output, command->common.quiet},
                                        &image, &error)
                      : render_samples(renderer, command, errors, &image, &error);
+    if (result == AUR_OK)
+        result = cli_denoise_picture(&command->denoise, renderer, &command->options, &image, &error);
     cli_progress_clear();
     if (result == AUR_ERROR_CANCELLED && image != NULL)
         write_partial(command->output, image);
     if (result == AUR_OK && command->options.shard_count == 0)
         result = aur_image_write(command->output, image, NULL, &error);
+    if (result == AUR_OK)
+        result = cli_denoise_keep(&command->denoise, command->output, image, &error);
     if (result == AUR_OK && errors != NULL)
         result = cli_errors_write(errors, command->errors, &error);
     cli_watch_end(&command->watch, image, result, &error);
+    cli_denoise_end(&command->denoise);
     aur_image_destroy(image);
     aur_renderer_destroy(renderer);
     aur_scene_destroy(scene);
@@ -297,6 +308,8 @@ static const char *conflict(const cli_call *call, const render_command *command)
         return "render: '--shard' does not go with '--error', '--time', '--rays', '--rounds' or '--errors', "
                "which "
                "look at the whole picture";
+    if (command->options.shard_count > 0 && command->denoise.wanted)
+        return "render: '--denoise' does not go with '--shard': neighbours of a part's pixels are missing";
     const char *const checkpoint = cli_checkpoint_conflict(&command->checkpoint);
     if (checkpoint != NULL)
         return checkpoint;
@@ -348,6 +361,7 @@ const cli_verb cli_verb_render = {
                {cli_wish_options, offsetof(render_command, wish)},
                {cli_checkpoint_options, offsetof(render_command, checkpoint)},
                {cli_watch_options, offsetof(render_command, watch)},
+               {cli_denoise_options, offsetof(render_command, denoise)},
                {cli_definitions_option, offsetof(render_command, definitions)},
                {cli_threads_option, offsetof(render_command, common)},
                {cli_quiet_option, offsetof(render_command, common)},

@@ -10,7 +10,17 @@ const cli_option cli_watch_options[] = {
               "show the picture in a page while it is rendered, at [HOST:]PORT or at a free port of this "
               "machine; the page's address is printed"),
      .value_is_optional = true},
+    {CLI_TEXT(cli_watch, display, "display-server", "HOST:PORT", NULL,
+              "send the picture to tev, or another image viewer with its protocol, while it is rendered")},
     {.key = {0}}};
+
+static void warn(cli_watch *watch) {
+    char text[AUR_ERROR_MESSAGE_CAPACITY];
+    if (!watch_has_lost_display(watch->watch, sizeof text, text))
+        return;
+    cli_progress_clear();
+    fprintf(stderr, "aureole: warning: %s\n", text);
+}
 
 static int show(void *user, const char *what, uint64_t done, uint64_t total) {
     enum { WHOLE = 10000 };
@@ -20,6 +30,7 @@ static int show(void *user, const char *what, uint64_t done, uint64_t total) {
         total = WHOLE;
     }
     const bool stopped = watch_progress(watch->watch, what, done, total);
+    warn(watch);
     const int status = watch->progress.function(watch->progress.user, what, done, total);
     return stopped ? 1 : status;
 }
@@ -27,7 +38,7 @@ static int show(void *user, const char *what, uint64_t done, uint64_t total) {
 aur_result cli_watch_begin(cli_watch *watch, const char *output, aur_error *error) {
     if (!cli_watch_is_asked(watch) || aur_ranks_rank() != 0)
         return AUR_OK;
-    const watch_options options = {.serve = watch->serve, .title = output};
+    const watch_options options = {.serve = watch->serve, .display = watch->display, .title = output};
     const aur_result result = watch_create(&options, &watch->watch, error);
     if (result == AUR_OK && watch_address(watch->watch) != NULL)
         fprintf(stderr, "aureole: the picture is at %s\n", watch_address(watch->watch));
@@ -112,6 +123,7 @@ void cli_watch_end(cli_watch *watch, const aur_image *image, aur_result result, 
               result == AUR_OK                ? "The picture is finished."
               : result == AUR_ERROR_CANCELLED ? "The render has been stopped."
                                               : text);
+    warn(watch);
     watch_destroy(watch->watch);
     watch->watch = NULL;
 }

@@ -8,6 +8,7 @@
 
 typedef struct cli_watch {
     const char *serve;    /* "", PORT or HOST:PORT; NULL: there is no page */
+    const char *display;  /* HOST:PORT; NULL: there is none */
     watch_session *watch; /* NULL: nobody watches, or another process serves */
     aur_progress progress;
     double from, to; /* the part of the render that the step is; both 0: it is no step */
@@ -17,10 +18,10 @@ extern const cli_option cli_watch_options[]; /* cli_watch */
 
 /* Whether the render goes in steps, so that the whole picture is seen soon. */
 static inline bool cli_watch_is_asked(const cli_watch *watch) {
-    return watch->serve != NULL;
+    return watch->serve != NULL || watch->display != NULL;
 }
 
-/* Begins to serve, and says where. */
+/* Begins to serve, and says where; connects to a display server. */
 aur_result cli_watch_begin(cli_watch *watch, const char *output, aur_error *error);
 /* The progress callback that also tells who watches; who watches may stop the render by it. */
 aur_progress cli_watch_progress(cli_watch *watch, aur_progress progress);

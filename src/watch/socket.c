@@ -7,6 +7,7 @@
 #include <netinet/in.h>
 #include <string.h>
 #include <sys/socket.h>
+#include <sys/time.h>
 #include <unistd.h>
 
 aur_result watch_place_read(const char *option, const char *text, watch_place *place, aur_error *error) {
@@ -98,6 +99,13 @@ aur_result watch_listen(const char *option, watch_place *place, int *listener, a
     return AUR_OK;
 }
 
+/* Neither connecting nor sending waits for ever. */
+static int connect_soon(int socket, const struct sockaddr *address, socklen_t size) {
+    const struct timeval patience = {.tv_sec = 10};
+    setsockopt(socket, SOL_SOCKET, SO_SNDTIMEO, &patience, sizeof patience);
+    return connect(socket, address, size);
+}
+
 aur_result watch_connect(const char *option, const watch_place *place, int *connection, aur_error *error) {
-    return open_socket(option, place, false, connect, "cannot connect to", connection, error);
+    return open_socket(option, place, false, connect_soon, "cannot connect to", connection, error);
 }

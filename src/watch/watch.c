@@ -10,6 +10,7 @@
 #include <time.h>
 #include <unistd.h>
 
+#include "watch/display.h"
 #include "watch/page.h"
 #include "watch/server.h"
 
@@ -28,6 +29,8 @@ typedef struct open_page {
 struct watch_session {
     char token[TOKEN_LENGTH + 1], address[WATCH_HOST_CAPACITY + TOKEN_LENGTH + 32], title[TEXT_CAPACITY];
     watch_server *server;
+    watch_display *display;
+    bool display_lost; /* and said so */
     atomic_bool stop;
     /* Of the thread that reports progress: */
     watch_source source;
@@ -266,7 +269,9 @@ aur_result watch_create(const watch_options *options, watch_session **made, aur_
     atomic_init(&watch->stop, false);
     watch->serial = 1;
     aur_format(watch->title, sizeof watch->title, "%s", options->title);
-    const aur_result result = options->serve != NULL ? begin_serving(watch, options->serve, error) : AUR_OK;
+    aur_result result = options->serve != NULL ? begin_serving(watch, options->serve, error) : AUR_OK;
+    if (result == AUR_OK && options->display != NULL)
+        result = watch_display_create(options->display, watch->title, &watch->display, error);
     if (result == AUR_OK)
         *made = watch;
     else
@@ -278,6 +283,7 @@ void watch_destroy(watch_session *watch) {
     if (watch == NULL)
         return;
     watch_server_destroy(watch->server);
+    watch_display_destroy(watch->display);
     aur_image_destroy(watch->fresh);
     aur_image_destroy(watch->kept);
     pthread_mutex_destroy(&watch->lock);
@@ -300,23 +306,29 @@ void watch_tell(watch_session *watch, const char *text) {
     pthread_mutex_unlock(&watch->lock);
 }
 
-/* A picture for the pages, if they want one and the last one has not cost too much for another. */
+/* Pictures for the pages and the display server, if they want any and the last ones have not cost too much
+ * for others. */
 static void develop(watch_session *watch) {
     pthread_mutex_lock(&watch->lock);
     const bool wanted = watch->wanted && watch->fresh == NULL;
     pthread_mutex_unlock(&watch->lock);
+    const bool sends = watch->display != NULL && watch_display_is_free(watch->display);
     const double begin = now();
+    const watch_source *const source = &watch->source;
     aur_image *image = NULL;
-    if (!wanted || watch->source.develop == NULL ||
-        begin - watch->developed < watch->cost / DEVELOPING_PART ||
-        watch->source.develop(watch->source.user, &image, NULL) != AUR_OK)
+    if ((!wanted && !sends) || source->develop == NULL ||
+        begin - watch->developed < watch->cost / DEVELOPING_PART)
         return;
+    if (sends && source->develop(source->user, &image, NULL) == AUR_OK)
+        watch_display_show(watch->display, image);
+    if (wanted && source->develop(source->user, &image, NULL) == AUR_OK) {
+        pthread_mutex_lock(&watch->lock);
+        watch->fresh = image;
+        watch->wanted = false;
+        pthread_mutex_unlock(&watch->lock);
+    }
     watch->developed = now();
     watch->cost = watch->developed - begin;
-    pthread_mutex_lock(&watch->lock);
-    watch->fresh = image;
-    watch->wanted = false;
-    pthread_mutex_unlock(&watch->lock);
 }
 
 bool watch_progress(watch_session *watch, const char *what, uint64_t done, uint64_t total) {
@@ -354,8 +366,31 @@ static bool is_waited_for(watch_session *watch, double ended) {
     return waited;
 }
 
+bool watch_has_lost_display(watch_session *watch, size_t capacity, char *text) {
+    if (watch->display == NULL || watch->display_lost ||
+        !watch_display_has_failed(watch->display, capacity, text))
+        return false;
+    watch->display_lost = true;
+    return true;
+}
+
+/* The whole picture as it is written. */
+static void send_last(watch_session *watch, const aur_image *image) {
+    enum { MOST_CHANNELS = 128 };
+    const char *names[MOST_CHANNELS];
+    const size_t count = aur_image_channel_count(image);
+    aur_image *copy = NULL;
+    for (size_t c = 0; c < count && c < MOST_CHANNELS; ++c)
+        names[c] = aur_image_channel_name(image, c);
+    if (count <= MOST_CHANNELS && aur_image_select(image, count, names, &copy, NULL) == AUR_OK)
+        watch_display_show(watch->display, copy);
+    watch_display_finish(watch->display);
+}
+
 void watch_end(watch_session *watch, const aur_image *image, const char *words) {
     watch->source = (watch_source){0};
+    if (watch->display != NULL && image != NULL)
+        send_last(watch, image);
     if (watch->server == NULL)
         return;
     pthread_mutex_lock(&watch->lock);

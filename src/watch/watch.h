@@ -8,8 +8,9 @@ typedef struct watch_session watch_session;
 
 /* Both may be asked for; NULL: it is not. */
 typedef struct watch_options {
-    const char *serve; /* "", PORT or HOST:PORT: where the page is, on this machine alone without a host */
-    const char *title; /* the page's, and the picture's name */
+    const char *serve;   /* "", PORT or HOST:PORT: where the page is, on this machine alone without a host */
+    const char *display; /* PORT or HOST:PORT of a display server (watch/display.h) */
+    const char *title;   /* the page's, and the picture's name */
 } watch_options;
 
 /* Errors: ARGUMENT (no such place), OPEN (it cannot be listened at or connected to), MEMORY. */
@@ -37,6 +38,9 @@ void watch_tell(watch_session *watch, const char *text);
  */
 bool watch_progress(watch_session *watch, const char *what, uint64_t done, uint64_t total);
 
+/* Why a display server gets no more: text[capacity], once; else false. */
+bool watch_has_lost_display(watch_session *watch, size_t capacity, char *text);
+
 /* The render has ended with the picture `image`, or NULL, which `words` say: "finished". Pages that are open
- * are given some seconds to fetch it. */
+ * are given some seconds to fetch it, and a display server is sent it. */
 void watch_end(watch_session *watch, const aur_image *image, const char *words);
