@@ -153,6 +153,16 @@ refused "nan.pts:2: column 2: 'nan' is not a finite number" room.xml --sensors n
 refused "far.pts:2: sensor 1 is too far away: a coordinate is beyond 1e+18" room.xml --sensors far.pts
 refused "five.pts:1: a sensor is six numbers, x y z nx ny nz, not 5" room.xml --sensors five.pts
 refused "empty.pts: there are no sensors in it" room.xml --sensors empty.pts
+for empty in csv npy; do
+  : >"empty.$empty"
+  refused "empty.$empty: there are no sensors in it" room.xml --sensors "empty.$empty"
+done
+: >empty.obj
+refused "empty.obj: no face" room.xml --sensors empty.obj
+printf 'x,y,z,nx,ny,nz\n0,0,0,0,0,1\n0,0,0,,0,1\n' >gap.csv
+refused "gap.csv:3: column 4: '' is not a finite number" room.xml --sensors gap.csv
+printf 'v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\nf 1 3 2\n' >sheet.obj
+warned "sheet.obj:5: 1 facets lie back to back with others" room.xml --sensors sheet.obj
 refused "the columns of sensors are x,y,z,nx,ny,nz" room.xml --sensors header.csv
 refused "the points are missing: --sensors POINTS" room.xml
 refused "must be an error like 1% or 0.01" room.xml --sensors room.pts --error 100%
@@ -163,6 +173,12 @@ refused "the scene has no light" unlit.xml --sensors room.pts
 printf '<scene version="3.0.0"><emitter type="constant"/><shape type="cube"/></scene>' >solid.xml
 warned "3 of 3 sensors see mostly the black backs of surfaces" solid.xml --sensors room.pts
 warned "room.pts:4: 1 of 3 sensors lie on surfaces (the first of them is sensor 2)" room.xml --sensors room.pts
+# A sensor sealed in a box that is grey on both sides of its walls, and one that stands on it.
+printf 'void plastic grey 0 0 5 .5 .5 .5 0 0\nvoid light lamp 0 0 3 1 1 1\nlamp source sky 0 0 4 0 0 1 180\n' >box.rad
+printf 'grey polygon %s 0 0 12 %s\n' a '0 0 0 1 0 0 1 1 0 0 1 0' b '0 0 1 1 0 1 1 1 1 0 1 1' c '0 0 0 1 0 0 1 0 1 0 0 1' \
+  d '0 1 0 1 1 0 1 1 1 0 1 1' e '0 0 0 0 1 0 0 1 1 0 0 1' f '1 0 0 1 1 0 1 1 1 1 0 1' >>box.rad
+printf '.5 .5 1 0 0 1\n.5 .5 .5 0 0 1\n' >sealed.pts
+warned "sealed.pts:2: 1 of 2 sensors see no light at all (the first of them is sensor 1)" box.rad --sensors sealed.pts
 # In the corner of three walls, looking along one of them.
 printf '%s\n' '-1 -1 -1 1 0 0' '-1 -1 -1 1 1 1' '-1 -1 0 0 1 0' >corner.pts
 "$aureole" irradiance -q room.xml --sensors corner.pts -q -o corner.csv || fail "corners"
