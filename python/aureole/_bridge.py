@@ -4,11 +4,12 @@ from __future__ import annotations
 
 import os
 import warnings
-from typing import Any, Callable, Optional
+from typing import Any, Callable, Optional, TypeVar
 
 import numpy as np
 
 Progress = Callable[[str, int, int], Any]
+_Self = TypeVar("_Self", bound="Call")
 
 
 class Error(Exception):
@@ -143,6 +144,7 @@ class Call:
     def __init__(self, progress: Optional[Progress] = None, function: Optional[Callable[..., Any]] = None):
         self.progress = progress
         self.function = function
+        self.count = 0  # of values that the function returns, where the library does not say it
         self.messages: list[str] = []
         self.raised: Optional[BaseException] = None
 
@@ -156,7 +158,7 @@ class Call:
             self.raised = error
             return 1
 
-    def __enter__(self) -> "Call":
+    def __enter__(self: _Self) -> _Self:
         return self
 
     def __exit__(self, kind: Any, error: Any, trace: Any) -> None:

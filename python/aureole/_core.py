@@ -7,7 +7,8 @@ from typing import Any, Callable, Optional
 import numpy as np
 
 from ._bridge import CANCELLED, Bridge, Call, Progress
-from ._native import ffi, lib
+from ._native import ffi as ffi
+from ._native import lib as lib
 
 core = Bridge(ffi, lib)
 

@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
+from typing import Literal
+
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
-from typing import Literal, Optional
 
-from ._bridge import ArgumentError, encode, rows
-from ._core import CoreCall, core, ffi, lib
-from ._points import Array, Domain, Map, Scramble, parse_lobe
+from ._bridge import ArgumentError, rows
+from ._core import core, ffi, lib
+from ._points import Array, Map, parse_lobe
 
 _HEIGHTS = {"hemisphere": 1.0, "sphere": 2.0}
 

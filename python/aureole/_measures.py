@@ -7,7 +7,7 @@ from typing import Iterable, Optional, Union, overload
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from ._bridge import ArgumentError, Progress, encode, kept, rows, vector
+from ._bridge import Progress, encode, kept, rows, vector
 from ._core import CoreCall, core, ffi, lib
 from ._points import Array, Domain, View, domain_of, parse_lobe
 
@@ -24,7 +24,7 @@ def _measure_options(
 
 
 @overload
-def measure(
+def measure(  # type: ignore[overload-overlap]  # a text is an Iterable of texts too, but comes first
     points: ArrayLike, names: str, *, weights: Optional[ArrayLike] = ..., domain: Optional[Domain] = ...,
     cap: float = ..., fast: bool = ..., accuracy: float = ..., seed: int = ..., threads: int = ...,
     progress: Optional[Progress] = ...,

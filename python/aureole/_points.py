@@ -8,7 +8,7 @@ from typing import Any, Literal, Optional, Union, overload
 import numpy as np
 from numpy.typing import ArrayLike, DTypeLike, NDArray
 
-from ._bridge import ArgumentError, encode, kept, rows, vector
+from ._bridge import ArgumentError, encode, kept, vector
 from ._core import CoreCall, core, ffi, lib
 
 Array = NDArray[np.float64]
@@ -40,7 +40,7 @@ def directions_options(
     return call.attach(options, progress=False)
 
 
-def look(made: Any, dimensions: bool = False) -> tuple[Array, Optional[Array], str]:
+def look(made: Any) -> tuple[Array, Optional[Array], str]:
     """The library's points as they lie there, their weights or None, and their domain."""
     view = lib.aur_points_look(made)
     stride = 8 * (view.stride or view.dimension)
@@ -158,7 +158,7 @@ def write(
 class View:
     """The library's view of a caller's array, without a copy where rows of doubles lie apart evenly."""
 
-    def __init__(self, points: ArrayLike, weights: Optional[ArrayLike] = None, domain: Optional[str] = None):
+    def __init__(self, points: ArrayLike, weights: Optional[ArrayLike] = None, domain: Optional[Domain] = None):
         array = np.asarray(points, dtype=np.float64)
         if array.ndim == 1:
             array = array[:, np.newaxis]
@@ -186,7 +186,7 @@ class View:
         pass
 
 
-def domain_of(array: NDArray[np.float64]) -> str:
+def domain_of(array: NDArray[np.float64]) -> Domain:
     """The domain that an array of points is taken for where nothing says it.
 
     Two columns are of the square; three of unit length (to 1e-6) of the hemisphere where no z is below 0, else of the

@@ -362,9 +362,6 @@ def view_factor_polygons(from_corners: ArrayLike, to_corners: ArrayLike) -> floa
     return value[0]
 
 
-_PARTS = ("total", "direct", "sky", "reflected", "sun")
-
-
 class Irradiance(NamedTuple):
     """What sensors receive: arrays (n, 4) of r, g, b and luminance, in the scene's radiance times steradians."""
 
@@ -425,8 +422,9 @@ def irradiance(
             lib.aur_irradiance_estimate, loaded._scene, view, call.attach(options), row.itemsize,
             library.output(found, "aur_irradiance"),
         )  # fmt: skip
-    parts = (found["value"][:, part] for part in range(len(_PARTS)))
-    errors = {name: found["error"][:, part] for part, name in enumerate(_PARTS)}
+    values = found["value"]
     return Irradiance(
-        *parts, errors, found["half_width"], found["directions"], found["dark"], found["on_surface"]
-    )
+        values[:, 0], values[:, 1], values[:, 2], values[:, 3], values[:, 4],
+        {name: found["error"][:, part] for part, name in enumerate(("total", "direct", "sky", "reflected", "sun"))},
+        found["half_width"], found["directions"], found["dark"], found["on_surface"],
+    )  # fmt: skip

@@ -164,7 +164,7 @@ def weights(
     ((100,), 1.0)
     """
     array = rows(xyz, 3, "xyz")
-    where = domain or domain_of(array)
+    where: Domain = domain or domain_of(array)
     if method == "exact":
         return weights_exact(
             array, degree, domain=where, lobe=lobe, cap=cap, near=near, negative=negative, threads=threads
@@ -175,7 +175,7 @@ def weights(
         raise ArgumentError(f"method must be 'optimal', 'exact' or 'voronoi', not {method!r}")
     if cap:
         raise ArgumentError("optimal weights are for whole domains, not for caps")
-    potential = Potential(lobe, domain=where, smoothness=smoothness)
+    potential = _potential(array, lobe, where, smoothness)
     return weights_solve(array, [potential], regularization=regularization, sum_constraint=sum_constraint)[0][0]
 
 

@@ -37,12 +37,12 @@ def points(
     if weights is not None:
         style.setdefault("c", np.asarray(weights) * len(array))
     if where in ("square", "disk"):
-        plane, low, high = array, -(where == "disk"), 1.0
+        plane, low, high = array, -1.0 if where == "disk" else 0.0, 1.0
     else:
         x, y, z = array.T
         scale = np.sqrt(1.0 / np.maximum(1.0 + z, 1e-300)) * (z > -1.0)
         plane = np.stack([x * scale, y * scale], axis=1)
-        high = np.sqrt(2.0) if where == "sphere" else 1.0
+        high = float(np.sqrt(2.0)) if where == "sphere" else 1.0
         low = -high
     marks = drawn.scatter(plane[:, 0], plane[:, 1], **style)
     if weights is not None:
