@@ -31,6 +31,9 @@ MATERIALS = (
     "principledthin:base_color=0.6 0.3 0.1,spec_trans=0.7,roughness=0.4,eta=1.4,spec_tint=0.3",
     "principledthin:base_color=0.6 0.3 0.1,diff_trans=0.8,sheen=0.6,sheen_tint=0.3,flatness=0.4",
     "principledthin:base_color=0.6 0.3 0.1,spec_trans=0.5,anisotropic=0.8,diff_trans=1.5,roughness=0.6",
+    "roughplastic:diffuse_reflectance=0.6 0.3 0.1,alpha=0.1,as_mitsuba=true",
+    "roughplastic:diffuse_reflectance=0.6 0.3 0.1,alpha=0.4,nonlinear=true,as_mitsuba=true",
+    "roughplastic:diffuse_reflectance=0.6 0.3 0.1,alpha=0.2,distribution=ggx,int_ior=1.6,as_mitsuba=true",
 )
 PAIRS = 12
 
@@ -43,6 +46,8 @@ def load(text):
         made[f"nested_{i}"] = load(inner)
     for item in rest.split(","):
         key, _, value = item.partition("=")
+        if key == "as_mitsuba":  # ours
+            continue
         numbers = [float(x) for x in value.split()] if value[0].isdigit() else []
         plain = value == "true" if value in ("true", "false") else value
         made[key] = {0: plain, 1: (numbers or [0])[0], 3: {"type": "rgb", "value": numbers}}[len(numbers)]

@@ -5,11 +5,9 @@
  * once.
  */
 #include "material/fresnel.h"
-#include "material/microfacet.h"
+#include "material/rough_coat.h"
 #include "material/sampling.h"
 #include "material/texture.h"
-
-enum { TABLE_SIZE = 64 };
 
 typedef struct plastic {
     aur_color diffuse, specular;
@@ -23,7 +21,7 @@ typedef struct plastic {
     bool once;      /* no light meets the base again */
     /* Of a rough coat: */
     aur_roughness microfacet;
-    float transmittance[TABLE_SIZE]; /* from outside, at cosines i / (TABLE_SIZE - 1) */
+    aur_rough_coat coat;
 } plastic;
 
 #define COAT_KEYS                                                                                            \
@@ -39,7 +37,11 @@ typedef struct plastic {
     }
 
 static const aur_key smooth_keys[] = {PLASTIC_KEYS};
-static const aur_key rough_keys[] = {PLASTIC_KEYS, AUR_MICROFACET_KEYS(plastic)};
+static const aur_key rough_keys[] = {
+    PLASTIC_KEYS,
+    AUR_MICROFACET_KEYS(plastic),
+    {AUR_KEY_OF_BOOLEAN(plastic, "as_mitsuba", microfacet.constant.fitted, "false",
+                        "by the sums and the fit of Mitsuba 3, to compare with it: a darker base")}};
 static const aur_key once_keys[] = {COAT_KEYS, AUR_MICROFACET_KEYS(plastic)};
 
 static aur_result make_coat(aur_parameters *parameters, aur_bsdf *bsdf, aur_error *error) {
@@ -55,49 +57,13 @@ static aur_result make_coat(aur_parameters *parameters, aur_bsdf *bsdf, aur_erro
     return AUR_OK;
 }
 
-/* What a rough boundary does with light that meets it at `cosine`. Facets that others shadow scatter once
- * only, so the two shares are below 1 in sum, the more so the rougher; Mitsuba 3 does the same. */
-typedef struct rough_shares {
-    double mirrored, through;
-} rough_shares;
-
-static rough_shares shares_at(const aur_microfacet *microfacet, float ior, float cosine) {
-    /* From the denser side, total reflection cuts an edge into the integrand. */
-    const size_t side = ior > 1.0f ? 32 : 64;
-    const float z = fmaxf(cosine, 1e-4f);
-    const aur_vector view = {sqrtf(1.0f - z * z), 0.0f, z};
-    rough_shares sum = {0};
-    for (size_t i = 0; i < side * side; ++i) {
-        const aur_vector normal =
-            aur_microfacet_sample(microfacet, view, ((float)(i / side) + 0.5f) / (float)side,
-                                  ((float)(i % side) + 0.5f) / (float)side);
-        const float along = aur_vector_dot(view, normal);
-        if (!(along > 0.0f))
-            continue;
-        float refracted;
-        const float fresnel = aur_fresnel_dielectric(along, ior, &refracted);
-        const aur_vector up = aur_vector_add_scaled(aur_vector_scale(view, -1.0f), 2.0f * along, normal);
-        const aur_vector down =
-            aur_vector_add_scaled(aur_vector_scale(view, -1.0f / ior), along / ior + refracted, normal);
-        if (up.z > 0.0f)
-            sum.mirrored += (double)(fresnel * aur_microfacet_masking(microfacet, up, normal));
-        if (down.z < 0.0f)
-            sum.through += (double)((1.0f - fresnel) * aur_microfacet_masking(microfacet, down, normal));
-    }
-    const double count = (double)(side * side);
-    return (rough_shares){sum.mirrored / count, sum.through / count};
-}
-
 /* The share of light that the coat lets through where it meets it at `cosine` from above. */
 static float transmittance(const plastic *self, float cosine) {
     if (!self->tabulated) {
         float refracted;
         return 1.0f - aur_fresnel_dielectric(cosine, self->ior, &refracted);
     }
-    const float place = fminf(fmaxf(cosine, 0.0f), 1.0f) * (TABLE_SIZE - 1);
-    const size_t index = place < TABLE_SIZE - 1 ? (size_t)place : TABLE_SIZE - 2;
-    const float share = place - (float)index;
-    return (1.0f - share) * self->transmittance[index] + share * self->transmittance[index + 1];
+    return aur_rough_coat_transmittance(&self->coat, cosine);
 }
 
 static float factor(const void *data, float cosine) {
@@ -153,16 +119,11 @@ static aur_result create_rough(aur_parameters *parameters, aur_bsdf *bsdf, aur_e
     if (aur_roughness_complete(&self->microfacet))
         return aur_fail_at(error, parameters->location, AUR_ERROR_UNSUPPORTED,
                            "bsdf 'roughplastic': 'alpha_u' and 'alpha_v' must be equal: give 'alpha'");
-    double inner = 0.0, outer = 0.0;
-    for (size_t i = 0; i < TABLE_SIZE; ++i) {
-        const float cosine = (float)i / (TABLE_SIZE - 1);
-        self->transmittance[i] = (float)shares_at(&self->microfacet.constant, self->ior, cosine).through;
-        const double weight = (i == 0 || i == TABLE_SIZE - 1 ? 1.0 : 2.0) * (double)cosine / (TABLE_SIZE - 1);
-        inner += weight * shares_at(&self->microfacet.constant, 1.0f / self->ior, cosine).mirrored;
-        outer += weight * (double)self->transmittance[i];
-    }
-    self->inner_reflectance = (float)inner;
-    self->outer_transmittance = (float)outer;
+    const aur_microfacet *const facets = &self->microfacet.constant;
+    self->coat =
+        facets->fitted ? aur_rough_coat_of_mitsuba(facets, self->ior) : aur_rough_coat_of(facets, self->ior);
+    self->inner_reflectance = self->coat.inner_reflectance;
+    self->outer_transmittance = self->coat.outer_transmittance;
     return AUR_OK;
 }
 

@@ -51,6 +51,16 @@ float aur_microfacet_masking(const aur_microfacet *microfacet, aur_vector direct
     return 1.0f / (1.0f + lambda(microfacet, direction));
 }
 
+float aur_microfacet_fitted_masking(const aur_microfacet *microfacet, aur_vector direction,
+                                    aur_vector normal) {
+    const float share = aur_microfacet_masking(microfacet, direction, normal);
+    if (!microfacet->fitted || microfacet->distribution != AUR_MICROFACET_BECKMANN || !(share > 0.0f))
+        return share;
+    const float a =
+        fabsf(direction.z) / hypotf(direction.x * microfacet->alpha_u, direction.y * microfacet->alpha_v);
+    return a < 1.6f ? (3.535f * a + 2.181f * a * a) / (1.0f + 2.276f * a + 2.577f * a * a) : 1.0f;
+}
+
 float aur_microfacet_pdf(const aur_microfacet *microfacet, aur_vector view, aur_vector normal) {
     return aur_microfacet_density(microfacet, normal) * aur_microfacet_masking(microfacet, view, normal) *
            fmaxf(aur_vector_dot(view, normal), 0.0f) / view.z;
@@ -115,9 +125,12 @@ float aur_microfacet_mirror(const aur_microfacet *microfacet, aur_vector view, a
         return 0.0f;
     const aur_vector normal = aur_vector_normalize(aur_vector_add(view, light));
     *cosine = aur_vector_dot(view, normal);
-    const float seen =
-        aur_microfacet_density(microfacet, normal) * aur_microfacet_masking(microfacet, view, normal);
+    const float density = aur_microfacet_density(microfacet, normal);
+    const float seen = density * aur_microfacet_masking(microfacet, view, normal);
     *pdf = seen * fmaxf(*cosine, 0.0f) / view.z / (4.0f * *cosine);
+    if (microfacet->fitted)
+        return density * aur_microfacet_fitted_masking(microfacet, view, normal) *
+               aur_microfacet_fitted_masking(microfacet, light, normal) / (4.0f * view.z);
     return seen * aur_microfacet_masking(microfacet, light, normal) / (4.0f * view.z);
 }
 

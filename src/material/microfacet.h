@@ -7,6 +7,9 @@
 typedef struct aur_microfacet {
     enum { AUR_MICROFACET_BECKMANN, AUR_MICROFACET_GGX } distribution;
     float alpha_u, alpha_v;
+    /* Beckmann's masking is the fit of Walter 2007, page 6, as in Mitsuba; facets are drawn as if it were
+     * not. */
+    bool fitted;
 } aur_microfacet;
 
 /* Facets over a surface: the same everywhere, or by textures. */
@@ -52,15 +55,19 @@ static inline float aur_roughness_ggx_alpha(const aur_roughness *roughness) {
 static inline aur_microfacet aur_roughness_at(const aur_roughness *roughness, aur_bsdf_point point) {
     if (!roughness->varies)
         return roughness->constant;
-    return (aur_microfacet){roughness->constant.distribution,
-                            fmaxf(aur_color_number_at(&roughness->alpha_u, point), (float)AUR_LEAST_ALPHA),
-                            fmaxf(aur_color_number_at(&roughness->alpha_v, point), (float)AUR_LEAST_ALPHA)};
+    return (aur_microfacet){
+        .distribution = roughness->constant.distribution,
+        .alpha_u = fmaxf(aur_color_number_at(&roughness->alpha_u, point), (float)AUR_LEAST_ALPHA),
+        .alpha_v = fmaxf(aur_color_number_at(&roughness->alpha_v, point), (float)AUR_LEAST_ALPHA)};
 }
 
 /* Density of normals: its integral against the cosine is 1. */
 float aur_microfacet_density(const aur_microfacet *microfacet, aur_vector normal);
 /* The visible share of normals facing `direction` (either side), 0 when `normal` shows its back. */
 float aur_microfacet_masking(const aur_microfacet *microfacet, aur_vector direction, aur_vector normal);
+/* The same, or its fit where the facets have one. */
+float aur_microfacet_fitted_masking(const aur_microfacet *microfacet, aur_vector direction,
+                                    aur_vector normal);
 /* The density with which aur_microfacet_sample draws `normal`; view.z > 0. */
 float aur_microfacet_pdf(const aur_microfacet *microfacet, aur_vector view, aur_vector normal);
 aur_vector aur_microfacet_sample(const aur_microfacet *microfacet, aur_vector view, float u, float v);

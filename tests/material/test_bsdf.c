@@ -391,21 +391,26 @@ static void lobe_reflectance_is_its_parameter(void **state) {
  * narrowest facets magnify that of a direction by the inverse of their roughness. */
 static void values_are_those_of_mitsuba(void **state) {
     (void)state;
-    for (size_t i = 0; i < sizeof mitsuba_values / sizeof mitsuba_values[0]; ++i) {
+    material made;
+    const size_t count = sizeof mitsuba_values / sizeof mitsuba_values[0];
+    for (size_t i = 0; i < count; ++i) {
         const mitsuba_value *const row = &mitsuba_values[i];
         char text[256];
         snprintf(text, sizeof text, "%s", row->material);
         char *const nested = strchr(text, '>');
         if (nested != NULL)
             *nested = '\0';
-        material made = make_material(&(material_row){text, nested != NULL ? nested + 1 : NULL, 0});
+        /* The tables of rough coats take a while. */
+        if (i == 0 || strcmp(row->material, row[-1].material) != 0)
+            made = make_material(&(material_row){text, nested != NULL ? nested + 1 : NULL, 0});
         const aur_vector value = value_of(made.bsdf, AUR_BSDF_WHOLE, row->view, row->light);
         const float difference = aur_vector_length(aur_vector_subtract(value, row->value));
         if (!(difference <= 2e-5f * aur_vector_length(row->value) + 1e-7f))
             fail_msg("%s: %g %g %g instead of %g %g %g (row %zu)", row->material, (double)value.x,
                      (double)value.y, (double)value.z, (double)row->value.x, (double)row->value.y,
                      (double)row->value.z, i);
-        drop_material(&made);
+        if (i + 1 == count || strcmp(row->material, row[1].material) != 0)
+            drop_material(&made);
     }
 }
 

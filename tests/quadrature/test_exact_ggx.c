@@ -6,9 +6,9 @@
 #include <string.h>
 
 #include "check.h"
+#include "core/gauss.h"
 #include "core/vector.h"
 #include "quadrature/exact/measured.h"
-#include "quadrature/potential/gauss.h"
 #include "quadrature/potential/potential.h"
 
 /* The mean of x^a y^b z^c over a GGX lobe, by Gauss-Legendre in z and equal steps of the azimuth: slow, but

@@ -4,8 +4,8 @@
 #include <string.h>
 
 #include "check.h"
+#include "core/gauss.h"
 #include "quadrature/lobes.h"
-#include "quadrature/potential/gauss.h"
 
 #define PI 3.14159265358979323846
 

@@ -1,9 +1,9 @@
 #include "scene_text.h"
 
+#include "core/gauss.h"
 #include "core/random.h"
 #include "core/vector3d.h"
 #include "material/sampling.h"
-#include "quadrature/potential/gauss.h"
 #include "scene/lights/sky_model.h"
 
 static const double RADIANS = AUR_PI / 180.0;

@@ -39,7 +39,7 @@ static void test_rule(void **state) {
     (void)state;
     const float alpha = 0.3f;
     aur_ggx_rule rule = rule_of(alpha);
-    const aur_microfacet facets = {AUR_MICROFACET_GGX, alpha, alpha};
+    const aur_microfacet facets = {.distribution = AUR_MICROFACET_GGX, .alpha_u = alpha, .alpha_v = alpha};
     for (size_t turn = 0; turn < 12; ++turn) {
         const double angle = 0.05 + 0.12 * (double)turn, azimuth = 0.7 * (double)turn;
         const bool mirrored = turn % 2 == 1;

@@ -3,7 +3,7 @@
 #include <math.h>
 #include <stdlib.h>
 
-#include "quadrature/potential/gauss.h"
+#include "core/gauss.h"
 
 /* The recurrence of the spherical harmonics. */
 static void fill_sphere(aur_basis *basis) {

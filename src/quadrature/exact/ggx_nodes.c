@@ -10,9 +10,9 @@
 #include <math.h>
 #include <stdlib.h>
 
+#include "core/gauss.h"
 #include "core/vector.h"
 #include "quadrature/exact/measured.h"
-#include "quadrature/potential/gauss.h"
 
 typedef struct ggx_lobe {
     double alpha, sine, cosine; /* of the view */

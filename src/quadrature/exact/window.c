@@ -2,8 +2,8 @@
 
 #include <math.h>
 
+#include "core/gauss.h"
 #include "core/vector.h"
-#include "quadrature/potential/gauss.h"
 
 enum { GAUSS = 64 };
 

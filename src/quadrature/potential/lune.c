@@ -2,9 +2,9 @@
 
 #include <math.h>
 
+#include "core/gauss.h"
 #include "core/vector.h"
 #include "core/vector3d.h"
-#include "quadrature/potential/gauss.h"
 
 static const double negligible = 1e-13;
 

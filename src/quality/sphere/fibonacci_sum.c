@@ -10,8 +10,8 @@
 #include <math.h>
 #include <stdlib.h>
 
+#include "core/gauss.h"
 #include "core/vector.h"
-#include "quadrature/potential/gauss.h"
 #include "sphere/phase.h"
 
 enum {

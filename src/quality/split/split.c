@@ -4,8 +4,8 @@
 #include <math.h>
 #include <stdlib.h>
 
+#include "core/gauss.h"
 #include "quadrature/exact/window.h"
-#include "quadrature/potential/gauss.h"
 #include "quality/split/near.h"
 #include "quality/split/powers.h"
 

@@ -1,4 +1,4 @@
-#include "quadrature/potential/gauss.h"
+#include "core/gauss.h"
 
 #include <math.h>
 
