@@ -43,34 +43,46 @@ static aur_result resolve_filename(aur_loader *self, aur_parameters *parameters)
     return AUR_OK;
 }
 
-/* A picture that a model has in memory goes to its texture as an object; else *image is NULL. */
-static aur_result add_image(aur_loader *self, aur_parameters *parameters, aur_image **image) {
-    *image = NULL;
+/* The picture goes to its texture as an object. The last one is kept: textures beside each other often take
+ * channels of one, as those of glTF do. */
+static aur_result add_image(aur_loader *self, aur_parameters *parameters) {
     const aur_parameter *const name = aur_parameters_find(parameters, "filename");
-    const aur_model_file *const part =
-        name != NULL && name->kind == AUR_PARAMETER_STRING
-            ? aur_model_find_file(&self->scene->document.model_files, name->text)
-            : NULL;
-    if (part == NULL)
+    if (strcmp(parameters->plugin, "bitmap") != 0 || name == NULL || name->kind != AUR_PARAMETER_STRING)
         return AUR_OK;
-    const aur_result result = aur_image_read_memory(part->name, part->size, part->data, image, self->error);
-    return result != AUR_OK ? result
-                            : aur_parameters_add_object(parameters, "bitmap", "image", *image,
-                                                        parameters->location, self->error);
+    if (self->image == NULL || strcmp(self->image_name, name->text) != 0) {
+        aur_loader_drop_image(self);
+        self->image_name = strdup(name->text);
+        if (self->image_name == NULL)
+            return aur_fail_memory(self->error);
+        const aur_model_file *const part =
+            aur_model_find_file(&self->scene->document.model_files, name->text);
+        const aur_result result = part != NULL ? aur_image_read_memory(part->name, part->size, part->data,
+                                                                       &self->image, self->error)
+                                               : aur_image_read(name->text, &self->image, self->error);
+        if (result != AUR_OK)
+            return result;
+    }
+    return aur_parameters_add_object(parameters, "bitmap", "image", self->image, parameters->location,
+                                     self->error);
+}
+
+void aur_loader_drop_image(aur_loader *self) {
+    aur_image_destroy(self->image);
+    free(self->image_name);
+    self->image = NULL;
+    self->image_name = NULL;
 }
 
 aur_result aur_build_texture(aur_loader *self, aur_parameters *parameters, void **object) {
     aur_scene *const scene = self->scene;
-    aur_image *image = NULL;
     aur_result result = resolve_filename(self, parameters);
     if (result == AUR_OK)
-        result = add_image(self, parameters, &image);
+        result = add_image(self, parameters);
     if (result == AUR_OK)
         result = aur_loader_reserve(self, &scene->textures, scene->texture_count, &scene->texture_capacity);
     aur_texture **const made = scene->textures + scene->texture_count;
     if (result == AUR_OK)
         result = aur_texture_create(parameters, made, self->error);
-    aur_image_destroy(image);
     if (result != AUR_OK)
         return result;
     *object = *made;

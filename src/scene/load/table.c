@@ -118,16 +118,14 @@ aur_result aur_scene_build(aur_scene *scene, const aur_warnings *warnings, aur_e
         *error = unknown;
         return unknown.result;
     }
-    for (aur_xml_node *node = root->first_child; node != NULL; node = node->next) {
-        const aur_result result = build_top(&self, node);
-        if (result != AUR_OK)
-            return result;
-    }
-    for (const aur_xml_node *node = root->first_child; node != NULL; node = node->next) {
-        const aur_result result = check_top(&self, node);
-        if (result != AUR_OK)
-            return result;
-    }
+    aur_result result = AUR_OK;
+    for (aur_xml_node *node = root->first_child; result == AUR_OK && node != NULL; node = node->next)
+        result = build_top(&self, node);
+    aur_loader_drop_image(&self);
+    for (const aur_xml_node *node = root->first_child; result == AUR_OK && node != NULL; node = node->next)
+        result = check_top(&self, node);
+    if (result != AUR_OK)
+        return result;
     if (scene->sampler == NULL && (scene->sampler = strdup("random")) == NULL)
         return aur_fail_memory(error);
     if (scene->has_integrator)
