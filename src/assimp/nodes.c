@@ -281,10 +281,10 @@ void writer_put_nodes(writer *self) {
     place_node(self, self->scene->mRootNode, &identity);
     if (!self->source->alone || !(self->lower[0] <= self->upper[0]))
         return;
-    /* Most forms have y upwards; those of makers of parts and of 3D Studio z. */
+    /* Most forms have y upwards, or assimp turns them so; those of makers of parts have z. */
     const size_t length = strlen(self->source->name);
     const char *const ending = length > 4 ? self->source->name + length - 4 : "";
-    const bool z_up = strcmp(ending, ".stl") == 0 || strcmp(ending, ".3ds") == 0;
+    const bool z_up = strcmp(ending, ".stl") == 0;
     const triple up = z_up ? (triple){0.0, 0.0, 1.0} : (triple){0.0, 1.0, 0.0};
     if (!self->has_sensor)
         add_camera(self, normalize(z_up ? (triple){0.5, -1.0, 0.35} : (triple){0.5, 0.35, 1.0}), up);

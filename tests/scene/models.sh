@@ -217,6 +217,37 @@ grep -q 'has no camera' said || fail "the camera that is added is not said: $(ca
 grep -q 'has no light' said && fail "what glows is not seen as a light"
 "$aureole" info dark.gltf >said 2>&1 && grep -q 'has no light' said || fail "the light that is added is not said: $(cat said)"
 
+# One body by its points alone: the pictures from the camera that is added are the same. 3DS counts z upwards, and assimp
+# turns it.
+/usr/bin/python3 - <<'PYTHON' || fail "the other models cannot be written"
+import struct
+points = [(-1, 0, -1), (1, 0, -1), (1, 0, 1), (-1, 0, 1), (0, 2, 0)]
+faces = [(0, 1, 2), (0, 2, 3), (0, 4, 1), (1, 4, 2), (2, 4, 3), (3, 4, 0)]
+risen = [(x, -z, y) for x, y, z in points]  # z upwards
+triangles = [[points[i] for i in face] for face in faces]
+with open("roof.obj", "w") as file:
+    for face in triangles:
+        file.writelines("v %g %g %g\n" % p for p in face)
+    file.writelines("f %d %d %d\n" % (3 * i + 1, 3 * i + 2, 3 * i + 3) for i in range(len(faces)))
+with open("roof.off", "w") as file:
+    file.write("OFF\n%d %d 0\n" % (len(points), len(faces)))
+    file.writelines("%g %g %g\n" % p for p in points)
+    file.writelines("3 %d %d %d\n" % face for face in faces)
+
+def chunk(kind, data):
+    return struct.pack("<HI", kind, 6 + len(data)) + data
+mesh = chunk(0x4110, struct.pack("<H", len(points)) + b"".join(struct.pack("<3f", *p) for p in risen))
+mesh += chunk(0x4120, struct.pack("<H", len(faces)) + b"".join(struct.pack("<4H", *face, 7) for face in faces))
+with open("roof.3ds", "wb") as file:
+    file.write(chunk(0x4D4D, chunk(0x3D3D, chunk(0x4000, b"roof\0" + chunk(0x4100, mesh)))))
+PYTHON
+for model in roof.obj roof.off roof.3ds; do
+  "$aureole" render $model -q --integrator depth --width 32 --spp 4 --seed 1 -o ${model#*.}.exr 2>said || fail "$model is not rendered: $(cat said)"
+done
+for form in off 3ds; do
+  "$aureole" compare obj.exr $form.exr --metric relative-rmse --tolerance 1e-4 >compared || fail "roof.$form is not roof.obj: $(cat compared)"
+done
+
 # In a scene, beside what else there is, and twice.
 cat >both.xml <<'XML'
 <scene version="3.0.0"><include filename="dark.gltf"/><include filename="cube.obj"/>
