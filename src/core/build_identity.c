@@ -5,6 +5,7 @@
 #include <stdbool.h>
 
 #include "core/cache_file.h"
+#include "core/ranks.h"
 
 #if defined(__linux__)
 #include <link.h>
@@ -34,12 +35,19 @@ static bool find_identity(const char *notes, size_t size, size_t alignment, uint
 
 typedef struct identity {
     uint64_t sum;
-    bool failed;
+    bool of_carrier, failed;
 } identity;
 
-/* Summed, so that the order in which libraries were loaded does not matter. */
+/* Summed, so that the order in which libraries were loaded does not matter. They come in that order, and what
+ * follows the module of MPI is MPI's own, until another module of ours: it carries results and makes none, so
+ * that one process and several ranks share what is kept. TBB loads its allocator late, which makes none
+ * either. */
 static int add_object(struct dl_phdr_info *object, size_t size, void *context) {
     identity *const all = context;
+    if (strstr(object->dlpi_name, "/aureole-") != NULL)
+        all->of_carrier = strstr(object->dlpi_name, "/" AUR_CARRIER_MODULE) != NULL;
+    if (all->of_carrier || strstr(object->dlpi_name, "/libtbbmalloc") != NULL)
+        return 0;
     uint64_t hash = 0;
     bool found = strncmp(object->dlpi_name, "linux-vdso", 10) == 0; /* the kernel's: no file */
     (void)size;

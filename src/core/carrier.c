@@ -6,7 +6,7 @@
 aur_result aur_carrier_find(aur_carrier *carrier, aur_error *error) {
     /* MPI's own parts, which it loads itself, look for its names. */
     const aur_carrier_open_function open =
-        (aur_carrier_open_function)aur_module_find("aureole-mpi.so", "aur_carrier_open", true);
+        (aur_carrier_open_function)aur_module_find(AUR_CARRIER_MODULE, "aur_carrier_open", true);
     if (open == NULL)
         return aur_fail(
             error, AUR_ERROR_UNSUPPORTED,

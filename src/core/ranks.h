@@ -27,7 +27,8 @@ typedef struct aur_carrier {
 
 #define AUR_ANY_RANK SIZE_MAX
 
-/* What a module for a carrier shows, by the name "aur_carrier_open". Starts it, or says why not. */
+#define AUR_CARRIER_MODULE "aureole-mpi.so"
+/* What the module for a carrier shows, by the name "aur_carrier_open". Starts it, or says why not. */
 typedef aur_result (*aur_carrier_open_function)(aur_carrier *carrier, aur_error *error);
 
 /* Finds and starts the carrier that this build has (carrier.c). Errors: UNSUPPORTED. */

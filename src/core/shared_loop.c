@@ -350,7 +350,8 @@ static void talk_to_root(aur_shared_loop *loop, bool (*one)(void *work)) {
 
 void aur_shared_loop_talk(aur_shared_loop *loop, bool (*one)(void *work)) {
     const double start = aur_ranks_talk_begin();
-    loop->alone = one != NULL;
+    if (one != NULL) /* no other thread is there to read it */
+        loop->alone = true;
     if (loop->is_root)
         talk_as_root(loop, one);
     else

@@ -38,6 +38,21 @@ same 2 measure spherical-fibonacci -n 100 --domain sphere -m spectrum
 same 2 weights spherical-fibonacci -n 32 --lobe cosine --lobe2 phong:20 --n2 32 --angles 8 --rotations 2 --table out.table -q
 same 2 lab run keller-1994-table2 --quick -o out -q
 
+# Tables of weights and photon maps that ranks leave in the cache have the names and bits of one process's, so that each finds the other's; a metal
+# of GGX has its own.
+metal=(render "$source/scenes/plates/plates.xml" -D materials=rough --width 12 --height 10 --spp 1 -q
+       --integrator finalgather:photons=20000,diffuse_samples=8,glossy_samples=8,weights=oswa)
+rough=(render "$scene" --width 12 --height 10 --spp 1 -q
+       --integrator finalgather:weights=oswa,photons=100,diffuse_samples=4,glossy_samples=4,rotations=1)
+for work in metal rough; do
+  declare -n options=$work
+  rm -rf cache-of-one cache-of-many one.exr many.exr
+  AUREOLE_CACHE=$PWD/cache-of-one "$aureole" "${options[@]}" -o one.exr 2>said || fail "$work: $(cat said)"
+  AUREOLE_CACHE=$PWD/cache-of-many many 2 "$aureole" "${options[@]}" -o many.exr || fail "$work: $(cat said)"
+  cmp one.exr many.exr || fail "two ranks make another picture of $work"
+  [ -n "$(ls cache-of-one)" ] && diff -r cache-of-one cache-of-many || fail "two ranks keep other tables of $work"
+done
+
 # A rank that has not the files gets them from rank 0, and the log names the ranks.
 "$aureole" render "$scene" --width 40 --height 36 --spp 2 -q -o one.exr
 timeout 120 mpirun -n 1 "$aureole" render "$scene" --width 40 --height 36 --spp 2 -o many.exr : \
