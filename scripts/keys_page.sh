@@ -11,8 +11,10 @@ if [ "${2:-}" = --words ]; then
     echo "$kind"
     "$program" help "$kind" --format csv | tail -n +2 | cut -d, -f1 | while read -r name; do
       echo "$name"
-      "$program" help "$kind" "$name" --format csv | tail -n +2 | cut -d, -f1
-      "$program" help "$kind" "$name" --format csv | awk -F'"' '/,choice,/ && NF > 1 { print $2 }' | tr ',' '\n' | tr -d ' '
+      "$program" help "$kind" "$name" --format csv | awk -F, 'NR > 1 {
+        print $1
+        if (/,choice,/ && split($0, part, "\"") > 1) { gsub(/ /, "", part[2]); gsub(/,/, "\n", part[2]); print part[2] }
+      }'
     done
   done | LC_ALL=C sort -u | sed 's/.*/"&"/'
   exit

@@ -8,8 +8,11 @@ mkdir resume
 cd resume
 cp -r "$source/scenes/cornell-box" box
 scene=box/cornell-box.xml
+size='--width 64 --height 48'
+[ -z "${AUREOLE_SHORT_TESTS:-}" ] || size='--width 32 --height 24' # sanitizers take long enough to be stopped
 # In the background the program is called by its name: a signal to a function would miss it.
-render() { "$aureole" render "$scene" --width 64 --height 48 -q "$@"; }
+# shellcheck disable=SC2086
+render() { "$aureole" render "$scene" $size -q "$@"; }
 
 refuses() { # WORDS STATUS COMMAND...
   local words=$1 wanted=$2 status=0
@@ -26,7 +29,7 @@ for how in '--spp 64' '--spp 8 --integrator finalgather:photons=2000,diffuse_sam
   render $how -o whole.exr
   for signal in KILL TERM; do
     # shellcheck disable=SC2086
-    "$aureole" render "$scene" --width 64 --height 48 -q $how -o parted.exr --checkpoint kept --checkpoint-every .05s --resume -t 1 2>said &
+    "$aureole" render "$scene" $size -q $how -o parted.exr --checkpoint kept --checkpoint-every .05s --resume -t 1 2>said &
     before=$(stat -c %Y%i kept 2>/dev/null || echo none)
     for ((i = 0; i < 600; ++i)); do
       [ "$(stat -c %Y%i kept 2>/dev/null || echo none)" = "$before" ] || break
