@@ -1,10 +1,13 @@
 #!/usr/bin/env bash
-# Looks for mistakes in the room core, on which all others stand, by other means than the tests' own:
-#   scripts/analyse.sh thread|memory|valgrind|analyzer
-# thread and memory: clang's sanitizers over the tests of core, compiled with it; valgrind: memcheck over those of
-# build/release; analyzer: gcc's -fanalyzer. memory also runs the harnesses of the parsers that stand on core alone, of
-# points, generator matrices and weather, on their corpus and 3000 mutations. It goes no further: the other rooms need
-# Embree, OpenEXR, expat and LAPACK, which Debian does not have instrumented. Exit status 1 where something is found.
+# Looks for mistakes by other means than the tests' own, and prints what it found; exit status 1 where that is something.
+#   scripts/analyse.sh thread [ROOM...]     the tests under clang's thread sanitizer (preset tsan, or the folder BUILD), room by room
+#   scripts/analyse.sh memory               clang's memory sanitizer, see below
+#   scripts/analyse.sh valgrind [ROOM...]   memcheck over unit tests of build/release: core, points, measures and weights
+#   scripts/analyse.sh analyzer [FILE...]   gcc's -fanalyzer over src/
+#   scripts/analyse.sh tidy [FILE...]       clang-tidy over src/, with the checks of .clang-tidy
+# memory compiles the tests of core, and the harnesses of the parsers that stand on core alone (points, generator matrices
+# and weather), which are run on their corpus and 3000 mutations. It goes no further: the other rooms need
+# Embree, OpenEXR, expat and LAPACK, which Debian does not have instrumented.
 set -uo pipefail
 cd "$(dirname "$0")/.." || exit 2
 folder=$(mktemp -d)
@@ -12,22 +15,38 @@ trap 'rm -rf "$folder"' EXIT
 export AUREOLE_CACHE=
 flags=(-std=c17 -D_POSIX_C_SOURCE=200809L -D_FILE_OFFSET_BITS=64 -Iinclude -Isrc -Itests "-DAUR_SOURCE_DIR=\"$PWD\"")
 status=0
-case ${1:-} in
-  thread | memory)
-    sanitize=(-O1 -g "-fsanitize=$1" -ffp-contract=off)
-    files=(src/core/*.c) harnesses=()
-    if [ "$1" = memory ]; then
-      harnesses=(points matrices weather)
-      sanitize+=(-DAUR_PORTABLE -Ifuzz)
-      files+=($(find src/pointset -name '*.c' ! -name '*avx*') src/lighting/daylight/weather.c src/scene/lights/sun_position.c)
-      # clang's sanitizer does not know that these functions of new C libraries write.
-      for name in fstat64 stat64 lstat64; do
-        of='const char *' && [ $name != fstat64 ] || of='int '
-        echo "int __real_$name($of, struct stat *); int __wrap_$name($of what, struct stat *status);"
-        echo "int __wrap_$name($of what, struct stat *status) { memset(status, 0, sizeof *status); return __real_$name(what, status); }"
-        sanitize+=("-Wl,--wrap=$name")
-      done >"$folder/wrap.c"
-      cat >>"$folder/wrap.c" <<'C'
+verb=${1:-}
+shift
+case $verb in
+  thread)
+    build=$(realpath -m "${BUILD:-build/tsan}")
+    cmake --preset tsan -B "$build" --log-level=ERROR >/dev/null && cmake --build "$build" >"$folder/said" || { tail "$folder/said"; exit 2; }
+    [ $# -gt 0 ] || set -- $(ctest --test-dir "$build" -N | sed -n 's|.*: \([a-z]*\)/.*|\1|p' | sort -u)
+    echo '| room | tests | of these failed or too slow | complaints |'
+    echo '|---|---|---|---|'
+    # Reports go to files, since many tests look at what the program says or do not show it.
+    export TSAN_OPTIONS="ignore_noninstrumented_modules=1 log_path=$folder/report exitcode=0"
+    for room in "$@"; do
+      ctest --test-dir "$build" -R "^$room/" --timeout "${TIMEOUT:-600}" </dev/null >"$folder/said" 2>&1
+      complaints=$(cat "$folder"/report.* 2>/dev/null | grep -c 'WARNING: ThreadSanitizer')
+      failed=$(sed -n 's|^ *[0-9]* - \([^ ]*\) (.*|\1|p' "$folder/said" | paste -sd ' ')
+      printf '| %s | %d | %s | %d |\n' "$room" "$(grep -c 'Test *#' "$folder/said")" "$failed" "$complaints"
+      [ "$complaints" = 0 ] && [ -z "$failed" ] || status=1
+      cat "$folder"/report.* 2>/dev/null | grep -A14 'WARNING: ThreadSanitizer' | head -60 >&2
+      rm -f "$folder"/report.*
+    done ;;
+  memory)
+    sanitize=(-O1 -g -fsanitize=memory -ffp-contract=off -DAUR_PORTABLE -Ifuzz)
+    harnesses=(points matrices weather)
+    files=(src/core/*.c $(find src/pointset -name '*.c' ! -name '*avx*') src/lighting/daylight/weather.c src/scene/lights/sun_position.c)
+    # clang's sanitizer does not know that these functions of new C libraries write.
+    for name in fstat64 stat64 lstat64; do
+      of='const char *' && [ $name != fstat64 ] || of='int '
+      echo "int __real_$name($of, struct stat *); int __wrap_$name($of what, struct stat *status);"
+      echo "int __wrap_$name($of what, struct stat *status) { memset(status, 0, sizeof *status); return __real_$name(what, status); }"
+      sanitize+=("-Wl,--wrap=$name")
+    done >"$folder/wrap.c"
+    cat >>"$folder/wrap.c" <<'C'
 int __real_fstatat64(int folder, const char *path, struct stat *status, int flags);
 int __wrap_fstatat64(int folder, const char *path, struct stat *status, int flags);
 int __wrap_fstatat64(int folder, const char *path, struct stat *status, int flags) {
@@ -35,10 +54,9 @@ int __wrap_fstatat64(int folder, const char *path, struct stat *status, int flag
     return __real_fstatat64(folder, path, status, flags);
 }
 C
-      sed -i '1i #include <string.h>\n#include <sys/stat.h>' "$folder/wrap.c"
-      sanitize+=(-Wl,--wrap=fstatat64)
-      files+=("$folder/wrap.c")
-    fi
+    sed -i '1i #include <string.h>\n#include <sys/stat.h>' "$folder/wrap.c"
+    sanitize+=(-Wl,--wrap=fstatat64)
+    files+=("$folder/wrap.c")
     for file in "${files[@]}"; do
       clang "${flags[@]}" "${sanitize[@]}" -Wno-unused-command-line-argument -c "$file" \
         -o "$folder/$(tr / _ <<<"$file").o" || exit 2
@@ -65,19 +83,61 @@ C
       fi
     done ;;
   valgrind)
-    for test in build/release/tests/test_core_*; do
-      if AUREOLE_ISA=avx2 valgrind -q --error-exitcode=9 --leak-check=full "$test" >"$folder/said" 2>&1; then
-        echo "$(basename "$test"): nothing"
-      else
-        status=1
-        echo "$(basename "$test"):"
-        grep '^==\|FAILED' "$folder/said" | head -30
-      fi
+    [ $# -gt 0 ] || set -- core pointset sphere quality quadrature
+    echo '| room | tests | complaints | took too long |'
+    echo '|---|---|---|---|'
+    for room in "$@"; do
+      tests=0 complaints=0 slow=0
+      for test in build/release/tests/test_"$room"_*; do
+        AUREOLE_SHORT_TESTS=1 AUREOLE_ISA=avx2 timeout "${TIMEOUT:-600}" \
+          valgrind -q --error-exitcode=9 --leak-check=full "$test" >"$folder/said" 2>&1
+        result=$?
+        tests=$((tests + 1))
+        [ $result != 124 ] || slow=$((slow + 1))
+        [ $result != 9 ] || { complaints=$((complaints + 1)); echo "$test:" >&2; grep '^==' "$folder/said" | head -30 >&2; }
+      done
+      echo "| $room | $tests | $complaints | $slow |"
+      [ $complaints = 0 ] || status=1
     done ;;
   analyzer)
-    for file in src/core/*.c; do
-      gcc "${flags[@]}" -O1 -fanalyzer -c -o /dev/null "$file" 2>&1 | grep -E 'warning: .*\[-Wanalyzer' && status=1
-    done ;;
-  *) echo "usage: scripts/analyse.sh thread|memory|valgrind|analyzer" >&2; exit 2 ;;
+    # It reads one file at a time, so it is told that functions that make errors never return AUR_OK. Two warnings are off: it
+    # takes loops of three for ones that may be left before, and their arrays for unset (valgrind and the memory sanitizer look for
+    # such), and shifts of vectors for those of single bits. What it says of sound places stands in analyzer.txt: file, function,
+    # warning, and why it is none.
+    cat >"$folder/told.h" <<'C'
+#include "core/error.h"
+static inline aur_result aur_told(aur_result result) {
+    if (result == AUR_OK)
+        __builtin_unreachable();
+    return result;
+}
+#define aur_fail(...) aur_told(aur_fail(__VA_ARGS__))
+#define aur_fail_at(...) aur_told(aur_fail_at(__VA_ARGS__))
+#define aur_fail_memory(...) aur_told(aur_fail_memory(__VA_ARGS__))
+#define aur_fail_memory_at(...) aur_told(aur_fail_memory_at(__VA_ARGS__))
+C
+    flags+=(-O1 -fanalyzer -Wno-analyzer-use-of-uninitialized-value
+            -Wno-analyzer-shift-count-overflow -c -o /dev/null $(pkg-config --cflags expat stb mpi assimp OpenEXR))
+    [ $# -gt 0 ] || set -- $(find src -name '*.c' ! -name '*_avx*' | sort)
+    for file in "$@"; do
+      told=(-include "$folder/told.h")
+      [ "$file" != src/core/error.c ] || told=()
+      told+=($(sed -nE 's/^#define (_[A-Z]+_SOURCE) *([0-9]*).*/-D\1=\2/p' "$file"))
+      LC_ALL=C gcc "${flags[@]}" "${told[@]}" "$file" 2>&1 | awk '
+        /: In function / { split($0, part, "\x27"); f = part[2] }
+        /(error|warning): / { kind = $NF; gsub(/^\[-Wanalyzer-|\]$/, "", kind); print name, f == "" ? "?" : f, kind, $0 }' name="$file"
+    done | sort -u >"$folder/said"
+    while read -r file function kind words; do
+      grep -qF "$file $function $kind:" scripts/analyzer.txt || { echo "$words (in $function)"; status=1; }
+    done <"$folder/said"
+    echo "$# files, $(wc -l <"$folder/said") warnings, $(grep -c '^src' scripts/analyzer.txt) explained in scripts/analyzer.txt" ;;
+  tidy)
+    [ $# -gt 0 ] || set -- $(find src -name '*.c' ! -name '*_avx*' | sort)
+    clang-tidy --version | sed -n 's/.*LLVM version/clang-tidy/p'
+    printf '%s\n' "$@" | xargs -P "$(nproc)" -n 1 clang-tidy -p build/release --quiet 2>/dev/null | grep -E '(warning|error): ' | sort -u >"$folder/said"
+    cat "$folder/said"
+    echo "$# files, $(wc -l <"$folder/said") warnings"
+    [ ! -s "$folder/said" ] || status=1 ;;
+  *) sed -n '2,8p' "$0" >&2; exit 2 ;;
 esac
 exit $status

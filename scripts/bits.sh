@@ -2,7 +2,7 @@
 # Checksums of pictures, points, weights and measures, a line each. A change that only moves code leaves every line as it
 # was: scripts/bits.sh PROGRAM > before; ...; scripts/bits.sh PROGRAM > after; diff before after
 # The sums of pictures are of this machine: Embree's hits differ in the last bits between processors. The others, which
-# scripts/bits.sh PROGRAM numbers gives alone, are those of every processor.
+# scripts/bits.sh PROGRAM numbers gives alone, are those of every processor. COUNT is the number of points a set (64).
 set -euo pipefail
 export AUREOLE_CACHE= # everything is made anew
 aureole=$(realpath "${1:-build/release/aureole}")
@@ -61,7 +61,7 @@ for set in $("$aureole" sets --format csv | awk -F, 'NR > 1 { print $1 }'); do
   for options in '' '--domain hemisphere' '--domain sphere --scramble rotate3d --seed 3' '--domain square --scramble owen --seed 3' \
                  '--domain square --scramble digit' '--lobe phong:20' '--lobe ggx:0.3:40 --density optimal' '--dim 5 --domain cube'; do
     # shellcheck disable=SC2086
-    "$aureole" points "$set" -n 64 $options --format npy -o p.npy -q 2>/dev/null || continue
+    "$aureole" points "$set" -n "${COUNT:-64}" $options --format npy -o p.npy -q 2>/dev/null || continue
     sum "points $set $options" p.npy
   done
 done

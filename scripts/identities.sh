@@ -1,6 +1,8 @@
 #!/usr/bin/env bash
-# What must make the same bits: threads, parts, ranks, instruction sets, and builds. scripts/identities.sh PROGRAM [OTHER-BUILD...]
-# prints a table; exit status 1 where a row that has to be the same is not.
+# What must make the same bits: threads, parts, ranks, instruction sets, processors and builds. scripts/identities.sh PROGRAM
+# [OTHER-BUILD...] prints a table; exit status 1 where a row that has to be the same is not. Points, measures and weights are the sums
+# of scripts/bits.sh, with 256 points a set. "no FMA" is the C library's
+# mathematics for processors without fused multiply-add, which is not expected to be the same.
 set -uo pipefail
 export AUREOLE_CACHE= # everything is made anew
 aureole=$(realpath "${1:-build/release/aureole}")
@@ -8,6 +10,7 @@ shift
 builds=("$@")
 source=$(cd "$(dirname "$0")/.." && pwd)
 for i in "${!builds[@]}"; do builds[i]=$(realpath "${builds[i]}"); done
+name() { basename "$(dirname "$1")"; } # of a build: its folder
 folder=$(mktemp -d)
 trap 'rm -rf "$folder"' EXIT
 cd "$folder" || exit 2
@@ -33,13 +36,30 @@ make() {
 }
 declare -A cells
 columns=()
+cell() { # cell COLUMN WORK RESULT
+  [[ " ${columns[*]} " == *" ${1// /_} "* ]] || columns+=("${1// /_}")
+  cells[$2/${1// /_}]=$3
+  [ "$3" = same ] || [ "$1" = 'no FMA' ] || status=1
+}
 row() { # row COLUMN WORK: compares b.exr with a.exr
   local result=same
-  cmp -s a.exr b.exr || { result=**differs** status=1; }
-  [[ " ${columns[*]} " == *" ${1// /_} "* ]] || columns+=("${1// /_}")
-  cells[$2/${1// /_}]=$result
+  cmp -s a.exr b.exr || result=**differs**
+  cell "$1" "$2" "$result"
   rm -f b.exr
 }
+kinds=(points measure weights)
+numbers() { COUNT=256 bash "$source/scripts/bits.sh" "$1" numbers; }
+sums() { # sums COLUMN PROGRAM: compares its numbers with those of the program
+  local kind of other
+  numbers "$2" >numbers.b
+  for kind in "${kinds[@]}"; do
+    of=$(grep -c "  $kind " numbers.a)
+    other=$(grep "  $kind " numbers.a | grep -vcxFf numbers.b)
+    cell "$1" "$kind" "$([ "$other" = 0 ] && echo same || echo "$other of $of differ")"
+  done
+  diff numbers.a numbers.b | sed -n "s/^< [0-9a-f]* */$1: /p" >&2
+}
+no_fma=glibc.cpu.hwcaps=-AVX2,-FMA
 for work in "${works[@]}"; do
   make "$aureole" "$work" a.exr -t 1
   for threads in 2 3 8; do
@@ -65,9 +85,14 @@ for work in "${works[@]}"; do
   row "killed and gone on" "$work"
   for build in "${builds[@]}"; do
     make "$build" "$work" b.exr -t 1
-    row "${build#"$source"/}" "$work"
+    row "$(name "$build")" "$work"
   done
+  GLIBC_TUNABLES=$no_fma make "$aureole" "$work" b.exr -t 1
+  row "no FMA" "$work"
 done
+numbers "$aureole" >numbers.a
+for build in "${builds[@]}"; do sums "$(name "$build")" "$build"; done
+GLIBC_TUNABLES=$no_fma sums "no FMA" "$aureole"
 # Our own kernels against the portable ones; Embree's stay the same.
 for isa in avx2 avx512; do
   for work in "${works[@]}"; do
@@ -75,11 +100,13 @@ for isa in avx2 avx512; do
     AUREOLE_ISA=$isa AUREOLE_EMBREE_ISA=avx2 make "$aureole" "$work" b.exr -t 1
     row "$isa" "$work"
   done
+  AUREOLE_ISA=$isa sums "$isa" "$aureole"
 done
+AUREOLE_ISA=portable sums portable "$aureole"
 {
   printf '| |'; printf ' %s |' "${columns[@]//_/ }"; echo
   printf '|---|'; printf -- '---|%.0s' "${columns[@]}"; echo
-  for work in "${works[@]}"; do
+  for work in "${works[@]}" "${kinds[@]}"; do
     printf '| `%s` |' "${work/#error/--error 20%}"
     for column in "${columns[@]}"; do printf ' %s |' "${cells[$work/$column]:-}"; done
     echo

@@ -1,12 +1,15 @@
 #!/usr/bin/env bash
-# What several processes cost beside one: scripts/ranks.sh PROGRAM [ROUNDS]. Prints two tables. In each round one thread, one process of
-# two threads, and then 2, 4 and 8 ranks of one thread do the same, one after the other, and figures are ratios within a round:
-# their median, and the least and the most, between which the true median lies but for a chance of 2^(1 - ROUNDS).
-# A last line says how much others used the processors meanwhile: times on the wall mean something on quiet processors only.
-# The first work is next to nothing, so it shows what starting costs.
+# What several processes cost beside one: scripts/ranks.sh [--quick] [PROGRAM [ROUNDS]]. In each round of a work one thread, one process
+# of two threads, and then 2, 4 and 8 ranks of one thread do the same, one after the other. Ratios are those within a round:
+# their median, and the least and the most, between which the true median lies but for a chance of 2^(1 - ROUNDS). The rows
+# of a work are printed when its rounds are over. A last line says how much others used the processors meanwhile: times on the wall
+# mean something on quiet processors only. The first work is next to nothing, so it shows what starting costs. --quick: one
+# round of smaller works, within a minute.
 set -uo pipefail
+quick=
+[ "${1:-}" != --quick ] || { quick=1; shift; }
 aureole=$(realpath "${1:-build/release/aureole}")
-rounds=${2:-5}
+rounds=${2:-$([ $quick ] && echo 1 || echo 5)}
 source=$(cd "$(dirname "$0")/.." && pwd)
 command -v mpirun >/dev/null || { echo "ranks.sh: there is no mpirun" >&2; exit 2; }
 export OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 OMPI_MCA_rmaps_base_oversubscribe=1 AUREOLE_CACHE=
@@ -14,19 +17,32 @@ folder=$(mktemp -d)
 trap 'rm -rf "$folder"' EXIT
 cd "$folder" || exit 2
 box=$source/scenes/cornell-box/cornell-box.xml
-works=("render $box --width 16 --height 16 --spp 1 --stats -o a.exr"
-       "render $box --width 512 --height 512 --spp 64 --stats -o a.exr"
-       "render $box --width 512 --height 512 --spp 8 --integrator finalgather --stats -o a.exr"
-       "render $source/scenes/keller/cube.xml --width 128 --height 128 --integrator radiosity:paths=4194304 --stats -o a.exr"
-       "weights spherical-fibonacci -n 512 --lobe cosine --lobe2 phong:50 --n2 512 --angles 16 --table a.table"
-       "measure spherical-fibonacci -n 800 -m cap")
+cube=$source/scenes/keller/cube.xml
+works=("render $box --width 16 --height 16 --spp 1")
+if [ $quick ]; then
+  works+=("render $box --width 128 --height 128 --spp 32"
+          "render $box --width 128 --height 128 --spp 4 --integrator finalgather"
+          "render $cube --width 64 --height 64 --integrator radiosity:paths=262144"
+          "weights spherical-fibonacci -n 256 --lobe cosine --lobe2 phong:50 --n2 256 --angles 8"
+          "measure spherical-fibonacci -n 400 -m cap")
+else
+  works+=("render $box --width 512 --height 512 --spp 24"
+          "render $box --width 512 --height 512 --spp 4 --integrator finalgather"
+          "render $cube --width 128 --height 128 --integrator radiosity:paths=2097152"
+          "weights spherical-fibonacci -n 512 --lobe cosine --lobe2 phong:50 --n2 512 --angles 8"
+          "measure spherical-fibonacci -n 700 -m cap")
+fi
 TIMEFORMAT='%U %S %R'
 # Processor seconds and those on the wall of a command and its children; what it says goes to `said`.
 seconds() { { time "$@" >/dev/null 2>said; } 2>&1 | awk '{ print $1 + $2, $3 }'; }
 # Seconds in which the processors were not idle, and were taken by other virtual machines.
 busy() { awk -v tick="$(getconf CLK_TCK)" '/^cpu / { print ($2 + $3 + $4 + $7 + $8 + $9) / tick, $9 / tick }' /proc/stat; }
-# The median of numbers, their least and most.
-spread() { sort -g "$1" | awk '{ a[NR] = $1 } END { printf "%.2f (%.2f to %.2f)", (a[int((NR + 1) / 2)] + a[int(NR / 2) + 1]) / 2, a[1], a[NR] }'; }
+# The median of the ratios of a column of a file to the same column of another, line by line, their least and most.
+spread() { # spread FILE OTHER COLUMN
+  paste -d ' ' "$1" "$2" | awk -v c="$3" '{ print $c / $(c + 2) }' | sort -g | awk '{ a[NR] = $1 } END {
+    printf "%.2f", (a[int((NR + 1) / 2)] + a[int(NR / 2) + 1]) / 2
+    if (NR > 1) printf " (%.2f to %.2f)", a[1], a[NR] }'
+}
 # The largest of the ranks: CPU seconds of talk, megabytes sent and received.
 talk() {
   awk '/^aureole: rank/ { for (i = 1; i < NF; ++i) { if ($(i + 1) == "of") t = $i
@@ -37,51 +53,38 @@ talk() {
                           if (r > c) c = r }
        END { if (c > 0) printf "%.2f | %.2f | %.2f", a, b / 1e6, c / 1e6; else printf " | | " }' said
 }
-ratio() { awk -v a="$1" -v b="$2" 'BEGIN { print a / b }' >>"$3"; }
 read -r busy_before stolen_before < <(busy)
 started=$(date +%s.%N)
-own=0
-for w in "${!works[@]}"; do
+echo '| work | ranks x threads | CPU s | of 1 x 1 | of 1 x 2 | wall, of 1 x 1 | talk, CPU s | sent, MB | received, MB |'
+echo '|---|---|---|---|---|---|---|---|---|'
+for work in "${works[@]}"; do
+  case $work in
+    render*) options='--stats -o a.exr' ;;
+    weights*) options='--table a.table' ;;
+    *) options= ;;
+  esac
+  rm -f ./*.times
   for ((i = 0; i < rounds; ++i)); do
     # shellcheck disable=SC2086
-    read -r one one_wall < <(seconds "$aureole" ${works[w]} -t 1)
-    # shellcheck disable=SC2086
-    read -r threads threads_wall < <(seconds "$aureole" ${works[w]} -t 2)
-    ratio "$threads" "$one" $w.threads
-    ratio "$threads_wall" "$one_wall" $w.threads-wall
-    own=$(awk "BEGIN { print $own + $one + $threads }")
-    for ranks in 2 4 8; do
-      # shellcheck disable=SC2086
-      read -r many many_wall < <(seconds mpirun --bind-to none -n "$ranks" "$aureole" ${works[w]} -t 1)
-      own=$(awk "BEGIN { print $own + $many }")
-      ratio "$many" "$one" $w.$ranks
-      ratio "$many_wall" "$one_wall" $w.$ranks-wall
-      ratio "$many" "$threads" $w.$ranks-threads
-      printf '%.2f | %s\n' "$many" "$(talk)" >$w.row.$ranks
+    for form in '1 x 1' '1 x 2' '2 x 1' '4 x 1' '8 x 1'; do
+      command=("$aureole" $work $options -t "${form#* x }")
+      [ "${form% x *}" = 1 ] || command=(mpirun --bind-to none -n "${form% x *}" "${command[@]}")
+      seconds "${command[@]}" | tee -a all >>"$form.times"
+      talk >"$form.talk"
     done
-    echo "$one" >$w.one
   done
-done
-name() { sed "s|$source/||; s| --stats||; s| -o a.exr||; s| --table a.table||" <<<"${works[$1]}"; }
-echo '| work | CPU, 2 ranks / 1 thread | 2 ranks / 2 threads | 2 threads / 1 thread | wall, 2 ranks / 1 thread | 2 threads / 1 thread |'
-echo '|---|---|---|---|---|---|'
-for w in "${!works[@]}"; do
-  printf '| `%s` | %s | %s | %s | %s | %s |\n' "$(name "$w")" "$(spread $w.2)" "$(spread $w.2-threads)" "$(spread $w.threads)" \
-    "$(spread $w.2-wall)" "$(spread $w.threads-wall)"
-done
-echo
-echo '| work | ranks | CPU s | of one thread | talk, CPU s | sent, MB | received, MB |'
-echo '|---|---|---|---|---|---|---|'
-for w in "${!works[@]}"; do
-  printf '| `%s` | 1 | %.2f | 1 | | | |\n' "$(name "$w")" "$(cat $w.one)"
-  for ranks in 2 4 8; do
-    IFS='|' read -r many rest <$w.row.$ranks
-    printf '| | %d | %s| %s |%s |\n' $ranks "$many" "$(spread $w.$ranks)" "$rest"
+  title="\`${work//"$source/"/}\`"
+  for form in '1 x 1' '1 x 2' '2 x 1' '4 x 1' '8 x 1'; do
+    printf '| %s | %s | %.2f |' "$title" "$form" "$(sort -g "$form.times" | awk '{ a[NR] = $1 } END { print a[int((NR + 1) / 2)] }')"
+    title=
+    [ "$form" = '1 x 1' ] && { echo ' 1 | | 1 | | | |'; continue; }
+    printf ' %s | %s | %s | %s |\n' "$(spread "$form.times" '1 x 1.times' 1)" \
+      "$([ "$form" = '1 x 2' ] || spread "$form.times" '1 x 2.times' 1)" "$(spread "$form.times" '1 x 1.times' 2)" "$(cat "$form.talk")"
   done
 done
 echo
 read -r busy_after stolen < <(busy)
-awk -v busy="$busy_after" -v before="$busy_before" -v stolen="$stolen" -v stolen_before="$stolen_before" -v own="$own" \
+awk -v busy="$busy_after" -v before="$busy_before" -v stolen="$stolen" -v stolen_before="$stolen_before" -v own="$(awk '{ s += $1 } END { print s }' all)" \
   -v wall="$(awk "BEGIN { print $(date +%s.%N) - $started }")" -v processors="$(nproc)" -v rounds="$rounds" 'BEGIN {
     all = wall * processors; others = (busy - before - own) / all; if (others < 0) others = 0
     printf "%d rounds on %d processors, of which others took %.0f %% and other virtual machines %.0f %%: %s.\n", rounds, processors,

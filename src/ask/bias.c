@@ -38,18 +38,19 @@ aur_bias aur_replicas_bias(const aur_replicas *biased, const aur_replicas *unbia
                            double confidence) {
     const aur_film_layout *const layout = &aur_render_film(biased->renders[0])->layout;
     const size_t width = layout->x1 - layout->x0, height = layout->y1 - layout->y0;
-    double sum = 0.0, squares = 0.0, blocks = 0.0;
+    double sum = 0.0, squares = 0.0;
+    size_t count = 0;
     for (size_t y = 0; y < height; y += BLOCK)
-        for (size_t x = 0; x < width; x += BLOCK, ++blocks) {
+        for (size_t x = 0; x < width; x += BLOCK, ++count) {
             const double products = products_of_block(biased, unbiased, x, y);
             sum += products;
             squares += products * products;
         }
+    const double blocks = (double)count;
     const double scale = 1.0 / (3.0 * (double)(width * height) * mean * mean);
     const double spread =
         blocks > 1.0 ? sqrt(fmax(squares - sum * sum / blocks, 0.0) * blocks / (blocks - 1.0)) : fabs(sum);
-    const double quantile =
-        blocks > 1.0 ? aur_student_quantile((size_t)blocks - 1, 0.5 * (1.0 + confidence)) : 2.0;
+    const double quantile = blocks > 1.0 ? aur_student_quantile(count - 1, 0.5 * (1.0 + confidence)) : 2.0;
     return (aur_bias){.estimate = scale * sum,
                       .low = fmax(scale * (sum - quantile * spread), 0.0),
                       .high = fmax(scale * (sum + quantile * spread), 0.0)};

@@ -133,7 +133,7 @@ static bool ends_with(const char *name, const char *ending) {
 }
 
 static const struct aiScene *read_scene(const aur_model_source *source, bool is_gltf, aur_error *error) {
-    struct aiFileIO io = {open_part, close_part, (char *)(uintptr_t)source};
+    struct aiFileIO io = {open_part, close_part, (char *)source};
     struct aiPropertyStore *const properties = aiCreatePropertyStore();
     aiSetImportPropertyInteger(properties, AI_CONFIG_PP_SBP_REMOVE,
                                aiPrimitiveType_POINT | aiPrimitiveType_LINE);

@@ -7,8 +7,8 @@ source_tree=$2
 [ -e "$build/libaureole.so" ] || { echo "skipped: the libraries are static"; exit 77; }
 fail() { echo "$*"; exit 1; }
 cc=$(sed -n 's/^CMAKE_C_COMPILER:[^=]*=//p' "$build/CMakeCache.txt")
-flags=
-grep -q '^AUREOLE_SANITIZE:BOOL=ON' "$build/CMakeCache.txt" && flags=-fsanitize=address,undefined
+
+flags=$(sed -n 's/^AUREOLE_SANITIZE:[^=]*=\([a-z][a-z,]*\)$/-fsanitize=\1/p' "$build/CMakeCache.txt")
 for file in "$source_tree"/examples/*.c; do
   name=$(basename "$file" .c)
   [ "$(wc -l <"$file")" -lt 100 ] || fail "$name.c: 100 lines or more"

@@ -25,8 +25,7 @@ while read -r name; do
     { echo "no program calls $name"; status=1; }
 done <public.txt
 cc=$(sed -n 's/^CMAKE_C_COMPILER:[^=]*=//p' "$build/CMakeCache.txt")
-flags=
-grep -q '^AUREOLE_SANITIZE:BOOL=ON' "$build/CMakeCache.txt" && flags=-fsanitize=address,undefined
+flags=$(sed -n 's/^AUREOLE_SANITIZE:[^=]*=\([a-z][a-z,]*\)$/-fsanitize=\1/p' "$build/CMakeCache.txt")
 for program in core points light; do
   "$cc" -std=c17 -D_POSIX_C_SOURCE=200809L -Wall -Wextra -Werror $flags -I "$source_tree/include" \
     "$source_tree/tests/house/calls/$program.c" -o "$program" -L "$build" -laureole-render -laureole -lm \
