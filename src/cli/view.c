@@ -1,7 +1,10 @@
 /* aureole view: pictures in a page that a browser opens. */
 #include <errno.h>
+#include <fcntl.h>
+#include <spawn.h>
 #include <stdlib.h>
 #include <string.h>
+#include <unistd.h>
 
 #include "cli/viewer.h"
 
@@ -16,6 +19,29 @@ static const cli_option options[] = {
      .letter = 'o', .key.computed = true, .content = "file"},
     {CLI_REAL(view_options, exposure, "exposure", "STOPS", -100, 100, "0", "what is seen first")},
     {.key = {0}}};
+
+extern char **environ;
+
+static bool is_set(const char *variable) {
+    const char *const value = getenv(variable);
+    return value != NULL && value[0] != '\0';
+}
+
+/* On a desktop, at a terminal, the browser opens the page; where that cannot be, its path has been said. */
+static void open_page(char *path) {
+    if (!isatty(STDOUT_FILENO) || (!is_set("DISPLAY") && !is_set("WAYLAND_DISPLAY")))
+        return;
+    char program[] = "xdg-open";
+    char *const arguments[] = {program, path, NULL};
+    posix_spawn_file_actions_t actions;
+    if (posix_spawn_file_actions_init(&actions) != 0)
+        return;
+    for (int stream = STDIN_FILENO; stream <= STDERR_FILENO; ++stream)
+        posix_spawn_file_actions_addopen(&actions, stream, "/dev/null", O_RDWR, 0);
+    pid_t child;
+    posix_spawnp(&child, program, &actions, NULL, arguments, environ);
+    posix_spawn_file_actions_destroy(&actions);
+}
 
 static int run(const cli_call *call) {
     const view_options *const given = call->options;
@@ -36,6 +62,8 @@ static int run(const cli_call *call) {
         cli_write_viewer(path, call->operand_count, call->operands, &given->picture, given->exposure, false);
     if (status == CLI_SUCCESS && strcmp(path, "-") != 0)
         printf("%s\n", path);
+    if (status == CLI_SUCCESS && given->output == NULL)
+        open_page(path);
     return status;
 }
 
@@ -44,7 +72,7 @@ const cli_verb cli_verb_view = {
     .summary = "pictures in a page to look at: flip, slider, differences, values",
     .notes = "The page needs nothing beside it and no network; what it shows are the values of the pictures "
              "as 16-bit floats. "
-             "The path of the page is printed.",
+             "The path of the page is printed; without -o, at a terminal of a desktop, the browser opens it.",
     .too_few = "a picture is needed",
     .operands = {{"IMAGE", "pictures of the same size", .repeated = true, .content = "file"}},
     .groups = {{options, 0}, {cli_picture_options, offsetof(view_options, picture)}},
