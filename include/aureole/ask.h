@@ -22,6 +22,10 @@ typedef struct aur_ask_options {
         seconds; /* by the clock, preparation included: the only wish whose picture depends on the machine */
     uint64_t rays;
     uint64_t rounds;
+    /* What the named integrator may be wrong by in the mean, relative as `error` and below it where that is
+     * not zero: the noise is to leave room for it, and it is part of what is said. 0 where an integrator is
+     * chosen, for its bias is then measured. */
+    double bias;
     double confidence; /* of the interval, in [.5, .9999]; 0: .95 */
     size_t replicas;   /* independent renderings, 3 to 16; 0: 4 */
 } aur_ask_options;
@@ -37,9 +41,10 @@ typedef struct aur_ask aur_ask;
 
 /* `render` as for aur_render_create: its `samples_per_pixel` is without meaning, its `sampler` NULL stands
  * for Owen-scrambled Sobol points, and `integrator` NULL for the scene's own where that is one that looks at
- * a scene in its own way (`ao`, `direct`, `radiosity`, `depth`, `aov`), else for `path` with the scene's
- * max_depth. Both options may be NULL. The renderer must outlive the asking. Errors: those of
- * aur_render_create, ARGUMENT for a wish out of range. */
+ * a scene in its own way (`ao`, `direct`, `radiosity`, `depth`, `aov`), else for `path` or `finalgather` with
+ * the scene's max_depth, whichever is found to need less for an error, a time or a number of rays. Both
+ * options may be NULL. The renderer must outlive the asking. Errors: those of aur_render_create, ARGUMENT for
+ * a wish out of range. */
 AUR_EXPERIMENTAL aur_result aur_ask_create(aur_renderer *renderer, const aur_render_options *render,
                                            const aur_ask_options *options, aur_ask **ask, aur_error *error)
     AUR_NONNULL(1, 4);
@@ -75,6 +80,8 @@ typedef struct aur_ask_report {
     size_t replicas;
     aur_render_statistics
         statistics; /* of all replicas together, and of what was tried; its size is set here */
+    /* Of the rays, those of trials that are not in the picture. */
+    uint64_t trial_rays;
     double
         bias_high; /* of the error: what the integrator may be wrong by in the mean; 0 where it has no bias */
 } aur_ask_report;

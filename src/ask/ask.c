@@ -20,6 +20,9 @@ static aur_result check_wish(aur_ask_options *wish, aur_error *error) {
     if (!(wish->seconds >= 0.0 && wish->seconds < INFINITY))
         return aur_fail(error, AUR_ERROR_ARGUMENT, "a time of %g seconds: a positive one is wanted",
                         wish->seconds);
+    if (!(wish->bias >= 0.0 && wish->bias < (wish->error > 0.0 ? wish->error : INFINITY)))
+        return aur_fail(error, AUR_ERROR_ARGUMENT,
+                        "a bias of %g: from 0 on, and below the error asked, is wanted", wish->bias);
     if (wish->confidence == 0.0)
         wish->confidence = 0.95;
     if (!(wish->confidence >= 0.5 && wish->confidence <= 0.9999))
@@ -65,8 +68,8 @@ static aur_result make_identity(aur_ask *ask, const aur_scene *scene, const aur_
         return result;
     snprintf(wish, sizeof wish,
              "error %.15g\ntime %.15g s\nrays %" PRIu64 "\nrounds %" PRIu64
-             "\nconfidence %.15g\nreplicas %zu\n",
-             w->error, w->seconds, w->rays, w->rounds, w->confidence, w->replicas);
+             "\nbias %.15g\nconfidence %.15g\nreplicas %zu\n",
+             w->error, w->seconds, w->rays, w->rounds, w->bias, w->confidence, w->replicas);
     ask->identity = malloc(strlen(render) + strlen(wish) + 1);
     if (ask->identity != NULL)
         strcat(strcpy(ask->identity, wish), render);
@@ -81,11 +84,20 @@ static aur_result begin_trial(aur_ask *ask, char *integrator, aur_error *error) 
     return aur_trial_create(ask->renderer, &ask->options, ask->wish.replicas, &ask->trial, error);
 }
 
-aur_result aur_ask_gather(aur_ask *ask, aur_error *error) {
-    char *const integrator = aur_ask_gather_instead(ask->trial.integrator, "");
-    ask->gathers = true;
+aur_result aur_ask_gather(aur_ask *ask, size_t photons, aur_error *error) {
+    char *const integrator = aur_ask_gather_instead(ask->trial.integrator, photons, "");
+    ask->photons = photons;
     ask->open = false;
     return integrator != NULL ? begin_trial(ask, integrator, error) : aur_fail_memory(error);
+}
+
+/* What the rounds lead to. Rays of other trials are spent, and are no matter of this one: its rounds are
+ * those of an asking that names its integrator. */
+static aur_goal goal_of(const aur_ask *ask) {
+    const aur_ask_options *const wish = &ask->wish;
+    return (aur_goal){.error = wish->error,
+                      .bias = sqrt(ask->bias.high),
+                      .rays = wish->rays > ask->others.rays ? wish->rays - ask->others.rays : wish->rays > 0};
 }
 
 /* Goes on with whichever integrator turns out best. What was tried before an interruption is tried anew, so
@@ -99,7 +111,8 @@ static aur_result choose(aur_ask *ask, aur_error *error) {
     }
     if (result != AUR_OK)
         return result;
-    aur_choice choice = {.error = ask->wish.error,
+    aur_choice choice = {.goal = goal_of(ask),
+                         .seconds = ask->wish.seconds,
                          .confidence = ask->wish.confidence,
                          .replica_count = ask->wish.replicas,
                          .cancelled = &ask->cancelled,
@@ -112,7 +125,7 @@ static aur_result choose(aur_ask *ask, aur_error *error) {
     ask->trial = choice.trial;
     ask->bias = choice.bias;
     ask->others = choice.others;
-    ask->gathers = choice.gathers;
+    ask->photons = choice.photons;
     ask->open = result != AUR_OK;
     return result;
 }
@@ -164,7 +177,12 @@ static aur_result prepare(aur_ask *ask, aur_renderer *renderer, const aur_render
             &own.warnings, (aur_location){0},
             "a picture to an error, a time or a number of rays has R, G and B alone: the channels that "
             "the integrator adds are left out");
-    ask->open = ask->open && ask->wish.error > 0.0;
+    ask->open = ask->open && (ask->wish.error > 0.0 || ask->wish.seconds > 0.0 || ask->wish.rays > 0);
+    if (ask->open && ask->wish.bias > 0.0)
+        return aur_fail(error, AUR_ERROR_ARGUMENT,
+                        "a bias of %g: it goes with an integrator that is named, else it is measured",
+                        ask->wish.bias);
+    ask->bias.high = ask->wish.bias * ask->wish.bias;
     return AUR_OK;
 }
 
@@ -225,25 +243,16 @@ static bool is_met(const aur_ask *ask) {
     const aur_ask_options *const wish = &ask->wish;
     aur_render_statistics spent;
     count_spent(ask, &spent);
-    return (wish->error > 0.0 && whole_error(ask).high <= wish->error) ||
+    const aur_goal goal = goal_of(ask);
+    return (wish->error > 0.0 && ask->trial.interval.high <= aur_goal_noise(&goal)) ||
            (wish->seconds > 0.0 && spent.prepare_seconds + spent.render_seconds >= wish->seconds) ||
-           (wish->rays > 0 && spent.rays >= wish->rays) ||
+           (wish->rays > 0 && aur_trial_rays(&ask->trial) >= (double)goal.rays) ||
            (wish->rounds > 0 && ask->trial.rounds >= wish->rounds) || ask->trial.measure.mean <= 0.0;
 }
 
-/* What the next round is to make of the noise's square: half as many samples again where nobody asks for an
- * error. */
 static double next_factor(const aur_ask *ask) {
-    const double growth = 1.5;
-    double factor = 1.0 / growth;
-    if (ask->wish.error > 0.0)
-        factor = aur_trial_factor(&ask->trial, sqrt(ask->wish.error * ask->wish.error - ask->bias.high));
-    if (ask->wish.rays > 0) {
-        aur_render_statistics spent;
-        count_spent(ask, &spent);
-        factor = fmax(factor, (double)spent.rays / (double)ask->wish.rays);
-    }
-    return factor;
+    const aur_goal goal = goal_of(ask);
+    return aur_trial_factor(&ask->trial, &goal);
 }
 
 /* Samples a pixel that the wish is thought to take, for the progress callback. */
@@ -283,6 +292,7 @@ aur_result aur_ask_get_report(const aur_ask *ask, aur_ask_report *out, aur_error
                           .rounds = ask->trial.rounds,
                           .samples_per_pixel = ask->trial.samples,
                           .replicas = ask->trial.replicas.count,
+                          .trial_rays = ask->others.rays,
                           .bias_high = sqrt(ask->bias.high)};
     count_spent(ask, &own.statistics);
     return aur_description_write(&own, sizeof own, sizeof own, out, "aur_ask_report", error);

@@ -40,7 +40,7 @@ aur_result aur_ask_save(const aur_ask *ask, const char *path, aur_error *error) 
         words[at++] = aur_word_of_double(numbers[i]);
     words[at++] = ask->trial.rounds;
     words[at++] = ask->trial.begun;
-    words[at++] = ask->gathers;
+    words[at++] = ask->photons;
     words[at++] = ask->others.rays;
     for (size_t i = 0; i < ask->trial.value_count; ++i) {
         words[at++] = ask->trial.targets[i];
@@ -62,8 +62,8 @@ static aur_result take_over(aur_ask *ask, const char *path, const aur_checkpoint
     const uint64_t *word = kept->words;
     for (size_t i = 0; i < NUMBERS; ++i)
         numbers[i] = aur_double_of_word(*word++);
-    const bool gathers = kept->words[NUMBERS + 2] != 0;
-    aur_result result = gathers ? aur_ask_gather(ask, error) : AUR_OK;
+    const size_t photons = kept->words[NUMBERS + 2];
+    aur_result result = photons > 0 ? aur_ask_gather(ask, photons, error) : AUR_OK;
     if (result != AUR_OK)
         return result;
     ask->open = false;
@@ -78,7 +78,7 @@ static aur_result take_over(aur_ask *ask, const char *path, const aur_checkpoint
     ask->others.cpu_seconds = numbers[12];
     ask->trial.rounds = *word++;
     ask->trial.begun = *word++ != 0;
-    ++word; /* whether it gathers, see above */
+    ++word; /* photons, see above */
     ask->others.rays = *word++;
     for (size_t i = 0; i < ask->trial.value_count; ++i) {
         ask->trial.targets[i] = (uint32_t)*word++;

@@ -53,5 +53,5 @@ aur_bias aur_replicas_bias(const aur_replicas *biased, const aur_replicas *unbia
     const double quantile = blocks > 1.0 ? aur_student_quantile(count - 1, 0.5 * (1.0 + confidence)) : 2.0;
     return (aur_bias){.estimate = scale * sum,
                       .low = fmax(scale * (sum - quantile * spread), 0.0),
-                      .high = fmax(scale * (sum + quantile * spread), 0.0)};
+                      .high = scale * (fmax(sum, 0.0) + quantile * spread)};
 }

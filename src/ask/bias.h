@@ -7,7 +7,7 @@
 /* Squares of root mean square errors over the picture's values, relative to the square of its mean. */
 typedef struct aur_bias {
     double estimate;  /* unbiased, so it may be negative */
-    double low, high; /* of its interval, from 0 on */
+    double low, high; /* of its interval, from 0 on; an estimate below 0 does not lower its upper end */
 } aur_bias;
 
 /* Both have the same pixels and as many replicas, all with samples in every pixel. With D_r the difference of

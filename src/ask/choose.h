@@ -12,18 +12,19 @@ aur_result aur_ask_choose(const aur_scene *scene, const char *wanted, char **int
 
 /* What a choice by trial takes and finds. */
 typedef struct aur_choice {
-    double error, confidence; /* asked */
+    aur_goal goal;
+    double seconds, confidence;
     size_t replica_count;
     const atomic_bool *cancelled;
     aur_trial trial; /* path tracing before, the one to go on with after; the caller releases it */
-    bool gathers;    /* whether that is final gathering */
+    size_t photons;  /* of its maps where that is final gathering, else 0 */
     aur_bias bias;   /* of the trial's integrator; 0 of path tracing */
     aur_render_statistics others; /* what the trials cost that are not gone on with */
 } aur_choice;
 
 /* Final gathering in place of "path[:max_depth=D]", with the same max_depth, and more keys (",key=value"). A
  * new text, or NULL where memory is short. */
-char *aur_ask_gather_instead(const char *path, const char *more);
+char *aur_ask_gather_instead(const char *path, size_t photons, const char *more);
 
 /* Path tracing has no bias; final gathering has less noise for its rays on most surfaces that scatter widely,
  * and the bias of its photon map. Path tracing is begun, until its error is some times the one asked, which

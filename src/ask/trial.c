@@ -55,12 +55,32 @@ void aur_trial_spent(const aur_trial *trial, aur_render_statistics *sum) {
     }
 }
 
-double aur_trial_factor(const aur_trial *trial, double error) {
+double aur_trial_rays(const aur_trial *trial) {
+    aur_render_statistics spent;
+    aur_trial_spent(trial, &spent);
+    return (double)spent.rays;
+}
+
+double aur_goal_noise(const aur_goal *goal) {
+    return sqrt(fmax(goal->error * goal->error - goal->bias * goal->bias, 0.0));
+}
+
+static double factor_to_error(const aur_trial *trial, double error) {
     const aur_error_interval *const seen = &trial->interval;
     const double width = seen->high < INFINITY ? 1.0 - seen->estimate / seen->high : 0.0;
     const double margin = 0.98 - 0.7 * width, least_fall = fmin(0.005 + 1.5 * width, 0.3);
     const double wanted = fmin(margin * error / seen->high, 1.0 - least_fall);
     return pow(wanted * wanted, 1.0 / trial->rate);
+}
+
+double aur_trial_factor(const aur_trial *trial, const aur_goal *goal) {
+    const double growth = 1.5, pilot = AUR_PILOT_ERROR * goal->error;
+    double factor = 1.0 / growth;
+    if (goal->error > 0.0)
+        factor = factor_to_error(trial, trial->interval.high > pilot ? pilot : aur_goal_noise(goal));
+    if (goal->rays > 0)
+        factor = fmax(factor, fmin(aur_trial_rays(trial) / (double)goal->rays, 1.0));
+    return factor;
 }
 
 void aur_trial_plan_evenly(aur_trial *trial, uint32_t samples) {

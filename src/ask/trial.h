@@ -32,11 +32,25 @@ void aur_trial_release(aur_trial *trial);
 /* What all replicas have cost together. */
 void aur_trial_spent(const aur_trial *trial, aur_render_statistics *sum);
 
-/* The part of the error's square that a round is to leave so that the interval's upper end comes to `error`,
- * and below it by what the error seen varies, so that the last round is seldom followed by another. One that
- * follows lowers the error by more than that: who looks again and again at nearly the same samples stops
- * where the error looks small by chance. */
-double aur_trial_factor(const aur_trial *trial, double error);
+/* What rounds lead to; all zero where nobody asks for any. */
+typedef struct aur_goal {
+    double error, bias; /* the noise is to leave room for the bias */
+    uint64_t rays;      /* of this trial */
+} aur_goal;
+
+/* Noise in units of the error asked at which an integrator is compared with another one. */
+#define AUR_PILOT_ERROR 5.0
+
+/* Where rounds lead next, as a part of the noise's square of now. To an error: so that the interval's upper
+ * end comes to AUR_PILOT_ERROR times that, then to what the bias leaves of it, and below it by what the error
+ * seen varies, so that the last round is seldom followed by another. One that follows lowers the error by
+ * more than that: who looks again and again at nearly the same samples stops where the error looks small by
+ * chance. Without an error half as many samples again are taken, or fewer where the rays are spent then. It
+ * depends on the trial and its goal alone, so that a trial that was chosen can be made again by itself. */
+double aur_trial_factor(const aur_trial *trial, const aur_goal *goal);
+/* What the bias leaves of the error. */
+double aur_goal_noise(const aur_goal *goal);
+double aur_trial_rays(const aur_trial *trial);
 
 /* Plans the samples of a round; the first is one sample a pixel. Where more than one is needed to the factor,
  * all grow alike, so that the last one is not a small one that sees nearly what the one before has seen.

@@ -7,26 +7,24 @@
 #include "ask/rounds.h"
 #include "core/error.h"
 
-/* Errors in units of the one asked: path tracing's when others are first compared with it, and the bias that
- * may be left, of whose square the noise makes the rest. */
-static const double FIRST_ERROR = 5.0, BIAS_PART = 0.6;
-/* The part of the rays of path tracing that finding a bias may take, and the part at which another integrator
- * is worth it: its rays cost more, for each ends at a look at the photon map. */
-static const double TRIAL_PART = 0.35, WORTH = 0.5;
+/* Of the error asked, the bias that may be left; the noise makes the rest of the square. */
+static const double BIAS_PART = 0.6;
+/* Final gathering is worth it at this part of path tracing's rays: its rays cost more, for each ends at a
+ * look at the photon map. Parts of path tracing's rays that may be spent on photon maps, on final gathering
+ * until it can be compared, and on finding its bias: so one who goes on with path tracing has lost little. */
+static const double WORTH = 0.5, MAP_PART = 0.05, PILOT_PART = 0.03, BIAS_SEARCH_PART = 0.2;
+/* Tracing and sorting a photon takes the time of so many rays of path tracing (5 to 1 million in the boxes
+ * and the room, measured by `render --stats`). */
+static const double RAYS_A_PHOTON = 2.5;
+enum { MOST_PHOTONS = 500000, LEAST_PHOTONS = 15000 };
 
 /* Few directions a sample: those of a pattern are for the samples of eight. */
-#define GATHER "finalgather:split=8,diffuse_samples=16,glossy_samples=16,short_rays=4"
-
-static double rays_of(const aur_trial *trial) {
-    aur_render_statistics spent;
-    aur_trial_spent(trial, &spent);
-    return (double)spent.rays;
-}
+#define GATHER "finalgather:split=8,diffuse_samples=16,glossy_samples=16,short_rays=4,photons=%zu"
 
 /* The rays that a trial is thought to take in all until its noise is `error`. */
 static double rays_to(const aur_trial *trial, double error) {
     const double part = error / trial->interval.high;
-    return rays_of(trial) *
+    return aur_trial_rays(trial) *
            aur_growth_to(trial->value_count, trial->variances, fmin(part * part, 1.0), trial->targets);
 }
 
@@ -42,23 +40,56 @@ static aur_result render_evenly(const aur_choice *choice, aur_trial *trial, uint
     return aur_trial_render(trial, choice->confidence, choice->cancelled, error);
 }
 
-/* Rounds until the noise is at most `error` or so many rays are spent. */
-static aur_result render_to(const aur_choice *choice, aur_trial *trial, double error, double most_rays,
-                            aur_error *failure) {
+/* The next round, as whoever goes on with the trial would plan it. False where no pixel can have more. */
+static aur_result render_round(const aur_choice *choice, aur_trial *trial, bool *more, aur_error *error) {
+    *more = aur_trial_plan(trial, trial->rounds > 0 ? aur_trial_factor(trial, &choice->goal) : 1.0);
+    return *more ? aur_trial_render(trial, choice->confidence, choice->cancelled, error) : AUR_OK;
+}
+
+/* The part of the rays or of the time that is spent. */
+static double part_spent(const aur_choice *choice, const aur_trial *trial) {
+    aur_render_statistics spent;
+    aur_trial_spent(trial, &spent);
+    const double rays = choice->goal.rays > 0 ? (double)spent.rays / (double)choice->goal.rays : 0.0;
+    const double seconds =
+        choice->seconds > 0.0 ? (spent.prepare_seconds + spent.render_seconds) / choice->seconds : 0.0;
+    return fmax(rays, seconds);
+}
+
+/* Path tracing until it has come so far that its error at the end can be told, which is that asked, or the
+ * one when rays or time will be spent. */
+static aur_result render_path(aur_choice *choice, double *wanted, aur_error *error) {
+    aur_trial *const path = &choice->trial;
     aur_result result = AUR_OK;
-    while (result == AUR_OK && trial->interval.high > error && rays_of(trial) < most_rays &&
-           !is_black(trial) &&
-           aur_trial_plan(trial, trial->rounds > 0 ? aur_trial_factor(trial, error) : 1.0))
-        result = aur_trial_render(trial, choice->confidence, choice->cancelled, failure);
+    double left = 0.0;
+    for (bool more = true; result == AUR_OK && more;) {
+        const double spent = part_spent(choice, path);
+        left = fmax(choice->goal.error, path->interval.high * sqrt(spent));
+        if (path->rounds > 1 && path->interval.high <= AUR_PILOT_ERROR * left)
+            break;
+        result = render_round(choice, path, &more, error);
+        more = more && !is_black(path);
+    }
+    *wanted = left;
     return result;
 }
 
-char *aur_ask_gather_instead(const char *path, const char *more) {
+/* Photons of a map of each replica that cost little beside path tracing to the error wanted; 0: it is not
+ * worth it. */
+static size_t photons_for(const aur_choice *choice, double path_rays) {
+    const double affordable = MAP_PART * path_rays / (RAYS_A_PHOTON * (double)choice->replica_count);
+    size_t photons = MOST_PHOTONS;
+    while ((double)photons > affordable && photons >= LEAST_PHOTONS)
+        photons /= 2;
+    return photons >= LEAST_PHOTONS ? photons : 0;
+}
+
+char *aur_ask_gather_instead(const char *path, size_t photons, const char *more) {
     const char *const keys = strchr(path, ':');
-    const size_t capacity = sizeof GATHER + strlen(more) + (keys != NULL ? strlen(keys) + 1 : 0);
+    const size_t capacity = sizeof GATHER + 20 + strlen(more) + (keys != NULL ? strlen(keys) + 1 : 0);
     char *const text = malloc(capacity);
     if (text != NULL)
-        snprintf(text, capacity, GATHER "%s%s%s", more, keys != NULL ? "," : "",
+        snprintf(text, capacity, GATHER "%s%s%s", photons, more, keys != NULL ? "," : "",
                  keys != NULL ? keys + 1 : "");
     return text;
 }
@@ -71,10 +102,17 @@ typedef struct aur_rivals {
     aur_trial even, corrected;
 } aur_rivals;
 
+/* Samples a pixel at which the bound of a bias is thought to come to `most`, when it is known from `samples`:
+ * what is uncertain of its square falls as they grow. */
+static double samples_to_know(const aur_bias *bias, double most, double samples) {
+    const double seen = fmax(bias->estimate, 0.0), room = most * most - seen;
+    return room > 0.0 ? samples * (bias->high - seen) / room : INFINITY;
+}
+
 /* The bias of final gathering, from pictures with and without the map. They have the same seeds, camera rays
  * and gather rays, so that all that they have in common, above all the edges of lights, is not in their
- * differences. Both go on until it is known whether the bias is under what may be left, or until that has
- * cost so many rays. */
+ * differences. Both go on until the bias is under what may be left, or it is seen that it will not be before
+ * so many rays are spent. */
 static aur_result find_bias(const aur_choice *choice, aur_rivals *rivals, double mean, double most,
                             double most_rays, aur_bias *bias, aur_error *error) {
     for (uint32_t samples = 1;; samples *= 2) {
@@ -85,10 +123,9 @@ static aur_result find_bias(const aur_choice *choice, aur_rivals *rivals, double
             return result;
         *bias =
             aur_replicas_bias(&rivals->even.replicas, &rivals->corrected.replicas, mean, choice->confidence);
-        /* At best the bound falls as samples grow. */
-        const double growth = fmax(2.0, sqrt(bias->high) / most);
-        if (sqrt(bias->high) <= most || sqrt(bias->low) > most ||
-            growth * (rays_of(&rivals->even) + rays_of(&rivals->corrected)) > most_rays)
+        const double rays = aur_trial_rays(&rivals->even) + aur_trial_rays(&rivals->corrected);
+        const double growth = fmax(samples_to_know(bias, most, samples) / samples, 2.0);
+        if (sqrt(bias->high) <= most || sqrt(bias->low) > most || growth * rays > most_rays)
             return AUR_OK;
     }
 }
@@ -96,28 +133,31 @@ static aur_result find_bias(const aur_choice *choice, aur_rivals *rivals, double
 static aur_result create_trial(aur_renderer *renderer, const aur_render_options *options,
                                const aur_choice *choice, const char *keys, aur_trial *trial,
                                aur_error *error) {
-    trial->integrator = aur_ask_gather_instead(choice->trial.integrator, keys);
+    trial->integrator = aur_ask_gather_instead(choice->trial.integrator, choice->photons, keys);
     if (trial->integrator == NULL)
         return aur_fail_memory(error);
     return aur_trial_create(renderer, options, choice->replica_count, trial, error);
 }
 
 static aur_result compare(aur_renderer *renderer, const aur_render_options *options, aur_choice *choice,
-                          aur_rivals *rivals, bool *better, aur_error *error) {
+                          double wanted, aur_rivals *rivals, bool *better, aur_error *error) {
     const aur_trial *const path = &choice->trial;
-    const double wanted = choice->error, most_bias = BIAS_PART * wanted;
-    const double noise = sqrt(wanted * wanted - most_bias * most_bias);
-    aur_result result =
-        render_to(choice, &rivals->gather, fmax(0.5 * path->interval.high, noise), rays_of(path), error);
+    const double most_bias = BIAS_PART * wanted, noise = sqrt(wanted * wanted - most_bias * most_bias);
     const double path_rays = rays_to(path, wanted);
-    if (result != AUR_OK || is_black(&rivals->gather) || rays_to(&rivals->gather, noise) > WORTH * path_rays)
+    aur_trial *const gather = &rivals->gather;
+    aur_result result = AUR_OK;
+    for (bool more = true; result == AUR_OK && more && !is_black(gather) &&
+                           gather->interval.high > AUR_PILOT_ERROR * wanted &&
+                           aur_trial_rays(gather) < PILOT_PART * path_rays;)
+        result = render_round(choice, gather, &more, error);
+    if (result != AUR_OK || is_black(gather) || rays_to(gather, noise) > WORTH * path_rays)
         return result;
     result = create_trial(renderer, options, choice, ",edges=0", &rivals->even, error);
     if (result == AUR_OK)
         result = create_trial(renderer, options, choice, ",edges=0,debias=true,continued=1",
                               &rivals->corrected, error);
     if (result == AUR_OK)
-        result = find_bias(choice, rivals, path->measure.mean, most_bias, TRIAL_PART * path_rays,
+        result = find_bias(choice, rivals, path->measure.mean, most_bias, BIAS_SEARCH_PART * path_rays,
                            &choice->bias, error);
     *better = result == AUR_OK && sqrt(choice->bias.high) <= most_bias;
     return result;
@@ -137,15 +177,19 @@ static void add_spent(const aur_trial *trial, aur_render_statistics *sum) {
 aur_result aur_ask_try(aur_renderer *renderer, const aur_render_options *options, aur_choice *choice,
                        aur_error *error) {
     aur_trial *const path = &choice->trial;
-    aur_result result = render_to(choice, path, FIRST_ERROR * choice->error, INFINITY, error);
-    if (result != AUR_OK || path->interval.high <= choice->error || is_black(path))
+    double wanted;
+    aur_result result = render_path(choice, &wanted, error);
+    if (result != AUR_OK || path->interval.high <= wanted || is_black(path))
         return result;
+    choice->photons = photons_for(choice, rays_to(path, wanted));
+    if (choice->photons == 0)
+        return AUR_OK;
     aur_rivals rivals = {0};
     aur_error refused;
     bool better = false;
     result = create_trial(renderer, options, choice, "", &rivals.gather, &refused);
     if (result == AUR_OK)
-        result = compare(renderer, options, choice, &rivals, &better, error);
+        result = compare(renderer, options, choice, wanted, &rivals, &better, error);
     else if (result != AUR_ERROR_MEMORY && result != AUR_ERROR_CANCELLED)
         result = AUR_OK; /* final gathering says that the scene is not for it */
     else if (error != NULL)
@@ -154,8 +198,8 @@ aur_result aur_ask_try(aur_renderer *renderer, const aur_render_options *options
         const aur_trial left = *path;
         *path = rivals.gather;
         rivals.gather = left;
-        choice->gathers = true;
     } else {
+        choice->photons = 0;
         choice->bias = (aur_bias){0};
     }
     add_spent(&rivals.gather, &choice->others);

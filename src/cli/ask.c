@@ -7,13 +7,21 @@
 
 #include "cli/quantity.h"
 
-static aur_result parse_error(const char *text, void *field, aur_error *error) {
+static aur_result parse_part(const char *option, const char *text, void *field, aur_error *error) {
     static const cli_unit units[] = {{"%", 0.01}};
     double *const value = field;
     if (cli_parse_quantity(text, 1, units, value) && *value <= 1.0)
         return AUR_OK;
     return aur_fail(error, AUR_ERROR_ARGUMENT,
-                    "--error: '%s' is no error: 1%% or .01 is wanted, from above 0 to 100%%", text);
+                    "--%s: '%s' is no %s: 1%% or .01 is wanted, from above 0 to 100%%", option, text, option);
+}
+
+static aur_result parse_error(const char *text, void *field, aur_error *error) {
+    return parse_part("error", text, field, error);
+}
+
+static aur_result parse_bias(const char *text, void *field, aur_error *error) {
+    return parse_part("bias", text, field, error);
 }
 
 static aur_result parse_time(const char *text, void *field, aur_error *error) {
@@ -33,6 +41,11 @@ const cli_option cli_wish_options[] = {
     {CLI_TEXT(cli_wish, error, "error", "1%", NULL,
               "render until the root mean square error is below this part of the picture's mean"),
      .parse = parse_error},
+    {CLI_TEXT(
+         cli_wish, bias, "bias", "1%", NULL,
+         "of --error: what the integrator of --integrator may be wrong by in the mean, as a picture to an "
+         "error says afterwards"),
+     .parse = parse_bias},
     {CLI_TEXT(cli_wish, seconds, "time", "30s", NULL,
               "render for so long, and say the command that makes the same picture"),
      .parse = parse_time},
@@ -47,6 +60,23 @@ bool cli_is_wish(const cli_wish *wish) {
     return wish->error > 0.0 || wish->seconds > 0.0 || wish->rays > 0 || wish->rounds > 0;
 }
 
+/* The command that makes the same bits without a choice and without a clock. */
+static void say_again(const aur_ask *ask, const cli_wish *wish, const aur_ask_report *report) {
+    aur_print(stderr, "aureole: the same picture again:");
+    if (*aur_ask_integrator(ask) != '\0')
+        aur_print(stderr, " --integrator '%s'", aur_ask_integrator(ask));
+    if (wish->error > 0.0)
+        aur_print(stderr, " --error %.17g", wish->error);
+    if (report->bias_high > 0.0)
+        aur_print(stderr, " --bias %.17g", report->bias_high);
+    if (wish->rays > 0) /* the trials may have taken them all */
+        aur_print(stderr, " --rays %" PRIu64,
+                  wish->rays > report->trial_rays ? wish->rays - report->trial_rays : 1);
+    if (wish->seconds > 0.0 || wish->rounds > 0)
+        aur_print(stderr, " --rounds %" PRIu64, report->rounds);
+    aur_print(stderr, "\n");
+}
+
 static void say(const aur_ask *ask, const cli_wish *wish, const char *output) {
     aur_ask_report report = {.size = sizeof report};
     aur_ask_get_report(ask, &report, NULL);
@@ -55,10 +85,7 @@ static void say(const aur_ask *ask, const cli_wish *wish, const char *output) {
         aur_print(stderr, "aureole: %s is black: no light of the scene reaches the camera\n", output);
         return;
     }
-    if (wish->seconds > 0.0)
-        aur_print(stderr,
-                  "aureole: the same picture without a clock: '--rounds %" PRIu64 "' instead of '--time'\n",
-                  report.rounds);
+    say_again(ask, wish, &report);
     char bias[64] = "";
     if (report.bias_high > 0.0)
         snprintf(bias, sizeof bias, ", of which at most %.3g %% are bias", 100.0 * report.bias_high);
@@ -74,6 +101,7 @@ aur_result cli_render_wish(aur_renderer *renderer, const aur_render_options *opt
                            const cli_surroundings *beside, aur_image **image, aur_error *error) {
     aur_ask_options own = aur_ask_options_default();
     own.error = wish->error;
+    own.bias = wish->bias;
     own.seconds = wish->seconds;
     own.rays = wish->rays;
     own.rounds = wish->rounds;

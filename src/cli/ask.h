@@ -6,7 +6,7 @@
 
 /* What was asked for; all zero: nothing, and the scene is rendered as it says. */
 typedef struct cli_wish {
-    double error, seconds;
+    double error, bias, seconds;
     uint64_t rays, rounds;
     bool error_map;
 } cli_wish;

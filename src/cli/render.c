@@ -313,6 +313,8 @@ static const char *conflict(const cli_call *call, const render_command *command)
     const char *const checkpoint = cli_checkpoint_conflict(&command->checkpoint);
     if (checkpoint != NULL)
         return checkpoint;
+    if (command->wish.bias > 0.0 && !cli_is_wish(&command->wish))
+        return "render: '--bias' goes with '--error', '--time', '--rays' or '--rounds'";
     if (!cli_is_wish(&command->wish))
         return command->wish.error_map ? "render: '--error-map' goes with '--error', '--time' or '--rays'"
                                        : NULL;

@@ -5,6 +5,7 @@ set -euo pipefail
 aureole=$1
 scene=$2/scenes/cornell-box/cornell-box.xml
 small=(--width 48 --height 32)
+larger=(--width 96 --height 72)
 fail() { echo "$*" >&2; exit 1; }
 
 # The error that is said is not above the one that was asked, and the last line names the picture.
@@ -19,14 +20,14 @@ cmp a.exr b.exr || fail "threads changed the picture"
 [ ! -s quiet ] || fail "-q says something: $(cat quiet)"
 
 # Gone on with after an interrupt, the picture is the same, whichever integrator was found to be the better one.
-"$aureole" render "$scene" "${small[@]}" --error 3% -o whole.exr 2> said
+"$aureole" render "$scene" "${larger[@]}" --error 4% -o whole.exr 2> said
 grep -q 'by finalgather' said || fail "the better integrator: $(cat said)"
 for pause in .3 .6 1 2; do
-  timeout -s INT $pause "$aureole" render "$scene" "${small[@]}" --error 3% -o again.exr -q --checkpoint c --resume \
+  timeout -s INT $pause "$aureole" render "$scene" "${larger[@]}" --error 4% -o again.exr -q --checkpoint c --resume \
     2> stopped || true
   [ -e again.exr ] && break
 done
-"$aureole" render "$scene" "${small[@]}" --error 3% -o again.exr -q --checkpoint c --resume 2> stopped || fail "$(cat stopped)"
+"$aureole" render "$scene" "${larger[@]}" --error 4% -o again.exr -q --checkpoint c --resume 2> stopped || fail "$(cat stopped)"
 cmp whole.exr again.exr || fail "an interrupt changed the picture"
 
 # Final gathering shares patterns among few samples, for nobody knows how many there will be; it needed gigabytes once.
@@ -37,11 +38,21 @@ limit=4000000 # KiB; sanitizers reserve terabytes, and are not limited
 "$aureole" render "$scene" "${small[@]}" --integrator $gather,split=8 --rays 2e6 -o h.exr -t 3 -q
 cmp g.exr h.exr || fail "threads changed the picture, or the split is another one"
 
-# A clock's picture is made again without one, by the option that is said.
-"$aureole" render "$scene" "${small[@]}" --time .1s -o c.exr 2> said
-rounds=$(sed -n "s/.*'--rounds \([0-9]*\)'.*/\1/p" said)
-"$aureole" render "$scene" "${small[@]}" --rounds "$rounds" -o d.exr -q
-cmp c.exr d.exr || fail "--rounds $rounds makes another picture than --time"
+# A picture that was chosen, or that a clock has ended, is made again by the command that is said.
+again() { # OPTION...
+  "$aureole" render "$scene" "$@" -o c.exr 2> said
+  local command
+  command=$(sed -n 's/^aureole: the same picture again: //p' said)
+  [ -n "$command" ] || fail "no command that makes '$*' again: $(cat said)"
+  eval "\"\$aureole\" render \"\$scene\" --width $2 --height $4 $command -o d.exr -t 3" 2> repeated
+  cmp c.exr d.exr || fail "$command makes another picture than $*"
+  [ "$(sed -n 's/^aureole: the same picture again: //p' repeated)" = "$command" ] ||
+    fail "$command says another command: $(cat repeated)"
+}
+again "${small[@]}" --time .1s
+again "${small[@]}" --rays 1e6
+again "${larger[@]}" --error 4%
+grep -q -- "--integrator 'finalgather.* --error .* --bias " said || fail "the command of a choice: $(cat said)"
 
 # A dark scene says so.
 printf '%s\n' '<scene version="3.0.0"><integrator type="path"/><sensor type="perspective"><film type="hdrfilm">' \
@@ -63,6 +74,9 @@ refuses "'200%' is no error" --error 200%
 refuses "'-3s' is no time" --time -3s
 refuses "'3x' is no time" --time 3x
 refuses "'many' is no number of rays" --rays many
+refuses "'0' is no bias" --error 1% --integrator path --bias 0
+refuses "below the error asked" --error 1% --integrator path --bias 2%
+refuses "goes with an integrator that is named" --error 1% --bias .5%
 refuses "--spp' does not go with" --error 1% --spp 4
 refuses "--error-map' goes with" --error-map
 
