@@ -40,7 +40,18 @@ same 2 lab run keller-1994-table2 --quick -o out -q
 
 # Tables of weights and photon maps that ranks leave in the cache have the names and bits of one process's, so that each finds the other's; a metal
 # of GGX has its own.
-metal=(render "$source/scenes/plates/plates.xml" -D materials=rough --width 12 --height 10 --spp 1 -q
+cat >metal.xml <<'SCENE'
+<scene version="3.0.0">
+  <sensor type="perspective"><transform name="to_world"><lookat origin="0, -4, 2" target="0, 0, 0" up="0, 0, 1"/></transform>
+    <film type="hdrfilm"/></sensor>
+  <shape type="rectangle"><bsdf type="roughconductor"><string name="material" value="Al"/><float name="alpha" value="0.2"/></bsdf></shape>
+  <shape type="rectangle"><transform name="to_world"><rotate x="1" angle="90"/><translate y="1" z="1"/></transform>
+    <bsdf type="twosided"><bsdf type="diffuse"/></bsdf></shape>
+  <shape type="rectangle"><transform name="to_world"><rotate x="1" angle="180"/><scale value="0.3"/><translate z="2"/></transform>
+    <emitter type="area"><rgb name="radiance" value="5"/></emitter></shape>
+</scene>
+SCENE
+metal=(render metal.xml --width 12 --height 10 --spp 1 -q
        --integrator finalgather:photons=20000,diffuse_samples=8,glossy_samples=8,weights=oswa)
 rough=(render "$scene" --width 12 --height 10 --spp 1 -q
        --integrator finalgather:weights=oswa,photons=100,diffuse_samples=4,glossy_samples=4,rotations=1)
