@@ -144,15 +144,18 @@ aur_hit aur_packet_hit(const aur_scene *scene, const aur_packet *packet, size_t 
 
 uint32_t aur_scene_occluded16(const aur_scene *scene, aur_embree_order order, aur_packet *packet) {
     struct RTCRay16 *const rays = &packet->query.ray;
+    /* Embree 3.13's coherent occlusion of sixteen rays reads a variable that it has not set where there are
+     * instances, and then may never end: seen with each packet once the stack was not zero. */
+    const aur_embree_order safe = scene->instance_count == 0 ? order : AUR_EMBREE_INCOHERENT;
     switch (scene->packet_size) {
     case 16:
-        aur_embree_occluded_packet(scene->accel, order, 16, packet->valid, rays);
+        aur_embree_occluded_packet(scene->accel, safe, 16, packet->valid, rays);
         break;
     case 8:
-        occluded_parts(scene, order, 8, packet);
+        occluded_parts(scene, safe, 8, packet);
         break;
     case 4:
-        occluded_parts(scene, order, 4, packet);
+        occluded_parts(scene, safe, 4, packet);
         break;
     default:
         return aur_scene_occluded_each(scene, packet);
