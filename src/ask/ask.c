@@ -50,6 +50,8 @@ static int report(void *user, const char *what, uint64_t done, uint64_t total) {
     if (ask->choosing)
         return ask->progress.function(ask->progress.user, "trying integrators", done, total + 1);
     const aur_trial *const trial = &ask->trial;
+    if (trial->replicas.count == 0) /* it is being prepared */
+        return ask->progress.function(ask->progress.user, what, 0, STEPS);
     const double part =
         ((double)trial->replica + (double)done / (double)total) / (double)trial->replicas.count;
     const double share =
