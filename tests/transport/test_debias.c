@@ -142,10 +142,42 @@ static void refuses_other_bias(void **state) {
     aur_scene_destroy(scene);
 }
 
+static void count_warning(void *user, const char *message) {
+    *(size_t *)user += strstr(message, "'levels' belongs to adaptive=true") != NULL;
+}
+
+/* A comma ends the pattern's keys: what follows is finalgather's own, which is told where it does nothing. */
+static void idle_keys_are_told(void **state) {
+    (void)state;
+    static const struct {
+        const char *integrator;
+        size_t warnings;
+    } cases[] = {{"finalgather:photons=100,pattern=esfg:base=8,levels=2", 1},
+                 {"finalgather:photons=100,pattern=(esfg:base=8,levels=2)", 0},
+                 {"finalgather:photons=100,adaptive=true,levels=2", 0}};
+    aur_scene *scene = must_load_body(ROOM);
+    for (size_t i = 0; i < sizeof cases / sizeof cases[0]; ++i) {
+        size_t count = 0;
+        aur_render_options options = aur_render_options_default();
+        options.integrator = cases[i].integrator;
+        options.width = options.height = 2;
+        options.warnings = (aur_warnings){count_warning, &count};
+        aur_renderer *renderer;
+        aur_image *image;
+        assert_int_equal(aur_renderer_create(scene, &renderer, NULL), AUR_OK);
+        assert_int_equal(aur_renderer_render(renderer, &options, &image, NULL, NULL), AUR_OK);
+        assert_int_equal(count, cases[i].warnings);
+        aur_image_destroy(image);
+        aur_renderer_destroy(renderer);
+    }
+    aur_scene_destroy(scene);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(agrees_with_paths),
         cmocka_unit_test(refuses_other_bias),
+        cmocka_unit_test(idle_keys_are_told),
     };
     return cmocka_run_group_tests_name("transport/debias", tests, enter_folder, leave_folder);
 }

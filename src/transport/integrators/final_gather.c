@@ -152,9 +152,22 @@ static aur_result complete(aur_gather_parameters *p, aur_error *error) {
     return AUR_OK;
 }
 
+/* A key that does nothing was meant for something: 'levels' after a comma for the pattern, as a rule. */
+static void warn_of_idle_keys(const aur_gather_parameters *p, aur_parameters *parameters,
+                              const aur_warnings *warnings) {
+    static const char *const of_adaptive[] = {"levels", "level_factor", "criterion", "threshold"};
+    for (size_t i = 0; i < sizeof of_adaptive / sizeof of_adaptive[0] && !p->policy.adaptive; ++i) {
+        const aur_parameter *const given = aur_parameters_find(parameters, of_adaptive[i]);
+        if (given != NULL)
+            aur_warn_at(warnings, given->location,
+                        "finalgather: '%s' belongs to adaptive=true and does nothing here; keys of a pattern "
+                        "stand in parentheses: pattern=(SET:%s=...)",
+                        of_adaptive[i], of_adaptive[i]);
+    }
+}
+
 static aur_result create(aur_parameters *parameters, const aur_integrator_context *context,
                          aur_integrator *integrator, aur_error *error) {
-    (void)parameters;
     gather_data *const data = integrator->data;
     aur_gather_parameters *const p = &data->keys;
     aur_result result = complete(p, error);
@@ -167,6 +180,7 @@ static aur_result create(aur_parameters *parameters, const aur_integrator_contex
         result = aur_gather_rule_options_name(&p->rule, "finalgather", p->map, p->scramble, error);
     if (result != AUR_OK)
         return result;
+    warn_of_idle_keys(p, parameters, &context->warnings);
     integrator->pixel_centre = p->pixel == AUR_PIXEL_CENTRE;
     integrator->whole_tiles = p->policy.pools;
     static const char *const extra[] = {"directions"};
