@@ -10,9 +10,10 @@ fail() { echo "FAILED: $*"; failures=$((failures + 1)); }
 begin() { # begin NAME OPTION...: a render into NAME.exr that is served; $pid, $port and $token say where
   local name=$1
   shift
+  rm -f "$name.txt" # what an earlier render of that name said
   "$aureole" render "$scene" --width 64 -q -t 2 -o "$name.exr" --serve "$@" 2>"$name.txt" &
   pid=$!
-  for _ in $(seq 300); do grep -q http "$name.txt" && break; sleep 0.1; done
+  for _ in $(seq 300); do grep -qs 'http.*/$' "$name.txt" && break; sleep 0.1; done
   read -r port token < <(sed -n 's,^aureole: the picture is at http://127\.0\.0\.1:\([0-9]*\)/\([0-9a-f]\{32\}\)/$,\1 \2,p' "$name.txt")
   [ -n "${token:-}" ] || fail "no address: $(cat "$name.txt")"
 }
