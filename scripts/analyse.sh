@@ -15,6 +15,21 @@ trap 'rm -rf "$folder"' EXIT
 export AUREOLE_CACHE=
 flags=(-std=c17 -D_POSIX_C_SOURCE=200809L -D_FILE_OFFSET_BITS=64 -Iinclude -Isrc -Itests "-DAUR_SOURCE_DIR=\"$PWD\"")
 status=0
+# Analysers read one file at a time, so they are told that functions that make errors never return AUR_OK: $folder/told.h.
+tell() {
+    cat >"$folder/told.h" <<'C'
+#include "core/error.h"
+static inline aur_result aur_told(aur_result result) {
+    if (result == AUR_OK)
+        __builtin_unreachable();
+    return result;
+}
+#define aur_fail(...) aur_told(aur_fail(__VA_ARGS__))
+#define aur_fail_at(...) aur_told(aur_fail_at(__VA_ARGS__))
+#define aur_fail_memory(...) aur_told(aur_fail_memory(__VA_ARGS__))
+#define aur_fail_memory_at(...) aur_told(aur_fail_memory_at(__VA_ARGS__))
+C
+}
 verb=${1:-}
 shift
 case $verb in
@@ -100,22 +115,10 @@ C
       [ $complaints = 0 ] || status=1
     done ;;
   analyzer)
-    # It reads one file at a time, so it is told that functions that make errors never return AUR_OK. Two warnings are off: it
-    # takes loops of three for ones that may be left before, and their arrays for unset (valgrind and the memory sanitizer look for
-    # such), and shifts of vectors for those of single bits. What it says of sound places stands in analyzer.txt: file, function,
-    # warning, and why it is none.
-    cat >"$folder/told.h" <<'C'
-#include "core/error.h"
-static inline aur_result aur_told(aur_result result) {
-    if (result == AUR_OK)
-        __builtin_unreachable();
-    return result;
-}
-#define aur_fail(...) aur_told(aur_fail(__VA_ARGS__))
-#define aur_fail_at(...) aur_told(aur_fail_at(__VA_ARGS__))
-#define aur_fail_memory(...) aur_told(aur_fail_memory(__VA_ARGS__))
-#define aur_fail_memory_at(...) aur_told(aur_fail_memory_at(__VA_ARGS__))
-C
+    # Two warnings are off: it takes loops of three for ones that may be left before, and their arrays for unset (valgrind and the
+    # memory sanitizer look for such), and shifts of vectors for those of single bits. What it says of sound places stands in
+    # analyzer.txt: file, function, warning, and why it is none.
+    tell
     flags+=(-O1 -fanalyzer -Wno-analyzer-use-of-uninitialized-value
             -Wno-analyzer-shift-count-overflow -c -o /dev/null $(pkg-config --cflags expat stb mpi assimp OpenEXR))
     [ $# -gt 0 ] || set -- $(find src -name '*.c' ! -name '*_avx*' | sort)
@@ -132,12 +135,20 @@ C
     done <"$folder/said"
     echo "$# files, $(wc -l <"$folder/said") warnings, $(grep -c '^src' scripts/analyzer.txt) explained in scripts/analyzer.txt" ;;
   tidy)
+    # What it says of sound places stands in tidy.txt: file, check, and why it is no mistake.
     [ $# -gt 0 ] || set -- $(find src -name '*.c' ! -name '*_avx*' | sort)
+    tell
     clang-tidy --version | sed -n 's/.*LLVM version/clang-tidy/p'
-    printf '%s\n' "$@" | xargs -P "$(nproc)" -n 1 clang-tidy -p build/release --quiet 2>/dev/null | grep -E '(warning|error): ' | sort -u >"$folder/said"
-    cat "$folder/said"
-    echo "$# files, $(wc -l <"$folder/said") warnings"
-    [ ! -s "$folder/said" ] || status=1 ;;
+    export told=$folder/told.h
+    printf '%s\n' "$@" | xargs -P "$(nproc)" -n 1 bash -c '
+      [ "$0" = src/core/error.c ] || tell=(--extra-arg=-include --extra-arg="$told")
+      clang-tidy -p build/release --quiet "${tell[@]}" "$0" 2>/dev/null' |
+      grep -E '(warning|error): ' | sed "s|^$PWD/||" | sort -u >"$folder/said"
+    while read -r line; do
+      check=${line##*[}
+      grep -qF "${line%%:*} ${check%]}:" scripts/tidy.txt || { echo "$line"; status=1; }
+    done <"$folder/said"
+    echo "$# files, $(wc -l <"$folder/said") warnings, $(grep -c '^src' scripts/tidy.txt) explained in scripts/tidy.txt" ;;
   *) sed -n '2,8p' "$0" >&2; exit 2 ;;
 esac
 exit $status
