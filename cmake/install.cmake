@@ -38,6 +38,16 @@ foreach(shell_file IN LISTS shell_files)
 endforeach()
 add_custom_target(completion-scripts ALL DEPENDS ${completion_scripts})
 
+# Manual pages.
+if(AUREOLE_RENDER)
+    set(manual_pages "${PROJECT_BINARY_DIR}/man")
+    add_custom_command(OUTPUT "${manual_pages}/man1/aureole.1" VERBATIM DEPENDS aureole-program
+        COMMAND "${CMAKE_COMMAND}" -E rm -rf "${manual_pages}"
+        COMMAND aureole-program manual -o "${manual_pages}")
+    add_custom_target(manual-pages ALL DEPENDS "${manual_pages}/man1/aureole.1")
+    install(DIRECTORY "${manual_pages}/" DESTINATION ${CMAKE_INSTALL_MANDIR})
+endif()
+
 # A static build would have to hand on its own dependencies, so only the shared one is a package.
 if(BUILD_SHARED_LIBS)
     set(package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/aureole)

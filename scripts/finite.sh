@@ -10,7 +10,7 @@ folder=$(mktemp -d)
 trap 'rm -rf "$folder"' EXIT
 cd "$folder" || exit 2
 export AUREOLE_CACHE=
-mapfile -t integrators < <("$aureole" help integrator | awk 'NR > 1 && !/another name of/ { print $1 }')
+mapfile -t integrators < <("$aureole" help integrator --format csv | awk -F, 'NR > 1 && !/another name of/ { print $1 }')
 declare -A keys=([finalgather]=:photons=20000,diffuse_samples=4,glossy_samples=4 [radiosity]=:paths=65536 [ao]=:samples=4
                  [aov]=':aovs=(a:albedo,n:sh_normal,p:position)')
 status=0

@@ -53,7 +53,7 @@ Every verb of the program with its options. This page is written by `scripts/key
 HEAD
   "$program" help verb --format csv | tail -n +2 | cut -d, -f1 | while read -r name; do
     printf '\n## %s\n\n`%s`: %s.\n' "$name" "$("$program" help verb "$name" | head -1)" \
-      "$("$program" help verb | sed -n "s/^$name  *//p")"
+      "$("$program" help verb --json | sed -n "s/.*\"name\": \"$name\", \"summary\": \"\(.*\)\"}.*/\1/p")"
     "$program" help verb "$name" --format csv | table
   done
   exit
@@ -70,8 +70,9 @@ for kind in $kinds; do
   [ "$kind" = sampler ] && continue # the sets
   printf '\n## %s\n' "$kind"
   "$program" help "$kind" --format csv | tail -n +2 | cut -d, -f1 | while read -r name; do
-    # The first line says what it is.
-    printf '\n`%s`: %s.\n' "$name" "$("$program" help "$kind" "$name" | sed -n "1s/^$kind $name: //p")"
+    # The first paragraph says what it is.
+    printf '\n`%s`: %s.\n' "$name" "$("$program" help "$kind" "$name" |
+      awk -v head="$kind $name: " '!NF { exit } { text = text between $0; between = " " } END { print substr(text, length(head) + 1) }')"
     "$program" help "$kind" "$name" --format csv | table
   done
 done

@@ -113,7 +113,7 @@ static void offer_operands(const partial *word, const cli_verb *const *verbs, co
     for (unsigned i = 0; operand->name != NULL && operand->name(i) != NULL; ++i)
         offer_name(word, operand->name(i), operand->help);
     const bool topic = strcmp(content, "topic") == 0, row = strcmp(content, "row") == 0;
-    if (topic || (row && strcmp(before, "verb") == 0))
+    if (topic || strcmp(content, "verb") == 0 || (row && strcmp(before, "verb") == 0))
         offer_verbs(word, verbs);
     for (size_t i = 0; topic && cli_table_at(i) != NULL; ++i)
         offer_name(word, cli_table_at(i)->kind, cli_table_at(i)->summary);

@@ -6,80 +6,15 @@
 #include <string.h>
 
 #include "cli/kinds.h"
+#include "cli/listing.h"
 
-enum { LINE_WIDTH = 80, OPTION_COLUMN = 26, NAME_COLUMN = 13, TEXT_CAPACITY = 1024 };
-
-/* Prints words from a column on, in lines of at most LINE_WIDTH columns that begin at `indent`. */
-static void print_paragraph(size_t column, size_t indent, const char *text) {
-    while (*text != '\0') {
-        const size_t length = strcspn(text, " \n");
-        if (column > indent && column + 1 + length > LINE_WIDTH) {
-            printf("\n%*s", (int)indent, "");
-            column = indent;
-        } else if (column > indent) {
-            putchar(' ');
-            ++column;
-        }
-        printf("%.*s", (int)length, text);
-        column += length;
-        text += length;
-        if (*text == '\n') {
-            printf("\n%*s", (int)indent, "");
-            column = indent;
-        }
-        text += *text != '\0';
-    }
-    putchar('\n');
-}
-
-/* Prints what is described, and the description in its column. */
-static void print_entry(const char *what, int column, const char *help) {
-    if (printf("  %-*s ", column - 3, what) > column)
-        printf("\n%*s", column, "");
-    print_paragraph((size_t)column, (size_t)column, help);
-}
-
-/* The names or the range that a value may have. */
-static void list_values(const cli_option *option, char text[TEXT_CAPACITY]) {
-    aur_key_range(&option->key, TEXT_CAPACITY, text);
-    for (unsigned i = 0; option->name != NULL && option->name(i) != NULL; ++i) {
-        const size_t used = i > 0 ? strlen(text) : 0;
-        aur_format(text + used, TEXT_CAPACITY - used, "%s%s", i > 0 ? ", " : "", option->name(i));
-    }
-}
-
-/* "-n, --count N[,N...]" */
-static void write_option(const cli_option *option, bool aligned, char text[TEXT_CAPACITY]) {
-    const char *const name = option->key.name;
-    const char *const value = option->value != NULL ? option->value : "";
-    char letter[8] = "";
-    if (name[1] == '\0')
-        aur_format(text, TEXT_CAPACITY, "-%s %s", name, value);
-    if (name[1] == '\0')
-        return;
-    if (option->letter != '\0')
-        aur_format(letter, sizeof letter, "-%c, ", option->letter);
-    const char *const between = value[0] == '\0' ? "" : option->value_is_optional ? "[=" : " ";
-    aur_format(text, TEXT_CAPACITY, "%*s--%s%s%s%s", aligned ? 4 : 0, letter, name, between, value,
-               option->value_is_optional ? "]" : "");
-    const size_t used = strlen(text);
-    if (option->list)
-        aur_format(text + used, TEXT_CAPACITY - used, "[,%s...]", value);
-}
+enum { OPTION_COLUMN = 26, NAME_COLUMN = 14 };
 
 static void print_option(const cli_option *option) {
-    char what[TEXT_CAPACITY], values[TEXT_CAPACITY], help[2 * TEXT_CAPACITY + 256];
-    write_option(option, true, what);
-    list_values(option, values);
-    const aur_key *const key = &option->key;
-    const bool named = cli_option_name(option, 0) != NULL;
-    const bool open = key->minimum == 0.0 && isinf(key->maximum); /* says nothing */
-    const bool shown = option->value != NULL && values[0] != '\0' && !open;
-    aur_format(help, sizeof help, "%s%s%s%s%s%s%s", key->help, shown ? named ? ": " : " [" : "",
-               shown ? values : "", shown && !named ? "]" : "",
-               key->default_text != NULL ? " (default: " : "",
-               key->default_text != NULL ? key->default_text : "", key->default_text != NULL ? ")" : "");
-    print_entry(what, OPTION_COLUMN, help);
+    char what[CLI_WORDS_CAPACITY], help[CLI_HELP_CAPACITY];
+    cli_write_option(option, true, what);
+    cli_write_option_help(option, help);
+    cli_print_entry(what, OPTION_COLUMN, help);
 }
 
 int cli_print_verb_help(const cli_verb *verb) {
@@ -88,10 +23,10 @@ int cli_print_verb_help(const cli_verb *verb) {
         printf(" %s%s%s%s", operand->optional ? "[" : "", operand->word, operand->repeated ? "..." : "",
                operand->optional ? "]" : "");
     puts(verb->groups[0].options != NULL ? " [OPTION...]\n" : "\n");
-    print_paragraph(0, 0, verb->summary);
+    cli_print_paragraph(0, 0, verb->summary);
     putchar('\n');
     for (const cli_operand *operand = verb->operands; operand->word != NULL; ++operand)
-        print_entry(operand->word, OPTION_COLUMN, operand->help);
+        cli_print_entry(operand->word, OPTION_COLUMN, operand->help);
     if (verb->operands[0].word != NULL)
         putchar('\n');
     const cli_option *option;
@@ -99,7 +34,7 @@ int cli_print_verb_help(const cli_verb *verb) {
         print_option(option);
     if (verb->notes != NULL) {
         putchar('\n');
-        print_paragraph(0, 0, verb->notes);
+        cli_print_paragraph(0, 0, verb->notes);
     }
     return CLI_SUCCESS;
 }
@@ -120,26 +55,42 @@ enum { KEY_COLUMNS = sizeof key_columns / sizeof key_columns[0] };
 static void add_keys(report_table *table, const aur_row *row) {
     for (size_t i = 0; aur_row_key(row, i) != NULL; ++i) {
         const aur_key *const key = aur_row_key(row, i);
-        char range[TEXT_CAPACITY];
+        char range[CLI_WORDS_CAPACITY];
         aur_key_range(key, sizeof range, range);
         add_key(table, key, key->name, aur_key_type_name(key->type), range);
     }
 }
 
+/* The keys of a row, for people. */
+static void print_keys(const aur_row *row) {
+    for (size_t i = 0; aur_row_key(row, i) != NULL; ++i) {
+        const aur_key *const key = aur_row_key(row, i);
+        char what[CLI_WORDS_CAPACITY], help[CLI_HELP_CAPACITY];
+        cli_write_key(key, what);
+        cli_write_key_help(key, help);
+        cli_print_entry(what, OPTION_COLUMN, help);
+    }
+}
+
 static int print_row(const aur_table *kind, const aur_row *row, report_format format) {
-    if (format == REPORT_TABLE && row->source != NULL && row->source[0] != '\0')
-        printf("%s %s: %s (%s)\n", kind->kind, row->name, row->summary, row->source);
-    else if (format == REPORT_TABLE)
-        printf("%s %s: %s\n", kind->kind, row->name, row->summary);
-    if (format == REPORT_TABLE && row->key_count == 0 && kind->common == NULL)
-        return CLI_SUCCESS;
-    if (format == REPORT_TABLE)
-        printf("\n");
-    report_table *const table = report_create(KEY_COLUMNS, key_columns);
-    add_keys(table, row);
+    if (format != REPORT_TABLE) {
+        report_table *const table = report_create(KEY_COLUMNS, key_columns);
+        add_keys(table, row);
+        if (kind->common != NULL)
+            add_keys(table, kind->common);
+        return cli_finish(table, format);
+    }
+    const bool sourced = row->source != NULL && row->source[0] != '\0';
+    char text[CLI_HELP_CAPACITY];
+    aur_format(text, sizeof text, "%s %s: %s%s%s%s", kind->kind, row->name, row->summary, sourced ? " (" : "",
+               sourced ? row->source : "", sourced ? ")" : "");
+    cli_print_paragraph(0, 0, text);
+    if (row->key_count > 0 || kind->common != NULL)
+        putchar('\n');
+    print_keys(row);
     if (kind->common != NULL)
-        add_keys(table, kind->common);
-    return cli_finish(table, format);
+        print_keys(kind->common);
+    return CLI_SUCCESS;
 }
 
 static int print_kind(const aur_table *kind, report_format format) {
@@ -149,7 +100,7 @@ static int print_kind(const aur_table *kind, report_format format) {
         report_text(table, kind->rows[i]->summary);
         report_text(table, kind->rows[i]->source);
     }
-    return cli_finish(table, format);
+    return cli_finish_listing(table, format);
 }
 
 /* The options of a verb as a table, for programs. */
@@ -157,10 +108,10 @@ static int print_options(const cli_verb *verb, report_format format) {
     report_table *const table = report_create(KEY_COLUMNS, key_columns);
     const cli_option *option;
     for (size_t i = 0; (option = cli_option_at(verb, i, NULL)) != NULL; ++i) {
-        char what[TEXT_CAPACITY], values[TEXT_CAPACITY];
+        char what[CLI_WORDS_CAPACITY], values[CLI_WORDS_CAPACITY];
         const bool choice = option->name != NULL || option->key.type == AUR_KEY_CHOICE;
-        write_option(option, false, what);
-        list_values(option, values);
+        cli_write_option(option, false, what);
+        cli_list_values(option, values);
         add_key(table, &option->key, what,
                 option->value == NULL ? "flag"
                 : choice              ? "choice"
@@ -176,18 +127,19 @@ static int print_verbs(const cli_verb *const *verbs, report_format format) {
         report_text(table, (*verbs)->name);
         report_text(table, (*verbs)->summary);
     }
-    return cli_finish(table, format);
+    return cli_finish_listing(table, format);
 }
 
 static int print_overview(const cli_verb *const *verbs) {
     printf("aureole: quasi-Monte Carlo points, weights and light transport\n\n");
     for (; *verbs != NULL; ++verbs)
-        print_entry((*verbs)->name, NAME_COLUMN, (*verbs)->summary);
-    print_paragraph(0, 0,
-                    "\n'aureole help VERB' shows a verb's options; 'aureole --version' the version. 'aureole "
-                    "help KIND' lists what there is of a kind, 'aureole help KIND NAME' the keys of one:\n");
+        cli_print_entry((*verbs)->name, NAME_COLUMN, (*verbs)->summary);
+    cli_print_paragraph(
+        0, 0,
+        "\n'aureole help VERB' shows a verb's options; 'aureole --version' the version. 'aureole "
+        "help KIND' lists what there is of a kind, 'aureole help KIND NAME' the keys of one:\n");
     for (size_t i = 0; cli_table_at(i) != NULL; ++i)
-        print_entry(cli_table_at(i)->kind, NAME_COLUMN, cli_table_at(i)->summary);
+        cli_print_entry(cli_table_at(i)->kind, NAME_COLUMN, cli_table_at(i)->summary);
     return CLI_SUCCESS;
 }
 
@@ -251,7 +203,7 @@ static int run(const cli_call *call) {
     bool verb_too = false;
     for (size_t i = 0; call->verbs[i] != NULL; ++i)
         verb_too = verb_too || strcmp(call->verbs[i]->name, topic) == 0;
-    if (kind != NULL && (!verb_too || cli_given(call, "format") != NULL))
+    if (kind != NULL && (!verb_too || cli_given(call, "format") != NULL || cli_given(call, "json") != NULL))
         return print_kind(kind, format);
     return help_on_verb(call->verbs, topic, format, true);
 }

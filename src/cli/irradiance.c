@@ -36,6 +36,12 @@ static aur_result parse_error(const char *text, void *field, aur_error *error) {
     return AUR_OK;
 }
 
+static aur_result choose_json(const char *text, void *field, aur_error *error) {
+    (void)text, (void)error;
+    *(const char **)field = "json";
+    return AUR_OK;
+}
+
 static const cli_option options[] = {
     {CLI_TEXT(irradiance_command, sensors, "sensors", "POINTS", NULL,
               "six numbers a line, x y z nx ny nz: Radiance's .pts, CSV, NPY (- is standard input); or a "
@@ -46,6 +52,7 @@ static const cli_option options[] = {
      .letter = 'o', .key.computed = true, .content = "file"},
     {CLI_TEXT(irradiance_command, format, "to", "FORMAT", "csv", "where the name of FILE does not tell"),
      .key.words = (const char *const[]){"csv", "json", "npy", "ply", NULL}},
+    {CLI_FLAG(irradiance_command, format, "json", "the same as --to json"), .parse = choose_json},
     {CLI_CHOICE(irradiance_command, stand.place, "at", "PLACE", "faces", "where sensors stand on a mesh"),
      .key.words = (const char *const[]){"faces", "vertices", NULL}},
     {CLI_REAL(irradiance_command, stand.lift, "lift", "D", -INFINITY, INFINITY, "0",
@@ -133,7 +140,8 @@ static aur_result estimate(const irradiance_command *given, const aur_scene *sce
 static void find_format(const cli_call *call, irradiance_command *given) {
     static const char *const formats[] = {"csv", "json", "npy", "ply"};
     const char *const dot = given->output != NULL ? strrchr(given->output, '.') : NULL;
-    for (size_t i = 0; i < 4 && dot != NULL && cli_given(call, "to") == NULL; ++i)
+    const bool told = cli_given(call, "to") != NULL || cli_given(call, "json") != NULL;
+    for (size_t i = 0; i < 4 && dot != NULL && !told; ++i)
         if (strcmp(dot + 1, formats[i]) == 0)
             given->format = formats[i];
 }

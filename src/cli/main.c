@@ -1,5 +1,6 @@
 /* aureole: finds the verb, reads its options and runs it. Adding a verb is one file, which defines
  * cli_verb_<name>, and one line here. */
+#include <aureole/text.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -24,6 +25,7 @@
     ROW(lab)                                                                                                 \
     ROW(info)                                                                                                \
     ROW(completion)                                                                                          \
+    ROW(manual)                                                                                              \
     ROW(help)
 
 #define DECLARE(name) extern const cli_verb cli_verb_##name;
@@ -39,6 +41,17 @@ static const cli_verb *find_verb(const char *name) {
     return NULL;
 }
 
+static int refuse_verb(const char *name) {
+    enum { COUNT = sizeof verbs / sizeof verbs[0] - 1 };
+    const char *names[COUNT];
+    for (size_t i = 0; i < COUNT; ++i)
+        names[i] = verbs[i]->name;
+    const char *const nearest = aur_nearest_name(name, COUNT, names);
+    if (nearest != NULL)
+        return cli_bad_usage("unknown verb '%s'; did you mean '%s'?", name, nearest);
+    return cli_bad_usage("unknown verb '%s': 'aureole help' lists them", name);
+}
+
 /* A result that cannot be delivered (a full disk behind standard output) is a failure. */
 static int finish(int status) {
     if (fflush(stdout) != 0 || ferror(stdout)) {
@@ -52,14 +65,16 @@ static int finish(int status) {
 /* argv[0] is the verb. */
 static int run(const cli_verb *verb, int argc, char **argv) {
     for (int i = 1; i < argc && strcmp(argv[i], "--") != 0; ++i)
-        if (strcmp(argv[i], "--help") == 0)
+        if (strcmp(argv[i], "--help") == 0 || strcmp(argv[i], "-h") == 0)
             return cli_print_verb_help(verb);
     cli_call call = {.verbs = verbs, .options = calloc(1, verb->size + 1)};
     int status = CLI_BAD_INPUT;
     if (call.options == NULL)
         status = cli_fail(&(aur_error){.result = AUR_ERROR_MEMORY, .message = "out of memory"});
-    else if (cli_read_options(verb, argc, argv, &call))
+    else if (cli_read_options(verb, argc, argv, &call)) {
+        cli_forgive_names(&call);
         status = verb->run(&call);
+    }
     free(call.options);
     return finish(status);
 }
@@ -71,12 +86,12 @@ int main(int argc, char **argv) {
         const int status = run(&cli_verb_help, 1, (char *[]){"help", NULL});
         return help ? status : cli_bad_usage("a verb is missing: try 'aureole help'");
     }
-    if (strcmp(name, "--version") == 0) {
+    if (strcmp(name, "--version") == 0 || strcmp(name, "-V") == 0 || strcmp(name, "version") == 0) {
         printf("aureole %s\n", aur_version());
         return finish(CLI_SUCCESS);
     }
     const cli_verb *const verb = find_verb(name);
     if (verb == NULL)
-        return cli_bad_usage("unknown verb '%s': 'aureole help' lists them", name);
+        return refuse_verb(name);
     return cli_run_ranks(verb, argc - 1, argv + 1, run);
 }

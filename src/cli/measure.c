@@ -1,5 +1,6 @@
 /* aureole measure: quality figures of points. */
 #include "cli/measure.h"
+#include "cli/listing.h"
 
 #include <aureole/text.h>
 #include <math.h>
@@ -86,7 +87,7 @@ static int print_list(report_format format) {
         report_text(table, row->row.summary);
         report_text(table, row->row.source);
     }
-    return cli_finish(table, format);
+    return cli_finish_listing(table, format);
 }
 
 static int print_rows(const cli_measure_arguments *arguments, const cli_measure_rows *rows) {

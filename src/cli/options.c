@@ -6,9 +6,16 @@
 #include <stdio.h>
 #include <string.h>
 
+static aur_result choose_json(const char *text, void *field, aur_error *error) {
+    (void)text, (void)error;
+    *(report_format *)field = REPORT_JSON;
+    return AUR_OK;
+}
+
 const cli_option cli_format_option[] = {
     {CLI_CHOICE(cli_common, format, "format", "FORMAT", "table", "how results are printed"),
      .key.words = (const char *const[]){"table", "csv", "json", NULL}},
+    {CLI_FLAG(cli_common, format, "json", "the same as --format json"), .parse = choose_json},
     {.key = {0}}};
 
 const cli_option cli_quiet_option[] = {

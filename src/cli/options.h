@@ -110,7 +110,7 @@ const char *cli_list_at(const cli_list *list, size_t index);
 /* --- options that verbs share: each a group of one row */
 
 typedef struct cli_common {
-    report_format format; /* of a table of results */
+    report_format format; /* of a table of results; --json is --format json */
     size_t threads;       /* 0: one a processor */
     bool quiet;
     bool memory_limit, time_limit, no_cache; /* they hold once they are read */

@@ -29,6 +29,12 @@ static const char *format_name(unsigned format) {
     return format <= FORMAT_PNG ? pictures[format - FORMAT_SVG] : NULL;
 }
 
+static aur_result choose_json(const char *text, void *field, aur_error *error) {
+    (void)text, (void)error;
+    *(unsigned *)field = AUR_POINTS_JSON;
+    return AUR_OK;
+}
+
 static const cli_option options[] = {
     {CLI_INTEGER(points_command, from.options.count, "n", "N", 1, INFINITY, "all of a file",
                  "the size of the set"),
@@ -47,6 +53,7 @@ static const cli_option options[] = {
     {CLI_CHOICE(points_command, format, "format", "FORMAT", "by the file's name; csv",
                 "how points are written; svg and png are pictures"),
      .key.computed = true, .name = format_name},
+    {CLI_FLAG(points_command, format, "json", "the same as --format json"), .parse = choose_json},
     {CLI_TEXT(points_command, path, "output", "FILE", "-", "where to; '-' is standard output"), .letter = 'o',
      .content = "file"},
     {.key = {0}}};
@@ -70,7 +77,8 @@ static bool complete(const cli_call *call) {
         return false;
     }
     const char *const dot = strrchr(wanted->path, '.');
-    for (unsigned i = 0; format_name(i) != NULL && dot != NULL && cli_given(call, "format") == NULL; ++i)
+    const bool told = cli_given(call, "format") != NULL || cli_given(call, "json") != NULL;
+    for (unsigned i = 0; format_name(i) != NULL && dot != NULL && !told; ++i)
         if (strcmp(format_name(i), dot + 1) == 0)
             wanted->format = i;
     return true;

@@ -24,7 +24,7 @@ typedef struct render_command {
     cli_checkpoint checkpoint;
     cli_watch watch;
     cli_denoise denoise;
-    bool statistics;
+    bool statistics, json;
     cli_common common;
 } render_command;
 
@@ -74,7 +74,7 @@ static aur_result parse_shard(const char *text, void *field, aur_error *error) {
 
 static const cli_option options[] = {
     {CLI_TEXT(render_command, output, "output", "FILE", "SCENE.exr in the current folder",
-              "where the picture goes: .exr, .png, ... (aureole help picture)"),
+              "where the picture goes: .exr, .png, ... (aureole help picture); - is standard output, in EXR"),
      .letter = 'o', .key.computed = true, .content = "file"},
     {CLI_TEXT(render_command, options.integrator, "integrator", "SPEC", NULL,
               "NAME[:key=value,...] instead of the scene's integrator"),
@@ -110,6 +110,8 @@ static const cli_option options[] = {
      .content = "file"},
     {CLI_FLAG(render_command, statistics, "stats", "say how many rays and how much time it took")},
     {CLI_FLAG(render_command, statistics, "verbose", "the same as --stats"), .letter = 'v'},
+    {CLI_FLAG(render_command, json, "json",
+              "say on standard output, as JSON, how many rays and how much time it took, and the error")},
     {.key = {0}}};
 
 /* SCENE.exr in the current folder, from the scene's file name; SCENE.i-of-n.part for a part. */
@@ -131,9 +133,7 @@ static bool check_output(const char *path) {
     const bool known = aur_image_find_writer(path, NULL, &format, &error) == AUR_OK;
     if (!known)
         cli_bad_usage("-o: %s", error.message);
-    else if (strcmp(path, "-") == 0)
-        cli_bad_usage("-o: a picture is rendered into a file, not to standard output");
-    return known && strcmp(path, "-") != 0;
+    return known;
 }
 
 static aur_result check_folder(const char *path, aur_error *error) {
@@ -143,7 +143,8 @@ static aur_result check_folder(const char *path, aur_error *error) {
         snprintf(folder, sizeof folder, ".");
     else
         snprintf(folder, sizeof folder, "%.*s", slash == path ? 1 : (int)(slash - path), path);
-    if (aur_ranks_rank() != 0 || access(folder, W_OK | X_OK) == 0) /* rank 0 writes */
+    const bool is_file = strcmp(path, "-") != 0;
+    if (!is_file || aur_ranks_rank() != 0 || access(folder, W_OK | X_OK) == 0) /* rank 0 writes */
         return AUR_OK;
     aur_fail(error, AUR_ERROR_WRITE, "cannot write: its folder does not exist or is read-only");
     snprintf(error->file, sizeof error->file, "%s", path);
@@ -166,6 +167,18 @@ static void print_statistics(const aur_render *render) {
         if (statistics->levels[l] > 0)
             fprintf(stderr, "aureole: %" PRIu64 " gathers ended at level %zu\n", statistics->levels[l],
                     l + 1);
+}
+
+/* The facts for programs. */
+static aur_result print_json(const render_command *command, const aur_render *render, aur_error *error) {
+    aur_render_statistics counted = {.size = sizeof counted};
+    aur_render_get_statistics(render, &counted, NULL);
+    report_table *const table = report_create(0, NULL);
+    report_fact_text(table, "output", command->output);
+    cli_report_statistics(table, &counted);
+    const aur_result result = report_write(table, REPORT_JSON, stdout, error);
+    report_destroy(table);
+    return result;
 }
 
 /* What each of several processes did: all of them come here. */
@@ -229,12 +242,16 @@ static aur_result render_samples(aur_renderer *renderer, render_command *command
         print_statistics(render);
         print_ranks();
     }
+    if (result == AUR_OK && command->json && aur_ranks_rank() == 0)
+        result = print_json(command, render, error);
     aur_render_destroy(render);
     return result;
 }
 
-/* What an interrupted render has goes beside the picture, as OUT.partial.exr. */
-static void write_partial(const char *output, const aur_image *image) {
+/* What an interrupted render has goes beside the picture, as OUT.partial.exr, or render.partial.exr where the
+ * picture was to go to standard output. */
+static void write_partial(const char *wanted, const aur_image *image) {
+    const char *const output = strcmp(wanted, "-") == 0 ? "render.exr" : wanted;
     char path[PATH_MAX];
     aur_error error = {0};
     const char *const slash = strrchr(output, '/'), *const dot = strrchr(slash != NULL ? slash : output, '.');
@@ -249,8 +266,7 @@ static void write_partial(const char *output, const aur_image *image) {
 static int render(const char *path, render_command *command, cli_errors *errors) {
     aur_error error = {0};
     if (check_folder(command->output, &error) != AUR_OK ||
-        (errors != NULL && strcmp(command->errors, "-") != 0 &&
-         check_folder(command->errors, &error) != AUR_OK) ||
+        (errors != NULL && check_folder(command->errors, &error) != AUR_OK) ||
         (command->checkpoint.path != NULL && check_folder(command->checkpoint.path, &error) != AUR_OK))
         return cli_fail(&error);
     if (cli_denoise_begin(&command->denoise, &error) != AUR_OK)
@@ -273,12 +289,13 @@ static int render(const char *path, render_command *command, cli_errors *errors)
     if (result == AUR_OK)
         result = aur_renderer_create(scene, &renderer, &error);
     if (result == AUR_OK)
-        result = cli_is_wish(&command->wish)
-                     ? cli_render_wish(renderer, &command->options, &command->wish,
-                                       &(cli_surroundings){&command->checkpoint, &command->watch,
-                                                           command->output, command->common.quiet},
-                                       &image, &error)
-                     : render_samples(renderer, command, errors, &image, &error);
+        result =
+            cli_is_wish(&command->wish)
+                ? cli_render_wish(renderer, &command->options, &command->wish,
+                                  &(cli_surroundings){&command->checkpoint, &command->watch, command->output,
+                                                      command->common.quiet, command->json},
+                                  &image, &error)
+                : render_samples(renderer, command, errors, &image, &error);
     if (result == AUR_OK)
         result = cli_denoise_picture(&command->denoise, renderer, &command->options, &image, &error);
     cli_progress_clear();
@@ -310,6 +327,8 @@ static const char *conflict(const cli_call *call, const render_command *command)
                "look at the whole picture";
     if (command->options.shard_count > 0 && command->denoise.wanted)
         return "render: '--denoise' does not go with '--shard': neighbours of a part's pixels are missing";
+    if (command->json && command->output != NULL && strcmp(command->output, "-") == 0)
+        return "render: '--json' and the picture do not both go to standard output";
     const char *const checkpoint = cli_checkpoint_conflict(&command->checkpoint);
     if (checkpoint != NULL)
         return checkpoint;

@@ -3,7 +3,7 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "cli/options.h"
+#include "cli/listing.h"
 
 /* Where a set's points can be: sets of the square come to the other domains by a map. */
 static void add_domains(report_table *table, const aur_set_description *set) {
@@ -51,7 +51,7 @@ static int run(const cli_call *call) {
         report_text(table, set->row.source);
         report_text(table, set->row.summary);
     }
-    return cli_finish(table, ((const cli_common *)call->options)->format);
+    return cli_finish_listing(table, ((const cli_common *)call->options)->format);
 }
 
 const cli_verb cli_verb_sets = {

@@ -6,6 +6,13 @@
 
 enum { LONGEST_NAME = 63 };
 
+/* Capitals, and '_' for '-', are no difference between names. */
+static char fold(char c) {
+    if (c >= 'A' && c <= 'Z')
+        return (char)(c - 'A' + 'a');
+    return c == '_' ? '-' : c;
+}
+
 /* Levenshtein distance of two short names. */
 static size_t edit_distance(const char *a, const char *b) {
     size_t row[LONGEST_NAME + 1];
@@ -17,7 +24,7 @@ static size_t edit_distance(const char *a, const char *b) {
         size_t diagonal = row[0];
         row[0] = i;
         for (size_t j = 1; j <= length_b; ++j) {
-            const size_t substitute = diagonal + (a[i - 1] != b[j - 1]);
+            const size_t substitute = diagonal + (fold(a[i - 1]) != fold(b[j - 1]));
             diagonal = row[j];
             size_t best = substitute < row[j] + 1 ? substitute : row[j] + 1;
             if (row[j - 1] + 1 < best)
@@ -49,7 +56,7 @@ const char *aur_names_nearest(aur_names names, const char *wanted) {
     if (length == 0 || length > LONGEST_NAME)
         return NULL;
     const char *best = NULL;
-    size_t best_distance = length < 6 ? 3 : length / 2;
+    size_t best_distance = length < 4 ? 2 : length < 6 ? 3 : length / 2;
     for (size_t i = 0; i < names.count; ++i) {
         const char *const name = names.at(names.table, i);
         if (strlen(name) > LONGEST_NAME)

@@ -217,6 +217,10 @@ aur_result report_save(const report_table *table, const char *notes, const char 
     return result;
 }
 
+bool report_failed(const report_table *table) {
+    return table == NULL || table->failed;
+}
+
 size_t report_rows(const report_table *table) {
     return table == NULL || table->column_count == 0 ? 0 : row_count(table) - 1;
 }

@@ -33,6 +33,8 @@ aur_result report_save(const report_table *table, const char *notes, const char 
  * *notes (NULL allowed), to be freed. Errors: OPEN, FORMAT, MEMORY. */
 aur_result report_load(const char *path, report_table **table, char **notes, aur_error *error);
 
+/* Whether a cell was lost for want of memory, or the table itself. */
+bool report_failed(const report_table *table);
 /* What is in a table: its whole rows, without the names of the columns. */
 size_t report_rows(const report_table *table);
 size_t report_columns(const report_table *table);

@@ -21,7 +21,12 @@ expect 0 "final gathering over a photon map" help integrator
 expect 0 "diffuse_samples" help integrator finalgather
 expect 0 "strict_normals" help integrator path
 expect 0 "measure energy: distance energy" help measure energy
+expect 0 "final gathering over a photon map" help integrators
+expect 0 "quality figures of points" measure -h
 expect 2 "did you mean 'integrator'?" help integrater
+expect 2 "unknown verb 'rendr'; did you mean 'render'?" rendr
+expect 0 "$("$aureole" --version)" -V
+expect 0 "$("$aureole" --version)" version
 expect 2 "did you mean 'finalgather'?" help integrator finalgathr
 expect 2 "unknown verb 'xyzzyplugh'" help xyzzyplugh
 expect 2 "one verb, or a kind and a name" help set sobol more
@@ -29,9 +34,19 @@ expect 2 "one verb, or a kind and a name" help set sobol more
 for kind in set measure integrator shape emitter sensor rfilter film picture; do
   "$aureole" help "$kind" --format csv | tail -n +2 | cut -d, -f1 >names
   [ -s names ] || fail "no $kind"
+  "$aureole" help "$kind" --format table >listing
   while read -r name; do
+    grep -q -- "^  $name\b" listing || fail "help $kind: no $name"
+    "$aureole" help "$kind" "$name" >>text || fail "help $kind $name"
     "$aureole" help "$kind" "$name" --format csv >keys || fail "help $kind $name"
     [ "$(head -1 keys)" = key,type,default,values,help ] || fail "help $kind $name: $(head -1 keys)"
   done <names
 done
+"$aureole" sets >sets && "$aureole" measure --list >measures || fail listings
+awk 'length($0) > 80 { print "FAIL: wider than 80: " FILENAME ": " $0; bad = 1 } END { exit bad }' listing text sets measures || status=1
+# Capitals and _ for - are forgiven in names of things, and other mistakes told from them.
+[ "$("$aureole" points Spherical_Fibonacci -n 5)" = "$("$aureole" points spherical-fibonacci -n 5)" ] || fail "Spherical_Fibonacci"
+expect 2 "did you mean 'star'?" measure sobol -n 4 -m Star
+expect 2 "did you mean 'spherical-fibonacci'?" measure Spherical_Fibonaci -n 4 -m energy
+expect 2 "unknown integrator 'foo'; there are: path" render "$2/scenes/cornell-box/cornell-box.xml" --integrator foo --spp 1
 exit $status

@@ -12,6 +12,9 @@ version=$("$prefix/bin/aureole" --version)
 for script in bash-completion/completions/aureole zsh/site-functions/_aureole fish/vendor_completions.d/aureole.fish; do
   grep -q "completion words" "$prefix/share/$script" || { echo "no completion in share/$script"; exit 1; }
 done
+for page in man1/aureole.1 man1/aureole-render.1 man5/aureole-scene.5 man7/aureole-names.7; do
+  grep -q '^\.TH' "$prefix/share/man/$page" || { echo "no manual page share/man/$page"; exit 1; }
+done
 
 mkdir consumer
 cat >consumer/consumer.c <<'C'

@@ -19,6 +19,7 @@ done
 awk '
   function clean(text) { gsub(/[`(]/, " ", text); split(text, word, " "); return word[1] }
   /^## / { section = $2 }
+  /^### Keys of / { section = $4 }
   /^\| key \| default/ { on = 1; next }
   !/^\|/ { on = 0 }
   on && /^\| `/ {
