@@ -10,6 +10,9 @@ shift
 builds=("$@")
 source=$(cd "$(dirname "$0")/.." && pwd)
 for i in "${!builds[@]}"; do builds[i]=$(realpath "${builds[i]}"); done
+for program in "$aureole" "${builds[@]}"; do
+  [ -x "$program" ] || { echo "identities.sh: there is no program $program" >&2; exit 2; }
+done
 name() { basename "$(dirname "$1")"; } # of a build: its folder
 folder=$(mktemp -d)
 trap 'rm -rf "$folder"' EXIT
