@@ -35,8 +35,8 @@ typedef struct aur_emitter_descriptor {
     /* As aur_light_emit for this light alone. */
     bool (*emit)(const aur_emitter *emitter, const float u[5], aur_ray *ray, aur_vector *power);
     void (*release)(aur_emitter *emitter); /* frees what emitter->data owns, not `data`; may be NULL */
-    /* For shapes only: the density, a steradian, with which `sample` draws the points that `reference` sees;
-     * 0 says that it draws them by area. */
+    /* For shapes that shine to all sides only: the density, a steradian, with which `sample` draws the points
+     * that `reference` sees; 0 says that it draws them by area. */
     float (*pdf_seen)(const aur_emitter *emitter, aur_vector reference, float least);
     /* For environments only: the radiance from a direction, and the density with which `sample` draws it. */
     aur_vector (*radiance_from)(const aur_emitter *emitter, aur_vector direction);
@@ -62,6 +62,11 @@ struct aur_emitter {
 };
 
 extern const aur_table aur_emitter_table;
+
+/* Whether it is a surface that shines to all sides, so that rays find it. */
+static inline bool aur_emitter_glows(const aur_emitter *emitter) {
+    return emitter->descriptor->pdf_seen != NULL;
+}
 
 /* For lights that are infinitely far: a sample of the unit `direction` towards them, all but radiance and
  * pdf; and a ray from there through a uniform point of the disk that covers the scene. */

@@ -36,6 +36,8 @@ float aur_light_pdf_direct(const aur_scene *scene, aur_vector reference, float l
     if (surface->emitter == AUR_NO_EMITTER)
         return 0.0f;
     const aur_emitter *const emitter = scene->emitters[surface->emitter];
+    if (!aur_emitter_glows(emitter))
+        return 0.0f;
     const aur_shape *const shape = scene->shapes[surface->shape];
     const aur_vector way = aur_vector_subtract(surface->position, reference);
     const float squared = aur_vector_dot(way, way);
@@ -51,7 +53,8 @@ float aur_light_pdf_direct(const aur_scene *scene, aur_vector reference, float l
 aur_vector aur_surface_emission(const aur_scene *scene, const aur_surface *surface, aur_vector view) {
     if (surface->emitter == AUR_NO_EMITTER || !(aur_vector_dot(view, surface->geometric_normal) > 0.0f))
         return (aur_vector){0};
-    return aur_color_at(&scene->emitters[surface->emitter]->radiance, surface->texture);
+    const aur_emitter *const emitter = scene->emitters[surface->emitter];
+    return aur_emitter_glows(emitter) ? aur_color_at(&emitter->radiance, surface->texture) : (aur_vector){0};
 }
 
 bool aur_light_emit(const aur_scene *scene, const float u[5], aur_ray *ray, aur_vector *power) {

@@ -57,9 +57,18 @@ static aur_result check_instance(const aur_instance *instance, double reach, aur
     return AUR_OK;
 }
 
+/* How far a camera reaches from the origin. */
+static double sensor_reach(const aur_sensor *sensor) {
+    double reach = 0.0;
+    for (size_t i = 0; i < 12; ++i)
+        reach = fmax(reach, fabs((double)sensor->to_world[i]) * fmax(1.0, sensor->aperture_radius));
+    for (size_t i = 0; i < sensor->part_count; ++i)
+        reach = fmax(reach, sensor_reach(sensor->parts[i]));
+    return reach;
+}
+
 /* Refuses what is so far away that Embree would end the process. */
 static aur_result check_reach(const aur_scene *scene, aur_error *error) {
-    const float *const camera = scene->sensor.to_world;
     double reach = larger_of(larger_of(0.0, scene->lower), scene->upper);
     const double most = 1.00001 * AUR_REACH; /* bounds are a little wider than shapes */
     for (size_t i = 0; reach > most && i < scene->shape_count; ++i) {
@@ -72,8 +81,7 @@ static aur_result check_reach(const aur_scene *scene, aur_error *error) {
     if (reach > most)
         return aur_fail_at(error, scene->document.root->location, AUR_ERROR_FORMAT,
                            "instances reach to %g from the origin; %g is the most", reach, AUR_REACH);
-    for (size_t i = 0; i < 12; ++i)
-        reach = fmax(reach, fabs((double)camera[i]) * fmax(1.0, scene->sensor.aperture_radius));
+    reach = fmax(reach, sensor_reach(&scene->sensor));
     for (size_t i = 0; i < scene->instance_count; ++i) {
         const aur_result result = check_instance(scene->instances[i], reach, error);
         if (result != AUR_OK)
@@ -200,6 +208,9 @@ void aur_scene_destroy(aur_scene *scene) {
         free(scene->instances[i]);
     free(scene->groups);
     free(scene->instances);
+    for (size_t i = 0; i < scene->part_count; ++i)
+        free(scene->parts[i]);
+    free(scene->parts);
     free(scene->shapes);
     free(scene->emitters);
     free(scene->environments);

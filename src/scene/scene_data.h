@@ -51,6 +51,8 @@ struct aur_scene {
     const aur_emitter **environments; /* those of them whose radiance_from is for rays that hit nothing */
     bool has_sensor, has_integrator;
     aur_sensor sensor;
+    size_t part_count, part_capacity;
+    aur_sensor **parts; /* the cameras inside a batch */
     aur_filter filter;
     aur_film_settings film;
     char *sampler;

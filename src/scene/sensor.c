@@ -24,12 +24,24 @@ static aur_vector to_world_direction(const float m[12], aur_vector v) {
                         m[8] * v.x + m[9] * v.y + m[10] * v.z};
 }
 
+/* The camera that a film point belongs to; of a batch, one part with its own x and width. */
+static const aur_sensor *choose_part(const aur_sensor *sensor, float *x, float *width) {
+    if (sensor->part_count == 0)
+        return sensor;
+    *width /= (float)sensor->part_count;
+    const float last = (float)(sensor->part_count - 1);
+    const float part = aur_smaller(aur_larger(floorf(*x / *width), 0.0f), last);
+    *x -= part * *width;
+    return sensor->parts[(size_t)part];
+}
+
 void aur_camera_ray(const aur_scene *scene, size_t width, size_t height, float x, float y,
                     const float lens[2], aur_ray *ray) {
-    const aur_sensor *const sensor = &scene->sensor;
-    const float aspect = (float)width / (float)height;
+    float wide = (float)width;
+    const aur_sensor *const sensor = choose_part(&scene->sensor, &x, &wide);
+    const float aspect = wide / (float)height;
     aur_ray local = {.origin = {0.0f, 0.0f, 0.0f}};
-    sensor->descriptor->ray(sensor, aspect, x / (float)width, y / (float)height, lens, &local);
+    sensor->descriptor->ray(sensor, aspect, x / wide, y / (float)height, lens, &local);
     const aur_vector origin = to_world_direction(sensor->to_world, local.origin);
     ray->origin =
         aur_vector_add(origin, (aur_vector){sensor->to_world[3], sensor->to_world[7], sensor->to_world[11]});
@@ -81,5 +93,8 @@ void aur_camera_rays(const aur_scene *scene, size_t width, size_t height, const 
 }
 
 bool aur_camera_has_lens(const aur_scene *scene) {
-    return scene->sensor.aperture_radius > 0.0f;
+    bool has = scene->sensor.aperture_radius > 0.0f;
+    for (size_t i = 0; i < scene->sensor.part_count; ++i)
+        has = has || scene->sensor.parts[i]->aperture_radius > 0.0f;
+    return has;
 }

@@ -20,7 +20,8 @@ typedef struct aur_sensor_descriptor {
     /* Reads its keys; may be NULL where it has none but those of all cameras. */
     aur_result (*create)(aur_parameters *parameters, aur_sensor *sensor, aur_error *error);
     /* The ray in camera space through the film point; `aspect` is width over height and x, y are in [0, 1], y
-     * downwards. The direction is of any length; the origin is that of the camera unless it is set. */
+     * downwards. The direction is of any length; the origin is that of the camera unless it is set.
+     * NULL for a batch, each part of which has its own. */
     void (*ray)(const aur_sensor *sensor, float aspect, float x, float y, const float lens[2], aur_ray *ray);
     bool is_pinhole; /* all rays begin at the origin, in directions aur_sensor_direction */
 } aur_sensor_descriptor;
@@ -34,6 +35,8 @@ struct aur_sensor {
     float tangent; /* of half the field of view, along `axis` */
     float aperture_radius, focus_distance;
     const struct aur_medium *medium; /* which it stands in; NULL: none */
+    size_t part_count;               /* of a batch; else 0 */
+    struct aur_sensor *const *parts;
 };
 
 extern const aur_table aur_sensor_table;

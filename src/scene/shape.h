@@ -59,6 +59,7 @@ struct aur_shape {
     const aur_curved *curved; /* NULL: a mesh */
     aur_mesh mesh;
     bool parallelogram; /* two triangles sampled by one continuous map: corners 0, 1, 2, 3 in order */
+    bool ellipse;       /* flat, with the half axes axis[0] and axis[1] */
     bool flipped;       /* curved shapes: the normal points to the other side */
     aur_vector center;  /* curved shapes: the origin of their own coordinates */
     aur_vector axis[3]; /* curved shapes: the axes of their own coordinates */

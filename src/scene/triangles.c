@@ -14,7 +14,7 @@ aur_result aur_scene_check_triangles(const aur_scene *scene, aur_error *error) {
                 shape->descriptor->row.name);
     }
     for (size_t i = 0; i < scene->emitter_count; ++i)
-        if (!scene->emitters[i]->descriptor->needs_shape)
+        if (!aur_emitter_glows(scene->emitters[i]))
             return aur_fail_at(error, scene->emitters[i]->location, AUR_ERROR_UNSUPPORTED,
                                "emitter '%s' is no surface: only 'area' lights are",
                                scene->emitters[i]->descriptor->row.name);

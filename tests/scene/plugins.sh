@@ -47,8 +47,45 @@ for curve in none linearcurve bsplinecurve; do
     { echo "white $curve can be seen"; cat compared; exit 1; }
 done
 
+# A beam that is wider than what is seen is parallel light of that irradiance.
+wall="<sensor type='orthographic'><transform name='to_world'><lookat origin='0,0,3' target='0,0,0' up='0,1,0'/></transform>\
+<film type='hdrfilm'><integer name='width' value='8'/><integer name='height' value='8'/></film></sensor>\
+<shape type='rectangle'><transform name='to_world'><scale value='3'/></transform></shape>"
+turn="<transform name='to_world'><scale value='5'/><lookat origin='2,0,4' target='0,0,0' up='0,1,0'/></transform>"
+for shape in rectangle disk; do
+  echo "<scene version='3.0.0'>$wall<shape type='$shape'>$turn<emitter type='directionalarea'/></shape></scene>" >beam.xml
+  echo "<scene version='3.0.0'>$wall<emitter type='directional'>$turn</emitter></scene>" >parallel.xml
+  for scene in beam parallel; do
+    "$aureole" render $scene.xml -q --integrator direct --spp 4 -o $scene.exr || exit 1
+  done
+  "$aureole" compare beam.exr parallel.exr --metric relative-rmse --tolerance 1e-6 >compared ||
+    { echo "the beam of a $shape is not parallel light"; cat compared; exit 1; }
+done
+
+# A batch of one camera is that camera; of two, each has its half of the film.
+camera() { # camera DISTANCE [FILM]: how far the wall is
+  echo "<sensor type='orthographic'><transform name='to_world'><lookat origin='0.1,0,$1' target='0.1,0,0' up='0,1,0'/></transform>${2:-}</sensor>"
+}
+film() { # film WIDTH CROP_OFFSET
+  echo "<film type='hdrfilm'><integer name='width' value='$1'/><integer name='height' value='8'/><integer name='crop_offset_x' value='$2'/>\
+<integer name='crop_width' value='8'/><rfilter type='box'/></film>"
+}
+picture() { # picture NAME INTEGRATOR SENSOR: of a wall
+  echo "<scene version='3.0.0'>$3<shape type='rectangle'><transform name='to_world'><scale value='2'/></transform></shape><emitter type='constant'/></scene>" >batch.xml
+  "$aureole" render batch.xml -q --integrator "$2" --spp 4 -o "$1.exr" || exit 1
+}
+picture one path "$(camera 3 "$(film 8 0)")"
+picture batch path "<sensor type='batch'>$(camera 3 "$(film 4 0)")$(film 8 0)</sensor>"
+cmp one.exr batch.exr || { echo "a batch of one camera is not that camera"; exit 1; }
+for half in 0 8; do
+  picture one depth "$(camera $((3 + half)) "$(film 8 0)")"
+  picture batch depth "<sensor type='batch'>$(camera 3)$(camera 11)$(film 16 $half)</sensor>"
+  "$aureole" compare one.exr batch.exr --metric relative-rmse --tolerance 1e-6 >compared ||
+    { echo "the half of a batch at $half is not that of its camera"; cat compared; exit 1; }
+done
+
 refuses() { # refuses WORDS BODY
-  echo "<scene version='3.0.0'><sensor type='perspective'/>$2</scene>" >refused.xml
+  echo "<scene version='3.0.0'>${3-<sensor type='perspective'/>}$2</scene>" >refused.xml
   "$aureole" info refused.xml >out 2>&1
   local status=$?
   [ $status = 2 ] && grep -q "$1" out || { echo "'$1' is not said with status 2 of: $2"; cat out; exit 1; }
@@ -59,8 +96,13 @@ refuses "no colours of faces" "<shape type='sphere'>${colors}face_color'/></text
 refuses "must be vertex_color or face_color" "<shape type='cube'>${colors}vertex_ao'/></texture></bsdf></shape>"
 refuses "needs a texture" "<bsdf type='bumpmap'><bsdf type='diffuse'/></bsdf>"
 refuses "needs two nested" "<bsdf type='blendbsdf'><bsdf type='diffuse'/></bsdf>"
+refuses "only a rectangle or a disk" "<shape type='sphere'><emitter type='directionalarea'/></shape>"
 refuses "'eta' or 'specular', not both" \
   "<bsdf type='principled'><float name='eta' value='1.5'/><float name='specular' value='0.5'/></bsdf>"
+refuses "it needs a <sensor> inside" "" "<sensor type='batch'/>"
+refuses "cannot stand inside another" "" "<sensor type='batch'><sensor type='batch'/></sensor>"
+refuses "must stand in one medium" "" "<sensor type='batch'><sensor type='perspective'/><sensor type='perspective'>\
+<medium type='homogeneous'/></sensor></sensor>"
 
 # All that is not known is said at once, and before a mesh is looked for.
 refuses "bsdf 'hair'" "<shape type='ply'><string name='filename' value='none.ply'/><bsdf type='hair'/></shape><emitter type='sunskies'/>"

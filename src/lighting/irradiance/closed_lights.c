@@ -20,7 +20,7 @@ struct aur_closed_light {
 };
 
 static bool is_closed(const aur_scene *scene, const aur_emitter *emitter) {
-    if (!emitter->descriptor->needs_shape || emitter->radiance.texture != NULL)
+    if (!aur_emitter_glows(emitter) || emitter->radiance.texture != NULL)
         return false;
     const aur_shape *const shape = scene->shapes[emitter->shape];
     return shape->curved == NULL && !shape->grouped;

@@ -5,6 +5,7 @@
 
 #define EMITTERS(ROW)                                                                                        \
     ROW(area)                                                                                                \
+    ROW(directionalarea)                                                                                     \
     ROW(point)                                                                                               \
     ROW(spot)                                                                                                \
     ROW(projector)                                                                                           \

@@ -8,8 +8,22 @@
 #include "scene/load/loader.h"
 #include "sphere/native.h"
 
+/* How many objects are around those of a camera; what lies deeper is part of a camera in a batch. */
+enum { DEPTH_OF_SENSOR, DEPTH_OF_FILM, DEPTH_OF_FILTER };
+
+/* Whether a film, its filter or a sampler belongs to a camera in a batch, whose own takes its place. */
+static bool is_left_out(const aur_loader *self, const aur_parameters *parameters, size_t depth) {
+    if (self->depth <= depth)
+        return false;
+    aur_warn_at(self->warnings, parameters->location,
+                "the %s of a sensor in a batch is left out: the batch has one for all", parameters->kind);
+    return true;
+}
+
 aur_result aur_build_filter(aur_loader *self, aur_parameters *parameters, void **object) {
     *object = &self->scene->filter;
+    if (is_left_out(self, parameters, DEPTH_OF_FILTER))
+        return AUR_OK;
     return aur_filter_create(parameters, &self->scene->filter, self->error);
 }
 
@@ -96,6 +110,8 @@ static aur_result set_crop(const film_keys *p, const aur_parameters *parameters,
 aur_result aur_build_film(aur_loader *self, aur_parameters *parameters, void **object) {
     aur_film_settings *const film = &self->scene->film;
     *object = film;
+    if (is_left_out(self, parameters, DEPTH_OF_FILM))
+        return AUR_OK;
     const aur_row *row;
     aur_result result = aur_table_find(&aur_film_table, parameters, &row, self->error);
     if (result != AUR_OK)
@@ -149,6 +165,9 @@ const aur_table aur_sampler_table = {.kind = "sampler",
 
 aur_result aur_build_sampler(aur_loader *self, aur_parameters *parameters, void **object) {
     aur_scene *const scene = self->scene;
+    *object = scene;
+    if (is_left_out(self, parameters, DEPTH_OF_FILM))
+        return AUR_OK;
     aur_result result =
         aur_keys_read(sampler_common.key_count, sampler_common.keys, parameters, scene, self->error);
     if (result != AUR_OK)
@@ -191,12 +210,50 @@ aur_result aur_build_sampler(aur_loader *self, aur_parameters *parameters, void 
     return result;
 }
 
+/* Where a camera goes: that of the scene, or the next one of a batch. */
+static aur_result place_sensor(aur_loader *self, const aur_parameters *parameters, aur_sensor **sensor) {
+    aur_scene *const scene = self->scene;
+    *sensor = &scene->sensor;
+    if (self->depth == DEPTH_OF_SENSOR)
+        return AUR_OK;
+    if (strcmp(parameters->plugin, "batch") == 0)
+        return aur_parameters_fail(parameters, self->error, AUR_ERROR_UNSUPPORTED,
+                                   "it cannot stand inside another one");
+    const aur_result result =
+        aur_loader_reserve(self, &scene->parts, scene->part_count, &scene->part_capacity);
+    if (result != AUR_OK)
+        return result;
+    *sensor = calloc(1, sizeof **sensor);
+    if (*sensor == NULL)
+        return aur_fail_memory_at(self->error, parameters->location);
+    scene->parts[scene->part_count++] = *sensor;
+    return AUR_OK;
+}
+
+/* The cameras of a batch have been built. They stand in one medium. */
+static aur_result set_parts(aur_loader *self, const aur_parameters *parameters, const aur_medium *medium) {
+    aur_scene *const scene = self->scene;
+    scene->sensor.part_count = scene->part_count;
+    scene->sensor.parts = scene->parts;
+    for (size_t i = 0; i < scene->part_count; ++i) {
+        const aur_medium *const here = scene->parts[i]->medium != NULL ? scene->parts[i]->medium : medium;
+        if (i > 0 && here != scene->sensor.medium)
+            return aur_parameters_fail(parameters, self->error, AUR_ERROR_UNSUPPORTED,
+                                       "its sensors must stand in one medium, not in several");
+        scene->sensor.medium = here;
+    }
+    return AUR_OK;
+}
+
 aur_result aur_build_sensor(aur_loader *self, aur_parameters *parameters, void **object) {
     aur_scene *const scene = self->scene;
-    *object = &scene->sensor;
+    aur_sensor *sensor;
     /* A nested film and sampler have been built, and have set those of the scene. */
     void *inner;
-    aur_result result = aur_loader_nested(self, parameters, "film", &inner);
+    aur_result result = place_sensor(self, parameters, &sensor);
+    *object = sensor;
+    if (result == AUR_OK)
+        result = aur_loader_nested(self, parameters, "film", &inner);
     if (result == AUR_OK)
         result = aur_loader_nested(self, parameters, "sampler", &inner);
     void *medium = NULL;
@@ -211,9 +268,9 @@ aur_result aur_build_sensor(aur_loader *self, aur_parameters *parameters, void *
     if (result != AUR_OK)
         return result;
     warn_unused(self, parameters, row);
-    result = aur_sensor_create(parameters, &scene->sensor, self->error);
-    scene->sensor.medium = medium;
-    return result;
+    result = aur_sensor_create(parameters, sensor, self->error);
+    sensor->medium = medium;
+    return result == AUR_OK && sensor == &scene->sensor ? set_parts(self, parameters, medium) : result;
 }
 
 /* <integrator type="moment">: what stands inside takes its place. */

@@ -4,7 +4,8 @@
 #define SENSORS(ROW)                                                                                         \
     ROW(perspective)                                                                                         \
     ROW(thinlens)                                                                                            \
-    ROW(orthographic)
+    ROW(orthographic)                                                                                        \
+    ROW(batch)
 
 #define DECLARE(name) extern const aur_sensor_descriptor aur_sensor_##name;
 SENSORS(DECLARE)

@@ -89,6 +89,7 @@ static aur_result create(const aur_shape_input *input, aur_shape *shape, aur_err
     const aur_result result = aur_row_read(&shape->descriptor->row, input->parameters, &p, error);
     if (result != AUR_OK)
         return result;
+    shape->ellipse = true;
     shape->inner = (float)p.inner_radius;
     shape->center = aur_transform_point_f(&input->to_world, (aur_vector){0.0f, 0.0f, 0.0f});
     shape->axis[0] = aur_transform_direction_f(&input->to_world, (aur_vector){1.0f, 0.0f, 0.0f});
