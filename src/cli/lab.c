@@ -2,6 +2,7 @@
 #include <string.h>
 
 #include "cli/lab_run.h"
+#include "cli/listing.h"
 
 static const cli_option options[] = {
     {CLI_TEXT(cli_lab, lab.folder, "output", "DIR", "lab-results, and lab-report for report",
@@ -48,7 +49,7 @@ static int list(report_format format) {
         report_text(table, full);
         report_text(table, experiment->summary);
     }
-    return cli_finish(table, format);
+    return cli_finish_listing(table, format);
 }
 
 static int run(const cli_call *call) {

@@ -123,7 +123,8 @@ static void write_details(const report_table *table, size_t row, size_t summary,
 int cli_finish_listing(report_table *table, report_format format) {
     if (format != REPORT_TABLE || report_failed(table)) /* which cli_finish says */
         return cli_finish(table, format);
-    const size_t summary = report_find(table, "summary");
+    const size_t named = report_find(table, "summary");
+    const size_t summary = named < report_columns(table) ? named : report_columns(table) - 1;
     size_t widest = 0;
     for (size_t i = 0; i < report_rows(table); ++i) {
         const size_t width = strlen(report_cell(table, i, 0));

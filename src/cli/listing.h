@@ -21,6 +21,6 @@ void cli_write_key(const aur_key *key, char text[CLI_WORDS_CAPACITY]);
 void cli_write_key_help(const aur_key *key, char text[CLI_HELP_CAPACITY]);
 
 /* Prints a listing of things, destroys it, and returns the exit status. For people each row is an entry: the
- * name, which is the first column, what stands in the column "summary", and below it the other columns that
- * say something. */
+ * name, which is the first column, what stands in the column "summary" (or the last one), and below it the
+ * other columns that say something. */
 int cli_finish_listing(report_table *table, report_format format);

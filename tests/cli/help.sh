@@ -42,8 +42,8 @@ for kind in set measure integrator shape emitter sensor rfilter film picture; do
     [ "$(head -1 keys)" = key,type,default,values,help ] || fail "help $kind $name: $(head -1 keys)"
   done <names
 done
-"$aureole" sets >sets && "$aureole" measure --list >measures || fail listings
-awk 'length($0) > 80 { print "FAIL: wider than 80: " FILENAME ": " $0; bad = 1 } END { exit bad }' listing text sets measures || status=1
+"$aureole" sets >sets && "$aureole" measure --list >measures && "$aureole" lab list >lab || fail listings
+awk 'length($0) > 80 { print "FAIL: wider than 80: " FILENAME ": " $0; bad = 1 } END { exit bad }' listing text sets measures lab || status=1
 # Capitals and _ for - are forgiven in names of things, and other mistakes told from them.
 [ "$("$aureole" points Spherical_Fibonacci -n 5)" = "$("$aureole" points spherical-fibonacci -n 5)" ] || fail "Spherical_Fibonacci"
 expect 2 "did you mean 'star'?" measure sobol -n 4 -m Star

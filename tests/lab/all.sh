@@ -8,7 +8,7 @@ failures=0
 fail() { echo "FAILED: $*"; failures=$((failures + 1)); }
 results=results
 rm -rf results again
-"$aureole" lab list | grep -q '^marques-2013-gather .*Marques 2013' || fail "the list"
+"$aureole" lab list --format csv | grep -q '^marques-2013-gather,.*Marques 2013' || fail "the list"
 count=$("$aureole" lab list --format csv | tail -n +2 | wc -l)
 if [ -n "${AUREOLE_SHORT_TESTS:-}" ]; then # those of a second by the list and those that are run again below; nothing is said of figures
   mapfile -t quick < <("$aureole" lab list --format csv | sed -n 's/^\([^,]*\),\("[^"]*"\|[^,]*\),1 s,.*/\1/p')
