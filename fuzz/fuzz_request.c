@@ -3,6 +3,14 @@
 
 #include "fuzz.h"
 
+/* Every status that the page answers with has words of its own. */
+static void require_words(void) {
+    static const int statuses[] = {200, 400, 404, 405, 413, 414, 431, 503, 505};
+    for (size_t i = 0; i < sizeof statuses / sizeof statuses[0]; ++i)
+        fuzz_require(strcmp(watch_status_words(statuses[i]), watch_status_words(500)) != 0,
+                     "a status without words");
+}
+
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
     if (size > WATCH_REQUEST_CAPACITY)
         size = WATCH_REQUEST_CAPACITY;
@@ -10,6 +18,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
     fuzz_require(bytes != NULL, "out of memory");
     if (size > 0)
         memcpy(bytes, data, size);
+    require_words();
     watch_request request, earlier;
     const watch_request_state state = watch_request_read(size, bytes, &request);
     if (state == WATCH_REQUEST_WHOLE) {

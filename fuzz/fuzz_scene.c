@@ -29,6 +29,10 @@ static void write_companions(void) {
          "property uchar green\nproperty uchar blue\nproperty list uchar int vertex_indices\nend_header\n"
          "0 0 0 1 0 0\n1 0 0 0 1 0\n1 1 0 0 0 1\n255 51 0 3 0 1 2\n"},
         {"a.pfm", "Pf\n2 1\n-1\n\0\0\0?\0\0\0@"},
+        {"a.hair", "# x y z radius\n-1 0 0 .5\n0 .2 0 .4\n1 0 0 .3\n2 .1 .1 .2\n\n0 -1 0 .3\n0 0 0 .3\n0 1 0 "
+                   ".3\n0 2 0 .1\n"},
+        {"far.hair", "3e17 0 0 1\n4e17 0 0 1\n"},
+        {"none.hair", "# nothing\n"},
         {"a.spd", "# nm value\n400 .5\n500, 1\n\n700 .25\n"},
         {"bad.spd", "400 .5 x\n"},
         {"a.csv", "u,v\n0,0\n0.5,0.25\n"},

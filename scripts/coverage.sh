@@ -15,7 +15,8 @@ trap 'rm -rf "$folder"' EXIT
 # A parser, its harnesses, and its files.
 parsers=(
   'scenes (XML)|scene|src/scene/xml/*.c src/scene/load/*.c'
-  'OBJ, PLY, serialized|mesh|src/scene/shapes/obj.c src/scene/shapes/ply.c src/scene/shapes/serialized.c'
+  'OBJ, PLY, serialized|mesh|src/scene/shapes/mesh_file.c src/scene/shapes/obj.c src/scene/shapes/ply.c src/scene/shapes/ply_header.c src/scene/shapes/serialized.c'
+  'curves|scene mesh|src/scene/shapes/curves.c'
   'Radiance scenes|rad scene|src/scene/rad/*.c'
   'pictures|image|src/image/exr_read.c src/image/hdr.c src/image/ldr.c src/image/pfm.c'
   'volumes (vol)|volume scene|src/scene/volumes/gridvolume.c'
@@ -28,6 +29,7 @@ parsers=(
   'sensors|sensors|src/lighting/irradiance/sensors_read.c src/lighting/irradiance/sensors_mesh.c src/lighting/obj_groups.c'
   'weather (EPW)|weather|src/lighting/daylight/weather.c'
   'names of sets and keys|set scene options|src/core/parameters.c src/core/names.c'
+  'requests of a browser|request|src/watch/http.c'
   'options of the program|options|src/cli/options.c src/cli/quantity.c'
 )
 
@@ -56,8 +58,9 @@ link() {
   words=$(ninja -C "$build" -t commands "fuzz/fuzz_$name" | tail -1)
   words=${words#: && }
   words=${words% && :}
-  for object in "$@"; do # those of an object library stand in the command one by one
+  for object in "$@"; do # those of an object library, or of the harness itself, stand in the command one by one
     words=${words/CMakeFiles\/aureole_cli.dir\/${object#"$folder"\/}/}
+    words=${words/fuzz\/CMakeFiles\/fuzz_$name.dir\/__\/${object#"$folder"\/}/}
   done
   (cd "$build" && eval "${words/ -o fuzz\/fuzz_$name/ $* ${flags%% *} -o $folder\/fuzz_$name}")
 }

@@ -181,7 +181,7 @@ static const aur_key keys[] = {
 };
 
 static aur_result create(const aur_shape_input *input, aur_shape *shape, aur_error *error) {
-    curve_keys p;
+    curve_keys p = {0};
     aur_shape_file file;
     aur_result result = aur_row_read(&shape->descriptor->row, input->parameters, &p, error);
     if (result == AUR_OK)
