@@ -22,7 +22,7 @@ void aureole_warning(void *user, const char *message);
 aur_result aureole_integrand(void *user, size_t count, const double *directions, const double *along, double *values,
                              aur_error *error);
 aur_result aureole_functional(void *user, const aur_estimate_points *points, double *values, aur_error *error);
-double aureole_density(void *user, const double direction[3]);
+aur_result aureole_density(void *user, size_t count, const double *directions, double *values, aur_error *error);
 """
 
 

@@ -1,35 +1,8 @@
 /* Loops that NumPy's arrays ask for: what the library does for one point, for `count` of them. Shapes are
  * those of the library's functions of the same name, one row a point. */
-static inline void aureole_map_to_disk(aur_map map, size_t count, const double *square, double *disk) {
-    for (size_t i = 0; i < count; ++i)
-        aur_map_to_disk(map, square + 2 * i, disk + 2 * i);
-}
-static inline void aureole_map_from_disk(aur_map map, size_t count, const double *disk, double *square) {
-    for (size_t i = 0; i < count; ++i)
-        aur_map_from_disk(map, disk + 2 * i, square + 2 * i);
-}
-static inline void aureole_map_to_cap(aur_map map, double height, size_t count, const double *square,
-                                      double *xyz) {
-    for (size_t i = 0; i < count; ++i)
-        aur_map_to_cap(map, height, square + 2 * i, xyz + 3 * i);
-}
-static inline void aureole_map_from_cap(aur_map map, double height, size_t count, const double *xyz,
-                                        double *square) {
-    for (size_t i = 0; i < count; ++i)
-        aur_map_from_cap(map, height, xyz + 3 * i, square + 2 * i);
-}
 static inline void aureole_map_weights(aur_map map, size_t count, const double *square, double *weights) {
     for (size_t i = 0; i < count; ++i)
         weights[i] = aur_map_weight(map, square + 2 * i);
-}
-static inline void aureole_lobe_warp(const aur_lobe *lobe, size_t count, const double *uniform, double *xyz) {
-    for (size_t i = 0; i < count; ++i)
-        aur_lobe_warp(lobe, uniform + 3 * i, xyz + 3 * i);
-}
-static inline void aureole_lobe_unwarp(const aur_lobe *lobe, size_t count, const double *xyz,
-                                       double *uniform) {
-    for (size_t i = 0; i < count; ++i)
-        aur_lobe_unwarp(lobe, xyz + 3 * i, uniform + 3 * i);
 }
 static inline void aureole_lobe_pdf(const aur_lobe *lobe, size_t count, const double *xyz, double *density) {
     for (size_t i = 0; i < count; ++i)

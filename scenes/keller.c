@@ -385,7 +385,7 @@ int main(int argc, char **argv) {
     const aur_result result = w->result;
     if (result != AUR_OK) {
         char text[AUR_ERROR_FILE_CAPACITY + AUR_ERROR_MESSAGE_CAPACITY];
-        aur_error_format(&w->error, text, sizeof text);
+        aur_error_format(&w->error, sizeof text, text);
         fprintf(stderr, "keller: %s\n", text);
     }
     free(w);

@@ -92,7 +92,7 @@ static aur_result write_mesh(const mesh *teapot, const char *path, aur_error *er
 
 static int fail(const aur_error *error) {
     char text[AUR_ERROR_FILE_CAPACITY + AUR_ERROR_MESSAGE_CAPACITY];
-    aur_error_format(error, text, sizeof text);
+    aur_error_format(error, sizeof text, text);
     fprintf(stderr, "teapot: %s\n", text);
     return 3;
 }

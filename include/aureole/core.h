@@ -55,7 +55,7 @@ typedef struct aur_error {
 
 /* Writes "FILE:LINE:COLUMN: message" (or as much of it as is known) into text[capacity], always terminated.
  * Returns the length that the whole text has, as snprintf does. */
-AUR_API size_t aur_error_format(const aur_error *error, char *text, size_t capacity) AUR_NONNULL(1);
+AUR_API size_t aur_error_format(const aur_error *error, size_t capacity, char *text) AUR_NONNULL(1);
 
 /* For bindings, which need not know the layout of aur_error: an error without content (NULL when there is no
  * memory), its end (NULL is allowed), and what stands in it. The texts live as long as the error keeps its

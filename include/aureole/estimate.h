@@ -60,6 +60,10 @@ static inline aur_estimate_options aur_estimate_options_default(size_t dimension
     options.evaluations = UINT64_C(1) << 20;
     return options;
 }
+/* The same for bindings, which do not see inline functions: fills the struct, whose `size` is set. Errors:
+ * ARGUMENT for a size that was not set. */
+AUR_API aur_result aur_estimate_options_init(size_t dimension, size_t values, aur_estimate_options *options,
+                                             aur_error *error) AUR_NONNULL(3);
 
 /* One value of the functional. */
 typedef struct aur_estimated {

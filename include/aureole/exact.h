@@ -48,6 +48,10 @@ static inline aur_exact_options aur_exact_options_default(aur_domain domain) {
     options.degree = AUR_DEGREE_LARGEST;
     return options;
 }
+/* The same for bindings, which do not see inline functions: fills the struct, whose `size` is set. Errors:
+ * ARGUMENT for a size that was not set. */
+AUR_API aur_result aur_exact_options_init(aur_domain domain, aur_exact_options *options, aur_error *error)
+    AUR_NONNULL(2);
 
 typedef struct aur_exact_report {
     size_t degree;

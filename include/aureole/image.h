@@ -56,6 +56,11 @@ typedef enum aur_tone {
 
 enum { AUR_TONE_COUNT = AUR_TONE_FILMIC + 1 };
 
+/* "srgb", "filmic" to the value and back. Errors: NAME, *tone untouched; the name of a value out of range is
+ * NULL. */
+AUR_API aur_result aur_tone_from_name(const char *name, aur_tone *tone, aur_error *error) AUR_NONNULL(1, 2);
+AUR_API const char *aur_tone_name(aur_tone tone);
+
 /* All zero but `size`, as aur_image_write_options_default makes it, writes radiance as it is. */
 typedef struct aur_image_write_options {
     size_t size;        /* of the caller's struct, so that it can grow */

@@ -51,6 +51,10 @@ static inline aur_integrate_options aur_integrate_options_default(aur_domain dom
     options.evaluations = UINT64_C(1) << 22;
     return options;
 }
+/* The same for bindings, which do not see inline functions: fills the struct, whose `size` is set. Errors:
+ * ARGUMENT for a size that was not set. */
+AUR_API aur_result aur_integrate_options_init(aur_domain domain, aur_integrate_options *options,
+                                              aur_error *error) AUR_NONNULL(2);
 
 typedef enum aur_integrate_reason {
     AUR_INTEGRATE_TOLERANCE,  /* the error wanted was reached */

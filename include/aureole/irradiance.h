@@ -79,6 +79,12 @@ typedef enum aur_reflected {
     AUR_REFLECTED_BY_RADIOSITY
 } aur_reflected;
 
+/* "paths", "map", "radiosity" to the value and back. Errors: NAME, *reflected untouched; the name of a value
+ * out of range is NULL. */
+AUR_API aur_result aur_reflected_from_name(const char *name, aur_reflected *reflected, aur_error *error)
+    AUR_NONNULL(1, 2);
+AUR_API const char *aur_reflected_name(aur_reflected reflected);
+
 /* All zero but `size`, as aur_irradiance_options_default makes it, takes the defaults. */
 typedef struct aur_irradiance_options {
     size_t size;       /* of the caller's struct, so that it can grow */

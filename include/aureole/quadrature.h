@@ -33,9 +33,11 @@ typedef enum aur_density_kind {
     AUR_DENSITY_NODES         /* point masses: any measure, and any quadrature of one */
 } aur_density_kind;
 
-/* p at a unit vector, up to a factor; finite and >= 0. It is called while the potential is made, and by
- * aur_potential_density on the thread that asks. */
-typedef double (*aur_density_function)(void *user, const double direction[3]);
+/* values[count] become p at `count` unit vectors directions[3 * count], up to a factor; finite and >= 0. It
+ * is called while the potential is made, and by aur_potential_density on the thread that asks. What is not
+ * AUR_OK ends either with that result, and may fill `error`. */
+typedef aur_result (*aur_density_function)(void *user, size_t count, const double *directions, double *values,
+                                           aur_error *error);
 
 /* The kinds that a field belongs to stand before it; other kinds ignore it. Zero but for the size is the
  * uniform hemisphere about +z. */
@@ -98,9 +100,10 @@ AUR_API double aur_potential_smoothness(const aur_potential *potential) AUR_NONN
 /* The integral of the density as it is written, before p is normalised, in steradians for COSINE_POWER and
  * SPHERE: 2 pi/(m+1) times the part above the surface, 4 pi. */
 AUR_API double aur_potential_mass(const aur_potential *potential) AUR_NONNULL(1);
-/* p at a unit vector, normalised to integral 1, in 1/steradian; NaN for NODES, which have no density. */
-AUR_API double aur_potential_density(const aur_potential *potential, const double direction[3])
-    AUR_NONNULL(1, 2);
+/* values[count] become p at `count` unit vectors xyz[3 * count], normalised to integral 1, in 1/steradian.
+ * Errors: UNSUPPORTED for NODES, which have no density; those of a FUNCTION. */
+AUR_API aur_result aur_potential_density(const aur_potential *potential, size_t count, const double *xyz,
+                                         double *values, aur_error *error) AUR_NONNULL(1);
 /* z[count] at `count` unit vectors xyz[3 * count], which are not checked: NaN gives NaN but for
  * SPHERE, which is constant. O(count) for COSINE_POWER and SPHERE, O(count * nodes) for the others. */
 AUR_API void aur_potential_evaluate(const aur_potential *potential, size_t count, const double *xyz,
@@ -119,14 +122,27 @@ AUR_API double aur_kernel(double smoothness, double chord);
 
 /* --- worst-case error */
 
+/* All zero but `size`, as aur_worst_case_options_default makes it, takes the defaults. */
+typedef struct aur_worst_case_options {
+    size_t size;    /* of the caller's struct, so that it can grow */
+    size_t threads; /* 0: all; no bit depends on it */
+    aur_progress progress;
+} aur_worst_case_options;
+
+static inline aur_worst_case_options aur_worst_case_options_default(void) {
+    aur_worst_case_options options;
+    memset(&options, 0, sizeof options);
+    options.size = sizeof options;
+    return options;
+}
+
 /* sup |I - sum w_i f(u_i)| over f of norm 1 (Marques 2018 eq. 9): sqrt(W'KW - 2 Z'W + V), which rounding
  * leaves no digits below some 1e-8 times the root of K(u,u). `weights` may be NULL: 1/N. O(N^2) time, O(N)
- * memory; threads 0: all, and no bit depends on it. Errors: ARGUMENT for a vector that is not of unit length
- * (which), CANCELLED. */
+ * memory. `options` may be NULL. Errors: ARGUMENT for a vector that is not of unit length (which), CANCELLED.
+ */
 AUR_API aur_result aur_worst_case_error(size_t count, const double *xyz, const double *weights,
-                                        const aur_potential *potential, size_t threads,
-                                        const aur_progress *progress, double *value, aur_error *error)
-    AUR_NONNULL(2, 4, 7);
+                                        const aur_potential *potential, const aur_worst_case_options *options,
+                                        double *value, aur_error *error) AUR_NONNULL(2, 4, 6);
 
 /* --- optimal weights */
 
@@ -147,6 +163,9 @@ static inline aur_weights_options aur_weights_options_default(void) {
     options.sum_constraint = true;
     return options;
 }
+/* The same for bindings, which do not see inline functions: fills the struct, whose `size` is set. Errors:
+ * ARGUMENT for a size that was not set. */
+AUR_API aur_result aur_weights_options_init(aur_weights_options *options, aur_error *error) AUR_NONNULL(1);
 
 typedef struct aur_weights_report {
     double equal_error;   /* worst-case error with equal weights, 1/visible */
@@ -302,6 +321,10 @@ static inline aur_weight_table_grid aur_weight_table_grid_default(void) {
     grid.rotation_count = 16;
     return grid;
 }
+/* The same for bindings, which do not see inline functions: fills the struct, whose `size` is set. Errors:
+ * ARGUMENT for a size that was not set. */
+AUR_EXPERIMENTAL aur_result aur_weight_table_grid_init(aur_weight_table_grid *options, aur_error *error)
+    AUR_NONNULL(1);
 
 /* angles * roughnesses * rotations systems are solved, and more where samples cross the horizon. Each entry
  * is computed alone: no bit depends on `threads` (0: all). `grid` NULL: the default. Errors: as

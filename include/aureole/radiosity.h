@@ -59,6 +59,10 @@ static inline aur_radiosity_options aur_radiosity_options_default(void) {
     options.randomizations = 1;
     return options;
 }
+/* The same for bindings, which do not see inline functions: fills the struct, whose `size` is set. Errors:
+ * ARGUMENT for a size that was not set. */
+AUR_EXPERIMENTAL aur_result aur_radiosity_options_init(aur_radiosity_options *options, aur_error *error)
+    AUR_NONNULL(1);
 
 typedef struct aur_radiosity aur_radiosity;
 

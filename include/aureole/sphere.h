@@ -26,30 +26,23 @@ typedef enum aur_map { AUR_MAP_LAMBERT, AUR_MAP_CONCENTRIC, AUR_MAP_AZIMUTHAL, A
 AUR_API aur_result aur_map_from_name(const char *name, aur_map *map, aur_error *error) AUR_NONNULL(1, 2);
 AUR_API const char *aur_map_name(aur_map map); /* NULL for a value out of range */
 
-/* u,v in [0,1) to the unit disk, and back. The inverses return coordinates in [0,1), so that a point on the
- * rim comes back as the greatest number below 1; the azimuth of the centre is 0. Round trips are good to
- * 1e-15 of the domain's size. */
-AUR_API void aur_map_to_disk(aur_map map, const double square[2], double disk[2]) AUR_NONNULL(2, 3);
-AUR_API void aur_map_from_disk(aur_map map, const double disk[2], double square[2]) AUR_NONNULL(2, 3);
-/* u,v in [0,1) to the unit directions of the cap z >= 1 - height about +z, height in (0,2], and back. A
- * direction outside the cap comes back as the nearest one on its rim. */
-AUR_API void aur_map_to_cap(aur_map map, double height, const double square[2], double direction[3])
-    AUR_NONNULL(3, 4);
-AUR_API void aur_map_from_cap(aur_map map, double height, const double direction[3], double square[2])
-    AUR_NONNULL(3, 4);
-/* The cap of height 1 is the hemisphere z >= 0, that of height 2 the sphere. */
-static inline void aur_map_to_hemisphere(aur_map map, const double square[2], double direction[3]) {
-    aur_map_to_cap(map, 1.0, square, direction);
-}
-static inline void aur_map_from_hemisphere(aur_map map, const double direction[3], double square[2]) {
-    aur_map_from_cap(map, 1.0, direction, square);
-}
-static inline void aur_map_to_sphere(aur_map map, const double square[2], double direction[3]) {
-    aur_map_to_cap(map, 2.0, square, direction);
-}
-static inline void aur_map_from_sphere(aur_map map, const double direction[3], double square[2]) {
-    aur_map_from_cap(map, 2.0, direction, square);
-}
+/* `count` points u,v in [0,1) to the unit disk, and back: square[2 * count], disk[2 * count], which may be
+ * one array. The inverses return coordinates in [0,1), so that a point on the rim comes back as the greatest
+ * number below 1; the azimuth of the centre is 0. Round trips are good to 1e-15 of the domain's size. Errors
+ * of all maps: ARGUMENT for a map or a height out of its range, and nothing is written. */
+AUR_API aur_result aur_map_to_disk(aur_map map, size_t count, const double *square, double *disk,
+                                   aur_error *error);
+AUR_API aur_result aur_map_from_disk(aur_map map, size_t count, const double *disk, double *square,
+                                     aur_error *error);
+/* u,v in [0,1) to the unit directions xyz[3 * count] of the cap z >= 1 - height about +z, height in (0,2],
+ * and back. A direction outside the cap comes back as the nearest one on its rim. */
+AUR_API aur_result aur_map_to_cap(aur_map map, double height, size_t count, const double *square, double *xyz,
+                                  aur_error *error);
+AUR_API aur_result aur_map_from_cap(aur_map map, double height, size_t count, const double *xyz,
+                                    double *square, aur_error *error);
+/* The caps that are the hemisphere z >= 0 and the sphere. */
+#define AUR_CAP_HEMISPHERE 1.0
+#define AUR_CAP_SPHERE 2.0
 /* The uniform density over the map's own: 1, and 2u for POLAR. Its mean over the square is 1. */
 AUR_API double aur_map_weight(aur_map map, const double square[2]) AUR_NONNULL(2);
 
@@ -71,14 +64,14 @@ AUR_API aur_result aur_lobe_parse(const char *text, aur_lobe *lobe, aur_error *e
 /* ARGUMENT when a member is out of the range given above. */
 AUR_API aur_result aur_lobe_check(const aur_lobe *lobe, aur_error *error) AUR_NONNULL(1);
 
-/* A uniform direction of the hemisphere to one that follows the lobe, at the same azimuth about +z (GGX:
- * about the normal of the stretched space): z' = z^{1/(M+1)}; GGX by spherical caps (Dupuy and Benyoub 2023).
- * And back: the inverse of a direction that the lobe never takes is some direction of the hemisphere. The
- * arrays may be one and the same. */
-AUR_API void aur_lobe_warp(const aur_lobe *lobe, const double uniform[3], double direction[3])
-    AUR_NONNULL(1, 2, 3);
-AUR_API void aur_lobe_unwarp(const aur_lobe *lobe, const double direction[3], double uniform[3])
-    AUR_NONNULL(1, 2, 3);
+/* `count` uniform directions of the hemisphere to ones that follow the lobe, at the same azimuths about +z
+ * (GGX: about the normal of the stretched space): z' = z^{1/(M+1)}; GGX by spherical caps (Dupuy and Benyoub
+ * 2023). And back: the inverse of a direction that the lobe never takes is some direction of the hemisphere.
+ * The arrays, 3 * count, may be one and the same. */
+AUR_API void aur_lobe_warp(const aur_lobe *lobe, size_t count, const double *uniform, double *xyz)
+    AUR_NONNULL(1);
+AUR_API void aur_lobe_unwarp(const aur_lobe *lobe, size_t count, const double *xyz, double *uniform)
+    AUR_NONNULL(1);
 /* The density in 1/steradian; its integral over the sphere is 1. 0 below the horizon for COSINE_POWER. */
 AUR_API double aur_lobe_pdf(const aur_lobe *lobe, const double direction[3]) AUR_NONNULL(1, 2);
 /* The density to draw points from when they are weighted optimally, p^{2/(s+1)} normalised, for smoothness s

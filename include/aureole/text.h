@@ -36,7 +36,7 @@ AUR_API const char *aur_nearest_name(const char *wanted, size_t count, const cha
 
 /* Writes "a, b, c" into text[capacity], always terminated; returns the length of the whole list, as snprintf
  * does. */
-AUR_API size_t aur_list_names(size_t count, const char *const *names, char *text, size_t capacity);
+AUR_API size_t aur_list_names(size_t count, const char *const *names, size_t capacity, char *text);
 
 /* --- JSON */
 

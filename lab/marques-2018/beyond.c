@@ -45,7 +45,7 @@ static aur_result one_seed(const beyond_study *s, double exponent, uint64_t seed
     if (result == AUR_OK)
         result = lab_draw(&(lab_samples){s->set, COUNT, exponent, true, seed}, xyz, weights, error);
     if (result == AUR_OK)
-        result = aur_worst_case_error(COUNT, xyz, weights, lobe, 1, NULL, &value, error);
+        result = aur_worst_case_error(COUNT, xyz, weights, lobe, NULL, &value, error);
     if (result == AUR_OK)
         result = aur_weights_solve(COUNT, xyz, 1, &lobe, NULL, COUNT, weights, &dense, NULL, error);
     const double errors[CASES] = {summed.equal_error, free_sum.optimal_error, summed.optimal_error, value,
@@ -114,7 +114,7 @@ static aur_result horizon_error(const beyond_study *s, bool clipped, double degr
         sum += glossy[i];
     }
     if (result == AUR_OK)
-        result = aur_worst_case_error(ALL, xyz, glossy, lobe, 1, NULL, &value, error);
+        result = aur_worst_case_error(ALL, xyz, glossy, lobe, NULL, &value, error);
     *square += value * value / (double)s->seeds;
     *constant += (sum - 1.0) * (sum - 1.0) / (double)s->seeds;
     return result;
@@ -192,7 +192,7 @@ static aur_result one_angle(const table_study *t, double radians, size_t rotatio
             const double plain = own ? 1.0 / (double)visible : 0.0;
             weights[i] = way == PLAIN ? plain : way == SOLVED ? solved[ALL + i] : (double)looked_up[i];
         }
-        result = aur_worst_case_error(ALL, xyz, weights, lobe, 1, NULL, &errors[way], error);
+        result = aur_worst_case_error(ALL, xyz, weights, lobe, NULL, &errors[way], error);
     }
     aur_potential_destroy(lobe);
     return result;

@@ -19,7 +19,7 @@ static const char *const columns[] = {"set", "figure", "seeds",     "mean", "spr
 static aur_result joint_error(const double *xyz, const double *weights, const aur_potential *const lobes[2],
                               double cross, double *value, aur_error *error) {
     double z[ALL], diffuse = 0.0;
-    const aur_result result = aur_worst_case_error(ALL, xyz, weights, lobes[0], 1, NULL, &diffuse, error);
+    const aur_result result = aur_worst_case_error(ALL, xyz, weights, lobes[0], NULL, &diffuse, error);
     double square = diffuse * diffuse + aur_potential_self_energy(lobes[1]) + 2.0 * cross;
     aur_potential_evaluate(lobes[1], ALL, xyz, z);
     for (size_t i = 0; i < ALL; ++i)

@@ -68,22 +68,23 @@ static aur_oswa_options patterns(const study *s, size_t diffuse) {
 
 /* p/q of samples that follow the lobe. */
 static double ratio(const study *s, const double direction[3]) {
-    return direction[2] > 0.0
-               ? s->mass * aur_potential_density(s->potential, direction) / aur_lobe_pdf(&s->lobe, direction)
-               : 0.0;
+    double density = 0.0;
+    if (direction[2] > 0.0)
+        aur_potential_density(s->potential, 1, direction, &density, NULL);
+    return density > 0.0 ? s->mass * density / aur_lobe_pdf(&s->lobe, direction) : 0.0;
 }
 
 /* Heights of the uniform pattern moved on, over the top to the rim. */
 static void shift(const study *s, double by, samples *r) {
     for (size_t i = 0; i < r->count; ++i) {
         double *const u = r->xyz + 3 * i, uniform[3];
-        aur_lobe_unwarp(&s->lobe, u, uniform);
+        aur_lobe_unwarp(&s->lobe, 1, u, uniform);
         const double across = hypot(uniform[0], uniform[1]), moved = uniform[2] + by;
         uniform[2] = moved - floor(moved);
         const double scale = across > 0.0 ? sqrt(1.0 - uniform[2] * uniform[2]) / across : 0.0;
         uniform[0] *= scale;
         uniform[1] *= scale;
-        aur_lobe_warp(&s->lobe, uniform, u);
+        aur_lobe_warp(&s->lobe, 1, uniform, u);
     }
 }
 
@@ -179,7 +180,7 @@ static aur_result try_rule(const study *s, rule which, uint64_t seed, const lab_
     for (size_t i = 0; i < GLOSSY; ++i)
         r.weights[i] /= s->mass;
     const aur_result judged =
-        aur_worst_case_error(GLOSSY, r.xyz, r.weights, s->potential, 1, NULL, &value, error);
+        aur_worst_case_error(GLOSSY, r.xyz, r.weights, s->potential, NULL, &value, error);
     worst[which] += value / (double)turn_count(s);
     return judged;
 }
@@ -214,10 +215,10 @@ static aur_result compare(study *s, double alpha, double degrees, aur_error *err
         s->mass = aur_potential_mass(s->potential);
         result = lab_draw(&(lab_samples){"spherical-fibonacci", TRUTH, 0.0, 0, 0}, s->truth, NULL, error);
     }
-    for (size_t i = 0; i < TRUTH && result == AUR_OK; ++i) {
-        aur_lobe_warp(&s->lobe, s->truth + 3 * i, s->truth + 3 * i);
+    if (result == AUR_OK)
+        aur_lobe_warp(&s->lobe, TRUTH, s->truth, s->truth);
+    for (size_t i = 0; i < TRUTH && result == AUR_OK; ++i)
         s->truth[6 * TRUTH + i] = ratio(s, s->truth + 3 * i) / TRUTH;
-    }
     if (result == AUR_OK)
         result = try_rules(s, squares, worst, error);
     for (int hard = 0; hard < 2 && result == AUR_OK; ++hard)

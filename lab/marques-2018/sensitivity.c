@@ -30,9 +30,9 @@ static aur_result add_row(lab_run *run, const choice *c, double *gain, aur_error
         if (result == AUR_OK)
             result = aur_weights_solve(COUNT, xyz, 1, &made, &options, COUNT, weights, NULL, NULL, error);
         if (result == AUR_OK)
-            result = aur_worst_case_error(COUNT, xyz, NULL, judge, 1, NULL, &plain, error);
+            result = aur_worst_case_error(COUNT, xyz, NULL, judge, NULL, &plain, error);
         if (result == AUR_OK)
-            result = aur_worst_case_error(COUNT, xyz, weights, judge, 1, NULL, &optimal, error);
+            result = aur_worst_case_error(COUNT, xyz, weights, judge, NULL, &optimal, error);
         if (result == AUR_OK) {
             equal += plain * plain;
             weighted += optimal * optimal;

@@ -53,7 +53,7 @@ static void draw(const drawing *on, const shown *grid, const aur_points_view *po
         const double *const x = points->coordinates + points->stride * i;
         const size_t level = strcmp(grid->set, GRID) == 0 ? level_of(i) : 0;
         double uv[2];
-        aur_map_from_sphere(AUR_MAP_LAMBERT, x, uv);
+        aur_map_from_cap(AUR_MAP_LAMBERT, AUR_CAP_SPHERE, 1, x, uv, NULL);
         const bool front = up[1] * x[0] + up[0] * x[2] >= 0.0;
         const double height = up[1] * x[2] - up[0] * x[0];
         lab_dot(on->plane, uv[0] * SIDE, (1.0 - uv[1]) * SIDE, dot, lab_colour(level));

@@ -18,7 +18,8 @@ static aur_result to_plane(const char *set, size_t size, double **plane, aur_err
     const aur_points_view *const points = aur_points_look(made);
     *plane = malloc(2 * size * sizeof **plane);
     for (size_t i = 0; i < size && *plane != NULL; ++i)
-        aur_map_from_sphere(AUR_MAP_LAMBERT, points->coordinates + points->stride * i, *plane + 2 * i);
+        aur_map_from_cap(AUR_MAP_LAMBERT, AUR_CAP_SPHERE, 1, points->coordinates + points->stride * i,
+                         *plane + 2 * i, NULL);
     aur_points_destroy(made);
     if (*plane != NULL)
         return AUR_OK;

@@ -71,11 +71,6 @@ def aureole_functional(user, points, values, error):
     return _values(user, arguments, values, ffi.from_handle(user).count)
 
 
-@ffi.def_extern(error=0.0)
-def aureole_density(user, direction):
-    call = ffi.from_handle(user)
-    try:
-        return float(call.function(_look(direction, 3)))
-    except BaseException as error:
-        call.raised = error
-        return 0.0
+@ffi.def_extern(error=CANCELLED)
+def aureole_density(user, count, directions, values, error):
+    return _values(user, (_look(directions, count, 3),), values, count)

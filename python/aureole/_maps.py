@@ -31,7 +31,7 @@ def map_to_disk(square: ArrayLike, map: Map = "concentric") -> Array:
     """
     array = rows(square, 2, "square")
     disk = np.empty_like(array)
-    lib.aureole_map_to_disk(core.value("map", map), len(array), core.input(array), core.output(disk))
+    core.call(lib.aur_map_to_disk, core.value("map", map), len(array), core.input(array), core.output(disk))
     return disk
 
 
@@ -39,7 +39,7 @@ def map_from_disk(disk: ArrayLike, map: Map = "concentric") -> Array:
     """The inverse of `map_to_disk`: coordinates in [0, 1)."""
     array = rows(disk, 2, "disk")
     square = np.empty_like(array)
-    lib.aureole_map_from_disk(core.value("map", map), len(array), core.input(array), core.output(square))
+    core.call(lib.aur_map_from_disk, core.value("map", map), len(array), core.input(array), core.output(square))
     return square
 
 
@@ -56,8 +56,8 @@ def map_to_directions(
     """
     array = rows(square, 2, "square")
     xyz = np.empty((len(array), 3))
-    lib.aureole_map_to_cap(
-        core.value("map", map), _height(domain, cap), len(array), core.input(array), core.output(xyz)
+    core.call(
+        lib.aur_map_to_cap, core.value("map", map), _height(domain, cap), len(array), core.input(array), core.output(xyz)
     )
     return xyz
 
@@ -68,8 +68,8 @@ def map_from_directions(
     """The inverse of `map_to_directions`: coordinates in [0, 1)."""
     array = rows(xyz, 3, "xyz")
     square = np.empty((len(array), 2))
-    lib.aureole_map_from_cap(
-        core.value("map", map), _height(domain, cap), len(array), core.input(array), core.output(square)
+    core.call(
+        lib.aur_map_from_cap, core.value("map", map), _height(domain, cap), len(array), core.input(array), core.output(square)
     )
     return square
 
@@ -86,7 +86,7 @@ def lobe_warp(uniform: ArrayLike, lobe: str) -> Array:
     """Uniform directions of the hemisphere (n, 3) to ones that follow a lobe about +z."""
     array = rows(uniform, 3, "uniform")
     xyz = np.empty_like(array)
-    lib.aureole_lobe_warp(parse_lobe(lobe), len(array), core.input(array), core.output(xyz))
+    lib.aur_lobe_warp(parse_lobe(lobe), len(array), core.input(array), core.output(xyz))
     return xyz
 
 
@@ -94,7 +94,7 @@ def lobe_unwarp(xyz: ArrayLike, lobe: str) -> Array:
     """The inverse of `lobe_warp`."""
     array = rows(xyz, 3, "xyz")
     uniform = np.empty_like(array)
-    lib.aureole_lobe_unwarp(parse_lobe(lobe), len(array), core.input(array), core.output(uniform))
+    lib.aur_lobe_unwarp(parse_lobe(lobe), len(array), core.input(array), core.output(uniform))
     return uniform
 
 

@@ -263,13 +263,10 @@ def write_image(
     are for PNG; `half`: 16-bit floats in EXR.
     """
     library = _library()
-    tones = {"srgb": library.lib.AUR_TONE_SRGB, "filmic": library.lib.AUR_TONE_FILMIC}
-    if tone not in tones:
-        raise ArgumentError(f"tone must be 'srgb' or 'filmic', not {tone!r}")
     image, _array = _wrap(picture)
     for index, name in enumerate(channels or ()):
         library.call(library.lib.aur_image_name_channel, image, index, encode(name))
-    options = library.options("image_write_options", exposure=exposure, tone=tones[tone], half=half)
+    options = library.options("image_write_options", exposure=exposure, tone=library.value("tone", tone), half=half)
     library.call(library.lib.aur_image_write, encode(path), image, options)
 
 
@@ -391,12 +388,6 @@ def irradiance(
     """
     library, texts = _library(), Texts()
     lib = library.lib
-    ways = {
-        "paths": lib.AUR_REFLECTED_BY_PATHS, "map": lib.AUR_REFLECTED_BY_MAP,
-        "radiosity": lib.AUR_REFLECTED_BY_RADIOSITY,
-    }  # fmt: skip
-    if reflected not in ways:
-        raise ArgumentError(f"reflected must be 'paths', 'map' or 'radiosity', not {reflected!r}")
     loaded, where, along = _scene(scene, definitions), rows(positions, 3, "positions"), rows(normals, 3, "normals")
     if len(where) != len(along):
         raise ArgumentError(f"{len(where)} positions and {len(along)} normals")
@@ -405,7 +396,7 @@ def irradiance(
     )
     options = library.options(
         "irradiance_options", set=texts(set), directions=directions, error=error, confidence=confidence,
-        max_depth=max_depth, seed=seed, threads=threads, reflected=ways[reflected], particles=particles,
+        max_depth=max_depth, seed=seed, threads=threads, reflected=library.value("reflected", reflected), particles=particles,
     )  # fmt: skip
     row = np.dtype(
         {

@@ -41,7 +41,7 @@ class Potential:
     ):  # fmt: skip
         density = ffi.new("aur_density *")
         density[0] = lib.aur_density_default()
-        self._call = CoreCall(function=function)
+        self._call = CoreCall(function=function and (lambda xyz: [float(function(u)) for u in xyz]))
         if function is not None:
             density.kind = lib.AUR_DENSITY_FUNCTION
             core.fill(density, function=lib.aureole_density, user=self._call.handle, exponent=exponent)
@@ -78,8 +78,10 @@ class Potential:
     def density(self, xyz: ArrayLike) -> Array:
         """p at unit vectors (n, 3), in 1/steradian, (n,)."""
         array = rows(xyz, 3, "xyz")
+        values = np.empty(len(array))
         with self._call:
-            return np.array([lib.aur_potential_density(self._potential, core.input(row)) for row in array])
+            core.call(lib.aur_potential_density, self._potential, len(array), core.input(array), core.output(values))
+        return values
 
     def evaluate(self, xyz: ArrayLike) -> Array:
         """z at unit vectors (n, 3), (n,): the integral of the kernel times p (Marques 2018 eq. 12)."""
@@ -105,10 +107,9 @@ def worst_case_error(
     of = _potential(array, potential, domain, smoothness)
     value = ffi.new("double *")
     with CoreCall(progress) as call:
-        reports = ffi.new("aur_progress *", (lib.aureole_progress, call.handle))
         core.call(
             lib.aur_worst_case_error, len(array), core.input(array), ffi.NULL if mass is None else core.input(mass),
-            of._potential, threads, reports, value,
+            of._potential, call.attach(core.options("worst_case_options", threads=threads), warnings=False), value,
         )  # fmt: skip
     return value[0]
 

@@ -80,7 +80,7 @@ static int make(const product *p, const char *folder, bool again) {
     if ((p->build != NULL ? make_mesh(p, path, &error) : make_picture(p, path, &error)) == AUR_OK)
         return 0;
     char text[AUR_ERROR_FILE_CAPACITY + AUR_ERROR_MESSAGE_CAPACITY];
-    aur_error_format(&error, text, sizeof text);
+    aur_error_format(&error, sizeof text, text);
     fprintf(stderr, "aureole-scenes: %s\n", text);
     return EXIT_FAILED;
 }

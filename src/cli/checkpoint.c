@@ -57,7 +57,7 @@ static int show(void *user, const char *what, uint64_t done, uint64_t total) {
         aur_error error = {0};
         if (save(checkpoint, &error) != AUR_OK) {
             char text[AUR_ERROR_FILE_CAPACITY + AUR_ERROR_MESSAGE_CAPACITY + 64];
-            aur_error_format(&error, text, sizeof text);
+            aur_error_format(&error, sizeof text, text);
             cli_progress_clear();
             fprintf(stderr, "aureole: warning: no checkpoint: %s\n", text);
         }

@@ -170,7 +170,7 @@ static int exit_status(aur_result result) {
 
 int cli_fail(const aur_error *error) {
     char text[AUR_ERROR_FILE_CAPACITY + AUR_ERROR_MESSAGE_CAPACITY + 64];
-    aur_error_format(error, text, sizeof text);
+    aur_error_format(error, sizeof text, text);
     cli_progress_clear();
     fprintf(stderr, "aureole: %s\n", text[0] != '\0' ? text : aur_result_string(error->result));
     return exit_status(error->result);

@@ -122,7 +122,7 @@ static bool read_name(const cli_option *option, const char *text, void *field) {
         }
     }
     char expected[AUR_ERROR_MESSAGE_CAPACITY] = "one of ";
-    aur_list_names(count, names, expected + strlen(expected), sizeof expected - strlen(expected));
+    aur_list_names(count, names, sizeof expected - strlen(expected), expected + strlen(expected));
     const char *const nearest = aur_nearest_name(text, count, names);
     return refuse(option, expected, text, nearest);
 }

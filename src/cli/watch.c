@@ -118,7 +118,7 @@ void cli_watch_end(cli_watch *watch, const aur_image *image, aur_result result, 
         return;
     char text[AUR_ERROR_FILE_CAPACITY + AUR_ERROR_MESSAGE_CAPACITY + 64] = "";
     if (result != AUR_OK && result != AUR_ERROR_CANCELLED)
-        aur_error_format(error, text, sizeof text);
+        aur_error_format(error, sizeof text, text);
     watch_end(watch->watch, image,
               result == AUR_OK                ? "The picture is finished."
               : result == AUR_ERROR_CANCELLED ? "The render has been stopped."

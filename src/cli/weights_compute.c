@@ -214,29 +214,28 @@ static aur_result judge(weights_job *task, aur_error *error) {
     double *const plain = malloc(result->count * sizeof *plain);
     if (plain == NULL)
         return aur_fail(error, AUR_ERROR_MEMORY, "out of memory");
-    const aur_progress progress = cli_progress(task->arguments->common.quiet);
+    const aur_worst_case_options options = {.size = sizeof options,
+                                            .threads = task->arguments->common.threads,
+                                            .progress = cli_progress(task->arguments->common.quiet)};
     aur_result judged = AUR_OK;
     for (size_t k = 0; k < result->lobe_count && judged == AUR_OK; ++k) {
         const double *const weights = result->weights + k * result->count;
-        judged =
-            aur_worst_case_error(result->count, result->xyz, weights, task->potentials[k],
-                                 task->arguments->common.threads, &progress, &result->weighted[k], error);
+        judged = aur_worst_case_error(result->count, result->xyz, weights, task->potentials[k], &options,
+                                      &result->weighted[k], error);
         for (size_t i = 0; i < result->count; ++i)
             result->sum[k] += weights[i];
         equal_weights(task, k, plain);
         if (judged == AUR_OK)
-            judged =
-                aur_worst_case_error(result->count, result->xyz, plain, task->potentials[k],
-                                     task->arguments->common.threads, &progress, &result->equal[k], error);
+            judged = aur_worst_case_error(result->count, result->xyz, plain, task->potentials[k], &options,
+                                          &result->equal[k], error);
         const bool drawn = task->arguments->points.options.optimal_density && !from_file(task);
         if (judged == AUR_OK && drawn) {
             result->has_ratio = true;
             judged = ratio_weights(task, k, plain, error);
         }
         if (judged == AUR_OK && drawn)
-            judged =
-                aur_worst_case_error(result->count, result->xyz, plain, task->potentials[k],
-                                     task->arguments->common.threads, &progress, &result->ratio[k], error);
+            judged = aur_worst_case_error(result->count, result->xyz, plain, task->potentials[k], &options,
+                                          &result->ratio[k], error);
     }
     cli_progress_clear();
     free(plain);

@@ -43,7 +43,7 @@ const char *aur_result_string(aur_result result) {
 }
 
 /* "FILE:LINE:COLUMN: " as far as it is known. */
-static size_t format_location(char *text, size_t capacity, const char *file, size_t line, size_t column) {
+static size_t format_location(size_t capacity, char *text, const char *file, size_t line, size_t column) {
     if (file == NULL || file[0] == '\0') {
         if (capacity > 0)
             text[0] = '\0';
@@ -59,8 +59,8 @@ static size_t format_location(char *text, size_t capacity, const char *file, siz
     return length < 0 ? 0 : (size_t)length;
 }
 
-size_t aur_error_format(const aur_error *error, char *text, size_t capacity) {
-    const size_t used = format_location(text, capacity, error->file, error->line, error->column);
+size_t aur_error_format(const aur_error *error, size_t capacity, char *text) {
+    const size_t used = format_location(capacity, text, error->file, error->line, error->column);
     const size_t left = used < capacity ? capacity - used : 0;
     const int length = snprintf(left > 0 ? text + used : NULL, left, "%s", error->message);
     return used + (length < 0 ? 0 : (size_t)length);
@@ -146,7 +146,7 @@ void aur_warn_at(const aur_warnings *warnings, aur_location location, const char
     if (warnings == NULL || warnings->function == NULL)
         return;
     char text[AUR_ERROR_FILE_CAPACITY + AUR_ERROR_MESSAGE_CAPACITY];
-    const size_t used = format_location(text, sizeof text, location.file, location.line, location.column);
+    const size_t used = format_location(sizeof text, text, location.file, location.line, location.column);
     if (used >= sizeof text)
         return;
     va_list arguments;

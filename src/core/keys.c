@@ -48,7 +48,7 @@ static bool is_numeric(const aur_key *key) {
 size_t aur_key_range(const aur_key *key, size_t capacity, char *text) {
     char list[EXPECTED_CAPACITY] = "";
     if (key->words != NULL) {
-        aur_names_list(names_of_words(key->words), list, sizeof list);
+        aur_names_list(names_of_words(key->words), sizeof list, list);
     } else if (is_numeric(key) && (isfinite(key->minimum) || isfinite(key->maximum))) {
         char low[32], high[32];
         print_number(key, key->minimum, low);
@@ -198,7 +198,7 @@ static void say_type(const aur_key *key, size_t capacity, char *expected) {
                                         "something else than text"};
     const int used = aur_format(expected, capacity, "%s", types[key->type]);
     if (key->type == AUR_KEY_CHOICE && (size_t)used < capacity)
-        aur_names_list(names_of_words(key->words), expected + used, capacity - (size_t)used);
+        aur_names_list(names_of_words(key->words), capacity - (size_t)used, expected + used);
 }
 
 bool aur_key_parse(const aur_key *key, const char *text, void *fields, size_t capacity, char *expected) {

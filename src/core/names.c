@@ -79,7 +79,7 @@ const char *aur_names_hint(aur_names names, const char *wanted, const char *quot
     return hint;
 }
 
-size_t aur_names_list(aur_names names, char *text, size_t capacity) {
+size_t aur_names_list(aur_names names, size_t capacity, char *text) {
     size_t used = 0;
     if (capacity > 0)
         text[0] = '\0';
@@ -96,7 +96,7 @@ const char *aur_names_suggest(aur_names names, const char *wanted, const char *o
     if (aur_names_hint(names, wanted, "''", text)[0] == '\0') {
         const size_t used = (size_t)snprintf(text, AUR_ERROR_MESSAGE_CAPACITY, "; %s: ", others);
         /* What does not fit here does not fit the message either. */
-        aur_names_list(names, text + used, AUR_ERROR_MESSAGE_CAPACITY - used);
+        aur_names_list(names, AUR_ERROR_MESSAGE_CAPACITY - used, text + used);
     }
     return text;
 }
@@ -117,6 +117,6 @@ const char *aur_nearest_name(const char *wanted, size_t count, const char *const
     return aur_names_nearest(aur_names_of(count, names), wanted);
 }
 
-size_t aur_list_names(size_t count, const char *const *names, char *text, size_t capacity) {
-    return aur_names_list(aur_names_of(count, names), text, capacity);
+size_t aur_list_names(size_t count, const char *const *names, size_t capacity, char *text) {
+    return aur_names_list(aur_names_of(count, names), capacity, text);
 }

@@ -33,7 +33,7 @@ const char *aur_names_suggest(aur_names names, const char *wanted, const char *o
 
 /* Writes "a, b, c" into text[capacity], always terminated; returns the length of the whole list, as snprintf
  * does. */
-size_t aur_names_list(aur_names names, char *text, size_t capacity);
+size_t aur_names_list(aur_names names, size_t capacity, char *text);
 
 /* AUR_OK with the index of the row called `wanted`, or AUR_ERROR_NAME with "unknown KIND 'WANTED'; did you
  * mean 'NAME'?" or, when nothing is near, "unknown KIND 'WANTED'; there are: a, b, c". */

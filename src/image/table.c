@@ -40,7 +40,7 @@ aur_result aur_image_read_memory(const char *name, size_t size, const void *data
     const aur_image_format *const format = recognize(&source);
     if (format == NULL) {
         char list[128];
-        aur_names_list(aur_names_of_table(&aur_image_format_table), list, sizeof list);
+        aur_names_list(aur_names_of_table(&aur_image_format_table), sizeof list, list);
         return aur_fail_at(error, (aur_location){.file = name}, AUR_ERROR_FORMAT,
                            size == 0 ? "is empty, not a picture" : "is not a picture that can be read: %s",
                            list);
@@ -87,7 +87,7 @@ aur_result aur_image_find_writer(const char *path, const char *format, const aur
         names[count++] = formats[i]->row.name;
     }
     char list[128];
-    aur_list_names(count - 1, names, list, sizeof list);
+    aur_list_names(count - 1, names, sizeof list, list);
     return aur_fail(error, AUR_ERROR_NAME, "cannot tell how to write a picture from '%s': use %s or %s",
                     extension, list, names[count - 1]);
 }

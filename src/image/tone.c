@@ -2,6 +2,8 @@
 
 #include <math.h>
 
+#include "core/names.h"
+
 static double clamp_unit(double value) {
     if (!(value > 0.0))
         return 0.0;
@@ -35,4 +37,20 @@ double aur_tone_apply(aur_tone tone, double radiance) {
     if (!(radiance > 0.0))
         return 0.0;
     return tone == AUR_TONE_FILMIC ? filmic(radiance) : clamp_unit(radiance);
+}
+
+static const char *const tone_names[] = {"srgb", "filmic"};
+enum { TONE_NAMES = sizeof tone_names / sizeof tone_names[0] };
+
+aur_result aur_tone_from_name(const char *name, aur_tone *tone, aur_error *error) {
+    size_t index;
+    const aur_result result = aur_names_choose(aur_names_of(TONE_NAMES, tone_names), "tone", name,
+                                               (aur_location){0}, &index, error);
+    if (result == AUR_OK)
+        *tone = (aur_tone)index;
+    return result;
+}
+
+const char *aur_tone_name(aur_tone tone) {
+    return (size_t)tone < TONE_NAMES ? tone_names[tone] : NULL;
 }

@@ -56,3 +56,8 @@ aur_result aur_check_smoothness(double smoothness, aur_error *error) {
                           "integers, where the kernel is a polynomial; not %g",
                           AUR_SMOOTHNESS_MAXIMUM, smoothness);
 }
+
+aur_result aur_weights_options_init(aur_weights_options *options, aur_error *error) {
+    const aur_weights_options own = aur_weights_options_default();
+    return aur_description_write(&own, sizeof own, sizeof own, options, "aur_weights_options", error);
+}

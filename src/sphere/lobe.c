@@ -166,22 +166,26 @@ static void raise_cosine(double power, const double from[3], double to[3]) {
     to[1] = y * scale;
 }
 
-void aur_lobe_warp(const aur_lobe *lobe, const double uniform[3], double direction[3]) {
+void aur_lobe_warp(const aur_lobe *lobe, size_t count, const double *uniform, double *xyz) {
     if (lobe->kind == AUR_LOBE_GGX)
-        ggx_warp(lobe, uniform, direction);
+        for (size_t i = 0; i < count; ++i)
+            ggx_warp(lobe, uniform + 3 * i, xyz + 3 * i);
     else if (lobe->exponent != 0.0)
-        raise_cosine(1.0 / (lobe->exponent + 1.0), uniform, direction);
+        for (size_t i = 0; i < count; ++i)
+            raise_cosine(1.0 / (lobe->exponent + 1.0), uniform + 3 * i, xyz + 3 * i);
     else
-        memmove(direction, uniform, 3 * sizeof *direction);
+        memmove(xyz, uniform, 3 * count * sizeof *xyz);
 }
 
-void aur_lobe_unwarp(const aur_lobe *lobe, const double direction[3], double uniform[3]) {
+void aur_lobe_unwarp(const aur_lobe *lobe, size_t count, const double *xyz, double *uniform) {
     if (lobe->kind == AUR_LOBE_GGX)
-        ggx_unwarp(lobe, direction, uniform);
+        for (size_t i = 0; i < count; ++i)
+            ggx_unwarp(lobe, xyz + 3 * i, uniform + 3 * i);
     else if (lobe->exponent != 0.0)
-        raise_cosine(lobe->exponent + 1.0, direction, uniform);
+        for (size_t i = 0; i < count; ++i)
+            raise_cosine(lobe->exponent + 1.0, xyz + 3 * i, uniform + 3 * i);
     else
-        memmove(uniform, direction, 3 * sizeof *uniform);
+        memmove(uniform, xyz, 3 * count * sizeof *uniform);
 }
 
 double aur_lobe_pdf(const aur_lobe *lobe, const double direction[3]) {

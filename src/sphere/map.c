@@ -1,14 +1,11 @@
-/* Maps from the unit square to the disk and to caps of the sphere, with their inverses.
- *
- * All but POLAR preserve area. A disk of squared radius a = r^2 is lifted to a cap of height h about +z by
- * z = 1 - h a, which is Archimedes' theorem: h = 1 is the hemisphere, h = 2 the sphere. */
+/* Maps from the unit square to the disk and to caps of the sphere, with their inverses. */
+#include "sphere/map.h"
+
 #include <math.h>
 
-#include <aureole/sphere.h>
-
+#include "core/error.h"
 #include "core/names.h"
 #include "core/vector.h"
-#include "sphere/phase.h"
 
 static const char *const names[] = {"lambert", "concentric", "azimuthal", "polar"};
 enum { NAME_COUNT = sizeof names / sizeof names[0] };
@@ -24,35 +21,6 @@ aur_result aur_map_from_name(const char *name, aur_map *map, aur_error *error) {
 
 const char *aur_map_name(aur_map map) {
     return (size_t)map < NAME_COUNT ? names[map] : NULL;
-}
-
-/* A point of the disk by polar coordinates. The radius may be negative. */
-typedef struct polar_point {
-    double radius, area; /* area is the radius squared */
-    double sine, cosine;
-} polar_point;
-
-/* Shirley and Chiu 1997: squares about the centre become circles. */
-static polar_point concentric_polar(const double square[2]) {
-    const double a = 2.0 * square[0] - 1.0;
-    const double b = 2.0 * square[1] - 1.0;
-    polar_point point = {.radius = fabs(a) > fabs(b) ? a : b};
-    if (point.radius == 0.0)
-        return (polar_point){.cosine = 1.0};
-    const double turns = fabs(a) > fabs(b) ? b / a / 8.0 : 0.25 - a / b / 8.0;
-    point.area = point.radius * point.radius;
-    aur_phase_sincos(aur_phase_from_turns(turns), &point.sine, &point.cosine);
-    return point;
-}
-
-static polar_point to_polar(aur_map map, const double square[2]) {
-    if (map == AUR_MAP_CONCENTRIC)
-        return concentric_polar(square);
-    const double u = square[0];
-    polar_point point = {.area = map == AUR_MAP_POLAR ? u * u : u};
-    point.radius = map == AUR_MAP_POLAR ? u : sqrt(u);
-    aur_phase_sincos(aur_phase_from_turns(square[1]), &point.sine, &point.cosine);
-    return point;
 }
 
 static void concentric_from_disk(const double disk[2], double square[2]) {
@@ -82,34 +50,19 @@ static double azimuth_turns(double x, double y) {
     return positive < 1.0 ? positive : 0.0;
 }
 
-void aur_map_to_disk(aur_map map, const double square[2], double disk[2]) {
-    const polar_point point = to_polar(map, square);
-    disk[0] = point.radius * point.cosine;
-    disk[1] = point.radius * point.sine;
-}
-
-void aur_map_from_disk(aur_map map, const double disk[2], double square[2]) {
+void aur_point_from_disk(aur_map map, const double disk[2], double square[2]) {
     if (map == AUR_MAP_CONCENTRIC) {
         concentric_from_disk(disk, square);
     } else {
         const double area = disk[0] * disk[0] + disk[1] * disk[1];
-        square[0] = area_to(map, area);
         square[1] = azimuth_turns(disk[0], disk[1]);
+        square[0] = area_to(map, area);
     }
     square[0] = clamp_unit(square[0]);
     square[1] = clamp_unit(square[1]);
 }
 
-void aur_map_to_cap(aur_map map, double height, const double square[2], double direction[3]) {
-    const polar_point point = to_polar(map, square);
-    const double depth = height * point.area;
-    const double radius = copysign(sqrt(depth * (2.0 - depth)), point.radius);
-    direction[0] = radius * point.cosine;
-    direction[1] = radius * point.sine;
-    direction[2] = 1.0 - depth;
-}
-
-void aur_map_from_cap(aur_map map, double height, const double direction[3], double square[2]) {
+void aur_point_from_cap(aur_map map, double height, const double direction[3], double square[2]) {
     const double across = direction[0] * direction[0] + direction[1] * direction[1];
     /* 1 - z without cancellation about the pole. */
     const double depth = direction[2] > 0.0 ? across / (1.0 + direction[2]) : 1.0 - direction[2];
@@ -125,6 +78,46 @@ void aur_map_from_cap(aur_map map, double height, const double direction[3], dou
     }
     square[0] = clamp_unit(square[0]);
     square[1] = clamp_unit(square[1]);
+}
+
+static aur_result check(aur_map map, double height, aur_error *error) {
+    if ((size_t)map >= NAME_COUNT)
+        return aur_fail(error, AUR_ERROR_ARGUMENT, "there is no map %d", (int)map);
+    if (!(height > 0.0 && height <= 2.0))
+        return aur_fail(error, AUR_ERROR_ARGUMENT,
+                        "the height of a cap must be above 0 and at most 2, not %g", height);
+    return AUR_OK;
+}
+
+aur_result aur_map_to_disk(aur_map map, size_t count, const double *square, double *disk, aur_error *error) {
+    const aur_result result = check(map, 1.0, error);
+    for (size_t i = 0; i < count && result == AUR_OK; ++i)
+        aur_point_to_disk(map, square + 2 * i, disk + 2 * i);
+    return result;
+}
+
+aur_result aur_map_from_disk(aur_map map, size_t count, const double *disk, double *square,
+                             aur_error *error) {
+    const aur_result result = check(map, 1.0, error);
+    for (size_t i = 0; i < count && result == AUR_OK; ++i)
+        aur_point_from_disk(map, disk + 2 * i, square + 2 * i);
+    return result;
+}
+
+aur_result aur_map_to_cap(aur_map map, double height, size_t count, const double *square, double *xyz,
+                          aur_error *error) {
+    const aur_result result = check(map, height, error);
+    for (size_t i = 0; i < count && result == AUR_OK; ++i)
+        aur_point_to_cap(map, height, square + 2 * i, xyz + 3 * i);
+    return result;
+}
+
+aur_result aur_map_from_cap(aur_map map, double height, size_t count, const double *xyz, double *square,
+                            aur_error *error) {
+    const aur_result result = check(map, height, error);
+    for (size_t i = 0; i < count && result == AUR_OK; ++i)
+        aur_point_from_cap(map, height, xyz + 3 * i, square + 2 * i);
+    return result;
 }
 
 double aur_map_weight(aur_map map, const double square[2]) {

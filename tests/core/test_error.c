@@ -11,9 +11,9 @@ static void says_where_and_what(void **state) {
     const aur_location where = {.file = "scene.xml", .line = 3, .column = 7};
     assert_int_equal(aur_fail_at(&error, where, AUR_ERROR_FORMAT, "wrong by %g", 0.5), AUR_ERROR_FORMAT);
     char text[64];
-    assert_int_equal(aur_error_format(&error, text, sizeof text), 27);
+    assert_int_equal(aur_error_format(&error, sizeof text, text), 27);
     assert_string_equal(text, "scene.xml:3:7: wrong by 0.5");
-    assert_int_equal(aur_error_format(&error, NULL, 0), 27);
+    assert_int_equal(aur_error_format(&error, 0, NULL), 27);
     assert_int_equal(aur_fail_at(NULL, where, AUR_ERROR_FORMAT, "nobody reads this"), AUR_ERROR_FORMAT);
 }
 
@@ -25,7 +25,7 @@ static void may_be_made_from_itself(void **state) {
     aur_fail_at(&error, (aur_location){.file = error.file, .line = error.line}, error.result, "shape 'x': %s",
                 error.message);
     char text[64];
-    aur_error_format(&error, text, sizeof text);
+    aur_error_format(&error, sizeof text, text);
     assert_string_equal(text, "a.obj:2: shape 'x': no number");
 }
 

@@ -54,13 +54,13 @@ static void lists_long_tables(void **state) {
     for (size_t i = 0; i < 200; ++i)
         many[i] = i == 199 ? "last" : "name";
     char text[2000];
-    const size_t length = aur_names_list(aur_names_of(200, many), text, sizeof text);
+    const size_t length = aur_names_list(aur_names_of(200, many), sizeof text, text);
     assert_int_equal(length, 200 * 4 + 199 * 2);
     assert_string_equal(text + length - 10, "name, last");
     char small[8] = "xxxxxxx";
-    assert_int_equal(aur_names_list(aur_names_of(200, many), small, sizeof small), length);
+    assert_int_equal(aur_names_list(aur_names_of(200, many), sizeof small, small), length);
     assert_string_equal(small, "name, n");
-    assert_int_equal(aur_names_list(aur_names_of(0, NULL), small, sizeof small), 0);
+    assert_int_equal(aur_names_list(aur_names_of(0, NULL), sizeof small, small), 0);
     assert_string_equal(small, "");
 }
 

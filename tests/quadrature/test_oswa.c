@@ -84,8 +84,8 @@ static void test_mirror_image(void **state) {
     aur_potential *const glossy = create(&(aur_density){
         .size = sizeof(aur_density), .exponent = 20.0, .axis = {-sin(1.0), 0.0, cos(1.0)}, .clipped = true});
     assert_true(straight[1] == -mirrored[1] && straight[1] != 0.0);
-    aur_worst_case_error(96, straight, weights + 96, glossy, 1, NULL, &error[0], NULL);
-    aur_worst_case_error(96, mirrored, weights + 96, glossy, 1, NULL, &error[1], NULL);
+    aur_worst_case_error(96, straight, weights + 96, glossy, NULL, &error[0], NULL);
+    aur_worst_case_error(96, mirrored, weights + 96, glossy, NULL, &error[1], NULL);
     assert_near(error[0], error[1], 1e-13);
     aur_potential_destroy(glossy);
     aur_oswa_destroy(oswa);
@@ -237,9 +237,9 @@ static void check_table(double m, int clipped, size_t angles) {
                                                             .exponent = m,
                                                             .axis = {-sin(angle), 0.0, fmax(0.0, cos(angle))},
                                                             .clipped = clipped});
-        aur_worst_case_error(96, xyz, exact + 96, glossy, 1, NULL, &errors[0], NULL);
-        aur_worst_case_error(96, xyz, looked_up, glossy, 1, NULL, &errors[1], NULL);
-        aur_worst_case_error(96, xyz, equal, glossy, 1, NULL, &errors[2], NULL);
+        aur_worst_case_error(96, xyz, exact + 96, glossy, NULL, &errors[0], NULL);
+        aur_worst_case_error(96, xyz, looked_up, glossy, NULL, &errors[1], NULL);
+        aur_worst_case_error(96, xyz, equal, glossy, NULL, &errors[2], NULL);
         assert_relative(aur_weight_table_mass(table, angle, 0.0), mass, 2e-4);
         optimal_total += errors[0];
         table_total += errors[1];

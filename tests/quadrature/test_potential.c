@@ -145,9 +145,9 @@ static void test_smooth_rates(void **state) {
             const aur_potential *const one = potential;
             assert_int_equal(
                 aur_weights_solve(count, xyz, 1, &one, &options, count, weights, NULL, NULL, NULL), AUR_OK);
-            assert_int_equal(aur_worst_case_error(count, xyz, NULL, potential, 1, NULL, &error[k], NULL),
+            assert_int_equal(aur_worst_case_error(count, xyz, NULL, potential, NULL, &error[k], NULL),
                              AUR_OK);
-            assert_int_equal(aur_worst_case_error(count, xyz, weights, potential, 1, NULL, &optimal[k], NULL),
+            assert_int_equal(aur_worst_case_error(count, xyz, weights, potential, NULL, &optimal[k], NULL),
                              AUR_OK);
             assert_true(optimal[k] < error[k]);
         }
@@ -273,11 +273,56 @@ typedef struct clipped_lobe {
     double axis[3], exponent;
 } clipped_lobe;
 
-static double clipped_value(void *user, const double direction[3]) {
+static aur_result clipped_value(void *user, size_t count, const double *directions, double *values,
+                                aur_error *error) {
+    (void)error;
     const clipped_lobe *const lobe = user;
-    const double cosine =
-        direction[0] * lobe->axis[0] + direction[1] * lobe->axis[1] + direction[2] * lobe->axis[2];
-    return direction[2] > 0.0 && cosine > 0.0 ? 3.0 * pow(cosine, lobe->exponent) : 0.0;
+    for (size_t i = 0; i < count; ++i) {
+        const double *const u = directions + 3 * i;
+        const double cosine = u[0] * lobe->axis[0] + u[1] * lobe->axis[1] + u[2] * lobe->axis[2];
+        values[i] = u[2] > 0.0 && cosine > 0.0 ? 3.0 * pow(cosine, lobe->exponent) : 0.0;
+    }
+    return AUR_OK;
+}
+
+/* A density that fails from the fourth of its calls on, with words of its own. */
+static aur_result failing(void *user, size_t count, const double *directions, double *values,
+                          aur_error *error) {
+    (void)directions;
+    size_t *const calls = user;
+    if (++*calls > 3)
+        return aur_fail(error, AUR_ERROR_OPEN, "the lamp's table is gone");
+    for (size_t i = 0; i < count; ++i)
+        values[i] = 1.0;
+    return AUR_OK;
+}
+
+/* What a density's function says ends the call that asked, while nodes are made and afterwards. */
+static void test_function_that_fails(void **state) {
+    (void)state;
+    size_t calls = 0;
+    aur_density density = {.size = sizeof density,
+                           .kind = AUR_DENSITY_FUNCTION,
+                           .function = failing,
+                           .user = &calls,
+                           .node_count = 4096};
+    aur_potential *potential = NULL;
+    aur_error error;
+    assert_int_equal(aur_potential_create(&density, 1.5, &potential, &error), AUR_ERROR_OPEN);
+    assert_true(potential == NULL);
+    assert_string_equal(error.message, "the lamp's table is gone");
+    assert_int_equal(calls, 4);
+    calls = 0;
+    density.node_count = 256;
+    potential = create(&density, 1.5);
+    const double up[3] = {0.0, 0.0, 1.0};
+    double value;
+    calls = 2;
+    assert_int_equal(aur_potential_density(potential, 1, up, &value, &error), AUR_OK);
+    assert_near(value, 1.0 / (2.0 * PI), 1e-12);
+    assert_int_equal(aur_potential_density(potential, 1, up, &value, &error), AUR_ERROR_OPEN);
+    assert_string_equal(error.message, "the lamp's table is gone");
+    aur_potential_destroy(potential);
 }
 
 /* A callback density is the same density by another road: importance-sampled points. */
@@ -397,11 +442,12 @@ static void test_missing(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_golden),         cmocka_unit_test(test_long_series),
-        cmocka_unit_test(test_definition),     cmocka_unit_test(test_clipped),
-        cmocka_unit_test(test_function),       cmocka_unit_test(test_cross_energy),
-        cmocka_unit_test(test_kernel_rows),    cmocka_unit_test(test_missing),
-        cmocka_unit_test(test_smooth_kernels), cmocka_unit_test(test_smooth_rates),
+        cmocka_unit_test(test_golden),       cmocka_unit_test(test_long_series),
+        cmocka_unit_test(test_definition),   cmocka_unit_test(test_clipped),
+        cmocka_unit_test(test_function),     cmocka_unit_test(test_function_that_fails),
+        cmocka_unit_test(test_cross_energy), cmocka_unit_test(test_kernel_rows),
+        cmocka_unit_test(test_missing),      cmocka_unit_test(test_smooth_kernels),
+        cmocka_unit_test(test_smooth_rates),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

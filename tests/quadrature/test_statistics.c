@@ -145,7 +145,7 @@ static void test_optimal_density(void **state) {
         create(&(aur_density){.size = sizeof(aur_density), .exponent = 20.0}, 1.5);
     const aur_potential *const potentials[] = {potential};
     aur_weights_report report;
-    assert_int_equal(aur_worst_case_error(64, xyz, ratio, potential, 0, NULL, &plain, NULL), AUR_OK);
+    assert_int_equal(aur_worst_case_error(64, xyz, ratio, potential, NULL, &plain, NULL), AUR_OK);
     assert_near(plain, 2.078e-2, 0.5e-5);
     assert_int_equal(
         aur_weights_solve(64, xyz, 1, potentials, &unconstrained, 64, weights, &report, NULL, NULL), AUR_OK);

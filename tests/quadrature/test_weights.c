@@ -34,9 +34,9 @@ static void check_golden(double m, double equal, double optimal, double sum) {
         assert_relative(report.weight_sum, sum, 1e-9);
     /* The report's figures are those of the definition. */
     double value;
-    assert_int_equal(aur_worst_case_error(64, xyz, NULL, potential, 1, NULL, &value, NULL), AUR_OK);
+    assert_int_equal(aur_worst_case_error(64, xyz, NULL, potential, NULL, &value, NULL), AUR_OK);
     assert_relative(value, equal, 1e-9);
-    assert_int_equal(aur_worst_case_error(64, xyz, weights, potential, 2, NULL, &value, NULL), AUR_OK);
+    assert_int_equal(aur_worst_case_error(64, xyz, weights, potential, NULL, &value, NULL), AUR_OK);
     assert_relative(value, optimal, 1e-9);
     aur_potential_destroy(potential);
 }
@@ -92,7 +92,7 @@ static void test_is_minimum(void **state) {
             double changed[N];
             memcpy(changed, weights, sizeof changed);
             changed[i] += side == 0 ? 1e-3 : -1e-3;
-            assert_int_equal(aur_worst_case_error(N, xyz, changed, potential, 1, NULL, &error[side], NULL),
+            assert_int_equal(aur_worst_case_error(N, xyz, changed, potential, NULL, &error[side], NULL),
                              AUR_OK);
             assert_true(error[side] > report.optimal_error);
         }
@@ -210,13 +210,13 @@ static void test_rule(void **state) {
     double xyz[3 * 64], weights[64], value;
     assert_int_equal(aur_rule_make(&optimal, 3 * 64, xyz, weights, NULL), AUR_OK);
     aur_potential *const potential = lobe_potential(20.0, 1.5);
-    assert_int_equal(aur_worst_case_error(64, xyz, weights, potential, 1, NULL, &value, NULL), AUR_OK);
+    assert_int_equal(aur_worst_case_error(64, xyz, weights, potential, NULL, &value, NULL), AUR_OK);
     assert_relative(value, 2.130088901918e-2, 1e-9);
     aur_rule_options ratio = optimal;
     ratio.optimal = false;
     points.optimal_density = true;
     assert_int_equal(aur_rule_make(&ratio, 3 * 64, xyz, weights, NULL), AUR_OK);
-    assert_int_equal(aur_worst_case_error(64, xyz, weights, potential, 1, NULL, &value, NULL), AUR_OK);
+    assert_int_equal(aur_worst_case_error(64, xyz, weights, potential, NULL, &value, NULL), AUR_OK);
     assert_near(value, 2.078e-2, 0.5e-5);
     aur_error error;
     assert_int_equal(aur_rule_make(&ratio, 3 * 64 - 1, xyz, weights, &error), AUR_ERROR_CAPACITY);
@@ -252,8 +252,7 @@ static void test_bad_input(void **state) {
                      AUR_ERROR_ARGUMENT);
     assert_non_null(strstr(error.message, "point 2"));
     double value;
-    assert_int_equal(aur_worst_case_error(2, off, NULL, potential, 1, NULL, &value, &error),
-                     AUR_ERROR_ARGUMENT);
+    assert_int_equal(aur_worst_case_error(2, off, NULL, potential, NULL, &value, &error), AUR_ERROR_ARGUMENT);
     const double nan_point[] = {0, 0, (double)NAN};
     assert_int_equal(aur_weights_solve(1, nan_point, 1, potentials, NULL, 1, weights, NULL, NULL, &error),
                      AUR_ERROR_ARGUMENT);

@@ -60,7 +60,7 @@ static inline aur_scene *must_load_body(const char *body) {
     aur_error error = {0};
     if (load_body(body, NULL, &scene, &error) != AUR_OK) {
         char text[1024];
-        aur_error_format(&error, text, sizeof text);
+        aur_error_format(&error, sizeof text, text);
         fail_msg("%s", text);
     }
     return scene;

@@ -176,7 +176,7 @@ static void says_what_is_wrong(void **state) {
         aur_scene *scene = NULL;
         aur_error error = {0};
         assert_int_not_equal(load_body(body, NULL, &scene, &error), AUR_OK);
-        aur_error_format(&error, text, sizeof text);
+        aur_error_format(&error, sizeof text, text);
         if (strstr(text, rows[i].words) == NULL)
             fail_msg("'%s' does not say '%s'", text, rows[i].words);
     }

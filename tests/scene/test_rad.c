@@ -12,7 +12,7 @@ static aur_scene *must_load(const char *text) {
     aur_error error = {0};
     if (load(text, &scene, &error) != AUR_OK) {
         char message[1024];
-        aur_error_format(&error, message, sizeof message);
+        aur_error_format(&error, sizeof message, message);
         fail_msg("%s", message);
     }
     return scene;

@@ -40,7 +40,7 @@ static void squares_are_lifted_by_the_map(void **state) {
                                                                .seed = 9});
         for (size_t i = 0; i < COUNT; ++i) {
             double expected[3];
-            aur_map_to_sphere(maps[m], uv + 2 * i, expected);
+            aur_map_to_cap(maps[m], AUR_CAP_SPHERE, 1, uv + 2 * i, expected, NULL);
             assert_memory_equal(expected, xyz + 3 * i, sizeof expected);
         }
         free(xyz);

@@ -89,8 +89,7 @@ static void larger_grids_begin_with_smaller_ones(void **state) {
 
 /* Undoes the Lambert map: u is x + d, v is y. */
 static void to_plane(size_t count, const double *xyz, double *uv) {
-    for (size_t i = 0; i < count; ++i)
-        aur_map_from_sphere(AUR_MAP_LAMBERT, xyz + 3 * i, uv + 2 * i);
+    aur_map_from_cap(AUR_MAP_LAMBERT, AUR_CAP_SPHERE, count, xyz, uv, NULL);
 }
 
 /* The squared lengths of the vectors from an inner point to all others, y wrapped, smallest first. */

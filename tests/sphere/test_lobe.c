@@ -40,15 +40,15 @@ static void cosine_power_warps_by_a_root(void **state) {
             double from[3], to[3];
             check_random_direction(3, i, from);
             from[2] = fabs(from[2]);
-            aur_lobe_warp(&lobe, from, to);
+            aur_lobe_warp(&lobe, 1, from, to);
             assert_near(to[2], pow(from[2], 1.0 / (lobe.exponent + 1.0)), 2e-15);
             assert_near(to[0] * from[1] - to[1] * from[0], 0.0, 1e-15);
             assert_near(check_dot(to, to), 1.0, 1e-14);
         }
         double to[3];
-        aur_lobe_warp(&lobe, (const double[3]){0, 0, 1}, to);
+        aur_lobe_warp(&lobe, 1, (const double[3]){0, 0, 1}, to);
         assert_true(to[0] == 0.0 && to[1] == 0.0 && to[2] == 1.0);
-        aur_lobe_warp(&lobe, (const double[3]){0.6, 0.8, 0.0}, to);
+        aur_lobe_warp(&lobe, 1, (const double[3]){0.6, 0.8, 0.0}, to);
         assert_near(to[0], 0.6, 1e-15);
         assert_near(to[2], 0.0, 0);
     }
@@ -63,8 +63,8 @@ static void inverses_round_trip(void **state) {
             double from[3], to[3], back[3];
             check_random_direction(5, i, from);
             from[2] = fabs(from[2]);
-            aur_lobe_warp(&lobe, from, to);
-            aur_lobe_unwarp(&lobe, to, back);
+            aur_lobe_warp(&lobe, 1, from, to);
+            aur_lobe_unwarp(&lobe, 1, to, back);
             assert_near(check_distance(from, back), 0.0, tolerance);
         }
     }
@@ -80,14 +80,14 @@ static void warps_follow_their_densities(void **state) {
     for (size_t l = 0; l < LOBE_COUNT; ++l) {
         const aur_lobe lobe = parse(lobes[l]);
         double axis[3];
-        aur_lobe_warp(&lobe, (const double[3]){0.28, 0.0, 0.96}, axis);
+        aur_lobe_warp(&lobe, 1, (const double[3]){0.28, 0.0, 0.96}, axis);
         const double threshold = lobe.exponent > 100.0 ? 0.999 : 0.9;
         double inside = 0.0;
         for (uint64_t i = 0; i < POINTS; ++i) {
             double from[3], to[3];
             check_random_direction(11, i, from);
             from[2] = fabs(from[2]);
-            aur_lobe_warp(&lobe, from, to);
+            aur_lobe_warp(&lobe, 1, from, to);
             inside += check_dot(to, axis) > threshold ? 1.0 / POINTS : 0.0;
         }
         double integral = 0.0, all = 0.0;
@@ -96,7 +96,7 @@ static void warps_follow_their_densities(void **state) {
             const double a = ((double)(i % SIDE) + 0.5) / SIDE;
             const double square[2] = {a * a * a, ((double)(i / SIDE) + 0.5) / SIDE};
             double direction[3];
-            aur_map_to_sphere(AUR_MAP_LAMBERT, square, direction);
+            aur_map_to_cap(AUR_MAP_LAMBERT, AUR_CAP_SPHERE, 1, square, direction, NULL);
             const double part =
                 aur_lobe_pdf(&lobe, direction) * 4.0 * AUR_PI * 3.0 * a * a / ((double)SIDE * SIDE);
             all += part;

@@ -41,15 +41,15 @@ static void lambert_and_polar_are_what_they_say(void **state) {
     for (size_t i = 0; i < count; ++i) {
         const double u = points[i][0];
         const double phi = 2.0 * AUR_PI * points[i][1];
-        aur_map_to_sphere(AUR_MAP_LAMBERT, points[i], direction);
+        aur_map_to_cap(AUR_MAP_LAMBERT, AUR_CAP_SPHERE, 1, points[i], direction, NULL);
         assert_near(direction[2], 1.0 - 2.0 * u, 1e-15);
         assert_near(direction[0], sqrt(4.0 * u * (1.0 - u)) * cos(phi), 1e-15);
         assert_near(direction[1], sqrt(4.0 * u * (1.0 - u)) * sin(phi), 1e-15);
-        aur_map_to_hemisphere(AUR_MAP_LAMBERT, points[i], direction);
+        aur_map_to_cap(AUR_MAP_LAMBERT, AUR_CAP_HEMISPHERE, 1, points[i], direction, NULL);
         assert_near(direction[2], 1.0 - u, 1e-15);
-        aur_map_to_disk(AUR_MAP_AZIMUTHAL, points[i], disk);
+        aur_map_to_disk(AUR_MAP_AZIMUTHAL, 1, points[i], disk, NULL);
         assert_near(disk[0], sqrt(u) * cos(phi), 1e-15);
-        aur_map_to_disk(AUR_MAP_POLAR, points[i], disk);
+        aur_map_to_disk(AUR_MAP_POLAR, 1, points[i], disk, NULL);
         assert_near(disk[1], u * sin(phi), 1e-15);
         assert_near(aur_map_weight(AUR_MAP_POLAR, points[i]), 2.0 * u, 0);
     }
@@ -78,7 +78,7 @@ static void concentric_is_shirley_and_chiu(void **state) {
             radius = -b;
             phi = b != 0.0 ? AUR_PI / 4.0 * (6.0 - a / b) : 0.0;
         }
-        aur_map_to_disk(AUR_MAP_CONCENTRIC, points[i], disk);
+        aur_map_to_disk(AUR_MAP_CONCENTRIC, 1, points[i], disk, NULL);
         assert_near(disk[0], radius * cos(phi), 1e-15);
         assert_near(disk[1], radius * sin(phi), 1e-15);
     }
@@ -94,22 +94,22 @@ static void inverses_round_trip(void **state) {
     for (size_t m = 0; m < 4; ++m) {
         for (size_t i = 0; i < count; ++i) {
             double disk[2], square[2], again[3], direction[3];
-            aur_map_to_disk(maps[m], points[i], disk);
-            aur_map_from_disk(maps[m], disk, square);
+            aur_map_to_disk(maps[m], 1, points[i], disk, NULL);
+            aur_map_from_disk(maps[m], 1, disk, square, NULL);
             assert_true(square[0] >= 0.0 && square[0] < 1.0 && square[1] >= 0.0 && square[1] < 1.0);
-            aur_map_to_disk(maps[m], square, again);
+            aur_map_to_disk(maps[m], 1, square, again, NULL);
             assert_near(hypot(again[0] - disk[0], again[1] - disk[1]), 0.0, 2e-15);
             if (points[i][0] >= 0.1 && points[i][0] != 0.5 && points[i][1] > 0.0) {
                 assert_near(square[0], points[i][0], 2e-15);
                 assert_near(square[1], points[i][1], 2e-15);
             }
             for (size_t h = 0; h < 5; ++h) {
-                aur_map_to_cap(maps[m], heights[h], points[i], direction);
+                aur_map_to_cap(maps[m], heights[h], 1, points[i], direction, NULL);
                 assert_near(check_dot(direction, direction), 1.0, 1e-15);
                 assert_true(direction[2] >= 1.0 - heights[h] - 1e-15);
-                aur_map_from_cap(maps[m], heights[h], direction, square);
+                aur_map_from_cap(maps[m], heights[h], 1, direction, square, NULL);
                 assert_true(square[0] >= 0.0 && square[0] < 1.0 && square[1] >= 0.0 && square[1] < 1.0);
-                aur_map_to_cap(maps[m], heights[h], square, again);
+                aur_map_to_cap(maps[m], heights[h], 1, square, again, NULL);
                 assert_near(check_distance(again, direction), 0.0, 1e-7 * sqrt(heights[h] / 2.0));
                 if (points[i][0] > 0.1 && points[i][0] < 0.9 && points[i][1] > 0.1 && points[i][1] < 0.9)
                     assert_near(check_distance(again, direction), 0.0, 4e-15);
@@ -132,7 +132,7 @@ static void area_is_kept(void **state) {
                 const double square[2] = {((double)(i % SIDE) + 0.5) / SIDE,
                                           ((double)(i / SIDE) + 0.5) / SIDE};
                 double direction[3];
-                aur_map_to_sphere(maps[m], square, direction);
+                aur_map_to_cap(maps[m], AUR_CAP_SPHERE, 1, square, direction, NULL);
                 if (check_dot(axis, direction) > 0.4)
                     inside += aur_map_weight(maps[m], square);
             }

@@ -3,6 +3,7 @@
 #include <stdlib.h>
 
 #include "core/error.h"
+#include "core/names.h"
 #include "core/random.h"
 #include "transport/lights/shading.h"
 
@@ -137,4 +138,21 @@ void aur_known_light_add(const aur_known_light *known, aur_path_group *g, uint32
             g->alive &= ~(1u << k);
     }
     g->plain &= g->alive;
+}
+
+static const char *const reflected_names[] = {"paths", "map", "radiosity"};
+enum { REFLECTED_NAMES = sizeof reflected_names / sizeof reflected_names[0] };
+
+aur_result aur_reflected_from_name(const char *name, aur_reflected *reflected, aur_error *error) {
+    size_t index;
+    const aur_result result =
+        aur_names_choose(aur_names_of(REFLECTED_NAMES, reflected_names), "way to find reflected light", name,
+                         (aur_location){0}, &index, error);
+    if (result == AUR_OK)
+        *reflected = (aur_reflected)index;
+    return result;
+}
+
+const char *aur_reflected_name(aur_reflected reflected) {
+    return (size_t)reflected < REFLECTED_NAMES ? reflected_names[reflected] : NULL;
 }

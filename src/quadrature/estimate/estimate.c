@@ -150,3 +150,9 @@ aur_result aur_estimate(aur_functional functional, void *user, const aur_estimat
                                        "aur_estimate_report", error)
                : result;
 }
+
+aur_result aur_estimate_options_init(size_t dimension, size_t values, aur_estimate_options *options,
+                                     aur_error *error) {
+    const aur_estimate_options own = aur_estimate_options_default(dimension, values);
+    return aur_description_write(&own, sizeof own, sizeof own, options, "aur_estimate_options", error);
+}

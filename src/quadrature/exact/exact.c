@@ -290,3 +290,8 @@ aur_result aur_weights_exact(size_t count, const double *xyz, const aur_exact_op
     free(order);
     return result;
 }
+
+aur_result aur_exact_options_init(aur_domain domain, aur_exact_options *options, aur_error *error) {
+    const aur_exact_options own = aur_exact_options_default(domain);
+    return aur_description_write(&own, sizeof own, sizeof own, options, "aur_exact_options", error);
+}

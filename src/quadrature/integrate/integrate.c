@@ -185,3 +185,8 @@ aur_result aur_integrate(aur_integrand function, void *user, const aur_integrate
                ? aur_description_write(&found, sizeof found, sizeof found, integral, "aur_integral", error)
                : result;
 }
+
+aur_result aur_integrate_options_init(aur_domain domain, aur_integrate_options *options, aur_error *error) {
+    const aur_integrate_options own = aur_integrate_options_default(domain);
+    return aur_description_write(&own, sizeof own, sizeof own, options, "aur_integrate_options", error);
+}

@@ -6,6 +6,7 @@
 #include "core/error.h"
 #include "core/random.h"
 #include "core/vector.h"
+#include "sphere/map.h"
 
 struct aur_replicates {
     aur_integrate_options options;
@@ -85,9 +86,9 @@ aur_result aur_replicates_points(const aur_replicates *replicates, size_t replic
         aur_pointset_points(replicates->sets[replicate], first, count, dimension * count, square, error);
     for (size_t i = 0; i < count && result == AUR_OK; ++i) {
         double *const direction = directions + 3 * i;
-        aur_map_to_cap(AUR_MAP_LAMBERT, height, square + dimension * i, direction);
+        aur_point_to_cap(AUR_MAP_LAMBERT, height, square + dimension * i, direction);
         if (o->exponent > 0.0)
-            aur_lobe_warp(&lobe, direction, direction);
+            aur_lobe_warp(&lobe, 1, direction, direction);
         if (o->has_axis)
             along[i] = o->axis_from + (o->axis_to - o->axis_from) * square[dimension * i + 2];
     }

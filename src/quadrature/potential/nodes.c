@@ -24,26 +24,35 @@ aur_result aur_nodes_function(const aur_density *density, double *columns, doubl
     const size_t count = density->node_count;
     const bool sphere = density->whole_sphere;
     const aur_lobe lobe = {.exponent = sphere ? 0.0 : density->exponent};
-    const aur_result result =
+    aur_result result =
         draw(count, sphere ? AUR_DOMAIN_SPHERE : AUR_DOMAIN_HEMISPHERE, &lobe, columns, error);
     if (result != AUR_OK)
         return result;
     double frame_x[3], frame_y[3];
     aur_frame3(density->axis, frame_x, frame_y);
-    for (size_t i = 0; i < count; ++i) {
-        const double local[3] = {columns[i], columns[count + i], columns[2 * count + i]};
-        const double sampled = sphere ? 1.0 / (4.0 * AUR_PI) : aur_lobe_pdf(&lobe, local);
-        double direction[3];
-        for (size_t k = 0; k < 3; ++k) {
-            direction[k] = local[0] * frame_x[k] + local[1] * frame_y[k] + local[2] * density->axis[k];
-            columns[k * count + i] = direction[k];
+    enum { BLOCK = 256 };
+    for (size_t first = 0; first < count; first += BLOCK) {
+        const size_t block = count - first < BLOCK ? count - first : BLOCK;
+        double directions[3 * BLOCK], sampled[BLOCK];
+        for (size_t i = 0; i < block; ++i) {
+            const size_t at = first + i;
+            const double local[3] = {columns[at], columns[count + at], columns[2 * count + at]};
+            sampled[i] = sphere ? 1.0 / (4.0 * AUR_PI) : aur_lobe_pdf(&lobe, local);
+            for (size_t k = 0; k < 3; ++k)
+                columns[k * count + at] = directions[3 * i + k] =
+                    local[0] * frame_x[k] + local[1] * frame_y[k] + local[2] * density->axis[k];
         }
-        const double value = density->function(density->user, direction);
-        if (!(value >= 0.0 && isfinite(value)))
-            return aur_fail(error, AUR_ERROR_ARGUMENT,
-                            "the density at (%g, %g, %g) is %g: it must be finite and not negative",
-                            direction[0], direction[1], direction[2], value);
-        masses[i] = value / (sampled * (double)count);
+        result = density->function(density->user, block, directions, masses + first, error);
+        for (size_t i = 0; i < block && result == AUR_OK; ++i) {
+            const double value = masses[first + i], *const u = directions + 3 * i;
+            if (!(value >= 0.0 && isfinite(value)))
+                return aur_fail(error, AUR_ERROR_ARGUMENT,
+                                "the density at (%g, %g, %g) is %g: it must be finite and not negative", u[0],
+                                u[1], u[2], value);
+            masses[first + i] = value / (sampled[i] * (double)count);
+        }
+        if (result != AUR_OK)
+            return result;
     }
     return AUR_OK;
 }

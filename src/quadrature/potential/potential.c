@@ -202,24 +202,31 @@ double aur_potential_self_energy(const aur_potential *potential) {
     return energy;
 }
 
-double aur_potential_density(const aur_potential *potential, const double direction[3]) {
-    const aur_density *const density = &potential->density;
+/* The density as it is written, of the kinds that have a formula. */
+static double formula(const aur_density *density, const double direction[3]) {
+    if (density->kind == AUR_DENSITY_SPHERE)
+        return 1.0;
+    if (density->kind == AUR_DENSITY_GGX)
+        return aur_ggx_value(density, direction);
     const double cosine = aur_dot3(direction, density->axis);
-    switch (density->kind) {
-    case AUR_DENSITY_COSINE_POWER:
-        if (cosine <= 0.0 || (density->clipped && direction[2] < 0.0))
-            return 0.0;
-        return pow(cosine, density->exponent) / potential->mass;
-    case AUR_DENSITY_SPHERE:
-        return 1.0 / potential->mass;
-    case AUR_DENSITY_GGX:
-        return aur_ggx_value(density, direction) / potential->mass;
-    case AUR_DENSITY_FUNCTION:
-        return density->function(density->user, direction) / potential->mass;
-    case AUR_DENSITY_NODES:
-        break;
-    }
-    return (double)NAN;
+    const bool below = cosine <= 0.0 || (density->clipped && direction[2] < 0.0);
+    return below ? 0.0 : pow(cosine, density->exponent);
+}
+
+aur_result aur_potential_density(const aur_potential *potential, size_t count, const double *xyz,
+                                 double *values, aur_error *error) {
+    const aur_density *const density = &potential->density;
+    if (density->kind == AUR_DENSITY_NODES)
+        return aur_fail(error, AUR_ERROR_UNSUPPORTED, "point masses have no density");
+    aur_result result = AUR_OK;
+    if (density->kind == AUR_DENSITY_FUNCTION)
+        result = density->function(density->user, count, xyz, values, error);
+    else
+        for (size_t i = 0; i < count; ++i)
+            values[i] = formula(density, xyz + 3 * i);
+    for (size_t i = 0; i < count && result == AUR_OK; ++i)
+        values[i] /= potential->mass;
+    return result;
 }
 
 aur_result aur_density_from_lobe(const aur_lobe *lobe, aur_domain domain, aur_density *density,

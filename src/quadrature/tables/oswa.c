@@ -77,8 +77,7 @@ static aur_result create_pattern(aur_oswa *oswa, size_t which, bool solves, aur_
     result = aur_points_of_set(o->set, &directions, storage, NULL, error);
     if (result != AUR_OK || !whole)
         return result;
-    for (size_t i = 0; i < n; ++i)
-        aur_lobe_warp(&oswa->sampled[which], storage + 3 * i, oswa->pattern[which] + 3 * i);
+    aur_lobe_warp(&oswa->sampled[which], n, storage, oswa->pattern[which]);
     return solves ? prepare_pattern(oswa, which, storage + 6 * n, error) : AUR_OK;
 }
 
@@ -212,8 +211,7 @@ static void place_mirror(const aur_oswa *oswa, aur_oswa_view view, double turns,
     }
     const aur_lobe lobe = ggx_at(view);
     turn(turns, count, oswa->uniform[1] + 3 * first, xyz);
-    for (size_t i = 0; i < count; ++i)
-        aur_lobe_warp(&lobe, xyz + 3 * i, xyz + 3 * i);
+    aur_lobe_warp(&lobe, count, xyz, xyz);
 }
 
 static void place(const aur_oswa *oswa, aur_oswa_view view, const double turns[2], double *xyz) {

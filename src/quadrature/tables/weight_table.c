@@ -276,3 +276,8 @@ double aur_weight_table_mass(const aur_weight_table *table, double radians, doub
     const double mass = (double)mass_at(table, roughness, radians);
     return way > 0.0 ? mass + way * ((double)mass_at(table, roughness + 1, radians) - mass) : mass;
 }
+
+aur_result aur_weight_table_grid_init(aur_weight_table_grid *options, aur_error *error) {
+    const aur_weight_table_grid own = aur_weight_table_grid_default();
+    return aur_description_write(&own, sizeof own, sizeof own, options, "aur_weight_table_grid", error);
+}

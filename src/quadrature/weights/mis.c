@@ -63,7 +63,10 @@ aur_result aur_mis_weights(aur_mis_heuristic heuristic, size_t strategy_count, c
     for (size_t t = 0; t < strategy_count; ++t) {
         for (size_t i = 0; i < strategies[t].count; ++i, ++at) {
             const double *const u = xyz + 3 * at;
-            const double value = aur_potential_density(target, u);
+            double value;
+            const aur_result known = aur_potential_density(target, 1, u, &value, error);
+            if (known != AUR_OK)
+                return known;
             weights[at] = value == 0.0 ? 0.0 : value * share(heuristic, strategy_count, strategies, t, u);
             if (!isfinite(weights[at]))
                 return aur_fail(error, AUR_ERROR_ARGUMENT,
@@ -81,7 +84,13 @@ aur_result aur_weights_reweight(const aur_potential *wanted, const aur_potential
     for (size_t i = 0; i < count; ++i) {
         if (weights[i] == 0.0)
             continue;
-        weights[i] *= aur_potential_density(wanted, xyz + 3 * i) / aur_potential_density(fitted, xyz + 3 * i);
+        double values[2];
+        aur_result result = aur_potential_density(wanted, 1, xyz + 3 * i, &values[0], error);
+        if (result == AUR_OK)
+            result = aur_potential_density(fitted, 1, xyz + 3 * i, &values[1], error);
+        if (result != AUR_OK)
+            return result;
+        weights[i] *= values[0] / values[1];
         if (!isfinite(weights[i]))
             return aur_fail(error, AUR_ERROR_ARGUMENT, "sample %zu: the fitted density is zero there", i);
     }

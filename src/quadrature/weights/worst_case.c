@@ -1,6 +1,7 @@
 #include <math.h>
 #include <stdlib.h>
 
+#include "core/options.h"
 #include "core/parallel.h"
 #include "quadrature/check.h"
 #include "quadrature/potential/potential.h"
@@ -29,11 +30,15 @@ static aur_result add_block(void *context, size_t index) {
 }
 
 aur_result aur_worst_case_error(size_t count, const double *xyz, const double *weights,
-                                const aur_potential *potential, size_t threads, const aur_progress *progress,
+                                const aur_potential *potential, const aur_worst_case_options *given,
                                 double *value, aur_error *error) {
     if (count == 0)
         return aur_fail(error, AUR_ERROR_ARGUMENT, "a worst-case error needs at least one point");
-    aur_result result = aur_check_directions(count, xyz, error);
+    aur_worst_case_options own = aur_worst_case_options_default();
+    aur_result result =
+        aur_options_read(given, sizeof own, sizeof own, &own, "aur_worst_case_options", error);
+    if (result == AUR_OK)
+        result = aur_check_directions(count, xyz, error);
     if (result != AUR_OK)
         return result;
     for (size_t i = 0; weights != NULL && i < count; ++i)
@@ -51,10 +56,8 @@ aur_result aur_worst_case_error(size_t count, const double *xyz, const double *w
                     storage + 5 * count};
     const aur_parallel_share share = {
         .slices = {{sum.blocks, sizeof *sum.blocks, block_count * sizeof *sum.blocks}}};
-    const aur_parallel_options options = {.threads = threads,
-                                          .share = &share,
-                                          .what = "worst-case error",
-                                          .progress = progress != NULL ? *progress : (aur_progress){0}};
+    const aur_parallel_options options = {
+        .threads = own.threads, .share = &share, .what = "worst-case error", .progress = own.progress};
     result = aur_parallel_for(&options, block_count, add_block, &sum, error);
     if (result == AUR_OK) {
         aur_potential_evaluate(potential, count, xyz, z);

@@ -34,9 +34,11 @@ static aur_result wce(const aur_measure_request *request, double *value, aur_err
         result = aur_density_from_lobe(&lobe, points->domain, &density, error);
     if (result == AUR_OK)
         result = aur_potential_create(&density, smoothness, &potential, error);
+    const aur_worst_case_options options = {
+        .size = sizeof options, .threads = request->options.threads, .progress = request->options.progress};
     if (result == AUR_OK)
         result = aur_worst_case_error(points->count, points->coordinates, points->weights, potential,
-                                      request->options.threads, &request->options.progress, value, error);
+                                      &options, value, error);
     aur_potential_destroy(potential);
     return result;
 }

@@ -11,6 +11,7 @@
 #include "core/text.h"
 #include "core/vector.h"
 #include "pointset/set.h"
+#include "sphere/map.h"
 #include "sphere/native.h"
 
 enum { CHUNK = 128 };
@@ -225,7 +226,7 @@ static aur_result lift(const aur_directions *directions, uint64_t first, size_t 
     double square[2 * CHUNK];
     const aur_result result = aur_pointset_points(directions->square, first, count, 2 * CHUNK, square, error);
     for (size_t i = 0; i < count && result == AUR_OK; ++i) {
-        aur_map_to_cap(directions->map, directions->height, square + 2 * i, xyz + 3 * i);
+        aur_point_to_cap(directions->map, directions->height, square + 2 * i, xyz + 3 * i);
         if (weights != NULL)
             weights[i] *= aur_map_weight(directions->map, square + 2 * i);
     }
@@ -273,7 +274,7 @@ static aur_result fill_chunk(const aur_directions *directions, uint64_t first, s
     else
         take_from_file(directions, first, count, xyz, weights);
     for (size_t i = 0; i < count && directions->warped && result == AUR_OK; ++i) {
-        aur_lobe_warp(&directions->density, xyz + 3 * i, xyz + 3 * i);
+        aur_lobe_warp(&directions->density, 1, xyz + 3 * i, xyz + 3 * i);
         if (weights != NULL)
             weights[i] *= density_weight(directions, xyz + 3 * i);
     }

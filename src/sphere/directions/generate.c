@@ -7,6 +7,7 @@
 #include "core/options.h"
 #include "pointset/points.h"
 #include "pointset/set.h"
+#include "sphere/map.h"
 #include "sphere/native.h"
 
 /* What is asked for, once domain and size are known. */
@@ -108,7 +109,7 @@ static aur_result generate_disk(const job *j, aur_points **points) {
     for (size_t i = 0; result == AUR_OK && i < (*points)->view.count; ++i) {
         double *const point = (*points)->coordinates + 2 * i;
         const double square[2] = {point[0], point[1]};
-        aur_map_to_disk(map, square, point);
+        aur_point_to_disk(map, square, point);
         if (weighted)
             (*points)->weights[i] = aur_map_weight(map, square) / (double)j->size;
     }
@@ -136,8 +137,8 @@ static void flatten(aur_points *points) {
     points->view.dimension = points->view.stride = 2;
     for (size_t i = 0; i < points->view.count; ++i) {
         double square[2];
-        aur_map_from_hemisphere(AUR_MAP_AZIMUTHAL, points->coordinates + 3 * i, square);
-        aur_map_to_disk(AUR_MAP_AZIMUTHAL, square, points->coordinates + 2 * i);
+        aur_point_from_cap(AUR_MAP_AZIMUTHAL, AUR_CAP_HEMISPHERE, points->coordinates + 3 * i, square);
+        aur_point_to_disk(AUR_MAP_AZIMUTHAL, square, points->coordinates + 2 * i);
     }
 }
 

@@ -6,6 +6,7 @@
 #include "core/error.h"
 #include "core/random.h"
 #include "pointset/net_2d.h"
+#include "sphere/map.h"
 
 static bool works_on_square(aur_scramble scramble) {
     return scramble == AUR_SCRAMBLE_DIGIT || scramble == AUR_SCRAMBLE_OWEN || scramble == AUR_SCRAMBLE_SHIFT;
@@ -115,7 +116,7 @@ static aur_vector scrambled_direction(const aur_gather_rule *rule, const aur_gat
     /* The centre of the word's cell keeps z away from 0 and the pole's azimuth defined. */
     const double point[2] = {((double)u + 0.5) * 0x1p-32, ((double)v + 0.5) * 0x1p-32};
     double xyz[3];
-    aur_map_to_hemisphere(rule->map, point, xyz);
+    aur_point_to_cap(rule->map, AUR_CAP_HEMISPHERE, point, xyz);
     return warp(xyz[0], xyz[1], xyz[2], rule->drawn_exponent);
 }
 

@@ -108,8 +108,9 @@ static aur_result make_level(const aur_gather_parameters *p, const aur_gather_ru
         (*weights)[i] = (float)numbers[i];
     }
     double found = 0.0;
+    const aur_worst_case_options alone = {.size = sizeof alone, .threads = 1};
     if (result == AUR_OK)
-        result = aur_worst_case_error(count, xyz, normalised, potential, 1, NULL, &found, error);
+        result = aur_worst_case_error(count, xyz, normalised, potential, &alone, &found, error);
     /* K of a direction with itself, less the self-energy: the squared error of one random direction. */
     const double diagonal = pow(2.0, 2.0 * smoothness - 1.0) / smoothness;
     *worst = (float)(found / sqrt(diagonal - aur_potential_self_energy(potential)));

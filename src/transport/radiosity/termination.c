@@ -63,3 +63,8 @@ aur_result aur_radiosity_terminate(aur_radiosity *radiosity, const aur_radiosity
     free(before);
     return result;
 }
+
+aur_result aur_radiosity_options_init(aur_radiosity_options *options, aur_error *error) {
+    const aur_radiosity_options own = aur_radiosity_options_default();
+    return aur_description_write(&own, sizeof own, sizeof own, options, "aur_radiosity_options", error);
+}

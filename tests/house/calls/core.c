@@ -15,7 +15,7 @@ static void errors(void) {
     size_t line, column;
     require(strcmp(aur_error_place(error, &line, &column), "") == 0 && line == 0, "aur_error_place");
     char text[32];
-    require(aur_error_format(error, text, sizeof text) == strlen(text), "aur_error_format");
+    require(aur_error_format(error, sizeof text, text) == strlen(text), "aur_error_format");
     aur_error_destroy(error);
     aur_error_destroy(NULL);
     require(strlen(aur_result_string((aur_result)99)) > 0, "aur_result_string");
@@ -37,7 +37,7 @@ static void texts(void) {
     require(aur_format(text, sizeof text, "%g", 0.5) == 3 && strcmp(text, "0.5") == 0, "aur_format");
     const char *const names[] = {"sobol", "halton"};
     require(aur_nearest_name("sobal", 2, names) == names[0], "aur_nearest_name");
-    require(aur_list_names(2, names, text, sizeof text) == strlen("sobol, halton"), "aur_list_names");
+    require(aur_list_names(2, names, sizeof text, text) == strlen("sobol, halton"), "aur_list_names");
     char *json_text = NULL;
     size_t size = 0;
     aur_json json = {.stream = open_memstream(&json_text, &size)};

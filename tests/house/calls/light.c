@@ -55,6 +55,15 @@ static void pictures(void) {
     double value[4], mean[4];
     aur_image_metric metric;
     accept(aur_image_metric_from_name("rmse", &metric, &error), &error);
+    aur_tone tone;
+    aur_reflected reflected;
+    accept(aur_tone_from_name("filmic", &tone, &error), &error);
+    accept(aur_reflected_from_name("map", &reflected, &error), &error);
+    refuse(aur_tone_from_name("sepia", &tone, &error), AUR_ERROR_NAME, &error);
+    refuse(aur_reflected_from_name("mirrors", &reflected, &error), AUR_ERROR_NAME, &error);
+    require(strcmp(aur_tone_name(tone), "filmic") == 0 && aur_tone_name((aur_tone)9) == NULL, "tones");
+    require(strcmp(aur_reflected_name(reflected), "map") == 0 && aur_reflected_name((aur_reflected)9) == NULL,
+            "ways to find reflected light");
     require(strcmp(aur_image_metric_name(metric), "rmse") == 0, "aur_image_metric_name");
     accept(aur_image_compare(image, other, metric, value, &error), &error);
     require(value[3] == 0.0, "a picture comes back from its file");
@@ -196,7 +205,9 @@ static void asks(const aur_scene *scene) {
 }
 
 static void radiosity_solutions(const aur_scene *scene) {
-    aur_radiosity_options options = aur_radiosity_options_default();
+    aur_radiosity_options options = {.size = sizeof options};
+    accept(aur_radiosity_options_init(&options, &error), &error);
+    require(options.bounces == aur_radiosity_options_default().bounces, "the options of radiosity");
     aur_radiosity *radiosity = NULL;
     options.bounces = 0;
     refuse(aur_radiosity_create(scene, &options, &radiosity, &error), AUR_ERROR_ARGUMENT, &error);

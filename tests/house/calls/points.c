@@ -1,6 +1,8 @@
 /* Calls each function of pointset.h, sphere.h and quality.h, most of them with bad input too, and those of
  * quadrature.h that the tests of that room do not call. */
 #include <aureole/estimate.h>
+#include <aureole/exact.h>
+#include <aureole/integrate.h>
 #include <aureole/nearest.h>
 #include <aureole/quadrature.h>
 #include <aureole/quality.h>
@@ -151,26 +153,28 @@ static void rotations(void) {
 static void maps_and_lobes(void) {
     const double square[2] = {0.25, 0.5};
     double disk[2], direction[3], back[2];
-    aur_map_to_disk(AUR_MAP_CONCENTRIC, square, disk);
-    aur_map_from_disk(AUR_MAP_CONCENTRIC, disk, back);
+    aur_map_to_disk(AUR_MAP_CONCENTRIC, 1, square, disk, NULL);
+    aur_map_from_disk(AUR_MAP_CONCENTRIC, 1, disk, back, NULL);
     require(fabs(back[0] - 0.25) < 1e-14, "the disk and back");
-    aur_map_to_hemisphere(AUR_MAP_LAMBERT, square, direction);
-    aur_map_from_hemisphere(AUR_MAP_LAMBERT, direction, back);
+    aur_map_to_cap(AUR_MAP_LAMBERT, AUR_CAP_HEMISPHERE, 1, square, direction, NULL);
+    aur_map_from_cap(AUR_MAP_LAMBERT, AUR_CAP_HEMISPHERE, 1, direction, back, NULL);
     require(fabs(back[0] - 0.25) < 1e-14, "the hemisphere and back");
-    aur_map_to_sphere(AUR_MAP_LAMBERT, square, direction);
-    aur_map_from_sphere(AUR_MAP_LAMBERT, direction, back);
+    aur_map_to_cap(AUR_MAP_LAMBERT, AUR_CAP_SPHERE, 1, square, direction, NULL);
+    aur_map_from_cap(AUR_MAP_LAMBERT, AUR_CAP_SPHERE, 1, direction, back, NULL);
     require(fabs(back[0] - 0.25) < 1e-14, "the sphere and back");
-    aur_map_to_cap(AUR_MAP_LAMBERT, 0.5, square, direction);
-    aur_map_from_cap(AUR_MAP_LAMBERT, 0.5, direction, back);
+    aur_map_to_cap(AUR_MAP_LAMBERT, 0.5, 1, square, direction, NULL);
+    aur_map_from_cap(AUR_MAP_LAMBERT, 0.5, 1, direction, back, NULL);
     require(fabs(back[0] - 0.25) < 1e-14, "a cap and back");
+    refuse(aur_map_to_cap(AUR_MAP_LAMBERT, 2.5, 1, square, direction, &error), AUR_ERROR_ARGUMENT, &error);
+    refuse(aur_map_from_disk((aur_map)9, 1, disk, back, &error), AUR_ERROR_ARGUMENT, &error);
     require(aur_map_weight(AUR_MAP_POLAR, square) == 0.5, "aur_map_weight");
     aur_lobe lobe, density;
     refuse(aur_lobe_parse("round", &lobe, &error), AUR_ERROR_NAME, &error);
     accept(aur_lobe_parse("phong:3", &lobe, &error), &error);
     accept(aur_lobe_check(&lobe, &error), &error);
     double bent[3], again[3];
-    aur_lobe_warp(&lobe, direction, bent);
-    aur_lobe_unwarp(&lobe, bent, again);
+    aur_lobe_warp(&lobe, 1, direction, bent);
+    aur_lobe_unwarp(&lobe, 1, bent, again);
     require(fabs(again[2] - direction[2]) < 1e-14 && aur_lobe_pdf(&lobe, bent) > 0.0, "a lobe and back");
     accept(aur_lobe_optimal(&lobe, 1.5, &density, &error), &error);
     refuse(aur_lobe_optimal(&lobe, 6.0, &density, &error), AUR_ERROR_ARGUMENT, &error);
@@ -293,7 +297,28 @@ static void estimates(void) {
     refuse(aur_estimate(mean, NULL, &options, &found, NULL, &error), AUR_ERROR_ARGUMENT, &error);
 }
 
+/* Functions that fill options give what the inline ones do, and keep the size that they were told. */
+static void defaults(void) {
+    aur_estimate_options estimate = {.size = sizeof estimate};
+    const aur_estimate_options wanted = aur_estimate_options_default(3, 2);
+    aur_exact_options exact = {.size = sizeof exact};
+    aur_integrate_options integrate = {.size = sizeof integrate};
+    aur_weights_options solve = {.size = sizeof solve};
+    aur_weight_table_grid grid = {.size = sizeof grid};
+    accept(aur_estimate_options_init(3, 2, &estimate, &error), &error);
+    accept(aur_exact_options_init(AUR_DOMAIN_SPHERE, &exact, &error), &error);
+    accept(aur_integrate_options_init(AUR_DOMAIN_SPHERE, &integrate, &error), &error);
+    accept(aur_weights_options_init(&solve, &error), &error);
+    accept(aur_weight_table_grid_init(&grid, &error), &error);
+    require(memcmp(&estimate, &wanted, sizeof estimate) == 0 && exact.degree == AUR_DEGREE_LARGEST &&
+                integrate.replicates == 8 && solve.sum_constraint && grid.angle_count == 64,
+            "the functions that fill options");
+    grid.size = 0;
+    refuse(aur_weight_table_grid_init(&grid, &error), AUR_ERROR_ARGUMENT, &error);
+}
+
 int main(void) {
+    defaults();
     weights();
     estimates();
     names();
