@@ -20,6 +20,7 @@ foreach(module aureole-mpi aureole-assimp)
     endif()
 endforeach()
 install(DIRECTORY include/aureole DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
+install(FILES include/aureole_sampling.h DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
 
 # Completion, where the shells look for it.
 set(shell_files)

@@ -21,7 +21,20 @@ static inline aur_wide aur_phase128(aur_fraction128 fraction, uint64_t index) {
     return ((aur_wide)fraction.high << 64 | fraction.low) * index;
 }
 
+/* The upper half of a product; by halves where the compiler has no numbers of 128 bits. */
+static inline uint64_t aur_multiply_high(uint64_t a, uint64_t b) {
+#ifdef __SIZEOF_INT128__
+    __extension__ typedef unsigned __int128 wide;
+    return (uint64_t)((wide)a * b >> 64);
+#else
+    const uint64_t half = 0xffffffffu;
+    const uint64_t low = (a & half) * (b & half), cross = (a >> 32) * (b & half) + (low >> 32);
+    const uint64_t other = (a & half) * (b >> 32) + (cross & half);
+    return (a >> 32) * (b >> 32) + (cross >> 32) + (other >> 32);
+#endif
+}
+
 /* floor(index fraction 2^64) modulo 2^64, as a 64-bit word. */
 static inline uint64_t aur_phase(aur_fraction128 fraction, uint64_t index) {
-    return (uint64_t)(aur_phase128(fraction, index) >> 64);
+    return fraction.high * index + aur_multiply_high(fraction.low, index);
 }

@@ -6,7 +6,11 @@
 #include <stdint.h>
 
 static inline uint32_t aur_reverse_bits(uint32_t x) {
+#ifdef __GNUC__
     x = __builtin_bswap32(x);
+#else
+    x = x >> 24 | (x >> 8 & 0xff00u) | (x & 0xff00u) << 8 | x << 24;
+#endif
     x = (x >> 4 & 0x0f0f0f0fu) | (x & 0x0f0f0f0fu) << 4;
     x = (x >> 2 & 0x33333333u) | (x & 0x33333333u) << 2;
     return (x >> 1 & 0x55555555u) | (x & 0x55555555u) << 1;

@@ -126,7 +126,7 @@ static void one_pair(const aur_stream *stream, uint32_t pair, float u[2]) {
     uint32_t words[2];
     switch (stream->sampler->kind) {
     case AUR_SAMPLER_SOBOL:
-        sobol_pair(aur_reverse_bits(stream->index), hash, &u[0], &u[1]);
+        aur_sobol_pair(aur_reverse_bits(stream->index), hash, &u[0], &u[1]);
         return;
     case AUR_SAMPLER_RANDOM:
         random_pair(stream->index, hash, &u[0], &u[1]);

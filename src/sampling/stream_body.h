@@ -5,9 +5,10 @@
 #include "pointset/net_2d.h"
 #include "sampling/stream_kernels.h"
 
-/* An index is scrambled so that aligned blocks of a power of two are shuffled and moved: every such block is
- * a net (Burley 2020). In the reversed words that hashing wants, the first coordinate is the index itself. */
-static inline void sobol_pair(uint32_t reversed_index, uint64_t hash, float *u, float *v) {
+/* The pair of floats in [0,1) of a sample, from its index with reversed bits and a hash of all else. An index
+ * is scrambled so that aligned blocks of a power of two are shuffled and moved: every such block is a net
+ * (Burley 2020). In the reversed words that hashing wants, the first coordinate is the index itself. */
+static inline void aur_sobol_pair(uint32_t reversed_index, uint64_t hash, float *u, float *v) {
     const uint32_t index = aur_reverse_bits(aur_nested_hash(reversed_index, (uint32_t)aur_mix64(hash + 1)));
     const uint32_t x = aur_nested_hash(index, (uint32_t)hash);
     const uint32_t y = aur_nested_hash(aur_sobol_second_reversed(index), (uint32_t)(hash >> 32));
@@ -20,7 +21,7 @@ static inline void sobol_pairs(const aur_stream *stream, uint32_t first, float p
     const uint64_t pixel = stream->pixel;
     float u[AUR_STREAM_BLOCK], v[AUR_STREAM_BLOCK];
     for (uint32_t i = 0; i < AUR_STREAM_BLOCK; ++i)
-        sobol_pair(reversed, aur_hash2(pixel, first + i), &u[i], &v[i]);
+        aur_sobol_pair(reversed, aur_hash2(pixel, first + i), &u[i], &v[i]);
     for (size_t i = 0; i < AUR_STREAM_BLOCK; ++i) {
         pairs[i][0] = u[i];
         pairs[i][1] = v[i];
@@ -31,7 +32,7 @@ static inline void sobol_pixels(size_t count, const uint64_t *restrict pixels, u
                                 float *restrict u, float *restrict v) {
     const uint32_t reversed = aur_reverse_bits(index);
     for (size_t k = 0; k < count; ++k)
-        sobol_pair(reversed, aur_hash2(pixels[k], pair), &u[k], &v[k]);
+        aur_sobol_pair(reversed, aur_hash2(pixels[k], pair), &u[k], &v[k]);
 }
 
 static inline void random_pair(uint32_t index, uint64_t hash, float *u, float *v) {

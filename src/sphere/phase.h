@@ -2,6 +2,7 @@
  * multiplying by an index ever loses a digit. */
 #pragma once
 
+#include <math.h>
 #include <stdint.h>
 
 #include "pointset/fraction128.h"
@@ -13,7 +14,7 @@
 
 /* The fraction of `turns`, exact to 2^-64 turn. Any finite number is allowed. */
 static inline uint64_t aur_phase_from_turns(double turns) {
-    const double fraction = turns - __builtin_floor(turns);
+    const double fraction = turns - floor(turns);
     return fraction < 1.0 ? (uint64_t)(fraction * 0x1p64) : 0;
 }
 

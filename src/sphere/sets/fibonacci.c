@@ -126,7 +126,7 @@ static void fill(const void *data, uint64_t first, size_t count, double *xyz) {
         return;
     }
     for (size_t i = 0; i < count; ++i)
-        fill_some(&set->points, set->indices[first + i], 1, false, xyz + 3 * i);
+        aur_fibonacci_point(&set->points, set->indices[first + i], xyz + 3 * i);
 }
 
 const aur_native_set aur_native_fibonacci = {

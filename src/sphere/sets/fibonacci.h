@@ -1,9 +1,12 @@
 /* Spherical Fibonacci points from their index. */
 #pragma once
 
+#include <math.h>
 #include <stdbool.h>
 #include <stddef.h>
 #include <stdint.h>
+
+#include "sphere/phase.h"
 
 /* Point j has 1 - z = (j + offset) * step and the azimuth phase + j/Phi. */
 typedef struct aur_fibonacci {
@@ -16,6 +19,19 @@ typedef struct aur_fibonacci {
 enum { AUR_FIBONACCI_BLOCK = 64, AUR_FIBONACCI_WRAPPED = 7 };
 extern const double aur_golden_cosines[AUR_FIBONACCI_BLOCK + AUR_FIBONACCI_WRAPPED];
 extern const double aur_golden_sines[AUR_FIBONACCI_BLOCK + AUR_FIBONACCI_WRAPPED];
+
+/* One point, with the bits of the kernels. */
+static inline void aur_fibonacci_point(const aur_fibonacci *set, uint64_t index, double xyz[3]) {
+    const uint64_t k = index % AUR_FIBONACCI_BLOCK;
+    double sine, cosine;
+    aur_phase_sincos(set->phase + (index - k) * AUR_GOLDEN_PHASE, &sine, &cosine);
+    const double turn_cosine = aur_golden_cosines[k], turn_sine = aur_golden_sines[k];
+    const double depth = ((double)index + set->offset) * set->step;
+    const double radius = sqrt(depth * (2.0 - depth));
+    xyz[0] = radius * (cosine * turn_cosine - sine * turn_sine);
+    xyz[1] = radius * (sine * turn_cosine + cosine * turn_sine);
+    xyz[2] = 1.0 - depth;
+}
 
 /* Points first .. first+count-1 as x,y,z triples; `stream` writes past the caches, and
  * aur_lanes_end_stream is to follow. */

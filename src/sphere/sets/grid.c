@@ -23,12 +23,12 @@
 #include "sphere/phase.h"
 #include "sphere/sets/fibonacci.h"
 
-static const double inverse_phi = 0.61803398874989484820;
+static const double aur_inverse_phi = 0.61803398874989484820;
 
 enum { LEVEL_LIMIT = 24, JUDGED_LIMIT = 2048, LEGENDRE_TERMS = 200 };
 
 /* Squared length of b_k. */
-static double squared_length(size_t k, uint64_t base, double stretch) {
+static double aur_squared_length(size_t k, uint64_t base, double stretch) {
     double previous = 1.0; /* F_{-1}, F_0 */
     double fibonacci = 0.0;
     for (size_t i = 0; i < k; ++i) {
@@ -37,13 +37,13 @@ static double squared_length(size_t k, uint64_t base, double stretch) {
         fibonacci = next;
     }
     const double x = fibonacci / (double)base;
-    const double y = stretch * pow(inverse_phi, (double)k);
+    const double y = stretch * pow(aur_inverse_phi, (double)k);
     return x * x + y * y;
 }
 
 size_t aur_grid_shortest_vector(uint64_t base, double stretch) {
     size_t k = 0;
-    while (squared_length(k + 1, base, stretch) < squared_length(k, base, stretch))
+    while (aur_squared_length(k + 1, base, stretch) < aur_squared_length(k, base, stretch))
         ++k;
     return k;
 }
@@ -52,8 +52,8 @@ size_t aur_grid_first_shift(uint64_t base, double stretch) {
     const size_t k = aur_grid_shortest_vector(base, stretch);
     if (k == 0)
         return 1;
-    const double below = squared_length(k - 1, base, stretch);
-    const double above = squared_length(k + 1, base, stretch);
+    const double below = aur_squared_length(k - 1, base, stretch);
+    const double above = aur_squared_length(k + 1, base, stretch);
     return (below > above ? k - 1 : k + 1) % 3;
 }
 
@@ -62,9 +62,9 @@ typedef aur_grid_shift shift;
 aur_grid_shift aur_grid_shift_of(size_t s, size_t level) {
     const uint64_t turn = UINT64_C(1) << (64 - level);
     const uint64_t golden = AUR_GOLDEN_PHASE >> level;
-    if (s == 0)
-        return (shift){0.0, 0 - turn};
-    return (shift){ldexp(1.0, -(int)level), s == 1 ? golden : golden - turn};
+    const aur_grid_shift half = {s == 0 ? 0.0 : ldexp(1.0, -(int)level),
+                                 s == 0 ? 0 - turn : golden - (s == 1 ? 0 : turn)};
+    return half;
 }
 
 /* The mean distance of a point at height z to the points of the upper hemisphere: the Legendre series of |x -
