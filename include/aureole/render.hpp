@@ -1,0 +1,104 @@
+/* libaureole-render in C++17, as aureole.hpp is for libaureole: pictures, scenes and renders. */
+#ifndef AUREOLE_RENDER_HPP
+#define AUREOLE_RENDER_HPP
+
+#include <aureole/aureole.hpp>
+#include <aureole/render.h>
+
+namespace aureole {
+
+/* A picture (aur_image). */
+class image {
+  public:
+    image(std::size_t width, std::size_t height, std::size_t channels) {
+        aur_image *made = nullptr;
+        detail::call(aur_image_create, width, height, channels, &made);
+        owned_.reset(made);
+    }
+    explicit image(aur_image *made) noexcept : owned_(made) {
+    } /* takes it over */
+    static image read(const std::string &path) {
+        aur_image *made = nullptr;
+        detail::call(aur_image_read, path.c_str(), &made);
+        return image(made);
+    }
+
+    std::size_t width() const noexcept {
+        return aur_image_width(owned_.get());
+    }
+    std::size_t height() const noexcept {
+        return aur_image_height(owned_.get());
+    }
+    std::size_t channels() const noexcept {
+        return aur_image_channel_count(owned_.get());
+    }
+    /* Row by row from the top, channels side by side. */
+    span<float> data() noexcept {
+        return {aur_image_data(owned_.get()), width() * height() * channels()};
+    }
+    span<const float> data() const noexcept {
+        return {aur_image_data(owned_.get()), width() * height() * channels()};
+    }
+    void write(const std::string &path,
+               const aur_image_write_options &options = aur_image_write_options_default()) const {
+        detail::call(aur_image_write, path.c_str(), owned_.get(), &options);
+    }
+    const aur_image *get() const noexcept {
+        return owned_.get();
+    }
+
+  private:
+    detail::owner<aur_image, aur_image_destroy> owned_;
+};
+
+/* A scene that was read (aur_scene). It must outlive its renderers. */
+class scene {
+  public:
+    explicit scene(const std::string &path, const aur_scene_options &options = aur_scene_options_default()) {
+        aur_scene *made = nullptr;
+        detail::call(aur_scene_load, path.c_str(), &options, &made);
+        owned_.reset(made);
+    }
+    aur_scene_description describe() const {
+        aur_scene_description found{};
+        found.size = sizeof found;
+        detail::call(aur_scene_describe, owned_.get(), &found);
+        return found;
+    }
+    const aur_scene *get() const noexcept {
+        return owned_.get();
+    }
+
+  private:
+    detail::owner<aur_scene, aur_scene_destroy> owned_;
+};
+
+/* Makes pictures of one scene and keeps between them what they share (aur_renderer). */
+class renderer {
+  public:
+    explicit renderer(const scene &of) {
+        aur_renderer *made = nullptr;
+        detail::call(aur_renderer_create, of.get(), &made);
+        owned_.reset(made);
+    }
+    image render(const aur_render_options &options = aur_render_options_default(),
+                 aur_render_statistics *statistics = nullptr) {
+        aur_error found{};
+        aur_image *made = nullptr;
+        const aur_result result = aur_renderer_render(owned_.get(), &options, &made, statistics, &found);
+        image picture(made); /* that of a render that was cancelled is freed */
+        if (result != AUR_OK)
+            throw error(found);
+        return picture;
+    }
+    aur_renderer *get() const noexcept {
+        return owned_.get();
+    }
+
+  private:
+    detail::owner<aur_renderer, aur_renderer_destroy> owned_;
+};
+
+} // namespace aureole
+
+#endif
