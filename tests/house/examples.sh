@@ -13,7 +13,10 @@ for file in "$source_tree"/examples/*.c; do
   name=$(basename "$file" .c)
   [ "$(wc -l <"$file")" -lt 100 ] || fail "$name.c: 100 lines or more"
   grep -q '#include "' "$file" && fail "$name.c: includes more than <...>"
-  "$cc" -std=c17 -Wall -Wextra -Werror $flags -I "$source_tree/include" "$file" -o "$name" -L "$build" -laureole -lm \
+  # what it is linked with stands in its first comment
+  read -ra libraries <<<"$(sed -n "s|.*cc examples/$name.c \(.*\) -o $name .*|\1|p" "$file")"
+  [ ${#libraries[@]} -gt 0 ] || fail "$name.c does not say how it is compiled"
+  "$cc" -std=c17 -Wall -Wextra -Werror $flags -I "$source_tree/include" "$file" -o "$name" -L "$build" "${libraries[@]}" \
     -Wl,-rpath,"$build" || fail "$name.c does not compile"
   ./"$name" >"$name.txt" || fail "$name failed"
 done
@@ -35,4 +38,20 @@ awk '$1 == "charges" { exit !($2 < 1e-7) }' ambisonics.txt || fail "$(cat ambiso
 # The interval is a ten-thousandth of the factor, and the error within three of them.
 awk '{ value[$1] = $2 } END { off = value["off"]; half = value["interval"]
        exit !(half > 0 && half <= 1e-4 * value["factor"] && off <= 3 * half && off >= -3 * half) }' estimate.txt || fail "$(cat estimate.txt)"
+# The error of random axes, told by turning them, is within four of itself.
+awk '$1 == "random" { exit !($8 > 0 && ($6 - 180) < 4 * $8 && ($6 - 180) > -4 * $8) }' powder.txt || fail "$(cat powder.txt)"
+# One ray of 256 is .004; random directions are off by a standard deviation of .027.
+awk '{ off = $2 - 0.75 } off > 0.004 || off < -0.004 { exit 1 }' occlusion.txt || fail "$(cat occlusion.txt)"
+# The radiance is smooth: optimal weights take away a third of the error and more.
+awk '!($4 > 0 && $4 < 0.67 * $2) { exit 1 }' gather.txt || fail "$(cat gather.txt)"
+# 40 equal cells of the cap of 110 degrees have a radius of 15 degrees; at the rim covering is at most twice as much.
+awk '$1 == "covering" { good = $2 > 15 && $2 < 30 && $4 > 20 && $4 < 30 } END { exit !(good && NR == 41) }' views.txt || fail "$(tail -1 views.txt)"
+# 65536 equal cells have a radius of .45 degrees.
+awk '!($2 > 0.4 && $2 < 0.6 && $2 < $5 && $3 < $6) { exit 1 }' normals.txt || fail "$(cat normals.txt)"
+awk '{ off = $2 - $7; exit !(off < 3e-4 * $7 && off > -3e-4 * $7) }' environment.txt || fail "$(cat environment.txt)"
+# A set from a file has the bits of the arrays that it was written from.
+awk '{ $1 == "own" ? own = $2 $3 $4 : $1 == "file:own.npy" ? filed = $2 $3 $4 : 0 }
+     $4 - 0.25 > 2e-3 || 0.25 - $4 > 2e-3 { bad = 1 } END { exit !(own == filed && !bad && NR == 3) }' own_set.txt || fail "$(cat own_set.txt)"
+awk '{ off = $NF - 1 } off > 1e-9 || off < -1e-9 { bad = 1 } $1 == "floor" { up = $3 } $1 == "ceiling" { down = $2 }
+     END { exit bad || NR != 6 || up != down }' room.txt || fail "$(cat room.txt)"
 exit 0

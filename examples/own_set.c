@@ -1,0 +1,53 @@
+/* A sampler of your own beside the library's: judged by its measures, and handed to whatever takes the name
+ * of a set.
+ *
+ *     cc examples/own_set.c -laureole -lm -o own_set && ./own_set
+ *
+ * The sampler is the R sequence of the plastic number, shifted. Points go in as they lie in memory; what
+ * makes its own points by name takes them from a file, as the set `file:PATH`, from C, Python and the command
+ * line alike. Prints two measures of both, and an integral that is 1/4 by both. */
+#include <aureole/quality.h>
+#include <aureole/sphere.h>
+#include <math.h>
+#include <stdio.h>
+
+enum { COUNT = 1024 };
+
+static aur_error error;
+
+static void judge(const char *name, const aur_points_view *points) {
+    double discrepancy = NAN, distance = NAN, sum = 0.0;
+    aur_measure("l2-star", points, NULL, &discrepancy, &error);
+    aur_measure("min-distance", points, NULL, &distance, &error);
+    for (size_t i = 0; i < points->count; ++i)
+        sum += points->coordinates[points->stride * i] * points->coordinates[points->stride * i + 1];
+    printf("%s %.6f %.6f %.6f\n", name, discrepancy, distance, sum / (double)points->count);
+}
+
+int main(void) {
+    double own[2 * COUNT];
+    const double plastic = 1.32471795724474602596;
+    for (size_t i = 0; i < COUNT; ++i)
+        for (int d = 0; d < 2; ++d)
+            own[2 * i + d] = fmod(0.5 + (double)i / (d == 0 ? plastic : plastic * plastic), 1.0);
+    const aur_points_view view = aur_points_view_of(AUR_DOMAIN_SQUARE, COUNT, 2, own);
+    judge("own", &view);
+
+    aur_points_format format;
+    if (aur_points_format_from_name("npy", &format, &error) != AUR_OK ||
+        aur_points_write("own.npy", format, &view, NULL, &error) != AUR_OK)
+        return 1;
+    const char *const sets[] = {"file:own.npy", "sobol"};
+    for (int which = 0; which < 2; ++which) {
+        const aur_directions_options options = aur_directions_options_default(COUNT, AUR_DOMAIN_SQUARE);
+        const aur_points_request request = aur_points_request_default(&options);
+        aur_points *points = NULL;
+        if (aur_points_generate(sets[which], &request, &points, &error) != AUR_OK) {
+            fprintf(stderr, "%s\n", error.message);
+            return 1;
+        }
+        judge(sets[which], aur_points_look(points));
+        aur_points_destroy(points);
+    }
+    return 0;
+}
