@@ -1,7 +1,6 @@
 /* Loading scenes of 1.5 million triangles, from each kind of mesh file, against what cannot be saved: one
  * read of the file and Embree's own build of the same mesh. */
 #include <fcntl.h>
-#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -12,48 +11,11 @@
 #include <aureole/scene.h>
 
 #include "bench.h"
-#include "experimental.h"
+#include "grid.h"
 
 enum { SIDE = 866, QUICK_SIDE = 60, PATH_CAPACITY = 256 };
 
-typedef struct grid {
-    size_t side, vertex_count, triangle_count;
-    float *positions;
-    uint32_t *indices;
-} grid;
-
-/* Rounded so that a text of 6 digits gives the same mesh. */
-static float rounded(double x) {
-    return (float)(floor(x * 1e5 + 0.5) * 1e-5);
-}
-
-/* A waving square. */
-static bool grid_create(grid *g, size_t side) {
-    *g = (grid){.side = side, .vertex_count = (side + 1) * (side + 1), .triangle_count = 2 * side * side};
-    g->positions = malloc((3 * g->vertex_count + 1) * sizeof *g->positions);
-    g->indices = malloc(3 * g->triangle_count * sizeof *g->indices);
-    if (g->positions == NULL || g->indices == NULL)
-        return bench_fail("out of memory");
-    for (size_t i = 0; i < g->vertex_count; ++i) {
-        const double x = (double)(i % (side + 1)) / (double)side, y = (double)(i / (side + 1)) / (double)side;
-        const double place[3] = {x, y, 0.05 * sin(40.0 * x) * sin(40.0 * y)};
-        for (size_t k = 0; k < 3; ++k)
-            g->positions[3 * i + k] = rounded(place[k]);
-    }
-    for (size_t i = 0; i < side * side; ++i) {
-        const uint32_t a = (uint32_t)(i / side * (side + 1) + i % side), b = a + (uint32_t)side + 1;
-        const uint32_t quad[6] = {a, a + 1, b + 1, a, b + 1, b};
-        memcpy(&g->indices[6 * i], quad, sizeof quad);
-    }
-    return true;
-}
-
-static void grid_release(grid *g) {
-    free(g->positions);
-    free(g->indices);
-}
-
-static void write_obj(const grid *g, FILE *file) {
+static void write_obj(const bench_grid *g, FILE *file) {
     for (size_t i = 0; i < g->vertex_count; ++i)
         fprintf(file, "v %.5f %.5f %.5f\n", (double)g->positions[3 * i], (double)g->positions[3 * i + 1],
                 (double)g->positions[3 * i + 2]);
@@ -62,19 +24,7 @@ static void write_obj(const grid *g, FILE *file) {
                 g->indices[3 * i + 2] + 1);
 }
 
-static void write_ply(const grid *g, FILE *file) {
-    fprintf(file,
-            "ply\nformat binary_little_endian 1.0\nelement vertex %zu\nproperty float x\nproperty float y\n"
-            "property float z\nelement face %zu\nproperty list uchar int vertex_indices\nend_header\n",
-            g->vertex_count, g->triangle_count);
-    fwrite(g->positions, 3 * sizeof(float), g->vertex_count, file);
-    for (size_t i = 0; i < g->triangle_count; ++i) {
-        fputc(3, file);
-        fwrite(&g->indices[3 * i], sizeof(uint32_t), 3, file);
-    }
-}
-
-static void write_serialized(const grid *g, FILE *file) {
+static void write_serialized(const bench_grid *g, FILE *file) {
     const size_t vertex_bytes = 3 * g->vertex_count * sizeof(float);
     const size_t index_bytes = 3 * g->triangle_count * sizeof(uint32_t);
     const uint32_t flags = 0x1000, meshes = 1;
@@ -99,7 +49,7 @@ static void write_serialized(const grid *g, FILE *file) {
 }
 
 typedef struct load_context {
-    const grid *mesh;
+    const bench_grid *mesh;
     char file[PATH_CAPACITY], scene[PATH_CAPACITY];
     bool failed;
 } load_context;
@@ -131,30 +81,13 @@ static void read_file(load_context *context) {
         close(file);
 }
 
-static void build(const grid *g) {
-    const RTCDevice device = rtcNewDevice(aur_embree_configuration());
-    const RTCScene scene = rtcNewScene(device);
-    rtcSetSceneFlags(scene, RTC_SCENE_FLAG_ROBUST);
-    const RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
-    rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, g->positions, 0,
-                               3 * sizeof(float), g->vertex_count);
-    rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, g->indices, 0,
-                               3 * sizeof(uint32_t), g->triangle_count);
-    rtcCommitGeometry(geometry);
-    rtcAttachGeometry(scene, geometry);
-    rtcReleaseGeometry(geometry);
-    rtcCommitScene(scene);
-    rtcReleaseScene(scene);
-    rtcReleaseDevice(device);
-}
-
 static void read_and_build(void *data) {
     load_context *const context = data;
     read_file(context);
-    build(context->mesh);
+    bench_grid_build(context->mesh);
 }
 
-static bool write_files(const char *folder, const char *kind, void (*write)(const grid *, FILE *),
+static bool write_files(const char *folder, const char *kind, void (*write)(const bench_grid *, FILE *),
                         bool face_normals, load_context *context) {
     snprintf(context->file, sizeof context->file, "%s/mesh.%s", folder, kind);
     snprintf(context->scene, sizeof context->scene, "%s/%s.xml", folder, kind);
@@ -173,8 +106,8 @@ static bool write_files(const char *folder, const char *kind, void (*write)(cons
     return fclose(file) == 0;
 }
 
-static bool measure(const bench_options *options, const char *folder, const grid *mesh, const char *kind,
-                    void (*write)(const grid *, FILE *), bool face_normals) {
+static bool measure(const bench_options *options, const char *folder, const bench_grid *mesh,
+                    const char *kind, void (*write)(const bench_grid *, FILE *), bool face_normals) {
     load_context context = {.mesh = mesh};
     const bool written = write_files(folder, kind, write, face_normals, &context);
     if (written) {
@@ -196,14 +129,14 @@ static bool run(const bench_options *options) {
     char folder[] = "/tmp/aureole-bench-XXXXXX";
     if (mkdtemp(folder) == NULL)
         return bench_fail("no folder for files in /tmp");
-    grid mesh;
-    const bool good = grid_create(&mesh, options->quick ? QUICK_SIDE : SIDE) &&
+    bench_grid mesh;
+    const bool good = bench_grid_create(&mesh, options->quick ? QUICK_SIDE : SIDE) &&
                       measure(options, folder, &mesh, "obj", write_obj, true) &&
                       measure(options, folder, &mesh, "obj", write_obj, false) &&
-                      measure(options, folder, &mesh, "ply", write_ply, true) &&
-                      measure(options, folder, &mesh, "ply", write_ply, false) &&
+                      measure(options, folder, &mesh, "ply", bench_grid_write_ply, true) &&
+                      measure(options, folder, &mesh, "ply", bench_grid_write_ply, false) &&
                       measure(options, folder, &mesh, "serialized", write_serialized, true);
-    grid_release(&mesh);
+    bench_grid_release(&mesh);
     rmdir(folder);
     return good;
 }

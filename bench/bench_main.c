@@ -17,6 +17,7 @@ extern const bench bench_domains;
 extern const bench bench_gather;
 extern const bench bench_gather_weights;
 extern const bench bench_limits;
+extern const bench bench_large;
 extern const bench bench_load;
 extern const bench bench_measures;
 extern const bench bench_parallel;
@@ -36,6 +37,7 @@ static const bench *const benches[] = {
     &bench_gather,
     &bench_gather_weights,
     &bench_limits,
+    &bench_large,
     &bench_load,
     &bench_measures,
     &bench_parallel,

@@ -36,6 +36,19 @@ static double seconds(const struct timeval *time) {
     return (double)time->tv_sec + 1e-6 * (double)time->tv_usec;
 }
 
+static bool wait_for(pid_t child, const char *what, bench_child_cost *cost) {
+    int status;
+    struct rusage usage;
+    if (wait4(child, &status, 0, &usage) != child)
+        return bench_fail("%s was lost", what);
+    if (!WIFEXITED(status) || WEXITSTATUS(status) != 0)
+        return bench_fail("%s failed%s", what,
+                          WIFEXITED(status) && WEXITSTATUS(status) == 127 ? ": it is not there" : "");
+    *cost = (bench_child_cost){.cpu_seconds = seconds(&usage.ru_utime) + seconds(&usage.ru_stime),
+                               .peak_bytes = 1024.0 * (double)usage.ru_maxrss};
+    return true;
+}
+
 bool bench_run_child(const char *const *arguments, bench_child_cost *cost) {
     char program[4096];
     if (!program_folder(program, sizeof program - 16))
@@ -64,14 +77,15 @@ bool bench_run_child(const char *const *arguments, bench_child_cost *cost) {
         execv(program, vector);
         _exit(127);
     }
-    int status;
-    struct rusage usage;
-    if (wait4(child, &status, 0, &usage) != child)
-        return bench_fail("%s was lost", program);
-    if (!WIFEXITED(status) || WEXITSTATUS(status) != 0)
-        return bench_fail("%s failed%s", program,
-                          WIFEXITED(status) && WEXITSTATUS(status) == 127 ? ": it is not there" : "");
-    *cost = (bench_child_cost){.cpu_seconds = seconds(&usage.ru_utime) + seconds(&usage.ru_stime),
-                               .peak_bytes = 1024.0 * (double)usage.ru_maxrss};
-    return true;
+    return wait_for(child, program, cost);
+}
+
+bool bench_run_apart(bool (*work)(void *context), void *context, bench_child_cost *cost) {
+    fflush(stdout);
+    const pid_t child = fork();
+    if (child < 0)
+        return bench_fail("no process for a part of the bench");
+    if (child == 0)
+        _exit(work(context) ? 0 : 1);
+    return wait_for(child, "a part of the bench", cost);
 }

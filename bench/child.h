@@ -12,5 +12,8 @@ typedef struct bench_child_cost {
  * name is not among them). What it says of warnings is dropped. False after bench_fail. */
 bool bench_run_child(const char *const *arguments, bench_child_cost *cost);
 
+/* Runs the work in a process of its own. False after bench_fail, or where the work says so. */
+bool bench_run_apart(bool (*work)(void *context), void *context, bench_child_cost *cost);
+
 /* A folder beside this program for what is made once, made if it is not there; false after bench_fail. */
 bool bench_data_folder(char *folder, unsigned capacity);

@@ -1,15 +1,16 @@
 #!/usr/bin/env bash
-# Counts what loads of the Mitsuba scenes under a folder, and why the others do not: scripts/count_scenes.sh PROGRAM FOLDER.
+# Counts what loads of the Mitsuba scenes under a folder, and why the others do not: scripts/count_scenes.sh PROGRAM FOLDER [OPTION...].
 # Files without a <sensor> are parts of other scenes and are left out. A scene is read by `info`, which refuses what `render`
-# refuses; files that a scene names and that are not there are a reason of their own.
+# refuses, with the options that are given; files that a scene names and that are not there are a reason of their own.
 set -u
-[ $# = 2 ] || { sed -n '2,4s/^# //p' "$0"; exit 2; }
-program=$1
+[ $# -ge 2 ] || { sed -n '2,4s/^# //p' "$0"; exit 2; }
+program=$1 folder=$2
+shift 2
 reasons=$(mktemp) || exit 2
 trap 'rm -f "$reasons"' EXIT
 count=0 loaded=0
 while IFS= read -r -d '' scene; do
-  message=$("$program" info "$scene" 2>&1 >/dev/null)
+  message=$("$program" info "$scene" "$@" 2>&1 >/dev/null)
   status=$?
   [[ $message == *"the scene has no <sensor>"* ]] && continue
   count=$((count + 1))
@@ -22,7 +23,7 @@ while IFS= read -r -d '' scene; do
   printf '%s\n' "$message" | grep -v '^aureole: warning: [^ ]*: [^u]' | sed -E -n 's/^aureole: (warning: )?[^ ]*\.xml:[0-9]+:[0-9]+: //p' |
     sed -E "s/(; there are|; did you mean| \(looked in| \(nearest).*//; s/cannot find '[^']*'.*/a file that is not there/" |
     sort -u >>"$reasons"
-done < <(find "$2" -name '*.xml' -type f -print0 | sort -z)
+done < <(find "$folder" -name '*.xml' -type f -print0 | sort -z)
 echo
 echo "$loaded of $count scenes load"
 [ -s "$reasons" ] && sort "$reasons" | uniq -c | sort -rn

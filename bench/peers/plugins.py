@@ -35,6 +35,8 @@ TO_XYZ = np.array([[0.412453, 0.357580, 0.180423], [0.212671, 0.715160, 0.072169
 OURS = ".ours"
 PARTS = ("place", "stage")  # which other scenes include
 PARTICLES = 'type="directionalarea"'
+# Mitsuba's spectral mode divides by 106.75026, its RGB mode and ours by the sum over the curve of Y, 106.85703.
+SPECTRAL_EXCESS = 106.85703 / 106.75026
 SPECTRAL = ('type="regular"', 'type="irregular"', 'type="blackbody"')
 
 
@@ -80,6 +82,7 @@ def make_reference(path):
     further = pictures.shape[-1] - 3 if scene.integrator().class_name() == "AOVIntegrator" else 0
     names = scene.integrator().aov_names()[-further:] if further > 0 else []
     order = sorted(range(further), key=lambda k: names[k].rsplit(".", 1)[0])  # as in files: a name's channels stay in order
+    pictures /= SPECTRAL_EXCESS if mi.variant() == "scalar_spectral" else 1
     pictures = to_xyz(pictures[..., [0, 1, 2] + [3 + k for k in order]])
     variance = pictures.var(axis=0, ddof=1) * (THEIRS // RUNS)
     return ["R", "G", "B"] + [names[k] for k in order], pictures.mean(axis=0), variance

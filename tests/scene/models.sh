@@ -273,4 +273,12 @@ refused empty.glb 'cannot be read'
 mkdir -p inside && cp beside.gltf inside/ && sed -i 's/numbers.bin/..\/numbers.bin/' inside/beside.gltf
 "$aureole" render inside/beside.gltf -q --spp 1 --width 8 --confine -o confined.exr 2>said
 [ $? = 2 ] || fail "a model reads files outside of its folder where it is confined"
+
+# The models that are compared with Mitsuba are the scenes that stand for them there.
+for kind in gltf obj; do
+  for side in "" .ours; do
+    "$aureole" render "$2/bench/peers/models/$kind$side.xml" -q --spp 4 -o "peer$side.exr" || fail "$kind$side.xml fails"
+  done
+  "$aureole" compare peer.exr peer.ours.exr --metric relative-rmse --tolerance 1e-6 >said || fail "arch.$kind is not its scene: $(cat said)"
+done
 echo "models: the same pictures as XML"
