@@ -70,7 +70,7 @@ typedef struct aur_view_factors_options {
     size_t randomizations; /* independent ones, 2 .. 64, from which intervals come; 0: 8 */
     const char *set;       /* a SET of four dimensions: place and direction; NULL: "sobol" */
     uint64_t seed;
-    bool rays_only;    /* no closed forms: for comparisons */
+    bool rays_only;    /* no closed forms and no half planes: for comparisons */
     double confidence; /* of the intervals, in (0,1); 0: 0.95 */
     size_t threads;    /* 0: all */
     aur_progress progress;
@@ -88,7 +88,8 @@ typedef struct aur_view_factors aur_view_factors;
 
 /* The view factors between all rows of `facets`, which need not outlive them. Pairs of facets that certainly
  * see each other wholly have the contour integral: nothing that is there crosses the hull of the two, to the
- * precision of the mesh's coordinates. All others are counted along rays, with independent randomisations.
+ * precision of the mesh's coordinates. All others are counted along rays, with independent randomisations;
+ * the sky is measured in half planes, half as many as rays, which have all elevations.
  * Then the sampled factors are moved as little as possible (least squares, in proportion to their variances)
  * so that every row with sky and backs adds up to 1 and A_i F_ij = A_j F_ji; no factor is negative. The
  * result is a function of the facets and the options, whatever the threads. Errors: NAME, ARGUMENT (options

@@ -40,7 +40,7 @@ static const cli_option options[] = {
     {CLI_INTEGER(factor_command, factors.seed, "seed", "S", 0, INFINITY, "0", "of the randomisations")},
     {CLI_REAL(factor_command, factors.confidence, "confidence", "P", 0.01, 0.999999, "0.95",
               "of the intervals")},
-    {CLI_FLAG(factor_command, factors.rays_only, "rays-only", "no closed forms")},
+    {CLI_FLAG(factor_command, factors.rays_only, "rays-only", "no closed forms and no half planes")},
     {CLI_REAL(
         factor_command, light.reflectance, "radiosity", "RHO", 0, 1, NULL,
         "instead of factors each row's area, sky factor and radiosity when all facets reflect RHO: CSV, "

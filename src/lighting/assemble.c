@@ -136,7 +136,7 @@ static bool keep_row(const assembly *work, scratch *s, aur_upper_row *row) {
 }
 
 /* What leaves a row for the sky or for backs. */
-static void add_losses(const assembly *work, size_t row, const uint16_t *counts, double *exchange,
+static void add_losses(const assembly *work, size_t row, const double *counts, double *exchange,
                        double *half_width) {
     const size_t width = work->visits->randomizations;
     aur_moments moments = {0};

@@ -140,8 +140,14 @@ aur_result aur_closed_pairs_find(const aur_facets *facets, const aur_visits *vis
     *pairs = (aur_closed_pairs){.patch_count = count, .rows = calloc(count, sizeof *pairs->rows)};
     if (pairs->rows == NULL)
         return aur_fail_memory(error);
-    aur_box_tree tree;
-    aur_result result = aur_box_tree_create(facets, &tree, error);
+    aur_box_tree tree = {0};
+    aur_box *const boxes = malloc((facets->count + 1) * sizeof *boxes);
+    aur_result result = boxes != NULL ? AUR_OK : aur_fail_memory(error);
+    for (size_t i = 0; result == AUR_OK && i < facets->count; ++i)
+        boxes[i] = aur_box_of(3, (const double(*)[3])facets->corners[i]);
+    if (result == AUR_OK)
+        result = aur_box_tree_create(facets->count, boxes, &tree, error);
+    free(boxes);
     /* Coordinates are floats: what is nearer than they are rounded touches. */
     finding work = {facets, visits, &tree, pairs, 4e-7 * facets->reach, count <= SMALL_MESH};
     aur_parallel_options options = *parallel;

@@ -35,7 +35,7 @@ static uint32_t direction_key(double u, double v) {
     return spread_bits(x) | spread_bits(y) << 1;
 }
 
-static aur_result generate(const char *set, size_t count, uint64_t seed, double *points, aur_error *error) {
+aur_result aur_facet_points(const char *set, size_t count, uint64_t seed, double *points, aur_error *error) {
     aur_pointset_options options = aur_pointset_options_default(count);
     options.dimension = DIMENSIONS;
     options.scramble = AUR_SCRAMBLE_OWEN;
@@ -76,7 +76,7 @@ aur_result aur_facet_pattern_create(const char *set, size_t count, uint64_t seed
     if (points == NULL || order == NULL || numbers == NULL)
         result = aur_fail_memory(error);
     if (result == AUR_OK)
-        result = generate(set, count, seed, points, error);
+        result = aur_facet_points(set, count, seed, points, error);
     if (result == AUR_OK) {
         for (size_t i = 0; i < count; ++i)
             order[i] = (ordered_point){direction_key(points[DIMENSIONS * i], points[DIMENSIONS * i + 1]),
@@ -108,7 +108,7 @@ typedef struct emitter {
 } emitter;
 
 /* A few roundings of the coordinates, seen from the farthest corner of an edge. */
-static float inset_of(const aur_facets *facets, size_t facet) {
+float aur_facet_inset(const aur_facets *facets, size_t facet) {
     double size = 0.0, longest = 0.0;
     for (size_t c = 0; c < 3; ++c) {
         const double *const a = facets->corners[facet][c], *const b = facets->corners[facet][(c + 1) % 3];
@@ -128,7 +128,7 @@ static void make_emitter(const aur_facets *facets, size_t patch, double turn, em
     aur_patch_corners(facets, patch, corners);
     const aur_plane plane = aur_patch_plane(facets, patch);
     aur_frame3(plane.normal, x, y);
-    e->inset = inset_of(facets, aur_facet_of(facets, patch));
+    e->inset = aur_facet_inset(facets, aur_facet_of(facets, patch));
     const double c = cos(2.0 * AUR_PI * turn), s = sin(2.0 * AUR_PI * turn);
     for (int d = 0; d < 3; ++d) {
         e->corner[d] = (float)corners[0][d];

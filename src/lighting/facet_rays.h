@@ -18,6 +18,13 @@ typedef struct aur_facet_pattern {
     float *around[2]; /* cosine and sine of the angle about the normal */
 } aur_facet_pattern;
 
+/* points[count][4] of SET, scrambled where it can be. Errors: those of aur_pointset_create; UNSUPPORTED for
+ * fewer than 4 dimensions. */
+aur_result aur_facet_points(const char *set, size_t count, uint64_t seed, double *points, aur_error *error);
+
+/* Barycentric: how far places keep off a facet's edges, where other facets begin. */
+float aur_facet_inset(const aur_facets *facets, size_t facet);
+
 /* `count` points of SET. Errors: those of aur_pointset_create; UNSUPPORTED for fewer than 4 dimensions. */
 aur_result aur_facet_pattern_create(const char *set, size_t count, uint64_t seed, aur_facet_pattern *pattern,
                                     aur_error *error);

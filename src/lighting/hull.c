@@ -104,7 +104,7 @@ bool aur_hull_is_empty(const aur_hull *hull, const aur_facets *facets, const aur
             continue;
         }
         for (size_t k = node->first; node->count <= AUR_BOX_LEAF && k < node->first + node->count; ++k) {
-            const size_t other = tree->facets[k];
+            const size_t other = tree->items[k];
             if (other != facet[0] && other != facet[1] && !facet_is_outside(hull, facets, other))
                 return false;
         }

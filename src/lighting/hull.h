@@ -2,6 +2,7 @@
 #pragma once
 
 #include "lighting/box_tree.h"
+#include "lighting/facets.h"
 
 enum { AUR_HULL_CORNERS = 4, AUR_HULL_PLANES = 2 + 4 * AUR_HULL_CORNERS * AUR_HULL_CORNERS };
 

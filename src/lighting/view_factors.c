@@ -6,6 +6,7 @@
 
 #include "core/options.h"
 #include "lighting/exchange.h"
+#include "lighting/sky_slices.h"
 #include "lighting/view_factors.h"
 
 enum { MOST_RAYS = UINT16_MAX, DEFAULT_RAYS = 4096, DEFAULT_RANDOMIZATIONS = 8, MOST_RANDOMIZATIONS = 64 };
@@ -109,6 +110,31 @@ static void warn(const aur_facets *facets, const aur_view_factors *made, const a
             balance->unbalanced, balance->after);
 }
 
+/* A half plane costs about as much as this many rays. */
+enum { RAYS_A_SLICE = 2 };
+
+/* Replaces what rays say of the sky by what half planes do, which find it better in less time. A mesh that no
+ * ray has left is closed, but for the gaps by which rounding leaves its facets. */
+static aur_result measure_sky(const aur_facets *facets, const aur_view_factors_options *options,
+                              const aur_parallel_options *parallel, aur_visits *visits, aur_error *error) {
+    const size_t numbers = visits->patch_count * visits->randomizations;
+    bool open = false;
+    for (size_t i = 0; i < numbers; ++i)
+        open |= visits->sky[i] > 0.0;
+    if (!open)
+        return AUR_OK;
+    aur_sky_slices *slices;
+    aur_result result =
+        aur_sky_slices_create(facets, options->set, (visits->rays + RAYS_A_SLICE - 1) / RAYS_A_SLICE,
+                              visits->randomizations, options->seed, &slices, error);
+    if (result == AUR_OK)
+        result = aur_sky_slices_measure(slices, parallel, visits->sky, error);
+    for (size_t i = 0; i < numbers && result == AUR_OK; ++i)
+        visits->sky[i] *= (double)visits->rays;
+    aur_sky_slices_destroy(slices);
+    return result;
+}
+
 static aur_result compute(const aur_facets *facets, const aur_view_factors_options *options,
                           aur_view_factors *made, aur_error *error) {
     const aur_parallel_options parallel = {.threads = options->threads, .progress = options->progress};
@@ -124,6 +150,8 @@ static aur_result compute(const aur_facets *facets, const aur_view_factors_optio
                                           options->seed, &pattern, error);
     if (result == AUR_OK)
         result = aur_visits_trace(facets, &pattern, options->randomizations, &parallel, &visits, error);
+    if (result == AUR_OK && !options->rays_only)
+        result = measure_sky(facets, options, &parallel, &visits, error);
     if (result == AUR_OK && !options->rays_only) {
         aur_closed_pairs_release(&closed);
         result = aur_closed_pairs_find(facets, &visits, &parallel, &closed, error);

@@ -15,7 +15,7 @@ typedef struct aur_visits {
     size_t patch_count, randomizations;
     size_t rays; /* of one randomisation */
     aur_visits_row *rows;
-    uint16_t *sky, *back; /* [patch_count][randomizations] */
+    double *sky, *back; /* [patch_count][randomizations], in rays */
     /* The rows that a patch stands in: those of sources[starts[i]] .. sources[starts[i + 1] - 1], at
      * places[...] of theirs. */
     size_t *starts;
