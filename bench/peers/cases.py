@@ -331,7 +331,7 @@ def cycles(shapes, emitters, points, samples, folder):
         elif shape["kind"] == "cube":
             corner = [[(-1, 1)[k >> d & 1] for d in range(3)] for k in range(8)]
             faces = [(0, 4, 6, 2), (0, 1, 5, 4), (0, 2, 3, 1), (1, 3, 7, 5), (2, 6, 7, 3), (4, 5, 7, 6)]
-            mesh("cube", corner, [f[::-1] if not shape["flip"] else f for f in faces], made)
+            mesh("cube", corner, [f[::-1] if shape["flip"] else f for f in faces], made)
         else:
             rows, columns = 256, 512
             corner = [(c[0] + r * math.sin(math.pi * i / rows) * math.cos(2 * math.pi * k / columns),
