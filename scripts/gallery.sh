@@ -15,7 +15,7 @@ mkdir -p "$out" "$small"
 # name | scene | integrator | samples a pixel | exposure | tone | small copy: downsampled by | title
 gallery() {
   cat <<'ROWS'
-room|room/room.xml|finalgather:diffuse_samples=128,glossy_samples=128|64|0.9|filmic|2|Tea and fruit by a window
+room|room/room.xml|finalgather:diffuse_samples=128,glossy_samples=128|64|0.9|filmic|1|Tea and fruit by a window
 statue|statue/statue.xml|finalgather:diffuse_samples=128,glossy_samples=128|64|0.5|filmic|2|A gilded figure under the sky
 parade|parade/parade.xml|finalgather:diffuse_samples=128,glossy_samples=128,photons=1500000|64|1.3|filmic|2|A parade of toy cars
 figure|cornell-box/figure.xml|finalgather:diffuse_samples=128,glossy_samples=128|64|1.6|filmic|2|A carved hare in the Cornell box
@@ -51,7 +51,7 @@ done < <(gallery)
   echo "The bundled scenes ([how they are made](scenes.md)), rendered by \`scripts/gallery.sh\`, which writes this page. CPU seconds"
   echo "are those of the whole program on all threads, loading the scene and its photon map included, on"
   echo "$(awk -F': ' '/^model name/ { print $2; exit }' /proc/cpuinfo) while other work ran:"
-  echo "$(cat "$out"/*.seconds | awk '{ sum += $1 } END { print sum }') in all. The pictures are halved copies."
+  echo "$(cat "$out"/*.seconds | awk '{ sum += $1 } END { print sum }') in all. The first picture is of full size, the others are halved copies."
   while IFS='|' read -r name scene integrator spp exposure tone shrink title; do
     [ -f "$out/$name.seconds" ] || continue
     triangles=$("$aureole" info "scenes/$scene" -q | awk '$1 == "triangles" { print $2 }')

@@ -173,6 +173,10 @@ static int help_on_row(const aur_table *kind, const char *name, report_format fo
     return refuse_name(&list, kind->kind, name, topic);
 }
 
+int cli_print_thing(const char *kind, const char *name, report_format format) {
+    return help_on_row(cli_find_table(kind), name, format);
+}
+
 static int help_on_verb(const cli_verb *const *verbs, const char *name, report_format format, bool or_kind) {
     name_list list = {0};
     for (; *verbs != NULL; ++verbs) {

@@ -12,5 +12,7 @@ const aur_table *cli_find_table(const char *kind);
  * "Spherical_Fibonacci:offset=0" is spherical-fibonacci. Names of files that exist stay as they are. */
 void cli_forgive_names(cli_call *call);
 
+/* What `aureole help KIND NAME` prints, of a kind that there is; returns the exit status. */
+int cli_print_thing(const char *kind, const char *name, report_format format);
 /* What `aureole help VERB` prints; returns CLI_SUCCESS. */
 int cli_print_verb_help(const cli_verb *verb);

@@ -1,6 +1,7 @@
 /* aureole measure: quality figures of points. */
 #include "cli/measure.h"
 #include "cli/listing.h"
+#include "cli/plot.h"
 
 #include <aureole/text.h>
 #include <math.h>
@@ -29,7 +30,7 @@ static const cli_option options[] = {
         "relative error allowed to energies of many points, which are done sooner then, and to spectra; "
         "adds columns with bounds of the errors")},
     {CLI_TEXT(cli_measure_arguments, plot, "plot", "FILE", NULL,
-              "draw the figures against N with fitted slopes, .svg or .png (needs gnuplot)"),
+              "draw the figures against N with fitted slopes, .svg, .pdf or .png (needs gnuplot)"),
      .content = "file"},
     {.key = {0}}};
 
@@ -52,6 +53,8 @@ static aur_domain choose_domain(const cli_measure_arguments *arguments) {
 static bool complete(cli_measure_arguments *arguments) {
     if (arguments->source_count == 0)
         return cli_bad_usage("measure: a file or a set is missing: try 'aureole help measure'"), false;
+    if (arguments->plot != NULL && !cli_plot_can(arguments->plot))
+        return false;
     if (arguments->metrics.count == 0)
         return cli_bad_usage("measure: --metric is missing: 'aureole measure --list' lists them"), false;
     size_t series = 0;

@@ -45,6 +45,57 @@ static power_law fit(const cli_measure_arguments *arguments, const cli_measure_r
     return (power_law){count, slope, exp((y - slope * x) / n)};
 }
 
+/* From the least to the largest value of what is drawn. */
+typedef struct axis {
+    double low, high;
+} axis;
+
+static void widen(axis *a, double value) {
+    a->low = fmin(a->low, value);
+    a->high = fmax(a->high, value);
+}
+
+/* A logarithmic axis with a margin on both sides, and so large a part of its length `below` the values. */
+static void print_axis(FILE *script, char name, axis a, double below) {
+    const double length = fmax(log10(a.high / a.low), 0.1);
+    const double low = log10(a.low) - (0.04 + below / (1.0 - below)) * length;
+    const double high = log10(a.high) + 0.04 * length;
+    fprintf(script, "set %crange [%.17g:%.17g]\nset %ctics (", name, pow(10.0, low), pow(10.0, high), name);
+    /* As few numbers as there can be, but two of them. */
+    static const char *const choices[] = {"1", "125", "123456789"};
+    double tics[64];
+    size_t count = 0;
+    for (size_t c = 0; c < 3 && count < 2; ++c) {
+        count = 0;
+        for (int power = (int)floor(low); power <= high; ++power)
+            for (const char *digit = choices[c]; *digit != '\0' && count < 64; ++digit) {
+                const double tic = (*digit - '0') * pow(10.0, power);
+                if (log10(tic) >= low && log10(tic) <= high)
+                    tics[count++] = tic;
+            }
+    }
+    for (size_t t = 0; t < count; ++t)
+        fprintf(script, "%s%.17g", t > 0 ? ", " : "", tics[t]);
+    fputs(")\n", script);
+}
+
+/* The axes of a panel: tight about its values, with room for the legend below them. */
+static void print_axes(const cli_measure_arguments *arguments, const cli_measure_rows *rows, size_t metric,
+                       FILE *script) {
+    axis x = {INFINITY, 0.0}, y = x;
+    for (size_t r = 0; r < rows->count; ++r) {
+        const double value = figure_of(arguments, &rows->items[r], metric, 0);
+        if (!drawable(value))
+            continue;
+        widen(&x, (double)rows->items[r].count);
+        widen(&y, value);
+        if (arguments->seed_count > 0)
+            widen(&y, value + figure_of(arguments, &rows->items[r], metric, 1));
+    }
+    print_axis(script, 'x', x, 0.0);
+    print_axis(script, 'y', y, fmin(0.03 + 0.07 * (double)arguments->source_count, 0.6));
+}
+
 static void print_title(cli_plot *plot, const char *source, const power_law *law) {
     fputs("title '", plot->script);
     cli_plot_text(plot, source);
@@ -58,6 +109,7 @@ static void draw_panel(const cli_measure_arguments *arguments, const cli_measure
     FILE *const script = plot->script;
     const bool spread = arguments->seed_count > 0;
     const char *separator = "plot ";
+    print_axes(arguments, rows, metric, script);
     fputs("set ylabel '", script);
     cli_plot_text(plot, cli_metric(arguments, metric));
     fputs("' noenhanced\n", script);
@@ -113,12 +165,18 @@ int cli_measure_plot(const cli_measure_arguments *arguments, const cli_measure_r
             return CLI_BAD_INPUT;
     cli_plot plot;
     const int height = 120 + 320 * (int)arguments->metrics.count;
-    if (!cli_plot_open(arguments->plot, 900, height, &plot))
+    if (!cli_plot_open(arguments->plot, 640, height, &plot))
         return CLI_BAD_INPUT;
-    fputs("set logscale xy\nset grid\nset xlabel 'N'\nset key outside\nset format y '%.0e'\nset "
-          "pointsize 0.7\n"
-          "set offsets graph 0.03, graph 0.03, graph 0.03, graph 0.03\n",
-          plot.script);
+    /* Colours that differ in print and for the colour-blind (Okabe and Ito 2008), each with a mark of its
+     * own. */
+    fputs(
+        "set logscale xy\nset grid\nset xlabel 'N'\nset key inside left bottom Left reverse\nset format "
+        "'%g'\n"
+        "set pointsize 0.7\nset linetype 1 lc rgb '#0072b2' pt 7\nset linetype 2 lc rgb '#d55e00' pt 5\n"
+        "set linetype 3 lc rgb '#009e73' pt 9\nset linetype 4 lc rgb '#cc79a7' pt 11\n"
+        "set linetype 5 lc rgb '#000000' pt 13\nset linetype 6 lc rgb '#56b4e9' pt 6\n"
+        "set linetype 7 lc rgb '#e69f00' pt 4\nset linetype 8 lc rgb '#666666' pt 8\nset linetype cycle 8\n",
+        plot.script);
     fprintf(plot.script, "set multiplot layout %zu,1\n", arguments->metrics.count);
     for (size_t m = 0; m < arguments->metrics.count; ++m)
         draw_panel(arguments, rows, m, &plot);

@@ -50,17 +50,26 @@ static int start(cli_plot *plot, int picture) {
     return failure != 0 ? failure : ENOMEM;
 }
 
+/* What gnuplot calls the format, or NULL, which is said. */
+static const char *terminal_of(const char *path) {
+    static const char *const terminals[][2] = {{".svg", "svg"}, {".pdf", "pdfcairo"}, {".png", "pngcairo"}};
+    for (size_t i = 0; i < sizeof terminals / sizeof terminals[0]; ++i)
+        if (ends_with(path, terminals[i][0]))
+            return terminals[i][1];
+    cli_bad_usage("--plot: '%s' must end in .svg, .pdf or .png", path);
+    return NULL;
+}
+
+bool cli_plot_can(const char *path) {
+    return terminal_of(path) != NULL;
+}
+
 bool cli_plot_open(const char *path, int width, int height, cli_plot *plot) {
     *plot = (cli_plot){.path = path};
-    const bool pdf = ends_with(path, ".pdf");
-    const char *const terminal = ends_with(path, ".svg")   ? "svg"
-                                 : pdf                     ? "pdfcairo"
-                                 : ends_with(path, ".png") ? "pngcairo"
-                                                           : NULL;
-    if (terminal == NULL) {
-        cli_bad_usage("--plot: '%s' must end in .svg, .pdf or .png", path);
+    const char *const terminal = terminal_of(path);
+    if (terminal == NULL)
         return false;
-    }
+    const bool pdf = strcmp(terminal, "pdfcairo") == 0;
     if (aur_ranks_rank() != 0) { /* rank 0 draws */
         plot->script = fopen("/dev/null", "w");
         return plot->script != NULL;

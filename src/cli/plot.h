@@ -12,6 +12,8 @@ typedef struct cli_plot {
     const char *path;
 } cli_plot;
 
+/* Whether a picture can be drawn into `path`, which must end in .svg, .pdf or .png; else says so. */
+bool cli_plot_can(const char *path);
 /* Starts gnuplot with a terminal for `path`, which ends in .svg, .pdf or .png, of that many pixels. On
  * failure prints the error and returns false. */
 bool cli_plot_open(const char *path, int width, int height, cli_plot *plot);

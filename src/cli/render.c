@@ -24,7 +24,7 @@ typedef struct render_command {
     cli_checkpoint checkpoint;
     cli_watch watch;
     cli_denoise denoise;
-    bool statistics, json;
+    bool statistics, json, output_by_default;
     cli_common common;
 } render_command;
 
@@ -263,6 +263,21 @@ static void write_partial(const char *wanted, const aur_image *image) {
         cli_fail(&error);
 }
 
+/* Where the picture is, unless -o said it, and that it is black, which nobody wants. */
+static void say_picture(const render_command *command, const aur_image *image) {
+    size_t channels[3];
+    const size_t pixels = aur_image_width(image) * aur_image_height(image);
+    const size_t per_pixel = aur_image_channel_count(image);
+    bool black = command->options.shard_count == 0 && aur_image_color_channels(image, channels);
+    for (size_t i = 0; i < pixels * 3 && black; ++i)
+        black = aur_image_data(image)[i / 3 * per_pixel + channels[i % 3]] == 0.0f;
+    if (black)
+        aur_print(stderr, "aureole: warning: %s is black: no light of the scene reaches the camera\n",
+                  command->output);
+    if (command->output_by_default)
+        aur_print(stderr, "aureole: the picture is in %s\n", command->output);
+}
+
 static int render(const char *path, render_command *command, cli_errors *errors) {
     aur_error error = {0};
     if (check_folder(command->output, &error) != AUR_OK ||
@@ -303,6 +318,8 @@ static int render(const char *path, render_command *command, cli_errors *errors)
         write_partial(command->output, image);
     if (result == AUR_OK && command->options.shard_count == 0)
         result = aur_image_write(command->output, image, NULL, &error);
+    if (result == AUR_OK && !command->common.quiet && !cli_is_wish(&command->wish)) /* which says it itself */
+        say_picture(command, image);
     if (result == AUR_OK)
         result = cli_denoise_keep(&command->denoise, command->output, image, &error);
     if (result == AUR_OK && errors != NULL)
@@ -354,7 +371,8 @@ static int run(const cli_call *call) {
     if (wrong != NULL)
         return cli_bad_usage("%s", wrong);
     default_output(scene, &command->options, sizeof output, output);
-    if (command->output == NULL)
+    command->output_by_default = command->output == NULL;
+    if (command->output_by_default)
         command->output = output;
     if (command->options.shard_count == 0 && !check_output(command->output))
         return CLI_BAD_INPUT;

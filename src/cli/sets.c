@@ -3,6 +3,7 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "cli/kinds.h"
 #include "cli/listing.h"
 
 /* Where a set's points can be: sets of the square come to the other domains by a map. */
@@ -36,6 +37,9 @@ static void add_keys(report_table *table, const aur_row *row) {
 }
 
 static int run(const cli_call *call) {
+    const report_format format = ((const cli_common *)call->options)->format;
+    if (call->operand_count > 0)
+        return cli_print_thing("set", call->operands[0], format);
     static const char *const columns[] = {"set",        "keys",   "domains", "sizes",
                                           "extensible", "source", "summary"};
     report_table *const table = report_create(7, columns);
@@ -51,13 +55,15 @@ static int run(const cli_call *call) {
         report_text(table, set->row.source);
         report_text(table, set->row.summary);
     }
-    return cli_finish_listing(table, ((const cli_common *)call->options)->format);
+    return cli_finish_listing(table, format);
 }
 
 const cli_verb cli_verb_sets = {
     .name = "sets",
     .summary = "list the point sets: keys, domains, sizes, extensible or not, source",
     .notes = "A set is named NAME[:key=value[,key=value...]] or file:PATH.",
+    .operands = {{"SET", "show the keys of this one, as aureole help set does", .optional = true,
+                  .content = "set"}},
     .groups = {{cli_format_option, 0}},
     .size = sizeof(cli_common),
     .run = run,

@@ -58,7 +58,7 @@ static const cli_option options[] = {
               "write x,y,z,w there as CSV"),
      .letter = 'o', .key.computed = true, .content = "file"},
     {CLI_TEXT(cli_weights_arguments, plot, "plot", "FILE", NULL,
-              "draw the samples coloured by weight, .svg or .png (needs gnuplot)"),
+              "draw the samples coloured by weight, .svg, .pdf or .png (needs gnuplot)"),
      .content = "file"},
     {CLI_TEXT(cli_weights_arguments, table, "table", "FILE", NULL,
               "build a table of optimal weights for two lobes (oswa) or for one ggx lobe, or read one with "
@@ -209,7 +209,8 @@ static int run(const cli_call *call) {
     if (arguments->look_up && (arguments->table == NULL || arguments->report || arguments->plot != NULL))
         return cli_bad_usage("--lookup: needs a table to read, --table FILE, and neither reports nor draws");
     if (call->operand_count == 0 && !arguments->look_up)
-        return cli_bad_usage("weights: a set or a file is missing: 'aureole sets' lists the sets");
+        return cli_bad_usage("weights: a set or a file is missing: 'aureole sets' lists the sets (--table "
+                             "FILE is read by --lookup DEGREES)");
     if (call->operand_count > 0 && complete(call, arguments) != CLI_SUCCESS)
         return CLI_BAD_INPUT;
     arguments->method_name = method_name(arguments->method);

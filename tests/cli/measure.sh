@@ -13,6 +13,11 @@ refuses() { local words=$1; shift; local out; out=$("$@" 2>&1 >stdout); local co
   [ "$(wc -l <<<"$out")" = 1 ] || fail "$* says more than one line: $out"
   grep -qF -- "$words" <<<"$out" || fail "$* does not say '$words': $out"; }
 rm -f ./*.csv
+# Points are read from CSV and NPY; other formats that are written say so.
+for format in ply json svg png; do
+  "$program" points spherical-fibonacci -n 8 --domain sphere -o "foreign.$format" || fail "points in $format"
+  refuses "read from CSV and NPY, not from ${format^^}" "$program" measure "foreign.$format" --metric energy
+done
 measure="$program measure"
 
 prints 0.00498051 $measure spherical-fibonacci -n 1024 --domain sphere --metric energy

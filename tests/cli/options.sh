@@ -36,7 +36,11 @@ refuses "--map: must be one of lambert, concentric, azimuthal, polar, not 'lambe
 refuses "--to: must be one of exr, pfm, hdr, png, not 'gif'" convert a b --to gif
 refuses "-D: 'width' is not of the form name=value" info a.xml -D width
 refuses "unexpected argument 'halton'" points sobol halton -n 4
-refuses "unexpected argument 'x'" sets x
+refuses "unexpected argument 'x'" sets sobol x
+refuses "unknown set 'sobl'; did you mean 'sobol'?" sets sobl
+refuses "must end in .svg, .pdf or .png" measure sobol -n 64 -m star --plot x.eps
+[ ! -s out ] || fail "measured before the plot's format was refused"
+"$aureole" sets halton | grep -q "permute" || fail "sets halton"
 
 # Abbreviated, joined, in any order, after --, and the last one counts.
 "$aureole" points -n4 --scr=none --seed 7 -q -o - -- sobol >new || fail "forms of options"

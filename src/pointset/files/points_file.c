@@ -173,9 +173,23 @@ static aur_result interpret(const char *path, const aur_domain *wanted, aur_matr
     return AUR_OK;
 }
 
+/* The name of a format that points are written in but not read from, or NULL. */
+static const char *foreign_format(size_t size, const char *data) {
+    static const char *const formats[][2] = {{"ply\n", "PLY"},      {"{", "JSON"},   {"[", "JSON"},
+                                             {"PK\x03\x04", "NPZ"}, {"<svg", "SVG"}, {"\x89PNG", "PNG"}};
+    for (size_t i = 0; i < sizeof formats / sizeof formats[0]; ++i)
+        if (size >= strlen(formats[i][0]) && memcmp(data, formats[i][0], strlen(formats[i][0])) == 0)
+            return formats[i][1];
+    return NULL;
+}
+
 /* `data`, which is changed, ends with a zero behind its `size` bytes. */
 static aur_result parse_points(const char *name, size_t size, char *data, const aur_domain *wanted,
                                aur_points **points, aur_error *error) {
+    const char *const foreign = foreign_format(size, data);
+    if (foreign != NULL)
+        return aur_fail_at(error, (aur_location){.file = name}, AUR_ERROR_FORMAT,
+                           "points are read from CSV and NPY, not from %s", foreign);
     aur_matrix matrix;
     aur_result result = aur_npy_recognize(data, size) ? aur_npy_parse(name, data, size, &matrix, error)
                                                       : aur_csv_parse(name, data, size, &matrix, error);

@@ -79,13 +79,15 @@ static aur_result fail(const aur_xml_document *document, aur_location location, 
     char places[700] = "", command[160] = "";
     folder in, first;
     for (size_t i = 0, used = 0; folder_at(document, location.file, i, &in); ++i) {
+        if (in.length == 0)
+            in = (folder){2, "./"};
         if (i == 0)
             first = in;
-        if (i == 1 && in.length == first.length && strncmp(in.path, first.path, in.length) == 0)
-            continue; /* the name stands in the main file: one folder, not two */
+        if (i > 0 && in.length == first.length && strncmp(in.path, first.path, in.length) == 0)
+            continue; /* the main file is here, or names the file itself: one folder, not two */
         if (used < sizeof places)
             used += (size_t)snprintf(places + used, sizeof places - used, "%s%.*s", i > 0 ? ", " : "",
-                                     in.length > 0 ? (int)in.length : 2, in.length > 0 ? in.path : "./");
+                                     (int)in.length, in.path);
         if (command[0] == '\0' && document->confines == NULL)
             read_command(in, name, command, sizeof command);
     }
