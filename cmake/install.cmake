@@ -2,21 +2,25 @@
 include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)
 
-add_library(Aureole::aureole ALIAS aureole)
-install(TARGETS ${libraries} EXPORT aureole-targets INCLUDES DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
+# Components are the packages that cmake/packages.cmake makes; `cmake --install` lays down all of them.
+set(CMAKE_INSTALL_DEFAULT_COMPONENT_NAME dev)
+foreach(library IN LISTS libraries)
+    string(REPLACE aureole lib component ${library}) # lib, lib-render
+    install(TARGETS ${library} EXPORT aureole-targets
+            LIBRARY COMPONENT ${component} NAMELINK_COMPONENT dev INCLUDES DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
+endforeach()
 
 # Program and libraries find each other wherever the tree is moved to.
 if(AUREOLE_RENDER)
-    add_library(Aureole::render ALIAS aureole-render)
     set_target_properties(aureole-render PROPERTIES EXPORT_NAME render INSTALL_RPATH "$ORIGIN")
     file(RELATIVE_PATH bin_to_lib "/${CMAKE_INSTALL_BINDIR}" "/${CMAKE_INSTALL_LIBDIR}")
     set_target_properties(aureole-program PROPERTIES INSTALL_RPATH "$ORIGIN/${bin_to_lib}")
-    install(TARGETS aureole-program)
+    install(TARGETS aureole-program COMPONENT program)
 endif()
 foreach(module aureole-mpi aureole-assimp)
     if(TARGET ${module})
         set_target_properties(${module} PROPERTIES INSTALL_RPATH "$ORIGIN")
-        install(TARGETS ${module} DESTINATION ${CMAKE_INSTALL_LIBDIR})
+        install(TARGETS ${module} DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT lib-render)
     endif()
 endforeach()
 install(DIRECTORY include/aureole DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
@@ -35,7 +39,7 @@ foreach(shell_file IN LISTS shell_files)
         COMMAND "${CMAKE_COMMAND}" -E make_directory "${PROJECT_BINARY_DIR}/completion"
         COMMAND aureole-program completion ${CMAKE_MATCH_1} > "${script}")
     list(APPEND completion_scripts "${script}")
-    install(FILES "${script}" DESTINATION ${CMAKE_INSTALL_DATAROOTDIR}/${CMAKE_MATCH_2})
+    install(FILES "${script}" DESTINATION ${CMAKE_INSTALL_DATAROOTDIR}/${CMAKE_MATCH_2} COMPONENT program)
 endforeach()
 add_custom_target(completion-scripts ALL DEPENDS ${completion_scripts})
 
@@ -46,7 +50,7 @@ if(AUREOLE_RENDER)
         COMMAND "${CMAKE_COMMAND}" -E rm -rf "${manual_pages}"
         COMMAND aureole-program manual -o "${manual_pages}")
     add_custom_target(manual-pages ALL DEPENDS "${manual_pages}/man1/aureole.1")
-    install(DIRECTORY "${manual_pages}/" DESTINATION ${CMAKE_INSTALL_MANDIR})
+    install(DIRECTORY "${manual_pages}/" DESTINATION ${CMAKE_INSTALL_MANDIR} COMPONENT program)
 endif()
 
 # A static build would have to hand on its own dependencies, so only the shared one is a package.
