@@ -52,7 +52,7 @@ void bench_grid_write_ply(const bench_grid *g, FILE *file) {
 }
 
 void bench_grid_build(const bench_grid *g) {
-    const RTCDevice device = rtcNewDevice(aur_embree_configuration());
+    const RTCDevice device = rtcNewDevice(aur_embree_configuration(g->triangle_count));
     const RTCScene scene = rtcNewScene(device);
     rtcSetSceneFlags(scene, RTC_SCENE_FLAG_ROBUST);
     const RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);

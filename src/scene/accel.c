@@ -192,23 +192,29 @@ static bool attach_all(aur_scene *scene) {
     return good;
 }
 
-/* One thread builds the same tree each time: with it, which of two hits at one distance wins is settled.
- * Embree obeys the limit of AUREOLE_ISA too, so that a test on one machine meets the kernels that others
- * have. */
-const char *aur_embree_configuration(void) {
+/* Any number of threads builds the same tree: Embree sorts the primitives of each leaf again after it has
+ * divided them in parallel, so which of two hits at one distance wins is settled (tests/scene/test_accel.c).
+ * Small trees are not worth the threads. Embree obeys the limit of AUREOLE_ISA too, so that a test on one
+ * machine meets the kernels that others have. */
+const char *aur_embree_configuration(size_t primitives) {
+    enum { MANY = 1 << 20 };
+    const bool alone = primitives < MANY;
     switch (aur_isa_of_rays()) {
     case AUR_ISA_PORTABLE:
-        return "threads=1,isa=sse2";
+        return alone ? "threads=1,isa=sse2" : "isa=sse2";
     case AUR_ISA_AVX2:
-        return "threads=1,isa=avx2";
+        return alone ? "threads=1,isa=avx2" : "isa=avx2";
     case AUR_ISA_AVX512:
         break;
     }
-    return "threads=1";
+    return alone ? "threads=1" : "";
 }
 
 aur_result aur_scene_build_accel(aur_scene *scene, aur_error *error) {
-    scene->device = rtcNewDevice(aur_embree_configuration());
+    size_t primitives = 0;
+    for (size_t i = 0; i < scene->shape_count; ++i)
+        primitives += aur_shape_primitives(scene->shapes[i]);
+    scene->device = rtcNewDevice(aur_embree_configuration(primitives));
     scene->accel = scene->device != NULL ? new_scene(scene) : NULL;
     if (scene->accel == NULL || !attach_all(scene))
         return fail(scene, RTC_ERROR_NONE, error);
