@@ -219,6 +219,15 @@ static void bad_arrays_are_refused(void **state) {
         assert_null(points);
     }
     aur_points *points;
+    /* Points and columns count from 1, as lines do. */
+    aur_error error = {0};
+    write_npy(headers[0], rows, sizeof rows);
+    aur_points_read(path, &points, &error);
+    assert_non_null(strstr(error.message, "point 2, column 1"));
+    static const double outside[] = {0.5, 0.5, 0.5, 2.0};
+    write_npy(headers[0], outside, sizeof outside);
+    aur_points_read(path, &points, &error);
+    assert_non_null(strstr(error.message, "point 2:"));
     write_file("\x93NUMPY\x01", 8);
     assert_int_equal(aur_points_read(path, &points, NULL), AUR_ERROR_FORMAT);
     write_file("\x93NUMPY\x01\0\xff\xff{}          ", 20);

@@ -169,7 +169,11 @@ static aur_result check(const aur_weather_view *weather, const aur_daylight_opti
         return aur_fail(error, AUR_ERROR_ARGUMENT, "a year has 8760 hours, or 8784, not %zu", weather->count);
     if (!(fabs(weather->latitude) <= 90.0 && fabs(weather->longitude) <= 180.0 &&
           fabs(weather->timezone) <= 14.0))
-        return aur_fail(error, AUR_ERROR_ARGUMENT, "the place of the weather is none on earth");
+        return aur_fail(
+            error, AUR_ERROR_ARGUMENT,
+            "the place of the weather is none on earth: latitude %g must be within 90, longitude %g within "
+            "180 and the time zone %g within 14",
+            weather->latitude, weather->longitude, weather->timezone);
     if (options->weekdays && !(weather->first_weekday >= 0 && weather->first_weekday < 7))
         return aur_fail_at(error, (aur_location){.file = weather->file}, AUR_ERROR_UNSUPPORTED,
                            "the weather does not tell on which day of the week its year begins");

@@ -141,7 +141,7 @@ static aur_result copy_rows(const char *path, const aur_domain *wanted, const au
         if (wrong != NULL && matrix->lines != NULL)
             return aur_fail_at(error, where, AUR_ERROR_FORMAT, "%s", wrong);
         if (wrong != NULL)
-            return aur_fail_at(error, where, AUR_ERROR_FORMAT, "point %zu: %s", r, wrong);
+            return aur_fail_at(error, where, AUR_ERROR_FORMAT, "point %zu: %s", r + 1, wrong);
         if (wanted != NULL && *wanted == AUR_DOMAIN_HEMISPHERE && row[2] < 0.0)
             return aur_fail_at(error, where, AUR_ERROR_FORMAT,
                                "point %zu has z = %g, below the hemisphere z >= 0", r + 1, row[2]);

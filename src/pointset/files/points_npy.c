@@ -134,7 +134,7 @@ aur_result aur_npy_parse(const char *path, const char *data, size_t size, aur_ma
             const double value = number_at(numbers + from * layout.width, &layout);
             if (!isfinite(value))
                 return aur_fail_at(error, (aur_location){.file = path}, AUR_ERROR_FORMAT,
-                                   "point %zu, column %zu is not a finite number", r, c + 1);
+                                   "point %zu, column %zu is not a finite number", r + 1, c + 1);
             matrix->values[r * matrix->column_count + c] = value;
         }
     }

@@ -46,7 +46,9 @@ aur_result aur_weights_voronoi(size_t count, const double *xyz, aur_domain domai
     const aur_lobe *const density = lobe != NULL ? lobe : &uniform;
     const bool ggx = density->kind == AUR_LOBE_GGX;
     if (domain != AUR_DOMAIN_SPHERE && domain != AUR_DOMAIN_HEMISPHERE)
-        return aur_fail(error, AUR_ERROR_UNSUPPORTED, "areas of cells are for the sphere and the hemisphere");
+        return aur_fail(error, AUR_ERROR_UNSUPPORTED,
+                        "areas of cells are for the sphere and the hemisphere, not for the domain '%s'",
+                        aur_domain_name(domain));
     if (domain == AUR_DOMAIN_SPHERE && (ggx || density->exponent != 0.0))
         return aur_fail(error, AUR_ERROR_UNSUPPORTED,
                         "areas of cells of the whole sphere are for the uniform lobe");

@@ -155,7 +155,8 @@ aur_result aur_xml_find_asset(aur_xml_document *document, aur_location location,
                              "'%s' is no regular file: a scene may name no folders, devices or pipes", name);
     else if (result == AUR_OK && !is_allowed(document, *found))
         result =
-            aur_fail_at(error, location, AUR_ERROR_OPEN, "'%s' lies outside of the scene's folder", name);
+            aur_fail_at(error, location, AUR_ERROR_OPEN,
+                        "'%s' lies outside of the scene's folder, to which its files are confined", name);
     else if (result == AUR_OK)
         result = aur_xml_note_file(document, name, *found, error);
     if (result == AUR_OK) {

@@ -150,7 +150,8 @@ static aur_result open_file(const char *set, const aur_directions_options *optio
         return refuse_scramble(set, scramble, error);
     for (size_t i = 0; i < count && !directions->axes; ++i)
         if (file->coordinates[3 * i + 2] < 1.0 - directions->height)
-            return aur_fail(error, AUR_ERROR_ARGUMENT, "%s: point %zu lies off the domain", path, i);
+            return aur_fail(error, AUR_ERROR_ARGUMENT, "%s: point %zu has z = %g, off the domain '%s'", path,
+                            i + 1, file->coordinates[3 * i + 2], aur_domain_name(options->domain));
     directions->size = count;
     directions->weighted = directions->weighted || file->weights != NULL;
     return AUR_OK;
