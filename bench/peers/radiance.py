@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Irradiance at 25 sensors of a shoebox room by Radiance's rtrace -I and by aureole irradiance: error, bias, CPU seconds.
+"""Irradiance at 25 sensors of a shoebox room by Radiance's rtrace -I and rcontrib -I+ and by aureole irradiance: error, bias, CPU seconds.
 
     python3 -m venv /tmp/peers && /tmp/peers/bin/pip install pyradiance
     /tmp/peers/bin/python bench/peers/radiance.py build/release/aureole
@@ -36,7 +36,10 @@ RADIANCE = {
     "rtrace, -ab 4": "-ab 4",
     "rtrace, good": "-ab 5 -ad 1024 -as 256 -aa .1 -ar 64",
     "rtrace, experts' (no cache)": "-ab 6 -ad 4096 -as 512 -aa 0 -lw 1e-5",
+    "rtrace, experts' (fine cache)": "-ab 8 -ad 4096 -as 1024 -aa .05 -ar 512 -lw 1e-5",
+    "rtrace, experts' (no cache, many)": "-ab 8 -ad 16384 -as 0 -aa 0 -lw 1e-6",
 }
+CONTRIBUTIONS = {"rcontrib, 16,384 paths": "-ab 8 -ad 16384 -lw 1e-6"}
 OURS = {
     "aureole, 256 directions": "-n 256",
     "aureole, its defaults": "",
@@ -74,12 +77,17 @@ def main():
         out, seconds = run(command, points)
         return [float(line.split()[0]) for line in out.split("\n") if line], None, seconds
 
+    def contributions(options):
+        command = [f"{BIN}/rcontrib", "-I+", "-V+", "-h"] + options.split() + ["-m", "lamp", "room.oct"]
+        out, seconds = run(command, points)
+        return [float(line.split()[0]) for line in out.split("\n") if line], None, seconds
+
     truth, errors, seconds = ours("-n 250000 --seed 12345")
     mean = sum(truth) / len(truth)
     own = (sum(e * e for e in errors) / len(errors)) ** .5 / mean
     print(f"reference: mean {mean:.4f}, its standard error {100 * own:.3f} %, {seconds:.1f} CPU s\n")
     print("| | RMS error | bias | worst | CPU s | told |\n|---|---|---|---|---|---|")
-    for table, solve in ((RADIANCE, radiance), (OURS, ours)):
+    for table, solve in ((RADIANCE, radiance), (CONTRIBUTIONS, contributions), (OURS, ours)):
         for name, options in table.items():
             try:
                 values, told, seconds = solve(options)
