@@ -130,15 +130,12 @@ class Site:
             self.write(place, path, f"<h1>{html.escape(path)}</h1><pre><code>{text}</code></pre>")
 
     def manual(self, file):
-        """Writes the page of a manual page, by groff; its text is searched too."""
+        """Writes the page of a manual page as a terminal shows it, for groff's own HTML is not part of groff-base."""
         name = Path(file).name
         place = f"man/{name}.html"
-        made = subprocess.run(["groff", "-mandoc", "-Thtml", "-P-l", file], capture_output=True, text=True, check=True)
-        text = made.stdout
-        body = re.sub(r"(?s).*<body[^>]*>|</body>.*", "", text)
-        words = re.sub(r"<[^>]*>", " ", body)
-        self.sections.append([place, "", name, name, [html.unescape(words)]])
-        self.write(place, name, body)
+        made = subprocess.run(["groff", "-mandoc", "-Tutf8", "-P-cbou", "-rLL=72n", file], capture_output=True, text=True, check=True)
+        self.sections.append([place, "", name, name, [made.stdout]])
+        self.write(place, name, f"<pre>{html.escape(made.stdout)}</pre>")
         return place, name
 
     def search(self):

@@ -29,7 +29,7 @@ done
 if command -v chromium >/dev/null; then
   {
     echo '<body><script>'
-    echo "const pages = [$(cd site && find . -name '*.html' -not -path './docs/report/*' -not -path './man/*' -printf '"%P",')];"
+    echo "const pages = [$(cd site && find . -name '*.html' -not -path './docs/report/*' -printf '"%P",')];"
     cat <<'JS'
 const show = text => { const line = document.createElement('p'); line.textContent = text; document.body.append(line); };
 const open = page => new Promise(done => {

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# One version: that of the header is the program's, the citation's, and the newest of the changelog, with the citation's date; the
+# One version: that of the header is the program's, the citation's, the recipes' and the newest of the changelog, with the citation's date; the
 # Python package takes it from the header. scripts/release.sh finds the changelog's section.
 set -u
 program=$1
@@ -14,6 +14,9 @@ same "aureole --version" "$("$program" --version)" "aureole $version"
 same CITATION.cff "$(sed -n 's/^version: //p' CITATION.cff)" "$version"
 heading=$(grep -m1 '^## \[[0-9]' CHANGELOG.md)
 same CHANGELOG.md "$heading" "## [$version] - $(sed -n 's/^date-released: //p' CITATION.cff)"
+same packaging/vcpkg/vcpkg.json "$(sed -n 's/^ *"version": "\(.*\)",$/\1/p' packaging/vcpkg/vcpkg.json)" "$version"
+same packaging/conda/meta.yaml "$(sed -n 's/^ *version: "\(.*\)"$/\1/p' packaging/conda/meta.yaml)" "$version"
+same packaging/spack/package.py "$(sed -n 's/^ *version("\([^"]*\)".*/\1/p' packaging/spack/package.py)" "$version"
 python=$(sed -n '/^\[tool.scikit-build.metadata.version\]/,$ s/^input = "\(.*\)"$/\1/p' pyproject.toml)
 [ "$python" = include/aureole/version.h ] || { echo "pyproject.toml takes its version from '$python'"; status=1; }
 scripts/release.sh --notes >"$OLDPWD/notes" || status=1
