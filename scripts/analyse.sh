@@ -131,7 +131,7 @@ C
         /(error|warning): / { kind = $NF; gsub(/^\[-Wanalyzer-|\]$/, "", kind); print name, f == "" ? "?" : f, kind, $0 }' name="$file"
     done | sort -u >"$folder/said"
     while read -r file function kind words; do
-      grep -qF "$file $function $kind:" scripts/analyzer.txt || { echo "$words (in $function)"; status=1; }
+      grep -qF "$file $function $kind:" scripts/analyzer.txt || { echo "$file: $words (in $function)"; status=1; }
     done <"$folder/said"
     echo "$# files, $(wc -l <"$folder/said") warnings, $(grep -c '^src' scripts/analyzer.txt) explained in scripts/analyzer.txt" ;;
   tidy)
