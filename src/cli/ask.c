@@ -5,6 +5,7 @@
 #include <inttypes.h>
 #include <math.h>
 #include <stdio.h>
+#include <stdlib.h>
 
 #include "cli/quantity.h"
 
@@ -61,15 +62,26 @@ bool cli_is_wish(const cli_wish *wish) {
     return wish->error > 0.0 || wish->seconds > 0.0 || wish->rays > 0 || wish->rounds > 0;
 }
 
+/* An option with the fewest digits that mean the same number. */
+static void say_number(const char *option, double value) {
+    char text[40];
+    for (int digits = 15; digits <= 17; ++digits) {
+        aur_format(text, sizeof text, "%.*g", digits, value);
+        if (strtod(text, NULL) == value)
+            break;
+    }
+    aur_print(stderr, " %s %s", option, text);
+}
+
 /* The command that makes the same bits without a choice and without a clock. */
 static void say_again(const aur_ask *ask, const cli_wish *wish, const aur_ask_report *report) {
     aur_print(stderr, "aureole: the same picture again:");
     if (*aur_ask_integrator(ask) != '\0')
         aur_print(stderr, " --integrator '%s'", aur_ask_integrator(ask));
     if (wish->error > 0.0)
-        aur_print(stderr, " --error %.17g", wish->error);
+        say_number("--error", wish->error);
     if (report->bias_high > 0.0)
-        aur_print(stderr, " --bias %.17g", report->bias_high);
+        say_number("--bias", report->bias_high);
     if (wish->rays > 0) /* the trials may have taken them all */
         aur_print(stderr, " --rays %" PRIu64,
                   wish->rays > report->trial_rays ? wish->rays - report->trial_rays : 1);
