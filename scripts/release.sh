@@ -35,7 +35,7 @@ folder=$(realpath "$folder")
 said=() # what the last lines say
 
 echo "== build"
-cmake --preset release --log-level=WARNING
+cmake --preset release --log-level=WARNING -DCMAKE_INSTALL_PREFIX=/usr # where Debian's packages put things
 cmake --build --preset release -j "$(nproc)"
 echo "== tests"
 ctest --preset release -j "$(nproc)" ${TESTS:+-R "$TESTS"} </dev/null

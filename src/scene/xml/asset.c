@@ -77,7 +77,7 @@ static aur_result fail(const aur_xml_document *document, aur_location location, 
     if (name[0] == '/')
         return aur_fail_at(error, location, AUR_ERROR_OPEN, "cannot find '%s'", name);
     char places[700] = "", command[160] = "";
-    folder in, first;
+    folder in, first = {0};
     for (size_t i = 0, used = 0; folder_at(document, location.file, i, &in); ++i) {
         if (in.length == 0)
             in = (folder){2, "./"};
