@@ -4,7 +4,9 @@
 # abi.sh record BUILD: writes scripts/abi again. docs/embedding.md says when that is right.
 # Only what the public headers declare is looked at, the symbols of version AUREOLE_0. Builds need their debug information.
 set -euo pipefail
-command -v abidw >/dev/null || { echo "abi.sh: skipped: libabigail is not installed (abigail-tools)"; exit 77; }
+for tool in abidw abidiff xz; do
+  command -v $tool >/dev/null || { echo "abi.sh: skipped: there is no $tool (Debian: abigail-tools, xz-utils)"; exit 77; }
+done
 verb=${1:-} build=${2:-}
 [ -n "$build" ] && [ -e "$build/libaureole.so" ] || { sed -n '2,5s/^# //p' "$0" >&2; exit 2; }
 tree=$(cd "$(dirname "$0")/.." && pwd)

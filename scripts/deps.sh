@@ -13,7 +13,7 @@ packages=(
 )
 # many machines; models in other forms than XML; the Python package, the test of the tables beside other packages, and that of
 # the binary interface
-[ "${1:-}" != --all ] || packages+=(libopenmpi-dev openmpi-bin libassimp-dev python3-numpy python3-cffi python3-dev abigail-tools)
+[ "${1:-}" != --all ] || packages+=(libopenmpi-dev openmpi-bin libassimp-dev python3-numpy python3-cffi python3-dev abigail-tools xz-utils)
 
 command -v dpkg-query >/dev/null || {
   echo "deps.sh: not a Debian system; install the equivalents of: ${packages[*]}" >&2
