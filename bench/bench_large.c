@@ -55,8 +55,9 @@ static bool write_scenes(const large_context *context) {
                 i % 2 == 0 ? "cube" : "sphere", i % 173, i / 173);
     if (group != NULL)
         fprintf(group, "</shape><shape type='instance'><ref id='group'/></shape></scene>");
-    const bool good = (scene != NULL && fclose(scene) == 0) & (group != NULL && fclose(group) == 0);
-    return good || bench_fail("%s cannot be written", context->scene);
+    const bool scene_closed = scene != NULL && fclose(scene) == 0;
+    const bool group_closed = group != NULL && fclose(group) == 0;
+    return (scene_closed && group_closed) || bench_fail("%s cannot be written", context->scene);
 }
 
 static bool measure(large_context *context) {
