@@ -7,7 +7,7 @@ packages=(
   # tools
   ca-certificates clang-format cmake g++ gcc git ninja-build pkg-config
   # ray tracing, pictures, scene files, linear algebra
-  libembree-dev libopenexr-dev libstb-dev libexpat1-dev zlib1g-dev liblapacke-dev libopenblas-serial-dev
+  libembree-dev libopenexr-dev libpng-dev libstb-dev libexpat1-dev zlib1g-dev liblapacke-dev libopenblas-serial-dev
   # plots, unit tests
   gnuplot-nox libcmocka-dev
 )

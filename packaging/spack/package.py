@@ -20,6 +20,7 @@ class Aureole(CMakePackage):
         depends_on("pkgconfig", type="build")
         depends_on("embree@3.13:4")
         depends_on("openexr@3:")
+        depends_on("libpng@1.6:")
         depends_on("stb")
         depends_on("expat")
         depends_on("zlib-api")

@@ -57,10 +57,14 @@ aur_result aur_image_write_exr(const aur_image_target *target, const aur_image *
 /* FORMAT when a file claims a size that no picture may have. */
 aur_result aur_image_check_size(size_t width, size_t height, size_t channel_count, aur_error *error);
 
+/* FORMAT when no file of this length can hold so many pixels: decoders allocate before they read. */
+aur_result aur_image_check_claim(const aur_image_source *source, const char *format, size_t pixel_count,
+                                 size_t pixels_a_byte, aur_error *error);
+
 /* Does the source begin with these bytes? */
 bool aur_image_begins(const aur_image_source *source, const char *bytes, size_t count);
 
-/* For stb's writers: the context is a stream, whose errors are left to whoever commits the file. */
+/* For stb's writer: the context is a stream, whose errors are left to whoever commits the file. */
 void aur_image_put_bytes(void *stream, void *bytes, int count);
 aur_result aur_image_fail_encode(aur_error *error);
 

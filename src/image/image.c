@@ -113,6 +113,14 @@ aur_result aur_image_check_size(size_t width, size_t height, size_t channel_coun
                     height, channel_count);
 }
 
+aur_result aur_image_check_claim(const aur_image_source *source, const char *format, size_t pixel_count,
+                                 size_t pixels_a_byte, aur_error *error) {
+    if (pixel_count / pixels_a_byte <= source->size)
+        return AUR_OK;
+    return aur_fail(error, AUR_ERROR_FORMAT, "claims %zu pixels, which %zu bytes of %s cannot hold",
+                    pixel_count, source->size, format);
+}
+
 size_t aur_image_find_channel(const aur_image *image, const char *name) {
     for (size_t c = 0; c < image->channel_count; ++c)
         if (strcmp(image->channel_names[c], name) == 0)

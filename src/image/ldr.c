@@ -1,7 +1,5 @@
-/* PNG, JPEG, BMP and TGA through the stb libraries. */
-#include <math.h>
+/* JPEG, BMP and TGA, which are read only, through stb. */
 #include <stb_image.h>
-#include <stb_image_write.h>
 #include <stdlib.h>
 #include <string.h>
 #include <strings.h>
@@ -15,8 +13,7 @@ static aur_result fail_stb(const char *format, aur_error *error) {
                     reason != NULL ? reason : "cannot be decoded");
 }
 
-/* Size and channels, refused when no file of this length can hold so many pixels: the decoders allocate
- * before they read. */
+/* Size and channels. */
 static aur_result read_header(const aur_image_source *source, const char *format, size_t pixels_a_byte,
                               size_t size[3], aur_error *error) {
     int width, height, channel_count;
@@ -28,12 +25,8 @@ static aur_result read_header(const aur_image_source *source, const char *format
     size[1] = height > 0 ? (size_t)height : 0;
     size[2] = channel_count > 0 ? (size_t)channel_count : 0;
     const aur_result result = aur_image_check_size(size[0], size[1], size[2], error);
-    if (result != AUR_OK)
-        return result;
-    if (size[0] * size[1] / pixels_a_byte > source->size)
-        return aur_fail(error, AUR_ERROR_FORMAT, "claims %zu x %zu pixels, which %zu bytes of %s cannot hold",
-                        size[0], size[1], source->size, format);
-    return AUR_OK;
+    return result == AUR_OK ? aur_image_check_claim(source, format, size[0] * size[1], pixels_a_byte, error)
+                            : result;
 }
 
 /* Does what the decoder gave agree with the header? If so an image of that size. */
@@ -77,15 +70,6 @@ static aur_result read_ldr(const aur_image_source *source, const char *format, s
     return result;
 }
 
-static bool recognize_png(const aur_image_source *source) {
-    return aur_image_begins(source, "\x89PNG\r\n\x1a\n", 8);
-}
-
-static aur_result read_png(const aur_image_source *source, aur_image **image, aur_error *error) {
-    const size_t deflate_limit = 1032; /* one byte of deflate is at most so many bytes: 8 pixels each */
-    return read_ldr(source, "PNG", deflate_limit * 8, image, error);
-}
-
 static bool recognize_jpeg(const aur_image_source *source) {
     return aur_image_begins(source, "\xff\xd8\xff", 3);
 }
@@ -104,47 +88,6 @@ static aur_result read_jpeg(const aur_image_source *source, aur_image **image, a
         return aur_fail(error, AUR_ERROR_FORMAT, "broken JPEG: it is cut short");
     return read_ldr(source, "JPEG", block_pixels * bits, image, error);
 }
-
-static aur_result write_png(const aur_image_target *target, const aur_image *image, aur_error *error) {
-    const size_t *const channels = target->channels;
-    const size_t count = channels[0] == channels[1] ? 1 : 3;
-    const size_t pixels = image->width * image->height;
-    if (image->width * count > INT32_MAX)
-        return aur_fail(error, AUR_ERROR_UNSUPPORTED, "a PNG of %zu columns is too wide", image->width);
-    unsigned char *const bytes = malloc(pixels * count);
-    if (bytes == NULL)
-        return aur_image_fail_encode(error);
-    const double factor = exp2((double)target->options.exposure);
-    for (size_t i = 0; i < pixels; ++i) {
-        for (size_t c = 0; c < count; ++c) {
-            const double radiance = factor * (double)image->data[i * image->channel_count + channels[c]];
-            const double shown = aur_srgb_encode(aur_tone_apply(target->options.tone, radiance));
-            bytes[i * count + c] = (unsigned char)(shown * 255.0 + 0.5);
-        }
-    }
-    const int written =
-        stbi_write_png_to_func(aur_image_put_bytes, target->stream, (int)image->width, (int)image->height,
-                               (int)count, bytes, (int)(image->width * count));
-    free(bytes);
-    return written != 0 ? AUR_OK : aur_image_fail_encode(error);
-}
-
-static const aur_key png_keys[] = {
-    {AUR_KEY_OF_REAL(aur_image_write_options, "exposure", exposure, -INFINITY, INFINITY, "0",
-                     "radiance is multiplied by 2 to this power")},
-    {AUR_KEY_OF_CHOICE(aur_image_write_options, "tone", tone, "srgb",
-                       "the tone curve; with srgb radiance 1 is white", "srgb", "filmic")},
-};
-
-const aur_image_format aur_image_format_png = {
-    .row = {.name = "png",
-            .summary = "PNG: one to four channels of 8 or 16 bits, sRGB; written with 8, as grey or R, G, B",
-            .source = "",
-            AUR_ROW_KEYS(png_keys)},
-    .name = "PNG",
-    .recognize = recognize_png,
-    .read = read_png,
-    .write = write_png};
 
 const aur_image_format aur_image_format_jpeg = {
     .row = {.name = "jpg", .summary = "JPEG: grey or R, G, B, 8 bits, sRGB; is read only", .source = ""},

@@ -99,8 +99,10 @@ expect 2 convert cut.exr kept.exr
 complains "cut.exr: broken EXR"
 [ "$(cat kept.exr)" = precious ] || fail "a failed convert replaced its output"
 if [ -w /dev/full ]; then
-  expect 3 convert a.exr /dev/full --to exr
-  complains "/dev/full: cannot write"
+  for format in exr pfm hdr png; do
+    expect 3 convert a.exr /dev/full --to $format
+    complains "/dev/full: cannot write: No space left"
+  done
 fi
 ls -A | grep -qF .tmp && fail "a temporary file was left: $(ls)"
 exit $status
