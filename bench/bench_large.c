@@ -1,11 +1,10 @@
 /* Large scenes: the memory and the time that 30 million triangles take beside Embree alone, and a group of
  * many shapes. */
 #include <stdio.h>
-#include <stdlib.h>
-#include <unistd.h>
 
 #include "bench.h"
 #include "child.h"
+#include "folder.h"
 #include "grid.h"
 
 enum { SIDE = 3873, QUICK_SIDE = 60, SHAPES = 30000, QUICK_SHAPES = 300, PATH_CAPACITY = 64 };
@@ -78,19 +77,16 @@ static bool measure(large_context *context) {
 }
 
 static bool run(const bench_options *options) {
-    char folder[] = "/tmp/aureole-bench-XXXXXX";
-    if (mkdtemp(folder) == NULL)
-        return bench_fail("no folder for files in /tmp");
+    bench_folder folder;
+    if (!bench_folder_create(&folder))
+        return false;
     large_context context = {.side = options->quick ? QUICK_SIDE : SIDE,
                              .shapes = options->quick ? QUICK_SHAPES : SHAPES};
-    snprintf(context.mesh, sizeof context.mesh, "%s/mesh.ply", folder);
-    snprintf(context.scene, sizeof context.scene, "%s/mesh.xml", folder);
-    snprintf(context.group, sizeof context.group, "%s/group.xml", folder);
+    snprintf(context.mesh, sizeof context.mesh, "%s/mesh.ply", folder.path);
+    snprintf(context.scene, sizeof context.scene, "%s/mesh.xml", folder.path);
+    snprintf(context.group, sizeof context.group, "%s/group.xml", folder.path);
     const bool good = measure(&context);
-    unlink(context.mesh);
-    unlink(context.scene);
-    unlink(context.group);
-    rmdir(folder);
+    bench_folder_remove(&folder);
     return good;
 }
 

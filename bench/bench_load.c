@@ -11,6 +11,7 @@
 #include <aureole/scene.h>
 
 #include "bench.h"
+#include "folder.h"
 #include "grid.h"
 
 enum { SIDE = 866, QUICK_SIDE = 60, PATH_CAPACITY = 256 };
@@ -120,24 +121,22 @@ static bool measure(const bench_options *options, const char *folder, const benc
         snprintf(name, sizeof name, "%s, %s", kind, face_normals ? "flat" : "smoothed where it can be");
         bench_print_pair(name, "reading the file, Embree's build", "Mtriangle", 1e6, &pair);
     }
-    unlink(context.file);
-    unlink(context.scene);
     return written && (!context.failed || bench_fail("%s cannot be read", context.file));
 }
 
 static bool run(const bench_options *options) {
-    char folder[] = "/tmp/aureole-bench-XXXXXX";
-    if (mkdtemp(folder) == NULL)
-        return bench_fail("no folder for files in /tmp");
+    bench_folder folder;
+    if (!bench_folder_create(&folder))
+        return false;
     bench_grid mesh;
     const bool good = bench_grid_create(&mesh, options->quick ? QUICK_SIDE : SIDE) &&
-                      measure(options, folder, &mesh, "obj", write_obj, true) &&
-                      measure(options, folder, &mesh, "obj", write_obj, false) &&
-                      measure(options, folder, &mesh, "ply", bench_grid_write_ply, true) &&
-                      measure(options, folder, &mesh, "ply", bench_grid_write_ply, false) &&
-                      measure(options, folder, &mesh, "serialized", write_serialized, true);
+                      measure(options, folder.path, &mesh, "obj", write_obj, true) &&
+                      measure(options, folder.path, &mesh, "obj", write_obj, false) &&
+                      measure(options, folder.path, &mesh, "ply", bench_grid_write_ply, true) &&
+                      measure(options, folder.path, &mesh, "ply", bench_grid_write_ply, false) &&
+                      measure(options, folder.path, &mesh, "serialized", write_serialized, true);
     bench_grid_release(&mesh);
-    rmdir(folder);
+    bench_folder_remove(&folder);
     return good;
 }
 

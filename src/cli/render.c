@@ -2,18 +2,17 @@
 #include <aureole/ranks.h>
 #include <aureole/render.h>
 #include <aureole/text.h>
-#include <inttypes.h>
 #include <limits.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <unistd.h>
 
 #include "cli/ask.h"
 #include "cli/denoise.h"
 #include "cli/errors.h"
 #include "cli/options.h"
+#include "cli/render_result.h"
 
 typedef struct render_command {
     const char *output;
@@ -126,77 +125,6 @@ static void default_output(const char *scene, const aur_render_options *part, si
         snprintf(output, capacity, "%.*s.exr", (int)length, name);
 }
 
-/* What can be known to fail is said before an hour is spent. */
-static bool check_output(const char *path) {
-    aur_error error;
-    const aur_row *format;
-    const bool known = aur_image_find_writer(path, NULL, &format, &error) == AUR_OK;
-    if (!known)
-        cli_bad_usage("-o: %s", error.message);
-    return known;
-}
-
-static aur_result check_folder(const char *path, aur_error *error) {
-    char folder[AUR_ERROR_FILE_CAPACITY];
-    const char *const slash = strrchr(path, '/');
-    if (slash == NULL)
-        snprintf(folder, sizeof folder, ".");
-    else
-        snprintf(folder, sizeof folder, "%.*s", slash == path ? 1 : (int)(slash - path), path);
-    const bool is_file = strcmp(path, "-") != 0;
-    if (!is_file || aur_ranks_rank() != 0 || access(folder, W_OK | X_OK) == 0) /* rank 0 writes */
-        return AUR_OK;
-    aur_fail(error, AUR_ERROR_WRITE, "cannot write: its folder does not exist or is read-only");
-    snprintf(error->file, sizeof error->file, "%s", path);
-    return AUR_ERROR_WRITE;
-}
-
-static void print_statistics(const aur_render *render) {
-    aur_render_statistics counted = {.size = sizeof counted};
-    aur_render_get_statistics(render, &counted, NULL);
-    const aur_render_statistics *const statistics = &counted;
-    const double seconds = statistics->prepare_seconds + statistics->render_seconds;
-    fprintf(stderr,
-            "aureole: %" PRIu64 " samples, %" PRIu64
-            " rays, prepared in %.2f s, rendered in %.2f s (%.2f Mray/s), "
-            "%.2f CPU s, %" PRIu64 " invalid samples\n",
-            statistics->samples, statistics->rays, statistics->prepare_seconds, statistics->render_seconds,
-            seconds > 0 ? 1e-6 * (double)statistics->rays / seconds : 0.0, statistics->cpu_seconds,
-            statistics->invalid_samples);
-    for (size_t l = 0; l < AUR_RENDER_LEVELS; ++l)
-        if (statistics->levels[l] > 0)
-            fprintf(stderr, "aureole: %" PRIu64 " gathers ended at level %zu\n", statistics->levels[l],
-                    l + 1);
-}
-
-/* The facts for programs. */
-static aur_result print_json(const render_command *command, const aur_render *render, aur_error *error) {
-    aur_render_statistics counted = {.size = sizeof counted};
-    aur_render_get_statistics(render, &counted, NULL);
-    report_table *const table = report_create(0, NULL);
-    report_fact_text(table, "output", command->output);
-    cli_report_statistics(table, &counted);
-    const aur_result result = report_write(table, REPORT_JSON, stdout, error);
-    report_destroy(table);
-    return result;
-}
-
-/* What each of several processes did: all of them come here. */
-static void print_ranks(void) {
-    const size_t count = aur_ranks_count();
-    aur_rank_description *const ranks = count > 1 ? calloc(count, sizeof *ranks) : NULL;
-    if (ranks == NULL)
-        return;
-    aur_ranks_describe(ranks);
-    for (size_t r = 0; r < count; ++r)
-        fprintf(stderr,
-                "aureole: rank %zu on %s: %.2f CPU s, %.3f of them talk, %" PRIu64 " bytes sent, %" PRIu64
-                " received\n",
-                r, ranks[r].host, ranks[r].cpu_seconds, ranks[r].talk_seconds, ranks[r].sent,
-                ranks[r].received);
-    free(ranks);
-}
-
 /* All samples: at once, or where somebody looks on, until every pixel has 1, 2, 4, ... and at last all. */
 static aur_result render_steps(aur_render *render, render_command *command, cli_errors *errors,
                                aur_error *error) {
@@ -239,50 +167,29 @@ static aur_result render_samples(aur_renderer *renderer, render_command *command
     if (result == AUR_OK && command->options.shard_count > 0)
         result = aur_render_save(render, command->output, error);
     if (result == AUR_OK && command->statistics) {
-        print_statistics(render);
-        print_ranks();
+        cli_print_statistics(render);
     }
     if (result == AUR_OK && command->json && aur_ranks_rank() == 0)
-        result = print_json(command, render, error);
+        result = cli_print_json(render, command->output, error);
     aur_render_destroy(render);
     return result;
 }
 
-/* What an interrupted render has goes beside the picture, as OUT.partial.exr, or render.partial.exr where the
- * picture was to go to standard output. */
-static void write_partial(const char *wanted, const aur_image *image) {
-    const char *const output = strcmp(wanted, "-") == 0 ? "render.exr" : wanted;
-    char path[PATH_MAX];
-    aur_error error = {0};
-    const char *const slash = strrchr(output, '/'), *const dot = strrchr(slash != NULL ? slash : output, '.');
-    const size_t length = dot != NULL ? (size_t)(dot - output) : strlen(output);
-    snprintf(path, sizeof path, "%.*s.partial.exr", (int)length, output);
-    if (aur_image_write(path, image, NULL, &error) == AUR_OK)
-        fprintf(stderr, "aureole: what there is of the picture is in %s\n", path);
-    else
-        cli_fail(&error);
-}
-
-/* Where the picture is, unless -o said it, and that it is black, which nobody wants. */
-static void say_picture(const render_command *command, const aur_image *image) {
-    size_t channels[3];
-    const size_t pixels = aur_image_width(image) * aur_image_height(image);
-    const size_t per_pixel = aur_image_channel_count(image);
-    bool black = command->options.shard_count == 0 && aur_image_color_channels(image, channels);
-    for (size_t i = 0; i < pixels * 3 && black; ++i)
-        black = aur_image_data(image)[i / 3 * per_pixel + channels[i % 3]] == 0.0f;
-    if (black)
-        aur_print(stderr, "aureole: warning: %s is black: no light of the scene reaches the camera\n",
-                  command->output);
-    if (command->output_by_default)
-        aur_print(stderr, "aureole: the picture is in %s\n", command->output);
+/* What can be known to fail is said before an hour is spent. */
+static bool check_output(const char *path) {
+    aur_error error;
+    const aur_row *format;
+    const bool known = aur_image_find_writer(path, NULL, &format, &error) == AUR_OK;
+    if (!known)
+        cli_bad_usage("-o: %s", error.message);
+    return known;
 }
 
 static int render(const char *path, render_command *command, cli_errors *errors) {
     aur_error error = {0};
-    if (check_folder(command->output, &error) != AUR_OK ||
-        (errors != NULL && check_folder(command->errors, &error) != AUR_OK) ||
-        (command->checkpoint.path != NULL && check_folder(command->checkpoint.path, &error) != AUR_OK))
+    if (cli_check_folder(command->output, &error) != AUR_OK ||
+        (errors != NULL && cli_check_folder(command->errors, &error) != AUR_OK) ||
+        (command->checkpoint.path != NULL && cli_check_folder(command->checkpoint.path, &error) != AUR_OK))
         return cli_fail(&error);
     if (cli_denoise_begin(&command->denoise, &error) != AUR_OK)
         return cli_fail(&error);
@@ -315,11 +222,12 @@ static int render(const char *path, render_command *command, cli_errors *errors)
         result = cli_denoise_picture(&command->denoise, renderer, &command->options, &image, &error);
     cli_progress_clear();
     if (result == AUR_ERROR_CANCELLED && image != NULL)
-        write_partial(command->output, image);
+        cli_write_partial(command->output, image);
     if (result == AUR_OK && command->options.shard_count == 0)
         result = aur_image_write(command->output, image, NULL, &error);
     if (result == AUR_OK && !command->common.quiet && !cli_is_wish(&command->wish)) /* which says it itself */
-        say_picture(command, image);
+        cli_say_picture(command->output, command->output_by_default,
+                        command->options.shard_count == 0 ? image : NULL);
     if (result == AUR_OK)
         result = cli_denoise_keep(&command->denoise, command->output, image, &error);
     if (result == AUR_OK && errors != NULL)

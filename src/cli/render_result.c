@@ -1,0 +1,99 @@
+#include "cli/render_result.h"
+
+#include <aureole/ranks.h>
+#include <aureole/text.h>
+#include <inttypes.h>
+#include <limits.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#include "cli/ask.h"
+
+aur_result cli_check_folder(const char *path, aur_error *error) {
+    char folder[AUR_ERROR_FILE_CAPACITY];
+    const char *const slash = strrchr(path, '/');
+    if (slash == NULL)
+        snprintf(folder, sizeof folder, ".");
+    else
+        snprintf(folder, sizeof folder, "%.*s", slash == path ? 1 : (int)(slash - path), path);
+    const bool is_file = strcmp(path, "-") != 0;
+    if (!is_file || aur_ranks_rank() != 0 || access(folder, W_OK | X_OK) == 0) /* rank 0 writes */
+        return AUR_OK;
+    aur_fail(error, AUR_ERROR_WRITE, "cannot write: its folder does not exist or is read-only");
+    snprintf(error->file, sizeof error->file, "%s", path);
+    return AUR_ERROR_WRITE;
+}
+
+/* What each of several processes did: all of them come here. */
+static void print_ranks(void) {
+    const size_t count = aur_ranks_count();
+    aur_rank_description *const ranks = count > 1 ? calloc(count, sizeof *ranks) : NULL;
+    if (ranks == NULL)
+        return;
+    aur_ranks_describe(ranks);
+    for (size_t r = 0; r < count; ++r)
+        fprintf(stderr,
+                "aureole: rank %zu on %s: %.2f CPU s, %.3f of them talk, %" PRIu64 " bytes sent, %" PRIu64
+                " received\n",
+                r, ranks[r].host, ranks[r].cpu_seconds, ranks[r].talk_seconds, ranks[r].sent,
+                ranks[r].received);
+    free(ranks);
+}
+
+void cli_print_statistics(const aur_render *render) {
+    aur_render_statistics counted = {.size = sizeof counted};
+    aur_render_get_statistics(render, &counted, NULL);
+    const aur_render_statistics *const statistics = &counted;
+    const double seconds = statistics->prepare_seconds + statistics->render_seconds;
+    fprintf(stderr,
+            "aureole: %" PRIu64 " samples, %" PRIu64
+            " rays, prepared in %.2f s, rendered in %.2f s (%.2f Mray/s), "
+            "%.2f CPU s, %" PRIu64 " invalid samples\n",
+            statistics->samples, statistics->rays, statistics->prepare_seconds, statistics->render_seconds,
+            seconds > 0 ? 1e-6 * (double)statistics->rays / seconds : 0.0, statistics->cpu_seconds,
+            statistics->invalid_samples);
+    for (size_t l = 0; l < AUR_RENDER_LEVELS; ++l)
+        if (statistics->levels[l] > 0)
+            fprintf(stderr, "aureole: %" PRIu64 " gathers ended at level %zu\n", statistics->levels[l],
+                    l + 1);
+    print_ranks();
+}
+
+aur_result cli_print_json(const aur_render *render, const char *output, aur_error *error) {
+    aur_render_statistics counted = {.size = sizeof counted};
+    aur_render_get_statistics(render, &counted, NULL);
+    report_table *const table = report_create(0, NULL);
+    report_fact_text(table, "output", output);
+    cli_report_statistics(table, &counted);
+    const aur_result result = report_write(table, REPORT_JSON, stdout, error);
+    report_destroy(table);
+    return result;
+}
+
+void cli_write_partial(const char *wanted, const aur_image *image) {
+    const char *const output = strcmp(wanted, "-") == 0 ? "render.exr" : wanted;
+    char path[PATH_MAX];
+    aur_error error = {0};
+    const char *const slash = strrchr(output, '/'), *const dot = strrchr(slash != NULL ? slash : output, '.');
+    const size_t length = dot != NULL ? (size_t)(dot - output) : strlen(output);
+    snprintf(path, sizeof path, "%.*s.partial.exr", (int)length, output);
+    if (aur_image_write(path, image, NULL, &error) == AUR_OK)
+        fprintf(stderr, "aureole: what there is of the picture is in %s\n", path);
+    else
+        cli_fail(&error);
+}
+
+void cli_say_picture(const char *output, bool by_default, const aur_image *image) {
+    size_t channels[3];
+    const size_t pixels = image != NULL ? aur_image_width(image) * aur_image_height(image) : 0;
+    bool black = image != NULL && aur_image_color_channels(image, channels);
+    for (size_t i = 0; i < pixels * 3 && black; ++i)
+        black = aur_image_data(image)[i / 3 * aur_image_channel_count(image) + channels[i % 3]] == 0.0f;
+    if (black)
+        aur_print(stderr, "aureole: warning: %s is black: no light of the scene reaches the camera\n",
+                  output);
+    if (by_default)
+        aur_print(stderr, "aureole: the picture is in %s\n", output);
+}
