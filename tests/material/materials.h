@@ -7,6 +7,7 @@
 
 #include "core/random.h"
 #include "material/bsdf.h"
+#include "material/texture.h"
 #include "short.h"
 
 typedef struct material_row {
@@ -68,9 +69,28 @@ static const material_row material_rows[] = {
      "phong:exponent=10", NOT_RECIPROCAL},
     {"normalmap:normalmap=0.6 0.45 0.9", "plastic:diffuse_reflectance=0.5", NOT_RECIPROCAL},
     {"mask:opacity=0.7", "roughconductor:alpha=0.4", 0},
+    {"bumpmap:scale=0.5", "diffuse:reflectance=0.8", NOT_RECIPROCAL},
+    {"bumpmap:scale=-0.3,use_shadowing_function=false", "roughconductor:alpha=0.4", NOT_RECIPROCAL},
 };
 
 enum { MATERIAL_COUNT = sizeof material_rows / sizeof material_rows[0] };
+
+/* The heights of bumpmaps: they grow by 1 along u and fall by a half along v. */
+static inline void slant_slope(const aur_texture *texture, aur_bsdf_point point, float slope[2]) {
+    (void)texture;
+    (void)point;
+    slope[0] = 1.0f;
+    slope[1] = -0.5f;
+}
+
+static inline aur_vector slant_height(const aur_texture *texture, aur_bsdf_point point) {
+    (void)texture;
+    const float height = point.u - 0.5f * point.v;
+    return (aur_vector){height, height, height};
+}
+
+static const aur_texture_descriptor slant_descriptor = {.evaluate = slant_height, .slope = slant_slope};
+static const aur_texture slant = {.descriptor = &slant_descriptor};
 
 typedef struct material {
     aur_bsdf *bsdf, *nested[2];
@@ -87,6 +107,10 @@ static inline aur_bsdf *make_bsdf_of(const char *text, const aur_bsdf *const nes
             assert_int_equal(aur_parameters_add_object(&parameters, names[i], "bsdf", nested[i],
                                                        (aur_location){0}, &error),
                              AUR_OK);
+    if (strcmp(parameters.plugin, "bumpmap") == 0)
+        assert_int_equal(
+            aur_parameters_add_object(&parameters, "texture", "texture", &slant, (aur_location){0}, &error),
+            AUR_OK);
     if (aur_bsdf_create(&parameters, &bsdf, &error) != AUR_OK)
         fail_msg("%s: %s", text, error.message);
     aur_parameters_release(&parameters);

@@ -4,10 +4,27 @@
 #include <string.h>
 
 #include "material/sampling.h"
-#include "material/texture.h"
 #include "mitsuba_values.h"
 
-static const aur_bsdf_point point = {.u = 0.3f, .v = 0.6f};
+static const aur_bsdf_point point = {.u = 0.3f, .v = 0.6f, .tangents = {1.0f, 0.2f, 1.5f}};
+
+static bool is_plugin(const char *text, const char *name) {
+    const size_t length = strlen(name);
+    return strncmp(text, name, length) == 0 && (text[length] == '\0' || text[length] == ':');
+}
+
+/* Whoever adds a material adds a row of it, which all of these tests run through. */
+static void every_material_is_tested(void **state) {
+    (void)state;
+    for (size_t i = 0; i < aur_bsdf_table.count; ++i) {
+        const char *const name = aur_bsdf_table.rows[i]->name;
+        size_t m = 0;
+        while (m < MATERIAL_COUNT && !is_plugin(material_rows[m].text, name))
+            ++m;
+        if (m == MATERIAL_COUNT)
+            fail_msg("materials.h has no row of '%s'", name);
+    }
+}
 
 static aur_vector value_of(const aur_bsdf *bsdf, aur_bsdf_part part, aur_vector view, aur_vector light) {
     float pdf;
@@ -416,6 +433,7 @@ static void values_are_those_of_mitsuba(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(every_material_is_tested),
         cmocka_unit_test(draws_by_the_density),
         cmocka_unit_test(samples_agree_with_evaluation),
         cmocka_unit_test(is_reciprocal),
