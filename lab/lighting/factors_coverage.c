@@ -25,14 +25,30 @@ static void write_box(FILE *file, const double low[3], const double high[3], boo
     }
 }
 
-/* A closed room of 3 x 4 x 2.5, or a court: a floor of 4 x 4 with a block on it, under the sky. */
-static aur_result load(const lab_run *run, bool court, bool group, aur_facets **facets, aur_error *error) {
+/* A closed room of 3 x 4 x 2.5; a court, which is a floor of 4 x 4 with a block on it, under the sky; or four
+ * towers of different heights. */
+typedef enum coverage_mesh { ROOM, COURT, TOWERS } coverage_mesh;
+
+static void write_towers(FILE *file) {
+    static const double heights[4] = {0.5, 2.5, 1.75, 1.0};
+    for (size_t i = 0; i < 4; ++i) {
+        const double x = 2.0 * (double)(i % 2) + 0.5, y = 2.0 * (double)(i / 2) + 0.5;
+        const double low[3] = {x, y, 0.0}, high[3] = {x + 1.0, y + 1.0, heights[i]};
+        write_box(file, low, high, false, 8 * i);
+    }
+    fputs("v 0 0 0\nv 4 0 0\nv 4 4 0\nv 0 4 0\ng floor\nf 33 34 35 36\n", file);
+}
+
+static aur_result load(const lab_run *run, coverage_mesh mesh, bool group, aur_facets **facets,
+                       aur_error *error) {
     char path[4096];
     snprintf(path, sizeof path, "%s/factors-coverage.obj", lab_run_options(run)->folder);
     FILE *const file = fopen(path, "w");
     if (file == NULL)
         return aur_fail(error, AUR_ERROR_WRITE, "%s cannot be written", path);
-    if (court) {
+    if (mesh == TOWERS) {
+        write_towers(file);
+    } else if (mesh == COURT) {
         write_box(file, (const double[3]){1, 1.5, 0.25}, (const double[3]){2, 2.5, 1.75}, false, 0);
         fputs("v 0 0 0\nv 4 0 0\nv 4 4 0\nv 0 4 0\ng floor\nf 9 10 11 12\n", file);
     } else {
@@ -52,15 +68,20 @@ typedef enum coverage_kind { FACTORS, SKY, RADIOSITIES } coverage_kind;
 
 typedef struct coverage_case {
     const char *name;
-    bool court, group;
+    coverage_mesh mesh;
+    bool group, half_planes;
     coverage_kind kind;
     size_t rays;
 } coverage_case;
 
 static const coverage_case cases[] = {
-    {"room facets", false, false, FACTORS, 256},    {"room walls", false, true, FACTORS, 256},
-    {"court facets", true, false, FACTORS, 256},    {"court sky", true, false, SKY, 256},
-    {"radiosities", true, false, RADIOSITIES, 256},
+    {"room facets", ROOM, false, false, FACTORS, 256},
+    {"room walls", ROOM, true, false, FACTORS, 256},
+    {"court facets", COURT, false, false, FACTORS, 256},
+    {"court sky", COURT, false, false, SKY, 256},
+    {"radiosities", COURT, false, false, RADIOSITIES, 256},
+    {"towers sky by half planes", TOWERS, false, true, SKY, 256},
+    {"walls' sky by half planes", TOWERS, true, true, SKY, 256},
 };
 
 enum { MOST_NUMBERS = 256 };
@@ -99,7 +120,7 @@ static aur_result measure(const lab_run *run, const aur_facets *facets, const co
     aur_view_factors_options options = aur_view_factors_options_default();
     options.rays = given->rays;
     options.seed = seed;
-    options.rays_only = true;
+    options.rays_only = !given->half_planes;
     options.threads = lab_run_options(run)->threads;
     memset(values, 0, MOST_NUMBERS * sizeof *values);
     memset(half, 0, MOST_NUMBERS * sizeof *half);
@@ -118,7 +139,7 @@ static aur_result study(lab_run *run, const coverage_case *given, lab_tally *poo
     aur_facets *facets = NULL;
     double(*const numbers)[2][MOST_NUMBERS] = malloc(seeds * sizeof *numbers);
     aur_result result = numbers == NULL ? aur_fail(error, AUR_ERROR_MEMORY, "out of memory")
-                                        : load(run, given->court, given->group, &facets, error);
+                                        : load(run, given->mesh, given->group, &facets, error);
     size_t count = 0;
     for (size_t seed = 0; seed < seeds && result == AUR_OK; ++seed)
         result = measure(run, facets, given, seed, numbers[seed][0], numbers[seed][1], &count, error);
@@ -157,7 +178,7 @@ const lab_experiment lab_factors_coverage = {
     .summary = "how often intervals of view factors, sky factors and radiosities hold",
     .columns = lab_tally_of_rays,
     .takes_no_set = "it judges intervals of the program's own points",
-    .seconds = 3,
-    .quick_seconds = 0.4,
+    .seconds = 12,
+    .quick_seconds = 1.3,
     .run = run,
 };

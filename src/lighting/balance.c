@@ -179,35 +179,49 @@ static aur_result balance_rows(system_of_rows *s, double *largest, aur_error *er
     return AUR_OK;
 }
 
-/* How much less what rows lose varies than counts of rays of their own would, compared with how much less
- * entries do: rays are spread evenly, which tells in the many that reach the sky, and hardly in the few of
- * one entry. From all rows together, because a row's own few randomisations would be weights by chance. */
-static double variance_of_losses(const aur_exchange *g, const double *losses, const double *half_widths) {
-    double squares[2] = {0.0, 0.0}, counts[2] = {0.0, 0.0};
-    for (size_t a = 0; a < g->rows; ++a) {
-        squares[0] += half_widths[a] * half_widths[a];
-        counts[0] += losses[a] * g->areas[a];
-        for (uint64_t e = g->starts[a]; e < g->starts[a + 1]; ++e) {
-            squares[1] += g->half_widths[e] * g->half_widths[e];
-            counts[1] += g->variances[e];
-        }
+/* What the variances of entries, which are those of counts of rays, are to be multiplied by to be squares of
+ * half an interval. From all rows together, because an entry's own few randomisations would be weights by
+ * chance. */
+static double scale_of_entries(const aur_exchange *g) {
+    double squares = 0.0, counts = 0.0;
+    for (uint64_t e = 0; e < g->starts[g->rows]; ++e) {
+        squares += g->half_widths[e] * g->half_widths[e];
+        counts += g->variances[e];
     }
-    const double scale = squares[1] * counts[0];
-    return squares[0] > 0.0 && scale > 0.0 ? squares[0] * counts[1] / scale : 1.0;
+    return squares > 0.0 && counts > 0.0 ? squares / counts : 0.0;
+}
+
+/* What rows lose has variances of its own: it is a sum of many rays, or of half planes, which are spread
+ * evenly, and some rows see sky in all of them. Of a row's few randomisations' variance and that of all rows,
+ * in proportion to what they lose, the first one mostly. */
+static void weigh_losses(const aur_exchange *g, double scale, const double *losses, const double *half_widths,
+                         double *weights) {
+    const double own = 0.9;
+    double squares = 0.0, counts = 0.0;
+    for (size_t a = 0; a < g->rows; ++a) {
+        squares += half_widths[a] * half_widths[a];
+        counts += losses[a] * g->areas[a];
+    }
+    for (size_t a = 0; a < g->rows; ++a) {
+        const double count = losses[a] * g->areas[a];
+        weights[a] =
+            squares > 0.0 && scale > 0.0
+                ? (own * half_widths[a] * half_widths[a] + (1.0 - own) * squares / counts * count) / scale
+                : count;
+    }
 }
 
 /* The weights of sampled entries, or of all. */
 static void choose_weights(system_of_rows *s, bool all) {
     const aur_exchange *const g = s->exchange;
-    const double sky = variance_of_losses(g, g->sky, g->sky_half_widths);
-    const double back = variance_of_losses(g, g->back, g->back_half_widths);
+    const double scale = scale_of_entries(g);
+    weigh_losses(g, scale, g->sky, g->sky_half_widths, s->losses);
+    weigh_losses(g, scale, g->back, g->back_half_widths, s->losses + g->rows);
     for (size_t a = 0; a < g->rows; ++a) {
         for (uint64_t e = g->starts[a]; e < g->starts[a + 1]; ++e) {
             const double b = g->areas[g->columns[e]];
             s->weights[e] = all ? g->values[e] * g->areas[a] * b / (g->areas[a] + b) : g->variances[e];
         }
-        s->losses[a] = sky * g->sky[a] * g->areas[a];
-        s->losses[g->rows + a] = back * g->back[a] * g->areas[a];
     }
 }
 

@@ -5,25 +5,25 @@
 static void add_corner(aur_hull *hull, const double corner[3]) {
     memcpy(hull->corners[hull->corner_count++], corner, sizeof hull->corners[0]);
     for (int d = 0; d < 3; ++d) {
-        hull->lower[d] = fmin(hull->lower[d], corner[d]);
-        hull->upper[d] = fmax(hull->upper[d], corner[d]);
+        hull->lower[d] = corner[d] < hull->lower[d] ? corner[d] : hull->lower[d];
+        hull->upper[d] = corner[d] > hull->upper[d] ? corner[d] : hull->upper[d];
     }
 }
 
-/* The range of the corners' heights above a plane. */
-static void find_heights(const aur_hull *hull, const aur_plane *plane, double *least, double *most) {
-    *least = INFINITY;
-    *most = -INFINITY;
-    for (size_t i = 0; i < hull->corner_count; ++i) {
+/* Whether corners lie more than `beyond` behind and before the plane: on which sides the hull is. */
+static void find_sides(const aur_hull *hull, const aur_plane *plane, double beyond, bool *behind,
+                       bool *before) {
+    *behind = *before = false;
+    for (size_t i = 0; i < hull->corner_count && !(*behind && *before); ++i) {
         const double height = aur_plane_height(plane, hull->corners[i]);
-        *least = fmin(*least, height);
-        *most = fmax(*most, height);
+        *behind |= height < -beyond;
+        *before |= height > beyond;
     }
 }
 
 /* Adds the plane through an edge and a corner when the hull is on one side of it. */
 static void try_plane(aur_hull *hull, const double a[3], const double b[3], const double c[3]) {
-    double u[3], v[3], least, most;
+    double u[3], v[3];
     for (int d = 0; d < 3; ++d) {
         u[d] = b[d] - a[d];
         v[d] = c[d] - a[d];
@@ -34,13 +34,13 @@ static void try_plane(aur_hull *hull, const double a[3], const double b[3], cons
     if (!(doubled > 1e-12 * aur_length3(u) * aur_length3(v)))
         return;
     plane.offset = aur_dot3(plane.normal, a);
-    find_heights(hull, &plane, &least, &most);
-    const double rounding = 0.1 * hull->slack;
-    if (most <= rounding) {
+    bool behind, before;
+    find_sides(hull, &plane, 0.1 * hull->slack, &behind, &before);
+    if (!before) {
         for (int d = 0; d < 3; ++d)
             plane.normal[d] = -plane.normal[d];
         plane.offset = -plane.offset;
-    } else if (least < -rounding) {
+    } else if (behind) {
         return;
     }
     hull->planes[hull->plane_count++] = plane;
@@ -90,9 +90,9 @@ static bool facet_is_outside(const aur_hull *hull, const aur_facets *facets, siz
             return true;
     if (facets->areas[facet] == 0.0)
         return false;
-    double least, most;
-    find_heights(hull, &facets->planes[facet], &least, &most);
-    return least >= -hull->slack || most <= hull->slack;
+    bool behind, before;
+    find_sides(hull, &facets->planes[facet], hull->slack, &behind, &before);
+    return !behind || !before;
 }
 
 bool aur_hull_is_empty(const aur_hull *hull, const aur_facets *facets, const aur_box_tree *tree,

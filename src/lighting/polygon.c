@@ -38,9 +38,11 @@ size_t aur_polygon_clip(size_t count, const double (*corners)[3], const aur_plan
         }
         if (height >= 0.0)
             memcpy(cut[kept++], corners[i], sizeof cut[0]);
-        highest = fmax(highest, height);
-        for (int d = 0; d < 3; ++d)
-            largest = fmax(largest, fabs(corners[i][d]));
+        highest = height > highest ? height : highest;
+        for (int d = 0; d < 3; ++d) {
+            const double size = fabs(corners[i][d]);
+            largest = size > largest ? size : largest;
+        }
         before = height;
         previous = corners[i];
     }

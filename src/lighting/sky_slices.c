@@ -6,7 +6,9 @@
 #include "core/random.h"
 #include "lighting/box_tree.h"
 #include "lighting/merged_facets.h"
+#include "lighting/net_spread.h"
 #include "lighting/slice_kernel.h"
+#include "lighting/slice_samples.h"
 
 /* The half planes of a facet end in a line through one of its places, along the axis of space in which there
  * is most sky: over a city they stand upright, and what hides the sky in one is all below a slope. That makes
@@ -14,7 +16,7 @@
  * cells, of which each is asked at one place, the same in all cells of a half plane and random: a bias of a
  * few millionths of the sky is left, because a cell has the weight of the whole of it. */
 
-enum { BLOCK = 64, BUCKETS = 64, LANES = AUR_SLICE_LANES };
+enum { BLOCK = 64, LANES = AUR_SLICE_LANES };
 
 struct aur_sky_slices {
     const aur_facets *facets;
@@ -136,41 +138,53 @@ void aur_sky_slices_destroy(aur_sky_slices *slices) {
     free(slices);
 }
 
-/* A half plane before it stands in a packet. */
-typedef struct sample {
-    float way[2], place[2], jitter, weight;
-    uint32_t randomization, bucket;
-} sample;
-
-/* A patch in turned coordinates. */
 typedef struct viewer {
     aur_slice_view view;
-    float corner[3], edge[2][3], inset;
-    double ahead[2], upright; /* the normal's way, of unit length, and how much of it there is */
+    aur_slice_patch patch;
 } viewer;
+
+static aur_slice_word sum_word(const float rising[32], const float level[32]) {
+    double sums[2] = {0.0, 0.0};
+    aur_slice_word word = {.lowest_rising = rising[0],
+                           .highest_rising = rising[0],
+                           .lowest_level = level[0],
+                           .highest_level = level[0]};
+    for (int k = 0; k < 32; ++k) {
+        sums[0] += (double)rising[k];
+        sums[1] += (double)level[k];
+        word.lowest_rising = fminf(word.lowest_rising, rising[k]);
+        word.highest_rising = fmaxf(word.highest_rising, rising[k]);
+        word.lowest_level = fminf(word.lowest_level, level[k]);
+        word.highest_level = fmaxf(word.highest_level, level[k]);
+    }
+    word.rising = (float)sums[0];
+    word.level = (float)sums[1];
+    return word;
+}
 
 static void make_viewer(const aur_sky_slices *s, size_t patch, viewer *v) {
     const aur_facets *const facets = s->facets;
     const aur_plane plane = aur_patch_plane(facets, patch);
+    aur_slice_patch *const p = &v->patch;
     double corners[3][3];
     aur_patch_corners(facets, patch, corners);
     for (size_t c = 0; c < 3; ++c) {
         double corner[3];
         turn(s, corners[c], corner);
         for (int d = 0; d < 3; ++d)
-            *(c == 0 ? &v->corner[d] : &v->edge[c - 1][d]) =
-                (float)corner[d] - (c == 0 ? 0.0f : v->corner[d]);
+            *(c == 0 ? &p->corner[d] : &p->edge[c - 1][d]) =
+                (float)corner[d] - (c == 0 ? 0.0f : p->corner[d]);
     }
     aur_slice_view *const view = &v->view;
     turn(s, plane.normal, view->normal);
     view->offset = plane.offset;
     view->slack = 4e-7 * facets->reach;
-    v->inset = aur_facet_inset(facets, aur_facet_of(facets, patch));
+    p->inset = aur_facet_inset(facets, aur_facet_of(facets, patch));
     const double *const n = view->normal;
-    v->upright = hypot(n[0], n[1]);
-    v->ahead[0] = v->upright > 0.0 ? n[0] / v->upright : 1.0;
-    v->ahead[1] = v->upright > 0.0 ? n[1] / v->upright : 0.0;
-    const double lowest = n[2] >= 0.0 ? -v->upright : -1.0, highest = n[2] >= 0.0 ? 1.0 : v->upright;
+    p->upright = hypot(n[0], n[1]);
+    p->ahead[0] = p->upright > 0.0 ? n[0] / p->upright : 1.0;
+    p->ahead[1] = p->upright > 0.0 ? n[1] / p->upright : 0.0;
+    const double lowest = n[2] >= 0.0 ? -p->upright : -1.0, highest = n[2] >= 0.0 ? 1.0 : p->upright;
     const double width = (highest - lowest) / AUR_SLICE_CELLS;
     view->lowest = (float)lowest;
     view->width = (float)width;
@@ -184,70 +198,23 @@ static void make_viewer(const aur_sky_slices *s, size_t patch, viewer *v) {
         }
         before = integral;
     }
+    for (int w = 0; w < AUR_SLICE_WORDS; ++w)
+        view->words[w] = sum_word(&view->rising[32 * w], &view->level[32 * w]);
 }
 
-static float shifted(float x, float shift) {
-    const float sum = x + shift;
-    return sum >= 1.0f ? sum - 1.0f : sum;
-}
-
-/* Azimuths that are uniform for a level patch and in proportion to the cosine for an upright one, as what is
- * seen in them is; a mixture of both for the others. */
-static void choose_way(const viewer *v, double u, sample *made) {
-    double c, s;
-    if (u < v->upright) {
-        s = 2.0 * u / v->upright - 1.0;
-        c = sqrt(fmax(1e-12, 1.0 - s * s));
-    } else {
-        const double angle = 2.0 * AUR_PI * (u - v->upright) / (1.0 - v->upright);
-        c = cos(angle);
-        s = sin(angle);
-    }
-    made->way[0] = (float)(c * v->ahead[0] - s * v->ahead[1]);
-    made->way[1] = (float)(c * v->ahead[1] + s * v->ahead[0]);
-    made->weight = (float)(1.0 / ((1.0 - v->upright) / (2.0 * AUR_PI) + v->upright * fmax(0.0, c) / 2.0));
-    made->bucket = (uint32_t)(fmin(u, 1.0 - 0x1p-24) * BUCKETS);
-}
-
-/* Samples in the order of their azimuths, so that those of a packet go through the same boxes. */
-static void draw_samples(const aur_sky_slices *s, const viewer *v, size_t patch, sample *unordered,
-                         sample *ordered) {
-    size_t starts[BUCKETS + 1] = {0}, made = 0;
-    const uint64_t hash = aur_hash3(s->seed, UINT64_C(0x736c69636573), patch);
-    float shift[4];
-    for (size_t d = 0; d < 4; ++d)
-        shift[d] = aur_unit_float((uint32_t)(aur_hash2(hash, d) >> 32));
-    for (size_t r = 0; r < s->randomizations; ++r)
-        for (size_t i = 0; i < s->count; ++i) {
-            const float *const point = &s->points[4 * made];
-            sample *const one = &unordered[made++];
-            *one = (sample){.randomization = (uint32_t)r, .jitter = shifted(point[3], shift[3])};
-            choose_way(v, (double)shifted(point[0], shift[0]), one);
-            const float root = sqrtf(shifted(point[1], shift[1]));
-            one->place[1] = root * shifted(point[2], shift[2]);
-            one->place[0] = root - one->place[1];
-            for (size_t d = 0; d < 2; ++d)
-                one->place[d] += v->inset * (1.0f - 3.0f * one->place[d]);
-            ++starts[one->bucket + 1];
-        }
-    for (size_t b = 0; b < BUCKETS; ++b)
-        starts[b + 1] += starts[b];
-    for (size_t i = 0; i < made; ++i)
-        ordered[starts[unordered[i].bucket]++] = unordered[i];
-}
-
-static void look(const aur_sky_slices *s, const viewer *v, const sample *samples, aur_slice_kernel *kernel,
-                 double *wholes, double *sky) {
+static void look(const aur_sky_slices *s, const viewer *v, const aur_slice_sample *samples,
+                 aur_slice_kernel *kernel, double *wholes, double *sky) {
     const size_t count = s->count * s->randomizations;
+    const aur_slice_patch *const patch = &v->patch;
     for (size_t r = 0; r < s->randomizations; ++r)
         wholes[r] = sky[r] = 0.0;
     for (size_t first = 0; first < count; first += LANES) {
         aur_slices packet;
         for (size_t l = 0; l < LANES; ++l) {
-            const sample *const one = &samples[first + l < count ? first + l : count - 1];
+            const aur_slice_sample *const one = &samples[first + l < count ? first + l : count - 1];
             for (int d = 0; d < 3; ++d)
                 packet.origin[d][l] =
-                    v->corner[d] + one->place[0] * v->edge[0][d] + one->place[1] * v->edge[1][d];
+                    patch->corner[d] + one->place[0] * patch->edge[0][d] + one->place[1] * patch->edge[1][d];
             packet.way[0][l] = one->way[0];
             packet.way[1][l] = one->way[1];
             packet.jitter[l] = one->jitter;
@@ -255,7 +222,7 @@ static void look(const aur_sky_slices *s, const viewer *v, const sample *samples
         aur_slice_parts parts;
         kernel(&s->tree, &v->view, &packet, &parts);
         for (size_t l = 0; l < LANES && first + l < count; ++l) {
-            const sample *const one = &samples[first + l];
+            const aur_slice_sample *const one = &samples[first + l];
             wholes[one->randomization] += (double)one->weight * (double)parts.whole[l];
             sky[one->randomization] += (double)one->weight * (double)parts.sky[l];
         }
@@ -275,7 +242,7 @@ static aur_result measure_block(void *context, size_t index) {
     const aur_sky_slices *const s = work->slices;
     const aur_facets *const facets = s->facets;
     const size_t count = s->count * s->randomizations;
-    sample *const samples = malloc(2 * count * sizeof *samples);
+    aur_slice_sample *const samples = malloc(2 * count * sizeof *samples);
     double *const wholes = malloc(s->randomizations * sizeof *wholes);
     const bool good = samples != NULL && wholes != NULL;
     for (size_t i = BLOCK * index; good && i < facets->patch_count && i < BLOCK * (index + 1); ++i) {
@@ -283,7 +250,8 @@ static aur_result measure_block(void *context, size_t index) {
             continue;
         viewer v;
         make_viewer(s, i, &v);
-        draw_samples(s, &v, i, samples, samples + count);
+        aur_slice_samples_draw(&v.patch, s->randomizations, s->count, s->points,
+                               aur_hash3(s->seed, UINT64_C(0x736c69636573), i), samples, samples + count);
         look(s, &v, samples + count, work->kernel, wholes, &work->sky[s->randomizations * i]);
     }
     free(samples);
@@ -299,5 +267,9 @@ aur_result aur_sky_slices_measure(const aur_sky_slices *slices, const aur_parall
     aur_parallel_options options = *parallel;
     options.what = "measuring the sky";
     options.flush_denormals = true;
-    return aur_parallel_for(&options, (patches + BLOCK - 1) / BLOCK, measure_block, &work, error);
+    const aur_result result =
+        aur_parallel_for(&options, (patches + BLOCK - 1) / BLOCK, measure_block, &work, error);
+    if (result == AUR_OK)
+        aur_net_spread_settle(patches, slices->randomizations, sky);
+    return result;
 }

@@ -30,6 +30,11 @@ typedef struct aur_slice_tree {
     aur_slice_polygon *polygons;
 } aur_slice_tree;
 
+/* The sum of both numbers over the cells of a word of bits, and their range there. */
+typedef struct aur_slice_word {
+    float rising, level, lowest_rising, highest_rising, lowest_level, highest_level;
+} aur_slice_word;
+
 /* The patch that looks. What has no corner farther than `slack` before its plane hides nothing. Its
  * directions have sines of elevation from `lowest` on, in AUR_SLICE_CELLS cells of `width`. */
 typedef struct aur_slice_view {
@@ -38,6 +43,7 @@ typedef struct aur_slice_view {
     /* Of each cell, of the third coordinate and of the way: times those of the normal, how much of the view
      * it is. */
     float rising[AUR_SLICE_CELLS], level[AUR_SLICE_CELLS];
+    aur_slice_word words[AUR_SLICE_WORDS];
 } aur_slice_view;
 
 typedef struct aur_slices {
