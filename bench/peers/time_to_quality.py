@@ -2,7 +2,7 @@
 """CPU seconds that Mitsuba 3, Blender's Cycles and our own path tracer take to a relative RMSE on the same scenes.
 
     python3.11 -m venv /tmp/peers && /tmp/peers/bin/pip install 'mitsuba==3.*' numpy bpy==4.2.0
-    /tmp/peers/bin/python bench/peers/time_to_quality.py build/release/aureole [--threads N] [--only TEXT]
+    /tmp/peers/bin/python bench/peers/time_to_quality.py build/release/aureole [--threads N] [--only TEXT] [--equal-samples]
 
 The glossy box and the room are of meshes that scripts/scenes.sh makes. llvm_ad_rgb compiles by LLVM 19 (Debian's libllvm19,
 DRJIT_LIBLLVM_PATH=.../libLLVM.so.19.1): 14 is refused, and 15 and 16 stop at "Cannot select: fminimum".
@@ -14,6 +14,10 @@ threads in the call that renders: imports, loading and the first compilation of 
 favours the peers; ours is that of whole processes. Cycles gets the scene's triangles, normals and texture from Mitsuba and
 materials of its own for rough plastic (a Principled BSDF of the same base, index and roughness), so its picture is alike,
 not equal.
+
+--equal-samples compares `path` with Mitsuba's at equal samples instead, on more scenes, in pairs that alternate: the call that
+renders (the first, which compiles, is left out) over our rendering (the whole process less one of a single sample, by as much more), and a fresh
+process of Mitsuba without kept kernels, which loads, compiles and renders, over our whole process.
 """
 import argparse
 import json
@@ -21,9 +25,12 @@ import math
 import os
 import re
 import resource
+import statistics
 import subprocess
 import sys
 import tempfile
+
+import interior
 
 ROOT = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..")
 PUBLIC = os.path.join(ROOT, "..", "shared", "scenes", "cornell-box", "scene.xml")
@@ -32,6 +39,8 @@ SCENES = {
     "glossy-box": (os.path.join(ROOT, "scenes/cornell-box/figure.xml"), 256, 256, {"materials": "rough"}),
     "room": (os.path.join(ROOT, "scenes/room/room.xml"), 240, 160, {"materials": "rough"}),
 }
+BUNDLED = {name: (os.path.join(ROOT, "scenes", name, name + ".xml"), 240, 160, {"materials": "rough"})
+           for name in ("plates", "sphere", "statue", "parade", "occlusion")}
 ERRORS = (0.02, 0.005)
 # A pixel, squares for multi-jittered ones and powers of 2 for Sobol's, where error and time are measured.
 SAMPLES = {"cornell-box": (16, 64), "glossy-box": (64, 256), "room": (64, 256)}
@@ -56,6 +65,9 @@ def scene_text(path, width, height, definitions):
             inner = re.search(r"<scene[^>]*>(.*)</scene>", file.read(), re.S)[1]
         text = text.replace(included[0], inner)
         included = re.search(r'<include filename="([^"]*)"/>', text)
+    defaults = dict(re.findall(r'<default name="([^"]*)" value="([^"]*)"/>', text)) | definitions
+    for key in sorted(defaults, key=len, reverse=True):
+        text = text.replace("$" + key, defaults[key])
     text = re.sub(r'<rfilter\s+type="[^"]*"', '<rfilter type="box"', text)
     text = re.sub(r'<integrator.*?</integrator>', '<integrator type="path"><integer name="max_depth" value="-1"/></integrator>',
                   text, flags=re.S)
@@ -83,7 +95,8 @@ def mitsuba(variant, sampler, path, threads):
         dr.set_thread_count(threads)
     else:
         mi.Thread.set_thread_count(threads) if hasattr(mi.Thread, "set_thread_count") else None
-    for samples in SAMPLES[name_of(path)] if variant.startswith("llvm") else (1,):  # kernels are compiled for each
+    # kernels are compiled for each
+    for samples in SAMPLES.get(name_of(path), ()) if variant.startswith("llvm") else (1,):
         np.array(mi.render(scene, spp=samples, seed=999))
 
     def render(samples, seed):
@@ -226,17 +239,19 @@ def cycles(path, threads):
 
 
 def ours(aureole, integrator, path, threads):
-    import mitsuba as mi
     import numpy as np
-    mi.set_variant("scalar_rgb")
-    out = os.path.join(os.path.dirname(path), "ours.exr")
+    out = os.path.join(os.path.dirname(path), "ours.pfm")
 
     def render(samples, seed):
         start = cpu_seconds(resource.RUSAGE_CHILDREN)
         subprocess.run([aureole, "render", path, "-q", "--sampler", "sobol", "--integrator", integrator, "--spp", str(samples), "--seed", str(seed), "-t",
                         str(threads), "-o", out], check=True)
         seconds = cpu_seconds(resource.RUSAGE_CHILDREN) - start
-        return np.array(mi.Bitmap(out).convert(mi.Bitmap.PixelFormat.RGB, mi.Struct.Type.Float32), dtype=np.float64), seconds
+        with open(out, "rb") as file:  # Mitsuba reads pictures by its threads, and one alone waits for itself
+            file.readline()
+            width, height = (int(word) for word in file.readline().split())
+            order = "<f4" if float(file.readline()) < 0 else ">f4"
+            return np.frombuffer(file.read(), order).reshape(height, width, 3)[::-1].astype(np.float64), seconds
     return render
 
 
@@ -272,15 +287,101 @@ def child(kind, aureole, path, threads):
                       "slope": slope, "many": many}))
 
 
+# --- equal samples
+
+
+def equal_samples_child(given, path):
+    """CPU seconds of pairs: Mitsuba's call, our process, and ours of one sample; with the means of both pictures."""
+    theirs = mitsuba("llvm_ad_rgb", "independent", path, given.threads)
+    own = ours(given.aureole, given.integrator, path, given.threads)
+    theirs(given.samples, 999)
+    rows = []
+    for seed in range(1, given.pairs + 1):
+        (a, call), (b, process), (_, least) = theirs(given.samples, seed), own(given.samples, seed), own(1, seed)
+        rows.append((call, process, least, float(a.mean()), float(b.mean())))
+    print(json.dumps(rows))
+
+
+def compiling_child(given, path):
+    """CPU seconds from loading to the first picture."""
+    import mitsuba as mi
+    import numpy as np
+    mi.set_variant("llvm_ad_rgb")
+    start = cpu_seconds()
+    scene = mi.load_file(path)
+    import drjit as dr
+    dr.set_thread_count(given.threads)
+    np.array(mi.render(scene, spp=given.samples, seed=1))
+    print(json.dumps(cpu_seconds() - start))
+
+
+def run_child(arguments, **options):
+    """What it prints last, or None and why not."""
+    done = subprocess.run([sys.executable, os.path.abspath(__file__), *arguments], capture_output=True, text=True, check=False, **options)
+    lines = [line for line in done.stdout.splitlines() if line[:1] in "{[0123456789"]
+    if done.returncode != 0 or not lines:
+        return None, (done.stderr.strip().splitlines() or ["no output"])[-1]
+    return json.loads(lines[-1]), ""
+
+
+def spread(values):
+    quarters = statistics.quantiles(values, n=4) if len(values) > 1 else 3 * values
+    return f"{statistics.median(values):.2f} [{quarters[0]:.2f}, {quarters[2]:.2f}]"
+
+
+def compare_equal_samples(given, folder):
+    print(f"{given.integrator}, {given.samples} samples a pixel, {given.pairs} pairs, {given.threads} thread(s), CPU seconds; "
+          "ratios above 1: ours is faster\n")
+    print("| scene | llvm_ad_rgb | ours, rendering | llvm_ad_rgb / ours | it loads, compiles, renders | ours, all | ratio | means differ |")
+    print("|---|---|---|---|---|---|---|---|")
+    scenes = {name: (path, 240, 160, definitions) for name, (path, _, _, definitions) in SCENES.items()} | BUNDLED
+    scenes["interior"] = (interior.write(folder)[0], 240, 160, {})
+    for name, (path, width, height, definitions) in scenes.items():
+        if given.only not in name:
+            continue
+        copy = os.path.join(folder, "equal-" + name + ".xml")
+        with open(copy, "w", encoding="utf-8") as file:
+            file.write(scene_text(path, width, height, definitions))
+        arguments = [os.path.abspath(given.aureole), "--threads", str(given.threads), "--pairs", str(given.pairs), "--samples",
+                     str(given.samples), "--integrator", given.integrator, "--child"]
+        rows, reason = run_child([*arguments, "equal samples", copy])
+        if rows is None:
+            print(f"| {name} | not measured: {reason} | | | | | | |", flush=True)
+            continue
+        with tempfile.TemporaryDirectory() as home:  # where no kernels are kept
+            compiling, _ = run_child([*arguments, "compiling", copy], env={**os.environ, "HOME": home})
+        calls, processes, least, theirs, own = zip(*rows)
+        part = given.samples / (given.samples - 1)
+        render = [(a - b) * part for a, b in zip(processes, least)]
+        ratios = spread([a / b for a, b in zip(calls, render)])
+        call, rendering, process = (statistics.median(values) for values in (calls, render, processes))
+        print(f"| {name} | {call:.2f} | {rendering:.2f} | {ratios} | {compiling:.1f} | {process:.2f} | {compiling / process:.2f} | "
+              f"{100 * (sum(own) / sum(theirs) - 1):+.1f} % |", flush=True)
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("aureole")
     parser.add_argument("--threads", type=int, default=1)
     parser.add_argument("--only", default="")
+    parser.add_argument("--equal-samples", action="store_true")
+    parser.add_argument("--pairs", type=int, default=5)
+    parser.add_argument("--samples", type=int, default=16, help="a pixel, where they are equal; more than 1")
+    parser.add_argument("--integrator", default="path", help="ours, where samples are equal")
     parser.add_argument("--child", nargs=2, metavar=("RENDERER", "SCENE"))
     given = parser.parse_args()
+    if given.child and given.child[0] == "equal samples":
+        equal_samples_child(given, given.child[1])
+        return
+    if given.child and given.child[0] == "compiling":
+        compiling_child(given, given.child[1])
+        return
     if given.child:
         child(given.child[0], given.aureole, given.child[1], given.threads)
+        return
+    if given.equal_samples:
+        with tempfile.TemporaryDirectory() as folder:
+            compare_equal_samples(given, folder)
         return
     aureole = os.path.abspath(given.aureole)
     print("| scene | renderer | " + " | ".join(f"CPU s to {100 * e:g} %" for e in ERRORS) + f" | samples a pixel | mean | measured | error ~ samples^ |")
@@ -293,14 +394,10 @@ def main():
             for kind in KINDS:
                 if given.only not in f"{name} {kind}":
                     continue
-                done = subprocess.run([sys.executable, os.path.abspath(__file__), aureole, "--threads", str(given.threads),
-                                       "--child", kind, copy], capture_output=True, text=True, check=False)
-                lines = [line for line in done.stdout.splitlines() if line.startswith("{")]
-                if done.returncode != 0 or not lines:
-                    reason = (done.stderr.strip().splitlines() or ["no output"])[-1]
+                row, reason = run_child([aureole, "--threads", str(given.threads), "--child", kind, copy])
+                if row is None:
                     print(f"| {name} | {kind} | not measured: {reason} | | | | | |", flush=True)
                     continue
-                row = json.loads(lines[-1])
                 print(f"| {name} | {kind} | " + " | ".join(f"{t:.3g}" for t in row["times"]) +
                       f" | {row['samples'][0]}, {row['samples'][1]} | {row['mean']:.4f} | "
                       f"{100 * row['errors'][1]:.2f} % at {row['many']} | {row['slope']:.2f} |",
