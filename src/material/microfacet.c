@@ -32,7 +32,7 @@ float aur_microfacet_density(const aur_microfacet *microfacet, aur_vector normal
     return 1.0f / (area * sum * sum);
 }
 
-/* Smith's Lambda, exact for both. */
+/* Smith's Lambda, exact for both, but for 0 where 1 + Lambda rounds to 1. */
 static float lambda(const aur_microfacet *microfacet, aur_vector direction) {
     const float x = direction.x * microfacet->alpha_u, y = direction.y * microfacet->alpha_v;
     const float tangent2 = (x * x + y * y) / (direction.z * direction.z); /* (alpha tan)^2 */
@@ -40,6 +40,10 @@ static float lambda(const aur_microfacet *microfacet, aur_vector direction) {
         return 0.0f;
     if (microfacet->distribution != AUR_MICROFACET_BECKMANN)
         return 0.5f * (sqrtf(1.0f + tangent2) - 1.0f);
+    /* Lambda < exp(-a^2) / (4 sqrt(pi) a^3) for a = 1 / tangent: from a = 3.5 on below 1.6e-8, and 2^-25 is
+     * 3.0e-8. Most directions on smooth surfaces are there. */
+    if (tangent2 < 1.0f / (3.5f * 3.5f))
+        return 0.0f;
     const float a = 1.0f / sqrtf(tangent2);
     /* 0.564 = 1 / sqrt pi */
     return fmaxf(0.5f * (0.56418958f * expf(-a * a) / a - erfcf(a)), 0.0f);
@@ -99,23 +103,36 @@ static float sample_visible_slope(float cosine, float sine, float u) {
     return (float)x;
 }
 
-static aur_vector sample_beckmann(aur_vector view, float u, float v) {
-    const float sine = sqrtf(view.x * view.x + view.y * view.y);
-    const float along = sample_visible_slope(view.z, sine, u);
+static float azimuthal_sine(aur_vector view) {
+    return sqrtf(view.x * view.x + view.y * view.y);
+}
+
+static aur_vector sample_beckmann(aur_vector view, float along, float v) {
+    const float sine = azimuthal_sine(view);
     const float across = aur_inverse_erf(fminf(fmaxf(2.0f * v - 1.0f, -0.999999f), 0.999999f));
     const float x = sine > 0.0f ? view.x / sine : 1.0f;
     const float y = sine > 0.0f ? view.y / sine : 0.0f;
     return (aur_vector){-(x * along - y * across), -(y * along + x * across), 1.0f};
 }
 
-aur_vector aur_microfacet_sample(const aur_microfacet *microfacet, aur_vector view, float u, float v) {
+void aur_microfacet_sample_row(const aur_microfacet *microfacet, aur_vector view, float u, size_t count,
+                               const float *v, aur_vector *normals) {
     const float a = microfacet->alpha_u, b = microfacet->alpha_v;
+    const bool beckmann = microfacet->distribution == AUR_MICROFACET_BECKMANN;
     /* Stretched, every ellipsoid is a hemisphere. */
     const aur_vector stretched = aur_vector_normalize((aur_vector){view.x * a, view.y * b, view.z});
-    const aur_vector normal = microfacet->distribution == AUR_MICROFACET_BECKMANN
-                                  ? sample_beckmann(stretched, u, v)
-                                  : sample_ggx(stretched, u, v);
-    return aur_vector_normalize((aur_vector){normal.x * a, normal.y * b, fmaxf(normal.z, 1e-7f)});
+    const float along = beckmann ? sample_visible_slope(stretched.z, azimuthal_sine(stretched), u) : 0.0f;
+    for (size_t i = 0; i < count; ++i) {
+        const aur_vector normal =
+            beckmann ? sample_beckmann(stretched, along, v[i]) : sample_ggx(stretched, u, v[i]);
+        normals[i] = aur_vector_normalize((aur_vector){normal.x * a, normal.y * b, fmaxf(normal.z, 1e-7f)});
+    }
+}
+
+aur_vector aur_microfacet_sample(const aur_microfacet *microfacet, aur_vector view, float u, float v) {
+    aur_vector normal;
+    aur_microfacet_sample_row(microfacet, view, u, 1, &v, &normal);
+    return normal;
 }
 
 float aur_microfacet_mirror(const aur_microfacet *microfacet, aur_vector view, aur_vector light,

@@ -71,6 +71,9 @@ float aur_microfacet_fitted_masking(const aur_microfacet *microfacet, aur_vector
 /* The density with which aur_microfacet_sample draws `normal`; view.z > 0. */
 float aur_microfacet_pdf(const aur_microfacet *microfacet, aur_vector view, aur_vector normal);
 aur_vector aur_microfacet_sample(const aur_microfacet *microfacet, aur_vector view, float u, float v);
+/* The same for one u and many v: what of Beckmann facets depends on u alone, the slow part, is found once. */
+void aur_microfacet_sample_row(const aur_microfacet *microfacet, aur_vector view, float u, size_t count,
+                               const float *v, aur_vector *normals);
 
 /* What facets that mirror all light scatter from `light` to `view`, times |light.z|; 0 unless both are above.
  * Their reflectance is left out: it is that at *cosine, of the angle between either direction and the facet.

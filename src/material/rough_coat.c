@@ -3,7 +3,7 @@
 #include "core/gauss.h"
 #include "material/fresnel.h"
 
-enum { SIZE = AUR_ROUGH_COAT_SIZE, MOST_NODES = 128 };
+enum { SIZE = AUR_ROUGH_COAT_SIZE, MOST_SIDE = 64, MOST_NODES = 128 };
 
 /* What a rough boundary does with light that meets it. Facets that others shadow scatter once only, so the
  * two shares are below 1 in sum, the more so the rougher; Mitsuba 3 does the same. */
@@ -36,14 +36,17 @@ static aur_vector view_at(float cosine, float least) {
 
 static rough_shares shares_at(const aur_microfacet *microfacet, float ior, float cosine) {
     /* From the denser side, total reflection cuts an edge into the integrand. */
-    const size_t side = ior > 1.0f ? 32 : 64;
+    const size_t side = ior > 1.0f ? 32 : MOST_SIDE;
     const aur_vector view = view_at(cosine, 1e-4f);
+    float middles[MOST_SIDE];
+    for (size_t i = 0; i < side; ++i)
+        middles[i] = ((float)i + 0.5f) / (float)side;
     rough_shares sum = {0};
-    for (size_t i = 0; i < side * side; ++i) {
-        const aur_vector normal =
-            aur_microfacet_sample(microfacet, view, ((float)(i / side) + 0.5f) / (float)side,
-                                  ((float)(i % side) + 0.5f) / (float)side);
-        add_facet(microfacet, ior, view, normal, 1.0, &sum);
+    aur_vector normals[MOST_SIDE];
+    for (size_t i = 0; i < side; ++i) {
+        aur_microfacet_sample_row(microfacet, view, middles[i], side, middles, normals);
+        for (size_t j = 0; j < side; ++j)
+            add_facet(microfacet, ior, view, normals[j], 1.0, &sum);
     }
     const double count = (double)(side * side);
     return (rough_shares){sum.mirrored / count, sum.through / count};
@@ -85,25 +88,34 @@ static void ggx_slopes(float cosine, float u, float v, float slopes[2]) {
 }
 
 /* Beckmann facets are drawn by the inverse of their distribution, as here. */
-static aur_vector draw(const aur_microfacet *microfacet, aur_vector view, float u, float v) {
-    if (microfacet->distribution == AUR_MICROFACET_BECKMANN)
-        return aur_microfacet_sample(microfacet, view, u, v);
+static void draw_row(const aur_microfacet *microfacet, aur_vector view, float u, size_t count, const float *v,
+                     aur_vector *normals) {
+    if (microfacet->distribution == AUR_MICROFACET_BECKMANN) {
+        aur_microfacet_sample_row(microfacet, view, u, count, v, normals);
+        return;
+    }
     const float alpha = microfacet->alpha_u;
     const aur_vector stretched = aur_vector_normalize((aur_vector){alpha * view.x, alpha * view.y, view.z});
-    float slopes[2];
-    ggx_slopes(stretched.z, u, v, slopes);
-    return aur_vector_normalize((aur_vector){-alpha * slopes[0], -alpha * slopes[1], 1.0f});
+    for (size_t i = 0; i < count; ++i) {
+        float slopes[2];
+        ggx_slopes(stretched.z, u, v[i], slopes);
+        normals[i] = aur_vector_normalize((aur_vector){-alpha * slopes[0], -alpha * slopes[1], 1.0f});
+    }
 }
 
 static rough_shares sum_at(const aur_microfacet *microfacet, float ior, float cosine, size_t count,
                            const double *nodes, const double *weights) {
     const aur_vector view = view_at(cosine, 1e-6f);
-    rough_shares sum = {0};
+    float places[MOST_NODES];
     for (size_t i = 0; i < count; ++i)
+        places[i] = (float)(0.5 * nodes[i] + 0.5);
+    rough_shares sum = {0};
+    aur_vector normals[MOST_NODES];
+    for (size_t i = 0; i < count; ++i) {
+        draw_row(microfacet, view, places[i], count, places, normals);
         for (size_t j = 0; j < count; ++j)
-            add_facet(microfacet, ior, view,
-                      draw(microfacet, view, (float)(0.5 * nodes[i] + 0.5), (float)(0.5 * nodes[j] + 0.5)),
-                      0.25 * weights[i] * weights[j], &sum);
+            add_facet(microfacet, ior, view, normals[j], 0.25 * weights[i] * weights[j], &sum);
+    }
     return sum;
 }
 

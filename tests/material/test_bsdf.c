@@ -3,6 +3,7 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "material/microfacet.h"
 #include "material/sampling.h"
 #include "mitsuba_values.h"
 
@@ -431,6 +432,42 @@ static void values_are_those_of_mitsuba(void **state) {
     }
 }
 
+/* Smith's formula in double precision; from where the shadowing rounds to none on, and before. Single
+ * precision leaves some units of 2^-24 of each of the two terms that are subtracted, which are below .6
+ * together. */
+static void facets_are_masked_by_the_formula(void **state) {
+    (void)state;
+    const aur_microfacet facets = {.distribution = AUR_MICROFACET_BECKMANN, .alpha_u = 0.3f, .alpha_v = 0.3f};
+    const aur_vector up = {0.0f, 0.0f, 1.0f};
+    for (size_t i = 1; i < 2000; ++i) {
+        const float z = (float)i / 2000.0f;
+        const aur_vector way = {sqrtf(1.0f - z * z), 0.0f, z};
+        const double a = (double)z / (0.3 * (double)way.x);
+        const double lambda = 0.5 * (exp(-a * a) / (sqrt(AUR_PI) * a) - erfc(a));
+        const double share = (double)aur_microfacet_masking(&facets, way, up);
+        if (!(fabs(share * (1.0 + lambda) - 1.0) <= 2e-6))
+            fail_msg("%.9g where it is %.9g (a = %g)", share, 1.0 / (1.0 + lambda), a);
+    }
+}
+
+/* A row of facets is what they are one by one. */
+static void rows_of_facets_are_single_facets(void **state) {
+    (void)state;
+    const float v[3] = {0.01f, 0.4f, 0.99f};
+    for (int i = 0; i < 2; ++i) {
+        const aur_microfacet facets = {.distribution = i == 0 ? AUR_MICROFACET_BECKMANN : AUR_MICROFACET_GGX,
+                                       .alpha_u = 0.1f,
+                                       .alpha_v = 0.4f};
+        const aur_vector view = aur_vector_normalize((aur_vector){0.6f, -0.3f, 0.4f});
+        aur_vector row[3];
+        aur_microfacet_sample_row(&facets, view, 0.7f, 3, v, row);
+        for (size_t k = 0; k < 3; ++k) {
+            const aur_vector one = aur_microfacet_sample(&facets, view, 0.7f, v[k]);
+            assert_memory_equal(&one, &row[k], sizeof one);
+        }
+    }
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(every_material_is_tested),
@@ -445,6 +482,8 @@ int main(void) {
         cmocka_unit_test(sampled_lobes_are_drawn_alone),
         cmocka_unit_test(lobe_reflectance_is_its_parameter),
         cmocka_unit_test(values_are_those_of_mitsuba),
+        cmocka_unit_test(facets_are_masked_by_the_formula),
+        cmocka_unit_test(rows_of_facets_are_single_facets),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -63,6 +63,9 @@ static void reads_pictures(void **state) {
         expect("bitmap:filename=%s,wrap_mode=clamp", 7.0f, 0.25f, 0, 1, 0);
         expect("bitmap:filename=%s,wrap_mode=mirror", -0.25f, 0.25f, 1, 0, 0);
         expect("bitmap:filename=%s,wrap_mode=repeat", -0.25f, 0.25f, 0, 1, 0);
+        expect("bitmap:filename=%s,filter_type=nearest,uoffset=3e9", 0.25f, 0.25f, 1, 0, 0);
+        expect("bitmap:filename=%s,filter_type=nearest,wrap_mode=mirror,uoffset=-3", 0.25f, 0.25f, 0, 1, 0);
+        expect("bitmap:filename=%s,filter_type=nearest,wrap_mode=mirror,uoffset=-3e9", 0.25f, 0.25f, 1, 0, 0);
         expect("bitmap:filename=%s,wrap_mode=repeat", 1e30f, 0.25f, 0, 0, 0);
         aur_texture *const texture = make("bitmap:filename=%s");
         assert_near(texture->mean.x, 0.5, 1e-6);
