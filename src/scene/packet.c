@@ -192,6 +192,12 @@ void aur_packet_corners(const aur_scene *scene, const aur_packet *packet, uint32
     }
 }
 
+aur_bsdf_point aur_packet_texture(const aur_scene *scene, const aur_packet *packet, size_t lane) {
+    const struct RTCHit16 *const hits = &packet->query.hit;
+    return aur_mesh_texture(&scene->shapes[hits->geomID[lane]]->mesh, hits->primID[lane], hits->u[lane],
+                            hits->v[lane]);
+}
+
 static void light_lane(const aur_scene *scene, const aur_lane_vectors *reference, float least,
                        const float u[3], size_t lane, aur_light_lanes *lights) {
     aur_light_sample one;

@@ -76,6 +76,9 @@ static inline void aur_lane_set(aur_lane_vectors *vectors, size_t lane, aur_vect
 void aur_packet_corners(const aur_scene *scene, const aur_packet *packet, uint32_t lanes,
                         aur_lane_vectors corner[3]);
 
+/* Texture coordinates, and the mesh's colours there, of such a hit. */
+aur_bsdf_point aur_packet_texture(const aur_scene *scene, const aur_packet *packet, size_t lane);
+
 /* aur_light_sample_direct of sixteen points. */
 typedef struct aur_light_lanes {
     aur_lane_vectors position, radiance;

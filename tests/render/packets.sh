@@ -30,13 +30,13 @@ unset AUREOLE_ISA
 # some 50 a bounce, each rounded by at most 2^-24 of its value. Hardly a path has more than 16 bounces, and 800 * 2^-24 is
 # 5e-5. Embree's kernels are held to one instruction set, so that no processor's own hits send a path past an edge.
 export AUREOLE_EMBREE_ISA=avx2
-for scene in "$source"/scenes/cornell-box/{glossy,cornell-box}.xml "$source"/tests/render/{furnace,white_bodies,sky}.xml; do
+for scene in "$source"/scenes/cornell-box/{glossy,cornell-box}.xml "$source"/tests/render/{furnace,white_bodies,sky,textures}.xml; do
   for options in max_depth=-1 max_depth=2 rr_depth=1; do
     for packets in true false; do
       render path-$packets.exr path:packets=$packets,$options --width 40 --height 24 --spp 4
     done
     case $scene in
-    */cornell-box/*.xml | *sky.xml)
+    */cornell-box/*.xml | *sky.xml | *textures.xml)
       off=$(figure relative_rmse path-true.exr path-false.exr)
       awk -v off="$off" 'BEGIN { exit !(off < 5e-5) }' || fail "$scene with $options: paths in packets are off by $off"
       ;;

@@ -9,6 +9,8 @@ typedef struct aur_shape_class {
     /* A mesh with nothing but diffuse reflection, alike at all its points, and no light. */
     bool plain;
     bool plain_flat; /* plain, and without normals at its vertices */
+    /* The same but for a reflectance that is not alike at all points. */
+    bool textured_flat;
     /* Reflectance of plain shapes seen from the side of the normal, and from behind: RGB, and over pi. */
     aur_vector albedo[2], albedo_on_pi[2];
 } aur_shape_class;

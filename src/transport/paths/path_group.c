@@ -187,22 +187,42 @@ static bool scatter_one(aur_path_group *g, size_t k, const aur_surface *surface,
 
 /* --- a bounce */
 
+/* The reflectance of a lane where it is not alike at all points of the shape, on the side that is seen:
+ * corners are known. */
+static void set_textured_albedo(aur_path_group *g, size_t k) {
+    const aur_vector corner = aur_lane_vector(&g->lanes.corner[0], k);
+    const aur_vector b = aur_vector_subtract(aur_lane_vector(&g->lanes.corner[1], k), corner);
+    const aur_vector c = aur_vector_subtract(aur_lane_vector(&g->lanes.corner[2], k), corner);
+    const aur_vector way = aur_packet_ray(&g->packet, k).direction;
+    const bool behind = aur_vector_dot(aur_vector_cross(b, c), way) > 0.0f;
+    const aur_bsdf *const bsdf = aur_scene_shape_bsdf(g->scene, g->packet.query.hit.geomID[k]);
+    aur_vector albedo = {0};
+    if (!behind || bsdf->scatters_from_behind)
+        albedo =
+            aur_bsdf_diffuse_albedo(bsdf, aur_packet_texture(g->scene, &g->packet, k), behind ? -1.0f : 1.0f);
+    aur_lane_set(&g->lanes.albedo[0], k, behind ? (aur_vector){0} : albedo);
+    aur_lane_set(&g->lanes.albedo[1], k, behind ? albedo : (aur_vector){0});
+}
+
 /* The lanes whose surface the kernels can do; their triangles and reflectances are made ready. */
 static uint32_t plain_lanes(aur_path_group *g, uint32_t lanes) {
     const struct RTCHit16 *const hits = &g->packet.query.hit;
-    uint32_t plain = 0;
+    uint32_t plain = 0, textured = 0;
     for (uint32_t rest = lanes; rest != 0; rest &= rest - 1) {
         const size_t k = aur_first_lane(rest);
         if (hits->instID[0][k] != RTC_INVALID_GEOMETRY_ID)
             continue;
         const aur_shape_class *const class = &g->data->classes[hits->geomID[k]];
-        if (!class->plain_flat)
+        if (!class->plain_flat && !class->textured_flat)
             continue;
         plain |= 1u << k;
+        textured |= (uint32_t) class->textured_flat << k;
         aur_lane_set(&g->lanes.albedo[0], k, class->albedo[0]);
         aur_lane_set(&g->lanes.albedo[1], k, class->albedo[1]);
     }
     aur_packet_corners(g->scene, &g->packet, plain, g->lanes.corner);
+    for (uint32_t rest = textured; rest != 0; rest &= rest - 1)
+        set_textured_albedo(g, aur_first_lane(rest));
     return plain;
 }
 
