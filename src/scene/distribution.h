@@ -6,7 +6,7 @@
 typedef struct aur_distribution {
     size_t count;
     double total;
-    double *sums; /* count + 1: running sums, the last one `total` */
+    double *sums; /* count + 1: running sums, the last one `total`; behind them the guide of distribution.c */
 } aur_distribution;
 
 /* Copies the weights (>= 0, finite); a total of 0 is allowed. */
