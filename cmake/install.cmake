@@ -23,6 +23,20 @@ foreach(module aureole-mpi aureole-assimp)
         install(TARGETS ${module} DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT lib-render)
     endif()
 endforeach()
+
+# What the wheel aureole-render holds (python/render): libraries and modules beside each other in a folder of Python's.
+if(AUREOLE_RENDER AND BUILD_SHARED_LIBS)
+    set(wheel_targets ${libraries})
+    if(TARGET aureole-assimp)
+        list(APPEND wheel_targets aureole-assimp)
+    endif()
+    add_custom_target(aureole-python-render DEPENDS ${wheel_targets})
+    if(SKBUILD) # a wheel has no links
+        set_target_properties(${libraries} PROPERTIES VERSION 0)
+    endif()
+    install(TARGETS ${wheel_targets} LIBRARY DESTINATION aureole_render COMPONENT python-render NAMELINK_SKIP EXCLUDE_FROM_ALL)
+    install(FILES python/render/aureole_render/__init__.py DESTINATION aureole_render COMPONENT python-render EXCLUDE_FROM_ALL)
+endif()
 install(DIRECTORY include/aureole DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
 install(FILES include/aureole_sampling.h DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
 

@@ -7,6 +7,7 @@
 #   scripts/newcomer.sh --count       commands and words alone; nothing is run
 # Exit status 1 where a command fails, 2 where there is no such section. The log of the commands goes to standard error.
 set -euo pipefail
+export PATH=/usr/local/bin:$PATH # as every login has it on Debian; the shell of a bare chroot may not
 cd "$(dirname "$0")/.."
 page=docs/start.md
 count_only=false

