@@ -1,9 +1,8 @@
-/* Ambient occlusion with rays of Embree's and directions of ours: how much of the sky a point on the ground
- * sees below a sphere.
+/* Ambient occlusion by Embree's rays and our directions: how much of the sky is open straight below a sphere.
  *
  *     cc examples/occlusion.c -laureole -lembree3 -lm -o occlusion && ./occlusion 256
  *
- * Directions follow the cosine about the normal, so that the open share is the mean. Straight below a sphere
+ * Directions follow the cosine about the normal, so that the open share is the mean. Below a sphere
  * of radius r at the height h it is 1 - (r/h)^2; prints it beside what as many random directions find. */
 #include <aureole/sphere.h>
 #if __has_include(<embree4/rtcore.h>)
@@ -14,21 +13,6 @@
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
-
-static RTCScene sphere_above(RTCDevice device, float height, float radius) {
-    RTCScene scene = rtcNewScene(device);
-    RTCGeometry sphere = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_SPHERE_POINT);
-    float *const where =
-        rtcSetNewGeometryBuffer(sphere, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT4, 4 * sizeof *where, 1);
-    where[0] = where[1] = 0.0f;
-    where[2] = height;
-    where[3] = radius;
-    rtcCommitGeometry(sphere);
-    rtcAttachGeometry(scene, sphere);
-    rtcReleaseGeometry(sphere);
-    rtcCommitScene(scene);
-    return scene;
-}
 
 static int is_open(RTCScene scene, const double u[3]) {
     struct RTCRay ray = {
@@ -46,26 +30,31 @@ static int is_open(RTCScene scene, const double u[3]) {
 static double open_share(RTCScene scene, const char *set, size_t count) {
     aur_directions_options options = aur_directions_options_default(count, AUR_DOMAIN_HEMISPHERE);
     options.lobe.exponent = 1.0;
-    aur_directions *directions = NULL;
-    aur_error error;
-    double *const xyz = malloc(3 * count * sizeof *xyz), seen = 0.0;
-    if (xyz == NULL || aur_directions_create(set, &options, &directions, &error) != AUR_OK ||
-        aur_directions_points(directions, 0, count, 3 * count, xyz, NULL, &error) != AUR_OK)
+    const aur_points_request request = aur_points_request_default(&options);
+    aur_points *points;
+    double seen = 0.0;
+    if (aur_points_generate(set, &request, &points, NULL) != AUR_OK)
         return NAN;
     for (size_t i = 0; i < count; ++i)
-        seen += is_open(scene, xyz + 3 * i);
-    aur_directions_destroy(directions);
-    free(xyz);
+        seen += is_open(scene, aur_points_look(points)->coordinates + 3 * i);
+    aur_points_destroy(points);
     return seen / (double)count;
 }
 
 int main(int argc, char **argv) {
     const size_t count = argc > 1 ? strtoull(argv[1], NULL, 10) : 256;
+    static const float sphere[4] = {0.0f, 0.0f, 2.0f, 1.0f}; /* centre and radius */
     RTCDevice device = rtcNewDevice("threads=1");
-    RTCScene scene = sphere_above(device, 2.0f, 1.0f);
+    RTCScene scene = rtcNewScene(device);
+    RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_SPHERE_POINT);
+    rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT4, sphere, 0,
+                               sizeof sphere, 1);
+    rtcCommitGeometry(geometry);
+    rtcAttachGeometry(scene, geometry);
+    rtcCommitScene(scene);
     printf("open %g of 0.75, by random directions %g\n", open_share(scene, "spherical-fibonacci", count),
            open_share(scene, "random", count));
+    rtcReleaseGeometry(geometry);
     rtcReleaseScene(scene);
     rtcReleaseDevice(device);
-    return 0;
 }

@@ -25,7 +25,7 @@ inside apt-get -qq install -y --no-install-recommends python3-pip >/dev/null 2>&
 for name in cc gcc clang cmake; do
   ! inside sh -c "command -v $name" || { echo "wheel_bare.sh: $name is there, so this is no bare system" >&2; exit 1; }
 done
-inside pip -q install --break-system-packages --root-user-action ignore --no-index --find-links /wheels 'aureole[render]'
+inside pip -q install --break-system-packages --root-user-action ignore --no-warn-script-location --no-index --find-links /wheels 'aureole[render]'
 cat >"$root/try.py" <<'PYTHON'
 import aureole
 print(aureole.points("spherical-fibonacci", 1000).shape, aureole.render_library())

@@ -348,6 +348,28 @@ static inline aur_points_origin aur_points_origin_default(void) {
 AUR_API aur_result aur_points_write(const char *path, aur_points_format format, const aur_points_view *points,
                                     const aur_points_origin *origin, aur_error *error) AUR_NONNULL(1, 3);
 
+/* How they are written, where it is to be another way. Fields that a format has no use for are refused. */
+typedef struct aur_points_write_options {
+    size_t size;                     /* of the caller's struct, so that it can grow */
+    const aur_points_origin *origin; /* or NULL */
+    bool no_header;                  /* CSV: numbers alone */
+    bool single;     /* NPY and PLY: float32; on square and cube cut, so that it stays below 1 */
+    unsigned digits; /* CSV: significant digits, 1 to 17; 0 stands for 17, which lose nothing */
+} aur_points_write_options;
+
+static inline aur_points_write_options aur_points_write_options_default(void) {
+    aur_points_write_options options;
+    memset(&options, 0, sizeof options);
+    options.size = sizeof options;
+    return options;
+}
+
+/* aur_points_write with options (NULL: none). Errors: also ARGUMENT for more than 17 digits, UNSUPPORTED for
+ * an option that the format has no use for. */
+AUR_API aur_result aur_points_write_as(const char *path, aur_points_format format,
+                                       const aur_points_view *points, const aur_points_write_options *options,
+                                       aur_error *error) AUR_NONNULL(1, 3);
+
 #ifdef __cplusplus
 }
 #endif

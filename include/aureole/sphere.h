@@ -109,6 +109,10 @@ typedef struct aur_rotation {
  * Rotating one set many times randomises it without generating it again. */
 AUR_API void aur_rotation_axial(uint64_t seed, aur_rotation *rotation) AUR_NONNULL(2);
 AUR_API void aur_rotation_uniform(uint64_t seed, aur_rotation *rotation) AUR_NONNULL(2);
+/* The frame about a unit vector (Duff et al. 2017): takes +z to `axis`, and so directions about +z into the
+ * hemisphere or lobe about it. Its columns m[0], m[3], m[6] and so on are a right-handed orthonormal basis.
+ */
+AUR_API void aur_rotation_frame(const double axis[3], aur_rotation *rotation) AUR_NONNULL(1, 2);
 /* Rotates `count` vectors in xyz[3 * count] in place. */
 AUR_API void aur_rotation_apply(const aur_rotation *rotation, size_t count, double *xyz) AUR_NONNULL(1, 3);
 

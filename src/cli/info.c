@@ -7,6 +7,7 @@
 #include <errno.h>
 #include <math.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include "cli/options.h"
@@ -18,7 +19,14 @@ typedef struct info_options {
     cli_common common;
 } info_options;
 
-static int describe_scene(const char *path, const info_options *options) {
+/* What is described: a file, or the bytes that came by standard input. */
+typedef struct info_input {
+    const char *path;
+    size_t size;
+    char *data; /* NULL: a file */
+} info_input;
+
+static int describe_scene(const info_input *input, const info_options *options) {
     aur_error error;
     aur_scene *scene;
     const aur_scene_options scene_options = {.size = sizeof scene_options,
@@ -26,7 +34,11 @@ static int describe_scene(const char *path, const info_options *options) {
                                              .definitions = options->definitions.items,
                                              .confine = options->definitions.confine,
                                              .warnings = cli_warnings(options->common.quiet)};
-    if (aur_scene_load(path, &scene_options, &scene, &error) != AUR_OK)
+    const aur_result loaded =
+        input->data != NULL
+            ? aur_scene_load_memory(input->path, input->size, input->data, &scene_options, &scene, &error)
+            : aur_scene_load(input->path, &scene_options, &scene, &error);
+    if (loaded != AUR_OK)
         return cli_fail(&error);
     if (aur_render_check_scene(scene, &error) != AUR_OK) {
         aur_scene_destroy(scene);
@@ -76,10 +88,13 @@ static void put_summary(report_table *table, size_t count, size_t stride, const 
     report_integer(table, count - finite);
 }
 
-static int describe_picture(const char *path, const char *format, const info_options *options) {
+static int describe_picture(const info_input *input, const char *format, const info_options *options) {
     aur_image *image;
     aur_error error;
-    if (aur_image_read(path, &image, &error) != AUR_OK)
+    const aur_result read = input->data != NULL
+                                ? aur_image_read_memory(input->path, input->size, input->data, &image, &error)
+                                : aur_image_read(input->path, &image, &error);
+    if (read != AUR_OK)
         return cli_fail(&error);
     static const char *const columns[] = {"format",  "width", "height",  "channel",
                                           "minimum", "mean",  "maximum", "not_finite"};
@@ -97,10 +112,13 @@ static int describe_picture(const char *path, const char *format, const info_opt
     return cli_finish(table, options->common.format);
 }
 
-static int describe_points(const char *path, const info_options *options) {
+static int describe_points(const info_input *input, const info_options *options) {
     aur_points *points;
     aur_error error;
-    if (aur_points_read(path, &points, &error) != AUR_OK)
+    const aur_result read = input->data != NULL ? aur_points_read_memory(input->path, input->size,
+                                                                         input->data, NULL, &points, &error)
+                                                : aur_points_read(input->path, &points, &error);
+    if (read != AUR_OK)
         return cli_fail(&error);
     static const char *const columns[] = {"domain", "points",  "coordinate", "minimum",
                                           "mean",   "maximum", "not_finite"};
@@ -153,6 +171,14 @@ static int describe_weight_table(const char *path, const info_options *options) 
     return cli_finish(facts, options->common.format);
 }
 
+/* Its numbers have a meaning beside its scene alone. */
+static int describe_radiosity(const info_options *options) {
+    report_table *const facts = report_create(0, NULL);
+    report_fact_text(facts, "kind", "solution of radiosity");
+    report_fact_text(facts, "used_by", "render --integrator radiosity:load=FILE");
+    return cli_finish(facts, options->common.format);
+}
+
 /* XML begins with '<', after a byte order mark and white space. */
 static bool is_xml(size_t size, const char *text) {
     size_t i = size >= 3 && memcmp(text, "\xef\xbb\xbf", 3) == 0 ? 3 : 0;
@@ -161,7 +187,24 @@ static bool is_xml(size_t size, const char *text) {
     return i < size && text[i] == '<';
 }
 
-static int describe(const char *path, const info_options *options) {
+static int describe(const info_input *input, size_t size, const char *start, const info_options *options) {
+    const char *const format = aur_image_format_of(size, start);
+    if (format != NULL)
+        return describe_picture(input, format, options);
+    static const char radiosity[] = "aureole-radiosity ";
+    if (size >= sizeof radiosity - 1 && memcmp(start, radiosity, sizeof radiosity - 1) == 0)
+        return describe_radiosity(options);
+    if (is_xml(size, start) || aur_scene_is_name(input->path))
+        return describe_scene(input, options);
+    static const char table[] = "aureole weight table\n";
+    if (size < sizeof table - 1 || memcmp(start, table, sizeof table - 1) != 0)
+        return describe_points(input, options);
+    if (input->data != NULL)
+        return cli_bad_usage("-: a table of weights is read from a file, not from standard input");
+    return describe_weight_table(input->path, options);
+}
+
+static int describe_file(const char *path, const info_options *options) {
     char start[START_CAPACITY];
     FILE *const file = fopen(path, "rb");
     if (file == NULL)
@@ -171,26 +214,47 @@ static int describe(const char *path, const info_options *options) {
     fclose(file);
     if (code != 0)
         return cli_bad_usage("%s: cannot read: %s", path, strerror(code));
-    const char *const format = aur_image_format_of(size, start);
-    if (format != NULL)
-        return describe_picture(path, format, options);
-    if (is_xml(size, start) || aur_scene_is_name(path))
-        return describe_scene(path, options);
-    static const char table[] = "aureole weight table\n";
-    if (size >= sizeof table - 1 && memcmp(start, table, sizeof table - 1) == 0)
-        return describe_weight_table(path, options);
-    return describe_points(path, options);
+    return describe(&(info_input){.path = path}, size, start, options);
+}
+
+/* All of standard input, in memory that doubles. */
+static int describe_stream(const info_options *options) {
+    info_input input = {.path = "-"};
+    size_t capacity = START_CAPACITY;
+    input.data = malloc(capacity);
+    while (input.data != NULL) {
+        input.size += fread(input.data + input.size, 1, capacity - input.size, stdin);
+        if (input.size < capacity)
+            break;
+        capacity *= 2;
+        char *const larger = realloc(input.data, capacity);
+        if (larger == NULL)
+            free(input.data);
+        input.data = larger;
+    }
+    const int code = ferror(stdin) ? errno : 0;
+    int status;
+    if (input.data == NULL)
+        status = cli_fail(&(aur_error){.result = AUR_ERROR_MEMORY, .message = "out of memory"});
+    else if (code != 0)
+        status = cli_bad_usage("-: cannot read: %s", strerror(code));
+    else
+        status = describe(&input, input.size, input.data, options);
+    free(input.data);
+    return status;
 }
 
 static int run(const cli_call *call) {
-    return describe(call->operands[0], call->options);
+    const char *const path = call->operands[0];
+    return strcmp(path, "-") == 0 ? describe_stream(call->options) : describe_file(path, call->options);
 }
 
 const cli_verb cli_verb_info = {
     .name = "info",
     .summary = "what is in a scene, a picture, a file of points or a table of weights",
     .notes =
-        "The kind of file is seen from its content, and that of models (.glb, .obj, ...) and .rad from its "
+        "'-' is standard input. The kind of file is seen from its content, and that of models (.glb, .obj, "
+        "...) and .rad from its "
         "name. Scenes: sizes, bounding box (scene units), film and "
         "plugins. Pictures and points: range and mean of each channel or coordinate, over its finite values.",
     .too_few = "one file is needed",

@@ -11,14 +11,19 @@
 
 static aur_result check_metric(const char *text, void *field, aur_error *error) {
     const aur_measure_description **const description = field;
-    return aur_measure_find(text, description, error);
+    return strcmp(text, "all") == 0 ? AUR_OK : aur_measure_find(text, description, error);
 }
 
 static const cli_option options[] = {
-    {CLI_INTEGER(cli_measure_arguments, sizes, "count", "N", 1, INFINITY, NULL,
-                 "sizes of the sets; files are measured whole"),
-     .letter = 'n', .list = true},
-    {CLI_TEXT(cli_measure_arguments, metrics, "metric", "NAME", NULL, "the figures (--list names them)"),
+    {CLI_INTEGER(
+         cli_measure_arguments, sizes, "count", "N", 1, INFINITY, NULL,
+         "sizes of the sets, also 64:4096 (64, 128, ...), 64:4096:x4 or 100:500:50; files are measured "
+         "whole"),
+     .letter = 'n', .list = true, .parse = cli_check_sizes},
+    {CLI_TEXT(
+         cli_measure_arguments, metrics, "metric", "NAME", NULL,
+         "the figures (--list names them); all: those of the domain that need no parameter, and bounds for "
+         "what takes long"),
      .letter = 'm', .list = true, .parse = check_metric, .content = "measure"},
     {CLI_FLAG(cli_measure_arguments, list, "list", "list the measures with their domains and sources")},
     {CLI_INTEGER(cli_measure_arguments, seed_count, "seeds", "K", 2, 1 << 20, NULL,
@@ -49,6 +54,30 @@ static aur_domain choose_domain(const cli_measure_arguments *arguments) {
     return domain;
 }
 
+/* What --metric all asks for: where the points of the first source are, unless --domain says it. */
+static aur_result find_all(cli_measure_arguments *arguments, aur_error *error) {
+    const char *const source = arguments->sources[0];
+    cli_points from = arguments->points;
+    if (!from.domain_given && strcmp(source, "-") == 0)
+        return aur_fail(error, AUR_ERROR_ARGUMENT,
+                        "--metric all: standard input is read once, so say by --domain where its points are");
+    if (!from.domain_given) {
+        uint64_t size = 0;
+        if (arguments->sizes.count > 0)
+            aur_parse_integer(cli_list_at(&arguments->sizes, 0), SIZE_MAX, &size);
+        from.natural_domain = true;
+        aur_points *points;
+        aur_points_view view;
+        const aur_result result = cli_load_points(source, &from, (size_t)size, &points, &view, error);
+        if (result != AUR_OK)
+            return result;
+        arguments->points.options.domain = view.domain;
+        aur_points_destroy(points);
+    }
+    return cli_all_metrics(arguments->points.options.domain, arguments->options.cap_degrees > 0.0,
+                           &arguments->metrics, &arguments->metric_texts, error);
+}
+
 /* What the options mean together. */
 static bool complete(cli_measure_arguments *arguments) {
     if (arguments->source_count == 0)
@@ -57,6 +86,10 @@ static bool complete(cli_measure_arguments *arguments) {
         return false;
     if (arguments->metrics.count == 0)
         return cli_bad_usage("measure: --metric is missing: 'aureole measure --list' lists them"), false;
+    aur_error error = {0};
+    if (arguments->sizes.count > 0 &&
+        cli_expand_sizes(&arguments->sizes, &arguments->size_texts, &error) != AUR_OK)
+        return cli_fail(&error), false;
     size_t series = 0;
     for (size_t i = 0; i < arguments->metrics.count; ++i) {
         const aur_measure_description *description;
@@ -73,6 +106,13 @@ static bool complete(cli_measure_arguments *arguments) {
             return cli_bad_usage("measure: -n is missing for the set '%s' (there is no such file)",
                                  arguments->sources[i]),
                    false;
+    for (size_t i = 0; i < arguments->metrics.count; ++i) {
+        if (strcmp(cli_metric(arguments, i), "all") != 0)
+            continue;
+        if (arguments->metrics.count > 1)
+            return cli_bad_usage("--metric: 'all' stands alone"), false;
+        return cli_status(find_all(arguments, &error), &error) == CLI_SUCCESS;
+    }
     if (!arguments->points.domain_given)
         arguments->points.options.domain = choose_domain(arguments);
     return true;
@@ -185,10 +225,14 @@ static int run(const cli_call *call) {
     arguments->options.seed = arguments->points.options.seed;
     if (arguments->list)
         return print_list(arguments->common.format);
-    if (!complete(arguments))
-        return CLI_BAD_INPUT;
-    arguments->options.progress = cli_progress(arguments->common.quiet);
-    return measure_all(arguments);
+    int status = CLI_BAD_INPUT;
+    if (complete(arguments)) {
+        arguments->options.progress = cli_progress(arguments->common.quiet);
+        status = measure_all(arguments);
+    }
+    free(arguments->size_texts);
+    free(arguments->metric_texts);
+    return status;
 }
 
 const cli_verb cli_verb_measure = {

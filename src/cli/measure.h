@@ -16,7 +16,8 @@ typedef struct cli_measure_arguments {
     cli_common common;
     const char *plot; /* NULL: none */
     bool list;
-    bool series; /* the one metric is a table */
+    bool series;                     /* the one metric is a table */
+    char *size_texts, *metric_texts; /* of the lists that are made here */
 } cli_measure_arguments;
 
 /* What was measured of one source and size: a table, or of each metric the value, with seeds also the spread
@@ -51,3 +52,12 @@ aur_result cli_measure_figures(const cli_measure_arguments *arguments, const cha
  * status. */
 int cli_measure_plot(const cli_measure_arguments *arguments, const cli_measure_rows *rows);
 int cli_measure_plot_series(const cli_measure_arguments *arguments, const cli_measure_rows *rows);
+
+/* Whether an item of -n is N, A:B, A:B:xR or A:B:S; and the sizes that such items stand for, in the place of
+ * them. *kept is to be freed, also after an error. */
+aur_result cli_check_sizes(const char *text, void *field, aur_error *error);
+aur_result cli_expand_sizes(cli_list *sizes, char **kept, aur_error *error);
+
+/* The figures for points of a domain (of a `cap` of it) that need no parameter; where a measure has a bound
+ * that is sooner found, the bound. */
+aur_result cli_all_metrics(aur_domain domain, bool cap, cli_list *metrics, char **kept, aur_error *error);

@@ -74,7 +74,8 @@ static aur_result load(const char *text, const cli_points *from, size_t count, a
     options.size = sizeof options;
     options.count = count;
     aur_points_request request = aur_points_request_default(&options);
-    const bool cube = domain == AUR_DOMAIN_SQUARE || domain == AUR_DOMAIN_CUBE;
+    request.natural_domain = from->natural_domain;
+    const bool cube = from->natural_domain || domain == AUR_DOMAIN_SQUARE || domain == AUR_DOMAIN_CUBE;
     request.dimension = cube ? from->dimension : 0;
     return aur_points_generate(text, &request, points, error);
 }

@@ -10,6 +10,7 @@ typedef struct cli_points {
     aur_directions_options options; /* of any domain; size, count and warnings are the verb's to fill */
     size_t dimension;               /* 0: not given */
     bool domain_given;              /* else a file's own */
+    bool natural_domain;            /* a set's own, whatever the options' is */
 } cli_points;
 
 extern const cli_option cli_points_options[], cli_dimension_option[], cli_cap_option[]; /* of a cli_points */

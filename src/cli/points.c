@@ -5,6 +5,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <strings.h>
 
 #include "cli/draw.h"
 #include "cli/point_source.h"
@@ -20,6 +21,7 @@ typedef struct points_command {
     cli_common common;
     cli_points from;
     aur_points_request points;
+    aur_points_write_options write;
 } points_command;
 
 static const char *format_name(unsigned format) {
@@ -36,9 +38,9 @@ static aur_result choose_json(const char *text, void *field, aur_error *error) {
 }
 
 static const cli_option options[] = {
-    {CLI_INTEGER(points_command, from.options.count, "n", "N", 1, INFINITY, "all of a file",
+    {CLI_INTEGER(points_command, from.options.count, "size", "N", 1, INFINITY, "all of a file",
                  "the size of the set"),
-     .key.computed = true},
+     .letter = 'n', .key.computed = true},
     {CLI_INTEGER(points_command, points.first, "first", "K", 0, INFINITY, "0",
                  "leave out the points before this one")},
     {CLI_INTEGER(points_command, points.count, "count", "C", 1, INFINITY, "all", "write only so many points"),
@@ -54,15 +56,36 @@ static const cli_option options[] = {
                 "how points are written; svg and png are pictures"),
      .key.computed = true, .name = format_name},
     {CLI_FLAG(points_command, format, "json", "the same as --format json"), .parse = choose_json},
+    {CLI_FLAG(points_command, write.no_header, "no-header", "CSV without the line of names")},
+    {CLI_INTEGER(points_command, write.digits, "digits", "D", 1, 17, NULL,
+                 "significant digits of CSV; without it 17, which lose nothing")},
+    {CLI_FLAG(points_command, write.single, "single", "32-bit floats instead of 64-bit ones (NPY, PLY)")},
     {CLI_TEXT(points_command, path, "output", "FILE", "-", "where to; '-' is standard output"), .letter = 'o',
      .content = "file"},
     {.key = {0}}};
+
+/* By the file's name, unless it is `told`. A name without an ending, and '-', are CSV. */
+static bool choose_format(points_command *wanted, bool told) {
+    const char *const slash = strrchr(wanted->path, '/');
+    const char *const dot = strrchr(slash != NULL ? slash : wanted->path, '.');
+    if (told || dot == NULL)
+        return true;
+    for (unsigned i = 0; format_name(i) != NULL; ++i)
+        if (strcasecmp(format_name(i), dot + 1) == 0) {
+            wanted->format = i;
+            return true;
+        }
+    cli_bad_usage(
+        "-o: '%s' must end in .csv, .json, .npy, .ply, .svg or .png, or --format say how it is written",
+        wanted->path);
+    return false;
+}
 
 /* What is left to the set and to the file's name when the command line does not say it. */
 static bool complete(const cli_call *call) {
     points_command *const wanted = call->options;
     bool domain_given = cli_given(call, "domain") != NULL;
-    if (cli_given(call, "n") == NULL && strncmp(call->operands[0], "file:", 5) != 0) {
+    if (cli_given(call, "size") == NULL && strncmp(call->operands[0], "file:", 5) != 0) {
         cli_bad_usage("points: the size of the set is missing: give -n N");
         return false;
     }
@@ -76,12 +99,7 @@ static bool complete(const cli_call *call) {
         cli_bad_usage("--map: needs --domain disk, hemisphere, sphere or axes");
         return false;
     }
-    const char *const dot = strrchr(wanted->path, '.');
-    const bool told = cli_given(call, "format") != NULL || cli_given(call, "json") != NULL;
-    for (unsigned i = 0; format_name(i) != NULL && dot != NULL && !told; ++i)
-        if (strcmp(format_name(i), dot + 1) == 0)
-            wanted->format = i;
-    return true;
+    return choose_format(wanted, cli_given(call, "format") != NULL || cli_given(call, "json") != NULL);
 }
 
 /* The density that a picture's brightness (Rec. 709 luminance) makes; returns the exit status. */
@@ -164,7 +182,7 @@ static int change_rotations(const points_command *wanted, aur_points_view *point
     return CLI_SUCCESS;
 }
 
-static int write_points(const char *set, const points_command *wanted, const aur_points_view *points) {
+static int write_points(const char *set, points_command *wanted, const aur_points_view *points) {
     aur_error error = {0};
     const uint64_t size = wanted->from.options.count; /* 0: all of a file */
     const aur_points_origin origin = {.size = sizeof origin,
@@ -173,10 +191,13 @@ static int write_points(const char *set, const points_command *wanted, const aur
                                       .first = wanted->points.first,
                                       .scramble = wanted->from.options.scramble,
                                       .seed = wanted->from.options.seed};
+    wanted->write.size = sizeof wanted->write;
+    wanted->write.origin = &origin;
     const aur_result result =
         wanted->format >= FORMAT_SVG
             ? cli_draw_points(wanted->path, wanted->format == FORMAT_PNG, points, &error)
-            : aur_points_write(wanted->path, (aur_points_format)wanted->format, points, &origin, &error);
+            : aur_points_write_as(wanted->path, (aur_points_format)wanted->format, points, &wanted->write,
+                                  &error);
     return cli_status(result, &error);
 }
 

@@ -16,8 +16,9 @@ static const char *method_name(unsigned method) {
 }
 
 static const cli_option options[] = {
-    {CLI_INTEGER(cli_weights_arguments, size, "n", "N", 1, INFINITY, "all of a file", "samples of the set"),
-     .key.computed = true},
+    {CLI_INTEGER(cli_weights_arguments, size, "size", "N", 1, INFINITY, "all of a file",
+                 "samples of the set"),
+     .letter = 'n', .key.computed = true},
     {CLI_TEXT(cli_weights_arguments, mirror, "lobe2", "LOBE", NULL,
               "a second lobe about the mirror direction of a view, with samples of its own; its weights are "
               "the column w2"),
@@ -125,7 +126,7 @@ static int complete(const cli_call *call, cli_weights_arguments *arguments) {
     if (points->options.domain != AUR_DOMAIN_HEMISPHERE && points->options.domain != AUR_DOMAIN_SPHERE)
         return cli_bad_usage("--domain: must be one of hemisphere, sphere, not '%s'",
                              aur_domain_name(points->options.domain));
-    if (cli_given(call, "n") == NULL && !cli_has_size(arguments->source))
+    if (cli_given(call, "size") == NULL && !cli_has_size(arguments->source))
         return cli_bad_usage("weights: -n is missing for the set '%s' (there is no such file)",
                              arguments->source);
     if (cli_given(call, "method") == NULL)

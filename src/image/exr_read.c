@@ -32,11 +32,12 @@ typedef struct channel_order {
     size_t in_file;
 } channel_order;
 
-/* R, G, B, Y, A within a layer, before its other channels. */
+/* R, G, B, Y, A within a layer, before its other channels; X and Z stand about Y, which is then no luminance.
+ */
 static int color_rank(const char *name) {
-    const char *const colors = "RGBYA";
+    const char *const colors = "RGBXYAZ";
     const char *const found = name[0] != '\0' && name[1] == '\0' ? strchr(colors, name[0]) : NULL;
-    return found != NULL ? (int)(found - colors) : 5;
+    return found != NULL ? (int)(found - colors) : 7;
 }
 
 static const char *after_layer(const char *name) {

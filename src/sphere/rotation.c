@@ -1,4 +1,4 @@
-/* Random rotations by a hash of the seed. */
+/* Random rotations by a hash of the seed, and frames. */
 #include <math.h>
 
 #include <aureole/rotations.h>
@@ -14,6 +14,13 @@ void aur_rotation_axial(uint64_t seed, aur_rotation *rotation) {
     double sine, cosine;
     aur_phase_sincos(aur_hash2(seed, STREAM_AXIAL), &sine, &cosine);
     *rotation = (aur_rotation){{cosine, -sine, 0.0, sine, cosine, 0.0, 0.0, 0.0, 1.0}};
+}
+
+void aur_rotation_frame(const double axis[3], aur_rotation *rotation) {
+    const double x = axis[0], y = axis[1], z = axis[2];
+    const double sign = copysign(1.0, z), a = -1.0 / (sign + z), b = x * y * a;
+    *rotation =
+        (aur_rotation){{1.0 + sign * x * x * a, b, x, sign * b, sign + y * y * a, y, -sign * x, -y, z}};
 }
 
 void aur_quaternion_uniform(uint64_t seed, double wxyz[4]) {

@@ -57,6 +57,18 @@ says points.xml "square,2,v,0,0.25,0.5,0"
 printf 'x,y,z,w\n0,0,1,0.5\n1,0,0,0.5\n' >points.exr
 says points.exr "hemisphere,2,w,0.5,0.5,0.5,0"
 
+# What comes by standard input is described in the same words.
+for file in scene.txt picture.csv points.xml points.exr; do
+  "$aureole" info "$file" >expected && "$aureole" info - <"$file" >out && cmp -s expected out || fail "info - <$file"
+done
+seq -f %.6f,0.5 0 0.0001 0.9999 >many.csv # more than one piece
+"$aureole" info many.csv >expected && cat many.csv | "$aureole" info - >out && cmp -s expected out || fail "info - of many points"
+refuses - </dev/null
+
+# A solution of radiosity is no scene of Radiance's, whatever it is called.
+"$aureole" render scene.txt -q --width 4 --spp 1 -o solved.exr --integrator radiosity:epsilon=0.5,save=solved.rad || fail "radiosity"
+says solved.rad "solution of radiosity,render --integrator radiosity:load=FILE"
+
 refuses missing.exr
 refuses .
 : >empty

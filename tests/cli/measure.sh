@@ -98,4 +98,26 @@ fi
 for name in $($measure --list --format csv | tail -n +2 | cut -d, -f1 | cut -d: -f1 | cut -d'[' -f1); do
   grep -q "\`$name[\`:\[]" "$2/docs/measures.md" || fail "docs/measures.md does not name $name"
 done
+
+# Ranges of sizes, each end included, and all figures of a domain beside the same asked for one by one.
+sizes() { $measure sobol -q -n "$1" --metric star --format csv | tail -n +2 | cut -d, -f2 | paste -sd' '; }
+[ "$(sizes 4:32)" = "4 8 16 32" ] || fail "-n 4:32 is $(sizes 4:32)"
+[ "$(sizes 4:40:x3,7)" = "4 12 36 7" ] || fail "-n 4:40:x3,7 is $(sizes 4:40:x3,7)"
+[ "$(sizes 2:9:x1.2)" = "2 3 4 5 6 7 9" ] || fail "-n 2:9:x1.2 is $(sizes 2:9:x1.2)"
+[ "$(sizes 10:20:5)" = "10 15 20" ] || fail "-n 10:20:5 is $(sizes 10:20:5)"
+for range in 8:4 4:8:x1 4:8:0 4:8:2:2 0:4 :4 4:; do
+  refuses "A:B" $measure sobol -n $range --metric star
+done
+for points in "sobol -n 16" "spherical-fibonacci -n 16" "spherical-fibonacci -n 16 --cap 40" "octahedron.csv" "sobol -n 16 --dim 3"; do
+  # shellcheck disable=SC2086 # words
+  all=$($measure $points -q --metric all --format csv) || fail "--metric all of $points: $all"
+  names=$(head -1 <<<"$all" | cut -d, -f4-)
+  [ "$(tr -cd , <<<"$names" | wc -c)" -ge 2 ] || fail "--metric all of $points is $names"
+  domain=$(tail -1 <<<"$all" | cut -d, -f3)
+  # shellcheck disable=SC2086
+  [ "$all" = "$($measure $points -q --domain "$domain" --metric "$names" --format csv)" ] || fail "--metric all of $points is not $names"
+done
+refuses "stands alone" $measure sobol -n 4 --metric all,star
+refuses "--domain" $measure - --metric all <octahedron.csv
+prints 0.239146 $measure - --domain sphere --metric all <octahedron.csv
 exit $status

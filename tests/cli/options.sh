@@ -21,15 +21,15 @@ refuses() {
 refuses "unknown option '--smothness'; did you mean '--smoothness'?" points sobol -n 4 --smothness 1.5
 refuses "unknown option '--xyzzy': try 'aureole help points'" points sobol --xyzzy=3
 refuses "unknown option '-x'" points sobol -qx
-refuses "'--s' may be --symmetry, --smoothness, --scramble, --seed" points sobol --s 1
+refuses "'--s' may be --size, --symmetry, --single, --smoothness, --scramble, --seed" points sobol --s 1
 refuses "option '-n' needs a value" points sobol -n
 refuses "option '--seed' needs a value" points sobol --seed
 refuses "option '--quiet' takes no value" points sobol --quiet=yes
-refuses "-n: must be at least 1, not '0'" points sobol -n 0
-refuses "-n: must be an integer, not '1e3'" points sobol -n 1e3
+refuses "--size: must be at least 1, not '0'" points sobol -n 0
+refuses "--size: must be an integer, not '1e3'" points sobol -n 1e3
 refuses "--spp: must be between 1 and 1073741824, not '0'" render a.xml --spp 0
 refuses "--smoothness: must be between 1 and 6, both exclusive, not '6'" points sobol -n 4 --smoothness 6
-refuses "--count: must be at least 1, not '0'" measure sobol -n 4,0 --metric star
+refuses "--count: must be a size N of at least 1, A:B" measure sobol -n 4,0 --metric star
 refuses "--format: must be one of table, csv, json, not 'jsn'; did you mean 'json'?" sets --format jsn
 refuses "--map: must be one of lambert, concentric, azimuthal, polar, not 'lamber'; did you mean 'lambert'?" \
   points sobol -n 4 --domain disk --map lamber

@@ -53,6 +53,26 @@ while IFS= read -r line; do
 done < sets.csv
 [ $seen -gt $((${#formats[@]} * 70)) ] || fail "only $seen combinations were run"
 
+# Numbers as they are wanted: no header, fewer digits, 32-bit floats, which stay below 1 on the square.
+"$aureole" points sobol --size 64 --no-header --digits 3 -o bare.csv || fail "--no-header --digits"
+[ "$(sed -n 4p bare.csv)" = 0.75,0.25 ] && [ "$(wc -l <bare.csv)" = 64 ] && grep -q '^0.0156,' bare.csv || fail "bare.csv: $(head -4 bare.csv)"
+printf 'u,v\n0.99999999999999989,0.3\n' >edge.csv
+for format in npy ply; do
+  "$aureole" points file:edge.csv --single -o edge.$format || fail "--single to $format"
+done
+# The largest float below 1, and 0.3 cut to 24 binary digits: 0x3f7fffff and 0x3e999999 (0.3 is 1.0011..b 2^-2 for ever).
+[ "$(tail -c 8 edge.npy | od -An -tx4 | tr -d ' \n')" = 3f7fffff3e999999 ] || fail "--single: $(tail -c 8 edge.npy | od -An -tx4)"
+[ "$(tail -c 12 edge.ply | od -An -tx4 | tr -d ' \n')" = 3f7fffff3e99999900000000 ] || fail "--single: ply"
+"$aureole" measure edge.npy --metric centered -q >edge.txt && grep -q square edge.txt || fail "edge.npy is not read: $(cat edge.txt)"
+"$aureole" points sobol -n 4 -o upper.NPY && "$aureole" measure upper.NPY --metric centered >/dev/null || fail "upper.NPY is no NPY"
+"$aureole" points sobol -n 4 -o other.txt 2>wrong.txt || grep -q "must end in .csv" wrong.txt || fail "other.txt: $(cat wrong.txt)"
+[ ! -e other.txt ] || fail "other.txt was written, in an unknown format"
+for wrong in "--digits 3 --format npy" "--no-header --format json" "--single --format csv" "--digits 18"; do
+  # shellcheck disable=SC2086
+  ! "$aureole" points sobol -n 4 $wrong -o wrong.out 2>wrong.txt && [ "$(wc -l <wrong.txt)" = 1 ] && [ ! -e wrong.out ] ||
+    fail "$wrong is not refused: $(cat wrong.txt)"
+done
+
 # What is written is read again, and parts are parts of the whole.
 "$aureole" points spherical-fibonacci -n 100 -o whole.csv || fail "whole"
 "$aureole" points spherical-fibonacci -n 100 --first 40 --count 10 -o part.csv || fail "part"
@@ -96,14 +116,14 @@ for scramble in digit owen shift rotate rotate3d; do
 done
 
 refuse() {
-  rm -f refused.out
-  "$aureole" points "$@" -o refused.out > stdout.txt 2> stderr.txt
+  rm -f refused.csv
+  "$aureole" points "$@" -o refused.csv > stdout.txt 2> stderr.txt
   local code=$?
   [ $code = 2 ] || fail "points $*: exit status $code, not 2"
   [ "$(wc -l < stderr.txt)" = 1 ] || fail "points $*: not one line on standard error: $(cat stderr.txt)"
   grep -q '^aureole: ' stderr.txt || fail "points $*: $(cat stderr.txt)"
   [ -s stdout.txt ] && fail "points $*: wrote on standard output"
-  compgen -G 'refused.out*' > /dev/null && fail "points $*: left a file"
+  compgen -G 'refused.csv*' > /dev/null && fail "points $*: left a file"
 }
 refuse
 refuse sobol

@@ -196,6 +196,8 @@ static void directions(void) {
     double north[3] = {0.0, 0.0, 1.0};
     aur_rotation_apply(&axial, 1, north);
     require(north[2] == 1.0, "an axial rotation moves the pole");
+    aur_rotation_frame((const double[3]){1.0, 0.0, 0.0}, &axial);
+    require(axial.m[2] == 1.0, "aur_rotation_frame");
     aur_rotation_apply(&uniform, 1, north);
     const aur_fibonacci_set fibonacci = {COUNT, AUR_DOMAIN_SPHERE};
     uint64_t indices[2];
@@ -226,6 +228,10 @@ static void points_and_measures(void) {
     refuse(aur_points_generate("nothing", &request, &points, &error), AUR_ERROR_NAME, &error);
     accept(aur_points_generate("spherical-fibonacci", &request, &points, &error), &error);
     accept(aur_points_write("calls.csv", AUR_POINTS_CSV, aur_points_look(points), NULL, &error), &error);
+    aur_points_write_options writing = aur_points_write_options_default();
+    writing.digits = 18;
+    refuse(aur_points_write_as("calls.txt", AUR_POINTS_CSV, aur_points_look(points), &writing, &error),
+           AUR_ERROR_ARGUMENT, &error);
     aur_points_destroy(points);
     refuse(aur_points_read("no such folder/calls.csv", &points, &error), AUR_ERROR_OPEN, &error);
     refuse(aur_points_read_on("calls.csv", AUR_DOMAIN_SQUARE, &points, &error), AUR_ERROR_UNSUPPORTED,
