@@ -50,6 +50,23 @@ double aur_growth_to(size_t count, const double *variances, double factor, const
     return after / before;
 }
 
+/* No pixel is left with less than a quarter of the mean of all: one whose first samples agreed by chance, as
+ * those of few directions from a dim place do, would stay as it is, and so would all about it. It costs at
+ * most a quarter more, where most pixels have no variance. */
+static bool raise_least(size_t count, uint32_t *targets) {
+    double sum = 0.0;
+    for (size_t i = 0; i < count; ++i)
+        sum += targets[i];
+    const double least = ceil(sum / (4.0 * (double)count));
+    bool raised = false;
+    for (size_t i = 0; i < count; ++i)
+        if (targets[i] < least) {
+            targets[i] = (uint32_t)fmin(least, (double)AUR_MOST_GROWTH * targets[i]);
+            raised = true;
+        }
+    return raised;
+}
+
 bool aur_raise_targets(size_t count, const double *variances, double factor, uint32_t most,
                        uint32_t *targets) {
     const double price = price_of(count, variances, factor, targets);
@@ -62,5 +79,5 @@ bool aur_raise_targets(size_t count, const double *variances, double factor, uin
         raised = raised || target > targets[i];
         targets[i] = target > targets[i] ? target : targets[i];
     }
-    return raised;
+    return raise_least(count, targets) || raised;
 }

@@ -53,8 +53,23 @@ static void test_limits(void **state) {
     assert_false(aur_raise_targets(3, none, 0.5, 1 << 24, ones));
 }
 
+/* A pixel that seems to have no variance goes along, a quarter of the mean behind, and fourfold a round. */
+static void test_nobody_is_left_behind(void **state) {
+    (void)state;
+    static const double variances[4] = {1.0, 1.0, 1.0, 0.0};
+    uint32_t targets[4] = {1, 1, 1, 1};
+    for (size_t round = 0; round < 4; ++round)
+        assert_true(aur_raise_targets(4, variances, 1.0 / 16, 1 << 24, targets));
+    assert_int_equal(targets[0], 256);
+    assert_int_equal(targets[3], 49); /* 1, 4, 13, and then (3 * 256 + 13) / 16 rounded up */
+    uint32_t behind[4] = {100, 100, 100, 1};
+    assert_true(aur_raise_targets(4, variances, 0.999, 1 << 24, behind));
+    assert_int_equal(behind[3], 4);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {cmocka_unit_test(test_reaches_the_factor_at_equal_gains),
-                                       cmocka_unit_test(test_limits)};
+                                       cmocka_unit_test(test_limits),
+                                       cmocka_unit_test(test_nobody_is_left_behind)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
