@@ -52,7 +52,9 @@ void bench_grid_write_ply(const bench_grid *g, FILE *file) {
 }
 
 void bench_grid_build(const bench_grid *g) {
-    const RTCDevice device = rtcNewDevice(aur_embree_configuration(g->triangle_count));
+    char configuration[AUR_EMBREE_CONFIGURATION_CAPACITY];
+    aur_embree_configuration(g->triangle_count, 0, configuration);
+    const RTCDevice device = rtcNewDevice(configuration);
     const RTCScene scene = rtcNewScene(device);
     rtcSetSceneFlags(scene, RTC_SCENE_FLAG_ROBUST);
     const RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);

@@ -134,7 +134,9 @@ static bool open_rays(const bench_limit *limit, const bench_options *options, be
     const ray_form form = (ray_form)(limit->form & FORM_MASK);
     context->packets = (limit->form & PACKET) != 0;
     context->stored = malloc(RAY_COUNT * sizeof *context->stored);
-    context->device = rtcNewDevice(aur_embree_configuration(0));
+    char configuration[AUR_EMBREE_CONFIGURATION_CAPACITY];
+    aur_embree_configuration(0, 0, configuration);
+    context->device = rtcNewDevice(configuration);
     const RTCScene scene = context->device != NULL ? rtcNewScene(context->device) : NULL;
     context->rays = (bench_rays){.scene = scene,
                                  .count = RAY_COUNT,

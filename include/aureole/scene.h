@@ -32,6 +32,9 @@ typedef struct aur_scene_options {
      * of Radiance's all are such; materials of one are known in those after it, as by oconv. */
     size_t further_count;
     const char *const *further;
+    /* That build the tree which rays are traced against, where it has a million primitives or more; below,
+     * one does. 0: all that there are. The tree does not depend on it. */
+    size_t threads;
 } aur_scene_options;
 
 static inline aur_scene_options aur_scene_options_default(void) {

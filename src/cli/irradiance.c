@@ -169,6 +169,7 @@ static int run(const cli_call *call) {
     load.further_count = call->operand_count - 1;
     load.further = (const char *const *)call->operands + 1;
     load.warnings = cli_warnings(given->common.quiet);
+    load.threads = given->common.threads;
     aur_error error;
     aur_scene *scene = NULL;
     aur_sensors *sensors = NULL;

@@ -203,6 +203,7 @@ static int render(const char *path, render_command *command, cli_errors *errors)
                                              .definition_count = command->definitions.count,
                                              .definitions = command->definitions.items,
                                              .confine = command->definitions.confine,
+                                             .threads = command->common.threads,
                                              .warnings = command->options.warnings};
     aur_scene *scene = NULL;
     aur_renderer *renderer = NULL;

@@ -155,3 +155,8 @@ void aur_warn_at(const aur_warnings *warnings, aur_location location, const char
     va_end(arguments);
     warnings->function(warnings->user, text);
 }
+
+void aur_warn_error(const aur_warnings *warnings, const aur_error *error) {
+    if (error->result != AUR_OK)
+        aur_warn_at(warnings, (aur_location){error->file, error->line, error->column}, "%s", error->message);
+}

@@ -21,6 +21,9 @@ aur_result aur_fail_in(aur_error *error, aur_result result, const char *file);
 void aur_warn_at(const aur_warnings *warnings, aur_location location, const char *format, ...)
     AUR_PRINTF(3, 4);
 
+/* Warns of what an error says, where there is one: others like it are to be told of too. */
+void aur_warn_error(const aur_warnings *warnings, const aur_error *error);
+
 /* The one wording for memory that is not to be had. */
 aur_result aur_fail_memory(aur_error *error);
 aur_result aur_fail_memory_at(aur_error *error, aur_location location);

@@ -1,4 +1,5 @@
 /* Rays against the scene, by Embree. */
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -196,25 +197,27 @@ static bool attach_all(aur_scene *scene) {
  * divided them in parallel, so which of two hits at one distance wins is settled (tests/scene/test_accel.c).
  * Small trees are not worth the threads. Embree obeys the limit of AUREOLE_ISA too, so that a test on one
  * machine meets the kernels that others have. */
-const char *aur_embree_configuration(size_t primitives) {
+void aur_embree_configuration(size_t primitives, size_t threads,
+                              char text[AUR_EMBREE_CONFIGURATION_CAPACITY]) {
     enum { MANY = 1 << 20 };
-    const bool alone = primitives < MANY;
-    switch (aur_isa_of_rays()) {
-    case AUR_ISA_PORTABLE:
-        return alone ? "threads=1,isa=sse2" : "isa=sse2";
-    case AUR_ISA_AVX2:
-        return alone ? "threads=1,isa=avx2" : "isa=avx2";
-    case AUR_ISA_AVX512:
-        break;
-    }
-    return alone ? "threads=1" : "";
+    static const char *const isa[] = {
+        [AUR_ISA_PORTABLE] = "isa=sse2", [AUR_ISA_AVX2] = "isa=avx2", [AUR_ISA_AVX512] = ""};
+    const char *const kernels = isa[aur_isa_of_rays()];
+    const size_t workers = primitives < MANY ? 1 : threads;
+    if (workers == 0)
+        snprintf(text, AUR_EMBREE_CONFIGURATION_CAPACITY, "%s", kernels);
+    else
+        snprintf(text, AUR_EMBREE_CONFIGURATION_CAPACITY, "threads=%zu%s%s", workers,
+                 *kernels != '\0' ? "," : "", kernels);
 }
 
-aur_result aur_scene_build_accel(aur_scene *scene, aur_error *error) {
+aur_result aur_scene_build_accel(aur_scene *scene, size_t threads, aur_error *error) {
     size_t primitives = 0;
+    char configuration[AUR_EMBREE_CONFIGURATION_CAPACITY];
     for (size_t i = 0; i < scene->shape_count; ++i)
         primitives += aur_shape_primitives(scene->shapes[i]);
-    scene->device = rtcNewDevice(aur_embree_configuration(primitives));
+    aur_embree_configuration(primitives, threads, configuration);
+    scene->device = rtcNewDevice(configuration);
     scene->accel = scene->device != NULL ? new_scene(scene) : NULL;
     if (scene->accel == NULL || !attach_all(scene))
         return fail(scene, RTC_ERROR_NONE, error);

@@ -152,7 +152,7 @@ static aur_result load(const char *path, size_t bytes, const char *data, const a
     if (result == AUR_OK)
         result = aur_scene_build(made, &options.warnings, error);
     if (result == AUR_OK)
-        result = aur_scene_build_accel(made, error);
+        result = aur_scene_build_accel(made, options.threads, error);
     if (result == AUR_OK)
         result = check_reach(made, error);
     if (result == AUR_OK) {

@@ -199,9 +199,11 @@ void aur_scene_bounds(const aur_scene *scene, aur_vector *lower, aur_vector *upp
 /* Embree's scene, for code that traces rays by itself: all shapes but those of groups, whose instances it
  * holds. */
 AUR_EXPERIMENTAL struct RTCSceneTy *aur_scene_embree(const aur_scene *scene);
-/* What Embree's devices are made with for so many primitives: one thread below a million, else all that there
- * are, and kernels for no wider instructions than aur_isa_of_rays(). */
-AUR_EXPERIMENTAL const char *aur_embree_configuration(size_t primitives);
+/* What Embree's devices are made with for so many primitives: one thread below a million, else as many as are
+ * given, 0 for all that there are; and kernels for no wider instructions than aur_isa_of_rays(). */
+enum { AUR_EMBREE_CONFIGURATION_CAPACITY = 48 };
+AUR_EXPERIMENTAL void aur_embree_configuration(size_t primitives, size_t threads,
+                                               char text[AUR_EMBREE_CONFIGURATION_CAPACITY]);
 
 /* A triangle of a mesh, in world coordinates. */
 typedef struct aur_triangle {

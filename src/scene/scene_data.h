@@ -73,5 +73,5 @@ aur_result aur_scene_build(aur_scene *scene, const aur_warnings *warnings, aur_e
 /* The definitions as scene->definitions has them; NULL when memory is out (contents.c). */
 char *aur_definitions_text(const aur_scene_options *options);
 /* Hands the shapes to Embree (accel.c). */
-aur_result aur_scene_build_accel(aur_scene *scene, aur_error *error);
+aur_result aur_scene_build_accel(aur_scene *scene, size_t threads, aur_error *error);
 void aur_scene_release_accel(aur_scene *scene);

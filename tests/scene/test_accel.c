@@ -4,8 +4,10 @@
 
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
 #include "scene/embree.h"
+#include "scene/scene.h"
 
 enum { SIDE = 160, RAYS = 20000 };
 
@@ -158,6 +160,25 @@ static void threads_decide_no_tie(void **state) {
     free(points);
 }
 
+/* The threads that are asked for build large trees, and never more. */
+static void threads_are_bounded(void **state) {
+    (void)state;
+    static const struct {
+        size_t primitives, threads;
+        const char *start;
+    } rows[] = {
+        {100, 3, "threads=1"}, {100, 0, "threads=1"}, {1 << 20, 3, "threads=3"}, {1 << 20, 1, "threads=1"}};
+    char text[AUR_EMBREE_CONFIGURATION_CAPACITY];
+    for (size_t i = 0; i < sizeof rows / sizeof rows[0]; ++i) {
+        aur_embree_configuration(rows[i].primitives, rows[i].threads, text);
+        const size_t length = strlen(rows[i].start);
+        assert_true(strncmp(text, rows[i].start, length) == 0 &&
+                    (text[length] == '\0' || text[length] == ','));
+    }
+    aur_embree_configuration(1 << 20, 0, text);
+    assert_null(strstr(text, "threads"));
+}
+
 int main(void) {
     static add_function *kinds[] = {add_triangles, add_balls, add_cones, add_splines};
     const struct CMUnitTest tests[] = {
@@ -165,6 +186,7 @@ int main(void) {
         {"balls", threads_decide_no_tie, NULL, NULL, &kinds[1]},
         {"cones", threads_decide_no_tie, NULL, NULL, &kinds[2]},
         {"splines", threads_decide_no_tie, NULL, NULL, &kinds[3]},
+        cmocka_unit_test(threads_are_bounded),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

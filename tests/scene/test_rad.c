@@ -230,11 +230,58 @@ static void bad_input(void **state) {
     }
 }
 
+static void keep(void *user, const char *message) {
+    char *const text = user;
+    strncat(text, message, 1023 - strlen(text));
+    strncat(text, "\n", 1023 - strlen(text));
+}
+
+/* What is not read is said at once, and before the mesh is looked for: the last of it is the error. What is
+ * wrong besides is the error where the file cannot be read on. */
+static void says_all_that_is_left_out(void **state) {
+    (void)state;
+    static const struct {
+        const char *text, *warnings;
+        aur_result result;
+        const char *message;
+    } rows[] = {
+        {"void brightfunc b\n2 dirt dirt.cal\n0\n1 .5\nb plastic p 0 0 5 1 1 1 0 0\np mesh m 1 none.obj 0 0\n"
+         "void plastic q 0 0 5 1 1 1 .5 0\n!genbox q box 1 1 1 | xform\nq cone c 0 0 8 0 0 0 0 0 1 1 .5\n"
+         "q sphere s 0 0 4 0 0 0 1\n",
+         "room.rad:1: 'brightfunc' is not read\n"
+         "room.rad:5: plastic: patterns, textures and mixtures are not read: its modifier must be 'void', "
+         "not 'b'\n"
+         "room.rad:7: plastic: a specularity of 0.5 is not read: Radiance's model of it is none of ours; 0 "
+         "is "
+         "exact\n"
+         "room.rad:8: the command 'genbox' is not run, only cat and xform that include files: write what it "
+         "makes into the file, or into one of its own beside this one\n",
+         AUR_ERROR_UNSUPPORTED, "'cone' is not read"},
+        {"void dielectric d 0 0 5 1 1 1 1.5 0\nvoid plastic q 0 0 4 1 1 1 0\n",
+         "room.rad:1: 'dielectric' is not read\n", AUR_ERROR_FORMAT, "plastic takes 5 numbers, not 4"},
+    };
+    for (size_t i = 0; i < sizeof rows / sizeof rows[0]; ++i) {
+        char said[1024] = "";
+        const aur_scene_options options = {.size = sizeof options, .warnings = {keep, said}};
+        aur_scene *scene = NULL;
+        aur_error error = {0};
+        assert_int_equal(
+            aur_scene_load_memory("room.rad", strlen(rows[i].text), rows[i].text, &options, &scene, &error),
+            rows[i].result);
+        assert_string_equal(said, rows[i].warnings);
+        assert_non_null(strstr(error.message, rows[i].message));
+        /* nobody need ask for it */
+        assert_int_equal(
+            aur_scene_load_memory("room.rad", strlen(rows[i].text), rows[i].text, NULL, &scene, NULL),
+            rows[i].result);
+    }
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(reads_surfaces), cmocka_unit_test(cuts_polygons),
         cmocka_unit_test(reads_sources),  cmocka_unit_test(glass_by_its_series),
-        cmocka_unit_test(bad_input),
+        cmocka_unit_test(bad_input),      cmocka_unit_test(says_all_that_is_left_out),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -3,6 +3,7 @@
 
 #include "scene/load/loader.h"
 #include "scene/load/properties.h"
+#include "scene/load/spectrum.h"
 
 static const aur_object_kind kinds[] = {
     {"shape", aur_build_shape},     {"bsdf", aur_build_bsdf},       {"texture", aur_build_texture},
@@ -55,53 +56,60 @@ static aur_result check_top(aur_loader *self, const aur_xml_node *node) {
                         emitter->descriptor->row.name);
 }
 
-/* The table of what an element may be, or NULL where its type is not one of these. */
-static const aur_table *table_of(const aur_xml_node *node, const char *plugin) {
+/* The table of what an element may be, or NULL where its type is not one of these. Films and filters count
+ * where they stand in the scene's own sensor: those of a sensor in a `batch` are left out, and so are those
+ * at scene level that nothing refers to. */
+static const aur_table *table_of(const aur_xml_node *node, const char *plugin, size_t depth) {
     const struct {
         const char *tag;
         const aur_table *table;
-    } tables[] = {{"bsdf", &aur_bsdf_table},     {"texture", &aur_texture_table},
-                  {"shape", &aur_shape_table},   {"emitter", &aur_emitter_table},
-                  {"sensor", &aur_sensor_table}, {"medium", &aur_medium_table},
-                  {"phase", &aur_phase_table},   {"volume", &aur_volume_table}};
+        size_t depth; /* 0: any */
+    } tables[] = {{"bsdf", &aur_bsdf_table, 0},         {"texture", &aur_texture_table, 0},
+                  {"shape", &aur_shape_table, 0},       {"emitter", &aur_emitter_table, 0},
+                  {"sensor", &aur_sensor_table, 0},     {"medium", &aur_medium_table, 0},
+                  {"phase", &aur_phase_table, 0},       {"volume", &aur_volume_table, 0},
+                  {"spectrum", &aur_spectrum_table, 0}, {"film", &aur_film_table, 1},
+                  {"rfilter", &aur_filter_table, 2}};
     if (strcmp(node->tag, "shape") == 0 && aur_is_shape_of_shapes(plugin))
         return NULL;
     for (size_t i = 0; i < sizeof tables / sizeof tables[0]; ++i)
         if (strcmp(node->tag, tables[i].tag) == 0)
-            return tables[i].table;
+            return tables[i].depth == 0 || tables[i].depth == depth ? tables[i].table : NULL;
     return NULL;
+}
+
+/* The error of an element whose type is not known. */
+static aur_result check_type(const aur_xml_node *node, size_t depth, aur_error *error) {
+    const char *const plugin = aur_xml_attribute_value(node, "type");
+    const aur_table *const table = plugin != NULL ? table_of(node, plugin, depth) : NULL;
+    if (table == NULL)
+        return AUR_OK;
+    aur_parameters parameters;
+    const aur_row *row;
+    aur_result result = aur_parameters_init(&parameters, node->tag, plugin, node->location, error);
+    if (result != AUR_OK)
+        return result;
+    result = aur_table_find(table, &parameters, &row, error);
+    aur_parameters_release(&parameters);
+    return result;
 }
 
 /* Finds all elements whose type is not known, before anything is read: the last one found is the error, and
  * the others are warnings before it. */
-static aur_result refuse_unknown(const aur_loader *self, const aur_xml_node *node, aur_error *found) {
-    aur_result result = AUR_OK;
+static void refuse_unknown(const aur_loader *self, const aur_xml_node *node, size_t depth, aur_error *last) {
+    bool has_sensor = false;
     for (const aur_xml_node *child = node->first_child; child != NULL; child = child->next) {
-        const char *const plugin = aur_xml_attribute_value(child, "type");
-        const aur_table *const table = plugin != NULL ? table_of(child, plugin) : NULL;
-        aur_parameters parameters;
-        const aur_row *row;
+        const bool sensor = strcmp(child->tag, "sensor") == 0;
+        if (sensor && has_sensor && depth == 0)
+            continue;
+        has_sensor = has_sensor || sensor;
         aur_error error = {0};
-        aur_result here = AUR_OK;
-        if (table != NULL) {
-            here = aur_parameters_init(&parameters, child->tag, plugin, child->location, &error);
-            if (here != AUR_OK)
-                return here;
-            here = aur_table_find(table, &parameters, &row, &error);
-            aur_parameters_release(&parameters);
+        if (check_type(child, depth, &error) != AUR_OK) {
+            aur_warn_error(self->warnings, last);
+            *last = error;
         }
-        for (size_t pass = 0; pass < 2; ++pass) {
-            if (here != AUR_OK && result != AUR_OK)
-                aur_warn_at(self->warnings, (aur_location){found->file, found->line, found->column}, "%s",
-                            found->message);
-            if (here != AUR_OK) {
-                *found = error;
-                result = here;
-            }
-            here = pass == 0 ? refuse_unknown(self, child, &error) : AUR_OK;
-        }
+        refuse_unknown(self, child, depth + 1, last);
     }
-    return result;
 }
 
 aur_result aur_scene_build(aur_scene *scene, const aur_warnings *warnings, aur_error *error) {
@@ -113,11 +121,11 @@ aur_result aur_scene_build(aur_scene *scene, const aur_warnings *warnings, aur_e
     scene->film = (aur_film_settings){.width = 768, .height = 576, .filter = aur_filter_find("gaussian")};
     scene->samples_per_pixel = 4;
     aur_xml_node *const root = scene->document.root;
-    aur_error unknown = {0};
-    if (refuse_unknown(&self, root, &unknown) != AUR_OK) {
-        *error = unknown;
-        return unknown.result;
-    }
+    aur_error *const left_out = &scene->document.left_out;
+    refuse_unknown(&self, root, 0, left_out);
+    if (left_out->result != AUR_OK)
+        return aur_fail_at(error, (aur_location){left_out->file, left_out->line, left_out->column},
+                           left_out->result, "%s", left_out->message);
     aur_result result = AUR_OK;
     for (aur_xml_node *node = root->first_child; result == AUR_OK && node != NULL; node = node->next)
         result = build_top(&self, node);

@@ -147,6 +147,40 @@ static aur_result put_lines(aur_rad *self, size_t line) {
     return result;
 }
 
+/* Notes what is not read, and goes on to the next thing. What refers to a thing that is not there may do so
+ * because that was left out. */
+static aur_result leave_out(aur_rad *self, aur_result result) {
+    aur_error *const last = self->scene->left_out;
+    if (result == AUR_ERROR_NAME && last->result != AUR_OK)
+        return AUR_OK;
+    if (result != AUR_ERROR_UNSUPPORTED)
+        return result;
+    aur_warn_error(self->scene->warnings, last);
+    *last = *self->error;
+    return AUR_OK;
+}
+
+/* What a primitive becomes whose arguments have been read. */
+static aur_result use_primitive(aur_rad *self, const aur_rad_primitive *item) {
+    if (item->row == NULL)
+        return fail_type(self, item->type);
+    if (item->number_count < item->row->least || item->number_count > item->row->most)
+        return aur_rad_fail(self, item->type.line, AUR_ERROR_FORMAT, "%s takes %zu numbers%s, not %zu",
+                            item->row->name, item->row->least,
+                            item->row->most > item->row->least ? " or more" : "", item->number_count);
+    if (item->string_count > 0 && !item->row->names_file)
+        return aur_rad_fail(self, item->strings[0].line, AUR_ERROR_UNSUPPORTED, "%s takes no strings",
+                            item->row->name);
+    aur_result result = put_lines(self, item->modifier.line);
+    if (result != AUR_OK)
+        return result;
+    if (item->row->material)
+        return read_material(self, item);
+    const aur_rad_material *material;
+    result = find_modifier(self, item->modifier, &material);
+    return result == AUR_OK ? item->row->write(self, item, material) : result;
+}
+
 static aur_result read_primitive(aur_rad *self, aur_rad_word modifier) {
     aur_rad_primitive item = {.modifier = modifier};
     if (!aur_rad_next_word(self, &item.type))
@@ -158,26 +192,10 @@ static aur_result read_primitive(aur_rad *self, aur_rad_word modifier) {
     for (size_t i = 0; i < AUR_RAD_ROWS && item.row == NULL; ++i)
         if (aur_rad_is_word(item.type, aur_rad_rows[i].name))
             item.row = &aur_rad_rows[i];
-    if (item.row == NULL)
-        return fail_type(self, item.type);
-    aur_result result = read_arguments(self, &item);
-    if (result != AUR_OK)
-        return result;
-    if (item.number_count < item.row->least || item.number_count > item.row->most)
-        return aur_rad_fail(self, item.type.line, AUR_ERROR_FORMAT, "%s takes %zu numbers%s, not %zu",
-                            item.row->name, item.row->least,
-                            item.row->most > item.row->least ? " or more" : "", item.number_count);
-    if (item.string_count > 0 && !item.row->names_file)
-        return aur_rad_fail(self, item.strings[0].line, AUR_ERROR_UNSUPPORTED, "%s takes no strings",
-                            item.row->name);
-    result = put_lines(self, modifier.line);
-    if (result != AUR_OK)
-        return result;
-    if (item.row->material)
-        return read_material(self, &item);
-    const aur_rad_material *material;
-    result = find_modifier(self, modifier, &material);
-    return result == AUR_OK ? item.row->write(self, &item, material) : result;
+    const aur_result result = read_arguments(self, &item);
+    if (result != AUR_OK) /* nobody knows where the next thing begins */
+        return item.row == NULL ? fail_type(self, item.type) : result;
+    return leave_out(self, use_primitive(self, &item));
 }
 
 /* The next word of the line. */
@@ -256,8 +274,16 @@ aur_result aur_rad_next(aur_rad *self, const char **xml, size_t *size) {
         result = aur_rad_put(self, "<scene version=\"3.0.0\">");
     self->begun = true;
     while (result == AUR_OK && !includes && aur_rad_next_word(self, &word)) {
+        const size_t before = self->xml_size;
         includes = word.text[0] == '!';
         result = includes ? read_command(self, word) : read_primitive(self, word);
+        if (includes && result == AUR_ERROR_UNSUPPORTED) {
+            result = leave_out(self, result);
+            self->xml_size = before;
+            includes = false;
+            while (next_of_line(self, &word))
+                continue;
+        }
     }
     if (result == AUR_OK && !includes && !self->ended) {
         result = aur_rad_put(self, "</scene>");

@@ -15,6 +15,8 @@ typedef struct aur_rad_scene {
     aur_arena *arena; /* of names */
     size_t material_count, material_capacity, bsdf_count;
     aur_rad_material *materials;
+    const aur_warnings *warnings;
+    aur_error *left_out; /* the last thing that is not read; those before it have been warned of */
 } aur_rad_scene;
 
 void aur_rad_scene_release(aur_rad_scene *scene);
@@ -30,7 +32,8 @@ aur_result aur_rad_open(aur_rad_scene *scene, const char *path, size_t size, con
  * read before what comes after them and may use their materials; one of 0 bytes is none: the file has ended.
  * Known are the surfaces polygon, sphere, bubble, cylinder, tube, ring, mesh (of an OBJ file) and source, the
  * materials plastic and metal without specularity, glass, light and glow, aliases, and the commands cat and
- * xform where they do nothing but include. Errors: FORMAT and UNSUPPORTED with the line of whatever is wrong
- * or not known; NAME for a modifier that is not defined above; MEMORY. */
+ * xform where they do nothing but include. Errors: FORMAT and UNSUPPORTED with the line of whatever is wrong;
+ * NAME for a modifier that is not defined above; MEMORY. What is well-formed and not known is noted in the
+ * scene's `left_out` instead, so that all of it can be said at once. */
 aur_result aur_rad_next(aur_rad *rad, const char **xml, size_t *size);
 void aur_rad_close(aur_rad *rad); /* NULL is allowed */

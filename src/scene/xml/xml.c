@@ -381,12 +381,15 @@ static aur_result read_further(reading *shared, const char *path, const char *fu
 
 aur_result aur_xml_read(const char *path, size_t bytes, const char *data, const aur_scene_options *options,
                         aur_xml_document *document, aur_error *error) {
+    aur_error unseen;
+    error = error != NULL ? error : &unseen;
     *document = (aur_xml_document){0};
-    reading shared = {.document = document,
-                      .variables = {.arena = &document->arena},
-                      .rad = {.arena = &document->arena},
-                      .warnings = &options->warnings,
-                      .error = error};
+    reading shared = {
+        .document = document,
+        .variables = {.arena = &document->arena},
+        .rad = {.arena = &document->arena, .warnings = &options->warnings, .left_out = &document->left_out},
+        .warnings = &options->warnings,
+        .error = error};
     aur_result result = aur_xml_variables_define(&shared.variables, options, error);
     if (result == AUR_OK && options->confine)
         result = aur_xml_confine(document, path, error);
@@ -401,8 +404,10 @@ aur_result aur_xml_read(const char *path, size_t bytes, const char *data, const 
         result = aur_xml_variables_finish(&shared.variables, path, error);
     free(shared.variables.items);
     aur_rad_scene_release(&shared.rad);
-    if (result != AUR_OK)
+    if (result != AUR_OK) {
+        aur_warn_error(&options->warnings, &document->left_out);
         aur_xml_release(document);
+    }
     return result;
 }
 

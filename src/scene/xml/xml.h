@@ -60,6 +60,9 @@ typedef struct aur_xml_document {
     size_t file_count, file_capacity;
     char *confines;      /* the folder that files must lie in, without links; NULL: anywhere */
     aur_xml_file *files; /* the scene's own, and those of aur_xml_find_asset as often as they are named */
+    /* The last thing that is known not to be read, for which the scene must be refused when all others have
+     * been found; they have been warned of. */
+    aur_error left_out;
 } aur_xml_document;
 
 /* From the file at `path`, or from `data`, where it is given. On failure *document needs no release. */
