@@ -1,10 +1,25 @@
 /* The figures of `aureole measure` for one set or file and size. */
+#include <aureole/text.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "cli/measure.h"
+
+/* Whether these points have no such figure, which is no error where all figures are asked for: a warning. */
+static bool is_left_out(const cli_measure_arguments *arguments, const char *source, size_t metric,
+                        aur_result result, const aur_error *error) {
+    const bool all = arguments->metric_texts != NULL;
+    if (!all || (result != AUR_ERROR_ARGUMENT && result != AUR_ERROR_UNSUPPORTED))
+        return false;
+    char message[AUR_ERROR_MESSAGE_CAPACITY + 128];
+    aur_format(message, sizeof message, "%s: no %s: %s", source, cli_metric(arguments, metric),
+               error->message);
+    if (arguments->options.warnings.function != NULL)
+        arguments->options.warnings.function(arguments->options.warnings.user, message);
+    return true;
+}
 
 /* All metrics of one set of points into values[metrics.count], then the bounds of their errors, or the table;
  * messages name the file. */
@@ -22,9 +37,16 @@ static aur_result measure_points(const cli_measure_arguments *arguments, const c
     if (arguments->series)
         result =
             aur_measure_series(cli_metric(arguments, 0), &view, &arguments->options, &row->series, error);
-    for (size_t m = 0; m < arguments->metrics.count && !arguments->series && result == AUR_OK; ++m)
-        result = aur_measure_bounded(cli_metric(arguments, m), &view, &arguments->options, &values[m],
-                                     &values[arguments->metrics.count + m], error);
+    for (size_t m = 0; m < arguments->metrics.count && !arguments->series && result == AUR_OK; ++m) {
+        double *const bound = &values[arguments->metrics.count + m];
+        result = aur_measure_bounded(cli_metric(arguments, m), &view, &arguments->options, &values[m], bound,
+                                     error);
+        if (is_left_out(arguments, source, m, result, error)) {
+            values[m] = *bound = NAN;
+            *error = (aur_error){0};
+            result = AUR_OK;
+        }
+    }
     if (result != AUR_OK && error->file[0] == '\0')
         snprintf(error->file, sizeof error->file, "%s", source);
     aur_points_destroy(points);

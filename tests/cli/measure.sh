@@ -118,6 +118,10 @@ for points in "sobol -n 16" "spherical-fibonacci -n 16" "spherical-fibonacci -n 
   [ "$all" = "$($measure $points -q --domain "$domain" --metric "$names" --format csv)" ] || fail "--metric all of $points is not $names"
 done
 refuses "stands alone" $measure sobol -n 4 --metric all,star
+# A net has a power of its base as its size: such a figure is left out, and said.
+prints "no net: a net in base 2" $measure halton -n 8,12 --metric all
+[ "$($measure halton -q -n 8,12 --metric all --format csv | cut -d, -f9 | paste -sd' ')" = "net 3 nan" ] ||
+  fail "--metric all of 12 points: $($measure halton -q -n 8,12 --metric all --format csv)"
 refuses "--domain" $measure - --metric all <octahedron.csv
 prints 0.239146 $measure - --domain sphere --metric all <octahedron.csv
 exit $status
