@@ -1,0 +1,116 @@
+#!/usr/bin/env python3
+"""What the same CPU seconds buy: the measured Cornell box by final gathering, by our path tracer and by Mitsuba 3, each at full size
+beside a reference, with its RMSE. Writes the pictures to docs/gallery and the section of docs/gallery.md that shows them.
+
+    /tmp/peers/bin/python bench/peers/equal_time.py build/release/aureole [--seconds T] [--folder KEPT]
+
+needs Mitsuba 3 and NumPy, as time_to_quality.py does, whose scene, clock and warming it shares: of Mitsuba only the call that renders is
+counted, of ours the whole process with loading and photon map. One thread each. Samples a pixel are those that a first picture's
+time says fit into the seconds. The reference is two path-traced pictures, kept in KEPT for another run; the squared error that they have
+themselves, a quarter of their mean squared difference, is subtracted.
+"""
+import argparse
+import math
+import os
+import re
+import subprocess
+import tempfile
+
+import drjit as dr
+import mitsuba as mi
+import numpy as np
+
+import time_to_quality
+
+ROOT = os.path.normpath(time_to_quality.ROOT)
+SCENE = "scenes/cornell-box/cornell-box.xml"
+SIDE = 256
+PATH = "path:interleaved=true,rr_depth=4"
+GATHER = "finalgather:photons=60000,photons_per_texel=24,diffuse_samples=16,edges=640,light_samples=4,share=true"
+SECTION = "At equal time"
+
+
+def read(path):
+    return np.array(mi.Bitmap(path).convert(mi.Bitmap.PixelFormat.RGB, mi.Struct.Type.Float32), dtype=np.float64)
+
+
+def reference(aureole, scene, folder, samples):
+    halves = []
+    for seed in (11, 12):
+        path = os.path.join(folder, f"ref{seed}.exr")
+        if not os.path.exists(path):
+            subprocess.run([aureole, "render", scene, "-q", "-t", "1", "--sampler", "sobol", "--integrator", PATH, "--spp", str(samples), "--seed",
+                            str(seed), "-o", path], check=True)
+        halves.append(read(path))
+    return (halves[0] + halves[1]) / 2, ((halves[0] - halves[1]) ** 2).mean() / 4
+
+
+def samples_for(render, seconds, first, allowed):
+    """The largest number of samples whose picture, by the times of one and of two more, takes at most so many seconds."""
+    few, many = render(first, 1)[1], render(4 * first, 1)[1]
+    each = max(many - few, 1e-3) / (3 * first)
+    return max(allowed(math.floor((seconds - few) / each + first)), 1)
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("aureole")
+    parser.add_argument("--seconds", type=float, default=1.0)
+    parser.add_argument("--samples", type=int, default=256, help="of each half of the reference")
+    parser.add_argument("--folder")
+    given = parser.parse_args()
+    aureole = os.path.abspath(given.aureole)
+    with tempfile.TemporaryDirectory() as scratch:
+        folder = given.folder or scratch
+        scene = os.path.join(folder, "cornell-box.xml")
+        with open(scene, "w", encoding="utf-8") as file:
+            file.write(time_to_quality.scene_text(os.path.join(ROOT, SCENE), SIDE, SIDE, {}))
+        mi.set_variant("llvm_ad_rgb")
+        truth, own_error = reference(aureole, scene, folder, given.samples)
+        rows = [("reference", "reference", "", "", truth, math.sqrt(own_error) / truth.mean())]
+
+        def whole(count):
+            return count
+
+        def square(count):
+            return math.isqrt(max(count, 1)) ** 2
+
+        def peer(samples, seed):  # a kernel is compiled for each number of samples; pictures are read and written by a second thread
+            time_to_quality.SAMPLES["cornell-box"] = (samples,)
+            done = time_to_quality.mitsuba("llvm_ad_rgb", "multijitter", scene, 1)(samples, seed)
+            dr.set_thread_count(2)
+            return done
+
+        for name, title, command, first, allowed, render in (
+                ("finalgather", "final gathering", GATHER, 1, whole, time_to_quality.ours(aureole, GATHER, scene, 1)),
+                ("path", "our path tracer", PATH, 1, whole, time_to_quality.ours(aureole, PATH, scene, 1)),
+                ("mitsuba", f"Mitsuba {mi.__version__}", "path, multijitter, llvm_ad_rgb", 4, square, peer)):
+            count = samples_for(render, given.seconds, first, allowed)
+            picture, seconds = render(count, 1)
+            error = math.sqrt(max(((picture - truth) ** 2).mean() - own_error, 0)) / truth.mean()
+            print(f"{name}: {count} samples a pixel, {seconds:.2f} s, {100 * error:.2f} %, mean {picture.mean() / truth.mean():.4f}", flush=True)
+            rows.append((name, title, command, f"{count} samples a pixel, {seconds:.2f} s", picture, error))
+        for name, _, _, _, picture, _ in rows:
+            exr = os.path.join(folder, "picture.exr")
+            mi.Bitmap(picture.astype(np.float32)).write(exr)
+            subprocess.run([aureole, "convert", exr, os.path.join(ROOT, f"docs/gallery/equal-{name}.png"), "--exposure", "0.5"], check=True)
+    text = [f"## {SECTION}", "",
+            f"The measured Cornell box at {SIDE} x {SIDE} in about {given.seconds:g} CPU second{'s' * (given.seconds != 1)} of one thread each, by",
+            "`bench/peers/equal_time.py`. Of Mitsuba only the call that renders is counted, of ours the whole process, photon map included. The RMSE",
+            "is over the picture's mean, against the reference, whose own squared error is subtracted.", "",
+            "| " + " | ".join(title for _, title, *_ in rows) + " |", "|" + "---|" * len(rows),
+            "| " + " | ".join(f"![{title}](gallery/equal-{name}.png)" for name, title, *_ in rows) + " |",
+            "| " + " | ".join(f"RMSE {'' if index else 'of its own '}{100 * row[5]:.2g} %" for index, row in enumerate(rows)) + " |",
+            "| " + " | ".join(row[3] or f"{given.samples} samples a pixel, twice" for row in rows) + " |",
+            "| " + " | ".join(f"`{row[2] or PATH}`" for row in rows) + " |", ""]
+    page = os.path.join(ROOT, "docs/gallery.md")
+    with open(page, encoding="utf-8") as file:
+        old = file.read()
+    parts = [part for part in re.split(r"(?m)^(?=## )", old) if not part.startswith(f"## {SECTION}\n")]
+    parts.insert(1, "\n".join(text) + "\n")
+    with open(page, "w", encoding="utf-8") as file:
+        file.write("".join(parts))
+
+
+if __name__ == "__main__":
+    main()
