@@ -7,7 +7,10 @@
 
 enum { BLOCK = 8 };
 
-static double value_of(const aur_film *film, size_t pixel, size_t channel) {
+static double value_of(const aur_replicas *replicas, size_t r, size_t pixel, size_t channel) {
+    if (replicas == NULL)
+        return 0.0;
+    const aur_film *const film = aur_render_film(replicas->renders[r]);
     return film->counts[pixel] > 0
                ? film->sums[pixel * film->layout.channel_count + channel] / (double)film->counts[pixel]
                : 0.0;
@@ -24,8 +27,8 @@ static double products_of_block(const aur_replicas *biased, const aur_replicas *
             for (size_t channel = 0; channel < 3; ++channel) {
                 double sum = 0.0, squares = 0.0;
                 for (size_t r = 0; r < biased->count; ++r) {
-                    const double d = value_of(aur_render_film(biased->renders[r]), y * width + x, channel) -
-                                     value_of(aur_render_film(unbiased->renders[r]), y * width + x, channel);
+                    const double d = value_of(biased, r, y * width + x, channel) -
+                                     value_of(unbiased, r, y * width + x, channel);
                     sum += d;
                     squares += d * d;
                 }

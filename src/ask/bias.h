@@ -10,7 +10,8 @@ typedef struct aur_bias {
     double low, high; /* of its interval, from 0 on; an estimate below 0 does not lower its upper end */
 } aur_bias;
 
-/* Both have the same pixels and as many replicas, all with samples in every pixel. With D_r the difference of
+/* Both have the same pixels and as many replicas, all with samples in every pixel; without `unbiased` (NULL)
+ * the first are differences already. With D_r the difference of
  * the r-th replicas, the mean of D_r D_s over r != s has the squared bias as its expectation, whatever the
  * noise. Its uncertainty comes from how blocks of pixels differ, which are taken to be independent; that
  * their bias differs too makes the interval a little too wide. */

@@ -94,12 +94,9 @@ char *aur_ask_gather_instead(const char *path, size_t photons, const char *more)
     return text;
 }
 
-/* What is compared with path tracing. */
+/* What is compared with path tracing, and what its photon map is wrong by. */
 typedef struct aur_rivals {
-    aur_trial gather; /* with samples where they are needed */
-    /* The same with as many samples in every pixel, and with all light of the photon map replaced by that of
-     * paths. */
-    aur_trial even, corrected;
+    aur_trial gather, difference;
 } aur_rivals;
 
 /* Samples a pixel at which the bound of a bias is thought to come to `most`, when it is known from `samples`:
@@ -109,21 +106,18 @@ static double samples_to_know(const aur_bias *bias, double most, double samples)
     return room > 0.0 ? samples * (bias->high - seen) / room : INFINITY;
 }
 
-/* The bias of final gathering, from pictures with and without the map. They have the same seeds, camera rays
- * and gather rays, so that all that they have in common, above all the edges of lights, is not in their
- * differences. Both go on until the bias is under what may be left, or it is seen that it will not be before
- * so many rays are spent. */
+/* The bias of final gathering, from pictures of what paths find over what the map says at the ends of the
+ * same gather rays. What they have in common, above all direct light and short rays, is not traced. They go
+ * on until the bias is under what may be left, or it is seen that it will not be before so many rays are
+ * spent. */
 static aur_result find_bias(const aur_choice *choice, aur_rivals *rivals, double mean, double most,
                             double most_rays, aur_bias *bias, aur_error *error) {
     for (uint32_t samples = 1;; samples *= 2) {
-        aur_result result = render_evenly(choice, &rivals->even, samples, error);
-        if (result == AUR_OK)
-            result = render_evenly(choice, &rivals->corrected, samples, error);
+        const aur_result result = render_evenly(choice, &rivals->difference, samples, error);
         if (result != AUR_OK)
             return result;
-        *bias =
-            aur_replicas_bias(&rivals->even.replicas, &rivals->corrected.replicas, mean, choice->confidence);
-        const double rays = aur_trial_rays(&rivals->even) + aur_trial_rays(&rivals->corrected);
+        *bias = aur_replicas_bias(&rivals->difference.replicas, NULL, mean, choice->confidence);
+        const double rays = aur_trial_rays(&rivals->difference);
         const double growth = fmax(samples_to_know(bias, most, samples) / samples, 2.0);
         if (sqrt(bias->high) <= most || sqrt(bias->low) > most || growth * rays > most_rays)
             return AUR_OK;
@@ -152,10 +146,8 @@ static aur_result compare(aur_renderer *renderer, const aur_render_options *opti
         result = render_round(choice, gather, &more, error);
     if (result != AUR_OK || is_black(gather) || rays_to(gather, noise) > WORTH * path_rays)
         return result;
-    result = create_trial(renderer, options, choice, ",edges=0", &rivals->even, error);
-    if (result == AUR_OK)
-        result = create_trial(renderer, options, choice, ",edges=0,debias=true,continued=1",
-                              &rivals->corrected, error);
+    result = create_trial(renderer, options, choice, ",edges=0,debias=true,continued=1,incident=correction",
+                          &rivals->difference, error);
     if (result == AUR_OK)
         result = find_bias(choice, rivals, path->measure.mean, most_bias, BIAS_SEARCH_PART * path_rays,
                            &choice->bias, error);
@@ -203,10 +195,8 @@ aur_result aur_ask_try(aur_renderer *renderer, const aur_render_options *options
         choice->bias = (aur_bias){0};
     }
     add_spent(&rivals.gather, &choice->others);
-    add_spent(&rivals.even, &choice->others);
-    add_spent(&rivals.corrected, &choice->others);
+    add_spent(&rivals.difference, &choice->others);
     aur_trial_release(&rivals.gather);
-    aur_trial_release(&rivals.even);
-    aur_trial_release(&rivals.corrected);
+    aur_trial_release(&rivals.difference);
     return result;
 }

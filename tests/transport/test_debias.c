@@ -120,6 +120,60 @@ static void agrees_with_paths(void **state) {
     }
 }
 
+enum { PICTURE = 24 };
+
+static aur_image *render_picture(aur_renderer *renderer, const char *form, const char *keys) {
+    char integrator[512];
+    snprintf(integrator, sizeof integrator, "finalgather:photons=300%s%s", form, keys);
+    aur_render_options options = aur_render_options_default();
+    options.integrator = integrator;
+    options.width = options.height = PICTURE;
+    options.samples_per_pixel = 4;
+    options.seed = 5;
+    aur_image *image = NULL;
+    assert_int_equal(aur_renderer_render(renderer, &options, &image, NULL, NULL), AUR_OK);
+    return image;
+}
+
+/* The pictures have the same rays, those of short ones that go on to the map among them. What is left is the
+ * rounding of floats: 24 bits, less the 8 by which sums of some hundred terms and differences of larger
+ * numbers make it worse. */
+static void correction_is_the_difference(void **state) {
+    (void)state;
+    static const struct {
+        const char *form, *share;
+    } cases[] = {{"", ",continued=1"},
+                 {"", ",continued=0.3"},
+                 {",bright_samples=8", ",continued=1"},
+                 {",packets=false", ",continued=1"}};
+    aur_scene *scene = must_load_body(ROOM BLOCK SCREEN);
+    aur_renderer *renderer;
+    assert_int_equal(aur_renderer_create(scene, &renderer, NULL), AUR_OK);
+    for (size_t k = 0; k < sizeof cases / sizeof cases[0]; ++k) {
+        char whole_keys[64], lone_keys[128];
+        snprintf(whole_keys, sizeof whole_keys, "%s,debias=true", cases[k].share);
+        snprintf(lone_keys, sizeof lone_keys, "%s,incident=correction", whole_keys);
+        aur_image *const plain = render_picture(renderer, cases[k].form, "");
+        aur_image *const whole = render_picture(renderer, cases[k].form, whole_keys);
+        aur_image *const lone = render_picture(renderer, cases[k].form, lone_keys);
+        double most = 0.0, off = 0.0, least = 0.0;
+        for (size_t v = 0; v < 3 * PICTURE * PICTURE; ++v) {
+            const double known = (double)aur_image_data(plain)[v], added = (double)aur_image_data(lone)[v];
+            most = fmax(most, fabs(known) + fabs(added));
+            least = fmin(least, added);
+            off = fmax(off, fabs(known + added - (double)aur_image_data(whole)[v]));
+        }
+        assert_true(least < 0.0);
+        if (off > ldexp(most, -16))
+            fail_msg("'%s%s': %g beside values up to %g", cases[k].form, cases[k].share, off, most);
+        aur_image_destroy(plain);
+        aur_image_destroy(whole);
+        aur_image_destroy(lone);
+    }
+    aur_renderer_destroy(renderer);
+    aur_scene_destroy(scene);
+}
+
 static void refuses_other_bias(void **state) {
     (void)state;
     static const char *const keys[] = {"share=true", "adaptive=true", "caustic_photons=9"};
@@ -176,6 +230,7 @@ static void idle_keys_are_told(void **state) {
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(agrees_with_paths),
+        cmocka_unit_test(correction_is_the_difference),
         cmocka_unit_test(refuses_other_bias),
         cmocka_unit_test(idle_keys_are_told),
     };

@@ -114,7 +114,9 @@ static aur_light_sample light_from(const aur_gather_plan *plan, const aur_bright
         sample.pdf = aur_bright_texels_density(&from->bright, known.radiance) * (float)from->bright_draws *
                      square / cosine;
         const bool near = aur_onward_is_near(&plan->onward, sqrtf(square), known.area);
-        if (near || aur_onward_is_due(&plan->onward, hash)) {
+        if (!near && !aur_onward_is_due(&plan->onward, hash)) {
+            radiance = aur_onward_kept(&plan->onward, radiance);
+        } else {
             const aur_ray ray = {position, 0.0f, direction, INFINITY};
             const aur_hit hit = {.distance = sqrtf(square),
                                  .u = point->u,

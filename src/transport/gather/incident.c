@@ -222,7 +222,7 @@ static aur_vector corrected_radiance(const aur_gather_plan *plan, const aur_gath
     const uint64_t hash = aur_gather_rays_hash(rays, lane);
     const bool near = aur_onward_is_near(&plan->onward, rays->packet.query.ray.tfar[lane], known->area);
     if (!near && !aur_onward_is_due(&plan->onward, hash))
-        return known->radiance;
+        return aur_onward_kept(&plan->onward, known->radiance);
     const aur_ray ray = aur_packet_ray(&rays->packet, lane);
     const aur_hit hit = aur_packet_hit(plan->scene, &rays->packet, lane);
     aur_surface surface;

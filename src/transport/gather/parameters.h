@@ -11,8 +11,13 @@ typedef enum aur_gather_component {
 } aur_gather_component;
 /* Light straight from lights: by points drawn on them, by gather rays that meet them, or left out. */
 typedef enum aur_gather_direct { AUR_DIRECT_NEE, AUR_DIRECT_GATHER, AUR_DIRECT_NONE } aur_gather_direct;
-/* What gather rays bring: what photons know and what lights emit, or the latter only. */
-typedef enum aur_gather_incident { AUR_INCIDENT_PHOTONS, AUR_INCIDENT_EMITTERS } aur_gather_incident;
+/* What gather rays bring: what photons know and what lights emit, or the latter only, or what the photon map
+ * is wrong by. */
+typedef enum aur_gather_incident {
+    AUR_INCIDENT_PHOTONS,
+    AUR_INCIDENT_EMITTERS,
+    AUR_INCIDENT_CORRECTION
+} aur_gather_incident;
 /* How the rotations of neighbouring pixels differ: dithered over blocks of 4 x 4, by chance, not at all. */
 typedef enum aur_gather_decorrelation {
     AUR_DECORRELATION_BLUE,

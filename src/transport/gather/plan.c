@@ -137,7 +137,7 @@ static aur_result find_light(const aur_gather_parameters *p, const aur_integrato
     aur_gather_light *const light = &plan->light;
     light->draws = p->light_samples;
     /* Where gather rays go on from every surface, there is no use for photons. */
-    const bool wants_photons = p->incident == AUR_INCIDENT_PHOTONS && p->policy.max_depth >= 3 &&
+    const bool wants_photons = p->incident != AUR_INCIDENT_EMITTERS && p->policy.max_depth >= 3 &&
                                (plan->rules.scatters & (AUR_SCATTERS_DIFFUSE | AUR_SCATTERS_GLOSSY)) != 0;
     aur_result result = wants_photons ? find_maps(p, context, light, error) : AUR_OK;
     if (result != AUR_OK || p->bright_samples == 0 || light->map == NULL ||
@@ -167,7 +167,8 @@ static aur_result compile(aur_gather_plan *plan, const aur_gather_parameters *p,
                                 .caustics = plan->light.caustics,
                                 .max_depth = policy->max_depth,
                                 .share = p->debias ? (float)p->continued : 0.0f,
-                                .reach = (float)p->short_rays};
+                                .reach = (float)p->short_rays,
+                                .lone = p->incident == AUR_INCIDENT_CORRECTION};
     plan->gathers = plan->light.map != NULL ||
                     (policy->max_depth >= 2 && (plan->counts_emitters || policy->direct == AUR_DIRECT_NEE));
     return result;

@@ -99,9 +99,11 @@ static const aur_key keys[] = {
     {AUR_KEY_OF_CHOICE(aur_gather_parameters, "direct", policy.direct, "nee",
                        "direct light by shadow rays, by the gather rays, or not at all", "nee", "gather",
                        "none")},
-    {AUR_KEY_OF_CHOICE(aur_gather_parameters, "incident", incident, "photons",
-                       "what gather rays meet shines by its photons, or by what it emits alone", "photons",
-                       "emitters")},
+    {AUR_KEY_OF_CHOICE(
+        aur_gather_parameters, "incident", incident, "photons",
+        "what gather rays meet shines by its photons, by what it emits alone, or (with debias=true) "
+        "by what debias adds alone",
+        "photons", "emitters", "correction")},
     {AUR_KEY_OF_CHOICE(aur_gather_parameters, "pixel", pixel, "filter",
                        "camera rays over the pixel, or through its centre", "filter", "centre")},
     {AUR_KEY_OF_INTEGER(aur_gather_parameters, "pattern_seed", rule.seed, 0, INFINITY, "0",
@@ -136,6 +138,11 @@ static aur_result complete(aur_gather_parameters *p, aur_error *error) {
             p->policy.pools      ? "share=true"
             : p->policy.adaptive ? "adaptive=true"
                                  : "caustic_photons");
+    if (p->incident == AUR_INCIDENT_CORRECTION && !p->debias)
+        return aur_fail(error, AUR_ERROR_ARGUMENT,
+                        "finalgather: incident=correction is what debias=true adds: it needs that too");
+    if (p->incident == AUR_INCIDENT_CORRECTION)
+        p->policy.direct = AUR_DIRECT_NONE;
     if (!p->policy.adaptive)
         return AUR_OK;
     if (aur_merges_samples(p->weights))

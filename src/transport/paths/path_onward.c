@@ -11,6 +11,8 @@ typedef struct onward_walk {
     aur_vector from; /* the surface that the ray left, and the density of its direction there */
     float pdf;
     bool specular; /* no light sample could have found what the ray meets */
+    bool known;    /* the map has answered for the rest of the path, which had this sum then */
+    aur_vector known_sum;
 } onward_walk;
 
 /* BSDF * |cos| and the density of the whole BSDF's draws. `known_only`: of the lobes that a photon map
@@ -113,6 +115,10 @@ static bool survives(const aur_onward *onward, const aur_hit *hit, const aur_sha
             aur_irradiance_view(onward->caustics, onward->scene, hit, shading->surface, view);
         walk->sum = aur_vector_add(walk->sum, aur_vector_multiply(walk->throughput, caustic.radiance));
     }
+    if (known && !walk->known) {
+        walk->known = true;
+        walk->known_sum = walk->sum;
+    }
     if (!(aur_draw_unit(&walk->hash) < survival))
         return false;
     walk->throughput = aur_vector_scale(walk->throughput, 1.0f / survival);
@@ -120,8 +126,10 @@ static bool survives(const aur_onward *onward, const aur_hit *hit, const aur_sha
     return true;
 }
 
-aur_vector aur_onward_scattered(const aur_onward *onward, const aur_surface *surface, aur_vector view,
-                                uint32_t edges, uint64_t hash, aur_counters *counters) {
+/* What a surface scatters towards `view` (world, unit) by the lobes that the map answers for, the diffuse
+ * ones and those with a power of a cosine, along one random path. */
+static onward_walk walk_from(const aur_onward *onward, const aur_surface *surface, aur_vector view,
+                             uint32_t edges, uint64_t hash, aur_counters *counters) {
     const aur_scene *const scene = onward->scene;
     onward_walk walk = {.throughput = {1.0f, 1.0f, 1.0f}, .hash = hash};
     aur_surface met = *surface;
@@ -144,16 +152,19 @@ aur_vector aur_onward_scattered(const aur_onward *onward, const aur_surface *sur
         if (edges + 1 < onward->max_depth && !survives(onward, &hit, &next, view, &walk))
             break;
     }
-    return walk.sum;
+    return walk;
 }
 
 aur_vector aur_onward_correct(const aur_onward *onward, const aur_surface *surface, aur_vector view,
                               uint32_t edges, uint64_t hash, bool near, aur_vector known,
                               aur_counters *counters) {
+    const aur_vector kept = aur_onward_kept(onward, known);
     if (!near && !aur_onward_is_due(onward, hash))
-        return known;
-    const aur_vector path = aur_onward_scattered(onward, surface, view, edges, aur_mix64(~hash), counters);
+        return kept;
+    const onward_walk walk = walk_from(onward, surface, view, edges, aur_mix64(~hash), counters);
+    if (near && onward->lone)
+        return walk.known ? aur_vector_subtract(walk.sum, walk.known_sum) : (aur_vector){0};
     if (near)
-        return path;
-    return aur_vector_add_scaled(known, 1.0f / onward->share, aur_vector_subtract(path, known));
+        return walk.sum;
+    return aur_vector_add_scaled(kept, 1.0f / onward->share, aur_vector_subtract(walk.sum, known));
 }

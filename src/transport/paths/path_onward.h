@@ -17,16 +17,13 @@ typedef struct aur_onward {
     uint32_t max_depth;                 /* edges of a light path; UINT32_MAX: no limit */
     float share; /* p, in [0, 1]; with 0 a path ends at the first texel that is far enough */
     float reach; /* rays that are shorter than so many widths of the texel that they meet go on */
+    bool lone;   /* the correction counts without what it corrects */
 } aur_onward;
 
-/* What a surface scatters towards `view` (world, unit) by the lobes that the map answers for, the diffuse
- * ones and those with a power of a cosine, along one random path. `edges` have led from the eye to the
- * surface; `hash` stands for the path's numbers. */
-aur_vector aur_onward_scattered(const aur_onward *onward, const aur_surface *surface, aur_vector view,
-                                uint32_t edges, uint64_t hash, aur_counters *counters);
-
 /* The map's light `known`, or that of a path where the texel is near, or `known` corrected by a path where
- * the hash says so: the mean over hashes is the surface's true light, if the share is not 0. */
+ * the hash says so: the mean over hashes is the surface's true light, if the share is not 0. A lone
+ * correction is what that is more than it would be with a share of 0. `edges` have led from the eye to the
+ * surface, and `view` is unit and of the world. */
 aur_vector aur_onward_correct(const aur_onward *onward, const aur_surface *surface, aur_vector view,
                               uint32_t edges, uint64_t hash, bool near, aur_vector known,
                               aur_counters *counters);
@@ -34,7 +31,10 @@ aur_vector aur_onward_correct(const aur_onward *onward, const aur_surface *surfa
 static inline bool aur_onward_is_near(const aur_onward *onward, float distance, float area) {
     return distance * distance < onward->reach * onward->reach * area;
 }
-/* Whether the sample that a hash stands for is one that is corrected. */
+/* Whether the sample that a hash stands for is one that is corrected, and what counts of one that is not. */
 static inline bool aur_onward_is_due(const aur_onward *onward, uint64_t hash) {
     return aur_unit_float((uint32_t)(hash >> 32)) < onward->share;
+}
+static inline aur_vector aur_onward_kept(const aur_onward *onward, aur_vector known) {
+    return onward->lone ? (aur_vector){0} : known;
 }
