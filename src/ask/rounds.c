@@ -50,14 +50,16 @@ double aur_growth_to(size_t count, const double *variances, double factor, const
     return after / before;
 }
 
-/* No pixel is left with less than a quarter of the mean of all: one whose first samples agreed by chance, as
- * those of few directions from a dim place do, would stay as it is, and so would all about it. It costs at
- * most a quarter more, where most pixels have no variance. */
+/* No pixel is left with less than a quarter of the mean of all, nor with less than half of it before it has
+ * 32 samples: one whose first samples agreed by chance, as those of few directions from a dim place do, would
+ * stay as it is, and so would all about it; and one in which none has met a lamp that covers a thirtieth of
+ * it shows no variance at all. It costs at most that part more, where most pixels have no variance. */
 static bool raise_least(size_t count, uint32_t *targets) {
     double sum = 0.0;
     for (size_t i = 0; i < count; ++i)
         sum += targets[i];
-    const double least = ceil(sum / (4.0 * (double)count));
+    const double mean = sum / (double)count, first = 32.0;
+    const double least = ceil(fmax(0.25 * mean, floor(fmin(0.5 * mean, first))));
     bool raised = false;
     for (size_t i = 0; i < count; ++i)
         if (targets[i] < least) {

@@ -11,8 +11,8 @@ enum { AUR_MOST_GROWTH = 4 }; /* of a pixel's samples in one round */
  * samples^2. Raises the targets to whole numbers so that the sum of the variances falls to `factor` in (0,1)
  * of what it is, at the least cost (samples in proportion to the root of a pixel's variance for one sample;
  * Lagrange), but no pixel more than AUR_MOST_GROWTH times in one round, because a variance seen in few
- * samples is only roughly known; and all of them to a quarter of the mean at least. False when no target was
- * raised: all pixels have `most` samples or no variance. */
+ * samples is only roughly known; and all of them to a quarter of the mean at least, and to half of it up to
+ * 32 samples. False when no target was raised: all pixels have `most` samples or no variance. */
 bool aur_raise_targets(size_t count, const double *variances, double factor, uint32_t most,
                        uint32_t *targets);
 

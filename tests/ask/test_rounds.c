@@ -53,7 +53,8 @@ static void test_limits(void **state) {
     assert_false(aur_raise_targets(3, none, 0.5, 1 << 24, ones));
 }
 
-/* A pixel that seems to have no variance goes along, a quarter of the mean behind, and fourfold a round. */
+/* A pixel that seems to have no variance goes along, at half the mean up to 32 samples, then at a quarter,
+ * and fourfold a round. */
 static void test_nobody_is_left_behind(void **state) {
     (void)state;
     static const double variances[4] = {1.0, 1.0, 1.0, 0.0};
@@ -61,7 +62,10 @@ static void test_nobody_is_left_behind(void **state) {
     for (size_t round = 0; round < 4; ++round)
         assert_true(aur_raise_targets(4, variances, 1.0 / 16, 1 << 24, targets));
     assert_int_equal(targets[0], 256);
-    assert_int_equal(targets[3], 49); /* 1, 4, 13, and then (3 * 256 + 13) / 16 rounded up */
+    assert_int_equal(targets[3], 49); /* 1, 4, 16, and then (3 * 256 + 16) / 16 */
+    uint32_t some[3] = {40, 20, 40};  /* half of (80 + 20 + 80) / 3 */
+    assert_true(aur_raise_targets(3, (const double[3]){1.0, 0.0, 1.0}, 0.5, 1 << 24, some));
+    assert_int_equal(some[1], 30);
     uint32_t behind[4] = {100, 100, 100, 1};
     assert_true(aur_raise_targets(4, variances, 0.999, 1 << 24, behind));
     assert_int_equal(behind[3], 4);
