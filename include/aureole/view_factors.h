@@ -75,6 +75,8 @@ typedef struct aur_view_factors_options {
     size_t threads;    /* 0: all */
     aur_progress progress;
     aur_warnings warnings; /* backs that are seen, rows that cannot be made to add up */
+    size_t half_planes;    /* for the sky, from each facet and side, all randomisations together; 0: half as
+                              many as rays */
 } aur_view_factors_options;
 
 static inline aur_view_factors_options aur_view_factors_options_default(void) {
@@ -89,7 +91,7 @@ typedef struct aur_view_factors aur_view_factors;
 /* The view factors between all rows of `facets`, which need not outlive them. Pairs of facets that certainly
  * see each other wholly have the contour integral: nothing that is there crosses the hull of the two, to the
  * precision of the mesh's coordinates. All others are counted along rays, with independent randomisations;
- * the sky is measured in half planes, half as many as rays, which have all elevations.
+ * the sky is measured in half planes, which have all elevations.
  * Then the sampled factors are moved as little as possible (least squares, in proportion to their variances)
  * so that every row with sky and backs adds up to 1 and A_i F_ij = A_j F_ji; no factor is negative. The
  * result is a function of the facets and the options, whatever the threads. Errors: NAME, ARGUMENT (options

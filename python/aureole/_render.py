@@ -313,13 +313,13 @@ class ViewFactors(NamedTuple):
 def viewfactors(
     path: Path, *, group: bool = False, both_sides: bool = False, rays: int = 0, randomizations: int = 0,
     set: Optional[str] = None, seed: int = 0, rays_only: bool = False, confidence: float = 0.0, threads: int = 0,
-    definitions: Optional[Mapping[str, Any]] = None, progress: Optional[Progress] = None,
+    half_planes: int = 0, definitions: Optional[Mapping[str, Any]] = None, progress: Optional[Progress] = None,
 ) -> ViewFactors:  # fmt: skip
     """View factors between the facets of a mesh (.obj, .ply) or a scene's meshes, or between their groups.
 
     `rays` from each facet and side, 0: 4096, by `randomizations` of a set of four dimensions, from which the intervals of
-    `confidence` (0: 0.95) come; pairs that see each other wholly have closed forms unless `rays_only`. Each row with its
-    sky and back adds up to 1.
+    `confidence` (0: 0.95) come; pairs that see each other wholly have closed forms unless `rays_only`, and the sky is found
+    by `half_planes`, 0: half as many as rays. Each row with its sky and back adds up to 1.
     """
     library, texts, facets = _library(), Texts(), ffi.new("aur_facets **")
     lib = library.lib
@@ -332,7 +332,7 @@ def viewfactors(
     with _Call(progress) as call:
         options = library.options(
             "view_factors_options", rays=rays, randomizations=randomizations, set=texts(set), seed=seed,
-            rays_only=rays_only, confidence=confidence, threads=threads,
+            rays_only=rays_only, confidence=confidence, threads=threads, half_planes=half_planes,
         )  # fmt: skip
         factors = library.make("view_factors", loaded, call.attach(options))
     matrix = library.options("view_factors_matrix")

@@ -5,7 +5,7 @@
 
 #include "core/error.h"
 
-enum { AUR_BOX_LEAF = 4 };
+enum { AUR_BOX_LEAF = 2 };
 
 /* The node's children follow it; `skip` is the node after all of them. */
 typedef struct aur_box_node {

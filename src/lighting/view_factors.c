@@ -11,6 +11,9 @@
 
 enum { MOST_RAYS = UINT16_MAX, DEFAULT_RAYS = 4096, DEFAULT_RANDOMIZATIONS = 8, MOST_RANDOMIZATIONS = 64 };
 
+/* A half plane costs about as much as this many rays. */
+enum { RAYS_A_HALF_PLANE = 2 };
+
 aur_result aur_view_factors_read_options(const aur_view_factors_options *given,
                                          aur_view_factors_options *options, aur_error *error) {
     *options = aur_view_factors_options_default();
@@ -38,6 +41,11 @@ aur_result aur_view_factors_read_options(const aur_view_factors_options *given,
             "there must be 1 to %d rays for each of %zu randomisations, %zu to %zu in all, not %zu",
             MOST_RAYS, options->randomizations, options->randomizations, MOST_RAYS * options->randomizations,
             options->rays);
+    if (options->half_planes == 0)
+        options->half_planes = (options->rays + RAYS_A_HALF_PLANE - 1) / RAYS_A_HALF_PLANE;
+    if (options->half_planes > MOST_RAYS * options->randomizations)
+        return aur_fail(error, AUR_ERROR_ARGUMENT, "there must be at most %zu half planes, not %zu",
+                        MOST_RAYS * options->randomizations, options->half_planes);
     return AUR_OK;
 }
 
@@ -110,14 +118,11 @@ static void warn(const aur_facets *facets, const aur_view_factors *made, const a
             balance->unbalanced, balance->after);
 }
 
-/* A half plane costs about as much as this many rays. */
-enum { RAYS_A_SLICE = 2 };
-
 /* Replaces what rays say of the sky by what half planes do, which find it better in less time. A mesh that no
  * ray has left is closed, but for the gaps by which rounding leaves its facets. */
 static aur_result measure_sky(const aur_facets *facets, const aur_view_factors_options *options,
                               const aur_parallel_options *parallel, aur_visits *visits, aur_error *error) {
-    const size_t numbers = visits->patch_count * visits->randomizations;
+    const size_t count = visits->randomizations, numbers = visits->patch_count * count;
     bool open = false;
     for (size_t i = 0; i < numbers; ++i)
         open |= visits->sky[i] > 0.0;
@@ -125,8 +130,8 @@ static aur_result measure_sky(const aur_facets *facets, const aur_view_factors_o
         return AUR_OK;
     aur_sky_slices *slices;
     aur_result result =
-        aur_sky_slices_create(facets, options->set, (visits->rays + RAYS_A_SLICE - 1) / RAYS_A_SLICE,
-                              visits->randomizations, options->seed, &slices, error);
+        aur_sky_slices_create(facets, options->set, (options->half_planes + count - 1) / count, count,
+                              options->seed, &slices, error);
     if (result == AUR_OK)
         result = aur_sky_slices_measure(slices, parallel, visits->sky, error);
     for (size_t i = 0; i < numbers && result == AUR_OK; ++i)
