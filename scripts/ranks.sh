@@ -3,7 +3,8 @@
 # of two threads, and then 2, 4 and 8 ranks of one thread do the same, one after the other. Ratios are those within a round:
 # their median, and the least and the most, between which the true median lies but for a chance of 2^(1 - ROUNDS). The rows
 # of a work are printed when its rounds are over. A last line says how much others used the processors meanwhile: times on the wall
-# mean something on quiet processors only. The first work is next to nothing, so it shows what starting costs. --quick: one
+# mean something on quiet processors only. "2 apart" are two processes that know nothing of each other and render a half each (--shard):
+# what the machine itself takes from two that run at once. The first work is next to nothing, so it shows what starting costs. --quick: one
 # round of smaller works, within a minute.
 set -uo pipefail
 quick=
@@ -64,22 +65,28 @@ for work in "${works[@]}"; do
     *) options= ;;
   esac
   rm -f ./*.times
+  forms=('1 x 1' '1 x 2')
+  [[ $work != render* || $work = *--integrator* ]] || forms+=('2 apart')
+  forms+=('2 x 1' '4 x 1' '8 x 1')
   for ((i = 0; i < rounds; ++i)); do
     # shellcheck disable=SC2086
-    for form in '1 x 1' '1 x 2' '2 x 1' '4 x 1' '8 x 1'; do
+    for form in "${forms[@]}"; do
       command=("$aureole" $work $options -t "${form#* x }")
-      [ "${form% x *}" = 1 ] || command=(mpirun --bind-to none -n "${form% x *}" "${command[@]}")
+      if [ "$form" = '2 apart' ]; then
+        command=(bash -c '"$@" --shard 1/2 -o 1.part & "$@" --shard 2/2 -o 2.part & wait' bash "$aureole" $work -t 1)
+      fi
+      [ "${form%% *}" = 1 ] || [ "$form" = '2 apart' ] || command=(mpirun --bind-to none -n "${form%% *}" "${command[@]}")
       seconds "${command[@]}" | tee -a all >>"$form.times"
       talk >"$form.talk"
     done
   done
   title="\`${work//"$source/"/}\`"
-  for form in '1 x 1' '1 x 2' '2 x 1' '4 x 1' '8 x 1'; do
+  for form in "${forms[@]}"; do
     printf '| %s | %s | %.2f |' "$title" "$form" "$(sort -g "$form.times" | awk '{ a[NR] = $1 } END { print a[int((NR + 1) / 2)] }')"
     title=
     [ "$form" = '1 x 1' ] && { echo ' 1 | | 1 | | | |'; continue; }
     printf ' %s | %s | %s | %s |\n' "$(spread "$form.times" '1 x 1.times' 1)" \
-      "$([ "$form" = '1 x 2' ] || spread "$form.times" '1 x 2.times' 1)" "$(spread "$form.times" '1 x 1.times' 2)" "$(cat "$form.talk")"
+      "$([[ $form = '1 x 2' || $form = '2 apart' ]] || spread "$form.times" '1 x 2.times' 1)" "$(spread "$form.times" '1 x 1.times' 2)" "$(cat "$form.talk")"
   done
 done
 echo
