@@ -249,7 +249,7 @@ def sunlight(program, path, folder, seed, arguments):
     return cpu, np.loadtxt(out, delimiter=",", skiprows=1)[:, 3] / 1e-9
 
 
-def city(program, folder, settings=([], ["--rays", 2048, "--half-planes", 2560],
+def city(program, folder, settings=([], ["--rays", 2048, "--half-planes", 3072],
                                    ["--rays", 8192, "--randomizations", 4])):
     path = make_city(folder, 22000)
     print("\n| city of 22,160 facets | CPU s | entries | closed share | rows - 1 | asymmetry |\n|---|---|---|---|---|---|")
