@@ -18,7 +18,7 @@ parsers=(
   'OBJ, PLY, serialized|mesh|src/scene/shapes/mesh_file.c src/scene/shapes/obj.c src/scene/shapes/ply.c src/scene/shapes/ply_header.c src/scene/shapes/serialized.c'
   'curves|scene mesh|src/scene/shapes/curves.c'
   'Radiance scenes|rad scene|src/scene/rad/*.c'
-  'pictures|image|src/image/exr_read.c src/image/hdr.c src/image/ldr.c src/image/pfm.c'
+  'pictures|image|src/image/exr_read.c src/image/hdr.c src/image/ldr.c src/image/pfm.c src/image/png.c'
   'volumes (vol)|volume scene|src/scene/volumes/gridvolume.c'
   'points|points|src/pointset/files/points_csv.c src/pointset/files/points_file.c src/pointset/files/points_npy.c'
   'generator matrices|matrices|src/pointset/generators/matrices.c'
