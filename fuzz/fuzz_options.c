@@ -28,6 +28,16 @@ static void turn_on(int stream, int kept) {
     close(kept);
 }
 
+/* Limits hold for the fuzzer itself once they are read, and options may be shortened: --mem 8 is
+ * --memory-limit. */
+static bool may_limit(const char *verb, const char *argument) {
+    const size_t length = strcspn(argument, "=");
+    if (length == strlen("--time") && strcmp(verb, "render") == 0)
+        return strncmp(argument, "--memory-limit", length) == 0;
+    return length > 2 && (strncmp(argument, "--memory-limit", length) == 0 ||
+                          strncmp(argument, "--time-limit", length) == 0);
+}
+
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
     char *const text = malloc(size + 1);
     fuzz_require(text != NULL, "out of memory");
@@ -42,11 +52,9 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
         arguments[count++] = word;
     arguments[count] = NULL;
     const cli_verb *const verb = count > 0 ? find_verb(arguments[0]) : NULL;
-    /* Limits hold for the fuzzer itself once they are read. */
     bool limits = false;
     for (int i = 1; i < count; ++i)
-        limits =
-            limits || strncmp(arguments[i], "--memory", 8) == 0 || strncmp(arguments[i], "--time-", 7) == 0;
+        limits = limits || may_limit(arguments[0], arguments[i]);
     if (verb != NULL && !limits) {
         cli_call call = {.verbs = verbs, .options = calloc(1, verb->size + 1)};
         fuzz_require(call.options != NULL, "out of memory");

@@ -99,19 +99,25 @@ C
     done ;;
   valgrind)
     [ $# -gt 0 ] || set -- core pointset sphere quality quadrature
-    echo '| room | tests | complaints | took too long |'
-    echo '|---|---|---|---|'
+    # valgrind computes long double in double: tests whose oracle it is fail, and leak what they leave on the way out. Of those
+    # reads and writes count alone.
+    echo '| room | tests | complaints | took too long | failed |'
+    echo '|---|---|---|---|---|'
     for room in "$@"; do
-      tests=0 complaints=0 slow=0
+      tests=0 complaints=0 slow=0 failed=0
       for test in build/release/tests/test_"$room"_*; do
-        AUREOLE_SHORT_TESTS=1 AUREOLE_ISA=avx2 timeout "${TIMEOUT:-600}" \
-          valgrind -q --error-exitcode=9 --leak-check=full "$test" >"$folder/said" 2>&1
-        result=$?
+        for leaks in full no; do
+          AUREOLE_SHORT_TESTS=1 AUREOLE_ISA=avx2 timeout "${TIMEOUT:-600}" \
+            valgrind -q --error-exitcode=9 --leak-check=$leaks "$test" >"$folder/said" 2>&1
+          result=$?
+          grep -q '^\[  FAILED  \]' "$folder/said" || break
+        done
+        [ $leaks = full ] || failed=$((failed + 1))
         tests=$((tests + 1))
         [ $result != 124 ] || slow=$((slow + 1))
         [ $result != 9 ] || { complaints=$((complaints + 1)); echo "$test:" >&2; grep '^==' "$folder/said" | head -30 >&2; }
       done
-      echo "| $room | $tests | $complaints | $slow |"
+      echo "| $room | $tests | $complaints | $slow | $failed |"
       [ $complaints = 0 ] || status=1
     done ;;
   analyzer)

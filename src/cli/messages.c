@@ -5,6 +5,7 @@
 #include <math.h>
 #include <signal.h>
 #include <stdarg.h>
+#include <stdatomic.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -13,7 +14,8 @@
 
 #include "cli/cli.h"
 
-static volatile sig_atomic_t interrupted;
+/* Handlers may use atomics without locks, and any thread that reports progress reads it. */
+static atomic_bool interrupted;
 
 typedef struct progress_bar {
     bool draws; /* on a terminal; else lines are written, which a log can hold */
@@ -32,11 +34,10 @@ static double now(void) {
 
 /* The first signal asks the work to stop, a second one ends the program as if nobody listened. */
 static void on_interrupt(int signal_number) {
-    if (interrupted) {
+    if (atomic_exchange(&interrupted, true)) {
         signal(signal_number, SIG_DFL);
         raise(signal_number);
     }
-    interrupted = 1;
 }
 
 void cli_progress_clear(void) {
