@@ -34,12 +34,20 @@ static void open_page(char *path) {
     char program[] = "xdg-open";
     char *const arguments[] = {program, path, NULL};
     posix_spawn_file_actions_t actions;
+    posix_spawnattr_t attributes;
     if (posix_spawn_file_actions_init(&actions) != 0)
         return;
+    if (posix_spawnattr_init(&attributes) != 0) {
+        posix_spawn_file_actions_destroy(&actions);
+        return;
+    }
+    /* In a group of its own it goes on where the terminal closes right after us. */
+    posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETPGROUP);
     for (int stream = STDIN_FILENO; stream <= STDERR_FILENO; ++stream)
         posix_spawn_file_actions_addopen(&actions, stream, "/dev/null", O_RDWR, 0);
     pid_t child;
-    posix_spawnp(&child, program, &actions, NULL, arguments, environ);
+    posix_spawnp(&child, program, &actions, &attributes, arguments, environ);
+    posix_spawnattr_destroy(&attributes);
     posix_spawn_file_actions_destroy(&actions);
 }
 
