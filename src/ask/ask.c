@@ -149,7 +149,7 @@ static aur_result keep_options(aur_ask *ask, aur_renderer *renderer, const aur_r
 static aur_result prepare(aur_ask *ask, aur_renderer *renderer, const aur_render_options *given,
                           aur_error *error) {
     aur_render_options own = aur_render_options_default();
-    aur_result result = aur_options_read(given, sizeof own, sizeof own, &own, "aur_render_options", error);
+    aur_result result = aur_options_read(given, sizeof own, &own, "aur_render_options", error);
     if (result == AUR_OK)
         result = aur_ask_choose(aur_renderer_scene(renderer), own.integrator, &ask->trial.integrator,
                                 &ask->open, error);
@@ -197,8 +197,7 @@ aur_result aur_ask_create(aur_renderer *renderer, const aur_render_options *rend
     atomic_init(&ask->cancelled, false);
     ask->wish = aur_ask_options_default();
     ask->whole = 1.0;
-    aur_result result =
-        aur_options_read(options, sizeof ask->wish, sizeof ask->wish, &ask->wish, "aur_ask_options", error);
+    aur_result result = aur_options_read(options, sizeof ask->wish, &ask->wish, "aur_ask_options", error);
     if (result == AUR_OK)
         result = check_wish(&ask->wish, error);
     if (result == AUR_OK)
@@ -297,7 +296,7 @@ aur_result aur_ask_get_report(const aur_ask *ask, aur_ask_report *out, aur_error
                           .trial_rays = ask->others.rays,
                           .bias_high = sqrt(ask->bias.high)};
     count_spent(ask, &own.statistics);
-    return aur_description_write(&own, sizeof own, sizeof own, out, "aur_ask_report", error);
+    return aur_description_write(&own, sizeof own, out, "aur_ask_report", error);
 }
 
 const char *aur_ask_integrator(const aur_ask *ask) {

@@ -2,21 +2,20 @@
 
 #include <string.h>
 
-static aur_result check_size(size_t size, size_t first_size, const char *what, aur_error *error) {
-    if (size >= first_size)
+static aur_result check_size(size_t size, const char *what, aur_error *error) {
+    if (size != 0 && size % sizeof size == 0)
         return AUR_OK;
-    return aur_fail(error, AUR_ERROR_ARGUMENT,
-                    "%s: the field 'size' is %zu, but the struct has %zu bytes at least", what, size,
-                    first_size);
+    return aur_fail(error, AUR_ERROR_ARGUMENT, "%s: the field 'size' is %zu; set it to the struct's sizeof",
+                    what, size);
 }
 
-aur_result aur_options_read(const void *given, size_t first_size, size_t own_size, void *own,
-                            const char *what, aur_error *error) {
+aur_result aur_options_read(const void *given, size_t own_size, void *own, const char *what,
+                            aur_error *error) {
     if (given == NULL)
         return AUR_OK;
     size_t size;
     memcpy(&size, given, sizeof size);
-    const aur_result result = check_size(size, first_size, what, error);
+    const aur_result result = check_size(size, what, error);
     if (result != AUR_OK)
         return result;
     const unsigned char *const bytes = given;
@@ -30,11 +29,11 @@ aur_result aur_options_read(const void *given, size_t first_size, size_t own_siz
     return AUR_OK;
 }
 
-aur_result aur_description_write(const void *own, size_t first_size, size_t own_size, void *given,
-                                 const char *what, aur_error *error) {
+aur_result aur_description_write(const void *own, size_t own_size, void *given, const char *what,
+                                 aur_error *error) {
     size_t size;
     memcpy(&size, given, sizeof size);
-    const aur_result result = check_size(size, first_size, what, error);
+    const aur_result result = check_size(size, what, error);
     if (result != AUR_OK)
         return result;
     memset(given, 0, size);

@@ -217,7 +217,7 @@ aur_result aur_film_describe(const aur_film *film, aur_film_description *descrip
     for (size_t i = 0; i < aur_film_pixel_count(film); ++i)
         if (film->given[i] > own.most_samples)
             own.most_samples = film->given[i];
-    return aur_description_write(&own, sizeof own, sizeof own, description, "aur_film_description", error);
+    return aur_description_write(&own, sizeof own, description, "aur_film_description", error);
 }
 
 const char *aur_film_channel_name(const aur_film *film, size_t channel) {

@@ -96,8 +96,7 @@ static aur_result write_image(const char *path, const aur_image *image,
                               const aur_image_write_options *options, aur_error *error) {
     aur_image_target target = {.name = path, .options = aur_image_write_options_default()};
     aur_image_write_options *const own = &target.options;
-    aur_result result =
-        aur_options_read(options, sizeof *own, sizeof *own, own, "aur_image_write_options", error);
+    aur_result result = aur_options_read(options, sizeof *own, own, "aur_image_write_options", error);
     if (result != AUR_OK)
         return result;
     if (!isfinite(own->exposure) || (size_t)own->tone >= AUR_TONE_COUNT)

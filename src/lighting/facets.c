@@ -180,8 +180,7 @@ aur_result aur_facets_load(const char *path, const aur_facets_options *given, au
                            aur_error *error) {
     *made = NULL;
     aur_facets_options options = aur_facets_options_default();
-    aur_result result =
-        aur_options_read(given, sizeof options, sizeof options, &options, "aur_facets_options", error);
+    aur_result result = aur_options_read(given, sizeof options, &options, "aur_facets_options", error);
     source kind = SOURCE_OBJ;
     if (result == AUR_OK)
         result = find_source(path, &kind, error);

@@ -176,7 +176,7 @@ aur_result aur_view_factors_radiosity(const aur_facets *facets, const aur_view_f
     aur_facets_light light = aur_facets_light_default();
     aur_result result = aur_view_factors_read_options(given, &options, error);
     if (result == AUR_OK)
-        result = aur_options_read(sources, sizeof light, sizeof light, &light, "aur_facets_light", error);
+        result = aur_options_read(sources, sizeof light, &light, "aur_facets_light", error);
     if (result == AUR_OK)
         result = check(facets, factors, &light, half_widths, error);
     if (result != AUR_OK)

@@ -18,7 +18,7 @@ aur_result aur_view_factors_read_options(const aur_view_factors_options *given,
                                          aur_view_factors_options *options, aur_error *error) {
     *options = aur_view_factors_options_default();
     const aur_result result =
-        aur_options_read(given, sizeof *options, sizeof *options, options, "aur_view_factors_options", error);
+        aur_options_read(given, sizeof *options, options, "aur_view_factors_options", error);
     if (result != AUR_OK)
         return result;
     if (options->rays == 0)
@@ -233,12 +233,11 @@ aur_result aur_view_factors_get_matrix(const aur_view_factors *factors, aur_view
                                          .sky = factors->sky,
                                          .sky_half_widths = factors->sky_half_widths,
                                          .back = factors->back};
-    return aur_description_write(&own, sizeof own, sizeof own, matrix, "aur_view_factors_matrix", error);
+    return aur_description_write(&own, sizeof own, matrix, "aur_view_factors_matrix", error);
 }
 
 aur_result aur_view_factors_describe(const aur_view_factors *factors,
                                      aur_view_factors_description *description, aur_error *error) {
     const aur_view_factors_description *const own = &factors->description;
-    return aur_description_write(own, sizeof *own, sizeof *own, description, "aur_view_factors_description",
-                                 error);
+    return aur_description_write(own, sizeof *own, description, "aur_view_factors_description", error);
 }

@@ -41,8 +41,7 @@ const aur_points_view *aur_points_look(const aur_points *points) {
 
 aur_result aur_points_view_read(const aur_points_view *given, aur_points_view *view, aur_error *error) {
     *view = aur_points_view_of(AUR_DOMAIN_SQUARE, 0, 0, NULL);
-    const aur_result result =
-        aur_options_read(given, sizeof *view, sizeof *view, view, "aur_points_view", error);
+    const aur_result result = aur_options_read(given, sizeof *view, view, "aur_points_view", error);
     if (result != AUR_OK)
         return result;
     if (aur_domain_name(view->domain) == NULL)

@@ -17,8 +17,7 @@ aur_result aur_check_directions(size_t count, const double *xyz, aur_error *erro
 
 aur_result aur_weights_options_read(const aur_weights_options *given, aur_weights_options *own,
                                     aur_error *error) {
-    const aur_result result =
-        aur_options_read(given, sizeof *own, sizeof *own, own, "aur_weights_options", error);
+    const aur_result result = aur_options_read(given, sizeof *own, own, "aur_weights_options", error);
     if (result == AUR_OK && !(own->regularization >= 0.0 && isfinite(own->regularization)))
         return aur_fail(error, AUR_ERROR_ARGUMENT, "the regularisation must be at least 0 and finite, not %g",
                         own->regularization);
@@ -59,5 +58,5 @@ aur_result aur_check_smoothness(double smoothness, aur_error *error) {
 
 aur_result aur_weights_options_init(aur_weights_options *options, aur_error *error) {
     const aur_weights_options own = aur_weights_options_default();
-    return aur_description_write(&own, sizeof own, sizeof own, options, "aur_weights_options", error);
+    return aur_description_write(&own, sizeof own, options, "aur_weights_options", error);
 }

@@ -169,7 +169,7 @@ aur_result aur_render_create(aur_renderer *renderer, const aur_render_options *o
     const aur_stopwatch start = aur_stopwatch_start();
     aur_render_options *const own = &render->settings;
     *own = aur_render_options_default();
-    aur_result result = aur_options_read(options, sizeof *own, sizeof *own, own, "aur_render_options", error);
+    aur_result result = aur_options_read(options, sizeof *own, own, "aur_render_options", error);
     if (result == AUR_OK)
         result = prepare(render, error);
     add_seconds(render, &start, &render->statistics.prepare_seconds);
@@ -388,7 +388,7 @@ aur_result aur_render_get_statistics(const aur_render *render, aur_render_statis
     own.cut_paths = counted.cut;
     own.unsolved_weights = counted.unsolved;
     memcpy(own.levels, counted.levels, sizeof own.levels);
-    return aur_description_write(&own, sizeof own, sizeof own, statistics, "aur_render_statistics", error);
+    return aur_description_write(&own, sizeof own, statistics, "aur_render_statistics", error);
 }
 
 const char *aur_render_identity(const aur_render *render) {

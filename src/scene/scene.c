@@ -139,8 +139,7 @@ static aur_result load(const char *path, size_t bytes, const char *data, const a
                        aur_scene **scene, aur_error *error) {
     *scene = NULL;
     aur_scene_options options = aur_scene_options_default();
-    aur_result result =
-        aur_options_read(given, sizeof options, sizeof options, &options, "aur_scene_options", error);
+    aur_result result = aur_options_read(given, sizeof options, &options, "aur_scene_options", error);
     if (result != AUR_OK)
         return result;
     aur_scene *const made = calloc(1, sizeof *made);
@@ -246,7 +245,7 @@ aur_result aur_scene_describe(const aur_scene *scene, aur_scene_description *des
     };
     for (size_t i = 0; i < scene->shape_count; ++i)
         own.triangles += scene->shapes[i]->mesh.triangle_count;
-    return aur_description_write(&own, sizeof own, sizeof own, description, "aur_scene_description", error);
+    return aur_description_write(&own, sizeof own, description, "aur_scene_description", error);
 }
 
 aur_result aur_scene_check_camera(const aur_scene *scene, aur_error *error) {

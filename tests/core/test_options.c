@@ -20,7 +20,7 @@ typedef struct new_options {
 
 static aur_result read(const void *given, own_options *own, aur_error *error) {
     *own = (own_options){.a = 1, .b = 2};
-    return aur_options_read(given, sizeof(old_options), sizeof *own, own, "options", error);
+    return aur_options_read(given, sizeof *own, own, "options", error);
 }
 
 static void reads_older_and_newer_structs(void **state) {
@@ -37,10 +37,16 @@ static void reads_older_and_newer_structs(void **state) {
     assert_true(own.a == 5 && own.b == 6);
     newer.c = 1;
     assert_int_equal(read(&newer, &own, &error), AUR_ERROR_UNSUPPORTED);
-    const old_options unset = {.a = 5};
-    assert_int_equal(read(&unset, &own, &error), AUR_ERROR_ARGUMENT);
-    assert_non_null(strstr(error.message, "size"));
-    assert_true(own.a == 1 && own.b == 2); /* untouched by an error */
+    const size_t never_sizes[] = {0, sizeof(size_t) / 2, sizeof(size_t) + 4};
+    for (size_t i = 0; i < sizeof never_sizes / sizeof never_sizes[0]; ++i) {
+        const old_options unset = {.size = never_sizes[i], .a = 5};
+        assert_int_equal(read(&unset, &own, &error), AUR_ERROR_ARGUMENT);
+        assert_non_null(strstr(error.message, "size"));
+        assert_true(own.a == 1 && own.b == 2); /* untouched by an error */
+    }
+    const size_t first = sizeof first; /* the struct of a header before `a` came */
+    assert_int_equal(read(&first, &own, &error), AUR_OK);
+    assert_true(own.a == 1 && own.b == 2 && own.size == sizeof own);
 }
 
 static void fills_older_and_newer_descriptions(void **state) {
@@ -48,12 +54,10 @@ static void fills_older_and_newer_descriptions(void **state) {
     aur_error error;
     const own_options own = {.size = sizeof own, .a = 1, .b = 2};
     old_options old = {.size = sizeof old};
-    assert_int_equal(aur_description_write(&own, sizeof old, sizeof own, &old, "description", &error),
-                     AUR_OK);
+    assert_int_equal(aur_description_write(&own, sizeof own, &old, "description", &error), AUR_OK);
     assert_true(old.a == 1 && old.size == sizeof old);
     new_options newer = {.size = sizeof newer, .c = 9};
-    assert_int_equal(aur_description_write(&own, sizeof old, sizeof own, &newer, "description", &error),
-                     AUR_OK);
+    assert_int_equal(aur_description_write(&own, sizeof own, &newer, "description", &error), AUR_OK);
     assert_true(newer.a == 1 && newer.b == 2 && newer.c == 0 && newer.size == sizeof newer);
 }
 

@@ -65,7 +65,7 @@ static aur_result check_options(const aur_daylight_options *o, aur_error *error)
 static aur_result read_options(const aur_daylight_options *given, aur_daylight_options *o, aur_error *error) {
     static const double REC709[3] = {0.2126, 0.7152, 0.0722};
     *o = aur_daylight_options_default();
-    const aur_result result = aur_options_read(given, sizeof *o, sizeof *o, o, "aur_daylight_options", error);
+    const aur_result result = aur_options_read(given, sizeof *o, o, "aur_daylight_options", error);
     if (result != AUR_OK)
         return result;
     if (o->set == NULL)
@@ -278,10 +278,9 @@ aur_result aur_daylight_estimate(const aur_scene *scene, const aur_sensors_view 
     aur_daylight_summary own = {.size = sizeof own};
     aur_result result = read_options(given_options, &options, error);
     if (result == AUR_OK)
-        result = aur_options_read(given, sizeof sensors, sizeof sensors, &sensors, "aur_sensors_view", error);
+        result = aur_options_read(given, sizeof sensors, &sensors, "aur_sensors_view", error);
     if (result == AUR_OK)
-        result = aur_options_read(given_weather, sizeof weather, sizeof weather, &weather, "aur_weather_view",
-                                  error);
+        result = aur_options_read(given_weather, sizeof weather, &weather, "aur_weather_view", error);
     if (result == AUR_OK && result_size != sizeof *results)
         result = aur_fail(error, AUR_ERROR_ARGUMENT, "the results have %zu bytes each, not %zu",
                           sizeof *results, result_size);
@@ -312,8 +311,7 @@ aur_result aur_daylight_estimate(const aur_scene *scene, const aur_sensors_view 
         warn(&w);
         summarize(&w, &own);
         if (summary != NULL)
-            result =
-                aur_description_write(&own, sizeof own, sizeof own, summary, "aur_daylight_summary", error);
+            result = aur_description_write(&own, sizeof own, summary, "aur_daylight_summary", error);
     }
     aur_sensor_rule_release(&w.rule);
     aur_lit_hours_release(&w.lit);

@@ -40,8 +40,7 @@ static const double REC709[3] = {0.2126, 0.7152, 0.0722};
 static aur_result read_options(const aur_irradiance_options *given, aur_irradiance_options *o,
                                aur_error *error) {
     *o = aur_irradiance_options_default();
-    const aur_result result =
-        aur_options_read(given, sizeof *o, sizeof *o, o, "aur_irradiance_options", error);
+    const aur_result result = aur_options_read(given, sizeof *o, o, "aur_irradiance_options", error);
     if (result != AUR_OK)
         return result;
     if (o->set == NULL)
@@ -233,7 +232,7 @@ aur_result aur_irradiance_estimate(const aur_scene *scene, const aur_sensors_vie
     aur_sensors_view sensors = {.size = sizeof sensors};
     aur_result result = read_options(given_options, &options, error);
     if (result == AUR_OK)
-        result = aur_options_read(given, sizeof sensors, sizeof sensors, &sensors, "aur_sensors_view", error);
+        result = aur_options_read(given, sizeof sensors, &sensors, "aur_sensors_view", error);
     if (result == AUR_OK && result_size != sizeof *results)
         result = aur_fail(error, AUR_ERROR_ARGUMENT, "the results have %zu bytes each, not %zu",
                           sizeof *results, result_size);

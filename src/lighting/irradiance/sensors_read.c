@@ -73,8 +73,7 @@ aur_result aur_sensors_read(const char *path, const aur_sensors_options *given, 
                             aur_error *error) {
     *sensors = NULL;
     aur_sensors_options options = aur_sensors_options_default();
-    aur_result result =
-        aur_options_read(given, sizeof options, sizeof options, &options, "aur_sensors_options", error);
+    aur_result result = aur_options_read(given, sizeof options, &options, "aur_sensors_options", error);
     if (result == AUR_OK && !isfinite(options.lift))
         result =
             aur_fail(error, AUR_ERROR_ARGUMENT, "the lift of sensors must be finite, not %g", options.lift);

@@ -72,8 +72,7 @@ aur_result aur_irradiance_write(const char *path, const char *format, const aur_
                                 const aur_sensors_view *sensors, size_t result_size,
                                 const aur_irradiance *results, aur_error *error) {
     aur_irradiance_columns own = {.size = sizeof own};
-    aur_result result =
-        aur_options_read(wanted, sizeof own, sizeof own, &own, "aur_irradiance_columns", error);
+    aur_result result = aur_options_read(wanted, sizeof own, &own, "aur_irradiance_columns", error);
     if (result != AUR_OK)
         return result;
     if (result_size != sizeof *results)

@@ -221,12 +221,11 @@ aur_result aur_points_write_as(const char *path, aur_points_format format, const
     const aur_points_view *const points = &view;
     aur_result result = aur_points_view_read(given, &view, error);
     if (result == AUR_OK)
-        result = aur_options_read(given_options, sizeof options, sizeof options, &options,
-                                  "aur_points_write_options", error);
+        result = aur_options_read(given_options, sizeof options, &options, "aur_points_write_options", error);
     if (result == AUR_OK)
         result = check_options(format, &options, error);
     if (result == AUR_OK)
-        result = aur_options_read(options.origin, sizeof own, sizeof own, &own, "aur_points_origin", error);
+        result = aur_options_read(options.origin, sizeof own, &own, "aur_points_origin", error);
     if (result == AUR_OK)
         result = aur_file_open(path, &writer, error);
     if (result != AUR_OK)

@@ -81,8 +81,7 @@ aur_result aur_pointset_create(const char *text, const aur_pointset_options *opt
     *pointset = NULL;
     aur_pointset_options own = aur_pointset_options_default(0);
     aur_parameters keys;
-    aur_result result =
-        aur_options_read(options, sizeof own, sizeof own, &own, "aur_pointset_options", error);
+    aur_result result = aur_options_read(options, sizeof own, &own, "aur_pointset_options", error);
     if (result == AUR_OK)
         result = parse(text, &keys, error);
     if (result != AUR_OK)

@@ -128,8 +128,7 @@ static aur_result estimate(work *w, aur_error *error) {
 aur_result aur_estimate(aur_functional functional, void *user, const aur_estimate_options *options,
                         aur_estimated *results, aur_estimate_report *report, aur_error *error) {
     aur_estimate_options own = aur_estimate_options_default(0, 0);
-    aur_result result =
-        aur_options_read(options, sizeof own, sizeof own, &own, "aur_estimate_options", error);
+    aur_result result = aur_options_read(options, sizeof own, &own, "aur_estimate_options", error);
     if (result == AUR_OK)
         result = check(&own, error);
     if (result != AUR_OK)
@@ -146,13 +145,12 @@ aur_result aur_estimate(aur_functional functional, void *user, const aur_estimat
     free(w.values);
     free(w.points);
     return result == AUR_OK && report != NULL
-               ? aur_description_write(&w.report, sizeof w.report, sizeof w.report, report,
-                                       "aur_estimate_report", error)
+               ? aur_description_write(&w.report, sizeof w.report, report, "aur_estimate_report", error)
                : result;
 }
 
 aur_result aur_estimate_options_init(size_t dimension, size_t values, aur_estimate_options *options,
                                      aur_error *error) {
     const aur_estimate_options own = aur_estimate_options_default(dimension, values);
-    return aur_description_write(&own, sizeof own, sizeof own, options, "aur_estimate_options", error);
+    return aur_description_write(&own, sizeof own, options, "aur_estimate_options", error);
 }

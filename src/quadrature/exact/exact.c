@@ -260,7 +260,7 @@ aur_result aur_weights_exact(size_t count, const double *xyz, const aur_exact_op
                              size_t capacity, double *weights, aur_exact_report *report, aur_error *error) {
     aur_exact_options own = aur_exact_options_default(AUR_DOMAIN_SPHERE);
     double lowest = -1.0;
-    aur_result result = aur_options_read(options, sizeof own, sizeof own, &own, "aur_exact_options", error);
+    aur_result result = aur_options_read(options, sizeof own, &own, "aur_exact_options", error);
     if (result == AUR_OK)
         result = check_options(&own, &lowest, error);
     if (result == AUR_OK)
@@ -293,5 +293,5 @@ aur_result aur_weights_exact(size_t count, const double *xyz, const aur_exact_op
 
 aur_result aur_exact_options_init(aur_domain domain, aur_exact_options *options, aur_error *error) {
     const aur_exact_options own = aur_exact_options_default(domain);
-    return aur_description_write(&own, sizeof own, sizeof own, options, "aur_exact_options", error);
+    return aur_description_write(&own, sizeof own, options, "aur_exact_options", error);
 }

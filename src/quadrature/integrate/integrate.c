@@ -160,8 +160,7 @@ static aur_result integrate(integration *work, aur_integral *integral, aur_error
 aur_result aur_integrate(aur_integrand function, void *user, const aur_integrate_options *options,
                          aur_integral *integral, aur_error *error) {
     aur_integrate_options own = aur_integrate_options_default(AUR_DOMAIN_SPHERE);
-    aur_result result =
-        aur_options_read(options, sizeof own, sizeof own, &own, "aur_integrate_options", error);
+    aur_result result = aur_options_read(options, sizeof own, &own, "aur_integrate_options", error);
     if (result == AUR_OK)
         result = check(&own, error);
     if (result != AUR_OK)
@@ -181,12 +180,11 @@ aur_result aur_integrate(aur_integrand function, void *user, const aur_integrate
         aur_replicates_destroy(work.replicates);
     }
     free(work.values);
-    return result == AUR_OK
-               ? aur_description_write(&found, sizeof found, sizeof found, integral, "aur_integral", error)
-               : result;
+    return result == AUR_OK ? aur_description_write(&found, sizeof found, integral, "aur_integral", error)
+                            : result;
 }
 
 aur_result aur_integrate_options_init(aur_domain domain, aur_integrate_options *options, aur_error *error) {
     const aur_integrate_options own = aur_integrate_options_default(domain);
-    return aur_description_write(&own, sizeof own, sizeof own, options, "aur_integrate_options", error);
+    return aur_description_write(&own, sizeof own, options, "aur_integrate_options", error);
 }

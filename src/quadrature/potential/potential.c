@@ -121,7 +121,7 @@ aur_result aur_potential_create(const aur_density *density, double smoothness, a
         return aur_fail_memory(error);
     created->rule = aur_kernel_rule_make(smoothness);
     aur_density *const own = &created->density;
-    result = aur_options_read(density, sizeof *own, sizeof *own, own, "aur_density", error);
+    result = aur_options_read(density, sizeof *own, own, "aur_density", error);
     if (aur_is_default_axis(own->axis))
         own->axis[2] = 1.0;
     if (result == AUR_OK)
@@ -244,5 +244,5 @@ aur_result aur_density_from_lobe(const aur_lobe *lobe, aur_domain domain, aur_de
     own.exponent = lobe->exponent;
     own.alpha = lobe->alpha;
     own.view_degrees = lobe->view_degrees;
-    return aur_description_write(&own, sizeof own, sizeof own, density, "aur_density", error);
+    return aur_description_write(&own, sizeof own, density, "aur_density", error);
 }

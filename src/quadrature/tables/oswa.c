@@ -104,7 +104,7 @@ aur_result aur_oswa_options_read(const aur_oswa_options *given, aur_oswa_options
                                  aur_weights_options *weights, aur_error *error) {
     *own = aur_oswa_options_default(0, 0);
     *weights = aur_weights_options_default();
-    aur_result result = aur_options_read(given, sizeof *own, sizeof *own, own, "aur_oswa_options", error);
+    aur_result result = aur_options_read(given, sizeof *own, own, "aur_oswa_options", error);
     if (result == AUR_OK)
         result = aur_weights_options_read(own->weights, weights, error);
     own->set = own->set != NULL ? own->set : aur_set_default;

@@ -33,8 +33,7 @@ aur_result aur_weight_table_create(const aur_oswa_options *options, const aur_we
                                    bool solves, aur_weight_table **table, aur_error *error) {
     *table = NULL;
     aur_weight_table_grid grid = aur_weight_table_grid_default();
-    aur_result result =
-        aur_options_read(given, sizeof grid, sizeof grid, &grid, "aur_weight_table_grid", error);
+    aur_result result = aur_options_read(given, sizeof grid, &grid, "aur_weight_table_grid", error);
     if (result != AUR_OK)
         return result;
     aur_weight_table *const created = calloc(1, sizeof *created);
@@ -279,5 +278,5 @@ double aur_weight_table_mass(const aur_weight_table *table, double radians, doub
 
 aur_result aur_weight_table_grid_init(aur_weight_table_grid *options, aur_error *error) {
     const aur_weight_table_grid own = aur_weight_table_grid_default();
-    return aur_description_write(&own, sizeof own, sizeof own, options, "aur_weight_table_grid", error);
+    return aur_description_write(&own, sizeof own, options, "aur_weight_table_grid", error);
 }

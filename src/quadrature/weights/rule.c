@@ -22,10 +22,9 @@ aur_result aur_rule_make(const aur_rule_options *options, size_t capacity, doubl
                          aur_error *error) {
     aur_rule_options own = {.set = NULL};
     aur_directions_options points = aur_directions_options_default(0, AUR_DOMAIN_HEMISPHERE);
-    aur_result result = aur_options_read(options, sizeof own, sizeof own, &own, "aur_rule_options", error);
+    aur_result result = aur_options_read(options, sizeof own, &own, "aur_rule_options", error);
     if (result == AUR_OK)
-        result = aur_options_read(own.points, sizeof points, sizeof points, &points, "aur_directions_options",
-                                  error);
+        result = aur_options_read(own.points, sizeof points, &points, "aur_directions_options", error);
     if (result == AUR_OK && points.count == 0)
         result = aur_fail(error, AUR_ERROR_ARGUMENT, "a rule needs at least one sample");
     if (result == AUR_OK)

@@ -35,8 +35,7 @@ aur_result aur_worst_case_error(size_t count, const double *xyz, const double *w
     if (count == 0)
         return aur_fail(error, AUR_ERROR_ARGUMENT, "a worst-case error needs at least one point");
     aur_worst_case_options own = aur_worst_case_options_default();
-    aur_result result =
-        aur_options_read(given, sizeof own, sizeof own, &own, "aur_worst_case_options", error);
+    aur_result result = aur_options_read(given, sizeof own, &own, "aur_worst_case_options", error);
     if (result == AUR_OK)
         result = aur_check_directions(count, xyz, error);
     if (result != AUR_OK)

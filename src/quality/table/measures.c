@@ -137,8 +137,7 @@ static aur_result prepare(const char *metric, const aur_points_view *given,
     *p = (prepared){.request = {.points = points, .arena = &p->arena, .bound = &p->bound}};
     aur_measure_options *const own = &p->request.options;
     *own = aur_measure_options_default();
-    aur_result result =
-        aur_options_read(options, sizeof *own, sizeof *own, own, "aur_measure_options", error);
+    aur_result result = aur_options_read(options, sizeof *own, own, "aur_measure_options", error);
     if (result == AUR_OK && !(own->accuracy >= 0.0 && own->accuracy < 1.0))
         result =
             aur_fail(error, AUR_ERROR_ARGUMENT,

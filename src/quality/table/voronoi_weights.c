@@ -53,7 +53,7 @@ aur_result aur_weights_voronoi(size_t count, const double *xyz, aur_domain domai
         return aur_fail(error, AUR_ERROR_UNSUPPORTED,
                         "areas of cells of the whole sphere are for the uniform lobe");
     aur_measure_options own = aur_measure_options_default();
-    aur_result result = aur_options_read(options, sizeof own, sizeof own, &own, "aur_measure_options", error);
+    aur_result result = aur_options_read(options, sizeof own, &own, "aur_measure_options", error);
     if (result != AUR_OK)
         return result;
     if (own.cap_degrees > 0.0 && (ggx || density->exponent != 0.0))

@@ -187,8 +187,7 @@ aur_result aur_directions_create(const char *set, const aur_directions_options *
                                  aur_directions **directions, aur_error *error) {
     *directions = NULL;
     aur_directions_options own = aur_directions_options_default(0, AUR_DOMAIN_HEMISPHERE);
-    aur_result result =
-        aur_options_read(options, sizeof own, sizeof own, &own, "aur_directions_options", error);
+    aur_result result = aur_options_read(options, sizeof own, &own, "aur_directions_options", error);
     if (result == AUR_OK)
         result = check_options(&own, error);
     if (result != AUR_OK)

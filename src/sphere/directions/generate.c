@@ -227,11 +227,9 @@ aur_result aur_points_generate(const char *set, const aur_points_request *given,
     *points = NULL;
     aur_directions_options options = aur_directions_options_default(0, AUR_DOMAIN_SQUARE);
     aur_points_request request = aur_points_request_default(NULL);
-    aur_result result =
-        aur_options_read(given, sizeof request, sizeof request, &request, "aur_points_request", error);
+    aur_result result = aur_options_read(given, sizeof request, &request, "aur_points_request", error);
     if (result == AUR_OK)
-        result = aur_options_read(request.options, sizeof options, sizeof options, &options,
-                                  "aur_directions_options", error);
+        result = aur_options_read(request.options, sizeof options, &options, "aur_directions_options", error);
     if (result != AUR_OK)
         return result;
     job j = {.set = set, .request = &request, .options = &options, .error = error};

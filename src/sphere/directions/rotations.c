@@ -59,8 +59,7 @@ aur_result aur_rotations_create(const char *set, const aur_rotations_options *op
                                 aur_rotations **rotations, aur_error *error) {
     *rotations = NULL;
     aur_rotations_options own = aur_rotations_options_default(0);
-    aur_result result =
-        aur_options_read(options, sizeof own, sizeof own, &own, "aur_rotations_options", error);
+    aur_result result = aur_options_read(options, sizeof own, &own, "aur_rotations_options", error);
     if (result != AUR_OK)
         return result;
     aur_rotations *const made = calloc(1, sizeof *made);

@@ -137,7 +137,7 @@ static aur_result find_some(void *context, size_t item) {
 aur_result aur_nearest_find(const aur_nearest *nearest, const aur_nearest_options *options, size_t count,
                             const double *queries, size_t *indices, double *distances, aur_error *error) {
     aur_nearest_options own = aur_nearest_options_default();
-    aur_result result = aur_options_read(options, sizeof own, sizeof own, &own, "aur_nearest_options", error);
+    aur_result result = aur_options_read(options, sizeof own, &own, "aur_nearest_options", error);
     if (result != AUR_OK)
         return result;
     own.neighbours += own.neighbours == 0;

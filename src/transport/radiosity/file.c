@@ -147,8 +147,7 @@ aur_result aur_radiosity_load(const aur_scene *scene, const char *path, const au
                               aur_radiosity **radiosity, aur_error *error) {
     *radiosity = NULL;
     aur_radiosity_options own = aur_radiosity_options_default();
-    aur_result result =
-        aur_options_read(options, sizeof own, sizeof own, &own, "aur_radiosity_options", error);
+    aur_result result = aur_options_read(options, sizeof own, &own, "aur_radiosity_options", error);
     if (result != AUR_OK)
         return result;
     char *data = NULL;

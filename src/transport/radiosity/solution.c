@@ -69,8 +69,7 @@ aur_result aur_radiosity_create(const aur_scene *scene, const aur_radiosity_opti
                                 aur_radiosity **radiosity, aur_error *error) {
     *radiosity = NULL;
     aur_radiosity_options wanted = aur_radiosity_options_default();
-    aur_result result =
-        aur_options_read(options, sizeof wanted, sizeof wanted, &wanted, "aur_radiosity_options", error);
+    aur_result result = aur_options_read(options, sizeof wanted, &wanted, "aur_radiosity_options", error);
     if (result == AUR_OK)
         result = check_options(&wanted, error);
     if (result != AUR_OK)

@@ -1,5 +1,6 @@
 #include "transport/radiosity/solution.h"
 
+#include <stddef.h>
 #include <string.h>
 
 #include "core/options.h"
@@ -144,9 +145,12 @@ aur_result aur_radiosity_results(const aur_radiosity *radiosity, size_t capacity
                                  aur_radiosity_triangle_result *results, aur_error *error) {
     const size_t count = radiosity->scene.triangle_count;
     aur_radiosity_triangle_result row;
-    if (size < sizeof row)
+    /* The field that was the last one of version 0.1: an older program's row ends there. */
+    const size_t first_size =
+        offsetof(aur_radiosity_triangle_result, standard_error) + sizeof row.standard_error;
+    if (size < first_size)
         return aur_fail(error, AUR_ERROR_ARGUMENT,
-                        "radiosity: a row of results has %zu bytes at least, not %zu", sizeof row, size);
+                        "radiosity: a row of results has %zu bytes at least, not %zu", first_size, size);
     if (capacity < count)
         return aur_fail(error, AUR_ERROR_CAPACITY, "radiosity: there are %zu triangles, and room for %zu",
                         count, capacity);
@@ -154,7 +158,7 @@ aur_result aur_radiosity_results(const aur_radiosity *radiosity, size_t capacity
         aur_radiosity_result(radiosity, i, &row);
         unsigned char *const out = (unsigned char *)results + i * size;
         memset(out, 0, size);
-        memcpy(out, &row, sizeof row);
+        memcpy(out, &row, size < sizeof row ? size : sizeof row);
     }
     return AUR_OK;
 }
@@ -163,6 +167,5 @@ aur_result aur_radiosity_describe(const aur_radiosity *radiosity, aur_radiosity_
                                   aur_error *error) {
     aur_radiosity_description own;
     aur_radiosity_summarize(radiosity, &own);
-    return aur_description_write(&own, sizeof own, sizeof own, description, "aur_radiosity_description",
-                                 error);
+    return aur_description_write(&own, sizeof own, description, "aur_radiosity_description", error);
 }

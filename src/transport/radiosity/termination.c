@@ -25,7 +25,7 @@ static aur_result check_rule(const aur_radiosity *radiosity, const aur_radiosity
 aur_result aur_radiosity_terminate(aur_radiosity *radiosity, const aur_radiosity_termination *rule,
                                    bool *converged, aur_error *error) {
     aur_radiosity_termination r;
-    aur_result result = aur_options_read(rule, sizeof r, sizeof r, &r, "aur_radiosity_termination", error);
+    aur_result result = aur_options_read(rule, sizeof r, &r, "aur_radiosity_termination", error);
     if (result != AUR_OK)
         return result;
     r.interval = r.interval != 0 ? r.interval : 1000;
@@ -66,5 +66,5 @@ aur_result aur_radiosity_terminate(aur_radiosity *radiosity, const aur_radiosity
 
 aur_result aur_radiosity_options_init(aur_radiosity_options *options, aur_error *error) {
     const aur_radiosity_options own = aur_radiosity_options_default();
-    return aur_description_write(&own, sizeof own, sizeof own, options, "aur_radiosity_options", error);
+    return aur_description_write(&own, sizeof own, options, "aur_radiosity_options", error);
 }
