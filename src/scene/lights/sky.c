@@ -20,6 +20,7 @@ typedef struct sky_light {
     aur_vector color;  /* radiance is this times the model's */
     aur_vector ground; /* radiance from below */
     aur_patches patches;
+    bool round; /* each row of patches is equally bright */
 } sky_light;
 
 typedef enum sky_kind { UNIFORM, OVERCAST, CIE, PEREZ } sky_kind;
@@ -235,10 +236,13 @@ static aur_result prepare(aur_emitter *emitter, aur_error *error) {
         return aur_fail_memory_at(error, emitter->location);
     double rises[ROWS];
     const double color = (double)aur_luminance(self->color), ground = (double)aur_luminance(self->ground);
+    self->round = true;
     for (size_t j = 0; j < ROWS; ++j) {
         rises[j] = j < SKY_ROWS ? 1.0 / SKY_ROWS : 1.0;
         for (size_t i = 0; i < COLUMNS; ++i)
             radiance[j * COLUMNS + i] = j < SKY_ROWS ? color * patch_radiance(&self->model, i, j) : ground;
+        for (size_t i = 1; i < COLUMNS; ++i)
+            self->round &= radiance[j * COLUMNS + i] == radiance[j * COLUMNS];
     }
     const aur_result result = aur_patches_create(&self->patches, ROWS, COLUMNS, radiance, rises, error);
     free(radiance);
@@ -256,7 +260,7 @@ static float pdf_from(const aur_emitter *emitter, aur_vector direction) {
     if (!(self->patches.rows.total > 0.0))
         return 0.0f;
     to_local(self, direction, local);
-    const double turn = atan2(local[1], local[0]) / (2.0 * AUR_PI);
+    const double turn = self->round ? 0.0 : atan2(local[1], local[0]) / (2.0 * AUR_PI);
     const size_t column = (size_t)((turn < 0.0 ? turn + 1.0 : turn) * COLUMNS);
     const size_t row = local[2] < 0.0 ? SKY_ROWS : (size_t)(local[2] * SKY_ROWS);
     return aur_patches_density(&self->patches, column < COLUMNS ? column : COLUMNS - 1,
@@ -265,10 +269,14 @@ static float pdf_from(const aur_emitter *emitter, aur_vector direction) {
 
 static aur_vector draw(const sky_light *self, float u, float v) {
     size_t column, row;
-    double local[3], world[3];
-    aur_patches_choose(&self->patches, &u, &v, &column, &row);
-    direction_at((double)column + (double)u,
-                 row < SKY_ROWS ? ((double)row + (double)v) / SKY_ROWS : -(double)v, local);
+    double local[3], world[3], along = (double)u * COLUMNS;
+    if (self->round) {
+        row = aur_distribution_choose(&self->patches.rows, &v);
+    } else {
+        aur_patches_choose(&self->patches, &u, &v, &column, &row);
+        along = (double)column + (double)u;
+    }
+    direction_at(along, row < SKY_ROWS ? ((double)row + (double)v) / SKY_ROWS : -(double)v, local);
     const aur_sun_position *const at = &self->position;
     for (int d = 0; d < 3; ++d)
         world[d] = local[0] * at->east[d] + local[1] * at->north[d] + local[2] * at->up[d];
