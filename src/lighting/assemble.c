@@ -10,7 +10,6 @@ typedef struct assembly {
     const aur_facets *facets;
     const aur_visits *visits;
     const aur_closed_pairs *closed;
-    double student; /* half an interval over its standard error */
     size_t *starts; /* of the patches of each row, in `patches` */
     uint32_t *patches;
     aur_upper_row *rows;
@@ -115,19 +114,23 @@ static bool keep_row(const assembly *work, scratch *s, aur_upper_row *row) {
     row->count = s->met_count;
     row->columns = malloc((s->met_count + 1) * sizeof *row->columns);
     row->closed = malloc(3 * (s->met_count + 1) * sizeof *row->closed);
-    const bool good = row->columns != NULL && row->closed != NULL;
+    row->deviations = malloc((s->met_count + 1) * width * sizeof *row->deviations);
+    const bool good = row->columns != NULL && row->closed != NULL && row->deviations != NULL;
     if (good && row->count > 0)
         memcpy(row->columns, s->met, row->count * sizeof *row->columns);
     if (good)
         qsort(row->columns, row->count, sizeof *row->columns, compare_numbers);
     for (size_t k = 0; good && k < row->count; ++k) {
         const size_t slot = s->slots[row->columns[k]] - 1;
-        const aur_moments moments = moments_of(&s->sums[width * slot], width);
+        const double *const sums = &s->sums[width * slot];
+        const aur_moments moments = moments_of(sums, width);
         row->sampled = row->closed + row->count;
         row->half_widths = row->sampled + row->count;
         row->closed[k] = s->closed[slot];
         row->sampled[k] = moments.mean;
-        row->half_widths[k] = work->student * aur_moments_standard_error(&moments);
+        row->half_widths[k] = work->exchange->student * aur_moments_standard_error(&moments);
+        for (size_t r = 0; r < width; ++r)
+            row->deviations[width * k + r] = (float)(sums[r] - moments.mean);
     }
     for (size_t k = 0; k < s->met_count; ++k)
         s->slots[s->met[k]] = 0;
@@ -136,20 +139,22 @@ static bool keep_row(const assembly *work, scratch *s, aur_upper_row *row) {
 }
 
 /* What leaves a row for the sky or for backs. */
-static void add_losses(const assembly *work, size_t row, const double *counts, double *exchange,
-                       double *half_width) {
+static void add_losses(const assembly *work, size_t row, const double *counts, double *deviations,
+                       double *exchange, double *half_width) {
     const size_t width = work->visits->randomizations;
-    aur_moments moments = {0};
     for (size_t r = 0; r < width; ++r) {
         double sum = 0.0;
         for (size_t k = work->starts[row]; k < work->starts[row + 1]; ++k) {
             const size_t patch = work->patches[k];
             sum += work->facets->areas[aur_facet_of(work->facets, patch)] * counts[width * patch + r];
         }
-        aur_moments_add(&moments, sum / (double)work->visits->rays);
+        deviations[r] = sum / (double)work->visits->rays;
     }
+    const aur_moments moments = moments_of(deviations, width);
     *exchange = moments.mean;
-    *half_width = work->student * aur_moments_standard_error(&moments);
+    *half_width = work->exchange->student * aur_moments_standard_error(&moments);
+    for (size_t r = 0; r < width; ++r)
+        deviations[r] -= moments.mean;
 }
 
 static aur_result assemble_block(void *context, size_t index) {
@@ -162,10 +167,11 @@ static aur_result assemble_block(void *context, size_t index) {
             good = add_patch(work, &s, row, work->patches[k]);
         if (good)
             good = keep_row(work, &s, &work->rows[row]);
-        add_losses(work, row, work->visits->sky, &work->exchange->sky[row],
-                   &work->exchange->sky_half_widths[row]);
-        add_losses(work, row, work->visits->back, &work->exchange->back[row],
-                   &work->exchange->back_half_widths[row]);
+        aur_exchange *const to = work->exchange;
+        double *const deviations = &to->loss_deviations[to->randomizations * row];
+        add_losses(work, row, work->visits->sky, deviations, &to->sky[row], &to->sky_half_widths[row]);
+        add_losses(work, row, work->visits->back, deviations + to->randomizations * rows, &to->back[row],
+                   &to->back_half_widths[row]);
     }
     free(s.slots);
     free(s.met);
@@ -191,9 +197,12 @@ static bool list_patches(assembly *work) {
     return true;
 }
 
-static bool allocate(const aur_facets *facets, aur_exchange *exchange) {
+static bool allocate(const aur_facets *facets, size_t randomizations, aur_exchange *exchange) {
     const size_t rows = facets->row_count;
     *exchange = (aur_exchange){.rows = rows,
+                               .randomizations = randomizations,
+                               .loss_deviations =
+                                   calloc(2 * rows * randomizations, sizeof *exchange->loss_deviations),
                                .starts = calloc(rows + 1, sizeof *exchange->starts),
                                .areas = malloc(rows * sizeof *exchange->areas),
                                .sky = calloc(rows, sizeof *exchange->sky),
@@ -201,7 +210,8 @@ static bool allocate(const aur_facets *facets, aur_exchange *exchange) {
                                .back = calloc(rows, sizeof *exchange->back),
                                .back_half_widths = calloc(rows, sizeof *exchange->back_half_widths)};
     if (exchange->starts == NULL || exchange->areas == NULL || exchange->sky == NULL ||
-        exchange->sky_half_widths == NULL || exchange->back == NULL || exchange->back_half_widths == NULL)
+        exchange->sky_half_widths == NULL || exchange->back == NULL || exchange->back_half_widths == NULL ||
+        exchange->loss_deviations == NULL)
         return false;
     memcpy(exchange->areas, facets->row_areas, rows * sizeof *exchange->areas);
     return true;
@@ -214,12 +224,12 @@ aur_result aur_exchange_assemble(const aur_facets *facets, const aur_visits *vis
     assembly work = {.facets = facets,
                      .visits = visits,
                      .closed = closed,
-                     .student = aur_student_quantile(visits->randomizations - 1, 0.5 + 0.5 * confidence),
                      .rows = calloc(facets->row_count, sizeof *work.rows),
                      .exchange = exchange};
     aur_result result = AUR_OK;
-    if (!allocate(facets, exchange) || work.rows == NULL || !list_patches(&work))
+    if (!allocate(facets, visits->randomizations, exchange) || work.rows == NULL || !list_patches(&work))
         result = aur_fail_memory(error);
+    exchange->student = aur_student_quantile(visits->randomizations - 1, 0.5 + 0.5 * confidence);
     aur_parallel_options options = *parallel;
     options.what = "putting rows together";
     if (result == AUR_OK)
@@ -230,6 +240,7 @@ aur_result aur_exchange_assemble(const aur_facets *facets, const aur_visits *vis
     for (size_t i = 0; i < facets->row_count && work.rows != NULL; ++i) {
         free(work.rows[i].columns);
         free(work.rows[i].closed);
+        free(work.rows[i].deviations);
     }
     free(work.rows);
     free(work.starts);
@@ -245,6 +256,8 @@ void aur_exchange_release(aur_exchange *exchange) {
     free(exchange->values);
     free(exchange->variances);
     free(exchange->half_widths);
+    free(exchange->deviations);
+    free(exchange->loss_deviations);
     free(exchange->areas);
     free(exchange->sky);
     free(exchange->sky_half_widths);

@@ -1,59 +1,14 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "core/vector.h"
-#include "lighting/exchange.h"
+#include "lighting/row_system.h"
 
-/* Changes of least squares: with G the exchanges, w their variances, and a multiplier m for each row,
- *
- *     G_ab += w_ab (m_a + m_b),  G_aa += w_aa m_a,  sky_a += v_a m_a,
- *
- * where the multipliers solve (D + W) m = what the rows lack, D the diagonal of row sums. The matrix is
- * positive, and regular where a row, or one that it is linked to, sees sky or sees in an odd circle. */
+enum { MOST_ROUNDS = 40 };
 
-enum { BLOCK = 512, MOST_ROUNDS = 40, MOST_STEPS = 300 };
-
-static const double GOAL = 2e-15, BALANCED = 1e-12;
-
-typedef struct system_of_rows {
-    aur_exchange *exchange;
-    const aur_parallel_options *parallel;
-    double *weights;  /* of the entries */
-    double *diagonal; /* of the matrix */
-    double *losses;   /* weights of sky and back: [2][rows] */
-    double *lack, *multipliers;
-    double *residual, *direction, *image, *best;
-} system_of_rows;
-
-typedef struct product {
-    const system_of_rows *s;
-    const double *x;
-    double *y;
-} product;
-
-static aur_result multiply_block(void *context, size_t index) {
-    const product *const p = context;
-    const aur_exchange *const g = p->s->exchange;
-    for (size_t a = BLOCK * index; a < g->rows && a < BLOCK * (index + 1); ++a) {
-        double sum = p->s->diagonal[a] * p->x[a];
-        for (uint64_t e = g->starts[a]; e < g->starts[a + 1]; ++e)
-            if (g->columns[e] != a)
-                sum += p->s->weights[e] * p->x[g->columns[e]];
-        p->y[a] = sum;
-    }
-    return AUR_OK;
-}
-
-static aur_result multiply(const system_of_rows *s, const double *x, double *y, aur_error *error) {
-    product work = {s, x, y};
-    aur_parallel_options options = *s->parallel;
-    options.what = "balancing rows";
-    options.progress = (aur_progress){0};
-    return aur_parallel_for(&options, (s->exchange->rows + BLOCK - 1) / BLOCK, multiply_block, &work, error);
-}
+static const double GOAL = 2e-15, BALANCED = 1e-12, EXACT = 1e-24;
 
 /* What the rows lack, as parts of their areas: the largest, and by area the mean square. */
-static void find_lack(system_of_rows *s, double *largest, double *mean_square) {
+static void find_lack(aur_row_system *s, double *largest, double *mean_square) {
     const aur_exchange *const g = s->exchange;
     double squares = 0.0, area = 0.0;
     *largest = 0.0;
@@ -72,70 +27,6 @@ static void find_lack(system_of_rows *s, double *largest, double *mean_square) {
     *mean_square = area > 0.0 ? squares / area : 0.0;
 }
 
-static void find_diagonal(system_of_rows *s) {
-    const aur_exchange *const g = s->exchange;
-    for (size_t a = 0; a < g->rows; ++a) {
-        double sum = s->losses[a] + s->losses[g->rows + a];
-        for (uint64_t e = g->starts[a]; e < g->starts[a + 1]; ++e)
-            sum += s->weights[e];
-        s->diagonal[a] = sum;
-    }
-}
-
-static double scaled_dot(const system_of_rows *s, const double *x, const double *y) {
-    double sum = 0.0;
-    for (size_t a = 0; a < s->exchange->rows; ++a)
-        if (s->diagonal[a] > 0.0)
-            sum += x[a] * y[a] / s->diagonal[a];
-    return sum;
-}
-
-static double dot(size_t count, const double *x, const double *y) {
-    double sum = 0.0;
-    for (size_t a = 0; a < count; ++a)
-        sum += x[a] * y[a];
-    return sum;
-}
-
-/* Conjugate gradients with the diagonal as preconditioner. Where there is no solution the residual stops
- * falling: the multipliers of the smallest one are kept. */
-static aur_result solve(system_of_rows *s, aur_error *error) {
-    const size_t rows = s->exchange->rows;
-    memset(s->multipliers, 0, rows * sizeof *s->multipliers);
-    memset(s->best, 0, rows * sizeof *s->best);
-    for (size_t a = 0; a < rows; ++a) {
-        s->residual[a] = s->diagonal[a] > 0.0 ? s->lack[a] : 0.0;
-        s->direction[a] = s->diagonal[a] > 0.0 ? s->residual[a] / s->diagonal[a] : 0.0;
-    }
-    double square = scaled_dot(s, s->residual, s->residual), least = square;
-    const double goal = 1e-24 * square;
-    size_t stale = 0;
-    for (size_t step = 0; step < MOST_STEPS && square > goal && stale < 30; ++step) {
-        const aur_result result = multiply(s, s->direction, s->image, error);
-        if (result != AUR_OK)
-            return result;
-        const double curvature = dot(rows, s->direction, s->image);
-        if (!(curvature > 0.0))
-            break;
-        const double length = square / curvature;
-        for (size_t a = 0; a < rows; ++a) {
-            s->multipliers[a] += length * s->direction[a];
-            s->residual[a] -= length * s->image[a];
-        }
-        const double next = scaled_dot(s, s->residual, s->residual);
-        stale = next < 0.999 * least ? 0 : stale + 1;
-        if (next < least) {
-            least = next;
-            memcpy(s->best, s->multipliers, rows * sizeof *s->best);
-        }
-        for (size_t a = 0; a < rows; ++a)
-            s->direction[a] = (s->diagonal[a] > 0.0 ? s->residual[a] / s->diagonal[a] : 0.0) +
-                              next / square * s->direction[a];
-        square = next;
-    }
-    return AUR_OK;
-}
-
 /* Adds a change; what would be negative becomes 0 and stays so. */
 static bool change(double *value, double *weight, double by) {
     *value += *weight * by;
@@ -147,7 +38,7 @@ static bool change(double *value, double *weight, double by) {
 }
 
 /* True when something was cut at 0. */
-static bool apply(system_of_rows *s) {
+static bool apply(aur_row_system *s) {
     aur_exchange *const g = s->exchange;
     const double *const m = s->best;
     bool cut = false;
@@ -161,15 +52,15 @@ static bool apply(system_of_rows *s) {
 }
 
 /* One phase with the given weights, until the rows add up or no more can be had. */
-static aur_result balance_rows(system_of_rows *s, double *largest, aur_error *error) {
+static aur_result balance_rows(aur_row_system *s, double *largest, aur_error *error) {
     double mean_square, before = INFINITY;
     for (size_t round = 0; round < MOST_ROUNDS; ++round) {
         find_lack(s, largest, &mean_square);
         if (*largest <= GOAL || (mean_square > 0.25 * before && round > 1))
             return AUR_OK;
         before = mean_square;
-        find_diagonal(s);
-        const aur_result result = solve(s, error);
+        aur_row_system_prepare(s);
+        const aur_result result = aur_row_system_solve(s, EXACT, error);
         if (result != AUR_OK)
             return result;
         if (apply(s))
@@ -192,11 +83,11 @@ static double scale_of_entries(const aur_exchange *g) {
 }
 
 /* What rows lose has variances of its own: it is a sum of many rays, or of half planes, which are spread
- * evenly, and some rows see sky in all of them. Of a row's few randomisations' variance and that of all rows,
- * in proportion to what they lose, the first one mostly. */
+ * evenly, and some rows see sky in all of them. The variance that is usual, in proportion to what a row
+ * loses, counts as one more randomisation beside the row's own. */
 static void weigh_losses(const aur_exchange *g, double scale, const double *losses, const double *half_widths,
                          double *weights) {
-    const double own = 0.9;
+    const double own = (double)(g->randomizations - 1) / (double)g->randomizations;
     double squares = 0.0, counts = 0.0;
     for (size_t a = 0; a < g->rows; ++a) {
         squares += half_widths[a] * half_widths[a];
@@ -212,7 +103,7 @@ static void weigh_losses(const aur_exchange *g, double scale, const double *loss
 }
 
 /* The weights of sampled entries, or of all. */
-static void choose_weights(system_of_rows *s, bool all) {
+static void choose_weights(aur_row_system *s, bool all) {
     const aur_exchange *const g = s->exchange;
     const double scale = scale_of_entries(g);
     weigh_losses(g, scale, g->sky, g->sky_half_widths, s->losses);
@@ -225,7 +116,12 @@ static void choose_weights(system_of_rows *s, bool all) {
     }
 }
 
-static aur_result balance_all(system_of_rows *s, aur_balance *balance, aur_error *error) {
+static aur_result balance_and_settle(aur_row_system *s, double *largest, aur_error *error) {
+    const aur_result result = balance_rows(s, largest, error);
+    return result == AUR_OK ? aur_row_system_settle(s, error) : result;
+}
+
+static aur_result balance_all(aur_row_system *s, aur_balance *balance, aur_error *error) {
     aur_exchange *const g = s->exchange;
     const uint64_t entries = g->starts[g->rows];
     double *const original = malloc((entries + 1) * sizeof *original);
@@ -237,11 +133,14 @@ static aur_result balance_all(system_of_rows *s, aur_balance *balance, aur_error
     find_lack(s, &largest, &mean_square);
     balance->before = sqrt(mean_square);
     choose_weights(s, false);
-    aur_result result = balance_rows(s, &largest, error);
+    aur_result result = balance_and_settle(s, &largest, error);
     if (result == AUR_OK && largest > 0.1 * BALANCED) {
         choose_weights(s, true);
-        result = balance_rows(s, &largest, error);
+        result = balance_and_settle(s, &largest, error);
     }
+    if (result == AUR_OK)
+        result = aur_exchange_find_widths(g, error);
+    find_lack(s, &largest, &mean_square);
     balance->after = largest;
     for (size_t a = 0; a < g->rows; ++a)
         balance->unbalanced += fabs(s->lack[a]) > BALANCED * g->areas[a];
@@ -260,7 +159,7 @@ aur_result aur_exchange_balance(aur_exchange *exchange, const aur_parallel_optio
     *balance = (aur_balance){0};
     const size_t rows = exchange->rows;
     double *const numbers = calloc(9 * rows + 1, sizeof *numbers);
-    system_of_rows s = {.exchange = exchange,
+    aur_row_system s = {.exchange = exchange,
                         .parallel = parallel,
                         .weights = malloc((exchange->starts[rows] + 1) * sizeof *s.weights)};
     aur_result result = AUR_OK;

@@ -11,7 +11,13 @@ typedef struct aur_exchange {
     double *values;      /* exchanges */
     double *variances;   /* what balancing weighs changes by; 0 for closed forms alone */
     double *half_widths; /* of the exchanges' intervals */
-    double *areas;       /* rows, as for all that follow */
+    /* What each randomisation is off the mean: of the entries from the diagonal on, row by row, and of sky,
+     * then back, of every row. */
+    float *deviations;       /* [upper entries][randomizations] */
+    double *loss_deviations; /* [2][rows][randomizations] */
+    size_t randomizations;
+    double student; /* half an interval over its standard error */
+    double *areas;  /* rows, as for all that follow */
     double *sky, *sky_half_widths;
     double *back, *back_half_widths;
     uint64_t closed_pairs, sampled_pairs; /* of patches */
@@ -35,7 +41,10 @@ typedef struct aur_balance {
 
 /* Moves exchanges, sky and backs so that every row adds up to its area: the least squares of the changes in
  * proportion to their variances, none below 0, first of what is sampled, and of all only where that does not
- * suffice. Where the pattern of entries has no such matrix, the nearest one is left. Errors: CANCELLED,
- * MEMORY. */
+ * suffice. Where the pattern of entries has no such matrix, the nearest one is left. Intervals become those
+ * of what was moved. Errors: CANCELLED, MEMORY. */
 aur_result aur_exchange_balance(aur_exchange *exchange, const aur_parallel_options *parallel,
                                 aur_balance *balance, aur_error *error);
+
+/* Half widths of intervals from the deviations, which this leaves. Errors: MEMORY. */
+aur_result aur_exchange_find_widths(aur_exchange *exchange, aur_error *error);

@@ -2,9 +2,10 @@
 
 #include <math.h>
 
-/* What meshes show (1.4 to 1.7 where horizons jump at edges); it counts as much as so many numbers that are
- * measured. One number tells the rate to some 1.2, and meshes differ by some .3. */
-static const double USUAL_RATE = 1.55, USUAL_COUNT = 16.0;
+/* Before anything is measured, each rate from that of chance to that of nets where nothing jumps is as
+ * likely: 1 to 2, with the variance 1/12. The mean is also the rate where jumps lie in two dimensions (He and
+ * Wang 2015: 1 + 1/2). */
+static const double USUAL_RATE = 1.5, USUAL_VARIANCE = 1.0 / 12.0;
 
 static double mean_of(size_t count, const double *values) {
     double sum = 0.0;
@@ -32,6 +33,17 @@ static double rate_of(double ratio, double parts) {
     return 0.5 * (low + high);
 }
 
+/* Of the rate that one number tells: the ratio is 1 and a quotient of two sums of squares, of halves'
+ * differences with R/2 and of halves' means with R/2 - 1 degrees of freedom, whose relative variance is about
+ * 2 over the one and over the other. */
+static double variance_of_rate(double parts) {
+    const double step = 1e-3, ratio = ratio_at(USUAL_RATE, parts);
+    const double slope =
+        (ratio_at(USUAL_RATE + step, parts) - ratio_at(USUAL_RATE - step, parts)) / (2.0 * step);
+    const double relative = 2.0 / (0.5 * parts) + 2.0 / (0.5 * parts - 1.0);
+    return relative * (ratio - 1.0) * (ratio - 1.0) / (slope * slope);
+}
+
 static double find_rate(size_t count, size_t parts, const double *values) {
     double single = 0.0, paired = 0.0, squares = 0.0;
     for (size_t i = 0; i < count; ++i) {
@@ -49,8 +61,9 @@ static double find_rate(size_t count, size_t parts, const double *values) {
     if (!(paired > 0.0))
         return USUAL_RATE;
     /* Numbers that vary more tell more: so many alike ones would tell as much. */
-    const double told = single * single / squares;
-    return (told * rate_of(single / paired, (double)parts) + USUAL_COUNT * USUAL_RATE) / (told + USUAL_COUNT);
+    const double told = single * single / squares / variance_of_rate((double)parts),
+                 usual = 1.0 / USUAL_VARIANCE;
+    return (told * rate_of(single / paired, (double)parts) + usual * USUAL_RATE) / (told + usual);
 }
 
 double aur_net_spread_settle(size_t count, size_t parts, double *values) {

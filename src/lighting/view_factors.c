@@ -164,25 +164,26 @@ static aur_result compute(const aur_facets *facets, const aur_view_factors_optio
     if (result == AUR_OK)
         result =
             aur_exchange_assemble(facets, &visits, &closed, options->confidence, &parallel, &exchange, error);
+    const size_t rays = visits.rays * visits.randomizations;
+    aur_visits_release(&visits); /* the most memory, and what follows takes as much */
+    aur_closed_pairs_release(&closed);
     if (result == AUR_OK)
         result = aur_exchange_balance(&exchange, &parallel, &balance, error);
     if (result == AUR_OK) {
-        made->description = (aur_view_factors_description){
-            .size = sizeof made->description,
-            .rays = (uint64_t)facets->patch_count * visits.rays * visits.randomizations,
-            .closed_pairs = exchange.closed_pairs,
-            .sampled_pairs = exchange.sampled_pairs,
-            .largest_row_error = balance.after,
-            .raw_row_error = balance.before,
-            .moved = balance.moved,
-            .unseen = -log(0.5 - 0.5 * options->confidence) / (double)(visits.rays * visits.randomizations)};
+        made->description =
+            (aur_view_factors_description){.size = sizeof made->description,
+                                           .rays = (uint64_t)facets->patch_count * rays,
+                                           .closed_pairs = exchange.closed_pairs,
+                                           .sampled_pairs = exchange.sampled_pairs,
+                                           .largest_row_error = balance.after,
+                                           .raw_row_error = balance.before,
+                                           .moved = balance.moved,
+                                           .unseen = -log(0.5 - 0.5 * options->confidence) / (double)rays};
         finish(&exchange, made);
         result = copy_names(facets, made, error);
-        warn(facets, made, &balance, 2.5 / (double)(visits.rays * visits.randomizations), &options->warnings);
+        warn(facets, made, &balance, 2.5 / (double)rays, &options->warnings);
     }
     aur_facet_pattern_release(&pattern);
-    aur_visits_release(&visits);
-    aur_closed_pairs_release(&closed);
     aur_exchange_release(&exchange);
     return result;
 }

@@ -63,8 +63,8 @@ static void test_rates(void **state) {
 static void test_little(void **state) {
     (void)state;
     double two[2] = {0.25, 0.75}, same[4] = {0.5, 0.5, 0.5, 0.5};
-    assert_near(aur_net_spread_settle(1, 2, two), 1.55, 1e-12);
-    assert_near(two[1] - two[0], 0.5 * sqrt(1.0 / (pow(2.0, 1.55) - 1.0)), 1e-12);
+    assert_near(aur_net_spread_settle(1, 2, two), 1.5, 1e-12);
+    assert_near(two[1] - two[0], 0.5 * sqrt(1.0 / (pow(2.0, 1.5) - 1.0)), 1e-12);
     aur_net_spread_settle(1, 4, same);
     for (size_t p = 0; p < 4; ++p)
         assert_near(same[p], 0.5, 0.0);

@@ -201,8 +201,8 @@ static void test_physics_and_threads(void **state) {
 }
 
 /* Rays alone agree with closed forms, and their intervals hold the truth as often as they say: 15 factors of
- * a room's walls, 60 seeds. Balancing makes factors better than their intervals say, so that no more than 93
- * %, three standard deviations of independent ones below 95, is asked for. */
+ * a room's walls, 60 seeds. They are not independent (rows add up to 1): were a third of them, three
+ * standard deviations would be 4 %. */
 static void test_intervals(void **state) {
     (void)state;
     mesh_file file;
@@ -231,7 +231,7 @@ static void test_intervals(void **state) {
         aur_view_factors_destroy(factors);
     }
     print_message("%zu of %zu intervals hold the factor\n", held, all);
-    assert_true((double)held >= 0.93 * (double)all);
+    assert_true((double)held >= 0.91 * (double)all && (double)held <= 0.99 * (double)all);
     aur_view_factors_destroy(closed);
     aur_facets_destroy(facets);
 }
