@@ -23,7 +23,8 @@ typedef struct render_command {
     cli_checkpoint checkpoint;
     cli_watch watch;
     cli_denoise denoise;
-    bool statistics, json, output_by_default;
+    bool statistics, json;
+    cli_render_end end;
     cli_common common;
 } render_command;
 
@@ -126,20 +127,26 @@ static void default_output(const char *scene, const aur_render_options *part, si
         snprintf(output, capacity, "%.*s.exr", (int)length, name);
 }
 
-/* All samples: at once, or where somebody looks on, until every pixel has 1, 2, 4, ... and at last all. */
+/* The samples of the next step: all that remain, or where somebody looks on, until every pixel has 1, 2, 4,
+ * ... Elsewhere two halves, where that changes no bit: their difference says how good the picture is. */
+static size_t next_step(const aur_render *render, bool looked_at) {
+    const size_t done = aur_render_samples(render);
+    if (looked_at)
+        return done > 0 ? done : 1;
+    return done == 0 && aur_render_steps_agree(render) ? aur_render_samples_wanted(render) / 2 : 0;
+}
+
 static aur_result render_steps(aur_render *render, render_command *command, cli_errors *errors,
                                aur_error *error) {
-    const bool watched = cli_watch_is_asked(&command->watch) && aur_render_steps_agree(render);
-    if (errors == NULL && !watched)
-        return aur_render_step(render, 0, error);
+    const bool looked_at =
+        errors != NULL || (cli_watch_is_asked(&command->watch) && aur_render_steps_agree(render));
     aur_result result = AUR_OK;
-    const size_t wanted = aur_render_samples_wanted(render);
-    for (size_t done = aur_render_samples(render); result == AUR_OK && done < wanted;
-         done = aur_render_samples(render)) {
-        result = cli_watch_step(&command->watch, render, done > 0 ? done : 1, error);
+    while (result == AUR_OK && aur_render_samples(render) < aur_render_samples_wanted(render)) {
+        result = cli_watch_step(&command->watch, render, next_step(render, looked_at), error);
         if (result == AUR_OK && errors != NULL)
             result = cli_errors_note(errors, render, error);
     }
+    command->end = (cli_render_end){aur_render_samples(render), cli_relative_error(aur_render_film(render))};
     return result;
 }
 
@@ -171,7 +178,7 @@ static aur_result render_samples(aur_renderer *renderer, render_command *command
         cli_print_statistics(render);
     }
     if (result == AUR_OK && command->json && aur_ranks_rank() == 0)
-        result = cli_print_json(render, command->output, error);
+        result = cli_print_json(render, command->output, &command->end, error);
     aur_render_destroy(render);
     return result;
 }
@@ -184,6 +191,16 @@ static bool check_output(const char *path) {
     if (!known)
         cli_bad_usage("-o: %s", error.message);
     return known;
+}
+
+static void say_end(render_command *command, const aur_image *image) {
+    if (command->denoise.wanted)
+        command->end.error = 0.0; /* it is that of the noisy picture */
+    if (command->options.shard_count > 0)
+        aur_print(stderr, "aureole: the part is in %s; 'aureole merge' makes the picture of all parts\n",
+                  command->output);
+    else
+        cli_say_picture(command->output, image, &command->end);
 }
 
 static int render(const char *path, render_command *command, cli_errors *errors) {
@@ -227,13 +244,12 @@ static int render(const char *path, render_command *command, cli_errors *errors)
         cli_write_partial(command->output, image);
     if (result == AUR_OK && command->options.shard_count == 0)
         result = aur_image_write(command->output, image, NULL, &error);
-    if (result == AUR_OK && !command->common.quiet && !cli_is_wish(&command->wish)) /* which says it itself */
-        cli_say_picture(command->output, command->output_by_default,
-                        command->options.shard_count == 0 ? image : NULL);
     if (result == AUR_OK)
         result = cli_denoise_keep(&command->denoise, command->output, image, &error);
     if (result == AUR_OK && errors != NULL)
         result = cli_errors_write(errors, command->errors, &error);
+    if (result == AUR_OK && !command->common.quiet && !cli_is_wish(&command->wish)) /* which says it itself */
+        say_end(command, image);
     cli_watch_end(&command->watch, image, result, &error);
     cli_denoise_end(&command->denoise);
     aur_image_destroy(image);
@@ -281,8 +297,7 @@ static int run(const cli_call *call) {
     if (wrong != NULL)
         return cli_bad_usage("%s", wrong);
     default_output(scene, &command->options, sizeof output, output);
-    command->output_by_default = command->output == NULL;
-    if (command->output_by_default)
+    if (command->output == NULL)
         command->output = output;
     if (command->options.shard_count == 0 && !check_output(command->output))
         return CLI_BAD_INPUT;

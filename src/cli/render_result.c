@@ -61,11 +61,14 @@ void cli_print_statistics(const aur_render *render) {
     print_ranks();
 }
 
-aur_result cli_print_json(const aur_render *render, const char *output, aur_error *error) {
+aur_result cli_print_json(const aur_render *render, const char *output, const cli_render_end *end,
+                          aur_error *error) {
     aur_render_statistics counted = {.size = sizeof counted};
     aur_render_get_statistics(render, &counted, NULL);
     report_table *const table = report_create(0, NULL);
     report_fact_text(table, "output", output);
+    if (end->error > 0.0)
+        report_fact_number(table, "standard_error", end->error);
     cli_report_statistics(table, &counted);
     const aur_result result = report_write(table, REPORT_JSON, stdout, error);
     report_destroy(table);
@@ -85,15 +88,38 @@ void cli_write_partial(const char *wanted, const aur_image *image) {
         cli_fail(&error);
 }
 
-void cli_say_picture(const char *output, bool by_default, const aur_image *image) {
+double cli_relative_error(const aur_film *film) {
+    double rmse[4], mean[4] = {0};
+    aur_image *image = NULL;
+    const bool seen = aur_film_error(film, rmse, NULL, NULL) == AUR_OK &&
+                      aur_film_develop(film, &image, NULL) == AUR_OK &&
+                      aur_image_mean(image, mean, NULL) == AUR_OK;
+    aur_image_destroy(image);
+    return seen && mean[3] > 0.0 ? rmse[3] / mean[3] : 0.0;
+}
+
+static bool is_black(const aur_image *image) {
     size_t channels[3];
-    const size_t pixels = image != NULL ? aur_image_width(image) * aur_image_height(image) : 0;
-    bool black = image != NULL && aur_image_color_channels(image, channels);
-    for (size_t i = 0; i < pixels * 3 && black; ++i)
-        black = aur_image_data(image)[i / 3 * aur_image_channel_count(image) + channels[i % 3]] == 0.0f;
-    if (black)
+    if (!aur_image_color_channels(image, channels))
+        return false;
+    for (size_t i = 0; i < aur_image_width(image) * aur_image_height(image) * 3; ++i)
+        if (aur_image_data(image)[i / 3 * aur_image_channel_count(image) + channels[i % 3]] != 0.0f)
+            return false;
+    return true;
+}
+
+void cli_say_picture(const char *output, const aur_image *image, const cli_render_end *end) {
+    if (strcmp(output, "-") == 0)
+        output = "the picture";
+    if (is_black(image))
         aur_print(stderr, "aureole: warning: %s is black: no light of the scene reaches the camera\n",
                   output);
-    if (by_default)
-        aur_print(stderr, "aureole: the picture is in %s\n", output);
+    else if (end->error > 0.0)
+        aur_print(
+            stderr,
+            "aureole: %s has an error of about %.*f %% of its mean or less, after %zu samples a pixel\n",
+            output, end->error < 0.1, 100.0 * end->error, end->samples);
+    else
+        aur_print(stderr, "aureole: %s has %zu sample%s a pixel; --error 5%% would say how good it is\n",
+                  output, end->samples, end->samples == 1 ? "" : "s");
 }

@@ -10,12 +10,23 @@ aur_result cli_check_folder(const char *path, aur_error *error);
 /* On standard error: samples, rays and times, and what each of several processes did, all of which call it.
  */
 void cli_print_statistics(const aur_render *render);
+/* How a render ended that asked for no error: `samples` a pixel, and the relative error of these, or 0. */
+typedef struct cli_render_end {
+    size_t samples;
+    double error;
+} cli_render_end;
+
 /* On standard output, for programs. */
-aur_result cli_print_json(const aur_render *render, const char *output, aur_error *error);
+aur_result cli_print_json(const aur_render *render, const char *output, const cli_render_end *end,
+                          aur_error *error);
 
 /* What an interrupted render has goes beside the picture, as OUT.partial.exr, or render.partial.exr where the
  * picture was to go to standard output. */
 void cli_write_partial(const char *wanted, const aur_image *image);
-/* Warns of a black picture, which nobody wants, and says where it is unless -o said it. `image` may be NULL:
- * it is not known. */
-void cli_say_picture(const char *output, bool by_default, const aur_image *image);
+/* The standard error that the film's steps tell (aur_film_error), relative to the mean of its picture; 0
+ * where they are too few, or the picture is black. */
+double cli_relative_error(const aur_film *film);
+
+/* The last line: where the picture is and how good it is. Warns before it of a black picture, which nobody
+ * wants. */
+void cli_say_picture(const char *output, const aur_image *image, const cli_render_end *end);

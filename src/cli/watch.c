@@ -5,6 +5,8 @@
 #include <math.h>
 #include <stdio.h>
 
+#include "cli/render_result.h"
+
 const cli_option cli_watch_options[] = {
     {CLI_TEXT(cli_watch, serve, "serve", "PORT", NULL,
               "show the picture in a page while it is rendered, at [HOST:]PORT or at a free port of this "
@@ -29,8 +31,9 @@ static int show(void *user, const char *what, uint64_t done, uint64_t total) {
         done = (uint64_t)(WHOLE * (watch->from + (watch->to - watch->from) * (double)done / (double)total));
         total = WHOLE;
     }
-    const bool stopped = watch_progress(watch->watch, what, done, total);
-    warn(watch);
+    const bool stopped = watch->watch != NULL && watch_progress(watch->watch, what, done, total);
+    if (watch->watch != NULL)
+        warn(watch);
     const int status = watch->progress.function(watch->progress.user, what, done, total);
     return stopped ? 1 : status;
 }
@@ -47,7 +50,7 @@ aur_result cli_watch_begin(cli_watch *watch, const char *output, aur_error *erro
 
 aur_progress cli_watch_progress(cli_watch *watch, aur_progress progress) {
     watch->progress = progress;
-    return watch->watch != NULL ? (aur_progress){.function = show, .user = watch} : progress;
+    return (aur_progress){.function = show, .user = watch};
 }
 
 static aur_result develop_render(const void *user, aur_image **image, aur_error *error) {
@@ -81,20 +84,9 @@ void cli_watch_hide(cli_watch *watch) {
         watch_set_source(watch->watch, &(watch_source){0});
 }
 
-/* The error that the film's steps tell, relative to the mean; 0 where they are too few. */
-static double error_of(const aur_film *film) {
-    double rmse[4], mean[4] = {0};
-    aur_image *image = NULL;
-    const bool seen = aur_film_error(film, rmse, NULL, NULL) == AUR_OK &&
-                      aur_film_develop(film, &image, NULL) == AUR_OK &&
-                      aur_image_mean(image, mean, NULL) == AUR_OK;
-    aur_image_destroy(image);
-    return seen && mean[3] > 0.0 ? rmse[3] / mean[3] : 0.0;
-}
-
 static void tell(cli_watch *watch, const aur_render *render) {
     char text[160], error[80] = "";
-    const double relative = error_of(aur_render_film(render));
+    const double relative = cli_relative_error(aur_render_film(render));
     if (relative > 0.0)
         aur_format(error, sizeof error, "; the error is about %.2g %% of the mean or less", 100.0 * relative);
     aur_format(text, sizeof text, "%zu of %zu samples a pixel%s", aur_render_samples(render),
@@ -105,7 +97,7 @@ static void tell(cli_watch *watch, const aur_render *render) {
 aur_result cli_watch_step(cli_watch *watch, aur_render *render, size_t count, aur_error *error) {
     const double wanted = (double)aur_render_samples_wanted(render);
     watch->from = (double)aur_render_samples(render) / wanted;
-    watch->to = fmin(watch->from + (double)count / wanted, 1.0);
+    watch->to = count > 0 ? fmin(watch->from + (double)count / wanted, 1.0) : 1.0;
     const aur_result result = aur_render_step(render, count, error);
     watch->from = watch->to = 0.0;
     if (result == AUR_OK && watch->watch != NULL)

@@ -23,13 +23,14 @@ static inline bool cli_watch_is_asked(const cli_watch *watch) {
 
 /* Begins to serve, and says where; connects to a display server. */
 aur_result cli_watch_begin(cli_watch *watch, const char *output, aur_error *error);
-/* The progress callback that also tells who watches; who watches may stop the render by it. */
+/* The progress callback, over all steps, that also tells who watches; who watches may stop the render by it.
+ */
 aur_progress cli_watch_progress(cli_watch *watch, aur_progress progress);
 
 /* From now on there is a picture to see, until cli_watch_hide; one of `render` and `ask` is NULL. */
 void cli_watch_show(cli_watch *watch, const aur_render *render, const aur_ask *ask);
 void cli_watch_hide(cli_watch *watch);
-/* Renders so many samples more, and tells what they make of the picture. */
+/* Renders so many samples more, or for 0 all that remain, and tells what they make of the picture. */
 aur_result cli_watch_step(cli_watch *watch, aur_render *render, size_t count, aur_error *error);
 
 /* All has ended as `result` and `error` say, with `image` or NULL. */
