@@ -12,6 +12,7 @@ is left out, and a case that a tool has no words for is a dash.
 """
 import argparse
 import csv
+import fnmatch
 import glob
 import json
 import math
@@ -390,12 +391,14 @@ def cycles(shapes, emitters, points, samples, folder):
 TOOLS = {"radiance": radiance, "mitsuba": mitsuba, "cycles": cycles}
 
 
-def child(tool, folder, samples):
+def child(tool, folder, samples, only):
     """Under the tool's interpreter: a line of JSON a case."""
     out = os.dup(1)
     os.dup2(2, 1)  # what the tools print
     for path in sorted(glob.glob(os.path.join(folder, "analytical-cases-*.xml"))):
         name = os.path.basename(path)[len("analytical-cases-"):-len(".xml")]
+        if not fnmatch.fnmatch(name, only):
+            continue
         points = read_points(path[:-len("xml")] + "csv")
         used = lambda: sum(sum(resource.getrusage(who)[:2]) for who in (resource.RUSAGE_SELF, resource.RUSAGE_CHILDREN))
         with tempfile.TemporaryDirectory() as scratch:
@@ -430,12 +433,13 @@ def main():
     for tool in TOOLS:
         options.add_argument(f"--{tool}", metavar="PYTHON")
     options.add_argument("--samples", type=int, default=65536, help="of each tool and point")
+    options.add_argument("--only", metavar="PATTERN", default="*", help="the cases whose names match, such as 'cie-sky-[2-9]'")
     options.add_argument("--quick", action="store_true", help="a sixteenth of all")
     options.add_argument("--child", nargs=2, metavar=("TOOL", "FOLDER"), help=argparse.SUPPRESS)
     given = options.parse_args()
     samples = given.samples // (16 if given.quick else 1)
     if given.child:
-        return child(*given.child, samples)
+        return child(*given.child, samples, given.only)
     with tempfile.TemporaryDirectory() as folder:
         subprocess.run([given.program, "lab", "run", "analytical-cases", "-q", "-o", folder, *(["--quick"] if given.quick else [])],
                        check=True, stdout=subprocess.DEVNULL)
@@ -448,7 +452,7 @@ def main():
         for tool in TOOLS:
             python = getattr(given, tool)
             if python:
-                out = subprocess.run([python, os.path.abspath(__file__), given.program, "--samples", str(samples), "--child", tool, folder],
+                out = subprocess.run([python, os.path.abspath(__file__), given.program, "--samples", str(samples), "--only", given.only, "--child", tool, folder],
                                      stdout=subprocess.PIPE, stderr=None if os.environ.get("VERBOSE") else subprocess.DEVNULL, text=True)
                 for line in out.stdout.splitlines():
                     name, found, seconds = json.loads(line)
@@ -458,7 +462,7 @@ def main():
         named = [tool for tool in TOOLS if getattr(given, tool)]
         print("| case | " + " | ".join(f"{tool}: worst, mean % | CPU s" for tool in ["aureole"] + named) + " |")
         print("|---" * (3 + 2 * len(named)) + "|")
-        for name in cases:
+        for name in fnmatch.filter(cases, given.only):
             points = read_points(os.path.join(folder, f"analytical-cases-{name}.csv"))
             cells = ["{:.3f}, {:.3f} | {:.1f}".format(*errors(points, [p["value"] for p in points]), own_seconds[name])]
             for tool in named:

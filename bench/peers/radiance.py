@@ -48,9 +48,14 @@ OURS = {
 }
 
 
+MOST_SECONDS = 120
+
+
 def run(command, text=None):
+    """What it says, and its CPU seconds; after MOST_SECONDS of them it is ended."""
     before = resource.getrusage(resource.RUSAGE_CHILDREN)
-    out = subprocess.run(command, input=text, capture_output=True, text=True, check=True).stdout
+    out = subprocess.run(command, input=text, capture_output=True, text=True, check=True,
+                         preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_CPU, (MOST_SECONDS, MOST_SECONDS + 1))).stdout
     after = resource.getrusage(resource.RUSAGE_CHILDREN)
     return out, after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime
 
@@ -92,7 +97,11 @@ def main():
             try:
                 values, told, seconds = solve(options)
             except subprocess.CalledProcessError as failure:
-                print(f"| {name} | failed: {failure.stderr.strip()} |")
+                if failure.returncode < 0:
+                    done = failure.stdout.count("\n")
+                    print(f"| {name} | ended after {MOST_SECONDS} CPU s, at sensor {done + 1} of 25 | | | | |", flush=True)
+                else:
+                    print(f"| {name} | failed: {failure.stderr.strip()} |", flush=True)
                 continue
             off = [(v - t) / mean for v, t in zip(values, truth)]
             said = "nothing" if told is None else f"{100 * (sum(e * e for e in told) / len(told)) ** .5 / mean:.2f} %"

@@ -188,14 +188,14 @@ def enclosed(program, folder):
     path, out = os.path.join(folder, "box.obj"), os.path.join(folder, "box.npz")
     write_obj(path, {"outer": outer, "inner": inner})
     print("\n| box in a box, outer to inner | rays | CPU s | relative error | row sum - 1 |\n|---|---|---|---|---|")
-    for rays in (256, 4096):
+    for rays in (256, 2048):
         cpu, _ = run(program, path, "--group", "--rays-only", "--rays", rays, "-o", out)
         matrix, _, sky, _ = load(out)
         print(f"| Aureole, rays only, a facet {rays} | {24 * rays} | {cpu:.2f} | {matrix[0, 1] / exact - 1:.1e} | "
               f"{matrix[0].sum() + sky[0] - 1:.1e} |")
     cpu, _ = run(program, path, "--group", "-o", out)
     matrix, _, sky, _ = load(out)
-    print(f"| Aureole, with closed forms | {24 * 4096} | {cpu:.2f} | {matrix[0, 1] / exact - 1:.1e} | "
+    print(f"| Aureole, with closed forms | {24 * 2048} | {cpu:.2f} | {matrix[0, 1] / exact - 1:.1e} | "
           f"{matrix[0].sum() + sky[0] - 1:.1e} |")
     try:
         import raystrack
@@ -249,7 +249,7 @@ def sunlight(program, path, folder, seed, arguments):
     return cpu, np.loadtxt(out, delimiter=",", skiprows=1)[:, 3] / 1e-9
 
 
-def city(program, folder, settings=([], ["--rays", 2048, "--half-planes", 3072],
+def city(program, folder, settings=([], ["--rays", 4096, "--half-planes", 2048],
                                    ["--rays", 8192, "--randomizations", 4])):
     path = make_city(folder, 22000)
     print("\n| city of 22,160 facets | CPU s | entries | closed share | rows - 1 | asymmetry |\n|---|---|---|---|---|---|")

@@ -66,7 +66,7 @@ AUR_EXPERIMENTAL const char *aur_facets_name(const aur_facets *facets, size_t ro
 /* All zero but `size`, as aur_view_factors_options_default makes it, takes the defaults. */
 typedef struct aur_view_factors_options {
     size_t size;           /* of the caller's struct, so that it can grow */
-    size_t rays;           /* from each facet and side, all randomisations together; 0: 4096 */
+    size_t rays;           /* from each facet and side, all randomisations together; 0: 2048 */
     size_t randomizations; /* independent ones, 2 .. 64, from which intervals come; 0: 8 */
     const char *set;       /* a SET of four dimensions: place and direction; NULL: "sobol" */
     uint64_t seed;
@@ -75,8 +75,8 @@ typedef struct aur_view_factors_options {
     size_t threads;    /* 0: all */
     aur_progress progress;
     aur_warnings warnings; /* backs that are seen, rows that cannot be made to add up */
-    size_t half_planes;    /* for the sky, from each facet and side, all randomisations together; 0: half as
-                              many as rays */
+    size_t half_planes;    /* for the sky, from each facet and side, all randomisations together; 0: three
+                              for two rays */
 } aur_view_factors_options;
 
 static inline aur_view_factors_options aur_view_factors_options_default(void) {

@@ -119,6 +119,7 @@ static aur_result measure(const lab_run *run, const aur_facets *facets, const co
                           size_t seed, double *values, double *half, size_t *count, aur_error *error) {
     aur_view_factors_options options = aur_view_factors_options_default();
     options.rays = given->rays;
+    options.half_planes = given->rays / 2;
     options.seed = seed;
     options.rays_only = !given->half_planes;
     options.threads = lab_run_options(run)->threads;

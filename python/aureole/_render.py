@@ -317,9 +317,9 @@ def viewfactors(
 ) -> ViewFactors:  # fmt: skip
     """View factors between the facets of a mesh (.obj, .ply) or a scene's meshes, or between their groups.
 
-    `rays` from each facet and side, 0: 4096, by `randomizations` of a set of four dimensions, from which the intervals of
+    `rays` from each facet and side, 0: 2048, by `randomizations` of a set of four dimensions, from which the intervals of
     `confidence` (0: 0.95) come; pairs that see each other wholly have closed forms unless `rays_only`, and the sky is found
-    by `half_planes`, 0: half as many as rays. Each row with its sky and back adds up to 1.
+    by `half_planes`, 0: three for two rays. Each row with its sky and back adds up to 1.
     """
     library, texts, facets = _library(), Texts(), ffi.new("aur_facets **")
     lib = library.lib

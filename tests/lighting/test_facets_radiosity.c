@@ -86,6 +86,7 @@ static void test_both_ways(void **state) {
     light.sun[0] = 1.0;
     light.sun[2] = 2.0;
     aur_view_factors_options wish = aur_view_factors_options_default();
+    wish.rays = 4096;
     aur_view_factors *factors = NULL;
     assert_int_equal(aur_view_factors_create(facets, &wish, &factors, NULL), AUR_OK);
     double matrix[14], one[14], three[14], half[14], sky[14];

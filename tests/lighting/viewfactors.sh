@@ -64,7 +64,7 @@ with zipfile.ZipFile(sys.argv[1]) as archive:
     assert read("names")[1].split(b"\0")[0].startswith(b"floor")
 PYTHON
 fi
-"$aureole" viewfactors room.obj --format csv | grep -q '^12,120,49152,60,0,1,' || fail "the summary"
+"$aureole" viewfactors room.obj --format csv | grep -q '^12,120,24576,60,0,1,' || fail "the summary"
 
 # --- a scene's shapes by their ids, and radiosities
 cat >scene.xml <<'XML'
