@@ -179,13 +179,14 @@ static inline aur_facets_light aur_facets_light_default(void) {
 }
 
 /* B = emission + reflectance (sun + sky + F B), for each row. With `factors` (of the same facets; else NULL)
- * the products are the matrix's and half_widths must be NULL; without, rays are traced anew for each
- * reflection, in memory that grows with the facets alone: each randomisation is a solution of its own, from
- * which the intervals come (half_widths may be NULL). Later reflections, which carry less light, have fewer
- * rays; the last ones, which together are less than a fiftieth of what rays err by, are a geometric series.
- * `sky` (may be NULL) becomes the sky factors. Of the sun, the lit part of each facet is always counted along
- * rays. Errors: ARGUMENT (numbers out of range, no source that a row sees, factors of other facets, a closed
- * scene that absorbs almost nothing), and those of aur_view_factors_create. */
+ * the products are the matrix's, and solutions by the matrices of its single randomisations say what the one
+ * by their mean errs by. Without, rays are traced anew for each reflection, in memory that grows with the
+ * facets alone: the solution is the mean of one for each randomisation, from which the intervals come.
+ * half_widths may be NULL, which spares their time where there is a matrix. Later reflections, which carry
+ * less light, have fewer rays; the last ones, which together are less than a fiftieth of what rays err by,
+ * are a geometric series. `sky` (may be NULL) becomes the sky factors. Of the sun, the lit part of each facet
+ * is always counted along rays. Errors: ARGUMENT (numbers out of range, no source that a row sees, factors of
+ * other facets, a closed scene that absorbs almost nothing), and those of aur_view_factors_create. */
 AUR_EXPERIMENTAL aur_result aur_view_factors_radiosity(const aur_facets *facets,
                                                        const aur_view_factors *factors,
                                                        const aur_view_factors_options *options,

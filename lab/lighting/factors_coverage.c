@@ -64,7 +64,7 @@ static aur_result load(const lab_run *run, coverage_mesh mesh, bool group, aur_f
 
 /* The numbers of one run, each with half of its interval: the factors above the diagonal, row by row, or sky
  * factors, or radiosities. */
-typedef enum coverage_kind { FACTORS, SKY, RADIOSITIES } coverage_kind;
+typedef enum coverage_kind { FACTORS, SKY, RADIOSITIES, BY_MATRIX } coverage_kind;
 
 typedef struct coverage_case {
     const char *name;
@@ -80,6 +80,7 @@ static const coverage_case cases[] = {
     {"court facets", COURT, false, false, FACTORS, 256},
     {"court sky", COURT, false, false, SKY, 256},
     {"radiosities", COURT, false, false, RADIOSITIES, 256},
+    {"radiosities by matrix", COURT, false, true, BY_MATRIX, 256},
     {"towers sky by half planes", TOWERS, false, true, SKY, 256},
     {"walls' sky by half planes", TOWERS, true, true, SKY, 256},
 };
@@ -125,12 +126,19 @@ static aur_result measure(const lab_run *run, const aur_facets *facets, const co
     options.threads = lab_run_options(run)->threads;
     memset(values, 0, MOST_NUMBERS * sizeof *values);
     memset(half, 0, MOST_NUMBERS * sizeof *half);
-    if (given->kind != RADIOSITIES)
+    if (given->kind == FACTORS || given->kind == SKY)
         return of_matrix(facets, &options, given->kind, values, half, count, error);
     const aur_facets_light light = {
         .size = sizeof light, .reflectance = 0.6, .sky = 1.0, .emission = 0.5, .sun = {1.0, 0.5, 2.0}};
     *count = aur_facets_rows(facets);
-    return aur_view_factors_radiosity(facets, NULL, &options, &light, values, half, NULL, error);
+    aur_view_factors *factors = NULL;
+    aur_result result = AUR_OK;
+    if (given->kind == BY_MATRIX)
+        result = aur_view_factors_create(facets, &options, &factors, error);
+    if (result == AUR_OK)
+        result = aur_view_factors_radiosity(facets, factors, &options, &light, values, half, NULL, error);
+    aur_view_factors_destroy(factors);
+    return result;
 }
 
 /* What is true is the mean over all runs, whose own error is a thirtieth of one run's, and an eighth in the

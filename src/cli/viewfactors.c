@@ -46,8 +46,8 @@ static const cli_option options[] = {
     {CLI_FLAG(factor_command, factors.rays_only, "rays-only", "no closed forms and no half planes")},
     {CLI_REAL(
         factor_command, light.reflectance, "radiosity", "RHO", 0, 1, NULL,
-        "instead of factors each row's area, sky factor and radiosity when all facets reflect RHO: CSV, "
-        "to FILE or printed")},
+        "instead of factors each row's area, sky factor and radiosity, with half of its interval, when all "
+        "facets reflect RHO: CSV, to FILE or printed")},
     {CLI_REAL(factor_command, light.sky, "sky", "B", 0, 1e30, "1, or 0 with --sun or --emission",
               "for --radiosity: of the sky"),
      .key.computed = true},
@@ -56,9 +56,7 @@ static const cli_option options[] = {
     {CLI_REAL(factor_command, light.emission, "emission", "B", 0, 1e30, "0",
               "for --radiosity: what every facet sends out by itself")},
     {CLI_FLAG(factor_command, matrix_free, "matrix-free",
-              "for --radiosity: rays are traced anew for each reflection, no matrix is kept, and each "
-              "radiosity has "
-              "an interval")},
+              "for --radiosity: rays are traced anew for each reflection, and no matrix is kept")},
     {.key = {0}}};
 
 /* The format that the output's name tells. */

@@ -5,6 +5,7 @@
 
 #include "core/options.h"
 #include "lighting/facet_product.h"
+#include "lighting/upper_walk.h"
 #include "lighting/view_factors.h"
 
 enum { MOST_REFLECTIONS = 200, FEWEST_RAYS = 16, LEVELS = 16 };
@@ -24,6 +25,7 @@ typedef struct solution {
     double smallest; /* part of the light at which the sum ends */
     /* Of rows; what one randomisation has found, and the sums over them. */
     double *now, *next, *sky, *found, *total, *squares, *sky_total;
+    double *sun; /* [randomizations + 1][rows]: irradiances, the last ones their mean; NULL: there is none */
 } solution;
 
 static double mean(const solution *s, const double *values) {
@@ -35,13 +37,26 @@ static double mean(const solution *s, const double *values) {
     return area > 0.0 ? sum / area : 0.0;
 }
 
-static void multiply(const aur_view_factors *m, const double *x, double *y) {
+/* By the factors as one randomisation has them; by their mean where there is none of this number. */
+static bool multiply(const aur_view_factors *m, size_t randomization, const double *x, double *y) {
     for (size_t i = 0; i < m->rows; ++i) {
         double sum = 0.0;
         for (uint64_t e = m->starts[i]; e < m->starts[i + 1]; ++e)
             sum += m->values[e] * x[m->columns[e]];
         y[i] = sum;
     }
+    aur_upper_walk walk;
+    if (randomization == m->randomizations)
+        return true;
+    if (!aur_upper_walk_begin(m->rows, m->starts, m->columns, &walk))
+        return false;
+    for (const float *off = m->deviations + randomization; aur_upper_walk_advance(&walk);
+         off += m->randomizations) {
+        y[walk.row] += (double)*off / m->areas[walk.row] * x[walk.column];
+        if (walk.column != walk.row)
+            y[walk.column] += (double)*off / m->areas[walk.column] * x[walk.row];
+    }
+    return true;
 }
 
 /* One application of the factors. Every pair of a randomisation and a reflection has rays of its own, so that
@@ -52,9 +67,13 @@ static aur_result apply(const solution *s, size_t level, size_t randomization, s
         return aur_facet_product(s->facets, &s->patterns[level],
                                  randomization + s->randomizations * reflection, 1, &s->parallel, NULL, x, y,
                                  sky, error);
-    multiply(s->factors, x, y);
-    if (sky != NULL)
-        memcpy(sky, s->factors->sky, s->rows * sizeof *sky);
+    const aur_view_factors *const m = s->factors;
+    if (!multiply(m, randomization, x, y))
+        return aur_fail_memory(error);
+    for (size_t i = 0; i < s->rows && sky != NULL; ++i)
+        sky[i] = m->sky[i] + (randomization < m->randomizations && m->areas[i] > 0.0
+                                  ? m->sky_deviations[m->randomizations * i + randomization] / m->areas[i]
+                                  : 0.0);
     return AUR_OK;
 }
 
@@ -69,14 +88,22 @@ static aur_result first_light(const solution *s, size_t randomization, aur_error
         return result;
     for (size_t i = 0; i < s->rows; ++i)
         s->next[i] = light->reflectance * (s->next[i] + light->sky * s->sky[i]);
-    const double *const sun = light->sun;
-    if (aur_length3(sun) > 0.0) {
-        const size_t first = randomization + s->randomizations * (MOST_REFLECTIONS + 1);
-        result =
-            aur_facet_product(s->facets, &s->patterns[0], first, s->factors != NULL ? s->randomizations : 1,
-                              &s->parallel, sun, NULL, s->now, NULL, error);
-        for (size_t i = 0; i < s->rows && result == AUR_OK; ++i)
-            s->next[i] += light->reflectance * s->now[i];
+    for (size_t i = 0; i < s->rows && s->sun != NULL; ++i)
+        s->next[i] += light->reflectance * s->sun[s->rows * randomization + i];
+    return AUR_OK;
+}
+
+static aur_result trace_sun(solution *s, aur_error *error) {
+    const size_t count = s->randomizations, rows = s->rows;
+    if (!(aur_length3(s->light->sun) > 0.0))
+        return AUR_OK;
+    s->sun = calloc((count + 1) * rows + 1, sizeof *s->sun);
+    aur_result result = s->sun != NULL ? AUR_OK : aur_fail_memory(error);
+    for (size_t r = 0; r < count && result == AUR_OK; ++r) {
+        result = aur_facet_product(s->facets, &s->patterns[0], r + count * (MOST_REFLECTIONS + 1), 1,
+                                   &s->parallel, s->light->sun, NULL, &s->sun[rows * r], NULL, error);
+        for (size_t i = 0; i < rows; ++i)
+            s->sun[rows * count + i] += s->sun[rows * r + i] / (double)count;
     }
     return result;
 }
@@ -112,8 +139,10 @@ static aur_result solve_once(const solution *s, size_t randomization, aur_error 
                                        MOST_REFLECTIONS);
 }
 
-static aur_result solve(solution *s, aur_error *error) {
-    const size_t count = s->factors != NULL ? 1 : s->randomizations;
+/* Without a matrix the solution is the mean over randomisations. With one, it is that of the matrix, and
+ * those of the matrices of single randomisations say what it errs by. */
+static aur_result solve(solution *s, bool intervals, aur_error *error) {
+    const size_t count = intervals || s->factors == NULL ? s->randomizations : 0;
     for (size_t r = 0; r < count; ++r) {
         const aur_result result = solve_once(s, r, error);
         if (result != AUR_OK)
@@ -126,11 +155,16 @@ static aur_result solve(solution *s, aur_error *error) {
             s->sky_total[i] += s->sky[i] / (double)count;
         }
     }
-    return AUR_OK;
+    if (s->factors == NULL)
+        return AUR_OK;
+    const aur_result result = solve_once(s, s->randomizations, error);
+    memcpy(s->total, s->found, s->rows * sizeof *s->total);
+    memcpy(s->sky_total, s->sky, s->rows * sizeof *s->sky_total);
+    return result;
 }
 
 static aur_result check(const aur_facets *facets, const aur_view_factors *factors,
-                        const aur_facets_light *light, const double *half_widths, aur_error *error) {
+                        const aur_facets_light *light, aur_error *error) {
     const double sun = aur_length3(light->sun);
     if (!(light->reflectance >= 0.0 && light->reflectance <= 1.0))
         return aur_fail(error, AUR_ERROR_ARGUMENT, "the reflectance must be in [0,1], not %g",
@@ -145,9 +179,6 @@ static aur_result check(const aur_facets *facets, const aur_view_factors *factor
     if (factors != NULL && factors->rows != facets->row_count)
         return aur_fail(error, AUR_ERROR_ARGUMENT, "the view factors are of %zu rows, the facets have %zu",
                         factors->rows, facets->row_count);
-    if (factors != NULL && half_widths != NULL)
-        return aur_fail(error, AUR_ERROR_ARGUMENT,
-                        "intervals come from solutions without a matrix: half_widths must be NULL");
     return AUR_OK;
 }
 
@@ -158,7 +189,8 @@ static aur_result prepare(solution *s, const aur_view_factors_options *options, 
         *parts[i] = numbers + i * s->rows;
     s->smallest =
         s->factors != NULL ? SMALLEST_CHANGE : fmax(SMALLEST_CHANGE, 0.02 / sqrt((double)options->rays));
-    size_t rays = options->rays / options->randomizations;
+    size_t rays = options->rays / s->randomizations;
+    rays += rays == 0;
     aur_result result = AUR_OK;
     while (result == AUR_OK && s->level_count < LEVELS && (s->level_count == 0 || rays >= FEWEST_RAYS)) {
         result =
@@ -178,7 +210,7 @@ aur_result aur_view_factors_radiosity(const aur_facets *facets, const aur_view_f
     if (result == AUR_OK)
         result = aur_options_read(sources, sizeof light, &light, "aur_facets_light", error);
     if (result == AUR_OK)
-        result = check(facets, factors, &light, half_widths, error);
+        result = check(facets, factors, &light, error);
     if (result != AUR_OK)
         return result;
     solution s = {.facets = facets,
@@ -186,11 +218,13 @@ aur_result aur_view_factors_radiosity(const aur_facets *facets, const aur_view_f
                   .light = &light,
                   .parallel = {.threads = options.threads, .progress = options.progress},
                   .rows = facets->row_count,
-                  .randomizations = options.randomizations};
+                  .randomizations = factors != NULL ? factors->randomizations : options.randomizations};
     double *const numbers = calloc(7 * s.rows + 1, sizeof *numbers);
     result = numbers != NULL ? prepare(&s, &options, numbers, error) : aur_fail_memory(error);
     if (result == AUR_OK)
-        result = solve(&s, error);
+        result = trace_sun(&s, error);
+    if (result == AUR_OK)
+        result = solve(&s, half_widths != NULL, error);
     if (result == AUR_OK && !(mean(&s, s.total) > 0.0) && light.reflectance > 0.0)
         result = aur_fail(error, AUR_ERROR_ARGUMENT, "no row sees the sky or the sun: there is no light");
     const double n = (double)s.randomizations;
@@ -204,6 +238,7 @@ aur_result aur_view_factors_radiosity(const aur_facets *facets, const aur_view_f
     }
     for (size_t i = 0; i < s.level_count; ++i)
         aur_facet_pattern_release(&s.patterns[i]);
+    free(s.sun);
     free(numbers);
     return result;
 }

@@ -64,6 +64,11 @@ static void finish(aur_exchange *g, aur_view_factors *made) {
     made->sky_half_widths = g->sky_half_widths;
     made->back = g->back;
     made->rows = g->rows;
+    made->randomizations = g->randomizations;
+    made->deviations = g->deviations;
+    made->sky_deviations = g->loss_deviations; /* and behind them those of backs */
+    g->deviations = NULL;
+    g->loss_deviations = NULL;
     g->columns = NULL;
     g->starts = NULL;
     g->values = g->half_widths = g->areas = g->sky = g->sky_half_widths = g->back = NULL;
@@ -222,6 +227,8 @@ void aur_view_factors_destroy(aur_view_factors *factors) {
     free(factors->sky);
     free(factors->sky_half_widths);
     free(factors->back);
+    free(factors->deviations);
+    free(factors->sky_deviations);
     free(factors->names);
     free(factors);
 }

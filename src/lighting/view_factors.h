@@ -9,7 +9,12 @@ struct aur_view_factors {
     uint32_t *columns;
     double *values, *half_widths;
     double *areas, *sky, *sky_half_widths, *back;
-    size_t name_width; /* names[rows][name_width], ended by zeros; 0 when rows have no names */
+    /* What each randomisation is off the mean, of exchanges from the diagonal on and of those with the sky.
+     */
+    size_t randomizations;
+    float *deviations;      /* [upper entries][randomizations] */
+    double *sky_deviations; /* [rows][randomizations] */
+    size_t name_width;      /* names[rows][name_width], ended by zeros; 0 when rows have no names */
     char *names;
     aur_view_factors_description description;
 };
