@@ -1,20 +1,20 @@
 /* The helpers of packets: which pixels sixteen lanes are, sets of lanes, and what is called coherent. */
 #include "check.h"
 
+#include "core/random.h"
 #include "transport/packets/coherence.h"
 #include "transport/packets/interleave.h"
 #include "transport/packets/packet_rays.h"
 
 /* The groups part the tile: every pixel is one lane of one group, and the ranks number the groups. */
-static void groups_part_the_tile(void **state) {
-    (void)state;
+static void groups_part_the_tile(uint64_t hash) {
     unsigned pixels[AUR_TILE_PIXELS] = {0}, ranks[AUR_GROUP_COUNT] = {0};
     for (uint32_t group = 0; group < AUR_GROUP_COUNT; ++group) {
         size_t x[AUR_PACKET_SIZE], y[AUR_PACKET_SIZE];
-        aur_group_pixels(group, 32, 48, x, y);
+        aur_group_pixels(hash, group, 32, 48, x, y);
         ++ranks[aur_group_rank(group)];
         for (size_t lane = 0; lane < AUR_PACKET_SIZE; ++lane) {
-            const size_t pixel = aur_group_pixel(group, lane);
+            const size_t pixel = aur_group_pixel(hash, group, lane);
             ++pixels[pixel];
             assert_int_equal(x[lane], 32 + pixel % AUR_TILE_SIZE);
             assert_int_equal(y[lane], 48 + pixel / AUR_TILE_SIZE);
@@ -28,6 +28,30 @@ static void groups_part_the_tile(void **state) {
         assert_int_equal(pixels[i], 1);
     for (size_t i = 0; i < AUR_GROUP_COUNT; ++i)
         assert_int_equal(ranks[i], 1);
+}
+
+static void groups_part_the_tile_by_every_arrangement(void **state) {
+    (void)state;
+    groups_part_the_tile(0);
+    groups_part_the_tile(UINT64_C(0xfedcba9876543210));
+    for (uint64_t k = 0; k < 100; ++k)
+        groups_part_the_tile(aur_mix64(k));
+}
+
+/* Marked pixels are lanes of the groups that have them, and of no others. */
+static void marks_find_their_group(void **state) {
+    (void)state;
+    for (uint64_t k = 0; k < 100; ++k) {
+        const uint32_t place = (uint32_t)(aur_mix64(k) % AUR_GROUP_COUNT);
+        const size_t lane = aur_mix64(k) / AUR_GROUP_COUNT % AUR_PACKET_SIZE;
+        const uint64_t hash = aur_mix64(k + 100);
+        uint32_t marks[AUR_GROUP_COUNT] = {0};
+        marks[place] = 1u << lane;
+        for (uint32_t group = 0; group < AUR_GROUP_COUNT; ++group) {
+            const bool has = aur_group_pixel(hash, group, lane) == aur_group_pixel(0, place, lane);
+            assert_int_equal(aur_group_lanes_marked(hash, group, marks), has ? 1u << lane : 0);
+        }
+    }
 }
 
 static void packets_keep_rays_and_lanes(void **state) {
@@ -61,7 +85,8 @@ static void coherent_is_one_plane(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(groups_part_the_tile),
+        cmocka_unit_test(groups_part_the_tile_by_every_arrangement),
+        cmocka_unit_test(marks_find_their_group),
         cmocka_unit_test(packets_keep_rays_and_lanes),
         cmocka_unit_test(coherent_is_one_plane),
     };

@@ -15,7 +15,7 @@ void aur_gather_by_ggx(const aur_gather_places *places, size_t lobe, uint32_t la
         const size_t rotation = aur_gather_prepared_rotation(places, place->ggx->rotations, lane, &mirrored);
         views[lane] = aur_ggx_rule_view(place->ggx, rotation, mirrored, place->view);
     }
-    for (size_t i = places->index % parts; i < count; i += parts) {
+    for (size_t i = aur_gather_part(places); i < count; i += parts) {
         aur_vector value[AUR_PACKET_SIZE];
         uint32_t aimed = 0;
         aur_packet_empty(&rays->packet);

@@ -201,7 +201,7 @@ static void trace_pattern(merged *work, size_t k, aur_gather_sums *sums) {
 uint32_t aur_gather_by_merged(const aur_gather_places *places, aur_gather_sums *sums) {
     const aur_merged_rule *const first = places->plan->rules.merged;
     merged work = {.places = places,
-                   .subset = places->index % places->plan->samples_per_pattern,
+                   .subset = aur_gather_part(places),
                    .subset_count = {first->subset_count[0], first->subset_count[1]},
                    .samples = aur_merged_rule_samples(first),
                    .weights = sums->numbers};

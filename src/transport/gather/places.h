@@ -3,6 +3,7 @@
 
 #include "core/random.h"
 #include "transport/gather/plan.h"
+#include "transport/packets/interleave.h"
 #include "transport/packets/packet_rays.h"
 
 typedef struct aur_gather_place {
@@ -27,6 +28,7 @@ typedef struct aur_gather_places {
     uint32_t bounces;       /* specular ones on the way from the eye */
     aur_embree_order order; /* of packets of rays that leave the places in one direction each */
     uint32_t group, index;  /* of the tile's sixteen groups; of the samples of a pixel */
+    uint64_t arrangement;   /* of the tile's pixels in groups (packets/interleave.h) */
     uint64_t tile;          /* hash of the tile's corner */
     const aur_sampler *sampler;
     uint64_t pixels[AUR_PACKET_SIZE]; /* hashes of the pixels, for their streams of numbers */
@@ -44,6 +46,16 @@ static inline uint64_t aur_gather_places_hash(const aur_gather_places *places, u
     const aur_gather_plan *const plan = places->plan;
     const uint64_t pattern = plan->renews ? places->index / plan->samples_per_pattern : 0;
     return pattern > 0 ? aur_hash2(of, pattern) : of;
+}
+
+/* Which part of a pattern the sample has. Groups begin at different ones: else all pixels that have fewer
+ * samples than there are parts would lack the same ones, and be wrong alike. */
+static inline size_t aur_gather_part(const aur_gather_places *places) {
+    const aur_gather_plan *const plan = places->plan;
+    const uint64_t hash = aur_hash3(plan->seed, aur_gather_places_hash(places, places->tile), 0x70617274);
+    const size_t parts = plan->samples_per_pattern;
+    const size_t first = (size_t)(hash >> 32) % parts + aur_group_rank(places->group);
+    return (first + places->index % parts * plan->part_stride) % parts;
 }
 
 /* How packets are traced whose rays leave the places in like directions. */

@@ -37,7 +37,8 @@ typedef struct aur_gather_light {
 typedef struct aur_gather_plan {
     const aur_scene *scene;
     aur_gather_policy policy;
-    size_t samples_per_pattern; /* among which the directions of a pattern are shared out */
+    size_t samples_per_pattern; /* among which the directions of a pattern are shared out in as many parts */
+    size_t part_stride;         /* from the part of one sample to that of the next one, modulo that number */
     bool renews;                /* samples after those have other patterns, else the same again */
     uint64_t seed;              /* of the rules' rotations */
     aur_gather_rules rules;

@@ -37,7 +37,7 @@ static void by_rule(const aur_gather_places *places, const aur_gather_lobe_rule 
     aur_gather_sweep_start(places, rule, lobe, lanes, &sweep, &sums->rays);
     const bool splits = aur_gather_splits(places, rule);
     /* The rule's directions are in so many parts, of which this is one. */
-    size_t parts = places->plan->samples_per_pattern, part = places->index % parts;
+    size_t parts = places->plan->samples_per_pattern, part = aur_gather_part(places);
     if (splits) {
         part = part * AUR_PACKET_SIZE + aur_group_rank(places->group);
         parts *= AUR_PACKET_SIZE;
@@ -75,7 +75,7 @@ static void by_sampling(const aur_gather_places *places, size_t lobe, uint32_t l
     aur_gather_sweep sweep;
     aur_gather_sweep_start(places, sampled, lobe, lanes, &sweep, rays);
     const size_t first = aur_first_lane(lanes), parts = plan->samples_per_pattern;
-    for (size_t i = places->index % parts; i < sampled->rule.count; i += parts) {
+    for (size_t i = aur_gather_part(places); i < sampled->rule.count; i += parts) {
         aur_vector value[AUR_PACKET_SIZE];
         float u[3] = {0.0f, 0.0f, 0.0f}, unused;
         uint32_t aimed = 0;

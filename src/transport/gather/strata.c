@@ -147,13 +147,13 @@ void aur_gather_find_edges(const aur_gather_plan *plan, const aur_view *view, si
     const aur_pixel_strata *at[APRON * APRON];
     look_around(plan, view, x, y, strata, ring, at, counters);
     *edges = (aur_gather_edges){0};
-    for (uint32_t group = 0; group < AUR_GROUP_COUNT; ++group)
+    for (uint32_t place = 0; place < AUR_GROUP_COUNT; ++place)
         for (size_t lane = 0; lane < AUR_PACKET_SIZE; ++lane) {
-            const size_t pixel = aur_group_pixel(group, lane);
+            const size_t pixel = aur_group_pixel(0, place, lane);
             if (strata[pixel].count == 0)
                 continue;
             const int edge = edge_at(at, pixel % SIDE, pixel / SIDE);
-            edges->any[group] |= (uint32_t)(edge != NO_EDGE) << lane;
-            edges->lights[group] |= (uint32_t)(edge == LIGHT_EDGE) << lane;
+            edges->any[place] |= (uint32_t)(edge != NO_EDGE) << lane;
+            edges->lights[place] |= (uint32_t)(edge == LIGHT_EDGE) << lane;
         }
 }

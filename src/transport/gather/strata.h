@@ -44,7 +44,7 @@ void aur_pixel_strata_mean(const aur_pixel_strata *pixel, double mean[3]);
  * each, not from the light that they reflect. So such pixels get more rays of the eye that only tell what
  * they meet, and what parts of the pixel these are weighs the means of what was shaded.
  *
- * Pixels of a tile whose neighbours see more than one thing: lanes of each group. */
+ * Pixels of a tile whose neighbours see more than one thing, for aur_group_lanes_marked. */
 typedef struct aur_gather_edges {
     uint32_t any[AUR_GROUP_COUNT];
     uint32_t lights[AUR_GROUP_COUNT]; /* those where one of the things is a light */

@@ -10,7 +10,8 @@
 /* One tile, done by samples of sixteen pixels at a time: places.group and places.index say which. */
 typedef struct gather_tile {
     const aur_view *view;
-    size_t x, y;   /* of the tile's corner in the picture */
+    size_t x, y;                                            /* of the tile's corner in the picture */
+    size_t columns[AUR_PACKET_SIZE], rows[AUR_PACKET_SIZE]; /* of the group's pixels in the picture */
     bool only_new; /* only strata of which a pixel has no radiance yet are shaded */
     aur_gather_places places;
     aur_gather_sums sums;
@@ -50,15 +51,28 @@ static gather_tile *create(const aur_gather_plan *plan, const aur_tile *tile) {
 /* --- one sample of sixteen pixels: what the eye sees, also by mirrors and through glass */
 
 static aur_pixel_strata *pixel_of(gather_tile *work, size_t lane) {
-    return &work->strata[aur_group_pixel(work->places.group, lane)];
+    return &work->strata[aur_group_pixel(work->places.arrangement, work->places.group, lane)];
+}
+
+/* The pixels of a group for sample `index`. Samples that share a pattern have the same ones. Pixels that
+ * split a pattern among them, or have one of their own, lie where they always do. */
+static void choose(gather_tile *work, uint32_t group, uint32_t index) {
+    aur_gather_places *const places = &work->places;
+    const aur_gather_plan *const plan = places->plan;
+    places->group = group;
+    places->index = index;
+    places->arrangement = 0;
+    if (!plan->policy.pools && plan->policy.decorrelation == AUR_DECORRELATION_BLUE)
+        places->arrangement =
+            aur_hash3(plan->seed, aur_gather_places_hash(places, places->tile), UINT64_C(0x7765617665));
+    aur_group_pixels(places->arrangement, group, work->x, work->y, work->columns, work->rows);
 }
 
 static void begin(gather_tile *work, uint32_t lanes) {
     aur_gather_places *const places = &work->places;
     aur_gather_sums *const sums = &work->sums;
-    size_t x[AUR_PACKET_SIZE], y[AUR_PACKET_SIZE];
-    aur_group_pixels(places->group, work->x, work->y, x, y);
-    aur_view_samples(work->view, AUR_PACKET_SIZE, x, y, places->index, work->samples, work->weights);
+    aur_view_samples(work->view, AUR_PACKET_SIZE, work->columns, work->rows, places->index, work->samples,
+                     work->weights);
     places->lanes = lanes;
     sums->pooled_lanes = 0;
     for (size_t lane = 0; lane < AUR_PACKET_SIZE; ++lane) {
@@ -164,13 +178,11 @@ static void bounce(gather_tile *work) {
             work->places.lanes &= ~(1u << aur_first_lane(rest));
 }
 
-/* Adds sample `index` of a group's pixels to their strata. */
-static void add_samples(gather_tile *work, uint32_t group, uint32_t index, uint32_t lanes) {
+/* Adds one sample of the pixels chosen to their strata. */
+static void add_samples(gather_tile *work, uint32_t lanes) {
     aur_gather_places *const places = &work->places;
     if (lanes == 0)
         return;
-    places->group = group;
-    places->index = index;
     begin(work, lanes);
     for (places->bounces = 0; places->bounces <= AUR_LONGEST_CHAIN && places->lanes != 0; ++places->bounces) {
         const uint32_t found = trace(work);
@@ -208,8 +220,9 @@ static aur_result refine_edges(gather_tile *work, aur_tile *tile) {
         for (uint32_t i = 0; i < count; ++i) {
             if (aur_tile_stops(tile))
                 return AUR_ERROR_CANCELLED;
-            add_samples(work, group, tile->first + tile->count + i,
-                        i < count / PLAIN_EDGE_PART ? edges.any[group] : edges.lights[group]);
+            choose(work, group, tile->first + tile->count + i);
+            add_samples(work, aur_group_lanes_marked(work->places.arrangement, group,
+                                                     i < count / PLAIN_EDGE_PART ? edges.any : edges.lights));
         }
     return AUR_OK;
 }
@@ -217,17 +230,17 @@ static aur_result refine_edges(gather_tile *work, aur_tile *tile) {
 /* Packets are those of the whole tile within the picture, whatever its crop: else pixels would differ in the
  * last bits. */
 static aur_result shade_tile(gather_tile *work, aur_tile *tile) {
-    for (uint32_t group = 0; group < AUR_GROUP_COUNT; ++group) {
-        size_t x[AUR_PACKET_SIZE], y[AUR_PACKET_SIZE];
-        aur_group_pixels(group, work->x, work->y, x, y);
-        const uint32_t lanes = aur_group_lanes_within(x, y, 0, work->view->width, 0, work->view->height);
+    const aur_view *const view = work->view;
+    for (uint32_t group = 0; group < AUR_GROUP_COUNT; ++group)
         for (uint32_t i = 0; i < tile->count; ++i) {
             if (aur_tile_stops(tile))
                 return AUR_ERROR_CANCELLED;
-            add_samples(work, group, tile->first + i,
-                        aur_group_lanes_wanted(tile, x, y, lanes, tile->first + i));
+            choose(work, group, tile->first + i);
+            const uint32_t lanes =
+                aur_group_lanes_within(work->columns, work->rows, 0, view->width, 0, view->height);
+            add_samples(work,
+                        aur_group_lanes_wanted(tile, work->columns, work->rows, lanes, tile->first + i));
         }
-    }
     return work->places.plan->policy.edge_samples > 0 ? refine_edges(work, tile) : AUR_OK;
 }
 

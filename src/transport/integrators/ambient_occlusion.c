@@ -80,8 +80,8 @@ static aur_result tile(const aur_integrator *integrator, aur_tile *tile) {
         aur_occlusion_find_places(tile->view, x, y, i, &places);
         const size_t directions = aur_occlusion_visit(integrator->data, &places, x, y, i, trace, &sums);
         for (size_t place = 0; place < AUR_OCCLUSION_PLACES; ++place) {
-            const size_t pixel =
-                aur_group_pixel((uint32_t)(place / AUR_PACKET_SIZE), place % AUR_PACKET_SIZE);
+            const size_t pixel = aur_group_pixel(places.arrangement, (uint32_t)(place / AUR_PACKET_SIZE),
+                                                 place % AUR_PACKET_SIZE);
             const size_t px = x + pixel % AUR_TILE_SIZE, py = y + pixel / AUR_TILE_SIZE;
             tile->counters.rays += 1 + (places.seen[place] ? directions : 0);
             if (px < tile->x0 || px >= tile->x1 || py < tile->y0 || py >= tile->y1 ||

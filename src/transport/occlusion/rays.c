@@ -29,11 +29,12 @@ void aur_occlusion_find_places(const aur_view *view, size_t x, size_t y, uint32_
                                aur_occlusion_places *places) {
     aur_packet packet;
     aur_packet_clear(&packet);
+    places->arrangement = aur_hash4(view->seed, y, x, UINT64_C(0x7765617665));
     aur_ray rays[AUR_PACKET_SIZE];
     for (size_t block = 0; block < AUR_PACKET_SIZE; ++block) {
         for (size_t within = 0; within < AUR_PACKET_SIZE; ++within) {
             const size_t place = within * AUR_PACKET_SIZE + block;
-            const size_t pixel = aur_group_pixel((uint32_t)within, block);
+            const size_t pixel = aur_group_pixel(places->arrangement, (uint32_t)within, block);
             aur_camera_sample sample;
             places->weight[place] =
                 aur_view_sample(view, x + pixel % AUR_TILE_SIZE, y + pixel / AUR_TILE_SIZE, index, &sample);

@@ -5,8 +5,8 @@
 #include "transport/gather/rule.h"
 #include "transport/packets/interleave.h"
 
-/* The 16 pixels of a tile that share a place in their blocks of 4 by 4 share a rotation of the pattern, so
- * the rays of a packet are one direction of it at 16 places, almost parallel where the surface is flat. */
+/* The 16 pixels of a group (packets/interleave.h) share a rotation of the pattern, so the rays of a packet
+ * are one direction of it at 16 places, almost parallel where the surface is flat. */
 enum { AUR_OCCLUSION_PLACES = AUR_TILE_PIXELS };
 
 typedef struct aur_occlusion {
@@ -20,6 +20,7 @@ typedef struct aur_occlusion {
 /* What the eye sees at the places of a tile, in packet order: those of group g begin at g * AUR_PACKET_SIZE.
  */
 typedef struct aur_occlusion_places {
+    uint64_t arrangement; /* of the tile's pixels in groups */
     _Alignas(64) float origin[3][AUR_OCCLUSION_PLACES];
     _Alignas(64) float axis[3][3][AUR_OCCLUSION_PLACES]; /* x, y and z of the frame about the normal */
     float weight[AUR_OCCLUSION_PLACES];                  /* of the camera sample */

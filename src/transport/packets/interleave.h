@@ -1,5 +1,7 @@
 /* Interleaved pixels (Keller and Heidrich 2001): a tile of 16 x 16 pixels is done in 16 groups of 16 pixels,
- * which are those at one place of all 4 x 4 blocks of the tile. */
+ * one of each 4 x 4 block of the tile. What a group has in common, its pixels have as the same error. So they
+ * are not those at one place of all blocks, where the eye would see a weave of period 4: each block has its
+ * pixels permuted by four bits of a hash. A hash of 0 leaves them as they are. */
 #pragma once
 
 #include "film/tile.h"
@@ -12,18 +14,24 @@ enum {
     AUR_TILE_PIXELS = AUR_TILE_SIZE * AUR_TILE_SIZE
 };
 
+/* Where the pixel of a group's lane lies in its block, which is number `lane`, both counted row by row. */
+static inline uint32_t aur_group_place(uint64_t hash, uint32_t group, size_t lane) {
+    return group ^ (uint32_t)(hash >> 4 * lane & (AUR_GROUP_COUNT - 1));
+}
+
 /* The pixel of a group's lane, counted row by row within the tile. */
-static inline size_t aur_group_pixel(uint32_t group, size_t lane) {
-    const size_t x = group % AUR_GROUPS_A_SIDE + AUR_GROUPS_A_SIDE * (lane % AUR_GROUPS_A_SIDE);
-    const size_t y = group / AUR_GROUPS_A_SIDE + AUR_GROUPS_A_SIDE * (lane / AUR_GROUPS_A_SIDE);
+static inline size_t aur_group_pixel(uint64_t hash, uint32_t group, size_t lane) {
+    const uint32_t place = aur_group_place(hash, group, lane);
+    const size_t x = place % AUR_GROUPS_A_SIDE + AUR_GROUPS_A_SIDE * (lane % AUR_GROUPS_A_SIDE);
+    const size_t y = place / AUR_GROUPS_A_SIDE + AUR_GROUPS_A_SIDE * (lane / AUR_GROUPS_A_SIDE);
     return y * AUR_TILE_SIZE + x;
 }
 
 /* Columns and rows in the picture of a group's pixels, whose tile begins at (x0, y0). */
-static inline void aur_group_pixels(uint32_t group, size_t x0, size_t y0, size_t x[AUR_PACKET_SIZE],
-                                    size_t y[AUR_PACKET_SIZE]) {
+static inline void aur_group_pixels(uint64_t hash, uint32_t group, size_t x0, size_t y0,
+                                    size_t x[AUR_PACKET_SIZE], size_t y[AUR_PACKET_SIZE]) {
     for (size_t lane = 0; lane < AUR_PACKET_SIZE; ++lane) {
-        const size_t pixel = aur_group_pixel(group, lane);
+        const size_t pixel = aur_group_pixel(hash, group, lane);
         x[lane] = x0 + pixel % AUR_TILE_SIZE;
         y[lane] = y0 + pixel / AUR_TILE_SIZE;
     }
@@ -53,6 +61,16 @@ static inline uint32_t aur_group_lanes_wanted(const aur_tile *tile, const size_t
         if ((wanted >> lane & 1u) != 0 && !aur_tile_wants(tile, x[lane], y[lane], index))
             wanted &= ~(1u << lane);
     return wanted;
+}
+
+/* The lanes of a group whose pixels are marked: bit `lane` of marks[place] is for the pixel at that place of
+ * that block. */
+static inline uint32_t aur_group_lanes_marked(uint64_t hash, uint32_t group,
+                                              const uint32_t marks[AUR_GROUP_COUNT]) {
+    uint32_t lanes = 0;
+    for (size_t lane = 0; lane < AUR_PACKET_SIZE; ++lane)
+        lanes |= marks[aur_group_place(hash, group, lane)] & 1u << lane;
+    return lanes;
 }
 
 /* The rank of a group in an order that keeps neighbours far apart, a 4 x 4 ordered dither: of 16 rotations

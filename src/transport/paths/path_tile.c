@@ -1,7 +1,7 @@
 /* Path tracing of sixteen pixels at a time.
  *
- * The pixels are those of one group of a tile (packets/interleave.h): one at the same place of all of its 4 x
- * 4 blocks. Interleaved (Keller and Heidrich 2001), they share all numbers but the camera's: paths on flat
+ * The pixels are those of one group of a tile (packets/interleave.h): one of each of its 4 x 4 blocks.
+ * Interleaved (Keller and Heidrich 2001), they share all numbers but the camera's: paths on flat
  * walls run in parallel, and their packets stay coherent. */
 #include "transport/packets/interleave.h"
 #include "transport/paths/path_group.h"
@@ -38,8 +38,9 @@ static void add_lanes(aur_path_group *g, aur_tile *tile, const size_t *x, const 
 static void add_group(aur_path_group *g, uint32_t number, aur_tile *tile) {
     const aur_view *const view = tile->view;
     const size_t x0 = tile->x0 / AUR_TILE_SIZE * AUR_TILE_SIZE, y0 = tile->y0 / AUR_TILE_SIZE * AUR_TILE_SIZE;
+    const uint64_t hash = g->data->interleaved ? aur_hash4(view->seed, y0, x0, UINT64_C(0x7765617665)) : 0;
     size_t x[AUR_PACKET_SIZE], y[AUR_PACKET_SIZE];
-    aur_group_pixels(number, x0, y0, x, y);
+    aur_group_pixels(hash, number, x0, y0, x, y);
     const uint32_t lanes = aur_group_lanes_within(x, y, 0, view->width, 0, view->height);
     const uint32_t wanted = aur_group_lanes_within(x, y, tile->x0, tile->x1, tile->y0, tile->y1);
     if (wanted == 0)

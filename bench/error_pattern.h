@@ -1,0 +1,68 @@
+/* Whether the error of a picture has a pattern, from the difference of two pictures of other seeds: what both
+ * are wrong by alike is not seen. */
+#pragma once
+
+#include <math.h>
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdlib.h>
+
+typedef struct error_pattern {
+    size_t width, height;
+    double *differences; /* [3 * width * height] */
+} error_pattern;
+
+/* The difference of two pictures, three channels a pixel first. False when out of memory. */
+static inline bool error_pattern_open(size_t width, size_t height, size_t channels, const float *a,
+                                      const float *b, error_pattern *pattern) {
+    *pattern = (error_pattern){width, height, malloc(3 * width * height * sizeof *pattern->differences)};
+    for (size_t i = 0; i < width * height && pattern->differences != NULL; ++i)
+        for (size_t c = 0; c < 3; ++c)
+            pattern->differences[3 * i + c] = (double)a[i * channels + c] - (double)b[i * channels + c];
+    return pattern->differences != NULL;
+}
+
+static inline void error_pattern_close(error_pattern *pattern) {
+    free(pattern->differences);
+    pattern->differences = NULL;
+}
+
+/* The root mean square of means over side x side pixels, in units of what independent errors of the same root
+ * mean square leave there. */
+static inline double error_pattern_clumps(const error_pattern *pattern, size_t side) {
+    const size_t across = pattern->width / side, down = pattern->height / side;
+    double means = 0.0, squares = 0.0;
+    for (size_t block = 0; block < across * down; ++block)
+        for (size_t c = 0; c < 3; ++c) {
+            const size_t corner = block / across * side * pattern->width + block % across * side;
+            double sum = 0.0;
+            for (size_t i = 0; i < side * side; ++i) {
+                const double d =
+                    pattern->differences[3 * (corner + i / side * pattern->width + i % side) + c];
+                sum += d;
+                squares += d * d;
+            }
+            means += sum * sum;
+        }
+    return squares > 0.0 ? sqrt(means / squares) : 0.0;
+}
+
+/* How much more alike the errors of pixels are that lie `lag` apart, along rows or columns, than those of
+ * pixels one nearer and one farther: over its standard error. Differences of two pictures are distributed
+ * evenly about 0, so where there is no peak this is nearly normal, with deviation 1. */
+static inline double error_pattern_peak(const error_pattern *pattern, size_t lag, bool down) {
+    const size_t step = down ? pattern->width : 1;
+    const size_t width = pattern->width - (down ? 0 : lag + 1);
+    const size_t height = pattern->height - (down ? lag + 1 : 0);
+    double sum = 0.0, squares = 0.0;
+    for (size_t i = 0; i < width * height; ++i) {
+        const double *const at = &pattern->differences[3 * (i / width * pattern->width + i % width)];
+        double product = 0.0;
+        for (size_t c = 0; c < 3; ++c)
+            product += at[c] * (at[3 * step * lag + c] -
+                                0.5 * (at[3 * step * (lag - 1) + c] + at[3 * step * (lag + 1) + c]));
+        sum += product;
+        squares += product * product;
+    }
+    return squares > 0.0 ? sum / sqrt(squares) : 0.0;
+}
