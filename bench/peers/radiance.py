@@ -97,7 +97,7 @@ def main():
             try:
                 values, told, seconds = solve(options)
             except subprocess.CalledProcessError as failure:
-                if failure.returncode < 0:
+                if failure.returncode < 0 or "CPU limit" in failure.stderr:
                     done = failure.stdout.count("\n")
                     print(f"| {name} | ended after {MOST_SECONDS} CPU s, at sensor {done + 1} of 25 | | | | |", flush=True)
                 else:

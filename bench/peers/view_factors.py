@@ -242,18 +242,21 @@ def difference(areas, a, b):
     return (math.sqrt((areas * (a - b) ** 2).sum() / areas.sum() / 2) / mean, abs(a - b).max() / math.sqrt(2) / mean)
 
 
-def sunlight(program, path, folder, seed, arguments):
-    """The sun's irradiance on each facet: its light, so weakly reflected that the rest does not count."""
-    out = os.path.join(folder, "sun.csv")
-    cpu, _ = run(program, path, "--radiosity", 1e-9, "--sun", "1,2,3", "--matrix-free", "--seed", seed, *arguments, "-o", out)
-    return cpu, np.loadtxt(out, delimiter=",", skiprows=1)[:, 3] / 1e-9
+def sun(program, path, folder, arguments):
+    """CPU seconds, error and worst facet of radiosities under the sun alone, from two seeds."""
+    outs = [os.path.join(folder, f"sun-{seed}.csv") for seed in (1, 2)]
+    cpu = np.mean([run(program, path, "--radiosity", 0.3, "--sun", "1,2,3", "--seed", seed, *arguments, "-o", outs[seed - 1])[0]
+                   for seed in (1, 2)])
+    rows = [np.loadtxt(out, delimiter=",", skiprows=1) for out in outs]
+    return cpu, *difference(rows[0][:, 1], rows[0][:, 3], rows[1][:, 3])
 
 
-def city(program, folder, settings=([], ["--rays", 4096, "--half-planes", 2048],
-                                   ["--rays", 8192, "--randomizations", 4])):
+def city(program, folder, settings=([], ["--rays", 4096, "--half-planes", 2048]),
+         suns=([], ["--rays", 4096, "--half-planes", 1024])):
     path = make_city(folder, 22000)
     print("\n| city of 22,160 facets | CPU s | entries | closed share | rows - 1 | asymmetry |\n|---|---|---|---|---|---|")
     table = "\n| light, reflectance .3 | how | CPU s | error | worst facet |\n|---|---|---|---|---|\n"
+    line = "| {} | {} | {:.0f} | {:.3f} % | {:.1f} % |\n"
     for arguments in settings:
         out = [os.path.join(folder, f"city-{seed}.npz") for seed in (1, 2)]
         cpu = np.mean([run(program, path, "--seed", seed, *arguments, "-o", out[seed - 1])[0] for seed in (1, 2)])
@@ -267,12 +270,13 @@ def city(program, folder, settings=([], ["--rays", 4096, "--half-planes", 2048],
         how = " ".join(map(str, arguments)) or "defaults"
         print(f"| {how} | {cpu:.0f} | {matrix.nnz:,} | {light[widths == 0].sum() / light.sum():.2f} | {rows:.0e} | "
               f"{abs(exchange - exchange.T).max() / abs(exchange).max():.0e} |", flush=True)
-        suns = [sunlight(program, path, folder, seed, arguments) for seed in (1, 2)]
-        first = {"sky": [0.3 * l[2] for l in loaded], "sun": [0.3 * s[1] for s in suns], "emission": [np.ones(len(areas))] * 2}
+        first = {"sky": [0.3 * l[2] for l in loaded], "emission": [np.ones(len(areas))] * 2}
         for name, lights in first.items():
             error, worst = difference(areas, *(radiosities(l[0], areas, light) for l, light in zip(loaded, lights)))
-            more = suns[0][0] if name == "sun" else 0
-            table += f"| {name} | {how} | {cpu + more:.0f} | {100 * error:.3f} % | {100 * worst:.1f} % |\n"
+            table += line.format(name, how, cpu, 100 * error, 100 * worst)
+    for arguments in suns:
+        cpu, error, worst = sun(program, path, folder, arguments)
+        table += line.format("sun", " ".join(map(str, arguments)) or "defaults", cpu, 100 * error, 100 * worst)
     print(table)
 
 

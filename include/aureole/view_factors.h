@@ -185,8 +185,9 @@ static inline aur_facets_light aur_facets_light_default(void) {
  * half_widths may be NULL, which spares their time where there is a matrix. Later reflections, which carry
  * less light, have fewer rays; the last ones, which together are less than a fiftieth of what rays err by,
  * are a geometric series. `sky` (may be NULL) becomes the sky factors. Of the sun, the lit part of each facet
- * is always counted along rays. Errors: ARGUMENT (numbers out of range, no source that a row sees, factors of
- * other facets, a closed scene that absorbs almost nothing), and those of aur_view_factors_create. */
+ * is always counted, along four times as many rays. Errors: ARGUMENT (numbers out of range, no source that a
+ * row sees, factors of other facets, a closed scene that absorbs almost nothing), and those of
+ * aur_view_factors_create. */
 AUR_EXPERIMENTAL aur_result aur_view_factors_radiosity(const aur_facets *facets,
                                                        const aur_view_factors *factors,
                                                        const aur_view_factors_options *options,

@@ -8,7 +8,9 @@
 #include "lighting/upper_walk.h"
 #include "lighting/view_factors.h"
 
-enum { MOST_REFLECTIONS = 200, FEWEST_RAYS = 16, LEVELS = 16 };
+/* Rays to the sun are few beside the others, and what it lights ends at edges: they begin at SUN_PLACES times
+ * as many places. */
+enum { MOST_REFLECTIONS = 200, FEWEST_RAYS = 16, LEVELS = 16, SUN_PLACES = 4 };
 
 /* With a matrix the sum ends where the next reflection is a part of the whole smaller than this. */
 static const double SMALLEST_CHANGE = 1e-7;
@@ -22,6 +24,7 @@ typedef struct solution {
     /* Patterns of half as many rays each, down to FEWEST_RAYS. */
     aur_facet_pattern patterns[LEVELS];
     size_t level_count;
+    aur_facet_pattern sun_places;
     double smallest; /* part of the light at which the sum ends */
     /* Of rows; what one randomisation has found, and the sums over them. */
     double *now, *next, *sky, *found, *total, *squares, *sky_total;
@@ -100,7 +103,7 @@ static aur_result trace_sun(solution *s, aur_error *error) {
     s->sun = calloc((count + 1) * rows + 1, sizeof *s->sun);
     aur_result result = s->sun != NULL ? AUR_OK : aur_fail_memory(error);
     for (size_t r = 0; r < count && result == AUR_OK; ++r) {
-        result = aur_facet_product(s->facets, &s->patterns[0], r + count * (MOST_REFLECTIONS + 1), 1,
+        result = aur_facet_product(s->facets, &s->sun_places, r + count * (MOST_REFLECTIONS + 1), 1,
                                    &s->parallel, s->light->sun, NULL, &s->sun[rows * r], NULL, error);
         for (size_t i = 0; i < rows; ++i)
             s->sun[rows * count + i] += s->sun[rows * r + i] / (double)count;
@@ -192,6 +195,9 @@ static aur_result prepare(solution *s, const aur_view_factors_options *options, 
     size_t rays = options->rays / s->randomizations;
     rays += rays == 0;
     aur_result result = AUR_OK;
+    if (aur_length3(s->light->sun) > 0.0)
+        result =
+            aur_facet_pattern_create(options->set, SUN_PLACES * rays, options->seed, &s->sun_places, error);
     while (result == AUR_OK && s->level_count < LEVELS && (s->level_count == 0 || rays >= FEWEST_RAYS)) {
         result =
             aur_facet_pattern_create(options->set, rays, options->seed, &s->patterns[s->level_count], error);
@@ -238,6 +244,7 @@ aur_result aur_view_factors_radiosity(const aur_facets *facets, const aur_view_f
     }
     for (size_t i = 0; i < s.level_count; ++i)
         aur_facet_pattern_release(&s.patterns[i]);
+    aur_facet_pattern_release(&s.sun_places);
     free(s.sun);
     free(numbers);
     return result;
