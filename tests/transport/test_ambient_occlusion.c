@@ -1,6 +1,7 @@
 /* Ambient occlusion against closed forms, and what must not change it. */
 #include "../scene/scene_text.h"
 
+#include <aureole/ask.h>
 #include <aureole/render.h>
 
 #include "image/image.h"
@@ -156,8 +157,40 @@ static void refuses(void **state) {
     aur_scene_destroy(scene);
 }
 
+/* To an error, nobody knows how many samples there will be: patterns follow one another. Within a ball 15/16
+ * are found, by groups of 16 pixels that are wrong alike: the mean's error is at most that of 24 independent
+ * ones, of which 4 are allowed. */
+static void to_an_error(void **state) {
+    (void)state;
+    aur_scene *const ball = must_load_body("<shape type='sphere'><float name='radius' value='2'/></shape>");
+    static const char *const patterns[] = {"ao:max_distance=1,samples=8",
+                                           "ao:max_distance=1,samples=8,pattern=sobol"};
+    for (size_t i = 0; i < sizeof patterns / sizeof patterns[0]; ++i) {
+        const aur_render_options options = {
+            .size = sizeof options, .integrator = patterns[i], .width = 24, .height = 16};
+        aur_ask_options wish = aur_ask_options_default();
+        aur_renderer *renderer = NULL;
+        aur_ask *ask = NULL;
+        aur_image *image = NULL;
+        aur_error error = {0};
+        double mean[4];
+        wish.error = 0.02;
+        if (aur_renderer_create(ball, &renderer, &error) != AUR_OK ||
+            aur_ask_create(renderer, &options, &wish, &ask, &error) != AUR_OK ||
+            aur_ask_run(ask, &error) != AUR_OK || aur_ask_develop(ask, false, &image, &error) != AUR_OK ||
+            aur_image_mean(image, mean, &error) != AUR_OK)
+            fail_msg("%s: %s", patterns[i], error.message);
+        assert_near(mean[3], 15.0 / 16.0, 4.0 * 0.02 * (15.0 / 16.0) / sqrt(24.0));
+        aur_image_destroy(image);
+        aur_ask_destroy(ask);
+        aur_renderer_destroy(renderer);
+    }
+    aur_scene_destroy(ball);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {cmocka_unit_test(open_and_closed), cmocka_unit_test(wall),
-                                       cmocka_unit_test(crops_and_threads), cmocka_unit_test(refuses)};
+                                       cmocka_unit_test(crops_and_threads), cmocka_unit_test(to_an_error),
+                                       cmocka_unit_test(refuses)};
     return cmocka_run_group_tests(tests, enter_folder, leave_folder);
 }

@@ -41,14 +41,23 @@ static aur_result create(aur_parameters *parameters, const aur_integrator_contex
     (void)parameters;
     occlusion_data *const data = integrator->data;
     aur_gather_rule_options *const pattern = &data->pattern;
-    const size_t shares = context->samples_per_pixel;
+    /* Who does not know how many samples there will be says the most that there can be. They share long
+     * patterns, whose heights, which no rotation changes, lie close; a sample has an eighth of `samples`. */
+    enum { SAMPLES_KNOWN = 1 << 16, SAMPLES_A_PATTERN = 128, PATTERN_LENGTH = 16 };
+    data->occlusion.renews = context->samples_per_pixel > SAMPLES_KNOWN;
+    const size_t shares = data->occlusion.renews ? SAMPLES_A_PATTERN : context->samples_per_pixel;
     integrator->pixel_centre = data->pixel == PIXEL_CENTRE;
-    data->occlusion.samples_per_pixel = shares;
+    if (data->occlusion.renews)
+        pattern->count *= PATTERN_LENGTH;
+    data->occlusion.samples_per_pattern = shares;
     data->occlusion.seed = aur_hash2(context->seed, pattern->seed);
     pattern->count = (pattern->count + shares - 1) / shares * shares;
     pattern->seed = pattern->set_seed = data->occlusion.seed;
     pattern->warnings = context->warnings;
     const aur_result result = aur_gather_rule_options_name(pattern, "ao", data->map, data->scramble, error);
+    /* Scrambled ones that were made beforehand would come again and again. */
+    if (data->occlusion.renews && pattern->scramble != AUR_SCRAMBLE_ROTATE)
+        pattern->rotations = 0;
     return result == AUR_OK
                ? aur_gather_rule_create(pattern, data->cosine ? 1.0 : 0.0, &data->occlusion.rule, error)
                : result;

@@ -90,10 +90,31 @@ static void aim(const aur_gather_rule *rule, const aur_occlusion_places *places,
     }
 }
 
+/* Which part of the pattern a sample has. Who does not have all of them is to lack none in particular
+ * (aur_gather_part): 79 of 128 is the golden section. */
+static size_t part_of(const aur_occlusion *occlusion, uint64_t tile, size_t within, uint32_t index) {
+    const size_t parts = occlusion->samples_per_pattern;
+    return occlusion->renews ? (tile % parts + aur_group_rank((uint32_t)within) + 79 * (size_t)index) % parts
+                             : index % parts;
+}
+
+/* What the pattern is turned by, for all places of a group or for one of them. */
+static aur_gather_rotation rotation_of(const aur_occlusion *occlusion, uint64_t tile, size_t within) {
+    const aur_gather_rule *const rule = &occlusion->rule;
+    const aur_gather_rotation rotation =
+        aur_gather_rule_rotation(rule, tile + aur_group_rank((uint32_t)within));
+    if (!occlusion->renews || rule->scramble != AUR_SCRAMBLE_ROTATE)
+        return rotation;
+    const float angle = 2.0f * AUR_PI_F * aur_unit_float((uint32_t)aur_mix64(tile));
+    return aur_gather_rotation_by(rotation, cosf(angle), sinf(angle));
+}
+
 size_t aur_occlusion_visit(const aur_occlusion *occlusion, const aur_occlusion_places *places, size_t x,
                            size_t y, uint32_t index, aur_occlusion_visitor visit, void *context) {
     const aur_gather_rule *const rule = &occlusion->rule;
-    const uint64_t tile = aur_hash3(occlusion->seed, y, x) >> 8;
+    const uint64_t pattern = occlusion->renews ? index / occlusion->samples_per_pattern : 0;
+    const uint64_t seed = pattern > 0 ? aur_hash2(occlusion->seed, pattern) : occlusion->seed;
+    const uint64_t tile = aur_hash3(seed, y, x) >> 8;
     aur_packet packet;
     aur_packet_clear(&packet);
     for (size_t within = 0; within < AUR_PACKET_SIZE; ++within) {
@@ -112,16 +133,16 @@ size_t aur_occlusion_visit(const aur_occlusion *occlusion, const aur_occlusion_p
         const bool together = rule->rotation_count > 0 || rule->scramble == AUR_SCRAMBLE_NONE;
         aur_gather_rotation rotations[AUR_PACKET_SIZE];
         for (size_t k = 0; k < (together ? 1 : AUR_PACKET_SIZE); ++k)
-            rotations[k] = aur_gather_rule_rotation(
-                rule, together ? tile + aur_group_rank((uint32_t)within)
-                               : aur_hash2(occlusion->seed, places->pixel[first + k]));
-        for (size_t i = index % occlusion->samples_per_pixel; i < rule->count;
-             i += occlusion->samples_per_pixel) {
+            rotations[k] = together
+                               ? rotation_of(occlusion, tile, within)
+                               : aur_gather_rule_rotation(rule, aur_hash2(seed, places->pixel[first + k]));
+        for (size_t i = part_of(occlusion, tile, within, index); i < rule->count;
+             i += occlusion->samples_per_pattern) {
             aim(rule, places, first, rotations, together, i, &packet.query.ray);
             for (size_t k = 0; k < AUR_PACKET_SIZE; ++k)
                 packet.query.ray.tfar[k] = occlusion->max_distance;
             visit(context, first, order, &packet);
         }
     }
-    return rule->count / occlusion->samples_per_pixel;
+    return rule->count / occlusion->samples_per_pattern;
 }

@@ -10,7 +10,8 @@
 enum { AUR_OCCLUSION_PLACES = AUR_TILE_PIXELS };
 
 typedef struct aur_occlusion {
-    size_t samples_per_pixel;
+    size_t samples_per_pattern; /* among which its directions are shared out */
+    bool renews;                /* samples after those have it turned anew, else there are none */
     uint64_t seed;
     /* What is farther, in scene units, does not occlude. */
     float max_distance;
