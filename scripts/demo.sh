@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # From a fresh clone to a picture in a few minutes: installs what is needed, builds the program alone, makes the room's
-# meshes, and renders the room until its error is 6 % of its mean. The picture goes to out/room.png.
+# meshes, and renders the README's room until its error is 10 % of its mean. The picture goes to out/room.png.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 
@@ -15,6 +15,6 @@ run() {
 mkdir -p out
 mapfile -t meshes < <(grep -oh 'generated/[^"]*' scenes/room/*.xml | sort -u | sed 's|generated/||')
 run scripts/scenes.sh "${meshes[@]}"
-run build/release/aureole render scenes/room/room.xml --integrator finalgather --width 640 --error 6% -o out/room.exr
+run build/release/aureole render scenes/room/room.xml --integrator finalgather --width 960 --error 10% -o out/room.exr
 run build/release/aureole convert out/room.exr out/room.png --exposure 0.9 --tone filmic
 echo "the picture is out/room.png, and out/room.exr in full range"

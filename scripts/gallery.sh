@@ -70,7 +70,7 @@ done < <(gallery)
   echo "The bundled scenes ([how they are made](scenes.md)), rendered by \`scripts/gallery.sh\`, which writes this page. The error is the"
   echo "root mean square error over the picture's mean, as the program says it. CPU seconds are those of the whole program on all threads,"
   echo "loading the scene and its photon map included, on $(awk -F': ' '/^model name/ { print $2; exit }' /proc/cpuinfo) while other work ran. Pictures that are links are of full size. The others were made"
-  echo "by an earlier form of the script, with the samples a pixel of their tables, and are halved but for the room's."
+  echo "by an earlier form of the script, with the samples a pixel of their tables, and are halved."
   echo
   old_section "At equal time"
   while IFS='|' read -r name scene options exposure tone title; do
