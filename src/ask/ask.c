@@ -245,10 +245,10 @@ static bool is_met(const aur_ask *ask) {
     aur_render_statistics spent;
     count_spent(ask, &spent);
     const aur_goal goal = goal_of(ask);
-    return (wish->error > 0.0 && ask->trial.interval.high <= aur_goal_noise(&goal)) ||
+    return (wish->error > 0.0 && ask->trial.looked_at && ask->trial.bound <= aur_goal_noise(&goal)) ||
            (wish->seconds > 0.0 && spent.prepare_seconds + spent.render_seconds >= wish->seconds) ||
            (wish->rays > 0 && aur_trial_rays(&ask->trial) >= (double)goal.rays) ||
-           (wish->rounds > 0 && ask->trial.rounds >= wish->rounds) || ask->trial.measure.mean <= 0.0;
+           (wish->rounds > 0 && ask->trial.rounds >= wish->rounds) || aur_trial_is_black(&ask->trial);
 }
 
 static double next_factor(const aur_ask *ask) {

@@ -8,7 +8,7 @@
 #include "render/renderer.h"
 
 /* Numbers between rounds, before those of the tiles and of the replicas. */
-enum { NUMBERS = 13, STATE_WORDS = NUMBERS + 4 };
+enum { NUMBERS = 14, STATE_WORDS = NUMBERS + 4 };
 
 static size_t word_count(const aur_ask *ask) {
     return STATE_WORDS + 2 * ask->trial.value_count + ask->trial.replicas.count * AUR_SECONDS_WORDS;
@@ -34,12 +34,13 @@ aur_result aur_ask_save(const aur_ask *ask, const char *path, aur_error *error) 
                                      ask->bias.high,
                                      ask->others.prepare_seconds,
                                      ask->others.render_seconds,
-                                     ask->others.cpu_seconds};
+                                     ask->others.cpu_seconds,
+                                     ask->trial.bound};
     size_t at = 0;
     for (size_t i = 0; i < NUMBERS; ++i)
         words[at++] = aur_word_of_double(numbers[i]);
     words[at++] = ask->trial.rounds;
-    words[at++] = ask->trial.begun;
+    words[at++] = (uint64_t)ask->trial.begun + 2 * (uint64_t)ask->trial.looked_at;
     words[at++] = ask->photons;
     words[at++] = ask->others.rays;
     for (size_t i = 0; i < ask->trial.value_count; ++i) {
@@ -76,8 +77,10 @@ static aur_result take_over(aur_ask *ask, const char *path, const aur_checkpoint
     ask->others.prepare_seconds = numbers[10];
     ask->others.render_seconds = numbers[11];
     ask->others.cpu_seconds = numbers[12];
+    ask->trial.bound = numbers[13];
     ask->trial.rounds = *word++;
-    ask->trial.begun = *word++ != 0;
+    ask->trial.begun = (*word & 1) != 0;
+    ask->trial.looked_at = (*word++ & 2) != 0;
     ++word; /* photons, see above */
     ask->others.rays = *word++;
     for (size_t i = 0; i < ask->trial.value_count; ++i) {

@@ -2,11 +2,22 @@
 
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
 #include "ask/rounds.h"
 #include "core/error.h"
 #include "film/film.h"
+#include "render/renderer.h"
 #include "render/stopwatch.h"
+
+/* Integrators that a wish for an error takes; those that look at a scene in their own way may show none. */
+static bool shows_lamps(const char *integrator) {
+    static const char *const names[] = {"path", "volpath", "finalgather"};
+    for (size_t i = 0; i < sizeof names / sizeof names[0]; ++i)
+        if (integrator != NULL && strncmp(integrator, names[i], strlen(names[i])) == 0)
+            return true;
+    return false;
+}
 
 aur_result aur_trial_create(aur_renderer *renderer, const aur_render_options *options, size_t replica_count,
                             aur_trial *trial, aur_error *error) {
@@ -14,6 +25,7 @@ aur_result aur_trial_create(aur_renderer *renderer, const aur_render_options *op
     own.integrator = trial->integrator;
     own.samples_per_pixel = AUR_SAMPLES_PER_PIXEL_MAX;
     trial->interval = (aur_error_interval){.estimate = INFINITY, .high = INFINITY};
+    trial->bound = INFINITY;
     trial->rate = 1.0;
     const aur_result result = aur_replicas_create(renderer, &own, replica_count, &trial->replicas, error);
     if (result != AUR_OK)
@@ -21,18 +33,30 @@ aur_result aur_trial_create(aur_renderer *renderer, const aur_render_options *op
     const size_t pixels = trial->replicas.pixel_count;
     trial->value_count = replica_count * pixels;
     trial->targets = calloc(trial->value_count, sizeof *trial->targets);
+    trial->earlier = calloc(trial->value_count, sizeof *trial->earlier);
     trial->variances = calloc(trial->value_count, sizeof *trial->variances);
+    trial->measured = calloc(trial->value_count, sizeof *trial->measured);
     trial->scratch = calloc(pixels, sizeof *trial->scratch);
-    return trial->targets != NULL && trial->variances != NULL && trial->scratch != NULL
-               ? AUR_OK
-               : aur_fail_memory(error);
+    const aur_film_layout *const layout = &aur_render_film(trial->replicas.renders[0])->layout;
+    if (shows_lamps(trial->integrator)) {
+        const aur_result found =
+            aur_lamps_find(aur_renderer_scene(renderer), layout, options->seed, &trial->lamps, error);
+        if (found != AUR_OK)
+            return found;
+    }
+    const bool made = trial->targets != NULL && trial->earlier != NULL && trial->variances != NULL &&
+                      trial->measured != NULL && trial->scratch != NULL;
+    return made ? AUR_OK : aur_fail_memory(error);
 }
 
 void aur_trial_release(aur_trial *trial) {
     aur_replicas_release(&trial->replicas);
     free(trial->targets);
+    free(trial->earlier);
     free(trial->variances);
+    free(trial->measured);
     free(trial->scratch);
+    aur_lamps_release(&trial->lamps);
     free(trial->integrator);
     *trial = (aur_trial){0};
 }
@@ -66,10 +90,12 @@ double aur_goal_noise(const aur_goal *goal) {
 }
 
 static double factor_to_error(const aur_trial *trial, double error) {
+    if (!(trial->bound < INFINITY))
+        return 1.0 / AUR_MOST_GROWTH;
     const aur_error_interval *const seen = &trial->interval;
     const double width = seen->high < INFINITY ? 1.0 - seen->estimate / seen->high : 0.0;
     const double margin = 0.98 - 0.7 * width, least_fall = fmin(0.005 + 1.5 * width, 0.3);
-    const double wanted = fmin(margin * error / seen->high, 1.0 - least_fall);
+    const double wanted = fmin(margin * error / trial->bound, 1.0 - least_fall);
     return pow(wanted * wanted, 1.0 / trial->rate);
 }
 
@@ -77,16 +103,29 @@ double aur_trial_factor(const aur_trial *trial, const aur_goal *goal) {
     const double growth = 1.5, pilot = AUR_PILOT_ERROR * goal->error;
     double factor = 1.0 / growth;
     if (goal->error > 0.0)
-        factor = factor_to_error(trial, trial->interval.high > pilot ? pilot : aur_goal_noise(goal));
+        factor = factor_to_error(trial, trial->bound > pilot ? pilot : aur_goal_noise(goal));
     if (goal->rays > 0)
         factor = fmax(factor, fmin(aur_trial_rays(trial) / (double)goal->rays, 1.0));
     return factor;
 }
 
+/* What the variances are thought to be with the samples that are planned. */
+static void predict(aur_trial *trial) {
+    for (size_t i = 0; i < trial->value_count; ++i)
+        if (trial->targets[i] > trial->earlier[i])
+            trial->variances[i] *= pow((double)trial->earlier[i] / (double)trial->targets[i], trial->rate);
+}
+
+bool aur_trial_is_black(const aur_trial *trial) {
+    return trial->rounds > 0 && !(trial->bound > 0.0) && !(trial->measure.mean > 0.0);
+}
+
 void aur_trial_plan_evenly(aur_trial *trial, uint32_t samples) {
+    memcpy(trial->earlier, trial->targets, trial->value_count * sizeof *trial->targets);
     for (size_t i = 0; i < trial->value_count; ++i)
         trial->targets[i] = samples;
-    trial->begun = true;
+    predict(trial);
+    trial->begun = trial->looked_at = true;
 }
 
 bool aur_trial_plan(aur_trial *trial, double factor) {
@@ -95,8 +134,11 @@ bool aur_trial_plan(aur_trial *trial, double factor) {
         return true;
     }
     const double rounds = fmax(ceil(-log(factor) / log(AUR_MOST_GROWTH)), 1.0);
+    memcpy(trial->earlier, trial->targets, trial->value_count * sizeof *trial->targets);
+    trial->looked_at = rounds == 1.0;
     trial->begun = aur_raise_targets(trial->value_count, trial->variances, pow(factor, 1.0 / rounds),
                                      AUR_SAMPLES_PER_PIXEL_MAX, trial->targets);
+    predict(trial);
     return trial->begun;
 }
 
@@ -108,6 +150,39 @@ static void learn_rate(aur_trial *trial, double earlier_error) {
         return;
     const double rate = 2.0 * log(earlier_error / trial->interval.estimate) / growth;
     trial->rate = fmin(fmax(rate, 1.0), 2.0);
+}
+
+/* What is thought of the variances. */
+typedef struct variance_sums {
+    double measured, pooled, lamps; /* by the last round; by all; and of lamps that it need not have met */
+} variance_sums;
+
+/* Puts what the last round says of the variances together with what the rounds before led to expect. A
+ * variance seen in a few replicas has few degrees of freedom: where they agree by chance now, they did not
+ * always. */
+static variance_sums pool_variances(aur_trial *trial) {
+    const size_t pixels = trial->replicas.pixel_count;
+    variance_sums sums = {.measured = 0.0};
+    for (size_t i = 0; i < trial->value_count; ++i) {
+        const double now = trial->measured[i];
+        const double all = trial->rounds > 1 ? 0.5 * (trial->variances[i] + now) : now;
+        const double lamps = aur_lamps_variance(&trial->lamps, i % pixels, trial->targets[i]);
+        trial->variances[i] = fmax(all, lamps);
+        sums.measured += now;
+        sums.pooled += trial->variances[i];
+        sums.lamps += lamps;
+    }
+    return sums;
+}
+
+/* The interval's end where the rounds before told of more error, or lamps do that were not met. */
+static double bound_of(const aur_trial *trial, const variance_sums *sums) {
+    if (!(trial->measure.mean > 0.0))
+        return sums->lamps > 0.0 ? INFINITY : 0.0;
+    if (sums->measured > 0.0)
+        return trial->interval.high * sqrt(fmax(sums->pooled / sums->measured, 1.0));
+    const double count = (double)trial->replicas.count; /* each replica has one part of the mean */
+    return sqrt(sums->pooled / (count * 3.0 * (double)trial->value_count)) / trial->measure.mean;
 }
 
 static void plan_samples(aur_trial *trial) {
@@ -138,8 +213,8 @@ aur_result aur_trial_render(aur_trial *trial, double confidence, const atomic_bo
     aur_render_statistics spent;
     aur_trial_spent(trial, &spent);
     trial->samples = (double)spent.samples / (double)replicas->pixel_count;
-    aur_replicas_measure(replicas, &trial->measure, trial->variances);
-    aur_replicas_smooth(replicas, trial->targets, trial->variances, trial->scratch);
+    aur_replicas_measure(replicas, &trial->measure, trial->measured);
+    aur_replicas_smooth(replicas, trial->targets, trial->measured, trial->scratch);
     const aur_error_interval absolute = aur_replica_interval(&trial->measure.deviations, replicas->count,
                                                              3 * replicas->pixel_count, confidence);
     const double mean = trial->measure.mean;
@@ -147,6 +222,8 @@ aur_result aur_trial_render(aur_trial *trial, double confidence, const atomic_bo
                                            .low = mean > 0.0 ? absolute.low / mean : INFINITY,
                                            .high = mean > 0.0 ? absolute.high / mean : INFINITY,
                                            .degrees = absolute.degrees};
+    const variance_sums sums = pool_variances(trial);
+    trial->bound = bound_of(trial, &sums);
     learn_rate(trial, earlier_error);
     return AUR_OK;
 }

@@ -4,6 +4,7 @@
 
 #include <stdatomic.h>
 
+#include "ask/lamps.h"
 #include "ask/replicas.h"
 
 typedef struct aur_trial {
@@ -11,15 +12,20 @@ typedef struct aur_trial {
     aur_replicas replicas;
     size_t value_count; /* replicas x pixels */
     uint32_t *targets;  /* [value_count] samples of each replica's pixels after the round planned last */
-    double *variances;  /* [value_count] of the replicas' pixels, as the other replicas tell */
+    uint32_t *earlier;  /* [value_count] before it */
+    double *variances;  /* [value_count] of the replicas' pixels, as the other replicas tell in all rounds */
+    double *measured;   /* the same of the last round alone */
     double *scratch;
+    aur_lamps lamps; /* where the integrator shows them */
     aur_replica_measure measure;
     aur_error_interval interval; /* relative to the mean */
-    double rate;                 /* the error's square falls as samples^-rate */
-    double samples;              /* a pixel, all replicas together */
-    double before;               /* the same before the round that is planned or rendered */
+    double bound;   /* of the error, by the rounds before too: at least the interval's upper end */
+    double rate;    /* the error's square falls as samples^-rate */
+    double samples; /* a pixel, all replicas together */
+    double before;  /* the same before the round that is planned or rendered */
     uint64_t rounds;
     bool begun;     /* a round is planned and not all rendered */
+    bool looked_at; /* the round planned last was to end where it leads, and may be the last of all */
     size_t replica; /* replicas done of this round */
 } aur_trial;
 
@@ -51,6 +57,9 @@ double aur_trial_factor(const aur_trial *trial, const aur_goal *goal);
 /* What the bias leaves of the error. */
 double aur_goal_noise(const aur_goal *goal);
 double aur_trial_rays(const aur_trial *trial);
+
+/* No sample has met light, and none that the camera sees is known of. */
+bool aur_trial_is_black(const aur_trial *trial);
 
 /* Plans the samples of a round; the first is one sample a pixel. Where more than one is needed to the factor,
  * all grow alike, so that the last one is not a small one that sees nearly what the one before has seen.

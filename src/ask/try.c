@@ -28,10 +28,6 @@ static double rays_to(const aur_trial *trial, double error) {
            aur_growth_to(trial->value_count, trial->variances, fmin(part * part, 1.0), trial->targets);
 }
 
-static bool is_black(const aur_trial *trial) {
-    return trial->rounds > 0 && !(trial->measure.mean > 0.0);
-}
-
 /* As many samples in every pixel. Samples that go where the first ones differ make a picture whose mean is
  * not quite that of its integrator, which would pass for a difference between integrators. */
 static aur_result render_evenly(const aur_choice *choice, aur_trial *trial, uint32_t samples,
@@ -64,11 +60,11 @@ static aur_result render_path(aur_choice *choice, double *wanted, aur_error *err
     double left = 0.0;
     for (bool more = true; result == AUR_OK && more;) {
         const double spent = part_spent(choice, path);
-        left = fmax(choice->goal.error, path->interval.high * sqrt(spent));
-        if (path->rounds > 1 && path->interval.high <= AUR_PILOT_ERROR * left)
+        left = fmax(choice->goal.error, path->bound * sqrt(spent));
+        if (path->rounds > 1 && path->bound <= AUR_PILOT_ERROR * left)
             break;
         result = render_round(choice, path, &more, error);
-        more = more && !is_black(path);
+        more = more && !aur_trial_is_black(path);
     }
     *wanted = left;
     return result;
@@ -140,11 +136,11 @@ static aur_result compare(aur_renderer *renderer, const aur_render_options *opti
     const double path_rays = rays_to(path, wanted);
     aur_trial *const gather = &rivals->gather;
     aur_result result = AUR_OK;
-    for (bool more = true; result == AUR_OK && more && !is_black(gather) &&
-                           gather->interval.high > AUR_PILOT_ERROR * wanted &&
+    for (bool more = true; result == AUR_OK && more && !aur_trial_is_black(gather) &&
+                           gather->bound > AUR_PILOT_ERROR * wanted &&
                            aur_trial_rays(gather) < PILOT_PART * path_rays;)
         result = render_round(choice, gather, &more, error);
-    if (result != AUR_OK || is_black(gather) || rays_to(gather, noise) > WORTH * path_rays)
+    if (result != AUR_OK || aur_trial_is_black(gather) || rays_to(gather, noise) > WORTH * path_rays)
         return result;
     result = create_trial(renderer, options, choice, ",edges=0,debias=true,continued=1,incident=correction",
                           &rivals->difference, error);
@@ -171,7 +167,7 @@ aur_result aur_ask_try(aur_renderer *renderer, const aur_render_options *options
     aur_trial *const path = &choice->trial;
     double wanted;
     aur_result result = render_path(choice, &wanted, error);
-    if (result != AUR_OK || path->interval.high <= wanted || is_black(path))
+    if (result != AUR_OK || path->bound <= wanted || aur_trial_is_black(path))
         return result;
     choice->photons = photons_for(choice, rays_to(path, wanted));
     if (choice->photons == 0)

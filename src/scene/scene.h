@@ -148,6 +148,17 @@ aur_result aur_scene_check_camera(const aur_scene *scene, aur_error *error);
 AUR_EXPERIMENTAL void aur_camera_ray(const aur_scene *scene, size_t width, size_t height, float x, float y,
                                      const float lens[2], aur_ray *ray);
 
+/* Of cameras all whose rays begin at one point: that point, and where a direction from there is seen. */
+typedef struct aur_film_point {
+    float x, y;        /* in pixels, within the picture or not */
+    float solid_angle; /* of a pixel there */
+} aur_film_point;
+bool aur_camera_is_pinhole(const aur_scene *scene);
+aur_vector aur_camera_position(const aur_scene *scene);
+/* False behind the camera. */
+bool aur_camera_see(const aur_scene *scene, size_t width, size_t height, aur_vector direction,
+                    aur_film_point *point);
+
 /* Sixteen camera rays, an array a coordinate. */
 enum { AUR_CAMERA_LANES = 16 };
 

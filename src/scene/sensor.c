@@ -1,6 +1,8 @@
 /* Rays of the camera, one and sixteen. */
 #include "scene/sensor.h"
 
+#include <math.h>
+
 #include "scene/scene_data.h"
 
 float aur_sensor_half_width(const aur_sensor *sensor, float aspect) {
@@ -97,4 +99,35 @@ bool aur_camera_has_lens(const aur_scene *scene) {
     for (size_t i = 0; i < scene->sensor.part_count; ++i)
         has = has || scene->sensor.parts[i]->aperture_radius > 0.0f;
     return has;
+}
+
+bool aur_camera_is_pinhole(const aur_scene *scene) {
+    return scene->sensor.descriptor->is_pinhole;
+}
+
+aur_vector aur_camera_position(const aur_scene *scene) {
+    const float *const m = scene->sensor.to_world;
+    return (aur_vector){m[3], m[7], m[11]};
+}
+
+/* Directions are found by Cramer's rule from the columns of to_world, whose common scale they do not need. */
+bool aur_camera_see(const aur_scene *scene, size_t width, size_t height, aur_vector direction,
+                    aur_film_point *point) {
+    const aur_sensor *const sensor = &scene->sensor;
+    const float *const m = sensor->to_world;
+    const aur_vector x = {m[0], m[4], m[8]}, y = {m[1], m[5], m[9]}, z = {m[2], m[6], m[10]};
+    const float sign = aur_vector_dot(x, aur_vector_cross(y, z)) < 0.0f ? -1.0f : 1.0f;
+    const float depth = sign * aur_vector_dot(direction, aur_vector_cross(x, y));
+    if (!(depth > 0.0f))
+        return false;
+    const float right = sign * aur_vector_dot(direction, aur_vector_cross(y, z)) / depth;
+    const float up = sign * aur_vector_dot(direction, aur_vector_cross(z, x)) / depth;
+    const float aspect = (float)width / (float)height, half = aur_sensor_half_width(sensor, aspect);
+    const float pixel = 2.0f * half / (float)width, square = 1.0f + right * right + up * up;
+    *point = (aur_film_point){
+        .x = (float)width * (0.5f * (1.0f - right / half) - sensor->offset_x),
+        .y = (float)height * (0.5f * (1.0f - up * aspect / half) - sensor->offset_y),
+        .solid_angle = pixel * pixel / (square * sqrtf(square)),
+    };
+    return true;
 }

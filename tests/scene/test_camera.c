@@ -218,6 +218,48 @@ static void samples_filters(void **state) {
     assert_null(aur_filter_find("sinc"));
 }
 
+/* aur_camera_see undoes aur_camera_ray, also of a mirrored and scaled camera; the pixel's solid angle is the
+ * area that its corners' unit vectors span. */
+static void finds_where_a_direction_is_seen(void **state) {
+    (void)state;
+    static const char *const transforms[] = {
+        "<lookat origin='1,2,3' target='4,1,2' up='0,0,1'/>",
+        "<scale value='3'/><lookat origin='1,2,3' target='-4,1,2' up='0,1,0'/>",
+        "<scale x='-1'/><lookat origin='1,2,3' target='-4,1,2' up='0,1,0'/>",
+    };
+    for (size_t k = 0; k < sizeof transforms / sizeof transforms[0]; ++k) {
+        char sensor[400];
+        snprintf(
+            sensor, sizeof sensor,
+            "<float name='fov' value='70'/><string name='fov_axis' value='y'/>"
+            "<float name='principal_point_offset_x' value='0.1'/><transform name='to_world'>%s</transform>",
+            transforms[k]);
+        aur_scene *const scene = load_camera(sensor);
+        assert_true(aur_camera_is_pinhole(scene));
+        const float lens[2] = {0.5f, 0.5f};
+        for (uint64_t i = 0; i < 50; ++i) {
+            const float x = (float)(aur_hash2(i, 0) % 320), y = (float)(aur_hash2(i, 1) % 200);
+            aur_ray ray, right, below;
+            aur_film_point point;
+            aur_camera_ray(scene, 320, 200, x, y, lens, &ray);
+            aur_camera_ray(scene, 320, 200, x + 1.0f, y, lens, &right);
+            aur_camera_ray(scene, 320, 200, x, y + 1.0f, lens, &below);
+            assert_true(aur_camera_see(scene, 320, 200, ray.direction, &point));
+            assert_near(point.x, x, 1e-3);
+            assert_near(point.y, y, 1e-3);
+            const double area = (double)aur_vector_length(
+                aur_vector_cross(aur_vector_subtract(right.direction, ray.direction),
+                                 aur_vector_subtract(below.direction, ray.direction)));
+            assert_near(point.solid_angle, area, 0.03 * area); /* a pixel is up to .01 wide */
+            assert_false(aur_camera_see(scene, 320, 200, aur_vector_scale(ray.direction, -1.0f), &point));
+        }
+        assert_near(aur_vector_length(
+                        aur_vector_subtract(aur_camera_position(scene), (aur_vector){1.0f, 2.0f, 3.0f})),
+                    0.0, 1e-5);
+        aur_scene_destroy(scene);
+    }
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(frames_the_picture),
@@ -226,6 +268,7 @@ int main(void) {
         cmocka_unit_test(samples_mitchell),
         cmocka_unit_test(focuses),
         cmocka_unit_test(sees_in_parallel),
+        cmocka_unit_test(finds_where_a_direction_is_seen),
         cmocka_unit_test(sixteen_rays_are_the_single_ones),
     };
     return cmocka_run_group_tests(tests, enter_folder, leave_folder);

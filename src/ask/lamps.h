@@ -1,0 +1,21 @@
+/* Lamps that the camera sees directly. A small bright one may be met by none of a pixel's first samples, and
+ * replicas that all miss it agree: so it is looked for from the other end, by points on the lamps. */
+#pragma once
+
+#include "film/film.h"
+#include "scene/scene.h"
+
+/* Of one sample of a pixel, uniform in it: [pixels of the film] each. NULL where the camera is no pinhole. */
+typedef struct aur_lamps {
+    double *share;    /* the chance that it meets a lamp */
+    double *variance; /* what that alone makes of its variance, summed over R, G and B */
+} aur_lamps;
+
+/* To be released in every case. Errors: MEMORY. */
+aur_result aur_lamps_find(const aur_scene *scene, const aur_film_layout *layout, uint64_t seed,
+                          aur_lamps *lamps, aur_error *error);
+void aur_lamps_release(aur_lamps *lamps);
+
+/* The variance of the mean of `samples` samples of a pixel, at least: where they are expected to have met
+ * its lamps so seldom that replicas do not tell it yet, that of the lamps; else 0. */
+double aur_lamps_variance(const aur_lamps *lamps, size_t pixel, uint32_t samples);
