@@ -74,13 +74,15 @@ static aur_vector light_sample(const workspace *work, const aur_radiosity_place 
     return aur_radiosity_direct(&work->image->solution->scene, place, triangle, u, v, &work->counters->rays);
 }
 
-/* Light number p of the round's order is taken by hit point p mod `points` alone, `points` times: over the
- * round every light is used once. */
+/* Light number p of the round's order is taken by one hit point alone, `points` times: over the round every
+ * light is used once. Which point begins is a matter of chance: the first ones have one light more where
+ * their number is no multiple, and the last round may lack the others. */
 static aur_vector direct_light(const workspace *work, const aur_radiosity_place *place, uint64_t pixel,
                                uint32_t index, uint32_t points) {
     const bool permuted = work->image->permuted;
     aur_vector sum = {0};
-    for (size_t p = permuted ? index % points : 0; p < work->image->solution->walk.light_count;
+    const uint64_t turn = aur_hash3(pixel, 0x7475726e, index / points) % points;
+    for (size_t p = permuted ? (index + turn) % points : 0; p < work->image->solution->walk.light_count;
          p += permuted ? points : 1)
         sum = aur_vector_add(sum, light_sample(work, place, pixel, permuted ? work->order[p] : p, index));
     return permuted ? aur_vector_scale(sum, (float)points) : sum;
