@@ -8,7 +8,8 @@ kills=${2:-50}
 RANDOM=${3:-1}
 source=$(cd "$(dirname "$0")/.." && pwd)
 folder=$(mktemp -d)
-trap 'rm -rf "$folder"' EXIT
+# Not where a background command is killed before it has begun: there bash still has this trap.
+trap '[ "$BASH_SUBSHELL" = 0 ] && rm -rf "$folder"' EXIT
 cd "$folder" || exit 2
 scene=$source/scenes/cornell-box/cornell-box.xml
 size=64 angles=32
