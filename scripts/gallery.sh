@@ -17,14 +17,14 @@ radiosity="--integrator radiosity:epsilon=1e-4,sequence=halton,directions=unifor
 gallery() {
   cat <<ROWS
 room|room/room.xml|--integrator finalgather --width 960 --error 10%|0.9|filmic|Tea and fruit by a window
-statue|statue/statue.xml|--width 960 --error 10%|0.5|filmic|A gilded figure under the sky
-parade|parade/parade.xml|--width 960 --error 6%|1.3|filmic|A parade of toy cars
-figure|cornell-box/figure.xml|--width 960 --error 6%|1.6|filmic|A carved hare in the Cornell box
+statue|statue/statue.xml|--width 960 --error 7%|0.5|filmic|A gilded figure under the sky
+parade|parade/parade.xml|--width 960 --error 15%|1.3|filmic|A parade of toy cars
+figure|cornell-box/figure.xml|--width 960 --error 4%|1.6|filmic|A carved hare in the Cornell box
 sphere|sphere/sphere.xml|--width 960 --error 8%|0.5|filmic|A glossy sphere among seeds
 occlusion|occlusion/occlusion.xml|--width 960 --error 2%|0|srgb|Ambient occlusion among columns
-plates|plates/plates.xml|--width 960 --error 9%|1|filmic|Four plates and seven lights
+plates|plates/plates.xml|--width 960 --error 6%|1|filmic|Four plates and seven lights
 cornell-box|cornell-box/cornell-box.xml|--integrator finalgather --width 960 --error 2%|0.5|srgb|The measured Cornell box
-glossy|cornell-box/glossy.xml|--integrator finalgather --width 960 --error 5%|1|srgb|A teapot in a glossy Cornell box
+glossy|cornell-box/glossy.xml|--integrator finalgather --width 960 --error 3%|1|srgb|A teapot in a glossy Cornell box
 living-room|keller/living-room.xml|$radiosity --width 960 --error 7%|0.5|srgb|Keller's living room, by radiosity
 office|keller/office.xml|$radiosity --width 960 --error 5%|0.5|srgb|Keller's office
 teapot|keller/teapot-box.xml|$radiosity --width 960 --error 7%|0.5|srgb|Keller's teapot
@@ -69,8 +69,7 @@ done < <(gallery)
   echo
   echo "The bundled scenes ([how they are made](scenes.md)), rendered by \`scripts/gallery.sh\`, which writes this page. The error is the"
   echo "root mean square error over the picture's mean, as the program says it. CPU seconds are those of the whole program on all threads,"
-  echo "loading the scene and its photon map included, on $(awk -F': ' '/^model name/ { print $2; exit }' /proc/cpuinfo) while other work ran. Pictures that are links are of full size. The others were made"
-  echo "by an earlier form of the script, with the samples a pixel of their tables, and are halved."
+  echo "loading the scene and its photon map included, on $(awk -F': ' '/^model name/ { print $2; exit }' /proc/cpuinfo) while other work ran. Each picture is a link to its full size."
   echo
   old_section "At equal time"
   while IFS='|' read -r name scene options exposure tone title; do
