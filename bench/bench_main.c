@@ -12,6 +12,7 @@
 /* clang-format off */
 extern const bench bench_ao;
 extern const bench bench_ask;
+extern const bench bench_ask_speed_alone;
 extern const bench bench_defaults;
 extern const bench bench_domains;
 extern const bench bench_gather;
@@ -32,6 +33,7 @@ extern const bench bench_weights;
 static const bench *const benches[] = {
     &bench_ao,
     &bench_ask,
+    &bench_ask_speed_alone,
     &bench_defaults,
     &bench_domains,
     &bench_gather,

@@ -2,7 +2,7 @@
 """CPU seconds that Mitsuba 3, Blender's Cycles and our own path tracer take to a relative RMSE on the same scenes.
 
     python3.11 -m venv /tmp/peers && /tmp/peers/bin/pip install 'mitsuba==3.*' numpy bpy==4.2.0
-    /tmp/peers/bin/python bench/peers/time_to_quality.py build/release/aureole [--threads N] [--only TEXT] [--equal-samples | --asked]
+    /tmp/peers/bin/python bench/peers/time_to_quality.py build/release/aureole [--threads N] [--only TEXT] [--equal-samples]
 
 The glossy box and the room are of meshes that scripts/scenes.sh makes. llvm_ad_rgb compiles by LLVM 19 (Debian's libllvm19,
 DRJIT_LIBLLVM_PATH=.../libLLVM.so.19.1): 14 is refused, and 15 and 16 stop at "Cannot select: fminimum".
@@ -19,8 +19,7 @@ not equal.
 renders (the first, which compiles, is left out) over our rendering (the whole process less one of a single sample, by as much more), and a fresh
 process of Mitsuba without kept kernels, which loads, compiles and renders, over our whole process.
 
---asked renders the scenes by our `--error` instead, without a word of how: CPU seconds of the whole process, the error that it has
-(from two seeds), and how many times longer the fastest peer and our `path` take to the error that was asked.
+--peers NAME prints for `aureole-bench ask` what Mitsuba takes on one scene, by 16 and 64 samples.
 """
 import argparse
 import json
@@ -47,6 +46,8 @@ BUNDLED = {name: (os.path.join(ROOT, "scenes", name, name + ".xml"), 240, 160, {
 ERRORS = (0.02, 0.005)
 # A pixel, squares for multi-jittered ones and powers of 2 for Sobol's, where error and time are measured.
 SAMPLES = {"cornell-box": (16, 64), "glossy-box": (64, 256), "room": (64, 256)} | {name: (16, 64) for name in BUNDLED}
+
+FEW = (16, 64)
 
 
 def cpu_seconds(who=resource.RUSAGE_SELF):
@@ -241,24 +242,20 @@ def cycles(path, threads):
     return shoot
 
 
-def own_picture(aureole, path, threads, seed, options):
-    """A picture by our program, the CPU seconds of the process, and what it said."""
+def ours(aureole, integrator, path, threads):
     import numpy as np
     out = os.path.join(os.path.dirname(path), "ours.pfm")
-    start = cpu_seconds(resource.RUSAGE_CHILDREN)
-    said = subprocess.run([aureole, "render", path, *options, "--seed", str(seed), "-t", str(threads), "-o", out], check=True,
-                          stderr=subprocess.PIPE, text=True).stderr
-    seconds = cpu_seconds(resource.RUSAGE_CHILDREN) - start
-    with open(out, "rb") as file:  # Mitsuba reads pictures by its threads, and one alone waits for itself
-        file.readline()
-        width, height = (int(word) for word in file.readline().split())
-        order = "<f4" if float(file.readline()) < 0 else ">f4"
-        return np.frombuffer(file.read(), order).reshape(height, width, 3)[::-1].astype(np.float64), seconds, said
 
-
-def ours(aureole, integrator, path, threads):
     def render(samples, seed):
-        return own_picture(aureole, path, threads, seed, ["--sampler", "sobol", "--integrator", integrator, "--spp", str(samples)])[:2]
+        start = cpu_seconds(resource.RUSAGE_CHILDREN)
+        subprocess.run([aureole, "render", path, "-q", "--sampler", "sobol", "--integrator", integrator, "--spp", str(samples), "--seed",
+                        str(seed), "-t", str(threads), "-o", out], check=True)
+        seconds = cpu_seconds(resource.RUSAGE_CHILDREN) - start
+        with open(out, "rb") as file:  # Mitsuba reads pictures by its threads, and one alone waits for itself
+            file.readline()
+            width, height = (int(word) for word in file.readline().split())
+            order = "<f4" if float(file.readline()) < 0 else ">f4"
+            return np.frombuffer(file.read(), order).reshape(height, width, 3)[::-1].astype(np.float64), seconds
     return render
 
 
@@ -294,44 +291,20 @@ def child(kind, aureole, path, threads, wanted_errors):
                       "slope": slope, "many": many}))
 
 
-# --- asked for an error
+# --- the peers alone, for `aureole-bench ask`
 
 
-def asked_child(given, path):
-    """For each error asked: CPU seconds and the error of two pictures, and the integrators that were chosen."""
-    rows = []
-    for wanted in given.errors:
-        (a, first, said), (b, second, also) = (own_picture(os.path.abspath(given.aureole), path, given.threads, seed, ["--error", str(wanted)])
-                                               for seed in (1, 2))
-        chosen = {line.split(" by ")[-1].split(":")[0] for line in (said.splitlines()[-1], also.splitlines()[-1])}
-        # Their mean is no limit: what both have in common, such as a map's bias, is said apart by the pictures' own interval.
-        rows.append(((first + second) / 2, math.sqrt(((a - b) ** 2).mean() / 2) / ((a.mean() + b.mean()) / 2), " or ".join(sorted(chosen))))
-    print(json.dumps(rows))
-
-
-def compare_asked(given, folder):
-    print(f"{given.threads} thread(s), CPU seconds; peers and path by the law of two numbers of samples\n")
-    print("| scene | error asked | ours, asked | error of its noise | by | fastest peer | it takes | peer / ours | our path | path / ours |")
-    print("|---|---|---|---|---|---|---|---|---|---|")
-    scenes = SCENES | BUNDLED
-    for name, (path, width, height, definitions) in scenes.items():
-        if given.only not in name:
-            continue
-        copy = os.path.join(folder, name + ".xml")
-        with open(copy, "w", encoding="utf-8") as file:
-            file.write(scene_text(path, width, height, definitions))
-        arguments = [os.path.abspath(given.aureole), "--threads", str(given.threads), "--errors", ",".join(map(str, given.errors)), "--child"]
-        kinds = ["ours, path", "Mitsuba scalar_rgb, multijitter", "Mitsuba llvm_ad_rgb, multijitter", "Cycles"]
-        found = {kind: run_child([*arguments, kind, copy])[0] for kind in kinds}
-        own, reason = run_child([*arguments, "asked", copy])
-        if own is None or found[kinds[0]] is None:
-            print(f"| {name} | not measured: {reason} | | | | | | | | |", flush=True)
-            continue
-        for i, (seconds, error, chosen) in enumerate(own):
-            peers = sorted((found[kind]["times"][i], kind) for kind in kinds[1:] if found[kind] is not None) or [(math.nan, "none")]
-            by_path = found[kinds[0]]["times"][i]
-            print(f"| {name} | {100 * given.errors[i]:g} % | {seconds:.3g} | {100 * error:.2g} % | {chosen} | {peers[0][1]} | {peers[0][0]:.3g} | "
-                  f"{peers[0][0] / seconds:.2g} | {by_path:.3g} | {by_path / seconds:.2g} |", flush=True)
+def print_peers(given, folder):
+    """name|mean of the picture, CPU seconds to each of the errors; or why it is not measured."""
+    path, _, _, definitions = (SCENES | BUNDLED)[given.peers]
+    width, height = (int(side) for side in given.size.split("x"))
+    copy = os.path.join(folder, given.peers + ".xml")
+    with open(copy, "w", encoding="utf-8") as file:
+        file.write(scene_text(path, width, height, definitions))
+    kind = "Mitsuba llvm_ad_rgb, multijitter"  # Cycles took two to six times as long on every scene
+    row, reason = run_child([given.aureole, "--threads", str(given.threads), "--errors", ",".join(map(str, given.errors)), "--few",
+                             "--child", kind, copy])
+    print(f"{kind}: not measured: {reason}" if row is None else f"{kind}|{row['mean']} " + " ".join(map(str, row["times"])), flush=True)
 
 
 # --- equal samples
@@ -412,7 +385,9 @@ def main():
     parser.add_argument("--threads", type=int, default=1)
     parser.add_argument("--only", default="")
     parser.add_argument("--equal-samples", action="store_true")
-    parser.add_argument("--asked", action="store_true")
+    parser.add_argument("--peers", metavar="NAME", choices=sorted(SCENES | BUNDLED))
+    parser.add_argument("--size", default="240x160", help="of --peers")
+    parser.add_argument("--few", action="store_true", help="16 and 64 samples on every scene")
     parser.add_argument("--errors", type=lambda text: [float(word) for word in text.split(",")], default=list(ERRORS), help="relative ones")
     parser.add_argument("--pairs", type=int, default=5)
     parser.add_argument("--samples", type=int, default=16, help="a pixel, where they are equal; more than 1")
@@ -422,18 +397,17 @@ def main():
     if given.child and given.child[0] == "equal samples":
         equal_samples_child(given, given.child[1])
         return
-    if given.child and given.child[0] == "asked":
-        asked_child(given, given.child[1])
-        return
     if given.child and given.child[0] == "compiling":
         compiling_child(given, given.child[1])
         return
+    if given.few:
+        SAMPLES.update(dict.fromkeys(SAMPLES, FEW))
     if given.child:
         child(given.child[0], given.aureole, given.child[1], given.threads, given.errors)
         return
-    if given.asked:
+    if given.peers:
         with tempfile.TemporaryDirectory() as folder:
-            compare_asked(given, folder)
+            print_peers(given, folder)
         return
     if given.equal_samples:
         with tempfile.TemporaryDirectory() as folder:
