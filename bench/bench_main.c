@@ -16,6 +16,7 @@ extern const bench bench_ask_speed_alone;
 extern const bench bench_defaults;
 extern const bench bench_domains;
 extern const bench bench_gather;
+extern const bench bench_gather_rays_alone;
 extern const bench bench_gather_weights;
 extern const bench bench_limits;
 extern const bench bench_large;
@@ -37,6 +38,7 @@ static const bench *const benches[] = {
     &bench_defaults,
     &bench_domains,
     &bench_gather,
+    &bench_gather_rays_alone,
     &bench_gather_weights,
     &bench_limits,
     &bench_large,

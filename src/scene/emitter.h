@@ -14,6 +14,7 @@ typedef struct aur_light_query {
     aur_vector reference;
     float least; /* steradians, as aur_light_sample_direct has it */
     float u[3];
+    aur_vector normal; /* of the side that light is asked for on; 0: of both */
 } aur_light_query;
 
 typedef struct aur_emitter_descriptor {
@@ -41,6 +42,8 @@ typedef struct aur_emitter_descriptor {
     /* For environments only: the radiance from a direction, and the density with which `sample` draws it. */
     aur_vector (*radiance_from)(const aur_emitter *emitter, aur_vector direction);
     float (*pdf_from)(const aur_emitter *emitter, aur_vector direction);
+    /* Both at once, where that takes less time; may be NULL. */
+    aur_vector (*light_from)(const aur_emitter *emitter, aur_vector direction, float *pdf);
     /* For skies: where up and north are. */
     const struct aur_sun_position *(*position_of)(const aur_emitter *emitter);
 } aur_emitter_descriptor;
@@ -74,9 +77,19 @@ void aur_sample_far(const aur_scene *scene, aur_vector reference, aur_vector dir
                     aur_light_sample *drawn);
 aur_ray aur_emit_far(const aur_scene *scene, aur_vector direction, float u, float v);
 
+/* Of environments: the radiance from a direction, and the density with which `sample` draws it. */
+static inline aur_vector aur_emitter_light_from(const aur_emitter *emitter, aur_vector direction,
+                                                float *pdf) {
+    const aur_emitter_descriptor *const descriptor = emitter->descriptor;
+    if (descriptor->light_from != NULL)
+        return descriptor->light_from(emitter, direction, pdf);
+    *pdf = descriptor->pdf_from(emitter, direction);
+    return descriptor->radiance_from(emitter, direction);
+}
+
 /* For environments that have drawn a direction: the whole sample, and a particle from there. False where the
- * density is 0. */
-bool aur_sample_environment(const aur_emitter *emitter, aur_vector reference, aur_vector direction,
+ * density is 0, or the direction is on the side that light is not asked for on. */
+bool aur_sample_environment(const aur_emitter *emitter, const aur_light_query *query, aur_vector direction,
                             aur_light_sample *drawn);
 bool aur_emit_environment(const aur_emitter *emitter, aur_vector direction, float u, float v, aur_ray *ray,
                           aur_vector *power);

@@ -9,7 +9,12 @@ static const aur_emitter *choose(const aur_scene *scene, float *u) {
 
 bool aur_light_sample_direct(const aur_scene *scene, aur_vector reference, float least, const float u[3],
                              aur_light_sample *sample) {
-    aur_light_query query = {reference, least, {u[0], u[1], u[2]}};
+    return aur_light_sample_facing(scene, reference, (aur_vector){0}, least, u, sample);
+}
+
+bool aur_light_sample_facing(const aur_scene *scene, aur_vector reference, aur_vector normal, float least,
+                             const float u[3], aur_light_sample *sample) {
+    aur_light_query query = {reference, least, {u[0], u[1], u[2]}, normal};
     const aur_emitter *const emitter = choose(scene, &query.u[0]);
     if (emitter == NULL)
         return false;
@@ -21,8 +26,7 @@ bool aur_light_sample_direct(const aur_scene *scene, aur_vector reference, float
     sample->environment = emitter->descriptor->radiance_from != NULL;
     /* What shines from the same direction counts as one light, as it does for rays that find it. */
     if (sample->environment && scene->environment_count > 1) {
-        sample->radiance = aur_scene_environment(scene, sample->direction);
-        sample->pdf = aur_environment_pdf_direct(scene, sample->direction);
+        sample->radiance = aur_environment_light(scene, sample->direction, &sample->pdf);
     }
     return true;
 }
@@ -84,6 +88,18 @@ float aur_environment_pdf_direct(const aur_scene *scene, aur_vector direction) {
     for (size_t i = 0; i < scene->environment_count; ++i) {
         const aur_emitter *const emitter = scene->environments[i];
         sum += emitter->probability * emitter->descriptor->pdf_from(emitter, direction);
+    }
+    return sum;
+}
+
+aur_vector aur_environment_light(const aur_scene *scene, aur_vector direction, float *pdf) {
+    aur_vector sum = {0};
+    *pdf = 0.0f;
+    for (size_t i = 0; i < scene->environment_count; ++i) {
+        const aur_emitter *const emitter = scene->environments[i];
+        float density;
+        sum = aur_vector_add(sum, aur_emitter_light_from(emitter, direction, &density));
+        *pdf += emitter->probability * density;
     }
     return sum;
 }

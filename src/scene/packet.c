@@ -175,6 +175,42 @@ uint32_t aur_scene_occluded_each(const aur_scene *scene, const aur_packet *packe
     return stopped;
 }
 
+/* NULL for curved shapes. */
+static const uint32_t *indices_of(const aur_scene *scene, const aur_packet *packet, size_t lane,
+                                  const aur_mesh **mesh) {
+    const struct RTCHit16 *const hits = &packet->query.hit;
+    const aur_shape *const shape = scene->shapes[hits->geomID[lane]];
+    *mesh = &shape->mesh;
+    return shape->curved == NULL ? &shape->mesh.indices[3 * (size_t)hits->primID[lane]] : NULL;
+}
+
+/* Three numbers may lie in two lines. */
+static inline void prefetch3(const void *three) {
+    __builtin_prefetch(three);
+    __builtin_prefetch((const char *)three + 2 * NUMBER);
+}
+
+void aur_packet_prefetch_indices(const aur_scene *scene, const aur_packet *packet, uint32_t lanes) {
+    const aur_mesh *mesh;
+    for (; lanes != 0; lanes &= lanes - 1) {
+        const uint32_t *const index = indices_of(scene, packet, (size_t)__builtin_ctz(lanes), &mesh);
+        if (index != NULL)
+            prefetch3(index);
+    }
+}
+
+void aur_packet_prefetch_vertices(const aur_scene *scene, const aur_packet *packet, uint32_t lanes) {
+    const aur_mesh *mesh;
+    for (; lanes != 0; lanes &= lanes - 1) {
+        const uint32_t *const index = indices_of(scene, packet, (size_t)__builtin_ctz(lanes), &mesh);
+        for (size_t i = 0; index != NULL && i < 3; ++i) {
+            prefetch3(&mesh->positions[3 * (size_t)index[i]]);
+            if (mesh->normals != NULL)
+                prefetch3(&mesh->normals[3 * (size_t)index[i]]);
+        }
+    }
+}
+
 void aur_packet_corners(const aur_scene *scene, const aur_packet *packet, uint32_t lanes,
                         aur_lane_vectors corner[3]) {
     const struct RTCHit16 *const hits = &packet->query.hit;

@@ -71,6 +71,12 @@ static inline void aur_lane_set(aur_lane_vectors *vectors, size_t lane, aur_vect
     vectors->z[lane] = v.z;
 }
 
+/* Ask the memory for what aur_scene_surface will read of these lanes' hits: first where their vertices stand,
+ * then, by that, the vertices. In scenes that no cache holds the sixteen then come together instead of one
+ * after another. */
+void aur_packet_prefetch_indices(const aur_scene *scene, const aur_packet *packet, uint32_t lanes);
+void aur_packet_prefetch_vertices(const aur_scene *scene, const aur_packet *packet, uint32_t lanes);
+
 /* The corners of the triangles that the lanes whose bit is set have hit. They must be triangles of meshes
  * that stand in no instance. */
 void aur_packet_corners(const aur_scene *scene, const aur_packet *packet, uint32_t lanes,

@@ -96,6 +96,10 @@ typedef struct aur_light_sample {
  * area, which is faster and has more noise. An integrator has one `least` for all that it draws and asks. */
 bool aur_light_sample_direct(const aur_scene *scene, aur_vector reference, float least, const float u[3],
                              aur_light_sample *sample);
+/* The same for a surface that takes light on the side of `normal` alone: it may be false for light from
+ * behind, which then costs no look-up of what shines there. */
+bool aur_light_sample_facing(const aur_scene *scene, aur_vector reference, aur_vector normal, float least,
+                             const float u[3], aur_light_sample *sample);
 bool aur_light_chooses(const aur_scene *scene); /* u[0] matters: several lights, or a mesh */
 /* The pdf with which aur_light_sample_direct would draw the point `surface` of a light, from `reference`. */
 float aur_light_pdf_direct(const aur_scene *scene, aur_vector reference, float least,
@@ -110,6 +114,8 @@ aur_vector aur_surface_emission(const aur_scene *scene, const aur_surface *surfa
 bool aur_scene_has_environment(const aur_scene *scene);
 aur_vector aur_scene_environment(const aur_scene *scene, aur_vector direction);
 float aur_environment_pdf_direct(const aur_scene *scene, aur_vector direction);
+/* Both at once. */
+aur_vector aur_environment_light(const aur_scene *scene, aur_vector direction, float *pdf);
 
 /* A particle that leaves a light: u[0] chooses the light by power, u[1], u[2] the point, u[3], u[4] a cosine
  * distributed direction. *power is the light's power: each of n particles carries 1/n of it, in watts (RGB).

@@ -160,6 +160,18 @@ static const char *const sky = "<emitter type='envmap'><string name='filename' v
                                "<float name='scale' value='2'/><transform name='to_world'>"
                                "<rotate x='1' y='1' angle='50'/></transform></emitter>";
 
+/* Light on the side of a normal is the same light, and only what is behind may be left out. */
+static void one_side_is_asked_for(const aur_scene *scene, const float u[3], const aur_light_sample *whole) {
+    const aur_vector normal = {0.6f, 0.0f, 0.8f};
+    aur_light_sample sample;
+    if (aur_light_sample_facing(scene, (aur_vector){0}, normal, 0.1f, u, &sample)) {
+        assert_true(sample.direction.x == whole->direction.x && sample.direction.y == whole->direction.y);
+        assert_true(sample.pdf == whole->pdf && sample.radiance.y == whole->radiance.y);
+    } else {
+        assert_true(aur_vector_dot(normal, whole->direction) < 0.0f);
+    }
+}
+
 static void draws_environments(void **state) {
     (void)state;
     write_sky();
@@ -182,6 +194,11 @@ static void draws_environments(void **state) {
                 continue; /* the sphere */
             assert_near(sample.pdf, aur_environment_pdf_direct(scene, sample.direction), 1e-6 * sample.pdf);
             assert_near(sample.radiance.y, aur_scene_environment(scene, sample.direction).y, 1e-6);
+            float pdf;
+            const aur_vector both = aur_environment_light(scene, sample.direction, &pdf);
+            assert_true(both.x == aur_scene_environment(scene, sample.direction).x);
+            assert_true(pdf == aur_environment_pdf_direct(scene, sample.direction));
+            one_side_is_asked_for(scene, u, &sample);
         }
         aur_scene_destroy(scene);
     }

@@ -25,13 +25,14 @@ aur_ray aur_emit_far(const aur_scene *scene, aur_vector direction, float u, floa
     return (aur_ray){origin, 0.0f, aur_vector_scale(direction, -1.0f), INFINITY};
 }
 
-bool aur_sample_environment(const aur_emitter *emitter, aur_vector reference, aur_vector direction,
+bool aur_sample_environment(const aur_emitter *emitter, const aur_light_query *query, aur_vector direction,
                             aur_light_sample *drawn) {
-    aur_sample_far(emitter->scene, reference, direction, drawn);
+    if (aur_vector_dot(query->normal, direction) < 0.0f)
+        return false;
+    aur_sample_far(emitter->scene, query->reference, direction, drawn);
     /* Radiance and density are asked for by the direction, as rays that find the light ask: rounding cannot
      * make the two differ. */
-    drawn->radiance = emitter->descriptor->radiance_from(emitter, direction);
-    drawn->pdf = emitter->descriptor->pdf_from(emitter, direction);
+    drawn->radiance = aur_emitter_light_from(emitter, direction, &drawn->pdf);
     return drawn->pdf > 0.0f;
 }
 
@@ -209,9 +210,7 @@ static patch_place place_of(const envmap *self, aur_vector direction) {
     return (patch_place){i, j, x - (float)i, y - (float)j};
 }
 
-static aur_vector envmap_from(const aur_emitter *emitter, aur_vector direction) {
-    const envmap *const self = emitter->data;
-    const patch_place at = place_of(self, direction);
+static aur_vector radiance_at(const envmap *self, patch_place at) {
     aur_vector sum = aur_vector_scale(value_at(self, at.i, at.j), (1.0f - at.s) * (1.0f - at.t));
     sum = aur_vector_add_scaled(sum, at.s * (1.0f - at.t), value_at(self, at.i + 1, at.j));
     sum = aur_vector_add_scaled(sum, (1.0f - at.s) * at.t, value_at(self, at.i, at.j + 1));
@@ -219,17 +218,33 @@ static aur_vector envmap_from(const aur_emitter *emitter, aur_vector direction) 
 }
 
 /* Within a patch azimuth and height are uniform, so the density of a direction is the patch's. */
+static float density_at(const envmap *self, patch_place at) {
+    return self->patches.rows.total > 0.0 ? aur_patches_density(&self->patches, at.i, at.j) : 0.0f;
+}
+
+static aur_vector envmap_from(const aur_emitter *emitter, aur_vector direction) {
+    const envmap *const self = emitter->data;
+    return radiance_at(self, place_of(self, direction));
+}
+
 static float envmap_pdf(const aur_emitter *emitter, aur_vector direction) {
     const envmap *const self = emitter->data;
-    if (!(self->patches.rows.total > 0.0))
-        return 0.0f;
+    return density_at(self, place_of(self, direction));
+}
+
+static aur_vector envmap_light_from(const aur_emitter *emitter, aur_vector direction, float *pdf) {
+    const envmap *const self = emitter->data;
     const patch_place at = place_of(self, direction);
-    return aur_patches_density(&self->patches, at.i, at.j);
+    *pdf = density_at(self, at);
+    return radiance_at(self, at);
 }
 
 static aur_vector draw_direction(const envmap *self, float u, float v) {
     size_t i, j;
     aur_patches_choose(&self->patches, &u, &v, &i, &j);
+    /* What is read next, far from here in memory, comes while the direction is computed. */
+    for (size_t row = j; row < j + 2; ++row)
+        __builtin_prefetch(&self->rgb[3 * (row * self->width + i)]);
     const float rows = (float)(self->height - 1);
     const float top = cosf(AUR_PI_F * (float)j / rows), bottom = cosf(AUR_PI_F * (float)(j + 1) / rows);
     const float height = top + v * (bottom - top);
@@ -241,8 +256,7 @@ static aur_vector draw_direction(const envmap *self, float u, float v) {
 
 static bool sample_envmap(const aur_emitter *emitter, const aur_light_query *query, aur_light_sample *drawn) {
     const envmap *const self = emitter->data;
-    return aur_sample_environment(emitter, query->reference, draw_direction(self, query->u[1], query->u[2]),
-                                  drawn);
+    return aur_sample_environment(emitter, query, draw_direction(self, query->u[1], query->u[2]), drawn);
 }
 
 static bool emit_envmap(const aur_emitter *emitter, const float u[5], aur_ray *ray, aur_vector *power) {
@@ -262,4 +276,5 @@ const aur_emitter_descriptor aur_emitter_envmap = {
     .release = release_envmap,
     .radiance_from = envmap_from,
     .pdf_from = envmap_pdf,
+    .light_from = envmap_light_from,
 };

@@ -284,8 +284,7 @@ static aur_vector draw(const sky_light *self, float u, float v) {
 }
 
 static bool sample(const aur_emitter *emitter, const aur_light_query *query, aur_light_sample *drawn) {
-    return aur_sample_environment(emitter, query->reference, draw(emitter->data, query->u[1], query->u[2]),
-                                  drawn);
+    return aur_sample_environment(emitter, query, draw(emitter->data, query->u[1], query->u[2]), drawn);
 }
 
 static bool emit(const aur_emitter *emitter, const float u[5], aur_ray *ray, aur_vector *power) {

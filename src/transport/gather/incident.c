@@ -65,17 +65,17 @@ static aur_vector emitted_radiance(const aur_gather_plan *plan, const gather_cha
     const aur_vector direction = chain->ray.direction, black = {0};
     if (plan->policy.direct != AUR_DIRECT_NEE && !plan->counts_emitters)
         return black;
+    float pdf = 0.0f;
     const aur_vector emission =
         surface != NULL ? aur_surface_emission(plan->scene, surface, aur_vector_scale(direction, -1.0f))
-                        : aur_scene_environment(plan->scene, direction);
+                        : aur_environment_light(plan->scene, direction, &pdf);
     if (aur_vector_is_zero(emission) || plan->counts_emitters)
         return emission;
     /* Light that a mirror throws here is found by caustic photons, if there are. */
     if (chain->mirrored)
         return plan->light.caustics != NULL && chain->specular ? black : emission;
-    const float pdf = surface != NULL
-                          ? aur_light_pdf_direct(plan->scene, chain->reference, AUR_LEAST_LIGHT_SEEN, surface)
-                          : aur_environment_pdf_direct(plan->scene, direction);
+    if (surface != NULL)
+        pdf = aur_light_pdf_direct(plan->scene, chain->reference, AUR_LEAST_LIGHT_SEEN, surface);
     return aur_vector_scale(emission, aur_power_heuristic(chain->density, chain->light_draws * pdf));
 }
 
@@ -108,8 +108,7 @@ static aur_vector sampled_light(const aur_gather_plan *plan, const aur_shading *
     float u[3];
     aur_light_sample light;
     aur_draw_units(hash, u);
-    if (!aur_light_sample_direct(plan->scene, surface->position, AUR_LEAST_LIGHT_SEEN, u, &light) ||
-        !(light.pdf > 0.0f))
+    if (!aur_shading_draw_light(plan->scene, shading, AUR_LEAST_LIGHT_SEEN, u, &light) || !(light.pdf > 0.0f))
         return black;
     const aur_vector local = aur_frame_to_local(&surface->frame, light.direction);
     if (aur_vector_dot(surface->geometric_normal, light.direction) * local.z <= 0.0f)
@@ -252,11 +251,52 @@ static bool plain_radiance(const aur_gather_plan *plan, const aur_gather_rays *r
     return true;
 }
 
+/* The lanes whose light is read from the map without a look at their surface. */
+static uint32_t plain_lanes(const aur_gather_plan *plan, const aur_packet *packet, uint32_t found) {
+    uint32_t plain = 0;
+    for (uint32_t rest = plan->light.map != NULL ? found : 0; rest != 0; rest &= rest - 1) {
+        const size_t lane = aur_first_lane(rest);
+        const struct RTCHit16 *const hits = &packet->query.hit;
+        if (hits->instID[0][lane] == RTC_INVALID_GEOMETRY_ID && plan->classes[hits->geomID[lane]].plain)
+            plain |= 1u << lane;
+    }
+    return plain;
+}
+
+static void prefetch_texels(const aur_irradiance_map *map, const aur_scene *scene, const aur_packet *packet,
+                            uint32_t found) {
+    const aur_elements *const elements = &map->texels.elements;
+    for (uint32_t rest = found; rest != 0; rest &= rest - 1) {
+        const aur_hit hit = aur_packet_hit(scene, packet, aur_first_lane(rest));
+        __builtin_prefetch(&map->texels.ranges[aur_element_of(elements, &hit)]);
+    }
+}
+
+static void prefetch_lights(const aur_irradiance_map *map, const aur_scene *scene, const aur_packet *packet,
+                            uint32_t found) {
+    const aur_elements *const elements = &map->texels.elements;
+    for (uint32_t rest = found; rest != 0; rest &= rest - 1) {
+        const aur_hit hit = aur_packet_hit(scene, packet, aur_first_lane(rest));
+        const aur_texel_range range = map->texels.ranges[aur_element_of(elements, &hit)];
+        const size_t light = 2 * (size_t)aur_texel_of_triangle(range, hit.u, hit.v);
+        __builtin_prefetch(&map->lights[light]);
+        if (map->member_first != NULL)
+            __builtin_prefetch(&map->member_first[light]);
+    }
+}
+
 void aur_gather_rays_trace(const aur_gather_plan *plan, aur_embree_order order, aur_gather_rays *rays,
                            aur_counters *counters) {
     const uint32_t lanes = aur_lanes_set(rays->packet.valid);
     const uint32_t found = aur_gather_intersect(plan, order, &rays->packet, counters);
     const bool has_sky = aur_scene_has_environment(plan->scene);
+    const uint32_t surfaces = found & ~plain_lanes(plan, &rays->packet, found);
+    aur_packet_prefetch_indices(plan->scene, &rays->packet, surfaces);
+    if (plan->light.map != NULL)
+        prefetch_texels(plan->light.map, plan->scene, &rays->packet, found);
+    aur_packet_prefetch_vertices(plan->scene, &rays->packet, surfaces);
+    if (plan->light.map != NULL)
+        prefetch_lights(plan->light.map, plan->scene, &rays->packet, found);
     for (size_t c = 0; c < 3; ++c)
         for (size_t k = 0; k < AUR_PACKET_SIZE; ++k)
             rays->radiance[c][k] = 0.0f;

@@ -75,8 +75,7 @@ static aur_vector sample_bsdf(const aur_scene *scene, const direct_data *data, c
         light = aur_surface_emission(scene, &surface, aur_vector_scale(ray.direction, -1.0f));
         rival = aur_light_pdf_direct(scene, shading->surface->position, AUR_LEAST_LIGHT_SEEN, &surface);
     } else {
-        light = aur_scene_environment(scene, ray.direction);
-        rival = aur_environment_pdf_direct(scene, ray.direction);
+        light = aur_environment_light(scene, ray.direction, &rival);
     }
     if (aur_vector_is_zero(light))
         return black;

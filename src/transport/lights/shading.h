@@ -24,6 +24,15 @@ static inline aur_vector aur_shading_evaluate(const aur_shading *shading, aur_ve
     return aur_bsdf_evaluate(surface->bsdf, AUR_BSDF_WHOLE, surface->texture, shading->view, light, pdf);
 }
 
+/* aur_light_sample_direct for the surface: light that an opaque one has behind it is not looked for. */
+static inline bool aur_shading_draw_light(const aur_scene *scene, const aur_shading *shading, float least,
+                                          const float u[3], aur_light_sample *light) {
+    const aur_surface *const surface = shading->surface;
+    const float side = surface->bsdf->transmits ? 0.0f : shading->view.z < 0.0f ? -1.0f : 1.0f;
+    const aur_vector normal = aur_vector_scale(surface->geometric_normal, side);
+    return aur_light_sample_facing(scene, surface->position, normal, least, u, light);
+}
+
 /* sample->light comes back in world coordinates. */
 static inline bool aur_shading_draw(const aur_shading *shading, aur_bsdf_part part, const float u[3],
                                     aur_bsdf_sample *sample) {

@@ -81,13 +81,12 @@ static void add_sky(aur_path_group *g, uint32_t lanes) {
     for (; lanes != 0; lanes &= lanes - 1) {
         const size_t k = aur_first_lane(lanes);
         const aur_ray ray = aur_packet_ray(&g->packet, k);
-        const aur_vector sky = aur_scene_environment(g->scene, ray.direction);
+        float rival;
+        const aur_vector sky = aur_environment_light(g->scene, ray.direction, &rival);
         if (aur_vector_is_zero(sky))
             continue;
         const bool found = (g->specular >> k & 1u) == 0;
-        const float weight =
-            found ? aur_power_heuristic(g->lanes.pdf[k], aur_environment_pdf_direct(g->scene, ray.direction))
-                  : 1.0f;
+        const float weight = found ? aur_power_heuristic(g->lanes.pdf[k], rival) : 1.0f;
         add_light(g, k, weight, sky);
         if (g->from_sky != NULL)
             g->from_sky(

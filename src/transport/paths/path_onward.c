@@ -37,8 +37,7 @@ static void add_direct_light(const aur_onward *onward, const aur_shading *shadin
     aur_light_sample light;
     aur_draw_units(&walk->hash, u);
     if (aur_scene_emitter_count(onward->scene) == 0 ||
-        !aur_light_sample_direct(onward->scene, shading->surface->position, AUR_LEAST_LIGHT_OF_PATHS, u,
-                                 &light) ||
+        !aur_shading_draw_light(onward->scene, shading, AUR_LEAST_LIGHT_OF_PATHS, u, &light) ||
         !(light.pdf > 0.0f))
         return;
     const aur_vector value = evaluate(shading, known_only, light.direction, &pdf);
@@ -78,16 +77,16 @@ static void add_emission(const aur_onward *onward, const aur_surface *surface, o
     const aur_vector direction = walk->ray.direction;
     if (walk->specular && onward->caustics != NULL)
         return;
+    float rival = 0.0f;
     const aur_vector emission = surface != NULL
                                     ? aur_surface_emission(scene, surface, aur_vector_scale(direction, -1.0f))
-                                    : aur_scene_environment(scene, direction);
+                                    : aur_environment_light(scene, direction, &rival);
     if (aur_vector_is_zero(emission))
         return;
     float weight = 1.0f;
     if (!walk->specular) {
-        const float rival = surface != NULL
-                                ? aur_light_pdf_direct(scene, walk->from, AUR_LEAST_LIGHT_OF_PATHS, surface)
-                                : aur_environment_pdf_direct(scene, direction);
+        if (surface != NULL)
+            rival = aur_light_pdf_direct(scene, walk->from, AUR_LEAST_LIGHT_OF_PATHS, surface);
         weight = aur_power_heuristic(walk->pdf, rival);
     }
     walk->sum = aur_vector_add_scaled(walk->sum, weight, aur_vector_multiply(walk->throughput, emission));

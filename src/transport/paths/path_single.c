@@ -15,11 +15,11 @@ typedef struct aur_path_walk {
 } aur_path_walk;
 
 static void add_sky(const aur_scene *scene, aur_path_walk *walk) {
-    const aur_vector direction = walk->ray.direction, sky = aur_scene_environment(scene, direction);
+    float rival;
+    const aur_vector sky = aur_environment_light(scene, walk->ray.direction, &rival);
     if (aur_vector_is_zero(sky))
         return;
-    const float weight =
-        walk->specular ? 1.0f : aur_power_heuristic(walk->pdf, aur_environment_pdf_direct(scene, direction));
+    const float weight = walk->specular ? 1.0f : aur_power_heuristic(walk->pdf, rival);
     walk->sum = aur_vector_add_scaled(walk->sum, weight, aur_vector_multiply(walk->throughput, sky));
 }
 

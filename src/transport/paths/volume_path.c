@@ -55,9 +55,9 @@ static void add_light(volume_walk *walk, aur_vector radiance, float rival) {
 }
 
 static void add_sky(const aur_scene *scene, volume_walk *walk) {
-    const aur_vector direction = walk->ray.direction;
-    add_light(walk, aur_scene_environment(scene, direction),
-              walk->specular ? 0.0f : aur_environment_pdf_direct(scene, direction));
+    float rival;
+    const aur_vector sky = aur_environment_light(scene, walk->ray.direction, &rival);
+    add_light(walk, sky, walk->specular ? 0.0f : rival);
 }
 
 static void add_emission(const aur_scene *scene, const aur_surface *surface, volume_walk *walk) {
