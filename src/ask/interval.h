@@ -11,6 +11,7 @@ enum { AUR_REPLICAS_MAX = 16 };
 typedef struct aur_gram {
     size_t count;
     double products[AUR_REPLICAS_MAX][AUR_REPLICAS_MAX];
+    double alike; /* an estimate of tr C^2 from values beside each other (aur_deviations) */
 } aur_gram;
 
 /* What the Gram matrices of all blocks of a picture say together. With C the covariance of one replica's
@@ -19,12 +20,17 @@ typedef struct aur_deviations {
     double trace;          /* the sum of tr W; expectation (count - 1) tr C */
     double spread;         /* the sum of estimates of tr C^2 */
     double square_spreads; /* the sum of their squares */
+    double alike;          /* the sum of the blocks' */
 } aur_deviations;
 
-/* W has Wishart's distribution with n = count - 1 degrees for normal values: (tr W^2 - (tr W)^2 / n) / ((n -
- * 1)(n + 2)) is an unbiased estimate of tr C^2. For values with rare large deviations it is too large, which
- * makes the interval a little too wide; estimates from products of disjoint pairs alone have no such bias,
- * but miss what few pixels with rare deviations bring, and the interval is then far too narrow. */
+/* The error of the mean and its estimate from the replicas' differences differ by the sum of Y_r.Y_s over r
+ * != s, over count (count - 1), with Y the deviations from the truth: an identity. Its variance is 2 tr C^2
+ * over count (count - 1), whatever the values' distribution, so tr C^2 is what an interval needs. Four
+ * different replicas tell it: ((X_1 - X_2).(X_3 - X_4))^2 / 4 has it as its expectation, whatever the
+ * distribution (Chen, Zhang and Zhong 2010), and the mean over all such fours is taken of each block. The
+ * Gram matrix of normal values tells it with more degrees (Wishart), and those of rare large values several
+ * times too high. Three replicas have nothing but that: (tr W^2 - (tr W)^2 / n) / ((n - 1)(n + 2)) with n =
+ * count - 1. */
 void aur_deviations_add(aur_deviations *sum, const aur_gram *block);
 
 typedef struct aur_error_interval {
@@ -35,6 +41,8 @@ typedef struct aur_error_interval {
 /* The error of the mean of `count` >= 3 pictures of `values` values, and the interval that holds it with
  * probability `confidence` in (0,1). It is the error of this mean, not its expectation over other seeds: the
  * two vary independently, which makes the interval wider by a factor 1 + 1/(count - 1) in variance. The
+ * larger of `spread` and `alike` is taken for tr C^2: the first has few degrees, and is low by chance where
+ * the error itself is seen too low; the second has many, and is too low where neighbours differ. The
  * interval is made on the scale of cube roots, where sums of squares of (tr C)^2 / tr C^2 degrees
  * (Satterthwaite 1946) are nearly normal (Wilson and Hilferty 1931), with Student's quantile for the
  * uncertainty of tr C^2. */

@@ -92,24 +92,66 @@ static void add_variances(const aur_replicas *replicas, size_t pixel, const samp
     }
 }
 
+/* The covariances of R, G and B in a pixel times count - 1: of RR, GG, BB, RG, RB, GB. */
+typedef struct colour_covariance {
+    double entries[6];
+} colour_covariance;
+
+static void add_colour(size_t count, double d[3][AUR_REPLICAS_MAX], colour_covariance *covariance) {
+    static const size_t of[6][2] = {{0, 0}, {1, 1}, {2, 2}, {0, 1}, {0, 2}, {1, 2}};
+    for (size_t e = 0; e < 6; ++e) {
+        covariance->entries[e] = 0.0;
+        for (size_t r = 0; r < count; ++r)
+            covariance->entries[e] += d[of[e][0]][r] * d[of[e][1]][r];
+    }
+}
+
+/* The trace of the product of two covariances. */
+static double product_of(const colour_covariance *a, const colour_covariance *b) {
+    double sum = 0.0;
+    for (size_t e = 0; e < 6; ++e)
+        sum += (e < 3 ? 1.0 : 2.0) * a->entries[e] * b->entries[e];
+    return sum;
+}
+
+/* tr C^2 of a block's pixels as their neighbours tell it: C_i and C_j are seen independently, so the
+ * product's expectation is tr C_i C_j, which in the mean is at most that of the squares. */
+static double alike_in(size_t count, pixel_range block, const colour_covariance *covariances) {
+    const size_t width = block.x1 - block.x0, height = block.y1 - block.y0;
+    const double degrees = (double)(count - 1);
+    double sum = 0.0;
+    for (size_t i = 0; i < width * height; ++i) {
+        if (i % width + 1 < width)
+            sum += product_of(&covariances[i], &covariances[i + 1]);
+        if (i / width + 1 < height)
+            sum += product_of(&covariances[i], &covariances[i + width]);
+    }
+    const size_t pairs = (width - 1) * height + width * (height - 1);
+    return pairs > 0 ? sum * (double)(width * height) / ((double)pairs * degrees * degrees) : 0.0;
+}
+
 /* Adds a block's values to the mean and its pixels' variances, and returns its Gram matrix. */
 static aur_gram measure_block(const aur_replicas *replicas, pixel_range block, double *mean,
                               double *variances) {
     const aur_film_layout *const layout = &aur_render_film(replicas->renders[0])->layout;
     aur_gram gram = {.count = replicas->count};
+    colour_covariance covariances[BLOCK * BLOCK];
+    size_t seen = 0;
     for (size_t y = block.y0; y < block.y1; ++y)
         for (size_t x = block.x0; x < block.x1; ++x) {
             const size_t pixel = y * (layout->x1 - layout->x0) + x;
             const sample_shares shares = shares_at(replicas, pixel);
+            double d[3][AUR_REPLICAS_MAX];
             for (size_t channel = 0; channel < 3; ++channel) {
-                double d[AUR_REPLICAS_MAX];
-                *mean += deviations_at(replicas, pixel, channel, d);
-                add_variances(replicas, pixel, &shares, d, variances);
+                *mean += deviations_at(replicas, pixel, channel, d[channel]);
+                add_variances(replicas, pixel, &shares, d[channel], variances);
                 for (size_t r = 0; r < replicas->count; ++r)
                     for (size_t s = 0; s <= r; ++s)
-                        gram.products[r][s] += d[r] * d[s];
+                        gram.products[r][s] += d[channel][r] * d[channel][s];
             }
+            add_colour(replicas->count, d, &covariances[seen++]);
         }
+    gram.alike = alike_in(replicas->count, block, covariances);
     for (size_t r = 0; r < replicas->count; ++r)
         for (size_t s = 0; s < r; ++s)
             gram.products[s][r] = gram.products[r][s];
