@@ -22,7 +22,7 @@ const bench_subject bench_subjects[] = {
      .path = "path:interleaved=true,rr_depth=3",
      .width = 256,
      .height = 256,
-     .reference_error = 0.01},
+     .reference_error = 0.02},
     {.name = "heavy-box",
      .scene = "",
      .path = "path:interleaved=true,rr_depth=3",
