@@ -73,9 +73,9 @@ void aur_pixel_strata_mean(const aur_pixel_strata *pixel, double mean[3]) {
 
 enum { NO_EDGE, PLAIN_EDGE, LIGHT_EDGE };
 
-enum { SIDE = AUR_TILE_SIZE, APRON = SIDE + 2, RING = 4 * SIDE + 4 };
+enum { SIDE = AUR_TILE_SIZE, APRON = SIDE + 2 };
 
-/* Pixels beside the tile, 16 at a time: what the first sample of each sees. */
+/* Pixels, 16 at a time: what the first sample of each sees. */
 static void look_at(const aur_gather_plan *plan, const aur_view *view, size_t count, const size_t *x,
                     const size_t *y, aur_pixel_strata *pixels, aur_counters *counters) {
     aur_packet packet;
@@ -92,29 +92,49 @@ static void look_at(const aur_gather_plan *plan, const aur_view *view, size_t co
     }
 }
 
-/* The ring of pixels around the tile; what lies beyond the picture sees nothing and makes no edge. */
+/* The tile's own pixel at a place of the apron; NULL on the ring around the tile. */
+static const aur_pixel_strata *own_pixel(const aur_pixel_strata *strata, size_t place) {
+    const size_t column = place % APRON, row = place / APRON;
+    const bool inside = column > 0 && column <= SIDE && row > 0 && row <= SIDE;
+    return inside ? &strata[(row - 1) * SIDE + (column - 1)] : NULL;
+}
+
+/* Whether a pixel beside this place has samples, so that an edge between them counts. */
+static bool is_beside_samples(const aur_pixel_strata *strata, size_t place) {
+    const size_t column = place % APRON, row = place / APRON;
+    for (size_t j = row > 0 ? row - 1 : 0; j <= row + 1 && j < APRON; ++j)
+        for (size_t i = column > 0 ? column - 1 : 0; i <= column + 1 && i < APRON; ++i) {
+            const aur_pixel_strata *const other = own_pixel(strata, j * APRON + i);
+            if (other != NULL && other->count > 0)
+                return true;
+        }
+    return false;
+}
+
+/* What pixels see that lie beside those with samples. The tile's own samples tell it where all of its pixels
+ * have `alike` many; else what a pixel finds would depend on which of its neighbours have samples, and one
+ * ray each tells it, as around the tile. What lies beyond the picture sees nothing and makes no edge. */
 static void look_around(const aur_gather_plan *plan, const aur_view *view, size_t left, size_t top,
-                        const aur_pixel_strata *strata, aur_pixel_strata ring[RING],
+                        const aur_pixel_strata *strata, bool alike, aur_pixel_strata looked[APRON * APRON],
                         const aur_pixel_strata *at[APRON * APRON], aur_counters *counters) {
-    size_t x[RING], y[RING], used = 0;
+    size_t x[APRON * APRON], y[APRON * APRON], used = 0;
     for (size_t i = 0; i < APRON * APRON; ++i) {
         const size_t column = i % APRON, row = i / APRON;
-        at[i] = NULL;
-        if (column > 0 && column <= SIDE && row > 0 && row <= SIDE) {
-            at[i] = &strata[(row - 1) * SIDE + (column - 1)];
+        const aur_pixel_strata *const own = own_pixel(strata, i);
+        at[i] = alike && own != NULL && own->count > 0 ? own : NULL;
+        if (at[i] != NULL || !is_beside_samples(strata, i))
             continue;
-        }
         x[used] = left + column; /* one too many, against underflow */
         y[used] = top + row;
         if (x[used] == 0 || y[used] == 0 || x[used] > view->width || y[used] > view->height)
             continue;
         --x[used];
         --y[used];
-        at[i] = &ring[used++];
+        at[i] = &looked[used++];
     }
     for (size_t first = 0; first < used; first += AUR_PACKET_SIZE) {
         const size_t count = used - first < AUR_PACKET_SIZE ? used - first : AUR_PACKET_SIZE;
-        look_at(plan, view, count, &x[first], &y[first], &ring[first], counters);
+        look_at(plan, view, count, &x[first], &y[first], &looked[first], counters);
     }
 }
 
@@ -142,10 +162,11 @@ static int edge_at(const aur_pixel_strata *const at[APRON * APRON], size_t x, si
 }
 
 void aur_gather_find_edges(const aur_gather_plan *plan, const aur_view *view, size_t x, size_t y,
-                           const aur_pixel_strata *strata, aur_gather_edges *edges, aur_counters *counters) {
-    aur_pixel_strata ring[RING];
+                           const aur_pixel_strata *strata, bool alike, aur_gather_edges *edges,
+                           aur_counters *counters) {
+    aur_pixel_strata looked[APRON * APRON];
     const aur_pixel_strata *at[APRON * APRON];
-    look_around(plan, view, x, y, strata, ring, at, counters);
+    look_around(plan, view, x, y, strata, alike, looked, at, counters);
     *edges = (aur_gather_edges){0};
     for (uint32_t place = 0; place < AUR_GROUP_COUNT; ++place)
         for (size_t lane = 0; lane < AUR_PACKET_SIZE; ++lane) {

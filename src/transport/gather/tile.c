@@ -213,8 +213,8 @@ static aur_result refine_edges(gather_tile *work, aur_tile *tile) {
     enum { PLAIN_EDGE_PART = 16 };
     const uint32_t count = work->places.plan->policy.edge_samples;
     aur_gather_edges edges;
-    aur_gather_find_edges(work->places.plan, work->view, work->x, work->y, work->strata, &edges,
-                          work->sums.counters);
+    aur_gather_find_edges(work->places.plan, work->view, work->x, work->y, work->strata, tile->begins == NULL,
+                          &edges, work->sums.counters);
     work->only_new = true;
     for (uint32_t group = 0; group < AUR_GROUP_COUNT; ++group)
         for (uint32_t i = 0; i < count; ++i) {
