@@ -6,7 +6,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "ask/choose.h"
 #include "core/error.h"
 #include "core/options.h"
 #include "film/film.h"
@@ -86,9 +85,9 @@ static aur_result begin_trial(aur_ask *ask, char *integrator, aur_error *error) 
     return aur_trial_create(ask->renderer, &ask->options, ask->wish.replicas, &ask->trial, error);
 }
 
-aur_result aur_ask_gather(aur_ask *ask, size_t photons, aur_error *error) {
-    char *const integrator = aur_ask_gather_instead(ask->trial.integrator, photons, "");
-    ask->photons = photons;
+aur_result aur_ask_take_gather(aur_ask *ask, aur_gather_size size, aur_error *error) {
+    char *const integrator = aur_ask_gather(ask->trial.integrator, size);
+    ask->gather = size;
     ask->open = false;
     return integrator != NULL ? begin_trial(ask, integrator, error) : aur_fail_memory(error);
 }
@@ -127,7 +126,7 @@ static aur_result choose(aur_ask *ask, aur_error *error) {
     ask->trial = choice.trial;
     ask->bias = choice.bias;
     ask->others = choice.others;
-    ask->photons = choice.photons;
+    ask->gather = choice.gather;
     ask->open = result != AUR_OK;
     return result;
 }

@@ -8,7 +8,7 @@
 #include "render/renderer.h"
 
 /* Numbers between rounds, before those of the tiles and of the replicas. */
-enum { NUMBERS = 14, STATE_WORDS = NUMBERS + 4 };
+enum { NUMBERS = 14, STATE_WORDS = NUMBERS + 5 };
 
 static size_t word_count(const aur_ask *ask) {
     return STATE_WORDS + 2 * ask->trial.value_count + ask->trial.replicas.count * AUR_SECONDS_WORDS;
@@ -41,7 +41,8 @@ aur_result aur_ask_save(const aur_ask *ask, const char *path, aur_error *error) 
         words[at++] = aur_word_of_double(numbers[i]);
     words[at++] = ask->trial.rounds;
     words[at++] = (uint64_t)ask->trial.begun + 2 * (uint64_t)ask->trial.looked_at;
-    words[at++] = ask->photons;
+    words[at++] = ask->gather.photons;
+    words[at++] = ask->gather.directions;
     words[at++] = ask->others.rays;
     for (size_t i = 0; i < ask->trial.value_count; ++i) {
         words[at++] = ask->trial.targets[i];
@@ -63,8 +64,8 @@ static aur_result take_over(aur_ask *ask, const char *path, const aur_checkpoint
     const uint64_t *word = kept->words;
     for (size_t i = 0; i < NUMBERS; ++i)
         numbers[i] = aur_double_of_word(*word++);
-    const size_t photons = kept->words[NUMBERS + 2];
-    aur_result result = photons > 0 ? aur_ask_gather(ask, photons, error) : AUR_OK;
+    const aur_gather_size size = {kept->words[NUMBERS + 2], kept->words[NUMBERS + 3]};
+    aur_result result = size.photons > 0 ? aur_ask_take_gather(ask, size, error) : AUR_OK;
     if (result != AUR_OK)
         return result;
     ask->open = false;
@@ -81,7 +82,7 @@ static aur_result take_over(aur_ask *ask, const char *path, const aur_checkpoint
     ask->trial.rounds = *word++;
     ask->trial.begun = (*word & 1) != 0;
     ask->trial.looked_at = (*word++ & 2) != 0;
-    ++word; /* photons, see above */
+    word += 2; /* of final gathering, see above */
     ask->others.rays = *word++;
     for (size_t i = 0; i < ask->trial.value_count; ++i) {
         ask->trial.targets[i] = (uint32_t)*word++;

@@ -73,6 +73,26 @@ aur_result aur_lamps_find(const aur_scene *scene, const aur_film_layout *layout,
     return AUR_OK;
 }
 
+/* The part of the eight pixels about one that sees lamps, where it is largest. */
+static double share_beside(const aur_lamps *lamps, size_t width, size_t height, size_t pixel) {
+    const size_t x = pixel % width, y = pixel / width;
+    double most = 0.0;
+    for (size_t j = y > 0 ? y - 1 : 0; j <= y + 1 && j < height; ++j)
+        for (size_t i = x > 0 ? x - 1 : 0; i <= x + 1 && i < width; ++i)
+            if (j * width + i != pixel)
+                most = fmax(most, lamps->share[j * width + i]);
+    return most;
+}
+
+void aur_lamps_leave_edges(const aur_film_layout *layout, aur_lamps *lamps) {
+    const size_t width = layout->x1 - layout->x0, height = layout->y1 - layout->y0;
+    if (lamps->share == NULL)
+        return;
+    for (size_t i = 0; i < width * height; ++i)
+        if (share_beside(lamps, width, height, i) >= 0.5)
+            lamps->variance[i] = 0.0;
+}
+
 void aur_lamps_release(aur_lamps *lamps) {
     free(lamps->share);
     free(lamps->variance);

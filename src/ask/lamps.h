@@ -14,6 +14,9 @@ typedef struct aur_lamps {
 /* To be released in every case. Errors: MEMORY. */
 aur_result aur_lamps_find(const aur_scene *scene, const aur_film_layout *layout, uint64_t seed,
                           aur_lamps *lamps, aur_error *error);
+/* Leaves out pixels beside one that is covered by half at least: an integrator that looks again where
+ * neighbours see a lamp's edge (`edges` of final gathering) finds the lamp there by itself. */
+void aur_lamps_leave_edges(const aur_film_layout *layout, aur_lamps *lamps);
 void aur_lamps_release(aur_lamps *lamps);
 
 /* The variance of the mean of `samples` samples of a pixel, at least: where they are expected to have met

@@ -3,8 +3,7 @@
 
 #include <aureole/ask.h>
 
-#include "ask/bias.h"
-#include "ask/trial.h"
+#include "ask/choose.h"
 
 struct aur_ask {
     aur_ask_options wish;
@@ -17,11 +16,11 @@ struct aur_ask {
     aur_bias bias;                /* of its integrator */
     aur_render_statistics others; /* what integrators cost that were tried and not taken */
     atomic_bool cancelled;
-    bool open;      /* another integrator may turn out better: that is not tried yet */
-    bool choosing;  /* it is being tried */
-    size_t photons; /* of the maps where it was final gathering, else 0 */
-    double whole;   /* samples that the wish is thought to take, for the progress callback */
+    bool open;              /* another integrator may turn out better: that is not tried yet */
+    bool choosing;          /* it is being tried */
+    aur_gather_size gather; /* where it was final gathering, else 0 */
+    double whole;           /* samples that the wish is thought to take, for the progress callback */
 };
 
-/* Goes on with final gathering with so many photons, from nothing. Errors: those of aur_render_create. */
-aur_result aur_ask_gather(aur_ask *ask, size_t photons, aur_error *error);
+/* Goes on with final gathering of that size, from nothing. Errors: those of aur_render_create. */
+aur_result aur_ask_take_gather(aur_ask *ask, aur_gather_size size, aur_error *error);

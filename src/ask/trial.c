@@ -19,6 +19,12 @@ static bool shows_lamps(const char *integrator) {
     return false;
 }
 
+/* What a key of an integrator's text says; 0 without it. */
+static size_t number_of_key(const char *integrator, const char *key) {
+    const char *const found = integrator != NULL ? strstr(integrator, key) : NULL;
+    return found != NULL ? strtoul(found + strlen(key), NULL, 10) : 0;
+}
+
 aur_result aur_trial_create(aur_renderer *renderer, const aur_render_options *options, size_t replica_count,
                             aur_trial *trial, aur_error *error) {
     aur_render_options own = *options;
@@ -27,6 +33,8 @@ aur_result aur_trial_create(aur_renderer *renderer, const aur_render_options *op
     trial->interval = (aur_error_interval){.estimate = INFINITY, .high = INFINITY};
     trial->bound = INFINITY;
     trial->rate = 1.0;
+    trial->pattern_samples = number_of_key(trial->integrator, "split=");
+    trial->pattern_samples += trial->pattern_samples == 0;
     const aur_result result = aur_replicas_create(renderer, &own, replica_count, &trial->replicas, error);
     if (result != AUR_OK)
         return result;
@@ -43,6 +51,8 @@ aur_result aur_trial_create(aur_renderer *renderer, const aur_render_options *op
             aur_lamps_find(aur_renderer_scene(renderer), layout, options->seed, &trial->lamps, error);
         if (found != AUR_OK)
             return found;
+        if (number_of_key(trial->integrator, "edges=") > 0)
+            aur_lamps_leave_edges(layout, &trial->lamps);
     }
     const bool made = trial->targets != NULL && trial->earlier != NULL && trial->variances != NULL &&
                       trial->measured != NULL && trial->scratch != NULL;
@@ -116,6 +126,24 @@ static void predict(aur_trial *trial) {
             trial->variances[i] *= pow((double)trial->earlier[i] / (double)trial->targets[i], trial->rate);
 }
 
+static uint32_t whole_patterns(const aur_trial *trial, size_t i, size_t more) {
+    const size_t rounded = (trial->targets[i] + more) / trial->pattern_samples * trial->pattern_samples;
+    return (uint32_t)fmin(fmax((double)rounded, trial->earlier[i]), AUR_SAMPLES_PER_PIXEL_MAX);
+}
+
+/* Targets become the nearest numbers of whole patterns; up, where that would leave all as they were. */
+static void round_to_patterns(aur_trial *trial) {
+    size_t more = trial->pattern_samples / 2;
+    bool raised = false;
+    for (size_t i = 0; i < trial->value_count; ++i)
+        raised = raised || whole_patterns(trial, i, more) > trial->earlier[i];
+    if (!raised)
+        more = trial->pattern_samples - 1;
+    for (size_t i = 0; i < trial->value_count; ++i)
+        if (trial->targets[i] > trial->earlier[i])
+            trial->targets[i] = whole_patterns(trial, i, more);
+}
+
 bool aur_trial_is_black(const aur_trial *trial) {
     return trial->rounds > 0 && !(trial->bound > 0.0) && !(trial->measure.mean > 0.0);
 }
@@ -130,7 +158,7 @@ void aur_trial_plan_evenly(aur_trial *trial, uint32_t samples) {
 
 bool aur_trial_plan(aur_trial *trial, double factor) {
     if (trial->rounds == 0) {
-        aur_trial_plan_evenly(trial, 1);
+        aur_trial_plan_evenly(trial, (uint32_t)trial->pattern_samples);
         return true;
     }
     const double rounds = fmax(ceil(-log(factor) / log(AUR_MOST_GROWTH)), 1.0);
@@ -138,6 +166,7 @@ bool aur_trial_plan(aur_trial *trial, double factor) {
     trial->looked_at = rounds == 1.0;
     trial->begun = aur_raise_targets(trial->value_count, trial->variances, pow(factor, 1.0 / rounds),
                                      AUR_SAMPLES_PER_PIXEL_MAX, trial->targets);
+    round_to_patterns(trial);
     predict(trial);
     return trial->begun;
 }

@@ -19,10 +19,11 @@ typedef struct aur_trial {
     aur_lamps lamps; /* where the integrator shows them */
     aur_replica_measure measure;
     aur_error_interval interval; /* relative to the mean */
-    double bound;   /* of the error, by the rounds before too: at least the interval's upper end */
-    double rate;    /* the error's square falls as samples^-rate */
-    double samples; /* a pixel, all replicas together */
-    double before;  /* the same before the round that is planned or rendered */
+    double bound;           /* of the error, by the rounds before too: at least the interval's upper end */
+    double rate;            /* the error's square falls as samples^-rate */
+    double samples;         /* a pixel, all replicas together */
+    double before;          /* the same before the round that is planned or rendered */
+    size_t pattern_samples; /* of a pixel that complete a pattern: pixels get whole ones */
     uint64_t rounds;
     bool begun;     /* a round is planned and not all rendered */
     bool looked_at; /* the round planned last was to end where it leads, and may be the last of all */
@@ -45,7 +46,7 @@ typedef struct aur_goal {
 } aur_goal;
 
 /* Noise in units of the error asked at which an integrator is compared with another one. */
-#define AUR_PILOT_ERROR 5.0
+#define AUR_PILOT_ERROR 10.0
 
 /* Where rounds lead next, as a part of the noise's square of now. To an error: so that the interval's upper
  * end comes to AUR_PILOT_ERROR times that, then to what the bias leaves of it, and below it by what the error

@@ -6,20 +6,24 @@
 #include "ask/choose.h"
 #include "ask/rounds.h"
 #include "core/error.h"
+#include "film/film.h"
+#include "render/renderer.h"
 
 /* Of the error asked, the bias that may be left; the noise makes the rest of the square. */
 static const double BIAS_PART = 0.6;
 /* Final gathering is worth it at this part of path tracing's rays: its rays cost more, for each ends at a
- * look at the photon map. Parts of path tracing's rays that may be spent on photon maps, on final gathering
- * until it can be compared, and on finding its bias: so one who goes on with path tracing has lost little. */
-static const double WORTH = 0.5, MAP_PART = 0.05, PILOT_PART = 0.03, BIAS_SEARCH_PART = 0.2;
+ * look at the photon map. Parts of path tracing's rays that may be spent on photon maps and on finding their
+ * bias: so one who goes on with path tracing has lost little. */
+static const double WORTH = 0.7, MAP_PART = 0.025, BIAS_SEARCH_PART = 0.2;
 /* Tracing and sorting a photon takes the time of so many rays of path tracing: 2.4 in the Cornell box by
  * `render --stats`. Other scenes were not measured: a wrong ratio costs time, never truth. */
 static const double RAYS_A_PHOTON = 2.5;
-enum { MOST_PHOTONS = 500000, LEAST_PHOTONS = 15000 };
-
-/* Few directions a sample: those of a pattern are for the samples of eight. */
-#define GATHER "finalgather:split=8,diffuse_samples=16,glossy_samples=16,short_rays=4,photons=%zu"
+enum { MOST_PHOTONS = 2000000, LEAST_PHOTONS = 15000 };
+/* Samples of a pixel that share a pattern's directions out. The bias is looked for with few of these, for
+ * each goes on as a path. */
+enum { PATTERN_SAMPLES = 4, PILOT_DIRECTIONS = 16, MOST_DIRECTIONS = 1024, DIFFERENCE_DIRECTIONS = 8 };
+/* The pilot's noise hardly hangs on its map. */
+enum { PILOT_PHOTONS = LEAST_PHOTONS };
 
 /* The rays that a trial is thought to take in all until its noise is `error`. */
 static double rays_to(const aur_trial *trial, double error) {
@@ -80,26 +84,37 @@ static size_t photons_for(const aur_choice *choice, double path_rays) {
     return photons >= LEAST_PHOTONS ? photons : 0;
 }
 
-char *aur_ask_gather_instead(const char *path, size_t photons, const char *more) {
+/* The same with more keys (",key=value"). */
+static char *gather_instead(const char *path, aur_gather_size size, const char *more) {
+    enum { CAPACITY = 256 }; /* five numbers and the keys' names */
     const char *const keys = strchr(path, ':');
-    const size_t capacity = sizeof GATHER + 20 + strlen(more) + (keys != NULL ? strlen(keys) + 1 : 0);
+    const size_t lights = size.directions > 16 ? size.directions / 16 : 1;
+    const size_t capacity = CAPACITY + strlen(more) + (keys != NULL ? strlen(keys) : 0);
     char *const text = malloc(capacity);
     if (text != NULL)
-        snprintf(text, capacity, GATHER "%s%s%s", photons, more, keys != NULL ? "," : "",
-                 keys != NULL ? keys + 1 : "");
+        snprintf(text, capacity,
+                 "finalgather:split=%d,diffuse_samples=%zu,glossy_samples=%zu,light_samples=%zu,"
+                 "short_rays=4,photons=%zu%s%s%s",
+                 PATTERN_SAMPLES, size.directions, size.directions, lights, size.photons, more,
+                 keys != NULL ? "," : "", keys != NULL ? keys + 1 : "");
     return text;
 }
 
-/* What is compared with path tracing, and what its photon map is wrong by. */
+char *aur_ask_gather(const char *path, aur_gather_size size) {
+    char edges[40]; /* a number and the key's name */
+    snprintf(edges, sizeof edges, ",edges=%zu", 4 * size.directions);
+    return gather_instead(path, size, edges);
+}
+
+/* What is compared with path tracing, what it would be in few pixels, and what its photon map is wrong by. */
 typedef struct aur_rivals {
-    aur_trial gather, difference;
+    aur_trial gather, pilot, difference;
 } aur_rivals;
 
-/* Samples a pixel at which the bound of a bias is thought to come to `most`, when it is known from `samples`:
- * what is uncertain of its square falls as they grow. */
+/* Samples a pixel at which the bound of a bias can come to `most` at the soonest, when it is known from
+ * `samples`: what is uncertain of its square falls as they grow, and a first estimate is large by chance. */
 static double samples_to_know(const aur_bias *bias, double most, double samples) {
-    const double seen = fmax(bias->estimate, 0.0), room = most * most - seen;
-    return room > 0.0 ? samples * (bias->high - seen) / room : INFINITY;
+    return samples * (bias->high - fmax(bias->estimate, 0.0)) / (most * most);
 }
 
 /* The bias of final gathering, from pictures of what paths find over what the map says at the ends of the
@@ -108,46 +123,100 @@ static double samples_to_know(const aur_bias *bias, double most, double samples)
  * spent. */
 static aur_result find_bias(const aur_choice *choice, aur_rivals *rivals, double mean, double most,
                             double most_rays, aur_bias *bias, aur_error *error) {
-    for (uint32_t samples = 1;; samples *= 2) {
+    for (uint32_t samples = 1;;) {
         const aur_result result = render_evenly(choice, &rivals->difference, samples, error);
         if (result != AUR_OK)
             return result;
         *bias = aur_replicas_bias(&rivals->difference.replicas, NULL, mean, choice->confidence);
         const double rays = aur_trial_rays(&rivals->difference);
-        const double growth = fmax(samples_to_know(bias, most, samples) / samples, 2.0);
+        const double needed = samples_to_know(bias, most, samples), growth = fmax(needed / samples, 1.0);
         if (sqrt(bias->high) <= most || sqrt(bias->low) > most || growth * rays > most_rays)
             return AUR_OK;
+        samples = (uint32_t)ceil(fmin(fmax(1.2 * needed, 1.25 * samples), 4.0 * samples));
     }
 }
 
+/* What is asked of few pixels, each in place of COARSE x COARSE, or of fewer where that would leave a small
+ * picture. The bias of single points is that of pixels at least, and known from as many rays the better the
+ * fewer points they are of: what is uncertain of its square is as the root of their number. */
+static aur_render_options coarse_options(const aur_trial *trial, const aur_render_options *options) {
+    enum { COARSE = 4, LEAST_SIDE = 32 };
+    const aur_film_layout *const film = &aur_render_film(trial->replicas.renders[0])->layout;
+    const size_t width = film->x1 - film->x0, height = film->y1 - film->y0;
+    size_t part = COARSE;
+    while (part > 1 && (width < LEAST_SIDE * part || height < LEAST_SIDE * part))
+        part /= 2;
+    aur_render_options own = *options;
+    own.width = (film->width + part - 1) / part;
+    own.height = (film->height + part - 1) / part;
+    own.crop_x0 = film->x0 / part;
+    own.crop_y0 = film->y0 / part;
+    own.crop_x1 = (film->x1 + part - 1) / part;
+    own.crop_y1 = (film->y1 + part - 1) / part;
+    return own;
+}
+
 static aur_result create_trial(aur_renderer *renderer, const aur_render_options *options,
-                               const aur_choice *choice, const char *keys, aur_trial *trial,
+                               const aur_choice *choice, char *integrator, aur_trial *trial,
                                aur_error *error) {
-    trial->integrator = aur_ask_gather_instead(choice->trial.integrator, choice->photons, keys);
-    if (trial->integrator == NULL)
-        return aur_fail_memory(error);
-    return aur_trial_create(renderer, options, choice->replica_count, trial, error);
+    trial->integrator = integrator;
+    return integrator != NULL ? aur_trial_create(renderer, options, choice->replica_count, trial, error)
+                              : aur_fail_memory(error);
+}
+
+/* Directions of a pattern by which the replicas are thought to come to the error wanted without another one,
+ * if so many times the rays of the pilot's patterns would do: the square of a pattern's error falls nearly as
+ * directions^-1.6 in the Cornell box (16 to 64), and that of several ones as the rays. Where that is wrong,
+ * rounds go on with more patterns, or the first one has more directions than it needs: it costs time, never
+ * truth. */
+static size_t directions_for(double growth) {
+    const double directions = PILOT_DIRECTIONS * pow(growth, 1.0 / 1.6);
+    return (size_t)fmin(PATTERN_SAMPLES * ceil(directions / PATTERN_SAMPLES), MOST_DIRECTIONS);
+}
+
+/* Whether final gathering is thought to be worth it, from a pilot of few pixels, and how many directions it
+ * takes. */
+static aur_result try_pilot(aur_choice *choice, aur_trial *pilot, double path_rays, double noise, bool *worth,
+                            aur_error *error) {
+    bool more;
+    const aur_result result = render_round(choice, pilot, &more, error);
+    if (result != AUR_OK || aur_trial_is_black(pilot))
+        return result;
+    const double pixels = (double)choice->trial.replicas.pixel_count / (double)pilot->replicas.pixel_count;
+    const double rays = rays_to(pilot, noise);
+    choice->gather.directions = directions_for(rays / aur_trial_rays(pilot));
+    *worth = pixels * rays <= WORTH * path_rays;
+    return AUR_OK;
 }
 
 static aur_result compare(aur_renderer *renderer, const aur_render_options *options, aur_choice *choice,
                           double wanted, aur_rivals *rivals, bool *better, aur_error *error) {
     const aur_trial *const path = &choice->trial;
-    const double most_bias = BIAS_PART * wanted, noise = sqrt(wanted * wanted - most_bias * most_bias);
-    const double path_rays = rays_to(path, wanted);
-    aur_trial *const gather = &rivals->gather;
-    aur_result result = AUR_OK;
-    for (bool more = true; result == AUR_OK && more && !aur_trial_is_black(gather) &&
-                           gather->bound > AUR_PILOT_ERROR * wanted &&
-                           aur_trial_rays(gather) < PILOT_PART * path_rays;)
-        result = render_round(choice, gather, &more, error);
-    if (result != AUR_OK || aur_trial_is_black(gather) || rays_to(gather, noise) > WORTH * path_rays)
+    const double most_bias = BIAS_PART * wanted, path_rays = rays_to(path, wanted);
+    bool more, worth = false;
+    aur_result result = try_pilot(choice, &rivals->pilot, path_rays,
+                                  sqrt(wanted * wanted - most_bias * most_bias), &worth, error);
+    if (result != AUR_OK || !worth)
         return result;
-    result = create_trial(renderer, options, choice, ",edges=0,debias=true,continued=1,incident=correction",
-                          &rivals->difference, error);
+    const aur_render_options coarse = coarse_options(path, options);
+    const aur_gather_size few = {choice->gather.photons, DIFFERENCE_DIRECTIONS};
+    result = create_trial(
+        renderer, &coarse, choice,
+        gather_instead(path->integrator, few, ",pixel=centre,debias=true,continued=1,incident=correction"),
+        &rivals->difference, error);
     if (result == AUR_OK)
         result = find_bias(choice, rivals, path->measure.mean, most_bias, BIAS_SEARCH_PART * path_rays,
                            &choice->bias, error);
-    *better = result == AUR_OK && sqrt(choice->bias.high) <= most_bias;
+    if (result != AUR_OK || !(sqrt(choice->bias.high) <= most_bias))
+        return result;
+    aur_trial *const gather = &rivals->gather;
+    result = create_trial(renderer, options, choice, aur_ask_gather(path->integrator, choice->gather), gather,
+                          error);
+    if (result == AUR_OK)
+        result = render_round(choice, gather, &more, error);
+    const double noise = sqrt(wanted * wanted - choice->bias.high);
+    *better = result == AUR_OK && !aur_trial_is_black(gather) &&
+              rays_to(gather, noise) - aur_trial_rays(gather) <= WORTH * (path_rays - aur_trial_rays(path));
     return result;
 }
 
@@ -169,13 +238,19 @@ aur_result aur_ask_try(aur_renderer *renderer, const aur_render_options *options
     aur_result result = render_path(choice, &wanted, error);
     if (result != AUR_OK || path->bound <= wanted || aur_trial_is_black(path))
         return result;
-    choice->photons = photons_for(choice, rays_to(path, wanted));
-    if (choice->photons == 0)
+    choice->gather = (aur_gather_size){photons_for(choice, rays_to(path, wanted)), 0};
+    if (choice->gather.photons == 0) {
+        choice->gather = (aur_gather_size){0};
         return AUR_OK;
+    }
     aur_rivals rivals = {0};
     aur_error refused;
     bool better = false;
-    result = create_trial(renderer, options, choice, "", &rivals.gather, &refused);
+    const aur_render_options coarse = coarse_options(path, options);
+    result =
+        create_trial(renderer, &coarse, choice,
+                     aur_ask_gather(path->integrator, (aur_gather_size){PILOT_PHOTONS, PILOT_DIRECTIONS}),
+                     &rivals.pilot, &refused);
     if (result == AUR_OK)
         result = compare(renderer, options, choice, wanted, &rivals, &better, error);
     else if (result != AUR_ERROR_MEMORY && result != AUR_ERROR_CANCELLED)
@@ -187,12 +262,14 @@ aur_result aur_ask_try(aur_renderer *renderer, const aur_render_options *options
         *path = rivals.gather;
         rivals.gather = left;
     } else {
-        choice->photons = 0;
+        choice->gather = (aur_gather_size){0};
         choice->bias = (aur_bias){0};
     }
     add_spent(&rivals.gather, &choice->others);
+    add_spent(&rivals.pilot, &choice->others);
     add_spent(&rivals.difference, &choice->others);
     aur_trial_release(&rivals.gather);
+    aur_trial_release(&rivals.pilot);
     aur_trial_release(&rivals.difference);
     return result;
 }
