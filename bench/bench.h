@@ -19,10 +19,11 @@
 #include <stddef.h>
 
 typedef struct bench_options {
-    bool quick;     /* a smoke test: small work, few pairs, figures of no worth */
-    size_t pairs;   /* how often subject and limit are measured */
-    double seconds; /* CPU seconds that one measurement takes at least */
-    size_t threads; /* for benches of scaling: what the machine offers, at least 1 */
+    bool quick;       /* a smoke test: small work, few pairs, figures of no worth */
+    size_t pairs;     /* how often subject and limit are measured */
+    double seconds;   /* CPU seconds that one measurement takes at least */
+    size_t threads;   /* for benches of scaling: what the machine offers, at least 1 */
+    const char *only; /* of the benches that have rows of scenes: those with this in their names; NULL: all */
 } bench_options;
 
 /* Repeatable work. run() must leave its result where the compiler cannot drop it (bench_keep). */

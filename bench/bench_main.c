@@ -1,4 +1,5 @@
-/* aureole-bench list | NAME... [--quick] [--isa SET]. Adding a bench is one file and one line here. */
+/* aureole-bench list | NAME... [--quick] [--isa SET] [--only TEXT]. Adding a bench is one file and one line
+ * here. */
 #define _DEFAULT_SOURCE /* setenv */
 #include <getopt.h>
 #include <stdio.h>
@@ -12,6 +13,7 @@
 /* clang-format off */
 extern const bench bench_ao;
 extern const bench bench_ask;
+extern const bench bench_ask_calibration_alone;
 extern const bench bench_ask_speed_alone;
 extern const bench bench_defaults;
 extern const bench bench_domains;
@@ -34,6 +36,7 @@ extern const bench bench_weights;
 static const bench *const benches[] = {
     &bench_ao,
     &bench_ask,
+    &bench_ask_calibration_alone,
     &bench_ask_speed_alone,
     &bench_defaults,
     &bench_domains,
@@ -71,11 +74,12 @@ static void print_list(void) {
 
 static void print_help(void) {
     puts("usage: aureole-bench list\n"
-         "       aureole-bench all|NAME... [--quick] [--isa portable|avx2|avx512]\n"
+         "       aureole-bench all|NAME... [--quick] [--isa portable|avx2|avx512] [--only TEXT]\n"
          "  --quick  small work, to see whether all runs: figures of no worth\n"
          "  --isa    instructions that our kernels and Embree's may use, as if the processor had no wider "
          "ones;\n"
          "           else AUREOLE_ISA's, or all it has. What a bench used is printed behind its name\n"
+         "  --only   of ask-calibration, the scenes with TEXT in their names\n"
          "Rates are units a CPU second; [low, high] are the quartiles of a ratio over the pairs.");
 }
 
@@ -116,6 +120,7 @@ static bool run(const bench *chosen, const bench_options *options) {
 int main(int argc, char **argv) {
     static const struct option long_options[] = {{"quick", no_argument, NULL, 'q'},
                                                  {"isa", required_argument, NULL, 'i'},
+                                                 {"only", required_argument, NULL, 'o'},
                                                  {"help", no_argument, NULL, 'h'},
                                                  {NULL, 0, NULL, 0}};
     bench_options options = {.pairs = 15, .seconds = 0.05, .threads = aur_parallel_threads(0)};
@@ -127,6 +132,10 @@ int main(int argc, char **argv) {
         if (option == 'i') {
             if (!hold_isa(optarg))
                 return 2;
+            continue;
+        }
+        if (option == 'o') {
+            options.only = optarg;
             continue;
         }
         if (option != 'q')

@@ -99,13 +99,20 @@ double aur_goal_noise(const aur_goal *goal) {
     return sqrt(fmax(goal->error * goal->error - goal->bias * goal->bias, 0.0));
 }
 
+/* The bound for the planning of the next round, whose variances take half the place of those of all before:
+ * of what these are above the ones seen now, half is left. */
+static double bound_expected(const aur_trial *trial) {
+    const double high = trial->interval.high, bound = trial->bound;
+    return bound > high && high > 0.0 ? sqrt(0.5 * (high * high + bound * bound)) : bound;
+}
+
 static double factor_to_error(const aur_trial *trial, double error) {
     if (!(trial->bound < INFINITY))
         return 1.0 / AUR_MOST_GROWTH;
     const aur_error_interval *const seen = &trial->interval;
     const double width = seen->high < INFINITY ? 1.0 - seen->estimate / seen->high : 0.0;
     const double margin = 0.98 - 0.7 * width, least_fall = fmin(0.005 + 1.5 * width, 0.3);
-    const double wanted = fmin(margin * error / trial->bound, 1.0 - least_fall);
+    const double wanted = fmin(margin * error / bound_expected(trial), 1.0 - least_fall);
     return pow(wanted * wanted, 1.0 / trial->rate);
 }
 
