@@ -43,6 +43,27 @@ void aur_distribution_release(aur_distribution *distribution) {
     *distribution = (aur_distribution){0};
 }
 
+/* The interval of the guide that u falls in. */
+static size_t interval_of(const aur_distribution *distribution, double u) {
+    const double count = (double)distribution->count, guess = u * count;
+    return guess < count ? (size_t)guess : distribution->count - 1;
+}
+
+void aur_distribution_prefetch_guide(const aur_distribution *distribution, double u) {
+    const uint32_t *const guide = guide_of(distribution);
+    if (guide != NULL)
+        __builtin_prefetch(&guide[interval_of(distribution, u)]);
+}
+
+void aur_distribution_prefetch_items(const aur_distribution *distribution, double u) {
+    const uint32_t *const guide = guide_of(distribution);
+    if (guide == NULL)
+        return;
+    const size_t k = interval_of(distribution, u);
+    __builtin_prefetch(&distribution->sums[guide[k]]);
+    __builtin_prefetch(&distribution->sums[guide[k + 1] + 1]);
+}
+
 size_t aur_distribution_choose_double(const aur_distribution *distribution, double *u) {
     if (distribution->count == 1)
         return 0;
@@ -51,8 +72,7 @@ size_t aur_distribution_choose_double(const aur_distribution *distribution, doub
     size_t high = distribution->count;
     const uint32_t *const guide = guide_of(distribution);
     if (guide != NULL) {
-        const double guess = *u * (double)high;
-        const size_t k = guess < (double)high ? (size_t)guess : high - 1;
+        const size_t k = interval_of(distribution, *u);
         const size_t first = guide[k], beyond = (size_t)guide[k + 1] + 1;
         /* Rounding may put the item outside. */
         if (distribution->sums[first] <= target)

@@ -20,6 +20,11 @@ size_t aur_distribution_choose(const aur_distribution *distribution, float *u);
 /* The same where 24 binary digits are too few for a choice and two coordinates of a point. */
 size_t aur_distribution_choose_double(const aur_distribution *distribution, double *u);
 
+/* Ask the memory for what the choice by u will read: first for the place where its search begins, then, by
+ * that, for the items there. */
+void aur_distribution_prefetch_guide(const aur_distribution *distribution, double u);
+void aur_distribution_prefetch_items(const aur_distribution *distribution, double u);
+
 static inline double aur_distribution_probability(const aur_distribution *distribution, size_t index) {
     return (distribution->sums[index + 1] - distribution->sums[index]) / distribution->total;
 }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "material/texture.h"
+#include "scene/distribution.h"
 #include "scene/packet.h"
 #include "scene/scene.h"
 
@@ -30,6 +31,8 @@ typedef struct aur_emitter_descriptor {
     aur_result (*prepare)(aur_emitter *emitter, aur_error *error);
     /* As aur_light_sample_direct for this light alone. */
     bool (*sample)(const aur_emitter *emitter, const aur_light_query *query, aur_light_sample *drawn);
+    /* The table in which `sample` looks a number up, too large for caches, and that number. May be NULL. */
+    const aur_distribution *(*table)(const aur_emitter *emitter, const float u[3], float *number);
     /* `sample` for the sixteen lanes of a packet; false: it is left to `sample`. May be NULL. */
     bool (*lanes)(const aur_emitter *emitter, const aur_lane_vectors *reference, float least, const float *u,
                   const float *v, aur_light_lanes *drawn);

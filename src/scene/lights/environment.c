@@ -254,6 +254,13 @@ static aur_vector draw_direction(const envmap *self, float u, float v) {
                               (aur_vector){radius * sinf(azimuth), height, -radius * cosf(azimuth)});
 }
 
+static const aur_distribution *table_of_envmap(const aur_emitter *emitter, const float u[3], float *number) {
+    const envmap *const self = emitter->data;
+    float v = u[2];
+    *number = u[1];
+    return &self->patches.cells[aur_distribution_choose(&self->patches.rows, &v)];
+}
+
 static bool sample_envmap(const aur_emitter *emitter, const aur_light_query *query, aur_light_sample *drawn) {
     const envmap *const self = emitter->data;
     return aur_sample_environment(emitter, query, draw_direction(self, query->u[1], query->u[2]), drawn);
@@ -272,6 +279,7 @@ const aur_emitter_descriptor aur_emitter_envmap = {
     .create = create_envmap,
     .prepare = prepare_envmap,
     .sample = sample_envmap,
+    .table = table_of_envmap,
     .emit = emit_envmap,
     .release = release_envmap,
     .radiance_from = envmap_from,

@@ -79,6 +79,11 @@ static aur_vector emitted_radiance(const aur_gather_plan *plan, const gather_cha
     return aur_vector_scale(emission, aur_power_heuristic(chain->density, chain->light_draws * pdf));
 }
 
+/* Of a path that begins after so many bounces. */
+static uint64_t chain_hash(uint64_t hash, uint32_t length) {
+    return aur_hash2(hash, length);
+}
+
 /* The light that leaves a surface by what the photon maps know, or by a path. */
 static aur_vector scattered_radiance(const aur_gather_plan *plan, const gather_chain *chain,
                                      const aur_hit *hit, const aur_surface *surface, aur_vector view,
@@ -88,7 +93,7 @@ static aur_vector scattered_radiance(const aur_gather_plan *plan, const gather_c
         const aur_texel_view known = aur_irradiance_view(plan->light.map, plan->scene, hit, surface, view);
         const bool near = aur_onward_is_near(&plan->onward, chain->length_seen + hit->distance, known.area);
         sum = aur_onward_correct(&plan->onward, surface, view, chain->length + 2,
-                                 aur_hash2(chain->hash, chain->length), near, known.radiance, counters);
+                                 chain_hash(chain->hash, chain->length), near, known.radiance, counters);
     }
     if (plan->light.caustics != NULL)
         sum = aur_vector_add(
@@ -263,26 +268,64 @@ static uint32_t plain_lanes(const aur_gather_plan *plan, const aur_packet *packe
     return plain;
 }
 
-static void prefetch_texels(const aur_irradiance_map *map, const aur_scene *scene, const aur_packet *packet,
-                            uint32_t found) {
-    const aur_elements *const elements = &map->texels.elements;
-    for (uint32_t rest = found; rest != 0; rest &= rest - 1) {
-        const aur_hit hit = aur_packet_hit(scene, packet, aur_first_lane(rest));
-        __builtin_prefetch(&map->texels.ranges[aur_element_of(elements, &hit)]);
-    }
+/* --- what is read of the sixteen hits comes from memory together */
+
+static const aur_texel_range *range_of(const aur_irradiance_map *map, const aur_hit *hit) {
+    return &map->texels.ranges[aur_element_of(&map->texels.elements, hit)];
+}
+
+/* Of curved shapes another texel of the element. */
+static size_t light_of(const aur_irradiance_map *map, const aur_hit *hit) {
+    return 2 * (size_t)aur_texel_of_triangle(*range_of(map, hit), hit->u, hit->v);
 }
 
 static void prefetch_lights(const aur_irradiance_map *map, const aur_scene *scene, const aur_packet *packet,
                             uint32_t found) {
-    const aur_elements *const elements = &map->texels.elements;
     for (uint32_t rest = found; rest != 0; rest &= rest - 1) {
         const aur_hit hit = aur_packet_hit(scene, packet, aur_first_lane(rest));
-        const aur_texel_range range = map->texels.ranges[aur_element_of(elements, &hit)];
-        const size_t light = 2 * (size_t)aur_texel_of_triangle(range, hit.u, hit.v);
+        const size_t light = light_of(map, &hit);
         __builtin_prefetch(&map->lights[light]);
         if (map->member_first != NULL)
             __builtin_prefetch(&map->member_first[light]);
     }
+}
+
+/* What lanes that go on as paths draw of the sky. */
+static void prefetch_onward(const aur_gather_plan *plan, const aur_gather_rays *rays, uint32_t found,
+                            uint32_t plain) {
+    const aur_irradiance_map *const map = plan->light.map;
+    aur_light_fetch fetches[AUR_PACKET_SIZE];
+    uint32_t onward = 0;
+    for (uint32_t rest = found; rest != 0; rest &= rest - 1) {
+        const size_t lane = aur_first_lane(rest);
+        const aur_hit hit = aur_packet_hit(plan->scene, &rays->packet, lane);
+        const uint64_t own = aur_gather_rays_hash(rays, lane);
+        const uint64_t hash = aur_has_lane(plain, lane) ? own : chain_hash(own, 0);
+        if (!aur_onward_is_near(&plan->onward, hit.distance, map->lights[light_of(map, &hit)].area) &&
+            !aur_onward_is_due(&plan->onward, hash))
+            continue;
+        onward |= 1u << lane;
+        fetches[lane] = aur_onward_fetch(&plan->onward, hash);
+    }
+    for (uint32_t rest = onward; rest != 0; rest &= rest - 1)
+        aur_light_fetch_end(&fetches[aur_first_lane(rest)]);
+}
+
+static void prefetch(const aur_gather_plan *plan, const aur_gather_rays *rays, uint32_t found) {
+    const aur_irradiance_map *const map = plan->light.map;
+    const aur_packet *const packet = &rays->packet;
+    const uint32_t plain = plain_lanes(plan, packet, found);
+    aur_packet_prefetch_indices(plan->scene, packet, found & ~plain);
+    for (uint32_t rest = map != NULL ? found : 0; rest != 0; rest &= rest - 1) {
+        const aur_hit hit = aur_packet_hit(plan->scene, packet, aur_first_lane(rest));
+        __builtin_prefetch(range_of(map, &hit));
+    }
+    aur_packet_prefetch_vertices(plan->scene, packet, found & ~plain);
+    if (map == NULL)
+        return;
+    prefetch_lights(map, plan->scene, packet, found);
+    if (aur_scene_has_environment(plan->scene))
+        prefetch_onward(plan, rays, found, plain);
 }
 
 void aur_gather_rays_trace(const aur_gather_plan *plan, aur_embree_order order, aur_gather_rays *rays,
@@ -290,13 +333,7 @@ void aur_gather_rays_trace(const aur_gather_plan *plan, aur_embree_order order, 
     const uint32_t lanes = aur_lanes_set(rays->packet.valid);
     const uint32_t found = aur_gather_intersect(plan, order, &rays->packet, counters);
     const bool has_sky = aur_scene_has_environment(plan->scene);
-    const uint32_t surfaces = found & ~plain_lanes(plan, &rays->packet, found);
-    aur_packet_prefetch_indices(plan->scene, &rays->packet, surfaces);
-    if (plan->light.map != NULL)
-        prefetch_texels(plan->light.map, plan->scene, &rays->packet, found);
-    aur_packet_prefetch_vertices(plan->scene, &rays->packet, surfaces);
-    if (plan->light.map != NULL)
-        prefetch_lights(plan->light.map, plan->scene, &rays->packet, found);
+    prefetch(plan, rays, found);
     for (size_t c = 0; c < 3; ++c)
         for (size_t k = 0; k < AUR_PACKET_SIZE; ++k)
             rays->radiance[c][k] = 0.0f;

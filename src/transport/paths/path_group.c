@@ -114,6 +114,8 @@ static void add_emission(aur_path_group *g, size_t k, const aur_surface *surface
 
 /* The surfaces of lanes that are not plain, with the light that they give. */
 static void set_surfaces(aur_path_group *g, uint32_t lanes) {
+    aur_packet_prefetch_indices(g->scene, &g->packet, lanes);
+    aur_packet_prefetch_vertices(g->scene, &g->packet, lanes);
     for (; lanes != 0; lanes &= lanes - 1) {
         const size_t k = aur_first_lane(lanes);
         const aur_ray ray = aur_packet_ray(&g->packet, k);
@@ -127,12 +129,29 @@ static aur_vector view_of(const aur_path_group *g, size_t k) {
     return aur_vector_scale(aur_packet_ray(&g->packet, k).direction, -1.0f);
 }
 
+/* What the lane draws a point on a light by. */
+static aur_vector light_numbers(const aur_path_group *g, size_t k) {
+    return (aur_vector){g->chooses ? g->lanes.choice[k] : 0.5f, g->lanes.light_u[k], g->lanes.light_v[k]};
+}
+
+static void prefetch_lights(const aur_path_group *g, uint32_t lanes) {
+    aur_light_fetch fetches[AUR_PACKET_SIZE];
+    for (uint32_t rest = lanes; rest != 0; rest &= rest - 1) {
+        const size_t k = aur_first_lane(rest);
+        const aur_vector u = light_numbers(g, k);
+        fetches[k] = aur_light_fetch_begin(g->scene, (const float[3]){u.x, u.y, u.z});
+    }
+    for (uint32_t rest = lanes; rest != 0; rest &= rest - 1)
+        aur_light_fetch_end(&fetches[aur_first_lane(rest)]);
+}
+
 static void shadow_one(aur_path_group *g, size_t k, const aur_surface *surface) {
     const aur_shading shading = aur_shading_at(surface, view_of(g, k));
-    const float u[3] = {g->chooses ? g->lanes.choice[k] : 0.5f, g->lanes.light_u[k], g->lanes.light_v[k]};
+    const aur_vector u = light_numbers(g, k);
     aur_shadow shadow;
     g->lanes.lit[k] = 0;
-    if (!aur_direct_light_choose(g->scene, &shading, &AUR_LIGHT_DRAWS_OF_PATHS, u, &shadow))
+    if (!aur_direct_light_choose(g->scene, &shading, &AUR_LIGHT_DRAWS_OF_PATHS,
+                                 (const float[3]){u.x, u.y, u.z}, &shadow))
         return;
     g->lanes.lit[k] = -1;
     aur_packet_set(&g->shadows, k, &shadow.ray);
@@ -273,6 +292,7 @@ static void add_direct(aur_path_group *g, uint32_t depth) {
                                lanes->light_u, lanes->light_v, &lanes->light);
         g->data->kernels->shadow(lanes, &g->shadows);
     }
+    prefetch_lights(g, g->alive & ~plain);
     for (uint32_t rest = g->alive & ~plain; rest != 0; rest &= rest - 1)
         shadow_one(g, aur_first_lane(rest), &g->surfaces[aur_first_lane(rest)]);
     const uint32_t lit = aur_lanes_set(lanes->lit) & g->alive;

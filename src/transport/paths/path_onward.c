@@ -144,6 +144,7 @@ static onward_walk walk_from(const aur_onward *onward, const aur_surface *surfac
             add_emission(onward, NULL, &walk);
             break;
         }
+        __builtin_prefetch(&onward->map->texels.ranges[aur_element_of(&onward->map->texels.elements, &hit)]);
         aur_scene_surface(scene, &walk.ray, &hit, &met);
         add_emission(onward, &met, &walk);
         view = aur_vector_scale(walk.ray.direction, -1.0f);
@@ -160,7 +161,7 @@ aur_vector aur_onward_correct(const aur_onward *onward, const aur_surface *surfa
     const aur_vector kept = aur_onward_kept(onward, known);
     if (!near && !aur_onward_is_due(onward, hash))
         return kept;
-    const onward_walk walk = walk_from(onward, surface, view, edges, aur_mix64(~hash), counters);
+    const onward_walk walk = walk_from(onward, surface, view, edges, aur_onward_walk_hash(hash), counters);
     if (near && onward->lone)
         return walk.known ? aur_vector_subtract(walk.sum, walk.known_sum) : (aur_vector){0};
     if (near)

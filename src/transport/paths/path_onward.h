@@ -20,6 +20,11 @@ typedef struct aur_onward {
     bool lone;   /* the correction counts without what it corrects */
 } aur_onward;
 
+/* What a path draws its numbers by. */
+static inline uint64_t aur_onward_walk_hash(uint64_t hash) {
+    return aur_mix64(~hash);
+}
+
 /* The map's light `known`, or that of a path where the texel is near, or `known` corrected by a path where
  * the hash says so: the mean over hashes is the surface's true light, if the share is not 0. A lone
  * correction is what that is more than it would be with a share of 0. `edges` have led from the eye to the
@@ -27,6 +32,13 @@ typedef struct aur_onward {
 aur_vector aur_onward_correct(const aur_onward *onward, const aur_surface *surface, aur_vector view,
                               uint32_t edges, uint64_t hash, bool near, aur_vector known,
                               aur_counters *counters);
+/* Asks the memory for what the path of that hash reads first. */
+static inline aur_light_fetch aur_onward_fetch(const aur_onward *onward, uint64_t hash) {
+    uint64_t walk = aur_onward_walk_hash(hash);
+    float u[3];
+    aur_draw_units(&walk, u);
+    return aur_light_fetch_begin(onward->scene, u);
+}
 /* Whether a ray of this length is short for a texel of this area. */
 static inline bool aur_onward_is_near(const aur_onward *onward, float distance, float area) {
     return distance * distance < onward->reach * onward->reach * area;
