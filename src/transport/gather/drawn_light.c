@@ -124,10 +124,13 @@ static aur_light_sample light_from(const aur_gather_plan *plan, const aur_bright
                                  .shape = point->shape,
                                  .primitive = point->primitive,
                                  .instance = AUR_NO_INSTANCE};
-            aur_surface surface;
-            aur_scene_surface(plan->scene, &ray, &hit, &surface);
-            radiance = aur_onward_correct(&plan->onward, &surface, aur_vector_scale(direction, -1.0f), 2,
-                                          hash, near, radiance, counters);
+            aur_onward_start start = {.view = aur_vector_scale(direction, -1.0f),
+                                      .edges = 2,
+                                      .hash = hash,
+                                      .near = near,
+                                      .known = radiance};
+            aur_scene_surface(plan->scene, &ray, &hit, &start.surface);
+            aur_onward_correct(&plan->onward, 1, &start, &radiance, counters);
         }
     }
     sample.radiance = aur_vector_add(radiance, known.caustics);

@@ -30,6 +30,7 @@ uint32_t aur_gather_occluded(const aur_gather_plan *plan, aur_embree_order order
 /* The ray, and how it came to where it is. */
 typedef struct gather_chain {
     aur_ray ray;
+    size_t lane;          /* of the gather ray */
     uint64_t hash;        /* of what chance decides on its way */
     uint32_t length;      /* bounces since the gathering point */
     bool specular;        /* all of them */
@@ -79,26 +80,61 @@ static aur_vector emitted_radiance(const aur_gather_plan *plan, const gather_cha
     return aur_vector_scale(emission, aur_power_heuristic(chain->density, chain->light_draws * pdf));
 }
 
-/* Of a path that begins after so many bounces. */
-static uint64_t chain_hash(uint64_t hash, uint32_t length) {
-    return aur_hash2(hash, length);
+/* Paths in place of what the map knows: they wait until there are sixteen, or all rays have been looked at.
+ */
+typedef struct waiting_paths {
+    size_t count;
+    aur_onward_start starts[AUR_PACKET_SIZE];
+    aur_vector weights[AUR_PACKET_SIZE]; /* of their light in that of the ray */
+    size_t lanes[AUR_PACKET_SIZE];
+} waiting_paths;
+
+/* Adds their light to that of the rays. */
+static void walk_paths(const aur_gather_plan *plan, waiting_paths *waiting, aur_gather_rays *rays,
+                       aur_counters *counters) {
+    aur_vector radiance[AUR_PACKET_SIZE];
+    if (waiting->count > 0)
+        aur_onward_correct(&plan->onward, waiting->count, waiting->starts, radiance, counters);
+    for (size_t i = 0; i < waiting->count; ++i) {
+        const aur_vector added = aur_vector_multiply(waiting->weights[i], radiance[i]);
+        const size_t lane = waiting->lanes[i];
+        rays->radiance[0][lane] += added.x;
+        rays->radiance[1][lane] += added.y;
+        rays->radiance[2][lane] += added.z;
+    }
+    waiting->count = 0;
 }
 
-/* The light that leaves a surface by what the photon maps know, or by a path. */
-static aur_vector scattered_radiance(const aur_gather_plan *plan, const gather_chain *chain,
-                                     const aur_hit *hit, const aur_surface *surface, aur_vector view,
-                                     aur_counters *counters) {
-    aur_vector sum = {0};
+/* The path whose start is the next one waits, too. */
+static void wait_for_path(const aur_gather_plan *plan, size_t lane, aur_vector weight, waiting_paths *waiting,
+                          aur_gather_rays *rays, aur_counters *counters) {
+    waiting->weights[waiting->count] = weight;
+    waiting->lanes[waiting->count++] = lane;
+    if (waiting->count == AUR_PACKET_SIZE)
+        walk_paths(plan, waiting, rays, counters);
+}
+
+/* The light that leaves a surface by what the photon maps know. Where a path is to say it, what is left is
+ * what the path begins with: true. */
+static bool scattered_radiance(const aur_gather_plan *plan, const gather_chain *chain, const aur_hit *hit,
+                               const aur_surface *surface, aur_vector view, aur_vector *radiance,
+                               aur_onward_start *start) {
+    bool waits = false;
+    *radiance = (aur_vector){0};
     if (plan->light.map != NULL) {
         const aur_texel_view known = aur_irradiance_view(plan->light.map, plan->scene, hit, surface, view);
+        const uint64_t hash = aur_hash2(chain->hash, chain->length);
         const bool near = aur_onward_is_near(&plan->onward, chain->length_seen + hit->distance, known.area);
-        sum = aur_onward_correct(&plan->onward, surface, view, chain->length + 2,
-                                 chain_hash(chain->hash, chain->length), near, known.radiance, counters);
+        waits = near || aur_onward_is_due(&plan->onward, hash);
+        if (waits)
+            *start = (aur_onward_start){*surface, view, chain->length + 2, hash, near, known.radiance};
+        else
+            *radiance = aur_onward_kept(&plan->onward, known.radiance);
     }
     if (plan->light.caustics != NULL)
-        sum = aur_vector_add(
-            sum, aur_irradiance_view(plan->light.caustics, plan->scene, hit, surface, view).radiance);
-    return sum;
+        *radiance = aur_vector_add(
+            *radiance, aur_irradiance_view(plan->light.caustics, plan->scene, hit, surface, view).radiance);
+    return waits;
 }
 
 /* Weak reflections are followed now and then, so many times as often as they are strong. */
@@ -141,7 +177,7 @@ static aur_vector sampled_light(const aur_gather_plan *plan, const aur_shading *
 
 /* `hit` is the ray's first one, or NULL when it left the scene. */
 static aur_vector chain_radiance(const aur_gather_plan *plan, gather_chain chain, const aur_hit *hit,
-                                 aur_counters *counters) {
+                                 waiting_paths *waiting, aur_gather_rays *rays, aur_counters *counters) {
     const aur_scene *const scene = plan->scene;
     const bool samples_lights =
         plan->policy.direct == AUR_DIRECT_NEE && !plan->counts_emitters && aur_scene_emitter_count(scene) > 0;
@@ -157,15 +193,22 @@ static aur_vector chain_radiance(const aur_gather_plan *plan, gather_chain chain
         const aur_vector view = aur_vector_scale(chain.ray.direction, -1.0f);
         const aur_shading shading = aur_shading_at(&surface, view);
         const unsigned kinds = aur_bsdf_scatters(surface.bsdf, shading.view.z);
-        aur_vector radiance = emitted_radiance(plan, &chain, &surface);
+        aur_vector radiance = emitted_radiance(plan, &chain, &surface), known = {0};
+        aur_onward_start *const start = &waiting->starts[waiting->count];
         /* Two edges led here, and one for each link of the chain; a photon came by one more at least. */
         const bool deeper = chain.length + 3 <= plan->policy.max_depth;
-        if ((kinds & (AUR_SCATTERS_DIFFUSE | AUR_SCATTERS_GLOSSY)) != 0 && deeper)
-            radiance =
-                aur_vector_add(radiance, scattered_radiance(plan, &chain, hit, &surface, view, counters));
+        if ((kinds & (AUR_SCATTERS_DIFFUSE | AUR_SCATTERS_GLOSSY)) != 0 && deeper) {
+            aur_vector scattered;
+            if (scattered_radiance(plan, &chain, hit, &surface, view, &scattered, start)) {
+                known = aur_vector_add(known, start->known);
+                wait_for_path(plan, chain.lane, throughput, waiting, rays, counters);
+            }
+            radiance = aur_vector_add(radiance, scattered);
+        }
         if ((kinds & AUR_SCATTERS_SAMPLED) != 0 && deeper && samples_lights)
-            radiance = aur_vector_add(radiance,
-                                      sampled_light(plan, &shading, kinds, radiance, &chain.hash, counters));
+            radiance =
+                aur_vector_add(radiance, sampled_light(plan, &shading, kinds, aur_vector_add(radiance, known),
+                                                       &chain.hash, counters));
         sum = aur_vector_add(sum, aur_vector_multiply(throughput, radiance));
         if ((kinds & (AUR_SCATTERS_SPECULAR | AUR_SCATTERS_SAMPLED)) == 0 || !deeper)
             return sum;
@@ -220,29 +263,12 @@ static float bright_weight(const aur_gather_plan *plan, const aur_gather_rays *r
     return along > 0.0f ? aur_power_heuristic(density_of(rays, lane), rival) : 1.0f;
 }
 
-/* What the map knows of a lane's hit, or a path where the texel is near or the map is corrected. */
-static aur_vector corrected_radiance(const aur_gather_plan *plan, const aur_gather_rays *rays, size_t lane,
-                                     const aur_gather_known *known, aur_counters *counters) {
-    const uint64_t hash = aur_gather_rays_hash(rays, lane);
-    const bool near = aur_onward_is_near(&plan->onward, rays->packet.query.ray.tfar[lane], known->area);
-    if (!near && !aur_onward_is_due(&plan->onward, hash))
-        return aur_onward_kept(&plan->onward, known->radiance);
-    const aur_ray ray = aur_packet_ray(&rays->packet, lane);
-    const aur_hit hit = aur_packet_hit(plan->scene, &rays->packet, lane);
-    aur_surface surface;
-    aur_scene_surface(plan->scene, &ray, &hit, &surface);
-    return aur_onward_correct(&plan->onward, &surface, aur_vector_scale(ray.direction, -1.0f), 2, hash, near,
-                              known->radiance, counters);
-}
-
-/* Diffuse, without emission, no instance: true when that was all. */
-static bool plain_radiance(const aur_gather_plan *plan, const aur_gather_rays *rays, size_t lane,
-                           aur_vector *radiance, aur_counters *counters) {
+/* Of a surface that is diffuse, without emission, in no instance: what the map knows, or a path where the
+ * texel is near or the map is corrected. */
+static aur_vector plain_radiance(const aur_gather_plan *plan, size_t lane, waiting_paths *waiting,
+                                 aur_gather_rays *rays, aur_counters *counters) {
     const struct RTCRayHit16 *const query = &rays->packet.query;
     const uint32_t shape = query->hit.geomID[lane];
-    if (query->hit.instID[0][lane] != RTC_INVALID_GEOMETRY_ID || plan->light.map == NULL ||
-        !plan->classes[shape].plain)
-        return false;
     const bool behind = query->hit.Ng_x[lane] * query->ray.dir_x[lane] +
                             query->hit.Ng_y[lane] * query->ray.dir_y[lane] +
                             query->hit.Ng_z[lane] * query->ray.dir_z[lane] >
@@ -250,10 +276,24 @@ static bool plain_radiance(const aur_gather_plan *plan, const aur_gather_rays *r
     const uint32_t element = plan->light.map->texels.elements.shape_first[shape] + query->hit.primID[lane];
     const aur_gather_known known =
         aur_gather_plan_known(plan, shape, element, query->hit.u[lane], query->hit.v[lane], behind);
-    *radiance = aur_vector_add(corrected_radiance(plan, rays, lane, &known, counters), known.caustics);
-    if (plan->light.bright_draws > 0)
-        *radiance = aur_vector_scale(*radiance, bright_weight(plan, rays, lane, known.radiance));
-    return true;
+    const float weight =
+        plan->light.bright_draws > 0 ? bright_weight(plan, rays, lane, known.radiance) : 1.0f;
+    const uint64_t hash = aur_gather_rays_hash(rays, lane);
+    const bool near = aur_onward_is_near(&plan->onward, query->ray.tfar[lane], known.area);
+    if (!near && !aur_onward_is_due(&plan->onward, hash))
+        return aur_vector_scale(
+            aur_vector_add(aur_onward_kept(&plan->onward, known.radiance), known.caustics), weight);
+    const aur_ray ray = aur_packet_ray(&rays->packet, lane);
+    const aur_hit hit = aur_packet_hit(plan->scene, &rays->packet, lane);
+    aur_onward_start *const start = &waiting->starts[waiting->count];
+    aur_scene_surface(plan->scene, &ray, &hit, &start->surface);
+    start->view = aur_vector_scale(ray.direction, -1.0f);
+    start->edges = 2;
+    start->hash = hash;
+    start->near = near;
+    start->known = known.radiance;
+    wait_for_path(plan, lane, (aur_vector){weight, weight, weight}, waiting, rays, counters);
+    return aur_vector_scale(known.caustics, weight);
 }
 
 /* The lanes whose light is read from the map without a look at their surface. */
@@ -290,42 +330,16 @@ static void prefetch_lights(const aur_irradiance_map *map, const aur_scene *scen
     }
 }
 
-/* What lanes that go on as paths draw of the sky. */
-static void prefetch_onward(const aur_gather_plan *plan, const aur_gather_rays *rays, uint32_t found,
-                            uint32_t plain) {
+static void prefetch(const aur_gather_plan *plan, const aur_packet *packet, uint32_t found, uint32_t plain) {
     const aur_irradiance_map *const map = plan->light.map;
-    aur_light_fetch fetches[AUR_PACKET_SIZE];
-    uint32_t onward = 0;
-    for (uint32_t rest = found; rest != 0; rest &= rest - 1) {
-        const size_t lane = aur_first_lane(rest);
-        const aur_hit hit = aur_packet_hit(plan->scene, &rays->packet, lane);
-        const uint64_t own = aur_gather_rays_hash(rays, lane);
-        const uint64_t hash = aur_has_lane(plain, lane) ? own : chain_hash(own, 0);
-        if (!aur_onward_is_near(&plan->onward, hit.distance, map->lights[light_of(map, &hit)].area) &&
-            !aur_onward_is_due(&plan->onward, hash))
-            continue;
-        onward |= 1u << lane;
-        fetches[lane] = aur_onward_fetch(&plan->onward, hash);
-    }
-    for (uint32_t rest = onward; rest != 0; rest &= rest - 1)
-        aur_light_fetch_end(&fetches[aur_first_lane(rest)]);
-}
-
-static void prefetch(const aur_gather_plan *plan, const aur_gather_rays *rays, uint32_t found) {
-    const aur_irradiance_map *const map = plan->light.map;
-    const aur_packet *const packet = &rays->packet;
-    const uint32_t plain = plain_lanes(plan, packet, found);
     aur_packet_prefetch_indices(plan->scene, packet, found & ~plain);
     for (uint32_t rest = map != NULL ? found : 0; rest != 0; rest &= rest - 1) {
         const aur_hit hit = aur_packet_hit(plan->scene, packet, aur_first_lane(rest));
         __builtin_prefetch(range_of(map, &hit));
     }
     aur_packet_prefetch_vertices(plan->scene, packet, found & ~plain);
-    if (map == NULL)
-        return;
-    prefetch_lights(map, plan->scene, packet, found);
-    if (aur_scene_has_environment(plan->scene))
-        prefetch_onward(plan, rays, found, plain);
+    if (map != NULL)
+        prefetch_lights(map, plan->scene, packet, found);
 }
 
 void aur_gather_rays_trace(const aur_gather_plan *plan, aur_embree_order order, aur_gather_rays *rays,
@@ -333,7 +347,10 @@ void aur_gather_rays_trace(const aur_gather_plan *plan, aur_embree_order order, 
     const uint32_t lanes = aur_lanes_set(rays->packet.valid);
     const uint32_t found = aur_gather_intersect(plan, order, &rays->packet, counters);
     const bool has_sky = aur_scene_has_environment(plan->scene);
-    prefetch(plan, rays, found);
+    const uint32_t plain = plain_lanes(plan, &rays->packet, found);
+    waiting_paths waiting;
+    waiting.count = 0;
+    prefetch(plan, &rays->packet, found, plain);
     for (size_t c = 0; c < 3; ++c)
         for (size_t k = 0; k < AUR_PACKET_SIZE; ++k)
             rays->radiance[c][k] = 0.0f;
@@ -341,10 +358,13 @@ void aur_gather_rays_trace(const aur_gather_plan *plan, aur_embree_order order, 
         const size_t lane = aur_first_lane(rest);
         const bool hits = aur_has_lane(found, lane);
         aur_vector radiance;
-        if (!hits || !plain_radiance(plan, rays, lane, &radiance, counters)) {
+        if (aur_has_lane(plain, lane)) {
+            radiance = plain_radiance(plan, lane, &waiting, rays, counters);
+        } else {
             /* Only light that is sampled too asks for the density. */
             const bool weighed = !hits || plan->classes[rays->packet.query.hit.geomID[lane]].emits;
             const gather_chain chain = {.ray = aur_packet_ray(&rays->packet, lane),
+                                        .lane = lane,
                                         .hash = aur_gather_rays_hash(rays, lane),
                                         .specular = true,
                                         .reference = rays->reference[lane],
@@ -353,10 +373,11 @@ void aur_gather_rays_trace(const aur_gather_plan *plan, aur_embree_order order, 
             aur_hit hit = {0};
             if (hits)
                 hit = aur_packet_hit(plan->scene, &rays->packet, lane);
-            radiance = chain_radiance(plan, chain, hits ? &hit : NULL, counters);
+            radiance = chain_radiance(plan, chain, hits ? &hit : NULL, &waiting, rays, counters);
         }
-        rays->radiance[0][lane] = radiance.x;
-        rays->radiance[1][lane] = radiance.y;
-        rays->radiance[2][lane] = radiance.z;
+        rays->radiance[0][lane] += radiance.x;
+        rays->radiance[1][lane] += radiance.y;
+        rays->radiance[2][lane] += radiance.z;
     }
+    walk_paths(plan, &waiting, rays, counters);
 }

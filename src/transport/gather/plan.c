@@ -183,7 +183,8 @@ static aur_result compile(aur_gather_plan *plan, const aur_gather_parameters *p,
                                 .max_depth = policy->max_depth,
                                 .share = p->debias ? (float)p->continued : 0.0f,
                                 .reach = (float)p->short_rays,
-                                .lone = p->incident == AUR_INCIDENT_CORRECTION};
+                                .lone = p->incident == AUR_INCIDENT_CORRECTION,
+                                .packets = policy->packets};
     plan->gathers = plan->light.map != NULL ||
                     (policy->max_depth >= 2 && (plan->counts_emitters || policy->direct == AUR_DIRECT_NEE));
     return result;

@@ -2,6 +2,7 @@
 
 #include "core/random.h"
 #include "transport/lights/direct_light.h"
+#include "transport/packets/packet_rays.h"
 #include "transport/paths/path.h"
 
 typedef struct onward_walk {
@@ -30,26 +31,23 @@ static aur_vector evaluate(const aur_shading *shading, bool known_only, aur_vect
     return aur_vector_subtract(value, sampled);
 }
 
-/* A point on a light. */
-static void add_direct_light(const aur_onward *onward, const aur_shading *shading, bool known_only,
-                             onward_walk *walk, aur_counters *counters) {
+/* A point on a light: the ray to it, and the light that comes along it if nothing lies between. */
+static bool choose_light(const aur_onward *onward, const aur_shading *shading, bool known_only,
+                         onward_walk *walk, aur_shadow *shadow) {
     float u[3], pdf, distance;
     aur_light_sample light;
     aur_draw_units(&walk->hash, u);
     if (aur_scene_emitter_count(onward->scene) == 0 ||
         !aur_shading_draw_light(onward->scene, shading, AUR_LEAST_LIGHT_OF_PATHS, u, &light) ||
         !(light.pdf > 0.0f))
-        return;
+        return false;
     const aur_vector value = evaluate(shading, known_only, light.direction, &pdf);
     if (aur_vector_is_zero(value))
-        return;
-    const aur_ray shadow = aur_surface_ray_to(shading->surface, light.position, &distance);
-    ++counters->rays;
-    if (aur_scene_occluded(onward->scene, &shadow))
-        return;
+        return false;
+    shadow->ray = aur_surface_ray_to(shading->surface, light.position, &distance);
     const float weight = (light.delta ? 1.0f : aur_power_heuristic(light.pdf, pdf)) / light.pdf;
-    const aur_vector radiance = aur_vector_multiply(value, light.radiance);
-    walk->sum = aur_vector_add_scaled(walk->sum, weight, aur_vector_multiply(walk->throughput, radiance));
+    shadow->radiance = aur_vector_scale(aur_vector_multiply(value, light.radiance), weight);
+    return true;
 }
 
 /* A direction by the BSDF; false where the path ends. */
@@ -125,46 +123,147 @@ static bool survives(const aur_onward *onward, const aur_hit *hit, const aur_sha
     return true;
 }
 
-/* What a surface scatters towards `view` (world, unit) by the lobes that the map answers for, the diffuse
- * ones and those with a power of a cosine, along one random path. */
-static onward_walk walk_from(const aur_onward *onward, const aur_surface *surface, aur_vector view,
-                             uint32_t edges, uint64_t hash, aur_counters *counters) {
-    const aur_scene *const scene = onward->scene;
-    onward_walk walk = {.throughput = {1.0f, 1.0f, 1.0f}, .hash = hash};
-    aur_surface met = *surface;
-    bool first = true;
-    for (; edges < onward->max_depth; ++edges, first = false) {
-        const aur_shading shading = aur_shading_at(&met, view);
-        add_direct_light(onward, &shading, first, &walk, counters);
-        if (!scatter(&shading, first, &walk))
-            break;
-        aur_hit hit;
-        ++counters->rays;
-        if (!aur_scene_intersect(scene, &walk.ray, &hit)) {
-            add_emission(onward, NULL, &walk);
-            break;
-        }
-        __builtin_prefetch(&onward->map->texels.ranges[aur_element_of(&onward->map->texels.elements, &hit)]);
-        aur_scene_surface(scene, &walk.ray, &hit, &met);
-        add_emission(onward, &met, &walk);
-        view = aur_vector_scale(walk.ray.direction, -1.0f);
-        const aur_shading next = aur_shading_at(&met, view);
-        if (edges + 1 < onward->max_depth && !survives(onward, &hit, &next, view, &walk))
-            break;
-    }
-    return walk;
+/* --- sixteen paths, bounce by bounce */
+
+typedef struct onward_walks {
+    const aur_onward *onward;
+    aur_counters *counters;
+    uint32_t alive;
+    bool first; /* the surface is the one that the path began at: the lobes that the map answers for */
+    onward_walk walk[AUR_PACKET_SIZE];
+    aur_surface met[AUR_PACKET_SIZE];
+    aur_vector view[AUR_PACKET_SIZE];
+    uint32_t edges[AUR_PACKET_SIZE];
+    aur_packet packet;
+} onward_walks;
+
+/* Few rays are traced one by one: they would leave a packet nearly empty. */
+static bool is_packet(const aur_onward *onward, uint32_t lanes) {
+    return onward->packets && aur_lane_count(lanes) >= AUR_PACKET_SIZE / 4;
 }
 
-aur_vector aur_onward_correct(const aur_onward *onward, const aur_surface *surface, aur_vector view,
-                              uint32_t edges, uint64_t hash, bool near, aur_vector known,
-                              aur_counters *counters) {
-    const aur_vector kept = aur_onward_kept(onward, known);
-    if (!near && !aur_onward_is_due(onward, hash))
-        return kept;
-    const onward_walk walk = walk_from(onward, surface, view, edges, aur_onward_walk_hash(hash), counters);
-    if (near && onward->lone)
-        return walk.known ? aur_vector_subtract(walk.sum, walk.known_sum) : (aur_vector){0};
-    if (near)
-        return walk.sum;
-    return aur_vector_add_scaled(kept, 1.0f / onward->share, aur_vector_subtract(walk.sum, known));
+/* Draws of skies read far places in memory: those of all paths come together. */
+static void prefetch_lights(const onward_walks *walks) {
+    aur_light_fetch fetches[AUR_PACKET_SIZE];
+    for (uint32_t rest = walks->alive; rest != 0; rest &= rest - 1) {
+        const size_t k = aur_first_lane(rest);
+        uint64_t hash = walks->walk[k].hash;
+        float u[3];
+        aur_draw_units(&hash, u);
+        fetches[k] = aur_light_fetch_begin(walks->onward->scene, u);
+    }
+    for (uint32_t rest = walks->alive; rest != 0; rest &= rest - 1)
+        aur_light_fetch_end(&fetches[aur_first_lane(rest)]);
+}
+
+static void add_direct_light(onward_walks *walks) {
+    const aur_scene *const scene = walks->onward->scene;
+    aur_vector radiance[AUR_PACKET_SIZE];
+    uint32_t lit = 0;
+    if (aur_scene_has_environment(scene))
+        prefetch_lights(walks);
+    aur_packet_empty(&walks->packet);
+    for (uint32_t rest = walks->alive; rest != 0; rest &= rest - 1) {
+        const size_t k = aur_first_lane(rest);
+        const aur_shading shading = aur_shading_at(&walks->met[k], walks->view[k]);
+        aur_shadow shadow;
+        if (!choose_light(walks->onward, &shading, walks->first, &walks->walk[k], &shadow))
+            continue;
+        radiance[k] = shadow.radiance;
+        aur_packet_set(&walks->packet, k, &shadow.ray);
+        lit |= 1u << k;
+    }
+    if (lit == 0)
+        return;
+    walks->counters->rays += aur_lane_count(lit);
+    lit &=
+        ~(is_packet(walks->onward, lit) ? aur_scene_occluded16(scene, AUR_EMBREE_INCOHERENT, &walks->packet)
+                                        : aur_scene_occluded_each(scene, &walks->packet));
+    for (uint32_t rest = lit; rest != 0; rest &= rest - 1) {
+        onward_walk *const walk = &walks->walk[aur_first_lane(rest)];
+        walk->sum =
+            aur_vector_add(walk->sum, aur_vector_multiply(walk->throughput, radiance[aur_first_lane(rest)]));
+    }
+}
+
+/* The rays that go on; returns those that meet something. */
+static uint32_t trace(onward_walks *walks) {
+    const aur_scene *const scene = walks->onward->scene;
+    aur_packet_empty(&walks->packet);
+    for (uint32_t rest = walks->alive; rest != 0; rest &= rest - 1) {
+        const size_t k = aur_first_lane(rest);
+        const aur_shading shading = aur_shading_at(&walks->met[k], walks->view[k]);
+        if (scatter(&shading, walks->first, &walks->walk[k]))
+            aur_packet_set(&walks->packet, k, &walks->walk[k].ray);
+        else
+            walks->alive &= ~(1u << k);
+    }
+    if (walks->alive == 0)
+        return 0;
+    walks->counters->rays += aur_lane_count(walks->alive);
+    return is_packet(walks->onward, walks->alive)
+               ? aur_scene_intersect16(scene, AUR_EMBREE_INCOHERENT, &walks->packet)
+               : aur_scene_intersect_each(scene, &walks->packet);
+}
+
+/* The surface that a path meets; false where the path ends there. */
+static bool meet(onward_walks *walks, size_t k) {
+    const aur_onward *const onward = walks->onward;
+    onward_walk *const walk = &walks->walk[k];
+    const aur_hit hit = aur_packet_hit(onward->scene, &walks->packet, k);
+    aur_scene_surface(onward->scene, &walk->ray, &hit, &walks->met[k]);
+    add_emission(onward, &walks->met[k], walk);
+    walks->view[k] = aur_vector_scale(walk->ray.direction, -1.0f);
+    const aur_shading shading = aur_shading_at(&walks->met[k], walks->view[k]);
+    return ++walks->edges[k] < onward->max_depth && survives(onward, &hit, &shading, walks->view[k], walk);
+}
+
+static void bounce(onward_walks *walks) {
+    const aur_onward *const onward = walks->onward;
+    add_direct_light(walks);
+    const uint32_t found = trace(walks);
+    aur_packet_prefetch_indices(onward->scene, &walks->packet, found);
+    for (uint32_t rest = found; rest != 0; rest &= rest - 1) {
+        const aur_hit hit = aur_packet_hit(onward->scene, &walks->packet, aur_first_lane(rest));
+        __builtin_prefetch(&onward->map->texels.ranges[aur_element_of(&onward->map->texels.elements, &hit)]);
+    }
+    aur_packet_prefetch_vertices(onward->scene, &walks->packet, found);
+    for (uint32_t rest = walks->alive; rest != 0; rest &= rest - 1) {
+        const size_t k = aur_first_lane(rest);
+        if (!aur_has_lane(found, k))
+            add_emission(onward, NULL, &walks->walk[k]);
+        if (!aur_has_lane(found, k) || !meet(walks, k))
+            walks->alive &= ~(1u << k);
+    }
+}
+
+static aur_vector corrected(const aur_onward *onward, const aur_onward_start *start,
+                            const onward_walk *walk) {
+    if (start->near && onward->lone)
+        return walk->known ? aur_vector_subtract(walk->sum, walk->known_sum) : (aur_vector){0};
+    if (start->near)
+        return walk->sum;
+    return aur_vector_add_scaled(aur_onward_kept(onward, start->known), 1.0f / onward->share,
+                                 aur_vector_subtract(walk->sum, start->known));
+}
+
+void aur_onward_correct(const aur_onward *onward, size_t count, const aur_onward_start *starts,
+                        aur_vector *radiance, aur_counters *counters) {
+    onward_walks walks;
+    walks.onward = onward;
+    walks.counters = counters;
+    walks.alive = 0;
+    aur_packet_clear(&walks.packet);
+    for (size_t k = 0; k < count; ++k) {
+        walks.walk[k] = (onward_walk){.throughput = {1.0f, 1.0f, 1.0f}, .hash = aur_mix64(~starts[k].hash)};
+        walks.met[k] = starts[k].surface;
+        walks.view[k] = starts[k].view;
+        walks.edges[k] = starts[k].edges;
+        if (starts[k].edges < onward->max_depth)
+            walks.alive |= 1u << k;
+    }
+    for (walks.first = true; walks.alive != 0; walks.first = false)
+        bounce(&walks);
+    for (size_t k = 0; k < count; ++k)
+        radiance[k] = corrected(onward, &starts[k], &walks.walk[k]);
 }

@@ -15,30 +15,28 @@ typedef struct aur_onward {
     const aur_irradiance_map *map;
     const aur_irradiance_map *caustics; /* of light that specular bounces brought, if `map` lacks it */
     uint32_t max_depth;                 /* edges of a light path; UINT32_MAX: no limit */
-    float share; /* p, in [0, 1]; with 0 a path ends at the first texel that is far enough */
-    float reach; /* rays that are shorter than so many widths of the texel that they meet go on */
-    bool lone;   /* the correction counts without what it corrects */
+    float share;  /* p, in [0, 1]; with 0 a path ends at the first texel that is far enough */
+    float reach;  /* rays that are shorter than so many widths of the texel that they meet go on */
+    bool lone;    /* the correction counts without what it corrects */
+    bool packets; /* rays of several paths are traced together */
 } aur_onward;
 
-/* What a path draws its numbers by. */
-static inline uint64_t aur_onward_walk_hash(uint64_t hash) {
-    return aur_mix64(~hash);
-}
+/* Where a path begins. */
+typedef struct aur_onward_start {
+    aur_surface surface;
+    aur_vector view;  /* unit, of the world */
+    uint32_t edges;   /* that have led from the eye to the surface */
+    uint64_t hash;    /* of what chance decides */
+    bool near;        /* the texel is: see aur_onward_is_near */
+    aur_vector known; /* the map's light */
+} aur_onward_start;
 
-/* The map's light `known`, or that of a path where the texel is near, or `known` corrected by a path where
- * the hash says so: the mean over hashes is the surface's true light, if the share is not 0. A lone
- * correction is what that is more than it would be with a share of 0. `edges` have led from the eye to the
- * surface, and `view` is unit and of the world. */
-aur_vector aur_onward_correct(const aur_onward *onward, const aur_surface *surface, aur_vector view,
-                              uint32_t edges, uint64_t hash, bool near, aur_vector known,
-                              aur_counters *counters);
-/* Asks the memory for what the path of that hash reads first. */
-static inline aur_light_fetch aur_onward_fetch(const aur_onward *onward, uint64_t hash) {
-    uint64_t walk = aur_onward_walk_hash(hash);
-    float u[3];
-    aur_draw_units(&walk, u);
-    return aur_light_fetch_begin(onward->scene, u);
-}
+/* The light of a path where the texel is near, else the map's corrected by a path: the mean over hashes, if
+ * aur_onward_is_due says which are corrected, is the surface's true light, if the share is not 0. A lone
+ * correction is what that is more than it would be with a share of 0. At most sixteen paths go on together,
+ * bounce by bounce: each as it would alone, but for the rounding of packets. */
+void aur_onward_correct(const aur_onward *onward, size_t count, const aur_onward_start *starts,
+                        aur_vector *radiance, aur_counters *counters);
 /* Whether a ray of this length is short for a texel of this area. */
 static inline bool aur_onward_is_near(const aur_onward *onward, float distance, float area) {
     return distance * distance < onward->reach * onward->reach * area;
