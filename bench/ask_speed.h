@@ -6,6 +6,7 @@
 #include "bench.h"
 #include "figures.h"
 
-/* Mitsuba is measured too where AUREOLE_PEERS_PYTHON names a Python that has it
- * (bench/peers/time_to_quality.py). False after bench_fail. */
+/* Where AUREOLE_PEERS_PYTHON names a Python that has Mitsuba (bench/peers/time_to_quality.py), that is
+ * measured too, and where AUREOLE_OIDN names Open Image Denoise, what pictures err when they are denoised.
+ * False after bench_fail. */
 bool bench_ask_speed(const bench_options *options, bench_figures *figures);
