@@ -39,6 +39,39 @@ static aur_result check_wish(aur_ask_options *wish, aur_error *error) {
 
 /* --- progress: one bar over all rounds and replicas, to where the wish is thought to be met */
 
+/* Of all rays on the way to an error, those that are spent, where `part` of a step is done. */
+static double share_of_error(const aur_ask *ask, const aur_trial *trial, double part) {
+    const aur_choice *const choice = ask->choice;
+    const double others = choice != NULL ? aur_choice_rival_rays(choice) : (double)ask->others.rays;
+    const double part_left = choice != NULL ? aur_choice_part_left(choice) : 1.0;
+    const double before = trial->begun ? trial->before : trial->samples;
+    const double now = before + (trial->begun ? part * (trial->samples - before) : 0.0);
+    if (!(before > 0.0 && trial->whole > 0.0))
+        return 0.0;
+    const double rays = aur_trial_rays(trial), left = rays * fmax(trial->whole / now - 1.0, 0.0) * part_left;
+    return (rays + others) / fmax(rays + others + left, 1.0);
+}
+
+static double share_done(const aur_ask *ask, double done) {
+    const aur_ask_options *const wish = &ask->wish;
+    const aur_trial *const trial = ask->choice != NULL ? &ask->choice->trial : &ask->trial;
+    const double part = ((double)trial->replica + done) / (double)trial->replicas.count;
+    aur_render_statistics spent;
+    aur_trial_spent(trial, &spent);
+    double share = 0.0;
+    if (wish->error > 0.0)
+        share = share_of_error(ask, trial, part);
+    if (wish->rays > 0)
+        share = fmax(share, (double)(spent.rays + ask->others.rays) / (double)wish->rays);
+    if (wish->seconds > 0.0)
+        share = fmax(share, (spent.prepare_seconds + spent.render_seconds + ask->others.prepare_seconds +
+                             ask->others.render_seconds) /
+                                wish->seconds);
+    if (wish->rounds > 0)
+        share = fmax(share, ((double)trial->rounds + part) / (double)wish->rounds);
+    return fmin(share, 1.0);
+}
+
 static int report(void *user, const char *what, uint64_t done, uint64_t total) {
     aur_ask *const ask = user;
     if (atomic_load_explicit(&ask->cancelled, memory_order_relaxed))
@@ -46,16 +79,10 @@ static int report(void *user, const char *what, uint64_t done, uint64_t total) {
     if (ask->progress.function == NULL)
         return 0;
     enum { STEPS = 10000 };
-    if (ask->choosing)
-        return ask->progress.function(ask->progress.user, "trying integrators", done, total + 1);
-    const aur_trial *const trial = &ask->trial;
-    if (trial->replicas.count == 0) /* it is being prepared */
+    if (ask->trial.replicas.pixel_count == 0) /* it is being prepared */
         return ask->progress.function(ask->progress.user, what, 0, STEPS);
-    const double part =
-        ((double)trial->replica + (double)done / (double)total) / (double)trial->replicas.count;
-    const double share =
-        (trial->before + part * (trial->samples - trial->before)) / fmax(ask->whole, trial->samples);
-    return ask->progress.function(ask->progress.user, what, (uint64_t)(STEPS * fmin(share, 1.0)), STEPS);
+    const double share = share_done(ask, (double)done / (double)total);
+    return ask->progress.function(ask->progress.user, "rendering", (uint64_t)(STEPS * share), STEPS);
 }
 
 /* --- making */
@@ -120,9 +147,9 @@ static aur_result choose(aur_ask *ask, aur_error *error) {
                          .trial = ask->trial};
     aur_render_options own = ask->options;
     own.warnings = (aur_warnings){0};
-    ask->choosing = true;
+    ask->choice = &choice;
     result = aur_ask_try(ask->renderer, &own, &choice, error);
-    ask->choosing = false;
+    ask->choice = NULL;
     ask->trial = choice.trial;
     ask->bias = choice.bias;
     ask->others = choice.others;
@@ -195,7 +222,6 @@ aur_result aur_ask_create(aur_renderer *renderer, const aur_render_options *rend
         return aur_fail_memory(error);
     atomic_init(&ask->cancelled, false);
     ask->wish = aur_ask_options_default();
-    ask->whole = 1.0;
     aur_result result = aur_options_read(options, sizeof ask->wish, &ask->wish, "aur_ask_options", error);
     if (result == AUR_OK)
         result = check_wish(&ask->wish, error);
@@ -255,18 +281,17 @@ static double next_factor(const aur_ask *ask) {
     return aur_trial_factor(&ask->trial, &goal);
 }
 
-/* Samples a pixel that the wish is thought to take, for the progress callback. */
-static double samples_wanted(const aur_ask *ask) {
-    const aur_trial *const trial = &ask->trial;
-    const double factor = trial->rounds > 0 ? next_factor(ask) : 0.1;
-    return fmax(trial->samples / factor, 1.0);
+static void look_ahead(aur_ask *ask) {
+    const aur_goal goal = goal_of(ask);
+    aur_trial_look_ahead(&ask->trial, &goal);
 }
 
 aur_result aur_ask_run(aur_ask *ask, aur_error *error) {
     aur_result result = ask->open ? choose(ask, error) : AUR_OK;
     aur_trial *const trial = &ask->trial;
     while (result == AUR_OK && (trial->rounds == 0 || trial->begun || !is_met(ask))) {
-        ask->whole = samples_wanted(ask);
+        if (!trial->begun)
+            look_ahead(ask);
         if (!trial->begun && !aur_trial_plan(trial, trial->rounds > 0 ? next_factor(ask) : 1.0))
             break;
         result = aur_trial_render(trial, ask->wish.confidence, &ask->cancelled, error);

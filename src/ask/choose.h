@@ -24,8 +24,14 @@ typedef struct aur_choice {
     aur_trial trial;        /* path tracing before, the one to go on with after; the caller releases it */
     aur_gather_size gather; /* where that is final gathering; else 0 */
     aur_bias bias;          /* of the trial's integrator; 0 of path tracing */
-    aur_render_statistics others; /* what the trials cost that are not gone on with */
+    aur_render_statistics others;    /* what the trials cost that are not gone on with */
+    const struct aur_rivals *rivals; /* while they are tried; else NULL */
 } aur_choice;
+
+/* While it is made, for progress: rays of what is tried beside path tracing, and the part of path tracing's
+ * rest that is thought to be left to do. */
+double aur_choice_rival_rays(const aur_choice *choice);
+double aur_choice_part_left(const aur_choice *choice);
 
 /* Final gathering in place of "path[:max_depth=D]", with the same max_depth. A new text, or NULL where memory
  * is short. */

@@ -16,10 +16,9 @@ struct aur_ask {
     aur_bias bias;                /* of its integrator */
     aur_render_statistics others; /* what integrators cost that were tried and not taken */
     atomic_bool cancelled;
-    bool open;              /* another integrator may turn out better: that is not tried yet */
-    bool choosing;          /* it is being tried */
-    aur_gather_size gather; /* where it was final gathering, else 0 */
-    double whole;           /* samples that the wish is thought to take, for the progress callback */
+    bool open;                /* another integrator may turn out better: that is not tried yet */
+    const aur_choice *choice; /* while it is tried; else NULL */
+    aur_gather_size gather;   /* where it was final gathering, else 0 */
 };
 
 /* Goes on with final gathering of that size, from nothing. Errors: those of aur_render_create. */

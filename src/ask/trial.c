@@ -126,6 +126,14 @@ double aur_trial_factor(const aur_trial *trial, const aur_goal *goal) {
     return factor;
 }
 
+void aur_trial_look_ahead(aur_trial *trial, const aur_goal *goal) {
+    const double noise = aur_goal_noise(goal);
+    trial->whole = 0.0;
+    if (trial->bound < INFINITY && noise > 0.0)
+        trial->whole = trial->samples * aur_growth_to(trial->value_count, trial->variances,
+                                                      factor_to_error(trial, noise), trial->targets);
+}
+
 /* What the variances are thought to be with the samples that are planned. */
 static void predict(aur_trial *trial) {
     for (size_t i = 0; i < trial->value_count; ++i)

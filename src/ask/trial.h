@@ -24,6 +24,7 @@ typedef struct aur_trial {
     double samples;         /* a pixel, all replicas together */
     double before;          /* the same before the round that is planned or rendered */
     size_t pattern_samples; /* of a pixel that complete a pattern: pixels get whole ones */
+    double whole;           /* and in the end, as aur_trial_look_ahead thought last; 0: nobody knows */
     uint64_t rounds;
     bool begun;     /* a round is planned and not all rendered */
     bool looked_at; /* the round planned last was to end where it leads, and may be the last of all */
@@ -58,6 +59,10 @@ double aur_trial_factor(const aur_trial *trial, const aur_goal *goal);
 /* What the bias leaves of the error. */
 double aur_goal_noise(const aur_goal *goal);
 double aur_trial_rays(const aur_trial *trial);
+
+/* Finds for progress what the trial will have come to in the end, from what it has before a round is planned.
+ */
+void aur_trial_look_ahead(aur_trial *trial, const aur_goal *goal);
 
 /* No sample has met light, and none that the camera sees is known of. */
 bool aur_trial_is_black(const aur_trial *trial);

@@ -42,6 +42,7 @@ static aur_result render_evenly(const aur_choice *choice, aur_trial *trial, uint
 
 /* The next round, as whoever goes on with the trial would plan it. False where no pixel can have more. */
 static aur_result render_round(const aur_choice *choice, aur_trial *trial, bool *more, aur_error *error) {
+    aur_trial_look_ahead(trial, &choice->goal);
     *more = aur_trial_plan(trial, trial->rounds > 0 ? aur_trial_factor(trial, &choice->goal) : 1.0);
     return *more ? aur_trial_render(trial, choice->confidence, choice->cancelled, error) : AUR_OK;
 }
@@ -220,6 +221,21 @@ static aur_result compare(aur_renderer *renderer, const aur_render_options *opti
     return result;
 }
 
+static double rays_of(const aur_trial *trial) {
+    const bool made = trial->replicas.pixel_count > 0;
+    return made ? aur_trial_rays(trial) : 0.0;
+}
+
+double aur_choice_rival_rays(const aur_choice *choice) {
+    const aur_rivals *const rivals = choice->rivals;
+    return rivals == NULL ? 0.0
+                          : rays_of(&rivals->gather) + rays_of(&rivals->pilot) + rays_of(&rivals->difference);
+}
+
+double aur_choice_part_left(const aur_choice *choice) {
+    return choice->rivals != NULL ? WORTH : 1.0;
+}
+
 static void add_spent(const aur_trial *trial, aur_render_statistics *sum) {
     aur_render_statistics one;
     if (trial->replicas.count == 0)
@@ -243,7 +259,9 @@ aur_result aur_ask_try(aur_renderer *renderer, const aur_render_options *options
         choice->gather = (aur_gather_size){0};
         return AUR_OK;
     }
+    aur_trial_look_ahead(path, &choice->goal);
     aur_rivals rivals = {0};
+    choice->rivals = &rivals;
     aur_error refused;
     bool better = false;
     const aur_render_options coarse = coarse_options(path, options);
@@ -257,6 +275,7 @@ aur_result aur_ask_try(aur_renderer *renderer, const aur_render_options *options
         result = AUR_OK; /* final gathering says that the scene is not for it */
     else if (error != NULL)
         *error = refused;
+    choice->rivals = NULL;
     if (better) {
         const aur_trial left = *path;
         *path = rivals.gather;

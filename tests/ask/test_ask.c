@@ -132,6 +132,47 @@ static void test_choice(void **state) {
     aur_ask_destroy(truth);
 }
 
+/* What the progress callback was told, and the rays then. */
+typedef struct progress_record {
+    aur_ask *asked;
+    size_t count;
+    double shares[2048], rays[2048];
+} progress_record;
+
+static int keep_progress(void *user, const char *what, uint64_t done, uint64_t total) {
+    progress_record *const record = user;
+    if (record->asked == NULL) /* it is being prepared */
+        return 0;
+    assert_string_equal(what, "rendering");
+    if (record->count < 2048) {
+        record->shares[record->count] = (double)done / (double)total;
+        record->rays[record->count++] = (double)report_of(record->asked).statistics.rays;
+    }
+    return 0;
+}
+
+/* One bar leads to the error asked, and says about which part of the rays is spent: the pilot rounds are
+ * none of their own. Rounds that follow one that missed the error are not foreseen. */
+static void test_progress(void **state) {
+    const fixture *const f = *state;
+    static progress_record record;
+    aur_render_options options = small(1);
+    options.integrator = "path";
+    options.progress = (aur_progress){keep_progress, &record};
+    aur_ask_options wish = aur_ask_options_default();
+    wish.error = 0.06;
+    assert_int_equal(aur_ask_create(f->renderer, &options, &wish, &record.asked, NULL), AUR_OK);
+    assert_int_equal(aur_ask_run(record.asked, NULL), AUR_OK);
+    const double all = (double)report_of(record.asked).statistics.rays;
+    double off = 0.0;
+    for (size_t i = 0; i < record.count; ++i)
+        off += fabs(record.shares[i] - record.rays[i] / all) / (double)record.count;
+    print_message("%zu reports, %.3f off in the mean\n", record.count, off);
+    assert_true(record.count > 50 && record.count < 2048);
+    assert_true(off < 0.1);
+    aur_ask_destroy(record.asked);
+}
+
 /* Rounds that a clock would have stopped are made again without one. */
 static void test_rounds_and_rays(void **state) {
     const fixture *const f = *state;
@@ -217,8 +258,11 @@ static void test_bad_wishes(void **state) {
 }
 
 int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_error), cmocka_unit_test(test_choice), cmocka_unit_test(test_rounds_and_rays),
-        cmocka_unit_test(test_cancelled_picture_is_kept), cmocka_unit_test(test_bad_wishes)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(test_error),
+                                       cmocka_unit_test(test_choice),
+                                       cmocka_unit_test(test_progress),
+                                       cmocka_unit_test(test_rounds_and_rays),
+                                       cmocka_unit_test(test_cancelled_picture_is_kept),
+                                       cmocka_unit_test(test_bad_wishes)};
     return cmocka_run_group_tests(tests, set_up, tear_down);
 }
