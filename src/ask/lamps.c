@@ -25,8 +25,9 @@ static bool draw(const aur_scene *scene, const aur_film_layout *layout, uint64_t
     const float u[3] = {((float)i + number(seed, i, 0)) / (float)POINTS, number(seed, i, 1),
                         number(seed, i, 2)};
     const aur_vector camera = aur_camera_position(scene);
+    const aur_light_reference reference = {.position = camera};
     aur_light_sample *const light = &point->light;
-    if (!aur_light_sample_direct(scene, camera, 0.0f, u, light) || light->delta ||
+    if (!aur_light_sample_direct(scene, &reference, u, light) || light->delta ||
         aur_vector_is_zero(light->radiance) ||
         !aur_camera_see(scene, layout->width, layout->height, light->direction, &point->film))
         return false;

@@ -12,10 +12,8 @@ typedef struct aur_emitter aur_emitter;
  * light.
  */
 typedef struct aur_light_query {
-    aur_vector reference;
-    float least; /* steradians, as aur_light_sample_direct has it */
+    aur_light_reference reference;
     float u[3];
-    aur_vector normal; /* of the side that light is asked for on; 0: of both */
 } aur_light_query;
 
 typedef struct aur_emitter_descriptor {
@@ -34,14 +32,15 @@ typedef struct aur_emitter_descriptor {
     /* The table in which `sample` looks a number up, too large for caches, and that number. May be NULL. */
     const aur_distribution *(*table)(const aur_emitter *emitter, const float u[3], float *number);
     /* `sample` for the sixteen lanes of a packet; false: it is left to `sample`. May be NULL. */
-    bool (*lanes)(const aur_emitter *emitter, const aur_lane_vectors *reference, float least, const float *u,
+    bool (*lanes)(const aur_emitter *emitter, const aur_light_references *references, const float *u,
                   const float *v, aur_light_lanes *drawn);
     /* As aur_light_emit for this light alone. */
     bool (*emit)(const aur_emitter *emitter, const float u[5], aur_ray *ray, aur_vector *power);
     void (*release)(aur_emitter *emitter); /* frees what emitter->data owns, not `data`; may be NULL */
-    /* For shapes that shine to all sides only: the density, a steradian, with which `sample` draws the points
-     * that `reference` sees; 0 says that it draws them by area. */
-    float (*pdf_seen)(const aur_emitter *emitter, aur_vector reference, float least);
+    /* For shapes that shine to all sides only: the density, a steradian, with which `sample` draws the point
+     * `surface`, which `reference` sees under so large a cosine. */
+    float (*pdf_seen)(const aur_emitter *emitter, const aur_light_reference *reference,
+                      const aur_surface *surface, float cosine);
     /* For environments only: the radiance from a direction, and the density with which `sample` draws it. */
     aur_vector (*radiance_from)(const aur_emitter *emitter, aur_vector direction);
     float (*pdf_from)(const aur_emitter *emitter, aur_vector direction);

@@ -7,14 +7,9 @@ static const aur_emitter *choose(const aur_scene *scene, float *u) {
     return scene->emitters[aur_distribution_choose(&scene->lights, u)];
 }
 
-bool aur_light_sample_direct(const aur_scene *scene, aur_vector reference, float least, const float u[3],
+bool aur_light_sample_direct(const aur_scene *scene, const aur_light_reference *reference, const float u[3],
                              aur_light_sample *sample) {
-    return aur_light_sample_facing(scene, reference, (aur_vector){0}, least, u, sample);
-}
-
-bool aur_light_sample_facing(const aur_scene *scene, aur_vector reference, aur_vector normal, float least,
-                             const float u[3], aur_light_sample *sample) {
-    aur_light_query query = {reference, least, {u[0], u[1], u[2]}, normal};
+    aur_light_query query = {*reference, {u[0], u[1], u[2]}};
     const aur_emitter *const emitter = choose(scene, &query.u[0]);
     if (emitter == NULL)
         return false;
@@ -51,22 +46,19 @@ bool aur_light_chooses(const aur_scene *scene) {
     return scene->emitter_count > 1 || (scene->emitter_count == 1 && scene->emitters[0]->needs_choice);
 }
 
-float aur_light_pdf_direct(const aur_scene *scene, aur_vector reference, float least,
+float aur_light_pdf_direct(const aur_scene *scene, const aur_light_reference *reference,
                            const aur_surface *surface) {
     if (surface->emitter == AUR_NO_EMITTER)
         return 0.0f;
     const aur_emitter *const emitter = scene->emitters[surface->emitter];
     if (!aur_emitter_glows(emitter))
         return 0.0f;
-    const aur_shape *const shape = scene->shapes[surface->shape];
-    const aur_vector way = aur_vector_subtract(surface->position, reference);
+    const aur_vector way = aur_vector_subtract(surface->position, reference->position);
     const float squared = aur_vector_dot(way, way);
     const float cosine = -aur_vector_dot(way, surface->geometric_normal) / sqrtf(squared);
     if (!(cosine > 0.0f))
         return 0.0f;
-    float pdf = emitter->descriptor->pdf_seen(emitter, reference, least);
-    if (pdf == 0.0f)
-        pdf = squared / (cosine * (float)shape->area);
+    const float pdf = emitter->descriptor->pdf_seen(emitter, reference, surface, cosine);
     return isfinite(pdf) ? emitter->probability * pdf : 0.0f;
 }
 

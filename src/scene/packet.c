@@ -234,10 +234,12 @@ aur_bsdf_point aur_packet_texture(const aur_scene *scene, const aur_packet *pack
                             hits->v[lane]);
 }
 
-static void light_lane(const aur_scene *scene, const aur_lane_vectors *reference, float least,
-                       const float u[3], size_t lane, aur_light_lanes *lights) {
+static void light_lane(const aur_scene *scene, const aur_light_references *references, const float u[3],
+                       size_t lane, aur_light_lanes *lights) {
+    const aur_light_reference reference = {aur_lane_vector(references->position, lane),
+                                           aur_lane_vector(references->normal, lane)};
     aur_light_sample one;
-    if (!aur_light_sample_direct(scene, aur_lane_vector(reference, lane), least, u, &one))
+    if (!aur_light_sample_direct(scene, &reference, u, &one))
         one = (aur_light_sample){0};
     aur_lane_set(&lights->position, lane, one.position);
     aur_lane_set(&lights->radiance, lane, one.radiance);
@@ -245,18 +247,16 @@ static void light_lane(const aur_scene *scene, const aur_lane_vectors *reference
     lights->rivals[lane] = one.delta ? 0.0f : 1.0f;
 }
 
-void aur_light_lanes_direct(const aur_scene *scene, uint32_t lanes, const aur_lane_vectors *reference,
-                            float least, const float *choice, const float *u, const float *v,
-                            aur_light_lanes *lights) {
+void aur_light_lanes_direct(const aur_scene *scene, uint32_t lanes, const aur_light_references *references,
+                            const float *choice, const float *u, const float *v, aur_light_lanes *lights) {
     const bool chooses = aur_light_chooses(scene);
     if (!chooses && scene->emitter_count == 1) {
         const aur_emitter *const only = scene->emitters[0];
-        if (only->descriptor->lanes != NULL && only->descriptor->lanes(only, reference, least, u, v, lights))
+        if (only->descriptor->lanes != NULL && only->descriptor->lanes(only, references, u, v, lights))
             return;
     }
     for (uint32_t rest = lanes; rest != 0; rest &= rest - 1) {
         const size_t k = (size_t)__builtin_ctz(rest);
-        light_lane(scene, reference, least, (const float[3]){chooses ? choice[k] : 0.5f, u[k], v[k]}, k,
-                   lights);
+        light_lane(scene, references, (const float[3]){chooses ? choice[k] : 0.5f, u[k], v[k]}, k, lights);
     }
 }

@@ -85,6 +85,11 @@ void aur_packet_corners(const aur_scene *scene, const aur_packet *packet, uint32
 /* Texture coordinates, and the mesh's colours there, of such a hit. */
 aur_bsdf_point aur_packet_texture(const aur_scene *scene, const aur_packet *packet, size_t lane);
 
+/* Sixteen aur_light_reference. */
+typedef struct aur_light_references {
+    const aur_lane_vectors *position, *normal;
+} aur_light_references;
+
 /* aur_light_sample_direct of sixteen points. */
 typedef struct aur_light_lanes {
     aur_lane_vectors position, radiance;
@@ -95,6 +100,5 @@ typedef struct aur_light_lanes {
 /* For the lanes whose bit is set; what the others have afterwards means nothing. `choice` is not read unless
  * aur_light_chooses, and may then be NULL. A light that stands alone and is a rectangle is drawn by vector
  * code: the single samples, but for rounding. */
-void aur_light_lanes_direct(const aur_scene *scene, uint32_t lanes, const aur_lane_vectors *reference,
-                            float least, const float *choice, const float *u, const float *v,
-                            aur_light_lanes *lights);
+void aur_light_lanes_direct(const aur_scene *scene, uint32_t lanes, const aur_light_references *references,
+                            const float *choice, const float *u, const float *v, aur_light_lanes *lights);

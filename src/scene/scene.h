@@ -89,17 +89,20 @@ typedef struct aur_light_sample {
     bool environment; /* what aur_scene_environment gives, too */
 } aur_light_sample;
 
-/* Draws a point on a light seen from `reference`: u[0] chooses the light in proportion to its power, u[1],
- * u[2] the point. False when the scene has no light or the point cannot be seen from there (pdf 0).
- *
- * Rectangles are drawn by solid angle where they are seen under `least` steradians or more, roughly, else by
- * area, which is faster and has more noise. An integrator has one `least` for all that it draws and asks. */
-bool aur_light_sample_direct(const aur_scene *scene, aur_vector reference, float least, const float u[3],
+/* Where light arrives. An integrator that draws a point on a light and asks for the pdf of what a ray finds
+ * has the same reference for both. */
+typedef struct aur_light_reference {
+    aur_vector position;
+    /* Unit, on the side that is lit: light from behind may be left out, which then costs no look-up of what
+     * shines there. Or 0, where light counts from all sides alike. */
+    aur_vector normal;
+} aur_light_reference;
+
+/* Draws a point on a light: u[0] chooses the light in proportion to its power, u[1], u[2] the point, on
+ * rectangles nearly in proportion to the cosine at the reference's normal. False when the scene has no light
+ * or the point cannot be seen from there (pdf 0). */
+bool aur_light_sample_direct(const aur_scene *scene, const aur_light_reference *reference, const float u[3],
                              aur_light_sample *sample);
-/* The same for a surface that takes light on the side of `normal` alone: it may be false for light from
- * behind, which then costs no look-up of what shines there. */
-bool aur_light_sample_facing(const aur_scene *scene, aur_vector reference, aur_vector normal, float least,
-                             const float u[3], aur_light_sample *sample);
 /* Draws that are known some time before they are made: asks the memory for what they will read, in two steps
  * with other work between. */
 typedef struct aur_light_fetch {
@@ -110,7 +113,7 @@ aur_light_fetch aur_light_fetch_begin(const aur_scene *scene, const float u[3]);
 void aur_light_fetch_end(const aur_light_fetch *fetch);
 bool aur_light_chooses(const aur_scene *scene); /* u[0] matters: several lights, or a mesh */
 /* The pdf with which aur_light_sample_direct would draw the point `surface` of a light, from `reference`. */
-float aur_light_pdf_direct(const aur_scene *scene, aur_vector reference, float least,
+float aur_light_pdf_direct(const aur_scene *scene, const aur_light_reference *reference,
                            const aur_surface *surface);
 /* Radiance that `surface` emits towards the unit direction `view` (world); 0 when it is no light or seen from
  * behind. */

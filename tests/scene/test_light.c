@@ -23,23 +23,30 @@ static float unit(uint64_t a, uint64_t b) {
     return aur_unit_float((uint32_t)(aur_hash2(a, b) >> 32));
 }
 
-/* Light that falls on a point from all sides (fluence), in two ways: by uniform directions that meet lights,
- * and by drawn points on lights. And asking says the pdf that sampling says, from whatever solid angle on
- * rectangles are drawn by it. */
+/* What light from a direction counts at a reference. */
+static double weight_at(const aur_light_reference *at, aur_vector direction) {
+    return aur_vector_is_zero(at->normal) ? 1.0 : fmax((double)aur_vector_dot(at->normal, direction), 0.0);
+}
+
+/* Light that falls on a point from all sides (fluence) or on one of two surfaces there, in two ways: by
+ * uniform directions that meet lights, and by drawn points on lights. And asking says the pdf that sampling
+ * says. */
 static void compare_with_brute_force(const aur_scene *scene, aur_vector reference) {
     enum { COUNT = 200000 };
-    static const float leasts[] = {0.02f, 0.15f, 4.0f};
+    static const aur_vector normals[] = {{0.0f, 0.0f, 0.0f}, {0.36f, 0.48f, 0.8f}, {0.6f, -0.8f, 0.0f}};
     double direct[2] = {0, 0}, brute[2] = {0, 0};
     for (size_t i = 0; i < COUNT; ++i) {
         const float u[3] = {unit(1, i), unit(2, i), unit(3, i)};
         aur_light_sample sample;
-        const float least = leasts[i % 3];
-        if (aur_light_sample_direct(scene, reference, least, u, &sample)) {
+        const aur_light_reference at = {reference, normals[i % 3]};
+        if (aur_light_sample_direct(scene, &at, u, &sample)) {
             const aur_surface eye = {.position = reference, .geometric_normal = sample.direction};
             float distance;
             const aur_ray ray = aur_surface_ray_to(&eye, sample.position, &distance);
             const double value =
-                aur_scene_occluded(scene, &ray) ? 0.0 : (double)(sample.radiance.x / sample.pdf);
+                aur_scene_occluded(scene, &ray)
+                    ? 0.0
+                    : weight_at(&at, sample.direction) * (double)(sample.radiance.x / sample.pdf);
             direct[0] += value;
             direct[1] += value * value;
             aur_ray onward = ray;
@@ -50,13 +57,13 @@ static void compare_with_brute_force(const aur_scene *scene, aur_vector referenc
                 aur_scene_intersect(scene, &onward, &hit)) {
                 aur_surface surface;
                 aur_scene_surface(scene, &onward, &hit, &surface);
-                assert_relative(aur_light_pdf_direct(scene, reference, least, &surface), sample.pdf, 4e-3);
+                assert_relative(aur_light_pdf_direct(scene, &at, &surface), sample.pdf, 4e-3);
                 assert_near(hit.distance, distance, 2e-3 * distance);
             }
         }
         const aur_ray ray = {reference, 0.0f, aur_sample_sphere(unit(4, i), unit(5, i)), INFINITY};
         aur_hit hit;
-        double value = 4.0 * AUR_PI;
+        double value = 4.0 * AUR_PI * weight_at(&at, ray.direction);
         if (aur_scene_intersect(scene, &ray, &hit)) {
             aur_surface surface;
             aur_scene_surface(scene, &ray, &hit, &surface);
@@ -79,6 +86,64 @@ static void draws_what_it_says(void **state) {
     assert_int_equal(aur_scene_emitter_count(scene), 2);
     compare_with_brute_force(scene, (aur_vector){0.5f, -0.25f, 1.0f});
     aur_scene_destroy(scene);
+}
+
+/* What a surface gets of a lamp, drawn for its normal and for none: means differ by chance alone, and asking
+ * says the pdf that drawing says. */
+static void draws_for_normals(void **state) {
+    (void)state;
+    enum { COUNT = 20000 };
+    static const char *const plain = "<float name='radiance' value='2'/>";
+    static const struct {
+        const char *place;  /* of a square of 2 x 2 that shines upwards */
+        aur_vector normal;  /* of the surface at (0, 0, 1) */
+        const char *lights; /* NULL: evenly */
+    } rows[] = {
+        {"<translate z='-1'/>", {0.6f, 0.0f, -0.8f}, NULL},
+        {"<translate x='.4' z='0'/>", {0.96f, 0.0f, -0.28f}, NULL}, /* crosses the horizon */
+        {"<rotate x='1' angle='90'/><translate y='1' z='1'/>",
+         {0.0f, 0.0f, -1.0f},
+         NULL}, /* touches, edge on */
+        {"<rotate x='1' angle='90'/><translate y='.01' z='1'/>", {0.0f, -0.6f, -0.8f}, NULL}, /* very near */
+        {"<scale value='.02'/><translate x='.5' z='.3'/>", {0.0f, 0.6f, -0.8f}, NULL},        /* tiny */
+        {"<scale value='300'/>", {0.8f, 0.0f, -0.6f}, NULL},                                  /* huge */
+        {"<translate x='1'/>",
+         {0.6f, 0.0f, -0.8f},
+         "<texture type='checkerboard' name='radiance'><rgb name='color0' value='0'/><rgb name='color1' "
+         "value='3'/></texture>"},
+    };
+    for (size_t i = 0; i < sizeof rows / sizeof rows[0]; ++i) {
+        char body[1024];
+        snprintf(body, sizeof body,
+                 "<shape type='rectangle'><transform name='to_world'>%s</transform><emitter "
+                 "type='area'>%s</emitter></shape>",
+                 rows[i].place, rows[i].lights != NULL ? rows[i].lights : plain);
+        aur_scene *const scene = must_load_body(body);
+        double sums[2] = {0.0}, squares[2] = {0.0};
+        for (size_t k = 0; k < 2 * COUNT; ++k) {
+            const float u[3] = {0.5f, unit(6, k), unit(7, k)};
+            aur_light_reference at = {.position = {0.0f, 0.0f, 1.0f}};
+            if (k % 2 == 0)
+                at.normal = rows[i].normal;
+            aur_light_sample sample;
+            if (!aur_light_sample_direct(scene, &at, u, &sample))
+                continue;
+            const double cosine = (double)aur_vector_dot(sample.direction, rows[i].normal);
+            const double value = fmax(cosine, 0.0) * (double)sample.radiance.x / (double)sample.pdf;
+            sums[k % 2] += value;
+            squares[k % 2] += value * value;
+            const aur_surface surface = {
+                .position = sample.position, .geometric_normal = sample.normal, .shape = 0, .emitter = 0};
+            if (k % 7 == 0)
+                assert_relative(aur_light_pdf_direct(scene, &at, &surface), sample.pdf, 4e-3);
+        }
+        const double mean = sums[0] / COUNT, other = sums[1] / COUNT;
+        const double variance = squares[0] / COUNT - mean * mean, others = squares[1] / COUNT - other * other;
+        assert_near(mean, other, 4.5 * sqrt((variance + others) / COUNT)); /* by chance in 7 of a million */
+        /* A light's own pattern may stand where the cosine is large. */
+        assert_true(mean > 0.0 && variance < (rows[i].lights != NULL ? 1.1 : 1.0) * others);
+        aur_scene_destroy(scene);
+    }
 }
 
 /* Each curved shape as a light, seen from outside and, where it shines inwards, from inside. */
@@ -125,7 +190,8 @@ static void draws_from_a_sphere_s_own_points(void **state) {
         const float u[3] = {unit(1, i), unit(2, i), unit(3, i)};
         const aur_vector reference = aur_vector_scale(aur_sample_sphere(unit(4, i), unit(5, i)), 3.0f);
         aur_light_sample sample;
-        if (!aur_light_sample_direct(scene, reference, 0.1f, u, &sample) || sample.distance < 0.1f) {
+        if (!aur_light_sample_direct(scene, &(aur_light_reference){.position = reference}, u, &sample) ||
+            sample.distance < 0.1f) {
             ++near;
             continue;
         }
@@ -164,7 +230,7 @@ static const char *const sky = "<emitter type='envmap'><string name='filename' v
 static void one_side_is_asked_for(const aur_scene *scene, const float u[3], const aur_light_sample *whole) {
     const aur_vector normal = {0.6f, 0.0f, 0.8f};
     aur_light_sample sample;
-    if (aur_light_sample_facing(scene, (aur_vector){0}, normal, 0.1f, u, &sample)) {
+    if (aur_light_sample_direct(scene, &(aur_light_reference){.normal = normal}, u, &sample)) {
         assert_true(sample.direction.x == whole->direction.x && sample.direction.y == whole->direction.y);
         assert_true(sample.pdf == whole->pdf && sample.radiance.y == whole->radiance.y);
     } else {
@@ -190,7 +256,8 @@ static void draws_environments(void **state) {
         for (size_t k = 0; k < 3000; ++k) {
             const float u[3] = {unit(1, k), unit(2, k), unit(3, k)};
             aur_light_sample sample;
-            if (!aur_light_sample_direct(scene, (aur_vector){0}, 0.1f, u, &sample) || sample.distance < 5.5f)
+            if (!aur_light_sample_direct(scene, &(aur_light_reference){0}, u, &sample) ||
+                sample.distance < 5.5f)
                 continue; /* the sphere */
             assert_near(sample.pdf, aur_environment_pdf_direct(scene, sample.direction), 1e-6 * sample.pdf);
             assert_near(sample.radiance.y, aur_scene_environment(scene, sample.direction).y, 1e-6);
@@ -256,7 +323,7 @@ static void shines_from_points(void **state) {
         snprintf(body, sizeof body, "<emitter type='%s</emitter><shape type='cube'/>", rows[i].emitter);
         aur_scene *const scene = must_load_body(body);
         aur_light_sample sample;
-        assert_true(aur_light_sample_direct(scene, rows[i].reference, 0.1f,
+        assert_true(aur_light_sample_direct(scene, &(aur_light_reference){.position = rows[i].reference},
                                             (const float[3]){0.3f, 0.4f, 0.5f}, &sample));
         assert_true(sample.delta);
         assert_near(aur_vector_dot(sample.direction, rows[i].direction), 1.0, 1e-6);
@@ -265,8 +332,8 @@ static void shines_from_points(void **state) {
     }
     aur_scene *const dark = must_load_body("<emitter type='spot'/><shape type='cube'/>");
     aur_light_sample sample;
-    assert_false(
-        aur_light_sample_direct(dark, (aur_vector){0, 1, 1}, 0.1f, (const float[3]){0, 0, 0}, &sample));
+    assert_false(aur_light_sample_direct(dark, &(aur_light_reference){.position = {0, 1, 1}},
+                                         (const float[3]){0, 0, 0}, &sample));
     aur_scene_destroy(dark);
 }
 
@@ -388,7 +455,8 @@ static void refuses_lights_without_area(void **state) {
     /* no light at all is no error */
     scene = must_load_body("<shape type='cube'/>");
     aur_light_sample sample;
-    assert_false(aur_light_sample_direct(scene, (aur_vector){0}, 0.1f, (const float[3]){0, 0, 0}, &sample));
+    assert_false(
+        aur_light_sample_direct(scene, &(aur_light_reference){0}, (const float[3]){0, 0, 0}, &sample));
     assert_false(aur_scene_has_environment(scene));
     aur_scene_destroy(scene);
 }
@@ -424,17 +492,12 @@ static void closed_rooms_stay_closed(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(draws_what_it_says),
-        cmocka_unit_test(draws_environments),
-        cmocka_unit_test(turns_environments),
-        cmocka_unit_test(shines_from_points),
-        cmocka_unit_test(particles_of_every_light),
-        cmocka_unit_test(draws_on_curved_lights),
-        cmocka_unit_test(draws_from_a_sphere_s_own_points),
-        cmocka_unit_test(particles_carry_the_power),
-        cmocka_unit_test(emits_on_one_side),
-        cmocka_unit_test(refuses_lights_without_area),
-        cmocka_unit_test(closed_rooms_stay_closed),
+        cmocka_unit_test(draws_what_it_says),          cmocka_unit_test(draws_environments),
+        cmocka_unit_test(turns_environments),          cmocka_unit_test(shines_from_points),
+        cmocka_unit_test(particles_of_every_light),    cmocka_unit_test(draws_for_normals),
+        cmocka_unit_test(draws_on_curved_lights),      cmocka_unit_test(draws_from_a_sphere_s_own_points),
+        cmocka_unit_test(particles_carry_the_power),   cmocka_unit_test(emits_on_one_side),
+        cmocka_unit_test(refuses_lights_without_area), cmocka_unit_test(closed_rooms_stay_closed),
     };
     return cmocka_run_group_tests(tests, enter_folder, leave_folder);
 }

@@ -449,7 +449,8 @@ static void bears_degenerate_triangles(void **state) {
     for (size_t i = 0; i < 2000; ++i) {
         const float u[5] = {unit(1, i), unit(2, i), unit(3, i), unit(4, i), unit(5, i)};
         aur_light_sample sample;
-        if (aur_light_sample_direct(scene, (aur_vector){0.1f, 0.1f, 1.0f}, 0.1f, u, &sample))
+        if (aur_light_sample_direct(scene, &(aur_light_reference){.position = {0.1f, 0.1f, 1.0f}}, u,
+                                    &sample))
             assert_true(isfinite(sample.pdf) && sample.pdf > 0.0f && aur_vector_is_finite(sample.direction));
         aur_ray ray;
         aur_vector power;

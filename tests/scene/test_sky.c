@@ -266,7 +266,7 @@ static void draws_what_it_says(void **state) {
         for (size_t i = 0; i < COUNT; ++i) {
             const float u[3] = {0.5f, unit(k, 2 * i), unit(k, 2 * i + 1)};
             aur_light_sample sample;
-            assert_true(aur_light_sample_direct(scene, (aur_vector){0}, 0.1f, u, &sample));
+            assert_true(aur_light_sample_direct(scene, &(aur_light_reference){0}, u, &sample));
             assert_true(sample.pdf == aur_environment_pdf_direct(scene, sample.direction));
             const aur_vector d = sample.direction;
             const float height = up == 1 ? d.y : d.z;
@@ -314,7 +314,7 @@ static void suns_have_closed_forms(void **state) {
             for (size_t j = 0; j < SIDE; ++j) {
                 const float u[3] = {0.5f, ((float)i + 0.5f) / SIDE, ((float)j + 0.5f) / SIDE};
                 aur_light_sample sample;
-                assert_true(aur_light_sample_direct(scene, (aur_vector){0}, 0.1f, u, &sample));
+                assert_true(aur_light_sample_direct(scene, &(aur_light_reference){0}, u, &sample));
                 assert_false(sample.delta);
                 assert_true(aur_environment_pdf_direct(scene, sample.direction) == sample.pdf);
                 const double angle = acos(fmin((double)aur_vector_dot(sample.direction, center), 1.0));
@@ -344,7 +344,7 @@ static void suns_and_skies_add_up(void **state) {
         const float u[3] = {unit(1, i), unit(2, i), unit(3, i)};
         aur_light_sample sample;
         double values[2] = {0};
-        if (aur_light_sample_direct(scene, (aur_vector){0}, 0.1f, u, &sample)) {
+        if (aur_light_sample_direct(scene, &(aur_light_reference){0}, u, &sample)) {
             const aur_ray ray = {{0}, 0.0f, sample.direction, sample.distance};
             assert_near(sample.pdf, aur_environment_pdf_direct(scene, sample.direction), 1e-6 * sample.pdf);
             values[0] = aur_scene_occluded(scene, &ray) ? 0.0 : (double)(sample.radiance.x / sample.pdf);

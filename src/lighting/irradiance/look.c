@@ -107,6 +107,7 @@ static void set_rays(aur_path_group *g, const aur_sensor_rule *rule, size_t inde
         aur_lane_set(&g->lanes.throughput, k, (aur_vector){1.0f, 1.0f, 1.0f});
         aur_lane_set(&g->lanes.sum, k, (aur_vector){0});
         aur_lane_set(&g->lanes.from, k, place->position);
+        aur_lane_set(&g->lanes.from_normal, k, place->frame.z);
         g->lanes.pdf[k] = z / AUR_PI_F;
     }
     g->alive = UINT16_MAX;
@@ -136,10 +137,10 @@ static void add_lights(aur_path_group *g, const aur_sensor_place *place, aur_loo
     if (g->chooses)
         draw_pair(g, AUR_PAIR_FILTER, choice, unused);
     draw_pair(g, AUR_PAIR_LENS, u, v);
+    const aur_light_reference reference = {place->position, place->frame.z};
     for (size_t k = 0; k < AUR_PACKET_SIZE; ++k) {
         aur_light_sample drawn;
-        if (!aur_light_sample_direct(g->scene, place->position, AUR_LEAST_LIGHT_OF_PATHS,
-                                     (const float[3]){choice[k], u[k], v[k]}, &drawn) ||
+        if (!aur_light_sample_direct(g->scene, &reference, (const float[3]){choice[k], u[k], v[k]}, &drawn) ||
             !(drawn.pdf > 0.0f))
             continue;
         const float cosine = aur_vector_dot(place->frame.z, drawn.direction);

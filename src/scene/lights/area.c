@@ -88,41 +88,67 @@ static aur_shape_point sample_area(const area_light *light, const float u[3]) {
     return aur_shape_sample(light->shape, light->is_mesh ? &light->triangles : NULL, u);
 }
 
-/* By what the reference sees of the shape; *pdf stays 0 when that is not to be had and area must do. */
-static aur_shape_point sample_seen(const area_light *light, const aur_light_query *query, float *pdf) {
+/* A density: a steradian, or where by_area over that of points drawn uniformly by area. */
+typedef struct area_density {
+    float value;
+    bool by_area;
+} area_density;
+
+/* By what the reference sees of the shape, where that is to be had. */
+static aur_shape_point sample_seen(const area_light *light, const aur_light_query *query,
+                                   area_density *density) {
     const aur_curved *const curved = light->shape->curved;
+    const aur_light_reference *const reference = &query->reference;
     const float *const u = query->u;
     aur_shape_point point;
-    *pdf = 0.0f;
+    *density = (area_density){0.0f, false};
     if (curved != NULL && curved->sample_seen != NULL &&
-        curved->sample_seen(light->shape, query->reference, u[1], u[2], &point, pdf))
+        curved->sample_seen(light->shape, reference->position, u[1], u[2], &point, &density->value))
         return point;
-    aur_spherical_rectangle seen;
-    if (light->is_rectangle &&
-        aur_spherical_rectangle_create(&light->rectangle.rectangle, query->reference, query->least, &seen)) {
+    if (light->is_rectangle) {
+        const aur_seen_rectangle seen = aur_rectangle_see(&light->rectangle.rectangle, reference);
         float along[3] = {0.0f};
-        aur_spherical_rectangle_sample(&seen, u[1], u[2], &along[1], &along[2]);
-        *pdf = 1.0f / seen.solid_angle;
+        *density =
+            (area_density){aur_seen_rectangle_draw(&seen, u[1], u[2], &along[1], &along[2]), seen.by_area};
         return sample_area(light, along);
     }
+    *density = (area_density){1.0f, true};
     return sample_area(light, u);
 }
 
-static float pdf_seen(const aur_emitter *emitter, aur_vector reference, float least) {
-    const area_light *const light = emitter->data;
+static area_density density_of(const area_light *light, const aur_light_reference *reference,
+                               const aur_surface *surface) {
     const aur_curved *const curved = light->shape->curved;
-    if (curved != NULL)
-        return curved->pdf_seen != NULL ? curved->pdf_seen(light->shape, reference) : 0.0f;
-    aur_spherical_rectangle seen;
-    if (light->is_rectangle &&
-        aur_spherical_rectangle_create(&light->rectangle.rectangle, reference, least, &seen))
-        return 1.0f / seen.solid_angle;
-    return 0.0f;
+    if (curved != NULL && curved->pdf_seen != NULL) {
+        const float pdf = curved->pdf_seen(light->shape, reference->position);
+        if (pdf > 0.0f)
+            return (area_density){pdf, false};
+    }
+    if (!light->is_rectangle)
+        return (area_density){1.0f, true};
+    const aur_rectangle *const r = &light->rectangle.rectangle;
+    const aur_vector way = aur_vector_subtract(surface->position, r->corner);
+    const aur_seen_rectangle seen = aur_rectangle_see(r, reference);
+    return (area_density){aur_seen_rectangle_density(&seen, aur_vector_dot(way, r->x) / r->width,
+                                                     aur_vector_dot(way, r->y) / r->height),
+                          seen.by_area};
 }
 
-/* What a point of the shape gives to the reference; `pdf` of 0 says that it was drawn by area. */
+/* A steradian, at a distance and under a cosine. */
+static float pdf_of(const area_light *light, area_density density, float squared, float cosine) {
+    return density.by_area ? density.value * squared / (cosine * light->rectangle.area) : density.value;
+}
+
+static float pdf_seen(const aur_emitter *emitter, const aur_light_reference *reference,
+                      const aur_surface *surface, float cosine) {
+    const area_light *const light = emitter->data;
+    const aur_vector way = aur_vector_subtract(surface->position, reference->position);
+    return pdf_of(light, density_of(light, reference, surface), aur_vector_dot(way, way), cosine);
+}
+
+/* What a point of the shape gives to the reference. */
 static bool finish_sample(const aur_emitter *emitter, aur_vector reference, const aur_shape_point *point,
-                          float pdf, aur_light_sample *drawn) {
+                          area_density density, aur_light_sample *drawn) {
     const aur_vector way = aur_vector_subtract(point->position, reference);
     const float squared = aur_vector_dot(way, way);
     drawn->delta = false;
@@ -134,24 +160,24 @@ static bool finish_sample(const aur_emitter *emitter, aur_vector reference, cons
     drawn->position = point->position;
     drawn->normal = point->normal;
     drawn->radiance = aur_color_at(&emitter->radiance, point->texture);
-    drawn->pdf = pdf > 0.0f ? pdf : squared / (cosine * ((const area_light *)emitter->data)->rectangle.area);
+    drawn->pdf = pdf_of(emitter->data, density, squared, cosine);
     return isfinite(drawn->pdf);
 }
 
 static bool sample(const aur_emitter *emitter, const aur_light_query *query, aur_light_sample *drawn) {
-    float pdf;
-    const aur_shape_point point = sample_seen(emitter->data, query, &pdf);
-    return finish_sample(emitter, query->reference, &point, pdf, drawn);
+    area_density density;
+    const aur_shape_point point = sample_seen(emitter->data, query, &density);
+    return finish_sample(emitter, query->reference.position, &point, density, drawn);
 }
 
-static bool lanes(const aur_emitter *emitter, const aur_lane_vectors *reference, float least, const float *u,
+static bool lanes(const aur_emitter *emitter, const aur_light_references *references, const float *u,
                   const float *v, aur_light_lanes *drawn) {
     const area_light *const light = emitter->data;
     if (!light->is_rectangle || emitter->radiance.texture != NULL)
         return false;
     aur_rectangle_light all = light->rectangle;
     all.probability = emitter->probability;
-    light->kernels->lanes(&all, least, reference, u, v, drawn);
+    light->kernels->lanes(&all, references, u, v, drawn);
     return true;
 }
 

@@ -61,14 +61,14 @@ static bool find_point(const aur_shape *shape, float x, float y, aur_bsdf_point 
 /* The one point of the shape whose beam meets the reference, if there is one. */
 static bool sample(const aur_emitter *emitter, const aur_light_query *query, aur_light_sample *drawn) {
     const beam *const self = emitter->data;
-    const aur_vector way = aur_vector_subtract(query->reference, self->origin);
+    const aur_vector way = aur_vector_subtract(query->reference.position, self->origin);
     aur_bsdf_point texture;
     drawn->distance = aur_vector_dot(way, self->normal);
     if (!(drawn->distance > 0.0f) || !find_point(self->shape, aur_vector_dot(way, self->along[0]),
                                                  aur_vector_dot(way, self->along[1]), &texture))
         return false;
     drawn->direction = aur_vector_scale(self->normal, -1.0f);
-    drawn->position = aur_vector_add_scaled(query->reference, drawn->distance, drawn->direction);
+    drawn->position = aur_vector_add_scaled(query->reference.position, drawn->distance, drawn->direction);
     drawn->normal = self->normal;
     drawn->radiance = aur_color_at(&emitter->radiance, texture);
     drawn->pdf = 1.0f;

@@ -27,9 +27,9 @@ aur_ray aur_emit_far(const aur_scene *scene, aur_vector direction, float u, floa
 
 bool aur_sample_environment(const aur_emitter *emitter, const aur_light_query *query, aur_vector direction,
                             aur_light_sample *drawn) {
-    if (aur_vector_dot(query->normal, direction) < 0.0f)
+    if (aur_vector_dot(query->reference.normal, direction) < 0.0f)
         return false;
-    aur_sample_far(emitter->scene, query->reference, direction, drawn);
+    aur_sample_far(emitter->scene, query->reference.position, direction, drawn);
     /* Radiance and density are asked for by the direction, as rays that find the light ask: rounding cannot
      * make the two differ. */
     drawn->radiance = aur_emitter_light_from(emitter, direction, &drawn->pdf);
@@ -75,7 +75,8 @@ static float constant_pdf(const aur_emitter *emitter, aur_vector direction) {
 
 static bool sample_constant(const aur_emitter *emitter, const aur_light_query *query,
                             aur_light_sample *drawn) {
-    aur_sample_far(emitter->scene, query->reference, aur_sample_sphere(query->u[1], query->u[2]), drawn);
+    aur_sample_far(emitter->scene, query->reference.position, aur_sample_sphere(query->u[1], query->u[2]),
+                   drawn);
     drawn->radiance = emitter->radiance.constant;
     drawn->pdf = 0.25f / AUR_PI_F;
     return true;

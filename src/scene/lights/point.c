@@ -144,7 +144,7 @@ static float falloff(const point_light *self, float cosine) {
 /* radiance / pdf is intensity over the squared distance. */
 static bool sample_place(const aur_emitter *emitter, const aur_light_query *query, aur_light_sample *drawn) {
     const point_light *const self = emitter->data;
-    const aur_vector way = aur_vector_subtract(self->position, query->reference);
+    const aur_vector way = aur_vector_subtract(self->position, query->reference.position);
     const float squared = aur_vector_dot(way, way);
     if (!(squared > 0.0f))
         return false;
@@ -208,7 +208,7 @@ static aur_vector towards_light(const aur_emitter *emitter) {
 
 static bool sample_directional(const aur_emitter *emitter, const aur_light_query *query,
                                aur_light_sample *drawn) {
-    aur_sample_far(emitter->scene, query->reference, towards_light(emitter), drawn);
+    aur_sample_far(emitter->scene, query->reference.position, towards_light(emitter), drawn);
     drawn->radiance = emitter->radiance.constant;
     drawn->pdf = 1.0f;
     drawn->delta = true;

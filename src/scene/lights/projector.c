@@ -66,9 +66,9 @@ static aur_result create(aur_parameters *parameters, aur_emitter *emitter, aur_e
  * depth and the cosine to the axis, by which a plane across the axis is lit evenly. */
 static bool sample(const aur_emitter *emitter, const aur_light_query *query, aur_light_sample *drawn) {
     const projector *const self = emitter->data;
-    const aur_vector way = aur_vector_subtract(self->position, query->reference);
+    const aur_vector way = aur_vector_subtract(self->position, query->reference.position);
     const float squared = aur_vector_dot(way, way);
-    const aur_vector local = aur_transform_point_f(&self->to_local, query->reference);
+    const aur_vector local = aur_transform_point_f(&self->to_local, query->reference.position);
     if (!(squared > 0.0f) || !(local.z > 0.0f))
         return false;
     const aur_bsdf_point at = {.u = 0.5f - 0.5f * local.x / (local.z * self->half_width),

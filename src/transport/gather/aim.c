@@ -80,7 +80,7 @@ void aur_gather_set_frame(const aur_gather_place *place, size_t lane, const aur_
     rays->org_y[lane] = place->origin.y;
     rays->org_z[lane] = place->origin.z;
     rays->tnear[lane] = 0.0f;
-    gather_rays->reference[lane] = surface->position;
+    gather_rays->reference[lane] = aur_gather_place_reference(place);
 }
 
 uint32_t aur_gather_aim(uint32_t lanes, const aur_lobe_frames *restrict frames, const aur_lane_vectors *local,
@@ -122,7 +122,7 @@ bool aur_gather_aim_draw(const aur_gather_place *place, size_t lane, const float
     const aur_ray ray = aur_surface_ray(surface, drawn.light);
     aur_packet_set(&rays->packet, lane, &ray);
     rays->density[lane] = drawn.pdf * draws;
-    rays->reference[lane] = surface->position;
+    rays->reference[lane] = aur_shading_reference(&shading);
     return true;
 }
 

@@ -66,11 +66,14 @@ static void add_lights(const aur_gather_places *places, aur_embree_order order,
 void aur_gather_add_direct_light(const aur_gather_places *places, aur_gather_sums *sums) {
     const aur_gather_plan *const plan = places->plan;
     /* Lanes without a place stand where the first one is: nothing is drawn for them, or it is thrown away. */
-    aur_lane_vectors reference;
+    aur_lane_vectors position, normal;
     for (size_t lane = 0; lane < AUR_PACKET_SIZE; ++lane) {
         const size_t from = aur_has_lane(places->lanes, lane) ? lane : aur_first_lane(places->lanes);
-        aur_lane_set(&reference, lane, places->at[from].surface.position);
+        const aur_light_reference reference = aur_gather_place_reference(&places->at[from]);
+        aur_lane_set(&position, lane, reference.position);
+        aur_lane_set(&normal, lane, reference.normal);
     }
+    const aur_light_references references = {&position, &normal};
     const bool chooses = aur_light_chooses(plan->scene);
     const uint32_t pair = aur_gather_first_pair(places->bounces), draws = plan->light.draws;
     for (uint32_t k = 0; k < draws; ++k) {
@@ -82,13 +85,12 @@ void aur_gather_add_direct_light(const aur_gather_places *places, aur_gather_sum
         aur_stream_pixels(places->sampler, AUR_PACKET_SIZE, places->pixels, index,
                           pair + AUR_GATHER_PAIR_POSITION, u, v);
         aur_light_lanes drawn = {0};
-        aur_light_lanes_direct(plan->scene, places->lanes, &reference, AUR_LEAST_LIGHT_SEEN, choice, u, v,
-                               &drawn);
+        aur_light_lanes_direct(plan->scene, places->lanes, &references, choice, u, v, &drawn);
         aur_light_sample lights[AUR_PACKET_SIZE];
         for (size_t lane = 0; lane < AUR_PACKET_SIZE; ++lane) {
-            const aur_vector position = aur_lane_vector(&drawn.position, lane);
-            const aur_vector way = aur_vector_subtract(position, aur_lane_vector(&reference, lane));
-            lights[lane] = (aur_light_sample){.position = position,
+            const aur_vector target = aur_lane_vector(&drawn.position, lane);
+            const aur_vector way = aur_vector_subtract(target, aur_lane_vector(&position, lane));
+            lights[lane] = (aur_light_sample){.position = target,
                                               .direction = aur_vector_normalize(way),
                                               .radiance = aur_lane_vector(&drawn.radiance, lane),
                                               .pdf = drawn.pdf[lane] * (float)draws,

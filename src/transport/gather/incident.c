@@ -30,15 +30,15 @@ uint32_t aur_gather_occluded(const aur_gather_plan *plan, aur_embree_order order
 /* The ray, and how it came to where it is. */
 typedef struct gather_chain {
     aur_ray ray;
-    size_t lane;          /* of the gather ray */
-    uint64_t hash;        /* of what chance decides on its way */
-    uint32_t length;      /* bounces since the gathering point */
-    bool specular;        /* all of them */
-    bool mirrored;        /* the last one: lights are not sampled for it */
-    aur_vector reference; /* where the ray began */
-    float length_seen;    /* of the rays from the last place that scattered other than as a mirror */
-    float density;        /* with which its direction was drawn, a steradian, times how often */
-    float light_draws;    /* points on lights that were drawn there */
+    size_t lane;                   /* of the gather ray */
+    uint64_t hash;                 /* of what chance decides on its way */
+    uint32_t length;               /* bounces since the gathering point */
+    bool specular;                 /* all of them */
+    bool mirrored;                 /* the last one: lights are not sampled for it */
+    aur_light_reference reference; /* where the ray began */
+    float length_seen;             /* of the rays from the last place that scattered other than as a mirror */
+    float density;                 /* with which its direction was drawn, a steradian, times how often */
+    float light_draws;             /* points on lights that were drawn there */
 } gather_chain;
 
 /* A draw of the lobes that the photon map does not answer for; light in world coordinates. */
@@ -76,7 +76,7 @@ static aur_vector emitted_radiance(const aur_gather_plan *plan, const gather_cha
     if (chain->mirrored)
         return plan->light.caustics != NULL && chain->specular ? black : emission;
     if (surface != NULL)
-        pdf = aur_light_pdf_direct(plan->scene, chain->reference, AUR_LEAST_LIGHT_SEEN, surface);
+        pdf = aur_light_pdf_direct(plan->scene, &chain->reference, surface);
     return aur_vector_scale(emission, aur_power_heuristic(chain->density, chain->light_draws * pdf));
 }
 
@@ -149,7 +149,7 @@ static aur_vector sampled_light(const aur_gather_plan *plan, const aur_shading *
     float u[3];
     aur_light_sample light;
     aur_draw_units(hash, u);
-    if (!aur_shading_draw_light(plan->scene, shading, AUR_LEAST_LIGHT_SEEN, u, &light) || !(light.pdf > 0.0f))
+    if (!aur_shading_draw_light(plan->scene, shading, u, &light) || !(light.pdf > 0.0f))
         return black;
     const aur_vector local = aur_frame_to_local(&surface->frame, light.direction);
     if (aur_vector_dot(surface->geometric_normal, light.direction) * local.z <= 0.0f)
@@ -229,7 +229,7 @@ static aur_vector chain_radiance(const aur_gather_plan *plan, gather_chain chain
         chain.specular = chain.specular && drawn.specular;
         chain.mirrored = drawn.specular;
         chain.length_seen = drawn.specular ? chain.length_seen + hit->distance : 0.0f;
-        chain.reference = surface.position;
+        chain.reference = aur_shading_reference(&shading);
         chain.density = drawn.pdf;
         chain.light_draws = 1.0f;
         chain.ray = aur_surface_ray(&surface, drawn.light);

@@ -20,8 +20,8 @@ typedef struct aur_gather_rays {
      * lanes' pixels. So it is the same whichever pixels go together. */
     uint64_t hash;
     const uint64_t *pixels;
-    aur_vector reference[AUR_PACKET_SIZE]; /* the points that gather */
-    float radiance[3][AUR_PACKET_SIZE];    /* 0 for lanes without a ray */
+    aur_light_reference reference[AUR_PACKET_SIZE]; /* the points that gather */
+    float radiance[3][AUR_PACKET_SIZE];             /* 0 for lanes without a ray */
 } aur_gather_rays;
 
 static inline uint64_t aur_gather_rays_hash(const aur_gather_rays *rays, size_t lane) {

@@ -3,6 +3,7 @@
 
 #include "core/random.h"
 #include "transport/gather/plan.h"
+#include "transport/lights/shading.h"
 #include "transport/packets/interleave.h"
 #include "transport/packets/packet_rays.h"
 
@@ -35,6 +36,12 @@ typedef struct aur_gather_places {
     aur_vector throughput[AUR_PACKET_SIZE];
     aur_gather_place at[AUR_PACKET_SIZE];
 } aur_gather_places;
+
+/* As drawing lights sees it. */
+static inline aur_light_reference aur_gather_place_reference(const aur_gather_place *place) {
+    const aur_shading shading = {&place->surface, place->view};
+    return aur_shading_reference(&shading);
+}
 
 /* The place where a ray of the eye meets a surface. */
 void aur_gather_place_set(const aur_gather_plan *plan, const aur_ray *ray, const aur_hit *hit,

@@ -49,8 +49,7 @@ static aur_result create(aur_parameters *parameters, const aur_integrator_contex
 
 static aur_vector sample_light(const aur_scene *scene, const direct_data *data, const aur_shading *shading,
                                const float u[3], aur_counters *counters) {
-    const aur_light_draws draws = {AUR_LEAST_LIGHT_SEEN, (float)data->emitter_samples,
-                                   (float)data->bsdf_samples};
+    const aur_light_draws draws = {(float)data->emitter_samples, (float)data->bsdf_samples};
     aur_shadow shadow;
     if (!aur_direct_light_choose(scene, shading, &draws, u, &shadow))
         return (aur_vector){0};
@@ -73,7 +72,8 @@ static aur_vector sample_bsdf(const aur_scene *scene, const direct_data *data, c
         aur_surface surface;
         aur_scene_surface(scene, &ray, &hit, &surface);
         light = aur_surface_emission(scene, &surface, aur_vector_scale(ray.direction, -1.0f));
-        rival = aur_light_pdf_direct(scene, shading->surface->position, AUR_LEAST_LIGHT_SEEN, &surface);
+        const aur_light_reference reference = aur_shading_reference(shading);
+        rival = aur_light_pdf_direct(scene, &reference, &surface);
     } else {
         light = aur_environment_light(scene, ray.direction, &rival);
     }

@@ -3,7 +3,7 @@
 bool aur_direct_light_choose(const aur_scene *scene, const aur_shading *shading, const aur_light_draws *draws,
                              const float u[3], aur_shadow *shadow) {
     aur_light_sample light;
-    if (!aur_shading_draw_light(scene, shading, draws->least_light, u, &light))
+    if (!aur_shading_draw_light(scene, shading, u, &light))
         return false;
     float pdf;
     const aur_vector scattered = aur_shading_evaluate(shading, light.direction, &pdf);

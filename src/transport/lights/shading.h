@@ -12,6 +12,15 @@ static inline aur_shading aur_shading_at(const aur_surface *surface, aur_vector 
     return (aur_shading){surface, aur_frame_to_local(&surface->frame, view_world)};
 }
 
+/* As drawing lights sees the point. Where light comes through the surface, it counts from all sides. */
+static inline aur_light_reference aur_shading_reference(const aur_shading *shading) {
+    const aur_surface *const surface = shading->surface;
+    aur_light_reference reference = {.position = surface->position};
+    if (!surface->bsdf->transmits)
+        reference.normal = aur_vector_scale(surface->frame.z, shading->view.z < 0.0f ? -1.0f : 1.0f);
+    return reference;
+}
+
 /* BSDF * |cos| towards a world direction, and the density that aur_shading_sample has there. A light on one
  * side of the surface and shaded on the other is black. */
 static inline aur_vector aur_shading_evaluate(const aur_shading *shading, aur_vector light_world,
@@ -24,13 +33,11 @@ static inline aur_vector aur_shading_evaluate(const aur_shading *shading, aur_ve
     return aur_bsdf_evaluate(surface->bsdf, AUR_BSDF_WHOLE, surface->texture, shading->view, light, pdf);
 }
 
-/* aur_light_sample_direct for the surface: light that an opaque one has behind it is not looked for. */
-static inline bool aur_shading_draw_light(const aur_scene *scene, const aur_shading *shading, float least,
+/* A point on a light, u[0] chooses which. */
+static inline bool aur_shading_draw_light(const aur_scene *scene, const aur_shading *shading,
                                           const float u[3], aur_light_sample *light) {
-    const aur_surface *const surface = shading->surface;
-    const float side = surface->bsdf->transmits ? 0.0f : shading->view.z < 0.0f ? -1.0f : 1.0f;
-    const aur_vector normal = aur_vector_scale(surface->geometric_normal, side);
-    return aur_light_sample_facing(scene, surface->position, normal, least, u, light);
+    const aur_light_reference reference = aur_shading_reference(shading);
+    return aur_light_sample_direct(scene, &reference, u, light);
 }
 
 /* sample->light comes back in world coordinates. */

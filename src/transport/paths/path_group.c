@@ -96,6 +96,17 @@ static void add_sky(aur_path_group *g, uint32_t lanes) {
     }
 }
 
+/* Where the ray of a lane began. */
+static aur_light_reference from_of(const aur_path_group *g, size_t k) {
+    return (aur_light_reference){aur_lane_vector(&g->lanes.from, k),
+                                 aur_lane_vector(&g->lanes.from_normal, k)};
+}
+
+static void set_from(aur_path_group *g, size_t k, const aur_light_reference *from) {
+    aur_lane_set(&g->lanes.from, k, from->position);
+    aur_lane_set(&g->lanes.from_normal, k, from->normal);
+}
+
 static void add_emission(aur_path_group *g, size_t k, const aur_surface *surface, aur_vector view) {
     if (g->known != NULL && (g->straight >> k & 1u) != 0 && surface->emitter != AUR_NO_EMITTER &&
         g->known[surface->emitter] >= 0.0f)
@@ -104,11 +115,9 @@ static void add_emission(aur_path_group *g, size_t k, const aur_surface *surface
     if (aur_vector_is_zero(emission))
         return;
     const bool found = (g->specular >> k & 1u) == 0;
+    const aur_light_reference from = from_of(g, k);
     const float weight =
-        found ? aur_power_heuristic(g->lanes.pdf[k],
-                                    aur_light_pdf_direct(g->scene, aur_lane_vector(&g->lanes.from, k),
-                                                         AUR_LEAST_LIGHT_OF_PATHS, surface))
-              : 1.0f;
+        found ? aur_power_heuristic(g->lanes.pdf[k], aur_light_pdf_direct(g->scene, &from, surface)) : 1.0f;
     add_light(g, k, weight, emission);
 }
 
@@ -193,7 +202,8 @@ static bool scatter_one(aur_path_group *g, size_t k, const aur_surface *surface,
         g->straight |= before.straight & 1u << k;
         drawn.light = aur_vector_scale(view, -1.0f);
     } else {
-        aur_lane_set(&g->lanes.from, k, surface->position);
+        const aur_light_reference from = aur_shading_reference(&shading);
+        set_from(g, k, &from);
         g->lanes.pdf[k] = drawn.pdf;
         if (drawn.specular)
             g->specular |= 1u << k;
@@ -288,8 +298,9 @@ static void add_direct(aur_path_group *g, uint32_t depth) {
     const uint32_t plain = g->plain;
     aur_path_lanes *const lanes = &g->lanes;
     if (plain != 0) {
-        aur_light_lanes_direct(g->scene, plain, &lanes->position, AUR_LEAST_LIGHT_OF_PATHS, lanes->choice,
-                               lanes->light_u, lanes->light_v, &lanes->light);
+        const aur_light_references references = {&lanes->position, &lanes->facing};
+        aur_light_lanes_direct(g->scene, plain, &references, lanes->choice, lanes->light_u, lanes->light_v,
+                               &lanes->light);
         g->data->kernels->shadow(lanes, &g->shadows);
     }
     prefetch_lights(g, g->alive & ~plain);
@@ -312,13 +323,14 @@ static void add_direct(aur_path_group *g, uint32_t depth) {
 
 static void scatter(aur_path_group *g, bool roulette) {
     const uint32_t plain = g->plain, others = g->alive & ~plain;
-    aur_vector views[AUR_PACKET_SIZE], throughputs[AUR_PACKET_SIZE], from[AUR_PACKET_SIZE];
+    aur_vector views[AUR_PACKET_SIZE], throughputs[AUR_PACKET_SIZE];
+    aur_light_reference from[AUR_PACKET_SIZE];
     float pdf[AUR_PACKET_SIZE];
     for (uint32_t rest = others; rest != 0; rest &= rest - 1) {
         const size_t k = aur_first_lane(rest);
         views[k] = view_of(g, k);
         throughputs[k] = aur_lane_vector(&g->lanes.throughput, k);
-        from[k] = aur_lane_vector(&g->lanes.from, k);
+        from[k] = from_of(g, k);
         pdf[k] = g->lanes.pdf[k];
     }
     uint32_t alive = 0;
@@ -331,7 +343,7 @@ static void scatter(aur_path_group *g, bool roulette) {
     for (uint32_t rest = others; rest != 0; rest &= rest - 1) {
         const size_t k = aur_first_lane(rest);
         aur_lane_set(&g->lanes.throughput, k, throughputs[k]);
-        aur_lane_set(&g->lanes.from, k, from[k]);
+        set_from(g, k, &from[k]);
         g->lanes.pdf[k] = pdf[k];
         alive |= (uint32_t)scatter_one(g, k, &g->surfaces[k], views[k], roulette, before) << k;
     }

@@ -5,9 +5,10 @@
 
 typedef struct aur_path_lanes {
     _Alignas(64) aur_lane_vectors throughput;
-    aur_lane_vectors sum;  /* radiance found so far */
-    aur_lane_vectors from; /* where the ray began: the last surface */
-    aur_lane_numbers pdf;  /* with which its direction was drawn, a steradian */
+    aur_lane_vectors sum; /* radiance found so far */
+    /* Where the ray began: the last surface, and its normal as aur_light_reference has it. */
+    aur_lane_vectors from, from_normal;
+    aur_lane_numbers pdf; /* with which its direction was drawn, a steradian */
 
     /* Numbers of the bounce, in [0,1). */
     aur_lane_numbers choice, roulette, light_u, light_v, lobe, direction_u, direction_v;
@@ -19,6 +20,7 @@ typedef struct aur_path_lanes {
     /* The surface. */
     aur_lane_vectors position, normal; /* on the side of the winding */
     aur_lane_numbers side;             /* 1 seen from the side of the normal, -1 from behind */
+    aur_lane_vectors facing;           /* the normal on the side that is seen */
     aur_lane_vectors reflectance;
     aur_lane_numbers offset; /* along side * normal: where rays begin that leave it */
 

@@ -29,6 +29,7 @@ static void lanes_surface(aur_path_lanes *restrict lanes, const aur_packet *rest
         const float side = along > 0.0f ? -1.0f : 1.0f;
         aur_lane_set(&lanes->position, k, position);
         aur_lane_set(&lanes->normal, k, normal);
+        aur_lane_set(&lanes->facing, k, aur_vector_scale(normal, side));
         lanes->side[k] = side;
         lanes->offset[k] = aur_surface_offset(position);
         lanes->reflectance.x[k] = along > 0.0f ? lanes->albedo[1].x[k] : lanes->albedo[0].x[k];
@@ -121,6 +122,7 @@ static void lanes_scatter(aur_path_lanes *restrict lanes, bool roulette, aur_pac
         lanes->alive[k] = -((int)(lanes->roulette[k] < survival) & (int)(most > 0.0f));
         lanes->pdf[k] = z / AUR_PI_F;
         aur_lane_set(&lanes->from, k, aur_lane_vector(&lanes->position, k));
+        aur_lane_set(&lanes->from_normal, k, aur_lane_vector(&lanes->facing, k));
         const aur_vector origin = lanes_origin(lanes, k);
         rays->org_x[k] = origin.x;
         rays->org_y[k] = origin.y;

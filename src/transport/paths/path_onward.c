@@ -9,7 +9,7 @@ typedef struct onward_walk {
     aur_vector sum, throughput;
     aur_ray ray;
     uint64_t hash;
-    aur_vector from; /* the surface that the ray left, and the density of its direction there */
+    aur_light_reference from; /* the surface that the ray left, and the density of its direction there */
     float pdf;
     bool specular; /* no light sample could have found what the ray meets */
     bool known;    /* the map has answered for the rest of the path, which had this sum then */
@@ -38,8 +38,7 @@ static bool choose_light(const aur_onward *onward, const aur_shading *shading, b
     aur_light_sample light;
     aur_draw_units(&walk->hash, u);
     if (aur_scene_emitter_count(onward->scene) == 0 ||
-        !aur_shading_draw_light(onward->scene, shading, AUR_LEAST_LIGHT_OF_PATHS, u, &light) ||
-        !(light.pdf > 0.0f))
+        !aur_shading_draw_light(onward->scene, shading, u, &light) || !(light.pdf > 0.0f))
         return false;
     const aur_vector value = evaluate(shading, known_only, light.direction, &pdf);
     if (aur_vector_is_zero(value))
@@ -62,7 +61,7 @@ static bool scatter(const aur_shading *shading, bool known_only, onward_walk *wa
         drawn.weight = aur_vector_scale(evaluate(shading, true, drawn.light, &pdf), 1.0f / drawn.pdf);
     }
     walk->throughput = aur_vector_multiply(walk->throughput, drawn.weight);
-    walk->from = shading->surface->position;
+    walk->from = aur_shading_reference(shading);
     walk->pdf = drawn.pdf;
     walk->specular = drawn.specular;
     walk->ray = aur_surface_ray(shading->surface, drawn.light);
@@ -84,7 +83,7 @@ static void add_emission(const aur_onward *onward, const aur_surface *surface, o
     float weight = 1.0f;
     if (!walk->specular) {
         if (surface != NULL)
-            rival = aur_light_pdf_direct(scene, walk->from, AUR_LEAST_LIGHT_OF_PATHS, surface);
+            rival = aur_light_pdf_direct(scene, &walk->from, surface);
         weight = aur_power_heuristic(walk->pdf, rival);
     }
     walk->sum = aur_vector_add_scaled(walk->sum, weight, aur_vector_multiply(walk->throughput, emission));

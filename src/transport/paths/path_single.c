@@ -8,7 +8,7 @@ typedef struct aur_path_walk {
     aur_vector sum, throughput;
     aur_ray ray;
     /* The surface that the ray left and the density of its direction there. */
-    aur_vector from;
+    aur_light_reference from;
     float pdf;
     /* No light sample could have found what the ray meets. */
     bool specular;
@@ -31,8 +31,7 @@ static void add_emission(const aur_scene *scene, const aur_surface *surface, aur
     const float weight =
         walk->specular || aur_vector_is_zero(emission)
             ? 1.0f
-            : aur_power_heuristic(walk->pdf,
-                                  aur_light_pdf_direct(scene, walk->from, AUR_LEAST_LIGHT_OF_PATHS, surface));
+            : aur_power_heuristic(walk->pdf, aur_light_pdf_direct(scene, &walk->from, surface));
     walk->sum = aur_vector_add_scaled(walk->sum, weight, aur_vector_multiply(walk->throughput, emission));
 }
 
@@ -64,7 +63,7 @@ static bool scatter(const aur_path *data, const aur_scene *scene, const aur_surf
             return false;
         walk->throughput = aur_vector_scale(walk->throughput, 1.0f / survival);
     }
-    walk->from = surface->position;
+    walk->from = aur_shading_reference(&shading);
     walk->pdf = drawn.pdf;
     walk->specular = drawn.specular;
     walk->ray = aur_surface_ray(surface, drawn.light);

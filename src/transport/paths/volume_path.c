@@ -15,7 +15,7 @@ typedef struct volume_walk {
     aur_vector sum;
     aur_ray ray;
     const aur_medium *medium; /* that the ray is in; NULL: none */
-    aur_vector from;          /* where light was scattered last */
+    aur_light_reference from; /* where light was scattered last */
     bool specular;            /* no light sample could have found what the ray meets */
     float ior_squared;        /* product of those of the boundaries: what radiance has become larger by */
     uint32_t depth;           /* of the edge that the ray belongs to */
@@ -64,8 +64,7 @@ static void add_emission(const aur_scene *scene, const aur_surface *surface, vol
     if (surface->emitter == AUR_NO_EMITTER)
         return;
     const aur_vector view = aur_vector_scale(walk->ray.direction, -1.0f);
-    const float rival =
-        walk->specular ? 0.0f : aur_light_pdf_direct(scene, walk->from, AUR_LEAST_LIGHT_OF_PATHS, surface);
+    const float rival = walk->specular ? 0.0f : aur_light_pdf_direct(scene, &walk->from, surface);
     add_light(walk, aur_surface_emission(scene, surface, view), rival);
 }
 
@@ -87,11 +86,11 @@ static void add_drawn_light(const aur_volume_path *data, const aur_scene *scene,
     *sum = aur_vector_add_scaled(*sum, 1.0f / density, state.throughput);
 }
 
-static bool draw_light(const aur_scene *scene, aur_vector from, const float (*pairs)[2],
+static bool draw_light(const aur_scene *scene, const aur_light_reference *from, const float (*pairs)[2],
                        aur_light_sample *light) {
     const float u[3] = {pairs[AUR_PATH_CHOICE][0], pairs[AUR_PATH_POSITION][0], pairs[AUR_PATH_POSITION][1]};
-    return aur_scene_emitter_count(scene) > 0 &&
-           aur_light_sample_direct(scene, from, AUR_LEAST_LIGHT_OF_PATHS, u, light) && light->pdf > 0.0f;
+    return aur_scene_emitter_count(scene) > 0 && aur_light_sample_direct(scene, from, u, light) &&
+           light->pdf > 0.0f;
 }
 
 /* Roulette. What a path has gained in radiance by going into glass it loses when it comes out: that is no
@@ -116,8 +115,9 @@ static bool scatter_in_medium(const aur_volume_path *data, const aur_scene *scen
     const aur_medium *const medium = walk->medium;
     const aur_vector before = walk->ray.direction;
     const aur_vector from = aur_vector_add_scaled(walk->ray.origin, way, before);
+    const aur_light_reference reference = {.position = from};
     aur_light_sample light;
-    if (medium->samples_emitters && draw_light(scene, from, walk->pairs, &light)) {
+    if (medium->samples_emitters && draw_light(scene, &reference, walk->pairs, &light)) {
         const float value = aur_phase_evaluate(medium->phase, from, aur_vector_dot(before, light.direction));
         const aur_ray ray = {from, 0.0f, light.direction, light.distance * (1.0f - 1e-4f)};
         add_drawn_light(data, scene, walk, &light, &ray, medium, (aur_vector){value, value, value}, value,
@@ -133,7 +133,7 @@ static bool scatter_in_medium(const aur_volume_path *data, const aur_scene *scen
         aur_vector_normalize(aur_frame_to_world(&frame, aur_direction_at(cosine, u[1])));
     walk->state.light = aur_vector_scale(walk->state.path, 1.0f / pdf);
     walk->specular = !medium->samples_emitters;
-    walk->from = from;
+    walk->from = reference;
     walk->ray = (aur_ray){from, 0.0f, direction, INFINITY};
     return survives(data, walk);
 }
@@ -154,8 +154,9 @@ static bool scatter_at_surface(const aur_volume_path *data, const aur_scene *sce
     const aur_vector before = walk->ray.direction;
     const aur_shading shading = aur_shading_at(surface, aur_vector_scale(before, -1.0f));
     const bool last = walk->depth >= data->max_depth;
+    const aur_light_reference reference = aur_shading_reference(&shading);
     aur_light_sample light;
-    if (!last && draw_light(scene, surface->position, walk->pairs, &light)) {
+    if (!last && draw_light(scene, &reference, walk->pairs, &light)) {
         float pdf, distance;
         const aur_vector scattered = aur_shading_evaluate(&shading, light.direction, &pdf);
         const aur_ray ray = aur_surface_ray_to(surface, light.position, &distance);
@@ -185,7 +186,7 @@ static bool scatter_at_surface(const aur_volume_path *data, const aur_scene *sce
     walk->specular = drawn.specular;
     if (drawn.ior_squared > 0.0f)
         walk->ior_squared *= drawn.ior_squared;
-    walk->from = surface->position;
+    walk->from = reference;
     aur_surface_medium(scene, surface, drawn.light, &walk->medium);
     walk->ray = aur_surface_ray(surface, drawn.light);
     return survives(data, walk);
