@@ -10,7 +10,7 @@
 #include "study.h"
 
 /* An attempt that is expected to take longer is not made: the law of the last one tells its seconds. */
-static const double seconds_limit = 50.0;
+static const double seconds_limit = 30.0;
 
 enum { QUICK_SUBJECTS = 2, FIRST_SAMPLES = 16, COARSEST = 8, STEP = 4 };
 
