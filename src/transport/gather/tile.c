@@ -64,7 +64,7 @@ static void choose(gather_tile *work, uint32_t group, uint32_t index) {
     places->arrangement = 0;
     if (!plan->policy.pools && plan->policy.decorrelation == AUR_DECORRELATION_BLUE)
         places->arrangement =
-            aur_hash3(plan->seed, aur_gather_places_hash(places, places->tile), UINT64_C(0x7765617665));
+            aur_group_arrangement(aur_hash2(plan->seed, aur_gather_places_hash(places, places->tile)));
     aur_group_pixels(places->arrangement, group, work->x, work->y, work->columns, work->rows);
 }
 

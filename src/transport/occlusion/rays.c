@@ -29,7 +29,7 @@ void aur_occlusion_find_places(const aur_view *view, size_t x, size_t y, uint32_
                                aur_occlusion_places *places) {
     aur_packet packet;
     aur_packet_clear(&packet);
-    places->arrangement = aur_hash4(view->seed, y, x, UINT64_C(0x7765617665));
+    places->arrangement = aur_group_arrangement(aur_hash3(view->seed, y, x));
     aur_ray rays[AUR_PACKET_SIZE];
     for (size_t block = 0; block < AUR_PACKET_SIZE; ++block) {
         for (size_t within = 0; within < AUR_PACKET_SIZE; ++within) {

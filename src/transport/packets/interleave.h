@@ -4,6 +4,7 @@
  * pixels permuted by four bits of a hash. A hash of 0 leaves them as they are. */
 #pragma once
 
+#include "core/random.h"
 #include "film/tile.h"
 #include "scene/packet.h"
 
@@ -13,6 +14,11 @@ enum {
     AUR_GROUP_COUNT = AUR_GROUPS_A_SIDE * AUR_GROUPS_A_SIDE,
     AUR_TILE_PIXELS = AUR_TILE_SIZE * AUR_TILE_SIZE
 };
+
+/* The hash that permutes the pixels of a tile, from one of the seed and the tile. */
+static inline uint64_t aur_group_arrangement(uint64_t tile) {
+    return aur_hash2(tile, UINT64_C(0x7765617665));
+}
 
 /* Where the pixel of a group's lane lies in its block, which is number `lane`, both counted row by row. */
 static inline uint32_t aur_group_place(uint64_t hash, uint32_t group, size_t lane) {

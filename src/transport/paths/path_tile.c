@@ -38,7 +38,7 @@ static void add_lanes(aur_path_group *g, aur_tile *tile, const size_t *x, const 
 static void add_group(aur_path_group *g, uint32_t number, aur_tile *tile) {
     const aur_view *const view = tile->view;
     const size_t x0 = tile->x0 / AUR_TILE_SIZE * AUR_TILE_SIZE, y0 = tile->y0 / AUR_TILE_SIZE * AUR_TILE_SIZE;
-    const uint64_t hash = g->data->interleaved ? aur_hash4(view->seed, y0, x0, UINT64_C(0x7765617665)) : 0;
+    const uint64_t hash = g->data->interleaved ? aur_group_arrangement(aur_hash3(view->seed, y0, x0)) : 0;
     size_t x[AUR_PACKET_SIZE], y[AUR_PACKET_SIZE];
     aur_group_pixels(hash, number, x0, y0, x, y);
     const uint32_t lanes = aur_group_lanes_within(x, y, 0, view->width, 0, view->height);
