@@ -2,6 +2,7 @@
 #include "check.h"
 
 #include "ask/replicas.h"
+#include "film/film.h"
 
 enum { WIDTH = 16, HEIGHT = 12, REPLICAS = 4, PIXELS = WIDTH * HEIGHT };
 
@@ -40,7 +41,81 @@ static void test_own_values_do_not_count(void **state) {
     aur_scene_destroy(scene);
 }
 
+static double value_of(const aur_replicas *replicas, size_t r, size_t pixel, size_t channel) {
+    const aur_film *const film = aur_render_film(replicas->renders[r]);
+    return film->sums[pixel * film->layout.channel_count + channel] / (double)film->counts[pixel];
+}
+
+/* The covariance of two channels of a pixel, by differences of replicas. */
+static double covariance_of(const aur_replicas *replicas, size_t pixel, size_t a, size_t b) {
+    double sum = 0.0;
+    for (size_t r = 0; r < REPLICAS; ++r)
+        for (size_t s = 0; s < r; ++s)
+            sum += (value_of(replicas, r, pixel, a) - value_of(replicas, s, pixel, a)) *
+                   (value_of(replicas, r, pixel, b) - value_of(replicas, s, pixel, b));
+    return sum / (REPLICAS * (REPLICAS - 1.0));
+}
+
+static double product_of(const aur_replicas *replicas, size_t i, size_t j) {
+    double sum = 0.0;
+    for (size_t a = 0; a < 3; ++a)
+        for (size_t b = 0; b < 3; ++b)
+            sum += covariance_of(replicas, i, a, b) * covariance_of(replicas, j, a, b);
+    return sum;
+}
+
+/* What pixels beside each other in the same block of 8 x 8 say of tr C^2, pair by pair. */
+static double alike_of(const aur_replicas *replicas) {
+    double all = 0.0;
+    for (size_t y0 = 0; y0 < HEIGHT; y0 += 8)
+        for (size_t x0 = 0; x0 < WIDTH; x0 += 8) {
+            double sum = 0.0;
+            size_t pixels = 0, pairs = 0;
+            for (size_t i = 0; i < PIXELS; ++i)
+                for (size_t j = 0; j < PIXELS; ++j) {
+                    const size_t xi = i % WIDTH, yi = i / WIDTH, xj = j % WIDTH, yj = j / WIDTH;
+                    if (xi / 8 != x0 / 8 || yi / 8 != y0 / 8 || xj / 8 != x0 / 8 || yj / 8 != y0 / 8)
+                        continue;
+                    pixels += i == j;
+                    if ((xj == xi + 1 && yj == yi) || (xj == xi && yj == yi + 1)) {
+                        sum += product_of(replicas, i, j);
+                        ++pairs;
+                    }
+                }
+            all += sum * (double)pixels / (double)pairs;
+        }
+    return all;
+}
+
+static void test_neighbours(void **state) {
+    (void)state;
+    aur_scene *scene = NULL;
+    aur_renderer *renderer = NULL;
+    assert_int_equal(aur_scene_load(AUR_SOURCE_DIR "/scenes/cornell-box/cornell-box.xml", NULL, &scene, NULL),
+                     AUR_OK);
+    assert_int_equal(aur_renderer_create(scene, &renderer, NULL), AUR_OK);
+    aur_render_options options = aur_render_options_default();
+    options.integrator = "path";
+    options.width = WIDTH;
+    options.height = HEIGHT;
+    options.samples_per_pixel = 2;
+    aur_replicas replicas;
+    assert_int_equal(aur_replicas_create(renderer, &options, REPLICAS, &replicas, NULL), AUR_OK);
+    for (size_t r = 0; r < REPLICAS; ++r)
+        assert_int_equal(aur_render_step(replicas.renders[r], 2, NULL), AUR_OK);
+    static double variances[REPLICAS * PIXELS];
+    aur_replica_measure measure;
+    aur_replicas_measure(&replicas, &measure, variances);
+    const double alike = alike_of(&replicas);
+    assert_true(alike > 0.0);
+    assert_near(measure.deviations.alike, alike, 1e-9 * alike);
+    aur_replicas_release(&replicas);
+    aur_renderer_destroy(renderer);
+    aur_scene_destroy(scene);
+}
+
 int main(void) {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(test_own_values_do_not_count)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(test_own_values_do_not_count),
+                                       cmocka_unit_test(test_neighbours)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
