@@ -11,11 +11,12 @@
 #include "child.h"
 #include "experimental.h"
 
-/* Pixels, values, and runs. Seeds are others than those by which the rules were found. */
+/* Pixels of a row of scale 1, values, and runs. Seeds are others than those by which the rules were found. */
 enum {
     WIDTH = 32,
     HEIGHT = 24,
-    VALUES = 3 * WIDTH * HEIGHT,
+    MOST_SCALE = 4,
+    MOST_VALUES = 3 * WIDTH * HEIGHT * MOST_SCALE * MOST_SCALE,
     TRUE_SEED = 1001,
     FIRST_SEED = 5001,
     RUNS = 120,
@@ -24,35 +25,40 @@ enum {
 
 /* The truth is the mean of two pictures to this part of the error asked, by paths and other seeds: an error
  * so small gives the pixels that most of it comes from the samples they need. What the truth is wrong by is
- * told by the difference of the two, not by the intervals that are measured. */
-static const double TRUE_PART = 0.125;
+ * told by the difference of the two, not by the intervals that are measured. Large pictures have many values
+ * by which that is told, and truths that cost minutes. */
+static const double TRUE_PART = 0.125, LARGE_TRUE_PART = 0.25;
 
 typedef struct calibration_row {
     const char *scene; /* below the source tree's scenes; with .. beside the tree, where it may be missing */
     const char *truth; /* integrator; NULL: the scene's own */
     double asked;
+    size_t scale; /* times as wide and high */
 } calibration_row;
 
 /* Errors that take some ten to some hundred samples a pixel, so that those of the truth are small beside
  * them. Keller's scenes name an integrator of their own, which is told another one. */
 static const calibration_row rows[] = {
-    {"cornell-box/cornell-box.xml", "path", 0.08},
-    {"cornell-box/figure.xml", "path", 0.16},
-    {"cornell-box/glossy.xml", "path", 0.14},
-    {"room/room.xml", "path", 0.25},
-    {"parade/parade.xml", "path", 0.50},
-    {"plates/plates.xml", "path", 0.35},
-    {"statue/statue.xml", "path", 0.16},
-    {"sphere/sphere.xml", "path", 0.15},
-    {"occlusion/occlusion.xml", NULL, 0.03},
-    {"haze/haze.xml", "volpath", 0.80},
-    {"keller/cube.xml", "path", 0.06},
-    {"keller/teapot-box.xml", "path", 0.08},
-    {"keller/living-room.xml", "path", 0.25},
-    {"keller/office.xml", "path", 0.35},
-    {"keller/corridor-analytic.xml", "path", 0.10},
-    {"../../shared/scenes/veach-mis/scene.xml", "path", 0.40},
-    {"../../shared/scenes/veach-bidir/scene.xml", "path", 0.80},
+    {"cornell-box/cornell-box.xml", "path", 0.08, 1},
+    {"cornell-box/figure.xml", "path", 0.16, 1},
+    {"cornell-box/glossy.xml", "path", 0.14, 1},
+    {"room/room.xml", "path", 0.25, 1},
+    {"parade/parade.xml", "path", 0.50, 1},
+    {"plates/plates.xml", "path", 0.35, 1},
+    {"statue/statue.xml", "path", 0.16, 1},
+    {"sphere/sphere.xml", "path", 0.15, 1},
+    {"occlusion/occlusion.xml", NULL, 0.03, 1},
+    {"haze/haze.xml", "volpath", 0.80, 1},
+    {"keller/cube.xml", "path", 0.06, 1},
+    {"keller/teapot-box.xml", "path", 0.08, 1},
+    {"keller/living-room.xml", "path", 0.25, 1},
+    {"keller/office.xml", "path", 0.35, 1},
+    {"keller/corridor-analytic.xml", "path", 0.10, 1},
+    {"../../shared/scenes/veach-mis/scene.xml", "path", 0.40, 1},
+    {"../../shared/scenes/veach-bidir/scene.xml", "path", 0.80, 1},
+    /* So many pixels pay for knowing the bias of a photon map. */
+    {"cornell-box/cornell-box.xml", "path", 0.03, MOST_SCALE},
+    {"cornell-box/glossy.xml", "path", 0.06, MOST_SCALE},
 };
 
 enum { ROW_COUNT = sizeof rows / sizeof rows[0] };
@@ -64,34 +70,40 @@ typedef struct tally {
 } tally;
 
 typedef struct truth {
-    double values[VALUES];
+    size_t count;
+    double values[MOST_VALUES];
     double mean, own_square; /* of the truth's own error */
 } known_truth;
 
-static bool read_truth(const char *path, float *values) {
+static size_t values_of(size_t scale) {
+    return (size_t)3 * WIDTH * HEIGHT * scale * scale;
+}
+
+static bool read_truth(const char *path, size_t scale, float *values) {
     aur_image *image = NULL;
     if (access(path, R_OK) != 0 || aur_image_read(path, &image, NULL) != AUR_OK)
         return false;
-    const bool fits = aur_image_width(image) == WIDTH && aur_image_height(image) == HEIGHT;
+    const bool fits = aur_image_width(image) == scale * WIDTH && aur_image_height(image) == scale * HEIGHT;
     if (fits)
-        memcpy(values, aur_image_data(image), VALUES * sizeof *values);
+        memcpy(values, aur_image_data(image), values_of(scale) * sizeof *values);
     aur_image_destroy(image);
     return fits;
 }
 
-static aur_render_options small(const bench_options *options) {
+static aur_render_options small(const bench_options *options, size_t scale) {
     aur_render_options own = aur_render_options_default();
-    own.width = WIDTH;
-    own.height = HEIGHT;
+    own.width = scale * WIDTH;
+    own.height = scale * HEIGHT;
     own.filter = "box";
     own.threads = options->threads;
     return own;
 }
 
 /* A picture to an error; `integrator` NULL: whichever is found to be best. The caller destroys both. */
-static aur_result render(const bench_options *options, aur_renderer *renderer, const char *integrator,
-                         double asked, uint64_t seed, aur_ask **ask, aur_image **image, aur_error *error) {
-    aur_render_options own = small(options);
+static aur_result render(const bench_options *options, aur_renderer *renderer, size_t scale,
+                         const char *integrator, double asked, uint64_t seed, aur_ask **ask,
+                         aur_image **image, aur_error *error) {
+    aur_render_options own = small(options, scale);
     own.integrator = integrator;
     own.seed = seed;
     aur_ask_options wish = aur_ask_options_default();
@@ -109,14 +121,16 @@ static double asked_of(const bench_options *options, size_t row) {
 /* Rendered once and kept beside the program. */
 static aur_result make_truth(const bench_options *options, aur_renderer *renderer, size_t row, size_t half,
                              const char *path, float *values, aur_error *error) {
+    const size_t scale = rows[row].scale;
     aur_ask *ask = NULL;
     aur_image *image = NULL;
     printf("  %s: a reference is rendered once\n", rows[row].scene);
     fflush(stdout);
-    aur_result result = render(options, renderer, rows[row].truth, TRUE_PART * asked_of(options, row),
+    aur_result result = render(options, renderer, scale, rows[row].truth,
+                               (scale > 1 ? LARGE_TRUE_PART : TRUE_PART) * asked_of(options, row),
                                TRUE_SEED + half, &ask, &image, error);
     if (result == AUR_OK) {
-        memcpy(values, aur_image_data(image), VALUES * sizeof *values);
+        memcpy(values, aur_image_data(image), values_of(scale) * sizeof *values);
         result = aur_image_write(path, image, NULL, error);
     }
     aur_image_destroy(image);
@@ -126,26 +140,30 @@ static aur_result make_truth(const bench_options *options, aur_renderer *rendere
 
 static aur_result open_truth(const bench_options *options, aur_renderer *renderer, size_t row,
                              const char *folder, known_truth *found, aur_error *error) {
-    float values[2][VALUES];
+    float values[2][MOST_VALUES];
     for (size_t half = 0; half < 2; ++half) {
         char name[128], path[4400];
         snprintf(name, sizeof name, "%s", rows[row].scene);
         for (char *slash = strchr(name, '/'); slash != NULL; slash = strchr(slash, '/'))
             *slash = '-';
-        snprintf(path, sizeof path, "%s/ask-truth%s-%s-%zu.pfm", folder, options->quick ? "-quick" : "", name,
-                 half + 1);
-        const aur_result result = read_truth(path, values[half])
+        char times[24] = "";
+        if (rows[row].scale > 1)
+            snprintf(times, sizeof times, "-x%zu", rows[row].scale);
+        snprintf(path, sizeof path, "%s/ask-truth%s-%s%s-%zu.pfm", folder, options->quick ? "-quick" : "",
+                 name, times, half + 1);
+        const aur_result result = read_truth(path, rows[row].scale, values[half])
                                       ? AUR_OK
                                       : make_truth(options, renderer, row, half, path, values[half], error);
         if (result != AUR_OK)
             return result;
     }
-    *found = (known_truth){.mean = 0.0};
-    for (size_t i = 0; i < VALUES; ++i) {
+    *found = (known_truth){.count = values_of(rows[row].scale)};
+    const double count = (double)found->count;
+    for (size_t i = 0; i < found->count; ++i) {
         const double a = (double)values[0][i], b = (double)values[1][i];
         found->values[i] = 0.5 * (a + b);
-        found->mean += found->values[i] / VALUES;
-        found->own_square += 0.25 * (a - b) * (a - b) / VALUES;
+        found->mean += found->values[i] / count;
+        found->own_square += 0.25 * (a - b) * (a - b) / count;
     }
     return AUR_OK;
 }
@@ -153,9 +171,9 @@ static aur_result open_truth(const bench_options *options, aur_renderer *rendere
 static void count(const known_truth *known, const float *values, double asked, const aur_ask_report *report,
                   tally *sum) {
     double square = -known->own_square;
-    for (size_t i = 0; i < VALUES; ++i) {
+    for (size_t i = 0; i < known->count; ++i) {
         const double off = (double)values[i] - known->values[i];
-        square += off * off / VALUES;
+        square += off * off / (double)known->count;
     }
     const double error = sqrt(fmax(square, 0.0)) / known->mean;
     ++sum->runs;
@@ -172,7 +190,8 @@ static aur_result run(const bench_options *options, aur_renderer *renderer, size
     aur_ask *ask = NULL;
     aur_image *image = NULL;
     aur_ask_report report = {.size = sizeof report};
-    aur_result result = render(options, renderer, NULL, asked_of(options, row), seed, &ask, &image, error);
+    aur_result result =
+        render(options, renderer, rows[row].scale, NULL, asked_of(options, row), seed, &ask, &image, error);
     if (result == AUR_OK)
         result = aur_ask_get_report(ask, &report, error);
     if (result == AUR_OK) {
@@ -250,7 +269,12 @@ bool bench_ask_calibration(const bench_options *options, bench_figures *figures)
     tally pooled = {0};
     size_t excluded = 0;
     for (size_t row = 0; row < ROW_COUNT; ++row) {
-        if (options->only != NULL && strstr(rows[row].scene, options->only) == NULL)
+        char label[128];
+        if (rows[row].scale > 1)
+            snprintf(label, sizeof label, "%zu x %s", rows[row].scale, rows[row].scene);
+        else
+            snprintf(label, sizeof label, "%s", rows[row].scene);
+        if (options->only != NULL && strstr(label, options->only) == NULL)
             continue;
         tally found = {0};
         aur_error error = {0};
@@ -261,7 +285,7 @@ bool bench_ask_calibration(const bench_options *options, bench_figures *figures)
         double low, high;
         share_interval((double)found.held / (double)found.runs, (double)found.runs, &low, &high);
         excluded += low > 0.95 || high < 0.95;
-        print(rows[row].scene, asked_of(options, row), &found);
+        print(label, asked_of(options, row), &found);
         add(&pooled, &found);
         if (options->quick)
             break;
