@@ -11,9 +11,10 @@
 
 /* Of the error asked, the bias that may be left; the noise makes the rest of the square. */
 static const double BIAS_PART = 0.6;
-/* Final gathering is worth it at this part of path tracing's rays: its rays cost more, for each ends at a
- * look at the photon map. Parts of path tracing's rays that may be spent on photon maps and on finding their
- * bias: so one who goes on with path tracing has lost little. */
+/* Final gathering is worth it at this part of path tracing's rays: what its rays cost differs by scene (in
+ * two boxes as much as those of paths), and a guess from few pixels may be wrong. Parts of path tracing's
+ * rays that may be spent on photon maps and on finding their bias: so one who goes on with path tracing has
+ * lost little. All three are chosen: they cost time, never truth. */
 static const double WORTH = 0.7, MAP_PART = 0.025, BIAS_SEARCH_PART = 0.2;
 /* Tracing and sorting a photon takes the time of so many rays of path tracing: 2.4 in the Cornell box by
  * `render --stats`. Other scenes were not measured: a wrong ratio costs time, never truth. */
@@ -85,7 +86,7 @@ static size_t photons_for(const aur_choice *choice, double path_rays) {
     return photons >= LEAST_PHOTONS ? photons : 0;
 }
 
-/* The same with more keys (",key=value"). */
+/* Final gathering in place of path tracing, with its keys and more (",key=value"). NULL: memory is short. */
 static char *gather_instead(const char *path, aur_gather_size size, const char *more) {
     enum { CAPACITY = 256 }; /* five numbers and the keys' names */
     const char *const keys = strchr(path, ':');
@@ -133,6 +134,7 @@ static aur_result find_bias(const aur_choice *choice, aur_rivals *rivals, double
         const double needed = samples_to_know(bias, most, samples), growth = fmax(needed / samples, 1.0);
         if (sqrt(bias->high) <= most || sqrt(bias->low) > most || growth * rays > most_rays)
             return AUR_OK;
+        /* A little beyond what is the least that can do, and by steps that are worth a look. */
         samples = (uint32_t)ceil(fmin(fmax(1.2 * needed, 1.25 * samples), 4.0 * samples));
     }
 }
@@ -190,8 +192,10 @@ static aur_result try_pilot(aur_choice *choice, aur_trial *pilot, double path_ra
     return AUR_OK;
 }
 
-static aur_result compare(aur_renderer *renderer, const aur_render_options *options, aur_choice *choice,
-                          double wanted, aur_rivals *rivals, bool *better, aur_error *error) {
+/* `coarse` are the options of the pilot, which is made and not rendered yet. */
+static aur_result compare(aur_renderer *renderer, const aur_render_options *options,
+                          const aur_render_options *coarse, aur_choice *choice, double wanted,
+                          aur_rivals *rivals, bool *better, aur_error *error) {
     const aur_trial *const path = &choice->trial;
     const double most_bias = BIAS_PART * wanted, path_rays = rays_to(path, wanted);
     bool more, worth = false;
@@ -199,10 +203,9 @@ static aur_result compare(aur_renderer *renderer, const aur_render_options *opti
                                   sqrt(wanted * wanted - most_bias * most_bias), &worth, error);
     if (result != AUR_OK || !worth)
         return result;
-    const aur_render_options coarse = coarse_options(path, options);
     const aur_gather_size few = {choice->gather.photons, DIFFERENCE_DIRECTIONS};
     result = create_trial(
-        renderer, &coarse, choice,
+        renderer, coarse, choice,
         gather_instead(path->integrator, few, ",pixel=centre,debias=true,continued=1,incident=correction"),
         &rivals->difference, error);
     if (result == AUR_OK)
@@ -254,11 +257,9 @@ aur_result aur_ask_try(aur_renderer *renderer, const aur_render_options *options
     aur_result result = render_path(choice, &wanted, error);
     if (result != AUR_OK || path->bound <= wanted || aur_trial_is_black(path))
         return result;
-    choice->gather = (aur_gather_size){photons_for(choice, rays_to(path, wanted)), 0};
-    if (choice->gather.photons == 0) {
-        choice->gather = (aur_gather_size){0};
+    choice->gather = (aur_gather_size){.photons = photons_for(choice, rays_to(path, wanted))};
+    if (choice->gather.photons == 0)
         return AUR_OK;
-    }
     aur_trial_look_ahead(path, &choice->goal);
     aur_rivals rivals = {0};
     choice->rivals = &rivals;
@@ -270,7 +271,7 @@ aur_result aur_ask_try(aur_renderer *renderer, const aur_render_options *options
                      aur_ask_gather(path->integrator, (aur_gather_size){PILOT_PHOTONS, PILOT_DIRECTIONS}),
                      &rivals.pilot, &refused);
     if (result == AUR_OK)
-        result = compare(renderer, options, choice, wanted, &rivals, &better, error);
+        result = compare(renderer, options, &coarse, choice, wanted, &rivals, &better, error);
     else if (result != AUR_ERROR_MEMORY && result != AUR_ERROR_CANCELLED)
         result = AUR_OK; /* final gathering says that the scene is not for it */
     else if (error != NULL)
