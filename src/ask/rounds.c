@@ -2,50 +2,43 @@
 
 #include <math.h>
 
-/* The samples of a pixel at the price `price` a sample: where one more would save as much as it costs. */
-static double samples_at(double price, double variance, uint32_t samples) {
-    return fmax(sqrt(variance * samples / price), samples);
+/* The samples of a pixel where one more would save as much as it costs, which is worth the more the less is
+ * paid: in proportion to `spending`, one over the root of the price. */
+static double samples_at(double spending, double variance, uint32_t samples) {
+    return fmax(spending * sqrt(variance * samples), samples);
 }
 
-static double variance_at(double price, size_t count, const double *variances, const uint32_t *targets) {
-    double sum = 0.0;
+/* The spending at which the sum of variances becomes `factor` of what it is. Samples over those of now leave
+ * the lesser of a variance and root(variance x targets) / spending, so that the sum is concave in one over
+ * the spending, with a corner for each pixel: Newton's steps from 0 on stay below the solution and end there,
+ * when no pixel passes its corner any more. */
+static double spending_to(size_t count, const double *variances, double factor, const uint32_t *targets) {
+    double wanted = 0.0;
     for (size_t i = 0; i < count; ++i)
-        sum += variances[i] * targets[i] / samples_at(price, variances[i], targets[i]);
-    return sum;
-}
-
-/* The price at which the sum of variances becomes `factor` of what it is. */
-static double price_of(size_t count, const double *variances, double factor, const uint32_t *targets) {
-    double sum = 0.0, high = 0.0;
-    for (size_t i = 0; i < count; ++i) {
-        sum += variances[i];
-        high = fmax(high, variances[i] / targets[i]);
+        wanted += factor * variances[i];
+    double slack = 0.0; /* one over the spending */
+    for (bool moves = wanted > 0.0; moves;) {
+        double kept = 0.0, slope = 0.0;
+        for (size_t i = 0; i < count; ++i) {
+            const double root = sqrt(variances[i] * targets[i]);
+            const bool spends = slack * root < variances[i];
+            kept += spends ? 0.0 : variances[i];
+            slope += spends ? root : 0.0;
+        }
+        const double next = slope > 0.0 ? (wanted - kept) / slope : slack;
+        const double close_enough = 1.0 + 1e-9;
+        moves = next > close_enough * slack;
+        slack = fmax(next, slack);
     }
-    /* At the highest price nobody buys; at this part of the lowest gain the variance is a quarter of what is
-     * wanted. */
-    double low = high;
-    for (size_t i = 0; i < count; ++i)
-        if (variances[i] > 0.0)
-            low = fmin(low, variances[i] / targets[i]);
-    low *= 0.0625 * factor * factor;
-    /* Samples are whole numbers and go as the root of the price. */
-    const double close_enough = 1.0 + 1e-6;
-    for (int k = 0; k < 64 && high > close_enough * low; ++k) {
-        const double price = sqrt(low * high);
-        if (variance_at(price, count, variances, targets) > factor * sum)
-            high = price;
-        else
-            low = price;
-    }
-    return low;
+    return 1.0 / slack;
 }
 
 double aur_growth_to(size_t count, const double *variances, double factor, const uint32_t *targets) {
-    const double price = price_of(count, variances, factor, targets);
+    const double spending = spending_to(count, variances, factor, targets);
     double before = 0.0, after = 0.0;
     for (size_t i = 0; i < count; ++i) {
         before += targets[i];
-        after += variances[i] > 0.0 ? samples_at(price, variances[i], targets[i]) : targets[i];
+        after += variances[i] > 0.0 ? samples_at(spending, variances[i], targets[i]) : targets[i];
     }
     return after / before;
 }
@@ -71,10 +64,10 @@ static bool raise_least(size_t count, uint32_t *targets) {
 
 bool aur_raise_targets(size_t count, const double *variances, double factor, uint32_t most,
                        uint32_t *targets) {
-    const double price = price_of(count, variances, factor, targets);
+    const double spending = spending_to(count, variances, factor, targets);
     bool raised = false;
     for (size_t i = 0; i < count; ++i) {
-        const double wanted = variances[i] > 0.0 ? ceil(fmin(samples_at(price, variances[i], targets[i]),
+        const double wanted = variances[i] > 0.0 ? ceil(fmin(samples_at(spending, variances[i], targets[i]),
                                                              (double)AUR_MOST_GROWTH * targets[i]))
                                                  : targets[i];
         const uint32_t target = (uint32_t)fmin(wanted, most);
