@@ -168,14 +168,44 @@ static aur_result open_truth(const bench_options *options, aur_renderer *rendere
     return AUR_OK;
 }
 
-static void count(const known_truth *known, const float *values, double asked, const aur_ask_report *report,
-                  tally *sum) {
-    double square = -known->own_square;
-    for (size_t i = 0; i < known->count; ++i) {
-        const double off = (double)values[i] - known->values[i];
-        square += off * off / (double)known->count;
+/* Where a picture is wrong. */
+typedef struct found_error {
+    double square, worst_square; /* the mean over the values; of it, what one pixel has */
+    size_t worst;
+} found_error;
+
+static found_error compare(const known_truth *known, const float *values) {
+    found_error found = {.square = -known->own_square};
+    for (size_t i = 0; i < known->count; i += 3) {
+        double square = 0.0;
+        for (size_t c = i; c < i + 3; ++c) {
+            const double off = (double)values[c] - known->values[c];
+            square += off * off / (double)known->count;
+        }
+        found.square += square;
+        if (square > found.worst_square) {
+            found.worst_square = square;
+            found.worst = i / 3;
+        }
     }
-    const double error = sqrt(fmax(square, 0.0)) / known->mean;
+    return found;
+}
+
+/* A run whose interval does not hold, or whose error is the least so far. */
+static void print_outlier(size_t scale, uint64_t seed, const found_error *found, const known_truth *known,
+                          const float *values, const aur_ask_report *report) {
+    const size_t width = scale * WIDTH, green = 3 * found->worst + 1;
+    printf(
+        "    seed %llu: error %.3g of [%.3g, %.3g], %.1f samples a pixel; pixel (%zu, %zu) has %.2f of its "
+        "square, %.3g in place of %.3g\n",
+        (unsigned long long)seed, sqrt(fmax(found->square, 0.0)) / known->mean, report->error_low,
+        report->error_high, report->samples_per_pixel, found->worst % width, found->worst / width,
+        found->worst_square / found->square, (double)values[green], known->values[green]);
+}
+
+static void count(const known_truth *known, const found_error *found, double asked,
+                  const aur_ask_report *report, tally *sum) {
+    const double error = sqrt(fmax(found->square, 0.0)) / known->mean;
     ++sum->runs;
     sum->held += error >= report->error_low && error <= report->error_high;
     sum->below += error <= report->error_high;
@@ -195,7 +225,13 @@ static aur_result run(const bench_options *options, aur_renderer *renderer, size
     if (result == AUR_OK)
         result = aur_ask_get_report(ask, &report, error);
     if (result == AUR_OK) {
-        count(known, aur_image_data(image), asked_of(options, row), &report, sum);
+        const found_error found = compare(known, aur_image_data(image));
+        const tally before = *sum;
+        const double asked = asked_of(options, row);
+        count(known, &found, asked, &report, sum);
+        const bool least = before.runs == 0 || sum->least < before.least;
+        if (options->only != NULL && (sum->held == before.held || least))
+            print_outlier(rows[row].scale, seed, &found, known, aur_image_data(image), &report);
         sum->gathered += strstr(aur_ask_integrator(ask), "finalgather") != NULL;
     }
     aur_image_destroy(image);

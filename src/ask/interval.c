@@ -16,7 +16,7 @@ static double spread_of_three(double trace, double squares) {
     return (squares - trace * trace / 2.0) / 4.0;
 }
 
-void aur_deviations_add(aur_deviations *sum, const aur_gram *block) {
+double aur_gram_spread(const aur_gram *block) {
     double trace = 0.0, squares = 0.0, own = 0.0;
     for (size_t r = 0; r < block->count; ++r) {
         trace += block->products[r][r];
@@ -26,11 +26,32 @@ void aur_deviations_add(aur_deviations *sum, const aur_gram *block) {
     }
     const double told = block->count > 3 ? spread_of_fours((double)block->count, trace, squares, own)
                                          : spread_of_three(trace, squares);
-    const double spread = fmax(told, 0.0);
-    sum->trace += trace;
+    return fmax(told, 0.0);
+}
+
+void aur_deviations_add(aur_deviations *sum, const aur_gram *block) {
+    const double spread = aur_gram_spread(block);
+    for (size_t r = 0; r < block->count; ++r)
+        sum->trace += block->products[r][r];
     sum->spread += spread;
     sum->square_spreads += spread * spread;
     sum->alike += block->alike;
+}
+
+void aur_deviations_pool(aur_deviations *sum, size_t count, size_t pixel_count,
+                         const aur_pixel_spread *pixels) {
+    double variance = 0.0, spread = 0.0, squares = 0.0;
+    for (size_t i = 0; i < pixel_count; ++i) {
+        variance += pixels[i].variance;
+        spread += pixels[i].spread;
+        squares += pixels[i].spread * pixels[i].spread;
+    }
+    const double smaller = fmin(sum->trace / ((double)(count - 1) * variance), 1.0);
+    const double part = smaller * smaller;
+    if (part * spread > sum->spread) {
+        sum->spread = part * spread;
+        sum->square_spreads = part * part * squares;
+    }
 }
 
 /* Degrees of freedom of the sum of the blocks' spreads. One block's has as many as there are independent

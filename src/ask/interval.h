@@ -33,6 +33,20 @@ typedef struct aur_deviations {
  * count - 1. */
 void aur_deviations_add(aur_deviations *sum, const aur_gram *block);
 
+/* tr C^2 of one block, from its Gram matrix. */
+double aur_gram_spread(const aur_gram *block);
+
+/* What rounds tell of a replica's value of a pixel: its variance, the channels together, and tr C^2. */
+typedef struct aur_pixel_spread {
+    double variance, spread;
+} aur_pixel_spread;
+
+/* Takes for the spread what all rounds say of the `pixels`, where that is more for the same error. Where one
+ * pixel has most of the error and its replicas agree by chance now, the error looks small, and spread over
+ * many pixels; what earlier rounds saw does not agree. */
+void aur_deviations_pool(aur_deviations *sum, size_t count, size_t pixel_count,
+                         const aur_pixel_spread *pixels);
+
 typedef struct aur_error_interval {
     double estimate, low, high; /* of the root mean square error, in the picture's units */
     double degrees;             /* independent values of equal size that would make such an error */

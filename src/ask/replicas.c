@@ -130,9 +130,18 @@ static double alike_in(size_t count, pixel_range block, const colour_covariance 
     return pairs > 0 ? sum * (double)(width * height) / ((double)pairs * degrees * degrees) : 0.0;
 }
 
+static aur_gram gram_of(size_t count, double d[3][AUR_REPLICAS_MAX]) {
+    aur_gram gram = {.count = count};
+    for (size_t r = 0; r < count; ++r)
+        for (size_t s = 0; s < count; ++s)
+            for (size_t channel = 0; channel < 3; ++channel)
+                gram.products[r][s] += d[channel][r] * d[channel][s];
+    return gram;
+}
+
 /* Adds a block's values to the mean and its pixels' variances, and returns its Gram matrix. */
 static aur_gram measure_block(const aur_replicas *replicas, pixel_range block, double *mean,
-                              double *variances) {
+                              const aur_pixel_measure *pixels) {
     const aur_film_layout *const layout = &aur_render_film(replicas->renders[0])->layout;
     aur_gram gram = {.count = replicas->count};
     colour_covariance covariances[BLOCK * BLOCK];
@@ -144,30 +153,30 @@ static aur_gram measure_block(const aur_replicas *replicas, pixel_range block, d
             double d[3][AUR_REPLICAS_MAX];
             for (size_t channel = 0; channel < 3; ++channel) {
                 *mean += deviations_at(replicas, pixel, channel, d[channel]);
-                add_variances(replicas, pixel, &shares, d[channel], variances);
-                for (size_t r = 0; r < replicas->count; ++r)
-                    for (size_t s = 0; s <= r; ++s)
-                        gram.products[r][s] += d[channel][r] * d[channel][s];
+                add_variances(replicas, pixel, &shares, d[channel], pixels->variances);
             }
+            const aur_gram own = gram_of(replicas->count, d);
+            pixels->spreads[pixel] = aur_gram_spread(&own);
+            for (size_t r = 0; r < replicas->count; ++r)
+                for (size_t s = 0; s < replicas->count; ++s)
+                    gram.products[r][s] += own.products[r][s];
             add_colour(replicas->count, d, &covariances[seen++]);
         }
     gram.alike = alike_in(replicas->count, block, covariances);
-    for (size_t r = 0; r < replicas->count; ++r)
-        for (size_t s = 0; s < r; ++s)
-            gram.products[s][r] = gram.products[r][s];
     return gram;
 }
 
-void aur_replicas_measure(const aur_replicas *replicas, aur_replica_measure *measure, double *variances) {
+void aur_replicas_measure(const aur_replicas *replicas, aur_replica_measure *measure,
+                          const aur_pixel_measure *pixels) {
     const aur_film *const film = aur_render_film(replicas->renders[0]);
     const aur_film_layout *const layout = &film->layout;
     *measure = (aur_replica_measure){0};
     for (size_t i = 0; i < replicas->count * replicas->pixel_count; ++i)
-        variances[i] = 0.0;
+        pixels->variances[i] = 0.0;
     for (size_t row = layout->y0 / BLOCK; row * BLOCK < layout->y1; ++row)
         for (size_t column = layout->x0 / BLOCK; column * BLOCK < layout->x1; ++column) {
             const aur_gram gram =
-                measure_block(replicas, cell_of(layout, column, row), &measure->mean, variances);
+                measure_block(replicas, cell_of(layout, column, row), &measure->mean, pixels);
             aur_deviations_add(&measure->deviations, &gram);
         }
     measure->mean /= 3.0 * (double)replicas->pixel_count;

@@ -24,10 +24,17 @@ typedef struct aur_replica_measure {
     double mean;               /* over pixels and channels R, G, B */
 } aur_replica_measure;
 
-/* `variances`[count * pixel_count] gets, for each replica and pixel, the sum over the channels of the
+/* What they say of single pixels. */
+typedef struct aur_pixel_measure {
+    double *variances; /* [count * pixel_count] */
+    double *spreads;   /* [pixel_count] tr C^2 of a replica's value */
+} aur_pixel_measure;
+
+/* `variances` gets, for each replica and pixel, the sum over the channels of the
  * variance of one sample, as the other replicas tell it. A replica that shared out its samples by its own
  * values would leave pixels alone where these agree by chance: its error would look smaller than it is. */
-void aur_replicas_measure(const aur_replicas *replicas, aur_replica_measure *measure, double *variances);
+void aur_replicas_measure(const aur_replicas *replicas, aur_replica_measure *measure,
+                          const aur_pixel_measure *pixels);
 
 /* Variances of single pixels are known too badly to share out samples by: each becomes what the pixels about
  * it say together, and then that of the replica's value, of which `samples`[count * pixel_count] are made.

@@ -44,6 +44,8 @@ aur_result aur_trial_create(aur_renderer *renderer, const aur_render_options *op
     trial->earlier = calloc(trial->value_count, sizeof *trial->earlier);
     trial->variances = calloc(trial->value_count, sizeof *trial->variances);
     trial->measured = calloc(trial->value_count, sizeof *trial->measured);
+    trial->pixels = calloc(pixels, sizeof *trial->pixels);
+    trial->spreads = calloc(pixels, sizeof *trial->spreads);
     trial->scratch = calloc(pixels, sizeof *trial->scratch);
     const aur_film_layout *const layout = &aur_render_film(trial->replicas.renders[0])->layout;
     if (shows_lamps(trial->integrator)) {
@@ -55,7 +57,8 @@ aur_result aur_trial_create(aur_renderer *renderer, const aur_render_options *op
             aur_lamps_leave_edges(layout, &trial->lamps);
     }
     const bool made = trial->targets != NULL && trial->earlier != NULL && trial->variances != NULL &&
-                      trial->measured != NULL && trial->scratch != NULL;
+                      trial->measured != NULL && trial->pixels != NULL && trial->spreads != NULL &&
+                      trial->scratch != NULL;
     return made ? AUR_OK : aur_fail_memory(error);
 }
 
@@ -65,6 +68,8 @@ void aur_trial_release(aur_trial *trial) {
     free(trial->earlier);
     free(trial->variances);
     free(trial->measured);
+    free(trial->pixels);
+    free(trial->spreads);
     free(trial->scratch);
     aur_lamps_release(&trial->lamps);
     free(trial->integrator);
@@ -196,6 +201,40 @@ static void learn_rate(aur_trial *trial, double earlier_error) {
     trial->rate = fmin(fmax(rate, 1.0), 2.0);
 }
 
+/* The samples of a pixel in all replicas. */
+static double samples_in(const aur_trial *trial, const uint32_t *samples, size_t pixel) {
+    double sum = 0.0;
+    for (size_t r = 0; r < trial->replicas.count; ++r)
+        sum += samples[r * trial->replicas.pixel_count + pixel];
+    return sum;
+}
+
+/* Puts a pixel's variance and spread of now together with those of the rounds before, half and half. The
+ * spread is that of the variance so made: the square of a sum, whose own squares are told without bias. */
+static void pool_pixel(aur_pixel_spread *pool, double before, double variance, double spread) {
+    const double earlier = pool->variance * before;
+    pool->spread = 0.25 * (pool->spread * before * before + 2.0 * earlier * variance + spread);
+    pool->variance = 0.5 * (earlier + variance);
+}
+
+/* What all rounds say of how few pixels have the error. */
+static void pool_pixels(aur_trial *trial) {
+    const aur_replicas *const replicas = &trial->replicas;
+    for (size_t i = 0; i < replicas->pixel_count; ++i) {
+        double now = 0.0;
+        for (size_t r = 0; r < replicas->count; ++r) {
+            const size_t value = r * replicas->pixel_count + i;
+            now += trial->measured[value] / trial->targets[value] / (double)replicas->count;
+        }
+        const double growth = samples_in(trial, trial->earlier, i) / samples_in(trial, trial->targets, i);
+        if (trial->rounds > 1)
+            pool_pixel(&trial->pixels[i], pow(growth, trial->rate), now, trial->spreads[i]);
+        else
+            trial->pixels[i] = (aur_pixel_spread){now, trial->spreads[i]};
+    }
+    aur_deviations_pool(&trial->measure.deviations, replicas->count, replicas->pixel_count, trial->pixels);
+}
+
 /* What is thought of the variances. */
 typedef struct variance_sums {
     double measured, pooled, lamps; /* by the last round; by all; and of lamps that it need not have met */
@@ -257,7 +296,9 @@ aur_result aur_trial_render(aur_trial *trial, double confidence, const atomic_bo
     aur_render_statistics spent;
     aur_trial_spent(trial, &spent);
     trial->samples = (double)spent.samples / (double)replicas->pixel_count;
-    aur_replicas_measure(replicas, &trial->measure, trial->measured);
+    const aur_pixel_measure pixels = {trial->measured, trial->spreads};
+    aur_replicas_measure(replicas, &trial->measure, &pixels);
+    pool_pixels(trial);
     aur_replicas_smooth(replicas, trial->targets, trial->measured, trial->scratch);
     const aur_error_interval absolute = aur_replica_interval(&trial->measure.deviations, replicas->count,
                                                              3 * replicas->pixel_count, confidence);

@@ -15,6 +15,8 @@ typedef struct aur_trial {
     uint32_t *earlier;  /* [value_count] before it */
     double *variances;  /* [value_count] of the replicas' pixels, as the other replicas tell in all rounds */
     double *measured;   /* the same of the last round alone */
+    aur_pixel_spread *pixels; /* [pixel_count] as all rounds tell */
+    double *spreads;          /* [pixel_count] of the last round alone */
     double *scratch;
     aur_lamps lamps; /* where the integrator shows them */
     aur_replica_measure measure;

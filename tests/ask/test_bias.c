@@ -22,9 +22,10 @@ static void replicas_of(aur_renderer *renderer, const char *integrator, size_t s
 }
 
 static double mean_of(const aur_replicas *replicas) {
-    static double variances[REPLICAS * WIDTH * HEIGHT];
+    static double variances[REPLICAS * WIDTH * HEIGHT], spreads[WIDTH * HEIGHT];
+    const aur_pixel_measure pixels = {variances, spreads};
     aur_replica_measure measure;
-    aur_replicas_measure(replicas, &measure, variances);
+    aur_replicas_measure(replicas, &measure, &pixels);
     return measure.mean;
 }
 

@@ -4,31 +4,47 @@
 #include "ask/replicas.h"
 #include "film/film.h"
 
-enum { WIDTH = 16, HEIGHT = 12, REPLICAS = 4, PIXELS = WIDTH * HEIGHT };
+enum { WIDTH = 16, HEIGHT = 12, REPLICAS = 4, PIXELS = WIDTH * HEIGHT, SAMPLES = 8 };
+
+typedef struct fixture {
+    aur_scene *scene;
+    aur_renderer *renderer;
+    aur_replicas replicas;
+    double spreads[PIXELS];
+} fixture;
+
+/* Replicas of the Cornell box, with so many samples a pixel of SAMPLES rendered. */
+static void begin(fixture *f, size_t samples) {
+    assert_int_equal(
+        aur_scene_load(AUR_SOURCE_DIR "/scenes/cornell-box/cornell-box.xml", NULL, &f->scene, NULL), AUR_OK);
+    assert_int_equal(aur_renderer_create(f->scene, &f->renderer, NULL), AUR_OK);
+    aur_render_options options = aur_render_options_default();
+    options.integrator = "path";
+    options.width = WIDTH;
+    options.height = HEIGHT;
+    options.samples_per_pixel = SAMPLES;
+    assert_int_equal(aur_replicas_create(f->renderer, &options, REPLICAS, &f->replicas, NULL), AUR_OK);
+    for (size_t r = 0; r < REPLICAS; ++r)
+        assert_int_equal(aur_render_step(f->replicas.renders[r], samples, NULL), AUR_OK);
+}
+
+static void end(fixture *f) {
+    aur_replicas_release(&f->replicas);
+    aur_renderer_destroy(f->renderer);
+    aur_scene_destroy(f->scene);
+}
 
 /* The variances by which a replica's samples are shared out come from the others: another sample of its own
  * changes none of them but by rounding, and all of the others'. */
 static void test_own_values_do_not_count(void **state) {
     (void)state;
-    aur_scene *scene = NULL;
-    aur_renderer *renderer = NULL;
-    assert_int_equal(aur_scene_load(AUR_SOURCE_DIR "/scenes/cornell-box/cornell-box.xml", NULL, &scene, NULL),
-                     AUR_OK);
-    assert_int_equal(aur_renderer_create(scene, &renderer, NULL), AUR_OK);
-    aur_render_options options = aur_render_options_default();
-    options.integrator = "path";
-    options.width = WIDTH;
-    options.height = HEIGHT;
-    options.samples_per_pixel = 8;
-    aur_replicas replicas;
-    assert_int_equal(aur_replicas_create(renderer, &options, REPLICAS, &replicas, NULL), AUR_OK);
-    for (size_t r = 0; r < REPLICAS; ++r)
-        assert_int_equal(aur_render_step(replicas.renders[r], 1, NULL), AUR_OK);
+    fixture f;
+    begin(&f, 1);
     static double before[REPLICAS * PIXELS], after[REPLICAS * PIXELS];
     aur_replica_measure measure;
-    aur_replicas_measure(&replicas, &measure, before);
-    assert_int_equal(aur_render_step(replicas.renders[0], 1, NULL), AUR_OK);
-    aur_replicas_measure(&replicas, &measure, after);
+    aur_replicas_measure(&f.replicas, &measure, &(aur_pixel_measure){before, f.spreads});
+    assert_int_equal(aur_render_step(f.replicas.renders[0], 1, NULL), AUR_OK);
+    aur_replicas_measure(&f.replicas, &measure, &(aur_pixel_measure){after, f.spreads});
     double sums[2] = {0.0, 0.0};
     for (size_t i = 0; i < PIXELS; ++i) {
         assert_near(after[i], before[i], 1e-9 * (1.0 + before[i]));
@@ -36,9 +52,7 @@ static void test_own_values_do_not_count(void **state) {
         sums[1] += after[PIXELS + i];
     }
     assert_true(sums[0] > 0.0 && sums[0] != sums[1]);
-    aur_replicas_release(&replicas);
-    aur_renderer_destroy(renderer);
-    aur_scene_destroy(scene);
+    end(&f);
 }
 
 static double value_of(const aur_replicas *replicas, size_t r, size_t pixel, size_t channel) {
@@ -89,29 +103,15 @@ static double alike_of(const aur_replicas *replicas) {
 
 static void test_neighbours(void **state) {
     (void)state;
-    aur_scene *scene = NULL;
-    aur_renderer *renderer = NULL;
-    assert_int_equal(aur_scene_load(AUR_SOURCE_DIR "/scenes/cornell-box/cornell-box.xml", NULL, &scene, NULL),
-                     AUR_OK);
-    assert_int_equal(aur_renderer_create(scene, &renderer, NULL), AUR_OK);
-    aur_render_options options = aur_render_options_default();
-    options.integrator = "path";
-    options.width = WIDTH;
-    options.height = HEIGHT;
-    options.samples_per_pixel = 2;
-    aur_replicas replicas;
-    assert_int_equal(aur_replicas_create(renderer, &options, REPLICAS, &replicas, NULL), AUR_OK);
-    for (size_t r = 0; r < REPLICAS; ++r)
-        assert_int_equal(aur_render_step(replicas.renders[r], 2, NULL), AUR_OK);
+    fixture f;
+    begin(&f, 2);
     static double variances[REPLICAS * PIXELS];
     aur_replica_measure measure;
-    aur_replicas_measure(&replicas, &measure, variances);
-    const double alike = alike_of(&replicas);
+    aur_replicas_measure(&f.replicas, &measure, &(aur_pixel_measure){variances, f.spreads});
+    const double alike = alike_of(&f.replicas);
     assert_true(alike > 0.0);
     assert_near(measure.deviations.alike, alike, 1e-9 * alike);
-    aur_replicas_release(&replicas);
-    aur_renderer_destroy(renderer);
-    aur_scene_destroy(scene);
+    end(&f);
 }
 
 int main(void) {
