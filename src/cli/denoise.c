@@ -4,6 +4,7 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "cli/denoise_known.h"
 #include "cli/oidn.h"
 
 const cli_option cli_denoise_options[] = {
@@ -21,12 +22,13 @@ void cli_denoise_end(cli_denoise *denoise) {
     denoise->library = NULL;
 }
 
-/* What the first surfaces are like: a few samples have little noise. */
+/* What the first surfaces are like, beside the light that is seen directly: a few samples have little noise.
+ */
 static aur_result render_features(aur_renderer *renderer, const aur_render_options *options,
                                   aur_image **features, aur_error *error) {
     enum { SAMPLES = 16 };
     aur_render_options own = *options;
-    own.integrator = "aov:aovs=(albedo:albedo,normal:sh_normal),integrator=depth";
+    own.integrator = "aov:aovs=(albedo:albedo,normal:sh_normal),integrator=(path:max_depth=1)";
     own.sampler = "sobol";
     own.samples_per_pixel = SAMPLES;
     own.resumable = false;
@@ -73,12 +75,17 @@ aur_result cli_denoise_picture(const cli_denoise *denoise, aur_renderer *rendere
                                const aur_render_options *options, aur_image **image, aur_error *error) {
     if (!denoise->wanted)
         return AUR_OK;
-    aur_image *features = NULL, *whole = NULL;
+    aur_image *features = NULL, *whole = NULL, *rest = NULL;
     aur_result result = render_features(renderer, options, &features, error);
     if (result == AUR_OK)
         result = put_together(*image, features, &whole, error);
     if (result == AUR_OK)
-        result = cli_oidn_run(denoise->library, *image, features, whole, error);
+        result = cli_known_take(*image, features, &rest, error);
+    if (result == AUR_OK)
+        result = cli_oidn_run(denoise->library, rest, features, whole, error);
+    if (result == AUR_OK)
+        cli_known_restore(*image, features, whole);
+    aur_image_destroy(rest);
     aur_image_destroy(features);
     if (result != AUR_OK) {
         aur_image_destroy(whole);

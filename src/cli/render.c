@@ -296,6 +296,8 @@ static int run(const cli_call *call) {
     const char *const wrong = conflict(call, command);
     if (wrong != NULL)
         return cli_bad_usage("%s", wrong);
+    if (command->denoise.wanted) /* which may change no pixel by much more than its error */
+        command->wish.error_map = true;
     default_output(scene, &command->options, sizeof output, output);
     if (command->output == NULL)
         command->output = output;
