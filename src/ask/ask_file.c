@@ -11,7 +11,8 @@
 enum { NUMBERS = 14, STATE_WORDS = NUMBERS + 5 };
 
 static size_t word_count(const aur_ask *ask) {
-    return STATE_WORDS + 2 * ask->trial.value_count + ask->trial.replicas.count * AUR_SECONDS_WORDS;
+    return STATE_WORDS + 3 * ask->trial.value_count + 2 * ask->trial.replicas.pixel_count +
+           ask->trial.replicas.count * AUR_SECONDS_WORDS;
 }
 
 aur_result aur_ask_save(const aur_ask *ask, const char *path, aur_error *error) {
@@ -46,7 +47,12 @@ aur_result aur_ask_save(const aur_ask *ask, const char *path, aur_error *error) 
     words[at++] = ask->others.rays;
     for (size_t i = 0; i < ask->trial.value_count; ++i) {
         words[at++] = ask->trial.targets[i];
+        words[at++] = ask->trial.earlier[i];
         words[at++] = aur_word_of_double(ask->trial.variances[i]);
+    }
+    for (size_t i = 0; i < ask->trial.replicas.pixel_count; ++i) {
+        words[at++] = aur_word_of_double(ask->trial.pixels[i].variance);
+        words[at++] = aur_word_of_double(ask->trial.pixels[i].spread);
     }
     const aur_film *films[AUR_REPLICAS_MAX];
     for (size_t r = 0; r < ask->trial.replicas.count; ++r, at += AUR_SECONDS_WORDS) {
@@ -86,7 +92,12 @@ static aur_result take_over(aur_ask *ask, const char *path, const aur_checkpoint
     ask->others.rays = *word++;
     for (size_t i = 0; i < ask->trial.value_count; ++i) {
         ask->trial.targets[i] = (uint32_t)*word++;
+        ask->trial.earlier[i] = (uint32_t)*word++;
         ask->trial.variances[i] = aur_double_of_word(*word++);
+    }
+    for (size_t i = 0; i < ask->trial.replicas.pixel_count; ++i) {
+        ask->trial.pixels[i].variance = aur_double_of_word(*word++);
+        ask->trial.pixels[i].spread = aur_double_of_word(*word++);
     }
     for (size_t r = 0; r < ask->trial.replicas.count && result == AUR_OK; ++r, word += AUR_SECONDS_WORDS) {
         aur_render_take_seconds(ask->trial.replicas.renders[r], word);
