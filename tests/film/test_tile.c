@@ -27,9 +27,11 @@ static aur_image *render(const aur_scene *scene, const char *integrator, const s
  * packets, shared patterns and the search for edges look at neighbours. */
 static void a_crop_is_a_part_of_the_picture(void **state) {
     (void)state;
-    static const char *const integrators[] = {"path", "path:interleaved=true,rr_depth=2",
+    static const char *const integrators[] = {"path",
+                                              "path:interleaved=true,rr_depth=2",
                                               "finalgather:photons=5000,diffuse_samples=8",
                                               "finalgather:photons=5000,diffuse_samples=2,share=true",
+                                              "finalgather:photons=5000,diffuse_samples=4,share=near",
                                               "finalgather:photons=5000,pattern=sobol,edges=8"};
     static const size_t whole[4] = {0, 45, 0, 37}, part[4] = {5, 30, 14, 19};
     aur_scene *scene = NULL;
@@ -38,10 +40,12 @@ static void a_crop_is_a_part_of_the_picture(void **state) {
     for (size_t i = 0; i < sizeof integrators / sizeof integrators[0]; ++i) {
         aur_image *const all = render(scene, integrators[i], whole);
         aur_image *const some = render(scene, integrators[i], part);
+        const size_t channels = some->channel_count;
+        assert_int_equal(channels, all->channel_count);
         for (size_t y = part[2]; y < part[3]; ++y)
-            assert_memory_equal(&some->data[3 * (y - part[2]) * some->width],
-                                &all->data[3 * (y * all->width + part[0])],
-                                3 * some->width * sizeof *some->data);
+            assert_memory_equal(&some->data[channels * (y - part[2]) * some->width],
+                                &all->data[channels * (y * all->width + part[0])],
+                                channels * some->width * sizeof *some->data);
         aur_image_destroy(all);
         aur_image_destroy(some);
     }

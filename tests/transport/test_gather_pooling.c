@@ -47,9 +47,29 @@ static void linear_light_is_kept(void **state) {
         const double x = (double)(i % SIDE), y = (double)(i / SIDE);
         add(strata, i % SIDE, i / SIDE, 1, up, 2.0f, 3.0 + 0.25 * x - 0.125 * y + part(i % SIDE, i / SIDE));
     }
-    assert_true(aur_gather_pool_irradiance(strata));
+    assert_true(aur_gather_pool_irradiance(false, strata));
     for (size_t i = 0; i < AUR_TILE_PIXELS; ++i) {
         const double expected = 3.0 + 0.25 * middle_of_window(i % SIDE) - 0.125 * middle_of_window(i / SIDE);
+        assert_near(strata[i].strata[0].sum[0], 2.0 * 0.5 * expected, 1e-5);
+    }
+    free(strata);
+}
+
+/* Three pixels about it, whose outer ones count a quarter; at the rim of the tile there are two. */
+static double middle_of_near_window(size_t at) {
+    return at == 0 ? 0.25 / 1.25 : at == SIDE - 1 ? SIDE - 1 - 0.25 / 1.25 : (double)at;
+}
+
+static void near_pools_keep_linear_light(void **state) {
+    (void)state;
+    aur_pixel_strata *const strata = create();
+    for (size_t i = 0; i < AUR_TILE_PIXELS; ++i)
+        add(strata, i % SIDE, i / SIDE, 1, up, 2.0f,
+            3.0 + 0.25 * (double)(i % SIDE) - 0.125 * (double)(i / SIDE));
+    assert_true(aur_gather_pool_irradiance(true, strata));
+    for (size_t i = 0; i < AUR_TILE_PIXELS; ++i) {
+        const double expected =
+            3.0 + 0.25 * middle_of_near_window(i % SIDE) - 0.125 * middle_of_near_window(i / SIDE);
         assert_near(strata[i].strata[0].sum[0], 2.0 * 0.5 * expected, 1e-5);
     }
     free(strata);
@@ -69,7 +89,7 @@ static void surfaces_stay_apart(void **state) {
         if (y > 5 && y < 10)
             add(strata, x, y, 2, up, 0.5f, 4.0);
     }
-    assert_true(aur_gather_pool_irradiance(strata));
+    assert_true(aur_gather_pool_irradiance(false, strata));
     for (size_t i = 0; i < AUR_TILE_PIXELS; ++i) {
         const aur_pixel_strata *const pixel = &strata[i];
         if (pixel->count > 0)
@@ -89,15 +109,15 @@ static void depths_stay_apart(void **state) {
         add(strata, i % SIDE, i / SIDE, 1, up, 1.0f, behind ? 3.0 : 1.0);
         strata[i].strata[0].pooled.position.z = behind ? -20.0f : 0.0f;
     }
-    assert_true(aur_gather_pool_irradiance(strata));
+    assert_true(aur_gather_pool_irradiance(false, strata));
     for (size_t i = 0; i < AUR_TILE_PIXELS; ++i)
         assert_near(strata[i].strata[0].sum[0], i % 2 == 1 ? 1.5 : 0.5, 1e-6);
     free(strata);
 }
 
 int main(void) {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(linear_light_is_kept),
-                                       cmocka_unit_test(surfaces_stay_apart),
-                                       cmocka_unit_test(depths_stay_apart)};
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(linear_light_is_kept), cmocka_unit_test(near_pools_keep_linear_light),
+        cmocka_unit_test(surfaces_stay_apart), cmocka_unit_test(depths_stay_apart)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,6 +1,7 @@
 #include "transport/gather/aim.h"
 
 #include "core/random.h"
+#include "transport/gather/nested.h"
 #include "transport/lights/shading.h"
 #include "transport/packets/interleave.h"
 
@@ -8,7 +9,12 @@
 
 bool aur_gather_splits(const aur_gather_places *places, const aur_gather_lobe_rule *rule) {
     const aur_gather_plan *const plan = places->plan;
-    return plan->policy.pools && rule == &plan->rules.lobes[0] && places->bounces == 0;
+    return plan->policy.share == AUR_SHARE_BLOCKS && rule == &plan->rules.lobes[0] && places->bounces == 0;
+}
+
+bool aur_gather_pools(const aur_gather_places *places, const aur_gather_lobe_rule *rule) {
+    const aur_gather_plan *const plan = places->plan;
+    return plan->policy.share != AUR_SHARE_NONE && rule == &plan->rules.lobes[0] && places->bounces == 0;
 }
 
 aur_gather_rotation aur_gather_rotation_at(const aur_gather_places *places,
@@ -28,6 +34,13 @@ aur_gather_rotation aur_gather_rotation_at(const aur_gather_places *places,
     /* Where the samples of a pixel do not split a pattern, each has it rotated anew. */
     if (policy->adaptive)
         tile = aur_hash2(tile, places->index);
+    if (rule->nested) {
+        const size_t pixel = aur_group_pixel(places->arrangement, places->group, lane);
+        const size_t number = aur_nested_number(pixel % AUR_TILE_SIZE, pixel / AUR_TILE_SIZE);
+        const float angle = 2.0f * AUR_PI_F * aur_unit_float((uint32_t)tile);
+        return aur_gather_rotation_by(rule->rotations[number ^ (tile >> 32) % AUR_NESTED_COUNT], cosf(angle),
+                                      sinf(angle));
+    }
     const uint32_t rank = aur_gather_splits(places, lobe_rule) ? 0 : aur_group_rank(places->group);
     /* Sixteen patterns would show as texture, were they the same in every tile. */
     if (rule->scramble != AUR_SCRAMBLE_ROTATE) {
@@ -61,8 +74,9 @@ size_t aur_gather_prepared_rotation(const aur_gather_places *places, size_t rota
 /* Whether all lanes have one rotation. */
 static bool rotate_together(const aur_gather_plan *plan, const aur_gather_rule *rule) {
     const aur_gather_decorrelation how = plan->policy.decorrelation;
-    return rule->square == NULL && (how == AUR_DECORRELATION_NONE || rule->scramble == AUR_SCRAMBLE_NONE ||
-                                    (how == AUR_DECORRELATION_BLUE && rule->rotation_count > 0));
+    return rule->square == NULL && !rule->nested &&
+           (how == AUR_DECORRELATION_NONE || rule->scramble == AUR_SCRAMBLE_NONE ||
+            (how == AUR_DECORRELATION_BLUE && rule->rotation_count > 0));
 }
 
 /* --- rays */

@@ -39,6 +39,9 @@ bool aur_gather_aim_draw(const aur_gather_place *place, size_t lane, const float
 /* Whether the pixels of a block split this rule, each one's directions being a part of one pattern. */
 bool aur_gather_splits(const aur_gather_places *places, const aur_gather_lobe_rule *rule);
 
+/* Whether what the places find by this rule is pooled with that of neighbouring pixels. */
+bool aur_gather_pools(const aur_gather_places *places, const aur_gather_lobe_rule *rule);
+
 /* One rule at the places of some lanes, to be traced direction by direction for their lobe number `lobe`. */
 typedef struct aur_gather_sweep {
     const aur_gather_lobe_rule *rule;

@@ -40,6 +40,9 @@ typedef enum aur_density_choice {
     AUR_GATHER_DENSITY_OPTIMAL,
     AUR_GATHER_DENSITY_UNSAID
 } aur_density_choice;
+/* Diffuse light that pixels have in common with their neighbours: none; one pattern is split among the pixels
+ * of 4 x 4, which pool what they find; patterns complete each other, and pixels pool with the nearest. */
+typedef enum aur_gather_share { AUR_SHARE_NONE, AUR_SHARE_BLOCKS, AUR_SHARE_NEAR } aur_gather_share;
 typedef enum aur_gather_pixel { AUR_PIXEL_FILTER, AUR_PIXEL_CENTRE } aur_gather_pixel;
 
 /* What is asked for while the picture is rendered. */
@@ -52,7 +55,7 @@ typedef struct aur_gather_policy {
      * known what it defaults to. */
     float threshold;
     bool adaptive;
-    bool pools;   /* neighbouring pixels split the diffuse rule and pool the irradiance that they find */
+    aur_gather_share share;
     bool packets; /* else every ray by itself: the same picture to rounding, for tests and measurements */
     uint32_t max_depth;    /* edges of a light path; UINT32_MAX: no limit */
     uint32_t edge_samples; /* camera rays more where a pixel sees several things */

@@ -18,6 +18,7 @@ typedef struct pooled_surface {
 
 typedef struct pooled_tile {
     aur_pixel_strata *strata;
+    bool near; /* pools are of the nearest pixels */
     size_t surface_count;
     pooled_surface surfaces[AUR_TILE_PIXELS * AUR_STRATUM_COUNT];
     int surface_of[AUR_TILE_PIXELS][AUR_STRATUM_COUNT];
@@ -67,10 +68,24 @@ static size_t set_window(size_t at, float weights[WINDOW]) {
     return at < REACH ? 0 : SIDE - AUR_GROUPS_A_SIDE;
 }
 
+/* The same of three pixels about it. What the neighbours count was chosen by measurement: more lowers the
+ * error further, but not that of means over 8 x 8 pixels, which would be more than 1.5 times what independent
+ * errors leave there. Before the tile's first pixel, where the window begins at -1, nothing counts. */
+static size_t set_near_window(size_t at, float weights[WINDOW]) {
+    const float beside = 0.25f;
+    for (size_t i = 0; i < WINDOW; ++i)
+        weights[i] = 0.0f;
+    weights[0] = at > 0 ? beside : 0.0f;
+    weights[1] = 1.0f;
+    weights[2] = at + 1 < SIDE ? beside : 0.0f;
+    return at - 1;
+}
+
 /* The mean irradiance of a surface over the window of a pixel. */
 static aur_vector pooled_irradiance(const pooled_tile *tile, size_t x, size_t y, int surface) {
     float across[WINDOW], down[WINDOW];
-    const size_t left = set_window(x, across), top = set_window(y, down);
+    const size_t left = tile->near ? set_near_window(x, across) : set_window(x, across);
+    const size_t top = tile->near ? set_near_window(y, down) : set_window(y, down);
     aur_vector sum = {0};
     float gathers = 0.0f;
     for (size_t i = 0; i < WINDOW * WINDOW; ++i) {
@@ -89,11 +104,12 @@ static aur_vector pooled_irradiance(const pooled_tile *tile, size_t x, size_t y,
     return aur_vector_scale(sum, 1.0f / gathers);
 }
 
-bool aur_gather_pool_irradiance(aur_pixel_strata *strata) {
+bool aur_gather_pool_irradiance(bool near, aur_pixel_strata *strata) {
     pooled_tile *const tile = malloc(sizeof *tile);
     if (tile == NULL)
         return false;
     tile->strata = strata;
+    tile->near = near;
     tile->surface_count = 0;
     find_surfaces(tile);
     for (size_t pixel = 0; pixel < AUR_TILE_PIXELS; ++pixel)
@@ -107,6 +123,9 @@ bool aur_gather_pool_irradiance(aur_pixel_strata *strata) {
             own->sum[0] += (double)light.x;
             own->sum[1] += (double)light.y;
             own->sum[2] += (double)light.z;
+            own->pool_adds[0] += (double)light.x;
+            own->pool_adds[1] += (double)light.y;
+            own->pool_adds[2] += (double)light.z;
         }
     free(tile);
     return true;

@@ -7,6 +7,7 @@
 #include "core/random.h"
 #include "pointset/net_2d.h"
 #include "sphere/map.h"
+#include "transport/gather/nested.h"
 
 static bool works_on_square(aur_scramble scramble) {
     return scramble == AUR_SCRAMBLE_DIGIT || scramble == AUR_SCRAMBLE_OWEN || scramble == AUR_SCRAMBLE_SHIFT;
@@ -120,6 +121,23 @@ static aur_vector scrambled_direction(const aur_gather_rule *rule, const aur_gat
     return warp(xyz[0], xyz[1], xyz[2], rule->drawn_exponent);
 }
 
+/* The pattern, which the first copy is, shifted in all ways. */
+static void prepare_nested(aur_gather_rule *rule) {
+    const double exponent = rule->drawn_exponent;
+    for (size_t k = AUR_NESTED_COUNT; k-- > 0;) {
+        for (size_t i = 0; i < rule->count; ++i) {
+            double point[2] = {atan2((double)rule->y[i], (double)rule->x[i]) / (2.0 * AUR_PI),
+                               pow((double)rule->z[i], exponent + 1.0)};
+            aur_nested_shift(rule->count, k, point);
+            const double azimuth = 2.0 * AUR_PI * point[0];
+            const double radius = sqrt(1.0 - point[1] * point[1]);
+            set_direction(rule, k * rule->count + i,
+                          warp(radius * cos(azimuth), radius * sin(azimuth), point[1], exponent));
+        }
+        rule->rotations[k] = (aur_gather_rotation){.cosine = 1.0f, .first = k * rule->count};
+    }
+}
+
 /* Rotations are spread evenly over the circle; scramblings are made into directions once and for all. */
 static void prepare_rotations(uint64_t seed, aur_gather_rule *rule) {
     for (size_t k = 0; k < rule->rotation_count; ++k) {
@@ -175,14 +193,18 @@ static aur_result allocate(aur_gather_rule *rule, aur_error *error) {
 aur_result aur_gather_rule_create(const aur_gather_rule_options *options, double exponent,
                                   aur_gather_rule *rule, aur_error *error) {
     const double power = options->optimal_density ? 2.0 / (options->smoothness + 1.0) : 1.0;
-    *rule =
-        (aur_gather_rule){.count = options->count,
-                          .copies = works_on_square(options->scramble) ? options->rotations : 1,
-                          .exponent = exponent,
-                          .drawn_exponent = exponent * power,
-                          .map = options->map,
-                          .scramble = options->scramble,
-                          .rotation_count = options->scramble != AUR_SCRAMBLE_NONE ? options->rotations : 0};
+    *rule = (aur_gather_rule){.count = options->count,
+                              .copies = options->nested                      ? AUR_NESTED_COUNT
+                                        : works_on_square(options->scramble) ? options->rotations
+                                                                             : 1,
+                              .exponent = exponent,
+                              .drawn_exponent = exponent * power,
+                              .map = options->map,
+                              .scramble = options->scramble,
+                              .nested = options->nested,
+                              .rotation_count = options->nested                          ? AUR_NESTED_COUNT
+                                                : options->scramble != AUR_SCRAMBLE_NONE ? options->rotations
+                                                                                         : 0};
     aur_result result = allocate(rule, error);
     if (result == AUR_OK)
         result = fill(options, rule, error);
@@ -190,7 +212,10 @@ aur_result aur_gather_rule_create(const aur_gather_rule_options *options, double
         aur_gather_rule_release(rule);
         return result;
     }
-    prepare_rotations(options->seed, rule);
+    if (rule->nested)
+        prepare_nested(rule);
+    else
+        prepare_rotations(options->seed, rule);
     for (size_t i = 0; i < rule->copies * rule->count; ++i) {
         rule->weights[i] = weight_at(rule, rule->z[i]);
         rule->densities[i] = aur_gather_rule_density(rule, rule->z[i]);

@@ -16,9 +16,10 @@ typedef struct aur_gather_rule_options {
     aur_scramble scramble;
     bool optimal_density; /* directions follow lobe^{2/(s+1)} and carry the weights p/q */
     double smoothness;    /* s, in (1, 2) */
-    size_t rotations;     /* so many randomisations, prepared once; 0: a new one at every shading point */
-    uint64_t seed;        /* of the prepared randomisations */
-    uint64_t set_seed;    /* of sets that are random themselves */
+    bool nested; /* randomisations are those of nested.h; for spherical Fibonacci sets that are rotated */
+    size_t rotations;  /* so many randomisations, prepared once; 0: a new one at every shading point */
+    uint64_t seed;     /* of the prepared randomisations */
+    uint64_t set_seed; /* of sets that are random themselves */
     aur_warnings warnings;
 } aur_gather_rule_options;
 
@@ -45,6 +46,7 @@ typedef struct aur_gather_rule {
     float *weights;        /* see aur_gather_rule_direction */
     float *densities;      /* with which directions are drawn, a steradian */
     uint32_t (*square)[2]; /* words of points of the square, scrambled at the shading point; else NULL */
+    bool nested;
     size_t rotation_count; /* prepared ones; 0: a new one at every shading point */
     aur_gather_rotation *rotations;
 } aur_gather_rule;

@@ -152,13 +152,17 @@ aur_result aur_gather_rules_create(const aur_gather_parameters *p, const aur_int
     rules->ggx_of_shape = calloc(shapes + 1, sizeof *rules->ggx_of_shape);
     if (rules->lobes == NULL || rules->of_shape == NULL || rules->ggx == NULL || rules->ggx_of_shape == NULL)
         return aur_fail_memory(error);
-    rule_maker maker = {
-        .p = p, .context = context, .pattern = p->rule, .pixels = p->policy.pools ? AUR_PACKET_SIZE : 1};
+    rule_maker maker = {.p = p,
+                        .context = context,
+                        .pattern = p->rule,
+                        .pixels = p->policy.share == AUR_SHARE_BLOCKS ? AUR_PACKET_SIZE : 1};
     rules->count = 1;
+    maker.pattern.nested = p->policy.share == AUR_SHARE_NEAR;
     aur_result result = prepare(&maker, p->diffuse_samples, error);
     if (result == AUR_OK)
         result = make(&maker, 1.0, &rules->lobes[0], error);
     maker.pixels = 1;
+    maker.pattern.nested = false;
     maker.pattern.warnings = (aur_warnings){0}; /* the diffuse pattern has given them */
     if (result == AUR_OK)
         result = prepare(&maker, p->glossy_samples, error);

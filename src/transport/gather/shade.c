@@ -54,7 +54,7 @@ static void by_rule(const aur_gather_places *places, const aur_gather_lobe_rule 
     for (uint32_t rest = lanes; rest != 0; rest &= rest - 1) {
         const size_t lane = aur_first_lane(rest);
         const aur_vector gathered = {sum[0][lane], sum[1][lane], sum[2][lane]};
-        if (splits) {
+        if (aur_gather_pools(places, rule)) {
             keep_for_pool(places, &sweep, lane, gathered, sums);
             continue;
         }

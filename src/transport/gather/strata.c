@@ -51,10 +51,16 @@ void aur_pixel_strata_add(aur_pixel_strata *pixel, aur_stratum *stratum, const a
     if (aur_has_lane(sums->pooled_lanes, lane)) {
         stratum->gathers += sample_weight;
         add_pooled(&stratum->pooled, sample_weight, &sums->pooled[lane]);
+        const aur_gather_pooled *const own = &sums->pooled[lane];
+        const aur_vector light = aur_vector_multiply(own->coefficient, own->irradiance);
+        stratum->pool_adds[0] -= weight * (double)light.x;
+        stratum->pool_adds[1] -= weight * (double)light.y;
+        stratum->pool_adds[2] -= weight * (double)light.z;
     }
 }
 
-void aur_pixel_strata_mean(const aur_pixel_strata *pixel, double mean[3]) {
+/* The mean of the strata's sums, or of what pools add to them. */
+static void mean_of(const aur_pixel_strata *pixel, bool added, double mean[3]) {
     double seen = 0.0;
     mean[0] = mean[1] = mean[2] = 0.0;
     for (uint32_t i = 0; i < pixel->count; ++i) {
@@ -63,10 +69,18 @@ void aur_pixel_strata_mean(const aur_pixel_strata *pixel, double mean[3]) {
             continue;
         seen += stratum->seen;
         for (size_t c = 0; c < 3; ++c)
-            mean[c] += stratum->sum[c] * (stratum->seen / stratum->shaded);
+            mean[c] += (added ? stratum->pool_adds : stratum->sum)[c] * (stratum->seen / stratum->shaded);
     }
     for (size_t c = 0; c < 3; ++c)
         mean[c] = seen != 0.0 ? mean[c] / seen : 0.0;
+}
+
+void aur_pixel_strata_mean(const aur_pixel_strata *pixel, double mean[3]) {
+    mean_of(pixel, false, mean);
+}
+
+void aur_pixel_strata_added(const aur_pixel_strata *pixel, double added[3]) {
+    mean_of(pixel, true, added);
 }
 
 /* --- edges */

@@ -18,6 +18,7 @@ typedef struct aur_stratum {
     /* With pooled irradiance: the samples that gathered, and sums over them. */
     float gathers;
     aur_gather_pooled pooled;
+    double pool_adds[3]; /* what the pool has over what these samples gathered themselves */
 } aur_stratum;
 
 enum { AUR_STRATUM_COUNT = 6 }; /* the last one takes what comes after */
@@ -39,6 +40,8 @@ void aur_pixel_strata_add(aur_pixel_strata *pixel, aur_stratum *stratum, const a
 
 /* The pixel's radiance, RGB: the mean of every stratum by its part of what the pixel sees. */
 void aur_pixel_strata_mean(const aur_pixel_strata *pixel, double mean[3]);
+/* What pooling has added to that. */
+void aur_pixel_strata_added(const aur_pixel_strata *pixel, double added[3]);
 
 /* A pixel that sees several things - above all a part of a light - has its error from how much it sees of
  * each, not from the light that they reflect. So such pixels get more rays of the eye that only tell what
@@ -64,6 +67,9 @@ void aur_gather_find_edges(const aur_gather_plan *plan, const aur_view *view, si
  * 4 x 4 window it has each part of the pattern once, and its middle is the pixel: light that changes linearly
  * over it is not blurred. Windows at the tile's rim are 4 wide and lie beside their pixel.
  *
+ * `near`: every pixel has a pattern of its own, which those of its neighbours complete (nested.h), and its
+ * pool are the 3 x 3 pixels about it.
+ *
  * Adds to every stratum of a tile, AUR_TILE_PIXELS row by row, its diffuse light by the irradiance that
  * neighbouring pixels pool. False: out of memory. */
-bool aur_gather_pool_irradiance(aur_pixel_strata *strata);
+bool aur_gather_pool_irradiance(bool near, aur_pixel_strata *strata);

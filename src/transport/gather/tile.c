@@ -62,7 +62,7 @@ static void choose(gather_tile *work, uint32_t group, uint32_t index) {
     places->group = group;
     places->index = index;
     places->arrangement = 0;
-    if (!plan->policy.pools && plan->policy.decorrelation == AUR_DECORRELATION_BLUE)
+    if (plan->policy.share == AUR_SHARE_NONE && plan->policy.decorrelation == AUR_DECORRELATION_BLUE)
         places->arrangement =
             aur_group_arrangement(aur_hash2(plan->seed, aur_gather_places_hash(places, places->tile)));
     aur_group_pixels(places->arrangement, group, work->x, work->y, work->columns, work->rows);
@@ -245,6 +245,7 @@ static aur_result shade_tile(gather_tile *work, aur_tile *tile) {
 }
 
 static void add_means(const gather_tile *work, aur_tile *tile) {
+    const aur_gather_policy *const policy = &work->places.plan->policy;
     for (size_t y = tile->y0; y < tile->y1; ++y)
         for (size_t x = tile->x0; x < tile->x1; ++x) {
             const aur_pixel_strata *const pixel =
@@ -255,7 +256,11 @@ static void add_means(const gather_tile *work, aur_tile *tile) {
             aur_pixel_strata_mean(pixel, mean);
             const uint32_t count = aur_tile_wanted(tile, x, y);
             aur_tile_add_mean(tile, x, y, count, mean);
-            if (work->places.plan->policy.adaptive)
+            double added[3];
+            aur_pixel_strata_added(pixel, added);
+            for (size_t c = 0; c < 3 && policy->share == AUR_SHARE_NEAR; ++c)
+                aur_tile_add_extra(tile, x, y, c, (double)count * added[c]);
+            if (policy->adaptive)
                 aur_tile_add_extra(tile, x, y, 0, (double)count * (double)pixel->directions);
         }
 }
@@ -267,7 +272,8 @@ aur_result aur_gather_tile(const aur_gather_plan *plan, aur_tile *tile) {
     work->sums.counters = &tile->counters;
     work->sums.corrected = plan->onward.share > 0.0f;
     aur_result result = shade_tile(work, tile);
-    if (result == AUR_OK && plan->policy.pools && !aur_gather_pool_irradiance(work->strata))
+    if (result == AUR_OK && plan->policy.share != AUR_SHARE_NONE &&
+        !aur_gather_pool_irradiance(plan->policy.share == AUR_SHARE_NEAR, work->strata))
         result = AUR_ERROR_MEMORY;
     if (result == AUR_OK)
         add_means(work, tile);

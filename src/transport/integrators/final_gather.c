@@ -78,8 +78,11 @@ static const aur_key keys[] = {
                         "camera rays more where a pixel sees several things")},
     {AUR_KEY_OF_BOOLEAN(aur_gather_parameters, "packets", policy.packets, "true",
                         "sixteen rays at a time, else one: the same picture to rounding")},
-    {AUR_KEY_OF_BOOLEAN(aur_gather_parameters, "share", policy.pools, "false",
-                        "neighbouring pixels share the diffuse light that they gather")},
+    {AUR_KEY_OF_CHOICE(
+        aur_gather_parameters, "share", policy.share, "false",
+        "neighbouring pixels share the diffuse light that they gather: of 4 x 4, or the nearest "
+        "alone",
+        "false", "true", "near")},
     {AUR_KEY_OF_BOOLEAN(aur_gather_parameters, "adaptive", policy.adaptive, "false",
                         "more directions where the light varies (Marques 2019)")},
     {AUR_KEY_OF_INTEGER(aur_gather_parameters, "levels", levels, 1, AUR_GATHER_LEVEL_CAPACITY - 1, "2",
@@ -125,19 +128,27 @@ static aur_result complete(aur_gather_parameters *p, aur_error *error) {
         p->regularization = p->weights == AUR_WEIGHTS_SOLVE ? 0.5 : AUR_REGULARIZATION_DEFAULT;
     if (p->policy.threshold < 0.0f) /* by measurement: see docs/rendering.md */
         p->policy.threshold = p->policy.criterion == AUR_CRITERION_ENTROPY ? 0.3f : 0.03f;
-    if (p->policy.pools && (p->policy.adaptive || p->policy.decorrelation != AUR_DECORRELATION_BLUE ||
-                            aur_merges_samples(p->weights)))
-        return aur_fail(error, AUR_ERROR_UNSUPPORTED,
-                        "finalgather: share=true splits one pattern among pixels: it goes with "
-                        "decorrelation=blue and weights=ratio, equal or osw, and not with adaptive=true");
-    if (p->debias && (p->policy.pools || p->policy.adaptive || p->caustic_photons > 0))
+    if (p->policy.share != AUR_SHARE_NONE &&
+        (p->policy.adaptive || p->policy.decorrelation != AUR_DECORRELATION_BLUE ||
+         aur_merges_samples(p->weights)))
+        return aur_fail(
+            error, AUR_ERROR_UNSUPPORTED,
+            "finalgather: share=true and share=near have patterns of several pixels: they go with "
+            "decorrelation=blue and weights=ratio, equal or osw, and not with adaptive=true");
+    if (p->policy.share == AUR_SHARE_NEAR && (strcmp(p->rule.set, "spherical-fibonacci") != 0 ||
+                                              (p->scramble != NULL && strcmp(p->scramble, "rotate") != 0)))
+        return aur_fail(
+            error, AUR_ERROR_UNSUPPORTED,
+            "finalgather: share=near has spherical Fibonacci sets that complete each other: leave "
+            "'pattern' and 'scramble' out");
+    if (p->debias && (p->policy.share != AUR_SHARE_NONE || p->policy.adaptive || p->caustic_photons > 0))
         return aur_fail(
             error, AUR_ERROR_UNSUPPORTED,
             "finalgather: debias=true takes the bias of the photon map away, not that of %s: leave "
             "it out",
-            p->policy.pools      ? "share=true"
-            : p->policy.adaptive ? "adaptive=true"
-                                 : "caustic_photons");
+            p->policy.share != AUR_SHARE_NONE ? "share"
+            : p->policy.adaptive              ? "adaptive=true"
+                                              : "caustic_photons");
     if (p->incident == AUR_INCIDENT_CORRECTION && !p->debias)
         return aur_fail(error, AUR_ERROR_ARGUMENT,
                         "finalgather: incident=correction is what debias=true adds: it needs that too");
@@ -189,10 +200,12 @@ static aur_result create(aur_parameters *parameters, const aur_integrator_contex
         return result;
     warn_of_idle_keys(p, parameters, &context->warnings);
     integrator->pixel_centre = p->pixel == AUR_PIXEL_CENTRE;
-    integrator->whole_tiles = p->policy.pools;
-    static const char *const extra[] = {"directions"};
-    integrator->extra_count = p->policy.adaptive ? 1 : 0;
-    integrator->extra_names = extra;
+    integrator->whole_tiles = p->policy.share != AUR_SHARE_NONE;
+    static const char *const directions[] = {"directions"};
+    static const char *const sharing[] = {"sharing.R", "sharing.G", "sharing.B"};
+    const bool near = p->policy.share == AUR_SHARE_NEAR;
+    integrator->extra_count = p->policy.adaptive ? 1 : near ? 3 : 0;
+    integrator->extra_names = near ? sharing : directions;
     return aur_gather_plan_create(p, context, &data->plan, error);
 }
 
