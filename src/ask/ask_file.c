@@ -70,7 +70,8 @@ static aur_result take_over(aur_ask *ask, const char *path, const aur_checkpoint
     const uint64_t *word = kept->words;
     for (size_t i = 0; i < NUMBERS; ++i)
         numbers[i] = aur_double_of_word(*word++);
-    const aur_gather_size size = {kept->words[NUMBERS + 2], kept->words[NUMBERS + 3]};
+    const aur_gather_size size = {kept->words[NUMBERS + 2], aur_ask_photon_seed(ask->options.seed),
+                                  kept->words[NUMBERS + 3]};
     aur_result result = size.photons > 0 ? aur_ask_take_gather(ask, size, error) : AUR_OK;
     if (result != AUR_OK)
         return result;

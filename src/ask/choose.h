@@ -10,9 +10,12 @@
 aur_result aur_ask_choose(const aur_scene *scene, const char *wanted, char **integrator, bool *open,
                           aur_error *error);
 
-/* What final gathering is told: photons of each replica's map, and directions of a pattern. */
+/* What final gathering is told: photons of the map that all replicas share, the seed of these, and directions
+ * of a pattern. */
 typedef struct aur_gather_size {
-    size_t photons, directions;
+    size_t photons;
+    uint64_t seed;
+    size_t directions;
 } aur_gather_size;
 
 /* What a choice by trial takes and finds. */
@@ -27,6 +30,11 @@ typedef struct aur_choice {
     aur_render_statistics others;    /* what the trials cost that are not gone on with */
     const struct aur_rivals *rivals; /* while they are tried; else NULL */
 } aur_choice;
+
+/* Of the photons of a picture by that seed, as a key takes it. */
+static inline uint64_t aur_ask_photon_seed(uint64_t seed) {
+    return (seed & UINT32_MAX) + 1;
+}
 
 /* While it is made, for progress: rays of what is tried beside path tracing, and the part of path tracing's
  * rest that is thought to be left to do. */

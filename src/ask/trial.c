@@ -131,12 +131,16 @@ double aur_trial_factor(const aur_trial *trial, const aur_goal *goal) {
     return factor;
 }
 
+double aur_trial_growth(const aur_trial *trial, double error) {
+    return aur_growth_to(trial->value_count, trial->variances, fmin(factor_to_error(trial, error), 1.0),
+                         trial->targets);
+}
+
 void aur_trial_look_ahead(aur_trial *trial, const aur_goal *goal) {
     const double noise = aur_goal_noise(goal);
     trial->whole = 0.0;
     if (trial->bound < INFINITY && noise > 0.0)
-        trial->whole = trial->samples * aur_growth_to(trial->value_count, trial->variances,
-                                                      factor_to_error(trial, noise), trial->targets);
+        trial->whole = trial->samples * aur_trial_growth(trial, noise);
 }
 
 /* What the variances are thought to be with the samples that are planned. */

@@ -49,7 +49,7 @@ typedef struct aur_goal {
 } aur_goal;
 
 /* Noise in units of the error asked at which an integrator is compared with another one. */
-#define AUR_PILOT_ERROR 10.0
+#define AUR_PILOT_ERROR 20.0
 
 /* Where rounds lead next, as a part of the noise's square of now. To an error: so that the interval's upper
  * end comes to AUR_PILOT_ERROR times that, then to what the bias leaves of it, and below it by what the error
@@ -58,6 +58,8 @@ typedef struct aur_goal {
  * chance. Without an error half as many samples again are taken, or fewer where the rays are spent then. It
  * depends on the trial and its goal alone, so that a trial that was chosen can be made again by itself. */
 double aur_trial_factor(const aur_trial *trial, const aur_goal *goal);
+/* How many times as many samples, in all, a round that leads to an error is thought to leave. */
+double aur_trial_growth(const aur_trial *trial, double error);
 /* What the bias leaves of the error. */
 double aur_goal_noise(const aur_goal *goal);
 double aur_trial_rays(const aur_trial *trial);

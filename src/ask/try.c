@@ -1,3 +1,4 @@
+#include <inttypes.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -11,26 +12,33 @@
 
 /* Of the error asked, the bias that may be left; the noise makes the rest of the square. */
 static const double BIAS_PART = 0.6;
-/* Final gathering is worth it at this part of path tracing's rays: what its rays cost differs by scene (in
- * two boxes as much as those of paths), and a guess from few pixels may be wrong. Parts of path tracing's
- * rays that may be spent on photon maps and on finding their bias: so one who goes on with path tracing has
- * lost little. All three are chosen: they cost time, never truth. */
-static const double WORTH = 0.7, MAP_PART = 0.025, BIAS_SEARCH_PART = 0.2;
+/* Final gathering is worth it at this part of path tracing's rays, all that it takes to know together: what
+ * its rays cost differs by scene (in two boxes as much and half as much again as those of paths, in the room
+ * nearly three times as much), and a guess from few pixels may be wrong. The part of final
+ * gathering's rays that is spent on its photon map. Both are chosen: they cost time, never truth. */
+static const double WORTH = 0.6, MAP_PART = 0.05;
+/* Of path tracing's rays, what the pilot's map may cost: final gathering is not looked at in small pictures.
+ */
+static const double PILOT_PART = 0.01;
 /* Tracing and sorting a photon takes the time of so many rays of path tracing: 2.4 in the Cornell box by
  * `render --stats`. Other scenes were not measured: a wrong ratio costs time, never truth. */
 static const double RAYS_A_PHOTON = 2.5;
 enum { MOST_PHOTONS = 2000000, LEAST_PHOTONS = 15000 };
 /* Samples of a pixel that share a pattern's directions out. The bias is looked for with few of these, for
  * each goes on as a path. */
-enum { PATTERN_SAMPLES = 4, PILOT_DIRECTIONS = 16, MOST_DIRECTIONS = 1024, DIFFERENCE_DIRECTIONS = 8 };
+enum {
+    PATTERN_SAMPLES = 4,
+    LEAST_DIRECTIONS = 8,
+    PILOT_DIRECTIONS = 16,
+    MOST_DIRECTIONS = 1024,
+    DIFFERENCE_DIRECTIONS = 8
+};
 /* The pilot's noise hardly hangs on its map. */
 enum { PILOT_PHOTONS = LEAST_PHOTONS };
 
 /* The rays that a trial is thought to take in all until its noise is `error`. */
 static double rays_to(const aur_trial *trial, double error) {
-    const double part = error / trial->interval.high;
-    return aur_trial_rays(trial) *
-           aur_growth_to(trial->value_count, trial->variances, fmin(part * part, 1.0), trial->targets);
+    return aur_trial_rays(trial) * aur_trial_growth(trial, error);
 }
 
 /* As many samples in every pixel. Samples that go where the first ones differ make a picture whose mean is
@@ -76,19 +84,19 @@ static aur_result render_path(aur_choice *choice, double *wanted, aur_error *err
     return result;
 }
 
-/* Photons of a map of each replica that cost little beside path tracing to the error wanted; 0: it is not
- * worth it. */
-static size_t photons_for(const aur_choice *choice, double path_rays) {
-    const double affordable = MAP_PART * path_rays / (RAYS_A_PHOTON * (double)choice->replica_count);
+/* Photons of a map that costs little beside the picture. All replicas share it: one map has finer texels than
+ * four of a quarter, and what is wrong in it is bias, which is looked for. */
+static size_t photons_for(double rays) {
+    const double affordable = MAP_PART * rays / RAYS_A_PHOTON;
     size_t photons = MOST_PHOTONS;
-    while ((double)photons > affordable && photons >= LEAST_PHOTONS)
+    while ((double)photons > affordable && photons / 2 >= LEAST_PHOTONS)
         photons /= 2;
-    return photons >= LEAST_PHOTONS ? photons : 0;
+    return photons;
 }
 
 /* Final gathering in place of path tracing, with its keys and more (",key=value"). NULL: memory is short. */
 static char *gather_instead(const char *path, aur_gather_size size, const char *more) {
-    enum { CAPACITY = 256 }; /* five numbers and the keys' names */
+    enum { CAPACITY = 256 }; /* six numbers and the keys' names */
     const char *const keys = strchr(path, ':');
     const size_t lights = size.directions > 16 ? size.directions / 16 : 1;
     const size_t capacity = CAPACITY + strlen(more) + (keys != NULL ? strlen(keys) : 0);
@@ -96,8 +104,8 @@ static char *gather_instead(const char *path, aur_gather_size size, const char *
     if (text != NULL)
         snprintf(text, capacity,
                  "finalgather:split=%d,diffuse_samples=%zu,glossy_samples=%zu,light_samples=%zu,"
-                 "short_rays=4,photons=%zu%s%s%s",
-                 PATTERN_SAMPLES, size.directions, size.directions, lights, size.photons, more,
+                 "short_rays=4,photons=%zu,photon_seed=%" PRIu64 "%s%s%s",
+                 PATTERN_SAMPLES, size.directions, size.directions, lights, size.photons, size.seed, more,
                  keys != NULL ? "," : "", keys != NULL ? keys + 1 : "");
     return text;
 }
@@ -113,29 +121,62 @@ typedef struct aur_rivals {
     aur_trial gather, pilot, difference;
 } aur_rivals;
 
-/* Samples a pixel at which the bound of a bias can come to `most` at the soonest, when it is known from
- * `samples`: what is uncertain of its square falls as they grow, and a first estimate is large by chance. */
-static double samples_to_know(const aur_bias *bias, double most, double samples) {
-    return samples * (bias->high - fmax(bias->estimate, 0.0)) / (most * most);
+/* Directions of a pattern by which the replicas are thought to come to the noise without another one, from
+ * the lower end of the pilot's error, whose coarse pixels see more edges. The square of a pattern's error
+ * falls nearly as directions^-1.4 in the public Cornell box (12 to 80). Where that is wrong, rounds go on
+ * with more patterns, or the first one has more directions than it needs: it costs time, never truth. */
+static double directions_to(const aur_trial *pilot, double noise) {
+    const double part = pilot->interval.low / noise;
+    return fmin(fmax(PILOT_DIRECTIONS * pow(part * part, 1.0 / 1.4), LEAST_DIRECTIONS), MOST_DIRECTIONS);
+}
+
+static double noise_beside(double wanted, double square_bias) {
+    return sqrt(fmax(wanted * wanted - square_bias, 0.0));
+}
+
+/* Rays of a whole picture to an error by final gathering of such a bias. The pilot's coarse pixels see more
+ * edges. By this law, found in two boxes and the room, 24 to 80 directions take what they do to a fifth. */
+static double gather_rays(const aur_choice *choice, const aur_trial *pilot, double wanted,
+                          double square_bias) {
+    const double pixels = (double)choice->trial.replicas.pixel_count / (double)pilot->replicas.pixel_count;
+    const double directions = directions_to(pilot, noise_beside(wanted, square_bias));
+    return pixels * aur_trial_rays(pilot) * (0.1 + 0.65 * directions / PILOT_DIRECTIONS);
+}
+
+/* What is uncertain of a squared bias: it falls as samples grow. */
+static double uncertain(const aur_bias *bias) {
+    return bias->high - fmax(bias->estimate, 0.0);
+}
+
+/* Whether twice the rays for the bias cost less than the noise takes that its bound leaves no room for. */
+static bool pays(const aur_choice *choice, const aur_rivals *rivals, double wanted) {
+    const aur_bias *const bias = &choice->bias;
+    return gather_rays(choice, &rivals->pilot, wanted, bias->high) -
+               gather_rays(choice, &rivals->pilot, wanted, bias->high - 0.5 * uncertain(bias)) >
+           aur_trial_rays(&rivals->difference);
 }
 
 /* The bias of final gathering, from pictures of what paths find over what the map says at the ends of the
  * same gather rays. What they have in common, above all direct light and short rays, is not traced. They go
- * on until the bias is under what may be left, or it is seen that it will not be before so many rays are
- * spent. */
-static aur_result find_bias(const aur_choice *choice, aur_rivals *rivals, double mean, double most,
-                            double most_rays, aur_bias *bias, aur_error *error) {
+ * on until the bias is under what may be left and knowing it better does not pay, or it is seen that it will
+ * hardly come there (by half of what is uncertain), or not before so many rays are spent. */
+static aur_result find_bias(aur_choice *choice, aur_rivals *rivals, double wanted, double most_rays,
+                            aur_error *error) {
+    const double most = BIAS_PART * BIAS_PART * wanted * wanted;
+    aur_bias *const bias = &choice->bias;
     for (uint32_t samples = 1;;) {
         const aur_result result = render_evenly(choice, &rivals->difference, samples, error);
         if (result != AUR_OK)
             return result;
-        *bias = aur_replicas_bias(&rivals->difference.replicas, NULL, mean, choice->confidence);
-        const double rays = aur_trial_rays(&rivals->difference);
-        const double needed = samples_to_know(bias, most, samples), growth = fmax(needed / samples, 1.0);
-        if (sqrt(bias->high) <= most || sqrt(bias->low) > most || growth * rays > most_rays)
+        *bias = aur_replicas_bias(&rivals->difference.replicas, NULL, choice->trial.measure.mean,
+                                  choice->confidence);
+        /* The least growth that can do, as a first estimate is large by chance. */
+        const double rays = aur_trial_rays(&rivals->difference), growth = uncertain(bias) / most;
+        if (bias->high <= most ? !pays(choice, rivals, wanted)
+                               : bias->estimate - 0.5 * uncertain(bias) > most || growth * rays > most_rays)
             return AUR_OK;
-        /* A little beyond what is the least that can do, and by steps that are worth a look. */
-        samples = (uint32_t)ceil(fmin(fmax(1.2 * needed, 1.25 * samples), 4.0 * samples));
+        /* A little beyond that, and by steps that are worth a look. */
+        samples = (uint32_t)ceil(samples * (bias->high <= most ? 2.0 : fmin(fmax(1.2 * growth, 1.25), 4.0)));
     }
 }
 
@@ -167,60 +208,40 @@ static aur_result create_trial(aur_renderer *renderer, const aur_render_options 
                               : aur_fail_memory(error);
 }
 
-/* Directions of a pattern by which the replicas are thought to come to the error wanted without another one,
- * if so many times the rays of the pilot's patterns would do: the square of a pattern's error falls nearly as
- * directions^-1.6 in the Cornell box (16 to 64), and that of several ones as the rays. Where that is wrong,
- * rounds go on with more patterns, or the first one has more directions than it needs: it costs time, never
- * truth. */
-static size_t directions_for(double growth) {
-    const double directions = PILOT_DIRECTIONS * pow(growth, 1.0 / 1.6);
-    return (size_t)fmin(PATTERN_SAMPLES * ceil(directions / PATTERN_SAMPLES), MOST_DIRECTIONS);
-}
-
-/* Whether final gathering is thought to be worth it, from a pilot of few pixels, and how many directions it
- * takes. */
-static aur_result try_pilot(aur_choice *choice, aur_trial *pilot, double path_rays, double noise, bool *worth,
-                            aur_error *error) {
-    bool more;
-    const aur_result result = render_round(choice, pilot, &more, error);
-    if (result != AUR_OK || aur_trial_is_black(pilot))
-        return result;
-    const double pixels = (double)choice->trial.replicas.pixel_count / (double)pilot->replicas.pixel_count;
-    const double rays = rays_to(pilot, noise);
-    choice->gather.directions = directions_for(rays / aur_trial_rays(pilot));
-    *worth = pixels * rays <= WORTH * path_rays;
-    return AUR_OK;
-}
-
 /* `coarse` are the options of the pilot, which is made and not rendered yet. */
 static aur_result compare(aur_renderer *renderer, const aur_render_options *options,
                           const aur_render_options *coarse, aur_choice *choice, double wanted,
                           aur_rivals *rivals, bool *better, aur_error *error) {
     const aur_trial *const path = &choice->trial;
-    const double most_bias = BIAS_PART * wanted, path_rays = rays_to(path, wanted);
-    bool more, worth = false;
-    aur_result result = try_pilot(choice, &rivals->pilot, path_rays,
-                                  sqrt(wanted * wanted - most_bias * most_bias), &worth, error);
-    if (result != AUR_OK || !worth)
+    const double worth = WORTH * (rays_to(path, wanted) - aur_trial_rays(path));
+    bool more;
+    aur_result result = render_round(choice, &rivals->pilot, &more, error);
+    if (result != AUR_OK || aur_trial_is_black(&rivals->pilot))
         return result;
-    const aur_gather_size few = {choice->gather.photons, DIFFERENCE_DIRECTIONS};
+    const double rays = gather_rays(choice, &rivals->pilot, wanted, pow(BIAS_PART * wanted, 2.0));
+    if (rays > worth)
+        return AUR_OK;
+    choice->gather.photons = photons_for(rays);
+    aur_gather_size few = choice->gather;
+    few.directions = DIFFERENCE_DIRECTIONS;
     result = create_trial(
         renderer, coarse, choice,
         gather_instead(path->integrator, few, ",pixel=centre,debias=true,continued=1,incident=correction"),
         &rivals->difference, error);
     if (result == AUR_OK)
-        result = find_bias(choice, rivals, path->measure.mean, most_bias, BIAS_SEARCH_PART * path_rays,
-                           &choice->bias, error);
-    if (result != AUR_OK || !(sqrt(choice->bias.high) <= most_bias))
+        result = find_bias(choice, rivals, wanted, worth - rays, error);
+    if (result != AUR_OK || !(sqrt(choice->bias.high) <= BIAS_PART * wanted))
         return result;
+    const double noise = noise_beside(wanted, choice->bias.high);
+    choice->gather.directions =
+        PATTERN_SAMPLES * (size_t)ceil(directions_to(&rivals->pilot, noise) / PATTERN_SAMPLES);
     aur_trial *const gather = &rivals->gather;
     result = create_trial(renderer, options, choice, aur_ask_gather(path->integrator, choice->gather), gather,
                           error);
     if (result == AUR_OK)
         result = render_round(choice, gather, &more, error);
-    const double noise = sqrt(wanted * wanted - choice->bias.high);
     *better = result == AUR_OK && !aur_trial_is_black(gather) &&
-              rays_to(gather, noise) - aur_trial_rays(gather) <= WORTH * (path_rays - aur_trial_rays(path));
+              rays_to(gather, noise) - aur_trial_rays(gather) <= worth;
     return result;
 }
 
@@ -257,8 +278,8 @@ aur_result aur_ask_try(aur_renderer *renderer, const aur_render_options *options
     aur_result result = render_path(choice, &wanted, error);
     if (result != AUR_OK || path->bound <= wanted || aur_trial_is_black(path))
         return result;
-    choice->gather = (aur_gather_size){.photons = photons_for(choice, rays_to(path, wanted))};
-    if (choice->gather.photons == 0)
+    choice->gather = (aur_gather_size){.seed = aur_ask_photon_seed(options->seed)};
+    if (LEAST_PHOTONS * RAYS_A_PHOTON > PILOT_PART * rays_to(path, wanted))
         return AUR_OK;
     aur_trial_look_ahead(path, &choice->goal);
     aur_rivals rivals = {0};
@@ -266,10 +287,9 @@ aur_result aur_ask_try(aur_renderer *renderer, const aur_render_options *options
     aur_error refused;
     bool better = false;
     const aur_render_options coarse = coarse_options(path, options);
-    result =
-        create_trial(renderer, &coarse, choice,
-                     aur_ask_gather(path->integrator, (aur_gather_size){PILOT_PHOTONS, PILOT_DIRECTIONS}),
-                     &rivals.pilot, &refused);
+    const aur_gather_size pilot = {PILOT_PHOTONS, choice->gather.seed, PILOT_DIRECTIONS};
+    result = create_trial(renderer, &coarse, choice, aur_ask_gather(path->integrator, pilot), &rivals.pilot,
+                          &refused);
     if (result == AUR_OK)
         result = compare(renderer, options, &coarse, choice, wanted, &rivals, &better, error);
     else if (result != AUR_ERROR_MEMORY && result != AUR_ERROR_CANCELLED)

@@ -73,7 +73,8 @@ typedef struct aur_gather_parameters {
     size_t levels, level_factor;
     aur_gather_incident incident;
     size_t photons, caustic_photons, bright_samples;
-    size_t split; /* samples that share a pattern; 0: all of a pixel */
+    uint64_t photon_seed; /* 0: that of the picture */
+    size_t split;         /* samples that share a pattern; 0: all of a pixel */
     uint32_t light_samples;
     double photons_a_texel;
     bool debias;

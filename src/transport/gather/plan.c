@@ -109,13 +109,14 @@ static aur_result find_map(const aur_gather_parameters *p, const aur_integrator_
 static aur_result find_maps(const aur_gather_parameters *p, const aur_integrator_context *context,
                             aur_gather_light *light, aur_error *error) {
     const bool apart = p->caustic_photons > 0;
+    const uint64_t own_seed = aur_hash2(UINT64_C(0x70686f746f6e73), p->photon_seed);
     aur_photon_options photons = {.count = p->photons,
                                   /* What the eye sees at one gather ray's end is two edges on; caustics are
                                    * seen without a gather ray. */
                                   .max_edges =
                                       p->policy.max_depth == UINT32_MAX ? SIZE_MAX : p->policy.max_depth - 2,
                                   .kind = apart ? AUR_PHOTONS_OTHER : AUR_PHOTONS_ALL,
-                                  .seed = context->seed,
+                                  .seed = p->photon_seed > 0 ? own_seed : context->seed,
                                   .threads = context->threads,
                                   .progress = context->progress,
                                   .warnings = context->warnings};

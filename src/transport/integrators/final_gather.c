@@ -51,6 +51,8 @@ static const aur_key keys[] = {
      .minimum_open = true, .maximum_open = true},
     {AUR_KEY_OF_INTEGER(aur_gather_parameters, "photons", photons, 1, MOST, "500000",
                         "photons of the map that gather rays look up")},
+    {AUR_KEY_OF_INTEGER(aur_gather_parameters, "photon_seed", photon_seed, 0, INFINITY, "0",
+                        "the same photons in pictures of all seeds; 0: by the picture's seed")},
     {AUR_KEY_OF_INTEGER(aur_gather_parameters, "caustic_photons", caustic_photons, 0, MOST, "0",
                         "photons of a map of caustics alone; 0 leaves them in the one map")},
     {AUR_KEY_OF_INTEGER(aur_gather_parameters, "split", split, 0, AUR_SAMPLES_PER_PIXEL_MAX, "0",
