@@ -2,8 +2,10 @@
 #include "child.h"
 
 #include <fcntl.h>
+#include <signal.h>
 #include <stdio.h>
 #include <string.h>
+#include <sys/prctl.h>
 #include <sys/resource.h>
 #include <sys/stat.h>
 #include <sys/wait.h>
@@ -49,6 +51,14 @@ static bool wait_for(pid_t child, const char *what, bench_child_cost *cost) {
     return true;
 }
 
+/* An interrupt is for the bench alone: the program would leave its picture as it is then. */
+static void end_with_parent(pid_t parent) {
+    setpgid(0, 0);
+    prctl(PR_SET_PDEATHSIG, SIGKILL);
+    if (getppid() != parent)
+        _exit(127);
+}
+
 bool bench_run_child(const char *const *arguments, bench_child_cost *cost) {
     char program[4096];
     if (!program_folder(program, sizeof program - 16))
@@ -67,10 +77,11 @@ bool bench_run_child(const char *const *arguments, bench_child_cost *cost) {
         vector[i] = words[i].word;
     vector[count] = NULL;
     fflush(stdout);
-    const pid_t child = fork();
+    const pid_t self = getpid(), child = fork();
     if (child < 0)
         return bench_fail("no process for %s", program);
     if (child == 0) {
+        end_with_parent(self);
         const int nowhere = open("/dev/null", O_WRONLY);
         if (nowhere >= 0)
             dup2(nowhere, STDOUT_FILENO);
