@@ -1,8 +1,10 @@
 /* Rows of patches that cover the sphere between circles of latitude: directions are drawn in proportion to
- * how bright the patches are. */
+ * how bright the patches are, and within each to the values at its corners, so that the density is continuous
+ * as radiance is. */
 #pragma once
 
 #include "core/vector.h"
+#include "scene/bilinear.h"
 #include "scene/distribution.h"
 
 typedef struct aur_patches {
@@ -21,13 +23,18 @@ void aur_patches_release(aur_patches *patches);
  * integral must not be 0. */
 void aur_patches_choose(const aur_patches *patches, float *u, float *v, size_t *column, size_t *row);
 
+/* Moves u and v, uniform in a patch, so that what is drawn is in proportion to what the values at its corners
+ * are between them; one of them is not 0. */
+void aur_patch_draw(const aur_bilinear *corners, float *u, float *v);
+
 /* The integral over all directions of the radiance that was given. */
 static inline double aur_patches_integral(const aur_patches *patches) {
     return patches->rows.total * 2.0 * AUR_PI / (double)patches->columns;
 }
 
-/* The density, a steradian, with which azimuth and height that are uniform in a patch are drawn. */
-static inline float aur_patches_density(const aur_patches *patches, size_t column, size_t row) {
-    const double *const sums = &patches->cells[row].sums[column];
-    return (float)((sums[1] - sums[0]) / patches->rows.total * (double)patches->columns / (2.0 * AUR_PI));
+/* The density, a steradian, of directions that are drawn in proportion to what is bright: where it is
+ * `value`. Within a patch it may vary, if its mean over azimuth and height there is the one that was given.
+ */
+static inline float aur_patches_density(const aur_patches *patches, float value) {
+    return patches->rows.total > 0.0 ? (float)((double)value / aur_patches_integral(patches)) : 0.0f;
 }

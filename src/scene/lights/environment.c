@@ -106,6 +106,7 @@ const aur_emitter_descriptor aur_emitter_constant = {
 typedef struct envmap {
     size_t width, height;
     float *rgb;
+    float *heights;  /* [height], the cosines of the rows' polar angles */
     aur_frame frame; /* the world's directions of the picture's axes */
     aur_patches patches;
 } envmap;
@@ -113,6 +114,7 @@ typedef struct envmap {
 static void release_envmap(aur_emitter *emitter) {
     envmap *const self = emitter->data;
     aur_patches_release(&self->patches);
+    free(self->heights);
     free(self->rgb);
 }
 
@@ -177,8 +179,13 @@ static aur_result prepare_envmap(aur_emitter *emitter, aur_error *error) {
     envmap *const self = emitter->data;
     const size_t width = self->width, rows = self->height - 1;
     double *const radiance = malloc((width + 1) * rows * sizeof *radiance);
-    if (radiance == NULL)
+    self->heights = malloc(self->height * sizeof *self->heights);
+    if (radiance == NULL || self->heights == NULL) {
+        free(radiance);
         return aur_fail_memory_at(error, emitter->location);
+    }
+    for (size_t j = 0; j <= rows; ++j)
+        self->heights[j] = (float)cos(AUR_PI * (double)j / (double)rows);
     double *const rises = radiance + width * rows;
     for (size_t j = 0; j < rows; ++j) {
         for (size_t i = 0; i < width; ++i)
@@ -194,10 +201,11 @@ static aur_result prepare_envmap(aur_emitter *emitter, aur_error *error) {
     return result;
 }
 
-/* A place in patch (i, j), 0 <= s, t <= 1. */
+/* A place in patch (i, j): s between its columns, and between its rows t by the angle, which radiance is
+ * interpolated by, and w by the height, which directions are drawn by; all in [0, 1]. */
 typedef struct patch_place {
     size_t i, j;
-    float s, t;
+    float s, t, w;
 } patch_place;
 
 static patch_place place_of(const envmap *self, aur_vector direction) {
@@ -208,47 +216,48 @@ static patch_place place_of(const envmap *self, aur_vector direction) {
     const float x = fminf(azimuth, 0x1.fffffep-1f) * (float)self->width;
     const float y = acosf(fminf(fmaxf(local.y, -1.0f), 1.0f)) / AUR_PI_F * (float)(self->height - 1);
     const size_t i = (size_t)x, j = y < (float)(self->height - 2) ? (size_t)y : self->height - 2;
-    return (patch_place){i, j, x - (float)i, y - (float)j};
+    const float top = self->heights[j];
+    const float w = (top - local.y) / (top - self->heights[j + 1]);
+    return (patch_place){i, j, x - (float)i, y - (float)j, fminf(fmaxf(w, 0.0f), 1.0f)};
 }
 
-static aur_vector radiance_at(const envmap *self, patch_place at) {
-    aur_vector sum = aur_vector_scale(value_at(self, at.i, at.j), (1.0f - at.s) * (1.0f - at.t));
-    sum = aur_vector_add_scaled(sum, at.s * (1.0f - at.t), value_at(self, at.i + 1, at.j));
-    sum = aur_vector_add_scaled(sum, (1.0f - at.s) * at.t, value_at(self, at.i, at.j + 1));
-    return aur_vector_add_scaled(sum, at.s * at.t, value_at(self, at.i + 1, at.j + 1));
-}
-
-/* Within a patch azimuth and height are uniform, so the density of a direction is the patch's. */
-static float density_at(const envmap *self, patch_place at) {
-    return self->patches.rows.total > 0.0 ? aur_patches_density(&self->patches, at.i, at.j) : 0.0f;
-}
-
-static aur_vector envmap_from(const aur_emitter *emitter, aur_vector direction) {
-    const envmap *const self = emitter->data;
-    return radiance_at(self, place_of(self, direction));
-}
-
-static float envmap_pdf(const aur_emitter *emitter, aur_vector direction) {
-    const envmap *const self = emitter->data;
-    return density_at(self, place_of(self, direction));
+/* The density follows the radiance within patches, too: were it the same all over a patch, the ratio of both
+ * would jump from patch to patch, and what is even among the numbers that draw would be lost. It is
+ * interpolated by the height because a point in proportion to it is then drawn without a search. */
+static aur_vector light_at(const envmap *self, patch_place at, float *pdf) {
+    aur_vector upper = aur_vector_scale(value_at(self, at.i, at.j), 1.0f - at.s);
+    upper = aur_vector_add_scaled(upper, at.s, value_at(self, at.i + 1, at.j));
+    aur_vector lower = aur_vector_scale(value_at(self, at.i, at.j + 1), 1.0f - at.s);
+    lower = aur_vector_add_scaled(lower, at.s, value_at(self, at.i + 1, at.j + 1));
+    const float above = aur_luminance(upper), below = aur_luminance(lower);
+    *pdf = aur_patches_density(&self->patches, (1.0f - at.w) * above + at.w * below);
+    return aur_vector_add_scaled(aur_vector_scale(upper, 1.0f - at.t), at.t, lower);
 }
 
 static aur_vector envmap_light_from(const aur_emitter *emitter, aur_vector direction, float *pdf) {
     const envmap *const self = emitter->data;
-    const patch_place at = place_of(self, direction);
-    *pdf = density_at(self, at);
-    return radiance_at(self, at);
+    return light_at(self, place_of(self, direction), pdf);
+}
+
+static aur_vector envmap_from(const aur_emitter *emitter, aur_vector direction) {
+    float unused;
+    return envmap_light_from(emitter, direction, &unused);
+}
+
+static float envmap_pdf(const aur_emitter *emitter, aur_vector direction) {
+    float pdf;
+    envmap_light_from(emitter, direction, &pdf);
+    return pdf;
 }
 
 static aur_vector draw_direction(const envmap *self, float u, float v) {
     size_t i, j;
     aur_patches_choose(&self->patches, &u, &v, &i, &j);
-    /* What is read next, far from here in memory, comes while the direction is computed. */
-    for (size_t row = j; row < j + 2; ++row)
-        __builtin_prefetch(&self->rgb[3 * (row * self->width + i)]);
-    const float rows = (float)(self->height - 1);
-    const float top = cosf(AUR_PI_F * (float)j / rows), bottom = cosf(AUR_PI_F * (float)(j + 1) / rows);
-    const float height = top + v * (bottom - top);
+    aur_bilinear weights;
+    for (size_t k = 0; k < 4; ++k)
+        weights.corner[k] = aur_luminance(value_at(self, i + k % 2, j + k / 2));
+    aur_patch_draw(&weights, &u, &v);
+    const float height = self->heights[j] + v * (self->heights[j + 1] - self->heights[j]);
     const float radius = sqrtf(fmaxf(0.0f, 1.0f - height * height));
     const float azimuth = 2.0f * AUR_PI_F * ((float)i + u + 0.5f) / (float)self->width;
     return aur_frame_to_world(&self->frame,

@@ -10,8 +10,8 @@
 #include "scene/patches.h"
 #include "scene/scene_data.h"
 
-/* Patches of the sky that are equal in azimuth and height, in which radiance hardly varies but near the sun;
- * the last row is the ground. */
+/* Patches of the sky that are equal in azimuth and height, in which radiance is nearly what it is at their
+ * corners, interpolated; the last row is the ground. */
 enum { COLUMNS = 96, SKY_ROWS = 48, ROWS = SKY_ROWS + 1 };
 
 typedef struct sky_light {
@@ -20,7 +20,9 @@ typedef struct sky_light {
     aur_vector color;  /* radiance is this times the model's */
     aur_vector ground; /* radiance from below */
     aur_patches patches;
-    bool round; /* each row of patches is equally bright */
+    float (*corners)[COLUMNS]; /* [SKY_ROWS + 1], their luminance */
+    float below;               /* the ground's */
+    bool round;                /* each row of patches is equally bright */
 } sky_light;
 
 typedef enum sky_kind { UNIFORM, OVERCAST, CIE, PEREZ } sky_kind;
@@ -185,7 +187,9 @@ static aur_result create(aur_parameters *parameters, aur_emitter *emitter, aur_e
 }
 
 static void release(aur_emitter *emitter) {
-    aur_patches_release(&((sky_light *)emitter->data)->patches);
+    sky_light *const self = emitter->data;
+    aur_patches_release(&self->patches);
+    free(self->corners);
 }
 
 /* --- radiance */
@@ -218,31 +222,45 @@ static void direction_at(double column, double height, double local[3]) {
     local[2] = height;
 }
 
-/* The mean of its middle and corners. */
-static double patch_radiance(const aur_sky_model *model, size_t column, size_t row) {
-    double sum = 0.0, local[3];
-    for (size_t k = 0; k < 5; ++k) {
-        const double x = k == 4 ? 0.5 : (double)(k % 2), y = k == 4 ? 0.5 : (double)(k / 2);
-        direction_at((double)column + x, ((double)row + y) / SKY_ROWS, local);
-        sum += aur_sky_model_radiance(model, local);
-    }
-    return 0.2 * sum;
+/* The luminance at the corners of a patch. */
+static aur_bilinear corners_of(const sky_light *self, size_t column, size_t row) {
+    if (row == SKY_ROWS)
+        return (aur_bilinear){{self->below, self->below, self->below, self->below}};
+    const float *const low = self->corners[row], *const high = self->corners[row + 1];
+    const size_t next = (column + 1) % COLUMNS;
+    return (aur_bilinear){{low[column], low[next], high[column], high[next]}};
+}
+
+static bool set_corners(sky_light *self) {
+    self->below = aur_luminance(self->ground);
+    self->corners = malloc((SKY_ROWS + 1) * sizeof *self->corners);
+    self->round = true;
+    for (size_t j = 0; j <= SKY_ROWS && self->corners != NULL; ++j)
+        for (size_t i = 0; i < COLUMNS; ++i) {
+            double local[3];
+            direction_at((double)i, (double)j / SKY_ROWS, local);
+            self->corners[j][i] =
+                aur_luminance(self->color) * (float)aur_sky_model_radiance(&self->model, local);
+            self->round &= self->corners[j][i] == self->corners[j][0];
+        }
+    return self->corners != NULL;
 }
 
 static aur_result prepare(aur_emitter *emitter, aur_error *error) {
     sky_light *const self = emitter->data;
     double *const radiance = malloc(ROWS * COLUMNS * sizeof *radiance);
-    if (radiance == NULL)
+    if (!set_corners(self) || radiance == NULL) {
+        free(radiance);
         return aur_fail_memory_at(error, emitter->location);
+    }
     double rises[ROWS];
-    const double color = (double)aur_luminance(self->color), ground = (double)aur_luminance(self->ground);
-    self->round = true;
     for (size_t j = 0; j < ROWS; ++j) {
         rises[j] = j < SKY_ROWS ? 1.0 / SKY_ROWS : 1.0;
-        for (size_t i = 0; i < COLUMNS; ++i)
-            radiance[j * COLUMNS + i] = j < SKY_ROWS ? color * patch_radiance(&self->model, i, j) : ground;
-        for (size_t i = 1; i < COLUMNS; ++i)
-            self->round &= radiance[j * COLUMNS + i] == radiance[j * COLUMNS];
+        for (size_t i = 0; i < COLUMNS; ++i) {
+            const aur_bilinear at = corners_of(self, i, j);
+            radiance[j * COLUMNS + i] = 0.25 * ((double)at.corner[0] + (double)at.corner[1] +
+                                                (double)at.corner[2] + (double)at.corner[3]);
+        }
     }
     const aur_result result = aur_patches_create(&self->patches, ROWS, COLUMNS, radiance, rises, error);
     free(radiance);
@@ -261,21 +279,26 @@ static float pdf_from(const aur_emitter *emitter, aur_vector direction) {
         return 0.0f;
     to_local(self, direction, local);
     const double turn = self->round ? 0.0 : atan2(local[1], local[0]) / (2.0 * AUR_PI);
-    const size_t column = (size_t)((turn < 0.0 ? turn + 1.0 : turn) * COLUMNS);
-    const size_t row = local[2] < 0.0 ? SKY_ROWS : (size_t)(local[2] * SKY_ROWS);
-    return aur_patches_density(&self->patches, column < COLUMNS ? column : COLUMNS - 1,
-                               local[2] < 1.0 ? row : SKY_ROWS - 1);
+    const double x = (turn < 0.0 ? turn + 1.0 : turn) * COLUMNS,
+                 y = local[2] < 0.0 ? SKY_ROWS : local[2] * SKY_ROWS;
+    const size_t column = x < COLUMNS ? (size_t)x : COLUMNS - 1;
+    const size_t row = local[2] < 1.0 ? (size_t)y : SKY_ROWS - 1;
+    const aur_bilinear corners = corners_of(self, column, row);
+    return aur_patches_density(
+        &self->patches, aur_bilinear_value(&corners, (float)(x - (double)column), (float)(y - (double)row)));
 }
 
 static aur_vector draw(const sky_light *self, float u, float v) {
-    size_t column, row;
+    size_t column = 0, row;
     double local[3], world[3], along = (double)u * COLUMNS;
-    if (self->round) {
+    if (self->round)
         row = aur_distribution_choose(&self->patches.rows, &v);
-    } else {
+    else
         aur_patches_choose(&self->patches, &u, &v, &column, &row);
+    const aur_bilinear corners = corners_of(self, column, row);
+    aur_patch_draw(&corners, &u, &v);
+    if (!self->round)
         along = (double)column + (double)u;
-    }
     direction_at(along, row < SKY_ROWS ? ((double)row + (double)v) / SKY_ROWS : -(double)v, local);
     const aur_sun_position *const at = &self->position;
     for (int d = 0; d < 3; ++d)

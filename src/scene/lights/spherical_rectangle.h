@@ -5,7 +5,7 @@
 #include <stdbool.h>
 #include <stddef.h>
 
-#include "scene/lights/bilinear.h"
+#include "scene/bilinear.h"
 #include "scene/packet.h"
 
 typedef struct aur_rectangle {

@@ -4,7 +4,7 @@
 #pragma once
 
 #include "core/simd.h"
-#include "scene/lights/bilinear.h"
+#include "scene/bilinear.h"
 #include "scene/lights/spherical_rectangle.h"
 
 /* Limits to [0, 1] a number that only rounding took out of it; comparisons would become branches. */

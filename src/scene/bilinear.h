@@ -21,9 +21,14 @@ static inline void aur_bilinear_draw(const aur_bilinear *weights, float *u, floa
     *u = aur_line_draw(w[0] + *v * (w[2] - w[0]), w[1] + *v * (w[3] - w[1]), *u);
 }
 
+static inline float aur_bilinear_value(const aur_bilinear *weights, float u, float v) {
+    const float *const w = weights->corner;
+    const float low = w[0] + u * (w[1] - w[0]), high = w[2] + u * (w[3] - w[2]);
+    return low + v * (high - low);
+}
+
 /* With which points are drawn; 1 in the mean. */
 static inline float aur_bilinear_density(const aur_bilinear *weights, float u, float v) {
     const float *const w = weights->corner;
-    const float low = w[0] + u * (w[1] - w[0]), high = w[2] + u * (w[3] - w[2]);
-    return 4.0f * (low + v * (high - low)) / ((w[0] + w[1]) + (w[2] + w[3]));
+    return 4.0f * aur_bilinear_value(weights, u, v) / ((w[0] + w[1]) + (w[2] + w[3]));
 }
