@@ -31,6 +31,7 @@ extern const bench bench_points_square;
 extern const bench bench_radiosity;
 extern const bench bench_relaxed;
 extern const bench bench_scene;
+extern const bench bench_share;
 extern const bench bench_weights;
 
 static const bench *const benches[] = {
@@ -54,6 +55,7 @@ static const bench *const benches[] = {
     &bench_radiosity,
     &bench_relaxed,
     &bench_scene,
+    &bench_share,
     &bench_weights,
 };
 /* clang-format on */
