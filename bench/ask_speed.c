@@ -10,7 +10,7 @@
 #include "study.h"
 
 /* An attempt that is expected to take longer is not made: the law of the last one tells its seconds. */
-static const double seconds_limit = 30.0;
+static const double seconds_limit = 60.0;
 
 enum { QUICK_SUBJECTS = 2, FIRST_SAMPLES = 16, COARSEST = 8, STEP = 4 };
 
@@ -185,11 +185,12 @@ static bool study_row(const bench_study *self, const speed_row *row, attempt *as
     return true;
 }
 
-/* The least error over the mean that pictures to an error reach when they are denoised: half the error is
- * asked again and again. It ends where the filter's own error is all that is left. */
-static bool denoise(const bench_study *self, bench_figures *figures) {
-    double least = INFINITY, spent = 0.0;
-    for (double asked = 0.16; asked > 0.01; asked *= 0.5) {
+/* Half the error is asked again and again, until the denoised picture has `wanted` over the mean; `least` is
+ * of an infinite error before. It ends where the filter's own error is all that is left, or where the next
+ * would take too long. */
+static bool denoise_own(const bench_study *self, double wanted, attempt *least) {
+    double spent = 0.0;
+    for (double asked = 0.16; least->error > wanted; asked *= 0.5) {
         bench_outcome found;
         if (!bench_study_measure(self, &(bench_request){.error = asked, .denoised = true}, 1, 1, &found))
             return false;
@@ -198,13 +199,55 @@ static bool denoise(const bench_study *self, bench_figures *figures) {
                100.0 * asked, 100.0 * error, found.seconds);
         fflush(stdout);
         spent += found.seconds;
-        const bool better = error < 0.9 * least;
-        least = fmin(least, error);
+        const bool better = error < 0.9 * least->error;
+        if (error < least->error)
+            *least = (attempt){asked, found.seconds, error};
         if (!better || 4.0 * found.seconds + spent > seconds_limit)
             break;
     }
-    bench_figures_add(figures, BENCH_AT_MOST, 0.01, least, "", "%s, denoised: least RMSE / mean",
-                      self->subject->name);
+    return true;
+}
+
+/* The same of Mitsuba's pictures, by more and more samples. Without it `least` stays as it is. */
+static bool denoise_peer(const bench_study *self, double wanted, attempt *least) {
+    const char *const python = getenv("AUREOLE_PEERS_PYTHON");
+    if (python == NULL)
+        return true;
+    char truths[2][BENCH_STUDY_PATH], command[3 * BENCH_STUDY_PATH], line[512];
+    for (size_t k = 0; k < 2; ++k)
+        bench_study_truth_path(self, k, sizeof truths[k], truths[k]);
+    const int used =
+        snprintf(command, sizeof command,
+                 "'%s' '" AUR_SOURCE_DIR "/bench/peers/denoised.py' %s %zux%zu '%s' '%s' %g %g", python,
+                 self->subject->name, self->width, self->height, truths[0], truths[1], wanted, seconds_limit);
+    FILE *const pipe = used < (int)sizeof command ? popen(command, "r") : NULL;
+    if (pipe == NULL)
+        return bench_fail("%s cannot be run", python);
+    for (attempt found; fgets(line, sizeof line, pipe) != NULL;) {
+        if (sscanf(line, "%lf %lf %lf", &found.asked, &found.seconds, &found.error) != 3)
+            continue;
+        printf("  %-12s Mitsuba, %g samples, then denoised: error %.2f %%, %.3g s\n", self->subject->name,
+               found.asked, 100.0 * found.error, found.seconds);
+        if (found.error < least->error)
+            *least = found;
+    }
+    return pclose(pipe) == 0 || bench_fail("%s failed", command);
+}
+
+/* Who does not come to the error has no speed: the least error is all that can be said. */
+static bool denoise(const bench_study *self, bench_figures *figures) {
+    const double wanted = 0.01, times = 4.0;
+    attempt own = {.error = INFINITY}, theirs = own;
+    if (!denoise_own(self, wanted, &own) || !denoise_peer(self, wanted, &theirs))
+        return false;
+    const char *const name = self->subject->name;
+    bench_figures_add(figures, BENCH_AT_MOST, wanted, own.error, "", "%s, denoised: least RMSE / mean", name);
+    if (isfinite(theirs.error))
+        bench_figures_add(figures, BENCH_NOTED, 0.0, theirs.error, "",
+                          "%s, denoised: least RMSE / mean of Mitsuba", name);
+    if (own.error <= wanted && theirs.error <= wanted)
+        bench_figures_add(figures, BENCH_AT_LEAST, times, theirs.seconds / own.seconds, "",
+                          "%s, denoised, error %g: Mitsuba / --error", name, wanted);
     return true;
 }
 

@@ -81,14 +81,22 @@ static aur_image *read_image(const char *path) {
     return image;
 }
 
+static double reference_error(const bench_study *self) {
+    return self->options->quick ? 0.5 : self->subject->reference_error;
+}
+
+void bench_study_truth_path(const bench_study *self, size_t k, size_t capacity, char *path) {
+    snprintf(path, capacity, "%s/%s-%zux%zu-%g-%zu.pfm", self->folder, self->subject->name, self->width,
+             self->height, reference_error(self), k + 1);
+}
+
 /* The two references, made where they are not there. Paths that no sample met are not in them: their error
  * is asked of pixels as even as `reference_error` makes them. */
 static bool open_truth(bench_study *self) {
-    const double asked = self->options->quick ? 0.5 : self->subject->reference_error;
+    const double asked = reference_error(self);
     for (size_t k = 0; k < 2; ++k) {
-        char path[4400];
-        snprintf(path, sizeof path, "%s/%s-%zux%zu-%g-%zu.pfm", self->folder, self->subject->name,
-                 self->width, self->height, asked, k + 1);
+        char path[BENCH_STUDY_PATH];
+        bench_study_truth_path(self, k, sizeof path, path);
         if (access(path, R_OK) != 0) {
             char part[4500];
             bench_child_cost cost;

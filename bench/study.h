@@ -57,6 +57,11 @@ bool bench_study_open(bench_study *self, const bench_options *options, const ben
                       bool *skipped);
 void bench_study_close(bench_study *self);
 
+enum { BENCH_STUDY_PATH = 4400 };
+
+/* The file of the truth's first (k = 0) or second picture. */
+void bench_study_truth_path(const bench_study *self, size_t k, size_t capacity, char *path);
+
 /* Over the seeds 1 .. seeds (at most 8), by one thread, of means of block x block pixels. False after
  * bench_fail. */
 bool bench_study_measure(const bench_study *self, const bench_request *request, size_t seeds, size_t block,

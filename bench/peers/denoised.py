@@ -1,0 +1,67 @@
+#!/usr/bin/env python3
+"""Errors and CPU seconds of Mitsuba 3's pictures after Open Image Denoise, for `aureole-bench ask`.
+
+    denoised.py NAME WIDTHxHEIGHT TRUTH_A.pfm TRUTH_B.pfm ERROR SECONDS
+
+Needs what time_to_quality.py does, and PyPI's pyoidn. The scene of that name (see there) is rendered by llvm_ad_rgb with multi-jittered
+samples, with albedo and normals beside, by 4, 16, 64, ... samples a pixel, and denoised, until the error is below ERROR or the next
+picture would take more than SECONDS. A line each: samples, CPU seconds of rendering and denoising (kernels compiled before), and
+the error: the root of the mean of (x - a)(x - b) over the mean of the truth, whose two pictures a and b have errors of their own that do not agree.
+"""
+import math
+import os
+import re
+import sys
+import tempfile
+
+import time_to_quality as peers
+
+FEATURES = '<integrator type="aov"><string name="aovs" value="albedo:albedo,normal:sh_normal"/>'
+
+
+def read_pfm(path):
+    import numpy as np
+    with open(path, "rb") as file:
+        file.readline()
+        width, height = (int(word) for word in file.readline().split())
+        order = "<f4" if float(file.readline()) < 0 else ">f4"
+        return np.frombuffer(file.read(), order).reshape(height, width, 3)[::-1].astype(np.float64)
+
+
+def load(name, width, height):
+    import mitsuba as mi
+    path, _, _, definitions = (peers.SCENES | peers.BUNDLED)[name]
+    text = peers.scene_text(path, width, height, definitions)
+    text = re.sub(r'<sampler\s+type="[^"]*"', '<sampler type="multijitter"', text)
+    return mi.load_string(re.sub(r"(<integrator.*?</integrator>)", FEATURES + r"\1</integrator>", text, flags=re.S))
+
+
+def main():
+    import mitsuba as mi
+    import numpy as np
+    import pyoidn
+    name, size, a, b = sys.argv[1:5]
+    wanted, limit = (float(word) for word in sys.argv[5:7])
+    width, height = (int(side) for side in size.split("x"))
+    a, b = read_pfm(a), read_pfm(b)
+    mi.set_variant("llvm_ad_rgb")
+    scene = load(name, width, height)
+    import drjit as dr  # after loading, see time_to_quality.py
+    dr.set_thread_count(1)
+    samples, spent = 4, 0.0
+    while 4.0 * spent < limit:
+        np.array(mi.render(scene, spp=samples, seed=999))  # which compiles
+        start = peers.cpu_seconds()
+        picture = np.array(mi.render(scene, spp=samples, seed=1), dtype=np.float32)
+        parts = [np.ascontiguousarray(picture[:, :, first:first + 3]) for first in (0, 3, 6)]
+        clean = pyoidn.denoise(*parts, hdr=True).astype(np.float64)
+        spent = peers.cpu_seconds() - start
+        error = math.sqrt(max(((clean - a) * (clean - b)).mean(), 0.0)) / ((a.mean() + b.mean()) / 2)
+        print(samples, spent, error, flush=True)
+        if error <= wanted:
+            break
+        samples *= 4
+
+
+if __name__ == "__main__":
+    main()
