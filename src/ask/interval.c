@@ -48,7 +48,7 @@ void aur_deviations_pool(aur_deviations *sum, size_t count, size_t pixel_count,
     }
     const double smaller = fmin(sum->trace / ((double)(count - 1) * variance), 1.0);
     const double part = smaller * smaller;
-    if (part * spread > sum->spread) {
+    if (part * spread > sum->spread && spread * spread < 4.0 * squares) {
         sum->spread = part * spread;
         sum->square_spreads = part * part * squares;
     }

@@ -43,7 +43,8 @@ typedef struct aur_pixel_spread {
 
 /* Takes for the spread what all rounds say of the `pixels`, where that is more for the same error. Where one
  * pixel has most of the error and its replicas agree by chance now, the error looks small, and spread over
- * many pixels; what earlier rounds saw does not agree. */
+ * many pixels; what earlier rounds saw does not agree. Where four pixels or more have the spread, the last
+ * round tells it well enough, and the rounds before, whose samples it has, tell too much of rare values. */
 void aur_deviations_pool(aur_deviations *sum, size_t count, size_t pixel_count,
                          const aur_pixel_spread *pixels);
 
