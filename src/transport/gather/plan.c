@@ -153,21 +153,6 @@ static aur_result find_light(const aur_gather_parameters *p, const aur_integrato
 
 /* --- the plan */
 
-/* A number without a common divisor with `parts`, near the golden section of them: however many samples there
- * are, their parts lie evenly among all. */
-static size_t stride_of(size_t parts) {
-    for (size_t stride = (size_t)(0.6180339887 * (double)parts);; ++stride) {
-        size_t a = parts, b = stride;
-        while (b != 0) {
-            const size_t rest = a % b;
-            a = b;
-            b = rest;
-        }
-        if (a == 1)
-            return stride;
-    }
-}
-
 static aur_result compile(aur_gather_plan *plan, const aur_gather_parameters *p,
                           const aur_integrator_context *context, aur_error *error) {
     const aur_gather_policy *const policy = &plan->policy;
@@ -202,7 +187,7 @@ aur_result aur_gather_plan_create(const aur_gather_parameters *p, const aur_inte
     (*plan)->scene = context->scene;
     (*plan)->policy = p->policy;
     (*plan)->samples_per_pattern = own.samples_per_pixel;
-    (*plan)->part_stride = stride_of(own.samples_per_pixel);
+    (*plan)->part_stride = aur_gather_part_stride(own.samples_per_pixel);
     (*plan)->renews = p->split > 0;
     (*plan)->seed = p->rule.seed;
     const aur_result result = compile(*plan, p, &own, error);

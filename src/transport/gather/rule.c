@@ -269,3 +269,16 @@ void aur_gather_rule_square(const aur_gather_rule *rule, const aur_gather_rotati
     const float height = fmaxf(1.0f - direction.z, 0.0f) + shift;
     point[1] = fminf(height < 1.0f ? height : height - 1.0f, 0x1.fffffep-1f);
 }
+
+size_t aur_gather_part_stride(size_t parts) {
+    for (size_t stride = (size_t)(0.6180339887 * (double)parts);; ++stride) {
+        size_t a = parts, b = stride;
+        while (b != 0) {
+            const size_t rest = a % b;
+            a = b;
+            b = rest;
+        }
+        if (a == 1)
+            return stride;
+    }
+}

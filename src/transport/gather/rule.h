@@ -81,3 +81,8 @@ float aur_gather_rule_direction(const aur_gather_rule *rule, const aur_gather_ro
  * unit square: its azimuth, and how far its height is from the pole. */
 void aur_gather_rule_square(const aur_gather_rule *rule, const aur_gather_rotation *rotation, size_t index,
                             float point[2]);
+
+/* From the part of a pattern that one sample has to that of the next one, modulo `parts` >= 1: a number
+ * without a common divisor with them, near their golden section. However many samples there are, their parts
+ * lie evenly among all. */
+size_t aur_gather_part_stride(size_t parts);

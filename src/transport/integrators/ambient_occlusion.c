@@ -50,6 +50,7 @@ static aur_result create(aur_parameters *parameters, const aur_integrator_contex
     if (data->occlusion.renews)
         pattern->count *= PATTERN_LENGTH;
     data->occlusion.samples_per_pattern = shares;
+    data->occlusion.part_stride = aur_gather_part_stride(shares);
     data->occlusion.seed = aur_hash2(context->seed, pattern->seed);
     pattern->count = (pattern->count + shares - 1) / shares * shares;
     pattern->seed = pattern->set_seed = data->occlusion.seed;

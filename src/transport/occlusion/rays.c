@@ -91,11 +91,13 @@ static void aim(const aur_gather_rule *rule, const aur_occlusion_places *places,
 }
 
 /* Which part of the pattern a sample has. Who does not have all of them is to lack none in particular
- * (aur_gather_part): 79 of 128 is the golden section. */
+ * (aur_gather_part). */
 static size_t part_of(const aur_occlusion *occlusion, uint64_t tile, size_t within, uint32_t index) {
     const size_t parts = occlusion->samples_per_pattern;
-    return occlusion->renews ? (tile % parts + aur_group_rank((uint32_t)within) + 79 * (size_t)index) % parts
-                             : index % parts;
+    if (!occlusion->renews)
+        return index % parts;
+    const size_t first = tile % parts + aur_group_rank((uint32_t)within);
+    return (first + index % parts * occlusion->part_stride) % parts;
 }
 
 /* What the pattern is turned by, for all places of a group or for one of them. */
