@@ -256,10 +256,12 @@ static void add_means(const gather_tile *work, aur_tile *tile) {
             aur_pixel_strata_mean(pixel, mean);
             const uint32_t count = aur_tile_wanted(tile, x, y);
             aur_tile_add_mean(tile, x, y, count, mean);
-            double added[3];
-            aur_pixel_strata_added(pixel, added);
-            for (size_t c = 0; c < 3 && policy->share == AUR_SHARE_NEAR; ++c)
-                aur_tile_add_extra(tile, x, y, c, (double)count * added[c]);
+            if (policy->share == AUR_SHARE_NEAR) {
+                double added[3];
+                aur_pixel_strata_added(pixel, added);
+                for (size_t c = 0; c < 3; ++c)
+                    aur_tile_add_extra(tile, x, y, c, (double)count * added[c]);
+            }
             if (policy->adaptive)
                 aur_tile_add_extra(tile, x, y, 0, (double)count * (double)pixel->directions);
         }
