@@ -31,9 +31,10 @@ typedef struct aur_emitter_descriptor {
     bool (*sample)(const aur_emitter *emitter, const aur_light_query *query, aur_light_sample *drawn);
     /* The table in which `sample` looks a number up, too large for caches, and that number. May be NULL. */
     const aur_distribution *(*table)(const aur_emitter *emitter, const float u[3], float *number);
-    /* `sample` for the sixteen lanes of a packet; false: it is left to `sample`. May be NULL. */
-    bool (*lanes)(const aur_emitter *emitter, const aur_light_references *references, const float *u,
-                  const float *v, aur_light_lanes *drawn);
+    /* `sample` for the lanes of a packet whose bit is set; false: it is left to `sample`, which those
+     * of environments never do. May be NULL. */
+    bool (*lanes)(const aur_emitter *emitter, uint32_t lanes, const aur_light_references *references,
+                  const float *u, const float *v, aur_light_lanes *drawn);
     /* As aur_light_emit for this light alone. */
     bool (*emit)(const aur_emitter *emitter, const float u[5], aur_ray *ray, aur_vector *power);
     void (*release)(aur_emitter *emitter); /* frees what emitter->data owns, not `data`; may be NULL */
@@ -46,6 +47,9 @@ typedef struct aur_emitter_descriptor {
     float (*pdf_from)(const aur_emitter *emitter, aur_vector direction);
     /* Both at once, where that takes less time; may be NULL. */
     aur_vector (*light_from)(const aur_emitter *emitter, aur_vector direction, float *pdf);
+    /* The same from the directions of the lanes whose bit is set; may be NULL. */
+    void (*lights_from)(const aur_emitter *emitter, uint32_t lanes, const aur_lane_vectors *directions,
+                        aur_lane_vectors *radiance, float *pdf);
     /* For skies: where up and north are. */
     const struct aur_sun_position *(*position_of)(const aur_emitter *emitter);
 } aur_emitter_descriptor;

@@ -93,12 +93,19 @@ typedef struct aur_light_references {
 /* aur_light_sample_direct of sixteen points. */
 typedef struct aur_light_lanes {
     aur_lane_vectors position, radiance;
-    aur_lane_numbers pdf;    /* 0: no light from there */
-    aur_lane_numbers rivals; /* 1, or 0 for lights that no ray finds */
+    aur_lane_vectors direction; /* set by aur_light_lanes_each only */
+    aur_lane_numbers pdf;       /* 0: no light from there */
+    aur_lane_numbers rivals;    /* 1, or 0 for lights that no ray finds */
 } aur_light_lanes;
 
 /* For the lanes whose bit is set; what the others have afterwards means nothing. `choice` is not read unless
- * aur_light_chooses, and may then be NULL. A light that stands alone and is a rectangle is drawn by vector
- * code: the single samples, but for rounding. */
+ * aur_light_chooses, and may then be NULL. To the bits of single samples; those of environment maps are drawn
+ * together. */
+void aur_light_lanes_each(const aur_scene *scene, uint32_t lanes, const aur_light_references *references,
+                          const float *choice, const float *u, const float *v, aur_light_lanes *lights);
+/* The same, but for rounding: a light that stands alone and is a rectangle is drawn by vector code. */
 void aur_light_lanes_direct(const aur_scene *scene, uint32_t lanes, const aur_light_references *references,
                             const float *choice, const float *u, const float *v, aur_light_lanes *lights);
+/* aur_environment_light for the lanes whose bit is set. */
+void aur_environment_lanes(const aur_scene *scene, uint32_t lanes, const aur_lane_vectors *directions,
+                           aur_lane_vectors *radiance, float *pdf);

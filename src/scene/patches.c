@@ -30,12 +30,3 @@ void aur_patches_choose(const aur_patches *patches, float *u, float *v, size_t *
     *row = aur_distribution_choose(&patches->rows, v);
     *column = aur_distribution_choose(&patches->cells[*row], u);
 }
-
-void aur_patch_draw(const aur_bilinear *corners, float *u, float *v) {
-    const float *const w = corners->corner;
-    const float scale = 1.0f / (w[0] + w[1] + w[2] + w[3]);
-    aur_bilinear weights; /* which squares of neither overflow, nor are 0 beside each other */
-    for (size_t k = 0; k < 4; ++k)
-        weights.corner[k] = fmaxf(w[k] * scale, 1e-12f);
-    aur_bilinear_draw(&weights, u, v);
-}

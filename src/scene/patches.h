@@ -25,7 +25,14 @@ void aur_patches_choose(const aur_patches *patches, float *u, float *v, size_t *
 
 /* Moves u and v, uniform in a patch, so that what is drawn is in proportion to what the values at its corners
  * are between them; one of them is not 0. */
-void aur_patch_draw(const aur_bilinear *corners, float *u, float *v);
+static inline void aur_patch_draw(const aur_bilinear *corners, float *u, float *v) {
+    const float *const w = corners->corner;
+    const float scale = 1.0f / (w[0] + w[1] + w[2] + w[3]);
+    aur_bilinear weights; /* which squares of neither overflow, nor are 0 beside each other */
+    for (size_t k = 0; k < 4; ++k)
+        weights.corner[k] = aur_larger(w[k] * scale, 1e-12f);
+    aur_bilinear_draw(&weights, u, v);
+}
 
 /* The integral over all directions of the radiance that was given. */
 static inline double aur_patches_integral(const aur_patches *patches) {

@@ -170,8 +170,9 @@ static bool sample(const aur_emitter *emitter, const aur_light_query *query, aur
     return finish_sample(emitter, query->reference.position, &point, density, drawn);
 }
 
-static bool lanes(const aur_emitter *emitter, const aur_light_references *references, const float *u,
-                  const float *v, aur_light_lanes *drawn) {
+static bool sample_lanes(const aur_emitter *emitter, uint32_t lanes, const aur_light_references *references,
+                         const float *u, const float *v, aur_light_lanes *drawn) {
+    (void)lanes; /* all sixteen, which costs as much */
     const area_light *const light = emitter->data;
     if (!light->is_rectangle || emitter->radiance.texture != NULL)
         return false;
@@ -197,7 +198,7 @@ const aur_emitter_descriptor aur_emitter_area = {
     .create = create,
     .prepare = prepare,
     .sample = sample,
-    .lanes = lanes,
+    .lanes = sample_lanes,
     .emit = emit,
     .release = release,
     .pdf_seen = pdf_seen,

@@ -5,27 +5,13 @@
 
 #include "core/simd.h"
 #include "scene/bilinear.h"
+#include "scene/lights/arcs.h"
 #include "scene/lights/spherical_rectangle.h"
 
 /* Limits to [0, 1] a number that only rounding took out of it; comparisons would become branches. */
 static inline float rectangle_part(float x) {
     const float positive = 0.5f * (x + fabsf(x));
     return 0.5f * (positive + 1.0f - fabsf(positive - 1.0f));
-}
-
-/* Abramowitz and Stegun 4.4.46; error below 1e-7 and rounding. */
-static inline float rectangle_arc(float cosine) {
-    const float x = fabsf(cosine);
-    float p = -0.0012624911f;
-    p = p * x + 0.0066700901f;
-    p = p * x - 0.0170881256f;
-    p = p * x + 0.0308918810f;
-    p = p * x - 0.0501743046f;
-    p = p * x + 0.0889789874f;
-    p = p * x - 0.2145988016f;
-    p = p * x + 1.5707963050f;
-    const float angle = p * sqrtf(fabsf(1.0f - x));
-    return 0.5f * AUR_PI_F - copysignf(0.5f * AUR_PI_F - angle, cosine);
 }
 
 /* The nearest integer of a number below 2^22, as vector code has no floorf that leaves the flags alone. */
@@ -87,8 +73,8 @@ static inline aur_spherical_rectangle rectangle_seen(const aur_rectangle *r, aur
     /* z components of the normals of the four planes through the point and an edge. */
     const float n0 = -y0 / sqrtf(zz + y0 * y0), n1 = x1 / sqrtf(zz + x1 * x1);
     const float n2 = y1 / sqrtf(zz + y1 * y1), n3 = -x0 / sqrtf(zz + x0 * x0);
-    const float k = 2.0f * AUR_PI_F - rectangle_arc(-n2 * n3) - rectangle_arc(-n3 * n0);
-    const float angle = rectangle_arc(-n0 * n1) + rectangle_arc(-n1 * n2) - k;
+    const float k = 2.0f * AUR_PI_F - aur_arc(-n2 * n3) - aur_arc(-n3 * n0);
+    const float angle = aur_arc(-n0 * n1) + aur_arc(-n1 * n2) - k;
     return (aur_spherical_rectangle){
         x0, x1, y0, y1, z0, n0, n2, k, angle * (0.5f + copysignf(0.5f, at.excess))};
 }
@@ -106,7 +92,7 @@ static inline float rectangle_rank(const aur_spherical_rectangle *seen, float s,
 static inline float rectangle_strip(const aur_spherical_rectangle *seen, float s) {
     const float x = seen->x0 + s * (seen->x1 - seen->x0);
     const float n = x / sqrtf(x * x + seen->z0 * seen->z0);
-    const float angle = rectangle_arc(-seen->b0 * n) + rectangle_arc(-n * seen->b1) - seen->k;
+    const float angle = aur_arc(-seen->b0 * n) + aur_arc(-n * seen->b1) - seen->k;
     return rectangle_part(angle / seen->solid_angle);
 }
 

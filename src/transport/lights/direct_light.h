@@ -29,3 +29,6 @@ static const aur_light_draws AUR_LIGHT_DRAWS_OF_PATHS = {1.0f, 1.0f};
  * comes that way. */
 bool aur_direct_light_choose(const aur_scene *scene, const aur_shading *shading, const aur_light_draws *draws,
                              const float u[3], aur_shadow *shadow);
+/* The same of a point that has been drawn. */
+bool aur_direct_light_shadow(const aur_shading *shading, const aur_light_draws *draws,
+                             const aur_light_sample *light, aur_shadow *shadow);

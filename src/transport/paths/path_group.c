@@ -78,19 +78,26 @@ static void add_light(aur_path_group *g, size_t k, float weight, aur_vector radi
 }
 
 static void add_sky(aur_path_group *g, uint32_t lanes) {
+    const struct RTCRay16 *const rays = &g->packet.query.ray;
+    aur_lane_vectors directions, radiance;
+    aur_lane_numbers rivals;
+    if (lanes == 0)
+        return;
+    memcpy(directions.x, rays->dir_x, sizeof directions.x);
+    memcpy(directions.y, rays->dir_y, sizeof directions.y);
+    memcpy(directions.z, rays->dir_z, sizeof directions.z);
+    aur_environment_lanes(g->scene, lanes, &directions, &radiance, rivals);
     for (; lanes != 0; lanes &= lanes - 1) {
         const size_t k = aur_first_lane(lanes);
-        const aur_ray ray = aur_packet_ray(&g->packet, k);
-        float rival;
-        const aur_vector sky = aur_environment_light(g->scene, ray.direction, &rival);
+        const aur_vector sky = aur_lane_vector(&radiance, k);
         if (aur_vector_is_zero(sky))
             continue;
         const bool found = (g->specular >> k & 1u) == 0;
-        const float weight = found ? aur_power_heuristic(g->lanes.pdf[k], rival) : 1.0f;
+        const float weight = found ? aur_power_heuristic(g->lanes.pdf[k], rivals[k]) : 1.0f;
         add_light(g, k, weight, sky);
         if (g->from_sky != NULL)
             g->from_sky(
-                g->from_sky_user, k, ray.direction,
+                g->from_sky_user, k, aur_lane_vector(&directions, k),
                 aur_vector_scale(aur_vector_multiply(aur_lane_vector(&g->lanes.throughput, k), sky), weight),
                 (g->straight >> k & 1u) != 0);
     }
@@ -138,29 +145,29 @@ static aur_vector view_of(const aur_path_group *g, size_t k) {
     return aur_vector_scale(aur_packet_ray(&g->packet, k).direction, -1.0f);
 }
 
-/* What the lane draws a point on a light by. */
-static aur_vector light_numbers(const aur_path_group *g, size_t k) {
-    return (aur_vector){g->chooses ? g->lanes.choice[k] : 0.5f, g->lanes.light_u[k], g->lanes.light_v[k]};
-}
-
-static void prefetch_lights(const aur_path_group *g, uint32_t lanes) {
-    aur_light_fetch fetches[AUR_PACKET_SIZE];
-    for (uint32_t rest = lanes; rest != 0; rest &= rest - 1) {
-        const size_t k = aur_first_lane(rest);
-        const aur_vector u = light_numbers(g, k);
-        fetches[k] = aur_light_fetch_begin(g->scene, (const float[3]){u.x, u.y, u.z});
+/* Where light arrives at lanes that are not plain. */
+static void set_references(aur_path_group *g, uint32_t lanes) {
+    for (; lanes != 0; lanes &= lanes - 1) {
+        const size_t k = aur_first_lane(lanes);
+        const aur_shading shading = aur_shading_at(&g->surfaces[k], view_of(g, k));
+        const aur_light_reference reference = aur_shading_reference(&shading);
+        aur_lane_set(&g->lanes.position, k, reference.position);
+        aur_lane_set(&g->lanes.facing, k, reference.normal);
     }
-    for (uint32_t rest = lanes; rest != 0; rest &= rest - 1)
-        aur_light_fetch_end(&fetches[aur_first_lane(rest)]);
 }
 
+/* Of a lane that is not plain, whose point on a light has been drawn. */
 static void shadow_one(aur_path_group *g, size_t k, const aur_surface *surface) {
     const aur_shading shading = aur_shading_at(surface, view_of(g, k));
-    const aur_vector u = light_numbers(g, k);
+    const aur_light_lanes *const lights = &g->lanes.light;
+    const aur_light_sample light = {.position = aur_lane_vector(&lights->position, k),
+                                    .direction = aur_lane_vector(&lights->direction, k),
+                                    .radiance = aur_lane_vector(&lights->radiance, k),
+                                    .pdf = lights->pdf[k],
+                                    .delta = lights->rivals[k] == 0.0f};
     aur_shadow shadow;
     g->lanes.lit[k] = 0;
-    if (!aur_direct_light_choose(g->scene, &shading, &AUR_LIGHT_DRAWS_OF_PATHS,
-                                 (const float[3]){u.x, u.y, u.z}, &shadow))
+    if (!aur_direct_light_shadow(&shading, &AUR_LIGHT_DRAWS_OF_PATHS, &light, &shadow))
         return;
     g->lanes.lit[k] = -1;
     aur_packet_set(&g->shadows, k, &shadow.ray);
@@ -295,16 +302,20 @@ static uint32_t pass_panes(aur_path_group *g, uint32_t stopped, const float *far
 
 /* Light straight from the lights. */
 static void add_direct(aur_path_group *g, uint32_t depth) {
-    const uint32_t plain = g->plain;
     aur_path_lanes *const lanes = &g->lanes;
+    const uint32_t plain = g->plain, others = g->alive & ~plain;
+    const aur_light_references references = {&lanes->position, &lanes->facing};
     if (plain != 0) {
-        const aur_light_references references = {&lanes->position, &lanes->facing};
         aur_light_lanes_direct(g->scene, plain, &references, lanes->choice, lanes->light_u, lanes->light_v,
                                &lanes->light);
         g->data->kernels->shadow(lanes, &g->shadows);
     }
-    prefetch_lights(g, g->alive & ~plain);
-    for (uint32_t rest = g->alive & ~plain; rest != 0; rest &= rest - 1)
+    if (others != 0) {
+        set_references(g, others);
+        aur_light_lanes_each(g->scene, others, &references, lanes->choice, lanes->light_u, lanes->light_v,
+                             &lanes->light);
+    }
+    for (uint32_t rest = others; rest != 0; rest &= rest - 1)
         shadow_one(g, aur_first_lane(rest), &g->surfaces[aur_first_lane(rest)]);
     const uint32_t lit = aur_lanes_set(lanes->lit) & g->alive;
     if (lit == 0)
