@@ -19,7 +19,8 @@ not equal.
 renders (the first, which compiles, is left out) over our rendering (the whole process less one of a single sample, by as much more), and a fresh
 process of Mitsuba without kept kernels, which loads, compiles and renders, over our whole process.
 
---peers NAME prints for `aureole-bench ask` what Mitsuba takes on one scene, by 16 and 64 samples.
+--peers NAME prints for `aureole-bench ask` what Mitsuba takes on one scene. There its samples grow fourfold from 16 until it
+has the least error, or until the next picture would take 60 s or more than a kernel's memory; the law is of the last sixteenfold.
 """
 import argparse
 import json
@@ -47,7 +48,8 @@ ERRORS = (0.02, 0.005)
 # A pixel, squares for multi-jittered ones and powers of 2 for Sobol's, where error and time are measured.
 SAMPLES = {"cornell-box": (16, 64), "glossy-box": (64, 256), "room": (64, 256)} | {name: (16, 64) for name in BUNDLED}
 
-FEW = (16, 64)
+# Of --peers: more lanes than these, each with some hundred bytes of a path's state, are not asked of one kernel.
+FIRST, STEP, MOST_SECONDS, MOST_LANES = 16, 4, 60.0, 1 << 24
 
 
 def cpu_seconds(who=resource.RUSAGE_SELF):
@@ -279,16 +281,35 @@ KINDS = {
 }
 
 
-def child(kind, aureole, path, threads, wanted_errors):
-    few, many = SAMPLES[name_of(path)]
+def measurements(render, counts):
+    """Samples a pixel, error, CPU seconds and mean."""
+    return [(samples, *pair(render, samples)) for samples in counts]
+
+
+def measurements_until(render, error, pixels):
+    """The same for growing samples. Each is rendered once before, for kernels are compiled for it."""
+    samples, found = FIRST, []
+    while not found or (found[-1][1] > error and STEP * found[-1][2] <= MOST_SECONDS and samples * pixels <= MOST_LANES):
+        render(samples, 999)
+        found += measurements(render, [samples])
+        samples *= STEP
+    return found
+
+
+def child(kind, aureole, path, threads, wanted_errors, pixels):
+    """By the law between two numbers of samples; of --peers (`pixels`), between the last and a sixteenth of it."""
+    if pixels:
+        SAMPLES.clear()  # no kernels ahead
     render = KINDS[kind](aureole, path, threads)
-    (error, seconds, _), (less, more_seconds, mean) = (pair(render, samples) for samples in (few, many))
+    found = measurements_until(render, min(wanted_errors), pixels) if pixels else measurements(render, SAMPLES[name_of(path)])
+    few, error, seconds, _ = found[max(len(found) - 3, 0)]
+    many, less, more_seconds, mean = found[-1]
     slope = math.log(less / error) / math.log(many / few)
     each = (more_seconds - seconds) / (many - few)
     counts = [many * (wanted / less) ** (1 / slope) for wanted in wanted_errors]
     times = [max(each, more_seconds + each * (count - many)) for count in counts]
-    print(json.dumps({"times": times, "mean": mean, "samples": [round(count) for count in counts], "errors": (error, less),
-                      "slope": slope, "many": many}))
+    print(json.dumps({"times": times, "mean": mean, "samples": [round(count) for count in counts],
+                      "errors": [row[1] for row in found], "slope": slope, "many": many}))
 
 
 # --- the peers alone, for `aureole-bench ask`
@@ -302,9 +323,14 @@ def print_peers(given, folder):
     with open(copy, "w", encoding="utf-8") as file:
         file.write(scene_text(path, width, height, definitions))
     kind = "Mitsuba llvm_ad_rgb, multijitter"  # Cycles took two to six times as long on every scene
-    row, reason = run_child([given.aureole, "--threads", str(given.threads), "--errors", ",".join(map(str, given.errors)), "--few",
-                             "--child", kind, copy])
-    print(f"{kind}: not measured: {reason}" if row is None else f"{kind}|{row['mean']} " + " ".join(map(str, row["times"])), flush=True)
+    row, reason = run_child([given.aureole, "--threads", str(given.threads), "--errors", ",".join(map(str, given.errors)),
+                             "--pixels", str(width * height), "--child", kind, copy])
+    if row is None:
+        print(f"{kind}: not measured: {reason}", flush=True)
+        return
+    errors = ", ".join(f"{100 * error:.3g}" for error in row["errors"])
+    print(f"{kind}: errors of {errors} % up to {row['many']} samples a pixel, as samples^{row['slope']:.2f} at the end")
+    print(f"{kind}|{row['mean']} " + " ".join(map(str, row["times"])), flush=True)
 
 
 # --- equal samples
@@ -387,7 +413,7 @@ def main():
     parser.add_argument("--equal-samples", action="store_true")
     parser.add_argument("--peers", metavar="NAME", choices=sorted(SCENES | BUNDLED))
     parser.add_argument("--size", default="240x160", help="of --peers")
-    parser.add_argument("--few", action="store_true", help="16 and 64 samples on every scene")
+    parser.add_argument("--pixels", type=int, default=0, help="of --peers, to its child")
     parser.add_argument("--errors", type=lambda text: [float(word) for word in text.split(",")], default=list(ERRORS), help="relative ones")
     parser.add_argument("--pairs", type=int, default=5)
     parser.add_argument("--samples", type=int, default=16, help="a pixel, where they are equal; more than 1")
@@ -400,10 +426,8 @@ def main():
     if given.child and given.child[0] == "compiling":
         compiling_child(given, given.child[1])
         return
-    if given.few:
-        SAMPLES.update(dict.fromkeys(SAMPLES, FEW))
     if given.child:
-        child(given.child[0], given.aureole, given.child[1], given.threads, given.errors)
+        child(given.child[0], given.aureole, given.child[1], given.threads, given.errors, given.pixels)
         return
     if given.peers:
         with tempfile.TemporaryDirectory() as folder:
