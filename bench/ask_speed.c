@@ -9,8 +9,9 @@
 #include "quality.h"
 #include "study.h"
 
-/* An attempt that is expected to take longer is not made: the law of the last one tells its seconds. */
-static const double seconds_limit = 60.0;
+/* An attempt that is expected to take longer is not made: the law of the last one tells its seconds. What is
+ * asked for goes further, as much of what a coarse picture takes goes into the choice of the integrator. */
+static const double seconds_limit = 60.0, asking_limit = 600.0;
 
 enum { QUICK_SUBJECTS = 2, FIRST_SAMPLES = 16, COARSEST = 8, STEP = 4 };
 
@@ -48,14 +49,16 @@ static double brought_to(const attempt *last, double error, double wanted, doubl
     return last->seconds * pow(error / wanted, power);
 }
 
-/* Asks for half the error again and again, down to the one that is wanted or the limit. */
+/* Asks for half the error again and again, until the one that is wanted is near enough or the limit is. */
 static bool ask(const bench_study *self, double wanted, attempt *last) {
     if (last->seconds == 0.0)
         last->asked = fmin(2.0 * COARSEST * wanted, 0.5);
     while (last->asked > wanted) {
-        const double next = wanted >= 0.5 * last->asked ? wanted : 0.5 * last->asked;
+        const bool near = wanted >= 0.5 * last->asked ||
+                          (last->seconds > 0.0 && brought_to(last, last->asked, wanted, 2.0) <= asking_limit);
+        const double next = near ? wanted : 0.5 * last->asked;
         if (last->seconds > 0.0 &&
-            (self->options->quick || brought_to(last, last->asked, next, 2.0) > seconds_limit))
+            (self->options->quick || brought_to(last, last->asked, next, 2.0) > asking_limit))
             break;
         bench_outcome found;
         if (!bench_study_measure(self, &(bench_request){.error = next}, 1, 1, &found))

@@ -36,7 +36,7 @@ pictures() {
   done
   box=scenes/cornell-box/glossy.xml
   for keys in weights=oswa weights=osw weights=mis weights=oswa-solve weights=equal adaptive=true adaptive=true,criterion=entropy \
-              share=true pattern=sobol,rotations=0 decorrelation=random decorrelation=none direct=gather direct=none,component=glossy \
+              share=true share=near pattern=sobol,rotations=0 decorrelation=random decorrelation=none direct=gather direct=none,component=glossy \
               component=diffuse incident=emitters bright_samples=4 light_samples=4 clip=false max_depth=3; do
     picture "$box" "$gather,$keys"
   done
