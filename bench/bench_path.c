@@ -43,7 +43,7 @@ static void run_replay(void *context) {
 
 static bool record(path_context *context) {
     context->recorder.count = 0;
-    context->options.integrator = "path:packets=false";
+    context->options.integrator = "path:packets=false,lamp_rays=0";
     bench_record(&context->recorder);
     render(context);
     bench_record(NULL);
@@ -57,7 +57,8 @@ static bool record(path_context *context) {
 
 /* Single paths, and sixteen at a time, against the rays of the single ones. */
 static bool compare(const bench_options *options, path_context *context, const char *name) {
-    static const char *const integrators[] = {"path:packets=false", "path", "path:interleaved=true"};
+    static const char *const integrators[] = {"path:packets=false,lamp_rays=0", "path:lamp_rays=0",
+                                              "path:interleaved=true,lamp_rays=0"};
     static const char *const kinds[] = {"single", "packets", "interleaved"};
     if (!record(context))
         return false;
@@ -97,7 +98,7 @@ static bool run(const bench_options *options) {
     path_context context = {
         .statistics = {.size = sizeof(aur_render_statistics)},
         .options = {.size = sizeof(aur_render_options),
-                    .integrator = "path",
+                    .integrator = "path:lamp_rays=0",
                     .threads = 1,
                     .width = options->quick ? QUICK_WIDTH : WIDTH,
                     .height = options->quick ? QUICK_WIDTH : WIDTH,

@@ -49,12 +49,13 @@ aur_result aur_trial_create(aur_renderer *renderer, const aur_render_options *op
     trial->scratch = calloc(pixels, sizeof *trial->scratch);
     const aur_film_layout *const layout = &aur_render_film(trial->replicas.renders[0])->layout;
     if (shows_lamps(trial->integrator)) {
-        const aur_result found =
-            aur_lamps_find(aur_renderer_scene(renderer), layout, options->seed, &trial->lamps, error);
+        const aur_result found = aur_lamps_find(aur_renderer_scene(renderer), layout, AUR_LAMP_POINTS,
+                                                options->seed, &trial->lamps, error);
         if (found != AUR_OK)
             return found;
         if (number_of_key(trial->integrator, "edges=") > 0)
             aur_lamps_leave_edges(layout, &trial->lamps);
+        aur_lamps_take_looks(layout, aur_render_lamp_looks(trial->replicas.renders[0]), &trial->lamps);
     }
     const bool made = trial->targets != NULL && trial->earlier != NULL && trial->variances != NULL &&
                       trial->measured != NULL && trial->pixels != NULL && trial->spreads != NULL &&

@@ -4,8 +4,8 @@
 
 #include <stdatomic.h>
 
-#include "ask/lamps.h"
 #include "ask/replicas.h"
+#include "transport/lights/lamps.h"
 
 typedef struct aur_trial {
     char *integrator; /* as aur_render_options take it; NULL: the scene's own */

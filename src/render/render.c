@@ -78,6 +78,18 @@ const aur_scene *aur_renderer_scene(const aur_renderer *renderer) {
 
 /* --- preparation */
 
+static aur_integrator_context context_of(const aur_render *render) {
+    const aur_render_options *const s = &render->settings;
+    return (aur_integrator_context){.scene = render->renderer->scene,
+                                    .samples_per_pixel = s->samples_per_pixel,
+                                    .seed = s->seed,
+                                    .threads = s->threads,
+                                    .cache = render->renderer->cache,
+                                    .use_cache = s->use_cache,
+                                    .progress = s->progress,
+                                    .warnings = s->warnings};
+}
+
 /* The integrator that the options or the scene name. */
 static aur_result make_integrator(aur_render *render, aur_error *error) {
     aur_renderer *const renderer = render->renderer;
@@ -88,14 +100,7 @@ static aur_result make_integrator(aur_render *render, aur_error *error) {
                             : aur_parameters_copy(aur_scene_integrator(renderer->scene), &parameters, error);
     if (result != AUR_OK)
         return result;
-    const aur_integrator_context context = {.scene = renderer->scene,
-                                            .samples_per_pixel = s->samples_per_pixel,
-                                            .seed = s->seed,
-                                            .threads = s->threads,
-                                            .cache = renderer->cache,
-                                            .use_cache = s->use_cache,
-                                            .progress = s->progress,
-                                            .warnings = s->warnings};
+    const aur_integrator_context context = context_of(render);
     result = aur_integrator_create(&parameters, &context, &render->integrator, error);
     aur_parameters_release(&parameters);
     return result;
@@ -146,7 +151,10 @@ static aur_result prepare(aur_render *render, aur_error *error) {
                               .seed = s->seed,
                               .pixel_centre = render->integrator->pixel_centre,
                               .has_lens = aur_camera_has_lens(scene)};
-    return AUR_OK;
+    const aur_integrator_context context = context_of(render);
+    return render->integrator->descriptor->look != NULL
+               ? render->integrator->descriptor->look(&render->view, &context, render->integrator, error)
+               : AUR_OK;
 }
 
 /* Of a job of several processes: rank 0's time, and all processors'. */
@@ -189,6 +197,10 @@ void aur_render_destroy(aur_render *render) {
     aur_sampler_destroy(render->sampler);
     free(render->identity);
     free(render);
+}
+
+const uint16_t *aur_render_lamp_looks(const aur_render *render) {
+    return render->integrator->lamp_looks;
 }
 
 /* --- steps */

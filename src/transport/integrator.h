@@ -42,6 +42,9 @@ typedef struct aur_integrator_descriptor {
      * keys are the caller's and are gone afterwards. */
     aur_result (*create)(aur_parameters *parameters, const aur_integrator_context *context,
                          aur_integrator *integrator, aur_error *error);
+    /* Prepares what hangs on the picture's size and on the camera's rays, too; NULL: nothing. */
+    aur_result (*look)(const aur_view *view, const aur_integrator_context *context,
+                       aur_integrator *integrator, aur_error *error);
     /* Frees what integrator->data points to further, if it was prepared; NULL: nothing. */
     void (*release)(aur_integrator *integrator);
     /* Radiance that arrives along the camera ray. */
@@ -62,9 +65,11 @@ struct aur_integrator {
     const aur_integrator_descriptor *descriptor;
     const aur_scene *scene;
     void *data;
-    bool pixel_centre;              /* every camera ray goes through the centre of its pixel */
-    bool whole_tiles;               /* all pixels of a tile have as many samples */
-    size_t extra_count;             /* channels after R, G, B; at most AUR_EXTRA_CHANNELS_MAX */
+    bool pixel_centre; /* every camera ray goes through the centre of its pixel */
+    bool whole_tiles;  /* all pixels of a tile have as many samples */
+    const uint16_t
+        *lamp_looks;    /* of each pixel of the picture: rays of a sample for lamps alone; NULL: none */
+    size_t extra_count; /* channels after R, G, B; at most AUR_EXTRA_CHANNELS_MAX */
     const char *const *extra_names; /* as in the picture's file */
     /* What they show; NULL: means. */
     const aur_channel_kind *extra_kinds;

@@ -6,8 +6,8 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "ask/lamps.h"
 #include "scene/scene_text.h"
+#include "transport/lights/lamps.h"
 #include <aureole/ask.h>
 
 /* A sphere of radius .05 and radiance 1000 at a distance of 10, 45 degrees across 32 pixels: it covers a
@@ -34,7 +34,7 @@ static void tells_the_size_of_a_lamp(void **state) {
     aur_scene *const scene = must_load_body(body);
     const aur_film_layout layout = {.width = SIDE, .height = SIDE, .x1 = SIDE, .y1 = SIDE};
     aur_lamps lamps;
-    assert_int_equal(aur_lamps_find(scene, &layout, 1, &lamps, NULL), AUR_OK);
+    assert_int_equal(aur_lamps_find(scene, &layout, AUR_LAMP_POINTS, 1, &lamps, NULL), AUR_OK);
     size_t most = 0;
     for (size_t i = 0; i < SIDE * SIDE; ++i)
         most = lamps.variance[i] > lamps.variance[most] ? i : most;

@@ -4,8 +4,8 @@
 set -euo pipefail
 aureole=$1
 scene=$2/scenes/cornell-box/cornell-box.xml
-small=(--width 48 --height 32)
-larger=(--width 96 --height 72)
+small=(--width 48 --height 32 --filter box)
+larger=(--width 96 --height 72 --filter box)
 fail() { echo "$*" >&2; exit 1; }
 
 # The error that is said is not above the one that was asked, and the last line names the picture.
@@ -44,7 +44,7 @@ again() { # OPTION...
   local command
   command=$(sed -n 's/^aureole: the same picture again: //p' said)
   [ -n "$command" ] || fail "no command that makes '$*' again: $(cat said)"
-  eval "\"\$aureole\" render \"\$scene\" --width $2 --height $4 $command -o d.exr -t 3" 2> repeated
+  eval "\"\$aureole\" render \"\$scene\" --width $2 --height $4 --filter box $command -o d.exr -t 3" 2> repeated
   cmp c.exr d.exr || fail "$command makes another picture than $*"
   [ "$(sed -n 's/^aureole: the same picture again: //p' repeated)" = "$command" ] ||
     fail "$command says another command: $(cat repeated)"

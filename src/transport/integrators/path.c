@@ -17,6 +17,9 @@ static const aur_key keys[] = {
                         "sixteen pixels in lockstep, else one path at a time: the same picture")},
     {AUR_KEY_OF_BOOLEAN(aur_path, "interleaved", interleaved, "false",
                         "the pixels of a packet share the random numbers of all but their camera rays")},
+    {AUR_KEY_OF_REAL(aur_path, "lamp_rays", lamp_rays, 0.0, 64.0, "0.5",
+                     "camera rays that a sample has more in the picture's mean, where lamps have edges: they "
+                     "tell how much of a lamp a pixel sees")},
 };
 
 static aur_result create(aur_parameters *parameters, const aur_integrator_context *context,
@@ -33,21 +36,37 @@ static aur_result create(aur_parameters *parameters, const aur_integrator_contex
     return aur_path_prepare(data, context->scene, error);
 }
 
+/* A filter with negative parts weighs a sample's rays differently; hidden lamps are not looked at. */
+static aur_result look(const aur_view *view, const aur_integrator_context *context,
+                       aur_integrator *integrator, aur_error *error) {
+    aur_path *const data = integrator->data;
+    if (data->lamp_rays == 0.0 || data->hide_emitters || aur_filter_weight(view->filter, 0.0f) != 1.0f)
+        return AUR_OK;
+    const aur_result result = aur_lamp_looks_find(view, data->lamp_rays, context, &data->looks, error);
+    integrator->lamp_looks = data->looks != NULL ? data->looks->counts : NULL;
+    return result;
+}
+
 static void release(aur_integrator *integrator) {
     free(((aur_path *)integrator->data)->classes);
 }
 
 static aur_vector radiance(const aur_integrator *integrator, const aur_camera_sample *sample,
                            aur_counters *counters) {
-    return aur_path_radiance(integrator->data, integrator->scene, sample, counters);
+    return aur_path_radiance(integrator->data, integrator->scene, sample, NULL, counters);
 }
 
 static aur_result tile(const aur_integrator *integrator, aur_tile *tile) {
     const aur_path *const data = integrator->data;
-    if (data->packets && !data->hide_emitters)
+    if (data->packets && !data->hide_emitters) {
         aur_path_add_tile(data, integrator->scene, tile);
-    else
-        aur_integrator_add_samples(integrator, tile);
+        return AUR_OK;
+    }
+    for (size_t y = tile->y0; y < tile->y1; ++y)
+        for (size_t x = tile->x0; x < tile->x1; ++x)
+            for (uint32_t i = tile->first; i < tile->first + tile->count; ++i)
+                if (aur_tile_wants(tile, x, y, i))
+                    aur_path_add_sample(data, integrator->scene, x, y, i, tile);
     return AUR_OK;
 }
 
@@ -58,6 +77,7 @@ const aur_integrator_descriptor aur_integrator_path = {
             AUR_ROW_KEYS(keys)},
     .size = sizeof(aur_path),
     .create = create,
+    .look = look,
     .release = release,
     .radiance = radiance,
     .tile = tile,

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "transport/integrator.h"
+#include "transport/lights/looks.h"
 #include "transport/packets/shape_class.h"
 #include "transport/paths/path_lanes.h"
 
@@ -13,9 +14,11 @@ typedef struct aur_path {
     bool strict_normals; /* of no effect */
     bool packets;        /* 16 pixels in lockstep */
     bool interleaved;    /* which share their numbers but for the camera's */
-    bool panes; /* rays to lights go straight through surfaces that let them; of aur_path_group alone */
+    bool panes;       /* rays to lights go straight through surfaces that let them; of aur_path_group alone */
+    double lamp_rays; /* rays for lamps alone that a sample has more, in the picture's mean */
     const aur_path_kernels *kernels;
-    aur_shape_class *classes; /* one a shape */
+    aur_shape_class *classes;    /* one a shape */
+    const aur_lamp_looks *looks; /* NULL: the camera's own rays tell what lamps they meet */
 } aur_path;
 
 /* Dimension pairs of one bounce: (light choice, roulette), light position, (lobe choice, unused), direction.
@@ -33,8 +36,11 @@ static inline float aur_path_survival(aur_vector throughput) {
 }
 
 aur_result aur_path_prepare(aur_path *data, const aur_scene *scene, aur_error *error);
-/* Radiance along one camera ray. */
+/* Radiance along one camera ray. `seen`: what of it lights send straight, where that is known; or NULL. */
 aur_vector aur_path_radiance(const aur_path *data, const aur_scene *scene, const aur_camera_sample *sample,
-                             aur_counters *counters);
+                             const aur_vector *seen, aur_counters *counters);
+/* Adds sample `index` of a pixel of the tile by itself. */
+void aur_path_add_sample(const aur_path *data, const aur_scene *scene, size_t x, size_t y, uint32_t index,
+                         aur_tile *tile);
 /* Adds the samples of a tile, sixteen pixels at a time. */
 void aur_path_add_tile(const aur_path *data, const aur_scene *scene, aur_tile *tile);

@@ -137,7 +137,8 @@ static void set_surfaces(aur_path_group *g, uint32_t lanes) {
         const aur_ray ray = aur_packet_ray(&g->packet, k);
         const aur_hit hit = aur_packet_hit(g->scene, &g->packet, k);
         aur_scene_surface(g->scene, &ray, &hit, &g->surfaces[k]);
-        add_emission(g, k, &g->surfaces[k], aur_vector_scale(ray.direction, -1.0f));
+        if (!aur_has_lane(g->told, k))
+            add_emission(g, k, &g->surfaces[k], aur_vector_scale(ray.direction, -1.0f));
     }
 }
 
@@ -373,12 +374,13 @@ static bool are_parallel(const aur_path_group *g) {
 void aur_path_group_meet(aur_path_group *g, uint32_t depth) {
     const uint32_t found = trace(g, depth == 1 || g->coherent);
     if (g->has_sky)
-        add_sky(g, g->alive & ~found);
+        add_sky(g, g->alive & ~found & ~g->told);
     g->alive &= found;
     g->plain = plain_lanes(g, g->alive);
     if (g->plain != 0)
         g->data->kernels->surface(&g->lanes, &g->packet);
     set_surfaces(g, g->alive & ~g->plain);
+    g->told = 0;
 }
 
 void aur_path_group_scatter(aur_path_group *g, uint32_t depth) {

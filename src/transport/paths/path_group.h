@@ -20,6 +20,7 @@ typedef struct aur_path_group {
     uint32_t alive;    /* a bit a lane, as in all masks */
     uint32_t specular; /* lanes whose ray no light sample could have found */
     uint32_t plain;    /* lanes whose surface the kernels can do */
+    uint32_t told;     /* lanes whose sums have the light already that their first rays meet */
     /* By emitter, those that are below 0 shine on straight lanes that meet them, as all do where this is
      * NULL: the light of the others is known. */
     const float *known;

@@ -71,9 +71,12 @@ static bool scatter(const aur_path *data, const aur_scene *scene, const aur_surf
 }
 
 aur_vector aur_path_radiance(const aur_path *data, const aur_scene *scene, const aur_camera_sample *sample,
-                             aur_counters *counters) {
+                             const aur_vector *seen, aur_counters *counters) {
     /* Light sampling cannot hit the camera either. */
-    aur_path_walk walk = {.throughput = {1.0f, 1.0f, 1.0f}, .ray = sample->ray, .specular = true};
+    aur_path_walk walk = {.sum = seen != NULL ? *seen : (aur_vector){0},
+                          .throughput = {1.0f, 1.0f, 1.0f},
+                          .ray = sample->ray,
+                          .specular = true};
     float ahead[AUR_STREAM_BLOCK][2];
     for (uint32_t depth = 1; depth <= data->max_depth; ++depth) {
         /* Before the ray, so that the processor works at both. */
@@ -82,16 +85,27 @@ aur_vector aur_path_radiance(const aur_path *data, const aur_scene *scene, const
         const float(*const pairs)[2] = depth == 1 ? &sample->first_pairs[AUR_PAIR_FIRST]
                                                   : (const float(*)[2]) & ahead[depth % 2 * AUR_PATH_PAIRS];
         aur_surface surface;
-        const bool hide = data->hide_emitters && depth == 1;
+        const bool hide = data->hide_emitters && depth == 1, told = seen != NULL && depth == 1;
         if (!aur_visible_surface(scene, hide, &walk.ray, &surface, counters)) {
-            if (!hide)
+            if (!hide && !told)
                 add_sky(scene, &walk);
             break;
         }
         const aur_vector view = aur_vector_scale(walk.ray.direction, -1.0f);
-        add_emission(scene, &surface, view, &walk);
+        if (!told)
+            add_emission(scene, &surface, view, &walk);
         if (depth == data->max_depth || !scatter(data, scene, &surface, view, depth, pairs, &walk, counters))
             break;
     }
     return walk.sum;
+}
+
+void aur_path_add_sample(const aur_path *data, const aur_scene *scene, size_t x, size_t y, uint32_t index,
+                         aur_tile *tile) {
+    aur_camera_sample sample;
+    aur_vector seen;
+    const float weight = aur_view_sample(tile->view, x, y, index, &sample);
+    const bool told = aur_lamp_look(data->looks, tile->view, x, y, index, &seen, &tile->counters);
+    aur_tile_add(tile, x, y, weight,
+                 aur_path_radiance(data, scene, &sample, told ? &seen : NULL, &tile->counters));
 }

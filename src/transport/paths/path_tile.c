@@ -6,6 +6,19 @@
 #include "transport/packets/interleave.h"
 #include "transport/paths/path_group.h"
 
+/* Looks for lamps in those of `lanes` that have rays for them alone. */
+static void look(aur_path_group *g, const aur_view *view, const size_t *x, const size_t *y, uint32_t lanes) {
+    g->told = 0;
+    for (uint32_t rest = g->data->looks != NULL ? lanes : 0; rest != 0; rest &= rest - 1) {
+        const size_t k = aur_first_lane(rest);
+        aur_vector seen;
+        if (!aur_lamp_look(g->data->looks, view, x[k], y[k], g->index, &seen, g->counters))
+            continue;
+        g->told |= 1u << k;
+        aur_lane_set(&g->lanes.sum, k, seen);
+    }
+}
+
 /* Begins sample g->index of the pixels of `lanes`; `weights` are those of the samples. */
 static void begin(aur_path_group *g, const aur_view *view, const size_t *x, const size_t *y, uint32_t lanes,
                   float *weights) {
@@ -17,6 +30,7 @@ static void begin(aur_path_group *g, const aur_view *view, const size_t *x, cons
         aur_lane_set(&g->lanes.throughput, k, (aur_vector){1.0f, 1.0f, 1.0f});
         aur_lane_set(&g->lanes.sum, k, (aur_vector){0});
     }
+    look(g, view, x, y, lanes);
     g->alive = lanes;
     g->specular = UINT16_MAX; /* light sampling cannot hit the camera either */
 }
@@ -55,12 +69,6 @@ static void add_group(aur_path_group *g, uint32_t number, aur_tile *tile) {
     }
 }
 
-static void add_alone(const aur_path_group *g, aur_tile *tile, size_t x, size_t y) {
-    aur_camera_sample sample;
-    const float weight = aur_view_sample(tile->view, x, y, g->index, &sample);
-    aur_tile_add(tile, x, y, weight, aur_path_radiance(g->data, g->scene, &sample, g->counters));
-}
-
 /* The samples of a tile whose pixels want different ones: packets are filled with whichever pixels want the
  * same. */
 static void add_wanted(aur_path_group *g, aur_tile *tile) {
@@ -83,7 +91,7 @@ static void add_wanted(aur_path_group *g, aur_tile *tile) {
         if (count > FEW)
             add_lanes(g, tile, x, y, rest, rest);
         for (size_t k = 0; k < count && count <= FEW; ++k)
-            add_alone(g, tile, x[k], y[k]);
+            aur_path_add_sample(g->data, g->scene, x[k], y[k], g->index, tile);
     }
 }
 

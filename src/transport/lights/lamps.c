@@ -1,4 +1,4 @@
-#include "ask/lamps.h"
+#include "transport/lights/lamps.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -6,9 +6,9 @@
 #include "core/error.h"
 #include "core/random.h"
 
-/* Points on all lamps together, which are drawn in proportion to power; and times that a lamp is to be met
- * before what replicas say of a pixel is believed: at eight a count varies by a third. */
-enum { POINTS = 4096, ENOUGH = 8 };
+/* Times that a lamp is to be met before what replicas say of a pixel is believed: at eight a count varies by
+ * a third. */
+enum { ENOUGH = 8 };
 
 static float number(uint64_t seed, size_t point, uint64_t dimension) {
     return (float)(aur_hash3(seed, point, dimension) >> 40) * 0x1p-24f;
@@ -20,10 +20,9 @@ typedef struct seen_point {
     aur_film_point film;
 } seen_point;
 
-static bool draw(const aur_scene *scene, const aur_film_layout *layout, uint64_t seed, size_t i,
+static bool draw(const aur_scene *scene, const aur_film_layout *layout, uint64_t seed, size_t i, float choice,
                  seen_point *point) {
-    const float u[3] = {((float)i + number(seed, i, 0)) / (float)POINTS, number(seed, i, 1),
-                        number(seed, i, 2)};
+    const float u[3] = {choice, number(seed, i, 1), number(seed, i, 2)};
     const aur_vector camera = aur_camera_position(scene);
     const aur_light_reference reference = {.position = camera};
     aur_light_sample *const light = &point->light;
@@ -38,7 +37,7 @@ static bool draw(const aur_scene *scene, const aur_film_layout *layout, uint64_t
     return !aur_scene_occluded(scene, &ray);
 }
 
-aur_result aur_lamps_find(const aur_scene *scene, const aur_film_layout *layout, uint64_t seed,
+aur_result aur_lamps_find(const aur_scene *scene, const aur_film_layout *layout, size_t points, uint64_t seed,
                           aur_lamps *lamps, aur_error *error) {
     const size_t width = layout->x1 - layout->x0, pixels = width * (layout->y1 - layout->y0);
     *lamps = (aur_lamps){0};
@@ -51,12 +50,15 @@ aur_result aur_lamps_find(const aur_scene *scene, const aur_film_layout *layout,
         free(means);
         return aur_fail_memory(error);
     }
-    for (size_t i = 0; i < POINTS; ++i) {
+    const uint64_t own = aur_hash2(UINT64_C(0x6c616d7073), seed);
+    for (size_t i = 0; i < points; ++i) {
         seen_point point;
-        if (!draw(scene, layout, aur_hash2(UINT64_C(0x6c616d7073), seed), i, &point))
+        const float choice = ((float)i + number(own, i, 0)) / (float)points;
+        if (!draw(scene, layout, own, i, aur_smaller(choice, 1.0f - 0x1p-24f), &point))
             continue;
         const size_t pixel = ((size_t)point.film.y - layout->y0) * width + (size_t)point.film.x - layout->x0;
-        const double weight = 1.0 / ((double)point.light.pdf * (double)point.film.solid_angle * POINTS);
+        const double weight =
+            1.0 / ((double)point.light.pdf * (double)point.film.solid_angle * (double)points);
         double radiance[3];
         aur_vector_to_doubles(point.light.radiance, radiance);
         lamps->share[pixel] += weight;
@@ -92,6 +94,18 @@ void aur_lamps_leave_edges(const aur_film_layout *layout, aur_lamps *lamps) {
     for (size_t i = 0; i < width * height; ++i)
         if (share_beside(lamps, width, height, i) >= 0.5)
             lamps->variance[i] = 0.0;
+}
+
+void aur_lamps_take_looks(const aur_film_layout *layout, const uint16_t *looks, aur_lamps *lamps) {
+    const size_t width = layout->x1 - layout->x0, height = layout->y1 - layout->y0;
+    if (lamps->share == NULL || looks == NULL)
+        return;
+    for (size_t i = 0; i < width * height; ++i) {
+        const size_t x = layout->x0 + i % width, y = layout->y0 + i / width;
+        const double count = fmax(looks[y * layout->width + x], 1.0);
+        lamps->share[i] *= count;
+        lamps->variance[i] /= count;
+    }
 }
 
 void aur_lamps_release(aur_lamps *lamps) {

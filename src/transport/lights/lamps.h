@@ -7,13 +7,18 @@
 
 /* Of one sample of a pixel, uniform in it: [pixels of the film] each. NULL where the camera is no pinhole. */
 typedef struct aur_lamps {
-    double *share;    /* the chance that it meets a lamp */
+    double *share;    /* how often it is expected to meet a lamp */
     double *variance; /* what that alone makes of its variance, summed over R, G and B */
 } aur_lamps;
 
-/* To be released in every case. Errors: MEMORY. */
-aur_result aur_lamps_find(const aur_scene *scene, const aur_film_layout *layout, uint64_t seed,
+/* From so many points on all lamps together, drawn in proportion to power. To be released in every case.
+ * Errors: MEMORY. */
+enum { AUR_LAMP_POINTS = 4096 }; /* where a fiftieth of the power is to be known to a tenth */
+aur_result aur_lamps_find(const aur_scene *scene, const aur_film_layout *layout, size_t points, uint64_t seed,
                           aur_lamps *lamps, aur_error *error);
+/* Where a sample of a pixel has several rays for lamps (looks.h), of all pixels of the picture; NULL: none.
+ */
+void aur_lamps_take_looks(const aur_film_layout *layout, const uint16_t *looks, aur_lamps *lamps);
 /* Leaves out pixels beside one that is covered by half at least: an integrator that looks again where
  * neighbours see a lamp's edge (`edges` of final gathering) finds the lamp there by itself. */
 void aur_lamps_leave_edges(const aur_film_layout *layout, aur_lamps *lamps);
