@@ -11,11 +11,12 @@ const bench_recipe bench_recipes[] = {
      "true,short_rays=0"},
     {"cornell-box", 0.0015, -1.0, 64, "finalgather:photons=2000000,diffuse_samples=1024,edges=4096"},
     {"heavy-box", 0.005, 0.0, 8, "finalgather:photons=50000,diffuse_samples=24,edges=256,share=true"},
-    {"glossy-box", 0.02, 0.0, 8,
-     "finalgather:photons=100000,photons_per_texel=32,diffuse_samples=16,glossy_samples=8,edges=1024,share="
-     "true"},
-    {"glossy-box", 0.005, 0.0, 192,
-     "finalgather:photons=4000000,diffuse_samples=768,glossy_samples=192,edges=8192,share=true"},
+    {"glossy-box", 0.02, 0.0, 4,
+     "finalgather:photons=50000,photons_per_texel=32,diffuse_samples=8,glossy_samples=4,edges=512,"
+     "light_samples=4,share=true,short_rays=0"},
+    {"glossy-box", 0.005, 0.0, 104,
+     "finalgather:photons=3000000,diffuse_samples=208,glossy_samples=104,edges=6656,light_samples=6,share="
+     "true,short_rays=0"},
     {"room", 0.02, 0.0, 128,
      "finalgather:photons=8000000,diffuse_samples=256,glossy_samples=128,edges=1024,bright_samples=256,"
      "light_samples=8,share=true"},

@@ -37,7 +37,8 @@ const size_t bench_subject_count = sizeof bench_subjects / sizeof bench_subjects
 
 /* --- pictures */
 
-/* By our program as a process. Where no integrator is told, to the error. */
+/* By our program as a process, which finds no photon maps of earlier runs. Where no integrator is told, to
+ * the error. */
 static bool render(const bench_study *self, const bench_request *request, size_t seed, size_t threads,
                    const char *output, bench_child_cost *cost) {
     char numbers[6][32];
@@ -47,10 +48,10 @@ static bool render(const bench_study *self, const bench_request *request, size_t
     snprintf(numbers[3], sizeof numbers[3], "%zu", seed);
     snprintf(numbers[4], sizeof numbers[4], "%zu", threads);
     snprintf(numbers[5], sizeof numbers[5], "%.9g", request->error);
-    const char *words[WORDS] = {"render",   self->scene, "-q",       "--filter", "box",
-                                "--seed",   numbers[3],  "-t",       numbers[4], "-D",
-                                numbers[0], "-D",        numbers[1], "-o",       output};
-    size_t count = 15;
+    const char *words[WORDS] = {"render", self->scene, "-q", "--no-cache", "--filter", "box",
+                                "--seed", numbers[3],  "-t", numbers[4],   "-D",       numbers[0],
+                                "-D",     numbers[1],  "-o", output};
+    size_t count = 16;
     if (self->subject->definition != NULL) {
         words[count++] = "-D";
         words[count++] = self->subject->definition;
