@@ -1,6 +1,7 @@
 #include "ask/trial.h"
 
 #include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -25,10 +26,30 @@ static size_t number_of_key(const char *integrator, const char *key) {
     return found != NULL ? strtoul(found + strlen(key), NULL, 10) : 0;
 }
 
+/* What a trial of `integrator` renders by: paths without rays for lamps alone, unless they are asked for. The
+ * noise of lamps seen straight is what keeps rounds going until rare reflections of lamps are met, too. A new
+ * text, or NULL where memory is short. */
+static char *rendered_by(const char *integrator) {
+    static const char name[] = "path", key[] = "lamp_rays=";
+    const size_t length = sizeof name - 1;
+    const bool is_path = strncmp(integrator, name, length) == 0 &&
+                         (integrator[length] == ':' || integrator[length] == '\0') &&
+                         strstr(integrator, key) == NULL;
+    const size_t capacity = strlen(integrator) + sizeof key + 2;
+    char *const text = malloc(capacity);
+    if (text != NULL)
+        snprintf(text, capacity, "%s%s%s", integrator, is_path ? strchr(integrator, ':') ? "," : ":" : "",
+                 is_path ? "lamp_rays=0" : "");
+    return text;
+}
+
 aur_result aur_trial_create(aur_renderer *renderer, const aur_render_options *options, size_t replica_count,
                             aur_trial *trial, aur_error *error) {
     aur_render_options own = *options;
-    own.integrator = trial->integrator;
+    char *const integrator = trial->integrator != NULL ? rendered_by(trial->integrator) : NULL;
+    if (trial->integrator != NULL && integrator == NULL)
+        return aur_fail_memory(error);
+    own.integrator = integrator;
     own.samples_per_pixel = AUR_SAMPLES_PER_PIXEL_MAX;
     trial->interval = (aur_error_interval){.estimate = INFINITY, .high = INFINITY};
     trial->bound = INFINITY;
@@ -36,6 +57,7 @@ aur_result aur_trial_create(aur_renderer *renderer, const aur_render_options *op
     trial->pattern_samples = number_of_key(trial->integrator, "split=");
     trial->pattern_samples += trial->pattern_samples == 0;
     const aur_result result = aur_replicas_create(renderer, &own, replica_count, &trial->replicas, error);
+    free(integrator);
     if (result != AUR_OK)
         return result;
     const size_t pixels = trial->replicas.pixel_count;
