@@ -41,14 +41,14 @@ static aur_result check_wish(aur_ask_options *wish, aur_error *error) {
 
 /* Of all rays on the way to an error, those that are spent, where `part` of a step is done. */
 static double share_of_error(const aur_ask *ask, const aur_trial *trial, double part) {
-    const aur_choice *const choice = ask->choice;
-    const double others = choice != NULL ? aur_choice_rival_rays(choice) : (double)ask->others.rays;
-    const double part_left = choice != NULL ? aur_choice_part_left(choice) : 1.0;
+    if (ask->choice != NULL)
+        return aur_choice_part_done(ask->choice);
+    const double others = (double)ask->others.rays;
     const double before = trial->begun ? trial->before : trial->samples;
     const double now = before + (trial->begun ? part * (trial->samples - before) : 0.0);
     if (!(before > 0.0 && trial->whole > 0.0))
         return 0.0;
-    const double rays = aur_trial_rays(trial), left = rays * fmax(trial->whole / now - 1.0, 0.0) * part_left;
+    const double rays = aur_trial_rays(trial), left = rays * fmax(trial->whole / now - 1.0, 0.0);
     return (rays + others) / fmax(rays + others + left, 1.0);
 }
 

@@ -17,3 +17,11 @@ typedef struct aur_bias {
  * their bias differs too makes the interval a little too wide. */
 aur_bias aur_replicas_bias(const aur_replicas *biased, const aur_replicas *unbiased, double mean,
                            double confidence);
+
+/* The bias of light that neighbouring pixels share, from replicas whose channels after R, G and B are what
+ * sharing adds to them (finalgather's share=near); 0 of those that have none. */
+aur_bias aur_replicas_sharing_bias(const aur_replicas *replicas, double mean, double confidence);
+
+/* Of two biases that add up pixel by pixel, by the triangle inequality. The estimate takes them for
+ * independent. */
+aur_bias aur_bias_of_both(aur_bias a, aur_bias b);

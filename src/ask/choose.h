@@ -24,10 +24,12 @@ typedef struct aur_choice {
     double seconds, confidence;
     size_t replica_count;
     const atomic_bool *cancelled;
-    aur_trial trial;        /* path tracing before, the one to go on with after; the caller releases it */
-    aur_gather_size gather; /* where that is final gathering; else 0 */
-    aur_bias bias;          /* of the trial's integrator; 0 of path tracing */
+    aur_trial trial; /* path tracing, unless it is not begun, before; the one to go on with after; the caller
+                        releases it */
+    aur_gather_size gather;          /* where that is final gathering; else 0 */
+    aur_bias bias;                   /* of the trial's integrator; 0 of path tracing */
     aur_render_statistics others;    /* what the trials cost that are not gone on with */
+    double rays;                     /* that the picture is thought to take; 0: nobody knows yet */
     const struct aur_rivals *rivals; /* while they are tried; else NULL */
 } aur_choice;
 
@@ -36,10 +38,8 @@ static inline uint64_t aur_ask_photon_seed(uint64_t seed) {
     return (seed & UINT32_MAX) + 1;
 }
 
-/* While it is made, for progress: rays of what is tried beside path tracing, and the part of path tracing's
- * rest that is thought to be left to do. */
-double aur_choice_rival_rays(const aur_choice *choice);
-double aur_choice_part_left(const aur_choice *choice);
+/* While it is made, for progress: the part of all rays that is spent, as far as it is known. */
+double aur_choice_part_done(const aur_choice *choice);
 
 /* Final gathering in place of "path[:max_depth=D]", with the same max_depth. A new text, or NULL where memory
  * is short. */

@@ -14,22 +14,33 @@
 static const double BIAS_PART = 0.6;
 /* Final gathering is worth it at this part of path tracing's rays, all that it takes to know together: what
  * its rays cost differs by scene (in two boxes as much and half as much again as those of paths, in the room
- * nearly three times as much), and a guess from few pixels may be wrong. The part of final
- * gathering's rays that is spent on its photon map. Both are chosen: they cost time, never truth. */
-static const double WORTH = 0.6, MAP_PART = 0.05;
+ * nearly three times as much, where it was twice as slow as path tracing with .6), and a guess from few
+ * pixels may be wrong. The part of final gathering's rays that is spent on its photon map. Both are chosen:
+ * they cost time, never truth. */
+static const double WORTH = 0.45, MAP_PART = 0.1;
 /* Of path tracing's rays, what the pilot's map may cost: final gathering is not looked at in small pictures.
  */
 static const double PILOT_PART = 0.01;
 /* Tracing and sorting a photon takes the time of so many rays of path tracing: 2.4 in the Cornell box by
  * `render --stats`. Other scenes were not measured: a wrong ratio costs time, never truth. */
 static const double RAYS_A_PHOTON = 2.5;
+/* What sharing adds is thought to be known, from the first pattern, to be under this part of its noise: .16
+ * to .26 in the public Cornell box. A first pattern that does not do costs another one: noise is planned to
+ * be a little less. */
+static const double SHARING = 0.2, PLAN_MARGIN = 0.92;
+/* A ray that goes on as a path takes so much more time than one of final gathering. */
+static const double DIFFERENCE_PRICE = 1.7;
 enum { MOST_PHOTONS = 2000000, LEAST_PHOTONS = 15000 };
-/* Samples of a pixel that share a pattern's directions out. The bias is looked for with few of these, for
- * each goes on as a path. */
+/* A pattern of few directions is a single sample's, so that each replica can be a coarse picture, and shared
+ * with the neighbouring pixels. One of many is shared out among so many samples of a pixel, and not shared
+ * with others: what is wrong in the map is alike in neighbours, and sharing would leave little but that. On
+ * the public Cornell box to 1.7 % means over 8 x 8 pixels had 1.6 to 1.9 times what independent errors leave,
+ * and it took as long. The bias is looked for with few directions, for each goes on as a path. */
 enum {
     PATTERN_SAMPLES = 4,
-    LEAST_DIRECTIONS = 8,
-    PILOT_DIRECTIONS = 16,
+    SINGLE_DIRECTIONS = 16,
+    LEAST_DIRECTIONS = 2,
+    PILOT_DIRECTIONS = 4,
     MOST_DIRECTIONS = 1024,
     DIFFERENCE_DIRECTIONS = 8
 };
@@ -50,34 +61,44 @@ static aur_result render_evenly(const aur_choice *choice, aur_trial *trial, uint
 }
 
 /* The next round, as whoever goes on with the trial would plan it. False where no pixel can have more. */
-static aur_result render_round(const aur_choice *choice, aur_trial *trial, bool *more, aur_error *error) {
-    aur_trial_look_ahead(trial, &choice->goal);
-    *more = aur_trial_plan(trial, trial->rounds > 0 ? aur_trial_factor(trial, &choice->goal) : 1.0);
+static aur_result render_round(const aur_choice *choice, const aur_goal *goal, aur_trial *trial, bool *more,
+                               aur_error *error) {
+    aur_trial_look_ahead(trial, goal);
+    *more = aur_trial_plan(trial, trial->rounds > 0 ? aur_trial_factor(trial, goal) : 1.0);
     return *more ? aur_trial_render(trial, choice->confidence, choice->cancelled, error) : AUR_OK;
 }
 
-/* The part of the rays or of the time that is spent. */
-static double part_spent(const aur_choice *choice, const aur_trial *trial) {
+/* What is compared, in few pixels but for the last; and what final gathering's photon map is wrong by. The
+ * trial of path tracing is the picture's own where that is small. */
+typedef struct aur_rivals {
+    aur_trial path, pilot, difference, gather;
+    double pixels; /* of the picture, over those of the few */
+} aur_rivals;
+
+/* The part of the rays or of the time that path tracing of the whole picture would have spent. */
+static double part_spent(const aur_choice *choice, const aur_trial *path, double pixels) {
     aur_render_statistics spent;
-    aur_trial_spent(trial, &spent);
+    aur_trial_spent(path, &spent);
     const double rays = choice->goal.rays > 0 ? (double)spent.rays / (double)choice->goal.rays : 0.0;
     const double seconds =
         choice->seconds > 0.0 ? (spent.prepare_seconds + spent.render_seconds) / choice->seconds : 0.0;
-    return fmax(rays, seconds);
+    return pixels * fmax(rays, seconds);
 }
 
 /* Path tracing until it has come so far that its error at the end can be told, which is that asked, or the
  * one when rays or time will be spent. */
-static aur_result render_path(aur_choice *choice, double *wanted, aur_error *error) {
-    aur_trial *const path = &choice->trial;
+static aur_result render_path(const aur_choice *choice, aur_trial *path, double pixels, double *wanted,
+                              aur_error *error) {
+    aur_goal goal = choice->goal;
+    goal.rays = (uint64_t)ceil((double)goal.rays / pixels);
     aur_result result = AUR_OK;
     double left = 0.0;
     for (bool more = true; result == AUR_OK && more;) {
-        const double spent = part_spent(choice, path);
-        left = fmax(choice->goal.error, path->bound * sqrt(spent));
+        const double spent = part_spent(choice, path, pixels);
+        left = fmax(goal.error, path->bound * sqrt(spent));
         if (path->rounds > 1 && path->bound <= AUR_PILOT_ERROR * left)
             break;
-        result = render_round(choice, path, &more, error);
+        result = render_round(choice, &goal, path, &more, error);
         more = more && !aur_trial_is_black(path);
     }
     *wanted = left;
@@ -95,38 +116,54 @@ static size_t photons_for(double rays) {
 }
 
 /* Final gathering in place of path tracing, with its keys and more (",key=value"). NULL: memory is short. */
-static char *gather_instead(const char *path, aur_gather_size size, const char *more) {
+static char *gather_instead(const char *path, size_t samples, aur_gather_size size, const char *more) {
     enum { CAPACITY = 256 }; /* six numbers and the keys' names */
     const char *const keys = strchr(path, ':');
-    const size_t lights = size.directions > 16 ? size.directions / 16 : 1;
+    const size_t lights = size.directions / (4 * samples);
     const size_t capacity = CAPACITY + strlen(more) + (keys != NULL ? strlen(keys) : 0);
     char *const text = malloc(capacity);
     if (text != NULL)
         snprintf(text, capacity,
-                 "finalgather:split=%d,diffuse_samples=%zu,glossy_samples=%zu,light_samples=%zu,"
+                 "finalgather:split=%zu,diffuse_samples=%zu,glossy_samples=%zu,light_samples=%zu,"
                  "short_rays=4,photons=%zu,photon_seed=%" PRIu64 "%s%s%s",
-                 PATTERN_SAMPLES, size.directions, size.directions, lights, size.photons, size.seed, more,
-                 keys != NULL ? "," : "", keys != NULL ? keys + 1 : "");
+                 samples, size.directions, size.directions, lights + (lights == 0), size.photons, size.seed,
+                 more, keys != NULL ? "," : "", keys != NULL ? keys + 1 : "");
     return text;
 }
 
-char *aur_ask_gather(const char *path, aur_gather_size size) {
-    char edges[40]; /* a number and the key's name */
-    snprintf(edges, sizeof edges, ",edges=%zu", 4 * size.directions);
-    return gather_instead(path, size, edges);
+static bool is_single(size_t directions) {
+    return directions <= SINGLE_DIRECTIONS;
 }
 
-/* What is compared with path tracing, what it would be in few pixels, and what its photon map is wrong by. */
-typedef struct aur_rivals {
-    aur_trial gather, pilot, difference;
-} aur_rivals;
+/* Found by trial in the public Cornell box: with half of them edges have most of the error, with twice as
+ * many the rays. Where nothing is shared half of them do. */
+static size_t edges_of(size_t directions) {
+    return (is_single(directions) ? 8 : 4) * directions;
+}
+
+char *aur_ask_gather(const char *path, aur_gather_size size) {
+    const bool single = is_single(size.directions);
+    char more[64]; /* a number and the keys */
+    snprintf(more, sizeof more, ",edges=%zu%s", edges_of(size.directions), single ? ",share=near" : "");
+    return gather_instead(path, single ? 1 : PATTERN_SAMPLES, size, more);
+}
+
+/* The directions of a pattern in place of those that would do where neighbours share theirs. A pattern that
+ * is not shared takes more: in the public Cornell box to 1.7 % 84 in place of 52. */
+static size_t pattern_size(double directions) {
+    const double more = 1.6;
+    if (directions <= SINGLE_DIRECTIONS)
+        return (size_t)ceil(directions);
+    return PATTERN_SAMPLES * (size_t)ceil(more * directions / PATTERN_SAMPLES);
+}
 
 /* Directions of a pattern by which the replicas are thought to come to the noise without another one, from
- * the lower end of the pilot's error, whose coarse pixels see more edges. The square of a pattern's error
- * falls nearly as directions^-1.4 in the public Cornell box (12 to 80). Where that is wrong, rounds go on
- * with more patterns, or the first one has more directions than it needs: it costs time, never truth. */
+ * between the lower end of the pilot's error and its middle, as coarse pixels see more edges. The square of a
+ * pattern's error falls nearly as directions^-1.4 in the public Cornell box (12 to 80). Where that is wrong,
+ * rounds go on with more patterns, or the first one has more directions than it needs: it costs time, never
+ * truth. */
 static double directions_to(const aur_trial *pilot, double noise) {
-    const double part = pilot->interval.low / noise;
+    const double part = sqrt(pilot->interval.low * pilot->interval.estimate) / noise;
     return fmin(fmax(PILOT_DIRECTIONS * pow(part * part, 1.0 / 1.4), LEAST_DIRECTIONS), MOST_DIRECTIONS);
 }
 
@@ -134,13 +171,21 @@ static double noise_beside(double wanted, double square_bias) {
     return sqrt(fmax(wanted * wanted - square_bias, 0.0));
 }
 
+/* The noise n to plan for, with n^2 + (b + SHARING n)^2 the square of what is wanted, and b the map's bias.
+ */
+static double noise_planned(double wanted, double square_bias) {
+    const double b = SHARING * sqrt(square_bias), square = 1.0 + SHARING * SHARING;
+    const double rest = fmax(wanted * wanted - square_bias, 0.0);
+    return PLAN_MARGIN * (sqrt(b * b + square * rest) - b) / square;
+}
+
 /* Rays of a whole picture to an error by final gathering of such a bias. The pilot's coarse pixels see more
  * edges. By this law, found in two boxes and the room, 24 to 80 directions take what they do to a fifth. */
 static double gather_rays(const aur_choice *choice, const aur_trial *pilot, double wanted,
                           double square_bias) {
     const double pixels = (double)choice->trial.replicas.pixel_count / (double)pilot->replicas.pixel_count;
-    const double directions = directions_to(pilot, noise_beside(wanted, square_bias));
-    return pixels * aur_trial_rays(pilot) * (0.1 + 0.65 * directions / PILOT_DIRECTIONS);
+    const double directions = directions_to(pilot, noise_planned(wanted, square_bias));
+    return pixels * aur_trial_rays(pilot) * (0.2 + 0.5 * directions / PILOT_DIRECTIONS);
 }
 
 /* What is uncertain of a squared bias: it falls as samples grow. */
@@ -153,13 +198,20 @@ static bool pays(const aur_choice *choice, const aur_rivals *rivals, double want
     const aur_bias *const bias = &choice->bias;
     return gather_rays(choice, &rivals->pilot, wanted, bias->high) -
                gather_rays(choice, &rivals->pilot, wanted, bias->high - 0.5 * uncertain(bias)) >
-           aur_trial_rays(&rivals->difference);
+           DIFFERENCE_PRICE * aur_trial_rays(&rivals->difference);
+}
+
+/* Whether a squared bias is more than may be left, and not only by a first few samples' chance: who goes on
+ * loses little before a part of all rays is spent, who gives up takes paths. */
+static bool is_hopeless(const aur_bias *bias, double most, double part_spent) {
+    const double least_part = 1.0 / 32;
+    return bias->estimate - (part_spent < least_part ? 1.0 : 0.5) * uncertain(bias) > most;
 }
 
 /* The bias of final gathering, from pictures of what paths find over what the map says at the ends of the
  * same gather rays. What they have in common, above all direct light and short rays, is not traced. They go
  * on until the bias is under what may be left and knowing it better does not pay, or it is seen that it will
- * hardly come there (by half of what is uncertain), or not before so many rays are spent. */
+ * hardly come there, or not before so many rays are spent. */
 static aur_result find_bias(aur_choice *choice, aur_rivals *rivals, double wanted, double most_rays,
                             aur_error *error) {
     const double most = BIAS_PART * BIAS_PART * wanted * wanted;
@@ -168,12 +220,12 @@ static aur_result find_bias(aur_choice *choice, aur_rivals *rivals, double wante
         const aur_result result = render_evenly(choice, &rivals->difference, samples, error);
         if (result != AUR_OK)
             return result;
-        *bias = aur_replicas_bias(&rivals->difference.replicas, NULL, choice->trial.measure.mean,
+        *bias = aur_replicas_bias(&rivals->difference.replicas, NULL, rivals->pilot.measure.mean,
                                   choice->confidence);
         /* The least growth that can do, as a first estimate is large by chance. */
         const double rays = aur_trial_rays(&rivals->difference), growth = uncertain(bias) / most;
         if (bias->high <= most ? !pays(choice, rivals, wanted)
-                               : bias->estimate - 0.5 * uncertain(bias) > most || growth * rays > most_rays)
+                               : is_hopeless(bias, most, rays / most_rays) || growth * rays > most_rays)
             return AUR_OK;
         /* A little beyond that, and by steps that are worth a look. */
         samples = (uint32_t)ceil(samples * (bias->high <= most ? 2.0 : fmin(fmax(1.2 * growth, 1.25), 4.0)));
@@ -208,40 +260,44 @@ static aur_result create_trial(aur_renderer *renderer, const aur_render_options 
                               : aur_fail_memory(error);
 }
 
-/* `coarse` are the options of the pilot, which is made and not rendered yet. */
+/* `coarse` are the options of the pilot, which is made and not rendered yet; `path` is what path tracing
+ * takes to the error, and what it has taken. */
 static aur_result compare(aur_renderer *renderer, const aur_render_options *options,
-                          const aur_render_options *coarse, aur_choice *choice, double wanted,
+                          const aur_render_options *coarse, aur_choice *choice, double wanted, double worth,
                           aur_rivals *rivals, bool *better, aur_error *error) {
-    const aur_trial *const path = &choice->trial;
-    const double worth = WORTH * (rays_to(path, wanted) - aur_trial_rays(path));
+    const char *const path = choice->trial.integrator;
     bool more;
-    aur_result result = render_round(choice, &rivals->pilot, &more, error);
+    aur_result result = render_round(choice, &choice->goal, &rivals->pilot, &more, error);
     if (result != AUR_OK || aur_trial_is_black(&rivals->pilot))
         return result;
     const double rays = gather_rays(choice, &rivals->pilot, wanted, pow(BIAS_PART * wanted, 2.0));
     if (rays > worth)
         return AUR_OK;
+    choice->rays = rays;
     choice->gather.photons = photons_for(rays);
     aur_gather_size few = choice->gather;
     few.directions = DIFFERENCE_DIRECTIONS;
-    result = create_trial(
-        renderer, coarse, choice,
-        gather_instead(path->integrator, few, ",pixel=centre,debias=true,continued=1,incident=correction"),
-        &rivals->difference, error);
+    result = create_trial(renderer, coarse, choice,
+                          gather_instead(path, PATTERN_SAMPLES, few,
+                                         ",pixel=centre,debias=true,continued=1,incident=correction"),
+                          &rivals->difference, error);
     if (result == AUR_OK)
         result = find_bias(choice, rivals, wanted, worth - rays, error);
     if (result != AUR_OK || !(sqrt(choice->bias.high) <= BIAS_PART * wanted))
         return result;
-    const double noise = noise_beside(wanted, choice->bias.high);
     choice->gather.directions =
-        PATTERN_SAMPLES * (size_t)ceil(directions_to(&rivals->pilot, noise) / PATTERN_SAMPLES);
+        pattern_size(directions_to(&rivals->pilot, noise_planned(wanted, choice->bias.high)));
     aur_trial *const gather = &rivals->gather;
-    result = create_trial(renderer, options, choice, aur_ask_gather(path->integrator, choice->gather), gather,
-                          error);
+    result = create_trial(renderer, options, choice, aur_ask_gather(path, choice->gather), gather, error);
     if (result == AUR_OK)
-        result = render_round(choice, gather, &more, error);
-    *better = result == AUR_OK && !aur_trial_is_black(gather) &&
-              rays_to(gather, noise) - aur_trial_rays(gather) <= worth;
+        result = render_round(choice, &choice->goal, gather, &more, error);
+    if (result != AUR_OK || aur_trial_is_black(gather))
+        return result;
+    const aur_bias sharing =
+        aur_replicas_sharing_bias(&gather->replicas, gather->measure.mean, choice->confidence);
+    choice->bias = aur_bias_of_both(choice->bias, sharing);
+    const double noise = noise_beside(wanted, choice->bias.high);
+    *better = noise > 0.0 && rays_to(gather, noise) - aur_trial_rays(gather) <= worth;
     return result;
 }
 
@@ -250,14 +306,14 @@ static double rays_of(const aur_trial *trial) {
     return made ? aur_trial_rays(trial) : 0.0;
 }
 
-double aur_choice_rival_rays(const aur_choice *choice) {
+double aur_choice_part_done(const aur_choice *choice) {
     const aur_rivals *const rivals = choice->rivals;
-    return rivals == NULL ? 0.0
-                          : rays_of(&rivals->gather) + rays_of(&rivals->pilot) + rays_of(&rivals->difference);
-}
-
-double aur_choice_part_left(const aur_choice *choice) {
-    return choice->rivals != NULL ? WORTH : 1.0;
+    if (rivals == NULL || !(choice->rays > 0.0))
+        return 0.0;
+    const double gathered = rays_of(&rivals->gather);
+    const double others = rays_of(&choice->trial) + rays_of(&rivals->path) + rays_of(&rivals->pilot) +
+                          rays_of(&rivals->difference);
+    return (others + gathered) / (others + fmax(choice->rays, gathered));
 }
 
 static void add_spent(const aur_trial *trial, aur_render_statistics *sum) {
@@ -271,45 +327,64 @@ static void add_spent(const aur_trial *trial, aur_render_statistics *sum) {
     sum->cpu_seconds += one.cpu_seconds;
 }
 
+/* Final gathering beside path tracing, whose trial says what that takes. */
+static aur_result compare_with(aur_renderer *renderer, const aur_render_options *options,
+                               const aur_render_options *coarse, aur_choice *choice, const aur_trial *path,
+                               double wanted, aur_rivals *rivals, bool *better, aur_error *error) {
+    const double rays = rivals->pixels * rays_to(path, wanted);
+    if (LEAST_PHOTONS * RAYS_A_PHOTON > PILOT_PART * rays)
+        return AUR_OK;
+    choice->rays = WORTH * rays;
+    aur_error refused;
+    const aur_gather_size pilot = {PILOT_PHOTONS, choice->gather.seed, PILOT_DIRECTIONS};
+    char edges[40]; /* a number and the key's name */
+    snprintf(edges, sizeof edges, ",edges=%zu,share=near", 2 * edges_of(PILOT_DIRECTIONS));
+    const aur_result result =
+        create_trial(renderer, coarse, choice, gather_instead(choice->trial.integrator, 1, pilot, edges),
+                     &rivals->pilot, &refused);
+    if (result == AUR_OK)
+        return compare(renderer, options, coarse, choice, wanted, WORTH * (rays - rays_of(&choice->trial)),
+                       rivals, better, error);
+    if (result != AUR_ERROR_MEMORY && result != AUR_ERROR_CANCELLED)
+        return AUR_OK; /* final gathering says that the scene is not for it */
+    if (error != NULL)
+        *error = refused;
+    return result;
+}
+
 aur_result aur_ask_try(aur_renderer *renderer, const aur_render_options *options, aur_choice *choice,
                        aur_error *error) {
-    aur_trial *const path = &choice->trial;
-    double wanted;
-    aur_result result = render_path(choice, &wanted, error);
-    if (result != AUR_OK || path->bound <= wanted || aur_trial_is_black(path))
-        return result;
-    choice->gather = (aur_gather_size){.seed = aur_ask_photon_seed(options->seed)};
-    if (LEAST_PHOTONS * RAYS_A_PHOTON > PILOT_PART * rays_to(path, wanted))
-        return AUR_OK;
-    aur_trial_look_ahead(path, &choice->goal);
-    aur_rivals rivals = {0};
-    choice->rivals = &rivals;
-    aur_error refused;
+    const aur_render_options coarse = coarse_options(&choice->trial, options);
+    aur_rivals rivals = {.pixels = 1.0};
+    aur_trial *const whole = &choice->trial;
+    aur_trial *path = whole;
     bool better = false;
-    const aur_render_options coarse = coarse_options(path, options);
-    const aur_gather_size pilot = {PILOT_PHOTONS, choice->gather.seed, PILOT_DIRECTIONS};
-    result = create_trial(renderer, &coarse, choice, aur_ask_gather(path->integrator, pilot), &rivals.pilot,
-                          &refused);
+    double wanted = 0.0;
+    aur_result result = AUR_OK;
+    choice->rivals = &rivals;
+    if (coarse.width < aur_render_film(whole->replicas.renders[0])->layout.width) {
+        path = &rivals.path;
+        result = create_trial(renderer, &coarse, choice, strdup(whole->integrator), path, error);
+        rivals.pixels = (double)whole->replicas.pixel_count / (double)path->replicas.pixel_count;
+    }
     if (result == AUR_OK)
-        result = compare(renderer, options, &coarse, choice, wanted, &rivals, &better, error);
-    else if (result != AUR_ERROR_MEMORY && result != AUR_ERROR_CANCELLED)
-        result = AUR_OK; /* final gathering says that the scene is not for it */
-    else if (error != NULL)
-        *error = refused;
+        result = render_path(choice, path, rivals.pixels, &wanted, error);
+    choice->gather = (aur_gather_size){.seed = aur_ask_photon_seed(options->seed)};
+    if (result == AUR_OK && path->bound > wanted && !aur_trial_is_black(path))
+        result = compare_with(renderer, options, &coarse, choice, path, wanted, &rivals, &better, error);
     choice->rivals = NULL;
     if (better) {
-        const aur_trial left = *path;
-        *path = rivals.gather;
+        const aur_trial left = *whole;
+        *whole = rivals.gather;
         rivals.gather = left;
     } else {
         choice->gather = (aur_gather_size){0};
         choice->bias = (aur_bias){0};
     }
-    add_spent(&rivals.gather, &choice->others);
-    add_spent(&rivals.pilot, &choice->others);
-    add_spent(&rivals.difference, &choice->others);
-    aur_trial_release(&rivals.gather);
-    aur_trial_release(&rivals.pilot);
-    aur_trial_release(&rivals.difference);
+    aur_trial *const left[] = {&rivals.path, &rivals.pilot, &rivals.difference, &rivals.gather};
+    for (size_t i = 0; i < sizeof left / sizeof left[0]; ++i) {
+        add_spent(left[i], &choice->others);
+        aur_trial_release(left[i]);
+    }
     return result;
 }
