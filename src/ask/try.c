@@ -28,6 +28,9 @@ static const double RAYS_A_PHOTON = 2.5;
  * to .26 in the public Cornell box. A first pattern that does not do costs another one: noise is planned to
  * be a little less. */
 static const double SHARING = 0.2, PLAN_MARGIN = 0.92;
+/* More than so many times the rays of a first pattern are not spent on shared ones. What is shared comes to
+ * whole tiles, so that a few pixels that have the error, as of a lamp's edge, would cost all about them. */
+static const double MOST_GROWTH_SHARED = 2.0;
 /* A ray that goes on as a path takes so much more time than one of final gathering. */
 static const double DIFFERENCE_PRICE = 1.7;
 enum { MOST_PHOTONS = 2000000, LEAST_PHOTONS = 15000 };
@@ -297,7 +300,10 @@ static aur_result compare(aur_renderer *renderer, const aur_render_options *opti
         aur_replicas_sharing_bias(&gather->replicas, gather->measure.mean, choice->confidence);
     choice->bias = aur_bias_of_both(choice->bias, sharing);
     const double noise = noise_beside(wanted, choice->bias.high);
-    *better = noise > 0.0 && rays_to(gather, noise) - aur_trial_rays(gather) <= worth;
+    if (!(noise > 0.0) ||
+        (is_single(choice->gather.directions) && aur_trial_growth(gather, noise) > MOST_GROWTH_SHARED))
+        return AUR_OK;
+    *better = rays_to(gather, noise) - aur_trial_rays(gather) <= worth;
     return result;
 }
 
