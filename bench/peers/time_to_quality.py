@@ -287,9 +287,9 @@ def measurements(render, counts):
 
 
 def measurements_until(render, error, pixels):
-    """The same for growing samples. Each is rendered once before, for kernels are compiled for it."""
+    """The same for growing samples, two at least, as a law needs. Each is rendered once before, for kernels are compiled for it."""
     samples, found = FIRST, []
-    while not found or (found[-1][1] > error and STEP * found[-1][2] <= MOST_SECONDS and samples * pixels <= MOST_LANES):
+    while len(found) < 2 or (found[-1][1] > error and STEP * found[-1][2] <= MOST_SECONDS and samples * pixels <= MOST_LANES):
         render(samples, 999)
         found += measurements(render, [samples])
         samples *= STEP

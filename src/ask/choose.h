@@ -24,8 +24,8 @@ typedef struct aur_choice {
     double seconds, confidence;
     size_t replica_count;
     const atomic_bool *cancelled;
-    aur_trial trial; /* path tracing, unless it is not begun, before; the one to go on with after; the caller
-                        releases it */
+    aur_trial trial; /* before: path tracing, which may not have begun; after: the one to go on with, which
+                        the caller releases */
     aur_gather_size gather;          /* where that is final gathering; else 0 */
     aur_bias bias;                   /* of the trial's integrator; 0 of path tracing */
     aur_render_statistics others;    /* what the trials cost that are not gone on with */
