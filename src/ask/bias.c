@@ -5,7 +5,7 @@
 #include "film/film.h"
 #include <aureole/statistics.h>
 
-enum { BLOCK = 8 };
+enum { BLOCK = 4 };
 
 static double value_of(const aur_replicas *replicas, size_t r, size_t pixel, size_t channel) {
     if (replicas == NULL)

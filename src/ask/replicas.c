@@ -182,16 +182,34 @@ void aur_replicas_measure(const aur_replicas *replicas, aur_replica_measure *mea
     measure->mean /= 3.0 * (double)replicas->pixel_count;
 }
 
-/* The mean of `values`, each for one sample, over the pixels at most `reach` away. */
-static double mean_about(const aur_film_layout *layout, const double *values, size_t x, size_t y,
-                         size_t reach) {
+/* Along one axis, from `at` on: the places at most `reach` away. */
+typedef struct span {
+    size_t first, end;
+} span;
+
+static span span_about(size_t at, size_t reach, size_t side) {
+    return (span){.first = at > reach ? at - reach : 0, .end = at + reach < side ? at + reach + 1 : side};
+}
+
+/* Adds to `own` `part` of the mean of `values` over the pixels at most `reach` away. */
+static void add_means_about(const aur_film_layout *layout, const double *values, size_t reach, double part,
+                            double *rows, double *own) {
     const size_t width = layout->x1 - layout->x0, height = layout->y1 - layout->y0;
-    double sum = 0.0;
-    size_t count = 0;
-    for (size_t j = y > reach ? y - reach : 0; j <= y + reach && j < height; ++j)
-        for (size_t i = x > reach ? x - reach : 0; i <= x + reach && i < width; ++i, ++count)
-            sum += values[j * width + i];
-    return sum / (double)count;
+    for (size_t y = 0; y < height; ++y)
+        for (size_t x = 0; x < width; ++x) {
+            const span across = span_about(x, reach, width);
+            double sum = 0.0;
+            for (size_t i = across.first; i < across.end; ++i)
+                sum += values[y * width + i];
+            rows[y * width + x] = part * sum / (double)(across.end - across.first);
+        }
+    for (size_t y = 0; y < height; ++y) {
+        const span down = span_about(y, reach, height);
+        const double share = 1.0 / (double)(down.end - down.first);
+        for (size_t j = down.first; j < down.end; ++j)
+            for (size_t x = 0; x < width; ++x)
+                own[y * width + x] += share * rows[j * width + x];
+    }
 }
 
 /* A sixteenth of the weight lies on more pixels, so that none is left alone because its first samples and
@@ -201,15 +219,15 @@ void aur_replicas_smooth(const aur_replicas *replicas, const uint32_t *samples, 
     enum { NEAR = 1, FAR = 4 };
     const double far_part = 1.0 / 16;
     const aur_film_layout *const layout = &aur_render_film(replicas->renders[0])->layout;
-    const size_t width = layout->x1 - layout->x0;
     const size_t pixels = replicas->pixel_count;
     for (size_t r = 0; r < replicas->count; ++r) {
         double *const own = variances + r * pixels;
         memcpy(scratch, own, pixels * sizeof *scratch);
+        memset(own, 0, pixels * sizeof *own);
+        add_means_about(layout, scratch, NEAR, 1.0 - far_part, scratch + pixels, own);
+        add_means_about(layout, scratch, FAR, far_part, scratch + pixels, own);
         for (size_t i = 0; i < pixels; ++i)
-            own[i] = ((1.0 - far_part) * mean_about(layout, scratch, i % width, i / width, NEAR) +
-                      far_part * mean_about(layout, scratch, i % width, i / width, FAR)) /
-                     samples[r * pixels + i];
+            own[i] /= samples[r * pixels + i];
     }
 }
 

@@ -38,7 +38,7 @@ void aur_replicas_measure(const aur_replicas *replicas, aur_replica_measure *mea
 
 /* Variances of single pixels are known too badly to share out samples by: each becomes what the pixels about
  * it say together, and then that of the replica's value, of which `samples`[count * pixel_count] are made.
- * `scratch` has room for pixel_count values. */
+ * `scratch` has room for 2 x pixel_count values. */
 void aur_replicas_smooth(const aur_replicas *replicas, const uint32_t *samples, double *variances,
                          double *scratch);
 

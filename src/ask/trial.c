@@ -68,7 +68,7 @@ aur_result aur_trial_create(aur_renderer *renderer, const aur_render_options *op
     trial->measured = calloc(trial->value_count, sizeof *trial->measured);
     trial->pixels = calloc(pixels, sizeof *trial->pixels);
     trial->spreads = calloc(pixels, sizeof *trial->spreads);
-    trial->scratch = calloc(pixels, sizeof *trial->scratch);
+    trial->scratch = calloc(2 * pixels, sizeof *trial->scratch);
     const aur_film_layout *const layout = &aur_render_film(trial->replicas.renders[0])->layout;
     if (shows_lamps(trial->integrator)) {
         const aur_result found = aur_lamps_find(aur_renderer_scene(renderer), layout, AUR_LAMP_POINTS,

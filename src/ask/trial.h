@@ -17,8 +17,8 @@ typedef struct aur_trial {
     double *measured;   /* the same of the last round alone */
     aur_pixel_spread *pixels; /* [pixel_count] as all rounds tell */
     double *spreads;          /* [pixel_count] of the last round alone */
-    double *scratch;
-    aur_lamps lamps; /* where the integrator shows them */
+    double *scratch;          /* [2 x pixel_count] */
+    aur_lamps lamps;          /* where the integrator shows them */
     aur_replica_measure measure;
     aur_error_interval interval; /* relative to the mean */
     double bound;           /* of the error, by the rounds before too: at least the interval's upper end */

@@ -17,7 +17,7 @@ static const double BIAS_PART = 0.6;
  * nearly three times as much, where it was twice as slow as path tracing with .6), and a guess from few
  * pixels may be wrong. The part of final gathering's rays that is spent on its photon map. Both are chosen:
  * they cost time, never truth. */
-static const double WORTH = 0.45, MAP_PART = 0.1;
+static const double WORTH = 0.45, MAP_PART = 0.15;
 /* Of path tracing's rays, what the pilot's map may cost: final gathering is not looked at in small pictures.
  */
 static const double PILOT_PART = 0.01;
@@ -47,8 +47,12 @@ enum {
     MOST_DIRECTIONS = 1024,
     DIFFERENCE_DIRECTIONS = 8
 };
-/* The pilot's noise hardly hangs on its map. */
+/* The pilot's noise hardly hangs on its map, whose texels are so wide that most of its rays would be short.
+ */
 enum { PILOT_PHOTONS = LEAST_PHOTONS };
+/* Of the picture and of what is looked for in its bias alike. With 4 in place of 2 the public Cornell box
+ * took a fourth more time to 4 %, for a bias that is no smaller than that of half as many photons. */
+enum { SHORT_RAYS = 2 };
 
 /* The rays that a trial is thought to take in all until its noise is `error`. */
 static double rays_to(const aur_trial *trial, double error) {
@@ -128,7 +132,7 @@ static char *gather_instead(const char *path, size_t samples, aur_gather_size si
     if (text != NULL)
         snprintf(text, capacity,
                  "finalgather:split=%zu,diffuse_samples=%zu,glossy_samples=%zu,light_samples=%zu,"
-                 "short_rays=4,photons=%zu,photon_seed=%" PRIu64 "%s%s%s",
+                 "photons=%zu,photon_seed=%" PRIu64 "%s%s%s",
                  samples, size.directions, size.directions, lights + (lights == 0), size.photons, size.seed,
                  more, keys != NULL ? "," : "", keys != NULL ? keys + 1 : "");
     return text;
@@ -146,28 +150,29 @@ static size_t edges_of(size_t directions) {
 
 char *aur_ask_gather(const char *path, aur_gather_size size) {
     const bool single = is_single(size.directions);
-    char more[64]; /* a number and the keys */
-    snprintf(more, sizeof more, ",edges=%zu%s", edges_of(size.directions), single ? ",share=near" : "");
+    char more[64]; /* two numbers and the keys */
+    snprintf(more, sizeof more, ",edges=%zu,short_rays=%d%s", edges_of(size.directions), SHORT_RAYS,
+             single ? ",share=near" : "");
     return gather_instead(path, single ? 1 : PATTERN_SAMPLES, size, more);
 }
 
 /* The directions of a pattern in place of those that would do where neighbours share theirs. A pattern that
- * is not shared takes more: in the public Cornell box to 1.7 % 84 in place of 52. */
+ * is not shared takes more: in the public Cornell box to 1.7 % 80 in place of 45. */
 static size_t pattern_size(double directions) {
-    const double more = 1.6;
+    const double more = 1.8;
     if (directions <= SINGLE_DIRECTIONS)
         return (size_t)ceil(directions);
     return PATTERN_SAMPLES * (size_t)ceil(more * directions / PATTERN_SAMPLES);
 }
 
-/* Directions of a pattern by which the replicas are thought to come to the noise without another one, from
- * between the lower end of the pilot's error and its middle, as coarse pixels see more edges. The square of a
- * pattern's error falls nearly as directions^-1.4 in the public Cornell box (12 to 80). Where that is wrong,
+/* Directions of a pattern by which the replicas are thought to come to the noise without another one. The
+ * square of a pattern's error falls nearly as directions^-1.5 from the pilot's in the public Cornell box (5
+ * to 48, shared): coarse pixels see more edges, so that the pilot's own is large for it. Where that is wrong,
  * rounds go on with more patterns, or the first one has more directions than it needs: it costs time, never
  * truth. */
 static double directions_to(const aur_trial *pilot, double noise) {
-    const double part = sqrt(pilot->interval.low * pilot->interval.estimate) / noise;
-    return fmin(fmax(PILOT_DIRECTIONS * pow(part * part, 1.0 / 1.4), LEAST_DIRECTIONS), MOST_DIRECTIONS);
+    const double part = pilot->interval.estimate / noise;
+    return fmin(fmax(PILOT_DIRECTIONS * pow(part * part, 1.0 / 1.5), LEAST_DIRECTIONS), MOST_DIRECTIONS);
 }
 
 static double noise_beside(double wanted, double square_bias) {
@@ -183,12 +188,13 @@ static double noise_planned(double wanted, double square_bias) {
 }
 
 /* Rays of a whole picture to an error by final gathering of such a bias. The pilot's coarse pixels see more
- * edges. By this law, found in two boxes and the room, 24 to 80 directions take what they do to a fifth. */
+ * edges. By this law 5 to 45 directions that are shared take what they do to a twentieth in the public
+ * Cornell box. */
 static double gather_rays(const aur_choice *choice, const aur_trial *pilot, double wanted,
                           double square_bias) {
     const double pixels = (double)choice->trial.replicas.pixel_count / (double)pilot->replicas.pixel_count;
     const double directions = directions_to(pilot, noise_planned(wanted, square_bias));
-    return pixels * aur_trial_rays(pilot) * (0.2 + 0.5 * directions / PILOT_DIRECTIONS);
+    return pixels * aur_trial_rays(pilot) * (0.15 + 0.66 * directions / PILOT_DIRECTIONS);
 }
 
 /* What is uncertain of a squared bias: it falls as samples grow. */
@@ -235,14 +241,16 @@ static aur_result find_bias(aur_choice *choice, aur_rivals *rivals, double wante
     }
 }
 
-/* What is asked of few pixels, each in place of COARSE x COARSE, or of fewer where that would leave a small
+/* What is asked of few pixels, each in place of `part` x `part`, or of fewer where that would leave a small
  * picture. The bias of single points is that of pixels at least, and known from as many rays the better the
  * fewer points they are of: what is uncertain of its square is as the root of their number. */
-static aur_render_options coarse_options(const aur_trial *trial, const aur_render_options *options) {
-    enum { COARSE = 4, LEAST_SIDE = 32 };
+enum { COARSE_PIXELS = 4, COARSE_POINTS = 8 };
+
+static aur_render_options coarse_options(const aur_trial *trial, const aur_render_options *options,
+                                         size_t part) {
+    enum { LEAST_SIDE = 32 };
     const aur_film_layout *const film = &aur_render_film(trial->replicas.renders[0])->layout;
     const size_t width = film->x1 - film->x0, height = film->y1 - film->y0;
-    size_t part = COARSE;
     while (part > 1 && (width < LEAST_SIDE * part || height < LEAST_SIDE * part))
         part /= 2;
     aur_render_options own = *options;
@@ -263,14 +271,12 @@ static aur_result create_trial(aur_renderer *renderer, const aur_render_options 
                               : aur_fail_memory(error);
 }
 
-/* `coarse` are the options of the pilot, which is made and not rendered yet; `path` is what path tracing
- * takes to the error, and what it has taken. */
-static aur_result compare(aur_renderer *renderer, const aur_render_options *options,
-                          const aur_render_options *coarse, aur_choice *choice, double wanted, double worth,
-                          aur_rivals *rivals, bool *better, aur_error *error) {
+/* The pilot is made and not rendered yet; at `worth` rays final gathering is worth it. */
+static aur_result compare(aur_renderer *renderer, const aur_render_options *options, aur_choice *choice,
+                          double wanted, double worth, aur_rivals *rivals, bool *better, aur_error *error) {
     const char *const path = choice->trial.integrator;
-    bool more;
-    aur_result result = render_round(choice, &choice->goal, &rivals->pilot, &more, error);
+    bool goes_on;
+    aur_result result = render_round(choice, &choice->goal, &rivals->pilot, &goes_on, error);
     if (result != AUR_OK || aur_trial_is_black(&rivals->pilot))
         return result;
     const double rays = gather_rays(choice, &rivals->pilot, wanted, pow(BIAS_PART * wanted, 2.0));
@@ -280,9 +286,11 @@ static aur_result compare(aur_renderer *renderer, const aur_render_options *opti
     choice->gather.photons = photons_for(rays);
     aur_gather_size few = choice->gather;
     few.directions = DIFFERENCE_DIRECTIONS;
-    result = create_trial(renderer, coarse, choice,
-                          gather_instead(path, PATTERN_SAMPLES, few,
-                                         ",pixel=centre,debias=true,continued=1,incident=correction"),
+    char more[96]; /* a number and the keys */
+    snprintf(more, sizeof more, ",short_rays=%d,pixel=centre,debias=true,continued=1,incident=correction",
+             SHORT_RAYS);
+    const aur_render_options points = coarse_options(&choice->trial, options, COARSE_POINTS);
+    result = create_trial(renderer, &points, choice, gather_instead(path, PATTERN_SAMPLES, few, more),
                           &rivals->difference, error);
     if (result == AUR_OK)
         result = find_bias(choice, rivals, wanted, worth - rays, error);
@@ -293,7 +301,7 @@ static aur_result compare(aur_renderer *renderer, const aur_render_options *opti
     aur_trial *const gather = &rivals->gather;
     result = create_trial(renderer, options, choice, aur_ask_gather(path, choice->gather), gather, error);
     if (result == AUR_OK)
-        result = render_round(choice, &choice->goal, gather, &more, error);
+        result = render_round(choice, &choice->goal, gather, &goes_on, error);
     if (result != AUR_OK || aur_trial_is_black(gather))
         return result;
     const aur_bias sharing =
@@ -343,14 +351,14 @@ static aur_result compare_with(aur_renderer *renderer, const aur_render_options 
     choice->rays = WORTH * rays;
     aur_error refused;
     const aur_gather_size pilot = {PILOT_PHOTONS, choice->gather.seed, PILOT_DIRECTIONS};
-    char edges[40]; /* a number and the key's name */
-    snprintf(edges, sizeof edges, ",edges=%zu,share=near", 2 * edges_of(PILOT_DIRECTIONS));
+    char edges[64]; /* a number and the key's name */
+    snprintf(edges, sizeof edges, ",short_rays=0,edges=%zu,share=near", 2 * edges_of(PILOT_DIRECTIONS));
     const aur_result result =
         create_trial(renderer, coarse, choice, gather_instead(choice->trial.integrator, 1, pilot, edges),
                      &rivals->pilot, &refused);
     if (result == AUR_OK)
-        return compare(renderer, options, coarse, choice, wanted, WORTH * (rays - rays_of(&choice->trial)),
-                       rivals, better, error);
+        return compare(renderer, options, choice, wanted, WORTH * (rays - rays_of(&choice->trial)), rivals,
+                       better, error);
     if (result != AUR_ERROR_MEMORY && result != AUR_ERROR_CANCELLED)
         return AUR_OK; /* final gathering says that the scene is not for it */
     if (error != NULL)
@@ -360,7 +368,7 @@ static aur_result compare_with(aur_renderer *renderer, const aur_render_options 
 
 aur_result aur_ask_try(aur_renderer *renderer, const aur_render_options *options, aur_choice *choice,
                        aur_error *error) {
-    const aur_render_options coarse = coarse_options(&choice->trial, options);
+    const aur_render_options coarse = coarse_options(&choice->trial, options, COARSE_PIXELS);
     aur_rivals rivals = {.pixels = 1.0};
     aur_trial *const whole = &choice->trial;
     aur_trial *path = whole;
