@@ -38,6 +38,25 @@ static void groups_part_the_tile_by_every_arrangement(void **state) {
         groups_part_the_tile(aur_mix64(k));
 }
 
+/* The blocks part the tile, too, and each is 4 x 4 neighbours. */
+static void blocks_part_the_tile(void **state) {
+    (void)state;
+    unsigned pixels[AUR_TILE_PIXELS] = {0};
+    for (uint32_t block = 0; block < AUR_GROUP_COUNT; ++block) {
+        size_t x[AUR_PACKET_SIZE], y[AUR_PACKET_SIZE];
+        aur_block_pixels(block, 32, 48, x, y);
+        for (size_t lane = 0; lane < AUR_PACKET_SIZE; ++lane) {
+            assert_in_range(x[lane], 32, 47);
+            assert_in_range(y[lane], 48, 63);
+            assert_int_equal(x[lane] / 4, x[0] / 4);
+            assert_int_equal(y[lane] / 4, y[0] / 4);
+            ++pixels[(y[lane] - 48) * AUR_TILE_SIZE + (x[lane] - 32)];
+        }
+    }
+    for (size_t i = 0; i < AUR_TILE_PIXELS; ++i)
+        assert_int_equal(pixels[i], 1);
+}
+
 /* Marked pixels are lanes of the groups that have them, and of no others. */
 static void marks_find_their_group(void **state) {
     (void)state;
@@ -86,6 +105,7 @@ static void coherent_is_one_plane(void **state) {
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(groups_part_the_tile_by_every_arrangement),
+        cmocka_unit_test(blocks_part_the_tile),
         cmocka_unit_test(marks_find_their_group),
         cmocka_unit_test(packets_keep_rays_and_lanes),
         cmocka_unit_test(coherent_is_one_plane),

@@ -43,6 +43,16 @@ static inline void aur_group_pixels(uint64_t hash, uint32_t group, size_t x0, si
     }
 }
 
+/* Columns and rows of the pixels of block `block`, 4 x 4 neighbours. Paths with numbers of their own go by
+ * blocks: their first hits lie close together, so packets are tighter, and lanes read the same triangles. */
+static inline void aur_block_pixels(uint32_t block, size_t x0, size_t y0, size_t x[AUR_PACKET_SIZE],
+                                    size_t y[AUR_PACKET_SIZE]) {
+    for (size_t lane = 0; lane < AUR_PACKET_SIZE; ++lane) {
+        x[lane] = x0 + block % AUR_GROUPS_A_SIDE * AUR_GROUPS_A_SIDE + lane % AUR_GROUPS_A_SIDE;
+        y[lane] = y0 + block / AUR_GROUPS_A_SIDE * AUR_GROUPS_A_SIDE + lane / AUR_GROUPS_A_SIDE;
+    }
+}
+
 /* The lanes of a group whose pixels lie in columns x0 .. x1 - 1 and rows y0 .. y1 - 1 of the picture. */
 static inline uint32_t aur_group_lanes_within(const size_t x[AUR_PACKET_SIZE],
                                               const size_t y[AUR_PACKET_SIZE], size_t x0, size_t x1,

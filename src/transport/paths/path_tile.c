@@ -1,8 +1,8 @@
 /* Path tracing of sixteen pixels at a time.
  *
- * The pixels are those of one group of a tile (packets/interleave.h): one of each of its 4 x 4 blocks.
- * Interleaved (Keller and Heidrich 2001), they share all numbers but the camera's: paths on flat
- * walls run in parallel, and their packets stay coherent. */
+ * The pixels are those of one 4 x 4 block of a tile, neighbours. Interleaved (Keller and Heidrich 2001) they
+ * are those of one group (packets/interleave.h), one of each block, and share all numbers but the camera's:
+ * paths on flat walls run in parallel, and their packets stay coherent. */
 #include "transport/packets/interleave.h"
 #include "transport/paths/path_group.h"
 
@@ -47,14 +47,16 @@ static void add_lanes(aur_path_group *g, aur_tile *tile, const size_t *x, const 
     }
 }
 
-/* One group's samples. Whole groups are traced even where a crop wants few of their pixels: a packet's rays
- * may depend on each other in their last bits. */
+/* One group's or block's samples. Whole ones are traced even where a crop wants few of their pixels: a
+ * packet's rays may depend on each other in their last bits. */
 static void add_group(aur_path_group *g, uint32_t number, aur_tile *tile) {
     const aur_view *const view = tile->view;
     const size_t x0 = tile->x0 / AUR_TILE_SIZE * AUR_TILE_SIZE, y0 = tile->y0 / AUR_TILE_SIZE * AUR_TILE_SIZE;
-    const uint64_t hash = g->data->interleaved ? aur_group_arrangement(aur_hash3(view->seed, y0, x0)) : 0;
     size_t x[AUR_PACKET_SIZE], y[AUR_PACKET_SIZE];
-    aur_group_pixels(hash, number, x0, y0, x, y);
+    if (g->data->interleaved)
+        aur_group_pixels(aur_group_arrangement(aur_hash3(view->seed, y0, x0)), number, x0, y0, x, y);
+    else
+        aur_block_pixels(number, x0, y0, x, y);
     const uint32_t lanes = aur_group_lanes_within(x, y, 0, view->width, 0, view->height);
     const uint32_t wanted = aur_group_lanes_within(x, y, tile->x0, tile->x1, tile->y0, tile->y1);
     if (wanted == 0)
