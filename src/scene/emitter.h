@@ -29,8 +29,6 @@ typedef struct aur_emitter_descriptor {
     aur_result (*prepare)(aur_emitter *emitter, aur_error *error);
     /* As aur_light_sample_direct for this light alone. */
     bool (*sample)(const aur_emitter *emitter, const aur_light_query *query, aur_light_sample *drawn);
-    /* The table in which `sample` looks a number up, too large for caches, and that number. May be NULL. */
-    const aur_distribution *(*table)(const aur_emitter *emitter, const float u[3], float *number);
     /* `sample` for the lanes of a packet whose bit is set; false: it is left to `sample`, which those
      * of environments never do. May be NULL. */
     bool (*lanes)(const aur_emitter *emitter, uint32_t lanes, const aur_light_references *references,

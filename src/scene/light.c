@@ -26,22 +26,6 @@ bool aur_light_sample_direct(const aur_scene *scene, const aur_light_reference *
     return true;
 }
 
-aur_light_fetch aur_light_fetch_begin(const aur_scene *scene, const float u[3]) {
-    float rest[3] = {u[0], u[1], u[2]};
-    aur_light_fetch fetch = {0};
-    const aur_emitter *const emitter = choose(scene, &rest[0]);
-    if (emitter == NULL || emitter->descriptor->table == NULL)
-        return fetch;
-    fetch.table = emitter->descriptor->table(emitter, rest, &fetch.number);
-    aur_distribution_prefetch_guide(fetch.table, (double)fetch.number);
-    return fetch;
-}
-
-void aur_light_fetch_end(const aur_light_fetch *fetch) {
-    if (fetch->table != NULL)
-        aur_distribution_prefetch_items(fetch->table, (double)fetch->number);
-}
-
 bool aur_light_chooses(const aur_scene *scene) {
     return scene->emitter_count > 1 || (scene->emitter_count == 1 && scene->emitters[0]->needs_choice);
 }

@@ -98,6 +98,15 @@ typedef struct aur_light_lanes {
     aur_lane_numbers rivals;    /* 1, or 0 for lights that no ray finds */
 } aur_light_lanes;
 
+/* One of them, drawn by aur_light_lanes_each. */
+static inline aur_light_sample aur_light_lane(const aur_light_lanes *lights, size_t lane) {
+    return (aur_light_sample){.position = aur_lane_vector(&lights->position, lane),
+                              .direction = aur_lane_vector(&lights->direction, lane),
+                              .radiance = aur_lane_vector(&lights->radiance, lane),
+                              .pdf = lights->pdf[lane],
+                              .delta = lights->rivals[lane] == 0.0f};
+}
+
 /* For the lanes whose bit is set; what the others have afterwards means nothing. `choice` is not read unless
  * aur_light_chooses, and may then be NULL. To the bits of single samples; those of environment maps are drawn
  * together. */

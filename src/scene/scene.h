@@ -103,14 +103,6 @@ typedef struct aur_light_reference {
  * or the point cannot be seen from there (pdf 0). */
 bool aur_light_sample_direct(const aur_scene *scene, const aur_light_reference *reference, const float u[3],
                              aur_light_sample *sample);
-/* Draws that are known some time before they are made: asks the memory for what they will read, in two steps
- * with other work between. */
-typedef struct aur_light_fetch {
-    const struct aur_distribution *table; /* NULL: nothing to ask for */
-    float number;
-} aur_light_fetch;
-aur_light_fetch aur_light_fetch_begin(const aur_scene *scene, const float u[3]);
-void aur_light_fetch_end(const aur_light_fetch *fetch);
 bool aur_light_chooses(const aur_scene *scene); /* u[0] matters: several lights, or a mesh */
 /* The pdf with which aur_light_sample_direct would draw the point `surface` of a light, from `reference`. */
 float aur_light_pdf_direct(const aur_scene *scene, const aur_light_reference *reference,

@@ -168,13 +168,6 @@ static aur_vector draw_direction(const aur_envmap *self, float u, float v, aur_e
     return envmap_draw(self, corner, at);
 }
 
-static const aur_distribution *table_of_envmap(const aur_emitter *emitter, const float u[3], float *number) {
-    const aur_envmap *const self = emitter->data;
-    float v = u[2];
-    *number = u[1];
-    return &self->patches.cells[aur_distribution_choose(&self->patches.rows, &v)];
-}
-
 static bool sample_envmap(const aur_emitter *emitter, const aur_light_query *query, aur_light_sample *drawn) {
     const aur_envmap *const self = emitter->data;
     aur_envmap_place at;
@@ -282,7 +275,6 @@ const aur_emitter_descriptor aur_emitter_envmap = {
     .create = create_envmap,
     .prepare = prepare_envmap,
     .sample = sample_envmap,
-    .table = table_of_envmap,
     .lanes = envmap_lanes,
     .emit = emit_envmap,
     .release = release_envmap,

@@ -160,12 +160,7 @@ static void set_references(aur_path_group *g, uint32_t lanes) {
 /* Of a lane that is not plain, whose point on a light has been drawn. */
 static void shadow_one(aur_path_group *g, size_t k, const aur_surface *surface) {
     const aur_shading shading = aur_shading_at(surface, view_of(g, k));
-    const aur_light_lanes *const lights = &g->lanes.light;
-    const aur_light_sample light = {.position = aur_lane_vector(&lights->position, k),
-                                    .direction = aur_lane_vector(&lights->direction, k),
-                                    .radiance = aur_lane_vector(&lights->radiance, k),
-                                    .pdf = lights->pdf[k],
-                                    .delta = lights->rivals[k] == 0.0f};
+    const aur_light_sample light = aur_light_lane(&g->lanes.light, k);
     aur_shadow shadow;
     g->lanes.lit[k] = 0;
     if (!aur_direct_light_shadow(&shading, &AUR_LIGHT_DRAWS_OF_PATHS, &light, &shadow))

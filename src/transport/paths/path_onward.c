@@ -31,21 +31,18 @@ static aur_vector evaluate(const aur_shading *shading, bool known_only, aur_vect
     return aur_vector_subtract(value, sampled);
 }
 
-/* A point on a light: the ray to it, and the light that comes along it if nothing lies between. */
-static bool choose_light(const aur_onward *onward, const aur_shading *shading, bool known_only,
-                         onward_walk *walk, aur_shadow *shadow) {
-    float u[3], pdf, distance;
-    aur_light_sample light;
-    aur_draw_units(&walk->hash, u);
-    if (aur_scene_emitter_count(onward->scene) == 0 ||
-        !aur_shading_draw_light(onward->scene, shading, u, &light) || !(light.pdf > 0.0f))
+/* The ray to a point on a light, and the light that comes along it if nothing lies between. */
+static bool reach_light(const aur_shading *shading, bool known_only, const aur_light_sample *light,
+                        aur_shadow *shadow) {
+    float pdf, distance;
+    if (!(light->pdf > 0.0f))
         return false;
-    const aur_vector value = evaluate(shading, known_only, light.direction, &pdf);
+    const aur_vector value = evaluate(shading, known_only, light->direction, &pdf);
     if (aur_vector_is_zero(value))
         return false;
-    shadow->ray = aur_surface_ray_to(shading->surface, light.position, &distance);
-    const float weight = (light.delta ? 1.0f : aur_power_heuristic(light.pdf, pdf)) / light.pdf;
-    shadow->radiance = aur_vector_scale(aur_vector_multiply(value, light.radiance), weight);
+    shadow->ray = aur_surface_ray_to(shading->surface, light->position, &distance);
+    const float weight = (light->delta ? 1.0f : aur_power_heuristic(light->pdf, pdf)) / light->pdf;
+    shadow->radiance = aur_vector_scale(aur_vector_multiply(value, light->radiance), weight);
     return true;
 }
 
@@ -141,32 +138,41 @@ static bool is_packet(const aur_onward *onward, uint32_t lanes) {
     return onward->packets && aur_lane_count(lanes) >= AUR_PACKET_SIZE / 4;
 }
 
-/* Draws of skies read far places in memory: those of all paths come together. */
-static void prefetch_lights(const onward_walks *walks) {
-    aur_light_fetch fetches[AUR_PACKET_SIZE];
+/* A point on a light for each path. */
+static void draw_lights(onward_walks *walks, aur_light_lanes *lights) {
+    aur_lane_vectors positions = {0}, normals = {0};
+    aur_lane_numbers choice = {0}, u = {0}, v = {0};
     for (uint32_t rest = walks->alive; rest != 0; rest &= rest - 1) {
         const size_t k = aur_first_lane(rest);
-        uint64_t hash = walks->walk[k].hash;
-        float u[3];
-        aur_draw_units(&hash, u);
-        fetches[k] = aur_light_fetch_begin(walks->onward->scene, u);
+        const aur_shading shading = aur_shading_at(&walks->met[k], walks->view[k]);
+        const aur_light_reference reference = aur_shading_reference(&shading);
+        float units[3];
+        aur_draw_units(&walks->walk[k].hash, units);
+        aur_lane_set(&positions, k, reference.position);
+        aur_lane_set(&normals, k, reference.normal);
+        choice[k] = units[0];
+        u[k] = units[1];
+        v[k] = units[2];
     }
-    for (uint32_t rest = walks->alive; rest != 0; rest &= rest - 1)
-        aur_light_fetch_end(&fetches[aur_first_lane(rest)]);
+    const aur_light_references references = {&positions, &normals};
+    aur_light_lanes_each(walks->onward->scene, walks->alive, &references, choice, u, v, lights);
 }
 
 static void add_direct_light(onward_walks *walks) {
     const aur_scene *const scene = walks->onward->scene;
     aur_vector radiance[AUR_PACKET_SIZE];
+    aur_light_lanes lights;
     uint32_t lit = 0;
-    if (aur_scene_has_environment(scene))
-        prefetch_lights(walks);
+    if (aur_scene_emitter_count(scene) == 0)
+        return;
+    draw_lights(walks, &lights);
     aur_packet_empty(&walks->packet);
     for (uint32_t rest = walks->alive; rest != 0; rest &= rest - 1) {
         const size_t k = aur_first_lane(rest);
         const aur_shading shading = aur_shading_at(&walks->met[k], walks->view[k]);
+        const aur_light_sample light = aur_light_lane(&lights, k);
         aur_shadow shadow;
-        if (!choose_light(walks->onward, &shading, walks->first, &walks->walk[k], &shadow))
+        if (!reach_light(&shading, walks->first, &light, &shadow))
             continue;
         radiance[k] = shadow.radiance;
         aur_packet_set(&walks->packet, k, &shadow.ray);
