@@ -57,6 +57,22 @@ static void blocks_part_the_tile(void **state) {
         assert_int_equal(pixels[i], 1);
 }
 
+/* What neighbours in a row have in one half of the blocks, neighbours in a column have in the other: the
+ * share is .5 within five deviations of as many throws of a coin, sqrt(1600) / 2 = 20 each. */
+static void rows_and_columns_change_places_in_half_of_the_blocks(void **state) {
+    (void)state;
+    size_t columns = 0;
+    for (uint64_t k = 0; k < 100; ++k) {
+        const uint64_t hash = aur_group_arrangement(k);
+        for (size_t lane = 0; lane < AUR_PACKET_SIZE; ++lane) {
+            const uint32_t apart = aur_group_place(hash, 0, lane) ^ aur_group_place(hash, 1, lane);
+            assert_true(apart == 1 || apart == AUR_GROUPS_A_SIDE);
+            columns += apart != 1;
+        }
+    }
+    assert_in_range(columns, 700, 900);
+}
+
 /* Marked pixels are lanes of the groups that have them, and of no others. */
 static void marks_find_their_group(void **state) {
     (void)state;
@@ -106,6 +122,7 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(groups_part_the_tile_by_every_arrangement),
         cmocka_unit_test(blocks_part_the_tile),
+        cmocka_unit_test(rows_and_columns_change_places_in_half_of_the_blocks),
         cmocka_unit_test(marks_find_their_group),
         cmocka_unit_test(packets_keep_rays_and_lanes),
         cmocka_unit_test(coherent_is_one_plane),

@@ -1,7 +1,9 @@
 /* Interleaved pixels (Keller and Heidrich 2001): a tile of 16 x 16 pixels is done in 16 groups of 16 pixels,
  * one of each 4 x 4 block of the tile. What a group has in common, its pixels have as the same error. So they
  * are not those at one place of all blocks, where the eye would see a weave of period 4: each block has its
- * pixels permuted by four bits of a hash. A hash of 0 leaves them as they are. */
+ * pixels permuted by four bits of a hash, and in half of the blocks columns and rows change places:
+ * neighbours in a row differ by other rotations than those in a column do, and the eye would see streaks. A
+ * hash of 0 leaves them as they are. */
 #pragma once
 
 #include "core/random.h"
@@ -22,7 +24,10 @@ static inline uint64_t aur_group_arrangement(uint64_t tile) {
 
 /* Where the pixel of a group's lane lies in its block, which is number `lane`, both counted row by row. */
 static inline uint32_t aur_group_place(uint64_t hash, uint32_t group, size_t lane) {
-    return group ^ (uint32_t)(hash >> 4 * lane & (AUR_GROUP_COUNT - 1));
+    const bool transposed = (aur_mix64(hash) >> lane & 1u) != 0;
+    const uint32_t turned =
+        transposed ? group % AUR_GROUPS_A_SIDE * AUR_GROUPS_A_SIDE + group / AUR_GROUPS_A_SIDE : group;
+    return turned ^ (uint32_t)(hash >> 4 * lane & (AUR_GROUP_COUNT - 1));
 }
 
 /* The pixel of a group's lane, counted row by row within the tile. */
