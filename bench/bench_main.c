@@ -26,6 +26,7 @@ extern const bench bench_load;
 extern const bench bench_measures;
 extern const bench bench_parallel;
 extern const bench bench_path;
+extern const bench bench_patterns;
 extern const bench bench_points_sphere;
 extern const bench bench_points_square;
 extern const bench bench_radiosity;
@@ -50,6 +51,7 @@ static const bench *const benches[] = {
     &bench_measures,
     &bench_parallel,
     &bench_path,
+    &bench_patterns,
     &bench_points_sphere,
     &bench_points_square,
     &bench_radiosity,

@@ -27,11 +27,14 @@ static inline void error_pattern_close(error_pattern *pattern) {
     pattern->differences = NULL;
 }
 
-/* The root mean square of means over side x side pixels, in units of what independent errors of the same root
- * mean square leave there. */
-static inline double error_pattern_clumps(const error_pattern *pattern, size_t side) {
+/* Sums over blocks of side x side pixels: of the squares of sums of differences, and of their squares. */
+typedef struct error_blocks {
+    double of_sums, of_each;
+} error_blocks;
+
+static inline error_blocks error_pattern_blocks(const error_pattern *pattern, size_t side) {
     const size_t across = pattern->width / side, down = pattern->height / side;
-    double means = 0.0, squares = 0.0;
+    error_blocks squares = {.of_sums = 0.0};
     for (size_t block = 0; block < across * down; ++block)
         for (size_t c = 0; c < 3; ++c) {
             const size_t corner = block / across * side * pattern->width + block % across * side;
@@ -40,11 +43,31 @@ static inline double error_pattern_clumps(const error_pattern *pattern, size_t s
                 const double d =
                     pattern->differences[3 * (corner + i / side * pattern->width + i % side) + c];
                 sum += d;
-                squares += d * d;
+                squares.of_each += d * d;
             }
-            means += sum * sum;
+            squares.of_sums += sum * sum;
         }
-    return squares > 0.0 ? sqrt(means / squares) : 0.0;
+    return squares;
+}
+
+/* The root mean square of means over side x side pixels, in units of what independent errors of the same root
+ * mean square leave there. */
+static inline double error_pattern_clumps(const error_pattern *pattern, size_t side) {
+    const error_blocks squares = error_pattern_blocks(pattern, side);
+    return squares.of_each > 0.0 ? sqrt(squares.of_sums / squares.of_each) : 0.0;
+}
+
+/* The mean of products of differences that lie `lag` pixels apart, along rows or columns. */
+static inline double error_pattern_product(const error_pattern *pattern, size_t lag, bool down) {
+    const size_t step = 3 * lag * (down ? pattern->width : 1);
+    const size_t width = pattern->width - (down ? 0 : lag), height = pattern->height - (down ? lag : 0);
+    double sum = 0.0;
+    for (size_t i = 0; i < 3 * width * height; ++i) {
+        const double *const at =
+            &pattern->differences[i / (3 * width) * 3 * pattern->width + i % (3 * width)];
+        sum += at[0] * at[step];
+    }
+    return sum / (3.0 * (double)(width * height));
 }
 
 /* How much more alike the errors of pixels are that lie `lag` apart, along rows or columns, than those of

@@ -87,11 +87,30 @@ static void occlusion_leaves_no_pattern(void **state) {
     check_pattern(AUR_SOURCE_DIR "/scenes/cornell-box/cornell-box.xml", "ao:samples=16", 4, 4, 1.5);
 }
 
+/* Columns of 1, 1, -1, -1: of period 4 along rows, with the same error down each column, and blocks of 8 x 8
+ * pixels that have no mean. Half of all products of pixels one apart are 1, the others -1. */
+static void figures_of_a_known_pattern(void **state) {
+    (void)state;
+    enum { SIDE = 16 };
+    double values[3 * SIDE * SIDE];
+    for (size_t i = 0; i < 3 * SIDE * SIDE; ++i)
+        values[i] = i / 3 % 4 < 2 ? 1.0 : -1.0;
+    error_pattern pattern = {SIDE, SIDE, values};
+    assert_true(error_pattern_clumps(&pattern, 8) == 0.0);
+    assert_true(error_pattern_clumps(&pattern, 2) == sqrt(4.0)); /* blocks of four equal errors */
+    static const double along[] = {1.0, 1.0 / 15.0, -1.0, -1.0 / 13.0, 1.0};
+    for (size_t lag = 0; lag <= 4; ++lag) { /* of 15 and 13 pairs of a row, one more is alike or is not */
+        assert_float_equal(error_pattern_product(&pattern, lag, false), along[lag], 1e-14);
+        assert_float_equal(error_pattern_product(&pattern, lag, true), 1.0, 1e-14);
+    }
+    assert_true(error_pattern_peak(&pattern, 4, false) > 4.5);
+    assert_true(error_pattern_peak(&pattern, 4, true) == 0.0);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(gathering_leaves_no_pattern),
-        cmocka_unit_test(parts_are_no_worse_than_the_whole),
-        cmocka_unit_test(paths_leave_no_pattern),
+        cmocka_unit_test(figures_of_a_known_pattern),        cmocka_unit_test(gathering_leaves_no_pattern),
+        cmocka_unit_test(parts_are_no_worse_than_the_whole), cmocka_unit_test(paths_leave_no_pattern),
         cmocka_unit_test(occlusion_leaves_no_pattern),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
