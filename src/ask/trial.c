@@ -10,56 +10,37 @@
 #include "film/film.h"
 #include "render/renderer.h"
 #include "render/stopwatch.h"
+#include "transport/integrator.h"
 
-/* Integrators that a wish for an error takes; those that look at a scene in their own way may show none. */
-static bool shows_lamps(const char *integrator) {
-    static const char *const names[] = {"path", "volpath", "finalgather"};
-    for (size_t i = 0; i < sizeof names / sizeof names[0]; ++i)
-        if (integrator != NULL && strncmp(integrator, names[i], strlen(names[i])) == 0)
-            return true;
-    return false;
-}
-
-/* What a key of an integrator's text says; 0 without it. */
-static size_t number_of_key(const char *integrator, const char *key) {
-    const char *const found = integrator != NULL ? strstr(integrator, key) : NULL;
-    return found != NULL ? strtoul(found + strlen(key), NULL, 10) : 0;
-}
-
-/* What a trial of `integrator` renders by: paths without rays for lamps alone, unless they are asked for. The
- * noise of lamps seen straight is what keeps rounds going until rare reflections of lamps are met, too. A new
- * text, or NULL where memory is short. */
-static char *rendered_by(const char *integrator) {
-    static const char name[] = "path", key[] = "lamp_rays=";
-    const size_t length = sizeof name - 1;
-    const bool is_path = strncmp(integrator, name, length) == 0 &&
-                         (integrator[length] == ':' || integrator[length] == '\0') &&
-                         strstr(integrator, key) == NULL;
-    const size_t capacity = strlen(integrator) + sizeof key + 2;
-    char *const text = malloc(capacity);
-    if (text != NULL)
-        snprintf(text, capacity, "%s%s%s", integrator, is_path ? strchr(integrator, ':') ? "," : ":" : "",
-                 is_path ? "lamp_rays=0" : "");
-    return text;
+/* Lamps that the camera sees, as the integrator shows them. */
+static aur_result find_lamps(aur_trial *trial, const aur_scene *scene, uint64_t seed, aur_error *error) {
+    const aur_render *const render = trial->replicas.renders[0];
+    const aur_integrator *const integrator = aur_render_integrator(render);
+    const aur_film_layout *const layout = &aur_render_film(render)->layout;
+    if (!integrator->descriptor->shows_lamps)
+        return AUR_OK;
+    const aur_result found = aur_lamps_find(scene, layout, AUR_LAMP_POINTS, seed, &trial->lamps, error);
+    if (found != AUR_OK)
+        return found;
+    if (integrator->refines_lamp_edges)
+        aur_lamps_leave_edges(layout, &trial->lamps);
+    aur_lamps_take_looks(layout, integrator->lamp_looks, &trial->lamps);
+    return AUR_OK;
 }
 
 aur_result aur_trial_create(aur_renderer *renderer, const aur_render_options *options, size_t replica_count,
                             aur_trial *trial, aur_error *error) {
     aur_render_options own = *options;
-    char *const integrator = trial->integrator != NULL ? rendered_by(trial->integrator) : NULL;
-    if (trial->integrator != NULL && integrator == NULL)
-        return aur_fail_memory(error);
-    own.integrator = integrator;
+    own.integrator = trial->integrator;
     own.samples_per_pixel = AUR_SAMPLES_PER_PIXEL_MAX;
     trial->interval = (aur_error_interval){.estimate = INFINITY, .high = INFINITY};
     trial->bound = INFINITY;
     trial->rate = 1.0;
-    trial->pattern_samples = number_of_key(trial->integrator, "split=");
-    trial->pattern_samples += trial->pattern_samples == 0;
     const aur_result result = aur_replicas_create(renderer, &own, replica_count, &trial->replicas, error);
-    free(integrator);
     if (result != AUR_OK)
         return result;
+    const size_t pattern = aur_render_integrator(trial->replicas.renders[0])->samples_a_pattern;
+    trial->pattern_samples = pattern > 0 ? pattern : 1;
     const size_t pixels = trial->replicas.pixel_count;
     trial->value_count = replica_count * pixels;
     trial->targets = calloc(trial->value_count, sizeof *trial->targets);
@@ -69,20 +50,11 @@ aur_result aur_trial_create(aur_renderer *renderer, const aur_render_options *op
     trial->pixels = calloc(pixels, sizeof *trial->pixels);
     trial->spreads = calloc(pixels, sizeof *trial->spreads);
     trial->scratch = calloc(2 * pixels, sizeof *trial->scratch);
-    const aur_film_layout *const layout = &aur_render_film(trial->replicas.renders[0])->layout;
-    if (shows_lamps(trial->integrator)) {
-        const aur_result found = aur_lamps_find(aur_renderer_scene(renderer), layout, AUR_LAMP_POINTS,
-                                                options->seed, &trial->lamps, error);
-        if (found != AUR_OK)
-            return found;
-        if (number_of_key(trial->integrator, "edges=") > 0)
-            aur_lamps_leave_edges(layout, &trial->lamps);
-        aur_lamps_take_looks(layout, aur_render_lamp_looks(trial->replicas.renders[0]), &trial->lamps);
-    }
     const bool made = trial->targets != NULL && trial->earlier != NULL && trial->variances != NULL &&
                       trial->measured != NULL && trial->pixels != NULL && trial->spreads != NULL &&
                       trial->scratch != NULL;
-    return made ? AUR_OK : aur_fail_memory(error);
+    return made ? find_lamps(trial, aur_renderer_scene(renderer), options->seed, error)
+                : aur_fail_memory(error);
 }
 
 void aur_trial_release(aur_trial *trial) {

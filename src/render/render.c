@@ -199,8 +199,8 @@ void aur_render_destroy(aur_render *render) {
     free(render);
 }
 
-const uint16_t *aur_render_lamp_looks(const aur_render *render) {
-    return render->integrator->lamp_looks;
+const aur_integrator *aur_render_integrator(const aur_render *render) {
+    return render->integrator;
 }
 
 /* --- steps */

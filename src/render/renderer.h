@@ -14,8 +14,8 @@ aur_result aur_render_identify(const aur_scene *scene, const aur_render_options 
 /* NULL for a render that is not resumable. */
 const char *aur_render_identity(const aur_render *render);
 
-/* Rays of a sample for lamps alone, of each pixel of the whole picture; NULL: none. */
-const uint16_t *aur_render_lamp_looks(const aur_render *render);
+/* What renders, as its keys have made it. */
+const struct aur_integrator *aur_render_integrator(const aur_render *render);
 
 /* Time that the render has taken, added to that of its own, and as words of a file. */
 void aur_render_add_seconds(aur_render *render, double prepare, double steps, double cpu);

@@ -57,16 +57,25 @@ typedef struct aur_integrator_descriptor {
     /* Of `tile`: it adds a pixel's samples one after the other, so that any cut of them into calls gives the
      * same bits. Else it asks aur_tile_stops on the way, and returns AUR_ERROR_CANCELLED. */
     bool cuts;
+    /* The camera's rays meet lamps, so that their outlines are part of the picture's error. */
+    bool shows_lamps;
 } aur_integrator_descriptor;
 
 enum { AUR_EXTRA_CHANNELS_MAX = 64 };
+
+/* Who does not know how many samples a pixel will have says the most that there can be. */
+static inline bool aur_integrator_knows_samples(const aur_integrator_context *context) {
+    return context->samples_per_pixel < AUR_SAMPLES_PER_PIXEL_MAX;
+}
 
 struct aur_integrator {
     const aur_integrator_descriptor *descriptor;
     const aur_scene *scene;
     void *data;
-    bool pixel_centre; /* every camera ray goes through the centre of its pixel */
-    bool whole_tiles;  /* all pixels of a tile have as many samples */
+    bool pixel_centre;          /* every camera ray goes through the centre of its pixel */
+    bool whole_tiles;           /* all pixels of a tile have as many samples */
+    bool refines_lamp_edges;    /* where neighbours see the edge of a lamp a pixel has more rays */
+    uint32_t samples_a_pattern; /* of a pixel that complete one another, and then the next ones; 0: none do */
     const uint16_t
         *lamp_looks;    /* of each pixel of the picture: rays of a sample for lamps alone; NULL: none */
     size_t extra_count; /* channels after R, G, B; at most AUR_EXTRA_CHANNELS_MAX */

@@ -6,7 +6,10 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "ask/trial.h"
+#include "render/renderer.h"
 #include "scene/scene_text.h"
+#include "transport/integrator.h"
 #include "transport/lights/lamps.h"
 #include <aureole/ask.h>
 
@@ -57,6 +60,68 @@ static void tells_the_size_of_a_lamp(void **state) {
     aur_scene_destroy(scene);
 }
 
+/* A sample with several rays for lamps: n times as many meet one, and their mean has the n-th part of the
+ * variance. Pixels with none have their own ray. */
+static void takes_more_rays_for_lamps(void **state) {
+    (void)state;
+    aur_scene *const scene = must_load_body(body);
+    const aur_film_layout layout = {.width = SIDE, .height = SIDE, .x0 = 8, .x1 = SIDE, .y0 = 4, .y1 = SIDE};
+    aur_lamps before, after;
+    assert_int_equal(aur_lamps_find(scene, &layout, AUR_LAMP_POINTS, 1, &before, NULL), AUR_OK);
+    assert_int_equal(aur_lamps_find(scene, &layout, AUR_LAMP_POINTS, 1, &after, NULL), AUR_OK);
+    uint16_t looks[SIDE * SIDE]; /* of the whole picture, where the film is a part of it */
+    for (size_t i = 0; i < SIDE * SIDE; ++i)
+        looks[i] = (uint16_t)(i % 5 == 0 ? 0 : 1u << i % 5);
+    aur_lamps_take_looks(&layout, looks, &after);
+    const size_t width = layout.x1 - layout.x0;
+    for (size_t i = 0; i < width * (layout.y1 - layout.y0); ++i) {
+        const uint16_t count = looks[(layout.y0 + i / width) * SIDE + layout.x0 + i % width];
+        const double rays = count > 0 ? count : 1;
+        assert_true(after.share[i] == before.share[i] * rays); /* powers of two */
+        assert_true(after.variance[i] == before.variance[i] / rays);
+    }
+    aur_lamps_release(&before);
+    aur_lamps_release(&after);
+    aur_scene_destroy(scene);
+}
+
+/* What a trial knows of its integrator is what the keys made of it, with their defaults. */
+static void knows_its_integrator(void **state) {
+    (void)state;
+    static const struct {
+        const char *integrator;
+        size_t pattern_samples;
+        bool looks;
+    } cases[] = {
+        {"path", 1, false},
+        {"path:rr_depth=3", 1, false},
+        {"path:lamp_rays=.5", 1, true},
+        {"finalgather:photons=100,split=8", 8, false},
+        {"finalgather:photons=100,split=4,edges=0", 4, false},
+    };
+    aur_scene *const scene = must_load_body(body);
+    aur_renderer *renderer = NULL;
+    assert_int_equal(aur_renderer_create(scene, &renderer, NULL), AUR_OK);
+    for (size_t i = 0; i < sizeof cases / sizeof cases[0]; ++i) {
+        aur_render_options options = aur_render_options_default();
+        options.width = options.height = SIDE;
+        options.sampler = "sobol";
+        options.filter = "box";
+        aur_trial trial = {.integrator = strdup(cases[i].integrator)};
+        aur_error error = {0};
+        if (aur_trial_create(renderer, &options, 2, &trial, &error) != AUR_OK)
+            fail_msg("%s: %s", cases[i].integrator, error.message);
+        const aur_integrator *const made = aur_render_integrator(trial.replicas.renders[0]);
+        assert_int_equal(trial.pattern_samples, cases[i].pattern_samples);
+        assert_true((made->lamp_looks != NULL) == cases[i].looks);
+        assert_true(made->refines_lamp_edges == (i == 3)); /* `edges` is 32 where nobody says */
+        assert_non_null(trial.lamps.share);
+        aur_trial_release(&trial);
+    }
+    aur_renderer_destroy(renderer);
+    aur_scene_destroy(scene);
+}
+
 static void meets_lamps(void **state) {
     (void)state;
     aur_scene *const scene = must_load_body(body);
@@ -93,6 +158,7 @@ static void meets_lamps(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {cmocka_unit_test(tells_the_size_of_a_lamp),
-                                       cmocka_unit_test(meets_lamps)};
+                                       cmocka_unit_test(takes_more_rays_for_lamps),
+                                       cmocka_unit_test(knows_its_integrator), cmocka_unit_test(meets_lamps)};
     return cmocka_run_group_tests(tests, enter_folder, leave_folder);
 }

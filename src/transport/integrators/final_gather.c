@@ -203,6 +203,8 @@ static aur_result create(aur_parameters *parameters, const aur_integrator_contex
     warn_of_idle_keys(p, parameters, &context->warnings);
     integrator->pixel_centre = p->pixel == AUR_PIXEL_CENTRE;
     integrator->whole_tiles = p->policy.share != AUR_SHARE_NONE;
+    integrator->refines_lamp_edges = p->policy.edge_samples > 0;
+    integrator->samples_a_pattern = (uint32_t)p->split;
     static const char *const directions[] = {"directions"};
     static const char *const sharing[] = {"sharing.R", "sharing.G", "sharing.B"};
     const bool near = p->policy.share == AUR_SHARE_NEAR;
@@ -229,4 +231,5 @@ const aur_integrator_descriptor aur_integrator_final_gather = {
     .create = create,
     .release = release,
     .tile = tile,
+    .shows_lamps = true,
 };

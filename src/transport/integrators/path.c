@@ -19,7 +19,8 @@ static const aur_key keys[] = {
                         "the pixels of a packet share the random numbers of all but their camera rays")},
     {AUR_KEY_OF_REAL(aur_path, "lamp_rays", lamp_rays, 0.0, 64.0, "0.5",
                      "camera rays that a sample has more in the picture's mean, where lamps have edges: they "
-                     "tell how much of a lamp a pixel sees")},
+                     "tell how much of a lamp a pixel sees; 0 where nobody knows how many samples there will "
+                     "be")},
 };
 
 static aur_result create(aur_parameters *parameters, const aur_integrator_context *context,
@@ -33,6 +34,10 @@ static aur_result create(aur_parameters *parameters, const aur_integrator_contex
         return aur_fail_at(error, parameters->location, AUR_ERROR_FORMAT,
                            "integrator 'path': 'interleaved' goes neither with 'packets=false' nor with "
                            "'hide_emitters=true'");
+    /* The noise of lamps seen straight is what keeps the rounds of pictures to an error going until rare
+     * reflections of lamps are met, too. */
+    if (!aur_integrator_knows_samples(context) && aur_parameters_find(parameters, "lamp_rays") == NULL)
+        data->lamp_rays = 0.0;
     return aur_path_prepare(data, context->scene, error);
 }
 
@@ -82,4 +87,5 @@ const aur_integrator_descriptor aur_integrator_path = {
     .radiance = radiance,
     .tile = tile,
     .cuts = true,
+    .shows_lamps = true,
 };

@@ -35,6 +35,7 @@ static aur_vector radiance(const aur_integrator *integrator, const aur_camera_sa
         .size = sizeof(aur_volume_path),                                                                     \
         .create = create,                                                                                    \
         .radiance = radiance,                                                                                \
+        .shows_lamps = true,                                                                                 \
     }
 
 VOLUME_PATH(volpath, "path tracing through participating media");

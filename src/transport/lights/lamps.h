@@ -17,7 +17,9 @@ enum { AUR_LAMP_POINTS = 4096 }; /* where a fiftieth of the power is to be known
 aur_result aur_lamps_find(const aur_scene *scene, const aur_film_layout *layout, size_t points, uint64_t seed,
                           aur_lamps *lamps, aur_error *error);
 /* Where a sample of a pixel has several rays for lamps (looks.h), of all pixels of the picture; NULL: none.
- */
+ * Their mean takes the place of what the sample's own ray meets: of n rays that are uniform in the pixel n
+ * times as many are expected to meet a lamp, and the variance is the n-th part (at most: they are a
+ * sequence's points, not random). */
 void aur_lamps_take_looks(const aur_film_layout *layout, const uint16_t *looks, aur_lamps *lamps);
 /* Leaves out pixels beside one that is covered by half at least: an integrator that looks again where
  * neighbours see a lamp's edge (`edges` of final gathering) finds the lamp there by itself. */
