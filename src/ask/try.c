@@ -210,11 +210,14 @@ static bool pays(const aur_choice *choice, const aur_rivals *rivals, double want
            DIFFERENCE_PRICE * aur_trial_rays(&rivals->difference);
 }
 
-/* Whether a squared bias is more than may be left, and not only by a first few samples' chance: who goes on
- * loses little before a part of all rays is spent, who gives up takes paths. */
-static bool is_hopeless(const aur_bias *bias, double most, double part_spent) {
-    const double least_part = 1.0 / 32;
-    return bias->estimate - (part_spent < least_part ? 1.0 : 0.5) * uncertain(bias) > most;
+/* How many times as many rays show that a squared bias is no more than `most`, if its estimate is too large
+ * by chance: a little beyond that, and a step that is worth a look. Infinite where the estimate is too much
+ * by more than chance. Who goes on loses little before a part of all rays is spent, and who gives up takes
+ * paths: until then the estimate may be wrong by more. */
+static double growth_needed(const aur_bias *bias, double most, double part_spent) {
+    const double least_part = 1.0 / 32, chance = part_spent < least_part ? 1.0 : 0.5;
+    const double room = most - fmax(bias->estimate - chance * uncertain(bias), 0.0);
+    return room > 0.0 ? fmax(1.2 * uncertain(bias) / room, 1.25) : INFINITY;
 }
 
 /* The bias of final gathering, from pictures of what paths find over what the map says at the ends of the
@@ -231,13 +234,11 @@ static aur_result find_bias(aur_choice *choice, aur_rivals *rivals, double wante
             return result;
         *bias = aur_replicas_bias(&rivals->difference.replicas, NULL, rivals->pilot.measure.mean,
                                   choice->confidence);
-        /* The least growth that can do, as a first estimate is large by chance. */
-        const double rays = aur_trial_rays(&rivals->difference), growth = uncertain(bias) / most;
-        if (bias->high <= most ? !pays(choice, rivals, wanted)
-                               : is_hopeless(bias, most, rays / most_rays) || growth * rays > most_rays)
+        const double rays = aur_trial_rays(&rivals->difference);
+        const double growth = growth_needed(bias, most, rays / most_rays);
+        if (bias->high <= most ? !pays(choice, rivals, wanted) : growth * rays > most_rays)
             return AUR_OK;
-        /* A little beyond that, and by steps that are worth a look. */
-        samples = (uint32_t)ceil(samples * (bias->high <= most ? 2.0 : fmin(fmax(1.2 * growth, 1.25), 4.0)));
+        samples = (uint32_t)ceil(samples * (bias->high <= most ? 2.0 : fmin(growth, 4.0)));
     }
 }
 
