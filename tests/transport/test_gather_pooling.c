@@ -55,9 +55,9 @@ static void linear_light_is_kept(void **state) {
     free(strata);
 }
 
-/* Three pixels about it, whose outer ones count .21; at the rim of the tile there are two. */
+/* Three pixels about it, whose outer ones count .16; at the rim of the tile there are two. */
 static double middle_of_near_window(size_t at) {
-    return at == 0 ? 0.21 / 1.21 : at == SIDE - 1 ? SIDE - 1 - 0.21 / 1.21 : (double)at;
+    return at == 0 ? 0.16 / 1.16 : at == SIDE - 1 ? SIDE - 1 - 0.16 / 1.16 : (double)at;
 }
 
 static void near_pools_keep_linear_light(void **state) {

@@ -100,20 +100,38 @@ static void heights_lie_in_the_middle_of_steps(void **state) {
 /* Blocks of pixels have each number once, and those of one 2 x 2 block differ in the highest bits alone. */
 static void pixels_have_their_numbers(void **state) {
     (void)state;
-    uint64_t met = 0;
-    for (size_t y = 0; y < 8; ++y)
-        for (size_t x = 0; x < 8; ++x) {
-            const size_t number = aur_nested_number(x + 8, y + 16);
-            met |= UINT64_C(1) << number;
-            assert_int_equal(number % 16, aur_nested_number(x & ~(size_t)1, y & ~(size_t)1) % 16);
-            assert_int_equal(number % 4, aur_nested_number(x & ~(size_t)3, y & ~(size_t)3) % 4);
-        }
-    assert_true(met == UINT64_MAX);
+    for (uint64_t seed = 0; seed < 20; ++seed) {
+        uint64_t met = 0;
+        for (size_t y = 0; y < 8; ++y)
+            for (size_t x = 0; x < 8; ++x) {
+                const size_t number = aur_nested_number(seed, x + 8, y + 16);
+                const size_t even = ~(size_t)1, fourth = ~(size_t)3;
+                met |= UINT64_C(1) << number;
+                assert_int_equal(number % 16, aur_nested_number(seed, (x & even) + 8, (y & even) + 16) % 16);
+                assert_int_equal(number % 4,
+                                 aur_nested_number(seed, (x & fourth) + 8, (y & fourth) + 16) % 4);
+            }
+        assert_true(met == UINT64_MAX);
+    }
+}
+
+/* Pixels 4 apart that differ in eighths alone would be wrong alike, as would pixels 8 apart of one number.
+ * They are so by chance, one in 16 and one in 64; five standard deviations of such a count are left. */
+static void blocks_have_numbers_of_their_own(void **state) {
+    (void)state;
+    enum { SEEDS = 6400 };
+    double alike = 0.0, same = 0.0;
+    for (uint64_t seed = 0; seed < SEEDS; ++seed) {
+        alike += aur_nested_number(seed, 1, 2) >> 2 == aur_nested_number(seed, 5, 2) >> 2 ? 1.0 : 0.0;
+        same += aur_nested_number(seed, 1, 2) == aur_nested_number(seed, 1, 10) ? 1.0 : 0.0;
+    }
+    assert_near(alike, SEEDS / 16.0, 5.0 * sqrt(SEEDS / 16.0 * 15.0 / 16.0));
+    assert_near(same, SEEDS / 64.0, 5.0 * sqrt(SEEDS / 64.0 * 63.0 / 64.0));
 }
 
 int main(void) {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(blocks_make_finer_patterns),
-                                       cmocka_unit_test(heights_lie_in_the_middle_of_steps),
-                                       cmocka_unit_test(pixels_have_their_numbers)};
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(blocks_make_finer_patterns), cmocka_unit_test(heights_lie_in_the_middle_of_steps),
+        cmocka_unit_test(pixels_have_their_numbers), cmocka_unit_test(blocks_have_numbers_of_their_own)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

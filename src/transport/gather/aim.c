@@ -36,10 +36,9 @@ aur_gather_rotation aur_gather_rotation_at(const aur_gather_places *places,
         tile = aur_hash2(tile, places->index);
     if (rule->nested) {
         const size_t pixel = aur_group_pixel(places->arrangement, places->group, lane);
-        const size_t number = aur_nested_number(pixel % AUR_TILE_SIZE, pixel / AUR_TILE_SIZE);
+        const size_t number = aur_nested_number(tile, pixel % AUR_TILE_SIZE, pixel / AUR_TILE_SIZE);
         const float angle = 2.0f * AUR_PI_F * aur_unit_float((uint32_t)tile);
-        return aur_gather_rotation_by(rule->rotations[number ^ (tile >> 32) % AUR_NESTED_COUNT], cosf(angle),
-                                      sinf(angle));
+        return aur_gather_rotation_by(rule->rotations[number], cosf(angle), sinf(angle));
     }
     const uint32_t rank = aur_gather_splits(places, lobe_rule) ? 0 : aur_group_rank(places->group);
     /* Sixteen patterns would show as texture, were they the same in every tile. */

@@ -11,17 +11,24 @@
 #include <stddef.h>
 #include <stdint.h>
 
+#include "core/random.h"
+
 enum {
     AUR_NESTED_LEVELS = 3, /* 2 x 2, 4 x 4, 8 x 8 */
     AUR_NESTED_COUNT = 1 << 2 * AUR_NESTED_LEVELS
 };
 
-/* The number of the shift of the pixel at (x, y): two bits a level, those of the 2 x 2 block highest. */
-static inline size_t aur_nested_number(size_t x, size_t y) {
+/* The number of the shift of the pixel at (x, y): two bits a level, those of the 2 x 2 block highest. Which
+ * pixel has which is drawn anew for each block of 4 x 4, and which block of 4 x 4 has which eighths for each
+ * of 8 x 8: else pixels 4 apart would have nearly the same pattern, and those 8 apart the very same, and both
+ * would be wrong alike. Blocks stay complete. */
+static inline size_t aur_nested_number(uint64_t seed, size_t x, size_t y) {
     size_t number = 0;
     for (size_t level = 0; level < AUR_NESTED_LEVELS; ++level)
         number = number << 2 | (x >> level & 1u) << 1 | (y >> level & 1u);
-    return number;
+    const size_t eighths = aur_hash3(seed, x / 8, y / 8) & 3u;
+    const size_t others = aur_hash4(seed, x / 4, y / 4, 4) & 15u;
+    return number ^ (others << 2 | eighths);
 }
 
 /* A point of a spherical Fibonacci set of `count` points on the hemisphere - azimuth in turns, and height -

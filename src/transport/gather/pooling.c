@@ -72,7 +72,7 @@ static size_t set_window(size_t at, float weights[WINDOW]) {
  * error further, but not that of means over 8 x 8 pixels, which would be more than 1.5 times what independent
  * errors leave there. Before the tile's first pixel, where the window begins at -1, nothing counts. */
 static size_t set_near_window(size_t at, float weights[WINDOW]) {
-    const float beside = 0.21f;
+    const float beside = 0.16f;
     for (size_t i = 0; i < WINDOW; ++i)
         weights[i] = 0.0f;
     weights[0] = at > 0 ? beside : 0.0f;
