@@ -2,6 +2,7 @@
  * sampling and Russian roulette (Kajiya 1986; Veach 1997). */
 #include <stdlib.h>
 
+#include "transport/paths/candidates.h"
 #include "transport/paths/path.h"
 
 static const aur_key keys[] = {
@@ -17,6 +18,9 @@ static const aur_key keys[] = {
                         "sixteen pixels in lockstep, else one path at a time: the same picture")},
     {AUR_KEY_OF_BOOLEAN(aur_path, "interleaved", interleaved, "false",
                         "the pixels of a packet share the random numbers of all but their camera rays")},
+    {AUR_KEY_OF_INTEGER(aur_path, "candidates", candidates, 1, AUR_CANDIDATES_MOST, "1",
+                        "points on lights at each surface, of which one gets the shadow ray, chosen by what "
+                        "it would bring: less noise under skies for more time")},
     {AUR_KEY_OF_REAL(aur_path, "lamp_rays", lamp_rays, 0.0, 64.0, "0.5",
                      "camera rays that a sample has more in the picture's mean, where lamps have edges: they "
                      "tell how much of a lamp a pixel sees; 0 where nobody knows how many samples there will "

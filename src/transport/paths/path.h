@@ -12,6 +12,7 @@ typedef struct aur_path {
     uint32_t rr_depth;   /* Russian roulette from this depth on */
     bool hide_emitters;  /* from the camera */
     bool strict_normals; /* of no effect */
+    uint32_t candidates; /* points on lights of which one gets the shadow ray; 0 is 1 */
     bool packets;        /* 16 pixels in lockstep */
     bool interleaved;    /* which share their numbers but for the camera's */
     bool panes;       /* rays to lights go straight through surfaces that let them; of aur_path_group alone */
@@ -21,8 +22,8 @@ typedef struct aur_path {
     const aur_lamp_looks *looks; /* NULL: the camera's own rays tell what lamps they meet */
 } aur_path;
 
-/* Dimension pairs of one bounce: (light choice, roulette), light position, (lobe choice, unused), direction.
- */
+/* Dimension pairs of one bounce: (light choice, roulette), light position, (lobe choice, choice among
+ * candidates), direction. */
 enum { AUR_PATH_CHOICE, AUR_PATH_POSITION, AUR_PATH_LOBE, AUR_PATH_DIRECTION, AUR_PATH_PAIRS };
 
 /* The first pair of a bounce. Those of the first come with the camera's, the others two bounces at once. */

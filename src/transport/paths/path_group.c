@@ -4,6 +4,7 @@
 
 #include "transport/lights/direct_light.h"
 #include "transport/packets/packet_rays.h"
+#include "transport/paths/candidates.h"
 #include "transport/paths/panes.h"
 
 enum { MOST_PANES = 1000 }; /* which a ray may meet that rounding holds on one of them */
@@ -31,6 +32,7 @@ static void shared_numbers(aur_path_group *g, uint32_t depth) {
     share(pair[AUR_PATH_POSITION][0], lanes->light_u);
     share(pair[AUR_PATH_POSITION][1], lanes->light_v);
     share(pair[AUR_PATH_LOBE][0], lanes->lobe);
+    share(pair[AUR_PATH_LOBE][1], lanes->selection);
     share(pair[AUR_PATH_DIRECTION][0], lanes->direction_u);
     share(pair[AUR_PATH_DIRECTION][1], lanes->direction_v);
 }
@@ -58,13 +60,12 @@ static void own_pair(const aur_path_group *g, uint32_t pair, float *u, float *v)
 static void own_numbers(aur_path_group *g, uint32_t depth, bool mixed) {
     aur_path_lanes *const lanes = &g->lanes;
     const uint32_t first = aur_path_pair(depth);
-    float unused[AUR_PACKET_SIZE];
     if (g->chooses || depth >= g->data->rr_depth)
         own_pair(g, first + AUR_PATH_CHOICE, lanes->choice, lanes->roulette);
     if (g->has_lights)
         own_pair(g, first + AUR_PATH_POSITION, lanes->light_u, lanes->light_v);
-    if (mixed)
-        own_pair(g, first + AUR_PATH_LOBE, lanes->lobe, unused);
+    if (mixed || g->candidates > 1)
+        own_pair(g, first + AUR_PATH_LOBE, lanes->lobe, lanes->selection);
     own_pair(g, first + AUR_PATH_DIRECTION, lanes->direction_u, lanes->direction_v);
 }
 
@@ -296,23 +297,49 @@ static uint32_t pass_panes(aur_path_group *g, uint32_t stopped, const float *far
     return through;
 }
 
-/* Light straight from the lights. */
-static void add_direct(aur_path_group *g, uint32_t depth) {
+/* Points on lights, rays to them and what they bring; where light arrives is known. */
+static void draw_lights(aur_path_group *g, const float *choice, const float *u, const float *v) {
     aur_path_lanes *const lanes = &g->lanes;
     const uint32_t plain = g->plain, others = g->alive & ~plain;
     const aur_light_references references = {&lanes->position, &lanes->facing};
     if (plain != 0) {
-        aur_light_lanes_direct(g->scene, plain, &references, lanes->choice, lanes->light_u, lanes->light_v,
-                               &lanes->light);
+        aur_light_lanes_direct(g->scene, plain, &references, choice, u, v, &lanes->light);
         g->data->kernels->shadow(lanes, &g->shadows);
     }
-    if (others != 0) {
-        set_references(g, others);
-        aur_light_lanes_each(g->scene, others, &references, lanes->choice, lanes->light_u, lanes->light_v,
-                             &lanes->light);
-    }
+    if (others != 0)
+        aur_light_lanes_each(g->scene, others, &references, choice, u, v, &lanes->light);
     for (uint32_t rest = others; rest != 0; rest &= rest - 1)
         shadow_one(g, aur_first_lane(rest), &g->surfaces[aur_first_lane(rest)]);
+}
+
+/* The same of one candidate of several. */
+static void draw_candidates(aur_path_group *g) {
+    aur_path_lanes *const lanes = &g->lanes;
+    const aur_path_kernels *const kernels = g->data->kernels;
+    aur_path_candidates kept = {0};
+    for (uint32_t i = 0; i < g->candidates; ++i) {
+        aur_lane_numbers choice, u, v;
+        float shift[3];
+        aur_candidate_shift(i, g->candidates, shift);
+        for (size_t k = 0; k < AUR_PACKET_SIZE; ++k) {
+            choice[k] = aur_candidate_number(lanes->choice[k], shift[0]);
+            u[k] = aur_candidate_number(lanes->light_u[k], shift[1]);
+            v[k] = aur_candidate_number(lanes->light_v[k], shift[2]);
+        }
+        draw_lights(g, choice, u, v);
+        kernels->consider(lanes, &g->shadows, &kept);
+    }
+    kernels->choose(&kept, g->candidates, lanes, &g->shadows);
+}
+
+/* Light straight from the lights. */
+static void add_direct(aur_path_group *g, uint32_t depth) {
+    aur_path_lanes *const lanes = &g->lanes;
+    set_references(g, g->alive & ~g->plain);
+    if (g->candidates > 1)
+        draw_candidates(g);
+    else
+        draw_lights(g, lanes->choice, lanes->light_u, lanes->light_v);
     const uint32_t lit = aur_lanes_set(lanes->lit) & g->alive;
     if (lit == 0)
         return;
@@ -407,6 +434,7 @@ void aur_path_group_prepare(const aur_path *data, const aur_scene *scene, const 
     g->has_lights = aur_scene_emitter_count(scene) > 0;
     g->has_sky = aur_scene_has_environment(scene);
     g->chooses = aur_light_chooses(scene);
+    g->candidates = data->candidates > 1 ? data->candidates : 1;
     aur_packet_clear(&g->packet);
     aur_packet_clear(&g->shadows);
 }

@@ -16,11 +16,12 @@ typedef struct aur_path_group {
     const aur_scene *scene;
     aur_counters *counters;
     bool has_lights, has_sky, chooses;
-    bool coherent;     /* the next rays are nearly parallel */
-    uint32_t alive;    /* a bit a lane, as in all masks */
-    uint32_t specular; /* lanes whose ray no light sample could have found */
-    uint32_t plain;    /* lanes whose surface the kernels can do */
-    uint32_t told;     /* lanes whose sums have the light already that their first rays meet */
+    uint32_t candidates; /* at least 1 */
+    bool coherent;       /* the next rays are nearly parallel */
+    uint32_t alive;      /* a bit a lane, as in all masks */
+    uint32_t specular;   /* lanes whose ray no light sample could have found */
+    uint32_t plain;      /* lanes whose surface the kernels can do */
+    uint32_t told;       /* lanes whose sums have the light already that their first rays meet */
     /* By emitter, those that are below 0 shine on straight lanes that meet them, as all do where this is
      * NULL: the light of the others is known. */
     const float *known;

@@ -11,7 +11,7 @@ typedef struct aur_path_lanes {
     aur_lane_numbers pdf; /* with which its direction was drawn, a steradian */
 
     /* Numbers of the bounce, in [0,1). */
-    aur_lane_numbers choice, roulette, light_u, light_v, lobe, direction_u, direction_v;
+    aur_lane_numbers choice, roulette, light_u, light_v, lobe, selection, direction_u, direction_v;
 
     /* The triangle, and its reflectance seen from the side of its normal and from behind. */
     aur_lane_vectors corner[3];
@@ -30,6 +30,13 @@ typedef struct aur_path_lanes {
     int alive[AUR_PACKET_SIZE]; /* -1: the path goes on */
 } aur_path_lanes;
 
+/* Of sixteen paths, the candidates that are kept so far (candidates.h). */
+typedef struct aur_path_candidates {
+    _Alignas(64) aur_lane_vectors light, origin, direction;
+    aur_lane_numbers farthest;
+    aur_lane_numbers own, total; /* the weight of the one that is kept, and of all; 0: all are black */
+} aur_path_candidates;
+
 /* Loops over all lanes, for each instruction set; lanes that are not plain hold something of no meaning
  * afterwards, so they are to be filled in later. The bits are the same for every instruction set. */
 typedef struct aur_path_kernels {
@@ -39,6 +46,11 @@ typedef struct aur_path_kernels {
     uint32_t (*tilted)(const aur_path_lanes *lanes, size_t first);
     /* Rays towards the points on lights, and what they bring. */
     void (*shadow)(aur_path_lanes *lanes, aur_packet *packet);
+    /* One more candidate: what `shadow` has left, for which it takes from lanes->selection. */
+    void (*consider)(aur_path_lanes *lanes, const aur_packet *packet, aur_path_candidates *kept);
+    /* Puts those of `count` that were kept where `shadow` leaves rays and light. */
+    void (*choose)(const aur_path_candidates *kept, uint32_t count, aur_path_lanes *lanes,
+                   aur_packet *packet);
     /* Adds what the lanes whose bit is set bring. */
     void (*add)(aur_path_lanes *lanes, uint32_t lit);
     /* The next rays. */

@@ -5,6 +5,7 @@
 #include "material/sampling.h"
 #include "transport/lights/direct_light.h"
 #include "transport/packets/coherence.h"
+#include "transport/paths/candidates.h"
 #include "transport/paths/path.h"
 
 static void lanes_surface(aur_path_lanes *restrict lanes, const aur_packet *restrict packet) {
@@ -89,6 +90,47 @@ static void lanes_shadow(aur_path_lanes *restrict lanes, aur_packet *restrict pa
     }
 }
 
+static void lanes_consider(aur_path_lanes *restrict lanes, const aur_packet *restrict packet,
+                           aur_path_candidates *restrict kept) {
+    const struct RTCRay16 *const rays = &packet->query.ray;
+    for (size_t k = 0; k < AUR_PACKET_SIZE; ++k) {
+        const aur_vector light = aur_lane_vector(&lanes->shadow, k);
+        const float brings = aur_candidate_weight(light);
+        const float weight = lanes->lit[k] != 0 ? brings : 0.0f;
+        const bool wins = aur_candidate_wins(weight, &kept->total[k], &lanes->selection[k]);
+        kept->own[k] = wins ? weight : kept->own[k];
+        kept->light.x[k] = wins ? light.x : kept->light.x[k];
+        kept->light.y[k] = wins ? light.y : kept->light.y[k];
+        kept->light.z[k] = wins ? light.z : kept->light.z[k];
+        kept->origin.x[k] = wins ? rays->org_x[k] : kept->origin.x[k];
+        kept->origin.y[k] = wins ? rays->org_y[k] : kept->origin.y[k];
+        kept->origin.z[k] = wins ? rays->org_z[k] : kept->origin.z[k];
+        kept->direction.x[k] = wins ? rays->dir_x[k] : kept->direction.x[k];
+        kept->direction.y[k] = wins ? rays->dir_y[k] : kept->direction.y[k];
+        kept->direction.z[k] = wins ? rays->dir_z[k] : kept->direction.z[k];
+        kept->farthest[k] = wins ? rays->tfar[k] : kept->farthest[k];
+    }
+}
+
+static void lanes_choose(const aur_path_candidates *restrict kept, uint32_t count,
+                         aur_path_lanes *restrict lanes, aur_packet *restrict packet) {
+    struct RTCRay16 *const rays = &packet->query.ray;
+    for (size_t k = 0; k < AUR_PACKET_SIZE; ++k) {
+        const float own = kept->own[k];
+        const float scale = aur_candidate_scale(count, kept->total[k], own > 0.0f ? own : 1.0f);
+        lanes->lit[k] = -(int)(own > 0.0f);
+        aur_lane_set(&lanes->shadow, k, aur_vector_scale(aur_lane_vector(&kept->light, k), scale));
+        rays->org_x[k] = kept->origin.x[k];
+        rays->org_y[k] = kept->origin.y[k];
+        rays->org_z[k] = kept->origin.z[k];
+        rays->tnear[k] = 0.0f;
+        rays->dir_x[k] = kept->direction.x[k];
+        rays->dir_y[k] = kept->direction.y[k];
+        rays->dir_z[k] = kept->direction.z[k];
+        rays->tfar[k] = kept->farthest[k];
+    }
+}
+
 static void lanes_add(aur_path_lanes *restrict lanes, uint32_t lit) {
     for (uint32_t k = 0; k < AUR_PACKET_SIZE; ++k) {
         const bool on = (lit >> k & 1u) != 0;
@@ -136,7 +178,7 @@ static void lanes_scatter(aur_path_lanes *restrict lanes, bool roulette, aur_pac
 }
 
 #define AUR_PATH_KERNELS                                                                                     \
-    { lanes_surface, lanes_tilted, lanes_shadow, lanes_add, lanes_scatter }
+    { lanes_surface, lanes_tilted, lanes_shadow, lanes_consider, lanes_choose, lanes_add, lanes_scatter }
 
 extern const aur_path_kernels aur_path_kernels_avx2;
 extern const aur_path_kernels aur_path_kernels_avx512;

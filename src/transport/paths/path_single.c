@@ -1,6 +1,7 @@
 /* One path by itself: the clear form, which paths in packets are compared with. */
 #include "transport/lights/direct_light.h"
 #include "transport/lights/first_surface.h"
+#include "transport/paths/candidates.h"
 #include "transport/paths/path.h"
 
 /* A path on its way. */
@@ -35,24 +36,63 @@ static void add_emission(const aur_scene *scene, const aur_surface *surface, aur
     walk->sum = aur_vector_add_scaled(walk->sum, weight, aur_vector_multiply(walk->throughput, emission));
 }
 
+/* A ray to a point on a light, and what that brings along the path if nothing lies between. */
+typedef struct light_draw {
+    aur_ray ray;
+    aur_vector light;
+    bool lit; /* light comes that way */
+} light_draw;
+
+/* `u` chooses the light and a point on it. */
+static light_draw draw_light(const aur_scene *scene, const aur_shading *shading, aur_vector throughput,
+                             const float u[3]) {
+    aur_shadow shadow;
+    if (!aur_direct_light_choose(scene, shading, &AUR_LIGHT_DRAWS_OF_PATHS, u, &shadow))
+        return (light_draw){0};
+    return (light_draw){shadow.ray, aur_vector_multiply(throughput, shadow.radiance), true};
+}
+
+/* The same of one of `count` candidates, which `selection` chooses. */
+static light_draw draw_candidates(const aur_scene *scene, const aur_shading *shading, aur_vector throughput,
+                                  uint32_t count, const float u[3], float selection) {
+    light_draw kept = {0};
+    float total = 0.0f, own = 0.0f;
+    for (uint32_t i = 0; i < count; ++i) {
+        float shifted[3];
+        aur_candidate_shift(i, count, shifted);
+        for (size_t d = 0; d < 3; ++d)
+            shifted[d] = aur_candidate_number(u[d], shifted[d]);
+        const light_draw draw = draw_light(scene, shading, throughput, shifted);
+        const float weight = draw.lit ? aur_candidate_weight(draw.light) : 0.0f;
+        if (!aur_candidate_wins(weight, &total, &selection))
+            continue;
+        kept = draw;
+        own = weight;
+    }
+    if (kept.lit)
+        kept.light = aur_vector_scale(kept.light, aur_candidate_scale(count, total, own));
+    return kept;
+}
+
 /* Adds direct light and goes on in a drawn direction; false where the path ends. */
 static bool scatter(const aur_path *data, const aur_scene *scene, const aur_surface *surface, aur_vector view,
                     uint32_t depth, const float (*pairs)[2], aur_path_walk *walk, aur_counters *counters) {
     const aur_shading shading = aur_shading_at(surface, view);
     const float *const position = pairs[AUR_PATH_POSITION], *const direction = pairs[AUR_PATH_DIRECTION];
     /* Both directions before the shadow ray: the processor works at them together. */
-    aur_shadow shadow;
-    const bool lit = aur_scene_emitter_count(scene) > 0 &&
-                     aur_direct_light_choose(
-                         scene, &shading, &AUR_LIGHT_DRAWS_OF_PATHS,
-                         (const float[3]){pairs[AUR_PATH_CHOICE][0], position[0], position[1]}, &shadow);
+    const float u[3] = {pairs[AUR_PATH_CHOICE][0], position[0], position[1]};
+    light_draw draw = {0};
+    if (aur_scene_emitter_count(scene) > 0)
+        draw = data->candidates > 1 ? draw_candidates(scene, &shading, walk->throughput, data->candidates, u,
+                                                      pairs[AUR_PATH_LOBE][1])
+                                    : draw_light(scene, &shading, walk->throughput, u);
     aur_bsdf_sample drawn;
     const bool goes_on = aur_shading_sample(
         &shading, (const float[3]){pairs[AUR_PATH_LOBE][0], direction[0], direction[1]}, &drawn);
-    if (lit) {
+    if (draw.lit) {
         ++counters->rays;
-        if (!aur_scene_occluded(scene, &shadow.ray))
-            walk->sum = aur_vector_add(walk->sum, aur_vector_multiply(walk->throughput, shadow.radiance));
+        if (!aur_scene_occluded(scene, &draw.ray))
+            walk->sum = aur_vector_add(walk->sum, draw.light);
     }
     if (!goes_on)
         return false;
