@@ -6,6 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "ask/candidates.h"
 #include "core/error.h"
 #include "core/options.h"
 #include "film/film.h"
@@ -119,6 +120,13 @@ aur_result aur_ask_take_gather(aur_ask *ask, aur_gather_size size, aur_error *er
     return integrator != NULL ? begin_trial(ask, integrator, error) : aur_fail_memory(error);
 }
 
+aur_result aur_ask_take_candidates(aur_ask *ask, size_t candidates, aur_error *error) {
+    char *const integrator = aur_ask_path(ask->trial.integrator, candidates);
+    ask->candidates = candidates;
+    ask->open = false;
+    return integrator != NULL ? begin_trial(ask, integrator, error) : aur_fail_memory(error);
+}
+
 /* What the rounds lead to. Rays of other trials are spent, and are no matter of this one: its rounds are
  * those of an asking that names its integrator. */
 static aur_goal goal_of(const aur_ask *ask) {
@@ -154,6 +162,7 @@ static aur_result choose(aur_ask *ask, aur_error *error) {
     ask->bias = choice.bias;
     ask->others = choice.others;
     ask->gather = choice.gather;
+    ask->candidates = choice.candidates;
     ask->open = result != AUR_OK;
     return result;
 }

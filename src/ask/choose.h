@@ -2,6 +2,7 @@
 #pragma once
 
 #include "ask/bias.h"
+#include "ask/gather_size.h"
 #include "ask/trial.h"
 #include "scene/scene.h"
 
@@ -9,14 +10,6 @@
  * whether nobody has said which, so that aur_ask_try may take another one. Errors: MEMORY. */
 aur_result aur_ask_choose(const aur_scene *scene, const char *wanted, char **integrator, bool *open,
                           aur_error *error);
-
-/* What final gathering is told: photons of the map that all replicas share, the seed of these, and directions
- * of a pattern. */
-typedef struct aur_gather_size {
-    size_t photons;
-    uint64_t seed;
-    size_t directions;
-} aur_gather_size;
 
 /* What a choice by trial takes and finds. */
 typedef struct aur_choice {
@@ -27,6 +20,7 @@ typedef struct aur_choice {
     aur_trial trial; /* before: path tracing, which may not have begun; after: the one to go on with, which
                         the caller releases */
     aur_gather_size gather;          /* where that is final gathering; else 0 */
+    size_t candidates;               /* where that is path tracing with more than one; else 0 */
     aur_bias bias;                   /* of the trial's integrator; 0 of path tracing */
     aur_render_statistics others;    /* what the trials cost that are not gone on with */
     double rays;                     /* that the picture is thought to take; 0: nobody knows yet */
@@ -40,10 +34,6 @@ static inline uint64_t aur_ask_photon_seed(uint64_t seed) {
 
 /* While it is made, for progress: the part of all rays that is spent, as far as it is known. */
 double aur_choice_part_done(const aur_choice *choice);
-
-/* Final gathering in place of "path[:max_depth=D]", with the same max_depth. A new text, or NULL where memory
- * is short. */
-char *aur_ask_gather(const char *path, aur_gather_size size);
 
 /* Path tracing has no bias; final gathering has less noise for its rays on most surfaces that scatter widely,
  * and the bias of its photon map. Path tracing is begun, until its error is some times the one asked, which

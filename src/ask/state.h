@@ -19,7 +19,10 @@ struct aur_ask {
     bool open;                /* another integrator may turn out better: that is not tried yet */
     const aur_choice *choice; /* while it is tried; else NULL */
     aur_gather_size gather;   /* where it was final gathering, else 0 */
+    size_t candidates;        /* where it was path tracing with more than one, else 0 */
 };
 
-/* Goes on with final gathering of that size, from nothing. Errors: those of aur_render_create. */
+/* Go on with final gathering of that size, or path tracing with so many candidates, from nothing. Errors:
+ * those of aur_render_create. */
 aur_result aur_ask_take_gather(aur_ask *ask, aur_gather_size size, aur_error *error);
+aur_result aur_ask_take_candidates(aur_ask *ask, size_t candidates, aur_error *error);

@@ -41,6 +41,8 @@ void aur_trial_release(aur_trial *trial);
 
 /* What all replicas have cost together. */
 void aur_trial_spent(const aur_trial *trial, aur_render_statistics *sum);
+/* Adds rays and seconds of a trial that may not have been made. */
+void aur_trial_add_spent(const aur_trial *trial, aur_render_statistics *sum);
 
 /* What rounds lead to; all zero where nobody asks for any. */
 typedef struct aur_goal {

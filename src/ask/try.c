@@ -4,7 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "ask/choose.h"
+#include "ask/candidates.h"
 #include "ask/rounds.h"
 #include "core/error.h"
 #include "film/film.h"
@@ -15,44 +15,18 @@ static const double BIAS_PART = 0.6;
 /* Final gathering is worth it at this part of path tracing's rays, all that it takes to know together: what
  * its rays cost differs by scene (in two boxes as much and half as much again as those of paths, in the room
  * nearly three times as much, where it was twice as slow as path tracing with .6), and a guess from few
- * pixels may be wrong. The part of final gathering's rays that is spent on its photon map. Both are chosen:
- * they cost time, never truth. */
-static const double WORTH = 0.45, MAP_PART = 0.15;
+ * pixels may be wrong. It is chosen: it costs time, never truth. */
+static const double WORTH = 0.45;
 /* Of path tracing's rays, what the pilot's map may cost: final gathering is not looked at in small pictures.
  */
 static const double PILOT_PART = 0.01;
-/* Tracing and sorting a photon takes the time of so many rays of path tracing: 2.4 in the Cornell box by
- * `render --stats`. Other scenes were not measured: a wrong ratio costs time, never truth. */
-static const double RAYS_A_PHOTON = 2.5;
-/* What sharing adds is thought to be known, from the first pattern, to be under this part of its noise: .16
- * to .26 in the public Cornell box. A first pattern that does not do costs another one: noise is planned to
- * be a little less. */
-static const double SHARING = 0.2, PLAN_MARGIN = 0.92;
+/* Of path tracing's rays, what it may cost to choose its candidates. */
+static const double CANDIDATES_PART = 0.08;
 /* More than so many times the rays of a first pattern are not spent on shared ones. What is shared comes to
  * whole tiles, so that a few pixels that have the error, as of a lamp's edge, would cost all about them. */
 static const double MOST_GROWTH_SHARED = 2.0;
 /* A ray that goes on as a path takes so much more time than one of final gathering. */
 static const double DIFFERENCE_PRICE = 1.7;
-enum { MOST_PHOTONS = 2000000, LEAST_PHOTONS = 15000 };
-/* A pattern of few directions is a single sample's, so that each replica can be a coarse picture, and shared
- * with the neighbouring pixels. One of many is shared out among so many samples of a pixel, and not shared
- * with others: what is wrong in the map is alike in neighbours, and sharing would leave little but that. On
- * the public Cornell box to 1.7 % means over 8 x 8 pixels had 1.6 to 1.9 times what independent errors leave,
- * and it took as long. The bias is looked for with few directions, for each goes on as a path. */
-enum {
-    PATTERN_SAMPLES = 4,
-    SINGLE_DIRECTIONS = 16,
-    LEAST_DIRECTIONS = 2,
-    PILOT_DIRECTIONS = 4,
-    MOST_DIRECTIONS = 1024,
-    DIFFERENCE_DIRECTIONS = 8
-};
-/* The pilot's noise hardly hangs on its map, whose texels are so wide that most of its rays would be short.
- */
-enum { PILOT_PHOTONS = LEAST_PHOTONS };
-/* Of the picture and of what is looked for in its bias alike. With 4 in place of 2 the public Cornell box
- * took a fourth more time to 4 %, for a bias that is no smaller than that of half as many photons. */
-enum { SHORT_RAYS = 2 };
 
 /* The rays that a trial is thought to take in all until its noise is `error`. */
 static double rays_to(const aur_trial *trial, double error) {
@@ -78,8 +52,10 @@ static aur_result render_round(const aur_choice *choice, const aur_goal *goal, a
 /* What is compared, in few pixels but for the last; and what final gathering's photon map is wrong by. The
  * trial of path tracing is the picture's own where that is small. */
 typedef struct aur_rivals {
-    aur_trial path, pilot, difference, gather;
-    double pixels; /* of the picture, over those of the few */
+    aur_trial path, pilot, lit_pilot, difference, gather;
+    double pixels;              /* of the picture, over those of the few */
+    aur_gather_pattern pattern; /* as the pilots tell */
+    aur_candidates candidates;  /* of path tracing */
 } aur_rivals;
 
 /* The part of the rays or of the time that path tracing of the whole picture would have spent. */
@@ -112,89 +88,15 @@ static aur_result render_path(const aur_choice *choice, aur_trial *path, double 
     return result;
 }
 
-/* Photons of a map that costs little beside the picture. All replicas share it: one map has finer texels than
- * four of a quarter, and what is wrong in it is bias, which is looked for. */
-static size_t photons_for(double rays) {
-    const double affordable = MAP_PART * rays / RAYS_A_PHOTON;
-    size_t photons = MOST_PHOTONS;
-    while ((double)photons > affordable && photons / 2 >= LEAST_PHOTONS)
-        photons /= 2;
-    return photons;
-}
-
-/* Final gathering in place of path tracing, with its keys and more (",key=value"). NULL: memory is short. */
-static char *gather_instead(const char *path, size_t samples, aur_gather_size size, const char *more) {
-    enum { CAPACITY = 256 }; /* six numbers and the keys' names */
-    const char *const keys = strchr(path, ':');
-    const size_t lights = size.directions / (4 * samples);
-    const size_t capacity = CAPACITY + strlen(more) + (keys != NULL ? strlen(keys) : 0);
-    char *const text = malloc(capacity);
-    if (text != NULL)
-        snprintf(text, capacity,
-                 "finalgather:split=%zu,diffuse_samples=%zu,glossy_samples=%zu,light_samples=%zu,"
-                 "photons=%zu,photon_seed=%" PRIu64 "%s%s%s",
-                 samples, size.directions, size.directions, lights + (lights == 0), size.photons, size.seed,
-                 more, keys != NULL ? "," : "", keys != NULL ? keys + 1 : "");
-    return text;
-}
-
-static bool is_single(size_t directions) {
-    return directions <= SINGLE_DIRECTIONS;
-}
-
-/* Found by trial in the public Cornell box: with half of them edges have most of the error, with twice as
- * many the rays. Where nothing is shared half of them do. */
-static size_t edges_of(size_t directions) {
-    return (is_single(directions) ? 8 : 4) * directions;
-}
-
-char *aur_ask_gather(const char *path, aur_gather_size size) {
-    const bool single = is_single(size.directions);
-    char more[64]; /* two numbers and the keys */
-    snprintf(more, sizeof more, ",edges=%zu,short_rays=%d%s", edges_of(size.directions), SHORT_RAYS,
-             single ? ",share=near" : "");
-    return gather_instead(path, single ? 1 : PATTERN_SAMPLES, size, more);
-}
-
-/* The directions of a pattern in place of those that would do where neighbours share theirs. A pattern that
- * is not shared takes more: in the public Cornell box to 1.7 % 80 in place of 45. */
-static size_t pattern_size(double directions) {
-    const double more = 1.8;
-    if (directions <= SINGLE_DIRECTIONS)
-        return (size_t)ceil(directions);
-    return PATTERN_SAMPLES * (size_t)ceil(more * directions / PATTERN_SAMPLES);
-}
-
-/* Directions of a pattern by which the replicas are thought to come to the noise without another one. The
- * square of a pattern's error falls nearly as directions^-1.5 from the pilot's in the public Cornell box (5
- * to 48, shared): coarse pixels see more edges, so that the pilot's own is large for it. Where that is wrong,
- * rounds go on with more patterns, or the first one has more directions than it needs: it costs time, never
- * truth. */
-static double directions_to(const aur_trial *pilot, double noise) {
-    const double part = pilot->interval.estimate / noise;
-    return fmin(fmax(PILOT_DIRECTIONS * pow(part * part, 1.0 / 1.5), LEAST_DIRECTIONS), MOST_DIRECTIONS);
-}
-
 static double noise_beside(double wanted, double square_bias) {
     return sqrt(fmax(wanted * wanted - square_bias, 0.0));
 }
 
-/* The noise n to plan for, with n^2 + (b + SHARING n)^2 the square of what is wanted, and b the map's bias.
- */
-static double noise_planned(double wanted, double square_bias) {
-    const double b = SHARING * sqrt(square_bias), square = 1.0 + SHARING * SHARING;
-    const double rest = fmax(wanted * wanted - square_bias, 0.0);
-    return PLAN_MARGIN * (sqrt(b * b + square * rest) - b) / square;
-}
-
-/* Rays of a whole picture to an error by final gathering of such a bias. The pilot's coarse pixels see more
- * edges. By this law 5 to 45 directions that are shared take what they do to a twentieth in the public
- * Cornell box. */
-static double gather_rays(const aur_choice *choice, const aur_trial *pilot, double wanted,
+/* Rays of a whole picture to an error by final gathering of such a bias. */
+static double gather_rays(const aur_choice *choice, const aur_rivals *rivals, double wanted,
                           double square_bias) {
-    const double pixels = (double)choice->trial.replicas.pixel_count / (double)pilot->replicas.pixel_count;
-    const double directions = directions_to(pilot, noise_planned(wanted, square_bias));
-    return pixels * aur_trial_rays(pilot) * (0.15 + 0.66 * directions / PILOT_DIRECTIONS);
+    return (double)choice->trial.replicas.pixel_count *
+           aur_gather_rays(&rivals->pattern, aur_gather_noise_planned(wanted, square_bias));
 }
 
 /* What is uncertain of a squared bias: it falls as samples grow. */
@@ -205,8 +107,8 @@ static double uncertain(const aur_bias *bias) {
 /* Whether twice the rays for the bias cost less than the noise takes that its bound leaves no room for. */
 static bool pays(const aur_choice *choice, const aur_rivals *rivals, double wanted) {
     const aur_bias *const bias = &choice->bias;
-    return gather_rays(choice, &rivals->pilot, wanted, bias->high) -
-               gather_rays(choice, &rivals->pilot, wanted, bias->high - 0.5 * uncertain(bias)) >
+    return gather_rays(choice, rivals, wanted, bias->high) -
+               gather_rays(choice, rivals, wanted, bias->high - 0.5 * uncertain(bias)) >
            DIFFERENCE_PRICE * aur_trial_rays(&rivals->difference);
 }
 
@@ -272,34 +174,56 @@ static aur_result create_trial(aur_renderer *renderer, const aur_render_options 
                               : aur_fail_memory(error);
 }
 
-/* The pilot is made and not rendered yet; at `worth` rays final gathering is worth it. */
+static aur_pilot_outcome outcome_of(const aur_trial *pilot) {
+    return (aur_pilot_outcome){pilot->interval.estimate,
+                               aur_trial_rays(pilot) / (double)pilot->replicas.pixel_count};
+}
+
+/* Pilots of final gathering: of `path`'s light, with few points on lights and with more. */
+static aur_result render_pilots(aur_renderer *renderer, const aur_render_options *coarse,
+                                const aur_choice *choice, aur_rivals *rivals, bool *black, aur_error *error) {
+    const char *const path = choice->trial.integrator;
+    const uint64_t seed = choice->gather.seed;
+    aur_trial *const pilots[] = {&rivals->pilot, &rivals->lit_pilot};
+    static const size_t lights[] = {AUR_PILOT_LIGHTS, AUR_PILOT_LIGHTS_MORE};
+    *black = false;
+    for (size_t i = 0; i < 2 && !*black; ++i) {
+        aur_result result = create_trial(renderer, coarse, choice,
+                                         aur_ask_gather_pilot(path, seed, lights[i]), pilots[i], error);
+        bool goes_on;
+        if (result == AUR_OK)
+            result = render_round(choice, &choice->goal, pilots[i], &goes_on, error);
+        if (result != AUR_OK)
+            return result;
+        *black = aur_trial_is_black(pilots[i]);
+    }
+    if (!*black)
+        rivals->pattern = aur_gather_pattern_of(outcome_of(&rivals->pilot), outcome_of(&rivals->lit_pilot));
+    return AUR_OK;
+}
+
+/* The pilots are rendered; at `worth` rays final gathering is worth it. */
 static aur_result compare(aur_renderer *renderer, const aur_render_options *options, aur_choice *choice,
                           double wanted, double worth, aur_rivals *rivals, bool *better, aur_error *error) {
     const char *const path = choice->trial.integrator;
-    bool goes_on;
-    aur_result result = render_round(choice, &choice->goal, &rivals->pilot, &goes_on, error);
-    if (result != AUR_OK || aur_trial_is_black(&rivals->pilot))
-        return result;
-    const double rays = gather_rays(choice, &rivals->pilot, wanted, pow(BIAS_PART * wanted, 2.0));
+    const double rays = gather_rays(choice, rivals, wanted, pow(BIAS_PART * wanted, 2.0));
     if (rays > worth)
         return AUR_OK;
     choice->rays = rays;
-    choice->gather.photons = photons_for(rays);
-    aur_gather_size few = choice->gather;
-    few.directions = DIFFERENCE_DIRECTIONS;
-    char more[96]; /* a number and the keys */
-    snprintf(more, sizeof more, ",short_rays=%d,pixel=centre,debias=true,continued=1,incident=correction",
-             SHORT_RAYS);
+    choice->gather.photons = aur_gather_photons(rays);
     const aur_render_options points = coarse_options(&choice->trial, options, COARSE_POINTS);
-    result = create_trial(renderer, &points, choice, gather_instead(path, PATTERN_SAMPLES, few, more),
-                          &rivals->difference, error);
+    aur_result result =
+        create_trial(renderer, &points, choice,
+                     aur_ask_gather_difference(path, choice->gather.photons, choice->gather.seed),
+                     &rivals->difference, error);
     if (result == AUR_OK)
         result = find_bias(choice, rivals, wanted, worth - rays, error);
     if (result != AUR_OK || !(sqrt(choice->bias.high) <= BIAS_PART * wanted))
         return result;
-    choice->gather.directions =
-        pattern_size(directions_to(&rivals->pilot, noise_planned(wanted, choice->bias.high)));
+    choice->gather = aur_gather_size_of(&rivals->pattern, aur_gather_noise_planned(wanted, choice->bias.high),
+                                        choice->gather.photons, choice->gather.seed);
     aur_trial *const gather = &rivals->gather;
+    bool goes_on;
     result = create_trial(renderer, options, choice, aur_ask_gather(path, choice->gather), gather, error);
     if (result == AUR_OK)
         result = render_round(choice, &choice->goal, gather, &goes_on, error);
@@ -309,8 +233,8 @@ static aur_result compare(aur_renderer *renderer, const aur_render_options *opti
         aur_replicas_sharing_bias(&gather->replicas, gather->measure.mean, choice->confidence);
     choice->bias = aur_bias_of_both(choice->bias, sharing);
     const double noise = noise_beside(wanted, choice->bias.high);
-    if (!(noise > 0.0) ||
-        (is_single(choice->gather.directions) && aur_trial_growth(gather, noise) > MOST_GROWTH_SHARED))
+    if (!(noise > 0.0) || (aur_gather_is_shared(choice->gather.directions) &&
+                           aur_trial_growth(gather, noise) > MOST_GROWTH_SHARED))
         return AUR_OK;
     *better = rays_to(gather, noise) - aur_trial_rays(gather) <= worth;
     return result;
@@ -327,39 +251,25 @@ double aur_choice_part_done(const aur_choice *choice) {
         return 0.0;
     const double gathered = rays_of(&rivals->gather);
     const double others = rays_of(&choice->trial) + rays_of(&rivals->path) + rays_of(&rivals->pilot) +
-                          rays_of(&rivals->difference);
+                          rays_of(&rivals->lit_pilot) + rays_of(&rivals->difference);
     return (others + gathered) / (others + fmax(choice->rays, gathered));
-}
-
-static void add_spent(const aur_trial *trial, aur_render_statistics *sum) {
-    aur_render_statistics one;
-    if (trial->replicas.count == 0)
-        return;
-    aur_trial_spent(trial, &one);
-    sum->rays += one.rays;
-    sum->prepare_seconds += one.prepare_seconds;
-    sum->render_seconds += one.render_seconds;
-    sum->cpu_seconds += one.cpu_seconds;
 }
 
 /* Final gathering beside path tracing, whose trial says what that takes. */
 static aur_result compare_with(aur_renderer *renderer, const aur_render_options *options,
                                const aur_render_options *coarse, aur_choice *choice, const aur_trial *path,
                                double wanted, aur_rivals *rivals, bool *better, aur_error *error) {
-    const double rays = rivals->pixels * rays_to(path, wanted);
-    if (LEAST_PHOTONS * RAYS_A_PHOTON > PILOT_PART * rays)
+    const double rays = rivals->candidates.cost * rivals->pixels * rays_to(path, wanted);
+    if (aur_photon_rays(AUR_PILOT_PHOTONS) > PILOT_PART * rays)
         return AUR_OK;
     choice->rays = WORTH * rays;
     aur_error refused;
-    const aur_gather_size pilot = {PILOT_PHOTONS, choice->gather.seed, PILOT_DIRECTIONS};
-    char edges[64]; /* a number and the key's name */
-    snprintf(edges, sizeof edges, ",short_rays=0,edges=%zu,share=near", 2 * edges_of(PILOT_DIRECTIONS));
-    const aur_result result =
-        create_trial(renderer, coarse, choice, gather_instead(choice->trial.integrator, 1, pilot, edges),
-                     &rivals->pilot, &refused);
+    bool black;
+    const aur_result result = render_pilots(renderer, coarse, choice, rivals, &black, &refused);
     if (result == AUR_OK)
-        return compare(renderer, options, choice, wanted, WORTH * (rays - rays_of(&choice->trial)), rivals,
-                       better, error);
+        return black ? AUR_OK
+                     : compare(renderer, options, choice, wanted, WORTH * (rays - rays_of(&choice->trial)),
+                               rivals, better, error);
     if (result != AUR_ERROR_MEMORY && result != AUR_ERROR_CANCELLED)
         return AUR_OK; /* final gathering says that the scene is not for it */
     if (error != NULL)
@@ -367,10 +277,32 @@ static aur_result compare_with(aur_renderer *renderer, const aur_render_options 
     return result;
 }
 
+/* Where there is a choice of points on lights, and where it costs little beside the picture. */
+static aur_result choose_candidates(aur_renderer *renderer, const aur_render_options *coarse,
+                                    aur_choice *choice, const aur_trial *path, double wanted,
+                                    aur_rivals *rivals, aur_error *error) {
+    const aur_scene *const scene = aur_renderer_scene(renderer);
+    if (!aur_light_chooses(scene) && !aur_scene_has_environment(scene))
+        return AUR_OK;
+    const double sample = (double)choice->replica_count * aur_trial_rays(path) / path->samples;
+    if (AUR_CANDIDATE_SAMPLES * sample > CANDIDATES_PART * rivals->pixels * rays_to(path, wanted))
+        return AUR_OK;
+    return aur_ask_candidates(renderer, coarse, choice, &rivals->candidates, &choice->others, error);
+}
+
+/* Path tracing with its candidates in place of that of the choice, which has not begun. */
+static aur_result take_candidates(aur_renderer *renderer, const aur_render_options *options,
+                                  aur_choice *choice, size_t candidates, aur_error *error) {
+    char *const text = aur_ask_path(choice->trial.integrator, candidates);
+    aur_trial_release(&choice->trial);
+    choice->candidates = candidates;
+    return create_trial(renderer, options, choice, text, &choice->trial, error);
+}
+
 aur_result aur_ask_try(aur_renderer *renderer, const aur_render_options *options, aur_choice *choice,
                        aur_error *error) {
     const aur_render_options coarse = coarse_options(&choice->trial, options, COARSE_PIXELS);
-    aur_rivals rivals = {.pixels = 1.0};
+    aur_rivals rivals = {.pixels = 1.0, .candidates = {1, 1.0}};
     aur_trial *const whole = &choice->trial;
     aur_trial *path = whole;
     bool better = false;
@@ -385,7 +317,10 @@ aur_result aur_ask_try(aur_renderer *renderer, const aur_render_options *options
     if (result == AUR_OK)
         result = render_path(choice, path, rivals.pixels, &wanted, error);
     choice->gather = (aur_gather_size){.seed = aur_ask_photon_seed(options->seed)};
-    if (result == AUR_OK && path->bound > wanted && !aur_trial_is_black(path))
+    const bool goes_on = result == AUR_OK && path->bound > wanted && !aur_trial_is_black(path);
+    if (goes_on && path != whole)
+        result = choose_candidates(renderer, &coarse, choice, path, wanted, &rivals, error);
+    if (goes_on && result == AUR_OK)
         result = compare_with(renderer, options, &coarse, choice, path, wanted, &rivals, &better, error);
     choice->rivals = NULL;
     if (better) {
@@ -395,10 +330,13 @@ aur_result aur_ask_try(aur_renderer *renderer, const aur_render_options *options
     } else {
         choice->gather = (aur_gather_size){0};
         choice->bias = (aur_bias){0};
+        if (result == AUR_OK && rivals.candidates.count > 1)
+            result = take_candidates(renderer, options, choice, rivals.candidates.count, error);
     }
-    aur_trial *const left[] = {&rivals.path, &rivals.pilot, &rivals.difference, &rivals.gather};
+    aur_trial *const left[] = {&rivals.path, &rivals.pilot, &rivals.lit_pilot, &rivals.difference,
+                               &rivals.gather};
     for (size_t i = 0; i < sizeof left / sizeof left[0]; ++i) {
-        add_spent(left[i], &choice->others);
+        aur_trial_add_spent(left[i], &choice->others);
         aur_trial_release(left[i]);
     }
     return result;

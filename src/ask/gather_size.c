@@ -1,0 +1,166 @@
+#include "ask/gather_size.h"
+
+#include <inttypes.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* The part of final gathering's rays that is spent on its photon map. It is chosen: it costs time, never
+ * truth. */
+static const double MAP_PART = 0.15;
+/* Tracing and sorting a photon takes the time of so many rays of path tracing: 2.4 in the Cornell box by
+ * `render --stats`. Other scenes were not measured: a wrong ratio costs time, never truth. */
+static const double RAYS_A_PHOTON = 2.5;
+/* A ray to a point on a light takes about so much of the time of the others, with what is shaded for them:
+ * .5 in the public Cornell box and in the room. */
+static const double LIGHT_PRICE = 0.5;
+/* What sharing adds is thought to be known, from the first pattern, to be under this part of its noise: .16
+ * to .26 in the public Cornell box. A first pattern that does not do costs another one: noise is planned to
+ * be a little less. */
+static const double SHARING = 0.2, PLAN_MARGIN = 0.92;
+/* The square of a pattern's error falls nearly as its size to this power, from the pilot's in the public
+ * Cornell box (5 to 48 directions, shared): coarse pixels see more edges, so that the pilot's own is large
+ * for it. And so does what points on lights have of it as these grow alone (8 to 128 of them in the room). */
+static const double POWER = 1.5;
+
+enum { MOST_PHOTONS = 2000000, LEAST_PHOTONS = AUR_PILOT_PHOTONS };
+/* A pattern of few directions is a single sample's, so that each replica can be a coarse picture, and shared
+ * with the neighbouring pixels. One of many is shared out among so many samples of a pixel, and not shared
+ * with others: what is wrong in the map is alike in neighbours, and sharing would leave little but that. The
+ * bias is looked for with few directions, for each goes on as a path. */
+enum {
+    PATTERN_SAMPLES = 4,
+    SINGLE_DIRECTIONS = 16,
+    LEAST_DIRECTIONS = 2,
+    MOST_DIRECTIONS = 1024,
+    MOST_LIGHTS = 32, /* a direction of the pilot's */
+    DIFFERENCE_DIRECTIONS = 8
+};
+/* Of the picture and of what is looked for in its bias alike. With 4 in place of 2 the public Cornell box
+ * took a fourth more time to 4 %, for a bias that is no smaller than that of half as many photons. */
+enum { SHORT_RAYS = 2 };
+
+bool aur_gather_is_shared(size_t directions) {
+    return directions <= SINGLE_DIRECTIONS;
+}
+
+/* With the square of the error a + b lights^-POWER. */
+aur_gather_pattern aur_gather_pattern_of(aur_pilot_outcome few, aur_pilot_outcome more) {
+    const double lights = AUR_PILOT_LIGHTS_MORE;
+    const double before = few.error * few.error, after = more.error * more.error;
+    const double b = fmax(before - after, 0.0) / (1.0 - pow(lights, -POWER));
+    const double a = fmax(before - b, 0.05 * after);
+    const double price = fmax(more.rays - few.rays, 0.0) / (lights - AUR_PILOT_LIGHTS);
+    const double others = fmax(few.rays - AUR_PILOT_LIGHTS * price, 0.0);
+    aur_gather_pattern best = {.lights = 0.0};
+    double least = INFINITY;
+    for (double l = AUR_PILOT_LIGHTS; l <= MOST_LIGHTS; l *= 2.0) {
+        /* The pilot's coarse pixels see more edges. By these parts 5 to 45 directions that are shared take
+         * what they do to a twentieth in the public Cornell box. */
+        const aur_gather_pattern pattern = {.lights = l,
+                                            .error = sqrt(a + b * pow(l, -POWER)),
+                                            .fixed = 0.15 * others,
+                                            .growing = 0.66 * others + LIGHT_PRICE * l * price};
+        const double cost = pattern.growing * pow(pattern.error, 2.0 / POWER);
+        if (cost < least) {
+            best = pattern;
+            least = cost;
+        }
+    }
+    return best;
+}
+
+/* The noise n with n^2 + (b + SHARING n)^2 the square of what is wanted, and b the map's bias. */
+double aur_gather_noise_planned(double wanted, double square_bias) {
+    const double b = SHARING * sqrt(square_bias), square = 1.0 + SHARING * SHARING;
+    const double rest = fmax(wanted * wanted - square_bias, 0.0);
+    return PLAN_MARGIN * (sqrt(b * b + square * rest) - b) / square;
+}
+
+/* Directions of a pattern by which the replicas are thought to come to the noise without another one. Where
+ * that is wrong, rounds go on with more patterns, or the first one has more directions than it needs: it
+ * costs time, never truth. A pattern that is not shared takes more: in the public Cornell box to 1.7 % 80 in
+ * place of 45. */
+static double directions_to(const aur_gather_pattern *pattern, double noise) {
+    const double part = pattern->error / noise, more = 1.8;
+    const double directions = AUR_PILOT_DIRECTIONS * pow(part * part, 1.0 / POWER);
+    return fmin(fmax(directions <= SINGLE_DIRECTIONS ? directions : more * directions, LEAST_DIRECTIONS),
+                MOST_DIRECTIONS);
+}
+
+double aur_gather_rays(const aur_gather_pattern *pattern, double noise) {
+    return pattern->fixed + pattern->growing * directions_to(pattern, noise) / AUR_PILOT_DIRECTIONS;
+}
+
+static size_t multiple_of(size_t step, double number) {
+    return step * (size_t)ceil(number / (double)step);
+}
+
+aur_gather_size aur_gather_size_of(const aur_gather_pattern *pattern, double noise, size_t photons,
+                                   uint64_t seed) {
+    const double directions = directions_to(pattern, noise);
+    const size_t step = directions <= SINGLE_DIRECTIONS ? 1 : PATTERN_SAMPLES;
+    const double lights = directions * pattern->lights / AUR_PILOT_DIRECTIONS;
+    return (aur_gather_size){photons, seed, multiple_of(step, directions),
+                             multiple_of(step, fmax(floor(lights), 1.0))};
+}
+
+double aur_photon_rays(double photons) {
+    return RAYS_A_PHOTON * photons;
+}
+
+/* All replicas share one map: it has finer texels than four of a quarter, and what is wrong in it is bias,
+ * which is looked for. */
+size_t aur_gather_photons(double rays) {
+    size_t photons = MOST_PHOTONS;
+    while (aur_photon_rays((double)photons) > MAP_PART * rays && photons / 2 >= LEAST_PHOTONS)
+        photons /= 2;
+    return photons;
+}
+
+/* Glossy lobes get half of the directions: in the glossy box and the room a quarter to all of them were as
+ * good for the picture. With `more` keys (",key=value"). */
+static char *gather_instead(const char *path, size_t samples, aur_gather_size size, const char *more) {
+    enum { CAPACITY = 256 }; /* six numbers and the keys' names */
+    const char *const keys = strchr(path, ':');
+    const size_t capacity = CAPACITY + strlen(more) + (keys != NULL ? strlen(keys) : 0);
+    char *const text = malloc(capacity);
+    if (text != NULL)
+        snprintf(text, capacity,
+                 "finalgather:split=%zu,diffuse_samples=%zu,glossy_samples=%zu,light_samples=%zu,"
+                 "photons=%zu,photon_seed=%" PRIu64 "%s%s%s",
+                 samples, size.directions, multiple_of(samples, 0.5 * (double)size.directions),
+                 size.lights / samples, size.photons, size.seed, more, keys != NULL ? "," : "",
+                 keys != NULL ? keys + 1 : "");
+    return text;
+}
+
+/* Found by trial in the public Cornell box: with half of them edges have most of the error, with twice as
+ * many the rays. Where nothing is shared half of them do. */
+static size_t edges_of(size_t directions) {
+    return (aur_gather_is_shared(directions) ? 8 : 4) * directions;
+}
+
+char *aur_ask_gather(const char *path, aur_gather_size size) {
+    const bool shared = aur_gather_is_shared(size.directions);
+    char more[64]; /* two numbers and the keys */
+    snprintf(more, sizeof more, ",edges=%zu,short_rays=%d%s", edges_of(size.directions), SHORT_RAYS,
+             shared ? ",share=near" : "");
+    return gather_instead(path, shared ? 1 : PATTERN_SAMPLES, size, more);
+}
+
+char *aur_ask_gather_pilot(const char *path, uint64_t seed, size_t lights) {
+    char more[64]; /* a number and the keys */
+    snprintf(more, sizeof more, ",short_rays=0,edges=%zu,share=near", 2 * edges_of(AUR_PILOT_DIRECTIONS));
+    const aur_gather_size size = {AUR_PILOT_PHOTONS, seed, AUR_PILOT_DIRECTIONS, lights};
+    return gather_instead(path, 1, size, more);
+}
+
+char *aur_ask_gather_difference(const char *path, size_t photons, uint64_t seed) {
+    char more[96]; /* a number and the keys */
+    snprintf(more, sizeof more, ",short_rays=%d,pixel=centre,debias=true,continued=1,incident=correction",
+             SHORT_RAYS);
+    const aur_gather_size size = {photons, seed, DIFFERENCE_DIRECTIONS, PATTERN_SAMPLES};
+    return gather_instead(path, PATTERN_SAMPLES, size, more);
+}

@@ -1,0 +1,56 @@
+/* How large final gathering is to be that comes to an error in one pattern, as pilots of few pixels tell. */
+#pragma once
+
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+
+/* What final gathering is told: photons of the map that all replicas share, the seed of these, directions of
+ * a pattern for diffuse light, and the pattern's points on lights. */
+typedef struct aur_gather_size {
+    size_t photons;
+    uint64_t seed;
+    size_t directions, lights;
+} aur_gather_size;
+
+/* Directions and points on lights of the pilots' patterns: what both have in common, and what the second one
+ * has more. The map's photons: its noise hardly hangs on them, and texels are so wide that most of its rays
+ * would be short. */
+enum { AUR_PILOT_DIRECTIONS = 4, AUR_PILOT_LIGHTS = 1, AUR_PILOT_LIGHTS_MORE = 8, AUR_PILOT_PHOTONS = 15000 };
+
+/* What a pilot has come to: its error over the mean, and rays a pixel. */
+typedef struct aur_pilot_outcome {
+    double error, rays;
+} aur_pilot_outcome;
+
+/* A pattern of AUR_PILOT_DIRECTIONS with so many points on lights as are best. */
+typedef struct aur_gather_pattern {
+    double lights, error;
+    double fixed, growing; /* rays a pixel, the lights' at their price: whatever its size, and as it */
+} aur_gather_pattern;
+
+/* From pilots with AUR_PILOT_LIGHTS and AUR_PILOT_LIGHTS_MORE points on lights. */
+aur_gather_pattern aur_gather_pattern_of(aur_pilot_outcome few, aur_pilot_outcome more);
+
+/* The noise to plan for beside a bias whose square is told, so that both come to what is wanted. */
+double aur_gather_noise_planned(double wanted, double square_bias);
+/* Rays of a pixel, all replicas together, and the size of the pattern, by which they come to that noise. */
+double aur_gather_rays(const aur_gather_pattern *pattern, double noise);
+aur_gather_size aur_gather_size_of(const aur_gather_pattern *pattern, double noise, size_t photons,
+                                   uint64_t seed);
+/* Photons of a map that costs little beside a picture of so many rays. */
+size_t aur_gather_photons(double rays);
+/* The rays that so many photons are worth. */
+double aur_photon_rays(double photons);
+
+/* Whether a pattern is one sample's, and shared with the neighbouring pixels. */
+bool aur_gather_is_shared(size_t directions);
+
+/* Final gathering in place of "path[:key=value...]", with these keys. A new text, or NULL where memory is
+ * short: */
+/* for a picture, */
+char *aur_ask_gather(const char *path, aur_gather_size size);
+/* for a pilot, */
+char *aur_ask_gather_pilot(const char *path, uint64_t seed, size_t lights);
+/* and for what its map is wrong by. */
+char *aur_ask_gather_difference(const char *path, size_t photons, uint64_t seed);

@@ -1,0 +1,121 @@
+/* How large final gathering is to be, from pilots whose law is known. */
+#include "check.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "ask/candidates.h"
+#include "ask/gather_size.h"
+
+static const double POWER = 1.5; /* of the errors' squares, as in gather_size.c */
+
+/* Of an error's square a + b lights^-POWER, and rays with so many a light. */
+static aur_pilot_outcome pilot(double a, double b, double others, double a_light, double lights) {
+    return (aur_pilot_outcome){sqrt(a + b * pow(lights, -POWER)), others + a_light * lights};
+}
+
+static aur_gather_pattern pattern_of(double a, double b, double others, double a_light) {
+    return aur_gather_pattern_of(pilot(a, b, others, a_light, AUR_PILOT_LIGHTS),
+                                 pilot(a, b, others, a_light, AUR_PILOT_LIGHTS_MORE));
+}
+
+/* The pattern found takes the least time of all to an error: beside it are those of each other number of
+ * lights, by the law that the pilots follow exactly. The two differ by rounding alone. */
+static void lights_are_those_that_cost_least(void **state) {
+    (void)state;
+    static const double parts[] = {0.0, 0.01, 0.1, 1.0, 10.0, 100.0};
+    double before = 0.0;
+    for (size_t i = 0; i < sizeof parts / sizeof parts[0]; ++i) {
+        const double a = 0.01, b = a * parts[i], others = 10.0, a_light = 0.8;
+        const aur_gather_pattern found = pattern_of(a, b, others, a_light);
+        assert_near(found.error, sqrt(a + b * pow(found.lights, -POWER)), 1e-12);
+        const double own = found.growing * pow(found.error, 2.0 / POWER);
+        for (double l = 1.0; l <= 32.0; l *= 2.0) {
+            const double growing = found.growing + 0.5 * (l - found.lights) * a_light;
+            assert_true(own <= growing * pow(a + b * pow(l, -POWER), 1.0 / POWER) * (1.0 + 1e-12));
+        }
+        assert_true(found.lights >= before);
+        before = found.lights;
+    }
+    assert_true(pattern_of(0.01, 0.0, 10.0, 0.8).lights == 1.0);
+    assert_true(before >= 8.0);
+}
+
+/* Chance may make the pilot with more lights the worse one: then they bring nothing. */
+static void lights_that_make_it_worse_are_not_taken(void **state) {
+    (void)state;
+    const aur_gather_pattern found =
+        aur_gather_pattern_of((aur_pilot_outcome){0.1, 10.0}, (aur_pilot_outcome){0.11, 16.0});
+    assert_true(found.lights == 1.0);
+    assert_near(found.error, 0.1, 1e-12);
+}
+
+static void less_noise_takes_larger_patterns(void **state) {
+    (void)state;
+    const aur_gather_pattern pattern = pattern_of(0.01, 0.05, 10.0, 0.8);
+    size_t before = SIZE_MAX;
+    double rays = INFINITY;
+    for (double noise = 1e-4; noise < 1.0; noise *= 1.3) {
+        const aur_gather_size size = aur_gather_size_of(&pattern, noise, 1000, 7);
+        assert_true(size.directions <= before && size.directions >= 2 && size.directions <= 1024);
+        assert_true(size.lights >= 1);
+        assert_true(aur_gather_is_shared(size.directions) ||
+                    (size.directions % 4 == 0 && size.lights % 4 == 0));
+        assert_true(aur_gather_rays(&pattern, noise) <= rays);
+        before = size.directions;
+        rays = aur_gather_rays(&pattern, noise);
+    }
+    assert_int_equal(before, 2);
+}
+
+static void bias_leaves_room_for_less_noise(void **state) {
+    (void)state;
+    double before = INFINITY;
+    for (double part = 0.0; part < 1.0; part += 0.05) {
+        const double b = 0.02 * part, noise = aur_gather_noise_planned(0.02, b * b);
+        assert_true(noise < before && noise * noise + b * b < 0.02 * 0.02);
+        before = noise;
+    }
+    assert_true(aur_gather_noise_planned(0.02, 0.0004) < 1e-9);
+}
+
+static void photons_cost_a_part_of_the_rays(void **state) {
+    (void)state;
+    size_t before = 0;
+    for (double rays = 1e4; rays < 1e10; rays *= 3.0) {
+        const size_t photons = aur_gather_photons(rays);
+        assert_true(photons >= before && photons >= AUR_PILOT_PHOTONS && photons <= 2000000);
+        assert_true(photons < 2 * AUR_PILOT_PHOTONS || aur_photon_rays((double)photons) <= 0.15 * rays);
+        before = photons;
+    }
+    assert_int_equal(before, 2000000);
+}
+
+static void assert_text(char *text, const char *expected) {
+    assert_string_equal(text, expected);
+    free(text);
+}
+
+static void texts_are_those_of_keys(void **state) {
+    (void)state;
+    assert_text(aur_ask_gather("path:max_depth=5", (aur_gather_size){1000, 7, 9, 3}),
+                "finalgather:split=1,diffuse_samples=9,glossy_samples=5,light_samples=3,photons=1000,"
+                "photon_seed=7,edges=72,short_rays=2,share=near,max_depth=5");
+    assert_text(aur_ask_gather("path", (aur_gather_size){1000, 7, 36, 8}),
+                "finalgather:split=4,diffuse_samples=36,glossy_samples=20,light_samples=2,photons=1000,"
+                "photon_seed=7,edges=144,short_rays=2");
+    assert_text(aur_ask_path("path", 1), "path");
+    assert_text(aur_ask_path("path", 2), "path:candidates=2");
+    assert_text(aur_ask_path("path:max_depth=5", 4), "path:max_depth=5,candidates=4");
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {cmocka_unit_test(lights_are_those_that_cost_least),
+                                       cmocka_unit_test(lights_that_make_it_worse_are_not_taken),
+                                       cmocka_unit_test(less_noise_takes_larger_patterns),
+                                       cmocka_unit_test(bias_leaves_room_for_less_noise),
+                                       cmocka_unit_test(photons_cost_a_part_of_the_rays),
+                                       cmocka_unit_test(texts_are_those_of_keys)};
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
