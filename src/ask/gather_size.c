@@ -82,15 +82,22 @@ double aur_gather_noise_planned(double wanted, double square_bias) {
  * that is wrong, rounds go on with more patterns, or the first one has more directions than it needs: it
  * costs time, never truth. A pattern that is not shared takes more: in the public Cornell box to 1.7 % 80 in
  * place of 45. */
-static double directions_to(const aur_gather_pattern *pattern, double noise) {
+static double directions_wanted(const aur_gather_pattern *pattern, double noise) {
     const double part = pattern->error / noise, more = 1.8;
     const double directions = AUR_PILOT_DIRECTIONS * pow(part * part, 1.0 / POWER);
-    return fmin(fmax(directions <= SINGLE_DIRECTIONS ? directions : more * directions, LEAST_DIRECTIONS),
-                MOST_DIRECTIONS);
+    return directions <= SINGLE_DIRECTIONS ? directions : more * directions;
 }
 
+static double directions_to(const aur_gather_pattern *pattern, double noise) {
+    return fmin(fmax(directions_wanted(pattern, noise), LEAST_DIRECTIONS), MOST_DIRECTIONS);
+}
+
+/* Where the largest pattern does not do, more and more of them do, whose error falls as the root of their
+ * number. */
 double aur_gather_rays(const aur_gather_pattern *pattern, double noise) {
-    return pattern->fixed + pattern->growing * directions_to(pattern, noise) / AUR_PILOT_DIRECTIONS;
+    const double beyond = fmax(directions_wanted(pattern, noise) / MOST_DIRECTIONS, 1.0);
+    return pow(beyond, POWER) *
+           (pattern->fixed + pattern->growing * directions_to(pattern, noise) / AUR_PILOT_DIRECTIONS);
 }
 
 static size_t multiple_of(size_t step, double number) {

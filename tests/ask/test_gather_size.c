@@ -69,6 +69,14 @@ static void less_noise_takes_larger_patterns(void **state) {
     assert_int_equal(before, 2);
 }
 
+/* A tenth of the noise that the largest pattern leaves takes a hundred of it. */
+static void many_largest_patterns_are_counted(void **state) {
+    (void)state;
+    const aur_gather_pattern pattern = pattern_of(1.0, 0.0, 10.0, 0.8);
+    assert_int_equal(aur_gather_size_of(&pattern, 1e-3, 1000, 7).directions, 1024);
+    assert_near(aur_gather_rays(&pattern, 1e-4) / aur_gather_rays(&pattern, 1e-3), 100.0, 1e-9);
+}
+
 static void bias_leaves_room_for_less_noise(void **state) {
     (void)state;
     double before = INFINITY;
@@ -114,6 +122,7 @@ int main(void) {
     const struct CMUnitTest tests[] = {cmocka_unit_test(lights_are_those_that_cost_least),
                                        cmocka_unit_test(lights_that_make_it_worse_are_not_taken),
                                        cmocka_unit_test(less_noise_takes_larger_patterns),
+                                       cmocka_unit_test(many_largest_patterns_are_counted),
                                        cmocka_unit_test(bias_leaves_room_for_less_noise),
                                        cmocka_unit_test(photons_cost_a_part_of_the_rays),
                                        cmocka_unit_test(texts_are_those_of_keys)};
