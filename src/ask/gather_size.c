@@ -8,7 +8,7 @@
 
 /* The part of final gathering's rays that is spent on its photon map. It is chosen: it costs time, never
  * truth. */
-static const double MAP_PART = 0.15;
+static const double MAP_PART = 0.25;
 /* Tracing and sorting a photon takes the time of so many rays of path tracing: 2.4 in the Cornell box by
  * `render --stats`. Other scenes were not measured: a wrong ratio costs time, never truth. */
 static const double RAYS_A_PHOTON = 2.5;
