@@ -23,6 +23,6 @@ extern const size_t bench_recipe_count;
  * numbers: the root of the mean square error falls as samples^-.62 on the diffuse boxes. */
 double bench_samples_for(double error, double wanted);
 
-/* Final gathering by the recipes and our own path tracer beside it, for all subjects. False after
+/* What the recipes say and our own path tracer beside it, for all subjects. False after
  * bench_fail. */
 bool bench_quality(const bench_options *options, bench_figures *figures);

@@ -1,4 +1,4 @@
-/* Parameters of final gathering for an error, found by trial. A line an error and subject. */
+/* Parameters for an error, found by trial. A line an error and subject. */
 #include "quality.h"
 
 const bench_recipe bench_recipes[] = {
@@ -20,6 +20,8 @@ const bench_recipe bench_recipes[] = {
     {"room", 0.02, 0.0, 128,
      "finalgather:photons=8000000,diffuse_samples=256,glossy_samples=128,edges=1024,bright_samples=256,"
      "light_samples=8,share=true"},
+    {"statue", 0.01, 0.0, 3200, "path:interleaved=true,rr_depth=4,candidates=2"},
+    {"sphere", 0.01, 0.0, 720, "path:interleaved=true,rr_depth=4,candidates=2"},
 };
 
 const size_t bench_recipe_count = sizeof bench_recipes / sizeof bench_recipes[0];
