@@ -36,6 +36,8 @@ const bench_ask_row bench_ask_rows[] = {
     /* So many pixels pay for knowing the bias of a photon map. */
     {"cornell-box/cornell-box.xml", "path", 0.03, BENCH_ASK_MOST_SCALE},
     {"cornell-box/glossy.xml", "path", 0.06, BENCH_ASK_MOST_SCALE},
+    /* And for choosing path tracing's candidates. */
+    {"sphere/sphere.xml", "path", 0.06, BENCH_ASK_MOST_SCALE},
 };
 
 const size_t bench_ask_row_count = sizeof bench_ask_rows / sizeof bench_ask_rows[0];
