@@ -10,7 +10,8 @@ const bench_recipe bench_recipes[] = {
      "finalgather:photons=120000,photons_per_texel=24,diffuse_samples=20,edges=900,light_samples=7,share="
      "true,short_rays=0"},
     {"cornell-box", 0.0015, -1.0, 64, "finalgather:photons=2000000,diffuse_samples=1024,edges=4096"},
-    {"heavy-box", 0.005, 0.0, 8, "finalgather:photons=50000,diffuse_samples=24,edges=256,share=true"},
+    {"heavy-box", 0.005, 0.0, 4,
+     "finalgather:photons=20000,diffuse_samples=20,edges=384,light_samples=2,share=true,short_rays=0"},
     {"glossy-box", 0.02, 0.0, 4,
      "finalgather:photons=50000,photons_per_texel=32,diffuse_samples=8,glossy_samples=4,edges=512,"
      "light_samples=4,share=true,short_rays=0"},

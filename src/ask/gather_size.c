@@ -24,7 +24,7 @@ static const double SHARING = 0.2, PLAN_MARGIN = 0.92;
  * for it. And so does what points on lights have of it as these grow alone (8 to 128 of them in the room). */
 static const double POWER = 1.5;
 
-enum { MOST_PHOTONS = 8000000, LEAST_PHOTONS = AUR_PILOT_PHOTONS };
+enum { MOST_PHOTONS = 8000000 };
 /* A pattern of few directions is a single sample's, so that each replica can be a coarse picture, and shared
  * with the neighbouring pixels. One of many is shared out among so many samples of a pixel, and not shared
  * with others: what is wrong in the map is alike in neighbours, and sharing would leave little but that. The
@@ -121,7 +121,7 @@ double aur_photon_rays(double photons) {
  * which is looked for. */
 size_t aur_gather_photons(double rays) {
     size_t photons = MOST_PHOTONS;
-    while (aur_photon_rays((double)photons) > MAP_PART * rays && photons / 2 >= LEAST_PHOTONS)
+    while (aur_photon_rays((double)photons) > MAP_PART * rays && photons / 2 >= AUR_LEAST_PHOTONS)
         photons /= 2;
     return photons;
 }

@@ -38,7 +38,9 @@ double aur_gather_noise_planned(double wanted, double square_bias);
 double aur_gather_rays(const aur_gather_pattern *pattern, double noise);
 aur_gather_size aur_gather_size_of(const aur_gather_pattern *pattern, double noise, size_t photons,
                                    uint64_t seed);
-/* Photons of a map that costs little beside a picture of so many rays. */
+/* Photons of a map that costs little beside a picture of so many rays, or that is small: what is wrong in a
+ * smaller one is seen in small pictures, as it is alike in neighbours. */
+enum { AUR_LEAST_PHOTONS = 125000 };
 size_t aur_gather_photons(double rays);
 /* The rays that so many photons are worth. */
 double aur_photon_rays(double photons);

@@ -93,8 +93,8 @@ static void photons_cost_a_part_of_the_rays(void **state) {
     size_t before = 0;
     for (double rays = 1e4; rays < 1e10; rays *= 3.0) {
         const size_t photons = aur_gather_photons(rays);
-        assert_true(photons >= before && photons >= AUR_PILOT_PHOTONS && photons <= 8000000);
-        assert_true(photons < 2 * AUR_PILOT_PHOTONS || aur_photon_rays((double)photons) <= 0.25 * rays);
+        assert_true(photons >= before && photons >= AUR_LEAST_PHOTONS && photons <= 8000000);
+        assert_true(photons < 2 * AUR_LEAST_PHOTONS || aur_photon_rays((double)photons) <= 0.25 * rays);
         before = photons;
     }
     assert_int_equal(before, 8000000);
