@@ -22,6 +22,8 @@ static const double WORTH = 0.45;
 static const double PILOT_PART = 0.01;
 /* Of path tracing's rays, what it may cost to choose its candidates. */
 static const double CANDIDATES_PART = 0.08;
+/* Of final gathering's rays, what the second pilot may cost, which takes about twice the first one's. */
+static const double LIT_PILOT_PART = 0.1;
 /* More than so many times the rays of a first pattern are not spent on shared ones. What is shared comes to
  * whole tiles, so that a few pixels that have the error, as of a lamp's edge, would cost all about them. */
 static const double MOST_GROWTH_SHARED = 2.0;
@@ -179,27 +181,31 @@ static aur_pilot_outcome outcome_of(const aur_trial *pilot) {
                                aur_trial_rays(pilot) / (double)pilot->replicas.pixel_count};
 }
 
-/* Pilots of final gathering: of `path`'s light, with few points on lights and with more. */
+static aur_result render_pilot(aur_renderer *renderer, const aur_render_options *coarse,
+                               const aur_choice *choice, size_t lights, aur_trial *pilot, aur_error *error) {
+    char *const text = aur_ask_gather_pilot(choice->trial.integrator, choice->gather.seed, lights);
+    const aur_result result = create_trial(renderer, coarse, choice, text, pilot, error);
+    bool goes_on;
+    return result == AUR_OK ? render_round(choice, &choice->goal, pilot, &goes_on, error) : result;
+}
+
+/* Pilots of final gathering, with few points on lights and, where that costs little beside the picture, with
+ * more. */
 static aur_result render_pilots(aur_renderer *renderer, const aur_render_options *coarse,
-                                const aur_choice *choice, aur_rivals *rivals, bool *black, aur_error *error) {
-    const char *const path = choice->trial.integrator;
-    const uint64_t seed = choice->gather.seed;
-    aur_trial *const pilots[] = {&rivals->pilot, &rivals->lit_pilot};
-    static const size_t lights[] = {AUR_PILOT_LIGHTS, AUR_PILOT_LIGHTS_MORE};
-    *black = false;
-    for (size_t i = 0; i < 2 && !*black; ++i) {
-        aur_result result = create_trial(renderer, coarse, choice,
-                                         aur_ask_gather_pilot(path, seed, lights[i]), pilots[i], error);
-        bool goes_on;
-        if (result == AUR_OK)
-            result = render_round(choice, &choice->goal, pilots[i], &goes_on, error);
-        if (result != AUR_OK)
-            return result;
-        *black = aur_trial_is_black(pilots[i]);
-    }
-    if (!*black)
-        rivals->pattern = aur_gather_pattern_of(outcome_of(&rivals->pilot), outcome_of(&rivals->lit_pilot));
-    return AUR_OK;
+                                const aur_choice *choice, double wanted, aur_rivals *rivals,
+                                aur_error *error) {
+    aur_result result = render_pilot(renderer, coarse, choice, AUR_PILOT_LIGHTS, &rivals->pilot, error);
+    if (result != AUR_OK || aur_trial_is_black(&rivals->pilot))
+        return result;
+    const aur_pilot_outcome few = outcome_of(&rivals->pilot);
+    rivals->pattern = aur_gather_pattern_of(few, few);
+    const double rays = gather_rays(choice, rivals, wanted, pow(BIAS_PART * wanted, 2.0));
+    if (2.0 * aur_trial_rays(&rivals->pilot) > LIT_PILOT_PART * rays)
+        return AUR_OK;
+    result = render_pilot(renderer, coarse, choice, AUR_PILOT_LIGHTS_MORE, &rivals->lit_pilot, error);
+    if (result == AUR_OK && !aur_trial_is_black(&rivals->lit_pilot))
+        rivals->pattern = aur_gather_pattern_of(few, outcome_of(&rivals->lit_pilot));
+    return result;
 }
 
 /* The pilots are rendered; at `worth` rays final gathering is worth it. */
@@ -264,12 +270,12 @@ static aur_result compare_with(aur_renderer *renderer, const aur_render_options 
         return AUR_OK;
     choice->rays = WORTH * rays;
     aur_error refused;
-    bool black;
-    const aur_result result = render_pilots(renderer, coarse, choice, rivals, &black, &refused);
+    const aur_result result = render_pilots(renderer, coarse, choice, wanted, rivals, &refused);
+    if (result == AUR_OK && aur_trial_is_black(&rivals->pilot))
+        return AUR_OK;
     if (result == AUR_OK)
-        return black ? AUR_OK
-                     : compare(renderer, options, choice, wanted, WORTH * (rays - rays_of(&choice->trial)),
-                               rivals, better, error);
+        return compare(renderer, options, choice, wanted, WORTH * (rays - rays_of(&choice->trial)), rivals,
+                       better, error);
     if (result != AUR_ERROR_MEMORY && result != AUR_ERROR_CANCELLED)
         return AUR_OK; /* final gathering says that the scene is not for it */
     if (error != NULL)
