@@ -12,8 +12,7 @@ static const double CANDIDATE_PRICE = 0.2;
 /* By less than this part nothing is gained for sure: few samples are looked at. */
 static const double LEAST_GAIN = 0.1;
 
-static const size_t counts[] = {1, 2, 4};
-enum { COUNTS = sizeof counts / sizeof counts[0], SAMPLES = 2 };
+static const size_t counts[AUR_CANDIDATE_CHOICES] = {1, 2, 4};
 
 char *aur_ask_path(const char *path, size_t candidates) {
     enum { CAPACITY = 48 }; /* a number and the key's name */
@@ -41,7 +40,7 @@ static aur_result look_at(aur_renderer *renderer, const aur_render_options *coar
                             ? aur_trial_create(renderer, coarse, choice->replica_count, &trial, error)
                             : aur_fail_memory(error);
     if (result == AUR_OK) {
-        aur_trial_plan_evenly(&trial, SAMPLES);
+        aur_trial_plan_evenly(&trial, AUR_CANDIDATE_SAMPLES);
         result = aur_trial_render(&trial, choice->confidence, choice->cancelled, error);
     }
     if (result == AUR_OK)
@@ -56,7 +55,7 @@ aur_result aur_ask_candidates(aur_renderer *renderer, const aur_render_options *
                               aur_error *error) {
     double one = 0.0;
     *found = (aur_candidates){1, 1.0};
-    for (size_t i = 0; i < COUNTS; ++i) {
+    for (size_t i = 0; i < AUR_CANDIDATE_CHOICES; ++i) {
         double deviations;
         const aur_result result = look_at(renderer, coarse, choice, counts[i], &deviations, spent, error);
         if (result != AUR_OK)

@@ -291,18 +291,27 @@ static aur_result choose_candidates(aur_renderer *renderer, const aur_render_opt
     if (!aur_light_chooses(scene) && !aur_scene_has_environment(scene))
         return AUR_OK;
     const double sample = (double)choice->replica_count * aur_trial_rays(path) / path->samples;
-    if (AUR_CANDIDATE_SAMPLES * sample > CANDIDATES_PART * rivals->pixels * rays_to(path, wanted))
+    if (AUR_CANDIDATE_CHOICES * AUR_CANDIDATE_SAMPLES * sample >
+        CANDIDATES_PART * rivals->pixels * rays_to(path, wanted))
         return AUR_OK;
     return aur_ask_candidates(renderer, coarse, choice, &rivals->candidates, &choice->others, error);
 }
 
-/* Path tracing with its candidates in place of that of the choice, which has not begun. */
+/* Path tracing with its candidates in place of that of the choice, which has not begun. Who looks at that
+ * meanwhile finds it whole. */
 static aur_result take_candidates(aur_renderer *renderer, const aur_render_options *options,
                                   aur_choice *choice, size_t candidates, aur_error *error) {
-    char *const text = aur_ask_path(choice->trial.integrator, candidates);
-    aur_trial_release(&choice->trial);
-    choice->candidates = candidates;
-    return create_trial(renderer, options, choice, text, &choice->trial, error);
+    aur_trial left = {0};
+    const aur_result result = create_trial(renderer, options, choice,
+                                           aur_ask_path(choice->trial.integrator, candidates), &left, error);
+    if (result == AUR_OK) {
+        const aur_trial taken = left;
+        left = choice->trial;
+        choice->trial = taken;
+        choice->candidates = candidates;
+    }
+    aur_trial_release(&left);
+    return result;
 }
 
 aur_result aur_ask_try(aur_renderer *renderer, const aur_render_options *options, aur_choice *choice,
