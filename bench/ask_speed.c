@@ -35,9 +35,9 @@ enum { ROW_COUNT = sizeof rows / sizeof rows[0] };
 
 /* The last picture on the way to an error, and how its seconds go on: as error^-power. */
 typedef struct attempt {
-    double asked;   /* error, or samples a pixel */
-    double seconds; /* CPU; 0: none was made */
-    double error;
+    double asked;            /* error, or samples a pixel */
+    double seconds;          /* CPU; 0: none was made */
+    double error, uncertain; /* the true one, and its standard error */
 } attempt;
 
 typedef struct peer {
@@ -63,7 +63,7 @@ static bool ask(const bench_study *self, double wanted, attempt *last) {
         bench_outcome found;
         if (!bench_study_measure(self, &(bench_request){.error = next}, 1, 1, &found))
             return false;
-        *last = (attempt){next, found.seconds, found.error};
+        *last = (attempt){next, found.seconds, found.error, found.uncertain};
     }
     return true;
 }
@@ -81,7 +81,7 @@ static bool trace(const bench_study *self, double wanted, attempt *last) {
         bench_outcome found;
         if (!bench_study_measure(self, &request, 1, 1, &found))
             return false;
-        *last = (attempt){samples, found.seconds, found.error};
+        *last = (attempt){samples, found.seconds, found.error, found.uncertain};
     }
     return true;
 }
@@ -96,7 +96,7 @@ static bool follow(const bench_study *self, double wanted, attempt *found) {
         bench_outcome outcome;
         if (!bench_study_measure(self, &request, 1, 1, &outcome))
             return false;
-        *found = (attempt){wanted, outcome.seconds, outcome.error};
+        *found = (attempt){wanted, outcome.seconds, outcome.error, outcome.uncertain};
     }
     return true;
 }
@@ -156,9 +156,10 @@ static void compare(const speed_row *row, const char *what, double asked, double
 
 static void print_cell(const attempt *found, double wanted, double seconds) {
     if (found->seconds > 0.0)
-        printf(" %c%-8.3g %8.5f", found->error > 1.05 * wanted ? '~' : ' ', seconds, found->error);
+        printf(" %c%-8.3g %8.5f +-%-7.5f", found->error > 1.05 * wanted ? '~' : ' ', seconds, found->error,
+               found->uncertain);
     else
-        printf(" %-9s %8s", "none", "");
+        printf(" %-9s %18s", "none", "");
 }
 
 static bool study_row(const bench_study *self, const speed_row *row, attempt *asked, attempt *traced,
@@ -204,7 +205,7 @@ static bool denoise_own(const bench_study *self, double wanted, attempt *least) 
         spent += found.seconds;
         const bool better = error < 0.9 * least->error;
         if (error < least->error)
-            *least = (attempt){asked, found.seconds, error};
+            *least = (attempt){asked, found.seconds, error, 0.0};
         if (!better || 4.0 * found.seconds + spent > seconds_limit)
             break;
     }
@@ -279,7 +280,8 @@ static bool study_subject(const bench_options *options, const bench_subject *sub
 
 bool bench_ask_speed(const bench_options *options, bench_figures *figures) {
     printf("  CPU seconds of one thread and the true error; ~: brought to the error by the law of the last "
-           "picture, whose error is said\n  %-12s %-6s %-19s %-19s %-19s %s\n",
+           "picture, whose error is said, +- the standard error that it is known to\n  %-12s %-6s %-28s "
+           "%-28s %-28s %s\n",
            "", "error", " by recipe", " by --error", " path", "best peer");
     const size_t count = options->quick ? QUICK_SUBJECTS : bench_subject_count;
     for (size_t i = 0; i < count; ++i)

@@ -123,24 +123,34 @@ static bool open_truth(bench_study *self) {
     return true;
 }
 
+typedef struct square_error {
+    double mean, uncertain; /* the second is the standard error of the first */
+} square_error;
+
 /* The mean of (x - a)(x - b) over channels and means of block x block pixels; what does not fill a block is
  * left out. */
-static double mean_square_error(const bench_study *self, const aur_image *image, size_t block) {
+static square_error mean_square_error(const bench_study *self, const aur_image *image, size_t block) {
     const size_t across = self->width / block, down = self->height / block;
     const float *const x = aur_image_data(image);
     const float *const a = aur_image_data(self->truth[0]), *const b = aur_image_data(self->truth[1]);
-    double sum = 0.0;
-    for (size_t i = 0; i < across * down * 3; ++i) {
-        const size_t x0 = i / 3 % across * block, y0 = i / 3 / across * block;
-        double to_a = 0.0, to_b = 0.0;
-        for (size_t k = 0; k < block * block; ++k) {
-            const size_t at = 3 * ((y0 + k / block) * self->width + x0 + k % block) + i % 3;
-            to_a += (double)x[at] - (double)a[at];
-            to_b += (double)x[at] - (double)b[at];
+    const double scale = 1.0 / (3.0 * pow((double)block, 4.0)), count = (double)(across * down);
+    double sum = 0.0, squares = 0.0;
+    for (size_t i = 0; i < across * down; ++i) {
+        double product = 0.0; /* of the channels together, whose noise is alike */
+        for (size_t channel = 0; channel < 3; ++channel) {
+            const size_t x0 = i % across * block, y0 = i / across * block;
+            double to_a = 0.0, to_b = 0.0;
+            for (size_t k = 0; k < block * block; ++k) {
+                const size_t at = 3 * ((y0 + k / block) * self->width + x0 + k % block) + channel;
+                to_a += (double)x[at] - (double)a[at];
+                to_b += (double)x[at] - (double)b[at];
+            }
+            product += scale * to_a * to_b;
         }
-        sum += to_a * to_b;
+        sum += product;
+        squares += product * product;
     }
-    return sum / (double)(across * down * 3) / pow((double)block, 4.0);
+    return (square_error){sum / count, sqrt(fmax(squares - sum * sum / count, 0.0)) / count};
 }
 
 static int ascending(const void *a, const void *b) {
@@ -151,7 +161,7 @@ static int ascending(const void *a, const void *b) {
 bool bench_study_measure(const bench_study *self, const bench_request *request, size_t seeds, size_t block,
                          bench_outcome *found) {
     char output[4400];
-    double seconds[MOST_SEEDS], square = 0.0;
+    double seconds[MOST_SEEDS], square = 0.0, uncertain = 0.0;
     snprintf(output, sizeof output, "%s/picture-%ld.pfm", self->folder, (long)getpid());
     for (size_t k = 0; k < seeds; ++k) {
         bench_child_cost cost;
@@ -162,11 +172,17 @@ bool bench_study_measure(const bench_study *self, const bench_request *request, 
         if (image == NULL)
             return false;
         seconds[k] = cost.cpu_seconds;
-        square += mean_square_error(self, image, block) / (double)seeds;
+        /* The truth is the same for all seeds, so that its noise is: the standard error does not fall. */
+        const square_error one = mean_square_error(self, image, block);
+        square += one.mean / (double)seeds;
+        uncertain += one.uncertain / (double)seeds;
         aur_image_destroy(image);
     }
     qsort(seconds, seeds, sizeof *seconds, ascending);
-    *found = (bench_outcome){seconds[seeds / 2], sqrt(fmax(0.0, square)) / self->mean};
+    const double error = sqrt(fmax(0.0, square));
+    /* Of the root of a square; by the last part a square that is not told from zero has an error too. */
+    const double wide = uncertain > 0.0 ? 0.5 * uncertain / fmax(error, sqrt(uncertain)) : 0.0;
+    *found = (bench_outcome){seconds[seeds / 2], error / self->mean, wide / self->mean};
     return true;
 }
 

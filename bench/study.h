@@ -49,6 +49,9 @@ typedef struct bench_request {
 typedef struct bench_outcome {
     double seconds; /* CPU, one thread: median over the seeds */
     double error;   /* root of the mean square error over the seeds */
+    /* Standard error of `error`, as the pixels' scatter tells it: rather too large where errors are uneven.
+     * The truth's noise is in it, the luck of a picture's seed too. */
+    double uncertain;
 } bench_outcome;
 
 /* Finds or makes the scene and its truth; in a quick bench they are tiny. `skipped` where its meshes are not
