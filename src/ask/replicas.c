@@ -10,7 +10,7 @@
 
 aur_result aur_replicas_create(aur_renderer *renderer, const aur_render_options *options, size_t count,
                                aur_replicas *replicas, aur_error *error) {
-    *replicas = (aur_replicas){.count = count};
+    *replicas = (aur_replicas){0};
     for (size_t r = 0; r < count; ++r) {
         aur_render_options own = *options;
         own.seed = aur_hash3(UINT64_C(0x7265706c696361), options->seed, r);
@@ -19,6 +19,7 @@ aur_result aur_replicas_create(aur_renderer *renderer, const aur_render_options 
         const aur_result result = aur_render_create(renderer, &own, &replicas->renders[r], error);
         if (result != AUR_OK)
             return result;
+        replicas->count = r + 1; /* who is refused one asks those before it what they cost */
     }
     const aur_film *const film = aur_render_film(replicas->renders[0]);
     replicas->pixel_count = aur_film_pixel_count(film);

@@ -337,6 +337,11 @@ aur_result aur_ask_try(aur_renderer *renderer, const aur_render_options *options
         result = choose_candidates(renderer, &coarse, choice, path, wanted, &rivals, error);
     if (goes_on && result == AUR_OK)
         result = compare_with(renderer, options, &coarse, choice, path, wanted, &rivals, &better, error);
+    if (result == AUR_ERROR_MEMORY && choice->gather.photons > 0)
+        result = aur_fail(error, result,
+                          "out of memory: final gathering was tried with %zu photons; who names the "
+                          "integrator '%s' needs none",
+                          choice->gather.photons, whole->integrator);
     choice->rivals = NULL;
     if (better) {
         const aur_trial left = *whole;
