@@ -199,13 +199,14 @@ static bool denoise_own(const bench_study *self, double wanted, attempt *least) 
         if (!bench_study_measure(self, &(bench_request){.error = asked, .denoised = true}, 1, 1, &found))
             return false;
         const double error = found.error * self->mean / self->light;
-        printf("  %-12s %g %% asked, then denoised: error %.2f %%, %.3g s\n", self->subject->name,
-               100.0 * asked, 100.0 * error, found.seconds);
+        const double uncertain = found.uncertain * self->mean / self->light;
+        printf("  %-12s %g %% asked, then denoised: error %.2f +- %.2f %%, %.3g s\n", self->subject->name,
+               100.0 * asked, 100.0 * error, 100.0 * uncertain, found.seconds);
         fflush(stdout);
         spent += found.seconds;
         const bool better = error < 0.9 * least->error;
         if (error < least->error)
-            *least = (attempt){asked, found.seconds, error, 0.0};
+            *least = (attempt){asked, found.seconds, error, uncertain};
         if (!better || 4.0 * found.seconds + spent > seconds_limit)
             break;
     }

@@ -180,7 +180,7 @@ bool bench_study_measure(const bench_study *self, const bench_request *request, 
     }
     qsort(seconds, seeds, sizeof *seconds, ascending);
     const double error = sqrt(fmax(0.0, square));
-    /* Of the root of a square; by the last part a square that is not told from zero has an error too. */
+    /* The root's derivative at the error, or at the least one that is told from none. */
     const double wide = uncertain > 0.0 ? 0.5 * uncertain / fmax(error, sqrt(uncertain)) : 0.0;
     *found = (bench_outcome){seconds[seeds / 2], error / self->mean, wide / self->mean};
     return true;

@@ -19,7 +19,7 @@ aur_result aur_replicas_create(aur_renderer *renderer, const aur_render_options 
         const aur_result result = aur_render_create(renderer, &own, &replicas->renders[r], error);
         if (result != AUR_OK)
             return result;
-        replicas->count = r + 1; /* who is refused one asks those before it what they cost */
+        replicas->count = r + 1;
     }
     const aur_film *const film = aur_render_film(replicas->renders[0]);
     replicas->pixel_count = aur_film_pixel_count(film);

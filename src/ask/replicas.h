@@ -7,7 +7,7 @@
 #include "ask/interval.h"
 
 typedef struct aur_replicas {
-    size_t count;
+    size_t count; /* of renders that were made: fewer than asked for after a failure */
     aur_render *renders[AUR_REPLICAS_MAX];
     size_t pixel_count;
 } aur_replicas;

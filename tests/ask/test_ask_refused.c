@@ -68,6 +68,9 @@ static void a_trial_is_stopped_while_it_is_made(void **state) {
         assert_true(result == AUR_OK || result == AUR_ERROR_CANCELLED);
         stopped += result == AUR_ERROR_CANCELLED;
         assert_true(trial.replicas.count <= REPLICAS);
+        assert_int_equal(trial.replicas.count == REPLICAS, result == AUR_OK);
+        for (size_t r = 0; r < trial.replicas.count; ++r)
+            assert_non_null(trial.replicas.renders[r]);
         aur_trial_add_spent(&trial, &spent);
         aur_trial_release(&trial);
     }
