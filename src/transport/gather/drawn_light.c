@@ -113,7 +113,7 @@ static aur_light_sample light_from(const aur_gather_plan *plan, const aur_bright
     const float cosine = -aur_vector_dot(direction, point->normal);
     aur_light_sample sample = {.position = point->position, .direction = direction};
     if (cosine > 0.0f && square > 0.0f) {
-        sample.pdf = aur_bright_texels_density(&from->bright, known.radiance) * (float)from->bright_draws *
+        sample.pdf = aur_bright_texels_density(from->bright, known.radiance) * (float)from->bright_draws *
                      square / cosine;
         const bool near = aur_onward_is_near(&plan->onward, sqrtf(square), known.area);
         if (!near && !aur_onward_is_due(&plan->onward, hash)) {
@@ -154,7 +154,7 @@ void aur_gather_add_bright_light(const aur_gather_places *places, aur_gather_sum
         for (uint32_t rest = places->lanes; rest != 0; rest &= rest - 1) {
             const size_t lane = aur_first_lane(rest);
             const aur_bright_point point =
-                aur_bright_texels_sample(&from->bright, plan->scene, from->map, (double)choice[lane],
+                aur_bright_texels_sample(from->bright, plan->scene, from->map, (double)choice[lane],
                                          (const float[2]){u[lane], v[lane]});
             lights[lane] =
                 light_from(plan, &point, places->at[lane].surface.position,

@@ -251,7 +251,7 @@ static float density_of(const aur_gather_rays *rays, size_t lane) {
 /* The part of a bright texel's light that gathering counts; the rest is found by drawing bright texels. */
 static float bright_weight(const aur_gather_plan *plan, const aur_gather_rays *rays, size_t lane,
                            aur_vector known) {
-    const float texel = aur_bright_texels_density(&plan->light.bright, known);
+    const float texel = aur_bright_texels_density(plan->light.bright, known);
     if (texel == 0.0f)
         return 1.0f;
     const struct RTCRayHit16 *const query = &rays->packet.query;

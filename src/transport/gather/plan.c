@@ -133,6 +133,32 @@ static aur_result find_maps(const aur_gather_parameters *p, const aur_integrator
     return result;
 }
 
+static void destroy_bright(void *bright) {
+    aur_bright_texels_release(bright);
+    free(bright);
+}
+
+/* A map's bright texels, shared like the map, whose address in the cache names them. */
+static aur_result find_bright(const aur_integrator_context *context, const aur_irradiance_map *map,
+                              const aur_shape_class *classes, const aur_bright_texels **found,
+                              aur_error *error) {
+    char key[64]; /* an address and a name */
+    snprintf(key, sizeof key, "bright texels of %p", (const void *)map);
+    *found = aur_cache_find(context->cache, key);
+    if (*found != NULL)
+        return AUR_OK;
+    aur_bright_texels *const made = malloc(sizeof *made);
+    if (made == NULL)
+        return aur_fail_memory(error);
+    aur_result result = aur_bright_texels_create(context->scene, map, classes, made, error);
+    if (result != AUR_OK)
+        free(made);
+    else if (aur_cache_store(context->cache, key, made, destroy_bright) != AUR_OK)
+        result = aur_fail_memory(error);
+    *found = result == AUR_OK ? made : NULL;
+    return result;
+}
+
 static aur_result find_light(const aur_gather_parameters *p, const aur_integrator_context *context,
                              aur_gather_plan *plan, aur_error *error) {
     aur_gather_light *const light = &plan->light;
@@ -145,8 +171,8 @@ static aur_result find_light(const aur_gather_parameters *p, const aur_integrato
         p->policy.component != AUR_COMPONENT_ALL)
         return result;
     const size_t samples = context->samples_per_pixel;
-    result = aur_bright_texels_create(context->scene, light->map, plan->classes, &light->bright, error);
-    if (result == AUR_OK && light->bright.distribution.total > 0.0)
+    result = find_bright(context, light->map, plan->classes, &light->bright, error);
+    if (result == AUR_OK && light->bright->distribution.total > 0.0)
         light->bright_draws = (uint32_t)(aur_gather_split_count(p->bright_samples, samples) / samples);
     return result;
 }
@@ -202,7 +228,6 @@ void aur_gather_plan_destroy(aur_gather_plan *plan) {
     if (plan == NULL)
         return;
     aur_gather_rules_release(&plan->rules);
-    aur_bright_texels_release(&plan->light.bright);
     free(plan->classes);
     free(plan);
 }

@@ -29,9 +29,9 @@ typedef struct aur_gather_light {
     const aur_irradiance_map *map;
     /* The light that specular bounces brought, which `map` then lacks; or NULL. Owned by the cache. */
     const aur_irradiance_map *caustics;
-    uint32_t draws;        /* points on lights that one sample draws */
-    uint32_t bright_draws; /* points on bright texels that one sample draws; 0: there are none */
-    aur_bright_texels bright;
+    uint32_t draws;                  /* points on lights that one sample draws */
+    uint32_t bright_draws;           /* points on bright texels that one sample draws; 0: there are none */
+    const aur_bright_texels *bright; /* of `map`, owned by the cache; NULL where nobody asks for them */
 } aur_gather_light;
 
 typedef struct aur_gather_plan {
