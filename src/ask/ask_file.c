@@ -8,7 +8,7 @@
 #include "render/renderer.h"
 
 /* Numbers between rounds, before those of the tiles and of the replicas. */
-enum { NUMBERS = 14, STATE_WORDS = NUMBERS + 7 };
+enum { NUMBERS = 14, STATE_WORDS = NUMBERS + 8 };
 
 static size_t word_count(const aur_ask *ask) {
     return STATE_WORDS + 3 * ask->trial.value_count + 2 * ask->trial.replicas.pixel_count +
@@ -45,6 +45,7 @@ aur_result aur_ask_save(const aur_ask *ask, const char *path, aur_error *error) 
     words[at++] = ask->gather.photons;
     words[at++] = ask->gather.directions;
     words[at++] = ask->gather.lights;
+    words[at++] = ask->gather.bright;
     words[at++] = ask->candidates;
     words[at++] = ask->others.rays;
     for (size_t i = 0; i < ask->trial.value_count; ++i) {
@@ -73,8 +74,9 @@ static aur_result take_over(aur_ask *ask, const char *path, const aur_checkpoint
     for (size_t i = 0; i < NUMBERS; ++i)
         numbers[i] = aur_double_of_word(*word++);
     const aur_gather_size size = {kept->words[NUMBERS + 2], aur_ask_photon_seed(ask->options.seed),
-                                  kept->words[NUMBERS + 3], kept->words[NUMBERS + 4]};
-    const size_t candidates = kept->words[NUMBERS + 5];
+                                  kept->words[NUMBERS + 3], kept->words[NUMBERS + 4],
+                                  kept->words[NUMBERS + 5]};
+    const size_t candidates = kept->words[NUMBERS + 6];
     aur_result result = AUR_OK;
     if (size.photons > 0)
         result = aur_ask_take_gather(ask, size, error);
@@ -96,7 +98,7 @@ static aur_result take_over(aur_ask *ask, const char *path, const aur_checkpoint
     ask->trial.rounds = *word++;
     ask->trial.begun = (*word & 1) != 0;
     ask->trial.looked_at = (*word++ & 2) != 0;
-    word += 4; /* of the integrator, see above */
+    word += 5; /* of the integrator, see above */
     ask->others.rays = *word++;
     for (size_t i = 0; i < ask->trial.value_count; ++i) {
         ask->trial.targets[i] = (uint32_t)*word++;

@@ -6,31 +6,41 @@
 #include <stdint.h>
 
 /* What final gathering is told: photons of the map that all replicas share, the seed of these, directions of
- * a pattern for diffuse light, and the pattern's points on lights. */
+ * a pattern for diffuse light, and the pattern's points on lights and on bright texels. */
 typedef struct aur_gather_size {
     size_t photons;
     uint64_t seed;
-    size_t directions, lights;
+    size_t directions, lights, bright;
 } aur_gather_size;
 
-/* Directions and points on lights of the pilots' patterns: what both have in common, and what the second one
- * has more. The map's photons: its noise hardly hangs on them, and texels are so wide that most of its rays
- * would be short. */
-enum { AUR_PILOT_DIRECTIONS = 4, AUR_PILOT_LIGHTS = 1, AUR_PILOT_LIGHTS_MORE = 8, AUR_PILOT_PHOTONS = 15000 };
+/* Directions and points on lights of the pilots' patterns, of which the second one has more, and the third
+ * one as many and points on bright texels. The map's photons: its noise hardly hangs on them, and texels are
+ * so wide that most of its rays would be short. */
+enum {
+    AUR_PILOT_DIRECTIONS = 4,
+    AUR_PILOT_LIGHTS = 1,
+    AUR_PILOT_LIGHTS_MORE = 8,
+    AUR_PILOT_BRIGHT = 1,
+    AUR_PILOT_PHOTONS = 15000
+};
 
 /* What a pilot has come to: its error over the mean, and rays a pixel. */
 typedef struct aur_pilot_outcome {
     double error, rays;
 } aur_pilot_outcome;
 
-/* A pattern of AUR_PILOT_DIRECTIONS with so many points on lights as are best. */
+/* A pattern of AUR_PILOT_DIRECTIONS with so many points on lights, and on bright texels, as are best. */
 typedef struct aur_gather_pattern {
-    double lights, error;
+    double lights, bright, error;
+    double unshared;       /* how many times the directions patterns take that are not shared */
     double fixed, growing; /* rays a pixel, the lights' at their price: whatever its size, and as it */
 } aur_gather_pattern;
 
 /* From pilots with AUR_PILOT_LIGHTS and AUR_PILOT_LIGHTS_MORE points on lights. */
 aur_gather_pattern aur_gather_pattern_of(aur_pilot_outcome few, aur_pilot_outcome more);
+/* The same where a third pilot says whether points on bright texels pay. */
+aur_gather_pattern aur_gather_pattern_best(aur_pilot_outcome few, aur_pilot_outcome more,
+                                           aur_pilot_outcome bright);
 
 /* The noise to plan for beside a bias whose square is told, so that both come to what is wanted. */
 double aur_gather_noise_planned(double wanted, double square_bias);
@@ -53,6 +63,6 @@ bool aur_gather_is_shared(size_t directions);
 /* for a picture, */
 char *aur_ask_gather(const char *path, aur_gather_size size);
 /* for a pilot, */
-char *aur_ask_gather_pilot(const char *path, uint64_t seed, size_t lights);
+char *aur_ask_gather_pilot(const char *path, uint64_t seed, size_t lights, size_t bright);
 /* and for what its map is wrong by. */
 char *aur_ask_gather_difference(const char *path, size_t photons, uint64_t seed);

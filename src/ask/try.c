@@ -22,8 +22,8 @@ static const double WORTH = 0.45;
 static const double PILOT_PART = 0.01;
 /* Of path tracing's rays, what it may cost to choose its candidates. */
 static const double CANDIDATES_PART = 0.08;
-/* Of final gathering's rays, what the second pilot may cost, which takes about twice the first one's. */
-static const double LIT_PILOT_PART = 0.1;
+/* Of final gathering's rays, what each further pilot may cost, which takes about twice the first one's. */
+static const double FURTHER_PILOT_PART = 0.1;
 /* More than so many times the rays of a first pattern are not spent on shared ones. What is shared comes to
  * whole tiles, so that a few pixels that have the error, as of a lamp's edge, would cost all about them. */
 static const double MOST_GROWTH_SHARED = 2.0;
@@ -54,7 +54,7 @@ static aur_result render_round(const aur_choice *choice, const aur_goal *goal, a
 /* What is compared, in few pixels but for the last; and what final gathering's photon map is wrong by. The
  * trial of path tracing is the picture's own where that is small. */
 typedef struct aur_rivals {
-    aur_trial path, pilot, lit_pilot, difference, gather;
+    aur_trial path, pilot, lit_pilot, bright_pilot, difference, gather;
     double pixels;              /* of the picture, over those of the few */
     aur_gather_pattern pattern; /* as the pilots tell */
     aur_candidates candidates;  /* of path tracing */
@@ -182,29 +182,42 @@ static aur_pilot_outcome outcome_of(const aur_trial *pilot) {
 }
 
 static aur_result render_pilot(aur_renderer *renderer, const aur_render_options *coarse,
-                               const aur_choice *choice, size_t lights, aur_trial *pilot, aur_error *error) {
-    char *const text = aur_ask_gather_pilot(choice->trial.integrator, choice->gather.seed, lights);
+                               const aur_choice *choice, size_t lights, size_t bright, aur_trial *pilot,
+                               aur_error *error) {
+    char *const text = aur_ask_gather_pilot(choice->trial.integrator, choice->gather.seed, lights, bright);
     const aur_result result = create_trial(renderer, coarse, choice, text, pilot, error);
     bool goes_on;
     return result == AUR_OK ? render_round(choice, &choice->goal, pilot, &goes_on, error) : result;
 }
 
+/* What another pilot may cost. */
+static double further_rays(const aur_choice *choice, const aur_rivals *rivals, double wanted) {
+    return FURTHER_PILOT_PART * gather_rays(choice, rivals, wanted, pow(BIAS_PART * wanted, 2.0));
+}
+
 /* Pilots of final gathering, with few points on lights and, where that costs little beside the picture, with
- * more. */
+ * more, and then with points on bright texels. */
 static aur_result render_pilots(aur_renderer *renderer, const aur_render_options *coarse,
                                 const aur_choice *choice, double wanted, aur_rivals *rivals,
                                 aur_error *error) {
-    aur_result result = render_pilot(renderer, coarse, choice, AUR_PILOT_LIGHTS, &rivals->pilot, error);
+    aur_result result = render_pilot(renderer, coarse, choice, AUR_PILOT_LIGHTS, 0, &rivals->pilot, error);
     if (result != AUR_OK || aur_trial_is_black(&rivals->pilot))
         return result;
     const aur_pilot_outcome few = outcome_of(&rivals->pilot);
     rivals->pattern = aur_gather_pattern_of(few, few);
-    const double rays = gather_rays(choice, rivals, wanted, pow(BIAS_PART * wanted, 2.0));
-    if (2.0 * aur_trial_rays(&rivals->pilot) > LIT_PILOT_PART * rays)
+    if (2.0 * aur_trial_rays(&rivals->pilot) > further_rays(choice, rivals, wanted))
         return AUR_OK;
-    result = render_pilot(renderer, coarse, choice, AUR_PILOT_LIGHTS_MORE, &rivals->lit_pilot, error);
-    if (result == AUR_OK && !aur_trial_is_black(&rivals->lit_pilot))
-        rivals->pattern = aur_gather_pattern_of(few, outcome_of(&rivals->lit_pilot));
+    result = render_pilot(renderer, coarse, choice, AUR_PILOT_LIGHTS_MORE, 0, &rivals->lit_pilot, error);
+    if (result != AUR_OK || aur_trial_is_black(&rivals->lit_pilot))
+        return result;
+    const aur_pilot_outcome more = outcome_of(&rivals->lit_pilot);
+    rivals->pattern = aur_gather_pattern_of(few, more);
+    if (aur_trial_rays(&rivals->lit_pilot) > further_rays(choice, rivals, wanted))
+        return AUR_OK;
+    result = render_pilot(renderer, coarse, choice, AUR_PILOT_LIGHTS_MORE, AUR_PILOT_BRIGHT,
+                          &rivals->bright_pilot, error);
+    if (result == AUR_OK && !aur_trial_is_black(&rivals->bright_pilot))
+        rivals->pattern = aur_gather_pattern_best(few, more, outcome_of(&rivals->bright_pilot));
     return result;
 }
 
@@ -257,7 +270,8 @@ double aur_choice_part_done(const aur_choice *choice) {
         return 0.0;
     const double gathered = rays_of(&rivals->gather);
     const double others = rays_of(&choice->trial) + rays_of(&rivals->path) + rays_of(&rivals->pilot) +
-                          rays_of(&rivals->lit_pilot) + rays_of(&rivals->difference);
+                          rays_of(&rivals->lit_pilot) + rays_of(&rivals->bright_pilot) +
+                          rays_of(&rivals->difference);
     return (others + gathered) / (others + fmax(choice->rays, gathered));
 }
 
@@ -353,8 +367,8 @@ aur_result aur_ask_try(aur_renderer *renderer, const aur_render_options *options
         if (result == AUR_OK && rivals.candidates.count > 1)
             result = take_candidates(renderer, options, choice, rivals.candidates.count, error);
     }
-    aur_trial *const left[] = {&rivals.path, &rivals.pilot, &rivals.lit_pilot, &rivals.difference,
-                               &rivals.gather};
+    aur_trial *const left[] = {&rivals.path,         &rivals.pilot,      &rivals.lit_pilot,
+                               &rivals.bright_pilot, &rivals.difference, &rivals.gather};
     for (size_t i = 0; i < sizeof left / sizeof left[0]; ++i) {
         aur_trial_add_spent(left[i], &choice->others);
         aur_trial_release(left[i]);

@@ -104,7 +104,7 @@ static double square_distance(const aur_ask *a, const aur_ask *b) {
 static void test_choice(void **state) {
     const fixture *const f = *state;
     aur_ask_options wish = aur_ask_options_default();
-    wish.error = 0.03;
+    wish.error = 0.02;
     aur_render_options chosen = small(1), named = small(3), paths = small(0);
     chosen.width = named.width = paths.width = 96;
     chosen.height = named.height = paths.height = 72;

@@ -51,6 +51,41 @@ static void lights_that_make_it_worse_are_not_taken(void **state) {
     assert_near(found.error, 0.1, 1e-12);
 }
 
+/* Points on bright texels cost half a ray here, and leave so much of what gathering's error is. They are
+ * taken where they save more than a tenth of the time, which is as the error to the power 4 / 3, if whole
+ * pictures save the square of it. Then the pattern is what pilots that all draw them would tell, and takes so
+ * many directions less where it is not shared. */
+static void bright_texels_are_drawn_where_they_pay(void **state) {
+    (void)state;
+    const double a = 0.01, b = 0.005, others = 10.0, a_light = 0.8, draw = 0.5;
+    for (double left = 0.3; left < 1.3; left += 0.05) {
+        const aur_gather_pattern drawn = pattern_of(left * a, b, others + draw, a_light);
+        const aur_gather_pattern plain = pattern_of(a, b, others, a_light);
+        const aur_gather_pattern found =
+            aur_gather_pattern_best(pilot(a, b, others, a_light, AUR_PILOT_LIGHTS),
+                                    pilot(a, b, others, a_light, AUR_PILOT_LIGHTS_MORE),
+                                    pilot(left * a, b, others + draw, a_light, AUR_PILOT_LIGHTS_MORE));
+        const double seen = fmin(pilot(left * a, b, 0.0, 0.0, AUR_PILOT_LIGHTS_MORE).error /
+                                     pilot(a, b, 0.0, 0.0, AUR_PILOT_LIGHTS_MORE).error,
+                                 1.0);
+        const double power = 2.0 / POWER, unseen = pow(seen, power);
+        const bool pays =
+            1.1 * unseen * drawn.growing * pow(drawn.error, power) < plain.growing * pow(plain.error, power);
+        const aur_gather_pattern *const expected = pays ? &drawn : &plain;
+        assert_true(left > 0.5 || pays);
+        assert_true(left < 1.0 || !pays);
+        assert_true(found.bright == (pays ? AUR_PILOT_BRIGHT : 0.0));
+        assert_near(found.error, expected->error, 1e-12);
+        assert_near(found.growing, expected->growing, 1e-12);
+        assert_near(found.unshared, pays ? unseen * plain.unshared : plain.unshared, 1e-12);
+        const aur_gather_size size = aur_gather_size_of(&found, 0.1 * found.error, 1000, 7);
+        /* As many a direction as the pilot's, in whole samples of a pattern of four. */
+        const size_t least = size.directions * AUR_PILOT_BRIGHT / AUR_PILOT_DIRECTIONS;
+        assert_true(pays ? size.bright % 4 == 0 && size.bright + 4 > least && size.bright <= least + 4
+                         : size.bright == 0);
+    }
+}
+
 static void less_noise_takes_larger_patterns(void **state) {
     (void)state;
     const aur_gather_pattern pattern = pattern_of(0.01, 0.05, 10.0, 0.8);
@@ -107,10 +142,11 @@ static void assert_text(char *text, const char *expected) {
 
 static void texts_are_those_of_keys(void **state) {
     (void)state;
-    assert_text(aur_ask_gather("path:max_depth=5", (aur_gather_size){1000, 7, 9, 3}),
-                "finalgather:split=1,diffuse_samples=9,glossy_samples=5,light_samples=3,photons=1000,"
+    assert_text(aur_ask_gather("path:max_depth=5", (aur_gather_size){1000, 7, 9, 3, 2}),
+                "finalgather:split=1,diffuse_samples=9,glossy_samples=5,light_samples=3,bright_samples=2,"
+                "photons=1000,"
                 "photon_seed=7,edges=72,short_rays=2,share=near,max_depth=5");
-    assert_text(aur_ask_gather("path", (aur_gather_size){1000, 7, 36, 8}),
+    assert_text(aur_ask_gather("path", (aur_gather_size){1000, 7, 36, 8, 0}),
                 "finalgather:split=4,diffuse_samples=36,glossy_samples=20,light_samples=2,photons=1000,"
                 "photon_seed=7,edges=144,short_rays=2");
     assert_text(aur_ask_path("path", 1), "path");
@@ -121,6 +157,7 @@ static void texts_are_those_of_keys(void **state) {
 int main(void) {
     const struct CMUnitTest tests[] = {cmocka_unit_test(lights_are_those_that_cost_least),
                                        cmocka_unit_test(lights_that_make_it_worse_are_not_taken),
+                                       cmocka_unit_test(bright_texels_are_drawn_where_they_pay),
                                        cmocka_unit_test(less_noise_takes_larger_patterns),
                                        cmocka_unit_test(many_largest_patterns_are_counted),
                                        cmocka_unit_test(bias_leaves_room_for_less_noise),
