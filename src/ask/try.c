@@ -117,9 +117,10 @@ static bool pays(const aur_choice *choice, const aur_rivals *rivals, double want
 /* How many times as many rays show that a squared bias is no more than `most`, if its estimate is too large
  * by chance: a little beyond that, and a step that is worth a look. Infinite where the estimate is too much
  * by more than chance. Who goes on loses little before a part of all rays is spent, and who gives up takes
- * paths: until then the estimate may be wrong by more. */
+ * paths: until then the estimate may be wrong by more, as the first few samples are where few of them have
+ * most of the square (one sample of the room told at least .055 where .016 is true). */
 static double growth_needed(const aur_bias *bias, double most, double part_spent) {
-    const double least_part = 1.0 / 32, chance = part_spent < least_part ? 1.0 : 0.5;
+    const double least_part = 1.0 / 32, chance = part_spent < least_part ? 2.0 : 0.5;
     const double room = most - fmax(bias->estimate - chance * uncertain(bias), 0.0);
     return room > 0.0 ? fmax(1.2 * uncertain(bias) / room, 1.25) : INFINITY;
 }
