@@ -13,20 +13,22 @@
 
 /* A pixel has the numbers of one four pixels on, in interleaved paths and gathering, or eight, where patterns
  * complete each other (share=near). */
-enum { BLOCK = 8, MOST_LAG = 8, PERIOD = 4, PERIODS = 2, SEEDS = 8, QUICK_SEEDS = 2, FIRST_SEED = 7001 };
+enum { BLOCK = 8, MOST_LAG = 8, PERIOD = 4, PERIODS = 2, SEEDS = 32, QUICK_SEEDS = 2, FIRST_SEED = 7001 };
 
 /* Half as much more than independent noise of the pixels. */
 static const double most_clumps = 1.5;
 
-/* Of a peak in standard errors: of four of 15 scenes and three finer rows one is above by chance in one
- * bench of a hundred (1 - .01 / 72 of the normal distribution). */
-static const double most_peak = 3.64;
+/* Of a peak in standard errors, which the seeds' spread tells: of four of 15 scenes and three finer rows one
+ * is above by chance in one bench of a hundred (1 - .01 / 72 of Student's distribution of SEEDS - 1 degrees).
+ * One seed's own standard error, for which its pixels are independent, is too small where few have the error:
+ * by that, eight seeds of Keller's office had a peak of 4.8, and 64 seeds one of 1.7. */
+static const double most_peak = 4.10;
 
 typedef struct alike {
     size_t seeds, gathered;
     error_blocks blocks;
     double products[2][MOST_LAG + 1]; /* along rows and columns; of lag 0: squares */
-    double peaks[2][PERIODS];         /* in standard errors of a seed, added up */
+    double peaks[2][PERIODS][SEEDS];  /* in standard errors that the seed tells itself */
     double clumps[SEEDS], between;    /* of one seed; of the differences of pairs of them, added up */
 } alike;
 
@@ -43,15 +45,16 @@ static void add(const bench_ask_scene *known, const error_pattern *error, const 
     const double unit = known->mean * known->mean;
     sum->blocks.of_sums += squares.of_sums / unit;
     sum->blocks.of_each += squares.of_each / unit;
-    sum->clumps[sum->seeds++] = clumps_of(&squares);
+    sum->clumps[sum->seeds] = clumps_of(&squares);
     for (size_t down = 0; down < 2; ++down) {
         for (size_t lag = 0; lag <= MOST_LAG; ++lag)
             sum->products[down][lag] +=
                 (error_pattern_product(error, lag, down != 0) - error_pattern_product(own, lag, down != 0)) /
                 unit;
         for (size_t i = 0; i < PERIODS; ++i)
-            sum->peaks[down][i] += error_pattern_peak(error, PERIOD * (i + 1), down != 0);
+            sum->peaks[down][i][sum->seeds] = error_pattern_peak(error, PERIOD * (i + 1), down != 0);
     }
+    ++sum->seeds;
 }
 
 /* Pictures of two seeds: what each is wrong by, and what they are not wrong by alike. */
@@ -78,15 +81,18 @@ static aur_result add_pair(const bench_ask_scene *known, uint64_t seed, alike *s
     return result;
 }
 
-/* The standard error of the mean of the seeds' ratios. */
-static double spread_of(const alike *found) {
-    const double n = (double)found->seeds;
+typedef struct average {
+    double mean, standard_error;
+} average;
+
+static average average_of(size_t count, const double *seeds) {
+    const double n = (double)count;
     double mean = 0.0, squares = 0.0;
-    for (size_t i = 0; i < found->seeds; ++i)
-        mean += found->clumps[i] / n;
-    for (size_t i = 0; i < found->seeds; ++i)
-        squares += (found->clumps[i] - mean) * (found->clumps[i] - mean);
-    return sqrt(squares / (n * (n - 1.0)));
+    for (size_t i = 0; i < count; ++i)
+        mean += seeds[i] / n;
+    for (size_t i = 0; i < count; ++i)
+        squares += (seeds[i] - mean) * (seeds[i] - mean);
+    return (average){mean, sqrt(squares / (n * (n - 1.0)))};
 }
 
 static double print(const char *name, const bench_ask_scene *known, const alike *found) {
@@ -94,14 +100,16 @@ static double print(const char *name, const bench_ask_scene *known, const alike 
     double most = -INFINITY;
     printf("  %-34.34s %5.3g %6.2f %6.2f %6.2f +- %.2f %7.2f\n", name, known->row.asked,
            (double)found->gathered / n, sqrt(found->products[0][0] / n) / known->row.asked,
-           clumps_of(&found->blocks), spread_of(found), 2.0 * found->between / n);
+           clumps_of(&found->blocks), average_of(found->seeds, found->clumps).standard_error,
+           2.0 * found->between / n);
     for (size_t down = 0; down < 2; ++down) {
         printf("    %-7s", down != 0 ? "columns" : "rows");
         for (size_t lag = 1; lag <= MOST_LAG; ++lag)
             printf(" %5.2f", found->products[down][lag] / found->products[down][0]);
         printf("  peaks");
         for (size_t i = 0; i < PERIODS; ++i) {
-            const double peak = found->peaks[down][i] / sqrt(n);
+            const average of_seeds = average_of(found->seeds, found->peaks[down][i]);
+            const double peak = of_seeds.mean / of_seeds.standard_error;
             printf(" %.1f", peak);
             most = fmax(most, peak);
         }
