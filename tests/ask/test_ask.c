@@ -123,6 +123,8 @@ static void test_choice(void **state) {
     assert_non_null(strstr(aur_ask_integrator(a), "finalgather:"));
     assert_non_null(strstr(aur_ask_integrator(a), ",max_depth=-1"));
     assert_true(report.error_high <= wish.error);
+    /* That of the 125,000 photons which so few rays pay for is wrong by nearly as much as may be left. */
+    assert_non_null(strstr(aur_ask_integrator(a), ",photons=500000,"));
     /* Of the error .6 may be the map's bias, which leaves .8 of it to the noise (.6^2 + .8^2 = 1). Pixels
      * that share light would add what that is wrong by; these have too many directions to share. */
     assert_null(strstr(aur_ask_integrator(a), "share="));
