@@ -20,8 +20,8 @@ static const double most_clumps = 1.5;
 
 /* Of a peak in standard errors, which the seeds' spread tells: of four of 15 scenes and three finer rows one
  * is above by chance in one bench of a hundred (1 - .01 / 72 of Student's distribution of SEEDS - 1 degrees).
- * One seed's own standard error, for which its pixels are independent, is too small where few have the error:
- * by that, eight seeds of Keller's office had a peak of 4.8, and 64 seeds one of 1.7. */
+ * One seed's own standard error, for which its pixels are independent, may be too small: in Keller's office
+ * 64 seeds differed by 1.2 of it, and had a peak of 1.7 where eight seeds had shown one of 4.8. */
 static const double most_peak = 4.10;
 
 typedef struct alike {

@@ -124,14 +124,18 @@ aur_result aur_rivals_find_map(aur_rivals *rivals, aur_choice *choice, double ra
     for (*photons = aur_gather_photons(rays);;) {
         aur_trial *const difference = &rivals->difference;
         const bool may_be_larger = *photons < most_photons;
+        const double most_rays = worth - rays - spent;
         char *const text = aur_ask_gather_difference(choice->trial.integrator, *photons, choice->gather.seed);
         aur_result result = aur_rivals_create(rivals, choice, &points, text, difference, error);
         if (result == AUR_OK)
-            result = find_bias(choice, rivals, worth - rays - spent, may_be_larger, error);
-        if (result != AUR_OK || choice->bias.high <= most || !may_be_larger ||
-            choice->bias.estimate > MOST_MENDED * most)
+            result = find_bias(choice, rivals, most_rays, may_be_larger, error);
+        if (result != AUR_OK || !may_be_larger || choice->bias.estimate > MOST_MENDED * most)
             return result;
-        spent += aur_trial_rays(difference);
+        /* What is badly known of this map would be so of a larger one. */
+        const double traced = aur_trial_rays(difference);
+        if (!wants_larger_map(&choice->bias, most, traced / most_rays))
+            return AUR_OK;
+        spent += traced;
         aur_trial_add_spent(difference, &choice->others);
         aur_trial_release(difference);
         *photons = *photons * MAP_GROWTH < most_photons ? *photons * MAP_GROWTH : most_photons;
