@@ -2,6 +2,7 @@
 
 void aur_counters_add(aur_counters *sum, const aur_counters *added) {
     sum->rays += added->rays;
+    sum->edge_rays += added->edge_rays;
     sum->samples += added->samples;
     sum->invalid += added->invalid;
     sum->cut += added->cut;

@@ -13,10 +13,12 @@
 /* Counted by each tile for itself and added up afterwards. */
 typedef struct aur_counters {
     uint64_t rays;
-    uint64_t samples;  /* of the camera */
-    uint64_t invalid;  /* samples that were no radiance */
-    uint64_t cut;      /* paths cut because so many mirrors or hidden lights came one after another */
-    uint64_t unsolved; /* places whose system for optimal weights could not be solved */
+    uint64_t edge_rays; /* of these, what was traced to know how much pixels see of what is around an edge; a
+                           film's file does not keep it */
+    uint64_t samples;   /* of the camera */
+    uint64_t invalid;   /* samples that were no radiance */
+    uint64_t cut;       /* paths cut because so many mirrors or hidden lights came one after another */
+    uint64_t unsolved;  /* places whose system for optimal weights could not be solved */
     uint64_t levels[AUR_RENDER_LEVELS]; /* adaptive gathering: places that ended at each level */
 } aur_counters;
 

@@ -103,8 +103,64 @@ static void finds_edges_where_only_some_pixels_go_on(void **state) {
     aur_scene_destroy(scene);
 }
 
+/* The integral of exp(-x^2/2) - exp(-8), of which the filter is a part, from 0 to x standard deviations. */
+static double gaussian_mass(double x) {
+    return sqrt(2.0 * atan(1.0)) * erf(x / sqrt(2.0)) - exp(-8.0) * x;
+}
+
+/* A wide filter sees a little of what lies beyond the pixels next to its own. The lamp covers the picture's
+ * columns 0 to 3, and its edge is 3 standard deviations from the centre of column 5: a sample there meets it
+ * with a chance of .001, and one in column 4 with .16, so that in an eighth of the pictures no pixel next to
+ * those of column 5 has met it. If these looked no farther, their variance would be three times that of all
+ * samples. The mean of squares varies by a 34th: twice is 34 times that away from one. */
+static void finds_edges_that_a_wide_filter_sees(void **state) {
+    (void)state;
+    enum { SIDE = 8, COLUMN = 5, SAMPLES_HERE = 4, EDGES = 64, RUNS = 2048 };
+    const double part = 0.5 * (1.0 - gaussian_mass(3.0) / gaussian_mass(4.0));
+    aur_scene *scene;
+    assert_int_equal(
+        aur_scene_load(
+            write_text("wide.xml",
+                       "<scene version='3.0.0'><sensor type='orthographic'/><shape "
+                       "type='rectangle'><transform name='to_world'><scale value='2'/><rotate y='1' "
+                       "angle='180'/><translate x='2' z='3'/></transform><emitter type='area'><rgb "
+                       "name='radiance' value='1'/></emitter></shape></scene>"),
+            NULL, &scene, NULL),
+        AUR_OK);
+    aur_renderer *renderer;
+    assert_int_equal(aur_renderer_create(scene, &renderer, NULL), AUR_OK);
+    double squares = 0.0, mean = 0.0;
+    for (size_t s = 0; s < RUNS; ++s) {
+        aur_render_options options = aur_render_options_default();
+        options.integrator = "finalgather:incident=emitters,edges=64,split=4";
+        options.sampler = "random";
+        options.filter = "gaussian";
+        options.samples_per_pixel = SAMPLES_HERE;
+        options.seed = s;
+        options.width = options.height = SIDE;
+        options.threads = 1;
+        aur_image *image;
+        assert_int_equal(aur_renderer_render(renderer, &options, &image, NULL, NULL), AUR_OK);
+        for (size_t y = 0; y < SIDE; ++y) {
+            const size_t pixel = y * SIDE + COLUMN;
+            const double value = (double)aur_image_data(image)[pixel * aur_image_channel_count(image)];
+            mean += value / (RUNS * SIDE);
+            squares += (value - part) * (value - part) / (RUNS * SIDE);
+        }
+        aur_image_destroy(image);
+    }
+    const double variance = part * (1.0 - part) / (SAMPLES_HERE + EDGES);
+    /* Five standard errors of the mean. */
+    assert_near(mean, part, 5.0 * sqrt(variance / (RUNS * SIDE)));
+    if (!(squares < 2.0 * variance))
+        fail_msg("a variance of %g, that of all samples is %g", squares, variance);
+    aur_renderer_destroy(renderer);
+    aur_scene_destroy(scene);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {cmocka_unit_test(keeps_the_mean_of_a_small_lamp),
-                                       cmocka_unit_test(finds_edges_where_only_some_pixels_go_on)};
+                                       cmocka_unit_test(finds_edges_where_only_some_pixels_go_on),
+                                       cmocka_unit_test(finds_edges_that_a_wide_filter_sees)};
     return cmocka_run_group_tests_name("transport/edges", tests, enter_folder, leave_folder);
 }

@@ -1,5 +1,7 @@
 #include "transport/gather/strata.h"
 
+#include <math.h>
+
 uint64_t aur_gather_surface_key(const aur_shape_class *classes, const aur_packet *packet, size_t lane) {
     const struct RTCRay16 *const rays = &packet->query.ray;
     const struct RTCHit16 *const hits = &packet->query.hit;
@@ -87,11 +89,33 @@ void aur_pixel_strata_added(const aur_pixel_strata *pixel, double added[3]) {
 
 enum { NO_EDGE, PLAIN_EDGE, LIGHT_EDGE };
 
-enum { SIDE = AUR_TILE_SIZE, APRON = SIDE + 2 };
+/* Pixels; no filter of ours reaches farther. */
+enum { SIDE = AUR_TILE_SIZE, MOST_REACH = 2, MOST_SIDE = SIDE + 2 * MOST_REACH };
+
+/* What a pixel's samples have seen: the key of one thing, and whether there were others. */
+typedef struct glance {
+    uint64_t key;
+    bool known, several, light;
+} glance;
+
+/* A tile's pixels and the ring around it, as wide as pixels look for edges: what each has seen. */
+typedef struct surroundings {
+    const aur_view *view;
+    const aur_pixel_strata *strata; /* of the tile's pixels */
+    size_t reach, side;             /* the ring's width, and the pixels of a row with it on both sides */
+    glance seen[MOST_SIDE * MOST_SIDE];
+} surroundings;
+
+static void see(glance *self, uint64_t key) {
+    self->several = self->several || (self->known && key != self->key);
+    self->light = self->light || (key & AUR_SURFACE_KEY_EMITS) != 0;
+    self->key = key;
+    self->known = true;
+}
 
 /* Pixels, 16 at a time: what the first sample of each sees. */
 static void look_at(const aur_gather_plan *plan, const aur_view *view, size_t count, const size_t *x,
-                    const size_t *y, aur_pixel_strata *pixels, aur_counters *counters) {
+                    const size_t *y, glance *const *seen, aur_counters *counters) {
     aur_packet packet;
     aur_camera_sample samples[AUR_PACKET_SIZE];
     float weights[AUR_PACKET_SIZE];
@@ -100,25 +124,23 @@ static void look_at(const aur_gather_plan *plan, const aur_view *view, size_t co
     for (size_t k = 0; k < count; ++k)
         aur_packet_set(&packet, k, &samples[k].ray);
     const uint32_t found = aur_gather_intersect(plan, AUR_EMBREE_COHERENT, &packet, counters);
-    for (size_t k = 0; k < count; ++k) {
-        const uint64_t key = (found >> k & 1u) != 0 ? aur_gather_surface_key(plan->classes, &packet, k) : 0;
-        pixels[k] = (aur_pixel_strata){.count = 1, .strata = {{.key = key}}};
-    }
+    for (size_t k = 0; k < count; ++k)
+        see(seen[k], (found >> k & 1u) != 0 ? aur_gather_surface_key(plan->classes, &packet, k) : 0);
 }
 
-/* The tile's own pixel at a place of the apron; NULL on the ring around the tile. */
-static const aur_pixel_strata *own_pixel(const aur_pixel_strata *strata, size_t place) {
-    const size_t column = place % APRON, row = place / APRON;
-    const bool inside = column > 0 && column <= SIDE && row > 0 && row <= SIDE;
-    return inside ? &strata[(row - 1) * SIDE + (column - 1)] : NULL;
+/* The tile's own pixel at a place; NULL on the ring around the tile. */
+static const aur_pixel_strata *own_pixel(const surroundings *self, size_t place) {
+    const size_t column = place % self->side, row = place / self->side, reach = self->reach;
+    const bool inside = column >= reach && column < SIDE + reach && row >= reach && row < SIDE + reach;
+    return inside ? &self->strata[(row - reach) * SIDE + (column - reach)] : NULL;
 }
 
-/* Whether a pixel beside this place has samples, so that an edge between them counts. */
-static bool is_beside_samples(const aur_pixel_strata *strata, size_t place) {
-    const size_t column = place % APRON, row = place / APRON;
-    for (size_t j = row > 0 ? row - 1 : 0; j <= row + 1 && j < APRON; ++j)
-        for (size_t i = column > 0 ? column - 1 : 0; i <= column + 1 && i < APRON; ++i) {
-            const aur_pixel_strata *const other = own_pixel(strata, j * APRON + i);
+/* Whether a pixel within reach has samples, so that an edge between them counts. */
+static bool is_beside_samples(const surroundings *self, size_t place) {
+    const size_t column = place % self->side, row = place / self->side, reach = self->reach;
+    for (size_t j = row > reach ? row - reach : 0; j <= row + reach && j < self->side; ++j)
+        for (size_t i = column > reach ? column - reach : 0; i <= column + reach && i < self->side; ++i) {
+            const aur_pixel_strata *const other = own_pixel(self, j * self->side + i);
             if (other != NULL && other->count > 0)
                 return true;
         }
@@ -128,66 +150,78 @@ static bool is_beside_samples(const aur_pixel_strata *strata, size_t place) {
 /* What pixels see that lie beside those with samples. The tile's own samples tell it where all of its pixels
  * have `alike` many; else what a pixel finds would depend on which of its neighbours have samples, and one
  * ray each tells it, as around the tile. What lies beyond the picture sees nothing and makes no edge. */
-static void look_around(const aur_gather_plan *plan, const aur_view *view, size_t left, size_t top,
-                        const aur_pixel_strata *strata, bool alike, aur_pixel_strata looked[APRON * APRON],
-                        const aur_pixel_strata *at[APRON * APRON], aur_counters *counters) {
-    size_t x[APRON * APRON], y[APRON * APRON], used = 0;
-    for (size_t i = 0; i < APRON * APRON; ++i) {
-        const size_t column = i % APRON, row = i / APRON;
-        const aur_pixel_strata *const own = own_pixel(strata, i);
-        at[i] = alike && own != NULL && own->count > 0 ? own : NULL;
-        if (at[i] != NULL || !is_beside_samples(strata, i))
+static void look_around(const aur_gather_plan *plan, size_t left, size_t top, bool alike, surroundings *self,
+                        aur_counters *counters) {
+    size_t x[AUR_PACKET_SIZE], y[AUR_PACKET_SIZE], count = 0;
+    glance *seen[AUR_PACKET_SIZE];
+    const size_t reach = self->reach, places = self->side * self->side;
+    for (size_t i = 0; i < places; ++i) {
+        const aur_pixel_strata *const own = own_pixel(self, i);
+        self->seen[i] = (glance){0};
+        if (alike && own != NULL && own->count > 0) {
+            for (uint32_t k = 0; k < own->count; ++k)
+                see(&self->seen[i], own->strata[k].key);
             continue;
-        x[used] = left + column; /* one too many, against underflow */
-        y[used] = top + row;
-        if (x[used] == 0 || y[used] == 0 || x[used] > view->width || y[used] > view->height)
+        }
+        const size_t column = left + i % self->side, row = top + i / self->side; /* too many by the reach */
+        if (column < reach || row < reach || column >= self->view->width + reach ||
+            row >= self->view->height + reach || !is_beside_samples(self, i))
             continue;
-        --x[used];
-        --y[used];
-        at[i] = &looked[used++];
-    }
-    for (size_t first = 0; first < used; first += AUR_PACKET_SIZE) {
-        const size_t count = used - first < AUR_PACKET_SIZE ? used - first : AUR_PACKET_SIZE;
-        look_at(plan, view, count, &x[first], &y[first], &looked[first], counters);
-    }
-}
-
-/* The greatest edge among what the eight neighbours of a pixel have seen. What the pixel itself has seen has
- * no say: else those that met a small light by chance would look again, and keep less of it than the others
- * lack. */
-static int edge_at(const aur_pixel_strata *const at[APRON * APRON], size_t x, size_t y) {
-    const aur_stratum *first = NULL;
-    bool several = false, light = false;
-    for (size_t i = 0; i < 9; ++i) {
-        const aur_pixel_strata *const other = at[(y + i / 3) * APRON + x + i % 3];
-        /* Pixels beyond the picture's edge have no samples. */
-        if (i == 4 || other == NULL)
-            continue;
-        for (uint32_t k = 0; k < other->count; ++k) {
-            const aur_stratum *const stratum = &other->strata[k];
-            first = first == NULL ? stratum : first;
-            several = several || stratum->key != first->key;
-            light = light || (stratum->key & AUR_SURFACE_KEY_EMITS) != 0;
+        x[count] = column - reach;
+        y[count] = row - reach;
+        seen[count++] = &self->seen[i];
+        if (count == AUR_PACKET_SIZE) {
+            look_at(plan, self->view, count, x, y, seen, counters);
+            count = 0;
         }
     }
-    if (!several)
+    if (count > 0)
+        look_at(plan, self->view, count, x, y, seen, counters);
+}
+
+/* The greatest edge among what the pixels within reach have seen. What the pixel itself has seen has no say:
+ * else those that met a small light by chance would look again, and keep less of it than the others lack. */
+static int edge_at(const surroundings *self, size_t x, size_t y) {
+    glance all = {0};
+    const size_t across = 2 * self->reach + 1;
+    for (size_t i = 0; i < across * across; ++i) {
+        const glance *const other = &self->seen[(y + i / across) * self->side + x + i % across];
+        if (i == across * across / 2 || !other->known)
+            continue;
+        see(&all, other->key);
+        all.several = all.several || other->several;
+        all.light = all.light || other->light;
+    }
+    if (!all.several)
         return NO_EDGE;
-    return light ? LIGHT_EDGE : PLAIN_EDGE;
+    return all.light ? LIGHT_EDGE : PLAIN_EDGE;
+}
+
+/* Where a pixel's filter sees farther, pixels see a little of what lies beyond those next to it, which few of
+ * their samples meet: then the ring of those next to it misses edges. */
+static size_t reach_of(const aur_filter *filter) {
+    const float radius = -aur_filter_sample(filter, 0.0f);
+    const size_t reach = (size_t)ceilf(aur_larger(radius - 0.5f, 1.0f));
+    return reach < MOST_REACH ? reach : MOST_REACH;
 }
 
 void aur_gather_find_edges(const aur_gather_plan *plan, const aur_view *view, size_t x, size_t y,
                            const aur_pixel_strata *strata, bool alike, aur_gather_edges *edges,
                            aur_counters *counters) {
-    aur_pixel_strata looked[APRON * APRON];
-    const aur_pixel_strata *at[APRON * APRON];
-    look_around(plan, view, x, y, strata, alike, looked, at, counters);
+    const size_t reach = reach_of(view->filter);
+    surroundings all;
+    all.view = view;
+    all.strata = strata;
+    all.reach = reach;
+    all.side = SIDE + 2 * reach;
+    look_around(plan, x, y, alike, &all, counters);
     *edges = (aur_gather_edges){0};
     for (uint32_t place = 0; place < AUR_GROUP_COUNT; ++place)
         for (size_t lane = 0; lane < AUR_PACKET_SIZE; ++lane) {
             const size_t pixel = aur_group_pixel(0, place, lane);
             if (strata[pixel].count == 0)
                 continue;
-            const int edge = edge_at(at, pixel % SIDE, pixel / SIDE);
+            const int edge = edge_at(&all, pixel % SIDE, pixel / SIDE);
             edges->any[place] |= (uint32_t)(edge != NO_EDGE) << lane;
             edges->lights[place] |= (uint32_t)(edge == LIGHT_EDGE) << lane;
         }

@@ -210,8 +210,10 @@ static void add_samples(gather_tile *work, uint32_t lanes) {
 /* Samples that tell how much pixels see of what is around an edge. Edges that are none of a light's get a
  * small part of them. */
 static aur_result refine_edges(gather_tile *work, aur_tile *tile) {
-    enum { PLAIN_EDGE_PART = 16 };
+    enum { PLAIN_EDGE_PART = 64 };
     const uint32_t count = work->places.plan->policy.edge_samples;
+    aur_counters *const counters = work->sums.counters;
+    const uint64_t before = counters->rays;
     aur_gather_edges edges;
     aur_gather_find_edges(work->places.plan, work->view, work->x, work->y, work->strata, tile->begins == NULL,
                           &edges, work->sums.counters);
@@ -224,6 +226,7 @@ static aur_result refine_edges(gather_tile *work, aur_tile *tile) {
             add_samples(work, aur_group_lanes_marked(work->places.arrangement, group,
                                                      i < count / PLAIN_EDGE_PART ? edges.any : edges.lights));
         }
+    counters->edge_rays += counters->rays - before;
     return AUR_OK;
 }
 

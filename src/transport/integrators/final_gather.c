@@ -76,7 +76,7 @@ static const aur_key keys[] = {
                      "paths")},
     {AUR_KEY_OF_CHOICE(aur_gather_parameters, "decorrelation", policy.decorrelation, "blue",
                        "how pixels choose among the rotations", "blue", "random", "none")},
-    {AUR_KEY_OF_INTEGER(aur_gather_parameters, "edges", policy.edge_samples, 0, 65536, "32",
+    {AUR_KEY_OF_INTEGER(aur_gather_parameters, "edges", policy.edge_samples, 0, 65536, "128",
                         "camera rays more where a pixel sees several things")},
     {AUR_KEY_OF_BOOLEAN(aur_gather_parameters, "packets", policy.packets, "true",
                         "sixteen rays at a time, else one: the same picture to rounding")},
