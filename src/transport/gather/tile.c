@@ -55,14 +55,14 @@ static aur_pixel_strata *pixel_of(gather_tile *work, size_t lane) {
 }
 
 /* The pixels of a group for sample `index`. Samples that share a pattern have the same ones. Pixels that
- * split a pattern among them, or have one of their own, lie where they always do. */
+ * split a pattern among them lie where they always do. */
 static void choose(gather_tile *work, uint32_t group, uint32_t index) {
     aur_gather_places *const places = &work->places;
     const aur_gather_plan *const plan = places->plan;
     places->group = group;
     places->index = index;
     places->arrangement = 0;
-    if (plan->policy.share == AUR_SHARE_NONE && plan->policy.decorrelation == AUR_DECORRELATION_BLUE)
+    if (plan->policy.share != AUR_SHARE_BLOCKS && plan->policy.decorrelation == AUR_DECORRELATION_BLUE)
         places->arrangement =
             aur_group_arrangement(aur_hash2(plan->seed, aur_gather_places_hash(places, places->tile)));
     aur_group_pixels(places->arrangement, group, work->x, work->y, work->columns, work->rows);
