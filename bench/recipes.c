@@ -3,11 +3,11 @@
 
 const bench_recipe bench_recipes[] = {
     {"cornell-box", 0.01, 0.10, 1,
-     "finalgather:photons=5000,diffuse_samples=2,edges=44,light_samples=2,share=true,short_rays=0"},
+     "finalgather:photons=5000,diffuse_samples=2,edges=60,light_samples=2,share=true,short_rays=0"},
     {"cornell-box", 0.005, 0.20, 1,
-     "finalgather:photons=14000,diffuse_samples=4,edges=160,light_samples=4,share=true,short_rays=0"},
+     "finalgather:photons=14000,diffuse_samples=4,edges=192,light_samples=4,share=true,short_rays=0"},
     {"cornell-box", 0.002, 0.70, 2,
-     "finalgather:photons=120000,photons_per_texel=24,diffuse_samples=20,edges=900,light_samples=7,share="
+     "finalgather:photons=120000,photons_per_texel=24,diffuse_samples=22,edges=1000,light_samples=7,share="
      "true,short_rays=0"},
     {"cornell-box", 0.0015, -1.0, 64, "finalgather:photons=2000000,diffuse_samples=1024,edges=4096"},
     {"heavy-box", 0.005, 0.0, 4,

@@ -32,7 +32,6 @@ typedef struct aur_pilot_outcome {
 /* A pattern of AUR_PILOT_DIRECTIONS with so many points on lights, and on bright texels, as are best. */
 typedef struct aur_gather_pattern {
     double lights, bright, error;
-    double unshared;       /* how many times the directions patterns take that are not shared */
     double fixed, growing; /* rays a pixel, the lights' at their price: whatever its size, and as it */
 } aur_gather_pattern;
 
@@ -42,12 +41,11 @@ aur_gather_pattern aur_gather_pattern_of(aur_pilot_outcome few, aur_pilot_outcom
 aur_gather_pattern aur_gather_pattern_best(aur_pilot_outcome few, aur_pilot_outcome more,
                                            aur_pilot_outcome bright);
 
-/* The noise to plan for beside a bias whose square is told, so that both come to what is wanted. */
-double aur_gather_noise_planned(double wanted, double square_bias);
-/* Rays of a pixel, all replicas together, and the size of the pattern, by which they come to that noise. */
-double aur_gather_rays(const aur_gather_pattern *pattern, double noise);
-aur_gather_size aur_gather_size_of(const aur_gather_pattern *pattern, double noise, size_t photons,
-                                   uint64_t seed);
+/* Rays of a pixel, all replicas together, and the size of the pattern, by which noise and a bias whose square
+ * is told come to the error wanted. */
+double aur_gather_rays(const aur_gather_pattern *pattern, double wanted, double square_bias);
+aur_gather_size aur_gather_size_of(const aur_gather_pattern *pattern, double wanted, double square_bias,
+                                   size_t photons, uint64_t seed);
 /* Photons of a map that costs little beside a picture of so many rays, or that is small: what is wrong in a
  * smaller one is seen in small pictures, as it is alike in neighbours. */
 enum { AUR_LEAST_PHOTONS = 125000 };

@@ -43,8 +43,8 @@ aur_result aur_rivals_create(const aur_rivals *rivals, const aur_choice *choice,
 }
 
 double aur_rivals_gather_rays(const aur_rivals *rivals, const aur_choice *choice, double square_bias) {
-    const double noise = aur_gather_noise_planned(rivals->wanted, square_bias);
-    return (double)choice->trial.replicas.pixel_count * aur_gather_rays(&rivals->pattern, noise);
+    const double rays = aur_gather_rays(&rivals->pattern, rivals->wanted, square_bias);
+    return (double)choice->trial.replicas.pixel_count * rays;
 }
 
 /* As many samples in every pixel. Samples that go where the first ones differ make a picture whose mean is

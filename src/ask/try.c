@@ -73,9 +73,14 @@ static double noise_beside(double wanted, double square_bias) {
     return sqrt(fmax(wanted * wanted - square_bias, 0.0));
 }
 
+/* Without rays at edges, of which coarse pixels have more, and which cost little. */
 static aur_pilot_outcome outcome_of(const aur_trial *pilot) {
-    return (aur_pilot_outcome){pilot->interval.estimate,
-                               aur_trial_rays(pilot) / (double)pilot->replicas.pixel_count};
+    double rays = 0.0;
+    for (size_t r = 0; r < pilot->replicas.count; ++r) {
+        const aur_counters counted = aur_film_counted(aur_render_film(pilot->replicas.renders[r]));
+        rays += (double)(counted.rays - counted.edge_rays);
+    }
+    return (aur_pilot_outcome){pilot->interval.estimate, rays / (double)pilot->replicas.pixel_count};
 }
 
 static aur_result render_pilot(const aur_rivals *rivals, const aur_render_options *coarse,
@@ -133,8 +138,8 @@ static aur_result compare(aur_choice *choice, double worth, aur_rivals *rivals, 
     aur_result result = aur_rivals_find_map(rivals, choice, rays, worth, error);
     if (result != AUR_OK || !(sqrt(choice->bias.high) <= AUR_BIAS_PART * wanted))
         return result;
-    choice->gather = aur_gather_size_of(&rivals->pattern, aur_gather_noise_planned(wanted, choice->bias.high),
-                                        choice->gather.photons, choice->gather.seed);
+    choice->gather = aur_gather_size_of(&rivals->pattern, wanted, choice->bias.high, choice->gather.photons,
+                                        choice->gather.seed);
     aur_trial *const gather = &rivals->gather;
     bool goes_on;
     result = aur_rivals_create(rivals, choice, rivals->options, aur_ask_gather(path, choice->gather), gather,
