@@ -78,7 +78,10 @@ aur_gather_pattern aur_gather_pattern_of(aur_pilot_outcome few, aur_pilot_outcom
     return best;
 }
 
-/* Bright texels change the square as much with few points on lights as with more. */
+/* Bright texels change the square as much with few points on lights as with more. Pilots see less of it than
+ * whole pictures, which have fewer edges: they left .88 of the error in the public Cornell box and .92 in the
+ * room, whole pictures with 64 directions .64 and .76. So the choice goes by about the square of what is
+ * seen; how many directions it takes does not, which would often be too few. */
 aur_gather_pattern aur_gather_pattern_best(aur_pilot_outcome few, aur_pilot_outcome more,
                                            aur_pilot_outcome bright) {
     const double square = few.error * few.error - more.error * more.error + bright.error * bright.error;
@@ -86,7 +89,8 @@ aur_gather_pattern aur_gather_pattern_best(aur_pilot_outcome few, aur_pilot_outc
     const aur_gather_pattern plain = aur_gather_pattern_of(few, more);
     aur_gather_pattern drawn = aur_gather_pattern_of(few_bright, bright);
     drawn.bright = AUR_PILOT_BRIGHT;
-    return BRIGHT_PRICE * cost_of(&drawn) < cost_of(&plain) ? drawn : plain;
+    const double unseen = pow(fmin(bright.error / more.error, 1.0), 2.0 / POWER);
+    return BRIGHT_PRICE * unseen * cost_of(&drawn) < cost_of(&plain) ? drawn : plain;
 }
 
 /* The noise n with n^2 + (b + sharing n)^2 the square of what is wanted, and b the map's bias. */
