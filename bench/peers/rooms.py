@@ -3,6 +3,7 @@
 
     python3 -m venv /tmp/rooms && /tmp/rooms/bin/pip install numpy
     /tmp/rooms/bin/python bench/peers/rooms.py build/release/aureole [--seeds 101-112] [--seconds 3] [--size 64x48] [--scene FILE.xml]
+    /tmp/rooms/bin/python bench/peers/rooms.py build/release/aureole --until .01 [--seconds 60]
     /tmp/rooms/bin/python bench/peers/rooms.py --write FOLDER --seeds 7
 
 Each has tables and chairs on thin legs, a floor of glossy wood, a rug and a wall whose pictures are black at a corner, mirrors, vases
@@ -13,7 +14,9 @@ up to sixteen lamps. Seeds 1 to 12 are for tuning, 101 to 112 for what is report
 what that took; then `--error` is asked for the smaller of their errors. The truth is two path-traced pictures a and b of seeds of their own,
 with as many rays as `--rays` says, spent pixel by pixel; the mean square error of x is the mean of (x - a)(x - b), and half of its standard
 error over that is the relative one of the RMSE, which stands behind it. Ratios are of the times to the same error, which goes as
-seconds^-1/2.
+seconds^-1/2. With --until both get more and more samples, fourfold at most, until the true error is there or the next picture would take
+more than --seconds; the time of `path` to that error is then the law's, and final gathering, whose bias knows no law, has no ratio where
+its error is not there.
 """
 import argparse
 import math
@@ -202,11 +205,34 @@ def compare(given, name, scene):
     return gather, auto
 
 
+def until(given, scene, integrator, samples, truth):
+    """Error, its own relative standard error, CPU seconds and samples of the first picture that has the error, or of the last one."""
+    while True:
+        values, taken, _ = render(given, scene, "--integrator", integrator, "--sampler", "sobol", "--spp", str(samples))
+        error, uncertain = error_of(values, truth)
+        factor = min(4.0, max(1.2, 1.1 * (error / given.until) ** 2))
+        if error <= given.until or factor * taken > given.seconds or factor * samples > MOST_SAMPLES:
+            return error, uncertain, taken, samples
+        samples = math.ceil(factor * samples)
+
+
+def compare_until(given, name, scene):
+    truth = [render(given, scene, "--integrator", "path", "--rays", given.rays, seed=seed)[0] for seed in (1001, 1002)]
+    rows = [until(given, scene, "finalgather", 4, truth), until(given, scene, "path", 16, truth)]
+    (own, _, seconds, _), (error, _, taken, _) = rows
+    path = taken * (error / given.until) ** 2
+    ratio = path / seconds if own <= given.until else None
+    print(f"| {name} | " + " | ".join(f"{100 * e:.2f} % ({100 * u:.0f}) in {t:.3g} s, {n} samples" for e, u, t, n in rows) +
+          f" | {path:.3g} s | {'not reached' if ratio is None else f'{ratio:.2f}'} |", flush=True)
+    return (0.0 if ratio is None else ratio,)
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("aureole", nargs="?", default="build/release/aureole")
     parser.add_argument("--seeds", default="101-112", help="FIRST-LAST, or one")
     parser.add_argument("--seconds", type=float, default=3)
+    parser.add_argument("--until", type=float, metavar="ERROR", help="RMSE over the mean, such as .01")
     parser.add_argument("--size", default="64x48")
     parser.add_argument("--rays", default="1e7", help="of each of the two pictures that are the truth")
     parser.add_argument("--scene", help="this one in place of rooms, whose $integrator is path")
@@ -219,15 +245,19 @@ def main():
         for seed in seeds:
             print(": ".join(reversed(write(given.write, seed))))
         return
-    print("| room | finalgather: error (% of that) | path | --error | by | finalgather / path | --error / path |\n|---|---|---|---|---|---|---|")
+    if given.until:
+        print("| room | finalgather | path | path, to the error | finalgather / path |\n|---|---|---|---|---|")
+    else:
+        print("| room | finalgather: error (% of that) | path | --error | by | finalgather / path | --error / path |\n|---|---|---|---|---|---|---|")
+    measure = compare_until if given.until else compare
     if given.scene:
-        compare(given, os.path.basename(os.path.dirname(os.path.abspath(given.scene))), given.scene)
+        measure(given, os.path.basename(os.path.dirname(os.path.abspath(given.scene))), given.scene)
         return
     ratios = []
     with tempfile.TemporaryDirectory() as folder:
         for seed in seeds:
             kind, scene = write(folder, seed)
-            ratios.append(compare(given, f"{seed}, {kind}", scene))
+            ratios.append(measure(given, f"{seed}, {kind}", scene))
     for name, values in zip(("finalgather", "--error"), zip(*ratios)):
         print(f"\n{name}: behind path in {sum(v < 1 for v in values)} of {len(values)}, median {statistics.median(values):.2f}")
 
