@@ -19,7 +19,7 @@ gallery() {
 room|room/room.xml|--width 960 --error 10%|0.9|filmic|Tea and fruit by a window
 statue|statue/statue.xml|--width 960 --error 7%|0.5|filmic|A gilded figure under the sky
 parade|parade/parade.xml|--width 960 --error 9%|1.3|filmic|A parade of toy cars
-figure|cornell-box/figure.xml|--width 960 --error 4%|1.6|filmic|A carved hare in the Cornell box
+figure|cornell-box/figure.xml|--width 960 --error 3%|1.6|filmic|A carved hare in the Cornell box
 sphere|sphere/sphere.xml|--width 960 --error 8%|0.5|filmic|A glossy sphere among seeds
 occlusion|occlusion/occlusion.xml|--width 960 --error 2%|0|srgb|Ambient occlusion among columns
 plates|plates/plates.xml|--width 960 --error 6%|1|filmic|Four plates and seven lights
