@@ -224,7 +224,7 @@ def compare_until(given, name, scene):
     ratio = path / seconds if own <= given.until else None
     print(f"| {name} | " + " | ".join(f"{100 * e:.2f} % ({100 * u:.0f}) in {t:.3g} s, {n} samples" for e, u, t, n in rows) +
           f" | {path:.3g} s | {'not reached' if ratio is None else f'{ratio:.2f}'} |", flush=True)
-    return (0.0 if ratio is None else ratio,)
+    return (ratio,)
 
 
 def main():
@@ -258,8 +258,13 @@ def main():
         for seed in seeds:
             kind, scene = write(folder, seed)
             ratios.append(measure(given, f"{seed}, {kind}", scene))
-    for name, values in zip(("finalgather", "--error"), zip(*ratios)):
-        print(f"\n{name}: behind path in {sum(v < 1 for v in values)} of {len(values)}, median {statistics.median(values):.2f}")
+    for name, found in zip(("finalgather", "--error"), zip(*ratios)):
+        values = [v for v in found if v is not None]
+        if len(values) < len(found):
+            print(f"\n{name}: the error is not there in {len(found) - len(values)} of {len(found)}")
+        if values:
+            print(f"\n{name}: behind path in {sum(v < 1 for v in values)} of {len(values)}, median {statistics.median(values):.2f}")
+
 
 
 if __name__ == "__main__":

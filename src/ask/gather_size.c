@@ -26,8 +26,9 @@ static const double SHARING = 0.2, PLAN_MARGIN = 0.92;
  * place of 45. */
 static const double UNSHARED = 1.8;
 /* The square of a pattern's error falls nearly as its size to this power: patterns of 4 to 160 directions had
- * .8 to 1.2 of the noise that pilots led to expect, in boxes, rooms, the cube and the office. And so does
- * what points on lights have of it as these grow alone (8 to 128 of them in the room). */
+ * .8 to 1.2 of the noise that might be left, in boxes, the room, the cube and the office, and .5 in a room
+ * behind blinds (with 32 rays at edges a direction). And so does what points on lights have of it as these
+ * grow alone (8 to 128 of them in the room). */
 static const double POWER = 1.5;
 
 enum { MOST_PHOTONS = 8000000 };

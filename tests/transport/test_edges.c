@@ -15,16 +15,19 @@ enum { SEEDS = 3000, SAMPLES = 4 };
     "angle='180'/><translate x='" x "' y='" y "' z='3'/></transform><emitter type='area'><rgb "              \
     "name='radiance' value='64'/></emitter></shape>"
 
+static aur_renderer *open_scene(const char *file, const char *text, aur_scene **scene) {
+    aur_renderer *renderer;
+    assert_int_equal(aur_scene_load(write_text(file, text), NULL, scene, NULL), AUR_OK);
+    assert_int_equal(aur_renderer_create(*scene, &renderer, NULL), AUR_OK);
+    return renderer;
+}
+
 static void keeps_the_mean_of_a_small_lamp(void **state) {
     (void)state;
     aur_scene *scene;
-    assert_int_equal(
-        aur_scene_load(write_text("lamp.xml", "<scene version='3.0.0'><sensor type='orthographic'/>" LAMP(
-                                                  "0.125", "0.125") "</scene>"),
-                       NULL, &scene, NULL),
-        AUR_OK);
-    aur_renderer *renderer;
-    assert_int_equal(aur_renderer_create(scene, &renderer, NULL), AUR_OK);
+    aur_renderer *const renderer = open_scene(
+        "lamp.xml", "<scene version='3.0.0'><sensor type='orthographic'/>" LAMP("0.125", "0.125") "</scene>",
+        &scene);
     double mean = 0.0;
     for (size_t s = 0; s < SEEDS; ++s) {
         aur_render_options options = aur_render_options_default();
@@ -58,19 +61,15 @@ static void finds_edges_where_only_some_pixels_go_on(void **state) {
     enum { SIDE = 8, PIXEL = 3 * SIDE + 4, STEP = 4, RUNS = 256 };
     const double part = 0.375;
     aur_scene *scene;
-    assert_int_equal(
-        aur_scene_load(
-            write_text("half.xml",
-                       "<scene version='3.0.0'><sensor type='orthographic'><film type='hdrfilm'><integer "
-                       "name='width' value='8'/><integer name='height' value='8'/><rfilter "
-                       "type='box'/></film></sensor><shape type='rectangle'><transform "
-                       "name='to_world'><scale value='2'/><rotate y='1' angle='180'/><translate "
-                       "x='2' z='3'/><translate x='-0.09375'/></transform><emitter type='area'><rgb "
-                       "name='radiance' value='1'/></emitter></shape></scene>"),
-            NULL, &scene, NULL),
-        AUR_OK);
-    aur_renderer *renderer;
-    assert_int_equal(aur_renderer_create(scene, &renderer, NULL), AUR_OK);
+    aur_renderer *const renderer =
+        open_scene("half.xml",
+                   "<scene version='3.0.0'><sensor type='orthographic'><film type='hdrfilm'><integer "
+                   "name='width' value='8'/><integer name='height' value='8'/><rfilter "
+                   "type='box'/></film></sensor><shape type='rectangle'><transform "
+                   "name='to_world'><scale value='2'/><rotate y='1' angle='180'/><translate "
+                   "x='2' z='3'/><translate x='-0.09375'/></transform><emitter type='area'><rgb "
+                   "name='radiance' value='1'/></emitter></shape></scene>",
+                   &scene);
     double squares = 0.0;
     for (size_t s = 0; s < RUNS; ++s) {
         aur_render_options options = aur_render_options_default();
@@ -118,17 +117,13 @@ static void finds_edges_that_a_wide_filter_sees(void **state) {
     enum { SIDE = 8, COLUMN = 5, SAMPLES_HERE = 4, EDGES = 64, RUNS = 2048 };
     const double part = 0.5 * (1.0 - gaussian_mass(3.0) / gaussian_mass(4.0));
     aur_scene *scene;
-    assert_int_equal(
-        aur_scene_load(
-            write_text("wide.xml",
-                       "<scene version='3.0.0'><sensor type='orthographic'/><shape "
-                       "type='rectangle'><transform name='to_world'><scale value='2'/><rotate y='1' "
-                       "angle='180'/><translate x='2' z='3'/></transform><emitter type='area'><rgb "
-                       "name='radiance' value='1'/></emitter></shape></scene>"),
-            NULL, &scene, NULL),
-        AUR_OK);
-    aur_renderer *renderer;
-    assert_int_equal(aur_renderer_create(scene, &renderer, NULL), AUR_OK);
+    aur_renderer *const renderer =
+        open_scene("wide.xml",
+                   "<scene version='3.0.0'><sensor type='orthographic'/><shape "
+                   "type='rectangle'><transform name='to_world'><scale value='2'/><rotate y='1' "
+                   "angle='180'/><translate x='2' z='3'/></transform><emitter type='area'><rgb "
+                   "name='radiance' value='1'/></emitter></shape></scene>",
+                   &scene);
     double squares = 0.0, mean = 0.0;
     for (size_t s = 0; s < RUNS; ++s) {
         aur_render_options options = aur_render_options_default();

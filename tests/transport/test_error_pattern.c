@@ -83,7 +83,7 @@ static void glossy_lobes_leave_no_pattern(void **state) {
         AUR_SOURCE_DIR "/scenes/cornell-box/glossy.xml",
         "finalgather:split=1,diffuse_samples=32,glossy_samples=1,light_samples=8,photons=100000,edges=512,"
         "share=near",
-        1, 1, 1.2);
+        1, 1, 1.08);
 }
 
 /* Of 64 pixels four each have the same numbers. */

@@ -216,7 +216,7 @@ static aur_result refine_edges(gather_tile *work, aur_tile *tile) {
     const uint64_t before = counters->rays;
     aur_gather_edges edges;
     aur_gather_find_edges(work->places.plan, work->view, work->x, work->y, work->strata, tile->begins == NULL,
-                          &edges, work->sums.counters);
+                          &edges, counters);
     work->only_new = true;
     for (uint32_t group = 0; group < AUR_GROUP_COUNT; ++group)
         for (uint32_t i = 0; i < count; ++i) {
