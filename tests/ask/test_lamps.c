@@ -14,7 +14,7 @@
 #include <aureole/ask.h>
 
 /* A sphere of radius .05 and radiance 1000 at a distance of 10, 45 degrees across 32 pixels: it covers a
- * hundredth of the pixel that it is in. Behind it a dim square fills the picture. */
+ * ninth of the pixel that it is in. Behind it a dim square fills the picture. */
 static const double radius = 0.05, distance = 10.0, radiance = 1000.0;
 enum { SIDE = 32 };
 static const char body[] =
@@ -96,7 +96,7 @@ static void knows_its_integrator(void **state) {
         {"path", 1, false},
         {"path:rr_depth=3", 1, false},
         {"path:lamp_rays=.5", 1, true},
-        {"finalgather:photons=100,split=8", 8, false},
+        {"finalgather:photons=100,split=8", 8, true},
         {"finalgather:photons=100,split=4,edges=0", 4, false},
     };
     aur_scene *const scene = must_load_body(body);
@@ -114,7 +114,7 @@ static void knows_its_integrator(void **state) {
         const aur_integrator *const made = aur_render_integrator(trial.replicas.renders[0]);
         assert_int_equal(trial.pattern_samples, cases[i].pattern_samples);
         assert_true((made->lamp_looks != NULL) == cases[i].looks);
-        assert_true(made->refines_lamp_edges == (i == 3)); /* `edges` is 32 where nobody says */
+        assert_true(made->refines_lamp_edges == (i == 3)); /* `edges` is 128 where nobody says */
         assert_non_null(trial.lamps.share);
         aur_trial_release(&trial);
     }

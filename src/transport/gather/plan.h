@@ -47,7 +47,9 @@ typedef struct aur_gather_plan {
     /* Whether gather rays count the lights that they meet in full. Under next-event estimation they count
      * them by multiple importance sampling. */
     bool counts_emitters;
-    bool gathers;      /* whether gather rays can bring any light */
+    bool gathers; /* whether gather rays can bring any light */
+    const uint16_t
+        *lamp_edges;   /* of the picture's pixels: not 0 where the edge of a small lamp is; or NULL */
     aur_onward onward; /* in place of the map, where it is too coarse or is corrected */
 } aur_gather_plan;
 

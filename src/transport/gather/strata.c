@@ -205,6 +205,11 @@ static size_t reach_of(const aur_filter *filter) {
     return reach < MOST_REACH ? reach : MOST_REACH;
 }
 
+static bool is_lamp_edge(const aur_gather_plan *plan, const aur_view *view, size_t x, size_t y) {
+    return plan->lamp_edges != NULL && x < view->width && y < view->height &&
+           plan->lamp_edges[y * view->width + x] > 0;
+}
+
 void aur_gather_find_edges(const aur_gather_plan *plan, const aur_view *view, size_t x, size_t y,
                            const aur_pixel_strata *strata, bool alike, aur_gather_edges *edges,
                            aur_counters *counters) {
@@ -221,7 +226,9 @@ void aur_gather_find_edges(const aur_gather_plan *plan, const aur_view *view, si
             const size_t pixel = aur_group_pixel(0, place, lane);
             if (strata[pixel].count == 0)
                 continue;
-            const int edge = edge_at(&all, pixel % SIDE, pixel / SIDE);
+            const int edge = is_lamp_edge(plan, view, x + pixel % SIDE, y + pixel / SIDE)
+                                 ? LIGHT_EDGE
+                                 : edge_at(&all, pixel % SIDE, pixel / SIDE);
             edges->any[place] |= (uint32_t)(edge != NO_EDGE) << lane;
             edges->lights[place] |= (uint32_t)(edge == LIGHT_EDGE) << lane;
         }

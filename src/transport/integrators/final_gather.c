@@ -8,6 +8,7 @@
 #include "core/error.h"
 #include "core/random.h"
 #include "transport/gather/plan.h"
+#include "transport/lights/lamp_edges.h"
 
 /* --- keys */
 
@@ -213,6 +214,22 @@ static aur_result create(aur_parameters *parameters, const aur_integrator_contex
     return aur_gather_plan_create(p, context, &data->plan, error);
 }
 
+/* The rays at edges are those of a step of the render: of at most four patterns, when it goes on in rounds,
+ * so that each sample has at least so many for lamps. */
+static aur_result look(const aur_view *view, const aur_integrator_context *context,
+                       aur_integrator *integrator, aur_error *error) {
+    enum { MOST_PATTERNS = 4 };
+    gather_data *const data = integrator->data;
+    const aur_gather_parameters *const p = &data->keys;
+    const size_t looks = p->policy.edge_samples / (MOST_PATTERNS * data->plan->samples_per_pattern);
+    if (p->policy.edge_samples == 0 || p->policy.direct == AUR_DIRECT_NONE)
+        return AUR_OK;
+    const aur_result result =
+        aur_lamp_edges_find(view, (uint16_t)(looks > 1 ? looks : 1), context, &data->plan->lamp_edges, error);
+    integrator->lamp_looks = data->plan->lamp_edges;
+    return result;
+}
+
 static void release(aur_integrator *integrator) {
     aur_gather_plan_destroy(((gather_data *)integrator->data)->plan);
 }
@@ -229,6 +246,7 @@ const aur_integrator_descriptor aur_integrator_final_gather = {
     .size = sizeof(gather_data),
     .initial = &initial,
     .create = create,
+    .look = look,
     .release = release,
     .tile = tile,
     .shows_lamps = true,

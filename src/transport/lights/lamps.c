@@ -37,17 +37,49 @@ static bool draw(const aur_scene *scene, const aur_film_layout *layout, uint64_t
     return !aur_scene_occluded(scene, &ray);
 }
 
+size_t aur_lamp_points(size_t pixels) {
+    const size_t eighth = pixels / 8, most = (size_t)1 << 16;
+    return eighth < AUR_LAMP_POINTS ? AUR_LAMP_POINTS : eighth < most ? eighth : most;
+}
+
+/* Sums over the points that lie in a pixel, of weights that are parts of it. */
+typedef struct pixel_sums {
+    double radiance[3];
+    double squares;          /* of the radiance, R, G and B together */
+    double weighted_squares; /* with the weight once more */
+} pixel_sums;
+
+/* Where much differs within the pixel, by lamps of which so many points would fill it that this is known. */
+static bool has_edge(const pixel_sums *sums, double variance) {
+    const double finest = 1.0 / 64, least_contrast = 0.1; /* of a lamp that covers .9 of the pixel */
+    double square_mean = 0.0;
+    for (size_t c = 0; c < 3; ++c)
+        square_mean += sums->radiance[c] * sums->radiance[c];
+    return variance > least_contrast * square_mean && sums->weighted_squares <= finest * sums->squares;
+}
+
+static void add_point(const seen_point *point, double weight, pixel_sums *sums) {
+    double radiance[3];
+    aur_vector_to_doubles(point->light.radiance, radiance);
+    for (size_t c = 0; c < 3; ++c) {
+        sums->radiance[c] += weight * radiance[c];
+        sums->squares += weight * radiance[c] * radiance[c];
+        sums->weighted_squares += weight * weight * radiance[c] * radiance[c];
+    }
+}
+
 aur_result aur_lamps_find(const aur_scene *scene, const aur_film_layout *layout, size_t points, uint64_t seed,
                           aur_lamps *lamps, aur_error *error) {
     const size_t width = layout->x1 - layout->x0, pixels = width * (layout->y1 - layout->y0);
     *lamps = (aur_lamps){0};
     if (!aur_camera_is_pinhole(scene))
         return AUR_OK;
-    double(*const means)[3] = calloc(pixels, sizeof *means);
+    pixel_sums *const sums = calloc(pixels, sizeof *sums);
     lamps->share = calloc(pixels, sizeof *lamps->share);
     lamps->variance = calloc(pixels, sizeof *lamps->variance);
-    if (means == NULL || lamps->share == NULL || lamps->variance == NULL) {
-        free(means);
+    lamps->edges = calloc(pixels, sizeof *lamps->edges);
+    if (sums == NULL || lamps->share == NULL || lamps->variance == NULL || lamps->edges == NULL) {
+        free(sums);
         return aur_fail_memory(error);
     }
     const uint64_t own = aur_hash2(UINT64_C(0x6c616d7073), seed);
@@ -59,20 +91,17 @@ aur_result aur_lamps_find(const aur_scene *scene, const aur_film_layout *layout,
         const size_t pixel = ((size_t)point.film.y - layout->y0) * width + (size_t)point.film.x - layout->x0;
         const double weight =
             1.0 / ((double)point.light.pdf * (double)point.film.solid_angle * (double)points);
-        double radiance[3];
-        aur_vector_to_doubles(point.light.radiance, radiance);
         lamps->share[pixel] += weight;
-        for (size_t c = 0; c < 3; ++c) {
-            means[pixel][c] += weight * radiance[c];
-            lamps->variance[pixel] += weight * radiance[c] * radiance[c];
-        }
+        add_point(&point, weight, &sums[pixel]);
     }
     for (size_t i = 0; i < pixels; ++i) {
+        double variance = sums[i].squares;
         for (size_t c = 0; c < 3; ++c)
-            lamps->variance[i] -= means[i][c] * means[i][c];
-        lamps->variance[i] = fmax(lamps->variance[i], 0.0);
+            variance -= sums[i].radiance[c] * sums[i].radiance[c];
+        lamps->variance[i] = fmax(variance, 0.0);
+        lamps->edges[i] = has_edge(&sums[i], variance);
     }
-    free(means);
+    free(sums);
     return AUR_OK;
 }
 
@@ -111,6 +140,7 @@ void aur_lamps_take_looks(const aur_film_layout *layout, const uint16_t *looks, 
 void aur_lamps_release(aur_lamps *lamps) {
     free(lamps->share);
     free(lamps->variance);
+    free(lamps->edges);
     *lamps = (aur_lamps){0};
 }
 

@@ -11,7 +11,7 @@
 #include "scene/packet.h"
 #include "transport/lights/lamps.h"
 
-/* Pictures with more pixels are left as they are: what is found of each takes 40 bytes for a while. */
+/* Pictures with more pixels are left as they are: what is found of each takes 72 bytes for a while. */
 static const size_t MOST_PIXELS = (size_t)1 << 24;
 enum { MOST_LOOKS = 256, LEAST_LOOKS = 4 };
 
@@ -233,8 +233,6 @@ static aur_result find(const aur_view *view, double rays, const aur_integrator_c
     const size_t pixels = view->width * view->height;
     const aur_film_layout layout = {
         .width = view->width, .height = view->height, .x1 = view->width, .y1 = view->height};
-    const size_t eighth = pixels / 8, most = (size_t)1 << 16;
-    const size_t points = eighth < AUR_LAMP_POINTS ? AUR_LAMP_POINTS : eighth < most ? eighth : most;
     aur_lamps lamps = {0};
     float *const deviations = calloc(pixels, sizeof *deviations), *const centres =
                                                                       calloc(pixels, sizeof *centres);
@@ -242,7 +240,7 @@ static aur_result find(const aur_view *view, double rays, const aur_integrator_c
                             ? aur_sampler_create("sobol", 1, NULL, &looks->sampler, error)
                             : aur_fail_memory(error);
     if (result == AUR_OK)
-        result = aur_lamps_find(view->scene, &layout, points, 0, &lamps, error);
+        result = aur_lamps_find(view->scene, &layout, aur_lamp_points(pixels), 0, &lamps, error);
     if (result == AUR_OK && lamps.share != NULL) {
         const float radius = -aur_filter_sample(view->filter, 0.0f);
         const size_t beyond = (size_t)ceilf(aur_larger(radius - 0.5f, 0.0f));
