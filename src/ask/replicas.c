@@ -232,6 +232,26 @@ void aur_replicas_smooth(const aur_replicas *replicas, const uint32_t *samples, 
     }
 }
 
+void aur_replicas_average_tiles(const aur_replicas *replicas, const uint32_t *samples, double *variances) {
+    const aur_film *const film = aur_render_film(replicas->renders[0]);
+    const size_t width = film->layout.x1 - film->layout.x0, pixels = replicas->pixel_count;
+    for (size_t index = 0; index < film->tile_count; ++index) {
+        aur_tile tile;
+        aur_film_place_tile(film, index, &tile);
+        const size_t first = (tile.y0 - film->layout.y0) * width + (tile.x0 - film->layout.x0);
+        const size_t count = tile.stride * (tile.y1 - tile.y0);
+        for (size_t r = 0; r < replicas->count; ++r) {
+            double sum = 0.0;
+            for (size_t k = 0; k < count; ++k)
+                sum += variances[r * pixels + first + k / tile.stride * width + k % tile.stride];
+            for (size_t k = 0; k < count; ++k) {
+                const size_t value = r * pixels + first + k / tile.stride * width + k % tile.stride;
+                variances[value] = sum / (double)count / samples[value];
+            }
+        }
+    }
+}
+
 aur_result aur_replicas_develop(const aur_replicas *replicas, bool errors, aur_image **image,
                                 aur_error *error) {
     static const char *const names[] = {"R", "G", "B", "error.R", "error.G", "error.B"};

@@ -42,6 +42,10 @@ void aur_replicas_measure(const aur_replicas *replicas, aur_replica_measure *mea
 void aur_replicas_smooth(const aur_replicas *replicas, const uint32_t *samples, double *variances,
                          double *scratch);
 
+/* The same where the pixels of a tile have as many samples: each becomes the mean of its tile, by which most
+ * is gained for what the whole tile costs. */
+void aur_replicas_average_tiles(const aur_replicas *replicas, const uint32_t *samples, double *variances);
+
 /* The mean of the replicas, and with `errors` three more channels with its standard error. May be called
  * while a replica is in a step. Errors: UNSUPPORTED before the replicas are made, MEMORY. */
 aur_result aur_replicas_develop(const aur_replicas *replicas, bool errors, aur_image **image,

@@ -313,7 +313,10 @@ aur_result aur_trial_render(aur_trial *trial, double confidence, const atomic_bo
     const aur_pixel_measure pixels = {trial->measured, trial->spreads};
     aur_replicas_measure(replicas, &trial->measure, &pixels);
     pool_pixels(trial);
-    aur_replicas_smooth(replicas, trial->targets, trial->measured, trial->scratch);
+    if (aur_render_integrator(replicas->renders[0])->whole_tiles)
+        aur_replicas_average_tiles(replicas, trial->targets, trial->measured);
+    else
+        aur_replicas_smooth(replicas, trial->targets, trial->measured, trial->scratch);
     const aur_error_interval absolute = aur_replica_interval(&trial->measure.deviations, replicas->count,
                                                              3 * replicas->pixel_count, confidence);
     const double mean = trial->measure.mean;

@@ -55,6 +55,47 @@ static void test_own_values_do_not_count(void **state) {
     end(&f);
 }
 
+/* A crop of 40 x 24 pixels that begins within a tile: each value is the mean of its tile's, over its samples.
+ */
+static void test_tiles_have_their_means(void **state) {
+    (void)state;
+    enum { X0 = 10, Y0 = 5, X1 = 50, Y1 = 29, COUNT = (X1 - X0) * (Y1 - Y0), TILE = 16 };
+    aur_scene *scene;
+    aur_renderer *renderer;
+    aur_replicas replicas;
+    assert_int_equal(aur_scene_load(AUR_SOURCE_DIR "/scenes/cornell-box/cornell-box.xml", NULL, &scene, NULL),
+                     AUR_OK);
+    assert_int_equal(aur_renderer_create(scene, &renderer, NULL), AUR_OK);
+    aur_render_options options = aur_render_options_default();
+    options.width = options.height = 64;
+    options.crop_x0 = X0;
+    options.crop_y0 = Y0;
+    options.crop_x1 = X1;
+    options.crop_y1 = Y1;
+    assert_int_equal(aur_replicas_create(renderer, &options, 3, &replicas, NULL), AUR_OK);
+    static double values[3 * COUNT], means[3 * COUNT];
+    static uint32_t samples[3 * COUNT];
+    for (size_t i = 0; i < sizeof values / sizeof values[0]; ++i) {
+        means[i] = values[i] = (double)(i * i % 101); /* whole numbers: sums are exact */
+        samples[i] = (uint32_t)(1 + i % 7);
+    }
+    aur_replicas_average_tiles(&replicas, samples, means);
+    for (size_t i = 0; i < sizeof values / sizeof values[0]; ++i) {
+        const size_t replica = i / COUNT, x = X0 + i % COUNT % (X1 - X0), y = Y0 + i % COUNT / (X1 - X0);
+        double sum = 0.0, count = 0.0;
+        for (size_t j = Y0; j < Y1; ++j)
+            for (size_t k = X0; k < X1; ++k)
+                if (j / TILE == y / TILE && k / TILE == x / TILE) {
+                    sum += values[replica * COUNT + (j - Y0) * (X1 - X0) + k - X0];
+                    count += 1.0;
+                }
+        assert_true(means[i] == sum / count / samples[i]);
+    }
+    aur_replicas_release(&replicas);
+    aur_renderer_destroy(renderer);
+    aur_scene_destroy(scene);
+}
+
 static double value_of(const aur_replicas *replicas, size_t r, size_t pixel, size_t channel) {
     const aur_film *const film = aur_render_film(replicas->renders[r]);
     return film->sums[pixel * film->layout.channel_count + channel] / (double)film->counts[pixel];
@@ -116,6 +157,7 @@ static void test_neighbours(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {cmocka_unit_test(test_own_values_do_not_count),
+                                       cmocka_unit_test(test_tiles_have_their_means),
                                        cmocka_unit_test(test_neighbours)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
