@@ -43,8 +43,19 @@ aur_result aur_rivals_create(const aur_rivals *rivals, const aur_choice *choice,
 }
 
 double aur_rivals_gather_rays(const aur_rivals *rivals, const aur_choice *choice, double square_bias) {
-    const double rays = aur_gather_rays(&rivals->pattern, rivals->wanted, square_bias);
+    const double rays = aur_gather_rays(&rivals->law, rivals->wanted, square_bias);
     return (double)choice->trial.replicas.pixel_count * rays;
+}
+
+double aur_rivals_planned_rays(const aur_rivals *rivals, const aur_choice *choice) {
+    return aur_rivals_gather_rays(rivals, choice, pow(AUR_BIAS_PART * rivals->wanted, 2.0));
+}
+
+aur_result aur_rivals_round(const aur_choice *choice, const aur_goal *goal, aur_trial *trial, bool *more,
+                            aur_error *error) {
+    aur_trial_look_ahead(trial, goal);
+    *more = aur_trial_plan(trial, trial->rounds > 0 ? aur_trial_factor(trial, goal) : 1.0);
+    return *more ? aur_trial_render(trial, choice->confidence, choice->cancelled, error) : AUR_OK;
 }
 
 /* As many samples in every pixel. Samples that go where the first ones differ make a picture whose mean is
@@ -102,8 +113,8 @@ static aur_result find_bias(aur_choice *choice, aur_rivals *rivals, double most_
         const aur_result result = render_evenly(choice, &rivals->difference, samples, error);
         if (result != AUR_OK)
             return result;
-        *bias = aur_replicas_bias(&rivals->difference.replicas, NULL, rivals->pilot.measure.mean,
-                                  choice->confidence);
+        *bias = aur_replicas_bias(&rivals->difference.replicas, NULL,
+                                  rivals->pilots[AUR_PILOT_FEW].measure.mean, choice->confidence);
         const double rays = aur_trial_rays(&rivals->difference);
         const double growth = growth_needed(bias, most, rays / most_rays);
         if (bias->high <= most ? !pays(choice, rivals) : growth * rays > most_rays)

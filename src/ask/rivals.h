@@ -13,10 +13,11 @@ typedef struct aur_rivals {
     aur_renderer *renderer;
     const aur_render_options *options; /* of the picture */
     double wanted;                     /* the error asked, or the one when rays or time will be spent */
-    aur_trial path, pilot, lit_pilot, bright_pilot, difference, gather;
-    double pixels;              /* of the picture, over those of the few */
-    aur_gather_pattern pattern; /* as the pilots tell */
-    aur_candidates candidates;  /* of path tracing */
+    aur_trial path, pilots[AUR_PILOT_KINDS], difference, gather;
+    double pixels;             /* of the picture, over those of the few */
+    aur_gather_pilots told;    /* by the pilots */
+    aur_gather_law law;        /* that they lead to */
+    aur_candidates candidates; /* of path tracing */
 } aur_rivals;
 
 /* What is asked of few pixels, each in place of `part` x `part`, or of fewer where that would leave a small
@@ -31,8 +32,19 @@ aur_result aur_rivals_create(const aur_rivals *rivals, const aur_choice *choice,
                              const aur_render_options *options, char *integrator, aur_trial *trial,
                              aur_error *error);
 
+/* The next round, as whoever goes on with the trial would plan it. False where no pixel can have more. */
+aur_result aur_rivals_round(const aur_choice *choice, const aur_goal *goal, aur_trial *trial, bool *more,
+                            aur_error *error);
+
+/* Pilots of final gathering, the first one and whichever costs little beside the picture, as those before
+ * tell; and the law that they lead to. `path` is path tracing of the same pixels, and lends its scratch. */
+aur_result aur_rivals_render_pilots(aur_rivals *rivals, const aur_render_options *coarse,
+                                    const aur_choice *choice, aur_trial *path, aur_error *error);
+
 /* Rays of the whole picture to the error wanted by final gathering whose bias has this square. */
 double aur_rivals_gather_rays(const aur_rivals *rivals, const aur_choice *choice, double square_bias);
+/* The same where its bias is all that may be left. */
+double aur_rivals_planned_rays(const aur_rivals *rivals, const aur_choice *choice);
 
 /* A map of a small enough bias, if there is one: choice->gather.photons and ->bias. Where that of the photons
  * which a picture of so many rays pays for is near it, one is tried that path tracing's rays, `worth` of
