@@ -58,8 +58,20 @@ static bool wants(const aur_rivals *rivals, const aur_choice *choice, size_t pil
            FURTHER_PILOT_PART * aur_rivals_planned_rays(rivals, choice);
 }
 
+/* The least error, at most that of path tracing, to which final gathering takes a part of `worth` rays: the
+ * rest is for its map and the map's bias. */
+static double error_for(aur_rivals *rivals, const aur_choice *choice, double worth) {
+    const double part = 0.6, step = 0.95, least = 0.01;
+    rivals->wanted = rivals->path_error;
+    while (rivals->wanted > least * rivals->path_error &&
+           aur_rivals_planned_rays(rivals, choice) <= part * worth)
+        rivals->wanted *= step;
+    return fmin(rivals->wanted / step, rivals->path_error);
+}
+
 aur_result aur_rivals_render_pilots(aur_rivals *rivals, const aur_render_options *coarse,
-                                    const aur_choice *choice, aur_trial *path, aur_error *error) {
+                                    const aur_choice *choice, double worth, aur_trial *path,
+                                    aur_error *error) {
     rivals->told = (aur_gather_pilots){.side = sqrt(rivals->pixels)};
     for (size_t i = 0; i < AUR_PILOT_KINDS; ++i) {
         if (i > 0 && !wants(rivals, choice, i))
@@ -76,6 +88,8 @@ aur_result aur_rivals_render_pilots(aur_rivals *rivals, const aur_render_options
             continue;
         rivals->told.of[i] = outcome_of(path, pilot, &rivals->told.alone);
         rivals->law = aur_gather_law_of(&rivals->told);
+        if (!(choice->goal.error > 0.0))
+            rivals->wanted = error_for(rivals, choice, worth);
     }
     return AUR_OK;
 }

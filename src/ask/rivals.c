@@ -14,6 +14,9 @@ enum { MAP_GROWTH = 4 };
 static const double MOST_MENDED = 3.0;
 /* Of the rays that may be spent for the bias, those before which little is said of it. */
 static const double LEAST_PART = 1.0 / 32;
+/* Where no error is asked, the bias is looked for while rays are left for so many times as many: whatever is
+ * known of it counts. */
+static const double LEAST_GROWTH = 1.25;
 /* A ray that goes on as a path takes so much more time than one of final gathering. */
 static const double DIFFERENCE_PRICE = 1.7;
 
@@ -92,7 +95,7 @@ static bool pays(const aur_choice *choice, const aur_rivals *rivals) {
 static double growth_needed(const aur_bias *bias, double most, double part_spent) {
     const double chance = part_spent < LEAST_PART ? 2.0 : 0.5;
     const double room = most - fmax(bias->estimate - chance * uncertain(bias), 0.0);
-    return room > 0.0 ? fmax(1.2 * uncertain(bias) / room, 1.25) : INFINITY;
+    return room > 0.0 ? fmax(1.2 * uncertain(bias) / room, LEAST_GROWTH) : INFINITY;
 }
 
 /* Whether another map will do sooner than knowing this one better: its bias is near what may be left, which
@@ -104,7 +107,7 @@ static bool wants_larger_map(const aur_bias *bias, double most, double part_spen
 /* The bias of final gathering, from pictures of what paths find over what the map says at the ends of the
  * same gather rays. What they have in common, above all direct light and short rays, is not traced. They go
  * on until the bias is under what may be left and knowing it better does not pay, or it is seen that it will
- * hardly come there, or not before so many rays are spent. */
+ * hardly come there, or not before so many rays are spent. Where no error is asked, these are spent. */
 static aur_result find_bias(aur_choice *choice, aur_rivals *rivals, double most_rays, bool may_be_larger,
                             aur_error *error) {
     const double most = most_bias(rivals);
@@ -116,8 +119,9 @@ static aur_result find_bias(aur_choice *choice, aur_rivals *rivals, double most_
         *bias = aur_replicas_bias(&rivals->difference.replicas, NULL,
                                   rivals->pilots[AUR_PILOT_FEW].measure.mean, choice->confidence);
         const double rays = aur_trial_rays(&rivals->difference);
-        const double growth = growth_needed(bias, most, rays / most_rays);
-        if (bias->high <= most ? !pays(choice, rivals) : growth * rays > most_rays)
+        const double needed = growth_needed(bias, most, rays / most_rays);
+        const double growth = choice->goal.error > 0.0 ? needed : fmin(needed, most_rays / rays);
+        if (bias->high <= most ? !pays(choice, rivals) : growth * rays > most_rays || growth < LEAST_GROWTH)
             return AUR_OK;
         if (may_be_larger && wants_larger_map(bias, most, rays / most_rays))
             return AUR_OK;

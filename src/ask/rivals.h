@@ -13,6 +13,7 @@ typedef struct aur_rivals {
     aur_renderer *renderer;
     const aur_render_options *options; /* of the picture */
     double wanted;                     /* the error asked, or the one when rays or time will be spent */
+    double path_error;                 /* the same by path tracing */
     aur_trial path, pilots[AUR_PILOT_KINDS], difference, gather;
     double pixels;             /* of the picture, over those of the few */
     aur_gather_pilots told;    /* by the pilots */
@@ -37,9 +38,11 @@ aur_result aur_rivals_round(const aur_choice *choice, const aur_goal *goal, aur_
                             aur_error *error);
 
 /* Pilots of final gathering, the first one and whichever costs little beside the picture, as those before
- * tell; and the law that they lead to. `path` is path tracing of the same pixels, and lends its scratch. */
+ * tell; and the law that they lead to. Where no error is asked, the one is wanted to which final gathering
+ * takes most of `worth` rays. `path` is path tracing of the same pixels, and lends its scratch. */
 aur_result aur_rivals_render_pilots(aur_rivals *rivals, const aur_render_options *coarse,
-                                    const aur_choice *choice, aur_trial *path, aur_error *error);
+                                    const aur_choice *choice, double worth, aur_trial *path,
+                                    aur_error *error);
 
 /* Rays of the whole picture to the error wanted by final gathering whose bias has this square. */
 double aur_rivals_gather_rays(const aur_rivals *rivals, const aur_choice *choice, double square_bias);

@@ -51,7 +51,7 @@ static aur_result render_path(const aur_choice *choice, aur_trial *path, aur_riv
         result = aur_rivals_round(choice, &goal, path, &more, error);
         more = more && !aur_trial_is_black(path);
     }
-    rivals->wanted = left;
+    rivals->wanted = rivals->path_error = left;
     return result;
 }
 
@@ -100,21 +100,23 @@ static bool is_better_alone(const aur_choice *choice, const aur_trial *gather, d
 static aur_result compare(aur_choice *choice, double worth, aur_rivals *rivals, bool *better,
                           aur_error *error) {
     aur_trial *const gather = &rivals->gather;
-    const double rays = aur_rivals_planned_rays(rivals, choice), wanted = rivals->wanted;
+    const double rays = aur_rivals_planned_rays(rivals, choice);
     double noise = 0.0;
     if (rays > worth)
         return AUR_OK;
     choice->rays = rays;
     aur_result result = aur_rivals_find_map(rivals, choice, rays, worth, error);
-    if (result != AUR_OK || !(sqrt(choice->bias.high) <= AUR_BIAS_PART * wanted))
+    if (result != AUR_OK || !(sqrt(choice->bias.high) <= AUR_BIAS_PART * rivals->path_error))
         return result;
     const aur_bias map = choice->bias;
+    rivals->wanted = fmax(rivals->wanted, sqrt(map.high) / AUR_BIAS_PART);
     result = render_pattern(choice, rivals, map, &noise, error);
     if (result == AUR_OK && !aur_trial_is_black(gather) && is_better_alone(choice, gather, noise)) {
         rivals->law.alone = true;
         leave(gather, choice);
         result = render_pattern(choice, rivals, map, &noise, error);
     }
+    noise = noise_beside(rivals->path_error, choice->bias.high);
     if (result == AUR_OK && !aur_trial_is_black(gather) && noise > 0.0)
         *better = rays_to(gather, noise) - aur_trial_rays(gather) <= worth;
     return result;
@@ -138,19 +140,27 @@ double aur_choice_part_done(const aur_choice *choice) {
     return (others + gathered) / (others + fmax(choice->rays, gathered));
 }
 
+/* What path tracing of the whole picture takes to the error asked, or all rays that will be spent. */
+static double rays_of_path(const aur_choice *choice, const aur_trial *path, const aur_rivals *rivals) {
+    if (choice->goal.error > 0.0)
+        return rivals->candidates.cost * rivals->pixels * rays_to(path, rivals->wanted);
+    return rivals->pixels * aur_trial_rays(path) / part_spent(choice, path, rivals->pixels);
+}
+
 /* Final gathering beside path tracing, whose trial says what that takes. */
 static aur_result compare_with(const aur_render_options *coarse, aur_choice *choice, aur_trial *path,
                                aur_rivals *rivals, bool *better, aur_error *error) {
-    const double rays = rivals->candidates.cost * rivals->pixels * rays_to(path, rivals->wanted);
+    const double rays = rays_of_path(choice, path, rivals);
     if (aur_photon_rays(AUR_PILOT_PHOTONS) > PILOT_PART * rays)
         return AUR_OK;
     choice->rays = WORTH * rays;
     aur_error refused;
-    const aur_result result = aur_rivals_render_pilots(rivals, coarse, choice, path, &refused);
+    const double worth = WORTH * (rays - rays_of(&choice->trial));
+    const aur_result result = aur_rivals_render_pilots(rivals, coarse, choice, worth, path, &refused);
     if (result == AUR_OK && aur_trial_is_black(&rivals->pilots[AUR_PILOT_FEW]))
         return AUR_OK;
     if (result == AUR_OK)
-        return compare(choice, WORTH * (rays - rays_of(&choice->trial)), rivals, better, error);
+        return compare(choice, worth, rivals, better, error);
     if (result != AUR_ERROR_MEMORY && result != AUR_ERROR_CANCELLED)
         return AUR_OK; /* final gathering says that the scene is not for it */
     if (error != NULL)

@@ -201,6 +201,27 @@ static void test_rounds_and_rays(void **state) {
     aur_ask_destroy(by_rays);
 }
 
+/* For as many rays final gathering is chosen and told how large it is to be: path tracing has an error of 3.2
+ * % then, final gathering at most 1.8 % with its bias. */
+static void test_rays_make_the_pattern(void **state) {
+    const fixture *const f = *state;
+    aur_render_options chosen = small(0), paths = small(0);
+    chosen.width = chosen.height = paths.width = paths.height = 96;
+    chosen.filter = paths.filter = "box";
+    paths.integrator = "path";
+    aur_ask_options wish = aur_ask_options_default();
+    wish.rays = 8000000;
+    aur_ask *const a = ask(f, &chosen, &wish), *const b = ask(f, &paths, &wish);
+    const aur_ask_report own = report_of(a), path = report_of(b);
+    print_message("%g to %g by %s; path: %g to %g\n", own.error_low, own.error_high, aur_ask_integrator(a),
+                  path.error_low, path.error_high);
+    assert_non_null(strstr(aur_ask_integrator(a), "finalgather:"));
+    assert_true(own.error_high < path.error_low);
+    assert_in_range(own.statistics.rays, wish.rays, wish.rays * 3 / 2);
+    aur_ask_destroy(a);
+    aur_ask_destroy(b);
+}
+
 static int stop_at_once(void *user, const char *what, uint64_t done, uint64_t total) {
     (void)what;
     size_t *const calls = user;
@@ -269,6 +290,7 @@ int main(void) {
                                        cmocka_unit_test(test_choice),
                                        cmocka_unit_test(test_progress),
                                        cmocka_unit_test(test_rounds_and_rays),
+                                       cmocka_unit_test(test_rays_make_the_pattern),
                                        cmocka_unit_test(test_cancelled_picture_is_kept),
                                        cmocka_unit_test(test_bad_wishes)};
     return cmocka_run_group_tests(tests, set_up, tear_down);
