@@ -18,7 +18,7 @@ static const double WORTH = 0.5;
  */
 static const double PILOT_PART = 0.01;
 /* Of path tracing's rays, what it may cost to choose its candidates. */
-static const double CANDIDATES_PART = 0.08;
+static const double CANDIDATES_PART = 0.12;
 
 /* The rays that a trial is thought to take in all until its noise is `error`. */
 static double rays_to(const aur_trial *trial, double error) {
