@@ -79,6 +79,9 @@ static void patterns_are_shared_where_one_sample_does(void **state) {
     assert_true(aur_gather_is_shared(most.directions));
     law.camera = 0.76 * noise * noise;
     assert_false(aur_gather_is_shared(aur_gather_size_of(&law, wanted, 0.0, 1000, 7).directions));
+    assert_true(isfinite(aur_gather_rays(&law, wanted, 0.0)));
+    law.camera = 4.0 * 16.5 * wanted * wanted; /* of four samples sixteen times the square of the error */
+    assert_false(isfinite(aur_gather_rays(&law, wanted, 0.0)));
     law.camera = 0.0;
     law.alone = true;
     assert_false(aur_gather_is_shared(aur_gather_size_of(&law, wanted, 0.0, 1000, 7).directions));
