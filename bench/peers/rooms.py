@@ -4,6 +4,7 @@
     python3 -m venv /tmp/rooms && /tmp/rooms/bin/pip install numpy
     /tmp/rooms/bin/python bench/peers/rooms.py build/release/aureole [--seeds 101-112] [--seconds 3] [--size 64x48] [--scene FILE.xml]
     /tmp/rooms/bin/python bench/peers/rooms.py build/release/aureole --until .01 [--seconds 60]
+    /tmp/rooms/bin/python bench/peers/rooms.py build/release/aureole --ask .04 --size 320x240 [--seconds 60]
     /tmp/rooms/bin/python bench/peers/rooms.py --write FOLDER --seeds 7
 
 Each has tables and chairs on thin legs, a floor of glossy wood, a rug and a wall whose pictures are black at a corner, mirrors, vases
@@ -16,7 +17,8 @@ with as many rays as `--rays` says, spent pixel by pixel; the mean square error 
 error over that is the relative one of the RMSE, which stands behind it. Ratios are of the times to the same error, which goes as
 seconds^-1/2. With --until both get more and more samples, fourfold at most, until the true error is there or the next picture would take
 more than --seconds; the time of `path` to that error is then the law's, and final gathering, whose bias knows no law, has no ratio where
-its error is not there.
+its error is not there. With --ask pictures are asked for an error, as --error does by default and by `path`, which ends before it where it has
+taken --seconds; errors are those that are said at the end, and there is no truth.
 """
 import argparse
 import math
@@ -227,12 +229,25 @@ def compare_until(given, name, scene):
     return (ratio,)
 
 
+def compare_asked(given, name, scene):
+    rows = []
+    for options in ((), ("--integrator", "path", "--time", f"{given.seconds:g}s")):
+        _, seconds, said = render(given, scene, "--error", str(given.ask), *options)
+        found = re.search(r"error of ([\d.]+) %.* by ([a-z]+)", said)
+        rows.append((float(found[1]), seconds, found[2]))
+    (own, seconds, chosen), (error, taken, _) = rows
+    ratio = error ** 2 * taken / (own ** 2 * seconds)
+    print(f"| {name} | {own:.2f} % in {seconds:.3g} s | {chosen} | {error:.2f} % in {taken:.3g} s | {ratio:.2f} |", flush=True)
+    return (ratio,)
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("aureole", nargs="?", default="build/release/aureole")
     parser.add_argument("--seeds", default="101-112", help="FIRST-LAST, or one")
     parser.add_argument("--seconds", type=float, default=3)
     parser.add_argument("--until", type=float, metavar="ERROR", help="RMSE over the mean, such as .01")
+    parser.add_argument("--ask", type=float, metavar="ERROR", help="as --error does, such as .04")
     parser.add_argument("--size", default="64x48")
     parser.add_argument("--rays", default="1e7", help="of each of the two pictures that are the truth")
     parser.add_argument("--scene", help="this one in place of rooms, whose $integrator is path")
@@ -245,11 +260,13 @@ def main():
         for seed in seeds:
             print(": ".join(reversed(write(given.write, seed))))
         return
-    if given.until:
+    if given.ask:
+        print("| room | --error | by | path | --error / path |\n|---|---|---|---|---|")
+    elif given.until:
         print("| room | finalgather | path | path, to the error | finalgather / path |\n|---|---|---|---|---|")
     else:
         print("| room | finalgather: error (% of that) | path | --error | by | finalgather / path | --error / path |\n|---|---|---|---|---|---|---|")
-    measure = compare_until if given.until else compare
+    measure = compare_asked if given.ask else compare_until if given.until else compare
     if given.scene:
         measure(given, os.path.basename(os.path.dirname(os.path.abspath(given.scene))), given.scene)
         return
@@ -258,13 +275,12 @@ def main():
         for seed in seeds:
             kind, scene = write(folder, seed)
             ratios.append(measure(given, f"{seed}, {kind}", scene))
-    for name, found in zip(("finalgather", "--error"), zip(*ratios)):
+    for name, found in zip(("--error",) if given.ask else ("finalgather", "--error"), zip(*ratios)):
         values = [v for v in found if v is not None]
         if len(values) < len(found):
             print(f"\n{name}: the error is not there in {len(found) - len(values)} of {len(found)}")
         if values:
             print(f"\n{name}: behind path in {sum(v < 1 for v in values)} of {len(values)}, median {statistics.median(values):.2f}")
-
 
 
 if __name__ == "__main__":
