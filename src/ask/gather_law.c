@@ -9,9 +9,9 @@ static const double LIGHT_PRICE = 0.5;
  * the rays in the public Cornell box, and more where triangles are small. */
 static const double BRIGHT_PRICE = 1.1;
 /* The square of a pattern's error falls nearly as its size to this power: patterns of 4 to 160 directions had
- * .8 to 1.2 of the noise that might be left, in boxes and in scenes of Keller's. It falls more slowly where
- * the light comes from small places, as in rooms of lamps and blinds. And so do points on lights at least, up
- * to a number that sees them all. */
+ * .8 to 1.2 of the noise that might be left, in boxes, the cube and the office. It falls more slowly where
+ * the light comes from small places, as in rooms of lamps and blinds, by a power that is chosen between that
+ * and 1. And so do points on lights at least, up to a number that sees them all. */
 static const double POWER = 1.5, POWER_OF_PLACES = 1.25;
 /* Of a pilot's square, what each part has at least. */
 static const double LEAST_PART = 0.05;
@@ -43,8 +43,8 @@ static double left_by_law(double square_x, double square_y, double growth) {
     return fmax(square_x - square_y, 0.0) / (1.0 - pow(growth, -POWER));
 }
 
-/* With the most points hardly any noise is left: by 128 in place of 32 the rooms of bench/peers/rooms.py that
- * have most of it lost 2 to 25 % of the square, less than the law says. */
+/* With the most points hardly any noise is left: 128 in place of 32 took 0 to 25 % off the square in six
+ * rooms of bench/peers/rooms.py, less than the law says. */
 static void tell_lights(const aur_gather_pilots *pilots, double camera, aur_gather_law *law) {
     const double growth = (double)AUR_PILOT_LIGHTS_MORE / AUR_PILOT_LIGHTS;
     const double last_growth = (double)AUR_PILOT_LIGHTS_MOST / AUR_PILOT_LIGHTS_MORE;

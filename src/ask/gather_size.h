@@ -11,8 +11,9 @@ typedef struct aur_gather_size {
     size_t directions, lights, bright;
 } aur_gather_size;
 
-/* Rays of a pixel, all replicas together (infinite where path tracing is better for sure), and the size of
- * the pattern, by which noise and a bias whose square is told come to the error wanted. */
+/* Rays of a pixel, all replicas together (infinite where pixels need many more samples than patterns are
+ * for), and the size of the pattern, by which noise and a bias whose square is told come to the error wanted.
+ */
 double aur_gather_rays(const aur_gather_law *law, double wanted, double square_bias);
 aur_gather_size aur_gather_size_of(const aur_gather_law *law, double wanted, double square_bias,
                                    size_t photons, uint64_t seed);

@@ -7,9 +7,6 @@
 #include "core/error.h"
 #include "transport/lights/lamps.h"
 
-/* Pictures with more pixels are left as they are: what is found of each takes 60 bytes for a while. */
-static const size_t MOST_PIXELS = (size_t)1 << 24;
-
 typedef struct lamp_edges {
     uint16_t *looks; /* of each pixel; NULL: none has any */
 } lamp_edges;
@@ -54,8 +51,7 @@ static aur_result find(const aur_view *view, uint16_t looks, lamp_edges *edges, 
 aur_result aur_lamp_edges_find(const aur_view *view, uint16_t looks, const aur_integrator_context *context,
                                const uint16_t **out, aur_error *error) {
     *out = NULL;
-    if (view->pixel_centre || !aur_camera_is_pinhole(view->scene) ||
-        aur_scene_emitter_count(view->scene) == 0 || view->height > MOST_PIXELS / view->width)
+    if (!aur_lamps_can_be_found(view))
         return AUR_OK;
     char key[160];
     snprintf(key, sizeof key, "lamp edges %zu %zu %s %.9g %u", view->width, view->height,

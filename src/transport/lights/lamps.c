@@ -68,6 +68,12 @@ static void add_point(const seen_point *point, double weight, pixel_sums *sums) 
     }
 }
 
+bool aur_lamps_can_be_found(const aur_view *view) {
+    const size_t most_pixels = (size_t)1 << 24;
+    return !view->pixel_centre && aur_camera_is_pinhole(view->scene) &&
+           aur_scene_emitter_count(view->scene) > 0 && view->height <= most_pixels / view->width;
+}
+
 aur_result aur_lamps_find(const aur_scene *scene, const aur_film_layout *layout, size_t points, uint64_t seed,
                           aur_lamps *lamps, aur_error *error) {
     const size_t width = layout->x1 - layout->x0, pixels = width * (layout->y1 - layout->y0);

@@ -9,7 +9,7 @@
 typedef struct aur_lamps {
     double *share;    /* how often it is expected to meet a lamp */
     double *variance; /* what that alone makes of its variance, summed over R, G and B */
-    bool *edges;      /* the edge of a lamp of a few pixels is there, for sure */
+    bool *edges; /* the edge of a lamp is there, of which so many points lie in a pixel that this is known */
 } aur_lamps;
 
 /* From so many points on all lamps together, drawn in proportion to power. To be released in every case.
@@ -17,6 +17,9 @@ typedef struct aur_lamps {
 enum { AUR_LAMP_POINTS = 4096 }; /* where a fiftieth of the power is to be known to a tenth */
 /* For surveys of a whole picture: so many that lamps are known pixel by pixel where they are small. */
 size_t aur_lamp_points(size_t pixels);
+/* Whether a survey can find them: through the pixels of a pinhole camera, in a picture that is not so large
+ * that what is found of each pixel takes gigabytes for a while. */
+bool aur_lamps_can_be_found(const aur_view *view);
 aur_result aur_lamps_find(const aur_scene *scene, const aur_film_layout *layout, size_t points, uint64_t seed,
                           aur_lamps *lamps, aur_error *error);
 /* Where a sample of a pixel has several rays for lamps (looks.h), of all pixels of the picture; NULL: none.

@@ -11,8 +11,6 @@
 #include "scene/packet.h"
 #include "transport/lights/lamps.h"
 
-/* Pictures with more pixels are left as they are: what is found of each takes 72 bytes for a while. */
-static const size_t MOST_PIXELS = (size_t)1 << 24;
 enum { MOST_LOOKS = 256, LEAST_LOOKS = 4 };
 
 /* --- looking */
@@ -263,8 +261,7 @@ static aur_result find(const aur_view *view, double rays, const aur_integrator_c
 aur_result aur_lamp_looks_find(const aur_view *view, double rays, const aur_integrator_context *context,
                                const aur_lamp_looks **out, aur_error *error) {
     *out = NULL;
-    if (view->pixel_centre || !aur_camera_is_pinhole(view->scene) ||
-        aur_scene_emitter_count(view->scene) == 0 || view->height > MOST_PIXELS / view->width)
+    if (!aur_lamps_can_be_found(view))
         return AUR_OK;
     char key[160];
     snprintf(key, sizeof key, "looks %zu %zu %s %.9g %.9g", view->width, view->height,
