@@ -104,12 +104,37 @@ struct shared_work {
  * alone.
  */
 static _Thread_local shared_work *inside;
+/* How the host's thread treats denormal numbers, while it is inside an item that treats them otherwise. */
+static _Thread_local uint64_t host_denormals;
+static _Thread_local bool flushes;
+
+/* The callback runs as if the host had called it outside of any item: what it calls in the library is work of
+ * its own, with its own threads, which neither asks the interrupted work to stop nor waits for its lock. */
+bool aur_progress_stops(const aur_progress *progress, const char *what, uint64_t done, uint64_t total) {
+    if (progress->function == NULL)
+        return false;
+    shared_work *const work = inside;
+    aur_ranks *const ranks = aur_ranks_set_aside();
+    const bool flushed = flushes;
+    const uint64_t host = host_denormals;
+    if (flushed)
+        restore_denormals(host);
+    inside = NULL;
+    flushes = false;
+    const bool stops = progress->function(progress->user, what, done, total) != 0;
+    inside = work;
+    flushes = flushed;
+    host_denormals = host;
+    if (flushed)
+        flush_denormals();
+    aur_ranks_put_back(ranks);
+    return stops;
+}
 
 /* With the lock held: reports progress, unless the work has been stopped. */
 static void report(shared_work *work) {
-    const aur_progress *const progress = &work->options->progress;
     if (atomic_load(&work->stop) ||
-        progress->function(progress->user, work->options->what, work->done, work->count) == 0)
+        !aur_progress_stops(&work->options->progress, work->options->what, work->done, work->count))
         return;
     work->result = AUR_ERROR_CANCELLED;
     atomic_store(&work->stop, true);
@@ -161,12 +186,17 @@ static bool do_item(void *shared) {
         return false;
     shared_work *const outer = inside;
     aur_ranks *const ranks = aur_ranks_set_aside();
-    const uint64_t saved = work->options->flush_denormals ? flush_denormals() : 0;
+    const bool begins = work->options->flush_denormals && !flushes;
+    if (begins)
+        host_denormals = flush_denormals();
+    flushes = flushes || begins;
     inside = work;
     const aur_result result = work->function(work->context, index);
     inside = outer;
-    if (work->options->flush_denormals)
-        restore_denormals(saved);
+    if (begins) {
+        flushes = false;
+        restore_denormals(host_denormals);
+    }
     aur_ranks_put_back(ranks);
     if (work->loop != NULL)
         aur_shared_loop_done(work->loop, index, result);

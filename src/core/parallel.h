@@ -42,10 +42,14 @@ typedef struct aur_parallel_options {
 /* Runs items 0..count-1 on the calling thread and on others that last as long as the call; when the system
  * has no more threads to give, fewer do the work. When items fail, the result of the failing item with the
  * lowest index that was run is returned, `error` says "WHAT: the result's name", and no new item starts.
- * Items may call this function, which then uses their thread alone; so may progress callbacks, which run
- * between items. */
+ * Items may call this function, which then uses their thread alone; so may progress callbacks, whose
+ * calls have their own threads. */
 aur_result aur_parallel_for(const aur_parallel_options *options, size_t count, aur_parallel_function function,
                             void *context, aur_error *error);
+
+/* Calls a progress callback, from wherever the work is; true: it asks the work to stop. Whatever the callback
+ * calls in the library is work of its own, as if it were called outside of all items. */
+bool aur_progress_stops(const aur_progress *progress, const char *what, uint64_t done, uint64_t total);
 
 /* Asks from within a long item whether the work is to stop: the progress function is called as at the end of
  * an item, with the items that are finished. True: the item may leave at once, with AUR_ERROR_CANCELLED.

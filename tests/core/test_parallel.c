@@ -137,6 +137,75 @@ static void nests_in_items_and_callbacks(void **state) {
     alarm(0);
 }
 
+/* Work in a callback of work in a callback ..., all of it long items that ask whether to stop. */
+typedef struct depth {
+    struct depth *inner;
+    int cancels_at; /* calls of its callback; 0: never */
+    atomic_int calls, stopped;
+    aur_result inner_result;
+} depth;
+
+static aur_result ask_often(void *context, size_t index) {
+    (void)index;
+    depth *const d = context;
+    for (int i = 0; i < 3; ++i)
+        if (aur_parallel_stops()) {
+            atomic_fetch_add(&d->stopped, 1);
+            return AUR_ERROR_CANCELLED;
+        }
+    return AUR_OK;
+}
+
+static int work_deeper(void *user, const char *what, uint64_t done, uint64_t total);
+
+static aur_result work_at(depth *d) {
+    const aur_parallel_options options = {
+        .threads = 2, .progress = {work_deeper, d}, .flush_denormals = true};
+    return aur_parallel_for(&options, 4, ask_often, d, NULL);
+}
+
+static int work_deeper(void *user, const char *what, uint64_t done, uint64_t total) {
+    (void)what;
+    (void)done;
+    (void)total;
+    depth *const d = user;
+    volatile double smallest = 0x1p-1022;
+    assert_true(smallest * 0.5 > 0.0);
+    if (d->inner != NULL)
+        d->inner_result = work_at(d->inner);
+    return atomic_fetch_add(&d->calls, 1) + 1 == d->cancels_at;
+}
+
+static void nests_at_any_depth(void **state) {
+    (void)state;
+    alarm(60);
+    depth last = {.cancels_at = 0}, middle = {.inner = &last}, first = {.inner = &middle};
+    assert_int_equal(work_at(&first), AUR_OK);
+    const int calls = 4 * 3 + 4; /* of one piece of work */
+    assert_int_equal(atomic_load(&first.calls), calls);
+    assert_int_equal(atomic_load(&middle.calls), calls * calls);
+    assert_int_equal(atomic_load(&last.calls), calls * calls * calls);
+    alarm(0);
+}
+
+/* A callback stops its own work, neither what it was called from nor what it calls. */
+static void cancels_one_depth(void **state) {
+    (void)state;
+    alarm(60);
+    depth last = {.cancels_at = 0}, middle = {.inner = &last, .cancels_at = 2}, first = {.inner = &middle};
+    const depth *const all[] = {&first, &middle, &last};
+    assert_int_equal(work_at(&first), AUR_OK);
+    assert_true(atomic_load(&middle.stopped) > 0);
+    assert_int_equal(atomic_load(&first.stopped) + atomic_load(&last.stopped), 0);
+    for (size_t i = 0; i < 3; ++i)
+        assert_int_equal(all[i]->inner_result, AUR_OK);
+    depth inner = {.cancels_at = 1}, outer = {.inner = &inner, .cancels_at = 3};
+    assert_int_equal(work_at(&outer), AUR_ERROR_CANCELLED);
+    assert_int_equal(outer.inner_result, AUR_OK); /* its only stop was the first time */
+    assert_int_equal(atomic_load(&outer.calls), 3);
+    alarm(0);
+}
+
 static pthread_barrier_t meeting;
 
 static int meet(void *user, const char *what, uint64_t done, uint64_t total) {
@@ -226,6 +295,8 @@ int main(void) {
         cmocka_unit_test(clamps_the_number_of_threads),
         cmocka_unit_test(works_without_threads_to_be_had),
         cmocka_unit_test(nests_in_items_and_callbacks),
+        cmocka_unit_test(nests_at_any_depth),
+        cmocka_unit_test(cancels_one_depth),
         cmocka_unit_test(independent_callbacks_run_at_once),
         cmocka_unit_test(cancels),
         cmocka_unit_test(denormals_are_the_same_inside),

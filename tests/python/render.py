@@ -58,6 +58,25 @@ class Render(unittest.TestCase):
             aureole.Scene("mine.xml", text=text)
         self.assertEqual(caught.exception.file, "mine.xml")
 
+    def test_previews(self):
+        """A progress callback renders, in the callback of a render, at counts of samples that ask whether to stop."""
+        small = {"width": 16, "spp": 256, "threads": 1, "integrator": "path"}
+        alone = aureole.render(SCENE, **small)
+        previews = []
+
+        def inner(what, done, total):
+            if len(previews) < 2:
+                previews.append(aureole.render(SCENE, **small))
+
+        def outer(what, done, total):
+            if len(previews) < 2:
+                previews.append(aureole.render(SCENE, progress=inner, **small))
+
+        picture = aureole.render(SCENE, progress=outer, **small)
+        self.assertEqual(len(previews), 3)
+        for made in [picture, *previews]:
+            self.assertTrue((made == alone).all())
+
     def test_irradiance(self):
         position, normal = [[278, 10, 280], [100, 10, 100]], [[0, 1, 0]] * 2
         with open("sensors.pts", "w") as file:

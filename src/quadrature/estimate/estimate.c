@@ -5,6 +5,7 @@
 #include "core/array.h"
 #include "core/error.h"
 #include "core/options.h"
+#include "core/parallel.h"
 #include "core/random.h"
 #include "quadrature/estimate/levels.h"
 
@@ -89,8 +90,8 @@ static aur_result evaluate_level(work *w, size_t count, aur_error *error) {
                 result = aur_fail(error, AUR_ERROR_ARGUMENT,
                                   "value %zu of the functional is %g in randomisation %zu", v, values[v], r);
         w->report.evaluations += count;
-        if (result == AUR_OK && o->progress.function != NULL &&
-            o->progress.function(o->progress.user, "estimating", w->report.evaluations, o->evaluations) != 0)
+        if (result == AUR_OK &&
+            aur_progress_stops(&o->progress, "estimating", w->report.evaluations, o->evaluations))
             result = aur_fail(error, AUR_ERROR_CANCELLED, "estimating: cancelled");
     }
     if (result != AUR_OK)

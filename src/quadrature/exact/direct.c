@@ -5,6 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "core/parallel.h"
 #include "quadrature/exact/system.h"
 
 /* A row whose squared distance from those before is this part of its square depends on them. */
@@ -171,8 +172,7 @@ static aur_result solve(factor *f, size_t degree, bool search, double *weights, 
         exact = add_degree(f, l);
         if (!exact || (!search && l < degree))
             continue;
-        if (f->system->progress.function != NULL &&
-            f->system->progress.function(f->system->progress.user, "factoring", l, degree) != 0)
+        if (aur_progress_stops(&f->system->progress, "factoring", l, degree))
             return aur_fail(error, AUR_ERROR_CANCELLED, "factoring: cancelled");
         memcpy(f->right, f->y, f->rank * sizeof *f->y);
         memcpy(f->best, f->system->near, f->count * sizeof *f->best);

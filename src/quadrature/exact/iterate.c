@@ -4,6 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "core/parallel.h"
 #include "quadrature/exact/fast.h"
 #include "quadrature/exact/system.h"
 
@@ -51,8 +52,7 @@ static aur_result descend(const gradients *g, double *weights, size_t *steps, au
     memcpy(g->direction, g->rest, g->size * sizeof *g->direction);
     double rest = square(g->size, g->rest, g->rest);
     while (rest > enough * enough && *steps < g->limit) {
-        if (system->progress.function != NULL &&
-            system->progress.function(system->progress.user, "solving", *steps, g->limit) != 0)
+        if (aur_progress_stops(&system->progress, "solving", *steps, g->limit))
             return aur_fail(error, AUR_ERROR_CANCELLED, "solving: cancelled");
         aur_result result = g->fast != NULL
                                 ? aur_fast_transform_synthesise(g->fast, g->direction, g->t, error)

@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "core/memory.h"
+#include "core/parallel.h"
 #include "core/vector3d.h"
 
 /* A function whose part beside those before is less than this of its length over the points depends on them;
@@ -227,8 +228,7 @@ static aur_result solve(const measured *m, const aur_exact_system *system, size_
     const size_t count = system->points.count;
     size_t last = 0;
     for (size_t l = 0; l <= degree && l <= last + (search ? AUR_EXACT_PATIENCE : degree); ++l) {
-        if (m->progress.function != NULL &&
-            m->progress.function(m->progress.user, "factoring", l, degree) != 0)
+        if (aur_progress_stops(&m->progress, "factoring", l, degree))
             return aur_fail(error, AUR_ERROR_CANCELLED, "factoring: cancelled");
         const aur_result result = make_room(m, l, error);
         if (result != AUR_OK)

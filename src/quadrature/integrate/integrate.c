@@ -7,6 +7,7 @@
 
 #include "core/error.h"
 #include "core/options.h"
+#include "core/parallel.h"
 #include "core/random.h"
 #include "core/vector.h"
 #include "quadrature/integrate/replicates.h"
@@ -91,8 +92,7 @@ static aur_result evaluate(const integration *work, size_t first, size_t last, a
                                     directions[3 * i + 2]);
         }
         const uint64_t done = r * last + (o->replicates - r) * first;
-        if (o->progress.function != NULL &&
-            o->progress.function(o->progress.user, "integrating", done, o->evaluations) != 0)
+        if (aur_progress_stops(&o->progress, "integrating", done, o->evaluations))
             return aur_fail(error, AUR_ERROR_CANCELLED, "integrating: cancelled");
     }
     return AUR_OK;

@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "core/error.h"
+#include "core/parallel.h"
 #include "quality/measure.h"
 
 /* Coordinates in base b are rounded to doubles: a point this near below an edge belongs above it. */
@@ -101,9 +102,7 @@ static aur_result strength_of(net *n, const aur_measure_options *options, double
             return aur_fail(error, AUR_ERROR_UNSUPPORTED,
                             "net: %g shapes of elementary intervals are too many to try (t is at most %zu)",
                             shapes, n->digits - strength);
-        if (options->progress.function != NULL &&
-            options->progress.function(options->progress.user, "counting in intervals", strength,
-                                       n->digits) != 0)
+        if (aur_progress_stops(&options->progress, "counting in intervals", strength, n->digits))
             return aur_fail(error, AUR_ERROR_CANCELLED, "net: cancelled");
         if (!all_shapes_even(n, strength + 1))
             break;

@@ -9,6 +9,7 @@
 #include <stdlib.h>
 
 #include "core/error.h"
+#include "core/parallel.h"
 #include "quality/measure.h"
 
 typedef struct planar_point {
@@ -183,8 +184,7 @@ static aur_result sweep(const aur_measure_request *request, const planar_point *
             mass += points[i].weight;
         }
         best = fmax(best, greatest_closed(h, x));
-        if (i % 1024 == 0 && progress->function != NULL &&
-            progress->function(progress->user, "sweeping", i, count) != 0)
+        if (i % 1024 == 0 && aur_progress_stops(progress, "sweeping", i, count))
             return aur_fail(error, AUR_ERROR_CANCELLED, "star discrepancy: cancelled");
     }
     *value = fmax(best, greatest_open(h, 1.0));

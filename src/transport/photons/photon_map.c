@@ -217,8 +217,7 @@ static aur_result trace_until_enough(aur_photon_map *map, batch *work, aur_error
             return aur_fail_memory(error);
         map->paths += work->paths_a_chunk * CHUNKS_A_BATCH;
         const uint64_t done = map->count < options->count ? map->count : options->count;
-        if (options->progress.function != NULL &&
-            options->progress.function(options->progress.user, "photons", done, options->count) != 0)
+        if (aur_progress_stops(&options->progress, "photons", done, options->count))
             return aur_fail(error, AUR_ERROR_CANCELLED, "cancelled");
     }
     aur_photon_map_warn(map->cut, map->paths, &options->warnings);

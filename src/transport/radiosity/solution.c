@@ -315,8 +315,8 @@ aur_result aur_radiosity_trace(aur_radiosity *radiosity, uint64_t paths, aur_err
         const uint64_t left = paths - radiosity->paths;
         result = trace_batch(radiosity, &points, radiosity->paths + (left < batch_paths ? left : batch_paths),
                              error);
-        if (result == AUR_OK && progress->function != NULL && left > batch_paths &&
-            progress->function(progress->user, "radiosity", radiosity->paths, paths) != 0)
+        if (result == AUR_OK && left > batch_paths &&
+            aur_progress_stops(progress, "radiosity", radiosity->paths, paths))
             result = aur_fail(error, AUR_ERROR_CANCELLED, "cancelled");
     }
     release_points(&points);

@@ -3,6 +3,7 @@
 #include <stdlib.h>
 
 #include "core/options.h"
+#include "core/parallel.h"
 #include "transport/radiosity/solution.h"
 
 static aur_result check_rule(const aur_radiosity *radiosity, const aur_radiosity_termination *rule,
@@ -53,9 +54,7 @@ aur_result aur_radiosity_terminate(aur_radiosity *radiosity, const aur_radiosity
             quiet = change < r.epsilon ? quiet + 1 : 0;
         }
         measured = true;
-        const aur_progress *const progress = &radiosity->options.progress;
-        if (progress->function != NULL &&
-            progress->function(progress->user, "radiosity", radiosity->paths, r.limit) != 0)
+        if (aur_progress_stops(&radiosity->options.progress, "radiosity", radiosity->paths, r.limit))
             result = aur_fail(error, AUR_ERROR_CANCELLED, "cancelled");
     }
     if (converged != NULL)
