@@ -24,12 +24,13 @@ const cli_option cli_checkpoint_options[] = {
         "none")},
     {.key = {0}}};
 
-const char *cli_checkpoint_conflict(const cli_checkpoint *checkpoint) {
-    if (checkpoint->path != NULL)
+const char *cli_checkpoint_conflict(const cli_call *call) {
+    if (cli_given(call, "checkpoint") != NULL)
         return NULL;
-    return checkpoint->resume        ? "render: '--resume' goes on from the file of '--checkpoint'"
-           : checkpoint->every > 0.0 ? "render: '--checkpoint-every' goes with '--checkpoint'"
-                                     : NULL;
+    return cli_given(call, "resume") != NULL ? "render: '--resume' goes on from the file of '--checkpoint'"
+           : cli_given(call, "checkpoint-every") != NULL
+               ? "render: '--checkpoint-every' goes with '--checkpoint'"
+               : NULL;
 }
 
 static double now(void) {
@@ -50,10 +51,9 @@ static aur_result save(cli_checkpoint *checkpoint, aur_error *error) {
 }
 
 static int show(void *user, const char *what, uint64_t done, uint64_t total) {
-    enum { SECONDS = 60 };
     cli_checkpoint *const checkpoint = user;
-    const double every = checkpoint->every > 0.0 ? checkpoint->every : SECONDS;
-    if ((checkpoint->render != NULL || checkpoint->ask != NULL) && now() - checkpoint->last >= every) {
+    if ((checkpoint->render != NULL || checkpoint->ask != NULL) &&
+        now() - checkpoint->last >= checkpoint->every) {
         aur_error error = {0};
         if (save(checkpoint, &error) != AUR_OK) {
             char text[AUR_ERROR_FILE_CAPACITY + AUR_ERROR_MESSAGE_CAPACITY + 64];

@@ -21,7 +21,7 @@ typedef struct cli_checkpoint {
 extern const cli_option cli_checkpoint_options[]; /* cli_checkpoint */
 
 /* What is wrong with the options, or NULL. */
-const char *cli_checkpoint_conflict(const cli_checkpoint *checkpoint);
+const char *cli_checkpoint_conflict(const cli_call *call);
 
 /* The progress callback that also writes checkpoints. A checkpoint that cannot be written is warned of, and
  * the render goes on. */

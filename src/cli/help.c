@@ -203,11 +203,11 @@ static int run(const cli_call *call) {
         return cli_bad_usage("help: %s: 'aureole help' lists them", call->verb->too_many);
     if (name != NULL)
         return help_on_row(kind, name, format);
-    /* A kind may be called as a verb is: then --format asks for the kind. */
+    /* A kind may be called as a verb is: then formats for programs are of the kind. */
     bool verb_too = false;
     for (size_t i = 0; call->verbs[i] != NULL; ++i)
         verb_too = verb_too || strcmp(call->verbs[i]->name, topic) == 0;
-    if (kind != NULL && (!verb_too || cli_given(call, "format") != NULL || cli_given(call, "json") != NULL))
+    if (kind != NULL && (!verb_too || format != REPORT_TABLE))
         return print_kind(kind, format);
     return help_on_verb(call->verbs, topic, format, true);
 }

@@ -47,11 +47,11 @@ static const cli_option options[] = {
               "six numbers a line, x y z nx ny nz: Radiance's .pts, CSV, NPY (- is standard input); or a "
               "mesh, .obj or .ply"),
      .content = "file"},
-    {CLI_TEXT(irradiance_command, output, "output", "FILE", "standard output",
-              "a line or row a sensor, in the format that the name ends in"),
-     .letter = 'o', .key.computed = true, .content = "file"},
-    {CLI_TEXT(irradiance_command, format, "to", "FORMAT", "csv", "where the name of FILE does not tell"),
-     .key.words = (const char *const[]){"csv", "json", "npy", "ply", NULL}},
+    {CLI_TEXT(irradiance_command, output, "output", "FILE", "-",
+              "a line or row a sensor, in the format that the name ends in; '-' is standard output"),
+     .letter = 'o', .content = "file"},
+    {CLI_TEXT(irradiance_command, format, "to", "FORMAT", "by the file's name; csv", "format of the output"),
+     .key.computed = true, .key.words = (const char *const[]){"csv", "json", "npy", "ply", NULL}},
     {CLI_FLAG(irradiance_command, format, "json", "the same as --to json"), .parse = choose_json},
     {CLI_CHOICE(irradiance_command, stand.place, "at", "PLACE", "faces", "where sensors stand on a mesh"),
      .key.words = (const char *const[]){"faces", "vertices", NULL}},
@@ -117,8 +117,8 @@ static aur_result estimate_year(irradiance_command *given, const aur_scene *scen
     year->progress = estimate->progress;
     year->warnings = estimate->warnings;
     memcpy(year->luminance, estimate->luminance, sizeof year->luminance);
-    return cli_daylight_run(&given->daylight, scene, sensors, given->output != NULL ? given->output : "-",
-                            given->format, given->common.quiet, error);
+    return cli_daylight_run(&given->daylight, scene, sensors, given->output, given->format,
+                            given->common.quiet, error);
 }
 
 static aur_result estimate(const irradiance_command *given, const aur_scene *scene,
@@ -130,8 +130,8 @@ static aur_result estimate(const irradiance_command *given, const aur_scene *sce
         aur_irradiance_estimate(scene, sensors, &given->estimate, sizeof *results, results, error);
     cli_progress_clear();
     if (result == AUR_OK)
-        result = aur_irradiance_write(given->output != NULL ? given->output : "-", given->format,
-                                      &given->columns, sensors, sizeof *results, results, error);
+        result = aur_irradiance_write(given->output, given->format, &given->columns, sensors, sizeof *results,
+                                      results, error);
     free(results);
     return result;
 }
@@ -139,9 +139,11 @@ static aur_result estimate(const irradiance_command *given, const aur_scene *sce
 /* The format that the output's name tells, unless one was asked for. */
 static void find_format(const cli_call *call, irradiance_command *given) {
     static const char *const formats[] = {"csv", "json", "npy", "ply"};
-    const char *const dot = given->output != NULL ? strrchr(given->output, '.') : NULL;
-    const bool told = cli_given(call, "to") != NULL || cli_given(call, "json") != NULL;
-    for (size_t i = 0; i < 4 && dot != NULL && !told; ++i)
+    const char *const dot = strrchr(given->output, '.');
+    if (cli_given(call, "to") != NULL || cli_given(call, "json") != NULL)
+        return;
+    given->format = "csv";
+    for (size_t i = 0; i < 4 && dot != NULL; ++i)
         if (strcmp(dot + 1, formats[i]) == 0)
             given->format = formats[i];
 }

@@ -158,13 +158,13 @@ static bool read_option(const cli_option *option, char *text, void *field) {
     return true;
 }
 
-/* Zero is the default of what has a parser of its own. */
+/* Defaults are read as if they had been given; a computed one leaves the field at zero. */
 static bool put_defaults(const cli_verb *verb, char *fields) {
     const cli_option *option;
     size_t offset;
     for (size_t i = 0; (option = cli_option_at(verb, i, &offset)) != NULL; ++i) {
         const char *const text = option->key.default_text;
-        if (text == NULL || option->key.computed || option->parse != NULL)
+        if (text == NULL || option->key.computed)
             continue;
         if (option->list)
             *(cli_list *)(void *)(fields + offset) = (cli_list){1, text};
@@ -172,6 +172,15 @@ static bool put_defaults(const cli_verb *verb, char *fields) {
             return false;
     }
     return true;
+}
+
+/* Whether the text is the help's words for a default that follows from other things: the option counts as not
+ * given. Names of files may be any words.
+ */
+static bool spells_computed_default(const cli_option *option, const char *text) {
+    const aur_key *const key = &option->key;
+    const bool is_file = option->content != NULL && strncmp(option->content, "file", 4) == 0;
+    return key->computed && text != NULL && !is_file && strcmp(text, key->default_text) == 0;
 }
 
 /* What getopt makes of the rows. A long option is LONG_OPTION and its index, a short one its letter. */
@@ -272,6 +281,11 @@ bool cli_read_options(const cli_verb *verb, int argc, char **argv, cli_call *cal
         const size_t index = index_of(verb, code);
         size_t offset = 0;
         const cli_option *const option = cli_option_at(verb, index, &offset);
+        if (spells_computed_default(option, optarg)) {
+            call->texts[index] = NULL;
+            memset(fields + offset, 0, option->key.size);
+            continue;
+        }
         call->texts[index] = optarg != NULL ? optarg : "";
         static char nothing[] = "";
         if (!read_option(option, optarg != NULL ? optarg : nothing, fields + offset))

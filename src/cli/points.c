@@ -48,9 +48,10 @@ static const cli_option options[] = {
     {CLI_TEXT(points_command, warp, "warp", "IMAGE", NULL,
               "move points of the square so that they follow the picture's brightness"),
      .content = "file"},
-    {CLI_CHOICE(points_command, symmetry, "symmetry", "GROUP", "1",
-                "only the rotations in the fundamental zone of a crystal's symmetry, 432 for a cubic one"),
-     .name = aur_symmetry_name},
+    {CLI_CHOICE(points_command, symmetry, "symmetry", "GROUP", "none",
+                "only the rotations in the fundamental zone of a crystal's symmetry, 432 for a cubic one; 1 "
+                "makes w positive"),
+     .key.computed = true, .name = aur_symmetry_name},
     {CLI_FLAG(points_command, matrices, "matrices", "write rotations as matrices, row by row")},
     {CLI_CHOICE(points_command, format, "format", "FORMAT", "by the file's name; csv",
                 "how points are written; svg and png are pictures"),

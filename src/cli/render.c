@@ -272,7 +272,7 @@ static const char *conflict(const cli_call *call, const render_command *command)
         return "render: '--denoise' does not go with '--shard': neighbours of a part's pixels are missing";
     if (command->json && command->output != NULL && strcmp(command->output, "-") == 0)
         return "render: '--json' and the picture do not both go to standard output";
-    const char *const checkpoint = cli_checkpoint_conflict(&command->checkpoint);
+    const char *const checkpoint = cli_checkpoint_conflict(call);
     if (checkpoint != NULL)
         return checkpoint;
     if (command->wish.bias > 0.0 && !cli_is_wish(&command->wish))

@@ -253,10 +253,26 @@ static aur_result read_given(const aur_key *key, const aur_parameters *parameter
                : aur_parameters_fail_value(parameters, item, expected, error);
 }
 
+/* Whether the words that a listing has for the default are no value of the key: "auto", "by the size". */
+static bool default_is_words(const aur_key *key) {
+    union {
+        double numbers[4];
+        uint64_t integers[4];
+        aur_color color;
+    } unused;
+    aur_key copy = *key;
+    copy.offset = 0;
+    if (key->type == AUR_KEY_TEXT || key->type == AUR_KEY_ITEM || key->type == AUR_KEY_TRANSFORM)
+        return strchr(key->default_text, ' ') != NULL;
+    return parse(&copy, key->default_text, &unused) != READ;
+}
+
 aur_result aur_keys_read(size_t count, const aur_key *keys, aur_parameters *parameters, void *fields,
                          aur_error *error) {
     char unused[EXPECTED_CAPACITY];
     for (size_t i = 0; i < count; ++i) {
+        if (keys[i].computed && default_is_words(&keys[i]))
+            aur_parameters_leave_out(parameters, keys[i].name, keys[i].default_text);
         const aur_parameter *const item = aur_parameters_find(parameters, keys[i].name);
         if (keys[i].size == 0)
             continue;

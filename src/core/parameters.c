@@ -147,10 +147,18 @@ const aur_parameter *aur_parameters_find(aur_parameters *parameters, const char 
     for (size_t i = 0; i < parameters->count; ++i) {
         if (strcmp(parameters->items[i].name, name) == 0) {
             parameters->items[i].used = true;
-            return &parameters->items[i];
+            return parameters->items[i].left_out ? NULL : &parameters->items[i];
         }
     }
     return NULL;
+}
+
+void aur_parameters_leave_out(aur_parameters *parameters, const char *name, const char *text) {
+    for (size_t i = 0; i < parameters->count; ++i) {
+        aur_parameter *const item = &parameters->items[i];
+        if (item->text != NULL && strcmp(item->name, name) == 0 && strcmp(item->text, text) == 0)
+            item->left_out = true;
+    }
 }
 
 aur_result aur_parameters_fail(const aur_parameters *parameters, aur_error *error, aur_result result,

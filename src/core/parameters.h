@@ -24,6 +24,7 @@ typedef struct aur_parameter {
     char *name;
     aur_parameter_kind kind;
     bool used;
+    bool left_out; /* counts as not given */
     aur_location location;
     char *text;              /* every kind but the last two */
     double transform[16];    /* row major, world = M * local */
@@ -65,6 +66,9 @@ aur_result aur_parameters_add_object(aur_parameters *parameters, const char *nam
 
 /* The value of a name if it is there, marked as used; else NULL. `name` must be a string literal. */
 const aur_parameter *aur_parameters_find(aur_parameters *parameters, const char *name);
+
+/* A value of that name and text counts as not given from now on, although its name is known. */
+void aur_parameters_leave_out(aur_parameters *parameters, const char *name, const char *text);
 
 /* "KIND 'PLUGIN': " and the formatted text, with the place of the whole. */
 aur_result aur_parameters_fail(const aur_parameters *parameters, aur_error *error, aur_result result,

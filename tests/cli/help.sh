@@ -35,6 +35,7 @@ for kind in set measure integrator shape emitter sensor rfilter film picture; do
   "$aureole" help "$kind" --format csv | tail -n +2 | cut -d, -f1 >names
   [ -s names ] || fail "no $kind"
   "$aureole" help "$kind" --format table >listing
+  [ "$kind" != measure ] || "$aureole" measure --list >listing
   while read -r name; do
     grep -q -- "^  $name\b" listing || fail "help $kind: no $name"
     "$aureole" help "$kind" "$name" >>text || fail "help $kind $name"

@@ -101,14 +101,13 @@ static aur_lattice *create(aur_pointset *set, aur_error *error) {
 }
 
 typedef struct lattice_keys {
-    const char *vector; /* NULL: not given */
+    const char *vector;
     double offset;
 } lattice_keys;
 
 static const aur_key rank1_keys[] = {
     {AUR_KEY_OF_TEXT(lattice_keys, "vector", vector, "auto",
-                     "generating vector 1/a/b, a number a dimension; auto: 1/a with a next to N/Phi"),
-     .computed = true},
+                     "generating vector 1/a/b, a number a dimension; auto: 1/a with a next to N/Phi")},
 };
 
 static const aur_key fibonacci_keys[] = {
@@ -120,11 +119,11 @@ static aur_result prepare_rank1(aur_pointset *set, aur_parameters *parameters, a
     aur_lattice *const data = create(set, error);
     if (data == NULL)
         return AUR_ERROR_MEMORY;
-    lattice_keys p = {.vector = NULL};
+    lattice_keys p = {0};
     const aur_result result = aur_row_read(&set->kind->description.row, parameters, &p, error);
     if (result != AUR_OK)
         return result;
-    const char *const text = p.vector;
+    const char *const text = strcmp(p.vector, "auto") != 0 ? p.vector : NULL;
     size_t count = 2;
     if (text == NULL) {
         data->vector[0] = 1;

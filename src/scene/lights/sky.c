@@ -71,7 +71,7 @@ static const aur_key keys[] = {
                      "of perez: the sun's irradiance outside of the atmosphere, W/m^2"),
      .computed = true},
     {AUR_KEY_OF_COLOR(sky_keys, "ground", ground, 1e30, "0", "radiance from below the horizon, RGB")},
-    {AUR_KEY_OF_COLOR(sky_keys, "ground_albedo", ground_albedo, 1.0, "0",
+    {AUR_KEY_OF_COLOR(sky_keys, "ground_albedo", ground_albedo, 1.0, "by ground",
                       "in place of ground: what is below reflects so much of the sky's irradiance, RGB"),
      .computed = true},
     AUR_SUN_KEYS(sky_keys),

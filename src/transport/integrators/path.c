@@ -21,10 +21,10 @@ static const aur_key keys[] = {
     {AUR_KEY_OF_INTEGER(aur_path, "candidates", candidates, 1, AUR_CANDIDATES_MOST, "1",
                         "points on lights at each surface, of which one gets the shadow ray, chosen by what "
                         "it would bring: less noise under skies for more time")},
-    {AUR_KEY_OF_REAL(aur_path, "lamp_rays", lamp_rays, 0.0, 64.0, "0.5",
+    {AUR_KEY_OF_REAL(aur_path, "lamp_rays", lamp_rays, 0.0, 64.0, "0.5; 0 if the sample count is unknown",
                      "camera rays that a sample has more in the picture's mean, where lamps have edges: they "
-                     "tell how much of a lamp a pixel sees; 0 where nobody knows how many samples there will "
-                     "be")},
+                     "tell how much of a lamp a pixel sees"),
+     .computed = true},
 };
 
 static aur_result create(aur_parameters *parameters, const aur_integrator_context *context,
@@ -40,8 +40,8 @@ static aur_result create(aur_parameters *parameters, const aur_integrator_contex
                            "'hide_emitters=true'");
     /* The noise of lamps seen straight is what keeps the rounds of pictures to an error going until rare
      * reflections of lamps are met, too. */
-    if (!aur_integrator_knows_samples(context) && aur_parameters_find(parameters, "lamp_rays") == NULL)
-        data->lamp_rays = 0.0;
+    if (aur_parameters_find(parameters, "lamp_rays") == NULL)
+        data->lamp_rays = aur_integrator_knows_samples(context) ? 0.5 : 0.0;
     return aur_path_prepare(data, context->scene, error);
 }
 
