@@ -35,9 +35,9 @@ typedef struct aur_curved {
      * which Embree finds it. */
     bool (*intersect)(const aur_shape *shape, const double origin[3], const double direction[3],
                       double nearest, double farthest, double *distance);
-    /* The point of the surface beside `position`, and its tangent along the first texture coordinate. */
+    /* The point of the surface beside `position`, and its derivatives by the two texture coordinates. */
     void (*surface)(const aur_shape *shape, aur_vector position, const aur_hit *hit, aur_shape_point *point,
-                    aur_vector *tangent);
+                    aur_vector tangents[2]);
     /* NULL for shapes that cannot be lights. */
     aur_shape_point (*sample)(const aur_shape *shape, float u, float v);
     /* Draws among the points that `reference` sees, by *pdf a steradian, and tells that density; both may be
@@ -96,9 +96,9 @@ struct aur_shape_descriptor {
     const aur_curved *curved; /* NULL: a mesh */
     /* Reads its own keys and makes the shape in world coordinates (flips included). */
     aur_result (*create)(const aur_shape_input *input, aur_shape *shape, aur_error *error);
-    /* For meshes from files, whose `create` is aur_mesh_file_create. */
+    /* For meshes from files, whose `create` is aur_mesh_file_create: it makes normals at vertices where the
+     * file has none. */
     aur_result (*read_file)(aur_mesh_file *file, aur_mesh *mesh);
-    bool smooths; /* makes normals at vertices where the file has none */
 };
 
 /* What a ray can hit of it, by number. */

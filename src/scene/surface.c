@@ -77,16 +77,18 @@ static void mesh_surface(const aur_shape *shape, const aur_ray *ray, const aur_h
 static void curved_surface(const aur_shape *shape, const aur_ray *ray, const aur_hit *hit,
                            aur_surface *surface) {
     aur_shape_point point;
+    aur_vector tangents[2];
     shape->curved->surface(shape, aur_vector_add_scaled(ray->origin, hit->distance, ray->direction), hit,
-                           &point, &surface->frame.x);
+                           &point, tangents);
     surface->position = point.position;
     surface->geometric_normal = surface->frame.z = point.normal;
     surface->texture = point.texture;
-    surface->frame.y = (aur_vector){0};
+    surface->frame.x = tangents[0];
+    surface->frame.y = tangents[1];
 }
 
 /* frame.z is unit; frame.x is made perpendicular to it where the material asks which way it points. What x
- * and y were of a mesh, the steps of its texture coordinates, is kept for bumpy materials. */
+ * and y were, the steps of the texture coordinates, is kept for bumpy materials. */
 static void finish_frame(const aur_bsdf *bsdf, aur_surface *surface) {
     if (aur_vector_dot(surface->frame.z, surface->geometric_normal) < 0.0f)
         surface->frame.z = aur_vector_scale(surface->frame.z, -1.0f);

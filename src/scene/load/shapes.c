@@ -121,9 +121,6 @@ static aur_result check_attributes(aur_loader *self, const aur_shape *shape, con
     if ((asked & AUR_ATTRIBUTE_FACE_COLOR) != 0 && shape->mesh.face_colors == NULL)
         return aur_xml_fail(self->node, self->error,
                             "shape '%s' has no colours of faces, which a texture asks for", plugin);
-    if (shape->bsdf->bumpy && shape->curved != NULL)
-        return aur_fail_at(self->error, shape->location, AUR_ERROR_UNSUPPORTED,
-                           "shape '%s': a 'bumpmap' needs a mesh", plugin);
     return AUR_OK;
 }
 

@@ -72,7 +72,7 @@ static aur_vector normal_of(const aur_curves *curves, const middle_line *middle,
 /* Texture coordinates: around the middle line, counted from the direction across it and z, and along all
  * segments of the shape. */
 static void surface(const aur_shape *shape, aur_vector position, const aur_hit *hit, aur_shape_point *point,
-                    aur_vector *tangent) {
+                    aur_vector tangents[2]) {
     const aur_curves *const curves = &shape->curves;
     const middle_line middle = middle_at(curves, hit->primitive, hit->u);
     const aur_vector away = aur_vector_normalize(aur_vector_subtract(position, middle.center));
@@ -86,7 +86,16 @@ static void surface(const aur_shape *shape, aur_vector position, const aur_hit *
         position,
         aur_vector_scale(normal, shape->flipped ? -1.0f : 1.0f),
         {.u = aur_shape_azimuth(x, y), .v = ((float)hit->primitive + hit->u) / (float)curves->segment_count}};
-    *tangent = aur_vector_cross(along, away);
+    /* C + r d, whose d turns with the middle line and, where that bends sideways, with the direction across
+     * it and z. */
+    const aur_vector around = aur_vector_cross(along, away), slope = middle.slope, bend = middle.bend;
+    const float squared = aur_vector_dot(slope, slope), flat = slope.x * slope.x + slope.y * slope.y;
+    const float turn = upright ? 0.0f : along.z * (slope.x * bend.y - slope.y * bend.x) / flat;
+    aur_vector onward = aur_vector_add_scaled(slope, middle.growth, away);
+    onward = aur_vector_add_scaled(onward, -middle.radius * aur_vector_dot(away, bend) / squared, slope);
+    onward = aur_vector_add_scaled(onward, middle.radius * turn, around);
+    tangents[0] = aur_vector_scale(around, 2.0f * AUR_PI_F * middle.radius);
+    tangents[1] = aur_vector_scale(onward, (float)curves->segment_count);
 }
 
 static void equal_area(const aur_hit *hit, float coordinates[2]) {

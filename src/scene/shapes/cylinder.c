@@ -48,13 +48,16 @@ static aur_shape_point point_at(const aur_shape *shape, float cosine, float sine
 }
 
 static void surface(const aur_shape *shape, aur_vector position, const aur_hit *hit, aur_shape_point *point,
-                    aur_vector *tangent) {
+                    aur_vector tangents[2]) {
     (void)hit;
     const aur_vector way = aur_vector_subtract(position, shape->center);
     const float x = aur_vector_dot(way, shape->axis[0]), y = aur_vector_dot(way, shape->axis[1]);
     const float size = fmaxf(hypotf(x, y), 1e-30f);
     *point = point_at(shape, x / size, y / size, aur_vector_dot(way, shape->axis[2]));
-    *tangent = aur_vector_add_scaled(aur_vector_scale(shape->axis[0], -y), x, shape->axis[1]);
+    const float turn = 2.0f * AUR_PI_F;
+    tangents[0] =
+        aur_vector_add_scaled(aur_vector_scale(shape->axis[0], -turn * y), turn * x, shape->axis[1]);
+    tangents[1] = aur_vector_scale(shape->axis[2], shape->length);
 }
 
 static aur_shape_point sample(const aur_shape *shape, float u, float v) {
@@ -99,6 +102,18 @@ static aur_result scale_across(const aur_shape_input *input, aur_vector way, dou
                                      "it along its axis, but not across");
 }
 
+/* The axes turn with `to_world`, so that textures do, and are left-handed where it mirrors. `before` and
+ * `way` point from end to end without `to_world` and with it. */
+static void set_axes(const aur_shape_input *input, aur_vector before, aur_vector way, aur_shape *shape) {
+    const aur_frame frame = aur_frame_about(aur_vector_normalize(before));
+    const aur_vector z = aur_vector_normalize(way);
+    const aur_vector x = aur_transform_direction_f(&input->to_world, frame.x);
+    shape->axis[2] = z;
+    shape->axis[0] = aur_vector_normalize(aur_vector_add_scaled(x, -aur_vector_dot(x, z), z));
+    const float side = aur_transform_determinant(&input->to_world) < 0.0 ? -1.0f : 1.0f;
+    shape->axis[1] = aur_vector_scale(aur_vector_cross(z, shape->axis[0]), side);
+}
+
 static aur_result create(const aur_shape_input *input, aur_shape *shape, aur_error *error) {
     cylinder_keys p;
     double scale;
@@ -114,10 +129,7 @@ static aur_result create(const aur_shape_input *input, aur_shape *shape, aur_err
     shape->length = aur_vector_length(way);
     if (!(shape->length > 0.0f) || !isfinite(shape->length))
         return aur_parameters_fail(input->parameters, error, AUR_ERROR_FORMAT, "'p0' and 'p1' must differ");
-    const aur_frame frame = aur_frame_about(aur_vector_scale(way, 1.0f / shape->length));
-    shape->axis[0] = frame.x;
-    shape->axis[1] = frame.y;
-    shape->axis[2] = frame.z;
+    set_axes(input, aur_vector_subtract(end, start), way, shape);
     shape->radius = (float)(p.radius * scale);
     shape->area = 2.0 * AUR_PI * (double)shape->radius * (double)shape->length;
     return AUR_OK;

@@ -49,13 +49,16 @@ static aur_shape_point point_at(const aur_shape *shape, float x, float y) {
 }
 
 static void surface(const aur_shape *shape, aur_vector position, const aur_hit *hit, aur_shape_point *point,
-                    aur_vector *tangent) {
+                    aur_vector tangents[2]) {
     (void)hit;
     const aur_vector way = aur_vector_subtract(position, shape->center);
     double x, y;
     local(shape, (double[3]){way.x, way.y, way.z}, &x, &y);
     *point = point_at(shape, (float)x, (float)y);
-    *tangent = x == 0.0 && y == 0.0 ? shape->axis[0] : way;
+    const float radius = hypotf((float)x, (float)y), turn = 2.0f * AUR_PI_F;
+    tangents[0] = radius > 0.0f ? aur_vector_scale(way, 1.0f / radius) : shape->axis[0];
+    tangents[1] = aur_vector_add_scaled(aur_vector_scale(shape->axis[0], -turn * (float)y), turn * (float)x,
+                                        shape->axis[1]);
 }
 
 static aur_shape_point sample(const aur_shape *shape, float u, float v) {

@@ -18,7 +18,7 @@ aur_result aur_mesh_file_fail(const aur_mesh_file *file, const char *format, ...
                        text);
 }
 
-static aur_result read_mesh(const aur_shape_file *bytes, const aur_mesh_file_keys *keys, aur_shape *shape,
+static aur_result read_mesh(const aur_shape_file *bytes, aur_mesh_file_keys *keys, aur_shape *shape,
                             aur_error *error) {
     aur_mesh_file file = {.scanner = {bytes->data, bytes->data + bytes->size, 0},
                           .path = bytes->path,
@@ -28,6 +28,7 @@ static aur_result read_mesh(const aur_shape_file *bytes, const aur_mesh_file_key
                           .error = error};
     aur_result result = shape->descriptor->read_file(&file, &shape->mesh);
     file.scanner.line = 0;
+    keys->face_normals = file.face_normals;
     if (result == AUR_OK && shape->mesh.triangle_count == 0)
         result = aur_mesh_file_fail(&file, "no face in this file");
     if (result == AUR_OK)
@@ -78,7 +79,7 @@ aur_result aur_mesh_file_create(const aur_shape_input *input, aur_shape *shape, 
     if (result != AUR_OK)
         return result;
     aur_shape_place(input, shape);
-    if (shape->descriptor->smooths && !keys.face_normals && shape->mesh.normals == NULL)
+    if (!keys.face_normals && shape->mesh.normals == NULL)
         result = aur_mesh_smooth(&shape->mesh, parameters->location, error);
     aur_mesh_drop_flat_normals(&shape->mesh);
     return result;

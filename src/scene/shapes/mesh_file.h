@@ -21,7 +21,7 @@ void aur_shape_file_close(aur_shape_file *file);
 struct aur_mesh_file {
     aur_scanner scanner; /* at the file's first byte; `line` is that of errors, 0 for none */
     const char *path;
-    bool face_normals, flip_v; /* as the keys have them */
+    bool face_normals, flip_v; /* as the keys have them; the file may ask for flat triangles, too */
     uint64_t shape_index;
     aur_error *error;
 };

@@ -252,5 +252,4 @@ static const aur_key keys[] = {
 const aur_shape_descriptor aur_shape_obj = {
     .row = {.name = "obj", .summary = "a Wavefront OBJ file", AUR_ROW_KEYS(keys)},
     .create = aur_mesh_file_create,
-    .read_file = read_file,
-    .smooths = true};
+    .read_file = read_file};

@@ -231,5 +231,4 @@ static const aur_key keys[] = {AUR_MESH_FILE_KEYS};
 const aur_shape_descriptor aur_shape_ply = {
     .row = {.name = "ply", .summary = "a Stanford PLY file, ascii or binary", AUR_ROW_KEYS(keys)},
     .create = aur_mesh_file_create,
-    .read_file = read_file,
-    .smooths = true};
+    .read_file = read_file};

@@ -20,7 +20,7 @@ typedef struct serialized {
     z_stream stream;
     size_t left; /* compressed bytes not yet given to zlib */
     uint32_t flags;
-    const aur_mesh_file *file;
+    aur_mesh_file *file;
 } serialized;
 
 static uint64_t little(const char *at, size_t size) {
@@ -71,7 +71,7 @@ static aur_result read_floats(serialized *self, size_t count, float *values) {
 }
 
 static aur_result read_mesh(serialized *self, uint64_t version, aur_mesh *mesh) {
-    const aur_mesh_file *const file = self->file;
+    aur_mesh_file *const file = self->file;
     const size_t compressed = self->left;
     uint64_t counts[2];
     aur_result result = inflate_bytes(self, &self->flags, sizeof self->flags);
@@ -87,7 +87,8 @@ static aur_result read_mesh(serialized *self, uint64_t version, aur_mesh *mesh) 
     if (counts[0] > most || counts[1] > most)
         return aur_mesh_file_fail(file, "the counts of vertices or triangles cannot be right");
     const uint32_t flags = self->flags;
-    const bool normals = (flags & HAS_NORMALS) && !file->face_normals && !(flags & FACE_NORMALS);
+    file->face_normals = file->face_normals || (flags & FACE_NORMALS);
+    const bool normals = (flags & HAS_NORMALS) && !file->face_normals;
     const unsigned parts = (normals ? AUR_MESH_NORMALS : 0u) | (flags & HAS_UVS ? AUR_MESH_UVS : 0u);
     const size_t vertices = (size_t)counts[0], triangles = (size_t)counts[1];
     result =

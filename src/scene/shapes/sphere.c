@@ -37,11 +37,20 @@ static aur_shape_point point_at(const aur_shape *shape, aur_vector normal) {
 }
 
 static void surface(const aur_shape *shape, aur_vector position, const aur_hit *hit, aur_shape_point *point,
-                    aur_vector *tangent) {
+                    aur_vector tangents[2]) {
     (void)hit;
     const aur_vector normal = aur_vector_normalize(aur_vector_subtract(position, shape->center));
     *point = point_at(shape, normal);
-    *tangent = aur_vector_cross(shape->axis[2], normal);
+    /* The axes are left-handed in a mirrored sphere. */
+    const float x = aur_vector_dot(normal, shape->axis[0]), y = aur_vector_dot(normal, shape->axis[1]);
+    const float z = aur_vector_dot(normal, shape->axis[2]), across = hypotf(x, y);
+    const float around = 2.0f * AUR_PI_F * shape->radius, down = AUR_PI_F * shape->radius;
+    tangents[0] =
+        aur_vector_add_scaled(aur_vector_scale(shape->axis[0], -around * y), around * x, shape->axis[1]);
+    const float cosine = across > 0.0f ? x / across : 1.0f, sine = across > 0.0f ? y / across : 0.0f;
+    tangents[1] = aur_vector_add_scaled(aur_vector_scale(shape->axis[0], down * z * cosine), down * z * sine,
+                                        shape->axis[1]);
+    tangents[1] = aur_vector_add_scaled(tangents[1], -down * across, shape->axis[2]);
 }
 
 static aur_shape_point sample(const aur_shape *shape, float u, float v) {
