@@ -23,6 +23,8 @@ static bool attach(aur_embree_scene to, RTCGeometry geometry, size_t id) {
 
 static bool attach_mesh(aur_scene *scene, aur_embree_scene to, const aur_shape *shape, uint32_t id) {
     const aur_mesh *const mesh = &shape->mesh;
+    if (mesh->triangle_count == 0)
+        return true;
     const RTCGeometry geometry = rtcNewGeometry(scene->device, RTC_GEOMETRY_TYPE_TRIANGLE);
     if (geometry == NULL)
         return false;

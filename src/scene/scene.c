@@ -106,6 +106,29 @@ static aur_result add_environment(aur_scene *scene, const aur_emitter *emitter, 
     return AUR_OK;
 }
 
+/* Lights on meshes without area give no light: they are left out with a warning, as such faces are. */
+static void leave_out_dark_lights(aur_scene *scene, const aur_warnings *warnings) {
+    size_t kept = 0, count = 0;
+    aur_location first = {0};
+    for (size_t i = 0; i < scene->emitter_count; ++i) {
+        aur_emitter *const emitter = scene->emitters[i];
+        aur_shape *const shape = emitter->shape < scene->shape_count ? scene->shapes[emitter->shape] : NULL;
+        if (shape != NULL && shape->curved == NULL && !(shape->area > 0.0)) {
+            first = count++ == 0 ? emitter->location : first;
+            shape->emitter = AUR_NO_EMITTER;
+            aur_emitter_destroy(emitter);
+            continue;
+        }
+        if (shape != NULL)
+            shape->emitter = (uint32_t)kept;
+        emitter->index = (uint32_t)kept;
+        scene->emitters[kept++] = emitter;
+    }
+    scene->emitter_count = kept;
+    if (count > 0)
+        aur_warn_at(warnings, first, "%zu lights have no area and give no light (the first is here)", count);
+}
+
 static aur_result prepare_lights(aur_scene *scene, aur_error *error) {
     double *const powers = malloc((scene->emitter_count + 1) * sizeof *powers);
     if (powers == NULL)
@@ -157,6 +180,8 @@ static aur_result load(const char *path, size_t bytes, const char *data, const a
     if (result == AUR_OK) {
         find_sphere(made);
         warn_of_tiny(made, &options.warnings);
+        aur_scene_warn_of_faces(made, &options.warnings);
+        leave_out_dark_lights(made, &options.warnings);
         result = prepare_lights(made, error);
     }
     if (result != AUR_OK) {

@@ -72,6 +72,8 @@ struct aur_scene {
 aur_result aur_scene_build(aur_scene *scene, const aur_warnings *warnings, aur_error *error);
 /* The definitions as scene->definitions has them; NULL when memory is out (contents.c). */
 char *aur_definitions_text(const aur_scene_options *options);
+/* One counted warning for each flaw of polygons, and of the faces of each file (flaws.c). */
+void aur_scene_warn_of_faces(const aur_scene *scene, const aur_warnings *warnings);
 /* Hands the shapes to Embree (accel.c). */
 aur_result aur_scene_build_accel(aur_scene *scene, size_t threads, aur_error *error);
 void aur_scene_release_accel(aur_scene *scene);

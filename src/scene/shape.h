@@ -3,6 +3,7 @@
 
 #include "scene/distribution.h"
 #include "scene/mesh.h"
+#include "scene/meshes/triangulate.h"
 #include "scene/scene.h"
 #include "scene/xml/xml.h"
 
@@ -66,7 +67,9 @@ struct aur_shape {
     float radius, length;
     float inner; /* radius of the hole in a disk of radius 1 */
     aur_curves curves;
-    bool extreme; /* a mesh with a triangle that is not aur_is_usual_square */
+    aur_face_flaws flaws; /* of the faces that the mesh was made from */
+    char *file;           /* that has them; NULL: the scene's */
+    bool extreme;         /* a mesh with a triangle that is not aur_is_usual_square */
     double area;
     const aur_bsdf *bsdf;
     uint32_t emitter; /* index of the light that the shape is, or AUR_NO_EMITTER */

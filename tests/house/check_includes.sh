@@ -42,6 +42,7 @@ scene
 scene/xml
 assimp
 scene/rad scene/model
+scene/meshes
 material
 sphere/directions
 sphere/sets sphere/nearest

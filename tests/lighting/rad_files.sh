@@ -41,7 +41,7 @@ cat colours.rad a.rad b.rad >ab.rad
 printf '<scene version="3.0.0"><emitter type="constant"/></scene>' >sky.xml
 "$aureole" irradiance -q sky.xml whole.rad --sensors points.pts -n 16 >/dev/null || fail "XML and .rad"
 
-printf 'white polygon p 0 0 9 0 0 0 1 0 0 2 0 0\n' >bad.rad
+printf 'white polygon p 0 0 10 0 0 0 1 0 0 2 0 0 1\n' >bad.rad
 refused "bad.rad:1: " irradiance colours.rad lamp.rad bad.rad --sensors points.pts
 printf '\n\n!cat bad.rad\n' >outer.rad
 refused "bad.rad:1: " irradiance colours.rad outer.rad --sensors points.pts

@@ -89,6 +89,7 @@ void aur_shape_destroy(aur_shape *shape) {
     if (shape == NULL)
         return;
     aur_mesh_release(&shape->mesh);
+    free(shape->file);
     free(shape->curves.points);
     free(shape->curves.firsts);
     free(shape);
