@@ -29,7 +29,7 @@ refuse() {
 refuse
 refuse halton
 refuse haltn -n 40
-refuse halton -n 3
+refuse halton -n 3 --cells cells.obj # lunes
 refuse halton -n 40 --domain square
 refuse super-fibonacci -n 40
 refuse halton -n 40 --cells cells.stl

@@ -1,5 +1,7 @@
 #include "check.h"
 
+#include <float.h>
+
 #include <string.h>
 
 #include "sphere_sets.h"
@@ -65,7 +67,7 @@ static void flat_axes_are_covered_at_a_right_angle(void **state) {
     static const double flat[9] = {1, 0, 0, 0.6, 0.8, 0, 0, -1, 0};
     for (size_t count = 1; count <= 3; ++count) {
         own_points points = axes(count, flat);
-        assert_near(measured("covering", &points), 0.5 * AUR_PI, 0.0);
+        assert_near(measured("covering", &points), 0.5 * AUR_PI, DBL_EPSILON);
         assert_true(measured("energy", &points) > 0.0);
         release_points(&points);
     }

@@ -15,17 +15,10 @@ aur_rim aur_rim_at(double degrees) {
 typedef struct part_work {
     const aur_rim *rim;
     const double *point;
-    double first[3], second[3];
     aur_cap_part part;
     size_t exits; /* where the boundary leaves the cap */
     double turn;  /* of the azimuth, along all sides */
 } part_work;
-
-static void direction_of(const part_work *work, aur_corner c, double direction[3]) {
-    for (size_t d = 0; d < 3; ++d)
-        direction[d] = work->point[d] + c.p * work->first[d] + c.q * work->second[d];
-    aur_normalize3(direction);
-}
 
 /* The direction at t between two, along their great circle. */
 static void between(const double a[3], const double b[3], double t, double direction[3]) {
@@ -111,49 +104,33 @@ static void add_side(part_work *work, const double a[3], const double b[3]) {
 }
 
 /* Whether a polygon that is convex holds the direction. */
-static bool holds(const part_work *work, size_t count, const aur_corner *corners, const double direction[3]) {
-    const double along = aur_dot3(direction, work->point);
-    if (!(along > 0.0))
-        return false;
-    const double p = aur_dot3(direction, work->first) / along, q = aur_dot3(direction, work->second) / along;
+static bool holds(size_t count, const double (*corners)[3], const double direction[3]) {
     for (size_t i = 0; i < count; ++i) {
-        const aur_corner a = corners[i], b = corners[i + 1 < count ? i + 1 : 0];
-        if ((b.p - a.p) * (q - a.q) - (b.q - a.q) * (p - a.p) < 0.0)
+        double normal[3];
+        aur_cross3(corners[i], corners[i + 1 < count ? i + 1 : 0], normal);
+        if (aur_dot3(normal, direction) < 0.0)
             return false;
     }
     return true;
 }
 
 /* The places of the rim that count: the farthest one from the point, and arcs without ends. */
-static void add_rim(part_work *work, size_t count, const aur_corner *corners) {
+static void add_rim(part_work *work, size_t count, const double (*corners)[3]) {
     const double *const x = work->point;
     const double off_axis = hypot(x[0], x[1]), sine = work->rim->sine;
     const double opposite[3] = {off_axis > 0.0 ? -sine * x[0] / off_axis : sine,
                                 off_axis > 0.0 ? -sine * x[1] / off_axis : 0.0, work->rim->cosine};
-    const bool held = holds(work, count, corners, opposite);
+    const bool held = holds(count, corners, opposite);
     if (held)
         reach(work, opposite);
     work->part.sides += work->exits == 0 ? held : work->exits;
 }
 
 aur_cap_part aur_cap_part_of(const aur_rim *rim, const double point[3], size_t count,
-                             const aur_corner *corners) {
+                             const double (*corners)[3]) {
     part_work work = {.rim = rim, .point = point};
-    aur_frame3(point, work.first, work.second);
-    double first[3], from[3], to[3];
-    direction_of(&work, corners[0], first);
-    for (size_t d = 0; d < 3; ++d)
-        from[d] = first[d];
-    for (size_t i = 0; i < count; ++i) {
-        const double *next = first;
-        if (i + 1 < count) {
-            direction_of(&work, corners[i + 1], to);
-            next = to;
-        }
-        add_side(&work, from, next);
-        for (size_t d = 0; d < 3; ++d)
-            from[d] = next[d];
-    }
+    for (size_t i = 0; i < count; ++i)
+        add_side(&work, corners[i], corners[i + 1 < count ? i + 1 : 0]);
     /* About the opposite pole the azimuth turns backwards, and the fan has the rest of the cap, negative. */
     work.part.area -= rim->height * fmin(work.turn, 0.0);
     add_rim(&work, count, corners);

@@ -4,12 +4,6 @@
 #include <stdbool.h>
 #include <stddef.h>
 
-/* A corner of a cell in the plane that touches the sphere at its point: the direction is
- * point + p first + q second, scaled, with the frame of aur_frame3. */
-typedef struct aur_corner {
-    double p, q;
-} aur_corner;
-
 typedef struct aur_rim {
     double cosine, sine; /* of the cap's polar angle */
     double height;       /* 1 - cosine, without cancellation */
@@ -24,7 +18,7 @@ typedef struct aur_cap_part {
     size_t sides;  /* of great circles and arcs of the rim */
 } aur_cap_part;
 
-/* `corners` of a convex polygon, counter-clockwise as seen from outside, about the unit vector `point`, which
- * lies within the cap. */
+/* `corners`, unit vectors, of a convex polygon of three or more, counter-clockwise as seen from outside,
+ * about the unit vector `point`, which lies within the cap. */
 aur_cap_part aur_cap_part_of(const aur_rim *rim, const double point[3], size_t count,
-                             const aur_corner *corners);
+                             const double (*corners)[3]);

@@ -7,33 +7,17 @@
 #include "quality/sphere/cap_part.h"
 #include "quality/sphere/voronoi.h"
 
-static aur_result fail_unbounded(aur_error *error) {
-    return aur_fail(error, AUR_ERROR_UNSUPPORTED,
-                    "some direction is 90 degrees or more from every point: the cells are not polygons");
-}
-
 /* Radians. */
 static aur_result covering(const aur_measure_request *request, double *value, aur_error *error) {
     if (request->points->domain == AUR_DOMAIN_ROTATIONS)
         return aur_rotation_covering(request, value, error);
     aur_voronoi_cell *cells;
-    bool unbounded;
-    const aur_result result = aur_voronoi_cells(request, &cells, &unbounded, error);
+    const aur_result result = aur_voronoi_cells(request, &cells, error);
     if (result != AUR_OK)
         return result;
     *value = 0.0;
     for (size_t i = 0; i < request->points->count; ++i)
         *value = fmax(*value, cells[i].radius);
-    if (!unbounded)
-        return AUR_OK;
-    if (request->points->domain == AUR_DOMAIN_HEMISPHERE || request->options.cap_degrees > 0.0)
-        return fail_unbounded(error);
-    if (request->points->domain == AUR_DOMAIN_AXES) { /* all in one plane, to which there is a normal */
-        *value = 0.5 * AUR_PI;
-        return AUR_OK;
-    }
-    /* All points are in one hemisphere: the farthest place is opposite the middle of the smallest cap. */
-    *value = AUR_PI - aur_smallest_cap(request->points);
     return AUR_OK;
 }
 
@@ -65,8 +49,7 @@ enum { LEAST, GREATEST, DEVIATION, FIGURES };
 
 static aur_result area_figure(const aur_measure_request *request, double *value, aur_error *error) {
     aur_voronoi_cell *cells;
-    bool unbounded;
-    const aur_result result = aur_voronoi_cells(request, &cells, &unbounded, error);
+    const aur_result result = aur_voronoi_cells(request, &cells, error);
     if (result != AUR_OK)
         return result;
     const double mean = mean_area(request);
@@ -79,7 +62,7 @@ static aur_result area_figure(const aur_measure_request *request, double *value,
     }
     figures[DEVIATION] = sqrt(squares / (double)request->points->count);
     *value = figures[request->variant];
-    return unbounded ? fail_unbounded(error) : AUR_OK;
+    return AUR_OK;
 }
 
 /* The points as they were given: of an axis the first end. */
@@ -90,12 +73,10 @@ static size_t given_count(const aur_points_view *points) {
 static aur_result voronoi(const aur_measure_request *request, aur_series *series, aur_error *error) {
     static const char *const columns[] = {"point", "area", "radius", "sides"};
     aur_voronoi_cell *cells;
-    bool unbounded;
-    aur_result result = aur_voronoi_cells(request, &cells, &unbounded, error);
+    aur_result result = aur_voronoi_cells(request, &cells, error);
     if (result != AUR_OK)
         return result;
-    result = unbounded ? fail_unbounded(error)
-                       : aur_series_create(series, given_count(request->points), 4, columns, error);
+    result = aur_series_create(series, given_count(request->points), 4, columns, error);
     for (size_t i = 0; i < series->row_count && result == AUR_OK; ++i) {
         double *const row = series->values + 4 * i;
         row[0] = (double)(i + 1);
@@ -110,13 +91,16 @@ static aur_result voronoi_cells(const aur_measure_request *request, aur_series *
     static const char *const columns[AUR_CORNER_COLUMNS] = {"point", "x", "y", "z"};
     const size_t count = given_count(request->points);
     aur_voronoi_cell *cells;
-    bool unbounded;
-    aur_result result = aur_voronoi_cells(request, &cells, &unbounded, error);
-    if (result != AUR_OK || unbounded)
-        return result != AUR_OK ? result : fail_unbounded(error);
+    aur_result result = aur_voronoi_cells(request, &cells, error);
     size_t sides = 0;
-    for (size_t i = 0; i < count; ++i)
+    for (size_t i = 0; i < count && result == AUR_OK; ++i) {
         sides += cells[i].sides;
+        if (cells[i].sides < 3)
+            result = aur_fail(error, AUR_ERROR_UNSUPPORTED,
+                              "the cell of point %zu has %zu sides and is no polygon", i + 1, cells[i].sides);
+    }
+    if (result != AUR_OK)
+        return result;
     result = aur_series_create(series, sides, AUR_CORNER_COLUMNS, columns, error);
     return result == AUR_OK ? aur_voronoi_corners(request, count, cells, series->values, error) : result;
 }

@@ -4,24 +4,19 @@
 #include "quality/measure.h"
 
 typedef struct aur_voronoi_cell {
-    double area;    /* steradians; points in one place share their cell */
-    double radius;  /* the angle to the farthest corner */
-    size_t sides;   /* along the rim of a cap an arc is one */
-    bool unbounded; /* the cell reaches 90 degrees or more from its point: area and radius mean nothing */
+    double area;   /* steradians; points in one place share their cell */
+    double radius; /* the angle to the farthest place of the cell */
+    size_t sides; /* along the rim of a cap an arc is one; a cell may be a lune, a hemisphere or the sphere */
 } aur_voronoi_cell;
 
-/* The cells of all points in the request's memory, and whether one is unbounded; no bit depends on the number
- * of threads. */
-aur_result aur_voronoi_cells(const aur_measure_request *request, aur_voronoi_cell **cells, bool *unbounded,
-                             aur_error *error);
+/* The cells of all points in the request's memory; no bit depends on the number of threads. Errors: MEMORY;
+ * UNSUPPORTED where a cap wider than 90 degrees has a cell of fewer than three sides. */
+aur_result aur_voronoi_cells(const aur_measure_request *request, aur_voronoi_cell **cells, aur_error *error);
 
 enum { AUR_CORNER_COLUMNS = 4 };
 
-/* The corners of the cells of the first `count` points, which cells[] says are bounded, counter-clockwise as
+/* The corners of the cells of the first `count` points, which have three sides or more, counter-clockwise as
  * seen from outside: a row each of the point's number from 1 and a unit vector, cell after cell, as many as
  * the sum of their sides. Not on caps. */
 aur_result aur_voronoi_corners(const aur_measure_request *request, size_t count,
                                const aur_voronoi_cell *cells, double *rows, aur_error *error);
-
-/* The angular radius of the smallest cap that holds all points, which must lie in one hemisphere. */
-double aur_smallest_cap(const aur_points_view *points);
