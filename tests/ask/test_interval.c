@@ -171,6 +171,23 @@ static void test_spread_has_no_bias(void **state) {
     }
 }
 
+/* The larger of the two estimates of tr C^2 is taken: fewer degrees of freedom and a wider interval, as if
+ * the spread between replicas had been as large. */
+static void test_covariances_between_values_count(void **state) {
+    (void)state;
+    const aur_deviations alone = {.trace = 300.0, .spread = 40.0}, larger = {.trace = 300.0, .spread = 160.0};
+    aur_deviations with = alone;
+    with.alike = 160.0;
+    const aur_error_interval narrow = aur_replica_interval(&alone, 4, VALUES, 0.95),
+                             wide = aur_replica_interval(&larger, 4, VALUES, 0.95),
+                             seen = aur_replica_interval(&with, 4, VALUES, 0.95);
+    assert_memory_equal(&seen, &wide, sizeof seen);
+    assert_true(seen.degrees < narrow.degrees && seen.low < narrow.low && seen.high > narrow.high);
+    with.alike = 10.0;
+    const aur_error_interval same = aur_replica_interval(&with, 4, VALUES, 0.95);
+    assert_memory_equal(&same, &narrow, sizeof same);
+}
+
 /* The sums over fours of replicas against all of them one by one. */
 static void test_fours(void **state) {
     (void)state;
@@ -217,6 +234,8 @@ int main(void) {
                                        cmocka_unit_test(test_spread_has_no_bias),
                                        cmocka_unit_test(test_of_one_value),
 
-                                       cmocka_unit_test(test_fours), cmocka_unit_test(test_of_nothing)};
+                                       cmocka_unit_test(test_covariances_between_values_count),
+                                       cmocka_unit_test(test_fours),
+                                       cmocka_unit_test(test_of_nothing)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -94,6 +94,11 @@ static void steps_are_one_render(void **state) {
         assert_int_equal(aur_render_merge(second, half, NULL), AUR_OK);
         assert_int_equal(aur_render_samples(second), 5);
         assert_int_equal(aur_render_step(second, 0, NULL), AUR_OK);
+        double errors[2][4];
+        assert_int_equal(aur_film_error(aur_render_film(first), errors[0], NULL, NULL), AUR_OK);
+        assert_int_equal(aur_film_error(aur_render_film(second), errors[1], NULL, NULL), AUR_OK);
+        for (size_t c = 0; c < 4; ++c)
+            assert_true(errors[0][c] > 0.0 && fabs(errors[0][c] - errors[1][c]) <= 1e-12 * errors[0][c]);
         assert_same(picture(aur_render_film(first)), picture(aur_render_film(second)));
         /* finalgather sums its pixels' samples step by step, so its bits depend on the steps. */
         if (i < 2)
