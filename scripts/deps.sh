@@ -6,14 +6,13 @@ set -euo pipefail
 packages=(
   # tools
   ca-certificates clang-format cmake g++ gcc git ninja-build pkg-config
-  # ray tracing, pictures, scene files, linear algebra
-  libembree-dev libopenexr-dev libpng-dev libstb-dev libexpat1-dev zlib1g-dev liblapacke-dev libopenblas-serial-dev
+  # ray tracing, pictures, scene files, models, linear algebra
+  libembree-dev libopenexr-dev libpng-dev libstb-dev libexpat1-dev libassimp-dev zlib1g-dev liblapacke-dev libopenblas-serial-dev
   # plots, unit tests
   gnuplot-nox libcmocka-dev
 )
-# many machines; models in other forms than XML; the Python package, the test of the tables beside other packages, and that of
-# the binary interface
-[ "${1:-}" != --all ] || packages+=(libopenmpi-dev openmpi-bin libassimp-dev python3-numpy python3-cffi python3-dev abigail-tools xz-utils)
+# many machines; the Python package, the test of the tables beside other packages, and that of the binary interface
+[ "${1:-}" != --all ] || packages+=(libopenmpi-dev openmpi-bin python3-numpy python3-cffi python3-dev abigail-tools xz-utils)
 
 command -v dpkg-query >/dev/null || {
   echo "deps.sh: not a Debian system; install the equivalents of: ${packages[*]}" >&2
@@ -43,7 +42,7 @@ if [ "$(id -u)" != 0 ]; then
   }
   as_root=(sudo)
 fi
-install=(env DEBIAN_FRONTEND=noninteractive apt-get -o Acquire::Retries=3 -qq)
+install=(env DEBIAN_FRONTEND=noninteractive apt-get -o Acquire::Retries=3 -o DPkg::Lock::Timeout=120 -qq)
 "${as_root[@]}" "${install[@]}" update </dev/null
 "${as_root[@]}" "${install[@]}" install -y --no-install-recommends "${missing[@]}" </dev/null >/dev/null
 

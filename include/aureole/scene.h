@@ -21,6 +21,22 @@ typedef struct aur_definition {
     const char *value;
 } aur_definition;
 
+/* Which light is added to a model that is the whole scene: light from all sides, radiance 0.5, and more from
+ * above and the left, irradiance 1.5. */
+typedef enum aur_model_light {
+    AUR_MODEL_LIGHT_AUTO,   /* added unless the model has a light source that is no emitting surface */
+    AUR_MODEL_LIGHT_ALWAYS, /* added to what the model has */
+    AUR_MODEL_LIGHT_NONE    /* never added */
+} aur_model_light;
+
+enum { AUR_MODEL_LIGHT_COUNT = AUR_MODEL_LIGHT_NONE + 1 };
+
+/* "auto", "always", "none" to the value and back. Errors: NAME, *light untouched; the name of a value out of
+ * range is NULL. */
+AUR_EXPERIMENTAL aur_result aur_model_light_from_name(const char *name, aur_model_light *light,
+                                                      aur_error *error) AUR_NONNULL(1, 2);
+AUR_EXPERIMENTAL const char *aur_model_light_name(aur_model_light light);
+
 /* All zero but `size`, as aur_scene_options_default makes it, takes the scene as it stands. */
 typedef struct aur_scene_options {
     size_t size; /* of the caller's struct, so that it can grow */
@@ -35,6 +51,10 @@ typedef struct aur_scene_options {
     /* That build the tree which rays are traced against, where it has a million primitives or more; below,
      * one does. 0: all that there are. The tree does not depend on it. */
     size_t threads;
+    aur_model_light model_light;
+    /* Asked, while a model is read, whether to stop. Models are read by a process of their own
+     * (AUR_ERROR_CANCELLED ends it), so that files which crash or hang their reader are errors. */
+    aur_progress progress;
 } aur_scene_options;
 
 static inline aur_scene_options aur_scene_options_default(void) {

@@ -125,17 +125,19 @@ class Scene:
     """A scene: Mitsuba 3's XML, Radiance's .rad, or a model (.glb, .obj, ...); loaded once, for any number of pictures.
 
     `definitions`: values for the scene's <default>s. `confine`: no file outside of the scene's folder is read. `text`: the
-    scene itself; `path` is then its name in messages, and where its files are looked for.
+    scene itself; `path` is then its name in messages, and where its files are looked for. `model_light`: whether light from all
+    sides is added to a model: "auto" where it has no light source but emitting surfaces, "always", "none".
     """
 
     def __init__(
         self, path: Path, *, definitions: Optional[Mapping[str, Any]] = None, confine: bool = False,
-        text: Union[str, bytes, None] = None,
+        text: Union[str, bytes, None] = None, model_light: str = "auto",
     ):  # fmt: skip
         library, texts, made = _library(), Texts(), ffi.new("aur_scene **")
         options = library.options("scene_options", confine=confine, **texts.definitions(definitions))
+        options.model_light = library.value("model_light", model_light)
         with _Call() as call:
-            call.attach(options, progress=False)
+            call.attach(options)
             if text is None:
                 library.call(library.lib.aur_scene_load, encode(path), options, made)
             else:

@@ -31,8 +31,8 @@ bool writer_color(const struct aiMaterial *material, const char *key, float colo
     return true;
 }
 
-static slot color_slot(const struct aiMaterial *material) {
-    return picture_exists(material, base_slot) ? base_slot : diffuse_slot;
+static slot color_slot(writer *self, const struct aiMaterial *material) {
+    return picture_exists(self, material, base_slot) ? base_slot : diffuse_slot;
 }
 
 static float at_most_one(float value) {
@@ -41,14 +41,15 @@ static float at_most_one(float value) {
 
 /* --- the parts of a material */
 
-static void base_color(const struct aiMaterial *material, float color[4]) {
-    color[0] = color[1] = color[2] = picture_exists(material, color_slot(material)) ? 1.0f : 0.6f;
+static void base_color(writer *self, const struct aiMaterial *material, float color[4]) {
+    color[0] = color[1] = color[2] = picture_exists(self, material, color_slot(self, material)) ? 1.0f : 0.6f;
     color[3] = writer_number(material, "$mat.opacity", 1.0f);
     if (!writer_color(material, "$clr.base", color)) {
         const float opacity = color[3];
         writer_color(material, "$clr.diffuse", color);
         /* Many an OBJ has a texture beside black, or no colour. */
-        if (picture_exists(material, color_slot(material)) && !(color[0] + color[1] + color[2] > 0.0f))
+        if (picture_exists(self, material, color_slot(self, material)) &&
+            !(color[0] + color[1] + color[2] > 0.0f))
             color[0] = color[1] = color[2] = 1.0f;
         color[3] = opacity;
     }
@@ -77,11 +78,11 @@ static bool uses_vertex_colors(const writer *self, unsigned index) {
 
 static void put_color(writer *self, unsigned index, const char *name) {
     const struct aiMaterial *const material = self->scene->mMaterials[index];
-    const slot from = color_slot(material);
+    const slot from = color_slot(self, material);
     float color[4];
-    base_color(material, color);
+    base_color(self, material, color);
     const picture_use use = {from, name, "rgb", false, {color[0], color[1], color[2]}, 0.0f};
-    if (picture_exists(material, from))
+    if (picture_exists(self, material, from))
         picture_put(self, material, &use);
     else if (uses_vertex_colors(self, index))
         writer_put(self,
@@ -107,7 +108,7 @@ static float transmission_of(const struct aiMaterial *material) {
 
 static void put_principled(writer *self, unsigned index) {
     const struct aiMaterial *const material = self->scene->mMaterials[index];
-    const bool both = picture_exists(material, both_slot);
+    const bool both = picture_exists(self, material, both_slot);
     const float metal = at_most_one(writer_number(material, "$mat.metallicFactor", 0.0f));
     const float rough = roughness_of(material), through = transmission_of(material);
     put_color(self, index, "base_color");
@@ -141,18 +142,19 @@ static void put_principled(writer *self, unsigned index) {
 }
 
 /* How the alpha of glTF is meant, or that of others; false: the surface is whole. */
-static bool find_opacity(const struct aiMaterial *material, picture_use *use) {
+static bool find_opacity(writer *self, const struct aiMaterial *material, picture_use *use) {
     struct aiString mode;
     float color[4];
-    base_color(material, color);
-    *use =
-        (picture_use){color_slot(material), "opacity", "alpha", false, {color[3], color[3], color[3]}, 0.0f};
+    base_color(self, material, color);
+    *use = (picture_use){color_slot(self, material),     "opacity", "alpha", false,
+                         {color[3], color[3], color[3]}, 0.0f};
     if (aiGetMaterialString(material, AI_MATKEY_GLTF_ALPHAMODE, &mode) == aiReturn_SUCCESS) {
         if (strcmp(mode.data, "MASK") == 0)
             use->cutoff = writer_number(material, "$mat.gltf.alphaCutoff", 0.5f);
-        return strcmp(mode.data, "OPAQUE") != 0 && (picture_exists(material, use->from) || color[3] < 1.0f);
+        return strcmp(mode.data, "OPAQUE") != 0 &&
+               (picture_exists(self, material, use->from) || color[3] < 1.0f);
     }
-    if (picture_exists(material, opacity_slot)) {
+    if (picture_exists(self, material, opacity_slot)) {
         use->from = opacity_slot;
         use->channel = "rgb";
         use->raw = true;
@@ -171,7 +173,7 @@ static void open_bsdf(writer *self, unsigned index, const char *type, unsigned *
 }
 
 static void put_opacity(writer *self, const struct aiMaterial *material, picture_use *use) {
-    if (use->cutoff > 0.0f && !picture_exists(material, use->from))
+    if (use->cutoff > 0.0f && !picture_exists(self, material, use->from))
         use->factor[0] = use->factor[0] < use->cutoff ? 0.0f : 1.0f;
     picture_put_share(self, material, use);
 }
@@ -180,7 +182,7 @@ static void put_normals(writer *self, const struct aiMaterial *material) {
     float scale = 1.0f;
     aiGetMaterialFloatArray(material, AI_MATKEY_GLTF_TEXTURE_SCALE(aiTextureType_NORMALS, 0), &scale, NULL);
     if (fabsf(scale - 1.0f) > 1e-3f)
-        writer_note(self, "the scale %g of a normal texture is left out", (double)scale);
+        writer_note("the scale %g of a normal texture is left out", (double)scale);
     picture_put(self, material,
                 &(picture_use){normal_slot, "normalmap", "rgb", true, {1.0f, 1.0f, 1.0f}, 0.0f});
 }
@@ -191,13 +193,13 @@ static void put_material(writer *self, unsigned index) {
     const bool unlit = is_unlit(material);
     picture_use opacity;
     unsigned open = 0;
-    if (find_opacity(material, &opacity)) {
+    if (find_opacity(self, material, &opacity)) {
         open_bsdf(self, index, "mask", &open);
         put_opacity(self, material, &opacity);
     }
     if (!(transmission_of(material) > 0.0f))
         open_bsdf(self, index, "twosided", &open);
-    if (picture_exists(material, normal_slot) && !unlit) {
+    if (picture_exists(self, material, normal_slot) && !unlit) {
         open_bsdf(self, index, "normalmap", &open);
         put_normals(self, material);
     }
@@ -217,8 +219,8 @@ void writer_put_materials(writer *self) {
 
 /* --- what shines */
 
-static bool emission_of(const struct aiMaterial *material, float color[4]) {
-    color[0] = color[1] = color[2] = picture_exists(material, emissive_slot) ? 1.0f : 0.0f;
+static bool emission_of(writer *self, const struct aiMaterial *material, float color[4]) {
+    color[0] = color[1] = color[2] = picture_exists(self, material, emissive_slot) ? 1.0f : 0.0f;
     writer_color(material, "$clr.emissive", color);
     const float strength = writer_number(material, "$mat.emissiveIntensity", 1.0f);
     for (size_t i = 0; i < 3; ++i)
@@ -226,10 +228,10 @@ static bool emission_of(const struct aiMaterial *material, float color[4]) {
     return color[0] + color[1] + color[2] > 0.0f;
 }
 
-bool writer_shines(const writer *self, unsigned material) {
+bool writer_shines(writer *self, unsigned material) {
     float color[4];
     return is_unlit(self->scene->mMaterials[material]) ||
-           emission_of(self->scene->mMaterials[material], color);
+           emission_of(self, self->scene->mMaterials[material], color);
 }
 
 void writer_put_emitter(writer *self, unsigned index) {
@@ -238,7 +240,7 @@ void writer_put_emitter(writer *self, unsigned index) {
     writer_put(self, "<emitter type=\"area\">");
     if (is_unlit(material)) {
         put_color(self, index, "radiance");
-    } else if (emission_of(material, color) && picture_exists(material, emissive_slot)) {
+    } else if (emission_of(self, material, color) && picture_exists(self, material, emissive_slot)) {
         picture_put(
             self, material,
             &(picture_use){emissive_slot, "radiance", "rgb", false, {color[0], color[1], color[2]}, 0.0f});

@@ -1,6 +1,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "assimp/stream.h"
 #include "assimp/writer.h"
 
 /* The columns of a mesh's PLY. */
@@ -14,11 +15,11 @@ static const struct aiMaterial *material_of(const writer *self, const struct aiM
     return self->scene->mMaterials[mesh->mMaterialIndex];
 }
 
-static columns columns_of(const writer *self, const struct aiMesh *mesh) {
+static columns columns_of(writer *self, const struct aiMesh *mesh) {
     const struct aiMaterial *const material = material_of(self, mesh);
     columns all = {.normals = mesh->mNormals != NULL,
                    .colors = mesh->mColors[0] != NULL,
-                   .uv_set = writer_uv_set(material),
+                   .uv_set = writer_uv_set(self, material),
                    .factor = {1.0f, 1.0f, 1.0f, 1.0f}};
     all.uvs = all.uv_set < AI_MAX_NUMBER_OF_TEXTURECOORDS && mesh->mTextureCoords[all.uv_set] != NULL;
     writer_color(material, "$clr.base", all.factor);
@@ -77,17 +78,20 @@ static void add_mesh(writer *self, unsigned index) {
     const size_t size =
         (size_t)length + 4 * floats * mesh->mNumVertices + (1 + 3 * sizeof(uint32_t)) * (size_t)faces;
     char *const data = malloc(size);
-    char *at = data != NULL ? append(data, header, (size_t)length) : NULL;
-    for (unsigned i = 0; data != NULL && i < mesh->mNumVertices; ++i)
+    if (data == NULL)
+        stream_fail_memory();
+    char *at = append(data, header, (size_t)length);
+    for (unsigned i = 0; i < mesh->mNumVertices; ++i)
         at = append_vertex(at, mesh, &all, i);
-    for (unsigned i = 0; data != NULL && i < mesh->mNumFaces; ++i) {
+    for (unsigned i = 0; i < mesh->mNumFaces; ++i) {
         const struct aiFace *const face = &mesh->mFaces[i];
         if (face->mNumIndices != 3)
             continue;
         *at++ = 3;
         at = append(at, face->mIndices, 3 * sizeof(uint32_t));
     }
-    self->mesh_file[index] = writer_add_file(self, "mesh", index, size, data);
+    self->mesh_file[index] = writer_add_mesh_file(self, size, data);
+    free(data);
 }
 
 void writer_add_meshes(writer *self) {

@@ -49,20 +49,14 @@ static triple normalize(triple v) {
 static void put_matrix(writer *self, const writer_matrix *to_world) {
     writer_put(self, "<transform name=\"to_world\"><matrix value=\"");
     for (size_t i = 0; i < 16; ++i)
-        writer_put(self, "%.9g ", to_world->m[i]);
+        writer_put(self, "%.17g ", to_world->m[i]);
     writer_put(self, "\"/></transform>");
 }
 
-static void put_look(writer *self, triple origin, triple direction, triple up) {
-    const triple target = add_scaled(origin, 1.0, direction);
-    /* What is upright along the view is no matter, but must be another direction. */
-    const triple d = normalize(direction), u = normalize(up);
-    if (fabs(d.x * u.x + d.y * u.y + d.z * u.z) > 0.9999)
-        up = fabs(d.x) < 0.9 ? (triple){1.0, 0.0, 0.0} : (triple){0.0, 1.0, 0.0};
-    writer_put(self,
-               "<transform name=\"to_world\"><lookat origin=\"%.9g, %.9g, %.9g\" target=\"%.9g, %.9g, %.9g\" "
-               "up=\"%.9g, %.9g, %.9g\"/></transform>\n",
-               origin.x, origin.y, origin.z, target.x, target.y, target.z, up.x, up.y, up.z);
+static void copy(double to[3], triple from) {
+    to[0] = from.x;
+    to[1] = from.y;
+    to[2] = from.z;
 }
 
 /* --- shapes */
@@ -72,8 +66,8 @@ static void widen(writer *self, const struct aiMesh *mesh, const writer_matrix *
         const triple p = apply_vector(to_world, mesh->mVertices[i], 1.0);
         const double at[3] = {p.x, p.y, p.z};
         for (size_t k = 0; k < 3; ++k) {
-            self->lower[k] = fmin(self->lower[k], at[k]);
-            self->upper[k] = fmax(self->upper[k], at[k]);
+            self->made.lower[k] = fmin(self->made.lower[k], at[k]);
+            self->made.upper[k] = fmax(self->made.upper[k], at[k]);
         }
     }
 }
@@ -95,7 +89,7 @@ static void put_mesh(writer *self, unsigned index, const writer_matrix *to_world
 }
 
 /* A mesh of many nodes is a group, unless it shines: a light is one shape. */
-static bool is_group(const writer *self, unsigned mesh) {
+static bool is_group(writer *self, unsigned mesh) {
     return self->mesh_uses[mesh] > 1 && !writer_shines(self, self->scene->mMeshes[mesh]->mMaterialIndex);
 }
 
@@ -104,7 +98,8 @@ static void place_mesh(writer *self, unsigned index, const writer_matrix *to_wor
     if (self->mesh_file[index] == NO_FILE)
         return;
     widen(self, mesh, to_world);
-    self->has_light = self->has_light || writer_shines(self, mesh->mMaterialIndex);
+    if (writer_shines(self, mesh->mMaterialIndex))
+        self->made.emits = 1;
     if (!is_group(self, index)) {
         put_mesh(self, index, to_world);
         return;
@@ -138,18 +133,30 @@ static void put_color(writer *self, const char *name, struct aiColor3D color) {
                fmax(0.0, (double)color.g), fmax(0.0, (double)color.b));
 }
 
+static void put_spot(writer *self, triple origin, triple direction) {
+    /* What is upright does not matter, but must be another direction. */
+    const triple up = fabs(direction.y) < 0.9 ? (triple){0.0, 1.0, 0.0} : (triple){1.0, 0.0, 0.0};
+    /* At map coordinates a target one unit away would round the direction. */
+    const triple target =
+        add_scaled(origin, 1.0 + fabs(origin.x) + fabs(origin.y) + fabs(origin.z), direction);
+    writer_put(self,
+               "<transform name=\"to_world\"><lookat origin=\"%.17g, %.17g, %.17g\" "
+               "target=\"%.17g, %.17g, %.17g\" up=\"%g, %g, %g\"/></transform>\n",
+               origin.x, origin.y, origin.z, target.x, target.y, target.z, up.x, up.y, up.z);
+}
+
 static void place_light(writer *self, const struct aiLight *light, const writer_matrix *to_world) {
     const triple origin = apply_vector(to_world, light->mPosition, 1.0);
     const triple direction = normalize(apply_vector(to_world, light->mDirection, 0.0));
     switch (light->mType) {
     case aiLightSource_DIRECTIONAL:
         writer_put(self,
-                   "<emitter type=\"directional\"><vector name=\"direction\" value=\"%.9g %.9g %.9g\"/>",
+                   "<emitter type=\"directional\"><vector name=\"direction\" value=\"%.17g %.17g %.17g\"/>",
                    direction.x, direction.y, direction.z);
         put_color(self, "irradiance", light->mColorDiffuse);
         break;
     case aiLightSource_POINT:
-        writer_put(self, "<emitter type=\"point\"><point name=\"position\" value=\"%.9g %.9g %.9g\"/>",
+        writer_put(self, "<emitter type=\"point\"><point name=\"position\" value=\"%.17g %.17g %.17g\"/>",
                    origin.x, origin.y, origin.z);
         put_color(self, "intensity", light->mColorDiffuse);
         break;
@@ -163,37 +170,18 @@ static void place_light(writer *self, const struct aiLight *light, const writer_
                    "<float name=\"beam_width\" value=\"%.9g\"/>",
                    outer, inner);
         put_color(self, "intensity", light->mColorDiffuse);
-        put_look(self, origin, direction, (triple){0.0, 1.0, 0.0});
+        put_spot(self, origin, direction);
         break;
     }
     default:
-        writer_note(self, "the light '%s' is of a kind that is not known: it is left out", light->mName.data);
+        writer_note("the light '%s' is of an unknown kind: it is left out", light->mName.data);
         return;
     }
     writer_put(self, "</emitter>\n");
-    self->has_light = true;
+    self->made.has_light = 1;
 }
 
 /* --- cameras */
-
-static void put_sensor(writer *self, const char *fov_axis, double fov, double aspect, triple origin,
-                       triple direction, triple up) {
-    const double width = 960.0, height = fmin(fmax(round(width / aspect), 1.0), 9600.0);
-    writer_put(self,
-               "<default name=\"integrator\" value=\"path\"/><default name=\"spp\" value=\"64\"/>"
-               "<default name=\"resx\" value=\"%.0f\"/><default name=\"resy\" value=\"%.0f\"/>"
-               "<default name=\"rfilter\" value=\"gaussian\"/><default name=\"max_depth\" value=\"-1\"/>\n"
-               "<integrator type=\"$integrator\"><integer name=\"max_depth\" value=\"$max_depth\"/>"
-               "</integrator>\n<sensor type=\"perspective\"><string name=\"fov_axis\" value=\"%s\"/>"
-               "<float name=\"fov\" value=\"%.9g\"/>",
-               width, height, fov_axis, fmin(fmax(fov, 0.01), 179.0));
-    put_look(self, origin, direction, up);
-    writer_put(self,
-               "<sampler type=\"multijitter\"><integer name=\"sample_count\" value=\"$spp\"/></sampler>"
-               "<film type=\"hdrfilm\"><integer name=\"width\" value=\"$resx\"/>"
-               "<integer name=\"height\" value=\"$resy\"/><rfilter type=\"$rfilter\"/></film></sensor>\n");
-    self->has_sensor = true;
-}
 
 /* Across the picture, in degrees. Up to 5.2 assimp takes glTF's angle, that of the height, times the ratio.
  */
@@ -205,20 +193,22 @@ static double angle_across(const writer *self, const struct aiCamera *camera) {
 
 /* Without a ratio of sides the angle is that of the height. */
 static void place_camera(writer *self, const struct aiCamera *camera, const writer_matrix *to_world) {
-    if (self->has_sensor) {
-        writer_note(self, "the camera '%s' is left out: the first one is taken", camera->mName.data);
+    aur_import_camera *const made = &self->made.camera;
+    if (made->is_there != 0) {
+        writer_note("the camera '%s' is left out: the first one is taken", camera->mName.data);
         return;
     }
-    if (camera->mOrthographicWidth > 0.0f) {
-        writer_note(self, "the camera '%s' is orthographic: it is left out", camera->mName.data);
-        return;
-    }
-    const bool has_ratio = camera->mAspect > 0.0f;
     /* assimp gives cameras of glTF the place of their node, which the node gives them again. */
     const struct aiVector3D position = self->is_gltf ? (struct aiVector3D){0} : camera->mPosition;
-    put_sensor(self, has_ratio ? "x" : "y", angle_across(self, camera),
-               has_ratio ? (double)camera->mAspect : 4.0 / 3.0, apply_vector(to_world, position, 1.0),
-               apply_vector(to_world, camera->mLookAt, 0.0), apply_vector(to_world, camera->mUp, 0.0));
+    *made = (aur_import_camera){.is_there = 1,
+                                .angle = angle_across(self, camera),
+                                .angle_is_vertical = !(camera->mAspect > 0.0f),
+                                .aspect = (double)camera->mAspect};
+    copy(made->origin, apply_vector(to_world, position, 1.0));
+    copy(made->direction, apply_vector(to_world, camera->mLookAt, 0.0));
+    copy(made->up, apply_vector(to_world, camera->mUp, 0.0));
+    if (camera->mOrthographicWidth > 0.0f)
+        made->half_width = (double)camera->mOrthographicWidth;
 }
 
 /* --- the tree */
@@ -229,7 +219,7 @@ static void place_named(writer *self, const struct aiNode *node, const writer_ma
     for (unsigned i = 0; i < scene->mNumLights; ++i)
         if (strcmp(scene->mLights[i]->mName.data, node->mName.data) == 0)
             place_light(self, scene->mLights[i], to_world);
-    for (unsigned i = 0; i < scene->mNumCameras && self->source->alone; ++i)
+    for (unsigned i = 0; i < scene->mNumCameras; ++i)
         if (strcmp(scene->mCameras[i]->mName.data, node->mName.data) == 0)
             place_camera(self, scene->mCameras[i], to_world);
 }
@@ -243,51 +233,9 @@ static void place_node(writer *self, const struct aiNode *node, const writer_mat
         place_node(self, node->mChildren[i], &to_world);
 }
 
-/* --- what is missing */
-
-enum { ANGLE = 35 }; /* of the camera, in degrees */
-
-/* From before, above and the right, as far as all of a ball around the model is seen. */
-static void add_camera(writer *self, triple from, triple up) {
-    triple middle = {0.5 * (self->lower[0] + self->upper[0]), 0.5 * (self->lower[1] + self->upper[1]),
-                     0.5 * (self->lower[2] + self->upper[2])};
-    double squared = 0.0;
-    for (size_t i = 0; i < 3; ++i)
-        squared += pow(self->upper[i] - self->lower[i], 2.0);
-    const double distance = 0.5 * sqrt(squared) / sin(0.5 * ANGLE * pi / 180.0);
-    put_sensor(self, "y", ANGLE, 4.0 / 3.0, add_scaled(middle, distance, from),
-               add_scaled((triple){0.0, 0.0, 0.0}, -1.0, from), up);
-    writer_note(self, "this model has no camera: it is seen from (%g, %g, %g)", middle.x + distance * from.x,
-                middle.y + distance * from.y, middle.z + distance * from.z);
-}
-
-/* Light from all sides, and more from above and the left: white is about 1 where that falls straight on. */
-static void add_lights(writer *self, triple up, triple right) {
-    const triple way = add_scaled(add_scaled((triple){0.0, 0.0, 0.0}, -1.0, up), 0.5, right);
-    const triple front = up.y > 0.5 ? (triple){0.0, 0.0, -0.5} : (triple){0.0, 0.5, 0.0};
-    const triple direction = add_scaled(way, 1.0, front);
-    writer_put(self,
-               "<emitter type=\"constant\"><rgb name=\"radiance\" value=\"0.5\"/></emitter>\n"
-               "<emitter type=\"directional\"><vector name=\"direction\" value=\"%.9g %.9g %.9g\"/>"
-               "<rgb name=\"irradiance\" value=\"1.5\"/></emitter>\n",
-               direction.x, direction.y, direction.z);
-    writer_note(self, "this model has no light: it is lit from all sides, and from the left above");
-}
-
 void writer_put_nodes(writer *self) {
     const writer_matrix identity = {{1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1}};
     count_uses(self, self->scene->mRootNode);
     put_groups(self);
     place_node(self, self->scene->mRootNode, &identity);
-    if (!self->source->alone || !(self->lower[0] <= self->upper[0]))
-        return;
-    /* Most forms have y upwards, or assimp turns them so; those of makers of parts have z. */
-    const size_t length = strlen(self->source->name);
-    const char *const ending = length > 4 ? self->source->name + length - 4 : "";
-    const bool z_up = strcmp(ending, ".stl") == 0;
-    const triple up = z_up ? (triple){0.0, 0.0, 1.0} : (triple){0.0, 1.0, 0.0};
-    if (!self->has_sensor)
-        add_camera(self, normalize(z_up ? (triple){0.5, -1.0, 0.35} : (triple){0.5, 0.35, 1.0}), up);
-    if (!self->has_light)
-        add_lights(self, up, (triple){1.0, 0.0, 0.0});
 }

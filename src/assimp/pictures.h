@@ -19,8 +19,9 @@ typedef struct picture_use {
     float factor[3], cutoff;
 } picture_use;
 
-bool picture_exists(const struct aiMaterial *material, slot from);
-/* As a <texture>, if there is one. */
+/* Whether there is one that can be read. */
+bool picture_exists(writer *self, const struct aiMaterial *material, slot from);
+/* As a <texture>; there must be one. */
 void picture_put(writer *self, const struct aiMaterial *material, const picture_use *use);
 /* A share of the surface's light: a channel of a texture times a number, or that number. */
 void picture_put_share(writer *self, const struct aiMaterial *material, const picture_use *use);

@@ -3,10 +3,11 @@
 #pragma once
 
 #include <assimp/scene.h>
-#include <stdarg.h>
+#include <stdbool.h>
 #include <stdio.h>
 
-#include "scene/model/model.h"
+#include "core/error.h"
+#include "scene/model/message.h"
 
 /* What a node of the tree does to coordinates: row major, the last row is 0 0 0 1. */
 typedef struct writer_matrix {
@@ -15,16 +16,16 @@ typedef struct writer_matrix {
 
 typedef struct writer {
     const struct aiScene *scene;
-    const aur_model_source *source;
-    aur_model_files *files;
     FILE *xml;
     bool is_gltf;
     unsigned first;      /* files before this model: makes ids of several models differ */
+    unsigned files;      /* of this model, so far */
     unsigned *mesh_file; /* of each mesh: its file, or NO_FILE where there is no triangle */
     unsigned *mesh_uses; /* how many nodes have it */
-    unsigned *image_file;
-    bool out_of_memory, has_light, has_sensor;
-    double lower[3], upper[3]; /* of all triangles in the world */
+    unsigned
+        *image_file; /* of each picture that the model holds: its file plus 1, NO_FILE, or 0: not sent yet */
+    struct writer_picture *pictures; /* beside the model, that were asked for */
+    aur_import_scene made;
 } writer;
 
 #define NO_FILE UINT32_MAX
@@ -34,18 +35,20 @@ void writer_put(writer *self, const char *format, ...) AUR_PRINTF(2, 3);
 /* A text in which XML and variables see nothing of their own. */
 void writer_put_escaped(writer *self, const char *text);
 /* A warning about the model. */
-void writer_note(const writer *self, const char *format, ...) AUR_PRINTF(2, 3);
-/* Adds a file in memory and takes `data`; its number, or NO_FILE where memory is out. */
-unsigned writer_add_file(writer *self, const char *kind, unsigned index, size_t size, char *data);
+void writer_note(const char *format, ...) AUR_PRINTF(1, 2);
+/* Adds a mesh's file; its number. */
+unsigned writer_add_mesh_file(writer *self, size_t size, const void *data);
+/* The same of a picture; NO_FILE for one that cannot be read. */
+unsigned writer_add_picture_file(writer *self, size_t size, const void *data);
 
 /* The meshes as PLY files: positions, and what they have of normals, texture coordinates and colours. */
 void writer_add_meshes(writer *self);
 /* <bsdf>s with the ids material-FIRST-i. */
 void writer_put_materials(writer *self);
 /* Whether shapes of the material shine, and the <emitter> inside of one. */
-bool writer_shines(const writer *self, unsigned material);
+bool writer_shines(writer *self, unsigned material);
 void writer_put_emitter(writer *self, unsigned material);
-/* Shapes, lights and cameras where the nodes put them; what the scene lacks of a camera and light. */
+/* Shapes, lights and the first camera, where the nodes put them. */
 void writer_put_nodes(writer *self);
 
 /* A number of a material, or `otherwise`. */
@@ -53,4 +56,4 @@ float writer_number(const struct aiMaterial *material, const char *key, float ot
 /* A colour of a material; false, and `color` as it was, where there is none. */
 bool writer_color(const struct aiMaterial *material, const char *key, float color[4]);
 /* Which of a mesh's texture coordinates its material uses. */
-unsigned writer_uv_set(const struct aiMaterial *material);
+unsigned writer_uv_set(writer *self, const struct aiMaterial *material);

@@ -33,6 +33,7 @@ static int describe_scene(const info_input *input, const info_options *options) 
                                              .definition_count = options->definitions.count,
                                              .definitions = options->definitions.items,
                                              .confine = options->definitions.confine,
+                                             .model_light = options->definitions.model_light,
                                              .warnings = cli_warnings(options->common.quiet)};
     const aur_result loaded =
         input->data != NULL
@@ -261,6 +262,7 @@ const cli_verb cli_verb_info = {
     .too_many = "one file is needed",
     .operands = {{"FILE", "a scene, a picture, points or a table of weights", .content = "file"}},
     .groups = {{cli_definitions_option, offsetof(info_options, definitions)},
+               {cli_model_light_option, offsetof(info_options, definitions)},
                {cli_format_option, offsetof(info_options, common)},
                {cli_quiet_option, offsetof(info_options, common)},
                {cli_limits_option, offsetof(info_options, common)}},

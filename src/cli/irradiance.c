@@ -53,6 +53,10 @@ static const cli_option options[] = {
     {CLI_TEXT(irradiance_command, format, "to", "FORMAT", "by the file's name; csv", "format of the output"),
      .key.computed = true, .key.words = (const char *const[]){"csv", "json", "npy", "ply", NULL}},
     {CLI_FLAG(irradiance_command, format, "json", "the same as --to json"), .parse = choose_json},
+    {CLI_CHOICE(
+         irradiance_command, definitions.model_light, "model-light", "WHEN", "none",
+         "add light from all sides to a model: auto where it has no light source but emitting surfaces"),
+     .key.words = (const char *const[]){"auto", "always", "none", NULL}},
     {CLI_CHOICE(irradiance_command, stand.place, "at", "PLACE", "faces", "where sensors stand on a mesh"),
      .key.words = (const char *const[]){"faces", "vertices", NULL}},
     {CLI_REAL(irradiance_command, stand.lift, "lift", "D", -INFINITY, INFINITY, "0",
@@ -168,6 +172,8 @@ static int run(const cli_call *call) {
     load.definition_count = given->definitions.count;
     load.definitions = given->definitions.items;
     load.confine = given->definitions.confine;
+    load.model_light = given->definitions.model_light;
+    load.progress = given->estimate.progress;
     load.further_count = call->operand_count - 1;
     load.further = (const char *const *)call->operands + 1;
     load.warnings = cli_warnings(given->common.quiet);

@@ -46,6 +46,13 @@ const cli_option cli_definitions_option[] = {
     {CLI_FLAG(cli_definitions, confine, "confine", "refuse a scene that names a file outside of its folder")},
     {.key = {0}}};
 
+const cli_option cli_model_light_option[] = {
+    {CLI_CHOICE(
+         cli_definitions, model_light, "model-light", "WHEN", "auto",
+         "add light from all sides to a model: auto where it has no light source but emitting surfaces"),
+     .key.words = (const char *const[]){"auto", "always", "none", NULL}},
+    {.key = {0}}};
+
 const cli_option *cli_option_at(const cli_verb *verb, size_t index, size_t *offset) {
     for (const cli_group *group = verb->groups; group->options != NULL; ++group) {
         for (const cli_option *option = group->options; option->key.name != NULL; ++option) {

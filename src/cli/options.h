@@ -125,5 +125,6 @@ typedef struct cli_definitions {
     size_t count;
     aur_definition items[CLI_DEFINITION_LIMIT];
     bool confine;
+    aur_model_light model_light;
 } cli_definitions;
-extern const cli_option cli_definitions_option[]; /* of a cli_definitions */
+extern const cli_option cli_definitions_option[], cli_model_light_option[]; /* of a cli_definitions */

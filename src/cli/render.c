@@ -221,6 +221,8 @@ static int render(const char *path, render_command *command, cli_errors *errors)
                                              .definition_count = command->definitions.count,
                                              .definitions = command->definitions.items,
                                              .confine = command->definitions.confine,
+                                             .model_light = command->definitions.model_light,
+                                             .progress = command->options.progress,
                                              .threads = command->common.threads,
                                              .warnings = command->options.warnings};
     aur_scene *scene = NULL;
@@ -329,6 +331,7 @@ const cli_verb cli_verb_render = {
                {cli_watch_options, offsetof(render_command, watch)},
                {cli_denoise_options, offsetof(render_command, denoise)},
                {cli_definitions_option, offsetof(render_command, definitions)},
+               {cli_model_light_option, offsetof(render_command, definitions)},
                {cli_threads_option, offsetof(render_command, common)},
                {cli_quiet_option, offsetof(render_command, common)},
                {cli_cache_option, offsetof(render_command, common)},

@@ -6,7 +6,7 @@ set -u
 aureole=$1
 fail() { echo "$1"; exit 1; }
 /usr/bin/python3 -c '' 2>/dev/null || { echo "skipped: there is no Python to write models with"; exit 77; }
-[ -e "$(dirname "$aureole")/aureole-assimp.so" ] || {
+[ -e "$(dirname "$aureole")/aureole-import" ] || {
   printf 'v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n' >none.obj
   "$aureole" info none.obj >said 2>&1
   [ $? = 2 ] && grep -q 'libassimp-dev' said || fail "without assimp a model is not refused with words: $(cat said)"
@@ -214,7 +214,12 @@ grep -q '^width  *960' said || fail "info does not say the film of a model: $(ca
 "$aureole" render model.glb -q --width 8 --spp 1 -o model.png || fail "no PNG of a model"
 "$aureole" info cube.obj >said 2>&1 || fail "info of an OBJ: $(cat said)"
 grep -q 'has no camera' said || fail "the camera that is added is not said: $(cat said)"
-grep -q 'has no light' said && fail "what glows is not seen as a light"
+grep -q 'has no light source but surfaces that emit' said || fail "the light that is added to what glows is not reported: $(cat said)"
+"$aureole" info cube.obj --model-light none >said 2>&1 || fail "info without added light: $(cat said)"
+grep -q 'has no light' said && fail "light is added in spite of --model-light none: $(cat said)"
+[ "$(sed -n 's/^emitters  *//p' said)" = 1 ] || fail "a quad that glows is not one emitter: $(cat said)"
+"$aureole" info model.glb --model-light always >said 2>&1 || fail "info with more light: $(cat said)"
+[ "$(sed -n 's/^emitters  *//p' said)" = 6 ] || fail "no light is added to lamps by --model-light always: $(cat said)"
 "$aureole" info dark.gltf >said 2>&1 && grep -q 'has no light' said || fail "the light that is added is not said: $(cat said)"
 
 # One body by its points alone: the pictures from the camera that is added are the same. 3DS counts z upwards, and assimp
@@ -263,7 +268,6 @@ refused() {
 }
 refused short.glb 'cannot be read'
 refused lacking.gltf 'lacking.bin'
-refused no-picture.gltf "cannot find 'lacking.png'"
 printf 'v 0 0 0\nv 1 0 0\nl 1 2\n' >line.obj
 refused line.obj 'cannot be read'
 printf '{"asset": {"version": "2.0"}, "meshes": [}' >broken.gltf

@@ -4,8 +4,9 @@
 #include <string.h>
 #include <strings.h>
 
-#include "core/module.h"
+#include "core/names.h"
 #include "core/text.h"
+#include "scene/model/import.h"
 
 /* Of what assimp reads, the forms that others than their own program write. */
 bool aur_model_is_name(const char *path) {
@@ -18,16 +19,25 @@ bool aur_model_is_name(const char *path) {
     return false;
 }
 
+static const char *const light_names[] = {"auto", "always", "none"};
+
+aur_result aur_model_light_from_name(const char *name, aur_model_light *light, aur_error *error) {
+    size_t index;
+    const aur_result result = aur_names_choose(aur_names_of(AUR_MODEL_LIGHT_COUNT, light_names),
+                                               "light of models", name, (aur_location){0}, &index, error);
+    if (result == AUR_OK)
+        *light = (aur_model_light)index;
+    return result;
+}
+
+const char *aur_model_light_name(aur_model_light light) {
+    return (size_t)light < AUR_MODEL_LIGHT_COUNT ? light_names[light] : NULL;
+}
+
 aur_result aur_model_to_xml(const aur_model_source *source, aur_model_files *files, char **xml,
                             size_t *xml_size, aur_error *error) {
     *xml = NULL;
-    const aur_model_import_function import =
-        (aur_model_import_function)aur_module_find("aureole-assimp.so", "aur_model_import", false);
-    if (import == NULL)
-        return aur_fail_at(error, source->location, AUR_ERROR_UNSUPPORTED,
-                           "a model in this form is read by the library assimp, which this build has not: "
-                           "install libassimp-dev and build again, or convert it to Mitsuba's XML");
-    return import(source, files, xml, xml_size, error);
+    return aur_model_import(source, files, xml, xml_size, error);
 }
 
 const aur_model_file *aur_model_find_file(const aur_model_files *files, const char *filename) {

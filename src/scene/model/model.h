@@ -1,10 +1,12 @@
-/* Models: scenes in other forms than XML, as glTF and OBJ, which the library assimp reads. A module
- * (src/assimp), which is loaded when a scene is a model, translates one into XML and into files in memory:
+/* Models: scenes in other formats than XML, such as glTF and OBJ, which the library assimp reads. A program
+ * (src/assimp), which is started when a scene is a model, translates one into XML and into files in memory:
  * its meshes as PLY and the pictures that it holds. */
 #pragma once
 
 #include <stdbool.h>
 #include <stddef.h>
+
+#include <aureole/scene.h>
 
 #include "core/error.h"
 
@@ -23,23 +25,25 @@ typedef struct aur_model_files {
 
 typedef struct aur_model_source {
     const char *name; /* of the model's file, without its folder */
-    bool alone;       /* it is the whole scene, and needs a camera and a light */
+    size_t size;
+    const char *data;
+    bool alone; /* it is the whole scene, and needs a camera and a light */
+    aur_model_light light;
     const aur_warnings *warnings;
+    aur_progress progress; /* asked, while the model is read, whether to stop */
     aur_location location;
-    /* Reads a file that the model names, or the model's own; false where there is none. `data` is malloc'ed.
+    /* Finds a file that the model names. *path: where it can be read, or NULL where there is none; *used: the
+     * name under which it was found. Both are malloc'ed. Errors: OPEN for one that may not be read, MEMORY.
      */
-    bool (*read)(void *state, const char *name, size_t *size, char **data);
+    aur_result (*find)(void *state, const char *name, char **used, char **path, aur_error *error);
     void *state;
 } aur_model_source;
-
-/* What the module shows, by the name "aur_model_import". *xml is malloc'ed. Errors: FORMAT, MEMORY. */
-typedef aur_result (*aur_model_import_function)(const aur_model_source *source, aur_model_files *files,
-                                                char **xml, size_t *xml_size, aur_error *error);
 
 /* Whether a scene's file is a model, by the end of its name. */
 bool aur_model_is_name(const char *path);
 
-/* Translates one. Errors: those of the module; UNSUPPORTED where this build has none. */
+/* Translates one. *xml is malloc'ed. Errors: OPEN, FORMAT, MEMORY, CANCELLED; UNSUPPORTED where this build
+ * cannot. */
 aur_result aur_model_to_xml(const aur_model_source *source, aur_model_files *files, char **xml,
                             size_t *xml_size, aur_error *error);
 

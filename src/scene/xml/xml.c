@@ -24,7 +24,7 @@ typedef struct reading {
     aur_xml_variables variables;
     aur_rad_scene rad;
     size_t file_count, file_bytes;
-    const aur_warnings *warnings;
+    const aur_scene_options *options;
     aur_error *error;
 } reading;
 
@@ -307,7 +307,7 @@ static aur_result parse_model(file_reading *reader, const char *path, const char
     const reading *const shared = reader->shared;
     char *xml;
     const bool included = reader->include_depth > 0;
-    aur_result result = aur_xml_read_model(shared->document, shared->warnings, included, path, &size, data,
+    aur_result result = aur_xml_read_model(shared->document, shared->options, included, path, &size, data,
                                            &xml, shared->error);
     reader->from_model = true;
     if (result == AUR_OK)
@@ -388,7 +388,8 @@ aur_result aur_xml_read(const char *path, size_t bytes, const char *data, const 
         .document = document,
         .variables = {.arena = &document->arena},
         .rad = {.arena = &document->arena, .warnings = &options->warnings, .left_out = &document->left_out},
-        .warnings = &options->warnings,
+
+        .options = options,
         .error = error};
     aur_result result = aur_xml_variables_define(&shared.variables, options, error);
     if (result == AUR_OK && options->confine)

@@ -105,6 +105,11 @@ aur_result aur_xml_settle_ids(const aur_xml_document *document, aur_error *error
  * command that makes the file. */
 aur_result aur_xml_find_asset(aur_xml_document *document, aur_location location, const char *name,
                               char **found, aur_error *error);
+/* The name under which a file is there that `name` means: itself; the same in other letter case; or what
+ * stands after the last slash, beside the file that names it, for paths of another machine. *used is
+ * malloc'ed, and NULL where there is none. Errors: MEMORY. */
+aur_result aur_xml_forgive_name(const aur_xml_document *document, aur_location location, const char *name,
+                                char **used, aur_error *error);
 /* From now on only files in the folder of `path` are found. */
 aur_result aur_xml_confine(aur_xml_document *document, const char *path, aur_error *error);
 /* Notes that a file is read. */

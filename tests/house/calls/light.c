@@ -59,6 +59,12 @@ static void pictures(void) {
     aur_reflected reflected;
     accept(aur_tone_from_name("filmic", &tone, &error), &error);
     accept(aur_reflected_from_name("map", &reflected, &error), &error);
+    aur_model_light light = AUR_MODEL_LIGHT_AUTO;
+    accept(aur_model_light_from_name("none", &light, &error), &error);
+    require(light == AUR_MODEL_LIGHT_NONE, "light of models");
+    refuse(aur_model_light_from_name("dim", &light, &error), AUR_ERROR_NAME, &error);
+    require(light == AUR_MODEL_LIGHT_NONE && strcmp(aur_model_light_name(light), "none") == 0, "its name");
+    require(aur_model_light_name((aur_model_light)9) == NULL, "no name");
     refuse(aur_tone_from_name("sepia", &tone, &error), AUR_ERROR_NAME, &error);
     refuse(aur_reflected_from_name("mirrors", &reflected, &error), AUR_ERROR_NAME, &error);
     require(strcmp(aur_tone_name(tone), "filmic") == 0 && aur_tone_name((aur_tone)9) == NULL, "tones");

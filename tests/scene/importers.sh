@@ -1,0 +1,175 @@
+#!/usr/bin/env bash
+# The process that reads a model may do what it likes: programs that crash, hang, lie, take all memory or go away stand for it,
+# and each is an error that names the file, at once. A signal ends the reader with the program.
+set -u
+aureole=$1
+fail() { echo "$1"; exit 1; }
+/usr/bin/python3 -c '' 2>/dev/null || { echo "skipped: there is no Python to write programs with"; exit 77; }
+: >model.fbx
+
+# importer NAME: a program of that name, which has read the first message; standard input is its code.
+importer() {
+  {
+    printf '#!/usr/bin/python3 -IS\n'
+    cat <<'PYTHON'
+import os, struct, sys, time
+def take(size):
+    data = b""
+    while len(data) < size:
+        piece = os.read(0, size - len(data))
+        if not piece:
+            os._exit(1)
+        data += piece
+    return data
+def receive():
+    kind, value, size = struct.unpack("=IIQ", take(16))
+    return kind, value, take(size)
+def send(kind, data=b"", value=0, size=None):
+    data = struct.pack("=IIQ", kind, value, len(data) if size is None else size) + data
+    while data:
+        data = data[os.write(0, data):]
+OPEN, FIND, MESH, PICTURE, NOTE, FAIL, SCENE = range(3, 10)
+first = receive()
+# A mesh of one triangle, a camera far away and no light.
+mesh = b"""ply
+format ascii 1.0
+element vertex 3
+property float x
+property float y
+property float z
+element face 1
+property list uchar int vertex_indices
+end_header
+0 0 0
+1 0 0
+0 1 0
+3 0 1 2
+"""
+def scene(text=b'<shape type="ply"><string name="filename" value="*0"/></shape>', bounds=(0, 0, 0, 1, 1, 0)):
+    return struct.pack("=6d2I12d2I", *bounds, 0, 0, *[0.0] * 12, 0, 0) + b'<scene version="3.0.0">' + text
+PYTHON
+    cat
+  } >"$1"
+  chmod +x "$1"
+}
+
+# told NAME STATUS WORDS [OPTION...]: the program ends with the status and the words, which name the file.
+told() {
+  AUREOLE_IMPORT=$PWD/$1 timeout 60 "$aureole" info model.fbx "${@:4}" >said 2>&1
+  local status=$?
+  [ $status = "$2" ] || fail "$1 ends with $status: $(cat said)"
+  grep -q "^aureole: .*model.fbx: .*$3" said || fail "$1 is not reported as '$3': $(cat said)"
+}
+
+importer good <<<'send(NOTE, b"a note\x1b[31m"); send(MESH, mesh); send(SCENE, scene())'
+AUREOLE_IMPORT=$PWD/good "$aureole" info model.fbx >said 2>&1 || fail "an honest program is refused: $(cat said)"
+grep -q '^triangles  *1$' said && grep -q 'model.fbx: a note' said && grep -q 'has no camera' said || fail "not what was sent: $(cat said)"
+grep -q $'\x1b' said && fail "control characters of a file reach the terminal"
+
+importer crash <<<'os.kill(os.getpid(), 11)'
+told crash 2 'crashed on it (signal 11)'
+importer abort <<<'send(MESH, mesh); os.abort()'
+told abort 2 'crashed on it (signal 6)'
+importer killed <<<'os.kill(os.getpid(), 9)'
+told killed 3 'killed'
+importer gone <<<'os._exit(0)'
+told gone 2 'no whole answer'
+importer failed <<<'os._exit(5)'
+told failed 2 'exit status 5'
+importer half <<<'os.write(0, b"12345"); os._exit(0)'
+told half 2 'no whole answer'
+importer cut <<<'send(MESH, mesh, size=100000); os._exit(0)'
+told cut 2 'no whole answer'
+importer closed <<<'os.close(0); time.sleep(1000)'
+told closed 3 'killed'
+importer kind <<<'send(77, mesh)'
+told kind 2 'damaged'
+importer huge <<<'send(MESH, mesh, size=1 << 62)'
+told huge 2 'more than'
+importer flood <<<'
+while True:
+    send(MESH, bytes(1 << 26))'
+told flood 2 'more than'
+importer greedy <<<'
+try:
+    held = bytes(2 << 30)
+except MemoryError:
+    send(FAIL, b"no memory", 2)'
+if nm "$(dirname "$aureole")/libaureole-render.so" 2>/dev/null | grep -q '__asan\|__tsan'; then
+  echo "sanitizers leave no limit of memory"
+else
+  told greedy 3 'no memory'
+fi
+importer zero <<<'send(OPEN, b"a\0b")'
+told zero 2 'damaged'
+importer nameless <<<'send(OPEN)'
+told nameless 2 'damaged'
+importer short <<<'send(SCENE, b"<scene")'
+told short 2 'damaged'
+importer words <<<'send(FAIL, b"no\nwords\0here", 20)'
+told words 2 'no words'
+importer tree <<<'send(SCENE, scene(b"<shape"))'
+told tree 2 'not well-formed'
+importer nowhere <<<'send(SCENE, scene(bounds=(float("nan"),) * 6))'
+AUREOLE_IMPORT=$PWD/nowhere "$aureole" info model.fbx >said 2>&1
+[ $? = 2 ] || fail "a scene without a camera and mesh is no error: $(cat said)"
+told ./none 2 'cannot start'
+
+# What it asks for is confined as what a scene names; without confinement it is read.
+mkdir -p inside && cp model.fbx inside/ && echo outside >outside.txt && echo inside >inside/Part.TXT
+importer spy <<<'
+send(OPEN, b"../outside.txt")
+kind, value, data = receive()
+send(FAIL, b"read " + data, 20)'
+cp spy inside/
+(cd inside && told spy 2 'read outside' && told spy 2 'outside of the scene' --confine) || exit 1
+importer letters <<<'
+send(OPEN, b"part.txt")
+kind, value, data = receive()
+send(OPEN, b"C:/of/another/machine/part.txt")
+assert receive()[2] == data
+send(OPEN, b"nothing.txt")
+assert receive()[1] == 0
+send(FAIL, b"read " + data, 20)'
+cp letters inside/
+(cd inside && told letters 2 'read inside' --confine && grep -q "'Part.TXT' is taken for it" said &&
+  grep -q "cannot find 'nothing.txt'" said) || fail "letter case is not forgiven: $(cat inside/said)"
+
+# A signal ends the reader with the program; the reader ends with a program that is killed.
+importer waits <<<'
+open("reader", "w").write(str(os.getpid()))
+time.sleep(1000)'
+wait_for() { # COMMAND...: at most 10 s until it is true
+  for _ in {1..100}; do
+    "$@" && return 0
+    sleep .1
+  done
+  return 1
+}
+reader_is_gone() { ! kill -0 "$(cat reader)" 2>/dev/null; }
+AUREOLE_IMPORT=$PWD/waits "$aureole" render model.fbx -o o.exr >said 2>&1 &
+program=$!
+wait_for [ -s reader ] || fail "the reader does not start"
+kill -TERM $program
+wait $program
+[ $? = 3 ] || fail "after SIGTERM the program does not end with 3: $(cat said)"
+wait_for reader_is_gone || fail "the reader lives on after SIGTERM"
+AUREOLE_IMPORT=$PWD/waits "$aureole" info model.fbx --time-limit 1s >said 2>&1
+[ $? = 3 ] || fail "--time-limit does not hold while a model is read: $(cat said)"
+
+# Our own reader ends with whoever has started it, opens no file, and starts for nobody else.
+import=$(dirname "$aureole")/aureole-import
+if [ -x "$import" ]; then
+  "$import" 1 </dev/null && fail "the reader starts for a process that is not its parent"
+  rm -f reader
+  /usr/bin/python3 - "$import" <<'PYTHON' && fail "a killed process ends well"
+import os, signal, socket, subprocess, sys
+ours, theirs = socket.socketpair()
+child = subprocess.Popen([sys.argv[1], str(os.getpid())], stdin=theirs)
+open("reader", "w").write(str(child.pid))
+theirs.close()
+os.kill(os.getpid(), signal.SIGKILL)
+PYTHON
+  wait_for reader_is_gone || fail "the reader lives on when its parent was killed"
+fi
+echo "importers: every failure is an error"
