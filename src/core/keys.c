@@ -227,6 +227,24 @@ static bool kind_fits(aur_parameter_kind kind, aur_key_type type) {
     return kind == AUR_PARAMETER_TEXT ? type != AUR_KEY_TRANSFORM : (kinds[type] >> kind & 1u) != 0;
 }
 
+/* A colour that is one number, as a number: a spectrum of Mitsuba 3 may be one. */
+static bool is_grey(const char *text, char number[32]) {
+    double value[3];
+    const size_t count = aur_parse_doubles(text, value, 3);
+    if (count != 1 && !(count == 3 && value[0] == value[1] && value[1] == value[2]))
+        return false;
+    aur_format(number, 32, "%.17g", value[0]);
+    return true;
+}
+
+static aur_result read_text(const aur_key *key, const aur_parameters *parameters, const aur_parameter *item,
+                            const char *text, void *fields, aur_error *error) {
+    char expected[EXPECTED_CAPACITY];
+    return aur_key_parse(key, text, fields, sizeof expected, expected)
+               ? AUR_OK
+               : aur_parameters_fail_value(parameters, item, expected, error);
+}
+
 static aur_result read_given(const aur_key *key, const aur_parameters *parameters, const aur_parameter *item,
                              void *fields, aur_error *error) {
     void *const field = (char *)fields + key->offset;
@@ -240,6 +258,9 @@ static aur_result read_given(const aur_key *key, const aur_parameters *parameter
         *(aur_color *)field = (aur_color){.texture = item->object};
         return AUR_OK;
     }
+    char number[32];
+    if (key->type == AUR_KEY_REAL && item->kind == AUR_PARAMETER_COLOR && is_grey(item->text, number))
+        return read_text(key, parameters, item, number, fields, error);
     if (!kind_fits(item->kind, key->type)) {
         say_type(key, sizeof expected, expected);
         return aur_parameters_fail_value(parameters, item, expected, error);
@@ -248,9 +269,7 @@ static aur_result read_given(const aur_key *key, const aur_parameters *parameter
         memcpy(field, item->transform, sizeof item->transform);
         return AUR_OK;
     }
-    return aur_key_parse(key, item->text, fields, sizeof expected, expected)
-               ? AUR_OK
-               : aur_parameters_fail_value(parameters, item, expected, error);
+    return read_text(key, parameters, item, item->text, fields, error);
 }
 
 /* Whether the words that a listing has for the default are no value of the key: "auto", "by the size". */

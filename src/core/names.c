@@ -1,6 +1,7 @@
 #include "core/names.h"
 
 #include <string.h>
+#include <strings.h>
 
 #include "core/text.h"
 
@@ -51,6 +52,23 @@ size_t aur_names_find(aur_names names, const char *wanted) {
     return i;
 }
 
+/* The words of names, between which '_' or '-' stands, are of as many letters as they are: one of one or two
+ * is no slip of another, as sigma_a is none of sigma_t. */
+static bool short_words_agree(const char *a, const char *b) {
+    for (;;) {
+        const size_t length_a = strcspn(a, "_-"), length_b = strcspn(b, "_-");
+        const bool last_a = a[length_a] == '\0', last_b = b[length_b] == '\0';
+        if (last_a != last_b)
+            return true;
+        if (length_a <= 2 && length_b <= 2 && (length_a != length_b || strncasecmp(a, b, length_a) != 0))
+            return false;
+        if (last_a)
+            return true;
+        a += length_a + 1;
+        b += length_b + 1;
+    }
+}
+
 const char *aur_names_nearest(aur_names names, const char *wanted) {
     const size_t length = strlen(wanted);
     if (length == 0 || length > LONGEST_NAME)
@@ -59,7 +77,7 @@ const char *aur_names_nearest(aur_names names, const char *wanted) {
     size_t best_distance = length < 4 ? 2 : length < 6 ? 3 : length / 2;
     for (size_t i = 0; i < names.count; ++i) {
         const char *const name = names.at(names.table, i);
-        if (strlen(name) > LONGEST_NAME)
+        if (strlen(name) > LONGEST_NAME || (strpbrk(name, "_-") != NULL && !short_words_agree(wanted, name)))
             continue;
         const size_t distance = edit_distance(wanted, name);
         if (distance < best_distance) {
@@ -77,6 +95,30 @@ const char *aur_names_hint(aur_names names, const char *wanted, const char *quot
     if (nearest != NULL)
         snprintf(hint, AUR_HINT_CAPACITY, "; did you mean %c%s%c?", quotes[0], nearest, quotes[1]);
     return hint;
+}
+
+static const char *sorted_at(const void *table, size_t index) {
+    const aur_sorted_names *const self = table;
+    return self->names.at(self->names.table, self->order[index]);
+}
+
+aur_names aur_names_by_distance(aur_names names, const char *wanted, aur_sorted_names *sorted) {
+    size_t distance[AUR_SORTED_NAMES];
+    if (names.count > AUR_SORTED_NAMES || strlen(wanted) > LONGEST_NAME)
+        return names;
+    sorted->names = names;
+    for (size_t i = 0; i < names.count; ++i) {
+        const char *const name = names.at(names.table, i);
+        const size_t here = strlen(name) <= LONGEST_NAME ? edit_distance(wanted, name) : SIZE_MAX;
+        size_t at = i;
+        for (; at > 0 && distance[at - 1] > here; --at) {
+            distance[at] = distance[at - 1];
+            sorted->order[at] = sorted->order[at - 1];
+        }
+        distance[at] = here;
+        sorted->order[at] = i;
+    }
+    return (aur_names){names.count, sorted_at, sorted};
 }
 
 size_t aur_names_list(aur_names names, size_t capacity, char *text) {

@@ -31,6 +31,17 @@ const char *aur_names_hint(aur_names names, const char *wanted, const char *quot
 const char *aur_names_suggest(aur_names names, const char *wanted, const char *others,
                               char text[AUR_ERROR_MESSAGE_CAPACITY]);
 
+enum { AUR_SORTED_NAMES = 256 };
+
+typedef struct aur_sorted_names {
+    aur_names names;
+    size_t order[AUR_SORTED_NAMES];
+} aur_sorted_names;
+
+/* The names by their edit distance from `wanted`, and then in the order of the table; those of a table of
+ * more than AUR_SORTED_NAMES stay as they are. `sorted` must outlive the result. */
+aur_names aur_names_by_distance(aur_names names, const char *wanted, aur_sorted_names *sorted);
+
 /* Writes "a, b, c" into text[capacity], always terminated; returns the length of the whole list, as snprintf
  * does. */
 size_t aur_names_list(aur_names names, size_t capacity, char *text);

@@ -142,7 +142,8 @@ aur_result aur_parameters_parse(aur_parameters *parameters, const char *kind, co
 }
 
 const aur_parameter *aur_parameters_find(aur_parameters *parameters, const char *name) {
-    if (parameters->known_count < AUR_PARAMETERS_KNOWN_CAPACITY)
+    const aur_names known = aur_names_of(parameters->known_count, parameters->known);
+    if (aur_names_find(known, name) == known.count && known.count < AUR_PARAMETERS_KNOWN_CAPACITY)
         parameters->known[parameters->known_count++] = name;
     for (size_t i = 0; i < parameters->count; ++i) {
         if (strcmp(parameters->items[i].name, name) == 0) {
@@ -187,7 +188,9 @@ aur_result aur_parameters_finish(const aur_parameters *parameters, aur_error *er
         const aur_parameter *const item = &parameters->items[i];
         if (item->used)
             continue;
-        const aur_names names = aur_names_of(parameters->known_count, parameters->known);
+        aur_sorted_names sorted;
+        const aur_names names = aur_names_by_distance(
+            aur_names_of(parameters->known_count, parameters->known), item->name, &sorted);
         char help[AUR_ERROR_MESSAGE_CAPACITY];
         return aur_fail_at(error, item->location, AUR_ERROR_NAME, "%s '%s' has no '%s'%s", parameters->kind,
                            parameters->plugin, item->name,

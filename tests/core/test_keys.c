@@ -111,8 +111,8 @@ static void says_what_is_wrong(void **state) {
         {"thing:triple=(1,2,10)", "thing 'thing': 'triple' must be between 0 and 9, not '1,2,10'"},
         {"thing:transform=1", "thing 'thing': 'transform' must be a transform, not '1'"},
         {"thing:nunber=1", "thing 'thing' has no 'nunber'; did you mean 'number'?"},
-        {"thing:zzz=1", "thing 'thing' has no 'zzz'; it has: flag, number, small, real, single, color, text, "
-                        "vector, triple, shade, transform, item, computed"},
+        {"thing:zzz=1", "thing 'thing' has no 'zzz'; it has: flag, real, text, item, small, color, shade, "
+                        "number, single, vector, triple, computed, transform"},
     };
     for (size_t i = 0; i < sizeof wrong / sizeof wrong[0]; ++i) {
         thing made;

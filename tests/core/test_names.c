@@ -30,6 +30,16 @@ static void finds_and_suggests(void **state) {
         aur_names_nearest(aur_names_of(2, (const char *const[]){"cube-map", "sphere-map"}), "SPHERE_MAP"),
         "sphere-map");
     assert_null(aur_names_nearest(aur_names_of(1, (const char *const[]){"ao"}), "foo"));
+    /* Words of one or two letters are other words, not slips; longer ones may be, and words may be missing.
+     */
+    const aur_names media = aur_names_of(3, (const char *const[]){"sigma_t", "alpha_u", "int_ior"});
+    assert_null(aur_names_nearest(media, "sigma_a"));
+    assert_null(aur_names_nearest(media, "sigma_s"));
+    assert_null(aur_names_nearest(media, "alpha_x"));
+    assert_string_equal(aur_names_nearest(media, "simga_t"), "sigma_t");
+    assert_string_equal(aur_names_nearest(media, "Sigma-T"), "sigma_t");
+    assert_string_equal(aur_names_nearest(media, "sigmat"), "sigma_t");
+    assert_string_equal(aur_names_nearest(media, "int_iro"), "int_ior");
 }
 
 static void chooses_or_says_what_there_is(void **state) {
@@ -45,6 +55,15 @@ static void chooses_or_says_what_there_is(void **state) {
     assert_int_equal(aur_names_choose(names, "bsdf", "glass-of-wine", where, &index, &error), AUR_ERROR_NAME);
     assert_string_equal(error.message, "unknown bsdf 'glass-of-wine'; there are: diffuse, mask, phong");
     assert_int_equal(index, 2);
+}
+
+static void sorts_by_distance(void **state) {
+    (void)state;
+    static const char *const keys[] = {"albedo", "phase", "sigma_t", "scale"};
+    aur_sorted_names sorted;
+    char text[64];
+    aur_names_list(aur_names_by_distance(aur_names_of(4, keys), "sigma_a", &sorted), sizeof text, text);
+    assert_string_equal(text, "sigma_t, scale, phase, albedo");
 }
 
 /* A table of any size is listed whole: earlier lists ended after 64 or 128 names. */
@@ -65,8 +84,8 @@ static void lists_long_tables(void **state) {
 }
 
 int main(void) {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(finds_and_suggests),
-                                       cmocka_unit_test(chooses_or_says_what_there_is),
-                                       cmocka_unit_test(lists_long_tables)};
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(finds_and_suggests), cmocka_unit_test(chooses_or_says_what_there_is),
+        cmocka_unit_test(sorts_by_distance), cmocka_unit_test(lists_long_tables)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

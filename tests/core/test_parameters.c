@@ -57,6 +57,20 @@ static void refuses_what_is_wrong(void **state) {
     assert_int_equal(aur_parameters_parse(&parameters, "set", "x:nothing", &error), AUR_ERROR_FORMAT);
 }
 
+/* A key that two tables ask for stands in the list once. */
+static void lists_a_key_once(void **state) {
+    (void)state;
+    aur_parameters parameters;
+    aur_error error = {0};
+    assert_int_equal(aur_parameters_parse(&parameters, "set", "x:zzzz=3", &error), AUR_OK);
+    static const char *const asked[] = {"first", "second", "first", "third", "second", "first"};
+    for (size_t i = 0; i < sizeof asked / sizeof asked[0]; ++i)
+        assert_null(aur_parameters_find(&parameters, asked[i]));
+    assert_int_equal(aur_parameters_finish(&parameters, &error), AUR_ERROR_NAME);
+    assert_string_equal(error.message, "set 'x' has no 'zzzz'; it has: first, third, second");
+    aur_parameters_release(&parameters);
+}
+
 static void suggests_the_nearest_name(void **state) {
     (void)state;
     static const char *const names[] = {"reflectance", "radiance", "exponent"};
@@ -77,7 +91,7 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(parses_a_specification), cmocka_unit_test(keeps_commas_in_parentheses),
         cmocka_unit_test(refuses_what_is_wrong),  cmocka_unit_test(suggests_the_nearest_name),
-        cmocka_unit_test(splits_numbers),
+        cmocka_unit_test(lists_a_key_once),       cmocka_unit_test(splits_numbers),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

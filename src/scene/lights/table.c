@@ -21,12 +21,28 @@ EMITTERS(DECLARE)
 #define ADDRESS(name) &aur_emitter_##name.row,
 static const aur_row *const rows[] = {EMITTERS(ADDRESS)};
 
-const aur_table aur_emitter_table = {.kind = "emitter", .summary = "lights", AUR_TABLE_ROWS(rows)};
+typedef struct emitter_keys {
+    double sampling_weight;
+} emitter_keys;
+
+static const aur_key common_keys[] = {
+    {AUR_KEY_OF_REAL(emitter_keys, "sampling_weight", sampling_weight, 0.0, 1e30, "1",
+                     "of no effect: lights are chosen by what they give")},
+};
+
+static const aur_row common = {
+    .name = "emitter", .summary = "what every light takes", AUR_ROW_KEYS(common_keys)};
+
+const aur_table aur_emitter_table = {
+    .kind = "emitter", .summary = "lights", AUR_TABLE_ROWS(rows), .common = &common};
 
 aur_result aur_emitter_create(aur_parameters *parameters, aur_emitter **emitter, aur_error *error) {
     *emitter = NULL;
     const aur_row *row;
+    emitter_keys unused;
     aur_result result = aur_table_find(&aur_emitter_table, parameters, &row, error);
+    if (result == AUR_OK)
+        result = aur_keys_read(common.key_count, common.keys, parameters, &unused, error);
     if (result != AUR_OK)
         return result;
     aur_emitter *const made = calloc(1, sizeof *made);

@@ -1,0 +1,61 @@
+#!/usr/bin/env bash
+# Keys of Mitsuba 3 that change no mean: each is taken, and the image has the same bytes as without it. Lists of keys name each once.
+set -u
+aureole=$1
+cp "$2/bench/peers/plugins/picture.png" .
+
+image() { # image NAME BODY: the bytes of a small image, or what is said
+  echo "<scene version='3.0.0'><integrator type='path'/><sensor type='perspective'><float name='fov' value='60'/><transform name='to_world'>
+    <lookat origin='0,0,5' target='0,0,0' up='0,1,0'/></transform><film type='hdrfilm'><integer name='width' value='6'/>
+    <integer name='height' value='6'/></film></sensor><emitter type='constant'/><shape type='sphere'/>$2</scene>" >"$1.xml"
+  "$aureole" render "$1.xml" -q --spp 2 -o "$1.exr" 2>"$1.said" || { echo "$1 is refused:"; cat "$1.said"; return 1; }
+}
+
+same() { # same BODY-WITH-@ KEY
+  image without "${1//@/}" && image with "${1//@/$2}" || exit 1
+  cmp without.exr with.exr || { echo "another image with $2 in $1"; exit 1; }
+}
+
+weight="<float name='sampling_weight' value='2.5'/>"
+for emitter in point spot directional projector; do
+  same "<emitter type='$emitter'>@</emitter>" "$weight"
+done
+same "<emitter type='sun'><vector name='sun_direction' value='0,1,1'/>@</emitter>" "$weight"
+same "<shape type='disk'><emitter type='directionalarea'>@</emitter></shape>" "$weight"
+same "<shape type='rectangle'><emitter type='area'>@</emitter></shape>" "$weight"
+same "<shape type='rectangle'>@</shape>" "<float name='silhouette_sampling_weight' value='.1'/>"
+for key in "<float name='theta' value='90'/>" "<spectrum name='theta' value='90'/>" "<rgb name='theta' value='90'/>" "<rgb name='theta' value='90 90 90'/>" \
+  "<spectrum name='theta' type='uniform'><float name='value' value='.5'/></spectrum>"; do
+  for filter in polarizer retarder circular; do
+    same "<shape type='disk'><bsdf type='$filter'>@</bsdf></shape>" "$key"
+  done
+done
+
+# Environments in place of the constant one.
+for emitter in "type='envmap'><string name='filename' value='picture.png'/>" "type='sky'>"; do
+  for key in "" "$weight" "<boolean name='mis_compensation' value='true'/>"; do
+    [ "$emitter" = "type='sky'>" ] && [ "${key#<b}" != "$key" ] && continue
+    image around "" || exit 1
+    sed "s|<emitter type='constant'/>|<emitter $emitter$key</emitter>|" around.xml >environment.xml
+    "$aureole" render environment.xml -q --spp 2 -o environment.exr || exit 1
+    [ -n "$key" ] || cp environment.exr first.exr
+    cmp first.exr environment.exr || { echo "another image with $key"; exit 1; }
+  done
+done
+
+# Of three numbers a key of one number takes none, and says so.
+image wrong "<shape type='disk'><bsdf type='polarizer'><rgb name='theta' value='90 80 70'/></bsdf></shape>" >/dev/null && exit 1
+grep -q "'theta' must be a number, not '90 80 70'" wrong.said || { cat wrong.said; exit 1; }
+
+unknown="<float name='wzwzwzwzwzwz' value='1'/>"
+for body in "<shape type='serialized'><string name='filename' value='none'/>@</shape>" "<shape type='sphere'>@</shape>" \
+  "<medium type='heterogeneous' id='m'>@</medium><shape type='sphere'><ref name='interior' id='m'/></shape>" \
+  "<medium type='homogeneous' id='m'>@</medium><shape type='sphere'><ref name='interior' id='m'/></shape>" \
+  "<emitter type='spot'>@</emitter>" "<shape type='disk'><bsdf type='principled'>@</bsdf></shape>" \
+  "<shape type='disk'><bsdf type='roughdielectric'>@</bsdf></shape>" "<shape type='disk'><bsdf type='blendbsdf'><bsdf type='diffuse'/><bsdf type='diffuse'/>@</bsdf></shape>"; do
+  image listed "${body//@/$unknown}" >/dev/null && exit 1
+  grep -o 'it has: .*' listed.said | sed 's/it has: //; s/, /\n/g' | sort | uniq -d >twice
+  grep -q 'it has: ' listed.said && [ ! -s twice ] || { echo "named twice, or nothing is listed:"; cat listed.said; exit 1; }
+done
+image advice "<medium type='homogeneous' id='m'><float name='sigma_a' value='1'/></medium><shape type='sphere'><ref name='interior' id='m'/></shape>" >/dev/null && exit 1
+grep -q "has no 'sigma_a'; it has: sigma_t, " advice.said || { cat advice.said; exit 1; }
