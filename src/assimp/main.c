@@ -12,6 +12,7 @@
 
 #include "assimp/confine.h"
 #include "assimp/files.h"
+#include "assimp/gltf.h"
 #include "assimp/stream.h"
 #include "assimp/writer.h"
 
@@ -74,6 +75,8 @@ int main(int argc, char **argv) {
         .first = first,
         .made = {.lower = {HUGE_VAL, HUGE_VAL, HUGE_VAL}, .upper = {-HUGE_VAL, -HUGE_VAL, -HUGE_VAL}}};
     self.scene = read_scene(name, self.is_gltf);
+    if (self.is_gltf)
+        gltf_read(&self, name);
     write_scene(&self);
     _exit(0); /* nothing is to be cleaned up, and damaged structures may not bear it */
 }

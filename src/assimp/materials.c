@@ -4,6 +4,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "assimp/gltf.h"
 #include "assimp/pictures.h"
 
 static const slot base_slot = {aiTextureType_BASE_COLOR, 0}, diffuse_slot = {aiTextureType_DIFFUSE, 0},
@@ -219,10 +220,13 @@ void writer_put_materials(writer *self) {
 
 /* --- what shines */
 
-static bool emission_of(writer *self, const struct aiMaterial *material, float color[4]) {
+static bool emission_of(writer *self, unsigned index, float color[4]) {
+    const struct aiMaterial *const material = self->scene->mMaterials[index];
     color[0] = color[1] = color[2] = picture_exists(self, material, emissive_slot) ? 1.0f : 0.0f;
     writer_color(material, "$clr.emissive", color);
-    const float strength = writer_number(material, "$mat.emissiveIntensity", 1.0f);
+    /* assimp 5.2 does not know it. */
+    const float strength =
+        writer_number(material, "$mat.emissiveIntensity", gltf_emissive_strength(self, index));
     for (size_t i = 0; i < 3; ++i)
         color[i] *= strength;
     return color[0] + color[1] + color[2] > 0.0f;
@@ -230,8 +234,7 @@ static bool emission_of(writer *self, const struct aiMaterial *material, float c
 
 bool writer_shines(writer *self, unsigned material) {
     float color[4];
-    return is_unlit(self->scene->mMaterials[material]) ||
-           emission_of(self, self->scene->mMaterials[material], color);
+    return is_unlit(self->scene->mMaterials[material]) || emission_of(self, material, color);
 }
 
 void writer_put_emitter(writer *self, unsigned index) {
@@ -240,7 +243,7 @@ void writer_put_emitter(writer *self, unsigned index) {
     writer_put(self, "<emitter type=\"area\">");
     if (is_unlit(material)) {
         put_color(self, index, "radiance");
-    } else if (emission_of(self, material, color) && picture_exists(self, material, emissive_slot)) {
+    } else if (emission_of(self, index, color) && picture_exists(self, material, emissive_slot)) {
         picture_put(
             self, material,
             &(picture_use){emissive_slot, "radiance", "rgb", false, {color[0], color[1], color[2]}, 0.0f});

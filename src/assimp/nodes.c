@@ -3,6 +3,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "assimp/gltf.h"
 #include "assimp/writer.h"
 
 static const double pi = 3.14159265358979323846;
@@ -11,12 +12,12 @@ typedef struct triple {
     double x, y, z;
 } triple;
 
-static writer_matrix below(const writer_matrix *outer, const struct aiNode *node) {
+static writer_matrix below(const writer_matrix *outer, const struct aiNode *node, const gltf_node *exact) {
     const struct aiMatrix4x4 t = node->mTransformation;
-    const double inner[16] = {(double)t.a1, (double)t.a2, (double)t.a3, (double)t.a4,
-                              (double)t.b1, (double)t.b2, (double)t.b3, (double)t.b4,
-                              (double)t.c1, (double)t.c2, (double)t.c3, (double)t.c4,
-                              0.0,          0.0,          0.0,          1.0};
+    double inner[16] = {(double)t.a1, (double)t.a2, (double)t.a3, (double)t.a4, (double)t.b1, (double)t.b2,
+                        (double)t.b3, (double)t.b4, (double)t.c1, (double)t.c2, (double)t.c3, (double)t.c4,
+                        0.0,          0.0,          0.0,          1.0};
+    gltf_refine(exact, inner);
     writer_matrix product;
     for (size_t i = 0; i < 16; ++i) {
         product.m[i] = 0.0;
@@ -224,18 +225,19 @@ static void place_named(writer *self, const struct aiNode *node, const writer_ma
             place_camera(self, scene->mCameras[i], to_world);
 }
 
-static void place_node(writer *self, const struct aiNode *node, const writer_matrix *outer) {
-    const writer_matrix to_world = below(outer, node);
+static void place_node(writer *self, const struct aiNode *node, const gltf_node *exact,
+                       const writer_matrix *outer) {
+    const writer_matrix to_world = below(outer, node, exact);
     for (unsigned i = 0; i < node->mNumMeshes; ++i)
         place_mesh(self, node->mMeshes[i], &to_world);
     place_named(self, node, &to_world);
     for (unsigned i = 0; i < node->mNumChildren; ++i)
-        place_node(self, node->mChildren[i], &to_world);
+        place_node(self, node->mChildren[i], gltf_child(self, exact, i), &to_world);
 }
 
 void writer_put_nodes(writer *self) {
     const writer_matrix identity = {{1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1}};
     count_uses(self, self->scene->mRootNode);
     put_groups(self);
-    place_node(self, self->scene->mRootNode, &identity);
+    place_node(self, self->scene->mRootNode, gltf_root(self, self->scene->mRootNode), &identity);
 }

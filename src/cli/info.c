@@ -119,8 +119,15 @@ static int describe_points(const info_input *input, const info_options *options)
     const aur_result read = input->data != NULL ? aur_points_read_memory(input->path, input->size,
                                                                          input->data, NULL, &points, &error)
                                                 : aur_points_read(input->path, &points, &error);
-    if (read != AUR_OK)
+    if (read != AUR_OK) {
+        /* Nothing says that this is a file of points. */
+        if (read == AUR_ERROR_FORMAT && error.line <= 1) {
+            const aur_error as_points = error;
+            snprintf(error.message, sizeof error.message, "unknown kind of file; as points: %.900s",
+                     as_points.message);
+        }
         return cli_fail(&error);
+    }
     static const char *const columns[] = {"domain", "points",  "coordinate", "minimum",
                                           "mean",   "maximum", "not_finite"};
     report_table *const table = report_create(sizeof columns / sizeof columns[0], columns);

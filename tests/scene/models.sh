@@ -113,6 +113,25 @@ lacking = dict(beside, buffers=[{"byteLength": len(buffer), "uri": "lacking.bin"
 open("lacking.gltf", "w").write(json.dumps(lacking))
 no_picture = dict(gltf, images=[{"uri": "lacking.png"}] + gltf["images"][1:])
 open("no-picture.gltf", "w").write(json.dumps(no_picture))
+# What is missing is left out: the same as a model that has not named it. Names in other letter case, of Windows, and of a
+# folder of another machine are found.
+bare = json.loads(json.dumps(gltf))
+for material in bare["materials"]:
+    if material["pbrMetallicRoughness"].get("baseColorTexture", {}).get("index") == 0:
+        del material["pbrMetallicRoughness"]["baseColorTexture"]
+open("bare.gltf", "w").write(json.dumps(bare))
+open("UPPER.PNG", "wb").write(color)
+open("broken.ktx", "wb").write(b"\xabKTX 11\xbb\r\n")
+for name, uri in (("letters", "upper.Png"), ("elsewhere", "C:%5Cartist%5CTextures%5Cupper.png"), ("format", "broken.ktx")):
+    open(name + ".gltf", "w").write(json.dumps(dict(gltf, images=[{"uri": uri}] + gltf["images"][1:])))
+open("held.glb", "wb").write(glb(dict(packed, bufferViews=packed["bufferViews"][:-1] + [
+    {"buffer": 0, "byteOffset": len(data) + 1, "byteLength": len(color) - 1}]), data + color))
+strong = json.loads(json.dumps(gltf))
+strong["materials"][3]["emissiveFactor"] = [0.25, 0.125, 0.0625]
+strong["materials"][3]["extensions"] = {"KHR_materials_emissive_strength": {"emissiveStrength": 4}}
+open("strong.gltf", "w").write(json.dumps(strong))
+open("flat.gltf", "w").write(json.dumps(dict(gltf, cameras=[
+    {"type": "orthographic", "orthographic": {"xmag": 3, "ymag": 2, "znear": 0.1, "zfar": 100}}])))
 dark = dict(gltf, nodes=[{"mesh": 0}], scenes=[{"nodes": [0]}])
 open("dark.gltf", "w").write(json.dumps(dark))
 
@@ -209,6 +228,32 @@ for model in model.gltf beside.gltf model.glb; do
 done
 "$aureole" render model.glb $small -t 3 -o three.exr && cmp -s three.exr model.exr || fail "threads change the picture of a model"
 
+# renders MODEL [WORDS]: as MODEL.exr, with a warning of these words.
+renders() {
+  "$aureole" render $1 --width 48 --height 32 --spp 16 -o $1.exr >said 2>&1 || fail "$1 is not rendered: $(cat said)"
+  grep -q "${2:-}" said || fail "$1 does not warn of '${2:-}': $(cat said)"
+}
+renders model.gltf
+renders bare.gltf
+renders no-picture.gltf "1 texture is left out: its picture cannot be found: 'lacking.png'"
+renders format.gltf "1 texture is left out: its picture is of an unknown format: 'broken.ktx'"
+renders held.glb "1 texture is left out: its picture is of an unknown format: picture 1"
+for model in no-picture.gltf format.gltf held.glb; do
+  cmp -s bare.gltf.exr $model.exr || fail "$model is not as if the picture were not named"
+done
+renders letters.gltf "1 file is found under another name: 'upper.Png' as 'UPPER.PNG'"
+renders elsewhere.gltf "1 file is found under another name: 'C:/artist/Textures/upper.png' as 'UPPER.PNG'"
+renders strong.gltf
+for model in letters.gltf elsewhere.gltf strong.gltf; do
+  cmp -s model.gltf.exr $model.exr || fail "$model is not model.gltf"
+done
+sed 's|<sensor type="perspective">.*|<sensor type="orthographic">|; s|<transform name="to_world"><lookat origin="0, 0.5, 5"|<transform name="to_world"><scale x="3" y="3"/><lookat origin="0, 0.5, 5"|' \
+  model.xml >flat.xml
+"$aureole" render flat.xml $small -o xml.exr || fail "the XML with an orthographic sensor is not rendered"
+"$aureole" render flat.gltf $small -o model.exr || fail "an orthographic camera is not rendered"
+"$aureole" compare xml.exr model.exr --metric relative-rmse --tolerance 1e-4 >compared ||
+  fail "an orthographic camera differs from its sensor: $(cat compared)"
+
 "$aureole" info model.glb >said 2>&1 || fail "info of a model: $(cat said)"
 grep -q '^width  *960' said || fail "info does not say the film of a model: $(cat said)"
 "$aureole" render model.glb -q --width 8 --spp 1 -o model.png || fail "no PNG of a model"
@@ -274,6 +319,17 @@ printf '{"asset": {"version": "2.0"}, "meshes": [}' >broken.gltf
 refused broken.gltf 'cannot be read'
 : >empty.glb
 refused empty.glb 'cannot be read'
+for name in empty.stp part.step pack.3mf scene.usda; do
+  case $name in
+    empty*) : >$name ;;
+    part*) echo 'ISO-10303-21;' >$name ;;
+    pack*) printf 'PK\003\004\000\000' >$name ;;
+    *) echo '#usda 1.0' >$name ;;
+  esac
+  refused $name 'unknown kind of file'
+  "$aureole" render $name -o o.exr >said 2>&1
+  [ $? = 2 ] && grep -q "^aureole: $name: unknown kind of file" said || fail "render does not say that $name is of an unknown kind: $(cat said)"
+done
 mkdir -p inside && cp beside.gltf inside/ && sed -i 's/numbers.bin/..\/numbers.bin/' inside/beside.gltf
 "$aureole" render inside/beside.gltf -q --spp 1 --width 8 --confine -o confined.exr 2>said
 [ $? = 2 ] || fail "a model reads files outside of its folder where it is confined"

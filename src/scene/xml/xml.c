@@ -4,6 +4,7 @@
 #include <expat.h>
 #include <stdlib.h>
 #include <string.h>
+#include <strings.h>
 
 #include "core/array.h"
 #include "core/file.h"
@@ -316,6 +317,29 @@ static aur_result parse_model(file_reading *reader, const char *path, const char
     return result;
 }
 
+/* XML begins with '<', after white space and a byte order mark; of UTF-16 that mark is enough. */
+static bool may_be_xml(const char *path, const char *data, size_t size) {
+    static const char *const marks[] = {"\xef\xbb\xbf", "\xfe\xff", "\xff\xfe"};
+    const char *const dot = strrchr(path, '.');
+    size_t mark = 0;
+    for (size_t i = 0; i < sizeof marks / sizeof marks[0] && mark == 0; ++i)
+        if (size >= strlen(marks[i]) && memcmp(data, marks[i], strlen(marks[i])) == 0)
+            mark = strlen(marks[i]);
+    size_t at = mark;
+    while (at < size && isspace((unsigned char)data[at]))
+        ++at;
+    return mark == 2 || (at < size && data[at] == '<') || (dot != NULL && strcasecmp(dot, ".xml") == 0);
+}
+
+static aur_result parse_xml(file_reading *reader, const char *path, const char *data, size_t size) {
+    if (may_be_xml(path, data, size))
+        return parse(reader, data, size, true);
+    return aur_fail_at(
+        reader->shared->error, (aur_location){.file = path}, AUR_ERROR_FORMAT,
+        "unknown kind of file: expected a scene of XML, Radiance's .rad, or a model (.glb, .gltf, "
+        ".obj, .fbx, .dae, .stl, .ply, .off, .3ds)");
+}
+
 /* The scene's own files may be text in memory, and so are hashed at once. */
 static aur_result note_scene(reading *shared, const char *path, size_t size, const char *data) {
     aur_xml_document *const document = shared->document;
@@ -350,7 +374,7 @@ static aur_result read_text(reading *shared, const char *path, size_t size, cons
         XML_SetCharacterDataHandler(reader.expat, on_text);
         result = aur_xml_is_model(path, size, data) ? parse_model(&reader, path, data, size)
                  : reader.from_rad                  ? parse_rad(&reader, path, data, size)
-                                                    : parse(&reader, data, size, true);
+                                                    : parse_xml(&reader, path, data, size);
     }
     if (reader.expat != NULL)
         XML_ParserFree(reader.expat);
