@@ -17,6 +17,7 @@ parsers=(
   'scenes (XML)|scene|src/scene/xml/*.c src/scene/load/*.c'
   'OBJ, PLY, serialized|mesh|src/scene/shapes/mesh_file.c src/scene/shapes/obj.c src/scene/shapes/ply.c src/scene/shapes/ply_header.c src/scene/shapes/serialized.c'
   'curves|scene mesh|src/scene/shapes/curves.c'
+  'models by assimp|model|src/scene/model/import.c src/scene/model/child.c'
   'Radiance scenes|rad scene|src/scene/rad/*.c'
   'pictures|image|src/image/exr_read.c src/image/hdr.c src/image/ldr.c src/image/pfm.c src/image/png.c'
   'volumes (vol)|volume scene|src/scene/volumes/gridvolume.c'

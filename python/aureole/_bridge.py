@@ -158,6 +158,10 @@ class Call:
             self.raised = error
             return 1
 
+    def interrupt(self, kind: Any, error: Any, trace: Any) -> None:
+        """An interrupt that arrived before `report` could note it."""
+        self.raised = error
+
     def __enter__(self: _Self) -> _Self:
         return self
 

@@ -29,7 +29,11 @@ class CoreCall(Call):
         return options
 
 
-@ffi.def_extern(error=1)
+def _interrupt(kind: Any, error: Any, trace: Any) -> None:
+    ffi.from_handle(trace.tb_frame.f_locals["user"]).interrupt(kind, error, trace)
+
+
+@ffi.def_extern(error=1, onerror=_interrupt)
 def aureole_progress(user, what, done, total):
     return ffi.from_handle(user).report(core.text(what), done, total)
 

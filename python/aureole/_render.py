@@ -72,6 +72,7 @@ class _Call(Call):
             "int(void *, const char *, uint64_t, uint64_t)",
             lambda user, what, done, total: self.report(library.text(what) or "", done, total),
             error=1,
+            onerror=self.interrupt,
         )
         self._warn = ffi.callback(
             "void(void *, const char *)", lambda user, message: self.messages.append(library.text(message) or "")

@@ -2,6 +2,7 @@
  * it links. A build may lack one. */
 #pragma once
 
+#include <aureole/core.h>
 #include <stdbool.h>
 #include <stddef.h>
 
@@ -11,4 +12,4 @@
 void (*aur_module_find(const char *file, const char *symbol, bool global))(void);
 
 /* The path of a program of ours that stands beside the library; false where there is none. */
-bool aur_module_find_program(const char *file, size_t capacity, char *path);
+bool aur_module_find_program(const char *file, size_t capacity, char *path) AUR_NONNULL(1, 3);

@@ -319,25 +319,28 @@ aur_result aur_model_converse(aur_child *child, const aur_model_source *source, 
 
 /* --- the program */
 
-static aur_result start_program(aur_child *child, const aur_model_source *source, aur_error *error) {
-    enum { CAPACITY = 4096 };
-    char found[CAPACITY];
-    const char *const wanted = getenv("AUREOLE_IMPORT");
-    if (wanted == NULL && !aur_module_find_program("aureole-import", sizeof found, found))
-        return aur_fail_at(
-            error, source->location, AUR_ERROR_UNSUPPORTED,
-            "models in this format are read by the library assimp, which this build does not "
-            "have: install libassimp-dev and build again, or convert the model to Mitsuba's XML");
-    const aur_result result =
-        aur_child_start(child, wanted != NULL ? wanted : found, &source->progress, error);
-    return aur_fail_in(error, result, source->location.file);
+enum { PATH_CAPACITY = 4096 };
+
+static aur_result find_program(const aur_model_source *source, char path[PATH_CAPACITY], aur_error *error) {
+    const char *const named = getenv("AUREOLE_IMPORT");
+    if (named != NULL ? snprintf(path, PATH_CAPACITY, "%s", named) < PATH_CAPACITY
+                      : aur_module_find_program("aureole-import", PATH_CAPACITY, path))
+        return AUR_OK;
+    return aur_fail_at(error, source->location, AUR_ERROR_UNSUPPORTED,
+                       "models in this format are read by the library assimp, which this build does not "
+                       "have: install libassimp-dev and build again, or convert the model to Mitsuba's XML");
 }
 
 aur_result aur_model_import(const aur_model_source *source, aur_model_files *files, char **xml,
                             size_t *xml_size, aur_error *error) {
     aur_child child;
+    char path[PATH_CAPACITY];
     const bool here = aur_ranks_rank() == 0;
-    aur_result result = agree(error, here ? start_program(&child, source, error) : AUR_OK);
+    aur_result result = here ? find_program(source, path, error) : AUR_OK;
+    if (here && result == AUR_OK)
+        result = aur_fail_in(error, aur_child_start(&child, path, &source->progress, error),
+                             source->location.file);
+    result = agree(error, result);
     if (result == AUR_OK)
         result = aur_model_converse(here ? &child : NULL, source, files, xml, xml_size, error);
     return result;

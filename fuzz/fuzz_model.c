@@ -1,0 +1,92 @@
+/* What a program that reads models sends: it may have been taken over by the file that it reads. */
+#include <stdlib.h>
+#include <string.h>
+#include <sys/socket.h>
+#include <unistd.h>
+
+#include "fuzz.h"
+#include "scene/model/import.h"
+#include "scene/model/message.h"
+
+static aur_result find(void *state, const char *name, char **used, char **path, aur_error *error) {
+    (void)state, (void)error;
+    *path = NULL;
+    *used = name[0] == 'a' ? strdup(name) : NULL;
+    return AUR_OK;
+}
+
+/* Everything is sent before the conversation begins: answers are not waited for. */
+static bool converse(const uint8_t *data, size_t size, aur_model_files *files, char **xml, size_t *xml_size,
+                     aur_error *error) {
+    int ends[2];
+    fuzz_require(socketpair(AF_UNIX, SOCK_STREAM, 0, ends) == 0, "no socket");
+    const bool sent = send(ends[1], data, size, MSG_DONTWAIT | MSG_NOSIGNAL) == (ssize_t)size;
+    shutdown(ends[1], SHUT_WR);
+    aur_child child = {.program = "fuzz", .socket = ends[0], .seconds = 0.1, .patience = 1.0, .status = -1};
+    const aur_model_source source = {.name = "a.fbx",
+                                     .size = 4,
+                                     .data = "FBX",
+                                     .alone = true,
+                                     .location = {.file = "a.fbx"},
+                                     .find = find};
+    const aur_result result =
+        sent ? aur_model_converse(&child, &source, files, xml, xml_size, error) : AUR_ERROR_FORMAT;
+    close(sent ? ends[1] : ends[0]);
+    if (!sent)
+        close(ends[1]);
+    fuzz_require(!sent || child.socket == -1, "the socket stays open");
+    fuzz_require(!sent || result == AUR_OK || (error->result == result && error->message[0] != '\0'),
+                 "a failure without a message");
+    fuzz_require(result != AUR_ERROR_INTERNAL && result != AUR_ERROR_ARGUMENT, "a failure of the wrong kind");
+    return result == AUR_OK;
+}
+
+int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
+    static const char end[] = "</scene>\n";
+    aur_error error = {0};
+    aur_model_files files = {0};
+    char *xml = NULL;
+    size_t xml_size = 0;
+    if (converse(data, size, &files, &xml, &xml_size, &error))
+        fuzz_require(xml_size >= sizeof end - 1 && strcmp(xml + xml_size - (sizeof end - 1), end) == 0,
+                     "the scene has no end");
+    for (size_t i = 0; i < files.count; ++i)
+        fuzz_require(files.items[i].name != NULL && files.items[i].data[files.items[i].size] == '\0',
+                     "a part that is none");
+    free(xml);
+    aur_model_release_files(&files);
+    return 0;
+}
+
+/* --- seeds */
+
+static uint8_t *put(uint8_t *at, aur_import_kind kind, uint32_t value, size_t size, const void *data) {
+    const aur_import_header header = {kind, value, size};
+    memcpy(at, &header, sizeof header);
+    memcpy(at + sizeof header, data, size);
+    return at + sizeof header + size;
+}
+
+size_t aur_fuzz_seed(size_t index, size_t capacity, uint8_t *data) {
+    struct {
+        aur_import_scene scene;
+        char xml[64];
+    } last = {.scene = {.upper = {1.0, 2.0, 3.0}},
+              .xml = "<scene version=\"3.0.0\"><shape type=\"sphere\"/>"};
+    uint8_t *at = data;
+    if (index > 1)
+        return 0;
+    fuzz_require(capacity >= 1024, "a seed is too large");
+    if (index == 1) {
+        last.scene.camera = (aur_import_camera){.is_there = 1, .direction = {0.0, 1.0, 0.0}, .aspect = 1.5};
+        at = put(at, AUR_IMPORT_FAIL, 20, 9, "no\nfile\0!");
+    }
+    at = put(at, AUR_IMPORT_OPEN, 0, 5, "a.fbx");
+    at = put(at, AUR_IMPORT_OPEN, 0, 5, "b.mtl");
+    at = put(at, AUR_IMPORT_FIND, 0, 5, "c.png");
+    at = put(at, AUR_IMPORT_NOTE, 0, 6, "\x1b[31mx");
+    at = put(at, AUR_IMPORT_MESH, 0, 4, "ply\n");
+    at = put(at, AUR_IMPORT_PICTURE, 0, 8, "\x89PNG\r\n\x1a\n");
+    at = put(at, AUR_IMPORT_SCENE, 0, sizeof last, &last);
+    return (size_t)(at - data);
+}
