@@ -80,7 +80,8 @@ typedef struct aur_ask_report {
     size_t replicas;
     aur_render_statistics
         statistics; /* of all replicas together, and of what was tried; its size is set here */
-    /* Of the rays, those of trials that are not in the picture. */
+    /* Of the rays, those of trials that are not in the picture, and of what only these needed. Also where
+     * that was there already: in the renderer, or in a file of the cache. */
     uint64_t trial_rays;
     double
         bias_high; /* of the error: what the integrator may be wrong by in the mean; 0 where it has no bias */

@@ -25,7 +25,7 @@ enum { AUR_RENDER_LEVELS = 8 };
 /* `size` is set by the caller to the size of his struct. */
 typedef struct aur_render_statistics {
     size_t size;
-    uint64_t rays;            /* traced, of all kinds */
+    uint64_t rays;            /* traced, of all kinds: also photons, and those that find light sources */
     uint64_t samples;         /* camera samples */
     uint64_t invalid_samples; /* NaN, infinite or negative ones, left out of the picture */
     uint64_t cut_paths; /* cut after many mirrors in a row: the light that they would bring is missing */

@@ -63,7 +63,9 @@ static double share_done(const aur_ask *ask, double done) {
     if (wish->error > 0.0)
         share = share_of_error(ask, trial, part);
     if (wish->rays > 0)
-        share = fmax(share, (double)(spent.rays + ask->others.rays) / (double)wish->rays);
+        share = fmax(share,
+                     (aur_trial_rays(trial) + (double)(trial->shared + trial->alone + ask->others.budget)) /
+                         (double)wish->rays);
     if (wish->seconds > 0.0)
         share = fmax(share, (spent.prepare_seconds + spent.render_seconds + ask->others.prepare_seconds +
                              ask->others.render_seconds) /
@@ -106,11 +108,19 @@ static aur_result make_identity(aur_ask *ask, const aur_scene *scene, const aur_
     return ask->identity != NULL ? AUR_OK : aur_fail_memory(error);
 }
 
-/* A trial by `integrator`, a new text, in place of the asking's own. */
+/* A trial by `integrator`, a new text, in place of the asking's own, whose rays were traced for it. */
 static aur_result begin_trial(aur_ask *ask, char *integrator, aur_error *error) {
+    aur_render_statistics spent;
+    aur_trial_spent(&ask->trial, &spent);
     aur_trial_release(&ask->trial);
     ask->trial.integrator = integrator;
-    return aur_trial_create(ask->renderer, &ask->options, ask->wish.replicas, &ask->trial, error);
+    aur_cache *const cache = aur_renderer_cache(ask->renderer);
+    aur_cache_uses *const before = aur_cache_count(cache, &ask->uses);
+    const aur_result result =
+        aur_trial_create(ask->renderer, &ask->options, ask->wish.replicas, &ask->trial, error);
+    aur_cache_count(cache, before);
+    ask->trial.traced += spent.rays;
+    return result;
 }
 
 aur_result aur_ask_take_gather(aur_ask *ask, aur_gather_size size, aur_error *error) {
@@ -127,13 +137,14 @@ aur_result aur_ask_take_candidates(aur_ask *ask, size_t candidates, aur_error *e
     return integrator != NULL ? begin_trial(ask, integrator, error) : aur_fail_memory(error);
 }
 
-/* What the rounds lead to. Rays of other trials are spent, and are no matter of this one: its rounds are
- * those of an asking that names its integrator. */
+/* What the rounds lead to. Rays of other trials, and those that prepared this one, are spent, and are no
+ * matter of its rounds, which are those of an asking that names its integrator. */
 static aur_goal goal_of(const aur_ask *ask) {
     const aur_ask_options *const wish = &ask->wish;
+    const uint64_t spent = ask->others.budget + ask->trial.shared + ask->trial.alone;
     return (aur_goal){.error = wish->error,
                       .bias = sqrt(ask->bias.high),
-                      .rays = wish->rays > ask->others.rays ? wish->rays - ask->others.rays : wish->rays > 0};
+                      .rays = wish->rays > spent ? wish->rays - spent : wish->rays > 0};
 }
 
 /* Goes on with whichever integrator turns out best. What was tried before an interruption is tried anew, so
@@ -152,15 +163,20 @@ static aur_result choose(aur_ask *ask, aur_error *error) {
                          .confidence = ask->wish.confidence,
                          .replica_count = ask->wish.replicas,
                          .cancelled = &ask->cancelled,
+                         .others.rays = ask->others.rays,
                          .trial = ask->trial};
     aur_render_options own = ask->options;
     own.warnings = (aur_warnings){0};
     ask->choice = &choice;
+    aur_cache *const cache = aur_renderer_cache(ask->renderer);
+    aur_cache_uses *const before = aur_cache_count(cache, &ask->uses);
     result = aur_ask_try(ask->renderer, &own, &choice, error);
+    aur_cache_count(cache, before);
     ask->choice = NULL;
     ask->trial = choice.trial;
     ask->bias = choice.bias;
     ask->others = choice.others;
+    ask->others.budget += ask->uses.rays - ask->trial.shared;
     ask->gather = choice.gather;
     ask->candidates = choice.candidates;
     ask->open = result != AUR_OK;
@@ -205,8 +221,9 @@ static aur_result prepare(aur_ask *ask, aur_renderer *renderer, const aur_render
     if (result != AUR_OK)
         return result;
     result = keep_options(ask, renderer, &own, error);
-    if (result == AUR_OK)
-        result = aur_trial_create(renderer, &ask->options, ask->wish.replicas, &ask->trial, error);
+    char *const integrator = ask->trial.integrator;
+    ask->trial.integrator = NULL;
+    result = result == AUR_OK ? begin_trial(ask, integrator, error) : result;
     if (result != AUR_OK)
         return result;
     if (aur_render_film(ask->trial.replicas.renders[0])->layout.channel_count > 3)
@@ -248,6 +265,7 @@ void aur_ask_destroy(aur_ask *ask) {
     if (ask == NULL)
         return;
     aur_trial_release(&ask->trial);
+    aur_cache_uses_release(&ask->uses);
     free(ask->identity);
     free(ask->sampler);
     free(ask->filter);
@@ -326,7 +344,7 @@ aur_result aur_ask_get_report(const aur_ask *ask, aur_ask_report *out, aur_error
                           .rounds = ask->trial.rounds,
                           .samples_per_pixel = ask->trial.samples,
                           .replicas = ask->trial.replicas.count,
-                          .trial_rays = ask->others.rays,
+                          .trial_rays = ask->others.budget,
                           .bias_high = sqrt(ask->bias.high)};
     count_spent(ask, &own.statistics);
     return aur_description_write(&own, sizeof own, out, "aur_ask_report", error);

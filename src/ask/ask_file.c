@@ -8,11 +8,11 @@
 #include "render/renderer.h"
 
 /* Numbers between rounds, before those of the tiles and of the replicas. */
-enum { NUMBERS = 14, STATE_WORDS = NUMBERS + 8 };
+enum { NUMBERS = 14, STATE_WORDS = NUMBERS + 10 };
 
 static size_t word_count(const aur_ask *ask) {
     return STATE_WORDS + 3 * ask->trial.value_count + 2 * ask->trial.replicas.pixel_count +
-           ask->trial.replicas.count * AUR_SECONDS_WORDS;
+           ask->trial.replicas.count * AUR_SPENT_WORDS;
 }
 
 aur_result aur_ask_save(const aur_ask *ask, const char *path, aur_error *error) {
@@ -48,6 +48,8 @@ aur_result aur_ask_save(const aur_ask *ask, const char *path, aur_error *error) 
     words[at++] = ask->gather.bright;
     words[at++] = ask->candidates;
     words[at++] = ask->others.rays;
+    words[at++] = ask->others.budget;
+    words[at++] = ask->trial.traced;
     for (size_t i = 0; i < ask->trial.value_count; ++i) {
         words[at++] = ask->trial.targets[i];
         words[at++] = ask->trial.earlier[i];
@@ -58,9 +60,9 @@ aur_result aur_ask_save(const aur_ask *ask, const char *path, aur_error *error) 
         words[at++] = aur_word_of_double(ask->trial.pixels[i].spread);
     }
     const aur_film *films[AUR_REPLICAS_MAX];
-    for (size_t r = 0; r < ask->trial.replicas.count; ++r, at += AUR_SECONDS_WORDS) {
+    for (size_t r = 0; r < ask->trial.replicas.count; ++r, at += AUR_SPENT_WORDS) {
         films[r] = aur_render_film(ask->trial.replicas.renders[r]);
-        aur_render_put_seconds(ask->trial.replicas.renders[r], words + at);
+        aur_render_put_spent(ask->trial.replicas.renders[r], words + at);
     }
     const aur_result result =
         aur_checkpoint_save(path, ask->identity, at, words, ask->trial.replicas.count, films, error);
@@ -100,6 +102,8 @@ static aur_result take_over(aur_ask *ask, const char *path, const aur_checkpoint
     ask->trial.looked_at = (*word++ & 2) != 0;
     word += 5; /* of the integrator, see above */
     ask->others.rays = *word++;
+    ask->others.budget = *word++;
+    ask->trial.traced += *word++;
     for (size_t i = 0; i < ask->trial.value_count; ++i) {
         ask->trial.targets[i] = (uint32_t)*word++;
         ask->trial.earlier[i] = (uint32_t)*word++;
@@ -109,8 +113,8 @@ static aur_result take_over(aur_ask *ask, const char *path, const aur_checkpoint
         ask->trial.pixels[i].variance = aur_double_of_word(*word++);
         ask->trial.pixels[i].spread = aur_double_of_word(*word++);
     }
-    for (size_t r = 0; r < ask->trial.replicas.count && result == AUR_OK; ++r, word += AUR_SECONDS_WORDS) {
-        aur_render_take_seconds(ask->trial.replicas.renders[r], word);
+    for (size_t r = 0; r < ask->trial.replicas.count && result == AUR_OK; ++r, word += AUR_SPENT_WORDS) {
+        aur_render_take_spent(ask->trial.replicas.renders[r], word);
         result =
             aur_fail_in(error, aur_render_merge(ask->trial.replicas.renders[r], kept->films[r], error), path);
     }

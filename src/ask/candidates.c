@@ -33,8 +33,7 @@ static double sum_of_deviations(const aur_trial *trial) {
 }
 
 static aur_result look_at(aur_renderer *renderer, const aur_render_options *coarse, const aur_choice *choice,
-                          size_t candidates, double *deviations, aur_render_statistics *spent,
-                          aur_error *error) {
+                          size_t candidates, double *deviations, aur_spent *spent, aur_error *error) {
     aur_trial trial = {.integrator = aur_ask_path(choice->trial.integrator, candidates)};
     aur_result result = trial.integrator != NULL
                             ? aur_trial_create(renderer, coarse, choice->replica_count, &trial, error)
@@ -51,7 +50,7 @@ static aur_result look_at(aur_renderer *renderer, const aur_render_options *coar
 }
 
 aur_result aur_ask_candidates(aur_renderer *renderer, const aur_render_options *coarse,
-                              const aur_choice *choice, aur_candidates *found, aur_render_statistics *spent,
+                              const aur_choice *choice, aur_candidates *found, aur_spent *spent,
                               aur_error *error) {
     double one = 0.0;
     *found = (aur_candidates){1, 1.0};

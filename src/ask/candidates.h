@@ -18,5 +18,5 @@ enum { AUR_CANDIDATE_CHOICES = 3, AUR_CANDIDATE_SAMPLES = 2 };
 /* Looks at the choices in few pixels (`coarse`), by as many samples each. `spent`: all rays of these. Errors:
  * CANCELLED, MEMORY, and those of rendering. */
 aur_result aur_ask_candidates(aur_renderer *renderer, const aur_render_options *coarse,
-                              const aur_choice *choice, aur_candidates *found, aur_render_statistics *spent,
+                              const aur_choice *choice, aur_candidates *found, aur_spent *spent,
                               aur_error *error);

@@ -22,7 +22,7 @@ typedef struct aur_choice {
     aur_gather_size gather;          /* where that is final gathering; else 0 */
     size_t candidates;               /* where that is path tracing with more than one; else 0 */
     aur_bias bias;                   /* of the trial's integrator; 0 of path tracing */
-    aur_render_statistics others;    /* what the trials cost that are not gone on with */
+    aur_spent others;                /* what the trials cost that are not gone on with */
     double rays;                     /* that the picture is thought to take; 0: nobody knows yet */
     const struct aur_rivals *rivals; /* while they are tried; else NULL */
 } aur_choice;

@@ -4,6 +4,7 @@
 #include <aureole/ask.h>
 
 #include "ask/choose.h"
+#include "core/cache.h"
 
 struct aur_ask {
     aur_ask_options wish;
@@ -11,10 +12,11 @@ struct aur_ask {
     aur_render_options options; /* of all trials, but for the integrator; the texts are the asking's */
     char *sampler, *filter;
     aur_progress progress;
-    char *identity;               /* of a resumable asking; else NULL */
-    aur_trial trial;              /* what the picture is made of */
-    aur_bias bias;                /* of its integrator */
-    aur_render_statistics others; /* what integrators cost that were tried and not taken */
+    char *identity;      /* of a resumable asking; else NULL */
+    aur_trial trial;     /* what the picture is made of */
+    aur_bias bias;       /* of its integrator */
+    aur_spent others;    /* what integrators cost that were tried and not taken */
+    aur_cache_uses uses; /* of all trials */
     atomic_bool cancelled;
     bool open;                /* another integrator may turn out better: that is not tried yet */
     const aur_choice *choice; /* while it is tried; else NULL */

@@ -36,7 +36,15 @@ aur_result aur_trial_create(aur_renderer *renderer, const aur_render_options *op
     trial->interval = (aur_error_interval){.estimate = INFINITY, .high = INFINITY};
     trial->bound = INFINITY;
     trial->rate = 1.0;
+    aur_cache *const cache = aur_renderer_cache(renderer);
+    aur_cache_uses uses = {.outer = aur_cache_count(cache, NULL)};
+    const uint64_t before = aur_rays_traced;
+    aur_cache_count(cache, &uses);
     const aur_result result = aur_replicas_create(renderer, &own, replica_count, &trial->replicas, error);
+    aur_cache_count(cache, uses.outer);
+    trial->traced = aur_rays_traced - before;
+    trial->shared = uses.rays;
+    aur_cache_uses_release(&uses);
     if (result != AUR_OK)
         return result;
     const size_t pattern = aur_render_integrator(trial->replicas.renders[0])->samples_a_pattern;
@@ -53,8 +61,13 @@ aur_result aur_trial_create(aur_renderer *renderer, const aur_render_options *op
     const bool made = trial->targets != NULL && trial->earlier != NULL && trial->variances != NULL &&
                       trial->measured != NULL && trial->pixels != NULL && trial->spreads != NULL &&
                       trial->scratch != NULL;
-    return made ? find_lamps(trial, aur_renderer_scene(renderer), options->seed, error)
-                : aur_fail_memory(error);
+    if (!made)
+        return aur_fail_memory(error);
+    const uint64_t prepared = aur_rays_traced;
+    const aur_result found = find_lamps(trial, aur_renderer_scene(renderer), options->seed, error);
+    trial->alone = aur_rays_traced - prepared;
+    trial->traced += trial->alone;
+    return found;
 }
 
 void aur_trial_release(aur_trial *trial) {
@@ -72,11 +85,11 @@ void aur_trial_release(aur_trial *trial) {
 }
 
 void aur_trial_spent(const aur_trial *trial, aur_render_statistics *sum) {
-    *sum = (aur_render_statistics){.size = sizeof *sum};
+    *sum =
+        (aur_render_statistics){.size = sizeof *sum, .rays = trial->traced + (uint64_t)aur_trial_rays(trial)};
     for (size_t r = 0; r < trial->replicas.count; ++r) {
         aur_render_statistics one = {.size = sizeof one};
         aur_render_get_statistics(trial->replicas.renders[r], &one, NULL);
-        sum->rays += one.rays;
         sum->samples += one.samples;
         sum->invalid_samples += one.invalid_samples;
         sum->cut_paths += one.cut_paths;
@@ -89,21 +102,21 @@ void aur_trial_spent(const aur_trial *trial, aur_render_statistics *sum) {
     }
 }
 
-void aur_trial_add_spent(const aur_trial *trial, aur_render_statistics *sum) {
+void aur_trial_add_spent(const aur_trial *trial, aur_spent *sum) {
     aur_render_statistics one;
-    if (trial->replicas.count == 0)
-        return;
     aur_trial_spent(trial, &one);
     sum->rays += one.rays;
+    sum->budget += one.rays - trial->traced + trial->alone;
     sum->prepare_seconds += one.prepare_seconds;
     sum->render_seconds += one.render_seconds;
     sum->cpu_seconds += one.cpu_seconds;
 }
 
 double aur_trial_rays(const aur_trial *trial) {
-    aur_render_statistics spent;
-    aur_trial_spent(trial, &spent);
-    return (double)spent.rays;
+    uint64_t rays = 0;
+    for (size_t r = 0; r < trial->replicas.count; ++r)
+        rays += aur_film_counted(aur_render_film(trial->replicas.renders[r])).rays;
+    return (double)rays;
 }
 
 double aur_goal_noise(const aur_goal *goal) {

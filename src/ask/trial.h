@@ -28,9 +28,12 @@ typedef struct aur_trial {
     size_t pattern_samples; /* of a pixel that complete a pattern: pixels get whole ones */
     double whole;           /* and in the end, as aur_trial_look_ahead thought last; 0: nobody knows */
     uint64_t rounds;
-    bool begun;     /* a round is planned and not all rendered */
-    bool looked_at; /* the round planned last was to end where it leads, and may be the last of all */
-    size_t replica; /* replicas done of this round */
+    uint64_t traced; /* rays that prepared it */
+    uint64_t shared; /* what it shares with other trials took so many, for whichever was first */
+    uint64_t alone;  /* and what it does not share */
+    bool begun;      /* a round is planned and not all rendered */
+    bool looked_at;  /* the round planned last was to end where it leads, and may be the last of all */
+    size_t replica;  /* replicas done of this round */
 } aur_trial;
 
 /* `options` as for aur_render_create; the trial's integrator takes the place of theirs, and their samples a
@@ -41,13 +44,20 @@ void aur_trial_release(aur_trial *trial);
 
 /* What all replicas have cost together. */
 void aur_trial_spent(const aur_trial *trial, aur_render_statistics *sum);
-/* Adds rays and seconds of a trial that may not have been made. */
-void aur_trial_add_spent(const aur_trial *trial, aur_render_statistics *sum);
+
+typedef struct aur_spent {
+    uint64_t rays;   /* traced */
+    uint64_t budget; /* of them, those that count whatever was there before: without what trials share */
+    double prepare_seconds, render_seconds, cpu_seconds;
+} aur_spent;
+
+/* Adds what a trial has cost that may not have been made. */
+void aur_trial_add_spent(const aur_trial *trial, aur_spent *sum);
 
 /* What rounds lead to; all zero where nobody asks for any. */
 typedef struct aur_goal {
     double error, bias; /* the noise is to leave room for the bias */
-    uint64_t rays;      /* of this trial */
+    uint64_t rays;      /* of this trial's samples */
 } aur_goal;
 
 /* Noise in units of the error asked at which an integrator is compared with another one. At 20 times the
@@ -66,6 +76,7 @@ double aur_trial_factor(const aur_trial *trial, const aur_goal *goal);
 double aur_trial_growth(const aur_trial *trial, double error);
 /* What the bias leaves of the error. */
 double aur_goal_noise(const aur_goal *goal);
+/* Of its samples alone. */
 double aur_trial_rays(const aur_trial *trial);
 
 /* Finds for progress what the trial will have come to in the end, from what it has before a round is planned.

@@ -29,7 +29,7 @@ static double rays_to(const aur_trial *trial, double error) {
 static double part_spent(const aur_choice *choice, const aur_trial *path, double pixels) {
     aur_render_statistics spent;
     aur_trial_spent(path, &spent);
-    const double rays = choice->goal.rays > 0 ? (double)spent.rays / (double)choice->goal.rays : 0.0;
+    const double rays = choice->goal.rays > 0 ? aur_trial_rays(path) / (double)choice->goal.rays : 0.0;
     const double seconds =
         choice->seconds > 0.0 ? (spent.prepare_seconds + spent.render_seconds) / choice->seconds : 0.0;
     return pixels * fmax(rays, seconds);
@@ -194,7 +194,7 @@ static aur_result take_candidates(const aur_rivals *rivals, aur_choice *choice, 
         choice->trial = taken;
         choice->candidates = candidates;
     }
-    aur_trial_release(&left);
+    leave(&left, choice);
     return result;
 }
 

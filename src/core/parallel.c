@@ -98,7 +98,10 @@ struct shared_work {
     size_t failed_index;  /* `count` while nothing has failed */
     aur_result result;
     uint64_t done;
+    atomic_uint_fast64_t rays; /* of other threads */
 };
+
+_Thread_local uint64_t aur_rays_traced;
 
 /* The work that this thread is inside an item of. Parallel work within an item runs on the item's thread
  * alone.
@@ -116,12 +119,13 @@ bool aur_progress_stops(const aur_progress *progress, const char *what, uint64_t
     shared_work *const work = inside;
     aur_ranks *const ranks = aur_ranks_set_aside();
     const bool flushed = flushes;
-    const uint64_t host = host_denormals;
+    const uint64_t host = host_denormals, rays = aur_rays_traced;
     if (flushed)
         restore_denormals(host);
     inside = NULL;
     flushes = false;
     const bool stops = progress->function(progress->user, what, done, total) != 0;
+    aur_rays_traced = rays;
     inside = work;
     flushes = flushed;
     host_denormals = host;
@@ -191,6 +195,7 @@ static bool do_item(void *shared) {
         host_denormals = flush_denormals();
     flushes = flushes || begins;
     inside = work;
+    const uint64_t rays = aur_rays_traced;
     const aur_result result = work->function(work->context, index);
     inside = outer;
     if (begins) {
@@ -199,14 +204,20 @@ static bool do_item(void *shared) {
     }
     aur_ranks_put_back(ranks);
     if (work->loop != NULL)
-        aur_shared_loop_done(work->loop, index, result);
+        aur_shared_loop_done(work->loop, index, result, aur_rays_traced - rays);
     record(work, index, result);
     return true;
 }
 
-static void *do_items(void *shared) {
-    while (do_item(shared))
+static void do_items(shared_work *work) {
+    while (do_item(work))
         continue;
+}
+
+static void *run_thread(void *shared) {
+    shared_work *const work = shared;
+    do_items(work);
+    atomic_fetch_add(&work->rays, aur_rays_traced);
     return NULL;
 }
 
@@ -255,7 +266,7 @@ static size_t start_threads(shared_work *work, size_t wanted, pthread_t *threads
     sigfillset(&all);
     pthread_sigmask(SIG_SETMASK, &all, &before);
     size_t count = 0;
-    while (count < wanted && pthread_create(&threads[count], NULL, do_items, work) == 0)
+    while (count < wanted && pthread_create(&threads[count], NULL, run_thread, work) == 0)
         ++count;
     pthread_sigmask(SIG_SETMASK, &before, NULL);
     return count;
@@ -280,6 +291,7 @@ aur_result aur_parallel_for(const aur_parallel_options *options, size_t count, a
                         .failed_index = count};
     atomic_init(&work.next, 0);
     atomic_init(&work.stop, false);
+    atomic_init(&work.rays, 0);
     if (pthread_mutex_init(&work.lock, NULL) != 0)
         return aur_fail_memory(error);
     if (ranks != NULL)
@@ -294,8 +306,9 @@ aur_result aur_parallel_for(const aur_parallel_options *options, size_t count, a
         do_items(&work);
     for (size_t i = 0; i < started; ++i)
         pthread_join(threads[i], NULL);
+    aur_rays_traced += atomic_load(&work.rays);
     if (work.loop != NULL)
-        aur_shared_loop_end(work.loop);
+        aur_rays_traced += aur_shared_loop_end(work.loop);
     pthread_mutex_destroy(&work.lock);
     /* A stop is told as a stop, also where a rank has been lost: what there is can be kept. */
     if (ranks != NULL && aur_ranks_have_failed(ranks) && work.result != AUR_ERROR_CANCELLED)

@@ -47,6 +47,11 @@ typedef struct aur_parallel_options {
 aur_result aur_parallel_for(const aur_parallel_options *options, size_t count, aur_parallel_function function,
                             void *context, aur_error *error);
 
+/* Rays that this thread has traced (scene/embree.h), and that others have in loops which it has run. What a
+ * piece of work has traced is the difference between its end and its beginning, on the thread that began it:
+ * threads, ranks and callbacks do not change it. */
+extern AUR_EXPERIMENTAL _Thread_local uint64_t aur_rays_traced __attribute__((tls_model("initial-exec")));
+
 /* Calls a progress callback, from wherever the work is; true: it asks the work to stop. Whatever the callback
  * calls in the library is work of its own, as if it were called outside of all items. */
 bool aur_progress_stops(const aur_progress *progress, const char *what, uint64_t done, uint64_t total);

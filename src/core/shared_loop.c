@@ -27,18 +27,22 @@ struct aur_shared_loop {
     aur_bytes results;    /* of this rank's items, to be sent to rank 0 */
     size_t given_back;    /* items that this rank was given and has not begun */
     unsigned char *known; /* [count]: this rank has what the item found */
+    uint64_t *rays;       /* [count]: of each item that is known */
     /* Of the talking thread alone. */
-    size_t *outstanding; /* rank 0, [ranks]: items that are with a rank */
-    bool asked, told;    /* a rank waits for items; has said, or been told, that the work stops */
+    size_t *outstanding;   /* rank 0, [ranks]: items that are with a rank */
+    uint64_t foreign_rays; /* of items that other ranks have done */
+    bool asked, told;      /* a rank waits for items; has said, or been told, that the work stops */
 };
 
 aur_shared_loop *aur_shared_loop_create(aur_ranks *ranks, const aur_shared_loop_options *options) {
     aur_shared_loop *const loop = calloc(1, sizeof *loop);
     unsigned char *const known = calloc(options->count, 1);
+    uint64_t *const rays = calloc(options->count, sizeof *rays);
     size_t *const outstanding = calloc(aur_ranks_count(), sizeof *outstanding);
-    if (loop == NULL || known == NULL || outstanding == NULL) {
+    if (loop == NULL || known == NULL || rays == NULL || outstanding == NULL) {
         free(loop);
         free(known);
+        free(rays);
         free(outstanding);
         aur_ranks_fail(ranks, "rank %zu is out of memory", aur_ranks_rank());
         return NULL;
@@ -48,6 +52,7 @@ aur_shared_loop *aur_shared_loop_create(aur_ranks *ranks, const aur_shared_loop_
                               .is_root = aur_ranks_rank() == 0,
                               .rank_count = aur_ranks_count(),
                               .known = known,
+                              .rays = rays,
                               .outstanding = outstanding};
     loop->end = loop->is_root ? options->count : 0;
     pthread_condattr_t monotonic;
@@ -68,6 +73,7 @@ static void destroy(aur_shared_loop *loop) {
     aur_bytes_release(&loop->results);
     free(loop->outstanding);
     free(loop->known);
+    free(loop->rays);
     free(loop);
 }
 
@@ -101,7 +107,7 @@ static aur_result unpack(const aur_shared_loop *loop, size_t index, aur_bytes_re
 }
 
 typedef struct entry {
-    uint64_t index, size;
+    uint64_t index, size, rays;
     int64_t result;
 } entry;
 
@@ -111,7 +117,7 @@ static bool has_found(int64_t result) {
 }
 
 static void put_entry(const aur_shared_loop *loop, size_t index, aur_result result, aur_bytes *bytes) {
-    entry e = {.index = index, .result = result};
+    entry e = {.index = index, .rays = loop->rays[index], .result = result};
     const size_t at = bytes->size;
     aur_bytes_put(bytes, sizeof e, &e);
     if (has_found(result))
@@ -137,6 +143,8 @@ static void get_entries(aur_shared_loop *loop, const aur_message *message) {
         if (has_found(result) && !loop->known[e.index]) {
             const aur_result taken = unpack(loop, (size_t)e.index, &one);
             loop->known[e.index] = taken == AUR_OK;
+            loop->rays[e.index] = e.rays;
+            loop->foreign_rays += e.rays;
             result = taken != AUR_OK ? taken : result;
         }
         if (loop->is_root) {
@@ -170,8 +178,9 @@ bool aur_shared_loop_take(aur_shared_loop *loop, size_t *index) {
     return there;
 }
 
-void aur_shared_loop_done(aur_shared_loop *loop, size_t index, aur_result result) {
+void aur_shared_loop_done(aur_shared_loop *loop, size_t index, aur_result result, uint64_t rays) {
     pthread_mutex_lock(&loop->lock);
+    loop->rays[index] = rays;
     --loop->running;
     if (!loop->is_root)
         put_entry(loop, index, result, &loop->results);
@@ -395,7 +404,7 @@ static void take_results(aur_shared_loop *loop) {
     }
 }
 
-void aur_shared_loop_end(aur_shared_loop *loop) {
+uint64_t aur_shared_loop_end(aur_shared_loop *loop) {
     aur_ranks *const ranks = loop->ranks;
     const double start = aur_ranks_talk_begin();
     if (loop->is_root && !aur_ranks_have_failed(ranks)) {
@@ -407,5 +416,7 @@ void aur_shared_loop_end(aur_shared_loop *loop) {
         take_results(loop);
     }
     aur_ranks_talk_end(ranks, start);
+    const uint64_t rays = loop->foreign_rays;
     destroy(loop);
+    return rays;
 }

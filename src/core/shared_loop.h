@@ -34,12 +34,12 @@ aur_shared_loop *aur_shared_loop_create(aur_ranks *ranks, const aur_shared_loop_
 
 /* For any thread: the next item; false when there is none left. Waits while others may still be given. */
 bool aur_shared_loop_take(aur_shared_loop *loop, size_t *index);
-/* To be called once for each item, with its result. */
-void aur_shared_loop_done(aur_shared_loop *loop, size_t index, aur_result result);
+/* To be called once for each item, with its result and the rays that it has traced. */
+void aur_shared_loop_done(aur_shared_loop *loop, size_t index, aur_result result, uint64_t rays);
 
 /* Talks until all items are done or given up. `one` does one item itself where there are no threads, and
  * returns whether there was one; NULL where there are threads. */
 void aur_shared_loop_talk(aur_shared_loop *loop, bool (*one)(void *work));
 /* To be called when no thread takes items any more: hands out what was found. Ends the loop; whether all went
- * well is known by aur_ranks_have_failed. */
-void aur_shared_loop_end(aur_shared_loop *loop);
+ * well is known by aur_ranks_have_failed. Returns the rays of other ranks' items. */
+uint64_t aur_shared_loop_end(aur_shared_loop *loop);

@@ -164,7 +164,6 @@ void aur_film_take_tile(aur_film *film, aur_tile *tile) {
     }
     aur_counters_add(&film->counters, &tile->counters);
     pthread_mutex_unlock(film->lock);
-    tile->asked -= tile->counters.rays; /* their difference stays */
     tile->counters = (aur_counters){0};
     tile->first += tile->count;
     tile->count = 0;

@@ -12,7 +12,7 @@
 
 /* Counted by each tile for itself and added up afterwards. */
 typedef struct aur_counters {
-    uint64_t rays;
+    uint64_t rays;      /* of all kinds; the driver's, which knows by aur_rays_traced */
     uint64_t edge_rays; /* of these, what was traced to know how much pixels see of what is around an edge; a
                            film's file does not keep it */
     uint64_t samples;   /* of the camera */
@@ -71,16 +71,16 @@ typedef struct aur_tile {
     uint32_t *counts; /* samples added to each pixel */
     aur_counters counters;
     const atomic_bool *stop; /* true: the samples are no longer wanted; NULL: they are in any case */
-    uint64_t asked;          /* rays when aur_tile_stops asked last */
+    uint64_t asked;          /* aur_rays_traced when aur_tile_stops asked last */
 } aur_tile;
 
 /* Whether the tile may be left unfinished. Asks as often as rays are traced that take some milliseconds, so
  * that it may be called for every sample. */
 static inline bool aur_tile_stops(aur_tile *tile) {
     enum { RAYS_BETWEEN = 1 << 14 };
-    if (tile->counters.rays - tile->asked < RAYS_BETWEEN)
+    if (aur_rays_traced - tile->asked < RAYS_BETWEEN)
         return false;
-    tile->asked = tile->counters.rays;
+    tile->asked = aur_rays_traced;
     return (tile->stop != NULL && atomic_load_explicit(tile->stop, memory_order_relaxed)) ||
            aur_parallel_stops();
 }

@@ -158,6 +158,7 @@ static aur_result compute(const aur_facets *facets, const aur_view_factors_optio
                                .rows = calloc(facets->patch_count, sizeof *closed.rows)};
     aur_exchange exchange = {0};
     aur_balance balance = {0};
+    const uint64_t before = aur_rays_traced;
     aur_result result = closed.rows != NULL ? AUR_OK : aur_fail_memory(error);
     if (result == AUR_OK)
         result = aur_facet_pattern_create(options->set, options->rays / options->randomizations,
@@ -181,7 +182,7 @@ static aur_result compute(const aur_facets *facets, const aur_view_factors_optio
     if (result == AUR_OK) {
         made->description =
             (aur_view_factors_description){.size = sizeof made->description,
-                                           .rays = (uint64_t)facets->patch_count * rays,
+                                           .rays = aur_rays_traced - before,
                                            .closed_pairs = exchange.closed_pairs,
                                            .sampled_pairs = exchange.sampled_pairs,
                                            .largest_row_error = balance.after,

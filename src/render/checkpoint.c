@@ -1,30 +1,16 @@
 /* A render in a file, to go on from. */
 #include "film/checkpoint.h"
 #include "core/error.h"
-#include "core/words.h"
 #include "render/renderer.h"
-
-void aur_render_put_seconds(const aur_render *render, uint64_t words[AUR_SECONDS_WORDS]) {
-    aur_render_statistics counted = {.size = sizeof counted};
-    aur_render_get_statistics(render, &counted, NULL);
-    words[0] = aur_word_of_double(counted.prepare_seconds);
-    words[1] = aur_word_of_double(counted.render_seconds);
-    words[2] = aur_word_of_double(counted.cpu_seconds);
-}
-
-void aur_render_take_seconds(aur_render *render, const uint64_t words[AUR_SECONDS_WORDS]) {
-    aur_render_add_seconds(render, aur_double_of_word(words[0]), aur_double_of_word(words[1]),
-                           aur_double_of_word(words[2]));
-}
 
 aur_result aur_render_save(const aur_render *render, const char *path, aur_error *error) {
     const char *const identity = aur_render_identity(render);
     if (identity == NULL)
         return aur_fail(error, AUR_ERROR_ARGUMENT, "a render is saved whose options say 'resumable'");
-    uint64_t words[AUR_SECONDS_WORDS];
-    aur_render_put_seconds(render, words);
+    uint64_t words[AUR_SPENT_WORDS];
+    aur_render_put_spent(render, words);
     const aur_film *const film = aur_render_film(render);
-    return aur_checkpoint_save(path, identity, AUR_SECONDS_WORDS, words, 1, &film, error);
+    return aur_checkpoint_save(path, identity, AUR_SPENT_WORDS, words, 1, &film, error);
 }
 
 aur_result aur_render_resume(aur_render *render, const char *path, aur_error *error) {
@@ -40,7 +26,7 @@ aur_result aur_render_resume(aur_render *render, const char *path, aur_error *er
     if (result == AUR_OK)
         result = aur_fail_in(error, aur_render_merge(render, kept.films[0], error), path);
     if (result == AUR_OK)
-        aur_render_take_seconds(render, kept.words);
+        aur_render_take_spent(render, kept.words);
     aur_checkpoint_release(&kept);
     return result;
 }

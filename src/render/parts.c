@@ -7,7 +7,7 @@
 #include "render/renderer.h"
 
 aur_result aur_render_check_kind(const char *path, const aur_checkpoint *checkpoint, aur_error *error) {
-    if (checkpoint->film_count == 1 && checkpoint->word_count == AUR_SECONDS_WORDS)
+    if (checkpoint->film_count == 1 && checkpoint->word_count == AUR_SPENT_WORDS)
         return AUR_OK;
     return aur_fail_at(error, (aur_location){.file = path}, AUR_ERROR_ARGUMENT,
                        "of another render: it was made to an error, a time or a number of rays");

@@ -12,6 +12,7 @@
 #include "core/options.h"
 #include "core/parallel.h"
 #include "core/ranks.h"
+#include "core/words.h"
 #include "film/film.h"
 #include "image/image.h"
 #include "render/renderer.h"
@@ -32,7 +33,7 @@ struct aur_render {
     aur_integrator *integrator;
     aur_view view;
     aur_film *film;
-    aur_render_statistics statistics; /* its times; the film counts */
+    aur_render_statistics statistics; /* its times, and rays that prepared it; the film counts the others */
     char *identity;                   /* of a resumable render; else NULL */
     atomic_bool cancelled;
     /* AUR_OK, or why a step failed for good and left pixels with a part of their samples. */
@@ -74,6 +75,10 @@ aur_result aur_render_check_scene(const aur_scene *scene, aur_error *error) {
 
 const aur_scene *aur_renderer_scene(const aur_renderer *renderer) {
     return renderer->scene;
+}
+
+aur_cache *aur_renderer_cache(const aur_renderer *renderer) {
+    return renderer->cache;
 }
 
 /* --- preparation */
@@ -175,11 +180,13 @@ aur_result aur_render_create(aur_renderer *renderer, const aur_render_options *o
     render->renderer = renderer;
     atomic_init(&render->cancelled, false);
     const aur_stopwatch start = aur_stopwatch_start();
+    const uint64_t before = aur_rays_traced;
     aur_render_options *const own = &render->settings;
     *own = aur_render_options_default();
     aur_result result = aur_options_read(options, sizeof *own, own, "aur_render_options", error);
     if (result == AUR_OK)
         result = prepare(render, error);
+    render->statistics.rays = aur_rays_traced - before;
     add_seconds(render, &start, &render->statistics.prepare_seconds);
     if (result != AUR_OK) {
         aur_render_destroy(render);
@@ -236,10 +243,11 @@ static aur_result add_pieces(aur_render *render, aur_tile *tile, aur_counters *c
         for (size_t y = tile->y0; y < tile->y1; ++y)
             for (size_t x = tile->x0; x < tile->x1; ++x)
                 tile->counters.samples += aur_tile_wanted(tile, x, y);
+        const uint64_t before = aur_rays_traced;
         const aur_result result = add_samples(render->integrator, tile);
         if (result != AUR_OK)
             return result;
-        const uint64_t rays = tile->counters.rays;
+        const uint64_t rays = tile->counters.rays = aur_rays_traced - before;
         if (counted != NULL)
             aur_counters_add(counted, &tile->counters);
         aur_film_take_tile(render->film, tile);
@@ -256,7 +264,7 @@ static aur_result render_tile(void *context, size_t index) {
     aur_render *const render = work->render;
     if (atomic_load_explicit(&render->cancelled, memory_order_relaxed))
         return AUR_ERROR_CANCELLED;
-    aur_tile tile = {.view = &render->view, .stop = &render->cancelled};
+    aur_tile tile = {.view = &render->view, .stop = &render->cancelled, .asked = aur_rays_traced};
     aur_film_before before;
     if (!is_own(render, index))
         return AUR_OK;
@@ -394,7 +402,7 @@ aur_result aur_render_get_statistics(const aur_render *render, aur_render_statis
                                      aur_error *error) {
     aur_render_statistics own = render->statistics;
     const aur_counters counted = aur_film_counted(render->film);
-    own.rays = counted.rays;
+    own.rays += counted.rays;
     own.samples = counted.samples;
     own.invalid_samples = counted.invalid;
     own.cut_paths = counted.cut;
@@ -407,10 +415,18 @@ const char *aur_render_identity(const aur_render *render) {
     return render->identity;
 }
 
-void aur_render_add_seconds(aur_render *render, double prepare, double steps, double cpu) {
-    render->statistics.prepare_seconds += prepare;
-    render->statistics.render_seconds += steps;
-    render->statistics.cpu_seconds += cpu;
+void aur_render_put_spent(const aur_render *render, uint64_t words[AUR_SPENT_WORDS]) {
+    words[0] = aur_word_of_double(render->statistics.prepare_seconds);
+    words[1] = aur_word_of_double(render->statistics.render_seconds);
+    words[2] = aur_word_of_double(render->statistics.cpu_seconds);
+    words[3] = render->statistics.rays;
+}
+
+void aur_render_take_spent(aur_render *render, const uint64_t words[AUR_SPENT_WORDS]) {
+    render->statistics.prepare_seconds += aur_double_of_word(words[0]);
+    render->statistics.render_seconds += aur_double_of_word(words[1]);
+    render->statistics.cpu_seconds += aur_double_of_word(words[2]);
+    render->statistics.rays += words[3];
 }
 
 aur_result aur_renderer_render(aur_renderer *renderer, const aur_render_options *options, aur_image **image,

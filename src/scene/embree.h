@@ -4,6 +4,8 @@
 
 #include <stddef.h>
 
+#include "core/parallel.h"
+
 #if AUR_EMBREE_VERSION >= 4
 #include <embree4/rtcore.h>
 #else
@@ -33,6 +35,14 @@ static inline size_t aur_embree_scene_packet_size(RTCScene scene) {
  * rays that are not. */
 typedef enum aur_embree_order { AUR_EMBREE_INCOHERENT, AUR_EMBREE_COHERENT } aur_embree_order;
 
+/* All rays are counted here, where they are traced (core/parallel.h). */
+static inline void aur_embree_count_packet(size_t size, const int *valid) {
+    int there = 0;
+    for (size_t k = 0; k < size; ++k)
+        there -= valid[k];
+    aur_rays_traced += (uint64_t)there;
+}
+
 #if AUR_EMBREE_VERSION >= 4
 
 static inline struct RTCIntersectArguments aur_embree_intersect_arguments(aur_embree_order order) {
@@ -52,6 +62,7 @@ static inline struct RTCOccludedArguments aur_embree_occluded_arguments(aur_embr
 }
 
 static inline void aur_embree_intersect1(RTCScene scene, struct RTCRayHit *ray) {
+    ++aur_rays_traced;
     rtcIntersect1(scene, ray, NULL);
 }
 
@@ -59,6 +70,7 @@ static inline void aur_embree_intersect1(RTCScene scene, struct RTCRayHit *ray) 
  * 0 for the others. */
 static inline void aur_embree_intersect_packet(RTCScene scene, aur_embree_order order, size_t size,
                                                const int *valid, void *rays) {
+    aur_embree_count_packet(size, valid);
     struct RTCIntersectArguments arguments = aur_embree_intersect_arguments(order);
     if (size == 16)
         rtcIntersect16(valid, scene, rays, &arguments);
@@ -70,11 +82,13 @@ static inline void aur_embree_intersect_packet(RTCScene scene, aur_embree_order 
 
 /* Sets ray->tfar to minus infinity when anything is hit. */
 static inline void aur_embree_occluded1(RTCScene scene, struct RTCRay *ray) {
+    ++aur_rays_traced;
     rtcOccluded1(scene, ray, NULL);
 }
 
 static inline void aur_embree_occluded_packet(RTCScene scene, aur_embree_order order, size_t size,
                                               const int *valid, void *rays) {
+    aur_embree_count_packet(size, valid);
     struct RTCOccludedArguments arguments = aur_embree_occluded_arguments(order);
     if (size == 16)
         rtcOccluded16(valid, scene, rays, &arguments);
@@ -95,6 +109,7 @@ static inline struct RTCIntersectContext aur_embree_context(aur_embree_order ord
 }
 
 static inline void aur_embree_intersect1(RTCScene scene, struct RTCRayHit *ray) {
+    ++aur_rays_traced;
     struct RTCIntersectContext context = aur_embree_context(AUR_EMBREE_INCOHERENT);
     rtcIntersect1(scene, &context, ray);
 }
@@ -103,6 +118,7 @@ static inline void aur_embree_intersect1(RTCScene scene, struct RTCRayHit *ray) 
  * 0 for the others. */
 static inline void aur_embree_intersect_packet(RTCScene scene, aur_embree_order order, size_t size,
                                                const int *valid, void *rays) {
+    aur_embree_count_packet(size, valid);
     struct RTCIntersectContext context = aur_embree_context(order);
     if (size == 16)
         rtcIntersect16(valid, scene, &context, rays);
@@ -114,12 +130,14 @@ static inline void aur_embree_intersect_packet(RTCScene scene, aur_embree_order 
 
 /* Sets ray->tfar to minus infinity when anything is hit. */
 static inline void aur_embree_occluded1(RTCScene scene, struct RTCRay *ray) {
+    ++aur_rays_traced;
     struct RTCIntersectContext context = aur_embree_context(AUR_EMBREE_INCOHERENT);
     rtcOccluded1(scene, &context, ray);
 }
 
 static inline void aur_embree_occluded_packet(RTCScene scene, aur_embree_order order, size_t size,
                                               const int *valid, void *rays) {
+    aur_embree_count_packet(size, valid);
     struct RTCIntersectContext context = aur_embree_context(order);
     if (size == 16)
         rtcOccluded16(valid, scene, &context, rays);

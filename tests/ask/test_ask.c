@@ -34,6 +34,7 @@ static aur_render_options small(size_t threads) {
     options.width = 40;
     options.height = 24;
     options.threads = threads;
+    options.use_cache = 0; /* rays that were traced by an earlier run would not be counted */
     return options;
 }
 
@@ -42,6 +43,14 @@ static aur_ask *ask(const fixture *f, const aur_render_options *render, const au
     assert_int_equal(aur_ask_create(f->renderer, render, wish, &made, NULL), AUR_OK);
     assert_int_equal(aur_ask_run(made, NULL), AUR_OK);
     return made;
+}
+
+/* By a renderer that has nothing prepared. */
+static aur_ask *ask_anew(fixture *fresh, const fixture *f, const aur_render_options *render,
+                         const aur_ask_options *wish) {
+    fresh->scene = f->scene;
+    assert_int_equal(aur_renderer_create(f->scene, &fresh->renderer, NULL), AUR_OK);
+    return ask(fresh, render, wish);
 }
 
 static aur_ask_report report_of(const aur_ask *asked) {
@@ -112,11 +121,12 @@ static void test_choice(void **state) {
     chosen.seed = named.seed = 6; /* with some seeds the bias is not known soon enough, and paths go on */
     paths.integrator = "path";
     paths.seed = 7;
-    aur_ask *const a = ask(f, &chosen, &wish);
+    fixture first, second;
+    aur_ask *const a = ask_anew(&first, f, &chosen, &wish);
     aur_ask_options again = wish;
     again.bias = report_of(a).bias_high;
     named.integrator = aur_ask_integrator(a);
-    aur_ask *const b = ask(f, &named, &again);
+    aur_ask *const b = ask_anew(&second, f, &named, &again);
     aur_ask *const truth = ask(f, &paths, &wish);
     const aur_ask_report report = report_of(a), about_truth = report_of(truth);
     assert_same_picture(a, b);
@@ -137,6 +147,8 @@ static void test_choice(void **state) {
     aur_ask_destroy(a);
     aur_ask_destroy(b);
     aur_ask_destroy(truth);
+    aur_renderer_destroy(first.renderer);
+    aur_renderer_destroy(second.renderer);
 }
 
 /* What the progress callback was told, and the rays then. */
@@ -211,15 +223,30 @@ static void test_rays_make_the_pattern(void **state) {
     paths.integrator = "path";
     aur_ask_options wish = aur_ask_options_default();
     wish.rays = 8000000;
-    aur_ask *const a = ask(f, &chosen, &wish), *const b = ask(f, &paths, &wish);
+    fixture fresh, other;
+    aur_ask *const a = ask_anew(&fresh, f, &chosen, &wish), *const b = ask(f, &paths, &wish);
     const aur_ask_report own = report_of(a), path = report_of(b);
     print_message("%g to %g by %s; path: %g to %g\n", own.error_low, own.error_high, aur_ask_integrator(a),
                   path.error_low, path.error_high);
     assert_non_null(strstr(aur_ask_integrator(a), "finalgather:"));
     assert_true(own.error_high < path.error_low);
     assert_in_range(own.statistics.rays, wish.rays, wish.rays * 3 / 2);
-    aur_ask_destroy(a);
-    aur_ask_destroy(b);
+    /* Maps that are there already change no decision, and are not traced. */
+    aur_ask *const again = ask(&fresh, &chosen, &wish);
+    assert_same_picture(a, again);
+    assert_true(report_of(again).trial_rays == own.trial_rays);
+    assert_true(report_of(again).statistics.rays < own.statistics.rays);
+    aur_render_options named = chosen;
+    named.integrator = aur_ask_integrator(a);
+    wish.rays -= own.trial_rays;
+    aur_ask *const alone = ask_anew(&other, f, &named, &wish);
+    assert_same_picture(a, alone);
+    assert_true(report_of(alone).statistics.rays + own.trial_rays == own.statistics.rays);
+    aur_ask *const asked[] = {a, b, again, alone};
+    for (size_t i = 0; i < sizeof asked / sizeof asked[0]; ++i)
+        aur_ask_destroy(asked[i]);
+    aur_renderer_destroy(fresh.renderer);
+    aur_renderer_destroy(other.renderer);
 }
 
 static int stop_at_once(void *user, const char *what, uint64_t done, uint64_t total) {

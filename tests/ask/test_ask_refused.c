@@ -62,7 +62,7 @@ static void a_trial_is_stopped_while_it_is_made(void **state) {
     options.progress = (aur_progress){count_down, &left};
     for (aur_result result = AUR_ERROR_CANCELLED; result != AUR_OK; ++calls) {
         aur_trial trial = {.integrator = strdup("finalgather:split=1,photons=20000")};
-        aur_render_statistics spent = {.size = sizeof spent};
+        aur_spent spent = {.rays = 0};
         left = calls;
         result = aur_trial_create(renderer, &options, REPLICAS, &trial, NULL);
         assert_true(result == AUR_OK || result == AUR_ERROR_CANCELLED);

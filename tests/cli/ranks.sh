@@ -33,6 +33,13 @@ for work in path 'finalgather:photons=2000,diffuse_samples=16'; do
 done
 same 2 render "$source/scenes/keller/cube.xml" $small --spp 2 --integrator radiosity -o out.exr
 same 2 render "$scene" $small --error 30% -o out.exr
+# Rays of all ranks are counted, and once what each does for itself.
+for work in path finalgather:photons=2000 radiosity:paths=20000; do
+  render=(render "$scene" $small --spp 2 --no-cache --integrator "$work" -t 1 --json -o out.exr)
+  one=$("$aureole" "${render[@]}" | grep -o '"rays": [0-9]*')
+  [ -n "$one" ] && [ "$one" = "$(many 3 "$aureole" "${render[@]}" | grep -o '"rays": [0-9]*')" ] || fail "$work: other rays by 3 ranks"
+done
+rm -f out.exr
 same 2 measure spherical-fibonacci -n 200 -m energy,cap,cap-bound,voronoi-max,wce:1.5
 same 2 measure spherical-fibonacci -n 100 --domain sphere -m spectrum
 same 2 weights spherical-fibonacci -n 32 --lobe cosine --lobe2 phong:20 --n2 32 --angles 8 --rotations 2 --table out.table -q

@@ -26,13 +26,17 @@ static const default_row rows[] = {
      false},
 };
 
-static uint64_t rays_of(aur_renderer *renderer, const char *integrator) {
+/* By a renderer that has nothing prepared. */
+static uint64_t rays_of(const aur_scene *scene, const char *integrator) {
+    aur_renderer *renderer;
+    assert_int_equal(aur_renderer_create(scene, &renderer, NULL), AUR_OK);
     const aur_render_options options = {
         .size = sizeof options, .integrator = integrator, .width = 24, .height = 24, .samples_per_pixel = 4};
     aur_render_statistics statistics = {.size = sizeof statistics};
     aur_image *image;
     assert_int_equal(aur_renderer_render(renderer, &options, &image, &statistics, NULL), AUR_OK);
     aur_image_destroy(image);
+    aur_renderer_destroy(renderer);
     assert_true(statistics.rays > 0);
     return statistics.rays;
 }
@@ -43,15 +47,12 @@ static void defaults_trace_no_more_rays(void **state) {
         char path[512];
         snprintf(path, sizeof path, "%s/scenes/%s", AUR_SOURCE_DIR, rows[i].scene);
         aur_scene *scene;
-        aur_renderer *renderer;
         assert_int_equal(aur_scene_load(path, NULL, &scene, NULL), AUR_OK);
-        assert_int_equal(aur_renderer_create(scene, &renderer, NULL), AUR_OK);
-        const uint64_t usual = rays_of(renderer, rows[i].usual), plain = rays_of(renderer, rows[i].plain);
+        const uint64_t usual = rays_of(scene, rows[i].usual), plain = rays_of(scene, rows[i].plain);
         print_message("%s, %s: %llu rays, plain %llu\n", rows[i].scene, rows[i].usual,
                       (unsigned long long)usual, (unsigned long long)plain);
         /* Roundings of lanes send a few paths another way. */
         assert_true(rows[i].same ? (double)usual <= 1.001 * (double)plain : usual < plain);
-        aur_renderer_destroy(renderer);
         aur_scene_destroy(scene);
     }
 }

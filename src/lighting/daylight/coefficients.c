@@ -82,7 +82,6 @@ void aur_sun_seen(aur_path_group *group, const aur_sensor_place *place, const au
             continue;
         set_rays(&group->shadows, place, center, aur_hash3(place->hash, 0x73756e, hour->hour));
         aur_packet_set_lanes(&group->shadows, UINT16_MAX);
-        group->counters->rays += AUR_DAYLIGHT_LANES;
         const uint32_t stopped = aur_scene_occluded16(group->scene, AUR_EMBREE_COHERENT, &group->shadows);
         for (size_t k = 0; k < AUR_DAYLIGHT_LANES; ++k)
             seen[i * AUR_DAYLIGHT_LANES + k] =

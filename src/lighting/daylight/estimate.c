@@ -175,12 +175,11 @@ enum { BLOCK = 4 }; /* sensors of a piece of work */
 
 static aur_result estimate_block(void *context, size_t index) {
     const work *const w = context;
-    aur_counters counters = {0};
     aur_path_group group = {0};
     room r = {.memory = NULL};
     if (!make_room(w, &r))
         return AUR_ERROR_MEMORY;
-    aur_path_group_prepare(&w->path, w->sky.scene, w->sampler, &counters, &group);
+    aur_path_group_prepare(&w->path, w->sky.scene, w->sampler, &group);
     for (size_t i = index * BLOCK; i < (index + 1) * BLOCK && i < w->sensors->count; ++i)
         estimate_sensor(w, &group, &r, i);
     free(r.memory);

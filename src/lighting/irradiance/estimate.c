@@ -165,12 +165,11 @@ static aur_irradiance estimate(const work *w, aur_path_group *group, size_t sens
 
 static aur_result estimate_block(void *context, size_t index) {
     const work *const w = context;
-    aur_counters counters = {0};
     aur_path_group group = {0};
     float *const shares = malloc((w->lights.emitter_count + 1) * sizeof *shares);
     if (shares == NULL)
         return AUR_ERROR_MEMORY;
-    aur_path_group_prepare(&w->path, w->scene, w->sampler, &counters, &group);
+    aur_path_group_prepare(&w->path, w->scene, w->sampler, &group);
     for (size_t i = index * BLOCK; i < (index + 1) * BLOCK && i < w->sensors->count; ++i)
         w->results[i] = estimate(w, &group, i, shares);
     free(shares);

@@ -163,7 +163,6 @@ static void add_lights(aur_path_group *g, const aur_sensor_place *place, aur_loo
     if (drawn_lanes == 0)
         return;
     aur_packet_set_lanes(&g->shadows, drawn_lanes);
-    g->counters->rays += aur_lane_count(drawn_lanes);
     float farthest[AUR_PACKET_SIZE];
     memcpy(farthest, g->shadows.query.ray.tfar, sizeof farthest);
     const uint32_t lit = drawn_lanes & ~aur_scene_occluded16(g->scene, AUR_EMBREE_INCOHERENT, &g->shadows);

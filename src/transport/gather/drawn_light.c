@@ -58,7 +58,7 @@ static void add_lights(const aur_gather_places *places, aur_embree_order order,
     }
     if (aimed == 0)
         return;
-    const uint32_t lit = aimed & ~aur_gather_occluded(places->plan, order, packet, sums->counters);
+    const uint32_t lit = aimed & ~aur_gather_occluded(places->plan, order, packet);
     for (uint32_t rest = lit; rest != 0; rest &= rest - 1)
         aur_gather_add(sums, places, aur_first_lane(rest), contribution[aur_first_lane(rest)]);
 }
@@ -102,7 +102,7 @@ void aur_gather_add_direct_light(const aur_gather_places *places, aur_gather_sum
 
 /* A point on a bright texel as a light seen from `position`; the hash is that of a path that corrects it. */
 static aur_light_sample light_from(const aur_gather_plan *plan, const aur_bright_point *point,
-                                   aur_vector position, uint64_t hash, aur_counters *counters) {
+                                   aur_vector position, uint64_t hash) {
     const aur_gather_light *const from = &plan->light;
     const aur_gather_known known =
         aur_gather_plan_known(plan, point->shape, point->element, point->u, point->v, point->behind);
@@ -132,7 +132,7 @@ static aur_light_sample light_from(const aur_gather_plan *plan, const aur_bright
                                       .near = near,
                                       .known = radiance};
             aur_scene_surface(plan->scene, &ray, &hit, &start.surface);
-            aur_onward_correct(&plan->onward, 1, &start, &radiance, counters);
+            aur_onward_correct(&plan->onward, 1, &start, &radiance);
         }
     }
     sample.radiance = aur_vector_add(radiance, known.caustics);
@@ -156,9 +156,8 @@ void aur_gather_add_bright_light(const aur_gather_places *places, aur_gather_sum
             const aur_bright_point point =
                 aur_bright_texels_sample(from->bright, plan->scene, from->map, (double)choice[lane],
                                          (const float[2]){u[lane], v[lane]});
-            lights[lane] =
-                light_from(plan, &point, places->at[lane].surface.position,
-                           aur_hash4(places->pixels[lane], index, pair, plan->seed), sums->counters);
+            lights[lane] = light_from(plan, &point, places->at[lane].surface.position,
+                                      aur_hash4(places->pixels[lane], index, pair, plan->seed));
         }
         add_lights(places, AUR_EMBREE_INCOHERENT, lights, sums);
     }

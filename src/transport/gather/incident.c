@@ -8,18 +8,13 @@
 
 /* --- packets */
 
-uint32_t aur_gather_intersect(const aur_gather_plan *plan, aur_embree_order order, aur_packet *packet,
-                              aur_counters *counters) {
-    const uint32_t lanes = aur_lanes_set(packet->valid);
-    counters->rays += aur_lane_count(lanes);
+uint32_t aur_gather_intersect(const aur_gather_plan *plan, aur_embree_order order, aur_packet *packet) {
     if (plan->policy.packets)
         return aur_scene_intersect16(plan->scene, order, packet);
     return aur_scene_intersect_each(plan->scene, packet);
 }
 
-uint32_t aur_gather_occluded(const aur_gather_plan *plan, aur_embree_order order, aur_packet *packet,
-                             aur_counters *counters) {
-    counters->rays += aur_lane_count(aur_lanes_set(packet->valid));
+uint32_t aur_gather_occluded(const aur_gather_plan *plan, aur_embree_order order, aur_packet *packet) {
     if (plan->policy.packets)
         return aur_scene_occluded16(plan->scene, order, packet);
     return aur_scene_occluded_each(plan->scene, packet);
@@ -90,11 +85,10 @@ typedef struct waiting_paths {
 } waiting_paths;
 
 /* Adds their light to that of the rays. */
-static void walk_paths(const aur_gather_plan *plan, waiting_paths *waiting, aur_gather_rays *rays,
-                       aur_counters *counters) {
+static void walk_paths(const aur_gather_plan *plan, waiting_paths *waiting, aur_gather_rays *rays) {
     aur_vector radiance[AUR_PACKET_SIZE];
     if (waiting->count > 0)
-        aur_onward_correct(&plan->onward, waiting->count, waiting->starts, radiance, counters);
+        aur_onward_correct(&plan->onward, waiting->count, waiting->starts, radiance);
     for (size_t i = 0; i < waiting->count; ++i) {
         const aur_vector added = aur_vector_multiply(waiting->weights[i], radiance[i]);
         const size_t lane = waiting->lanes[i];
@@ -107,11 +101,11 @@ static void walk_paths(const aur_gather_plan *plan, waiting_paths *waiting, aur_
 
 /* The path whose start is the next one waits, too. */
 static void wait_for_path(const aur_gather_plan *plan, size_t lane, aur_vector weight, waiting_paths *waiting,
-                          aur_gather_rays *rays, aur_counters *counters) {
+                          aur_gather_rays *rays) {
     waiting->weights[waiting->count] = weight;
     waiting->lanes[waiting->count++] = lane;
     if (waiting->count == AUR_PACKET_SIZE)
-        walk_paths(plan, waiting, rays, counters);
+        walk_paths(plan, waiting, rays);
 }
 
 /* The light that leaves a surface by what the photon maps know. Where a path is to say it, what is left is
@@ -143,7 +137,7 @@ static const float BOOST = 8.0f;
 /* A point on a light, reflected by the sampled lobe, weighed beside the ray that goes on. What is weak beside
  * the radiance `known` of the surface is asked for now and then. */
 static aur_vector sampled_light(const aur_gather_plan *plan, const aur_shading *shading, unsigned kinds,
-                                aur_vector known, uint64_t *hash, aur_counters *counters) {
+                                aur_vector known, uint64_t *hash) {
     const aur_vector black = {0};
     const aur_surface *const surface = shading->surface;
     float u[3];
@@ -171,7 +165,6 @@ static aur_vector sampled_light(const aur_gather_plan *plan, const aur_shading *
         return black;
     float distance;
     const aur_ray shadow = aur_surface_ray_to(surface, light.position, &distance);
-    ++counters->rays;
     return aur_scene_occluded(plan->scene, &shadow) ? black : aur_vector_scale(radiance, 1.0f / survival);
 }
 
@@ -201,14 +194,13 @@ static aur_vector chain_radiance(const aur_gather_plan *plan, gather_chain chain
             aur_vector scattered;
             if (scattered_radiance(plan, &chain, hit, &surface, view, &scattered, start)) {
                 known = aur_vector_add(known, start->known);
-                wait_for_path(plan, chain.lane, throughput, waiting, rays, counters);
+                wait_for_path(plan, chain.lane, throughput, waiting, rays);
             }
             radiance = aur_vector_add(radiance, scattered);
         }
         if ((kinds & AUR_SCATTERS_SAMPLED) != 0 && deeper && samples_lights)
-            radiance =
-                aur_vector_add(radiance, sampled_light(plan, &shading, kinds, aur_vector_add(radiance, known),
-                                                       &chain.hash, counters));
+            radiance = aur_vector_add(
+                radiance, sampled_light(plan, &shading, kinds, aur_vector_add(radiance, known), &chain.hash));
         sum = aur_vector_add(sum, aur_vector_multiply(throughput, radiance));
         if ((kinds & (AUR_SCATTERS_SPECULAR | AUR_SCATTERS_SAMPLED)) == 0 || !deeper)
             return sum;
@@ -233,7 +225,6 @@ static aur_vector chain_radiance(const aur_gather_plan *plan, gather_chain chain
         chain.density = drawn.pdf;
         chain.light_draws = 1.0f;
         chain.ray = aur_surface_ray(&surface, drawn.light);
-        ++counters->rays;
         hit = aur_scene_intersect(scene, &chain.ray, &next) ? &next : NULL;
     }
 }
@@ -266,7 +257,7 @@ static float bright_weight(const aur_gather_plan *plan, const aur_gather_rays *r
 /* Of a surface that is diffuse, without emission, in no instance: what the map knows, or a path where the
  * texel is near or the map is corrected. */
 static aur_vector plain_radiance(const aur_gather_plan *plan, size_t lane, waiting_paths *waiting,
-                                 aur_gather_rays *rays, aur_counters *counters) {
+                                 aur_gather_rays *rays) {
     const struct RTCRayHit16 *const query = &rays->packet.query;
     const uint32_t shape = query->hit.geomID[lane];
     const bool behind = query->hit.Ng_x[lane] * query->ray.dir_x[lane] +
@@ -292,7 +283,7 @@ static aur_vector plain_radiance(const aur_gather_plan *plan, size_t lane, waiti
     start->hash = hash;
     start->near = near;
     start->known = known.radiance;
-    wait_for_path(plan, lane, (aur_vector){weight, weight, weight}, waiting, rays, counters);
+    wait_for_path(plan, lane, (aur_vector){weight, weight, weight}, waiting, rays);
     return aur_vector_scale(known.caustics, weight);
 }
 
@@ -345,7 +336,7 @@ static void prefetch(const aur_gather_plan *plan, const aur_packet *packet, uint
 void aur_gather_rays_trace(const aur_gather_plan *plan, aur_embree_order order, aur_gather_rays *rays,
                            aur_counters *counters) {
     const uint32_t lanes = aur_lanes_set(rays->packet.valid);
-    const uint32_t found = aur_gather_intersect(plan, order, &rays->packet, counters);
+    const uint32_t found = aur_gather_intersect(plan, order, &rays->packet);
     const bool has_sky = aur_scene_has_environment(plan->scene);
     const uint32_t plain = plain_lanes(plan, &rays->packet, found);
     waiting_paths waiting;
@@ -359,7 +350,7 @@ void aur_gather_rays_trace(const aur_gather_plan *plan, aur_embree_order order, 
         const bool hits = aur_has_lane(found, lane);
         aur_vector radiance;
         if (aur_has_lane(plain, lane)) {
-            radiance = plain_radiance(plan, lane, &waiting, rays, counters);
+            radiance = plain_radiance(plan, lane, &waiting, rays);
         } else {
             /* Only light that is sampled too asks for the density. */
             const bool weighed = !hits || plan->classes[rays->packet.query.hit.geomID[lane]].emits;
@@ -379,5 +370,5 @@ void aur_gather_rays_trace(const aur_gather_plan *plan, aur_embree_order order, 
         rays->radiance[1][lane] += radiance.y;
         rays->radiance[2][lane] += radiance.z;
     }
-    walk_paths(plan, &waiting, rays, counters);
+    walk_paths(plan, &waiting, rays);
 }

@@ -33,7 +33,5 @@ void aur_gather_rays_trace(const aur_gather_plan *plan, aur_embree_order order, 
                            aur_counters *counters);
 
 /* The nearest hits of a packet, and which of its rays are stopped, as the policy has them traced. */
-uint32_t aur_gather_intersect(const aur_gather_plan *plan, aur_embree_order order, aur_packet *packet,
-                              aur_counters *counters);
-uint32_t aur_gather_occluded(const aur_gather_plan *plan, aur_embree_order order, aur_packet *packet,
-                             aur_counters *counters);
+uint32_t aur_gather_intersect(const aur_gather_plan *plan, aur_embree_order order, aur_packet *packet);
+uint32_t aur_gather_occluded(const aur_gather_plan *plan, aur_embree_order order, aur_packet *packet);

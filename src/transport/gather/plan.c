@@ -46,7 +46,7 @@ static const char *scene_key(const aur_integrator_context *context) {
         fclose(stream);
     }
     free(contents);
-    return key != NULL && aur_cache_store(context->cache, name, key, destroy_text) == AUR_OK ? key : NULL;
+    return key != NULL && aur_cache_store(context->cache, name, key, 0, destroy_text) == AUR_OK ? key : NULL;
 }
 
 /* A map of an earlier run, or one that is left for later ones. */
@@ -98,7 +98,7 @@ static aur_result find_map(const aur_gather_parameters *p, const aur_integrator_
         aur_irradiance_map *made;
         result = find_or_trace(context, &(aur_irradiance_map_options){photons, p->photons_a_texel}, key,
                                &made, error);
-        if (result == AUR_OK && aur_cache_store(context->cache, key, made, destroy_map) != AUR_OK)
+        if (result == AUR_OK && aur_cache_store(context->cache, key, made, made->rays, destroy_map) != AUR_OK)
             result = aur_fail_memory(error);
         *found = result == AUR_OK ? made : NULL;
     }
@@ -153,7 +153,7 @@ static aur_result find_bright(const aur_integrator_context *context, const aur_i
     aur_result result = aur_bright_texels_create(context->scene, map, classes, made, error);
     if (result != AUR_OK)
         free(made);
-    else if (aur_cache_store(context->cache, key, made, destroy_bright) != AUR_OK)
+    else if (aur_cache_store(context->cache, key, made, 0, destroy_bright) != AUR_OK)
         result = aur_fail_memory(error);
     *found = result == AUR_OK ? made : NULL;
     return result;

@@ -115,7 +115,7 @@ static void see(glance *self, uint64_t key) {
 
 /* Pixels, 16 at a time: what the first sample of each sees. */
 static void look_at(const aur_gather_plan *plan, const aur_view *view, size_t count, const size_t *x,
-                    const size_t *y, glance *const *seen, aur_counters *counters) {
+                    const size_t *y, glance *const *seen) {
     aur_packet packet;
     aur_camera_sample samples[AUR_PACKET_SIZE];
     float weights[AUR_PACKET_SIZE];
@@ -123,7 +123,7 @@ static void look_at(const aur_gather_plan *plan, const aur_view *view, size_t co
     aur_view_samples(view, count, x, y, 0, samples, weights);
     for (size_t k = 0; k < count; ++k)
         aur_packet_set(&packet, k, &samples[k].ray);
-    const uint32_t found = aur_gather_intersect(plan, AUR_EMBREE_COHERENT, &packet, counters);
+    const uint32_t found = aur_gather_intersect(plan, AUR_EMBREE_COHERENT, &packet);
     for (size_t k = 0; k < count; ++k)
         see(seen[k], (found >> k & 1u) != 0 ? aur_gather_surface_key(plan->classes, &packet, k) : 0);
 }
@@ -150,8 +150,8 @@ static bool is_beside_samples(const surroundings *self, size_t place) {
 /* What pixels see that lie beside those with samples. The tile's own samples tell it where all of its pixels
  * have `alike` many; else what a pixel finds would depend on which of its neighbours have samples, and one
  * ray each tells it, as around the tile. What lies beyond the picture sees nothing and makes no edge. */
-static void look_around(const aur_gather_plan *plan, size_t left, size_t top, bool alike, surroundings *self,
-                        aur_counters *counters) {
+static void look_around(const aur_gather_plan *plan, size_t left, size_t top, bool alike,
+                        surroundings *self) {
     size_t x[AUR_PACKET_SIZE], y[AUR_PACKET_SIZE], count = 0;
     glance *seen[AUR_PACKET_SIZE];
     const size_t reach = self->reach, places = self->side * self->side;
@@ -171,12 +171,12 @@ static void look_around(const aur_gather_plan *plan, size_t left, size_t top, bo
         y[count] = row - reach;
         seen[count++] = &self->seen[i];
         if (count == AUR_PACKET_SIZE) {
-            look_at(plan, self->view, count, x, y, seen, counters);
+            look_at(plan, self->view, count, x, y, seen);
             count = 0;
         }
     }
     if (count > 0)
-        look_at(plan, self->view, count, x, y, seen, counters);
+        look_at(plan, self->view, count, x, y, seen);
 }
 
 /* The greatest edge among what the pixels within reach have seen. What the pixel itself has seen has no say:
@@ -211,15 +211,14 @@ static bool is_lamp_edge(const aur_gather_plan *plan, const aur_view *view, size
 }
 
 void aur_gather_find_edges(const aur_gather_plan *plan, const aur_view *view, size_t x, size_t y,
-                           const aur_pixel_strata *strata, bool alike, aur_gather_edges *edges,
-                           aur_counters *counters) {
+                           const aur_pixel_strata *strata, bool alike, aur_gather_edges *edges) {
     const size_t reach = reach_of(view->filter);
     surroundings all;
     all.view = view;
     all.strata = strata;
     all.reach = reach;
     all.side = SIDE + 2 * reach;
-    look_around(plan, x, y, alike, &all, counters);
+    look_around(plan, x, y, alike, &all);
     *edges = (aur_gather_edges){0};
     for (uint32_t place = 0; place < AUR_GROUP_COUNT; ++place)
         for (size_t lane = 0; lane < AUR_PACKET_SIZE; ++lane) {

@@ -56,8 +56,7 @@ typedef struct aur_gather_edges {
 /* `strata` are those of the tile at (x, y); `alike`: all of its pixels have as many samples. Pixels beside
  * the tile are looked at with one ray each, and so are those of the tile where they are not alike. */
 void aur_gather_find_edges(const aur_gather_plan *plan, const aur_view *view, size_t x, size_t y,
-                           const aur_pixel_strata *strata, bool alike, aur_gather_edges *edges,
-                           aur_counters *counters);
+                           const aur_pixel_strata *strata, bool alike, aur_gather_edges *edges);
 
 /* Pooled irradiance: one joint pattern is split among the pixels of a 4 x 4 block, the same way in all
  * blocks, and what they gathered is pooled where they see one surface (a discontinuity buffer: Wald, Benthin,

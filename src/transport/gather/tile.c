@@ -93,7 +93,7 @@ static uint32_t trace(gather_tile *work) {
         aur_packet_set(packet, lane, &work->samples[lane].ray);
     }
     const aur_embree_order order = work->places.bounces == 0 ? AUR_EMBREE_COHERENT : AUR_EMBREE_INCOHERENT;
-    return aur_gather_intersect(work->places.plan, order, packet, work->sums.counters);
+    return aur_gather_intersect(work->places.plan, order, packet);
 }
 
 /* Counts what the eye's rays met. Lanes that need no shading for it are taken out. */
@@ -213,10 +213,10 @@ static aur_result refine_edges(gather_tile *work, aur_tile *tile) {
     enum { PLAIN_EDGE_PART = 64 };
     const uint32_t count = work->places.plan->policy.edge_samples;
     aur_counters *const counters = work->sums.counters;
-    const uint64_t before = counters->rays;
+    const uint64_t before = aur_rays_traced;
     aur_gather_edges edges;
     aur_gather_find_edges(work->places.plan, work->view, work->x, work->y, work->strata, tile->begins == NULL,
-                          &edges, counters);
+                          &edges);
     work->only_new = true;
     for (uint32_t group = 0; group < AUR_GROUP_COUNT; ++group)
         for (uint32_t i = 0; i < count; ++i) {
@@ -226,7 +226,7 @@ static aur_result refine_edges(gather_tile *work, aur_tile *tile) {
             add_samples(work, aur_group_lanes_marked(work->places.arrangement, group,
                                                      i < count / PLAIN_EDGE_PART ? edges.any : edges.lights));
         }
-    counters->edge_rays += counters->rays - before;
+    counters->edge_rays += aur_rays_traced - before;
     return AUR_OK;
 }
 

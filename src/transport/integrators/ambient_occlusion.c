@@ -93,7 +93,6 @@ static aur_result tile(const aur_integrator *integrator, aur_tile *tile) {
             const size_t pixel = aur_group_pixel(places.arrangement, (uint32_t)(place / AUR_PACKET_SIZE),
                                                  place % AUR_PACKET_SIZE);
             const size_t px = x + pixel % AUR_TILE_SIZE, py = y + pixel / AUR_TILE_SIZE;
-            tile->counters.rays += 1 + (places.seen[place] ? directions : 0);
             if (px < tile->x0 || px >= tile->x1 || py < tile->y0 || py >= tile->y1 ||
                 !aur_tile_wants(tile, px, py, i))
                 continue;

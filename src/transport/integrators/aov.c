@@ -219,7 +219,6 @@ static void add_sample(const aur_integrator *integrator, aur_tile *tile, size_t 
     aur_hit hit;
     aur_surface surface;
     const bool seen = aur_scene_intersect(integrator->scene, &sample.ray, &hit);
-    ++tile->counters.rays;
     if (seen)
         aur_scene_surface(integrator->scene, &sample.ray, &hit, &surface);
     const aov_sample at = {.radiance =

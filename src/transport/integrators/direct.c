@@ -48,17 +48,16 @@ static aur_result create(aur_parameters *parameters, const aur_integrator_contex
 }
 
 static aur_vector sample_light(const aur_scene *scene, const direct_data *data, const aur_shading *shading,
-                               const float u[3], aur_counters *counters) {
+                               const float u[3]) {
     const aur_light_draws draws = {(float)data->emitter_samples, (float)data->bsdf_samples};
     aur_shadow shadow;
     if (!aur_direct_light_choose(scene, shading, &draws, u, &shadow))
         return (aur_vector){0};
-    ++counters->rays;
     return aur_scene_occluded(scene, &shadow.ray) ? (aur_vector){0} : shadow.radiance;
 }
 
 static aur_vector sample_bsdf(const aur_scene *scene, const direct_data *data, const aur_shading *shading,
-                              const float u[3], aur_counters *counters) {
+                              const float u[3]) {
     const aur_vector black = {0};
     aur_bsdf_sample sample;
     if (!aur_shading_sample(shading, u, &sample))
@@ -67,7 +66,6 @@ static aur_vector sample_bsdf(const aur_scene *scene, const direct_data *data, c
     aur_hit hit;
     aur_vector light;
     float rival;
-    ++counters->rays;
     if (aur_scene_intersect(scene, &ray, &hit)) {
         aur_surface surface;
         aur_scene_surface(scene, &ray, &hit, &surface);
@@ -104,9 +102,8 @@ static aur_vector radiance(const aur_integrator *integrator, const aur_camera_sa
         float u[2][2];
         aur_stream_pairs(&sample->stream, pair, 2, u);
         const float numbers[3] = {u[0][0], u[1][0], u[1][1]};
-        sum = aur_vector_add(sum, i < data->emitter_samples
-                                      ? sample_light(scene, data, &shading, numbers, counters)
-                                      : sample_bsdf(scene, data, &shading, numbers, counters));
+        sum = aur_vector_add(sum, i < data->emitter_samples ? sample_light(scene, data, &shading, numbers)
+                                                            : sample_bsdf(scene, data, &shading, numbers));
     }
     return sum;
 }

@@ -188,6 +188,7 @@ static aur_result solve(const radiosity_data *p, const aur_integrator_context *c
     aur_radiosity *radiosity = has_key ? aur_cache_find(context->cache, key) : NULL;
     aur_result result = AUR_OK;
     if (radiosity == NULL) {
+        const uint64_t before = aur_rays_traced;
         result = start(p, context, &radiosity, error);
         if (result == AUR_OK)
             result = go_on(p, context, radiosity, error);
@@ -197,7 +198,8 @@ static aur_result solve(const radiosity_data *p, const aur_integrator_context *c
         }
         if (!has_key)
             snprintf(key, sizeof key, "radiosity at %p", (void *)radiosity);
-        if (aur_cache_store(context->cache, key, radiosity, destroy_solution) != AUR_OK)
+        if (aur_cache_store(context->cache, key, radiosity, aur_rays_traced - before, destroy_solution) !=
+            AUR_OK)
             return aur_fail_memory(error);
         warn_of_tail(radiosity, &context->warnings);
     }

@@ -10,7 +10,6 @@ static inline bool aur_visible_surface(const aur_scene *scene, bool hide_emitter
     enum { MOST_LIGHTS = 1000 }; /* hidden ones, one behind the other */
     for (size_t i = 0; i < MOST_LIGHTS; ++i) {
         aur_hit hit;
-        ++counters->rays;
         if (!aur_scene_intersect(scene, ray, &hit))
             return false;
         aur_scene_surface(scene, ray, &hit, surface);

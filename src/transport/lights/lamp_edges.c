@@ -58,13 +58,14 @@ aur_result aur_lamp_edges_find(const aur_view *view, uint16_t looks, const aur_i
              aur_filter_name(view->filter), (double)aur_filter_sample(view->filter, 0.0f), (unsigned)looks);
     lamp_edges *edges = aur_cache_find(context->cache, key);
     if (edges == NULL) {
+        const uint64_t before = aur_rays_traced;
         edges = calloc(1, sizeof *edges);
         aur_result result = edges != NULL ? find(view, looks, edges, error) : aur_fail_memory(error);
         if (result != AUR_OK) {
             destroy(edges);
             return result;
         }
-        result = aur_cache_store(context->cache, key, edges, destroy);
+        result = aur_cache_store(context->cache, key, edges, aur_rays_traced - before, destroy);
         if (result != AUR_OK)
             return result;
     }

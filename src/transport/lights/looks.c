@@ -94,14 +94,13 @@ static aur_stream stream_of(const aur_lamp_looks *looks, uint64_t pixel, uint64_
 }
 
 bool aur_lamp_look(const aur_lamp_looks *looks, const aur_view *view, size_t x, size_t y, uint32_t index,
-                   aur_vector *seen, aur_counters *counters) {
+                   aur_vector *seen) {
     const size_t count = looks != NULL ? looks->counts[y * view->width + x] : 0;
     if (count == 0)
         return false;
     const aur_stream stream = stream_of(looks, aur_hash3(view->seed, y, x), (uint64_t)index * count);
     look_sums sums = {.count = 0};
     look(view, &stream, x, y, count, &sums);
-    counters->rays += count;
     *seen = (aur_vector){(float)(sums.values[0] / (double)count), (float)(sums.values[1] / (double)count),
                          (float)(sums.values[2] / (double)count)};
     return true;
@@ -271,12 +270,13 @@ aur_result aur_lamp_looks_find(const aur_view *view, double rays, const aur_inte
         looks = calloc(1, sizeof *looks);
         if (looks == NULL)
             return aur_fail_memory(error);
+        const uint64_t before = aur_rays_traced;
         aur_result result = find(view, rays, context, looks, error);
         if (result != AUR_OK) {
             destroy(looks);
             return result;
         }
-        result = aur_cache_store(context->cache, key, looks, destroy);
+        result = aur_cache_store(context->cache, key, looks, aur_rays_traced - before, destroy);
         if (result != AUR_OK)
             return result;
     }

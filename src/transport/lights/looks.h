@@ -21,4 +21,4 @@ aur_result aur_lamp_looks_find(const aur_view *view, double rays, const aur_inte
 
 /* What lamps send straight to sample `index` of a pixel. False where its own ray is to tell. */
 bool aur_lamp_look(const aur_lamp_looks *looks, const aur_view *view, size_t x, size_t y, uint32_t index,
-                   aur_vector *seen, aur_counters *counters);
+                   aur_vector *seen);

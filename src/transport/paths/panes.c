@@ -7,12 +7,11 @@ bool aur_panes_exist(const aur_scene *scene) {
     return false;
 }
 
-aur_vector aur_panes_passed(const aur_scene *scene, const aur_ray *ray, size_t most, aur_counters *counters) {
+aur_vector aur_panes_passed(const aur_scene *scene, const aur_ray *ray, size_t most) {
     aur_vector left = {1.0f, 1.0f, 1.0f};
     aur_ray rest = *ray;
     for (size_t i = 0; i <= most && !aur_vector_is_zero(left); ++i) {
         aur_hit hit;
-        ++counters->rays;
         if (!aur_scene_intersect(scene, &rest, &hit))
             return left;
         aur_surface surface;

@@ -260,7 +260,6 @@ static uint32_t plain_lanes(aur_path_group *g, uint32_t lanes) {
 
 static uint32_t trace(aur_path_group *g, bool coherent) {
     aur_packet_set_lanes(&g->packet, g->alive);
-    g->counters->rays += aur_lane_count(g->alive);
     return aur_scene_intersect16(g->scene, coherent ? AUR_EMBREE_COHERENT : AUR_EMBREE_INCOHERENT,
                                  &g->packet);
 }
@@ -280,7 +279,7 @@ aur_vector aur_path_group_passed(const aur_path_group *g, size_t lane, float far
     aur_ray ray = aur_packet_ray(&g->shadows, lane);
     ray.farthest = farthest;
     const uint32_t most = g->data->max_depth - depth - 1;
-    return aur_panes_passed(g->scene, &ray, most < MOST_PANES ? most : MOST_PANES, g->counters);
+    return aur_panes_passed(g->scene, &ray, most < MOST_PANES ? most : MOST_PANES);
 }
 
 /* Of the lanes that something stops, those that get light through panes; their share of it is made less. */
@@ -344,7 +343,6 @@ static void add_direct(aur_path_group *g, uint32_t depth) {
     if (lit == 0)
         return;
     aur_packet_set_lanes(&g->shadows, lit);
-    g->counters->rays += aur_lane_count(lit);
     float farthest[AUR_PACKET_SIZE];
     memcpy(farthest, g->shadows.query.ray.tfar, sizeof farthest);
     uint32_t stopped = aur_scene_occluded16(
@@ -426,11 +424,10 @@ void aur_path_group_trace(aur_path_group *g, uint32_t depth) {
 }
 
 void aur_path_group_prepare(const aur_path *data, const aur_scene *scene, const aur_sampler *sampler,
-                            aur_counters *counters, aur_path_group *g) {
+                            aur_path_group *g) {
     g->data = data;
     g->scene = scene;
     g->sampler = sampler;
-    g->counters = counters;
     g->has_lights = aur_scene_emitter_count(scene) > 0;
     g->has_sky = aur_scene_has_environment(scene);
     g->chooses = aur_light_chooses(scene);

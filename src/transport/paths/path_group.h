@@ -14,7 +14,6 @@ typedef struct aur_path_group {
     aur_packet packet, shadows;
     const aur_path *data;
     const aur_scene *scene;
-    aur_counters *counters;
     bool has_lights, has_sky, chooses;
     uint32_t candidates; /* at least 1 */
     bool coherent;       /* the next rays are nearly parallel */
@@ -41,7 +40,7 @@ typedef struct aur_path_group {
 
 /* What all groups of a scene share; `group` is zero. */
 void aur_path_group_prepare(const aur_path *data, const aur_scene *scene, const aur_sampler *sampler,
-                            aur_counters *counters, aur_path_group *group);
+                            aur_path_group *group);
 
 /* One bounce, the first has depth 1. To begin, `packet` has the rays of the lanes in `alive`, whose
  * throughputs and sums are set, and their `from` and `pdf` unless they are in `specular`; `pixels` and

@@ -123,7 +123,6 @@ static bool survives(const aur_onward *onward, const aur_hit *hit, const aur_sha
 
 typedef struct onward_walks {
     const aur_onward *onward;
-    aur_counters *counters;
     uint32_t alive;
     bool first; /* the surface is the one that the path began at: the lobes that the map answers for */
     onward_walk walk[AUR_PACKET_SIZE];
@@ -180,7 +179,6 @@ static void add_direct_light(onward_walks *walks) {
     }
     if (lit == 0)
         return;
-    walks->counters->rays += aur_lane_count(lit);
     lit &=
         ~(is_packet(walks->onward, lit) ? aur_scene_occluded16(scene, AUR_EMBREE_INCOHERENT, &walks->packet)
                                         : aur_scene_occluded_each(scene, &walks->packet));
@@ -205,7 +203,6 @@ static uint32_t trace(onward_walks *walks) {
     }
     if (walks->alive == 0)
         return 0;
-    walks->counters->rays += aur_lane_count(walks->alive);
     return is_packet(walks->onward, walks->alive)
                ? aur_scene_intersect16(scene, AUR_EMBREE_INCOHERENT, &walks->packet)
                : aur_scene_intersect_each(scene, &walks->packet);
@@ -253,10 +250,9 @@ static aur_vector corrected(const aur_onward *onward, const aur_onward_start *st
 }
 
 void aur_onward_correct(const aur_onward *onward, size_t count, const aur_onward_start *starts,
-                        aur_vector *radiance, aur_counters *counters) {
+                        aur_vector *radiance) {
     onward_walks walks;
     walks.onward = onward;
-    walks.counters = counters;
     walks.alive = 0;
     aur_packet_clear(&walks.packet);
     for (size_t k = 0; k < count; ++k) {

@@ -36,7 +36,7 @@ typedef struct aur_onward_start {
  * correction is what that is more than it would be with a share of 0. At most sixteen paths go on together,
  * bounce by bounce: each as it would alone, but for the rounding of packets. */
 void aur_onward_correct(const aur_onward *onward, size_t count, const aur_onward_start *starts,
-                        aur_vector *radiance, aur_counters *counters);
+                        aur_vector *radiance);
 /* Whether a ray of this length is short for a texel of this area. */
 static inline bool aur_onward_is_near(const aur_onward *onward, float distance, float area) {
     return distance * distance < onward->reach * onward->reach * area;

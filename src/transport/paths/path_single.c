@@ -76,7 +76,7 @@ static light_draw draw_candidates(const aur_scene *scene, const aur_shading *sha
 
 /* Adds direct light and goes on in a drawn direction; false where the path ends. */
 static bool scatter(const aur_path *data, const aur_scene *scene, const aur_surface *surface, aur_vector view,
-                    uint32_t depth, const float (*pairs)[2], aur_path_walk *walk, aur_counters *counters) {
+                    uint32_t depth, const float (*pairs)[2], aur_path_walk *walk) {
     const aur_shading shading = aur_shading_at(surface, view);
     const float *const position = pairs[AUR_PATH_POSITION], *const direction = pairs[AUR_PATH_DIRECTION];
     /* Both directions before the shadow ray: the processor works at them together. */
@@ -90,7 +90,6 @@ static bool scatter(const aur_path *data, const aur_scene *scene, const aur_surf
     const bool goes_on = aur_shading_sample(
         &shading, (const float[3]){pairs[AUR_PATH_LOBE][0], direction[0], direction[1]}, &drawn);
     if (draw.lit) {
-        ++counters->rays;
         if (!aur_scene_occluded(scene, &draw.ray))
             walk->sum = aur_vector_add(walk->sum, draw.light);
     }
@@ -134,7 +133,7 @@ aur_vector aur_path_radiance(const aur_path *data, const aur_scene *scene, const
         const aur_vector view = aur_vector_scale(walk.ray.direction, -1.0f);
         if (!told)
             add_emission(scene, &surface, view, &walk);
-        if (depth == data->max_depth || !scatter(data, scene, &surface, view, depth, pairs, &walk, counters))
+        if (depth == data->max_depth || !scatter(data, scene, &surface, view, depth, pairs, &walk))
             break;
     }
     return walk.sum;
@@ -145,7 +144,7 @@ void aur_path_add_sample(const aur_path *data, const aur_scene *scene, size_t x,
     aur_camera_sample sample;
     aur_vector seen;
     const float weight = aur_view_sample(tile->view, x, y, index, &sample);
-    const bool told = aur_lamp_look(data->looks, tile->view, x, y, index, &seen, &tile->counters);
+    const bool told = aur_lamp_look(data->looks, tile->view, x, y, index, &seen);
     aur_tile_add(tile, x, y, weight,
                  aur_path_radiance(data, scene, &sample, told ? &seen : NULL, &tile->counters));
 }

@@ -12,7 +12,7 @@ static void look(aur_path_group *g, const aur_view *view, const size_t *x, const
     for (uint32_t rest = g->data->looks != NULL ? lanes : 0; rest != 0; rest &= rest - 1) {
         const size_t k = aur_first_lane(rest);
         aur_vector seen;
-        if (!aur_lamp_look(g->data->looks, view, x[k], y[k], g->index, &seen, g->counters))
+        if (!aur_lamp_look(g->data->looks, view, x[k], y[k], g->index, &seen))
             continue;
         g->told |= 1u << k;
         aur_lane_set(&g->lanes.sum, k, seen);
@@ -99,7 +99,7 @@ static void add_wanted(aur_path_group *g, aur_tile *tile) {
 
 void aur_path_add_tile(const aur_path *data, const aur_scene *scene, aur_tile *tile) {
     aur_path_group g = {0};
-    aur_path_group_prepare(data, scene, tile->view->sampler, &tile->counters, &g);
+    aur_path_group_prepare(data, scene, tile->view->sampler, &g);
     if (tile->begins != NULL && !data->interleaved) {
         add_wanted(&g, tile);
         return;

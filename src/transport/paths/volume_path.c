@@ -196,7 +196,6 @@ static bool scatter_at_surface(const aur_volume_path *data, const aur_scene *sce
 static bool step(const aur_volume_path *data, const aur_scene *scene, volume_walk *walk, bool *edge,
                  aur_counters *counters) {
     aur_hit hit;
-    ++counters->rays;
     const bool met = aur_scene_intersect(scene, &walk->ray, &hit);
     if (walk->medium != NULL) {
         const float u = walk->fresh ? walk->pairs[AUR_PATH_LOBE][1] : aur_draw_unit(&walk->state.hash);

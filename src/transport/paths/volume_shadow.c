@@ -10,12 +10,10 @@ bool aur_volume_shadow(const aur_scene *scene, bool passes, float reach, const a
                        const aur_medium *medium, aur_medium_walk *walk, aur_counters *counters) {
     aur_ray rest = *ray;
     if (!passes) {
-        ++counters->rays;
         return !aur_scene_occluded(scene, ray) && pass_medium(medium, ray, reach, walk);
     }
     for (size_t i = 0; i < AUR_MOST_PASSED; ++i) {
         aur_hit hit;
-        ++counters->rays;
         if (!aur_scene_intersect(scene, &rest, &hit))
             return pass_medium(medium, &rest, reach, walk);
         aur_surface surface;

@@ -25,7 +25,7 @@ typedef struct aur_irradiance_map {
     aur_incident_photon *members;
     size_t photons; /* stored, of which the map was made */
     uint64_t paths; /* particles that left the lights */
-    uint64_t rays;  /* that the map cost */
+    uint64_t rays;  /* that the map took, also where it comes from a file */
     uint64_t cut;   /* particles whose path was cut (photon_map.h) */
 } aur_irradiance_map;
 

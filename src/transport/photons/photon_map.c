@@ -20,7 +20,7 @@ enum {
 typedef struct photon_chunk {
     size_t count, capacity;
     aur_photon *photons;
-    uint64_t rays, cut;
+    uint64_t cut;
 } photon_chunk;
 
 typedef struct batch {
@@ -79,7 +79,6 @@ static bool trace_path(const batch *work, uint64_t path, photon_chunk *chunk) {
     bool specular_so_far = true;
     for (size_t edge = 1; edge <= limit && (specular_so_far || kind != AUR_PHOTONS_CAUSTIC); ++edge) {
         aur_hit hit;
-        ++chunk->rays;
         if (!aur_scene_intersect(work->scene, &ray, &hit))
             return true;
         aur_surface surface;
@@ -129,7 +128,7 @@ static aur_result trace_chunk(void *context, size_t index) {
     batch *const work = context;
     photon_chunk *const chunk = &work->chunks[index];
     chunk->count = 0;
-    chunk->rays = chunk->cut = 0;
+    chunk->cut = 0;
     for (uint64_t i = 0; i < work->paths_a_chunk; ++i)
         if (!trace_path(work, work->first_path + index * work->paths_a_chunk + i, chunk))
             return AUR_ERROR_MEMORY;
@@ -139,7 +138,7 @@ static aur_result trace_chunk(void *context, size_t index) {
 static bool pack_chunk(void *context, size_t index, aur_bytes *bytes) {
     const batch *const work = context;
     const photon_chunk *const chunk = &work->chunks[index];
-    const uint64_t counted[] = {chunk->count, chunk->rays, chunk->cut};
+    const uint64_t counted[] = {chunk->count, chunk->cut};
     aur_bytes_put(bytes, sizeof counted, counted);
     aur_bytes_put(bytes, chunk->count * sizeof *chunk->photons, chunk->photons);
     return true;
@@ -148,11 +147,10 @@ static bool pack_chunk(void *context, size_t index, aur_bytes *bytes) {
 static aur_result unpack_chunk(void *context, size_t index, aur_bytes_reader *bytes) {
     batch *const work = context;
     photon_chunk *const chunk = &work->chunks[index];
-    uint64_t counted[3];
+    uint64_t counted[2];
     aur_bytes_get(bytes, sizeof counted, counted);
     chunk->count = (size_t)counted[0];
-    chunk->rays = counted[1];
-    chunk->cut = counted[2];
+    chunk->cut = counted[1];
     if (!aur_array_reserve(&chunk->photons, &chunk->capacity, chunk->count, sizeof *chunk->photons))
         return AUR_ERROR_MEMORY;
     aur_bytes_get(bytes, chunk->count * sizeof *chunk->photons, chunk->photons);
@@ -170,7 +168,6 @@ static aur_result append_batch(aur_photon_map *map, const batch *work, size_t *c
         if (chunk->count > 0)
             memcpy(map->photons + map->count, chunk->photons, chunk->count * sizeof *chunk->photons);
         map->count += chunk->count;
-        map->rays += chunk->rays;
         map->cut += chunk->cut;
     }
     return AUR_OK;
@@ -200,6 +197,7 @@ static aur_result trace_until_enough(aur_photon_map *map, batch *work, aur_error
     const aur_parallel_share share = {.pack = pack_chunk, .unpack = unpack_chunk};
     const aur_parallel_options parallel = {
         .threads = options->threads, .what = "photon map", .flush_denormals = true, .share = &share};
+    const uint64_t before = aur_rays_traced;
     size_t capacity = 0;
     while (map->count < options->count) {
         if (map->paths >= most && options->kind == AUR_PHOTONS_CAUSTIC)
@@ -220,6 +218,7 @@ static aur_result trace_until_enough(aur_photon_map *map, batch *work, aur_error
         if (aur_progress_stops(&options->progress, "photons", done, options->count))
             return aur_fail(error, AUR_ERROR_CANCELLED, "cancelled");
     }
+    map->rays = aur_rays_traced - before;
     aur_photon_map_warn(map->cut, map->paths, &options->warnings);
     for (size_t i = 0; i < map->count; ++i)
         map->photons[i].power = aur_vector_scale(map->photons[i].power, 1.0f / (float)map->paths);

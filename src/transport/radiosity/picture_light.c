@@ -93,7 +93,7 @@ static aur_ray leave(const aur_radiosity_scene *scene, const aur_radiosity_place
 }
 
 aur_vector aur_radiosity_direct(const aur_radiosity_scene *scene, const aur_radiosity_place *place,
-                                uint32_t triangle, float u, float v, uint64_t *rays) {
+                                uint32_t triangle, float u, float v) {
     const aur_vector black = {0};
     const aur_radiosity_triangle *const light = &scene->triangles[triangle];
     if (!(aur_vector_dot(light->frame.z, aur_vector_subtract(place->position, light->corner)) > 0.0f))
@@ -112,7 +112,6 @@ aur_vector aur_radiosity_direct(const aur_radiosity_scene *scene, const aur_radi
         return black;
     const aur_ray ray = leave(scene, place, towards);
     aur_hit hit;
-    ++*rays;
     if (!aur_scene_intersect(scene->scene, &ray, &hit) || aur_radiosity_triangle_at(scene, &hit) != triangle)
         return black;
     const float factor = (float)solid_angle * cosine / AUR_PI_F;
@@ -163,12 +162,12 @@ void aur_radiosity_image_release(aur_radiosity_image *image) {
 }
 
 bool aur_radiosity_see(const aur_radiosity_scene *scene, uint64_t hash, aur_ray ray, aur_hit hit,
-                       aur_radiosity_place *place, aur_vector *throughput, uint64_t *rays) {
+                       aur_radiosity_place *place, aur_vector *throughput) {
     uint32_t index = aur_radiosity_triangle_at(scene, &hit);
     const bool mirrored = (scene->triangles[index].flags & AUR_RADIOSITY_MIRROR) != 0;
     *throughput = (aur_vector){1.0f, 1.0f, 1.0f};
     if (mirrored) {
-        if (aur_radiosity_reflect(scene, false, hash, &ray, &hit, throughput, rays) != AUR_RADIOSITY_MET)
+        if (aur_radiosity_reflect(scene, false, hash, &ray, &hit, throughput) != AUR_RADIOSITY_MET)
             return false;
         index = aur_radiosity_triangle_at(scene, &hit);
     }
@@ -188,10 +187,10 @@ bool aur_radiosity_see(const aur_radiosity_scene *scene, uint64_t hash, aur_ray 
 
 /* The radiance that the solution has where a gather ray ends. */
 static aur_vector radiance_at(const aur_radiosity_image *image, const aur_ray *ray, const aur_hit *hit,
-                              uint64_t hash, uint64_t *rays) {
+                              uint64_t hash) {
     aur_radiosity_place place;
     aur_vector throughput;
-    if (!aur_radiosity_see(&image->solution->scene, hash, *ray, *hit, &place, &throughput, rays) ||
+    if (!aur_radiosity_see(&image->solution->scene, hash, *ray, *hit, &place, &throughput) ||
         place.patch == AUR_NO_PATCH)
         return (aur_vector){0};
     aur_vector radiance = aur_vector_multiply(place.albedo, image->exitance[place.patch]);
@@ -203,7 +202,7 @@ static aur_vector radiance_at(const aur_radiosity_image *image, const aur_ray *r
 }
 
 aur_vector aur_radiosity_gather(const aur_radiosity_image *image, const aur_radiosity_place *place,
-                                uint64_t hash, uint64_t *rays) {
+                                uint64_t hash) {
     const aur_radiosity_scene *const scene = &image->solution->scene;
     const float angle = 2.0f * AUR_PI_F * aur_unit_float((uint32_t)(hash >> 32));
     const float cosine = cosf(angle), sine = sinf(angle);
@@ -223,13 +222,12 @@ aur_vector aur_radiosity_gather(const aur_radiosity_image *image, const aur_radi
         }
         for (size_t k = lanes; k < AUR_PACKET_SIZE; ++k)
             packet.valid[k] = 0;
-        *rays += lanes;
         const uint32_t met = aur_scene_intersect16(scene->scene, AUR_EMBREE_INCOHERENT, &packet);
         for (size_t k = 0; k < lanes; ++k) {
             if ((met >> k & 1u) == 0)
                 continue;
             const aur_hit hit = aur_packet_hit(scene->scene, &packet, k);
-            const aur_vector radiance = radiance_at(image, &made[k], &hit, aur_hash2(hash, first + k), rays);
+            const aur_vector radiance = radiance_at(image, &made[k], &hit, aur_hash2(hash, first + k));
             sum = aur_vector_add_scaled(sum, image->weights[first + k], radiance);
         }
     }

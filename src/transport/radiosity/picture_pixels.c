@@ -26,7 +26,6 @@ typedef struct pixel_points {
 typedef struct workspace {
     const aur_radiosity_image *image;
     const aur_view *view;
-    aur_counters *counters;
     uint32_t *order;                     /* the lights as the pixel's hit points take them */
     uint32_t first;                      /* hit point of the tile */
     double (*halton)[HALTON_DIMENSIONS]; /* of its hit points, before they are shifted */
@@ -71,7 +70,7 @@ static aur_vector light_sample(const workspace *work, const aur_radiosity_place 
     const uint64_t shift = aur_hash3(pixel, 0x6c69676874, light);
     const float u = aur_unit_float((uint32_t)shift + (index + 1) * 3242174889u);
     const float v = aur_unit_float((uint32_t)(shift >> 32) + (index + 1) * 2447445414u);
-    return aur_radiosity_direct(&work->image->solution->scene, place, triangle, u, v, &work->counters->rays);
+    return aur_radiosity_direct(&work->image->solution->scene, place, triangle, u, v);
 }
 
 /* Light number p of the round's order is taken by one hit point alone, `points` times: over the round every
@@ -96,15 +95,13 @@ static bool wants(const workspace *work, aur_radiosity_component component) {
 static hit_point make_point(const workspace *work, size_t x, size_t y, uint32_t index, uint32_t points) {
     const uint64_t pixel = pixel_hash(work, x, y), hash = aur_hash2(pixel, index);
     const aur_radiosity_scene *const scene = &work->image->solution->scene;
-    uint64_t *const rays = &work->counters->rays;
     aur_ray ray;
     hit_point made = {.triangle = AUR_NO_PATCH, .weight = camera_ray(work, x, y, index, &ray)};
     aur_hit hit;
     aur_radiosity_place place;
     aur_vector path;
-    ++*rays;
     if (!aur_scene_intersect(scene->scene, &ray, &hit) ||
-        !aur_radiosity_see(scene, hash, ray, hit, &place, &path, rays))
+        !aur_radiosity_see(scene, hash, ray, hit, &place, &path))
         return made;
     made.triangle = place.triangle << 1 | (place.patch == place.triangle);
     made.throughput = aur_vector_multiply(path, place.albedo);
@@ -116,7 +113,7 @@ static hit_point make_point(const workspace *work, size_t x, size_t y, uint32_t 
         made.rest = aur_vector_add(
             made.rest, aur_vector_multiply(path, direct_light(work, &place, pixel, index, points)));
     if (wants(work, AUR_RADIOSITY_INDIRECT))
-        made.irradiance = aur_radiosity_gather(work->image, &place, aur_mix64(hash + 1), rays);
+        made.irradiance = aur_radiosity_gather(work->image, &place, aur_mix64(hash + 1));
     return made;
 }
 
@@ -217,7 +214,7 @@ aur_result aur_radiosity_tile(const aur_integrator *integrator, aur_tile *tile) 
     aur_result result =
         a.pixels != NULL && points != NULL && order != NULL && halton != NULL ? AUR_OK : AUR_ERROR_MEMORY;
     if (result == AUR_OK) {
-        const workspace work = {image, tile->view, &tile->counters, order, tile->first, halton};
+        const workspace work = {image, tile->view, order, tile->first, halton};
         const aur_output output = {.capacity = HALTON_DIMENSIONS * (size_t)tile->count, .doubles = halton[0]};
         aur_halton_points(HALTON_DIMENSIONS, NULL, tile->first, tile->count, &output,
                           NULL); /* it cannot fail */

@@ -248,7 +248,7 @@ aur_vector aur_radiosity_emitted(const aur_radiosity_scene *scene, uint32_t tria
 }
 
 aur_radiosity_end aur_radiosity_reflect(const aur_radiosity_scene *scene, bool particle, uint64_t hash,
-                                        aur_ray *ray, aur_hit *hit, aur_vector *throughput, uint64_t *rays) {
+                                        aur_ray *ray, aur_hit *hit, aur_vector *throughput) {
     for (uint32_t hop = 0; hop < AUR_RADIOSITY_HOPS; ++hop) {
         aur_surface surface;
         aur_scene_surface(scene->scene, ray, hit, &surface);
@@ -264,7 +264,6 @@ aur_radiosity_end aur_radiosity_reflect(const aur_radiosity_scene *scene, bool p
         *throughput = aur_vector_multiply(
             *throughput, changes ? aur_vector_scale(sample.weight, sample.ior_squared) : sample.weight);
         *ray = aur_surface_ray(&surface, sample.light);
-        ++*rays;
         if (!aur_scene_intersect(scene->scene, ray, hit))
             return AUR_RADIOSITY_NONE;
         const uint32_t triangle = aur_radiosity_triangle_at(scene, hit);

@@ -77,7 +77,7 @@ typedef enum aur_radiosity_end {
 } aur_radiosity_end;
 enum { AUR_RADIOSITY_HOPS = 32 };
 aur_radiosity_end aur_radiosity_reflect(const aur_radiosity_scene *scene, bool particle, uint64_t hash,
-                                        aur_ray *ray, aur_hit *hit, aur_vector *throughput, uint64_t *rays);
+                                        aur_ray *ray, aur_hit *hit, aur_vector *throughput);
 
 /* Pairs of triangles that lie in one plane and overlap. Beyond a number that nobody looks at one by one they
  * are no longer sought: many copies of one triangle would take the square of their number. */

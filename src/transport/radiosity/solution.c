@@ -208,9 +208,11 @@ static aur_result run_lane(void *context, size_t lane) {
         if (first >= end)
             continue;
         const uint64_t left = end - first;
+        aur_radiosity_tally *const tally = &radiosity->lanes[lane * count + r];
+        const uint64_t before = aur_rays_traced;
         aur_radiosity_walk_block(&radiosity->walk, work->points->sets[r], r, work->points->skipped + first,
-                                 left < AUR_RADIOSITY_BLOCK ? (size_t)left : AUR_RADIOSITY_BLOCK,
-                                 &radiosity->lanes[lane * count + r]);
+                                 left < AUR_RADIOSITY_BLOCK ? (size_t)left : AUR_RADIOSITY_BLOCK, tally);
+        tally->rays += aur_rays_traced - before;
     }
 }
 

@@ -1,5 +1,6 @@
 /* Tallies of several processes, added up. */
 #include "core/bytes.h"
+#include "core/parallel.h"
 #include "core/ranks.h"
 #include "transport/radiosity/walk.h"
 
@@ -29,6 +30,13 @@ static void get(aur_bytes_reader *reader, aur_radiosity_tally *tally) {
     tally->not_finite = counted.not_finite != 0;
 }
 
+static uint64_t rays_of(size_t count, const aur_radiosity_tally *tallies) {
+    uint64_t rays = 0;
+    for (size_t i = 0; i < count; ++i)
+        rays += tallies[i].rays;
+    return rays;
+}
+
 typedef struct sum {
     size_t count;
     aur_radiosity_tally *tallies;
@@ -54,6 +62,7 @@ aur_result aur_radiosity_tallies_share(size_t count, aur_radiosity_tally *tallie
     if (ranks == NULL)
         return AUR_OK;
     aur_bytes bytes = {0};
+    const uint64_t own = rays_of(count, tallies);
     sum total = {count, tallies};
     for (size_t i = 0; i < count; ++i)
         put(&tallies[i], &bytes);
@@ -72,6 +81,7 @@ aur_result aur_radiosity_tallies_share(size_t count, aur_radiosity_tally *tallie
             get(&reader, &tallies[i]);
         free(all);
     }
+    aur_rays_traced += rays_of(count, tallies) - own;
     aur_bytes_release(&bytes);
     return result;
 }

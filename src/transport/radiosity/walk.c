@@ -212,7 +212,6 @@ static inline aur_ray departure(const block *b, size_t i, const aur_radiosity_tr
  * ended. */
 static bool meet(block *b, size_t i, size_t flight, aur_ray *ray, aur_hit *hit) {
     particle *const p = &b->particles[i];
-    ++b->tally->rays;
     if (!aur_scene_intersect(b->walk->scene->scene, ray, hit)) {
         ++b->tally->lost;
         return false;
@@ -222,7 +221,7 @@ static bool meet(block *b, size_t i, size_t flight, aur_ray *ray, aur_hit *hit) 
         return true;
     aur_vector kept = {1.0f, 1.0f, 1.0f};
     const aur_radiosity_end end =
-        aur_radiosity_reflect(scene, true, path_hash(b, i, flight), ray, hit, &kept, &b->tally->rays);
+        aur_radiosity_reflect(scene, true, path_hash(b, i, flight), ray, hit, &kept);
     if (end != AUR_RADIOSITY_MET) {
         ++*(end == AUR_RADIOSITY_NONE ? &b->tally->lost : &b->tally->trapped);
         return false;
