@@ -45,6 +45,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
         fuzz_require(result == AUR_ERROR_FORMAT || result == AUR_ERROR_MEMORY, "a failure of the wrong kind");
         return 0;
     }
+    fuzz_require(aur_shape_recenter(shape, (const double[3]){0.0}, false, &error) == AUR_OK, "no memory");
     for (size_t i = 0; i < 4 * shape->curves.point_count; ++i)
         fuzz_require(isfinite(shape->curves.points[i]), "a point of a curve that is not finite");
     for (size_t i = 0; i < shape->curves.segment_count; ++i)

@@ -91,10 +91,10 @@ typedef struct aur_scene_description {
     size_t size;
     size_t shapes, triangles, emitters, materials;
     size_t width, height, samples_per_pixel;
-    float lower[3], upper[3]; /* bounding box, scene units */
-    const char *integrator;   /* owned by the scene */
-    const char *sampler;      /* SET syntax, owned by the scene */
-    const char *filter;       /* static storage */
+    double lower[3], upper[3]; /* bounding box, scene units */
+    const char *integrator;    /* owned by the scene */
+    const char *sampler;       /* SET syntax, owned by the scene */
+    const char *filter;        /* static storage */
 } aur_scene_description;
 
 /* Errors: ARGUMENT when `size` is not set. */

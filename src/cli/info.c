@@ -56,8 +56,8 @@ static int describe_scene(const info_input *input, const info_options *options) 
     static const char *const bounds[2][3] = {{"lower_x", "lower_y", "lower_z"},
                                              {"upper_x", "upper_y", "upper_z"}};
     for (size_t i = 0; i < 3; ++i) {
-        report_fact_number(facts, bounds[0][i], (double)d.lower[i]);
-        report_fact_number(facts, bounds[1][i], (double)d.upper[i]);
+        report_fact_number(facts, bounds[0][i], d.lower[i]);
+        report_fact_number(facts, bounds[1][i], d.upper[i]);
     }
     report_fact_number(facts, "width", (double)d.width);
     report_fact_number(facts, "height", (double)d.height);

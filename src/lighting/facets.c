@@ -63,7 +63,7 @@ static aur_result load_mesh(const char *path, source kind, const aur_scene_optio
                                     "<boolean name=\"face_normals\" value=\"true\"/>"
                                     "<string name=\"filename\" value=\"%s\"/></shape></scene>",
                                     kind == SOURCE_OBJ ? "obj" : "ply", escaped);
-        result = aur_scene_load_memory(path, (size_t)length, text, options, scene, error);
+        result = aur_scene_load_with_points(path, (size_t)length, text, options, scene, error);
     }
     if (result != AUR_OK && error != NULL && strcmp(error->file, absolute) == 0)
         aur_format(error->file, sizeof error->file, "%s", path); /* as the caller knows it */
@@ -112,14 +112,12 @@ static aur_result copy_triangles(aur_facets *facets, aur_error *error) {
         const aur_mesh *const mesh = &scene->shapes[i]->mesh;
         facets->first[i] = (uint32_t)facet;
         for (size_t k = 0; k < mesh->triangle_count; ++k, ++facet) {
-            aur_vector corner[3];
-            aur_mesh_corners(mesh, k, corner);
-            for (size_t c = 0; c < 3; ++c) {
-                const double place[3] = {(double)corner[c].x, (double)corner[c].y, (double)corner[c].z};
-                memcpy(facets->corners[facet][c], place, sizeof place);
-                for (int d = 0; d < 3; ++d)
-                    facets->reach = fmax(facets->reach, fabs(place[d]));
-            }
+            for (size_t c = 0; c < 3; ++c)
+                for (size_t d = 0; d < 3; ++d) {
+                    const double at = mesh->points[3 * (size_t)mesh->indices[3 * k + c] + d];
+                    facets->corners[facet][c][d] = at - scene->origin[d];
+                    facets->reach = fmax(facets->reach, fabs(facets->corners[facet][c][d]));
+                }
             facets->areas[facet] =
                 aur_polygon_plane(3, (const double(*)[3])facets->corners[facet], &facets->planes[facet]);
             facets->groups[facet] = (uint32_t)i;
@@ -201,7 +199,7 @@ aur_result aur_facets_load(const char *path, const aur_facets_options *given, au
     scene.definitions = options.definitions;
     scene.further_count = options.further_count;
     scene.further = options.further;
-    result = kind >= SOURCE_SCENE ? aur_scene_load(path, &scene, &facets->scene, error)
+    result = kind >= SOURCE_SCENE ? aur_scene_load_with_points(path, 0, NULL, &scene, &facets->scene, error)
                                   : load_mesh(path, kind, &scene, &facets->scene, error);
     if (result == AUR_OK)
         result = check_shapes(facets->scene, error);

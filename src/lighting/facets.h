@@ -13,7 +13,7 @@ struct aur_facets {
     aur_scene *scene;
     char *path;
     size_t count, patch_count;
-    double (*corners)[3][3]; /* of facets, counter-clockwise seen from the front */
+    double (*corners)[3][3]; /* of facets, counter-clockwise seen from the front, from the scene's origin */
     aur_plane *planes;       /* of facets; zero without area */
     double *areas;           /* of facets; 0 for those that are left out */
     bool *doubled;           /* facets on which another one lies */

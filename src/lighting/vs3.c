@@ -55,9 +55,8 @@ aur_result aur_facets_write_vs3(const aur_facets *facets, const char *path, aur_
     for (size_t i = 0; i < scene->shape_count; ++i) {
         const aur_mesh *const mesh = &scene->shapes[i]->mesh;
         for (size_t k = 0; k < mesh->vertex_count; ++k) {
-            const float *const p = &mesh->positions[3 * k];
-            aur_print(writer.stream, "V %zu %.9g %.9g %.9g\n", ++vertex, (double)p[0], (double)p[1],
-                      (double)p[2]);
+            const double *const p = &mesh->points[3 * k];
+            aur_print(writer.stream, "V %zu %.17g %.17g %.17g\n", ++vertex, p[0], p[1], p[2]);
         }
     }
     write_surfaces(facets, leaders, writer.stream);

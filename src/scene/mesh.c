@@ -1,5 +1,6 @@
 #include "scene/mesh.h"
 
+#include <float.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -12,7 +13,7 @@ aur_result aur_mesh_allocate(aur_mesh *mesh, size_t vertex_count, size_t triangl
                            vertex_count, triangle_count);
     mesh->vertex_count = vertex_count;
     mesh->triangle_count = triangle_count;
-    mesh->positions = calloc(3 * vertex_count + 1, sizeof(float));
+    mesh->points = calloc(3 * vertex_count + 1, sizeof(double));
     mesh->indices = calloc(3 * triangle_count + 1, sizeof(uint32_t));
     if (parts & AUR_MESH_NORMALS)
         mesh->normals = calloc(3 * vertex_count + 1, sizeof(float));
@@ -20,7 +21,7 @@ aur_result aur_mesh_allocate(aur_mesh *mesh, size_t vertex_count, size_t triangl
         mesh->uvs = calloc(2 * vertex_count + 1, sizeof(float));
     if (parts & AUR_MESH_VERTEX_COLORS)
         mesh->vertex_colors = calloc(3 * vertex_count + 1, sizeof(float));
-    if (mesh->positions != NULL && mesh->indices != NULL &&
+    if (mesh->points != NULL && mesh->indices != NULL &&
         (mesh->normals != NULL || !(parts & AUR_MESH_NORMALS)) &&
         (mesh->uvs != NULL || !(parts & AUR_MESH_UVS)) &&
         (mesh->vertex_colors != NULL || !(parts & AUR_MESH_VERTEX_COLORS)))
@@ -31,6 +32,7 @@ aur_result aur_mesh_allocate(aur_mesh *mesh, size_t vertex_count, size_t triangl
 }
 
 void aur_mesh_release(aur_mesh *mesh) {
+    free(mesh->points);
     free(mesh->positions);
     free(mesh->normals);
     free(mesh->uvs);
@@ -67,13 +69,29 @@ static void turn_winding(aur_mesh *mesh) {
 
 void aur_mesh_transform(aur_mesh *mesh, const aur_transform *to_world, const aur_transform *to_local) {
     for (size_t i = 0; i < 3 * mesh->vertex_count; i += 3) {
-        put(&mesh->positions[i], aur_transform_point_f(to_world, vector_at(&mesh->positions[i])));
+        const double local[3] = {mesh->points[i], mesh->points[i + 1], mesh->points[i + 2]};
+        aur_transform_point(to_world, local, &mesh->points[i]);
         if (mesh->normals != NULL)
             put(&mesh->normals[i],
                 aur_vector_normalize(aur_transform_normal_f(to_local, vector_at(&mesh->normals[i]))));
     }
     if (aur_transform_determinant(to_world) < 0.0)
         turn_winding(mesh);
+}
+
+aur_result aur_mesh_recenter(aur_mesh *mesh, const double origin[3], bool keep_points, aur_location location,
+                             aur_error *error) {
+    mesh->positions = malloc((3 * mesh->vertex_count + 1) * sizeof(float));
+    if (mesh->positions == NULL)
+        return aur_fail_memory_at(error, location);
+    for (size_t i = 0; i < 3 * mesh->vertex_count; ++i)
+        mesh->positions[i] = (float)(mesh->points[i] - origin[i % 3]);
+    mesh->positions[3 * mesh->vertex_count] = 0.0f;
+    if (keep_points)
+        return AUR_OK;
+    free(mesh->points);
+    mesh->points = NULL;
+    return AUR_OK;
 }
 
 void aur_mesh_flip(aur_mesh *mesh) {
@@ -139,7 +157,7 @@ aur_result aur_mesh_check(const aur_mesh *mesh, aur_location location, aur_error
         return aur_fail_at(error, location, AUR_ERROR_FORMAT,
                            "%zu triangles are too many: the limit is 2^32 - 2", mesh->triangle_count);
     for (size_t i = 0; i < 3 * mesh->vertex_count; ++i)
-        if (!isfinite(mesh->positions[i]))
+        if (!(fabs(mesh->points[i]) <= (double)FLT_MAX))
             return aur_fail_at(error, location, AUR_ERROR_FORMAT, "vertex %zu is not finite", i / 3);
     for (size_t i = 0; i < 3 * mesh->triangle_count; ++i)
         if (mesh->indices[i] >= mesh->vertex_count)

@@ -1,4 +1,5 @@
-/* Triangle meshes as they are rendered: in world coordinates, counter-clockwise about the outside. */
+/* Triangle meshes as they are rendered: in world coordinates, counter-clockwise about the outside.
+ * Coordinates are doubles until the scene's origin is known, and then floats that count from it. */
 #pragma once
 
 #include "core/error.h"
@@ -9,26 +10,30 @@
 
 typedef struct aur_mesh {
     size_t vertex_count, triangle_count;
-    float *positions;     /* 3 * vertex_count, and 4 bytes more that Embree may read */
-    float *normals;       /* 3 * vertex_count of unit length, or NULL: flat triangles */
-    float *uvs;           /* 2 * vertex_count, or NULL */
-    uint32_t *indices;    /* 3 * triangle_count */
+    double *points;    /* 3 * vertex_count, world coordinates; after aur_mesh_recenter NULL, if not kept */
+    float *positions;  /* 3 * vertex_count from the origin, and 4 bytes that Embree may read; NULL before */
+    float *normals;    /* 3 * vertex_count of unit length, or NULL: flat triangles */
+    float *uvs;        /* 2 * vertex_count, or NULL */
+    uint32_t *indices; /* 3 * triangle_count */
     float *vertex_colors; /* 3 * vertex_count, or NULL */
     float *face_colors;   /* 3 * triangle_count, or NULL */
 } aur_mesh;
 
 enum { AUR_MESH_POSITIONS_ONLY = 0, AUR_MESH_NORMALS = 1, AUR_MESH_UVS = 2, AUR_MESH_VERTEX_COLORS = 4 };
 
-/* Allocates; all is zero. Refuses what 32 bits cannot index. */
+/* Allocates all but `positions`; all is zero. Refuses what 32 bits cannot index. */
 aur_result aur_mesh_allocate(aur_mesh *mesh, size_t vertex_count, size_t triangle_count, unsigned parts,
                              aur_location location, aur_error *error);
 void aur_mesh_release(aur_mesh *mesh);
 /* Makes the `count` indices, of malloc, those of the mesh: *indices becomes NULL. */
 void aur_mesh_take_indices(aur_mesh *mesh, size_t count, uint32_t **indices);
 
-/* Moves positions by the affine map and normals with them. A map that mirrors turns the winding, so that
- * what was outside stays outside. */
+/* Moves points by the affine map and normals with them. A map that mirrors turns the winding, so that what
+ * was outside stays outside. */
 void aur_mesh_transform(aur_mesh *mesh, const aur_transform *to_world, const aur_transform *to_local);
+/* Makes `positions` of `points`, as floats that count from `origin`. */
+aur_result aur_mesh_recenter(aur_mesh *mesh, const double origin[3], bool keep_points, aur_location location,
+                             aur_error *error);
 /* Exchanges inside and outside. */
 void aur_mesh_flip(aur_mesh *mesh);
 /* Normals at vertices: those of the triangles around, by their angle there (Thuermer and Wuethrich 1998). */
@@ -37,8 +42,8 @@ aur_result aur_mesh_smooth(aur_mesh *mesh, aur_location location, aur_error *err
  * be rendered. */
 void aur_mesh_drop_flat_normals(aur_mesh *mesh);
 
-/* An error when an index is no vertex, a coordinate is not finite, or triangles are more than 32 bits count.
- */
+/* An error when an index is no vertex, a coordinate of `points` is no finite float, or triangles are more
+ * than 32 bits count. */
 aur_result aur_mesh_check(const aur_mesh *mesh, aur_location location, aur_error *error);
 
 static inline aur_vector aur_mesh_position(const aur_mesh *mesh, uint32_t vertex) {

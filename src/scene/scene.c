@@ -14,18 +14,18 @@ static void find_sphere(aur_scene *scene) {
     scene->radius = radius > 0.0f ? 1.001f * radius : 1.0f;
 }
 
-/* The largest coordinate of a shape in its own space, either side of 0. Corners beyond what Embree takes
- * (1.8e18) are left out: it draws no triangle that has one. */
-static double reach_of(const aur_shape *shape) {
+/* The largest coordinate of a shape in the world, either side of 0. Corners beyond what Embree takes (1.8e18)
+ * are left out: it draws no triangle that has one. */
+static double reach_of(const aur_shape *shape, const double origin[3]) {
     double reach = 0.0;
     for (size_t k = 0; shape->curved != NULL && k < aur_shape_primitives(shape); ++k) {
         double lower[3], upper[3];
         shape->curved->bounds(shape, k, lower, upper);
         for (size_t i = 0; i < 3; ++i)
-            reach = fmax(reach, fmax(fabs(lower[i]), fabs(upper[i])));
+            reach = fmax(reach, fmax(fabs(lower[i] + origin[i]), fabs(upper[i] + origin[i])));
     }
     for (size_t i = 0; i < 3 * shape->mesh.vertex_count; ++i) {
-        const double size = fabs((double)shape->mesh.positions[i]);
+        const double size = fabs((double)shape->mesh.positions[i] + origin[i % 3]);
         if (size > reach && size < 1.8e18)
             reach = size;
     }
@@ -40,8 +40,14 @@ static void warn_of_tiny(const aur_scene *scene, const aur_warnings *warnings) {
                     "the scene is %.2g wide, too small to be exact: scale it to 1e-5 or more", width);
 }
 
-static double larger_of(double a, aur_vector b) {
-    return fmax(a, fmax(fabs((double)b.x), fmax(fabs((double)b.y), fabs((double)b.z))));
+/* The largest coordinate of the scene's bounds, counted from a point that is `origin` from its own. */
+static double bounds_reach(const aur_scene *scene, const double origin[3]) {
+    const double sides[6] = {scene->lower.x, scene->lower.y, scene->lower.z,
+                             scene->upper.x, scene->upper.y, scene->upper.z};
+    double reach = 0.0;
+    for (size_t i = 0; i < 6; ++i)
+        reach = fmax(reach, fabs(sides[i] + origin[i % 3]));
+    return reach;
 }
 
 /* Where rays may begin, in the space of an instance, must not be beyond what Embree takes, with room for
@@ -69,19 +75,19 @@ static double sensor_reach(const aur_sensor *sensor) {
 
 /* Refuses what is so far away that Embree would end the process. */
 static aur_result check_reach(const aur_scene *scene, aur_error *error) {
-    double reach = larger_of(larger_of(0.0, scene->lower), scene->upper);
+    double reach = bounds_reach(scene, scene->origin);
     const double most = 1.00001 * AUR_REACH; /* bounds are a little wider than shapes */
     for (size_t i = 0; reach > most && i < scene->shape_count; ++i) {
         const aur_shape *const shape = scene->shapes[i];
-        if (!shape->grouped && reach_of(shape) > most)
+        if (!shape->grouped && reach_of(shape, scene->origin) > most)
             return aur_fail_at(error, shape->location, AUR_ERROR_FORMAT,
                                "shape '%s' reaches to %g from the origin; %g is the most",
-                               shape->descriptor->row.name, reach_of(shape), AUR_REACH);
+                               shape->descriptor->row.name, reach_of(shape, scene->origin), AUR_REACH);
     }
     if (reach > most)
         return aur_fail_at(error, scene->document.root->location, AUR_ERROR_FORMAT,
                            "instances reach to %g from the origin; %g is the most", reach, AUR_REACH);
-    reach = fmax(reach, sensor_reach(&scene->sensor));
+    reach = fmax(bounds_reach(scene, (const double[3]){0.0}), sensor_reach(&scene->sensor));
     for (size_t i = 0; i < scene->instance_count; ++i) {
         const aur_result result = check_instance(scene->instances[i], reach, error);
         if (result != AUR_OK)
@@ -159,7 +165,7 @@ static aur_result prepare_lights(aur_scene *scene, aur_error *error) {
 
 /* From the file at `path`, or from `data`, where it is given. */
 static aur_result load(const char *path, size_t bytes, const char *data, const aur_scene_options *given,
-                       aur_scene **scene, aur_error *error) {
+                       bool keep_points, aur_scene **scene, aur_error *error) {
     *scene = NULL;
     aur_scene_options options = aur_scene_options_default();
     aur_result result = aur_options_read(given, sizeof options, &options, "aur_scene_options", error);
@@ -168,11 +174,14 @@ static aur_result load(const char *path, size_t bytes, const char *data, const a
     aur_scene *const made = calloc(1, sizeof *made);
     if (made == NULL)
         return aur_fail_memory(error);
+    made->keeps_points = keep_points;
     made->definitions = aur_definitions_text(&options);
     result = made->definitions != NULL ? aur_xml_read(path, bytes, data, &options, &made->document, error)
                                        : aur_fail_memory(error);
     if (result == AUR_OK)
         result = aur_scene_build(made, &options.warnings, error);
+    if (result == AUR_OK)
+        result = aur_scene_recenter(made, error);
     if (result == AUR_OK)
         result = aur_scene_build_accel(made, options.threads, error);
     if (result == AUR_OK)
@@ -198,12 +207,17 @@ bool aur_scene_is_name(const char *path) {
 
 aur_result aur_scene_load(const char *path, const aur_scene_options *options, aur_scene **scene,
                           aur_error *error) {
-    return load(path, 0, NULL, options, scene, error);
+    return load(path, 0, NULL, options, false, scene, error);
 }
 
 aur_result aur_scene_load_memory(const char *name, size_t bytes, const void *data,
                                  const aur_scene_options *options, aur_scene **scene, aur_error *error) {
-    return load(name, bytes, data, options, scene, error);
+    return load(name, bytes, data, options, false, scene, error);
+}
+
+aur_result aur_scene_load_with_points(const char *path, size_t bytes, const char *data,
+                                      const aur_scene_options *options, aur_scene **scene, aur_error *error) {
+    return load(path, bytes, data, options, true, scene, error);
 }
 
 void aur_scene_destroy(aur_scene *scene) {
@@ -262,12 +276,16 @@ aur_result aur_scene_describe(const aur_scene *scene, aur_scene_description *des
         .width = scene->film.width,
         .height = scene->film.height,
         .samples_per_pixel = scene->samples_per_pixel,
-        .lower = {scene->lower.x, scene->lower.y, scene->lower.z},
-        .upper = {scene->upper.x, scene->upper.y, scene->upper.z},
         .integrator = scene->integrator.plugin,
         .sampler = scene->sampler,
         .filter = aur_filter_name(scene->film.filter),
     };
+    aur_vector_to_doubles(scene->lower, own.lower);
+    aur_vector_to_doubles(scene->upper, own.upper);
+    for (size_t i = 0; i < 3; ++i) {
+        own.lower[i] += scene->origin[i];
+        own.upper[i] += scene->origin[i];
+    }
     for (size_t i = 0; i < scene->shape_count; ++i)
         own.triangles += scene->shapes[i]->mesh.triangle_count;
     return aur_description_write(&own, sizeof own, description, "aur_scene_description", error);
@@ -296,6 +314,10 @@ const aur_parameters *aur_scene_integrator(const aur_scene *scene) {
 
 struct RTCSceneTy *aur_scene_embree(const aur_scene *scene) {
     return scene->accel;
+}
+
+const double *aur_scene_origin(const aur_scene *scene) {
+    return scene->origin;
 }
 
 void aur_scene_bounds(const aur_scene *scene, aur_vector *lower, aur_vector *upper) {

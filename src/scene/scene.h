@@ -215,6 +215,14 @@ const aur_parameters *aur_scene_integrator(const aur_scene *scene);
 
 /* --- geometry, for photon maps and radiosity */
 
+/* All coordinates but those of what is read or written count from this point of the world, near which most of
+ * the scene is: as floats they are as exact wherever it stands. `origin` lasts as long as the scene. */
+AUR_EXPERIMENTAL const double *aur_scene_origin(const aur_scene *scene);
+/* A point of the world in such coordinates. */
+static inline aur_vector aur_place_from(const double origin[3], const double point[3]) {
+    return (aur_vector){(float)(point[0] - origin[0]), (float)(point[1] - origin[1]),
+                        (float)(point[2] - origin[2])};
+}
 void aur_scene_bounds(const aur_scene *scene, aur_vector *lower, aur_vector *upper);
 /* Embree's scene, for code that traces rays by itself: all shapes but those of groups, whose instances it
  * holds. */

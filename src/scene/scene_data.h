@@ -16,13 +16,15 @@ typedef struct RTCSceneTy *aur_embree_scene;
 typedef struct aur_shape_group {
     size_t count;
     uint32_t *shapes;
+    double origin[3]; /* of its shapes' coordinates */
     aur_embree_scene accel;
 } aur_shape_group;
 
 typedef struct aur_instance {
     aur_location location;
     const aur_shape_group *group;
-    aur_transform to_world, to_local;
+    aur_transform to_world,
+        to_local; /* between coordinates that count from the two origins, when recentred */
 } aur_instance;
 
 struct aur_scene {
@@ -63,17 +65,24 @@ struct aur_scene {
     aur_embree_device device;
     aur_embree_scene accel;
     size_t packet_size; /* 16, 8, 4 or 0: aur_embree_packet_size */
+    double origin[3];   /* of the coordinates of all that follows, and of shapes, lights and cameras */
+    bool keeps_points;  /* of meshes, in doubles */
     aur_vector lower, upper;
     aur_vector center; /* of a sphere around the scene */
     float radius;
 };
 
+/* As aur_scene_load or, with data, aur_scene_load_memory; and meshes keep their points in doubles. */
+aur_result aur_scene_load_with_points(const char *path, size_t bytes, const char *data,
+                                      const aur_scene_options *options, aur_scene **scene, aur_error *error);
 /* Builds the objects of the document into the empty scene (loader.c). */
 aur_result aur_scene_build(aur_scene *scene, const aur_warnings *warnings, aur_error *error);
 /* The definitions as scene->definitions has them; NULL when memory is out (contents.c). */
 char *aur_definitions_text(const aur_scene_options *options);
 /* One counted warning for each flaw of polygons, and of the faces of each file (flaws.c). */
 void aur_scene_warn_of_faces(const aur_scene *scene, const aur_warnings *warnings);
+/* Chooses the origins of the scene and of groups, and makes all coordinates count from them (recenter.c). */
+aur_result aur_scene_recenter(aur_scene *scene, aur_error *error);
 /* Hands the shapes to Embree (accel.c). */
 aur_result aur_scene_build_accel(aur_scene *scene, size_t threads, aur_error *error);
 void aur_scene_release_accel(aur_scene *scene);

@@ -28,7 +28,8 @@ typedef struct aur_sensor_descriptor {
 
 struct aur_sensor {
     const aur_sensor_descriptor *descriptor;
-    float to_world[12]; /* row major 3x4 */
+    double place[3];    /* where it stands */
+    float to_world[12]; /* row major 3x4, to coordinates that count from the scene's origin */
     float near_clip, far_clip;
     float offset_x, offset_y; /* principal point, as a share of the film */
     aur_fov_axis axis;
@@ -43,6 +44,9 @@ extern const aur_table aur_sensor_table;
 
 /* Builds the sensor that parameters->plugin names. */
 aur_result aur_sensor_create(aur_parameters *parameters, aur_sensor *sensor, aur_error *error);
+
+/* The scene's origin has been chosen. */
+void aur_sensor_recenter(aur_sensor *sensor, const double origin[3]);
 
 /* Half the film's width at z = 1. */
 float aur_sensor_half_width(const aur_sensor *sensor, float aspect);

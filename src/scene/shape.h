@@ -23,13 +23,14 @@ typedef struct aur_shape_point {
 /* Strings of points with radii, such as hair. */
 typedef struct aur_curves {
     size_t point_count, segment_count;
-    float *points;    /* x, y, z and radius of each */
+    double *places;   /* x, y, z of each, until the shape is recentred */
+    float *points;    /* x, y, z from the origin, and radius of each */
     uint32_t *firsts; /* of each segment its first point; 1 or 3 more follow */
     bool smooth;      /* cubic B-splines; else rounded cones from point to point */
 } aur_curves;
 
-/* The functions of a shape that is not a mesh. All coordinates are the world's. Hits have primitive 0, but
- * for curves, whose primitives are their segments. */
+/* The functions of a shape that is not a mesh. All coordinates count from the scene's origin. Hits have
+ * primitive 0, but for curves, whose primitives are their segments. */
 typedef struct aur_curved {
     void (*bounds)(const aur_shape *shape, size_t primitive, double lower[3], double upper[3]);
     /* The nearest hit with nearest < distance < farthest; `direction` is of any length. NULL for curves, for
@@ -62,7 +63,8 @@ struct aur_shape {
     bool parallelogram; /* two triangles sampled by one continuous map: corners 0, 1, 2, 3 in order */
     bool ellipse;       /* flat, with the half axes axis[0] and axis[1] */
     bool flipped;       /* curved shapes: the normal points to the other side */
-    aur_vector center;  /* curved shapes: the origin of their own coordinates */
+    double place[3];    /* curved shapes: the origin of their own coordinates in the world */
+    aur_vector center;  /* curved shapes: the same from the scene's origin; 0 before aur_shape_recenter */
     aur_vector axis[3]; /* curved shapes: the axes of their own coordinates */
     float radius, length;
     float inner; /* radius of the hole in a disk of radius 1 */
@@ -70,6 +72,7 @@ struct aur_shape {
     aur_face_flaws flaws; /* of the faces that the mesh was made from */
     char *file;           /* that has them; NULL: the scene's */
     bool extreme;         /* a mesh with a triangle that is not aur_is_usual_square */
+    bool smooth;          /* a mesh that is to have normals at its vertices */
     double area;
     const aur_bsdf *bsdf;
     uint32_t emitter; /* index of the light that the shape is, or AUR_NO_EMITTER */
@@ -98,7 +101,8 @@ typedef struct aur_shape_input {
 struct aur_shape_descriptor {
     aur_row row;              /* first, so that a row of the table is its descriptor */
     const aur_curved *curved; /* NULL: a mesh */
-    /* Reads its own keys and makes the shape in world coordinates (flips included). */
+    /* Reads its own keys and makes the shape in world coordinates (flips included): what aur_shape_recenter
+     * needs. */
     aur_result (*create)(const aur_shape_input *input, aur_shape *shape, aur_error *error);
     /* For meshes from files, whose `create` is aur_mesh_file_create: it makes normals at vertices where the
      * file has none. */
@@ -123,6 +127,9 @@ extern const aur_table aur_shape_table;
 /* Builds the shape that parameters->plugin names; the loader gives it a BSDF and an emitter. */
 aur_result aur_shape_create(aur_parameters *parameters, aur_xml_document *document, aur_shape **shape,
                             aur_error *error);
+/* Makes floats of the shape's coordinates, which count from `origin`, and what depends on them. Rays can meet
+ * the shape afterwards. A mesh keeps its points where that is wanted. Errors: MEMORY. */
+aur_result aur_shape_recenter(aur_shape *shape, const double origin[3], bool keep_points, aur_error *error);
 void aur_shape_destroy(aur_shape *shape);
 
 /* For shapes made in local coordinates: moves the mesh into the world and flips it where asked. */

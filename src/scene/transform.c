@@ -126,6 +126,11 @@ double aur_transform_determinant(const aur_transform *a) {
            m[2] * (m[4] * m[9] - m[5] * m[8]);
 }
 
+void aur_transform_move(aur_transform *a, const double origin[3]) {
+    for (size_t i = 0; i < 3; ++i)
+        a->m[4 * i + 3] -= origin[i];
+}
+
 void aur_transform_direction(const aur_transform *a, const double direction[3], double result[3]) {
     for (size_t i = 0; i < 3; ++i)
         result[i] =

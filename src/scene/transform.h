@@ -27,6 +27,9 @@ bool aur_transform_is_affine(const aur_transform *a);
 /* Determinant of the upper left 3x3. */
 double aur_transform_determinant(const aur_transform *a);
 
+/* Changes the target's coordinates to those that count from `origin`. */
+void aur_transform_move(aur_transform *a, const double origin[3]);
+
 /* Apply an affine map. */
 void aur_transform_point(const aur_transform *a, const double point[3], double result[3]);
 void aur_transform_direction(const aur_transform *a, const double direction[3], double result[3]);

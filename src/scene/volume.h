@@ -3,6 +3,7 @@
 #pragma once
 
 #include "core/keys.h"
+#include "scene/transform.h"
 
 typedef struct aur_volume aur_volume;
 
@@ -23,7 +24,8 @@ struct aur_volume {
     void *data;
     float minimum, maximum; /* of any channel anywhere */
     bool constant;          /* else it lies in the unit cube of its own space: */
-    float to_local[12];     /* row major 3x4, from the scene */
+    aur_transform to_world;
+    float to_local[12]; /* row major 3x4, from the scene, whose origin has been chosen: aur_volume_recenter */
     size_t voxels[3];
 };
 
@@ -32,6 +34,8 @@ extern const aur_table aur_volume_table;
 /* Builds the volume that parameters->plugin names. A grid's `filename` must already be a path that opens. */
 aur_result aur_volume_create(aur_parameters *parameters, aur_volume **volume, aur_error *error);
 void aur_volume_destroy(aur_volume *volume);
+/* Finds `to_local` for a scene whose coordinates count from `origin`. */
+void aur_volume_recenter(aur_volume *volume, const double origin[3]);
 
 /* A value of a medium: the same everywhere, or a volume. */
 typedef struct aur_volume_value {

@@ -52,8 +52,9 @@ static void compare_with_brute_force(const aur_scene *scene, aur_vector referenc
             aur_ray onward = ray;
             onward.farthest = INFINITY;
             aur_hit hit;
-            /* not grazing, and not beside a silhouette or beyond the scene */
-            if (value > 0.0 && i % 16 == 0 && sample.pdf < 20.0f &&
+            /* Not grazing, where it matters that points lie off the light, nor beside a silhouette or beyond
+             * the scene. */
+            if (value > 0.0 && i % 16 == 0 && sample.pdf < 15.0f &&
                 aur_scene_intersect(scene, &onward, &hit)) {
                 aur_surface surface;
                 aur_scene_surface(scene, &onward, &hit, &surface);

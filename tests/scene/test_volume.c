@@ -22,6 +22,8 @@ static aur_result make(size_t size, const char *bytes, const char *const *more, 
             AUR_OK);
     const aur_result result = aur_volume_create(&parameters, volume, error);
     aur_parameters_release(&parameters);
+    if (result == AUR_OK)
+        aur_volume_recenter(*volume, (const double[3]){0.0});
     return result;
 }
 

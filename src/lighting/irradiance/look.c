@@ -43,14 +43,16 @@ void aur_sensor_place_create(const aur_scene *scene, const aur_closed_lights *li
     for (size_t d = 0; d < 3; ++d)
         unit[d] /= size;
     aur_normalize3(unit);
+    double from[3];
     for (size_t d = 0; d < 3; ++d) {
-        const double numbers[2] = {position[d] + 0.0, unit[d] + 0.0}; /* -0 becomes 0 */
+        from[d] = position[d] - aur_scene_origin(scene)[d];
+        const double numbers[2] = {from[d] + 0.0, unit[d] + 0.0}; /* -0 becomes 0 */
         uint64_t bits[2];
         memcpy(bits, numbers, sizeof bits);
         place->hash = aur_hash3(place->hash, bits[0], bits[1]);
     }
     const aur_vector z = {(float)unit[0], (float)unit[1], (float)unit[2]};
-    const aur_vector at = {(float)position[0], (float)position[1], (float)position[2]};
+    const aur_vector at = aur_place_from(aur_scene_origin(scene), position);
     place->frame = aur_frame_about(aur_vector_normalize(z));
     place->position = at;
     for (size_t i = 0; i < MOST_SURFACES && move_off(scene, aur_surface_offset(at), place); ++i)
@@ -58,7 +60,6 @@ void aur_sensor_place_create(const aur_scene *scene, const aur_closed_lights *li
     if (lights->count == 0)
         return;
     place->shares = shares;
-    double from[3] = {position[0], position[1], position[2]};
     if (place->on_surface)
         aur_vector_to_doubles(place->position, from);
     aur_closed_lights_at(scene, lights, from, unit, place->position, place->hash, shares, place->closed);

@@ -15,7 +15,9 @@ static aur_result stand_on_faces(const aur_facets *facets, const char *path, aur
     sensors->corners = malloc(9 * count * sizeof *sensors->corners);
     if (sensors->corners == NULL)
         return aur_fail_memory(error);
-    memcpy(sensors->corners, facets->corners, 9 * count * sizeof *sensors->corners);
+    for (size_t k = 0; k < 9 * count; ++k)
+        sensors->corners[k] =
+            facets->corners[k / 9][k / 3 % 3][k % 3] + aur_scene_origin(facets->scene)[k % 3];
     for (size_t i = 0; i < count; ++i) {
         if (facets->areas[i] == 0.0)
             return aur_fail_at(
@@ -23,7 +25,7 @@ static aur_result stand_on_faces(const aur_facets *facets, const char *path, aur
                 AUR_ERROR_FORMAT, "facet %zu has no area, so that a sensor on it looks nowhere", i);
         for (size_t d = 0; d < 3; ++d) {
             const double sum = facets->corners[i][0][d] + facets->corners[i][1][d] + facets->corners[i][2][d];
-            sensors->numbers[3 * i + d] = sum / 3.0;
+            sensors->numbers[3 * i + d] = sum / 3.0 + aur_scene_origin(facets->scene)[d];
             sensors->numbers[3 * (count + i) + d] = facets->planes[i].normal[d];
         }
     }
@@ -64,7 +66,7 @@ static aur_result stand_on_vertices(const aur_mesh *mesh, const char *path, aur_
         result = aur_sensors_allocate(path, count, sensors, error);
     for (size_t i = 0; i < mesh->vertex_count && result == AUR_OK; ++i)
         for (size_t d = 0; d < 3 && numbers[i] != UINT32_MAX; ++d) {
-            sensors->numbers[3 * (size_t)numbers[i] + d] = (double)mesh->positions[3 * i + d];
+            sensors->numbers[3 * (size_t)numbers[i] + d] = mesh->points[3 * i + d];
             sensors->numbers[3 * (count + numbers[i]) + d] = (double)smooth.normals[3 * i + d];
         }
     for (size_t i = 0; i < 3 * mesh->triangle_count && result == AUR_OK; ++i)

@@ -23,11 +23,17 @@ typedef struct area_light {
     const aur_rectangle_kernels *kernels;
 } area_light;
 
-static bool find_rectangle(const aur_shape *shape, aur_rectangle *rectangle) {
+/* Points that are drawn lie off the surface by more than they are rounded, so that rays to them do not end at
+ * the light itself just before. */
+static aur_vector lifted(aur_vector position, aur_vector normal) {
+    return aur_vector_add_scaled(position, aur_surface_offset(position), normal);
+}
+
+static bool find_rectangle(const aur_shape *shape, aur_vector normal, aur_rectangle *rectangle) {
     const aur_vector corner = aur_mesh_position(&shape->mesh, 0);
     const aur_vector x = aur_vector_subtract(aur_mesh_position(&shape->mesh, 1), corner);
     const aur_vector y = aur_vector_subtract(aur_mesh_position(&shape->mesh, 3), corner);
-    *rectangle = (aur_rectangle){.corner = corner,
+    *rectangle = (aur_rectangle){.corner = lifted(corner, normal),
                                  .x = aur_vector_normalize(x),
                                  .y = aur_vector_normalize(y),
                                  .width = aur_vector_length(x),
@@ -64,11 +70,12 @@ static aur_result prepare(aur_emitter *emitter, aur_error *error) {
         return aur_fail_memory_at(error, emitter->location);
     light->shape = shape;
     light->is_mesh = emitter->needs_choice = shape->curved == NULL && !shape->parallelogram;
-    light->is_rectangle = shape->parallelogram && find_rectangle(shape, &light->rectangle.rectangle);
+    if (shape->parallelogram)
+        light->rectangle.normal = aur_shape_sample(shape, NULL, (const float[3]){0.0f}).normal;
+    light->is_rectangle =
+        shape->parallelogram && find_rectangle(shape, light->rectangle.normal, &light->rectangle.rectangle);
     light->rectangle.area = (float)shape->area;
     light->rectangle.radiance = emitter->radiance.constant;
-    if (light->is_rectangle)
-        light->rectangle.normal = aur_shape_sample(shape, NULL, (const float[3]){0.0f}).normal;
     light->kernels = aur_rectangle_kernels_here();
     return light->is_mesh ? find_triangles(light, error) : AUR_OK;
 }
@@ -157,10 +164,11 @@ static bool finish_sample(const aur_emitter *emitter, aur_vector reference, cons
     const float cosine = -aur_vector_dot(drawn->direction, point->normal);
     if (!(cosine > 0.0f) || !(squared > 0.0f))
         return false;
-    drawn->position = point->position;
+    const area_light *const light = emitter->data;
+    drawn->position = light->is_rectangle ? point->position : lifted(point->position, point->normal);
     drawn->normal = point->normal;
     drawn->radiance = aur_color_at(&emitter->radiance, point->texture);
-    drawn->pdf = pdf_of(emitter->data, density, squared, cosine);
+    drawn->pdf = pdf_of(light, density, squared, cosine);
     return isfinite(drawn->pdf);
 }
 

@@ -6,8 +6,9 @@
 #include "scene/scene_data.h"
 
 typedef struct point_light {
-    aur_vector position;
-    aur_frame frame; /* z is where a spot points, or directional light goes */
+    double place[3];     /* in the world */
+    aur_vector position; /* from the scene's origin */
+    aur_frame frame;     /* z is where a spot points, or directional light goes */
     /* Radians: light falls from all within the beam to nothing at the cutoff. A point's are beyond pi. */
     float cutoff, beam;
     float cosine_cutoff;
@@ -75,13 +76,20 @@ static aur_result read_keys(aur_parameters *parameters, aur_emitter *emitter, po
     if (emitter->descriptor->is_far && !(aur_vector_length(way) > (float)(1.0 / AUR_REACH)))
         return aur_parameters_fail(parameters, error, AUR_ERROR_FORMAT,
                                    "'direction' must not be 0 0 0, nor nearly so");
-    self->position = aur_transform_point_f(&p->to_world, to_vector(p->position));
+    aur_transform_point(&p->to_world, p->position, self->place);
     self->frame = aur_frame_about(aur_vector_normalize(way));
     emitter->radiance = p->color;
     return AUR_OK;
 }
 
 /* --- point and spot */
+
+static aur_result prepare(aur_emitter *emitter, aur_error *error) {
+    (void)error;
+    point_light *const self = emitter->data;
+    self->position = aur_place_from(emitter->scene->origin, self->place);
+    return AUR_OK;
+}
 
 static aur_result create_point(aur_parameters *parameters, aur_emitter *emitter, aur_error *error) {
     point_keys p;
@@ -183,6 +191,7 @@ static bool emit_spot(const aur_emitter *emitter, const float u[5], aur_ray *ray
 const aur_emitter_descriptor aur_emitter_point = {
     .row = {.name = "point", .summary = "a point that shines evenly", AUR_ROW_KEYS(point_table)},
     .create = create_point,
+    .prepare = prepare,
     .sample = sample_place,
     .emit = emit_point,
 };
@@ -190,6 +199,7 @@ const aur_emitter_descriptor aur_emitter_point = {
 const aur_emitter_descriptor aur_emitter_spot = {
     .row = {.name = "spot", .summary = "a point that shines in a cone about +z", AUR_ROW_KEYS(spot_table)},
     .create = create_spot,
+    .prepare = prepare,
     .sample = sample_place,
     .emit = emit_spot,
 };

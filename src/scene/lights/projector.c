@@ -6,8 +6,8 @@
 #include "scene/scene_data.h"
 
 typedef struct projector {
-    aur_transform to_local;
-    aur_frame frame; /* the camera's axes, unit: x is the left of the picture */
+    aur_transform to_world, to_local; /* of coordinates that count from the scene's origin, when prepared */
+    aur_frame frame;                  /* the camera's axes, unit: x is the left of the picture */
     aur_vector position;
     float half_width, half_height; /* of the picture at z = 1 */
     float scale;
@@ -50,7 +50,7 @@ static aur_result create(aur_parameters *parameters, aur_emitter *emitter, aur_e
                                    .tangent = (float)(sqrt(36.0 * 36.0 + 24.0 * 24.0) / 100.0)};
     self->half_width = aur_sensor_half_width(&lens, aspect);
     self->half_height = self->half_width / aspect;
-    self->position = aur_transform_point_f(&p.to_world, (aur_vector){0.0f, 0.0f, 0.0f});
+    self->to_world = p.to_world;
     aur_vector axis[3];
     for (size_t i = 0; i < 3; ++i)
         axis[i] = aur_vector_normalize(aur_transform_direction_f(
@@ -59,6 +59,15 @@ static aur_result create(aur_parameters *parameters, aur_emitter *emitter, aur_e
     self->scale = (float)p.scale * AUR_PI_F;
     emitter->radiance = p.irradiance;
     emitter->extent = (double)(self->scale * 4.0f * self->half_width * self->half_height);
+    return AUR_OK;
+}
+
+static aur_result prepare(aur_emitter *emitter, aur_error *error) {
+    (void)error;
+    projector *const self = emitter->data;
+    aur_transform_move(&self->to_world, emitter->scene->origin);
+    aur_transform_inverse(&self->to_world, &self->to_local);
+    self->position = aur_transform_point_f(&self->to_world, (aur_vector){0.0f, 0.0f, 0.0f});
     return AUR_OK;
 }
 
@@ -101,6 +110,7 @@ static bool emit(const aur_emitter *emitter, const float u[5], aur_ray *ray, aur
 const aur_emitter_descriptor aur_emitter_projector = {
     .row = {.name = "projector", .summary = "a picture thrown into the scene", AUR_ROW_KEYS(keys)},
     .create = create,
+    .prepare = prepare,
     .sample = sample,
     .emit = emit,
 };

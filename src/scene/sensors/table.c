@@ -54,9 +54,16 @@ static aur_result read_common(aur_parameters *parameters, aur_sensor *sensor, au
                                    "near_clip (%g) must be less than far_clip (%g)", p.near_clip, p.far_clip);
     for (size_t i = 0; i < 12; ++i)
         sensor->to_world[i] = (float)p.to_world.m[i];
+    for (size_t i = 0; i < 3; ++i)
+        sensor->place[i] = p.to_world.m[4 * i + 3];
     sensor->near_clip = (float)p.near_clip;
     sensor->far_clip = (float)p.far_clip;
     return AUR_OK;
+}
+
+void aur_sensor_recenter(aur_sensor *sensor, const double origin[3]) {
+    for (size_t i = 0; i < 3; ++i)
+        sensor->to_world[4 * i + 3] = (float)(sensor->place[i] - origin[i]);
 }
 
 aur_result aur_sensor_create(aur_parameters *parameters, aur_sensor *sensor, aur_error *error) {

@@ -16,7 +16,7 @@ static aur_result create(const aur_shape_input *input, aur_shape *shape, aur_err
         return result;
     for (size_t vertex = 0; vertex < 24; ++vertex) {
         for (size_t axis = 0; axis < 3; ++axis)
-            mesh->positions[3 * vertex + axis] = corners[vertex / 4][vertex % 4][axis] == '+' ? 1.0f : -1.0f;
+            mesh->points[3 * vertex + axis] = corners[vertex / 4][vertex % 4][axis] == '+' ? 1.0 : -1.0;
         mesh->uvs[2 * vertex] = vertex % 4 == 1 || vertex % 4 == 2;
         mesh->uvs[2 * vertex + 1] = vertex % 4 < 2;
     }

@@ -121,14 +121,16 @@ typedef struct reader {
     aur_mesh_file file;
     const aur_transform *to_world;
     aur_curves *curves;
-    size_t point_capacity, segment_capacity;
+    size_t place_capacity, point_capacity, segment_capacity;
     size_t length; /* points of the curve that is being read */
 } reader;
 
 /* "x y z radius", with the segment that it ends. Only positions are moved by `to_world`. */
 static aur_result read_point(reader *self) {
     aur_curves *const curves = self->curves;
-    if (!aur_array_reserve(&curves->points, &self->point_capacity, curves->point_count + 1,
+    if (!aur_array_reserve(&curves->places, &self->place_capacity, curves->point_count + 1,
+                           3 * sizeof(double)) ||
+        !aur_array_reserve(&curves->points, &self->point_capacity, curves->point_count + 1,
                            4 * sizeof(float)) ||
         !aur_array_reserve(&curves->firsts, &self->segment_capacity, curves->segment_count + 1,
                            sizeof(uint32_t)))
@@ -140,12 +142,8 @@ static aur_result read_point(reader *self) {
     if (!(fabs(value[0]) + fabs(value[1]) + fabs(value[2]) <= 1e30) || !(value[3] >= 0.0 && value[3] <= 1e30))
         return aur_mesh_file_fail(&self->file,
                                   "a coordinate is not finite, or beyond 1e30, or a radius is below 0");
-    double moved[3];
-    aur_transform_point(self->to_world, value, moved);
-    float *const point = &curves->points[4 * curves->point_count++];
-    for (size_t i = 0; i < 3; ++i)
-        point[i] = (float)moved[i];
-    point[3] = (float)value[3];
+    aur_transform_point(self->to_world, value, &curves->places[3 * curves->point_count]);
+    curves->points[4 * curves->point_count++ + 3] = (float)value[3];
     const size_t needed = curves->smooth ? 4 : 2;
     if (curves->point_count > UINT32_MAX)
         return aur_mesh_file_fail(&self->file, "more points than 32 bits can number");
@@ -203,8 +201,6 @@ static aur_result create(const aur_shape_input *input, aur_shape *shape, aur_err
         .curves = &shape->curves};
     result = read_curves(&self);
     aur_shape_file_close(&file);
-    for (size_t i = 0; result == AUR_OK && i < shape->curves.segment_count; ++i)
-        shape->area += area(shape, i);
     return result;
 }
 

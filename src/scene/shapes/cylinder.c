@@ -118,18 +118,18 @@ static aur_result create(const aur_shape_input *input, aur_shape *shape, aur_err
     cylinder_keys p;
     double scale;
     aur_result result = aur_row_read(&shape->descriptor->row, input->parameters, &p, error);
-    const aur_vector start = {(float)p.p0[0], (float)p.p0[1], (float)p.p0[2]};
-    const aur_vector end = {(float)p.p1[0], (float)p.p1[1], (float)p.p1[2]};
+    const aur_vector axis = {(float)(p.p1[0] - p.p0[0]), (float)(p.p1[1] - p.p0[1]),
+                             (float)(p.p1[2] - p.p0[2])};
     if (result == AUR_OK)
-        result = scale_across(input, aur_vector_subtract(end, start), &scale, error);
+        result = scale_across(input, axis, &scale, error);
     if (result != AUR_OK)
         return result;
-    shape->center = aur_transform_point_f(&input->to_world, start);
-    const aur_vector way = aur_vector_subtract(aur_transform_point_f(&input->to_world, end), shape->center);
+    aur_transform_point(&input->to_world, p.p0, shape->place);
+    const aur_vector way = aur_transform_direction_f(&input->to_world, axis);
     shape->length = aur_vector_length(way);
     if (!(shape->length > 0.0f) || !isfinite(shape->length))
         return aur_parameters_fail(input->parameters, error, AUR_ERROR_FORMAT, "'p0' and 'p1' must differ");
-    set_axes(input, aur_vector_subtract(end, start), way, shape);
+    set_axes(input, axis, way, shape);
     shape->radius = (float)(p.radius * scale);
     shape->area = 2.0 * AUR_PI * (double)shape->radius * (double)shape->length;
     return AUR_OK;

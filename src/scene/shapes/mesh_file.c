@@ -79,8 +79,6 @@ aur_result aur_mesh_file_create(const aur_shape_input *input, aur_shape *shape, 
     if (result != AUR_OK)
         return result;
     aur_shape_place(input, shape);
-    if (!keys.face_normals && shape->mesh.normals == NULL)
-        result = aur_mesh_smooth(&shape->mesh, parameters->location, error);
-    aur_mesh_drop_flat_normals(&shape->mesh);
-    return result;
+    shape->smooth = !keys.face_normals && shape->mesh.normals == NULL;
+    return AUR_OK;
 }

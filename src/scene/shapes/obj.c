@@ -5,10 +5,10 @@
 #include "core/array.h"
 #include "scene/shapes/mesh_file.h"
 
-typedef struct float_list {
+typedef struct number_list {
     size_t count, capacity, width; /* in groups of `width` */
-    float *values;
-} float_list;
+    double *values;
+} number_list;
 
 /* A corner of a face: vertex, texture coordinate and normal, or NONE. */
 typedef struct corner {
@@ -19,16 +19,17 @@ typedef struct corner {
 
 typedef struct obj {
     aur_mesh_file *file;
-    float_list lists[3]; /* v, vt, vn */
-    float_list colors;   /* of vertices, 1 where a line has none; empty: no line has any */
+    number_list lists[3]; /* v, vt, vn */
+    number_list colors;   /* of vertices, 1 where a line has none; empty: no line has any */
     size_t corner_count, corner_capacity;
     corner *corners; /* three a triangle */
 } obj;
 
 /* `least` numbers at least, and at most as many as the list is wide; those that are missing are 0. */
-static aur_result read_values(obj *self, float_list *list, size_t least) {
+static aur_result read_values(obj *self, number_list *list, size_t least) {
     aur_scanner *const scanner = &self->file->scanner;
-    if (!aur_array_reserve(&list->values, &list->capacity, list->count + 1, list->width * sizeof(float)))
+    if (!aur_array_reserve(&list->values, &list->capacity, list->count + 1,
+                           list->width * sizeof *list->values))
         return aur_fail_memory(self->file->error);
     for (size_t i = 0; i < list->width; ++i) {
         double value = 0.0;
@@ -36,7 +37,7 @@ static aur_result read_values(obj *self, float_list *list, size_t least) {
             return aur_mesh_file_fail(self->file, "expected %zu numbers", list->width);
         if (!(fabs(value) <= 1e30))
             return aur_mesh_file_fail(self->file, "a coordinate is not finite, or beyond 1e30");
-        list->values[list->width * list->count + i] = (float)value;
+        list->values[list->width * list->count + i] = value;
     }
     ++list->count;
     return AUR_OK;
@@ -52,13 +53,13 @@ static aur_result read_color(obj *self) {
         ++count;
     if (count < 3 && self->colors.count == 0)
         return AUR_OK;
-    float_list *const list = &self->colors;
-    if (!aur_array_reserve(&list->values, &list->capacity, self->lists[0].count, 3 * sizeof(float)))
+    number_list *const list = &self->colors;
+    if (!aur_array_reserve(&list->values, &list->capacity, self->lists[0].count, 3 * sizeof *list->values))
         return aur_fail_memory(self->file->error);
     for (; list->count < self->lists[0].count; ++list->count)
         for (size_t i = 0; i < 3; ++i)
             list->values[3 * list->count + i] =
-                count == 3 && list->count + 1 == self->lists[0].count ? (float)color[i] : 1.0f;
+                count == 3 && list->count + 1 == self->lists[0].count ? color[i] : 1.0;
     return AUR_OK;
 }
 
@@ -183,10 +184,9 @@ static size_t merge_corners(const obj *self, uint32_t *vertex, uint32_t *unique)
 }
 
 /* The values of a corner, where it has any, as those of a vertex. */
-static void copy(const float_list *list, uint32_t index, size_t vertex, float *to) {
-    if (index != NONE)
-        memcpy(to + list->width * vertex, &list->values[list->width * (size_t)index],
-               list->width * sizeof(float));
+static void copy(const number_list *list, uint32_t index, size_t vertex, float *to) {
+    for (size_t i = 0; index != NONE && i < list->width; ++i)
+        to[list->width * vertex + i] = (float)list->values[list->width * (size_t)index + i];
 }
 
 /* Vertex i of the mesh is corner unique[i], or vertex i of the file where `unique` is NULL: without texture
@@ -199,7 +199,7 @@ static aur_result make_mesh(const obj *self, size_t count, const uint32_t *uniqu
         aur_mesh_allocate(mesh, count, 0, parts, (aur_location){.file = self->file->path}, self->file->error);
     for (size_t i = 0; result == AUR_OK && i < count; ++i) {
         const corner c = unique != NULL ? self->corners[unique[i]] : (corner){{(uint32_t)i, NONE, NONE}};
-        copy(&self->lists[0], c.index[0], i, mesh->positions);
+        memcpy(&mesh->points[3 * i], &self->lists[0].values[3 * (size_t)c.index[0]], 3 * sizeof(double));
         copy(&self->lists[1], c.index[1], i, mesh->uvs);
         copy(&self->lists[2], c.index[2], i, mesh->normals);
         if (mesh->vertex_colors != NULL)

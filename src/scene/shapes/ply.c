@@ -88,13 +88,16 @@ static aur_result take_value(aur_ply *self, const aur_ply_property *property, si
                              double value) {
     if (property->role == AUR_PLY_INDICES)
         return add_corner(self, index, place, value);
-    if (property->values == NULL)
+    if (property->values == NULL && property->doubles == NULL)
         return AUR_OK;
     if (!(fabs(value) <= 1e30))
         return aur_mesh_file_fail(self->file, "%s %zu is not finite, or beyond 1e30",
                                   property->role < AUR_PLY_FACE_RED ? "vertex" : "face", index);
     const bool of_255 = property->type == AUR_PLY_UINT8 && property->role >= AUR_PLY_RED;
-    property->values[property->stride * index] = (float)(of_255 ? value / 255.0 : value);
+    if (property->doubles != NULL)
+        property->doubles[property->stride * index] = value;
+    else
+        property->values[property->stride * index] = (float)(of_255 ? value / 255.0 : value);
     return AUR_OK;
 }
 
@@ -139,14 +142,16 @@ static void set_targets(const aur_ply *self, aur_ply_element *element, const aur
         float *values;
         aur_ply_role first;
         size_t stride;
-    } targets[] = {{mesh->positions, AUR_PLY_X, 3},
-                   {mesh->normals, AUR_PLY_NX, 3},
+    } targets[] = {{mesh->normals, AUR_PLY_NX, 3},
                    {mesh->uvs, AUR_PLY_U, 2},
                    {mesh->vertex_colors, AUR_PLY_RED, 3},
                    {self->colors, AUR_PLY_FACE_RED, 3}};
     for (size_t p = 0; p < element->property_count; ++p) {
         aur_ply_property *const property = &element->properties[p];
+        const size_t axis = (size_t)property->role - AUR_PLY_X;
         property->values = NULL;
+        property->doubles = axis < 3 ? mesh->points + axis : NULL;
+        property->stride = 3;
         for (size_t i = 0; i < sizeof targets / sizeof targets[0]; ++i) {
             const size_t place = (size_t)property->role - (size_t)targets[i].first;
             if (targets[i].values == NULL || place >= targets[i].stride)

@@ -42,7 +42,9 @@ typedef struct aur_ply_property {
     bool list;
     aur_ply_type count_type, type;
     aur_ply_role role;
-    float *values; /* the value of vertex i goes to values[stride * i]; NULL: it is left out */
+    /* The value of vertex i goes to one of them, [stride * i]; both NULL: it is left out. */
+    double *doubles;
+    float *values;
     size_t stride;
 } aur_ply_property;
 

@@ -26,9 +26,9 @@ static bool is_parallelogram(const double *v) {
 }
 
 /* Corners from number `first` on. */
-static void put_corners(size_t count, size_t first, const double *corners, float *positions) {
+static void put_corners(size_t count, size_t first, const double *corners, double *points) {
     for (size_t i = 0; i < 3 * count; ++i)
-        positions[i] = (float)corners[(3 * first + i) % (3 * count)];
+        points[i] = corners[(3 * first + i) % (3 * count)];
 }
 
 static aur_result make_mesh(const aur_shape_input *input, size_t count, const double *corners,
@@ -45,7 +45,7 @@ static aur_result make_mesh(const aur_shape_input *input, size_t count, const do
     const aur_result result = aur_mesh_allocate(&shape->mesh, count, cut.triangle_count,
                                                 AUR_MESH_POSITIONS_ONLY, input->parameters->location, error);
     if (result == AUR_OK) {
-        put_corners(count, first, corners, shape->mesh.positions);
+        put_corners(count, first, corners, shape->mesh.points);
         for (size_t i = 0; i < 3 * cut.triangle_count; ++i)
             shape->mesh.indices[i] =
                 shape->parallelogram ? halves[i] : (uint32_t)((cut.indices[i] + count - first) % count);

@@ -10,8 +10,8 @@ static aur_result create(const aur_shape_input *input, aur_shape *shape, aur_err
     for (size_t i = 0; i < 4; ++i) {
         const float u = i == 1 || i == 2;
         const float v = i >= 2;
-        mesh->positions[3 * i] = 2.0f * u - 1.0f;
-        mesh->positions[3 * i + 1] = 2.0f * v - 1.0f;
+        mesh->points[3 * i] = 2.0 * (double)u - 1.0;
+        mesh->points[3 * i + 1] = 2.0 * (double)v - 1.0;
         mesh->uvs[2 * i] = u;
         mesh->uvs[2 * i + 1] = v;
     }

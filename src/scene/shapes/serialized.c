@@ -52,8 +52,8 @@ static aur_result inflate_bytes(serialized *self, void *bytes, size_t size) {
     return AUR_OK;
 }
 
-/* `count` numbers of the file's precision into `values`, which may be NULL. */
-static aur_result read_floats(serialized *self, size_t count, float *values) {
+/* `count` numbers of the file's precision into `doubles` or `values`; both may be NULL. */
+static aur_result read_numbers(serialized *self, size_t count, double *doubles, float *values) {
     double wide[256];
     float narrow[256];
     const bool is_double = (self->flags & DOUBLE) != 0;
@@ -62,10 +62,14 @@ static aur_result read_floats(serialized *self, size_t count, float *values) {
         const size_t part = count - done < 256 ? count - done : 256;
         result = is_double ? inflate_bytes(self, wide, part * sizeof *wide)
                            : inflate_bytes(self, narrow, part * sizeof *narrow);
-        for (size_t i = 0; result == AUR_OK && is_double && i < part; ++i)
-            narrow[i] = fabs(wide[i]) <= 1e30 ? (float)wide[i] : NAN;
-        if (result == AUR_OK && values != NULL)
-            memcpy(values + done, narrow, part * sizeof *narrow);
+        for (size_t i = 0; result == AUR_OK && i < part; ++i) {
+            const double value = is_double ? wide[i] : (double)narrow[i];
+            const double kept = !is_double || fabs(value) <= 1e30 ? value : (double)NAN;
+            if (doubles != NULL)
+                doubles[done + i] = kept;
+            else if (values != NULL)
+                values[done + i] = (float)kept;
+        }
     }
     return result;
 }
@@ -94,13 +98,13 @@ static aur_result read_mesh(serialized *self, uint64_t version, aur_mesh *mesh) 
     result =
         aur_mesh_allocate(mesh, vertices, triangles, parts, (aur_location){.file = file->path}, file->error);
     if (result == AUR_OK)
-        result = read_floats(self, 3 * vertices, mesh->positions);
+        result = read_numbers(self, 3 * vertices, mesh->points, NULL);
     if (result == AUR_OK && (flags & HAS_NORMALS))
-        result = read_floats(self, 3 * vertices, mesh->normals);
+        result = read_numbers(self, 3 * vertices, NULL, mesh->normals);
     if (result == AUR_OK && (flags & HAS_UVS))
-        result = read_floats(self, 2 * vertices, mesh->uvs);
+        result = read_numbers(self, 2 * vertices, NULL, mesh->uvs);
     if (result == AUR_OK && (flags & HAS_COLORS))
-        result = read_floats(self, 3 * vertices, NULL);
+        result = read_numbers(self, 3 * vertices, NULL, NULL);
     return result == AUR_OK ? inflate_bytes(self, mesh->indices, 3 * triangles * sizeof *mesh->indices)
                             : result;
 }

@@ -115,14 +115,13 @@ static const aur_key keys[] = {
 
 static aur_result create(const aur_shape_input *input, aur_shape *shape, aur_error *error) {
     sphere_keys p;
-    double scale, moved[3];
+    double scale;
     aur_result result = aur_row_read(&shape->descriptor->row, input->parameters, &p, error);
     if (result == AUR_OK)
         result = aur_shape_similarity(input, &scale, error);
     if (result != AUR_OK)
         return result;
-    aur_transform_point(&input->to_world, p.center, moved);
-    shape->center = (aur_vector){(float)moved[0], (float)moved[1], (float)moved[2]};
+    aur_transform_point(&input->to_world, p.center, shape->place);
     shape->radius = (float)(p.radius * scale);
     for (size_t i = 0; i < 3; ++i) {
         const aur_vector axis = {i == 0, i == 1, i == 2};

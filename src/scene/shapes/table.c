@@ -75,16 +75,46 @@ aur_result aur_shape_create(aur_parameters *parameters, aur_xml_document *docume
         aur_shape_destroy(made);
         return result;
     }
-    for (size_t i = 0; i < made->mesh.triangle_count; ++i) {
-        aur_vector corner[3];
-        aur_mesh_corners(&made->mesh, i, corner);
-        const double area = aur_triangle_area(corner);
-        const float squared = (float)(4.0 * area * area);
-        made->area += area;
-        made->extreme = made->extreme || (area > 0.0 && !aur_is_usual_square(squared));
-    }
     *shape = made;
     return AUR_OK;
+}
+
+static void measure_mesh(aur_shape *shape) {
+    for (size_t i = 0; i < shape->mesh.triangle_count; ++i) {
+        aur_vector corner[3];
+        aur_mesh_corners(&shape->mesh, i, corner);
+        const double area = aur_triangle_area(corner);
+        const float squared = (float)(4.0 * area * area);
+        shape->area += area;
+        shape->extreme = shape->extreme || (area > 0.0 && !aur_is_usual_square(squared));
+    }
+}
+
+static void recenter_curves(aur_shape *shape, const double origin[3]) {
+    aur_curves *const curves = &shape->curves;
+    for (size_t i = 0; i < curves->point_count; ++i)
+        for (size_t k = 0; k < 3; ++k)
+            curves->points[4 * i + k] = (float)(curves->places[3 * i + k] - origin[k]);
+    free(curves->places);
+    curves->places = NULL;
+    for (size_t i = 0; i < curves->segment_count; ++i)
+        shape->area += shape->curved->area(shape, i);
+}
+
+aur_result aur_shape_recenter(aur_shape *shape, const double origin[3], bool keep_points, aur_error *error) {
+    shape->center = aur_place_from(origin, shape->place);
+    if (shape->curves.segment_count > 0)
+        recenter_curves(shape, origin);
+    if (shape->curved != NULL)
+        return AUR_OK;
+    aur_result result = aur_mesh_recenter(&shape->mesh, origin, keep_points, shape->location, error);
+    if (result == AUR_OK && shape->smooth)
+        result = aur_mesh_smooth(&shape->mesh, shape->location, error);
+    if (result == AUR_OK && shape->descriptor->read_file != NULL)
+        aur_mesh_drop_flat_normals(&shape->mesh);
+    if (result == AUR_OK)
+        measure_mesh(shape);
+    return result;
 }
 
 void aur_shape_destroy(aur_shape *shape) {
@@ -92,6 +122,7 @@ void aur_shape_destroy(aur_shape *shape) {
         return;
     aur_mesh_release(&shape->mesh);
     free(shape->file);
+    free(shape->curves.places);
     free(shape->curves.points);
     free(shape->curves.firsts);
     free(shape);

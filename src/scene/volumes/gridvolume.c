@@ -72,7 +72,7 @@ static const char *check(const char *file, size_t bytes, grid *self) {
     return NULL;
 }
 
-/* From the scene to the unit cube of the grid. */
+/* From the unit cube of the grid to the scene. */
 static aur_result place(const aur_parameters *parameters, grid *self, aur_volume *volume, aur_error *error) {
     aur_transform to_grid = aur_transform_identity();
     if (self->use_grid_bbox) {
@@ -86,12 +86,9 @@ static aur_result place(const aur_parameters *parameters, grid *self, aur_volume
                                            "the box in the file is empty: leave 'use_grid_bbox' out");
         }
     }
-    const aur_transform whole = aur_transform_multiply(&self->to_world, &to_grid);
+    volume->to_world = aur_transform_multiply(&self->to_world, &to_grid);
     aur_transform to_local;
-    const aur_result result = aur_to_world_check(parameters, &whole, &to_local, error);
-    for (size_t i = 0; i < 12; ++i)
-        volume->to_local[i] = (float)to_local.m[i];
-    return result;
+    return aur_to_world_check(parameters, &volume->to_world, &to_local, error);
 }
 
 static aur_result create(aur_parameters *parameters, aur_volume *volume, aur_error *error) {

@@ -55,6 +55,16 @@ void aur_volume_destroy(aur_volume *volume) {
     free(volume);
 }
 
+void aur_volume_recenter(aur_volume *volume, const double origin[3]) {
+    aur_transform to_local;
+    if (volume->constant)
+        return;
+    aur_transform_move(&volume->to_world, origin);
+    aur_transform_inverse(&volume->to_world, &to_local);
+    for (size_t i = 0; i < 12; ++i)
+        volume->to_local[i] = (float)to_local.m[i];
+}
+
 static bool is_volume(const aur_parameter *item) {
     return item->kind == AUR_PARAMETER_OBJECT && strcmp(item->object_kind, "volume") == 0;
 }

@@ -16,6 +16,7 @@ typedef struct aov_sample {
     const aur_ray *ray;
     const aur_hit *hit; /* NULL: the ray meets nothing, and the rest is 0 */
     const aur_surface *surface;
+    const double *origin; /* of the scene's coordinates */
 } aov_sample;
 
 typedef struct aov_type {
@@ -41,7 +42,10 @@ static void depth(const aov_sample *sample, float *values) {
 }
 
 static void position(const aov_sample *sample, float *values) {
-    put(sample->surface->position, values);
+    double place[3];
+    aur_vector_to_doubles(sample->surface->position, place);
+    for (size_t i = 0; i < 3; ++i)
+        values[i] = (float)(place[i] + sample->origin[i]);
 }
 
 static void uv(const aov_sample *sample, float *values) {
@@ -226,7 +230,8 @@ static void add_sample(const aur_integrator *integrator, aur_tile *tile, size_t 
                            .weight = weight,
                            .ray = &sample.ray,
                            .hit = seen ? &hit : NULL,
-                           .surface = &surface};
+                           .surface = &surface,
+                           .origin = aur_scene_origin(integrator->scene)};
     float values[3 + CHANNEL_CAPACITY] = {0};
     put(at.radiance, values);
     for (size_t i = 0, channel = 3; i < data->count; ++i) {

@@ -16,8 +16,10 @@ static inline aur_shading aur_shading_at(const aur_surface *surface, aur_vector 
 static inline aur_light_reference aur_shading_reference(const aur_shading *shading) {
     const aur_surface *const surface = shading->surface;
     aur_light_reference reference = {.position = surface->position};
-    if (!surface->bsdf->transmits)
+    if (!surface->bsdf->transmits) {
         reference.normal = aur_vector_scale(surface->frame.z, shading->view.z < 0.0f ? -1.0f : 1.0f);
+        reference.position = aur_surface_leave(surface, reference.normal);
+    }
     return reference;
 }
 

@@ -153,7 +153,8 @@ static void set_references(aur_path_group *g, uint32_t lanes) {
         const size_t k = aur_first_lane(lanes);
         const aur_shading shading = aur_shading_at(&g->surfaces[k], view_of(g, k));
         const aur_light_reference reference = aur_shading_reference(&shading);
-        aur_lane_set(&g->lanes.position, k, reference.position);
+        aur_lane_set(&g->lanes.position, k, g->surfaces[k].position);
+        aur_lane_set(&g->lanes.origin, k, reference.position);
         aur_lane_set(&g->lanes.facing, k, reference.normal);
     }
 }
@@ -300,7 +301,7 @@ static uint32_t pass_panes(aur_path_group *g, uint32_t stopped, const float *far
 static void draw_lights(aur_path_group *g, const float *choice, const float *u, const float *v) {
     aur_path_lanes *const lanes = &g->lanes;
     const uint32_t plain = g->plain, others = g->alive & ~plain;
-    const aur_light_references references = {&lanes->position, &lanes->facing};
+    const aur_light_references references = {&lanes->origin, &lanes->facing};
     if (plain != 0) {
         aur_light_lanes_direct(g->scene, plain, &references, choice, u, v, &lanes->light);
         g->data->kernels->shadow(lanes, &g->shadows);

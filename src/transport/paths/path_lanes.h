@@ -22,7 +22,7 @@ typedef struct aur_path_lanes {
     aur_lane_numbers side;             /* 1 seen from the side of the normal, -1 from behind */
     aur_lane_vectors facing;           /* the normal on the side that is seen */
     aur_lane_vectors reflectance;
-    aur_lane_numbers offset; /* along side * normal: where rays begin that leave it */
+    aur_lane_vectors origin; /* of rays that leave it: just off, on the side that is seen */
 
     aur_light_lanes light;
     aur_lane_vectors shadow;    /* light from there, if nothing lies between */

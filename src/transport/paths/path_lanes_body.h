@@ -32,7 +32,8 @@ static void lanes_surface(aur_path_lanes *restrict lanes, const aur_packet *rest
         aur_lane_set(&lanes->normal, k, normal);
         aur_lane_set(&lanes->facing, k, aur_vector_scale(normal, side));
         lanes->side[k] = side;
-        lanes->offset[k] = aur_surface_offset(position);
+        aur_lane_set(&lanes->origin, k,
+                     aur_vector_add_scaled(position, side * aur_surface_offset(position), normal));
         lanes->reflectance.x[k] = along > 0.0f ? lanes->albedo[1].x[k] : lanes->albedo[0].x[k];
         lanes->reflectance.y[k] = along > 0.0f ? lanes->albedo[1].y[k] : lanes->albedo[0].y[k];
         lanes->reflectance.z[k] = along > 0.0f ? lanes->albedo[1].z[k] : lanes->albedo[0].z[k];
@@ -51,19 +52,15 @@ static uint32_t lanes_tilted(const aur_path_lanes *lanes, size_t first) {
     return tilted;
 }
 
-static inline aur_vector lanes_origin(const aur_path_lanes *lanes, size_t k) {
-    return aur_vector_add_scaled(aur_lane_vector(&lanes->position, k), lanes->side[k] * lanes->offset[k],
-                                 aur_lane_vector(&lanes->normal, k));
-}
-
 static void lanes_shadow(aur_path_lanes *restrict lanes, aur_packet *restrict packet) {
     struct RTCRay16 *const rays = &packet->query.ray;
     for (size_t k = 0; k < AUR_PACKET_SIZE; ++k) {
-        const aur_vector target = aur_lane_vector(&lanes->light.position, k);
-        const aur_vector whole = aur_vector_subtract(target, aur_lane_vector(&lanes->position, k));
-        const float size = sqrtf(aur_vector_dot(whole, whole));
-        const float cosine =
-            aur_vector_dot(aur_lane_vector(&lanes->normal, k), whole) * lanes->side[k] / size;
+        const aur_vector origin = aur_lane_vector(&lanes->origin, k);
+        const aur_vector way = aur_vector_subtract(aur_lane_vector(&lanes->light.position, k), origin);
+        const float squared = aur_vector_dot(way, way);
+        const float distance = sqrtf(squared > 1e-38f ? squared : 1e-38f);
+        const float scale = 1.0f / distance;
+        const float cosine = aur_vector_dot(aur_lane_vector(&lanes->normal, k), way) * lanes->side[k] * scale;
         const float pdf = lanes->light.pdf[k];
         const float ratio = cosine / AUR_PI_F / pdf * lanes->light.rivals[k];
         const float weight = cosine / (AUR_PI_F * pdf * (1.0f + ratio * ratio));
@@ -74,11 +71,6 @@ static void lanes_shadow(aur_path_lanes *restrict lanes, aur_packet *restrict pa
             &lanes->shadow, k,
             aur_vector_multiply(aur_lane_vector(&lanes->throughput, k), aur_vector_scale(light, weight)));
         lanes->lit[k] = -((int)(pdf > 0.0f) & (int)(cosine > 0.0f) & (int)(any > 0.0f));
-        const aur_vector origin = lanes_origin(lanes, k);
-        const aur_vector way = aur_vector_subtract(target, origin);
-        const float squared = aur_vector_dot(way, way);
-        const float distance = sqrtf(squared > 1e-38f ? squared : 1e-38f);
-        const float scale = 1.0f / distance;
         rays->org_x[k] = origin.x;
         rays->org_y[k] = origin.y;
         rays->org_z[k] = origin.z;
@@ -163,9 +155,9 @@ static void lanes_scatter(aur_path_lanes *restrict lanes, bool roulette, aur_pac
         aur_lane_set(&lanes->throughput, k, aur_vector_scale(throughput, 1.0f / survival));
         lanes->alive[k] = -((int)(lanes->roulette[k] < survival) & (int)(most > 0.0f));
         lanes->pdf[k] = z / AUR_PI_F;
-        aur_lane_set(&lanes->from, k, aur_lane_vector(&lanes->position, k));
+        const aur_vector origin = aur_lane_vector(&lanes->origin, k);
+        aur_lane_set(&lanes->from, k, origin);
         aur_lane_set(&lanes->from_normal, k, aur_lane_vector(&lanes->facing, k));
-        const aur_vector origin = lanes_origin(lanes, k);
         rays->org_x[k] = origin.x;
         rays->org_y[k] = origin.y;
         rays->org_z[k] = origin.z;

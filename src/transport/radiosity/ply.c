@@ -1,4 +1,4 @@
-/* A solution as a coloured mesh. */
+/* A solution as a coloured mesh. Vertices far from the origin are written in doubles. */
 #include "core/file.h"
 #include "image/tone.h"
 #include "transport/radiosity/solution.h"
@@ -15,14 +15,16 @@ aur_result aur_radiosity_write_ply(const aur_radiosity *radiosity, const char *p
         return result;
     const aur_radiosity_scene *const scene = &radiosity->scene;
     const size_t count = scene->triangle_count;
-    fprintf(
-        file.stream,
-        "ply\nformat %s 1.0\ncomment radiosity of %llu paths\nelement vertex %zu\nproperty float x\n"
-        "property float y\nproperty float z\nproperty uchar red\nproperty uchar green\nproperty uchar blue\n"
-        "property float radiance_r\nproperty float radiance_g\nproperty float radiance_b\n"
-        "element face %zu\nproperty list uchar int vertex_indices\nend_header\n",
-        __BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__ ? "binary_little_endian" : "binary_big_endian",
-        (unsigned long long)radiosity->paths, 3 * count, count);
+    const double *const origin = aur_scene_origin(scene->scene);
+    const bool wide = origin[0] != 0.0 || origin[1] != 0.0 || origin[2] != 0.0;
+    const char *const type = wide ? "double" : "float";
+    fprintf(file.stream,
+            "ply\nformat %s 1.0\ncomment radiosity of %llu paths\nelement vertex %zu\nproperty %s x\n"
+            "property %s y\nproperty %s z\nproperty uchar red\nproperty uchar green\nproperty uchar blue\n"
+            "property float radiance_r\nproperty float radiance_g\nproperty float radiance_b\n"
+            "element face %zu\nproperty list uchar int vertex_indices\nend_header\n",
+            __BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__ ? "binary_little_endian" : "binary_big_endian",
+            (unsigned long long)radiosity->paths, 3 * count, type, type, type, count);
     const double scale = exp2(exposure);
     for (size_t i = 0; i < count; ++i) {
         const aur_radiosity_triangle *const t = &scene->triangles[i];
@@ -37,8 +39,12 @@ aur_result aur_radiosity_write_ply(const aur_radiosity *radiosity, const char *p
         const aur_vector corner[3] = {t->corner, aur_vector_add(t->corner, t->edge[0]),
                                       aur_vector_add(t->corner, t->edge[1])};
         for (size_t k = 0; k < 3; ++k) {
-            const float position[3] = {corner[k].x, corner[k].y, corner[k].z};
-            fwrite(position, sizeof position, 1, file.stream);
+            const float narrow[3] = {corner[k].x, corner[k].y, corner[k].z};
+            double position[3];
+            for (size_t d = 0; d < 3; ++d)
+                position[d] = (double)narrow[d] + origin[d];
+            fwrite(wide ? (const void *)position : narrow, wide ? sizeof position : sizeof narrow, 1,
+                   file.stream);
             fwrite(color, sizeof color, 1, file.stream);
             fwrite(radiance, sizeof radiance, 1, file.stream);
         }
