@@ -53,6 +53,13 @@ static size_t find_slot(scratch *s, size_t column, size_t width) {
     return s->met_count - 1;
 }
 
+static bool any_hit(const uint16_t *hits, size_t width) {
+    for (size_t r = 0; hits != NULL && r < width; ++r)
+        if (hits[r] > 0)
+            return true;
+    return false;
+}
+
 /* Adds the pairs of one patch: closed ones as they are, the others by the rays of both patches, each in
  * proportion to the inverse of its area, which is that of its variance. */
 static bool add_patch(const assembly *work, scratch *s, size_t row, size_t i) {
@@ -82,6 +89,8 @@ static bool add_patch(const assembly *work, scratch *s, size_t row, size_t i) {
             ++known;
         if ((known < closed->count && closed->patches[known] == k) || !aur_pair_stands_with(facets, i, k))
             continue;
+        if (!any_hit(out, width) && !any_hit(in, width))
+            continue; /* they were forgotten */
         const size_t column = aur_facets_row(facets, k);
         const size_t slot = find_slot(s, column, width);
         if (slot == SIZE_MAX)

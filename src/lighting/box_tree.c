@@ -86,6 +86,8 @@ static void build(const aur_box *boxes, aur_box_tree *tree, middle *middles, siz
 
 aur_result aur_box_tree_create(size_t count, const aur_box *boxes, aur_box_tree *tree, aur_error *error) {
     *tree = (aur_box_tree){0};
+    if (count == 0)
+        return AUR_OK;
     middle *const middles = malloc(count * sizeof *middles);
     tree->items = malloc(count * sizeof *tree->items);
     tree->nodes = malloc(2 * count * sizeof *tree->nodes);

@@ -26,6 +26,6 @@ typedef struct aur_box {
 
 aur_box aur_box_of(size_t count, const double (*corners)[3]);
 
-/* Errors: MEMORY. */
+/* Without boxes the tree has no nodes. Errors: MEMORY. */
 aur_result aur_box_tree_create(size_t count, const aur_box *boxes, aur_box_tree *tree, aur_error *error);
 void aur_box_tree_release(aur_box_tree *tree);

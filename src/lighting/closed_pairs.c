@@ -18,7 +18,6 @@ typedef struct finding {
     const aur_visits *visits;
     const aur_box_tree *tree;
     aur_closed_pairs *pairs;
-    double slack;
     bool all;
 } finding;
 
@@ -69,7 +68,7 @@ static double find_exchange(const finding *work, size_t i, size_t k) {
         return -1.0;
     double(*const polygons[2])[3] = {first, second};
     aur_hull hull;
-    aur_hull_make(planes, counts, polygons, work->slack, &hull);
+    aur_hull_make(planes, counts, polygons, &hull);
     if (!aur_hull_is_empty(&hull, facets, work->tree, facet))
         return -1.0;
     return aur_contour_exchange(counts[0], (const double(*)[3])first, counts[1], (const double(*)[3])second);
@@ -148,8 +147,7 @@ aur_result aur_closed_pairs_find(const aur_facets *facets, const aur_visits *vis
     if (result == AUR_OK)
         result = aur_box_tree_create(facets->count, boxes, &tree, error);
     free(boxes);
-    /* Coordinates are floats: what is nearer than they are rounded touches. */
-    finding work = {facets, visits, &tree, pairs, 4e-7 * facets->reach, count <= SMALL_MESH};
+    finding work = {facets, visits, &tree, pairs, count <= SMALL_MESH};
     aur_parallel_options options = *parallel;
     options.what = "integrating along edges";
     if (result == AUR_OK) {

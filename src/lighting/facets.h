@@ -17,6 +17,7 @@ struct aur_facets {
     aur_plane *planes;       /* of facets; zero without area */
     double *areas;           /* of facets; 0 for those that are left out */
     bool *doubled;           /* facets on which another one lies */
+    bool open;               /* some edge belongs to one facet only */
     uint32_t *first;         /* shape -> its first facet */
     size_t *lines;           /* of the file, for facets of an OBJ; else NULL */
     double reach;            /* the largest coordinate, either side of 0 */

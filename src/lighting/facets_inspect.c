@@ -110,7 +110,7 @@ static void find_doubles(aur_facets *facets, const uint32_t *places, use *uses,
     report(facets, warnings, &inverted, "facets lie back to back with others, a sheet without thickness");
 }
 
-static void find_borders(const aur_facets *facets, const uint32_t *places, use *uses,
+static void find_borders(aur_facets *facets, const uint32_t *places, use *uses,
                          const aur_warnings *warnings) {
     size_t count = 0;
     for (size_t i = 0; i < facets->count; ++i)
@@ -130,6 +130,7 @@ static void find_borders(const aur_facets *facets, const uint32_t *places, use *
         else if (end - i == 2 && turned != 1)
             find(&disagreeing, uses[i].facet);
     }
+    facets->open = open.count > 0;
     report(facets, warnings, &open, "edges belong to one facet only: the surface is open there");
     report(facets, warnings, &disagreeing, "edges join facets of which one looks inwards and one outwards");
 }

@@ -3,6 +3,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "lighting/box_tree.h"
+
 /* A polygon's corner and the next one, the smaller first. */
 typedef struct side {
     double ends[2][3];
@@ -12,7 +14,6 @@ typedef struct side {
 
 typedef struct merging {
     const aur_facets *facets;
-    double slack;
     size_t count;
     aur_merged_facet *polygons;
     uint32_t *first; /* the facet whose plane the polygon has */
@@ -70,6 +71,17 @@ static double bend(const double a[3], const double b[3], const double c[3], cons
     return aur_dot3(across, normal) / aur_length3(v);
 }
 
+/* How far corners may be from a common plane or line: a part of the extent of both polygons, wherever they
+ * stand. */
+static double slack_of(const aur_merged_facet *a, const aur_merged_facet *b) {
+    const aur_box first = aur_box_of(a->count, (const double(*)[3])a->corners),
+                  second = aur_box_of(b->count, (const double(*)[3])b->corners);
+    double size = 0.0;
+    for (int d = 0; d < 3; ++d)
+        size = fmax(size, fmax(first.upper[d], second.upper[d]) - fmin(first.lower[d], second.lower[d]));
+    return 1e-6 * size;
+}
+
 /* Puts the second polygon to the first where both may have it. */
 static bool merge(const merging *work, const side *a, const side *b) {
     aur_merged_facet *const into = &work->polygons[a->polygon], *const from = &work->polygons[b->polygon];
@@ -77,8 +89,9 @@ static bool merge(const merging *work, const side *a, const side *b) {
     if (a->turned == b->turned || into->count + from->count > AUR_MERGED_CORNERS + 2 ||
         aur_dot3(plane->normal, work->facets->planes[work->first[b->polygon]].normal) < 0.999)
         return false;
+    const double slack = slack_of(into, from);
     for (size_t i = 0; i < from->count; ++i)
-        if (fabs(aur_plane_height(plane, from->corners[i])) > work->slack)
+        if (fabs(aur_plane_height(plane, from->corners[i])) > slack)
             return false;
     double loop[2 * AUR_MERGED_CORNERS][3];
     size_t count = 0;
@@ -92,9 +105,9 @@ static bool merge(const merging *work, const side *a, const side *b) {
         if (i == joint || i == 0) {
             const double turn =
                 bend(loop[(i + count - 1) % count], loop[i], loop[(i + 1) % count], plane->normal);
-            if (turn < -work->slack)
+            if (turn < -slack)
                 return false;
-            if (turn <= work->slack)
+            if (turn <= slack)
                 continue;
         }
         if (made.count == AUR_MERGED_CORNERS)
@@ -134,13 +147,12 @@ static size_t merge_round(merging *work, int axis) {
     return merged;
 }
 
-aur_result aur_merge_facets(const aur_facets *facets, double slack, size_t *count, aur_merged_facet **merged,
+aur_result aur_merge_facets(const aur_facets *facets, size_t *count, aur_merged_facet **merged,
                             aur_error *error) {
     *count = 0;
     *merged = NULL;
     const size_t most = facets->count + 1;
     merging work = {.facets = facets,
-                    .slack = slack,
                     .polygons = malloc(most * sizeof *work.polygons),
                     .first = malloc(most * sizeof *work.first),
                     .done = malloc(most * sizeof *work.done),

@@ -12,7 +12,7 @@ typedef struct aur_merged_facet {
 } aur_merged_facet;
 
 /* Covers what the facets cover. Neighbours are put together across an edge that both have whole, while the
- * union is convex and has few enough corners, none of them farther than `slack` from the plane of its first
- * facet. Facets without area are left out. Errors: MEMORY. */
-aur_result aur_merge_facets(const aur_facets *facets, double slack, size_t *count, aur_merged_facet **merged,
+ * union is convex and has few enough corners, none of them farther from the plane of its first facet than a
+ * millionth of the union's extent. Facets without area are left out. Errors: MEMORY. */
+aur_result aur_merge_facets(const aur_facets *facets, size_t *count, aur_merged_facet **merged,
                             aur_error *error);

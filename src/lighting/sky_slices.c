@@ -78,11 +78,11 @@ static void turn_nodes(const aur_sky_slices *s, const aur_box_tree *boxes, doubl
 }
 
 static aur_result make_tree(const aur_facets *facets, aur_sky_slices *s, aur_error *error) {
-    const double slack = 4e-7 * facets->reach; /* to which floats know places */
+    const double slack = 4e-7 * facets->reach; /* larger than roundings of floats: boxes may be too wide */
     aur_box_tree boxes = {0};
     aur_merged_facet *merged;
     size_t count;
-    aur_result result = aur_merge_facets(facets, slack, &count, &merged, error);
+    aur_result result = aur_merge_facets(facets, &count, &merged, error);
     aur_box *const items = malloc((count + 1) * sizeof *items);
     s->tree.leaf = AUR_BOX_LEAF;
     s->tree.nodes = malloc(2 * (count + 1) * sizeof *s->tree.nodes);
@@ -166,11 +166,13 @@ static void make_viewer(const aur_sky_slices *s, size_t patch, viewer *v) {
     const aur_facets *const facets = s->facets;
     const aur_plane plane = aur_patch_plane(facets, patch);
     aur_slice_patch *const p = &v->patch;
-    double corners[3][3];
+    double corners[3][3], largest = 0.0;
     aur_patch_corners(facets, patch, corners);
     for (size_t c = 0; c < 3; ++c) {
         double corner[3];
         turn(s, corners[c], corner);
+        for (int d = 0; d < 3; ++d)
+            largest = fmax(largest, fabs(corner[d]));
         for (int d = 0; d < 3; ++d)
             *(c == 0 ? &p->corner[d] : &p->edge[c - 1][d]) =
                 (float)corner[d] - (c == 0 ? 0.0f : p->corner[d]);
@@ -178,7 +180,7 @@ static void make_viewer(const aur_sky_slices *s, size_t patch, viewer *v) {
     aur_slice_view *const view = &v->view;
     turn(s, plane.normal, view->normal);
     view->offset = plane.offset;
-    view->slack = 4e-7 * facets->reach;
+    view->slack = 4e-7 * largest; /* to which floats know positions here */
     p->inset = aur_facet_inset(facets, aur_facet_of(facets, patch));
     const double *const n = view->normal;
     p->upright = hypot(n[0], n[1]);

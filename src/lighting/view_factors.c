@@ -7,6 +7,7 @@
 #include "core/options.h"
 #include "lighting/exchange.h"
 #include "lighting/sky_slices.h"
+#include "lighting/unseen_pairs.h"
 #include "lighting/view_factors.h"
 
 enum { MOST_RAYS = UINT16_MAX, DEFAULT_RAYS = 2048, DEFAULT_RANDOMIZATIONS = 8, MOST_RANDOMIZATIONS = 64 };
@@ -170,6 +171,8 @@ static aur_result compute(const aur_facets *facets, const aur_view_factors_optio
     if (result == AUR_OK && !options->rays_only) {
         aur_closed_pairs_release(&closed);
         result = aur_closed_pairs_find(facets, &visits, &parallel, &closed, error);
+        if (result == AUR_OK)
+            result = aur_unseen_pairs_fill(facets, &visits, &closed, error);
     }
     if (result == AUR_OK)
         result =

@@ -135,7 +135,7 @@ static void test_merging(void **state) {
         aur_facets *const facets = mesh_load(&file, NULL);
         aur_merged_facet *merged;
         size_t count;
-        assert_int_equal(aur_merge_facets(facets, 1e-6, &count, &merged, NULL), AUR_OK);
+        assert_int_equal(aur_merge_facets(facets, &count, &merged, NULL), AUR_OK);
         assert_true(hole ? count <= 8 : count == 1);
         double area = 0.0;
         for (size_t i = 0; i < count; ++i) {
