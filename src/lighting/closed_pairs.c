@@ -88,7 +88,7 @@ static bool try_pair(const finding *work, size_t i, size_t k, size_t *capacity) 
     const aur_facets *const facets = work->facets;
     const size_t other = aur_facet_of(facets, k);
     if (i == k || !aur_pair_stands_with(facets, i, k) || facets->areas[other] == 0.0 ||
-        facets->doubled[other] || (!work->all && is_hopeless(work, i, k)))
+        (!work->all && is_hopeless(work, i, k)))
         return true;
     const double exchange = find_exchange(work, i, k);
     if (exchange < 0.0 || (!work->all && expected_rays(work, i, k, exchange) < EXPECTED_RAYS))
@@ -100,7 +100,7 @@ static bool find_row(const finding *work, size_t i) {
     const aur_visits *const visits = work->visits;
     const size_t facet = aur_facet_of(work->facets, i);
     size_t capacity = 0;
-    if (work->facets->areas[facet] == 0.0 || work->facets->doubled[facet])
+    if (work->facets->areas[facet] == 0.0)
         return true;
     if (work->all) {
         for (size_t k = 0; k < visits->patch_count; ++k)

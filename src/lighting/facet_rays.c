@@ -104,7 +104,8 @@ void aur_facet_pattern_release(aur_facet_pattern *pattern) {
 /* A patch as rays see it. */
 typedef struct emitter {
     float corner[3], edge[2][3], normal[3], axis[2][3];
-    float inset; /* barycentric: how far rays begin off the edges, where other facets begin */
+    float inset;  /* barycentric: how far rays begin off the edges, where other facets begin */
+    float offset; /* how far they begin before the facet: roundings of places between its corners */
 } emitter;
 
 /* A few roundings of the coordinates, seen from the farthest corner of an edge. */
@@ -129,6 +130,10 @@ static void make_emitter(const aur_facets *facets, size_t patch, double turn, em
     const aur_plane plane = aur_patch_plane(facets, patch);
     aur_frame3(plane.normal, x, y);
     e->inset = aur_facet_inset(facets, aur_facet_of(facets, patch));
+    double size = 0.0;
+    for (int k = 0; k < 9; ++k)
+        size = fmax(size, fabs(corners[k / 3][k % 3]));
+    e->offset = (float)(1.5e-6 * size + 1e-9);
     const double c = cos(2.0 * AUR_PI * turn), s = sin(2.0 * AUR_PI * turn);
     for (int d = 0; d < 3; ++d) {
         e->corner[d] = (float)corners[0][d];
@@ -154,18 +159,15 @@ static void fill_packet(const aur_facet_pattern *pattern, const emitter *e, cons
         float v = root * shifted(pattern->place[1][i], shift[1]), u = root - v;
         u += e->inset * (1.0f - 3.0f * u);
         v += e->inset * (1.0f - 3.0f * v);
-        float place[3], size = 0.0f;
-        for (int d = 0; d < 3; ++d) {
+        float place[3];
+        for (int d = 0; d < 3; ++d)
             place[d] = e->corner[d] + u * e->edge[0][d] + v * e->edge[1][d];
-            size = aur_larger(size, fabsf(place[d]));
-        }
-        const float offset = 1.5e-6f * size + 1e-9f; /* as aur_surface_offset */
         const float squared = shifted(pattern->squared[i], shift[2]);
         const float sine = sqrtf(squared), cosine = sqrtf(aur_larger(1.0f - squared, 1e-12f));
         const float a = sine * pattern->around[0][i], b = sine * pattern->around[1][i];
-        rays->org_x[k] = place[0] + offset * e->normal[0];
-        rays->org_y[k] = place[1] + offset * e->normal[1];
-        rays->org_z[k] = place[2] + offset * e->normal[2];
+        rays->org_x[k] = place[0] + e->offset * e->normal[0];
+        rays->org_y[k] = place[1] + e->offset * e->normal[1];
+        rays->org_z[k] = place[2] + e->offset * e->normal[2];
         rays->dir_x[k] = a * e->axis[0][0] + b * e->axis[1][0] + cosine * e->normal[0];
         rays->dir_y[k] = a * e->axis[0][1] + b * e->axis[1][1] + cosine * e->normal[1];
         rays->dir_z[k] = a * e->axis[0][2] + b * e->axis[1][2] + cosine * e->normal[2];
@@ -184,7 +186,14 @@ static uint32_t find_target(const aur_facets *facets, const aur_packet *packet, 
         return facet;
     if (facets->patch_count > facets->count && facets->areas[facet] > 0.0)
         return (uint32_t)(facets->count + facet);
-    return AUR_TARGET_BACK;
+    if (facets->opposite_starts == NULL)
+        return AUR_TARGET_BACK;
+    const double far = (double)rays->tfar[lane];
+    const double point[3] = {(double)rays->org_x[lane] + far * direction[0],
+                             (double)rays->org_y[lane] + far * direction[1],
+                             (double)rays->org_z[lane] + far * direction[2]};
+    const size_t other = aur_facets_other_side(facets, facet, point);
+    return other != SIZE_MAX ? (uint32_t)other : AUR_TARGET_BACK;
 }
 
 void aur_facet_trace(const aur_facets *facets, const aur_facet_pattern *pattern, size_t patch,

@@ -45,8 +45,8 @@ static void escape(const char *text, char *escaped) {
 }
 
 /* A mesh is the one shape of a scene, so that it is read, checked and traced as the meshes of scenes are. */
-static aur_result load_mesh(const char *path, source kind, const aur_scene_options *options,
-                            aur_scene **scene, aur_error *error) {
+static aur_result load_mesh(const char *path, source kind, aur_overlap_rule rule,
+                            const aur_scene_options *options, aur_scene **scene, aur_error *error) {
     char *const absolute = realpath(path, NULL);
     if (absolute == NULL)
         return aur_fail_at(error, (aur_location){.file = path}, AUR_ERROR_OPEN, "cannot be opened");
@@ -63,7 +63,7 @@ static aur_result load_mesh(const char *path, source kind, const aur_scene_optio
                                     "<boolean name=\"face_normals\" value=\"true\"/>"
                                     "<string name=\"filename\" value=\"%s\"/></shape></scene>",
                                     kind == SOURCE_OBJ ? "obj" : "ply", escaped);
-        result = aur_scene_load_with_points(path, (size_t)length, text, options, scene, error);
+        result = aur_scene_load_with_points(path, (size_t)length, text, rule, options, scene, error);
     }
     if (result != AUR_OK && error != NULL && strcmp(error->file, absolute) == 0)
         aur_format(error->file, sizeof error->file, "%s", path); /* as the caller knows it */
@@ -88,11 +88,18 @@ static aur_result check_shapes(const aur_scene *scene, aur_error *error) {
     return AUR_OK;
 }
 
+/* Of the file. */
+static size_t triangles_of(const aur_mesh *mesh) {
+    return mesh->sources != NULL ? mesh->source_count : mesh->triangle_count;
+}
+
 /* Facets in the order of the scene's shapes. */
 static aur_result copy_triangles(aur_facets *facets, aur_error *error) {
     const aur_scene *const scene = facets->scene;
-    for (size_t i = 0; i < scene->shape_count; ++i)
+    for (size_t i = 0; i < scene->shape_count; ++i) {
         facets->count += scene->shapes[i]->mesh.triangle_count;
+        facets->source_count += triangles_of(&scene->shapes[i]->mesh);
+    }
     if (facets->count == 0)
         return aur_fail_at(error, (aur_location){.file = facets->path}, AUR_ERROR_FORMAT, "no facet is here");
     if (facets->count > UINT32_MAX / 4)
@@ -101,13 +108,15 @@ static aur_result copy_triangles(aur_facets *facets, aur_error *error) {
     facets->corners = malloc(facets->count * sizeof *facets->corners);
     facets->planes = malloc(facets->count * sizeof *facets->planes);
     facets->areas = malloc(facets->count * sizeof *facets->areas);
-    facets->doubled = calloc(facets->count, sizeof *facets->doubled);
+    facets->sources = malloc(facets->count * sizeof *facets->sources);
+    facets->source_groups = calloc(facets->source_count, sizeof *facets->source_groups);
     facets->first = malloc((scene->shape_count + 1) * sizeof *facets->first);
     facets->groups = calloc(facets->count, sizeof *facets->groups);
     if (facets->corners == NULL || facets->planes == NULL || facets->areas == NULL ||
-        facets->doubled == NULL || facets->first == NULL || facets->groups == NULL)
+        facets->sources == NULL || facets->source_groups == NULL || facets->first == NULL ||
+        facets->groups == NULL)
         return aur_fail_memory(error);
-    size_t facet = 0;
+    size_t facet = 0, triangles = 0;
     for (size_t i = 0; i < scene->shape_count; ++i) {
         const aur_mesh *const mesh = &scene->shapes[i]->mesh;
         facets->first[i] = (uint32_t)facet;
@@ -121,7 +130,9 @@ static aur_result copy_triangles(aur_facets *facets, aur_error *error) {
             facets->areas[facet] =
                 aur_polygon_plane(3, (const double(*)[3])facets->corners[facet], &facets->planes[facet]);
             facets->groups[facet] = (uint32_t)i;
+            facets->sources[facet] = (uint32_t)(triangles + (mesh->sources != NULL ? mesh->sources[k] : k));
         }
+        triangles += triangles_of(mesh);
     }
     return AUR_OK;
 }
@@ -147,7 +158,9 @@ static aur_result name_shapes(aur_facets *facets, aur_error *error) {
     if (facets->names == NULL)
         return aur_fail_memory(error);
     facets->group_count = scene->shape_count;
-    for (size_t i = 0; i < scene->shape_count; ++i) {
+    for (size_t i = 0, triangle = 0; i < scene->shape_count; ++i) {
+        for (size_t k = triangles_of(&scene->shapes[i]->mesh); k > 0; --k)
+            facets->source_groups[triangle++] = (uint32_t)i;
         char unnamed[40];
         aur_format(unnamed, sizeof unnamed, "shape-%zu", i);
         const char *name = unnamed;
@@ -161,24 +174,42 @@ static aur_result name_shapes(aur_facets *facets, aur_error *error) {
     return AUR_OK;
 }
 
+/* The lines and groups of an OBJ, which has them of its own triangles. */
+static aur_result read_groups(const char *path, aur_facets *facets, aur_error *error) {
+    facets->lines = calloc(facets->source_count + 1, sizeof *facets->lines);
+    const aur_result result = facets->lines != NULL
+                                  ? aur_obj_groups(path, facets, facets->lines, facets->source_groups, error)
+                                  : aur_fail_memory(error);
+    for (size_t i = 0; i < facets->count && result == AUR_OK; ++i)
+        facets->groups[i] = facets->source_groups[facets->sources[i]];
+    return result;
+}
+
 static aur_result make_rows(aur_facets *facets, const aur_facets_options *options, aur_error *error) {
     const size_t sides = options->both_sides ? 2 : 1;
     facets->grouped = options->group;
     facets->patch_count = sides * facets->count;
-    facets->row_count = sides * (options->group ? facets->group_count : facets->count);
+    facets->front_rows = options->group ? facets->group_count : facets->source_count;
+    facets->row_count = sides * facets->front_rows;
     facets->row_areas = calloc(facets->row_count, sizeof *facets->row_areas);
-    if (facets->row_areas == NULL)
+    facets->rows = malloc(facets->count * sizeof *facets->rows);
+    if (facets->row_areas == NULL || facets->rows == NULL)
         return aur_fail_memory(error);
+    memcpy(facets->rows, options->group ? facets->groups : facets->sources,
+           facets->count * sizeof *facets->rows);
     for (size_t i = 0; i < facets->patch_count; ++i)
         facets->row_areas[aur_facets_row(facets, i)] += facets->areas[aur_facet_of(facets, i)];
     return AUR_OK;
 }
 
-aur_result aur_facets_load(const char *path, const aur_facets_options *given, aur_facets **made,
-                           aur_error *error) {
+static aur_result load(const char *path, const aur_facets_options *given, bool uncut, aur_facets **made,
+                       aur_error *error) {
     *made = NULL;
     aur_facets_options options = aur_facets_options_default();
     aur_result result = aur_options_read(given, sizeof options, &options, "aur_facets_options", error);
+    const aur_overlap_rule rule = uncut                ? AUR_OVERLAPS_STAY
+                                  : options.both_sides ? AUR_OVERLAPS_CUT
+                                                       : AUR_OVERLAPS_OF_FRONTS;
     source kind = SOURCE_OBJ;
     if (result == AUR_OK)
         result = find_source(path, &kind, error);
@@ -199,22 +230,21 @@ aur_result aur_facets_load(const char *path, const aur_facets_options *given, au
     scene.definitions = options.definitions;
     scene.further_count = options.further_count;
     scene.further = options.further;
-    result = kind >= SOURCE_SCENE ? aur_scene_load_with_points(path, 0, NULL, &scene, &facets->scene, error)
-                                  : load_mesh(path, kind, &scene, &facets->scene, error);
+    result = kind >= SOURCE_SCENE
+                 ? aur_scene_load_with_points(path, 0, NULL, rule, &scene, &facets->scene, error)
+                 : load_mesh(path, kind, rule, &scene, &facets->scene, error);
     if (result == AUR_OK)
         result = check_shapes(facets->scene, error);
     if (result == AUR_OK)
         result = copy_triangles(facets, error);
     if (result == AUR_OK)
         leave_out_slivers(facets);
-    if (result == AUR_OK && kind == SOURCE_OBJ) {
-        facets->lines = calloc(facets->count, sizeof *facets->lines);
-        result = facets->lines != NULL ? aur_obj_groups(path, facets, error) : aur_fail_memory(error);
-    } else if (result == AUR_OK) {
-        result = name_shapes(facets, error);
-    }
+    if (result == AUR_OK)
+        result = kind == SOURCE_OBJ ? read_groups(path, facets, error) : name_shapes(facets, error);
     if (result == AUR_OK)
         result = make_rows(facets, &options, error);
+    if (result == AUR_OK && rule == AUR_OVERLAPS_OF_FRONTS)
+        result = aur_facets_find_sheets(facets, error);
     if (result == AUR_OK)
         result = aur_facets_inspect(facets, &options.warnings, error);
     if (result != AUR_OK) {
@@ -223,6 +253,16 @@ aur_result aur_facets_load(const char *path, const aur_facets_options *given, au
     }
     *made = facets;
     return AUR_OK;
+}
+
+aur_result aur_facets_load(const char *path, const aur_facets_options *options, aur_facets **facets,
+                           aur_error *error) {
+    return load(path, options, false, facets, error);
+}
+
+aur_result aur_facets_load_uncut(const char *path, const aur_facets_options *options, aur_facets **facets,
+                                 aur_error *error) {
+    return load(path, options, true, facets, error);
 }
 
 void aur_facets_destroy(aur_facets *facets) {
@@ -236,7 +276,11 @@ void aur_facets_destroy(aur_facets *facets) {
     free(facets->corners);
     free(facets->planes);
     free(facets->areas);
-    free(facets->doubled);
+    free(facets->sources);
+    free(facets->source_groups);
+    free(facets->rows);
+    free(facets->opposites);
+    free(facets->opposite_starts);
     free(facets->first);
     free(facets->lines);
     free(facets->groups);

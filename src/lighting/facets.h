@@ -4,7 +4,7 @@
 
 #include <aureole/view_factors.h>
 
-#include "lighting/polygon.h"
+#include "core/polygon.h"
 #include "scene/scene.h"
 
 /* What sees and is seen is a patch: the front of each facet, patch 0 .. count - 1, and, when both sides are
@@ -16,15 +16,24 @@ struct aur_facets {
     double (*corners)[3][3]; /* of facets, counter-clockwise seen from the front, from the scene's origin */
     aur_plane *planes;       /* of facets; zero without area */
     double *areas;           /* of facets; 0 for those that are left out */
-    bool *doubled;           /* facets on which another one lies */
     bool open;               /* some edge belongs to one facet only */
     uint32_t *first;         /* shape -> its first facet */
-    size_t *lines;           /* of the file, for facets of an OBJ; else NULL */
-    double reach;            /* the largest coordinate, either side of 0 */
-    /* Rows of the matrix: patches, or groups of facets (and their backs after them). */
+    size_t source_count;     /* triangles of the file */
+    size_t *lines;           /* of these, in an OBJ; else NULL */
+    uint32_t *source_groups; /* of these */
+    uint32_t *sources;       /* of facets: the triangle of the file that each is, or is a part of */
+    /* Where facets see with their fronts alone: of each facet, those of others that look the opposite way and
+     * lie in its plane are opposites[opposite_starts[facet]] .. opposites[opposite_starts[facet + 1] - 1].
+     * NULL: there are none. */
+    size_t *opposite_starts;
+    uint32_t *opposites;
+    double reach; /* the largest coordinate, either side of 0 */
+    /* Rows of the matrix: triangles of the file, or groups of them; those of backs follow. */
+    size_t front_rows;
+    uint32_t *rows; /* of the fronts of facets */
     bool grouped;
     size_t group_count;
-    uint32_t *groups; /* of facets; NULL when not grouped */
+    uint32_t *groups; /* of facets */
     char **names;     /* of groups */
     size_t row_count;
     double *row_areas;
@@ -35,10 +44,7 @@ static inline size_t aur_facet_of(const aur_facets *facets, size_t patch) {
 }
 
 static inline size_t aur_facets_row(const aur_facets *facets, size_t patch) {
-    if (!facets->grouped)
-        return patch;
-    return patch < facets->count ? facets->groups[patch]
-                                 : facets->group_count + facets->groups[patch - facets->count];
+    return facets->rows[aur_facet_of(facets, patch)] + (patch < facets->count ? 0 : facets->front_rows);
 }
 
 /* The plane of a patch: its normal points to the side that sees. */
@@ -55,10 +61,22 @@ static inline aur_plane aur_patch_plane(const aur_facets *facets, size_t patch) 
 /* The corners of a patch, counter-clockwise seen from its side. */
 void aur_patch_corners(const aur_facets *facets, size_t patch, double corners[3][3]);
 
-/* Reads the groups of an OBJ file that has been loaded, so that nothing in it is wrong: the group and the
- * line of each triangle. Groups are named by `g`, or `o` where there is no `g` after it. */
-aur_result aur_obj_groups(const char *path, aur_facets *facets, aur_error *error);
+/* Finds what lies back to back, where facets see with their fronts alone. Errors: MEMORY. */
+aur_result aur_facets_find_sheets(aur_facets *facets, aur_error *error);
+/* The facet that looks the opposite way at a point of a facet of a sheet; SIZE_MAX: none. Where
+ * opposite_starts is not NULL. */
+size_t aur_facets_other_side(const aur_facets *facets, size_t facet, const double point[3]);
 
-/* Looks for what makes factors wrong or odd (facets without area, on each other, open or inconsistent
- * surfaces) and sends one counted warning for each kind. Marks facets that lie on each other. */
+/* As aur_facets_load, but surfaces in one plane stay as they are: for sensors, which are no surfaces. */
+aur_result aur_facets_load_uncut(const char *path, const aur_facets_options *options, aur_facets **facets,
+                                 aur_error *error);
+
+/* Reads the groups of an OBJ file that has been loaded, so that nothing in it is wrong: the line and the
+ * group of each of the source_count triangles. Groups are named by `g`, or `o` where there is no `g` after
+ * it. */
+aur_result aur_obj_groups(const char *path, aur_facets *facets, size_t *lines, uint32_t *groups,
+                          aur_error *error);
+
+/* Looks for what makes factors wrong or odd (facets without area, in one plane, open or inconsistent
+ * surfaces) and sends one counted warning for each kind. Errors: MEMORY. */
 aur_result aur_facets_inspect(aur_facets *facets, const aur_warnings *warnings, aur_error *error);

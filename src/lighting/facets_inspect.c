@@ -4,6 +4,7 @@
 
 #include "core/random.h"
 #include "lighting/facets.h"
+#include "scene/scene_data.h"
 
 /* Points to the first of some facets. */
 typedef struct finding {
@@ -19,8 +20,10 @@ static void report(const aur_facets *facets, const aur_warnings *warnings, const
                    const char *what) {
     if (f->count == 0)
         return;
-    const aur_location place = {facets->path, facets->lines != NULL ? facets->lines[f->first] : 0, 0};
-    aur_warn_at(warnings, place, "%zu %s (facet %zu is the first)", f->count, what, f->first);
+    const aur_location place = {facets->path,
+                                facets->lines != NULL ? facets->lines[facets->sources[f->first]] : 0, 0};
+    aur_warn_at(warnings, place, "%zu %s (facet %zu is the first)", f->count, what,
+                (size_t)facets->sources[f->first]);
 }
 
 /* An edge in the direction in which its facet passes it, or a facet's three corners, by the numbers of
@@ -84,8 +87,8 @@ static void exchange(uint32_t *a, uint32_t *b, bool *turned) {
     *turned = !*turned;
 }
 
-static void find_doubles(aur_facets *facets, const uint32_t *places, use *uses,
-                         const aur_warnings *warnings) {
+static void find_sheets(const aur_facets *facets, const uint32_t *places, use *uses,
+                        const aur_warnings *warnings) {
     size_t count = 0;
     for (size_t i = 0; i < facets->count; ++i) {
         if (facets->areas[i] == 0.0)
@@ -97,17 +100,33 @@ static void find_doubles(aur_facets *facets, const uint32_t *places, use *uses,
         uses[count++] = u;
     }
     qsort(uses, count, sizeof *uses, compare_uses);
-    finding same = {0}, inverted = {0};
-    for (size_t i = 0, end; i < count; i = end) {
-        for (end = i + 1; end < count && same_place(&uses[i], &uses[end]); ++end) {
-            find(uses[i].turned == uses[end].turned ? &same : &inverted, uses[end].facet);
-            facets->doubled[uses[i].facet] |= uses[i].turned == uses[end].turned;
-            facets->doubled[uses[end].facet] |= uses[i].turned == uses[end].turned;
+    finding inverted = {0};
+    for (size_t i = 0, end; i < count; i = end)
+        for (end = i + 1; end < count && same_place(&uses[i], &uses[end]); ++end)
+            if (uses[i].turned != uses[end].turned)
+                find(&inverted, uses[end].facet);
+    report(facets, warnings, &inverted, "facets lie back to back with others, a sheet without thickness");
+}
+
+/* What was cut when the scene was loaded. */
+static void report_overlaps(const aur_facets *facets, const aur_warnings *warnings) {
+    const aur_scene_overlap *const found = &facets->scene->overlap;
+    size_t pair[2];
+    for (size_t k = 0; k < 2; ++k) {
+        pair[k] = found->triangles[k];
+        for (size_t i = 0; i < found->shapes[k]; ++i) {
+            const aur_mesh *const mesh = &facets->scene->shapes[i]->mesh;
+            pair[k] += mesh->sources != NULL ? mesh->source_count : mesh->triangle_count;
         }
     }
-    report(facets, warnings, &same,
-           "facets lie on others that look the same way: which of them a ray meets is chance");
-    report(facets, warnings, &inverted, "facets lie back to back with others, a sheet without thickness");
+    const aur_location place = {facets->path, facets->lines != NULL ? facets->lines[pair[1]] : 0, 0};
+    if (found->count > 0)
+        aur_warn_at(
+            warnings, place,
+            "%zu facets lie in the plane of others that come first in the file, and are cut where those "
+            "cover them (the first is facet %zu of '%s', behind facet %zu of '%s')",
+            found->count, pair[1], facets->names[facets->source_groups[pair[1]]], pair[0],
+            facets->names[facets->source_groups[pair[0]]]);
 }
 
 static void find_borders(aur_facets *facets, const uint32_t *places, use *uses,
@@ -141,11 +160,12 @@ aur_result aur_facets_inspect(aur_facets *facets, const aur_warnings *warnings, 
         if (facets->areas[i] == 0.0)
             find(&empty, i);
     report(facets, warnings, &empty, "facets have no area and are left out");
+    report_overlaps(facets, warnings);
     uint32_t *const places = malloc(3 * facets->count * sizeof *places);
     use *const uses = malloc(3 * facets->count * sizeof *uses);
     const bool good = places != NULL && uses != NULL && number_places(facets, places);
     if (good) {
-        find_doubles(facets, places, uses, warnings);
+        find_sheets(facets, places, uses, warnings);
         find_borders(facets, places, uses, warnings);
     }
     free(places);

@@ -11,6 +11,8 @@ typedef struct reader {
     aur_scanner scanner;
     aur_facets *facets;
     size_t facet, group_capacity;
+    size_t *lines;
+    uint32_t *groups;
     uint32_t group; /* of the faces to come */
 } reader;
 
@@ -53,20 +55,21 @@ static bool read_face(reader *self) {
     const size_t line = self->scanner.line;
     while (!aur_scan_line_done(&self->scanner) && aur_scan_word(&self->scanner).length > 0)
         ++corners;
-    for (size_t i = 2; i < corners && self->facet < self->facets->count; ++i, ++self->facet) {
-        self->facets->lines[self->facet] = line;
-        self->facets->groups[self->facet] = self->group;
+    for (size_t i = 2; i < corners && self->facet < self->facets->source_count; ++i, ++self->facet) {
+        self->lines[self->facet] = line;
+        self->groups[self->facet] = self->group;
     }
     return true;
 }
 
-aur_result aur_obj_groups(const char *path, aur_facets *facets, aur_error *error) {
+aur_result aur_obj_groups(const char *path, aur_facets *facets, size_t *lines, uint32_t *groups,
+                          aur_error *error) {
     char *data;
     size_t size;
     const aur_result result = aur_file_read(path, (size_t)1 << 35, &data, &size, error);
     if (result != AUR_OK)
         return result;
-    reader self = {.scanner = {data, data + size, 1}, .facets = facets};
+    reader self = {.scanner = {data, data + size, 1}, .facets = facets, .lines = lines, .groups = groups};
     bool good = true;
     while (good && self.scanner.at < self.scanner.end) {
         const aur_word word =
@@ -80,7 +83,7 @@ aur_result aur_obj_groups(const char *path, aur_facets *facets, aur_error *error
     free(data);
     if (!good)
         return aur_fail_memory(error);
-    if (self.facet != facets->count)
+    if (self.facet != facets->source_count)
         return aur_fail_at(error, (aur_location){.file = path}, AUR_ERROR_FORMAT,
                            "the file has changed while it was read");
     return AUR_OK;

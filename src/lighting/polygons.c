@@ -4,8 +4,8 @@
 #include <string.h>
 
 #include "core/error.h"
+#include "core/polygon.h"
 #include "lighting/contour.h"
-#include "lighting/polygon.h"
 
 enum { MOST_CORNERS = 1 << 16 };
 

@@ -112,8 +112,7 @@ static bool fill_patch(const filling *work, size_t i, double rest) {
     double sum = 0.0;
     for (size_t k = 0; k < facets->patch_count; ++k) {
         const size_t other = aur_facet_of(facets, k);
-        const bool candidate =
-            i != k && facets->areas[other] > 0.0 && !facets->doubled[other] && !is_closed(work, i, k);
+        const bool candidate = i != k && facets->areas[other] > 0.0 && !is_closed(work, i, k);
         work->possible[k] = candidate ? free_exchange(facets, i, k) : 0.0;
         sum += work->possible[k];
     }

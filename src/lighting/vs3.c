@@ -12,8 +12,8 @@ static void write_name(FILE *stream, const char *name) {
         fputc(aur_is_space(*name) ? '_' : *name, stream);
 }
 
-/* Surfaces are numbered from 1; those of a group are combined with its first one. `leaders` has the number of
- * that one for each group, or 0. */
+/* Surfaces are numbered from 1; those of a row are combined with its first one. `leaders` has the number of
+ * that one for each row, or 0. */
 static void write_surfaces(const aur_facets *facets, size_t *leaders, FILE *stream) {
     const aur_scene *const scene = facets->scene;
     size_t surface = 0, facet = 0, vertices = 1;
@@ -22,15 +22,14 @@ static void write_surfaces(const aur_facets *facets, size_t *leaders, FILE *stre
         for (size_t k = 0; k < mesh->triangle_count; ++k, ++facet) {
             if (facets->areas[facet] == 0.0)
                 continue;
-            size_t *const leader = &leaders[facets->groups[facet]];
+            size_t *const leader = &leaders[facets->rows[facet]];
             ++surface;
             fprintf(stream, "S %zu %zu %zu %zu 0 0 %zu 1.0 ", surface, vertices + mesh->indices[3 * k],
-                    vertices + mesh->indices[3 * k + 1], vertices + mesh->indices[3 * k + 2],
-                    facets->grouped ? *leader : 0);
+                    vertices + mesh->indices[3 * k + 1], vertices + mesh->indices[3 * k + 2], *leader);
             if (facets->grouped)
                 write_name(stream, facets->names[facets->groups[facet]]);
             else
-                fprintf(stream, "facet-%zu", facet);
+                fprintf(stream, "facet-%u", (unsigned)facets->sources[facet]);
             fputc('\n', stream);
             if (*leader == 0)
                 *leader = surface;
@@ -40,7 +39,7 @@ static void write_surfaces(const aur_facets *facets, size_t *leaders, FILE *stre
 }
 
 aur_result aur_facets_write_vs3(const aur_facets *facets, const char *path, aur_error *error) {
-    size_t *const leaders = calloc(facets->group_count, sizeof *leaders);
+    size_t *const leaders = calloc(facets->front_rows, sizeof *leaders);
     if (leaders == NULL)
         return aur_fail_memory(error);
     aur_file_writer writer;

@@ -37,6 +37,7 @@ void aur_mesh_release(aur_mesh *mesh) {
     free(mesh->normals);
     free(mesh->uvs);
     free(mesh->indices);
+    free(mesh->sources);
     free(mesh->vertex_colors);
     free(mesh->face_colors);
     *mesh = (aur_mesh){0};

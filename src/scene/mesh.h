@@ -15,6 +15,9 @@ typedef struct aur_mesh {
     float *normals;    /* 3 * vertex_count of unit length, or NULL: flat triangles */
     float *uvs;        /* 2 * vertex_count, or NULL */
     uint32_t *indices; /* 3 * triangle_count */
+    uint32_t
+        *sources; /* which triangle of the file each one is part of, in order; NULL: they are the file's */
+    size_t source_count;  /* triangles of the file, where `sources` is given */
     float *vertex_colors; /* 3 * vertex_count, or NULL */
     float *face_colors;   /* 3 * triangle_count, or NULL */
 } aur_mesh;

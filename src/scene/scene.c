@@ -5,6 +5,7 @@
 #include "core/array.h"
 #include "core/options.h"
 #include "material/sampling.h"
+#include "scene/overlap_cut.h"
 #include "scene/rad/rad.h"
 #include "scene/scene_data.h"
 
@@ -165,7 +166,7 @@ static aur_result prepare_lights(aur_scene *scene, aur_error *error) {
 
 /* From the file at `path`, or from `data`, where it is given. */
 static aur_result load(const char *path, size_t bytes, const char *data, const aur_scene_options *given,
-                       bool keep_points, aur_scene **scene, aur_error *error) {
+                       bool keep_points, aur_overlap_rule rule, aur_scene **scene, aur_error *error) {
     *scene = NULL;
     aur_scene_options options = aur_scene_options_default();
     aur_result result = aur_options_read(given, sizeof options, &options, "aur_scene_options", error);
@@ -175,11 +176,16 @@ static aur_result load(const char *path, size_t bytes, const char *data, const a
     if (made == NULL)
         return aur_fail_memory(error);
     made->keeps_points = keep_points;
+    made->overlap_rule = rule;
     made->definitions = aur_definitions_text(&options);
     result = made->definitions != NULL ? aur_xml_read(path, bytes, data, &options, &made->document, error)
                                        : aur_fail_memory(error);
     if (result == AUR_OK)
         result = aur_scene_build(made, &options.warnings, error);
+    if (result == AUR_OK)
+        result = aur_scene_cut_overlaps(made, options.threads, error);
+    if (result == AUR_OK && !keep_points)
+        aur_scene_warn_of_overlaps(made, &options.warnings);
     if (result == AUR_OK)
         result = aur_scene_recenter(made, error);
     if (result == AUR_OK)
@@ -207,17 +213,17 @@ bool aur_scene_is_name(const char *path) {
 
 aur_result aur_scene_load(const char *path, const aur_scene_options *options, aur_scene **scene,
                           aur_error *error) {
-    return load(path, 0, NULL, options, false, scene, error);
+    return load(path, 0, NULL, options, false, AUR_OVERLAPS_CUT, scene, error);
 }
 
 aur_result aur_scene_load_memory(const char *name, size_t bytes, const void *data,
                                  const aur_scene_options *options, aur_scene **scene, aur_error *error) {
-    return load(name, bytes, data, options, false, scene, error);
+    return load(name, bytes, data, options, false, AUR_OVERLAPS_CUT, scene, error);
 }
 
-aur_result aur_scene_load_with_points(const char *path, size_t bytes, const char *data,
+aur_result aur_scene_load_with_points(const char *path, size_t bytes, const char *data, aur_overlap_rule rule,
                                       const aur_scene_options *options, aur_scene **scene, aur_error *error) {
-    return load(path, bytes, data, options, true, scene, error);
+    return load(path, bytes, data, options, true, rule, scene, error);
 }
 
 void aur_scene_destroy(aur_scene *scene) {

@@ -27,6 +27,20 @@ typedef struct aur_instance {
         to_local; /* between coordinates that count from the two origins, when recentred */
 } aur_instance;
 
+/* What becomes of surfaces in one plane (overlap_cut.h). */
+typedef enum aur_overlap_rule {
+    AUR_OVERLAPS_CUT,       /* the first one covers the others */
+    AUR_OVERLAPS_OF_FRONTS, /* only what looks the same way covers each other: back to back they are a sheet
+                             */
+    AUR_OVERLAPS_STAY
+} aur_overlap_rule;
+
+/* How many triangles were cut, and the first pair: the one that covers, and the other one. */
+typedef struct aur_scene_overlap {
+    size_t count;
+    uint32_t shapes[2], triangles[2];
+} aur_scene_overlap;
+
 struct aur_scene {
     aur_xml_document document; /* owns the file names that locations point to */
     char *definitions;         /* of the options, a line "define NAME=VALUE" each; NULL: none */
@@ -67,13 +81,16 @@ struct aur_scene {
     size_t packet_size; /* 16, 8, 4 or 0: aur_embree_packet_size */
     double origin[3];   /* of the coordinates of all that follows, and of shapes, lights and cameras */
     bool keeps_points;  /* of meshes, in doubles */
+    aur_overlap_rule overlap_rule;
+    aur_scene_overlap overlap;
     aur_vector lower, upper;
     aur_vector center; /* of a sphere around the scene */
     float radius;
 };
 
-/* As aur_scene_load or, with data, aur_scene_load_memory; and meshes keep their points in doubles. */
-aur_result aur_scene_load_with_points(const char *path, size_t bytes, const char *data,
+/* As aur_scene_load or, with data, aur_scene_load_memory; but meshes keep their points in doubles, and no
+ * warning is sent of overlaps. */
+aur_result aur_scene_load_with_points(const char *path, size_t bytes, const char *data, aur_overlap_rule rule,
                                       const aur_scene_options *options, aur_scene **scene, aur_error *error);
 /* Builds the objects of the document into the empty scene (loader.c). */
 aur_result aur_scene_build(aur_scene *scene, const aur_warnings *warnings, aur_error *error);

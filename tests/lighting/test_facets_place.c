@@ -286,11 +286,32 @@ static void test_far_speck(void **state) {
     assert_near(found[1], found[0], 1e-9);
 }
 
+/* A tilted square about the origin is large beside the coordinates of its middle, from where rays met it. */
+static void test_tilted_square(void **state) {
+    (void)state;
+    for (int i = 1; i < 8; ++i) {
+        const mesh_place place = place_turned(0.4 * i, 0, 0, 0);
+        mesh_file file;
+        mesh_begin(&file, "tilted");
+        moved_polygon(&file, &place, 4, (const double[4][3]){{-7, -6, 0}, {8, -6, 0}, {8, 9, 0}, {-7, 9, 0}});
+        aur_facets *const facets = mesh_load(&file, NULL);
+        aur_view_factors_options wish = wish_of(1, true);
+        wish.rays = 1 << 16;
+        aur_view_factors_matrix m;
+        aur_view_factors *const factors = factors_of(facets, &wish, &m);
+        for (size_t k = 0; k < 2; ++k)
+            assert_true(m.back[k] == 0.0 && fabs(m.sky[k] - 1.0) < 1e-12);
+        aur_view_factors_destroy(factors);
+        aur_facets_destroy(facets);
+    }
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_room),         cmocka_unit_test(test_street),
         cmocka_unit_test(test_radiosities),  cmocka_unit_test(test_coverage),
-        cmocka_unit_test(test_small_facets), cmocka_unit_test(test_far_speck),
+        cmocka_unit_test(test_small_facets), cmocka_unit_test(test_tilted_square),
+        cmocka_unit_test(test_far_speck),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -95,7 +95,7 @@ refused 2 "there is no light" scene.xml --radiosity 0.5 --sky 0
 } >odd.obj
 said=$("$aureole" viewfactors odd.obj 2>&1 >/dev/null)
 grep -q 'odd.obj:20: 1 facets have no area' <<<"$said" || fail "a facet without area: $said"
-grep -q 'odd.obj:18: 1 facets lie on others that look the same way' <<<"$said" || fail "a doubled facet: $said"
+grep -q 'odd.obj:18: 1 facets lie in the plane of others that come first in the file' <<<"$said" || fail "a doubled facet: $said"
 grep -q '1 facets lie back to back with others' <<<"$said" || fail "a sheet: $said"
 {
   echo "$corners"

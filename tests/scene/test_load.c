@@ -305,7 +305,8 @@ static void reads_colors_of_meshes(void **state) {
     write_text("c.obj", "v 0 0 0 1 0 0\nv 1 0 0 0 1 0\nv 1 1 0 2\nf 1 2 3\n");
     aur_scene *const scene =
         must_load_body("<shape type='ply'><string name='filename' value='c.ply'/></shape>"
-                       "<shape type='obj'><string name='filename' value='c.obj'/></shape>");
+                       "<shape type='obj'><string name='filename' value='c.obj'/><transform name='to_world'>"
+                       "<translate z='2'/></transform></shape>");
     static const double faces[3][3] = {{1.0, 0.2, 0.0}, {1.0, 0.2, 0.0}, {0.0, 0.0, 1.0}};
     assert_int_equal(aur_scene_shape_triangles(scene, 0), 3);
     aur_triangle triangle;

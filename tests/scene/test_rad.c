@@ -282,7 +282,7 @@ static void leaves_out_what_is_no_surface(void **state) {
                                          "white polygon p 0 0 12 0 0 0 1 0 0 1 1 .01 0 1 0\n"
                                          "white polygon p 0 0 12 0 0 0 2 2 0 2 0 0 0 1 0\n"
                                          "lamp polygon p 0 0 12 0 0 0 1 0 0 2 0 0 1 0 0\n"
-                                         "lamp polygon p 0 0 9 0 0 0 1 0 0 0 1 0\n";
+                                         "lamp polygon p 0 0 9 0 0 3 1 0 3 0 1 3\n";
     char said[1024] = "";
     const aur_scene_options options = {.size = sizeof options, .warnings = {keep, said}};
     aur_scene *scene = NULL;

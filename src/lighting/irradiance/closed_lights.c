@@ -2,8 +2,8 @@
 
 #include <stdlib.h>
 
+#include "core/polygon.h"
 #include "core/random.h"
-#include "lighting/polygon.h"
 #include "scene/scene_data.h"
 #include "transport/lights/direct_light.h"
 

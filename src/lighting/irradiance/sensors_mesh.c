@@ -83,7 +83,7 @@ aur_result aur_sensors_take_mesh(const char *path, const aur_sensors_options *op
     aur_facets_options load = aur_facets_options_default();
     aur_facets *facets = NULL;
     load.warnings = options->warnings;
-    aur_result result = aur_facets_load(path, &load, &facets, error);
+    aur_result result = aur_facets_load_uncut(path, &load, &facets, error);
     if (result == AUR_OK)
         result = options->place == AUR_SENSORS_ON_VERTICES
                      ? stand_on_vertices(&facets->scene->shapes[0]->mesh, path, sensors, error)

@@ -1,4 +1,4 @@
-#include "lighting/polygon.h"
+#include "core/polygon.h"
 
 #include <string.h>
 
