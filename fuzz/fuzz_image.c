@@ -80,8 +80,7 @@ size_t aur_fuzz_seed(size_t index, size_t capacity, uint8_t *data) {
                                    .compression = (exr_compression_t)(kind / 2),
                                    .width = 37,
                                    .height = 34,
-                                   .tile = 16,
-                                   .subsampling = 1};
+                                   .tile = 16};
         char path[64];
         snprintf(path, sizeof path, "fuzz-seed-%ld.exr", (long)getpid());
         write_foreign(path, &file);

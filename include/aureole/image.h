@@ -30,6 +30,9 @@ AUR_API size_t aur_image_channel_count(const aur_image *image) AUR_NONNULL(1);
 /* data[(y * width + x) * channel_count + c], the top row first: for reading and writing, as long as the image
  * is there. */
 AUR_API float *aur_image_data(const aur_image *image) AUR_NONNULL(1);
+/* What the reader made of the file and the values do not show ("its PRIMARIES are not those of Rec. 709:
+ * ..."), for a warning; "" when there is nothing to say. As long as the image is there. */
+AUR_API const char *aur_image_notes(const aur_image *image) AUR_NONNULL(1);
 /* "R", "G", "B", "albedo.R", ...; NULL beyond the channels. */
 AUR_API const char *aur_image_channel_name(const aur_image *image, size_t channel) AUR_NONNULL(1);
 /* Errors: ARGUMENT for a channel that is not there or a name of AUR_CHANNEL_NAME_CAPACITY bytes or more. */
@@ -38,8 +41,9 @@ AUR_API aur_result aur_image_name_channel(aur_image *image, size_t channel, cons
 
 /* By content: EXR (scan lines or tiles; half, float or uint; the full-size level of the first part), PFM,
  * HDR, PNG, JPEG. "-" is standard input. PNG and JPEG are decoded from sRGB to linear. Colour comes as
- * R, G, B, A, then the channels of other layers, layer by layer. Errors: OPEN, FORMAT, UNSUPPORTED (deep or
- * subsampled EXR), MEMORY. */
+ * R, G, B, A, then the channels of other layers, layer by layer. Y, RY, BY and X, Y, Z of an EXR become R, G,
+ * B, and EXPOSURE and COLORCORR of an HDR are divided out. Errors: OPEN, FORMAT, UNSUPPORTED (deep EXR),
+ * MEMORY. */
 AUR_API aur_result aur_image_read(const char *path, aur_image **image, aur_error *error) AUR_NONNULL(1, 2);
 /* The same from memory; `name` stands in messages. */
 AUR_API aur_result aur_image_read_memory(const char *name, size_t size, const void *data, aur_image **image,
@@ -93,9 +97,15 @@ AUR_API aur_result aur_image_write(const char *path, const aur_image *image,
 
 /* The index of a channel, or SIZE_MAX. */
 AUR_API size_t aur_image_find_channel(const aur_image *image, const char *name) AUR_NONNULL(1, 2);
-/* Which channels are red, green and blue: those of that name; else Y, or the only channel, for all three;
- * else the three that there are. False when there is no such choice. */
+/* Which channels are red, green and blue, by names of either case: R, G, B or red, green, blue; else Y or
+ * grey for all three; else those of the one layer ("diffuse.R") that has such channels, or of the one called
+ * Combined among several. The one or three channels of aur_image_select are the colour whatever they are
+ * called, and so is a single channel that is no A, Z or ZBack. False when there is no such choice: roles are
+ * never guessed. */
 AUR_API bool aur_image_color_channels(const aur_image *image, size_t channels[3]) AUR_NONNULL(1, 2);
+/* Adds to found[0], found[1] and found[2] how many values of a channel are infinite, NaN and negative
+ * (-infinity counts as negative). */
+AUR_API void aur_image_count_odd(const aur_image *image, size_t channel, size_t found[3]) AUR_NONNULL(1, 3);
 /* A picture of some of the channels, in the order given. Errors: NAME, MEMORY. */
 AUR_API aur_result aur_image_select(const aur_image *image, size_t count, const char *const *names,
                                     aur_image **selected, aur_error *error) AUR_NONNULL(1, 3, 4);

@@ -1,4 +1,6 @@
 /* aureole convert: from one picture format to another. */
+#include <string.h>
+
 #include "cli/picture.h"
 
 typedef struct convert_options {
@@ -30,6 +32,15 @@ static bool options_fit(const cli_call *call, const aur_row *format) {
     return true;
 }
 
+static void warn_of_values(const char *path, const aur_image *image, const char *format) {
+    if (strcmp(format, "png") == 0)
+        cli_warn_of_values(path, image, true, "infinite ones become white, the others black");
+    else if (strcmp(format, "hdr") == 0)
+        cli_warn_of_values(path, image, true, "infinite ones become the largest of the format, the others 0");
+    else
+        cli_warn_of_values(path, image, false, "they are written as they are");
+}
+
 static int run(const cli_call *call) {
     convert_options *const given = call->options;
     const char *const output = call->operands[1];
@@ -41,6 +52,7 @@ static int run(const cli_call *call) {
     aur_image *image = NULL;
     status = cli_read_picture(call->operands[0], &given->picture, &image);
     if (status == CLI_SUCCESS) {
+        warn_of_values(call->operands[0], image, format->name);
         given->write.size = sizeof given->write;
         status = cli_status(aur_image_write(output, image, &given->write, &error), &error);
     }

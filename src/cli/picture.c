@@ -1,6 +1,7 @@
 #include "cli/picture.h"
 
 #include <math.h>
+#include <stdarg.h>
 #include <stdio.h>
 #include <stdlib.h>
 
@@ -35,9 +36,32 @@ static aur_result select_channels(const cli_list *channels, aur_image **image, a
     return result;
 }
 
+static void __attribute__((format(printf, 1, 2))) warn(const char *format, ...) {
+    const aur_warnings warnings = cli_warnings(false);
+    char text[AUR_ERROR_FILE_CAPACITY + AUR_ERROR_MESSAGE_CAPACITY];
+    va_list arguments;
+    va_start(arguments, format);
+    vsnprintf(text, sizeof text, format, arguments);
+    va_end(arguments);
+    warnings.function(warnings.user, text);
+}
+
+void cli_warn_of_values(const char *path, const aur_image *image, bool negative, const char *fate) {
+    size_t found[3] = {0, 0, 0}, channels[3];
+    const bool colors = negative && aur_image_color_channels(image, channels);
+    const size_t count = !colors ? aur_image_channel_count(image) : channels[0] == channels[1] ? 1 : 3;
+    for (size_t c = 0; c < count; ++c)
+        aur_image_count_odd(image, colors ? channels[c] : c, found);
+    if (found[0] + found[1] > 0 || (negative && found[2] > 0))
+        warn("%s: %zu infinite, %zu NaN and %zu negative values: %s", path, found[0], found[1], found[2],
+             fate);
+}
+
 int cli_read_picture(const char *path, const cli_picture *options, aur_image **image) {
     aur_error error;
     aur_result result = aur_image_read(path, image, &error);
+    if (result == AUR_OK && aur_image_notes(*image)[0] != '\0')
+        warn("%s: %s", path, aur_image_notes(*image));
     if (result == AUR_OK && options->channels.count > 0) {
         result = select_channels(&options->channels, image, &error);
         snprintf(error.file, sizeof error.file, "%s", path);

@@ -46,6 +46,8 @@ int cli_write_viewer(const char *path, size_t count, char **names, const cli_pic
         pictures != NULL && images != NULL ? CLI_SUCCESS : cli_fail(&(aur_error){.result = AUR_ERROR_MEMORY});
     for (size_t i = 0; i < count && status == CLI_SUCCESS; ++i) {
         status = cli_read_picture(names[i], how, &images[i]);
+        if (status == CLI_SUCCESS)
+            cli_warn_of_values(names[i], images[i], false, "they are shown as they are");
         pictures[i] = (report_picture){
             .name = short_name(count, names, i), .image = images[i], .reference = judged && i == 0};
     }

@@ -68,6 +68,12 @@ bool aur_image_begins(const aur_image_source *source, const char *bytes, size_t 
 void aur_image_put_bytes(void *stream, void *bytes, int count);
 aur_result aur_image_fail_encode(aur_error *error);
 
+/* Adds to what aur_image_notes returns. */
+void aur_image_note(aur_image *image, const char *format, ...) AUR_PRINTF(2, 3);
+
+/* "R, G, depth": as much as fits. */
+void aur_image_list_channels(const aur_image *image, size_t capacity, char *text);
+
 /* Red, green and blue, or an ARGUMENT error that names the channels that there are. `name` may be NULL. */
 aur_result aur_image_require_color(const char *name, const aur_image *image, size_t channels[3],
                                    aur_error *error);

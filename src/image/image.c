@@ -1,6 +1,8 @@
+#include <stdarg.h>
 #include <stdlib.h>
 #include <string.h>
 
+#include "core/text.h"
 #include "image/format.h"
 
 static const char *default_name(size_t channel_count, size_t channel) {
@@ -93,6 +95,21 @@ aur_result aur_image_name_channel(aur_image *image, size_t channel, const char *
     return AUR_OK;
 }
 
+const char *aur_image_notes(const aur_image *image) {
+    return image->notes;
+}
+
+void aur_image_note(aur_image *image, const char *format, ...) {
+    const size_t used = strlen(image->notes);
+    const char *const between = used > 0 ? "; " : "";
+    va_list arguments;
+    va_start(arguments, format);
+    char text[AUR_NOTES_CAPACITY];
+    aur_format_list(text, sizeof text, format, arguments);
+    va_end(arguments);
+    aur_format(image->notes + used, sizeof image->notes - used, "%s%s", between, text);
+}
+
 bool aur_image_begins(const aur_image_source *source, const char *bytes, size_t count) {
     return source->size >= count && memcmp(source->data, bytes, count) == 0;
 }
@@ -121,52 +138,6 @@ aur_result aur_image_check_claim(const aur_image_source *source, const char *for
                     pixel_count, source->size, format);
 }
 
-size_t aur_image_find_channel(const aur_image *image, const char *name) {
-    for (size_t c = 0; c < image->channel_count; ++c)
-        if (strcmp(image->channel_names[c], name) == 0)
-            return c;
-    return SIZE_MAX;
-}
-
-bool aur_image_color_channels(const aur_image *image, size_t channels[3]) {
-    static const char *const names[] = {"R", "G", "B"};
-    size_t found = 0;
-    for (size_t i = 0; i < 3; ++i) {
-        channels[i] = aur_image_find_channel(image, names[i]);
-        found += channels[i] != SIZE_MAX;
-    }
-    if (found == 3)
-        return true;
-    const size_t grey = image->channel_count == 1 ? 0 : aur_image_find_channel(image, "Y");
-    if (grey != SIZE_MAX) {
-        channels[0] = channels[1] = channels[2] = grey;
-        return true;
-    }
-    for (size_t i = 0; i < 3; ++i)
-        channels[i] = i;
-    return image->channel_count == 3;
-}
-
-/* "R, G, depth": as much as fits. */
-static void list_channels(const aur_image *image, size_t capacity, char *text) {
-    text[0] = '\0';
-    for (size_t c = 0; c < image->channel_count; ++c) {
-        const size_t used = strlen(text);
-        snprintf(text + used, capacity - used, "%s%s", c > 0 ? ", " : "", image->channel_names[c]);
-    }
-}
-
-aur_result aur_image_require_color(const char *name, const aur_image *image, size_t channels[3],
-                                   aur_error *error) {
-    if (aur_image_color_channels(image, channels))
-        return AUR_OK;
-    char list[512];
-    list_channels(image, sizeof list, list);
-    return aur_fail_at(error, (aur_location){.file = name}, AUR_ERROR_ARGUMENT,
-                       "has no channels R, G, B and not exactly one or three others to choose: it has %s",
-                       list);
-}
-
 aur_result aur_image_select(const aur_image *image, size_t count, const char *const *names,
                             aur_image **selected, aur_error *error) {
     *selected = NULL;
@@ -179,7 +150,7 @@ aur_result aur_image_select(const aur_image *image, size_t count, const char *co
         const size_t c = aur_image_find_channel(image, names[i]);
         if (c == SIZE_MAX) {
             char list[512];
-            list_channels(image, sizeof list, list);
+            aur_image_list_channels(image, sizeof list, list);
             result = aur_fail(error, AUR_ERROR_NAME, "there is no channel '%s', only %s", names[i], list);
             aur_image_destroy(made);
             return result;
@@ -188,6 +159,7 @@ aur_result aur_image_select(const aur_image *image, size_t count, const char *co
         for (size_t p = 0; p < pixels; ++p)
             made->data[p * count + i] = image->data[p * image->channel_count + c];
     }
+    made->chosen = count == 1 || count == 3;
     *selected = made;
     return AUR_OK;
 }
@@ -211,6 +183,7 @@ aur_result aur_image_downsample(const aur_image *image, size_t block, aur_image 
     const aur_result result = aur_image_create(width, height, image->channel_count, smaller, error);
     if (result != AUR_OK)
         return result;
+    (*smaller)->chosen = image->chosen;
     memcpy((*smaller)->channel_names, image->channel_names,
            image->channel_count * sizeof *image->channel_names);
     float *out = (*smaller)->data;

@@ -83,6 +83,8 @@ static aur_result read_pfm(const aur_image_source *source, aur_image **image, au
     for (size_t y = height; y-- > 0;)
         for (size_t i = 0; i < row_values; ++i, bytes += sizeof(float))
             (*image)->data[y * row_values + i] = float_at(bytes, scale > 0.0);
+    if (fabs(scale) != 1.0)
+        aur_image_note(*image, "its scale of %g is not applied", fabs(scale));
     return AUR_OK;
 }
 

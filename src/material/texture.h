@@ -60,9 +60,11 @@ static inline aur_bsdf_point aur_uv_map_apply(const aur_uv_map *map, float u, fl
                             .v = map->m[3] * u + map->m[4] * v + map->m[5]};
 }
 
-/* A picture's R, G and B (or its Y three times), the top row first; *rgb is malloc'ed. What is negative or
- * not finite becomes 0. */
-aur_result aur_read_rgb(const char *path, size_t *width, size_t *height, float **rgb, aur_error *error);
+/* A picture's red, green and blue, or grey three times, the top row first; *rgb is malloc'ed. Infinite values
+ * become the largest half, 65504; NaN and negative ones 0. Errors: ARGUMENT for channels that are no colour,
+ * MEMORY. */
+struct aur_image;
+aur_result aur_image_radiance(const char *name, const struct aur_image *image, float **rgb, aur_error *error);
 
 static inline aur_vector aur_color_at(const aur_color *color, aur_bsdf_point point) {
     return color->texture == NULL ? color->constant

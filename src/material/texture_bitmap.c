@@ -3,14 +3,15 @@
 #include <string.h>
 #include <strings.h>
 
-#include "image/image.h"
+#include "image/channels.h"
 #include "material/texture.h"
 
 typedef enum wrap_mode { WRAP_REPEAT, WRAP_MIRROR, WRAP_CLAMP } wrap_mode;
 
 typedef struct bitmap {
     size_t width, height;
-    float *rgb; /* 3 * width * height */
+    float *rgb;     /* 3 * width * height */
+    float *heights; /* the same with negative values, or NULL where there are none */
     aur_uv_map to_uv;
     enum { FILTER_BILINEAR, FILTER_NEAREST } filter;
     wrap_mode wrap;
@@ -37,15 +38,9 @@ static bool has_8_bits(const char *path) {
     return false;
 }
 
-static size_t find_channel(const aur_image *image, const char *name, size_t otherwise) {
-    for (size_t i = 0; i < image->channel_count; ++i)
-        if (strcmp(image->channel_names[i], name) == 0)
-            return i;
-    return otherwise;
-}
-
-/* The channels of red, green and blue (or grey three times), negative and infinite values as 0. */
+/* The channels of red, green and blue, or grey three times, with their signs; what is NaN becomes 0. */
 static aur_result take_rgb(const aur_image *image, const size_t channel[3], float **rgb, aur_error *error) {
+    const float largest = 65504.0f; /* the largest half: what other renderers make of infinity */
     const size_t count = image->width * image->height;
     *rgb = malloc((3 * count + 1) * sizeof **rgb);
     if (*rgb == NULL)
@@ -53,53 +48,77 @@ static aur_result take_rgb(const aur_image *image, const size_t channel[3], floa
     for (size_t i = 0; i < count; ++i) {
         for (size_t k = 0; k < 3; ++k) {
             const float value = image->data[i * image->channel_count + channel[k]];
-            (*rgb)[3 * i + k] = isfinite(value) && value > 0.0f ? value : 0.0f;
+            (*rgb)[3 * i + k] = isfinite(value) ? value : isnan(value) ? 0.0f : copysignf(largest, value);
         }
     }
     return AUR_OK;
 }
 
-static void find_colors(const aur_image *image, size_t channel[3]) {
-    const size_t grey = find_channel(image, "Y", 0);
-    channel[0] = find_channel(image, "R", grey);
-    channel[1] = find_channel(image, "G", grey);
-    channel[2] = find_channel(image, "B", grey);
+/* Whether there was a negative value. */
+static bool cut_negative(float *rgb, size_t count) {
+    bool found = false;
+    for (size_t i = 0; i < count; ++i) {
+        found = found || rgb[i] < 0.0f;
+        rgb[i] = fmaxf(rgb[i], 0.0f);
+    }
+    return found;
 }
 
-aur_result aur_read_rgb(const char *path, size_t *width, size_t *height, float **rgb, aur_error *error) {
-    aur_image *image;
-    aur_result result = aur_image_read(path, &image, error);
-    if (result != AUR_OK)
-        return result;
+aur_result aur_image_radiance(const char *name, const aur_image *image, float **rgb, aur_error *error) {
     size_t channel[3];
-    find_colors(image, channel);
-    *width = image->width;
-    *height = image->height;
-    result = take_rgb(image, channel, rgb, error);
-    aur_image_destroy(image);
+    *rgb = NULL;
+    aur_result result = aur_image_require_color(name, image, channel, error);
+    if (result == AUR_OK)
+        result = take_rgb(image, channel, rgb, error);
+    if (result == AUR_OK)
+        cut_negative(*rgb, 3 * image->width * image->height);
     return result;
 }
 
-/* What the keys make of the picture. */
+/* The channels that the key `channel` names; none of alpha where there is none. */
+static aur_result choose_channels(const bitmap *self, const aur_image *image, size_t channel[3],
+                                  aur_error *error) {
+    if (self->channel == CHANNEL_ALPHA) {
+        const char *const layer =
+            aur_image_color_channels(image, channel) ? image->channel_names[channel[0]] : "";
+        channel[0] = channel[1] = channel[2] = aur_image_find_role(image, layer, AUR_CHANNEL_ALPHA);
+        return AUR_OK;
+    }
+    const aur_result result = aur_image_require_color(self->path, image, channel, error);
+    if (result == AUR_OK && self->channel != CHANNEL_RGB)
+        channel[0] = channel[1] = channel[2] = channel[self->channel - CHANNEL_RED];
+    return result;
+}
+
+/* What the keys make of the picture. Colours are not negative, heights may be. */
 static aur_result take_texels(bitmap *self, const aur_image *image, aur_error *error) {
     size_t channel[3];
-    find_colors(image, channel);
-    const size_t alpha = find_channel(image, "A", image->channel_count);
-    if (self->channel == CHANNEL_ALPHA)
-        channel[0] = channel[1] = channel[2] = alpha < image->channel_count ? alpha : channel[0];
-    else if (self->channel != CHANNEL_RGB)
-        channel[0] = channel[1] = channel[2] = channel[self->channel - CHANNEL_RED];
     self->width = image->width;
     self->height = image->height;
-    const aur_result result = take_rgb(image, channel, &self->rgb, error);
+    aur_result result = choose_channels(self, image, channel, error);
+    const bool opaque = result == AUR_OK && channel[0] == SIZE_MAX;
+    if (opaque)
+        channel[0] = channel[1] = channel[2] = 0;
+    if (result == AUR_OK)
+        result = take_rgb(image, channel, &self->rgb, error);
     const bool encodes = self->raw && self->channel != CHANNEL_ALPHA && has_8_bits(self->path);
-    const bool opaque = self->channel == CHANNEL_ALPHA && alpha == image->channel_count;
-    for (size_t i = 0; result == AUR_OK && i < 3 * self->width * self->height; ++i) {
+    const size_t count = 3 * self->width * self->height;
+    for (size_t i = 0; result == AUR_OK && i < count; ++i) {
         float value = opaque ? 1.0f : encodes ? encode(self->rgb[i]) : self->rgb[i];
         value *= self->factor[i % 3];
         self->rgb[i] = !(self->cutoff > 0.0f) ? value : value < self->cutoff ? 0.0f : 1.0f;
     }
-    return result;
+    if (result != AUR_OK)
+        return result;
+    self->heights = malloc((count + 1) * sizeof *self->heights);
+    if (self->heights == NULL)
+        return aur_fail_memory(error);
+    memcpy(self->heights, self->rgb, count * sizeof *self->heights);
+    if (!cut_negative(self->rgb, count)) {
+        free(self->heights);
+        self->heights = NULL;
+    }
+    return AUR_OK;
 }
 
 static void note_range(aur_texture *texture, const bitmap *self) {
@@ -158,7 +177,9 @@ static aur_result create(aur_parameters *parameters, aur_texture *texture, aur_e
 }
 
 static void release(aur_texture *texture) {
-    free(((bitmap *)texture->data)->rgb);
+    bitmap *const self = texture->data;
+    free(self->rgb);
+    free(self->heights);
 }
 
 static size_t wrapped(int64_t index, size_t size, wrap_mode mode) {
@@ -183,6 +204,13 @@ static aur_vector texel_at(const bitmap *self, size_t x, size_t y) {
 
 static aur_vector texel(const bitmap *self, int64_t x, int64_t y) {
     return texel_at(self, wrapped(x, self->width, self->wrap), wrapped(y, self->height, self->wrap));
+}
+
+static float height_at(const bitmap *self, int64_t x, int64_t y) {
+    const size_t at =
+        wrapped(y, self->height, self->wrap) * self->width + wrapped(x, self->width, self->wrap);
+    const float *const rgb = &(self->heights != NULL ? self->heights : self->rgb)[3 * at];
+    return aur_luminance((aur_vector){rgb[0], rgb[1], rgb[2]});
 }
 
 /* The texel left above a point, and how far beyond the middle of it the point lies, in texels. */
@@ -229,7 +257,7 @@ static void slope(const aur_texture *texture, aur_bsdf_point point, float result
     float corner[2][2];
     for (int j = 0; j < 2; ++j)
         for (int i = 0; i < 2; ++i)
-            corner[j][i] = aur_luminance(texel(self, at.i + i, at.j + j));
+            corner[j][i] = height_at(self, at.i + i, at.j + j);
     const float x = ((1.0f - at.t) * (corner[0][1] - corner[0][0]) + at.t * (corner[1][1] - corner[1][0])) *
                     (float)self->width;
     const float y = ((1.0f - at.s) * (corner[1][0] - corner[0][0]) + at.s * (corner[1][1] - corner[0][1])) *

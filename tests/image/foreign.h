@@ -16,7 +16,6 @@ typedef struct foreign_file {
     size_t width, height;
     int left, top; /* of the data window */
     int tile;
-    int subsampling;
 } foreign_file;
 
 /* Channels in the order in which OpenEXR keeps them: half, half, float, uint. */
@@ -90,7 +89,7 @@ static inline void write_foreign(const char *path, const foreign_file *file) {
                                      EXR_TILE_ONE_LEVEL, EXR_TILE_ROUND_DOWN));
     for (size_t c = 0; c < 4; ++c)
         must(exr_add_channel(context, part, foreign_names[c], foreign_types[c], EXR_PERCEPTUALLY_LOGARITHMIC,
-                             file->subsampling, file->subsampling));
+                             1, 1));
     must(exr_write_header(context));
     exr_chunk_info_t chunk;
     if (file->storage == EXR_STORAGE_TILED) {

@@ -4,6 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "image/image.h"
 #include "scene/emitter.h"
 #include "scene/lights/envmap_body.h"
 #include "scene/scene_data.h"
@@ -49,14 +50,18 @@ static aur_result keep_picture(size_t width, size_t height, const float *rgb, fl
     return self->texels != NULL ? AUR_OK : AUR_ERROR_MEMORY;
 }
 
-static aur_result read_picture(const aur_parameters *parameters, const envmap_keys *p, aur_envmap *self,
-                               aur_error *error) {
+static aur_result read_picture(const aur_parameters *parameters, const aur_parameter *held,
+                               const envmap_keys *p, aur_envmap *self, aur_error *error) {
     if (p->filename == NULL)
         return aur_fail_at(error, parameters->location, AUR_ERROR_FORMAT,
                            "emitter 'envmap' needs the string 'filename'");
-    size_t width, height;
+    if (held == NULL || held->kind != AUR_PARAMETER_OBJECT || strcmp(held->object_kind, "image") != 0)
+        return aur_fail_at(error, held != NULL ? held->location : parameters->location, AUR_ERROR_FORMAT,
+                           "emitter 'envmap': the picture is named by the string 'filename'");
+    const aur_image *const image = held->object;
+    const size_t width = aur_image_width(image), height = aur_image_height(image);
     float *rgb = NULL;
-    aur_result result = aur_read_rgb(p->filename, &width, &height, &rgb, error);
+    aur_result result = aur_image_radiance(p->filename, image, &rgb, error);
     if (result == AUR_OK && (width < 2 || height < 2))
         result =
             aur_parameters_fail(parameters, error, AUR_ERROR_FORMAT, "the picture must be at least 2 x 2");
@@ -71,12 +76,13 @@ static aur_result create_envmap(aur_parameters *parameters, aur_emitter *emitter
     if (self == NULL)
         return aur_fail_memory_at(error, parameters->location);
     envmap_keys p = {.filename = NULL};
+    const aur_parameter *const held = aur_parameters_find(parameters, "bitmap");
     aur_transform to_local;
     aur_result result = aur_row_read(&emitter->descriptor->row, parameters, &p, error);
     if (result == AUR_OK)
         result = aur_to_world_check(parameters, &p.to_world, &to_local, error);
     if (result == AUR_OK)
-        result = read_picture(parameters, &p, self, error);
+        result = read_picture(parameters, held, &p, self, error);
     if (result != AUR_OK)
         return result;
     aur_vector *const axes[3] = {&self->frame.x, &self->frame.y, &self->frame.z};

@@ -43,11 +43,30 @@ static aur_result resolve_filename(aur_loader *self, aur_parameters *parameters)
     return AUR_OK;
 }
 
+/* Says what the reader of a picture noted, and which values are changed. */
+static void warn_of_image(const aur_loader *self, const aur_image *image, const char *name) {
+    size_t channels[3], found[3] = {0, 0, 0};
+    const aur_location where = {.file = name};
+    if (aur_image_notes(image)[0] != '\0')
+        aur_warn_at(self->warnings, where, "%s", aur_image_notes(image));
+    if (!aur_image_color_channels(image, channels))
+        return;
+    for (size_t i = 0; i < (channels[0] == channels[1] ? 1u : 3u); ++i)
+        aur_image_count_odd(image, channels[i], found);
+    if (found[0] + found[1] > 0)
+        aur_warn_at(self->warnings, where, "%zu infinite values are read as 65504, %zu that are NaN as 0",
+                    found[0], found[1]);
+    if (found[2] > 0)
+        aur_warn_at(self->warnings, where,
+                    "%zu negative values are read as 0, but as heights of a bumpmap as they are", found[2]);
+}
+
 /* The picture goes to its texture as an object. The last one is kept: textures beside each other often take
  * channels of one, as those of glTF do. */
 static aur_result add_image(aur_loader *self, aur_parameters *parameters) {
     const aur_parameter *const name = aur_parameters_find(parameters, "filename");
-    if (strcmp(parameters->plugin, "bitmap") != 0 || name == NULL || name->kind != AUR_PARAMETER_STRING)
+    const bool takes = strcmp(parameters->plugin, "bitmap") == 0 || strcmp(parameters->plugin, "envmap") == 0;
+    if (!takes || name == NULL || name->kind != AUR_PARAMETER_STRING)
         return AUR_OK;
     if (self->image == NULL || strcmp(self->image_name, name->text) != 0) {
         aur_loader_drop_image(self);
@@ -61,6 +80,7 @@ static aur_result add_image(aur_loader *self, aur_parameters *parameters) {
                                                : aur_image_read(name->text, &self->image, self->error);
         if (result != AUR_OK)
             return result;
+        warn_of_image(self, self->image, name->text);
     }
     return aur_parameters_add_object(parameters, "bitmap", "image", self->image, parameters->location,
                                      self->error);
@@ -94,6 +114,8 @@ aur_result aur_build_emitter(aur_loader *self, aur_parameters *parameters, void 
     aur_scene *const scene = self->scene;
     aur_result result = resolve_filename(self, parameters);
     if (result == AUR_OK)
+        result = add_image(self, parameters);
+    if (result == AUR_OK)
         result = aur_loader_reserve(self, &scene->emitters, scene->emitter_count, &scene->emitter_capacity);
     /* What a light stands in matters to paths that begin at lights: there are none where media are. */
     void *medium = NULL;
@@ -102,6 +124,8 @@ aur_result aur_build_emitter(aur_loader *self, aur_parameters *parameters, void 
     aur_emitter **const made = scene->emitters + scene->emitter_count;
     if (result == AUR_OK)
         result = aur_emitter_create(parameters, made, self->error);
+    if (strcmp(parameters->plugin, "envmap") == 0)
+        aur_loader_drop_image(self); /* which is large */
     if (result != AUR_OK)
         return result;
     *object = *made;

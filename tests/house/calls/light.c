@@ -40,6 +40,10 @@ static void pictures(void) {
     accept(aur_image_name_channel(image, 2, "B", &error), &error);
     size_t channels[3];
     require(aur_image_color_channels(image, channels) && channels[2] == 2, "aur_image_color_channels");
+    size_t odd[3] = {0, 0, 0};
+    aur_image_count_odd(image, 1, odd);
+    require(odd[0] + odd[1] + odd[2] == 0 && aur_image_notes(image)[0] == '\0',
+            "values that are as they should be");
     aur_image_write_options options = aur_image_write_options_default();
     const aur_row *row;
     accept(aur_image_find_writer("calls.png", NULL, &row, &error), &error);
