@@ -1,12 +1,22 @@
 #!/usr/bin/env bash
 # symbols.sh HEADER...: the public functions that the headers declare (AUR_API, AUR_EXPERIMENTAL), a line each, sorted.
+# symbols.sh --experimental HEADER...: those of them that are AUR_EXPERIMENTAL.
 # symbols.sh --map VERSION HEADER...: the linker's symbol map of the libraries. Public functions have a version that stays;
-# all other names that a library shows, which are for the libraries and the tools of this tree, one of this release alone.
+# experimental ones, and all other names that a library shows, which are for the libraries and the tools of this tree, have one
+# of this release alone, so that no program is bound to another release's.
 set -euo pipefail
 map=
-[ "$1" = --map ] && { map=$2; shift 2; }
-names=$(sed '/^#/d' "$@" | tr '\n' ' ' | grep -oE '(AUR_API|AUR_EXPERIMENTAL) [^(;]*\(' | sed -E 's/.*[ *](aur_[a-z0-9_]+)\($/\1/' | sort -u)
-[ -n "$map" ] || { echo "$names"; exit; }
+kinds='AUR_API|AUR_EXPERIMENTAL'
+case $1 in
+  --map) map=$2; shift 2 ;;
+  --experimental) kinds=AUR_EXPERIMENTAL; shift ;;
+esac
+names() {
+  sed '/^#/d' "${@:2}" | tr '\n' ' ' | grep -oE "($1) [^(;]*\(" | sed -E 's/.*[ *](aur_[a-z0-9_]+)\($/\1/' | sort -u
+}
+[ -n "$map" ] || { names "$kinds" "$@"; exit; }
 printf 'AUREOLE_0 {\n  global:\n'
-sed 's/.*/    &;/' <<<"$names"
+names AUR_API "$@" | sed 's/.*/    &;/'
+printf '};\nAUREOLE_EXPERIMENTAL_%s {\n  global:\n' "$map"
+names AUR_EXPERIMENTAL "$@" | sed 's/.*/    &;/'
 printf '};\nAUREOLE_PRIVATE_%s {\n  global:\n    aur_*;\n  local:\n    *;\n};\n' "$map"

@@ -79,7 +79,7 @@ AUR_EXPERIMENTAL void aur_renderer_destroy(aur_renderer *renderer); /* NULL is a
 
 /* Whether the scene's own integrator is one, and its keys can be read: what a render asks first whose options
  * name no other. Errors: as those of aur_render_create, with their place in the scene file. */
-AUR_API aur_result aur_render_check_scene(const aur_scene *scene, aur_error *error) AUR_NONNULL(1);
+AUR_EXPERIMENTAL aur_result aur_render_check_scene(const aur_scene *scene, aur_error *error) AUR_NONNULL(1);
 
 /* A new picture of channels R, G, B and those that the integrator adds, all samples in one step. `options`
  * may be NULL, `statistics` too. When the progress callback stops the work, the result is CANCELLED and

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# What the libraries show: every function of the public headers, each in one library and in the version that stays; besides
-# those only names of this release, and none twice. Programs that know the public headers alone and are linked with the two
+# What the libraries show: every function of the public headers, each in one library, in the version that stays or, where it is
+# experimental, in one of this release; besides those only private names of this release, and none twice. Programs that know the public headers alone and are linked with the two
 # libraries alone (calls/*.c) call every public function.
 set -u
 build=$(dirname "$1")
@@ -13,9 +13,17 @@ for library in aureole aureole-render; do
   nm -D --defined-only --with-symbol-versions "$build/lib$library.so" | awk '$2 != "A" { print $3 }' >"$library.txt"
 done
 cat aureole.txt aureole-render.txt >shown.txt
-grep '@@AUREOLE_0$' shown.txt | sed 's/@.*//' | sort | diff public.txt - ||
-  { echo "< declared and not shown, or > shown twice or declared by no header"; status=1; }
-grep -vE '^aur_[a-z0-9_]+@@AUREOLE_(0|PRIVATE_.*)$' shown.txt && { echo "names that are not the libraries' own"; status=1; }
+bash "$source_tree/cmake/symbols.sh" --experimental "$source_tree"/include/aureole/*.h >experimental.txt
+[ "$(wc -l <experimental.txt)" -gt 50 ] || { echo "only $(wc -l <experimental.txt) experimental functions were read"; exit 1; }
+release=$(sed -nE 's/#define AUREOLE_VERSION_(MAJOR|MINOR|PATCH) //p' "$source_tree/include/aureole/version.h" | paste -sd.)
+comm -23 public.txt experimental.txt >stable.txt
+shown() {
+  sed -n "s/@@$1\$//p" shown.txt | sort | diff "$2" - ||
+    { echo "$1: < declared and not shown, or > shown twice or declared by no header"; status=1; }
+}
+shown AUREOLE_0 stable.txt
+shown "AUREOLE_EXPERIMENTAL_$release" experimental.txt
+grep -vE "^aur_[a-z0-9_]+@@AUREOLE_(0|EXPERIMENTAL_$release|PRIVATE_$release)$" shown.txt && { echo "names that are not the libraries' own"; status=1; }
 sed 's/@.*//' shown.txt | sort | uniq -d | grep . && { echo "both libraries have these"; status=1; }
 
 # Besides them the program does, which is a client of the public headers too, and the tests of two rooms.
