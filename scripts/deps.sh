@@ -11,8 +11,9 @@ packages=(
   # plots, unit tests
   gnuplot-nox libcmocka-dev
 )
-# many machines; the Python package, the test of the tables beside other packages, and that of the binary interface
-[ "${1:-}" != --all ] || packages+=(libopenmpi-dev openmpi-bin python3-numpy python3-cffi python3-dev abigail-tools xz-utils)
+# many machines; the Python package and engines for SciPy; the pages for a browser; tests of the binary interface, of terminals
+[ "${1:-}" != --all ] || packages+=(libopenmpi-dev openmpi-bin python3-numpy python3-cffi python3-dev python3-scipy python3-markdown-it
+  chromium abigail-tools xz-utils bsdutils)
 
 command -v dpkg-query >/dev/null || {
   echo "deps.sh: not a Debian system; install the equivalents of: ${packages[*]}" >&2

@@ -6,7 +6,7 @@ source=$2
 scene=$source/scenes/cornell-box/cornell-box.xml
 failures=0
 fail() { echo "FAILED: $*"; failures=$((failures + 1)); }
-command -v python3 >/dev/null || { echo "no python3: nothing receives"; exit 77; }
+command -v python3 >/dev/null || { echo "skipped: no python3: nothing receives"; exit 77; }
 receive() { # receive NAME OPTION...: a render into NAME.exr and what is received in NAME.pfm
   local name=$1
   shift
