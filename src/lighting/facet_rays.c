@@ -130,10 +130,12 @@ static void make_emitter(const aur_facets *facets, size_t patch, double turn, em
     const aur_plane plane = aur_patch_plane(facets, patch);
     aur_frame3(plane.normal, x, y);
     e->inset = aur_facet_inset(facets, aur_facet_of(facets, patch));
-    double size = 0.0;
-    for (int k = 0; k < 9; ++k)
-        size = fmax(size, fabs(corners[k / 3][k % 3]));
-    e->offset = (float)(1.5e-6 * size + 1e-9);
+    /* Roundings along an axis lift a place off its plane by as much of them as the normal is along it. */
+    double height = 0.0;
+    for (int d = 0; d < 3; ++d)
+        height +=
+            fabs(plane.normal[d]) * fmax(fabs(corners[0][d]), fmax(fabs(corners[1][d]), fabs(corners[2][d])));
+    e->offset = (float)(1.5e-6 * height + 1e-9);
     const double c = cos(2.0 * AUR_PI * turn), s = sin(2.0 * AUR_PI * turn);
     for (int d = 0; d < 3; ++d) {
         e->corner[d] = (float)corners[0][d];

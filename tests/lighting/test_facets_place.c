@@ -286,6 +286,30 @@ static void test_far_speck(void **state) {
     assert_near(found[1], found[0], 1e-9);
 }
 
+/* The underside of a small table sees the ground alone, be that 100 m or 100 km wide: rays of large facets do
+ * not begin above what is small, and of small ones not below what is large. */
+static void test_wide_ground(void **state) {
+    (void)state;
+    for (double h = 50.0; h < 1e5; h *= 1000.0) {
+        mesh_file file;
+        mesh_begin(&file, "ground");
+        mesh_group(&file, "ground");
+        mesh_polygon(&file, 4, (const double[4][3]){{-h, -h, 0}, {h, -h, 0}, {h, h, 0}, {-h, h, 0}});
+        mesh_box(&file, "table", (double[3]){0.1, 0.2, 0.01}, (double[3]){0.11, 0.21, 0.02}, false, true);
+        aur_facets_options options = aur_facets_options_default();
+        options.group = true;
+        aur_facets *const facets = mesh_load(&file, &options);
+        aur_view_factors_options wish = wish_of(1, true);
+        wish.rays = 1 << 14;
+        aur_view_factors_matrix m;
+        aur_view_factors *const factors = factors_of(facets, &wish, &m);
+        assert_near(factor_at(&m, 3, 0, NULL), 1.0, 2e-4);
+        assert_near(m.back[0] + m.back[3], 0.0, 1e-12);
+        aur_view_factors_destroy(factors);
+        aur_facets_destroy(facets);
+    }
+}
+
 /* A tilted square about the origin is large beside the coordinates of its middle, from where rays met it. */
 static void test_tilted_square(void **state) {
     (void)state;
@@ -311,7 +335,7 @@ int main(void) {
         cmocka_unit_test(test_room),         cmocka_unit_test(test_street),
         cmocka_unit_test(test_radiosities),  cmocka_unit_test(test_coverage),
         cmocka_unit_test(test_small_facets), cmocka_unit_test(test_tilted_square),
-        cmocka_unit_test(test_far_speck),
+        cmocka_unit_test(test_wide_ground),  cmocka_unit_test(test_far_speck),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
