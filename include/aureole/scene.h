@@ -101,6 +101,22 @@ typedef struct aur_scene_description {
 AUR_EXPERIMENTAL aur_result aur_scene_describe(const aur_scene *scene, aur_scene_description *description,
                                                aur_error *error) AUR_NONNULL(1, 2);
 
+/* What clip planes hide of the surfaces before the camera, by rays spread evenly over its picture. `size` is
+ * set by the caller to that of the struct. */
+typedef struct aur_clip_description {
+    size_t size;
+    size_t rays;
+    size_t seen;                /* of them, those that meet a surface between the planes */
+    size_t too_near;            /* that meet one before near_clip alone */
+    size_t too_far;             /* that meet the first one beyond far_clip */
+    double near_clip, far_clip; /* depths, of the first camera of a batch */
+} aur_clip_description;
+
+/* Errors: ARGUMENT when `size` is not set, FORMAT when the scene has no camera. */
+AUR_EXPERIMENTAL aur_result aur_scene_describe_clips(const aur_scene *scene,
+                                                     aur_clip_description *description, aur_error *error)
+    AUR_NONNULL(1, 2);
+
 #ifdef __cplusplus
 }
 #endif

@@ -252,6 +252,8 @@ static int render(const char *path, render_command *command, cli_errors *errors)
         result = cli_errors_write(errors, command->errors, &error);
     if (result == AUR_OK && !command->common.quiet && !cli_is_wish(&command->wish)) /* which says it itself */
         say_end(command, image);
+    if (result == AUR_OK && !command->common.quiet && image != NULL)
+        cli_explain_black(scene, image);
     cli_watch_end(&command->watch, image, result, &error);
     cli_denoise_end(&command->denoise);
     aur_image_destroy(image);

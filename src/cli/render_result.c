@@ -108,6 +108,20 @@ static bool is_black(const aur_image *image) {
     return true;
 }
 
+void cli_explain_black(const aur_scene *scene, const aur_image *image) {
+    aur_clip_description clips = {.size = sizeof clips};
+    if (!is_black(image) || aur_scene_describe_clips(scene, &clips, NULL) != AUR_OK)
+        return;
+    if (clips.too_far > 0)
+        aur_print(stderr,
+                  "aureole: %zu of %zu camera rays end at far_clip (%g) before the surface that they would "
+                  "meet\n",
+                  clips.too_far, clips.rays, clips.far_clip);
+    if (clips.too_near > 0)
+        aur_print(stderr, "aureole: %zu of %zu camera rays begin at near_clip (%g), beyond all surfaces\n",
+                  clips.too_near, clips.rays, clips.near_clip);
+}
+
 void cli_say_picture(const char *output, const aur_image *image, const cli_render_end *end) {
     if (strcmp(output, "-") == 0)
         output = "the picture";

@@ -30,3 +30,5 @@ double cli_relative_error(const aur_film *film);
 /* The last line: where the picture is and how good it is. Warns before it of a black picture, which nobody
  * wants. */
 void cli_say_picture(const char *output, const aur_image *image, const cli_render_end *end);
+/* Reports on a black picture what clip planes have cut off. */
+void cli_explain_black(const aur_scene *scene, const aur_image *image);

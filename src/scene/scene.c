@@ -187,7 +187,7 @@ static aur_result load(const char *path, size_t bytes, const char *data, const a
     if (result == AUR_OK && !keep_points)
         aur_scene_warn_of_overlaps(made, &options.warnings);
     if (result == AUR_OK)
-        result = aur_scene_recenter(made, error);
+        result = aur_scene_recenter(made, &options.warnings, error);
     if (result == AUR_OK)
         result = aur_scene_build_accel(made, options.threads, error);
     if (result == AUR_OK)

@@ -98,8 +98,9 @@ aur_result aur_scene_build(aur_scene *scene, const aur_warnings *warnings, aur_e
 char *aur_definitions_text(const aur_scene_options *options);
 /* One counted warning for each flaw of polygons, and of the faces of each file (flaws.c). */
 void aur_scene_warn_of_faces(const aur_scene *scene, const aur_warnings *warnings);
-/* Chooses the origins of the scene and of groups, and makes all coordinates count from them (recenter.c). */
-aur_result aur_scene_recenter(aur_scene *scene, aur_error *error);
+/* Chooses the origins of the scene and of groups, and makes all coordinates count from them; warns of shapes
+ * that are too small for where they stand (recenter.c). */
+aur_result aur_scene_recenter(aur_scene *scene, const aur_warnings *warnings, aur_error *error);
 /* Hands the shapes to Embree (accel.c). */
 aur_result aur_scene_build_accel(aur_scene *scene, size_t threads, aur_error *error);
 void aur_scene_release_accel(aur_scene *scene);

@@ -59,6 +59,20 @@ printf '%s\n' '<scene version="3.0.0"><integrator type="path"/><sensor type="per
   '<integer name="width" value="16"/><integer name="height" value="16"/></film></sensor><shape type="sphere"/></scene>' > dark.xml
 "$aureole" render dark.xml --error 1% -o dark.exr 2> said
 grep -q 'no light of the scene reaches the camera' said || fail "a dark scene: $(cat said)"
+grep -q clip said && fail "a dark scene that nothing clips: $(cat said)"
+
+# So does one whose surfaces lie beyond far_clip, or before near_clip, and why.
+for clip in far_clip near_clip; do
+  radius=1e5
+  [ $clip = near_clip ] && radius=1e-3
+  printf '%s\n' '<scene version="3.0.0"><integrator type="path"/><sensor type="perspective"><film type="hdrfilm">' \
+    '<integer name="width" value="16"/><integer name="height" value="16"/></film></sensor><shape type="sphere">' \
+    "<float name=\"radius\" value=\"$radius\"/><emitter type=\"area\"/><boolean name=\"flip_normals\" value=\"true\"/></shape></scene>" > clip.xml
+  for wish in "--spp 4" "--error 1%"; do
+    "$aureole" render clip.xml $wish -o clip.exr 2> said
+    grep -q "1024 of 1024 camera rays .* $clip" said || fail "$clip, $wish: $(cat said)"
+  done
+done
 
 refuses() { # WORDS OPTION...
   local words=$1 status=0

@@ -306,12 +306,57 @@ static void near_scenes_stay(void **state) {
     }
 }
 
+static void keep(void *said, const char *message) {
+    snprintf(said, 1024, "%s", message);
+}
+
+/* What no origin can make exact is warned of: small shapes far from the others. What is small beside others,
+ * or alone, is exact. */
+static void warns_of_what_is_not_exact(void **state) {
+    (void)state;
+    static const struct {
+        const char *body;
+        const char *said;
+    } rows[] = {
+        {CUBE_AT("5", "1e6"), ""},
+        {CUBE_AT("1e-4", "1e7"), ""},
+        {CUBE_AT("1e-3", "1") CUBE_AT("5", "0"), ""},
+        {"<shape type='rectangle'><transform name='to_world'><scale "
+         "value='1e5'/></transform></shape>" CUBE_AT("1", "100"),
+         ""},
+        {CUBE_AT("5", "0") CUBE_AT("1e-3", "1e4"), "1 of 2 shapes are too small to be exact in so large a "
+                                                   "scene: surfaces of the first, 0.002 wide, are "
+                                                   "rounded by 0.0006"},
+        {"<shape type='sphere'><point name='center' x='1e4' y='0' z='0'/><float name='radius' "
+         "value='.1'/></shape>"
+         "<shape type='obj'><string name='filename' value='town.obj'/></shape>",
+         "1 of 2 shapes"},
+    };
+    char *const town = malloc(2000000);
+    size_t used = 0;
+    for (int i = 0; i < 10000; ++i)
+        used += (size_t)snprintf(town + used, 2000000 - used, "v %d %d 0\nv %d %d 0\nv %d %d 1\nf -1 -2 -3\n",
+                                 i % 100, i / 100, i % 100 + 1, i / 100, i % 100, i / 100);
+    write_text("town.obj", town);
+    free(town);
+    for (size_t i = 0; i < sizeof rows / sizeof rows[0]; ++i) {
+        char said[1024] = "";
+        const aur_scene_options options = {.size = sizeof options, .warnings = {keep, said}};
+        aur_scene *scene;
+        assert_int_equal(load_body(rows[i].body, &options, &scene, NULL), AUR_OK);
+        if (rows[i].said[0] == '\0')
+            assert_string_equal(said, "");
+        else
+            assert_non_null(strstr(said, rows[i].said));
+        aur_scene_destroy(scene);
+    }
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(rays_meet_the_same),
-        cmocka_unit_test(lights_and_cameras_move),
-        cmocka_unit_test(specks_do_not_matter),
-        cmocka_unit_test(near_scenes_stay),
+        cmocka_unit_test(rays_meet_the_same),         cmocka_unit_test(lights_and_cameras_move),
+        cmocka_unit_test(specks_do_not_matter),       cmocka_unit_test(near_scenes_stay),
+        cmocka_unit_test(warns_of_what_is_not_exact),
     };
     return cmocka_run_group_tests(tests, enter_folder, leave_folder);
 }
