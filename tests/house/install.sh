@@ -3,7 +3,7 @@
 set -eu
 build=$(dirname "$1")
 [ -e "$build/libaureole.so" ] || { echo "skipped: a static build is no package"; exit 77; }
-rm -rf prefix moved consumer
+rm -rf prefix moved consumer bare bare-prefix
 cmake --install "$build" --prefix "$PWD/prefix" >install.log || { cat install.log; exit 1; }
 # The tree may be moved after it was installed.
 mv prefix moved
@@ -37,6 +37,34 @@ CMAKE
 cmake -S consumer -B consumer/build -G Ninja -DCMAKE_PREFIX_PATH="$prefix" >cmake.log 2>&1 || { cat cmake.log; exit 1; }
 cmake --build consumer/build >cmake.log 2>&1 || { cat cmake.log; exit 1; }
 [ "$(consumer/build/consumer)" = "$version" ] || { echo "the CMake consumer does not run"; exit 1; }
+
+
+# Whether find_package takes components: finds PREFIX COMPONENT...
+finds() {
+  local folder=$1
+  shift
+  rm -rf finder
+  mkdir finder
+  printf 'cmake_minimum_required(VERSION 3.22)\nproject(finder LANGUAGES C)\nfind_package(Threads)\nfind_package(aureole 0.1 REQUIRED COMPONENTS %s)\n' \
+    "$*" >finder/CMakeLists.txt
+  cmake -S finder -B finder/build -G Ninja -DCMAKE_PREFIX_PATH="$folder" >finder/log 2>&1
+}
+finds "$prefix" aureole render || { cat finder/log; echo "a component is not found"; exit 1; }
+finds "$prefix" aureole nonsense && { echo "the component 'nonsense' is found"; exit 1; }
+# Without the renderer its component is not found, and every header that is installed can be compiled and linked.
+cmake -S "$2" -B bare -G Ninja -DAUREOLE_RENDER=OFF -DAUREOLE_TESTS=OFF -DAUREOLE_PYTHON=OFF -DCMAKE_BUILD_TYPE=Release >cmake.log 2>&1 &&
+  cp -P "$build"/libaureole.so* bare/ && cmake --install bare --prefix "$PWD/bare-prefix" >>cmake.log 2>&1 || { cat cmake.log; exit 1; }
+finds "$PWD/bare-prefix" aureole || { cat finder/log; echo "libaureole alone is not found"; exit 1; }
+finds "$PWD/bare-prefix" render && { echo "the component 'render' is found where there is no renderer"; exit 1; }
+grep -q "component 'render' was not built" finder/log || { cat finder/log; echo "the missing component is not named"; exit 1; }
+nm -D --defined-only "$build/libaureole.so" | sed 's/.* //; s/@.*//' | sort >known
+for header in bare-prefix/include/aureole/*.h; do
+  grep -v '^ *\*\|^/\*' "$header" | grep -o '^AUR_[A-Z]* [^(]*\baur_[a-z0-9_]*(' | grep -o 'aur_[a-z0-9_]*(' | tr -d '(' | sort -u | comm -23 - known >missing
+  [ ! -s missing ] || { echo "$header has functions that libaureole lacks:"; cat missing; exit 1; }
+  echo "#include <aureole/$(basename "$header")>" | cc -std=c17 -fsyntax-only -Ibare-prefix/include -x c - || exit 1
+done
+[ "$(ls bare-prefix/include/aureole/*.h | wc -l)" -ge 15 ] || { echo "headers of libaureole are missing"; exit 1; }
+[ ! -e bare-prefix/bin ] || { echo "a program is installed"; exit 1; }
 
 export PKG_CONFIG_PATH
 PKG_CONFIG_PATH=$(dirname "$(find "$prefix" -name aureole-render.pc)")
