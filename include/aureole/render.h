@@ -28,7 +28,8 @@ typedef struct aur_render_statistics {
     uint64_t rays;            /* traced, of all kinds: also photons, and those that find light sources */
     uint64_t samples;         /* camera samples */
     uint64_t invalid_samples; /* NaN, infinite or negative ones, left out of the picture */
-    uint64_t cut_paths; /* cut after many mirrors in a row: the light that they would bring is missing */
+    uint64_t cut_paths; /* cut after many mirrors or null collisions in a row: the light that they would bring
+                           is missing */
     /* finalgather, weights=oswa-solve: places whose system could not be solved. Their samples are invalid. */
     uint64_t unsolved_weights;
     uint64_t levels[AUR_RENDER_LEVELS]; /* adaptive gathering: places that ended at each level */
@@ -147,6 +148,10 @@ AUR_EXPERIMENTAL aur_result aur_render_save(const aur_render *render, const char
  * options or another version: the message names the first difference), MEMORY. */
 AUR_EXPERIMENTAL aur_result aur_render_resume(aur_render *render, const char *path, aur_error *error)
     AUR_NONNULL(1, 2);
+/* Whether a render may be kept in `path`: there is no file, an empty one, or one of aur_render_save. Errors:
+ * ARGUMENT.
+ */
+AUR_EXPERIMENTAL aur_result aur_render_check_checkpoint(const char *path, aur_error *error) AUR_NONNULL(1);
 /* Puts the finished parts of one picture together, files of aur_render_save by renders with shard = 1 ..
  * shard_count, each once, in any order: the film has the bits of one render of all. Errors: as above;
  * ARGUMENT also for a part that is missing, given twice or not finished. */

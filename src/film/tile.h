@@ -17,8 +17,10 @@ typedef struct aur_counters {
                            film's file does not keep it */
     uint64_t samples;   /* of the camera */
     uint64_t invalid;   /* samples that were no radiance */
-    uint64_t cut;       /* paths cut because so many mirrors or hidden lights came one after another */
-    uint64_t unsolved;  /* places whose system for optimal weights could not be solved */
+    uint64_t cut; /* paths cut after so many mirrors, hidden lights or null collisions, one after another */
+    uint64_t unsolved; /* places whose system for optimal weights could not be solved */
+    bool stopped; /* a sample was left unfinished because the work is to stop: the sums are of no use; never
+                     added */
     uint64_t levels[AUR_RENDER_LEVELS]; /* adaptive gathering: places that ended at each level */
 } aur_counters;
 

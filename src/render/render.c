@@ -247,6 +247,8 @@ static aur_result add_pieces(aur_render *render, aur_tile *tile, aur_counters *c
         const aur_result result = add_samples(render->integrator, tile);
         if (result != AUR_OK)
             return result;
+        if (tile->counters.stopped)
+            return AUR_ERROR_CANCELLED;
         const uint64_t rays = tile->counters.rays = aur_rays_traced - before;
         if (counted != NULL)
             aur_counters_add(counted, &tile->counters);
@@ -314,9 +316,19 @@ static void warn_of_losses(const aur_render *render) {
                     (unsigned long long)counted->unsolved);
     if (1000 * counted->cut > MOST_CUT_PATHS * counted->samples)
         aur_warn_at(warnings, (aur_location){0},
-                    "%llu paths of %llu samples were cut after many mirrors or hidden lights in a row: what "
-                    "they would still bring is missing",
+                    "%llu paths of %llu samples were cut after many mirrors, hidden lights or null "
+                    "collisions in a row: what they would still bring is missing",
                     (unsigned long long)counted->cut, samples);
+}
+
+/* aur_render_cancel is a wish that the progress callback answers, so that whatever asks it also hears of
+ * that. */
+static int ask_to_stop(void *user, const char *what, uint64_t done, uint64_t total) {
+    const aur_render *const render = user;
+    const aur_progress *const progress = &render->settings.progress;
+    if (atomic_load_explicit(&render->cancelled, memory_order_relaxed))
+        return 1;
+    return progress->function != NULL ? progress->function(progress->user, what, done, total) : 0;
 }
 
 static aur_result do_work(aur_render *render, render_work *work, aur_error *error) {
@@ -333,7 +345,7 @@ static aur_result do_work(aur_render *render, render_work *work, aur_error *erro
     const aur_stopwatch start = aur_stopwatch_start();
     const aur_parallel_options parallel = {.threads = render->settings.threads,
                                            .what = "rendering",
-                                           .progress = render->settings.progress,
+                                           .progress = {.function = ask_to_stop, .user = render},
                                            .flush_denormals = true,
                                            .share = &share};
     const aur_result result = aur_parallel_for(&parallel, render->film->tile_count, render_tile, work, error);

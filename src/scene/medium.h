@@ -18,6 +18,8 @@ typedef struct aur_medium_walk {
     aur_vector path, light;
     size_t channel; /* 0 to 2, that draws */
     uint64_t hash;  /* of the next number (aur_draw_unit) */
+    bool cut;       /* ended after too many null collisions: what it would still bring is missing */
+    bool stopped;   /* ended because the work is to stop: what it has found is of no use */
 } aur_medium_walk;
 
 typedef struct aur_medium_descriptor {

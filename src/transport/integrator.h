@@ -95,6 +95,8 @@ static inline void aur_integrator_add_samples(const aur_integrator *integrator, 
     for (size_t y = tile->y0; y < tile->y1; ++y)
         for (size_t x = tile->x0; x < tile->x1; ++x)
             for (uint32_t i = 0; i < tile->count; ++i) {
+                if (tile->counters.stopped)
+                    return;
                 if (!aur_tile_wants(tile, x, y, tile->first + i))
                     continue;
                 aur_camera_sample sample;

@@ -181,7 +181,8 @@ static void transforms(void **state) {
         for (size_t threads = 1; threads <= 3; threads += 2) {
             setenv("AUREOLE_ISA", sets[k], 1);
             aur_isa_ask_again();
-            const aur_transform transform = {&basis, &points, threads, room};
+            const aur_transform transform = {
+                .basis = &basis, .points = &points, .threads = threads, .sums = room};
             const bool first = k == 0 && threads == 1;
             assert_int_equal(aur_transform_analyse(&transform, weights, sums[!first], &error), AUR_OK);
             assert_int_equal(
@@ -228,7 +229,8 @@ static void fast_transforms(void **state) {
             malloc((2 * size + AUR_TRANSFORM_BANDS * aur_transform_room(degree)) * sizeof *sums);
         aur_basis basis;
         assert_int_equal(aur_basis_create(degree, -1.0, 0.0, &basis, &error), AUR_OK);
-        const aur_transform transform = {&basis, &points, 1, sums + 2 * size};
+        const aur_transform transform = {
+            .basis = &basis, .points = &points, .threads = 1, .sums = sums + 2 * size};
         for (size_t i = 0; i < N; ++i)
             weights[i] = sin(3.0 * (double)i);
         assert_int_equal(aur_transform_analyse(&transform, weights, sums, &error), AUR_OK);
@@ -239,7 +241,9 @@ static void fast_transforms(void **state) {
         for (size_t threads = 1; threads <= 3; threads += 2) {
             aur_fast_transform *fast;
             double *const found = sums + size;
-            assert_int_equal(aur_fast_transform_create(&basis, &points, threads, &fast, &error), AUR_OK);
+            assert_int_equal(
+                aur_fast_transform_create(&basis, &points, threads, (aur_progress){0}, &fast, &error),
+                AUR_OK);
             assert_int_equal(aur_fast_transform_analyse(fast, weights, found, &error), AUR_OK);
             for (size_t j = 0; j < size; ++j)
                 most = fmax(most, fabs(found[j]));
@@ -422,11 +426,50 @@ static void cells(void **state) {
     free(half);
 }
 
+/* Stops at call `last`. */
+typedef struct countdown {
+    size_t calls, last;
+} countdown;
+
+static int count_down(void *user, const char *what, uint64_t done, uint64_t total) {
+    countdown *const c = user;
+    (void)what;
+    assert_true(done <= total);
+    return ++c->calls == c->last;
+}
+
+/* A step over many points takes seconds: whether to stop is asked within it, and the answer holds at once. */
+static void stops_within_a_step(void **state) {
+    (void)state;
+    enum { N = 40000 };
+    double *const xyz = points_of("spherical-fibonacci", N, AUR_DOMAIN_SPHERE, 0.0, 0.0);
+    double *const weights = malloc(N * sizeof *weights);
+    assert_non_null(weights);
+    aur_exact_options options = aur_exact_options_default(AUR_DOMAIN_SPHERE);
+    countdown all = {0};
+    aur_exact_report report;
+    aur_error error;
+    options.degree = 40;
+    options.threads = 1;
+    options.progress = (aur_progress){.function = count_down, .user = &all};
+    assert_int_equal(aur_weights_exact(N, xyz, &options, N, weights, &report, &error), AUR_OK);
+    assert_true(all.calls > 10 * (report.iterations + 1));
+    for (size_t last = 1; last < all.calls; last += all.calls / 7) {
+        countdown some = {.last = last};
+        options.progress.user = &some;
+        assert_int_equal(aur_weights_exact(N, xyz, &options, N, weights, &report, &error),
+                         AUR_ERROR_CANCELLED);
+        assert_int_equal(some.calls, last);
+    }
+    free(weights);
+    free(xyz);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(golden),      cmocka_unit_test(monomials),  cmocka_unit_test(designs),
         cmocka_unit_test(two_ways),    cmocka_unit_test(transforms), cmocka_unit_test(fast_transforms),
         cmocka_unit_test(many_points), cmocka_unit_test(bad_input),  cmocka_unit_test(negative),
-        cmocka_unit_test(cells),       cmocka_unit_test(nested)};
+        cmocka_unit_test(cells),       cmocka_unit_test(nested),     cmocka_unit_test(stops_within_a_step)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

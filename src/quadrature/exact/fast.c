@@ -20,6 +20,7 @@ typedef struct spot {
 struct aur_fast_transform {
     const aur_basis *basis;
     size_t count, threads;
+    aur_progress progress;
     aur_window shape;
     size_t side;            /* cells around the torus */
     size_t rows;            /* of the half torus and a window: row r is the angle (r - WIDTH) 2 pi / side */
@@ -99,7 +100,7 @@ static bool allocate(aur_fast_transform *f) {
 }
 
 aur_result aur_fast_transform_create(const aur_basis *basis, const aur_polar_points *points, size_t threads,
-                                     aur_fast_transform **fast, aur_error *error) {
+                                     aur_progress progress, aur_fast_transform **fast, aur_error *error) {
     aur_fast_transform *const f = calloc(1, sizeof *f);
     *fast = f;
     if (f == NULL)
@@ -107,6 +108,7 @@ aur_result aur_fast_transform_create(const aur_basis *basis, const aur_polar_poi
     f->basis = basis;
     f->count = points->count;
     f->threads = threads;
+    f->progress = progress;
     f->shape = aur_window_make(basis->degree);
     f->side = f->shape.side;
     f->rows = f->side / 2 + 2 * WIDTH;
@@ -139,7 +141,8 @@ void aur_fast_transform_destroy(aur_fast_transform *fast) {
 /* --- the steps, each of items that are independent */
 
 static aur_result run(aur_fast_transform *f, size_t items, aur_parallel_function step, aur_error *error) {
-    const aur_parallel_options options = {.threads = f->threads, .what = "transforming"};
+    const aur_parallel_options options = {
+        .threads = f->threads, .what = "transforming", .progress = f->progress};
     return aur_parallel_for(&options, items, step, f, error);
 }
 

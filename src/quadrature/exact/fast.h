@@ -9,9 +9,10 @@
 
 typedef struct aur_fast_transform aur_fast_transform;
 
-/* The basis, one of the whole sphere, and the points must outlive it. Errors: MEMORY. */
+/* The basis, one of the whole sphere, and the points must outlive it. `progress` as of aur_transform. Errors:
+ * MEMORY. */
 aur_result aur_fast_transform_create(const aur_basis *basis, const aur_polar_points *points, size_t threads,
-                                     aur_fast_transform **fast, aur_error *error);
+                                     aur_progress progress, aur_fast_transform **fast, aur_error *error);
 void aur_fast_transform_destroy(aur_fast_transform *fast);
 
 /* As those of aur_transform; not by two threads at once. */

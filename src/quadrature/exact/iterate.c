@@ -22,7 +22,20 @@ typedef struct gradients {
     size_t size, limit;                   /* of coefficients; of steps */
     double *rest, *direction, *image, *t; /* t is of points */
     double *storage;
+    size_t steps; /* that have been taken */
 } gradients;
+
+/* Within a step the same is reported as at its beginning. */
+static int report(void *user, const char *what, uint64_t done, uint64_t total) {
+    const gradients *const g = user;
+    (void)what, (void)done, (void)total;
+    return g->system->progress.function(g->system->progress.user, "solving", g->steps, g->limit);
+}
+
+static aur_progress progress_of(gradients *g) {
+    return g->system->progress.function != NULL ? (aur_progress){.function = report, .user = g}
+                                                : (aur_progress){0};
+}
 
 static double square(size_t count, const double *a, const double *b) {
     double sum[8] = {0};
@@ -47,12 +60,14 @@ static aur_result find_rest(const gradients *g, aur_fast_transform *fast, const 
     return result;
 }
 
-static aur_result descend(const gradients *g, double *weights, size_t *steps, aur_error *error) {
+static aur_result descend(gradients *g, double *weights, size_t *steps, aur_error *error) {
     const aur_exact_system *const system = g->system;
     memcpy(g->direction, g->rest, g->size * sizeof *g->direction);
     double rest = square(g->size, g->rest, g->rest);
     while (rest > enough * enough && *steps < g->limit) {
-        if (aur_progress_stops(&system->progress, "solving", *steps, g->limit))
+        const aur_progress progress = progress_of(g);
+        g->steps = *steps;
+        if (aur_progress_stops(&progress, NULL, 0, 0))
             return aur_fail(error, AUR_ERROR_CANCELLED, "solving: cancelled");
         aur_result result = g->fast != NULL
                                 ? aur_fast_transform_synthesise(g->fast, g->direction, g->t, error)
@@ -89,7 +104,7 @@ static double largest_rest(const gradients *g) {
 
 /* What is missing is found by the plain transforms: the error of the fast ones would have to be solved for
  * too. */
-static aur_result solve(const gradients *g, double *weights, aur_exact_found *found, aur_error *error) {
+static aur_result solve(gradients *g, double *weights, aur_exact_found *found, aur_error *error) {
     memcpy(weights, g->system->near, g->system->points.count * sizeof *weights);
     aur_result result = find_rest(g, NULL, weights, error);
     found->residual = INFINITY;
@@ -112,7 +127,7 @@ static aur_result open_gradients(const aur_exact_system *system, size_t degree, 
     const size_t size = aur_coefficient_count(degree),
                  room = AUR_TRANSFORM_BANDS * aur_transform_room(degree);
     *g = (gradients){.system = system,
-                     .transform = {basis, &system->points, system->threads, NULL},
+                     .transform = {.basis = basis, .points = &system->points, .threads = system->threads},
                      .size = size,
                      .storage = malloc((room + 3 * size + system->points.count) * sizeof(double))};
     if (g->storage == NULL) {
@@ -120,6 +135,7 @@ static aur_result open_gradients(const aur_exact_system *system, size_t degree, 
         return aur_fail_memory(error);
     }
     g->transform.sums = g->storage;
+    g->transform.progress = progress_of(g);
     g->rest = g->storage + room;
     g->direction = g->rest + size;
     g->image = g->direction + size;
@@ -138,7 +154,8 @@ aur_result aur_exact_iterate(const aur_exact_system *system, size_t degree, size
     g.limit = steps;
     const bool fast = system->lowest == -1.0 && system->points.count >= FAST_POINTS && degree >= FAST_DEGREE;
     if (fast)
-        result = aur_fast_transform_create(&basis, &system->points, system->threads, &g.fast, error);
+        result = aur_fast_transform_create(&basis, &system->points, system->threads, progress_of(&g), &g.fast,
+                                           error);
     if (result == AUR_OK)
         result = solve(&g, weights, found, error);
     aur_fast_transform_destroy(g.fast);

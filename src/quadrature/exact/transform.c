@@ -30,24 +30,34 @@ typedef struct band_work {
     double *values; /* of points; NULL: sums are wanted */
 } band_work;
 
+/* A multiple of CHUNK in transform_body.h. */
+enum { PIECE = 1024 };
+
 static aur_result do_band(void *context, size_t band) {
     const band_work *const work = context;
     const aur_transform *const t = work->transform;
     const size_t first = t->points->count * band / AUR_TRANSFORM_BANDS;
     const size_t last = t->points->count * (band + 1) / AUR_TRANSFORM_BANDS;
     const size_t size = aur_coefficient_count(t->basis->degree);
-    if (work->values != NULL) {
-        aur_transform_kernel_best()->synthesise(t->basis, t->points, first, last, work->from, work->values);
-        return AUR_OK;
+    double *const sums = work->values == NULL ? t->sums + band * aur_transform_room(t->basis->degree) : NULL;
+    if (sums != NULL)
+        memset(sums, 0, size * sizeof *sums);
+    /* Pieces of whole chunks of the kernels, which change no bit. */
+    for (size_t at = first; at < last; at += PIECE) {
+        const size_t end = last - at < PIECE ? last : at + PIECE;
+        if (aur_parallel_stops())
+            return AUR_ERROR_CANCELLED;
+        if (sums != NULL)
+            aur_transform_kernel_best()->analyse(t->basis, t->points, at, end, work->from, sums);
+        else
+            aur_transform_kernel_best()->synthesise(t->basis, t->points, at, end, work->from, work->values);
     }
-    double *const sums = t->sums + band * aur_transform_room(t->basis->degree);
-    memset(sums, 0, size * sizeof *sums);
-    aur_transform_kernel_best()->analyse(t->basis, t->points, first, last, work->from, sums);
     return AUR_OK;
 }
 
 static aur_result do_bands(band_work work, aur_error *error) {
-    const aur_parallel_options options = {.threads = work.transform->threads, .what = "transforming"};
+    const aur_parallel_options options = {
+        .threads = work.transform->threads, .what = "transforming", .progress = work.transform->progress};
     return aur_parallel_for(&options, AUR_TRANSFORM_BANDS, do_band, &work, error);
 }
 

@@ -2,6 +2,8 @@
  * code whose sums have one order, so that bits depend on neither instruction set nor threads. */
 #pragma once
 
+#include <aureole/core.h>
+
 #include "quadrature/exact/basis.h"
 
 /* Directions as heights, sines of the polar angle, and cosines and sines of the azimuth. */
@@ -24,6 +26,8 @@ typedef struct aur_transform {
     const aur_polar_points *points;
     size_t threads;
     double *sums; /* AUR_TRANSFORM_BANDS * aur_transform_room(degree) */
+    aur_progress
+        progress; /* asked whether to stop, within a transform; no reports where its function is NULL */
 } aur_transform;
 
 /* Of one band: its coefficients, and sums of one order side by side. */

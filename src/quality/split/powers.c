@@ -20,7 +20,7 @@ aur_result aur_powers_find(const aur_points_view *points, size_t degree, size_t 
     double *const weights = storage + 4 * count, *const sums = weights + count;
     for (size_t i = 0; i < count; ++i)
         weights[i] = aur_weight_at(points, i);
-    result = aur_fast_transform_create(&basis, &polar, threads, &fast, error);
+    result = aur_fast_transform_create(&basis, &polar, threads, (aur_progress){0}, &fast, error);
     if (result == AUR_OK)
         result = aur_fast_transform_analyse(fast, weights, sums, error);
     for (size_t l = 1; l <= degree && result == AUR_OK; ++l) {

@@ -3,6 +3,7 @@
  * the cells of a coarse grid, which is the same for all channels. */
 #include <stdlib.h>
 
+#include "core/parallel.h"
 #include "core/random.h"
 #include "scene/media/majorants.h"
 
@@ -55,6 +56,8 @@ static void release(aur_medium *medium) {
 typedef struct tracking {
     const heterogeneous *medium;
     const aur_ray *ray;
+    aur_medium_walk *walk;
+    uint32_t count;
     aur_majorant_walk cells;
     float at, end;   /* in the cell */
     float majorant;  /* of the cell */
@@ -62,13 +65,27 @@ typedef struct tracking {
     aur_vector position;
 } tracking;
 
-static void begin(const heterogeneous *self, const aur_ray *ray, float distance, tracking *t) {
-    *t = (tracking){.medium = self, .ray = ray, .at = 0.0f, .end = -1.0f};
+static void begin(const heterogeneous *self, const aur_ray *ray, float distance, aur_medium_walk *walk,
+                  tracking *t) {
+    *t = (tracking){.medium = self, .ray = ray, .walk = walk, .at = 0.0f, .end = -1.0f};
     aur_majorant_walk_begin(&self->majorants, ray, distance, &t->cells);
+}
+
+/* One voxel of 1e20 makes free paths shorter than the spacing of floats, which a ray would never come out of.
+ */
+enum { MOST_COLLISIONS = 1 << 20, COLLISIONS_BETWEEN = 1 << 14 };
+
+/* Whether the ray goes on after `count` collisions. */
+static bool goes_on(tracking *t) {
+    t->walk->cut = t->count >= MOST_COLLISIONS;
+    t->walk->stopped = aur_parallel_stops();
+    return !t->walk->cut && !t->walk->stopped;
 }
 
 /* The next collision, at the optical depth that u stands for; false where there is none before the end. */
 static bool collide(tracking *t, float u) {
+    if (++t->count % COLLISIONS_BETWEEN == 0 && !goes_on(t))
+        return false;
     for (float depth = -log1pf(-u);;) {
         const float cell = t->at < t->end ? t->majorant * (t->end - t->at) : 0.0f;
         if (depth < cell) {
@@ -101,7 +118,7 @@ static void pass(const aur_medium *medium, const aur_ray *ray, float distance, a
     const heterogeneous *const self = medium->data;
     aur_vector left = {1.0f, 1.0f, 1.0f};
     tracking t;
-    begin(self, ray, distance, &t);
+    begin(self, ray, distance, walk, &t);
     while (collide(&t, aur_draw_unit(&walk->hash))) {
         left = aur_vector_multiply(left, rest_of(t.real));
         if (!absorbs_only(self))
@@ -123,7 +140,7 @@ static bool travel(const aur_medium *medium, const aur_ray *ray, float distance,
         return false;
     }
     tracking t;
-    begin(self, ray, distance, &t);
+    begin(self, ray, distance, walk, &t);
     for (; collide(&t, u); u = aur_draw_unit(&walk->hash)) {
         const float own = *aur_channel(&t.real, walk->channel);
         if (aur_draw_unit(&walk->hash) < own) {

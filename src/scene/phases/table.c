@@ -1,5 +1,6 @@
 /* Every phase function by name. One new phase function is one new file and one line here. */
 #include <stdlib.h>
+#include <string.h>
 
 #include "scene/phase.h"
 
@@ -19,6 +20,24 @@ static const aur_row *const rows[] = {PHASES(ADDRESS)};
 const aur_table aur_phase_table = {
     .kind = "phase", .summary = "phase functions: how media scatter light", AUR_TABLE_ROWS(rows)};
 
+/* A blend that names another one twice, in a chain of such, is asked 2^n times. */
+enum { MOST_ASKED = 1 << 12 };
+
+static aur_result count_asked(const aur_parameters *parameters, aur_phase *phase, aur_error *error) {
+    for (size_t i = 0; i < parameters->count; ++i) {
+        const aur_parameter *const item = &parameters->items[i];
+        if (item->kind == AUR_PARAMETER_OBJECT && strcmp(item->object_kind, "phase") == 0)
+            phase->asked += 1 + ((const aur_phase *)item->object)->asked;
+    }
+    return phase->asked < MOST_ASKED
+               ? AUR_OK
+               : aur_fail_at(
+                     error, parameters->location, AUR_ERROR_UNSUPPORTED,
+                     "phase '%s' has %zu phase functions inside, counted as often as they are named, and at "
+                     "most %d can be rendered",
+                     parameters->plugin, phase->asked, (int)MOST_ASKED - 1);
+}
+
 aur_result aur_phase_create(aur_parameters *parameters, aur_phase **phase, aur_error *error) {
     *phase = NULL;
     const aur_row *row;
@@ -34,7 +53,9 @@ aur_result aur_phase_create(aur_parameters *parameters, aur_phase **phase, aur_e
         return aur_fail_memory_at(error, parameters->location);
     }
     made->descriptor = descriptor;
-    result = aur_keys_read(row->key_count, row->keys, parameters, made->data, error);
+    result = count_asked(parameters, made, error);
+    if (result == AUR_OK)
+        result = aur_keys_read(row->key_count, row->keys, parameters, made->data, error);
     if (result == AUR_OK && descriptor->create != NULL)
         result = descriptor->create(parameters, made, error);
     if (result == AUR_OK)

@@ -31,6 +31,14 @@ static inline uint32_t aur_path_pair(uint32_t depth) {
     return depth == 1 ? AUR_PAIR_FIRST : AUR_STREAM_BLOCK + AUR_PATH_PAIRS * (depth - 2);
 }
 
+/* Whether a path that has become long is to be left because the work stops. */
+static inline bool aur_path_stops(uint32_t depth, bool *stopped) {
+    enum { EDGES_BETWEEN = 1 << 10 };
+    if (depth % EDGES_BETWEEN == 0 && aur_parallel_stops())
+        *stopped = true;
+    return *stopped;
+}
+
 /* The probability to go on, under Russian roulette. */
 static inline float aur_path_survival(aur_vector throughput) {
     return aur_smaller(aur_vector_max(throughput), 0.95f);

@@ -418,7 +418,7 @@ void aur_path_group_scatter(aur_path_group *g, uint32_t depth) {
 void aur_path_group_trace(aur_path_group *g, uint32_t depth) {
     for (; depth <= g->data->max_depth && g->alive != 0; ++depth) {
         aur_path_group_meet(g, depth);
-        if (depth == g->data->max_depth)
+        if (depth == g->data->max_depth || aur_path_stops(depth, &g->stopped))
             return;
         aur_path_group_scatter(g, depth);
     }
@@ -429,6 +429,7 @@ void aur_path_group_prepare(const aur_path *data, const aur_scene *scene, const 
     g->data = data;
     g->scene = scene;
     g->sampler = sampler;
+    g->stopped = false;
     g->has_lights = aur_scene_emitter_count(scene) > 0;
     g->has_sky = aur_scene_has_environment(scene);
     g->chooses = aur_light_chooses(scene);

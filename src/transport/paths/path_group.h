@@ -17,6 +17,7 @@ typedef struct aur_path_group {
     bool has_lights, has_sky, chooses;
     uint32_t candidates; /* at least 1 */
     bool coherent;       /* the next rays are nearly parallel */
+    bool stopped;        /* long paths were left because the work stops: the sums are of no use */
     uint32_t alive;      /* a bit a lane, as in all masks */
     uint32_t specular;   /* lanes whose ray no light sample could have found */
     uint32_t plain;      /* lanes whose surface the kernels can do */

@@ -133,7 +133,8 @@ aur_vector aur_path_radiance(const aur_path *data, const aur_scene *scene, const
         const aur_vector view = aur_vector_scale(walk.ray.direction, -1.0f);
         if (!told)
             add_emission(scene, &surface, view, &walk);
-        if (depth == data->max_depth || !scatter(data, scene, &surface, view, depth, pairs, &walk))
+        if (depth == data->max_depth || aur_path_stops(depth, &counters->stopped) ||
+            !scatter(data, scene, &surface, view, depth, pairs, &walk))
             break;
     }
     return walk.sum;

@@ -41,6 +41,7 @@ static void add_lanes(aur_path_group *g, aur_tile *tile, const size_t *x, const 
     float weights[AUR_PACKET_SIZE];
     begin(g, tile->view, x, y, lanes, weights);
     aur_path_group_trace(g, 1);
+    tile->counters.stopped |= g->stopped;
     for (uint32_t rest = wanted; rest != 0; rest &= rest - 1) {
         const size_t k = aur_first_lane(rest);
         aur_tile_add(tile, x[k], y[k], weights[k], aur_lane_vector(&g->lanes.sum, k));

@@ -206,6 +206,10 @@ static bool step(const aur_volume_path *data, const aur_scene *scene, volume_wal
             *edge = true;
             return walk->depth < data->max_depth && scatter_in_medium(data, scene, way, walk, counters);
         }
+        counters->cut += walk->state.cut;
+        counters->stopped |= walk->state.stopped;
+        if (walk->state.cut || walk->state.stopped)
+            return false;
     }
     const bool hides = data->hide_emitters && walk->depth == 1;
     if (!met) {
@@ -258,6 +262,8 @@ aur_vector aur_volume_path_radiance(const aur_volume_path *data, const aur_scene
         if (!edge)
             continue;
         ++walk.depth;
+        if (aur_path_stops(walk.depth, &counters->stopped))
+            break;
         if (walk.depth % 2 == 0)
             aur_stream_pairs(&sample->stream, aur_path_pair(walk.depth), AUR_STREAM_BLOCK, ahead);
         walk.pairs = (const float(*)[2]) & ahead[walk.depth % 2 * AUR_PATH_PAIRS];
