@@ -287,10 +287,8 @@ static void add_seeds(fuzz_corpus *corpus, int file_count, char **files) {
 }
 
 static void keep_input(const fuzz_input *input) {
-    FILE *const file = fopen("fuzz-input", "wb");
-    fuzz_require(file != NULL, "fuzz-input cannot be written");
-    fwrite(input->data, 1, input->size, file);
-    fclose(file);
+    fuzz_require(aur_file_write("fuzz-input", input->size, input->data, NULL) == AUR_OK,
+                 "fuzz-input cannot be written");
 }
 
 int main(int argc, char **argv) {

@@ -27,7 +27,7 @@ static inline void fuzz_require(int condition, const char *what) {
 /* The input as a file, for parsers that read from a path; `path` is relative to where the harness runs.
  * Cutting to length after writing spares what a file system does for files that are emptied first. */
 static inline void fuzz_write_file(const char *path, const uint8_t *data, size_t size) {
-    const int file = open(path, O_WRONLY | O_CREAT | O_CLOEXEC, 0666);
+    const int file = open(path, O_WRONLY | O_CREAT | O_NOFOLLOW | O_CLOEXEC, 0666);
     fuzz_require(file >= 0 && write(file, data, size) == (ssize_t)size && ftruncate(file, (off_t)size) == 0 &&
                      close(file) == 0,
                  "the input file cannot be written");

@@ -74,7 +74,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
     free(bytes);
     aur_checkpoint checkpoint;
     aur_error error = {0};
-    aur_result result = aur_checkpoint_load(path, &checkpoint, &error);
+    aur_result result = aur_checkpoint_load(path, false, &checkpoint, &error);
     if (result != AUR_OK)
         require_error(result, &error);
     aur_checkpoint_release(&checkpoint);

@@ -13,9 +13,7 @@ static const char *input_path(void) {
 }
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
-    FILE *const file = fopen(input_path(), "wb");
-    fuzz_require(file != NULL && fwrite(data, 1, size, file) == size && fclose(file) == 0,
-                 "cannot write the input");
+    fuzz_write_file(input_path(), data, size);
     const bool ply = size >= 3 && memcmp(data, "ply", 3) == 0;
     const bool serialized = size >= 2 && data[0] == 0x1c && data[1] == 0x04;
     const aur_location where = {.file = input_path(), .line = 1};

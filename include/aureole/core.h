@@ -96,6 +96,12 @@ typedef struct aur_warnings {
 AUR_API aur_result aur_file_write(const char *path, size_t size, const void *data, aur_error *error)
     AUR_NONNULL(1);
 
+/* For programs: names a file that this process will write ("-": standard output, which is ignored). After the
+ * first call no input of the library may be an output: reading a file that was named here fails, and so does
+ * replacing a file that has been read, by any path or link. Errors: ARGUMENT where `path` was named before or
+ * has been read; MEMORY. */
+AUR_API aur_result aur_file_announce_output(const char *path, aur_error *error) AUR_NONNULL(1);
+
 /* "major.minor.patch" of the library in use; version.h has that of the headers. */
 AUR_API const char *aur_version(void);
 

@@ -43,9 +43,11 @@ static aur_result load(const lab_run *run, coverage_mesh mesh, bool group, aur_f
                        aur_error *error) {
     char path[4096];
     snprintf(path, sizeof path, "%s/factors-coverage.obj", lab_run_options(run)->folder);
-    FILE *const file = fopen(path, "w");
+    char *text = NULL;
+    size_t size = 0;
+    FILE *const file = open_memstream(&text, &size);
     if (file == NULL)
-        return aur_fail(error, AUR_ERROR_WRITE, "%s cannot be written", path);
+        return aur_fail(error, AUR_ERROR_MEMORY, "out of memory");
     if (mesh == TOWERS) {
         write_towers(file);
     } else if (mesh == COURT) {
@@ -54,10 +56,13 @@ static aur_result load(const lab_run *run, coverage_mesh mesh, bool group, aur_f
     } else {
         write_box(file, (const double[3]){0, 0, 0}, (const double[3]){3, 4, 2.5}, true, 0);
     }
-    fclose(file);
+    aur_result result = fclose(file) == 0 ? aur_file_write(path, size, text, error)
+                                          : aur_fail(error, AUR_ERROR_MEMORY, "out of memory");
+    free(text);
     aur_facets_options options = aur_facets_options_default();
     options.group = group;
-    const aur_result result = aur_facets_load(path, &options, facets, error);
+    if (result == AUR_OK)
+        result = aur_facets_load(path, &options, facets, error);
     remove(path);
     return result;
 }

@@ -125,7 +125,7 @@ aur_result aur_ask_resume(aur_ask *ask, const char *path, aur_error *error) {
     if (ask->identity == NULL)
         return aur_fail(error, AUR_ERROR_ARGUMENT, "an asking goes on whose options say 'resumable'");
     aur_checkpoint kept;
-    aur_result result = aur_checkpoint_load(path, &kept, error);
+    aur_result result = aur_checkpoint_load(path, false, &kept, error);
     if (result == AUR_OK && kept.film_count < 2)
         result = aur_fail_at(error, (aur_location){.file = path}, AUR_ERROR_ARGUMENT,
                              "of another render: it was not made to an error, a time or a number of rays");

@@ -139,7 +139,8 @@ static aur_result print_json(const aur_ask *ask, const char *output, aur_error *
 }
 
 aur_result cli_render_wish(aur_renderer *renderer, const aur_render_options *options, const cli_wish *wish,
-                           const cli_surroundings *beside, aur_image **image, aur_error *error) {
+                           const cli_surroundings *beside, aur_ask **made, aur_image **image,
+                           aur_error *error) {
     aur_ask_options own = aur_ask_options_default();
     own.error = wish->error;
     own.bias = wish->bias;
@@ -148,6 +149,7 @@ aur_result cli_render_wish(aur_renderer *renderer, const aur_render_options *opt
     own.rounds = wish->rounds;
     aur_ask *ask = NULL;
     aur_result result = aur_ask_create(renderer, options, &own, &ask, error);
+    *made = ask;
     if (result == AUR_OK)
         result = cli_checkpoint_begin(beside->checkpoint, NULL, ask, beside->quiet, error);
     const bool begun = result == AUR_OK;
@@ -157,10 +159,8 @@ aur_result cli_render_wish(aur_renderer *renderer, const aur_render_options *opt
         cli_watch_hide(beside->watch);
     }
     cli_progress_clear();
-    if (begun && (result == AUR_OK || result == AUR_ERROR_CANCELLED)) {
-        const aur_result kept = cli_checkpoint_end(beside->checkpoint, error);
-        result = kept != AUR_OK ? kept : result;
-    }
+    if (begun && result != AUR_OK && result != AUR_ERROR_CANCELLED)
+        cli_checkpoint_end(beside->checkpoint, false);
     if (result == AUR_OK || (result == AUR_ERROR_CANCELLED && ask != NULL)) {
         const aur_result developed = aur_ask_develop(ask, wish->error_map, image, error);
         result = developed != AUR_OK ? developed : result;
@@ -169,6 +169,5 @@ aur_result cli_render_wish(aur_renderer *renderer, const aur_render_options *opt
         say(ask, wish, beside->output);
     if (result == AUR_OK && beside->json && aur_ranks_rank() == 0)
         result = print_json(ask, beside->output, error);
-    aur_ask_destroy(ask);
     return result;
 }

@@ -27,7 +27,8 @@ typedef struct cli_surroundings {
 void cli_report_statistics(report_table *table, const aur_render_statistics *statistics);
 
 /* Renders what was asked for. *image is the picture; CANCELLED by an interrupt leaves what there is of it, or
- * NULL. The last line, unless `quiet`, says how good it is; where
+ * NULL; *made is to be destroyed in every case. The last line, unless `quiet`, says how good it is; where
  * `json` is asked for, standard output does so for programs. */
 aur_result cli_render_wish(aur_renderer *renderer, const aur_render_options *options, const cli_wish *wish,
-                           const cli_surroundings *beside, aur_image **image, aur_error *error);
+                           const cli_surroundings *beside, aur_ask **made, aur_image **image,
+                           aur_error *error);

@@ -16,7 +16,7 @@ static aur_result parse_interval(const char *text, void *field, aur_error *error
 const cli_option cli_checkpoint_options[] = {
     {CLI_TEXT(cli_checkpoint, path, "checkpoint", "FILE", NULL,
               "keep what there is of the render in FILE, so that it can go on after an interruption"),
-     .content = "file"},
+     .content = "file", .writes = true},
     {CLI_TEXT(cli_checkpoint, every, "checkpoint-every", "60s", "60s", "how often"), .parse = parse_interval},
     {CLI_FLAG(
         cli_checkpoint, resume, "resume",
@@ -39,29 +39,29 @@ static double now(void) {
     return (double)time.tv_sec + 1e-9 * (double)time.tv_nsec;
 }
 
-/* Rank 0 writes, whichever thread comes here. */
-static aur_result save(cli_checkpoint *checkpoint, aur_error *error) {
+/* Rank 0 writes, whichever thread comes here. A failure is warned of once: a full disk stays full. */
+static void save(cli_checkpoint *checkpoint) {
     if (!checkpoint->writes)
-        return AUR_OK;
+        return;
+    aur_error error = {0};
     const aur_result result = checkpoint->render != NULL
-                                  ? aur_render_save(checkpoint->render, checkpoint->path, error)
-                                  : aur_ask_save(checkpoint->ask, checkpoint->path, error);
+                                  ? aur_render_save(checkpoint->render, checkpoint->path, &error)
+                                  : aur_ask_save(checkpoint->ask, checkpoint->path, &error);
     checkpoint->last = now();
-    return result;
+    if (result == AUR_OK || checkpoint->warned)
+        return;
+    checkpoint->warned = true;
+    char text[AUR_ERROR_FILE_CAPACITY + AUR_ERROR_MESSAGE_CAPACITY + 64];
+    aur_error_format(&error, sizeof text, text);
+    cli_progress_clear();
+    fprintf(stderr, "aureole: warning: no checkpoint: %s\n", text);
 }
 
 static int show(void *user, const char *what, uint64_t done, uint64_t total) {
     cli_checkpoint *const checkpoint = user;
     if ((checkpoint->render != NULL || checkpoint->ask != NULL) &&
-        now() - checkpoint->last >= checkpoint->every) {
-        aur_error error = {0};
-        if (save(checkpoint, &error) != AUR_OK) {
-            char text[AUR_ERROR_FILE_CAPACITY + AUR_ERROR_MESSAGE_CAPACITY + 64];
-            aur_error_format(&error, sizeof text, text);
-            cli_progress_clear();
-            fprintf(stderr, "aureole: warning: no checkpoint: %s\n", text);
-        }
-    }
+        now() - checkpoint->last >= checkpoint->every)
+        save(checkpoint);
     return checkpoint->progress.function(checkpoint->progress.user, what, done, total);
 }
 
@@ -92,11 +92,9 @@ aur_result cli_checkpoint_begin(cli_checkpoint *checkpoint, aur_render *render, 
     return AUR_OK;
 }
 
-aur_result cli_checkpoint_end(cli_checkpoint *checkpoint, aur_error *error) {
-    if (checkpoint->render == NULL && checkpoint->ask == NULL)
-        return AUR_OK;
-    const aur_result result = save(checkpoint, error);
+void cli_checkpoint_end(cli_checkpoint *checkpoint, bool good) {
+    if (good && (checkpoint->render != NULL || checkpoint->ask != NULL))
+        save(checkpoint);
     checkpoint->render = NULL;
     checkpoint->ask = NULL;
-    return result;
 }

@@ -18,9 +18,12 @@ int cli_bad_usage(const char *format, ...) __attribute__((format(printf, 1, 2)))
 
 /* Warnings go to standard error as "aureole: warning: ..."; nothing when quiet. */
 aur_warnings cli_warnings(bool quiet);
-/* A progress bar with elapsed and remaining time, on a terminal only; none when quiet. An interrupt (SIGINT
- * or SIGTERM) asks the work to stop once cli_progress has been called. */
+/* A progress bar with elapsed and remaining time, on a terminal only; none when quiet. */
 aur_progress cli_progress(bool quiet);
+/* The same for work of which something is kept when it ends early: from its first report on SIGINT and
+ * SIGTERM ask it to stop, and a second signal ends the program; before, while files are read, the first one
+ * does. */
+aur_progress cli_progress_of_kept(bool quiet);
 /* Takes the bar off the terminal. */
 void cli_progress_clear(void);
 

@@ -23,10 +23,10 @@ static const cli_option rows[] = {
     {CLI_TEXT(compare_options, outfile, "outfile", "FILE", NULL,
               "write the absolute difference (FLIP's map when the first metric is flip) in false colour "
               "(PNG, EXR, ...)"),
-     .letter = 'o', .content = "file"},
+     .letter = 'o', .content = "file", .writes = true},
     {CLI_TEXT(compare_options, html, "html", "FILE", NULL,
               "write a page in which the pictures can be looked at: flip, slider, differences, values"),
-     .content = "file"},
+     .content = "file", .writes = true},
     {CLI_REAL(compare_options, scale, "scale", "D", 0, INFINITY, "the largest; 1 for flip",
               "the value that is drawn brightest"),
      .key.computed = true},

@@ -69,7 +69,7 @@ const cli_verb cli_verb_convert = {
     .too_few = "one input and one output are needed",
     .too_many = "one input and one output are needed",
     .operands = {{"IN", "the picture that is read", .content = "file"},
-                 {"OUT", "the picture that is written", .content = "file"}},
+                 {"OUT", "the picture that is written", .content = "file", .writes = true}},
     .groups = {{options, 0}, {cli_picture_options, offsetof(convert_options, picture)}},
     .size = sizeof(convert_options),
     .run = run,

@@ -97,7 +97,7 @@ const cli_option cli_daylight_options[] = {
     {CLI_FLAG(cli_daylight, options.weekdays, "weekdays", "Monday to Friday count only")},
     {CLI_TEXT(cli_daylight, options.series, "series", "FILE", NULL,
               "illuminances of all hours: .npy (sensors x 2 x hours, with standard errors) or .csv"),
-     .content = "file"},
+     .content = "file", .writes = true},
     {.key = {0}}};
 
 bool cli_daylight_check(const cli_call *call) {

@@ -22,7 +22,7 @@ int cli_print_verb_help(const cli_verb *verb) {
     for (const cli_operand *operand = verb->operands; operand->word != NULL; ++operand)
         printf(" %s%s%s%s", operand->optional ? "[" : "", operand->word, operand->repeated ? "..." : "",
                operand->optional ? "]" : "");
-    puts(verb->groups[0].options != NULL ? " [OPTION...]\n" : "\n");
+    puts(cli_option_at(verb, 0, NULL) != NULL ? " [OPTION...]\n" : "\n");
     cli_print_paragraph(0, 0, verb->summary);
     putchar('\n');
     for (const cli_operand *operand = verb->operands; operand->word != NULL; ++operand)

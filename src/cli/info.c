@@ -9,6 +9,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/stat.h>
 
 #include "cli/options.h"
 
@@ -214,6 +215,9 @@ static int describe(const info_input *input, size_t size, const char *start, con
 
 static int describe_file(const char *path, const info_options *options) {
     char start[START_CAPACITY];
+    struct stat status;
+    if (stat(path, &status) == 0 && !S_ISREG(status.st_mode) && !S_ISDIR(status.st_mode))
+        return cli_bad_usage("%s: cannot read: it is no file; '-' reads standard input", path);
     FILE *const file = fopen(path, "rb");
     if (file == NULL)
         return cli_bad_usage("%s: cannot read: %s", path, strerror(errno));
@@ -271,8 +275,7 @@ const cli_verb cli_verb_info = {
     .groups = {{cli_definitions_option, offsetof(info_options, definitions)},
                {cli_model_light_option, offsetof(info_options, definitions)},
                {cli_format_option, offsetof(info_options, common)},
-               {cli_quiet_option, offsetof(info_options, common)},
-               {cli_limits_option, offsetof(info_options, common)}},
+               {cli_quiet_option, offsetof(info_options, common)}},
     .size = sizeof(info_options),
     .run = run,
 };

@@ -49,7 +49,7 @@ static const cli_option options[] = {
      .content = "file"},
     {CLI_TEXT(irradiance_command, output, "output", "FILE", "-",
               "a line or row a sensor, in the format that the name ends in; '-' is standard output"),
-     .letter = 'o', .content = "file"},
+     .letter = 'o', .content = "file", .writes = true},
     {CLI_TEXT(irradiance_command, format, "to", "FORMAT", "by the file's name; csv", "format of the output"),
      .key.computed = true, .key.words = (const char *const[]){"csv", "json", "npy", "ply", NULL}},
     {CLI_FLAG(irradiance_command, format, "json", "the same as --to json"), .parse = choose_json},

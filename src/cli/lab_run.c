@@ -196,7 +196,7 @@ int cli_lab_run(cli_lab *command, size_t count, char **names) {
         status = CLI_FAILURE;
     }
     lab->threads = command->common.threads;
-    lab->progress = cli_progress(command->common.quiet);
+    lab->progress = cli_progress_of_kept(command->common.quiet);
     lab->warnings = cli_warnings(command->common.quiet);
     if (status == CLI_SUCCESS) {
         estimate(&plan);

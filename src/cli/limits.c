@@ -70,10 +70,10 @@ const cli_option cli_cache_option[] = {
     {.key = {0}}};
 
 const cli_option cli_limits_option[] = {
-    {CLI_TEXT(cli_common, memory_limit, "memory-limit", "2G", NULL,
+    {CLI_TEXT(cli_common, no_cache, "memory-limit", "2G", NULL,
               "take no more address space than this: what needs more is refused, and out of memory an error"),
      .parse = limit_memory},
-    {CLI_TEXT(cli_common, time_limit, "time-limit", "10min", NULL,
+    {CLI_TEXT(cli_common, no_cache, "time-limit", "10min", NULL,
               "end after this time in any case, with status 3; a checkpoint stays"),
      .parse = limit_time},
     {.key = {0}}};

@@ -1,6 +1,7 @@
 /* aureole: finds the verb, reads its options and runs it. Adding a verb is one file, which defines
  * cli_verb_<name>, and one line here. */
 #include <aureole/text.h>
+#include <signal.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -73,13 +74,29 @@ static int run(const cli_verb *verb, int argc, char **argv) {
         status = cli_fail(&(aur_error){.result = AUR_ERROR_MEMORY, .message = "out of memory"});
     else if (cli_read_options(verb, argc, argv, &call)) {
         cli_forgive_names(&call);
-        status = verb->run(&call);
+        status = cli_announce_outputs(&call);
+        if (status == CLI_SUCCESS)
+            status = verb->run(&call);
     }
     free(call.options);
     return finish(status);
 }
 
+/* A parent may leave signals blocked or ignored, which last through exec: services with signalfd block those
+ * that end a program, and an ignored SIGCHLD hides how gnuplot ended. SIGHUP stays ignored, as nohup has it.
+ * A file that becomes larger than its limit is an error of writing, not the end of the program. */
+static void reset_signals(void) {
+    static const int ending[] = {SIGTERM, SIGALRM, SIGCHLD};
+    for (size_t i = 0; i < sizeof ending / sizeof *ending; ++i)
+        signal(ending[i], SIG_DFL);
+    signal(SIGXFSZ, SIG_IGN);
+    sigset_t none;
+    sigemptyset(&none);
+    sigprocmask(SIG_SETMASK, &none, NULL);
+}
+
 int main(int argc, char **argv) {
+    reset_signals();
     char *const name = argc < 2 ? "" : argv[1];
     const bool help = strcmp(name, "--help") == 0 || strcmp(name, "-h") == 0;
     if (argc < 2 || help) {

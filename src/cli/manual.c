@@ -3,9 +3,9 @@
  * measures. */
 #include <aureole/render.h>
 #include <aureole/text.h>
-#include <errno.h>
 #include <limits.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
 
@@ -99,7 +99,7 @@ static void put_verb(FILE *page, const cli_verb *verb) {
     for (const cli_operand *operand = verb->operands; operand->word != NULL; ++operand)
         fprintf(page, " %s\\fI%s\\fR%s%s", operand->optional ? "[" : "", operand->word,
                 operand->repeated ? "..." : "", operand->optional ? "]" : "");
-    fprintf(page, "%s\n", verb->groups[0].options != NULL ? " [\\fIOPTION\\fR...]" : "");
+    fprintf(page, "%s\n", cli_option_at(verb, 0, NULL) != NULL ? " [\\fIOPTION\\fR...]" : "");
     if (verb->notes != NULL) {
         put_section(page, "DESCRIPTION");
         put_line(page, verb->notes);
@@ -109,7 +109,7 @@ static void put_verb(FILE *page, const cli_verb *verb) {
     for (const cli_operand *operand = verb->operands; operand->word != NULL; ++operand)
         put_entry(page, operand->word, operand->help);
     const cli_option *option;
-    if (verb->groups[0].options != NULL)
+    if (cli_option_at(verb, 0, NULL) != NULL)
         put_section(page, "OPTIONS");
     for (size_t i = 0; (option = cli_option_at(verb, i, NULL)) != NULL; ++i) {
         cli_write_option(option, false, what);
@@ -270,42 +270,37 @@ static int print_page(const cli_verb *const *verbs, const char *name) {
     return cli_bad_usage("manual: no page '%s': there are aureole, scene, names, and one a verb", name);
 }
 
-/* A file below the folder, or NULL when it cannot be written, which is said. */
-static FILE *open_page(const char *folder, const char *file) {
-    char path[PATH_MAX];
+/* Writes one page below the folder; false where that fails, which is said. */
+static bool write_page(const cli_verb *const *verbs, const char *folder, const char *file,
+                       const manual_page *page, const cli_verb *verb) {
+    char path[PATH_MAX], *text = NULL;
+    size_t size = 0;
+    aur_error error = {0};
+    FILE *const stream = open_memstream(&text, &size);
+    if (stream != NULL && page != NULL)
+        page->put(stream, verbs);
+    else if (stream != NULL)
+        put_verb(stream, verb);
+    aur_result result =
+        stream != NULL && fclose(stream) == 0 ? AUR_OK : aur_fail(&error, AUR_ERROR_MEMORY, "out of memory");
     aur_format(path, sizeof path, "%s/%.4s", folder, file); /* "man1" */
-    const bool made =
-        (mkdir(folder, 0777) == 0 || errno == EEXIST) && (mkdir(path, 0777) == 0 || errno == EEXIST);
+    (void)mkdir(folder, 0777); /* what cannot be made shows when the file is opened */
+    (void)mkdir(path, 0777);
     aur_format(path, sizeof path, "%s/%s", folder, file);
-    FILE *const page = made ? fopen(path, "w") : NULL;
-    if (page == NULL)
-        fprintf(stderr, "aureole: %s: cannot write: %s\n", path, strerror(errno));
-    return page;
-}
-
-static bool close_page(FILE *page) {
-    const bool lost = ferror(page) != 0;
-    if (fclose(page) == 0 && !lost)
-        return true;
-    fprintf(stderr, "aureole: manual: cannot write a page: %s\n", strerror(errno));
-    return false;
+    if (result == AUR_OK)
+        result = aur_file_write(path, size, text, &error);
+    free(text);
+    return cli_status(result, &error) == CLI_SUCCESS;
 }
 
 static int write_pages(const cli_verb *const *verbs, const char *folder) {
     bool good = true;
-    for (size_t i = 0; i < PAGE_COUNT && good; ++i) {
-        FILE *const page = open_page(folder, pages[i].file);
-        if (page != NULL)
-            pages[i].put(page, verbs);
-        good = page != NULL && close_page(page);
-    }
+    for (size_t i = 0; i < PAGE_COUNT && good; ++i)
+        good = write_page(verbs, folder, pages[i].file, &pages[i], NULL);
     for (size_t i = 0; verbs[i] != NULL && good; ++i) {
         char file[96];
         aur_format(file, sizeof file, "man1/aureole-%s.1", verbs[i]->name);
-        FILE *const page = open_page(folder, file);
-        if (page != NULL)
-            put_verb(page, verbs[i]);
-        good = page != NULL && close_page(page);
+        good = write_page(verbs, folder, file, NULL, verbs[i]);
     }
     return good ? CLI_SUCCESS : CLI_FAILURE;
 }

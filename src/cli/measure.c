@@ -36,7 +36,7 @@ static const cli_option options[] = {
         "adds columns with bounds of the errors")},
     {CLI_TEXT(cli_measure_arguments, plot, "plot", "FILE", NULL,
               "draw the figures against N with fitted slopes, .svg, .pdf or .png (needs gnuplot)"),
-     .content = "file"},
+     .content = "file", .writes = true},
     {.key = {0}}};
 
 /* The domain that the first word of the first measure's list names, or the one that the dimension asks for.
@@ -227,7 +227,7 @@ static int run(const cli_call *call) {
         return print_list(arguments->common.format);
     int status = CLI_BAD_INPUT;
     if (complete(arguments)) {
-        arguments->options.progress = cli_progress(arguments->common.quiet);
+        arguments->options.progress = cli_progress_of_kept(arguments->common.quiet);
         status = measure_all(arguments);
     }
     free(arguments->size_texts);
@@ -252,8 +252,7 @@ const cli_verb cli_verb_measure = {
                {cli_format_option, offsetof(cli_measure_arguments, common)},
                {cli_threads_option, offsetof(cli_measure_arguments, common)},
                {cli_quiet_option, offsetof(cli_measure_arguments, common)},
-               {cli_cache_option, offsetof(cli_measure_arguments, common)},
-               {cli_limits_option, offsetof(cli_measure_arguments, common)}},
+               {cli_cache_option, offsetof(cli_measure_arguments, common)}},
     .size = sizeof(cli_measure_arguments),
     .run = run,
     .ranks = true,

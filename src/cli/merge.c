@@ -11,7 +11,7 @@ typedef struct merge_command {
 static const cli_option options[] = {
     {CLI_TEXT(merge_command, output, "output", "FILE", NULL,
               "where the picture goes: .exr, .png, ... (aureole help picture)"),
-     .letter = 'o', .content = "file"},
+     .letter = 'o', .content = "file", .writes = true},
     {.key = {0}}};
 
 static int run(const cli_call *call) {

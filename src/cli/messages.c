@@ -32,8 +32,17 @@ static double now(void) {
     return (double)time.tv_sec + 1e-9 * (double)time.tv_nsec;
 }
 
+/* Work that reports hears of the signal by its next report. */
+static atomic_bool listens;
+
 /* The first signal asks the work to stop, a second one ends the program as if nobody listened. */
 static void on_interrupt(int signal_number) {
+    if (!listens) {
+        static const char words[] = "aureole: stopped before there was anything to keep\n";
+        if (write(STDERR_FILENO, words, sizeof words - 1) < 0)
+            _exit(CLI_FAILURE);
+        _exit(CLI_FAILURE);
+    }
     if (atomic_exchange(&interrupted, true)) {
         signal(signal_number, SIG_DFL);
         raise(signal_number);
@@ -77,6 +86,7 @@ static void draw(const char *what, double fraction, double elapsed) {
 }
 
 static int show(void *user, const char *what, uint64_t done, uint64_t total) {
+    listens = true;
     if (interrupted)
         return 1;
     if (user == NULL)
@@ -133,16 +143,26 @@ static void tell_of_ranks(void) {
     free(ranks);
 }
 
-aur_progress cli_progress(bool quiet) {
-    if (!quiet)
-        tell_of_ranks();
+static void handle_signals(void) {
     struct sigaction action;
     memset(&action, 0, sizeof action);
     action.sa_handler = on_interrupt;
     sigaction(SIGINT, &action, NULL);
     sigaction(SIGTERM, &action, NULL); /* what batch systems send before they kill */
+}
+
+aur_progress cli_progress(bool quiet) {
+    if (!quiet)
+        tell_of_ranks();
+    if (aur_ranks_count() > 1) /* mpirun sends signals to all ranks, which end together */
+        handle_signals();
     bar.draws = isatty(STDERR_FILENO);
     return (aur_progress){.function = show, .user = quiet || aur_ranks_rank() != 0 ? NULL : &bar};
+}
+
+aur_progress cli_progress_of_kept(bool quiet) {
+    handle_signals();
+    return cli_progress(quiet);
 }
 
 static void warn(void *user, const char *message) {

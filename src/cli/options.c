@@ -1,10 +1,13 @@
 /* Reading the command line by a verb's rows, with messages that say what would be right. */
 #include "cli/options.h"
 
+#include <aureole/ranks.h>
 #include <aureole/text.h>
 #include <getopt.h>
 #include <stdio.h>
 #include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
 
 static aur_result choose_json(const char *text, void *field, aur_error *error) {
     (void)text, (void)error;
@@ -63,6 +66,13 @@ const cli_option *cli_option_at(const cli_verb *verb, size_t index, size_t *offs
             return option;
         }
     }
+    /* Every verb has these, whose values are in no struct. */
+    for (const cli_option *option = cli_limits_option; option->key.name != NULL; ++option)
+        if (index-- == 0) {
+            if (offset != NULL)
+                *offset = 0;
+            return option;
+        }
     return NULL;
 }
 
@@ -270,6 +280,40 @@ static bool check_operands(const cli_verb *verb, const cli_call *call) {
     else if (call->operand_count > most)
         cli_bad_usage("%s: unexpected argument '%s'", verb->name, call->operands[most]);
     return call->operand_count >= least && call->operand_count <= most;
+}
+
+static aur_result check_folder(const char *path, aur_error *error) {
+    char folder[AUR_ERROR_FILE_CAPACITY];
+    const char *const slash = strrchr(path, '/');
+    if (slash == NULL)
+        snprintf(folder, sizeof folder, ".");
+    else
+        snprintf(folder, sizeof folder, "%.*s", slash == path ? 1 : (int)(slash - path), path);
+    struct stat status; /* pipes and devices are written as they are */
+    const bool is_file = strcmp(path, "-") != 0 && (stat(path, &status) != 0 || S_ISREG(status.st_mode));
+    if (!is_file || aur_ranks_rank() != 0 || access(folder, W_OK | X_OK) == 0) /* rank 0 writes */
+        return AUR_OK;
+    aur_fail(error, AUR_ERROR_WRITE, "cannot write: its folder does not exist or is read-only");
+    snprintf(error->file, sizeof error->file, "%s", path);
+    return AUR_ERROR_WRITE;
+}
+
+aur_result cli_announce_output(const char *path, aur_error *error) {
+    const aur_result result = check_folder(path, error);
+    return result == AUR_OK ? aur_file_announce_output(path, error) : result;
+}
+
+int cli_announce_outputs(const cli_call *call) {
+    aur_error error = {0};
+    aur_result result = AUR_OK;
+    const cli_option *option;
+    for (size_t i = 0; result == AUR_OK && (option = cli_option_at(call->verb, i, NULL)) != NULL; ++i)
+        if (option->writes && call->texts[i] != NULL)
+            result = cli_announce_output(call->texts[i], &error);
+    for (size_t i = 0; result == AUR_OK && i < call->operand_count; ++i)
+        if (i < sizeof call->verb->operands / sizeof *call->verb->operands && call->verb->operands[i].writes)
+            result = cli_announce_output(call->operands[i], &error);
+    return cli_status(result, &error);
 }
 
 bool cli_read_options(const cli_verb *verb, int argc, char **argv, cli_call *call) {

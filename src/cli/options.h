@@ -24,6 +24,8 @@ typedef struct cli_option {
     aur_result (*parse)(const char *text, void *field, aur_error *error);
     /* What is completed: "file", "folder", a kind of `aureole help`, or "file or KIND"; or NULL. */
     const char *content;
+    bool
+        writes; /* the value is a file that the verb writes: no input, and no other output, may be the same */
 } cli_option;
 
 /* Rows of options: the struct and the field that the value goes to, the name, the value's word, the range of
@@ -53,6 +55,7 @@ typedef struct cli_operand {
     const char *(*name)(unsigned value); /* as for options */
     /* As for options; "topic": verbs and kinds, "row": one of the kind that the operand before names. */
     const char *content;
+    bool writes; /* as for options */
 } cli_operand;
 
 /* Options that stand together in a verb's struct; several verbs may share one. */
@@ -96,6 +99,14 @@ bool cli_read_options(const cli_verb *verb, int argc, char **argv, cli_call *cal
 /* The text that was given for an option, "" for a flag, or NULL when it was not given. */
 const char *cli_given(const cli_call *call, const char *name);
 
+/* From here on reading an input that is also an output is an error, and what can be known to fail is said
+ * before anything is computed. Returns the exit status. */
+int cli_announce_outputs(const cli_call *call);
+/* For outputs that are no option's value: whether the file can be written into its folder by this process,
+ * where it is the one that writes, and is no other output; from then on it is no input. Errors: WRITE,
+ * ARGUMENT. */
+aur_result cli_announce_output(const char *path, aur_error *error);
+
 /* Name `index` of those that the value may have, or NULL. */
 const char *cli_option_name(const cli_option *option, unsigned index);
 
@@ -113,10 +124,12 @@ typedef struct cli_common {
     report_format format; /* of a table of results; --json is --format json */
     size_t threads;       /* 0: one a processor */
     bool quiet;
-    bool memory_limit, time_limit, no_cache; /* they hold once they are read */
+    bool no_cache; /* it holds once it is read */
 } cli_common;
 extern const cli_option cli_format_option[], cli_threads_option[], cli_quiet_option[]; /* of a cli_common */
-extern const cli_option cli_cache_option[], cli_limits_option[];                       /* the same */
+extern const cli_option cli_cache_option[];                                            /* the same */
+extern const cli_option
+    cli_limits_option[]; /* of every verb, and of no struct: they hold once they are read */
 
 enum { CLI_DEFINITION_LIMIT = 64 };
 

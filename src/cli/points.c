@@ -62,7 +62,7 @@ static const cli_option options[] = {
                  "significant digits of CSV; without it 17, which lose nothing")},
     {CLI_FLAG(points_command, write.single, "single", "32-bit floats instead of 64-bit ones (NPY, PLY)")},
     {CLI_TEXT(points_command, path, "output", "FILE", "-", "where to; '-' is standard output"), .letter = 'o',
-     .content = "file"},
+     .content = "file", .writes = true},
     {.key = {0}}};
 
 /* By the file's name, unless it is `told`. A name without an ending, and '-', are CSV. */

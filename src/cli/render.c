@@ -75,7 +75,7 @@ static aur_result parse_shard(const char *text, void *field, aur_error *error) {
 static const cli_option options[] = {
     {CLI_TEXT(render_command, output, "output", "FILE", "SCENE.exr in the current folder",
               "where the picture goes: .exr, .png, ... (aureole help picture); - is standard output, in EXR"),
-     .letter = 'o', .key.computed = true, .content = "file"},
+     .letter = 'o', .key.computed = true, .content = "file", .writes = true},
     {CLI_TEXT(render_command, options.integrator, "integrator", "SPEC", NULL,
               "NAME[:key=value,...] instead of the scene's integrator"),
      .content = "integrator"},
@@ -108,7 +108,7 @@ static const cli_option options[] = {
      .content = "file"},
     {CLI_TEXT(render_command, errors, "errors", "CSV", NULL,
               "samples, rays, CPU seconds and RMSE against the reference after 1, 2, 4, ... samples a pixel"),
-     .content = "file"},
+     .content = "file", .writes = true},
     {CLI_FLAG(render_command, statistics, "stats", "say how many rays and how much time it took")},
     {CLI_FLAG(render_command, statistics, "verbose", "the same as --stats"), .letter = 'v'},
     {CLI_FLAG(render_command, json, "json",
@@ -150,11 +150,11 @@ static aur_result render_steps(aur_render *render, render_command *command, cli_
     return result;
 }
 
-/* All samples; *image is what there is in the end. */
+/* All samples; *image is what there is in the end. *made is to be destroyed in every case. */
 static aur_result render_samples(aur_renderer *renderer, render_command *command, cli_errors *errors,
-                                 aur_image **image, aur_error *error) {
-    aur_render *render = NULL;
-    aur_result result = aur_render_create(renderer, &command->options, &render, error);
+                                 aur_render **made, aur_image **image, aur_error *error) {
+    aur_result result = aur_render_create(renderer, &command->options, made, error);
+    aur_render *const render = *made;
     if (result == AUR_OK)
         result = cli_checkpoint_begin(&command->checkpoint, render, NULL, command->common.quiet, error);
     const bool begun = result == AUR_OK;
@@ -164,10 +164,8 @@ static aur_result render_samples(aur_renderer *renderer, render_command *command
         cli_watch_hide(&command->watch);
     }
     cli_progress_clear();
-    if (begun && (result == AUR_OK || result == AUR_ERROR_CANCELLED)) {
-        const aur_result kept = cli_checkpoint_end(&command->checkpoint, error);
-        result = kept != AUR_OK ? kept : result;
-    }
+    if (begun && result != AUR_OK && result != AUR_ERROR_CANCELLED)
+        cli_checkpoint_end(&command->checkpoint, false);
     if (begun && (result == AUR_OK || result == AUR_ERROR_CANCELLED)) {
         const aur_result developed = aur_film_develop(aur_render_film(render), image, error);
         result = developed != AUR_OK ? developed : result;
@@ -179,7 +177,6 @@ static aur_result render_samples(aur_renderer *renderer, render_command *command
     }
     if (result == AUR_OK && command->json && aur_ranks_rank() == 0)
         result = cli_print_json(render, command->output, &command->end, error);
-    aur_render_destroy(render);
     return result;
 }
 
@@ -205,9 +202,8 @@ static void say_end(render_command *command, const aur_image *image) {
 
 static int render(const char *path, render_command *command, cli_errors *errors) {
     aur_error error = {0};
-    if (cli_check_folder(command->output, &error) != AUR_OK ||
-        (errors != NULL && cli_check_folder(command->errors, &error) != AUR_OK) ||
-        (command->checkpoint.path != NULL && cli_check_folder(command->checkpoint.path, &error) != AUR_OK))
+    if (command->checkpoint.path != NULL &&
+        aur_render_check_checkpoint(command->checkpoint.path, &error) != AUR_OK)
         return cli_fail(&error);
     if (cli_denoise_begin(&command->denoise, &error) != AUR_OK)
         return cli_fail(&error);
@@ -216,7 +212,8 @@ static int render(const char *path, render_command *command, cli_errors *errors)
         return cli_fail(&error);
     }
     command->options.progress = cli_checkpoint_progress(
-        &command->checkpoint, cli_watch_progress(&command->watch, cli_progress(command->common.quiet)));
+        &command->checkpoint,
+        cli_watch_progress(&command->watch, cli_progress_of_kept(command->common.quiet)));
     const aur_scene_options scene_options = {.size = sizeof scene_options,
                                              .definition_count = command->definitions.count,
                                              .definitions = command->definitions.items,
@@ -227,6 +224,8 @@ static int render(const char *path, render_command *command, cli_errors *errors)
                                              .warnings = command->options.warnings};
     aur_scene *scene = NULL;
     aur_renderer *renderer = NULL;
+    aur_render *work = NULL;
+    aur_ask *ask = NULL;
     aur_image *image = NULL;
     aur_result result = aur_scene_load(path, &scene_options, &scene, &error);
     if (result == AUR_OK)
@@ -237,8 +236,8 @@ static int render(const char *path, render_command *command, cli_errors *errors)
                 ? cli_render_wish(renderer, &command->options, &command->wish,
                                   &(cli_surroundings){&command->checkpoint, &command->watch, command->output,
                                                       command->common.quiet, command->json},
-                                  &image, &error)
-                : render_samples(renderer, command, errors, &image, &error);
+                                  &ask, &image, &error)
+                : render_samples(renderer, command, errors, &work, &image, &error);
     if (result == AUR_OK)
         result = cli_denoise_picture(&command->denoise, renderer, &command->options, &image, &error);
     cli_progress_clear();
@@ -246,6 +245,7 @@ static int render(const char *path, render_command *command, cli_errors *errors)
         cli_write_partial(command->output, image);
     if (result == AUR_OK && command->options.shard_count == 0)
         result = aur_image_write(command->output, image, NULL, &error);
+    cli_checkpoint_end(&command->checkpoint, true); /* the image is safe now, or only this is left of it */
     if (result == AUR_OK)
         result = cli_denoise_keep(&command->denoise, command->output, image, &error);
     if (result == AUR_OK && errors != NULL)
@@ -257,6 +257,8 @@ static int render(const char *path, render_command *command, cli_errors *errors)
     cli_watch_end(&command->watch, image, result, &error);
     cli_denoise_end(&command->denoise);
     aur_image_destroy(image);
+    aur_ask_destroy(ask);
+    aur_render_destroy(work);
     aur_renderer_destroy(renderer);
     aur_scene_destroy(scene);
     return cli_status(result, &error);
@@ -303,8 +305,12 @@ static int run(const cli_call *call) {
     if (command->denoise.wanted) /* which may change no pixel by much more than its error */
         command->wish.error_map = true;
     default_output(scene, &command->options, sizeof output, output);
-    if (command->output == NULL)
+    if (command->output == NULL) {
+        aur_error error;
         command->output = output;
+        if (cli_announce_output(output, &error) != AUR_OK)
+            return cli_fail(&error);
+    }
     if (command->options.shard_count == 0 && !check_output(command->output))
         return CLI_BAD_INPUT;
     command->options.size = sizeof command->options;
@@ -336,8 +342,7 @@ const cli_verb cli_verb_render = {
                {cli_model_light_option, offsetof(render_command, definitions)},
                {cli_threads_option, offsetof(render_command, common)},
                {cli_quiet_option, offsetof(render_command, common)},
-               {cli_cache_option, offsetof(render_command, common)},
-               {cli_limits_option, offsetof(render_command, common)}},
+               {cli_cache_option, offsetof(render_command, common)}},
     .size = sizeof(render_command),
     .run = run,
     .ranks = true,

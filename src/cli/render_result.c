@@ -7,24 +7,8 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <unistd.h>
 
 #include "cli/ask.h"
-
-aur_result cli_check_folder(const char *path, aur_error *error) {
-    char folder[AUR_ERROR_FILE_CAPACITY];
-    const char *const slash = strrchr(path, '/');
-    if (slash == NULL)
-        snprintf(folder, sizeof folder, ".");
-    else
-        snprintf(folder, sizeof folder, "%.*s", slash == path ? 1 : (int)(slash - path), path);
-    const bool is_file = strcmp(path, "-") != 0;
-    if (!is_file || aur_ranks_rank() != 0 || access(folder, W_OK | X_OK) == 0) /* rank 0 writes */
-        return AUR_OK;
-    aur_fail(error, AUR_ERROR_WRITE, "cannot write: its folder does not exist or is read-only");
-    snprintf(error->file, sizeof error->file, "%s", path);
-    return AUR_ERROR_WRITE;
-}
 
 /* What each of several processes did: all of them come here. */
 static void print_ranks(void) {

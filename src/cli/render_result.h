@@ -3,10 +3,6 @@
 
 #include <aureole/render.h>
 
-/* Whether a file can be written into its folder by this process, where it is the one that writes: what can be
- * known to fail is said before an hour is spent. Errors: WRITE. */
-aur_result cli_check_folder(const char *path, aur_error *error);
-
 /* On standard error: samples, rays and times, and what each of several processes did, all of which call it.
  */
 void cli_print_statistics(const aur_render *render);

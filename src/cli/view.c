@@ -16,7 +16,7 @@ typedef struct view_options {
 
 static const cli_option options[] = {
     {CLI_TEXT(view_options, output, "output", "FILE", "a new file in $TMPDIR or /tmp", "the page"),
-     .letter = 'o', .key.computed = true, .content = "file"},
+     .letter = 'o', .key.computed = true, .content = "file", .writes = true},
     {CLI_REAL(view_options, exposure, "exposure", "STOPS", -100, 100, "0", "what is seen first")},
     {.key = {0}}};
 
@@ -54,7 +54,7 @@ static void open_page(char *path) {
 static int run(const cli_call *call) {
     const view_options *const given = call->options;
     const char *const root = getenv("TMPDIR");
-    char path[AUR_ERROR_FILE_CAPACITY];
+    char path[AUR_ERROR_FILE_CAPACITY], folder[AUR_ERROR_FILE_CAPACITY] = "";
     if (given->output != NULL) {
         snprintf(path, sizeof path, "%s", given->output);
     } else {
@@ -64,10 +64,13 @@ static int run(const cli_call *call) {
             fprintf(stderr, "aureole: %s: cannot make the folder: %s\n", path, strerror(errno));
             return CLI_FAILURE;
         }
+        memcpy(folder, path, sizeof folder);
         memcpy(path + strlen(path), "/index.html", sizeof "/index.html");
     }
     const int status =
         cli_write_viewer(path, call->operand_count, call->operands, &given->picture, given->exposure, false);
+    if (status != CLI_SUCCESS && folder[0] != '\0')
+        rmdir(folder); /* which is empty */
     if (status == CLI_SUCCESS && strcmp(path, "-") != 0)
         printf("%s\n", path);
     if (status == CLI_SUCCESS && given->output == NULL)

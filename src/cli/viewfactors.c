@@ -23,7 +23,7 @@ static const cli_option options[] = {
          factor_command, output, "output", "FILE", "a summary is printed",
          ".npz (scipy.sparse.load_npz reads it), .csv, .txt or .vf (View3D's output), .vs3 (the facets as "
          "View3D's input)"),
-     .letter = 'o', .key.computed = true, .content = "file"},
+     .letter = 'o', .key.computed = true, .content = "file", .writes = true},
     {CLI_TEXT(factor_command, format, "to", "FORMAT", NULL,
               "the format, where the name of FILE does not tell"),
      .key.words = (const char *const[]){"npz", "csv", "view3d", "vs3", NULL}},
@@ -212,8 +212,7 @@ const cli_verb cli_verb_viewfactors = {
                {cli_definitions_option, offsetof(factor_command, definitions)},
                {cli_threads_option, offsetof(factor_command, common)},
                {cli_format_option, offsetof(factor_command, common)},
-               {cli_quiet_option, offsetof(factor_command, common)},
-               {cli_limits_option, offsetof(factor_command, common)}},
+               {cli_quiet_option, offsetof(factor_command, common)}},
     .size = sizeof(factor_command),
     .run = run,
 };

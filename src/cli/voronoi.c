@@ -22,7 +22,7 @@ static const cli_option options[] = {
      .letter = 'n'},
     {CLI_TEXT(voronoi_command, cells, "cells", "FILE", NULL,
               "write the cells' corners: .obj and .ply as polygons, .csv as rows of point, x, y, z"),
-     .content = "file"},
+     .content = "file", .writes = true},
     {.key = {0}}};
 
 /* Rows of a corner each: the number of its point, x, y, z. */

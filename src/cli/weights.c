@@ -57,10 +57,10 @@ static const cli_option options[] = {
         "weights the degree, the error that is left, and the least and largest weight times N")},
     {CLI_TEXT(cli_weights_arguments, path, "output", "FILE", "standard output, unless there is a report",
               "write x,y,z,w there as CSV"),
-     .letter = 'o', .key.computed = true, .content = "file"},
+     .letter = 'o', .key.computed = true, .content = "file", .writes = true},
     {CLI_TEXT(cli_weights_arguments, plot, "plot", "FILE", NULL,
               "draw the samples coloured by weight, .svg, .pdf or .png (needs gnuplot)"),
-     .content = "file"},
+     .content = "file", .writes = true},
     {CLI_TEXT(cli_weights_arguments, table, "table", "FILE", NULL,
               "build a table of optimal weights for two lobes (oswa) or for one ggx lobe, or read one with "
               "--lookup"),
@@ -212,6 +212,10 @@ static int run(const cli_call *call) {
     if (call->operand_count == 0 && !arguments->look_up)
         return cli_bad_usage("weights: a set or a file is missing: 'aureole sets' lists the sets (--table "
                              "FILE is read by --lookup DEGREES)");
+    aur_error error = {0};
+    if (arguments->table != NULL && !arguments->look_up &&
+        cli_announce_output(arguments->table, &error) != AUR_OK)
+        return cli_fail(&error);
     if (call->operand_count > 0 && complete(call, arguments) != CLI_SUCCESS)
         return CLI_BAD_INPUT;
     arguments->method_name = method_name(arguments->method);
@@ -236,8 +240,7 @@ const cli_verb cli_verb_weights = {
                {cli_format_option, offsetof(cli_weights_arguments, common)},
                {cli_threads_option, offsetof(cli_weights_arguments, common)},
                {cli_quiet_option, offsetof(cli_weights_arguments, common)},
-               {cli_cache_option, offsetof(cli_weights_arguments, common)},
-               {cli_limits_option, offsetof(cli_weights_arguments, common)}},
+               {cli_cache_option, offsetof(cli_weights_arguments, common)}},
     .size = sizeof(cli_weights_arguments),
     .run = run,
     .ranks = true,

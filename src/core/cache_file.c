@@ -64,7 +64,7 @@ static char *read_here(const char *kind, const char *key, size_t *size) {
     size_t whole = 0;
     *size = 0;
     if (!find_folder(folder) || !find_path(folder, kind, key, path) ||
-        aur_file_read(path, SIZE_MAX / 2, &data, &whole, NULL) != AUR_OK)
+        aur_file_read_back(path, SIZE_MAX / 2, &data, &whole, NULL) != AUR_OK)
         return NULL;
     const size_t length = strlen(key), least = length + WORDS * sizeof(uint64_t);
     uint64_t words[WORDS] = {0};
@@ -168,6 +168,10 @@ void aur_cache_file_write(const char *kind, const char *key, size_t size, const 
     const uint64_t limit = limit_in_bytes();
     if (aur_ranks_rank() != 0 || size > limit / 4 || !find_folder(folder) ||
         !find_path(folder, kind, key, path))
+        return;
+    struct stat status;
+    if (stat(path, &status) == 0 &&
+        !S_ISREG(status.st_mode)) /* it would be written as it is: a pipe blocks */
         return;
     const uint64_t words[WORDS] = {strlen(key), hash_of(size, data, key), mark};
     make_folders(folder);

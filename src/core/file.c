@@ -5,6 +5,7 @@
 
 #include <errno.h>
 #include <fcntl.h>
+#include <limits.h>
 #include <stdbool.h>
 #include <stdlib.h>
 #include <string.h>
@@ -12,6 +13,7 @@
 #include <unistd.h>
 
 #include "core/array.h"
+#include "core/file_roles.h"
 #include "core/ranks.h"
 
 static aur_result fail_write(aur_error *error, const char *path, int code) {
@@ -42,9 +44,9 @@ static int take_name(aur_file_writer *writer, int nameless) {
                  attempt);
         char source[40];
         snprintf(source, sizeof source, "/proc/self/fd/%d", nameless);
-        const int got = nameless < 0
-                            ? open(writer->temporary, O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666)
-                            : linkat(AT_FDCWD, source, AT_FDCWD, writer->temporary, AT_SYMLINK_FOLLOW);
+        const int got =
+            nameless < 0 ? open(writer->temporary, O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, 0666)
+                         : linkat(AT_FDCWD, source, AT_FDCWD, writer->temporary, AT_SYMLINK_FOLLOW);
         if (got >= 0)
             return got;
         if (errno != EEXIST)
@@ -86,6 +88,29 @@ static void keep_status(int descriptor, const struct stat *old) {
     (void)fchmod(descriptor, mode);
 }
 
+/* The path without links at its end, also where the last one points to a file that does not exist yet; NULL:
+ * no memory. */
+static char *end_of_links(const char *path) {
+    enum { MOST_LINKS = 40 }; /* as Linux has it */
+    char target[PATH_MAX];
+    char *at = strdup(path);
+    for (size_t i = 0; i < MOST_LINKS && at != NULL; ++i) {
+        const ssize_t length = readlink(at, target, sizeof target);
+        if (length <= 0 || (size_t)length == sizeof target)
+            break;
+        const size_t folder = target[0] == '/' ? 0 : folder_length(at);
+        char *const next = malloc(folder + (size_t)length + 1);
+        if (next != NULL) {
+            memcpy(next, at, folder);
+            memcpy(next + folder, target, (size_t)length);
+            next[folder + (size_t)length] = '\0';
+        }
+        free(at);
+        at = next;
+    }
+    return at;
+}
+
 aur_result aur_file_open(const char *path, aur_file_writer *writer, aur_error *error) {
     *writer = (aur_file_writer){0};
     if (aur_ranks_rank() != 0) { /* rank 0 writes */
@@ -103,13 +128,14 @@ aur_result aur_file_open(const char *path, aur_file_writer *writer, aur_error *e
     }
     struct stat status;
     const bool exists = stat(path, &status) == 0;
-    struct stat link;
-    const bool is_link = lstat(path, &link) == 0 && S_ISLNK(link.st_mode);
+    const aur_result refused = exists ? aur_file_refuse_input(path, &status, error) : AUR_OK;
+    if (refused != AUR_OK)
+        return refused;
     /* What a link points to is replaced, and the link stays. */
-    writer->path = exists && is_link ? realpath(path, NULL) : strdup(path);
+    writer->path = end_of_links(path);
     if (writer->path == NULL)
         return aur_fail_memory(error);
-    if (exists ? S_ISREG(status.st_mode) : !is_link) {
+    if (!exists || S_ISREG(status.st_mode)) {
         int descriptor = open_nameless(writer->path);
         writer->nameless = descriptor >= 0;
         if (descriptor < 0)
@@ -120,8 +146,7 @@ aur_result aur_file_open(const char *path, aur_file_writer *writer, aur_error *e
         if (writer->stream == NULL && descriptor >= 0)
             close(descriptor);
     } else {
-        /* A pipe, a device or a link to nothing cannot be replaced by a rename: it is written as it is. A
-         * folder fails here. */
+        /* A pipe or a device cannot be replaced by a rename: it is written as it is. A folder fails here. */
         writer->stream = fopen(path, "wb");
     }
     if (writer->stream != NULL)
@@ -200,33 +225,77 @@ void aur_file_abandon(aur_file_writer *writer) {
     *writer = (aur_file_writer){0};
 }
 
-static aur_result read_here(const char *path, size_t limit, char **data, size_t *size, aur_error *error) {
+static aur_result fail_read(aur_error *error, const char *path, const char *why) {
+    return aur_fail_at(error, (aur_location){.file = path}, AUR_ERROR_OPEN, "cannot read: %s", why);
+}
+
+/* Why something is no input, or NULL. What a shell hands over by its number is open already. */
+static const char *refusal_of(const char *path, mode_t mode) {
+    static const char *const handed[] = {"/dev/fd/", "/proc/self/fd/", "/dev/stdin"};
+    for (size_t i = 0; i < sizeof handed / sizeof *handed; ++i)
+        if (strncmp(path, handed[i], strlen(handed[i])) == 0)
+            return NULL;
+    return S_ISREG(mode)    ? NULL
+           : S_ISDIR(mode)  ? strerror(EISDIR)
+           : S_ISFIFO(mode) ? "it is a pipe, and a file is expected"
+                            : "it is a device, and a file is expected";
+}
+
+/* NULL where it cannot be read or is refused. Opening never waits for the other end of a pipe. */
+static FILE *open_input(const char *path, aur_error *error) {
+    const int descriptor = open(path, O_RDONLY | O_NONBLOCK | O_NOCTTY | O_CLOEXEC);
+    struct stat status;
+    if (descriptor < 0 || fstat(descriptor, &status) != 0) {
+        fail_read(error, path, strerror(errno));
+        if (descriptor >= 0)
+            close(descriptor);
+        return NULL;
+    }
+    const char *const refusal = refusal_of(path, status.st_mode);
+    if (refusal != NULL)
+        fail_read(error, path, refusal);
+    else
+        (void)fcntl(descriptor, F_SETFL, fcntl(descriptor, F_GETFL) & ~O_NONBLOCK);
+    FILE *const stream = refusal == NULL ? fdopen(descriptor, "rb") : NULL;
+    if (stream == NULL && refusal == NULL)
+        aur_fail_memory(error);
+    if (stream == NULL)
+        close(descriptor);
+    return stream;
+}
+
+static aur_result read_here(const char *path, size_t limit, bool input, char **data, size_t *size,
+                            aur_error *error) {
     const aur_location where = {.file = path};
     const bool standard = strcmp(path, "-") == 0;
-    FILE *const stream = standard ? stdin : fopen(path, "rb");
+    aur_error own = {.result = AUR_OK};
+    if (error == NULL)
+        error = &own;
+    FILE *const stream = standard ? stdin : open_input(path, error);
     if (stream == NULL)
-        return aur_fail_at(error, where, AUR_ERROR_OPEN, "cannot read: %s", strerror(errno));
-    aur_result result = AUR_OK;
+        return error->result;
     char *buffer = NULL;
     size_t capacity = 0, used = 0;
     /* A file whose size is known is read into a buffer of that size, and of one byte that tells that it has
      * ended. */
     struct stat status;
-    const bool sized = fstat(fileno(stream), &status) == 0 && S_ISREG(status.st_mode) && status.st_size > 0;
+    const bool regular = fstat(fileno(stream), &status) == 0 && S_ISREG(status.st_mode);
+    const bool sized = regular && status.st_size > 0;
+    aur_result result = regular && input ? aur_file_note_input(path, &status, error) : AUR_OK;
     const size_t expected = sized && (uint64_t)status.st_size < limit ? (size_t)status.st_size : 1 << 16;
     bool room = aur_array_reserve(&buffer, &capacity, expected + 2, 1);
-    while (room && used <= limit) {
+    while (room && used <= limit && result == AUR_OK) {
         const size_t count = fread(buffer + used, 1, capacity - 1 - used, stream);
         used += count;
         if (count == 0)
             break;
         room = used < capacity - 1 || aur_array_reserve(&buffer, &capacity, capacity + 1, 1);
     }
-    if (!room)
+    if (result == AUR_OK && !room)
         result = aur_fail_memory(error);
-    else if (ferror(stream))
-        result = aur_fail_at(error, where, AUR_ERROR_OPEN, "cannot read: %s", strerror(errno));
-    else if (used > limit)
+    else if (result == AUR_OK && ferror(stream))
+        result = fail_read(error, path, strerror(errno));
+    else if (result == AUR_OK && used > limit)
         result = aur_fail_at(error, where, AUR_ERROR_FORMAT, "file is larger than %zu bytes", limit);
     if (!standard)
         fclose(stream);
@@ -240,15 +309,16 @@ static aur_result read_here(const char *path, size_t limit, char **data, size_t 
     return AUR_OK;
 }
 
-aur_result aur_file_read(const char *path, size_t limit, char **data, size_t *size, aur_error *error) {
+static aur_result read_for_all(const char *path, size_t limit, bool input, char **data, size_t *size,
+                               aur_error *error) {
     *data = NULL;
     *size = 0;
     aur_ranks *const ranks = aur_ranks_here();
     if (ranks == NULL)
-        return read_here(path, limit, data, size, error);
+        return read_here(path, limit, input, data, size, error);
     aur_error said = {0};
     if (aur_ranks_rank() == 0)
-        (void)read_here(path, limit, data, size, &said);
+        (void)read_here(path, limit, input, data, size, &said);
     aur_ranks_agree(sizeof said, &said);
     if (said.result != AUR_OK) {
         if (error != NULL)
@@ -261,6 +331,14 @@ aur_result aur_file_read(const char *path, size_t limit, char **data, size_t *si
         *data = NULL;
     }
     return result;
+}
+
+aur_result aur_file_read(const char *path, size_t limit, char **data, size_t *size, aur_error *error) {
+    return read_for_all(path, limit, true, data, size, error);
+}
+
+aur_result aur_file_read_back(const char *path, size_t limit, char **data, size_t *size, aur_error *error) {
+    return read_for_all(path, limit, false, data, size, error);
 }
 
 bool aur_file_status(const char *path, struct stat *status) {

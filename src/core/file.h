@@ -31,9 +31,13 @@ aur_result aur_file_commit(aur_file_writer *writer, aur_error *error);
 void aur_file_abandon(aur_file_writer *writer);
 
 /* Reads all of `path` ("-": standard input) into *data, allocated with malloc and followed by a zero byte
- * that is not counted. Refuses files beyond `limit` bytes. Of a job of several
- * processes rank 0 reads, and writes, for all (core/ranks.h). */
+ * that is not counted. Refuses files beyond `limit` bytes, and what is neither a regular file nor handed over
+ * by the shell as /dev/fd/N: opening a pipe could block forever, a device might never end. Of a job of
+ * several processes rank 0 reads, and writes, for all (core/ranks.h). Errors: OPEN, FORMAT, MEMORY; ARGUMENT
+ * for an output of this process (core/file_roles.h). */
 aur_result aur_file_read(const char *path, size_t limit, char **data, size_t *size, aur_error *error);
+/* The same for a file that this program wrote and may replace, such as a checkpoint: no input. */
+aur_result aur_file_read_back(const char *path, size_t limit, char **data, size_t *size, aur_error *error);
 
 /* stat(2), likewise; false where there is no such file. */
 bool aur_file_status(const char *path, struct stat *status);

@@ -7,10 +7,12 @@
 
 #include "core/error.h"
 #include "core/file.h"
+#include "core/ranks.h"
 #include "core/words.h"
 
 /* "AURCHKP1" */
 static const uint64_t magic = UINT64_C(0x31504b4843525541);
+static const char any_version[] = "AURCHKP";
 
 enum { MOST_FILMS = 64 };
 
@@ -116,15 +118,36 @@ aur_result aur_checkpoint_load_memory(const char *name, size_t size, const void 
     return AUR_OK;
 }
 
-aur_result aur_checkpoint_load(const char *path, aur_checkpoint *checkpoint, aur_error *error) {
+aur_result aur_checkpoint_load(const char *path, bool input, aur_checkpoint *checkpoint, aur_error *error) {
     char *data = NULL;
     size_t size = 0;
     *checkpoint = (aur_checkpoint){0};
-    aur_result result = aur_file_read(path, (size_t)1 << 42, &data, &size, error);
+    const size_t limit = (size_t)1 << 42;
+    aur_result result = input ? aur_file_read(path, limit, &data, &size, error)
+                              : aur_file_read_back(path, limit, &data, &size, error);
     if (result == AUR_OK)
         result = aur_checkpoint_load_memory(path, size, data, checkpoint, error);
     free(data);
     return result;
+}
+
+aur_result aur_render_check_checkpoint(const char *path, aur_error *error) {
+    struct stat status;
+    if (!aur_file_status(path, &status))
+        return AUR_OK;
+    bool good = S_ISREG(status.st_mode) && status.st_size == 0;
+    if (S_ISREG(status.st_mode) && !good && aur_ranks_rank() == 0) {
+        char start[sizeof magic] = {0};
+        FILE *const stream = fopen(path, "rb");
+        good = stream != NULL && fread(start, sizeof start, 1, stream) == 1 &&
+               memcmp(start, any_version, sizeof any_version - 1) == 0;
+        if (stream != NULL)
+            fclose(stream);
+    }
+    aur_ranks_agree(sizeof good, &good);
+    return good ? AUR_OK
+                : aur_fail_at(error, (aur_location){.file = path}, AUR_ERROR_ARGUMENT,
+                              "a checkpoint must not replace what is no checkpoint: choose another file");
 }
 
 void aur_checkpoint_release(aur_checkpoint *checkpoint) {
@@ -202,7 +225,10 @@ aur_result aur_identity_compare(const char *path, const char *kept, const char *
                                b.text + strcspn(b.text, " ") + 1);
         if (a.length != b.length || memcmp(a.text, b.text, a.length) != 0)
             return aur_fail_at(error, where, AUR_ERROR_ARGUMENT,
-                               "of another render: it was made with '%.*s', this one is '%.*s'",
-                               (int)a.length, a.text, (int)b.length, b.text);
+                               "of another render: it was made with '%.*s', this one is '%.*s'%s",
+                               (int)a.length, a.text, (int)b.length, b.text,
+                               strncmp(a.text, "rays ", 5) == 0 && strncmp(b.text, "rays ", 5) == 0
+                                   ? "; AUREOLE_ISA=avx2 makes processors agree"
+                                   : "");
     }
 }

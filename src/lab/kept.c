@@ -5,9 +5,11 @@
 #include <aureole/ranks.h>
 #include <aureole/text.h>
 #include <errno.h>
+#include <fcntl.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 struct lab_kept {
@@ -62,6 +64,21 @@ static aur_result take_up(lab_kept *kept, const char *identity, aur_error *error
     return fflush(kept->file) == 0 ? AUR_OK : fail(kept, AUR_ERROR_WRITE, strerror(errno), error);
 }
 
+/* A file that this program appends to, and empties where it is of something else: no link, pipe or device,
+ * and under no other name. NULL with errno. */
+static FILE *open_own(const char *path) {
+    const int descriptor =
+        open(path, O_RDWR | O_APPEND | O_CREAT | O_NOFOLLOW | O_NONBLOCK | O_NOCTTY | O_CLOEXEC, 0666);
+    struct stat status;
+    if (descriptor < 0)
+        return NULL;
+    if (fstat(descriptor, &status) == 0 && S_ISREG(status.st_mode) && status.st_nlink == 1)
+        return fdopen(descriptor, "a+");
+    close(descriptor);
+    errno = EEXIST;
+    return NULL;
+}
+
 aur_result lab_kept_open(const char *path, const char *identity, lab_kept **kept, aur_error *error) {
     *kept = calloc(1, sizeof **kept);
     if (*kept == NULL)
@@ -69,7 +86,7 @@ aur_result lab_kept_open(const char *path, const char *identity, lab_kept **kept
     snprintf((*kept)->path, sizeof(*kept)->path, "%s", path);
     if (aur_ranks_count() > 1)
         return AUR_OK;
-    (*kept)->file = fopen(path, "a+");
+    (*kept)->file = open_own(path);
     aur_result result = AUR_OK;
     if ((*kept)->file == NULL)
         result = fail(*kept, AUR_ERROR_WRITE, strerror(errno), error);

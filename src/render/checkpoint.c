@@ -18,7 +18,7 @@ aur_result aur_render_resume(aur_render *render, const char *path, aur_error *er
     if (identity == NULL)
         return aur_fail(error, AUR_ERROR_ARGUMENT, "a render goes on whose options say 'resumable'");
     aur_checkpoint kept;
-    aur_result result = aur_checkpoint_load(path, &kept, error);
+    aur_result result = aur_checkpoint_load(path, false, &kept, error);
     if (result == AUR_OK)
         result = aur_render_check_kind(path, &kept, error);
     if (result == AUR_OK)

@@ -44,12 +44,14 @@ static aur_result write_identity(const aur_scene *scene, const aur_render_option
     aur_result result = aur_scene_contents(scene, &contents, error);
     if (result != AUR_OK)
         return result;
+    char tracer[AUR_SCENE_TRACER_CAPACITY];
+    aur_scene_describe_tracer(scene, sizeof tracer, tracer);
     fprintf(stream,
             "version %s\nseed %" PRIu64 "\nintegrator %s\nsampler %s\nfilter %s\nsamples_per_pixel %zu\n"
-            "picture %zu x %zu\ncrop %zu,%zu,%zu,%zu\n",
+            "picture %zu x %zu\ncrop %zu,%zu,%zu,%zu\nrays %s\n",
             aur_version(), o->seed, o->integrator != NULL ? o->integrator : "of the scene", o->sampler,
             o->filter != NULL ? o->filter : "of the scene", o->samples_per_pixel, o->width, o->height,
-            o->crop_x0, o->crop_x1, o->crop_y0, o->crop_y1);
+            o->crop_x0, o->crop_x1, o->crop_y0, o->crop_y1, tracer);
     if (o->shard_count != 0)
         fprintf(stream, "shard %zu/%zu\n", o->shard, o->shard_count);
     fputs(contents, stream);

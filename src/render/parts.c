@@ -92,7 +92,7 @@ aur_result aur_render_merge_parts(size_t count, const char *const *paths, aur_fi
         count > 0 ? AUR_OK : aur_fail(error, AUR_ERROR_ARGUMENT, "a picture has at least one part");
     for (size_t i = 0; result == AUR_OK && i < count; ++i) {
         aur_checkpoint part;
-        result = aur_checkpoint_load(paths[i], &part, error);
+        result = aur_checkpoint_load(paths[i], true, &part, error);
         if (result == AUR_OK)
             result = aur_render_check_kind(paths[i], &part, error);
         if (result == AUR_OK)

@@ -2,6 +2,7 @@
 #include <errno.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/stat.h>
 
 #include "report/report.h"
 
@@ -49,6 +50,9 @@ static bool add_line(report_table *table, char *line) {
 
 aur_result report_load(const char *path, report_table **table, char **notes, aur_error *error) {
     *table = NULL;
+    struct stat status;
+    if (stat(path, &status) == 0 && !S_ISREG(status.st_mode))
+        return fail_in(path, 0, AUR_ERROR_OPEN, "it is no file", error);
     FILE *const file = fopen(path, "r");
     if (file == NULL)
         return fail_in(path, 0, AUR_ERROR_OPEN, strerror(errno), error);

@@ -237,6 +237,12 @@ aur_result aur_scene_build_accel(aur_scene *scene, size_t threads, aur_error *er
     return AUR_OK;
 }
 
+void aur_scene_describe_tracer(const aur_scene *scene, size_t capacity, char *text) {
+    const ssize_t version = rtcGetDeviceProperty(scene->device, RTC_DEVICE_PROPERTY_VERSION);
+    snprintf(text, capacity, "Embree %zd.%zd.%zd, instructions %s, packets of %zu", version / 10000,
+             version / 100 % 100, version % 100, aur_isa_name(aur_isa_of_rays()), scene->packet_size);
+}
+
 void aur_scene_release_accel(aur_scene *scene) {
     for (size_t i = 0; i < scene->group_count; ++i)
         if (scene->groups[i]->accel != NULL)

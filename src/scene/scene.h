@@ -208,6 +208,9 @@ const aur_film_settings *aur_scene_film(const aur_scene *scene);
  * sorted, and "define NAME=VALUE". The text is allocated with malloc. Errors: OPEN when a file is gone,
  * MEMORY. */
 aur_result aur_scene_contents(const aur_scene *scene, char **lines, aur_error *error);
+/* What traces the rays, in words: pictures made with other words differ in the last bits. */
+enum { AUR_SCENE_TRACER_CAPACITY = 96 };
+void aur_scene_describe_tracer(const aur_scene *scene, size_t capacity, char *text);
 size_t aur_scene_samples_per_pixel(const aur_scene *scene);
 const char *aur_scene_sampler(const aur_scene *scene); /* SET syntax */
 /* The integrator as the scene has it; its plugin may be one that Aureole does not know. */

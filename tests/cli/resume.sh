@@ -96,6 +96,25 @@ refuses "'0/2' is no part" 2 render --shard 0/2
 refuses "'half' is no part" 2 render --shard half
 refuses 'does not go with' 2 render --shard 1/2 --error 1%
 [ ! -e none.exr ] || fail "refused parts left a picture"
+# Parts and checkpoints of rays that other instructions traced differ in the last bits.
+if grep -qw avx2 /proc/cpuinfo; then
+  traced() { AUREOLE_EMBREE_ISA=$1 render "${@:2}"; }
+  traced avx2 --spp 1 --shard 1/2 -o wide.part
+  traced portable --spp 1 --shard 2/2 -o narrow.part
+  traced avx2 --spp 1 --shard 2/2 -o wide-too.part
+  refuses "instructions portable.*AUREOLE_ISA=avx2" 2 merge wide.part narrow.part
+  merge wide.part wide-too.part || fail "parts of the same instructions are refused"
+  rm none.exr
+  for method in '--spp 4' '--rounds 1'; do
+    rm -f wide.kept
+    # shellcheck disable=SC2086
+    traced avx2 $method -o wide.exr --checkpoint wide.kept
+    # shellcheck disable=SC2086
+    refuses "instructions avx2" 2 traced portable $method -o narrow.exr --checkpoint wide.kept --resume
+    # shellcheck disable=SC2086
+    AUREOLE_ISA=portable traced avx2 $method -o wide.exr --checkpoint wide.kept --resume || fail "a checkpoint is refused for our own kernels"
+  done
+fi
 # A part that was interrupted is refused until it has gone on.
 "$aureole" render "$scene" --width 16 --height 32 --spp 100000 --shard 1/1 -o slow.part --checkpoint slow.kept -q 2>said &
 sleep 1

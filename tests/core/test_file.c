@@ -184,6 +184,86 @@ static void says_why_it_failed(void **state) {
     assert_non_null(strstr(error.message, strerror(ENOSPC)));
 }
 
+static int reads(const char *path) {
+    char *data = NULL;
+    size_t size;
+    aur_error error = {0};
+    const aur_result result = aur_file_read(path, 100, &data, &size, &error);
+    if (result == AUR_OK)
+        free(data);
+    return (int)result;
+}
+
+/* Opening a pipe that nobody writes to would block, and a device might never end. */
+static void reads_files_only(void **state) {
+    (void)state;
+    assert_int_equal(mkfifo("fifo", 0600), 0);
+    assert_int_equal(reads("fifo"), AUR_ERROR_OPEN);
+    assert_int_equal(reads("/dev/zero"), AUR_ERROR_OPEN);
+    assert_int_equal(reads("."), AUR_ERROR_OPEN);
+    int ends[2];
+    char handed[32];
+    assert_int_equal(pipe(ends), 0);
+    snprintf(handed, sizeof handed, "/dev/fd/%d", ends[0]);
+    assert_int_equal(write(ends[1], "text", 4), 4);
+    close(ends[1]);
+    assert_int_equal(reads(handed), AUR_OK);
+    close(ends[0]);
+    assert_int_equal(unlink("fifo"), 0);
+}
+
+/* A link to nothing is no excuse for half a file; a file of before stays in every case. */
+static void makes_what_links_point_to(void **state) {
+    (void)state;
+    assert_int_equal(mkdir("deep", 0700), 0);
+    assert_int_equal(symlink("deep/second", "first"), 0);
+    assert_int_equal(symlink("target", "deep/second"), 0);
+    aur_file_writer writer;
+    aur_error error = {0};
+    assert_int_equal(aur_file_open("first", &writer, &error), AUR_OK);
+    fputs("half", writer.stream);
+    fflush(writer.stream);
+    assert_int_not_equal(access("deep/target", F_OK), 0);
+    aur_file_abandon(&writer);
+    assert_int_not_equal(access("deep/target", F_OK), 0);
+    write_text("first", "whole");
+    struct stat status;
+    assert_int_equal(lstat("first", &status), 0);
+    assert_true(S_ISLNK(status.st_mode));
+    assert_int_equal(reads("deep/target"), AUR_OK);
+    assert_int_equal(unlink("deep/target") | unlink("deep/second") | unlink("first") | rmdir("deep"), 0);
+}
+
+/* The last test: from the first announcement on this process has inputs and outputs. */
+static void tells_inputs_from_outputs(void **state) {
+    (void)state;
+    aur_error error = {0};
+    write_text("in", "1");
+    write_text("out", "2");
+    assert_int_equal(reads("in"), AUR_OK);
+    assert_int_equal(aur_file_write("in", 1, "3", &error), AUR_OK); /* nothing has been announced */
+    assert_int_equal(aur_file_announce_output("-", &error), AUR_OK);
+    assert_int_equal(aur_file_announce_output("out", &error), AUR_OK);
+    assert_int_equal(aur_file_announce_output("./out", &error), AUR_ERROR_ARGUMENT);
+    assert_int_equal(aur_file_announce_output("new", &error), AUR_OK);
+    assert_int_equal(aur_file_announce_output("./new", &error), AUR_ERROR_ARGUMENT);
+    assert_int_equal(link("out", "hard") | symlink("hard", "soft"), 0);
+    assert_int_equal(reads("soft"), AUR_ERROR_ARGUMENT);
+    char *data;
+    size_t size;
+    assert_int_equal(aur_file_read_back("soft", 100, &data, &size, &error), AUR_OK);
+    free(data);
+    assert_int_equal(reads("in"), AUR_OK);
+    assert_int_equal(link("in", "hard-in"), 0);
+    assert_int_equal(aur_file_write("hard-in", 1, "4", &error), AUR_ERROR_ARGUMENT);
+    assert_int_equal(aur_file_announce_output("in", &error), AUR_ERROR_ARGUMENT);
+    assert_int_equal(aur_file_write("out", 1, "5", &error), AUR_OK);
+    assert_int_equal(aur_file_write("new", 1, "6", &error), AUR_OK);
+    assert_int_equal(unlink("in") | unlink("out") | unlink("new") | unlink("hard") | unlink("soft") |
+                         unlink("hard-in"),
+                     0);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(replaces_whole_or_not_at_all),
@@ -194,6 +274,9 @@ int main(void) {
         cmocka_unit_test(a_killed_process_leaves_nothing),
         cmocka_unit_test(heeds_the_limit),
         cmocka_unit_test(says_why_it_failed),
+        cmocka_unit_test(reads_files_only),
+        cmocka_unit_test(makes_what_links_point_to),
+        cmocka_unit_test(tells_inputs_from_outputs),
     };
     return cmocka_run_group_tests(tests, enter, leave);
 }
