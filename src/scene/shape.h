@@ -37,7 +37,8 @@ typedef struct aur_curved {
      * which Embree finds it. */
     bool (*intersect)(const aur_shape *shape, const double origin[3], const double direction[3],
                       double nearest, double farthest, double *distance);
-    /* The point of the surface beside `position`, and its derivatives by the two texture coordinates. */
+    /* The point of the surface beside `position`, and its derivatives by the two texture coordinates
+     * unless `tangents` is NULL. */
     void (*surface)(const aur_shape *shape, aur_vector position, const aur_hit *hit, aur_shape_point *point,
                     aur_vector tangents[2]);
     /* NULL for shapes that cannot be lights. */

@@ -77,9 +77,9 @@ static void mesh_surface(const aur_shape *shape, const aur_ray *ray, const aur_h
 static void curved_surface(const aur_shape *shape, const aur_ray *ray, const aur_hit *hit,
                            aur_surface *surface) {
     aur_shape_point point;
-    aur_vector tangents[2];
+    aur_vector tangents[2] = {{0.0f, 0.0f, 0.0f}, {0.0f, 0.0f, 0.0f}};
     shape->curved->surface(shape, aur_vector_add_scaled(ray->origin, hit->distance, ray->direction), hit,
-                           &point, tangents);
+                           &point, shape->bsdf->anisotropic ? tangents : NULL);
     surface->position = point.position;
     surface->geometric_normal = surface->frame.z = point.normal;
     surface->texture = point.texture;

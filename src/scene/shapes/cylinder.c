@@ -54,6 +54,8 @@ static void surface(const aur_shape *shape, aur_vector position, const aur_hit *
     const float x = aur_vector_dot(way, shape->axis[0]), y = aur_vector_dot(way, shape->axis[1]);
     const float size = fmaxf(hypotf(x, y), 1e-30f);
     *point = point_at(shape, x / size, y / size, aur_vector_dot(way, shape->axis[2]));
+    if (tangents == NULL)
+        return;
     const float turn = 2.0f * AUR_PI_F;
     tangents[0] =
         aur_vector_add_scaled(aur_vector_scale(shape->axis[0], -turn * y), turn * x, shape->axis[1]);

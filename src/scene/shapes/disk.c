@@ -55,6 +55,8 @@ static void surface(const aur_shape *shape, aur_vector position, const aur_hit *
     double x, y;
     local(shape, (double[3]){way.x, way.y, way.z}, &x, &y);
     *point = point_at(shape, (float)x, (float)y);
+    if (tangents == NULL)
+        return;
     const float radius = hypotf((float)x, (float)y), turn = 2.0f * AUR_PI_F;
     tangents[0] = radius > 0.0f ? aur_vector_scale(way, 1.0f / radius) : shape->axis[0];
     tangents[1] = aur_vector_add_scaled(aur_vector_scale(shape->axis[0], -turn * (float)y), turn * (float)x,

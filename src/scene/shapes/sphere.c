@@ -41,6 +41,8 @@ static void surface(const aur_shape *shape, aur_vector position, const aur_hit *
     (void)hit;
     const aur_vector normal = aur_vector_normalize(aur_vector_subtract(position, shape->center));
     *point = point_at(shape, normal);
+    if (tangents == NULL)
+        return;
     /* The axes are left-handed in a mirrored sphere. */
     const float x = aur_vector_dot(normal, shape->axis[0]), y = aur_vector_dot(normal, shape->axis[1]);
     const float z = aur_vector_dot(normal, shape->axis[2]), across = hypotf(x, y);
