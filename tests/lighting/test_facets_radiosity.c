@@ -111,6 +111,36 @@ static void test_both_ways(void **state) {
     aur_facets_destroy(facets);
 }
 
+/* The half widths of the solution without a matrix hold the floor's radiosity, 3.75, as often as they say:
+ * five standard deviations of the binomial count are a false alarm in two million. */
+static void test_half_widths_hold(void **state) {
+    (void)state;
+    enum { SEEDS = 2000 };
+    aur_facets *const facets = load_shade();
+    aur_facets_light light = aur_facets_light_default();
+    light.reflectance = 0.5;
+    light.sun[2] = 10.0;
+    static const double confidences[] = {0.8, 0.95};
+    for (size_t k = 0; k < 2; ++k) {
+        aur_view_factors_options options = aur_view_factors_options_default();
+        options.rays = 64;
+        options.confidence = confidences[k];
+        size_t inside = 0;
+        for (uint64_t seed = 0; seed < SEEDS; ++seed) {
+            double radiosity[2], half[2];
+            options.seed = seed;
+            assert_int_equal(
+                aur_view_factors_radiosity(facets, NULL, &options, &light, radiosity, half, NULL, NULL),
+                AUR_OK);
+            inside += fabs(radiosity[0] - 3.75) <= half[0];
+        }
+        const double expected = confidences[k] * SEEDS, deviation = sqrt(expected * (1.0 - confidences[k]));
+        print_message("confidence %g: %zu of %d inside\n", confidences[k], inside, (int)SEEDS);
+        assert_in_range(inside, expected - 5.0 * deviation, expected + 5.0 * deviation);
+    }
+    aur_facets_destroy(facets);
+}
+
 static void test_refusals(void **state) {
     (void)state;
     aur_facets *const facets = load_shade();
@@ -131,9 +161,8 @@ static void test_refusals(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_closed_room),
-        cmocka_unit_test(test_sun),
-        cmocka_unit_test(test_both_ways),
+        cmocka_unit_test(test_closed_room), cmocka_unit_test(test_sun),
+        cmocka_unit_test(test_both_ways),   cmocka_unit_test(test_half_widths_hold),
         cmocka_unit_test(test_refusals),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

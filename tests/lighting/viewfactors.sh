@@ -105,6 +105,23 @@ said=$("$aureole" viewfactors open.obj 2>&1 >/dev/null)
 grep -q 'open.obj:9: 6 edges belong to one facet only' <<<"$said" || fail "an open mesh: $said"
 grep -q '1 edges join facets of which one looks inwards' <<<"$said" || fail "an inconsistent mesh: $said"
 grep -q 'rows see backs of facets' <<<"$said" || fail "backs that are seen: $said"
+# The largest share of what leaves a row is said, not the last one: a plate that sees the back of its twin a side above it, .1998 of it.
+cat >twins.obj <<'OBJ'
+v 0 0 0
+v 1 0 0
+v 1 1 0
+v 0 1 0
+v 0 0 1
+v 1 0 1
+v 1 1 1
+v 0 1 1
+g below
+f 1 2 3 4
+g above
+f 5 6 7 8
+OBJ
+said=$("$aureole" viewfactors twins.obj --group --rays 65536 2>&1 >/dev/null)
+grep -qE '1 rows see backs of facets, up to 0\.(199|2) of' <<<"$said" || fail "the largest share of backs: $said"
 [ -z "$("$aureole" viewfactors open.obj --both-sides --group -q --to csv | grep -e ',-2,')" ] || fail "backs are rows"
 
 # Two rays a facet of a tetrahedron: by some seeds three facets see nothing but the fourth, which has less area than
