@@ -38,17 +38,16 @@ for domain in "--domain sphere" "--domain hemisphere" "--cap 90" "--cap 120"; do
   for method in exact voronoi osw equal; do
     case "$domain$method" in --cap*osw | --cap*equal) continue ;; esac
     how="$domain --method $method"
-    # Cells of few points reach farther than cells can.
-    few=sum both=sum
-    [ $method = voronoi ] && few="90 degrees or more from every point"
-    [ "$how" = "--domain sphere --method voronoi" ] && both=$few
+    # Cells of few points are no polygons that a rim could cut.
+    few=sum
+    [ "$how" = "--cap 120 --method voronoi" ] && few="fewer than three sides"
     # shellcheck disable=SC2086
     {
       try "none.csv: no points" none $how
       try "$few" one $how
       try "$few" two $how
       try "$few" same $how
-      try "$both" doubled $how
+      try sum doubled $how
       try "off.csv:22: a direction must have length 1" off $how
       try "nan.csv:22: column 1: 'nan'" nan $how
       try "word.csv:22: column 2: 'abc'" word $how

@@ -1,5 +1,6 @@
 #include "check.h"
 
+#include <float.h>
 #include <string.h>
 
 #include "core/vector3d.h"
@@ -438,6 +439,44 @@ static void rotate(own_points *points, double a, double b) {
     }
 }
 
+/* Each point twice, in one place or a few roundings apart: pairs share their cells. */
+static void doubled_points_share_their_cells(void **state) {
+    (void)state;
+    own_points once = random_directions(40, 12), twice = sphere_points(80);
+    for (size_t shift = 0; shift < 3; ++shift) {
+        for (size_t i = 0; i < 240; ++i)
+            twice.coordinates[i] =
+                once.coordinates[i % 120] * (i < 120 ? 1.0 : 1.0 + (double)shift * DBL_EPSILON);
+        for (size_t count = 41; count <= 80; count += 13) {
+            aur_series *cells, *single;
+            const aur_points_view view = seen(&once);
+            aur_points_view more = seen(&twice);
+            more.count = count;
+            assert_int_equal(aur_measure_series("voronoi", &view, NULL, &single, NULL), AUR_OK);
+            assert_int_equal(aur_measure_series("voronoi", &more, NULL, &cells, NULL), AUR_OK);
+            const double *const a = aur_series_values(single), *const b = aur_series_values(cells);
+            for (size_t i = 0; i < count; ++i) {
+                const double share = i % 40 < count - 40 ? 0.5 : 1.0;
+                assert_relative(b[4 * i + 1] / (double)count, share * a[4 * (i % 40) + 1] / 40.0, 1e-12);
+            }
+            aur_series_destroy(single);
+            aur_series_destroy(cells);
+        }
+    }
+    for (size_t i = 0; i < 9; ++i) /* all but one in one place */
+        twice.coordinates[i] = i == 0 || i == 4 || i == 7 ? 1.0 : 0.0;
+    twice.count = 3;
+    aur_series *cells;
+    const aur_points_view view = seen(&twice);
+    assert_int_equal(aur_measure_series("voronoi", &view, NULL, &cells, NULL), AUR_OK);
+    static const double shares[] = {1.5, 0.75, 0.75};
+    for (size_t i = 0; i < 3; ++i)
+        assert_relative(aur_series_values(cells)[4 * i + 1], shares[i], 1e-15);
+    aur_series_destroy(cells);
+    release_points(&once);
+    release_points(&twice);
+}
+
 /* Where more than three points are as far from a corner, it is one corner: cells of the corners of a cube are
  * triangles, those of an octahedron's, and of rings above each other, quadrilaterals. */
 static void symmetric_sets_have_their_sides(void **state) {
@@ -561,6 +600,7 @@ int main(void) {
         cmocka_unit_test(corners_are_as_far_from_three_points),
         cmocka_unit_test(covering_agrees_with_all_triples),
         cmocka_unit_test(covering_beyond_ninety_degrees),
+        cmocka_unit_test(doubled_points_share_their_cells),
         cmocka_unit_test(symmetric_sets_have_their_sides),
         cmocka_unit_test(sides_of_caps_are_counted),
         cmocka_unit_test(sets_of_one_hemisphere_have_cells),

@@ -71,6 +71,13 @@ static double find_heights(aur_cell *cell, const aur_cell_side *cut) {
     return lowest;
 }
 
+/* Two neighbours in one place cut alike: there is no lune between them. */
+static bool is_same_circle(const aur_cell_side *side, const aur_cell_side *cut) {
+    double cross[3];
+    aur_cross3(side->normal, cut->normal, cross);
+    return aur_length3(cross) <= 4.0 * DBL_EPSILON * (side->length + cut->length);
+}
+
 /* A lune and a great circle through both of its corners: two of the three are its sides. */
 static void cut_lune(aur_cell *cell, const aur_cell_side *cut) {
     const double *const axis = cell->sides[0].corner;
@@ -114,6 +121,8 @@ void aur_cell_cut(aur_cell *cell, const double normal[3]) {
     aur_cell_side *const sides = cell->sides;
     aur_cell_side cut = {.normal = {normal[0], normal[1], normal[2]}, .length = aur_length3(normal)};
     const size_t count = cell->count;
+    if (count == 1 && is_same_circle(&sides[0], &cut))
+        return;
     if (count < 2) {
         sides[cell->count++] = cut;
         if (count == 1) {
