@@ -1,34 +1,5 @@
 #include "cases.h"
 
-#include <stdarg.h>
-#include <stdio.h>
-
-void lab_case_put(lab_case *made, const char *format, ...) {
-    va_list arguments;
-    va_start(arguments, format);
-    const size_t room = sizeof made->scene - made->scene_size;
-    const int used = vsnprintf(made->scene + made->scene_size, room, format, arguments);
-    va_end(arguments);
-    if (used > 0)
-        made->scene_size += (size_t)used < room ? (size_t)used : room - 1;
-}
-
-void lab_case_patch(lab_case *made, const lab_patch *patch, const char *inside) {
-    lab_case_put(made, "<shape type='polygon'><string name='vertices' value='");
-    for (size_t k = 0; k < 4; ++k)
-        for (size_t d = 0; d < 3; ++d)
-            lab_case_put(made, "%.17g ",
-                         patch->corner[d] + (k == 1 || k == 2 ? patch->a[d] : 0.0) +
-                             (k >= 2 ? patch->b[d] : 0.0));
-    lab_case_put(made, "'/>%s</shape>", inside);
-}
-
-void lab_case_point(lab_case *made, const lab_receiver *receiver, double closed, double smooth) {
-    made->receivers[made->count] = *receiver;
-    made->closed[made->count] = closed;
-    made->smooth[made->count++] = smooth;
-}
-
 const lab_case_row *lab_case_at(size_t index) {
     const lab_case_row *const tables[] = {lab_source_cases, lab_room_cases, lab_sky_cases};
     const size_t counts[] = {lab_source_case_count, lab_room_case_count, lab_sky_case_count};

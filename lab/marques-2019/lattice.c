@@ -9,69 +9,9 @@
 #include <math.h>
 #include <stdio.h>
 
-const double lattice_golden = 1.6180339887498948482;
-
-enum { LARGEST = 100000, QUICK_LARGEST = 20000, MOST_INDEX = 70 };
+enum { LARGEST = 100000, QUICK_LARGEST = 20000 };
 
 static const double rounding = 100.0 * DBL_EPSILON;
-
-lattice_check lattice_begin(const char *item, const char *statement, double at_least, double at_most) {
-    return (lattice_check){.item = item,
-                           .statement = statement,
-                           .at_least = at_least,
-                           .at_most = at_most,
-                           .least = INFINITY,
-                           .most = -INFINITY,
-                           .first_exception = NAN};
-}
-
-void lattice_count(lattice_check *check, double which, double value) {
-    ++check->cases;
-    check->least = fmin(check->least, value);
-    check->most = fmax(check->most, value);
-    if (value >= check->at_least && value <= check->at_most)
-        return;
-    if (check->exceptions++ == 0)
-        check->first_exception = which;
-}
-
-void lattice_end(lab_run *run, const lattice_check *check) {
-    lab_row(run, (const char *const[]){check->item, check->statement, NULL}, 7,
-            (const double[]){(double)check->cases, check->least, check->most, check->at_least, check->at_most,
-                             (double)check->exceptions, check->first_exception});
-    if (!check->ours)
-        lab_claim(run, check->exceptions == 0, "%s: %s (%zu of %zu cases)", check->item, check->statement,
-                  check->cases - check->exceptions, check->cases);
-}
-
-double lattice_fibonacci(size_t k) {
-    double before = 1.0, now = 0.0; /* F_{-1}, F_0 */
-    for (; k > 0; --k) {
-        const double next = before + now;
-        before = now;
-        now = next;
-    }
-    return now;
-}
-
-void lattice_vector(size_t k, double n, double vector[2]) {
-    vector[0] = lattice_fibonacci(k) / n;
-    vector[1] = (k % 2 == 1 ? 1.0 : -1.0) * pow(lattice_golden, -(double)k);
-}
-
-double lattice_length2(size_t k, double n, double sx) {
-    double b[2];
-    lattice_vector(k, n, b);
-    return sx * sx * b[0] * b[0] + b[1] * b[1];
-}
-
-size_t lattice_shortest(double n, double sx) {
-    size_t best = 1;
-    for (size_t k = 2; k < MOST_INDEX; ++k)
-        if (lattice_length2(k, n, sx) < lattice_length2(best, n, sx))
-            best = k;
-    return best;
-}
 
 static double relative(double value, double other, double scale) {
     return fabs(value - other) / fabs(scale);
@@ -91,7 +31,7 @@ static void check_identities(lab_run *run) {
         "eq. 15", "the unit cell of b_k, b_{k+1} has the area 1/N, its sign (-1)^k", 0.0, rounding);
     lattice_check sum =
         lattice_begin("eq. 53", "b_k = F_k b_1 + F_{k-1} b_0, up to its own rounding", 0.0, rounding);
-    for (size_t k = 1; k <= MOST_INDEX; ++k) {
+    for (size_t k = 1; k <= LATTICE_MOST_INDEX; ++k) {
         const double f = lattice_fibonacci(k), before = lattice_fibonacci(k - 1), which = (double)k;
         const double sign = k % 2 == 0 ? 1.0 : -1.0, power = pow(golden, which);
         lattice_count(&binet, which, relative((power - sign / power) / sqrt(5.0), f, f));
@@ -184,7 +124,7 @@ static void check_stretches(lab_run *run) {
     lattice_end(run, &stretched);
     lattice_check parity = lattice_begin(
         "eq. 56", "a shift by b_g/2 is one by b_s/2, s = g mod 3: both coordinates even", 0.0, 0.0);
-    for (size_t g = 1; g <= MOST_INDEX; ++g) {
+    for (size_t g = 1; g <= LATTICE_MOST_INDEX; ++g) {
         const size_t s = g % 3;
         const double before = s > 0 ? lattice_fibonacci(s - 1) : 1.0;
         lattice_count(&parity, (double)g, fmod(lattice_fibonacci(g) + lattice_fibonacci(s), 2.0));

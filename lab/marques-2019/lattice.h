@@ -19,6 +19,7 @@ void lattice_count(lattice_check *check, double which, double value);
 /* Its row and its claim. */
 void lattice_end(lab_run *run, const lattice_check *check);
 
+enum { LATTICE_MOST_INDEX = 70 };   /* of a basis vector */
 double lattice_fibonacci(size_t k); /* F_k, exact for k <= 78 */
 extern const double lattice_golden;
 /* b_k of a grid of n points (eq. 5). */

@@ -84,8 +84,13 @@ static int report(void *user, const char *what, uint64_t done, uint64_t total) {
     enum { STEPS = 10000 };
     if (ask->trial.replicas.pixel_count == 0) /* it is being prepared */
         return ask->progress.function(ask->progress.user, what, 0, STEPS);
-    const double share = share_done(ask, (double)done / (double)total);
-    return ask->progress.function(ask->progress.user, "rendering", (uint64_t)(STEPS * share), STEPS);
+    /* Later estimates may find that less is done than was thought: the bar waits for them, and ends with the
+     * work. */
+    const uint64_t step = (uint64_t)(STEPS * share_done(ask, (double)done / (double)total));
+    const uint64_t most = step < STEPS ? step : STEPS - 1;
+    ask->shown = most > ask->shown ? most : ask->shown;
+    return ask->progress.function(ask->progress.user, ask->shown > 0 ? "rendering" : "planning", ask->shown,
+                                  STEPS);
 }
 
 /* --- making */

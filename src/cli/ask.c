@@ -8,6 +8,7 @@
 #include <stdlib.h>
 
 #include "cli/quantity.h"
+#include "cli/render_result.h"
 
 static aur_result parse_part(const char *option, const char *text, void *field, aur_error *error) {
     static const cli_unit units[] = {{"%", 0.01}};
@@ -110,32 +111,20 @@ static void say(const aur_ask *ask, const cli_wish *wish, const char *output) {
               aur_ask_integrator(ask));
 }
 
-void cli_report_statistics(report_table *table, const aur_render_statistics *statistics) {
-    report_fact_number(table, "samples", (double)statistics->samples);
-    report_fact_number(table, "rays", (double)statistics->rays);
-    report_fact_number(table, "prepare_seconds", statistics->prepare_seconds);
-    report_fact_number(table, "render_seconds", statistics->render_seconds);
-    report_fact_number(table, "cpu_seconds", statistics->cpu_seconds);
-    report_fact_number(table, "invalid_samples", (double)statistics->invalid_samples);
-}
-
 static aur_result print_json(const aur_ask *ask, const char *output, aur_error *error) {
     aur_ask_report report = {.size = sizeof report};
     aur_ask_get_report(ask, &report, NULL);
-    report_table *const table = report_create(0, NULL);
-    report_fact_text(table, "output", output);
-    report_fact_text(table, "integrator", aur_ask_integrator(ask));
-    report_fact_number(table, "error", report.error);
-    report_fact_number(table, "error_low", report.error_low);
-    report_fact_number(table, "error_high", report.error_high);
-    report_fact_number(table, "bias_high", report.bias_high);
-    report_fact_number(table, "mean", report.mean);
-    report_fact_number(table, "rounds", (double)report.rounds);
-    report_fact_number(table, "samples_per_pixel", report.samples_per_pixel);
-    cli_report_statistics(table, &report.statistics);
-    const aur_result result = report_write(table, REPORT_JSON, stdout, error);
-    report_destroy(table);
-    return result;
+    const cli_render_summary summary = {.output = output,
+                                        .integrator = aur_ask_integrator(ask),
+                                        .error = report.error,
+                                        .error_low = report.error_low,
+                                        .error_high = report.error_high,
+                                        .bias_high = report.bias_high,
+                                        .mean = report.mean,
+                                        .rounds = (double)report.rounds,
+                                        .samples_per_pixel = report.samples_per_pixel,
+                                        .statistics = report.statistics};
+    return cli_print_json(&summary, error);
 }
 
 aur_result cli_render_wish(aur_renderer *renderer, const aur_render_options *options, const cli_wish *wish,

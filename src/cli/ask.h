@@ -23,9 +23,6 @@ typedef struct cli_surroundings {
     bool quiet, json;
 } cli_surroundings;
 
-/* Facts of a table of facts. */
-void cli_report_statistics(report_table *table, const aur_render_statistics *statistics);
-
 /* Renders what was asked for. *image is the picture; CANCELLED by an interrupt leaves what there is of it, or
  * NULL; *made is to be destroyed in every case. The last line, unless `quiet`, says how good it is; where
  * `json` is asked for, standard output does so for programs. */

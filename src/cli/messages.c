@@ -22,6 +22,7 @@ typedef struct progress_bar {
     bool shown;
     const char *what;
     double start, last;
+    double first, fraction; /* where it began, and where it is: it goes back never */
 } progress_bar;
 
 static progress_bar bar;
@@ -74,8 +75,8 @@ static void draw(const char *what, double fraction, double elapsed) {
     cells[WIDTH] = '\0';
     char spent[72], left[72] = "?";
     format_seconds(elapsed, spent);
-    if (fraction > 0.01)
-        format_seconds(elapsed * (1 - fraction) / fraction, left);
+    if (fraction - bar.first > 0.01 * (1 - bar.first))
+        format_seconds(elapsed * (1 - fraction) / (fraction - bar.first), left);
     if (!bar.draws) {
         fprintf(stderr, "aureole: %s, %.0f %%, %s, %s left\n", what, 100 * fraction, spent, left);
         return;
@@ -91,12 +92,16 @@ static int show(void *user, const char *what, uint64_t done, uint64_t total) {
         return 1;
     if (user == NULL)
         return 0;
-    const double time = now();
+    const double time = now(), fraction = total > 0 ? (double)done / (double)total : 0.0;
     if (what == NULL)
         what = "working";
     if (bar.what == NULL || strcmp(bar.what, what) != 0)
-        bar =
-            (progress_bar){.draws = bar.draws, .shown = bar.shown, .what = what, .start = time, .last = time};
+        bar = (progress_bar){.draws = bar.draws,
+                             .shown = bar.shown,
+                             .what = what,
+                             .start = time,
+                             .last = time,
+                             .first = fraction};
     /* The bar's refresh backs off: ten a second at first, one a second after a minute. Lines come every ten
      * seconds, every minute after five. */
     const double elapsed = time - bar.start;
@@ -111,7 +116,8 @@ static int show(void *user, const char *what, uint64_t done, uint64_t total) {
         cli_progress_clear();
         bar.what = NULL;
     } else {
-        draw(what, (double)done / (double)total, elapsed);
+        bar.fraction = fmax(bar.fraction, fraction);
+        draw(what, bar.fraction, elapsed);
     }
     return 0;
 }

@@ -25,6 +25,7 @@ typedef struct render_command {
     cli_denoise denoise;
     bool statistics, json;
     cli_render_end end;
+    const aur_scene *scene;
     cli_common common;
 } render_command;
 
@@ -150,6 +151,24 @@ static aur_result render_steps(aur_render *render, render_command *command, cli_
     return result;
 }
 
+static aur_result print_json(const aur_render *render, const render_command *command, aur_error *error) {
+    aur_scene_description scene = {.size = sizeof scene};
+    aur_scene_describe(command->scene, &scene, NULL);
+    cli_render_summary summary = {
+        .output = command->output,
+        .integrator = command->options.integrator != NULL ? command->options.integrator : scene.integrator,
+        .error = command->end.error > 0.0 ? command->end.error : NAN,
+        .error_low = NAN,
+        .error_high = NAN,
+        .bias_high = NAN,
+        .mean = NAN,
+        .rounds = NAN,
+        .samples_per_pixel = (double)command->end.samples,
+        .statistics.size = sizeof summary.statistics};
+    aur_render_get_statistics(render, &summary.statistics, NULL);
+    return cli_print_json(&summary, error);
+}
+
 /* All samples; *image is what there is in the end. *made is to be destroyed in every case. */
 static aur_result render_samples(aur_renderer *renderer, render_command *command, cli_errors *errors,
                                  aur_render **made, aur_image **image, aur_error *error) {
@@ -176,7 +195,7 @@ static aur_result render_samples(aur_renderer *renderer, render_command *command
         cli_print_statistics(render);
     }
     if (result == AUR_OK && command->json && aur_ranks_rank() == 0)
-        result = cli_print_json(render, command->output, &command->end, error);
+        result = print_json(render, command, error);
     return result;
 }
 
@@ -228,6 +247,7 @@ static int render(const char *path, render_command *command, cli_errors *errors)
     aur_ask *ask = NULL;
     aur_image *image = NULL;
     aur_result result = aur_scene_load(path, &scene_options, &scene, &error);
+    command->scene = scene;
     if (result == AUR_OK)
         result = aur_renderer_create(scene, &renderer, &error);
     if (result == AUR_OK)

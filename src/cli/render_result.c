@@ -8,7 +8,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "cli/ask.h"
+#include "cli/cli.h"
 
 /* What each of several processes did: all of them come here. */
 static void print_ranks(void) {
@@ -45,15 +45,24 @@ void cli_print_statistics(const aur_render *render) {
     print_ranks();
 }
 
-aur_result cli_print_json(const aur_render *render, const char *output, const cli_render_end *end,
-                          aur_error *error) {
-    aur_render_statistics counted = {.size = sizeof counted};
-    aur_render_get_statistics(render, &counted, NULL);
+aur_result cli_print_json(const cli_render_summary *summary, aur_error *error) {
+    const aur_render_statistics *const statistics = &summary->statistics;
     report_table *const table = report_create(0, NULL);
-    report_fact_text(table, "output", output);
-    if (end->error > 0.0)
-        report_fact_number(table, "standard_error", end->error);
-    cli_report_statistics(table, &counted);
+    report_fact_text(table, "output", summary->output);
+    report_fact_text(table, "integrator", summary->integrator);
+    report_fact_number(table, "error", summary->error);
+    report_fact_number(table, "error_low", summary->error_low);
+    report_fact_number(table, "error_high", summary->error_high);
+    report_fact_number(table, "bias_high", summary->bias_high);
+    report_fact_number(table, "mean", summary->mean);
+    report_fact_number(table, "rounds", summary->rounds);
+    report_fact_number(table, "samples_per_pixel", summary->samples_per_pixel);
+    report_fact_number(table, "samples", (double)statistics->samples);
+    report_fact_number(table, "rays", (double)statistics->rays);
+    report_fact_number(table, "prepare_seconds", statistics->prepare_seconds);
+    report_fact_number(table, "render_seconds", statistics->render_seconds);
+    report_fact_number(table, "cpu_seconds", statistics->cpu_seconds);
+    report_fact_number(table, "invalid_samples", (double)statistics->invalid_samples);
     const aur_result result = report_write(table, REPORT_JSON, stdout, error);
     report_destroy(table);
     return result;

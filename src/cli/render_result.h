@@ -12,9 +12,16 @@ typedef struct cli_render_end {
     double error;
 } cli_render_end;
 
+/* What programs are told of a render, however it was asked for: NaN is what is not known. */
+typedef struct cli_render_summary {
+    const char *output, *integrator;
+    double error, error_low, error_high, bias_high; /* relative to the mean */
+    double mean, rounds, samples_per_pixel;
+    aur_render_statistics statistics;
+} cli_render_summary;
+
 /* On standard output, for programs. */
-aur_result cli_print_json(const aur_render *render, const char *output, const cli_render_end *end,
-                          aur_error *error);
+aur_result cli_print_json(const cli_render_summary *summary, aur_error *error);
 
 /* What an interrupted render has goes beside the picture, as OUT.partial.exr, or render.partial.exr where the
  * picture was to go to standard output. */

@@ -1,6 +1,8 @@
 /* The state of a run, for the files that make it. */
 #pragma once
 
+#include <time.h>
+
 #include <stdio.h>
 
 #include "lab/kept.h"
@@ -24,6 +26,7 @@ struct lab_run {
     char folder[AUR_ERROR_FILE_CAPACITY - 256];
 };
 
+double lab_clock_seconds(clockid_t clock);
 /* Processor seconds, with those before interruptions. */
 double lab_run_seconds(const lab_run *run);
 /* FOLDER/NAME/NAME-<what>.<extension>; `what` may be NULL. */

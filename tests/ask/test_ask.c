@@ -162,7 +162,10 @@ static int keep_progress(void *user, const char *what, uint64_t done, uint64_t t
     progress_record *const record = user;
     if (record->asked == NULL) /* it is being prepared */
         return 0;
-    assert_string_equal(what, "rendering");
+    assert_true(strcmp(what, "rendering") == 0 || (strcmp(what, "planning") == 0 && done == 0));
+    assert_true(done < total); /* the work is not over */
+    if (record->count > 0 && record->count < 2048)
+        assert_true((double)done / (double)total >= record->shares[record->count - 1]);
     if (record->count < 2048) {
         record->shares[record->count] = (double)done / (double)total;
         record->rays[record->count++] = (double)report_of(record->asked).statistics.rays;
@@ -189,6 +192,12 @@ static void test_progress(void **state) {
     print_message("%zu reports, %.3f off in the mean\n", record.count, off);
     assert_true(record.count > 50 && record.count < 2048);
     assert_true(off < 0.1);
+    /* After a tenth of the work, what is left is known to a factor of two until little is. */
+    for (size_t i = 0; i < record.count; ++i) {
+        const double done = record.rays[i] / all, left = (1.0 / record.shares[i] - 1.0) * done;
+        if (done > 0.1 && done < 0.9)
+            assert_true(left > 0.5 * (1.0 - done) && left < 2.0 * (1.0 - done));
+    }
     aur_ask_destroy(record.asked);
 }
 

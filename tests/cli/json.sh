@@ -30,6 +30,13 @@ json 'it' voronoi spherical-fibonacci -n 8 --json
 json 'it' weights spherical-fibonacci -n 8 --domain sphere --method exact --report --json
 json 'it[0]["samples"] == 128 and it[0]["output"] == "a.exr"' render scene.xml --spp 2 -o a.exr --json
 json 'it[0]["error"] < .5 and it[0]["integrator"].startswith("path")' render scene.xml --integrator path --error 50% -q -o b.exr --json
+# One set of keys, whatever was asked for; what is not known is null.
+keys='list(it[0]) == ["output", "integrator", "error", "error_low", "error_high", "bias_high", "mean", "rounds", "samples_per_pixel", "samples", "rays", "prepare_seconds", "render_seconds", "cpu_seconds", "invalid_samples"]'
+json "$keys and it[0]['error_low'] is None and it[0]['integrator'] == 'path' and it[0]['samples_per_pixel'] == 2" \
+  render scene.xml --integrator path --spp 2 -q -o b.exr --json
+json "$keys and it[0]['integrator'] and it[0]['error'] is None" render scene.xml --spp 1 -q -o b.exr --json
+json "$keys and it[0]['rounds'] == 2" render scene.xml --rounds 2 -q -o b.exr --json
+json "$keys" render scene.xml --error 60% -q -o b.exr --json
 json 'it[0]["r"] > 3' irradiance scene.xml --sensors sensors -n 64 --json
 json 'it' viewfactors mesh.obj --json
 json 'it' compare a.exr b.exr --metric rmse --json

@@ -17,7 +17,7 @@ value() { sed -n "s/.*\"$1\": \([-+.e0-9]*\).*/\1/p"; }
 for spp in 2 8; do
   "$program" render "$scene" --width 24 --spp $((spp / 2)) -q -o half.exr
   "$program" render "$scene" --width 24 --spp $spp --json -o whole.exr >end.json 2>end.txt
-  said=$(value standard_error <end.json)
+  said=$(value error <end.json)
   found=$("$program" compare whole.exr half.exr --tolerance 100 --json | value relative_rmse)
   # Both are sums of the same differences; EXR files round values to 24 bits, so a difference of two errs by 2^-24 of the
   # values, whose root mean square is below 10 means here.

@@ -1,28 +1,32 @@
 #!/usr/bin/env bash
-# No circles: the C files of the libraries can be put in an order in which each calls only files after it. Which file needs
-# which is read from the symbols that its object defines and needs.
+# No circles: the C files of every target (libraries, program, lab, bench, the reader of models, makers of scenes) can be put in an
+# order in which each calls only files after it. Which file needs which is read from the symbols that its object defines and needs.
 set -u
 build=$(dirname "$1")
 command -v nm >/dev/null && command -v tsort >/dev/null || { echo "skipped: needs nm and tsort"; exit 77; }
 source_tree=$2
-# Objects of files that are no longer in the tree stay in a build folder.
-objects=$(find "$build"/CMakeFiles/aureole_{core,points,light}.dir -name '*.c.o' | while read -r object; do
+# Objects of files that are no longer in the tree stay in a build folder. Each program of the tests and fuzz harnesses is one file.
+objects=$(find "$build"/CMakeFiles/*.dir -name '*.c.o' | while read -r object; do
   source=${object#*.dir/}
   [ ! -e "$source_tree/${source%.o}" ] || echo "$object"
 done)
 [ -n "$objects" ] || { echo "no object files below $build"; exit 1; }
 
-# One line an arrow: FILE NEEDED SYMBOL.
+# One line an arrow: FILE NEEDED SYMBOL. Two programs may have a function of one name: a target has its own, or its libraries'.
 # shellcheck disable=SC2086
-nm -A $objects | sed -E 's|^.*\.dir/src/([^:]*)\.o:|\1 |' |
-  awk '$NF !~ /^aur_/ { next }
-       $(NF - 1) == "U" { needs[++count] = $1 " " $NF; next }
-       $(NF - 1) ~ /^[A-Z]$/ { defines[$NF] = $1 }
+nm -A $objects | sed -E 's|^.*CMakeFiles/([^/]*)\.dir/([^:]*)\.o:|\1 \2 |' |
+  awk '$(NF - 1) == "U" { needs[++count] = $1 " " $2 " " $NF; next }
+       $(NF - 1) ~ /^[A-Z]$/ { within[$1, $NF] = $2
+                               if ($1 ~ /^aureole_/) shared[$NF] = $2 }
        END { for (i = 1; i <= count; ++i) {
                split(needs[i], part, " ")
-               target = defines[part[2]]
-               if (target != "" && target != part[1]) print part[1], target, part[2] } }' | sort -u >arrows.txt
-[ "$(wc -l <arrows.txt)" -gt 500 ] || { echo "only $(wc -l <arrows.txt) arrows: the symbols were not read"; exit 1; }
+               target = within[part[1], part[3]]
+               if (target == "") target = shared[part[3]]
+               if (target != "" && target != part[2]) print part[2], target, part[3] } }' | sort -u >arrows.txt
+[ "$(wc -l <arrows.txt)" -gt 2000 ] || { echo "only $(wc -l <arrows.txt) arrows: the symbols were not read"; exit 1; }
+for part in src/cli/ src/lab/ src/core/ src/scene/ lab/ bench/; do
+  grep -q "^$part" arrows.txt || { echo "no arrow from a file of $part: its symbols were not read"; exit 1; }
+done
 
 cut -d' ' -f1,2 arrows.txt | sort -u | tsort 2>loops.txt >/dev/null && exit 0
 # Each circle that tsort met, with the symbols that close it.
