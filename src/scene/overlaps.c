@@ -169,6 +169,9 @@ static bool overlap(double larger[3][3], double smaller[3][3], double extent, bo
 
 enum { LEAF = 4, BLOCK = 1024 };
 
+/* More pairs of one block, as thousands of copies in one place have, are left out. */
+enum { MOST_PAIRS = 1 << 18 };
+
 typedef struct node {
     float lower[3], upper[3];
     uint32_t first, count, skip; /* of `order`; the node after all below this one */
@@ -340,7 +343,7 @@ static bool boxes_meet(const float lower[3], const float upper[3], const float o
 }
 
 static bool try_pair(const item *a, const item *b, aur_overlaps *found, size_t *capacity) {
-    if (!boxes_meet(a->lower, a->upper, b->lower, b->upper))
+    if (found->count == MOST_PAIRS || !boxes_meet(a->lower, a->upper, b->lower, b->upper))
         return true;
     double corners[2][3][3];
     memcpy(corners[0], a->corners, sizeof corners[0]);

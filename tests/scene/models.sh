@@ -206,6 +206,10 @@ v 0 0 0
 v 1 0 0
 v 1 1 0
 v 0 1 0
+v 0 0 -.01
+v 1 0 -.01
+v 1 1 -.01
+v 0 1 -.01
 vt 0 0
 vt 1 0
 vt 1 1
@@ -213,7 +217,7 @@ vt 0 1
 usemtl paint
 f 1/1 2/2 3/3 4/4
 usemtl glow
-f 4/4 3/3 2/2 1/1
+f 8/4 7/3 6/2 5/1
 ''')
 open("cube.mtl", "w").write('newmtl paint\nKd 0.5 0.25 0.125\nNs 30\nKs 0.2 0.2 0.2\nmap_Kd color.png\nnewmtl glow\nKd 0 0 0\nKe 2 1 0.5\n')
 PYTHON

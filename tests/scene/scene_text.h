@@ -2,6 +2,7 @@
 #pragma once
 
 #include "check.h"
+#include "scene/scene_data.h"
 
 #include <stdio.h>
 #include <stdlib.h>
@@ -53,6 +54,19 @@ static inline aur_result load_body(const char *body, const aur_scene_options *op
     const aur_result result = aur_scene_load(write_text("scene.xml", text), options, scene, error);
     free(text);
     return result;
+}
+
+/* As must_load_body, with surfaces in one plane as they are. */
+static inline aur_scene *must_load_uncut(const char *body) {
+    char text[1 << 14];
+    const int length = snprintf(
+        text, sizeof text, "<scene version=\"3.0.0\">\n%s\n<sensor type=\"perspective\"/></scene>", body);
+    aur_scene *scene = NULL;
+    assert_in_range(length, 1, sizeof text - 1);
+    assert_int_equal(aur_scene_load_with_points(write_text("uncut.xml", text), (size_t)length, text,
+                                                AUR_OVERLAPS_STAY, NULL, &scene, NULL),
+                     AUR_OK);
+    return scene;
 }
 
 static inline aur_scene *must_load_body(const char *body) {

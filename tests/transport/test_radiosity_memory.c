@@ -17,7 +17,7 @@ static aur_radiosity_options scrambled(void) {
 /* No solution is made with less than it should tell. */
 static void making_fails_as_a_whole(void **state) {
     (void)state;
-    aur_scene *const scene = must_load_body(WITH_COINCIDENCE);
+    aur_scene *const scene = must_load_uncut(WITH_COINCIDENCE);
     const aur_radiosity_options options = scrambled();
     size_t nth = 0;
     aur_radiosity *radiosity = NULL;

@@ -194,7 +194,7 @@ static void coincident_surfaces_are_reported(void **state) {
     messages kept = {0};
     aur_radiosity_options options = options_of(AUR_RADIOSITY_COSINE, 2);
     options.warnings = (aur_warnings){keep_message, &kept};
-    aur_scene *const standing = must_load_body(BOX("-0.6"));
+    aur_scene *const standing = must_load_uncut(BOX("-0.6"));
     aur_radiosity *const lossy = must_create(standing, &options);
     assert_in_range(describe(lossy).coincident, 2, 4);
     assert_int_equal(kept.count, 1);
@@ -229,7 +229,7 @@ static void every_coincidence_is_found(void **state) {
                        0.001 * (double)which, 0.1, aur_unit_double(aur_hash2(which, 2)) + 0.01);
     }
     fclose(file);
-    aur_scene *const scene = must_load_body(LIGHT_FROM("twice.obj"));
+    aur_scene *const scene = must_load_uncut(LIGHT_FROM("twice.obj"));
     aur_radiosity *const radiosity = must_create(scene, NULL);
     assert_int_equal(describe(radiosity).coincident, COUNT);
     aur_radiosity_destroy(radiosity);
@@ -253,8 +253,8 @@ static void coincidences_take_few_comparisons(void **state) {
     for (size_t i = 0; i < 3000; ++i)
         write_triangle(file, 0.0, 0.0, 0.0, 1.0, 1.0);
     fclose(file);
-    aur_scene *const strips = must_load_body(LIGHT_FROM("strips.obj"));
-    aur_scene *const copies = must_load_body(LIGHT_FROM("copies.obj"));
+    aur_scene *const strips = must_load_uncut(LIGHT_FROM("strips.obj"));
+    aur_scene *const copies = must_load_uncut(LIGHT_FROM("copies.obj"));
     aur_radiosity *const apart = must_create(strips, NULL), *const together = must_create(copies, NULL);
     aur_radiosity_coincidence found;
     assert_int_equal(aur_radiosity_find_coincidences(&apart->scene, &found, NULL), AUR_OK);
