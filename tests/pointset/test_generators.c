@@ -4,6 +4,7 @@
 #include "core/random.h"
 #include "pointset/fraction128.h"
 #include "pointset/generators/golden.h"
+#include "pointset/generators/niederreiter_table.h"
 #include "pointset/set.h"
 
 static void lcg_is_minstd(void **state) {
@@ -192,6 +193,27 @@ static void niederreiter_has_its_quality_parameter(void **state) {
         }
         free(points);
     }
+}
+
+/* A sieve of all polynomials over GF(2) of degree 13 or less. */
+static void niederreiter_has_the_irreducible_polynomials(void **state) {
+    (void)state;
+    enum { END = 1 << 14 };
+    static bool composite[END];
+    size_t found = 0;
+    for (uint32_t a = 2; a < END && found < AUR_NIEDERREITER_DIMENSIONS; ++a) {
+        if (composite[a])
+            continue;
+        assert_int_equal(aur_irreducible_polynomials[found++], a);
+        const unsigned degree = 31u - (unsigned)__builtin_clz(a);
+        for (uint32_t b = a; b < (uint32_t)END >> degree; ++b) {
+            uint64_t product = 0;
+            for (unsigned k = 0; b >> k != 0; ++k)
+                product ^= (b >> k & 1) != 0 ? (uint64_t)a << k : 0;
+            composite[product] = true;
+        }
+    }
+    assert_int_equal(found, AUR_NIEDERREITER_DIMENSIONS);
 }
 
 static void niederreiter_begins_as_sobol(void **state) {
@@ -466,6 +488,7 @@ int main(void) {
         cmocka_unit_test(faure_begins_as_published),
         cmocka_unit_test(niederreiter_has_its_quality_parameter),
         cmocka_unit_test(niederreiter_begins_as_sobol),
+        cmocka_unit_test(niederreiter_has_the_irreducible_polynomials),
         cmocka_unit_test(matrices_are_read),
         cmocka_unit_test(lattices_are_exact),
         cmocka_unit_test(the_golden_constant_is_the_root),

@@ -4,25 +4,10 @@
  * Random access, n up to 2^53, up to 1024 dimensions. n that is not a power of two leaves a net incomplete: a
  * warning. Error O(log^d N / N). */
 #include "pointset/digits/digital.h"
-
-enum { DIMENSIONS = 1024 };
+#include "pointset/generators/niederreiter_table.h"
 
 static unsigned degree_of(uint64_t polynomial) {
     return 63u - (unsigned)__builtin_clzll(polynomial);
-}
-
-static bool divides(uint32_t divisor, uint32_t polynomial) {
-    const unsigned degree = degree_of(divisor);
-    while (polynomial != 0 && degree_of(polynomial) >= degree)
-        polynomial ^= divisor << (degree_of(polynomial) - degree);
-    return polynomial == 0;
-}
-
-static bool is_irreducible(uint32_t polynomial) {
-    for (uint32_t divisor = 2; 2 * degree_of(divisor) <= degree_of(polynomial); ++divisor)
-        if (divides(divisor, polynomial))
-            return false;
-    return true;
 }
 
 /* The first 64 coefficients of 1 / (x^-e p(x)) times the given series, in powers of 1/x, highest first: one
@@ -39,16 +24,8 @@ static uint64_t divide_series(uint64_t series, uint32_t polynomial, unsigned deg
     return quotient;
 }
 
-/* The irreducible polynomial of a dimension, in ascending order: x, x + 1, x^2 + x + 1, ... */
-static uint32_t polynomial_of(size_t dimension) {
-    uint32_t polynomial = 2;
-    for (size_t d = 0; !is_irreducible(polynomial) || d++ < dimension; ++polynomial)
-        continue;
-    return polynomial;
-}
-
 static void make_matrix(size_t dimension, uint64_t columns[AUR_DIGITAL_COLUMNS]) {
-    const uint32_t polynomial = polynomial_of(dimension);
+    const uint32_t polynomial = aur_irreducible_polynomials[dimension];
     const unsigned degree = degree_of(polynomial);
     for (unsigned c = 0; c < AUR_DIGITAL_COLUMNS; ++c)
         columns[c] = 0;
@@ -83,7 +60,7 @@ const aur_square_set aur_set_niederreiter = {
                             .summary = "(t,s)-sequence in base 2 from irreducible polynomials",
                             .source = "Niederreiter 1988; Bratley, Fox, Niederreiter 1992"},
                     .domains = AUR_ON_SQUARE | AUR_ON_CUBE,
-                    .dimensions = {1, DIMENSIONS},
+                    .dimensions = {1, AUR_NIEDERREITER_DIMENSIONS},
                     .maximum_size = UINT64_C(1) << 53,
                     .best_sizes = AUR_SIZES_POWERS,
                     .size_base = 2,
