@@ -25,7 +25,12 @@ typedef struct aur_weather_hour {
     double dew_point; /* degrees Celsius, NaN where it is not known */
 } aur_weather_hour;
 
-/* A year of weather at a place. */
+/* How often something was read in a file, and the line of the first. */
+typedef struct aur_weather_note {
+    size_t count, line;
+} aur_weather_note;
+
+/* A year of weather at a place, or whole days of one that follow each other. */
 typedef struct aur_weather_view {
     size_t size;                /* of the caller's struct, so that it can grow */
     const char *file;           /* for messages; NULL: none */
@@ -33,16 +38,22 @@ typedef struct aur_weather_view {
     double timezone;            /* hours that its clock is ahead of UTC, -14 to 14 */
     double elevation;           /* metres */
     int first_weekday;          /* of the first hour: 0 is Sunday; -1: not known */
-    size_t count;               /* 8760 or 8784 */
+    size_t count;               /* hours: 8760 or 8784 of a year; 24 at least */
     const aur_weather_hour *hours;
+    /* What estimates warn of: irradiances below 0, taken for 0; empty fields, not known; hours that the file
+     * counts from 0 to 23; and how many records an hour of the file has, whose mean it is (0: 1). */
+    aur_weather_note negative, empty;
+    bool from_zero;
+    int records;
 } aur_weather_view;
 
 typedef struct aur_weather aur_weather;
 
-/* Reads an EPW file (EnergyPlus weather) with one record an hour from 1 January on. Errors: OPEN, MEMORY, and
- * FORMAT with the line: another kind of file, a place that is none on earth, a record with too few fields or
- * with something that is no number, values below 0 or above 2000 W/m^2, hours that do not follow each other,
- * too few or too many of them. */
+/* Reads an EPW file (EnergyPlus weather): records that follow each other, as many an hour as its header says,
+ * from any day on, for whole days up to a year. Fields may be quoted (RFC 4180) or empty; 9999 stands for
+ * irradiances that are not known; those from -20 to 0 are 0. Errors: OPEN, MEMORY, and FORMAT with the line:
+ * another kind of file, a place that is none on earth, a record with too few fields or with something that is
+ * no number, values below -20 or above 2000 W/m^2, hours that do not follow each other, more than a year. */
 AUR_EXPERIMENTAL aur_result aur_weather_read(const char *path, aur_weather **weather, aur_error *error)
     AUR_NONNULL(1, 2);
 AUR_EXPERIMENTAL void aur_weather_destroy(aur_weather *weather); /* NULL is allowed */

@@ -127,25 +127,25 @@ direct='^(([^,]*,){14})[^,]*'
 edited() { sed -E "$2$3" mixed.epw >"$1"; }
 edited begin.epw 1 's/LOCATION/PLACE/'
 edited latitude.epw 1 's/48.0000/98/'
-edited periods.epw 8 's/1,1,Data/1,4,Data/'
-edited negative.epw 21 "s/$direct/\1-5/"
+edited periods.epw 8 's/1,1,Data/1,7,Data/'
+edited negative.epw 21 "s/$direct/\1-50/"
 edited sunny.epw 21 "s/$direct/\13000/"
 edited words.epw 21 "s/$direct/\1none/"
 edited short.epw 21 's/,999999.*//;21s/,[0-9]*$//'
 edited lost.epw 30 d
-head -5000 mixed.epw >half.epw
 : >empty.epw
 printf 'LOCATION,a\0b' >zero.epw
 yard="plane.xml --sensors up.pts -n 64 --weather"
 refused "begin.epw:1: an EPW file begins with LOCATION,CITY" $yard begin.epw
 refused "latitude.epw:1: the latitude (field 7) must be a number from -90 to 90, not '98'" $yard latitude.epw
-refused "periods.epw:8: the number of records an hour (field 3) must be a number from 1 to 1, not '4'" $yard periods.epw
-refused "negative.epw:21: the direct normal irradiance (field 15) must be a number from 0" $yard negative.epw
-refused "sunny.epw:21: the direct normal irradiance (field 15) is 3000 W/m^2" $yard sunny.epw
+refused "periods.epw:8: the number of records an hour (field 3) must divide 60, not 7" $yard periods.epw
+refused "negative.epw:21: the direct normal irradiance (field 15) must be from 0 to 2000 W/m^2" $yard negative.epw
+refused "sunny.epw:21: the direct normal irradiance (field 15) must be from 0 to 2000 W/m^2, the most that there is sun, or 9999" $yard sunny.epw
 refused "words.epw:21: the direct normal irradiance (field 15) must be a number" $yard words.epw
 refused "short.epw:21: the line ends before the diffuse horizontal irradiance, its field 16" $yard short.epw
-refused "lost.epw:30: hours follow each other from 1 January" $yard lost.epw
-refused "half.epw:5000: a year has 8760 hours, or 8784; the file ends after 4992" $yard half.epw
+refused "lost.epw:30: hours must follow each other: 1-1, hour 23 does not follow 1-1, hour 21" $yard lost.epw
+head -5005 mixed.epw >half.epw
+refused "half.epw:5005: a file must have whole days of 24 hours; this one ends after 4997 hours" $yard half.epw
 refused "empty.epw: an EPW file begins with" $yard empty.epw
 refused "zero.epw:1: a zero byte" $yard zero.epw
 refused "no.epw" $yard no.epw
@@ -154,6 +154,84 @@ refused "does not tell on which day of the week" $yard day.epw --weekdays
 edited unknown.epw 21 "s/$direct,[^,]*/\19999,9999/"
 "$aureole" irradiance $yard unknown.epw --up 0,0,1 -o unknown.csv 2>&1 |
   grep -qF 'unknown.epw:21: 1 hours of daylight are not known' || fail "an hour that is not known"
+
+# The same weather written otherwise is the same year, and how it was written is said.
+bash "$weather" 48 11 1 >whole.epw
+head -8 whole.epw >head.epw
+tail -8760 whole.epw >hours.epw
+year() { # year FILE: what is said goes to `said`
+  "$aureole" irradiance $yard "$1" --up 0,0,1 --north 0,1,0 -o "${1%.epw}.csv" 2>said || fail "$1: $(cat said)"
+}
+same() { # same FILE WORDS
+  year "$1"
+  cmp -s "${1%.epw}.csv" whole.csv || fail "$1 is another year than whole.epw"
+  if [ -n "${2:-}" ]; then grep -qF -- "$2" said || fail "$1: '$2' is not in: $(cat said)"; else ! grep warning said || fail "$1"; fi
+}
+year whole.epw
+! grep warning said || fail "whole.epw: $(cat said)"
+sed '1s/Nowhere/"Nowhere, ""Upper"""/' whole.epw >quoted.epw
+same quoted.epw
+sed 's/,/ , /g; 1s/ , /,/' whole.epw >blanks.epw
+same blanks.epw
+sed 's/$/\r/' whole.epw >lines.epw
+same lines.epw
+awk -F, -v OFS=, 'NR > 8 && $14 + $15 + $16 == 0 { $14 = -1; $15 = "-0.5"; $16 = -1 } { print }' whole.epw >nights.epw
+same nights.epw "irradiances are below 0, and taken for 0"
+grep -q "nights.epw:9: [0-9]* irradiances" said || fail "the first night: $(cat said)"
+awk -F, -v OFS=, 'NR > 8 { $4 -= 1 } { print }' whole.epw >zero.epw
+same zero.epw "hours are counted from 0 to 23"
+# Quarters of hours whose mean is the hour, by minutes of the hour or of the day.
+sed 's/^DATA PERIODS,1,1/DATA PERIODS,1,4/' head.epw >quarters.epw
+awk -F, -v OFS=, '{ s = $15; d = $16; g = $14; for (k = 1; k <= 4; ++k) { f = k % 2 ? 1.5 : .5; $5 = 15 * k; $14 = g * f; $15 = s * f; $16 = d * f; print } }' \
+  hours.epw >>quarters.epw
+same quarters.epw "4 records an hour are taken for their mean"
+sed '8s/,1,4,/,1,1,/' quarters.epw >unsaid.epw
+refused "unsaid.epw:10: hours must follow each other, with as many records as the line DATA PERIODS gives" $yard unsaid.epw
+sed 40d quarters.epw >gap.epw
+refused "gap.epw:40: 1-1, hour 8 has 3 records" $yard gap.epw
+# A year from July on has the same hours; half a year is half of it.
+{ cat head.epw; tail -4416 hours.epw; head -4344 hours.epw; } >july.epw
+year july.epw
+! grep warning said || fail "july.epw: $(cat said)"
+for column in annual_lux_hours autonomy sun_hours; do
+  near "july's $column" "$(cell $column 2 july.csv)" "$(cell $column 2 whole.csv)" "$(awk "BEGIN { print 1e-6 * $(cell $column 2 whole.csv) }")"
+done
+{ cat head.epw; tail -4416 hours.epw; } >late.epw
+{ cat head.epw; head -4344 hours.epw; } >early.epw
+for half in late early; do
+  year $half.epw
+  grep -q "of a year's 8760 hours" said || fail "$half: $(cat said)"
+done
+near "both halves" "$(awk "BEGIN { printf \"%.9g\", $(cell annual_lux_hours 2 late.csv) + $(cell annual_lux_hours 2 early.csv) }")" \
+  "$(cell annual_lux_hours 2 whole.csv)" "$(awk "BEGIN { print 1e-6 * $(cell annual_lux_hours 2 whole.csv) }")"
+{ cat whole.epw; head -48 hours.epw; } >long.epw
+refused "more than a year" $yard long.epw
+# An empty field is not known, and of three irradiances two tell the third.
+awk -F, -v OFS=, 'NR > 8 { $14 = "" } { print }' whole.epw >empty-fields.epw
+same empty-fields.epw "8760 fields are empty, and taken for not known"
+
+# What a file says twice and not the same is warned of, with the first line; each edit leaves a valid file.
+warned() { # warned FILE WORDS
+  year "$1"
+  grep -qF -- "$2" said || fail "$1: '$2' is not in: $(cat said)"
+}
+year whole.epw
+! grep warning said || fail "whole.epw: $(cat said)"
+balance="global irradiance is not direct irradiance times the sine of the sun's height plus diffuse"
+sed '1s/,1.0,100/,-7.0,100/' whole.epw >zone.epw
+warned zone.epw "zone.epw:1: the time zone -7 is 7.7 hours from that of the longitude 11"
+warned zone.epw "there is light with the sun below the horizon"
+sed '1s/,48.0000,/,-48.0000,/' whole.epw >south.epw
+warned south.epw "$balance"
+sed '1s/,11.0000,/,-11.0000,/' whole.epw >west.epw
+warned west.epw "$balance"
+sed '1s/,1.0,100/,2.0,100/' whole.epw >summer.epw
+warned summer.epw "$balance"
+awk -F, -v OFS=, 'NR > 8 { $15 = $14 } { print }' whole.epw >swapped.epw # global in the place of direct
+warned swapped.epw "$balance"
+{ head -8 whole.epw; awk -F, -v OFS=, '{ line[NR] = $0 } END { for (i = 1; i <= NR; ++i) { split(line[(i + 11) % NR + 1], v, ","); split(line[i], w, ",")
+  $0 = line[i]; $14 = v[14]; $15 = v[15]; $16 = v[16]; print } }' <(tail -8760 whole.epw); } >noon.epw # 12 hours off
+warned noon.epw "it is dark with the sun high"
 
 # Bad options.
 refused "--threshold is for a year of weather: --weather FILE" plane.xml --sensors up.pts --threshold 500

@@ -298,6 +298,7 @@ aur_result aur_daylight_estimate(const aur_scene *scene, const aur_sensors_view 
               .results = results};
     result = prepare(&w, scene, error);
     if (result == AUR_OK) {
+        aur_weather_warn(&weather, &options.warnings);
         const aur_parallel_options parallel = {.threads = options.threads,
                                                .what = "sensors",
                                                .progress = options.progress,

@@ -34,15 +34,19 @@ static aur_location place_of(const aur_weather_view *weather, size_t hour) {
 
 /* --- the sun */
 
-/* In the middle of that part of the hour in which it is up. Years that the algorithm does not know, and those
- * of days that they do not have, are like 2001 or 2004. */
+/* Years that the algorithm does not know, and those of days that they do not have, are like 2001 or 2004. */
+bool aur_weather_days(const aur_weather_hour *hour, double *days) {
+    const unsigned month = (unsigned)hour->month, day = (unsigned)hour->day;
+    return aur_days_since_2000(hour->year, month, day, days) ||
+           aur_days_since_2000(month == 2 && day == 29 ? 2004 : 2001, month, day, days);
+}
+
+/* In the middle of that part of the hour in which it is up. */
 static bool place_sun(const aur_weather_view *weather, const aur_weather_hour *hour, hour_sky *sky,
                       double sun[3]) {
     enum { PIECES = 12 };
     double days = 0.0, sum = 0.0;
-    const unsigned month = (unsigned)hour->month, day = (unsigned)hour->day;
-    if (!aur_days_since_2000(hour->year, month, day, &days) &&
-        !aur_days_since_2000(month == 2 && day == 29 ? 2004 : 2001, month, day, &days))
+    if (!aur_weather_days(hour, &days))
         return false;
     size_t up = 0;
     for (size_t i = 0; i < PIECES; ++i) {
@@ -165,8 +169,9 @@ static aur_result fill_block(void *context, size_t index) {
 
 static aur_result check(const aur_weather_view *weather, const aur_daylight_options *options,
                         aur_error *error) {
-    if (weather->count != 8760 && weather->count != 8784)
-        return aur_fail(error, AUR_ERROR_ARGUMENT, "a year has 8760 hours, or 8784, not %zu", weather->count);
+    if (weather->count == 0 || weather->count > 8784 || weather->count % 24 != 0)
+        return aur_fail(error, AUR_ERROR_ARGUMENT,
+                        "weather has whole days of 24 hours, 8784 at most, not %zu hours", weather->count);
     if (!(fabs(weather->latitude) <= 90.0 && fabs(weather->longitude) <= 180.0 &&
           fabs(weather->timezone) <= 14.0))
         return aur_fail(

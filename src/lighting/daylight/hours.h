@@ -25,6 +25,14 @@ typedef struct aur_lit_hours {
     size_t other_skies, first_other;
 } aur_lit_hours;
 
+/* Days from noon of 1 January 2000 to that of an hour's date; false for a day that there is not. */
+bool aur_weather_days(const aur_weather_hour *hour, double *days);
+
+/* Warns of what the weather says twice, and not the same: its zone and longitude, its irradiances of the
+ * ground, the sun and the sky, and its hours and the sun's; and of what was read in another than the plain
+ * form. */
+void aur_weather_warn(const aur_weather_view *weather, const aur_warnings *warnings);
+
 /* The options have their defaults filled in. Errors: ARGUMENT (places, counts and dates that cannot be),
  * FORMAT (no hour that counts is known), UNSUPPORTED (days of the week that are not known), MEMORY. */
 aur_result aur_lit_hours_create(const aur_weather_view *weather, const aur_daylight_options *options,

@@ -9,7 +9,7 @@
 #include "core/text.h"
 #include "scene/lights/sun_position.h"
 
-enum { LONGEST_YEAR = 8784, HEADER_LINES = 64, SHOWN = 40 };
+enum { LONGEST_YEAR = 8784, DAY = 24, HEADER_LINES = 64, SHOWN = 40, FIELDS = 48 };
 
 struct aur_weather {
     aur_weather_view view;
@@ -17,23 +17,49 @@ struct aur_weather {
     aur_weather_hour hours[LONGEST_YEAR];
 };
 
-/* Where a file is being read: the line, which ends with a zero byte. */
+/* Where a file is being read: the fields of a line, each with its zero byte. */
 typedef struct reader {
     const char *path;
-    char *line, *next; /* the next line, or NULL */
-    size_t number;
+    char *next; /* the next line, or NULL */
+    size_t number, field_count;
+    char *fields[FIELDS]; /* those beyond are of no use */
+    aur_weather_view *view;
     aur_error *error;
 } reader;
+
+/* Takes the field that begins at `at` out of its quotes and blanks (RFC 4180), and returns what is behind its
+ * comma, or NULL. */
+static char *cut_field(char *at, char **field) {
+    while (*at == ' ' || *at == '\t')
+        ++at;
+    const bool quoted = *at == '"';
+    char *to = *field = at += quoted;
+    while (*at != '\0' && (quoted ? *at != '"' || at[1] == '"' : *at != ',')) {
+        at += quoted && *at == '"';
+        *to++ = *at++;
+    }
+    at += strcspn(at, ",");
+    char *const next = *at == ',' ? at + 1 : NULL;
+    while (to > *field && strchr(" \t\r", to[-1]) != NULL)
+        --to;
+    *to = '\0';
+    return next;
+}
 
 static bool next_line(reader *r) {
     if (r->next == NULL || *r->next == '\0')
         return false;
-    r->line = r->next;
-    char *const end = strchr(r->line, '\n');
+    char *at = r->next;
+    char *const end = strchr(at, '\n');
     r->next = end != NULL ? end + 1 : NULL;
     if (end != NULL)
         *end = '\0';
     ++r->number;
+    static const char mark[] = "\xEF\xBB\xBF"; /* which some editors put before UTF-8 */
+    if (r->number == 1 && strncmp(at, mark, 3) == 0)
+        at += 3;
+    for (r->field_count = 0; at != NULL && r->field_count < FIELDS; ++r->field_count)
+        at = cut_field(at, &r->fields[r->field_count]);
     return true;
 }
 
@@ -41,16 +67,9 @@ static aur_location place_of(const reader *r) {
     return (aur_location){.file = r->path, .line = r->number};
 }
 
-/* Field `index` of the line, from 0 on, with blanks before it skipped; NULL beyond the last. */
+/* Field `index`, from 0 on; NULL beyond the last. */
 static const char *field(const reader *r, size_t index) {
-    const char *at = r->line;
-    for (; index > 0; --index) {
-        at = strchr(at, ',');
-        if (at == NULL)
-            return NULL;
-        ++at;
-    }
-    return aur_skip_spaces(at);
+    return index < r->field_count ? r->fields[index] : NULL;
 }
 
 static aur_result read_number(const reader *r, size_t index, const char *what, double least, double most,
@@ -59,12 +78,11 @@ static aur_result read_number(const reader *r, size_t index, const char *what, d
     if (text == NULL)
         return aur_fail_at(r->error, place_of(r), AUR_ERROR_FORMAT, "the line ends before %s, its field %zu",
                            what, index + 1);
-    const char *end = aur_read_double(*text == '+' ? text + 1 : text, AUR_NUMBER_FINITE, value);
-    end = end != NULL ? aur_skip_spaces(end) : NULL;
-    if (end == NULL || (*end != ',' && *end != '\0') || !(*value >= least && *value <= most))
+    const char *const end = aur_read_double(*text == '+' ? text + 1 : text, AUR_NUMBER_FINITE, value);
+    if (end == NULL || *end != '\0' || !(*value >= least && *value <= most))
         return aur_fail_at(r->error, place_of(r), AUR_ERROR_FORMAT,
                            "%s (field %zu) must be a number from %g to %g, not '%.*s'", what, index + 1,
-                           least, most, (int)fmin((double)strcspn(text, ",\r"), SHOWN), text);
+                           least, most, SHOWN, text);
     return AUR_OK;
 }
 
@@ -82,18 +100,14 @@ static aur_result read_whole(const reader *r, size_t index, const char *what, do
 }
 
 static bool begins(const reader *r, const char *word) {
-    const size_t length = strlen(word);
-    return strncmp(r->line, word, length) == 0 && r->line[length] == ',';
+    return r->field_count > 1 && strcmp(r->fields[0], word) == 0;
 }
 
 static aur_result read_location(reader *r, aur_weather_view *view) {
-    static const char mark[] = "\xEF\xBB\xBF"; /* which some editors put before UTF-8 */
-    if (next_line(r) && strncmp(r->line, mark, 3) == 0)
-        r->line += 3;
-    if (r->number == 0 || !begins(r, "LOCATION"))
+    if (!next_line(r) || !begins(r, "LOCATION"))
         return aur_fail_at(r->error, place_of(r), AUR_ERROR_FORMAT,
                            "an EPW file begins with LOCATION,CITY,... and not with '%.*s'", SHOWN,
-                           r->number > 0 ? r->line : "");
+                           r->number > 0 ? r->fields[0] : "");
     aur_result result = read_number(r, 6, "the latitude", -90.0, 90.0, &view->latitude);
     if (result == AUR_OK)
         result = read_number(r, 7, "the longitude", -180.0, 180.0, &view->longitude);
@@ -119,10 +133,14 @@ static aur_result read_periods(reader *r, aur_weather_view *view) {
     while (r->number < HEADER_LINES && next_line(r)) {
         if (!begins(r, "DATA PERIODS"))
             continue;
-        int periods = 0, records = 0;
+        int periods = 0;
         aur_result result = read_whole(r, 1, "the number of data periods", 1.0, 1.0, &periods);
         if (result == AUR_OK)
-            result = read_whole(r, 2, "the number of records an hour", 1.0, 1.0, &records);
+            result = read_whole(r, 2, "the number of records an hour", 1.0, 60.0, &view->records);
+        if (result == AUR_OK && 60 % view->records != 0)
+            result =
+                aur_fail_at(r->error, place_of(r), AUR_ERROR_FORMAT,
+                            "the number of records an hour (field 3) must divide 60, not %d", view->records);
         view->first_weekday = weekday_of(field(r, 4));
         return result;
     }
@@ -130,15 +148,37 @@ static aur_result read_periods(reader *r, aur_weather_view *view) {
                        "the header of an EPW file ends with a line DATA PERIODS,1,1,...: there is none");
 }
 
-/* One of the irradiances: 9999 stands for what was not measured. */
+static void note(const reader *r, aur_weather_note *what) {
+    if (what->count++ == 0)
+        what->line = r->number;
+}
+
+/* A number that may not be known: NaN where the field is empty. */
+static aur_result read_optional(const reader *r, size_t index, const char *what, double least, double most,
+                                double *value) {
+    const char *const text = field(r, index);
+    if (text == NULL || *text != '\0')
+        return read_number(r, index, what, least, most, value);
+    note(r, &r->view->empty);
+    *value = NAN;
+    return AUR_OK;
+}
+
+/* One of the irradiances: 9999 stands for what was not measured, and an instrument's night may be below 0. */
 static aur_result read_irradiance(const reader *r, size_t index, const char *what, double *value) {
-    const aur_result result = read_number(r, index, what, 0.0, 1e6, value);
-    if (result != AUR_OK || *value <= 2000.0)
+    static const double NIGHT = -20.0;
+    const aur_result result = read_optional(r, index, what, -1e6, 1e6, value);
+    if (result != AUR_OK || (*value >= 0.0 && *value <= 2000.0) || isnan(*value))
         return result;
+    if (*value < 0.0 && *value >= NIGHT) {
+        note(r, &r->view->negative);
+        *value = 0.0;
+        return AUR_OK;
+    }
     if (*value < 9999.0)
         return aur_fail_at(r->error, place_of(r), AUR_ERROR_FORMAT,
-                           "%s (field %zu) is %g W/m^2, more than there is sun: 2000 is the most, and 9999 "
-                           "stands for what is not known",
+                           "%s (field %zu) must be from 0 to 2000 W/m^2, the most that there is sun, or 9999 "
+                           "where it is not known, not %g",
                            what, index + 1, *value);
     *value = NAN;
     return AUR_OK;
@@ -152,9 +192,9 @@ static aur_result read_record(const reader *r, aur_weather_hour *hour) {
     if (result == AUR_OK)
         result = read_whole(r, 2, "the day", 1.0, 31.0, &hour->day);
     if (result == AUR_OK)
-        result = read_whole(r, 3, "the hour", 1.0, 24.0, &hour->hour);
+        result = read_whole(r, 3, "the hour", 0.0, 24.0, &hour->hour);
     if (result == AUR_OK)
-        result = read_number(r, 7, "the dew point", -1e3, 1e3, &hour->dew_point);
+        result = read_optional(r, 7, "the dew point", -1e3, 1e3, &hour->dew_point);
     if (result == AUR_OK)
         result = read_irradiance(r, 13, "the global horizontal irradiance", &hour->global_horizontal);
     if (result == AUR_OK)
@@ -166,50 +206,95 @@ static aur_result read_record(const reader *r, aur_weather_hour *hour) {
     return result;
 }
 
-/* Whether `hour` is the first of the year, or the one after `before`. */
+/* Whether `hour` is the first of a day, or the one after `before`; the year may begin with any day. */
 static bool follows(const aur_weather_hour *before, const aur_weather_hour *hour) {
     if (before == NULL)
-        return hour->month == 1 && hour->day == 1 && hour->hour == 1;
-    if (before->hour < 24)
+        return hour->hour == 1 && hour->day <= (int)aur_days_of_month(2004, (unsigned)hour->month);
+    if (before->hour < DAY)
         return hour->month == before->month && hour->day == before->day && hour->hour == before->hour + 1;
     const int last = (int)aur_days_of_month(2001, (unsigned)before->month);
     if (hour->hour != 1)
         return false;
     if (before->month == 2 && before->day == 28 && hour->month == 2)
         return hour->day == 29;
-    return before->day >= last ? hour->month == before->month + 1 && hour->day == 1
+    return before->day >= last ? hour->month == before->month % 12 + 1 && hour->day == 1
                                : hour->month == before->month && hour->day == before->day + 1;
+}
+
+static aur_result refuse_hour(const reader *r, const aur_weather_hour *before, const aur_weather_hour *hour) {
+    if (before == NULL)
+        return aur_fail_at(r->error, place_of(r), AUR_ERROR_FORMAT,
+                           "the first record must be hour 1 (or 0) of a day, not hour %d of %d-%d",
+                           hour->hour, hour->month, hour->day);
+    const bool again = hour->month == before->month && hour->day == before->day && hour->hour == before->hour;
+    return aur_fail_at(r->error, place_of(r), AUR_ERROR_FORMAT,
+                       "hours must follow each other%s: %d-%d, hour %d does not follow %d-%d, hour %d",
+                       again ? ", with as many records as the line DATA PERIODS gives (field 3)" : "",
+                       hour->month, hour->day, hour->hour, before->month, before->day, before->hour);
+}
+
+/* The next hour: the mean of its records. *ended: there is none. */
+static aur_result read_hour(reader *r, aur_weather_hour *hour, bool *ended) {
+    int records = 0;
+    while (records < r->view->records && next_line(r)) {
+        if (r->field_count == 1 && r->fields[0][0] == '\0')
+            continue;
+        aur_weather_hour record;
+        const aur_result result = read_record(r, &record);
+        if (result != AUR_OK)
+            return result;
+        if (records++ == 0) {
+            *hour = record;
+            continue;
+        }
+        if (record.month != hour->month || record.day != hour->day || record.hour != hour->hour)
+            return aur_fail_at(r->error, place_of(r), AUR_ERROR_FORMAT,
+                               "%d-%d, hour %d has %d records, and the line DATA PERIODS gives %d (field 3)",
+                               hour->month, hour->day, hour->hour, records - 1, r->view->records);
+        const double part = 1.0 / (double)records;
+        hour->direct_normal += part * (record.direct_normal - hour->direct_normal);
+        hour->diffuse_horizontal += part * (record.diffuse_horizontal - hour->diffuse_horizontal);
+        hour->global_horizontal += part * (record.global_horizontal - hour->global_horizontal);
+        hour->dew_point += part * (record.dew_point - hour->dew_point);
+    }
+    *ended = records == 0;
+    return records == 0 || records == r->view->records
+               ? AUR_OK
+               : aur_fail_at(r->error, place_of(r), AUR_ERROR_FORMAT,
+                             "the file ends after %d records of an hour, and the line DATA PERIODS gives %d",
+                             records, r->view->records);
 }
 
 static aur_result read_hours(reader *r, aur_weather *weather) {
     size_t count = 0;
-    while (next_line(r)) {
-        if (*aur_skip_spaces(r->line) == '\0')
-            continue;
+    for (;;) {
         aur_weather_hour hour;
-        const aur_result result = read_record(r, &hour);
+        bool ended = false;
+        const aur_result result = read_hour(r, &hour, &ended);
         if (result != AUR_OK)
             return result;
+        if (ended)
+            break;
+        weather->view.from_zero |= count == 0 && hour.hour == 0;
+        hour.hour += weather->view.from_zero;
         const aur_weather_hour *const before = count > 0 ? &weather->hours[count - 1] : NULL;
-        if (count == LONGEST_YEAR || !follows(before, &hour))
-            return aur_fail_at(
-                r->error, place_of(r), AUR_ERROR_FORMAT,
-                "hours follow each other from 1 January, hour 1, to 31 December, hour 24: day %d-%d, hour "
-                "%d does not follow %d-%d, hour %d",
-                hour.month, hour.day, hour.hour, before != NULL ? before->month : 12,
-                before != NULL ? before->day : 31, before != NULL ? before->hour : 24);
+        if (count == LONGEST_YEAR)
+            return aur_fail_at(r->error, place_of(r), AUR_ERROR_FORMAT,
+                               "more than a year: 8784 hours at most");
+        if (!follows(before, &hour))
+            return refuse_hour(r, before, &hour);
         weather->hours[count++] = hour;
     }
-    if (count != LONGEST_YEAR && count != LONGEST_YEAR - 24)
+    if (count == 0 || count % DAY != 0)
         return aur_fail_at(r->error, place_of(r), AUR_ERROR_FORMAT,
-                           "a year has 8760 hours, or 8784; the file ends after %zu", count);
+                           "a file must have whole days of 24 hours; this one ends after %zu hours", count);
     weather->view.count = count;
     return AUR_OK;
 }
 
 static aur_result read_year(const char *path, char *data, size_t size, aur_weather *weather,
                             aur_error *error) {
-    reader r = {.path = path, .next = data, .error = error};
+    reader r = {.path = path, .next = data, .view = &weather->view, .error = error};
     const char *const zero = memchr(data, '\0', size);
     if (zero != NULL) {
         for (const char *at = data; at < zero; ++at)
