@@ -1,10 +1,12 @@
 /* Weights that make a quadrature of any points exact to a degree.
  *
- * On the sphere, the hemisphere or a cap about +z a rule is exact to degree L when it integrates every
- * polynomial in x, y, z of degree L or less without error: on the sphere all spherical harmonics to degree L,
- * (L+1)^2 of them. Of all such weights these are the nearest to equal ones, or to given ones. Everywhere the
- * density that is integrated against is normalised to integral 1, so that equal weights are 1/N and the
- * weights sum to 1: multiply by the area (4 pi, 2 pi, ...) for integrals over solid angle. */
+ * Of axes only polynomials of even degree have a meaning: their rule is the sphere's of both ends, each with
+ * half the weight. On the sphere, the hemisphere or a cap about +z a rule is exact to degree L when it
+ * integrates every polynomial in x, y, z of degree L or less without error: on the sphere all spherical
+ * harmonics to degree L, (L+1)^2 of them. Of all such weights these are the nearest to equal ones, or to
+ * given ones. Everywhere the density that is integrated against is normalised to integral 1, so that equal
+ * weights are 1/N and the weights sum to 1: multiply by the area (4 pi, 2 pi, ...) for integrals over solid
+ * angle. */
 #ifndef AUREOLE_EXACT_H
 #define AUREOLE_EXACT_H
 
@@ -27,7 +29,7 @@ extern "C" {
 
 typedef struct aur_exact_options {
     size_t size;        /* of the caller's struct, so that it can grow */
-    aur_domain domain;  /* SPHERE or HEMISPHERE */
+    aur_domain domain;  /* SPHERE, HEMISPHERE or AXES */
     double cap_degrees; /* 0: all of the domain; else the cap of that polar angle about +z */
     /* The density: uniform unless the domain is the whole HEMISPHERE. With GGX points below the surface (z <
      * 0) have weight 0. */

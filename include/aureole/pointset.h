@@ -269,6 +269,7 @@ typedef struct aur_points_view {
     const double *coordinates;
     const double *weights; /* count, or NULL */
     const size_t *lines;   /* count: the line of each point in its file, for messages; or NULL */
+    bool guessed; /* of what was read: nothing gave the domain, and the numbers are valid points of others */
 } aur_points_view;
 
 /* Points that lie one after another, without weights. */
@@ -293,8 +294,9 @@ AUR_API const aur_points_view *aur_points_look(const aur_points *points) AUR_NON
 
 /* Reads CSV (header u,v for the square, x,y for the disk, x,y,z for directions, w,x,y,z for rotations,
  * u1,u2,... for the cube, and w after it where there are weights; without a header two columns are u,v and
- * three are x,y,z) or NPY. Directions that all have z >= 0 are of the hemisphere. Errors: OPEN, MEMORY, and
- * FORMAT, which names the line; *points is then NULL. */
+ * three are x,y,z) or NPY. A comment "# domain: NAME" at the end of the header, or in CSV on a line of its
+ * own, gives the domain; without it directions that all have z >= 0 are of the hemisphere, and the view says
+ * that this was guessed. Errors: OPEN, MEMORY, and FORMAT, which names the line; *points is then NULL. */
 AUR_API aur_result aur_points_read(const char *path, aur_points **points, aur_error *error) AUR_NONNULL(1, 2);
 /* The same where it is known which domain the points are of: x,y stands for the square too when SQUARE or
  * CUBE is asked for, and directions may be of the hemisphere or the sphere. CUBE takes any number of
@@ -309,9 +311,10 @@ AUR_API aur_result aur_points_read_memory(const char *name, size_t size, const v
     AUR_NONNULL(1, 3, 5);
 
 /* How points are written. CSV: a header (u,v on the square, x,y on the disk, x,y,z on hemisphere and sphere,
- * u1,u2,... on the cube, and w where there are weights), 17 significant digits. JSON: an object with "points"
- * and, where there are, "weights". NPY: float64, a row a point, the weight in the last column. PLY: binary,
- * up to three coordinates, the weight as `quality`. */
+ * u1,u2,... on the cube, and w where there are weights; at its end "# domain: NAME" where directions have
+ * z >= 0), 17 significant digits. JSON: an object with "points" and, where there are, "weights". NPY:
+ * float64, a row a point, the weight in the last column, and "# domain: NAME" at the end of the header. PLY:
+ * binary, up to three coordinates, the weight as `quality`. */
 typedef enum aur_points_format {
     AUR_POINTS_CSV,
     AUR_POINTS_JSON,

@@ -220,10 +220,11 @@ AUR_API aur_result aur_rule_make(const aur_rule_options *options, size_t capacit
                                  double *weights, aur_error *error) AUR_NONNULL(1, 3, 4);
 
 /* Writes x,y,z and the weights of one or more densities, density after density, as the columns w, w2, w3, ...
- * of a CSV file ("-": standard output), 17 significant digits; the file is replaced whole or not at all.
- * Errors: WRITE. */
-AUR_API aur_result aur_weights_write(const char *path, size_t count, const double *xyz, size_t density_count,
-                                     const double *weights, aur_error *error) AUR_NONNULL(1, 3, 5);
+ * of a CSV file ("-": standard output), 17 significant digits, and a comment with the domain where z >= 0
+ * leaves it open; the file is replaced whole or not at all. Errors: WRITE; ARGUMENT for an unknown domain. */
+AUR_API aur_result aur_weights_write(const char *path, aur_domain domain, size_t count, const double *xyz,
+                                     size_t density_count, const double *weights, aur_error *error)
+    AUR_NONNULL(1, 4, 6);
 
 /* --- two lobes, one merged set (OSWA) */
 

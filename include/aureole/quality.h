@@ -94,13 +94,13 @@ AUR_API aur_result aur_measure_series(const char *metric, const aur_points_view 
                                       const aur_measure_options *options, aur_series **series,
                                       aur_error *error) AUR_NONNULL(1, 2, 4);
 
-/* weights[count] of unit vectors xyz[3 * count] on the SPHERE or the HEMISPHERE: the area of each point's
- * Voronoi cell times the density of the lobe there (NULL: uniform; others on the hemisphere), scaled to sum
- * 1; with options->cap_degrees cells end at the cap's rim, and the lobe is uniform; with GGX points below the
- * surface (z < 0) have none. Points at one place share their cell. They are exact for functions that are
- * constant within each cell; weights that are exact for smooth ones are in exact.h. `options` may be NULL.
- * Errors: ARGUMENT for a vector that is not of unit length or lies outside the domain; UNSUPPORTED for cells
- * that reach 90 degrees from their points, as those of few points do, and for other domains and lobes;
+/* weights[count] of unit vectors xyz[3 * count] on the SPHERE or the HEMISPHERE, or of AXES: the area of each
+ * point's Voronoi cell times the density of the lobe there (NULL: uniform; others on the hemisphere), scaled
+ * to sum 1; with options->cap_degrees cells end at the cap's rim, and the lobe is uniform; with GGX points
+ * below the surface (z < 0) have none. Points at one place share their cell. They are exact for functions
+ * that are constant within each cell; weights that are exact for smooth ones are in exact.h. `options` may be
+ * NULL. Errors: ARGUMENT for a vector that is not of unit length or lies outside the domain; UNSUPPORTED for
+ * cells that reach 90 degrees from their points, as those of few points do, and for other domains and lobes;
  * CAPACITY where `capacity` weights are fewer than `count`; MEMORY; CANCELLED.
  */
 AUR_API aur_result aur_weights_voronoi(size_t count, const double *xyz, aur_domain domain,

@@ -98,7 +98,11 @@ class Bridge:
     def call(self, function: Any, *arguments: Any) -> None:
         """Calls a function whose last argument is an aur_error, and raises what it says."""
         error = self.ffi.new("aur_error *")
-        self.check(function(*arguments, error), error)
+        try:
+            result = function(*arguments, error)
+        except OverflowError as reason:
+            raise ArgumentError(f"a number is out of range: {reason}") from reason
+        self.check(result, error)
 
     def make(self, kind: str, *arguments: Any, keep: Any = None) -> Any:
         """What `aur_KIND_create(..., &made, error)` makes; it is destroyed with the last reference to it, before `keep`."""
@@ -203,8 +207,12 @@ def vector(array: Any, count: int, name: str) -> np.ndarray:
 class _Kept:
     """An array of the library's, for NumPy to look at in its place; it keeps what owns the array."""
 
-    def __init__(self, owner: Any, address: int, shape: tuple[int, ...], kind: str, strides: Optional[tuple[int, ...]]):
+    def __init__(
+        self, owner: Any, address: int, shape: tuple[int, ...], kind: str, strides: Optional[tuple[int, ...]],
+        domain: Optional[str],
+    ):  # fmt: skip
         self.owner = owner
+        self.domain = domain
         self.__array_interface__ = {
             "version": 3, "data": (address, False), "shape": shape, "typestr": kind, "strides": strides,
         }  # fmt: skip
@@ -212,9 +220,16 @@ class _Kept:
 
 def kept(
     bridge: Bridge, owner: Any, pointer: Any, shape: tuple[int, ...], kind: str = "<f8",
-    strides: Optional[tuple[int, ...]] = None,
+    strides: Optional[tuple[int, ...]] = None, domain: Optional[str] = None,
 ) -> np.ndarray:  # fmt: skip
-    """The library's array at `pointer` without a copy; `owner` lives as long as the array."""
+    """The library's array at `pointer` without a copy; `owner` lives as long as the array, which knows its `domain`."""
     if 0 in shape:
         return np.empty(shape, dtype=kind)
-    return np.asarray(_Kept(owner, int(bridge.ffi.cast("uintptr_t", pointer)), shape, kind, strides))
+    return np.asarray(_Kept(owner, int(bridge.ffi.cast("uintptr_t", pointer)), shape, kind, strides, domain))
+
+
+def domain_kept(array: Any) -> Optional[str]:
+    """The domain of points that the library made, where `array` is such an array or rows of one; else None."""
+    while isinstance(array, np.ndarray):
+        array = array.base
+    return array.domain if isinstance(array, _Kept) else None

@@ -54,27 +54,25 @@ def _values(user: Any, arguments: tuple, values: Any, count: int) -> int:
     return 0
 
 
-def _look(pointer: Any, *shape: int) -> np.ndarray:
-    """The library's numbers as they lie there, to be read while the call lasts."""
-    array = np.frombuffer(ffi.buffer(pointer, 8 * int(np.prod(shape)))).reshape(shape)
-    array.flags.writeable = False
-    return array
+def _copy(pointer: Any, *shape: int) -> np.ndarray:
+    """The library's numbers in an array that the user's function may keep: theirs are gone after the call."""
+    return np.frombuffer(ffi.buffer(pointer, 8 * int(np.prod(shape)))).reshape(shape).copy()
 
 
 @ffi.def_extern(error=CANCELLED)
 def aureole_integrand(user, count, directions, along, values, error):
-    arguments = (_look(directions, count, 3),)
+    arguments = (_copy(directions, count, 3),)
     if along != ffi.NULL:
-        arguments += (_look(along, count),)
+        arguments += (_copy(along, count),)
     return _values(user, arguments, values, count)
 
 
 @ffi.def_extern(error=CANCELLED)
 def aureole_functional(user, points, values, error):
-    arguments = (_look(points.points, points.count, points.dimension), _look(points.weights, points.count))
+    arguments = (_copy(points.points, points.count, points.dimension), _copy(points.weights, points.count))
     return _values(user, arguments, values, ffi.from_handle(user).count)
 
 
 @ffi.def_extern(error=CANCELLED)
 def aureole_density(user, count, directions, values, error):
-    return _values(user, (_look(directions, count, 3),), values, count)
+    return _values(user, (_copy(directions, count, 3),), values, count)

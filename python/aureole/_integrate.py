@@ -32,7 +32,7 @@ def integrate(
     Parameters
     ----------
     f : called with unit vectors (n, 3), and where there is an axis also with the numbers (n,) on it; returns values (n,).
-        What it raises ends the integration. The arrays are the library's, to be read during the call.
+        What it raises ends the integration. The arrays are the function's own: it may keep them.
     tol : the relative error wanted; `absolute`: the absolute one. The larger of the two counts, one must be > 0.
     domain : "sphere" or "hemisphere"; cap : degrees; not 0: the cap of that polar angle about +z.
     exponent : the function is multiplied by cos^exponent theta, on the whole hemisphere.
@@ -83,7 +83,7 @@ def estimate(
     Parameters
     ----------
     f : called with points (n, dimension) in [0, 1) and weights (n,) of sum 1; returns `values` numbers, of which the
-        first is held against the error wanted. The arrays are the library's, to be read during the call.
+        first is held against the error wanted. The arrays are the function's own: it may keep them.
     set : of `dimension` dimensions. Nets in base 2 are Owen-scrambled, other sets shifted modulo 1.
     tol, absolute : the half width wanted, relative and absolute; both 0: one level of all points.
     confidence, replicates, first, evaluations : of the intervals; randomisations, 4 to 64; points of a randomisation on

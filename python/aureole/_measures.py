@@ -47,8 +47,9 @@ def measure(
     points : (n, d), one point a row: (n, 2) on square and disk, (n, 3) unit vectors, (n, 4) unit quaternions w, x, y, z.
     names : NAME[:PARAMETER], or several of them.
     weights : (n,), masses that are divided by their sum (but for wce); None: 1/n each.
-    domain : None: "square" for two columns; "hemisphere" for unit vectors none of which has z < 0, else "sphere";
-        "rotations" for four columns of unit length; "cube" for all others.
+    domain : None: that of an array that `points` or `read` returned. Of others: "square" for two columns; "sphere" for
+        unit vectors, or "hemisphere", with a warning, where none has z < 0; "rotations" for four columns of unit length;
+        "cube" for all others.
     cap : degrees; not 0: the points are on the cap of this polar angle about +z.
     fast : sums over pairs to 2e-14 relative instead of the last bit.
     accuracy : relative error allowed to energies of many points, which are done sooner then; 0: none but rounding.
@@ -131,7 +132,8 @@ def weights_voronoi(
 ) -> Array:
     """Weights (n,) of unit vectors (n, 3): the areas of their Voronoi cells times the lobe there, of sum 1.
 
-    They are exact for functions that are constant within each cell. `domain`: sphere or hemisphere, as for `measure`.
+    They are exact for functions that are constant within each cell. `domain`: sphere, hemisphere or axes, as for
+    `measure`.
     """
     array = rows(xyz, 3, "xyz")
     weights = np.empty(len(array))

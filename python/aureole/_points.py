@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 import os
+import warnings
 from typing import Any, Literal, Optional, Union, overload
 
 import numpy as np
 from numpy.typing import ArrayLike, DTypeLike, NDArray
 
-from ._bridge import ArgumentError, encode, kept, vector
+from ._bridge import ArgumentError, AureoleWarning, domain_kept, encode, kept, vector
 from ._core import CoreCall, core, ffi, lib
 
 Array = NDArray[np.float64]
@@ -44,9 +45,10 @@ def look(made: Any) -> tuple[Array, Optional[Array], str]:
     """The library's points as they lie there, their weights or None, and their domain."""
     view = lib.aur_points_look(made)
     stride = 8 * (view.stride or view.dimension)
-    points = kept(core, made, view.coordinates, (view.count, view.dimension), strides=(stride, 8))
+    domain = core.text(lib.aur_domain_name(view.domain)) or ""
+    points = kept(core, made, view.coordinates, (view.count, view.dimension), strides=(stride, 8), domain=domain)
     weights = None if view.weights == ffi.NULL else kept(core, made, view.weights, (view.count,))
-    return points, weights, core.text(lib.aur_domain_name(view.domain)) or ""
+    return points, weights, domain
 
 
 @overload
@@ -122,9 +124,10 @@ def points(
 def read(path: Union[str, os.PathLike[str]], domain: Optional[Domain] = None) -> tuple[Array, Optional[Array], str]:
     """Points, their weights or None, and their domain from a CSV or NPY file.
 
-    The header of a CSV file says the domain: u,v; x,y; x,y,z; w,x,y,z; u1,u2,...; and w after it for weights. Without
-    a header two columns are u,v and three x,y,z. Directions that all have z >= 0 are of the hemisphere. `domain` says it
-    where it is known.
+    A comment "# domain: NAME" in the header gives the domain; `write` writes it. Without it the names in the header of
+    a CSV file say it: u,v; x,y; x,y,z; w,x,y,z; u1,u2,...; and w after it for weights. Without a header two columns are
+    u,v and three x,y,z. Directions that all have z >= 0 are then taken for the hemisphere, with an AureoleWarning.
+    `domain` says it where it is known.
 
     >>> import tempfile, os
     >>> path = os.path.join(tempfile.mkdtemp(), "points.csv")
@@ -136,6 +139,8 @@ def read(path: Union[str, os.PathLike[str]], domain: Optional[Domain] = None) ->
     made = ffi.new("aur_points **")
     if domain is None:
         core.call(lib.aur_points_read, encode(path), made)
+        if lib.aur_points_look(made[0]).guessed:
+            _warn(core.text(lib.aur_domain_name(lib.aur_points_look(made[0]).domain)) or "", os.fspath(path))
     else:
         core.call(lib.aur_points_read_on, encode(path), core.value("domain", domain), made)
     return look(core.own("points", made))
@@ -186,18 +191,48 @@ class View:
         pass
 
 
-def domain_of(array: NDArray[np.float64]) -> Domain:
-    """The domain that an array of points is taken for where nothing says it.
+def _warn(domain: str, what: str = "points") -> None:
+    warnings.warn(
+        f"{what}: nothing says what domain these are of; they are taken for the {domain}: give domain=... "
+        "(sphere, axes, cube, rotations)", AureoleWarning, stacklevel=4,
+    )  # fmt: skip
 
-    Two columns are of the square; three of unit length (to 1e-6) of the hemisphere where no z is below 0, else of the
-    sphere; four of unit length are rotations; all others are of the cube.
+
+def domain_of(array: NDArray[np.float64]) -> Domain:
+    """The domain that an array of points is of where the caller does not say it.
+
+    Arrays that `points` and `read` returned, and rows of them, know their domain. Of others two columns are of the
+    square; three of unit length (to 1e-6) of the sphere, or of the hemisphere where no z is below 0; four of unit length
+    are rotations; all others are of the cube. Where the numbers could be of another domain too, an AureoleWarning says so.
     """
     columns = array.shape[1]
+    squares = np.einsum("ij,ij->i", array, array)
+    unit = bool(len(array)) and bool(np.all(np.abs(squares - 1.0) < 2e-6))
+    flat = bool(len(array)) and array.min() >= 0.0 and array.max() < 1.0
+    above = columns == 3 and unit and array[:, 2].min() >= 0.0
+    fits = {
+        "square": columns == 2 and flat, "cube": flat, "disk": columns == 2 and bool(np.all(squares <= 1.0)),
+        "hemisphere": above, "sphere": columns == 3 and unit, "axes": columns == 3 and unit,
+        "rotations": columns == 4 and unit,
+    }  # fmt: skip
+    known = domain_kept(array)
+    if known is not None and fits[known]:
+        return known  # type: ignore[return-value]
     if columns == 2:
         return "square"
-    if columns in (3, 4) and len(array) and np.all(np.abs(np.einsum("ij,ij->i", array, array) - 1.0) < 2e-6):
-        return "rotations" if columns == 4 else "hemisphere" if array[:, 2].min() >= 0.0 else "sphere"
-    return "cube"
+    if columns not in (3, 4) or not len(array):
+        return "cube"
+    off = int(np.argmax(np.abs(squares - 1.0)))
+    near = abs(squares[off] - 1.0) < 0.02
+    if not unit and near and not flat:
+        kind = "unit vectors" if columns == 3 else "unit quaternions"
+        raise ArgumentError(
+            f"points are {kind} to 1e-6, or lie in [0, 1)^{columns}: row {off} has the length {np.sqrt(squares[off]):.9g}"
+        )
+    found: Domain = "cube" if not unit else "rotations" if columns == 4 else "hemisphere" if above else "sphere"
+    if above or (near and flat):
+        _warn(found)
+    return found
 
 
 class PointSet:
@@ -221,6 +256,12 @@ class PointSet:
             self._set = core.make("pointset", encode(set), call.attach(options, progress=False))
 
     def __len__(self) -> int:
+        """At most 2^63 - 1, as of everything in Python; `size` has no bound."""
+        return self.size
+
+    @property
+    def size(self) -> int:
+        """Points of the set."""
         return lib.aur_pointset_size(self._set)
 
     @property
@@ -242,7 +283,7 @@ class PointSet:
         if step != 1:
             raise ArgumentError("dimensions must be a slice without a step")
         if count is None:
-            count = max(0, len(self) - first)
+            count = max(0, self.size - first)
         array, output = make_output(count, max(0, high - low), out, dtype)
         if seed is not None and dimensions is not None:
             raise ArgumentError("another seed gives all dimensions: slice what it returns")
@@ -254,7 +295,10 @@ class PointSet:
 
     def coordinate(self, index: int, dimension: int) -> float:
         """One coordinate of one point; NaN beyond the set."""
-        return lib.aur_pointset_coordinate(self._set, index, dimension)
+        try:
+            return lib.aur_pointset_coordinate(self._set, index, dimension)
+        except OverflowError as error:
+            raise ArgumentError(f"coordinate {dimension} of point {index} is out of range") from error
 
 
 class Directions:
@@ -276,6 +320,12 @@ class Directions:
             self._set = core.make("directions", encode(set), options)
 
     def __len__(self) -> int:
+        """At most 2^63 - 1, as of everything in Python; `size` has no bound."""
+        return self.size
+
+    @property
+    def size(self) -> int:
+        """Directions of the set."""
         return lib.aur_directions_size(self._set)
 
     def points(
@@ -290,7 +340,7 @@ class Directions:
         dtype: DTypeLike = np.float64,
     ) -> tuple[np.ndarray, Array]:  # fmt: skip
         """The same with their weights, (count,): for integrals against the lobe normalised to 1."""
-        count = max(0, len(self) - first) if count is None else count
+        count = max(0, self.size - first) if count is None else count
         array, output = make_output(count, 3, out, dtype)
         weights, weights_output = make_output(count, 1, None, np.float64)
         core.call(lib.aur_directions_generate, self._set, first, count, output, weights_output)

@@ -151,7 +151,8 @@ def weights(
     ----------
     method : "optimal": those of the smallest worst-case error (Marques 2018 eq. 14); "exact": the nearest to equal ones
         that integrate polynomials to a degree without error; "voronoi": the areas of Voronoi cells.
-    domain : "sphere" or "hemisphere"; None: "hemisphere" where no z is below 0.
+    domain : "sphere", "hemisphere" or "axes", whose weights are for even functions; None: what the array is known to be
+        of (see `measure`).
     lobe : as for `points`.
     cap : degrees; not 0: the points are on the cap of that polar angle. Not for optimal weights.
     smoothness, regularization, sum_constraint : of optimal weights.
@@ -176,6 +177,11 @@ def weights(
         raise ArgumentError(f"method must be 'optimal', 'exact' or 'voronoi', not {method!r}")
     if cap:
         raise ArgumentError("optimal weights are for whole domains, not for caps")
+    if where == "axes":  # both ends of each, with half of its weight
+        whole = Potential(lobe, domain="sphere", smoothness=smoothness)
+        ends = np.concatenate([array, -array])
+        found = weights_solve(ends, [whole], regularization=regularization, sum_constraint=sum_constraint)[0][0]
+        return found[: len(array)] + found[len(array) :]
     potential = _potential(array, lobe, where, smoothness)
     return weights_solve(array, [potential], regularization=regularization, sum_constraint=sum_constraint)[0][0]
 

@@ -11,7 +11,7 @@
 #include <string.h>
 #include <sys/stat.h>
 
-#include "cli/options.h"
+#include "cli/point_source.h"
 
 enum { START_CAPACITY = 4096 };
 
@@ -133,6 +133,7 @@ static int describe_points(const info_input *input, const info_options *options)
                                           "mean",   "maximum", "not_finite"};
     report_table *const table = report_create(sizeof columns / sizeof columns[0], columns);
     const aur_points_view *const view = aur_points_look(points);
+    cli_warn_of_guess(input->path, view, cli_warnings(false));
     const size_t column_count = view->dimension + (view->weights != NULL);
     for (size_t c = 0; c < column_count; ++c) {
         const bool weight = c == view->dimension;

@@ -68,7 +68,8 @@ static aur_result find_all(cli_measure_arguments *arguments, aur_error *error) {
         from.natural_domain = true;
         aur_points *points;
         aur_points_view view;
-        const aur_result result = cli_load_points(source, &from, (size_t)size, &points, &view, error);
+        const aur_result result =
+            cli_load_points(source, &from, cli_is_file(source) ? 0 : (size_t)size, &points, &view, error);
         if (result != AUR_OK)
             return result;
         arguments->points.options.domain = view.domain;

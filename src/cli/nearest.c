@@ -55,6 +55,18 @@ static int find(const nearest_command *wanted, const aur_points_view *points,
     return status;
 }
 
+/* Where only the numbers said what the domain is, it is that of the others; and the hemisphere is a part of
+ * the sphere. */
+static void agree(aur_points_view *a, aur_points_view *b) {
+    aur_points_view *const views[] = {a, b};
+    for (size_t i = 0; i < 2; ++i) {
+        const aur_domain other = views[1 - i]->domain;
+        if (views[i]->domain == AUR_DOMAIN_HEMISPHERE &&
+            (other == AUR_DOMAIN_SPHERE || (other == AUR_DOMAIN_AXES && views[i]->guessed)))
+            views[i]->domain = other;
+    }
+}
+
 static int run(const cli_call *call) {
     nearest_command *const wanted = call->options;
     const char *const source = call->operands[0];
@@ -67,19 +79,17 @@ static int run(const cli_call *call) {
     aur_points *points = NULL, *queries = NULL;
     aur_points_view seen, asked;
     aur_error error;
-    /* The queries say where they are when nothing else does. */
     aur_result result = cli_load_points(call->operands[1], &wanted->from, 0, &queries, &asked, &error);
-    if (result == AUR_OK && !wanted->from.domain_given) {
+    /* The queries say where a set's points are when nothing else does. */
+    if (result == AUR_OK && !wanted->from.domain_given && !cli_is_file(source)) {
         wanted->from.options.domain =
             asked.domain == AUR_DOMAIN_HEMISPHERE ? AUR_DOMAIN_SPHERE : asked.domain;
         wanted->from.domain_given = asked.domain != AUR_DOMAIN_CUBE;
     }
     if (result == AUR_OK)
         result = cli_load_points(source, &wanted->from, wanted->count, &points, &seen, &error);
-    if (result == AUR_OK && asked.domain == AUR_DOMAIN_HEMISPHERE && seen.domain == AUR_DOMAIN_SPHERE)
-        asked.domain = AUR_DOMAIN_SPHERE;
-    if (result == AUR_OK && seen.domain == AUR_DOMAIN_HEMISPHERE && asked.domain == AUR_DOMAIN_SPHERE)
-        seen.domain = AUR_DOMAIN_SPHERE;
+    if (result == AUR_OK)
+        agree(&seen, &asked);
     const int status = result == AUR_OK ? find(wanted, &seen, &asked) : cli_fail(&error);
     aur_points_destroy(points);
     aur_points_destroy(queries);

@@ -1,6 +1,7 @@
 #include "cli/point_source.h"
 
 #include <aureole/ranks.h>
+#include <aureole/text.h>
 #include <math.h>
 #include <string.h>
 #include <unistd.h>
@@ -66,12 +67,31 @@ static bool are_equal(size_t count, const double *weights) {
     return true;
 }
 
+void cli_warn_of_guess(const char *path, const aur_points_view *points, aur_warnings warnings) {
+    char text[AUR_ERROR_MESSAGE_CAPACITY];
+    aur_format(text, sizeof text,
+               "%s: nothing in the file says what domain its points are of; they are taken for the %s: "
+               "--domain says otherwise (sphere, axes, cube)",
+               path, aur_domain_name(points->domain));
+    if (points->guessed && warnings.function != NULL)
+        warnings.function(warnings.user, text);
+}
+
 static aur_result load(const char *text, const cli_points *from, size_t count, aur_points **points,
                        aur_error *error) {
     const aur_domain domain = from->options.domain;
-    if (cli_is_file(text))
-        return from->domain_given ? aur_points_read_on(text, domain, points, error)
-                                  : aur_points_read(text, points, error);
+    if (cli_is_file(text)) {
+        const aur_result result = from->domain_given ? aur_points_read_on(text, domain, points, error)
+                                                     : aur_points_read(text, points, error);
+        const size_t held = result == AUR_OK ? aur_points_look(*points)->count : count;
+        if (count == 0 || held == count)
+            return result;
+        aur_points_destroy(*points);
+        *points = NULL;
+        return aur_fail(error, AUR_ERROR_ARGUMENT,
+                        "%s has %zu points, not %zu: leave -n out (file:PATH takes the first ones alone)",
+                        text, held, count);
+    }
     aur_directions_options options = from->options;
     options.size = sizeof options;
     options.count = count;
@@ -89,6 +109,7 @@ aur_result cli_load_points(const char *text, const cli_points *from, size_t coun
     if (result != AUR_OK)
         return result;
     *view = *aur_points_look(*points);
+    cli_warn_of_guess(text, view, from->options.warnings);
     if (cli_is_file(text) && view->weights != NULL && are_equal(view->count, view->weights))
         view->weights = NULL;
     return AUR_OK;

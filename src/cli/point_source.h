@@ -20,8 +20,11 @@ bool cli_is_file(const char *text);
 /* The same, or file:PATH, whose points need no number. */
 bool cli_has_size(const char *text);
 
-/* The points of a set, `count` of them, on the options' domain; of a file, all of them, on the file's domain
- * unless domain_given. `view` is of all of them, without weights where these are equal, until
- * aur_points_destroy. */
+/* Warns where nothing but the numbers says what domain the points of a file are of. */
+void cli_warn_of_guess(const char *path, const aur_points_view *points, aur_warnings warnings);
+
+/* The points of a set, `count` of them, on the options' domain; of a file all of them (`count` is that number
+ * or 0), on the file's domain unless domain_given. `view` is of all of them, without weights where these are
+ * equal, until aur_points_destroy. */
 aur_result cli_load_points(const char *text, const cli_points *from, size_t count, aur_points **points,
                            aur_points_view *view, aur_error *error);

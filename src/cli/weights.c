@@ -89,7 +89,7 @@ static const char *broken_rule(const cli_call *call, const cli_weights_arguments
         return "--angle, --n2 and --clip are for two lobes: give --lobe2";
     if (two && cli_given(call, "angle") == NULL && arguments->table == NULL)
         return "--lobe2: the angle of the view is missing: give --angle DEGREES";
-    if (two && arguments->points.options.domain == AUR_DOMAIN_SPHERE)
+    if (two && arguments->points.options.domain != AUR_DOMAIN_HEMISPHERE)
         return "--lobe2: two lobes are for the hemisphere";
     const bool ggx = (two ? arguments->mirror : arguments->points.options.lobe).kind == AUR_LOBE_GGX;
     if (arguments->table != NULL && !two && !ggx)
@@ -123,8 +123,11 @@ static int complete(const cli_call *call, cli_weights_arguments *arguments) {
     if (!points->domain_given)
         points->options.domain =
             points->options.cap_degrees > 90.0 ? AUR_DOMAIN_SPHERE : AUR_DOMAIN_HEMISPHERE;
-    if (points->options.domain != AUR_DOMAIN_HEMISPHERE && points->options.domain != AUR_DOMAIN_SPHERE)
-        return cli_bad_usage("--domain: must be one of hemisphere, sphere, not '%s'",
+    arguments->domain_follows = !points->domain_given && !arguments->two && cli_given(call, "lobe") == NULL &&
+                                points->options.cap_degrees == 0.0;
+    if (points->options.domain != AUR_DOMAIN_HEMISPHERE && points->options.domain != AUR_DOMAIN_SPHERE &&
+        points->options.domain != AUR_DOMAIN_AXES)
+        return cli_bad_usage("--domain: must be one of hemisphere, sphere, axes, not '%s'",
                              aur_domain_name(points->options.domain));
     if (cli_given(call, "size") == NULL && !cli_has_size(arguments->source))
         return cli_bad_usage("weights: -n is missing for the set '%s' (there is no such file)",
@@ -175,8 +178,9 @@ static int print_report(const cli_weights_arguments *arguments, const cli_weight
 
 static int write_points(const cli_weights_arguments *arguments, const cli_weights_result *result) {
     aur_error error = {0};
-    return cli_status(aur_weights_write(arguments->path != NULL ? arguments->path : "-", result->count,
-                                        result->xyz, result->lobe_count, result->weights, &error),
+    return cli_status(aur_weights_write(arguments->path != NULL ? arguments->path : "-", result->domain,
+                                        result->count, result->xyz, result->lobe_count, result->weights,
+                                        &error),
                       &error);
 }
 

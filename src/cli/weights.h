@@ -21,6 +21,7 @@ typedef struct cli_weights_arguments {
     const char *source; /* NULL: none */
     cli_points points;
     bool look_up, mirrored, report, two, clipped, unconstrained;
+    bool domain_follows; /* from the file */
     size_t size, mirror_size;
     aur_lobe mirror; /* of two lobes */
     double degrees;
@@ -45,6 +46,7 @@ typedef struct cli_weights_result {
     size_t lobe_count; /* or levels of exact weights */
     double *xyz;       /* 3 * count */
     double *weights;   /* lobe_count * count */
+    aur_domain domain; /* of the samples: a file's own unless --domain, --lobe or --cap says it */
     double *near;      /* of the file, where they are asked for and there; else NULL */
     aur_exact_report exact[CLI_LEVEL_LIMIT];
     double equal[2], weighted[2], sum[2];

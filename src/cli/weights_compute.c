@@ -38,7 +38,7 @@ static aur_result prepare_lobes(weights_job *task, aur_error *error) {
         if (k == 1 && lobe.kind == AUR_LOBE_GGX)
             lobe.view_degrees = arguments->degrees;
         aur_density density = aur_density_default();
-        aur_result result = aur_density_from_lobe(&lobe, points->domain, &density, error);
+        aur_result result = aur_density_from_lobe(&lobe, task->result->domain, &density, error);
         if (result != AUR_OK)
             return result;
         if (k == 1) {
@@ -82,7 +82,16 @@ static aur_result load_one(weights_job *task, aur_error *error) {
     task->result->count = view.count;
     task->result->xyz = xyz;
     const aur_directions_options *const options = &arguments->points.options;
-    for (size_t i = 0; options->domain == AUR_DOMAIN_HEMISPHERE && i < view.count; ++i)
+    aur_domain *const domain = &task->result->domain;
+    if (cli_is_file(arguments->source) && arguments->domain_follows)
+        *domain = view.domain;
+    else if (cli_is_file(arguments->source) && !arguments->points.domain_given &&
+             view.domain == AUR_DOMAIN_AXES)
+        return aur_fail(error, AUR_ERROR_UNSUPPORTED,
+                        "%s has axes: lobes and caps are for the hemisphere: --domain hemisphere takes its "
+                        "points for that",
+                        arguments->source);
+    for (size_t i = 0; *domain == AUR_DOMAIN_HEMISPHERE && i < view.count; ++i)
         if (xyz[3 * i + 2] < -1e-9 && options->lobe.kind != AUR_LOBE_GGX)
             return aur_fail(error, AUR_ERROR_ARGUMENT,
                             "point %zu lies below the hemisphere (z = %g): is it --domain sphere?", i + 1,
@@ -156,7 +165,7 @@ static aur_result ratio_weights(const weights_job *task, size_t k, double *weigh
     if (task->own[k] == 0)
         return aur_fail(error, AUR_ERROR_UNSUPPORTED,
                         "a file does not say what density its points were drawn from");
-    if (task->arguments->points.options.domain == AUR_DOMAIN_SPHERE) {
+    if (task->result->domain != AUR_DOMAIN_HEMISPHERE) {
         equal_weights(task, k, weights); /* only the uniform density is there */
         return AUR_OK;
     }
@@ -249,7 +258,11 @@ static aur_result compute(weights_job *task, aur_error *error) {
     if (made == AUR_OK && !two_patterns && !from_file(task))
         task->own[0] = result->count;
     const bool exact = task->arguments->method == CLI_METHOD_EXACT;
-    if (made == AUR_OK && !exact)
+    if (made == AUR_OK && result->domain == AUR_DOMAIN_AXES && !exact &&
+        task->arguments->method != CLI_METHOD_VORONOI)
+        made = aur_fail(error, AUR_ERROR_UNSUPPORTED,
+                        "weights of axes are exact ones or areas of cells: give --method exact or voronoi");
+    if (made == AUR_OK && !exact && result->domain != AUR_DOMAIN_AXES)
         made = prepare_lobes(task, error);
     if (made != AUR_OK)
         return made;
@@ -268,6 +281,7 @@ static aur_result compute(weights_job *task, aur_error *error) {
 
 int cli_weights_compute(const cli_weights_arguments *arguments, cli_weights_result *result) {
     weights_job task = {.arguments = arguments, .result = result};
+    result->domain = arguments->points.options.domain;
     result->lobe_count = arguments->two ? 2 : 1;
     aur_error error = {0};
     const aur_result made = compute(&task, &error);

@@ -7,7 +7,7 @@
 aur_result cli_weights_by_degree(const cli_weights_arguments *arguments, cli_weights_result *result,
                                  aur_error *error) {
     const aur_directions_options *const points = &arguments->points.options;
-    aur_exact_options options = aur_exact_options_default(points->domain);
+    aur_exact_options options = aur_exact_options_default(result->domain);
     options.cap_degrees = points->cap_degrees;
     options.lobe = points->lobe;
     options.degree = arguments->degree;
@@ -46,7 +46,7 @@ aur_result cli_weights_by_cells(const cli_weights_arguments *arguments, cli_weig
     options.cap_degrees = points->cap_degrees;
     options.threads = arguments->common.threads;
     options.progress = cli_progress(arguments->common.quiet);
-    const aur_result made = aur_weights_voronoi(result->count, result->xyz, points->domain, &points->lobe,
+    const aur_result made = aur_weights_voronoi(result->count, result->xyz, result->domain, &points->lobe,
                                                 &options, result->count, result->weights, error);
     cli_progress_clear();
     return made;

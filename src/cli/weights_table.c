@@ -47,7 +47,7 @@ static aur_result write_entry(const cli_weights_arguments *arguments, const aur_
         }
         const char *const path = arguments->path != NULL ? arguments->path : "-";
         if (result == AUR_OK)
-            result = aur_weights_write(path, size, xyz, lobes, weights, error);
+            result = aur_weights_write(path, AUR_DOMAIN_HEMISPHERE, size, xyz, lobes, weights, error);
     }
     free(xyz);
     free(found);

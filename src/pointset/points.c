@@ -1,5 +1,6 @@
 #include "pointset/points.h"
 
+#include <math.h>
 #include <stdlib.h>
 
 #include "core/array.h"
@@ -37,6 +38,38 @@ void aur_points_destroy(aur_points *points) {
 
 const aur_points_view *aur_points_look(const aur_points *points) {
     return &points->view;
+}
+
+bool aur_points_weighted(const aur_points_view *points) {
+    for (size_t i = 0; i < points->count && points->weights != NULL; ++i)
+        if (!(fabs(points->weights[i] * (double)points->count - 1.0) <= 1e-12))
+            return true;
+    return false;
+}
+
+bool aur_points_are_above(const aur_points_view *points) {
+    bool above = points->domain == AUR_DOMAIN_SPHERE || points->domain == AUR_DOMAIN_HEMISPHERE;
+    for (size_t i = 0; i < points->count && above; ++i)
+        above = aur_point_at(points, i)[2] >= 0.0;
+    return above || points->domain == AUR_DOMAIN_AXES;
+}
+
+void aur_points_warn_of_prefix(const aur_points_view *points, uint64_t used, const char *path,
+                               const aur_warnings *warnings) {
+    if (used < points->count)
+        aur_warn_at(
+            warnings, (aur_location){.file = path},
+            "only the first %llu of the file's %zu points are used: they need not be as even as a set "
+            "of that size",
+            (unsigned long long)used, points->count);
+}
+
+void aur_points_warn_of_guess(const aur_points_view *points, const char *path, const aur_warnings *warnings) {
+    if (points->guessed)
+        aur_warn_at(warnings, (aur_location){.file = path},
+                    "nothing in the file says what domain its points are of; they are taken for the %s: give "
+                    "the domain if they are of another (sphere, axes, cube)",
+                    aur_domain_name(points->domain));
 }
 
 aur_result aur_points_view_read(const aur_points_view *given, aur_points_view *view, aur_error *error) {

@@ -18,6 +18,18 @@ aur_result aur_points_create(aur_domain domain, uint64_t count, size_t dimension
  * stride below the dimension. */
 aur_result aur_points_view_read(const aur_points_view *given, aur_points_view *view, aur_error *error);
 
+/* Whether there are weights, and they are not all 1/N, which say nothing. */
+bool aur_points_weighted(const aur_points_view *points);
+
+/* Whether these are directions with z >= 0, or axes: without their domain's name they could be of several. */
+bool aur_points_are_above(const aur_points_view *points);
+
+/* Warns where a pattern is the first `used` of a file's points, and not all. */
+void aur_points_warn_of_prefix(const aur_points_view *points, uint64_t used, const char *path,
+                               const aur_warnings *warnings);
+/* Warns where nothing but the numbers said what domain the points of a file are of. */
+void aur_points_warn_of_guess(const aur_points_view *points, const char *path, const aur_warnings *warnings);
+
 static inline const double *aur_point_at(const aur_points_view *points, size_t index) {
     return points->coordinates + index * points->stride;
 }

@@ -67,6 +67,6 @@ aur_result aur_set_check_name(const char *set, aur_error *error);
 /* Whether a SET's text is file:PATH, whose path starts at set + 5. */
 bool aur_set_is_file(const char *set);
 /* Whether the points of a rule are not all worth the same. */
-bool aur_directions_weighted(const aur_directions *directions);
+AUR_EXPERIMENTAL bool aur_directions_weighted(const aur_directions *directions);
 
 extern const aur_table aur_set_table;

@@ -68,7 +68,8 @@ static void writes_and_reads_points(void **state) {
     assert_memory_equal(aur_points_look(read)->coordinates, coordinates, sizeof coordinates);
     assert_memory_equal(aur_points_look(read)->weights, weights, sizeof weights);
     aur_points_destroy(read);
-    assert_int_equal(aur_weights_write("weights.csv", 1, (const double[]){0.0, 0.6, 0.8}, 1, weights, &error),
+    assert_int_equal(aur_weights_write("weights.csv", AUR_DOMAIN_SPHERE, 1, (const double[]){0.0, 0.6, 0.8},
+                                       1, weights, &error),
                      AUR_OK);
     assert_true(file_contains("weights.csv", "0,0.59999999999999998,0.80000000000000004,1.5\n"));
 }

@@ -46,7 +46,7 @@ static void csv_is_as_documented(void **state) {
     (void)state;
     expect_text(AUR_POINTS_CSV, &flat, NULL, "u,v\n0,0.10000000000000001\n0.5,0.75\n");
     expect_text(AUR_POINTS_CSV, &round_one, NULL,
-                "x,y,z,w\n0,0.59999999999999998,0.80000000000000004,0.25\n");
+                "x,y,z,w# domain: sphere\n0,0.59999999999999998,0.80000000000000004,0.25\n");
     aur_points_view disk = flat;
     disk.domain = AUR_DOMAIN_DISK;
     disk.weights = weight;
@@ -85,6 +85,7 @@ static void npy_is_what_numpy_reads(void **state) {
     assert_int_equal(size, 128 + 4 * 8);
     assert_memory_equal(
         text, "\x93NUMPY\x01\x00\x76\x00{'descr': '<f8', 'fortran_order': False, 'shape': (1, 4), }", 66);
+    assert_non_null(strstr(text + 66, " # domain: sphere; weights   "));
     assert_int_equal(text[127], '\n');
     const double row[] = {0.0, 0.6, 0.8, 0.25};
     assert_memory_equal(text + 128, row, sizeof row);

@@ -113,6 +113,88 @@ class Points(unittest.TestCase):
             self.assertTrue((found == xyz).all() and (weights == np.arange(10.0) / 45).all())
 
 
+class Domains(unittest.TestCase):
+    """Arrays of the library's know their domain; of others what could be another one is said."""
+
+    def test_arrays_know_their_domain(self):
+        axes = aureole.points("electrostatic", 60, domain="axes")
+        both = np.concatenate([axes, -axes])
+        with warnings.catch_warnings():
+            warnings.simplefilter("error")
+            weights, report = aureole.weights_exact(axes)
+            self.assertEqual(aureole.measure(axes, "energy"), aureole.measure(np.array(axes), "energy", domain="axes"))
+            self.assertEqual(aureole.measure(axes[:30], "energy"), aureole.measure(np.array(axes[:30]), "energy", domain="axes"))
+            aureole.write("axes.npy", axes)
+            aureole.write("axes.csv", axes, weights)
+            ends, of_ends = aureole.weights_exact(both)
+            for file in ("axes.npy", "axes.csv"):
+                self.assertEqual(aureole.read(file)[2], "axes")
+                self.assertEqual(aureole.weights_exact(aureole.read(file)[0])[1], report)
+        self.assertEqual(report.degree, of_ends.degree)
+        np.testing.assert_allclose(weights, ends[:60] + ends[60:], rtol=1e-12)
+        for k in range(2, report.degree + 1, 2):  # the mean of z^k over all directions
+            self.assertAlmostEqual(float(weights @ axes[:, 2] ** k), 1 / (k + 1), delta=1e-14)
+        cells = aureole.weights_voronoi(axes)
+        np.testing.assert_allclose(cells, aureole.measure(axes, "voronoi")["area"] / 60, rtol=1e-12)
+        optimal = aureole.weights(axes)
+        self.assertAlmostEqual(float(optimal.sum()), 1.0, delta=1e-9)
+
+    def test_what_is_taken_for_a_hemisphere_is_said(self):
+        axes = np.array(aureole.points("electrostatic", 60, domain="axes"))
+        for call in (
+            lambda: aureole.weights_exact(axes), lambda: aureole.weights(axes, "voronoi"), lambda: aureole.weights(axes),
+            lambda: aureole.measure(axes, "energy"), lambda: aureole.Nearest(axes), lambda: aureole.write("a.csv", axes),
+            lambda: aureole.worst_case_error(axes),
+        ):  # fmt: skip
+            with self.assertWarnsRegex(aureole.AureoleWarning, "taken for the hemisphere"):
+                call()
+        np.savetxt("bare.csv", axes, delimiter=",", header="x,y,z", comments="")
+        with self.assertWarnsRegex(aureole.AureoleWarning, "bare.csv: .* taken for the hemisphere"):
+            aureole.read("bare.csv")
+        self.assertEqual(aureole.read("bare.csv", "axes")[2], "axes")
+
+    def test_vectors_off_the_sphere_are_not_of_the_cube(self):
+        xyz = np.array(aureole.points("spherical-fibonacci", 50, domain="sphere"))
+        xyz[7] *= 1.001
+        for call in (lambda: aureole.weights(xyz), lambda: aureole.measure(xyz, "energy")):
+            with self.assertRaisesRegex(aureole.ArgumentError, "row 7 has the length 1.001"):
+                call()
+        # Changed in place an array is no longer what it was.
+        cube = aureole.points("sobol", 64, dimension=3)[2:]
+        cube -= 0.5
+        cube /= np.linalg.norm(cube, axis=1)[:, np.newaxis]
+        self.assertTrue(aureole.measure(cube, "energy") > 0)
+        with self.assertWarnsRegex(aureole.AureoleWarning, "taken for the cube"):
+            aureole.measure(np.array([[0.6, 0.8, 0.01], [0.01, 0.6, 0.8]]), "centered")
+
+    def test_numbers_out_of_range_are_argument_errors(self):
+        sobol = aureole.PointSet("sobol", 64)
+        for call in (lambda: sobol.points(-1, 2), lambda: sobol.points(2**64, 2), lambda: sobol.coordinate(-1, 0)):
+            with self.assertRaises(aureole.ArgumentError):
+                call()
+        large = aureole.PointSet("random", 2**63)
+        self.assertEqual(large.size, 2**63)
+        self.assertEqual(large.points(2**63 - 2).shape, (2, 2))
+
+    def test_functions_may_keep_their_arrays(self):
+        kept = []
+
+        def keep(*arrays):
+            kept.append([(array, array.copy()) for array in arrays])
+
+        aureole.estimate(lambda u, w: (keep(u, w), float(w @ u[:, 0]))[1], 2, tol=1e-9, evaluations=2**14)
+        aureole.integrate(lambda u: (keep(u), u[:, 2] ** 2)[1], 1e-9, evaluations=2**14)
+        aureole.integrate(lambda u, t: (keep(u, t), t * u[:, 2] ** 2)[1], 1e-3, axis=(0, 2), evaluations=2**12)
+        aureole.Potential(function=lambda u: (keep(u), max(float(u[2]), 0.0))[1])
+        aureole.measure(aureole.points("sobol", 4096, domain="sphere"), "energy", progress=lambda *a: kept.append([]))
+        garbage = [np.random.default_rng(0).random(2**k) for k in range(20)]
+        self.assertTrue(len(kept) > 20 and garbage)
+        for arrays in kept:
+            for array, then in arrays:
+                self.assertTrue((array == then).all())
+                array += 1  # it is the function's own
+
+
 class Errors(unittest.TestCase):
     def test_they_say_what_the_library_says(self):
         with self.assertRaisesRegex(aureole.UnknownNameError, "did you mean 'sobol'") as caught:

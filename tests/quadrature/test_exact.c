@@ -405,8 +405,8 @@ static void cells(void **state) {
     assert_int_equal(aur_weights_voronoi(9, xyz, AUR_DOMAIN_SPHERE, NULL, NULL, 9, weights, &error), AUR_OK);
     assert_near(weights[0], 1.0 / 16.0, 1e-10);
     assert_near(weights[1], 1.0 / 8.0, 1e-10);
-    assert_int_equal(aur_weights_voronoi(2, xyz, AUR_DOMAIN_SPHERE, NULL, NULL, 9, weights, &error),
-                     AUR_ERROR_UNSUPPORTED);
+    assert_int_equal(aur_weights_voronoi(2, xyz, AUR_DOMAIN_SPHERE, NULL, NULL, 9, weights, &error), AUR_OK);
+    assert_near(weights[1], 0.5, 1e-15);
     assert_int_equal(aur_weights_voronoi(8, xyz, AUR_DOMAIN_SPHERE, NULL, NULL, 7, weights, &error),
                      AUR_ERROR_CAPACITY);
     assert_int_equal(aur_weights_voronoi(8, xyz, AUR_DOMAIN_DISK, NULL, NULL, 9, weights, &error),

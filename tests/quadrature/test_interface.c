@@ -180,10 +180,12 @@ static void test_rules(void **state) {
     bad.set = "no-such-set";
     assert_refused(aur_rule_make(&bad, 3 * COUNT, xyz, weights, &error), AUR_ERROR_NAME, &error);
 
-    assert_int_equal(aur_weights_write("weights.csv", COUNT, xyz, 1, weights, NULL), AUR_OK);
+    assert_int_equal(aur_weights_write("weights.csv", AUR_DOMAIN_SPHERE, COUNT, xyz, 1, weights, NULL),
+                     AUR_OK);
     remove("weights.csv");
-    assert_refused(aur_weights_write("no-such-folder/weights.csv", COUNT, xyz, 1, weights, &error),
-                   AUR_ERROR_WRITE, &error);
+    assert_refused(
+        aur_weights_write("no-such-folder/weights.csv", AUR_DOMAIN_SPHERE, COUNT, xyz, 1, weights, &error),
+        AUR_ERROR_WRITE, &error);
 }
 
 static aur_oswa_options pair(void) {

@@ -4,11 +4,17 @@
 #include <stdlib.h>
 
 #include "core/error.h"
+#include "sphere/native.h"
 
 static aur_result fill(const char *set, const aur_directions_options *options, double *xyz,
                        aur_sensor_rule *rule, aur_error *error) {
     aur_directions *directions = NULL;
     aur_result result = aur_directions_create(set, options, &directions, error);
+    if (result == AUR_OK && aur_directions_weighted(directions))
+        result = aur_fail(error, AUR_ERROR_UNSUPPORTED,
+                          "the directions of '%s' have weights, which sensors do not use: a file must be "
+                          "without the column w",
+                          set);
     if (result == AUR_OK)
         result = aur_directions_points(directions, 0, rule->count, 3 * rule->count, xyz, NULL, error);
     aur_directions_destroy(directions);

@@ -1,5 +1,5 @@
-/* A user's own points as a set: file:PATH, CSV or NPY, points of the square or the cube. Their weights, if
- * there are any, are no part of the set. */
+/* A user's own points as a set: file:PATH, CSV or NPY, points of the square or the cube. Sets have no
+ * weights: a file with weights is refused. */
 #include <stdlib.h>
 #include <string.h>
 
@@ -38,7 +38,12 @@ static aur_result prepare(aur_pointset *set, aur_parameters *parameters, aur_err
     else if (set->dimension != points->view.dimension)
         result = aur_fail_at(error, where, AUR_ERROR_ARGUMENT, "the points have %zu coordinates, not %zu",
                              points->view.dimension, set->dimension);
+    else if (aur_points_weighted(&points->view))
+        result = aur_fail_at(error, where, AUR_ERROR_UNSUPPORTED,
+                             "the points have weights (the column w), which sets have not: leave the column "
+                             "out");
     if (result == AUR_OK) {
+        aur_points_warn_of_prefix(&points->view, set->size, path, &set->options->warnings);
         set->data = points->coordinates;
         points->coordinates = NULL;
     }

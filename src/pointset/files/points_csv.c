@@ -1,5 +1,5 @@
 /* Comma separated numbers; spaces and tabs separate as well. Lines that are empty or begin with # are
- * skipped. */
+ * skipped, and so is what follows a # in the header, but for the domain that such a comment gives. */
 #include <ctype.h>
 #include <string.h>
 
@@ -101,13 +101,21 @@ static bool is_header(const char *text) {
 static aur_result read_line(reader *r, char *text) {
     aur_matrix *const matrix = r->matrix;
     text = skip_spaces(text);
+    if (*text == '#')
+        aur_matrix_read_comment(matrix, text + 1);
     if (*text == '\0' || *text == '#')
         return AUR_OK;
-    if (matrix->column_count == 0) {
+    if (matrix->column_count == 0 && is_header(text)) {
+        char *const comment = strchr(text, '#');
+        if (comment != NULL) {
+            aur_matrix_read_comment(matrix, comment + 1);
+            *comment = '\0';
+        }
         matrix->column_count = count_fields(text);
-        if (is_header(text))
-            return read_header(r, text);
+        return read_header(r, text);
     }
+    if (matrix->column_count == 0)
+        matrix->column_count = count_fields(text);
     return read_row(r, text);
 }
 

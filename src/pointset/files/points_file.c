@@ -37,6 +37,10 @@ static bool is_flat(aur_domain domain) {
     return domain == AUR_DOMAIN_SQUARE || domain == AUR_DOMAIN_CUBE;
 }
 
+static bool is_of_directions(aur_domain domain) {
+    return domain == AUR_DOMAIN_HEMISPHERE || domain == AUR_DOMAIN_SPHERE || domain == AUR_DOMAIN_AXES;
+}
+
 /* `wanted` is where the points are asked for, or NULL: it decides between the two meanings of x,y. */
 static aur_result by_header(const char *path, const aur_matrix *matrix, const aur_domain *wanted, meaning *m,
                             aur_error *error) {
@@ -66,6 +70,23 @@ static aur_result by_header(const char *path, const aur_matrix *matrix, const au
     return AUR_OK;
 }
 
+/* Columns without names of points whose domain is declared. */
+static aur_result by_declaration(const char *path, const aur_matrix *matrix, meaning *m, aur_error *error) {
+    static const size_t dimensions[] = {2, 0, 2, 3, 3, 3, 4}; /* of the domains; 0: any */
+    const size_t columns = matrix->column_count;
+    *m = (meaning){is_of_directions(matrix->domain) ? AUR_DOMAIN_SPHERE : matrix->domain,
+                   columns - matrix->weighted, matrix->weighted};
+    /* Without the word for them, weights are one column too many. */
+    const size_t dimension = dimensions[matrix->domain];
+    if (!m->weights && dimension != 0 && columns == dimension + 1)
+        *m = (meaning){m->domain, dimension, true};
+    if (columns > matrix->weighted && (dimension == 0 || m->dimension == dimension))
+        return AUR_OK;
+    return aur_fail_at(error, (aur_location){.file = path}, AUR_ERROR_FORMAT,
+                       "%zu columns are no points of the domain '%s'", columns,
+                       aur_domain_name(matrix->domain));
+}
+
 /* Without names: two columns are u,v, three unit vectors, four unit vectors with weights; any other number
  * are coordinates on the cube, and so are the three or four columns of an array that are no unit vectors.
  * Where rotations are asked for four columns are quaternions, and a fifth their weights. */
@@ -78,15 +99,44 @@ static void by_columns(const aur_matrix *matrix, const aur_domain *wanted, meani
     }
     if (columns == 2)
         m->domain = AUR_DOMAIN_SQUARE;
+    const bool flat = wanted != NULL && is_flat(*wanted);
     const bool unit = columns >= 3 && matrix->row_count > 0 && aur_is_unit(matrix->values);
-    if ((columns == 3 && (unit || matrix->lines != NULL)) || (columns == 4 && unit))
+    if (!flat && ((columns == 3 && (unit || matrix->lines != NULL)) || (columns == 4 && unit)))
         *m = (meaning){AUR_DOMAIN_SPHERE, 3, columns == 4};
+}
+
+/* Whether all of the first `length` numbers of rows, or of columns, that are not 0 have length 1 to .1 %. */
+static bool are_unit(const aur_matrix *matrix, bool columns) {
+    const size_t rows = matrix->row_count, width = matrix->column_count;
+    bool some = false;
+    for (size_t i = 0; i < (columns ? width : rows); ++i) {
+        double square = 0.0;
+        for (size_t k = 0; k < (columns ? rows : width); ++k) {
+            const double value = matrix->values[columns ? k * width + i : i * width + k];
+            square += value * value;
+        }
+        if (square != 0.0 && !(fabs(square - 1.0) <= 2e-3))
+            return false;
+        some |= square != 0.0;
+    }
+    return some;
+}
+
+/* FSL's bvecs have a direction a column. */
+static aur_result refuse_columns(const char *path, const aur_matrix *matrix, aur_error *error) {
+    if (matrix->row_count != 3 || !are_unit(matrix, true) || are_unit(matrix, false))
+        return AUR_OK;
+    return aur_fail_at(error, (aur_location){.file = path}, AUR_ERROR_FORMAT,
+                       "its 3 rows have a direction in each column, as FSL's bvecs: write a direction a row "
+                       "(numpy.loadtxt(PATH).T), without columns of zeros");
 }
 
 /* What is wrong with a point, or NULL. */
 static const char *off_domain(const meaning *m, const double *row) {
     if (m->domain == AUR_DOMAIN_SPHERE)
-        return aur_is_unit(row) ? NULL : "a direction must have length 1";
+        return aur_is_unit(row)            ? NULL
+               : aur_dot3(row, row) == 0.0 ? "0 0 0 is no direction: leave such rows (b = 0) out"
+                                           : "a direction must have length 1";
     if (m->domain == AUR_DOMAIN_ROTATIONS) {
         const double square = row[0] * row[0] + aur_dot3(row + 1, row + 1);
         return fabs(square - 1.0) <= 2e-6 ? NULL : "a rotation must be a quaternion w,x,y,z of length 1";
@@ -105,9 +155,7 @@ static const char *off_domain(const meaning *m, const double *row) {
 /* Whether points of the file's domain can stand on the one that is asked for. */
 static aur_result check_domain(const char *path, const aur_matrix *matrix, const meaning *m,
                                aur_domain wanted, aur_error *error) {
-    const bool directions =
-        wanted == AUR_DOMAIN_HEMISPHERE || wanted == AUR_DOMAIN_SPHERE || wanted == AUR_DOMAIN_AXES;
-    if (m->domain == wanted || (m->domain == AUR_DOMAIN_SPHERE && directions) ||
+    if (m->domain == wanted || (m->domain == AUR_DOMAIN_SPHERE && is_of_directions(wanted)) ||
         (m->domain == AUR_DOMAIN_SQUARE && wanted == AUR_DOMAIN_CUBE))
         return AUR_OK;
     const bool header = matrix->header[0] != '\0';
@@ -118,21 +166,42 @@ static aur_result check_domain(const char *path, const aur_matrix *matrix, const
         is_flat(m->domain) ? ": to map them there, name them file:" : "", is_flat(m->domain) ? path : "");
 }
 
+/* The domain that is asked for, else the one that is declared, or NULL. */
+static const aur_domain *known_domain(const aur_matrix *matrix, const aur_domain *wanted) {
+    return wanted == NULL && matrix->declared ? &matrix->domain : wanted;
+}
+
+/* Whether a comment and the columns contradict each other. */
+static bool contradicts(const aur_matrix *matrix, const meaning *m) {
+    return matrix->declared && matrix->domain != m->domain &&
+           !(is_flat(matrix->domain) && is_flat(m->domain)) &&
+           !(is_of_directions(matrix->domain) && m->domain == AUR_DOMAIN_SPHERE);
+}
+
 static aur_result find_meaning(const char *path, const aur_matrix *matrix, const aur_domain *wanted,
                                meaning *m, aur_error *error) {
     if (matrix->row_count == 0)
         return aur_fail_at(error, (aur_location){.file = path}, AUR_ERROR_FORMAT, "no points");
     aur_result result = AUR_OK;
-    if (matrix->header[0] == '\0')
+    if (matrix->header[0] != '\0') {
+        result = by_header(path, matrix, known_domain(matrix, wanted), m, error);
+    } else if (matrix->declared) {
+        result = by_declaration(path, matrix, m, error);
+    } else {
+        result = wanted == NULL || !is_flat(*wanted) ? refuse_columns(path, matrix, error) : AUR_OK;
         by_columns(matrix, wanted, m);
-    else
-        result = by_header(path, matrix, wanted, m, error);
+    }
+    if (result == AUR_OK && contradicts(matrix, m))
+        return aur_fail_at(error, (aur_location){.file = path}, AUR_ERROR_FORMAT,
+                           "a comment says that the points are of the domain '%s', and the header '%s'",
+                           aur_domain_name(matrix->domain), matrix->header);
     return result == AUR_OK && wanted != NULL ? check_domain(path, matrix, m, *wanted, error) : result;
 }
 
 /* Checks each row and copies it. */
 static aur_result copy_rows(const char *path, const aur_domain *wanted, const aur_matrix *matrix,
                             const meaning *m, aur_points *points, aur_error *error) {
+    const aur_domain *const known = known_domain(matrix, wanted);
     bool below_horizon = false;
     for (size_t r = 0; r < matrix->row_count; ++r) {
         const double *const row = matrix->values + r * matrix->column_count;
@@ -142,7 +211,7 @@ static aur_result copy_rows(const char *path, const aur_domain *wanted, const au
             return aur_fail_at(error, where, AUR_ERROR_FORMAT, "%s", wrong);
         if (wrong != NULL)
             return aur_fail_at(error, where, AUR_ERROR_FORMAT, "point %zu: %s", r + 1, wrong);
-        if (wanted != NULL && *wanted == AUR_DOMAIN_HEMISPHERE && row[2] < 0.0)
+        if (known != NULL && *known == AUR_DOMAIN_HEMISPHERE && row[2] < 0.0)
             return aur_fail_at(error, where, AUR_ERROR_FORMAT,
                                "point %zu has z = %g, below the hemisphere z >= 0", r + 1, row[2]);
         memcpy(points->coordinates + r * m->dimension, row, m->dimension * sizeof *row);
@@ -150,11 +219,14 @@ static aur_result copy_rows(const char *path, const aur_domain *wanted, const au
             points->weights[r] = row[m->dimension];
         below_horizon |= m->domain == AUR_DOMAIN_SPHERE && row[2] < 0.0;
     }
-    if (m->domain == AUR_DOMAIN_SPHERE &&
-        (wanted != NULL ? *wanted == AUR_DOMAIN_HEMISPHERE : !below_horizon))
-        points->view.domain = AUR_DOMAIN_HEMISPHERE;
-    if (wanted != NULL && *wanted == AUR_DOMAIN_AXES)
-        points->view.domain = AUR_DOMAIN_AXES;
+    if (m->domain == AUR_DOMAIN_SPHERE)
+        points->view.domain = known != NULL   ? *known
+                              : below_horizon ? AUR_DOMAIN_SPHERE
+                                              : AUR_DOMAIN_HEMISPHERE;
+    points->view.guessed =
+        known == NULL && (points->view.domain == AUR_DOMAIN_HEMISPHERE ||
+                          (matrix->header[0] == '\0' && (m->dimension == 3 || m->dimension == 4) &&
+                           m->domain == AUR_DOMAIN_CUBE && are_unit(matrix, false)));
     return AUR_OK;
 }
 

@@ -9,7 +9,13 @@ typedef struct aur_matrix {
     double *values;   /* row by row; free with free() */
     size_t *lines;    /* the line of each row; NULL when the file has no lines; free with free() */
     char header[256]; /* column names with commas between them; empty when there are none */
+    bool declared;    /* a comment gives the domain: */
+    aur_domain domain;
+    bool weighted; /* declared without names of columns: the last one has weights */
 } aur_matrix;
+
+/* Takes up a comment "domain: NAME", or "domain: NAME; weights"; others say nothing. */
+void aur_matrix_read_comment(aur_matrix *matrix, const char *text);
 
 /* `text` is changed and ends with a zero byte. `path` is for messages. */
 AUR_EXPERIMENTAL aur_result aur_csv_parse(const char *path, char *text, size_t size, aur_matrix *matrix,

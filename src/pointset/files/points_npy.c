@@ -78,6 +78,9 @@ static aur_result read_header(const char *path, const char *header, npy_layout *
     if (order == NULL || (strncmp(order, "True", 4) != 0 && strncmp(order, "False", 5) != 0))
         return malformed(error, path, "fortran_order is missing");
     layout->fortran_order = order[0] == 'T';
+    const char *const end = strrchr(header, '}'), *const comment = end != NULL ? strchr(end, '#') : NULL;
+    if (comment != NULL)
+        aur_matrix_read_comment(matrix, comment + 1);
     return read_shape(path, value_of(header, "'shape'"), matrix, error);
 }
 

@@ -49,7 +49,11 @@ static void write_csv_header(const aur_points_view *points, FILE *stream) {
         column_name(points, d, name);
         fprintf(stream, "%s%s", d > 0 ? "," : "", name);
     }
-    fputs(points->weights != NULL ? ",w\n" : "\n", stream);
+    if (points->weights != NULL)
+        fputs(",w", stream);
+    if (aur_points_are_above(points))
+        fprintf(stream, "# domain: %s", aur_domain_name(points->domain));
+    fputc('\n', stream);
 }
 
 static void write_csv(const aur_points_view *points, const aur_points_write_options *options, FILE *stream) {
@@ -139,14 +143,18 @@ static void write_binary_rows(const aur_points_view *points, size_t padding, boo
     }
 }
 
-/* NumPy's format, version 1.0: an array of float64 (or float32) with a row a point, whose last column is the
- * weight where there are weights. */
+/* NumPy's format, version 1.0, whose header is a Python literal and may end in a comment: an array of float64
+ * (or float32) with a row a point, whose last column is the weight where there are weights. */
 static void write_npy(const aur_points_view *points, bool single, FILE *stream) {
     char header[118];
     const size_t columns = points->dimension + (points->weights != NULL);
-    const int length =
-        snprintf(header, sizeof header, "{'descr': '<f%c', 'fortran_order': False, 'shape': (%zu, %zu), }",
-                 single ? '4' : '8', points->count, columns);
+    /* What a GGX lobe hides lies below the hemisphere. */
+    const bool below = points->domain == AUR_DOMAIN_HEMISPHERE && !aur_points_are_above(points);
+    const aur_domain domain = below ? AUR_DOMAIN_SPHERE : points->domain;
+    const int length = snprintf(
+        header, sizeof header,
+        "{'descr': '<f%c', 'fortran_order': False, 'shape': (%zu, %zu), } # domain: %s%s", single ? '4' : '8',
+        points->count, columns, aur_domain_name(domain), points->weights != NULL ? "; weights" : "");
     memset(header + length, ' ', sizeof header - (size_t)length);
     header[sizeof header - 1] = '\n';
     fwrite("\x93NUMPY\x01\x00", 1, 8, stream);

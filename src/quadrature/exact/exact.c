@@ -15,7 +15,8 @@ static aur_result check_options(aur_exact_options *o, double *lowest, aur_error 
     const bool sphere = o->domain == AUR_DOMAIN_SPHERE;
     if (!sphere && o->domain != AUR_DOMAIN_HEMISPHERE)
         return aur_fail(error, AUR_ERROR_UNSUPPORTED,
-                        "exact weights are for the sphere, the hemisphere and caps, not for the domain '%s'",
+                        "exact weights are for the sphere, the hemisphere, caps and axes, not for the domain "
+                        "'%s'",
                         aur_domain_name(o->domain));
     const double most = sphere ? 180.0 : 90.0;
     const bool wide = o->cap_degrees > 90.0 && o->cap_degrees <= 180.0;
@@ -256,11 +257,45 @@ static aur_result solve(const aur_exact_options *o, const aur_exact_system *syst
     return result;
 }
 
+/* Both ends of each axis have the half of its weight: with them odd polynomials integrate to 0, as they must.
+ */
+static aur_result weigh_axes(size_t count, const double *xyz, const aur_exact_options *options,
+                             double *weights, aur_exact_report *report, aur_error *error) {
+    double *const ends = count <= SIZE_MAX / 64 ? malloc((10 * count + 1) * sizeof *ends) : NULL;
+    if (ends == NULL)
+        return aur_fail_memory(error);
+    double *const found = ends + 6 * count, *const near = found + 2 * count;
+    for (size_t i = 0; i < 3 * count; ++i)
+        ends[3 * count + i] = -(ends[i] = xyz[i]);
+    for (size_t i = 0; i < count && options->near != NULL; ++i)
+        near[count + i] = near[i] = options->near[i];
+    aur_exact_options whole = *options;
+    whole.domain = AUR_DOMAIN_SPHERE;
+    whole.near = options->near != NULL ? near : NULL;
+    aur_exact_report of_ends;
+    const aur_result result = aur_weights_exact(2 * count, ends, &whole, 2 * count, found, &of_ends, error);
+    for (size_t i = 0; i < count && result == AUR_OK; ++i)
+        weights[i] = found[i] + found[count + i];
+    of_ends.points /= 2;
+    of_ends.places /= 2;
+    if (result == AUR_OK && report != NULL)
+        *report = of_ends;
+    free(ends);
+    return result;
+}
+
 aur_result aur_weights_exact(size_t count, const double *xyz, const aur_exact_options *options,
                              size_t capacity, double *weights, aur_exact_report *report, aur_error *error) {
     aur_exact_options own = aur_exact_options_default(AUR_DOMAIN_SPHERE);
     double lowest = -1.0;
     aur_result result = aur_options_read(options, sizeof own, &own, "aur_exact_options", error);
+    const bool axes = own.domain == AUR_DOMAIN_AXES;
+    if (result == AUR_OK && axes && own.cap_degrees != 0.0)
+        result = aur_fail(error, AUR_ERROR_UNSUPPORTED, "a cap is for the sphere and the hemisphere");
+    if (result == AUR_OK && axes)
+        result = aur_check_capacity(count, capacity, error);
+    if (result == AUR_OK && axes)
+        return weigh_axes(count, xyz, &own, weights, report, error);
     if (result == AUR_OK)
         result = check_options(&own, &lowest, error);
     if (result == AUR_OK)

@@ -9,7 +9,7 @@
 
 /* The density at a point, up to a factor; the whole sphere's is 1. */
 static double value_at(const aur_lobe *lobe, aur_domain domain, const double direction[3]) {
-    if (domain == AUR_DOMAIN_SPHERE)
+    if (domain != AUR_DOMAIN_HEMISPHERE)
         return 1.0;
     if (lobe->kind != AUR_LOBE_GGX)
         return aur_lobe_pdf(lobe, direction);
@@ -45,13 +45,13 @@ aur_result aur_weights_voronoi(size_t count, const double *xyz, aur_domain domai
     const aur_lobe uniform = {.kind = AUR_LOBE_COSINE_POWER};
     const aur_lobe *const density = lobe != NULL ? lobe : &uniform;
     const bool ggx = density->kind == AUR_LOBE_GGX;
-    if (domain != AUR_DOMAIN_SPHERE && domain != AUR_DOMAIN_HEMISPHERE)
+    if (domain != AUR_DOMAIN_SPHERE && domain != AUR_DOMAIN_HEMISPHERE && domain != AUR_DOMAIN_AXES)
         return aur_fail(error, AUR_ERROR_UNSUPPORTED,
-                        "areas of cells are for the sphere and the hemisphere, not for the domain '%s'",
+                        "areas of cells are for the sphere, the hemisphere and axes, not for the domain '%s'",
                         aur_domain_name(domain));
-    if (domain == AUR_DOMAIN_SPHERE && (ggx || density->exponent != 0.0))
+    if (domain != AUR_DOMAIN_HEMISPHERE && (ggx || density->exponent != 0.0))
         return aur_fail(error, AUR_ERROR_UNSUPPORTED,
-                        "areas of cells of the whole sphere are for the uniform lobe");
+                        "areas of cells of the whole sphere and of axes are for the uniform lobe");
     aur_measure_options own = aur_measure_options_default();
     aur_result result = aur_options_read(options, sizeof own, &own, "aur_measure_options", error);
     if (result != AUR_OK)

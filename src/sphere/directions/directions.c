@@ -10,6 +10,7 @@
 #include "core/options.h"
 #include "core/text.h"
 #include "core/vector.h"
+#include "pointset/points.h"
 #include "pointset/set.h"
 #include "sphere/map.h"
 #include "sphere/native.h"
@@ -141,7 +142,8 @@ static aur_result open_file(const char *set, const aur_directions_options *optio
         return aur_fail_at(
             error, (aur_location){.file = path}, AUR_ERROR_UNSUPPORTED,
             "its points are on the disk (header x,y), neither directions nor on the square (u,v)");
-    if (file->domain != AUR_DOMAIN_HEMISPHERE && file->domain != AUR_DOMAIN_SPHERE) {
+    if (file->domain != AUR_DOMAIN_HEMISPHERE && file->domain != AUR_DOMAIN_SPHERE &&
+        file->domain != AUR_DOMAIN_AXES) {
         aur_points_destroy(directions->file);
         directions->file = NULL;
         return open_square(set, options, count, scramble, directions, error);
@@ -153,7 +155,13 @@ static aur_result open_file(const char *set, const aur_directions_options *optio
             return aur_fail(error, AUR_ERROR_ARGUMENT, "%s: point %zu has z = %g, off the domain '%s'", path,
                             i + 1, file->coordinates[3 * i + 2], aur_domain_name(options->domain));
     directions->size = count;
-    directions->weighted = directions->weighted || file->weights != NULL;
+    directions->weighted = directions->weighted || aur_points_weighted(file);
+    aur_points_warn_of_prefix(file, count, path, &options->warnings);
+    if (!file->guessed && (file->domain == AUR_DOMAIN_AXES || options->domain == AUR_DOMAIN_SPHERE) &&
+        file->domain != options->domain)
+        aur_warn_at(&options->warnings, (aur_location){.file = path},
+                    "the file's points are of the domain '%s', and are taken for points of the domain '%s'",
+                    aur_domain_name(file->domain), aur_domain_name(options->domain));
     return AUR_OK;
 }
 

@@ -50,8 +50,10 @@ static aur_result choose_domain(job *j) {
     if (result != AUR_OK)
         return result;
     const aur_points_view *const held = aur_points_look(j->file);
-    if (request->natural_domain)
+    if (request->natural_domain) {
         j->domain = held->domain;
+        aur_points_warn_of_guess(held, path, &j->options->warnings);
+    }
     if (j->size == 0)
         j->size = held->count;
     if (j->size > held->count)
@@ -122,6 +124,7 @@ static aur_result copy_disk(const job *j, aur_points **points) {
         return aur_fail(j->error, AUR_ERROR_UNSUPPORTED,
                         "points that are on the disk already take no scrambling");
     const aur_points_view *const held = aur_points_look(j->file);
+    aur_points_warn_of_prefix(held, j->size, j->set + 5, &j->options->warnings);
     const aur_result result = allocate(j, j->size, 2, held->weights != NULL, points);
     if (result != AUR_OK)
         return result;
@@ -183,6 +186,7 @@ static aur_result generate_rotations(const job *j, aur_points **points) {
 /* Rotations of a file, as they stand. */
 static aur_result copy_rotations(const job *j, aur_points **points) {
     const aur_points_view *const held = aur_points_look(j->file);
+    aur_points_warn_of_prefix(held, j->size, j->set + 5, &j->options->warnings);
     const aur_result result = allocate(j, j->size, 4, held->weights != NULL, points);
     if (result != AUR_OK)
         return result;

@@ -7,6 +7,7 @@
 #include "core/random.h"
 #include "pointset/net_2d.h"
 #include "sphere/map.h"
+#include "sphere/native.h"
 #include "transport/gather/nested.h"
 
 static bool works_on_square(aur_scramble scramble) {
@@ -54,10 +55,14 @@ static aur_result find_points(const aur_gather_rule_options *options, bool on_sq
                                                 .warnings = options->warnings};
     aur_result result = on_square ? aur_pointset_create(options->set, &wanted_square, &square, error)
                                   : aur_directions_create(options->set, &wanted, &directions, error);
-    if (result != AUR_OK)
-        return result;
-    result = on_square ? aur_pointset_points(square, 0, count, 2 * count, points, error)
-                       : aur_directions_points(directions, 0, count, 3 * count, points, NULL, error);
+    if (result == AUR_OK && (on_square ? options->map == AUR_MAP_POLAR : aur_directions_weighted(directions)))
+        result = aur_fail(error, AUR_ERROR_UNSUPPORTED,
+                          "the directions of '%s' by the map '%s' have weights, which patterns do not use: a "
+                          "file must be without the column w, and the map another than polar",
+                          options->set, aur_map_name(options->map));
+    if (result == AUR_OK)
+        result = on_square ? aur_pointset_points(square, 0, count, 2 * count, points, error)
+                           : aur_directions_points(directions, 0, count, 3 * count, points, NULL, error);
     aur_pointset_destroy(square);
     aur_directions_destroy(directions);
     return result;

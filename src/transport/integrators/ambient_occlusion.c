@@ -18,7 +18,7 @@ static const aur_key keys[] = {
                         "directions a pixel, shared out among its samples")},
     {AUR_KEY_OF_TEXT(occlusion_data, "pattern", pattern.set, "spherical-fibonacci", "SET of the directions")},
     {AUR_KEY_OF_TEXT(occlusion_data, "map", map, "lambert",
-                     "map of a square set to the hemisphere: lambert, concentric, azimuthal or polar")},
+                     "map of a square set to the hemisphere: lambert, concentric or azimuthal")},
     {AUR_KEY_OF_TEXT(occlusion_data, "scramble", scramble, "rotate (nets: digit)",
                      "how a pattern is randomised: none, digit, owen, shift or rotate"),
      .computed = true},

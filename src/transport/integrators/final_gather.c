@@ -30,7 +30,7 @@ static const aur_key keys[] = {
     {AUR_KEY_OF_TEXT(aur_gather_parameters, "pattern", rule.set, "spherical-fibonacci",
                      "SET of the directions")},
     {AUR_KEY_OF_TEXT(aur_gather_parameters, "map", map, "lambert",
-                     "map of a square set to the hemisphere: lambert, concentric, azimuthal or polar")},
+                     "map of a square set to the hemisphere: lambert, concentric or azimuthal")},
     {AUR_KEY_OF_TEXT(aur_gather_parameters, "scramble", scramble, "rotate (nets: digit)",
                      "how a pattern is randomised: none, digit, owen, shift or rotate"),
      .computed = true},

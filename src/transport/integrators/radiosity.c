@@ -62,7 +62,7 @@ static const aur_key keys[] = {
                         "directions at every point that the eye sees")},
     {AUR_KEY_OF_TEXT(radiosity_data, "pattern", pattern, "spherical-fibonacci", "SET of these directions")},
     {AUR_KEY_OF_TEXT(radiosity_data, "map", map, "lambert",
-                     "map of a square set to the hemisphere: lambert, concentric, azimuthal or polar")},
+                     "map of a square set to the hemisphere: lambert, concentric or azimuthal")},
     {AUR_KEY_OF_TEXT(radiosity_data, "pattern_scramble", pattern_scramble, "none",
                      "how the pattern is randomised: none, digit, owen, shift or rotate")},
     {AUR_KEY_OF_CHOICE(radiosity_data, "weights", weights, "equal",

@@ -278,10 +278,10 @@ static void weights(void) {
     require(aur_potential_smoothness(potential) == 1.25, "aur_potential_smoothness");
     aur_potential_destroy(potential);
     const double north[3] = {0.0, 0.0, 1.0}, weight = 1.0;
-    accept(aur_weights_write("calls.csv", 1, north, 1, &weight, &error), &error);
+    accept(aur_weights_write("calls.csv", AUR_DOMAIN_SPHERE, 1, north, 1, &weight, &error), &error);
     remove("calls.csv");
-    refuse(aur_weights_write("no such folder/calls.csv", 1, north, 1, &weight, &error), AUR_ERROR_WRITE,
-           &error);
+    refuse(aur_weights_write("no such folder/calls.csv", AUR_DOMAIN_SPHERE, 1, north, 1, &weight, &error),
+           AUR_ERROR_WRITE, &error);
 }
 
 static aur_result mean(void *user, const aur_estimate_points *points, double *values, aur_error *reason) {
