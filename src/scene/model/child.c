@@ -77,12 +77,13 @@ static double seconds_used(const aur_child *child) {
     return (double)time.tv_sec + 1e-9 * (double)time.tv_nsec;
 }
 
+static bool is_cancelled(const aur_progress *progress) {
+    return progress->function != NULL && progress->function(progress->user, "reading the model", 0, 1) != 0;
+}
+
 /* Whether the child may go on. */
 static bool may_go_on(aur_child *child) {
-    const aur_progress *const progress = &child->progress;
-    child->cancelled =
-        child->cancelled ||
-        (progress->function != NULL && progress->function(progress->user, "reading the model", 0, 1) != 0);
+    child->cancelled = child->cancelled || is_cancelled(&child->progress);
     child->overdue = child->overdue || seconds_used(child) > seconds_allowed(child);
     child->late = child->late || child->waited > child->patience * seconds_allowed(child);
     return !child->cancelled && !child->overdue && !child->late;
@@ -129,6 +130,8 @@ aur_result aur_child_start(aur_child *child, const char *program, const aur_prog
                          .socket = -1,
                          .progress = *progress,
                          .status = -1};
+    if (is_cancelled(progress)) /* from now on a stop is heard */
+        return aur_fail(error, AUR_ERROR_CANCELLED, "interrupted");
     int ends[2];
     if (socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends) != 0)
         return aur_fail(error, AUR_ERROR_INTERNAL, "the system gives no socket: %s", strerror(errno));

@@ -26,7 +26,7 @@ typedef struct aur_child {
 } aur_child;
 
 /* Starts `program`, whose path stays the caller's. Errors: INTERNAL where the system has no process or socket
- * left, UNSUPPORTED where the program cannot be started. */
+ * left, UNSUPPORTED where the program cannot be started, CANCELLED. */
 aur_result aur_child_start(aur_child *child, const char *program, const aur_progress *progress,
                            aur_error *error);
 
