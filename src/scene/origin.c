@@ -8,7 +8,7 @@
 
 /* --- boxes */
 
-enum { MOST_BOXES = 8192 };
+enum { MOST_BOXES = 2048 };
 
 static void include(aur_patch_box *box, const double point[3], double radius) {
     for (size_t i = 0; i < 3; ++i) {
